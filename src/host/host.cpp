@@ -1,0 +1,423 @@
+// The machine with nothing behind it: no display, no mouse, no keyboard, a clock that can stand still, and the files
+// and standard streams of a POSIX host. It lets the whole program run, dump frames and be tested where there is no DOS.
+// A port to another machine starts from a copy of this file.
+//
+// Tests play a user by way of a script: the environment variable FB_INPUT names a text file, one event a line,
+//
+//     FRAME key NAME            a key: one character, or ESC, F1..F4, UP, DOWN, LEFT, RIGHT, PGUP, PGDN, INS, DEL,
+//                               SPACE, ENTER, TAB, BREAK (Ctrl-C)
+//     FRAME mouse DX DY BUTTONS mickeys moved, and the buttons held from then on: L, R, LR or -
+//
+// where FRAME counts the frames presented so far (0: before the first), in rising order. Lines that begin with '#' and
+// empty lines are skipped. A line that cannot be read makes start() fail, for a test must not pass on half a script.
+// With a script that has mouse lines openMouse() finds a mouse, otherwise it finds none.
+#include "machine.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+namespace machine {
+namespace {
+
+// What the card would show, for a debugger to look at.
+uint8_t screen[WIDTH * HEIGHT];
+uint8_t palette[768];
+
+bool still = false;
+timespec started;
+
+volatile sig_atomic_t breakSeen = 0;
+bool catching = false;
+struct sigaction oldInterrupt;
+struct sigaction oldTerminate;
+
+const char* trouble = "";
+
+void onBreak(int) {
+    breakSeen = 1;
+}
+
+// ---- The script
+
+struct Event {
+    unsigned long frame;
+    int key;  // 0: a mouse event, -1: a break
+    int dx;
+    int dy;
+    bool left;
+    bool right;
+};
+
+Event* events = nullptr;
+int eventCount = 0;
+int nextKey = 0;    // index of the next event that key() has to look at
+int nextMouse = 0;  // and mouse()
+bool scriptHasMouse = false;
+unsigned long framesShown = 0;
+bool leftHeld = false;
+bool rightHeld = false;
+char scriptTrouble[160];
+
+// The code key() returns for a key's name in a script; 0 for an unknown one, -1 for BREAK.
+int keyNamed(const char* name) {
+    static const struct {
+        const char* name;
+        int code;
+    } names[] = {
+        {"ESC", KEY_ESC}, {"F1", KEY_F1},       {"F2", KEY_F2},       {"F3", KEY_F3},     {"F4", KEY_F4},
+        {"UP", KEY_UP},   {"DOWN", KEY_DOWN},   {"LEFT", KEY_LEFT},   {"RIGHT", KEY_RIGHT}, {"PGUP", KEY_PGUP},
+        {"PGDN", KEY_PGDN}, {"INS", KEY_INS},   {"DEL", KEY_DEL},     {"SPACE", ' '},     {"ENTER", 13},
+        {"TAB", 9},       {"BREAK", -1},
+    };
+    if (name[0] != '\0' && name[1] == '\0') {
+        return static_cast<unsigned char>(name[0]);
+    }
+    for (const auto& known : names) {
+        if (strcmp(name, known.name) == 0) {
+            return known.code;
+        }
+    }
+    return 0;
+}
+
+// Reads one line of the script into `event`; false when it cannot be understood.
+bool parseEvent(const char* line, Event* event) {
+    *event = Event{};
+    char word[16];
+    int used = 0;
+    if (sscanf(line, "%lu %15s%n", &event->frame, word, &used) != 2) {
+        return false;
+    }
+    const char* rest = line + used;
+    if (strcmp(word, "key") == 0) {
+        char name[16];
+        if (sscanf(rest, "%15s", name) != 1) {
+            return false;
+        }
+        event->key = keyNamed(name);
+        return event->key != 0;
+    }
+    if (strcmp(word, "mouse") == 0) {
+        char held[16];
+        if (sscanf(rest, "%d %d %15s", &event->dx, &event->dy, held) != 3) {
+            return false;
+        }
+        event->left = strchr(held, 'L') != nullptr;
+        event->right = strchr(held, 'R') != nullptr;
+        scriptHasMouse = true;
+        return true;
+    }
+    return false;
+}
+
+// Null, or what is wrong with the script.
+const char* readScript(const char* name) {
+    FILE* file = fopen(name, "r");
+    if (file == nullptr) {
+        snprintf(scriptTrouble, sizeof scriptTrouble, "FB_INPUT: cannot open %.100s", name);
+        return scriptTrouble;
+    }
+    char line[256];
+    int number = 0;
+    int room = 0;
+    while (fgets(line, sizeof line, file) != nullptr) {
+        ++number;
+        if (line[0] == '#' || line[strspn(line, " \t\r\n")] == '\0') {
+            continue;
+        }
+        if (eventCount == room) {
+            room = room * 2 + 16;
+            Event* more = static_cast<Event*>(realloc(events, room * sizeof(Event)));
+            if (more == nullptr) {
+                fclose(file);
+                return "FB_INPUT: out of memory";
+            }
+            events = more;
+        }
+        Event* event = &events[eventCount];
+        if (!parseEvent(line, event) || (eventCount > 0 && event->frame < events[eventCount - 1].frame)) {
+            fclose(file);
+            snprintf(scriptTrouble, sizeof scriptTrouble, "FB_INPUT: %.100s line %d: not an event", name, number);
+            return scriptTrouble;
+        }
+        ++eventCount;
+    }
+    fclose(file);
+    return nullptr;
+}
+
+// The words for errno, the same as on DOS for what both know.
+const char* words(int error) {
+    switch (error) {
+        case ENOENT:
+            return "no such file or directory";
+        case EACCES:
+        case EPERM:
+        case EISDIR:
+        case EROFS:
+            return "access denied";
+        case EMFILE:
+        case ENFILE:
+            return "too many open files";
+        case ENOSPC:
+        case EDQUOT:
+        case EFBIG:
+            return "disk full";
+        case EEXIST:
+            return "exists already";
+        default:
+            return strerror(error);
+    }
+}
+
+int failed() {
+    trouble = words(errno);
+    return -1;
+}
+
+void put(int stream, const char* text) {
+    size_t left = strlen(text);
+    while (left > 0) {
+        ssize_t done = write(stream, text, left);
+        if (done < 0 && errno == EINTR) {
+            continue;
+        }
+        if (done <= 0) {
+            return;
+        }
+        text += done;
+        left -= static_cast<size_t>(done);
+    }
+}
+
+}  // namespace
+
+const char* start() {
+    clock_gettime(CLOCK_MONOTONIC, &started);
+    const char* script = getenv("FB_INPUT");
+    if (script != nullptr && script[0] != '\0' && events == nullptr) {
+        const char* wrong = readScript(script);
+        if (wrong != nullptr) {
+            return wrong;
+        }
+    }
+    struct sigaction action;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = onBreak;
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGINT, &action, &oldInterrupt);
+    sigaction(SIGTERM, &action, &oldTerminate);
+    catching = true;
+    return nullptr;
+}
+
+void stop() {
+    closeVideo();
+    if (catching) {
+        catching = false;
+        sigaction(SIGINT, &oldInterrupt, nullptr);
+        sigaction(SIGTERM, &oldTerminate, nullptr);
+    }
+    free(events);
+    events = nullptr;
+    eventCount = 0;
+}
+
+void fail(int status, const char* line) {
+    stop();
+    err(line);
+    err("\n");
+    exit(status);
+}
+
+bool broken() {
+    return breakSeen != 0;
+}
+
+void out(const char* text) {
+    put(1, text);
+}
+
+void err(const char* text) {
+    put(2, text);
+}
+
+const char* openVideo() {
+    memset(screen, 0, sizeof screen);
+    return nullptr;
+}
+
+void closeVideo() {}
+
+void setPalette(const uint8_t rgb[768]) {
+    memcpy(palette, rgb, sizeof palette);
+}
+
+void present(const uint8_t* frame, const Span rows[HEIGHT]) {
+    for (int y = 0; y < HEIGHT; ++y) {
+        if (rows[y].from < rows[y].to) {
+            const int at = y * WIDTH + rows[y].from;
+            memcpy(screen + at, frame + at, static_cast<size_t>(rows[y].to - rows[y].from));
+        }
+    }
+    ++framesShown;
+}
+
+void waitRetrace() {}
+
+uint64_t clock() {
+    if (still) {
+        return 0;
+    }
+    timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    int64_t seconds = static_cast<int64_t>(now.tv_sec) - started.tv_sec;
+    int64_t nanoseconds = static_cast<int64_t>(now.tv_nsec) - started.tv_nsec;
+    if (nanoseconds < 0) {
+        nanoseconds += 1000000000;
+        --seconds;
+    }
+    return static_cast<uint64_t>(seconds) * CLOCK_HZ + static_cast<uint64_t>(nanoseconds) * CLOCK_HZ / 1000000000u;
+}
+
+void standStill(bool wish) {
+    still = wish;
+}
+
+int key() {
+    while (nextKey < eventCount && events[nextKey].frame <= framesShown) {
+        const int code = events[nextKey++].key;
+        if (code > 0) {
+            return code;
+        }
+        if (code < 0) {
+            breakSeen = 1;
+        }
+    }
+    return 0;
+}
+
+bool openMouse() {
+    return scriptHasMouse;
+}
+
+Mouse mouse() {
+    Mouse now = {0, 0, false, false};
+    while (nextMouse < eventCount && events[nextMouse].frame <= framesShown) {
+        const Event& event = events[nextMouse++];
+        if (event.key != 0) {
+            continue;
+        }
+        const bool changed = event.left != leftHeld || event.right != rightHeld;
+        now.dx += event.dx;
+        now.dy += event.dy;
+        leftHeld = event.left;
+        rightHeld = event.right;
+        if (changed) {
+            // A press and its release may stand at the same frame: each has to be seen by the caller.
+            break;
+        }
+    }
+    now.left = leftHeld;
+    now.right = rightHeld;
+    return now;
+}
+
+int createFile(const char* name) {
+    const int file = open(name, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    return file < 0 ? failed() : file;
+}
+
+int openFile(const char* name) {
+    const int file = open(name, O_RDONLY | O_CLOEXEC);
+    if (file < 0) {
+        return failed();
+    }
+    // A directory can be opened here but not on DOS; it must not look like an empty file.
+    struct stat facts;
+    if (fstat(file, &facts) == 0 && S_ISDIR(facts.st_mode)) {
+        close(file);
+        errno = EISDIR;
+        return failed();
+    }
+    return file;
+}
+
+int appendFile(const char* name, bool* fresh) {
+    *fresh = true;
+    int file = open(name, O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666);
+    if (file < 0 && errno == EEXIST) {
+        *fresh = false;
+        file = open(name, O_WRONLY | O_APPEND | O_CLOEXEC);
+    }
+    return file < 0 ? failed() : file;
+}
+
+int32_t readFile(int file, void* to, uint32_t bytes) {
+    uint32_t done = 0;
+    while (done < bytes) {
+        const ssize_t got = read(file, static_cast<char*>(to) + done, bytes - done);
+        if (got < 0 && errno == EINTR) {
+            continue;
+        }
+        if (got < 0) {
+            return failed();
+        }
+        if (got == 0) {
+            break;
+        }
+        done += static_cast<uint32_t>(got);
+    }
+    return static_cast<int32_t>(done);
+}
+
+int32_t writeFile(int file, const void* from, uint32_t bytes) {
+    uint32_t done = 0;
+    while (done < bytes) {
+        const ssize_t put = write(file, static_cast<const char*>(from) + done, bytes - done);
+        if (put < 0 && errno == EINTR) {
+            continue;
+        }
+        if (put <= 0) {
+            return failed();
+        }
+        done += static_cast<uint32_t>(put);
+    }
+    return static_cast<int32_t>(done);
+}
+
+bool closeFile(int file) {
+    if (close(file) != 0) {
+        failed();
+        return false;
+    }
+    return true;
+}
+
+bool makeDirectory(const char* name) {
+    if (mkdir(name, 0777) == 0) {
+        return true;
+    }
+    const int error = errno;
+    struct stat facts;
+    if (stat(name, &facts) == 0 && S_ISDIR(facts.st_mode)) {
+        return true;
+    }
+    errno = error;
+    failed();
+    return false;
+}
+
+const char* fileTrouble() {
+    return trouble;
+}
+
+}  // namespace machine
