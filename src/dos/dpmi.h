@@ -1,0 +1,211 @@
+// The services of a DPMI 0.9 host, as functions: descriptors, memory, DOS memory, vectors, exceptions and real-mode
+// interrupts. One int 31h each; the function number stands beside the name. For src/dos and src/rt only.
+#ifndef FB_DPMI_H
+#define FB_DPMI_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+namespace dpmi {
+
+// The registers of a real-mode call, in the order DPMI lays down (50 bytes).
+struct RealRegs {
+    uint32_t edi, esi, ebp, reserved, ebx, edx, ecx, eax;
+    uint16_t flags, es, ds, fs, gs, ip, cs, sp, ss;
+} __attribute__((packed));
+
+// A real-mode address.
+struct RealAddress {
+    uint16_t segment;
+    uint16_t offset;
+};
+
+// A protected-mode address.
+struct FarAddress {
+    uint32_t offset;
+    uint16_t selector;
+};
+
+// 0000h: one new descriptor; 0 when there is none left.
+inline uint16_t allocateDescriptor() {
+    uint32_t eax = 0x0000;
+    bool carry;
+    __asm__ volatile("int $0x31" : "+a"(eax), "=@ccc"(carry) : "c"(1) : "memory");
+    return carry ? 0 : uint16_t(eax);
+}
+
+// 0001h
+inline void freeDescriptor(uint16_t selector) {
+    uint32_t eax = 0x0001;
+    __asm__ volatile("int $0x31" : "+a"(eax) : "b"(uint32_t(selector)) : "cc", "memory");
+}
+
+// 0002h: a permanent descriptor for 64 KB at a real-mode segment; 0 on failure.
+inline uint16_t segmentDescriptor(uint16_t segment) {
+    uint32_t eax = 0x0002;
+    bool carry;
+    __asm__ volatile("int $0x31" : "+a"(eax), "=@ccc"(carry) : "b"(uint32_t(segment)) : "memory");
+    return carry ? 0 : uint16_t(eax);
+}
+
+// 0006h: the linear address where a segment begins.
+inline uint32_t segmentBase(uint16_t selector) {
+    uint32_t eax = 0x0006;
+    uint32_t ecx = 0;
+    uint32_t edx = 0;
+    __asm__ volatile("int $0x31" : "+a"(eax), "+c"(ecx), "+d"(edx) : "b"(uint32_t(selector)) : "cc", "memory");
+    return ecx << 16 | (edx & 0xffff);
+}
+
+// 0007h
+inline bool setSegmentBase(uint16_t selector, uint32_t base) {
+    uint32_t eax = 0x0007;
+    bool carry;
+    __asm__ volatile("int $0x31"
+                     : "+a"(eax), "=@ccc"(carry)
+                     : "b"(uint32_t(selector)), "c"(base >> 16), "d"(base & 0xffff)
+                     : "memory");
+    return !carry;
+}
+
+// 0008h: the last offset; from 1 MB on its low twelve bits must be set. A segment register that holds the selector keeps
+// the old limit until it is loaded again.
+inline bool setSegmentLimit(uint16_t selector, uint32_t limit) {
+    uint32_t eax = 0x0008;
+    bool carry;
+    __asm__ volatile("int $0x31"
+                     : "+a"(eax), "=@ccc"(carry)
+                     : "b"(uint32_t(selector)), "c"(limit >> 16), "d"(limit & 0xffff)
+                     : "memory");
+    return !carry;
+}
+
+// The last offset of a segment, as the processor sees it (lsl); 0 for a selector that is none.
+inline uint32_t segmentLimit(uint16_t selector) {
+    uint32_t limit = 0;
+    __asm__("lsll %1, %0" : "+r"(limit) : "r"(uint32_t(selector)) : "cc");
+    return limit;
+}
+
+// 0100h: DOS memory, in paragraphs of 16 bytes; false when there is not enough.
+inline bool allocateDos(uint16_t paragraphs, uint16_t* segment, uint16_t* selector) {
+    uint32_t eax = 0x0100;
+    uint32_t ebx = paragraphs;
+    uint32_t edx = 0;
+    bool carry;
+    __asm__ volatile("int $0x31" : "+a"(eax), "+b"(ebx), "+d"(edx), "=@ccc"(carry) : : "memory");
+    *segment = uint16_t(eax);
+    *selector = uint16_t(edx);
+    return !carry;
+}
+
+// 0101h
+inline void freeDos(uint16_t selector) {
+    uint32_t eax = 0x0101;
+    __asm__ volatile("int $0x31" : "+a"(eax) : "d"(uint32_t(selector)) : "cc", "memory");
+}
+
+// 0200h, 0201h: a vector of the real-mode interrupt table.
+inline RealAddress realVector(int number) {
+    uint32_t eax = 0x0200;
+    uint32_t ecx = 0;
+    uint32_t edx = 0;
+    __asm__ volatile("int $0x31" : "+a"(eax), "+c"(ecx), "+d"(edx) : "b"(number) : "cc", "memory");
+    return {uint16_t(ecx), uint16_t(edx)};
+}
+inline void setRealVector(int number, RealAddress to) {
+    uint32_t eax = 0x0201;
+    __asm__ volatile("int $0x31"
+                     : "+a"(eax)
+                     : "b"(number), "c"(uint32_t(to.segment)), "d"(uint32_t(to.offset))
+                     : "cc", "memory");
+}
+
+// 0202h, 0203h: the handler of a processor exception 0..31.
+inline bool exceptionHandler(int number, FarAddress* is) {
+    uint32_t eax = 0x0202;
+    uint32_t ecx = 0;
+    uint32_t edx = 0;
+    bool carry;
+    __asm__ volatile("int $0x31" : "+a"(eax), "+c"(ecx), "+d"(edx), "=@ccc"(carry) : "b"(number) : "memory");
+    *is = {edx, uint16_t(ecx)};
+    return !carry;
+}
+inline bool setExceptionHandler(int number, FarAddress to) {
+    uint32_t eax = 0x0203;
+    bool carry;
+    __asm__ volatile("int $0x31"
+                     : "+a"(eax), "=@ccc"(carry)
+                     : "b"(number), "c"(uint32_t(to.selector)), "d"(to.offset)
+                     : "memory");
+    return !carry;
+}
+
+// 0300h: a real-mode interrupt with these registers; they hold its results. `ss:sp` 0: the host supplies the stack.
+// False when the host could not do it.
+inline bool realInterrupt(int number, RealRegs* regs) {
+    uint32_t eax = 0x0300;
+    bool carry;
+    regs->ss = 0;
+    regs->sp = 0;
+    regs->flags = 0x202;
+    // es is set for a caller whose es may be anything (an exception leaves it so).
+    __asm__ volatile(
+        "pushl %%es\n\t"
+        "pushl %%ds\n\t"
+        "popl %%es\n\t"
+        "int $0x31\n\t"
+        "popl %%es"
+        : "+a"(eax), "=@ccc"(carry)
+        : "b"(number), "c"(0), "D"(regs)
+        : "memory");
+    return !carry;
+}
+
+// 0501h: memory by the byte; false when there is not enough.
+inline bool allocateMemory(uint32_t bytes, uint32_t* linear, uint32_t* handle) {
+    uint32_t eax = 0x0501;
+    uint32_t ebx = bytes >> 16;
+    uint32_t ecx = bytes & 0xffff;
+    uint32_t esi = 0;
+    uint32_t edi = 0;
+    bool carry;
+    __asm__ volatile("int $0x31" : "+a"(eax), "+b"(ebx), "+c"(ecx), "+S"(esi), "+D"(edi), "=@ccc"(carry) : : "memory");
+    *linear = ebx << 16 | (ecx & 0xffff);
+    *handle = esi << 16 | (edi & 0xffff);
+    return !carry;
+}
+
+// 0502h
+inline void freeMemory(uint32_t handle) {
+    uint32_t eax = 0x0502;
+    __asm__ volatile("int $0x31" : "+a"(eax) : "S"(handle >> 16), "D"(handle & 0xffff) : "cc", "memory");
+}
+
+// 0900h, 0901h: interrupts off and on; both say whether they were on.
+inline bool interruptsOff() {
+    uint32_t eax = 0x0900;
+    __asm__ volatile("int $0x31" : "+a"(eax) : : "cc", "memory");
+    return (eax & 0xff) != 0;
+}
+inline bool interruptsOn() {
+    uint32_t eax = 0x0901;
+    __asm__ volatile("int $0x31" : "+a"(eax) : : "cc", "memory");
+    return (eax & 0xff) != 0;
+}
+
+// The program's own selectors.
+inline uint16_t codeSelector() {
+    uint16_t selector;
+    __asm__("movw %%cs, %0" : "=r"(selector));
+    return selector;
+}
+inline uint16_t dataSelector() {
+    uint16_t selector;
+    __asm__("movw %%ds, %0" : "=r"(selector));
+    return selector;
+}
+
+}  // namespace dpmi
+
+#endif
