@@ -1,0 +1,57 @@
+// The innermost loops: scales into the frame buffer under the Z-buffer, clears, and the copy to video memory.
+//
+// Each routine stands twice: in C++ (src/blit.cpp, the ...C names), which says what it does, and in assembly
+// (asm/blit.S), which the DOS program and the 32-bit host build use. Both do the same, byte for byte.
+#ifndef FB_BLIT_H
+#define FB_BLIT_H
+
+#include <stdint.h>
+
+#include "machine.h"
+
+// A scale as it falls on the screen: a rectangle of one colour and one depth, "oriented to face the viewer, so very
+// simple to draw" (report, The Rendering Technique). Lies wholly on the screen: 0 <= left, 1 <= wide,
+// left + wide <= 320, and the same for top, high and 200. No caller may pass another.
+struct Scale {
+    int16_t left;
+    int16_t top;
+    int16_t wide;
+    int16_t high;
+    uint16_t z;       // distance along the viewing axis in 1/128 units; smaller is nearer; 0xffff is never drawn
+    uint8_t colour;
+    uint8_t unused;
+};
+
+// The depth of a pixel where nothing was drawn.
+constexpr uint16_t Z_EMPTY = 0xffff;
+
+extern "C" {
+
+// Draws `count` scales: a pixel is taken where the scale's z is less than the Z-buffer's, so the first of two at equal
+// depth stays. `frame` has 320x200 bytes, `zbuffer` 320x200 words, top row first.
+void blitScalesC(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int count);
+
+// Clears the spans of `count` rows from the top: frame to 0, Z-buffer to Z_EMPTY.
+void clearRowsC(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
+
+// Copies the spans of `count` rows from `frame` to a screen of the same layout at `screen`.
+void copyRowsC(uint8_t* screen, const uint8_t* frame, const Span* rows, int count);
+
+#if FB_ASM
+void blitScalesA(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int count);
+void clearRowsA(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
+// The screen is at `offset` in the segment of `selector` (video memory has a selector of its own under DPMI).
+void presentRows(uint32_t selector, uint32_t offset, const uint8_t* frame, const Span* rows, int count);
+#endif
+
+}
+
+#if FB_ASM
+#define blitScales blitScalesA
+#define clearRows clearRowsA
+#else
+#define blitScales blitScalesC
+#define clearRows clearRowsC
+#endif
+
+#endif

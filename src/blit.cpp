@@ -1,0 +1,45 @@
+// The innermost loops in C++: what asm/blit.S does, said plainly. Host builds draw with these; the tests hold the
+// assembly against them.
+#include "blit.h"
+
+#include "rt.h"
+
+using machine::WIDTH;
+
+void blitScalesC(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int count)
+{
+    for (; count > 0; --count, ++scales) {
+        const int start = scales->top * WIDTH + scales->left;
+        uint8_t* pixels = frame + start;
+        uint16_t* depths = zbuffer + start;
+        for (int y = scales->high; y > 0; --y) {
+            for (int x = scales->wide - 1; x >= 0; --x) {
+                if (scales->z < depths[x]) {
+                    depths[x] = scales->z;
+                    pixels[x] = scales->colour;
+                }
+            }
+            pixels += WIDTH;
+            depths += WIDTH;
+        }
+    }
+}
+
+void clearRowsC(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count)
+{
+    for (; count > 0; --count, ++rows, frame += WIDTH, zbuffer += WIDTH) {
+        const int touched = rows->to - rows->from;
+        if (touched <= 0)
+            continue;
+        memset(frame + rows->from, 0, static_cast<size_t>(touched));
+        memset(zbuffer + rows->from, 0xff, static_cast<size_t>(touched) * sizeof *zbuffer);
+    }
+}
+
+void copyRowsC(uint8_t* screen, const uint8_t* frame, const Span* rows, int count)
+{
+    for (; count > 0; --count, ++rows, screen += WIDTH, frame += WIDTH) {
+        if (rows->to > rows->from)
+            memcpy(screen + rows->from, frame + rows->from, static_cast<size_t>(rows->to - rows->from));
+    }
+}
