@@ -1,0 +1,17 @@
+/* What every assembly file includes: it lets one source assemble for ELF (stock gcc -m32) and for
+   DJGPP's COFF, where C symbols carry a leading underscore.
+
+   SYM(name)   a symbol shared with C or C++
+   ASM_END     last line of each file: on ELF it says that the file needs no executable stack */
+#ifndef ASM_ASM_H
+#define ASM_ASM_H
+
+#ifdef __DJGPP__
+#define SYM(name) _##name
+#define ASM_END
+#else
+#define SYM(name) name
+#define ASM_END .section .note.GNU-stack,"",@progbits
+#endif
+
+#endif
