@@ -1,0 +1,94 @@
+// Ctrl-C, Ctrl-Break and DOS's critical errors. DOS and the BIOS call real-mode vectors for these, in the middle of
+// whatever runs. A few bytes of real-mode code in DOS memory answer them: a break sets a flag that broken() reads, and a
+// critical error (no disk in the drive, say) fails the DOS call that met it.
+#include "pc.h"
+
+
+namespace {
+
+constexpr int BIOS_BREAK = 0x1b;
+constexpr int DOS_BREAK = 0x23;
+constexpr int CRITICAL_ERROR = 0x24;
+
+// The block in DOS memory, from its first byte: the flag, then the two handlers.
+constexpr uint16_t FLAG = 0;
+constexpr uint16_t ON_BREAK = 1;
+constexpr uint16_t ON_ERROR = 8;
+constexpr uint8_t realModeCode[] = {
+    0x00,                                // flag
+    0x2e, 0xc6, 0x06, 0x00, 0x00, 0x01,  // movb $1, %cs:flag
+    0xcf,                                // iret: whatever was broken goes on
+    0xb0, 0x03,                          // movb $3, %al: the call fails
+    0xcf,                                // iret
+};
+constexpr uint16_t PARAGRAPHS = 1;
+static_assert(sizeof realModeCode <= PARAGRAPHS * 16, "the code fits its block");
+
+bool open = false;
+bool seen = false;
+uint16_t segment;
+uint16_t selector;
+dpmi::RealAddress oldBiosBreak;
+dpmi::RealAddress oldDosBreak;
+dpmi::RealAddress oldCriticalError;
+uint8_t oldChecking;
+
+// int 21h, AH=33h: whether DOS looks for Ctrl-C in every call. Off while the program runs: files need no watching.
+uint8_t breakChecking() {
+    dpmi::RealRegs r = pc::regs(0x3300);
+    dpmi::realInterrupt(0x21, &r);
+    return uint8_t(r.edx);
+}
+void setBreakChecking(uint8_t on) {
+    dpmi::RealRegs r = pc::regs(0x3301);
+    r.edx = on;
+    dpmi::realInterrupt(0x21, &r);
+}
+
+}  // namespace
+
+namespace pc {
+
+const char* openBreak() {
+    if (!dpmi::allocateDos(PARAGRAPHS, &segment, &selector)) {
+        return "out of DOS memory";
+    }
+    copyToLow(uint32_t(segment) << 4, realModeCode, sizeof realModeCode);
+    oldBiosBreak = dpmi::realVector(BIOS_BREAK);
+    oldDosBreak = dpmi::realVector(DOS_BREAK);
+    oldCriticalError = dpmi::realVector(CRITICAL_ERROR);
+    dpmi::setRealVector(BIOS_BREAK, {segment, ON_BREAK});
+    dpmi::setRealVector(DOS_BREAK, {segment, ON_BREAK});
+    dpmi::setRealVector(CRITICAL_ERROR, {segment, ON_ERROR});
+    oldChecking = breakChecking();
+    setBreakChecking(0);
+    seen = false;
+    open = true;
+    return nullptr;
+}
+
+void closeBreak() {
+    if (!open) {
+        return;
+    }
+    breakSeen();
+    open = false;
+    setBreakChecking(oldChecking);
+    dpmi::setRealVector(CRITICAL_ERROR, oldCriticalError);
+    dpmi::setRealVector(DOS_BREAK, oldDosBreak);
+    dpmi::setRealVector(BIOS_BREAK, oldBiosBreak);
+    dpmi::freeDos(selector);
+}
+
+bool breakSeen() {
+    if (open && peek8((uint32_t(segment) << 4) + FLAG) != 0) {
+        seen = true;
+    }
+    return seen;
+}
+
+void noteBreak() {
+    seen = true;
+}
+
+}  // namespace pc

@@ -1,0 +1,190 @@
+// Files: DOS's handles, names and bytes by way of the transfer buffer.
+#include "machine.h"
+#include "pc.h"
+#include "rt.h"
+
+namespace {
+
+// DOS's error codes
+constexpr uint32_t NO_FILE = 2;
+constexpr uint32_t NO_PATH = 3;
+constexpr uint32_t TOO_MANY = 4;
+constexpr uint32_t DENIED = 5;
+constexpr uint32_t WRITE_PROTECTED = 19;
+constexpr uint32_t NOT_READY = 21;
+constexpr uint32_t DISK_FULL = 39;
+constexpr uint32_t FAILED_CRITICALLY = 83;
+
+constexpr uint32_t LONGEST_NAME = 127;
+constexpr uint16_t DIRECTORY = 0x10;  // attribute
+
+const char* trouble = "";
+char otherTrouble[24];
+
+// Notes why something failed; -1 for the caller to return.
+int failed(uint32_t error) {
+    switch (error) {
+        case NO_FILE:
+        case NO_PATH:
+            trouble = "no such file or directory";
+            break;
+        case TOO_MANY:
+            trouble = "too many open files";
+            break;
+        case DENIED:
+            trouble = "access denied";
+            break;
+        case WRITE_PROTECTED:
+            trouble = "disk write-protected";
+            break;
+        case NOT_READY:
+        case FAILED_CRITICALLY:
+            trouble = "drive not ready";
+            break;
+        case DISK_FULL:
+            trouble = "disk full";
+            break;
+        default:
+            snprintf(otherTrouble, sizeof otherTrouble, "DOS error %u", unsigned(error));
+            trouble = otherTrouble;
+            break;
+    }
+    return -1;
+}
+
+// A DOS call that returns with carry set or not; what it returned, or -1 with the trouble noted. Results of all DOS calls
+// made here are at most 16 bits.
+int call(dpmi::RealRegs* r) {
+    if (!dpmi::realInterrupt(0x21, r)) {
+        return failed(0xffff);
+    }
+    const uint32_t ax = r->eax & 0xffff;
+    return pc::carry(*r) ? failed(ax) : int(ax);
+}
+
+// A DOS call on a file's name, which goes to ds:dx. A trailing slash is left off, as DOS wants it.
+int callOnName(uint32_t eax, uint32_t ecx, const char* name, uint16_t* cx = nullptr) {
+    const pc::Transfer buffer = pc::transfer();
+    uint32_t length = uint32_t(strlen(name));
+    if (length > LONGEST_NAME) {
+        return failed(NO_PATH);
+    }
+    char copy[LONGEST_NAME + 1];
+    memcpy(copy, name, length);
+    if (length > 1 && (copy[length - 1] == '\\' || copy[length - 1] == '/') && copy[length - 2] != ':') {
+        --length;
+    }
+    copy[length] = '\0';
+    pc::copyToLow(uint32_t(buffer.segment) << 4, copy, length + 1);
+    dpmi::RealRegs r = pc::regs(eax);
+    r.ecx = ecx;
+    r.ds = buffer.segment;
+    const int result = call(&r);
+    if (cx != nullptr) {
+        *cx = uint16_t(r.ecx);
+    }
+    return result;
+}
+
+}  // namespace
+
+namespace machine {
+
+int createFile(const char* name) {
+    return callOnName(0x3c00, 0, name);
+}
+
+int openFile(const char* name) {
+    return callOnName(0x3d00, 0, name);
+}
+
+int appendFile(const char* name, bool* fresh) {
+    *fresh = false;
+    uint16_t attributes;
+    if (callOnName(0x4300, 0, name, &attributes) < 0) {
+        *fresh = true;
+        return createFile(name);
+    }
+    const int file = callOnName(0x3d02, 0, name);
+    if (file < 0) {
+        return file;
+    }
+    dpmi::RealRegs r = pc::regs(0x4202);
+    r.ebx = uint32_t(file);
+    if (call(&r) < 0) {
+        const char* why = trouble;
+        closeFile(file);
+        trouble = why;
+        return -1;
+    }
+    return file;
+}
+
+int32_t readFile(int file, void* to, uint32_t bytes) {
+    const pc::Transfer buffer = pc::transfer();
+    uint32_t done = 0;
+    while (done < bytes) {
+        dpmi::RealRegs r = pc::regs(0x3f00);
+        r.ebx = uint32_t(file);
+        r.ecx = bytes - done < buffer.bytes ? bytes - done : buffer.bytes;
+        r.ds = buffer.segment;
+        const int got = call(&r);
+        if (got < 0) {
+            return -1;
+        }
+        if (got == 0) {
+            break;
+        }
+        pc::copyFromLow(static_cast<uint8_t*>(to) + done, uint32_t(buffer.segment) << 4, uint32_t(got));
+        done += uint32_t(got);
+    }
+    return int32_t(done);
+}
+
+int32_t writeFile(int file, const void* from, uint32_t bytes) {
+    const pc::Transfer buffer = pc::transfer();
+    uint32_t done = 0;
+    while (done < bytes) {
+        // (A count of 0 would cut the file off here; the loop never asks for that.)
+        const uint32_t piece = bytes - done < buffer.bytes ? bytes - done : buffer.bytes;
+        pc::copyToLow(uint32_t(buffer.segment) << 4, static_cast<const uint8_t*>(from) + done, piece);
+        dpmi::RealRegs r = pc::regs(0x4000);
+        r.ebx = uint32_t(file);
+        r.ecx = piece;
+        r.ds = buffer.segment;
+        const int put = call(&r);
+        if (put < 0) {
+            return -1;
+        }
+        if (uint32_t(put) < piece) {
+            return failed(DISK_FULL);
+        }
+        done += piece;
+    }
+    return int32_t(done);
+}
+
+bool closeFile(int file) {
+    dpmi::RealRegs r = pc::regs(0x3e00);
+    r.ebx = uint32_t(file);
+    return call(&r) >= 0;
+}
+
+bool makeDirectory(const char* name) {
+    if (callOnName(0x3900, 0, name) >= 0) {
+        return true;
+    }
+    const char* why = trouble;
+    uint16_t attributes;
+    if (callOnName(0x4300, 0, name, &attributes) >= 0 && (attributes & DIRECTORY) != 0) {
+        return true;
+    }
+    trouble = why;
+    return false;
+}
+
+const char* fileTrouble() {
+    return trouble;
+}
+
+}  // namespace machine

@@ -1,0 +1,91 @@
+// Keyboard and mouse: int 16h and int 33h, called only when there is something to fetch.
+#include "machine.h"
+#include "pc.h"
+
+namespace {
+
+// The BIOS's ring of keys: offsets of the next to read and the next to write, equal when it is empty.
+constexpr uint32_t KEYS_HEAD = 0x41a;
+constexpr uint32_t KEYS_TAIL = 0x41c;
+constexpr uint32_t KEYBOARD_KIND = 0x496;
+constexpr uint8_t ENHANCED = 0x10;
+
+constexpr int MOUSE = 0x33;
+constexpr uint8_t IRET = 0xcf;
+
+bool mouseOpen = false;
+
+}  // namespace
+
+namespace machine {
+
+int key() {
+    while (pc::peek16(KEYS_HEAD) != pc::peek16(KEYS_TAIL)) {
+        // AH=10h gives the keys that only an enhanced keyboard has; AH=00h would wait for another one instead.
+        dpmi::RealRegs r = pc::regs((pc::peek8(KEYBOARD_KIND) & ENHANCED) != 0 ? 0x1000 : 0x0000);
+        if (!dpmi::realInterrupt(0x16, &r)) {
+            return 0;
+        }
+        const int character = int(r.eax & 0xff);
+        const int scan = int(r.eax >> 8 & 0xff);
+        if (character == 3) {
+            pc::noteBreak();
+        } else if (character == 0 || (character == 0xe0 && scan != 0)) {
+            // Both zero is what Ctrl-Break leaves behind: no key.
+            if (scan != 0) {
+                return 0x100 + scan;
+            }
+        } else {
+            return character;
+        }
+    }
+    return 0;
+}
+
+bool openMouse() {
+    // Without a driver the vector is null, or points to an iret.
+    const dpmi::RealAddress driver = dpmi::realVector(MOUSE);
+    const uint32_t at = (uint32_t(driver.segment) << 4) + driver.offset;
+    if (at == 0 || pc::peek8(at) == IRET) {
+        return false;
+    }
+    dpmi::RealRegs r = pc::regs(0x0000);
+    if (!dpmi::realInterrupt(MOUSE, &r) || uint16_t(r.eax) != 0xffff) {
+        return false;
+    }
+    mouseOpen = true;
+    mouse();  // what was moved before does not count
+    return true;
+}
+
+Mouse mouse() {
+    Mouse now = {0, 0, false, false};
+    if (!mouseOpen) {
+        return now;
+    }
+    dpmi::RealRegs r = pc::regs(0x0003);
+    if (dpmi::realInterrupt(MOUSE, &r)) {
+        now.left = (r.ebx & 1) != 0;
+        now.right = (r.ebx & 2) != 0;
+    }
+    r = pc::regs(0x000b);
+    if (dpmi::realInterrupt(MOUSE, &r)) {
+        now.dx = int16_t(r.ecx);
+        now.dy = int16_t(r.edx);
+    }
+    return now;
+}
+
+}  // namespace machine
+
+namespace pc {
+
+void closeMouse() {
+    if (mouseOpen) {
+        mouseOpen = false;
+        dpmi::RealRegs r = regs(0x0000);
+        dpmi::realInterrupt(MOUSE, &r);
+    }
+}
+
+}  // namespace pc
