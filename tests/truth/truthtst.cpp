@@ -1,0 +1,613 @@
+// Tests of the yardstick on shapes whose answer is known without it.
+//
+// This file exists because every figure the project shows rests on the
+// yardstick: its depths are held against closed forms and against a plain
+// walk along the ray, its counts against frames damaged by a known amount.
+#include "truth.h"
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+using namespace truth;
+
+static int passed, failed;
+
+static void check(bool good, const std::string &what) {
+  if (good) {
+    passed++;
+  } else {
+    failed++;
+    std::printf("FAILED: %s\n", what.c_str());
+  }
+}
+
+static void checkNear(double got, double want, double within, const std::string &what) {
+  bool good = std::fabs(got - want) <= within;
+  check(good, what);
+  if (!good) std::printf("  got %.12g, want %.12g\n", got, want);
+}
+
+static const std::string camera =
+    "time 1.200\neye 0 0 -120\nfocal 250 208.333\ncentre 160 100\nlight 0.5 0.7 -0.5\nisovalue 0.5\n";
+
+static Scene scene(const std::string &text) {
+  Scene s;
+  std::string why;
+  if (!parseScene(camera + text, "scene", s, why)) {
+    check(false, "scene refused: " + why);
+    parseScene(camera, "scene", s, why);
+  }
+  return s;
+}
+
+static Vec direction(const Scene &s, double column, double row) {
+  return {(column - s.centreX) / s.focalX, -(row - s.centreY) / s.focalY, 1};
+}
+
+// Closed form: the depth at which the ray enters a ball, or -1.
+static double enterBall(Vec eye, Vec d, Vec c, double r) {
+  Vec m = eye - c;
+  double a = dot(d, d), b = dot(m, d), k = b * b - a * (dot(m, m) - r * r);
+  return k < 0 ? -1 : (-b - std::sqrt(k)) / a;
+}
+
+// Closed form: the depth at which the ray enters a capsule, or -1.
+static double enterCapsule(Vec eye, Vec d, Vec a, Vec b, double r) {
+  double best = -1;
+  auto take = [&](double t) {
+    if (t >= 0 && (best < 0 || t < best)) best = t;
+  };
+  take(enterBall(eye, d, a, r));
+  take(enterBall(eye, d, b, r));
+  double len = length(b - a);
+  Vec u = (b - a) * (1 / len), m = eye - a;
+  Vec ma = m - u * dot(m, u), da = d - u * dot(d, u);
+  double qa = dot(da, da), qb = dot(ma, da), k = qb * qb - qa * (dot(ma, ma) - r * r);
+  if (k >= 0 && qa > 0) {
+    double t = (-qb - std::sqrt(k)) / qa, s = dot(m + d * t, u);
+    if (s >= 0 && s <= len) take(t);
+  }
+  return best;
+}
+
+// How far above (below) the surface of the model's solid a point lies: the
+// report's rule written down plainly, object by object.
+static double solid(const Scene &s, Vec p) {
+  double best = -1e300;
+  size_t n = s.objects.size();
+  std::vector<double> f(n);
+  for (size_t i = 0; i < n; i++) f[i] = geoff(s.objects[i].kind->q(s.objects[i], p, nullptr));
+  for (size_t i = 0; i < n; i++) {
+    double worst = f[i] - s.isovalue;
+    for (size_t j = 0; j < n; j++) worst += s.weight[i][j] * f[j];
+    for (size_t j = 0; j < n; j++)
+      if (s.weight[i][j] != 0) worst = std::min(worst, f[i] - std::min(s.weight[i][j], 1.0) * f[j] + 1e-6);
+    best = std::max(best, worst);
+  }
+  return best;
+}
+
+// A plain walk along the ray; finds no slice thinner than its step.
+static double walk(const Scene &s, Vec d, double from, double to, double step) {
+  double last = from;
+  for (double t = from; t <= to; last = t, t += step) {
+    if (solid(s, s.eye + d * t) < 0) continue;
+    double a = last, b = t;
+    for (int i = 0; i < 50; i++) {
+      double m = (a + b) / 2;
+      (solid(s, s.eye + d * m) >= 0 ? b : a) = m;
+    }
+    return b;
+  }
+  return -1;
+}
+
+static unsigned long long state = 1;
+static double random01() {
+  state = state * 6364136223846793005ull + 1442695040888963407ull;
+  return (double)(state >> 11) / 9007199254740992.0;
+}
+static double random(double low, double high) { return low + (high - low) * random01(); }
+
+// Every fifth ray or so of a scene against the plain walk.
+static void againstWalk(const Scene &s, const std::string &name, int stride, bool groups = true) {
+  Tracer tracer(s);
+  if (!groups) tracer.forgetGroups();
+  int wrong = 0, thin = 0, hits = 0, looked = 0;
+  for (int row = 0; row < HEIGHT; row += stride)
+    for (int column = row % stride; column < WIDTH; column += stride) {
+      double c = column + random01(), r = row + random01();
+      Vec d = direction(s, c, r);
+      double want = walk(s, d, 60, 180, 0.05);
+      Hit got = tracer.trace(c, r);
+      looked++;
+      hits += got.any();
+      if (std::fabs(got.depth - want) < 1e-5) continue;
+      // The walk may have stepped over a slice; then ours has to be a place
+      // where the solid begins all the same, before the walk's.
+      if (got.any() && (want < 0 || got.depth < want) && solid(s, s.eye + d * got.depth) > -1e-5) thin++;
+      else wrong++;
+    }
+  check(wrong == 0, name + ": " + std::to_string(wrong) + " of " + std::to_string(looked) + " rays wrong");
+  check(hits > looked / 100, name + ": the rays hit something");
+  check(thin <= looked / 100, name + ": " + std::to_string(thin) + " thin slices is too many");
+}
+
+static void spheres() {
+  // F = 0.5 at half the size, so an unblended sphere is a ball of radius R/2.
+  checkNear(geoff(0.25), 0.5, 1e-15, "Geoff at half the size");
+  checkNear(geoff(0), 1, 0, "Geoff at the core");
+  checkNear(geoff(1 - 1e-9), 0, 1e-12, "Geoff at the size");
+  Scene s = scene("sphere 1 3.25 -4 5 30\n");
+  Vec c{3.25, -4, 5};
+  Picture p;
+  p.trace(s, 2);
+  double worstDepth = 0, worstShade = 0;
+  int wrong = 0, hits = 0;
+  for (int row = -MARGIN; row < HEIGHT + MARGIN; row++)
+    for (int column = -MARGIN; column < WIDTH + MARGIN; column++) {
+      Vec d = direction(s, column + 0.5, row + 0.5);
+      double t = enterBall(s.eye, d, c, 15);
+      const Hit &h = p.at(column, row);
+      if ((t >= 0) != h.any()) wrong++;
+      if (t < 0 || !h.any()) continue;
+      hits++;
+      worstDepth = std::max(worstDepth, std::fabs(t - h.depth));
+      Vec n = (s.eye + d * t - c) * (1 / 15.0);
+      worstShade = std::max(worstShade, std::fabs(63 * std::max(0.0, dot(n, s.light)) - h.shade));
+      wrong += h.object != 0 || h.seam;
+    }
+  check(wrong == 0, "sphere: every pixel hit or missed as in the closed form");
+  checkNear(hits, M_PI * 15 * 15 * 250 * 208.333 / (125 * 125 - 15 * 15), 60, "sphere: area on the screen");
+  check(worstDepth < 1e-6, "sphere: depth within a millionth");
+  check(worstShade < 1e-4, "sphere: brightness");
+  // Sizes from far to near, whole picture filled by the last.
+  for (double z : {-95.0, -60.0, 0.0, 200.0}) {
+    Scene v = scene("sphere 1 0 0 " + std::to_string(z) + " 40\n");
+    Tracer t(v);
+    checkNear(t.trace(160, 100).depth, z + 120 - 20, 1e-9, "sphere: centre ray");
+  }
+  check(Tracer(scene("sphere 1 0 0 -110 40\n")).eyeInside(), "eye inside is noticed");
+  check(!Tracer(s).eyeInside(), "eye outside is noticed");
+  check(!Tracer(scene("sphere 1 0 0 -150 40\n")).trace(160, 100).any(), "nothing behind the eye is seen");
+  // Ambient: a share of the ramp that needs no light.
+  Scene lit = scene("ambient 0.25\nsphere 1 3.25 -4 5 30\n");
+  Hit a = Tracer(s).trace(170, 105), b = Tracer(lit).trace(170, 105);
+  checkNear(b.shade, 63 * (0.25 + 0.75 * a.shade / 63), 1e-4, "ambient light");
+}
+
+static void pairs() {
+  // On the line through both centres the problem has one dimension.
+  Scene s = scene("sphere 1 0 0 0 20\nsphere 2 0 0 12 30\nblend 1 2\n");
+  double a = 60, b = 119;
+  for (int i = 0; i < 80; i++) {
+    double m = (a + b) / 2, z = m - 120;
+    (geoff(z * z / 400) + geoff((z - 12) * (z - 12) / 900) >= 0.5 ? b : a) = m;
+  }
+  Hit h = Tracer(s).trace(160, 100);
+  checkNear(h.depth, a, 1e-9, "linked pair: centre ray");
+  check(h.depth < 110 - 0.1, "linked pair: bulges");
+  checkNear(Tracer(scene("sphere 1 0 0 0 20\nsphere 2 0 0 12 30\n")).trace(160, 100).depth, 110, 1e-9,
+            "unlinked pair: each for itself");
+  // The saddle between two equal spheres: 2 f = 0.5 at q = (a^2 + z^2) / R^2.
+  double q0 = 0, q1 = 1;
+  for (int i = 0; i < 80; i++) {
+    double m = (q0 + q1) / 2;
+    (geoff(m) >= 0.25 ? q0 : q1) = m;
+  }
+  Scene saddle = scene("sphere 1 -11 0 0 20\nsphere 2 11 0 0 20\nblend 1 2\n");
+  Hit mid = Tracer(saddle).trace(160, 100);
+  checkNear(mid.depth, 120 - std::sqrt(q0 * 400 - 121), 1e-7, "linked pair: saddle");
+  checkNear(mid.shade, 63 * saddle.light.z * -1, 1e-3, "linked pair: the saddle faces the viewer");
+  // The neck as thin as can be: there by 1e-10 of field, or not there.
+  for (double excess : {1e-4, 1e-7, 1e-10}) {
+    for (int sign : {1, -1}) {
+      double lo = 0, hi = 1;
+      for (int i = 0; i < 100; i++) {
+        double m = (lo + hi) / 2;
+        (2 * geoff(m) >= 0.5 + sign * excess ? lo : hi) = m;
+      }
+      char text[200];
+      double off = std::sqrt(lo) * 20;
+      std::snprintf(text, sizeof text, "sphere 1 %.17g 0 0 20\nsphere 2 %.17g 0 0 20\nblend 1 2\n", -off, off);
+      Hit thin = Tracer(scene(text)).trace(160, 100);
+      check(thin.any() == (sign > 0), "neck of excess " + std::to_string(sign * excess));
+      if (thin.any()) checkNear(thin.depth, 120, 0.5 * std::sqrt(excess / 1e-4), "neck: depth");
+    }
+  }
+  // Linked but out of reach: as if alone.
+  Scene apart = scene("sphere 1 -25 0 0 20\nsphere 2 25 0 0 20\nblend 1 2\n");
+  Scene alone = scene("sphere 1 -25 0 0 20\n");
+  checkNear(Tracer(apart).trace(110, 100).depth, Tracer(alone).trace(110, 100).depth, 1e-9, "out of reach");
+}
+
+static void tangents() {
+  // Rays that pass a ball of radius 10 by a hair's breadth on either side.
+  Scene s = scene("sphere 1 0 0 0 20\n");
+  Tracer tracer(s);
+  int wrong = 0;
+  for (int i = 0; i < 360; i++)
+    for (double hair : {1e-3, 1e-6, 1e-9}) {
+      double angle = i * M_PI / 180;
+      for (int sign : {1, -1}) {
+        double sine = (10 + sign * hair) / 120, slope = sine / std::sqrt(1 - sine * sine);
+        double c = 160 + 250 * slope * std::cos(angle), r = 100 - 208.333 * slope * std::sin(angle);
+        wrong += tracer.trace(c, r).any() != (sign < 0);
+      }
+    }
+  check(wrong == 0, "tangents to a sphere: " + std::to_string(wrong) + " wrong");
+  // The same along a cylinder's body, and seen along its axis.
+  Scene cyl = scene("cylinder 1 -40 0 0 40 0 0 20\n");
+  Tracer ct(cyl);
+  wrong = 0;
+  for (int i = -30; i <= 30; i++)
+    for (double hair : {1e-3, 1e-6, 1e-9})
+      for (int sign : {1, -1}) {
+        double sine = (10 + sign * hair) / 120, slope = sine / std::sqrt(1 - sine * sine);
+        wrong += ct.trace(160 + i, 100 + 208.333 * slope).any() != (sign < 0);
+      }
+  check(wrong == 0, "tangents to a cylinder: " + std::to_string(wrong) + " wrong");
+  Scene axis = scene("cylinder 1 0 0 0 0 0 40 20\n");
+  checkNear(Tracer(axis).trace(160, 100).depth, 110, 1e-9, "cylinder seen along its axis");
+}
+
+static void cylinders() {
+  struct {
+    Vec a, b;
+    double size;
+  } rows[] = {{{-20, -5, 3}, {18, 9, -14}, 12}, {{0, 0, 0}, {10, 0, 0}, 30},
+              {{-30, 20, 0}, {30, 20, 60}, 8},  {{5, -30, 10}, {5, 30, 10}, 25}};
+  for (auto &row : rows) {
+    char text[200];
+    std::snprintf(text, sizeof text, "cylinder 5 %g %g %g %g %g %g %g\n", row.a.x, row.a.y, row.a.z,
+                  row.b.x, row.b.y, row.b.z, row.size);
+    Scene s = scene(text);
+    Picture p;
+    p.trace(s, 2);
+    int wrong = 0, hits = 0;
+    double worst = 0;
+    for (int r = 0; r < HEIGHT; r++)
+      for (int c = 0; c < WIDTH; c++) {
+        double t = enterCapsule(s.eye, direction(s, c + 0.5, r + 0.5), row.a, row.b, row.size / 2);
+        const Hit &h = p.at(c, r);
+        wrong += (t >= 0) != h.any();
+        if (t < 0 || !h.any()) continue;
+        hits++;
+        worst = std::max(worst, std::fabs(t - h.depth));
+      }
+    check(wrong == 0 && hits > 500, "capsule: " + std::to_string(wrong) + " wrong of " + std::to_string(hits));
+    check(worst < 1e-6, "capsule: depth within a millionth");
+  }
+  Scene point = scene("cylinder 5 1 2 3 1 2 3 20\n"), ball = scene("sphere 1 1 2 3 20\n");
+  checkNear(Tracer(point).trace(165, 98).depth, Tracer(ball).trace(165, 98).depth, 1e-9, "cylinder of no length");
+}
+
+static void unlinked() {
+  // Each ball for itself: the picture is the nearest of them.
+  Scene s = scene("sphere 1 -5 0 0 30\nsphere 2 5 3 4 26\nsphere 3 0 -4 -6 20\n");
+  Picture p;
+  p.trace(s, 2);
+  int wrong = 0;
+  double worst = 0;
+  for (int r = 0; r < HEIGHT; r++)
+    for (int c = 0; c < WIDTH; c++) {
+      double best = -1;
+      int who = -1;
+      for (int i = 0; i < 3; i++) {
+        const Object &o = s.objects[i];
+        double t = enterBall(s.eye, direction(s, c + 0.5, r + 0.5), o.a, o.size / 2);
+        if (t >= 0 && (best < 0 || t < best)) best = t, who = i;
+      }
+      const Hit &h = p.at(c, r);
+      wrong += (best >= 0) != h.any() || h.object != who || h.seam;
+      if (best >= 0 && h.any()) worst = std::max(worst, std::fabs(best - h.depth));
+    }
+  check(wrong == 0, "unlinked overlap: " + std::to_string(wrong) + " wrong");
+  check(worst < 1e-6, "unlinked overlap: depth");
+}
+
+static void others() {
+  // Kinds that come down to another kind, and flat faces.
+  struct {
+    const char *one, *other, *name;
+  } rows[] = {
+      {"cone 1 -9 2 3 18 14 5 -7 18\n", "cylinder 1 -9 2 3 14 5 -7 18\n", "cone of even size"},
+      {"disc 1 3 2 -4 0 1 0 0 30\n", "sphere 1 3 2 -4 30\n", "disc of no radius"},
+      {"torus 1 3 2 -4 1 1 0 0 30\n", "sphere 1 3 2 -4 30\n", "torus of no radius"},
+  };
+  for (auto &row : rows) {
+    Scene a = scene(row.one), b = scene(row.other);
+    Tracer ta(a), tb(b);
+    int wrong = 0, hits = 0;
+    for (int r = 0; r < HEIGHT; r += 3)
+      for (int c = 0; c < WIDTH; c += 3) {
+        Hit ha = ta.trace(c, r), hb = tb.trace(c, r);
+        wrong += std::fabs(ha.depth - hb.depth) > 1e-5 || std::fabs(ha.shade - hb.shade) > 1e-2;
+        hits += hb.any();
+      }
+    check(wrong == 0 && hits > 50, std::string(row.name) + ": " + std::to_string(wrong) + " wrong");
+  }
+  Hit flat = Tracer(scene("disc 1 0 0 0 0 0 -2 20 10\n")).trace(170, 90);
+  checkNear(flat.depth, 115, 1e-6, "disc: its flat face");
+  checkNear(flat.shade, 63 * 0.5 / std::sqrt(0.99), 1e-3, "disc: brightness");
+  check(!Tracer(scene("torus 1 0 0 0 0 0 1 20 14\n")).trace(160, 100).any(), "torus: its hole");
+  Scene ring = scene("torus 1 0 0 0 0 0 1 20 14\n");
+  // At the depth of the ring's plane, 20 units off the axis: over the core.
+  checkNear(Tracer(ring).trace(160 + 250 * 20 / 113.0, 100).depth, 113, 0.15, "torus: over its core");
+  // Gradients against differences.
+  Scene every = scene("sphere 1 1 2 3 20\ncylinder 2 0 0 0 9 5 2 20\ntorus 3 1 0 0 1 1 1 9 20\n"
+                      "disc 4 0 1 0 1 2 0 9 20\ncone 5 0 0 0 20 9 4 4 8\n");
+  for (const Object &o : every.objects) {
+    double worst = 0;
+    for (int i = 0; i < 200; i++) {
+      Vec p{random(-15, 15), random(-15, 15), random(-15, 15)}, g;
+      o.kind->q(o, p, &g);
+      const double e = 1e-5;
+      Vec n{(o.kind->q(o, {p.x + e, p.y, p.z}, nullptr) - o.kind->q(o, {p.x - e, p.y, p.z}, nullptr)) / (2 * e),
+            (o.kind->q(o, {p.x, p.y + e, p.z}, nullptr) - o.kind->q(o, {p.x, p.y - e, p.z}, nullptr)) / (2 * e),
+            (o.kind->q(o, {p.x, p.y, p.z + e}, nullptr) - o.kind->q(o, {p.x, p.y, p.z - e}, nullptr)) / (2 * e)};
+      worst = std::max(worst, length(g - n) / (1 + length(g)));
+    }
+    check(worst < 1e-4, std::string("gradient of ") + o.kind->word);
+  }
+}
+
+static void walks() {
+  char text[4096];
+  for (int round = 0; round < 3; round++) {
+    std::string linked, links;
+    for (int i = 1; i <= 4; i++) {
+      std::snprintf(text, sizeof text, "sphere %d %g %g %g %g\n", i, random(-20, 20), random(-15, 15),
+                    random(-20, 20), random(12, 35));
+      linked += text;
+      for (int j = 1; j < i; j++) links += "blend " + std::to_string(i) + " " + std::to_string(j) + "\n";
+    }
+    Scene s = scene(linked + links);
+    againstWalk(s, "linked spheres", 8);
+    againstWalk(s, "linked spheres, singly", 8, false);
+    Tracer whole(s), singly(s);
+    singly.forgetGroups();
+    int differ = 0;
+    for (int r = 0; r < HEIGHT; r += 4)
+      for (int c = 0; c < WIDTH; c += 4)
+        differ += std::fabs(whole.trace(c, r).depth - singly.trace(c, r).depth) > 1e-5;
+    check(differ <= 2, "group sum and single surfaces agree: " + std::to_string(differ));
+  }
+  againstWalk(scene("sphere 1 -12 0 0 24\nsphere 2 0 0 0 24\nsphere 3 12 4 0 24\nblend 1 2\nblend 2 3\n"),
+              "chain", 6);
+  againstWalk(scene("sphere 1 -8 0 0 24\nsphere 2 8 0 0 24\nblend 1 2 0.5\n"), "weight below 1", 6);
+  againstWalk(scene("sphere 1 -9 0 0 24\nsphere 2 9 0 0 24\nblend 1 2 1.5\n"), "weight above 1", 6);
+  againstWalk(scene("cylinder 1 -20 0 0 20 5 -10 16\ncylinder 2 0 -20 -5 3 20 5 20\nsphere 3 10 0 -10 20\n"
+                    "blend 1 2\nblend 1 3\nblend 2 3\n"), "linked cylinders", 6);
+  againstWalk(scene("torus 1 0 0 0 0.3 0.5 1 18 14\nsphere 2 10 5 -3 22\nblend 1 2\n"), "torus and ball", 9);
+  againstWalk(scene("disc 1 0 -8 0 0 1 0.2 18 12\ncone 2 0 -8 0 16 4 22 -5 8\nblend 1 2\n"), "disc and cone", 9);
+}
+
+// ---- the figures --------------------------------------------------------------
+
+struct Made {
+  Frame frame;
+  Picture picture;
+};
+
+static Made made(const std::string &text) {
+  Made m;
+  Scene s = scene(text);
+  m.picture.trace(s, 2);
+  drawTruth(s, m.picture, m.frame);
+  return m;
+}
+
+static int place(int column, int row) { return row * WIDTH + column; }
+
+static void shiftDepth(Frame &f, int column, int row, double by) {
+  f.z[place(column, row)] += (int)(by * 65536);
+}
+
+static void counts() {
+  const std::string one = "sphere 1 0 0 0 60\n";
+  Made m = made(one);
+  Figures f = compare(m.frame, m.picture);
+  check(f.holes == 0 && f.seeThrough == 0 && f.outside == 0 && f.missing == 0, "the truth itself: no faults");
+  check(f.surface == f.drawn && f.both == f.drawn, "the truth itself: drawn where there is surface");
+  check(f.interior > 0 && f.interior < f.surface, "the truth itself: an interior within a rim");
+  check(f.depthRms() < 1e-4, "the truth itself: depth");
+  check(f.shaded == f.both && f.shadeRms() < 0.32, "the truth itself: brightness rounded to steps");
+
+  Made h = m;
+  for (int i = 0; i < 7; i++) h.frame.z[place(150 + 2 * i, 100)] = EMPTY;
+  f = compare(h.frame, h.picture);
+  check(f.holes == 7 && f.missing == 7, "seven holes");
+  check(f.drawn == f.surface - 7, "seven fewer drawn");
+
+  // A rim pixel not drawn is no hole.
+  h = m;
+  int rim = 0;
+  while (!h.picture.at(rim, 100).any()) rim++;
+  h.frame.z[place(rim, 100)] = EMPTY;
+  f = compare(h.frame, h.picture);
+  check(f.holes == 0 && f.missing == 1, "a rim pixel is no hole");
+  h.frame.z[place(rim + 1, 100)] = EMPTY;
+  check(compare(h.frame, h.picture).holes == 1, "the pixel behind the rim is one");
+
+  h = m;
+  for (int i = 0; i < 5; i++) shiftDepth(h.frame, 150 + i, 90, 4.5);
+  for (int i = 0; i < 6; i++) shiftDepth(h.frame, 150 + i, 80, 3.5);
+  for (int i = 0; i < 6; i++) shiftDepth(h.frame, 150 + i, 70, -4.5);
+  shiftDepth(h.frame, rim, 100, 4.5);
+  f = compare(h.frame, h.picture);
+  check(f.seeThrough == 5, "five see-through: further behind than 4 units, interior");
+  checkNear(f.seeThroughShare(), 100.0 * 5 / f.interior, 1e-12, "see-through share of interior pixels");
+
+  // Outside: beyond a distance of two pixels. Left of the rim on the row of
+  // the ball's middle, which is its leftmost.
+  for (int off = 1; off <= 4; off++) {
+    h = m;
+    h.frame.z[place(rim - off, 100)] = 100 * 65536;
+    f = compare(h.frame, h.picture);
+    check(f.outside == (off > 2) && f.outsideBox == (off > 2), "outside by " + std::to_string(off));
+  }
+  h = m;
+  for (int i = 0; i < 6; i++) h.frame.z[place(5 + i, 5)] = 100 * 65536;
+  f = compare(h.frame, h.picture);
+  check(f.outside == 6 && f.drawn == f.surface + 6, "six outside");
+  checkNear(f.outsideShare(), 100.0 * 6 / f.drawn, 1e-12, "outside share of drawn pixels");
+  // Two across and two up is 2.83 away: out of the circle, in the square.
+  h = m;
+  int corner = 0;
+  for (int r = 0; r < HEIGHT && !corner; r++)
+    for (int c = 2; c < WIDTH - 2 && !corner; c++) {
+      if (m.picture.at(c, r).any()) break;
+      bool circle = false, square = false;
+      for (int y = -2; y <= 2; y++)
+        for (int x = -2; x <= 2; x++)
+          if (m.picture.at(c + x, r + y).any()) {
+            square = true;
+            circle = circle || x * x + y * y <= 4;
+          }
+      if (square && !circle) {
+        corner = 1;
+        h.frame.z[place(c, r)] = 100 * 65536;
+      }
+    }
+  f = compare(h.frame, h.picture);
+  check(corner && f.outside == 1 && f.outsideBox == 0, "outside in the circle's and the square's sense");
+
+  h = m;
+  for (int32_t &z : h.frame.z)
+    if (z != EMPTY) z += 32768;
+  f = compare(h.frame, h.picture);
+  checkNear(f.depthRms(), 0.5, 1e-4, "depth RMS of a shift by half a unit");
+  checkNear(f.smoothRms(), 0.5, 1e-4, "depth RMS away from jumps, too");
+  // Two balls one behind the other: a wrong rim weighs on the plain figure only.
+  Made two = made("sphere 1 0 0 0 40\nsphere 2 12 0 40 60\n");
+  f = compare(two.frame, two.picture);
+  check(f.smooth > 0 && f.smooth < f.interior, "jumps are left out of the second figure");
+  int jump = 160;
+  while (two.picture.at(jump + 1, 100).depth - two.picture.at(jump, 100).depth < 4) jump++;
+  shiftDepth(two.frame, jump + 1, 100, -20);
+  f = compare(two.frame, two.picture);
+  check(f.depthRms() > 0.1 && f.smoothRms() < 1e-4, "an error at a jump");
+
+  // The whole screen full: pixels at the edge have neighbours beyond it.
+  Made full = made("sphere 1 0 0 0 200\n");
+  f = compare(full.frame, full.picture);
+  check(f.surface == WIDTH * HEIGHT && f.interior == WIDTH * HEIGHT, "a full screen is all interior");
+  full.frame.z[0] = EMPTY;
+  check(compare(full.frame, full.picture).holes == 1, "a hole in the corner");
+
+  Made in = made("sphere 1 0 0 -110 60\n");
+  f = compare(in.frame, in.picture);
+  check(f.eyeInside == 1 && f.drawn == 0 && f.interior == 0, "no figures with the eye inside");
+}
+
+static void brightness() {
+  // All light ambient: the true step is 63 everywhere.
+  Made m = made("ambient 1\nsphere 1 0 0 0 60\n");
+  check(m.frame.step(160, 100, 0) == 63, "full grey is step 63");
+  checkNear(compare(m.frame, m.picture).shadeRms(), 0, 1e-6, "brightness of the truth");
+  auto paint = [&](Frame &f, int column, int row, int step) {
+    for (int k = 0; k < 3; k++) f.rgb[3 * place(column, row) + k] = (uint8_t)(step << 2 | step >> 4);
+  };
+  for (int step = 0; step < 64; step++) {
+    paint(m.frame, 160, 100, step);
+    bool a = m.frame.step(160, 100, 0) == step;
+    for (int k = 0; k < 3; k++) m.frame.rgb[3 * place(160, 100) + k] = (uint8_t)std::lround(step * 255 / 63.0);
+    check(a && m.frame.step(160, 100, 0) == step, "step " + std::to_string(step) + " of both ways to 8 bits");
+  }
+  for (int r = 0; r < HEIGHT; r++)
+    for (int c = 0; c < WIDTH; c++) paint(m.frame, c, r, 60);
+  checkNear(compare(m.frame, m.picture).shadeRms(), 3, 1e-6, "three steps too dark");
+
+  // Colours: known with the ramps, unknown without.
+  Made c = made("ramp 1 255 128 0\nramp 2 0 64 255\nsphere 1 -15 0 0 40\nsphere 2 15 0 0 40\n");
+  c.frame.grey = false;
+  Figures f = compare(c.frame, c.picture);
+  check(f.shaded == f.both && f.shadeRms() < 0.6, "brightness in colour");
+  Frame without = c.frame;
+  without.scene.ramps.clear();
+  f = compare(without, c.picture);
+  check(f.shaded == 0 && f.both > 0, "no ramps, no brightness figure");
+  // A pixel in the other object's colour is read by that colour.
+  uint8_t *p = &c.frame.rgb[3 * place(130, 100)];
+  p[0] = 0, p[1] = 32, p[2] = 128;
+  checkNear(c.frame.step(130, 100, 0), 31.6, 0.5, "the colour of the neighbour");
+}
+
+static void flickers() {
+  auto pair = [](double dt, int change, int pixels, bool vanish) {
+    Made a = made("ambient 1\nsphere 1 0 0 0 60\n"), b = a;
+    b.frame.scene.time = a.frame.scene.time + dt;
+    for (int i = 0; i < pixels; i++) {
+      int at = place(140 + i, 100), step = 63 - change;
+      for (int k = 0; k < 3; k++) b.frame.rgb[3 * at + k] = (uint8_t)(step << 2 | step >> 4);
+      if (vanish) b.frame.z[at] = EMPTY;
+    }
+    Figures f;
+    compareFlicker(a.frame, a.picture, b.frame, b.picture, f);
+    return f;
+  };
+  Figures f = pair(0.014, 17, 9, false);
+  check(f.pairs == 1 && f.flicker == 9 && f.flickerEdge == 9, "nine pixels flicker");
+  checkNear(f.flickerShare(), 900.0 / f.flickerBase, 1e-12, "flicker share of drawn pixels");
+  check(pair(0.015, 17, 9, false).pairs == 1, "1/70 s in whole milliseconds, rounded up");
+  f = pair(0.014, 16, 9, false);
+  check(f.pairs == 1 && f.flicker == 0, "a quarter of the ramp is no flicker yet");
+  check(pair(0.1, 17, 9, false).pairs == 0, "frames too far apart");
+  check(pair(0, 17, 9, false).pairs == 0, "frames of the same time");
+  f = pair(0.014, 0, 4, true);
+  check(f.flicker == 0 && f.flickerEdge == 4, "pixels that vanish");
+  // The light goes out: the true brightness moves as well.
+  Made a = made("ambient 1\nsphere 1 0 0 0 60\n"), b = made("ambient 0\nsphere 1 0 0 0 60\n");
+  b.frame.scene.time += 0.014;
+  Figures g;
+  compareFlicker(a.frame, a.picture, b.frame, b.picture, g);
+  check(g.pairs == 1 && g.flicker == 0, "a true change is no flicker");
+}
+
+static void texts() {
+  struct {
+    const char *text, *word;
+  } bad[] = {
+      {"blob 1 2 3\n", "unknown word"},       {"sphere 1 2 3 4\n", "wants 5"},
+      {"sphere 1 2 3 x 5\n", "not a number"}, {"sphere 1 2 3 4 0\n", "above 0"},
+      {"sphere 1 2 3 4 -5\n", "above 0"},     {"sphere 1 0 0 0 nan\n", "not a number"},
+      {"blend 1 2\n", "not there"},           {"sphere 1 0 0 0 9\nsphere 1 0 0 0 9\n", "already"},
+      {"sphere 1 0 0 0 9\nblend 1 1\n", "itself"}, {"light 0 0 0\n", "no direction"},
+      {"focal 0 200\n", "above 0"},           {"torus 1 0 0 0 0 0 0 5 5\n", "no direction"},
+  };
+  for (auto &row : bad) {
+    Scene s;
+    std::string why;
+    bool good = parseScene(camera + row.text, "X.TXT", s, why);
+    check(!good && why.find(row.word) != std::string::npos && why.find("X.TXT:") == 0,
+          std::string("refused: ") + row.text + "  says: " + why);
+  }
+  Scene s;
+  std::string why;
+  check(!parseScene("time 1\nfocal 1 1\ncentre 0 0\nlight 0 0 1\n", "X", s, why) &&
+            why.find("eye") != std::string::npos, "a scene without an eye");
+  check(parseScene(camera + "\r\n# a remark\nsphere 1 3.25 -4 0 20\r\ncylinder 5 0 0 0 10 0 0 12\nblend 1 5\n",
+                   "X", s, why) && s.objects.size() == 2 && s.weight[0][1] == 1 && s.weight[1][0] == 1,
+        "the contract's scene, with carriage returns");
+  checkNear(length(s.light), 1, 1e-12, "the light is a direction");
+  check(s.time == 1.2 && s.objects[1].number == 5 && s.objects[1].size == 12, "what it says is kept");
+}
+
+int main() {
+  spheres();
+  pairs();
+  tangents();
+  cylinders();
+  unlinked();
+  others();
+  walks();
+  counts();
+  brightness();
+  flickers();
+  texts();
+  std::printf("%d passed, %d failed\n", passed, failed);
+  return failed != 0;
+}

@@ -1,0 +1,253 @@
+// truth: holds dumped frames against the surface they should show.
+//
+//   truth [options] DIR            figures of the frames in DIR
+//   truth --render OUT SCENE...    the true frames of scene texts, into OUT
+//
+// This file exists to be the command line round the yardstick: it walks the
+// frames, prints the figures, one `name: value` a line, and judges them.
+#include "truth.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+using namespace truth;
+
+namespace {
+
+const char usage[] =
+    "truth [options] DIR             hold the frames in DIR against the surface\n"
+    "truth --render OUT SCENE...     write the true frames of scene texts into OUT\n"
+    "  -v               one line for every frame\n"
+    "  --csv FILE       one record for every frame\n"
+    "  --worst N        list the N worst frames (3)\n"
+    "  --out OUT        and write them as pictures: ours, true, difference (red:\n"
+    "                   hole, magenta: see-through, yellow: outside, blue: rim\n"
+    "                   not drawn, teal: left out, grey: error of brightness x 4)\n"
+    "  --bars NAME      spacing2 or spacing1: exit 1 if a bar is broken\n"
+    "  --every N        judge only every Nth frame (1; more leaves flicker out)\n"
+    "  --threads N      1 to 16 (2)\n";
+
+// The bars a picture has to meet, and the totals held against them.
+struct Bar {
+  const char *name;
+  double spacing2, spacing1;
+  double (*value)(const Figures &);
+  bool (*known)(const Figures &);
+};
+
+const Bar bars[] = {
+    {"holes", 0, 0, [](const Figures &f) { return (double)f.holes; },
+     [](const Figures &f) { return f.interior > 0; }},
+    {"see-through, percent of interior pixels", 0.1, 0.02,
+     [](const Figures &f) { return f.seeThroughShare(); },
+     [](const Figures &f) { return f.interior > 0; }},
+    {"outside, percent of drawn pixels", 2, 1, [](const Figures &f) { return f.outsideShare(); },
+     [](const Figures &f) { return f.drawn > 0; }},
+    {"depth RMS, units", 1.0, 0.6, [](const Figures &f) { return f.depthRms(); },
+     [](const Figures &f) { return f.both > 0; }},
+    {"brightness RMS, ramp steps", 5, 3, [](const Figures &f) { return f.shadeRms(); },
+     [](const Figures &f) { return f.shaded > 0; }},
+    {"flicker, percent of drawn pixels", 0.1, 0.1,
+     [](const Figures &f) { return f.flickerShare(); },
+     [](const Figures &f) { return f.pairs > 0; }},
+};
+
+// How bad a frame is: its figures in units of the bars, holes one each.
+double badness(const Figures &f) {
+  double sum = 0;
+  for (const Bar &b : bars)
+    if (b.known(f)) sum += b.spacing2 > 0 ? b.value(f) / b.spacing2 : b.value(f);
+  return sum;
+}
+
+int trouble(const std::string &what) {
+  std::fprintf(stderr, "truth: %s\n", what.c_str());
+  return 2;
+}
+
+int render(const std::string &out, const std::vector<std::string> &scenes, int threads) {
+  std::string why;
+  for (size_t n = 0; n < scenes.size(); n++) {
+    std::string text;
+    Scene s;
+    if (!readFile(scenes[n], text, why) || !parseScene(text, scenes[n], s, why)) return trouble(why);
+    Picture picture;
+    picture.trace(s, threads);
+    Frame f;
+    drawTruth(s, picture, f);
+    std::string z;
+    for (int32_t v : f.z)
+      for (int b = 0; b < 4; b++) z += (char)((uint32_t)v >> (8 * b));
+    if (!writePpm(frameName(out, n, "PPM"), WIDTH, HEIGHT, f.rgb, why) ||
+        !writeFile(frameName(out, n, "Z"), z, why) ||
+        !writeFile(frameName(out, n, "TXT"), text, why))
+      return trouble(why);
+  }
+  return 0;
+}
+
+void printTotals(const Figures &f) {
+  auto count = [](const char *name, long v) { std::printf("%s: %ld\n", name, v); };
+  auto real = [](const char *name, double v, bool known) {
+    if (known) std::printf("%s: %.4f\n", name, v);
+    else std::printf("%s: not measured\n", name);
+  };
+  count("frames", f.frames);
+  count("frames with the eye inside the surface, left out", f.eyeInside);
+  count("surface pixels", f.surface);
+  count("interior pixels", f.interior);
+  count("drawn pixels", f.drawn);
+  count("seam pixels, left out", f.seams);
+  count("holes", f.holes);
+  count("see-through pixels", f.seeThrough);
+  real("see-through, percent of interior pixels", f.seeThroughShare(), f.interior);
+  count("outside pixels", f.outside);
+  real("outside, percent of drawn pixels", f.outsideShare(), f.drawn);
+  real("outside 5x5, percent of drawn pixels", f.outsideBoxShare(), f.drawn);
+  count("rim pixels not drawn", f.missing - f.holes);
+  real("depth RMS, units", f.depthRms(), f.both);
+  real("depth RMS away from jumps, units", f.smoothRms(), f.smooth);
+  real("brightness RMS, ramp steps", f.shadeRms(), f.shaded);
+  count("flicker pairs", f.pairs);
+  count("flicker pixels", f.flicker);
+  real("flicker, percent of drawn pixels", f.flickerShare(), f.pairs);
+  real("flicker with edges, percent of drawn pixels", f.flickerEdgeShare(), f.pairs);
+}
+
+const char csvHead[] =
+    "frame,time,surface,interior,drawn,seams,holes,seethrough,seethrough_pct,outside,outside_pct,"
+    "outside5x5_pct,rim_missing,depth_rms,depth_rms_smooth,brightness_rms,flicker,flicker_pct,"
+    "flicker_edge_pct\n";
+
+// Absent figures are empty fields.
+std::string csvLine(long n, double time, const Figures &f) {
+  char b[512];
+  std::snprintf(b, sizeof b, "%ld,%.3f,%ld,%ld,%ld,%ld,%ld,%ld,%.4f,%ld,%.4f,%.4f,%ld,%.4f,%.4f,", n,
+                time, f.surface, f.interior, f.drawn, f.seams, f.holes, f.seeThrough,
+                f.seeThroughShare(), f.outside, f.outsideShare(), f.outsideBoxShare(),
+                f.missing - f.holes, f.depthRms(), f.smoothRms());
+  std::string line = b;
+  if (f.shaded) std::snprintf(b, sizeof b, "%.4f,", f.shadeRms());
+  else std::snprintf(b, sizeof b, ",");
+  line += b;
+  if (f.pairs)
+    std::snprintf(b, sizeof b, "%ld,%.4f,%.4f\n", f.flicker, f.flickerShare(), f.flickerEdgeShare());
+  else
+    std::snprintf(b, sizeof b, ",,\n");
+  return line + b;
+}
+
+void printFrame(long n, double time, const Figures &f) {
+  std::printf("frame %ld time %.3f holes %ld see-through %.3f%% outside %.3f%% depth %.3f smooth %.3f",
+              n, time, f.holes, f.seeThroughShare(), f.outsideShare(), f.depthRms(), f.smoothRms());
+  if (f.shaded) std::printf(" brightness %.2f", f.shadeRms());
+  if (f.pairs) std::printf(" flicker %.3f%%", f.flickerShare());
+  std::printf("\n");
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  bool verbose = false, rendering = false;
+  std::string csvName, out, why;
+  std::vector<std::string> names;
+  long worst = 3, threads = 2, every = 1;
+  int bar = -1;
+  for (int i = 1; i < argc; i++) {
+    std::string a = argv[i];
+    auto isNumber = [&](long least, long most, long &v) {
+      char *end = nullptr;
+      if (i + 1 < argc) v = std::strtol(argv[++i], &end, 10);
+      return end && end != argv[i] && *end == 0 && v >= least && v <= most;
+    };
+    if (a == "-h" || a == "--help") {
+      std::fputs(usage, stdout);
+      return 0;
+    } else if (a == "-v") {
+      verbose = true;
+    } else if (a == "--render" && i + 1 < argc) {
+      rendering = true, out = argv[++i];
+    } else if (a == "--csv" && i + 1 < argc) {
+      csvName = argv[++i];
+    } else if (a == "--out" && i + 1 < argc) {
+      out = argv[++i];
+    } else if (a == "--worst") {
+      if (!isNumber(0, 1000, worst)) return trouble("--worst wants 0 to 1000");
+    } else if (a == "--every") {
+      if (!isNumber(1, 1000000, every)) return trouble("--every wants 1 or more");
+    } else if (a == "--threads") {
+      if (!isNumber(1, 16, threads)) return trouble("--threads wants 1 to 16");
+    } else if (a == "--bars" && i + 1 < argc) {
+      a = argv[++i];
+      bar = a == "spacing2" ? 2 : a == "spacing1" ? 1 : 0;
+      if (!bar) return trouble("--bars wants spacing2 or spacing1, not " + a);
+    } else if (a[0] == '-') {
+      return trouble("unknown option, or one without its value: " + a + " (--help lists them)");
+    } else {
+      names.push_back(a);
+    }
+  }
+  if (names.empty()) return trouble(rendering ? "no scene named" : "no directory named (--help lists the options)");
+  if (rendering) return render(out, names, (int)threads);
+  if (names.size() > 1) return trouble("more than one directory: " + names[1]);
+
+  const std::string &dir = names[0];
+  std::vector<long> numbers;
+  if (!listFrames(dir, numbers, why)) return trouble(why);
+  Figures total;
+  struct Rank {
+    double badness;
+    long number;
+  };
+  std::vector<Rank> ranks;
+  std::string csv = csvHead;
+  Frame frame, before;
+  Picture picture, beforePicture;
+  long judged = 0;
+  for (size_t k = 0; k < numbers.size(); k += every) {
+    long n = numbers[k];
+    std::swap(frame, before);
+    std::swap(picture, beforePicture);
+    if (!readFrame(dir, n, frame, why)) return trouble(why);
+    picture.trace(frame.scene, (int)threads);
+    Figures f = compare(frame, picture);
+    // Flicker is between neighbours in the run only.
+    if (judged++ && numbers[k - every] == n - 1) compareFlicker(before, beforePicture, frame, picture, f);
+    total.add(f);
+    ranks.push_back({badness(f), n});
+    if (verbose) printFrame(n, frame.scene.time, f);
+    if (!csvName.empty()) csv += csvLine(n, frame.scene.time, f);
+  }
+  if (!csvName.empty() && !writeFile(csvName, csv, why)) return trouble(why);
+
+  std::sort(ranks.begin(), ranks.end(), [](const Rank &a, const Rank &b) {
+    return a.badness != b.badness ? a.badness > b.badness : a.number < b.number;
+  });
+  if ((size_t)worst < ranks.size()) ranks.resize(worst);
+  for (const Rank &r : ranks) {
+    std::printf("worst frame: %ld (%.2f bars)\n", r.number, r.badness);
+    if (out.empty()) continue;
+    if (!readFrame(dir, r.number, frame, why)) return trouble(why);
+    picture.trace(frame.scene, (int)threads);
+    char name[32];
+    std::snprintf(name, sizeof name, "/W%07ld.PPM", r.number);
+    if (!writePpm(out + name, SHEET_WIDTH, HEIGHT, sheet(frame, picture), why)) return trouble(why);
+  }
+  printTotals(total);
+
+  int broken = 0;
+  if (bar >= 0)
+    for (const Bar &b : bars) {
+      double limit = bar == 2 ? b.spacing2 : b.spacing1, v = b.value(total);
+      if (!b.known(total)) {
+        std::printf("bar not judged: %s\n", b.name);
+      } else if (v > limit) {
+        std::printf("bar broken: %s: %.4f, at most %g\n", b.name, v, limit);
+        broken = 1;
+      }
+    }
+  if (bar >= 0 && !broken) std::printf("bars: held\n");
+  return broken;
+}

@@ -1,0 +1,234 @@
+// The yardstick: what a dumped frame should have shown, worked out from the
+// implicit surface itself.
+//
+// This header exists so that the tool and its tests share one description of
+// a scene, of the surface a viewing ray meets, and of the figures. Nothing
+// here knows of seeds, scales or the program's fixed-point numbers: the only
+// common ground with the program is the dump format. All arithmetic is double
+// precision, all lengths are in the model's units.
+#ifndef TRUTH_H
+#define TRUTH_H
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace truth {
+
+const int WIDTH = 320, HEIGHT = 200;    // mode 13h
+const int MARGIN = 2;                   // pixels traced beyond each edge
+const int RAMP = 64;                    // brightness steps in a ramp
+const int32_t EMPTY = 0x7FFFFFFF;       // .Z word of a pixel nothing was drawn on
+
+struct Vec {
+  double x, y, z;
+};
+
+inline Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec operator*(Vec a, double s) { return {a.x * s, a.y * s, a.z * s}; }
+inline double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+double length(Vec a);
+
+// A viewing ray. The direction's z is 1, so that the parameter t is the depth
+// that .Z files hold: the distance along the viewing axis.
+struct Ray {
+  Vec eye, dir;
+};
+
+// An object as the scene text gives it. Which members a kind uses is its own
+// affair; `middle` and `reach` are a ball that holds the whole field.
+struct Object;
+
+// A kind of object: one row of the table in truthray.cpp. A new primitive is
+// one more row. q is the squared distance to the core over the squared size,
+// the argument of the Geoff function; the field is zero where q >= 1.
+struct Kind {
+  const char *word;   // what the scene text calls it
+  int numbers;        // how many numbers follow the object's own number
+  // Fills the object from the numbers. Returns what is wrong, or null.
+  const char *(*set)(Object &, const double *);
+  // q at a point, and its gradient if asked for.
+  double (*q)(const Object &, Vec p, Vec *gradient);
+  // Where q along a ray is a chain of quadratics: appends the depths at which
+  // one passes into the next or into q = 1. Null if it is no such chain.
+  void (*breaks)(const Object &, const Ray &, std::vector<double> &);
+  // The quadratic that holds at depth t: q = c[0] + c[1] t + c[2] t^2.
+  void (*quadratic)(const Object &, const Ray &, double t, double c[3]);
+  // Where it is not: bounds of q for depths in [a, b], tightening as b - a
+  // shrinks.
+  void (*bounds)(const Object &, const Ray &, double a, double b, double &low, double &high);
+};
+
+struct Object {
+  const Kind *kind;
+  int number;         // the scene's own number for it
+  Vec middle;
+  double reach;
+  Vec a, u;           // end or centre of the core; its unit axis or normal
+  double len;         // length of a segment, radius of a circle or disc
+  double size;        // R: the field is zero at this distance from the core
+  double size2;       // R at the core's far end, where it tapers
+};
+
+struct Colour {
+  double r, g, b;     // 0 to 255
+};
+
+struct Scene {
+  double time = 0;                       // seconds
+  Vec eye{0, 0, 0};
+  double focalX = 0, focalY = 0;         // pixels
+  double centreX = 0, centreY = 0;       // pixels
+  Vec light{0, 0, 0};                    // unit vector towards the light
+  double isovalue = 0.5;
+  double ambient = 0;                    // share of the ramp that needs no light
+  std::vector<Object> objects;
+  std::vector<std::vector<double>> weight;  // [i][j]: scale of what j adds to i; 0: not linked
+  std::map<int, Colour> ramps;           // object number -> colour at full brightness
+};
+
+// The Geoff function of q = r^2/R^2 and its derivative by q; 0 beyond q = 1.
+double geoff(double q);
+double geoffSlope(double q);
+
+// The kind of this name, or null.
+const Kind *findKind(const std::string &word);
+
+// Reads a scene text. False, and the reason with its line in `why`, if it is
+// not one; a scene that names anything unknown is not one, because leaving an
+// object out would give wrong figures.
+bool parseScene(const std::string &text, const std::string &name, Scene &, std::string &why);
+
+// What a ray meets first.
+struct Hit {
+  double depth = -1;  // -1: no surface
+  float shade = 0;    // ramp steps, 0 to 63, not rounded
+  int object = -1;    // index of the object that is strongest there
+  // The ray ran through a place where one object's surface stops short of its
+  // neighbour's, which only a model with some but not all links has. There is
+  // no true surface to hold the drawing against; such pixels are left out.
+  bool seam = false;
+  bool any() const { return depth >= 0; }
+};
+
+// The first meeting of rays with one scene's surface. The scene must outlive
+// it. trace() may be called from several threads.
+class Tracer {
+public:
+  explicit Tracer(const Scene &);
+  // The ray through image position (column, row); pixel i's centre is i + 0.5.
+  Hit trace(double column, double row) const;
+  // The same, looking only at the objects listed by index.
+  Hit trace(double column, double row, const int *which, int count) const;
+  // Whether the ray through this pixel's row (column) can meet object i at all.
+  bool inRow(int i, double row) const;
+  bool inColumn(int i, double column) const;
+  // The eye lies inside the surface: there is no picture to speak of.
+  bool eyeInside() const;
+  // For tests: treat every object singly even where one sum would do.
+  void forgetGroups();
+private:
+  struct Work;
+  double first(Work &, int fn, const double *c, double a, double b) const;
+  const Scene &scene;
+  std::vector<int> group;   // objects of one number: all linked, weight 1; -1: single treatment
+};
+
+// A picture's worth of hits, with MARGIN pixels beyond each edge so that the
+// neighbours of pixels at the edge are known too.
+class Picture {
+public:
+  Picture() : hits((WIDTH + 2 * MARGIN) * (HEIGHT + 2 * MARGIN)) {}
+  // Traces every pixel on this many threads (1 or more).
+  void trace(const Scene &, int threads);
+  const Hit &at(int column, int row) const {
+    return hits[(row + MARGIN) * (WIDTH + 2 * MARGIN) + column + MARGIN];
+  }
+  bool eyeInside = false;
+private:
+  std::vector<Hit> hits;
+};
+
+// A dumped frame.
+struct Frame {
+  Scene scene;
+  std::vector<uint8_t> rgb;   // WIDTH * HEIGHT * 3
+  std::vector<int32_t> z;     // WIDTH * HEIGHT, 16.16 units
+  bool grey = false;          // every drawn pixel is grey
+  // The brightness of a drawn pixel in ramp steps can be told: the frame is
+  // grey or the scene gives the ramps' colours.
+  bool shaded() const { return grey || !scene.ramps.empty(); }
+  bool drawn(int column, int row) const { return z[row * WIDTH + column] != EMPTY; }
+  double depth(int column, int row) const { return z[row * WIDTH + column] / 65536.0; }
+  // Ramp steps. `object` is the index of the object that should be there, or
+  // -1; it decides between ramps that fit about as well.
+  double step(int column, int row, int object) const;
+};
+
+// Reads DIR/F<n>.TXT, .PPM and .Z. False and a reason if any is missing or bad.
+bool readFrame(const std::string &dir, long n, Frame &, std::string &why);
+bool readScene(const std::string &path, Scene &, std::string &why);
+bool readFile(const std::string &path, std::string &data, std::string &why);
+bool writeFile(const std::string &path, const std::string &data, std::string &why);
+bool writePpm(const std::string &path, int width, int height, const std::vector<uint8_t> &rgb,
+              std::string &why);
+// The numbers of the frames in a directory, ascending.
+bool listFrames(const std::string &dir, std::vector<long> &, std::string &why);
+std::string frameName(const std::string &dir, long n, const char *extension);
+
+// Makes the frame that the surface itself would give: grey, or in the ramps'
+// colours if the scene has them.
+void drawTruth(const Scene &, const Picture &, Frame &);
+
+// The figures of one frame or, added up, of a run. Counts are of pixels.
+struct Figures {
+  long frames = 0, eyeInside = 0;
+  long surface = 0;        // surface there
+  long drawn = 0;          // something drawn
+  long interior = 0;       // surface there and at all eight neighbours
+  long seams = 0;          // left out, see Hit::seam
+  long holes = 0;          // interior, nothing drawn
+  long seeThrough = 0;     // interior, drawn more than 4 units behind
+  long outside = 0;        // drawn, no surface within a distance of 2
+  long outsideBox = 0;     // drawn, no surface in the 5 by 5 square round it
+  long missing = 0;        // surface there, nothing drawn, interior or not
+  long both = 0;           // drawn, surface there
+  double depth2 = 0;       // sum of squared depth errors over those
+  long smooth = 0;         // those with no jump of the true depth beside them
+  double smooth2 = 0;
+  long shaded = 0;         // those whose brightness can be told
+  double shade2 = 0;       // sum of squared brightness errors
+  long pairs = 0;          // pairs of frames close enough in time for flicker
+  long flickerBase = 0;    // drawn pixels of the second frame of such pairs
+  long flicker = 0;        // brightness jumps where the true one does not
+  long flickerEdge = 0;    // the same, counting what appears or vanishes too
+  void add(const Figures &);
+  double depthRms() const;
+  double smoothRms() const;
+  double shadeRms() const;
+  double seeThroughShare() const;  // percent, as are the next four
+  double outsideShare() const;
+  double outsideBoxShare() const;
+  double flickerShare() const;
+  double flickerEdgeShare() const;
+};
+
+const double BEHIND = 4.0;             // units: further behind is see-through
+const double PAIR = 1 / 70.0 + 0.001;  // seconds; the scene gives milliseconds
+
+// Holds a frame against its truth.
+Figures compare(const Frame &, const Picture &);
+// Adds the flicker between two consecutive frames to the later one's figures,
+// if they are close enough in time and both can be read.
+void compareFlicker(const Frame &before, const Picture &beforeTruth,
+                    const Frame &after, const Picture &afterTruth, Figures &);
+
+// Ours, the truth and the difference side by side: 968 x 200.
+const int SHEET_WIDTH = 3 * WIDTH + 8;
+std::vector<uint8_t> sheet(const Frame &, const Picture &);
+
+}  // namespace truth
+
+#endif

@@ -1,0 +1,256 @@
+// Scenes and dumped frames as files.
+//
+// This file exists so that everything the yardstick believes about the dump
+// format stands in one place. It is strict: a word it does not know, a missing
+// file or a short one is an error, because a figure from half a scene would be
+// worse than none.
+#include "truth.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+namespace truth {
+
+namespace {
+
+std::vector<std::string> split(const std::string &line) {
+  std::vector<std::string> words;
+  size_t i = 0;
+  while (true) {
+    while (i < line.size() && std::strchr(" \t\r", line[i])) i++;
+    if (i >= line.size()) return words;
+    size_t from = i;
+    while (i < line.size() && !std::strchr(" \t\r", line[i])) i++;
+    words.push_back(line.substr(from, i - from));
+  }
+}
+
+bool number(const std::string &word, double &v) {
+  char *end;
+  v = std::strtod(word.c_str(), &end);
+  return *end == 0 && end != word.c_str() && std::isfinite(v);
+}
+
+// The lines that are not objects: their word, and how many numbers follow.
+struct Fact {
+  const char *word;
+  size_t least, most;
+  bool needed;
+};
+const Fact facts[] = {
+    {"time", 1, 1, true},   {"eye", 3, 3, true},       {"focal", 2, 2, true},
+    {"centre", 2, 2, true}, {"light", 3, 3, true},     {"isovalue", 1, 1, false},
+    {"blend", 2, 3, false}, {"ambient", 1, 1, false},  {"ramp", 4, 4, false},
+};
+
+}  // namespace
+
+bool parseScene(const std::string &text, const std::string &name, Scene &s, std::string &why) {
+  s = Scene();
+  struct Link {
+    int line;
+    double a, b, weight;
+  };
+  std::vector<Link> links;
+  std::map<int, int> index;   // object number -> index
+  std::map<std::string, bool> seen;
+  int lineNumber = 0;
+  auto fail = [&](const std::string &what) {
+    why = name + ":" + std::to_string(lineNumber) + ": " + what;
+    return false;
+  };
+  for (size_t at = 0; at < text.size();) {
+    size_t end = text.find('\n', at);
+    if (end == std::string::npos) end = text.size();
+    std::vector<std::string> words = split(text.substr(at, end - at));
+    at = end + 1;
+    lineNumber++;
+    if (words.empty() || words[0][0] == '#') continue;
+    std::vector<double> v(words.size() - 1);
+    for (size_t i = 0; i < v.size(); i++)
+      if (!number(words[i + 1], v[i])) return fail("not a number: " + words[i + 1]);
+    const std::string &word = words[0];
+    if (const Kind *kind = findKind(word)) {
+      if ((int)v.size() != kind->numbers + 1)
+        return fail(word + " wants " + std::to_string(kind->numbers + 1) + " numbers");
+      Object o{};
+      o.kind = kind;
+      o.number = (int)v[0];
+      if (o.number != v[0]) return fail("an object's number must be whole");
+      if (!index.insert({o.number, (int)s.objects.size()}).second)
+        return fail("object " + words[1] + " is there already");
+      if (const char *wrong = kind->set(o, v.data() + 1)) return fail(wrong);
+      s.objects.push_back(o);
+      continue;
+    }
+    const Fact *fact = nullptr;
+    for (const Fact &f : facts)
+      if (word == f.word) fact = &f;
+    if (!fact) return fail("unknown word: " + word);
+    if (v.size() < fact->least || v.size() > fact->most)
+      return fail(word + " with " + std::to_string(v.size()) + " numbers");
+    seen[word] = true;
+    if (word == "time") s.time = v[0];
+    if (word == "eye") s.eye = {v[0], v[1], v[2]};
+    if (word == "focal") {
+      if (v[0] <= 0 || v[1] <= 0) return fail("focal lengths must be above 0");
+      s.focalX = v[0], s.focalY = v[1];
+    }
+    if (word == "centre") s.centreX = v[0], s.centreY = v[1];
+    if (word == "light") {
+      Vec l{v[0], v[1], v[2]};
+      if (!(length(l) > 0)) return fail("the light has no direction");
+      s.light = l * (1 / length(l));
+    }
+    if (word == "isovalue") {
+      if (v[0] <= 0) return fail("the isovalue must be above 0");
+      s.isovalue = v[0];
+    }
+    if (word == "ambient") {
+      if (v[0] < 0 || v[0] > 1) return fail("ambient must be from 0 to 1");
+      s.ambient = v[0];
+    }
+    if (word == "ramp") {
+      if (v[1] < 0 || v[2] < 0 || v[3] < 0 || v[1] + v[2] + v[3] <= 0)
+        return fail("a ramp wants a colour that is not black");
+      s.ramps[(int)v[0]] = {v[1], v[2], v[3]};
+    }
+    if (word == "blend") links.push_back({lineNumber, v[0], v[1], v.size() > 2 ? v[2] : 1});
+  }
+  size_t n = s.objects.size();
+  s.weight.assign(n, std::vector<double>(n, 0));
+  for (const Link &l : links) {
+    lineNumber = l.line;
+    auto a = index.find((int)l.a), b = index.find((int)l.b);
+    if (a == index.end() || b == index.end()) return fail("blend names an object that is not there");
+    if (a == b) return fail("blend of an object with itself");
+    s.weight[a->second][b->second] = s.weight[b->second][a->second] = l.weight;
+  }
+  for (const Fact &f : facts)
+    if (f.needed && !seen[f.word]) {
+      why = name + ": no line \"" + f.word + "\"";
+      return false;
+    }
+  return true;
+}
+
+bool readFile(const std::string &path, std::string &data, std::string &why) {
+  FILE *f = std::fopen(path.c_str(), "rb");
+  if (!f) {
+    why = path + ": " + std::strerror(errno);
+    return false;
+  }
+  data.clear();
+  char buffer[65536];
+  for (size_t n; (n = std::fread(buffer, 1, sizeof buffer, f)) > 0;) data.append(buffer, n);
+  bool bad = std::ferror(f);
+  std::fclose(f);
+  if (bad) why = path + ": cannot be read";
+  return !bad;
+}
+
+bool writeFile(const std::string &path, const std::string &data, std::string &why) {
+  FILE *f = std::fopen(path.c_str(), "wb");
+  bool good = f && std::fwrite(data.data(), 1, data.size(), f) == data.size();
+  if (f && std::fclose(f) != 0) good = false;
+  if (!good) why = path + ": " + std::strerror(errno);
+  return good;
+}
+
+bool writePpm(const std::string &path, int width, int height, const std::vector<uint8_t> &rgb,
+              std::string &why) {
+  std::string data = "P6\n" + std::to_string(width) + " " + std::to_string(height) + "\n255\n";
+  data.append((const char *)rgb.data(), rgb.size());
+  return writeFile(path, data, why);
+}
+
+std::string frameName(const std::string &dir, long n, const char *extension) {
+  char name[32];
+  std::snprintf(name, sizeof name, "/F%07ld.", n);
+  return dir + name + extension;
+}
+
+bool readScene(const std::string &path, Scene &s, std::string &why) {
+  std::string text;
+  return readFile(path, text, why) && parseScene(text, path, s, why);
+}
+
+namespace {
+
+// A P6 picture of the screen's size with 8-bit samples.
+bool parsePpm(const std::string &data, const std::string &name, std::vector<uint8_t> &rgb,
+              std::string &why) {
+  size_t at = 2;
+  long v[3] = {0, 0, 0};
+  bool good = data.compare(0, 2, "P6") == 0;
+  for (int i = 0; good && i < 3; i++) {
+    while (at < data.size() && (std::isspace((unsigned char)data[at]) || data[at] == '#'))
+      if (data[at] == '#')
+        while (at < data.size() && data[at] != '\n') at++;
+      else
+        at++;
+    size_t from = at;
+    while (at < data.size() && std::isdigit((unsigned char)data[at]) && at - from < 9)
+      v[i] = v[i] * 10 + (data[at++] - '0');
+    good = at > from;
+  }
+  at++;
+  size_t size = WIDTH * HEIGHT * 3;
+  good = good && v[0] == WIDTH && v[1] == HEIGHT && v[2] == 255;
+  if (!good || data.size() != at + size) {
+    why = name + (good ? ": has the wrong length" : ": is no 320x200 P6 picture");
+    return false;
+  }
+  rgb.assign(data.begin() + at, data.end());
+  return true;
+}
+
+}  // namespace
+
+bool readFrame(const std::string &dir, long n, Frame &f, std::string &why) {
+  std::string data, name = frameName(dir, n, "PPM");
+  if (!readScene(frameName(dir, n, "TXT"), f.scene, why)) return false;
+  if (!readFile(name, data, why) || !parsePpm(data, name, f.rgb, why)) return false;
+  name = frameName(dir, n, "Z");
+  if (!readFile(name, data, why)) return false;
+  if (data.size() != (size_t)WIDTH * HEIGHT * 4) {
+    why = name + ": has the wrong length";
+    return false;
+  }
+  f.z.resize(WIDTH * HEIGHT);
+  for (size_t i = 0; i < f.z.size(); i++) {
+    const uint8_t *b = (const uint8_t *)data.data() + 4 * i;
+    f.z[i] = (int32_t)(b[0] | b[1] << 8 | b[2] << 16 | (uint32_t)b[3] << 24);
+  }
+  f.grey = true;
+  for (size_t i = 0; i < f.z.size(); i++)
+    if (f.z[i] != EMPTY)
+      f.grey = f.grey && f.rgb[3 * i] == f.rgb[3 * i + 1] && f.rgb[3 * i] == f.rgb[3 * i + 2];
+  return true;
+}
+
+bool listFrames(const std::string &dir, std::vector<long> &numbers, std::string &why) {
+  numbers.clear();
+  std::error_code error;
+  std::filesystem::directory_iterator it(dir, error), end;
+  if (error) {
+    why = dir + ": " + error.message();
+    return false;
+  }
+  for (; it != end; it.increment(error)) {
+    std::string name = it->path().filename().string();
+    if (name.size() != 12 || name[0] != 'F' || name.substr(8) != ".TXT") continue;
+    if (name.find_first_not_of("0123456789", 1) != 8) continue;
+    numbers.push_back(std::atol(name.c_str() + 1));
+  }
+  std::sort(numbers.begin(), numbers.end());
+  if (numbers.empty()) why = dir + ": no frames";
+  return !numbers.empty();
+}
+
+}  // namespace truth
