@@ -8,6 +8,8 @@
 // Order: es = ds, .bss cleared, the stack moved into .bss, the information block copied (it lies where the transfer
 // buffer will be), then rtStart(), which does not come back.
 
+#include "asm.h"
+
 #define STACK_BYTES 131072
 #define STUBINFO_SIZE 16                // offset of the block's size in the block
 #define STUBINFO_BYTES 84
@@ -61,4 +63,4 @@ rtStackBottom:
         .globl  rtStackTop
 rtStackTop:
 
-        .section .note.GNU-stack,"",@progbits
+ASM_END

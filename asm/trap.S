@@ -92,6 +92,4 @@ trapped:
         xorl    %ebp, %ebp
         call    SYM(crashed)
 
-#ifdef __ELF__
-        .section .note.GNU-stack,"",@progbits
-#endif
+ASM_END

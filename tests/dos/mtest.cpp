@@ -1,0 +1,643 @@
+// A program that tries the PC and the run-time, each promise of machine.h and rt.h, on the machine itself: in DOSBox,
+// started by run.sh, or on a real PC by hand. Its first argument says what to do:
+//
+//   MTEST ALL           everything that needs nobody's help; a line `ok NAME` or `FAIL NAME` for each, status 0 or 1
+//   MTEST ARGS ...      prints its arguments in brackets
+//   MTEST FULL FILE     fills the disk with FILE, which must end in "disk full"
+//   MTEST NOVGA         expects to find no VGA
+//   MTEST CRASH N       raises exception N (0, 6, 12, 13) in mode 13h, with timer and vectors taken
+//   MTEST PLAY SECONDS  shows colours and prints the keys, mouse movement and breaks it got, until ESC or a break
+//   MTEST SCREEN        prints the video mode, the timer's mode and the text that stands on the screen
+//   MTEST STATE         prints break vectors, timer mode and free DOS memory, to be compared before and after a program
+#include "../../src/dos/pc.h"
+#include "machine.h"
+#include "rt.h"
+#include "wide.h"
+
+namespace {
+
+int failures = 0;
+
+void print(const char* format, ...) __attribute__((format(printf, 1, 2)));
+void print(const char* format, ...) {
+    char text[400];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    machine::out(text);
+}
+
+void check(const char* name, bool good) {
+    print("%s %s\n", good ? "ok" : "FAIL", name);
+    failures += good ? 0 : 1;
+}
+
+uint32_t biosTicks() {
+    return pc::peek32(0x46c);
+}
+
+uint8_t videoMode() {
+    dpmi::RealRegs r = pc::regs(0x0f00);
+    dpmi::realInterrupt(0x10, &r);
+    return uint8_t(r.eax & 0x7f);
+}
+
+// The timer's mode 0..7, by the 8254's read-back command; mode 2 reads as 2 or 6, mode 3 as 3 or 7.
+int timerMode() {
+    pc::outPort(0x43, 0xe2);
+    return pc::inPort(0x40) >> 1 & 7;
+}
+
+void stuffKey(uint16_t scanAndCharacter) {
+    dpmi::RealRegs r = pc::regs(0x0500);
+    r.ecx = scanAndCharacter;
+    dpmi::realInterrupt(0x16, &r);
+}
+
+bool same(dpmi::RealAddress a, dpmi::RealAddress b) {
+    return a.segment == b.segment && a.offset == b.offset;
+}
+
+// ---- rt
+
+void testStrings() {
+    char a[64];
+    char b[64];
+    memset(a, 'x', sizeof a);
+    check("memset and memcmp", a[0] == 'x' && a[63] == 'x' && memcmp(a, a + 1, 63) == 0);
+    bool good = true;
+    for (uint32_t from = 0; from < 8; ++from) {
+        for (uint32_t to = 0; to < 8; ++to) {
+            for (uint32_t n = 0; n < 20; ++n) {
+                for (uint32_t i = 0; i < sizeof a; ++i) {
+                    a[i] = b[i] = char(i);
+                }
+                memmove(a + 20 + to, a + 20 + from, n);
+                for (uint32_t i = 0; i < sizeof a; ++i) {
+                    const uint32_t source = i >= 20 + to && i < 20 + to + n ? i - to + from : i;
+                    good = good && a[i] == b[source];
+                }
+            }
+        }
+    }
+    check("memmove, overlapping both ways", good);
+    check("strings", strlen("") == 0 && strlen("abc") == 3 && strcmp("a", "a") == 0 && strcmp("a", "b") < 0 &&
+                         strcmp("b", "a") > 0 && strcmp("ab", "a") > 0 && strncmp("abx", "aby", 2) == 0 &&
+                         strcmp("\xff", "a") > 0 && strchr("abc", 'c') != nullptr && strchr("abc", 'd') == nullptr &&
+                         *strchr("abc", 0) == 0 && strcmp(strcpy(a, "copied"), "copied") == 0);
+}
+
+bool prints(const char* expected, const char* format, ...) __attribute__((format(printf, 2, 3)));
+bool prints(const char* expected, const char* format, ...) {
+    char text[100];
+    va_list args;
+    va_start(args, format);
+    const int length = vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    return strcmp(text, expected) == 0 && length == int(strlen(expected));
+}
+
+void testPrinting() {
+    check("numbers", prints("-5|0|4294967295|ff|-2147483648", "%d|%d|%u|%x|%d", -5, 0, 4294967295u, 255u,
+                            int(-2147483647 - 1)));
+    check("widths", prints("   -5|-5   |-0005|F0000012|  ab|ab  |007", "%5d|%-5d|%05d|F%07d|%4s|%-4s|%03lu", -5, -5, -5,
+                           12, "ab", "ab", 7lu));
+    check("precision", prints("abc|ab|x%", "%.3s|%.*s|%c%%", "abcdef", 2, "abc", 'x'));
+    char small[4] = "zzz";
+    const int length = snprintf(small, 3, "%s", "abcdef");
+    check("truncation", length == 6 && strcmp(small, "ab") == 0 && snprintf(nullptr, 0, "%d", 123) == 3);
+}
+
+void testWide() {
+    uint32_t rest = 0;
+    check("mulDiv", wide::mulDiv(0xffffffffu, 0xffffffffu, 0xffffffffu) == 0xffffffffu &&
+                        wide::mulDiv(1000000, 1000000, 3000000) == 333333 && wide::mulDiv(5, 6, 0) == 0xffffffffu &&
+                        wide::mulDiv(0x80000000u, 4, 2) == 0xffffffffu);
+    check("divide", wide::divide(0x123456789abcdefull, 1000, &rest) == 81985529216486ull && rest == 895);
+}
+
+void testHeap() {
+    // Until memory is out, all of it used, every block its own.
+    constexpr uint32_t BLOCK = 60000;
+    uint32_t* chain = nullptr;
+    uint32_t count = 0;
+    bool aligned = true;
+    for (;;) {
+        uint32_t* block = static_cast<uint32_t*>(malloc(BLOCK));
+        if (block == nullptr) {
+            break;
+        }
+        aligned = aligned && (uintptr_t(block) & 7) == 0;
+        memset(block, int(count & 0xff), BLOCK);
+        block[0] = uint32_t(uintptr_t(chain));
+        chain = block;
+        ++count;
+    }
+    print("# heap: %u blocks of %u bytes\n", unsigned(count), unsigned(BLOCK));
+    check("malloc until memory is out", count > 10 && aligned);
+    bool intact = true;
+    uint32_t left = count;
+    while (chain != nullptr) {
+        --left;
+        const uint8_t* bytes = reinterpret_cast<uint8_t*>(chain);
+        for (uint32_t i = 4; i < BLOCK; ++i) {
+            intact = intact && bytes[i] == (left & 0xff);
+        }
+        uint32_t* next = reinterpret_cast<uint32_t*>(uintptr_t(chain[0]));
+        free(chain);
+        chain = next;
+    }
+    check("blocks do not overlap", intact && left == 0);
+    uint32_t again = 0;
+    for (;;) {
+        uint32_t* block = static_cast<uint32_t*>(malloc(BLOCK));
+        if (block == nullptr) {
+            break;
+        }
+        block[0] = uint32_t(uintptr_t(chain));
+        chain = block;
+        ++again;
+    }
+    while (chain != nullptr) {
+        uint32_t* next = reinterpret_cast<uint32_t*>(uintptr_t(chain[0]));
+        free(chain);
+        chain = next;
+    }
+    check("all of it again after free", again == count);
+    void* big = malloc((count - 3) * BLOCK / 2);
+    check("free blocks join", big != nullptr);
+    free(big);
+    free(nullptr);
+    check("too much is refused", malloc(0xffffffffu) == nullptr && malloc(0x7fffffffu) == nullptr);
+    void* none = malloc(0);
+    check("malloc(0)", none != nullptr);
+    free(none);
+
+    // Random sizes, taken and given back in random order, contents checked.
+    static uint8_t* blocks[200];
+    static uint32_t sizes[200];
+    uint32_t seed = 1;
+    bool kept = true;
+    for (int turn = 0; turn < 5000; ++turn) {
+        seed = seed * 1103515245u + 12345u;
+        const uint32_t i = (seed >> 16) % 200;
+        if (blocks[i] != nullptr) {
+            for (uint32_t k = 0; k < sizes[i]; ++k) {
+                kept = kept && blocks[i][k] == uint8_t(i);
+            }
+            free(blocks[i]);
+            blocks[i] = nullptr;
+        } else {
+            sizes[i] = (seed >> 8) % 3000;
+            blocks[i] = static_cast<uint8_t*>(malloc(sizes[i]));
+            kept = kept && blocks[i] != nullptr;
+            memset(blocks[i], int(i), sizes[i]);
+        }
+    }
+    for (uint8_t* block : blocks) {
+        free(block);
+    }
+    check("random sizes in random order", kept);
+}
+
+// ---- files
+
+void testFiles() {
+    constexpr uint32_t BYTES = 150001;
+    uint8_t* data = static_cast<uint8_t*>(malloc(BYTES));
+    uint8_t* back = static_cast<uint8_t*>(malloc(BYTES + 10));
+    for (uint32_t i = 0; i < BYTES; ++i) {
+        data[i] = uint8_t(i * 7 + (i >> 8));
+    }
+    check("makeDirectory", machine::makeDirectory("MTDIR"));
+    check("makeDirectory again", machine::makeDirectory("MTDIR") && machine::makeDirectory("MTDIR\\"));
+    check("makeDirectory without parent",
+          !machine::makeDirectory("NODIR\\SUB") && strcmp(machine::fileTrouble(), "no such file or directory") == 0);
+    int file = machine::createFile("MTDIR\\BIG.DAT");
+    check("createFile", file >= 0);
+    check("write 150001 bytes", machine::writeFile(file, data, BYTES) == int32_t(BYTES));
+    check("write nothing", machine::writeFile(file, data, 0) == 0);
+    check("closeFile", machine::closeFile(file));
+    check("closeFile of a closed file fails", !machine::closeFile(file));
+    file = machine::openFile("mtdir/big.dat");
+    check("openFile, lower case and slash", file >= 0);
+    check("read it back, and no more", machine::readFile(file, back, BYTES + 10) == int32_t(BYTES) &&
+                                           memcmp(data, back, BYTES) == 0 && machine::readFile(file, back, 5) == 0);
+    machine::closeFile(file);
+    bool fresh = true;
+    file = machine::appendFile("MTDIR\\BIG.DAT", &fresh);
+    check("appendFile to a file that is there", file >= 0 && !fresh);
+    check("append", machine::writeFile(file, "end", 3) == 3 && machine::closeFile(file));
+    file = machine::openFile("MTDIR\\BIG.DAT");
+    check("appended at the end", machine::readFile(file, back, BYTES + 10) == int32_t(BYTES + 3) &&
+                                     memcmp(back + BYTES, "end", 3) == 0);
+    machine::closeFile(file);
+    file = machine::appendFile("MTDIR\\NEW.DAT", &fresh);
+    check("appendFile makes a file", file >= 0 && fresh && machine::writeFile(file, "x", 1) == 1);
+    machine::closeFile(file);
+    check("openFile of no file", machine::openFile("NONE.DAT") == -1 &&
+                                     strcmp(machine::fileTrouble(), "no such file or directory") == 0);
+    check("createFile over a directory",
+          machine::createFile("MTDIR") == -1 && strcmp(machine::fileTrouble(), "access denied") == 0);
+    char longName[200];
+    memset(longName, 'A', sizeof longName);
+    longName[199] = '\0';
+    check("a name too long", machine::createFile(longName) == -1);
+    check("a handle that is none", machine::writeFile(77, "x", 1) == -1 && machine::readFile(77, back, 1) == -1);
+    free(data);
+    free(back);
+}
+
+// ---- machine
+
+void testClock() {
+    check("timer found in mode 3", (timerMode() & 3) == 3);
+    check("start", machine::start() == nullptr);
+    check("start again is harmless", machine::start() == nullptr);
+    check("timer in mode 2", (timerMode() & 3) == 2);
+
+    // Three seconds: never back, no jumps of a whole tick, 65,536 a BIOS tick.
+    uint32_t tick = biosTicks();
+    while (biosTicks() == tick) {
+    }
+    tick = biosTicks();
+    const uint64_t begin = machine::clock();
+    uint64_t before = begin;
+    uint32_t longest = 0;
+    bool back = false;
+    uint32_t looks = 0;
+    while (biosTicks() - tick < 55) {
+        const uint64_t now = machine::clock();
+        back = back || now < before;
+        if (now - before > longest) {
+            longest = uint32_t(now - before);
+        }
+        before = now;
+        ++looks;
+    }
+    const uint64_t end = machine::clock();
+    const uint32_t expected = 55u << 16;
+    const int32_t off = int32_t(uint32_t(end - begin) - expected);
+    print("# clock: %u looks, off by %d in %u, longest step %u\n", unsigned(looks), int(off), unsigned(expected),
+          unsigned(longest));
+    check("clock never goes back", !back);
+    check("clock agrees with the BIOS", off > -6000 && off < 6000);
+    check("clock has no gaps", longest < 60000 && looks > 200);
+    machine::stop();
+    machine::stop();
+    check("timer back in mode 3", (timerMode() & 3) == 3);
+}
+
+uint8_t clockSeconds() {
+    for (;;) {
+        pc::outPort(0x70, 0x0a);
+        if ((pc::inPort(0x71) & 0x80) != 0) {
+            continue;
+        }
+        pc::outPort(0x70, 0x00);
+        const uint8_t bcd = pc::inPort(0x71);
+        return uint8_t((bcd >> 4) * 10 + (bcd & 15));
+    }
+}
+
+// The time of day must not be late for all the starts and stops.
+void testTimeOfDay() {
+    uint8_t second = clockSeconds();
+    while (clockSeconds() == second) {
+    }
+    second = clockSeconds();
+    const uint32_t begin = biosTicks();
+    for (int i = 0; i < 25; ++i) {
+        machine::start();
+        machine::clock();
+        machine::stop();
+    }
+    const uint8_t after = clockSeconds();
+    while (clockSeconds() == after) {
+    }
+    const uint32_t seconds = uint32_t(clockSeconds() + 60 - second) % 60;
+    const uint32_t ticks = biosTicks() - begin;
+    const int32_t off = int32_t(ticks * 10) - int32_t(seconds * 182);
+    print("# time of day: %u ticks in %u s of the real-time clock\n", unsigned(ticks), unsigned(seconds));
+    check("25 starts and stops cost the time of day nothing", off > -50 && off < 50);
+}
+
+void testBreak() {
+    const int vectors[] = {0x1b, 0x23, 0x24};
+    dpmi::RealAddress before[3];
+    for (int i = 0; i < 3; ++i) {
+        before[i] = dpmi::realVector(vectors[i]);
+    }
+    check("not broken before", !machine::broken());
+    machine::start();
+    check("not broken", !machine::broken());
+    dpmi::RealRegs r = pc::regs(0);
+    dpmi::realInterrupt(0x24, &r);
+    check("a critical error fails the call", (r.eax & 0xff) == 3);
+    check("which is no break", !machine::broken());
+    r = pc::regs(0);
+    dpmi::realInterrupt(0x1b, &r);
+    check("Ctrl-Break is seen", machine::broken());
+    machine::stop();
+    check("and still after stop", machine::broken());
+    machine::start();
+    check("a new start forgets it", !machine::broken());
+    r = pc::regs(0);
+    dpmi::realInterrupt(0x23, &r);
+    check("Ctrl-C in DOS is seen", machine::broken());
+    machine::stop();
+    machine::start();
+    stuffKey(0x2e03);
+    check("Ctrl-C as a key is no key", machine::key() == 0);
+    check("but a break", machine::broken());
+    machine::stop();
+    bool restored = true;
+    for (int i = 0; i < 3; ++i) {
+        restored = restored && same(before[i], dpmi::realVector(vectors[i]));
+    }
+    check("vectors are put back", restored);
+}
+
+void testKeys() {
+    machine::start();
+    while (machine::key() != 0) {
+    }
+    stuffKey(0x1e61);
+    stuffKey(0x3b00);
+    stuffKey(0x48e0);
+    stuffKey(0x0000);  // what Ctrl-Break leaves
+    stuffKey(0x011b);
+    stuffKey(0x372a);
+    check("a character", machine::key() == 'a');
+    check("F1", machine::key() == machine::KEY_F1);
+    check("grey up", machine::key() == machine::KEY_UP);
+    check("ESC, after an empty entry", machine::key() == machine::KEY_ESC);
+    check("*", machine::key() == '*');
+    check("no key", machine::key() == 0);
+    const bool mouse = machine::openMouse();
+    const machine::Mouse m = machine::mouse();
+    print("# mouse: %s, %d %d\n", mouse ? "yes" : "no", m.dx, m.dy);
+    check("nothing moved", m.dx == 0 && m.dy == 0 && !m.left && !m.right);
+    machine::stop();
+}
+
+void testVideo() {
+    const uint8_t before = videoMode();
+    static uint8_t palette[768];
+    static uint8_t frame[machine::WIDTH * machine::HEIGHT];
+    static uint8_t back[machine::WIDTH * machine::HEIGHT];
+    static Span rows[machine::HEIGHT];
+    for (int i = 0; i < 768; ++i) {
+        palette[i] = uint8_t((i * 5 + 3) & 63);
+    }
+    for (uint32_t i = 0; i < sizeof frame; ++i) {
+        frame[i] = uint8_t(i * 3 + i / 320);
+    }
+    machine::start();
+    const char* trouble = machine::openVideo();
+    const uint8_t during = videoMode();
+    machine::setPalette(palette);
+    pc::outPort(0x3c7, 0);
+    bool colours = true;
+    for (int i = 0; i < 768; ++i) {
+        colours = colours && pc::inPort(0x3c9) == palette[i];
+    }
+    for (int y = 0; y < machine::HEIGHT; ++y) {
+        // Spans of every width, and none in some rows.
+        rows[y].from = int16_t(y % 40 * 4);
+        rows[y].to = int16_t(320 - y % 41 * 4);
+        if (y % 10 == 0) {
+            rows[y].to = rows[y].from;
+        }
+        if (y % 10 == 1) {
+            rows[y].from = 320;
+            rows[y].to = 0;
+        }
+    }
+    machine::present(frame, rows);
+    pc::copyFromLow(back, 0xa0000, sizeof back);
+    bool shown = true;
+    for (int y = 0; y < machine::HEIGHT; ++y) {
+        for (int x = 0; x < machine::WIDTH; ++x) {
+            const bool touched = x >= rows[y].from && x < rows[y].to;
+            shown = shown && back[y * 320 + x] == (touched ? frame[y * 320 + x] : 0);
+        }
+    }
+    const uint64_t begin = machine::clock();
+    for (int i = 0; i < 14; ++i) {
+        machine::waitRetrace();
+    }
+    const uint32_t ms = wide::mulDiv(uint32_t(machine::clock() - begin), 1000, machine::CLOCK_HZ);
+    machine::closeVideo();
+    const uint8_t after = videoMode();
+    machine::closeVideo();
+    machine::stop();
+    check("openVideo", trouble == nullptr);
+    check("mode 13h", during == 0x13);
+    check("palette reads back", colours);
+    check("present shows the spans and nothing else", shown);
+    print("# 14 retraces: %u ms\n", unsigned(ms));
+    check("14 retraces are about 0.2 s", ms > 150 && ms < 260);
+    check("old mode back", after == before);
+}
+
+int all() {
+    testStrings();
+    testPrinting();
+    testWide();
+    testHeap();
+    testFiles();
+    testClock();
+    testTimeOfDay();
+    testBreak();
+    testKeys();
+    testVideo();
+    return failures == 0 ? 0 : 1;
+}
+
+int full(const char* name) {
+    machine::start();
+    const int file = machine::createFile(name);
+    check("createFile", file >= 0);
+    static uint8_t data[10000];
+    uint32_t bytes = 0;
+    while (bytes < 4000000 && machine::writeFile(file, data, sizeof data) == int32_t(sizeof data)) {
+        bytes += sizeof data;
+    }
+    print("# %u bytes fitted: %s\n", unsigned(bytes), machine::fileTrouble());
+    check("the disk is full", bytes < 4000000 && strcmp(machine::fileTrouble(), "disk full") == 0);
+    machine::closeFile(file);
+    machine::stop();
+    return failures;
+}
+
+int deeper(volatile int* from) {
+    volatile int here[256];
+    here[0] = *from;
+    return deeper(here) + here[0];
+}
+
+int crash(int number) {
+    machine::start();
+    machine::openVideo();
+    volatile int zero = 0;
+    switch (number) {
+        case 0:
+            return 1 / zero;
+        case 6:
+            __asm__ volatile("ud2");
+            break;
+        case 12:
+            __asm__ volatile("movl $0xfffffff0, %%esp\n\tmovl 0x100(%%esp), %%eax\n\tmovl $0x7ffffff0, %%ebp\n\tpushl %%eax" ::: "eax");
+            break;
+        case 13:
+            // Beyond the limit of ds, wherever that is.
+            *reinterpret_cast<volatile int*>(uintptr_t(dpmi::segmentLimit(dpmi::dataSelector()) - 1)) = 1;
+            break;
+        case 99:
+            return deeper(&zero);
+        default:
+            break;
+    }
+    machine::stop();
+    machine::out("no exception came\n");
+    return 3;
+}
+
+int play(uint32_t seconds) {
+    const char* trouble = machine::start();
+    if (trouble == nullptr) {
+        trouble = machine::openVideo();
+    }
+    if (trouble != nullptr) {
+        machine::fail(1, trouble);
+    }
+    static uint8_t frame[machine::WIDTH * machine::HEIGHT];
+    static Span rows[machine::HEIGHT];
+    static char log[4000];
+    uint32_t used = 0;
+    for (uint32_t i = 0; i < sizeof frame; ++i) {
+        frame[i] = uint8_t(i % 320 * 4 / 5);
+    }
+    for (Span& row : rows) {
+        row = {0, 320};
+    }
+    const bool haveMouse = machine::openMouse();
+    int dx = 0;
+    int dy = 0;
+    int lefts = 0;
+    int rights = 0;
+    bool left = false;
+    bool right = false;
+    bool done = false;
+    machine::present(frame, rows);
+    while (!done && !machine::broken() && machine::clock() < uint64_t(seconds) * machine::CLOCK_HZ) {
+        for (int key = machine::key(); key != 0; key = machine::key()) {
+            if (used + 20 < sizeof log) {
+                used += uint32_t(snprintf(log + used, sizeof log - used, "key %x\n", unsigned(key)));
+            }
+            done = done || key == machine::KEY_ESC;
+        }
+        const machine::Mouse m = machine::mouse();
+        dx += m.dx;
+        dy += m.dy;
+        lefts += m.left && !left ? 1 : 0;
+        rights += m.right && !right ? 1 : 0;
+        left = m.left;
+        right = m.right;
+        machine::waitRetrace();
+    }
+    const bool broken = machine::broken();
+    machine::stop();
+    machine::out(log);
+    print("mouse %s dx %d dy %d lefts %d rights %d\n", haveMouse ? "yes" : "no", dx, dy, lefts, rights);
+    print("broken %s\n", broken ? "yes" : "no");
+    return 0;
+}
+
+int screen() {
+    char line[82];
+    print("mode %x\n", unsigned(videoMode()));
+    print("timer mode %d\n", timerMode() & 3);
+    for (uint32_t y = 0; y < 25; ++y) {
+        int length = 0;
+        for (uint32_t x = 0; x < 80; ++x) {
+            const char c = char(pc::peek8(0xb8000 + (y * 80 + x) * 2));
+            line[x] = c == '\0' ? ' ' : c;
+            if (line[x] != ' ') {
+                length = int(x) + 1;
+            }
+        }
+        line[length] = '\0';
+        print("%s\n", line);
+    }
+    return 0;
+}
+
+int state() {
+    const int vectors[] = {0x08, 0x09, 0x10, 0x16, 0x1b, 0x1c, 0x21, 0x23, 0x24, 0x33};
+    for (int vector : vectors) {
+        const dpmi::RealAddress at = dpmi::realVector(vector);
+        // 23h and 24h belong to the program that runs: only their segment's owner can be compared, so not shown.
+        if (vector != 0x23 && vector != 0x24) {
+            print("int %xh %04x:%04x\n", unsigned(vector), unsigned(at.segment), unsigned(at.offset));
+        }
+    }
+    print("timer mode %d, video mode %x\n", timerMode() & 3, unsigned(videoMode()));
+    dpmi::RealRegs r = pc::regs(0x3300);
+    dpmi::realInterrupt(0x21, &r);
+    print("break %u\n", unsigned(r.edx & 0xff));
+    r = pc::regs(0x4800);
+    r.ebx = 0xffff;
+    dpmi::realInterrupt(0x21, &r);
+    print("free paragraphs %u\n", unsigned(r.ebx & 0xffff));
+    return 0;
+}
+
+int number(const char* text) {
+    int value = 0;
+    for (; *text >= '0' && *text <= '9'; ++text) {
+        value = value * 10 + (*text - '0');
+    }
+    return value;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const char* what = argc > 1 ? argv[1] : "";
+    const char* with = argc > 2 ? argv[2] : "";
+    if (strcmp(what, "ALL") == 0) {
+        return all();
+    }
+    if (strcmp(what, "ARGS") == 0) {
+        for (int i = 2; i < argc; ++i) {
+            print("[%s]\n", argv[i]);
+        }
+        print("name %s\n", argv[0]);
+        print("end %s\n", argv[argc] == nullptr ? "null" : "not null");
+        return argc;
+    }
+    if (strcmp(what, "FULL") == 0) {
+        return full(with);
+    }
+    if (strcmp(what, "NOVGA") == 0) {
+        machine::start();
+        const char* trouble = machine::openVideo();
+        machine::fail(trouble != nullptr ? 1 : 0, trouble != nullptr ? trouble : "a VGA");
+    }
+    if (strcmp(what, "CRASH") == 0) {
+        return crash(number(with));
+    }
+    if (strcmp(what, "PLAY") == 0) {
+        return play(uint32_t(number(with)));
+    }
+    if (strcmp(what, "SCREEN") == 0) {
+        return screen();
+    }
+    if (strcmp(what, "STATE") == 0) {
+        return state();
+    }
+    machine::fail(2, "MTEST ALL | ARGS ... | FULL FILE | NOVGA | CRASH N | PLAY SECONDS | SCREEN | STATE");
+}
