@@ -113,8 +113,13 @@ void crashed() {
     machine::stop();
     const TrapState& s = trapState;
     char text[160];
-    snprintf(text, sizeof text, "DEMO: exception %02xh (%s) at %04x:%08x, error %04x\n", unsigned(s.number),
-             nameOf(s.number), unsigned(s.cs & 0xffff), unsigned(s.eip), unsigned(s.error & 0xffff));
+    // Exceptions 10 to 14 come with a code, which mostly is the selector that was wrong.
+    char code[16] = "";
+    if (s.number >= 10) {
+        snprintf(code, sizeof code, ", code %04x", unsigned(s.error & 0xffff));
+    }
+    snprintf(text, sizeof text, "DEMO: exception %02xh (%s) at %04x:%08x%s\n", unsigned(s.number), nameOf(s.number),
+             unsigned(s.cs & 0xffff), unsigned(s.eip), code);
     machine::err(text);
     snprintf(text, sizeof text, "eax=%08x ebx=%08x ecx=%08x edx=%08x esi=%08x edi=%08x\n", unsigned(s.eax),
              unsigned(s.ebx), unsigned(s.ecx), unsigned(s.edx), unsigned(s.esi), unsigned(s.edi));

@@ -1,0 +1,43 @@
+# How sources become DOS programs with the stock compiler: objects, the run-time, the machine, and the link. The main
+# Makefile includes this and adds which objects make up DEMO.EXE.
+#
+#   DOS_CXX, DOS_LD     compiler driver and linker; any g++ that knows -m32, no 32-bit libraries needed
+#   DOS_CXXFLAGS        how program code is compiled; DOS_OPT what to optimise for
+#   DOS_BASE            objects that every DOS program is linked with: start-up, run-time, machine
+#   build/dos/X.o       the object of X.cpp or X.S, for DOS
+#   build/X.EXE         is made by  $(DOS_LINK)  from objects; see MTEST.EXE below
+
+DOS_CXX ?= $(CXX)
+DOS_LD ?= ld
+DOS_OPT ?= -O2
+
+# What a program without an operating system below it takes. No exceptions, no RTTI, no constructors of static objects:
+# nothing would run them (the linker script refuses them). No x87: a 386 need not have one.
+DOS_CXXFLAGS = -std=c++17 -m32 -march=i386 -mtune=i486 $(DOS_OPT) -ffreestanding -fno-builtin-malloc -fno-pic -fno-pie \
+	-fno-exceptions -fno-rtti -fno-asynchronous-unwind-tables -fno-stack-protector -fno-threadsafe-statics \
+	-fomit-frame-pointer -mno-80387 -fcf-protection=none -Wall -Wextra -DFB_RT -Iinclude $(DOS_DEFINES)
+DOS_ASFLAGS = -m32 -Iasm
+
+build/dos/%.o: %.cpp
+	@mkdir -p $(@D)
+	$(DOS_CXX) $(DOS_CXXFLAGS) -MMD -MP -c $< -o $@
+
+build/dos/%.o: %.S
+	@mkdir -p $(@D)
+	$(DOS_CXX) -x assembler-with-cpp $(DOS_ASFLAGS) -MMD -MP -c $< -o $@
+
+# The run-time and the machine are called seldom: small, not fast.
+build/dos/src/rt/%.o build/dos/src/dos/%.o: DOS_OPT = -Os
+
+DOS_BASE = build/dos/asm/start.o build/dos/asm/trap.o $(patsubst %.S,build/dos/%.o,$(wildcard asm/blit.S)) \
+	$(patsubst %.cpp,build/dos/%.o,$(wildcard src/rt/*.cpp src/dos/*.cpp))
+
+# Objects to an ELF file that lies where the loader puts it, and that with the stub in front.
+DOS_LINK = $(DOS_LD) -m elf_i386 -T tools/dos.ld -o build/dos/$(@F).elf $(filter %.o,$^) && \
+	build/mkexe build/STUB.EXE build/dos/$(@F).elf $@
+
+# Tests of the machine and the run-time on the machine itself.
+build/MTEST.EXE: build/dos/tests/dos/mtest.o $(DOS_BASE) build/STUB.EXE build/mkexe tools/dos.ld
+	$(DOS_LINK)
+
+-include $(wildcard build/dos/*/*.d build/dos/*/*/*.d)
