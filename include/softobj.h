@@ -1,0 +1,232 @@
+// SoftObject: a primitive of the model, with the seeds that sample its surface and the list of the objects it blends
+// with (report, Section III, Data Structures). The class settles and draws seeds of any primitive; a subclass gives the
+// distance to its core and lays out seeds and roots, and nothing else.
+#ifndef FB_SOFTOBJ_H
+#define FB_SOFTOBJ_H
+
+#include "field.h"
+#include "list.h"
+#include "seed.h"
+#include "vec.h"
+#include "voxel.h"
+
+class SoftObject;
+
+// Most neighbours that one object can blend with at a time; further ones are left out.
+constexpr int NEAR_MOST = 63;
+
+// The sizes an object may have (the distance from its core where its field ends), units.
+constexpr int SIZE_LEAST = 1;
+constexpr int SIZE_MOST = 100;
+
+// An edge of the model's graph, as one of its two ends sees it: the neighbour, and what its field is multiplied by
+// before it is added here (the report's "weighted graph"; 1 is plain blending, 0..4).
+struct Link {
+    SoftObject* object;
+    Real weight;
+
+    bool operator==(const Link& other) const { return object == other.object; }
+};
+
+// What was done for a frame, as the statistics count it.
+struct Counts {
+    uint32_t updated;      // seeds whose position was looked for
+    uint32_t drawn;        // scales handed to the view
+    uint32_t iterations;   // looks at the field while seeds were updated: evaluations of the whole sum F
+    uint32_t normals;      // surface normals taken from the field
+    uint32_t samples;      // evaluations of the whole sum F for normals (three each with the report's method)
+    uint32_t unsettled;    // seeds that reached the iteration limit
+};
+
+// The circumstances of a frame, the same for all objects.
+struct Look {
+    Point eye;         // where the viewer is; he looks along +z
+    Vector light;      // unit vector from the model towards the light
+    bool printed;      // the report's own methods, as printed
+    Counts* counts;
+};
+
+// The report's tolerances. It names them and gives no figure; these are ours.
+namespace printed {
+constexpr Real LOCATION_TOLERANCE(0.0002);  // of the field: "desired accuracy"
+constexpr int ITERATION_LIMIT = 16;
+constexpr Real BACK_FACE(-0.5);             // cosine of path and direction to the viewer, below which a seed is skipped
+constexpr Real DISPLACEMENT(0.001);         // of the position: less is taken as not moved
+constexpr Real DEFORMITY(0.01);             // of the position: less, and the normal is the path
+constexpr Real OVERSHOOT(0.05);             // of the field: by how much a neighbour may be stronger
+constexpr Real OVERSAMPLE(0.05);            // difference of positions that activates the seed between
+constexpr Real SAMPLE_DISTANCE(0.5);        // units: the three samples for a normal
+constexpr Real SCALE(0.75);                 // half a scale, in spacings
+constexpr Real MAGNIFICATION(2.0);          // growth of a scale with |position - 1|
+}
+
+class SoftObject {
+public:
+    // `size` is the distance from the core where the field ends, SIZE_LEAST..SIZE_MOST; the caller has checked it.
+    SoftObject(int number, Real size);
+    virtual ~SoftObject();
+    SoftObject(const SoftObject&) = delete;
+    SoftObject& operator=(const SoftObject&) = delete;
+
+    // --- What a primitive gives
+
+    // From the nearest point of the core (placed in the world) to `p`.
+    virtual Vector fromCore(const Point& p) const = 0;
+
+    // Roots and seeds in the object's own space, `spacing` units apart on the unblended surface.
+    virtual void layOutSeeds(SeedMaker& maker, Real spacing) const = 0;
+
+    // The greatest distance of a point of the core from the centre; 0 says that the core is the centre.
+    virtual Real coreReach() const { return Real(0); }
+
+    // Called after the object was moved, turned or scaled: the place to bring the core along.
+    virtual void placeCore() {}
+
+    // Multiplies the measures of the core (not the size).
+    virtual void scaleCore(Real) {}
+
+    // The object in the words of a dumped frame ("sphere 1 3.25 -4 0 20"), at most `size` bytes with the final 0.
+    virtual void describe(char* to, int size) const = 0;
+
+    // --- Seeds
+
+    // Lays the seeds out anew, `spacing` units apart. False when memory or an index does not suffice; the object then
+    // keeps the seeds it had.
+    bool resample(Real spacing);
+    int seeds() const { return regular_; }
+    int oversampledSeeds() const { return extra_; }
+    Real spacing() const { return spacing_; }
+
+    // --- Operations (report, Section III: Translation, Rotation, Scaling). Each sets `recalc` here and, where the
+    // field of this object reaches them before or after, in its neighbours.
+
+    void translate(const Vector& by);
+    void moveTo(const Point& centre) { translate(centre - centre_); }
+    // Turns by `angle` about an axis through `about`.
+    void rotate(const Point& about, const Vector& axis, Angle angle);
+    // Takes on an orientation, counted from how the seeds were laid out. `turn` is a pure rotation.
+    void setTurn(const Matrix& turn);
+    // Multiplies size and core. The seeds are laid out anew when their spacing has drifted by more than a quarter.
+    // The factor is limited so that the size stays within SIZE_LEAST..SIZE_MOST.
+    void scale(Real by);
+
+    const Point& centre() const { return centre_; }
+    Real size() const { return size_; }
+    Real radius() const { return radius_; }
+    const Matrix& turn() const { return turn_; }
+    int number() const { return number_; }
+
+    // --- The graph
+
+    // Adds a link to `other` in this object's skel, or gives the one there a new weight. False: no memory.
+    bool link(SoftObject* other, Real weight);
+    void unlink(SoftObject* other);
+    const List<Link>& skel() const { return skel_; }
+
+    // --- The field
+
+    // Squared distance to the core over squared size, for `v` from fromCore(): 0 at the core, 1 where the field ends;
+    // 1 or more everywhere beyond.
+    Real coreParam(const Vector& v) const;
+
+    // This object's contribution to the implicit function at `p`, 0..1 (the report's fieldFunc).
+    Real fieldFunc(const Point& p) const { return geoff(coreParam(fromCore(p))); }
+
+    // The whole sum at `p`, as this object sees it: its own field and its neighbours', weighted.
+    Real fieldSum(const Point& p) const;
+
+    // --- A frame
+
+    // Settles the seeds on the surface, if `recalc` says that something changed (report, Section III, update()).
+    void update(const Look& look);
+
+    // Makes voxels of the settled seeds, at most seeds() + oversampledSeeds(), and returns their number.
+    int draw(const Look& look, Voxel* voxels);
+
+    // Something that its seeds rest on has changed: look again.
+    void setRecalc() { recalc_ = true; }
+    bool recalc() const { return recalc_; }
+
+    // How far from the centre any scale of the last update can reach, units.
+    Real reach() const;
+
+    // The palette indices of brightness 0..63. Not owned.
+    void setRamp(const uint8_t* ramp) { ramp_ = ramp; }
+    const uint8_t* ramp() const { return ramp_; }
+
+    // Brightness depends on the light; call when it changed.
+    void shadeRest(const Vector& light);
+
+    // Seed i of the order in which they lie in memory: regular ones even, the oversampled one of each behind it.
+    const Seed& seed(int i) const { return seeds_[i]; }
+    int seedSlots() const { return 2 * regular_; }
+    Point seedPoint(const Seed& s) const { return roots_[s.root] + s.path * s.position; }
+
+protected:
+    // A point of the object's own space in the world.
+    Point toWorld(const Vector& v) const { return centre_ + turn_ * v; }
+
+private:
+    friend class Settler;
+    friend class Counter;
+    friend class Filler;
+
+    // A run of seeds of one ring, small enough to be judged as one.
+    struct Patch {
+        int32_t first;    // index of the first seed / 2
+        int32_t count;
+        Vector middle;    // of the rest places, from the centre
+        Real radius;      // of a ball round `middle` that holds them
+        Vector axis;      // mean direction, unit length
+        Real spread;      // greatest |direction - axis|
+        uint8_t state;    // PatchState
+    };
+    enum PatchState : uint8_t { PATCH_UNKNOWN, PATCH_AT_REST, PATCH_MIXED };
+
+    // What the report's method keeps of a seed from frame to frame.
+    struct Kept {
+        Point point;
+        Vector normal;
+    };
+
+    void tellNeighbours();
+    bool inRange(const SoftObject& other) const;
+    void rebuildPatches();
+    void turnSeeds();
+    void restExtents();
+    void updatePrinted(const Look& look);
+    int findNear(Link* near) const;
+    void settlePrinted(int i, const Look& look, const Vector& toEye, const Link* near, int nearCount);
+    int drawPrinted(const Look& look, Voxel* voxels);
+    void updateQuick(const Look& look);
+    int drawQuick(const Look& look, Voxel* voxels);
+    void freeSeeds();
+
+    int number_;
+    Point centre_;
+    Matrix turn_;
+    Real size_;       // R: where the field ends
+    Real radius_;     // R/2: "the distance each seed would be from the center if no blending were taking place"
+    Real inverse_;    // 16 / size
+    List<Link> skel_;
+    bool recalc_;
+    bool turned_;
+    bool displaced_;  // some seed is not at rest
+    bool linkedChange_;
+    Real spacing_;
+    Real spread_;     // greatest position of a settled seed
+    const uint8_t* ramp_;
+
+    Seed* seeds_;
+    int regular_;
+    int extra_;
+    Point* roots_;
+    Vector* rootRest_;     // from the centre, as laid out
+    int rootCount_;
+    Vector* pathRest_;     // as laid out; only while the object is turned
+    Patch* patches_;
+    int patchCount_;
+    Kept* kept_;           // only with the report's methods
+};
+
+#endif
