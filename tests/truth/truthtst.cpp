@@ -140,6 +140,8 @@ static void spheres() {
   checkNear(geoff(0.25), 0.5, 1e-15, "Geoff at half the size");
   checkNear(geoff(0), 1, 0, "Geoff at the core");
   checkNear(geoff(1 - 1e-9), 0, 1e-12, "Geoff at the size");
+  for (double q = 0.05; q < 1.2; q += 0.1)
+    checkNear(geoffSlope(q), (geoff(q + 1e-6) - geoff(q - 1e-6)) / 2e-6, 1e-8, "slope of Geoff");
   Scene s = scene("sphere 1 3.25 -4 5 30\n");
   Vec c{3.25, -4, 5};
   Picture p;
@@ -354,6 +356,26 @@ static void others() {
   }
 }
 
+static void seams() {
+  // In a chain the middle object bulges by what both ends add, the ends by what
+  // the middle adds only: seen from the side there is a step at the belt.
+  Scene s = scene("eye -90 0 -90\nfocal 250 208.333\ncentre -90 100\n"
+                  "sphere 1 -6 0 0 24\nsphere 2 0 0 0 24\nsphere 3 6 0 0 24\nblend 1 2\nblend 2 3\n");
+  Picture p;
+  p.trace(s, 2);
+  Frame f;
+  drawTruth(s, p, f);
+  Figures before = compare(f, p);
+  check(before.seams > 20 && before.seams < before.surface / 4, "a chain has a seam");
+  check(before.both == before.surface - before.seams, "the seam is left out");
+  for (int r = 0; r < HEIGHT; r++)
+    for (int c = 0; c < WIDTH; c++)
+      if (p.at(c, r).seam) f.z[r * WIDTH + c] = EMPTY;
+  Figures after = compare(f, p);
+  check(after.holes == 0 && after.missing == 0 && after.depth2 == before.depth2, "no figure depends on it");
+  againstWalk(s, "chain from the side", 6);
+}
+
 static void walks() {
   char text[4096];
   for (int round = 0; round < 3; round++) {
@@ -503,6 +525,42 @@ static void counts() {
   check(f.eyeInside == 1 && f.drawn == 0 && f.interior == 0, "no figures with the eye inside");
 }
 
+// Two loops written down again, without the yardstick's own helpers.
+static void definitions() {
+  Made m = made("sphere 1 -10 4 0 40\nsphere 2 14 -6 10 30\nsphere 3 -60 30 0 18\nsphere 4 62 2 5 30\n"
+                "blend 1 2\n");
+  long interior = 0, circle = 0, square = 0;
+  for (int r = 0; r < HEIGHT; r++)
+    for (int c = 0; c < WIDTH; c++) {
+      int near9 = 0;
+      double closest = 1e300;
+      bool box = false;
+      for (int y = -MARGIN; y < HEIGHT + MARGIN; y++)
+        for (int x = c - 3; x <= c + 3; x++) {
+          if (x < -MARGIN || x >= WIDTH + MARGIN || !m.picture.at(x, y).any()) continue;
+          near9 += std::abs(x - c) <= 1 && std::abs(y - r) <= 1;
+          box = box || (std::abs(x - c) <= 2 && std::abs(y - r) <= 2);
+          closest = std::min(closest, std::sqrt((double)(x - c) * (x - c) + (y - r) * (y - r)));
+        }
+      interior += near9 == 9;
+      circle += closest > 2;
+      square += !box;
+      m.frame.z[place(c, r)] = 120 * 65536;
+    }
+  Figures f = compare(m.frame, m.picture);
+  check(f.drawn == WIDTH * HEIGHT && f.interior == interior, "interior counted plainly");
+  check(f.outside == circle && f.outsideBox == square && square < circle, "outside counted plainly");
+  for (int32_t &z : m.frame.z) z = EMPTY;
+  check(compare(m.frame, m.picture).holes == interior, "nothing drawn: the whole interior is holes");
+  // What the picture leaves out of a ray's list of objects changes nothing.
+  Tracer tracer(m.frame.scene);
+  int differ = 0;
+  for (int r = -MARGIN; r < HEIGHT + MARGIN; r++)
+    for (int c = -MARGIN; c < WIDTH + MARGIN; c++)
+      differ += tracer.trace(c + 0.5, r + 0.5).depth != m.picture.at(c, r).depth;
+  check(differ == 0, "rays with and without the rest of the objects");
+}
+
 static void brightness() {
   // All light ambient: the true step is 63 everywhere.
   Made m = made("ambient 1\nsphere 1 0 0 0 60\n");
@@ -534,6 +592,12 @@ static void brightness() {
   uint8_t *p = &c.frame.rgb[3 * place(130, 100)];
   p[0] = 0, p[1] = 32, p[2] = 128;
   checkNear(c.frame.step(130, 100, 0), 31.6, 0.5, "the colour of the neighbour");
+  // A dark one fits both; then the object that should be there decides.
+  p[0] = 4, p[1] = 4, p[2] = 6;
+  checkNear(c.frame.step(130, 100, 0), 63 * (4 * 255 + 4 * 128) / (255.0 * 255 + 128 * 128), 1e-9,
+            "a dark pixel by the first ramp");
+  checkNear(c.frame.step(130, 100, 1), 63 * (4 * 64 + 6 * 255) / (255.0 * 255 + 64 * 64), 1e-9,
+            "a dark pixel by the second ramp");
 }
 
 static void flickers() {
@@ -603,8 +667,10 @@ int main() {
   cylinders();
   unlinked();
   others();
+  seams();
   walks();
   counts();
+  definitions();
   brightness();
   flickers();
   texts();
