@@ -2,7 +2,7 @@
 // the BIOS's count of those interrupts. No interrupt is taken and the interrupts keep their rate, so that the time of
 // day goes on as ever.
 //
-// The BIOS leaves the counter in mode 3, where it counts down by two, twice over. Mode 2 counts down by one: the only
+// Most BIOSes leave the counter in mode 3, where it counts down by two, twice over. Mode 2 counts down by one: the only
 // thing changed here, at a moment right after an interrupt, so that not even a part of a tick is lost.
 #include "machine.h"
 #include "pc.h"
@@ -14,6 +14,7 @@ constexpr uint16_t COMMAND = 0x43;
 constexpr uint8_t LATCH = 0x00;
 constexpr uint8_t MODE_2 = 0x34;  // counter 0, both bytes
 constexpr uint8_t MODE_3 = 0x36;
+constexpr uint8_t READ_STATUS = 0xe2;  // of counter 0: the next byte read from it holds the mode in bits 1 to 3
 constexpr uint16_t PIC = 0x20;
 constexpr uint8_t READ_REQUESTS = 0x0a;  // OCW3: the next read gives the requests not yet served
 constexpr uint8_t TIMER_REQUEST = 0x01;
@@ -22,6 +23,7 @@ constexpr uint32_t BIOS_TICKS = 0x46c;        // interrupts since midnight
 constexpr uint32_t TICKS_A_DAY = 0x1800b0;    // the count begins again here
 
 bool open = false;
+bool changed;         // the mode was not 2 and is to be put back
 uint32_t lastTicks;   // of the BIOS, at the last look
 uint32_t daysTicks;   // of the days gone by
 uint64_t origin;
@@ -84,8 +86,12 @@ uint64_t readClock() {
 namespace pc {
 
 void openClock() {
-    awaitTick();
-    setMode(MODE_2);
+    outPort(COMMAND, READ_STATUS);
+    changed = (inPort(COUNTER) >> 1 & 3) != 2;
+    if (changed) {
+        awaitTick();
+        setMode(MODE_2);
+    }
     lastTicks = 0;
     daysTicks = 0;
     last = 0;
@@ -100,8 +106,10 @@ void closeClock() {
         return;
     }
     open = false;
-    awaitTick();
-    setMode(MODE_3);
+    if (changed) {
+        awaitTick();
+        setMode(MODE_3);
+    }
 }
 
 }  // namespace pc

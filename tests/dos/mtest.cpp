@@ -1,7 +1,8 @@
 // A program that tries the PC and the run-time, each promise of machine.h and rt.h, on the machine itself: in DOSBox,
 // started by run.sh, or on a real PC by hand. Its first argument says what to do:
 //
-//   MTEST ALL           everything that needs nobody's help; a line `ok NAME` or `FAIL NAME` for each, status 0 or 1
+//   MTEST ALL [BLOCKS]  everything that needs nobody's help; a line `ok NAME` or `FAIL NAME` for each, status 0 or 1.
+//                       BLOCKS: most blocks of 60,000 bytes to take from the heap
 //   MTEST ARGS ...      prints its arguments in brackets
 //   MTEST FULL FILE     fills the disk with FILE, which must end in "disk full"
 //   MTEST NOVGA         expects to find no VGA
@@ -85,7 +86,7 @@ void testStrings() {
     check("memmove, overlapping both ways", good);
     check("strings", strlen("") == 0 && strlen("abc") == 3 && strcmp("a", "a") == 0 && strcmp("a", "b") < 0 &&
                          strcmp("b", "a") > 0 && strcmp("ab", "a") > 0 && strncmp("abx", "aby", 2) == 0 &&
-                         strcmp("\xff", "a") > 0 && strchr("abc", 'c') != nullptr && strchr("abc", 'd') == nullptr &&
+                         strcmp("\xff", "a") > 0 && strcmp(strchr("abc", 'c'), "c") == 0 && strchr("abc", 'd') == nullptr &&
                          *strchr("abc", 0) == 0 && strcmp(strcpy(a, "copied"), "copied") == 0);
 }
 
@@ -106,7 +107,8 @@ void testPrinting() {
                            12, "ab", "ab", 7lu));
     check("precision", prints("abc|ab|x%", "%.3s|%.*s|%c%%", "abcdef", 2, "abc", 'x'));
     char small[4] = "zzz";
-    const int length = snprintf(small, 3, "%s", "abcdef");
+    const char* volatile six = "abcdef";
+    const int length = snprintf(small, 3, "%s", six);
     check("truncation", length == 6 && strcmp(small, "ab") == 0 && snprintf(nullptr, 0, "%d", 123) == 3);
 }
 
@@ -118,13 +120,14 @@ void testWide() {
     check("divide", wide::divide(0x123456789abcdefull, 1000, &rest) == 81985529216486ull && rest == 895);
 }
 
-void testHeap() {
+// `most`: blocks to take at most, for a DPMI host that swaps to a slow disk rather than say that memory is out.
+void testHeap(uint32_t most) {
     // Until memory is out, all of it used, every block its own.
     constexpr uint32_t BLOCK = 60000;
     uint32_t* chain = nullptr;
     uint32_t count = 0;
     bool aligned = true;
-    for (;;) {
+    while (count < most) {
         uint32_t* block = static_cast<uint32_t*>(malloc(BLOCK));
         if (block == nullptr) {
             break;
@@ -151,7 +154,7 @@ void testHeap() {
     }
     check("blocks do not overlap", intact && left == 0);
     uint32_t again = 0;
-    for (;;) {
+    while (again < most) {
         uint32_t* block = static_cast<uint32_t*>(malloc(BLOCK));
         if (block == nullptr) {
             break;
@@ -170,7 +173,12 @@ void testHeap() {
     check("free blocks join", big != nullptr);
     free(big);
     free(nullptr);
-    check("too much is refused", malloc(0xffffffffu) == nullptr && malloc(0x7fffffffu) == nullptr);
+    volatile size_t tooMuch = 0x7fffffffu;
+    check("too much is refused", malloc(tooMuch) == nullptr);
+#ifdef FB_RT
+    tooMuch = 0xffffffffu;
+    check("far too much is refused", malloc(tooMuch) == nullptr);
+#endif
     void* none = malloc(0);
     check("malloc(0)", none != nullptr);
     free(none);
@@ -253,7 +261,8 @@ void testFiles() {
 // ---- machine
 
 void testClock() {
-    check("timer found in mode 3", (timerMode() & 3) == 3);
+    const int found = timerMode();
+    print("# timer found in mode %d\n", found & 3);
     check("start", machine::start() == nullptr);
     check("start again is harmless", machine::start() == nullptr);
     check("timer in mode 2", (timerMode() & 3) == 2);
@@ -287,7 +296,7 @@ void testClock() {
     check("clock has no gaps", longest < 60000 && looks > 200);
     machine::stop();
     machine::stop();
-    check("timer back in mode 3", (timerMode() & 3) == 3);
+    check("timer back in the mode found", timerMode() == found);
 }
 
 uint8_t clockSeconds() {
@@ -443,11 +452,11 @@ void testVideo() {
     check("old mode back", after == before);
 }
 
-int all() {
+int all(uint32_t mostBlocks) {
     testStrings();
     testPrinting();
     testWide();
-    testHeap();
+    testHeap(mostBlocks);
     testFiles();
     testClock();
     testTimeOfDay();
@@ -608,7 +617,7 @@ int main(int argc, char** argv) {
     const char* what = argc > 1 ? argv[1] : "";
     const char* with = argc > 2 ? argv[2] : "";
     if (strcmp(what, "ALL") == 0) {
-        return all();
+        return all(argc > 2 ? uint32_t(number(with)) : 0xffffffffu);
     }
     if (strcmp(what, "ARGS") == 0) {
         for (int i = 2; i < argc; ++i) {
