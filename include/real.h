@@ -54,6 +54,7 @@ struct Real {
 
     Real() = default;
     constexpr Real(int whole) : raw(static_cast<int32_t>(static_cast<uint32_t>(whole) << 16)) {}
+    constexpr Real(long whole) : Real(static_cast<int>(whole)) {}
     // For constants only: a double met at run time would need the x87, and the link without it fails.
     constexpr Real(double value) : raw(static_cast<int32_t>(value * 65536 + (value < 0 ? -0.5 : 0.5))) {}
 

@@ -28,6 +28,9 @@ struct Link {
     bool operator==(const Link& other) const { return object == other.object; }
 };
 
+// Least room for voxels that SoftObject::draw() can work with.
+constexpr int DRAW_ROOM = 64;
+
 // What was done for a frame, as the statistics count it.
 struct Counts {
     uint32_t updated;      // seeds whose position was looked for
@@ -140,8 +143,9 @@ public:
     // Settles the seeds on the surface, if `recalc` says that something changed (report, Section III, update()).
     void update(const Look& look);
 
-    // Makes voxels of the settled seeds, at most seeds() + oversampledSeeds(), and returns their number.
-    int draw(const Look& look, Voxel* voxels);
+    // Makes voxels of the settled seeds, as many as fit `room` (DRAW_ROOM or more), and returns their number. `*next` is
+    // 0 for the first call of a frame; the call changes it, and as long as it is not 0 there are more.
+    int draw(const Look& look, Voxel* voxels, int room, int* next);
 
     // Something that its seeds rest on has changed: look again.
     void setRecalc() { recalc_ = true; }
@@ -171,6 +175,9 @@ private:
     friend class Counter;
     friend class Filler;
 
+    // Most seeds that are judged as one.
+    static constexpr int PATCH_SEEDS = 8;
+
     // A run of seeds of one ring, small enough to be judged as one.
     struct Patch {
         int32_t first;    // index of the first seed / 2
@@ -197,9 +204,9 @@ private:
     void updatePrinted(const Look& look);
     int findNear(Link* near) const;
     void settlePrinted(int i, const Look& look, const Vector& toEye, const Link* near, int nearCount);
-    int drawPrinted(const Look& look, Voxel* voxels);
+    int drawPrinted(const Look& look, Voxel* voxels, int room, int* next);
     void updateQuick(const Look& look);
-    int drawQuick(const Look& look, Voxel* voxels);
+    int drawQuick(const Look& look, Voxel* voxels, int room, int* next);
     void freeSeeds();
 
     int number_;

@@ -102,10 +102,12 @@ void SoftObject::settlePrinted(int i, const Look& look, const Vector& toEye, con
         spread_ = most(spread_, s.position);
 }
 
-int SoftObject::drawPrinted(const Look& look, Voxel* voxels)
+int SoftObject::drawPrinted(const Look& look, Voxel* voxels, int room, int* next)
 {
-    if (kept_ == nullptr)
+    if (kept_ == nullptr) {
+        *next = 0;
         return 0;
+    }
     Link near[NEAR_MOST];
     const int nearCount = findNear(near);
     const auto sum = [&](const Point& p) {
@@ -115,7 +117,8 @@ int SoftObject::drawPrinted(const Look& look, Voxel* voxels)
         return field;
     };
     int count = 0;
-    for (int i = 0; i < 2 * regular_; ++i) {
+    int i = *next;
+    for (; i < 2 * regular_ && count < room; ++i) {
         Seed& s = seeds_[i];
         if ((i & 1) != 0 && !(s.flags & SEED_ACTIVE))
             continue;
@@ -149,5 +152,6 @@ int SoftObject::drawPrinted(const Look& look, Voxel* voxels)
         v.high = v.wide;
         v.colour = ramp_[s.brightness];
     }
+    *next = i < 2 * regular_ ? i : 0;
     return count;
 }

@@ -364,12 +364,14 @@ void SoftObject::updateQuick(const Look& look)
     Settler(*this, look).settle();
 }
 
-int SoftObject::drawQuick(const Look& look, Voxel* voxels)
+int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
 {
     EyeSide eye;
     eye.set(look.eye - centre_, radius_, spacing_);
     Voxel* v = voxels;
-    for (int p = 0; p < patchCount_; ++p) {
+    const Voxel* const full = voxels + room - 2 * PATCH_SEEDS;
+    int p = *next;
+    for (; p < patchCount_ && v <= full; ++p) {
         const Patch& patch = patches_[p];
         const EyeSide::Side side = eye.side(patch.middle, patch.axis, patch.radius, patch.spread);
         if (patch.state == PATCH_AT_REST) {
@@ -406,5 +408,6 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels)
             ++v;
         }
     }
+    *next = p < patchCount_ ? p : 0;
     return static_cast<int>(v - voxels);
 }

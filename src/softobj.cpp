@@ -6,9 +6,6 @@
 
 namespace {
 
-// Most seeds that are judged as one (see Patch).
-constexpr int PATCH_SEEDS = 8;
-
 // Every scale is a little larger than the part of the surface that is its own, by this part of the spacing: the
 // surface bends between seeds and a ring holds a whole number of them.
 constexpr Real CELL_MARGIN(0.09);
@@ -58,7 +55,7 @@ public:
     }
     void endRing()
     {
-        patches += (inRing_ + PATCH_SEEDS - 1) / PATCH_SEEDS;
+        patches += (inRing_ + SoftObject::PATCH_SEEDS - 1) / SoftObject::PATCH_SEEDS;
         inRing_ = 0;
     }
 
@@ -463,9 +460,9 @@ void SoftObject::update(const Look& look)
     recalc_ = false;
 }
 
-int SoftObject::draw(const Look& look, Voxel* voxels)
+int SoftObject::draw(const Look& look, Voxel* voxels, int room, int* next)
 {
-    return look.printed ? drawPrinted(look, voxels) : drawQuick(look, voxels);
+    return look.printed ? drawPrinted(look, voxels, room, next) : drawQuick(look, voxels, room, next);
 }
 
 Real SoftObject::reach() const

@@ -1,0 +1,81 @@
+// View: the camera, the frame buffer and the Z-buffer (report, The Rendering Technique and Appendix A). show() makes
+// scales of voxels by a perspective transformation and draws them.
+//
+// The viewer looks along +z, y up. A point p from the eye falls on column centreX + focalX p.x / p.z and row
+// centreY - focalY p.y / p.z; pixel i covers [i, i + 1). Mode 13h shows 320x200 pixels on a 4:3 screen, so a pixel is
+// 5 wide to 6 high and focalX = 1.2 focalY.
+#ifndef FB_VIEW_H
+#define FB_VIEW_H
+
+#include "blit.h"
+#include "vec.h"
+#include "voxel.h"
+
+struct Camera {
+    Point eye{Real(0), Real(0), Real(-120)};
+    Real focalX{250};
+    Real focalY{208.333333};
+    Real centreX{160};
+    Real centreY{100};
+};
+
+class View {
+public:
+    ~View();
+
+    // Makes the buffers. False: no memory.
+    bool open();
+
+    // Takes on a camera. 1 <= focal <= 500 pixels.
+    void setCamera(const Camera& camera);
+    const Camera& camera() const { return camera_; }
+
+    // Scales or single pixels (the report's '*' key).
+    void setPixels(bool pixels) { pixels_ = pixels; }
+    bool pixels() const { return pixels_; }
+
+    // Starts a frame: clears what the last one touched.
+    void begin();
+
+    // Announces that all that is drawn until the next call lies within `reach` units of `centre`: these parts of the
+    // rows will be cleared and presented.
+    void touch(const Point& centre, Real reach);
+
+    // Draws voxels; those before the near plane (1 unit), behind 511 units or off the screen are left out. Returns the
+    // number of scales drawn.
+    int show(const Voxel* voxels, int count);
+
+    // Text and lines on top of the picture: marks a rectangle of pixels as touched and gives the frame to draw into.
+    uint8_t* overlay(int left, int top, int wide, int high);
+
+    // Ends a frame; rows() then tells what differs from the frame before.
+    void end();
+
+    const uint8_t* frame() const { return frame_; }
+    const uint16_t* zbuffer() const { return zbuffer_; }
+    const Span* rows() const { return present_; }
+
+private:
+    void mark(int left, int top, int right, int bottom);
+    bool project(const Voxel& voxel, Scale* scale) const;
+
+    // 12 bits of fraction; voxels from 64 to 256 units away find their factors in a table, by steps of 1/8 unit.
+    struct Factors {
+        int32_t x, y;  // focal 2^44 / z (z in 16.16)
+    };
+    static constexpr int NEAR_STEPS = 64 * 8;
+    static constexpr int FAR_STEPS = 256 * 8;
+
+    Camera camera_;
+    int32_t focalX_ = 0, focalY_ = 0, centreX_ = 0, centreY_ = 0;  // pixels, 12 bits of fraction
+    bool pixels_ = false;
+    uint8_t* frame_ = nullptr;
+    uint16_t* zbuffer_ = nullptr;
+    Factors* factors_ = nullptr;
+    Scale* scales_ = nullptr;
+    Span touched_[machine::HEIGHT];
+    Span last_[machine::HEIGHT];
+    Span present_[machine::HEIGHT];
+};
+
+#endif

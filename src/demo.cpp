@@ -1,0 +1,321 @@
+// The program: a frame is move, update, draw, show, present; once through the house, no back and forth.
+#include "demo.h"
+
+#include "alloc.h"
+#include "dump.h"
+#include "machine.h"
+#include "options.h"
+#include "palette.h"
+#include "shade.h"
+#include "stats.h"
+#include "text.h"
+
+namespace {
+
+constexpr int VOXELS_AT_ONCE = 1024;
+
+// Interactive mode: mickeys to units, and where objects may be moved to.
+constexpr Real UNITS_A_MICKEY(0.25);
+constexpr Real UNITS_A_KEY(2);
+constexpr Real DEPTH_LEAST(-60);
+constexpr Real DEPTH_MOST(120);
+
+// The selected object pulses this long.
+constexpr Time PULSE = 65536 * 3 / 4;
+constexpr int PULSE_STEPS = 20;
+
+class Demo {
+public:
+    explicit Demo(const Options& options) : options_(options) {}
+    ~Demo() { free(voxels_); }
+
+    int run();
+
+private:
+    const char* prepare();
+    void key(int code);
+    void mouse();
+    void push(Real x, Real y, Real z);
+    void select();
+    void resample(Real spacing);
+    void frame();
+    bool finished() const;
+    void findTime();
+    const char* record();
+
+    const Options& options_;
+    Model model_;
+    View view_;
+    Palette palette_;
+    Dump dump_;
+    Stats stats_;
+    Voxel* voxels_ = nullptr;
+    Counts counts_;
+    Real spacing_{2};
+    uint64_t started_ = 0;
+    Time time_ = 0;
+    int frames_ = 0;
+    bool ended_ = false;
+    bool mousePresent_ = false;
+    bool leftHeld_ = false;
+    int selected_ = 0;
+    Time selectedAt_ = 0;
+};
+
+// Everything that can fail, before the video mode is touched. Null, or one line.
+const char* Demo::prepare()
+{
+    makeFieldSteps();
+    makeShadeTables();
+    spacing_ = options_.spacing;
+    if (!model_.makeFourSpheres())
+        return "not enough memory for the model";
+    Anim::move(model_, 0);
+    if (!model_.resample(spacing_))
+        return "not enough memory for seeds that close; try a larger spacing with /S";
+    voxels_ = allocate<Voxel>(VOXELS_AT_ONCE);
+    if (voxels_ == nullptr || !view_.open())
+        return "not enough memory for the picture";
+    view_.setCamera(model_.camera);
+    palette_.make(model_, options_.grey);
+    if (options_.dumpDirectory != nullptr)
+        return dump_.open(options_.dumpDirectory);
+    return nullptr;
+}
+
+void Demo::findTime()
+{
+    if (options_.frames > 0) {
+        // Each frame advances the animation by the same step, whatever the clock says.
+        uint32_t rest;
+        time_ = divide64(static_cast<uint64_t>(frames_) << 16, static_cast<uint32_t>(options_.rate), &rest);
+        return;
+    }
+    uint64_t ticks = machine::clock() - started_;
+    uint32_t rest;
+    const uint64_t seconds = divide64(ticks, machine::CLOCK_HZ, &rest);
+    uint32_t unused;
+    time_ = (seconds << 16) + divide64(static_cast<uint64_t>(rest) << 16, machine::CLOCK_HZ, &unused);
+}
+
+void Demo::select()
+{
+    selected_ = (selected_ + 1) % model_.count();
+    selectedAt_ = time_;
+}
+
+void Demo::push(Real x, Real y, Real z)
+{
+    // Kept where the viewer sees it: the centre stays on the screen.
+    SoftObject& object = *model_.actor(selected_).object;
+    const Camera& camera = model_.camera;
+    Point p = object.centre() + Vector{x, y, z};
+    p.z = clamp(p.z, DEPTH_LEAST, DEPTH_MOST);
+    const Real away = p.z - camera.eye.z;
+    const Real right = away * (camera.centreX / camera.focalX), up = away * (camera.centreY / camera.focalY);
+    p.x = clamp(p.x, camera.eye.x - right, camera.eye.x + right);
+    p.y = clamp(p.y, camera.eye.y - up, camera.eye.y + up);
+    object.moveTo(p);
+}
+
+void Demo::mouse()
+{
+    const machine::Mouse m = machine::mouse();
+    if (m.left && !leftHeld_)
+        select();
+    leftHeld_ = m.left;
+    if (m.dx == 0 && m.dy == 0)
+        return;
+    const Real dx = Real(m.dx) * UNITS_A_MICKEY, dy = Real(m.dy) * UNITS_A_MICKEY;
+    if (m.right)
+        push(dx, Real(0), -dy);
+    else
+        push(dx, -dy, Real(0));
+}
+
+void Demo::resample(Real spacing)
+{
+    if (spacing < SPACING_LEAST || spacing > SPACING_MOST || !model_.resample(spacing))
+        return;  // at the end of the range, or of memory: it stays as it is
+    spacing_ = spacing;
+    stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
+}
+
+void Demo::key(int code)
+{
+    switch (code) {
+    case machine::KEY_ESC: ended_ = true; return;
+    case '*': view_.setPixels(!view_.pixels()); return;
+    case '-':
+    case '_': resample(least(spacing_ * Real(1.25), SPACING_MOST)); return;
+    case '+':
+    case '=': resample(most(spacing_ * Real(0.8), SPACING_LEAST)); return;
+    default: break;
+    }
+    if (!options_.interactive)
+        return;
+    const Real step = UNITS_A_KEY, none(0);
+    switch (code) {
+    case '\t': select(); break;
+    case machine::KEY_LEFT: push(-step, none, none); break;
+    case machine::KEY_RIGHT: push(step, none, none); break;
+    case machine::KEY_UP: push(none, step, none); break;
+    case machine::KEY_DOWN: push(none, -step, none); break;
+    case machine::KEY_PGUP: push(none, none, step); break;
+    case machine::KEY_PGDN: push(none, none, -step); break;
+    default: break;
+    }
+}
+
+void Demo::frame()
+{
+    if (options_.interactive)
+        mouse();
+    else
+        Anim::move(model_, time_);
+
+    counts_ = Counts{};
+    const Look look{model_.camera.eye, unit(model_.light), options_.printed, &counts_};
+    int order[Model::OBJECTS_MOST];
+    const int count = model_.count();
+    for (int i = 0; i < count; ++i) {
+        model_.actor(i).object->update(look);
+        // Near objects first: what they hide is then only compared, not drawn.
+        int at = i;
+        for (; at > 0 && model_.actor(order[at - 1]).object->centre().z > model_.actor(i).object->centre().z; --at)
+            order[at] = order[at - 1];
+        order[at] = i;
+    }
+
+    view_.begin();
+    for (int i = 0; i < count; ++i) {
+        SoftObject& object = *model_.actor(order[i]).object;
+        const uint8_t* ramp = object.ramp();
+        if (options_.interactive && order[i] == selected_ && time_ - selectedAt_ < PULSE) {
+            // A short pulse of brightness shows which object is selected.
+            const Time phase = (time_ - selectedAt_) * 2;
+            const Time height = phase < PULSE ? phase : 2 * PULSE - phase;
+            object.setRamp(palette_.raised(ramp, static_cast<int>(static_cast<uint32_t>(height) * PULSE_STEPS / PULSE)));
+        }
+        view_.touch(object.centre(), object.reach());
+        int next = 0;
+        do {
+            const int some = object.draw(look, voxels_, VOXELS_AT_ONCE, &next);
+            counts_.drawn += static_cast<uint32_t>(some);
+            view_.show(voxels_, some);
+        } while (next != 0);
+        object.setRamp(ramp);
+    }
+    view_.end();
+}
+
+bool Demo::finished() const
+{
+    return ended_ || (options_.frames > 0 && frames_ >= options_.frames) ||
+           (options_.seconds > 0 &&
+            machine::clock() - started_ >= static_cast<uint64_t>(options_.seconds) * machine::CLOCK_HZ);
+}
+
+// Appends the statistics to the file of /O. Null, or one line.
+const char* Demo::record()
+{
+    bool fresh;
+    const int file = machine::appendFile(options_.recordFile, &fresh);
+    bool good = file >= 0;
+    char text[1024];
+    if (good && fresh) {
+        Stats::formatHeader(text, sizeof text);
+        good = machine::writeFile(file, text, static_cast<uint32_t>(strlen(text))) >= 0;
+    }
+    char spacing[24], settings[64];
+    formatReal(spacing, sizeof spacing, spacing_);
+    snprintf(settings, sizeof settings, "S:%s%s%s%s%s%s", spacing, options_.interactive ? " I" : "",
+             options_.grey ? " G" : "", options_.printed ? " P" : "", options_.retrace ? " V" : "",
+             options_.noPresent ? " X" : "");
+    stats_.formatRecord(text, sizeof text, settings);
+    good = good && machine::writeFile(file, text, static_cast<uint32_t>(strlen(text))) >= 0;
+    if (file >= 0)
+        good = machine::closeFile(file) && good;
+    if (good)
+        return nullptr;
+    static char problem[160];
+    snprintf(problem, sizeof problem, "%.100s: %s", options_.recordFile, machine::fileTrouble());
+    return problem;
+}
+
+int Demo::run()
+{
+    const char* problem = machine::start();
+    if (problem != nullptr)
+        machine::fail(1, problem);
+    problem = prepare();
+    if (problem != nullptr)
+        machine::fail(1, problem);
+    machine::standStill(options_.frames > 0);
+    if (options_.interactive) {
+        mousePresent_ = machine::openMouse();
+        if (!mousePresent_)
+            machine::out("No mouse driver found: use Tab, arrows, PgUp and PgDn.\n");
+    }
+    problem = machine::openVideo();
+    if (problem != nullptr)
+        machine::fail(1, problem);
+    machine::setPalette(palette_.dac());
+    stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
+
+    started_ = machine::clock();
+    while (!finished()) {
+        for (int code = machine::key(); code != 0; code = machine::key())
+            key(code);
+        if (machine::broken())
+            machine::fail(1, "interrupted");
+        if (ended_)
+            break;
+        findTime();
+        frame();
+        if (options_.retrace)
+            machine::waitRetrace();
+        if (!options_.noPresent)
+            machine::present(view_.frame(), view_.rows());
+        if (options_.dumpDirectory != nullptr) {
+            problem = dump_.frame(frames_, time_, options_.frames > 0 ? options_.rate : 0, model_, view_, palette_,
+                                  options_.grey);
+            if (problem != nullptr)
+                machine::fail(1, problem);
+        }
+        stats_.addFrame(counts_);
+        ++frames_;
+    }
+    stats_.setTime(machine::clock() - started_);
+    machine::stop();
+    char text[1024];
+    stats_.format(text, sizeof text);
+    machine::out(text);
+    if (options_.recordFile != nullptr) {
+        problem = record();
+        if (problem != nullptr)
+            machine::fail(1, problem);
+    }
+    return 0;
+}
+
+}  // namespace
+
+int demo(int count, char** arguments)
+{
+    static Options options;
+    options = Options();
+    const char* problem = parseOptions(count, arguments, &options);
+    if (problem != nullptr)
+        machine::fail(2, problem);
+    if (options.help) {
+        machine::out(HELP);
+        return 0;
+    }
+    Demo* program = make<Demo>(options);
+    if (program == nullptr)
+        machine::fail(1, "not enough memory");
+    const int status = program->run();
+    destroy(program);
+    return status;
+}
