@@ -1,25 +1,46 @@
 # make        build/DEMO.EXE (DOS, stock compiler) and build/demo (host)
 # make run    plays DEMO.EXE in DOSBox        make test   everything that can be tested
 # make bench  frames per second and where the instructions go
-CXX ?= g++
 HOST_CXX ?= $(CXX)
 REAL ?= FIXED
 
-HOST_FLAGS = -std=c++17 -O2 -fno-exceptions -fno-rtti -Wall -Wextra -Iinclude -DFB_REAL=FB_$(REAL) $(HOST_DEFINES)
-SOURCES = $(wildcard src/*.cpp)
-
 all: build/DEMO.EXE build/demo
 
+SOURCES = $(wildcard src/*.cpp)
+HOST_SOURCES = $(SOURCES) $(wildcard src/host/*.cpp)
+HOST_FLAGS = -std=c++17 -O2 -fno-exceptions -fno-rtti -Wall -Wextra -Iinclude -DFB_REAL=FB_$(REAL) $(HOST_DEFINES)
+
+DOS_DEFINES = -DFB_ASM=1 -DFB_REAL=FB_$(REAL)
+include $(wildcard tools/*.mk)
+
+# The host program: any C++17 compiler, 64 bits or 32, loops in C++.
 build/host/%.o: %.cpp
 	@mkdir -p $(@D)
 	$(HOST_CXX) $(HOST_FLAGS) -MMD -MP -c $< -o $@
 
-build/demo: $(patsubst %.cpp,build/host/%.o,$(SOURCES) src/host/host.cpp)
+build/demo: $(patsubst %.cpp,build/host/%.o,$(HOST_SOURCES))
 	$(HOST_CXX) -o $@ $^
+
+# The same with 32 bits and the assembly loops; static, so that valgrind needs no 32-bit libraries.
+HOST32_FLAGS = -m32 -march=i386 -mtune=i486 -fno-pic -fno-pie -DFB_ASM=1
+
+build/host32/%.o: %.cpp
+	@mkdir -p $(@D)
+	$(HOST_CXX) $(HOST_FLAGS) $(HOST32_FLAGS) -MMD -MP -c $< -o $@
+
+build/host32/%.o: %.S
+	@mkdir -p $(@D)
+	$(HOST_CXX) -m32 -x assembler-with-cpp -Iasm -MMD -MP -c $< -o $@
+
+build/demo32: $(patsubst %.cpp,build/host32/%.o,$(HOST_SOURCES)) build/host32/asm/blit.o
+	$(HOST_CXX) -m32 -no-pie -static -o $@ $^
+
+build/DEMO.EXE: $(patsubst %.cpp,build/dos/%.o,$(SOURCES)) $(DOS_BASE) build/STUB.EXE build/mkexe tools/dos.ld
+	$(DOS_LINK)
 
 clean:
 	rm -rf build
 
 .PHONY: all clean
 
--include $(wildcard build/host/src/*.d build/host/src/host/*.d)
+-include $(wildcard build/host/src/*.d build/host/src/host/*.d build/host32/src/*.d build/host32/src/host/*.d)

@@ -1,0 +1,253 @@
+// The innermost loops for the 386 and up. src/blit.cpp has each of them in C++ and says what it does; the tests feed
+// both the same input. Above each group of instructions stands the line of C++ that it implements.
+//
+// Cycles are given as "486 / Pentium" with everything in the first-level cache. A 16-bit operand has a prefix byte: one
+// cycle on the 486, and on the Pentium it keeps the instruction out of the V pipe. A word for the depth is still right:
+// it halves what a clear and the cache have to hold.
+
+#include "asm.h"
+
+// struct Scale (include/blit.h)
+#define LEFT    0
+#define TOP     2
+#define WIDE    4
+#define HIGH    6
+#define DEPTH   8
+#define COLOUR  10
+#define SCALE_BYTES 12
+
+#define SCREEN_WIDTH 320
+#define WIDEST  16              /* rows up to this width have a loop of their own, without a counter in the row */
+
+        .text
+
+// ---------------------------------------------------------------------------------------------------------------------
+// void blitScalesA(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int count)
+//
+//   ebp  scale          eax  z (ax)             esi  depths + row
+//   edx  rows to go     ecx  colour (cl)        edi  pixels + row
+//   ebx  wide
+//
+// A pixel behind what is there costs 2 instructions (486: 2 + 3, Pentium: 2 when the branch is foreseen), one that is
+// taken 4 (486: 2 + 1 + 2 + 1). A row adds 4, a scale 14.
+
+        .align  16
+        .globl  SYM(blitScalesA)
+SYM(blitScalesA):
+        pushl   %ebp
+        pushl   %ebx
+        pushl   %esi
+        pushl   %edi
+        movl    28(%esp), %ebp          // scales
+        movl    32(%esp), %eax          // count
+        testl   %eax, %eax
+        jle     scales_done
+        // The end of the list takes the place of the count: one comparison a scale.
+        leal    (%eax,%eax,2), %eax
+        leal    (%ebp,%eax,4), %eax     // scales + count
+        movl    %eax, 32(%esp)
+
+scale_loop:
+        // start = top * WIDTH + left;   320 = 5 * 64
+        movswl  TOP(%ebp), %eax
+        movswl  LEFT(%ebp), %ecx
+        leal    (%eax,%eax,4), %eax
+        shll    $6, %eax
+        movl    20(%esp), %edi
+        addl    %ecx, %eax
+        movl    24(%esp), %esi
+        // pixels = frame + start;  depths = zbuffer + start
+        addl    %eax, %edi
+        leal    (%esi,%eax,2), %esi
+        movswl  WIDE(%ebp), %ebx
+        movswl  HIGH(%ebp), %edx
+        movl    DEPTH(%ebp), %eax       // z in ax, colour in bits 16-23
+        movb    COLOUR(%ebp), %cl
+        cmpl    $WIDEST, %ebx
+        ja      wide_rows
+        jmp     *rows_of(,%ebx,4)
+
+        // for (y = high; y > 0; --y)
+        //     for (x = wide - 1; x >= 0; --x)
+        //         if (z < depths[x]) { depths[x] = z; pixels[x] = colour; }
+        .macro  ROWS wide
+        .align  16
+rows_\wide:
+        .set    x, \wide - 1
+        .rept   \wide
+        cmpw    2*x(%esi), %ax
+        jae     1f
+        movw    %ax, 2*x(%esi)
+        movb    %cl, x(%edi)
+1:
+        .set    x, x - 1
+        .endr
+        addl    $2*SCREEN_WIDTH, %esi
+        addl    $SCREEN_WIDTH, %edi
+        decl    %edx
+        jnz     rows_\wide
+        addl    $SCALE_BYTES, %ebp
+        cmpl    32(%esp), %ebp
+        jb      scale_loop
+        jmp     scales_done
+        .endm
+
+        ROWS    1
+        ROWS    2
+        ROWS    3
+        ROWS    4
+        ROWS    5
+        ROWS    6
+        ROWS    7
+        ROWS    8
+        ROWS    9
+        ROWS    10
+        ROWS    11
+        ROWS    12
+        ROWS    13
+        ROWS    14
+        ROWS    15
+        ROWS    16
+
+        // The same with a counter, for scales near the viewer.
+        .align  16
+wide_rows:
+        leal    (%esi,%ebx,2), %esi     // both pointers at the end of the row, ebx counts up to 0
+        addl    %ebx, %edi
+        negl    %ebx
+        pushl   %ebx
+wide_row:
+        movl    (%esp), %ebx
+wide_pixel:
+        cmpw    (%esi,%ebx,2), %ax
+        jae     1f
+        movw    %ax, (%esi,%ebx,2)
+        movb    %cl, (%edi,%ebx)
+1:
+        incl    %ebx
+        jnz     wide_pixel
+        addl    $2*SCREEN_WIDTH, %esi
+        addl    $SCREEN_WIDTH, %edi
+        decl    %edx
+        jnz     wide_row
+        popl    %ebx
+        addl    $SCALE_BYTES, %ebp
+        cmpl    32(%esp), %ebp
+        jb      scale_loop
+
+scales_done:
+        popl    %edi
+        popl    %esi
+        popl    %ebx
+        popl    %ebp
+        ret
+
+        .align  4
+rows_of:
+        .long   scales_done             // width 0 does not occur
+        .long   rows_1, rows_2, rows_3, rows_4, rows_5, rows_6, rows_7, rows_8
+        .long   rows_9, rows_10, rows_11, rows_12, rows_13, rows_14, rows_15, rows_16
+
+// ---------------------------------------------------------------------------------------------------------------------
+// void clearRowsA(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count)
+//
+//   ebx  row            edx  frame              esi  zbuffer            ebp  rows to go
+//
+// String instructions: 486 5 + 4 a double word (slower than moves, but free of the loop), Pentium 1 a double word.
+
+        .align  16
+        .globl  SYM(clearRowsA)
+SYM(clearRowsA):
+        pushl   %ebp
+        pushl   %ebx
+        pushl   %esi
+        pushl   %edi
+        movl    20(%esp), %edx
+        movl    24(%esp), %esi
+        movl    28(%esp), %ebx
+        movl    32(%esp), %ebp
+        cld
+        testl   %ebp, %ebp
+        jle     clear_done
+clear_row:
+        // touched = rows->to - rows->from;  if (touched <= 0) continue
+        movswl  (%ebx), %edi
+        movswl  2(%ebx), %ecx
+        subl    %edi, %ecx
+        jle     clear_next
+        // memset(zbuffer + from, 0xff, 2 * touched)
+        pushl   %ecx
+        pushl   %edi
+        leal    (%esi,%edi,2), %edi
+        movl    $-1, %eax
+        shrl    $1, %ecx
+        rep stosl
+        // memset(frame + from, 0, touched)
+        popl    %edi
+        popl    %ecx
+        addl    %edx, %edi
+        xorl    %eax, %eax
+        shrl    $2, %ecx
+        rep stosl
+clear_next:
+        addl    $4, %ebx
+        addl    $SCREEN_WIDTH, %edx
+        addl    $2*SCREEN_WIDTH, %esi
+        decl    %ebp
+        jnz     clear_row
+clear_done:
+        popl    %edi
+        popl    %esi
+        popl    %ebx
+        popl    %ebp
+        ret
+
+// ---------------------------------------------------------------------------------------------------------------------
+// void presentRows(uint32_t selector, uint32_t offset, const uint8_t* frame, const Span* rows, int count)
+//
+//   es   the screen     edx  frame              ebx  row                eax  offset in the screen    ebp  rows to go
+//
+// The bus to the card sets the pace here, not the processor: double words are what it takes best.
+
+        .align  16
+        .globl  SYM(presentRows)
+SYM(presentRows):
+        pushl   %ebp
+        pushl   %ebx
+        pushl   %esi
+        pushl   %edi
+        pushl   %es
+        movl    24(%esp), %eax
+        movl    %eax, %es
+        movl    28(%esp), %eax
+        movl    32(%esp), %edx
+        movl    36(%esp), %ebx
+        movl    40(%esp), %ebp
+        cld
+        testl   %ebp, %ebp
+        jle     present_done
+present_row:
+        // if (to > from) memcpy(screen + from, frame + from, to - from)
+        movswl  (%ebx), %esi
+        movswl  2(%ebx), %ecx
+        subl    %esi, %ecx
+        jle     present_next
+        leal    (%eax,%esi), %edi
+        addl    %edx, %esi
+        shrl    $2, %ecx
+        rep movsl
+present_next:
+        addl    $4, %ebx
+        addl    $SCREEN_WIDTH, %eax
+        addl    $SCREEN_WIDTH, %edx
+        decl    %ebp
+        jnz     present_row
+present_done:
+        popl    %es
+        popl    %edi
+        popl    %esi
+        popl    %ebx
+        popl    %ebp
+        ret
+
+ASM_END
