@@ -1,0 +1,499 @@
+/* The host's beginning and end, in real or V86 mode.
+
+     host_init    finds out what the machine has, fills in the tables, hooks Ctrl-C and critical errors
+     host_enter   the entry point that int 2Fh AX=1687h would have given: makes the caller the client
+     host_exit    the client has ended (int 21h AH=4Ch in PM, or a crash): everything back as it was
+
+   Processor state is as DOS has it until host_enter, and again from rm_exit on. */
+
+#include "dpmi.h"
+#undef i386
+
+        .section .host,"awx",@progbits
+        .code16
+
+/* Far. In: ES = PSP. Out: carry and DX = message (in our segment, ends with '$') if there is no way. */
+        .globl  host_init
+host_init:
+        push    %ds
+        push    %cs
+        pop     %ds
+        mov     %es, psp_seg
+        push    %cs
+        pop     %es
+        cld
+        mov     $hbss_start, %di
+        mov     $hbss_words, %cx
+        xor     %ax, %ax
+        rep stosw
+
+        xor     %eax, %eax
+        mov     %cs, %ax
+        mov     %ax, host_seg
+        mov     $rm_ptrs, %si           /* pointers to ourselves */
+1:      mov     %ax, 2(%si)
+        add     $4, %si
+        cmp     $rm_ptrs_end, %si
+        jb      1b
+        shl     $4, %eax
+        mov     %eax, host_base
+        add     %eax, gdtr + 2
+        add     %eax, idtr + 2
+        mov     $gdt_bases, %si
+2:      mov     (%si), %bx
+        movzwl  2(%si), %edx
+        add     %eax, %edx
+        mov     %dx, gdt + 2(%bx)
+        shr     $16, %edx
+        mov     %dl, gdt + 4(%bx)
+        mov     %dh, gdt + 7(%bx)
+        add     $4, %si
+        cmp     $gdt_bases_end, %si
+        jb      2b
+
+        call    processor
+        smsw    %ax
+        test    $1, %al
+        jz      3f
+        call    vcpi_init
+        jmp     4f
+3:      call    memory_init
+4:      pop     %ax                     /* the caller's DS */
+        jc      5f
+        push    %ax
+
+        movl    $r0_stack_top, tss + 4
+        movw    $HOST_DS, tss + 8
+        movw    $104, tss + 102         /* no I/O map: IOPL is enough */
+
+        mov     $hlts, %di
+        mov     $0xf4, %al
+        mov     $HLT_COUNT, %cx
+        rep stosb
+        call    vectors
+
+        xor     %ax, %ax                /* the vectors as they are */
+        mov     %ax, %fs
+        xor     %si, %si
+        mov     $ivt_copy, %di
+        mov     $256, %cx
+        rep movsl %fs:(%si), %es:(%di)
+        cli
+        mov     host_seg, %ax
+        shl     $16, %eax
+        mov     $rm_int24, %ax
+        mov     %eax, %fs:0x24 * 4
+        mov     $rm_int23, %ax
+        xchg    %eax, %fs:0x23 * 4
+        mov     %eax, old_23
+        cmpl    $0, xms_entry
+        jne     6f
+        cmpw    $raw_rm_to_pm, rm_to_pm_vec
+        jne     6f
+        mov     host_seg, %ax           /* the BIOS's memory is ours alone now */
+        shl     $16, %eax
+        mov     $rm_int15, %ax
+        xchg    %eax, %fs:0x15 * 4
+        mov     %eax, old_15
+6:      in      $0x21, %al
+        mov     %al, pic_masks
+        in      $0xa1, %al
+        mov     %al, pic_masks + 1
+        sti
+        clc
+        pop     %ax
+5:      mov     %ax, %ds
+        lret
+
+/* cpu_type := 3, 4, 5 ...; fpu_type. A 386 it is. */
+processor:
+        mov     $3, %bl
+        pushfl
+        pop     %eax
+        mov     %eax, %ecx
+        xor     $0x40000, %eax          /* AC: a 486 can change it */
+        push    %eax
+        popfl
+        pushfl
+        pop     %eax
+        cmp     %eax, %ecx
+        je      1f
+        inc     %bx
+        mov     %ecx, %eax
+        xor     $0x200000, %eax         /* ID: the processor can say more */
+        push    %eax
+        popfl
+        pushfl
+        pop     %eax
+        push    %ecx
+        popfl
+        cmp     %eax, %ecx
+        je      1f
+        .arch   pentium
+        mov     $1, %eax
+        cpuid
+        .arch   i386
+        .arch   .387
+        mov     %ah, %bl
+        and     $15, %bl
+        cmp     $4, %bl                 /* family; the ones after 15 count as 15 */
+        jae     1f
+        mov     $4, %bl
+1:      mov     %bl, cpu_type
+        movw    $0x5a5a, up_num
+        fninit
+        fnstsw  up_num
+        cmpb    $0, up_num
+        jne     2f
+        mov     $3 << 4, %al            /* 387 */
+        cmp     $3, %bl
+        je      3f
+        mov     $4 << 4, %al            /* 486 or better: built in */
+3:      mov     %al, fpu_type
+2:      ret
+
+/* IDT, its thunks, and the client's default handlers. */
+vectors:
+        xor     %bx, %bx                /* vector */
+        mov     $thunks, %di
+1:      mov     $entry_exc, %ax
+        cmp     $8, %bl
+        jb      2f
+        mov     $entry_low, %ax
+        cmp     $0x10, %bl
+        jb      2f
+        mov     $entry_int21, %ax
+        cmp     $0x21, %bl
+        je      2f
+        mov     $entry_int31, %ax
+        cmp     $0x31, %bl
+        je      2f
+        mov     $entry_irq, %ax
+        cmp     $0x70, %bl
+        jb      3f
+        cmp     $0x78, %bl
+        jb      2f
+3:      mov     $entry_soft, %ax
+2:      mov     %bx, %si
+        shl     $3, %si
+        mov     %di, idt(%si)
+        movl    $0xee000000 | HOST_CS, idt + 2(%si)
+        movzbw  %bl, %dx
+        mov     %dx, pm_vec(%si)
+        movw    $USER_CS, pm_vec + 4(%si)
+        movb    $0x6a, (%di)            /* PUSH vector */
+        mov     %bl, 1(%di)
+        movb    $0xe9, 2(%di)           /* JMP entry */
+        sub     %di, %ax
+        sub     $7, %ax
+        cwtl
+        mov     %eax, 3(%di)
+        add     $8, %di
+        inc     %bx
+        cmp     $256, %bx
+        jb      1b
+        ret
+
+/* --- Memory and A20 in plain real mode. Carry, DX: message. --- */
+memory_init:
+        mov     $0x4300, %ax
+        int     $0x2f
+        cmp     $0x80, %al
+        jne     1f
+        mov     $0x4310, %ax
+        push    %es
+        int     $0x2f
+        mov     %bx, xms_entry
+        mov     %es, xms_entry + 2
+        pop     %es
+        xor     %ah, %ah                /* version */
+        lcall   *xms_entry
+        cmp     $0x0300, %ax
+        jb      2f
+        movb    $0x80, xms_super
+2:      mov     $0x05, %ah              /* local A20 enable */
+        lcall   *xms_entry
+        mov     $msg_a20, %dx
+        cmp     $1, %ax
+        jne     9f
+        movb    $1, a20_mode
+        clc
+        ret
+
+/* No XMS: the BIOS. E801h counts KB to 16 MB and 64 KB units above; 88h counts KB. Above 16 MB is used only
+   if there is no hole below. */
+1:      mov     $0xe801, %ax
+        xor     %cx, %cx
+        xor     %dx, %dx
+        int     $0x15
+        jc      3f
+        test    %ax, %ax
+        jnz     4f
+        mov     %cx, %ax
+        mov     %dx, %bx
+4:      movzwl  %ax, %eax
+        shl     $10, %eax
+        cmp     $0xf00000, %eax
+        jne     5f
+        movzwl  %bx, %ebx
+        shl     $16, %ebx
+        add     %ebx, %eax
+        jmp     5f
+3:      mov     $0x88, %ah
+        int     $0x15
+        movzwl  %ax, %eax
+        shl     $10, %eax
+5:      and     $~0xfff, %eax
+        mov     $msg_no_memory, %dx
+        jz      9f
+        movl    $0x100000, arenas
+        mov     %eax, arenas + 4
+        call    a20_test
+        jnz     8f
+        in      $0x92, %al              /* the fast way */
+        mov     %al, %ah
+        or      $2, %al
+        and     $0xfe, %al              /* bit 0 resets the machine */
+        out     %al, $0x92
+        movb    $2, a20_mode
+        call    a20_wait
+        jnz     8f
+        mov     $0xdf, %ah              /* the old way */
+        call    kbc_output
+        movb    $3, a20_mode
+        call    a20_wait
+        jnz     8f
+        movb    $0, a20_mode
+        mov     $msg_a20, %dx
+9:      stc
+        ret
+8:      clc
+        ret
+
+/* Keyboard controller's output port := AH. AL, CX lost. */
+kbc_output:
+        call    kbc_ready
+        mov     $0xd1, %al
+        out     %al, $0x64
+        call    kbc_ready
+        mov     %ah, %al
+        out     %al, $0x60
+kbc_ready:
+        xor     %cx, %cx
+1:      in      $0x64, %al
+        test    $2, %al
+        loopnz  1b
+        ret
+
+/* A20 on, perhaps after a while? Zero flag clear if so. */
+a20_wait:
+        mov     $0x1000, %si
+1:      call    a20_test
+        jnz     2f
+        dec     %si
+        jnz     1b
+2:      ret
+
+/* Zero flag clear: A20 is on. The BIOS's scratch area at 4F0h and the same address 1 MB above differ. */
+a20_test:
+        push    %cx
+        push    %dx
+        xor     %cx, %cx
+        mov     %cx, %fs
+        dec     %cx
+        mov     %cx, %gs
+        mov     %fs:0x4f0, %dx
+        mov     $16, %cx
+1:      incw    %fs:0x4f0
+        mov     %fs:0x4f0, %bx
+        cmp     %gs:0x500, %bx
+        loope   1b
+        mov     %dx, %fs:0x4f0
+        pop     %dx
+        pop     %cx
+        ret
+
+/* V86 mode. Carry, DX: message. */
+vcpi_init:
+        mov     $msg_v86, %dx
+        stc
+        ret
+
+/* --- int 2Fh AX=1687h's entry point. Far. In: AX bit 0 = 1, a 32-bit client. Out: carry if refused; else
+       in PM, CS, DS, SS = the same segments, ES = PSP (100h bytes), FS = GS = 0. --- */
+        .globl  host_enter
+host_enter:
+        test    $1, %al
+        jnz     1f
+        mov     $E_VALUE, %ax
+        stc
+        lret
+1:      cli
+        push    %ds
+        push    %cs
+        pop     %ds
+        popw    client_ds
+        popw    client_ip
+        popw    client_cs
+        mov     %ss, client_ss
+        mov     %sp, client_sp
+        movw    $pm_enter, pm_cont
+        jmp     rm_to_pm
+
+        .code32
+pm_enter:
+        movzwl  client_ds, %eax
+        call    new_segment
+        pushl   %eax                    /* DS; the first ones cannot fail */
+        movzwl  client_ss, %ebx
+        cmpw    client_ds, %bx
+        je      1f
+        movl    %ebx, %eax
+        call    new_segment
+1:      pushl   %eax                    /* the IRET frame: SS */
+        movzwl  client_sp, %eax
+        pushl   %eax
+        pushl   $IOPL3 | IF_BIT | 2
+        movzwl  client_cs, %eax
+        call    new_segment
+        movb    $0xfa, 5(%edi)          /* code */
+        pushl   %eax
+        movzwl  client_ip, %eax
+        pushl   %eax
+        movzwl  psp_seg, %eax           /* the environment's selector goes where its segment is */
+        movl    %eax, %ebx
+        shll    $4, %ebx
+        movw    $FLAT_DS, %cx
+        movw    %cx, %fs
+        call    new_segment
+        movw    $0x00ff, (%edi)
+        pushl   %eax
+        movzwl  %fs:0x2c(%ebx), %eax
+        movw    %ax, env_seg
+        testl   %eax, %eax
+        jz      2f
+        call    new_segment
+        movw    %ax, %fs:0x2c(%ebx)
+2:      popl    %es
+        xorl    %eax, %eax
+        movw    %ax, %fs
+        movw    %ax, %gs
+        movw    20(%esp), %ds
+        iretl
+
+/* --- The end. Jumped to in PM; AL = exit status; DS = HOST_DS. --- */
+        .globl  host_exit
+host_exit:
+        movb    %al, exit_code
+        movl    host_seg, %eax
+        shll    $16, %eax
+        movl    %eax, %edx
+        movw    $rm_stack_top - 6, %dx
+        movl    %edx, rm_spss
+        movw    $2, rm_stack_top - 6
+        movw    $rm_exit, %ax
+        movl    %eax, rm_stack_top - 4
+        movl    $r0_stack_top, %esp
+        jmp     pm_to_rm
+
+        .code16
+rm_exit:
+        mov     %cs, %ax
+        mov     %ax, %ds
+        xor     %ax, %ax
+        mov     %ax, %es
+        cld
+        cmpb    $0, callbacks_used
+        je      1f
+        cmpl    $0, %es:0x33 * 4        /* a mouse driver may hold one of the call-backs */
+        je      1f
+        xor     %cx, %cx
+        xor     %dx, %dx
+        mov     $0x0c, %ax
+        int     $0x33
+1:      xor     %ax, %ax
+        mov     %ax, %es
+        mov     host_seg, %ax           /* vectors that lead to us: as they were */
+        xor     %di, %di
+2:      cmp     %es:2(%di), %ax
+        jne     3f
+        mov     ivt_copy(%di), %edx
+        mov     %edx, %es:(%di)
+3:      add     $4, %di
+        cmp     $1024, %di
+        jb      2b
+        mov     $arenas, %si
+4:      mov     8(%si), %dx
+        dec     %dx
+        js      5f
+        push    %dx
+        mov     $0x0d, %ah              /* unlock, free */
+        lcall   *xms_entry
+        pop     %dx
+        mov     $0x0a, %ah
+        lcall   *xms_entry
+5:      add     $16, %si
+        cmp     $arenas_end, %si
+        jb      4b
+        mov     a20_mode, %al
+        dec     %al
+        jnz     6f
+        mov     $0x06, %ah              /* local A20 disable */
+        lcall   *xms_entry
+6:      dec     %al
+        jnz     7f
+        in      $0x92, %al
+        and     $0xfc, %al
+        out     %al, $0x92
+        xor     %al, %al
+7:      dec     %al
+        jnz     8f
+        mov     $0xdd, %ah
+        call    kbc_output
+8:      mov     psp_seg, %es
+        mov     env_seg, %ax
+        mov     %ax, %es:0x2c
+        sti
+        mov     exit_code, %al
+        mov     $0x4c, %ah
+        int     $0x21
+
+/* --- Real-mode handlers. --- */
+
+/* Critical error: the DOS call fails. */
+        .globl  rm_int24
+rm_int24:
+        mov     $3, %al
+        iret
+
+/* Ctrl-C: ends the program, unless it is one that ours has started. */
+rm_int23:
+        ljmp    *%cs:old_23
+
+/* Extended memory: none left. */
+rm_int15:
+        cmp     $0x88, %ah
+        je      1f
+        cmp     $0xe801, %ax
+        je      2f
+        ljmp    *%cs:old_15
+2:      xor     %bx, %bx
+        xor     %cx, %cx
+        xor     %dx, %dx
+1:      xor     %ax, %ax
+        push    %bp
+        mov     %sp, %bp
+        andb    $0xfe, 6(%bp)           /* carry clear */
+        pop     %bp
+        iret
+
+/* Save/restore state: nothing to do. */
+        .globl  rm_state
+rm_state:
+        lret
+
+msg_a20:        .ascii  "address line A20 cannot be switched on$"
+msg_no_memory:  .ascii  "no extended memory$"
+msg_v86:        .ascii  "a memory manager without VCPI is loaded: load a DPMI host too (CWSDPMI), or remove it$"
+
+        ASM_END

@@ -1,0 +1,476 @@
+/* The host's interrupts: what every gate of the IDT leads to.
+
+     0 to 7          processor exceptions
+     8 to 15         hardware interrupts 0 to 7 and processor exceptions, told apart by the error code
+     21h, 31h        DOS (for its exit function) and DPMI
+     70h to 77h      hardware interrupts 8 to 15
+     all others      reflected to RM
+
+   A software interrupt for which the client has set a handler (0205h) does not come here: its gate leads to
+   the handler itself.
+
+   The client runs in ring 3 with IOPL 3, the host in ring 0 with interrupts disabled throughout. So a gate
+   is always entered on a fresh ring 0 stack, whatever state the client's stack is in: DJGPP signals a
+   program by shrinking its data and stack segment, and a stack overflow must end in a message.
+
+   What the client has to call back to the host (default handlers, ends of handlers) is an address in a table
+   of HLT instructions. HLT is not allowed in ring 3; the fault's EIP says which service is meant. */
+
+#include "dpmi.h"
+
+        .section .host,"awx",@progbits
+        .code32
+
+/* Vector and error code (or a dummy) are on the stack. */
+        .macro  SAVE_FRAME
+        pushl   %gs
+        pushl   %fs
+        pushl   %es
+        pushl   %ds
+        pushal
+        movl    %esp, %ebp
+        movl    $HOST_DS, %edx
+        movw    %dx, %ds
+        movw    %dx, %es
+        cld
+        .endm
+
+/* Back to the client. A selector that has become invalid in the meantime (crt0 frees its own on the way
+   out) is replaced by 0: see host_fault. */
+        .globl  exit_frame
+exit_frame:
+        popal
+pop_ds: popl    %ds
+pop_es: popl    %es
+pop_fs: popl    %fs
+pop_gs: popl    %gs
+        addl    $8, %esp
+exit_iret:
+        iretl
+
+/* --- Software interrupts. Each entry: vector on the stack, pushed by its thunk. --- */
+        .globl  entry_int21, entry_soft
+entry_int21:
+        cmpb    $0x4c, %ah
+        je      1f
+entry_soft:
+        pushl   (%esp)
+        SAVE_FRAME
+        movzbl  F_VEC(%ebp), %eax
+        call    reflect
+        jmp     exit_frame
+1:      movw    $HOST_DS, %dx
+        movw    %dx, %ds
+        movw    %dx, %es
+        cld
+        jmp     host_exit               /* dpmiinit.S; AL = exit status */
+
+/* Interrupt EAX of the client at EBP in RM, with its GP registers and arithmetic flags both ways. */
+reflect:
+        pushl   %eax
+        call    frame_to_rmregs
+        movl    F_EFL(%ebp), %eax
+        movw    %ax, rmregs + R_FLAGS
+        movw    host_seg, %ax
+        movw    %ax, rmregs + R_DS
+        movw    %ax, rmregs + R_ES
+        movw    %ax, rmregs + R_FS
+        movw    %ax, rmregs + R_GS
+        movl    $0, rmregs + R_SP
+        popl    %eax
+        call    rm_int
+        call    rmregs_to_frame
+        movl    F_EFL(%ebp), %eax
+        andl    $~ARITH, %eax
+        movzwl  rmregs + R_FLAGS, %edx
+        andl    $ARITH, %edx
+        orl     %edx, %eax
+        movl    %eax, F_EFL(%ebp)
+        ret
+
+/* --- Hardware interrupts. --- */
+
+/* Vectors 8 to 15. From ring 3 without an error code, the stack is exactly vector and IRET frame. */
+        .globl  entry_low, entry_irq
+entry_low:
+        pushl   %eax
+        leal    28(%esp), %eax
+        cmpl    %eax, %ss:tss + 4
+        popl    %eax
+        jne     entry_exc_code
+entry_irq:
+        pushl   %eax
+        movzbl  4(%esp), %eax
+        cmpw    $USER_CS, %ss:pm_vec + 4(, %eax, 8)
+        popl    %eax
+        jne     irq_to_client
+        pushl   (%esp)
+        SAVE_FRAME
+        movzbl  F_VEC(%ebp), %eax
+        movw    $2, rmregs + R_FLAGS
+        movl    $0, rmregs + R_SP
+        call    rm_int
+        jmp     exit_frame
+
+/* To the client's handler, on the locked stack. What is interrupted stays on the ring 0 stack, which goes on
+   below it:  old ESP0, old lock_cur, IRET frame. */
+irq_to_client:
+        subl    $4, %esp
+        pushl   %eax
+        pushl   %edx
+        movl    %ss:lock_cur, %edx
+        cmpw    $LOCK_SS, 32(%esp)      /* already there: below what is in use */
+        jne     1f
+        movl    28(%esp), %edx
+1:      movzbl  12(%esp), %eax
+        pushl   %eax
+        movl    %ss:tss + 4, %eax
+        movl    %eax, 12(%esp)
+        movl    %ss:lock_cur, %eax
+        movl    %eax, 16(%esp)
+        leal    -LOCK_CHUNK(%edx), %eax
+        testl   %eax, %eax
+        js      fatal_nesting
+        movl    %eax, %ss:lock_cur
+        leal    12(%esp), %eax
+        movl    %eax, %ss:tss + 4
+        cmpl    $r0_stack + 512, %esp
+        jb      fatal_nesting
+        popl    %eax
+        movl    $HLT_IRQRET, %ss:lock_stack - 12(%edx)
+        movl    $USER_CS, %ss:lock_stack - 8(%edx)
+        movl    $IOPL3 | 2, %ss:lock_stack - 4(%edx)
+        subl    $12, %edx
+        pushl   $LOCK_SS
+        pushl   %edx
+        pushl   $IOPL3 | 2
+        movzwl  %ss:pm_vec + 4(, %eax, 8), %edx
+        pushl   %edx
+        pushl   %ss:pm_vec(, %eax, 8)
+        movl    20(%esp), %edx
+        movl    24(%esp), %eax
+        iretl
+
+/* --- HLTs. Vector, error code, IRET frame on the stack; F_EIP is the number. --- */
+hlt_trap:
+        cmpl    $HLT_IRQRET, 8(%esp)
+        jne     1f
+        movl    %ss:tss + 4, %esp
+        popl    %ss:tss + 4
+        popl    %ss:lock_cur
+        iretl
+1:      SAVE_FRAME
+        movl    F_EIP(%ebp), %eax
+        cmpl    $256, %eax
+        jae     2f
+
+/* Default handler of interrupt EAX, jumped to by a client's handler: reflect, then IRET from its stack. */
+        cmpl    $0x21, %eax
+        jne     3f
+        cmpb    $0x4c, F_EAX + 1(%ebp)
+        jne     3f
+        movzbl  F_EAX(%ebp), %eax
+        jmp     host_exit
+3:      call    reflect
+        call    client_stack
+        movl    %es:(%esi), %eax
+        movl    %eax, F_EIP(%ebp)
+        movl    %es:4(%esi), %eax
+        movl    %eax, F_CS(%ebp)
+        movl    %es:8(%esi), %eax
+        andl    $~ARITH, %eax
+        movl    F_EFL(%ebp), %edx
+        andl    $ARITH, %edx
+        orl     %edx, %eax
+        call    set_eflags
+        addl    $12, F_ESP(%ebp)
+        jmp     exit_frame
+
+2:      cmpl    $HLT_STATE, %eax
+        ja      crash
+        jmp     *hlt_table - 256 * 4(, %eax, 4)
+
+        .globl  hlt_state
+hlt_state:                              /* far return */
+        call    client_stack
+        movl    %es:(%esi), %eax
+        movl    %eax, F_EIP(%ebp)
+        movl    %es:4(%esi), %eax
+        movl    %eax, F_CS(%ebp)
+        addl    $8, F_ESP(%ebp)
+        jmp     exit_frame
+
+/* ES:ESI := the client's SS:ESP. EAX lost. */
+        .globl  client_stack
+client_stack:
+        movl    F_ESP(%ebp), %esi
+        movl    F_SS(%ebp), %eax
+        movw    %ax, %es
+        larl    %eax, %eax
+        testl   $0x400000, %eax         /* 16-bit stack? */
+        jnz     1f
+        movzwl  %si, %esi
+1:      ret
+
+/* F_EFL := EAX, as far as the client may say so. */
+set_eflags:
+        andl    $0x40fd5, %eax          /* AC, OF DF IF TF SF ZF AF PF CF */
+        orl     $IOPL3 | 2, %eax
+        movl    %eax, F_EFL(%ebp)
+        ret
+
+/* --- Processor exceptions. --- */
+        .globl  entry_exc, entry_exc_code
+entry_exc:                              /* no error code */
+        pushl   (%esp)
+        movl    $0, 4(%esp)
+entry_exc_code:
+        cmpw    $USER_CS, 12(%esp)
+        je      hlt_trap
+        testb   $3, 12(%esp)
+        jz      host_fault
+        SAVE_FRAME
+        movl    F_VEC(%ebp), %eax
+        cmpl    $2, %eax                /* NMI: the BIOS knows */
+        jne     1f
+        call    reflect
+        jmp     exit_frame
+1:      movzwl  exc_vec + 4(, %eax, 8), %ebx
+        testl   %ebx, %ebx
+        jz      2f
+
+/* To the client's handler (0203h) on the locked stack. Frame, upwards: return address (HLT_EXCRET), error
+   code, EIP, CS, EFLAGS, ESP, SS. All state is in that frame: the handler may never return. */
+        movl    exc_vec(, %eax, 8), %ecx
+        movl    lock_cur, %edx
+        cmpw    $LOCK_SS, F_SS(%ebp)
+        jne     4f
+        movl    F_ESP(%ebp), %edx
+        cmpl    $LOCK_STACK, %edx
+        ja      crash
+        cmpl    $128, %edx              /* a handler that faults over and over */
+        jb      crash
+4:      leal    lock_stack - 32(%edx), %edi
+        leal    F_ERR(%ebp), %esi
+        pushl   %ecx
+        movl    $HLT_EXCRET, %eax
+        stosl
+        movl    $USER_CS, %eax
+        stosl
+        movl    $6, %ecx
+        rep movsl
+        popl    F_EIP(%ebp)
+        movl    %ebx, F_CS(%ebp)
+        subl    $32, %edx
+        movl    %edx, F_ESP(%ebp)
+        movl    $LOCK_SS, F_SS(%ebp)
+        andl    $~(IF_BIT | 0x100), F_EFL(%ebp)
+        jmp     exit_frame
+
+/* No exception handler: 0 to 5 and 7 go to the interrupt's handler if there is one. */
+2:      cmpl    $8, %eax
+        jae     crash
+        movzwl  pm_vec + 4(, %eax, 8), %ebx
+        cmpl    $USER_CS, %ebx
+        je      crash
+        movl    pm_vec(, %eax, 8), %ecx
+        call    client_stack
+        movl    F_EFL(%ebp), %eax
+        movl    %eax, %es:-4(%esi)
+        movl    F_CS(%ebp), %eax
+        movl    %eax, %es:-8(%esi)
+        movl    F_EIP(%ebp), %eax
+        movl    %eax, %es:-12(%esi)
+        movl    %ecx, F_EIP(%ebp)
+        movl    %ebx, F_CS(%ebp)
+        subl    $12, F_ESP(%ebp)
+        andl    $~(IF_BIT | 0x100), F_EFL(%ebp)
+        jmp     exit_frame
+
+/* The exception handler's far return ran into HLT_EXCRET; the rest of the frame is on its stack. */
+        .globl  hlt_excret
+hlt_excret:
+        call    client_stack
+        movl    %es:4(%esi), %eax
+        movl    %eax, F_EIP(%ebp)
+        movl    %es:8(%esi), %eax
+        movl    %eax, F_CS(%ebp)
+        movl    %es:12(%esi), %eax
+        call    set_eflags
+        movl    %es:16(%esi), %eax
+        movl    %eax, F_ESP(%ebp)
+        movl    %es:20(%esi), %eax
+        movl    %eax, F_SS(%ebp)
+        jmp     exit_frame
+
+/* A fault in the host: vector, error code, EIP, CS, EFLAGS on the stack, then what was there. Expected only
+   in exit_frame. Otherwise the client handed us something unusable; its frame is on top of the ring 0 stack. */
+host_fault:
+        cmpl    $2, (%esp)              /* NMI */
+        je      3f
+        cmpl    $pop_ds, 8(%esp)
+        jb      1f
+        cmpl    $pop_gs, 8(%esp)
+        ja      1f
+        movl    $0, 20(%esp)            /* the selector about to be popped */
+3:      addl    $8, %esp
+        iretl
+1:      movw    $HOST_DS, %dx
+        movw    %dx, %ds
+        movw    %dx, %es
+        movl    tss + 4, %ebp
+        subl    $F_SIZE, %ebp
+        movl    (%esp), %eax
+        movl    %eax, F_VEC(%ebp)
+        movl    4(%esp), %eax
+        movl    %eax, F_ERR(%ebp)
+        cld
+
+/* --- The end: print the frame at EBP as DJGPP programs do, restore text mode, exit with status 255. --- */
+        .globl  crash
+crash:
+        movl    tss + 4, %esp           /* keep the frame, forget what was above it */
+        subl    $F_SIZE, %esp
+        cmpl    %esp, %ebp
+        jae     1f
+        movl    %ebp, %esp
+1:      movl    $text, %edi
+        movl    F_VEC(%ebp), %eax
+        cmpl    $17, %eax
+        ja      2f
+        movl    exc_names(, %eax, 4), %esi
+        call    put_text
+        jmp     3f
+2:      movl    $msg_exception, %esi
+        call    put_text
+        call    put_hex2
+3:      movl    $crash_lines, %ebx
+4:      movzbl  (%ebx), %ecx            /* offset in the frame */
+        cmpb    $0xff, %cl
+        je      6f
+        leal    1(%ebx), %esi
+        call    put_text
+        movl    %esi, %ebx
+        testb   $0x80, %cl              /* a selector: four digits */
+        jnz     5f
+        movl    (%ebp, %ecx), %eax
+        call    put_hex8
+        jmp     4b
+5:      andl    $0x7f, %ecx
+        movl    (%ebp, %ecx), %eax
+        call    put_selector
+        jmp     4b
+6:      movl    $text, %edx
+        subl    %edx, %edi
+        jmp     crash_exit
+
+/* Too many interrupts or calls inside one another. */
+        .globl  fatal_nesting
+fatal_nesting:
+        movw    $HOST_DS, %dx
+        movw    %dx, %ds
+        movw    %dx, %es
+        cld
+        movl    $msg_nesting, %esi
+        movl    $text, %edi
+        call    put_text
+        movl    $text, %edx
+        subl    %edx, %edi
+        movl    $r0_stack_top, tss + 4
+        movl    tss + 4, %esp
+
+/* EDI bytes at text to standard error; machine as found; exit. */
+crash_exit:
+        pushl   %edi
+        movl    $rm_stack_top - 64, %eax /* whatever was nested is over */
+        movw    %ax, rm_stack_cur
+        movw    $FLAT_DS, %ax
+        movw    %ax, %fs
+        movb    %fs:0x449, %al          /* video mode */
+        cmpb    $3, %al
+        jbe     1f
+        cmpb    $7, %al
+        je      1f
+        movl    $3, rmregs + R_EAX
+        movl    $0, rmregs + R_SP
+        movl    $0x10, %eax
+        call    rm_int
+1:      movb    $0x36, %al              /* clock: 18.2 Hz */
+        outb    %al, $0x43
+        xorl    %eax, %eax
+        outb    %al, $0x40
+        outb    %al, $0x40
+        movb    pic_masks, %al
+        outb    %al, $0x21
+        movb    pic_masks + 1, %al
+        outb    %al, $0xa1
+        movl    $0x4000, rmregs + R_EAX
+        movl    $2, rmregs + R_EBX
+        movl    $text, rmregs + R_EDX
+        popl    rmregs + R_ECX
+        call    dos_call
+        movb    $0xff, %al
+        jmp     host_exit
+
+/* ESI: text, NUL at its end; to EDI. ESI behind the NUL. */
+put_text:
+        lodsb
+        testb   %al, %al
+        jz      1f
+        stosb
+        jmp     put_text
+1:      ret
+
+/* EAX in hexadecimal to EDI. ECX kept. */
+put_hex2:
+        shll    $24, %eax
+        movb    $2, %dl
+        jmp     1f
+put_hex4:
+        shll    $16, %eax
+        movb    $4, %dl
+        jmp     1f
+put_hex8:
+        movb    $8, %dl
+1:      roll    $4, %eax
+        pushl   %eax
+        andb    $15, %al
+        cmpb    $10, %al
+        jb      2f
+        addb    $'a' - '0' - 10, %al
+2:      addb    $'0', %al
+        stosb
+        popl    %eax
+        decb    %dl
+        jnz     1b
+        ret
+
+/* Selector EAX, base and limit. */
+put_selector:
+        pushl   %ebx
+        pushl   %eax
+        call    put_hex4
+        popl    %ebx
+        movzwl  %bx, %ebx
+        pushl   %edi
+        call    ldt_entry
+        movl    %edi, %ecx
+        popl    %edi
+        jc      1f
+        pushl   %ebx
+        movl    $msg_base, %esi
+        call    put_text
+        movl    2(%ecx), %eax
+        shll    $8, %eax
+        movb    7(%ecx), %al
+        rorl    $8, %eax
+        call    put_hex8
+        movl    $msg_limit, %esi
+        call    put_text
+        popl    %ebx
+        lsll    %ebx, %eax
+        call    put_hex8
+1:      popl    %ebx
+        ret
+
+        ASM_END

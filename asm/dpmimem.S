@@ -1,0 +1,447 @@
+/* The host's memory: int 31h AH=05h and 08h.
+
+   The client's blocks lie in at most ARENAS pieces of extended memory. An arena is
+
+     .base .size .handle .flags      16 bytes; handle: XMS handle + 1, or 0 for memory that is not XMS's
+
+   With XMS an arena is allocated when no present one has room, so that what the program does not use stays
+   free for the programs it starts; an arena without blocks goes back at once. Without XMS there is one arena
+   from the start: what the BIOS reports, or under VCPI the pages that the server can give.
+
+   A block is .base, .size (both multiples of 4 KB, size 0 = unused entry); its base is its DPMI handle. */
+
+#include "dpmi.h"
+
+#define A_BASE      0
+#define A_SIZE      4
+#define A_HANDLE    8
+#define ARENA_MIN   0x100000            /* ask XMS for 1 MB at least */
+
+        .section .host,"awx",@progbits
+        .code32
+
+/* XMS function: EAX = AX, EDX. Out: EAX, EBX, EDX of the driver, in rmregs as well. */
+xms_call:
+        movl    %eax, rmregs + R_EAX
+        movl    %edx, rmregs + R_EDX
+        movl    $0, rmregs + R_EBX
+        movw    $2, rmregs + R_FLAGS
+        movl    $0, rmregs + R_SP
+        movl    xms_entry, %eax
+        xorl    %ebx, %ebx
+        xorl    %ecx, %ecx
+        call    rm_call
+        movl    rmregs + R_EAX, %eax
+        movl    rmregs + R_EBX, %ebx
+        movl    rmregs + R_EDX, %edx
+        ret
+
+/* EAX := bytes that one more arena could have, multiple of 4 KB; 0 if none. All but EBP lost. */
+arena_possible:
+        cmpl    $0, xms_entry
+        je      3f
+        movl    $arenas, %edi
+1:      cmpl    $0, A_SIZE(%edi)
+        je      2f
+        addl    $16, %edi
+        cmpl    $arenas_end, %edi
+        jb      1b
+        jmp     3f
+2:      movzbl  xms_super, %eax         /* 80h with XMS 3 */
+        addb    $8, %al
+        shll    $8, %eax
+        xorl    %edx, %edx
+        call    xms_call
+        cmpb    $0, xms_super
+        jne     4f
+        movzwl  %ax, %eax
+4:      cmpl    $0x3ffffc, %eax
+        jb      5f
+        movl    $0x3ffffc, %eax
+5:      subl    $3, %eax                /* to have 4 KB boundaries whatever we get */
+        jbe     3f
+        shll    $10, %eax
+        andl    $~0xfff, %eax
+        ret
+3:      xorl    %eax, %eax
+        ret
+
+/* A new arena of ECX bytes at least. Carry if there is none. EDI = arena. All but EBP lost. */
+arena_new:
+        pushl   %ecx
+        call    arena_possible
+        popl    %ecx
+        cmpl    %eax, %ecx
+        ja      8f                      /* above: no carry, see there */
+        cmpl    $ARENA_MIN, %ecx        /* not too small: handles are few */
+        jae     1f
+        movl    $ARENA_MIN, %ecx
+        cmpl    %eax, %ecx
+        jbe     1f
+        movl    %eax, %ecx
+1:      movl    $arenas, %edi
+2:      cmpl    $0, A_SIZE(%edi)
+        je      3f
+        addl    $16, %edi
+        jmp     2b
+3:      pushl   %edi
+        pushl   %ecx
+        movl    %ecx, %edx
+        shrl    $10, %edx
+        addl    $3, %edx
+        movzbl  xms_super, %eax
+        addb    $9, %al
+        shll    $8, %eax                /* allocate: DX or EDX = KB */
+        call    xms_call
+        cmpw    $1, %ax
+        jne     7f
+        movzwl  %dx, %esi
+        pushl   %esi
+        movl    $0x0c00, %eax           /* lock: DX:BX = physical address */
+        movl    %esi, %edx
+        call    xms_call
+        popl    %esi
+        cmpw    $1, %ax
+        jne     6f
+        shll    $16, %edx
+        movw    %bx, %dx
+        addl    $0xfff, %edx
+        andl    $~0xfff, %edx
+        popl    %ecx
+        popl    %edi
+        incl    %esi
+        movl    %edx, A_BASE(%edi)
+        movl    %ecx, A_SIZE(%edi)
+        movl    %esi, A_HANDLE(%edi)
+        clc
+        ret
+6:      movl    $0x0a00, %eax
+        movl    %esi, %edx
+        call    xms_call
+7:      popl    %ecx
+        popl    %edi
+8:      stc
+        ret
+
+/* Give arena EDI back if it is XMS's and no block lies in it. All but EBP lost. */
+arena_release:
+        cmpl    $0, A_HANDLE(%edi)
+        je      3f
+        movl    A_BASE(%edi), %edx
+        movl    $blocks, %esi
+1:      cmpl    $0, 4(%esi)
+        je      2f
+        movl    (%esi), %eax
+        subl    %edx, %eax
+        cmpl    A_SIZE(%edi), %eax
+        jb      3f
+2:      addl    $8, %esi
+        cmpl    $blocks_end, %esi
+        jb      1b
+        movl    A_HANDLE(%edi), %edx
+        movl    $0, A_SIZE(%edi)
+        movl    $0, A_HANDLE(%edi)
+        decl    %edx
+        pushl   %edx
+        movl    $0x0d00, %eax           /* unlock */
+        call    xms_call
+        popl    %edx
+        movl    $0x0a00, %eax           /* free */
+        call    xms_call
+3:      ret
+
+/* First block that overlaps ECX bytes from EDX: ESI, carry; no carry if there is none. EAX lost. The entry
+   at EBX is left out. */
+overlap:
+        movl    $blocks, %esi
+1:      movl    4(%esi), %eax
+        testl   %eax, %eax
+        jz      2f
+        cmpl    %ebx, %esi
+        je      2f
+        addl    (%esi), %eax
+        cmpl    %eax, %edx              /* behind its end? */
+        jae     2f
+        movl    %edx, %eax
+        addl    %ecx, %eax
+        cmpl    (%esi), %eax            /* before its start? */
+        ja      3f
+2:      addl    $8, %esi
+        cmpl    $blocks_end, %esi
+        jb      1b
+        clc
+        ret
+3:      stc
+        ret
+
+/* EDX := start of ECX free bytes in arena EDI. Carry if there are none. EAX, EBX, ESI lost. */
+arena_fit:
+        movl    A_BASE(%edi), %edx
+        xorl    %ebx, %ebx
+1:      movl    A_BASE(%edi), %eax
+        addl    A_SIZE(%edi), %eax
+        subl    %edx, %eax              /* what is left */
+        cmpl    %ecx, %eax
+        jb      2f
+        call    overlap
+        jnc     2f
+        movl    (%esi), %edx
+        addl    4(%esi), %edx
+        jmp     1b
+2:      ret
+
+/* Allocate ECX bytes (a multiple of 4 KB, not 0): EDX = base, EDI = entry. Or carry and AX = error. */
+mem_alloc:
+        movl    $arenas, %edi
+1:      cmpl    %ecx, A_SIZE(%edi)
+        jb      2f
+        call    arena_fit
+        jnc     4f
+2:      addl    $16, %edi
+        cmpl    $arenas_end, %edi
+        jb      1b
+        pushl   %ecx
+        call    arena_new
+        popl    %ecx
+        movl    A_BASE(%edi), %edx
+        jnc     4f
+        movw    $E_NO_PHYSICAL, %ax
+        ret
+4:      movl    $blocks, %edi
+5:      cmpl    $0, 4(%edi)
+        je      6f
+        addl    $8, %edi
+        cmpl    $blocks_end, %edi
+        jb      5b
+        movw    $E_NO_HANDLE, %ax
+        stc
+        ret
+6:      call    mem_commit
+        jc      7f
+        movl    %edx, (%edi)
+        movl    %ecx, 4(%edi)
+7:      ret
+
+/* Under VCPI memory is mapped page by page; elsewhere it is just there. ECX bytes from EDX, all registers
+   but EAX kept. */
+mem_commit:
+        clc
+        ret
+
+/* Free the block at EDI. All but EBP lost. */
+mem_free:
+        movl    $0, 4(%edi)
+        movl    $arenas, %edi
+1:      cmpl    $0, A_SIZE(%edi)
+        je      2f
+        pushl   %edi
+        call    arena_release
+        popl    %edi
+2:      addl    $16, %edi
+        cmpl    $arenas_end, %edi
+        jb      1b
+        ret
+
+/* EDI := entry of the block with the client's handle SI:DI. Carry and AX = 8023h if there is none. */
+block_entry:
+        movzwl  F_ESI(%ebp), %eax
+        shll    $16, %eax
+        movw    F_EDI(%ebp), %ax
+        movl    $blocks, %edi
+1:      cmpl    $0, 4(%edi)
+        je      2f
+        cmpl    %eax, (%edi)
+        je      3f
+2:      addl    $8, %edi
+        cmpl    $blocks_end, %edi
+        jb      1b
+        movw    $E_HANDLE, %ax
+        stc
+3:      ret
+
+/* ECX := BX:CX in whole pages. Carry and AX = 8021h for 0 and for sizes near 4 GB. */
+block_size:
+        shll    $16, %ebx
+        movw    %cx, %bx
+        movl    %ebx, %ecx
+        testl   %ecx, %ecx
+        jz      1f
+        addl    $0xfff, %ecx
+        jc      1f
+        andl    $~0xfff, %ecx
+        ret
+1:      movw    $E_VALUE, %ax
+        stc
+        ret
+
+/* The block EDX, ECX for the client: BX:CX = address, SI:DI = handle. */
+block_result:
+        movw    %dx, F_ECX(%ebp)
+        movw    %dx, F_EDI(%ebp)
+        shrl    $16, %edx
+        movw    %dx, F_EBX(%ebp)
+        movw    %dx, F_ESI(%ebp)
+        clc
+        ret
+
+/* 0500h  free memory.  In: ES:EDI = 30h bytes.  Out: there, -1 where not known. All pages are physical ones,
+   unlocked or not, and there is no swap file. */
+        .globl  svc_0500
+svc_0500:
+        call    arena_possible
+        pushl   %eax                    /* total free */
+        pushl   %eax                    /* largest piece */
+        pushl   $0                      /* size of all arenas */
+        movl    $arenas, %edi
+1:      movl    A_SIZE(%edi), %eax
+        addl    %eax, (%esp)
+        movl    A_BASE(%edi), %edx      /* walk through its gaps */
+2:      movl    A_BASE(%edi), %ecx
+        addl    A_SIZE(%edi), %ecx      /* next block's start above EDX, or the end */
+        cmpl    %ecx, %edx
+        jae     6f
+        movl    $blocks, %esi
+3:      cmpl    $0, 4(%esi)
+        je      4f
+        cmpl    (%esi), %edx
+        je      5f
+        ja      4f
+        cmpl    (%esi), %ecx
+        jbe     4f
+        movl    (%esi), %ecx
+4:      addl    $8, %esi
+        cmpl    $blocks_end, %esi
+        jb      3b
+        movl    %ecx, %eax              /* a gap from EDX to ECX */
+        subl    %edx, %eax
+        addl    %eax, 8(%esp)
+        cmpl    4(%esp), %eax
+        jbe     7f
+        movl    %eax, 4(%esp)
+7:      movl    %ecx, %edx
+        jmp     2b
+5:      addl    4(%esi), %edx           /* a block starts here */
+        jmp     2b
+6:      addl    $16, %edi
+        cmpl    $arenas_end, %edi
+        jb      1b
+        movw    F_ES(%ebp), %es
+        movl    F_EDI(%ebp), %edi
+        movl    $12, %ecx
+        movl    $-1, %eax
+        pushl   %edi
+        rep stosl
+        popl    %edi
+        popl    %ecx                    /* arenas */
+        popl    %edx                    /* largest */
+        popl    %eax                    /* free */
+        movl    %edx, %es:(%edi)        /* 00h largest block in bytes */
+        shrl    $12, %edx
+        movl    %edx, %es:4(%edi)       /* 04h largest unlocked, 08h largest lockable, in pages */
+        movl    %edx, %es:8(%edi)
+        shrl    $12, %eax
+        movl    %eax, %es:0x10(%edi)    /* 10h unlocked pages, 14h free pages */
+        movl    %eax, %es:0x14(%edi)
+        movl    %eax, %es:0x1c(%edi)    /* 1Ch free linear space in pages */
+        cmpl    $0, xms_entry
+        je      8f
+        shrl    $12, %ecx
+        addl    %eax, %ecx
+        jmp     9f
+8:      shrl    $12, %ecx
+9:      movl    %ecx, %es:0x0c(%edi)    /* 0Ch linear space, 18h physical pages */
+        movl    %ecx, %es:0x18(%edi)
+        movl    $0, %es:0x20(%edi)      /* 20h size of the swap file */
+        clc
+        ret
+
+/* 0501h  allocate.  In: BX:CX = bytes.  Out: BX:CX = linear address, SI:DI = handle. */
+        .globl  svc_0501
+svc_0501:
+        call    block_size
+        jc      1f
+        call    mem_alloc
+        jc      1f
+        jmp     block_result
+1:      ret
+
+/* 0502h  free.  In: SI:DI = handle. */
+        .globl  svc_0502
+svc_0502:
+        call    block_entry
+        jc      1f
+        call    mem_free
+        clc
+1:      ret
+
+/* 0503h  resize.  In: BX:CX = bytes, SI:DI = handle.  Out: as 0501h; the contents move along. */
+        .globl  svc_0503
+svc_0503:
+        call    block_size
+        jc      9f
+        call    block_entry
+        jc      9f
+        movl    (%edi), %edx
+        cmpl    4(%edi), %ecx
+        jbe     3f                      /* smaller: stays */
+        movl    %edi, %ebx              /* larger: is there room behind it, in the same arena? */
+        movl    $arenas, %esi
+1:      movl    %edx, %eax
+        subl    A_BASE(%esi), %eax
+        cmpl    A_SIZE(%esi), %eax
+        jb      2f
+        addl    $16, %esi
+        jmp     1b
+2:      addl    %ecx, %eax
+        jc      4f
+        cmpl    A_SIZE(%esi), %eax
+        ja      4f
+        call    overlap
+        jc      4f
+3:      movl    %ecx, 4(%edi)
+        jmp     block_result
+4:      pushl   %ebx                    /* no: a new one */
+        call    mem_alloc
+        popl    %ebx
+        jc      9f
+        pushl   %edx
+        movl    %edx, %edi
+        movl    (%ebx), %esi
+        movl    4(%ebx), %ecx
+        shrl    $2, %ecx
+        movw    $FLAT_DS, %ax
+        movw    %ax, %ds
+        movw    %ax, %es
+        rep movsl
+        pushl   %ss
+        popl    %ds
+        pushl   %ss
+        popl    %es
+        movl    %ebx, %edi
+        call    mem_free
+        popl    %edx
+        jmp     block_result
+9:      ret
+
+/* 0800h  map physical memory.  In: BX:CX = physical address, SI:DI = bytes.  Out: BX:CX = linear address.
+   Without paging they are the same. */
+        .globl  svc_0800
+svc_0800:
+        shll    $16, %ebx
+        movw    %cx, %bx
+        cmpl    $0x100000, %ebx
+        jb      1f
+        movzwl  F_ESI(%ebp), %eax
+        shll    $16, %eax
+        movw    F_EDI(%ebp), %ax
+        testl   %eax, %eax
+        jz      1f
+        decl    %eax
+        addl    %ebx, %eax
+        jc      1f
+        ret
+1:      movw    $E_VALUE, %ax
+        stc
+        ret
+
+        ASM_END
