@@ -51,9 +51,9 @@ struct Look {
 
 // The report's tolerances. It names them and gives no figure; these are ours.
 namespace printed {
-constexpr Real LOCATION_TOLERANCE(0.0002);  // of the field: "desired accuracy"
-constexpr int ITERATION_LIMIT = 16;
-constexpr Real BACK_FACE(-0.5);             // cosine of path and direction to the viewer, below which a seed is skipped
+constexpr Real LOCATION_TOLERANCE(0.00004);  // of the field: "desired accuracy"
+constexpr int ITERATION_LIMIT = 32;
+constexpr Real BACK_FACE(-0.43);             // cosine of path and direction to the viewer, below which a seed is skipped
 constexpr Real DISPLACEMENT(0.001);         // of the position: less is taken as not moved
 constexpr Real DEFORMITY(0.01);             // of the position: less, and the normal is the path
 constexpr Real OVERSHOOT(0.05);             // of the field: by how much a neighbour may be stronger
