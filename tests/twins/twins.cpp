@@ -1,0 +1,340 @@
+// Assembly against C++: each routine of asm/blit.S and its twin in src/blit.cpp get the same input, and all they may
+// touch must come out the same, with guard bytes round every buffer. A new assembly routine gets its part here before
+// anything else uses it.
+//
+//   twins [SEED [ROUNDS]]     rounds of random scales and spans, after the cases that are always tried
+//
+// Prints what differs, how much was tried, and "N passed, N failed".
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "blit.h"
+
+namespace {
+
+constexpr int WIDE = machine::WIDTH;
+constexpr int HIGH = machine::HEIGHT;
+constexpr int PIXELS = WIDE * HIGH;
+constexpr int GUARD = 2048;
+
+// A run of xorshift: the same on every machine for the same seed.
+uint32_t state;
+uint32_t any()
+{
+    state ^= state << 13;
+    state ^= state >> 17;
+    state ^= state << 5;
+    return state;
+}
+int below(int n) { return static_cast<int>(any() % static_cast<uint32_t>(n)); }
+
+// A buffer between two guards.
+template <class T, int COUNT>
+struct Guarded {
+    T before[GUARD];
+    T data[COUNT];
+    T after[GUARD];
+};
+
+struct Screen {
+    Guarded<uint8_t, PIXELS> frame;
+    Guarded<uint16_t, PIXELS> depth;
+};
+
+// `misplaced` shifts the whole buffers in memory, so that every alignment is met.
+constexpr int SHIFTS = 16;
+struct Room {
+    alignas(64) uint8_t bytes[sizeof(Screen) + SHIFTS];
+    Screen& at(int shift) { return *reinterpret_cast<Screen*>(bytes + shift); }
+};
+Room roomC, roomA;
+
+long passed = 0, failed = 0;
+long scalesTried = 0, pixelsTried = 0, spansTried = 0;
+
+void verdict(bool good, const char* name, long detail)
+{
+    if (good) {
+        ++passed;
+        return;
+    }
+    if (++failed <= 20)
+        printf("FAIL %s (%ld)\n", name, detail);
+}
+
+void fill(void* to, size_t bytes)
+{
+    uint8_t* byte = static_cast<uint8_t*>(to);
+    for (size_t i = 0; i < bytes; ++i)
+        byte[i] = static_cast<uint8_t>(any());
+}
+
+// The same contents for both.
+void prepare(int shift, bool empty)
+{
+    Screen& c = roomC.at(shift);
+    fill(&c, sizeof c);
+    if (empty)
+        memset(c.depth.data, 0xff, sizeof c.depth.data);
+    memcpy(&roomA.at(shift), &c, sizeof c);
+}
+
+bool same(int shift) { return memcmp(&roomC.at(shift), &roomA.at(shift), sizeof(Screen)) == 0; }
+
+void blitBoth(int shift, const Scale* scales, int count)
+{
+    // The list itself stands between guards too, and may not be changed.
+    static Scale kept[4096];
+    memcpy(kept, scales, sizeof(Scale) * static_cast<size_t>(count));
+    Screen& c = roomC.at(shift);
+    Screen& a = roomA.at(shift);
+    blitScalesC(c.frame.data, c.depth.data, scales, count);
+    blitScalesA(a.frame.data, a.depth.data, scales, count);
+    verdict(memcmp(kept, scales, sizeof(Scale) * static_cast<size_t>(count)) == 0, "the list of scales is left alone",
+            count);
+    scalesTried += count;
+    for (int i = 0; i < count; ++i)
+        pixelsTried += scales[i].wide * scales[i].high;
+}
+
+Scale scale(int left, int top, int wide, int high, int z, int colour)
+{
+    Scale s;
+    s.left = static_cast<int16_t>(left);
+    s.top = static_cast<int16_t>(top);
+    s.wide = static_cast<int16_t>(wide);
+    s.high = static_cast<int16_t>(high);
+    s.z = static_cast<uint16_t>(z);
+    s.colour = static_cast<uint8_t>(colour);
+    s.unused = static_cast<uint8_t>(any());
+    return s;
+}
+
+// A depth worth trying: anything, the ends, or a few values so that equal ones meet.
+int depth()
+{
+    static const int ENDS[] = {0, 1, 0x7fff, 0x8000, 0x8001, 0xfffe, 0xffff};
+    switch (below(4)) {
+    case 0: return ENDS[below(7)];
+    case 1: return 0x7ffc + below(8);
+    default: return static_cast<int>(any() & 0xffff);
+    }
+}
+
+// A scale of a size, clipped at the edges of the screen as the view clips it; at least one pixel is left.
+Scale clipped(int wide, int high)
+{
+    int left = below(WIDE + wide - 1) - wide + 1, top = below(HIGH + high - 1) - high + 1;
+    if (below(3) == 0)
+        left = below(2) ? -below(wide) : WIDE - 1 - below(wide);
+    if (below(3) == 0)
+        top = below(2) ? -below(high) : HIGH - 1 - below(high);
+    int right = left + wide, bottom = top + high;
+    left = left < 0 ? 0 : left;
+    top = top < 0 ? 0 : top;
+    right = right > WIDE ? WIDE : right;
+    bottom = bottom > HIGH ? HIGH : bottom;
+    return scale(left, top, right - left, bottom - top, depth(), below(256));
+}
+
+// Every size up to 64x64 at every alignment, alone on a random screen; checked against what the rule says, too, pixel
+// by pixel: two twins with the same fault would agree.
+void everySize()
+{
+    long wrong = 0;
+    for (int wide = 1; wide <= 64; ++wide) {
+        prepare(below(SHIFTS), false);
+        for (int high = 1; high <= 64; ++high) {
+            for (int align = 0; align < 4; ++align) {
+                const int shift = 0;
+                Screen& c = roomC.at(shift);
+                Screen& a = roomA.at(shift);
+                const Scale s = scale(4 * below((WIDE - 64) / 4) + align, below(HIGH - 63), wide, high, depth(), below(256));
+                // Only the part round it is refreshed and compared: the whole is compared once for each width.
+                for (int y = s.top; y < s.top + high; ++y)
+                    for (int x = s.left; x < s.left + wide; ++x) {
+                        const int at = y * WIDE + x;
+                        c.frame.data[at] = a.frame.data[at] = static_cast<uint8_t>(any());
+                        c.depth.data[at] = a.depth.data[at] =
+                            static_cast<uint16_t>(below(3) == 0 ? s.z + below(3) - 1 : static_cast<int>(any()));
+                    }
+                static uint8_t frameBefore[PIXELS];
+                static uint16_t depthBefore[PIXELS];
+                for (int y = s.top; y < s.top + high; ++y) {
+                    const int at = y * WIDE + s.left;
+                    memcpy(frameBefore + at, c.frame.data + at, static_cast<size_t>(wide));
+                    memcpy(depthBefore + at, c.depth.data + at, static_cast<size_t>(wide) * 2);
+                }
+                blitBoth(shift, &s, 1);
+                for (int y = s.top; y < s.top + high; ++y)
+                    for (int x = s.left; x < s.left + wide; ++x) {
+                        const int at = y * WIDE + x;
+                        const bool taken = s.z < depthBefore[at];
+                        const int colour = taken ? s.colour : frameBefore[at];
+                        const int z = taken ? s.z : depthBefore[at];
+                        wrong += c.frame.data[at] != colour || c.depth.data[at] != z || a.frame.data[at] != colour ||
+                                 a.depth.data[at] != z;
+                    }
+            }
+        }
+        verdict(memcmp(&roomC.at(0), &roomA.at(0), sizeof(Screen)) == 0, "every height and alignment, width", wide);
+    }
+    verdict(wrong == 0, "nearer pixels are taken, others stay", wrong);
+}
+
+// Wide and high ones up to the whole screen.
+void largeOnes()
+{
+    for (int i = 0; i < 200; ++i) {
+        prepare(0, i & 1);
+        const int wide = 1 + below(WIDE), high = 1 + below(HIGH);
+        const Scale s = i == 0 ? scale(0, 0, WIDE, HIGH, 5, 7)
+                               : scale(below(WIDE - wide + 1), below(HIGH - high + 1), wide, high, depth(), below(256));
+        blitBoth(0, &s, 1);
+        verdict(same(0), "large scales", i);
+    }
+}
+
+// The corners and edges, one pixel and more.
+void edges()
+{
+    for (int wide = 1; wide <= 64; ++wide) {
+        prepare(wide % SHIFTS, true);
+        Scale list[8];
+        const int high = 1 + below(64);
+        list[0] = scale(0, 0, wide, high, 10, 1);
+        list[1] = scale(WIDE - wide, 0, wide, high, 10, 2);
+        list[2] = scale(0, HIGH - high, wide, high, 10, 3);
+        list[3] = scale(WIDE - wide, HIGH - high, wide, high, 10, 4);
+        list[4] = scale(0, 80, wide, high, 0xffff, 5);
+        list[5] = scale(WIDE - wide, 80, wide, high, 0xfffe, 6);
+        list[6] = scale(100, 0, wide, high, 0, 7);
+        list[7] = scale(100, HIGH - high, wide, high, 0x8000, 8);
+        blitBoth(wide % SHIFTS, list, 8);
+        verdict(same(wide % SHIFTS), "edges and corners, width", wide);
+    }
+    prepare(0, false);
+    Scale none = scale(1, 1, 1, 1, 0, 0);
+    blitScalesA(roomA.at(0).frame.data, roomA.at(0).depth.data, &none, 0);
+    verdict(same(0), "an empty list", 0);
+}
+
+void equalDepths()
+{
+    // "The first of two at equal depth stays."
+    prepare(0, true);
+    const Scale two[2] = {scale(10, 10, 9, 7, 500, 1), scale(12, 12, 9, 7, 500, 2)};
+    blitBoth(0, two, 2);
+    verdict(same(0), "equal depths", 0);
+    const uint8_t* frame = roomA.at(0).frame.data;
+    verdict(frame[13 * WIDE + 13] == 1 && frame[18 * WIDE + 20] == 2, "the first of two at equal depth stays", 0);
+}
+
+void randomLists(int rounds)
+{
+    static Scale list[4096];
+    for (int round = 0; round < rounds; ++round) {
+        const int shift = below(SHIFTS);
+        prepare(shift, below(2) == 0);
+        const int count = 1 + below(below(4) == 0 ? 1500 : 100);
+        for (int i = 0; i < count; ++i)
+            list[i] = below(2) ? clipped(1 + below(64), 1 + below(64)) : clipped(1 + below(12), 1 + below(12));
+        blitBoth(shift, list, count);
+        verdict(same(shift), "random lists, round", round);
+    }
+}
+
+// Spans of any kind: none, everything, short ones at the ends.
+void spans(Span* rows)
+{
+    for (int y = 0; y < HIGH; ++y) {
+        int from = 4 * below(WIDE / 4 + 1), to = 4 * below(WIDE / 4 + 1);
+        switch (below(8)) {
+        case 0: from = WIDE, to = 0; break;
+        case 1: from = 0, to = WIDE; break;
+        case 2: to = from; break;
+        case 3: from = 0, to = 4; break;
+        case 4: from = WIDE - 4, to = WIDE; break;
+        default: break;
+        }
+        rows[y].from = static_cast<int16_t>(from);
+        rows[y].to = static_cast<int16_t>(to);
+    }
+}
+
+// The selector that the program's data are reached by: the assembly is given one for video memory.
+uint32_t dataSelector()
+{
+    uint32_t selector;
+    asm("movl %%ds, %0" : "=r"(selector));
+    return selector & 0xffff;
+}
+
+void clearsAndCopies(int rounds)
+{
+    static Span rows[HIGH];
+    for (int round = 0; round < rounds; ++round) {
+        // Frames are at least aligned to words in the program; here to anything.
+        const int shift = below(SHIFTS);
+        const int count = round % 5 == 0 ? below(HIGH + 1) : HIGH;
+        spans(rows);
+        Span kept[HIGH];
+        memcpy(kept, rows, sizeof rows);
+        prepare(shift, false);
+        Screen& c = roomC.at(shift);
+        Screen& a = roomA.at(shift);
+        clearRowsC(c.frame.data, c.depth.data, rows, count);
+        clearRowsA(a.frame.data, a.depth.data, rows, count);
+        verdict(same(shift), "clears, round", round);
+        long wrong = 0;
+        for (int y = 0; y < count; ++y)
+            for (int x = rows[y].from; x < rows[y].to; ++x)
+                wrong += a.frame.data[y * WIDE + x] != 0 || a.depth.data[y * WIDE + x] != Z_EMPTY;
+        verdict(wrong == 0, "what a clear leaves", wrong);
+
+        // One screen is the source for both; the other buffers are the two screens.
+        static Guarded<uint8_t, PIXELS> screenC, screenA, before;
+        fill(&screenC, sizeof screenC);
+        memcpy(&screenA, &screenC, sizeof screenC);
+        memcpy(&before, &screenC, sizeof screenC);
+        fill(&c.frame, sizeof c.frame);
+        memcpy(&a.frame, &c.frame, sizeof c.frame);
+        copyRowsC(screenC.data, c.frame.data, rows, count);
+        presentRows(dataSelector(), static_cast<uint32_t>(reinterpret_cast<uintptr_t>(screenA.data)), c.frame.data, rows,
+                    count);
+        verdict(memcmp(&screenC, &screenA, sizeof screenC) == 0, "presents, round", round);
+        verdict(memcmp(&c.frame, &a.frame, sizeof c.frame) == 0, "a present leaves its source alone", round);
+        wrong = 0;
+        for (int y = 0; y < HIGH; ++y)
+            for (int x = 0; x < WIDE; ++x) {
+                const bool in = y < count && x >= rows[y].from && x < rows[y].to;
+                wrong += screenA.data[y * WIDE + x] != (in ? c.frame.data : before.data)[y * WIDE + x];
+            }
+        verdict(wrong == 0, "what a present leaves", wrong);
+        verdict(memcmp(kept, rows, sizeof rows) == 0, "the spans are left alone", round);
+        spansTried += count;
+    }
+}
+
+}  // namespace
+
+int main(int count, char** arguments)
+{
+    const uint32_t seed = count > 1 ? static_cast<uint32_t>(strtoul(arguments[1], nullptr, 10)) : 1;
+    const int rounds = count > 2 ? atoi(arguments[2]) : 300;
+    state = seed * 2654435761u + 1;
+    if (state == 0)
+        state = 1;
+    everySize();
+    largeOnes();
+    edges();
+    equalDepths();
+    randomLists(rounds);
+    clearsAndCopies(rounds);
+    printf("seed %u: %ld scales, %ld pixels, %ld spans tried\n", static_cast<unsigned>(seed), scalesTried, pixelsTried,
+           spansTried);
+    printf("%ld passed, %ld failed\n", passed, failed);
+    return failed != 0;
+}

@@ -1,0 +1,85 @@
+#!/bin/sh
+# Installs what lacks on this machine to play or to test, by apt (Debian, Ubuntu). Harmless when run again; does nothing
+# where everything is there, and then needs neither the network nor any rights.
+#
+#   sh tools/setup.sh play      to build and play: make, g++, DOSBox
+#   sh tools/setup.sh test      to test as well
+#
+# Exit status 0 when what is needed is there; 1 and a line that names what lacks otherwise.
+set -u
+
+what=${1:-play}
+case $what in
+play | test) ;;
+*)
+	echo "setup.sh: play or test is expected, not $what" >&2
+	exit 2
+	;;
+esac
+
+has() {
+	command -v "$1" >/dev/null 2>&1
+}
+
+# Compiles and links; headers alone do not tell that a library is there.
+compiles() { # compiles FLAGS...
+	work=$(mktemp -d "${TMPDIR:-/tmp}/setup.XXXXXX") || return 1
+	echo '#include <vector>
+int main() { return static_cast<int>(std::vector<int>(3).size()) - 3; }' >"$work/a.cpp"
+	g++ "$@" -o "$work/a" "$work/a.cpp" >/dev/null 2>&1
+	compiled=$?
+	rm -rf "$work"
+	return $compiled
+}
+
+lacking() {
+	has make || echo make
+	{ has g++ && compiles; } || echo g++
+	has ld || echo binutils
+	has dosbox || echo dosbox
+	[ "$what" = test ] || return 0
+	{ has g++ && compiles -m32; } || echo g++-multilib
+	has Xvfb || echo xvfb
+	has xdotool || echo xdotool
+	has valgrind || echo valgrind
+	has i586-pc-msdosdjgpp-objdump || echo binutils-djgpp
+	has cmp || echo diffutils
+	has git || echo git
+}
+
+packages=$(lacking)
+[ -n "$packages" ] || exit 0
+# One line, for the messages.
+packages=$(echo $packages)
+
+if ! has apt-get; then
+	echo "setup.sh: please install: $packages" >&2
+	exit 1
+fi
+sudo=
+if [ "$(id -u)" -ne 0 ]; then
+	if ! has sudo; then
+		echo "setup.sh: neither root nor sudo; please install: $packages" >&2
+		exit 1
+	fi
+	sudo=sudo
+fi
+echo "setup.sh: installing $packages"
+log=$(mktemp "${TMPDIR:-/tmp}/setup.XXXXXX") || exit 1
+trap 'rm -f "$log"' EXIT
+apt() {
+	$sudo env DEBIAN_FRONTEND=noninteractive apt-get -q -y "$@" >>"$log" 2>&1
+}
+apt update || echo "setup.sh: apt-get update failed; trying with the lists that are there" >&2
+if ! apt install --no-install-recommends $packages; then
+	# One at a time, so that one missing package does not keep the others out.
+	for package in $packages; do
+		apt install --no-install-recommends "$package" || echo "setup.sh: cannot install $package" >&2
+	done
+fi
+packages=$(echo $(lacking))
+if [ -n "$packages" ]; then
+	tail -n 20 "$log" >&2
+	echo "setup.sh: still lacking: $packages" >&2
+	exit 1
+fi

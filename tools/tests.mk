@@ -1,0 +1,65 @@
+# How the tests are built and run. Included by the Makefile.
+#
+#   make test            everything: sh tests/run.sh
+#   build/unit-KIND      the unit tests with that kind of Real: fixed, float, double
+#   build/demo-KIND      the demo with that kind of Real: float, double
+#   build/san/demo, build/san/unit    the demo and the unit tests under the address and undefined sanitizers
+#   build/twins          each assembly routine against its C++ twin
+
+TEST_CXX ?= $(HOST_CXX)
+TEST_FLAGS = -std=c++17 -Wall -Wextra -Iinclude
+
+# The program as the tests link it: all but main(), on the machine with nothing behind it.
+TEST_PARTS = $(filter-out src/main.cpp,$(wildcard src/*.cpp)) src/host/host.cpp
+
+test:
+	@sh tests/run.sh
+
+# $(call variant,NAME,FLAGS): build/NAME/X.o is the object of X.cpp compiled with FLAGS, program and tests alike.
+define variant
+build/$(1)/src/%.o: src/%.cpp
+	@mkdir -p $$(@D)
+	$$(TEST_CXX) $$(TEST_FLAGS) -fno-exceptions -fno-rtti $(2) -MMD -MP -c $$< -o $$@
+
+build/$(1)/tests/%.o: tests/%.cpp
+	@mkdir -p $$(@D)
+	$$(TEST_CXX) $$(TEST_FLAGS) -fno-rtti $(2) -MMD -MP -c $$< -o $$@
+
+-include $$(wildcard build/$(1)/*/*.d build/$(1)/*/*/*.d)
+endef
+
+$(eval $(call variant,fixed,-O2))
+$(eval $(call variant,float,-O2 -DFB_REAL=FB_FLOAT))
+$(eval $(call variant,double,-O2 -DFB_REAL=FB_DOUBLE))
+SANITIZE = -fsanitize=address,undefined -fno-sanitize-recover=all
+$(eval $(call variant,san,-O1 -g -fno-omit-frame-pointer $(SANITIZE)))
+
+UNIT_PARTS = $(TEST_PARTS) $(wildcard tests/unit/*.cpp)
+
+build/unit-%:
+	$(TEST_CXX) -o $@ $^
+build/unit-fixed: $(UNIT_PARTS:%.cpp=build/fixed/%.o)
+build/unit-float: $(UNIT_PARTS:%.cpp=build/float/%.o)
+build/unit-double: $(UNIT_PARTS:%.cpp=build/double/%.o)
+
+build/demo-float: $(patsubst %.cpp,build/float/%.o,$(TEST_PARTS) src/main.cpp)
+	$(TEST_CXX) -o $@ $^
+build/demo-double: $(patsubst %.cpp,build/double/%.o,$(TEST_PARTS) src/main.cpp)
+	$(TEST_CXX) -o $@ $^
+
+build/san/unit: $(UNIT_PARTS:%.cpp=build/san/%.o)
+	$(TEST_CXX) $(SANITIZE) -o $@ $^
+build/san/demo: $(patsubst %.cpp,build/san/%.o,$(TEST_PARTS) src/main.cpp)
+	$(TEST_CXX) $(SANITIZE) -o $@ $^
+
+build/twins: build/host32/tests/twins/twins.o build/host32/src/blit.o build/host32/asm/blit.o
+	$(TEST_CXX) -m32 -no-pie -static -o $@ $^
+
+-include $(wildcard build/host32/tests/twins/*.d)
+
+# What tests/frames and tests/golden hold frames together with.
+build/samefrm: tests/frames/samefrm.cpp
+	@mkdir -p build
+	$(TEST_CXX) $(TEST_FLAGS) -O2 -o $@ $<
+
+.PHONY: test
