@@ -139,7 +139,7 @@ uint32_t squareRoot64(uint64_t a);
 // An angle: the whole turn is 2^32, so that it wraps by itself.
 typedef uint32_t Angle;
 
-// Sine and cosine scaled by 2^30, good to 2^-28; computed in integers, so the same on every machine and for every Real.
+// Sine and cosine scaled by 2^30, good to 2^-27; computed in integers, so the same on every machine and for every Real.
 int32_t sine30(Angle a);
 inline int32_t cosine30(Angle a) { return sine30(a + 0x40000000u); }
 Real sine(Angle a);
