@@ -1,0 +1,162 @@
+// What several unit tests need: Real and double, scenes, and the truth in double precision.
+#ifndef FB_TEST_HELP_H
+#define FB_TEST_HELP_H
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "alloc.h"
+#include "model.h"
+#include "shade.h"
+#include "softobj.h"
+#include "sphere.h"
+#include "vec.h"
+
+// STEP: the distance of two neighbouring values of Real. EXACT: the relative error of one operation on it.
+#if FB_REAL == FB_FIXED
+constexpr double STEP = 1.0 / 65536;
+constexpr double EXACT = 0;
+inline double number(Real a) { return a.raw / 65536.0; }
+inline Real real(double a) { return Real::fromRaw(static_cast<int32_t>(std::lround(a * 65536))); }
+#else
+constexpr double STEP = 0;
+constexpr double EXACT = FB_REAL == FB_FLOAT ? 1.2e-7 : 2.3e-16;
+inline double number(Real a) { return static_cast<double>(a); }
+inline Real real(double a) { return static_cast<Real>(a); }
+#endif
+
+struct Vec {
+    double x, y, z;
+};
+inline Vec vec(const Vector& v) { return {number(v.x), number(v.y), number(v.z)}; }
+inline Vec vec(const Point& p) { return {number(p.x), number(p.y), number(p.z)}; }
+inline Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec operator*(const Vec& a, double b) { return {a.x * b, a.y * b, a.z * b}; }
+inline double dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline double size(const Vec& a) { return std::sqrt(dot(a, a)); }
+
+inline Vector vector(double x, double y, double z) { return {real(x), real(y), real(z)}; }
+inline Point point(double x, double y, double z) { return {real(x), real(y), real(z)}; }
+
+// The Geoff function and its derivative, as the report's source gives it, in double precision.
+inline double trueGeoff(double t)
+{
+    return t >= 1 ? 0 : 1 - 22.0 / 9 * t + 17.0 / 9 * t * t - 4.0 / 9 * t * t * t;
+}
+inline double trueSlope(double t)
+{
+    return t >= 1 ? 0 : -22.0 / 9 + 34.0 / 9 * t - 12.0 / 9 * t * t;
+}
+
+// Balls and their field, exact.
+struct Ball {
+    Vec centre;
+    double size;
+    double weight = 1;
+};
+struct Truth {
+    std::vector<Ball> balls;
+
+    double part(size_t i, const Vec& p) const
+    {
+        const Vec d = p - balls[i].centre;
+        return trueGeoff(dot(d, d) / (balls[i].size * balls[i].size)) * balls[i].weight;
+    }
+    double field(const Vec& p) const
+    {
+        double sum = 0;
+        for (size_t i = 0; i < balls.size(); ++i)
+            sum += part(i, p);
+        return sum;
+    }
+    // Outward normal.
+    Vec normal(const Vec& p) const
+    {
+        Vec g{0, 0, 0};
+        for (const Ball& ball : balls) {
+            const Vec d = p - ball.centre;
+            const double square = ball.size * ball.size;
+            g = g + d * (-2 * ball.weight * trueSlope(dot(d, d) / square) / square);
+        }
+        const double s = ::size(g);
+        return s > 0 ? g * (1 / s) : Vec{0, 0, -1};
+    }
+};
+
+// Spheres with seeds, linked as the test says, and the looks at them.
+struct Scene {
+    std::vector<std::unique_ptr<SoftObject>> objects;
+    Counts counts{};
+    bool printed = false;
+    Point eye{Real(0), Real(0), Real(-120)};
+    Vector light = unit(vector(0.5, 0.7, -0.5));
+    uint8_t ramp[64];
+
+    Scene()
+    {
+        for (int i = 0; i < 64; ++i)
+            ramp[i] = static_cast<uint8_t>(i);
+    }
+
+    SoftObject& add(SoftObject* object, double x, double y, double z, double spacing = 2)
+    {
+        objects.emplace_back(object);
+        object->moveTo(point(x, y, z));
+        if (!object->resample(real(spacing)))
+            std::abort();
+        object->shadeRest(light);
+        object->setRamp(ramp);
+        return *object;
+    }
+    SoftObject& ball(double size, double x, double y, double z, double spacing = 2)
+    {
+        return add(new Sphere(static_cast<int>(objects.size()) + 1, real(size)), x, y, z, spacing);
+    }
+    void link(size_t a, size_t b, double weight = 1)
+    {
+        objects[a]->link(objects[b].get(), real(weight));
+        objects[b]->link(objects[a].get(), real(weight));
+    }
+    void linkAll()
+    {
+        for (size_t i = 0; i < objects.size(); ++i)
+            for (size_t j = 0; j < i; ++j)
+                link(i, j);
+    }
+    Look look() { return Look{eye, light, printed, &counts}; }
+    void update()
+    {
+        for (auto& object : objects)
+            object->update(look());
+    }
+    // All voxels of an object, drawn in batches of `room`.
+    std::vector<Voxel> draw(size_t i, int room = 256)
+    {
+        std::vector<Voxel> all, some(static_cast<size_t>(room));
+        int next = 0;
+        do {
+            const int count = objects[i]->draw(look(), some.data(), room, &next);
+            all.insert(all.end(), some.begin(), some.begin() + count);
+        } while (next != 0);
+        return all;
+    }
+    // The field as object i sees it: its own and its neighbours'.
+    Truth truth(size_t i) const
+    {
+        Truth t;
+        t.balls.push_back({vec(objects[i]->centre()), number(objects[i]->size())});
+        for (const List<Link>::Node* node = objects[i]->skel().first(); node != nullptr; node = node->next)
+            t.balls.push_back({vec(node->item.object->centre()), number(node->item.object->size()), number(node->item.weight)});
+        return t;
+    }
+};
+
+// Whether a slot of a SoftObject holds a seed that takes part: a regular one, or an oversampled one that is active.
+inline bool takesPart(const SoftObject& object, int i)
+{
+    return (i & 1) == 0 || (object.seed(i).flags & SEED_ACTIVE) != 0;
+}
+
+#endif
