@@ -83,7 +83,8 @@ inline bool setSegmentLimit(uint16_t selector, uint32_t limit) {
 // The last offset of a segment, as the processor sees it (lsl); 0 for a selector that is none.
 inline uint32_t segmentLimit(uint16_t selector) {
     uint32_t limit = 0;
-    __asm__("lsll %1, %0" : "+r"(limit) : "r"(uint32_t(selector)) : "cc");
+    // volatile: the same selector may have another limit the next time.
+    __asm__ volatile("lsll %1, %0" : "+r"(limit) : "r"(uint32_t(selector)) : "cc");
     return limit;
 }
 

@@ -15,7 +15,7 @@ struct Block {
 constexpr uint32_t HEADER = sizeof(Block);
 constexpr uint32_t SMALLEST = HEADER + 8;
 
-// The host is asked for this much at a time while it has it, and in steps of the smaller when it has not.
+// How much the host is asked for: what is needed in whole pages, but this much at a time while the host has it.
 constexpr uint32_t CHUNK = 256 * 1024;
 constexpr uint32_t STEP = 4096;
 

@@ -80,7 +80,7 @@ if startDisplay; then
     # focus come from there being no window manager.)
     xdotool mousemove --window "$dosWindow" 300 200 sleep 0.3 mousedown 1 sleep 0.2 mouseup 1 sleep 0.5 2> /dev/null
     for i in 1 2 3 4 5; do
-        xdotool mousemove_relative -- 8 -4 sleep 0.1
+        xdotool mousemove_relative -- 8 -4 sleep 0.1 2> /dev/null
     done
     xdotool mousedown 1 sleep 0.2 mouseup 1 sleep 0.2 mousedown 3 sleep 0.2 mouseup 3 sleep 0.3 2> /dev/null
     xdotool key asterisk sleep 0.2 key minus sleep 0.2 key plus sleep 0.2 key F1 sleep 0.2 key Up sleep 0.2 \

@@ -169,8 +169,10 @@ void testHeap(uint32_t most) {
         chain = next;
     }
     check("all of it again after free", again == count);
-    void* big = malloc((count - 3) * BLOCK / 2);
+    // Blocks that came in one piece from the DPMI host are one piece again: four fit where there were four.
+    void* big = malloc(4 * BLOCK);
     check("free blocks join", big != nullptr);
+    memset(big, 1, 4 * BLOCK);
     free(big);
     free(nullptr);
     volatile size_t tooMuch = 0x7fffffffu;
@@ -182,6 +184,19 @@ void testHeap(uint32_t most) {
     void* none = malloc(0);
     check("malloc(0)", none != nullptr);
     free(none);
+
+    // Larger than what the heap asks for in one go.
+    bool large = true;
+    for (uint32_t bytes = 100000; bytes < 1500000; bytes = bytes * 3 / 2) {
+        uint8_t* block = static_cast<uint8_t*>(malloc(bytes));
+        large = large && block != nullptr;
+        if (block != nullptr) {
+            memset(block, 1, bytes);
+            large = large && block[bytes - 1] == 1;
+            free(block);
+        }
+    }
+    check("large blocks", large);
 
     // Random sizes, taken and given back in random order, contents checked.
     static uint8_t* blocks[200];

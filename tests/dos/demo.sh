@@ -1,0 +1,238 @@
+#!/bin/sh
+# DEMO.EXE in DOSBox, end to end: statistics, bad input and trouble, what is put back, frames against the host's, and the
+# keys and mouse in a window. Prints `ok` and `FAIL` lines and a count.
+#
+#   tests/dos/demo.sh [DEMO.EXE [FILE...]]     default build/DEMO.EXE; FILEs are put beside it (a DPMI host, say)
+#
+# build/demo (the host's program) and MTEST.EXE, beside DEMO.EXE or in build/, must have been built.
+set -u
+. tests/dos/lib.sh
+
+program=${1:-build/DEMO.EXE}
+[ $# -eq 0 ] || shift
+host=$(pwd)/build/demo
+helper=$(dirname "$program")/MTEST.EXE
+[ -f "$helper" ] || helper=build/MTEST.EXE
+c=$scratch/c
+mkdir "$c"
+cp "$program" "$c/DEMO.EXE" && cp "$helper" "$c/MTEST.EXE" || exit 1
+for file in "$@"; do
+    cp "$file" "$c" || exit 1
+done
+dos() {
+    tools/dosbox.sh -t 120 -d "$c" "$@"
+}
+
+# ---- A run
+
+NAMES='frames
+seconds
+fps
+seeds
+oversampled seeds
+updated per frame
+drawn per frame
+iterations per update
+normals per frame
+field evaluations per frame'
+
+names() {
+    tr -d '\r' < "$1" | sed -n '1,10s/: [0-9][0-9.]*$//p'
+}
+
+dos -- 'MTEST STATE > BEFORE.TXT' cls 'DEMO /N:20 > OUT.TXT' "$E1" 'MTEST SCREEN > SCREEN.TXT' 'MTEST STATE > AFTER.TXT'
+ok 'a run: the statistics, by name and in order' test "$(names "$c/OUT.TXT")" = "$NAMES"
+ok 'a run: lines end as DOS has them' test "$(grep -c "$(printf '\r')\$" "$c/OUT.TXT")" = "$(wc -l < "$c/OUT.TXT")"
+ok 'a run: 20 frames' has "$c/OUT.TXT" 'frames: 20'
+ok 'a run: the seeds of the report' has "$c/OUT.TXT" 'seeds: 2496'
+ok 'a run: and its oversampled ones' has "$c/OUT.TXT" 'oversampled seeds: 2480'
+ok 'a run: status 0' status 0 "$c"
+ok 'a run: text mode afterwards' has "$c/SCREEN.TXT" 'mode 3'
+ok 'a run: vectors, timer, DOS memory as before' cmp "$c/BEFORE.TXT" "$c/AFTER.TXT"
+
+dos -c 20000 -- 'DEMO /T:3 > OUT.TXT'
+ok '/T:3 lasts three seconds' grep -q '^seconds: 3\.[01]' "$c/OUT.TXT"
+
+# ---- Bad input: a line that names it, status 2, and the screen not touched
+
+bad() {
+    rm -f "$c"/*.TXT
+    dos -- cls 'echo untouched' "DEMO $1 > OUT.TXT" "$E1" "$E2" "$E3" 'MTEST SCREEN > SCREEN.TXT'
+    ok "bad $1: status 2" status 2 "$c"
+    ok "bad $1: named" has "$c/SCREEN.TXT" "$2"
+    ok "bad $1: the screen is untouched" has "$c/SCREEN.TXT" untouched
+    ok "bad $1: nothing on standard output" test ! -s "$c/OUT.TXT"
+}
+bad /Q /Q
+bad /S:9 /S:9
+bad /N:0 /N:0
+bad -T:abc -T:abc
+
+rm -f "$c"/*.TXT
+dos -- 'DEMO /? > OUT.TXT' "$E1" 'DEMO /M:NONE.TXT' 'MTEST SCREEN > SCREEN.TXT'
+ok '/? on standard output' has "$c/OUT.TXT" '/N:n'
+ok '/? has status 0' status 0 "$c"
+ok 'a missing file is named' has "$c/SCREEN.TXT" NONE.TXT
+
+# ---- Trouble: a line, status 1, text mode
+
+trouble() {
+    ok "$1: a line" has "$c/SCREEN.TXT" "$2"
+    ok "$1: status 1" status 1 "$c"
+    ok "$1: text mode" has "$c/SCREEN.TXT" 'mode 3'
+}
+
+rm -f "$c"/*.TXT
+dos -o dosbox.machine=ega -- cls 'DEMO /N:5 > OUT.TXT' "$E1" "$E2" 'MTEST SCREEN > SCREEN.TXT'
+trouble 'no VGA' VGA
+
+floppy=$scratch/floppy.img
+dd if=/dev/zero of="$floppy" bs=1024 count=160 2> /dev/null
+{
+    printf '\353\074\220FASTBLOB\000\002\001\001\000\002\100\000\100\001\376\001\000\010\000\001\000'
+    dd if=/dev/zero bs=1 count=482 2> /dev/null
+    printf '\125\252\376\377\377'
+} | dd of="$floppy" conv=notrunc 2> /dev/null
+printf '\376\377\377' | dd of="$floppy" bs=512 seek=2 conv=notrunc 2> /dev/null
+rm -f "$c"/*.TXT
+dos -- "imgmount a \"$floppy\" -t floppy > nul" cls 'MTEST STATE > BEFORE.TXT' 'DEMO /N:5 /D:A:\ > OUT.TXT' "$E1" "$E2" \
+    'MTEST SCREEN > SCREEN.TXT' 'MTEST STATE > AFTER.TXT'
+trouble 'a full disk' 'disk full'
+ok 'a full disk: all as before' cmp "$c/BEFORE.TXT" "$c/AFTER.TXT"
+
+rm -f "$c"/*.TXT
+dos -- cls 'DEMO /N:5 /D:NODIR\SUB > OUT.TXT' "$E1" "$E2" 'MTEST SCREEN > SCREEN.TXT'
+trouble 'a directory that cannot be made' 'NODIR'
+
+# ---- Frames, byte for byte those of the host
+
+frames() {
+    rm -rf "$c/F" "$scratch/F"
+    dos -- "DEMO $* /D:F > OUT.TXT" || :
+    (cd "$scratch" && "$host" "$@" /D:F > out.txt)
+    ok "frames of $*: as many" test "$(ls "$c/F" | wc -l)" = "$(ls "$scratch/F" | wc -l)"
+    ok "frames of $*: the same bytes" diff -rq "$c/F" "$scratch/F"
+    # Times differ; everything counted must not.
+    tr -d '\r' < "$c/OUT.TXT" | grep -v -E '^(seconds|fps):' > "$scratch/dos.txt"
+    grep -v -E '^(seconds|fps):' "$scratch/out.txt" > "$scratch/host.txt"
+    ok "frames of $*: the same counts" cmp "$scratch/dos.txt" "$scratch/host.txt"
+    rm -rf "$c/F" "$scratch/F"
+}
+frames /N:30
+frames /G /N:30
+frames /S:4 /N:20
+frames /P /N:20
+frames /S:1 /G /N:10
+
+# ---- Small and old machines
+
+rm -f "$c"/*.TXT
+dos -m 4 -o cpu.cputype=386 -- 'DEMO /N:5 > OUT.TXT' "$E1"
+ok 'a 386 with 4 MB' has "$c/OUT.TXT" 'frames: 5'
+ok 'a 386 with 4 MB: status 0' status 0 "$c"
+
+# ---- Keys and mouse, in a window
+
+# lit FILE: how many bytes of a picture are not black.
+lit() {
+    tr -d '\000' < "$1" | wc -c
+}
+# scene N: where sphere N is, in the first and in the last frame dumped.
+scene() {
+    for file in $(ls "$c/F/"*.TXT | sed -n '1p;$p'); do
+        tr -d '\r' < "$file" | grep "^sphere $1 "
+    done
+}
+# moved N COLUMN: whether sphere N was moved along an axis (column 3 x, 4 y, 5 z).
+moved() {
+    test "$(scene "$1" | cut -d ' ' -f "$2" | sort -u | wc -l)" = 2
+}
+
+if startDisplay; then
+    window() {
+        rm -rf "$c"/*.TXT "$c/F"
+        dos -w -c 30000 -- 'MTEST STATE > BEFORE.TXT' cls "DEMO $* > OUT.TXT" "$E1" "$E2" 'MTEST SCREEN > SCREEN.TXT' \
+            'MTEST STATE > AFTER.TXT' &
+        running=$!
+        awaitTitle DEMO
+    }
+    type() {
+        for key in "$@"; do
+            xdotool key "$key" sleep 0.3 2> /dev/null
+        done
+    }
+    drag() {
+        for i in 1 2 3 4 5; do
+            xdotool mousemove_relative -- "$1" "$2" sleep 0.1 2> /dev/null
+        done
+    }
+
+    window /G
+    type Escape
+    wait $running
+    ok 'ESC ends' test "$(names "$c/OUT.TXT")" = "$NAMES"
+    ok 'ESC: status 0' status 0 "$c"
+
+    window
+    type minus minus Escape
+    wait $running
+    ok '- makes fewer seeds' test "$(sed -n 's/^seeds: \([0-9]*\).*/\1/p' "$c/OUT.TXT")" -lt 2000
+    window
+    type plus plus Escape
+    wait $running
+    ok '+ makes more seeds' test "$(sed -n 's/^seeds: \([0-9]*\).*/\1/p' "$c/OUT.TXT")" -gt 3000
+
+    window /D:F
+    type asterisk
+    sleep 1
+    type Escape
+    wait $running
+    first=$(lit "$(ls "$c/F/"*.PPM | head -n 1)")
+    last=$(lit "$(ls "$c/F/"*.PPM | tail -n 1)")
+    ok '* shows pixels in place of scales' test "$last" -lt $((first / 2))
+
+    # Left, right and up move the first object; its neighbour, selected by a click, is then moved towards the viewer.
+    window /I /D:F
+    xdotool mousemove --window "$dosWindow" 300 200 2> /dev/null
+    sleep 0.5
+    drag 10 0
+    drag 0 -6
+    type Escape
+    wait $running
+    moves=0
+    for n in 1 2 3 4; do
+        if moved $n 3 && moved $n 4; then
+            moves=$((moves + 1))
+        fi
+        ok "/I: sphere $n keeps its depth" test "$(scene $n | cut -d ' ' -f 5 | sort -u | wc -l)" = 1
+    done
+    ok '/I: the mouse moved one sphere right and up' test $moves = 1
+
+    window /I /D:F
+    xdotool mousemove --window "$dosWindow" 300 200 sleep 0.5 mousedown 1 sleep 0.4 mouseup 1 sleep 0.4 mousedown 3 sleep 0.4 \
+        2> /dev/null
+    drag 10 0
+    drag 0 -6
+    xdotool mouseup 3 sleep 0.4 2> /dev/null
+    type Escape
+    wait $running
+    moves=0
+    for n in 1 2 3 4; do
+        if moved $n 3 && moved $n 5; then
+            moves=$((moves + 1))
+        fi
+        ok "/I, right button: sphere $n keeps its height" test "$(scene $n | cut -d ' ' -f 4 | sort -u | wc -l)" = 1
+    done
+    ok '/I, right button: one sphere moved in x and z' test $moves = 1
+    ok '/I: all as before' cmp "$c/BEFORE.TXT" "$c/AFTER.TXT"
+
+    window
+    xdotool key ctrl+c 2> /dev/null
+    wait $running
+    trouble Ctrl-C interrupted
+    ok 'Ctrl-C: all as before' cmp "$c/BEFORE.TXT" "$c/AFTER.TXT"
+else
+    echo "# no Xvfb and xdotool: keys and mouse not tried"
+fi
+
+summary
