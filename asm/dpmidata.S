@@ -48,6 +48,13 @@ rm_return_ptr:  .word   rm_return, 0
 switch_stack_ptr: .word switch_stack_top, 0
 rm_stack_cur:   .word   rm_stack_top, 0
 rm_ptrs_end:
+        .globl  vcpi_table
+vcpi_table:     .long   0, gdtr, idtr   /* CR3; linear addresses */
+                .word   LDT_SEL, TSS_SEL
+                .long   pm_arrive
+                .word   HOST_CS, 0
+        .globl  map_next
+map_next:       .long   0xc0000000      /* VCPI: linear addresses for physical memory */
         .globl  r0_cur, lock_cur, version_flags, host_seg, psp_seg
 r0_cur:         .long   r0_stack_top
 lock_cur:       .long   LOCK_STACK
@@ -94,6 +101,8 @@ exc_15: .asciz  "Exception 15"
 exc_16: .asciz  "Coprocessor Error"
 exc_17: .asciz  "Alignment Check"
 msg_exception:  .asciz "Exception "
+        .globl  msg_break
+msg_break:      .asciz "Control-C Pressed"
 msg_nesting:    .asciz "Interrupts or real-mode calls nested too deeply\r\n"
 msg_base:       .asciz "  base="
 msg_limit:      .asciz "  limit="
@@ -181,6 +190,10 @@ xms_entry:      .skip   4               /* 0: no XMS */
 vcpi_entry:     .skip   6
                 .balign 4
 vcpi_table_linear: .skip 4
+        .globl  in_dos, pic_base
+in_dos:         .skip   4               /* linear address of DOS's busy flag */
+pic_base:       .skip   2               /* VCPI: interrupt bases of the controllers */
+                .balign 4
 old_15:         .skip   4
 old_23:         .skip   4
 client_ip:      .skip   2

@@ -71,6 +71,16 @@ host_init:
         mov     $HLT_COUNT, %cx
         rep stosb
         call    vectors
+        push    %es
+        mov     $0x34, %ah              /* ES:BX = InDOS flag */
+        int     $0x21
+        mov     %es, %ax
+        movzwl  %ax, %eax
+        shl     $4, %eax
+        movzwl  %bx, %ebx
+        add     %ebx, %eax
+        mov     %eax, in_dos
+        pop     %es
 
         xor     %ax, %ax                /* the vectors as they are */
         mov     %ax, %fs
@@ -192,7 +202,23 @@ vectors:
         inc     %bx
         cmp     $256, %bx
         jb      1b
-        ret
+        mov     pic_base, %bl           /* VCPI: the interrupt controllers may be elsewhere */
+        mov     $8, %di
+        call    1f
+        mov     pic_base + 1, %bl
+        mov     $0x70, %di
+1:      test    %bl, %bl
+        jz      3f
+        xor     %bh, %bh
+        mov     $8, %cx
+        shl     $3, %bx
+        shl     $3, %di
+2:      lea     thunks(%di), %ax
+        mov     %ax, idt(%bx)
+        add     $8, %bx
+        add     $8, %di
+        loop    2b
+3:      ret
 
 /* --- Memory and A20 in plain real mode. Carry, DX: message. --- */
 memory_init:
@@ -313,10 +339,91 @@ a20_test:
         pop     %cx
         ret
 
-/* V86 mode. Carry, DX: message. */
+/* V86 mode: the server's first page table becomes ours, with a page directory of our own above it; the rest
+   of the linear space is filled as memory is asked for (dpmimem.S). Carry, DX: message. */
 vcpi_init:
+        xor     %ax, %ax
+        mov     %ax, %fs
         mov     $msg_v86, %dx
-        stc
+        cmpl    $0, %fs:0x67 * 4
+        je      9f
+        mov     $0xde00, %ax            /* VCPI there? */
+        int     $0x67
+        mov     $msg_v86, %dx
+        test    %ah, %ah
+        jnz     9f
+        push    %es
+        mov     $0x48, %ah              /* two pages and what their alignment costs */
+        mov     $0x300, %bx
+        int     $0x21
+        mov     $msg_dos_memory, %dx
+        jc      8f
+        add     $0xff, %ax
+        xor     %al, %al
+        mov     %ax, %es
+        xor     %di, %di
+        mov     $4096, %cx
+        xor     %ax, %ax
+        rep stosw
+        mov     $0x1000, %di            /* ES:0 page directory, ES:1000h page table */
+        mov     $gdt + VCPI_SEL, %si
+        mov     $0xde01, %ax            /* EBX = entry in the server's code segment */
+        int     $0x67
+        mov     %ebx, vcpi_entry
+        movw    $VCPI_SEL, vcpi_entry + 4
+        mov     $0x1000, %si            /* ring 3 may use what is mapped */
+1:      testb   $1, %es:(%si)
+        jz      2f
+        orb     $7, %es:(%si)
+2:      add     $4, %si
+        cmp     $0x2000, %si
+        jb      1b
+        mov     %es, %cx
+        shr     $8, %cx
+        call    physical
+        mov     %edx, vcpi_table        /* CR3 */
+        or      $7, %dl
+        mov     %edx, %es:0xffc         /* the directory is a page table too: all of them at FFC00000h */
+        inc     %cx
+        call    physical
+        or      $7, %dl
+        mov     %edx, %es:0
+        mov     host_base, %eax
+        add     %eax, vcpi_table + 4
+        add     %eax, vcpi_table + 8
+        add     $vcpi_table, %eax
+        mov     %eax, vcpi_table_linear
+        mov     $0xde03, %ax            /* EDX = free pages; some will become page tables */
+        int     $0x67
+        mov     %edx, %eax
+        shr     $10, %eax
+        sub     %eax, %edx
+        dec     %edx
+        cmp     $0xb0000, %edx          /* up to C0000000h at most: physical memory is mapped there */
+        jbe     3f
+        mov     $0xb0000, %edx
+3:      shl     $12, %edx
+        mov     %edx, arenas + 4
+        movl    $0x400000, arenas
+        mov     $0xde0a, %ax            /* BX, CX = where hardware interrupts arrive */
+        int     $0x67
+        mov     %bl, pic_base
+        mov     %cl, pic_base + 1
+        movw    $vcpi_pm_to_rm, pm_to_rm_vec
+        movw    $vcpi_rm_to_pm, rm_to_pm_vec
+        movb    $1, version_flags
+        pop     %es
+        clc
+        ret
+8:      pop     %es
+9:      stc
+        ret
+
+/* EDX := physical address of page CX of the first MB. */
+physical:
+        mov     $0xde06, %ax
+        int     $0x67
+        and     $0xf000, %dx
         ret
 
 /* --- int 2Fh AX=1687h's entry point. Far. In: AX bit 0 = 1, a 32-bit client. Out: carry if refused; else
@@ -385,6 +492,7 @@ pm_enter:
         .globl  host_exit
 host_exit:
         movb    %al, exit_code
+        call    mem_free_all
         movl    host_seg, %eax
         shll    $16, %eax
         movl    %eax, %edx
@@ -466,8 +574,16 @@ rm_int24:
         mov     $3, %al
         iret
 
-/* Ctrl-C: ends the program, unless it is one that ours has started. */
+/* Ctrl-C: ends the program with its registers printed, unless it is one that ours has started. */
 rm_int23:
+        push    %ax
+        push    %bx
+        mov     $0x51, %ah              /* BX = current PSP */
+        int     $0x21
+        cmp     %cs:psp_seg, %bx
+        pop     %bx
+        pop     %ax
+        je      up_stubs + (CALLBACKS + HOOKS + 1) * 5
         ljmp    *%cs:old_23
 
 /* Extended memory: none left. */
@@ -494,6 +610,7 @@ rm_state:
 
 msg_a20:        .ascii  "address line A20 cannot be switched on$"
 msg_no_memory:  .ascii  "no extended memory$"
+msg_dos_memory: .ascii  "not enough DOS memory$"
 msg_v86:        .ascii  "a memory manager without VCPI is loaded: load a DPMI host too (CWSDPMI), or remove it$"
 
         ASM_END

@@ -326,6 +326,14 @@ host_fault:
         movl    %eax, F_ERR(%ebp)
         cld
 
+/* Ctrl-C in DOS, called by the client at the top of the ring 0 stack. */
+        .globl  ctrl_c
+ctrl_c:
+        movl    tss + 4, %ebp
+        subl    $F_SIZE, %ebp
+        movl    $0x23, F_VEC(%ebp)
+        movl    $0, F_ERR(%ebp)
+
 /* --- The end: print the frame at EBP as DJGPP programs do, restore text mode, exit with status 255. --- */
         .globl  crash
 crash:
@@ -341,8 +349,14 @@ crash:
         movl    exc_names(, %eax, 4), %esi
         call    put_text
         jmp     3f
-2:      movl    $msg_exception, %esi
-        call    put_text
+2:      movl    $msg_break, %esi
+        cmpl    $0x23, %eax
+        je      7f
+        movl    $msg_exception, %esi
+7:      call    put_text
+        movl    F_VEC(%ebp), %eax
+        cmpl    $0x23, %eax
+        je      3f
         call    put_hex2
 3:      movl    $crash_lines, %ebx
 4:      movzbl  (%ebx), %ecx            /* offset in the frame */
@@ -386,6 +400,8 @@ crash_exit:
         movw    %ax, rm_stack_cur
         movw    $FLAT_DS, %ax
         movw    %ax, %fs
+        movl    in_dos, %eax            /* DOS may have been interrupted: it never goes on there */
+        movb    $0, %fs:(%eax)
         movb    %fs:0x449, %al          /* video mode */
         cmpb    $3, %al
         jbe     1f

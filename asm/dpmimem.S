@@ -222,14 +222,152 @@ mem_alloc:
         movl    %ecx, 4(%edi)
 7:      ret
 
-/* Under VCPI memory is mapped page by page; elsewhere it is just there. ECX bytes from EDX, all registers
-   but EAX kept. */
+/* --- Pages, under VCPI only; elsewhere memory is just there. Page tables are seen at PTES. --- */
+#define PTES        0xffc00000
+#define PDES        0xfffff000
+
+/* VCPI function EAX in PM. Some servers return with RETF as they should, DOSBox's with IRETD. */
+vcpi_call:
+        pushl   %ebp
+        movl    %esp, %ebp
+        pushfl
+        lcall   *vcpi_entry
+        movl    %ebp, %esp
+        popl    %ebp
+        ret
+
+/* Map memory to ECX bytes from EDX. Carry and AX = error if there is none left. Other registers kept. */
 mem_commit:
+        cmpl    $0, vcpi_entry
+        je      9f                      /* equal: no carry */
+        pushl   %ebx
+        pushl   %ecx
+        pushl   %edx
+        pushl   %esi
+        movw    $FLAT_DS, %ax
+        movw    %ax, %fs
+        movl    %edx, %ebx
+1:      movl    %edx, %esi
+        call    page_table
+        jc      2f
+        movl    $0xde04, %eax           /* EDX = physical address of a page */
+        pushl   %edx
+        call    vcpi_call
+        movl    %edx, %esi
+        popl    %edx
+        testb   %ah, %ah
+        jnz     2f
+        pushl   %edx
+        shrl    $12, %edx
+        andl    $~0xfff, %esi
+        orl     $7, %esi
+        movl    %esi, %fs:PTES(, %edx, 4)
+        popl    %edx
+        addl    $4096, %edx
+        subl    $4096, %ecx
+        jnz     1b
+        popl    %esi
+        popl    %edx
+        popl    %ecx
+        popl    %ebx
         clc
         ret
+2:      movl    %edx, %ecx              /* give back what we got */
+        movl    %ebx, %edx
+        subl    %ebx, %ecx
+        jz      3f
+        call    mem_uncommit
+3:      popl    %esi
+        popl    %edx
+        popl    %ecx
+        popl    %ebx
+        movw    $E_NO_PHYSICAL, %ax
+        stc
+9:      ret
+
+/* A page table for linear address EDX. Carry if there is no page for it. EAX, ESI lost; FS = FLAT_DS. */
+page_table:
+        movl    %edx, %esi
+        shrl    $22, %esi
+        testb   $1, %fs:PDES(, %esi, 4)
+        jnz     1f                      /* no carry */
+        pushl   %edx
+        movl    $0xde04, %eax
+        call    vcpi_call
+        testb   %ah, %ah
+        stc
+        jnz     2f
+        andl    $~0xfff, %edx
+        orl     $7, %edx
+        movl    %edx, %fs:PDES(, %esi, 4)
+        shll    $12, %esi               /* clear it where it is seen now */
+        pushl   %ecx
+        movl    $1024, %ecx
+3:      movl    $0, %fs:PTES - 4(%esi, %ecx, 4)
+        loop    3b
+        popl    %ecx
+        clc
+2:      popl    %edx
+1:      ret
+
+/* The reverse of mem_commit. All registers but EAX kept. */
+mem_uncommit:
+        cmpl    $0, vcpi_entry
+        je      9f
+        pushl   %ecx
+        pushl   %edx
+        pushl   %esi
+        movw    $FLAT_DS, %ax
+        movw    %ax, %fs
+        shrl    $12, %edx
+        shrl    $12, %ecx
+1:      movl    %edx, %esi
+        movl    %fs:PTES(, %esi, 4), %edx
+        movl    $0, %fs:PTES(, %esi, 4)
+        andl    $~0xfff, %edx
+        movl    $0xde05, %eax           /* free page */
+        call    vcpi_call
+        leal    1(%esi), %edx
+        loop    1b
+        movl    %cr3, %eax              /* the processor remembers translations */
+        movl    %eax, %cr3
+        popl    %esi
+        popl    %edx
+        popl    %ecx
+9:      ret
+
+/* At the end of the client: all pages go back to the server. */
+        .globl  mem_free_all
+mem_free_all:
+        cmpl    $0, vcpi_entry
+        je      9f
+        movl    $blocks, %edi
+1:      movl    (%edi), %edx
+        movl    4(%edi), %ecx
+        jecxz   2f
+        call    mem_uncommit
+2:      addl    $8, %edi
+        cmpl    $blocks_end, %edi
+        jb      1b
+        movw    $FLAT_DS, %ax
+        movw    %ax, %fs
+        movl    $1022, %edi
+3:      movl    %fs:PDES(, %edi, 4), %edx
+        testb   $1, %dl
+        jz      4f
+        movl    $0, %fs:PDES(, %edi, 4)
+        andl    $~0xfff, %edx
+        movl    $0xde05, %eax
+        call    vcpi_call
+4:      decl    %edi
+        jnz     3b                      /* the first one lies in DOS memory */
+9:      ret
 
 /* Free the block at EDI. All but EBP lost. */
 mem_free:
+        movl    (%edi), %edx
+        movl    4(%edi), %ecx
+        call    mem_uncommit
         movl    $0, 4(%edi)
         movl    $arenas, %edi
 1:      cmpl    $0, A_SIZE(%edi)
@@ -383,7 +521,8 @@ svc_0503:
         jc      9f
         movl    (%edi), %edx
         cmpl    4(%edi), %ecx
-        jbe     3f                      /* smaller: stays */
+        je      block_result
+        jb      5f
         movl    %edi, %ebx              /* larger: is there room behind it, in the same arena? */
         movl    $arenas, %esi
 1:      movl    %edx, %eax
@@ -398,8 +537,26 @@ svc_0503:
         ja      4f
         call    overlap
         jc      4f
+        pushl   %ecx
+        pushl   %edx
+        movl    4(%edi), %eax
+        addl    %eax, %edx
+        subl    %eax, %ecx
+        call    mem_commit
+        popl    %edx
+        popl    %ecx
+        jc      9f
 3:      movl    %ecx, 4(%edi)
         jmp     block_result
+5:      pushl   %ecx                    /* smaller: stays */
+        pushl   %edx
+        addl    %ecx, %edx
+        subl    4(%edi), %ecx
+        negl    %ecx
+        call    mem_uncommit
+        popl    %edx
+        popl    %ecx
+        jmp     3b
 4:      pushl   %ebx                    /* no: a new one */
         call    mem_alloc
         popl    %ebx
@@ -424,7 +581,7 @@ svc_0503:
 9:      ret
 
 /* 0800h  map physical memory.  In: BX:CX = physical address, SI:DI = bytes.  Out: BX:CX = linear address.
-   Without paging they are the same. */
+   Without paging they are the same; under VCPI linear addresses are used up from C0000000h on. */
         .globl  svc_0800
 svc_0800:
         shll    $16, %ebx
@@ -436,9 +593,39 @@ svc_0800:
         movw    F_EDI(%ebp), %ax
         testl   %eax, %eax
         jz      1f
-        decl    %eax
-        addl    %ebx, %eax
-        jc      1f
+        leal    -1(%eax, %ebx), %ecx    /* the last byte */
+        cmpl    %ebx, %ecx
+        jb      1f
+        cmpl    $0, vcpi_entry
+        je      3f
+        movw    $FLAT_DS, %ax
+        movw    %ax, %fs
+        movl    map_next, %edx
+        andl    $~0xfff, %ebx
+2:      cmpl    $PTES >> 12 << 12, %edx
+        jae     4f
+        call    page_table
+        jc      4f
+        movl    %edx, %esi
+        shrl    $12, %esi
+        leal    7(%ebx), %eax
+        movl    %eax, %fs:PTES(, %esi, 4)
+        addl    $4096, %edx
+        addl    $4096, %ebx
+        jc      5f
+        cmpl    %ecx, %ebx
+        jbe     2b
+5:      movl    F_ECX(%ebp), %eax       /* the offset in the page stays */
+        andl    $0x0fff, %eax
+        addl    map_next, %eax
+        movl    %edx, map_next
+        movw    %ax, F_ECX(%ebp)
+        shrl    $16, %eax
+        movw    %ax, F_EBX(%ebp)
+3:      clc
+        ret
+4:      movw    $E_NO_LINEAR, %ax
+        stc
         ret
 1:      movw    $E_VALUE, %ax
         stc

@@ -68,12 +68,12 @@ rm_return:
         movw    $pm_return, %cs:pm_cont
         jmp     rm_save
 
-/* RM code that leads to PM: 16 call-backs, then the hooked interrupts, then the raw mode switch. Each pushes
-   its number. */
+/* RM code that leads to PM: 16 call-backs, then the hooked interrupts, the raw mode switch, Ctrl-C. Each
+   pushes its number. */
         .globl  up_stubs
 up_stubs:
         .set    i, 0
-        .rept   CALLBACKS + HOOKS + 1
+        .rept   CALLBACKS + HOOKS + 2
         .byte   0x6a, i                 /* PUSH i */
         .byte   0xe9                    /* JMP rm_up */
         .word   rm_up - . - 2
@@ -252,6 +252,7 @@ pm_up:
         jb      callback
         cmpl    $HOOKS, %eax
         je      raw_to_pm
+        ja      ctrl_c
 
 /* A hooked interrupt. The ring 0 stack keeps what RM needs afterwards; GP registers travel through the
    handler, so that it can answer in them (int 24h does, in AL). */
