@@ -1,0 +1,220 @@
+// Seeds as they are laid out (report, Appendix C): how many, how evenly, and which is whose neighbour.
+#include <algorithm>
+
+#include "help.h"
+#include "stick.h"
+#include "test.h"
+
+namespace {
+
+// Slots of the first seed of each ring, and one past the last.
+std::vector<int> rings(const SoftObject& object)
+{
+    std::vector<int> starts;
+    for (int i = 0; i < object.seedSlots(); i += 2)
+        if (i == 0 || object.seed(i).path.y != object.seed(i - 2).path.y)
+            starts.push_back(i);
+    starts.push_back(object.seedSlots());
+    return starts;
+}
+
+// Seeds of a sphere by the report's rings, in double precision.
+void expected(double radius, double spacing, int* regular, int* first)
+{
+    const int n = static_cast<int>(std::ceil(M_PI * radius / spacing - 1e-6));
+    *regular = 0;
+    for (int k = 0; k < n; ++k) {
+        const double latitude = -M_PI / 2 + M_PI * (k + 0.5) / n;
+        const int count = std::max(4, static_cast<int>(std::floor(2 * M_PI * radius * std::cos(latitude) / spacing)));
+        *regular += count;
+        if (k == 0)
+            *first = count;
+    }
+}
+
+// Share of seeds whose nearest neighbour is within 35% of the spacing.
+double evenness(const SoftObject& object, double spacing)
+{
+    std::vector<Vec> points;
+    for (int i = 0; i < object.seedSlots(); i += 2)
+        points.push_back(vec(object.seedPoint(object.seed(i))));
+    std::sort(points.begin(), points.end(), [](const Vec& a, const Vec& b) { return a.y < b.y; });
+    size_t good = 0;
+    for (size_t i = 0; i < points.size(); ++i) {
+        double nearest = 1e9;
+        for (size_t j = i + 1; j < points.size() && points[j].y - points[i].y < 2 * spacing; ++j)
+            nearest = std::fmin(nearest, size(points[i] - points[j]));
+        for (size_t j = i; j-- > 0 && points[i].y - points[j].y < 2 * spacing;)
+            nearest = std::fmin(nearest, size(points[i] - points[j]));
+        good += std::fabs(nearest - spacing) <= 0.35 * spacing;
+    }
+    return static_cast<double>(good) / static_cast<double>(points.size());
+}
+
+}  // namespace
+
+TEST(the_report_s_counts)
+{
+    Model model;
+    CHECK(model.makeFourSpheres());
+    CHECK(model.resample(Real(2)));
+    SAME(model.count(), 4);
+    const int counts[] = {316, 496, 716, 968};
+    const int sizes[] = {20, 25, 30, 35};
+    for (int i = 0; i < 4; ++i) {
+        SAME(model.actor(i).object->seeds(), counts[i]);
+        NEAR(number(model.actor(i).object->size()), sizes[i], 0);
+        NEAR(number(model.actor(i).object->radius()), sizes[i] / 2.0, 0);
+    }
+    SAME(model.seeds(), 2496);
+    SAME(model.oversampledSeeds(), 2480);
+}
+
+TEST(counts_at_every_spacing)
+{
+    for (double spacing : {0.25, 0.3, 0.5, 0.75, 1.0, 1.3, 2.0, 3.0, 4.0, 6.5, 8.0}) {
+        for (double size : {20.0, 25.0, 30.0, 35.0}) {
+            Scene scene;
+            const SoftObject& ball = scene.ball(size, 0, 0, 0, spacing);
+            int regular, first = 0;
+            expected(size / 2, number(real(spacing)), &regular, &first);
+            // A ring whose length is a whole number of spacings may round either way: a few of many rings do.
+            const int slack = static_cast<int>(size / 2 / spacing / 5);
+            NEAR(ball.seeds(), regular, slack);
+            SAME(ball.seeds() - ball.oversampledSeeds(), first);
+            SAME(ball.seedSlots(), 2 * ball.seeds());
+        }
+    }
+}
+
+TEST(seeds_rest_on_the_unblended_surface)
+{
+    for (double spacing : {0.5, 2.0, 8.0}) {
+        Scene scene;
+        const SoftObject& ball = scene.ball(25, 3, -4, 5, spacing);
+        const Truth truth = scene.truth(0);
+        for (int i = 0; i < ball.seedSlots(); ++i) {
+            const Seed& s = ball.seed(i);
+            if ((i & 1) != 0 && ball.seed(i - 1).neighbour < 0)
+                continue;  // seeds of the first ring have no oversampled one
+            NEAR(size(vec(s.path)), 12.5, 20 * STEP + EXACT * 100 + 1e-6);
+            SAME(s.root, 0);
+            NEAR(number(s.position), (i & 1) == 0 ? 1 : number(s.position), 0);
+            const Vec rest = vec(ball.centre()) + vec(s.path);
+            NEAR(truth.field(rest), 0.5, 1e-5 + 20 * STEP / 12.5);
+            NEAR(s.dirX / 16384.0, number(s.path.x) / 12.5, 2.0 / 16384);
+            NEAR(s.dirY / 16384.0, number(s.path.y) / 12.5, 2.0 / 16384);
+            NEAR(s.dirZ / 16384.0, number(s.path.z) / 12.5, 2.0 / 16384);
+        }
+    }
+}
+
+TEST(seeds_are_even)
+{
+    double worst = 1;
+    for (double spacing : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0}) {
+        for (double size : {20.0, 25.0, 30.0, 35.0, 60.0}) {
+            if (size / spacing > 80)
+                continue;
+            Scene scene;
+            const double share = evenness(scene.ball(size, 0, 0, 0, spacing), spacing);
+            worst = std::fmin(worst, share);
+            if (!CHECK(share >= 0.99))
+                note("size %g spacing %g: %.4f", size, spacing, share);
+        }
+    }
+    note("at least %.2f%% of the seeds have their nearest neighbour within 35%% of the spacing", worst * 100);
+}
+
+TEST(every_point_has_a_seed_near_it)
+{
+    // Even also means that no part of the sphere is left out.
+    Random random;
+    Scene scene;
+    const SoftObject& ball = scene.ball(35, 0, 0, 0, 2);
+    for (int k = 0; k < 2000; ++k) {
+        const Vec p = vec(withLength(vector(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)), Real(17.5)));
+        double nearest = 1e9;
+        for (int i = 0; i < ball.seedSlots(); i += 2)
+            nearest = std::fmin(nearest, size(p - vec(ball.seed(i).path)));
+        CHECK(nearest < 2 * 0.85);
+    }
+}
+
+TEST(neighbour_rule_of_the_oversampled_seeds)
+{
+    // "The neighbor of seed S on ring K [is] the seed N on ring K-1 that is closest to S's successor. The new oversampled
+    // seed O is interpolated halfway between S and N." Here by looking at every seed of the ring.
+    for (double spacing : {0.7, 2.0, 5.0}) {
+        for (double radius : {20.0, 35.0}) {
+            Scene scene;
+            const SoftObject& ball = scene.ball(radius, 0, 0, 0, spacing);
+            const std::vector<int> starts = rings(ball);
+            int extra = 0;
+            for (size_t k = 0; k + 1 < starts.size(); ++k) {
+                for (int i = starts[k]; i < starts[k + 1]; i += 2) {
+                    const Seed& s = ball.seed(i);
+                    if (k == 0) {
+                        SAME(s.neighbour, -1);
+                        continue;
+                    }
+                    ++extra;
+                    CHECK(s.neighbour >= starts[k - 1] && s.neighbour < starts[k] && s.neighbour % 2 == 0);
+                    const int after = i + 2 == starts[k + 1] ? starts[k] : i + 2;
+                    const Vec target = vec(ball.seed(after).path);
+                    double nearest = 1e9;
+                    for (int j = starts[k - 1]; j < starts[k]; j += 2)
+                        nearest = std::fmin(nearest, size(vec(ball.seed(j).path) - target));
+                    // Two may be equally near.
+                    NEAR(size(vec(ball.seed(s.neighbour).path) - target), nearest, 2e-3);
+                    const Vec middle = (vec(s.path) + vec(ball.seed(s.neighbour).path)) * 0.5;
+                    const Vec o = vec(ball.seed(i + 1).path);
+                    NEAR(size(o - middle * (radius / 2 / size(middle))), 0, 1e-3);
+                }
+            }
+            SAME(extra, ball.oversampledSeeds());
+        }
+    }
+}
+
+TEST(roots_are_shared)
+{
+    // All seeds of a sphere have one root; those of a cap of the stick too, and each oversampled seed between two roots
+    // lies half way.
+    Scene scene;
+    const SoftObject& ball = scene.ball(30, 1, 2, 3);
+    for (int i = 0; i < ball.seedSlots(); ++i)
+        SAME(ball.seed(i).root, 0);
+    Stick* stick = new Stick(2, 12, 10);
+    scene.add(stick, 0, 0, 0);
+    const int left = stick->seed(0).root;
+    int inCap = 0;
+    for (int i = 0; i < stick->seedSlots(); i += 2)
+        inCap += stick->seed(i).root == left;
+    CHECK(inCap > 20);
+    for (int i = 0; i < stick->seedSlots(); i += 2) {
+        const Seed& s = stick->seed(i);
+        if (s.neighbour < 0)
+            continue;
+        const Seed& n = stick->seed(s.neighbour);
+        const Seed& o = stick->seed(i + 1);
+        const auto root = [&](const Seed& seed) { return vec(stick->seedPoint(seed)) - vec(seed.path) * number(seed.position); };
+        NEAR(size(root(o) - (root(s) + root(n)) * 0.5), 0, 1e-3);
+        NEAR(size(vec(o.path)), 6, 20 * STEP + EXACT * 100 + 1e-6);
+    }
+}
+
+TEST(resampling_keeps_the_place)
+{
+    Scene scene;
+    SoftObject& ball = scene.ball(20, 7, 8, 9, 2);
+    CHECK(ball.resample(Real(4)));
+    const int coarse = ball.seeds();
+    CHECK(coarse < 100);
+    CHECK(ball.recalc());
+    CHECK(ball.centre() == point(7, 8, 9));
+    NEAR(size(vec(ball.seedPoint(ball.seed(0))) - vec(ball.centre())), 10, 1e-3);
+    CHECK(ball.resample(Real(2)));
+    SAME(ball.seeds(), 316);
+    NEAR(number(ball.spacing()), 2, 0);
+}
