@@ -342,7 +342,9 @@ crash:
         cmpl    %esp, %ebp
         jae     1f
         movl    %ebp, %esp
-1:      movl    $text, %edi
+1:      movl    %cr2, %eax
+        movl    %eax, F_CR2(%ebp)
+        movl    $text, %edi
         movl    F_VEC(%ebp), %eax
         cmpl    $17, %eax
         ja      2f
