@@ -282,6 +282,7 @@ mem_commit:
         ret
 
 /* A page table for linear address EDX. Carry if there is no page for it. EAX, ESI lost; FS = FLAT_DS. */
+        .globl  page_table
 page_table:
         movl    %edx, %esi
         shrl    $22, %esi

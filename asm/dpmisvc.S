@@ -22,6 +22,8 @@ entry_int31:
         movw    %si, %ds
         movw    %si, %es
         cld
+        cmpb    $0, fault_pending
+        jne     fault_now
         andb    $0xfe, F_EFL(%ebp)
         movzbl  %ah, %esi
         cmpl    $0x0e, %esi
