@@ -123,8 +123,10 @@ public:
     void setTurn(const Matrix& turn);
     // Multiplies size and core. The seeds are laid out anew when their spacing has drifted by more than a quarter from
     // the one asked for (or, without the memory for it, stay as they are, drawn apart).
-    // The factor is limited so that the size stays within SIZE_LEAST..SIZE_MOST.
-    void scale(Real by);
+    // The size is limited to SIZE_LEAST..SIZE_MOST.
+    void scale(Real by) { setSize(size_ * by); }
+    // The same, by the size to be reached, for what moves by the time and must not depend on the frame before.
+    void setSize(Real size);
 
     const Point& centre() const { return centre_; }
     Real size() const { return size_; }

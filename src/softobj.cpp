@@ -571,9 +571,9 @@ void SoftObject::setTurn(const Matrix& turn)
     tellNeighbours();
 }
 
-void SoftObject::scale(Real by)
+void SoftObject::setSize(Real wanted)
 {
-    const Real size = clamp(size_ * by, Real(SIZE_LEAST), Real(SIZE_MOST));
+    const Real size = clamp(wanted, Real(SIZE_LEAST), Real(SIZE_MOST));
     if (size == size_)
         return;
     tellNeighbours();
