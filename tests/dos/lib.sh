@@ -67,7 +67,7 @@ E3='if errorlevel 3 echo x > E3.TXT'
 # Starts an X server without a screen, for programs in a window; DISPLAY says where. False when there is none.
 startDisplay() {
     command -v Xvfb > /dev/null && command -v xdotool > /dev/null || return 1
-    Xvfb -displayfd 3 -screen 0 800x600x24 3> "$scratch/display" > /dev/null 2>&1 &
+    Xvfb -noreset -displayfd 3 -screen 0 800x600x24 3> "$scratch/display" > /dev/null 2>&1 &
     xvfb=$!
     tries=0
     while [ ! -s "$scratch/display" ] && [ $tries -lt 100 ]; do
