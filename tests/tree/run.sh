@@ -1,0 +1,80 @@
+#!/bin/sh
+# What holds for the tree and for DEMO.EXE as a whole, whatever the program does: names that plain DOS can unpack, what
+# the program may use, which instructions are in it, how large it is.
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+. tests/lib.sh
+
+build build/DEMO.EXE
+elf=build/dos/DEMO.EXE.elf
+
+# none WHAT...: the command prints nothing.
+none() {
+	"$@" >"$dir/found" 2>&1
+	[ ! -s "$dir/found" ] || {
+		cat "$dir/found"
+		false
+	}
+}
+# The files of the tree: what git knows, or everything where the tree came without it.
+if git rev-parse --git-dir >/dev/null 2>&1; then
+	git ls-files >"$dir/files"
+else
+	find . -name .git -prune -o -path ./build -prune -o -type f -print | sed 's|^\./||' >"$dir/files"
+fi
+ok "there are files" test "$(wc -l <"$dir/files")" -gt 50
+
+ok "the top level" none sh -c "sed 's|/.*||' '$dir/files' | sort -u |
+	grep -v -x -e '\..*' -e src -e include -e asm -e tests -e tools -e Makefile -e Makefile.djgpp -e README.md -e LICENSE"
+ok "8.3 names in lower case" none sh -c "grep -E '^(src|include|asm)/' '$dir/files' | tr / '\n' | sort -u |
+	grep -v -x -E '[a-z0-9_]{1,8}(\.([a-z0-9]{1,3}|S))?'"
+ok "no two names that DOS takes for one" none sh -c "tr A-Z a-z <'$dir/files' | sort | uniq -d"
+ok "no places of one machine" none sh -c "grep -E '\.(cpp|h|S|sh|mk|md|ld|yml|djgpp)\$|Makefile' '$dir/files' |
+	xargs grep -n -E '(^|[^[:alnum:]_.])[/](work|opt|home|root)[/]'"
+
+# Every file says at its head why it is there.
+headless() {
+	grep -E '^(src|include|asm|tests|tools)/.*\.(cpp|h|S|sh|mk|ld)$' "$dir/files" | while read -r file; do
+		case $(head -n 2 "$file" | grep -v '^#!' | head -n 1) in
+		//* | /\** | '#'\ * | '# '*) ;;
+		*) echo "$file" ;;
+		esac
+	done
+}
+ok "a comment at the head of each file" none headless
+
+# The program uses no library but what include/rt.h names, and neither exceptions nor RTTI.
+ok "no C++ library in the program" none sh -c "grep -E '^(src|include)/' '$dir/files' | grep -v '^src/host/' |
+	xargs grep -n '#include <' | grep -v -E '<(stdint|stddef|stdarg)\.h>' | grep -v '^include/rt.h:' | grep -v '^src/dos/'"
+ok "no exceptions, no RTTI" none sh -c "grep -E '^(src|include)/.*\.(cpp|h)\$' '$dir/files' |
+	xargs grep -n -E '(^|[^[:alnum:]_])(throw[ ;(]|try *[{]|catch *[(]|dynamic_cast<|typeid *[(])'"
+# Only src/dos and src/rt know DOS.
+ok "no DOS outside its place" none sh -c "grep -E '^(src/[^/]*\.cpp|src/host/.*|include/.*)\$' '$dir/files' |
+	xargs grep -n -i -E 'int +[\$]0x|go32|__dpmi|dpmi\.h|<dos\.h>'"
+# An assembly routine that the twins do not try is not finished.
+for routine in $(sed -n 's/^[[:space:]]*\.globl[[:space:]]*SYM(\(.*\))/\1/p' asm/blit.S); do
+	ok "the twins try $routine" grep -q "$routine(" tests/twins/twins.cpp
+done
+
+# Instructions.
+# Of the objects: in the linked program the constants stand among the code.
+objdump -d --no-show-raw-insn $(find build/dos/src build/dos/asm -name '*.o') >"$dir/code"
+ok "disassembled" test "$(wc -l <"$dir/code")" -gt 5000
+awk -F '\t' 'NF > 1 { split($2, part, " "); word = part[1]; if (word ~ /^(rep|repz|repnz|lock|data16|addr16|cs|ds|es|fs|gs|ss)$/) word = part[2]; print word }' \
+	"$dir/code" | sort | uniq -c >"$dir/words"
+ok "no x87 instruction" none awk '$2 ~ /^f/' "$dir/words"
+ok "no MMX or SSE register" none grep -m 5 -E '%[xy]?mm[0-7]' "$dir/code"
+ok "nothing a 386 lacks" none awk '$2 ~ /^(cmov|bswap|xadd|cmpxchg|cpuid|rdtsc|invlpg|invd|wbinvd|set.*bnd|endbr|movbe|popcnt|[lt]zcnt|prefetch)/' "$dir/words"
+ok "no static constructors" none sh -c "objdump -h '$elf' | grep -E 'init_array|ctors'"
+ok "nothing undefined" none sh -c "nm -u '$elf'"
+
+# DEMO.EXE as a DOS program.
+ok "an MZ program" test "$(head -c 2 build/DEMO.EXE)" = MZ
+if command -v i586-pc-msdosdjgpp-objdump >/dev/null; then
+	ok "a go32 program to the DJGPP tools" sh -c "i586-pc-msdosdjgpp-objdump -f build/DEMO.EXE | grep -q coff-go32-exe"
+fi
+ok "the stub has at most 16 KB" test "$(wc -c <build/STUB.EXE)" -le 16384
+echo "# DEMO.EXE: $(($(wc -c <build/DEMO.EXE))) bytes, $(($(wc -c <build/STUB.EXE))) of them the stub;" \
+	"$(size "$elf" | awk 'NR == 2 { print $1 " code and constants, " $2 " data, " $3 " cleared memory" }')"
+echo "# $(awk '{ n += $1 } END { print n }' "$dir/words") instructions disassembled, of $(wc -l <"$dir/words" | tr -d ' ') kinds"
+summary
