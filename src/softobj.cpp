@@ -8,15 +8,22 @@ namespace {
 
 // Every scale is a little larger than the part of the surface that is its own, by this part of the spacing: the
 // surface bends between seeds and a ring holds a whole number of them.
-constexpr Real CELL_MARGIN(0.09);
+constexpr Real CELL_MARGIN(0.08);
 
-// Half a scale in spacings where only its direction is known: for oversampled seeds, and while an object is turned.
-constexpr Real CELL_RADIUS(0.56);
+constexpr int EXTRA_CELL = 5;
 
 int16_t toExtent(Real units)
 {
     const int32_t value = rawFromReal(units) >> 8;
     return static_cast<int16_t>(value > INT16_MAX ? INT16_MAX : value);
+}
+
+// Half axes of a seed's cell in 1/64 spacing; `inverse` is 64 / spacing.
+void setCell(int8_t* to, const Vector& half, Real inverse)
+{
+    const Real parts[] = {half.x, half.y, half.z};
+    for (int i = 0; i < 3; ++i)
+        to[i] = static_cast<int8_t>(floorToInt(clamp(parts[i] * inverse, Real(-127), Real(127)) + Real(0.5)));
 }
 
 // 1.0 -> 2^14
@@ -67,7 +74,8 @@ private:
 class Filler : public SeedMaker {
 public:
     Filler(Seed* seeds, Vector* roots, int32_t* ringStarts, Real radius, Real spacing)
-        : seeds_(seeds), roots_(roots), ringStarts_(ringStarts), radius_(radius), margin_(spacing * CELL_MARGIN)
+        : seeds_(seeds), roots_(roots), ringStarts_(ringStarts), radius_(radius), margin_(spacing * CELL_MARGIN),
+          inverseSpacing_(Real(64) / spacing)
     {
     }
 
@@ -90,6 +98,8 @@ public:
         s.dirZ = toDirection(direction.z);
         s.restWide = toExtent(absolute(along.x) + absolute(across.x) + margin_);
         s.restHigh = toExtent(absolute(along.y) + absolute(across.y) + margin_);
+        setCell(s.along, along, inverseSpacing_);
+        setCell(s.across, across, inverseSpacing_);
     }
 
 private:
@@ -98,6 +108,7 @@ private:
     int32_t* ringStarts_;
     Real radius_;
     Real margin_;
+    Real inverseSpacing_;
     int rootCount_ = 0, rings_ = 0, count_ = 0;
 };
 
@@ -163,7 +174,6 @@ bool SoftObject::resample(Real spacing)
 
     // The oversampled seed of S: half way to its neighbour N, "the seed N on ring K-1 that is closest to S's
     // successor" (Appendix C, Figure 9). It lies in memory behind S.
-    const int16_t extent = toExtent(spacing * CELL_RADIUS);
     int pairS = -1, pairN = -1;
     for (int i = 0; i < ringStarts[counter.rings > 0 ? 1 : 0]; ++i)
         memset(&seeds[2 * i + 1], 0, sizeof(Seed));
@@ -210,8 +220,11 @@ bool SoftObject::resample(Real spacing)
             o.dirX = toDirection(direction.x);
             o.dirY = toDirection(direction.y);
             o.dirZ = toDirection(direction.z);
-            o.restWide = extent;
-            o.restHigh = extent;
+            // It fills the middle between seeds that have cells of their own.
+            for (int part = 0; part < 3; ++part) {
+                o.along[part] = static_cast<int8_t>(s.along[part] * EXTRA_CELL / 8);
+                o.across[part] = static_cast<int8_t>(s.across[part] * EXTRA_CELL / 8);
+            }
         }
     }
 
@@ -261,15 +274,21 @@ void SoftObject::rebuildPatches()
             axis = axis + s.path * share;
         }
         patch.middle = middle;
-        patch.axis = unit(axis);
+        axis = unit(axis);
         patch.radius = Real(0);
-        patch.spread = Real(0);
+        Real spread(0);
         const Real inverseRadius = Real(1) / radius_;
         for (int i = 0; i < patch.count; ++i) {
             const Seed& s = seeds_[2 * (patch.first + i)];
             patch.radius = most(patch.radius, length((roots_[s.root] - centre_) + s.path - middle));
-            patch.spread = most(patch.spread, length(s.path * inverseRadius - patch.axis));
+            spread = most(spread, length(s.path * inverseRadius - axis));
         }
+        patch.axis[0] = toDirection(axis.x);
+        patch.axis[1] = toDirection(axis.y);
+        patch.axis[2] = toDirection(axis.z);
+        patch.spread = toDirection(least(spread, Real(1.9)));
+        patch.across = rawFromReal(dot(middle, axis)) >> 11;
+        patch.radius32 = (rawFromReal(patch.radius) >> 11) + 1;
         // The oversampled seeds between this ring and the one before reach a little further.
         patch.radius += spacing_;
     }
@@ -290,7 +309,7 @@ void SoftObject::turnSeeds()
     }
     // Always from the rest paths, so that no error adds up however often it is turned.
     const Real inverseRadius = Real(1) / radius_;
-    const Real half = spacing_ * CELL_RADIUS;
+    const Real inverse = Real(64) / spacing_;
     for (int i = 0; i < slots; ++i) {
         Seed& s = seeds_[i];
         s.path = turn_ * pathRest_[i];
@@ -298,8 +317,14 @@ void SoftObject::turnSeeds()
         s.dirX = toDirection(direction.x);
         s.dirY = toDirection(direction.y);
         s.dirZ = toDirection(direction.z);
-        s.restWide = toExtent(half * squareRoot(Real(1.02) - direction.x * direction.x));
-        s.restHigh = toExtent(half * squareRoot(Real(1.02) - direction.y * direction.y));
+        // The cell turned, but rotated anew from any two half axes: across the direction they are all alike.
+        const Vector aside = absolute(direction.y) < Real(0.9) ? Vector{Real(0), Real(1), Real(0)} : Vector{Real(1), Real(0), Real(0)};
+        const Vector along = withLength(cross(aside, direction), spacing_ * Real(0.56));
+        const Vector across = cross(direction, along);
+        setCell(s.along, along, inverse);
+        setCell(s.across, across, inverse);
+        s.restWide = toExtent(absolute(along.x) + absolute(across.x));
+        s.restHigh = toExtent(absolute(along.y) + absolute(across.y));
         s.flags = static_cast<uint8_t>(s.flags & ~SEED_KEPT);
     }
 }
