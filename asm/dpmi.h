@@ -31,6 +31,7 @@
 #define F_EDI   0
 #define F_ESI   4
 #define F_EBP   8
+#define F_CR2   12              /* PUSHAL's ESP; a crash stores CR2 here */
 #define F_EBX   16
 #define F_EDX   20
 #define F_ECX   24
@@ -102,5 +103,9 @@
 #define E_HANDLE        0x8023
 #define E_CALLBACK      0x8024
 #define E_ADDRESS       0x8025
+
+/* Where the page tables and the page directory are seen: the directory is its own last entry. */
+#define PTES        0xffc00000
+#define PDES        0xfffff000
 
 #endif

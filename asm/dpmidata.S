@@ -48,13 +48,13 @@ rm_return_ptr:  .word   rm_return, 0
 switch_stack_ptr: .word switch_stack_top, 0
 rm_stack_cur:   .word   rm_stack_top, 0
 rm_ptrs_end:
-        .globl  vcpi_table
-vcpi_table:     .long   0, gdtr, idtr   /* CR3; linear addresses */
+        .globl  switch_table
+switch_table:     .long   0, gdtr, idtr   /* CR3; linear addresses. VCPI's layout */
                 .word   LDT_SEL, TSS_SEL
                 .long   pm_arrive
                 .word   HOST_CS, 0
         .globl  map_next
-map_next:       .long   0xc0000000      /* VCPI: linear addresses for physical memory */
+map_next:       .long   0xc0000000      /* VCPI: next linear address for mapped physical memory */
         .globl  r0_cur, lock_cur, version_flags, host_seg, psp_seg
 r0_cur:         .long   r0_stack_top
 lock_cur:       .long   LOCK_STACK
@@ -131,6 +131,8 @@ crash_lines:
         .asciz  " esp="
         .byte   F_EFL
         .asciz  " eflags="
+        .byte   F_CR2
+        .asciz  " cr2="
         .byte   F_CS + 0x80
         .asciz  "\r\ncs: sel="
         .byte   F_DS + 0x80
@@ -166,6 +168,11 @@ arenas_end:
 tss:            .skip   104
 rmregs:         .skip   R_SIZE
                 .balign 4
+                .globl  fault_frame, fault_page, fault_pending, fault_defer
+fault_frame:    .skip   F_SIZE          /* page faults in DOSBox, see dpmiint.S */
+fault_page:     .skip   4               /* number of a page to be absent again */
+fault_pending:  .skip   1
+fault_defer:    .skip   1               /* 1: this is DOSBox */
 hlts:           .skip   HLT_COUNT
                 .balign 4
 text:           .skip   1024
@@ -177,9 +184,11 @@ rm_stack_top:
 lock_stack:     .skip   LOCK_STACK
 r0_stack:       .skip   R0_STACK
 r0_stack_top:
+                .globl  pages
+pages:          .skip   3 * 4096        /* page directory and first page table, aligned to 4 KB in here */
 
         .globl  host_base, rm_spss, pm_cont, up_num, up_spss, xms_entry, xms_super, cpu_type, fpu_type
-        .globl  pic_masks, callbacks_used, vcpi_entry, vcpi_table_linear, old_15, old_23, a20_mode
+        .globl  pic_masks, callbacks_used, vcpi_entry, switch_table_linear, old_15, old_23, a20_mode
         .globl  exit_code, env_seg, client_ip, client_cs, client_ds, client_ss, client_sp
 host_base:      .skip   4
 rm_spss:        .skip   4               /* SP, SS for rm_load */
@@ -189,11 +198,15 @@ up_spss:        .skip   4
 xms_entry:      .skip   4               /* 0: no XMS */
 vcpi_entry:     .skip   6
                 .balign 4
-vcpi_table_linear: .skip 4
+switch_table_linear: .skip 4
         .globl  in_dos, pic_base
 in_dos:         .skip   4               /* linear address of DOS's busy flag */
 pic_base:       .skip   2               /* VCPI: interrupt bases of the controllers */
                 .balign 4
+        .globl  pool_next, pool_end, pool_handle
+pool_next:      .skip   4               /* raw: pages for page tables, linear = physical address */
+pool_end:       .skip   4
+pool_handle:    .skip   4               /* XMS handle + 1 */
 old_15:         .skip   4
 old_23:         .skip   4
 client_ip:      .skip   2

@@ -51,6 +51,23 @@ host_init:
         cmp     $gdt_bases_end, %si
         jb      2b
 
+        mov     host_base, %eax         /* page directory at ES:0, first page table at ES:1000h */
+        add     $pages + 0xfff, %eax
+        and     $~0xfff, %eax
+        mov     %eax, switch_table      /* CR3 */
+        lea     0x1007(%eax), %edx
+        mov     %eax, %ebx
+        shr     $4, %eax
+        mov     %ax, %es
+        mov     %edx, %es:0
+        lea     0x3(%ebx), %edx         /* the directory is a page table too: all of them at PTES */
+        mov     %edx, %es:0xffc
+        mov     host_base, %eax
+        add     %eax, switch_table + 4
+        add     %eax, switch_table + 8
+        add     $switch_table, %eax
+        mov     %eax, switch_table_linear
+
         call    processor
         smsw    %ax
         test    $1, %al
@@ -58,7 +75,9 @@ host_init:
         call    vcpi_init
         jmp     4f
 3:      call    memory_init
-4:      pop     %ax                     /* the caller's DS */
+4:      push    %cs
+        pop     %es
+        pop     %ax                     /* the caller's DS */
         jc      5f
         push    %ax
 
@@ -66,6 +85,12 @@ host_init:
         movw    $HOST_DS, tss + 8
         movw    $104, tss + 102         /* no I/O map: IOPL is enough */
 
+        mov     $0xf000, %ax            /* its BIOS says "DOSBox" */
+        mov     %ax, %fs
+        cmpl    $0x42534f44, %fs:0xe061
+        jne     7f
+        movb    $1, fault_defer
+7:
         mov     $hlts, %di
         mov     $0xf4, %al
         mov     $HLT_COUNT, %cx
@@ -220,8 +245,16 @@ vectors:
         loop    2b
 3:      ret
 
-/* --- Memory and A20 in plain real mode. Carry, DX: message. --- */
+/* --- Memory and A20 in plain real mode. Linear addresses are physical ones; mapped are the first MB, the
+       HMA and, as they are asked for, the client's blocks, so that a wild pointer is noticed. Page tables come
+       from a pool of their own. ES = page directory. Carry, DX: message. --- */
 memory_init:
+        mov     $0x1000, %di
+        mov     $7, %eax
+1:      stosl
+        add     $0x1000, %eax
+        cmp     $0x110000, %eax
+        jb      1b
         mov     $0x4300, %ax
         int     $0x2f
         cmp     $0x80, %al
@@ -243,6 +276,43 @@ memory_init:
         cmp     $1, %ax
         jne     9f
         movb    $1, a20_mode
+        mov     xms_super, %ah          /* EDX = KB in all: a page table for each 4 MB, and some more */
+        add     $8, %ah
+        xor     %edx, %edx
+        lcall   *xms_entry
+        cmpb    $0, xms_super
+        jne     3f
+        movzwl  %dx, %edx
+3:      shr     $12, %edx
+        add     $8, %dx
+        shl     $2, %dx
+        mov     %dx, %si
+        add     $3, %dx                 /* to have 4 KB boundaries whatever we get */
+        mov     $0x09, %ah
+        lcall   *xms_entry
+        cmp     $1, %ax
+        mov     %dx, %di
+        mov     $msg_no_memory, %dx
+        jne     9f
+        mov     %di, %dx
+        inc     %dx
+        mov     %dx, pool_handle
+        dec     %dx
+        mov     $0x0c, %ah              /* DX:BX = physical address */
+        lcall   *xms_entry
+        cmp     $1, %ax
+        mov     $msg_no_memory, %ax
+        xchg    %ax, %dx
+        jne     9f
+        shl     $16, %eax
+        mov     %bx, %ax
+        add     $0xfff, %eax
+        and     $~0xfff, %eax
+        mov     %eax, pool_next
+        movzwl  %si, %esi
+        shl     $10, %esi
+        add     %esi, %eax
+        mov     %eax, pool_end
         clc
         ret
 
@@ -270,10 +340,17 @@ memory_init:
         movzwl  %ax, %eax
         shl     $10, %eax
 5:      and     $~0xfff, %eax
-        mov     $msg_no_memory, %dx
-        jz      9f
-        movl    $0x100000, arenas
+        mov     %eax, %edx
+        shr     $22, %edx
+        add     $8, %dx
+        shl     $12, %edx
+        sub     %edx, %eax
+        jbe     7f
         mov     %eax, arenas + 4
+        movl    $0x100000, pool_next
+        add     $0x100000, %edx
+        mov     %edx, pool_end
+        mov     %edx, arenas
         call    a20_test
         jnz     8f
         in      $0x92, %al              /* the fast way */
@@ -292,6 +369,9 @@ memory_init:
         movb    $0, a20_mode
         mov     $msg_a20, %dx
 9:      stc
+        ret
+7:      mov     $msg_no_memory, %dx
+        stc
         ret
 8:      clc
         ret
@@ -339,8 +419,8 @@ a20_test:
         pop     %cx
         ret
 
-/* V86 mode: the server's first page table becomes ours, with a page directory of our own above it; the rest
-   of the linear space is filled as memory is asked for (dpmimem.S). Carry, DX: message. */
+/* V86 mode: the server fills our first page table; the rest of the linear space is filled with its pages as
+   memory is asked for (dpmimem.S). ES = page directory. Carry, DX: message. */
 vcpi_init:
         xor     %ax, %ax
         mov     %ax, %fs
@@ -352,20 +432,7 @@ vcpi_init:
         mov     $msg_v86, %dx
         test    %ah, %ah
         jnz     9f
-        push    %es
-        mov     $0x48, %ah              /* two pages and what their alignment costs */
-        mov     $0x300, %bx
-        int     $0x21
-        mov     $msg_dos_memory, %dx
-        jc      8f
-        add     $0xff, %ax
-        xor     %al, %al
-        mov     %ax, %es
-        xor     %di, %di
-        mov     $4096, %cx
-        xor     %ax, %ax
-        rep stosw
-        mov     $0x1000, %di            /* ES:0 page directory, ES:1000h page table */
+        mov     $0x1000, %di
         mov     $gdt + VCPI_SEL, %si
         mov     $0xde01, %ax            /* EBX = entry in the server's code segment */
         int     $0x67
@@ -381,18 +448,13 @@ vcpi_init:
         mov     %es, %cx
         shr     $8, %cx
         call    physical
-        mov     %edx, vcpi_table        /* CR3 */
-        or      $7, %dl
-        mov     %edx, %es:0xffc         /* the directory is a page table too: all of them at FFC00000h */
+        mov     %edx, switch_table      /* CR3 */
+        or      $3, %dl
+        mov     %edx, %es:0xffc
         inc     %cx
         call    physical
         or      $7, %dl
         mov     %edx, %es:0
-        mov     host_base, %eax
-        add     %eax, vcpi_table + 4
-        add     %eax, vcpi_table + 8
-        add     $vcpi_table, %eax
-        mov     %eax, vcpi_table_linear
         mov     $0xde03, %ax            /* EDX = free pages; some will become page tables */
         int     $0x67
         mov     %edx, %eax
@@ -412,10 +474,8 @@ vcpi_init:
         movw    $vcpi_pm_to_rm, pm_to_rm_vec
         movw    $vcpi_rm_to_pm, rm_to_pm_vec
         movb    $1, version_flags
-        pop     %es
         clc
         ret
-8:      pop     %es
 9:      stc
         ret
 
@@ -531,9 +591,9 @@ rm_exit:
         cmp     $1024, %di
         jb      2b
         mov     $arenas, %si
-4:      mov     8(%si), %dx
-        dec     %dx
-        js      5f
+4:      mov     8(%si), %dx             /* handle + 1 */
+        sub     $1, %dx
+        jc      5f
         push    %dx
         mov     $0x0d, %ah              /* unlock, free */
         lcall   *xms_entry
@@ -543,7 +603,16 @@ rm_exit:
 5:      add     $16, %si
         cmp     $arenas_end, %si
         jb      4b
-        mov     a20_mode, %al
+        mov     pool_handle, %dx
+        sub     $1, %dx
+        jc      9f
+        push    %dx
+        mov     $0x0d, %ah
+        lcall   *xms_entry
+        pop     %dx
+        mov     $0x0a, %ah
+        lcall   *xms_entry
+9:      mov     a20_mode, %al
         dec     %al
         jnz     6f
         mov     $0x06, %ah              /* local A20 disable */
@@ -610,7 +679,6 @@ rm_state:
 
 msg_a20:        .ascii  "address line A20 cannot be switched on$"
 msg_no_memory:  .ascii  "no extended memory$"
-msg_dos_memory: .ascii  "not enough DOS memory$"
 msg_v86:        .ascii  "a memory manager without VCPI is loaded: load a DPMI host too (CWSDPMI), or remove it$"
 
         ASM_END

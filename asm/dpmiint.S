@@ -56,6 +56,8 @@ entry_int21:
 entry_soft:
         pushl   (%esp)
         SAVE_FRAME
+        cmpb    $0, fault_pending
+        jne     fault_now
         movzbl  F_VEC(%ebp), %eax
         call    reflect
         jmp     exit_frame
@@ -104,17 +106,22 @@ entry_irq:
         cmpw    $USER_CS, %ss:pm_vec + 4(, %eax, 8)
         popl    %eax
         jne     irq_to_client
+irq_to_rm:
         pushl   (%esp)
         SAVE_FRAME
         movzbl  F_VEC(%ebp), %eax
         movw    $2, rmregs + R_FLAGS
         movl    $0, rmregs + R_SP
         call    rm_int
-        jmp     exit_frame
+        cmpb    $0, fault_pending
+        je      exit_frame
+        jmp     fault_now
 
 /* To the client's handler, on the locked stack. What is interrupted stays on the ring 0 stack, which goes on
    below it:  old ESP0, old lock_cur, IRET frame. */
 irq_to_client:
+        cmpb    $0, %ss:fault_pending
+        jne     irq_to_rm
         subl    $4, %esp
         pushl   %eax
         pushl   %edx
@@ -235,7 +242,16 @@ entry_exc_code:
         jne     1f
         call    reflect
         jmp     exit_frame
-1:      movzwl  exc_vec + 4(, %eax, 8), %ebx
+1:      cmpb    $0, fault_pending
+        jne     fault_again
+        cmpl    $14, %eax
+        jne     deliver
+        cmpb    $0, fault_defer
+        jne     fault_first
+        movl    %cr2, %edx
+        movl    %edx, F_CR2(%ebp)
+deliver:
+        movzwl  exc_vec + 4(, %eax, 8), %ebx
         testl   %ebx, %ebx
         jz      2f
 
@@ -287,6 +303,119 @@ entry_exc_code:
         andl    $~(IF_BIT | 0x100), F_EFL(%ebp)
         jmp     exit_frame
 
+/* --- Page faults in DOSBox. It runs the fault's handler inside the faulting instruction and gives up with "Pagefault
+       didn't correct page" when the program ends there. So the instruction is let through, on whatever page can
+       be had, and the fault is delivered, with the registers it had, when the client next comes to the host: at an
+       interrupt. The clock is made to tick at once for that; its rate is then the BIOS's. --- */
+
+/* EAX = 14, EBP = frame. */
+fault_first:
+        movl    %cr2, %eax
+        movl    %eax, F_CR2(%ebp)
+        movl    %ebp, %esi
+        movl    $fault_frame, %edi
+        movl    $F_SIZE / 4, %ecx
+        rep movsl
+        call    fault_alarm
+        jmp     1f
+
+/* An exception while one is pending. */
+fault_again:
+        cmpl    $14, %eax
+        jne     fault_now
+1:      call    fault_let_through
+        andb    $~1, F_EFL + 1(%ebp)    /* no TF */
+        orb     $IF_BIT >> 8, F_EFL + 1(%ebp)
+        jmp     exit_frame
+
+/* The client made the host touch a bad address. Vector, error code, EIP, CS, EFLAGS on the stack. */
+fault_in_host:
+        pushl   %gs
+        pushl   %fs
+        pushl   %es
+        pushl   %ds
+        pushal
+        movl    $HOST_DS, %edx
+        movw    %dx, %ds
+        movw    %dx, %es
+        cld
+        cmpb    $0, fault_pending
+        jne     1f
+        movl    tss + 4, %esi           /* the client's frame, with this fault in it */
+        subl    $F_SIZE, %esi
+        movl    $fault_frame, %edi
+        movl    $F_SIZE / 4, %ecx
+        rep movsl
+        movl    %cr2, %eax
+        movl    %eax, fault_frame + F_CR2
+        movl    $14, fault_frame + F_VEC
+        movl    F_ERR(%esp), %eax
+        movl    %eax, fault_frame + F_ERR
+        call    fault_alarm
+1:      call    fault_let_through
+        popal
+        popl    %ds
+        popl    %es
+        popl    %fs
+        popl    %gs
+        addl    $8, %esp
+        iretl
+
+fault_alarm:
+        movl    $0, fault_page
+        movb    $1, fault_pending
+        movb    $0x30, %al              /* counter 0, mode 0, 2: an interrupt in 2 microseconds */
+        outb    %al, $0x43
+        movb    $2, %al
+        outb    %al, $0x40
+        xorl    %eax, %eax
+        outb    %al, $0x40
+        ret
+
+/* Make the page at CR2 present: the client's own if 0507h made it absent, else one of the BIOS's ROM. */
+fault_let_through:
+        movw    $FLAT_DS, %ax
+        movw    %ax, %fs
+        movl    %cr2, %edx
+        call    page_table
+        jc      2f
+        shrl    $12, %edx
+        movl    %fs:PTES(, %edx, 4), %eax
+        testl   %eax, %eax
+        jnz     1f
+        movl    $0xf0000, %eax
+        jmp     3f
+1:      movl    %edx, fault_page
+3:      orb     $7, %al
+        movl    %eax, %fs:PTES(, %edx, 4)
+2:      ret
+
+/* Deliver it. EBP = frame to be replaced. */
+        .globl  fault_now
+fault_now:
+        movl    $fault_frame, %esi
+        movl    %ebp, %edi
+        movl    $F_SIZE / 4, %ecx
+        rep movsl
+        movb    $0, fault_pending
+        movb    $0x36, %al              /* mode 3, 65536 */
+        outb    %al, $0x43
+        xorl    %eax, %eax
+        outb    %al, $0x40
+        outb    %al, $0x40
+        movl    fault_page, %edx
+        testl   %edx, %edx
+        jz      1f
+        movw    $FLAT_DS, %ax
+        movw    %ax, %fs
+        andb    $~1, %fs:PTES(, %edx, 4)
+        movl    %cr3, %eax
+        movl    %eax, %cr3
+1:      movl    F_CR2(%ebp), %eax
+        movl    %eax, %cr2
+        movl    F_VEC(%ebp), %eax
+        jmp     deliver
+
 /* The exception handler's far return ran into HLT_EXCRET; the rest of the frame is on its stack. */
         .globl  hlt_excret
 hlt_excret:
@@ -315,7 +444,11 @@ host_fault:
         movl    $0, 20(%esp)            /* the selector about to be popped */
 3:      addl    $8, %esp
         iretl
-1:      movw    $HOST_DS, %dx
+1:      cmpl    $14, (%esp)
+        jne     4f
+        cmpb    $0, %ss:fault_defer
+        jne     fault_in_host
+4:      movw    $HOST_DS, %dx
         movw    %dx, %ds
         movw    %dx, %es
         movl    tss + 4, %ebp
@@ -324,6 +457,8 @@ host_fault:
         movl    %eax, F_VEC(%ebp)
         movl    4(%esp), %eax
         movl    %eax, F_ERR(%ebp)
+        movl    %cr2, %eax
+        movl    %eax, F_CR2(%ebp)
         cld
 
 /* Ctrl-C in DOS, called by the client at the top of the ring 0 stack. */

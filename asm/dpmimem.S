@@ -222,9 +222,8 @@ mem_alloc:
         movl    %ecx, 4(%edi)
 7:      ret
 
-/* --- Pages, under VCPI only; elsewhere memory is just there. Page tables are seen at PTES. --- */
-#define PTES        0xffc00000
-#define PDES        0xfffff000
+/* --- Pages. In plain real mode linear and physical addresses are the same; under VCPI pages come one by
+       one from the server. --- */
 
 /* VCPI function EAX in PM. Some servers return with RETF as they should, DOSBox's with IRETD. */
 vcpi_call:
@@ -238,8 +237,6 @@ vcpi_call:
 
 /* Map memory to ECX bytes from EDX. Carry and AX = error if there is none left. Other registers kept. */
 mem_commit:
-        cmpl    $0, vcpi_entry
-        je      9f                      /* equal: no carry */
         pushl   %ebx
         pushl   %ecx
         pushl   %edx
@@ -247,22 +244,21 @@ mem_commit:
         movw    $FLAT_DS, %ax
         movw    %ax, %fs
         movl    %edx, %ebx
-1:      movl    %edx, %esi
-        call    page_table
+1:      call    page_table
         jc      2f
-        movl    $0xde04, %eax           /* EDX = physical address of a page */
-        pushl   %edx
-        call    vcpi_call
         movl    %edx, %esi
-        popl    %edx
+        cmpl    $0, vcpi_entry
+        je      4f
+        movl    $0xde04, %eax           /* EDX = physical address of a page */
+        call    vcpi_call
+        xchgl   %edx, %esi
         testb   %ah, %ah
         jnz     2f
-        pushl   %edx
-        shrl    $12, %edx
         andl    $~0xfff, %esi
+4:      movl    %edx, %eax
+        shrl    $12, %eax
         orl     $7, %esi
-        movl    %esi, %fs:PTES(, %edx, 4)
-        popl    %edx
+        movl    %esi, %fs:PTES(, %eax, 4)
         addl    $4096, %edx
         subl    $4096, %ecx
         jnz     1b
@@ -283,37 +279,45 @@ mem_commit:
         popl    %ebx
         movw    $E_NO_PHYSICAL, %ax
         stc
-9:      ret
+        ret
 
 /* A page table for linear address EDX. Carry if there is no page for it. EAX, ESI lost; FS = FLAT_DS. */
+        .globl  page_table
 page_table:
         movl    %edx, %esi
         shrl    $22, %esi
         testb   $1, %fs:PDES(, %esi, 4)
         jnz     1f                      /* no carry */
         pushl   %edx
+        cmpl    $0, vcpi_entry
+        je      3f
         movl    $0xde04, %eax
         call    vcpi_call
         testb   %ah, %ah
-        stc
-        jnz     2f
+        jnz     5f
         andl    $~0xfff, %edx
-        orl     $7, %edx
+        jmp     4f
+3:      movl    pool_next, %edx
+        cmpl    pool_end, %edx
+        jae     5f
+        addl    $4096, pool_next
+4:      orl     $7, %edx
         movl    %edx, %fs:PDES(, %esi, 4)
         shll    $12, %esi               /* clear it where it is seen now */
         pushl   %ecx
         movl    $1024, %ecx
-3:      movl    $0, %fs:PTES - 4(%esi, %ecx, 4)
-        loop    3b
+2:      movl    $0, %fs:PTES - 4(%esi, %ecx, 4)
+        loop    2b
         popl    %ecx
+        popl    %edx
         clc
-2:      popl    %edx
 1:      ret
+5:      popl    %edx
+        stc
+        ret
 
 /* The reverse of mem_commit. All registers but EAX kept. */
 mem_uncommit:
-        cmpl    $0, vcpi_entry
-        je      9f
         pushl   %ecx
         pushl   %edx
         pushl   %esi
@@ -324,19 +328,21 @@ mem_uncommit:
 1:      movl    %edx, %esi
         movl    %fs:PTES(, %esi, 4), %edx
         movl    $0, %fs:PTES(, %esi, 4)
+        cmpl    $0, vcpi_entry
+        je      2f
         andl    $~0xfff, %edx
         movl    $0xde05, %eax           /* free page */
         call    vcpi_call
-        leal    1(%esi), %edx
+2:      leal    1(%esi), %edx
         loop    1b
         movl    %cr3, %eax              /* the processor remembers translations */
         movl    %eax, %cr3
         popl    %esi
         popl    %edx
         popl    %ecx
-9:      ret
+        ret
 
-/* At the end of the client: all pages go back to the server. */
+/* At the end of the client: under VCPI all pages go back to the server. */
         .globl  mem_free_all
 mem_free_all:
         cmpl    $0, vcpi_entry
@@ -385,6 +391,8 @@ block_entry:
         movzwl  F_ESI(%ebp), %eax
         shll    $16, %eax
         movw    F_EDI(%ebp), %ax
+/* The same for handle EAX. */
+block_find:
         movl    $blocks, %edi
 1:      cmpl    $0, 4(%edi)
         je      2f
@@ -580,8 +588,63 @@ svc_0503:
         jmp     block_result
 9:      ret
 
-/* 0800h  map physical memory.  In: BX:CX = physical address, SI:DI = bytes.  Out: BX:CX = linear address.
-   Without paging they are the same; under VCPI linear addresses are used up from C0000000h on. */
+/* 0507h  set page attributes, a DPMI 1.0 function that DJGPP's crt0 calls to make NULL pointers fault.
+   In: ESI = handle, EBX = offset in the block, ECX = pages, ES:EDX = a word for each page: bits 0 to
+   2 = 0 absent, 1 present, 3 as it is; bit 3 = writeable.  Out: ECX = pages done, on an error. */
+        .globl  svc_0507
+svc_0507:
+        movl    F_ESI(%ebp), %eax
+        call    block_find
+        jc      9f
+        testl   $0x0fff, %ebx
+        jnz     8f
+        movl    F_ECX(%ebp), %ecx
+        cmpl    $0x100000, %ecx
+        jae     8f
+        movl    %ecx, %eax
+        shll    $12, %eax
+        addl    %ebx, %eax
+        jc      8f
+        cmpl    4(%edi), %eax
+        ja      8f
+        jecxz   4f
+        addl    (%edi), %ebx            /* linear */
+        shrl    $12, %ebx
+        movw    $FLAT_DS, %ax
+        movw    %ax, %fs
+        movl    F_EDX(%ebp), %esi
+        movw    F_ES(%ebp), %es
+1:      movzwl  %es:(%esi), %eax
+        movl    %fs:PTES(, %ebx, 4), %edx
+        andb    $~2, %dl                /* not writeable */
+        testb   $8, %al
+        jz      2f
+        orb     $2, %dl
+2:      andb    $7, %al
+        cmpb    $3, %al
+        je      3f
+        andb    $~1, %dl                /* absent; its address stays, the page is still the block's */
+        cmpb    $1, %al
+        jb      3f
+        ja      7f
+        orb     $1, %dl
+3:      movl    %edx, %fs:PTES(, %ebx, 4)
+        incl    %ebx
+        addl    $2, %esi
+        loop    1b
+        movl    %cr3, %eax
+        movl    %eax, %cr3
+4:      clc
+        ret
+7:      movl    F_ECX(%ebp), %eax
+        subl    %ecx, %eax
+        movl    %eax, F_ECX(%ebp)
+8:      movw    $E_VALUE, %ax
+        stc
+9:      ret
+
+/* 0800h  map physical memory.  In: BX:CX = physical address, SI:DI = bytes.  Out: BX:CX = linear address:
+   the same one in plain real mode; under VCPI linear addresses are used up from C0000000h on. */
         .globl  svc_0800
 svc_0800:
         shll    $16, %ebx
@@ -596,13 +659,15 @@ svc_0800:
         leal    -1(%eax, %ebx), %ecx    /* the last byte */
         cmpl    %ebx, %ecx
         jb      1f
-        cmpl    $0, vcpi_entry
-        je      3f
         movw    $FLAT_DS, %ax
         movw    %ax, %fs
-        movl    map_next, %edx
         andl    $~0xfff, %ebx
-2:      cmpl    $PTES >> 12 << 12, %edx
+        movl    %ebx, %edx
+        cmpl    $0, vcpi_entry
+        je      3f
+        movl    map_next, %edx
+3:      pushl   %edx
+2:      cmpl    $PTES, %edx
         jae     4f
         call    page_table
         jc      4f
@@ -615,16 +680,20 @@ svc_0800:
         jc      5f
         cmpl    %ecx, %ebx
         jbe     2b
-5:      movl    F_ECX(%ebp), %eax       /* the offset in the page stays */
-        andl    $0x0fff, %eax
-        addl    map_next, %eax
+5:      cmpl    $0, vcpi_entry
+        je      6f
         movl    %edx, map_next
+6:      popl    %edx
+        movl    F_ECX(%ebp), %eax       /* the offset in the page stays */
+        andl    $0x0fff, %eax
+        addl    %edx, %eax
         movw    %ax, F_ECX(%ebp)
         shrl    $16, %eax
         movw    %ax, F_EBX(%ebp)
-3:      clc
+        clc
         ret
-4:      movw    $E_NO_LINEAR, %ax
+4:      popl    %edx
+        movw    $E_NO_LINEAR, %ax
         stc
         ret
 1:      movw    $E_VALUE, %ax

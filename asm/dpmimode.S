@@ -40,7 +40,10 @@ raw_pm_to_rm:
         movw    %ax, %gs
         lidtl   rm_idtr
         movl    %cr0, %eax
-        andb    $0xfe, %al
+        andl    $0x7fffffff, %eax       /* paging off first; we are where linear is physical */
+        movl    %eax, %cr0
+        jmp     2f
+2:      andb    $0xfe, %al
         movl    %eax, %cr0
         ljmpw   *rm_load_ptr            /* also empties the prefetch queue */
 
@@ -106,8 +109,10 @@ rm_to_pm:
 raw_rm_to_pm:
         lgdtl   %cs:gdtr
         lidtl   %cs:idtr
+        movl    %cs:switch_table, %eax
+        movl    %eax, %cr3
         movl    %cr0, %eax
-        orb     $1, %al
+        orl     $0x80000001, %eax
         movl    %eax, %cr0
         ljmpl   $HOST_CS, $pm_arrive
 
@@ -115,7 +120,7 @@ raw_rm_to_pm:
         .globl  vcpi_rm_to_pm
 vcpi_rm_to_pm:
         lssw    %cs:switch_stack_ptr, %sp
-        movl    %cs:vcpi_table_linear, %esi
+        movl    %cs:switch_table_linear, %esi
         movw    $0xde0c, %ax
         int     $0x67
 

@@ -22,6 +22,8 @@ entry_int31:
         movw    %si, %ds
         movw    %si, %es
         cld
+        cmpb    $0, fault_pending
+        jne     fault_now
         andb    $0xfe, F_EFL(%ebp)
         movzbl  %ah, %esi
         cmpl    $0x0e, %esi
@@ -780,7 +782,7 @@ svc_03: .word   svc_0300, svc_0301, svc_0302, svc_0303, svc_0304, svc_0305, svc_
 svc_03_end:
 svc_04: .word   svc_0400
 svc_04_end:
-svc_05: .word   svc_0500, svc_0501, svc_0502, svc_0503
+svc_05: .word   svc_0500, svc_0501, svc_0502, svc_0503, 0, 0, 0, svc_0507
 svc_05_end:
 svc_06: .word   svc_nothing, svc_nothing, svc_nothing, svc_nothing, svc_0604
 svc_06_end:

@@ -25,7 +25,7 @@ struct Actor {
     const Kind* kind = nullptr;    // null: a group, or an object that was made elsewhere
     Real measure[MEASURES_MOST] = {Real(0), Real(0), Real(0)};  // as the kind has them, before any scaling
     Pose pose;                     // as Anim::move() left it
-    Real scaled{1};                // the scale that the object has taken on
+    Real made{0};                  // size() of the object before any scaling
 };
 
 class Model {

@@ -48,6 +48,10 @@ public:
     // Starts the next ring: seeds that follow each other around the primitive, beside the ring before.
     virtual void beginRing() = 0;
 
+    // Seeds added from now on rest this far from their roots, units, and not the object's radius: for objects that
+    // taper.
+    virtual void restAt(Real) {}
+
     // Adds a seed to the ring: it rests `radius` away from its root along `direction` (unit length). `along` and
     // `across` are the half axes of the part of the surface that is its own: half way to the next seed of the ring,
     // half way to the next ring (lengths in units).

@@ -66,7 +66,9 @@ constexpr Real MAGNIFICATION(2.0);          // growth of a scale with |position 
 class SoftObject {
 public:
     // `size` is the distance from the core where the field ends, SIZE_LEAST..SIZE_MOST; the caller has checked it.
-    SoftObject(int number, Real size);
+    // `tapers`: the size differs along the core, and `size` is the greatest.
+    SoftObject(int number, Real size, bool tapers = false);
+    // Unlinks the object from all that it is linked to. A link that only the other end holds must be gone before.
     virtual ~SoftObject();
     SoftObject(const SoftObject&) = delete;
     SoftObject& operator=(const SoftObject&) = delete;
@@ -82,11 +84,20 @@ public:
     // The greatest distance of a point of the core from the centre; 0 says that the core is the centre.
     virtual Real coreReach() const { return Real(0); }
 
-    // Called after the object was moved, turned or scaled: the place to bring the core along.
+    // Called after the object was moved, turned or scaled: the place to bring the core along. Its measures go with
+    // size(), in the proportion that they had when it was made.
     virtual void placeCore() {}
 
-    // Multiplies the measures of the core (not the size).
-    virtual void scaleCore(Real) {}
+    // Whether the last ring of seeds lies beside the first.
+    virtual bool ringsClose() const { return false; }
+
+    // For objects that taper. The size at the point of the core that is nearest to `p`, units; the field's argument
+    // there (see coreParam), with half its gradient times size() squared in `*slope`; the least radius; and the sine of
+    // the greatest angle between a path and the normal of the unblended surface.
+    virtual Real sizeAt(const Point&) const { return size_; }
+    virtual Real taperedParam(const Point& p, Vector* slope) const { return coreParam(*slope = fromCore(p)); }
+    virtual Real leastRadius() const { return radius_; }
+    virtual Real lean() const { return Real(0); }
 
     // The object in the words of a dumped frame ("sphere 1 3.25 -4 0 20"), at most `size` bytes with the final 0.
     virtual void describe(char* to, int size) const = 0;
@@ -98,20 +109,24 @@ public:
     bool resample(Real spacing);
     int seeds() const { return regular_; }
     int oversampledSeeds() const { return extra_; }
-    Real spacing() const { return spacing_; }
+    // As asked for; scaling makes the seeds lie up to a quarter closer or farther.
+    Real spacing() const { return wanted_; }
 
     // --- Operations (report, Section III: Translation, Rotation, Scaling). Each sets `recalc` here and, where the
     // field of this object reaches them before or after, in its neighbours.
 
     void translate(const Vector& by);
     void moveTo(const Point& centre) { translate(centre - centre_); }
-    // Turns by `angle` about an axis through `about`.
+    // Turns by `angle` about an axis through `about`, which keeps its distance; a zero axis turns nothing.
     void rotate(const Point& about, const Vector& axis, Angle angle);
-    // Takes on an orientation, counted from how the seeds were laid out. `turn` is a pure rotation.
+    // Takes on an orientation, counted from the object's own axes. `turn` is a pure rotation.
     void setTurn(const Matrix& turn);
-    // Multiplies size and core. The seeds are laid out anew when their spacing has drifted by more than a quarter.
-    // The factor is limited so that the size stays within SIZE_LEAST..SIZE_MOST.
-    void scale(Real by);
+    // Multiplies size and core. The seeds are laid out anew when their spacing has drifted by more than a quarter from
+    // the one asked for (or, without the memory for it, stay as they are, drawn apart).
+    // The size is limited to SIZE_LEAST..SIZE_MOST.
+    void scale(Real by) { setSize(size_ * by); }
+    // The same, by the size to be reached, for what moves by the time and must not depend on the frame before.
+    void setSize(Real size);
 
     const Point& centre() const { return centre_; }
     Real size() const { return size_; }
@@ -123,6 +138,7 @@ public:
 
     // Adds a link to `other` in this object's skel, or gives the one there a new weight. False: no memory.
     bool link(SoftObject* other, Real weight);
+    // Takes the link out of this object's skel only. Harmless when there is none.
     void unlink(SoftObject* other);
     const List<Link>& skel() const { return skel_; }
 
@@ -132,8 +148,22 @@ public:
     // 1 or more everywhere beyond.
     Real coreParam(const Vector& v) const;
 
+    // The same for a point, with half its gradient times size() squared in `*slope`: the vector from the core, unless
+    // the object tapers.
+    Real param(const Point& p, Vector* slope) const
+    {
+        if (tapers_)
+            return taperedParam(p, slope);
+        *slope = fromCore(p);
+        return coreParam(*slope);
+    }
+
     // This object's contribution to the implicit function at `p`, 0..1 (the report's fieldFunc).
-    Real fieldFunc(const Point& p) const { return geoff(coreParam(fromCore(p))); }
+    Real fieldFunc(const Point& p) const
+    {
+        Vector slope;
+        return geoff(param(p, &slope));
+    }
 
     // The whole sum at `p`, as this object sees it: its own field and its neighbours', weighted.
     Real fieldSum(const Point& p) const;
@@ -170,10 +200,14 @@ protected:
     // A point of the object's own space in the world.
     Point toWorld(const Vector& v) const { return centre_ + turn_ * v; }
 
+    // "kind number numbers...", for describe().
+    void describeAs(const char* kind, const Real* numbers, int count, char* to, int size) const;
+
 private:
     friend class Settler;
     friend class Counter;
     friend class Filler;
+    friend class RestFiller;
 
     // Most seeds that are judged as one.
     static constexpr int PATCH_SEEDS = 8;
@@ -198,11 +232,27 @@ private:
         Vector normal;
     };
 
+    // A seed as it was laid out, unturned and unscaled: what turned and scaled ones are made from, so that no error adds
+    // up however often it is done. Only kept for objects that are no balls, and for those once scaled.
+    struct Rest {
+        Vector path;
+        int16_t along[3], across[3];  // as of SeedMaker::addSeed(), 1/256 unit; all 0 for oversampled seeds
+    };
+    struct PatchRest {
+        Vector middle, axis;
+        Real radius;
+    };
+
     void tellNeighbours();
     bool inRange(const SoftObject& other) const;
-    void rebuildPatches();
-    void turnSeeds();
-    void restExtents();
+    void buildPatches();
+    static void facePatch(Patch& patch, const Vector& axis);
+    bool keepRest();
+    void poseSeeds();
+    // What the visibility tests of seeds take for radius and spacing: for objects that taper, so that they hold for all
+    // seeds of the object.
+    Real sightRadius() const { return tapers_ ? leastRadius() : radius_; }
+    Real sightSpacing() const { return tapers_ ? spacing_ + shiftUp(leastRadius() * lean(), 1) : spacing_; }
     void updatePrinted(const Look& look);
     int findNear(Link* near) const;
     void settlePrinted(int i, const Look& look, const Vector& toEye, const Link* near, int nearCount);
@@ -220,9 +270,12 @@ private:
     List<Link> skel_;
     bool recalc_;
     bool turned_;
+    bool tapers_;
     bool displaced_;  // some seed is not at rest
     bool linkedChange_;
-    Real spacing_;
+    Real spacing_;    // of the seeds as they are
+    Real wanted_;     // as asked for
+    Real laidSize_;   // size when the seeds were laid out
     Real spread_;     // greatest position of a settled seed
     const uint8_t* ramp_;
 
@@ -232,7 +285,8 @@ private:
     Point* roots_;
     Vector* rootRest_;     // from the centre, as laid out
     int rootCount_;
-    Vector* pathRest_;     // as laid out; only while the object is turned
+    Rest* rest_;
+    PatchRest* patchRest_;
     Patch* patches_;
     int patchCount_;
     Kept* kept_;           // only with the report's methods

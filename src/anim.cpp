@@ -188,10 +188,7 @@ void Anim::move(Model& model, Time time)
         if (actor.object == nullptr)
             continue;
         SoftObject& object = *actor.object;
-        if (pose.scale != actor.scaled) {
-            object.scale(pose.scale / actor.scaled);
-            actor.scaled = pose.scale;
-        }
+        object.setSize(actor.made * pose.scale);
         if (turned && object.coreReach() > Real(0))
             object.setTurn(pose.turn);
         object.moveTo(pose.place);

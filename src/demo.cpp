@@ -6,6 +6,7 @@
 #include "machine.h"
 #include "options.h"
 #include "palette.h"
+#include "scene.h"
 #include "shade.h"
 #include "stats.h"
 #include "text.h"
@@ -32,7 +33,7 @@ public:
     int run();
 
 private:
-    const char* prepare();
+    const char* prepare(int* status);
     void key(int code);
     void mouse();
     void push(Real x, Real y, Real z);
@@ -62,14 +63,23 @@ private:
     Time selectedAt_ = 0;
 };
 
-// Everything that can fail, before the video mode is touched. Null, or one line.
-const char* Demo::prepare()
+// Everything that can fail, before the video mode is touched. Null, or one line; `*status` is then the exit status.
+const char* Demo::prepare(int* status)
 {
     makeFieldSteps();
     makeShadeTables();
     spacing_ = options_.spacing;
-    if (!model_.makeFourSpheres())
+    *status = 1;
+    if (options_.modelFile != nullptr) {
+        SceneEnd end;
+        const char* problem = readScene(options_.modelFile, model_, &end);
+        *status = end;
+        if (problem != nullptr)
+            return problem;
+        *status = 1;
+    } else if (!model_.makeFourSpheres()) {
         return "not enough memory for the model";
+    }
     Anim::move(model_, 0);
     if (!model_.resample(spacing_))
         return "not enough memory for seeds that close; try a larger spacing with /S";
@@ -248,9 +258,10 @@ int Demo::run()
     const char* problem = machine::start();
     if (problem != nullptr)
         machine::fail(1, problem);
-    problem = prepare();
+    int status;
+    problem = prepare(&status);
     if (problem != nullptr)
-        machine::fail(1, problem);
+        machine::fail(status, problem);
     machine::standStill(options_.frames > 0);
     if (options_.interactive) {
         mousePresent_ = machine::openMouse();

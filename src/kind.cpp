@@ -2,19 +2,11 @@
 #include "kind.h"
 
 #include "alloc.h"
-#include "sphere.h"
-#if __has_include("cylinder.h")
-#include "cylinder.h"
-#endif
-#if __has_include("torus.h")
-#include "torus.h"
-#endif
-#if __has_include("disc.h")
-#include "disc.h"
-#endif
-#if __has_include("cone.h")
 #include "cone.h"
-#endif
+#include "cylinder.h"
+#include "disc.h"
+#include "sphere.h"
+#include "torus.h"
 
 namespace {
 
@@ -25,56 +17,45 @@ SoftObject* makeSphere(int number, const Real* m)
     return make<Sphere>(number, m[0]);
 }
 
-#if __has_include("cylinder.h")
 SoftObject* makeCylinder(int number, const Real* m)
 {
     return make<Cylinder>(number, m[0], m[1]);
 }
-#endif
 
-#if __has_include("torus.h")
 SoftObject* makeTorus(int number, const Real* m)
 {
     return make<Torus>(number, m[0], m[1]);
 }
 
-// The tube must not reach its own other side.
-const char* torusExpects(const Real* m)
-{
-    return m[1] * Real(2) > m[0] ? nullptr : "a ring above half the size";
-}
-#endif
-
-#if __has_include("disc.h")
 SoftObject* makeDisc(int number, const Real* m)
 {
     return make<Disc>(number, m[0], m[1]);
 }
-#endif
 
-#if __has_include("cone.h")
 SoftObject* makeCone(int number, const Real* m)
 {
     return make<Cone>(number, m[0], m[1], m[2]);
 }
-#endif
+
+// The tube must not reach its own other side.
+const char* torusExpects(const Real* m)
+{
+    return m[1] >= Torus::leastRing(m[0]) ? nullptr : "a ring of at least five eighths of the size";
+}
+
+const char* coneExpects(const Real* m)
+{
+    return m[2] >= Cone::leastLength(m[0], m[1]) ? nullptr : "a length of at least half the difference of size and tip";
+}
 
 }  // namespace
 
 const Kind KINDS[] = {
     {"sphere", 1, {SIZE}, makeSphere, nullptr},
-#if __has_include("cylinder.h")
-    {"cylinder", 2, {SIZE, {"length", Real(1), Real(100)}}, makeCylinder, nullptr},
-#endif
-#if __has_include("torus.h")
+    {"cylinder", 2, {SIZE, {"length", Real(0), Real(100)}}, makeCylinder, nullptr},
     {"torus", 2, {SIZE, {"ring", Real(1), Real(100)}}, makeTorus, torusExpects},
-#endif
-#if __has_include("disc.h")
-    {"disc", 2, {SIZE, {"disc", Real(1), Real(100)}}, makeDisc, nullptr},
-#endif
-#if __has_include("cone.h")
-    {"cone", 3, {SIZE, {"tip", Real(SIZE_LEAST), Real(SIZE_MOST)}, {"length", Real(1), Real(100)}}, makeCone, nullptr},
-#endif
+    {"disc", 2, {SIZE, {"disc", Real(0), Real(100)}}, makeDisc, nullptr},
+    {"cone", 3, {SIZE, {"tip", Real(SIZE_LEAST), Real(SIZE_MOST)}, {"length", Real(0), Real(100)}}, makeCone, coneExpects},
 };
 
 const int KIND_COUNT = static_cast<int>(sizeof KINDS / sizeof KINDS[0]);

@@ -86,7 +86,7 @@ bool Model::add(SoftObject* object, const Colour& colour, const Motion& motion)
     actor->object = object;
     actor->number = object->number();
     snprintf(actor->name, sizeof actor->name, "object%d", actor->number);
-    actor->measure[0] = object->size();
+    actor->measure[0] = actor->made = object->size();
     actors_[count_++] = actor;
     items_[itemCount_++] = actor;
     return true;
@@ -110,7 +110,6 @@ Actor* Model::addItem(const Actor& described)
     item->number = number;
     item->motion.firstKey = item->motion.keyCount = 0;
     item->pose = Pose();
-    item->scaled = Real(1);
     item->object = nullptr;
     if (!group) {
         item->object = described.kind->make(number, described.measure);
@@ -119,6 +118,7 @@ Actor* Model::addItem(const Actor& described)
             destroy(item);
             return nullptr;
         }
+        item->made = item->object->size();
         actors_[count_++] = item;
     }
     items_[itemCount_++] = item;
@@ -193,7 +193,7 @@ bool Model::remake(Actor* item)
     destroy(item->object);
     item->object = fresh;
     item->pose = Pose();
-    item->scaled = Real(1);
+    item->made = fresh->size();
     return true;
 }
 
@@ -395,9 +395,9 @@ bool Model::restore(const Record* record)
         if (same)
             continue;  // its object is taken over below
         item->pose = Pose();
-        item->scaled = Real(1);
         item->object = item->kind == nullptr ? nullptr : item->kind->make(item->number, item->measure);
         good = item->object != nullptr && layOut(item->object);
+        item->made = good ? item->object->size() : Real(0);
     }
     if (good && record->keys > 0) {
         before.keys_ = allocate<Key>(KEYS_MOST);
@@ -419,7 +419,7 @@ bool Model::restore(const Record* record)
         Actor* now = itemNumbered(item->number);
         item->object = now->object;
         item->pose = now->pose;
-        item->scaled = now->scaled;
+        item->made = now->made;
         now->object = nullptr;
     }
     before.camera = record->camera;

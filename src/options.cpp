@@ -22,9 +22,9 @@ const char* const HELP =
     "  /?        this page\n"
     "\n"
     "Keys:  *  scales or pixels   -  coarser   +  finer   ESC  ends\n"
-    "Mouse (with /I):  left button selects the next object, moving it moves the object\n"
-    "in X and Y, in X and Z while the right button is held. Without a mouse: Tab,\n"
-    "arrows, PgUp and PgDn.\n";
+    "Mouse (with /I):  left button selects the next object; moving it moves the\n"
+    "object in X and Y, in X and Z while the right button is held. Without a mouse:\n"
+    "Tab, arrows, PgUp and PgDn.\n";
 
 namespace {
 

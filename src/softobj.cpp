@@ -3,6 +3,8 @@
 #include "softobj.h"
 
 #include "alloc.h"
+#include "shade.h"
+#include "text.h"
 
 namespace {
 
@@ -10,7 +12,14 @@ namespace {
 // surface bends between seeds and a ring holds a whole number of them.
 constexpr Real CELL_MARGIN(0.08);
 
+// The cell of an oversampled seed, which lies between seeds that have cells of their own: in eighths of theirs.
 constexpr int EXTRA_CELL = 5;
+
+// Roots that a seed's 16 bits can tell apart.
+constexpr int ROOTS_MOST = UINT16_MAX + 1;
+
+// Of the spacing asked for: seeds that scaling has moved farther apart or together are laid out anew.
+constexpr Real DRIFT_MOST(0.25);
 
 int16_t toExtent(Real units)
 {
@@ -18,18 +27,31 @@ int16_t toExtent(Real units)
     return static_cast<int16_t>(value > INT16_MAX ? INT16_MAX : value);
 }
 
+int8_t toCell(int32_t steps)
+{
+    return static_cast<int8_t>(steps > 127 ? 127 : steps < -127 ? -127 : steps);
+}
+
 // Half axes of a seed's cell in 1/64 spacing; `inverse` is 64 / spacing.
 void setCell(int8_t* to, const Vector& half, Real inverse)
 {
     const Real parts[] = {half.x, half.y, half.z};
     for (int i = 0; i < 3; ++i)
-        to[i] = static_cast<int8_t>(floorToInt(clamp(parts[i] * inverse, Real(-127), Real(127)) + Real(0.5)));
+        to[i] = toCell(floorToInt(parts[i] * inverse + Real(0.5)));
 }
 
 // 1.0 -> 2^14
 int16_t toDirection(Real part)
 {
     return static_cast<int16_t>(rawFromReal(part) >> 2);
+}
+
+// Cells of seeds, 1/256 unit.
+void toSteps(const Vector& v, int16_t* to)
+{
+    to[0] = toExtent(v.x);
+    to[1] = toExtent(v.y);
+    to[2] = toExtent(v.z);
 }
 
 int64_t squaredDistance(const Point& a, const Point& b)
@@ -42,10 +64,11 @@ int64_t squaredDistance(const Point& a, const Point& b)
 
 }  // namespace
 
-// First run of layOutSeeds(): how much of everything there is.
+// First run of layOutSeeds(): how much of everything there is. Between two rings with different roots lie oversampled
+// seeds with roots between: `between` of them at most.
 class Counter : public SeedMaker {
 public:
-    int roots = 0, rings = 0, seeds = 0, inFirstRing = 0, patches = 0;
+    int roots = 0, rings = 0, seeds = 0, patches = 0, between = 0;
 
     int addRoot(const Vector&) override { return roots++; }
     void beginRing() override
@@ -53,21 +76,25 @@ public:
         endRing();
         ++rings;
     }
-    void addSeed(int, const Vector&, const Vector&, const Vector&) override
+    void addSeed(int root, const Vector&, const Vector&, const Vector&) override
     {
         ++seeds;
         ++inRing_;
-        if (rings == 1)
-            ++inFirstRing;
+        various_ |= inRing_ > 1 && root != root_;
+        root_ = root;
     }
     void endRing()
     {
         patches += (inRing_ + SoftObject::PATCH_SEEDS - 1) / SoftObject::PATCH_SEEDS;
+        between += various_ || variousBefore_ ? inRing_ : 1;
         inRing_ = 0;
+        variousBefore_ = various_;
+        various_ = false;
     }
 
 private:
-    int inRing_ = 0;
+    int inRing_ = 0, root_ = -1;
+    bool various_ = false, variousBefore_ = false;  // this ring's seeds have different roots; those of the one before
 };
 
 // Second run: writes roots and regular seeds, and where each ring starts.
@@ -85,6 +112,7 @@ public:
         return rootCount_++;
     }
     void beginRing() override { ringStarts_[rings_++] = count_; }
+    void restAt(Real radius) override { radius_ = radius; }
     void addSeed(int root, const Vector& direction, const Vector& along, const Vector& across) override
     {
         Seed& s = seeds_[2 * count_++];
@@ -112,17 +140,38 @@ private:
     int rootCount_ = 0, rings_ = 0, count_ = 0;
 };
 
-SoftObject::SoftObject(int number, Real size)
+// A run of its own when an object is to be turned or scaled: the cells of the seeds, for their extents then.
+class RestFiller : public SeedMaker {
+public:
+    explicit RestFiller(SoftObject::Rest* rest) : rest_(rest) {}
+
+    int addRoot(const Vector&) override { return rootCount_++; }
+    void beginRing() override {}
+    void addSeed(int, const Vector&, const Vector& along, const Vector& across) override
+    {
+        toSteps(along, rest_->along);
+        toSteps(across, rest_->across);
+        rest_ += 2;
+    }
+
+private:
+    SoftObject::Rest* rest_;
+    int rootCount_ = 0;
+};
+
+SoftObject::SoftObject(int number, Real size, bool tapers)
     : number_(number), centre_{Real(0), Real(0), Real(0)}, turn_(Matrix::identity()), size_(size),
-      radius_(shiftDown(size, 1)), inverse_(Real(16) / size), recalc_(true), turned_(false), displaced_(false),
-      linkedChange_(false), spacing_(2), spread_(1), ramp_(nullptr), seeds_(nullptr), regular_(0), extra_(0),
-      roots_(nullptr), rootRest_(nullptr), rootCount_(0), pathRest_(nullptr), patches_(nullptr), patchCount_(0),
-      kept_(nullptr)
+      radius_(shiftDown(size, 1)), inverse_(Real(16) / size), recalc_(true), turned_(false), tapers_(tapers),
+      displaced_(false), linkedChange_(false), spacing_(2), wanted_(2), laidSize_(size), spread_(1), ramp_(nullptr),
+      seeds_(nullptr), regular_(0), extra_(0), roots_(nullptr), rootRest_(nullptr), rootCount_(0), rest_(nullptr),
+      patchRest_(nullptr), patches_(nullptr), patchCount_(0), kept_(nullptr)
 {
 }
 
 SoftObject::~SoftObject()
 {
+    for (const List<Link>::Node* node = skel_.first(); node != nullptr; node = node->next)
+        node->item.object->unlink(this);
     freeSeeds();
 }
 
@@ -131,13 +180,15 @@ void SoftObject::freeSeeds()
     free(seeds_);
     free(roots_);
     free(rootRest_);
-    free(pathRest_);
+    free(rest_);
+    free(patchRest_);
     free(patches_);
     free(kept_);
     seeds_ = nullptr;
     roots_ = nullptr;
     rootRest_ = nullptr;
-    pathRest_ = nullptr;
+    rest_ = nullptr;
+    patchRest_ = nullptr;
     patches_ = nullptr;
     kept_ = nullptr;
 }
@@ -148,22 +199,28 @@ bool SoftObject::resample(Real spacing)
     layOutSeeds(counter, spacing);
     counter.endRing();
     const int regular = counter.seeds;
+    const bool ball = coreReach() == Real(0);
 
-    // Between two rings with different roots lie oversampled seeds with a root between: one more for each ring at most.
-    const int rootRoom = counter.roots + counter.rings;
-    if (rootRoom > UINT16_MAX)
+    // A seed's root has 16 bits. When roots between rings are too many for them, some oversampled seeds do without.
+    if (counter.roots > ROOTS_MOST)
         return false;
+    const int rootRoom = counter.roots + counter.between > ROOTS_MOST ? ROOTS_MOST : counter.roots + counter.between;
     Seed* seeds = allocate<Seed>(static_cast<uint32_t>(2 * regular));
     Vector* rootRest = allocate<Vector>(static_cast<uint32_t>(rootRoom));
     Point* roots = allocate<Point>(static_cast<uint32_t>(rootRoom));
     int32_t* ringStarts = allocate<int32_t>(static_cast<uint32_t>(counter.rings + 1));
     Patch* patches = allocate<Patch>(static_cast<uint32_t>(counter.patches));
-    if (seeds == nullptr || rootRest == nullptr || roots == nullptr || ringStarts == nullptr || patches == nullptr) {
+    Rest* rest = ball ? nullptr : allocate<Rest>(static_cast<uint32_t>(2 * regular));
+    PatchRest* patchRest = ball ? nullptr : allocate<PatchRest>(static_cast<uint32_t>(counter.patches));
+    if (seeds == nullptr || rootRest == nullptr || roots == nullptr || ringStarts == nullptr || patches == nullptr ||
+        (!ball && (rest == nullptr || patchRest == nullptr))) {
         free(seeds);
         free(rootRest);
         free(roots);
         free(ringStarts);
         free(patches);
+        free(rest);
+        free(patchRest);
         return false;
     }
 
@@ -173,13 +230,23 @@ bool SoftObject::resample(Real spacing)
     int rootCount = counter.roots;
 
     // The oversampled seed of S: half way to its neighbour N, "the seed N on ring K-1 that is closest to S's
-    // successor" (Appendix C, Figure 9). It lies in memory behind S.
-    int pairS = -1, pairN = -1;
-    for (int i = 0; i < ringStarts[counter.rings > 0 ? 1 : 0]; ++i)
+    // successor" (Appendix C, Figure 9). It lies in memory behind S. Distances to the core are asked of the object as it
+    // is in its own space.
+    const Point centre = centre_;
+    const Matrix turn = turn_;
+    if (!ball) {
+        centre_ = {Real(0), Real(0), Real(0)};
+        turn_ = Matrix::identity();
+        placeCore();
+    }
+    int pairS = -1, pairN = -1, pairRoot = 0;
+    const int firstRing = ringsClose() ? 0 : 1;
+    for (int i = 0; i < ringStarts[counter.rings > 0 ? firstRing : 0]; ++i)
         memset(&seeds[2 * i + 1], 0, sizeof(Seed));
-    for (int k = 1; k < counter.rings; ++k) {
-        const int before = ringStarts[k - 1], start = ringStarts[k], end = ringStarts[k + 1];
-        const int inBefore = start - before, inRing = end - start;
+    for (int k = firstRing; k < counter.rings; ++k) {
+        const int ringBefore = (k > 0 ? k : counter.rings) - 1;
+        const int before = ringStarts[ringBefore], start = ringStarts[k], end = ringStarts[k + 1];
+        const int inBefore = ringStarts[ringBefore + 1] - before, inRing = end - start;
         for (int i = start; i < end; ++i) {
             Seed& s = seeds[2 * i];
             const Seed& successor = seeds[2 * (i + 1 == end ? start : i + 1)];
@@ -205,27 +272,38 @@ bool SoftObject::resample(Real spacing)
             const Seed& other = seeds[s.neighbour];
             Seed& o = seeds[2 * i + 1];
             o = s;
-            if (s.root != other.root) {
-                if (pairS != s.root || pairN != other.root) {
+            if (s.root == other.root) {
+                o.path = withLength(s.path + other.path, tapers_ ? length(s.path) : radius_);
+            } else {
+                // Above the point of the core that is nearest to the middle of the two.
+                const Vector middle = (rootRest[s.root] + s.path + rootRest[other.root] + other.path) * Real(0.5);
+                const Vector fromIt = fromCore(toPoint(middle));
+                const bool known = pairS == s.root && pairN == other.root;
+                if (length(fromIt) < shiftDown(radius_, 3) || (!known && rootCount == rootRoom))
+                    continue;  // it stays a copy of S
+                if (!known) {
                     pairS = s.root;
                     pairN = other.root;
-                    if (rootCount < rootRoom)
-                        ++rootCount;
-                    rootRest[rootCount - 1] = (rootRest[pairS] + rootRest[pairN]) * Real(0.5);
+                    pairRoot = rootCount++;
+                    rootRest[pairRoot] = middle - fromIt;
                 }
-                o.root = static_cast<uint16_t>(rootCount - 1);
+                o.root = static_cast<uint16_t>(pairRoot);
+                o.path = withLength(fromIt, shiftDown(sizeAt(toPoint(middle)), 1));
             }
-            o.path = withLength(s.path + other.path, radius_);
             const Vector direction = unit(o.path);
             o.dirX = toDirection(direction.x);
             o.dirY = toDirection(direction.y);
             o.dirZ = toDirection(direction.z);
-            // It fills the middle between seeds that have cells of their own.
             for (int part = 0; part < 3; ++part) {
                 o.along[part] = static_cast<int8_t>(s.along[part] * EXTRA_CELL / 8);
                 o.across[part] = static_cast<int8_t>(s.across[part] * EXTRA_CELL / 8);
             }
         }
+    }
+    if (!ball) {
+        centre_ = centre;
+        turn_ = turn;
+        placeCore();
     }
 
     // Runs of seeds of one ring, of about equal length.
@@ -238,7 +316,7 @@ bool SoftObject::resample(Real spacing)
             patches[patch].count = ringStarts[k] + inRing * (r + 1) / runs - patches[patch].first;
         }
     }
-    const int extra = counter.rings > 0 ? regular - ringStarts[1] : 0;
+    const int extra = counter.rings > 0 ? regular - ringStarts[firstRing] : 0;
     free(ringStarts);
 
     freeSeeds();
@@ -251,17 +329,35 @@ bool SoftObject::resample(Real spacing)
     patches_ = patches;
     patchCount_ = patch;
     spacing_ = spacing;
-    if (turned_)
-        turnSeeds();
-    for (int i = 0; i < rootCount_; ++i)
-        roots_[i] = toWorld(rootRest_[i]);
-    rebuildPatches();
+    wanted_ = spacing;
+    laidSize_ = size_;
+    buildPatches();
+    rest_ = rest;
+    patchRest_ = patchRest;
+    if (!ball)
+        keepRest();
+    if (!ball && turned_) {
+        poseSeeds();
+    } else {
+        for (int i = 0; i < rootCount_; ++i)
+            roots_[i] = toWorld(rootRest_[i]);
+    }
     displaced_ = false;
     setRecalc();
     return true;
 }
 
-void SoftObject::rebuildPatches()
+// What the visibility test of a patch takes, in its small units.
+void SoftObject::facePatch(Patch& patch, const Vector& axis)
+{
+    patch.axis[0] = toDirection(axis.x);
+    patch.axis[1] = toDirection(axis.y);
+    patch.axis[2] = toDirection(axis.z);
+    patch.across = rawFromReal(dot(patch.middle, axis)) >> 11;
+    patch.radius32 = (rawFromReal(patch.radius) >> 11) + 1;
+}
+
+void SoftObject::buildPatches()
 {
     for (int p = 0; p < patchCount_; ++p) {
         Patch& patch = patches_[p];
@@ -270,7 +366,7 @@ void SoftObject::rebuildPatches()
         const Real share = Real(1) / Real(patch.count);
         for (int i = 0; i < patch.count; ++i) {
             const Seed& s = seeds_[2 * (patch.first + i)];
-            middle = middle + ((roots_[s.root] - centre_) + s.path) * share;
+            middle = middle + (rootRest_[s.root] + s.path) * share;
             axis = axis + s.path * share;
         }
         patch.middle = middle;
@@ -280,61 +376,144 @@ void SoftObject::rebuildPatches()
         const Real inverseRadius = Real(1) / radius_;
         for (int i = 0; i < patch.count; ++i) {
             const Seed& s = seeds_[2 * (patch.first + i)];
-            patch.radius = most(patch.radius, length((roots_[s.root] - centre_) + s.path - middle));
-            spread = most(spread, length(s.path * inverseRadius - axis));
+            patch.radius = most(patch.radius, length(rootRest_[s.root] + s.path - middle));
+            const Vector direction = tapers_ ? unit(s.path) : s.path * inverseRadius;
+            spread = most(spread, length(direction - axis));
         }
-        patch.axis[0] = toDirection(axis.x);
-        patch.axis[1] = toDirection(axis.y);
-        patch.axis[2] = toDirection(axis.z);
         patch.spread = toDirection(least(spread, Real(1.9)));
-        patch.across = rawFromReal(dot(middle, axis)) >> 11;
-        patch.radius32 = (rawFromReal(patch.radius) >> 11) + 1;
         // The oversampled seeds between this ring and the one before reach a little further.
         patch.radius += spacing_;
+        facePatch(patch, axis);
     }
 }
 
-void SoftObject::turnSeeds()
+// Makes the copies that turned and scaled seeds come from. False: no memory.
+bool SoftObject::keepRest()
 {
-    // A ball looks the same from everywhere; only its place turned.
-    if (coreReach() == Real(0))
-        return;
     const int slots = 2 * regular_;
-    if (pathRest_ == nullptr) {
-        pathRest_ = allocate<Vector>(static_cast<uint32_t>(slots));
-        if (pathRest_ == nullptr)
-            return;  // no memory to turn: the seeds stay as they were laid out, and the surface is still found
-        for (int i = 0; i < slots; ++i)
-            pathRest_[i] = seeds_[i].path;
+    if (rest_ == nullptr || patchRest_ == nullptr) {
+        free(rest_);
+        free(patchRest_);
+        rest_ = allocate<Rest>(static_cast<uint32_t>(slots));
+        patchRest_ = allocate<PatchRest>(static_cast<uint32_t>(patchCount_));
+        if (rest_ == nullptr || patchRest_ == nullptr) {
+            free(rest_);
+            free(patchRest_);
+            rest_ = nullptr;
+            patchRest_ = nullptr;
+            return false;
+        }
     }
-    // Always from the rest paths, so that no error adds up however often it is turned.
+    memset(static_cast<void*>(rest_), 0, sizeof(Rest) * static_cast<size_t>(slots));
+    RestFiller filler(rest_);
+    layOutSeeds(filler, wanted_);
+    for (int i = 0; i < slots; ++i)
+        rest_[i].path = seeds_[i].path;
+    for (int p = 0; p < patchCount_; ++p) {
+        const Patch& patch = patches_[p];
+        const Real part(1.0 / 16384);
+        patchRest_[p] = {patch.middle, {part * Real(patch.axis[0]), part * Real(patch.axis[1]), part * Real(patch.axis[2])},
+                         patch.radius};
+    }
+    return true;
+}
+
+// Turns and scales roots, paths and patches.
+void SoftObject::poseSeeds()
+{
+    const Real ratio = size_ / laidSize_;
+    spacing_ = wanted_ * ratio;
+    // A ball looks the same from everywhere; only its size matters.
+    const Matrix turn = coreReach() == Real(0) ? Matrix::identity() : turn_;
+    Matrix pose = turn;
+    if (ratio != Real(1))
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+                pose.m[i][j] = turn.m[i][j] * ratio;
+    for (int i = 0; i < rootCount_; ++i)
+        roots_[i] = centre_ + pose * rootRest_[i];
+    linkedChange_ = true;  // rest brightness is stale
+    if (rest_ == nullptr) {
+        // Without the memory for copies, scaled only: from the directions.
+        for (int i = 0; i < 2 * regular_; ++i) {
+            Seed& s = seeds_[i];
+            const Real step = shiftDown(radius_, 14);
+            s.path = {step * Real(s.dirX), step * Real(s.dirY), step * Real(s.dirZ)};
+            s.flags = static_cast<uint8_t>(s.flags & ~SEED_KEPT);
+        }
+        buildPatches();
+        return;
+    }
     const Real inverseRadius = Real(1) / radius_;
-    const Real inverse = Real(64) / spacing_;
-    for (int i = 0; i < slots; ++i) {
+    int32_t rows[3][3];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            rows[i][j] = rawFromReal(pose.m[i][j]) >> 2;
+    const int margin = toExtent(spacing_ * CELL_MARGIN);
+    const int32_t cell = rawFromReal(Real(64) / spacing_) >> 8;  // 1/256 unit -> 1/64 spacing
+    for (int i = 0; i < 2 * regular_; ++i) {
         Seed& s = seeds_[i];
-        s.path = turn_ * pathRest_[i];
-        const Vector direction = s.path * inverseRadius;
-        s.dirX = toDirection(direction.x);
-        s.dirY = toDirection(direction.y);
-        s.dirZ = toDirection(direction.z);
-        // The cell turned, but rotated anew from any two half axes: across the direction they are all alike.
-        const Vector aside = absolute(direction.y) < Real(0.9) ? Vector{Real(0), Real(1), Real(0)} : Vector{Real(1), Real(0), Real(0)};
-        const Vector along = withLength(cross(aside, direction), spacing_ * Real(0.56));
-        const Vector across = cross(direction, along);
-        setCell(s.along, along, inverse);
-        setCell(s.across, across, inverse);
-        s.restWide = toExtent(absolute(along.x) + absolute(across.x));
-        s.restHigh = toExtent(absolute(along.y) + absolute(across.y));
+        const Rest& rest = rest_[i];
+        s.path = pose * rest.path;
+        if (tapers_) {
+            const Normal direction = normalise(s.path);
+            s.dirX = static_cast<int16_t>(direction.x);
+            s.dirY = static_cast<int16_t>(direction.y);
+            s.dirZ = static_cast<int16_t>(direction.z);
+        } else {
+            s.dirX = toDirection(s.path.x * inverseRadius);
+            s.dirY = toDirection(s.path.y * inverseRadius);
+            s.dirZ = toDirection(s.path.z * inverseRadius);
+        }
         s.flags = static_cast<uint8_t>(s.flags & ~SEED_KEPT);
+        if ((i & 1) != 0) {
+            for (int part = 0; part < 3; ++part) {
+                s.along[part] = static_cast<int8_t>(seeds_[i - 1].along[part] * EXTRA_CELL / 8);
+                s.across[part] = static_cast<int8_t>(seeds_[i - 1].across[part] * EXTRA_CELL / 8);
+            }
+            continue;
+        }
+        int32_t extent[3];
+        for (int part = 0; part < 3; ++part) {
+            const int32_t* row = rows[part];
+            const int32_t along = (row[0] * rest.along[0] + row[1] * rest.along[1] + row[2] * rest.along[2]) >> 14;
+            const int32_t across = (row[0] * rest.across[0] + row[1] * rest.across[1] + row[2] * rest.across[2]) >> 14;
+            extent[part] = (along < 0 ? -along : along) + (across < 0 ? -across : across) + margin;
+            s.along[part] = toCell(along * cell >> 16);
+            s.across[part] = toCell(across * cell >> 16);
+        }
+        s.restWide = static_cast<int16_t>(extent[0]);
+        s.restHigh = static_cast<int16_t>(extent[1]);
+    }
+    for (int p = 0; p < patchCount_; ++p) {
+        Patch& patch = patches_[p];
+        patch.middle = pose * patchRest_[p].middle;
+        patch.radius = patchRest_[p].radius * ratio;
+        facePatch(patch, turn * patchRest_[p].axis);
+        patch.state = PATCH_UNKNOWN;
     }
 }
 
 void SoftObject::shadeRest(const Vector& light)
 {
     const Real inverseRadius = Real(1) / radius_;
+    // In the object's own space, for the normals of objects that taper: square to their cells, not along their paths.
+    const Real full = Real(63.0 / 16384);
+    const Vector lightThere{(turn_.m[0][0] * light.x + turn_.m[1][0] * light.y + turn_.m[2][0] * light.z) * full,
+                            (turn_.m[0][1] * light.x + turn_.m[1][1] * light.y + turn_.m[2][1] * light.z) * full,
+                            (turn_.m[0][2] * light.x + turn_.m[1][2] * light.y + turn_.m[2][2] * light.z) * full};
     for (int i = 0; i < 2 * regular_; ++i) {
         Seed& s = seeds_[i];
-        const Real lit = dot(s.path, light) * inverseRadius * Real(63) + Real(0.5);
+        Real lit;
+        if (tapers_) {
+            const int16_t *a = rest_[i & ~1].along, *b = rest_[i & ~1].across;
+            const Normal n = normalise({realFromRaw(a[1] * b[2] - a[2] * b[1]), realFromRaw(a[2] * b[0] - a[0] * b[2]),
+                                        realFromRaw(a[0] * b[1] - a[1] * b[0])});
+            lit = Real(static_cast<int>(n.x)) * lightThere.x + Real(static_cast<int>(n.y)) * lightThere.y +
+                  Real(static_cast<int>(n.z)) * lightThere.z + Real(0.5);
+        } else {
+            lit = dot(s.path, light) * inverseRadius * Real(63) + Real(0.5);
+        }
         const int step = floorToInt(lit);
         s.restBrightness = static_cast<uint8_t>(step < 0 ? 0 : step > 63 ? 63 : step);
         s.flags = static_cast<uint8_t>(s.flags & ~SEED_KEPT);
@@ -345,6 +524,36 @@ void SoftObject::shadeRest(const Vector& light)
 }
 
 // --- Operations
+
+// A vector of nearly the same length as `like`, made to have it: its largest component takes up the difference. Exact
+// to half a last bit each time, and never to one side, so that a million turns keep a distance.
+static Vector withSquare(const Vector& v, const Vector& like)
+{
+#if FB_REAL == FB_FIXED
+    const auto square = [](const Vector& u) {
+        return static_cast<int64_t>(u.x.raw) * u.x.raw + static_cast<int64_t>(u.y.raw) * u.y.raw +
+               static_cast<int64_t>(u.z.raw) * u.z.raw;
+    };
+    Vector r = v;
+    Real* largest = &r.x;
+    if (absolute(r.y) > absolute(*largest))
+        largest = &r.y;
+    if (absolute(r.z) > absolute(*largest))
+        largest = &r.z;
+    if (*largest == Real(0))
+        return r;
+    const int64_t lack = square(like) - square(r);
+    const uint32_t twice = 2 * static_cast<uint32_t>(rawFromReal(absolute(*largest)));
+    uint32_t rest;
+    const int32_t change = static_cast<int32_t>(
+        divide64(static_cast<uint64_t>(lack < 0 ? -lack : lack) + twice / 2, twice, &rest));
+    const bool outwards = (lack > 0) == (*largest > Real(0));
+    *largest += Real::fromRaw(outwards ? change : -change);
+    return r;
+#else
+    return withLength(v, length(like));
+#endif
+}
 
 void SoftObject::translate(const Vector& by)
 {
@@ -363,7 +572,7 @@ void SoftObject::rotate(const Point& about, const Vector& axis, Angle angle)
 {
     const Matrix by = Matrix::rotation(axis, angle);
     const Vector arm = centre_ - about;
-    translate(by * arm - arm);
+    translate(withSquare(by * arm, arm) - arm);
     setTurn(by * turn_);
 }
 
@@ -375,42 +584,53 @@ void SoftObject::setTurn(const Matrix& turn)
     x = unit(x);
     y = unit(y - x * dot(x, y));
     const Vector z = cross(x, y);
-    tellNeighbours();
-    turn_ = Matrix::identity();
-    turn_.m[0][0] = x.x;
-    turn_.m[1][0] = x.y;
-    turn_.m[2][0] = x.z;
-    turn_.m[0][1] = y.x;
-    turn_.m[1][1] = y.y;
-    turn_.m[2][1] = y.z;
-    turn_.m[0][2] = z.x;
-    turn_.m[1][2] = z.y;
-    turn_.m[2][2] = z.z;
-    turned_ = true;
-    for (int i = 0; i < rootCount_; ++i)
-        roots_[i] = toWorld(rootRest_[i]);
-    placeCore();
-    if (seeds_ != nullptr && coreReach() > Real(0)) {
-        turnSeeds();
-        rebuildPatches();
-        linkedChange_ = true;  // rest brightness is stale
+    const Vector columns[] = {x, y, z};
+    Matrix square = Matrix::identity();
+    bool same = true;
+    for (int j = 0; j < 3; ++j) {
+        square.m[0][j] = columns[j].x;
+        square.m[1][j] = columns[j].y;
+        square.m[2][j] = columns[j].z;
+        for (int i = 0; i < 3; ++i)
+            same = same && square.m[i][j] == turn_.m[i][j];
     }
+    if (same)
+        return;
+    // A ball looks the same from everywhere.
+    const bool ball = coreReach() == Real(0);
+    if (!ball)
+        tellNeighbours();
+    turn_ = square;
+    turned_ = true;
+    placeCore();
+    if (ball)
+        return;
+    if (seeds_ != nullptr)
+        poseSeeds();
     recalc_ = true;
     tellNeighbours();
 }
 
-void SoftObject::scale(Real by)
+void SoftObject::setSize(Real wanted)
 {
-    const Real size = clamp(size_ * by, Real(SIZE_LEAST), Real(SIZE_MOST));
-    const Real factor = size / size_;
-    if (factor == Real(1))
+    const Real size = clamp(wanted, Real(SIZE_LEAST), Real(SIZE_MOST));
+    if (size == size_)
         return;
     tellNeighbours();
+    if (seeds_ != nullptr && rest_ == nullptr && size_ == laidSize_)
+        keepRest();
     size_ = size;
     radius_ = shiftDown(size, 1);
     inverse_ = Real(16) / size;
-    scaleCore(factor);
     placeCore();
+    if (seeds_ != nullptr) {
+        const Real drift = size_ / laidSize_;
+        const bool far = drift > Real(1) + DRIFT_MOST || drift < Real(1) - DRIFT_MOST;
+        if (far && resample(wanted_))
+            linkedChange_ = true;
+        else
+            poseSeeds();
+    }
     recalc_ = true;
     tellNeighbours();
 }
@@ -458,6 +678,16 @@ Real SoftObject::coreParam(const Vector& v) const
         return Real(1);
     const Vector q = v * inverse_;
     return shiftDown(dot(q, q), 8);
+}
+
+void SoftObject::describeAs(const char* kind, const Real* numbers, int count, char* to, int size) const
+{
+    int used = snprintf(to, static_cast<size_t>(size), "%s %d", kind, number_);
+    for (int i = 0; i < count && used < size; ++i) {
+        char text[24];
+        formatReal(text, sizeof text, numbers[i]);
+        used += snprintf(to + used, static_cast<size_t>(size - used), " %s", text);
+    }
 }
 
 Real SoftObject::fieldSum(const Point& p) const

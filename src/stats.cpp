@@ -25,7 +25,11 @@ void Stats::lines(Line* to) const
         ticks >>= 1;
         hertz >>= 1;
     }
-    const uint64_t updates = updated_ >> 32 != 0 ? 0xffffffffu : updated_;
+    uint64_t updates = updated_, iterations = iterations_;
+    while (updates >> 32 != 0) {
+        updates >>= 1;
+        iterations >>= 1;
+    }
     const Line all[LINES] = {
         {"frames", frames_, 1, 0},
         {"seconds", ticks_, machine::CLOCK_HZ, 3},
@@ -34,7 +38,7 @@ void Stats::lines(Line* to) const
         {"oversampled seeds", static_cast<uint64_t>(oversampled_), 1, 0},
         {"updated per frame", updated_, frames_, 1},
         {"drawn per frame", drawn_, frames_, 1},
-        {"iterations per update", iterations_, static_cast<uint32_t>(updates), 3},
+        {"iterations per update", iterations, static_cast<uint32_t>(updates), 3},
         {"normals per frame", normals_, frames_, 1},
         {"field evaluations per frame", iterations_, frames_, 1},
         {"normal samples per frame", samples_, frames_, 1},

@@ -42,7 +42,9 @@ for suite in $suites; do
 	last=$(tail -n 1 "$log" | tr -d '\r')
 	if expr "$last" : '[0-9][0-9]* passed, [0-9][0-9]* failed$' >/dev/null; then
 		# What passed one by one is in the log; failures and figures are shown.
-		sed '$d' "$log" | grep -v '^ok ' | grep -v '^make\[' || :
+		sed '$d' "$log" | grep -v '^ok ' | grep -v '^make\[' >"$log.short"
+		head -n 80 "$log.short"
+		[ "$(wc -l <"$log.short")" -le 80 ] || echo "... and more in $log"
 		good=${last%% passed*}
 		bad=${last##*passed, }
 		bad=${bad%% failed*}

@@ -113,14 +113,13 @@ END
 
 if [ $window = no ]; then
     SDL_VIDEODRIVER=dummy
-    export SDL_VIDEODRIVER
 elif [ -z "${DISPLAY:-}" ]; then
     if ! command -v Xvfb > /dev/null; then
         echo "dosbox.sh: no display, and no Xvfb to make one (Debian: apt-get install xvfb)" >&2
         exit 1
     fi
     # The server writes the number of the display that it found free.
-    Xvfb -displayfd 3 -screen 0 800x600x24 3> "$work/display" > /dev/null 2>&1 &
+    Xvfb -noreset -displayfd 3 -screen 0 800x600x24 3> "$work/display" > /dev/null 2>&1 &
     xvfb=$!
     tries=0
     while [ ! -s "$work/display" ] && [ $tries -lt 100 ]; do
@@ -130,6 +129,9 @@ elif [ -z "${DISPLAY:-}" ]; then
     DISPLAY=:$(cat "$work/display")
     export DISPLAY
 fi
+# Without this SDL would draw with letters on the terminal when the display does not answer.
+[ $window = no ] || SDL_VIDEODRIVER=x11
+export SDL_VIDEODRIVER
 SDL_AUDIODRIVER=dummy
 # DOSBox would leave its settings in the home directory.
 XAUTHORITY=${XAUTHORITY:-${HOME:-/}/.Xauthority}

@@ -62,20 +62,35 @@ int call(dpmi::RealRegs* r) {
     return pc::carry(*r) ? failed(ax) : int(ax);
 }
 
-// A DOS call on a file's name, which goes to ds:dx. A trailing slash is left off, as DOS wants it.
-int callOnName(uint32_t eax, uint32_t ecx, const char* name, uint16_t* cx = nullptr) {
-    const pc::Transfer buffer = pc::transfer();
-    uint32_t length = uint32_t(strlen(name));
-    if (length > LONGEST_NAME) {
-        return failed(NO_PATH);
+// A name as every DOS takes it: backslashes, none doubled (a directory "A:\" and a name make "A:\/NAME") and none at the
+// end but a root's. False when it is too long.
+bool tidy(const char* name, char to[LONGEST_NAME + 1]) {
+    uint32_t length = 0;
+    for (; *name != '\0'; ++name) {
+        const char c = *name == '/' ? '\\' : *name;
+        if (c == '\\' && length > 0 && to[length - 1] == '\\') {
+            continue;
+        }
+        if (length == LONGEST_NAME) {
+            return false;
+        }
+        to[length++] = c;
     }
-    char copy[LONGEST_NAME + 1];
-    memcpy(copy, name, length);
-    if (length > 1 && (copy[length - 1] == '\\' || copy[length - 1] == '/') && copy[length - 2] != ':') {
+    if (length > 1 && to[length - 1] == '\\' && to[length - 2] != ':') {
         --length;
     }
-    copy[length] = '\0';
-    pc::copyToLow(uint32_t(buffer.segment) << 4, copy, length + 1);
+    to[length] = '\0';
+    return true;
+}
+
+// A DOS call on a file's name, which goes to ds:dx.
+int callOnName(uint32_t eax, uint32_t ecx, const char* name, uint16_t* cx = nullptr) {
+    const pc::Transfer buffer = pc::transfer();
+    char copy[LONGEST_NAME + 1];
+    if (!tidy(name, copy)) {
+        return failed(NO_PATH);
+    }
+    pc::copyToLow(uint32_t(buffer.segment) << 4, copy, uint32_t(strlen(copy)) + 1);
     dpmi::RealRegs r = pc::regs(eax);
     r.ecx = ecx;
     r.ds = buffer.segment;
@@ -84,6 +99,24 @@ int callOnName(uint32_t eax, uint32_t ecx, const char* name, uint16_t* cx = null
         *cx = uint16_t(r.ecx);
     }
     return result;
+}
+
+// Whether a name is that of a directory which is there without having been made: the current one, or a root. DOS knows
+// no attributes for these. A drive must be there for its root to be.
+bool isRoot(const char* name) {
+    char copy[LONGEST_NAME + 1];
+    if (!tidy(name, copy)) {
+        return false;
+    }
+    if (strcmp(copy, ".") == 0 || strcmp(copy, "\\") == 0) {
+        return true;
+    }
+    if (copy[0] == '\0' || copy[1] != ':' || (copy[2] != '\0' && strcmp(copy + 2, "\\") != 0)) {
+        return false;
+    }
+    dpmi::RealRegs r = pc::regs(0x3600);  // free space of a drive, 1 for A:
+    r.edx = uint32_t(copy[0] & 0x1f);
+    return dpmi::realInterrupt(0x21, &r) && uint16_t(r.eax) != 0xffff;
 }
 
 }  // namespace
@@ -171,11 +204,11 @@ bool closeFile(int file) {
 }
 
 bool makeDirectory(const char* name) {
-    if (callOnName(0x3900, 0, name) >= 0) {
+    if (isRoot(name) || callOnName(0x3900, 0, name) >= 0) {
         return true;
     }
     const char* why = trouble;
-    uint16_t attributes;
+    uint16_t attributes = 0;
     if (callOnName(0x4300, 0, name, &attributes) >= 0 && (attributes & DIRECTORY) != 0) {
         return true;
     }

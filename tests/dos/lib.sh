@@ -1,28 +1,32 @@
-# What the test scripts of this folder share; they read it with `.`. From the top of the tree.
+# What the test scripts of this folder share beyond tests/lib.sh; they read it with `.`, from the top of the tree.
+. tests/lib.sh
 
-passed=0
-failed=0
-scratch=$(mktemp -d "${TMPDIR:-/tmp}/fbdos.XXXXXX")
+scratch=$dir
 xvfb=
+trap '[ -z "$xvfb" ] || kill "$xvfb" 2> /dev/null; rm -rf "$scratch"' EXIT
 
-cleanup() {
-    [ -z "$xvfb" ] || kill "$xvfb" 2> /dev/null || :
-    rm -rf "$scratch"
-}
-trap cleanup EXIT
-trap 'exit 130' INT TERM HUP
-
-# ok NAME COMMAND...: one check; it passes when the command does.
-ok() {
-    name=$1
+# dos [OPTION...] -- COMMAND...: tools/dosbox.sh in directory $c, with what FB_FIRST says done first (`CWSDPMI -p`, say, to
+# test behind another DPMI host).
+dos() {
+    options=
+    while [ "$1" != -- ]; do
+        options="$options $1"
+        shift
+    done
     shift
-    if "$@"; then
-        echo "ok $name"
-        passed=$((passed + 1))
-    else
-        echo "FAIL $name"
-        failed=$((failed + 1))
-    fi
+    # shellcheck disable=SC2086  # options are words
+    tools/dosbox.sh -t 120 -d "$c" $options -- ${FB_FIRST:+"$FB_FIRST"} "$@"
+}
+
+# floppy FILE: an image of an empty 160 KB floppy: its boot sector, two empty FATs and nothing else.
+floppy() {
+    dd if=/dev/zero of="$1" bs=1024 count=160 2> /dev/null
+    {
+        printf '\353\074\220FASTBLOB\000\002\001\001\000\002\100\000\100\001\376\001\000\010\000\001\000'
+        dd if=/dev/zero bs=1 count=482 2> /dev/null
+        printf '\125\252\376\377\377'
+    } | dd of="$1" conv=notrunc 2> /dev/null
+    printf '\376\377\377' | dd of="$1" bs=512 seek=2 conv=notrunc 2> /dev/null
 }
 
 # ran FILE: the lines `ok` and `FAIL` that a DOS program printed, as checks of ours.
@@ -47,17 +51,15 @@ lacks() {
     [ -f "$1" ] && ! grep -q -F -- "$2" "$1"
 }
 
-# status N DIR: the program that wrote E1.TXT... of levels() ended with status N. (IF ERRORLEVEL asks for "at least", and a
+# status N DIR: the program before the lines $E1... ended with status N. (IF ERRORLEVEL asks for "at least", and a
 # redirection makes its file whether or not the line is done.)
 status() {
-    n=$1
-    dir=$2
-    below=$((n + 1))
-    [ "$n" = 0 ] || [ -s "$dir/E$n.TXT" ] || return 1
-    [ -f "$dir/E$below.TXT" ] && [ ! -s "$dir/E$below.TXT" ]
+    above=$(($1 + 1))
+    [ "$1" = 0 ] || [ -s "$2/E$1.TXT" ] || return 1
+    [ -f "$2/E$above.TXT" ] && [ ! -s "$2/E$above.TXT" ]
 }
 
-# The command lines that leave what status() reads; as arguments for dosbox.sh.
+# The command lines that leave what status() reads; N of them and one more for a status of N.
 E1='if errorlevel 1 echo x > E1.TXT'
 E2='if errorlevel 2 echo x > E2.TXT'
 E3='if errorlevel 3 echo x > E3.TXT'
@@ -65,7 +67,7 @@ E3='if errorlevel 3 echo x > E3.TXT'
 # Starts an X server without a screen, for programs in a window; DISPLAY says where. False when there is none.
 startDisplay() {
     command -v Xvfb > /dev/null && command -v xdotool > /dev/null || return 1
-    Xvfb -displayfd 3 -screen 0 800x600x24 3> "$scratch/display" > /dev/null 2>&1 &
+    Xvfb -noreset -displayfd 3 -screen 0 800x600x24 3> "$scratch/display" > /dev/null 2>&1 &
     xvfb=$!
     tries=0
     while [ ! -s "$scratch/display" ] && [ $tries -lt 100 ]; do
@@ -91,9 +93,4 @@ awaitTitle() {
     done
     [ -n "$dosWindow" ] || return 1
     sleep 1.5
-}
-
-summary() {
-    echo "$passed passed, $failed failed"
-    [ "$failed" -eq 0 ]
 }

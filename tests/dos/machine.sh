@@ -14,10 +14,6 @@ cp "$program" "$c/MTEST.EXE" || exit 1
 for file in "$@"; do
     cp "$file" "$c" || exit 1
 done
-dos() {
-    tools/dosbox.sh -t 90 -d "$c" "$@"
-}
-
 dos -- 'MTEST STATE > BEFORE.TXT' 'MTEST ALL 200 > ALL.TXT' 'MTEST STATE > AFTER.TXT'
 ran "$c/ALL.TXT"
 ok 'vectors, timer, video and DOS memory as before' cmp "$c/BEFORE.TXT" "$c/AFTER.TXT"
@@ -49,16 +45,9 @@ crash 0 '00h (division by zero)'
 crash 6 '06h (invalid instruction)'
 crash 13 '0dh (general protection)'
 
-# A full disk: a 160 KB floppy, made here of its boot sector and two empty FATs.
-floppy=$scratch/floppy.img
-dd if=/dev/zero of="$floppy" bs=1024 count=160 2> /dev/null
-{
-    printf '\353\074\220FASTBLOB\000\002\001\001\000\002\100\000\100\001\376\001\000\010\000\001\000'
-    dd if=/dev/zero bs=1 count=482 2> /dev/null
-    printf '\125\252\376\377\377'
-} | dd of="$floppy" conv=notrunc 2> /dev/null
-printf '\376\377\377' | dd of="$floppy" bs=512 seek=2 conv=notrunc 2> /dev/null
-dos -- "imgmount a \"$floppy\" -t floppy > nul" 'MTEST FULL A:\X.DAT > FULL.TXT'
+# A full disk
+floppy "$scratch/floppy.img"
+dos -- "imgmount a \"$scratch/floppy.img\" -t floppy > nul" 'MTEST FULL A:\X.DAT > FULL.TXT'
 ran "$c/FULL.TXT"
 
 # No VGA

@@ -236,6 +236,9 @@ void testFiles() {
     }
     check("makeDirectory", machine::makeDirectory("MTDIR"));
     check("makeDirectory again", machine::makeDirectory("MTDIR") && machine::makeDirectory("MTDIR\\"));
+    check("makeDirectory of a root", machine::makeDirectory("C:\\") && machine::makeDirectory("\\") &&
+                                         machine::makeDirectory("C:") && machine::makeDirectory("."));
+    check("makeDirectory on no drive", !machine::makeDirectory("Y:\\") && !machine::makeDirectory("Y:\\X"));
     check("makeDirectory without parent",
           !machine::makeDirectory("NODIR\\SUB") && strcmp(machine::fileTrouble(), "no such file or directory") == 0);
     int file = machine::createFile("MTDIR\\BIG.DAT");
@@ -244,8 +247,8 @@ void testFiles() {
     check("write nothing", machine::writeFile(file, data, 0) == 0);
     check("closeFile", machine::closeFile(file));
     check("closeFile of a closed file fails", !machine::closeFile(file));
-    file = machine::openFile("mtdir/big.dat");
-    check("openFile, lower case and slash", file >= 0);
+    file = machine::openFile("mtdir\\/big.dat");
+    check("openFile, lower case and slashes", file >= 0);
     check("read it back, and no more", machine::readFile(file, back, BYTES + 10) == int32_t(BYTES) &&
                                            memcmp(data, back, BYTES) == 0 && machine::readFile(file, back, 5) == 0);
     machine::closeFile(file);

@@ -8,7 +8,10 @@
 class Stick : public SoftObject {
 public:
     // Half the length of the core, units.
-    Stick(int number, double size, double half) : SoftObject(number, real(size)), half_(real(half)) { place(); }
+    Stick(int number, double size, double half) : SoftObject(number, real(size)), half_(real(half)), made_(half_), sizeMade_(this->size())
+    {
+        place();
+    }
 
     Vector fromCore(const Point& p) const override
     {
@@ -19,8 +22,11 @@ public:
         return v - along * t;
     }
     Real coreReach() const override { return half_; }
-    void placeCore() override { place(); }
-    void scaleCore(Real by) override { half_ = half_ * by; }
+    void placeCore() override
+    {
+        half_ = made_ * (size() / sizeMade_);
+        place();
+    }
     void describe(char* to, int size) const override { snprintf(to, static_cast<size_t>(size), "stick %d", number()); }
 
     void layOutSeeds(SeedMaker& maker, Real spacing) const override
@@ -66,6 +72,7 @@ private:
     }
 
     Real half_;
+    Real made_, sizeMade_;  // as made
     Point a_, b_;
 };
 

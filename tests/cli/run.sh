@@ -1,0 +1,212 @@
+#!/bin/sh
+# The program as people call it, on the host: exit status, what is said where, keys and mouse from a script, dumps.
+#
+#   tests/cli/run.sh [DEMO]     default build/demo
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+. tests/lib.sh
+
+demo=${1:-build/demo}
+build "$demo"
+demo=$PWD/$demo
+
+# ends STATUS ARGUMENT...: the program ends so; what it says is in $dir/out and $dir/err.
+ends() {
+	want=$1
+	shift
+	"$demo" "$@" >"$dir/out" 2>"$dir/err" </dev/null
+	got=$?
+	[ "$got" -eq "$want" ] || {
+		echo "status $got, expected $want"
+		cat "$dir/err"
+		return 1
+	}
+}
+# refuses WORD: status 2, one line on standard error that begins with the word, nothing on standard output.
+refuses() {
+	ends 2 "$1" && [ ! -s "$dir/out" ] && [ "$(wc -l <"$dir/err")" -eq 1 ] &&
+		case $(cat "$dir/err") in
+		"$1"*) ;;
+		*)
+			cat "$dir/err"
+			false
+			;;
+		esac
+}
+# says FILE TEXT
+says() {
+	grep -qF -- "$2" "$1" || {
+		echo "no \"$2\" in:"
+		cat "$1"
+		false
+	}
+}
+# figure NAME: its value in the statistics last written
+figure() {
+	sed -n "s/^$1: //p" "$dir/out"
+}
+is() { # is WANTED NAME
+	[ "$(figure "$2")" = "$1" ] || {
+		echo "$2: $(figure "$2"), expected $1"
+		false
+	}
+}
+# plays SCRIPT ARGUMENT...: with scripted keys and mouse
+plays() {
+	printf "$1" >"$dir/script"
+	shift
+	FB_INPUT=$dir/script ends 0 "$@"
+}
+
+for word in /Q /S:9 /S:0.2 /S:x /S /N:0 /N:x /N:10000000 /T:0 /T:x /D: /M: /G:1 x -q -s:-1 /IG; do
+	ok "refuses $word" refuses "$word"
+done
+ok "one bad switch among good ones" ends 2 /G /N:5 /Q
+ok "nothing was played" test ! -s "$dir/out"
+ok "a file that is not there" ends 2 "/M:$dir/none.txt"
+ok "and it is named" says "$dir/err" "$dir/none.txt"
+
+for word in '/?' '-?'; do
+	ok "help by $word" ends 0 "$word"
+	ok "on standard output" says "$dir/out" "/S:n"
+	ok "and nowhere else" test ! -s "$dir/err"
+done
+
+# Statistics: the names in order, and what must come out exactly.
+ok "ten frames" ends 0 /N:10
+cat >"$dir/names" <<END
+frames
+seconds
+fps
+seeds
+oversampled seeds
+updated per frame
+drawn per frame
+iterations per update
+normals per frame
+field evaluations per frame
+END
+sed 's/: .*//' "$dir/out" | head -n 10 >"$dir/got"
+ok "names in order" cmp "$dir/names" "$dir/got"
+ok "frames" is 10 frames
+ok "seeds" is 2496 seeds
+ok "oversampled seeds" is 2480 "oversampled seeds"
+cp "$dir/out" "$dir/first"
+ok "every switch in the other spelling" ends 0 -n:10
+ok "the same figures" cmp "$dir/first" "$dir/out"
+ok "a second of real time" ends 0 /T:1 /S:4
+case $(figure seconds) in
+1.*) ok "lasts a second" true ;;
+*) ok "lasts a second, not $(figure seconds)" false ;;
+esac
+
+# Dumps: three files a frame, the same every time, the picture changed by what should change it alone.
+dump() { # dump NAME ARGUMENT...
+	to=$dir/$1
+	shift
+	ends 0 "$@" "/D:$to"
+}
+ok "dump" dump a /N:3
+ok "nine files" test "$(ls "$dir/a" | wc -l)" -eq 9
+ok "names" test -f "$dir/a/F0000002.PPM" -a -f "$dir/a/F0000000.Z" -a -f "$dir/a/F0000001.TXT"
+ok "sizes" test "$(wc -c <"$dir/a/F0000001.PPM")" -eq 192015 -a "$(wc -c <"$dir/a/F0000001.Z")" -eq 256000
+ok "again" dump b -n:3
+ok "the same bytes" diff -r "$dir/a" "$dir/b"
+ok "into a directory that is there" dump b /N:3
+ok "the same bytes again" diff -r "$dir/a" "$dir/b"
+ok "time of the third" says "$dir/a/F0000002.TXT" "time 0.200"
+ok "frames differ" sh -c "! cmp -s '$dir/a/F0000000.PPM' '$dir/a/F0000001.PPM'"
+ok "grey" dump g /N:3 /G
+ok "same depth in grey" sh -c "cmp '$dir/a/F0000002.Z' '$dir/g/F0000002.Z'"
+ok "other picture" sh -c "! cmp -s '$dir/a/F0000002.PPM' '$dir/g/F0000002.PPM'"
+ok "coarse" dump s /N:3 /S:4
+ok "same scene" sh -c "cmp '$dir/a/F0000002.TXT' '$dir/s/F0000002.TXT'"
+ok "as printed" dump p /N:3 /P
+ok "same scene as printed" sh -c "cmp '$dir/a/F0000002.TXT' '$dir/p/F0000002.TXT'"
+: >"$dir/file"
+ok "a directory that cannot be" sh -c "'$demo' /N:1 '/D:$dir/file/sub' 2>'$dir/err'; test \$? -eq 1 -o \$? -eq 2"
+ok "is named in one line" sh -c "grep -qF '$dir/file/sub' '$dir/err' && test \$(wc -l <'$dir/err') -eq 1"
+if [ -c /dev/full ]; then
+	mkdir "$dir/full"
+	ln -s /dev/full "$dir/full/F0000001.Z"
+	ok "a full disk" ends 1 /N:3 "/D:$dir/full"
+	ok "is told in one line" sh -c "grep -qi 'disk full' '$dir/err' && test \$(wc -l <'$dir/err') -eq 1"
+	ok "with the file" says "$dir/err" F0000001.Z
+fi
+
+# Keys.
+ok "ESC ends" plays '5 key ESC\n' /N:50
+ok "after five frames" is 5 frames
+ok "ESC before the first frame" plays '0 key ESC\n' /N:50
+ok "no frame" is 0 frames
+ok "- makes coarser" plays '1 key -\n1 key -\n' /N:3
+ok "fewer seeds" test "$(figure seeds)" -lt 2000
+ok "+ makes finer" plays '1 key +\n' /N:3
+ok "more seeds" test "$(figure seeds)" -gt 3000
+ok "+ and - again" plays '1 key +\n1 key -\n2 key -\n2 key +\n' /N:3
+ok "as many seeds as before" is 2496 seeds
+ok "+ stops at 0.25" plays '0 key +\n0 key +\n0 key +\n' /N:1 /S:0.3
+most=$(figure seeds)
+ends 0 /N:1 /S:0.25
+ok "the same as /S:0.25" is "$most" seeds
+ok "- stops at 8" plays '0 key -\n0 key -\n0 key -\n' /N:1 /S:7
+least=$(figure seeds)
+ends 0 /N:1 /S:8
+ok "the same as /S:8" is "$least" seeds
+ok "resampled and kept going" plays '1 key +\n2 key +\n3 key -\n4 key *\n5 key *\n6 key ESC\n' /N:9
+ok "six frames" is 6 frames
+printf '1 key *\n2 key *\n' >"$dir/script"
+FB_INPUT=$dir/script dump x /N:3 >"$dir/said" 2>&1
+ok "* and * again: frame 0" cmp "$dir/a/F0000000.PPM" "$dir/x/F0000000.PPM"
+ok "pixels in frame 1" sh -c "! cmp -s '$dir/a/F0000001.PPM' '$dir/x/F0000001.PPM'"
+ok "scales in frame 2" cmp "$dir/a/F0000002.PPM" "$dir/x/F0000002.PPM"
+printf '2 key BREAK\n' >"$dir/script"
+ok "Ctrl-C" sh -c "FB_INPUT='$dir/script' '$demo' /N:50 >'$dir/out' 2>'$dir/err'; test \$? -eq 1"
+ok "says so" says "$dir/err" interrupted
+
+# The mouse: which object moves, and how.
+place() { # place DIRECTORY FRAME OBJECT: x y z
+	sed -n "s/^sphere $3 \([^ ]* [^ ]* [^ ]*\) .*/\1/p" "$dir/$1/F000000$2.TXT"
+}
+moves() { # moves NAME SCRIPT ARGUMENT...
+	rm -rf "${dir:?}/$1"
+	printf "$2" >"$dir/script"
+	name=$1
+	shift 2
+	FB_INPUT=$dir/script dump "$name" /I "$@"
+}
+compare() { # compare OBJECT AWK-CONDITION on x y z (before) and X Y Z (after), frames 1 and 3 of m
+	echo "$(place m 1 "$1") $(place m 3 "$1")" |
+		awk "{ x = \$1; y = \$2; z = \$3; X = \$4; Y = \$5; Z = \$6; if (!($2)) { print; exit 1 } }"
+}
+ok "the mouse moves" moves m '2 mouse 20 0 -\n' /N:4
+ok "right" compare 1 'X > x && Y == y && Z == z'
+ok "others stay" compare 2 'X == x && Y == y && Z == z'
+moves m '2 mouse 0 -20 -\n' /N:4
+ok "up" compare 1 'X == x && Y > y && Z == z'
+moves m '2 mouse 0 20 R\n' /N:4
+ok "with the right button along z" compare 1 'X == x && Y == y && Z != z'
+moves m '1 mouse 0 0 L\n1 mouse 0 0 -\n2 mouse 20 0 -\n' /N:4
+ok "the left button selects the next" compare 2 'X > x && Y == y && Z == z'
+ok "and the first stays" compare 1 'X == x && Y == y && Z == z'
+script='1 mouse 0 0 L\n1 mouse 0 0 -\n1 mouse 0 0 L\n1 mouse 0 0 -\n1 mouse 0 0 L\n1 mouse 0 0 -\n1 mouse 0 0 L\n1 mouse 0 0 -\n'
+moves m "${script}10 mouse 20 0 -\n" /N:12
+at() { # at FRAME OBJECT
+	sed -n "s/^sphere $2 \([^ ]* [^ ]* [^ ]*\) .*/\1/p" "$dir/m/F00000$1.TXT"
+}
+ok "after the last comes the first" test "$(at 01 1)" != "$(at 11 1)"
+ok "and no other" test "$(at 01 2)" = "$(at 11 2)"
+# The second of them is hidden at first, so the third.
+moves m '20 mouse 0 0 L\n21 mouse 0 0 -\n22 mouse 0 0 L\n' /N:35
+ok "nothing moves by itself" cmp "$dir/m/F0000019.PPM" "$dir/m/F0000012.PPM"
+ok "the selected one pulses" sh -c "! cmp -s '$dir/m/F0000019.PPM' '$dir/m/F0000024.PPM'"
+ok "and is as before again" cmp "$dir/m/F0000019.PPM" "$dir/m/F0000034.PPM"
+for far in '30000 0 -' '-30000 0 -' '0 30000 -' '0 -30000 -' '0 30000 R' '0 -30000 R' '30000 30000 R'; do
+	moves m "2 mouse $far\n" /N:4
+	ok "kept in view: $far" compare 1 'Z > -110 && Z < 300 && X > -300 && X < 300 && Y > -300 && Y < 300'
+done
+ok "without a mouse it says so" plays '9 key ESC\n' /I /N:3
+ok "in words" sh -c "grep -qi 'mouse' '$dir/out'"
+printf 'nonsense\n' >"$dir/script"
+ok "half a script is no script" sh -c "FB_INPUT='$dir/script' '$demo' /N:1 >/dev/null 2>&1; test \$? -ne 0"
+summary

@@ -1,0 +1,100 @@
+#!/bin/sh
+# The same frames from every build: the 64-bit host, the 32-bit host with the assembly, and DEMO.EXE in DOSBox must dump
+# the same bytes for the same switches. The builds with a Real of floating point must show nearly the same picture.
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+. tests/lib.sh
+
+build build/demo build/demo32 build/DEMO.EXE build/demo-float build/demo-double build/samefrm
+c=$dir/c
+mkdir "$c"
+cp build/DEMO.EXE "$c"
+same() { # same NAME A B
+	echo "# $1: $(build/samefrm "$2" "$3")"
+	ok "$1" build/samefrm "$2" "$3"
+}
+
+# Frames and switches; DOSBox writes about fifteen frames a second.
+sets='60
+40 /G
+16 /S:1
+16 /S:4 /G
+24 /P
+10 /P /G /S:4'
+
+# DEMO.EXE plays all sets in one go, as fast as the emulator can.
+number=0
+echo "$sets" >"$dir/sets"
+set --
+while read -r frames switches; do
+	number=$((number + 1))
+	set -- "$@" "DEMO /N:$frames /D:D$number $switches > OUT$number.TXT"
+done <"$dir/sets"
+ok "DEMO.EXE plays" tools/dosbox.sh -c max -o cpu.core=dynamic -t 300 -d "$c" -- "$@"
+
+total=0
+number=0
+while read -r frames switches; do
+	number=$((number + 1))
+	label="/N:$frames${switches:+ $switches}"
+	# The switches are words of their own.
+	build/demo /N:"$frames" /D:"$dir/h" $switches >"$dir/h.txt"
+	build/demo32 /N:"$frames" /D:"$dir/w" $switches >"$dir/w.txt"
+	ok "frames dumped, $label" test "$(ls "$dir/h" | grep -c PPM)" -eq "$frames"
+	same "32-bit host, $label" "$dir/h" "$dir/w"
+	same "DEMO.EXE, $label" "$dir/h" "$c/D$number"
+	# Everything but the time taken is the same, too.
+	grep -v -e '^seconds' -e '^fps' "$dir/h.txt" >"$dir/h.cmp"
+	tr -d '\r' <"$c/OUT$number.TXT" | grep -v -e '^seconds' -e '^fps' >"$dir/c.cmp"
+	ok "statistics of the 32-bit host, $label" cmp "$dir/h.txt" "$dir/w.txt"
+	ok "statistics of DEMO.EXE, $label" cmp "$dir/h.cmp" "$dir/c.cmp"
+	total=$((total + frames))
+	rm -rf "$dir/h" "$dir/w" "$c/D$number"
+done <"$dir/sets"
+echo "# $total frames from each of three builds"
+ok "a hundred frames and more" test "$total" -ge 100
+
+# The emulator's other way of running code, instruction by instruction; no picture is copied to the card here, which may
+# not change what is dumped.
+build/demo /N:3 /D:"$dir/h" >"$dir/h.txt"
+tools/dosbox.sh -c max -o cpu.core=normal -t 120 -d "$c" -- 'DEMO /N:3 /X /D:NORMAL > OUT.TXT'
+same "DEMO.EXE interpreted" "$dir/h" "$c/NORMAL"
+
+# Seeds that are changed while it runs, and objects moved by the mouse: from a script, host builds only.
+cat >"$dir/script" <<END
+1 key -
+2 mouse 40 10 L
+3 mouse -30 -10 -
+4 key *
+5 mouse 0 -400 R
+6 key +
+7 key *
+8 key +
+END
+for program in demo demo32; do
+	FB_INPUT=$dir/script build/$program /I /N:12 /D:"$dir/$program" >/dev/null
+done
+same "32-bit host, interactive" "$dir/demo" "$dir/demo32"
+
+# Real as float and double.
+for switches in '' '/G /S:1' '/P'; do
+	rm -rf "$dir/h"
+	build/demo /N:40 /D:"$dir/h" $switches >"$dir/h.txt"
+	for kind in float double; do
+		rm -rf "$dir/f"
+		build/demo-$kind /N:40 /D:"$dir/f" $switches >"$dir/f.txt"
+		echo "# $kind $switches: $(build/samefrm -near "$dir/h" "$dir/f")"
+		ok "nearly the same with $kind $switches" build/samefrm -near "$dir/h" "$dir/f"
+	done
+done
+# That "nearly" is not "anything": the next frame is something else.
+mkdir "$dir/one" "$dir/two"
+for end in PPM Z TXT; do
+	cp "$dir/h/F0000004.$end" "$dir/one/F0000000.$end"
+	cp "$dir/h/F0000005.$end" "$dir/two/F0000000.$end"
+done
+ok "another frame is not nearly the same" sh -c "! build/samefrm -near '$dir/one' '$dir/two'"
+printf 'x' | dd of="$dir/two/F0000000.TXT" bs=1 seek=3 conv=notrunc 2>/dev/null
+cp "$dir/one/F0000000.PPM" "$dir/one/F0000000.Z" "$dir/two"
+ok "one byte is noticed" sh -c "! build/samefrm '$dir/one' '$dir/two'"
+summary

@@ -1,0 +1,186 @@
+// Dumped frames: what the three files hold, and what happens where they cannot be written.
+#include "dump.h"
+
+#include <dirent.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "help.h"
+#include "test.h"
+
+namespace {
+
+std::string scratch()
+{
+    char name[] = "/tmp/fbdump.XXXXXX";
+    if (mkdtemp(name) == nullptr)
+        std::abort();
+    return name;
+}
+
+void discard(const std::string& directory)
+{
+    if (DIR* d = opendir(directory.c_str())) {
+        while (const dirent* e = readdir(d))
+            unlink((directory + "/" + e->d_name).c_str());
+        closedir(d);
+    }
+    rmdir(directory.c_str());
+}
+
+std::string contents(const std::string& name)
+{
+    std::ifstream file(name, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+}  // namespace
+
+TEST(a_dumped_frame)
+{
+    const std::string top = scratch(), directory = top + "/NEW";
+    Model model;
+    CHECK(model.makeFourSpheres());
+    Anim::move(model, 78643);  // 1.2 s
+    CHECK(model.resample(Real(4)));
+    View view;
+    CHECK(view.open());
+    view.setCamera(model.camera);
+    Palette palette;
+    palette.make(model, false);
+    Counts counts{};
+    const Look look{model.camera.eye, unit(model.light), false, &counts};
+    std::vector<Voxel> voxels(4096);
+    view.begin();
+    for (int i = 0; i < 4; ++i) {
+        SoftObject& object = *model.actor(i).object;
+        object.shadeRest(look.light);
+        object.update(look);
+        int next = 0;
+        view.touch(object.centre(), object.reach());
+        const int count = object.draw(look, voxels.data(), 4096, &next);
+        view.show(voxels.data(), count);
+    }
+    view.end();
+    Dump dump;
+    CHECK(dump.open(directory.c_str()) == nullptr);
+    CHECK(dump.frame(12, 78643, 10, model, view, palette, false) == nullptr);
+
+    const std::string picture = contents(directory + "/F0000012.PPM");
+    const std::string header = "P6\n320 200\n255\n";
+    SAME(picture.size(), header.size() + 192000);
+    TEXT(picture.substr(0, header.size()), header);
+    const std::string depth = contents(directory + "/F0000012.Z");
+    SAME(depth.size(), 256000);
+    long wrong = 0, drawn = 0;
+    for (size_t i = 0; i < 64000; ++i) {
+        for (size_t part = 0; part < 3; ++part) {
+            const int full = palette.dac()[3 * view.frame()[i] + part];
+            const int shown = static_cast<uint8_t>(picture[header.size() + 3 * i + part]);
+            wrong += std::abs(shown * 63 - full * 255) > 63;
+        }
+        uint32_t z = 0;
+        for (size_t part = 0; part < 4; ++part)
+            z |= static_cast<uint32_t>(static_cast<uint8_t>(depth[4 * i + part])) << (8 * part);
+        if (view.zbuffer()[i] == Z_EMPTY) {
+            wrong += z != 0x7fffffff;
+        } else {
+            ++drawn;
+            wrong += std::fabs(z / 65536.0 - view.zbuffer()[i] / 128.0) > 0.01;
+        }
+    }
+    SAME(wrong, 0);
+    CHECK(drawn > 5000);
+
+    // The scene, line by line.
+    std::istringstream text(contents(directory + "/F0000012.TXT"));
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(text, line);)
+        lines.push_back(line);
+    CHECK(lines.size() >= 17);
+    if (lines.size() < 17)
+        return;
+    TEXT(lines[0], "time 1.200");
+    TEXT(lines[1], "eye 0 0 -120");
+    TEXT(lines[3], "centre 160 100");
+    double lx = 0, ly = 0, lz = 0;
+    SAME(std::sscanf(lines[4].c_str(), "light %lf %lf %lf", &lx, &ly, &lz), 3);
+    NEAR(lx, 0.5, 0);
+    NEAR(ly, 0.7, 1e-5);
+    NEAR(lz, -0.5, 0);
+    TEXT(lines[5], "isovalue 0.5");
+    double fx = 0, fy = 0;
+    SAME(std::sscanf(lines[2].c_str(), "focal %lf %lf", &fx, &fy), 2);
+    NEAR(fx, 250, 0);
+    NEAR(fy, 208.3333, 1e-3);
+    for (int i = 0; i < 4; ++i) {
+        int n;
+        double x, y, z, r;
+        SAME(std::sscanf(lines[static_cast<size_t>(6 + i)].c_str(), "sphere %d %lf %lf %lf %lf", &n, &x, &y, &z, &r), 5);
+        const SoftObject& object = *model.actor(i).object;
+        SAME(n, object.number());
+        NEAR(x, number(object.centre().x), 2e-5);
+        NEAR(y, number(object.centre().y), 2e-5);
+        NEAR(z, number(object.centre().z), 2e-5);
+        NEAR(r, number(object.size()), 0);
+    }
+    // "Blend lists each linked pair once."
+    bool pairs[5][5] = {};
+    int blends = 0;
+    for (const std::string& line : lines) {
+        int a, b;
+        if (std::sscanf(line.c_str(), "blend %d %d", &a, &b) != 2)
+            continue;
+        ++blends;
+        CHECK(a >= 1 && a <= 4 && b >= 1 && b <= 4 && a != b && !pairs[a][b] && !pairs[b][a]);
+        pairs[a][b] = pairs[b][a] = true;
+    }
+    SAME(blends, 6);
+    // A directory that is there already will do.
+    CHECK(dump.open(directory.c_str()) == nullptr);
+    discard(directory);
+    discard(top);
+}
+
+TEST(places_that_cannot_be_written)
+{
+    const std::string top = scratch();
+    const std::string file = top + "/FILE";
+    std::ofstream(file) << "x";
+    const std::string bad[] = {file, file + "/SUB", top + "/NONE/SUB", top + "/" + std::string(300, 'L'), top + "/" + std::string(118, 'L')};
+    for (const std::string& name : bad) {
+        Dump dump;
+        const char* problem = dump.open(name.c_str());
+        if (!CHECK(problem != nullptr)) {
+            note("accepted: %s", name.c_str());
+            continue;
+        }
+        CHECK(std::strchr(problem, '\n') == nullptr);
+        CHECK(std::strstr(problem, top.substr(0, 10).c_str()) != nullptr);
+    }
+    // The directory goes away, or a file stands in the way, while dumping.
+    Model model;
+    CHECK(model.makeFourSpheres());
+    View view;
+    CHECK(view.open());
+    Palette palette;
+    palette.make(model, true);
+    const std::string gone = top + "/GONE";
+    Dump dump;
+    CHECK(dump.open(gone.c_str()) == nullptr);
+    CHECK(mkdir((gone + "/F0000005.Z").c_str(), 0777) == 0);
+    const char* problem = dump.frame(5, 0, 10, model, view, palette, true);
+    CHECK(problem != nullptr && std::strstr(problem, "F0000005.Z") != nullptr);
+    rmdir((gone + "/F0000005.Z").c_str());
+    discard(gone);
+    problem = dump.frame(6, 0, 10, model, view, palette, true);
+    CHECK(problem != nullptr && std::strstr(problem, "F0000006.PPM") != nullptr);
+    discard(top);
+}

@@ -1,0 +1,161 @@
+// The command line: every switch in every spelling, and every bad value refused with a line that names it.
+#include "options.h"
+
+#include <cstring>
+
+#include "help.h"
+#include "test.h"
+
+namespace {
+
+// Reads one command line of words.
+const char* parse(std::vector<std::string> words, Options* options)
+{
+    words.insert(words.begin(), "demo");
+    static std::vector<std::string> kept;
+    kept = words;
+    std::vector<char*> pointers;
+    for (std::string& word : kept)
+        pointers.push_back(&word[0]);
+    *options = Options();
+    return parseOptions(static_cast<int>(pointers.size()), pointers.data(), options);
+}
+
+Options good(const std::vector<std::string>& words)
+{
+    Options options;
+    const char* problem = parse(words, &options);
+    if (!CHECK(problem == nullptr))
+        note("%s", problem);
+    return options;
+}
+
+void bad(const std::string& word)
+{
+    Options options;
+    const char* problem = parse({word}, &options);
+    if (!CHECK(problem != nullptr)) {
+        note("accepted: %s", word.c_str());
+        return;
+    }
+    // One line, which begins with the switch.
+    CHECK(std::strchr(problem, '\n') == nullptr);
+    if (!CHECK(std::strncmp(problem, word.c_str(), word.size() < 40 ? word.size() : 40) == 0))
+        note("%s: %s", word.c_str(), problem);
+}
+
+// The same switch with / and -, capital and small.
+std::vector<std::string> spellings(char letter, const std::string& rest = "")
+{
+    std::vector<std::string> all;
+    for (char lead : {'/', '-'})
+        for (char c : {letter, static_cast<char>(letter >= 'A' && letter <= 'Z' ? letter + 32 : letter)})
+            all.push_back(std::string(1, lead) + c + rest);
+    return all;
+}
+
+}  // namespace
+
+TEST(defaults)
+{
+    const Options o = good({});
+    CHECK(!o.interactive && !o.grey && !o.printed && !o.help);
+    NEAR(number(o.spacing), 2, 0);
+    SAME(o.frames, 0);
+    SAME(o.seconds, 0);
+    CHECK(o.dumpDirectory == nullptr);
+    CHECK(o.modelFile == nullptr);
+}
+
+TEST(switches_in_every_spelling)
+{
+    for (const std::string& s : spellings('I'))
+        CHECK(good({s}).interactive);
+    for (const std::string& s : spellings('G'))
+        CHECK(good({s}).grey);
+    for (const std::string& s : spellings('P'))
+        CHECK(good({s}).printed);
+    for (const std::string& s : spellings('?'))
+        CHECK(good({s}).help);
+    for (const std::string& s : spellings('S', ":0.5"))
+        NEAR(number(good({s}).spacing), 0.5, 0);
+    for (const std::string& s : spellings('N', ":600"))
+        SAME(good({s}).frames, 600);
+    for (const std::string& s : spellings('T', ":60"))
+        SAME(good({s}).seconds, 60);
+    for (const std::string& s : spellings('D', ":Some/Dir"))
+        TEXT(good({s}).dumpDirectory, "Some/Dir");
+    for (const std::string& s : spellings('M', ":WALK.TXT"))
+        TEXT(good({s}).modelFile, "WALK.TXT");
+}
+
+TEST(ranges_to_their_ends)
+{
+    NEAR(number(good({"/S:0.25"}).spacing), 0.25, 0);
+    NEAR(number(good({"/S:8"}).spacing), 8, 0);
+    NEAR(number(good({"/S:.25"}).spacing), 0.25, 0);
+    SAME(good({"/N:1"}).frames, 1);
+    SAME(good({"/N:9999999"}).frames, 9999999);
+    SAME(good({"/T:1"}).seconds, 1);
+    SAME(good({"/T:86400"}).seconds, 86400);
+}
+
+TEST(several_together)
+{
+    const Options o = good({"/g", "-P", "/s:4", "/N:10", "/D:out"});
+    CHECK(o.grey && o.printed && !o.interactive);
+    NEAR(number(o.spacing), 4, 0);
+    SAME(o.frames, 10);
+    // The last of two counts.
+    NEAR(number(good({"/S:4", "/S:1"}).spacing), 1, 0);
+}
+
+TEST(bad_switches)
+{
+    for (const char* word : {"/", "-", "x", "G", "I", "/Q", "--help", "/GG", "/G:", "/G:1", "/I:yes", "/P1", "/IG", "", "//G", "/ G"})
+        bad(word);
+    for (const char* word : {"/S", "/S:", "/S2", "/S:0", "/S:0.2", "/S:0.2499", "/S:8.01", "/S:9", "/S:-2", "/S:x", "/S:2x", "/S:1e1",
+                             "/S:99999999999", "/S:2,5", "/S: 2"})
+        bad(word);
+    for (const char* word : {"/N", "/N:", "/N:0", "/N:-1", "/N:10000000", "/N:99999999999999", "/N:1.5", "/N:x", "/N:1x", "/N600"})
+        bad(word);
+    for (const char* word : {"/T", "/T:", "/T:0", "/T:-1", "/T:86401", "/T:0.5", "/T:x", "/T60"})
+        bad(word);
+    for (const char* word : {"/D", "/D:", "/M", "/M:", "/Dout"})
+        bad(word);
+    // A very long one is cut, not overrun.
+    Options options;
+    const char* problem = parse({"/" + std::string(500, 'Z')}, &options);
+    CHECK(problem != nullptr && std::strlen(problem) < 300);
+    // A good one before or behind does not help.
+    CHECK(parse({"/G", "/Q"}, &options) != nullptr);
+    CHECK(parse({"/Q", "/G"}, &options) != nullptr);
+}
+
+TEST(accepted_ranges_are_told)
+{
+    Options options;
+    CHECK(std::strstr(parse({"/S:9"}, &options), "0.25 to 8") != nullptr);
+    CHECK(std::strstr(parse({"/N:0"}, &options), "1 to 9999999") != nullptr);
+    CHECK(std::strstr(parse({"/T:0"}, &options), "1 to 86400") != nullptr);
+}
+
+TEST(help_names_every_switch_and_key)
+{
+    for (const char* word : {"/I", "/G", "/P", "/S:", "/N:", "/T:", "/D:", "/M:", "/?", "*", "-", "+", "ESC", "left button", "right button"})
+        if (!CHECK(std::strstr(HELP, word) != nullptr))
+            note("not in the help: %s", word);
+    // It fits a text screen.
+    int line = 0, lines = 0, longest = 0;
+    for (const char* c = HELP; *c != 0; ++c) {
+        if (*c == '\n') {
+            longest = line > longest ? line : longest;
+            line = 0;
+            ++lines;
+        } else {
+            ++line;
+        }
+    }
+    CHECK(longest < 80);
+    note("%d lines, the longest %d characters", lines, longest);
+}

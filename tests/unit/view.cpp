@@ -1,0 +1,286 @@
+// The view: the projection formula, clipping, and the promise that what is cleared and presented by spans looks the same
+// as the whole screen.
+#include "view.h"
+
+#include <cstring>
+
+#include "help.h"
+#include "test.h"
+
+using machine::HEIGHT;
+using machine::WIDTH;
+
+namespace {
+
+Voxel voxel(double x, double y, double z, double wide, double high, int colour)
+{
+    Voxel v{};
+    v.place = vector(x, y, z);
+    v.wide = static_cast<int16_t>(wide * 256);
+    v.high = static_cast<int16_t>(high * 256);
+    v.colour = static_cast<uint8_t>(colour);
+    return v;
+}
+
+// The rectangle of a voxel by the formula, in pixels.
+struct Box {
+    double left, top, right, bottom;
+};
+Box box(const Voxel& v, const Camera& camera)
+{
+    const double x = number(v.place.x), y = number(v.place.y), z = number(v.place.z);
+    const double column = number(camera.centreX) + number(camera.focalX) * x / z;
+    const double row = number(camera.centreY) - number(camera.focalY) * y / z;
+    const double wide = v.wide / 256.0 * number(camera.focalX) / z, high = v.high / 256.0 * number(camera.focalY) / z;
+    return {column - wide, row - high, column + wide, row + high};
+}
+
+}  // namespace
+
+TEST(projection_formula)
+{
+    View view;
+    CHECK(view.open());
+    Random random;
+    long drawn = 0;
+    for (int k = 0; k < 6000; ++k) {
+        const double z = random.below(3) ? random.between(62, 258) : random.between(1, 511);
+        const double spread = 0.9 * z;
+        const Voxel v = voxel(random.between(-spread, spread), random.between(-spread, spread) * 0.7, z, random.between(0.1, 8),
+                              random.between(0.1, 8), 1 + random.below(255));
+        view.begin();
+        view.touch(view.camera().eye + v.place, Real(20));
+        drawn += view.show(&v, 1);
+        view.end();
+        const Box b = box(v, view.camera());
+        // Factors stand in a table by steps of 1/8 unit, that is 1/1024 at z = 64; numbers have 12 bits of fraction.
+        const double ax = 0.01 + 0.0011 * std::fmax(std::fabs(b.left - 160), std::fabs(b.right - 160));
+        const double ay = 0.01 + 0.0011 * std::fmax(std::fabs(b.top - 100), std::fabs(b.bottom - 100));
+        long wrong = 0;
+        for (int row = 0; row < HEIGHT; ++row)
+            for (int column = 0; column < WIDTH; ++column) {
+                const double x = column + 0.5, y = row + 0.5;
+                const bool taken = view.frame()[row * WIDTH + column] != 0;
+                const bool inside = x > b.left + ax && x < b.right - ax && y > b.top + ay && y < b.bottom - ay;
+                const bool outside = x < b.left - ax || x > b.right + ax || y < b.top - ay || y > b.bottom + ay;
+                wrong += (inside && !taken) || (outside && taken);
+                if (taken) {
+                    wrong += view.frame()[row * WIDTH + column] != v.colour;
+                    wrong += std::fabs(view.zbuffer()[row * WIDTH + column] / 128.0 - number(v.place.z)) > 1.0 / 128;
+                } else {
+                    wrong += view.zbuffer()[row * WIDTH + column] != Z_EMPTY;
+                }
+            }
+        if (wrong != 0 && CHECK(wrong == 0) == false)
+            note("at %g %g %g: %ld pixels", number(v.place.x), number(v.place.y), number(v.place.z), wrong);
+    }
+    CHECK(drawn > 3000);
+}
+
+TEST(round_on_a_4_to_3_screen)
+{
+    // Pixels are 5 wide to 6 high: 1.2 times as many columns as rows for the same length.
+    View view;
+    CHECK(view.open());
+    NEAR(number(view.camera().focalX), 1.2 * number(view.camera().focalY), 1e-3);
+    const Voxel v = voxel(0, 0, 100, 20, 20, 9);
+    view.begin();
+    view.touch(view.camera().eye + v.place, Real(40));
+    SAME(view.show(&v, 1), 1);
+    view.end();
+    int wide = 0, high = 0;
+    for (int x = 0; x < WIDTH; ++x)
+        wide += view.frame()[100 * WIDTH + x] == 9;
+    for (int y = 0; y < HEIGHT; ++y)
+        high += view.frame()[y * WIDTH + 160] == 9;
+    NEAR(wide, 100, 1);
+    NEAR(high, 83.3, 1);
+}
+
+TEST(scales_grow_with_nearness)
+{
+    // "Gaps brought on by objects being moved closer to the viewpoint [are] solved by magnifying the scales at render
+    // time according to their distance": half as far away, twice as large.
+    View view;
+    CHECK(view.open());
+    double before = 0;
+    for (double z : {240.0, 120.0, 60.0, 30.0, 15.0}) {
+        const Voxel v = voxel(0, 0, z, 1.4, 1.4, 5);
+        view.begin();
+        view.touch(view.camera().eye + v.place, Real(4));
+        view.show(&v, 1);
+        view.end();
+        int wide = 0;
+        for (int x = 0; x < WIDTH; ++x)
+            wide += view.frame()[100 * WIDTH + x] == 5;
+        NEAR(wide, 2 * 1.4 * 250 / z, 1);
+        CHECK(wide > before);
+        before = wide;
+    }
+}
+
+TEST(left_out)
+{
+    View view;
+    CHECK(view.open());
+    const Voxel out[] = {
+        voxel(0, 0, 0.5, 1, 1, 1),    voxel(0, 0, -10, 1, 1, 1),     voxel(0, 0, 0, 1, 1, 1),
+        voxel(0, 0, 512, 5, 5, 1),    voxel(0, 0, 20000, 5, 5, 1),   voxel(0, 0, -32000, 5, 5, 1),
+        voxel(100, 0, 100, 1, 1, 1),  voxel(-100, 0, 100, 1, 1, 1),  voxel(0, 80, 100, 1, 1, 1),
+        voxel(0, -80, 100, 1, 1, 1),  voxel(30000, 0, 5, 1, 1, 1),   voxel(-30000, -30000, 1.5, 1, 1, 1),
+        voxel(0, 30000, 100, 1, 1, 1), voxel(32767, 32767, 511, 1, 1, 1),
+    };
+    view.begin();
+    SAME(view.show(out, sizeof out / sizeof *out), 0);
+    view.end();
+    for (int i = 0; i < WIDTH * HEIGHT; ++i)
+        if (view.frame()[i] != 0) {
+            CHECK(view.frame()[i] == 0);
+            break;
+        }
+    // The planes themselves.
+    const Voxel in[] = {voxel(0, 0, 1, 0.1, 0.1, 1), voxel(0, 0, 511, 5, 5, 1)};
+    view.begin();
+    SAME(view.show(in, 2), 2);
+}
+
+TEST(anything_may_be_shown)
+{
+    // Any voxel at all, in any number: the sanitizers watch, and the screen's edges hold.
+    View view;
+    CHECK(view.open());
+    Random random;
+    std::vector<Voxel> many(5000);
+    for (int round = 0; round < 40; ++round) {
+        for (Voxel& v : many) {
+            v.place = {realFromRaw(static_cast<int32_t>(random.bits()) >> random.below(24)),
+                       realFromRaw(static_cast<int32_t>(random.bits()) >> random.below(24)),
+                       realFromRaw(static_cast<int32_t>(random.bits()) >> random.below(24))};
+            v.wide = static_cast<int16_t>((random.bits() & 0x7fff) >> random.below(12));
+            v.high = static_cast<int16_t>((random.bits() & 0x7fff) >> random.below(12));
+            v.colour = static_cast<uint8_t>(random.bits());
+        }
+        view.begin();
+        view.touch(point(0, 0, 0), Real(300));
+        const int drawn = view.show(many.data(), static_cast<int>(many.size()));
+        view.end();
+        CHECK(drawn >= 0 && drawn <= static_cast<int>(many.size()));
+    }
+}
+
+TEST(nearest_is_seen)
+{
+    // The Z-buffer: whatever the order, the nearest scale is what is seen.
+    View one, two;
+    CHECK(one.open() && two.open());
+    Random random;
+    std::vector<Voxel> list;
+    for (int i = 0; i < 400; ++i)
+        // Depths apart by more than the Z-buffer's step.
+        list.push_back(voxel(random.between(-40, 40), random.between(-30, 30), 80 + i * 0.1, 4, 4, 1 + i % 255));
+    std::vector<Voxel> reversed(list.rbegin(), list.rend());
+    for (View* view : {&one, &two}) {
+        const std::vector<Voxel>& l = view == &one ? list : reversed;
+        view->begin();
+        view->touch(point(0, 0, 0), Real(100));
+        view->show(l.data(), static_cast<int>(l.size()));
+        view->end();
+    }
+    CHECK(std::memcmp(one.frame(), two.frame(), WIDTH * HEIGHT) == 0);
+    CHECK(std::memcmp(one.zbuffer(), two.zbuffer(), WIDTH * HEIGHT * 2) == 0);
+}
+
+TEST(pixels_instead_of_scales)
+{
+    View view;
+    CHECK(view.open());
+    CHECK(!view.pixels());
+    view.setPixels(true);
+    CHECK(view.pixels());
+    Random random;
+    int ones = 0;
+    for (int i = 0; i < 500; ++i) {
+        const Voxel v = voxel(random.between(-40, 40), random.between(-30, 30), random.between(70, 250), 3, 3, 8);
+        view.begin();
+        view.touch(view.camera().eye + v.place, Real(10));
+        const int drawn = view.show(&v, 1);
+        view.end();
+        int count = 0, at = -1;
+        for (int p = 0; p < WIDTH * HEIGHT; ++p)
+            if (view.frame()[p] != 0) {
+                ++count;
+                at = p;
+            }
+        CHECK(count <= 1);
+        CHECK(drawn == count);
+        if (count == 1) {
+            ++ones;
+            const Box b = box(v, view.camera());
+            NEAR(at % WIDTH + 0.5, (b.left + b.right) / 2, 0.75);
+            NEAR(at / WIDTH + 0.5, (b.top + b.bottom) / 2, 0.75);
+        }
+    }
+    CHECK(ones > 450);
+}
+
+TEST(spans_are_enough)
+{
+    // A model that moves through everything (past the eye, out of the picture): drawn with clears and presents limited to
+    // spans it must look as when each frame starts on an empty screen and is presented whole.
+    Random random;
+    View limited;
+    CHECK(limited.open());
+    std::vector<uint8_t> screen(WIDTH * HEIGHT, 77);  // as the card may be before the first frame
+    long presented = 0;
+    const int frames = 120;
+    for (int frame = 0; frame < frames; ++frame) {
+        Scene scene;
+        const double t = frame * 0.13;
+        scene.ball(25, 30 * std::sin(t), 20 * std::cos(1.3 * t), -20 + 70 * std::sin(0.3 * t), 3);
+        scene.ball(20, 90 * std::sin(0.9 * t), 60 * std::sin(1.1 * t), 20, 3);
+        if (frame % 20 == 3)
+            scene.ball(12, -20, 10 * std::sin(t), -105 + 3 * std::sin(3 * t), 2);
+        scene.linkAll();
+        scene.printed = frame % 2 == 1;
+        scene.update();
+        View fresh;
+        CHECK(fresh.open());
+        fresh.begin();
+        limited.begin();
+        for (size_t i = 0; i < scene.objects.size(); ++i) {
+            const SoftObject& object = *scene.objects[i];
+            const std::vector<Voxel> voxels = scene.draw(i);
+            fresh.show(voxels.data(), static_cast<int>(voxels.size()));
+            limited.touch(object.centre(), object.reach());
+            limited.show(voxels.data(), static_cast<int>(voxels.size()));
+        }
+        if (frame % 10 == 5) {
+            const int left = random.below(WIDTH - 20), top = random.below(HEIGHT - 10);
+            uint8_t* pixels = limited.overlay(left, top, 20, 10);
+            std::vector<uint8_t> same(fresh.frame(), fresh.frame() + WIDTH * HEIGHT);
+            for (int y = 0; y < 10; ++y)
+                std::memset(pixels + (top + y) * WIDTH + left, 200, 20);
+            uint8_t* other = fresh.overlay(left, top, 20, 10);
+            for (int y = 0; y < 10; ++y)
+                std::memset(other + (top + y) * WIDTH + left, 200, 20);
+        }
+        limited.end();
+        fresh.end();
+        CHECK(std::memcmp(fresh.frame(), limited.frame(), WIDTH * HEIGHT) == 0);
+        CHECK(std::memcmp(fresh.zbuffer(), limited.zbuffer(), WIDTH * HEIGHT * 2) == 0);
+        for (int y = 0; y < HEIGHT; ++y) {
+            const Span& span = limited.rows()[y];
+            if (span.from >= span.to)
+                continue;
+            CHECK(span.from >= 0 && span.to <= WIDTH && span.from % 4 == 0 && span.to % 4 == 0);
+            presented += span.to - span.from;
+            std::memcpy(screen.data() + y * WIDTH + span.from, limited.frame() + y * WIDTH + span.from,
+                        static_cast<size_t>(span.to - span.from));
+        }
+        CHECK(std::memcmp(screen.data(), limited.frame(), WIDTH * HEIGHT) == 0);
+    }
+    const double share = static_cast<double>(presented) / (static_cast<double>(frames) * WIDTH * HEIGHT);
+    note("%.0f%% of the screen presented on average", share * 100);
+    // And it does limit something.
+    CHECK(share < 0.9);
+}

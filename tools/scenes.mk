@@ -1,0 +1,21 @@
+# Scene files: the generator of random ones. Included by the Makefile; also stands alone: make -f tools/scenes.mk
+HOSTCXX ?= g++
+
+build/mkscene: tools/mkscene.cpp tools/scenes.mk
+	@mkdir -p build
+	$(HOSTCXX) -O2 -std=c++17 -Wall -Wextra -o $@ tools/mkscene.cpp
+
+# The reader of scene files with everything it uses, under the sanitizers, and what feeds it.
+# (Not src/alloc.cpp: the mutator uses the C++ library, which brings its own operator delete.)
+FUZZ_FLAGS = -std=c++17 -O1 -g -fsanitize=address,undefined -fno-sanitize=shift-base -fno-sanitize-recover=all -Wall -Wextra -Iinclude
+FUZZ_PARTS = $(patsubst %.cpp,build/fuzzo/%.o,\
+	$(filter-out src/main.cpp src/demo.cpp src/alloc.cpp,$(wildcard src/*.cpp)) src/host/host.cpp tests/fuzz/fuzz.cpp)
+
+build/fuzzo/%.o: %.cpp
+	@mkdir -p $(@D)
+	$(HOSTCXX) $(FUZZ_FLAGS) -MMD -MP -c $< -o $@
+
+build/fuzz: $(FUZZ_PARTS) tools/scenes.mk
+	$(HOSTCXX) $(FUZZ_FLAGS) -o $@ $(FUZZ_PARTS)
+
+-include $(wildcard build/fuzzo/*/*.d build/fuzzo/*/*/*.d)
