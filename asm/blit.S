@@ -13,8 +13,10 @@
 #define WIDE    4
 #define HIGH    6
 #define DEPTH   8
-#define COLOUR  10
-#define SCALE_BYTES 12
+#define STEP    12
+#define ROW     16
+#define COLOUR  20
+#define SCALE_BYTES 24
 
 #define SCREEN_WIDTH 320
 #define WIDEST  16              /* rows up to this width have a loop of their own, without a counter in the row */
@@ -26,10 +28,10 @@
 //
 //   ebp  scale          eax  z (ax)             esi  depths + row
 //   edx  rows to go     ecx  colour (cl)        edi  pixels + row
-//   ebx  wide
+//   ebx  change of z from pixel to pixel
 //
-// A pixel behind what is there costs 2 instructions (486: 2 + 3, Pentium: 2 when the branch is foreseen), one that is
-// taken 4 (486: 2 + 1 + 2 + 1). A row adds 4, a scale 14.
+// A pixel behind what is there costs 3 instructions (486: 2 + 3 + 1, Pentium: 3 when the branch is foreseen, the
+// addition pairs), one that is taken 5 (486: 2 + 1 + 2 + 1 + 1). A row adds 5, a scale 20.
 
         .align  16
         .globl  SYM(blitScalesA)
@@ -44,7 +46,7 @@ SYM(blitScalesA):
         jle     scales_done
         // The end of the list takes the place of the count: one comparison a scale.
         leal    (%eax,%eax,2), %eax
-        leal    (%ebp,%eax,4), %eax     // scales + count
+        leal    (%ebp,%eax,8), %eax     // scales + count
         movl    %eax, 32(%esp)
 
 scale_loop:
@@ -59,29 +61,34 @@ scale_loop:
         // pixels = frame + start;  depths = zbuffer + start
         addl    %eax, %edi
         leal    (%esi,%eax,2), %esi
-        movswl  WIDE(%ebp), %ebx
+        movswl  WIDE(%ebp), %eax
         movswl  HIGH(%ebp), %edx
-        movl    DEPTH(%ebp), %eax       // z in ax, colour in bits 16-23
-        movb    COLOUR(%ebp), %cl
-        cmpl    $WIDEST, %ebx
+        movl    STEP(%ebp), %ebx
+        movl    COLOUR(%ebp), %ecx
+        cmpl    $WIDEST, %eax
         ja      wide_rows
-        jmp     *rows_of(,%ebx,4)
+        movl    rows_of(,%eax,4), %eax
+        movl    %eax, 28(%esp)          // the place of `scales`, which ebp holds
+        movl    DEPTH(%ebp), %eax
+        jmp     *28(%esp)
 
-        // for (y = high; y > 0; --y)
-        //     for (x = wide - 1; x >= 0; --x)
-        //         if (z < depths[x]) { depths[x] = z; pixels[x] = colour; }
+        // for (y = high; y > 0; --y, z += zRow)
+        //     for (x = 0; x < wide; ++x, z += zStep)
+        //         (z < depths[x]): depths[x] = z, pixels[x] = colour
         .macro  ROWS wide
         .align  16
 rows_\wide:
-        .set    x, \wide - 1
+        .set    x, 0
         .rept   \wide
         cmpw    2*x(%esi), %ax
         jae     1f
         movw    %ax, 2*x(%esi)
         movb    %cl, x(%edi)
 1:
-        .set    x, x - 1
+        addl    %ebx, %eax
+        .set    x, x + 1
         .endr
+        addl    ROW(%ebp), %eax
         addl    $2*SCREEN_WIDTH, %esi
         addl    $SCREEN_WIDTH, %edi
         decl    %edx
@@ -112,25 +119,32 @@ rows_\wide:
         // The same with a counter, for scales near the viewer.
         .align  16
 wide_rows:
-        leal    (%esi,%ebx,2), %esi     // both pointers at the end of the row, ebx counts up to 0
-        addl    %ebx, %edi
-        negl    %ebx
-        pushl   %ebx
+        leal    (%esi,%eax,2), %esi     // both pointers at the end of the row; a counter runs up to 0
+        addl    %eax, %edi
+        negl    %eax
+        pushl   %eax
+        movl    DEPTH(%ebp), %eax
+        pushl   %ebp
+        pushl   ROW(%ebp)
 wide_row:
-        movl    (%esp), %ebx
+        movl    8(%esp), %ebp
 wide_pixel:
-        cmpw    (%esi,%ebx,2), %ax
+        cmpw    (%esi,%ebp,2), %ax
         jae     1f
-        movw    %ax, (%esi,%ebx,2)
-        movb    %cl, (%edi,%ebx)
+        movw    %ax, (%esi,%ebp,2)
+        movb    %cl, (%edi,%ebp)
 1:
-        incl    %ebx
+        addl    %ebx, %eax
+        incl    %ebp
         jnz     wide_pixel
+        addl    (%esp), %eax
         addl    $2*SCREEN_WIDTH, %esi
         addl    $SCREEN_WIDTH, %edi
         decl    %edx
         jnz     wide_row
-        popl    %ebx
+        addl    $4, %esp
+        popl    %ebp
+        addl    $4, %esp
         addl    $SCALE_BYTES, %ebp
         cmpl    32(%esp), %ebp
         jb      scale_loop

@@ -9,17 +9,19 @@
 
 #include "machine.h"
 
-// A scale as it falls on the screen: a rectangle of one colour and one depth, "oriented to face the viewer, so very
-// simple to draw" (report, The Rendering Technique). Lies wholly on the screen: 0 <= left, 1 <= wide,
-// left + wide <= 320, and the same for top, high and 200. No caller may pass another.
+// A scale as it falls on the screen: a rectangle of one colour, "very simple to draw" (report, The Rendering Technique).
+// The report's scales all face the viewer; ours may lie in the plane of the surface, so that their depth changes by a
+// constant from pixel to pixel and from row to row. Lies wholly on the screen: 0 <= left, 1 <= wide, left + wide <= 320,
+// and the same for top, high and 200. Depths stay within 0..0xfffe at every pixel. No caller may pass another.
 struct Scale {
     int16_t left;
     int16_t top;
     int16_t wide;
     int16_t high;
-    uint16_t z;       // distance along the viewing axis in 1/128 units; smaller is nearer; 0xffff is never drawn
-    uint8_t colour;
-    uint8_t unused;
+    int32_t z;        // of the top left pixel: distance along the viewing axis in 1/128 units; smaller is nearer
+    int32_t zStep;    // from a pixel to the next one
+    int32_t zRow;     // from the pixel behind the last of a row to the first of the next
+    int32_t colour;   // palette index
 };
 
 // The depth of a pixel where nothing was drawn.

@@ -6,14 +6,17 @@
 #include "vec.h"
 
 // What is known of a seed. VALID: it settled on the surface, in a region that belongs to its own object. FRONT: its
-// scale may face the viewer. DEFORMED: a neighbour reaches it, so that its normal is not its path. ACTIVE: for an
+// scale may face the viewer. PLACED: a neighbour reaches it
+// and its position is a place where its path leaves the surface; its normal is not its path. ACTIVE: for an
 // oversampled seed, that it takes part. KEPT: brightness and extents hold for the present position.
+// EDGE: a seed beside it is not valid, or parted from it.
 enum SeedFlag : uint8_t {
     SEED_VALID = 1,
     SEED_FRONT = 2,
-    SEED_DEFORMED = 4,
+    SEED_PLACED = 4,
     SEED_ACTIVE = 8,
     SEED_KEPT = 16,
+    SEED_EDGE = 32,
 };
 
 // seed = root + position * path. All lengths in units, 16.16 unless said otherwise.
@@ -26,9 +29,11 @@ struct Seed {
     uint8_t brightness;  // 0..63, of the surface at the present position
     int16_t wide, high;  // half extents of the scale along X and Y at the present position, 1/256 unit
     int16_t restWide, restHigh;  // the same where nothing blends
-    uint8_t restBrightness;
-    uint8_t unused;
     int16_t dirX, dirY, dirZ;    // the path's direction, unit length = 2^14
+    int16_t tiltX, tiltY;        // Voxel's, at the present position
+    int16_t shiftX, shiftY;      // from the seed to the middle of its scale, 1/256 unit
+    uint8_t restBrightness;
+    int8_t along[3], across[3];  // half axes of the part of the surface that is its own, 1/64 spacing
 };
 
 // Receives the seeds of a primitive, ring by ring, in the object's own space: centred on the origin and axis-aligned

@@ -18,7 +18,6 @@ constexpr int BRIGHTEST = 63;
 void makeShadeTables();
 
 extern uint16_t inverseRoots[768];  // 2^28 / sqrt(s) for s = (i + 1/2) 2^20
-extern uint16_t rootSteps[256];     // 256 sqrt(q) for q = (i + 1/2) / 64, so 0 <= q < 4
 
 // The direction of a vector of any length in range; the zero vector gives the direction to the viewer.
 inline Normal normalise(const Vector& v)
@@ -51,22 +50,20 @@ inline Normal normalise(const Vector& v)
 #endif
 }
 
-// Where the viewer is, as the seeds of one root see him. Distances in 1/32 unit, limited to +-1000 units.
+// Where the viewer is, as the seeds of one root see him. Distances in 1/32 unit, limited to +-1000 units; scalar products
+// of them with directions have 2^14 times that scale.
 class EyeSide {
 public:
     enum Side { BACK, EITHER, FRONT };
 
     // `toEye`: from the object's centre to the eye.
-    void set(const Vector& toEye, Real radius, Real spacing)
+    void set(const Vector& toEye, Real radius)
     {
         centre_ = toEye;
-        distance_ = length(toEye);
-        // A seed past the horizon shows as long as its scale reaches back over it: half a spacing of arc.
-        slack_ = distance_ * shiftDown(spacing / radius, 1);
-        edge_ = (rawFromReal(radius - slack_) >> 11) * 16384;
-        away_ = (rawFromReal(distance_ * Real(-0.8)) >> 11) * 16384;
-        radius_ = rawFromReal(radius) >> 11;
-        slackSteps_ = (rawFromReal(slack_) >> 11) * 16384;
+        distance_ = steps(length(toEye));
+        radius_ = steps(radius);
+        edge_ = radius_ << 14;
+        away_ = -(distance_ * 13107);  // cosine -0.8
         root({Real(0), Real(0), Real(0)});
     }
 
@@ -78,25 +75,34 @@ public:
         z_ = steps(centre_.z - fromCentre.z);
     }
 
-    // Whether the seed, at rest, may be seen.
-    bool pathFaces(const Seed& s) const { return s.dirX * x_ + s.dirY * y_ + s.dirZ * z_ > edge_; }
+    // direction . (eye - root) of the seed's path.
+    int32_t along(const Seed& s) const { return s.dirX * x_ + s.dirY * y_ + s.dirZ * z_; }
 
-    // Whether the seed's path points so far away that it cannot be seen even when it is pulled out by blending.
-    bool pathAway(const Seed& s) const { return s.dirX * x_ + s.dirY * y_ + s.dirZ * z_ < away_; }
+    // Of along(): whether the seed, at rest, may be seen; whether its path points so far away that it cannot be seen even
+    // when it is pulled out by blending.
+    bool seen(int32_t along) const { return along > edge_; }
+    bool away(int32_t along) const { return along < away_; }
 
-    // Whether a seed with this normal may be seen: normal . (eye - seed) > -slack.
-    bool faces(const Normal& n, const Seed& s, Real position) const
+    // direction . (eye - seed) of a seed at rest, 1/32 unit.
+    int32_t restFacing(int32_t along) const { return (along >> 14) - radius_; }
+    int32_t radius32() const { return radius_; }
+
+    // normal . (eye - seed), 1/32 unit; `cosine` is normal . direction scaled by 2^14.
+    int32_t facing(const Normal& n, int32_t cosine, Real position) const
     {
-        const int32_t along = (n.x * s.dirX + n.y * s.dirY + n.z * s.dirZ) >> 14;
-        const int32_t out = radius_ * (rawFromReal(position) >> 8) >> 8;
-        return n.x * x_ + n.y * y_ + n.z * z_ - along * out > -slackSteps_;
+        return (n.x * x_ + n.y * y_ + n.z * z_ - cosine * (radius_ * (rawFromReal(position) >> 8) >> 8)) >> 14;
     }
 
-    // The same for all seeds at rest in a ball of `radius` round `middle`, with directions within `spread` of `axis`.
-    Side side(const Vector& middle, const Vector& axis, Real radius, Real spread) const
+    // Of facing(): whether it may be seen.
+    bool faces(int32_t facing) const { return facing > 0; }
+
+    // The same for all seeds at rest of a patch: `axis` their mean direction, `across` = middle . axis and `radius` of the
+    // ball round their middle in 1/32 unit, `spread` the greatest distance of a direction from the axis; directions scaled
+    // by 2^14.
+    Side side(const int16_t axis[3], int32_t across, int32_t radius, int32_t spread) const
     {
-        const Real middling = dot(centre_ - middle, axis) + slack_;
-        const Real doubt = (distance_ + radius) * spread + radius;
+        const int32_t middling = ((axis[0] * x_ + axis[1] * y_ + axis[2] * z_) >> 14) - across;
+        const int32_t doubt = (distance_ * spread >> 14) + radius;
         return middling > doubt ? FRONT : middling < -doubt ? BACK : EITHER;
     }
 
@@ -108,10 +114,46 @@ private:
     }
 
     Vector centre_;
-    Real distance_, slack_;
     int32_t x_, y_, z_;
-    int32_t edge_, away_, radius_, slackSteps_;
+    int32_t distance_, radius_, edge_, away_;
 };
+
+// How a scale lies in the view: its slope, and which part of it is this side of the horizon.
+struct Lie {
+    int16_t tiltX, tiltY;    // as in Voxel
+    int16_t wide, high;      // half extents, 1/256 unit
+    int32_t shiftX, shiftY;  // from the seed to the middle of the scale, 1/256 unit
+};
+
+// For a seed with normal (nx, ny, ..) scaled by 2^14, facing() and distance along the viewing axis in 1/32 unit, on a
+// surface of curvature 1 / radius (radius in 1/32 unit), with the half extents already in `lie`. The tilt is n.x and n.y
+// over the cosine of the angle at which the surface is seen, facing / depth. Near the horizon the scale would stand out
+// over the edge of the object: there it is cut to where the horizon is, cosine^2 radius / 2 away, and a little more where
+// the edge runs aslant.
+inline void layDown(int32_t nx, int32_t ny, int32_t facing, int32_t depth, int32_t radius, Lie& lie)
+{
+    const int32_t least = (depth >> 4) + 1;
+    const int32_t ratio = (depth << 8) / (facing < least ? least : facing);
+    lie.tiltX = static_cast<int16_t>(nx * ratio >> 14);
+    lie.tiltY = static_cast<int16_t>(ny * ratio >> 14);
+    lie.shiftX = lie.shiftY = 0;
+    if (ratio < 400)
+        return;
+    const int32_t away = facing > 0 ? (facing * facing / depth) * radius / depth * 4 : 0;
+    const int32_t sideX = nx < 0 ? -nx : nx, sideY = ny < 0 ? -ny : ny;
+    const int32_t limitX = (away << 14) / (sideX | 512) + (lie.high * sideY >> 16);
+    const int32_t limitY = (away << 14) / (sideY | 512) + (lie.wide * sideX >> 16);
+    if (limitX < lie.wide) {
+        const int32_t cut = (lie.wide - limitX) >> 1;
+        lie.wide = static_cast<int16_t>(lie.wide - cut);
+        lie.shiftX = nx < 0 ? cut : -cut;
+    }
+    if (limitY < lie.high) {
+        const int32_t cut = (lie.high - limitY) >> 1;
+        lie.high = static_cast<int16_t>(lie.high - cut);
+        lie.shiftY = ny < 0 ? cut : -cut;
+    }
+}
 
 // Brightness and extents, for one light and one spacing.
 class ShadeSetup {
@@ -121,7 +163,7 @@ public:
         x_ = rawFromReal(light.x) >> 2;
         y_ = rawFromReal(light.y) >> 2;
         z_ = rawFromReal(light.z) >> 2;
-        half_ = rawFromReal(spacing * Real(0.56)) >> 8;
+        spacing_ = rawFromReal(spacing) >> 8;
     }
 
     // "Brightness proportional to the angle" of normal and light: Lambert's cosine, 0..63.
@@ -132,30 +174,32 @@ public:
         return static_cast<uint8_t>(step < 0 ? 0 : step > BRIGHTEST ? BRIGHTEST : step);
     }
 
-    // Half extents of the scale of a deformed seed: the disc of half a spacing round its path, stretched with the
-    // position, as it falls along the path onto the tangent plane with normal n, as the viewer sees it. With u the
-    // path's direction and c = u.n that is position half sqrt(1 + ux/c (ux/c - 2 nx)) along X.
-    void extents(Seed& s, const Normal& n, Real position) const
+    // Half extents of the scale of a deformed seed: the cell of the unblended surface that is its own, grown with the
+    // position, as it falls along the path onto the tangent plane with normal n, as the viewer sees it. A half axis e
+    // becomes e - u (e.n) / (u.n) with u the path's direction; `cosine` is u.n scaled by 2^14.
+    void extents(Seed& s, const Normal& n, int32_t cosine, Real position) const
     {
-        int32_t c = (n.x * s.dirX + n.y * s.dirY + n.z * s.dirZ) >> 14;
-        if (c < 4096)
-            c = 4096;  // nearly along the surface: no scale is stretched more than fourfold
-        const int32_t inverse = (1 << 28) / c;
-        const int32_t half = half_ * (rawFromReal(position) >> 8) >> 8;
-        s.wide = extent(s.dirX * inverse >> 18, n.x >> 4, half);
-        s.high = extent(s.dirY * inverse >> 18, n.y >> 4, half);
+        if (cosine < 6500)
+            cosine = 6500;  // nearly along the surface: no scale is stretched more than fourfold
+        const int32_t inverse = (1 << 26) / cosine;  // 12 bits of fraction
+        const int32_t size = spacing_ * (rawFromReal(position) >> 8) >> 8;
+        // (e.n) / (u.n), 8 bits of fraction, 1/64 spacing.
+        const int32_t along = ((s.along[0] * n.x + s.along[1] * n.y + s.along[2] * n.z) >> 8) * inverse >> 10;
+        const int32_t across = ((s.across[0] * n.x + s.across[1] * n.y + s.across[2] * n.z) >> 8) * inverse >> 10;
+        s.wide = extent(s.along[0] * 256 - (s.dirX * along >> 14), s.across[0] * 256 - (s.dirX * across >> 14), size);
+        s.high = extent(s.along[1] * 256 - (s.dirY * along >> 14), s.across[1] * 256 - (s.dirY * across >> 14), size);
     }
 
 private:
-    // a = ux/c and n = nx scaled by 2^10.
-    static int16_t extent(int32_t a, int32_t n, int32_t half)
+    static int16_t extent(int32_t a, int32_t b, int32_t size)
     {
-        int32_t q = ((1 << 20) + a * (a - 2 * n)) >> 14;
-        q = q < 0 ? 0 : q > 255 ? 255 : q;
-        return static_cast<int16_t>(half * rootSteps[q] >> 8);
+        const int32_t sum = (a < 0 ? -a : a) + (b < 0 ? -b : b) + MARGIN;
+        return static_cast<int16_t>(sum * size >> 14);
     }
 
-    int32_t x_, y_, z_, half_;
+    static constexpr int32_t MARGIN = 256 * 64 / 14;  // a twentieth of a spacing
+
+    int32_t x_, y_, z_, spacing_;
 };
 
 #endif

@@ -29,7 +29,7 @@ struct Link {
 };
 
 // Least room for voxels that SoftObject::draw() can work with.
-constexpr int DRAW_ROOM = 64;
+constexpr int DRAW_ROOM = 128;
 
 // What was done for a frame, as the statistics count it.
 struct Counts {
@@ -218,11 +218,13 @@ private:
         int32_t count;
         Vector middle;    // of the rest places, from the centre
         Real radius;      // of a ball round `middle` that holds them
-        Vector axis;      // mean direction, unit length
-        Real spread;      // greatest |direction - axis|
+        int16_t axis[3];  // mean direction, unit length = 2^14
+        int16_t spread;   // greatest |direction - axis|, the same scale
+        int32_t across;   // middle . axis and radius in 1/32 unit
+        int32_t radius32;
         uint8_t state;    // PatchState
     };
-    enum PatchState : uint8_t { PATCH_UNKNOWN, PATCH_AT_REST, PATCH_MIXED };
+    enum PatchState : uint8_t { PATCH_UNKNOWN, PATCH_AT_REST, PATCH_BURIED, PATCH_MIXED };
 
     // What the report's method keeps of a seed from frame to frame.
     struct Kept {
@@ -244,6 +246,7 @@ private:
     void tellNeighbours();
     bool inRange(const SoftObject& other) const;
     void buildPatches();
+    static void facePatch(Patch& patch, const Vector& axis);
     bool keepRest();
     void poseSeeds();
     // What the visibility tests of seeds take for radius and spacing: for objects that taper, so that they hold for all

@@ -26,7 +26,7 @@ public:
     // Makes the buffers. False: no memory.
     bool open();
 
-    // Takes on a camera. 1 <= focal <= 500 pixels.
+    // Takes on a camera. 64 <= focal <= 500 pixels.
     void setCamera(const Camera& camera);
     const Camera& camera() const { return camera_; }
 
@@ -48,6 +48,10 @@ public:
     // Text and lines on top of the picture: marks a rectangle of pixels as touched and gives the frame to draw into.
     uint8_t* overlay(int left, int top, int wide, int high);
 
+    // Closes the gaps that show at the places marked with voxels of colour GAP: an empty pixel with drawn ones a few
+    // pixels away on all four sides takes the nearest one's colour and depth. For when all objects are drawn.
+    void closeGaps();
+
     // Ends a frame; rows() then tells what differs from the frame before.
     void end();
 
@@ -57,6 +61,7 @@ public:
 
 private:
     void mark(int left, int top, int right, int bottom);
+    void closeGap(int at);
     bool project(const Voxel& voxel, Scale* scale) const;
 
     // 12 bits of fraction; voxels from 64 to 256 units away find their factors in a table, by steps of 1/8 unit.
@@ -68,11 +73,14 @@ private:
 
     Camera camera_;
     int32_t focalX_ = 0, focalY_ = 0, centreX_ = 0, centreY_ = 0;  // pixels, 12 bits of fraction
+    int32_t unitX_ = 0, unitY_ = 0;
     bool pixels_ = false;
     uint8_t* frame_ = nullptr;
     uint16_t* zbuffer_ = nullptr;
     Factors* factors_ = nullptr;
     Scale* scales_ = nullptr;
+    Scale* gaps_ = nullptr;
+    int gapCount_ = 0;
     Span touched_[machine::HEIGHT];
     Span last_[machine::HEIGHT];
     Span present_[machine::HEIGHT];

@@ -12,13 +12,16 @@ void blitScalesC(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int cou
         const int start = scales->top * WIDTH + scales->left;
         uint8_t* pixels = frame + start;
         uint16_t* depths = zbuffer + start;
+        uint32_t z = static_cast<uint32_t>(scales->z);
         for (int y = scales->high; y > 0; --y) {
-            for (int x = scales->wide - 1; x >= 0; --x) {
-                if (scales->z < depths[x]) {
-                    depths[x] = scales->z;
-                    pixels[x] = scales->colour;
+            for (int x = 0; x < scales->wide; ++x) {
+                if (static_cast<uint16_t>(z) < depths[x]) {
+                    depths[x] = static_cast<uint16_t>(z);
+                    pixels[x] = static_cast<uint8_t>(scales->colour);
                 }
+                z += static_cast<uint32_t>(scales->zStep);
             }
+            z += static_cast<uint32_t>(scales->zRow);
             pixels += WIDTH;
             depths += WIDTH;
         }

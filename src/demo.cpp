@@ -211,11 +211,11 @@ void Demo::frame()
         int next = 0;
         do {
             const int some = object.draw(look, voxels_, VOXELS_AT_ONCE, &next);
-            counts_.drawn += static_cast<uint32_t>(some);
-            view_.show(voxels_, some);
+            counts_.drawn += static_cast<uint32_t>(view_.show(voxels_, some));
         } while (next != 0);
         object.setRamp(ramp);
     }
+    view_.closeGaps();
     view_.end();
 }
 

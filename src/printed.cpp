@@ -150,6 +150,7 @@ int SoftObject::drawPrinted(const Look& look, Voxel* voxels, int room, int* next
         v.place = kept.point - look.eye;
         v.wide = static_cast<int16_t>(extent > INT16_MAX ? INT16_MAX : extent);
         v.high = v.wide;
+        v.tiltX = v.tiltY = 0;  // the report's scales face the viewer
         v.colour = ramp_[s.brightness];
     }
     *next = i < 2 * regular_ ? i : 0;

@@ -17,7 +17,17 @@ constexpr Real SHORT_STEP(0.05);     // of the position: what remains after it i
 constexpr Real LONGEST_STEP(0.25);   // of the position
 constexpr int LOOK_LIMIT = 8;        // then the surface is bracketed and bisected
 constexpr Real FLAT(-0.2);           // slope above which Newton's method is not trusted
-constexpr Real POSITION_MOST(1.98);  // the own field ends at 2
+
+// No valid seed lies farther out: there its own field is 0.12, and a neighbour that makes up the rest is stronger by more
+// than the overshoot.
+constexpr Real POSITION_MOST(1.85);
+// Squared distance / squared size from which a neighbour is left out: its field is 0.006 there, inside the tolerance.
+constexpr Real TOUCHING(0.9);
+// Where a path is looked at for the first time outside the surface, when nothing is known of it.
+const Real PROBES[] = {Real(1.15), Real(1.35), POSITION_MOST};
+// Squared distance / squared size up to which a neighbour alone fills what the own field lacks at POSITION_MOST: its
+// field is 0.38 there.
+constexpr Real BURYING(0.265);
 constexpr Real DISPLACEMENT(0.004);  // of the position: less is taken as not moved
 
 // A neighbour in range, as the seeds of this object see it.
@@ -26,12 +36,14 @@ struct Near {
     Real weight;
     bool plain;      // weight 1
     bool quick;      // both cores are points: the polynomial below holds
-    bool yields;     // smaller than this object: a seed may pass it by
     Vector fromIt;   // from its centre to this object's centre
     Real reach;      // its size
     Real ratio;      // weight (own size / its size)^2: its share of the gradient
     Real a0, c0;     // t = a0 + position (b + position c0)
     Vector twice;    // b = path . twice; in 16.16: scaled by 2^12 and used with mulHigh
+    Real swing;      // length of twice: how much b changes over a unit
+    Real touching;   // b below this: its field reaches the seed at rest
+    Real burying;    // b below this: the whole stretch of the path up to POSITION_MOST lies inside the surface
     Vector fromIt16; // fromIt / 16
 };
 
@@ -66,11 +78,19 @@ public:
     void settle();
 
 private:
-    bool reaches(const Near& near, const SoftObject::Patch& patch) const;
+    enum Reach { UNREACHED, REACHED, BURIED };
+    Reach reachOf(const SoftObject::Patch& patch);
     void rest(SoftObject::Patch& patch);
+    void bury(SoftObject::Patch& patch);
     void settleSeed(Seed& s);
     Real lookAt(Real position, Real& slope);
-    bool bracket(Real& position, Real& slope);
+    bool parted(const Seed& a, const Seed& b) const
+    {
+        return ((a.flags ^ b.flags) & SEED_VALID) != 0 ||
+               ((a.flags & SEED_VALID) != 0 && absolute(a.position - b.position) > parting_);
+    }
+    bool newton(Real& position);
+    bool bracket(Real& position);
     void shade(Seed& s, Real position);
     void addNear(const Link& link);
 
@@ -79,9 +99,12 @@ private:
     Near near_[NEAR_MOST];
     int nearCount_ = 0;
 
-    // Of the patch and seed at hand.
+    // Of the patch at hand, and of those the ones that reach the seed at hand.
     const Near* active_[NEAR_MOST];
     int activeCount_ = 0;
+    const Near* touch_[NEAR_MOST];
+    int touchCount_ = 0;
+    int rootIndex_ = -1;
     Vector path_;
     Point root_;
     Real b_[NEAR_MOST];
@@ -90,6 +113,7 @@ private:
     Vector from_[NEAR_MOST];         // not quick ones: from the nearest point of the core, / 16
     bool strongest_;                 // no neighbour is stronger than the overshoot allows
     Real overshoot_;
+    Real parting_;                   // difference of positions that activates the seed between
     EyeSide eye_;
     ShadeSetup shadeSetup_;
 };
@@ -101,7 +125,6 @@ void Settler::addNear(const Link& link)
     n.object = &other;
     n.weight = link.weight;
     n.plain = link.weight == Real(1);
-    n.yields = other.size() < o_.size() * Real(0.8);
     n.fromIt = o_.centre() - other.centre();
     n.reach = other.size();
     const Real proportion = least(o_.size() / other.size(), Real(20));
@@ -122,6 +145,14 @@ void Settler::addNear(const Link& link)
     if (absolute(twice.x) > TWICE_LIMIT || absolute(twice.y) > TWICE_LIMIT || absolute(twice.z) > TWICE_LIMIT)
         return;
     n.twice = scaledTwice(twice);
+    n.swing = length(twice) + Real(0.0001);
+    // At rest, or a way further out where other neighbours may have pulled the seed.
+    n.touching = most(TOUCHING - n.a0 - n.c0, (TOUCHING - n.a0 - n.c0 * Real(1.44)) * Real(1 / 1.2));
+    // t is convex along the path: what holds at both ends of the stretch holds between.
+    n.burying = least(BURYING - n.a0 - n.c0,
+                      (BURYING - n.a0 - n.c0 * (POSITION_MOST * POSITION_MOST)) * (Real(1) / POSITION_MOST));
+    if (!n.plain && n.weight < Real(1))
+        n.burying = -n.a0 - n.c0;  // too weak to bury alone
     n.quick = true;
 }
 
@@ -136,19 +167,23 @@ void Settler::settle()
     o_.spread_ = Real(1);
     // A seed stays valid a way past the border where a neighbour becomes stronger: as a distance, about one spacing and
     // a half. The fields of the two change by about 3 / size a unit there.
-    overshoot_ = least(Real(4.5) * o_.spacing_ / o_.size_, Real(0.35));
-    eye_.set(look_.eye - o_.centre_, o_.radius_, o_.spacing_);
+    overshoot_ = least(Real(4.5) * o_.spacing_ / o_.size_, Real(0.7));
+    parting_ = Real(0.35) * o_.spacing_ / o_.radius_;
+    eye_.set(look_.eye - o_.centre_, o_.radius_);
     shadeSetup_.set(look_.light, o_.spacing_);
 
     for (int p = 0; p < o_.patchCount_; ++p) {
         SoftObject::Patch& patch = o_.patches_[p];
-        activeCount_ = 0;
-        for (int n = 0; n < nearCount_; ++n)
-            if (reaches(near_[n], patch))
-                active_[activeCount_++] = &near_[n];
-        if (activeCount_ == 0) {
+        const Reach reach = reachOf(patch);
+        if (reach == UNREACHED) {
             if (patch.state != SoftObject::PATCH_AT_REST)
                 rest(patch);
+            continue;
+        }
+        if (reach == BURIED) {
+            o_.displaced_ = true;
+            if (patch.state != SoftObject::PATCH_BURIED)
+                bury(patch);
             continue;
         }
         patch.state = SoftObject::PATCH_MIXED;
@@ -156,10 +191,14 @@ void Settler::settle()
         for (int i = patch.count; i > 0; --i, s += 2) {
             settleSeed(s[0]);
             Seed& extra = s[1];
-            if (s->neighbour >= 0 && (s->flags & SEED_DEFORMED) &&
-                absolute(s->position - o_.seeds_[s->neighbour].position) * o_.radius_ > o_.spacing_ * Real(0.35)) {
+            if (s->neighbour >= 0 && parted(s[0], o_.seeds_[s->neighbour])) {
                 settleSeed(extra);
                 extra.flags |= SEED_ACTIVE;
+                if ((s->flags ^ o_.seeds_[s->neighbour].flags) & SEED_VALID) {
+                    extra.flags |= SEED_EDGE;
+                    s->flags |= SEED_EDGE;
+                    o_.seeds_[s->neighbour].flags |= SEED_EDGE;
+                }
             } else {
                 extra.flags = 0;
             }
@@ -167,15 +206,36 @@ void Settler::settle()
     }
 }
 
-bool Settler::reaches(const Near& near, const SoftObject::Patch& patch) const
+// Which neighbours reach the patch: they become the active ones.
+Settler::Reach Settler::reachOf(const SoftObject::Patch& patch)
 {
-    const Real limit = near.reach + patch.radius;
-    const Vector v = near.quick ? near.fromIt + patch.middle : near.object->fromCore(o_.centre_ + patch.middle);
-    if (absolute(v.x) >= limit || absolute(v.y) >= limit || absolute(v.z) >= limit)
-        return false;
-    const Vector h = v * Real(0.25);
-    const Real q = limit * Real(0.25);
-    return dot(h, h) < q * q;
+    activeCount_ = 0;
+    for (int i = 0; i < nearCount_; ++i) {
+        const Near& near = near_[i];
+        if (near.quick) {
+            const Real b = alongPath(near, patch.middle), change = near.swing * patch.radius;
+            if (b + change < near.burying)
+                return BURIED;
+            if (b - change < near.touching)
+                active_[activeCount_++] = &near;
+        } else {
+            const Vector v = near.object->fromCore(o_.centre_ + patch.middle);
+            const Real limit = near.reach + patch.radius;
+            if (absolute(v.x) < limit && absolute(v.y) < limit && absolute(v.z) < limit)
+                active_[activeCount_++] = &near;
+        }
+    }
+    return activeCount_ > 0 ? REACHED : UNREACHED;
+}
+
+void Settler::bury(SoftObject::Patch& patch)
+{
+    Seed* s = o_.seeds_ + 2 * patch.first;
+    for (int i = 2 * patch.count; i > 0; --i, ++s) {
+        s->position = Real(1);
+        s->flags = 0;
+    }
+    patch.state = SoftObject::PATCH_BURIED;
 }
 
 void Settler::rest(SoftObject::Patch& patch)
@@ -199,10 +259,9 @@ inline Real Settler::lookAt(Real position, Real& slope)
     geoffQuick(least(shiftDown(position * position, 2), Real(0.999)), own_, ownSlope_);
     Real field = own_;
     slope = ownSlope_ * shiftDown(position, 1);
-    const Real limit = own_ + overshoot_;
-    strongest_ = true;
-    for (int n = 0; n < activeCount_; ++n) {
-        const Near& near = *active_[n];
+    Real strongest(0);
+    for (int n = 0; n < touchCount_; ++n) {
+        const Near& near = *touch_[n];
         Real t, change;
         if (near.quick) {
             const Real c = position * near.c0;
@@ -215,12 +274,12 @@ inline Real Settler::lookAt(Real position, Real& slope)
             const Real inverse = Real(16) / near.reach;
             change = shiftDown(dot(v * inverse, path_ * inverse), 7);
         }
-        if (t >= Real(1) || t < Real(0)) {
+        if (t >= Real(1)) {
             slopes_[n] = Real(0);
             continue;
         }
         Real part, partSlope;
-        geoffQuick(t, part, partSlope);
+        geoffQuick(most(t, Real(0)), part, partSlope);
         slopes_[n] = partSlope;
         Real steep = partSlope * change;
         if (!near.plain) {
@@ -229,32 +288,62 @@ inline Real Settler::lookAt(Real position, Real& slope)
         }
         field += part;
         slope += steep;
-        if (part > limit)
-            strongest_ = false;
+        strongest = most(strongest, part);
     }
+    strongest_ = strongest <= own_ + overshoot_;
     return field;
 }
 
-// The first crossing of the isovalue along the path, for the cases that Newton's method does not settle: outwards in
-// small steps from the unblended surface (where the own field alone is the isovalue), then by bisection. False: none.
-bool Settler::bracket(Real& position, Real& slope)
+// From a position near the surface. False: the method does not apply here. Leaves the last look's terms for the normal.
+bool Settler::newton(Real& position)
 {
-    Real inside(1), outside(1);
-    do {
-        inside = outside;
-        outside += Real(0.0625);
-        if (outside > POSITION_MOST)
+    for (int i = 0; i < LOOK_LIMIT; ++i) {
+        Real slope;
+        const Real difference = lookAt(position, slope) - ISOVALUE;
+        if (slope > FLAT)
             return false;
-    } while (lookAt(outside, slope) > ISOVALUE);
-    for (int i = 0; i < 5; ++i) {
-        const Real middle = shiftDown(inside + outside, 1);
-        if (lookAt(middle, slope) > ISOVALUE)
-            inside = middle;
-        else
-            outside = middle;
+        const Real step = clamp(-difference / slope, -LONGEST_STEP, LONGEST_STEP);
+        position += step;
+        if (position < Real(0.95) || position > POSITION_MOST)
+            return false;
+        if (absolute(step) <= SHORT_STEP)
+            return true;
     }
+    ++look_.counts->unsettled;
+    return false;
+}
+
+// From nothing: where the path leaves the surface before POSITION_MOST. Inside at 1, where the own field alone is the
+// isovalue. False: it does not leave.
+bool Settler::bracket(Real& position)
+{
+    Real slope;
+    Real inside(1), outside(0);
+    for (const Real probe : PROBES) {
+        if (lookAt(probe, slope) < ISOVALUE) {
+            outside = probe;
+            break;
+        }
+        inside = probe;
+    }
+    if (outside == Real(0))
+        return false;
     position = shiftDown(inside + outside, 1);
-    lookAt(position, slope);
+    for (int i = 0; i < LOOK_LIMIT; ++i) {
+        const Real difference = lookAt(position, slope) - ISOVALUE;
+        if (difference >= Real(0))
+            inside = position;
+        else
+            outside = position;
+        Real next = slope < FLAT ? position - difference / slope : outside;
+        if (absolute(next - position) <= shiftDown(SHORT_STEP, 1)) {
+            position = next;
+            return true;
+        }
+        if (next <= inside || next >= outside)
+            next = shiftDown(inside + outside, 1);
+        position = next;
+    }
     return true;
 }
 
@@ -263,100 +352,109 @@ void Settler::settleSeed(Seed& s)
     path_ = s.path;
     root_ = o_.roots_[s.root];
 
-    // Is any neighbour near enough to matter at the unblended surface?
-    bool reached = false;
+    // Which neighbours are near enough to matter, or one so near that the seed lies inside anyway?
+    touchCount_ = 0;
     for (int n = 0; n < activeCount_; ++n) {
         const Near& near = *active_[n];
         if (near.quick) {
-            b_[n] = alongPath(near, path_);
-            reached |= near.a0 + near.c0 + b_[n] < Real(1);
-        } else {
-            reached |= near.object->coreParam(near.object->fromCore(root_ + path_)) < Real(1);
+            const Real b = alongPath(near, path_);
+            if (b < near.burying) {
+                s.position = Real(1);
+                s.flags = 0;
+                o_.displaced_ = true;
+                return;
+            }
+            if (b < near.touching) {
+                b_[touchCount_] = b;
+                touch_[touchCount_++] = &near;
+            }
+        } else if (near.object->coreParam(near.object->fromCore(root_ + path_)) < Real(1)) {
+            touch_[touchCount_++] = &near;
         }
     }
-    if (!reached) {
-        if (s.flags != SEED_VALID) {
-            s.position = Real(1);
-            s.flags = SEED_VALID;
-        }
+    if (touchCount_ == 0) {
+        s.position = Real(1);
+        s.flags = SEED_VALID;
         s.brightness = s.restBrightness;
         s.wide = s.restWide;
         s.high = s.restHigh;
         return;
     }
-    if (eye_.pathAway(s)) {
-        s.flags = SEED_DEFORMED;
+    if (s.root != rootIndex_) {
+        rootIndex_ = s.root;
+        eye_.root(root_ - o_.centre_);
+    }
+    if (eye_.away(eye_.along(s))) {
+        s.flags = 0;
         return;
     }
     ++look_.counts->updated;
-    const uint8_t before = s.flags;
-    Real position = before & SEED_VALID ? s.position : Real(1);
-    Real slope;
-    bool settled = false;
-    for (int i = 0; i < LOOK_LIMIT; ++i) {
-        const Real difference = lookAt(position, slope) - ISOVALUE;
-        if (!strongest_ && position == Real(1))
-            break;  // buried at rest already
-        if (slope > FLAT)
-            break;
-        if (i == 0 && (before & SEED_KEPT) && absolute(difference) <= DISPLACEMENT && strongest_)
-            return;  // where it was, and what is known of it holds
-        const Real step = clamp(-difference / slope, -LONGEST_STEP, LONGEST_STEP);
-        position += step;
-        if (absolute(step) <= SHORT_STEP) {
-            settled = true;
-            break;
-        }
-        position = clamp(position, Real(1), POSITION_MOST);
-    }
-    if (!settled) {
-        if (!strongest_ && position == Real(1)) {
-            bool yields = true;
-            for (int n = 0; n < activeCount_; ++n)
-                yields = yields && active_[n]->yields;
-            if (!yields) {
-                s.flags = SEED_DEFORMED;
-                s.position = Real(1);
-                o_.displaced_ = true;
-                return;
-            }
-        }
-        settled = bracket(position, slope);
-    }
     o_.displaced_ = true;
-    if (!settled || !strongest_) {
-        s.flags = SEED_DEFORMED;
+    Real position = s.position;
+    if (s.flags & (SEED_VALID | SEED_PLACED)) {
+        if (s.flags & SEED_KEPT) {
+            Real slope;
+            const Real difference = lookAt(position, slope) - ISOVALUE;
+            if (absolute(difference) <= DISPLACEMENT && strongest_)
+                return;  // where it was, and what is known of it holds
+        }
+        if (!newton(position) && !bracket(position)) {
+            s.flags = 0;
+            s.position = Real(1);
+            return;
+        }
+    } else if (!bracket(position)) {
         s.position = Real(1);
         return;
     }
     s.position = position;
+    if (!strongest_) {
+        s.flags = SEED_PLACED;
+        return;
+    }
     o_.spread_ = most(o_.spread_, position);
     shade(s, position);
 }
 
-// Brightness and extents from the gradient of the field, put together from the last look.
+// Brightness, extents and tilt from the gradient of the field, put together from the last look.
 void Settler::shade(Seed& s, Real position)
 {
-    ++look_.counts->normals;
     // -grad F, but for a factor: path position (ownSlope + sum slope ratio) + sum slope ratio fromIt.
     Real along = ownSlope_;
     Vector g{Real(0), Real(0), Real(0)};
-    for (int n = 0; n < activeCount_; ++n) {
-        const Real share = slopes_[n] * active_[n]->ratio;
-        if (active_[n]->quick) {
+    for (int n = 0; n < touchCount_; ++n) {
+        const Near& near = *touch_[n];
+        const Real share = slopes_[n] * near.ratio;
+        if (near.quick) {
             along += share;
-            g = g - active_[n]->fromIt16 * share;
+            g = g - near.fromIt16 * share;
         } else {
             g = g - from_[n] * share;
         }
     }
     g = g - s.path * shiftDown(along * position, 4);
     const Normal normal = normalise(g);
+    const int32_t cosine = (normal.x * s.dirX + normal.y * s.dirY + normal.z * s.dirZ) >> 14;
+    const int32_t facing = eye_.facing(normal, cosine, position);
+    if (!eye_.faces(facing)) {
+        s.flags = SEED_VALID | SEED_PLACED;
+        return;
+    }
+    ++look_.counts->normals;
+    s.flags = SEED_VALID | SEED_PLACED | SEED_KEPT | SEED_FRONT;
     s.brightness = shadeSetup_.brightness(normal);
-    const bool front = eye_.faces(normal, s, position);
-    s.flags = static_cast<uint8_t>(SEED_VALID | SEED_DEFORMED | SEED_KEPT | (front ? SEED_FRONT : 0));
-    if (front)
-        shadeSetup_.extents(s, normal, position);
+    shadeSetup_.extents(s, normal, cosine, position);
+    Lie lie;
+    lie.wide = s.wide;
+    lie.high = s.high;
+    layDown(normal.x, normal.y, facing, rawFromReal(root_.z + s.path.z * position - look_.eye.z) >> 11,
+            2 * eye_.radius32(), lie);  // blending flattens: the horizon may be twice as far
+    s.wide = lie.wide;
+    s.high = lie.high;
+    s.tiltX = lie.tiltX;
+    s.tiltY = lie.tiltY;
+    s.shiftX = static_cast<int16_t>(lie.shiftX);
+    s.shiftY = static_cast<int16_t>(lie.shiftY);
 }
 
 void SoftObject::updateQuick(const Look& look)
@@ -367,45 +465,70 @@ void SoftObject::updateQuick(const Look& look)
 int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
 {
     EyeSide eye;
-    eye.set(look.eye - centre_, radius_, spacing_);
+    eye.set(look.eye - centre_, radius_);
+    int root = 0;
+    Vector rootPlace = roots_[0] - look.eye;
     Voxel* v = voxels;
-    const Voxel* const full = voxels + room - 2 * PATCH_SEEDS;
+    const int16_t gap = static_cast<int16_t>(rawFromReal(spacing_ * Real(1.5)) >> 8);
+    const int32_t setBack = mulDiv(1 << 30, 1 << 17, rawFromReal(most(radius_, Real(2))));  // 2^31 / radius
+    const Voxel* const full = voxels + room - 4 * PATCH_SEEDS;
     int p = *next;
     for (; p < patchCount_ && v <= full; ++p) {
         const Patch& patch = patches_[p];
-        const EyeSide::Side side = eye.side(patch.middle, patch.axis, patch.radius, patch.spread);
-        if (patch.state == PATCH_AT_REST) {
-            if (side == EyeSide::BACK)
-                continue;
-            const Seed* s = seeds_ + 2 * patch.first;
-            for (int i = patch.count; i > 0; --i, s += 2) {
-                if (side == EyeSide::EITHER && !eye.pathFaces(*s))
-                    continue;
-                v->place = (roots_[s->root] - look.eye) + s->path;
-                v->wide = s->wide;
-                v->high = s->high;
-                v->colour = ramp_[s->brightness];
-                ++v;
-            }
+        if (patch.state == PATCH_BURIED || patch.state == PATCH_UNKNOWN)
             continue;
-        }
+        const bool atRest = patch.state == PATCH_AT_REST;
+        if (atRest && eye.side(patch.axis, patch.across, patch.radius32, patch.spread) == EyeSide::BACK)
+            continue;
         const Seed* s = seeds_ + 2 * patch.first;
-        for (int i = 2 * patch.count; i > 0; --i, ++s) {
+        const Seed* const end = s + 2 * patch.count;
+        const int step = atRest ? 2 : 1;
+        for (; s < end; s += step) {
             if (!(s->flags & SEED_VALID))
                 continue;
-            if (s->flags & SEED_DEFORMED) {
+            if (s->root != root) {
+                root = s->root;
+                rootPlace = roots_[root] - look.eye;
+                eye.root(roots_[root] - centre_);
+            }
+            if (s->flags & SEED_PLACED) {
                 if (!(s->flags & SEED_FRONT))
                     continue;
-                v->place = (roots_[s->root] - look.eye) + s->path * s->position;
+                v->place = rootPlace + s->path * s->position;
+                // A tangent plane lies before the surface, the more the larger the scale: set back, so that of two scales
+                // the smaller one, which is nearer to its seed, wins.
+                v->place.z += realFromRaw(mulHigh(s->wide * s->wide + s->high * s->high, setBack) << 2);
+                v->place.x += realFromRaw(s->shiftX * 256);
+                v->place.y += realFromRaw(s->shiftY * 256);
+                v->tiltX = s->tiltX;
+                v->tiltY = s->tiltY;
+                v->wide = s->wide;
+                v->high = s->high;
             } else {
-                if (!eye.pathFaces(*s))
+                const int32_t along = eye.along(*s);
+                if (!eye.seen(along))
                     continue;
-                v->place = (roots_[s->root] - look.eye) + s->path;
+                v->place = rootPlace + s->path;
+                Lie lie;
+                lie.wide = s->wide;
+                lie.high = s->high;
+                layDown(s->dirX, s->dirY, eye.restFacing(along), rawFromReal(v->place.z) >> 11, eye.radius32(), lie);
+                v->place.x += realFromRaw(lie.shiftX * 256);
+                v->place.y += realFromRaw(lie.shiftY * 256);
+                v->tiltX = lie.tiltX;
+                v->tiltY = lie.tiltY;
+                v->wide = lie.wide;
+                v->high = lie.high;
             }
-            v->wide = s->wide;
-            v->high = s->high;
             v->colour = ramp_[s->brightness];
             ++v;
+            if (s->flags & SEED_EDGE) {
+                // A place where the surface is stretched so much that a gap may show.
+                v->place = rootPlace + s->path * s->position;
+                v->wide = v->high = gap;
+                v->colour = GAP;
+                ++v;
+            }
         }
     }
     *next = p < patchCount_ ? p : 0;

@@ -2,7 +2,6 @@
 #include "shade.h"
 
 uint16_t inverseRoots[768];
-uint16_t rootSteps[256];
 
 void makeShadeTables()
 {
@@ -14,6 +13,4 @@ void makeShadeTables()
         const uint32_t value = top / (root / 16);
         inverseRoots[i] = static_cast<uint16_t>(value > UINT16_MAX ? UINT16_MAX : value);
     }
-    for (uint32_t i = 0; i < 256; ++i)
-        rootSteps[i] = static_cast<uint16_t>(squareRoot64(static_cast<uint64_t>(2 * i + 1) << 9));  // 256 sqrt((2i+1)/128)
 }

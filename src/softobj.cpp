@@ -10,7 +10,10 @@ namespace {
 
 // Every scale is a little larger than the part of the surface that is its own, by this part of the spacing: the
 // surface bends between seeds and a ring holds a whole number of them.
-constexpr Real CELL_MARGIN(0.09);
+constexpr Real CELL_MARGIN(0.08);
+
+// The cell of an oversampled seed, which lies between seeds that have cells of their own: in eighths of theirs.
+constexpr int EXTRA_CELL = 5;
 
 // Roots that a seed's 16 bits can tell apart.
 constexpr int ROOTS_MOST = UINT16_MAX + 1;
@@ -18,13 +21,23 @@ constexpr int ROOTS_MOST = UINT16_MAX + 1;
 // Of the spacing asked for: seeds that scaling has moved farther apart or together are laid out anew.
 constexpr Real DRIFT_MOST(0.25);
 
-// Half a scale of an oversampled seed at rest, in spacings.
-constexpr Real CELL_RADIUS(0.56);
-
 int16_t toExtent(Real units)
 {
     const int32_t value = rawFromReal(units) >> 8;
     return static_cast<int16_t>(value > INT16_MAX ? INT16_MAX : value);
+}
+
+int8_t toCell(int32_t steps)
+{
+    return static_cast<int8_t>(steps > 127 ? 127 : steps < -127 ? -127 : steps);
+}
+
+// Half axes of a seed's cell in 1/64 spacing; `inverse` is 64 / spacing.
+void setCell(int8_t* to, const Vector& half, Real inverse)
+{
+    const Real parts[] = {half.x, half.y, half.z};
+    for (int i = 0; i < 3; ++i)
+        to[i] = toCell(floorToInt(parts[i] * inverse + Real(0.5)));
 }
 
 // 1.0 -> 2^14
@@ -88,7 +101,8 @@ private:
 class Filler : public SeedMaker {
 public:
     Filler(Seed* seeds, Vector* roots, int32_t* ringStarts, Real radius, Real spacing)
-        : seeds_(seeds), roots_(roots), ringStarts_(ringStarts), radius_(radius), margin_(spacing * CELL_MARGIN)
+        : seeds_(seeds), roots_(roots), ringStarts_(ringStarts), radius_(radius), margin_(spacing * CELL_MARGIN),
+          inverseSpacing_(Real(64) / spacing)
     {
     }
 
@@ -112,6 +126,8 @@ public:
         s.dirZ = toDirection(direction.z);
         s.restWide = toExtent(absolute(along.x) + absolute(across.x) + margin_);
         s.restHigh = toExtent(absolute(along.y) + absolute(across.y) + margin_);
+        setCell(s.along, along, inverseSpacing_);
+        setCell(s.across, across, inverseSpacing_);
     }
 
 private:
@@ -120,6 +136,7 @@ private:
     int32_t* ringStarts_;
     Real radius_;
     Real margin_;
+    Real inverseSpacing_;
     int rootCount_ = 0, rings_ = 0, count_ = 0;
 };
 
@@ -222,7 +239,6 @@ bool SoftObject::resample(Real spacing)
         turn_ = Matrix::identity();
         placeCore();
     }
-    const int16_t extent = toExtent(spacing * CELL_RADIUS);
     int pairS = -1, pairN = -1, pairRoot = 0;
     const int firstRing = ringsClose() ? 0 : 1;
     for (int i = 0; i < ringStarts[counter.rings > 0 ? firstRing : 0]; ++i)
@@ -256,8 +272,6 @@ bool SoftObject::resample(Real spacing)
             const Seed& other = seeds[s.neighbour];
             Seed& o = seeds[2 * i + 1];
             o = s;
-            o.restWide = extent;
-            o.restHigh = extent;
             if (s.root == other.root) {
                 o.path = withLength(s.path + other.path, tapers_ ? length(s.path) : radius_);
             } else {
@@ -280,6 +294,10 @@ bool SoftObject::resample(Real spacing)
             o.dirX = toDirection(direction.x);
             o.dirY = toDirection(direction.y);
             o.dirZ = toDirection(direction.z);
+            for (int part = 0; part < 3; ++part) {
+                o.along[part] = static_cast<int8_t>(s.along[part] * EXTRA_CELL / 8);
+                o.across[part] = static_cast<int8_t>(s.across[part] * EXTRA_CELL / 8);
+            }
         }
     }
     if (!ball) {
@@ -329,6 +347,16 @@ bool SoftObject::resample(Real spacing)
     return true;
 }
 
+// What the visibility test of a patch takes, in its small units.
+void SoftObject::facePatch(Patch& patch, const Vector& axis)
+{
+    patch.axis[0] = toDirection(axis.x);
+    patch.axis[1] = toDirection(axis.y);
+    patch.axis[2] = toDirection(axis.z);
+    patch.across = rawFromReal(dot(patch.middle, axis)) >> 11;
+    patch.radius32 = (rawFromReal(patch.radius) >> 11) + 1;
+}
+
 void SoftObject::buildPatches()
 {
     for (int p = 0; p < patchCount_; ++p) {
@@ -342,18 +370,20 @@ void SoftObject::buildPatches()
             axis = axis + s.path * share;
         }
         patch.middle = middle;
-        patch.axis = unit(axis);
+        axis = unit(axis);
         patch.radius = Real(0);
-        patch.spread = Real(0);
+        Real spread(0);
         const Real inverseRadius = Real(1) / radius_;
         for (int i = 0; i < patch.count; ++i) {
             const Seed& s = seeds_[2 * (patch.first + i)];
             patch.radius = most(patch.radius, length(rootRest_[s.root] + s.path - middle));
             const Vector direction = tapers_ ? unit(s.path) : s.path * inverseRadius;
-            patch.spread = most(patch.spread, length(direction - patch.axis));
+            spread = most(spread, length(direction - axis));
         }
+        patch.spread = toDirection(least(spread, Real(1.9)));
         // The oversampled seeds between this ring and the one before reach a little further.
         patch.radius += spacing_;
+        facePatch(patch, axis);
     }
 }
 
@@ -379,8 +409,12 @@ bool SoftObject::keepRest()
     layOutSeeds(filler, wanted_);
     for (int i = 0; i < slots; ++i)
         rest_[i].path = seeds_[i].path;
-    for (int p = 0; p < patchCount_; ++p)
-        patchRest_[p] = {patches_[p].middle, patches_[p].axis, patches_[p].radius};
+    for (int p = 0; p < patchCount_; ++p) {
+        const Patch& patch = patches_[p];
+        const Real part(1.0 / 16384);
+        patchRest_[p] = {patch.middle, {part * Real(patch.axis[0]), part * Real(patch.axis[1]), part * Real(patch.axis[2])},
+                         patch.radius};
+    }
     return true;
 }
 
@@ -411,12 +445,12 @@ void SoftObject::poseSeeds()
         return;
     }
     const Real inverseRadius = Real(1) / radius_;
-    int32_t rows[2][3];
-    for (int i = 0; i < 2; ++i)
+    int32_t rows[3][3];
+    for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
             rows[i][j] = rawFromReal(pose.m[i][j]) >> 2;
     const int margin = toExtent(spacing_ * CELL_MARGIN);
-    const int16_t extent = toExtent(spacing_ * CELL_RADIUS);
+    const int32_t cell = rawFromReal(Real(64) / spacing_) >> 8;  // 1/256 unit -> 1/64 spacing
     for (int i = 0; i < 2 * regular_; ++i) {
         Seed& s = seeds_[i];
         const Rest& rest = rest_[i];
@@ -433,23 +467,29 @@ void SoftObject::poseSeeds()
         }
         s.flags = static_cast<uint8_t>(s.flags & ~SEED_KEPT);
         if ((i & 1) != 0) {
-            s.restWide = extent;
-            s.restHigh = extent;
+            for (int part = 0; part < 3; ++part) {
+                s.along[part] = static_cast<int8_t>(seeds_[i - 1].along[part] * EXTRA_CELL / 8);
+                s.across[part] = static_cast<int8_t>(seeds_[i - 1].across[part] * EXTRA_CELL / 8);
+            }
             continue;
         }
-        const auto fall = [&](const int32_t* row) {
-            const int32_t along = row[0] * rest.along[0] + row[1] * rest.along[1] + row[2] * rest.along[2];
-            const int32_t across = row[0] * rest.across[0] + row[1] * rest.across[1] + row[2] * rest.across[2];
-            return static_cast<int16_t>((((along < 0 ? -along : along) + (across < 0 ? -across : across)) >> 14) + margin);
-        };
-        s.restWide = fall(rows[0]);
-        s.restHigh = fall(rows[1]);
+        int32_t extent[3];
+        for (int part = 0; part < 3; ++part) {
+            const int32_t* row = rows[part];
+            const int32_t along = (row[0] * rest.along[0] + row[1] * rest.along[1] + row[2] * rest.along[2]) >> 14;
+            const int32_t across = (row[0] * rest.across[0] + row[1] * rest.across[1] + row[2] * rest.across[2]) >> 14;
+            extent[part] = (along < 0 ? -along : along) + (across < 0 ? -across : across) + margin;
+            s.along[part] = toCell(along * cell >> 16);
+            s.across[part] = toCell(across * cell >> 16);
+        }
+        s.restWide = static_cast<int16_t>(extent[0]);
+        s.restHigh = static_cast<int16_t>(extent[1]);
     }
     for (int p = 0; p < patchCount_; ++p) {
         Patch& patch = patches_[p];
         patch.middle = pose * patchRest_[p].middle;
-        patch.axis = turn * patchRest_[p].axis;
         patch.radius = patchRest_[p].radius * ratio;
+        facePatch(patch, turn * patchRest_[p].axis);
         patch.state = PATCH_UNKNOWN;
     }
 }

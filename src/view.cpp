@@ -9,10 +9,19 @@ using machine::WIDTH;
 namespace {
 
 constexpr int SCALES_AT_ONCE = 1024;
+
+// Marked places in a frame (more are left alone), and how far away the sides of a gap may be, pixels.
+constexpr int GAPS_MOST = 1024;
+constexpr int GAP_WIDEST = 8;
 constexpr int FRACTION = 12;
 constexpr int32_t HALF = 1 << (FRACTION - 1);
 constexpr int32_t NEAREST = 1 << 16;           // 1 unit
 constexpr int32_t FARTHEST = 511 << 16;        // z in 1/128 unit ends at 512
+
+// Depth steps (1/128 unit) from pixel to pixel; a surface seen more edge-on than this is taken as this steep.
+constexpr int32_t STEEPEST = 400;
+constexpr int32_t LEVEL_BEFORE = 24 * STEEPEST;
+constexpr int32_t LEVEL_BEHIND = 0xffff - 24 * STEEPEST;
 
 }  // namespace
 
@@ -22,6 +31,7 @@ View::~View()
     free(zbuffer_);
     free(factors_);
     free(scales_);
+    free(gaps_);
 }
 
 bool View::open()
@@ -30,7 +40,9 @@ bool View::open()
     zbuffer_ = allocate<uint16_t>(WIDTH * HEIGHT);
     factors_ = allocate<Factors>(FAR_STEPS - NEAR_STEPS);
     scales_ = allocate<Scale>(SCALES_AT_ONCE);
-    if (frame_ == nullptr || zbuffer_ == nullptr || factors_ == nullptr || scales_ == nullptr)
+    gaps_ = allocate<Scale>(GAPS_MOST);
+    if (frame_ == nullptr || zbuffer_ == nullptr || factors_ == nullptr || scales_ == nullptr ||
+        gaps_ == nullptr)
         return false;
     memset(frame_, 0, WIDTH * HEIGHT);
     memset(zbuffer_, 0xff, WIDTH * HEIGHT * sizeof *zbuffer_);
@@ -49,6 +61,9 @@ void View::setCamera(const Camera& camera)
     focalY_ = rawFromReal(camera.focalY) >> (16 - FRACTION);
     centreX_ = rawFromReal(camera.centreX) >> (16 - FRACTION);
     centreY_ = rawFromReal(camera.centreY) >> (16 - FRACTION);
+    // A tilt has 8 bits of fraction, a depth step 7: 2^31 / focal makes tilt * mulHigh(z, unit) / 2^16 of it.
+    unitX_ = mulDiv(1 << 30, 1 << 13, focalX_);
+    unitY_ = mulDiv(1 << 30, 1 << 13, focalY_);
     for (int i = NEAR_STEPS; i < FAR_STEPS; ++i) {
         // The middle of the step: z = (i + 1/2) / 8 units = (2i + 1) 2^12 in 16.16. focal 2^44 / z = focal12 2^32 / z
         // = focal12 2^20 / (2i + 1); 2^20 in two steps keeps 32 bits for focal lengths up to 500.
@@ -150,14 +165,35 @@ inline bool View::project(const Voxel& voxel, Scale* scale) const
         top = 0;
     if (bottom > HEIGHT)
         bottom = HEIGHT;
-    if (left >= right || top >= bottom)
+    const int wideNow = right - left, highNow = bottom - top;
+    if (wideNow <= 0 || highNow <= 0)
         return false;
     scale->left = static_cast<int16_t>(left);
     scale->top = static_cast<int16_t>(top);
-    scale->wide = static_cast<int16_t>(right - left);
-    scale->high = static_cast<int16_t>(bottom - top);
-    scale->z = static_cast<uint16_t>(z >> 9);
+    scale->wide = static_cast<int16_t>(wideNow);
+    scale->high = static_cast<int16_t>(highNow);
     scale->colour = voxel.colour;
+
+    // The plane of the surface: the depth changes by tilt (z / focal) from pixel to pixel.
+    const int32_t depth = z >> 9;
+    int32_t across = voxel.tiltX * mulHigh(z, unitX_) >> 16;
+    int32_t down = -(voxel.tiltY * mulHigh(z, unitY_) >> 16);
+    across = across > STEEPEST ? STEEPEST : across < -STEEPEST ? -STEEPEST : across;
+    down = down > STEEPEST ? STEEPEST : down < -STEEPEST ? -STEEPEST : down;
+    // From the scale's centre to the centre of its first pixel.
+    int32_t first = depth + ((across * ((left << FRACTION) + HALF - column) + down * ((top << FRACTION) + HALF - row)) >>
+                             FRACTION);
+    if (wideNow + highNow > 24 || depth < LEVEL_BEFORE || depth > LEVEL_BEHIND) {
+        // Might leave 16 bits at a corner; then it faces the viewer.
+        const int32_t swing = (across < 0 ? -across : across) * WIDTH + (down < 0 ? -down : down) * HEIGHT;
+        if (depth - swing < 0 || depth + swing >= Z_EMPTY) {
+            across = down = 0;
+            first = depth;
+        }
+    }
+    scale->z = first;
+    scale->zStep = across;
+    scale->zRow = down - across * wideNow;
     return true;
 }
 
@@ -167,8 +203,14 @@ int View::show(const Voxel* voxels, int count)
     while (count > 0) {
         const int some = count < SCALES_AT_ONCE ? count : SCALES_AT_ONCE;
         Scale* end = scales_;
-        for (int i = 0; i < some; ++i)
-            end += project(voxels[i], end);
+        for (int i = 0; i < some; ++i) {
+            if (!project(voxels[i], end))
+                continue;
+            if (voxels[i].colour != GAP)
+                ++end;
+            else if (gapCount_ < GAPS_MOST)
+                gaps_[gapCount_++] = *end;
+        }
         const int scales = static_cast<int>(end - scales_);
         blitScales(frame_, zbuffer_, scales_, scales);
         drawn += scales;
@@ -176,6 +218,43 @@ int View::show(const Voxel* voxels, int count)
         count -= some;
     }
     return drawn;
+}
+
+void View::closeGaps()
+{
+    for (int i = 0; i < gapCount_; ++i) {
+        const Scale& gap = gaps_[i];
+        for (int y = 0; y < gap.high; ++y) {
+            int at = (gap.top + y) * WIDTH + gap.left;
+            for (int x = gap.wide; x > 0; --x, ++at) {
+                if (zbuffer_[at] == Z_EMPTY)
+                    closeGap(at);
+            }
+        }
+    }
+    gapCount_ = 0;
+}
+
+void View::closeGap(int at)
+{
+    static const int SIDES[] = {-1, 1, -WIDTH, WIDTH};
+    int nearest = GAP_WIDEST + 1, from = at;
+    const int x = at % WIDTH, y = at / WIDTH;
+    if (x < GAP_WIDEST || x >= WIDTH - GAP_WIDEST || y < GAP_WIDEST || y >= HEIGHT - GAP_WIDEST)
+        return;
+    for (const int side : SIDES) {
+        int far = 1;
+        while (far <= GAP_WIDEST && zbuffer_[at + far * side] == Z_EMPTY)
+            ++far;
+        if (far > GAP_WIDEST)
+            return;
+        if (far < nearest) {
+            nearest = far;
+            from = at + far * side;
+        }
+    }
+    zbuffer_[at] = zbuffer_[from];
+    frame_[at] = frame_[from];
 }
 
 uint8_t* View::overlay(int left, int top, int wide, int high)
