@@ -87,6 +87,9 @@
 #define ARENAS      16          /* pieces of extended memory (one XMS handle each) */
 #define BLOCKS      320         /* client's memory blocks; DJGPP's sbrk can use 256 */
 
+#define FAULT_PAGES 32          /* page faults in DOSBox: pages that the rest of an instruction may need */
+#define ROM_PAGE    0xf0000
+
 #define IOPL3   0x3000
 #define IF_BIT  0x0200
 #define ARITH   0x08d5          /* OF SF ZF AF PF CF */

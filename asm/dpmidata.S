@@ -168,9 +168,10 @@ arenas_end:
 tss:            .skip   104
 rmregs:         .skip   R_SIZE
                 .balign 4
-                .globl  fault_frame, fault_page, fault_pending, fault_defer
+                .globl  fault_frame, fault_pages, fault_count, fault_pending, fault_defer
 fault_frame:    .skip   F_SIZE          /* page faults in DOSBox, see dpmiint.S */
-fault_page:     .skip   4               /* number of a page to be absent again */
+fault_pages:    .skip   FAULT_PAGES * 4 /* numbers of pages to be absent again */
+fault_count:    .skip   4
 fault_pending:  .skip   1
 fault_defer:    .skip   1               /* 1: this is DOSBox */
 hlts:           .skip   HLT_COUNT

@@ -200,6 +200,9 @@ vectors:
         mov     $entry_int21, %ax
         cmp     $0x21, %bl
         je      2f
+        mov     $entry_int2f, %ax
+        cmp     $0x2f, %bl
+        je      2f
         mov     $entry_int31, %ax
         cmp     $0x31, %bl
         je      2f
@@ -340,6 +343,7 @@ memory_init:
         movzwl  %ax, %eax
         shl     $10, %eax
 5:      and     $~0xfff, %eax
+        jz      vcpi_init               /* all of it is EMS, perhaps */
         mov     %eax, %edx
         shr     $22, %edx
         add     $8, %dx
@@ -420,16 +424,24 @@ a20_test:
         ret
 
 /* V86 mode: the server fills our first page table; the rest of the linear space is filled with its pages as
-   memory is asked for (dpmimem.S). ES = page directory. Carry, DX: message. */
+   memory is asked for (dpmimem.S). From real mode it is the last resort. ES = page directory. Carry, DX:
+   message. */
 vcpi_init:
         xor     %ax, %ax
         mov     %ax, %fs
+        smsw    %ax
         mov     $msg_v86, %dx
+        test    $1, %al
+        jnz     5f
+        mov     $msg_no_memory, %dx
+5:      mov     %dx, %bp
         cmpl    $0, %fs:0x67 * 4
         je      9f
-        mov     $0xde00, %ax            /* VCPI there? */
+        xor     %cx, %cx                /* VCPI there? DOSBox wants CX and DI like this */
+        mov     $0x0012, %di
+        mov     $0xde00, %ax
         int     $0x67
-        mov     $msg_v86, %dx
+        mov     %bp, %dx
         test    %ah, %ah
         jnz     9f
         mov     $0x1000, %di

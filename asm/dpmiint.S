@@ -2,7 +2,7 @@
 
      0 to 7          processor exceptions
      8 to 15         hardware interrupts 0 to 7 and processor exceptions, told apart by the error code
-     21h, 31h        DOS (for its exit function) and DPMI
+     21h, 2Fh, 31h   DOS (for its exit function), a question about the mode, DPMI
      70h to 77h      hardware interrupts 8 to 15
      all others      reflected to RM
 
@@ -49,7 +49,13 @@ exit_iret:
         iretl
 
 /* --- Software interrupts. Each entry: vector on the stack, pushed by its thunk. --- */
-        .globl  entry_int21, entry_soft
+        .globl  entry_int21, entry_int2f, entry_soft
+entry_int2f:
+        cmpw    $0x1686, %ax            /* "are we in protected mode": AX = 0, yes */
+        jne     entry_soft
+        xorl    %eax, %eax
+        addl    $4, %esp
+        iretl
 entry_int21:
         cmpb    $0x4c, %ah
         je      1f
@@ -362,7 +368,7 @@ fault_in_host:
         iretl
 
 fault_alarm:
-        movl    $0, fault_page
+        movl    $0, fault_count
         movb    $1, fault_pending
         movb    $0x30, %al              /* counter 0, mode 0, 2: an interrupt in 2 microseconds */
         outb    %al, $0x43
@@ -383,11 +389,14 @@ fault_let_through:
         movl    %fs:PTES(, %edx, 4), %eax
         testl   %eax, %eax
         jnz     1f
-        movl    $0xf0000, %eax
-        jmp     3f
-1:      movl    %edx, fault_page
-3:      orb     $7, %al
+        movl    $ROM_PAGE, %eax
+1:      orb     $7, %al
         movl    %eax, %fs:PTES(, %edx, 4)
+        movl    fault_count, %eax       /* remember it, to be absent again */
+        cmpl    $FAULT_PAGES, %eax
+        jae     2f
+        movl    %edx, fault_pages(, %eax, 4)
+        incl    fault_count
 2:      ret
 
 /* Deliver it. EBP = frame to be replaced. */
@@ -403,15 +412,23 @@ fault_now:
         xorl    %eax, %eax
         outb    %al, $0x40
         outb    %al, $0x40
-        movl    fault_page, %edx
-        testl   %edx, %edx
-        jz      1f
         movw    $FLAT_DS, %ax
         movw    %ax, %fs
-        andb    $~1, %fs:PTES(, %edx, 4)
+        movl    fault_count, %ecx
+        jecxz   3f
+1:      movl    fault_pages - 4(, %ecx, 4), %edx
+        movl    %fs:PTES(, %edx, 4), %eax
+        andl    $~0xfff, %eax
+        cmpl    $ROM_PAGE, %eax
+        movl    $0, %eax
+        je      2f
+        movl    %fs:PTES(, %edx, 4), %eax
+        andb    $~1, %al
+2:      movl    %eax, %fs:PTES(, %edx, 4)
+        loop    1b
         movl    %cr3, %eax
         movl    %eax, %cr3
-1:      movl    F_CR2(%ebp), %eax
+3:      movl    F_CR2(%ebp), %eax
         movl    %eax, %cr2
         movl    F_VEC(%ebp), %eax
         jmp     deliver

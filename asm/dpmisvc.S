@@ -572,18 +572,14 @@ svc_0300:
         call    client_to_rmregs
         popl    %eax
         movzbl  %al, %eax
-        movzwl  F_ECX(%ebp), %ecx
-        testl   %ecx, %ecx
-        jnz     1f
-        call    rm_int
-        jmp     2f
-1:      movw    $FLAT_DS, %dx
+        movw    $FLAT_DS, %dx
         movw    %dx, %fs
         movl    %fs:(, %eax, 4), %eax
         call    client_stack_keep
+        movzwl  F_ECX(%ebp), %ecx
         movb    $1, %bl
         call    rm_call
-2:      call    rmregs_to_client
+        call    rmregs_to_client
         clc
         ret
 

@@ -25,3 +25,14 @@ build/mkexe: tools/mkexe.cpp
 	$(HOST_CXX) -std=c++17 -O2 -Wall -Wextra -o $@ $<
 
 .PHONY: stub
+
+# The program that tries a DPMI host, and the one that brings DOSBox to V86 mode (tests/dpmi). For the rules of DOS
+# programs this needs the Makefile.
+build/DTEST.EXE: build/dos/tests/dpmi/dtest.o build/dos/tests/dpmi/dtesta.o build/dos/asm/start.o \
+		$(patsubst %.cpp,build/dos/%.o,$(wildcard src/rt/*.cpp)) build/STUB.EXE build/mkexe tools/dos.ld
+	$(DOS_LINK)
+
+build/V86.COM: tests/dpmi/v86.S
+	@mkdir -p build/stub
+	$(STUB_CC) -c -o build/stub/v86.o $<
+	ld -m elf_i386 -Ttext 0x100 -e start --oformat binary -o $@ build/stub/v86.o

@@ -1,0 +1,280 @@
+// The assembly of DTEST.EXE (dtest.cpp says what each is for): int 31h with all registers, interrupt and exception
+// handlers, call-back procedures, the raw mode switch.
+
+#include "asm.h"
+
+// struct Int31
+#define EAX 0
+#define EBX 4
+#define ECX 8
+#define EDX 12
+#define ESI 16
+#define EDI 20
+#define ES 24
+#define DS 26
+#define FLAGS 28
+
+        .text
+
+// void int31(Int31*)
+        .globl  SYM(int31)
+SYM(int31):
+        pushl   %ebp
+        pushl   %ebx
+        pushl   %esi
+        pushl   %edi
+        pushl   %es
+        pushl   %ds
+        movl    28(%esp), %ebp
+        pushl   %ebp
+        movl    EAX(%ebp), %eax
+        movl    EBX(%ebp), %ebx
+        movl    ECX(%ebp), %ecx
+        movl    EDX(%ebp), %edx
+        movl    ESI(%ebp), %esi
+        movl    EDI(%ebp), %edi
+        movw    %ss:ES(%ebp), %es
+        movw    %ss:DS(%ebp), %ds
+        int     $0x31
+        pushfl
+        movl    4(%esp), %ebp
+        movw    %ss:DS(%ebp), %bp       // (the value does not matter)
+        movl    4(%esp), %ebp
+        movl    %eax, %ss:EAX(%ebp)
+        movl    %ebx, %ss:EBX(%ebp)
+        movl    %ecx, %ss:ECX(%ebp)
+        movl    %edx, %ss:EDX(%ebp)
+        movl    %esi, %ss:ESI(%ebp)
+        movl    %edi, %ss:EDI(%ebp)
+        popl    %ss:FLAGS(%ebp)
+        addl    $4, %esp
+        popl    %ds
+        popl    %es
+        popl    %edi
+        popl    %esi
+        popl    %ebx
+        popl    %ebp
+        ret
+
+// int 60h: EAX + 1234h, carry set, to be seen by the caller
+        .globl  SYM(handler60)
+SYM(handler60):
+        addl    $0x1234, %eax
+        orl     $1, 8(%esp)
+        iretl
+
+// A handler that counts, then goes on in the one before (chain) or ends the interrupt (own)
+        .globl  SYM(tickChain), SYM(tickOwn)
+SYM(tickChain):
+        pushl   %ds
+        movw    %cs:SYM(dataSelector), %ds
+        incl    SYM(ticks)
+        popl    %ds
+        ljmp    *%cs:SYM(oldHandler)
+SYM(tickOwn):
+        pushl   %ds
+        pushl   %eax
+        movw    %cs:SYM(dataSelector), %ds
+        incl    SYM(ticks)
+        movb    $0x20, %al
+        outb    %al, $0x20
+        popl    %eax
+        popl    %ds
+        iretl
+
+// A handler that only counts, for Ctrl-C and critical errors; AL = 3 is "fail" for the latter
+        .globl  SYM(countOnly)
+SYM(countOnly):
+        pushl   %ds
+        movw    %cs:SYM(dataSelector), %ds
+        incl    SYM(counted)
+        popl    %ds
+        movb    $3, %al
+        iretl
+
+// Exception handler: notes what it sees and goes on at `recover` with the stack that was there
+        .globl  SYM(exceptionSeen)
+SYM(exceptionSeen):
+        pushl   %ds
+        pushl   %eax
+        movw    %cs:SYM(dataSelector), %ds
+        incl    SYM(counted)
+        movl    16(%esp), %eax
+        movl    %eax, SYM(seenError)
+        movl    20(%esp), %eax
+        movl    %eax, SYM(seenEip)
+        movw    %ss, SYM(seenStack)
+        movl    $recover, 20(%esp)
+        popl    %eax
+        popl    %ds
+        lretl
+
+// void raise(int kind): 0 divide error, 6 invalid instruction, 13 bad selector, 14 wild pointer
+        .globl  SYM(raise), SYM(raiseEip)
+SYM(raise):
+        pushl   %ebp
+        pushl   %ebx
+        pushl   %esi
+        pushl   %edi
+        pushl   %es
+        movl    24(%esp), %eax
+        cmpl    $6, %eax
+        je      2f
+        cmpl    $13, %eax
+        je      3f
+        cmpl    $14, %eax
+        je      4f
+        xorl    %ecx, %ecx
+        movl    $1f, SYM(raiseEip)
+1:      divl    %ecx
+        jmp     recover
+2:      movl    $5f, SYM(raiseEip)
+5:      ud2
+3:      movl    $6f, SYM(raiseEip)
+        movl    $0x1230, %eax           // a selector beyond any table
+6:      movw    %ax, %es
+        jmp     recover
+4:      movl    $7f, SYM(raiseEip)
+        movl    $0x70000000, %edx
+7:      movl    %eax, (%edx)
+8:      incl    SYM(wildSteps)          // in DOSBox the fault comes a little later
+        jmp     8b
+recover:
+        popl    %es
+        popl    %edi
+        popl    %esi
+        popl    %ebx
+        popl    %ebp
+        ret
+
+// Call-back for a far call from real mode: EAX := ~EAX, return for it
+        .globl  SYM(callBack)
+SYM(callBack):
+        cld
+        incl    %es:SYM(counted)
+        notl    %es:28(%edi)
+        lodsl                           // IP, CS of the far call
+        movl    %eax, %es:42(%edi)
+        addw    $4, %es:46(%edi)
+        iretl
+
+// Call-back that itself calls real mode: to a stack of its own, then nested(registers)
+        .globl  SYM(callBackNested)
+SYM(callBackNested):
+        cld
+        lodsl
+        movl    %eax, %es:42(%edi)
+        addw    $4, %es:46(%edi)
+        movl    %es, %eax
+        movw    %ax, %ds
+        movw    %ss, %bx
+        movl    %esp, %edx
+        movw    %ax, %ss
+        movl    SYM(nestedStack), %esp
+        subl    $4096, SYM(nestedStack)
+        pushl   %ebx
+        pushl   %edx
+        pushl   %edi
+        call    SYM(nested)
+        popl    %edi
+        popl    %edx
+        popl    %ebx
+        addl    $4096, SYM(nestedStack)
+        movl    %ds, %eax
+        movw    %ax, %es
+        movw    %bx, %ss
+        movl    %edx, %esp
+        iretl
+
+// Call-back of the mouse driver (a far call with event bits in AX)
+        .globl  SYM(callBackMouse)
+SYM(callBackMouse):
+        cld
+        incl    %es:SYM(counted)
+        lodsl
+        movl    %eax, %es:42(%edi)
+        addw    $4, %es:46(%edi)
+        iretl
+
+// void rawSwitch(const uint16_t rm[2]): to real mode at rm[0]:rm[1] (offset, segment) with its stack at the end of that
+// segment's first 256 bytes; the code there jumps back to rawBack.
+        .globl  SYM(rawSwitch), SYM(rawBack)
+SYM(rawSwitch):
+        pushl   %ebp
+        pushl   %ebx
+        pushl   %esi
+        pushl   %edi
+        movl    20(%esp), %esi
+        movl    %esp, SYM(rawEsp)
+        movzwl  (%esi), %edi
+        movw    2(%esi), %si
+        movw    %si, %ax
+        movw    %si, %cx
+        movw    %si, %dx
+        movl    $0x100, %ebx
+        movl    $0x12345678, %ebp
+        ljmp    *SYM(rawToReal)
+SYM(rawBack):
+        movl    %ebp, SYM(rawEbp)
+        popl    %edi
+        popl    %esi
+        popl    %ebx
+        popl    %ebp
+        ret
+
+// uint32_t intEax(int, uint32_t eax, uint32_t *flags): interrupts 10h, 16h, 21h, 33h, 60h from here
+        .macro  INTN n
+        .globl  SYM(int\n)
+SYM(int\n):
+        pushl   %ebp
+        pushl   %ebx
+        pushl   %esi
+        pushl   %edi
+        movl    20(%esp), %eax
+        xorl    %ebx, %ebx
+        xorl    %ecx, %ecx
+        xorl    %edx, %edx
+        int     $0x\n
+        pushfl
+        popl    SYM(intFlags)
+        movl    %ebx, SYM(intEbx)
+        popl    %edi
+        popl    %esi
+        popl    %ebx
+        popl    %ebp
+        ret
+        .endm
+        INTN    10
+        INTN    16
+        INTN    21
+        INTN    33
+        INTN    60
+
+// void overflow(): fills the stack and what lies below it
+        .globl  SYM(overflow)
+SYM(overflow):
+        pushl   $0x12345678
+        jmp     SYM(overflow)
+
+        .data
+        .globl  SYM(dataSelector), SYM(ticks), SYM(oldHandler), SYM(counted), SYM(seenError), SYM(seenEip)
+        .globl  SYM(seenStack), SYM(wildSteps), SYM(nestedStack), SYM(rawEsp), SYM(rawEbp), SYM(rawToReal)
+        .globl  SYM(intFlags), SYM(intEbx)
+        .balign 4
+SYM(ticks):             .long   0
+SYM(counted):           .long   0
+SYM(seenError):         .long   0
+SYM(seenEip):           .long   0
+SYM(seenStack):         .long   0
+SYM(raiseEip):          .long   0
+SYM(wildSteps):         .long   0
+SYM(nestedStack):       .long   0
+SYM(rawEsp):            .long   0
+SYM(rawEbp):            .long   0
+SYM(intFlags):          .long   0
+SYM(intEbx):            .long   0
+SYM(oldHandler):        .long   0, 0
+SYM(rawToReal):         .long   0, 0
+SYM(dataSelector):      .word   0
+
+ASM_END
