@@ -84,11 +84,11 @@ Real lengthQuick(const Vector& v)
         x <<= -excess;
         y <<= -excess;
         z <<= -excess;
-        const uint32_t few = x * x + y * y + z * z;
-        root = static_cast<uint32_t>(static_cast<uint64_t>(few) * inverseRoots[few >> 20] >> 28);
-        return Real::fromRaw(static_cast<int32_t>(root >> -excess));
+        square = x * x + y * y + z * z;
+        root = static_cast<uint32_t>(square * inverseRoots[square >> 20] >> 28);
     }
-    return Real::fromRaw(static_cast<int32_t>((root + quotient(square, root)) >> 1));
+    root = (root + quotient(square, root)) >> 1;
+    return Real::fromRaw(static_cast<int32_t>(excess > 0 ? root : root >> -excess));
 #else
     return squareRoot(dot(v, v));
 #endif

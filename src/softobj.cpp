@@ -234,7 +234,7 @@ bool SoftObject::resample(Real spacing)
     // is in its own space.
     const Point centre = centre_;
     const Matrix turn = turn_;
-    if (!ball) {
+    if (counter.roots > 1) {
         centre_ = {Real(0), Real(0), Real(0)};
         turn_ = Matrix::identity();
         placeCore();
@@ -300,7 +300,7 @@ bool SoftObject::resample(Real spacing)
             }
         }
     }
-    if (!ball) {
+    if (counter.roots > 1) {
         centre_ = centre;
         turn_ = turn;
         placeCore();

@@ -23,9 +23,15 @@ Vector Torus::fromCore(const Point& p) const
     const Vector upright = axis_ * dot(v, axis_);
     const Vector across = v - upright;
     const Real away = lengthQuick(across);
-    // On the axis all of the circle is equally near; any direction across serves, and this one is quick.
-    if (away < Real(0.01))
-        return upright + Vector{turn().m[0][0], turn().m[1][0], turn().m[2][0]} * ring_;
+    // Close to the axis a direction has few bits and is made square to it with care; on it all of the circle is equally
+    // near, and any direction serves.
+    if (away < Real(1)) {
+        Vector out = unit(across);
+        if (out == Vector{Real(0), Real(0), Real(0)})
+            out = {turn().m[0][0], turn().m[1][0], turn().m[2][0]};
+        out = out - axis_ * dot(out, axis_);
+        return upright + (across - withLength(out, ring_));
+    }
     return upright + across * ((away - ring_) / away);
 }
 

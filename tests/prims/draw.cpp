@@ -1,0 +1,163 @@
+// Small scenes with every primitive, alone, turned, and blending, as frames for the yardstick.
+#include "prims.h"
+
+#include <cstdio>
+#include <cstring>
+#include <sys/stat.h>
+
+#include "dump.h"
+#include "machine.h"
+#include "palette.h"
+#include "view.h"
+
+namespace {
+
+constexpr int FRAMES = 12;
+
+// A scene: its objects, and what it does to them before a frame.
+struct Play {
+    std::string name;
+    double spacing;
+    std::vector<Object> objects;
+    std::vector<std::pair<int, int>> links;
+    std::function<void(std::vector<SoftObject*>&, int frame)> move;
+};
+
+bool run(Play& play, const std::string& directory, bool printed)
+{
+    static Voxel voxels[256];
+    Model model;
+    std::vector<SoftObject*> objects;
+    for (Object& object : play.objects) {
+        objects.push_back(object.get());
+        if (!model.add(object.release(), {255, 255, 255}, Motion{}))
+            return false;
+    }
+    for (const auto& link : play.links)
+        if (!model.link(objects[static_cast<size_t>(link.first)], objects[static_cast<size_t>(link.second)], Real(1)))
+            return false;
+    if (!model.resample(real(play.spacing)))
+        return false;
+    View view;
+    Palette palette;
+    Dump dump;
+    if (!view.open())
+        return false;
+    view.setCamera(model.camera);
+    palette.make(model, true);
+    const std::string to = directory + "/" + play.name;
+    if (dump.open(to.c_str()) != nullptr)
+        return false;
+    for (int frame = 0; frame < FRAMES; ++frame) {
+        play.move(objects, frame);
+        Counts counts{};
+        const Look look{model.camera.eye, unit(model.light), printed, &counts};
+        for (SoftObject* object : objects)
+            object->update(look);
+        view.begin();
+        for (SoftObject* object : objects) {
+            view.touch(object->centre(), object->reach());
+            int next = 0;
+            do {
+                view.show(voxels, object->draw(look, voxels, 256, &next));
+            } while (next != 0);
+        }
+        view.end();
+        const char* problem = dump.frame(frame, 0, 10, model, view, palette, true);
+        if (problem != nullptr) {
+            std::fprintf(stderr, "%s\n", problem);
+            return false;
+        }
+    }
+    return true;
+}
+
+Point point(double x, double y, double z)
+{
+    return {real(x), real(y), real(z)};
+}
+
+// A turn that shows an object from all sides in the course of a scene.
+void tumble(SoftObject* object, int frame)
+{
+    if (frame > 0)
+        object->rotate(object->centre(), {Real(3), Real(1), Real(2)}, 0xffffffffu / 11);
+}
+
+}  // namespace
+
+int drawScenes(const char* directory)
+{
+    const bool printed = getenv("FB_PRINTED") != nullptr;
+    mkdir(directory, 0777);
+    std::vector<Play> plays;
+    for (const double spacing : {2.0, 1.0})
+        for (const Sample& sample : FEW) {
+            const std::string end = spacing == 2 ? "" : "_1";
+            // Turning on the spot, off the middle of the picture.
+            Play alone{sample.kind + ("_turned" + end), spacing, {}, {}, nullptr};
+            alone.objects.push_back(sample.make(1));
+            alone.objects[0]->moveTo(point(-8, 5, 10));
+            alone.move = [](std::vector<SoftObject*>& o, int frame) { tumble(o[0], frame); };
+            plays.push_back(std::move(alone));
+
+            // A ball passes by.
+            Play ball{sample.kind + ("_ball" + end), spacing, {}, {{0, 1}}, nullptr};
+            ball.objects.push_back(sample.make(1));
+            ball.objects.push_back(FEW[0].make(2));
+            ball.move = [](std::vector<SoftObject*>& o, int frame) {
+                tumble(o[0], frame);
+                o[1]->moveTo(point(-33 + 6 * frame, 12 - frame, -4 + frame));
+            };
+            plays.push_back(std::move(ball));
+
+            // Two of a kind, one across the other, drawing apart.
+            Play pair{sample.kind + ("_pair" + end), spacing, {}, {{0, 1}}, nullptr};
+            pair.objects.push_back(sample.make(1));
+            pair.objects.push_back(sample.make(2));
+            pair.objects[1]->rotate(point(0, 0, 0), {Real(1), Real(0), Real(0)}, 0x40000000u);
+            pair.move = [](std::vector<SoftObject*>& o, int frame) {
+                o[0]->moveTo(point(-3 * frame, 2, 0));
+                o[1]->moveTo(point(3 * frame, 0, 0));
+                tumble(o[0], frame);
+            };
+            plays.push_back(std::move(pair));
+        }
+
+    // All kinds in one heap.
+    for (const double spacing : {2.0, 1.0}) {
+        Play heap{spacing == 2 ? "heap" : "heap_1", spacing, {}, {}, nullptr};
+        for (size_t i = 0; i < FEW.size(); ++i) {
+            heap.objects.push_back(FEW[i].make(static_cast<int>(i + 1)));
+            for (size_t j = 0; j < i; ++j)
+                heap.links.push_back({static_cast<int>(j), static_cast<int>(i)});
+        }
+        heap.move = [](std::vector<SoftObject*>& o, int frame) {
+            for (size_t i = 0; i < o.size(); ++i) {
+                const double angle = 6.2832 * (static_cast<double>(i) / 5 + frame / 30.0), out = 34 - 1.5 * frame;
+                o[i]->moveTo(point(out * std::cos(angle), 0.7 * out * std::sin(angle), 3.0 * static_cast<double>(i) - 6));
+                tumble(o[i], frame);
+            }
+        };
+        plays.push_back(std::move(heap));
+
+        // Scaled up and down.
+        Play pulse{spacing == 2 ? "pulse" : "pulse_1", spacing, {}, {}, nullptr};
+        for (size_t i = 0; i < FEW.size(); ++i) {
+            pulse.objects.push_back(FEW[i].make(static_cast<int>(i + 1)));
+            pulse.objects.back()->moveTo(point(i % 2 ? 25 : -25, i < 2 ? 22 : i < 4 ? -22 : 0, i < 4 ? 30 : 0));
+        }
+        pulse.move = [](std::vector<SoftObject*>& o, int frame) {
+            for (SoftObject* object : o)
+                object->scale(real(frame % 6 < 3 ? 1.09 : 0.92));
+        };
+        plays.push_back(std::move(pulse));
+    }
+
+    for (Play& play : plays)
+        if (!run(play, directory, printed)) {
+            std::fprintf(stderr, "%s: not drawn\n", play.name.c_str());
+            return 1;
+        }
+    return 0;
+}

@@ -1,0 +1,216 @@
+// The graph of objects: links made, weighed and broken at any time, objects that come and go.
+#include "prims.h"
+
+#include <random>
+
+#include "field.h"
+
+namespace {
+
+std::mt19937 chance(77);
+
+int below(int n)
+{
+    return static_cast<int>(chance() % static_cast<uint32_t>(n));
+}
+
+double between(double a, double b)
+{
+    return std::uniform_real_distribution<double>(a, b)(chance);
+}
+
+Point point(double x, double y, double z)
+{
+    return {real(x), real(y), real(z)};
+}
+
+struct Scene {
+    Counts counts{};
+    Look look{{Real(0), Real(0), Real(-120)}, {Real(0), Real(1), Real(0)}, false, &counts};
+    uint8_t ramp[64] = {};
+
+    void update(SoftObject& object)
+    {
+        static Voxel voxels[256];
+        object.setRamp(ramp);
+        object.update(look);
+        int next = 0;
+        do {
+            object.draw(look, voxels, 256, &next);
+        } while (next != 0);
+    }
+};
+
+// Seeds that rest at position 1, valid; those moved outwards; those not valid.
+struct Tally {
+    int rest = 0, moved = 0, gone = 0;
+};
+
+Tally tally(const SoftObject& object)
+{
+    Tally t;
+    for (int i = 0; i < object.seedSlots(); i += 2) {
+        const Seed& s = object.seed(i);
+        if (!(s.flags & SEED_VALID))
+            ++t.gone;
+        else if (s.position == Real(1))
+            ++t.rest;
+        else
+            ++t.moved;
+    }
+    return t;
+}
+
+double farthest(const SoftObject& object)
+{
+    double most = 0;
+    for (int i = 0; i < object.seedSlots(); i += 2)
+        if (object.seed(i).flags & SEED_VALID)
+            most = std::fmax(most, number(object.seed(i).position));
+    return most;
+}
+
+void testLinks(const Sample& sample)
+{
+    const char* name = sample.kind;
+    Scene scene;
+    Object a = sample.make(1);
+    {
+        Object b = FEW[0].make(2);
+        a->resample(Real(2));
+        b->resample(Real(2));
+        b->moveTo(point(0, 0, -18));
+        scene.update(*a);
+        scene.update(*b);
+        // They overlap, but do not blend.
+        check(tally(*a).rest == a->seeds() && tally(*b).rest == b->seeds(), "%s: blends with what it is not linked to", name);
+        const Point middle = point(0, 0, -9);
+        const double alone = number(a->fieldSum(middle));
+
+        check(a->link(b.get(), Real(1)) && b->link(a.get(), Real(1)), "%s: no link", name);
+        check(a->recalc() && b->recalc(), "%s: a link asks for no update", name);
+        scene.update(*a);
+        scene.update(*b);
+        const Tally one = tally(*a);
+        const double out = farthest(*a);
+        check(one.moved > 0 && tally(*b).moved > 0, "%s: does not blend with what it is linked to", name);
+        check(!a->recalc() && !b->recalc(), "%s: not settled", name);
+        const double both = number(a->fieldSum(middle));
+        check(std::fabs(both - alone - number(b->fieldFunc(middle))) < 0.001, "%s: field sum", name);
+
+        // Weighed anew: one link, not two, and what it adds is scaled.
+        a->link(b.get(), Real(0.25));
+        check(a->recalc(), "%s: a new weight asks for no update", name);
+        scene.update(*a);
+        check(std::fabs(number(a->fieldSum(middle)) - alone - number(b->fieldFunc(middle)) / 4) < 0.001, "%s: weight", name);
+        check(farthest(*a) < out, "%s: a quarter of the weight bulges as far: %g, %g", name, farthest(*a), out);
+        a->link(b.get(), Real(1));
+        scene.update(*a);
+
+        // A neighbour that moves, turns or is scaled asks for an update here.
+        b->translate({Real(0.5), Real(0), Real(0)});
+        check(a->recalc(), "%s: not told of a move", name);
+        scene.update(*a);
+        scene.update(*b);
+        b->scale(Real(1.1));
+        check(a->recalc(), "%s: not told of a scaling", name);
+        scene.update(*a);
+        scene.update(*b);
+        a->rotate(a->centre(), {Real(1), Real(0), Real(0)}, 0x10000000u);
+        check(std::string(name) == "sphere" || b->recalc(), "%s: does not tell of a turn", name);
+        scene.update(*a);
+        scene.update(*b);
+
+        a->unlink(b.get());
+        b->unlink(a.get());
+        scene.update(*a);
+        scene.update(*b);
+        check(tally(*a).rest == a->seeds() && tally(*b).rest == b->seeds(), "%s: blends after the link is gone", name);
+        a->unlink(b.get());
+
+        a->link(b.get(), Real(1));
+        b->link(a.get(), Real(1));
+        scene.update(*a);
+        check(tally(*a).moved > 0, "%s: does not blend when linked again", name);
+    }
+    // The other has ended.
+    check(a->skel().empty() && a->recalc(), "%s: still linked to what has ended", name);
+    scene.update(*a);
+    check(tally(*a).rest == a->seeds(), "%s: blends with what has ended", name);
+}
+
+// A heap of objects that come, go, move, turn, grow, link and part at random; after each update every valid seed lies on
+// the surface.
+void testComingAndGoing()
+{
+    Scene scene;
+    std::vector<Object> objects;
+    long seeds = 0, off = 0, far = 0;
+    for (int step = 0; step < 3000; ++step) {
+        const int count = static_cast<int>(objects.size());
+        const auto any = [&]() -> SoftObject& { return *objects[static_cast<size_t>(below(count))]; };
+        switch (count < 2 ? 0 : below(count < 7 ? 8 : 9)) {
+        case 0: {
+            Object made = FEW[static_cast<size_t>(below(static_cast<int>(FEW.size()) - 1))].make(step + 1);
+            made->moveTo(point(between(-30, 30), between(-30, 30), between(-30, 30)));
+            if (!check(made->resample(Real(3)), "no seeds"))
+                return;
+            objects.push_back(std::move(made));
+            break;
+        }
+        case 1: any().translate({real(between(-9, 9)), real(between(-9, 9)), real(between(-9, 9))}); break;
+        case 2: any().rotate(point(0, 0, 0), {Real(1), Real(2), real(between(-3, 3))}, static_cast<Angle>(chance())); break;
+        case 3: any().scale(real(between(0.8, 1.25))); break;
+        case 4:
+        case 5:
+        case 6: {
+            SoftObject &a = any(), &b = any();
+            const Real weight = real(below(3) ? 1 : between(0, 2));
+            if (&a != &b) {
+                a.link(&b, weight);
+                b.link(&a, weight);
+            }
+            break;
+        }
+        case 7: {
+            SoftObject &a = any(), &b = any();
+            a.unlink(&b);
+            b.unlink(&a);
+            break;
+        }
+        default: objects.erase(objects.begin() + below(count)); break;
+        }
+        if (step % 3 != 0)
+            continue;
+        for (Object& object : objects) {
+            if (size(vec(object->centre())) > 60)
+                object->moveTo(point(0, 0, 0));
+            if (object->size() > Real(45) || object->size() < Real(8))
+                object->scale(Real(20) / object->size());
+        }
+        for (Object& object : objects)
+            scene.update(*object);
+        for (Object& object : objects)
+            for (int i = 0; i < object->seedSlots(); ++i) {
+                const Seed& s = object->seed(i);
+                if (!(s.flags & SEED_VALID) || ((i & 1) != 0 && !(s.flags & SEED_ACTIVE)))
+                    continue;
+                ++seeds;
+                const double error = std::fabs(number(object->fieldSum(object->seedPoint(s))) - 0.5);
+                off += error > 0.02;
+                far += error > 0.1;
+            }
+    }
+    check(seeds > 100000, "only %ld seeds seen", seeds);
+    check(static_cast<double>(off) < 0.005 * static_cast<double>(seeds), "%ld of %ld seeds lie off the surface", off, seeds);
+    check(static_cast<double>(far) < 0.0005 * static_cast<double>(seeds), "%ld of %ld seeds lie far off the surface", far, seeds);
+}
+
+}  // namespace
+
+void testGraph()
+{
+    for (const Sample& sample : FEW)
+        testLinks(sample);
+    testComingAndGoing();
+}

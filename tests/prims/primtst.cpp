@@ -1,0 +1,105 @@
+// Tests of the primitives: seeds, cores, operations, graph.
+//
+//   primtst          all checks; the last line is "N passed, N failed"
+//   primtst even     a table of seeds and evenness
+//   primtst draw DIR frames of small scenes with every primitive, for the yardstick
+#include "prims.h"
+
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
+
+#include "field.h"
+
+int passed = 0, failed = 0;
+
+bool check(bool good, const char* format, ...)
+{
+    if (good) {
+        ++passed;
+        return true;
+    }
+    ++failed;
+    va_list args;
+    va_start(args, format);
+    std::printf("FAIL ");
+    std::vprintf(format, args);
+    std::printf("\n");
+    va_end(args);
+    return false;
+}
+
+Object Sample::make(int number) const
+{
+    const std::string k = kind;
+    if (k == "sphere")
+        return Object(::make<Sphere>(number, real(size)));
+    if (k == "cylinder")
+        return Object(::make<Cylinder>(number, real(size), real(measure)));
+    if (k == "torus")
+        return Object(::make<Torus>(number, real(size), real(measure)));
+    if (k == "disc")
+        return Object(::make<Disc>(number, real(size), real(measure)));
+    return Object(::make<Cone>(number, real(size), real(size2), real(measure)));
+}
+
+double Sample::param(Vec p) const
+{
+    const std::string k = kind;
+    const double across = std::sqrt(p.x * p.x + p.z * p.z);
+    const double on = std::fmin(std::fmax(p.y, -measure / 2), measure / 2);
+    double square = dot(p, p), local = size;
+    if (k == "cylinder" || k == "cone") {
+        square = across * across + (p.y - on) * (p.y - on);
+        if (k == "cone")
+            local = size + (size2 - size) * (on / measure + 0.5);
+    } else if (k == "torus") {
+        square = p.y * p.y + (across - measure) * (across - measure);
+    } else if (k == "disc") {
+        const double beyond = std::fmax(across - measure, 0);
+        square = p.y * p.y + beyond * beyond;
+    }
+    return square / (local * local);
+}
+
+std::string Sample::name() const
+{
+    char text[80];
+    if (std::string(kind) == "sphere")
+        std::snprintf(text, sizeof text, "sphere %g", size);
+    else if (std::string(kind) == "cone")
+        std::snprintf(text, sizeof text, "cone %g %g %g", size, size2, measure);
+    else
+        std::snprintf(text, sizeof text, "%s %g %g", kind, size, measure);
+    return text;
+}
+
+const std::vector<Sample> FEW = {
+    {"sphere", 20, 0, 0}, {"cylinder", 16, 0, 30}, {"torus", 16, 0, 18}, {"disc", 14, 0, 15}, {"cone", 22, 10, 24},
+};
+
+const std::vector<Sample> MANY = {
+    {"sphere", 20, 0, 0},   {"sphere", 35, 0, 0},
+    {"cylinder", 16, 0, 30}, {"cylinder", 20, 0, 0},  {"cylinder", 12, 0, 100}, {"cylinder", 40, 0, 7},
+    {"torus", 16, 0, 18},    {"torus", 20, 0, 12.5},  {"torus", 12, 0, 40},
+    {"disc", 14, 0, 15},     {"disc", 20, 0, 0},      {"disc", 10, 0, 30},      {"disc", 30, 0, 4},
+    {"cone", 22, 10, 24},    {"cone", 12, 30, 20},    {"cone", 20, 20, 20},     {"cone", 30, 12, 9},
+};
+
+int main(int count, char** arguments)
+{
+    makeFieldSteps();
+    makeShadeTables();
+    if (count == 2 && std::strcmp(arguments[1], "even") == 0) {
+        testEvenness(true);
+        return 0;
+    }
+    if (count == 3 && std::strcmp(arguments[1], "draw") == 0)
+        return drawScenes(arguments[2]);
+    testEvenness(false);
+    testCores();
+    testOperations();
+    testGraph();
+    std::printf("%d passed, %d failed\n", passed, failed);
+    return failed == 0 ? 0 : 1;
+}
