@@ -81,7 +81,7 @@ struct Motion {
     Real swingAngle{0};
     Wave swing;
 
-    // Size times 1 + pulse sin(a), 0 <= pulse <= 0.9.
+    // Size times 1 + pulse sin(a), 0 <= pulse <= 0.75.
     Real pulse{0};
     Wave pulsing;
 

@@ -50,8 +50,8 @@ public:
     // given here. A parent must be there already. Null: no room or no memory.
     Actor* addItem(const Actor& described);
 
-    // Takes an item out of the model, and its keys. What it carried is carried by its own parent from then on, at the
-    // place it has now.
+    // Takes an item out of the model, and its keys. What it carried is carried by its own parent from then on: the
+    // centre stays where it is now, but what the item added to its motion and its turn is gone.
     void remove(Actor* item);
 
     // Makes the object of an item anew, after its measures were changed. False: no memory, and the object that was

@@ -20,7 +20,7 @@ constexpr Real PERIOD_MOST(3600);
 constexpr Real KEY_TIME_MOST(3600);
 constexpr Real DEGREES_MOST(360);
 constexpr Real KEY_DEGREES_MOST(3600);
-constexpr Real PULSE_MOST(0.9);
+constexpr Real PULSE_MOST(0.75);
 constexpr Real WEIGHT_MOST(4);
 constexpr int FOCAL_LEAST = 1;
 constexpr int FOCAL_MOST = 500;

@@ -19,3 +19,9 @@ build/fuzz: $(FUZZ_PARTS) tools/scenes.mk
 	$(HOSTCXX) $(FUZZ_FLAGS) -o $@ $(FUZZ_PARTS)
 
 -include $(wildcard build/fuzzo/*/*.d build/fuzzo/*/*/*.d)
+
+SCNTST_PARTS = $(patsubst %.cpp,build/host/%.o,\
+	$(filter-out src/main.cpp src/demo.cpp,$(wildcard src/*.cpp)) src/host/host.cpp)
+
+build/scntst: tests/scenes/scntst.cpp $(SCNTST_PARTS) tools/scenes.mk
+	$(HOSTCXX) -O1 -std=c++17 -Wall -Wextra -Iinclude -DFB_REAL=FB_$(REAL) -o $@ $< $(SCNTST_PARTS)

@@ -1,0 +1,100 @@
+#!/bin/sh
+# Tests of scene files: the statements, complaints and limits in process (scntst.cpp); then the program with scene files:
+# the report's four spheres from a file give the frames of the model built in, every shipped scene plays, is the same on
+# the 64-bit and the 32-bit build, and reads back after it was written; bad files end it with status 2 and one line.
+# The last line is "N passed, N failed".
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+make -s build/demo build/demo32 build/scntst build/mkscene || { echo "0 passed, 1 failed"; exit 1; }
+dir=$(mktemp -d "${TMPDIR:-/tmp}/fbscenes.XXXXXX") || exit 1
+trap 'rm -rf "$dir"' EXIT
+trap 'exit 1' HUP INT TERM
+passed=0 failed=0
+good() { passed=$((passed + 1)); }
+bad() { failed=$((failed + 1)); echo "FAIL $1"; }
+
+build/scntst >"$dir/log" 2>&1
+last=$(tail -n 1 "$dir/log")
+case $last in
+*" passed, "*" failed")
+	sed '$d' "$dir/log"
+	passed=${last%% passed*}
+	failed=${last##*passed, }
+	failed=${failed%% failed*}
+	;;
+*) bad "scntst did not reach its end"; cat "$dir/log" ;;
+esac
+
+# same NAME DIR DIR: all files of both are there and the same.
+same() {
+	if diff -r "$2" "$3" >"$dir/log" 2>&1 && [ -n "$(ls "$2")" ]; then good; else bad "$1"; head -n 3 "$dir/log"; fi
+}
+
+# The four spheres from a file: every byte of every dumped file.
+for switches in "/N:60" "/N:20 /G /S:1" "/N:20 /P" "/N:20 /R:70 /S:3"; do
+	rm -rf "$dir/a" "$dir/b"
+	# shellcheck disable=SC2086
+	build/demo $switches "/D:$dir/a" >"$dir/out.a" && build/demo $switches /M:tools/scenes/FOUR.FB "/D:$dir/b" >"$dir/out.b"
+	same "four spheres from a file, $switches" "$dir/a" "$dir/b"
+	if cmp -s "$dir/out.a" "$dir/out.b"; then good; else bad "statistics of the four spheres, $switches"; fi
+done
+echo "four spheres from a file: 120 frames compared with the model built in"
+
+# Every scene on both builds.
+frames=0
+for scene in tools/scenes/*.FB tests/scenes/hurt/*.FB; do
+	rm -rf "$dir/a" "$dir/b"
+	if build/demo /N:10 /R:2 "/M:$scene" "/D:$dir/a" >"$dir/out.a" 2>&1; then good; else bad "$scene: $(head -n 1 "$dir/out.a")"; fi
+	build/demo32 /N:10 /R:2 "/M:$scene" "/D:$dir/b" >"$dir/out.b" 2>&1
+	same "$scene, 64 bits and 32" "$dir/a" "$dir/b"
+	frames=$((frames + 10))
+done
+echo "scenes: $frames frames compared between 64 bits and 32"
+
+# A place is a function of time: the same at 4 s, whatever the frames before.
+for scene in tools/scenes/*.FB; do
+	rm -rf "$dir/a" "$dir/b"
+	build/demo /X /N:5 /R:1 "/M:$scene" "/D:$dir/a" >"$dir/out.a" 2>&1
+	build/demo /X /N:29 /R:7 "/M:$scene" "/D:$dir/b" >"$dir/out.b" 2>&1
+	# The first line has the time, to other decimals.
+	sed 1d "$dir/a/F0000004.TXT" >"$dir/out.a"
+	sed 1d "$dir/b/F0000028.TXT" >"$dir/out.b"
+	if [ -s "$dir/out.a" ] && cmp -s "$dir/out.a" "$dir/out.b"; then good; else bad "$scene: other places at 4 s"; fi
+done
+
+# The generator: the same file for the same seed, and the program takes it.
+build/mkscene 5 >"$dir/one.fb"
+build/mkscene 5 >"$dir/two.fb"
+if cmp -s "$dir/one.fb" "$dir/two.fb"; then good; else bad "mkscene: two files for one seed"; fi
+for seed in 11 12 13 14 15 16 17 18 19 20; do
+	build/mkscene $seed >"$dir/r.fb"
+	if build/demo /X /N:1 "/M:$dir/r.fb" >"$dir/out" 2>&1; then good; else bad "random scene $seed: $(head -n 1 "$dir/out")"; fi
+done
+build/mkscene 1 128 >"$dir/r.fb"
+if build/demo /X /N:1 /S:8 "/M:$dir/r.fb" >"$dir/out" 2>&1; then good; else bad "a random scene of 128"; fi
+
+# refused NAME WORDS SWITCHES...: status 2, these words as the only line on standard error, and no frame written.
+refused() {
+	name=$1 words=$2
+	shift 2
+	rm -rf "$dir/d"
+	build/demo /N:1 "/D:$dir/d" "$@" >"$dir/out" 2>"$dir/err"
+	status=$?
+	if [ $status -eq 2 ] && [ "$(cat "$dir/err")" = "$words" ] && [ ! -s "$dir/out" ] && [ ! -e "$dir/d/F0000000.PPM" ]; then
+		good
+	else
+		bad "$name: status $status, $(cat "$dir/err")"
+	fi
+}
+refused "missing file" "$dir/none.fb: no such file or directory" "/M:$dir/none.fb"
+refused "directory" "$dir: access denied" "/M:$dir"
+printf 'sphere a size 20\nsphere b size 20\nspere c size 20\n' >"$dir/bad.fb"
+refused "bad line" "$dir/bad.fb:3: 'spere': expected sphere, cylinder, torus, disc, cone, group, blend, circle, path, spin, swing, pulse, keys, key, eye, focal or light" "/M:$dir/bad.fb"
+: >"$dir/empty.fb"
+refused "empty file" "$dir/empty.fb:1: 'end of file': expected at least one object" "/M:$dir/empty.fb"
+head -c 3000 build/demo >"$dir/binary.fb"
+build/demo /N:1 "/M:$dir/binary.fb" >"$dir/out" 2>"$dir/err"
+if [ $? -eq 2 ] && [ "$(wc -l <"$dir/err")" -eq 1 ]; then good; else bad "a binary file: $(cat "$dir/err")"; fi
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

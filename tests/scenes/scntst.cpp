@@ -1,0 +1,335 @@
+// Tests of scene files in process: what each statement does to place, turn and size at known times; every complaint in
+// full; every limit, kept and broken by one.
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <string>
+
+#include "machine.h"
+#include "scene.h"
+
+namespace {
+
+int passed = 0, failed = 0;
+
+void check(bool good, const std::string& name)
+{
+    if (good) {
+        ++passed;
+    } else {
+        ++failed;
+        printf("FAIL %s\n", name.c_str());
+    }
+}
+
+double number(Real a) { return rawFromReal(a) / 65536.0; }
+Time at(double seconds) { return static_cast<Time>(seconds * 65536 + 0.5); }
+
+const char* read(const std::string& text, Model& model)
+{
+    SceneEnd end;
+    const char* wrong = readSceneText("T.FB", text.data(), static_cast<uint32_t>(text.size()), model, &end);
+    check((wrong == nullptr) == (end == SCENE_GOOD), "the end goes with the complaint: " + text.substr(0, 60));
+    return wrong;
+}
+
+// The text is read, and item NAME is at x y z (and scaled so) at a time.
+void place(const std::string& text, const char* name, double seconds, double x, double y, double z, double scale = 1)
+{
+    Model model;
+    const char* wrong = read(text, model);
+    if (wrong != nullptr) {
+        check(false, std::string(wrong) + " in: " + text);
+        return;
+    }
+    Anim::move(model, at(seconds));
+    const Pose& pose = model.itemNamed(name)->pose;
+    const auto near = [](Real a, double b) { return std::fabs(number(a) - b) < 0.01; };
+    const bool good = near(pose.place.x, x) && near(pose.place.y, y) && near(pose.place.z, z) && near(pose.scale, scale);
+    if (!good)
+        printf("  %s is at %.3f %.3f %.3f scale %.3f\n", name, number(pose.place.x), number(pose.place.y),
+               number(pose.place.z), number(pose.scale));
+    check(good, std::to_string(seconds) + " s of: " + text);
+}
+
+// The text is refused with these very words.
+void refused(const std::string& text, const std::string& words)
+{
+    Model model;
+    const char* wrong = read(text, model);
+    if (wrong == nullptr || words != wrong)
+        printf("  said: %s\n  not:  %s\n", wrong == nullptr ? "nothing" : wrong, words.c_str());
+    check(wrong != nullptr && words == wrong, "refused: " + text.substr(0, 80));
+}
+
+void taken(const std::string& text, const std::string& name)
+{
+    Model model;
+    const char* wrong = read(text, model);
+    if (wrong != nullptr)
+        puts(wrong);
+    check(wrong == nullptr, name);
+}
+
+const std::string S = "sphere s size 20\n";
+
+void motion()
+{
+    place("sphere s size 20 at 1 -2 3.5", "s", 7, 1, -2, 3.5);
+    place(S + "circle s radius 10 period 4", "s", 0, 10, 0, 0);
+    place(S + "circle s radius 10 period 4", "s", 1, 0, 10, 0);
+    place(S + "circle s radius 10 period -4", "s", 1, 0, -10, 0);
+    place(S + "circle s radius 10 plane yz period 4 phase 0.25", "s", 0, 0, 0, 10);
+    place(S + "circle s radius 10 plane zx period 4", "s", 1, 10, 0, 0);
+    place(S + "circle s u 3 0 0 v 0 0 5 period 8", "s", 2, 0, 0, 5);
+    place(S + "circle s radius 10 period 4", "s", 4 * 900 + 1, 0, 10, 0);
+    place(S + "path s x 10 4 0 y 6 8 0.25", "s", 1, 10, 6 * std::cos(M_PI / 4), 0);
+    place(S + "path s z 10 4 0", "s", 3, 0, 0, -10);
+
+    const std::string keys = "key s 1 10 0 0\nkey s 3 20 8 -4\nkey s 4 0 0 0\n";
+    place(S + keys, "s", 0, 10, 0, 0);
+    place(S + keys, "s", 1.5, 12.5, 2, -1);
+    place(S + keys, "s", 3, 20, 8, -4);
+    place(S + keys, "s", 9, 0, 0, 0);
+    place(S + "keys s smooth\n" + keys, "s", 1, 10, 0, 0);
+    place(S + "keys s smooth\n" + keys, "s", 3, 20, 8, -4);
+    place(S + "keys s smooth\nkey s 0 0 0 0\nkey s 2 10 0 0", "s", 1, 5, 0, 0);
+    place(S + "keys s smooth\nkey s 0 0 0 0\nkey s 2 10 0 0", "s", 0.5, 10 * (3 * 0.0625 - 2 * 0.015625), 0, 0);
+    // Slope at the middle key is that from the first to the last: 5 a second.
+    place(S + "keys s smooth\nkey s 0 0 0 0\nkey s 2 10 0 0\nkey s 4 20 0 0", "s", 1, 10 * 0.5 - 0.125 * 10, 0, 0);
+    place(S + "keys s repeat 4\nkey s 0 0 0 0\nkey s 2 8 0 0", "s", 4 * 300 + 3, 4, 0, 0);
+    place(S + "keys s repeat 4\nkey s 1 0 0 0\nkey s 3 8 0 0", "s", 4, 4, 0, 0);
+    place(S + "keys s repeat 4\nkey s 1 5 0 0", "s", 2, 5, 0, 0);
+    place(S + "key s 0 0 0 0 scale 1\nkey s 2 0 0 0 scale 3", "s", 1, 0, 0, 0, 2);
+
+    place(S + "pulse s by 0.5 period 4", "s", 1, 0, 0, 0, 1.5);
+    place(S + "pulse s by 0.5 period 4", "s", 3, 0, 0, 0, 0.5);
+
+    place("group g at 5 0 0\nsphere s size 20 at 10 0 0 in g", "s", 0, 15, 0, 0);
+    place("group g at 5 0 0 turn 0 0 90\nsphere s size 20 at 10 0 0 in g", "s", 0, 5, 10, 0);
+    place("group g turn 90 0 90\nsphere s size 20 at 0 10 0 in g", "s", 0, 0, 0, 10);
+    place("group g scale 2\nsphere s size 20 at 10 0 0 in g", "s", 0, 20, 0, 0, 2);
+    place("group g\nspin g axis 0 1 0 period 4\nsphere s size 20 at 10 0 0 in g", "s", 1, 0, 0, -10);
+    place("group g\nswing g axis 0 0 2 angle 90 period 4\nsphere s size 20 at 10 0 0 in g", "s", 1, 0, 10, 0);
+    place("group g\nswing g axis 0 0 2 angle 90 period 4\nsphere s size 20 at 10 0 0 in g", "s", 3, 0, -10, 0);
+    place("group g\nkeys g axis 0 0 1\nkey g 0 0 0 0\nkey g 1 0 0 0 angle 90\nsphere s size 20 at 10 0 0 in g", "s", 1, 0, 10, 0);
+    place("sphere p size 9 at 0 7 0\nsphere s size 20 at 10 0 0 in p", "s", 0, 10, 7, 0);
+    place("group a at 10 0 0\nspin a axis 0 0 1 period 4\ngroup b at 10 0 0 in a\nspin b axis 0 0 1 period 4\n"
+          "sphere s size 20 at 10 0 0 in b", "s", 1, 0, 10, 0);
+    // Nothing leaves the space of the model.
+    place("group g at 250 0 0 scale 4\nsphere s size 20 at 250 0 0 in g", "s", 0, 250, 0, 0, 4);
+
+    // A size is a function of the time, whatever was shown before.
+    Model once, often;
+    const std::string text = S + "cylinder c size 12 length 30 at 40 0 0\npulse s by 0.3 period 3\npulse c by 0.7 period 2";
+    read(text, once);
+    read(text, often);
+    once.resample(Real(2));
+    often.resample(Real(2));
+    for (int i = 0; i <= 500; ++i)
+        Anim::move(often, at(i * 0.0373));
+    Anim::move(once, at(500 * 0.0373));
+    char a[200], b[200];
+    for (int i = 0; i < 2; ++i) {
+        once.actor(i).object->describe(a, sizeof a);
+        often.actor(i).object->describe(b, sizeof b);
+        check(strcmp(a, b) == 0, std::string("no drift: ") + a + " / " + b);
+    }
+    check(once.actor(0).object->size() == once.actor(0).measure[0] * once.actor(0).pose.scale, "the size is made * scale");
+    const Real size = once.actor(1).object->size();
+    Anim::move(once, at(0));
+    check(once.actor(1).object->size() == Real(12) && size != Real(12), "size back at time 0");
+
+    // What follows from the lines' ends, case and comments.
+    place("SPHERE S SIZE 20 AT 1 2 3 # here\r\n\r\n#\r\n\tCIRCLE\ts RADIUS 0 PERIOD 1\r\n", "s", 0, 1, 2, 3);
+    place("sphere s size 20 at 1 2 3\n\x1a" "anything", "s", 0, 1, 2, 3);
+    place("sphere s size 20 at 1 2 3", "s", 0, 1, 2, 3);
+}
+
+void links()
+{
+    Model model;
+    Real weight;
+    check(read("sphere a size 9\nsphere b size 9\nsphere c size 9\nblend a b 0.5\nblend b c\nblend a b 0.25", model) == nullptr,
+          "links are read");
+    SoftObject *a = model.actor(0).object, *b = model.actor(1).object, *c = model.actor(2).object;
+    check(Model::linked(a, b, &weight) && weight == Real(0.25), "a link given twice has the later weight");
+    check(Model::linked(b, a, &weight) && weight == Real(0.25), "both ways");
+    check(Model::linked(c, b, &weight) && weight == Real(1), "a link without a weight has 1");
+    check(!Model::linked(a, c, &weight), "what was not linked is not");
+    Model all;
+    read("sphere a size 9\nsphere b size 9\nsphere c size 9\nblend all 2\nsphere d size 9", all);
+    check(Model::linked(all.actor(0).object, all.actor(2).object, &weight) && weight == Real(2), "blend all");
+    check(!Model::linked(all.actor(0).object, all.actor(3).object, &weight), "all are those above");
+    check(model.actor(2).object->number() == 3, "numbers count from 1");
+    Model look;
+    read("eye 1 2 -100\nfocal 300\nlight 0 2 0\n" + S, look);
+    check(look.camera.eye == Point{Real(1), Real(2), Real(-100)}, "eye");
+    check(look.camera.focalX == Real(300) && look.camera.focalY == Real(250), "focal: pixels are 5 to 6");
+    check(look.light == Vector{Real(0), Real(2), Real(0)}, "light");
+    Model two;
+    read("focal 300 100\n" + S, two);
+    check(two.camera.focalY == Real(100), "focal, both");
+}
+
+void complaints()
+{
+    const char* const statements =
+        "sphere, cylinder, torus, disc, cone, group, blend, circle, path, spin, swing, pulse, keys, key, eye, focal or light";
+    refused("spere a size 3", std::string("T.FB:1: 'spere': expected ") + statements);
+    refused(S + "\n# x\n7\n", std::string("T.FB:4: '7': expected ") + statements);
+    refused("", "T.FB:1: 'end of file': expected at least one object");
+    refused("group g\n", "T.FB:2: 'end of file': expected at least one object");
+    refused("sphere\n", "T.FB:1: end of line: expected a name of 1 to 15 letters, digits, - or _, a letter first");
+    refused("sphere 3 size 3", "T.FB:1: '3': expected a name of 1 to 15 letters, digits, - or _, a letter first");
+    refused("sphere all size 3", "T.FB:1: 'all': expected another name; all stands for every object");
+    refused(S + "group S", "T.FB:2: 's': expected a name that is not taken yet");
+    refused("sphere a", "T.FB:1: end of line: expected size");
+    refused("sphere a size", "T.FB:1: end of line: expected size from 1 to 100");
+    refused("sphere a size 0.9", "T.FB:1: '0.9': expected size from 1 to 100");
+    refused("sphere a size ten", "T.FB:1: 'ten': expected size from 1 to 100");
+    refused("sphere a size 9 length 4", "T.FB:1: 'length': expected size, at, turn, colour or in");
+    refused("cylinder a size 9", "T.FB:1: end of line: expected length");
+    refused("cylinder a size 9 length 101", "T.FB:1: '101': expected length from 0 to 100");
+    refused("torus a size 20 ring 12", "T.FB:1: 'a': expected a ring of at least five eighths of the size");
+    refused("cone a size 50 tip 10 length 19",
+            "T.FB:1: 'a': expected a length of at least half the difference of size and tip");
+    refused("group g colour 1 2 3", "T.FB:1: 'colour': expected at, turn, scale or in");
+    refused("sphere a size 9 at 1 2", "T.FB:1: end of line: expected a place, z from -250 to 250");
+    refused("sphere a size 9 at 1 251 2", "T.FB:1: '251': expected a place, y from -250 to 250");
+    refused("sphere a size 9 turn 1 2 361", "T.FB:1: '361': expected degrees about z from -360 to 360");
+    refused("sphere a size 9 colour 1 2 256", "T.FB:1: '256': expected red, green and blue from 0 to 255");
+    refused("sphere a size 9 in b", "T.FB:1: 'b': expected a group or an object of a line above");
+    refused("sphere a size 9 in a", "T.FB:1: 'a': expected a group or an object of a line above");
+    refused(S + "circle t radius 1 period 1", "T.FB:2: 't': expected the name of an object or a group");
+    refused(S + "circle s radius 1", "T.FB:2: end of line: expected period");
+    refused(S + "circle s period 1", "T.FB:2: end of line: expected a radius, or both u and v");
+    refused(S + "circle s u 1 0 0 period 1", "T.FB:2: end of line: expected a radius, or both u and v");
+    refused(S + "circle s radius 2 plane xx period 1", "T.FB:2: 'xx': expected xy, yz, zx, yx, zy or xz");
+    refused(S + "circle s radius 2 period 0.05",
+            "T.FB:2: '0.05': expected 0.1 seconds or more, or -0.1 or less to go backwards");
+    refused(S + "circle s radius 2 period 3601", "T.FB:2: '3601': expected seconds from -3600 to 3600");
+    refused(S + "circle s radius 2 period 1 phase 2", "T.FB:2: '2': expected a phase in turns from -1 to 1");
+    refused(S + "circle s size 2", "T.FB:2: 'size': expected radius, plane, u, v, period or phase");
+    refused(S + "path s", "T.FB:2: end of line: expected x, y or z, each with amplitude, period and phase");
+    refused(S + "path s x 4 3", "T.FB:2: end of line: expected a phase in turns from -1 to 1");
+    refused(S + "spin s period 3", "T.FB:2: end of line: expected axis");
+    refused(S + "spin s axis 0 0 0 period 3", "T.FB:2: '0': expected a direction, not 0 0 0");
+    refused(S + "spin s axis 0 0 1 angle 3", "T.FB:2: 'angle': expected axis, period or phase");
+    refused(S + "swing s axis 0 0 1 period 3", "T.FB:2: end of line: expected angle");
+    refused(S + "pulse s by 1 period 3", "T.FB:2: '1': expected a share of the size from 0 to 0.75");
+    refused(S + "keys s cubic", "T.FB:2: 'cubic': expected linear, smooth, repeat or axis");
+    refused(S + "key s 1 0 0 0\nkeys s smooth", "T.FB:3: 's': expected keys before the first key");
+    refused(S + "key s 1 0 0 0\nkey s 1 0 0 0", "T.FB:3: '1': expected a time after that of the key before");
+    refused(S + "keys s repeat 2\nkey s 2 0 0 0", "T.FB:3: '2': expected a time before that of repeat");
+    refused(S + "key s 1 0 0 0 spin 2", "T.FB:2: 'spin': expected angle or scale");
+    refused(S + "blend s", "T.FB:2: end of line: expected the name of a second object");
+    refused(S + "blend s s", "T.FB:2: 's': expected the name of a second object");
+    refused(S + "group g\nblend s g", "T.FB:3: 'g': expected the name of a second object");
+    refused(S + "blend", "T.FB:2: end of line: expected all, or the name of an object");
+    refused(S + "sphere t size 9\nblend s t 5", "T.FB:3: '5': expected a weight from 0 to 4");
+    refused(S + "sphere t size 9\nblend s t 1 2", "T.FB:3: '2': expected the end of the line");
+    refused(S + "light 0 0 0", "T.FB:2: '0': expected a direction, not 0 0 0");
+    refused(S + "focal 501", "T.FB:2: '501': expected pixels across from 1 to 500");
+    refused(S + "eye 0 0 -120 9", "T.FB:2: '9': expected the end of the line");
+    refused(S + "\xff\x01\n", std::string("T.FB:2: '?\?': expected ") + statements);
+    refused(std::string("sphere s\0 size 20", 17),
+            "T.FB:1: 's?': expected a name of 1 to 15 letters, digits, - or _, a letter first");
+}
+
+std::string repeated(int count, const char* form)
+{
+    std::string all;
+    for (int i = 1; i <= count; ++i) {
+        char line[200];
+        snprintf(line, sizeof line, form, i, i);
+        all += line;
+    }
+    return all;
+}
+
+void limits()
+{
+    taken(repeated(128, "sphere s%d size 9\n") + "blend all", "128 objects, every pair linked");
+    refused(repeated(129, "sphere s%d size 9\n"), "T.FB:129: 's129': expected at most 128 objects");
+    taken(repeated(64, "group g%d\n") + S, "64 groups");
+    refused(repeated(65, "group g%d\n"), "T.FB:65: 'g65': expected at most 64 groups");
+    taken(S + repeated(1024, "key s %d 0 0 0\n"), "1024 keys");
+    refused(S + repeated(1025, "key s %d 0 0 0\n"), "T.FB:1026: 'key': expected at most 1024 keys");
+    taken("sphere abcdefghijklmno size 9", "a name of 15 letters");
+    refused("sphere abcdefghijklmnop size 9",
+            "T.FB:1: 'abcdefghijklmnop': expected a name of 1 to 15 letters, digits, - or _, a letter first");
+    taken(S + "#" + std::string(249, 'x') + "\r\n", "a line of 250 characters");
+    refused(S + "#" + std::string(250, 'x') + "\n", "T.FB:2: '...': expected a line of at most 250 characters");
+    refused(S + "circle" + std::string(250, ' ') + "s\n",
+            "T.FB:2: 'circle              ...': expected a line of at most 250 characters");
+    taken(S + std::string(31998, '\n') + "#", "32000 lines");
+    refused(S + std::string(31999, '\n') + "#\n", "T.FB:32001: 'one more line': expected at most 32000 lines");
+    taken(S + repeated(8, "blend all # %d\n"), "8 times blend all");
+    refused(S + repeated(9, "blend all # %d\n"), "T.FB:10: 'all': expected blend all in at most 8 lines");
+    std::string deep = "group g0 at 1 0 0\n";
+    for (int i = 1; i < 64; ++i) {
+        char line[60];
+        snprintf(line, sizeof line, "group g%d at 1 0 0 in g%d\n", i, i - 1);
+        deep += line;
+    }
+    place(deep + "sphere s size 9 at 1 0 0 in g63", "s", 0, 65, 0, 0);
+}
+
+// Changing a model while it runs, and going back.
+void changes()
+{
+    Model model;
+    read("group g at 10 0 0 turn 0 0 90\nsphere a size 9\nsphere b size 9 at 5 0 0 in g\ncylinder c size 9 length 8 in b\n"
+         "key a 0 0 0 0\nkey a 2 1 1 1\nkey c 0 0 1 0\nkey c 1 0 2 0\nblend all 0.5", model);
+    model.resample(Real(2));
+    Anim::move(model, 0);
+    Model::Record* record = model.record();
+    check(record != nullptr, "a record");
+    SoftObject* a = model.actor(0).object;
+    const Point was = model.itemNamed("c")->pose.place;
+
+    model.remove(model.itemNamed("b"));
+    check(model.count() == 2 && model.items() == 3, "an object taken out");
+    Anim::move(model, 0);
+    check(length(model.itemNamed("c")->pose.place - was) < Real(0.01), "what it carried stays where it is");
+    Real weight;
+    check(Model::linked(a, model.actor(1).object, &weight) && weight == Real(0.5), "other links stay");
+    model.remove(model.itemNamed("a"));
+    check(model.keyCount() == 2, "its keys go with it");
+    Anim::move(model, at(1));
+    check(length(model.itemNamed("c")->pose.place - was) > Real(0.9), "other keys still hold");
+    model.remove(model.itemNamed("g"));
+    check(model.count() == 1 && model.items() == 1 && model.item(0).motion.parent == 0, "a group taken out");
+
+    check(model.restore(record), "gone back");
+    check(model.count() == 3 && model.items() == 4 && model.keyCount() == 4, "everything is there again");
+    Anim::move(model, 0);
+    check(model.itemNamed("c")->pose.place == was, "in its place");
+    check(Model::linked(model.actor(0).object, model.actor(2).object, &weight) && weight == Real(0.5), "and linked");
+    check(model.actor(0).object->seeds() > 0 && model.actor(1).object->seeds() > 0, "with seeds");
+
+    a = model.actor(0).object;
+    model.actor(0).measure[0] = Real(30);
+    check(model.remake(&model.actor(0)), "made anew");
+    check(model.actor(0).object->size() == Real(30), "with its new size");
+    check(Model::linked(model.actor(1).object, model.actor(0).object, &weight) && weight == Real(0.5), "and its links");
+    check(model.restore(record) && model.actor(0).object->size() == Real(9), "and back");
+    a = model.actor(0).object;
+    check(model.restore(record) && model.actor(0).object == a, "what did not change keeps its object");
+    free(record);
+}
+
+}  // namespace
+
+int main()
+{
+    makeFieldSteps();
+    motion();
+    links();
+    complaints();
+    limits();
+    changes();
+    printf("%d passed, %d failed\n", passed, failed);
+    return failed != 0;
+}
