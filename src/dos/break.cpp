@@ -10,6 +10,11 @@ constexpr int BIOS_BREAK = 0x1b;
 constexpr int DOS_BREAK = 0x23;
 constexpr int CRITICAL_ERROR = 0x24;
 
+// What else the BIOS keeps of a break: a flag in bit 7, and the ring of keys, which a Ctrl-C may be in.
+constexpr uint32_t BIOS_BREAK_FLAG = 0x471;
+constexpr uint32_t KEYS_HEAD = 0x41a;
+constexpr uint32_t KEYS_TAIL = 0x41c;
+
 // The block in DOS memory, from its first byte: the flag, then the two handlers.
 constexpr uint16_t FLAG = 0;
 constexpr uint16_t ON_BREAK = 1;
@@ -71,7 +76,12 @@ void closeBreak() {
     if (!open) {
         return;
     }
-    breakSeen();
+    // A break that was seen has been answered. What is left of it would make DOS (FreeDOS looks at the BIOS's flag) end the
+    // program a second time, in its next call.
+    if (breakSeen()) {
+        poke16(KEYS_HEAD, peek16(KEYS_TAIL));
+    }
+    poke8(BIOS_BREAK_FLAG, uint8_t(peek8(BIOS_BREAK_FLAG) & 0x7f));
     open = false;
     setBreakChecking(oldChecking);
     dpmi::setRealVector(CRITICAL_ERROR, oldCriticalError);

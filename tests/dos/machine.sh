@@ -85,7 +85,7 @@ if startDisplay; then
     ok 'not broken' has "$c/PLAY.TXT" 'broken no'
 
     play
-    xdotool key --window "$dosWindow" ctrl+c
+    xdotool key --window "$dosWindow" ctrl+c 2> /dev/null
     wait $running
     ok 'Ctrl-C is a break' has "$c/PLAY.TXT" 'broken yes'
     ok 'and all is as before' cmp "$c/BEFORE.TXT" "$c/AFTER.TXT"
