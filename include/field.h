@@ -19,8 +19,8 @@ Real geoffSlope(Real t);
 // F and dF/dt together, for the loop that settles seeds: from a table of steps of 1/1024 in t, value good to 0.0013 and
 // slope to 0.003, without a multiplication. 0 <= t < 1.
 struct FieldStep {
-    int16_t value;  // F * 2^14
-    int16_t slope;  // dF/dt * 2^13
+    Real value;
+    Real slope;
 };
 constexpr int FIELD_STEPS = 1024;
 extern FieldStep fieldSteps[FIELD_STEPS];
@@ -28,16 +28,9 @@ extern FieldStep fieldSteps[FIELD_STEPS];
 // Fills fieldSteps. Call once before any object is updated.
 void makeFieldSteps();
 
-inline void geoffQuick(Real t, Real& value, Real& slope)
+inline const FieldStep& geoffQuick(Real t)
 {
-#if FB_REAL == FB_FIXED
-    const FieldStep step = fieldSteps[t.raw >> 6];
-    value = Real::fromRaw(step.value * 4);
-    slope = Real::fromRaw(step.slope * 8);
-#else
-    value = geoff(t);
-    slope = geoffSlope(t);
-#endif
+    return fieldSteps[rawFromReal(t) >> 6];
 }
 
 #endif

@@ -33,6 +33,19 @@ inline int32_t mulHigh(int32_t a, int32_t b)
     return static_cast<int32_t>((static_cast<int64_t>(a) * b) >> 32);
 }
 
+// (a * b) >> 16 on 64 bits between.
+inline int32_t mulShift16(int32_t a, int32_t b)
+{
+#if FB_I386
+    int32_t low;
+    int32_t high;
+    asm("imull %3\n\tshrdl $16, %%edx, %%eax" : "=a"(low), "=&d"(high) : "%0"(a), "rm"(b) : "cc");
+    return low;
+#else
+    return static_cast<int32_t>((static_cast<int64_t>(a) * b) >> 16);
+#endif
+}
+
 // a * b / c on 64 bits between, truncated towards zero; the quotient must fit 32 bits and c must not be 0.
 // The 386 has both steps as one instruction each; without libgcc there is no other 64-bit division.
 inline int32_t mulDiv(int32_t a, int32_t b, int32_t c)
@@ -74,6 +87,11 @@ constexpr Real operator+(Real a, Real b) { return Real::fromRaw(a.raw + b.raw); 
 constexpr Real operator-(Real a, Real b) { return Real::fromRaw(a.raw - b.raw); }
 constexpr Real operator*(Real a, Real b)
 {
+#if FB_I386
+    // The compiler shifts the high half of the product too, for nobody.
+    if (!__builtin_is_constant_evaluated() && !(__builtin_constant_p(a.raw) && __builtin_constant_p(b.raw)))
+        return Real::fromRaw(mulShift16(a.raw, b.raw));
+#endif
     return Real::fromRaw(static_cast<int32_t>((static_cast<int64_t>(a.raw) * b.raw) >> 16));
 }
 constexpr bool operator<(Real a, Real b) { return a.raw < b.raw; }

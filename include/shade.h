@@ -78,14 +78,15 @@ public:
     // direction . (eye - root) of the seed's path.
     int32_t along(const Seed& s) const { return s.dirX * x_ + s.dirY * y_ + s.dirZ * z_; }
 
-    // Of along(): whether the seed, at rest, may be seen; whether its path points so far away that it cannot be seen even
-    // when it is pulled out by blending.
+    // Of along(): whether the seed, at rest, may be seen; by how much (1/32 unit) its path points too far away to be seen
+    // even when it is pulled out by blending.
     bool seen(int32_t along) const { return along > edge_; }
-    bool away(int32_t along) const { return along < away_; }
+    int32_t away(int32_t along) const { return (away_ - along) >> 14; }
 
     // direction . (eye - seed) of a seed at rest, 1/32 unit.
     int32_t restFacing(int32_t along) const { return (along >> 14) - radius_; }
     int32_t radius32() const { return radius_; }
+    int32_t distance32() const { return distance_ < 1 ? 1 : distance_; }
 
     // normal . (eye - seed), 1/32 unit; `cosine` is normal . direction scaled by 2^14.
     int32_t facing(const Normal& n, int32_t cosine, Real position) const

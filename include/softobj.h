@@ -24,6 +24,8 @@ constexpr int SIZE_MOST = 100;
 struct Link {
     SoftObject* object;
     Real weight;
+    Vector apart;  // from this end to the other at the last update, and the other's size then
+    Real size;
 
     bool operator==(const Link& other) const { return object == other.object; }
 };
@@ -222,7 +224,9 @@ private:
         int16_t spread;   // greatest |direction - axis|, the same scale
         int32_t across;   // middle . axis and radius in 1/32 unit
         int32_t radius32;
+        uint32_t reached; // which neighbours reached it at the last update, as a sum of their marks
         uint8_t state;    // PatchState
+        bool extras;      // oversampled seeds among them take part
     };
     enum PatchState : uint8_t { PATCH_UNKNOWN, PATCH_AT_REST, PATCH_BURIED, PATCH_MIXED };
 
@@ -244,6 +248,7 @@ private:
     };
 
     void tellNeighbours();
+    void linkChanged();
     bool inRange(const SoftObject& other) const;
     void buildPatches();
     static void facePatch(Patch& patch, const Vector& axis);
@@ -278,6 +283,13 @@ private:
     Real laidSize_;   // size when the seeds were laid out
     Real spread_;     // greatest position of a settled seed
     const uint8_t* ramp_;
+    // More than any seed waits.
+    static constexpr uint16_t TRAVEL_JUMP = 0x4000;
+    // How far the things that its seeds see (neighbours, viewer) have moved against it, 1/16 unit; wraps round. And where
+    // the viewer was at the last update.
+    uint16_t travel_;
+    Vector eyeApart_;
+    Real sizeSeen_;
 
     Seed* seeds_;
     int regular_;

@@ -37,11 +37,7 @@ public:
     // Starts a frame: clears what the last one touched.
     void begin();
 
-    // Announces that all that is drawn until the next call lies within `reach` units of `centre`: these parts of the
-    // rows will be cleared and presented.
-    void touch(const Point& centre, Real reach);
-
-    // Draws voxels; those before the near plane (1 unit), behind 511 units or off the screen are left out. Returns the
+    // Draws voxels (of one object, so that what they touch is a compact part of the screen); those before the near plane (1 unit), behind 511 units or off the screen are left out. Returns the
     // number of scales drawn.
     int show(const Voxel* voxels, int count);
 
@@ -64,12 +60,12 @@ private:
     void closeGap(int at);
     bool project(const Voxel& voxel, Scale* scale) const;
 
-    // 12 bits of fraction; voxels from 64 to 256 units away find their factors in a table, by steps of 1/8 unit.
+    // 12 bits of fraction; voxels from 64 to 256 units away find their factors in a table, by steps of 1/4 unit.
     struct Factors {
         int32_t x, y;  // focal 2^44 / z (z in 16.16)
     };
-    static constexpr int NEAR_STEPS = 64 * 8;
-    static constexpr int FAR_STEPS = 256 * 8;
+    static constexpr int NEAR_STEPS = 64 * 4;
+    static constexpr int FAR_STEPS = 256 * 4;
 
     Camera camera_;
     int32_t focalX_ = 0, focalY_ = 0, centreX_ = 0, centreY_ = 0;  // pixels, 12 bits of fraction

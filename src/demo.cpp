@@ -207,7 +207,6 @@ void Demo::frame()
             const Time height = phase < PULSE ? phase : 2 * PULSE - phase;
             object.setRamp(palette_.raised(ramp, static_cast<int>(static_cast<uint32_t>(height) * PULSE_STEPS / PULSE)));
         }
-        view_.touch(object.centre(), object.reach());
         int next = 0;
         do {
             const int some = object.draw(look, voxels_, VOXELS_AT_ONCE, &next);

@@ -22,7 +22,6 @@ void makeFieldSteps()
     // Each entry stands for the middle of its step.
     for (int i = 0; i < FIELD_STEPS; ++i) {
         const Real t = realFromRaw((2 * i + 1) * (65536 / FIELD_STEPS / 2));
-        fieldSteps[i].value = static_cast<int16_t>(rawFromReal(geoff(t)) >> 2);
-        fieldSteps[i].slope = static_cast<int16_t>(rawFromReal(geoffSlope(t)) >> 3);
+        fieldSteps[i] = {geoff(t), geoffSlope(t)};
     }
 }

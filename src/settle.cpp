@@ -28,7 +28,7 @@ const Real PROBES[] = {Real(1.15), Real(1.35), POSITION_MOST};
 // Squared distance / squared size up to which a neighbour alone fills what the own field lacks at POSITION_MOST: its
 // field is 0.38 there.
 constexpr Real BURYING(0.265);
-constexpr Real DISPLACEMENT(0.004);  // of the position: less is taken as not moved
+constexpr Real DISPLACEMENT(0.008);  // of the position: less is taken as not moved
 
 // A neighbour in range, as the seeds of this object see it.
 struct Near {
@@ -45,6 +45,7 @@ struct Near {
     Real touching;   // b below this: its field reaches the seed at rest
     Real burying;    // b below this: the whole stretch of the path up to POSITION_MOST lies inside the surface
     Vector fromIt16; // fromIt / 16
+    uint32_t mark;   // for SoftObject::Patch::reached
 };
 
 // b of a path, see Near.
@@ -57,6 +58,11 @@ inline Real alongPath(const Near& near, const Vector& path)
     return dot(path, near.twice);
 #endif
 }
+
+// How long seeds wait (travel()): units of travel for a field difference of 1 in sizes, for a facing of 1 in radii.
+constexpr Real WAIT_FIELD(0.3);
+constexpr Real WAIT_FACING(1.0);
+constexpr Real WAIT_APART(0.45);  // and for a difference of 1 in squared distance / squared size
 
 constexpr Real TWICE_LIMIT(7.9);  // units of twice, so that its scaled form fits
 
@@ -79,18 +85,26 @@ public:
 
 private:
     enum Reach { UNREACHED, REACHED, BURIED };
-    Reach reachOf(const SoftObject::Patch& patch);
+    Reach reachOf(const SoftObject::Patch& patch, uint32_t& reached);
     void rest(SoftObject::Patch& patch);
     void bury(SoftObject::Patch& patch);
-    void settleSeed(Seed& s);
-    Real lookAt(Real position, Real& slope);
-    bool parted(const Seed& a, const Seed& b) const
+    bool waits(const Seed& s) const
     {
-        return ((a.flags ^ b.flags) & SEED_VALID) != 0 ||
-               ((a.flags & SEED_VALID) != 0 && absolute(a.position - b.position) > parting_);
+        return (s.flags & SEED_WAITS) && static_cast<int16_t>(s.due - travel_) > 0;
     }
-    bool newton(Real& position);
+    template <bool PLAIN>
+    void settlePatches();
+    template <bool PLAIN>
+    void settleSeed(Seed& s);
+    template <bool PLAIN>
+    Real lookAt(Real position, Real& slope);
+    template <bool PLAIN>
+    bool newton(Real& position, Real field, Real slope);
+    void travel();
+    void wait(Seed& s, uint8_t flags, Real units);
+    template <bool PLAIN>
     bool bracket(Real& position);
+    template <bool PLAIN>
     void shade(Seed& s, Real position);
     void addNear(const Link& link);
 
@@ -105,14 +119,20 @@ private:
     const Near* touch_[NEAR_MOST];
     int touchCount_ = 0;
     int rootIndex_ = -1;
-    Vector path_;
+    Vector path_;                    // not in the plain case, where the root is the centre
     Point root_;
+    Real depth_;                     // of the centre, along the viewing axis
     Real b_[NEAR_MOST];
-    Real own_, ownSlope_;            // of the last look
+    Real ownSlope_;                  // of the last look
     Real slopes_[NEAR_MOST];         // dF/dt of each active neighbour, weight not included
     Vector from_[NEAR_MOST];         // not quick ones: from the nearest point of the core, / 16
-    bool strongest_;                 // no neighbour is stronger than the overshoot allows
+    Real strength_;                  // by how much the strongest neighbour is stronger than the overshoot allows
+    Real buried_;                    // least excess of the field where bracket() looked in vain
     Real overshoot_;
+    uint32_t looks_ = 0;
+    uint16_t travel_ = 0;
+    Real waiting_, waitingApart_;    // units of travel for a difference of 1 in the field, in squared distance
+    int32_t facingWait_;             // 1/16 unit of travel for a facing of 1/32 unit, 16 bits of fraction
     Real parting_;                   // difference of positions that activates the seed between
     EyeSide eye_;
     ShadeSetup shadeSetup_;
@@ -123,6 +143,7 @@ void Settler::addNear(const Link& link)
     const SoftObject& other = *link.object;
     Near& n = near_[nearCount_++];
     n.object = &other;
+    n.mark = static_cast<uint32_t>(other.number()) * 0x9e3779b1u | 1;
     n.weight = link.weight;
     n.plain = link.weight == Real(1);
     n.fromIt = o_.centre() - other.centre();
@@ -168,46 +189,62 @@ void Settler::settle()
     // A seed stays valid a way past the border where a neighbour becomes stronger: as a distance, about one spacing and
     // a half. The fields of the two change by about 3 / size a unit there.
     overshoot_ = least(Real(4.5) * o_.spacing_ / o_.size_, Real(0.7));
-    parting_ = Real(0.35) * o_.spacing_ / o_.radius_;
+    parting_ = Real(1.0) * o_.spacing_ / o_.radius_;
     eye_.set(look_.eye - o_.centre_, o_.radius_);
+    travel();
+    depth_ = o_.centre_.z - look_.eye.z;
     shadeSetup_.set(look_.light, o_.spacing_);
 
-    for (int p = 0; p < o_.patchCount_; ++p) {
-        SoftObject::Patch& patch = o_.patches_[p];
-        const Reach reach = reachOf(patch);
-        if (reach == UNREACHED) {
-            if (patch.state != SoftObject::PATCH_AT_REST)
-                rest(patch);
-            continue;
-        }
-        if (reach == BURIED) {
-            o_.displaced_ = true;
-            if (patch.state != SoftObject::PATCH_BURIED)
-                bury(patch);
-            continue;
-        }
-        patch.state = SoftObject::PATCH_MIXED;
-        Seed* s = o_.seeds_ + 2 * patch.first;
-        for (int i = patch.count; i > 0; --i, s += 2) {
-            settleSeed(s[0]);
-            Seed& extra = s[1];
-            if (s->neighbour >= 0 && parted(s[0], o_.seeds_[s->neighbour])) {
-                settleSeed(extra);
-                extra.flags |= SEED_ACTIVE;
-                if ((s->flags ^ o_.seeds_[s->neighbour].flags) & SEED_VALID) {
-                    extra.flags |= SEED_EDGE;
-                    s->flags |= SEED_EDGE;
-                    o_.seeds_[s->neighbour].flags |= SEED_EDGE;
-                }
-            } else {
-                extra.flags = 0;
-            }
-        }
+    bool plain = o_.coreReach() == Real(0);
+    for (int i = 0; i < nearCount_; ++i)
+        plain = plain && near_[i].quick && near_[i].plain;
+    if (plain)
+        settlePatches<true>();
+    else
+        settlePatches<false>();
+    look_.counts->iterations += looks_;
+}
+
+// Adds up how far neighbours and viewer have moved against the object since its last update, and finds how long seeds may
+// wait: a field changes by at most about 2 / size a unit, a normal turns by about 1 / radius.
+void Settler::travel()
+{
+    const auto step = [](Vector& last, const Vector& now) {
+        const Vector d = now - last;
+        last = now;
+        return absolute(d.x) + absolute(d.y) + absolute(d.z);
+    };
+    Real farthest(0), smallest = o_.size_;
+    bool balls = o_.coreReach() == Real(0);
+    for (List<Link>::Node* node = o_.skel_.first(); node != nullptr; node = node->next) {
+        const SoftObject& other = *node->item.object;
+        farthest = most(farthest, step(node->item.apart, other.centre_ - o_.centre_) +
+                                      absolute(other.size_ - node->item.size));
+        node->item.size = other.size_;
+        smallest = least(smallest, other.size_);
+        balls = balls && other.coreReach() == Real(0);
     }
+    const Real eye = step(o_.eyeApart_, look_.eye - o_.centre_);
+    const Real sum = farthest + shiftDown(eye, 3) + absolute(o_.size_ - o_.sizeSeen_);
+    o_.sizeSeen_ = o_.size_;
+    // Where a turn may matter seeds are looked at every time.
+    const int32_t steps = (rawFromReal(least(sum, Real(1000))) >> 12) + 1;
+    o_.travel_ = static_cast<uint16_t>(o_.travel_ + (balls && steps < SoftObject::TRAVEL_JUMP ? steps : SoftObject::TRAVEL_JUMP));
+    travel_ = o_.travel_;
+    waiting_ = smallest * WAIT_FIELD;
+    waitingApart_ = smallest * WAIT_APART;
+    facingWait_ = mulDiv(rawFromReal(o_.radius_ * WAIT_FACING), 16, eye_.distance32());
+}
+
+// Nothing to see of this seed until things have moved by `units` (0..100).
+inline void Settler::wait(Seed& s, uint8_t flags, Real units)
+{
+    s.flags = static_cast<uint8_t>(flags | SEED_WAITS);
+    s.due = static_cast<int16_t>(travel_ + (rawFromReal(units) >> 12));
 }
 
 // Which neighbours reach the patch: they become the active ones.
-Settler::Reach Settler::reachOf(const SoftObject::Patch& patch)
+Settler::Reach Settler::reachOf(const SoftObject::Patch& patch, uint32_t& reached)
 {
     activeCount_ = 0;
     for (int i = 0; i < nearCount_; ++i) {
@@ -216,13 +253,17 @@ Settler::Reach Settler::reachOf(const SoftObject::Patch& patch)
             const Real b = alongPath(near, patch.middle), change = near.swing * patch.radius;
             if (b + change < near.burying)
                 return BURIED;
-            if (b - change < near.touching)
+            if (b - change < near.touching) {
                 active_[activeCount_++] = &near;
+                reached += near.mark;
+            }
         } else {
             const Vector v = near.object->fromCore(o_.centre_ + patch.middle);
             const Real limit = near.reach + patch.radius;
-            if (absolute(v.x) < limit && absolute(v.y) < limit && absolute(v.z) < limit)
+            if (absolute(v.x) < limit && absolute(v.y) < limit && absolute(v.z) < limit) {
                 active_[activeCount_++] = &near;
+                reached += near.mark;
+            }
         }
     }
     return activeCount_ > 0 ? REACHED : UNREACHED;
@@ -252,21 +293,23 @@ void Settler::rest(SoftObject::Patch& patch)
     patch.state = SoftObject::PATCH_AT_REST;
 }
 
-// The field at a position of the path at hand, its slope along the path, and what the normal needs.
+// The field at a position of the path at hand (0.95 .. POSITION_MOST), its slope along the path, and what the normal
+// needs. PLAIN: all neighbours are quick and have weight 1.
+template <bool PLAIN>
 inline Real Settler::lookAt(Real position, Real& slope)
 {
-    ++look_.counts->iterations;
-    geoffQuick(least(shiftDown(position * position, 2), Real(0.999)), own_, ownSlope_);
-    Real field = own_;
-    slope = ownSlope_ * shiftDown(position, 1);
-    Real strongest(0);
+    ++looks_;
+    const FieldStep& own = geoffQuick(shiftDown(position * position, 2));
+    Real field = own.value, steep = own.slope * shiftDown(position, 1), strongest(0);
+    ownSlope_ = own.slope;
     for (int n = 0; n < touchCount_; ++n) {
         const Near& near = *touch_[n];
         Real t, change;
-        if (near.quick) {
+        if (PLAIN || near.quick) {
             const Real c = position * near.c0;
-            t = near.a0 + position * (b_[n] + c);
-            change = b_[n] + c + c;
+            change = b_[n] + c;
+            t = near.a0 + position * change;
+            change += c;
         } else {
             const Vector v = near.object->fromCore(root_ + path_ * position);
             t = near.object->coreParam(v);
@@ -274,40 +317,51 @@ inline Real Settler::lookAt(Real position, Real& slope)
             const Real inverse = Real(16) / near.reach;
             change = shiftDown(dot(v * inverse, path_ * inverse), 7);
         }
-        if (t >= Real(1)) {
+        if (static_cast<uint32_t>(rawFromReal(t)) >= 65536) {
             slopes_[n] = Real(0);
             continue;
         }
-        Real part, partSlope;
-        geoffQuick(most(t, Real(0)), part, partSlope);
-        slopes_[n] = partSlope;
-        Real steep = partSlope * change;
-        if (!near.plain) {
+        const FieldStep& step = geoffQuick(t);
+        slopes_[n] = step.slope;
+        Real part = step.value, partSlope = step.slope * change;
+        if (!PLAIN && !near.plain) {
             part = part * near.weight;
-            steep = steep * near.weight;
+            partSlope = partSlope * near.weight;
         }
         field += part;
-        slope += steep;
+        steep += partSlope;
         strongest = most(strongest, part);
     }
-    strongest_ = strongest <= own_ + overshoot_;
+    slope = steep;
+    strength_ = strongest - own.value - overshoot_;
     return field;
 }
 
-// From a position near the surface. False: the method does not apply here. Leaves the last look's terms for the normal.
-bool Settler::newton(Real& position)
+// a / b where the quotient is known to fit.
+inline Real quotient(Real a, Real b)
+{
+#if FB_REAL == FB_FIXED
+    return Real::fromRaw(mulDiv(a.raw, 65536, b.raw));
+#else
+    return a / b;
+#endif
+}
+
+// From a position near the surface, and what a look there found. False: the method does not apply here. Leaves the last
+// look's terms for the normal.
+template <bool PLAIN>
+inline bool Settler::newton(Real& position, Real field, Real slope)
 {
     for (int i = 0; i < LOOK_LIMIT; ++i) {
-        Real slope;
-        const Real difference = lookAt(position, slope) - ISOVALUE;
         if (slope > FLAT)
             return false;
-        const Real step = clamp(-difference / slope, -LONGEST_STEP, LONGEST_STEP);
+        const Real step = clamp(quotient(ISOVALUE - field, slope), -LONGEST_STEP, LONGEST_STEP);
         position += step;
         if (position < Real(0.95) || position > POSITION_MOST)
             return false;
         if (absolute(step) <= SHORT_STEP)
             return true;
+        field = lookAt<PLAIN>(position, slope);
     }
     ++look_.counts->unsettled;
     return false;
@@ -315,27 +369,31 @@ bool Settler::newton(Real& position)
 
 // From nothing: where the path leaves the surface before POSITION_MOST. Inside at 1, where the own field alone is the
 // isovalue. False: it does not leave.
+template <bool PLAIN>
 bool Settler::bracket(Real& position)
 {
     Real slope;
     Real inside(1), outside(0);
+    buried_ = Real(1);
     for (const Real probe : PROBES) {
-        if (lookAt(probe, slope) < ISOVALUE) {
+        const Real excess = lookAt<PLAIN>(probe, slope) - ISOVALUE;
+        if (excess < Real(0)) {
             outside = probe;
             break;
         }
+        buried_ = least(buried_, excess);
         inside = probe;
     }
     if (outside == Real(0))
         return false;
     position = shiftDown(inside + outside, 1);
     for (int i = 0; i < LOOK_LIMIT; ++i) {
-        const Real difference = lookAt(position, slope) - ISOVALUE;
+        const Real difference = lookAt<PLAIN>(position, slope) - ISOVALUE;
         if (difference >= Real(0))
             inside = position;
         else
             outside = position;
-        Real next = slope < FLAT ? position - difference / slope : outside;
+        Real next = slope < FLAT ? position - quotient(difference, slope) : outside;
         if (absolute(next - position) <= shiftDown(SHORT_STEP, 1)) {
             position = next;
             return true;
@@ -347,77 +405,87 @@ bool Settler::bracket(Real& position)
     return true;
 }
 
+template <bool PLAIN>
 void Settler::settleSeed(Seed& s)
 {
-    path_ = s.path;
-    root_ = o_.roots_[s.root];
+    const Vector path{s.path.x, s.path.y, s.path.z};
+    if (!PLAIN) {
+        path_ = path;
+        root_ = o_.roots_[s.root];
+    }
 
     // Which neighbours are near enough to matter, or one so near that the seed lies inside anyway?
-    touchCount_ = 0;
+    int touching = 0;
+    Real apart(1);
     for (int n = 0; n < activeCount_; ++n) {
         const Near& near = *active_[n];
-        if (near.quick) {
-            const Real b = alongPath(near, path_);
-            if (b < near.burying) {
-                s.position = Real(1);
-                s.flags = 0;
-                o_.displaced_ = true;
-                return;
+        if (PLAIN || near.quick) {
+            const Real b = alongPath(near, path);
+            const Real beyond = b - near.touching;
+            if (beyond < Real(0)) {
+                if (b < near.burying) {
+                    s.position = Real(1);
+                    o_.displaced_ = true;
+                    wait(s, 0, (near.burying - b) * waitingApart_);
+                    return;
+                }
+                b_[touching] = b;
+                touch_[touching++] = &near;
+            } else {
+                apart = least(apart, beyond);
             }
-            if (b < near.touching) {
-                b_[touchCount_] = b;
-                touch_[touchCount_++] = &near;
-            }
-        } else if (near.object->coreParam(near.object->fromCore(root_ + path_)) < Real(1)) {
-            touch_[touchCount_++] = &near;
+        } else if (near.object->coreParam(near.object->fromCore(root_ + path)) < Real(1)) {
+            touch_[touching++] = &near;
         }
     }
-    if (touchCount_ == 0) {
+    touchCount_ = touching;
+    if (touching == 0) {
         s.position = Real(1);
-        s.flags = SEED_VALID;
+        wait(s, SEED_VALID, apart * waitingApart_);
         s.brightness = s.restBrightness;
         s.wide = s.restWide;
         s.high = s.restHigh;
         return;
     }
-    if (s.root != rootIndex_) {
+    if (!PLAIN && s.root != rootIndex_) {
         rootIndex_ = s.root;
         eye_.root(root_ - o_.centre_);
     }
-    if (eye_.away(eye_.along(s))) {
-        s.flags = 0;
+    const int32_t away = eye_.away(eye_.along(s));
+    if (away > 0) {
+        s.flags = SEED_WAITS;
+        s.due = static_cast<int16_t>(travel_ + (away * facingWait_ >> 16));
         return;
     }
     ++look_.counts->updated;
     o_.displaced_ = true;
     Real position = s.position;
+    bool settled = false;
     if (s.flags & (SEED_VALID | SEED_PLACED)) {
-        if (s.flags & SEED_KEPT) {
-            Real slope;
-            const Real difference = lookAt(position, slope) - ISOVALUE;
-            if (absolute(difference) <= DISPLACEMENT && strongest_)
-                return;  // where it was, and what is known of it holds
-        }
-        if (!newton(position) && !bracket(position)) {
-            s.flags = 0;
-            s.position = Real(1);
-            return;
-        }
-    } else if (!bracket(position)) {
+        Real slope;
+        const Real field = lookAt<PLAIN>(position, slope);
+        if ((s.flags & SEED_KEPT) && strength_ <= Real(0) && absolute(field - ISOVALUE) <= DISPLACEMENT)
+            return;  // where it was, and what is known of it holds
+        settled = newton<PLAIN>(position, field, slope);
+    }
+    if (!settled && !bracket<PLAIN>(position)) {
+        // Inside everywhere: buried by this much of the field at least.
         s.position = Real(1);
+        wait(s, 0, buried_ * waiting_);
         return;
     }
     s.position = position;
-    if (!strongest_) {
-        s.flags = SEED_PLACED;
+    if (strength_ > Real(0)) {
+        wait(s, SEED_PLACED, strength_ * waiting_);
         return;
     }
     o_.spread_ = most(o_.spread_, position);
-    shade(s, position);
+    shade<PLAIN>(s, position);
 }
 
 // Brightness, extents and tilt from the gradient of the field, put together from the last look.
-void Settler::shade(Seed& s, Real position)
+template <bool PLAIN>
+inline void Settler::shade(Seed& s, Real position)
 {
     // -grad F, but for a factor: path position (ownSlope + sum slope ratio) + sum slope ratio fromIt.
     Real along = ownSlope_;
@@ -425,7 +493,7 @@ void Settler::shade(Seed& s, Real position)
     for (int n = 0; n < touchCount_; ++n) {
         const Near& near = *touch_[n];
         const Real share = slopes_[n] * near.ratio;
-        if (near.quick) {
+        if (PLAIN || near.quick) {
             along += share;
             g = g - near.fromIt16 * share;
         } else {
@@ -437,7 +505,8 @@ void Settler::shade(Seed& s, Real position)
     const int32_t cosine = (normal.x * s.dirX + normal.y * s.dirY + normal.z * s.dirZ) >> 14;
     const int32_t facing = eye_.facing(normal, cosine, position);
     if (!eye_.faces(facing)) {
-        s.flags = SEED_VALID | SEED_PLACED;
+        s.flags = SEED_VALID | SEED_PLACED | SEED_WAITS;
+        s.due = static_cast<int16_t>(travel_ + (-facing * facingWait_ >> 16));
         return;
     }
     ++look_.counts->normals;
@@ -447,7 +516,7 @@ void Settler::shade(Seed& s, Real position)
     Lie lie;
     lie.wide = s.wide;
     lie.high = s.high;
-    layDown(normal.x, normal.y, facing, rawFromReal(root_.z + s.path.z * position - look_.eye.z) >> 11,
+    layDown(normal.x, normal.y, facing, rawFromReal((PLAIN ? depth_ : root_.z - look_.eye.z) + s.path.z * position) >> 11,
             2 * eye_.radius32(), lie);  // blending flattens: the horizon may be twice as far
     s.wide = lie.wide;
     s.high = lie.high;
@@ -455,6 +524,70 @@ void Settler::shade(Seed& s, Real position)
     s.tiltY = lie.tiltY;
     s.shiftX = static_cast<int16_t>(lie.shiftX);
     s.shiftY = static_cast<int16_t>(lie.shiftY);
+}
+
+// All patches of the object, seed by seed where a neighbour reaches them.
+template <bool PLAIN>
+void Settler::settlePatches()
+{
+    Seed* const seeds = o_.seeds_;
+    for (int p = 0; p < o_.patchCount_; ++p) {
+        SoftObject::Patch& patch = o_.patches_[p];
+        uint32_t reached = 0;
+        const Reach reach = reachOf(patch, reached);
+        if (reach == UNREACHED) {
+            if (patch.state != SoftObject::PATCH_AT_REST)
+                rest(patch);
+            continue;
+        }
+        if (reach == BURIED) {
+            o_.displaced_ = true;
+            if (patch.state != SoftObject::PATCH_BURIED)
+                bury(patch);
+            continue;
+        }
+        patch.state = SoftObject::PATCH_MIXED;
+        Seed* s = seeds + 2 * patch.first;
+        Seed* const end = s + 2 * patch.count;
+        if (patch.reached != reached) {
+            // One that it does not know of came near: nobody waits any longer.
+            patch.reached = reached;
+            for (Seed* each = s; each < end; ++each)
+                each->flags = static_cast<uint8_t>(each->flags & ~SEED_WAITS);
+        }
+        bool extras = false;
+        for (; s < end; s += 2) {
+            if (!waits(s[0]))
+                settleSeed<PLAIN>(s[0]);
+            Seed& extra = s[1];
+            if (s->neighbour < 0)
+                continue;
+            Seed& other = seeds[s->neighbour];
+            const uint8_t either = s->flags | other.flags;
+            if (!(either & SEED_PLACED) || !(either & SEED_VALID)) {
+                extra.flags = 0;
+                continue;
+            }
+            const bool belt = ((s->flags ^ other.flags) & SEED_VALID) != 0;
+            if (!belt && absolute(s->position - other.position) <= parting_) {
+                extra.flags = 0;
+                continue;
+            }
+            extras = true;
+            if (!waits(extra))
+                settleSeed<PLAIN>(extra);
+            extra.flags |= SEED_ACTIVE;
+            if (belt) {
+                // A gap may show between the one that is on the surface and the other.
+                Seed& valid = s->flags & SEED_VALID ? *s : other;
+                if ((valid.flags & (SEED_FRONT | SEED_PLACED)) == (SEED_FRONT | SEED_PLACED)) {
+                    valid.flags |= SEED_EDGE;
+                    valid.due = static_cast<int16_t>(&valid == s ? &other - s : s - &other);
+                }
+            }
+        }
+        patch.extras = extras;
+    }
 }
 
 void SoftObject::updateQuick(const Look& look)
@@ -469,7 +602,7 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
     int root = 0;
     Vector rootPlace = roots_[0] - look.eye;
     Voxel* v = voxels;
-    const int16_t gap = static_cast<int16_t>(rawFromReal(spacing_ * Real(1.5)) >> 8);
+    const int16_t gap = static_cast<int16_t>(rawFromReal(spacing_ * Real(1.25)) >> 8);
     const int32_t setBack = mulDiv(1 << 30, 1 << 17, rawFromReal(most(radius_, Real(2))));  // 2^31 / radius
     const Voxel* const full = voxels + room - 4 * PATCH_SEEDS;
     int p = *next;
@@ -482,7 +615,7 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
             continue;
         const Seed* s = seeds_ + 2 * patch.first;
         const Seed* const end = s + 2 * patch.count;
-        const int step = atRest ? 2 : 1;
+        const int step = patch.extras && !atRest ? 1 : 2;
         for (; s < end; s += step) {
             if (!(s->flags & SEED_VALID))
                 continue;
@@ -524,7 +657,8 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
             ++v;
             if (s->flags & SEED_EDGE) {
                 // A place where the surface is stretched so much that a gap may show.
-                v->place = rootPlace + s->path * s->position;
+                const Vector aside = (s[s->due].path - s->path) * Real(0.625);
+                v->place = rootPlace + s->path * s->position + aside;
                 v->wide = v->high = gap;
                 v->colour = GAP;
                 ++v;

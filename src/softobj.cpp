@@ -162,7 +162,7 @@ private:
 SoftObject::SoftObject(int number, Real size, bool tapers)
     : number_(number), centre_{Real(0), Real(0), Real(0)}, turn_(Matrix::identity()), size_(size),
       radius_(shiftDown(size, 1)), inverse_(Real(16) / size), recalc_(true), turned_(false), tapers_(tapers),
-      displaced_(false), linkedChange_(false), spacing_(2), wanted_(2), laidSize_(size), spread_(1), ramp_(nullptr),
+      displaced_(false), linkedChange_(false), spacing_(2), wanted_(2), laidSize_(size), spread_(1), ramp_(nullptr), travel_(0), eyeApart_{Real(0), Real(0), Real(0)}, sizeSeen_(size),
       seeds_(nullptr), regular_(0), extra_(0), roots_(nullptr), rootRest_(nullptr), rootCount_(0), rest_(nullptr),
       patchRest_(nullptr), patches_(nullptr), patchCount_(0), kept_(nullptr)
 {
@@ -362,6 +362,8 @@ void SoftObject::buildPatches()
     for (int p = 0; p < patchCount_; ++p) {
         Patch& patch = patches_[p];
         patch.state = PATCH_UNKNOWN;
+        patch.reached = 0;
+        patch.extras = false;
         Vector middle{Real(0), Real(0), Real(0)}, axis = middle;
         const Real share = Real(1) / Real(patch.count);
         for (int i = 0; i < patch.count; ++i) {
@@ -652,21 +654,28 @@ bool SoftObject::inRange(const SoftObject& other) const
     return length(centre_ - other.centre_) < core + most(radius_ + other.size_, other.radius_ + size_);
 }
 
+// What seeds know of the surface around them is void.
+void SoftObject::linkChanged()
+{
+    recalc_ = true;
+    travel_ = static_cast<uint16_t>(travel_ + TRAVEL_JUMP);
+}
+
 bool SoftObject::link(SoftObject* other, Real weight)
 {
-    Link* there = skel_.find({other, Real(0)});
+    Link* there = skel_.find({other, Real(0), {}, {}});
     if (there != nullptr)
         there->weight = weight;
-    else if (!skel_.append({other, weight}))
+    else if (!skel_.append({other, weight, {}, {}}))
         return false;
-    recalc_ = true;
+    linkChanged();
     return true;
 }
 
 void SoftObject::unlink(SoftObject* other)
 {
-    if (skel_.remove({other, Real(0)}))
-        recalc_ = true;
+    if (skel_.remove({other, Real(0), {}, {}}))
+        linkChanged();
 }
 
 // --- The field

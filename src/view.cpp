@@ -65,11 +65,11 @@ void View::setCamera(const Camera& camera)
     unitX_ = mulDiv(1 << 30, 1 << 13, focalX_);
     unitY_ = mulDiv(1 << 30, 1 << 13, focalY_);
     for (int i = NEAR_STEPS; i < FAR_STEPS; ++i) {
-        // The middle of the step: z = (i + 1/2) / 8 units = (2i + 1) 2^12 in 16.16. focal 2^44 / z = focal12 2^32 / z
-        // = focal12 2^20 / (2i + 1); 2^20 in two steps keeps 32 bits for focal lengths up to 500.
+        // The middle of the step: z = (i + 1/2) / 4 units = (2i + 1) 2^13 in 16.16. focal 2^44 / z = focal12 2^32 / z
+        // = focal12 2^19 / (2i + 1); 2^19 in two steps keeps 32 bits for focal lengths up to 500.
         Factors& f = factors_[i - NEAR_STEPS];
-        f.x = mulDiv(focalX_, 1 << 18, 2 * i + 1) * 4;
-        f.y = mulDiv(focalY_, 1 << 18, 2 * i + 1) * 4;
+        f.x = mulDiv(focalX_, 1 << 18, 2 * i + 1) * 2;
+        f.y = mulDiv(focalY_, 1 << 18, 2 * i + 1) * 2;
     }
 }
 
@@ -96,40 +96,13 @@ void View::mark(int left, int top, int right, int bottom)
     }
 }
 
-void View::touch(const Point& centre, Real reach)
-{
-    const Vector v = centre - camera_.eye;
-    const Real nearest = v.z - reach;
-    if (v.z + reach < Real(1))
-        return;
-    if (nearest < Real(4)) {
-        mark(0, 0, WIDTH, HEIGHT);
-        return;
-    }
-    // |x| / z grows towards the viewer: for the far side of a bound on the other side of the axis the nearest z is safe
-    // too when the bound itself is on that side, else the farthest.
-    const Real farthest = v.z + reach;
-    const auto bound = [&](Real edge, bool upper) {
-        return edge / ((edge > Real(0)) == upper ? nearest : farthest);
-    };
-    const Real limit(4);
-    const auto column = [&](Real ratio) {
-        return floorToInt(camera_.centreX + camera_.focalX * clamp(ratio, -limit, limit));
-    };
-    const auto row = [&](Real ratio) {
-        return floorToInt(camera_.centreY - camera_.focalY * clamp(ratio, -limit, limit));
-    };
-    mark(column(bound(v.x - reach, false)) - 1, row(bound(v.y + reach, true)) - 1, column(bound(v.x + reach, true)) + 2,
-         row(bound(v.y - reach, false)) + 2);
-}
-
 // False: not on the screen.
 inline bool View::project(const Voxel& voxel, Scale* scale) const
 {
     const int32_t x = rawFromReal(voxel.place.x), y = rawFromReal(voxel.place.y), z = rawFromReal(voxel.place.z);
     const int32_t wide = voxel.wide * 256, high = voxel.high * 256;
     int32_t column, row, halfWide, halfHigh;
-    const uint32_t step = static_cast<uint32_t>(z >> 13) - NEAR_STEPS;
+    const uint32_t step = static_cast<uint32_t>(z >> 14) - NEAR_STEPS;
     if (step < static_cast<uint32_t>(FAR_STEPS - NEAR_STEPS)) {
         const Factors& f = factors_[step];
         column = mulHigh(x, f.x);
@@ -157,16 +130,14 @@ inline bool View::project(const Voxel& voxel, Scale* scale) const
     int right = (column + halfWide + HALF) >> FRACTION;
     int top = (row - halfHigh + HALF) >> FRACTION;
     int bottom = (row + halfHigh + HALF) >> FRACTION;
-    if (left < 0)
-        left = 0;
-    if (right > WIDTH)
-        right = WIDTH;
-    if (top < 0)
-        top = 0;
-    if (bottom > HEIGHT)
-        bottom = HEIGHT;
+    if ((left | top | (WIDTH - right) | (HEIGHT - bottom)) < 0) {
+        left = left < 0 ? 0 : left;
+        right = right > WIDTH ? WIDTH : right;
+        top = top < 0 ? 0 : top;
+        bottom = bottom > HEIGHT ? HEIGHT : bottom;
+    }
     const int wideNow = right - left, highNow = bottom - top;
-    if (wideNow <= 0 || highNow <= 0)
+    if (((wideNow - 1) | (highNow - 1)) < 0)
         return false;
     scale->left = static_cast<int16_t>(left);
     scale->top = static_cast<int16_t>(top);
@@ -200,16 +171,24 @@ inline bool View::project(const Voxel& voxel, Scale* scale) const
 int View::show(const Voxel* voxels, int count)
 {
     int drawn = 0;
+    int leftmost = WIDTH, topmost = HEIGHT, rightmost = 0, bottommost = 0;
     while (count > 0) {
         const int some = count < SCALES_AT_ONCE ? count : SCALES_AT_ONCE;
         Scale* end = scales_;
         for (int i = 0; i < some; ++i) {
             if (!project(voxels[i], end))
                 continue;
-            if (voxels[i].colour != GAP)
-                ++end;
-            else if (gapCount_ < GAPS_MOST)
-                gaps_[gapCount_++] = *end;
+            if (voxels[i].colour == GAP) {
+                if (gapCount_ < GAPS_MOST)
+                    gaps_[gapCount_++] = *end;
+                continue;
+            }
+            const int left = end->left, top = end->top, right = left + end->wide, bottom = top + end->high;
+            leftmost = left < leftmost ? left : leftmost;
+            topmost = top < topmost ? top : topmost;
+            rightmost = right > rightmost ? right : rightmost;
+            bottommost = bottom > bottommost ? bottom : bottommost;
+            ++end;
         }
         const int scales = static_cast<int>(end - scales_);
         blitScales(frame_, zbuffer_, scales_, scales);
@@ -217,6 +196,8 @@ int View::show(const Voxel* voxels, int count)
         voxels += some;
         count -= some;
     }
+    // Gaps are closed between what was drawn, so these bounds hold for them too.
+    mark(leftmost, topmost, rightmost, bottommost);
     return drawn;
 }
 
@@ -224,11 +205,17 @@ void View::closeGaps()
 {
     for (int i = 0; i < gapCount_; ++i) {
         const Scale& gap = gaps_[i];
-        for (int y = 0; y < gap.high; ++y) {
-            int at = (gap.top + y) * WIDTH + gap.left;
-            for (int x = gap.wide; x > 0; --x, ++at) {
-                if (zbuffer_[at] == Z_EMPTY)
-                    closeGap(at);
+        // Two pixels at a time: a half of `empty` is 0 where its pixel is.
+        const uint16_t* row = zbuffer_ + gap.top * WIDTH + (gap.left & ~1);
+        const int pairs = (gap.wide + (gap.left & 1) + 1) >> 1;
+        for (int y = gap.high; y > 0; --y, row += WIDTH) {
+            for (int x = 0; x < pairs; ++x) {
+                uint32_t two;
+                memcpy(&two, row + 2 * x, sizeof two);
+                if (((~two - 0x00010001u) & two & 0x80008000u) == 0)
+                    continue;
+                closeGap(static_cast<int>(row - zbuffer_) + 2 * x);
+                closeGap(static_cast<int>(row - zbuffer_) + 2 * x + 1);
             }
         }
     }
@@ -237,6 +224,8 @@ void View::closeGaps()
 
 void View::closeGap(int at)
 {
+    if (zbuffer_[at] != Z_EMPTY)
+        return;
     static const int SIDES[] = {-1, 1, -WIDTH, WIDTH};
     int nearest = GAP_WIDEST + 1, from = at;
     const int x = at % WIDTH, y = at / WIDTH;
