@@ -43,6 +43,7 @@ struct Near {
     Vector twice;    // b = path . twice; in 16.16: scaled by 2^12 and used with mulHigh
     Real swing;      // length of twice: how much b changes over a unit
     Real touching;   // b below this: its field reaches the seed at rest
+    Real meeting;    // b below this: its field reaches the path somewhere up to POSITION_MOST
     Real burying;    // b below this: the whole stretch of the path up to POSITION_MOST lies inside the surface
     Vector fromIt16; // fromIt / 16
 };
@@ -148,6 +149,8 @@ void Settler::addNear(const Link& link)
     n.swing = length(twice) + Real(0.0001);
     // At rest, or a way further out where other neighbours may have pulled the seed.
     n.touching = most(TOUCHING - n.a0 - n.c0, (TOUCHING - n.a0 - n.c0 * Real(1.44)) * Real(1 / 1.2));
+    n.meeting = most(n.touching, most((TOUCHING - n.a0 - n.c0 * Real(2.25)) * Real(1 / 1.5),
+                                      (TOUCHING - n.a0 - n.c0 * (POSITION_MOST * POSITION_MOST)) * (Real(1) / POSITION_MOST)));
     // t is convex along the path: what holds at both ends of the stretch holds between.
     n.burying = least(BURYING - n.a0 - n.c0,
                       (BURYING - n.a0 - n.c0 * (POSITION_MOST * POSITION_MOST)) * (Real(1) / POSITION_MOST));
@@ -210,22 +213,26 @@ void Settler::settle()
 Settler::Reach Settler::reachOf(const SoftObject::Patch& patch)
 {
     activeCount_ = 0;
+    bool reached = false;
     for (int i = 0; i < nearCount_; ++i) {
         const Near& near = near_[i];
         if (near.quick) {
             const Real b = alongPath(near, patch.middle), change = near.swing * patch.radius;
             if (b + change < near.burying)
                 return BURIED;
-            if (b - change < near.touching)
+            reached |= b - change < near.touching;
+            if (b - change < near.meeting)
                 active_[activeCount_++] = &near;
         } else {
             const Vector v = near.object->fromCore(o_.centre_ + patch.middle);
             const Real limit = near.reach + patch.radius;
-            if (absolute(v.x) < limit && absolute(v.y) < limit && absolute(v.z) < limit)
+            if (absolute(v.x) < limit && absolute(v.y) < limit && absolute(v.z) < limit) {
+                reached = true;
                 active_[activeCount_++] = &near;
+            }
         }
     }
-    return activeCount_ > 0 ? REACHED : UNREACHED;
+    return reached ? REACHED : UNREACHED;
 }
 
 void Settler::bury(SoftObject::Patch& patch)
@@ -335,7 +342,8 @@ bool Settler::bracket(Real& position)
             inside = position;
         else
             outside = position;
-        Real next = slope < FLAT ? position - difference / slope : outside;
+        // Where the field is flat a step of Newton's goes nowhere: halved instead.
+        Real next = slope < FLAT ? position - difference / slope : shiftDown(inside + outside, 1);
         if (absolute(next - position) <= shiftDown(SHORT_STEP, 1)) {
             position = next;
             return true;
@@ -354,6 +362,7 @@ void Settler::settleSeed(Seed& s)
 
     // Which neighbours are near enough to matter, or one so near that the seed lies inside anyway?
     touchCount_ = 0;
+    bool touched = false;
     for (int n = 0; n < activeCount_; ++n) {
         const Near& near = *active_[n];
         if (near.quick) {
@@ -364,15 +373,17 @@ void Settler::settleSeed(Seed& s)
                 o_.displaced_ = true;
                 return;
             }
-            if (b < near.touching) {
+            touched |= b < near.touching;
+            if (b < near.meeting) {
                 b_[touchCount_] = b;
                 touch_[touchCount_++] = &near;
             }
         } else if (near.object->coreParam(near.object->fromCore(root_ + path_)) < Real(1)) {
+            touched = true;
             touch_[touchCount_++] = &near;
         }
     }
-    if (touchCount_ == 0) {
+    if (!touched) {
         s.position = Real(1);
         s.flags = SEED_VALID;
         s.brightness = s.restBrightness;

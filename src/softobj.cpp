@@ -649,7 +649,8 @@ void SoftObject::tellNeighbours()
 bool SoftObject::inRange(const SoftObject& other) const
 {
     const Real core = coreReach() + other.coreReach();
-    return length(centre_ - other.centre_) < core + most(radius_ + other.size_, other.radius_ + size_);
+    // Seeds that others pull out lie as far as the field does.
+    return length(centre_ - other.centre_) < core + size_ + other.size_;
 }
 
 bool SoftObject::link(SoftObject* other, Real weight)
