@@ -11,8 +11,7 @@
 
 // DJGPP's start-up would expand `/?` as a pattern of file names, take `@name` for a file of arguments and read
 // DJGPP.ENV; here a command line is what it says.
-int _crt0_startup_flags = _CRT0_DISABLE_SBRK_ADDRESS_WRAP | _CRT0_FLAG_DISALLOW_RESPONSE_FILES |
-                         _CRT0_FLAG_USE_DOS_SLASHES;
+int _crt0_startup_flags = _CRT0_DISABLE_SBRK_ADDRESS_WRAP | _CRT0_FLAG_DISALLOW_RESPONSE_FILES;
 char** __crt0_glob_function(char*) {
     return nullptr;
 }
