@@ -314,6 +314,18 @@ END
 		(cd "$top" && DEMO=build/san/demo sh tests/edit/run.sh) >san 2>&1
 		ok "under the sanitizers: $(tail -n 1 san)" grep -q ' passed, 0 failed$' san
 	fi
+	# And in DOSBox, by keyboard and mouse.
+	(cd "$top" && sh tests/edit/dos.sh) >dos 2>&1
+	grep -v '^ok ' dos | sed '$d'
+	last=$(tail -n 1 dos)
+	case $last in
+	*" passed, "*" failed")
+		passed=$((passed + ${last%% *}))
+		last=${last##*passed, }
+		failed=$((failed + ${last%% *}))
+		;;
+	*) bad "tests/edit/dos.sh did not reach its end" ;;
+	esac
 fi
 
 echo "$passed passed, $failed failed"
