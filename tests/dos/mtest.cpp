@@ -63,7 +63,15 @@ bool same(dpmi::RealAddress a, dpmi::RealAddress b) {
 
 // ---- rt
 
+volatile int fortyTwo = 42;
+struct Constructed {
+    Constructed() : value(fortyTwo) {}
+    int value;
+};
+Constructed constructed;
+
 void testStrings() {
+    check("static objects are constructed", constructed.value == 42);
     char a[64];
     char b[64];
     memset(a, 'x', sizeof a);
