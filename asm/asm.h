@@ -2,15 +2,20 @@
    DJGPP's COFF, where C symbols carry a leading underscore.
 
    SYM(name)   a symbol shared with C or C++
+   SECTION(name), SECTION_BSS(name)    a section of its own, with code and data, or without contents
    ASM_END     last line of each file: on ELF it says that the file needs no executable stack */
 #ifndef ASM_ASM_H
 #define ASM_ASM_H
 
 #ifdef __DJGPP__
 #define SYM(name) _##name
+#define SECTION(name) .section name, "wx"
+#define SECTION_BSS(name) .section name, "b"
 #define ASM_END
 #else
 #define SYM(name) name
+#define SECTION(name) .section name, "awx", @progbits
+#define SECTION_BSS(name) .section name, "aw", @nobits
 #define ASM_END .section .note.GNU-stack,"",@progbits
 #endif
 

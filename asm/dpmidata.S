@@ -2,7 +2,7 @@
 
 #include "dpmi.h"
 
-        .section .host,"awx",@progbits
+        SECTION(.host)
 
 /* --- Descriptors. Bases are filled in by host_init from gdt_bases. --- */
         .balign 8
@@ -148,7 +148,7 @@ crash_lines:
         .byte   0xff
 
 /* --- Not in the file. --- */
-        .section .hbss,"aw",@nobits
+        SECTION_BSS(.hbss)
         .balign 16
         .globl  idt, ldt, pm_vec, exc_vec, thunks, hlts, tss, callbacks, hook_old, ivt_copy
         .globl  blocks, blocks_end, arenas, arenas_end, rmregs, text

@@ -9,7 +9,7 @@
 #include "dpmi.h"
 #undef i386
 
-        .section .host,"awx",@progbits
+        SECTION(.host)
         .code16
 
 /* Far. In: ES = PSP. Out: carry and DX = message (in our segment, ends with '$') if there is no way. */

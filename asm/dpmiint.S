@@ -18,7 +18,7 @@
 
 #include "dpmi.h"
 
-        .section .host,"awx",@progbits
+        SECTION(.host)
         .code32
 
 /* Vector and error code (or a dummy) are on the stack. */

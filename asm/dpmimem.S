@@ -17,7 +17,7 @@
 #define A_HANDLE    8
 #define ARENA_MIN   0x100000            /* ask XMS for 1 MB at least */
 
-        .section .host,"awx",@progbits
+        SECTION(.host)
         .code32
 
 /* XMS function: EAX = AX, EDX. Out: EAX, EBX, EDX of the driver, in rmregs as well. */

@@ -18,7 +18,7 @@
 
 #include "dpmi.h"
 
-        .section .host,"awx",@progbits
+        SECTION(.host)
 
 /* --- PM to RM. In: rmregs, rm_spss; on that stack FLAGS, IP, CS. Called (then rm_return comes back to the
        caller) or jumped to. DS = HOST_DS. --- */

@@ -6,7 +6,7 @@
 
 #include "dpmi.h"
 
-        .section .host,"awx",@progbits
+        SECTION(.host)
         .code32
 
         .globl  entry_int31

@@ -44,7 +44,7 @@
 
         .code16
         .arch   i8086
-        .section .loader,"awx",@progbits
+        SECTION(.loader)
 
 /* --- Stub information: the program gets it as FS:0. Fields as DJGPP's tools and crt0 expect them. --- */
 stubinfo:
@@ -554,7 +554,7 @@ switch_seg:     .word   0
 file_name:      .fill   96, 1, 0
 file_name_end:
 
-        .section .lbss,"aw",@nobits
+        SECTION_BSS(.lbss)
 file:           .skip   2
 entry:          .skip   6       /* EIP, then the program's code selector */
 client_ds:      .skip   2

@@ -7,11 +7,12 @@
 
 constexpr int MEASURES_MOST = 3;
 
-// A measure of a primitive: its word in a scene file, and the range it may have, units.
+// A measure of a primitive: its word in a scene file, the range it may have, and what a new object has, units.
 struct Measure {
     const char* word;
     Real least;
     Real most;
+    Real usual;
 };
 
 struct Kind {

@@ -3,8 +3,10 @@
 
 #include "alloc.h"
 #include "dump.h"
+#include "edit.h"
 #include "machine.h"
 #include "options.h"
+#include "overlay.h"
 #include "palette.h"
 #include "scene.h"
 #include "shade.h"
@@ -21,13 +23,21 @@ constexpr Real UNITS_A_KEY(2);
 constexpr Real DEPTH_LEAST(-60);
 constexpr Real DEPTH_MOST(120);
 
+// Hands on: what a key does at once, how long a message stays, and where scenes are kept.
+constexpr Real DEGREES_A_KEY(15);
+constexpr Real SIZE_A_KEY(1);
+constexpr Time MESSAGE = 65536 * 3;
+constexpr const char* SCENE_FILE = "SAVED.FB";
+
+constexpr int KEY_BACKSPACE = 8;
+
 // The selected object pulses this long.
 constexpr Time PULSE = 65536 * 3 / 4;
 constexpr int PULSE_STEPS = 20;
 
 class Demo {
 public:
-    explicit Demo(const Options& options) : options_(options) {}
+    explicit Demo(const Options& options) : options_(options), overlay_(view_), editor_(model_) {}
     ~Demo() { free(voxels_); }
 
     int run();
@@ -39,7 +49,11 @@ private:
     void push(Real x, Real y, Real z);
     void select();
     void resample(Real spacing);
+    bool editKey(int code);
+    void changed();
     void frame();
+    void drawOverlay();
+    void countFrames();
     bool finished() const;
     void findTime();
     const char* record();
@@ -59,8 +73,22 @@ private:
     bool ended_ = false;
     bool mousePresent_ = false;
     bool leftHeld_ = false;
-    int selected_ = 0;
     Time selectedAt_ = 0;
+
+    // Hands on.
+    Overlay overlay_;
+    Editor editor_;
+    Time shown_ = 0;        // the time the model is shown at; in interactive mode it stands unless the user lets it run
+    Time lastTime_ = 0;
+    bool running_ = false;
+    Time messageAt_ = 0;
+    bool message_ = false;
+    bool help_ = false;
+    bool fps_ = false;
+    uint64_t fpsSince_ = 0;  // ticks
+    int fpsFrames_ = 0;
+    uint32_t fpsTicks_ = 0;  // of the frames counted last
+    int fpsCounted_ = 0;
 };
 
 // Everything that can fail, before the video mode is touched. Null, or one line; `*status` is then the exit status.
@@ -88,6 +116,7 @@ const char* Demo::prepare(int* status)
         return "not enough memory for the picture";
     view_.setCamera(model_.camera);
     palette_.make(model_, options_.grey);
+    overlay_.setPalette(palette_);
     if (options_.dumpDirectory != nullptr)
         return dump_.open(options_.dumpDirectory);
     return nullptr;
@@ -110,22 +139,23 @@ void Demo::findTime()
 
 void Demo::select()
 {
-    selected_ = (selected_ + 1) % model_.count();
+    editor_.selectNext();
     selectedAt_ = time_;
 }
 
 void Demo::push(Real x, Real y, Real z)
 {
-    // Kept where the viewer sees it: the centre stays on the screen.
-    SoftObject& object = *model_.actor(selected_).object;
+    // Kept where the viewer sees it: the centre stays on the screen. What is beyond already may come back by itself.
+    const Point from = model_.actor(editor_.selected()).object->centre();
     const Camera& camera = model_.camera;
-    Point p = object.centre() + Vector{x, y, z};
-    p.z = clamp(p.z, DEPTH_LEAST, DEPTH_MOST);
-    const Real away = p.z - camera.eye.z;
+    Point p = from + Vector{x, y, z};
+    p.z = clamp(p.z, least(DEPTH_LEAST, from.z), most(DEPTH_MOST, from.z));
+    const Real away = most(p.z - camera.eye.z, Real(1));
     const Real right = away * (camera.centreX / camera.focalX), up = away * (camera.centreY / camera.focalY);
-    p.x = clamp(p.x, camera.eye.x - right, camera.eye.x + right);
-    p.y = clamp(p.y, camera.eye.y - up, camera.eye.y + up);
-    object.moveTo(p);
+    p.x = clamp(p.x, least(camera.eye.x - right, from.x), most(camera.eye.x + right, from.x));
+    p.y = clamp(p.y, least(camera.eye.y - up, from.y), most(camera.eye.y + up, from.y));
+    if (editor_.move(p - from, time_))
+        Anim::move(model_, shown_);
 }
 
 void Demo::mouse()
@@ -162,8 +192,23 @@ void Demo::key(int code)
     case '=': resample(most(spacing_ * Real(0.8), SPACING_LEAST)); return;
     default: break;
     }
+    if (code == machine::KEY_F1) {
+        help_ = !help_;
+        return;
+    }
+    if (code == 'f' || code == 'F') {
+        fps_ = !fps_;
+        fpsSince_ = machine::clock();
+        fpsFrames_ = 0;
+        return;
+    }
     if (!options_.interactive)
         return;
+    if (editKey(code)) {
+        message_ = true;
+        messageAt_ = time_;
+        return;
+    }
     const Real step = UNITS_A_KEY, none(0);
     switch (code) {
     case '\t': select(); break;
@@ -173,16 +218,138 @@ void Demo::key(int code)
     case machine::KEY_DOWN: push(none, -step, none); break;
     case machine::KEY_PGUP: push(none, none, step); break;
     case machine::KEY_PGDN: push(none, none, -step); break;
+    case ' ': running_ = !running_; break;
     default: break;
+    }
+}
+
+// The keys that edit the model. False: `code` is none of them.
+bool Demo::editKey(int code)
+{
+    const Real turn = DEGREES_A_KEY, size = SIZE_A_KEY;
+    bool done = false;
+    switch (code) {
+    case 'x': done = editor_.turn(0, turn, time_); break;
+    case 'X': done = editor_.turn(0, -turn, time_); break;
+    case 'y': done = editor_.turn(1, turn, time_); break;
+    case 'Y': done = editor_.turn(1, -turn, time_); break;
+    case 'z': done = editor_.turn(2, turn, time_); break;
+    case 'Z': done = editor_.turn(2, -turn, time_); break;
+    case '1':
+    case '[': done = editor_.size(-size, time_); break;
+    case '2':
+    case ']': done = editor_.size(size, time_); break;
+    case '3':
+    case ',': done = editor_.measure(-size, time_); break;
+    case '4':
+    case '.': done = editor_.measure(size, time_); break;
+    case machine::KEY_INS:
+    case 'a': done = editor_.add("sphere"); break;
+    case 'c': done = editor_.add("cylinder"); break;
+    case 't': done = editor_.add("torus"); break;
+    case 'd': done = editor_.add("disc"); break;
+    case 'n': done = editor_.add("cone"); break;
+    case machine::KEY_DEL: done = editor_.remove(); break;
+    case 'l': done = editor_.link(); break;
+    case 'k': done = editor_.unlink(); break;
+    case 'u':
+    case KEY_BACKSPACE: done = editor_.undo(); break;
+    case machine::KEY_F2: editor_.save(SCENE_FILE); break;
+    case machine::KEY_F3: done = editor_.load(SCENE_FILE, spacing_); break;
+    default: return false;
+    }
+    if (done)
+        changed();
+    return true;
+}
+
+// Brings everything along that depends on which objects there are.
+void Demo::changed()
+{
+    Anim::move(model_, shown_);
+    palette_.make(model_, options_.grey);
+    machine::setPalette(palette_.dac());
+    overlay_.setPalette(palette_);
+    view_.setCamera(model_.camera);
+    stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
+}
+
+// Frames a second, from the frames of the last half second or more.
+void Demo::countFrames()
+{
+    ++fpsFrames_;
+    const uint64_t ticks = machine::clock() - fpsSince_;
+    if (ticks < machine::CLOCK_HZ / 2)
+        return;
+    fpsCounted_ = fpsFrames_;
+    fpsTicks_ = static_cast<uint32_t>(ticks);
+    fpsSince_ += ticks;
+    fpsFrames_ = 0;
+}
+
+void Demo::drawOverlay()
+{
+    constexpr int EDGE = 3;
+    char text[128];
+    if (options_.interactive) {
+        editor_.describe(text, sizeof text);
+        overlay_.text(EDGE, EDGE, text);
+        // The pointer: where the selected object is, and where a new one would come.
+        const Camera& camera = model_.camera;
+        const Vector v = model_.actor(editor_.selected()).object->centre() - camera.eye;
+        if (v.z > Real(1)) {
+            const Real limit(2);
+            overlay_.cross(floorToInt(camera.centreX + camera.focalX * clamp(v.x / v.z, -limit, limit)),
+                           floorToInt(camera.centreY - camera.focalY * clamp(v.y / v.z, -limit, limit)));
+        }
+        if (message_ && time_ - messageAt_ < MESSAGE)
+            overlay_.text(EDGE, machine::HEIGHT - EDGE - Overlay::LINE_HIGH, editor_.message());
+    }
+    if (fps_) {
+        const int length = formatQuotient(text, sizeof text, static_cast<uint64_t>(fpsCounted_) * machine::CLOCK_HZ,
+                                          fpsTicks_, 1);
+        snprintf(text + length, sizeof text - static_cast<size_t>(length), " fps");
+        overlay_.text(machine::WIDTH - EDGE - Overlay::width(text), machine::HEIGHT - EDGE - Overlay::LINE_HIGH, text);
+    }
+    if (help_) {
+        static const char* const PAGE[] = {
+            "F1     this page       f  frames a second",
+            "*      scales, pixels  - +  coarser, finer",
+            "ESC    ends",
+            "",
+            "with /I:",
+            "Tab or left button     selects the next",
+            "mouse, arrows, PgUp Dn move it",
+            "x y z  turn it (and with Shift)",
+            "1 2    size            3 4  length, ring",
+            "Ins a  adds a sphere   c  a cylinder",
+            "t d n  a torus, a disc, a cone",
+            "Del    deletes it",
+            "l k    links, parts it and the one before",
+            "u      undoes          space  lets it move",
+            "F2 F3  save and load SAVED.FB",
+        };
+        constexpr int LINES = static_cast<int>(sizeof PAGE / sizeof PAGE[0]);
+        constexpr int WIDE = 44 * Overlay::LETTER_WIDE, HIGH = LINES * (Overlay::LINE_HIGH + 2);
+        const int left = (machine::WIDTH - WIDE) / 2, top = (machine::HEIGHT - HIGH) / 2;
+        overlay_.box(left - EDGE, top - EDGE, WIDE + 2 * EDGE, HIGH + 2 * EDGE);
+        for (int i = 0; i < LINES; ++i)
+            overlay_.text(left, top + i * (Overlay::LINE_HIGH + 2), PAGE[i]);
     }
 }
 
 void Demo::frame()
 {
-    if (options_.interactive)
+    if (options_.interactive) {
+        if (running_) {
+            shown_ += time_ - lastTime_;
+            Anim::move(model_, shown_);
+        }
+        lastTime_ = time_;
         mouse();
-    else
+    } else {
         Anim::move(model_, time_);
+    }
 
     counts_ = Counts{};
     const Look look{model_.camera.eye, unit(model_.light), options_.printed, &counts_};
@@ -198,10 +365,11 @@ void Demo::frame()
     }
 
     view_.begin();
+    const int selected = editor_.selected();
     for (int i = 0; i < count; ++i) {
         SoftObject& object = *model_.actor(order[i]).object;
         const uint8_t* ramp = object.ramp();
-        if (options_.interactive && order[i] == selected_ && time_ - selectedAt_ < PULSE) {
+        if (options_.interactive && order[i] == selected && time_ - selectedAt_ < PULSE) {
             // A short pulse of brightness shows which object is selected.
             const Time phase = (time_ - selectedAt_) * 2;
             const Time height = phase < PULSE ? phase : 2 * PULSE - phase;
@@ -215,6 +383,7 @@ void Demo::frame()
         object.setRamp(ramp);
     }
     view_.closeGaps();
+    drawOverlay();
     view_.end();
 }
 
@@ -295,6 +464,8 @@ int Demo::run()
         }
         stats_.addFrame(counts_);
         ++frames_;
+        if (fps_)
+            countFrames();
     }
     stats_.setTime(machine::clock() - started_);
     machine::stop();

@@ -10,7 +10,7 @@
 
 namespace {
 
-constexpr Measure SIZE{"size", Real(SIZE_LEAST), Real(SIZE_MOST)};
+constexpr Measure SIZE{"size", Real(SIZE_LEAST), Real(SIZE_MOST), Real(20)};
 
 SoftObject* makeSphere(int number, const Real* m)
 {
@@ -52,10 +52,14 @@ const char* coneExpects(const Real* m)
 
 const Kind KINDS[] = {
     {"sphere", 1, {SIZE}, makeSphere, nullptr},
-    {"cylinder", 2, {SIZE, {"length", Real(0), Real(100)}}, makeCylinder, nullptr},
-    {"torus", 2, {SIZE, {"ring", Real(1), Real(100)}}, makeTorus, torusExpects},
-    {"disc", 2, {SIZE, {"disc", Real(0), Real(100)}}, makeDisc, nullptr},
-    {"cone", 3, {SIZE, {"tip", Real(SIZE_LEAST), Real(SIZE_MOST)}, {"length", Real(0), Real(100)}}, makeCone, coneExpects},
+    {"cylinder", 2, {SIZE, {"length", Real(0), Real(100), Real(24)}}, makeCylinder, nullptr},
+    {"torus", 2, {SIZE, {"ring", Real(1), Real(100), Real(24)}}, makeTorus, torusExpects},
+    {"disc", 2, {SIZE, {"disc", Real(0), Real(100), Real(16)}}, makeDisc, nullptr},
+    {"cone",
+     3,
+     {SIZE, {"tip", Real(SIZE_LEAST), Real(SIZE_MOST), Real(8)}, {"length", Real(0), Real(100), Real(24)}},
+     makeCone,
+     coneExpects},
 };
 
 const int KIND_COUNT = static_cast<int>(sizeof KINDS / sizeof KINDS[0]);

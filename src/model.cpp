@@ -34,7 +34,7 @@ void exchange(T& a, T& b)
 }  // namespace
 
 // One block of memory: this, then the items, the keys and the links.
-struct Model::Record {
+struct alignas(Actor) Model::Record {
     struct Pair {
         int16_t a, b;  // numbers
         Real weight;

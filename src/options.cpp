@@ -21,7 +21,8 @@ const char* const HELP =
     "  /X        draw, but do not copy to the card\n"
     "  /?        this page\n"
     "\n"
-    "Keys:  *  scales or pixels   -  coarser   +  finer   ESC  ends\n"
+    "Keys:  *  scales or pixels   -  coarser   +  finer   F  frames a second\n"
+    "       F1  all keys; with /I there are more, to change the model   ESC  ends\n"
     "Mouse (with /I):  left button selects the next object; moving it moves the\n"
     "object in X and Y, in X and Z while the right button is held. Without a mouse:\n"
     "Tab, arrows, PgUp and PgDn.\n";

@@ -710,10 +710,19 @@ Writer& Writer::word(const char* text)
     return *this;
 }
 
+// The shortest text that reads back as the value.
 Writer& Writer::number(Real value)
 {
+    const int32_t raw = rawFromReal(value);
     char text[24];
-    formatReal(text, sizeof text, value);
+    text[0] = '-';
+    char* digits = raw < 0 ? text + 1 : text;
+    for (int decimals = 0; decimals <= 6; ++decimals) {
+        formatQuotient(digits, 20, static_cast<uint32_t>(raw < 0 ? -raw : raw), 65536, decimals);
+        Real back;
+        if (parseReal(text, &back) && back == value)
+            break;
+    }
     return word(text);
 }
 

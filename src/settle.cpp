@@ -43,6 +43,7 @@ struct Near {
     Vector twice;    // b = path . twice; in 16.16: scaled by 2^12 and used with mulHigh
     Real swing;      // length of twice: how much b changes over a unit
     Real touching;   // b below this: its field reaches the seed at rest
+    Real meeting;    // b below this: its field reaches the path somewhere up to POSITION_MOST
     Real burying;    // b below this: the whole stretch of the path up to POSITION_MOST lies inside the surface
     Vector fromIt16; // fromIt / 16
     uint32_t mark;   // for SoftObject::Patch::reached
@@ -169,6 +170,8 @@ void Settler::addNear(const Link& link)
     n.swing = length(twice) + Real(0.0001);
     // At rest, or a way further out where other neighbours may have pulled the seed.
     n.touching = most(TOUCHING - n.a0 - n.c0, (TOUCHING - n.a0 - n.c0 * Real(1.44)) * Real(1 / 1.2));
+    n.meeting = most(n.touching, most((TOUCHING - n.a0 - n.c0 * Real(2.25)) * Real(1 / 1.5),
+                                      (TOUCHING - n.a0 - n.c0 * (POSITION_MOST * POSITION_MOST)) * (Real(1) / POSITION_MOST)));
     // t is convex along the path: what holds at both ends of the stretch holds between.
     n.burying = least(BURYING - n.a0 - n.c0,
                       (BURYING - n.a0 - n.c0 * (POSITION_MOST * POSITION_MOST)) * (Real(1) / POSITION_MOST));
@@ -247,13 +250,15 @@ inline void Settler::wait(Seed& s, uint8_t flags, Real units)
 Settler::Reach Settler::reachOf(const SoftObject::Patch& patch, uint32_t& reached)
 {
     activeCount_ = 0;
+    bool touched = false;
     for (int i = 0; i < nearCount_; ++i) {
         const Near& near = near_[i];
         if (near.quick) {
             const Real b = alongPath(near, patch.middle), change = near.swing * patch.radius;
             if (b + change < near.burying)
                 return BURIED;
-            if (b - change < near.touching) {
+            touched |= b - change < near.touching;
+            if (b - change < near.meeting) {
                 active_[activeCount_++] = &near;
                 reached += near.mark;
             }
@@ -261,12 +266,13 @@ Settler::Reach Settler::reachOf(const SoftObject::Patch& patch, uint32_t& reache
             const Vector v = near.object->fromCore(o_.centre_ + patch.middle);
             const Real limit = near.reach + patch.radius;
             if (absolute(v.x) < limit && absolute(v.y) < limit && absolute(v.z) < limit) {
+                touched = true;
                 active_[activeCount_++] = &near;
                 reached += near.mark;
             }
         }
     }
-    return activeCount_ > 0 ? REACHED : UNREACHED;
+    return touched ? REACHED : UNREACHED;
 }
 
 void Settler::bury(SoftObject::Patch& patch)
@@ -393,7 +399,8 @@ bool Settler::bracket(Real& position)
             inside = position;
         else
             outside = position;
-        Real next = slope < FLAT ? position - quotient(difference, slope) : outside;
+        // Where the field is flat a step of Newton's goes nowhere: halved instead.
+        Real next = slope < FLAT ? position - quotient(difference, slope) : shiftDown(inside + outside, 1);
         if (absolute(next - position) <= shiftDown(SHORT_STEP, 1)) {
             position = next;
             return true;
@@ -416,6 +423,7 @@ void Settler::settleSeed(Seed& s)
 
     // Which neighbours are near enough to matter, or one so near that the seed lies inside anyway?
     int touching = 0;
+    bool touched = false;
     Real apart(1);
     for (int n = 0; n < activeCount_; ++n) {
         const Near& near = *active_[n];
@@ -429,17 +437,21 @@ void Settler::settleSeed(Seed& s)
                     wait(s, 0, (near.burying - b) * waitingApart_);
                     return;
                 }
-                b_[touching] = b;
-                touch_[touching++] = &near;
+                touched = true;
             } else {
                 apart = least(apart, beyond);
             }
+            if (b < near.meeting) {
+                b_[touching] = b;
+                touch_[touching++] = &near;
+            }
         } else if (near.object->coreParam(near.object->fromCore(root_ + path)) < Real(1)) {
+            touched = true;
             touch_[touching++] = &near;
         }
     }
     touchCount_ = touching;
-    if (touching == 0) {
+    if (!touched) {
         s.position = Real(1);
         wait(s, SEED_VALID, apart * waitingApart_);
         s.brightness = s.restBrightness;

@@ -650,8 +650,9 @@ void SoftObject::tellNeighbours()
 
 bool SoftObject::inRange(const SoftObject& other) const
 {
-    const Real core = coreReach() + other.coreReach();
-    return length(centre_ - other.centre_) < core + most(radius_ + other.size_, other.radius_ + size_);
+    // Seeds that others pull out lie as far as the field does. Squares are compared: every pair of a model comes by here.
+    const int64_t reach = rawFromReal(coreReach() + other.coreReach() + size_ + other.size_);
+    return squaredDistance(centre_, other.centre_) < reach * reach;
 }
 
 // What seeds know of the surface around them is void.

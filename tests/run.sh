@@ -43,8 +43,10 @@ for suite in $suites; do
 	if expr "$last" : '[0-9][0-9]* passed, [0-9][0-9]* failed$' >/dev/null; then
 		# What passed one by one is in the log; failures and figures are shown.
 		sed '$d' "$log" | grep -v '^ok ' | grep -v '^make\[' >"$log.short"
-		head -n 80 "$log.short"
-		[ "$(wc -l <"$log.short")" -le 80 ] || echo "... and more in $log"
+		# Failures first of all; then a page of figures.
+		grep -v '^#' "$log.short" | head -n 80
+		grep '^#' "$log.short" | head -n 40
+		[ "$(wc -l <"$log.short")" -le 120 ] || echo "... and more in $log"
 		good=${last%% passed*}
 		bad=${last##*passed, }
 		bad=${bad%% failed*}

@@ -11,8 +11,7 @@ DOS_CXX ?= $(CXX)
 DOS_LD ?= ld
 DOS_OPT ?= -O2
 
-# What a program without an operating system below it takes. No exceptions, no RTTI, no constructors of static objects:
-# nothing would run them (the linker script refuses them). No x87: a 386 need not have one.
+# What a program without an operating system below it takes. No exceptions, no RTTI. No x87: a 386 need not have one.
 DOS_CXXFLAGS = -std=c++17 -m32 -march=i386 -mtune=i486 $(DOS_OPT) -ffreestanding -fno-builtin-malloc -fno-pic -fno-pie \
 	-fno-exceptions -fno-rtti -fno-asynchronous-unwind-tables -fno-stack-protector -fno-threadsafe-statics \
 	-fomit-frame-pointer -mno-80387 -fcf-protection=none -Wall -Wextra -DFB_RT -Iinclude $(DOS_DEFINES)
@@ -32,8 +31,10 @@ build/dos/src/rt/%.o build/dos/src/dos/%.o: DOS_OPT = -Os
 DOS_BASE = build/dos/asm/start.o build/dos/asm/trap.o build/dos/asm/blit.o \
 	$(patsubst %.cpp,build/dos/%.o,$(wildcard src/rt/*.cpp src/dos/*.cpp))
 
-# Objects to an ELF file that lies where the loader puts it, and that with the stub in front.
-DOS_LINK = $(DOS_LD) -m elf_i386 -T tools/dos.ld -o build/dos/$(@F).elf $(filter %.o,$^) && \
+# Objects to an ELF file that lies where the loader puts it, and that with the stub in front. (Newer linkers warn of code
+# that can be written to; under DOS all of it can, and older linkers do not know the option.)
+DOS_LDFLAGS := -m elf_i386 $(if $(findstring no-warn-rwx-segments,$(shell $(DOS_LD) --help)),--no-warn-rwx-segments)
+DOS_LINK = $(DOS_LD) $(DOS_LDFLAGS) -T tools/dos.ld -o build/dos/$(@F).elf $(filter %.o,$^) && \
 	build/mkexe build/STUB.EXE build/dos/$(@F).elf $@
 
 # Tests of the machine and the run-time on the machine itself.

@@ -1,6 +1,6 @@
 /* The linker's last step: makes DOS executables out of what ld leaves.
 
-     mkexe --make-stub STUB.ELF OUT.EXE          the real-mode stub alone
+     mkexe --make-stub STUB.OUT OUT.EXE          the real-mode stub alone, from ld's output
      mkexe STUB.EXE IN.ELF OUT.EXE               an ELF program, as COFF, behind the stub (or with --elf, as below)
      mkexe --stub STUB.EXE --coff IN.EXE OUT.EXE any DJGPP program (with or without a stub) behind ours
 
@@ -86,14 +86,32 @@ std::vector<Section> elfSections(const Bytes &elf) {
     return result;
 }
 
-/* --- The stub: the loadable parts by load address, behind an MZ header of 512 bytes' multiple. --- */
+/* --- The stub: what has contents, as an image behind an MZ header. The linker's output is ELF from the stock
+       tools and COFF from DJGPP's. --- */
+
+std::vector<Section> coffSections(const Bytes &coff) {
+    std::vector<Section> result;
+    for (uint32_t i = 0, h = 20 + get(coff, 16, 2); i < get(coff, 2, 2); i++, h += 40) {
+        Section s;
+        for (uint32_t c = h; c < h + 8 && get(coff, c, 1); c++) s.name += char(coff[c]);
+        s.address = get(coff, h + 12, 4);
+        s.size = get(coff, h + 16, 4);
+        s.offset = get(coff, h + 20, 4);
+        s.type = s.offset ? 1 : 8;                    // as ELF has it: contents or none,
+        s.flags = 2;                                  // in memory
+        result.push_back(s);
+    }
+    return result;
+}
 
 Bytes makeStub(const Bytes &elf, const std::string &name) {
-    checkElf(elf, name);
+    const bool coff = get(elf, 0, 2) == 0x14c && get(elf, 16, 2) == 28;
+    if (!coff) checkElf(elf, name);
     const uint32_t header = 32;                       // bytes; the image follows, everything in paragraphs
     Bytes image;
-    for (const Section &s : elfSections(elf)) {       // the script keeps .loader and .host only, in this order
-        if (s.type != 1 || !(s.flags & 2) || s.size == 0) continue;
+    for (const Section &s : coff ? coffSections(elf) : elfSections(elf)) {
+        if (s.name != ".loader" && s.name != ".host") continue;
+        if (s.type != 1 || !(s.flags & 2) || s.size == 0) fail(name + ": " + s.name + " is empty");
         if (s.offset + s.size > elf.size()) fail(name + ": cut short");
         if (image.size() % 16) fail(name + ": " + s.name + " does not start at a paragraph");
         image.insert(image.end(), elf.begin() + s.offset, elf.begin() + s.offset + s.size);
@@ -113,7 +131,7 @@ Bytes makeStub(const Bytes &elf, const std::string &name) {
     put(exe, 12, 0xffff, 2);
     put(exe, 14, stackSegment, 2);
     put(exe, 16, stackSize, 2);
-    put(exe, 20, get(elf, 24, 4), 2);                 // IP
+    put(exe, 20, get(elf, coff ? 20 + 16 : 24, 4), 2); // IP
     put(exe, 24, header, 2);                          // relocation table: empty
     exe.insert(exe.end(), image.begin(), image.end());
     return exe;
@@ -217,7 +235,7 @@ int main(int argc, char **argv) {
         writeFile(a[4], exe);
         return 0;
     }
-    std::fprintf(stderr, "use: mkexe --make-stub STUB.ELF OUT.EXE\n"
+    std::fprintf(stderr, "use: mkexe --make-stub STUB.OUT OUT.EXE\n"
                          "     mkexe STUB.EXE IN.ELF OUT.EXE\n"
                          "     mkexe --stub STUB.EXE --coff IN.EXE OUT.EXE\n");
     return 2;

@@ -25,3 +25,11 @@ SCNTST_PARTS = $(patsubst %.cpp,build/host/%.o,\
 
 build/scntst: tests/scenes/scntst.cpp $(SCNTST_PARTS) tools/scenes.mk
 	$(HOSTCXX) -O1 -std=c++17 -Wall -Wextra -Iinclude -DFB_REAL=FB_$(REAL) -o $@ $< $(SCNTST_PARTS)
+
+# make run                          the four spheres, in DOSBox
+# make run SCENE=walk               a shipped scene (tools/scenes), or a scene file
+# make run SWITCHES="/I /G"         with switches of the program
+run: build/DEMO.EXE
+	@sh tools/play.sh "$(SCENE)" $(SWITCHES)
+
+.PHONY: run

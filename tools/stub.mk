@@ -1,8 +1,9 @@
 # The EXE's stub and the tool that puts it in front of programs. Included by the Makefile; alone:
 #   make -f tools/stub.mk
-# leaves build/STUB.EXE and build/mkexe. STUB_CC needs nothing but an assembler that knows --32.
+# leaves build/STUB.EXE and build/mkexe. STUB_CC and STUB_LD may be DJGPP's (gcc and ld) as well.
 
 STUB_CC  ?= gcc -m32
+STUB_LD  ?= ld -m elf_i386
 HOST_CXX ?= g++
 
 STUB_SRC = stub dpmiinit dpmimode dpmiint dpmisvc dpmimem dpmidata
@@ -14,7 +15,7 @@ build/STUB.EXE: build/stub/stub.elf build/mkexe
 	build/mkexe --make-stub build/stub/stub.elf $@
 
 build/stub/stub.elf: $(STUB_OBJ) tools/stub.ld
-	ld -m elf_i386 -T tools/stub.ld --no-check-sections -Map build/stub/stub.map -o $@ $(STUB_OBJ)
+	$(STUB_LD) -T tools/stub.ld --no-check-sections -Map build/stub/stub.map -o $@ $(STUB_OBJ)
 
 build/stub/%.o: asm/%.S asm/asm.h asm/dpmi.h
 	@mkdir -p build/stub

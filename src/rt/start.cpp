@@ -99,7 +99,15 @@ int splitTail() {
 
 extern "C" {
 
+// The constructors of static objects, as the linker script collects them. The program is meant to have none.
+typedef void (*Constructor)();
+extern Constructor __init_array_start[];
+extern Constructor __init_array_end[];
+
 [[noreturn]] void rtStart() {
+    for (Constructor* constructor = __init_array_start; constructor != __init_array_end; ++constructor) {
+        (*constructor)();
+    }
     findName();
     const int count = splitTail();
     arguments[0] = name;

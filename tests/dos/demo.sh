@@ -93,6 +93,10 @@ rm -f "$c"/*.TXT
 dos -- cls 'DEMO /N:5 /D:NODIR\SUB > OUT.TXT' "$E1" "$E2" 'MTEST SCREEN > SCREEN.TXT'
 trouble 'a directory that cannot be made' 'NODIR'
 
+rm -f "$c"/*.TXT
+dos -m 2 -- cls 'DEMO /N:5 > OUT.TXT' "$E1" "$E2" 'MTEST SCREEN > SCREEN.TXT'
+trouble 'too little memory' 'not enough memory'
+
 # ---- Frames, byte for byte those of the host (a few; tests/frames compares many)
 
 frames() {

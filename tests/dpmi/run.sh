@@ -2,7 +2,10 @@
 # The stub's DPMI host in DOSBox: every service with every kind of memory, timer interrupts, ends by exceptions and by
 # Ctrl-C, the mouse driver's call-back, fifty programs in a row. Prints `ok` and `FAIL` lines and a count.
 #
-#   tests/dpmi/run.sh [long]      long: a million timer interrupts instead of some thousand
+#   tests/dpmi/run.sh [long] [HOST.EXE]
+#
+# long: a million timer interrupts instead of some thousand. HOST.EXE: another DPMI host that stays resident with -p
+# (CWSDPMI): the stub has to use it.
 set -u
 . tests/dos/lib.sh
 
@@ -46,7 +49,11 @@ all '486' -o cpu.cputype=486_slow --
 
 # Timer interrupts: none lost while DOS and the host are called.
 n=20000
-[ "${1:-}" != long ] || n=1000000
+if [ "${1:-}" = long ]; then
+    n=1000000
+    shift
+fi
+host=${1:-}
 dos -- "DTEST TICKS $n 60 > TICKS.TXT"
 ran "$c/TICKS.TXT"
 dos -- V86 "DTEST TICKS 20000 200 > TICKS.TXT"
@@ -100,6 +107,15 @@ ok 'program cut short: a line' has "$c/SCREEN.TXT" 'Load error: C:\SHORT.EXE: fi
 ok 'program cut short: status 1' status 1 "$c"
 dos -m 1 -- cls DTEST "$E1" "$E2" 'V86'
 ok 'no memory: status 1' status 1 "$c"
+
+# Another host, loaded first. (Not with wild pointers: those end DOSBox under any host but ours.)
+if [ -n "$host" ]; then
+    cp "$host" "$c/HOST.EXE"
+    cp build/DEMO.EXE "$c"
+    dos -- 'HOST -p' 'DTEST GOOD NOWILD > ALL.TXT' 'DTEST FREE > FREE.TXT' 'DEMO /N:5 > DEMO.TXT'
+    ran "$c/ALL.TXT"
+    ok 'another host: the demo' has "$c/DEMO.TXT" 'seeds: 2496'
+fi
 
 # The mouse driver's call-back, and that nothing of it stays behind
 if startDisplay; then

@@ -51,6 +51,27 @@ for scene in tools/scenes/*.FB tests/scenes/hurt/*.FB; do
 done
 echo "scenes: $frames frames compared between 64 bits and 32"
 
+# The shipped ones in DOSBox as well, in one go, as fast as the emulator can.
+if command -v dosbox >/dev/null && make -s build/DEMO.EXE >"$dir/log" 2>&1; then
+	mkdir "$dir/c"
+	cp build/DEMO.EXE tools/scenes/*.FB "$dir/c"
+	set --
+	for scene in tools/scenes/*.FB; do
+		name=$(basename "$scene" .FB)
+		set -- "$@" "DEMO /N:8 /R:2 /M:$name.FB /D:$name > $name.TXT"
+	done
+	tools/dosbox.sh -c max -o cpu.core=dynamic -t 300 -d "$dir/c" -- "$@" >"$dir/log" 2>&1 || bad "scenes in DOSBox"
+	for scene in tools/scenes/*.FB; do
+		name=$(basename "$scene" .FB)
+		rm -rf "$dir/a"
+		build/demo /N:8 /R:2 "/M:$scene" "/D:$dir/a" >"$dir/out.a" 2>&1
+		same "$scene, host and DOS" "$dir/a" "$dir/c/$name"
+	done
+	echo "scenes: $(ls "$dir"/c/*/*.PPM | wc -l) frames compared between the host and DOS"
+else
+	echo "# no dosbox or no DEMO.EXE: scenes not tried in DOS"
+fi
+
 # A place is a function of time: the same at 4 s, whatever the frames before.
 for scene in tools/scenes/*.FB; do
 	rm -rf "$dir/a" "$dir/b"

@@ -99,16 +99,19 @@ void blitBoth(int shift, const Scale* scales, int count)
         pixelsTried += scales[i].wide * scales[i].high;
 }
 
-Scale scale(int left, int top, int wide, int high, int z, int colour)
+// A scale; its depth changes by `across` from column to column and by `down` from row to row.
+Scale scale(int left, int top, int wide, int high, int z, int colour, int across = 0, int down = 0)
 {
     Scale s;
     s.left = static_cast<int16_t>(left);
     s.top = static_cast<int16_t>(top);
     s.wide = static_cast<int16_t>(wide);
     s.high = static_cast<int16_t>(high);
-    s.z = static_cast<uint16_t>(z);
-    s.colour = static_cast<uint8_t>(colour);
-    s.unused = static_cast<uint8_t>(any());
+    s.z = z;
+    s.zStep = across;
+    s.zRow = down - across * wide;
+    // Only the low byte of the colour counts.
+    s.colour = static_cast<int32_t>((any() & 0x7fffff00u) | static_cast<uint32_t>(colour));
     return s;
 }
 
@@ -121,6 +124,25 @@ int depth()
     case 1: return 0x7ffc + below(8);
     default: return static_cast<int>(any() & 0xffff);
     }
+}
+
+// A scale of which every pixel's depth is in range: level, or sloped gently or steeply.
+Scale sloped(int left, int top, int wide, int high)
+{
+    if (below(4) == 0)
+        return scale(left, top, wide, high, depth(), below(256));
+    const int most = below(3) == 0 ? 700 : 40;
+    int across = below(2 * most + 1) - most, down = below(2 * most + 1) - most;
+    if (below(5) == 0)
+        (below(2) ? across : down) = 0;
+    const int fall = (across < 0 ? -across : across) * (wide - 1) + (down < 0 ? -down : down) * (high - 1);
+    if (fall > 0xfffe)
+        return scale(left, top, wide, high, depth(), below(256));
+    // Where the nearest corner lies: anywhere, or so that one touches an end of the range.
+    const int room = 0xfffe - fall;
+    int z = below(4) == 0 ? (below(2) ? 0 : room) : below(4) == 0 ? (room < 0x7ffc ? room : 0x7ffc) : below(room + 1);
+    z += (across < 0 ? -across * (wide - 1) : 0) + (down < 0 ? -down * (high - 1) : 0);
+    return scale(left, top, wide, high, z, below(256), across, down);
 }
 
 // A scale of a size, clipped at the edges of the screen as the view clips it; at least one pixel is left.
@@ -136,7 +158,13 @@ Scale clipped(int wide, int high)
     top = top < 0 ? 0 : top;
     right = right > WIDE ? WIDE : right;
     bottom = bottom > HIGH ? HIGH : bottom;
-    return scale(left, top, right - left, bottom - top, depth(), below(256));
+    return sloped(left, top, right - left, bottom - top);
+}
+
+// What a pixel of the screen gets from a scale that covers it.
+int depthAt(const Scale& s, int x, int y)
+{
+    return s.z + (x - s.left) * s.zStep + (y - s.top) * (s.zRow + s.zStep * s.wide);
 }
 
 // Every size up to 64x64 at every alignment, alone on a random screen; checked against what the rule says, too, pixel
@@ -151,14 +179,14 @@ void everySize()
                 const int shift = 0;
                 Screen& c = roomC.at(shift);
                 Screen& a = roomA.at(shift);
-                const Scale s = scale(4 * below((WIDE - 64) / 4) + align, below(HIGH - 63), wide, high, depth(), below(256));
+                const Scale s = sloped(4 * below((WIDE - 64) / 4) + align, below(HIGH - 63), wide, high);
                 // Only the part round it is refreshed and compared: the whole is compared once for each width.
                 for (int y = s.top; y < s.top + high; ++y)
                     for (int x = s.left; x < s.left + wide; ++x) {
                         const int at = y * WIDE + x;
                         c.frame.data[at] = a.frame.data[at] = static_cast<uint8_t>(any());
                         c.depth.data[at] = a.depth.data[at] =
-                            static_cast<uint16_t>(below(3) == 0 ? s.z + below(3) - 1 : static_cast<int>(any()));
+                            static_cast<uint16_t>(below(3) == 0 ? depthAt(s, x, y) + below(3) - 1 : static_cast<int>(any()));
                     }
                 static uint8_t frameBefore[PIXELS];
                 static uint16_t depthBefore[PIXELS];
@@ -171,9 +199,9 @@ void everySize()
                 for (int y = s.top; y < s.top + high; ++y)
                     for (int x = s.left; x < s.left + wide; ++x) {
                         const int at = y * WIDE + x;
-                        const bool taken = s.z < depthBefore[at];
-                        const int colour = taken ? s.colour : frameBefore[at];
-                        const int z = taken ? s.z : depthBefore[at];
+                        const bool taken = depthAt(s, x, y) < depthBefore[at];
+                        const int colour = taken ? (s.colour & 0xff) : frameBefore[at];
+                        const int z = taken ? depthAt(s, x, y) : depthBefore[at];
                         wrong += c.frame.data[at] != colour || c.depth.data[at] != z || a.frame.data[at] != colour ||
                                  a.depth.data[at] != z;
                     }
@@ -191,7 +219,7 @@ void largeOnes()
         prepare(0, i & 1);
         const int wide = 1 + below(WIDE), high = 1 + below(HIGH);
         const Scale s = i == 0 ? scale(0, 0, WIDE, HIGH, 5, 7)
-                               : scale(below(WIDE - wide + 1), below(HIGH - high + 1), wide, high, depth(), below(256));
+                               : sloped(below(WIDE - wide + 1), below(HIGH - high + 1), wide, high);
         blitBoth(0, &s, 1);
         verdict(same(0), "large scales", i);
     }

@@ -71,8 +71,8 @@ struct Truth {
             sum += part(i, p);
         return sum;
     }
-    // Outward normal.
-    Vec normal(const Vec& p) const
+    // How the field falls, and which way: minus its gradient.
+    Vec slope(const Vec& p) const
     {
         Vec g{0, 0, 0};
         for (const Ball& ball : balls) {
@@ -80,6 +80,12 @@ struct Truth {
             const double square = ball.size * ball.size;
             g = g + d * (-2 * ball.weight * trueSlope(dot(d, d) / square) / square);
         }
+        return g;
+    }
+    // Outward normal.
+    Vec normal(const Vec& p) const
+    {
+        const Vec g = slope(p);
         const double s = ::size(g);
         return s > 0 ? g * (1 / s) : Vec{0, 0, -1};
     }

@@ -1,0 +1,332 @@
+#!/bin/sh
+# Tests of interactive mode as a user has it: scripts of keys and mouse moves played to the program, and what the dumped
+# scenes, the saved file and the pictures then say. The last line is "N passed, N failed".
+#
+# DEMO names another build of the program than build/demo.
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+top=$(pwd)
+if [ -z "${DEMO:-}" ]; then
+	make -s build/demo build/demo32 || { echo "0 passed, 1 failed"; exit 1; }
+	DEMO=build/demo
+fi
+demo=$top/$DEMO
+dir=$(mktemp -d "${TMPDIR:-/tmp}/fbedit.XXXXXX") || exit 1
+trap 'rm -rf "$dir"' EXIT
+trap 'exit 1' HUP INT TERM
+cd "$dir" || exit 1
+passed=0 failed=0
+good() { passed=$((passed + 1)); }
+bad() { failed=$((failed + 1)); echo "FAIL $1"; [ ! -s log ] || head -n 12 log; }
+ok() { # ok NAME COMMAND...
+	name=$1
+	shift
+	if "$@" >log 2>&1; then good; else bad "$name"; fi
+	: >log
+}
+
+# play FRAMES SWITCHES...: the script on standard input, frames into d/.
+play() {
+	frames=$1
+	shift
+	cat >script
+	rm -rf d
+	FB_INPUT=script "$demo" /I "/N:$frames" /S:4 /D:d "$@" >out 2>&1 || bad "the program ended with $?: $(tail -n 1 out)"
+}
+scene() { sed 1d "$(printf 'd/F%07d.TXT' "$1")"; } # without the time
+has() { scene "$1" | grep -qxF -- "$2" || { scene "$1"; return 1; }; } # frame, line
+lacks() { ! has "$1" "$2" >/dev/null; }
+count() { test "$(scene "$1" | grep -c "^$2 ")" -eq "$3"; }             # frame, word, how many
+alike() { scene "$1" >one; scene "$2" >two; diff one two; }            # two frames
+picture() { cmp "$(printf 'd/F%07d.PPM' "$1")" "$(printf 'd/F%07d.PPM' "$2")"; }
+depth() { cmp "$(printf 'd/F%07d.Z' "$1")" "$(printf 'd/F%07d.Z' "$2")"; }
+
+# --- Selecting and moving
+cat >one.fb <<'END'
+sphere first size 20
+sphere second size 20 at 30 0 0
+cylinder rod size 12 length 20 at -30 0 0
+END
+play 6 /M:one.fb <<'END'
+1 key RIGHT
+2 key TAB
+2 key UP
+3 key TAB
+3 key PGUP
+4 mouse 40 20 -
+5 mouse 0 -8 R
+END
+ok "arrow" has 1 "sphere 1 2 0 0 20"
+ok "next, and up" has 2 "sphere 2 30 2 0 20"
+ok "away" has 3 "cylinder 3 -30 -10 2 -30 10 2 12"
+ok "mouse" has 4 "cylinder 3 -20 -15 2 -20 5 2 12"
+ok "mouse with the right button" has 5 "cylinder 3 -20 -15 4 -20 5 4 12"
+ok "the others stay" has 5 "sphere 1 2 0 0 20"
+play 5 /M:one.fb <<'END'
+1 mouse 0 0 L
+2 mouse 0 0 -
+3 mouse 4 0 -
+4 mouse -4000 4000 -
+END
+ok "left button selects the next" has 3 "sphere 2 31 0 0 20"
+ok "the mouse cannot lose it" has 4 "sphere 2 -76.799927 -57.599487 0 20"
+
+# --- Turning, sizes
+play 9 /M:one.fb <<'END'
+1 key TAB
+1 key TAB
+1 key z
+1 key z
+2 key Z
+2 key Z
+3 key ]
+4 key .
+4 key 4
+5 key ,
+5 key [
+6 key TAB
+6 key 1
+7 key x
+END
+ok "turned by 30 degrees" has 1 "cylinder 3 -25.000305 -8.660278 0 -34.999695 8.660278 0 12"
+ok "and back" has 2 "cylinder 3 -30 -10 0 -30 10 0 12"
+ok "greater" has 3 "cylinder 3 -30 -10 0 -30 10 0 13"
+ok "longer" has 4 "cylinder 3 -30 -11 0 -30 11 0 13"
+ok "shorter and smaller" has 5 "cylinder 3 -30 -10.5 0 -30 10.5 0 12"
+ok "a sphere smaller" has 6 "sphere 1 0 0 0 19"
+ok "a sphere turned" has 7 "sphere 1 0 0 0 19"
+(
+	i=0
+	while [ $i -lt 25 ]; do echo "1 key 1"; i=$((i + 1)); done
+	i=0
+	while [ $i -lt 120 ]; do echo "2 key 2"; i=$((i + 1)); done
+) | play 3 /M:one.fb
+ok "no smaller than 1" has 1 "sphere 1 0 0 0 1"
+ok "no greater than 100" has 2 "sphere 1 0 0 0 100"
+
+# --- Adding, deleting, linking
+play 12 /M:one.fb <<'END'
+1 key TAB
+1 key INS
+2 mouse 0 -40 -
+3 key c
+4 key l
+5 key k
+6 key l
+7 key DEL
+8 key t
+9 key d
+10 key n
+END
+ok "added where the selected one is" has 1 "sphere 4 30 0 0 20"
+ok "and linked with it" has 1 "blend 2 4"
+ok "then it is the selected one" has 2 "sphere 4 30 10 0 20"
+ok "a cylinder" has 3 "cylinder 5 30 -2 0 30 22 0 20"
+ok "linked already" alike 3 4
+ok "parted" lacks 5 "blend 4 5"
+ok "linked again" has 6 "blend 4 5"
+ok "deleted" lacks 7 "cylinder 5 30 -2 0 30 22 0 20"
+ok "with its links" lacks 7 "blend 4 5"
+ok "a torus" count 8 torus 1
+ok "a disc" count 9 disc 1
+ok "a cone" count 10 cone 1
+play 9 <<'END'
+1 key DEL
+2 key DEL
+3 key DEL
+4 key DEL
+5 key u
+5 key u
+5 key u
+6 key u
+END
+ok "three deleted" count 3 sphere 1
+ok "the last one stays" count 4 sphere 1
+ok "all back" alike 0 5
+ok "nothing more to undo" alike 0 6
+
+# --- Undo: forty steps, and back one by one
+(
+	i=0
+	while [ $i -lt 10 ]; do
+		f=$((i * 4 + 1))
+		echo "$f key ]"
+		echo "$((f + 1)) key RIGHT"
+		echo "$((f + 2)) key INS"
+		echo "$((f + 3)) key k"
+		i=$((i + 1))
+	done
+	f=41
+	while [ $f -lt 81 ]; do echo "$f key u"; f=$((f + 1)); done
+) | play 84 /M:one.fb
+ok "forty steps did something" count 40 sphere 12
+steps=0
+while [ $steps -le 40 ]; do
+	alike $((40 - steps)) $((40 + steps)) >/dev/null || break
+	steps=$((steps + 1))
+done
+echo "undone step by step: $((steps - 1))"
+ok "forty steps undone, each as it was" test $steps -eq 41
+# A gesture is one step; a pause ends it.
+(
+	for f in 1 2 3 4 5 20 21 22; do echo "$f mouse 8 0 -"; done
+	echo "30 key u"
+	echo "31 key BREAKLESS" | sed 's/BREAKLESS/u/'
+) | play 34 /M:one.fb
+ok "moved" has 29 "sphere 1 16 0 0 20"
+ok "the second gesture undone" has 30 "sphere 1 10 0 0 20"
+ok "the first gesture undone" has 31 "sphere 1 0 0 0 20"
+
+# --- Saving and loading
+rm -f SAVED.FB
+play 8 /M:one.fb <<'END'
+1 key TAB
+1 key INS
+1 key y
+1 mouse 13 -7 -
+2 key F2
+3 key DEL
+3 key TAB
+3 key DEL
+4 key F3
+5 key u
+END
+ok "saved" test -s SAVED.FB
+ok "changed after that" count 3 sphere 1
+ok "loaded: as it was saved" alike 2 4
+ok "loading can be undone" alike 3 5
+cp SAVED.FB first.fb
+play 2 /M:first.fb <<'END'
+0 key F2
+END
+ok "saved again: the same text" cmp first.fb SAVED.FB
+ok "and the same scene" count 1 blend 1
+rm -f SAVED.FB
+play 4 <<'END'
+1 key F2
+END
+"$demo" /N:20 /S:4 /D:a >out 2>&1
+"$demo" /N:20 /S:4 /D:b /M:SAVED.FB >out 2>&1
+ok "the model built in, saved: the same frames" diff -r a b
+rm -f SAVED.FB
+play 4 /M:one.fb <<'END'
+1 key F3
+END
+ok "nothing to load: it stays" alike 0 2
+echo "sphere a size 20
+sphere b size" >SAVED.FB
+play 4 /M:one.fb <<'END'
+1 key F3
+2 key RIGHT
+END
+ok "a bad file: it stays" alike 0 1
+ok "and goes on" has 2 "sphere 1 2 0 0 20"
+rm -f SAVED.FB
+mkdir SAVED.FB
+play 4 /M:one.fb <<'END'
+1 key F2
+2 key RIGHT
+END
+ok "nowhere to save: it goes on" has 2 "sphere 1 2 0 0 20"
+rmdir SAVED.FB
+
+# --- Groups: moved in the world's directions, whatever the group is turned and scaled to
+cat >group.fb <<'END'
+group g at 10 0 0 turn 0 0 90 scale 2
+sphere s size 10 at 5 0 0 in g
+sphere t size 8 at 5 0 0 in s
+END
+play 6 /M:group.fb <<'END'
+1 key RIGHT
+2 key DEL
+3 key u
+END
+ok "placed" has 0 "sphere 1 10 10 0 20"
+ok "moved in the world" has 1 "sphere 1 12 10 0 20"
+ok "with what it carries" has 1 "sphere 2 12 20 0 16"
+ok "what it carried stays" has 2 "sphere 2 12 20 0 16"
+ok "and back" alike 1 3
+
+# --- Running, and nothing else moves by itself
+play 12 <<'END'
+2 key SPACE
+7 key SPACE
+END
+ok "it stands" alike 0 1
+ok "it runs" sh -c '! cmp -s d/F0000003.TXT d/F0000005.TXT'
+ok "it stands again" alike 8 11
+
+# --- What is written on the screen
+play 40 /M:one.fb <<'END'
+10 key F1
+12 key F1
+END
+ok "the help page" sh -c '! cmp -s d/F0000009.PPM d/F0000010.PPM'
+ok "leaves no trace" picture 9 13
+ok "and does not touch depths" depth 9 10
+cat >script <<'END'
+4 key F1
+6 key F1
+8 key f
+END
+rm -rf a b
+"$demo" /N:10 /S:4 /D:a >out 2>&1
+FB_INPUT=script "$demo" /N:10 /S:4 /D:b >out 2>&1
+ok "automatic: nothing unless a key asks" cmp a/F0000003.PPM b/F0000003.PPM
+ok "automatic: the help page" sh -c '! cmp -s a/F0000004.PPM b/F0000004.PPM'
+ok "automatic: gone again" cmp a/F0000006.PPM b/F0000006.PPM
+ok "automatic: frames a second" sh -c '! cmp -s a/F0000008.PPM b/F0000008.PPM'
+same=0
+for f in 0 1 2 3 4 5 6 7 8 9; do
+	cmp -s "a/F000000$f.Z" "b/F000000$f.Z" && cmp -s "a/F000000$f.TXT" "b/F000000$f.TXT" && same=$((same + 1))
+done
+ok "automatic: depths and scenes untouched" test $same -eq 10
+cat >script <<'END'
+2 key DEL
+3 key INS
+4 key RIGHT
+5 key F3
+END
+rm -rf b
+FB_INPUT=script "$demo" /N:10 /S:4 /D:b >out 2>&1
+ok "automatic: no key edits" diff -r a b
+
+# --- The same on 32 bits
+if [ -x "$top/build/demo32" ] && [ "$DEMO" = build/demo ]; then
+	cat >script <<'END'
+1 key TAB
+2 key c
+2 key x
+3 mouse 30 -20 -
+4 key ]
+5 key F1
+7 key f
+8 key l
+9 key u
+10 key SPACE
+END
+	rm -rf a b
+	FB_INPUT=script "$demo" /I /N:20 /D:a >out 2>&1
+	FB_INPUT=script "$top/build/demo32" /I /N:20 /D:b >out 2>&1
+	ok "64 bits and 32: the same frames" diff -r a b
+	# And all of the above with the sanitizers looking on, if they are at hand.
+	if [ -x "$top/build/san/demo" ]; then
+		(cd "$top" && DEMO=build/san/demo sh tests/edit/run.sh) >san 2>&1
+		ok "under the sanitizers: $(tail -n 1 san)" grep -q ' passed, 0 failed$' san
+	fi
+	# And in DOSBox, by keyboard and mouse.
+	(cd "$top" && sh tests/edit/dos.sh) >dos 2>&1
+	grep -v '^ok ' dos | sed '$d'
+	last=$(tail -n 1 dos)
+	case $last in
+	*" passed, "*" failed")
+		passed=$((passed + ${last%% *}))
+		last=${last##*passed, }
+		failed=$((failed + ${last%% *}))
+		;;
+	*) bad "tests/edit/dos.sh did not reach its end" ;;
+	esac
+fi
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
