@@ -119,6 +119,17 @@ private:
     int32_t distance_, radius_, edge_, away_;
 };
 
+// x / depth with 8 bits of fraction, limited to +-4, is skew(x, skewShare(depth)); both in 1/32 unit.
+inline int32_t skewShare(int32_t depth)
+{
+    return (1 << 20) / (depth < 32 ? 32 : depth);
+}
+inline int32_t skew(int32_t x, int32_t share)
+{
+    const int32_t s = x * share >> 12;
+    return s > 1024 ? 1024 : s < -1024 ? -1024 : s;
+}
+
 // How a scale lies in the view: its slope, and which part of it is this side of the horizon.
 struct Lie {
     int16_t tiltX, tiltY;    // as in Voxel
@@ -126,13 +137,20 @@ struct Lie {
     int32_t shiftX, shiftY;  // from the seed to the middle of the scale, 1/256 unit
 };
 
-// For a seed with normal (nx, ny, ..) scaled by 2^14, facing() and distance along the viewing axis in 1/32 unit, on a
-// surface of curvature 1 / radius (radius in 1/32 unit), with the half extents already in `lie`. The tilt is n.x and n.y
-// over the cosine of the angle at which the surface is seen, facing / depth. Near the horizon the scale would stand out
-// over the edge of the object: there it is cut to where the horizon is, cosine^2 radius / 2 away, and a little more where
-// the edge runs aslant.
+// For a seed with normal (nx, ny, ..) scaled by 2^14, with facing() and depth along the viewing axis in 1/32 unit, on a
+// surface of curvature 1 / radius (radius in 1/32 unit), with the half extents already in `lie`.
+//
+// The tilt is n.x and n.y over the cosine
+// of the angle at which the surface is seen, facing / depth. Near the horizon the scale would stand out over the edge of
+// the object: there it is cut to where the horizon is, cosine^2 radius / 2 away, and a little more where the edge runs
+// aslant. What lies before the near plane is not drawn, and left as it is.
 inline void layDown(int32_t nx, int32_t ny, int32_t facing, int32_t depth, int32_t radius, Lie& lie)
 {
+    if (depth < 32) {
+        lie.tiltX = lie.tiltY = 0;
+        lie.shiftX = lie.shiftY = 0;
+        return;
+    }
     const int32_t least = (depth >> 4) + 1;
     const int32_t ratio = (depth << 8) / (facing < least ? least : facing);
     lie.tiltX = static_cast<int16_t>(nx * ratio >> 14);
@@ -140,7 +158,7 @@ inline void layDown(int32_t nx, int32_t ny, int32_t facing, int32_t depth, int32
     lie.shiftX = lie.shiftY = 0;
     if (ratio < 400)
         return;
-    const int32_t away = facing > 0 ? (facing * facing / depth) * radius / depth * 4 : 0;
+    const int32_t away = facing > 0 ? mulDiv(mulDiv(facing, facing, depth), radius, depth) * 4 : 0;
     const int32_t sideX = nx < 0 ? -nx : nx, sideY = ny < 0 ? -ny : ny;
     const int32_t limitX = (away << 14) / (sideX | 512) + (lie.high * sideY >> 16);
     const int32_t limitY = (away << 14) / (sideY | 512) + (lie.wide * sideX >> 16);
@@ -175,20 +193,32 @@ public:
         return static_cast<uint8_t>(step < 0 ? 0 : step > BRIGHTEST ? BRIGHTEST : step);
     }
 
-    // Half extents of the scale of a deformed seed: the cell of the unblended surface that is its own, grown with the
-    // position, as it falls along the path onto the tangent plane with normal n, as the viewer sees it. A half axis e
-    // becomes e - u (e.n) / (u.n) with u the path's direction; `cosine` is u.n scaled by 2^14.
-    void extents(Seed& s, const Normal& n, int32_t cosine, Real position) const
+    // Half extents of the scale of a seed at rest: its cell as the viewer sees it. `skewX` and `skewY` are x / depth and
+    // y / depth of the place from the eye, 8 bits of fraction: off the viewing axis that much of the cell's depth shows
+    // sideways.
+    void restExtents(const Seed& s, int32_t skewX, int32_t skewY, Lie& lie) const
+    {
+        lie.wide = extent(s.along[0] * 256 - s.along[2] * skewX, s.across[0] * 256 - s.across[2] * skewX, spacing_);
+        lie.high = extent(s.along[1] * 256 - s.along[2] * skewY, s.across[1] * 256 - s.across[2] * skewY, spacing_);
+    }
+
+    // The same of a deformed seed: the cell of the unblended surface that is its own, grown with the position, as it falls
+    // along the path onto the tangent plane with normal n. A half axis e becomes e - u (e.n) / (u.n) with u the path's
+    // direction; `cosine` is u.n scaled by 2^14.
+    void extents(const Seed& s, const Normal& n, int32_t cosine, Real position, int32_t skewX, int32_t skewY, Lie& lie) const
     {
         if (cosine < 6500)
-            cosine = 6500;  // nearly along the surface: no scale is stretched more than fourfold
+            cosine = 6500;  // nearly along the surface: no scale is stretched more than two and a half times
         const int32_t inverse = (1 << 26) / cosine;  // 12 bits of fraction
         const int32_t size = spacing_ * (rawFromReal(position) >> 8) >> 8;
         // (e.n) / (u.n), 8 bits of fraction, 1/64 spacing.
         const int32_t along = ((s.along[0] * n.x + s.along[1] * n.y + s.along[2] * n.z) >> 8) * inverse >> 10;
         const int32_t across = ((s.across[0] * n.x + s.across[1] * n.y + s.across[2] * n.z) >> 8) * inverse >> 10;
-        s.wide = extent(s.along[0] * 256 - (s.dirX * along >> 14), s.across[0] * 256 - (s.dirX * across >> 14), size);
-        s.high = extent(s.along[1] * 256 - (s.dirY * along >> 14), s.across[1] * 256 - (s.dirY * across >> 14), size);
+        const int32_t alongZ = s.along[2] - (s.dirZ * along >> 22), acrossZ = s.across[2] - (s.dirZ * across >> 22);
+        lie.wide = extent(s.along[0] * 256 - (s.dirX * along >> 14) - alongZ * skewX,
+                          s.across[0] * 256 - (s.dirX * across >> 14) - acrossZ * skewX, size);
+        lie.high = extent(s.along[1] * 256 - (s.dirY * along >> 14) - alongZ * skewY,
+                          s.across[1] * 256 - (s.dirY * across >> 14) - acrossZ * skewY, size);
     }
 
 private:
@@ -198,7 +228,7 @@ private:
         return static_cast<int16_t>(sum * size >> 14);
     }
 
-    static constexpr int32_t MARGIN = 256 * 64 / 14;  // a twentieth of a spacing
+    static constexpr int32_t MARGIN = 256 * 64 / 26;  // a twentieth of a spacing
 
     int32_t x_, y_, z_, spacing_;
 };

@@ -122,7 +122,7 @@ private:
     int rootIndex_ = -1;
     Vector path_;                    // not in the plain case, where the root is the centre
     Point root_;
-    Real depth_;                     // of the centre, along the viewing axis
+    Vector fromEye_;                 // to the centre
     Real b_[NEAR_MOST];
     Real ownSlope_;                  // of the last look
     Real slopes_[NEAR_MOST];         // dF/dt of each active neighbour, weight not included
@@ -195,7 +195,7 @@ void Settler::settle()
     parting_ = Real(1.0) * o_.spacing_ / o_.radius_;
     eye_.set(look_.eye - o_.centre_, o_.radius_);
     travel();
-    depth_ = o_.centre_.z - look_.eye.z;
+    fromEye_ = o_.centre_ - look_.eye;
     shadeSetup_.set(look_.light, o_.spacing_);
 
     bool plain = o_.coreReach() == Real(0);
@@ -524,12 +524,13 @@ inline void Settler::shade(Seed& s, Real position)
     ++look_.counts->normals;
     s.flags = SEED_VALID | SEED_PLACED | SEED_KEPT | SEED_FRONT;
     s.brightness = shadeSetup_.brightness(normal);
-    shadeSetup_.extents(s, normal, cosine, position);
     Lie lie;
-    lie.wide = s.wide;
-    lie.high = s.high;
-    layDown(normal.x, normal.y, facing, rawFromReal((PLAIN ? depth_ : root_.z - look_.eye.z) + s.path.z * position) >> 11,
-            2 * eye_.radius32(), lie);  // blending flattens: the horizon may be twice as far
+    const Vector toRoot = PLAIN ? fromEye_ : root_ - look_.eye;
+    const int32_t depth = rawFromReal(toRoot.z + s.path.z * position) >> 11;
+    const int32_t share = skewShare(depth);
+    shadeSetup_.extents(s, normal, cosine, position, skew(rawFromReal(toRoot.x + s.path.x * position) >> 11, share),
+                        skew(rawFromReal(toRoot.y + s.path.y * position) >> 11, share), lie);
+    layDown(normal.x, normal.y, facing, depth, 2 * eye_.radius32(), lie);  // blending flattens: the horizon may be farther
     s.wide = lie.wide;
     s.high = lie.high;
     s.tiltX = lie.tiltX;
@@ -611,6 +612,8 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
 {
     EyeSide eye;
     eye.set(look.eye - centre_, radius_);
+    ShadeSetup shadeSetup;
+    shadeSetup.set(look.light, spacing_);
     int root = 0;
     Vector rootPlace = roots_[0] - look.eye;
     Voxel* v = voxels;
@@ -655,9 +658,11 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
                     continue;
                 v->place = rootPlace + s->path;
                 Lie lie;
-                lie.wide = s->wide;
-                lie.high = s->high;
-                layDown(s->dirX, s->dirY, eye.restFacing(along), rawFromReal(v->place.z) >> 11, eye.radius32(), lie);
+                const int32_t depth = rawFromReal(v->place.z) >> 11;
+                const int32_t share = skewShare(depth);
+                shadeSetup.restExtents(*s, skew(rawFromReal(v->place.x) >> 11, share),
+                                       skew(rawFromReal(v->place.y) >> 11, share), lie);
+                layDown(s->dirX, s->dirY, eye.restFacing(along), depth, eye.radius32(), lie);
                 v->place.x += realFromRaw(lie.shiftX * 256);
                 v->place.y += realFromRaw(lie.shiftY * 256);
                 v->tiltX = lie.tiltX;

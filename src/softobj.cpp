@@ -10,7 +10,7 @@ namespace {
 
 // Every scale is a little larger than the part of the surface that is its own, by this part of the spacing: the
 // surface bends between seeds and a ring holds a whole number of them.
-constexpr Real CELL_MARGIN(0.08);
+constexpr Real CELL_MARGIN(0.03);
 
 // The cell of an oversampled seed, which lies between seeds that have cells of their own: in eighths of theirs.
 constexpr int EXTRA_CELL = 5;

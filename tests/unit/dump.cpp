@@ -64,7 +64,6 @@ TEST(a_dumped_frame)
         object.shadeRest(look.light);
         object.update(look);
         int next = 0;
-        view.touch(object.centre(), object.reach());
         const int count = object.draw(look, voxels.data(), 4096, &next);
         view.show(voxels.data(), count);
     }

@@ -28,8 +28,8 @@ TEST(field_table_is_as_good_as_stated)
     double value = 0, slope = 0;
     for (int i = 0; i < 65536; ++i) {
         const Real t = realFromRaw(i);
-        Real f, s;
-        geoffQuick(t, f, s);
+        const FieldStep& step = geoffQuick(t);
+        const Real f = step.value, s = step.slope;
         value = std::fmax(value, std::fabs(number(f) - trueGeoff(number(t))));
         slope = std::fmax(slope, std::fabs(number(s) - trueSlope(number(t))));
     }

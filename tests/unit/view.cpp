@@ -49,7 +49,6 @@ TEST(projection_formula)
         const Voxel v = voxel(random.between(-spread, spread), random.between(-spread, spread) * 0.7, z, random.between(0.1, 8),
                               random.between(0.1, 8), 1 + random.below(255));
         view.begin();
-        view.touch(view.camera().eye + v.place, Real(20));
         drawn += view.show(&v, 1);
         view.end();
         const Box b = box(v, view.camera());
@@ -85,7 +84,6 @@ TEST(round_on_a_4_to_3_screen)
     NEAR(number(view.camera().focalX), 1.2 * number(view.camera().focalY), 1e-3);
     const Voxel v = voxel(0, 0, 100, 20, 20, 9);
     view.begin();
-    view.touch(view.camera().eye + v.place, Real(40));
     SAME(view.show(&v, 1), 1);
     view.end();
     int wide = 0, high = 0;
@@ -107,7 +105,6 @@ TEST(scales_grow_with_nearness)
     for (double z : {240.0, 120.0, 60.0, 30.0, 15.0}) {
         const Voxel v = voxel(0, 0, z, 1.4, 1.4, 5);
         view.begin();
-        view.touch(view.camera().eye + v.place, Real(4));
         view.show(&v, 1);
         view.end();
         int wide = 0;
@@ -161,7 +158,6 @@ TEST(anything_may_be_shown)
             v.colour = static_cast<uint8_t>(random.bits());
         }
         view.begin();
-        view.touch(point(0, 0, 0), Real(300));
         const int drawn = view.show(many.data(), static_cast<int>(many.size()));
         view.end();
         CHECK(drawn >= 0 && drawn <= static_cast<int>(many.size()));
@@ -182,7 +178,6 @@ TEST(nearest_is_seen)
     for (View* view : {&one, &two}) {
         const std::vector<Voxel>& l = view == &one ? list : reversed;
         view->begin();
-        view->touch(point(0, 0, 0), Real(100));
         view->show(l.data(), static_cast<int>(l.size()));
         view->end();
     }
@@ -202,7 +197,6 @@ TEST(pixels_instead_of_scales)
     for (int i = 0; i < 500; ++i) {
         const Voxel v = voxel(random.between(-40, 40), random.between(-30, 30), random.between(70, 250), 3, 3, 8);
         view.begin();
-        view.touch(view.camera().eye + v.place, Real(10));
         const int drawn = view.show(&v, 1);
         view.end();
         int count = 0, at = -1;
@@ -251,7 +245,6 @@ TEST(spans_are_enough)
             const SoftObject& object = *scene.objects[i];
             const std::vector<Voxel> voxels = scene.draw(i);
             fresh.show(voxels.data(), static_cast<int>(voxels.size()));
-            limited.touch(object.centre(), object.reach());
             limited.show(voxels.data(), static_cast<int>(voxels.size()));
         }
         if (frame % 10 == 5) {
