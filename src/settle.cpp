@@ -25,6 +25,8 @@ constexpr Real POSITION_MOST(1.85);
 constexpr Real TOUCHING(0.9);
 // Where a path is looked at for the first time outside the surface, when nothing is known of it.
 const Real PROBES[] = {Real(1.15), Real(1.35), POSITION_MOST};
+const Real PROBES_BETWEEN[] = {Real(1.08), Real(1.25), Real(1.45), Real(1.6)};
+constexpr Real NEARLY(0.04);
 // Squared distance / squared size up to which a neighbour alone fills what the own field lacks at POSITION_MOST: its
 // field is 0.38 there.
 constexpr Real BURYING(0.265);
@@ -390,6 +392,19 @@ bool Settler::bracket(Real& position)
         buried_ = least(buried_, excess);
         inside = probe;
     }
+    if (outside == Real(0) && buried_ < NEARLY) {
+        // It nearly left: between the places looked at it may have, and gone into something else.
+        inside = Real(1);
+        for (const Real probe : PROBES_BETWEEN) {
+            const Real excess = lookAt<PLAIN>(probe, slope) - ISOVALUE;
+            if (excess < Real(0)) {
+                outside = probe;
+                break;
+            }
+            buried_ = least(buried_, excess);
+            inside = probe;
+        }
+    }
     if (outside == Real(0))
         return false;
     position = shiftDown(inside + outside, 1);
@@ -617,7 +632,7 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
     int root = 0;
     Vector rootPlace = roots_[0] - look.eye;
     Voxel* v = voxels;
-    const int16_t gap = static_cast<int16_t>(rawFromReal(spacing_ * Real(1.25)) >> 8);
+    const int16_t gap = static_cast<int16_t>(rawFromReal(spacing_ * Real(2.0)) >> 8);
     const int32_t setBack = mulDiv(1 << 30, 1 << 17, rawFromReal(most(radius_, Real(2))));  // 2^31 / radius
     const Voxel* const full = voxels + room - 4 * PATCH_SEEDS;
     int p = *next;

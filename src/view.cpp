@@ -227,7 +227,7 @@ void View::closeGap(int at)
     if (zbuffer_[at] != Z_EMPTY)
         return;
     static const int SIDES[] = {-1, 1, -WIDTH, WIDTH};
-    int nearest = GAP_WIDEST + 1, from = at;
+    int nearest = GAP_WIDEST + 1, from = at, open = 0;
     const int x = at % WIDTH, y = at / WIDTH;
     if (x < GAP_WIDEST || x >= WIDTH - GAP_WIDEST || y < GAP_WIDEST || y >= HEIGHT - GAP_WIDEST)
         return;
@@ -235,9 +235,10 @@ void View::closeGap(int at)
         int far = 1;
         while (far <= GAP_WIDEST && zbuffer_[at + far * side] == Z_EMPTY)
             ++far;
-        if (far > GAP_WIDEST)
-            return;
-        if (far < nearest) {
+        if (far > GAP_WIDEST) {
+            if (open++ > 0)
+                return;
+        } else if (far < nearest) {
             nearest = far;
             from = at + far * side;
         }
