@@ -57,6 +57,7 @@ public:
 
 private:
     void mark(int left, int top, int right, int bottom);
+    void addGap(const Scale& gap);
     void closeGap(int at);
     bool project(const Voxel& voxel, Scale* scale) const;
 

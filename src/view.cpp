@@ -13,6 +13,9 @@ constexpr int SCALES_AT_ONCE = 1024;
 // Marked places in a frame (more are left alone), and how far away the sides of a gap may be, pixels.
 constexpr int GAPS_MOST = 1024;
 constexpr int GAP_WIDEST = 8;
+// A mark closer than GAP_STEP pixels to one of the last GAPS_ALIKE is left out.
+constexpr int GAPS_ALIKE = 16;
+constexpr int GAP_STEP = 4;
 constexpr int FRACTION = 12;
 constexpr int32_t HALF = 1 << (FRACTION - 1);
 constexpr int32_t NEAREST = 1 << 16;           // 1 unit
@@ -179,8 +182,7 @@ int View::show(const Voxel* voxels, int count)
             if (!project(voxels[i], end))
                 continue;
             if (voxels[i].colour == GAP) {
-                if (gapCount_ < GAPS_MOST)
-                    gaps_[gapCount_++] = *end;
+                addGap(*end);
                 continue;
             }
             const int left = end->left, top = end->top, right = left + end->wide, bottom = top + end->high;
@@ -199,6 +201,18 @@ int View::show(const Voxel* voxels, int count)
     // Gaps are closed between what was drawn, so these bounds hold for them too.
     mark(leftmost, topmost, rightmost, bottommost);
     return drawn;
+}
+
+// Marks come in rows, many for one gap: one that lies nearly where a late one did is left out.
+void View::addGap(const Scale& gap)
+{
+    for (int i = gapCount_ > GAPS_ALIKE ? gapCount_ - GAPS_ALIKE : 0; i < gapCount_; ++i) {
+        const int x = gap.left - gaps_[i].left, y = gap.top - gaps_[i].top;
+        if (x > -GAP_STEP && x < GAP_STEP && y > -GAP_STEP && y < GAP_STEP)
+            return;
+    }
+    if (gapCount_ < GAPS_MOST)
+        gaps_[gapCount_++] = gap;
 }
 
 void View::closeGaps()
