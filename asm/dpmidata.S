@@ -172,6 +172,8 @@ rmregs:         .skip   R_SIZE
 fault_frame:    .skip   F_SIZE          /* page faults in DOSBox, see dpmiint.S */
 fault_pages:    .skip   FAULT_PAGES * 4 /* numbers of pages to be absent again */
 fault_count:    .skip   4
+                .globl  shrunk
+shrunk:         .skip   2               /* a selector whose limit the client made less than a page, or 0 */
 fault_pending:  .skip   1
 fault_defer:    .skip   1               /* 1: this is DOSBox */
 hlts:           .skip   HLT_COUNT
