@@ -34,8 +34,7 @@
 // addition pairs), one that is taken 5 (486: 2 + 1 + 2 + 1 + 1). A row adds 5, a scale 20.
 
         .align  16
-        .globl  SYM(blitScalesA)
-SYM(blitScalesA):
+        FUNC(blitScalesA)
         pushl   %ebp
         pushl   %ebx
         pushl   %esi
@@ -155,6 +154,7 @@ scales_done:
         popl    %ebx
         popl    %ebp
         ret
+        ENDFUNC(blitScalesA)
 
         .align  4
 rows_of:
@@ -170,8 +170,7 @@ rows_of:
 // String instructions: 486 5 + 4 a double word (slower than moves, but free of the loop), Pentium 1 a double word.
 
         .align  16
-        .globl  SYM(clearRowsA)
-SYM(clearRowsA):
+        FUNC(clearRowsA)
         pushl   %ebp
         pushl   %ebx
         pushl   %esi
@@ -215,6 +214,7 @@ clear_done:
         popl    %ebx
         popl    %ebp
         ret
+        ENDFUNC(clearRowsA)
 
 // ---------------------------------------------------------------------------------------------------------------------
 // void presentRows(uint32_t selector, uint32_t offset, const uint8_t* frame, const Span* rows, int count)
@@ -224,8 +224,7 @@ clear_done:
 // The bus to the card sets the pace here, not the processor: double words are what it takes best.
 
         .align  16
-        .globl  SYM(presentRows)
-SYM(presentRows):
+        FUNC(presentRows)
         pushl   %ebp
         pushl   %ebx
         pushl   %esi
@@ -263,5 +262,6 @@ present_done:
         popl    %ebx
         popl    %ebp
         ret
+        ENDFUNC(presentRows)
 
 ASM_END
