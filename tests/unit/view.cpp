@@ -85,7 +85,7 @@ TEST(tilted_scales_lie_in_their_plane)
     Random random;
     long tried = 0;
     for (int k = 0; k < 2000; ++k) {
-        const double z = random.between(66, 250);
+        const double z = random.between(78, 250);
         Voxel v = voxel(random.between(-0.4 * z, 0.4 * z), random.between(-0.3 * z, 0.3 * z), z, random.between(0.3, 1.4), random.between(0.3, 1.4), 9);
         v.tiltX = static_cast<int16_t>(random.between(-2.5, 2.5) * 256);
         v.tiltY = static_cast<int16_t>(random.between(-2.5, 2.5) * 256);
