@@ -5,10 +5,9 @@ cd "$(dirname "$0")/../.." || exit 1
 . tests/lib.sh
 
 # UNIT_KINDS: some kinds only.
-for kind in ${UNIT_KINDS:-fixed float double}; do
-	build build/unit-$kind
-done
-for kind in ${UNIT_KINDS:-fixed float double}; do
+kinds=${UNIT_KINDS:-fixed float double}
+build $(for kind in $kinds; do echo build/unit-$kind; done)
+for kind in $kinds; do
 	echo "# Real: $kind"
 	build/unit-$kind >"$dir/out" 2>&1
 	count "$dir/out"
