@@ -224,6 +224,8 @@ xms_super:      .skip   1               /* 80h: XMS 3, sizes in 32 bits */
 cpu_type:       .skip   1
 fpu_type:       .skip   1               /* bits 4 to 7 as in 0E00h */
 callbacks_used: .skip   1
+                .globl  cr0_start
+cr0_start:      .skip   1               /* MP and EM of CR0 */
 a20_mode:       .skip   1               /* who switched A20 on: 0 nobody, 1 XMS, 2 port 92h, 3 keyboard controller */
 
         ASM_END
