@@ -33,9 +33,8 @@
 // A pixel behind what is there costs 3 instructions (486: 2 + 3 + 1, Pentium: 3 when the branch is foreseen, the
 // addition pairs), one that is taken 5 (486: 2 + 1 + 2 + 1 + 1). A row adds 5, a scale 20.
 
-        .align  16
-        .globl  SYM(blitScalesA)
-SYM(blitScalesA):
+        .balign 16
+        FUNC(blitScalesA)
         pushl   %ebp
         pushl   %ebx
         pushl   %esi
@@ -76,7 +75,7 @@ scale_loop:
         //     for (x = 0; x < wide; ++x, z += zStep)
         //         (z < depths[x]): depths[x] = z, pixels[x] = colour
         .macro  ROWS wide
-        .align  16
+        .balign 16
 rows_\wide:
         .set    x, 0
         .rept   \wide
@@ -117,7 +116,7 @@ rows_\wide:
         ROWS    16
 
         // The same with a counter, for scales near the viewer.
-        .align  16
+        .balign 16
 wide_rows:
         leal    (%esi,%eax,2), %esi     // both pointers at the end of the row; a counter runs up to 0
         addl    %eax, %edi
@@ -155,8 +154,9 @@ scales_done:
         popl    %ebx
         popl    %ebp
         ret
+        ENDFUNC(blitScalesA)
 
-        .align  4
+        .balign 4
 rows_of:
         .long   scales_done             // width 0 does not occur
         .long   rows_1, rows_2, rows_3, rows_4, rows_5, rows_6, rows_7, rows_8
@@ -169,9 +169,8 @@ rows_of:
 //
 // String instructions: 486 5 + 4 a double word (slower than moves, but free of the loop), Pentium 1 a double word.
 
-        .align  16
-        .globl  SYM(clearRowsA)
-SYM(clearRowsA):
+        .balign 16
+        FUNC(clearRowsA)
         pushl   %ebp
         pushl   %ebx
         pushl   %esi
@@ -215,6 +214,7 @@ clear_done:
         popl    %ebx
         popl    %ebp
         ret
+        ENDFUNC(clearRowsA)
 
 // ---------------------------------------------------------------------------------------------------------------------
 // void presentRows(uint32_t selector, uint32_t offset, const uint8_t* frame, const Span* rows, int count)
@@ -223,9 +223,8 @@ clear_done:
 //
 // The bus to the card sets the pace here, not the processor: double words are what it takes best.
 
-        .align  16
-        .globl  SYM(presentRows)
-SYM(presentRows):
+        .balign 16
+        FUNC(presentRows)
         pushl   %ebp
         pushl   %ebx
         pushl   %esi
@@ -263,5 +262,6 @@ present_done:
         popl    %ebx
         popl    %ebp
         ret
+        ENDFUNC(presentRows)
 
 ASM_END

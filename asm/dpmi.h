@@ -79,7 +79,7 @@
 
 /* --- Sizes. --- */
 #define R0_STACK    4096        /* ring 0: about 100 bytes for each nesting of PM in RM in PM */
-#define RM_STACK    6144        /* real mode: RM_CHUNK for each nested call */
+#define RM_STACK    8192        /* real mode: RM_CHUNK for each nested call */
 #define RM_CHUNK    1024
 #define LOCK_STACK  8192        /* ring 3 handlers: LOCK_CHUNK for each nested handler at least */
 #define LOCK_CHUNK  1024

@@ -172,6 +172,8 @@ rmregs:         .skip   R_SIZE
 fault_frame:    .skip   F_SIZE          /* page faults in DOSBox, see dpmiint.S */
 fault_pages:    .skip   FAULT_PAGES * 4 /* numbers of pages to be absent again */
 fault_count:    .skip   4
+                .globl  shrunk
+shrunk:         .skip   2               /* a selector whose limit the client made less than a page, or 0 */
 fault_pending:  .skip   1
 fault_defer:    .skip   1               /* 1: this is DOSBox */
 hlts:           .skip   HLT_COUNT
@@ -222,6 +224,8 @@ xms_super:      .skip   1               /* 80h: XMS 3, sizes in 32 bits */
 cpu_type:       .skip   1
 fpu_type:       .skip   1               /* bits 4 to 7 as in 0E00h */
 callbacks_used: .skip   1
+                .globl  cr0_start
+cr0_start:      .skip   1               /* MP and EM of CR0 */
 a20_mode:       .skip   1               /* who switched A20 on: 0 nobody, 1 XMS, 2 port 92h, 3 keyboard controller */
 
         ASM_END

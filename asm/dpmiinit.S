@@ -70,6 +70,8 @@ host_init:
 
         call    processor
         smsw    %ax
+        mov     %al, cr0_start
+        andb    $6, cr0_start
         test    $1, %al
         jz      3f
         call    vcpi_init
@@ -564,6 +566,10 @@ pm_enter:
         .globl  host_exit
 host_exit:
         movb    %al, exit_code
+        movl    %cr0, %eax              /* the coprocessor bits, which 0E01h can change */
+        andb    $~6, %al
+        orb     cr0_start, %al
+        movl    %eax, %cr0
         call    mem_free_all
         movl    host_seg, %eax
         shll    $16, %eax

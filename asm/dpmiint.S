@@ -39,6 +39,9 @@
    out) is replaced by 0: see host_fault. */
         .globl  exit_frame
 exit_frame:
+        cmpw    $0, %ss:shrunk
+        jne     1f
+exit_now:
         popal
 pop_ds: popl    %ds
 pop_es: popl    %es
@@ -47,6 +50,23 @@ pop_gs: popl    %gs
         addl    $8, %esp
 exit_iret:
         iretl
+
+/* DJGPP interrupts its programs (alarm, Ctrl-C as a signal) by making their data and stack segment so small that
+   the next access faults. Emulators do not check limits, so the host looks after it: a return to a shrunk stack
+   is a general protection fault. */
+1:      movw    %ss:shrunk, %ax
+        cmpw    %ax, F_SS(%esp)
+        jne     exit_now
+        movl    %esp, %ebp
+        movl    $HOST_DS, %edx
+        movw    %dx, %ds
+        movw    %dx, %es
+        cld
+shrunk_fault:
+        movl    $13, %eax
+        movl    %eax, F_VEC(%ebp)
+        movl    $0, F_ERR(%ebp)
+        jmp     deliver
 
 /* --- Software interrupts. Each entry: vector on the stack, pushed by its thunk. --- */
         .globl  entry_int21, entry_int2f, entry_soft
@@ -171,7 +191,13 @@ hlt_trap:
         movl    %ss:tss + 4, %esp
         popl    %ss:tss + 4
         popl    %ss:lock_cur
+        cmpw    $0, %ss:shrunk
+        jne     4f
         iretl
+4:      pushl   $0                      /* back to a shrunk stack? */
+        pushl   $13
+        SAVE_FRAME
+        jmp     exit_frame
 1:      SAVE_FRAME
         movl    F_EIP(%ebp), %eax
         cmpl    $256, %eax

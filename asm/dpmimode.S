@@ -137,7 +137,8 @@ pm_arrive:
         ltr     %ax
         movw    $LDT_SEL, %ax
         lldt    %ax
-        cld
+        pushl   $2                      /* NT would make the next IRET a task switch */
+        popfl
         jmp     *pm_cont
 
 pm_return:

@@ -162,7 +162,10 @@ svc_0001:
         cmpw    F_SS(%ebp), %bx
         je      bad_selector
         xorl    %eax, %eax
-        movl    %eax, (%edi)
+        cmpw    shrunk, %bx
+        jne     4f
+        movw    %ax, shrunk
+4:      movl    %eax, (%edi)
         movl    %eax, 4(%edi)
         movl    $4, %ecx
         leal    F_DS(%ebp), %edi
@@ -237,7 +240,17 @@ svc_0008:
         notl    %edx
         testl   $0x0fff, %edx
         jnz     bad_value
-2:      movl    %ecx, %eax
+2:      cmpw    shrunk, %bx             /* large again? */
+        jne     3f
+        movw    $0, shrunk
+3:      movzwl  %bx, %eax
+        lsll    %eax, %eax
+        cmpl    $0x0fff, %eax           /* from more than a page to less: see exit_frame */
+        jbe     4f
+        cmpl    $0x0fff, %ecx
+        ja      4f
+        movw    %bx, shrunk
+4:      movl    %ecx, %eax
         call    set_limit
         clc
 1:      ret

@@ -22,7 +22,7 @@ ok() {
 
 # build TARGET...: builds in silence; what the compiler says is shown when it fails, and the suite ends there.
 build() {
-	if ! make -s "$@" >"$dir/make" 2>&1; then
+	if ! make -s -j"$(nproc 2>/dev/null || echo 2)" "$@" >"$dir/make" 2>&1; then
 		cat "$dir/make"
 		echo "FAIL building $*"
 		failed=$((failed + 1))

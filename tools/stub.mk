@@ -3,7 +3,7 @@
 # leaves build/STUB.EXE and build/mkexe. STUB_CC and STUB_LD may be DJGPP's (gcc and ld) as well.
 
 STUB_CC  ?= gcc -m32
-STUB_LD  ?= ld -m elf_i386
+STUB_LD  ?= ld -m elf_i386 $(if $(findstring no-warn-rwx-segments,$(shell ld --help)),--no-warn-rwx-segments)
 HOST_CXX ?= g++
 
 STUB_SRC = stub dpmiinit dpmimode dpmiint dpmisvc dpmimem dpmidata

@@ -38,8 +38,6 @@ SYM(int31):
         int     $0x31
         pushfl
         movl    4(%esp), %ebp
-        movw    %ss:DS(%ebp), %bp       // (the value does not matter)
-        movl    4(%esp), %ebp
         movl    %eax, %ss:EAX(%ebp)
         movl    %ebx, %ss:EBX(%ebp)
         movl    %ecx, %ss:ECX(%ebp)

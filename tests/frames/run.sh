@@ -60,6 +60,21 @@ build/demo /N:3 /D:"$dir/h" >"$dir/h.txt"
 tools/dosbox.sh -c max -o cpu.core=normal -t 120 -d "$c" -- 'DEMO /N:3 /X /D:NORMAL > OUT.TXT'
 same "DEMO.EXE interpreted" "$dir/h" "$c/NORMAL"
 
+# The same program made by DJGPP, where its compiler is.
+if command -v "${CROSS:-i586-pc-msdosdjgpp-}g++" >/dev/null; then
+	ok "DJGPP builds it" make -s -f Makefile.djgpp
+	cp build/djgpp/DEMO.EXE "$c/DJDEMO.EXE"
+	ok "DJGPP's DEMO.EXE plays" tools/dosbox.sh -c max -o cpu.core=dynamic -t 200 -d "$c" -- \
+		'DJDEMO /N:20 /D:DJ1 > OUT.TXT' 'DJDEMO /N:10 /P /G /D:DJ2 > OUT.TXT'
+	build/demo /N:20 /D:"$dir/j1" >/dev/null
+	build/demo /N:10 /P /G /D:"$dir/j2" >/dev/null
+	same "DEMO.EXE by DJGPP, /N:20" "$dir/j1" "$c/DJ1"
+	same "DEMO.EXE by DJGPP, /N:10 /P /G" "$dir/j2" "$c/DJ2"
+	rm -rf "$dir/j1" "$dir/j2" "$c/DJ1" "$c/DJ2"
+else
+	echo "# no DJGPP compiler here: its DEMO.EXE was not compared"
+fi
+
 # Seeds that are changed while it runs, and objects moved by the mouse: from a script, host builds only.
 cat >"$dir/script" <<END
 1 key -

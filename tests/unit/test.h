@@ -21,6 +21,10 @@ struct Test {
 // Counts a check; says which one failed. The first few of a test are printed, the rest only counted.
 bool check(bool good, const char* file, int line, const std::string& what);
 
+// Text, or none.
+inline std::string said(const std::string& text) { return text; }
+inline std::string said(const char* text) { return text != nullptr ? text : "(null)"; }
+
 inline std::string said(double a)
 {
     char text[40];
@@ -55,7 +59,7 @@ inline std::string said(double a)
 
 #define TEXT(a, b)                                                                                                \
     do {                                                                                                          \
-        const std::string a_ = (a), b_ = (b);                                                                     \
+        const std::string a_ = fbtest::said(a), b_ = fbtest::said(b);                                                                     \
         fbtest::check(a_ == b_, __FILE__, __LINE__, std::string(#a " = \"") + a_ + "\", expected \"" + b_ + "\"");  \
     } while (0)
 

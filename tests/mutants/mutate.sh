@@ -1,0 +1,62 @@
+#!/bin/sh
+# Breaks the program on purpose, one fault at a time, in a copy of the tree, and sees that a test fails: a test that cannot
+# fail is no test. Not part of `make test`; run it when tests or the code below them changed much.
+#
+#   tests/mutants/mutate.sh [TEXT]       faults whose line in faults.txt contains TEXT; default: all
+#
+# Each line of faults.txt is FILE, a sed expression that makes the fault, and what it is, with " :: " between.
+# Prints which suite noticed each fault and closes with "N passed, N failed": failed are those that nothing noticed, and
+# those whose expression changes nothing any more.
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+. tests/lib.sh
+
+copy=$dir/tree
+mkdir "$copy"
+tar cf - --exclude=./build --exclude=./.git . | (cd "$copy" && tar xf -)
+grep -v '^#' tests/mutants/faults.txt | grep -F -- "${1:-}" >"$dir/faults"
+UNIT_KINDS=fixed
+export UNIT_KINDS
+
+cd "$copy" || exit 1
+suites="twins unit cli"
+[ ! -f tests/golden/sums.txt ] || suites="$suites golden"
+for suite in $suites; do
+	sh "tests/$suite/run.sh" >"$dir/log" 2>&1 || {
+		grep FAIL "$dir/log"
+		echo "FAIL $suite fails before anything is broken"
+		failed=1
+		summary
+		exit 1
+	}
+done
+
+while read -r line; do
+	file=${line%% :: *}
+	rest=${line#* :: }
+	change=${rest%% :: *}
+	what=${rest#* :: }
+	cp "$file" "$dir/whole"
+	sed "$change" "$dir/whole" >"$file"
+	noticed=
+	if cmp -s "$file" "$dir/whole"; then
+		echo "FAIL $file: $what: nothing to change"
+		failed=$((failed + 1))
+		continue
+	fi
+	for suite in $suites; do
+		if ! timeout 120 sh "tests/$suite/run.sh" >"$dir/log" 2>&1; then
+			noticed=$suite
+			break
+		fi
+	done
+	if [ -n "$noticed" ]; then
+		echo "ok $file: $what: $noticed: $(grep -m 1 -e FAIL -e rror "$dir/log" | cut -c 1-100)"
+		passed=$((passed + 1))
+	else
+		echo "FAIL $file: $what: not noticed"
+		failed=$((failed + 1))
+	fi
+	cp "$dir/whole" "$file"
+done <"$dir/faults"
+summary
