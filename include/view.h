@@ -61,12 +61,12 @@ private:
     void closeGap(int at);
     bool project(const Voxel& voxel, Scale* scale) const;
 
-    // 12 bits of fraction; voxels from 64 to 256 units away find their factors in a table, by steps of 1/4 unit.
+    // 12 bits of fraction; voxels from 64 to 256 units away find their factors in a table, by steps of 1/8 unit.
     struct Factors {
         int32_t x, y;  // focal 2^44 / z (z in 16.16)
     };
-    static constexpr int NEAR_STEPS = 64 * 4;
-    static constexpr int FAR_STEPS = 256 * 4;
+    static constexpr int NEAR_STEPS = 64 * 8;
+    static constexpr int FAR_STEPS = 256 * 8;
 
     Camera camera_;
     int32_t focalX_ = 0, focalY_ = 0, centreX_ = 0, centreY_ = 0;  // pixels, 12 bits of fraction

@@ -68,11 +68,11 @@ void View::setCamera(const Camera& camera)
     unitX_ = mulDiv(1 << 30, 1 << 13, focalX_);
     unitY_ = mulDiv(1 << 30, 1 << 13, focalY_);
     for (int i = NEAR_STEPS; i < FAR_STEPS; ++i) {
-        // The middle of the step: z = (i + 1/2) / 4 units = (2i + 1) 2^13 in 16.16. focal 2^44 / z = focal12 2^32 / z
-        // = focal12 2^19 / (2i + 1); 2^19 in two steps keeps 32 bits for focal lengths up to 500.
+        // The middle of the step: z = (i + 1/2) / 8 units = (2i + 1) 2^12 in 16.16. focal 2^44 / z = focal12 2^32 / z
+        // = focal12 2^20 / (2i + 1); 2^20 in two steps keeps 32 bits for focal lengths up to 500.
         Factors& f = factors_[i - NEAR_STEPS];
-        f.x = mulDiv(focalX_, 1 << 18, 2 * i + 1) * 2;
-        f.y = mulDiv(focalY_, 1 << 18, 2 * i + 1) * 2;
+        f.x = mulDiv(focalX_, 1 << 18, 2 * i + 1) * 4;
+        f.y = mulDiv(focalY_, 1 << 18, 2 * i + 1) * 4;
     }
 }
 
@@ -105,7 +105,7 @@ inline bool View::project(const Voxel& voxel, Scale* scale) const
     const int32_t x = rawFromReal(voxel.place.x), y = rawFromReal(voxel.place.y), z = rawFromReal(voxel.place.z);
     const int32_t wide = voxel.wide * 256, high = voxel.high * 256;
     int32_t column, row, halfWide, halfHigh;
-    const uint32_t step = static_cast<uint32_t>(z >> 14) - NEAR_STEPS;
+    const uint32_t step = static_cast<uint32_t>(z >> 13) - NEAR_STEPS;
     if (step < static_cast<uint32_t>(FAR_STEPS - NEAR_STEPS)) {
         const Factors& f = factors_[step];
         column = mulHigh(x, f.x);

@@ -89,7 +89,6 @@ TEST(tilted_scales_lie_in_their_plane)
         v.tiltX = static_cast<int16_t>(random.between(-2.5, 2.5) * 256);
         v.tiltY = static_cast<int16_t>(random.between(-2.5, 2.5) * 256);
         view.begin();
-        view.touch(view.camera().eye + v.place, Real(20));
         view.show(&v, 1);
         view.end();
         const Box b = box(v, view.camera());
@@ -278,7 +277,6 @@ TEST(spans_are_enough)
         fresh.begin();
         limited.begin();
         for (size_t i = 0; i < scene.objects.size(); ++i) {
-            const SoftObject& object = *scene.objects[i];
             const std::vector<Voxel> voxels = scene.draw(i);
             fresh.show(voxels.data(), static_cast<int>(voxels.size()));
             limited.show(voxels.data(), static_cast<int>(voxels.size()));
