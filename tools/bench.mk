@@ -1,0 +1,33 @@
+# How the benchmark is built. Included by the Makefile.
+#
+#   make bench              a page of figures, and build/bench.csv with the same (tools/bench.sh tells more)
+#   make bench SECONDS=10   shorter runs; FULL=1: the whole minute of the animation in each
+#   build/BENCH.BAT         the runs for a real machine, beside DEMO.EXE
+#   build/bench32           the 32-bit host program with tools/bench.cpp linked in, for counting instructions
+
+all: build/BENCH.BAT
+
+# DOS wants its own line ends.
+build/BENCH.BAT: tools/bench.bat
+	@mkdir -p build
+	awk '{ sub(/\r$$/, ""); printf "%s\r\n", $$0 }' tools/bench.bat > $@
+
+BENCH_WRAP = -Wl,--wrap=blitScalesA -Wl,--wrap=clearRowsA -Wl,--wrap=_ZN7machine7presentEPKhPK4Span
+BENCH_BLIT = build/bench/blit486.o
+BENCH_PARTS = $(filter-out build/host32/src/blit.o,$(patsubst %.cpp,build/host32/%.o,$(HOST_SOURCES))) \
+	build/host32/asm/blit.o build/host32/tools/bench.o
+
+# The twin as a compiler for the 486 makes it.
+$(BENCH_BLIT): src/blit.cpp include/blit.h include/machine.h include/rt.h
+	@mkdir -p $(@D)
+	$(HOST_CXX) $(HOST_FLAGS) -m32 -march=i486 -fno-pic -fno-pie -DFB_ASM=1 -c $< -o $@
+
+build/bench32: $(BENCH_PARTS) $(BENCH_BLIT)
+	$(HOST_CXX) -m32 -no-pie -static $(BENCH_WRAP) -o $@ $^
+
+bench: build/DEMO.EXE build/bench32
+	@BENCH_SECONDS="$(SECONDS)" FULL="$(FULL)" sh tools/bench.sh
+
+.PHONY: bench
+
+-include $(wildcard build/host32/tools/*.d)
