@@ -37,11 +37,11 @@ rm_idtr: .word  0x3ff, 0, 0
 /* --- Mode switch. Pointers: offset, then the host's segment, filled in by host_init. --- */
         .balign 4
         .globl  pm_to_rm_vec, rm_to_pm_vec, rm_ptrs, rm_ptrs_end
-        .globl  rm_load_ptr, rmregs_ptr, rmregs_gs_ptr, rm_return_ptr, switch_stack_ptr, rm_stack_cur
+        .globl  rm_go, rmregs_ptr, rmregs_gs_ptr, rm_return_ptr, switch_stack_ptr, rm_stack_cur
 pm_to_rm_vec:   .long   raw_pm_to_rm
 rm_to_pm_vec:   .long   raw_rm_to_pm
 rm_ptrs:
-rm_load_ptr:    .word   rm_load, 0
+rm_go:          .word   rm_load, 0      /* where pm_to_rm arrives */
 rmregs_ptr:     .word   rmregs, 0
 rmregs_gs_ptr:  .word   rmregs + R_IP, 0
 rm_return_ptr:  .word   rm_return, 0
@@ -190,6 +190,8 @@ r0_stack_top:
                 .globl  pages
 pages:          .skip   3 * 4096        /* page directory and first page table, aligned to 4 KB in here */
 
+        .globl  irq_target
+irq_target:     .skip   4
         .globl  host_base, rm_spss, pm_cont, up_num, up_spss, xms_entry, xms_super, cpu_type, fpu_type
         .globl  pic_masks, callbacks_used, vcpi_entry, switch_table_linear, old_15, old_23, a20_mode
         .globl  exit_code, env_seg, client_ip, client_cs, client_ds, client_ss, client_sp

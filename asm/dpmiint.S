@@ -132,15 +132,23 @@ entry_irq:
         cmpw    $USER_CS, %ss:pm_vec + 4(, %eax, 8)
         popl    %eax
         jne     irq_to_client
+        pushl   (%esp)
+        SAVE_FRAME
+        cmpb    $0, fault_pending
+        jne     irq_and_fault
+        movzbl  F_VEC(%ebp), %eax
+        call    rm_irq_call
+        jmp     exit_frame
+
+/* The clock's tick that a page fault was waiting for: to RM in any case, then the fault. */
 irq_to_rm:
         pushl   (%esp)
         SAVE_FRAME
+irq_and_fault:
         movzbl  F_VEC(%ebp), %eax
         movw    $2, rmregs + R_FLAGS
         movl    $0, rmregs + R_SP
         call    rm_int
-        cmpb    $0, fault_pending
-        je      exit_frame
         jmp     fault_now
 
 /* To the client's handler, on the locked stack. What is interrupted stays on the ring 0 stack, which goes on

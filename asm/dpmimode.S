@@ -45,7 +45,7 @@ raw_pm_to_rm:
         jmp     2f
 2:      andb    $0xfe, %al
         movl    %eax, %cr0
-        ljmpw   *rm_load_ptr            /* also empties the prefetch queue */
+        ljmpw   *rm_go                  /* also empties the prefetch queue */
 
         .globl  rm_load
 rm_load:
@@ -59,6 +59,16 @@ rm_load:
         lssw    %cs:rm_spss, %sp
         popfw
         lretw
+
+/* The short way down and up for a hardware interrupt (rm_irq_call): no registers are handed over. */
+rm_irq:
+        movw    $rm_load, %cs:rm_go
+        lssw    %cs:rm_spss, %sp
+        pushfw
+        lcallw  *%cs:irq_target
+        cli
+        movw    $pm_return, %cs:pm_cont
+        jmp     rm_to_pm
 
 /* --- RM to PM. --- */
 
@@ -156,7 +166,8 @@ vcpi_pm_to_rm:
         pushl   $switch_stack_top       /* ESP */
         pushl   $IOPL3 | 2              /* EFLAGS */
         pushl   %eax                    /* CS */
-        pushl   $rm_load                /* EIP */
+        movzwl  rm_go, %eax
+        pushl   %eax                    /* EIP */
         movw    $FLAT_DS, %ax
         movw    %ax, %ds
         movl    $0xde0c, %eax
@@ -208,6 +219,24 @@ rm_call:
         call    pm_to_rm
         addw    $RM_CHUNK, rm_stack_cur
         popl    %ebp
+        ret
+
+/* Call the RM handler of hardware interrupt EAX, a vector that is not hooked by the client. All registers but
+   ESP lost; DS = ES = HOST_DS. */
+        .globl  rm_irq_call
+rm_irq_call:
+        movw    $FLAT_DS, %dx
+        movw    %dx, %fs
+        movl    %fs:(, %eax, 4), %eax
+        movl    %eax, irq_target
+        movl    rm_stack_cur, %eax
+        movl    %eax, rm_spss
+        movw    $rm_irq, rm_go
+        subw    $RM_CHUNK, rm_stack_cur
+        cmpw    $rm_stack + RM_CHUNK, rm_stack_cur
+        jb      fatal_nesting
+        call    pm_to_rm
+        addw    $RM_CHUNK, rm_stack_cur
         ret
 
 /* Call RM interrupt EAX with rmregs. Lost and kept as above. A vector that leads up to PM by our own hook
