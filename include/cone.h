@@ -16,10 +16,10 @@ public:
 
     Vector fromCore(const Point& p) const override;
     Real sizeAt(const Point& p) const override;
+    Real tangentAt(const Point& root) const override;
     Real taperedParam(const Point& p, Vector* slope) const override;
-    Real leastRadius() const override { return shiftDown(least(size1_, size2_), 1); }
-    Real lean() const override { return absolute(normalSine_); }
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
+    Real horizonRadius(const Point& eye) const override;
     Real coreReach() const override { return half_; }
     void placeCore() override;
     void describe(char* to, int size) const override;

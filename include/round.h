@@ -41,6 +41,9 @@ inline Angle quarterTurn(Real part, Real of)
     return static_cast<Angle>(mulDiv(rawFromReal(part), 1 << 30, rawFromReal(of)));
 }
 
+// The square of the cosine of the angle between `v`, of any length, and a unit vector.
+Real squaredCosine(const Vector& v, const Vector& unitVector);
+
 constexpr Real PI(3.14159265);
 constexpr Real HALF_PI(1.57079633);
 

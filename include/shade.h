@@ -56,12 +56,16 @@ class EyeSide {
 public:
     enum Side { BACK, EITHER, FRONT };
 
-    // `toEye`: from the object's centre to the eye.
-    void set(const Vector& toEye, Real radius)
+    // `toEye`: from the object's centre to the eye; `reach`: the greatest distance of a root from the centre.
+    void set(const Vector& toEye, Real radius, Real reach)
     {
         centre_ = toEye;
-        distance_ = steps(length(toEye));
+        distance_ = steps(length(toEye) + reach);
+        toEye_[0] = steps(toEye.x);
+        toEye_[1] = steps(toEye.y);
+        toEye_[2] = steps(toEye.z);
         radius_ = steps(radius);
+        horizon_ = radius_;
         edge_ = radius_ << 14;
         away_ = -(distance_ * 13107);  // cosine -0.8
         root({Real(0), Real(0), Real(0)});
@@ -75,6 +79,17 @@ public:
         z_ = steps(centre_.z - fromCentre.z);
     }
 
+    // For objects that taper: the radius there.
+    void rootRadius(Real radius)
+    {
+        radius_ = steps(radius);
+        edge_ = radius_ << 14;
+    }
+
+    // Radius of curvature of the surface where the viewer sees its horizon, 1/32 unit: the object's own, unless told.
+    void horizon(Real radius) { horizon_ = steps(radius); }
+    int32_t horizon() const { return horizon_; }
+
     // direction . (eye - root) of the seed's path.
     int32_t along(const Seed& s) const { return s.dirX * x_ + s.dirY * y_ + s.dirZ * z_; }
 
@@ -85,7 +100,6 @@ public:
 
     // direction . (eye - seed) of a seed at rest, 1/32 unit.
     int32_t restFacing(int32_t along) const { return (along >> 14) - radius_; }
-    int32_t radius32() const { return radius_; }
     int32_t distance32() const { return distance_ < 1 ? 1 : distance_; }
 
     // normal . (eye - seed), 1/32 unit; `cosine` is normal . direction scaled by 2^14.
@@ -102,7 +116,7 @@ public:
     // by 2^14.
     Side side(const int16_t axis[3], int32_t across, int32_t radius, int32_t spread) const
     {
-        const int32_t middling = ((axis[0] * x_ + axis[1] * y_ + axis[2] * z_) >> 14) - across;
+        const int32_t middling = ((axis[0] * toEye_[0] + axis[1] * toEye_[1] + axis[2] * toEye_[2]) >> 14) - across;
         const int32_t doubt = (distance_ * spread >> 14) + radius;
         return middling > doubt ? FRONT : middling < -doubt ? BACK : EITHER;
     }
@@ -115,8 +129,9 @@ private:
     }
 
     Vector centre_;
+    int32_t toEye_[3];
     int32_t x_, y_, z_;
-    int32_t distance_, radius_, edge_, away_;
+    int32_t distance_, radius_, horizon_, edge_, away_;
 };
 
 // x / depth with 8 bits of fraction, limited to +-4, is skew(x, skewShare(depth)); both in 1/32 unit.

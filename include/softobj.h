@@ -93,13 +93,16 @@ public:
     // Whether the last ring of seeds lies beside the first.
     virtual bool ringsClose() const { return false; }
 
-    // For objects that taper. The size at the point of the core that is nearest to `p`, units; the field's argument
-    // there (see coreParam), with half its gradient times size() squared in `*slope`; the least radius; and the sine of
-    // the greatest angle between a path and the normal of the unblended surface.
+    // About the radius of curvature of the unblended surface, towards the viewer, where it bends away from him: scales
+    // near the edge of the object are cut there. Larger for flat parts.
+    virtual Real horizonRadius(const Point& /* eye */) const { return radius_; }
+
+    // For objects that taper. The size at the point of the core that is nearest to `p`, units; the distance of a root from
+    // the planes that touch the unblended surface where its seeds rest; the field's argument at `p` (see coreParam), with
+    // half its gradient times size() squared in `*slope`.
     virtual Real sizeAt(const Point&) const { return size_; }
+    virtual Real tangentAt(const Point&) const { return radius_; }
     virtual Real taperedParam(const Point& p, Vector* slope) const { return coreParam(*slope = fromCore(p)); }
-    virtual Real leastRadius() const { return radius_; }
-    virtual Real lean() const { return Real(0); }
 
     // The object in the words of a dumped frame ("sphere 1 3.25 -4 0 20"), at most `size` bytes with the final 0.
     virtual void describe(char* to, int size) const = 0;
@@ -194,7 +197,11 @@ public:
     void shadeRest(const Vector& light);
 
     // Seed i of the order in which they lie in memory: regular ones even, the oversampled one of each behind it.
-    const Seed& seed(int i) const { return seeds_[i]; }
+    const Seed& seed(int i) const
+    {
+        poseAll();
+        return seeds_[i];
+    }
     int seedSlots() const { return 2 * regular_; }
     Point seedPoint(const Seed& s) const { return roots_[s.root] + s.path * s.position; }
 
@@ -209,7 +216,6 @@ private:
     friend class Settler;
     friend class Counter;
     friend class Filler;
-    friend class RestFiller;
 
     // Most seeds that are judged as one.
     static constexpr int PATCH_SEEDS = 8;
@@ -227,8 +233,12 @@ private:
         uint32_t reached; // which neighbours reached it at the last update, as a sum of their marks
         uint8_t state;    // PatchState
         bool extras;      // oversampled seeds among them take part
+        uint8_t stale;    // PatchStale
     };
     enum PatchState : uint8_t { PATCH_UNKNOWN, PATCH_AT_REST, PATCH_BURIED, PATCH_MIXED };
+
+    // Of seeds that have not been turned and scaled as the object has.
+    enum PatchStale : uint8_t { STALE_NONE, STALE_EXTRAS, STALE_ALL };
 
     // What the report's method keeps of a seed from frame to frame.
     struct Kept {
@@ -240,7 +250,8 @@ private:
     // up however often it is done. Only kept for objects that are no balls, and for those once scaled.
     struct Rest {
         Vector path;
-        int16_t along[3], across[3];  // as of SeedMaker::addSeed(), 1/256 unit; all 0 for oversampled seeds
+        int8_t along[3], across[3];  // as in Seed
+        int16_t normal[3];           // of the surface, unit length = 2^14; only where the object tapers
     };
     struct PatchRest {
         Vector middle, axis;
@@ -253,11 +264,19 @@ private:
     void buildPatches();
     static void facePatch(Patch& patch, const Vector& axis);
     bool keepRest();
+    // It looks the same from everywhere.
+    bool isBall() const { return !tapers_ && coreReach() == Real(0); }
+    Vector restNormal(const Seed& s) const;
     void poseSeeds();
-    // What the visibility tests of seeds take for radius and spacing: for objects that taper, so that they hold for all
-    // seeds of the object.
-    Real sightRadius() const { return tapers_ ? leastRadius() : radius_; }
-    Real sightSpacing() const { return tapers_ ? spacing_ + shiftUp(leastRadius() * lean(), 1) : spacing_; }
+    // A component of a vector of whole numbers, turned.
+    template <class T>
+    int32_t turnStep(int row, const T v[3]) const
+    {
+        const int32_t* r = turnSteps_[row];
+        return (r[0] * v[0] + r[1] * v[1] + r[2] * v[2] + 8192) >> 14;
+    }
+    void posePatch(Patch& patch, bool extras) const;
+    void poseAll() const;
     void updatePrinted(const Look& look);
     int findNear(Link* near) const;
     void settlePrinted(int i, const Look& look, const Vector& toEye, const Link* near, int nearCount);
@@ -274,7 +293,6 @@ private:
     Real inverse_;    // 16 / size
     List<Link> skel_;
     bool recalc_;
-    bool turned_;
     bool tapers_;
     bool displaced_;  // some seed is not at rest
     bool linkedChange_;
@@ -282,6 +300,11 @@ private:
     Real wanted_;     // as asked for
     Real laidSize_;   // size when the seeds were laid out
     Real spread_;     // greatest position of a settled seed
+    mutable bool stale_;       // some patch is
+    Matrix pose_;              // turn and scale, counted from how the seeds were laid out
+    int32_t turnSteps_[3][3];  // the turn alone, 1.0 = 2^14
+    Real inverseRadius_;
+    Vector light_;             // of shadeRest()
     const uint8_t* ramp_;
     // More than any seed waits.
     static constexpr uint16_t TRAVEL_JUMP = 0x4000;

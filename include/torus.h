@@ -16,6 +16,7 @@ public:
     Vector fromCore(const Point& p) const override;
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
     bool ringsClose() const override { return true; }
+    Real horizonRadius(const Point& eye) const override;
     Real coreReach() const override { return ring_; }
     void placeCore() override;
     void describe(char* to, int size) const override;

@@ -42,6 +42,13 @@ Real Cone::sizeAt(const Point& p) const
     return sizeAlong(along(p));
 }
 
+Real Cone::tangentAt(const Point& root) const
+{
+    const Real s = along(root), local = shiftDown(sizeAlong(s), 1);
+    // The roots of the ends have round caps.
+    return absolute(s) < half_ - Real(0.01) ? local * normalCosine_ : local;
+}
+
 // t = d^2 / R^2 with the size R at the nearest point of the core: half its gradient is d / R^2 - axis d^2 taper / R^3,
 // the second part on the side only.
 Real Cone::taperedParam(const Point& p, Vector* slope) const
@@ -62,6 +69,13 @@ Real Cone::taperedParam(const Point& p, Vector* slope) const
         w = w - axis_ * (t * local * taper_);
     *slope = w * (larger * larger);
     return t;
+}
+
+Real Cone::horizonRadius(const Point& eye) const
+{
+    const Real across = Real(1) - squaredCosine(eye - centre(), axis_);
+    const Real flattest = size() + length();
+    return across * flattest <= radius() ? flattest : radius() / across;
 }
 
 void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const

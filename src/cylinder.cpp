@@ -23,6 +23,14 @@ Vector Cylinder::fromCore(const Point& p) const
     return v - axis_ * clamp(dot(v, axis_), -half_, half_);
 }
 
+Real Cylinder::horizonRadius(const Point& eye) const
+{
+    // Seen across it bends as its radius says, along it not at all.
+    const Real across = Real(1) - squaredCosine(eye - centre(), axis_);
+    const Real flattest = radius() + shiftUp(length(), 1);
+    return across * flattest <= radius() ? flattest : radius() / across;
+}
+
 void Cylinder::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
     // The outline: a quarter circle, the side, a quarter circle. The rings lie in the middles of equal parts of it.

@@ -26,6 +26,14 @@ Vector Disc::fromCore(const Point& p) const
     return away <= disc_ ? upright : upright + across * ((away - disc_) / away);
 }
 
+Real Disc::horizonRadius(const Point& eye) const
+{
+    // Seen from above the edge is the rim; from the side the faces are, and they do not bend at all.
+    const Real above = squaredCosine(eye - centre(), axis_);
+    const Real flattest = radius() + shiftUp(disc_, 1);
+    return above * flattest <= radius() ? flattest : radius() / above;
+}
+
 void Disc::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
     // The lower half of the outline: the face, and a quarter circle of the rim.

@@ -27,6 +27,7 @@ void SoftObject::updatePrinted(const Look& look)
         for (int i = 0; i < 2 * regular_; ++i)
             seeds_[i].flags = SEED_VALID;
     }
+    poseAll();
     Link near[NEAR_MOST];
     const int nearCount = findNear(near);
     const Vector toEye = unit(look.eye - centre_);

@@ -6,6 +6,12 @@
 
 namespace {
 
+// Seeds of a ring so small that it bends noticeably across one seed's part of it.
+constexpr int POLAR_SEEDS = 12;
+
+// A seed's part of the surface is given a little larger than it is, for it is turned in 64ths of the spacing.
+constexpr Real CELL_SPARE(1.04);
+
 // top / bottom, rounded down; the quotient must fit 32 bits.
 inline uint32_t quotient(uint64_t top, uint32_t bottom)
 {
@@ -51,16 +57,26 @@ void addSeeds(SeedMaker& maker, const Ring& ring, Real spacing, int root)
 {
     const int count = seedsOf(ring, spacing);
     const uint32_t step = 0xffffffffu / static_cast<uint32_t>(count);
-    const Real along = (ring.core + ring.radius * ring.pathCosine) * PI / Real(count);
+    // A seed's part of the surface is widest at its outer edge: in the small rings about a pole that makes a difference.
+    Real around = ring.core + ring.radius * ring.pathCosine;
+    if (count <= POLAR_SEEDS)
+        around += ring.across * absolute(ring.normalSine);
+    const Real along = around * sine(step / 2) * CELL_SPARE, across = ring.across * CELL_SPARE;
     const int nextRoot = ring.core == Real(0) ? 0 : 1;
     maker.beginRing();
     for (int i = 0; i < count; ++i, root += nextRoot) {
         const Angle longitude = static_cast<uint32_t>(i) * step;
         const Real s = sine(longitude), c = cosine(longitude);
-        const Real inward = -(ring.across * ring.normalSine);
+        const Real inward = -(across * ring.normalSine);
         maker.addSeed(root, {ring.pathCosine * s, ring.pathSine, ring.pathCosine * c}, {along * c, Real(0), -(along * s)},
-                      {inward * s, ring.across * ring.normalCosine, inward * c});
+                      {inward * s, across * ring.normalCosine, inward * c});
     }
+}
+
+Real squaredCosine(const Vector& v, const Vector& unitVector)
+{
+    const Real cosine = dot(unit(v), unitVector);
+    return cosine * cosine;
 }
 
 Real lengthQuick(const Vector& v)

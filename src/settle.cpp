@@ -55,8 +55,8 @@ struct Near {
 inline Real alongPath(const Near& near, const Vector& path)
 {
 #if FB_REAL == FB_FIXED
-    return Real::fromRaw((mulHigh(path.x.raw, near.twice.x.raw) + mulHigh(path.y.raw, near.twice.y.raw) +
-                          mulHigh(path.z.raw, near.twice.z.raw)) << 4);
+    return shiftUp(Real::fromRaw(mulHigh(path.x.raw, near.twice.x.raw) + mulHigh(path.y.raw, near.twice.y.raw) +
+                                 mulHigh(path.z.raw, near.twice.z.raw)), 4);
 #else
     return dot(path, near.twice);
 #endif
@@ -72,7 +72,7 @@ constexpr Real TWICE_LIMIT(7.9);  // units of twice, so that its scaled form fit
 inline Vector scaledTwice(const Vector& v)
 {
 #if FB_REAL == FB_FIXED
-    return {Real::fromRaw(v.x.raw << 12), Real::fromRaw(v.y.raw << 12), Real::fromRaw(v.z.raw << 12)};
+    return {shiftUp(v.x, 12), shiftUp(v.y, 12), shiftUp(v.z, 12)};
 #else
     return v;
 #endif
@@ -105,6 +105,8 @@ private:
     bool newton(Real& position, Real field, Real slope);
     void travel();
     void wait(Seed& s, uint8_t flags, Real units);
+    void lookFrom(const Seed& s);
+    void restTapered(Seed& s);
     template <bool PLAIN>
     bool bracket(Real& position);
     template <bool PLAIN>
@@ -195,12 +197,13 @@ void Settler::settle()
     // a half. The fields of the two change by about 3 / size a unit there.
     overshoot_ = least(Real(4.5) * o_.spacing_ / o_.size_, Real(0.7));
     parting_ = Real(1.0) * o_.spacing_ / o_.radius_;
-    eye_.set(look_.eye - o_.centre_, o_.radius_);
+    eye_.set(look_.eye - o_.centre_, o_.radius_, o_.coreReach());
+    eye_.horizon(o_.horizonRadius(look_.eye));
     travel();
     fromEye_ = o_.centre_ - look_.eye;
     shadeSetup_.set(look_.light, o_.spacing_);
 
-    bool plain = o_.coreReach() == Real(0);
+    bool plain = o_.isBall();
     for (int i = 0; i < nearCount_; ++i)
         plain = plain && near_[i].quick && near_[i].plain;
     if (plain)
@@ -299,6 +302,8 @@ void Settler::rest(SoftObject::Patch& patch)
         s[1].flags = 0;
     }
     patch.state = SoftObject::PATCH_AT_REST;
+    if (o_.tapers_)
+        patch.stale = SoftObject::STALE_ALL;  // from paths to normals
 }
 
 // The field at a position of the path at hand (0.95 .. POSITION_MOST), its slope along the path, and what the normal
@@ -319,8 +324,8 @@ inline Real Settler::lookAt(Real position, Real& slope)
             t = near.a0 + position * change;
             change += c;
         } else {
-            const Vector v = near.object->fromCore(root_ + path_ * position);
-            t = near.object->coreParam(v);
+            Vector v;
+            t = near.object->param(root_ + path_ * position, &v);
             from_[n] = v * Real(1.0 / 16);
             const Real inverse = Real(16) / near.reach;
             change = shiftDown(dot(v * inverse, path_ * inverse), 7);
@@ -427,6 +432,27 @@ bool Settler::bracket(Real& position)
     return true;
 }
 
+inline void Settler::lookFrom(const Seed& s)
+{
+    if (s.root == rootIndex_)
+        return;
+    rootIndex_ = s.root;
+    eye_.root(root_ - o_.centre_);
+    if (o_.tapers_)
+        eye_.rootRadius(shiftDown(o_.sizeAt(root_), 1));
+}
+
+// The normal of an object that tapers is not the path, so beside placed seeds the ones at rest are shaded like them.
+void Settler::restTapered(Seed& s)
+{
+    s.position = Real(1);
+    lookFrom(s);
+    touchCount_ = 0;
+    Real slope;
+    lookAt<false>(Real(1), slope);
+    shade<false>(s, Real(1));
+}
+
 template <bool PLAIN>
 void Settler::settleSeed(Seed& s)
 {
@@ -460,13 +486,20 @@ void Settler::settleSeed(Seed& s)
                 b_[touching] = b;
                 touch_[touching++] = &near;
             }
-        } else if (near.object->coreParam(near.object->fromCore(root_ + path)) < Real(1)) {
-            touched = true;
+        } else {
+            // At rest, or a way further out where other neighbours may have pulled the seed.
+            Vector unused;
+            touched = touched || near.object->param(root_ + path, &unused) < TOUCHING ||
+                      near.object->param(root_ + path * Real(1.2), &unused) < TOUCHING;
             touch_[touching++] = &near;
         }
     }
     touchCount_ = touching;
     if (!touched) {
+        if (!PLAIN && o_.tapers_) {
+            restTapered(s);
+            return;
+        }
         s.position = Real(1);
         wait(s, SEED_VALID, apart * waitingApart_);
         s.brightness = s.restBrightness;
@@ -474,10 +507,8 @@ void Settler::settleSeed(Seed& s)
         s.high = s.restHigh;
         return;
     }
-    if (!PLAIN && s.root != rootIndex_) {
-        rootIndex_ = s.root;
-        eye_.root(root_ - o_.centre_);
-    }
+    if (!PLAIN)
+        lookFrom(s);
     const int32_t away = eye_.away(eye_.along(s));
     if (away > 0) {
         s.flags = SEED_WAITS;
@@ -527,7 +558,13 @@ inline void Settler::shade(Seed& s, Real position)
             g = g - from_[n] * share;
         }
     }
-    g = g - s.path * shiftDown(along * position, 4);
+    if (!PLAIN && o_.tapers_) {
+        Vector slope;
+        o_.param(root_ + s.path * position, &slope);
+        g = g - slope * shiftDown(along, 4);
+    } else {
+        g = g - s.path * shiftDown(along * position, 4);
+    }
     const Normal normal = normalise(g);
     const int32_t cosine = (normal.x * s.dirX + normal.y * s.dirY + normal.z * s.dirZ) >> 14;
     const int32_t facing = eye_.facing(normal, cosine, position);
@@ -545,7 +582,7 @@ inline void Settler::shade(Seed& s, Real position)
     const int32_t share = skewShare(depth);
     shadeSetup_.extents(s, normal, cosine, position, skew(rawFromReal(toRoot.x + s.path.x * position) >> 11, share),
                         skew(rawFromReal(toRoot.y + s.path.y * position) >> 11, share), lie);
-    layDown(normal.x, normal.y, facing, depth, 2 * eye_.radius32(), lie);  // blending flattens: the horizon may be farther
+    layDown(normal.x, normal.y, facing, depth, 2 * eye_.horizon(), lie);  // blending flattens: the horizon may be farther
     s.wide = lie.wide;
     s.high = lie.high;
     s.tiltX = lie.tiltX;
@@ -574,7 +611,11 @@ void Settler::settlePatches()
                 bury(patch);
             continue;
         }
+        if (!PLAIN && o_.tapers_ && patch.state != SoftObject::PATCH_MIXED)
+            patch.stale = SoftObject::STALE_ALL;  // from normals to paths
         patch.state = SoftObject::PATCH_MIXED;
+        if (patch.stale != SoftObject::STALE_NONE)
+            o_.posePatch(patch, true);
         Seed* s = seeds + 2 * patch.first;
         Seed* const end = s + 2 * patch.count;
         if (patch.reached != reached) {
@@ -626,23 +667,26 @@ void SoftObject::updateQuick(const Look& look)
 int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
 {
     EyeSide eye;
-    eye.set(look.eye - centre_, radius_);
+    eye.set(look.eye - centre_, radius_, coreReach());
+    eye.horizon(horizonRadius(look.eye));
     ShadeSetup shadeSetup;
     shadeSetup.set(look.light, spacing_);
-    int root = 0;
-    Vector rootPlace = roots_[0] - look.eye;
+    int root = -1;
+    Vector rootPlace{Real(0), Real(0), Real(0)};
     Voxel* v = voxels;
     const int16_t gap = static_cast<int16_t>(rawFromReal(spacing_ * Real(2.0)) >> 8);
     const int32_t setBack = mulDiv(1 << 30, 1 << 17, rawFromReal(most(radius_, Real(2))));  // 2^31 / radius
     const Voxel* const full = voxels + room - 4 * PATCH_SEEDS;
     int p = *next;
     for (; p < patchCount_ && v <= full; ++p) {
-        const Patch& patch = patches_[p];
+        Patch& patch = patches_[p];
         if (patch.state == PATCH_BURIED || patch.state == PATCH_UNKNOWN)
             continue;
         const bool atRest = patch.state == PATCH_AT_REST;
         if (atRest && eye.side(patch.axis, patch.across, patch.radius32, patch.spread) == EyeSide::BACK)
             continue;
+        if (patch.stale == STALE_ALL)
+            posePatch(patch, false);
         const Seed* s = seeds_ + 2 * patch.first;
         const Seed* const end = s + 2 * patch.count;
         const int step = patch.extras && !atRest ? 1 : 2;
@@ -653,6 +697,8 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
                 root = s->root;
                 rootPlace = roots_[root] - look.eye;
                 eye.root(roots_[root] - centre_);
+                if (tapers_)
+                    eye.rootRadius(tangentAt(roots_[root]));
             }
             if (s->flags & SEED_PLACED) {
                 if (!(s->flags & SEED_FRONT))
@@ -677,7 +723,7 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
                 const int32_t share = skewShare(depth);
                 shadeSetup.restExtents(*s, skew(rawFromReal(v->place.x) >> 11, share),
                                        skew(rawFromReal(v->place.y) >> 11, share), lie);
-                layDown(s->dirX, s->dirY, eye.restFacing(along), depth, eye.radius32(), lie);
+                layDown(s->dirX, s->dirY, eye.restFacing(along), depth, eye.horizon(), lie);
                 v->place.x += realFromRaw(lie.shiftX * 256);
                 v->place.y += realFromRaw(lie.shiftY * 256);
                 v->tiltX = lie.tiltX;

@@ -46,14 +46,6 @@ int16_t toDirection(Real part)
     return static_cast<int16_t>(rawFromReal(part) >> 2);
 }
 
-// Cells of seeds, 1/256 unit.
-void toSteps(const Vector& v, int16_t* to)
-{
-    to[0] = toExtent(v.x);
-    to[1] = toExtent(v.y);
-    to[2] = toExtent(v.z);
-}
-
 int64_t squaredDistance(const Point& a, const Point& b)
 {
     const int64_t x = rawFromReal(a.x) - rawFromReal(b.x);
@@ -140,29 +132,11 @@ private:
     int rootCount_ = 0, rings_ = 0, count_ = 0;
 };
 
-// A run of its own when an object is to be turned or scaled: the cells of the seeds, for their extents then.
-class RestFiller : public SeedMaker {
-public:
-    explicit RestFiller(SoftObject::Rest* rest) : rest_(rest) {}
-
-    int addRoot(const Vector&) override { return rootCount_++; }
-    void beginRing() override {}
-    void addSeed(int, const Vector&, const Vector& along, const Vector& across) override
-    {
-        toSteps(along, rest_->along);
-        toSteps(across, rest_->across);
-        rest_ += 2;
-    }
-
-private:
-    SoftObject::Rest* rest_;
-    int rootCount_ = 0;
-};
-
 SoftObject::SoftObject(int number, Real size, bool tapers)
     : number_(number), centre_{Real(0), Real(0), Real(0)}, turn_(Matrix::identity()), size_(size),
-      radius_(shiftDown(size, 1)), inverse_(Real(16) / size), recalc_(true), turned_(false), tapers_(tapers),
-      displaced_(false), linkedChange_(false), spacing_(2), wanted_(2), laidSize_(size), spread_(1), ramp_(nullptr), travel_(0), eyeApart_{Real(0), Real(0), Real(0)}, sizeSeen_(size),
+      radius_(shiftDown(size, 1)), inverse_(Real(16) / size), recalc_(true), tapers_(tapers), displaced_(false),
+      linkedChange_(false), spacing_(2), wanted_(2), laidSize_(size), spread_(1), stale_(false),
+      light_{Real(0), Real(0), Real(0)}, ramp_(nullptr), travel_(0), eyeApart_{Real(0), Real(0), Real(0)}, sizeSeen_(size),
       seeds_(nullptr), regular_(0), extra_(0), roots_(nullptr), rootRest_(nullptr), rootCount_(0), rest_(nullptr),
       patchRest_(nullptr), patches_(nullptr), patchCount_(0), kept_(nullptr)
 {
@@ -199,7 +173,7 @@ bool SoftObject::resample(Real spacing)
     layOutSeeds(counter, spacing);
     counter.endRing();
     const int regular = counter.seeds;
-    const bool ball = coreReach() == Real(0);
+    const bool ball = isBall();
 
     // A seed's root has 16 bits. When roots between rings are too many for them, some oversampled seeds do without.
     if (counter.roots > ROOTS_MOST)
@@ -300,6 +274,16 @@ bool SoftObject::resample(Real spacing)
             }
         }
     }
+    if (tapers_) {
+        for (int i = 0; i < 2 * regular; i += 2) {
+            Vector slope;
+            taperedParam(toPoint(rootRest[seeds[i].root] + seeds[i].path), &slope);
+            const Normal normal = normalise(slope);
+            rest[i].normal[0] = static_cast<int16_t>(normal.x);
+            rest[i].normal[1] = static_cast<int16_t>(normal.y);
+            rest[i].normal[2] = static_cast<int16_t>(normal.z);
+        }
+    }
     if (counter.roots > 1) {
         centre_ = centre;
         turn_ = turn;
@@ -331,12 +315,12 @@ bool SoftObject::resample(Real spacing)
     spacing_ = spacing;
     wanted_ = spacing;
     laidSize_ = size_;
-    buildPatches();
     rest_ = rest;
     patchRest_ = patchRest;
+    buildPatches();
     if (!ball)
         keepRest();
-    if (!ball && turned_) {
+    if (!ball) {
         poseSeeds();
     } else {
         for (int i = 0; i < rootCount_; ++i)
@@ -357,6 +341,16 @@ void SoftObject::facePatch(Patch& patch, const Vector& axis)
     patch.radius32 = (rawFromReal(patch.radius) >> 11) + 1;
 }
 
+// As laid out; its length is that of the path, but for objects that taper: there it is 1.
+Vector SoftObject::restNormal(const Seed& s) const
+{
+    if (!tapers_)
+        return s.path;
+    const int16_t* normal = rest_[&s - seeds_].normal;
+    const Real part(1.0 / 16384);
+    return {part * Real(normal[0]), part * Real(normal[1]), part * Real(normal[2])};
+}
+
 void SoftObject::buildPatches()
 {
     for (int p = 0; p < patchCount_; ++p) {
@@ -364,12 +358,13 @@ void SoftObject::buildPatches()
         patch.state = PATCH_UNKNOWN;
         patch.reached = 0;
         patch.extras = false;
+        patch.stale = STALE_NONE;
         Vector middle{Real(0), Real(0), Real(0)}, axis = middle;
         const Real share = Real(1) / Real(patch.count);
         for (int i = 0; i < patch.count; ++i) {
             const Seed& s = seeds_[2 * (patch.first + i)];
             middle = middle + (rootRest_[s.root] + s.path) * share;
-            axis = axis + s.path * share;
+            axis = axis + restNormal(s) * share;
         }
         patch.middle = middle;
         axis = unit(axis);
@@ -379,8 +374,7 @@ void SoftObject::buildPatches()
         for (int i = 0; i < patch.count; ++i) {
             const Seed& s = seeds_[2 * (patch.first + i)];
             patch.radius = most(patch.radius, length(rootRest_[s.root] + s.path - middle));
-            const Vector direction = tapers_ ? unit(s.path) : s.path * inverseRadius;
-            spread = most(spread, length(direction - axis));
+            spread = most(spread, length((tapers_ ? restNormal(s) : s.path * inverseRadius) - axis));
         }
         patch.spread = toDirection(least(spread, Real(1.9)));
         // The oversampled seeds between this ring and the one before reach a little further.
@@ -406,11 +400,13 @@ bool SoftObject::keepRest()
             return false;
         }
     }
-    memset(static_cast<void*>(rest_), 0, sizeof(Rest) * static_cast<size_t>(slots));
-    RestFiller filler(rest_);
-    layOutSeeds(filler, wanted_);
-    for (int i = 0; i < slots; ++i)
-        rest_[i].path = seeds_[i].path;
+    for (int i = 0; i < slots; ++i) {
+        const Seed& s = seeds_[i];
+        Rest& rest = rest_[i];
+        rest.path = s.path;
+        memcpy(rest.along, s.along, sizeof rest.along);
+        memcpy(rest.across, s.across, sizeof rest.across);
+    }
     for (int p = 0; p < patchCount_; ++p) {
         const Patch& patch = patches_[p];
         const Real part(1.0 / 16384);
@@ -420,23 +416,23 @@ bool SoftObject::keepRest()
     return true;
 }
 
-// Turns and scales roots, paths and patches.
+// Turns and scales the patches, and leaves roots and seeds for when they are wanted: of those that face away, never.
 void SoftObject::poseSeeds()
 {
     const Real ratio = size_ / laidSize_;
     spacing_ = wanted_ * ratio;
     // A ball looks the same from everywhere; only its size matters.
-    const Matrix turn = coreReach() == Real(0) ? Matrix::identity() : turn_;
-    Matrix pose = turn;
-    if (ratio != Real(1))
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j)
-                pose.m[i][j] = turn.m[i][j] * ratio;
-    for (int i = 0; i < rootCount_; ++i)
-        roots_[i] = centre_ + pose * rootRest_[i];
-    linkedChange_ = true;  // rest brightness is stale
+    const bool ball = isBall();
+    const Matrix turn = ball ? Matrix::identity() : turn_;
+    pose_ = turn;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            pose_.m[i][j] = turn.m[i][j] * ratio;
+            turnSteps_[i][j] = rawFromReal(turn.m[i][j]) >> 2;
+        }
+    inverseRadius_ = Real(1) / radius_;
     if (rest_ == nullptr) {
-        // Without the memory for copies, scaled only: from the directions.
+        // Without the memory for copies, a ball scaled only: from the directions.
         for (int i = 0; i < 2 * regular_; ++i) {
             Seed& s = seeds_[i];
             const Real step = shiftDown(radius_, 14);
@@ -446,83 +442,99 @@ void SoftObject::poseSeeds()
         buildPatches();
         return;
     }
-    const Real inverseRadius = Real(1) / radius_;
-    int32_t rows[3][3];
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            rows[i][j] = rawFromReal(pose.m[i][j]) >> 2;
-    const int margin = toExtent(spacing_ * CELL_MARGIN);
-    const int32_t cell = rawFromReal(Real(64) / spacing_) >> 8;  // 1/256 unit -> 1/64 spacing
-    for (int i = 0; i < 2 * regular_; ++i) {
+    for (int p = 0; p < patchCount_; ++p) {
+        Patch& patch = patches_[p];
+        patch.middle = pose_ * patchRest_[p].middle;
+        patch.radius = patchRest_[p].radius * ratio;
+        facePatch(patch, turn * patchRest_[p].axis);
+        patch.state = PATCH_UNKNOWN;
+        patch.stale = STALE_ALL;
+    }
+    stale_ = true;
+}
+
+// Turns and scales the seeds of a patch, and their roots; the oversampled ones only if `extras`.
+void SoftObject::posePatch(Patch& patch, bool extras) const
+{
+    const bool regular = patch.stale == STALE_ALL;
+    patch.stale = extras ? STALE_NONE : STALE_EXTRAS;
+    const Matrix& m = pose_;
+    const int32_t light[] = {rawFromReal(light_.x) >> 2, rawFromReal(light_.y) >> 2, rawFromReal(light_.z) >> 2};
+    const bool ball = isBall();
+    int root = -1;
+    const int end = 2 * (patch.first + patch.count);
+    for (int i = 2 * patch.first + (regular ? 0 : 1); i < end; i += regular && extras ? 1 : 2) {
         Seed& s = seeds_[i];
         const Rest& rest = rest_[i];
-        s.path = pose * rest.path;
-        if (tapers_) {
+        if (s.root != root) {
+            root = s.root;
+            roots_[root] = centre_ + pose_ * rootRest_[root];
+        }
+        const Real x = rest.path.x, y = rest.path.y, z = rest.path.z;
+        s.path = {m.m[0][0] * x + m.m[0][1] * y + m.m[0][2] * z, m.m[1][0] * x + m.m[1][1] * y + m.m[1][2] * z,
+                  m.m[2][0] * x + m.m[2][1] * y + m.m[2][2] * z};
+        if (tapers_ && patch.state == PATCH_AT_REST) {
+            // What matters at rest is which way the surface faces.
+            s.dirX = static_cast<int16_t>(turnStep(0, rest.normal));
+            s.dirY = static_cast<int16_t>(turnStep(1, rest.normal));
+            s.dirZ = static_cast<int16_t>(turnStep(2, rest.normal));
+        } else if (tapers_) {
             const Normal direction = normalise(s.path);
             s.dirX = static_cast<int16_t>(direction.x);
             s.dirY = static_cast<int16_t>(direction.y);
             s.dirZ = static_cast<int16_t>(direction.z);
         } else {
-            s.dirX = toDirection(s.path.x * inverseRadius);
-            s.dirY = toDirection(s.path.y * inverseRadius);
-            s.dirZ = toDirection(s.path.z * inverseRadius);
+            s.dirX = toDirection(s.path.x * inverseRadius_);
+            s.dirY = toDirection(s.path.y * inverseRadius_);
+            s.dirZ = toDirection(s.path.z * inverseRadius_);
         }
+        const int32_t cosine = (s.dirX * light[0] + s.dirY * light[1] + s.dirZ * light[2]) >> 14;
+        const int32_t step = (cosine * 63 + 8192) >> 14;
+        s.restBrightness = static_cast<uint8_t>(step < 0 ? 0 : step > 63 ? 63 : step);
+        if (patch.state == PATCH_AT_REST)
+            s.brightness = s.restBrightness;
         s.flags = static_cast<uint8_t>(s.flags & ~SEED_KEPT);
-        if ((i & 1) != 0) {
-            for (int part = 0; part < 3; ++part) {
-                s.along[part] = static_cast<int8_t>(seeds_[i - 1].along[part] * EXTRA_CELL / 8);
-                s.across[part] = static_cast<int8_t>(seeds_[i - 1].across[part] * EXTRA_CELL / 8);
-            }
+        if (ball)
             continue;
-        }
-        int32_t extent[3];
         for (int part = 0; part < 3; ++part) {
-            const int32_t* row = rows[part];
-            const int32_t along = (row[0] * rest.along[0] + row[1] * rest.along[1] + row[2] * rest.along[2]) >> 14;
-            const int32_t across = (row[0] * rest.across[0] + row[1] * rest.across[1] + row[2] * rest.across[2]) >> 14;
-            extent[part] = (along < 0 ? -along : along) + (across < 0 ? -across : across) + margin;
-            s.along[part] = toCell(along * cell >> 16);
-            s.across[part] = toCell(across * cell >> 16);
+            s.along[part] = toCell(turnStep(part, rest.along));
+            s.across[part] = toCell(turnStep(part, rest.across));
         }
-        s.restWide = static_cast<int16_t>(extent[0]);
-        s.restHigh = static_cast<int16_t>(extent[1]);
     }
-    for (int p = 0; p < patchCount_; ++p) {
-        Patch& patch = patches_[p];
-        patch.middle = pose * patchRest_[p].middle;
-        patch.radius = patchRest_[p].radius * ratio;
-        facePatch(patch, turn * patchRest_[p].axis);
-        patch.state = PATCH_UNKNOWN;
-    }
+}
+
+void SoftObject::poseAll() const
+{
+    if (!stale_)
+        return;
+    stale_ = false;
+    for (int p = 0; p < patchCount_; ++p)
+        if (patches_[p].stale != STALE_NONE)
+            posePatch(patches_[p], true);
 }
 
 void SoftObject::shadeRest(const Vector& light)
 {
+    light_ = light;
+    recalc_ = true;
+    if (rest_ != nullptr) {
+        for (int p = 0; p < patchCount_; ++p) {
+            patches_[p].state = PATCH_UNKNOWN;
+            patches_[p].stale = STALE_ALL;
+        }
+        stale_ = true;
+        return;
+    }
     const Real inverseRadius = Real(1) / radius_;
-    // In the object's own space, for the normals of objects that taper: square to their cells, not along their paths.
-    const Real full = Real(63.0 / 16384);
-    const Vector lightThere{(turn_.m[0][0] * light.x + turn_.m[1][0] * light.y + turn_.m[2][0] * light.z) * full,
-                            (turn_.m[0][1] * light.x + turn_.m[1][1] * light.y + turn_.m[2][1] * light.z) * full,
-                            (turn_.m[0][2] * light.x + turn_.m[1][2] * light.y + turn_.m[2][2] * light.z) * full};
     for (int i = 0; i < 2 * regular_; ++i) {
         Seed& s = seeds_[i];
-        Real lit;
-        if (tapers_) {
-            const int16_t *a = rest_[i & ~1].along, *b = rest_[i & ~1].across;
-            const Normal n = normalise({realFromRaw(a[1] * b[2] - a[2] * b[1]), realFromRaw(a[2] * b[0] - a[0] * b[2]),
-                                        realFromRaw(a[0] * b[1] - a[1] * b[0])});
-            lit = Real(static_cast<int>(n.x)) * lightThere.x + Real(static_cast<int>(n.y)) * lightThere.y +
-                  Real(static_cast<int>(n.z)) * lightThere.z + Real(0.5);
-        } else {
-            lit = dot(s.path, light) * inverseRadius * Real(63) + Real(0.5);
-        }
+        const Real lit = dot(s.path, light) * inverseRadius * Real(63) + Real(0.5);
         const int step = floorToInt(lit);
         s.restBrightness = static_cast<uint8_t>(step < 0 ? 0 : step > 63 ? 63 : step);
         s.flags = static_cast<uint8_t>(s.flags & ~SEED_KEPT);
     }
     for (int p = 0; p < patchCount_; ++p)
         patches_[p].state = PATCH_UNKNOWN;
-    recalc_ = true;
 }
 
 // --- Operations
@@ -599,11 +611,10 @@ void SoftObject::setTurn(const Matrix& turn)
     if (same)
         return;
     // A ball looks the same from everywhere.
-    const bool ball = coreReach() == Real(0);
+    const bool ball = isBall();
     if (!ball)
         tellNeighbours();
     turn_ = square;
-    turned_ = true;
     placeCore();
     if (ball)
         return;

@@ -35,6 +35,12 @@ Vector Torus::fromCore(const Point& p) const
     return upright + across * ((away - ring_) / away);
 }
 
+Real Torus::horizonRadius(const Point& eye) const
+{
+    // Seen from above the edge is that of the tube; from the side it is partly the top, which bends as the ring does.
+    return radius() + ring_ * (Real(1) - squaredCosine(eye - centre(), axis_));
+}
+
 void Torus::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
     const int rings = stepsIn(radius() * PI, shiftDown(spacing, 1));

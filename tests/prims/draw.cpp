@@ -56,12 +56,12 @@ bool run(Play& play, const std::string& directory, bool printed)
             object->update(look);
         view.begin();
         for (SoftObject* object : objects) {
-            view.touch(object->centre(), object->reach());
             int next = 0;
             do {
                 view.show(voxels, object->draw(look, voxels, 256, &next));
             } while (next != 0);
         }
+        view.closeGaps();
         view.end();
         const char* problem = dump.frame(frame, 0, 10, model, view, palette, true);
         if (problem != nullptr) {

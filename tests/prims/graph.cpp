@@ -151,7 +151,7 @@ void testComingAndGoing()
         const auto any = [&]() -> SoftObject& { return *objects[static_cast<size_t>(below(count))]; };
         switch (count < 2 ? 0 : below(count < 7 ? 8 : 9)) {
         case 0: {
-            Object made = FEW[static_cast<size_t>(below(static_cast<int>(FEW.size()) - 1))].make(step + 1);
+            Object made = FEW[static_cast<size_t>(below(static_cast<int>(FEW.size())))].make(step + 1);
             made->moveTo(point(between(-30, 30), between(-30, 30), between(-30, 30)));
             if (!check(made->resample(Real(3)), "no seeds"))
                 return;
