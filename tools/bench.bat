@@ -10,7 +10,7 @@ SET FBFILE=RESULTS.CSV
 SET FBTIME=60
 IF NOT "%1"=="" SET FBFILE=%1
 IF NOT "%2"=="" SET FBTIME=%2
-ECHO Eight runs of %FBTIME% seconds each, results in %FBFILE%. ESC goes on to the next.
+ECHO Eight runs of %FBTIME% seconds, results in %FBFILE%. ESC skips one.
 
 REM In colour; monochrome; as in 1998; without the copy to the card.
 DEMO /T:%FBTIME% /O:%FBFILE%

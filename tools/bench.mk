@@ -26,7 +26,7 @@ build/bench32: $(BENCH_PARTS) $(BENCH_BLIT)
 	$(HOST_CXX) -m32 -no-pie -static $(BENCH_WRAP) -o $@ $^
 
 bench: build/DEMO.EXE build/bench32
-	@BENCH_SECONDS="$(SECONDS)" FULL="$(FULL)" sh tools/bench.sh
+	@BENCH_SECONDS="$(SECONDS)" FULL="$(FULL)" BENCH_GROWTH="$(GROWTH)" sh tools/bench.sh
 
 .PHONY: bench
 

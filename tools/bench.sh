@@ -25,8 +25,8 @@ command -v valgrind >/dev/null || {
 	exit 1
 }
 
-rate=35        # frames a second of the animation where instructions are counted
-growth=70      # frames for each spacing
+rate=35                       # frames a second of the animation where instructions are counted
+growth=${BENCH_GROWTH:-70}    # frames for each spacing
 work=build/bench
 csv=build/bench.csv
 mkdir -p "$work"
@@ -115,14 +115,14 @@ per_frame() {
 			for (f in total) {
 				if (f ~ /^__wrap_|^(\(anonymous namespace\)::)?tell/) continue
 				else if (f ~ /^blitScalesC/) s = "twin"
-				else if (f ~ /^Settler::shade/) s = "normals"
-				else if (f ~ /^Settler::|^SoftObject::(update|settle|find|inRange|tell)/) s = "update"
-				else if (f ~ /^SoftObject::draw/) s = "draw"
-				else if (f ~ /^View::(project|show)/) s = "project"
+				else if (f ~ /(^| )Settler::shade/) s = "normals"
+				else if (f ~ /(^| )(Settler::|SoftObject::(update|settle|find|inRange|tell))/) s = "update"
+				else if (f ~ /(^| )SoftObject::draw/) s = "draw"
+				else if (f ~ /(^| )View::(project|show)/) s = "project"
 				else if (f ~ /^blitScalesA/) s = "blit"
-				else if (f ~ /^View::closeGap/) s = "gaps"
-				else if (f ~ /^clearRowsA|^View::begin/) s = "clear"
-				else if (f ~ /^presentRows|^View::(mark|touch|end)/) s = "present"
+				else if (f ~ /(^| )View::closeGap/) s = "gaps"
+				else if (f ~ /^clearRowsA|(^| )View::begin/) s = "clear"
+				else if (f ~ /^presentRows|(^| )View::(mark|touch|end)/) s = "present"
 				else s = "other"
 				sum[s] += total[f]
 			}
@@ -138,7 +138,7 @@ page_stages() {
 	count one build/bench32 /G /R:$rate /N:1
 	count many build/bench32 /G /R:$rate /N:$((frames + 1))
 	per_frame one many $frames >"$work/stages"
-	all=$(awk '$1 != "twin" { n += $2 } END { print n }' "$work/stages")
+	all=$(awk '$1 != "twin" { n += $2 } END { printf "%.0f", n }' "$work/stages")
 	echo
 	echo "Instructions a frame by stage ($frames frames, $rate a second):"
 	echo
@@ -195,7 +195,7 @@ page_growth() {
 	for spacing in 4 2 1 0.5 0.25; do
 		count short build/demo32 /G /R:$rate /S:$spacing /N:1
 		count long build/demo32 /G /R:$rate /S:$spacing /N:$((growth + 1))
-		cost=$(per_frame short long $growth | awk '{ n += $2 } END { print n }')
+		cost=$(per_frame short long $growth | awk '{ n += $2 } END { printf "%.0f", n }')
 		seeds=$(($(value seeds "$work/long.txt") + $(value 'oversampled seeds' "$work/long.txt")))
 		awk -v spacing=$spacing -v seeds="$seeds" -v cost="$cost" -v before="$before" 'BEGIN {
 			printf "  %-7s %9d %22d %26s\n", spacing, seeds, cost, before == "" ? "-" : sprintf("%.2f", cost / before)
