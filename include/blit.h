@@ -26,6 +26,8 @@ struct Scale {
 
 // The depth of a pixel where nothing was drawn.
 constexpr uint16_t Z_EMPTY = 0xffff;
+// The same, and it is known that no gap is there to close (View::closeGaps()). What is drawn is nearer than both.
+constexpr uint16_t Z_OPEN = 0xfffe;
 
 extern "C" {
 

@@ -219,17 +219,19 @@ void View::closeGaps()
 {
     for (int i = 0; i < gapCount_; ++i) {
         const Scale& gap = gaps_[i];
-        // Two pixels at a time: a half of `empty` is 0 where its pixel is.
-        const uint16_t* row = zbuffer_ + gap.top * WIDTH + (gap.left & ~1);
-        const int pairs = (gap.wide + (gap.left & 1) + 1) >> 1;
+        // Four pixels at a time; the expression is 0 where none of two is Z_EMPTY.
+        uint16_t* row = zbuffer_ + gap.top * WIDTH + (gap.left & ~3);
+        const int fours = (gap.wide + (gap.left & 3) + 3) >> 2;
         for (int y = gap.high; y > 0; --y, row += WIDTH) {
-            for (int x = 0; x < pairs; ++x) {
-                uint32_t two;
-                memcpy(&two, row + 2 * x, sizeof two);
-                if (((~two - 0x00010001u) & two & 0x80008000u) == 0)
-                    continue;
-                closeGap(static_cast<int>(row - zbuffer_) + 2 * x);
-                closeGap(static_cast<int>(row - zbuffer_) + 2 * x + 1);
+            for (int x = 0; x < fours; ++x) {
+                uint32_t two[2];
+                memcpy(two, row + 4 * x, sizeof two);
+                if ((((~two[0] - 0x00010001u) & two[0]) | ((~two[1] - 0x00010001u) & two[1])) & 0x80008000u) {
+                    const int at = static_cast<int>(row - zbuffer_) + 4 * x;
+                    for (int i = 0; i < 4; ++i)
+                        if (zbuffer_[at + i] == Z_EMPTY)
+                            closeGap(at + i);
+                }
             }
         }
     }
@@ -238,20 +240,21 @@ void View::closeGaps()
 
 void View::closeGap(int at)
 {
-    if (zbuffer_[at] != Z_EMPTY)
-        return;
     static const int SIDES[] = {-1, 1, -WIDTH, WIDTH};
     int nearest = GAP_WIDEST + 1, from = at, open = 0;
-    const int x = at % WIDTH, y = at / WIDTH;
-    if (x < GAP_WIDEST || x >= WIDTH - GAP_WIDEST || y < GAP_WIDEST || y >= HEIGHT - GAP_WIDEST)
+    // Not over the edge of the screen: up and down the buffer ends there, to the sides the next row begins.
+    const int x = at % WIDTH;
+    if (x < GAP_WIDEST || x >= WIDTH - GAP_WIDEST || at < GAP_WIDEST * WIDTH || at >= (HEIGHT - GAP_WIDEST) * WIDTH)
         return;
     for (const int side : SIDES) {
         int far = 1;
-        while (far <= GAP_WIDEST && zbuffer_[at + far * side] == Z_EMPTY)
+        while (far <= GAP_WIDEST && zbuffer_[at + far * side] >= Z_OPEN)
             ++far;
         if (far > GAP_WIDEST) {
-            if (open++ > 0)
+            if (open++ > 0) {
+                zbuffer_[at] = Z_OPEN;
                 return;
+            }
         } else if (far < nearest) {
             nearest = far;
             from = at + far * side;
