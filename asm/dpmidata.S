@@ -190,7 +190,8 @@ r0_stack_top:
                 .globl  pages
 pages:          .skip   3 * 4096        /* page directory and first page table, aligned to 4 KB in here */
 
-        .globl  irq_target
+        .globl  irq_target, xms_slack
+xms_slack:      .skip   4               /* KB more to ask XMS for, where its blocks do not start at pages */
 irq_target:     .skip   4
         .globl  host_base, rm_spss, pm_cont, up_num, up_spss, xms_entry, xms_super, cpu_type, fpu_type
         .globl  pic_masks, callbacks_used, vcpi_entry, switch_table_linear, old_15, old_23, a20_mode

@@ -292,7 +292,6 @@ memory_init:
         add     $8, %dx
         shl     $2, %dx
         mov     %dx, %si
-        add     $3, %dx                 /* to have 4 KB boundaries whatever we get */
         mov     $0x09, %ah
         lcall   *xms_entry
         cmp     $1, %ax
@@ -311,13 +310,14 @@ memory_init:
         jne     9f
         shl     $16, %eax
         mov     %bx, %ax
+        movzwl  %si, %esi
+        shl     $10, %esi
+        add     %eax, %esi
+        and     $~0xfff, %esi
+        mov     %esi, pool_end
         add     $0xfff, %eax
         and     $~0xfff, %eax
         mov     %eax, pool_next
-        movzwl  %si, %esi
-        shl     $10, %esi
-        add     %esi, %eax
-        mov     %eax, pool_end
         clc
         ret
 

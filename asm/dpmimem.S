@@ -15,7 +15,7 @@
 #define A_BASE      0
 #define A_SIZE      4
 #define A_HANDLE    8
-#define ARENA_MIN   0x100000            /* ask XMS for 1 MB at least */
+#define ARENA_MIN   0x100000
 
         SECTION(.host)
         .code32
@@ -58,7 +58,7 @@ arena_possible:
 4:      cmpl    $0x3ffffc, %eax
         jb      5f
         movl    $0x3ffffc, %eax
-5:      subl    $3, %eax                /* to have 4 KB boundaries whatever we get */
+5:      subl    xms_slack, %eax
         jbe     3f
         shll    $10, %eax
         andl    $~0xfff, %eax
@@ -66,17 +66,30 @@ arena_possible:
 3:      xorl    %eax, %eax
         ret
 
-/* A new arena of ECX bytes at least. Carry if there is none. EDI = arena. All but EBP lost. */
+/* A new arena of ECX bytes at least. Carry if there is none. EDI = arena. All but EBP lost.
+   Arenas are few, so each takes a quarter of what is left, and 1 MB at least; the first one, for the program
+   itself, no more, so that a large block is still to be had. XMS usually gives them back to back, and then blocks
+   of one and the next do not lie apart. */
 arena_new:
         pushl   %ecx
         call    arena_possible
         popl    %ecx
         cmpl    %eax, %ecx
         ja      8f                      /* above: no carry, see there */
-        cmpl    $ARENA_MIN, %ecx        /* not too small: handles are few */
+        pushl   %ecx                    /* what is asked for */
+        xorl    %edx, %edx
+        cmpl    $0, arenas + A_SIZE
+        je      2f
+        movl    %eax, %edx
+        shrl    $2, %edx
+        andl    $~0xfff, %edx
+2:      cmpl    $ARENA_MIN, %edx
         jae     1f
-        movl    $ARENA_MIN, %ecx
-        cmpl    %eax, %ecx
+        movl    $ARENA_MIN, %edx
+1:      cmpl    %edx, %ecx
+        jae     1f
+        movl    %edx, %ecx
+1:      cmpl    %eax, %ecx
         jbe     1f
         movl    %eax, %ecx
 1:      movl    $arenas, %edi
@@ -88,7 +101,7 @@ arena_new:
         pushl   %ecx
         movl    %ecx, %edx
         shrl    $10, %edx
-        addl    $3, %edx
+        addl    xms_slack, %edx
         movzbl  xms_super, %eax
         addb    $9, %al
         shll    $8, %eax                /* allocate: DX or EDX = KB */
@@ -105,10 +118,26 @@ arena_new:
         jne     6f
         shll    $16, %edx
         movw    %bx, %dx
-        addl    $0xfff, %edx
+        cmpl    $0, xms_slack
+        jne     4f
+        testl   $0x0fff, %edx           /* not at a page: ask for 3 KB more, now and in future */
+        jz      4f
+        movl    $3, xms_slack
+        pushl   %esi
+        movl    $0x0d00, %eax
+        movl    %esi, %edx
+        call    xms_call
+        popl    %edx
+        movl    $0x0a00, %eax
+        call    xms_call
+        addl    $8, %esp
+        popl    %ecx
+        jmp     arena_new
+4:      addl    $0xfff, %edx
         andl    $~0xfff, %edx
         popl    %ecx
         popl    %edi
+        addl    $4, %esp
         incl    %esi
         movl    %edx, A_BASE(%edi)
         movl    %ecx, A_SIZE(%edi)
@@ -118,8 +147,7 @@ arena_new:
 6:      movl    $0x0a00, %eax
         movl    %esi, %edx
         call    xms_call
-7:      popl    %ecx
-        popl    %edi
+7:      addl    $12, %esp
 8:      stc
         ret
 
@@ -570,6 +598,17 @@ svc_0503:
         popl    %ebx
         jc      9f
         pushl   %edx
+        movw    $FLAT_DS, %ax
+        movw    %ax, %fs
+        movl    (%ebx), %esi            /* pages that 0507h made absent are present for the copy, and marked, */
+        movl    4(%ebx), %ecx
+        shrl    $12, %esi
+        shrl    $12, %ecx
+6:      testb   $1, %fs:PTES(, %esi, 4)
+        jnz     7f
+        orl     $0x201, %fs:PTES(, %esi, 4)
+7:      incl    %esi
+        loop    6b
         movl    %edx, %edi
         movl    (%ebx), %esi
         movl    4(%ebx), %ecx
@@ -582,6 +621,17 @@ svc_0503:
         popl    %ds
         pushl   %ss
         popl    %es
+        movl    (%ebx), %esi            /* and absent at the new place */
+        movl    4(%ebx), %ecx
+        shrl    $12, %esi
+        shrl    $12, %ecx
+        shrl    $12, %edx
+6:      testl   $0x200, %fs:PTES(, %esi, 4)
+        jz      7f
+        andb    $~1, %fs:PTES(, %edx, 4)
+7:      incl    %esi
+        incl    %edx
+        loop    6b
         movl    %ebx, %edi
         call    mem_free
         popl    %edx

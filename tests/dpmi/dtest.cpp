@@ -644,6 +644,39 @@ void testMemory() {
     check("0502 all of them", good);
     Info after = info();
     check("0500 as much as before", after.word[0] == before.word[0] && after.word[5] == before.word[5]);
+    // step by step, as a heap grows
+    count = 0;
+    sum = 0;
+    const uint32_t step = (before.word[0] / 200 & ~0xffffu) + 0x10000;
+    uint32_t together = 0;
+    while (count < 250 && (blocks[count] = allocate(step)).good) {
+        if (count > 0 && blocks[count].address == blocks[count - 1].address + step) ++together;
+        sum += step;
+        ++count;
+    }
+    check("0501 in small steps nearly all of it", sum >= before.word[0] / 10 * 8);
+    check("0501 and mostly in a row", together >= uint32_t(count) / 4 * 3);
+    good = true;
+    for (int i = 0; i < count; ++i) good = good && release(blocks[i].handle);
+    check("0502 all of those, too", good && info().word[0] == before.word[0]);
+    // a block with an absent page moves
+    if (strict) {
+        a = allocate(0x20000);
+        b = allocate(0x10000);
+        fill(a.address, 0x20000, 9);
+        static const uint16_t absent = 0;
+        Int31 r = {0x0507, 0, 0, offsetOf(&absent), a.handle, 0, dpmi::dataSelector(), dpmi::dataSelector(), 0};
+        r.ecx = 1;
+        int31(&r);
+        check("0507 a page made absent", !carry(r));
+        a2 = resize(a.handle, before.word[0] / 2);
+        check("0503 with an absent page", a2.good && filled(a2.address + 0x1000, 0x10000, 9 + 0x400 * 0x9e3779b9u));
+        static const uint16_t present = 9;
+        r = {0x0507, 0, 1, offsetOf(&present), a2.handle, 0, dpmi::dataSelector(), dpmi::dataSelector(), 0};
+        int31(&r);
+        check("0507 present again, its contents too", !carry(r) && filled(a2.address, 0x20000, 9));
+        check("0502 both", release(a2.handle) && release(b.handle) && info().word[0] == before.word[0]);
+    }
     // many small ones
     count = 0;
     while (count < 250 && (blocks[count] = allocate(0x1000)).good) ++count;
