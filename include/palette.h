@@ -9,6 +9,10 @@ class Palette {
 public:
     static constexpr int STEPS = 64;
 
+    // Of 63: the light that reaches every place, in colour. The grey ramp starts in the dark, so that all its steps are
+    // there for the form.
+    static constexpr int AMBIENT = 9;
+
     // Makes ramps for the model's colours and hands each object its own. Colours that do not fit (the ramps share 255
     // entries, at least 15 each) take the nearest that does.
     void make(Model& model, bool grey);

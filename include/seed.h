@@ -10,6 +10,7 @@
 // and its position is a place where its path leaves the surface; its normal is not its path. ACTIVE: for an
 // oversampled seed, that it takes part. KEPT: brightness and extents hold for the present position.
 // EDGE: a seed beside it is not valid, or parted from it. WAITS: it cannot be seen, nor can that change before `due`.
+// OVER: valid, but past the border where a neighbour is stronger.
 enum SeedFlag : uint8_t {
     SEED_VALID = 1,
     SEED_FRONT = 2,
@@ -18,6 +19,7 @@ enum SeedFlag : uint8_t {
     SEED_KEPT = 16,
     SEED_EDGE = 32,
     SEED_WAITS = 64,
+    SEED_OVER = 128,
 };
 
 // seed = root + position * path. All lengths in units, 16.16 unless said otherwise.

@@ -5,7 +5,7 @@
 
 namespace {
 
-// Brightness that is never undercut, of 64 steps: what no light reaches still stands out from the background.
+// Brightness that the grey ramp never undercuts, of 64 steps: what no light reaches still stands out from the background.
 constexpr int DARKEST = 2;
 
 // Above this step a colour turns towards white: a highlight, at no cost when drawing.
@@ -19,7 +19,7 @@ int distance(const Colour& a, const Colour& b)
 
 uint8_t shade(int full, int step)
 {
-    const int value = full * 63 / 255 * (step < DARKEST ? DARKEST : step) / 63;
+    const int value = full * 63 / 255 * (Palette::AMBIENT + step * (63 - Palette::AMBIENT) / 63) / 63;
     if (step <= HIGHLIGHT)
         return static_cast<uint8_t>(value);
     return static_cast<uint8_t>(value + (63 - value) * (step - HIGHLIGHT) / (2 * (63 - HIGHLIGHT)));

@@ -575,6 +575,8 @@ inline void Settler::shade(Seed& s, Real position)
     }
     ++look_.counts->normals;
     s.flags = SEED_VALID | SEED_PLACED | SEED_KEPT | SEED_FRONT;
+    if (strength_ + overshoot_ > Real(0))
+        s.flags |= SEED_OVER;
     s.brightness = shadeSetup_.brightness(normal);
     Lie lie;
     const Vector toRoot = PLAIN ? fromEye_ : root_ - look_.eye;
@@ -707,6 +709,8 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
                 // A tangent plane lies before the surface, the more the larger the scale: set back, so that of two scales
                 // the smaller one, which is nearer to its seed, wins.
                 v->place.z += realFromRaw(mulHigh(s->wide * s->wide + s->high * s->high, setBack) << 2);
+                if (s->flags & SEED_OVER)
+                    v->place.z += Real(1);  // the neighbour's own seeds come first there
                 v->place.x += realFromRaw(s->shiftX * 256);
                 v->place.y += realFromRaw(s->shiftY * 256);
                 v->tiltX = s->tiltX;
