@@ -41,7 +41,11 @@ void clearRowsC(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
 // Copies the spans of `count` rows from `frame` to a screen of the same layout at `screen`.
 void copyRowsC(uint8_t* screen, const uint8_t* frame, const Span* rows, int count);
 
+// The index of the first of `count` (1 or more) depths that is Z_EMPTY; `count` when none is.
+int findEmptyC(const uint16_t* depths, int count);
+
 #if FB_ASM
+int findEmptyA(const uint16_t* depths, int count);
 void blitScalesA(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int count);
 void clearRowsA(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
 // The screen is at `offset` in the segment of `selector` (video memory has a selector of its own under DPMI).
@@ -52,9 +56,11 @@ void presentRows(uint32_t selector, uint32_t offset, const uint8_t* frame, const
 
 #if FB_ASM
 #define blitScales blitScalesA
+#define findEmpty findEmptyA
 #define clearRows clearRowsA
 #else
 #define blitScales blitScalesC
+#define findEmpty findEmptyC
 #define clearRows clearRowsC
 #endif
 

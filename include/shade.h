@@ -240,10 +240,11 @@ private:
     static int16_t extent(int32_t a, int32_t b, int32_t size)
     {
         const int32_t sum = (a < 0 ? -a : a) + (b < 0 ? -b : b) + MARGIN;
-        return static_cast<int16_t>(sum * size >> 14);
+        return static_cast<int16_t>((sum * size >> 14) + MARGIN_UNITS);
     }
 
-    static constexpr int32_t MARGIN = 256 * 64 / 26;  // a twentieth of a spacing
+    static constexpr int32_t MARGIN = 256 * 64 / 36;    // a part of the spacing, as of `sum`
+    static constexpr int32_t MARGIN_UNITS = 8;           // and what places of seeds are uncertain by: 1/32 unit
 
     int32_t x_, y_, z_, spacing_;
 };

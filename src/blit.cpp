@@ -39,6 +39,14 @@ void clearRowsC(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count)
     }
 }
 
+int findEmptyC(const uint16_t* depths, int count)
+{
+    int i = 0;
+    while (i < count && depths[i] != Z_EMPTY)
+        ++i;
+    return i;
+}
+
 void copyRowsC(uint8_t* screen, const uint8_t* frame, const Span* rows, int count)
 {
     for (; count > 0; --count, ++rows, screen += WIDTH, frame += WIDTH) {

@@ -676,7 +676,7 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
     int root = -1;
     Vector rootPlace{Real(0), Real(0), Real(0)};
     Voxel* v = voxels;
-    const int16_t gap = static_cast<int16_t>(rawFromReal(spacing_ * Real(2.0)) >> 8);
+    const int16_t gap = static_cast<int16_t>(rawFromReal(spacing_ * Real(1.5) + Real(1.5)) >> 8);
     const int32_t setBack = mulDiv(1 << 30, 1 << 17, rawFromReal(most(radius_, Real(2))));  // 2^31 / radius
     const Voxel* const full = voxels + room - 4 * PATCH_SEEDS;
     int p = *next;

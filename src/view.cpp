@@ -219,19 +219,13 @@ void View::closeGaps()
 {
     for (int i = 0; i < gapCount_; ++i) {
         const Scale& gap = gaps_[i];
-        // Four pixels at a time; the expression is 0 where none of two is Z_EMPTY.
-        uint16_t* row = zbuffer_ + gap.top * WIDTH + (gap.left & ~3);
-        const int fours = (gap.wide + (gap.left & 3) + 3) >> 2;
+        const uint16_t* row = zbuffer_ + gap.top * WIDTH + gap.left;
         for (int y = gap.high; y > 0; --y, row += WIDTH) {
-            for (int x = 0; x < fours; ++x) {
-                uint32_t two[2];
-                memcpy(two, row + 4 * x, sizeof two);
-                if ((((~two[0] - 0x00010001u) & two[0]) | ((~two[1] - 0x00010001u) & two[1])) & 0x80008000u) {
-                    const int at = static_cast<int>(row - zbuffer_) + 4 * x;
-                    for (int i = 0; i < 4; ++i)
-                        if (zbuffer_[at + i] == Z_EMPTY)
-                            closeGap(at + i);
-                }
+            int x = findEmpty(row, gap.wide);
+            while (x < gap.wide) {
+                closeGap(static_cast<int>(row - zbuffer_) + x);
+                ++x;
+                x = x < gap.wide ? x + findEmpty(row + x, gap.wide - x) : x;
             }
         }
     }

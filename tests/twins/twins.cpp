@@ -257,6 +257,22 @@ void edges()
     verdict(same(0), "an empty list", 0);
 }
 
+// The first empty depth of a row: none, one anywhere, many; rows of every length and alignment, guards behind.
+void empties()
+{
+    static uint16_t row[400];
+    for (int i = 0; i < 20000; ++i) {
+        const int count = 1 + below(320), start = below(16);
+        for (int x = 0; x < 400; ++x)
+            row[x] = below(3) == 0 && i % 3 == 0 ? 0xffff : static_cast<uint16_t>(below(4) ? below(0xffff) : 0xfffe);
+        if (i % 3 == 1)
+            row[start + below(count)] = 0xffff;
+        row[start + count] = 0xffff;
+        const int c = findEmptyC(row + start, count), a = findEmptyA(row + start, count);
+        verdict(c == a && c >= 0 && c <= count && (c == count || row[start + c] == 0xffff), "the first empty depth", i);
+    }
+}
+
 void equalDepths()
 {
     // "The first of two at equal depth stays."
@@ -412,6 +428,7 @@ int main(int count, char** arguments)
     largeOnes();
     edges();
     equalDepths();
+    empties();
     randomLists(rounds);
     clearsAndCopies(rounds);
     registers();
