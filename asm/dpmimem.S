@@ -157,11 +157,16 @@ arena_release:
         je      3f
         movl    A_BASE(%edi), %edx
         movl    $blocks, %esi
-1:      cmpl    $0, 4(%esi)
-        je      2f
-        movl    (%esi), %eax
-        subl    %edx, %eax
-        cmpl    A_SIZE(%edi), %eax
+1:      movl    4(%esi), %eax
+        testl   %eax, %eax
+        jz      2f
+        addl    (%esi), %eax            /* ends behind its start, */
+        cmpl    %edx, %eax
+        jbe     2f
+        movl    (%esi), %eax            /* and starts before its end */
+        subl    A_SIZE(%edi), %eax
+        jb      3f
+        cmpl    %edx, %eax
         jb      3f
 2:      addl    $8, %esi
         cmpl    $blocks_end, %esi
@@ -202,12 +207,32 @@ overlap:
 3:      stc
         ret
 
-/* EDX := start of ECX free bytes in arena EDI. Carry if there are none. EAX, EBX, ESI lost. */
+/* EAX := end of arena EDI and of those that follow it without a gap. ESI lost. */
+arena_end:
+        movl    A_BASE(%edi), %eax
+        addl    A_SIZE(%edi), %eax
+1:      movl    $arenas, %esi
+2:      cmpl    $0, A_SIZE(%esi)
+        je      3f
+        cmpl    A_BASE(%esi), %eax
+        jne     3f
+        addl    A_SIZE(%esi), %eax
+        jmp     1b
+3:      addl    $16, %esi
+        cmpl    $arenas_end, %esi
+        jb      2b
+        ret
+
+/* EDX := start of ECX free bytes, starting in arena EDI. Carry if there are none. EAX, EBX, ESI lost. */
 arena_fit:
         movl    A_BASE(%edi), %edx
         xorl    %ebx, %ebx
-1:      movl    A_BASE(%edi), %eax
+1:      movl    A_BASE(%edi), %eax      /* still in this one? */
         addl    A_SIZE(%edi), %eax
+        cmpl    %eax, %edx
+        cmc
+        jc      2f
+        call    arena_end
         subl    %edx, %eax              /* what is left */
         cmpl    %ecx, %eax
         jb      2f
@@ -221,8 +246,8 @@ arena_fit:
 /* Allocate ECX bytes (a multiple of 4 KB, not 0): EDX = base, EDI = entry. Or carry and AX = error. */
 mem_alloc:
         movl    $arenas, %edi
-1:      cmpl    %ecx, A_SIZE(%edi)
-        jb      2f
+1:      cmpl    $0, A_SIZE(%edi)
+        je      2f
         call    arena_fit
         jnc     4f
 2:      addl    $16, %edi
@@ -231,10 +256,15 @@ mem_alloc:
         pushl   %ecx
         call    arena_new
         popl    %ecx
-        movl    A_BASE(%edi), %edx
+        movl    $E_NO_PHYSICAL, %eax
+        jc      7f
+        movl    $arenas, %edi           /* again from the start: it may continue another one */
+8:      cmpl    $0, A_SIZE(%edi)
+        je      9f
+        call    arena_fit
         jnc     4f
-        movw    $E_NO_PHYSICAL, %ax
-        ret
+9:      addl    $16, %edi
+        jmp     8b
 4:      movl    $blocks, %edi
 5:      cmpl    $0, 4(%edi)
         je      6f
@@ -475,11 +505,14 @@ svc_0500:
         cmpl    %ecx, %edx
         jae     6f
         movl    $blocks, %esi
-3:      cmpl    $0, 4(%esi)
-        je      4f
-        cmpl    (%esi), %edx
-        je      5f
-        ja      4f
+3:      movl    4(%esi), %eax
+        testl   %eax, %eax
+        jz      4f
+        addl    (%esi), %eax
+        cmpl    %eax, %edx              /* behind this block? */
+        jae     4f
+        cmpl    (%esi), %edx            /* in it? */
+        jae     5f
         cmpl    (%esi), %ecx
         jbe     4f
         movl    (%esi), %ecx
@@ -494,7 +527,7 @@ svc_0500:
         movl    %eax, 4(%esp)
 7:      movl    %ecx, %edx
         jmp     2b
-5:      addl    4(%esi), %edx           /* a block starts here */
+5:      movl    %eax, %edx              /* its end */
         jmp     2b
 6:      addl    $16, %edi
         cmpl    $arenas_end, %edi
@@ -548,6 +581,27 @@ svc_0502:
         clc
 1:      ret
 
+/* Can block EBX have ECX bytes where it is? Carry if not, and not zero if only because its arena ends, EAX bytes
+   behind its base. EDX = its base. EAX, ESI, EDI lost. */
+room_behind:
+        movl    (%ebx), %edx
+        movl    $arenas, %edi
+1:      movl    %edx, %eax
+        subl    A_BASE(%edi), %eax
+        cmpl    A_SIZE(%edi), %eax
+        jb      2f
+        addl    $16, %edi
+        jmp     1b
+2:      call    overlap
+        jc      3f
+        call    arena_end
+        subl    %edx, %eax
+        cmpl    %ecx, %eax
+        ret
+3:      xorl    %eax, %eax              /* zero */
+        stc
+        ret
+
 /* 0503h  resize.  In: BX:CX = bytes, SI:DI = handle.  Out: as 0501h; the contents move along. */
         .globl  svc_0503
 svc_0503:
@@ -559,20 +613,19 @@ svc_0503:
         cmpl    4(%edi), %ecx
         je      block_result
         jb      5f
-        movl    %edi, %ebx              /* larger: is there room behind it, in the same arena? */
-        movl    $arenas, %esi
-1:      movl    %edx, %eax
-        subl    A_BASE(%esi), %eax
-        cmpl    A_SIZE(%esi), %eax
-        jb      2f
-        addl    $16, %esi
-        jmp     1b
-2:      addl    %ecx, %eax
+        movl    %edi, %ebx              /* larger: is there room behind it? */
+        call    room_behind
+        jnc     2f
+        jz      4f                      /* no, another block is there */
+        pushl   %ebx                    /* the arena ends: perhaps a new one continues it */
+        pushl   %ecx
+        subl    %eax, %ecx              /* what is missing */
+        call    arena_new
+        popl    %ecx
+        popl    %ebx
+        call    room_behind
         jc      4f
-        cmpl    A_SIZE(%esi), %eax
-        ja      4f
-        call    overlap
-        jc      4f
+2:      movl    %ebx, %edi
         pushl   %ecx
         pushl   %edx
         movl    4(%edi), %eax

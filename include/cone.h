@@ -20,6 +20,7 @@ public:
     Real taperedParam(const Point& p, Vector* slope) const override;
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
     Real horizonRadius(const Point& eye) const override;
+    Real horizonAt(const Point& root, Real general) const override;
     Real coreReach() const override { return half_; }
     void placeCore() override;
     void describe(char* to, int size) const override;

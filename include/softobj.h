@@ -96,6 +96,8 @@ public:
     // About the radius of curvature of the unblended surface, towards the viewer, where it bends away from him: scales
     // near the edge of the object are cut there. Larger for flat parts.
     virtual Real horizonRadius(const Point& /* eye */) const { return radius_; }
+    // The same for the seeds of one root, in the world, given what horizonRadius() said: round ends bend more.
+    virtual Real horizonAt(const Point& /* root */, Real general) const { return general; }
 
     // For objects that taper. The size at the point of the core that is nearest to `p`, units; the distance of a root from
     // the planes that touch the unblended surface where its seeds rest; the field's argument at `p` (see coreParam), with

@@ -78,6 +78,12 @@ Real Cone::horizonRadius(const Point& eye) const
     return across * flattest <= radius() ? flattest : radius() / across;
 }
 
+Real Cone::horizonAt(const Point& root, Real general) const
+{
+    const Real s = along(root);
+    return absolute(s) < half_ - Real(0.01) ? general : shiftDown(sizeAlong(s), 1);
+}
+
 void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
     const Real radius1 = shiftDown(size1_, 1), radius2 = shiftDown(size2_, 1);

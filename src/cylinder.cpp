@@ -31,6 +31,11 @@ Real Cylinder::horizonRadius(const Point& eye) const
     return across * flattest <= radius() ? flattest : radius() / across;
 }
 
+Real Cylinder::horizonAt(const Point& root, Real general) const
+{
+    return absolute(dot(root - centre(), axis_)) < half_ - Real(0.01) ? general : radius();
+}
+
 void Cylinder::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
     // The outline: a quarter circle, the side, a quarter circle. The rings lie in the middles of equal parts of it.

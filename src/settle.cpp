@@ -140,6 +140,7 @@ private:
     int32_t facingWait_;             // 1/16 unit of travel for a facing of 1/32 unit, 16 bits of fraction
     Real parting_;                   // difference of positions that activates the seed between
     EyeSide eye_;
+    Real horizon_;                   // of the object in general
     ShadeSetup shadeSetup_;
 };
 
@@ -198,7 +199,8 @@ void Settler::settle()
     overshoot_ = least(Real(4.5) * o_.spacing_ / o_.size_, Real(0.7));
     parting_ = Real(1.0) * o_.spacing_ / o_.radius_;
     eye_.set(look_.eye - o_.centre_, o_.radius_, o_.coreReach());
-    eye_.horizon(o_.horizonRadius(look_.eye));
+    horizon_ = o_.horizonRadius(look_.eye);
+    eye_.horizon(horizon_);
     travel();
     fromEye_ = o_.centre_ - look_.eye;
     shadeSetup_.set(look_.light, o_.spacing_);
@@ -438,6 +440,7 @@ inline void Settler::lookFrom(const Seed& s)
         return;
     rootIndex_ = s.root;
     eye_.root(root_ - o_.centre_);
+    eye_.horizon(o_.horizonAt(root_, horizon_));
     if (o_.tapers_)
         eye_.rootRadius(shiftDown(o_.sizeAt(root_), 1));
 }
@@ -670,7 +673,9 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
 {
     EyeSide eye;
     eye.set(look.eye - centre_, radius_, coreReach());
-    eye.horizon(horizonRadius(look.eye));
+    const Real horizon = horizonRadius(look.eye);
+    const bool manyRoots = rootCount_ > 1;
+    eye.horizon(horizon);
     ShadeSetup shadeSetup;
     shadeSetup.set(look.light, spacing_);
     int root = -1;
@@ -699,6 +704,8 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
                 root = s->root;
                 rootPlace = roots_[root] - look.eye;
                 eye.root(roots_[root] - centre_);
+                if (manyRoots)
+                    eye.horizon(horizonAt(roots_[root], horizon));
                 if (tapers_)
                     eye.rootRadius(tangentAt(roots_[root]));
             }

@@ -6,6 +6,7 @@
 
    A DJGPP program is a COFF file behind a stub; the stub's MZ header says where it starts. The COFF part here
    is file header, go32 optional header and three section headers, 168 (A8h) bytes, then .text and .data.
+   (Strip a program before it gets this stub: DJGPP's binutils 2.35 take every stub for 2 KB and damage the file.)
    So .text of the ELF program has to start at an address that ends in 0A8h (tools/dos.ld says 10A8h), and
    .data at a multiple of 200h: file offset and address then agree in their last nine bits, as DJGPP's do. */
 

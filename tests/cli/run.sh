@@ -100,6 +100,19 @@ case $(figure seconds) in
 *) ok "lasts a second, not $(figure seconds)" false ;;
 esac
 
+# Records: a header when the file is new, then a line a run, each with as many fields.
+ok "a record" ends 0 /N:3 "/O:$dir/runs.csv"
+ok "another" ends 0 /N:2 /G /P /S:4 "/O:$dir/runs.csv"
+ok "three lines" test "$(wc -l <"$dir/runs.csv")" -eq 3
+ok "the same fields" test "$(awk -F , '{ print NF }' "$dir/runs.csv" | sort -u | wc -l)" -eq 1
+ok "one header" test "$(grep -c frames "$dir/runs.csv")" -eq 1
+ok "the settings of the second" sh -c "sed -n 3p '$dir/runs.csv' | grep -q '^S:4 G P'"
+ok "the frames of the second" test "$(sed -n 3p "$dir/runs.csv" | cut -d , -f 2)" = 2
+: >"$dir/file"
+ok "a record that cannot be kept" ends 1 /N:1 "/O:$dir/file/runs.csv"
+ok "is named" says "$dir/err" "$dir/file/runs.csv"
+ok "the statistics are told all the same" is 1 frames
+
 # Dumps: three files a frame, the same every time, the picture changed by what should change it alone.
 dump() { # dump NAME ARGUMENT...
 	to=$dir/$1

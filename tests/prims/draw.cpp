@@ -124,6 +124,21 @@ int drawScenes(const char* directory)
             plays.push_back(std::move(pair));
         }
 
+    // A long one close to the viewer, who sees its ends from quite different sides, and a ball along it.
+    for (const double spacing : {2.0, 1.0}) {
+        Play near{spacing == 2 ? "near" : "near_1", spacing, {}, {{0, 1}}, nullptr};
+        near.objects.push_back(Sample{"cylinder", 14, 0, 90}.make(1));
+        near.objects.push_back(FEW[0].make(2));
+        near.objects[0]->rotate(point(0, 0, 0), {Real(0), Real(0), Real(1)}, 0x40000000u);
+        near.move = [](std::vector<SoftObject*>& o, int frame) {
+            o[0]->moveTo(point(0, 4, -60));
+            if (frame > 0)
+                o[0]->rotate(o[0]->centre(), {Real(0), Real(1), real(0.2)}, 0x0a000000u);
+            o[1]->moveTo(point(-44 + 8 * frame, 12, -55));
+        };
+        plays.push_back(std::move(near));
+    }
+
     // All kinds in one heap.
     for (const double spacing : {2.0, 1.0}) {
         Play heap{spacing == 2 ? "heap" : "heap_1", spacing, {}, {}, nullptr};

@@ -38,8 +38,8 @@ cat >"$dir/script" <<END
 9 key -
 END
 ok "interactive" env FB_INPUT="$dir/script" build/san/demo /I /N:30
-ok "every scene there is" sh -c 'for f in tools/scenes/*.TXT tools/scenes/*.txt tests/scenes/*.txt; do
-	[ ! -f "$f" ] || build/san/demo /N:30 "/M:$f" || exit 1
+ok "every scene there is" sh -c 'for f in tools/scenes/*.FB; do
+	build/san/demo /N:30 "/M:$f" || exit 1
 done'
 sh tests/cli/run.sh build/san/demo >"$dir/cli" 2>&1
 count "$dir/cli" >"$dir/counted"

@@ -89,6 +89,23 @@ TEST(switches_in_every_spelling)
         TEXT(good({s}).modelFile, "WALK.TXT");
 }
 
+TEST(further_switches)
+{
+    for (const std::string& s : spellings('V'))
+        CHECK(good({s}).retrace);
+    for (const std::string& s : spellings('X'))
+        CHECK(good({s}).noPresent);
+    for (const std::string& s : spellings('O', ":RUNS.CSV"))
+        TEXT(good({s}).recordFile, "RUNS.CSV");
+    for (const std::string& s : spellings('R', ":70"))
+        SAME(good({s}).rate, 70);
+    SAME(good({}).rate, 10);
+    SAME(good({"/R:1"}).rate, 1);
+    SAME(good({"/R:1000"}).rate, 1000);
+    for (const char* word : {"/R", "/R:", "/R:0", "/R:1001", "/R:x", "/O", "/O:", "/V:1", "/X:", "/VX"})
+        bad(word);
+}
+
 TEST(ranges_to_their_ends)
 {
     NEAR(number(good({"/S:0.25"}).spacing), 0.25, 0);
