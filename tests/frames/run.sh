@@ -91,6 +91,18 @@ for program in demo demo32; do
 done
 same "32-bit host, interactive" "$dir/demo" "$dir/demo32"
 
+# And by a user who tries everything, in folders of their own for what is saved.
+top=$PWD
+for seed in 11 12 13; do
+	awk -v seed=$seed -f tests/san/monkey.awk >"$dir/script"
+	for program in demo demo32; do
+		rm -rf "${dir:?}/at" "${dir:?}/m$program"
+		mkdir "$dir/at"
+		(cd "$dir/at" && FB_INPUT=$dir/script "$top/build/$program" /I /N:26 /S:4 /D:"$dir/m$program" >/dev/null)
+	done
+	same "32-bit host, any keys and moves, $seed" "$dir/mdemo" "$dir/mdemo32"
+done
+
 # Real as float and double.
 for switches in '' '/G /S:1' '/P'; do
 	rm -rf "$dir/h"

@@ -84,7 +84,7 @@ int exact(const std::string& a, const std::string& b)
 // a pixel takes on a neighbour's brightness and depth, and none shows where no scale was.
 constexpr int BRIGHTNESS = 24;          // of 255: about 6 of the ramp's 64 steps
 constexpr double DEPTH = 1.0;           // units
-constexpr double UNLIKE_MOST = 0.04;    // share of the drawn pixels that differ by more, mean of the frames
+constexpr double UNLIKE_MOST = 0.025;   // share of the drawn pixels that differ by more, mean of the frames
 constexpr double OUTLINE_MOST = 0.005;  // share that is drawn in one picture only
 
 int near(const std::string& a, const std::string& b)
