@@ -120,7 +120,7 @@ per_frame() {
 				else if (f ~ /(^| )SoftObject::draw/) s = "draw"
 				else if (f ~ /(^| )View::(project|show)/) s = "project"
 				else if (f ~ /^blitScalesA/) s = "blit"
-				else if (f ~ /(^| )View::closeGap/) s = "gaps"
+				else if (f ~ /closeGap/) s = "gaps"
 				else if (f ~ /^clearRowsA|(^| )View::begin/) s = "clear"
 				else if (f ~ /^presentRows|(^| )View::(mark|touch|end)/) s = "present"
 				else s = "other"
@@ -135,8 +135,8 @@ stage() { # stage NAME: what per_frame said of it
 
 page_stages() {
 	frames=$((seconds * rate))
-	count one build/bench32 /G /R:$rate /N:1
-	count many build/bench32 /G /R:$rate /N:$((frames + 1))
+	count one build/bench32 /G /R:$rate /N:1 || return 1
+	count many build/bench32 /G /R:$rate /N:$((frames + 1)) || return 1
 	per_frame one many $frames >"$work/stages"
 	all=$(awk '$1 != "twin" { n += $2 } END { printf "%.0f", n }' "$work/stages")
 	echo
@@ -165,7 +165,6 @@ page_stages() {
 	# The blitter: cost over the same scales, of the same runs.
 	scales=$(($(value 'blit scales' "$work/many.txt") - $(value 'blit scales' "$work/one.txt")))
 	pixels=$(($(value 'blit pixels' "$work/many.txt") - $(value 'blit pixels' "$work/one.txt")))
-	differing=$(value 'blit differing' "$work/many.txt")
 	echo
 	echo "The blitter on these frames' scales, $((scales / frames)) a frame, $((pixels / frames)) pixels covered a frame:"
 	echo
@@ -180,10 +179,6 @@ page_stages() {
 	done
 	record blitter scales number $((scales / frames))
 	record blitter pixels number $((pixels / frames))
-	[ "$differing" = 0 ] || {
-		echo "bench.sh: assembly and C++ drew $differing frames differently" >&2
-		return 1
-	}
 }
 
 page_growth() {
@@ -193,8 +188,8 @@ page_growth() {
 	echo "  spacing     seeds   instructions a frame   times the spacing before"
 	before=
 	for spacing in 4 2 1 0.5 0.25; do
-		count short build/demo32 /G /R:$rate /S:$spacing /N:1
-		count long build/demo32 /G /R:$rate /S:$spacing /N:$((growth + 1))
+		count short build/demo32 /G /R:$rate /S:$spacing /N:1 || return 1
+		count long build/demo32 /G /R:$rate /S:$spacing /N:$((growth + 1)) || return 1
 		cost=$(per_frame short long $growth | awk '{ n += $2 } END { printf "%.0f", n }')
 		seeds=$(($(value seeds "$work/long.txt") + $(value 'oversampled seeds' "$work/long.txt")))
 		awk -v spacing=$spacing -v seeds="$seeds" -v cost="$cost" -v before="$before" 'BEGIN {
@@ -211,7 +206,21 @@ page() {
 	page_speed && page_stages && page_growth
 }
 
+# What must not be, whatever the figures.
+sound() {
+	good=0
+	[ "$(value 'blit differing' "$work/many.txt")" = 0 ] || {
+		echo "bench.sh: assembly and C++ drew differently in $(value 'blit differing' "$work/many.txt") calls" >&2
+		good=1
+	}
+	[ "$(value 'frames not cleared' "$work/many.txt")" = 0 ] || {
+		echo "bench.sh: $(value 'frames not cleared' "$work/many.txt") frames began with something left of the one before" >&2
+		good=1
+	}
+	return $good
+}
+
 # (The status of a pipe's first command is lost; a file tells.)
 rm -f "$work/good"
 { page && : >"$work/good"; } | tee build/bench.txt
-[ -f "$work/good" ]
+[ -f "$work/good" ] && sound
