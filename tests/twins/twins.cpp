@@ -366,6 +366,8 @@ void registers()
         verdict(damage(reinterpret_cast<const void*>(clearRowsA), clear) == 0, "registers are kept: clearRowsA", count);
         const uint32_t present[5] = {dataSelector(), word(roomC.at(0).frame.data), word(a.frame.data), word(rows), count * 5};
         verdict(damage(reinterpret_cast<const void*>(presentRows), present) == 0, "registers are kept: presentRows", count);
+        const uint32_t find[5] = {word(a.depth.data), 1 + count, 0, 0, 0};
+        verdict(damage(reinterpret_cast<const void*>(findEmptyA), find) == 0, "registers are kept: findEmptyA", count);
     }
 }
 
