@@ -244,7 +244,7 @@ private:
     }
 
     static constexpr int32_t MARGIN = 256 * 64 / 36;    // a part of the spacing, as of `sum`
-    static constexpr int32_t MARGIN_UNITS = 8;           // and what places of seeds are uncertain by: 1/32 unit
+    static constexpr int32_t MARGIN_UNITS = 6;           // and what places of seeds are uncertain by, 1/256 unit
 
     int32_t x_, y_, z_, spacing_;
 };

@@ -389,30 +389,23 @@ bool Settler::bracket(Real& position)
 {
     Real slope;
     Real inside(1), outside(0);
-    buried_ = Real(1);
-    for (const Real probe : PROBES) {
-        const Real excess = lookAt<PLAIN>(probe, slope) - ISOVALUE;
-        if (excess < Real(0)) {
-            outside = probe;
-            break;
-        }
-        buried_ = least(buried_, excess);
-        inside = probe;
-    }
-    if (outside == Real(0) && buried_ < NEARLY) {
-        // It nearly left: between the places looked at it may have, and gone into something else.
+    // Looks outwards until the path has left; true if it has.
+    const auto leaves = [&](const Real* probe, int count) {
         inside = Real(1);
-        for (const Real probe : PROBES_BETWEEN) {
-            const Real excess = lookAt<PLAIN>(probe, slope) - ISOVALUE;
+        for (; count > 0; --count, ++probe) {
+            const Real excess = lookAt<PLAIN>(*probe, slope) - ISOVALUE;
             if (excess < Real(0)) {
-                outside = probe;
-                break;
+                outside = *probe;
+                return true;
             }
             buried_ = least(buried_, excess);
-            inside = probe;
+            inside = *probe;
         }
-    }
-    if (outside == Real(0))
+        return false;
+    };
+    buried_ = Real(1);
+    // Where it nearly left it may have between the places looked at, and gone into something else.
+    if (!leaves(PROBES, 3) && !(buried_ < NEARLY && leaves(PROBES_BETWEEN, 4)))
         return false;
     position = shiftDown(inside + outside, 1);
     for (int i = 0; i < LOOK_LIMIT; ++i) {
@@ -717,7 +710,7 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
                 // the smaller one, which is nearer to its seed, wins.
                 v->place.z += realFromRaw(mulHigh(s->wide * s->wide + s->high * s->high, setBack) << 2);
                 if (s->flags & SEED_OVER)
-                    v->place.z += Real(1);  // the neighbour's own seeds come first there
+                    v->place.z += Real(0.5);  // the neighbour's own seeds come first there
                 v->place.x += realFromRaw(s->shiftX * 256);
                 v->place.y += realFromRaw(s->shiftY * 256);
                 v->tiltX = s->tiltX;
