@@ -25,7 +25,7 @@ $(BENCH_BLIT): src/blit.cpp include/blit.h include/machine.h include/rt.h
 build/bench32: $(BENCH_PARTS) $(BENCH_BLIT)
 	$(HOST_CXX) -m32 -no-pie -static $(BENCH_WRAP) -o $@ $^
 
-bench: build/DEMO.EXE build/bench32
+bench: build/DEMO.EXE build/bench32 build/demo32
 	@BENCH_SECONDS="$(SECONDS)" FULL="$(FULL)" BENCH_GROWTH="$(GROWTH)" sh tools/bench.sh
 
 .PHONY: bench
