@@ -198,7 +198,6 @@ int View::show(const Voxel* voxels, int count)
         voxels += some;
         count -= some;
     }
-    // Gaps are closed between what was drawn, so these bounds hold for them too.
     mark(leftmost, topmost, rightmost, bottommost);
     return drawn;
 }
@@ -211,8 +210,11 @@ void View::addGap(const Scale& gap)
         if (x > -GAP_STEP && x < GAP_STEP && y > -GAP_STEP && y < GAP_STEP)
             return;
     }
-    if (gapCount_ < GAPS_MOST)
-        gaps_[gapCount_++] = gap;
+    if (gapCount_ == GAPS_MOST)
+        return;
+    gaps_[gapCount_++] = gap;
+    // What is found open there is noted in the Z-buffer, so it must be cleared with the rest.
+    mark(gap.left, gap.top, gap.left + gap.wide, gap.top + gap.high);
 }
 
 void View::closeGaps()
