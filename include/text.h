@@ -5,8 +5,8 @@
 
 #include "real.h"
 
-// The decimal form of `value` with up to six decimals, trailing zeros left out ("3.25", "-4"); it reads back as the
-// same 16.16 value. At most `size` bytes with the final 0; 24 suffice. Returns the length.
+// The decimal form of `value` ("3.25", "-4") with as few decimals as read back as the same 16.16 value; never more than
+// six are needed. At most `size` bytes with the final 0; 24 suffice. Returns the length.
 int formatReal(char* to, int size, Real value);
 
 // top/bottom with `decimals` (0..6) places, rounded ("13.083"); bottom 0 counts as a quotient of 0. Returns the length.

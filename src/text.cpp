@@ -52,16 +52,18 @@ int formatReal(char* to, int size, Real value)
 {
     const int32_t raw = rawFromReal(value);
     const uint32_t bits = raw < 0 ? 0u - static_cast<uint32_t>(raw) : static_cast<uint32_t>(raw);
-    uint32_t whole = bits >> 16;
-    uint32_t part = static_cast<uint32_t>((static_cast<uint64_t>(bits & 0xffff) * 1000000 + 0x8000) >> 16);
-    if (part == 1000000) {
-        part = 0;
-        ++whole;
-    }
-    int decimals = 6;
-    while (decimals > 0 && part % 10 == 0) {
-        part /= 10;
-        --decimals;
+    // The fewest decimals that read back as the same value (parseReal): six do for every one.
+    int decimals = 0;
+    uint32_t whole = 0, part = 0;
+    for (; decimals <= 6; ++decimals) {
+        const uint32_t power = POWERS[decimals];
+        uint32_t unused;
+        const uint64_t scaled = (static_cast<uint64_t>(bits) * power + 0x8000) >> 16;
+        whole = static_cast<uint32_t>(divide64(scaled, power, &part));
+        const uint32_t fraction =
+            static_cast<uint32_t>(divide64((static_cast<uint64_t>(part) << 16) + power / 2, power, &unused));
+        if ((whole << 16) + fraction == bits)
+            break;
     }
     return putDigits(to, size, raw < 0, whole, part, decimals);
 }

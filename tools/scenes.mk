@@ -29,7 +29,7 @@ build/scntst: tests/scenes/scntst.cpp $(SCNTST_PARTS) tools/scenes.mk
 # make run                          the four spheres, in DOSBox
 # make run SCENE=walk               a shipped scene (tools/scenes), or a scene file
 # make run SWITCHES="/I /G"         with switches of the program
-run: build/DEMO.EXE
+run: build/DEMO.EXE build/mkgif build/ppm2png
 	@sh tools/play.sh "$(SCENE)" $(SWITCHES)
 
 .PHONY: run

@@ -45,11 +45,11 @@ TEST(reals_as_text)
     TEXT(text(Real(-4)), "-4");
     TEXT(text(Real(3.25)), "3.25");
     TEXT(text(Real(-0.5)), "-0.5");
-    TEXT(text(realFromRaw(1)), "0.000015");
-    TEXT(text(realFromRaw(-1)), "-0.000015");
-    TEXT(text(realFromRaw(65535)), "0.999985");
+    TEXT(text(realFromRaw(1)), "0.00002");
+    TEXT(text(realFromRaw(-1)), "-0.00002");
+    TEXT(text(realFromRaw(65535)), "0.99998");
 #if FB_REAL == FB_FIXED
-    TEXT(text(realFromRaw(INT32_MAX)), "32767.999985");
+    TEXT(text(realFromRaw(INT32_MAX)), "32767.99998");
     TEXT(text(realFromRaw(INT32_MIN)), "-32768");
 #endif
     // What does not fit is cut off, never written past the end.
