@@ -69,7 +69,7 @@ play 5 /M:one.fb <<'END'
 4 mouse -4000 4000 -
 END
 ok "left button selects the next" has 3 "sphere 2 31 0 0 20"
-ok "the mouse cannot lose it" has 4 "sphere 2 -76.799927 -57.599487 0 20"
+ok "the mouse cannot lose it" has 4 "sphere 2 -76.79993 -57.59949 0 20"
 
 # --- Turning, sizes
 play 9 /M:one.fb <<'END'
@@ -88,7 +88,7 @@ play 9 /M:one.fb <<'END'
 6 key 1
 7 key x
 END
-ok "turned by 30 degrees" has 1 "cylinder 3 -25.000305 -8.660278 0 -34.999695 8.660278 0 12"
+ok "turned by 30 degrees" has 1 "cylinder 3 -25.0003 -8.66028 0 -34.9997 8.66028 0 12"
 ok "and back" has 2 "cylinder 3 -30 -10 0 -30 10 0 12"
 ok "greater" has 3 "cylinder 3 -30 -10 0 -30 10 0 13"
 ok "longer" has 4 "cylinder 3 -30 -11 0 -30 11 0 13"
