@@ -30,8 +30,7 @@ struct Seed {
     uint16_t root;       // index of the root point: seeds share them
     uint8_t flags;       // SeedFlag
     uint8_t brightness;  // 0..63, of the surface at the present position
-    int16_t wide, high;  // half extents of the scale along X and Y at the present position, 1/256 unit
-    int16_t restWide, restHigh;  // the same where nothing blends
+    int16_t wide, high;  // half extents of the scale along X and Y of a PLACED seed, 1/256 unit
     int16_t dirX, dirY, dirZ;    // the path's direction, unit length = 2^14
     int16_t tiltX, tiltY;        // Voxel's, at the present position
     int16_t shiftX, shiftY;      // from the seed to the middle of its scale, 1/256 unit

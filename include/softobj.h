@@ -188,9 +188,6 @@ public:
     void setRecalc() { recalc_ = true; }
     bool recalc() const { return recalc_; }
 
-    // How far from the centre any scale of the last update can reach, units.
-    Real reach() const;
-
     // The palette indices of brightness 0..63. Not owned.
     void setRamp(const uint8_t* ramp) { ramp_ = ramp; }
     const uint8_t* ramp() const { return ramp_; }
@@ -297,11 +294,10 @@ private:
     bool recalc_;
     bool tapers_;
     bool displaced_;  // some seed is not at rest
-    bool linkedChange_;
+    bool restStale_;  // the brightness at rest is that of another turn or size
     Real spacing_;    // of the seeds as they are
     Real wanted_;     // as asked for
     Real laidSize_;   // size when the seeds were laid out
-    Real spread_;     // greatest position of a settled seed
     mutable bool stale_;       // some patch is
     Matrix pose_;              // turn and scale, counted from how the seeds were laid out
     int32_t turnSteps_[3][3];  // the turn alone, 1.0 = 2^14

@@ -32,7 +32,6 @@ void SoftObject::updatePrinted(const Look& look)
     const int nearCount = findNear(near);
     const Vector toEye = unit(look.eye - centre_);
     displaced_ = false;
-    spread_ = Real(1);
     // "The regular seeds at even positions in an array, and the corresponding extra samples at the following odd
     // position. The index in the update loop is incremented by one or two depending on the status of the extra seed."
     for (int i = 0; i < 2 * regular_; i += 2) {
@@ -99,8 +98,6 @@ void SoftObject::settlePrinted(int i, const Look& look, const Vector& toEye, con
     kept_[i].point = root + s.path * s.position;
     if (!highest || absolute(s.position - Real(1)) >= DEFORMITY)
         displaced_ = true;
-    if (highest)
-        spread_ = most(spread_, s.position);
 }
 
 int SoftObject::drawPrinted(const Look& look, Voxel* voxels, int room, int* next)

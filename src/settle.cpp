@@ -11,26 +11,25 @@
 
 namespace {
 
-// Of the field. Newton's last step is taken without another look when it is short (see SHORT_STEP).
-constexpr Real LOCATION_TOLERANCE(0.01);
+// A seed is looked for to within 0.01 of the field. Newton's last step is taken without another look when it is short.
 constexpr Real SHORT_STEP(0.05);     // of the position: what remains after it is below 2 SHORT_STEP^2 in the field
 constexpr Real LONGEST_STEP(0.25);   // of the position
 constexpr int LOOK_LIMIT = 8;        // then the surface is bracketed and bisected
 constexpr Real FLAT(-0.2);           // slope above which Newton's method is not trusted
 
-// No valid seed lies farther out: there its own field is 0.12, and a neighbour that makes up the rest is stronger by more
-// than the overshoot.
+// No valid seed lies farther out: there its own field is 0.013, and a neighbour that makes up the rest alone is stronger by
+// more than the overshoot.
 constexpr Real POSITION_MOST(1.85);
 // Squared distance / squared size from which a neighbour is left out: its field is 0.006 there, inside the tolerance.
 constexpr Real TOUCHING(0.9);
 // Where a path is looked at for the first time outside the surface, when nothing is known of it.
 const Real PROBES[] = {Real(1.15), Real(1.35), POSITION_MOST};
 const Real PROBES_BETWEEN[] = {Real(1.08), Real(1.25), Real(1.45), Real(1.6)};
-constexpr Real NEARLY(0.04);
+constexpr Real NEARLY(0.04);  // of the field: how near the isovalue it must have come there to be looked at in between
 // Squared distance / squared size up to which a neighbour alone fills what the own field lacks at POSITION_MOST: its
-// field is 0.38 there.
+// field is 0.477 there, which with the own 0.013 is the isovalue but for the tolerance.
 constexpr Real BURYING(0.265);
-constexpr Real DISPLACEMENT(0.008);  // of the position: less is taken as not moved
+constexpr Real DISPLACEMENT(0.008);  // of the field at the seed's last place: less is taken as not moved
 
 // A neighbour in range, as the seeds of this object see it.
 struct Near {
@@ -193,7 +192,6 @@ void Settler::settle()
         addNear(links[i]);
 
     o_.displaced_ = false;
-    o_.spread_ = Real(1);
     // A seed stays valid a way past the border where a neighbour becomes stronger: as a distance, about one spacing and
     // a half. The fields of the two change by about 3 / size a unit there.
     overshoot_ = least(Real(4.5) * o_.spacing_ / o_.size_, Real(0.7));
@@ -299,8 +297,6 @@ void Settler::rest(SoftObject::Patch& patch)
         s->position = Real(1);
         s->flags = SEED_VALID;
         s->brightness = s->restBrightness;
-        s->wide = s->restWide;
-        s->high = s->restHigh;
         s[1].flags = 0;
     }
     patch.state = SoftObject::PATCH_AT_REST;
@@ -499,8 +495,6 @@ void Settler::settleSeed(Seed& s)
         s.position = Real(1);
         wait(s, SEED_VALID, apart * waitingApart_);
         s.brightness = s.restBrightness;
-        s.wide = s.restWide;
-        s.high = s.restHigh;
         return;
     }
     if (!PLAIN)
@@ -533,7 +527,6 @@ void Settler::settleSeed(Seed& s)
         wait(s, SEED_PLACED, strength_ * waiting_);
         return;
     }
-    o_.spread_ = most(o_.spread_, position);
     shade<PLAIN>(s, position);
 }
 

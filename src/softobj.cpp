@@ -8,10 +8,6 @@
 
 namespace {
 
-// Every scale is a little larger than the part of the surface that is its own, by this part of the spacing: the
-// surface bends between seeds and a ring holds a whole number of them.
-constexpr Real CELL_MARGIN(0.03);
-
 // The cell of an oversampled seed, which lies between seeds that have cells of their own: in eighths of theirs.
 constexpr int EXTRA_CELL = 5;
 
@@ -20,12 +16,6 @@ constexpr int ROOTS_MOST = UINT16_MAX + 1;
 
 // Of the spacing asked for: seeds that scaling has moved farther apart or together are laid out anew.
 constexpr Real DRIFT_MOST(0.25);
-
-int16_t toExtent(Real units)
-{
-    const int32_t value = rawFromReal(units) >> 8;
-    return static_cast<int16_t>(value > INT16_MAX ? INT16_MAX : value);
-}
 
 int8_t toCell(int32_t steps)
 {
@@ -93,8 +83,7 @@ private:
 class Filler : public SeedMaker {
 public:
     Filler(Seed* seeds, Vector* roots, int32_t* ringStarts, Real radius, Real spacing)
-        : seeds_(seeds), roots_(roots), ringStarts_(ringStarts), radius_(radius), margin_(spacing * CELL_MARGIN),
-          inverseSpacing_(Real(64) / spacing)
+        : seeds_(seeds), roots_(roots), ringStarts_(ringStarts), radius_(radius), inverseSpacing_(Real(64) / spacing)
     {
     }
 
@@ -116,8 +105,6 @@ public:
         s.dirX = toDirection(direction.x);
         s.dirY = toDirection(direction.y);
         s.dirZ = toDirection(direction.z);
-        s.restWide = toExtent(absolute(along.x) + absolute(across.x) + margin_);
-        s.restHigh = toExtent(absolute(along.y) + absolute(across.y) + margin_);
         setCell(s.along, along, inverseSpacing_);
         setCell(s.across, across, inverseSpacing_);
     }
@@ -127,7 +114,6 @@ private:
     Vector* roots_;
     int32_t* ringStarts_;
     Real radius_;
-    Real margin_;
     Real inverseSpacing_;
     int rootCount_ = 0, rings_ = 0, count_ = 0;
 };
@@ -135,7 +121,7 @@ private:
 SoftObject::SoftObject(int number, Real size, bool tapers)
     : number_(number), centre_{Real(0), Real(0), Real(0)}, turn_(Matrix::identity()), size_(size),
       radius_(shiftDown(size, 1)), inverse_(Real(16) / size), recalc_(true), tapers_(tapers), displaced_(false),
-      linkedChange_(false), spacing_(2), wanted_(2), laidSize_(size), spread_(1), stale_(false),
+      restStale_(false), spacing_(2), wanted_(2), laidSize_(size), stale_(false),
       light_{Real(0), Real(0), Real(0)}, ramp_(nullptr), travel_(0), eyeApart_{Real(0), Real(0), Real(0)}, sizeSeen_(size),
       seeds_(nullptr), regular_(0), extra_(0), roots_(nullptr), rootRest_(nullptr), rootCount_(0), rest_(nullptr),
       patchRest_(nullptr), patches_(nullptr), patchCount_(0), kept_(nullptr)
@@ -640,7 +626,7 @@ void SoftObject::setSize(Real wanted)
         const Real drift = size_ / laidSize_;
         const bool far = drift > Real(1) + DRIFT_MOST || drift < Real(1) - DRIFT_MOST;
         if (far && resample(wanted_))
-            linkedChange_ = true;
+            restStale_ = true;
         else
             poseSeeds();
     }
@@ -725,9 +711,9 @@ void SoftObject::update(const Look& look)
 {
     if (!recalc_)
         return;
-    if (linkedChange_) {
+    if (restStale_) {
         shadeRest(look.light);
-        linkedChange_ = false;
+        restStale_ = false;
     }
     if (look.printed)
         updatePrinted(look);
@@ -739,9 +725,4 @@ void SoftObject::update(const Look& look)
 int SoftObject::draw(const Look& look, Voxel* voxels, int room, int* next)
 {
     return look.printed ? drawPrinted(look, voxels, room, next) : drawQuick(look, voxels, room, next);
-}
-
-Real SoftObject::reach() const
-{
-    return coreReach() + radius_ * spread_ + shiftUp(spacing_, 2);
 }
