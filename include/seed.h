@@ -6,9 +6,9 @@
 #include "vec.h"
 
 // What is known of a seed. VALID: it settled on the surface, in a region that belongs to its own object. FRONT: its
-// scale may face the viewer. PLACED: a neighbour reaches it
+// scale may face the viewer (with KEPT only). PLACED: a neighbour reaches it
 // and its position is a place where its path leaves the surface; its normal is not its path. ACTIVE: for an
-// oversampled seed, that it takes part. KEPT: brightness and extents hold for the present position.
+// oversampled seed, that it takes part. KEPT: brightness and what is known of its scale hold for the present position.
 // EDGE: a seed beside it is not valid, or parted from it. WAITS: it cannot be seen, nor can that change before `due`.
 // OVER: valid, but past the border where a neighbour is stronger.
 enum SeedFlag : uint8_t {
@@ -30,10 +30,10 @@ struct Seed {
     uint16_t root;       // index of the root point: seeds share them
     uint8_t flags;       // SeedFlag
     uint8_t brightness;  // 0..63, of the surface at the present position
-    int16_t wide, high;  // half extents of the scale along X and Y of a PLACED seed, 1/256 unit
+    int16_t wide, high;  // of a KEPT seed: half extents of its scale along X and Y, 1/256 unit
     int16_t dirX, dirY, dirZ;    // the path's direction, unit length = 2^14
-    int16_t tiltX, tiltY;        // Voxel's, at the present position
-    int16_t shiftX, shiftY;      // from the seed to the middle of its scale, 1/256 unit
+    int16_t tiltX, tiltY;        // of a KEPT seed: Voxel's, at the present position
+    int16_t offX, offY, offZ;    // of a KEPT seed: from the root to the middle of its scale, 1/256 unit
     uint8_t restBrightness;
     int16_t due;                 // WAITS: up to which travel of the object (SoftObject); EDGE: how many seeds further on the
                                  // one beside it lies

@@ -145,47 +145,41 @@ inline int32_t skew(int32_t x, int32_t share)
     return s > 1024 ? 1024 : s < -1024 ? -1024 : s;
 }
 
-// How a scale lies in the view: its slope, and which part of it is this side of the horizon.
-struct Lie {
-    int16_t tiltX, tiltY;    // as in Voxel
-    int16_t wide, high;      // half extents, 1/256 unit
-    int32_t shiftX, shiftY;  // from the seed to the middle of the scale, 1/256 unit
-};
-
 // For a seed with normal (nx, ny, ..) scaled by 2^14, with facing() and depth along the viewing axis in 1/32 unit, on a
-// surface of curvature 1 / radius (radius in 1/32 unit), with the half extents already in `lie`.
+// surface of curvature 1 / radius (radius in 1/32 unit), with the half extents of its whole cell already set: its tilt,
+// and the part of the cell that is this side of the horizon. `shiftX` and `shiftY`: from the seed to the middle of that
+// part, 1/256 unit.
 //
-// The tilt is n.x and n.y over the cosine
-// of the angle at which the surface is seen, facing / depth. Near the horizon the scale would stand out over the edge of
-// the object: there it is cut to where the horizon is, cosine^2 radius / 2 away, and a little more where the edge runs
-// aslant. What lies before the near plane is not drawn, and left as it is.
-inline void layDown(int32_t nx, int32_t ny, int32_t facing, int32_t depth, int32_t radius, Lie& lie)
+// The tilt is n.x and n.y over the cosine of the angle at which the surface is seen, facing / depth. Near the horizon the
+// scale would stand out over the edge of the object: there it is cut to where the horizon is, cosine^2 radius / 2 away,
+// and a little more where the edge runs aslant. What lies before the near plane is not drawn, and left as it is.
+inline void layDown(int32_t nx, int32_t ny, int32_t facing, int32_t depth, int32_t radius, Seed& s, int32_t& shiftX,
+                    int32_t& shiftY)
 {
+    shiftX = shiftY = 0;
     if (depth < 32) {
-        lie.tiltX = lie.tiltY = 0;
-        lie.shiftX = lie.shiftY = 0;
+        s.tiltX = s.tiltY = 0;
         return;
     }
     const int32_t least = (depth >> 4) + 1;
     const int32_t ratio = (depth << 8) / (facing < least ? least : facing);
-    lie.tiltX = static_cast<int16_t>(nx * ratio >> 14);
-    lie.tiltY = static_cast<int16_t>(ny * ratio >> 14);
-    lie.shiftX = lie.shiftY = 0;
+    s.tiltX = static_cast<int16_t>(nx * ratio >> 14);
+    s.tiltY = static_cast<int16_t>(ny * ratio >> 14);
     if (ratio < 400)
         return;
     const int32_t away = facing > 0 ? mulDiv(mulDiv(facing, facing, depth), radius, depth) * 4 : 0;
     const int32_t sideX = nx < 0 ? -nx : nx, sideY = ny < 0 ? -ny : ny;
-    const int32_t limitX = (away << 14) / (sideX | 512) + (lie.high * sideY >> 16);
-    const int32_t limitY = (away << 14) / (sideY | 512) + (lie.wide * sideX >> 16);
-    if (limitX < lie.wide) {
-        const int32_t cut = (lie.wide - limitX) >> 1;
-        lie.wide = static_cast<int16_t>(lie.wide - cut);
-        lie.shiftX = nx < 0 ? cut : -cut;
+    const int32_t limitX = (away << 14) / (sideX | 512) + (s.high * sideY >> 16);
+    const int32_t limitY = (away << 14) / (sideY | 512) + (s.wide * sideX >> 16);
+    if (limitX < s.wide) {
+        const int32_t cut = (s.wide - limitX) >> 1;
+        s.wide = static_cast<int16_t>(s.wide - cut);
+        shiftX = nx < 0 ? cut : -cut;
     }
-    if (limitY < lie.high) {
-        const int32_t cut = (lie.high - limitY) >> 1;
-        lie.high = static_cast<int16_t>(lie.high - cut);
-        lie.shiftY = ny < 0 ? cut : -cut;
+    if (limitY < s.high) {
+        const int32_t cut = (s.high - limitY) >> 1;
+        s.high = static_cast<int16_t>(s.high - cut);
+        shiftY = ny < 0 ? cut : -cut;
     }
 }
 
@@ -211,16 +205,16 @@ public:
     // Half extents of the scale of a seed at rest: its cell as the viewer sees it. `skewX` and `skewY` are x / depth and
     // y / depth of the place from the eye, 8 bits of fraction: off the viewing axis that much of the cell's depth shows
     // sideways.
-    void restExtents(const Seed& s, int32_t skewX, int32_t skewY, Lie& lie) const
+    void restExtents(Seed& s, int32_t skewX, int32_t skewY) const
     {
-        lie.wide = extent(s.along[0] * 256 - s.along[2] * skewX, s.across[0] * 256 - s.across[2] * skewX, spacing_);
-        lie.high = extent(s.along[1] * 256 - s.along[2] * skewY, s.across[1] * 256 - s.across[2] * skewY, spacing_);
+        s.wide = extent(s.along[0] * 256 - s.along[2] * skewX, s.across[0] * 256 - s.across[2] * skewX, spacing_);
+        s.high = extent(s.along[1] * 256 - s.along[2] * skewY, s.across[1] * 256 - s.across[2] * skewY, spacing_);
     }
 
     // The same of a deformed seed: the cell of the unblended surface that is its own, grown with the position, as it falls
     // along the path onto the tangent plane with normal n. A half axis e becomes e - u (e.n) / (u.n) with u the path's
     // direction; `cosine` is u.n scaled by 2^14.
-    void extents(const Seed& s, const Normal& n, int32_t cosine, Real position, int32_t skewX, int32_t skewY, Lie& lie) const
+    void extents(Seed& s, const Normal& n, int32_t cosine, Real position, int32_t skewX, int32_t skewY) const
     {
         if (cosine < 6500)
             cosine = 6500;  // nearly along the surface: no scale is stretched more than two and a half times
@@ -230,10 +224,10 @@ public:
         const int32_t along = ((s.along[0] * n.x + s.along[1] * n.y + s.along[2] * n.z) >> 8) * inverse >> 10;
         const int32_t across = ((s.across[0] * n.x + s.across[1] * n.y + s.across[2] * n.z) >> 8) * inverse >> 10;
         const int32_t alongZ = s.along[2] - (s.dirZ * along >> 22), acrossZ = s.across[2] - (s.dirZ * across >> 22);
-        lie.wide = extent(s.along[0] * 256 - (s.dirX * along >> 14) - alongZ * skewX,
-                          s.across[0] * 256 - (s.dirX * across >> 14) - acrossZ * skewX, size);
-        lie.high = extent(s.along[1] * 256 - (s.dirY * along >> 14) - alongZ * skewY,
-                          s.across[1] * 256 - (s.dirY * across >> 14) - acrossZ * skewY, size);
+        s.wide = extent(s.along[0] * 256 - (s.dirX * along >> 14) - alongZ * skewX,
+                        s.across[0] * 256 - (s.dirX * across >> 14) - acrossZ * skewX, size);
+        s.high = extent(s.along[1] * 256 - (s.dirY * along >> 14) - alongZ * skewY,
+                        s.across[1] * 256 - (s.dirY * across >> 14) - acrossZ * skewY, size);
     }
 
 private:

@@ -11,6 +11,8 @@
 #include "voxel.h"
 
 class SoftObject;
+class EyeSide;
+class ShadeSetup;
 
 // Most neighbours that one object can blend with at a time; further ones are left out.
 constexpr int NEAR_MOST = 63;
@@ -233,6 +235,8 @@ private:
         uint8_t state;    // PatchState
         bool extras;      // oversampled seeds among them take part
         uint8_t stale;    // PatchStale
+        bool back;        // at rest, and none of it can be seen
+        uint16_t laid;    // up to which drift_ that holds, and how its seeds at rest lie in the view
     };
     enum PatchState : uint8_t { PATCH_UNKNOWN, PATCH_AT_REST, PATCH_BURIED, PATCH_MIXED };
 
@@ -282,6 +286,7 @@ private:
     int drawPrinted(const Look& look, Voxel* voxels, int room, int* next);
     void updateQuick(const Look& look);
     int drawQuick(const Look& look, Voxel* voxels, int room, int* next);
+    static void layAtRest(Seed& s, const EyeSide& eye, const Vector& rootPlace, const ShadeSetup& shadeSetup);
     void freeSeeds();
 
     int number_;
@@ -311,6 +316,11 @@ private:
     uint16_t travel_;
     Vector eyeApart_;
     Real sizeSeen_;
+    // How far the viewer has moved against it from frame to frame drawn, 1/64 unit; wraps round. And how far he may
+    // until seeds at rest are laid anew: a unit turns what he sees of them by half a degree.
+    static constexpr uint16_t DRIFT_KEPT = 128;
+    uint16_t drift_;
+    Vector eyeDrawn_;
 
     Seed* seeds_;
     int regular_;

@@ -7,9 +7,8 @@
 #ifndef FB_VIEW_H
 #define FB_VIEW_H
 
-#include "blit.h"
+#include "project.h"
 #include "vec.h"
-#include "voxel.h"
 
 struct Camera {
     Point eye{Real(0), Real(0), Real(-120)};
@@ -37,8 +36,8 @@ public:
     // Starts a frame: clears what the last one touched.
     void begin();
 
-    // Draws voxels (of one object, so that what they touch is a compact part of the screen); those before the near plane (1 unit), behind 511 units or off the screen are left out. Returns the
-    // number of scales drawn.
+    // Draws voxels (of one object, so that what they touch is a compact part of the screen); those before the near plane
+    // (1 unit), behind 511 units or off the screen are left out. Returns the number of scales drawn.
     int show(const Voxel* voxels, int count);
 
     // Text and lines on top of the picture: marks a rectangle of pixels as touched and gives the frame to draw into.
@@ -61,16 +60,9 @@ private:
     void closeGap(int at);
     bool project(const Voxel& voxel, Scale* scale) const;
 
-    // 12 bits of fraction; voxels from 64 to 256 units away find their factors in a table, by steps of 1/8 unit.
-    struct Factors {
-        int32_t x, y;  // focal 2^44 / z (z in 16.16)
-    };
-    static constexpr int NEAR_STEPS = 64 * 8;
-    static constexpr int FAR_STEPS = 256 * 8;
-
     Camera camera_;
     int32_t focalX_ = 0, focalY_ = 0, centreX_ = 0, centreY_ = 0;  // pixels, 12 bits of fraction
-    int32_t unitX_ = 0, unitY_ = 0;
+    Lens lens_{};
     bool pixels_ = false;
     uint8_t* frame_ = nullptr;
     uint16_t* zbuffer_ = nullptr;

@@ -3,13 +3,13 @@
 #ifndef FB_VOXEL_H
 #define FB_VOXEL_H
 
-#include "vec.h"
+#include <stdint.h>
 
 // The colour of a voxel that is not drawn, but tells where a gap between scales may show.
 constexpr uint8_t GAP = 0;
 
 struct Voxel {
-    Vector place;      // from the eye, axes of the world, units
+    int32_t x, y, z;   // from the eye, axes of the world, 1/256 unit
     int16_t wide;      // half extents along X and Y, 1/256 unit, 0 or more
     int16_t high;
     int16_t tiltX;     // slope of the depth across the scale: n.x / cosine of the angle at which it is seen, 8 bits of

@@ -145,7 +145,10 @@ int SoftObject::drawPrinted(const Look& look, Voxel* voxels, int room, int* next
         const Real half = spacing_ * SCALE * (Real(1) + deformity * MAGNIFICATION);
         const int32_t extent = rawFromReal(half) >> 8;
         Voxel& v = voxels[count++];
-        v.place = kept.point - look.eye;
+        const Vector place = kept.point - look.eye;
+        v.x = rawFromReal(place.x) >> 8;
+        v.y = rawFromReal(place.y) >> 8;
+        v.z = rawFromReal(place.z) >> 8;
         v.wide = static_cast<int16_t>(extent > INT16_MAX ? INT16_MAX : extent);
         v.high = v.wide;
         v.tiltX = v.tiltY = 0;  // the report's scales face the viewer

@@ -66,6 +66,8 @@ constexpr Real WAIT_FIELD(0.3);
 constexpr Real WAIT_FACING(1.0);
 constexpr Real WAIT_APART(0.45);  // and for a difference of 1 in squared distance / squared size
 
+constexpr int32_t OVER_BACK = 128;  // 1/256 unit: how far a seed beyond the border is set back
+
 constexpr Real TWICE_LIMIT(7.9);  // units of twice, so that its scaled form fits
 
 inline Vector scaledTwice(const Vector& v)
@@ -140,6 +142,7 @@ private:
     Real parting_;                   // difference of positions that activates the seed between
     EyeSide eye_;
     Real horizon_;                   // of the object in general
+    int32_t setBack_;                // 2^31 / radius
     ShadeSetup shadeSetup_;
 };
 
@@ -201,6 +204,7 @@ void Settler::settle()
     eye_.horizon(horizon_);
     travel();
     fromEye_ = o_.centre_ - look_.eye;
+    setBack_ = mulDiv(1 << 30, 1 << 17, rawFromReal(most(o_.radius_, Real(2))));
     shadeSetup_.set(look_.light, o_.spacing_);
 
     bool plain = o_.isBall();
@@ -300,6 +304,7 @@ void Settler::rest(SoftObject::Patch& patch)
         s[1].flags = 0;
     }
     patch.state = SoftObject::PATCH_AT_REST;
+    patch.laid = o_.drift_;
     if (o_.tapers_)
         patch.stale = SoftObject::STALE_ALL;  // from paths to normals
 }
@@ -493,7 +498,8 @@ void Settler::settleSeed(Seed& s)
             return;
         }
         s.position = Real(1);
-        wait(s, SEED_VALID, apart * waitingApart_);
+        // One that was at rest before lies as it did.
+        wait(s, s.flags & SEED_PLACED ? SEED_VALID : SEED_VALID | (s.flags & (SEED_KEPT | SEED_FRONT)), apart * waitingApart_);
         s.brightness = s.restBrightness;
         return;
     }
@@ -567,19 +573,24 @@ inline void Settler::shade(Seed& s, Real position)
     if (strength_ + overshoot_ > Real(0))
         s.flags |= SEED_OVER;
     s.brightness = shadeSetup_.brightness(normal);
-    Lie lie;
     const Vector toRoot = PLAIN ? fromEye_ : root_ - look_.eye;
-    const int32_t depth = rawFromReal(toRoot.z + s.path.z * position) >> 11;
+    const Vector out = s.path * position;
+    const int32_t depth = rawFromReal(toRoot.z + out.z) >> 11;
     const int32_t share = skewShare(depth);
-    shadeSetup_.extents(s, normal, cosine, position, skew(rawFromReal(toRoot.x + s.path.x * position) >> 11, share),
-                        skew(rawFromReal(toRoot.y + s.path.y * position) >> 11, share), lie);
-    layDown(normal.x, normal.y, facing, depth, 2 * eye_.horizon(), lie);  // blending flattens: the horizon may be farther
-    s.wide = lie.wide;
-    s.high = lie.high;
-    s.tiltX = lie.tiltX;
-    s.tiltY = lie.tiltY;
-    s.shiftX = static_cast<int16_t>(lie.shiftX);
-    s.shiftY = static_cast<int16_t>(lie.shiftY);
+    shadeSetup_.extents(s, normal, cosine, position, skew(rawFromReal(toRoot.x + out.x) >> 11, share),
+                        skew(rawFromReal(toRoot.y + out.y) >> 11, share));
+    int32_t shiftX, shiftY;
+    // Blending flattens: the horizon may be farther.
+    layDown(normal.x, normal.y, facing, depth, 2 * eye_.horizon(), s, shiftX, shiftY);
+    // A tangent plane lies before the surface, the more the larger the scale: set back, so that of two scales the smaller
+    // one, which is nearer to its seed, wins. And beyond the border the neighbour's own seeds come first.
+    int32_t back = mulHigh(s.wide * s.wide + s.high * s.high, setBack_) >> 6;
+    if (s.flags & SEED_OVER)
+        back += OVER_BACK;
+    s.offX = static_cast<int16_t>((rawFromReal(out.x) >> 8) + shiftX);
+    s.offY = static_cast<int16_t>((rawFromReal(out.y) >> 8) + shiftY);
+    back += rawFromReal(out.z) >> 8;
+    s.offZ = static_cast<int16_t>(back > INT16_MAX ? INT16_MAX : back);
 }
 
 // All patches of the object, seed by seed where a neighbour reaches them.
@@ -604,6 +615,8 @@ void Settler::settlePatches()
         }
         if (!PLAIN && o_.tapers_ && patch.state != SoftObject::PATCH_MIXED)
             patch.stale = SoftObject::STALE_ALL;  // from normals to paths
+        if (patch.state != SoftObject::PATCH_MIXED)
+            patch.laid = o_.drift_;
         patch.state = SoftObject::PATCH_MIXED;
         if (patch.stale != SoftObject::STALE_NONE)
             o_.posePatch(patch, true);
@@ -655,6 +668,25 @@ void SoftObject::updateQuick(const Look& look)
     Settler(*this, look).settle();
 }
 
+// How a seed at rest lies in the view, for as long as the object stays about where it is.
+inline void SoftObject::layAtRest(Seed& s, const EyeSide& eye, const Vector& rootPlace, const ShadeSetup& shadeSetup)
+{
+    s.flags = static_cast<uint8_t>((s.flags | SEED_KEPT) & ~SEED_FRONT);
+    const int32_t along = eye.along(s);
+    if (!eye.seen(along))
+        return;
+    s.flags |= SEED_FRONT;
+    const int32_t depth = rawFromReal(rootPlace.z + s.path.z) >> 11;
+    const int32_t share = skewShare(depth);
+    shadeSetup.restExtents(s, skew(rawFromReal(rootPlace.x + s.path.x) >> 11, share),
+                           skew(rawFromReal(rootPlace.y + s.path.y) >> 11, share));
+    int32_t shiftX, shiftY;
+    layDown(s.dirX, s.dirY, eye.restFacing(along), depth, eye.horizon(), s, shiftX, shiftY);
+    s.offX = static_cast<int16_t>((rawFromReal(s.path.x) >> 8) + shiftX);
+    s.offY = static_cast<int16_t>((rawFromReal(s.path.y) >> 8) + shiftY);
+    s.offZ = static_cast<int16_t>(rawFromReal(s.path.z) >> 8);
+}
+
 int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
 {
     EyeSide eye;
@@ -664,23 +696,34 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
     eye.horizon(horizon);
     ShadeSetup shadeSetup;
     shadeSetup.set(look.light, spacing_);
+    int p = *next;
+    if (p == 0) {
+        const Vector moved = (look.eye - centre_) - eyeDrawn_;
+        eyeDrawn_ = look.eye - centre_;
+        const Real sum = absolute(moved.x) + absolute(moved.y) + absolute(moved.z);
+        drift_ = static_cast<uint16_t>(drift_ + (rawFromReal(least(sum, Real(100))) >> 10));
+    }
     int root = -1;
     Vector rootPlace{Real(0), Real(0), Real(0)};
+    int32_t rootX = 0, rootY = 0, rootZ = 0;
     Voxel* v = voxels;
     const int16_t gap = static_cast<int16_t>(rawFromReal(spacing_ * Real(1.5) + Real(1.5)) >> 8);
-    const int32_t setBack = mulDiv(1 << 30, 1 << 17, rawFromReal(most(radius_, Real(2))));  // 2^31 / radius
     const Voxel* const full = voxels + room - 4 * PATCH_SEEDS;
-    int p = *next;
     for (; p < patchCount_ && v <= full; ++p) {
         Patch& patch = patches_[p];
         if (patch.state == PATCH_BURIED || patch.state == PATCH_UNKNOWN)
             continue;
         const bool atRest = patch.state == PATCH_AT_REST;
-        if (atRest && eye.side(patch.axis, patch.across, patch.radius32, patch.spread) == EyeSide::BACK)
+        const bool again = static_cast<int16_t>(drift_ - patch.laid) >= 0 || patch.stale == STALE_ALL;
+        if (again) {
+            patch.laid = static_cast<uint16_t>(drift_ + DRIFT_KEPT);
+            patch.back = atRest && eye.side(patch.axis, patch.across, patch.radius32, patch.spread) == EyeSide::BACK;
+        }
+        if (patch.back)
             continue;
         if (patch.stale == STALE_ALL)
             posePatch(patch, false);
-        const Seed* s = seeds_ + 2 * patch.first;
+        Seed* s = seeds_ + 2 * patch.first;
         const Seed* const end = s + 2 * patch.count;
         const int step = patch.extras && !atRest ? 1 : 2;
         for (; s < end; s += step) {
@@ -689,51 +732,34 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
             if (s->root != root) {
                 root = s->root;
                 rootPlace = roots_[root] - look.eye;
+                rootX = rawFromReal(rootPlace.x) >> 8;
+                rootY = rawFromReal(rootPlace.y) >> 8;
+                rootZ = rawFromReal(rootPlace.z) >> 8;
                 eye.root(roots_[root] - centre_);
                 if (manyRoots)
                     eye.horizon(horizonAt(roots_[root], horizon));
                 if (tapers_)
                     eye.rootRadius(tangentAt(roots_[root]));
             }
-            if (s->flags & SEED_PLACED) {
-                if (!(s->flags & SEED_FRONT))
-                    continue;
-                v->place = rootPlace + s->path * s->position;
-                // A tangent plane lies before the surface, the more the larger the scale: set back, so that of two scales
-                // the smaller one, which is nearer to its seed, wins.
-                v->place.z += realFromRaw(mulHigh(s->wide * s->wide + s->high * s->high, setBack) << 2);
-                if (s->flags & SEED_OVER)
-                    v->place.z += Real(0.5);  // the neighbour's own seeds come first there
-                v->place.x += realFromRaw(s->shiftX * 256);
-                v->place.y += realFromRaw(s->shiftY * 256);
-                v->tiltX = s->tiltX;
-                v->tiltY = s->tiltY;
-                v->wide = s->wide;
-                v->high = s->high;
-            } else {
-                const int32_t along = eye.along(*s);
-                if (!eye.seen(along))
-                    continue;
-                v->place = rootPlace + s->path;
-                Lie lie;
-                const int32_t depth = rawFromReal(v->place.z) >> 11;
-                const int32_t share = skewShare(depth);
-                shadeSetup.restExtents(*s, skew(rawFromReal(v->place.x) >> 11, share),
-                                       skew(rawFromReal(v->place.y) >> 11, share), lie);
-                layDown(s->dirX, s->dirY, eye.restFacing(along), depth, eye.horizon(), lie);
-                v->place.x += realFromRaw(lie.shiftX * 256);
-                v->place.y += realFromRaw(lie.shiftY * 256);
-                v->tiltX = lie.tiltX;
-                v->tiltY = lie.tiltY;
-                v->wide = lie.wide;
-                v->high = lie.high;
-            }
+            if (!(s->flags & SEED_PLACED) && (again || !(s->flags & SEED_KEPT)))
+                layAtRest(*s, eye, rootPlace, shadeSetup);
+            if (!(s->flags & SEED_FRONT))
+                continue;
+            v->x = rootX + s->offX;
+            v->y = rootY + s->offY;
+            v->z = rootZ + s->offZ;
+            v->wide = s->wide;
+            v->high = s->high;
+            v->tiltX = s->tiltX;
+            v->tiltY = s->tiltY;
             v->colour = ramp_[s->brightness];
             ++v;
             if (s->flags & SEED_EDGE) {
                 // A place where the surface is stretched so much that a gap may show.
-                const Vector aside = (s[s->due].path - s->path) * Real(0.625);
-                v->place = rootPlace + s->path * s->position + aside;
+                const Vector aside = s->path * s->position + (s[s->due].path - s->path) * Real(0.625);
+                v->x = rootX + (rawFromReal(aside.x) >> 8);
+                v->y = rootY + (rawFromReal(aside.y) >> 8);
+                v->z = rootZ + (rawFromReal(aside.z) >> 8);
                 v->wide = v->high = gap;
                 v->colour = GAP;
                 ++v;

@@ -18,13 +18,11 @@ constexpr int GAPS_ALIKE = 16;
 constexpr int GAP_STEP = 4;
 constexpr int FRACTION = 12;
 constexpr int32_t HALF = 1 << (FRACTION - 1);
-constexpr int32_t NEAREST = 1 << 16;           // 1 unit
-constexpr int32_t FARTHEST = 511 << 16;        // z in 1/128 unit ends at 512
+constexpr int32_t NEAREST = 1 << 8;            // 1 unit
+constexpr int32_t FARTHEST = 511 << 8;         // z in 1/128 unit ends at 512
 
-// Depth steps (1/128 unit) from pixel to pixel; a surface seen more edge-on than this is taken as this steep.
-constexpr int32_t STEEPEST = 400;
-constexpr int32_t LEVEL_BEFORE = 24 * STEEPEST;
-constexpr int32_t LEVEL_BEHIND = 0xffff - 24 * STEEPEST;
+// A sloped scale of the loop stays within 16 bits: its corners lie less than SLOPED_MOST steps from its middle.
+static_assert(LENS_NEAR * 128 >= SLOPED_MOST * STEEPEST && LENS_FAR * 128 + SLOPED_MOST * STEEPEST < Z_OPEN, "depths");
 
 }  // namespace
 
@@ -41,7 +39,7 @@ bool View::open()
 {
     frame_ = allocate<uint8_t>(WIDTH * HEIGHT);
     zbuffer_ = allocate<uint16_t>(WIDTH * HEIGHT);
-    factors_ = allocate<Factors>(FAR_STEPS - NEAR_STEPS);
+    factors_ = allocate<Factors>(LENS_STEPS);
     scales_ = allocate<Scale>(SCALES_AT_ONCE);
     gaps_ = allocate<Scale>(GAPS_MOST);
     if (frame_ == nullptr || zbuffer_ == nullptr || factors_ == nullptr || scales_ == nullptr ||
@@ -64,15 +62,17 @@ void View::setCamera(const Camera& camera)
     focalY_ = rawFromReal(camera.focalY) >> (16 - FRACTION);
     centreX_ = rawFromReal(camera.centreX) >> (16 - FRACTION);
     centreY_ = rawFromReal(camera.centreY) >> (16 - FRACTION);
-    // A tilt has 8 bits of fraction, a depth step 7: 2^31 / focal makes tilt * mulHigh(z, unit) / 2^16 of it.
-    unitX_ = mulDiv(1 << 30, 1 << 13, focalX_);
-    unitY_ = mulDiv(1 << 30, 1 << 13, focalY_);
-    for (int i = NEAR_STEPS; i < FAR_STEPS; ++i) {
-        // The middle of the step: z = (i + 1/2) / 8 units = (2i + 1) 2^12 in 16.16. focal 2^44 / z = focal12 2^32 / z
-        // = focal12 2^20 / (2i + 1); 2^20 in two steps keeps 32 bits for focal lengths up to 500.
-        Factors& f = factors_[i - NEAR_STEPS];
-        f.x = mulDiv(focalX_, 1 << 18, 2 * i + 1) * 4;
-        f.y = mulDiv(focalY_, 1 << 18, 2 * i + 1) * 4;
+    lens_.factors = factors_;
+    lens_.centreX = centreX_ + HALF;
+    lens_.centreY = centreY_ + HALF;
+    for (int i = 0; i < LENS_STEPS; ++i) {
+        // The middle of the step: (2i + 1) / 16 units beyond the nearest.
+        const int32_t z16 = 16 * 8 * LENS_NEAR / 8 + 2 * i + 1;
+        Factors& f = factors_[i];
+        f.x = (focalX_ * 16 + z16 / 2) / z16;
+        f.y = (focalY_ * 16 + z16 / 2) / z16;
+        f.zx = mulDiv(z16, 1 << 23, focalX_);
+        f.zy = mulDiv(z16, 1 << 23, focalY_);
     }
 }
 
@@ -99,97 +99,91 @@ void View::mark(int left, int top, int right, int bottom)
     }
 }
 
-// False: not on the screen.
-inline bool View::project(const Voxel& voxel, Scale* scale) const
+// A voxel that the loop of project.h left: any size and place. False: not on the screen.
+bool View::project(const Voxel& voxel, Scale* scale) const
 {
-    const int32_t x = rawFromReal(voxel.place.x), y = rawFromReal(voxel.place.y), z = rawFromReal(voxel.place.z);
-    const int32_t wide = voxel.wide * 256, high = voxel.high * 256;
-    int32_t column, row, halfWide, halfHigh;
-    const uint32_t step = static_cast<uint32_t>(z >> 13) - NEAR_STEPS;
-    if (step < static_cast<uint32_t>(FAR_STEPS - NEAR_STEPS)) {
-        const Factors& f = factors_[step];
-        column = mulHigh(x, f.x);
-        row = mulHigh(y, f.y);
-        halfWide = mulHigh(wide, f.x);
-        halfHigh = mulHigh(high, f.y);
-    } else {
-        if (z < NEAREST || z > FARTHEST)
-            return false;
-        // Off the screen by far? Then the quotients below might not fit.
-        const int32_t side = z >= (1 << 27) ? INT32_MAX : z * 16;
-        if (x > side || x < -side || y > side || y < -side)
-            return false;
-        column = mulDiv(x, focalX_, z);
-        row = mulDiv(y, focalY_, z);
-        halfWide = mulDiv(wide, focalX_, z);
-        halfHigh = mulDiv(high, focalY_, z);
+    const int32_t x = voxel.x, y = voxel.y, z = voxel.z;
+    if (z < NEAREST || z > FARTHEST)
+        return false;
+    // Off the screen by far? Then the quotients below might not fit.
+    const int32_t side = z * 16;
+    if (x > side || x < -side || y > side || y < -side)
+        return false;
+    int32_t halfWide = HALF - 1, halfHigh = HALF - 1;
+    if (!pixels_) {
+        halfWide = mulDiv(voxel.wide, focalX_, z);
+        halfHigh = mulDiv(voxel.high, focalY_, z);
     }
-    if (pixels_)
-        halfWide = halfHigh = HALF - 1;
-    column += centreX_;
-    row = centreY_ - row;
+    const int32_t column = mulDiv(x, focalX_, z) + centreX_;
+    const int32_t row = centreY_ - mulDiv(y, focalY_, z);
     // The pixels whose centres lie in the rectangle.
     int left = (column - halfWide + HALF) >> FRACTION;
     int right = (column + halfWide + HALF) >> FRACTION;
     int top = (row - halfHigh + HALF) >> FRACTION;
     int bottom = (row + halfHigh + HALF) >> FRACTION;
-    if ((left | top | (WIDTH - right) | (HEIGHT - bottom)) < 0) {
-        left = left < 0 ? 0 : left;
-        right = right > WIDTH ? WIDTH : right;
-        top = top < 0 ? 0 : top;
-        bottom = bottom > HEIGHT ? HEIGHT : bottom;
-    }
-    const int wideNow = right - left, highNow = bottom - top;
-    if (((wideNow - 1) | (highNow - 1)) < 0)
+    left = left < 0 ? 0 : left;
+    right = right > WIDTH ? WIDTH : right;
+    top = top < 0 ? 0 : top;
+    bottom = bottom > HEIGHT ? HEIGHT : bottom;
+    if (left >= right || top >= bottom)
         return false;
+    const int wide = right - left;
     scale->left = static_cast<int16_t>(left);
     scale->top = static_cast<int16_t>(top);
-    scale->wide = static_cast<int16_t>(wideNow);
-    scale->high = static_cast<int16_t>(highNow);
+    scale->wide = static_cast<int16_t>(wide);
+    scale->high = static_cast<int16_t>(bottom - top);
     scale->colour = voxel.colour;
 
     // The plane of the surface: the depth changes by tilt (z / focal) from pixel to pixel.
-    const int32_t depth = z >> 9;
-    int32_t across = voxel.tiltX * mulHigh(z, unitX_) >> 16;
-    int32_t down = -(voxel.tiltY * mulHigh(z, unitY_) >> 16);
+    const int32_t depth = z >> 1;
+    int32_t across = mulDiv(voxel.tiltX, z << 3, focalX_), down = -mulDiv(voxel.tiltY, z << 3, focalY_);
     across = across > STEEPEST ? STEEPEST : across < -STEEPEST ? -STEEPEST : across;
     down = down > STEEPEST ? STEEPEST : down < -STEEPEST ? -STEEPEST : down;
     // From the scale's centre to the centre of its first pixel.
     int32_t first = depth + ((across * ((left << FRACTION) + HALF - column) + down * ((top << FRACTION) + HALF - row)) >>
                              FRACTION);
-    if (wideNow + highNow > 24 || depth < LEVEL_BEFORE || depth > LEVEL_BEHIND) {
-        // Might leave 16 bits at a corner; then it faces the viewer.
-        const int32_t swing = (across < 0 ? -across : across) * WIDTH + (down < 0 ? -down : down) * HEIGHT;
-        if (depth - swing < 0 || depth + swing >= Z_EMPTY) {
-            across = down = 0;
-            first = depth;
-        }
+    // Might it leave 16 bits at a corner? Then it faces the viewer.
+    const int32_t swing = (across < 0 ? -across : across) * WIDTH + (down < 0 ? -down : down) * HEIGHT;
+    if (depth - swing < 0 || depth + swing >= Z_EMPTY) {
+        across = down = 0;
+        first = depth;
     }
     scale->z = first;
     scale->zStep = across;
-    scale->zRow = down - across * wideNow;
+    scale->zRow = down - across * wide;
     return true;
 }
 
 int View::show(const Voxel* voxels, int count)
 {
     int drawn = 0;
-    int leftmost = WIDTH, topmost = HEIGHT, rightmost = 0, bottommost = 0;
+    lens_.left = WIDTH;
+    lens_.top = HEIGHT;
+    lens_.right = lens_.bottom = 0;
     while (count > 0) {
         const int some = count < SCALES_AT_ONCE ? count : SCALES_AT_ONCE;
         Scale* end = scales_;
-        for (int i = 0; i < some; ++i) {
-            if (!project(voxels[i], end))
+        int i = 0;
+        while (i < some) {
+            if (!pixels_) {
+                int made;
+                i += projectScales(&lens_, voxels + i, some - i, end, &made);
+                end += made;
+                if (i == some)
+                    break;
+            }
+            const Voxel& voxel = voxels[i++];
+            if (!project(voxel, end))
                 continue;
-            if (voxels[i].colour == GAP) {
+            if (voxel.colour == GAP) {
                 addGap(*end);
                 continue;
             }
             const int left = end->left, top = end->top, right = left + end->wide, bottom = top + end->high;
-            leftmost = left < leftmost ? left : leftmost;
-            topmost = top < topmost ? top : topmost;
-            rightmost = right > rightmost ? right : rightmost;
-            bottommost = bottom > bottommost ? bottom : bottommost;
+            lens_.left = left < lens_.left ? left : lens_.left;
+            lens_.top = top < lens_.top ? top : lens_.top;
+            lens_.right = right > lens_.right ? right : lens_.right;
+            lens_.bottom = bottom > lens_.bottom ? bottom : lens_.bottom;
             ++end;
         }
         const int scales = static_cast<int>(end - scales_);
@@ -198,7 +192,7 @@ int View::show(const Voxel* voxels, int count)
         voxels += some;
         count -= some;
     }
-    mark(leftmost, topmost, rightmost, bottommost);
+    mark(lens_.left, lens_.top, lens_.right, lens_.bottom);
     return drawn;
 }
 
