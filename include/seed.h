@@ -4,6 +4,7 @@
 #define FB_SEED_H
 
 #include "vec.h"
+#include "voxel.h"
 
 // What is known of a seed. VALID: it settled on the surface, in a region that belongs to its own object. FRONT: its
 // scale may face the viewer (with KEPT only). PLACED: a neighbour reaches it
@@ -30,13 +31,12 @@ struct Seed {
     uint16_t root;       // index of the root point: seeds share them
     uint8_t flags;       // SeedFlag
     uint8_t brightness;  // 0..63, of the surface at the present position
-    int16_t wide, high;  // of a KEPT seed: half extents of its scale along X and Y, 1/256 unit
-    int16_t dirX, dirY, dirZ;    // the path's direction, unit length = 2^14
-    int16_t tiltX, tiltY;        // of a KEPT seed: Voxel's, at the present position
+    ScaleShape shape;            // of a KEPT seed: its scale, at the present position
     int16_t offX, offY, offZ;    // of a KEPT seed: from the root to the middle of its scale, 1/256 unit
-    uint8_t restBrightness;
+    int16_t dirX, dirY, dirZ;    // the path's direction, unit length = 2^14
     int16_t due;                 // WAITS: up to which travel of the object (SoftObject); EDGE: how many seeds further on the
                                  // one beside it lies
+    uint8_t restBrightness;
     int8_t along[3], across[3];  // half axes of the part of the surface that is its own, 1/64 spacing
 };
 

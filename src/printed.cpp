@@ -149,9 +149,9 @@ int SoftObject::drawPrinted(const Look& look, Voxel* voxels, int room, int* next
         v.x = rawFromReal(place.x) >> 8;
         v.y = rawFromReal(place.y) >> 8;
         v.z = rawFromReal(place.z) >> 8;
-        v.wide = static_cast<int16_t>(extent > INT16_MAX ? INT16_MAX : extent);
-        v.high = v.wide;
-        v.tiltX = v.tiltY = 0;  // the report's scales face the viewer
+        v.shape.wide = static_cast<int16_t>(extent > INT16_MAX ? INT16_MAX : extent);
+        v.shape.high = v.shape.wide;
+        v.shape.tiltX = v.shape.tiltY = 0;  // the report's scales face the viewer
         v.colour = ramp_[s.brightness];
     }
     *next = i < 2 * regular_ ? i : 0;

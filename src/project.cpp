@@ -29,7 +29,7 @@ int projectC(Lens* lens, const Voxel* voxels, int count, Scale* scales, int* mad
         // The pixels whose centres lie in the rectangle.
         column = lens->centreX + (column >> 8);
         row = lens->centreY - (row >> 8);
-        const int32_t halfWide = v.wide * f.x >> 8, halfHigh = v.high * f.y >> 8;
+        const int32_t halfWide = v.shape.wide * f.x >> 8, halfHigh = v.shape.high * f.y >> 8;
         const int left = (column - halfWide) >> 12, right = (column + halfWide) >> 12;
         const int top = (row - halfHigh) >> 12, bottom = (row + halfHigh) >> 12;
         if (left < 0 || right > WIDTH || top < 0 || bottom > HEIGHT)
@@ -40,7 +40,7 @@ int projectC(Lens* lens, const Voxel* voxels, int count, Scale* scales, int* mad
         if (wide + high > SLOPED_MOST)
             break;
         // The plane of the surface: from the scale's middle to the middle of its first pixel, and on from there.
-        const int32_t across = limited(v.tiltX * f.zx >> 16), down = -limited(v.tiltY * f.zy >> 16);
+        const int32_t across = limited(v.shape.tiltX * f.zx >> 16), down = -limited(v.shape.tiltY * f.zy >> 16);
         scales->left = static_cast<int16_t>(left);
         scales->top = static_cast<int16_t>(top);
         scales->wide = static_cast<int16_t>(wide);

@@ -197,7 +197,7 @@ void Settler::settle()
     o_.displaced_ = false;
     // A seed stays valid a way past the border where a neighbour becomes stronger: as a distance, about one spacing and
     // a half. The fields of the two change by about 3 / size a unit there.
-    overshoot_ = least(Real(4.5) * o_.spacing_ / o_.size_, Real(0.7));
+    overshoot_ = least(Real(1.2) * o_.spacing_ / o_.size_, Real(0.7));
     parting_ = Real(1.0) * o_.spacing_ / o_.radius_;
     eye_.set(look_.eye - o_.centre_, o_.radius_, o_.coreReach());
     horizon_ = o_.horizonRadius(look_.eye);
@@ -584,7 +584,7 @@ inline void Settler::shade(Seed& s, Real position)
     layDown(normal.x, normal.y, facing, depth, 2 * eye_.horizon(), s, shiftX, shiftY);
     // A tangent plane lies before the surface, the more the larger the scale: set back, so that of two scales the smaller
     // one, which is nearer to its seed, wins. And beyond the border the neighbour's own seeds come first.
-    int32_t back = mulHigh(s.wide * s.wide + s.high * s.high, setBack_) >> 6;
+    int32_t back = mulHigh(s.shape.wide * s.shape.wide + s.shape.high * s.shape.high, setBack_) >> 6;
     if (s.flags & SEED_OVER)
         back += OVER_BACK;
     s.offX = static_cast<int16_t>((rawFromReal(out.x) >> 8) + shiftX);
@@ -706,9 +706,25 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
     int root = -1;
     Vector rootPlace{Real(0), Real(0), Real(0)};
     int32_t rootX = 0, rootY = 0, rootZ = 0;
+    const auto lookFrom = [&](int r) {
+        root = r;
+        rootPlace = roots_[root] - look.eye;
+        rootX = rawFromReal(rootPlace.x) >> 8;
+        rootY = rawFromReal(rootPlace.y) >> 8;
+        rootZ = rawFromReal(rootPlace.z) >> 8;
+        eye.root(roots_[root] - centre_);
+        if (manyRoots)
+            eye.horizon(horizonAt(roots_[root], horizon));
+        if (tapers_)
+            eye.rootRadius(tangentAt(roots_[root]));
+    };
+    if (!manyRoots)
+        lookFrom(0);
     Voxel* v = voxels;
     const int16_t gap = static_cast<int16_t>(rawFromReal(spacing_ * Real(1.5) + Real(1.5)) >> 8);
+    const uint8_t* const ramp = ramp_;
     const Voxel* const full = voxels + room - 4 * PATCH_SEEDS;
+    constexpr int SHOWN = SEED_VALID | SEED_KEPT | SEED_FRONT;
     for (; p < patchCount_ && v <= full; ++p) {
         Patch& patch = patches_[p];
         if (patch.state == PATCH_BURIED || patch.state == PATCH_UNKNOWN)
@@ -726,33 +742,26 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
         Seed* s = seeds_ + 2 * patch.first;
         const Seed* const end = s + 2 * patch.count;
         const int step = patch.extras && !atRest ? 1 : 2;
+        if (again) {
+            for (Seed* each = s; each < end; each += step)
+                if (!(each->flags & SEED_PLACED))
+                    each->flags = static_cast<uint8_t>(each->flags & ~SEED_KEPT);
+        }
         for (; s < end; s += step) {
-            if (!(s->flags & SEED_VALID))
-                continue;
-            if (s->root != root) {
-                root = s->root;
-                rootPlace = roots_[root] - look.eye;
-                rootX = rawFromReal(rootPlace.x) >> 8;
-                rootY = rawFromReal(rootPlace.y) >> 8;
-                rootZ = rawFromReal(rootPlace.z) >> 8;
-                eye.root(roots_[root] - centre_);
-                if (manyRoots)
-                    eye.horizon(horizonAt(roots_[root], horizon));
-                if (tapers_)
-                    eye.rootRadius(tangentAt(roots_[root]));
-            }
-            if (!(s->flags & SEED_PLACED) && (again || !(s->flags & SEED_KEPT)))
+            if (manyRoots && s->root != root && (s->flags & SEED_VALID))
+                lookFrom(s->root);
+            if ((s->flags & SHOWN) != SHOWN) {
+                if ((s->flags & (SEED_VALID | SEED_PLACED | SEED_KEPT)) != SEED_VALID)
+                    continue;
                 layAtRest(*s, eye, rootPlace, shadeSetup);
-            if (!(s->flags & SEED_FRONT))
-                continue;
+                if (!(s->flags & SEED_FRONT))
+                    continue;
+            }
             v->x = rootX + s->offX;
             v->y = rootY + s->offY;
             v->z = rootZ + s->offZ;
-            v->wide = s->wide;
-            v->high = s->high;
-            v->tiltX = s->tiltX;
-            v->tiltY = s->tiltY;
-            v->colour = ramp_[s->brightness];
+            v->shape = s->shape;
+            v->colour = ramp[s->brightness];
             ++v;
             if (s->flags & SEED_EDGE) {
                 // A place where the surface is stretched so much that a gap may show.
@@ -760,7 +769,7 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
                 v->x = rootX + (rawFromReal(aside.x) >> 8);
                 v->y = rootY + (rawFromReal(aside.y) >> 8);
                 v->z = rootZ + (rawFromReal(aside.z) >> 8);
-                v->wide = v->high = gap;
+                v->shape.wide = v->shape.high = gap;
                 v->colour = GAP;
                 ++v;
             }

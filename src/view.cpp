@@ -111,8 +111,8 @@ bool View::project(const Voxel& voxel, Scale* scale) const
         return false;
     int32_t halfWide = HALF - 1, halfHigh = HALF - 1;
     if (!pixels_) {
-        halfWide = mulDiv(voxel.wide, focalX_, z);
-        halfHigh = mulDiv(voxel.high, focalY_, z);
+        halfWide = mulDiv(voxel.shape.wide, focalX_, z);
+        halfHigh = mulDiv(voxel.shape.high, focalY_, z);
     }
     const int32_t column = mulDiv(x, focalX_, z) + centreX_;
     const int32_t row = centreY_ - mulDiv(y, focalY_, z);
@@ -136,7 +136,7 @@ bool View::project(const Voxel& voxel, Scale* scale) const
 
     // The plane of the surface: the depth changes by tilt (z / focal) from pixel to pixel.
     const int32_t depth = z >> 1;
-    int32_t across = mulDiv(voxel.tiltX, z << 3, focalX_), down = -mulDiv(voxel.tiltY, z << 3, focalY_);
+    int32_t across = mulDiv(voxel.shape.tiltX, z << 3, focalX_), down = -mulDiv(voxel.shape.tiltY, z << 3, focalY_);
     across = across > STEEPEST ? STEEPEST : across < -STEEPEST ? -STEEPEST : across;
     down = down > STEEPEST ? STEEPEST : down < -STEEPEST ? -STEEPEST : down;
     // From the scale's centre to the centre of its first pixel.
