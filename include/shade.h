@@ -134,16 +134,45 @@ private:
     int32_t distance_, radius_, horizon_, edge_, away_;
 };
 
-// x / depth with 8 bits of fraction, limited to +-4, is skew(x, skewShare(depth)); both in 1/32 unit.
-inline int32_t skewShare(int32_t depth)
-{
-    return (1 << 20) / (depth < 32 ? 32 : depth);
-}
-inline int32_t skew(int32_t x, int32_t share)
-{
-    const int32_t s = x * share >> 12;
-    return s > 1024 ? 1024 : s < -1024 ? -1024 : s;
-}
+// How much of a cell's depth shows sideways: x / depth and y / depth of places about a root, 8 bits of fraction, limited to
+// +-8. Unless the viewer is near, one depth serves for all the places: for the part that it is wrong about is small.
+class Skew {
+public:
+    // `root`: from the eye; `reach`: how far from it places may lie.
+    void root(const Vector& root, Real reach)
+    {
+        root_ = root;
+        depth_ = rawFromReal(root.z) >> 11;
+        near_ = depth_ < 4 * (rawFromReal(reach) >> 11) || depth_ < 128;
+        share_ = near_ ? 0 : (1 << 20) / depth_;
+        x_ = near_ ? 0 : limited((rawFromReal(root.x) >> 11) * share_ >> 12);
+        y_ = near_ ? 0 : limited((rawFromReal(root.y) >> 11) * share_ >> 12);
+    }
+
+    // Of a place counted from the root.
+    int32_t x(const Vector& out) const
+    {
+        return near_ ? exactly(root_.x + out.x, root_.z + out.z) : x_ + ((rawFromReal(out.x) >> 11) * share_ >> 12);
+    }
+    int32_t y(const Vector& out) const
+    {
+        return near_ ? exactly(root_.y + out.y, root_.z + out.z) : y_ + ((rawFromReal(out.y) >> 11) * share_ >> 12);
+    }
+    // Its depth along the viewing axis, 1/32 unit.
+    int32_t depth(const Vector& out) const { return depth_ + (rawFromReal(out.z) >> 11); }
+
+private:
+    static int32_t limited(int32_t skew) { return skew > 1024 ? 1024 : skew < -1024 ? -1024 : skew; }
+    static int32_t exactly(Real aside, Real away)
+    {
+        const int32_t depth = rawFromReal(away) >> 11;
+        return limited((rawFromReal(aside) >> 11) * ((1 << 20) / (depth < 32 ? 32 : depth)) >> 12);
+    }
+
+    Vector root_{Real(0), Real(0), Real(0)};
+    int32_t depth_ = 0, share_ = 0, x_ = 0, y_ = 0;
+    bool near_ = true;
+};
 
 // For a seed with normal (nx, ny, ..) scaled by 2^14, with facing() and depth along the viewing axis in 1/32 unit, on a
 // surface of curvature 1 / radius (radius in 1/32 unit), with the half extents of its whole cell already set: its tilt,

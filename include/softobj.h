@@ -13,6 +13,7 @@
 class SoftObject;
 class EyeSide;
 class ShadeSetup;
+class Skew;
 
 // Most neighbours that one object can blend with at a time; further ones are left out.
 constexpr int NEAR_MOST = 63;
@@ -286,7 +287,7 @@ private:
     int drawPrinted(const Look& look, Voxel* voxels, int room, int* next);
     void updateQuick(const Look& look);
     int drawQuick(const Look& look, Voxel* voxels, int room, int* next);
-    static void layAtRest(Seed& s, const EyeSide& eye, const Vector& rootPlace, const ShadeSetup& shadeSetup);
+    static void layAtRest(Seed& s, const EyeSide& eye, const Skew& skew, const ShadeSetup& shadeSetup);
     void freeSeeds();
 
     int number_;
@@ -317,8 +318,8 @@ private:
     Vector eyeApart_;
     Real sizeSeen_;
     // How far the viewer has moved against it from frame to frame drawn, 1/64 unit; wraps round. And how far he may
-    // until seeds at rest are laid anew: a unit turns what he sees of them by half a degree.
-    static constexpr uint16_t DRIFT_KEPT = 128;
+    // until seeds at rest are laid anew: a unit turns what he sees of them by less than half a degree.
+    static constexpr uint16_t DRIFT_KEPT = 256;
     uint16_t drift_;
     Vector eyeDrawn_;
 

@@ -127,7 +127,7 @@ private:
     int rootIndex_ = -1;
     Vector path_;                    // not in the plain case, where the root is the centre
     Point root_;
-    Vector fromEye_;                 // to the centre
+    Skew skew_;
     Real b_[NEAR_MOST];
     Real ownSlope_;                  // of the last look
     Real slopes_[NEAR_MOST];         // dF/dt of each active neighbour, weight not included
@@ -203,7 +203,7 @@ void Settler::settle()
     horizon_ = o_.horizonRadius(look_.eye);
     eye_.horizon(horizon_);
     travel();
-    fromEye_ = o_.centre_ - look_.eye;
+    skew_.root(o_.centre_ - look_.eye, o_.radius_ * POSITION_MOST);
     setBack_ = mulDiv(1 << 30, 1 << 17, rawFromReal(most(o_.radius_, Real(2))));
     shadeSetup_.set(look_.light, o_.spacing_);
 
@@ -434,6 +434,7 @@ inline void Settler::lookFrom(const Seed& s)
         return;
     rootIndex_ = s.root;
     eye_.root(root_ - o_.centre_);
+    skew_.root(root_ - look_.eye, o_.radius_ * POSITION_MOST);
     eye_.horizon(o_.horizonAt(root_, horizon_));
     if (o_.tapers_)
         eye_.rootRadius(shiftDown(o_.sizeAt(root_), 1));
@@ -573,12 +574,9 @@ inline void Settler::shade(Seed& s, Real position)
     if (strength_ + overshoot_ > Real(0))
         s.flags |= SEED_OVER;
     s.brightness = shadeSetup_.brightness(normal);
-    const Vector toRoot = PLAIN ? fromEye_ : root_ - look_.eye;
     const Vector out = s.path * position;
-    const int32_t depth = rawFromReal(toRoot.z + out.z) >> 11;
-    const int32_t share = skewShare(depth);
-    shadeSetup_.extents(s, normal, cosine, position, skew(rawFromReal(toRoot.x + out.x) >> 11, share),
-                        skew(rawFromReal(toRoot.y + out.y) >> 11, share));
+    const int32_t depth = skew_.depth(out);
+    shadeSetup_.extents(s, normal, cosine, position, skew_.x(out), skew_.y(out));
     int32_t shiftX, shiftY;
     // Blending flattens: the horizon may be farther.
     layDown(normal.x, normal.y, facing, depth, 2 * eye_.horizon(), s, shiftX, shiftY);
@@ -669,17 +667,15 @@ void SoftObject::updateQuick(const Look& look)
 }
 
 // How a seed at rest lies in the view, for as long as the object stays about where it is.
-inline void SoftObject::layAtRest(Seed& s, const EyeSide& eye, const Vector& rootPlace, const ShadeSetup& shadeSetup)
+inline void SoftObject::layAtRest(Seed& s, const EyeSide& eye, const Skew& skew, const ShadeSetup& shadeSetup)
 {
     s.flags = static_cast<uint8_t>((s.flags | SEED_KEPT) & ~SEED_FRONT);
     const int32_t along = eye.along(s);
     if (!eye.seen(along))
         return;
     s.flags |= SEED_FRONT;
-    const int32_t depth = rawFromReal(rootPlace.z + s.path.z) >> 11;
-    const int32_t share = skewShare(depth);
-    shadeSetup.restExtents(s, skew(rawFromReal(rootPlace.x + s.path.x) >> 11, share),
-                           skew(rawFromReal(rootPlace.y + s.path.y) >> 11, share));
+    const int32_t depth = skew.depth(s.path);
+    shadeSetup.restExtents(s, skew.x(s.path), skew.y(s.path));
     int32_t shiftX, shiftY;
     layDown(s.dirX, s.dirY, eye.restFacing(along), depth, eye.horizon(), s, shiftX, shiftY);
     s.offX = static_cast<int16_t>((rawFromReal(s.path.x) >> 8) + shiftX);
@@ -704,11 +700,12 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
         drift_ = static_cast<uint16_t>(drift_ + (rawFromReal(least(sum, Real(100))) >> 10));
     }
     int root = -1;
-    Vector rootPlace{Real(0), Real(0), Real(0)};
+    Skew skew;
     int32_t rootX = 0, rootY = 0, rootZ = 0;
     const auto lookFrom = [&](int r) {
         root = r;
-        rootPlace = roots_[root] - look.eye;
+        const Vector rootPlace = roots_[root] - look.eye;
+        skew.root(rootPlace, radius_);
         rootX = rawFromReal(rootPlace.x) >> 8;
         rootY = rawFromReal(rootPlace.y) >> 8;
         rootZ = rawFromReal(rootPlace.z) >> 8;
@@ -753,7 +750,7 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
             if ((s->flags & SHOWN) != SHOWN) {
                 if ((s->flags & (SEED_VALID | SEED_PLACED | SEED_KEPT)) != SEED_VALID)
                     continue;
-                layAtRest(*s, eye, rootPlace, shadeSetup);
+                layAtRest(*s, eye, skew, shadeSetup);
                 if (!(s->flags & SEED_FRONT))
                     continue;
             }
