@@ -28,15 +28,13 @@ struct Seed {
     Vector path;         // from root to the unblended surface: as long as the object's radius
     Real position;       // along the path; 1.0 on the unblended surface
     int32_t neighbour;   // index of the seed N of the ring before (Appendix C, Oversampling); -1 in the first ring
-    uint16_t root;       // index of the root point: seeds share them
+    Voxel voxel;         // of a KEPT seed: its scale, at the present position; its brightness always
     uint8_t flags;       // SeedFlag
-    uint8_t brightness;  // 0..63, of the surface at the present position
-    ScaleShape shape;            // of a KEPT seed: its scale, at the present position
-    int16_t offX, offY, offZ;    // of a KEPT seed: from the root to the middle of its scale, 1/256 unit
-    int16_t dirX, dirY, dirZ;    // the path's direction, unit length = 2^14
-    int16_t due;                 // WAITS: up to which travel of the object (SoftObject); EDGE: how many seeds further on the
-                                 // one beside it lies
     uint8_t restBrightness;
+    uint16_t root;       // index of the root point: seeds share them
+    int16_t due;         // WAITS: up to which travel of the object (SoftObject); EDGE: how many seeds further on the one
+                         // beside it lies
+    int16_t dirX, dirY, dirZ;    // the path's direction, unit length = 2^14
     int8_t along[3], across[3];  // half axes of the part of the surface that is its own, 1/64 spacing
 };
 

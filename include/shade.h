@@ -187,27 +187,27 @@ inline void layDown(int32_t nx, int32_t ny, int32_t facing, int32_t depth, int32
 {
     shiftX = shiftY = 0;
     if (depth < 32) {
-        s.shape.tiltX = s.shape.tiltY = 0;
+        s.voxel.tiltX = s.voxel.tiltY = 0;
         return;
     }
     const int32_t least = (depth >> 4) + 1;
     const int32_t ratio = (depth << 8) / (facing < least ? least : facing);
-    s.shape.tiltX = static_cast<int16_t>(nx * ratio >> 14);
-    s.shape.tiltY = static_cast<int16_t>(ny * ratio >> 14);
+    s.voxel.tiltX = static_cast<int16_t>(nx * ratio >> 14);
+    s.voxel.tiltY = static_cast<int16_t>(ny * ratio >> 14);
     if (ratio < 400)
         return;
     const int32_t away = facing > 0 ? mulDiv(mulDiv(facing, facing, depth), radius, depth) * 4 : 0;
     const int32_t sideX = nx < 0 ? -nx : nx, sideY = ny < 0 ? -ny : ny;
-    const int32_t limitX = (away << 14) / (sideX | 512) + (s.shape.high * sideY >> 16);
-    const int32_t limitY = (away << 14) / (sideY | 512) + (s.shape.wide * sideX >> 16);
-    if (limitX < s.shape.wide) {
-        const int32_t cut = (s.shape.wide - limitX) >> 1;
-        s.shape.wide = static_cast<int16_t>(s.shape.wide - cut);
+    const int32_t limitX = (away << 14) / (sideX | 512) + (s.voxel.high * sideY >> 16);
+    const int32_t limitY = (away << 14) / (sideY | 512) + (s.voxel.wide * sideX >> 16);
+    if (limitX < s.voxel.wide) {
+        const int32_t cut = (s.voxel.wide - limitX) >> 1;
+        s.voxel.wide = static_cast<int16_t>(s.voxel.wide - cut);
         shiftX = nx < 0 ? cut : -cut;
     }
-    if (limitY < s.shape.high) {
-        const int32_t cut = (s.shape.high - limitY) >> 1;
-        s.shape.high = static_cast<int16_t>(s.shape.high - cut);
+    if (limitY < s.voxel.high) {
+        const int32_t cut = (s.voxel.high - limitY) >> 1;
+        s.voxel.high = static_cast<int16_t>(s.voxel.high - cut);
         shiftY = ny < 0 ? cut : -cut;
     }
 }
@@ -236,8 +236,8 @@ public:
     // sideways.
     void restExtents(Seed& s, int32_t skewX, int32_t skewY) const
     {
-        s.shape.wide = extent(s.along[0] * 256 - s.along[2] * skewX, s.across[0] * 256 - s.across[2] * skewX, spacing_);
-        s.shape.high = extent(s.along[1] * 256 - s.along[2] * skewY, s.across[1] * 256 - s.across[2] * skewY, spacing_);
+        s.voxel.wide = extent(s.along[0] * 256 - s.along[2] * skewX, s.across[0] * 256 - s.across[2] * skewX, spacing_);
+        s.voxel.high = extent(s.along[1] * 256 - s.along[2] * skewY, s.across[1] * 256 - s.across[2] * skewY, spacing_);
     }
 
     // The same of a deformed seed: the cell of the unblended surface that is its own, grown with the position, as it falls
@@ -253,9 +253,9 @@ public:
         const int32_t along = ((s.along[0] * n.x + s.along[1] * n.y + s.along[2] * n.z) >> 8) * inverse >> 10;
         const int32_t across = ((s.across[0] * n.x + s.across[1] * n.y + s.across[2] * n.z) >> 8) * inverse >> 10;
         const int32_t alongZ = s.along[2] - (s.dirZ * along >> 22), acrossZ = s.across[2] - (s.dirZ * across >> 22);
-        s.shape.wide = extent(s.along[0] * 256 - (s.dirX * along >> 14) - alongZ * skewX,
+        s.voxel.wide = extent(s.along[0] * 256 - (s.dirX * along >> 14) - alongZ * skewX,
                         s.across[0] * 256 - (s.dirX * across >> 14) - acrossZ * skewX, size);
-        s.shape.high = extent(s.along[1] * 256 - (s.dirY * along >> 14) - alongZ * skewY,
+        s.voxel.high = extent(s.along[1] * 256 - (s.dirY * along >> 14) - alongZ * skewY,
                         s.across[1] * 256 - (s.dirY * across >> 14) - acrossZ * skewY, size);
     }
 

@@ -183,9 +183,9 @@ public:
     // Settles the seeds on the surface, if `recalc` says that something changed (report, Section III, update()).
     void update(const Look& look);
 
-    // Makes voxels of the settled seeds, as many as fit `room` (DRAW_ROOM or more), and returns their number. `*next` is
-    // 0 for the first call of a frame; the call changes it, and as long as it is not 0 there are more.
-    int draw(const Look& look, Voxel* voxels, int room, int* next);
+    // Lists the voxels of the settled seeds, as many as fit `room` (DRAW_ROOM..VOXELS_AT_ONCE). `*next` is 0 for the first
+    // call of a frame; the call changes it, and as long as it is not 0 there are more.
+    void draw(const Look& look, VoxelList& list, int room, int* next);
 
     // Something that its seeds rest on has changed: look again.
     void setRecalc() { recalc_ = true; }
@@ -284,10 +284,11 @@ private:
     void updatePrinted(const Look& look);
     int findNear(Link* near) const;
     void settlePrinted(int i, const Look& look, const Vector& toEye, const Link* near, int nearCount);
-    int drawPrinted(const Look& look, Voxel* voxels, int room, int* next);
+    void drawPrinted(const Look& look, VoxelList& list, int room, int* next);
     void updateQuick(const Look& look);
-    int drawQuick(const Look& look, Voxel* voxels, int room, int* next);
-    static void layAtRest(Seed& s, const EyeSide& eye, const Skew& skew, const ShadeSetup& shadeSetup);
+    void drawQuick(const Look& look, VoxelList& list, int room, int* next);
+    static void layAtRest(Seed& s, const Vector& root, const EyeSide& eye, const Skew& skew,
+                          const ShadeSetup& shadeSetup);
     void freeSeeds();
 
     int number_;

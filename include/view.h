@@ -7,7 +7,7 @@
 #ifndef FB_VIEW_H
 #define FB_VIEW_H
 
-#include "project.h"
+#include "scales.h"
 #include "vec.h"
 
 struct Camera {
@@ -36,14 +36,14 @@ public:
     // Starts a frame: clears what the last one touched.
     void begin();
 
-    // Draws voxels (of one object, so that what they touch is a compact part of the screen); those before the near plane
+    // Draws the voxels of an object; those before the near plane
     // (1 unit), behind 511 units or off the screen are left out. Returns the number of scales drawn.
-    int show(const Voxel* voxels, int count);
+    int show(const VoxelList& list);
 
     // Text and lines on top of the picture: marks a rectangle of pixels as touched and gives the frame to draw into.
     uint8_t* overlay(int left, int top, int wide, int high);
 
-    // Closes the gaps that show at the places marked with voxels of colour GAP: an empty pixel with drawn ones a few
+    // Closes the gaps that show at the places marked with voxels of brightness GAP: an empty pixel with drawn ones a few
     // pixels away on all four sides takes the nearest one's colour and depth. For when all objects are drawn.
     void closeGaps();
 
@@ -67,7 +67,6 @@ private:
     uint8_t* frame_ = nullptr;
     uint16_t* zbuffer_ = nullptr;
     Factors* factors_ = nullptr;
-    Scale* scales_ = nullptr;
     Scale* gaps_ = nullptr;
     int gapCount_ = 0;
     Span touched_[machine::HEIGHT];

@@ -15,8 +15,6 @@
 
 namespace {
 
-constexpr int VOXELS_AT_ONCE = 1024;
-
 // Interactive mode: mickeys to units, and where objects may be moved to.
 constexpr Real UNITS_A_MICKEY(0.25);
 constexpr Real UNITS_A_KEY(2);
@@ -64,7 +62,7 @@ private:
     Palette palette_;
     Dump dump_;
     Stats stats_;
-    Voxel* voxels_ = nullptr;
+    VoxelList* voxels_ = nullptr;
     Counts counts_;
     Real spacing_{2};
     uint64_t started_ = 0;
@@ -111,7 +109,7 @@ const char* Demo::prepare(int* status)
     Anim::move(model_, 0);
     if (!model_.resample(spacing_))
         return "not enough memory for seeds that close; try a larger spacing with /S";
-    voxels_ = allocate<Voxel>(VOXELS_AT_ONCE);
+    voxels_ = allocate<VoxelList>(1);
     if (voxels_ == nullptr || !view_.open())
         return "not enough memory for the picture";
     view_.setCamera(model_.camera);
@@ -377,8 +375,8 @@ void Demo::frame()
         }
         int next = 0;
         do {
-            const int some = object.draw(look, voxels_, VOXELS_AT_ONCE, &next);
-            counts_.drawn += static_cast<uint32_t>(view_.show(voxels_, some));
+            object.draw(look, *voxels_, VOXELS_AT_ONCE, &next);
+            counts_.drawn += static_cast<uint32_t>(view_.show(*voxels_));
         } while (next != 0);
         object.setRamp(ramp);
     }

@@ -100,11 +100,12 @@ void SoftObject::settlePrinted(int i, const Look& look, const Vector& toEye, con
         displaced_ = true;
 }
 
-int SoftObject::drawPrinted(const Look& look, Voxel* voxels, int room, int* next)
+void SoftObject::drawPrinted(const Look& look, VoxelList& list, int room, int* next)
 {
+    list.count = 0;
     if (kept_ == nullptr) {
         *next = 0;
-        return 0;
+        return;
     }
     Link near[NEAR_MOST];
     const int nearCount = findNear(near);
@@ -114,9 +115,8 @@ int SoftObject::drawPrinted(const Look& look, Voxel* voxels, int room, int* next
             field += near[n].object->fieldFunc(p) * near[n].weight;
         return field;
     };
-    int count = 0;
     int i = *next;
-    for (; i < 2 * regular_ && count < room; ++i) {
+    for (; i < 2 * regular_ && list.count < room; ++i) {
         Seed& s = seeds_[i];
         if ((i & 1) != 0 && !(s.flags & SEED_ACTIVE))
             continue;
@@ -127,7 +127,7 @@ int SoftObject::drawPrinted(const Look& look, Voxel* voxels, int room, int* next
         if (deformity < DEFORMITY) {
             // "If the surface deformity is below a certain tolerance then the surface normal for a seed has the same
             // direction as that seed's path and need not be calculated."
-            s.brightness = s.restBrightness;
+            s.voxel.brightness = s.restBrightness;
             s.flags = static_cast<uint8_t>(s.flags & ~SEED_KEPT);
         } else if (!(s.flags & SEED_KEPT)) {
             // "Three additional samples, each displaced from the seed by a fixed distance along the X, Y and Z axes."
@@ -136,7 +136,7 @@ int SoftObject::drawPrinted(const Look& look, Voxel* voxels, int room, int* next
             kept.normal = unit({ISOVALUE - sum({p.x + d, p.y, p.z}), ISOVALUE - sum({p.x, p.y + d, p.z}),
                                 ISOVALUE - sum({p.x, p.y, p.z + d})});
             const int step = floorToInt(dot(kept.normal, look.light) * Real(63) + Real(0.5));
-            s.brightness = static_cast<uint8_t>(step < 0 ? 0 : step > 63 ? 63 : step);
+            s.voxel.brightness = static_cast<uint8_t>(step < 0 ? 0 : step > 63 ? 63 : step);
             s.flags |= SEED_KEPT;
             ++look.counts->normals;
             look.counts->samples += 3;
@@ -144,16 +144,15 @@ int SoftObject::drawPrinted(const Look& look, Voxel* voxels, int room, int* next
         // Dynamic scale magnification: larger where the surface is deformed.
         const Real half = spacing_ * SCALE * (Real(1) + deformity * MAGNIFICATION);
         const int32_t extent = rawFromReal(half) >> 8;
-        Voxel& v = voxels[count++];
-        const Vector place = kept.point - look.eye;
+        Voxel& v = s.voxel;
+        const Vector place = kept.point - centre_;
         v.x = rawFromReal(place.x) >> 8;
         v.y = rawFromReal(place.y) >> 8;
         v.z = rawFromReal(place.z) >> 8;
-        v.shape.wide = static_cast<int16_t>(extent > INT16_MAX ? INT16_MAX : extent);
-        v.shape.high = v.shape.wide;
-        v.shape.tiltX = v.shape.tiltY = 0;  // the report's scales face the viewer
-        v.colour = ramp_[s.brightness];
+        v.wide = static_cast<int16_t>(extent > INT16_MAX ? INT16_MAX : extent);
+        v.high = v.wide;
+        v.tiltX = v.tiltY = 0;  // the report's scales face the viewer
+        list.voxels[list.count++] = &v;
     }
     *next = i < 2 * regular_ ? i : 0;
-    return count;
 }

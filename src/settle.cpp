@@ -300,7 +300,7 @@ void Settler::rest(SoftObject::Patch& patch)
     for (int i = patch.count; i > 0; --i, s += 2) {
         s->position = Real(1);
         s->flags = SEED_VALID;
-        s->brightness = s->restBrightness;
+        s->voxel.brightness = s->restBrightness;
         s[1].flags = 0;
     }
     patch.state = SoftObject::PATCH_AT_REST;
@@ -501,7 +501,7 @@ void Settler::settleSeed(Seed& s)
         s.position = Real(1);
         // One that was at rest before lies as it did.
         wait(s, s.flags & SEED_PLACED ? SEED_VALID : SEED_VALID | (s.flags & (SEED_KEPT | SEED_FRONT)), apart * waitingApart_);
-        s.brightness = s.restBrightness;
+        s.voxel.brightness = s.restBrightness;
         return;
     }
     if (!PLAIN)
@@ -573,7 +573,7 @@ inline void Settler::shade(Seed& s, Real position)
     s.flags = SEED_VALID | SEED_PLACED | SEED_KEPT | SEED_FRONT;
     if (strength_ + overshoot_ > Real(0))
         s.flags |= SEED_OVER;
-    s.brightness = shadeSetup_.brightness(normal);
+    s.voxel.brightness = shadeSetup_.brightness(normal);
     const Vector out = s.path * position;
     const int32_t depth = skew_.depth(out);
     shadeSetup_.extents(s, normal, cosine, position, skew_.x(out), skew_.y(out));
@@ -582,13 +582,13 @@ inline void Settler::shade(Seed& s, Real position)
     layDown(normal.x, normal.y, facing, depth, 2 * eye_.horizon(), s, shiftX, shiftY);
     // A tangent plane lies before the surface, the more the larger the scale: set back, so that of two scales the smaller
     // one, which is nearer to its seed, wins. And beyond the border the neighbour's own seeds come first.
-    int32_t back = mulHigh(s.shape.wide * s.shape.wide + s.shape.high * s.shape.high, setBack_) >> 6;
+    int32_t back = mulHigh(s.voxel.wide * s.voxel.wide + s.voxel.high * s.voxel.high, setBack_) >> 6;
     if (s.flags & SEED_OVER)
         back += OVER_BACK;
-    s.offX = static_cast<int16_t>((rawFromReal(out.x) >> 8) + shiftX);
-    s.offY = static_cast<int16_t>((rawFromReal(out.y) >> 8) + shiftY);
-    back += rawFromReal(out.z) >> 8;
-    s.offZ = static_cast<int16_t>(back > INT16_MAX ? INT16_MAX : back);
+    const Vector place = PLAIN ? out : (root_ - o_.centre_) + out;
+    s.voxel.x = (rawFromReal(place.x) >> 8) + shiftX;
+    s.voxel.y = (rawFromReal(place.y) >> 8) + shiftY;
+    s.voxel.z = (rawFromReal(place.z) >> 8) + back;
 }
 
 // All patches of the object, seed by seed where a neighbour reaches them.
@@ -667,7 +667,7 @@ void SoftObject::updateQuick(const Look& look)
 }
 
 // How a seed at rest lies in the view, for as long as the object stays about where it is.
-inline void SoftObject::layAtRest(Seed& s, const EyeSide& eye, const Skew& skew, const ShadeSetup& shadeSetup)
+inline void SoftObject::layAtRest(Seed& s, const Vector& root, const EyeSide& eye, const Skew& skew, const ShadeSetup& shadeSetup)
 {
     s.flags = static_cast<uint8_t>((s.flags | SEED_KEPT) & ~SEED_FRONT);
     const int32_t along = eye.along(s);
@@ -678,12 +678,12 @@ inline void SoftObject::layAtRest(Seed& s, const EyeSide& eye, const Skew& skew,
     shadeSetup.restExtents(s, skew.x(s.path), skew.y(s.path));
     int32_t shiftX, shiftY;
     layDown(s.dirX, s.dirY, eye.restFacing(along), depth, eye.horizon(), s, shiftX, shiftY);
-    s.offX = static_cast<int16_t>((rawFromReal(s.path.x) >> 8) + shiftX);
-    s.offY = static_cast<int16_t>((rawFromReal(s.path.y) >> 8) + shiftY);
-    s.offZ = static_cast<int16_t>(rawFromReal(s.path.z) >> 8);
+    s.voxel.x = (rawFromReal(root.x + s.path.x) >> 8) + shiftX;
+    s.voxel.y = (rawFromReal(root.y + s.path.y) >> 8) + shiftY;
+    s.voxel.z = rawFromReal(root.z + s.path.z) >> 8;
 }
 
-int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
+void SoftObject::drawQuick(const Look& look, VoxelList& list, int room, int* next)
 {
     EyeSide eye;
     eye.set(look.eye - centre_, radius_, coreReach());
@@ -701,15 +701,12 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
     }
     int root = -1;
     Skew skew;
-    int32_t rootX = 0, rootY = 0, rootZ = 0;
+    Vector rootPlace{Real(0), Real(0), Real(0)};  // from the centre
     const auto lookFrom = [&](int r) {
         root = r;
-        const Vector rootPlace = roots_[root] - look.eye;
-        skew.root(rootPlace, radius_);
-        rootX = rawFromReal(rootPlace.x) >> 8;
-        rootY = rawFromReal(rootPlace.y) >> 8;
-        rootZ = rawFromReal(rootPlace.z) >> 8;
-        eye.root(roots_[root] - centre_);
+        skew.root(roots_[root] - look.eye, radius_);
+        rootPlace = roots_[root] - centre_;
+        eye.root(rootPlace);
         if (manyRoots)
             eye.horizon(horizonAt(roots_[root], horizon));
         if (tapers_)
@@ -717,12 +714,13 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
     };
     if (!manyRoots)
         lookFrom(0);
-    Voxel* v = voxels;
-    const int16_t gap = static_cast<int16_t>(rawFromReal(spacing_ * Real(1.5) + Real(1.5)) >> 8);
-    const uint8_t* const ramp = ramp_;
-    const Voxel* const full = voxels + room - 4 * PATCH_SEEDS;
+    const int16_t mark = static_cast<int16_t>(rawFromReal(spacing_ * Real(1.5) + Real(1.5)) >> 8);
+    const Voxel** to = list.voxels;
+    const Voxel** const full = to + room - 4 * PATCH_SEEDS;
+    const Voxel* const gapsFull = list.gap + GAPS_AT_ONCE - 2 * PATCH_SEEDS;
+    Voxel* gap = list.gap;
     constexpr int SHOWN = SEED_VALID | SEED_KEPT | SEED_FRONT;
-    for (; p < patchCount_ && v <= full; ++p) {
+    for (; p < patchCount_ && to <= full && gap <= gapsFull; ++p) {
         Patch& patch = patches_[p];
         if (patch.state == PATCH_BURIED || patch.state == PATCH_UNKNOWN)
             continue;
@@ -750,28 +748,19 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
             if ((s->flags & SHOWN) != SHOWN) {
                 if ((s->flags & (SEED_VALID | SEED_PLACED | SEED_KEPT)) != SEED_VALID)
                     continue;
-                layAtRest(*s, eye, skew, shadeSetup);
+                layAtRest(*s, rootPlace, eye, skew, shadeSetup);
                 if (!(s->flags & SEED_FRONT))
                     continue;
             }
-            v->x = rootX + s->offX;
-            v->y = rootY + s->offY;
-            v->z = rootZ + s->offZ;
-            v->shape = s->shape;
-            v->colour = ramp[s->brightness];
-            ++v;
+            *to++ = &s->voxel;
             if (s->flags & SEED_EDGE) {
                 // A place where the surface is stretched so much that a gap may show.
-                const Vector aside = s->path * s->position + (s[s->due].path - s->path) * Real(0.625);
-                v->x = rootX + (rawFromReal(aside.x) >> 8);
-                v->y = rootY + (rawFromReal(aside.y) >> 8);
-                v->z = rootZ + (rawFromReal(aside.z) >> 8);
-                v->shape.wide = v->shape.high = gap;
-                v->colour = GAP;
-                ++v;
+                const Vector place = rootPlace + s->path * s->position + (s[s->due].path - s->path) * Real(0.625);
+                *gap = {rawFromReal(place.x) >> 8, rawFromReal(place.y) >> 8, rawFromReal(place.z) >> 8, mark, mark, 0, 0, GAP};
+                *to++ = gap++;
             }
         }
     }
+    list.count = static_cast<int>(to - list.voxels);
     *next = p < patchCount_ ? p : 0;
-    return static_cast<int>(v - voxels);
 }

@@ -481,7 +481,7 @@ void SoftObject::posePatch(Patch& patch, bool extras) const
         const int32_t step = (cosine * 63 + 8192) >> 14;
         s.restBrightness = static_cast<uint8_t>(step < 0 ? 0 : step > 63 ? 63 : step);
         if (patch.state == PATCH_AT_REST)
-            s.brightness = s.restBrightness;
+            s.voxel.brightness = s.restBrightness;
         s.flags = static_cast<uint8_t>(s.flags & ~SEED_KEPT);
         if (ball)
             continue;
@@ -725,7 +725,15 @@ void SoftObject::update(const Look& look)
     recalc_ = false;
 }
 
-int SoftObject::draw(const Look& look, Voxel* voxels, int room, int* next)
+void SoftObject::draw(const Look& look, VoxelList& list, int room, int* next)
 {
-    return look.printed ? drawPrinted(look, voxels, room, next) : drawQuick(look, voxels, room, next);
+    const Vector place = centre_ - look.eye;
+    list.x = rawFromReal(place.x) >> 8;
+    list.y = rawFromReal(place.y) >> 8;
+    list.z = rawFromReal(place.z) >> 8;
+    list.ramp = ramp_;
+    if (look.printed)
+        drawPrinted(look, list, room, next);
+    else
+        drawQuick(look, list, room, next);
 }

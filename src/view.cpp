@@ -8,8 +8,6 @@ using machine::WIDTH;
 
 namespace {
 
-constexpr int SCALES_AT_ONCE = 1024;
-
 // Marked places in a frame (more are left alone), and how far away the sides of a gap may be, pixels.
 constexpr int GAPS_MOST = 1024;
 constexpr int GAP_WIDEST = 8;
@@ -31,7 +29,6 @@ View::~View()
     free(frame_);
     free(zbuffer_);
     free(factors_);
-    free(scales_);
     free(gaps_);
 }
 
@@ -40,10 +37,8 @@ bool View::open()
     frame_ = allocate<uint8_t>(WIDTH * HEIGHT);
     zbuffer_ = allocate<uint16_t>(WIDTH * HEIGHT);
     factors_ = allocate<Factors>(LENS_STEPS);
-    scales_ = allocate<Scale>(SCALES_AT_ONCE);
     gaps_ = allocate<Scale>(GAPS_MOST);
-    if (frame_ == nullptr || zbuffer_ == nullptr || factors_ == nullptr || scales_ == nullptr ||
-        gaps_ == nullptr)
+    if (frame_ == nullptr || zbuffer_ == nullptr || factors_ == nullptr || gaps_ == nullptr)
         return false;
     memset(frame_, 0, WIDTH * HEIGHT);
     memset(zbuffer_, 0xff, WIDTH * HEIGHT * sizeof *zbuffer_);
@@ -63,6 +58,8 @@ void View::setCamera(const Camera& camera)
     centreX_ = rawFromReal(camera.centreX) >> (16 - FRACTION);
     centreY_ = rawFromReal(camera.centreY) >> (16 - FRACTION);
     lens_.factors = factors_;
+    lens_.frame = frame_;
+    lens_.zbuffer = zbuffer_;
     lens_.centreX = centreX_ + HALF;
     lens_.centreY = centreY_ + HALF;
     for (int i = 0; i < LENS_STEPS; ++i) {
@@ -99,10 +96,10 @@ void View::mark(int left, int top, int right, int bottom)
     }
 }
 
-// A voxel that the loop of project.h left: any size and place. False: not on the screen.
+// A voxel that drawScales() left: any size and place. False: not on the screen.
 bool View::project(const Voxel& voxel, Scale* scale) const
 {
-    const int32_t x = voxel.x, y = voxel.y, z = voxel.z;
+    const int32_t x = lens_.x + voxel.x, y = lens_.y + voxel.y, z = lens_.z + voxel.z;
     if (z < NEAREST || z > FARTHEST)
         return false;
     // Off the screen by far? Then the quotients below might not fit.
@@ -111,8 +108,8 @@ bool View::project(const Voxel& voxel, Scale* scale) const
         return false;
     int32_t halfWide = HALF - 1, halfHigh = HALF - 1;
     if (!pixels_) {
-        halfWide = mulDiv(voxel.shape.wide, focalX_, z);
-        halfHigh = mulDiv(voxel.shape.high, focalY_, z);
+        halfWide = mulDiv(voxel.wide, focalX_, z);
+        halfHigh = mulDiv(voxel.high, focalY_, z);
     }
     const int32_t column = mulDiv(x, focalX_, z) + centreX_;
     const int32_t row = centreY_ - mulDiv(y, focalY_, z);
@@ -132,11 +129,11 @@ bool View::project(const Voxel& voxel, Scale* scale) const
     scale->top = static_cast<int16_t>(top);
     scale->wide = static_cast<int16_t>(wide);
     scale->high = static_cast<int16_t>(bottom - top);
-    scale->colour = voxel.colour;
+    scale->colour = voxel.brightness < GAP ? lens_.ramp[voxel.brightness] : 0;
 
     // The plane of the surface: the depth changes by tilt (z / focal) from pixel to pixel.
     const int32_t depth = z >> 1;
-    int32_t across = mulDiv(voxel.shape.tiltX, z << 3, focalX_), down = -mulDiv(voxel.shape.tiltY, z << 3, focalY_);
+    int32_t across = mulDiv(voxel.tiltX, z << 3, focalX_), down = -mulDiv(voxel.tiltY, z << 3, focalY_);
     across = across > STEEPEST ? STEEPEST : across < -STEEPEST ? -STEEPEST : across;
     down = down > STEEPEST ? STEEPEST : down < -STEEPEST ? -STEEPEST : down;
     // From the scale's centre to the centre of its first pixel.
@@ -154,46 +151,36 @@ bool View::project(const Voxel& voxel, Scale* scale) const
     return true;
 }
 
-int View::show(const Voxel* voxels, int count)
+int View::show(const VoxelList& list)
 {
-    int drawn = 0;
+    lens_.x = list.x;
+    lens_.y = list.y;
+    lens_.z = list.z;
+    lens_.ramp = list.ramp;
     lens_.left = WIDTH;
     lens_.top = HEIGHT;
     lens_.right = lens_.bottom = 0;
-    while (count > 0) {
-        const int some = count < SCALES_AT_ONCE ? count : SCALES_AT_ONCE;
-        Scale* end = scales_;
-        int i = 0;
-        while (i < some) {
-            if (!pixels_) {
-                int made;
-                i += projectScales(&lens_, voxels + i, some - i, end, &made);
-                end += made;
-                if (i == some)
-                    break;
-            }
-            const Voxel& voxel = voxels[i++];
-            if (!project(voxel, end))
-                continue;
-            if (voxel.colour == GAP) {
-                addGap(*end);
-                continue;
-            }
-            const int left = end->left, top = end->top, right = left + end->wide, bottom = top + end->high;
-            lens_.left = left < lens_.left ? left : lens_.left;
-            lens_.top = top < lens_.top ? top : lens_.top;
-            lens_.right = right > lens_.right ? right : lens_.right;
-            lens_.bottom = bottom > lens_.bottom ? bottom : lens_.bottom;
-            ++end;
+    lens_.empty = 0;
+    int left = 0;  // voxels not drawn
+    for (int i = 0; i < list.count; ++i) {
+        if (!pixels_)
+            i += drawScales(&lens_, list.voxels + i, list.count - i);
+        if (i == list.count)
+            break;
+        const Voxel& voxel = *list.voxels[i];
+        Scale scale;
+        if (!project(voxel, &scale)) {
+            ++left;
+        } else if (voxel.brightness >= GAP) {
+            ++left;
+            addGap(scale);
+        } else {
+            blitScales(frame_, zbuffer_, &scale, 1);
+            mark(scale.left, scale.top, scale.left + scale.wide, scale.top + scale.high);
         }
-        const int scales = static_cast<int>(end - scales_);
-        blitScales(frame_, zbuffer_, scales_, scales);
-        drawn += scales;
-        voxels += some;
-        count -= some;
     }
     mark(lens_.left, lens_.top, lens_.right, lens_.bottom);
-    return drawn;
+    return list.count - left - lens_.empty;
 }
 
 // Marks come in rows, many for one gap: one that lies nearly where a late one did is left out.

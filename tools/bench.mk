@@ -15,7 +15,7 @@ build/BENCH.BAT: tools/bench.bat
 BENCH_WRAP = -Wl,--wrap=blitScalesA -Wl,--wrap=clearRowsA -Wl,--wrap=_ZN7machine7presentEPKhPK4Span
 BENCH_BLIT = build/bench/blit486.o
 BENCH_PARTS = $(filter-out build/host32/src/blit.o,$(patsubst %.cpp,build/host32/%.o,$(HOST_SOURCES))) \
-	build/host32/asm/blit.o build/host32/asm/project.o build/host32/tools/bench.o
+	build/host32/asm/blit.o build/host32/asm/scales.o build/host32/tools/bench.o
 
 # The twin as a compiler for the 486 makes it.
 $(BENCH_BLIT): src/blit.cpp include/blit.h include/machine.h include/rt.h

@@ -30,7 +30,7 @@ build/dos/%.o: %.S
 # The run-time and the machine are called seldom: small, not fast.
 build/dos/src/rt/%.o build/dos/src/dos/%.o: DOS_OPT = -Os
 
-DOS_BASE = build/dos/asm/start.o build/dos/asm/trap.o build/dos/asm/blit.o build/dos/asm/project.o \
+DOS_BASE = build/dos/asm/start.o build/dos/asm/trap.o build/dos/asm/blit.o build/dos/asm/scales.o \
 	$(patsubst %.cpp,build/dos/%.o,$(wildcard src/rt/*.cpp src/dos/*.cpp))
 
 # Objects to an ELF file that lies where the loader puts it, and that with the stub in front. (Newer linkers warn of code
