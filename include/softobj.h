@@ -24,8 +24,10 @@ constexpr int SIZE_MOST = 100;
 struct Link {
     SoftObject* object;
     Real weight;
-    Vector apart;  // from this end to the other at the last update, and the other's size then
-    Real size;
+    // For Settler: from this end to the other at the last update, and the other's size then; how far it moved for it, and how
+    // fast those seeds that wait think that it is (units an update).
+    Vector apart;
+    Real size, way, speed;
 
     bool operator==(const Link& other) const { return object == other.object; }
 };
@@ -306,10 +308,12 @@ private:
     const uint8_t* ramp_;
     // More than any seed waits.
     static constexpr uint16_t TRAVEL_JUMP = 0x4000;
-    // How far the things that its seeds see (neighbours, viewer) have moved against it, 1/16 unit; wraps round. And where
-    // the viewer was at the last update.
+    // How far the things that its seeds see (neighbours, viewer) have moved against it (Settler::travel()); wraps round. And
+    // where the viewer was at the last update, and how fast he is.
     uint16_t travel_;
+    bool linksChanged_;
     Vector eyeApart_;
+    Real eyeSpeed_;
     Real sizeSeen_;
 
     Seed* seeds_;

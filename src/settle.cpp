@@ -48,6 +48,10 @@ struct Near {
     Real burying;    // b below this: the whole stretch of the path up to POSITION_MOST lies inside the surface
     Vector fromIt16; // fromIt / 16
     uint32_t mark;   // for SoftObject::Patch::reached
+    // Steps of travel that seeds wait: for a difference of 1 in squared distance / squared size on this side of where its
+    // field ends, and of where it buries; for a difference of 1 in the field; for a facing of 1/32 unit (16 bits of fraction).
+    Real waitApart, waitBuried, waitField;
+    int32_t waitFacing;
 };
 
 // b of a path, see Near.
@@ -61,10 +65,38 @@ inline Real alongPath(const Near& near, const Vector& path)
 #endif
 }
 
-// How long seeds wait (travel()): units of travel for a field difference of 1 in sizes, for a facing of 1 in radii.
+// How long seeds wait, as a way that a neighbour goes: for a difference of 1 in squared distance / squared size on this side
+// of where its field ends, and of where it buries, and for a field difference of 1, in its sizes; for a facing of 1, in
+// radii. The first two are what the distance allows.
+constexpr Real WAIT_APART(0.45);
+constexpr Real WAIT_BURIED(0.95);
 constexpr Real WAIT_FIELD(0.3);
 constexpr Real WAIT_FACING(1.0);
-constexpr Real WAIT_APART(0.45);  // and for a difference of 1 in squared distance / squared size
+
+// Of the distance to the eye a unit of its way at most changes by how far a path points away, and so does the way itself.
+constexpr Real WAIT_AWAY(1 / 1.8);
+
+// Travel is counted in steps, this many for an update in which all moves as fast as is assumed. No seed waits longer than
+// WAIT_MOST of them.
+constexpr int TRAVEL_STEPS = 64;
+constexpr int WAIT_MOST = 0x3000;
+
+// Assumed speeds, units an update: never less than this; given up when all is so many times as fast, or as slow.
+constexpr Real SPEED_LEAST(1.0 / 64);
+constexpr Real SPEED_CHANGE(3);
+
+// The length of a vector, or up to a hundredth more.
+inline Real nearLength(const Vector& v)
+{
+#if FB_REAL == FB_FIXED
+    const Normal n = normalise(v);
+    const Vector along{Real::fromRaw(n.x * 4), Real::fromRaw(n.y * 4), Real::fromRaw(n.z * 4)};
+    const Real l = dot(v, along);
+    return l + shiftDown(l, 7);
+#else
+    return length(v);
+#endif
+}
 
 constexpr Real TWICE_LIMIT(7.9);  // units of twice, so that its scaled form fits
 
@@ -103,7 +135,10 @@ private:
     template <bool PLAIN>
     bool newton(Real& position, Real field, Real slope);
     void travel();
-    void wait(Seed& s, uint8_t flags, Real units);
+    void wait(Seed& s, uint8_t flags, int32_t steps) const;
+    void wait(Seed& s, uint8_t flags, Real difference, Real steps) const;
+    Real waitField() const;
+    int32_t waitFacing() const;
     void lookFrom(const Seed& s);
     void restTapered(Seed& s);
     template <bool PLAIN>
@@ -135,19 +170,28 @@ private:
     Real overshoot_;
     uint32_t looks_ = 0;
     uint16_t travel_ = 0;
-    Real waiting_, waitingApart_;    // units of travel for a difference of 1 in the field, in squared distance
-    int32_t facingWait_;             // 1/16 unit of travel for a facing of 1/32 unit, 16 bits of fraction
+    int32_t waitAway_;               // steps of travel for 1/32 unit of EyeSide::away(), 16 bits of fraction
     Real parting_;                   // difference of positions that activates the seed between
     EyeSide eye_;
     Real horizon_;                   // of the object in general
     ShadeSetup shadeSetup_;
 };
 
+// Steps of travel while something of this speed goes so far.
+inline Real waitSteps(Real units, Real speed)
+{
+    return least(units / speed, Real(WAIT_MOST / TRAVEL_STEPS)) * Real(TRAVEL_STEPS);
+}
+
 void Settler::addNear(const Link& link)
 {
     const SoftObject& other = *link.object;
     Near& n = near_[nearCount_++];
     n.object = &other;
+    n.waitField = waitSteps(other.size() * WAIT_FIELD, link.speed);
+    n.waitFacing = mulDiv(rawFromReal(waitSteps(o_.radius() * WAIT_FACING, link.speed)), 1, eye_.distance32());
+    n.waitApart = waitSteps(other.size() * WAIT_APART, link.speed);
+    n.waitBuried = waitSteps(other.size() * WAIT_BURIED, link.speed);
     n.mark = static_cast<uint32_t>(other.number()) * 0x9e3779b1u | 1;
     n.weight = link.weight;
     n.plain = link.weight == Real(1);
@@ -186,6 +230,10 @@ void Settler::addNear(const Link& link)
 
 void Settler::settle()
 {
+    eye_.set(look_.eye - o_.centre_, o_.radius_, o_.coreReach());
+    horizon_ = o_.horizonRadius(look_.eye);
+    eye_.horizon(horizon_);
+    travel();
     Link links[NEAR_MOST];
     const int count = o_.findNear(links);
     for (int i = 0; i < count; ++i)
@@ -196,10 +244,6 @@ void Settler::settle()
     // a half. The fields of the two change by about 3 / size a unit there.
     overshoot_ = least(Real(4.5) * o_.spacing_ / o_.size_, Real(0.7));
     parting_ = Real(1.0) * o_.spacing_ / o_.radius_;
-    eye_.set(look_.eye - o_.centre_, o_.radius_, o_.coreReach());
-    horizon_ = o_.horizonRadius(look_.eye);
-    eye_.horizon(horizon_);
-    travel();
     fromEye_ = o_.centre_ - look_.eye;
     shadeSetup_.set(look_.light, o_.spacing_);
 
@@ -213,42 +257,79 @@ void Settler::settle()
     look_.counts->iterations += looks_;
 }
 
-// Adds up how far neighbours and viewer have moved against the object since its last update, and finds how long seeds may
-// wait: a field changes by at most about 2 / size a unit, a normal turns by about 1 / radius.
+// Adds up how far neighbours and viewer have moved against the object since its last update. One sum must do for all of
+// them, so each has a speed that seeds which wait for it have reckoned with, and the sum grows by how much the fastest of
+// them, measured by that, has moved. The speeds follow slowly what is seen; downwards does not matter to who waits.
 void Settler::travel()
 {
-    const auto step = [](Vector& last, const Vector& now) {
-        const Vector d = now - last;
+    Real fastest(0), assumed(0);
+    const auto step = [&](Vector& last, const Vector& now, Real growth, Real& way, Real speed) {
+        way = nearLength(now - last) + growth;
         last = now;
-        return absolute(d.x) + absolute(d.y) + absolute(d.z);
+        assumed = most(assumed, speed);
+        fastest = most(fastest, speed > Real(0) ? least(way / speed, Real(100)) : Real(100));
     };
-    Real farthest(0), smallest = o_.size_;
     bool balls = o_.coreReach() == Real(0);
+    const Real growth = absolute(o_.size_ - o_.sizeSeen_);
+    o_.sizeSeen_ = o_.size_;
+    Real eyeWay;
+    step(o_.eyeApart_, look_.eye - o_.centre_, Real(0), eyeWay, o_.eyeSpeed_);
     for (List<Link>::Node* node = o_.skel_.first(); node != nullptr; node = node->next) {
-        const SoftObject& other = *node->item.object;
-        farthest = most(farthest, step(node->item.apart, other.centre_ - o_.centre_) +
-                                      absolute(other.size_ - node->item.size));
-        node->item.size = other.size_;
-        smallest = least(smallest, other.size_);
+        Link& link = node->item;
+        const SoftObject& other = *link.object;
+        step(link.apart, other.centre_ - o_.centre_, absolute(other.size_ - link.size) + growth, link.way, link.speed);
+        link.size = other.size_;
         balls = balls && other.coreReach() == Real(0);
     }
-    const Real eye = step(o_.eyeApart_, look_.eye - o_.centre_);
-    const Real sum = farthest + shiftDown(eye, 3) + absolute(o_.size_ - o_.sizeSeen_);
-    o_.sizeSeen_ = o_.size_;
+    const bool anew = fastest > SPEED_CHANGE || (fastest * SPEED_CHANGE < Real(1) && assumed > SPEED_LEAST);
+    const auto settleSpeed = [&](Real& speed, Real way) {
+        if (anew)
+            speed = way;
+        else if (fastest > Real(1.0625))
+            speed += shiftDown(speed, 6);
+        else if (way < speed * fastest)
+            speed -= shiftDown(speed, 5);
+        speed = most(speed, SPEED_LEAST);
+    };
+    settleSpeed(o_.eyeSpeed_, eyeWay);
+    for (List<Link>::Node* node = o_.skel_.first(); node != nullptr; node = node->next)
+        settleSpeed(node->item.speed, node->item.way);
     // Where a turn may matter seeds are looked at every time.
-    const int32_t steps = (rawFromReal(least(sum, Real(1000))) >> 12) + 1;
-    o_.travel_ = static_cast<uint16_t>(o_.travel_ + (balls && steps < SoftObject::TRAVEL_JUMP ? steps : SoftObject::TRAVEL_JUMP));
+    const bool wake = !balls || o_.linksChanged_ || anew;
+    o_.linksChanged_ = false;
+    const int32_t steps = wake ? SoftObject::TRAVEL_JUMP : floorToInt(fastest * Real(TRAVEL_STEPS)) + 1;
+    o_.travel_ = static_cast<uint16_t>(o_.travel_ + steps);
     travel_ = o_.travel_;
-    waiting_ = smallest * WAIT_FIELD;
-    waitingApart_ = smallest * WAIT_APART;
-    facingWait_ = mulDiv(rawFromReal(o_.radius_ * WAIT_FACING), 16, eye_.distance32());
+    waitAway_ = rawFromReal(waitSteps(WAIT_AWAY * Real(1.0 / 32), o_.eyeSpeed_));
 }
 
-// Nothing to see of this seed until things have moved by `units` (0..100).
-inline void Settler::wait(Seed& s, uint8_t flags, Real units)
+// Nothing to see of this seed until things have moved on by `steps`, 0 or more.
+inline void Settler::wait(Seed& s, uint8_t flags, int32_t steps) const
 {
     s.flags = static_cast<uint8_t>(flags | SEED_WAITS);
-    s.due = static_cast<int16_t>(travel_ + (rawFromReal(units) >> 12));
+    s.due = static_cast<int16_t>(travel_ + (steps < WAIT_MOST ? steps : WAIT_MOST));
+}
+
+inline void Settler::wait(Seed& s, uint8_t flags, Real difference, Real steps) const
+{
+    wait(s, flags, floorToInt(least(difference, Real(2)) * steps));
+}
+
+// The least of those that reach the seed at hand.
+inline Real Settler::waitField() const
+{
+    Real steps(WAIT_MOST);
+    for (int n = 0; n < touchCount_; ++n)
+        steps = least(steps, touch_[n]->waitField);
+    return steps;
+}
+
+inline int32_t Settler::waitFacing() const
+{
+    int32_t steps = INT32_MAX;
+    for (int n = 0; n < touchCount_; ++n)
+        steps = touch_[n]->waitFacing < steps ? touch_[n]->waitFacing : steps;
+    return steps;
 }
 
 // Which neighbours reach the patch: they become the active ones.
@@ -457,7 +538,7 @@ void Settler::settleSeed(Seed& s)
     // Which neighbours are near enough to matter, or one so near that the seed lies inside anyway?
     int touching = 0;
     bool touched = false;
-    Real apart(1);
+    int32_t wait = WAIT_MOST;
     for (int n = 0; n < activeCount_; ++n) {
         const Near& near = *active_[n];
         if (PLAIN || near.quick) {
@@ -467,12 +548,13 @@ void Settler::settleSeed(Seed& s)
                 if (b < near.burying) {
                     s.position = Real(1);
                     o_.displaced_ = true;
-                    wait(s, 0, (near.burying - b) * waitingApart_);
+                    this->wait(s, 0, near.burying - b, near.waitBuried);
                     return;
                 }
                 touched = true;
             } else {
-                apart = least(apart, beyond);
+                const int32_t steps = floorToInt(least(beyond, Real(1)) * near.waitApart);
+                wait = steps < wait ? steps : wait;
             }
             if (b < near.meeting) {
                 b_[touching] = b;
@@ -493,7 +575,7 @@ void Settler::settleSeed(Seed& s)
             return;
         }
         s.position = Real(1);
-        wait(s, SEED_VALID, apart * waitingApart_);
+        this->wait(s, SEED_VALID, wait);
         s.brightness = s.restBrightness;
         return;
     }
@@ -501,8 +583,7 @@ void Settler::settleSeed(Seed& s)
         lookFrom(s);
     const int32_t away = eye_.away(eye_.along(s));
     if (away > 0) {
-        s.flags = SEED_WAITS;
-        s.due = static_cast<int16_t>(travel_ + (away * facingWait_ >> 16));
+        this->wait(s, 0, mulShift16(away, waitAway_));
         return;
     }
     ++look_.counts->updated;
@@ -519,12 +600,12 @@ void Settler::settleSeed(Seed& s)
     if (!settled && !bracket<PLAIN>(position)) {
         // Inside everywhere: buried by this much of the field at least.
         s.position = Real(1);
-        wait(s, 0, buried_ * waiting_);
+        this->wait(s, 0, buried_, waitField());
         return;
     }
     s.position = position;
     if (strength_ > Real(0)) {
-        wait(s, SEED_PLACED, strength_ * waiting_);
+        this->wait(s, SEED_PLACED, strength_, waitField());
         return;
     }
     shade<PLAIN>(s, position);
@@ -558,8 +639,7 @@ inline void Settler::shade(Seed& s, Real position)
     const int32_t cosine = (normal.x * s.dirX + normal.y * s.dirY + normal.z * s.dirZ) >> 14;
     const int32_t facing = eye_.facing(normal, cosine, position);
     if (!eye_.faces(facing)) {
-        s.flags = SEED_VALID | SEED_PLACED | SEED_WAITS;
-        s.due = static_cast<int16_t>(travel_ + (-facing * facingWait_ >> 16));
+        wait(s, SEED_VALID | SEED_PLACED, mulShift16(-facing, waitFacing()));
         return;
     }
     ++look_.counts->normals;
