@@ -231,7 +231,9 @@ private:
         int16_t spread;   // greatest |direction - axis|, the same scale
         int32_t across;   // middle . axis and radius in 1/32 unit
         int32_t radius32;
-        uint32_t reached; // which neighbours reached it at the last update, as a sum of their marks
+        uint32_t reached; // which of the neighbours in range reach it, by bits; the last bit stands for all from the 32nd on
+        int16_t due;      // up to which travel of the object no further one does, nor its state changes
+        int16_t idle;     // up to which travel nothing at all happens to it
         uint8_t state;    // PatchState
         bool extras;      // oversampled seeds among them take part
         uint8_t stale;    // PatchStale
@@ -312,6 +314,7 @@ private:
     // where the viewer was at the last update, and how fast he is.
     uint16_t travel_;
     bool linksChanged_;
+    uint32_t nearMark_;   // of the neighbours that were in range then, and their order
     Vector eyeApart_;
     Real eyeSpeed_;
     Real sizeSeen_;

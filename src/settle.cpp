@@ -17,6 +17,8 @@ constexpr Real LONGEST_STEP(0.25);   // of the position
 constexpr int LOOK_LIMIT = 8;        // then the surface is bracketed and bisected
 constexpr Real FLAT(-0.2);           // slope above which Newton's method is not trusted
 
+// No seed is looked for farther in: there its own field is more than the isovalue.
+constexpr Real PLACED_LEAST(0.95);
 // No valid seed lies farther out: there its own field is 0.013, and a neighbour that makes up the rest alone is stronger by
 // more than the overshoot.
 constexpr Real POSITION_MOST(1.85);
@@ -47,10 +49,11 @@ struct Near {
     Real meeting;    // b below this: its field reaches the path somewhere up to POSITION_MOST
     Real burying;    // b below this: the whole stretch of the path up to POSITION_MOST lies inside the surface
     Vector fromIt16; // fromIt / 16
-    uint32_t mark;   // for SoftObject::Patch::reached
     // Steps of travel that seeds wait: for a difference of 1 in squared distance / squared size on this side of where its
     // field ends, and of where it buries; for a difference of 1 in the field; for a facing of 1/32 unit (16 bits of fraction).
     Real waitApart, waitBuried, waitField;
+    // See Settler::facesAway().
+    Real halfSquare, awayLimit, waitAway;
     int32_t waitFacing;
 };
 
@@ -76,10 +79,22 @@ constexpr Real WAIT_FACING(1.0);
 // Of the distance to the eye a unit of its way at most changes by how far a path points away, and so does the way itself.
 constexpr Real WAIT_AWAY(1 / 1.8);
 
+// What is known of directions to the eye is uncertain by so many units. The most of them, and the most steps for one, that
+// are waited for.
+constexpr Real AWAY_DOUBT(0.3);
+constexpr int AWAY_MOST = 24;
+constexpr int AWAY_STEPS = 500;
+
 // Travel is counted in steps, this many for an update in which all moves as fast as is assumed. No seed waits longer than
 // WAIT_MOST of them.
 constexpr int TRAVEL_STEPS = 64;
 constexpr int WAIT_MOST = 0x3000;
+
+// Steps of travel after which it is asked again whether all that reached a patch still do.
+constexpr int RECHECK = 4 * TRAVEL_STEPS;
+
+// Of SoftObject::Patch::reached: the bit that stands for many.
+constexpr uint32_t MANY = 1u << 31;
 
 // Assumed speeds, units an update: never less than this; given up when all is so many times as fast, or as slow.
 constexpr Real SPEED_LEAST(1.0 / 64);
@@ -118,13 +133,17 @@ public:
     void settle();
 
 private:
-    enum Reach { UNREACHED, REACHED, BURIED };
-    Reach reachOf(const SoftObject::Patch& patch, uint32_t& reached);
+    int32_t facesAway(int32_t along) const;
+    bool passed(int16_t due) const { return static_cast<int16_t>(due - travel_) <= 0; }
+    int16_t later(int32_t steps) const { return static_cast<int16_t>(travel_ + steps); }
+    SoftObject::PatchState reachOf(SoftObject::Patch& patch, uint32_t& reached) const;
+    void activate(uint32_t reached);
+    int16_t idleUntil(const SoftObject::Patch& patch) const;
     void rest(SoftObject::Patch& patch);
     void bury(SoftObject::Patch& patch);
     bool waits(const Seed& s) const
     {
-        return (s.flags & SEED_WAITS) && static_cast<int16_t>(s.due - travel_) > 0;
+        return (s.flags & SEED_WAITS) && !passed(s.wakes);
     }
     template <bool PLAIN>
     void settlePatches();
@@ -146,6 +165,7 @@ private:
     template <bool PLAIN>
     void shade(Seed& s, Real position);
     void addNear(const Link& link);
+    void knowNear();
 
     SoftObject& o_;
     const Look& look_;
@@ -155,6 +175,7 @@ private:
     // Of the patch at hand, and of those the ones that reach the seed at hand.
     const Near* active_[NEAR_MOST];
     int activeCount_ = 0;
+    uint32_t activated_ = 0;         // as Patch::reached
     const Near* touch_[NEAR_MOST];
     int touchCount_ = 0;
     int rootIndex_ = -1;
@@ -170,12 +191,31 @@ private:
     Real overshoot_;
     uint32_t looks_ = 0;
     uint16_t travel_ = 0;
+    bool woken_ = false;             // by a jump of it
     int32_t waitAway_;               // steps of travel for 1/32 unit of EyeSide::away(), 16 bits of fraction
+    Vector toEye_;                   // unit length, from the centre
+    Real distance_;                  // to the centre
+    Real awayShare_, awayOwn_, awayEdge_, waitAlong_;  // see facesAway()
     Real parting_;                   // difference of positions that activates the seed between
     EyeSide eye_;
     Real horizon_;                   // of the object in general
     ShadeSetup shadeSetup_;
 };
+
+inline int32_t lesser(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+// Steps of travel to wait for a difference when there are `wait` for 1; for those larger than `most` no more.
+inline int32_t stepsOf(Real difference, Real most, Real wait)
+{
+    return floorToInt(least(difference, most) * wait);
+}
+inline int32_t stepsOf(Real difference, Real wait)
+{
+    return stepsOf(difference, Real(1), wait);
+}
 
 // Steps of travel while something of this speed goes so far.
 inline Real waitSteps(Real units, Real speed)
@@ -192,7 +232,6 @@ void Settler::addNear(const Link& link)
     n.waitFacing = mulDiv(rawFromReal(waitSteps(o_.radius() * WAIT_FACING, link.speed)), 1, eye_.distance32());
     n.waitApart = waitSteps(other.size() * WAIT_APART, link.speed);
     n.waitBuried = waitSteps(other.size() * WAIT_BURIED, link.speed);
-    n.mark = static_cast<uint32_t>(other.number()) * 0x9e3779b1u | 1;
     n.weight = link.weight;
     n.plain = link.weight == Real(1);
     n.fromIt = o_.centre() - other.centre();
@@ -226,6 +265,28 @@ void Settler::addNear(const Link& link)
     if (!n.plain && n.weight < Real(1))
         n.burying = -n.a0 - n.c0;  // too weak to bury alone
     n.quick = true;
+
+    n.halfSquare = shiftDown(PLACED_LEAST * n.reach * (n.reach / distance_), 1);
+    n.awayLimit = awayOwn_ - dot(n.fromIt, toEye_) - AWAY_DOUBT;
+    const Real reach = absolute(n.fromIt.x) + absolute(n.fromIt.y) + absolute(n.fromIt.z) + o_.radius();
+    n.waitAway = least(waitSteps(Real(1), link.speed + o_.eyeSpeed_ * (reach / distance_)), Real(AWAY_STEPS));
+}
+
+// Where others are in range than before, or one along whose motion nobody can wait, nobody does.
+void Settler::knowNear()
+{
+    uint32_t mark = static_cast<uint32_t>(nearCount_);
+    bool quick = true;
+    for (int i = 0; i < nearCount_; ++i) {
+        mark = mark * 0x9e3779b1u + static_cast<uint32_t>(near_[i].object->number());
+        quick = quick && near_[i].quick;
+    }
+    if (mark == o_.nearMark_ && quick)
+        return;
+    o_.nearMark_ = mark;
+    if (!woken_)
+        o_.travel_ = static_cast<uint16_t>(o_.travel_ + SoftObject::TRAVEL_JUMP);
+    travel_ = o_.travel_;
 }
 
 void Settler::settle()
@@ -234,10 +295,18 @@ void Settler::settle()
     horizon_ = o_.horizonRadius(look_.eye);
     eye_.horizon(horizon_);
     travel();
+    distance_ = realFromRaw(eye_.distance32() << 11);
+    const Normal toEye = normalise(look_.eye - o_.centre_);
+    toEye_ = {realFromRaw(toEye.x * 4), realFromRaw(toEye.y * 4), realFromRaw(toEye.z * 4)};
+    awayShare_ = PLACED_LEAST * (o_.radius() / distance_);
+    awayOwn_ = PLACED_LEAST * awayShare_ * o_.radius();
+    awayEdge_ = PLACED_LEAST * o_.radius() - AWAY_DOUBT;
+    waitAlong_ = least(waitSteps(Real(1), o_.eyeSpeed_), Real(AWAY_STEPS));
     Link links[NEAR_MOST];
     const int count = o_.findNear(links);
     for (int i = 0; i < count; ++i)
         addNear(links[i]);
+    knowNear();
 
     o_.displaced_ = false;
     // A seed stays valid a way past the border where a neighbour becomes stronger: as a distance, about one spacing and
@@ -295,9 +364,9 @@ void Settler::travel()
     for (List<Link>::Node* node = o_.skel_.first(); node != nullptr; node = node->next)
         settleSpeed(node->item.speed, node->item.way);
     // Where a turn may matter seeds are looked at every time.
-    const bool wake = !balls || o_.linksChanged_ || anew;
+    woken_ = !balls || o_.linksChanged_ || anew;
     o_.linksChanged_ = false;
-    const int32_t steps = wake ? SoftObject::TRAVEL_JUMP : floorToInt(fastest * Real(TRAVEL_STEPS)) + 1;
+    const int32_t steps = woken_ ? SoftObject::TRAVEL_JUMP : floorToInt(fastest * Real(TRAVEL_STEPS)) + 1;
     o_.travel_ = static_cast<uint16_t>(o_.travel_ + steps);
     travel_ = o_.travel_;
     waitAway_ = rawFromReal(waitSteps(WAIT_AWAY * Real(1.0 / 32), o_.eyeSpeed_));
@@ -307,12 +376,12 @@ void Settler::travel()
 inline void Settler::wait(Seed& s, uint8_t flags, int32_t steps) const
 {
     s.flags = static_cast<uint8_t>(flags | SEED_WAITS);
-    s.due = static_cast<int16_t>(travel_ + (steps < WAIT_MOST ? steps : WAIT_MOST));
+    s.wakes = later(lesser(steps, WAIT_MOST));
 }
 
 inline void Settler::wait(Seed& s, uint8_t flags, Real difference, Real steps) const
 {
-    wait(s, flags, floorToInt(least(difference, Real(2)) * steps));
+    wait(s, flags, stepsOf(difference, steps));
 }
 
 // The least of those that reach the seed at hand.
@@ -332,33 +401,54 @@ inline int32_t Settler::waitFacing() const
     return steps;
 }
 
-// Which neighbours reach the patch: they become the active ones.
-Settler::Reach Settler::reachOf(const SoftObject::Patch& patch, uint32_t& reached)
+// What becomes of the patch and which neighbours reach it, and until when.
+SoftObject::PatchState Settler::reachOf(SoftObject::Patch& patch, uint32_t& reached) const
 {
-    activeCount_ = 0;
     bool touched = false;
-    for (int i = 0; i < nearCount_; ++i) {
+    uint32_t bit = 1;
+    int32_t rest = WAIT_MOST, further = RECHECK;
+    reached = 0;
+    for (int i = 0; i < nearCount_; ++i, bit <<= (bit < MANY)) {
         const Near& near = near_[i];
         if (near.quick) {
             const Real b = alongPath(near, patch.middle), change = near.swing * patch.radius;
-            if (b + change < near.burying)
-                return BURIED;
-            touched |= b - change < near.touching;
-            if (b - change < near.meeting) {
-                active_[activeCount_++] = &near;
-                reached += near.mark;
+            const Real nearest = b - change;
+            if (b + change < near.burying) {
+                patch.due = later(stepsOf(near.burying - b - change, near.waitBuried));
+                return SoftObject::PATCH_BURIED;
             }
+            if (nearest < near.touching)
+                touched = true;
+            else
+                rest = lesser(rest, stepsOf(nearest - near.touching, near.waitApart));
+            if (nearest < near.meeting)
+                reached |= bit;
+            else
+                further = lesser(further, stepsOf(nearest - near.meeting, near.waitApart));
         } else {
             const Vector v = near.object->fromCore(o_.centre_ + patch.middle);
             const Real limit = near.reach + patch.radius;
             if (absolute(v.x) < limit && absolute(v.y) < limit && absolute(v.z) < limit) {
                 touched = true;
-                active_[activeCount_++] = &near;
-                reached += near.mark;
+                reached |= bit;
             }
         }
     }
-    return touched ? REACHED : UNREACHED;
+    patch.due = later(touched ? further : rest);
+    return touched ? SoftObject::PATCH_MIXED : SoftObject::PATCH_AT_REST;
+}
+
+// The neighbours that reach a patch become the active ones.
+void Settler::activate(uint32_t reached)
+{
+    if (reached == activated_)
+        return;
+    activated_ = reached;
+    activeCount_ = 0;
+    uint32_t bit = 1;
+    for (int i = 0; i < nearCount_; ++i, bit <<= (bit < MANY))
+        if (reached & bit)
+            active_[activeCount_++] = &near_[i];
 }
 
 void Settler::bury(SoftObject::Patch& patch)
@@ -449,7 +539,7 @@ inline bool Settler::newton(Real& position, Real field, Real slope)
             return false;
         const Real step = clamp(quotient(ISOVALUE - field, slope), -LONGEST_STEP, LONGEST_STEP);
         position += step;
-        if (position < Real(0.95) || position > POSITION_MOST)
+        if (position < PLACED_LEAST || position > POSITION_MOST)
             return false;
         if (absolute(step) <= SHORT_STEP)
             return true;
@@ -526,6 +616,37 @@ void Settler::restTapered(Seed& s)
     shade<false>(s, Real(1));
 }
 
+// Whether the seed at hand faces away wherever on its path it may lie, and whoever owns the surface there; if so, steps of
+// travel that it stays like that, else -1. `along`: EyeSide::along().
+//
+// The gradient is a sum of vectors away from the centres of all fields that reach the place p. When each of them points away
+// from the eye, it does. With e the unit vector to the eye, D its distance, c a centre, r the radius, that is for the own
+// field r cos(path, e) < position r, and for the others (p - c).(e D - position path) < 0, or
+// (centre - c).e + position (path.e - path.(centre - c) / D) - position^2 r^2 / D < 0, where path.(centre - c) is
+// b size^2 / 2. The middle term is at most what it is at PLACED_LEAST, or if it grows what it is at POSITION_MOST.
+inline int32_t Settler::facesAway(int32_t along) const
+{
+    const Real across = realFromRaw(along >> 14 << 11);  // units
+    const Real own = awayEdge_ - across;
+    if (own <= Real(0))
+        return -1;
+    int32_t wait = stepsOf(own, Real(AWAY_MOST), waitAlong_);
+    const Real share = across * awayShare_;
+    for (int n = 0; n < touchCount_; ++n) {
+        const Near& near = *touch_[n];
+        if (!near.quick)
+            return -1;
+        Real term = share - b_[n] * near.halfSquare;
+        if (term > Real(0))
+            term += term;  // POSITION_MOST / PLACED_LEAST, rounded up
+        const Real beyond = near.awayLimit - term;
+        if (beyond <= Real(0))
+            return -1;
+        wait = lesser(wait, stepsOf(beyond, Real(AWAY_MOST), near.waitAway));
+    }
+    return wait;
+}
+
 template <bool PLAIN>
 void Settler::settleSeed(Seed& s)
 {
@@ -553,8 +674,7 @@ void Settler::settleSeed(Seed& s)
                 }
                 touched = true;
             } else {
-                const int32_t steps = floorToInt(least(beyond, Real(1)) * near.waitApart);
-                wait = steps < wait ? steps : wait;
+                wait = lesser(wait, stepsOf(beyond, near.waitApart));
             }
             if (b < near.meeting) {
                 b_[touching] = b;
@@ -581,7 +701,17 @@ void Settler::settleSeed(Seed& s)
     }
     if (!PLAIN)
         lookFrom(s);
-    const int32_t away = eye_.away(eye_.along(s));
+    const int32_t along = eye_.along(s);
+    if (PLAIN || o_.isBall()) {
+        const int32_t away = facesAway(along);
+        if (away >= 0) {
+            // What it is held for does not matter, nor where; should it come round again it is looked for from there.
+            this->wait(s, static_cast<uint8_t>(s.flags & (SEED_VALID | SEED_PLACED)), away);
+            o_.displaced_ = true;
+            return;
+        }
+    }
+    const int32_t away = eye_.away(along);
     if (away > 0) {
         this->wait(s, 0, mulShift16(away, waitAway_));
         return;
@@ -662,49 +792,79 @@ inline void Settler::shade(Seed& s, Real position)
     s.shiftY = static_cast<int16_t>(lie.shiftY);
 }
 
+// Of a patch all seeds of which wait, and those they are paired with: until when.
+int16_t Settler::idleUntil(const SoftObject::Patch& patch) const
+{
+    int32_t steps = static_cast<int16_t>(patch.due - travel_);
+    const auto wait = [&](const Seed& s) { steps = lesser(steps, static_cast<int16_t>(s.wakes - travel_)); };
+    const Seed* s = o_.seeds_ + 2 * patch.first;
+    for (int i = patch.count; i > 0; --i, s += 2) {
+        wait(s[0]);
+        if (s->neighbour >= 0)
+            wait(o_.seeds_[s->neighbour]);
+        if (s[1].flags & SEED_ACTIVE)
+            wait(s[1]);
+    }
+    return later(steps);
+}
+
 // All patches of the object, seed by seed where a neighbour reaches them.
 template <bool PLAIN>
 void Settler::settlePatches()
 {
     Seed* const seeds = o_.seeds_;
-    for (int p = 0; p < o_.patchCount_; ++p) {
-        SoftObject::Patch& patch = o_.patches_[p];
-        uint32_t reached = 0;
-        const Reach reach = reachOf(patch, reached);
-        if (reach == UNREACHED) {
-            if (patch.state != SoftObject::PATCH_AT_REST)
-                rest(patch);
+    SoftObject::Patch* const last = o_.patches_ + o_.patchCount_;
+    for (SoftObject::Patch* p = o_.patches_; p < last; ++p) {
+        SoftObject::Patch& patch = *p;
+        const uint8_t before = patch.state;
+        if (before != SoftObject::PATCH_UNKNOWN && !passed(patch.idle)) {
+            o_.displaced_ |= before != SoftObject::PATCH_AT_REST;
             continue;
         }
-        if (reach == BURIED) {
-            o_.displaced_ = true;
-            if (patch.state != SoftObject::PATCH_BURIED)
-                bury(patch);
-            continue;
-        }
-        if (!PLAIN && o_.tapers_ && patch.state != SoftObject::PATCH_MIXED)
-            patch.stale = SoftObject::STALE_ALL;  // from normals to paths
-        patch.state = SoftObject::PATCH_MIXED;
-        if (patch.stale != SoftObject::STALE_NONE)
-            o_.posePatch(patch, true);
         Seed* s = seeds + 2 * patch.first;
         Seed* const end = s + 2 * patch.count;
-        if (patch.reached != reached) {
-            // One that it does not know of came near: nobody waits any longer.
+        if (before != SoftObject::PATCH_MIXED || passed(patch.due)) {
+            uint32_t reached;
+            const SoftObject::PatchState state = reachOf(patch, reached);
+            patch.idle = patch.due;
+            if (state == SoftObject::PATCH_AT_REST) {
+                if (before != SoftObject::PATCH_AT_REST)
+                    rest(patch);
+                continue;
+            }
+            o_.displaced_ = true;
+            if (state == SoftObject::PATCH_BURIED) {
+                if (before != SoftObject::PATCH_BURIED)
+                    bury(patch);
+                continue;
+            }
+            if (reached & (~patch.reached | MANY)) {
+                // One that they do not know of came near: those that may be seen wait no longer.
+                for (Seed* each = s; each < end; ++each)
+                    if (each->flags & SEED_VALID)
+                        each->flags = static_cast<uint8_t>(each->flags & ~SEED_WAITS);
+            }
             patch.reached = reached;
-            for (Seed* each = s; each < end; ++each)
-                each->flags = static_cast<uint8_t>(each->flags & ~SEED_WAITS);
+            if (!PLAIN && o_.tapers_ && before != SoftObject::PATCH_MIXED)
+                patch.stale = SoftObject::STALE_ALL;  // from normals to paths
+            patch.state = SoftObject::PATCH_MIXED;
         }
+        activate(patch.reached);
+        if (patch.stale != SoftObject::STALE_NONE)
+            o_.posePatch(patch, true);
         bool extras = false;
+        uint8_t all = SEED_WAITS;
         for (; s < end; s += 2) {
             if (!waits(s[0]))
                 settleSeed<PLAIN>(s[0]);
             Seed& extra = s[1];
+            all &= s->flags;
             if (s->neighbour < 0)
                 continue;
             Seed& other = seeds[s->neighbour];
+            all &= other.flags;
             const uint8_t either = s->flags | other.flags;
-            if (!(either & SEED_PLACED) || !(either & SEED_VALID)) {
+            if ((either & (SEED_PLACED | SEED_VALID)) != (SEED_PLACED | SEED_VALID)) {
                 extra.flags = 0;
                 continue;
             }
@@ -717,6 +877,7 @@ void Settler::settlePatches()
             if (!waits(extra))
                 settleSeed<PLAIN>(extra);
             extra.flags |= SEED_ACTIVE;
+            all &= extra.flags;
             if (belt) {
                 // A gap may show between the one that is on the surface and the other.
                 Seed& valid = s->flags & SEED_VALID ? *s : other;
@@ -727,6 +888,8 @@ void Settler::settlePatches()
             }
         }
         patch.extras = extras;
+        o_.displaced_ = true;
+        patch.idle = all ? idleUntil(patch) : static_cast<int16_t>(travel_);
     }
 }
 
