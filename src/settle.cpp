@@ -27,6 +27,7 @@ constexpr Real TOUCHING(0.9);
 // Where a path is looked at for the first time outside the surface, when nothing is known of it.
 const Real PROBES[] = {Real(1.15), Real(1.35), POSITION_MOST};
 const Real PROBES_BETWEEN[] = {Real(1.08), Real(1.25), Real(1.45), Real(1.6)};
+constexpr Real HINT_STEP(0.06);
 constexpr Real NEARLY(0.04);  // of the field: how near the isovalue it must have come there to be looked at in between
 // Squared distance / squared size up to which a neighbour alone fills what the own field lacks at POSITION_MOST: its
 // field is 0.477 there, which with the own 0.013 is the isovalue but for the tolerance.
@@ -550,7 +551,8 @@ inline bool Settler::newton(Real& position, Real field, Real slope)
 }
 
 // From nothing: where the path leaves the surface before POSITION_MOST. Inside at 1, where the own field alone is the
-// isovalue. False: it does not leave.
+// isovalue. False: it does not leave; `position` is then where it came nearest to it, and if it is not 1 before the call that
+// place alone is looked at first.
 template <bool PLAIN>
 bool Settler::bracket(Real& position)
 {
@@ -565,11 +567,21 @@ bool Settler::bracket(Real& position)
                 outside = *probe;
                 return true;
             }
-            buried_ = least(buried_, excess);
+            if (excess < buried_) {
+                buried_ = excess;
+                position = *probe;
+            }
             inside = *probe;
         }
         return false;
     };
+    if (position != Real(1)) {
+        buried_ = lookAt<PLAIN>(position, slope) - ISOVALUE;
+        if (buried_ > NEARLY && stepsOf(buried_, waitField()) > TRAVEL_STEPS / 2) {
+            position = clamp(slope < Real(0) ? position + HINT_STEP : position - HINT_STEP, PROBES[0], POSITION_MOST);
+            return false;
+        }
+    }
     buried_ = Real(1);
     // Where it nearly left it may have between the places looked at, and gone into something else.
     if (!leaves(PROBES, 3) && !(buried_ < NEARLY && leaves(PROBES_BETWEEN, 4)))
@@ -726,10 +738,12 @@ void Settler::settleSeed(Seed& s)
         if ((s.flags & SEED_KEPT) && strength_ <= Real(0) && absolute(field - ISOVALUE) <= DISPLACEMENT)
             return;  // where it was, and what is known of it holds
         settled = newton<PLAIN>(position, field, slope);
+        if (!settled)
+            position = Real(1);
     }
     if (!settled && !bracket<PLAIN>(position)) {
         // Inside everywhere: buried by this much of the field at least.
-        s.position = Real(1);
+        s.position = position;
         this->wait(s, 0, buried_, waitField());
         return;
     }
