@@ -170,37 +170,38 @@ private:
 
     SoftObject& o_;
     const Look& look_;
-    Near near_[NEAR_MOST];
-    int nearCount_ = 0;
+    // One object is settled at a time. At fixed addresses all this needs no register to find it.
+    static inline Near near_[NEAR_MOST];
+    static inline int nearCount_;
 
     // Of the patch at hand, and of those the ones that reach the seed at hand.
-    const Near* active_[NEAR_MOST];
-    int activeCount_ = 0;
-    uint32_t activated_ = 0;         // as Patch::reached
-    const Near* touch_[NEAR_MOST];
-    int touchCount_ = 0;
-    int rootIndex_ = -1;
-    Vector path_;                    // not in the plain case, where the root is the centre
-    Point root_;
-    Vector fromEye_;                 // to the centre
-    Real b_[NEAR_MOST];
-    Real ownSlope_;                  // of the last look
-    Real slopes_[NEAR_MOST];         // dF/dt of each active neighbour, weight not included
-    Vector from_[NEAR_MOST];         // not quick ones: from the nearest point of the core, / 16
-    Real strength_;                  // by how much the strongest neighbour is stronger than the overshoot allows
-    Real buried_;                    // least excess of the field where bracket() looked in vain
-    Real overshoot_;
-    uint32_t looks_ = 0;
-    uint16_t travel_ = 0;
-    bool woken_ = false;             // by a jump of it
-    int32_t waitAway_;               // steps of travel for 1/32 unit of EyeSide::away(), 16 bits of fraction
-    Vector toEye_;                   // unit length, from the centre
-    Real distance_;                  // to the centre
-    Real awayShare_, awayOwn_, awayEdge_, waitAlong_;  // see facesAway()
-    Real parting_;                   // difference of positions that activates the seed between
-    EyeSide eye_;
-    Real horizon_;                   // of the object in general
-    ShadeSetup shadeSetup_;
+    static inline const Near* active_[NEAR_MOST];
+    static inline int activeCount_;
+    static inline uint32_t activated_;  // as Patch::reached
+    static inline const Near* touch_[NEAR_MOST];
+    static inline int touchCount_;
+    static inline int rootIndex_;
+    static inline Vector path_;  // not in the plain case, where the root is the centre
+    static inline Point root_;
+    static inline Vector fromEye_;  // to the centre
+    static inline Real b_[NEAR_MOST];
+    static inline Real ownSlope_;  // of the last look
+    static inline Real slopes_[NEAR_MOST];  // dF/dt of each active neighbour, weight not included
+    static inline Vector from_[NEAR_MOST];  // not quick ones: from the nearest point of the core, / 16
+    static inline Real strength_;  // by how much the strongest neighbour is stronger than the overshoot allows
+    static inline Real buried_;  // least excess of the field where bracket() looked in vain
+    static inline Real overshoot_;
+    static inline uint32_t looks_;
+    static inline uint16_t travel_;
+    static inline bool woken_;  // by a jump of it
+    static inline int32_t waitAway_;  // steps of travel for 1/32 unit of EyeSide::away(), 16 bits of fraction
+    static inline Vector toEye_;  // unit length, from the centre
+    static inline Real distance_;  // to the centre
+    static inline Real awayShare_, awayOwn_, awayEdge_, waitAlong_;  // see facesAway()
+    static inline Real parting_;  // difference of positions that activates the seed between
+    static inline EyeSide eye_;
+    static inline Real horizon_;  // of the object in general
+    static inline ShadeSetup shadeSetup_;
 };
 
 inline int32_t lesser(int32_t a, int32_t b)
@@ -292,6 +293,11 @@ void Settler::knowNear()
 
 void Settler::settle()
 {
+    nearCount_ = 0;
+    activeCount_ = 0;
+    activated_ = 0;
+    rootIndex_ = -1;
+    looks_ = 0;
     eye_.set(look_.eye - o_.centre_, o_.radius_, o_.coreReach());
     horizon_ = o_.horizonRadius(look_.eye);
     eye_.horizon(horizon_);
