@@ -26,7 +26,8 @@ enum SeedFlag : uint8_t {
 struct Seed {
     Vector path;         // from root to the unblended surface: as long as the object's radius
     Real position;       // along the path; 1.0 on the unblended surface
-    int32_t neighbour;   // index of the seed N of the ring before (Appendix C, Oversampling); -1 in the first ring
+    int32_t neighbour;   // index of the seed N of the ring before (Appendix C, Oversampling); -1 in the first ring. Of the
+                         // oversampled seed: how many bytes further on than the seed before it N lies; 0 in the first ring
     uint16_t root;       // index of the root point: seeds share them
     uint8_t flags;       // SeedFlag
     uint8_t brightness;  // 0..63, of the surface at the present position

@@ -92,7 +92,7 @@ constexpr int TRAVEL_STEPS = 64;
 constexpr int WAIT_MOST = 0x3000;
 
 // Steps of travel after which it is asked again whether all that reached a patch still do.
-constexpr int RECHECK = 4 * TRAVEL_STEPS;
+constexpr int RECHECK = 6 * TRAVEL_STEPS;
 
 // Of SoftObject::Patch::reached: the bit that stands for many.
 constexpr uint32_t MANY = 1u << 31;
@@ -451,11 +451,15 @@ void Settler::activate(uint32_t reached)
     if (reached == activated_)
         return;
     activated_ = reached;
-    activeCount_ = 0;
-    uint32_t bit = 1;
-    for (int i = 0; i < nearCount_; ++i, bit <<= (bit < MANY))
-        if (reached & bit)
-            active_[activeCount_++] = &near_[i];
+    int count = 0;
+    const Near* near = near_;
+    for (uint32_t rest = reached & ~MANY; rest != 0; rest >>= 1, ++near)
+        if (rest & 1)
+            active_[count++] = near;
+    if (reached & MANY)
+        for (int i = 31; i < nearCount_; ++i)
+            active_[count++] = &near_[i];
+    activeCount_ = count;
 }
 
 void Settler::bury(SoftObject::Patch& patch)
@@ -812,16 +816,24 @@ inline void Settler::shade(Seed& s, Real position)
     s.shiftY = static_cast<int16_t>(lie.shiftY);
 }
 
-// Of a patch all seeds of which wait, and those they are paired with: until when.
+// The neighbour N of a seed.
+inline Seed& pairedWith(Seed* s, const Seed& extra)
+{
+    return *reinterpret_cast<Seed*>(reinterpret_cast<char*>(s) + extra.neighbour);
+}
+
+// Of a patch all seeds of which wait: until when they do, and those they are paired with.
 int16_t Settler::idleUntil(const SoftObject::Patch& patch) const
 {
     int32_t steps = static_cast<int16_t>(patch.due - travel_);
-    const auto wait = [&](const Seed& s) { steps = lesser(steps, static_cast<int16_t>(s.wakes - travel_)); };
-    const Seed* s = o_.seeds_ + 2 * patch.first;
-    for (int i = patch.count; i > 0; --i, s += 2) {
+    const auto wait = [&](const Seed& s) {
+        steps = s.flags & SEED_WAITS ? lesser(steps, static_cast<int16_t>(s.wakes - travel_)) : 0;
+    };
+    Seed* s = o_.seeds_ + 2 * patch.first;
+    for (int i = patch.count; i > 0 && steps > 0; --i, s += 2) {
         wait(s[0]);
-        if (s->neighbour >= 0)
-            wait(o_.seeds_[s->neighbour]);
+        if (s[1].neighbour != 0)
+            wait(pairedWith(s, s[1]));
         if (s[1].flags & SEED_ACTIVE)
             wait(s[1]);
     }
@@ -832,7 +844,6 @@ int16_t Settler::idleUntil(const SoftObject::Patch& patch) const
 template <bool PLAIN>
 void Settler::settlePatches()
 {
-    Seed* const seeds = o_.seeds_;
     SoftObject::Patch* const last = o_.patches_ + o_.patchCount_;
     for (SoftObject::Patch* p = o_.patches_; p < last; ++p) {
         SoftObject::Patch& patch = *p;
@@ -841,7 +852,7 @@ void Settler::settlePatches()
             o_.displaced_ |= before != SoftObject::PATCH_AT_REST;
             continue;
         }
-        Seed* s = seeds + 2 * patch.first;
+        Seed* s = o_.seeds_ + 2 * patch.first;
         Seed* const end = s + 2 * patch.count;
         if (before != SoftObject::PATCH_MIXED || passed(patch.due)) {
             uint32_t reached;
@@ -872,17 +883,16 @@ void Settler::settlePatches()
         activate(patch.reached);
         if (patch.stale != SoftObject::STALE_NONE)
             o_.posePatch(patch, true);
-        bool extras = false;
-        uint8_t all = SEED_WAITS;
+        bool extras = false, busy = false;
         for (; s < end; s += 2) {
-            if (!waits(s[0]))
+            if (!waits(s[0])) {
                 settleSeed<PLAIN>(s[0]);
+                busy = true;
+            }
             Seed& extra = s[1];
-            all &= s->flags;
-            if (s->neighbour < 0)
+            if (extra.neighbour == 0)
                 continue;
-            Seed& other = seeds[s->neighbour];
-            all &= other.flags;
+            Seed& other = pairedWith(s, extra);
             const uint8_t either = s->flags | other.flags;
             if ((either & (SEED_PLACED | SEED_VALID)) != (SEED_PLACED | SEED_VALID)) {
                 extra.flags = 0;
@@ -894,10 +904,11 @@ void Settler::settlePatches()
                 continue;
             }
             extras = true;
-            if (!waits(extra))
+            if (!waits(extra)) {
                 settleSeed<PLAIN>(extra);
+                busy = true;
+            }
             extra.flags |= SEED_ACTIVE;
-            all &= extra.flags;
             if (belt) {
                 // A gap may show between the one that is on the surface and the other.
                 Seed& valid = s->flags & SEED_VALID ? *s : other;
@@ -909,7 +920,7 @@ void Settler::settlePatches()
         }
         patch.extras = extras;
         o_.displaced_ = true;
-        patch.idle = all ? idleUntil(patch) : static_cast<int16_t>(travel_);
+        patch.idle = busy ? static_cast<int16_t>(travel_) : idleUntil(patch);
     }
 }
 

@@ -233,6 +233,7 @@ bool SoftObject::resample(Real spacing)
             const Seed& other = seeds[s.neighbour];
             Seed& o = seeds[2 * i + 1];
             o = s;
+            o.neighbour = static_cast<int32_t>((s.neighbour - 2 * i) * static_cast<int>(sizeof(Seed)));
             if (s.root == other.root) {
                 o.path = withLength(s.path + other.path, tapers_ ? length(s.path) : radius_);
             } else {
