@@ -10,7 +10,7 @@
 // scale may face the viewer (with KEPT only). PLACED: a neighbour reaches it
 // and its position is a place where its path leaves the surface; its normal is not its path. ACTIVE: for an
 // oversampled seed, that it takes part. KEPT: brightness and what is known of its scale hold for the present position.
-// EDGE: a seed beside it is not valid, or parted from it. WAITS: it cannot be seen, nor can that change before `due`.
+// EDGE: a seed beside it is not valid, or parted from it. WAITS: nothing happens to it before `wakes`.
 // OVER: valid, but past the border where a neighbour is stronger.
 enum SeedFlag : uint8_t {
     SEED_VALID = 1,
@@ -27,14 +27,15 @@ enum SeedFlag : uint8_t {
 struct Seed {
     Vector path;         // from root to the unblended surface: as long as the object's radius
     Real position;       // along the path; 1.0 on the unblended surface
-    int32_t neighbour;   // index of the seed N of the ring before (Appendix C, Oversampling); -1 in the first ring
+    int32_t neighbour;   // index of the seed N of the ring before (Appendix C, Oversampling); -1 in the first ring. Of the
+                         // oversampled seed: how many bytes further on than the seed before it N lies; 0 in the first ring
     Voxel voxel;         // of a KEPT seed: its scale, at the present position; its brightness always
     uint8_t flags;       // SeedFlag
     uint8_t restBrightness;
     uint16_t root;       // index of the root point: seeds share them
-    int16_t due;         // WAITS: up to which travel of the object (SoftObject); EDGE: how many seeds further on the one
-                         // beside it lies
     int16_t dirX, dirY, dirZ;    // the path's direction, unit length = 2^14
+    int16_t due;                 // EDGE: how many seeds further on the one beside it lies
+    int16_t wakes;               // WAITS: up to which travel of the object (SoftObject)
     int8_t along[3], across[3];  // half axes of the part of the surface that is its own, 1/64 spacing
 };
 

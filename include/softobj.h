@@ -27,8 +27,10 @@ constexpr int SIZE_MOST = 100;
 struct Link {
     SoftObject* object;
     Real weight;
-    Vector apart;  // from this end to the other at the last update, and the other's size then
-    Real size;
+    // For Settler: from this end to the other at the last update, and the other's size then; how far it moved for it, and how
+    // fast those seeds that wait think that it is (units an update).
+    Vector apart;
+    Real size, way, speed;
 
     bool operator==(const Link& other) const { return object == other.object; }
 };
@@ -232,7 +234,9 @@ private:
         int16_t spread;   // greatest |direction - axis|, the same scale
         int32_t across;   // middle . axis and radius in 1/32 unit
         int32_t radius32;
-        uint32_t reached; // which neighbours reached it at the last update, as a sum of their marks
+        uint32_t reached; // which of the neighbours in range reach it, by bits; the last bit stands for all from the 32nd on
+        int16_t due;      // up to which travel of the object no further one does, nor its state changes
+        int16_t idle;     // up to which travel nothing at all happens to it
         uint8_t state;    // PatchState
         bool extras;      // oversampled seeds among them take part
         uint8_t stale;    // PatchStale
@@ -313,10 +317,13 @@ private:
     const uint8_t* ramp_;
     // More than any seed waits.
     static constexpr uint16_t TRAVEL_JUMP = 0x4000;
-    // How far the things that its seeds see (neighbours, viewer) have moved against it, 1/16 unit; wraps round. And where
-    // the viewer was at the last update.
+    // How far the things that its seeds see (neighbours, viewer) have moved against it (Settler::travel()); wraps round. And
+    // where the viewer was at the last update, and how fast he is.
     uint16_t travel_;
+    bool linksChanged_;
+    uint32_t nearMark_;   // of the neighbours that were in range then, and their order
     Vector eyeApart_;
+    Real eyeSpeed_;
     Real sizeSeen_;
     // How far the viewer has moved against it from frame to frame drawn, 1/64 unit; wraps round. And how far he may
     // until seeds at rest are laid anew: a unit turns what he sees of them by less than half a degree.

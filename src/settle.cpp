@@ -17,6 +17,8 @@ constexpr Real LONGEST_STEP(0.25);   // of the position
 constexpr int LOOK_LIMIT = 8;        // then the surface is bracketed and bisected
 constexpr Real FLAT(-0.2);           // slope above which Newton's method is not trusted
 
+// No seed is looked for farther in: there its own field is more than the isovalue.
+constexpr Real PLACED_LEAST(0.95);
 // No valid seed lies farther out: there its own field is 0.013, and a neighbour that makes up the rest alone is stronger by
 // more than the overshoot.
 constexpr Real POSITION_MOST(1.85);
@@ -25,6 +27,7 @@ constexpr Real TOUCHING(0.9);
 // Where a path is looked at for the first time outside the surface, when nothing is known of it.
 const Real PROBES[] = {Real(1.15), Real(1.35), POSITION_MOST};
 const Real PROBES_BETWEEN[] = {Real(1.08), Real(1.25), Real(1.45), Real(1.6)};
+constexpr Real HINT_STEP(0.06);
 constexpr Real NEARLY(0.04);  // of the field: how near the isovalue it must have come there to be looked at in between
 // Squared distance / squared size up to which a neighbour alone fills what the own field lacks at POSITION_MOST: its
 // field is 0.477 there, which with the own 0.013 is the isovalue but for the tolerance.
@@ -47,7 +50,12 @@ struct Near {
     Real meeting;    // b below this: its field reaches the path somewhere up to POSITION_MOST
     Real burying;    // b below this: the whole stretch of the path up to POSITION_MOST lies inside the surface
     Vector fromIt16; // fromIt / 16
-    uint32_t mark;   // for SoftObject::Patch::reached
+    // Steps of travel that seeds wait: for a difference of 1 in squared distance / squared size on this side of where its
+    // field ends, and of where it buries; for a difference of 1 in the field; for a facing of 1/32 unit (16 bits of fraction).
+    Real waitApart, waitBuried, waitField;
+    // See Settler::facesAway().
+    Real halfSquare, awayLimit, waitAway;
+    int32_t waitFacing;
 };
 
 // b of a path, see Near.
@@ -61,10 +69,50 @@ inline Real alongPath(const Near& near, const Vector& path)
 #endif
 }
 
-// How long seeds wait (travel()): units of travel for a field difference of 1 in sizes, for a facing of 1 in radii.
-constexpr Real WAIT_FIELD(0.3);
-constexpr Real WAIT_FACING(1.0);
-constexpr Real WAIT_APART(0.45);  // and for a difference of 1 in squared distance / squared size
+// How long seeds wait, as a way that a neighbour goes: for a difference of 1 in squared distance / squared size on this side
+// of where its field ends, and of where it buries, and for a field difference of 1, in its sizes; for a facing of 1, in
+// radii. The first two are what the distance allows.
+constexpr Real WAIT_APART(0.45);
+constexpr Real WAIT_BURIED(0.95);
+constexpr Real WAIT_FIELD(0.4);
+constexpr Real WAIT_FACING(1.2);
+
+// Of the distance to the eye a unit of its way at most changes by how far a path points away, and so does the way itself.
+constexpr Real WAIT_AWAY(1 / 1.8);
+
+// What is known of directions to the eye is uncertain by so many units. The most of them, and the most steps for one, that
+// are waited for.
+constexpr Real AWAY_DOUBT(0.3);
+constexpr int AWAY_MOST = 24;
+constexpr int AWAY_STEPS = 500;
+
+// Travel is counted in steps, this many for an update in which all moves as fast as is assumed. No seed waits longer than
+// WAIT_MOST of them.
+constexpr int TRAVEL_STEPS = 64;
+constexpr int WAIT_MOST = 0x3000;
+
+// Steps of travel after which it is asked again whether all that reached a patch still do.
+constexpr int RECHECK = 6 * TRAVEL_STEPS;
+
+// Of SoftObject::Patch::reached: the bit that stands for many.
+constexpr uint32_t MANY = 1u << 31;
+
+// Assumed speeds, units an update: never less than this; given up when all is so many times as fast, or as slow.
+constexpr Real SPEED_LEAST(1.0 / 64);
+constexpr Real SPEED_CHANGE(3);
+
+// The length of a vector, or up to a hundredth more.
+inline Real nearLength(const Vector& v)
+{
+#if FB_REAL == FB_FIXED
+    const Normal n = normalise(v);
+    const Vector along{Real::fromRaw(n.x * 4), Real::fromRaw(n.y * 4), Real::fromRaw(n.z * 4)};
+    const Real l = dot(v, along);
+    return l + shiftDown(l, 7);
+#else
+    return length(v);
+#endif
+}
 
 constexpr int32_t OVER_BACK = 128;  // 1/256 unit: how far a seed beyond the border is set back
 
@@ -88,13 +136,17 @@ public:
     void settle();
 
 private:
-    enum Reach { UNREACHED, REACHED, BURIED };
-    Reach reachOf(const SoftObject::Patch& patch, uint32_t& reached);
+    int32_t facesAway(int32_t along) const;
+    bool passed(int16_t due) const { return static_cast<int16_t>(due - travel_) <= 0; }
+    int16_t later(int32_t steps) const { return static_cast<int16_t>(travel_ + steps); }
+    SoftObject::PatchState reachOf(SoftObject::Patch& patch, uint32_t& reached) const;
+    void activate(uint32_t reached);
+    int16_t idleUntil(const SoftObject::Patch& patch) const;
     void rest(SoftObject::Patch& patch);
     void bury(SoftObject::Patch& patch);
     bool waits(const Seed& s) const
     {
-        return (s.flags & SEED_WAITS) && static_cast<int16_t>(s.due - travel_) > 0;
+        return (s.flags & SEED_WAITS) && !passed(s.wakes);
     }
     template <bool PLAIN>
     void settlePatches();
@@ -105,7 +157,10 @@ private:
     template <bool PLAIN>
     bool newton(Real& position, Real field, Real slope);
     void travel();
-    void wait(Seed& s, uint8_t flags, Real units);
+    void wait(Seed& s, uint8_t flags, int32_t steps) const;
+    void wait(Seed& s, uint8_t flags, Real difference, Real steps) const;
+    Real waitField() const;
+    int32_t waitFacing() const;
     void lookFrom(const Seed& s);
     void restTapered(Seed& s);
     template <bool PLAIN>
@@ -113,45 +168,75 @@ private:
     template <bool PLAIN>
     void shade(Seed& s, Real position);
     void addNear(const Link& link);
+    void knowNear();
 
     SoftObject& o_;
     const Look& look_;
-    Near near_[NEAR_MOST];
-    int nearCount_ = 0;
+    // One object is settled at a time. At fixed addresses all this needs no register to find it.
+    static inline Near near_[NEAR_MOST];
+    static inline int nearCount_;
 
     // Of the patch at hand, and of those the ones that reach the seed at hand.
-    const Near* active_[NEAR_MOST];
-    int activeCount_ = 0;
-    const Near* touch_[NEAR_MOST];
-    int touchCount_ = 0;
-    int rootIndex_ = -1;
-    Vector path_;                    // not in the plain case, where the root is the centre
-    Point root_;
-    Skew skew_;
-    Real b_[NEAR_MOST];
-    Real ownSlope_;                  // of the last look
-    Real slopes_[NEAR_MOST];         // dF/dt of each active neighbour, weight not included
-    Vector from_[NEAR_MOST];         // not quick ones: from the nearest point of the core, / 16
-    Real strength_;                  // by how much the strongest neighbour is stronger than the overshoot allows
-    Real buried_;                    // least excess of the field where bracket() looked in vain
-    Real overshoot_;
-    uint32_t looks_ = 0;
-    uint16_t travel_ = 0;
-    Real waiting_, waitingApart_;    // units of travel for a difference of 1 in the field, in squared distance
-    int32_t facingWait_;             // 1/16 unit of travel for a facing of 1/32 unit, 16 bits of fraction
-    Real parting_;                   // difference of positions that activates the seed between
-    EyeSide eye_;
-    Real horizon_;                   // of the object in general
-    int32_t setBack_;                // 2^31 / radius
-    ShadeSetup shadeSetup_;
+    static inline const Near* active_[NEAR_MOST];
+    static inline int activeCount_;
+    static inline uint32_t activated_;  // as Patch::reached
+    static inline const Near* touch_[NEAR_MOST];
+    static inline int touchCount_;
+    static inline int rootIndex_;
+    static inline Vector path_;  // not in the plain case, where the root is the centre
+    static inline Point root_;
+    static inline Skew skew_;
+    static inline Real b_[NEAR_MOST];
+    static inline Real ownSlope_;  // of the last look
+    static inline Real slopes_[NEAR_MOST];  // dF/dt of each active neighbour, weight not included
+    static inline Vector from_[NEAR_MOST];  // not quick ones: from the nearest point of the core, / 16
+    static inline Real strength_;  // by how much the strongest neighbour is stronger than the overshoot allows
+    static inline Real buried_;  // least excess of the field where bracket() looked in vain
+    static inline Real overshoot_;
+    static inline uint32_t looks_;
+    static inline uint16_t travel_;
+    static inline bool woken_;  // by a jump of it
+    static inline int32_t waitAway_;  // steps of travel for 1/32 unit of EyeSide::away(), 16 bits of fraction
+    static inline Vector toEye_;  // unit length, from the centre
+    static inline Real distance_;  // to the centre
+    static inline Real awayShare_, awayOwn_, awayEdge_, waitAlong_;  // see facesAway()
+    static inline Real parting_;  // difference of positions that activates the seed between
+    static inline EyeSide eye_;
+    static inline Real horizon_;  // of the object in general
+    static inline int32_t setBack_;  // 2^31 / radius
+    static inline ShadeSetup shadeSetup_;
 };
+
+inline int32_t lesser(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+// Steps of travel to wait for a difference when there are `wait` for 1; for those larger than `most` no more.
+inline int32_t stepsOf(Real difference, Real most, Real wait)
+{
+    return floorToInt(least(difference, most) * wait);
+}
+inline int32_t stepsOf(Real difference, Real wait)
+{
+    return stepsOf(difference, Real(1), wait);
+}
+
+// Steps of travel while something of this speed goes so far.
+inline Real waitSteps(Real units, Real speed)
+{
+    return least(units / speed, Real(WAIT_MOST / TRAVEL_STEPS)) * Real(TRAVEL_STEPS);
+}
 
 void Settler::addNear(const Link& link)
 {
     const SoftObject& other = *link.object;
     Near& n = near_[nearCount_++];
     n.object = &other;
-    n.mark = static_cast<uint32_t>(other.number()) * 0x9e3779b1u | 1;
+    n.waitField = waitSteps(other.size() * WAIT_FIELD, link.speed);
+    n.waitFacing = mulDiv(rawFromReal(waitSteps(o_.radius() * WAIT_FACING, link.speed)), 1, eye_.distance32());
+    n.waitApart = waitSteps(other.size() * WAIT_APART, link.speed);
+    n.waitBuried = waitSteps(other.size() * WAIT_BURIED, link.speed);
     n.weight = link.weight;
     n.plain = link.weight == Real(1);
     n.fromIt = o_.centre() - other.centre();
@@ -185,24 +270,59 @@ void Settler::addNear(const Link& link)
     if (!n.plain && n.weight < Real(1))
         n.burying = -n.a0 - n.c0;  // too weak to bury alone
     n.quick = true;
+
+    n.halfSquare = shiftDown(PLACED_LEAST * n.reach * (n.reach / distance_), 1);
+    n.awayLimit = awayOwn_ - dot(n.fromIt, toEye_) - AWAY_DOUBT;
+    const Real reach = absolute(n.fromIt.x) + absolute(n.fromIt.y) + absolute(n.fromIt.z) + o_.radius();
+    n.waitAway = least(waitSteps(Real(1), link.speed + o_.eyeSpeed_ * (reach / distance_)), Real(AWAY_STEPS));
+}
+
+// Where others are in range than before, or one along whose motion nobody can wait, nobody does.
+void Settler::knowNear()
+{
+    uint32_t mark = static_cast<uint32_t>(nearCount_);
+    bool quick = true;
+    for (int i = 0; i < nearCount_; ++i) {
+        mark = mark * 0x9e3779b1u + static_cast<uint32_t>(near_[i].object->number());
+        quick = quick && near_[i].quick;
+    }
+    if (mark == o_.nearMark_ && quick)
+        return;
+    o_.nearMark_ = mark;
+    if (!woken_)
+        o_.travel_ = static_cast<uint16_t>(o_.travel_ + SoftObject::TRAVEL_JUMP);
+    travel_ = o_.travel_;
 }
 
 void Settler::settle()
 {
+    nearCount_ = 0;
+    activeCount_ = 0;
+    activated_ = 0;
+    rootIndex_ = -1;
+    looks_ = 0;
+    eye_.set(look_.eye - o_.centre_, o_.radius_, o_.coreReach());
+    horizon_ = o_.horizonRadius(look_.eye);
+    eye_.horizon(horizon_);
+    travel();
+    distance_ = realFromRaw(eye_.distance32() << 11);
+    const Normal toEye = normalise(look_.eye - o_.centre_);
+    toEye_ = {realFromRaw(toEye.x * 4), realFromRaw(toEye.y * 4), realFromRaw(toEye.z * 4)};
+    awayShare_ = PLACED_LEAST * (o_.radius() / distance_);
+    awayOwn_ = PLACED_LEAST * awayShare_ * o_.radius();
+    awayEdge_ = PLACED_LEAST * o_.radius() - AWAY_DOUBT;
+    waitAlong_ = least(waitSteps(Real(1), o_.eyeSpeed_), Real(AWAY_STEPS));
     Link links[NEAR_MOST];
     const int count = o_.findNear(links);
     for (int i = 0; i < count; ++i)
         addNear(links[i]);
+    knowNear();
 
     o_.displaced_ = false;
     // A seed stays valid a way past the border where a neighbour becomes stronger: as a distance, about one spacing and
     // a half. The fields of the two change by about 3 / size a unit there.
     overshoot_ = least(Real(1.2) * o_.spacing_ / o_.size_, Real(0.7));
     parting_ = Real(1.0) * o_.spacing_ / o_.radius_;
-    eye_.set(look_.eye - o_.centre_, o_.radius_, o_.coreReach());
-    horizon_ = o_.horizonRadius(look_.eye);
-    eye_.horizon(horizon_);
-    travel();
     skew_.root(o_.centre_ - look_.eye, o_.radius_ * POSITION_MOST);
     setBack_ = mulDiv(1 << 30, 1 << 17, rawFromReal(most(o_.radius_, Real(2))));
     shadeSetup_.set(look_.light, o_.spacing_);
@@ -217,71 +337,133 @@ void Settler::settle()
     look_.counts->iterations += looks_;
 }
 
-// Adds up how far neighbours and viewer have moved against the object since its last update, and finds how long seeds may
-// wait: a field changes by at most about 2 / size a unit, a normal turns by about 1 / radius.
+// Adds up how far neighbours and viewer have moved against the object since its last update. One sum must do for all of
+// them, so each has a speed that seeds which wait for it have reckoned with, and the sum grows by how much the fastest of
+// them, measured by that, has moved. The speeds follow slowly what is seen; downwards does not matter to who waits.
 void Settler::travel()
 {
-    const auto step = [](Vector& last, const Vector& now) {
-        const Vector d = now - last;
+    Real fastest(0), assumed(0);
+    const auto step = [&](Vector& last, const Vector& now, Real growth, Real& way, Real speed) {
+        way = nearLength(now - last) + growth;
         last = now;
-        return absolute(d.x) + absolute(d.y) + absolute(d.z);
+        assumed = most(assumed, speed);
+        fastest = most(fastest, speed > Real(0) ? least(way / speed, Real(100)) : Real(100));
     };
-    Real farthest(0), smallest = o_.size_;
     bool balls = o_.coreReach() == Real(0);
+    const Real growth = absolute(o_.size_ - o_.sizeSeen_);
+    o_.sizeSeen_ = o_.size_;
+    Real eyeWay;
+    step(o_.eyeApart_, look_.eye - o_.centre_, Real(0), eyeWay, o_.eyeSpeed_);
     for (List<Link>::Node* node = o_.skel_.first(); node != nullptr; node = node->next) {
-        const SoftObject& other = *node->item.object;
-        farthest = most(farthest, step(node->item.apart, other.centre_ - o_.centre_) +
-                                      absolute(other.size_ - node->item.size));
-        node->item.size = other.size_;
-        smallest = least(smallest, other.size_);
+        Link& link = node->item;
+        const SoftObject& other = *link.object;
+        step(link.apart, other.centre_ - o_.centre_, absolute(other.size_ - link.size) + growth, link.way, link.speed);
+        link.size = other.size_;
         balls = balls && other.coreReach() == Real(0);
     }
-    const Real eye = step(o_.eyeApart_, look_.eye - o_.centre_);
-    const Real sum = farthest + shiftDown(eye, 3) + absolute(o_.size_ - o_.sizeSeen_);
-    o_.sizeSeen_ = o_.size_;
+    const bool anew = fastest > SPEED_CHANGE || (fastest * SPEED_CHANGE < Real(1) && assumed > SPEED_LEAST);
+    const auto settleSpeed = [&](Real& speed, Real way) {
+        if (anew)
+            speed = way;
+        else if (fastest > Real(1.0625))
+            speed += shiftDown(speed, 6);
+        else if (way < speed * fastest)
+            speed -= shiftDown(speed, 5);
+        speed = most(speed, SPEED_LEAST);
+    };
+    settleSpeed(o_.eyeSpeed_, eyeWay);
+    for (List<Link>::Node* node = o_.skel_.first(); node != nullptr; node = node->next)
+        settleSpeed(node->item.speed, node->item.way);
     // Where a turn may matter seeds are looked at every time.
-    const int32_t steps = (rawFromReal(least(sum, Real(1000))) >> 12) + 1;
-    o_.travel_ = static_cast<uint16_t>(o_.travel_ + (balls && steps < SoftObject::TRAVEL_JUMP ? steps : SoftObject::TRAVEL_JUMP));
+    woken_ = !balls || o_.linksChanged_ || anew;
+    o_.linksChanged_ = false;
+    const int32_t steps = woken_ ? SoftObject::TRAVEL_JUMP : floorToInt(fastest * Real(TRAVEL_STEPS)) + 1;
+    o_.travel_ = static_cast<uint16_t>(o_.travel_ + steps);
     travel_ = o_.travel_;
-    waiting_ = smallest * WAIT_FIELD;
-    waitingApart_ = smallest * WAIT_APART;
-    facingWait_ = mulDiv(rawFromReal(o_.radius_ * WAIT_FACING), 16, eye_.distance32());
+    waitAway_ = rawFromReal(waitSteps(WAIT_AWAY * Real(1.0 / 32), o_.eyeSpeed_));
 }
 
-// Nothing to see of this seed until things have moved by `units` (0..100).
-inline void Settler::wait(Seed& s, uint8_t flags, Real units)
+// Nothing to see of this seed until things have moved on by `steps`, 0 or more.
+inline void Settler::wait(Seed& s, uint8_t flags, int32_t steps) const
 {
     s.flags = static_cast<uint8_t>(flags | SEED_WAITS);
-    s.due = static_cast<int16_t>(travel_ + (rawFromReal(units) >> 12));
+    s.wakes = later(lesser(steps, WAIT_MOST));
 }
 
-// Which neighbours reach the patch: they become the active ones.
-Settler::Reach Settler::reachOf(const SoftObject::Patch& patch, uint32_t& reached)
+inline void Settler::wait(Seed& s, uint8_t flags, Real difference, Real steps) const
 {
-    activeCount_ = 0;
+    wait(s, flags, stepsOf(difference, steps));
+}
+
+// The least of those that reach the seed at hand.
+inline Real Settler::waitField() const
+{
+    Real steps(WAIT_MOST);
+    for (int n = 0; n < touchCount_; ++n)
+        steps = least(steps, touch_[n]->waitField);
+    return steps;
+}
+
+inline int32_t Settler::waitFacing() const
+{
+    int32_t steps = INT32_MAX;
+    for (int n = 0; n < touchCount_; ++n)
+        steps = touch_[n]->waitFacing < steps ? touch_[n]->waitFacing : steps;
+    return steps;
+}
+
+// What becomes of the patch and which neighbours reach it, and until when.
+SoftObject::PatchState Settler::reachOf(SoftObject::Patch& patch, uint32_t& reached) const
+{
     bool touched = false;
-    for (int i = 0; i < nearCount_; ++i) {
+    uint32_t bit = 1;
+    int32_t rest = WAIT_MOST, further = RECHECK;
+    reached = 0;
+    for (int i = 0; i < nearCount_; ++i, bit <<= (bit < MANY)) {
         const Near& near = near_[i];
         if (near.quick) {
             const Real b = alongPath(near, patch.middle), change = near.swing * patch.radius;
-            if (b + change < near.burying)
-                return BURIED;
-            touched |= b - change < near.touching;
-            if (b - change < near.meeting) {
-                active_[activeCount_++] = &near;
-                reached += near.mark;
+            const Real nearest = b - change;
+            if (b + change < near.burying) {
+                patch.due = later(stepsOf(near.burying - b - change, near.waitBuried));
+                return SoftObject::PATCH_BURIED;
             }
+            if (nearest < near.touching)
+                touched = true;
+            else
+                rest = lesser(rest, stepsOf(nearest - near.touching, near.waitApart));
+            if (nearest < near.meeting)
+                reached |= bit;
+            else
+                further = lesser(further, stepsOf(nearest - near.meeting, near.waitApart));
         } else {
             const Vector v = near.object->fromCore(o_.centre_ + patch.middle);
             const Real limit = near.reach + patch.radius;
             if (absolute(v.x) < limit && absolute(v.y) < limit && absolute(v.z) < limit) {
                 touched = true;
-                active_[activeCount_++] = &near;
-                reached += near.mark;
+                reached |= bit;
             }
         }
     }
-    return touched ? REACHED : UNREACHED;
+    patch.due = later(touched ? further : rest);
+    return touched ? SoftObject::PATCH_MIXED : SoftObject::PATCH_AT_REST;
+}
+
+// The neighbours that reach a patch become the active ones.
+void Settler::activate(uint32_t reached)
+{
+    if (reached == activated_)
+        return;
+    activated_ = reached;
+    int count = 0;
+    const Near* near = near_;
+    for (uint32_t rest = reached & ~MANY; rest != 0; rest >>= 1, ++near)
+        if (rest & 1)
+            active_[count++] = near;
+    if (reached & MANY)
+        for (int i = 31; i < nearCount_; ++i)
+            active_[count++] = &near_[i];
+    activeCount_ = count;
 }
 
 void Settler::bury(SoftObject::Patch& patch)
@@ -373,7 +555,7 @@ inline bool Settler::newton(Real& position, Real field, Real slope)
             return false;
         const Real step = clamp(quotient(ISOVALUE - field, slope), -LONGEST_STEP, LONGEST_STEP);
         position += step;
-        if (position < Real(0.95) || position > POSITION_MOST)
+        if (position < PLACED_LEAST || position > POSITION_MOST)
             return false;
         if (absolute(step) <= SHORT_STEP)
             return true;
@@ -384,7 +566,8 @@ inline bool Settler::newton(Real& position, Real field, Real slope)
 }
 
 // From nothing: where the path leaves the surface before POSITION_MOST. Inside at 1, where the own field alone is the
-// isovalue. False: it does not leave.
+// isovalue. False: it does not leave; `position` is then where it came nearest to it, and if it is not 1 before the call that
+// place alone is looked at first.
 template <bool PLAIN>
 bool Settler::bracket(Real& position)
 {
@@ -399,11 +582,21 @@ bool Settler::bracket(Real& position)
                 outside = *probe;
                 return true;
             }
-            buried_ = least(buried_, excess);
+            if (excess < buried_) {
+                buried_ = excess;
+                position = *probe;
+            }
             inside = *probe;
         }
         return false;
     };
+    if (position != Real(1)) {
+        buried_ = lookAt<PLAIN>(position, slope) - ISOVALUE;
+        if (buried_ > NEARLY && stepsOf(buried_, waitField()) > TRAVEL_STEPS / 2) {
+            position = clamp(slope < Real(0) ? position + HINT_STEP : position - HINT_STEP, PROBES[0], POSITION_MOST);
+            return false;
+        }
+    }
     buried_ = Real(1);
     // Where it nearly left it may have between the places looked at, and gone into something else.
     if (!leaves(PROBES, 3) && !(buried_ < NEARLY && leaves(PROBES_BETWEEN, 4)))
@@ -451,6 +644,37 @@ void Settler::restTapered(Seed& s)
     shade<false>(s, Real(1));
 }
 
+// Whether the seed at hand faces away wherever on its path it may lie, and whoever owns the surface there; if so, steps of
+// travel that it stays like that, else -1. `along`: EyeSide::along().
+//
+// The gradient is a sum of vectors away from the centres of all fields that reach the place p. When each of them points away
+// from the eye, it does. With e the unit vector to the eye, D its distance, c a centre, r the radius, that is for the own
+// field r cos(path, e) < position r, and for the others (p - c).(e D - position path) < 0, or
+// (centre - c).e + position (path.e - path.(centre - c) / D) - position^2 r^2 / D < 0, where path.(centre - c) is
+// b size^2 / 2. The middle term is at most what it is at PLACED_LEAST, or if it grows what it is at POSITION_MOST.
+inline int32_t Settler::facesAway(int32_t along) const
+{
+    const Real across = realFromRaw(along >> 14 << 11);  // units
+    const Real own = awayEdge_ - across;
+    if (own <= Real(0))
+        return -1;
+    int32_t wait = stepsOf(own, Real(AWAY_MOST), waitAlong_);
+    const Real share = across * awayShare_;
+    for (int n = 0; n < touchCount_; ++n) {
+        const Near& near = *touch_[n];
+        if (!near.quick)
+            return -1;
+        Real term = share - b_[n] * near.halfSquare;
+        if (term > Real(0))
+            term += term;  // POSITION_MOST / PLACED_LEAST, rounded up
+        const Real beyond = near.awayLimit - term;
+        if (beyond <= Real(0))
+            return -1;
+        wait = lesser(wait, stepsOf(beyond, Real(AWAY_MOST), near.waitAway));
+    }
+    return wait;
+}
+
 template <bool PLAIN>
 void Settler::settleSeed(Seed& s)
 {
@@ -463,7 +687,7 @@ void Settler::settleSeed(Seed& s)
     // Which neighbours are near enough to matter, or one so near that the seed lies inside anyway?
     int touching = 0;
     bool touched = false;
-    Real apart(1);
+    int32_t wait = WAIT_MOST;
     for (int n = 0; n < activeCount_; ++n) {
         const Near& near = *active_[n];
         if (PLAIN || near.quick) {
@@ -473,12 +697,12 @@ void Settler::settleSeed(Seed& s)
                 if (b < near.burying) {
                     s.position = Real(1);
                     o_.displaced_ = true;
-                    wait(s, 0, (near.burying - b) * waitingApart_);
+                    this->wait(s, 0, near.burying - b, near.waitBuried);
                     return;
                 }
                 touched = true;
             } else {
-                apart = least(apart, beyond);
+                wait = lesser(wait, stepsOf(beyond, near.waitApart));
             }
             if (b < near.meeting) {
                 b_[touching] = b;
@@ -500,16 +724,25 @@ void Settler::settleSeed(Seed& s)
         }
         s.position = Real(1);
         // One that was at rest before lies as it did.
-        wait(s, s.flags & SEED_PLACED ? SEED_VALID : SEED_VALID | (s.flags & (SEED_KEPT | SEED_FRONT)), apart * waitingApart_);
+        this->wait(s, s.flags & SEED_PLACED ? SEED_VALID : SEED_VALID | (s.flags & (SEED_KEPT | SEED_FRONT)), wait);
         s.voxel.brightness = s.restBrightness;
         return;
     }
     if (!PLAIN)
         lookFrom(s);
-    const int32_t away = eye_.away(eye_.along(s));
+    const int32_t along = eye_.along(s);
+    if (PLAIN || o_.isBall()) {
+        const int32_t away = facesAway(along);
+        if (away >= 0) {
+            // What it is held for does not matter, nor where; should it come round again it is looked for from there.
+            this->wait(s, static_cast<uint8_t>(s.flags & (SEED_VALID | SEED_PLACED)), away);
+            o_.displaced_ = true;
+            return;
+        }
+    }
+    const int32_t away = eye_.away(along);
     if (away > 0) {
-        s.flags = SEED_WAITS;
-        s.due = static_cast<int16_t>(travel_ + (away * facingWait_ >> 16));
+        this->wait(s, 0, mulShift16(away, waitAway_));
         return;
     }
     ++look_.counts->updated;
@@ -522,16 +755,18 @@ void Settler::settleSeed(Seed& s)
         if ((s.flags & SEED_KEPT) && strength_ <= Real(0) && absolute(field - ISOVALUE) <= DISPLACEMENT)
             return;  // where it was, and what is known of it holds
         settled = newton<PLAIN>(position, field, slope);
+        if (!settled)
+            position = Real(1);
     }
     if (!settled && !bracket<PLAIN>(position)) {
         // Inside everywhere: buried by this much of the field at least.
-        s.position = Real(1);
-        wait(s, 0, buried_ * waiting_);
+        s.position = position;
+        this->wait(s, 0, buried_, waitField());
         return;
     }
     s.position = position;
     if (strength_ > Real(0)) {
-        wait(s, SEED_PLACED, strength_ * waiting_);
+        this->wait(s, SEED_PLACED, strength_, waitField());
         return;
     }
     shade<PLAIN>(s, position);
@@ -565,8 +800,7 @@ inline void Settler::shade(Seed& s, Real position)
     const int32_t cosine = (normal.x * s.dirX + normal.y * s.dirY + normal.z * s.dirZ) >> 14;
     const int32_t facing = eye_.facing(normal, cosine, position);
     if (!eye_.faces(facing)) {
-        s.flags = SEED_VALID | SEED_PLACED | SEED_WAITS;
-        s.due = static_cast<int16_t>(travel_ + (-facing * facingWait_ >> 16));
+        wait(s, SEED_VALID | SEED_PLACED, mulShift16(-facing, waitFacing()));
         return;
     }
     ++look_.counts->normals;
@@ -591,51 +825,87 @@ inline void Settler::shade(Seed& s, Real position)
     s.voxel.z = (rawFromReal(place.z) >> 8) + back;
 }
 
+// The neighbour N of a seed.
+inline Seed& pairedWith(Seed* s, const Seed& extra)
+{
+    return *reinterpret_cast<Seed*>(reinterpret_cast<char*>(s) + extra.neighbour);
+}
+
+// Of a patch all seeds of which wait: until when they do, and those they are paired with.
+int16_t Settler::idleUntil(const SoftObject::Patch& patch) const
+{
+    int32_t steps = static_cast<int16_t>(patch.due - travel_);
+    const auto wait = [&](const Seed& s) {
+        steps = s.flags & SEED_WAITS ? lesser(steps, static_cast<int16_t>(s.wakes - travel_)) : 0;
+    };
+    Seed* s = o_.seeds_ + 2 * patch.first;
+    for (int i = patch.count; i > 0 && steps > 0; --i, s += 2) {
+        wait(s[0]);
+        if (s[1].neighbour != 0)
+            wait(pairedWith(s, s[1]));
+        if (s[1].flags & SEED_ACTIVE)
+            wait(s[1]);
+    }
+    return later(steps);
+}
+
 // All patches of the object, seed by seed where a neighbour reaches them.
 template <bool PLAIN>
 void Settler::settlePatches()
 {
-    Seed* const seeds = o_.seeds_;
-    for (int p = 0; p < o_.patchCount_; ++p) {
-        SoftObject::Patch& patch = o_.patches_[p];
-        uint32_t reached = 0;
-        const Reach reach = reachOf(patch, reached);
-        if (reach == UNREACHED) {
-            if (patch.state != SoftObject::PATCH_AT_REST)
-                rest(patch);
+    SoftObject::Patch* const last = o_.patches_ + o_.patchCount_;
+    for (SoftObject::Patch* p = o_.patches_; p < last; ++p) {
+        SoftObject::Patch& patch = *p;
+        const uint8_t before = patch.state;
+        if (before != SoftObject::PATCH_UNKNOWN && !passed(patch.idle)) {
+            o_.displaced_ |= before != SoftObject::PATCH_AT_REST;
             continue;
         }
-        if (reach == BURIED) {
+        Seed* s = o_.seeds_ + 2 * patch.first;
+        Seed* const end = s + 2 * patch.count;
+        if (before != SoftObject::PATCH_MIXED || passed(patch.due)) {
+            uint32_t reached;
+            const SoftObject::PatchState state = reachOf(patch, reached);
+            patch.idle = patch.due;
+            if (state == SoftObject::PATCH_AT_REST) {
+                if (before != SoftObject::PATCH_AT_REST)
+                    rest(patch);
+                continue;
+            }
             o_.displaced_ = true;
-            if (patch.state != SoftObject::PATCH_BURIED)
-                bury(patch);
-            continue;
+            if (state == SoftObject::PATCH_BURIED) {
+                if (before != SoftObject::PATCH_BURIED)
+                    bury(patch);
+                continue;
+            }
+            if (reached & (~patch.reached | MANY)) {
+                // One that they do not know of came near: those that may be seen wait no longer.
+                for (Seed* each = s; each < end; ++each)
+                    if (each->flags & SEED_VALID)
+                        each->flags = static_cast<uint8_t>(each->flags & ~SEED_WAITS);
+            }
+            patch.reached = reached;
+            if (!PLAIN && o_.tapers_ && before != SoftObject::PATCH_MIXED)
+                patch.stale = SoftObject::STALE_ALL;  // from normals to paths
+            patch.state = SoftObject::PATCH_MIXED;
         }
-        if (!PLAIN && o_.tapers_ && patch.state != SoftObject::PATCH_MIXED)
-            patch.stale = SoftObject::STALE_ALL;  // from normals to paths
-        if (patch.state != SoftObject::PATCH_MIXED)
+        if (before != SoftObject::PATCH_MIXED)
             patch.laid = o_.drift_;
-        patch.state = SoftObject::PATCH_MIXED;
+        activate(patch.reached);
         if (patch.stale != SoftObject::STALE_NONE)
             o_.posePatch(patch, true);
-        Seed* s = seeds + 2 * patch.first;
-        Seed* const end = s + 2 * patch.count;
-        if (patch.reached != reached) {
-            // One that it does not know of came near: nobody waits any longer.
-            patch.reached = reached;
-            for (Seed* each = s; each < end; ++each)
-                each->flags = static_cast<uint8_t>(each->flags & ~SEED_WAITS);
-        }
-        bool extras = false;
+        bool extras = false, busy = false;
         for (; s < end; s += 2) {
-            if (!waits(s[0]))
+            if (!waits(s[0])) {
                 settleSeed<PLAIN>(s[0]);
+                busy = true;
+            }
             Seed& extra = s[1];
-            if (s->neighbour < 0)
+            if (extra.neighbour == 0)
                 continue;
-            Seed& other = seeds[s->neighbour];
+            Seed& other = pairedWith(s, extra);
             const uint8_t either = s->flags | other.flags;
-            if (!(either & SEED_PLACED) || !(either & SEED_VALID)) {
+            if ((either & (SEED_PLACED | SEED_VALID)) != (SEED_PLACED | SEED_VALID)) {
                 extra.flags = 0;
                 continue;
             }
@@ -645,8 +915,10 @@ void Settler::settlePatches()
                 continue;
             }
             extras = true;
-            if (!waits(extra))
+            if (!waits(extra)) {
                 settleSeed<PLAIN>(extra);
+                busy = true;
+            }
             extra.flags |= SEED_ACTIVE;
             if (belt) {
                 // A gap may show between the one that is on the surface and the other.
@@ -658,6 +930,8 @@ void Settler::settlePatches()
             }
         }
         patch.extras = extras;
+        o_.displaced_ = true;
+        patch.idle = busy ? static_cast<int16_t>(travel_) : idleUntil(patch);
     }
 }
 

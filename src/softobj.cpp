@@ -122,8 +122,8 @@ SoftObject::SoftObject(int number, Real size, bool tapers)
     : number_(number), centre_{Real(0), Real(0), Real(0)}, turn_(Matrix::identity()), size_(size),
       radius_(shiftDown(size, 1)), inverse_(Real(16) / size), recalc_(true), tapers_(tapers), displaced_(false),
       restStale_(false), spacing_(2), wanted_(2), laidSize_(size), stale_(false),
-      light_{Real(0), Real(0), Real(0)}, ramp_(nullptr), travel_(0), eyeApart_{Real(0), Real(0), Real(0)}, sizeSeen_(size), drift_(0),
-      eyeDrawn_{Real(0), Real(0), Real(0)},
+      light_{Real(0), Real(0), Real(0)}, ramp_(nullptr), travel_(0), linksChanged_(true), nearMark_(0),
+      eyeApart_{Real(0), Real(0), Real(0)}, eyeSpeed_(0), sizeSeen_(size), drift_(0), eyeDrawn_{Real(0), Real(0), Real(0)},
       seeds_(nullptr), regular_(0), extra_(0), roots_(nullptr), rootRest_(nullptr), rootCount_(0), rest_(nullptr),
       patchRest_(nullptr), patches_(nullptr), patchCount_(0), kept_(nullptr)
 {
@@ -233,6 +233,7 @@ bool SoftObject::resample(Real spacing)
             const Seed& other = seeds[s.neighbour];
             Seed& o = seeds[2 * i + 1];
             o = s;
+            o.neighbour = static_cast<int32_t>((s.neighbour - 2 * i) * static_cast<int>(sizeof(Seed)));
             if (s.root == other.root) {
                 o.path = withLength(s.path + other.path, tapers_ ? length(s.path) : radius_);
             } else {
@@ -659,15 +660,15 @@ bool SoftObject::inRange(const SoftObject& other) const
 void SoftObject::linkChanged()
 {
     recalc_ = true;
-    travel_ = static_cast<uint16_t>(travel_ + TRAVEL_JUMP);
+    linksChanged_ = true;
 }
 
 bool SoftObject::link(SoftObject* other, Real weight)
 {
-    Link* there = skel_.find({other, Real(0), {}, {}});
+    Link* there = skel_.find({other, Real(0), {}, {}, {}, {}});
     if (there != nullptr)
         there->weight = weight;
-    else if (!skel_.append({other, weight, {}, {}}))
+    else if (!skel_.append({other, weight, {}, {}, {}, {}}))
         return false;
     linkChanged();
     return true;
@@ -675,7 +676,7 @@ bool SoftObject::link(SoftObject* other, Real weight)
 
 void SoftObject::unlink(SoftObject* other)
 {
-    if (skel_.remove({other, Real(0), {}, {}}))
+    if (skel_.remove({other, Real(0), {}, {}, {}, {}}))
         linkChanged();
 }
 
