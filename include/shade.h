@@ -236,8 +236,8 @@ public:
     // sideways.
     void restExtents(Seed& s, int32_t skewX, int32_t skewY) const
     {
-        s.voxel.wide = extent(s.along[0] * 256 - s.along[2] * skewX, s.across[0] * 256 - s.across[2] * skewX, spacing_);
-        s.voxel.high = extent(s.along[1] * 256 - s.along[2] * skewY, s.across[1] * 256 - s.across[2] * skewY, spacing_);
+        setExtents(s, s.along[0] * 256 - s.along[2] * skewX, s.along[1] * 256 - s.along[2] * skewY,
+                   s.across[0] * 256 - s.across[2] * skewX, s.across[1] * 256 - s.across[2] * skewY, spacing_);
     }
 
     // The same of a deformed seed: the cell of the unblended surface that is its own, grown with the position, as it falls
@@ -253,21 +253,32 @@ public:
         const int32_t along = ((s.along[0] * n.x + s.along[1] * n.y + s.along[2] * n.z) >> 8) * inverse >> 10;
         const int32_t across = ((s.across[0] * n.x + s.across[1] * n.y + s.across[2] * n.z) >> 8) * inverse >> 10;
         const int32_t alongZ = s.along[2] - (s.dirZ * along >> 22), acrossZ = s.across[2] - (s.dirZ * across >> 22);
-        s.voxel.wide = extent(s.along[0] * 256 - (s.dirX * along >> 14) - alongZ * skewX,
-                        s.across[0] * 256 - (s.dirX * across >> 14) - acrossZ * skewX, size);
-        s.voxel.high = extent(s.along[1] * 256 - (s.dirY * along >> 14) - alongZ * skewY,
-                        s.across[1] * 256 - (s.dirY * across >> 14) - acrossZ * skewY, size);
+        setExtents(s, s.along[0] * 256 - (s.dirX * along >> 14) - alongZ * skewX,
+                   s.along[1] * 256 - (s.dirY * along >> 14) - alongZ * skewY,
+                   s.across[0] * 256 - (s.dirX * across >> 14) - acrossZ * skewX,
+                   s.across[1] * 256 - (s.dirY * across >> 14) - acrossZ * skewY, size);
     }
 
 private:
-    static int16_t extent(int32_t a, int32_t b, int32_t size)
+    // The half axes of a cell as they fall on the picture. Beside each other, cells of a ring make a band along `along`:
+    // rectangles as wide as the way from one to the next need not cover the whole of their cells, only, together, the band.
+    static void setExtents(Seed& s, int32_t alongX, int32_t alongY, int32_t acrossX, int32_t acrossY, int32_t size)
     {
-        const int32_t sum = (a < 0 ? -a : a) + (b < 0 ? -b : b) + MARGIN;
-        return static_cast<int16_t>((sum * size >> 14) + MARGIN_UNITS);
+        const int32_t ax = alongX < 0 ? -alongX : alongX, ay = alongY < 0 ? -alongY : alongY;
+        int32_t wide = ax, high = ay;
+        if (ax > ay) {
+            const int32_t c = acrossY - acrossX * (alongY * 64 / alongX) / 64;
+            high += c < 0 ? -c : c;
+        } else if (ay > 0) {
+            const int32_t c = acrossX - acrossY * (alongX * 64 / alongY) / 64;
+            wide += c < 0 ? -c : c;
+        }
+        s.voxel.wide = static_cast<int16_t>(((wide + MARGIN) * size >> 14) + MARGIN_UNITS);
+        s.voxel.high = static_cast<int16_t>(((high + MARGIN) * size >> 14) + MARGIN_UNITS);
     }
 
-    static constexpr int32_t MARGIN = 256 * 64 / 36;    // a part of the spacing, as of `sum`
-    static constexpr int32_t MARGIN_UNITS = 6;           // and what places of seeds are uncertain by, 1/256 unit
+    static constexpr int32_t MARGIN = 256 * 64 / 16;    // a part of the spacing, as of `sum`
+    static constexpr int32_t MARGIN_UNITS = 10;           // and what places of seeds are uncertain by, 1/256 unit
 
     int32_t x_, y_, z_, spacing_;
 };
