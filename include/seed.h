@@ -7,20 +7,18 @@
 #include "voxel.h"
 
 // What is known of a seed. VALID: it settled on the surface, in a region that belongs to its own object. FRONT: its
-// scale may face the viewer (with KEPT only). PLACED: a neighbour reaches it
-// and its position is a place where its path leaves the surface; its normal is not its path. ACTIVE: for an
-// oversampled seed, that it takes part. KEPT: brightness and what is known of its scale hold for the present position.
-// EDGE: a seed beside it is not valid, or parted from it. WAITS: nothing happens to it before `wakes`.
-// OVER: valid, but past the border where a neighbour is stronger.
+// scale may face the viewer; with the default method only if it is VALID, so that this bit alone tells what to draw.
+// PLACED: a neighbour reaches it and its position is a place where its path leaves the surface; its normal is not its
+// path. ACTIVE: for an oversampled seed, that it takes part. KEPT: brightness and what is known of its scale hold for the
+// present position. EDGE: a seed beside it is not valid, or parted from it. WAITS: nothing happens to it before `wakes`.
 enum SeedFlag : uint8_t {
     SEED_VALID = 1,
-    SEED_FRONT = 2,
-    SEED_PLACED = 4,
-    SEED_ACTIVE = 8,
-    SEED_KEPT = 16,
-    SEED_EDGE = 32,
-    SEED_WAITS = 64,
-    SEED_OVER = 128,
+    SEED_PLACED = 2,
+    SEED_ACTIVE = 4,
+    SEED_KEPT = 8,
+    SEED_EDGE = 16,
+    SEED_WAITS = 32,
+    SEED_FRONT = 128,  // the sign: the quickest bit to ask for
 };
 
 // seed = root + position * path. All lengths in units, 16.16 unless said otherwise.

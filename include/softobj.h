@@ -291,7 +291,7 @@ private:
     void drawPrinted(const Look& look, VoxelList& list, int room, int* next);
     void updateQuick(const Look& look);
     void drawQuick(const Look& look, VoxelList& list, int room, int* next);
-    static void layAtRest(Seed& s, const Vector& root, const EyeSide& eye, const Skew& skew,
+    static bool layAtRest(Seed& s, const Vector& root, const EyeSide& eye, const Skew& skew,
                           const ShadeSetup& shadeSetup);
     void freeSeeds();
 

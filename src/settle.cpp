@@ -481,7 +481,7 @@ void Settler::rest(SoftObject::Patch& patch)
     Seed* s = o_.seeds_ + 2 * patch.first;
     for (int i = patch.count; i > 0; --i, s += 2) {
         s->position = Real(1);
-        s->flags = SEED_VALID;
+        s->flags = SEED_VALID | SEED_FRONT;
         s->voxel.brightness = s->restBrightness;
         s[1].flags = 0;
     }
@@ -723,8 +723,9 @@ void Settler::settleSeed(Seed& s)
             return;
         }
         s.position = Real(1);
-        // One that was at rest before lies as it did.
-        this->wait(s, s.flags & SEED_PLACED ? SEED_VALID : SEED_VALID | (s.flags & (SEED_KEPT | SEED_FRONT)), wait);
+        // One that was at rest before lies as it did; the others are to be laid.
+        const bool lies = (s.flags & (SEED_KEPT | SEED_PLACED)) == SEED_KEPT;
+        this->wait(s, lies ? SEED_VALID | SEED_KEPT | (s.flags & SEED_FRONT) : SEED_VALID | SEED_FRONT, wait);
         s.voxel.brightness = s.restBrightness;
         return;
     }
@@ -805,8 +806,6 @@ inline void Settler::shade(Seed& s, Real position)
     }
     ++look_.counts->normals;
     s.flags = SEED_VALID | SEED_PLACED | SEED_KEPT | SEED_FRONT;
-    if (strength_ + overshoot_ > Real(0))
-        s.flags |= SEED_OVER;
     s.voxel.brightness = shadeSetup_.brightness(normal);
     const Vector out = s.path * position;
     const int32_t depth = skew_.depth(out);
@@ -817,7 +816,7 @@ inline void Settler::shade(Seed& s, Real position)
     // A tangent plane lies before the surface, the more the larger the scale: set back, so that of two scales the smaller
     // one, which is nearer to its seed, wins. And beyond the border the neighbour's own seeds come first.
     int32_t back = mulHigh(s.voxel.wide * s.voxel.wide + s.voxel.high * s.voxel.high, setBack_) >> 6;
-    if (s.flags & SEED_OVER)
+    if (strength_ + overshoot_ > Real(0))
         back += OVER_BACK;
     const Vector place = PLAIN ? out : (root_ - o_.centre_) + out;
     s.voxel.x = (rawFromReal(place.x) >> 8) + shiftX;
@@ -940,14 +939,15 @@ void SoftObject::updateQuick(const Look& look)
     Settler(*this, look).settle();
 }
 
-// How a seed at rest lies in the view, for as long as the object stays about where it is.
-inline void SoftObject::layAtRest(Seed& s, const Vector& root, const EyeSide& eye, const Skew& skew, const ShadeSetup& shadeSetup)
+// How a seed at rest lies in the view, for as long as the object stays about where it is. False: it cannot be seen.
+inline bool SoftObject::layAtRest(Seed& s, const Vector& root, const EyeSide& eye, const Skew& skew, const ShadeSetup& shadeSetup)
 {
-    s.flags = static_cast<uint8_t>((s.flags | SEED_KEPT) & ~SEED_FRONT);
+    s.flags |= SEED_KEPT;
     const int32_t along = eye.along(s);
-    if (!eye.seen(along))
-        return;
-    s.flags |= SEED_FRONT;
+    if (!eye.seen(along)) {
+        s.flags = static_cast<uint8_t>(s.flags & ~SEED_FRONT);
+        return false;
+    }
     const int32_t depth = skew.depth(s.path);
     shadeSetup.restExtents(s, skew.x(s.path), skew.y(s.path));
     int32_t shiftX, shiftY;
@@ -955,6 +955,7 @@ inline void SoftObject::layAtRest(Seed& s, const Vector& root, const EyeSide& ey
     s.voxel.x = (rawFromReal(root.x + s.path.x) >> 8) + shiftX;
     s.voxel.y = (rawFromReal(root.y + s.path.y) >> 8) + shiftY;
     s.voxel.z = rawFromReal(root.z + s.path.z) >> 8;
+    return true;
 }
 
 void SoftObject::drawQuick(const Look& look, VoxelList& list, int room, int* next)
@@ -977,6 +978,8 @@ void SoftObject::drawQuick(const Look& look, VoxelList& list, int room, int* nex
     Skew skew;
     Vector rootPlace{Real(0), Real(0), Real(0)};  // from the centre
     const auto lookFrom = [&](int r) {
+        if (r == root)
+            return;
         root = r;
         skew.root(roots_[root] - look.eye, radius_);
         rootPlace = roots_[root] - centre_;
@@ -986,14 +989,11 @@ void SoftObject::drawQuick(const Look& look, VoxelList& list, int room, int* nex
         if (tapers_)
             eye.rootRadius(tangentAt(roots_[root]));
     };
-    if (!manyRoots)
-        lookFrom(0);
     const int16_t mark = static_cast<int16_t>(rawFromReal(spacing_ * Real(1.5) + Real(1.5)) >> 8);
     const Voxel** to = list.voxels;
     const Voxel** const full = to + room - 4 * PATCH_SEEDS;
     const Voxel* const gapsFull = list.gap + GAPS_AT_ONCE - 2 * PATCH_SEEDS;
     Voxel* gap = list.gap;
-    constexpr int SHOWN = SEED_VALID | SEED_KEPT | SEED_FRONT;
     for (; p < patchCount_ && to <= full && gap <= gapsFull; ++p) {
         Patch& patch = patches_[p];
         if (patch.state == PATCH_BURIED || patch.state == PATCH_UNKNOWN)
@@ -1013,22 +1013,21 @@ void SoftObject::drawQuick(const Look& look, VoxelList& list, int room, int* nex
         const int step = patch.extras && !atRest ? 1 : 2;
         if (again) {
             for (Seed* each = s; each < end; each += step)
-                if (!(each->flags & SEED_PLACED))
-                    each->flags = static_cast<uint8_t>(each->flags & ~SEED_KEPT);
+                if ((each->flags & (SEED_VALID | SEED_PLACED)) == SEED_VALID)
+                    each->flags = static_cast<uint8_t>((each->flags & ~SEED_KEPT) | SEED_FRONT);
         }
         for (; s < end; s += step) {
-            if (manyRoots && s->root != root && (s->flags & SEED_VALID))
+            if (!(s->flags & SEED_FRONT))
+                continue;
+            if (!(s->flags & SEED_KEPT)) {
                 lookFrom(s->root);
-            if ((s->flags & SHOWN) != SHOWN) {
-                if ((s->flags & (SEED_VALID | SEED_PLACED | SEED_KEPT)) != SEED_VALID)
-                    continue;
-                layAtRest(*s, rootPlace, eye, skew, shadeSetup);
-                if (!(s->flags & SEED_FRONT))
+                if (!layAtRest(*s, rootPlace, eye, skew, shadeSetup))
                     continue;
             }
             *to++ = &s->voxel;
             if (s->flags & SEED_EDGE) {
                 // A place where the surface is stretched so much that a gap may show.
+                lookFrom(s->root);
                 const Vector place = rootPlace + s->path * s->position + (s[s->due].path - s->path) * Real(0.625);
                 *gap = {rawFromReal(place.x) >> 8, rawFromReal(place.y) >> 8, rawFromReal(place.z) >> 8, mark, mark, 0, 0, GAP};
                 *to++ = gap++;

@@ -484,6 +484,8 @@ void SoftObject::posePatch(Patch& patch, bool extras) const
         if (patch.state == PATCH_AT_REST)
             s.voxel.brightness = s.restBrightness;
         s.flags = static_cast<uint8_t>(s.flags & ~SEED_KEPT);
+        if ((s.flags & (SEED_VALID | SEED_PLACED)) == SEED_VALID)
+            s.flags |= SEED_FRONT;
         if (ball)
             continue;
         for (int part = 0; part < 3; ++part) {
