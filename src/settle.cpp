@@ -50,6 +50,8 @@ struct Near {
     Real meeting;    // b below this: its field reaches the path somewhere up to POSITION_MOST
     Real burying;    // b below this: the whole stretch of the path up to POSITION_MOST lies inside the surface
     Vector fromIt16; // fromIt / 16
+    Real a0Pace;       // how a0 and twice change in an update, if all goes on like this; the latter scaled by 2^16
+    Vector twicePace;
     // Steps of travel that seeds wait: for a difference of 1 in squared distance / squared size on this side of where its
     // field ends, and of where it buries; for a difference of 1 in the field; for a facing of 1/32 unit (16 bits of fraction).
     Real waitApart, waitBuried, waitField;
@@ -66,6 +68,17 @@ inline Real alongPath(const Near& near, const Vector& path)
                                  mulHigh(path.z.raw, near.twice.z.raw)), 4);
 #else
     return dot(path, near.twice);
+#endif
+}
+
+// How b of a path changes in an update, if all goes on like this.
+inline Real alongPace(const Near& near, const Vector& path)
+{
+#if FB_REAL == FB_FIXED
+    return Real::fromRaw(mulHigh(path.x.raw, near.twicePace.x.raw) + mulHigh(path.y.raw, near.twicePace.y.raw) +
+                         mulHigh(path.z.raw, near.twicePace.z.raw));
+#else
+    return dot(path, near.twicePace);
 #endif
 }
 
@@ -94,12 +107,19 @@ constexpr int WAIT_MOST = 0x3000;
 // Steps of travel after which it is asked again whether all that reached a patch still do.
 constexpr int RECHECK = 6 * TRAVEL_STEPS;
 
+// Seeds that stay where they are wait if the field takes at least so many steps to change by the tolerance.
+constexpr int KEPT_STEPS = 20;
+
 // Of SoftObject::Patch::reached: the bit that stands for many.
 constexpr uint32_t MANY = 1u << 31;
 
 // Assumed speeds, units an update: never less than this; given up when all is so many times as fast, or as slow.
 constexpr Real SPEED_LEAST(1.0 / 64);
 constexpr Real SPEED_CHANGE(3);
+
+// Of SoftObject::turning_: from here on nobody counts on how others move. Updates that they are counted on at most.
+constexpr Real TURNING_WILD(0.25);
+constexpr int PACE_MOST = 16;
 
 // The length of a vector, or up to a hundredth more.
 inline Real nearLength(const Vector& v)
@@ -159,6 +179,8 @@ private:
     void wait(Seed& s, uint8_t flags, Real difference, Real steps) const;
     Real waitField() const;
     int32_t waitFacing() const;
+    Real fieldPace(const Vector& path, Real position) const;
+    int32_t keptSteps(const Vector& path, Real position, Real off) const;
     void lookFrom(const Seed& s);
     void restTapered(Seed& s);
     template <bool PLAIN>
@@ -193,6 +215,8 @@ private:
     static inline Real overshoot_;
     static inline uint32_t looks_;
     static inline uint16_t travel_;
+    static inline int32_t paceSteps_;  // steps of travel for which others are thought to move on as they do
+    static inline bool keptWait_;      // those that stay where they are wait too
     static inline bool woken_;  // by a jump of it
     static inline int32_t waitAway_;  // steps of travel for 1/32 unit of EyeSide::away(), 16 bits of fraction
     static inline Vector toEye_;  // unit length, from the centre
@@ -268,6 +292,15 @@ void Settler::addNear(const Link& link)
         n.burying = -n.a0 - n.c0;  // too weak to bury alone
     n.quick = true;
 
+    const Vector pace = link.pace * -inverse;
+    n.a0Pace = shiftDown(dot(e, pace), 7);
+    const Vector twicePace = pace * inverse;
+#if FB_REAL == FB_FIXED
+    n.twicePace = {shiftUp(twicePace.x, 9), shiftUp(twicePace.y, 9), shiftUp(twicePace.z, 9)};
+#else
+    n.twicePace = twicePace * (Real(1) / 128);
+#endif
+    keptWait_ = keptWait_ && stepsOf(DISPLACEMENT, n.waitField) >= KEPT_STEPS;
     n.halfSquare = shiftDown(PLACED_LEAST * n.reach * (n.reach / distance_), 1);
     n.awayLimit = awayOwn_ - dot(n.fromIt, toEye_) - AWAY_DOUBT;
     const Real reach = absolute(n.fromIt.x) + absolute(n.fromIt.y) + absolute(n.fromIt.z) + o_.radius();
@@ -294,6 +327,7 @@ void Settler::knowNear()
 void Settler::settle()
 {
     nearCount_ = 0;
+    keptWait_ = true;
     activeCount_ = 0;
     activated_ = 0;
     rootIndex_ = -1;
@@ -339,21 +373,25 @@ void Settler::settle()
 void Settler::travel()
 {
     Real fastest(0), assumed(0);
-    const auto step = [&](Vector& last, const Vector& now, Real growth, Real& way, Real speed) {
-        way = nearLength(now - last) + growth;
+    const auto step = [&](Vector& last, const Vector& now, Vector& moved, Real growth, Real& way, Real speed) {
+        moved = now - last;
         last = now;
+        way = nearLength(moved) + growth;
         assumed = most(assumed, speed);
         fastest = most(fastest, speed > Real(0) ? least(way / speed, Real(100)) : Real(100));
     };
-    bool balls = o_.coreReach() == Real(0);
+    bool balls = o_.coreReach() == Real(0), grows = false;
     const Real growth = absolute(o_.size_ - o_.sizeSeen_);
     o_.sizeSeen_ = o_.size_;
     Real eyeWay;
-    step(o_.eyeApart_, look_.eye - o_.centre_, Real(0), eyeWay, o_.eyeSpeed_);
+    Vector eyeMoved;
+    step(o_.eyeApart_, look_.eye - o_.centre_, eyeMoved, Real(0), eyeWay, o_.eyeSpeed_);
     for (List<Link>::Node* node = o_.skel_.first(); node != nullptr; node = node->next) {
         Link& link = node->item;
         const SoftObject& other = *link.object;
-        step(link.apart, other.centre_ - o_.centre_, absolute(other.size_ - link.size) + growth, link.way, link.speed);
+        const Real grown = absolute(other.size_ - link.size) + growth;
+        grows = grows || grown > Real(0);
+        step(link.apart, other.centre_ - o_.centre_, link.moved, grown, link.way, link.speed);
         link.size = other.size_;
         balls = balls && other.coreReach() == Real(0);
     }
@@ -368,10 +406,19 @@ void Settler::travel()
         speed = most(speed, SPEED_LEAST);
     };
     settleSpeed(o_.eyeSpeed_, eyeWay);
-    for (List<Link>::Node* node = o_.skel_.first(); node != nullptr; node = node->next)
-        settleSpeed(node->item.speed, node->item.way);
-    // Where a turn may matter seeds are looked at every time.
-    woken_ = !balls || o_.linksChanged_ || anew;
+    Real turning = anew || grows ? Real(1) : Real(0);
+    const Real share = anew || fastest < Real(0.01) ? Real(1) : Real(1) / fastest;
+    for (List<Link>::Node* node = o_.skel_.first(); node != nullptr; node = node->next) {
+        Link& link = node->item;
+        settleSpeed(link.speed, link.way);
+        const Vector pace = link.moved * share, change = pace - link.pace;
+        link.pace = pace;
+        turning = most(turning, least((absolute(change.x) + absolute(change.y) + absolute(change.z)) / link.speed, Real(1)));
+    }
+    // Where a turn may matter seeds are looked at every time, and when others move on otherwise than was thought.
+    woken_ = !balls || o_.linksChanged_ || anew || (turning > o_.turning_ && o_.turning_ < TURNING_WILD);
+    o_.turning_ = least(most(turning + shiftDown(turning, 1), o_.turning_ - shiftDown(o_.turning_, 3)), Real(1));
+    paceSteps_ = floorToInt(least(Real(0.5) / o_.turning_, Real(PACE_MOST)) * Real(TRAVEL_STEPS));
     o_.linksChanged_ = false;
     const int32_t steps = woken_ ? SoftObject::TRAVEL_JUMP : floorToInt(fastest * Real(TRAVEL_STEPS)) + 1;
     o_.travel_ = static_cast<uint16_t>(o_.travel_ + steps);
@@ -406,6 +453,28 @@ inline int32_t Settler::waitFacing() const
     for (int n = 0; n < touchCount_; ++n)
         steps = touch_[n]->waitFacing < steps ? touch_[n]->waitFacing : steps;
     return steps;
+}
+
+// How the field changes in an update at a place of the path at hand, the last one that was looked at.
+inline Real Settler::fieldPace(const Vector& path, Real position) const
+{
+    Real sum(0);
+    for (int n = 0; n < touchCount_; ++n) {
+        const Near& near = *touch_[n];
+        sum += slopes_[n] * (near.a0Pace + position * alongPace(near, path));
+    }
+    return sum;
+}
+
+// How long a seed stays where it is when the field there is off the isovalue by so much.
+inline int32_t Settler::keptSteps(const Vector& path, Real position, Real off) const
+{
+    const Real pace = fieldPace(path, position);
+    const Real room = pace < Real(0) ? DISPLACEMENT + off : DISPLACEMENT - off;
+    if (room <= Real(0))
+        return 0;
+    const Real doubt = absolute(pace) + shiftDown(absolute(pace), 2) + Real(1.0 / 4096);
+    return floorToInt(least(room / doubt * Real(TRAVEL_STEPS), Real(paceSteps_)));
 }
 
 // What becomes of the patch and which neighbours reach it, and until when.
@@ -746,7 +815,14 @@ void Settler::settleSeed(Seed& s)
         Real slope;
         const Real field = lookAt<PLAIN>(position, slope);
         if ((s.flags & SEED_KEPT) && strength_ <= Real(0) && absolute(field - ISOVALUE) <= DISPLACEMENT)
-            return;  // where it was, and what is known of it holds
+        {  // where it was, and what is known of it holds
+            if (PLAIN && keptWait_) {
+                const int32_t steps = keptSteps(path, position, field - ISOVALUE);
+                if (steps > 0)
+                    this->wait(s, s.flags, steps);
+            }
+            return;
+        }
         settled = newton<PLAIN>(position, field, slope);
         if (!settled)
             position = Real(1);
