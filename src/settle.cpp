@@ -180,6 +180,7 @@ private:
     Real waitField() const;
     int32_t waitFacing() const;
     Real fieldPace(const Vector& path, Real position) const;
+    int32_t fieldSteps(const Vector& path, Real position, Real most) const;
     int32_t keptSteps(const Vector& path, Real position, Real off) const;
     void lookFrom(const Seed& s);
     void restTapered(Seed& s);
@@ -212,6 +213,7 @@ private:
     static inline Vector from_[NEAR_MOST];  // not quick ones: from the nearest point of the core, / 16
     static inline Real strength_;  // by how much the strongest neighbour is stronger than the overshoot allows
     static inline Real buried_;  // least excess of the field where bracket() looked in vain
+    static inline bool again_;       // it did so only where it had come nearest before
     static inline Real overshoot_;
     static inline uint32_t looks_;
     static inline uint16_t travel_;
@@ -466,6 +468,20 @@ inline Real Settler::fieldPace(const Vector& path, Real position) const
     return sum;
 }
 
+// How long the field at such a place stays more than `most` less than it is.
+inline int32_t Settler::fieldSteps(const Vector& path, Real position, Real most) const
+{
+    const Real wait = waitField();
+    const int32_t least = stepsOf(most, wait);
+    if (least >= paceSteps_)
+        return least;
+    const Real pace = fieldPace(path, position);
+    const Real doubt = Real(TRAVEL_STEPS / 4) / wait;
+    const Real falls = pace < Real(0) ? doubt - pace - shiftDown(pace, 2) : doubt;
+    const int32_t steps = floorToInt(::least(::least(most, Real(1)) / falls, Real(PACE_MOST)) * Real(TRAVEL_STEPS));
+    return steps < least ? least : lesser(steps, paceSteps_);
+}
+
 // How long a seed stays where it is when the field there is off the isovalue by so much.
 inline int32_t Settler::keptSteps(const Vector& path, Real position, Real off) const
 {
@@ -654,12 +670,14 @@ bool Settler::bracket(Real& position)
         }
         return false;
     };
-    if (position != Real(1)) {
+    again_ = position != Real(1);
+    if (again_) {
         buried_ = lookAt<PLAIN>(position, slope) - ISOVALUE;
         if (buried_ > NEARLY && stepsOf(buried_, waitField()) > TRAVEL_STEPS / 2) {
             position = clamp(slope < Real(0) ? position + HINT_STEP : position - HINT_STEP, PROBES[0], POSITION_MOST);
             return false;
         }
+        again_ = false;
     }
     buried_ = Real(1);
     // Where it nearly left it may have between the places looked at, and gone into something else.
@@ -830,12 +848,12 @@ void Settler::settleSeed(Seed& s)
     if (!settled && !bracket<PLAIN>(position)) {
         // Inside everywhere: buried by this much of the field at least.
         s.position = position;
-        this->wait(s, 0, buried_, waitField());
+        this->wait(s, 0, PLAIN && again_ ? fieldSteps(path, position, buried_) : stepsOf(buried_, waitField()));
         return;
     }
     s.position = position;
     if (strength_ > Real(0)) {
-        this->wait(s, SEED_PLACED, strength_, waitField());
+        this->wait(s, SEED_PLACED, PLAIN ? fieldSteps(path, position, strength_) : stepsOf(strength_, waitField()));
         return;
     }
     shade<PLAIN>(s, position);
