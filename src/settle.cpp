@@ -9,6 +9,13 @@
 #include "shade.h"
 #include "softobj.h"
 
+// Where the compiler would pass what a function is given through memory.
+#if FB_I386
+#define REGISTERS __attribute__((regparm(3)))
+#else
+#define REGISTERS
+#endif
+
 namespace {
 
 // A seed is looked for to within 0.01 of the field. Newton's last step is taken without another look when it is short.
@@ -169,7 +176,7 @@ private:
     template <bool PLAIN>
     void settlePatches();
     template <bool PLAIN>
-    void settleSeed(Seed& s);
+    REGISTERS void settleSeed(Seed& s);
     template <bool PLAIN>
     Real lookAt(Real position, Real& slope);
     template <bool PLAIN>
@@ -180,14 +187,14 @@ private:
     Real waitField() const;
     int32_t waitFacing() const;
     Real fieldPace(const Vector& path, Real position) const;
-    int32_t fieldSteps(const Vector& path, Real position, Real most) const;
+    int32_t holdSteps(const Vector& path, Real position, Real most) const;
     int32_t keptSteps(const Vector& path, Real position, Real off) const;
     void lookFrom(const Seed& s);
     void restTapered(Seed& s);
     template <bool PLAIN>
-    bool bracket(Real& position);
+    REGISTERS bool bracket(Real& position);
     template <bool PLAIN>
-    void shade(Seed& s, Real position);
+    REGISTERS void shade(Seed& s, Real position);
     void addNear(const Link& link);
     void knowNear();
 
@@ -469,7 +476,7 @@ inline Real Settler::fieldPace(const Vector& path, Real position) const
 }
 
 // How long the field at such a place stays more than `most` less than it is.
-inline int32_t Settler::fieldSteps(const Vector& path, Real position, Real most) const
+inline int32_t Settler::holdSteps(const Vector& path, Real position, Real most) const
 {
     const Real wait = waitField();
     const int32_t least = stepsOf(most, wait);
@@ -577,9 +584,28 @@ template <bool PLAIN>
 inline Real Settler::lookAt(Real position, Real& slope)
 {
     ++looks_;
-    const FieldStep& own = geoffQuick(shiftDown(position * position, 2));
-    Real field = own.value, steep = own.slope * shiftDown(position, 1), strongest(0);
+    const OwnStep& own = ownQuick(position);
+    Real field = own.value, steep = own.steep;
     ownSlope_ = own.slope;
+    if (PLAIN && touchCount_ == 1) {
+        // Most seeds.
+        const Near& near = *touch_[0];
+        const Real c = position * near.c0;
+        const Real sum = b_[0] + c;
+        const Real t = near.a0 + position * sum;
+        if (static_cast<uint32_t>(rawFromReal(t)) < 65536) {
+            const FieldStep& step = geoffQuick(t);
+            slopes_[0] = step.slope;
+            slope = steep + step.slope * (sum + c);
+            strength_ = step.value - own.value - overshoot_;
+            return field + step.value;
+        }
+        slopes_[0] = Real(0);
+        slope = steep;
+        strength_ = -own.value - overshoot_;
+        return field;
+    }
+    Real strongest(0);
     for (int n = 0; n < touchCount_; ++n) {
         const Near& near = *touch_[n];
         Real t, change;
@@ -848,12 +874,12 @@ void Settler::settleSeed(Seed& s)
     if (!settled && !bracket<PLAIN>(position)) {
         // Inside everywhere: buried by this much of the field at least.
         s.position = position;
-        this->wait(s, 0, PLAIN && again_ ? fieldSteps(path, position, buried_) : stepsOf(buried_, waitField()));
+        this->wait(s, 0, PLAIN && again_ ? holdSteps(path, position, buried_) : stepsOf(buried_, waitField()));
         return;
     }
     s.position = position;
     if (strength_ > Real(0)) {
-        this->wait(s, SEED_PLACED, PLAIN ? fieldSteps(path, position, strength_) : stepsOf(strength_, waitField()));
+        this->wait(s, SEED_PLACED, PLAIN ? holdSteps(path, position, strength_) : stepsOf(strength_, waitField()));
         return;
     }
     shade<PLAIN>(s, position);
