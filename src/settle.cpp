@@ -16,6 +16,9 @@
 #define REGISTERS
 #endif
 
+// What is seldom needed stays out of the way of what often is.
+#define SELDOM __attribute__((noinline))
+
 namespace {
 
 // A seed is looked for to within 0.01 of the field. Newton's last step is taken without another look when it is short.
@@ -161,7 +164,7 @@ public:
     void settle();
 
 private:
-    int32_t facesAway(int32_t along) const;
+    REGISTERS SELDOM int32_t facesAway(Real across, Real own) const;
     bool passed(int16_t due) const { return static_cast<int16_t>(due - travel_) <= 0; }
     int16_t later(int32_t steps) const { return static_cast<int16_t>(travel_ + steps); }
     SoftObject::PatchState reachOf(SoftObject::Patch& patch, uint32_t& reached) const;
@@ -180,19 +183,19 @@ private:
     template <bool PLAIN>
     Real lookAt(Real position, Real& slope);
     template <bool PLAIN>
-    bool newton(Real& position, Real field, Real slope);
+    REGISTERS SELDOM bool newton(Real position, Real step);
     void travel();
     void wait(Seed& s, uint8_t flags, int32_t steps) const;
     void wait(Seed& s, uint8_t flags, Real difference, Real steps) const;
     Real waitField() const;
     int32_t waitFacing() const;
     Real fieldPace(const Vector& path, Real position) const;
-    int32_t holdSteps(const Vector& path, Real position, Real most) const;
-    int32_t keptSteps(const Vector& path, Real position, Real off) const;
+    REGISTERS SELDOM int32_t holdSteps(const Vector& path, Real position, Real most) const;
+    REGISTERS SELDOM int32_t keptSteps(const Vector& path, Real position, Real off) const;
     void lookFrom(const Seed& s);
     void restTapered(Seed& s);
     template <bool PLAIN>
-    REGISTERS bool bracket(Real& position);
+    REGISTERS SELDOM bool bracket(Real position);
     template <bool PLAIN>
     REGISTERS void shade(Seed& s, Real position);
     void addNear(const Link& link);
@@ -220,9 +223,10 @@ private:
     static inline Vector from_[NEAR_MOST];  // not quick ones: from the nearest point of the core, / 16
     static inline Real strength_;  // by how much the strongest neighbour is stronger than the overshoot allows
     static inline Real buried_;  // least excess of the field where bracket() looked in vain
+    static inline Real found_;       // by newton() or bracket()
     static inline bool again_;       // it did so only where it had come nearest before
     static inline Real overshoot_;
-    static inline uint32_t looks_;
+    static inline uint32_t looks_, updated_;
     static inline uint16_t travel_;
     static inline int32_t paceSteps_;  // steps of travel for which others are thought to move on as they do
     static inline bool keptWait_;      // those that stay where they are wait too
@@ -340,7 +344,7 @@ void Settler::settle()
     activeCount_ = 0;
     activated_ = 0;
     rootIndex_ = -1;
-    looks_ = 0;
+    looks_ = updated_ = 0;
     eye_.set(look_.eye - o_.centre_, o_.radius_, o_.coreReach());
     horizon_ = o_.horizonRadius(look_.eye);
     eye_.horizon(horizon_);
@@ -374,6 +378,7 @@ void Settler::settle()
     else
         settlePatches<false>();
     look_.counts->iterations += looks_;
+    look_.counts->updated += updated_;
 }
 
 // Adds up how far neighbours and viewer have moved against the object since its last update. One sum must do for all of
@@ -476,7 +481,7 @@ inline Real Settler::fieldPace(const Vector& path, Real position) const
 }
 
 // How long the field at such a place stays more than `most` less than it is.
-inline int32_t Settler::holdSteps(const Vector& path, Real position, Real most) const
+int32_t Settler::holdSteps(const Vector& path, Real position, Real most) const
 {
     const Real wait = waitField();
     const int32_t least = stepsOf(most, wait);
@@ -490,7 +495,7 @@ inline int32_t Settler::holdSteps(const Vector& path, Real position, Real most) 
 }
 
 // How long a seed stays where it is when the field there is off the isovalue by so much.
-inline int32_t Settler::keptSteps(const Vector& path, Real position, Real off) const
+int32_t Settler::keptSteps(const Vector& path, Real position, Real off) const
 {
     const Real pace = fieldPace(path, position);
     const Real room = pace < Real(0) ? DISPLACEMENT + off : DISPLACEMENT - off;
@@ -651,31 +656,34 @@ inline Real quotient(Real a, Real b)
 #endif
 }
 
-// From a position near the surface, and what a look there found. False: the method does not apply here. Leaves the last
-// look's terms for the normal.
+// From a position near the surface, and the step that a look there gave. False: the method does not apply here. Else found_
+// is the position, and the last look's terms are left for the normal.
 template <bool PLAIN>
-inline bool Settler::newton(Real& position, Real field, Real slope)
+bool Settler::newton(Real position, Real step)
 {
-    for (int i = 0; i < LOOK_LIMIT; ++i) {
-        if (slope > FLAT)
-            return false;
-        const Real step = clamp(quotient(ISOVALUE - field, slope), -LONGEST_STEP, LONGEST_STEP);
+    for (int i = 1; i < LOOK_LIMIT; ++i) {
+        step = clamp(step, -LONGEST_STEP, LONGEST_STEP);
         position += step;
         if (position < PLACED_LEAST || position > POSITION_MOST)
             return false;
+        found_ = position;
         if (absolute(step) <= SHORT_STEP)
             return true;
-        field = lookAt<PLAIN>(position, slope);
+        Real slope;
+        const Real field = lookAt<PLAIN>(position, slope);
+        if (slope > FLAT)
+            return false;
+        step = quotient(ISOVALUE - field, slope);
     }
     ++look_.counts->unsettled;
     return false;
 }
 
 // From nothing: where the path leaves the surface before POSITION_MOST. Inside at 1, where the own field alone is the
-// isovalue. False: it does not leave; `position` is then where it came nearest to it, and if it is not 1 before the call that
-// place alone is looked at first.
+// isovalue. False: it does not leave. found_ is the place, or where it
+// came nearest to it; if `position` is not 1 that was such a place, and alone is looked at first.
 template <bool PLAIN>
-bool Settler::bracket(Real& position)
+bool Settler::bracket(Real position)
 {
     Real slope;
     Real inside(1), outside(0);
@@ -690,7 +698,7 @@ bool Settler::bracket(Real& position)
             }
             if (excess < buried_) {
                 buried_ = excess;
-                position = *probe;
+                found_ = *probe;
             }
             inside = *probe;
         }
@@ -700,7 +708,7 @@ bool Settler::bracket(Real& position)
     if (again_) {
         buried_ = lookAt<PLAIN>(position, slope) - ISOVALUE;
         if (buried_ > NEARLY && stepsOf(buried_, waitField()) > TRAVEL_STEPS / 2) {
-            position = clamp(slope < Real(0) ? position + HINT_STEP : position - HINT_STEP, PROBES[0], POSITION_MOST);
+            found_ = clamp(slope < Real(0) ? position + HINT_STEP : position - HINT_STEP, PROBES[0], POSITION_MOST);
             return false;
         }
         again_ = false;
@@ -719,13 +727,14 @@ bool Settler::bracket(Real& position)
         // Where the field is flat a step of Newton's goes nowhere: halved instead.
         Real next = slope < FLAT ? position - quotient(difference, slope) : shiftDown(inside + outside, 1);
         if (absolute(next - position) <= shiftDown(SHORT_STEP, 1)) {
-            position = next;
+            found_ = next;
             return true;
         }
         if (next <= inside || next >= outside)
             next = shiftDown(inside + outside, 1);
         position = next;
     }
+    found_ = position;
     return true;
 }
 
@@ -752,19 +761,16 @@ void Settler::restTapered(Seed& s)
 }
 
 // Whether the seed at hand faces away wherever on its path it may lie, and whoever owns the surface there; if so, steps of
-// travel that it stays like that, else -1. `along`: EyeSide::along().
+// travel that it stays like that, else -1. `across`: EyeSide::along() in units, `own`: by how much it is less than
+// awayEdge_.
 //
 // The gradient is a sum of vectors away from the centres of all fields that reach the place p. When each of them points away
 // from the eye, it does. With e the unit vector to the eye, D its distance, c a centre, r the radius, that is for the own
 // field r cos(path, e) < position r, and for the others (p - c).(e D - position path) < 0, or
 // (centre - c).e + position (path.e - path.(centre - c) / D) - position^2 r^2 / D < 0, where path.(centre - c) is
 // b size^2 / 2. The middle term is at most what it is at PLACED_LEAST, or if it grows what it is at POSITION_MOST.
-inline int32_t Settler::facesAway(int32_t along) const
+int32_t Settler::facesAway(Real across, Real own) const
 {
-    const Real across = realFromRaw(along >> 14 << 11);  // units
-    const Real own = awayEdge_ - across;
-    if (own <= Real(0))
-        return -1;
     int32_t wait = stepsOf(own, Real(AWAY_MOST), waitAlong_);
     const Real share = across * awayShare_;
     for (int n = 0; n < touchCount_; ++n) {
@@ -785,9 +791,8 @@ inline int32_t Settler::facesAway(int32_t along) const
 template <bool PLAIN>
 void Settler::settleSeed(Seed& s)
 {
-    const Vector path{s.path.x, s.path.y, s.path.z};
     if (!PLAIN) {
-        path_ = path;
+        path_ = s.path;
         root_ = o_.roots_[s.root];
     }
 
@@ -798,28 +803,27 @@ void Settler::settleSeed(Seed& s)
     for (int n = 0; n < activeCount_; ++n) {
         const Near& near = *active_[n];
         if (PLAIN || near.quick) {
-            const Real b = alongPath(near, path);
+            const Real b = alongPath(near, s.path);
             const Real beyond = b - near.touching;
             if (beyond < Real(0)) {
                 if (b < near.burying) {
                     s.position = Real(1);
-                    o_.displaced_ = true;
                     this->wait(s, 0, near.burying - b, near.waitBuried);
                     return;
                 }
                 touched = true;
             } else {
                 wait = lesser(wait, stepsOf(beyond, near.waitApart));
+                if (b >= near.meeting)
+                    continue;
             }
-            if (b < near.meeting) {
-                b_[touching] = b;
-                touch_[touching++] = &near;
-            }
+            b_[touching] = b;
+            touch_[touching++] = &near;
         } else {
             // At rest, or a way further out where other neighbours may have pulled the seed.
             Vector unused;
-            touched = touched || near.object->param(root_ + path, &unused) < TOUCHING ||
-                      near.object->param(root_ + path * Real(1.2), &unused) < TOUCHING;
+            touched = touched || near.object->param(root_ + path_, &unused) < TOUCHING ||
+                      near.object->param(root_ + path_ * Real(1.2), &unused) < TOUCHING;
             touch_[touching++] = &near;
         }
     }
@@ -838,11 +842,12 @@ void Settler::settleSeed(Seed& s)
         lookFrom(s);
     const int32_t along = eye_.along(s);
     if (PLAIN || o_.isBall()) {
-        const int32_t away = facesAway(along);
+        const Real across = realFromRaw(along >> 14 << 11);
+        const Real own = awayEdge_ - across;
+        const int32_t away = own > Real(0) ? facesAway(across, own) : -1;
         if (away >= 0) {
             // What it is held for does not matter, nor where; should it come round again it is looked for from there.
             this->wait(s, static_cast<uint8_t>(s.flags & (SEED_VALID | SEED_PLACED)), away);
-            o_.displaced_ = true;
             return;
         }
     }
@@ -851,35 +856,46 @@ void Settler::settleSeed(Seed& s)
         this->wait(s, 0, mulShift16(away, waitAway_));
         return;
     }
-    ++look_.counts->updated;
-    o_.displaced_ = true;
+    ++updated_;
     Real position = s.position;
     bool settled = false;
     if (s.flags & (SEED_VALID | SEED_PLACED)) {
         Real slope;
-        const Real field = lookAt<PLAIN>(position, slope);
-        if ((s.flags & SEED_KEPT) && strength_ <= Real(0) && absolute(field - ISOVALUE) <= DISPLACEMENT)
-        {  // where it was, and what is known of it holds
+        const Real off = lookAt<PLAIN>(position, slope) - ISOVALUE;
+        if ((s.flags & SEED_KEPT) && strength_ <= Real(0) && absolute(off) <= DISPLACEMENT) {
+            // Where it was, and what is known of it holds.
             if (PLAIN && keptWait_) {
-                const int32_t steps = keptSteps(path, position, field - ISOVALUE);
+                const int32_t steps = keptSteps(s.path, position, off);
                 if (steps > 0)
                     this->wait(s, s.flags, steps);
             }
             return;
         }
-        settled = newton<PLAIN>(position, field, slope);
+        if (slope <= FLAT) {
+            const Real step = quotient(-off, slope);
+            if (absolute(step) <= SHORT_STEP) {
+                position += step;
+                settled = position >= PLACED_LEAST && position <= POSITION_MOST;
+            } else {
+                settled = newton<PLAIN>(position, step);
+                position = found_;
+            }
+        }
         if (!settled)
             position = Real(1);
     }
-    if (!settled && !bracket<PLAIN>(position)) {
-        // Inside everywhere: buried by this much of the field at least.
-        s.position = position;
-        this->wait(s, 0, PLAIN && again_ ? holdSteps(path, position, buried_) : stepsOf(buried_, waitField()));
-        return;
+    if (!settled) {
+        settled = bracket<PLAIN>(position);
+        position = found_;
     }
     s.position = position;
+    if (!settled) {
+        // Inside everywhere: buried by this much of the field at least.
+        this->wait(s, 0, PLAIN && again_ ? holdSteps(s.path, position, buried_) : stepsOf(buried_, waitField()));
+        return;
+    }
     if (strength_ > Real(0)) {
-        this->wait(s, SEED_PLACED, PLAIN ? holdSteps(path, position, strength_) : stepsOf(strength_, waitField()));
+        this->wait(s, SEED_PLACED, PLAIN ? holdSteps(s.path, position, strength_) : stepsOf(strength_, waitField()));
         return;
     }
     shade<PLAIN>(s, position);
