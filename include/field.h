@@ -25,7 +25,24 @@ struct FieldStep {
 constexpr int FIELD_STEPS = 1024;
 extern FieldStep fieldSteps[FIELD_STEPS];
 
-// Fills fieldSteps. Call once before any object is updated.
+// The own field of an object along a seed's path by steps of 1/1024 of the position p, as t = p^2 / 4: F, dF/dt and dF/dp.
+// OWN_FIRST / 1024 <= p < (OWN_FIRST + OWN_STEPS) / 1024.
+struct OwnStep {
+    Real value;
+    Real slope;
+    Real steep;
+    Real unused;  // makes the size a power of two
+};
+constexpr int OWN_FIRST = 960;
+constexpr int OWN_STEPS = 960;
+extern OwnStep ownSteps[OWN_STEPS];
+
+inline const OwnStep& ownQuick(Real position)
+{
+    return ownSteps[(rawFromReal(position) >> 6) - OWN_FIRST];
+}
+
+// Fills both tables. Call once before any object is updated.
 void makeFieldSteps();
 
 inline const FieldStep& geoffQuick(Real t)

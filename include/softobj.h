@@ -27,10 +27,11 @@ constexpr int SIZE_MOST = 100;
 struct Link {
     SoftObject* object;
     Real weight;
-    // For Settler: from this end to the other at the last update, and the other's size then; how far it moved for it, and how
-    // fast those seeds that wait think that it is (units an update).
-    Vector apart;
+    // For Settler: from this end to the other at the last update, and the other's size then; how it moved for it, how far, and
+    // how fast those seeds that wait think that it is (units an update); the movement when it is as fast as that.
+    Vector apart, moved;
     Real size, way, speed;
+    Vector pace;
 
     bool operator==(const Link& other) const { return object == other.object; }
 };
@@ -321,6 +322,7 @@ private:
     // where the viewer was at the last update, and how fast he is.
     uint16_t travel_;
     bool linksChanged_;
+    Real turning_;        // by what part of itself the pace of some link changes in an update, at most; 1: anything may happen
     uint32_t nearMark_;   // of the neighbours that were in range then, and their order
     Vector eyeApart_;
     Real eyeSpeed_;

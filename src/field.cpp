@@ -2,6 +2,7 @@
 #include "field.h"
 
 FieldStep fieldSteps[FIELD_STEPS];
+OwnStep ownSteps[OWN_STEPS];
 
 Real geoff(Real t)
 {
@@ -23,5 +24,10 @@ void makeFieldSteps()
     for (int i = 0; i < FIELD_STEPS; ++i) {
         const Real t = realFromRaw((2 * i + 1) * (65536 / FIELD_STEPS / 2));
         fieldSteps[i] = {geoff(t), geoffSlope(t)};
+    }
+    for (int i = 0; i < OWN_STEPS; ++i) {
+        const Real position = realFromRaw((2 * (OWN_FIRST + i) + 1) * 32);
+        const Real t = shiftDown(position * position, 2);
+        ownSteps[i] = {geoff(t), geoffSlope(t), geoffSlope(t) * shiftDown(position, 1), Real(0)};
     }
 }

@@ -9,6 +9,16 @@
 #include "shade.h"
 #include "softobj.h"
 
+// Where the compiler would pass what a function is given through memory.
+#if FB_I386
+#define REGISTERS __attribute__((regparm(3)))
+#else
+#define REGISTERS
+#endif
+
+// What is seldom needed stays out of the way of what often is.
+#define SELDOM __attribute__((noinline))
+
 namespace {
 
 // A seed is looked for to within 0.01 of the field. Newton's last step is taken without another look when it is short.
@@ -50,6 +60,8 @@ struct Near {
     Real meeting;    // b below this: its field reaches the path somewhere up to POSITION_MOST
     Real burying;    // b below this: the whole stretch of the path up to POSITION_MOST lies inside the surface
     Vector fromIt16; // fromIt / 16
+    Real a0Pace;       // how a0 and twice change in an update, if all goes on like this; the latter scaled by 2^16
+    Vector twicePace;
     // Steps of travel that seeds wait: for a difference of 1 in squared distance / squared size on this side of where its
     // field ends, and of where it buries; for a difference of 1 in the field; for a facing of 1/32 unit (16 bits of fraction).
     Real waitApart, waitBuried, waitField;
@@ -66,6 +78,17 @@ inline Real alongPath(const Near& near, const Vector& path)
                                  mulHigh(path.z.raw, near.twice.z.raw)), 4);
 #else
     return dot(path, near.twice);
+#endif
+}
+
+// How b of a path changes in an update, if all goes on like this.
+inline Real alongPace(const Near& near, const Vector& path)
+{
+#if FB_REAL == FB_FIXED
+    return Real::fromRaw(mulHigh(path.x.raw, near.twicePace.x.raw) + mulHigh(path.y.raw, near.twicePace.y.raw) +
+                         mulHigh(path.z.raw, near.twicePace.z.raw));
+#else
+    return dot(path, near.twicePace);
 #endif
 }
 
@@ -94,12 +117,19 @@ constexpr int WAIT_MOST = 0x3000;
 // Steps of travel after which it is asked again whether all that reached a patch still do.
 constexpr int RECHECK = 6 * TRAVEL_STEPS;
 
+// Seeds that stay where they are wait if the field takes at least so many steps to change by the tolerance.
+constexpr int KEPT_STEPS = 20;
+
 // Of SoftObject::Patch::reached: the bit that stands for many.
 constexpr uint32_t MANY = 1u << 31;
 
 // Assumed speeds, units an update: never less than this; given up when all is so many times as fast, or as slow.
 constexpr Real SPEED_LEAST(1.0 / 64);
 constexpr Real SPEED_CHANGE(3);
+
+// Of SoftObject::turning_: from here on nobody counts on how others move. Updates that they are counted on at most.
+constexpr Real TURNING_WILD(0.25);
+constexpr int PACE_MOST = 16;
 
 // The length of a vector, or up to a hundredth more.
 inline Real nearLength(const Vector& v)
@@ -136,7 +166,7 @@ public:
     void settle();
 
 private:
-    int32_t facesAway(int32_t along) const;
+    REGISTERS SELDOM int32_t facesAway(Real across, Real own) const;
     bool passed(int16_t due) const { return static_cast<int16_t>(due - travel_) <= 0; }
     int16_t later(int32_t steps) const { return static_cast<int16_t>(travel_ + steps); }
     SoftObject::PatchState reachOf(SoftObject::Patch& patch, uint32_t& reached) const;
@@ -151,22 +181,25 @@ private:
     template <bool PLAIN>
     void settlePatches();
     template <bool PLAIN>
-    void settleSeed(Seed& s);
+    REGISTERS void settleSeed(Seed& s);
     template <bool PLAIN>
     Real lookAt(Real position, Real& slope);
     template <bool PLAIN>
-    bool newton(Real& position, Real field, Real slope);
+    REGISTERS SELDOM bool newton(Real position, Real step);
     void travel();
     void wait(Seed& s, uint8_t flags, int32_t steps) const;
     void wait(Seed& s, uint8_t flags, Real difference, Real steps) const;
     Real waitField() const;
     int32_t waitFacing() const;
+    Real fieldPace(const Vector& path, Real position) const;
+    REGISTERS SELDOM int32_t holdSteps(const Vector& path, Real position, Real most) const;
+    REGISTERS SELDOM int32_t keptSteps(const Vector& path, Real position, Real off) const;
     void lookFrom(const Seed& s);
     void restTapered(Seed& s);
     template <bool PLAIN>
-    bool bracket(Real& position);
+    REGISTERS SELDOM bool bracket(Real position);
     template <bool PLAIN>
-    void shade(Seed& s, Real position);
+    REGISTERS void shade(Seed& s, Real position);
     void addNear(const Link& link);
     void knowNear();
 
@@ -192,9 +225,13 @@ private:
     static inline Vector from_[NEAR_MOST];  // not quick ones: from the nearest point of the core, / 16
     static inline Real strength_;  // by how much the strongest neighbour is stronger than the overshoot allows
     static inline Real buried_;  // least excess of the field where bracket() looked in vain
+    static inline Real found_;       // by newton() or bracket()
+    static inline bool again_;       // it did so only where it had come nearest before
     static inline Real overshoot_;
-    static inline uint32_t looks_;
+    static inline uint32_t looks_, updated_;
     static inline uint16_t travel_;
+    static inline int32_t paceSteps_;  // steps of travel for which others are thought to move on as they do
+    static inline bool keptWait_;      // those that stay where they are wait too
     static inline bool woken_;  // by a jump of it
     static inline int32_t waitAway_;  // steps of travel for 1/32 unit of EyeSide::away(), 16 bits of fraction
     static inline Vector toEye_;  // unit length, from the centre
@@ -271,6 +308,15 @@ void Settler::addNear(const Link& link)
         n.burying = -n.a0 - n.c0;  // too weak to bury alone
     n.quick = true;
 
+    const Vector pace = link.pace * -inverse;
+    n.a0Pace = shiftDown(dot(e, pace), 7);
+    const Vector twicePace = pace * inverse;
+#if FB_REAL == FB_FIXED
+    n.twicePace = {shiftUp(twicePace.x, 9), shiftUp(twicePace.y, 9), shiftUp(twicePace.z, 9)};
+#else
+    n.twicePace = twicePace * (Real(1) / 128);
+#endif
+    keptWait_ = keptWait_ && stepsOf(DISPLACEMENT, n.waitField) >= KEPT_STEPS;
     n.halfSquare = shiftDown(PLACED_LEAST * n.reach * (n.reach / distance_), 1);
     n.awayLimit = awayOwn_ - dot(n.fromIt, toEye_) - AWAY_DOUBT;
     const Real reach = absolute(n.fromIt.x) + absolute(n.fromIt.y) + absolute(n.fromIt.z) + o_.radius();
@@ -297,10 +343,11 @@ void Settler::knowNear()
 void Settler::settle()
 {
     nearCount_ = 0;
+    keptWait_ = true;
     activeCount_ = 0;
     activated_ = 0;
     rootIndex_ = -1;
-    looks_ = 0;
+    looks_ = updated_ = 0;
     eye_.set(look_.eye - o_.centre_, o_.radius_, o_.coreReach());
     horizon_ = o_.horizonRadius(look_.eye);
     eye_.horizon(horizon_);
@@ -335,6 +382,7 @@ void Settler::settle()
     else
         settlePatches<false>();
     look_.counts->iterations += looks_;
+    look_.counts->updated += updated_;
 }
 
 // Adds up how far neighbours and viewer have moved against the object since its last update. One sum must do for all of
@@ -343,21 +391,25 @@ void Settler::settle()
 void Settler::travel()
 {
     Real fastest(0), assumed(0);
-    const auto step = [&](Vector& last, const Vector& now, Real growth, Real& way, Real speed) {
-        way = nearLength(now - last) + growth;
+    const auto step = [&](Vector& last, const Vector& now, Vector& moved, Real growth, Real& way, Real speed) {
+        moved = now - last;
         last = now;
+        way = nearLength(moved) + growth;
         assumed = most(assumed, speed);
         fastest = most(fastest, speed > Real(0) ? least(way / speed, Real(100)) : Real(100));
     };
-    bool balls = o_.coreReach() == Real(0);
+    bool balls = o_.coreReach() == Real(0), grows = false;
     const Real growth = absolute(o_.size_ - o_.sizeSeen_);
     o_.sizeSeen_ = o_.size_;
     Real eyeWay;
-    step(o_.eyeApart_, look_.eye - o_.centre_, Real(0), eyeWay, o_.eyeSpeed_);
+    Vector eyeMoved;
+    step(o_.eyeApart_, look_.eye - o_.centre_, eyeMoved, Real(0), eyeWay, o_.eyeSpeed_);
     for (List<Link>::Node* node = o_.skel_.first(); node != nullptr; node = node->next) {
         Link& link = node->item;
         const SoftObject& other = *link.object;
-        step(link.apart, other.centre_ - o_.centre_, absolute(other.size_ - link.size) + growth, link.way, link.speed);
+        const Real grown = absolute(other.size_ - link.size) + growth;
+        grows = grows || grown > Real(0);
+        step(link.apart, other.centre_ - o_.centre_, link.moved, grown, link.way, link.speed);
         link.size = other.size_;
         balls = balls && other.coreReach() == Real(0);
     }
@@ -372,10 +424,19 @@ void Settler::travel()
         speed = most(speed, SPEED_LEAST);
     };
     settleSpeed(o_.eyeSpeed_, eyeWay);
-    for (List<Link>::Node* node = o_.skel_.first(); node != nullptr; node = node->next)
-        settleSpeed(node->item.speed, node->item.way);
-    // Where a turn may matter seeds are looked at every time.
-    woken_ = !balls || o_.linksChanged_ || anew;
+    Real turning = anew || grows ? Real(1) : Real(0);
+    const Real share = anew || fastest < Real(0.01) ? Real(1) : Real(1) / fastest;
+    for (List<Link>::Node* node = o_.skel_.first(); node != nullptr; node = node->next) {
+        Link& link = node->item;
+        settleSpeed(link.speed, link.way);
+        const Vector pace = link.moved * share, change = pace - link.pace;
+        link.pace = pace;
+        turning = most(turning, least((absolute(change.x) + absolute(change.y) + absolute(change.z)) / link.speed, Real(1)));
+    }
+    // Where a turn may matter seeds are looked at every time, and when others move on otherwise than was thought.
+    woken_ = !balls || o_.linksChanged_ || anew || (turning > o_.turning_ && o_.turning_ < TURNING_WILD);
+    o_.turning_ = least(most(turning + shiftDown(turning, 1), o_.turning_ - shiftDown(o_.turning_, 3)), Real(1));
+    paceSteps_ = floorToInt(least(Real(0.5) / o_.turning_, Real(PACE_MOST)) * Real(TRAVEL_STEPS));
     o_.linksChanged_ = false;
     const int32_t steps = woken_ ? SoftObject::TRAVEL_JUMP : floorToInt(fastest * Real(TRAVEL_STEPS)) + 1;
     o_.travel_ = static_cast<uint16_t>(o_.travel_ + steps);
@@ -410,6 +471,42 @@ inline int32_t Settler::waitFacing() const
     for (int n = 0; n < touchCount_; ++n)
         steps = touch_[n]->waitFacing < steps ? touch_[n]->waitFacing : steps;
     return steps;
+}
+
+// How the field changes in an update at a place of the path at hand, the last one that was looked at.
+inline Real Settler::fieldPace(const Vector& path, Real position) const
+{
+    Real sum(0);
+    for (int n = 0; n < touchCount_; ++n) {
+        const Near& near = *touch_[n];
+        sum += slopes_[n] * (near.a0Pace + position * alongPace(near, path));
+    }
+    return sum;
+}
+
+// How long the field at such a place stays more than `most` less than it is.
+int32_t Settler::holdSteps(const Vector& path, Real position, Real most) const
+{
+    const Real wait = waitField();
+    const int32_t least = stepsOf(most, wait);
+    if (least >= paceSteps_)
+        return least;
+    const Real pace = fieldPace(path, position);
+    const Real doubt = Real(TRAVEL_STEPS / 4) / wait;
+    const Real falls = pace < Real(0) ? doubt - pace - shiftDown(pace, 2) : doubt;
+    const int32_t steps = floorToInt(::least(::least(most, Real(1)) / falls, Real(PACE_MOST)) * Real(TRAVEL_STEPS));
+    return steps < least ? least : lesser(steps, paceSteps_);
+}
+
+// How long a seed stays where it is when the field there is off the isovalue by so much.
+int32_t Settler::keptSteps(const Vector& path, Real position, Real off) const
+{
+    const Real pace = fieldPace(path, position);
+    const Real room = pace < Real(0) ? DISPLACEMENT + off : DISPLACEMENT - off;
+    if (room <= Real(0))
+        return 0;
+    const Real doubt = absolute(pace) + shiftDown(absolute(pace), 2) + Real(1.0 / 4096);
+    return floorToInt(least(room / doubt * Real(TRAVEL_STEPS), Real(paceSteps_)));
 }
 
 // What becomes of the patch and which neighbours reach it, and until when.
@@ -497,9 +594,28 @@ template <bool PLAIN>
 inline Real Settler::lookAt(Real position, Real& slope)
 {
     ++looks_;
-    const FieldStep& own = geoffQuick(shiftDown(position * position, 2));
-    Real field = own.value, steep = own.slope * shiftDown(position, 1), strongest(0);
+    const OwnStep& own = ownQuick(position);
+    Real field = own.value, steep = own.steep;
     ownSlope_ = own.slope;
+    if (PLAIN && touchCount_ == 1) {
+        // Most seeds.
+        const Near& near = *touch_[0];
+        const Real c = position * near.c0;
+        const Real sum = b_[0] + c;
+        const Real t = near.a0 + position * sum;
+        if (static_cast<uint32_t>(rawFromReal(t)) < 65536) {
+            const FieldStep& step = geoffQuick(t);
+            slopes_[0] = step.slope;
+            slope = steep + step.slope * (sum + c);
+            strength_ = step.value - own.value - overshoot_;
+            return field + step.value;
+        }
+        slopes_[0] = Real(0);
+        slope = steep;
+        strength_ = -own.value - overshoot_;
+        return field;
+    }
+    Real strongest(0);
     for (int n = 0; n < touchCount_; ++n) {
         const Near& near = *touch_[n];
         Real t, change;
@@ -545,31 +661,34 @@ inline Real quotient(Real a, Real b)
 #endif
 }
 
-// From a position near the surface, and what a look there found. False: the method does not apply here. Leaves the last
-// look's terms for the normal.
+// From a position near the surface, and the step that a look there gave. False: the method does not apply here. Else found_
+// is the position, and the last look's terms are left for the normal.
 template <bool PLAIN>
-inline bool Settler::newton(Real& position, Real field, Real slope)
+bool Settler::newton(Real position, Real step)
 {
-    for (int i = 0; i < LOOK_LIMIT; ++i) {
-        if (slope > FLAT)
-            return false;
-        const Real step = clamp(quotient(ISOVALUE - field, slope), -LONGEST_STEP, LONGEST_STEP);
+    for (int i = 1; i < LOOK_LIMIT; ++i) {
+        step = clamp(step, -LONGEST_STEP, LONGEST_STEP);
         position += step;
         if (position < PLACED_LEAST || position > POSITION_MOST)
             return false;
+        found_ = position;
         if (absolute(step) <= SHORT_STEP)
             return true;
-        field = lookAt<PLAIN>(position, slope);
+        Real slope;
+        const Real field = lookAt<PLAIN>(position, slope);
+        if (slope > FLAT)
+            return false;
+        step = quotient(ISOVALUE - field, slope);
     }
     ++look_.counts->unsettled;
     return false;
 }
 
 // From nothing: where the path leaves the surface before POSITION_MOST. Inside at 1, where the own field alone is the
-// isovalue. False: it does not leave; `position` is then where it came nearest to it, and if it is not 1 before the call that
-// place alone is looked at first.
+// isovalue. False: it does not leave. found_ is the place, or where it
+// came nearest to it; if `position` is not 1 that was such a place, and alone is looked at first.
 template <bool PLAIN>
-bool Settler::bracket(Real& position)
+bool Settler::bracket(Real position)
 {
     Real slope;
     Real inside(1), outside(0);
@@ -584,18 +703,20 @@ bool Settler::bracket(Real& position)
             }
             if (excess < buried_) {
                 buried_ = excess;
-                position = *probe;
+                found_ = *probe;
             }
             inside = *probe;
         }
         return false;
     };
-    if (position != Real(1)) {
+    again_ = position != Real(1);
+    if (again_) {
         buried_ = lookAt<PLAIN>(position, slope) - ISOVALUE;
         if (buried_ > NEARLY && stepsOf(buried_, waitField()) > TRAVEL_STEPS / 2) {
-            position = clamp(slope < Real(0) ? position + HINT_STEP : position - HINT_STEP, PROBES[0], POSITION_MOST);
+            found_ = clamp(slope < Real(0) ? position + HINT_STEP : position - HINT_STEP, PROBES[0], POSITION_MOST);
             return false;
         }
+        again_ = false;
     }
     buried_ = Real(1);
     // Where it nearly left it may have between the places looked at, and gone into something else.
@@ -611,13 +732,14 @@ bool Settler::bracket(Real& position)
         // Where the field is flat a step of Newton's goes nowhere: halved instead.
         Real next = slope < FLAT ? position - quotient(difference, slope) : shiftDown(inside + outside, 1);
         if (absolute(next - position) <= shiftDown(SHORT_STEP, 1)) {
-            position = next;
+            found_ = next;
             return true;
         }
         if (next <= inside || next >= outside)
             next = shiftDown(inside + outside, 1);
         position = next;
     }
+    found_ = position;
     return true;
 }
 
@@ -645,19 +767,16 @@ void Settler::restTapered(Seed& s)
 }
 
 // Whether the seed at hand faces away wherever on its path it may lie, and whoever owns the surface there; if so, steps of
-// travel that it stays like that, else -1. `along`: EyeSide::along().
+// travel that it stays like that, else -1. `across`: EyeSide::along() in units, `own`: by how much it is less than
+// awayEdge_.
 //
 // The gradient is a sum of vectors away from the centres of all fields that reach the place p. When each of them points away
 // from the eye, it does. With e the unit vector to the eye, D its distance, c a centre, r the radius, that is for the own
 // field r cos(path, e) < position r, and for the others (p - c).(e D - position path) < 0, or
 // (centre - c).e + position (path.e - path.(centre - c) / D) - position^2 r^2 / D < 0, where path.(centre - c) is
 // b size^2 / 2. The middle term is at most what it is at PLACED_LEAST, or if it grows what it is at POSITION_MOST.
-inline int32_t Settler::facesAway(int32_t along) const
+int32_t Settler::facesAway(Real across, Real own) const
 {
-    const Real across = realFromRaw(along >> 14 << 11);  // units
-    const Real own = awayEdge_ - across;
-    if (own <= Real(0))
-        return -1;
     int32_t wait = stepsOf(own, Real(AWAY_MOST), waitAlong_);
     const Real share = across * awayShare_;
     for (int n = 0; n < touchCount_; ++n) {
@@ -678,9 +797,8 @@ inline int32_t Settler::facesAway(int32_t along) const
 template <bool PLAIN>
 void Settler::settleSeed(Seed& s)
 {
-    const Vector path{s.path.x, s.path.y, s.path.z};
     if (!PLAIN) {
-        path_ = path;
+        path_ = s.path;
         root_ = o_.roots_[s.root];
     }
 
@@ -691,28 +809,27 @@ void Settler::settleSeed(Seed& s)
     for (int n = 0; n < activeCount_; ++n) {
         const Near& near = *active_[n];
         if (PLAIN || near.quick) {
-            const Real b = alongPath(near, path);
+            const Real b = alongPath(near, s.path);
             const Real beyond = b - near.touching;
             if (beyond < Real(0)) {
                 if (b < near.burying) {
                     s.position = Real(1);
-                    o_.displaced_ = true;
                     this->wait(s, 0, near.burying - b, near.waitBuried);
                     return;
                 }
                 touched = true;
             } else {
                 wait = lesser(wait, stepsOf(beyond, near.waitApart));
+                if (b >= near.meeting)
+                    continue;
             }
-            if (b < near.meeting) {
-                b_[touching] = b;
-                touch_[touching++] = &near;
-            }
+            b_[touching] = b;
+            touch_[touching++] = &near;
         } else {
             // At rest, or a way further out where other neighbours may have pulled the seed.
             Vector unused;
-            touched = touched || near.object->param(root_ + path, &unused) < TOUCHING ||
-                      near.object->param(root_ + path * Real(1.2), &unused) < TOUCHING;
+            touched = touched || near.object->param(root_ + path_, &unused) < TOUCHING ||
+                      near.object->param(root_ + path_ * Real(1.2), &unused) < TOUCHING;
             touch_[touching++] = &near;
         }
     }
@@ -733,11 +850,12 @@ void Settler::settleSeed(Seed& s)
         lookFrom(s);
     const int32_t along = eye_.along(s);
     if (PLAIN || o_.isBall()) {
-        const int32_t away = facesAway(along);
+        const Real across = realFromRaw(along >> 14 << 11);
+        const Real own = awayEdge_ - across;
+        const int32_t away = own > Real(0) ? facesAway(across, own) : -1;
         if (away >= 0) {
             // What it is held for does not matter, nor where; should it come round again it is looked for from there.
             this->wait(s, static_cast<uint8_t>(s.flags & (SEED_VALID | SEED_PLACED)), away);
-            o_.displaced_ = true;
             return;
         }
     }
@@ -746,28 +864,46 @@ void Settler::settleSeed(Seed& s)
         this->wait(s, 0, mulShift16(away, waitAway_));
         return;
     }
-    ++look_.counts->updated;
-    o_.displaced_ = true;
+    ++updated_;
     Real position = s.position;
     bool settled = false;
     if (s.flags & (SEED_VALID | SEED_PLACED)) {
         Real slope;
-        const Real field = lookAt<PLAIN>(position, slope);
-        if ((s.flags & SEED_KEPT) && strength_ <= Real(0) && absolute(field - ISOVALUE) <= DISPLACEMENT)
-            return;  // where it was, and what is known of it holds
-        settled = newton<PLAIN>(position, field, slope);
+        const Real off = lookAt<PLAIN>(position, slope) - ISOVALUE;
+        if ((s.flags & SEED_KEPT) && strength_ <= Real(0) && absolute(off) <= DISPLACEMENT) {
+            // Where it was, and what is known of it holds.
+            if (PLAIN && keptWait_) {
+                const int32_t steps = keptSteps(s.path, position, off);
+                if (steps > 0)
+                    this->wait(s, s.flags, steps);
+            }
+            return;
+        }
+        if (slope <= FLAT) {
+            const Real step = quotient(-off, slope);
+            if (absolute(step) <= SHORT_STEP) {
+                position += step;
+                settled = position >= PLACED_LEAST && position <= POSITION_MOST;
+            } else {
+                settled = newton<PLAIN>(position, step);
+                position = found_;
+            }
+        }
         if (!settled)
             position = Real(1);
     }
-    if (!settled && !bracket<PLAIN>(position)) {
-        // Inside everywhere: buried by this much of the field at least.
-        s.position = position;
-        this->wait(s, 0, buried_, waitField());
-        return;
+    if (!settled) {
+        settled = bracket<PLAIN>(position);
+        position = found_;
     }
     s.position = position;
+    if (!settled) {
+        // Inside everywhere: buried by this much of the field at least.
+        this->wait(s, 0, PLAIN && again_ ? holdSteps(s.path, position, buried_) : stepsOf(buried_, waitField()));
+        return;
+    }
     if (strength_ > Real(0)) {
-        this->wait(s, SEED_PLACED, strength_, waitField());
+        this->wait(s, SEED_PLACED, PLAIN ? holdSteps(s.path, position, strength_) : stepsOf(strength_, waitField()));
         return;
     }
     shade<PLAIN>(s, position);
