@@ -50,6 +50,19 @@ inline Normal normalise(const Vector& v)
 #endif
 }
 
+// The length of a vector (each component up to 10000 units), or up to a hundredth more.
+inline Real nearLength(const Vector& v)
+{
+#if FB_REAL == FB_FIXED
+    const Normal n = normalise(v);
+    const Vector along{Real::fromRaw(n.x * 4), Real::fromRaw(n.y * 4), Real::fromRaw(n.z * 4)};
+    const Real l = dot(v, along);
+    return l + shiftDown(l, 7);
+#else
+    return length(v);
+#endif
+}
+
 // Where the viewer is, as the seeds of one root see him. Distances in 1/32 unit, limited to +-1000 units; scalar products
 // of them with directions have 2^14 times that scale.
 class EyeSide {
@@ -60,7 +73,8 @@ public:
     void set(const Vector& toEye, Real radius, Real reach)
     {
         centre_ = toEye;
-        distance_ = steps(length(toEye) + reach);
+        const Real most(1000);
+        distance_ = steps(nearLength({clamp(toEye.x, -most, most), clamp(toEye.y, -most, most), clamp(toEye.z, -most, most)}) + reach);
         toEye_[0] = steps(toEye.x);
         toEye_[1] = steps(toEye.y);
         toEye_[2] = steps(toEye.z);
@@ -194,7 +208,9 @@ inline void layDown(int32_t nx, int32_t ny, int32_t facing, int32_t depth, int32
     const int32_t ratio = (depth << 8) / (facing < least ? least : facing);
     s.voxel.tiltX = static_cast<int16_t>(nx * ratio >> 14);
     s.voxel.tiltY = static_cast<int16_t>(ny * ratio >> 14);
-    if (ratio < 400)
+    // The cut begins where cosine^2 radius / 2 is less than the extents, and cosine = 256 / ratio.
+    const int32_t extent = s.voxel.wide > s.voxel.high ? s.voxel.wide : s.voxel.high;
+    if (ratio < 400 || (ratio < 1024 && extent < 2048 && extent * ratio * (ratio >> 6) <= (radius < 8192 ? radius : 8191) << 12))
         return;
     const int32_t away = facing > 0 ? mulDiv(mulDiv(facing, facing, depth), radius, depth) * 4 : 0;
     const int32_t sideX = nx < 0 ? -nx : nx, sideY = ny < 0 ? -ny : ny;

@@ -131,19 +131,6 @@ constexpr Real SPEED_CHANGE(3);
 constexpr Real TURNING_WILD(0.25);
 constexpr int PACE_MOST = 16;
 
-// The length of a vector, or up to a hundredth more.
-inline Real nearLength(const Vector& v)
-{
-#if FB_REAL == FB_FIXED
-    const Normal n = normalise(v);
-    const Vector along{Real::fromRaw(n.x * 4), Real::fromRaw(n.y * 4), Real::fromRaw(n.z * 4)};
-    const Real l = dot(v, along);
-    return l + shiftDown(l, 7);
-#else
-    return length(v);
-#endif
-}
-
 constexpr int32_t OVER_BACK = 128;  // 1/256 unit: how far a seed beyond the border is set back
 
 constexpr Real TWICE_LIMIT(7.9);  // units of twice, so that its scaled form fits
@@ -296,7 +283,7 @@ void Settler::addNear(const Link& link)
     if (absolute(twice.x) > TWICE_LIMIT || absolute(twice.y) > TWICE_LIMIT || absolute(twice.z) > TWICE_LIMIT)
         return;
     n.twice = scaledTwice(twice);
-    n.swing = length(twice) + Real(0.0001);
+    n.swing = nearLength(twice) + Real(0.0001);
     // At rest, or a way further out where other neighbours may have pulled the seed.
     n.touching = most(TOUCHING - n.a0 - n.c0, (TOUCHING - n.a0 - n.c0 * Real(1.44)) * Real(1 / 1.2));
     n.meeting = most(n.touching, most((TOUCHING - n.a0 - n.c0 * Real(2.25)) * Real(1 / 1.5),
