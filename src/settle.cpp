@@ -1027,7 +1027,7 @@ void Settler::settlePatches()
                 continue;
             Seed& other = pairedWith(s, extra);
             const uint8_t either = s->flags | other.flags;
-            if ((either & (SEED_PLACED | SEED_VALID)) != (SEED_PLACED | SEED_VALID)) {
+            if ((either & (SEED_PLACED | SEED_FRONT)) != (SEED_PLACED | SEED_FRONT)) {
                 extra.flags = 0;
                 continue;
             }
