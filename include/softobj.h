@@ -241,8 +241,8 @@ private:
         uint8_t state;    // PatchState
         bool extras;      // oversampled seeds among them take part
         uint8_t stale;    // PatchStale
-        bool back;        // at rest, and none of it can be seen
-        uint16_t laid;    // up to which drift_ that holds, and how its seeds at rest lie in the view
+        bool back;        // none of it can be seen
+        uint16_t laid;    // up to which drift_ that holds if it is at rest, and how its seeds at rest lie in the view
     };
     enum PatchState : uint8_t { PATCH_UNKNOWN, PATCH_AT_REST, PATCH_BURIED, PATCH_MIXED };
 

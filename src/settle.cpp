@@ -558,6 +558,7 @@ void Settler::bury(SoftObject::Patch& patch)
         s->flags = 0;
     }
     patch.state = SoftObject::PATCH_BURIED;
+    patch.back = true;
 }
 
 void Settler::rest(SoftObject::Patch& patch)
@@ -570,6 +571,7 @@ void Settler::rest(SoftObject::Patch& patch)
         s[1].flags = 0;
     }
     patch.state = SoftObject::PATCH_AT_REST;
+    patch.extras = false;
     patch.laid = o_.drift_;
     if (o_.tapers_)
         patch.stale = SoftObject::STALE_ALL;  // from paths to normals
@@ -1017,11 +1019,13 @@ void Settler::settlePatches()
         if (patch.stale != SoftObject::STALE_NONE)
             o_.posePatch(patch, true);
         bool extras = false, busy = false;
+        uint8_t seen = 0;
         for (; s < end; s += 2) {
             if (!waits(s[0])) {
                 settleSeed<PLAIN>(s[0]);
                 busy = true;
             }
+            seen |= s->flags;
             Seed& extra = s[1];
             if (extra.neighbour == 0)
                 continue;
@@ -1042,6 +1046,7 @@ void Settler::settlePatches()
                 busy = true;
             }
             extra.flags |= SEED_ACTIVE;
+            seen |= extra.flags;
             if (belt) {
                 // A gap may show between the one that is on the surface and the other.
                 Seed& valid = s->flags & SEED_VALID ? *s : other;
@@ -1052,6 +1057,7 @@ void Settler::settlePatches()
             }
         }
         patch.extras = extras;
+        patch.back = !(seen & SEED_FRONT);
         o_.displaced_ = true;
         patch.idle = busy ? static_cast<int16_t>(travel_) : idleUntil(patch);
     }
@@ -1090,7 +1096,7 @@ void SoftObject::drawQuick(const Look& look, VoxelList& list, int room, int* nex
     eye.horizon(horizon);
     ShadeSetup shadeSetup;
     shadeSetup.set(look.light, spacing_);
-    int p = *next;
+    const int p = *next;
     if (p == 0) {
         const Vector moved = (look.eye - centre_) - eyeDrawn_;
         eyeDrawn_ = look.eye - centre_;
@@ -1117,23 +1123,26 @@ void SoftObject::drawQuick(const Look& look, VoxelList& list, int room, int* nex
     const Voxel** const full = to + room - 4 * PATCH_SEEDS;
     const Voxel* const gapsFull = list.gap + GAPS_AT_ONCE - 2 * PATCH_SEEDS;
     Voxel* gap = list.gap;
-    for (; p < patchCount_ && to <= full && gap <= gapsFull; ++p) {
-        Patch& patch = patches_[p];
-        if (patch.state == PATCH_BURIED || patch.state == PATCH_UNKNOWN)
-            continue;
-        const bool atRest = patch.state == PATCH_AT_REST;
-        const bool again = static_cast<int16_t>(drift_ - patch.laid) >= 0 || patch.stale == STALE_ALL;
-        if (again) {
-            patch.laid = static_cast<uint16_t>(drift_ + DRIFT_KEPT);
-            patch.back = atRest && eye.side(patch.axis, patch.across, patch.radius32, patch.spread) == EyeSide::BACK;
+    const uint16_t drift = drift_;
+    Seed* const seeds = seeds_;
+    Patch* patch = patches_ + p;
+    Patch* const last = patches_ + patchCount_;
+    for (; patch < last && to <= full && gap <= gapsFull; ++patch) {
+        bool again = false;
+        if (static_cast<int16_t>(drift - patch->laid) >= 0 || patch->stale == STALE_ALL) {
+            again = true;
+            patch->laid = static_cast<uint16_t>(drift + DRIFT_KEPT);
+            patch->back = patch->state == PATCH_AT_REST
+                              ? eye.side(patch->axis, patch->across, patch->radius32, patch->spread) == EyeSide::BACK
+                              : patch->state != PATCH_MIXED;
         }
-        if (patch.back)
+        if (patch->back)
             continue;
-        if (patch.stale == STALE_ALL)
-            posePatch(patch, false);
-        Seed* s = seeds_ + 2 * patch.first;
-        const Seed* const end = s + 2 * patch.count;
-        const int step = patch.extras && !atRest ? 1 : 2;
+        if (patch->stale == STALE_ALL)
+            posePatch(*patch, false);
+        Seed* s = seeds + 2 * patch->first;
+        const Seed* const end = s + 2 * patch->count;
+        const int step = patch->extras ? 1 : 2;
         if (again) {
             for (Seed* each = s; each < end; each += step)
                 if ((each->flags & (SEED_VALID | SEED_PLACED)) == SEED_VALID)
@@ -1158,5 +1167,5 @@ void SoftObject::drawQuick(const Look& look, VoxelList& list, int room, int* nex
         }
     }
     list.count = static_cast<int>(to - list.voxels);
-    *next = p < patchCount_ ? p : 0;
+    *next = patch < last ? static_cast<int>(patch - patches_) : 0;
 }

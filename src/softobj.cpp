@@ -448,6 +448,7 @@ void SoftObject::posePatch(Patch& patch, bool extras) const
 {
     const bool regular = patch.stale == STALE_ALL;
     patch.stale = extras ? STALE_NONE : STALE_EXTRAS;
+    patch.laid = drift_;
     const Matrix& m = pose_;
     const int32_t light[] = {rawFromReal(light_.x) >> 2, rawFromReal(light_.y) >> 2, rawFromReal(light_.z) >> 2};
     const bool ball = isBall();
