@@ -53,7 +53,7 @@ build/san/unit: $(UNIT_PARTS:%.cpp=build/san/%.o)
 build/san/demo: $(patsubst %.cpp,build/san/%.o,$(TEST_PARTS) src/main.cpp)
 	$(TEST_CXX) $(SANITIZE) -o $@ $^
 
-build/twins: build/host32/tests/twins/twins.o build/host32/src/blit.o build/host32/asm/blit.o
+build/twins: build/host32/tests/twins/twins.o $(patsubst %,build/host32/%.o,src/blit src/scales asm/blit asm/scales)
 	$(TEST_CXX) -m32 -no-pie -static -o $@ $^
 
 -include $(wildcard build/host32/tests/twins/*.d)

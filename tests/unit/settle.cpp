@@ -113,7 +113,8 @@ bool identical(const std::vector<Voxel>& a, const std::vector<Voxel>& b)
     if (a.size() != b.size())
         return false;
     for (size_t i = 0; i < a.size(); ++i)
-        if (!(a[i].place == b[i].place) || a[i].wide != b[i].wide || a[i].high != b[i].high || a[i].colour != b[i].colour)
+        if (a[i].x != b[i].x || a[i].y != b[i].y || a[i].z != b[i].z || a[i].wide != b[i].wide || a[i].high != b[i].high ||
+            a[i].tiltX != b[i].tiltX || a[i].tiltY != b[i].tiltY || a[i].brightness != b[i].brightness)
             return false;
     return true;
 }
@@ -213,7 +214,7 @@ TEST(normal_is_the_path_where_nothing_blends)
                 continue;
             const Vec n = truth.normal(vec(ball.seedPoint(s)));
             const double lit = std::fmax(0, dot(n, vec(scene.light)) * 63);
-            const double error = std::fabs(s.brightness - lit);
+            const double error = std::fabs(s.voxel.brightness - lit);
             const bool still = std::fabs(number(s.position) - 1) < (printed ? number(printed::DEFORMITY) : 1e-6);
             if (still) {
                 ++rest;
@@ -612,7 +613,7 @@ TEST(drawing_in_parts)
     for (bool printed : {false, true}) {
         Scene scene = pair(30, 26, printed);
         scene.update();
-        const std::vector<Voxel> whole = scene.draw(0, 8192);
+        const std::vector<Voxel> whole = scene.draw(0, VOXELS_AT_ONCE);
         CHECK(whole.size() > 200);
         for (int room : {DRAW_ROOM, DRAW_ROOM + 1, 100, 333}) {
             CHECK(identical(whole, scene.draw(0, room)));
