@@ -621,6 +621,59 @@ TEST(drawing_in_parts)
     }
 }
 
+TEST(seeds_at_rest_lie_as_the_viewer_sees_them)
+{
+    // Their scales are kept while the viewer moves little. However slowly he goes on, they are never far from what they
+    // would be made anew: compared with a scene that he has just come to.
+    for (double step : {0.006, 0.013, 0.1, 3.0}) {
+        Scene scene;
+        const SoftObject& ball = scene.ball(20, 0, 0, 0);
+        scene.eye = point(-20, 5, -70);
+        scene.update();
+        double worstSize = 0, worstTilt = 0, worstPlace = 0;
+        long compared = 0, apart = 0, draws = 0;
+        const int frames = static_cast<int>(40 / step);
+        for (int frame = 0; frame < frames; ++frame) {
+            scene.eye.x += real(step);
+            scene.draw(0);
+            ++draws;
+            if (frame % (frames / 10 > 0 ? frames / 10 : 1) != 0 && frame != frames - 1)
+                continue;
+            Scene fresh;
+            const SoftObject& other = fresh.ball(20, 0, 0, 0);
+            fresh.eye = scene.eye;
+            fresh.update();
+            fresh.draw(0);
+            constexpr int SHOWN = SEED_VALID | SEED_KEPT | SEED_FRONT;
+            for (int i = 0; i < ball.seedSlots(); i += 2) {
+                const Seed& a = ball.seed(i);
+                const Seed& b = other.seed(i);
+                const bool shown = (a.flags & SHOWN) == SHOWN, known = (b.flags & SHOWN) == SHOWN;
+                if (!shown && !known)
+                    continue;
+                ++compared;
+                if (shown != known) {
+                    ++apart;
+                    continue;
+                }
+                SAME(a.voxel.brightness, b.voxel.brightness);
+                worstSize = std::fmax(worstSize, std::fmax(std::abs(a.voxel.wide - b.voxel.wide), std::abs(a.voxel.high - b.voxel.high)) / 256.0);
+                worstPlace = std::fmax(worstPlace, size(Vec{double(a.voxel.x - b.voxel.x), double(a.voxel.y - b.voxel.y), double(a.voxel.z - b.voxel.z)}) / 256);
+                // Where the surface bends away the tilt changes fast, and no matter: scales are cut short there.
+                if (std::abs(b.voxel.tiltX) < 512 && std::abs(b.voxel.tiltY) < 512)
+                    worstTilt = std::fmax(worstTilt, std::fmax(std::abs(a.voxel.tiltX - b.voxel.tiltX), std::abs(a.voxel.tiltY - b.voxel.tiltY)) / 256.0);
+            }
+        }
+        note("%g units a frame: scales of %ld seeds within %.3f units of size, %.3f of place, %.3f of tilt; %.1f%% only in one",
+             step, compared, worstSize, worstPlace, worstTilt, 100.0 * apart / compared);
+        CHECK(compared > 1000);
+        CHECK(worstSize < 0.4);
+        CHECK(worstPlace < 0.4);
+        CHECK(worstTilt < 0.4);
+        CHECK(apart * 20 < compared);
+    }
+}
+
 TEST(weights_and_missing_links)
 {
     for (bool printed : {false, true}) {

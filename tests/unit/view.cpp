@@ -207,6 +207,74 @@ TEST(anything_may_be_shown)
     }
 }
 
+TEST(places_count_from_the_lists_own)
+{
+    // An object's voxels count from its centre: wherever that is, what is drawn is the same as when they count from the
+    // eye, for those that the loop draws and for those that it leaves.
+    View one, two;
+    CHECK(one.open() && two.open());
+    Random random;
+    for (int round = 0; round < 20; ++round) {
+        std::vector<Voxel> list, moved;
+        const int32_t x = steps(random.between(-3000, 3000)), y = steps(random.between(-3000, 3000)), z = steps(random.between(-3000, 3000));
+        for (int i = 0; i < 200; ++i) {
+            Voxel v = voxel(random.between(-60, 60), random.between(-50, 50), random.between(20, 300), random.between(0, 6), random.between(0, 6), 1 + i % 63);
+            v.tiltX = static_cast<int16_t>(random.below(1000) - 500);
+            v.tiltY = static_cast<int16_t>(random.below(1000) - 500);
+            list.push_back(v);
+            v.x -= x;
+            v.y -= y;
+            v.z -= z;
+            moved.push_back(v);
+        }
+        one.begin();
+        two.begin();
+        SAME(show(one, list), show(two, moved.data(), moved.size(), x, y, z));
+        one.end();
+        two.end();
+        CHECK(std::memcmp(one.frame(), two.frame(), WIDTH * HEIGHT) == 0);
+        CHECK(std::memcmp(one.zbuffer(), two.zbuffer(), WIDTH * HEIGHT * 2) == 0);
+        CHECK(std::memcmp(one.rows(), two.rows(), HEIGHT * sizeof(Span)) == 0);
+    }
+}
+
+TEST(colours_are_the_lists_own)
+{
+    // Small scales, large ones and single pixels take their colour from the ramp of the list; marks of gaps have none.
+    View view;
+    CHECK(view.open());
+    uint8_t ramp[64];
+    for (int i = 0; i < 64; ++i)
+        ramp[i] = static_cast<uint8_t>(255 - 2 * i);
+    Voxel voxels[4] = {voxel(-19.9, -0.1, 100, 1, 1, 0), voxel(10.1, -0.1, 100, 8, 8, 63), voxel(0.1, 20, 100, 1, 1, 7),
+                       voxel(0.1, -20, 100, 3, 3, GAP)};
+    VoxelList list{};
+    list.ramp = ramp;
+    list.count = 4;
+    for (int i = 0; i < 4; ++i)
+        list.voxels[i] = voxels + i;
+    for (bool pixels : {false, true}) {
+        view.setPixels(pixels);
+        view.begin();
+        SAME(view.show(list), 3);
+        view.end();
+        SAME(view.frame()[100 * WIDTH + 110], 255);
+        SAME(view.frame()[100 * WIDTH + 185], 255 - 126);
+        SAME(view.frame()[58 * WIDTH + 160], 255 - 14);
+        SAME(view.frame()[141 * WIDTH + 160], 0);
+    }
+    view.setPixels(false);
+    // What covers no pixel's centre is not counted: halfway between two columns there is none for a narrow one.
+    voxels[0] = voxel(0, 0, 125, 0.1, 0.1, 5);
+    voxels[1] = voxel(0.25, 0.3, 125, 0.1, 0.1, 5);
+    list.count = 2;
+    view.begin();
+    SAME(view.show(list), 1);
+    view.end();
+    list.count = 0;
+    SAME(view.show(list), 0);
+}
+
 TEST(nearest_is_seen)
 {
     // The Z-buffer: whatever the order, the nearest scale is what is seen.
