@@ -674,6 +674,44 @@ TEST(seeds_at_rest_lie_as_the_viewer_sees_them)
     }
 }
 
+TEST(how_much_of_a_cells_depth_shows)
+{
+    // x / depth and y / depth of places about a root: exact near the viewer, with one depth for all where he is far.
+    Random random;
+    double worstNear = 0, worstFar = 0;
+    int near = 0, far = 0;
+    for (int i = 0; i < 200000; ++i) {
+        const double reach = random.between(1, 100), x = random.between(-400, 400), y = random.between(-400, 400);
+        const double z = random.below(4) ? random.between(0, 500) : random.between(-300, 60);
+        const Vec out{random.between(-0.57, 0.57) * reach, random.between(-0.57, 0.57) * reach, random.between(-0.57, 0.57) * reach};
+        Skew skew;
+        skew.root(vector(x, y, z), real(reach));
+        const Vector place = vector(out.x, out.y, out.z);
+        NEAR(skew.depth(place) / 32.0, z + out.z, 0.07);
+        const auto limited = [](double s) { return s > 4 ? 4 : s < -4 ? -4 : s; };
+        const double depth = std::fmax(z + out.z, 1);
+        const double sideways[2] = {limited((x + out.x) / depth), limited((y + out.y) / depth)};
+        const double got[2] = {skew.x(place) / 256.0, skew.y(place) / 256.0};
+        for (int axis = 0; axis < 2; ++axis) {
+            // Lengths have 5 bits of fraction and their inverse as many as fit.
+            const double doubt = 0.016 + 0.04 / depth * (1 + std::fabs(sideways[axis])) + 0.02 * std::fabs(sideways[axis]);
+            const double error = std::fabs(got[axis] - sideways[axis]);
+            CHECK(std::fabs(got[axis]) <= 5);
+            if (z < 4 * reach - 0.2 || z < 3.8) {
+                ++near;
+                worstNear = std::fmax(worstNear, error - doubt);
+            } else if (z > 4 * reach + 0.2 && z > 4.2 && std::fabs(x) < 2 * z && std::fabs(y) < 2 * z) {
+                ++far;
+                // The depth of the root for that of the place.
+                worstFar = std::fmax(worstFar, error - doubt - std::fabs(sideways[axis] * out.z / z));
+            }
+        }
+    }
+    CHECK(near > 10000 && far > 10000);
+    NEAR(worstNear, 0, 0.001);
+    NEAR(worstFar, 0, 0.001);
+}
+
 TEST(weights_and_missing_links)
 {
     for (bool printed : {false, true}) {
