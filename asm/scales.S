@@ -182,7 +182,7 @@ bottom_grown:
         jl      grow_top
 top_grown:
         subl    %edx, %eax
-        jz      empty
+        jle     empty
         // if (wide + high > SLOPED_MOST) break
         addl    %eax, %edi
         cmpl    $SLOPED_MOST, %edi

@@ -14,6 +14,16 @@ constexpr int32_t STEEPEST = 400;
 constexpr int SLOPED_MOST = 24;
 constexpr int WIDEST = 16;
 
+// Modulo 2^32, as the processor does it: no place or tilt whatever does harm.
+constexpr int32_t wrappedSum(int32_t a, int32_t b)
+{
+    return static_cast<int32_t>(static_cast<uint32_t>(a) + static_cast<uint32_t>(b));
+}
+constexpr int32_t wrappedProduct(int32_t a, int32_t b)
+{
+    return static_cast<int32_t>(static_cast<uint32_t>(a) * static_cast<uint32_t>(b));
+}
+
 // What a depth makes of lengths.
 struct Factors {
     int32_t x, y;    // focal 2^12 / z: 1/256 unit to 1/2^20 pixel

@@ -18,14 +18,14 @@ int drawScalesC(Lens* lens, const Voxel* const* voxels, int count)
     int i = 0;
     for (; i < count; ++i) {
         const Voxel& v = *voxels[i];
-        const int32_t depth = lens->z + v.z;
+        const int32_t depth = wrappedSum(lens->z, v.z);
         const uint32_t step = static_cast<uint32_t>((depth >> 5) - LENS_NEAR * 8);
         if (step >= static_cast<uint32_t>(LENS_STEPS) || v.brightness >= GAP)
             break;
         const Factors& f = lens->factors[step];
         // The pixels whose centres lie in the rectangle: columns, then rows.
         int32_t column, row;
-        if (__builtin_mul_overflow(lens->x + v.x, f.x, &column))
+        if (__builtin_mul_overflow(wrappedSum(lens->x, v.x), f.x, &column))
             break;
         column = lens->centreX + (column >> 8);
         const int32_t halfWide = v.wide * f.x >> 8;
@@ -34,7 +34,7 @@ int drawScalesC(Lens* lens, const Voxel* const* voxels, int count)
             break;
         lens->left = left < lens->left ? left : lens->left;
         lens->right = right > lens->right ? right : lens->right;
-        if (wide > WIDEST || __builtin_mul_overflow(lens->y + v.y, f.y, &row))
+        if (wide < 0 || wide > WIDEST || __builtin_mul_overflow(wrappedSum(lens->y, v.y), f.y, &row))
             break;
         row = lens->centreY - (row >> 8);
         const int32_t halfHigh = v.high * f.y >> 8;
@@ -45,12 +45,13 @@ int drawScalesC(Lens* lens, const Voxel* const* voxels, int count)
         lens->bottom = bottom > lens->bottom ? bottom : lens->bottom;
         if (wide + high > SLOPED_MOST)
             break;
-        if (wide == 0 || high == 0) {
+        if (wide == 0 || high <= 0) {
             ++lens->empty;
             continue;
         }
         // The plane of the surface: from the scale's middle to the middle of its first pixel, and on from there.
-        const int32_t across = limited(v.tiltX * f.zx >> 16), down = -limited(v.tiltY * f.zy >> 16);
+        const int32_t across = limited(wrappedProduct(v.tiltX, f.zx) >> 16);
+        const int32_t down = -limited(wrappedProduct(v.tiltY, f.zy) >> 16);
         Scale scale;
         scale.left = static_cast<int16_t>(left);
         scale.top = static_cast<int16_t>(top);

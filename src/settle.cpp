@@ -1099,9 +1099,13 @@ void SoftObject::drawQuick(const Look& look, VoxelList& list, int room, int* nex
     const int p = *next;
     if (p == 0) {
         const Vector moved = (look.eye - centre_) - eyeDrawn_;
-        eyeDrawn_ = look.eye - centre_;
         const Real sum = absolute(moved.x) + absolute(moved.y) + absolute(moved.z);
-        drift_ = static_cast<uint16_t>(drift_ + (rawFromReal(least(sum, Real(100))) >> 10));
+        const int32_t steps = rawFromReal(least(sum, Real(100))) >> 10;
+        // Less is left to add up, or slow moves would count for nothing.
+        if (steps >= DRIFT_LEAST) {
+            drift_ = static_cast<uint16_t>(drift_ + steps);
+            eyeDrawn_ = look.eye - centre_;
+        }
     }
     int root = -1;
     Skew skew;

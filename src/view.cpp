@@ -99,7 +99,7 @@ void View::mark(int left, int top, int right, int bottom)
 // A voxel that drawScales() left: any size and place. False: not on the screen.
 bool View::project(const Voxel& voxel, Scale* scale) const
 {
-    const int32_t x = lens_.x + voxel.x, y = lens_.y + voxel.y, z = lens_.z + voxel.z;
+    const int32_t x = wrappedSum(lens_.x, voxel.x), y = wrappedSum(lens_.y, voxel.y), z = wrappedSum(lens_.z, voxel.z);
     if (z < NEAREST || z > FARTHEST)
         return false;
     // Off the screen by far? Then the quotients below might not fit.
@@ -137,8 +137,9 @@ bool View::project(const Voxel& voxel, Scale* scale) const
     across = across > STEEPEST ? STEEPEST : across < -STEEPEST ? -STEEPEST : across;
     down = down > STEEPEST ? STEEPEST : down < -STEEPEST ? -STEEPEST : down;
     // From the scale's centre to the centre of its first pixel.
-    int32_t first = depth + ((across * ((left << FRACTION) + HALF - column) + down * ((top << FRACTION) + HALF - row)) >>
-                             FRACTION);
+    const int64_t slope = static_cast<int64_t>(across) * ((left << FRACTION) + HALF - column) +
+                          static_cast<int64_t>(down) * ((top << FRACTION) + HALF - row);
+    int32_t first = depth + static_cast<int32_t>(slope >> FRACTION);
     // Might it leave 16 bits at a corner? Then it faces the viewer.
     const int32_t swing = (across < 0 ? -across : across) * WIDTH + (down < 0 ? -down : down) * HEIGHT;
     if (depth - swing < 0 || depth + swing >= Z_EMPTY) {

@@ -1,19 +1,20 @@
 // What the benchmark adds to the host program to count instructions: the copy to the screen that the DOS program makes,
-// and the C++ twin of the scale blitter beside the assembly, on the very scales that the demo draws.
+// and the C++ twins of the loops that draw scales beside the assembly, on the very lists that the demo draws.
 //
 // It is linked in with the linker's --wrap, so that nothing of it is in the program itself (tools/bench.mk). A profiler
 // then tells the instructions of each routine by its name. What was drawn is told at the end of the run, on standard
 // output behind the statistics:
 //
-//     blit scales: N        scales given to the blitter
-//     blit pixels: N        pixels they cover
-//     blit differing: N     calls in which the twins drew differently; has to be 0
+//     scales: N             scales drawn, whichever way
+//     scales by the view: N of them those that the loop left to View::project(), and the blitter drew one by one
+//     scale pixels: N       pixels they all cover
+//     scales differing: N   calls in which the twins drew, counted or stopped differently; has to be 0
 //     frames not cleared: N frames that began with something left of the one before; has to be 0
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "blit.h"
+#include "scales.h"
 
 namespace {
 
@@ -24,7 +25,7 @@ uint8_t screen[WIDTH * HEIGHT];
 uint8_t twinFrame[WIDTH * HEIGHT];
 uint16_t twinDepths[WIDTH * HEIGHT];
 
-unsigned long long scalesDrawn = 0, pixelsCovered = 0, differing = 0, leftOver = 0;
+unsigned long long scalesDrawn = 0, byTheView = 0, pixelsCovered = 0, differing = 0, leftOver = 0;
 unsigned long frames = 0;
 
 // Looked at in every sixteenth frame: to look costs as much as to draw.
@@ -32,8 +33,33 @@ constexpr unsigned long LOOK_EVERY = 16;
 
 void tell()
 {
-    printf("blit scales: %llu\nblit pixels: %llu\nblit differing: %llu\nframes not cleared: %llu\n", scalesDrawn,
-           pixelsCovered, differing, leftOver);
+    printf("scales: %llu\nscales by the view: %llu\nscale pixels: %llu\nscales differing: %llu\nframes not cleared: %llu\n",
+           scalesDrawn, byTheView, pixelsCovered, differing, leftOver);
+}
+
+// The pixels that a voxel which the loop dealt with covers. (What is of this file only is not counted: tools/bench.sh
+// knows it by the name.)
+int benchPixels(const Lens& lens, const Voxel& v)
+{
+    const int32_t depth = lens.z + v.z;
+    const Factors& f = lens.factors[(depth >> 5) - LENS_NEAR * 8];
+    const int32_t column = lens.centreX + ((lens.x + v.x) * f.x >> 8), row = lens.centreY - ((lens.y + v.y) * f.y >> 8);
+    const int32_t halfWide = v.wide * f.x >> 8, halfHigh = v.high * f.y >> 8;
+    const int wide = ((column + halfWide) >> 12) - ((column - halfWide) >> 12);
+    const int high = ((row + halfHigh) >> 12) - ((row - halfHigh) >> 12);
+    return wide * high;
+}
+
+// The frame as it is so far; what is drawn over it later (gaps closed, text) is no business of the twins.
+bool benchDiffers(const uint8_t* frame, const uint16_t* zbuffer)
+{
+    if (frames % LOOK_EVERY != 0)
+        return false;
+    for (int i = 0; i < WIDTH * HEIGHT; ++i) {
+        if (frame[i] != twinFrame[i] || zbuffer[i] != twinDepths[i])
+            return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -41,6 +67,7 @@ void tell()
 extern "C" {
 
 void __real_blitScalesA(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int count);
+int __real_drawScalesA(Lens* lens, const Voxel* const* voxels, int count);
 void __real_clearRowsA(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
 
 // A frame begins, for the twin too: what the program leaves in its buffers is there for both. (Nothing should be.)
@@ -70,15 +97,30 @@ void __wrap_blitScalesA(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, 
     for (int i = 0; i < count; ++i)
         pixelsCovered += static_cast<unsigned>(scales[i].wide * scales[i].high);
     scalesDrawn += static_cast<unsigned>(count);
-    if (frames % LOOK_EVERY != 0)
-        return;
-    // The frame as it is so far; what is drawn over it later (gaps closed, text) is no business of the blitter.
-    for (int i = 0; i < WIDTH * HEIGHT; ++i) {
-        if (frame[i] != twinFrame[i] || zbuffer[i] != twinDepths[i]) {
-            ++differing;
-            break;
-        }
+    byTheView += static_cast<unsigned>(count);
+    differing += benchDiffers(frame, zbuffer);
+}
+
+int __wrap_drawScalesA(Lens* lens, const Voxel* const* voxels, int count)
+{
+    static Lens twin;
+    twin = *lens;
+    twin.frame = twinFrame;
+    twin.zbuffer = twinDepths;
+    const int32_t emptyBefore = lens->empty;
+    const int done = __real_drawScalesA(lens, voxels, count);
+    const int twinDone = drawScalesC(&twin, voxels, count);
+    int drawn = 0;
+    for (int i = 0; i < done; ++i) {
+        const int pixels = benchPixels(*lens, *voxels[i]);
+        drawn += pixels > 0;
+        pixelsCovered += static_cast<unsigned>(pixels);
     }
+    scalesDrawn += static_cast<unsigned>(drawn);
+    differing += done != twinDone || drawn != done - (lens->empty - emptyBefore) || twin.empty != lens->empty ||
+                 twin.left != lens->left || twin.top != lens->top || twin.right != lens->right ||
+                 twin.bottom != lens->bottom || benchDiffers(lens->frame, lens->zbuffer);
+    return done;
 }
 
 // machine::present(): the host's has no card to copy to.

@@ -12,17 +12,17 @@ build/BENCH.BAT: tools/bench.bat
 	@mkdir -p build
 	awk '{ sub(/\r$$/, ""); printf "%s\r\n", $$0 }' tools/bench.bat > $@
 
-BENCH_WRAP = -Wl,--wrap=blitScalesA -Wl,--wrap=clearRowsA -Wl,--wrap=_ZN7machine7presentEPKhPK4Span
-BENCH_BLIT = build/bench/blit486.o
-BENCH_PARTS = $(filter-out build/host32/src/blit.o,$(patsubst %.cpp,build/host32/%.o,$(HOST_SOURCES))) \
+BENCH_WRAP = -Wl,--wrap=drawScalesA -Wl,--wrap=blitScalesA -Wl,--wrap=clearRowsA -Wl,--wrap=_ZN7machine7presentEPKhPK4Span
+BENCH_TWINS = build/bench/blit486.o build/bench/scales486.o
+BENCH_PARTS = $(filter-out build/host32/src/blit.o build/host32/src/scales.o,$(patsubst %.cpp,build/host32/%.o,$(HOST_SOURCES))) \
 	build/host32/asm/blit.o build/host32/asm/scales.o build/host32/tools/bench.o
 
-# The twin as a compiler for the 486 makes it.
-$(BENCH_BLIT): src/blit.cpp include/blit.h include/machine.h include/rt.h
+# The twins as a compiler for the 486 makes them.
+build/bench/%486.o: src/%.cpp include/blit.h include/scales.h include/voxel.h include/machine.h include/rt.h
 	@mkdir -p $(@D)
 	$(HOST_CXX) $(HOST_FLAGS) -m32 -march=i486 -fno-pic -fno-pie -DFB_ASM=1 -c $< -o $@
 
-build/bench32: $(BENCH_PARTS) $(BENCH_BLIT)
+build/bench32: $(BENCH_PARTS) $(BENCH_TWINS)
 	$(HOST_CXX) -m32 -no-pie -static $(BENCH_WRAP) -o $@ $^
 
 bench: build/DEMO.EXE build/bench32 build/demo32

@@ -105,7 +105,7 @@ count() {
 }
 
 # per_frame SHORT LONG FRAMES: instructions a frame of each stage, "STAGE COST". What is of the benchmark itself
-# (tools/bench.cpp) is left out, but for the twin.
+# (tools/bench.cpp) is left out, but for two lines that are no stages: "twin", and "loop", the assembly's part of "scales".
 per_frame() {
 	awk -v frames="$3" '
 		{ cost = $1; f = $0; sub(/^[0-9]+ /, "", f) }
@@ -113,21 +113,24 @@ per_frame() {
 		{ total[f] += file == 1 ? -cost : cost }
 		END {
 			for (f in total) {
-				if (f ~ /^__wrap_|^(\(anonymous namespace\)::)?tell/) continue
-				else if (f ~ /^blitScalesC/) s = "twin"
+				if (f ~ /^__wrap_|^(\(anonymous namespace\)::)?(tell|bench)/) continue
+				else if (f ~ /^(drawScalesC|blitScalesC)/) s = "twin"
 				else if (f ~ /(^| )Settler::shade/) s = "normals"
 				else if (f ~ /(^| )(Settler::|SoftObject::(update|settle|find|inRange|tell))/) s = "update"
-				else if (f ~ /(^| )SoftObject::draw/) s = "draw"
-				else if (f ~ /(^| )View::(project|show)/) s = "project"
-				else if (f ~ /^blitScalesA/) s = "blit"
+				else if (f ~ /(^| )SoftObject::(draw|layAtRest)/) s = "draw"
+				else if (f ~ /^(drawScalesA|blitScalesA)|(^| )View::(project|show)/) s = "scales"
 				else if (f ~ /closeGap|addGap|^findEmptyA/) s = "gaps"
 				else if (f ~ /^clearRowsA|(^| )View::begin/) s = "clear"
 				else if (f ~ /^presentRows|(^| )View::(mark|touch|end)/) s = "present"
 				else s = "other"
 				sum[s] += total[f]
+				if (f ~ /^(drawScalesA|blitScalesA)/) sum["loop"] += total[f]
 			}
 			for (s in sum) printf "%s %.0f\n", s, sum[s] / frames
 		}' "$work/$1.cost" "$work/$2.cost"
+}
+all_stages() { # all_stages FILE: their sum
+	awk '$1 != "twin" && $1 != "loop" { n += $2 } END { printf "%.0f", n }' "$1"
 }
 stage() { # stage NAME: what per_frame said of it
 	awk -v name="$1" '$1 == name { cost = $2 } END { print cost + 0 }' "$work/stages"
@@ -138,7 +141,7 @@ page_stages() {
 	count one build/bench32 /G /R:$rate /N:1 || return 1
 	count many build/bench32 /G /R:$rate /N:$((frames + 1)) || return 1
 	per_frame one many $frames >"$work/stages"
-	all=$(awk '$1 != "twin" { n += $2 } END { printf "%.0f", n }' "$work/stages")
+	all=$(all_stages "$work/stages")
 	echo
 	echo "Instructions a frame by stage ($frames frames, $rate a second):"
 	echo
@@ -152,8 +155,7 @@ page_stages() {
 	update update: settle the seeds
 	normals normals and shading
 	draw draw: scales of seeds
-	project project: scales to the screen
-	blit blit (assembly)
+	scales scales: project and draw them (assembly but for few)
 	gaps close what gaps are left
 	clear clear (assembly; string instructions, by repetition)
 	present present (assembly; likewise)
@@ -162,23 +164,29 @@ page_stages() {
 	printf '  %-52s %10d\n' "all" "$all"
 	record stage all instructions "$all"
 
-	# The blitter: cost over the same scales, of the same runs.
-	scales=$(($(value 'blit scales' "$work/many.txt") - $(value 'blit scales' "$work/one.txt")))
-	pixels=$(($(value 'blit pixels' "$work/many.txt") - $(value 'blit pixels' "$work/one.txt")))
+	# The loops that draw: cost over the same scales, of the same runs.
+	scales=$(($(value scales "$work/many.txt") - $(value scales "$work/one.txt")))
+	others=$(($(value 'scales by the view' "$work/many.txt") - $(value 'scales by the view' "$work/one.txt")))
+	pixels=$(($(value 'scale pixels' "$work/many.txt") - $(value 'scale pixels' "$work/one.txt")))
 	echo
-	echo "The blitter on these frames' scales, $((scales / frames)) a frame, $((pixels / frames)) pixels covered a frame:"
+	awk -v scales=$scales -v others=$others -v pixels=$pixels -v frames=$frames 'BEGIN {
+		printf "Projecting and drawing the scales of these frames, %.0f a frame (%.1f%% of them projected by the view and only\n", \
+			scales / frames, 100 * others / scales
+		printf "drawn here), %.0f pixels covered a frame:\n", pixels / frames
+	}'
 	echo
 	echo "                                          instructions    a scale   a covered pixel"
-	for which in blit twin; do
+	for which in loop twin; do
 		name=assembly
-		[ $which = blit ] || name="C++ twin (-O2 -march=i486)"
+		[ $which = loop ] || name="C++ twin (-O2 -march=i486)"
 		awk -v name="$name" -v cost="$(stage $which)" -v frames=$frames -v scales=$scales -v pixels=$pixels 'BEGIN {
 			printf "  %-40s %11d %10.1f %17.2f\n", name, cost, cost * frames / scales, cost * frames / pixels
 		}'
-		record blitter $which instructions "$(stage $which)"
+		record loop $which instructions "$(stage $which)"
 	done
-	record blitter scales number $((scales / frames))
-	record blitter pixels number $((pixels / frames))
+	record loop scales number $((scales / frames))
+	record loop others number $((others / frames))
+	record loop pixels number $((pixels / frames))
 }
 
 page_growth() {
@@ -190,7 +198,8 @@ page_growth() {
 	for spacing in 4 2 1 0.5 0.25; do
 		count short build/demo32 /G /R:$rate /S:$spacing /N:1 || return 1
 		count long build/demo32 /G /R:$rate /S:$spacing /N:$((growth + 1)) || return 1
-		cost=$(per_frame short long $growth | awk '{ n += $2 } END { printf "%.0f", n }')
+		per_frame short long $growth >"$work/grown"
+		cost=$(all_stages "$work/grown")
 		seeds=$(($(value seeds "$work/long.txt") + $(value 'oversampled seeds' "$work/long.txt")))
 		awk -v spacing=$spacing -v seeds="$seeds" -v cost="$cost" -v before="$before" 'BEGIN {
 			printf "  %-7s %9d %22d %26s\n", spacing, seeds, cost, before == "" ? "-" : sprintf("%.2f", cost / before)
@@ -209,8 +218,8 @@ page() {
 # What must not be, whatever the figures.
 sound() {
 	good=0
-	[ "$(value 'blit differing' "$work/many.txt")" = 0 ] || {
-		echo "bench.sh: assembly and C++ drew differently in $(value 'blit differing' "$work/many.txt") calls" >&2
+	[ "$(value 'scales differing' "$work/many.txt")" = 0 ] || {
+		echo "bench.sh: assembly and C++ drew differently in $(value 'scales differing' "$work/many.txt") calls" >&2
 		good=1
 	}
 	[ "$(value 'frames not cleared' "$work/many.txt")" = 0 ] || {

@@ -211,7 +211,7 @@ const Time TIMES[] = {0, 65536 / 10, 65536 * 3 + 777, 12345678, 65536ull * 3599,
 
 void draw(Model& model)
 {
-    static Voxel voxels[1024];
+    static VoxelList list;
     static uint8_t ramp[64];
     for (int i = 0; i < model.count(); ++i)
         model.actor(i).object->setRamp(ramp);
@@ -226,7 +226,7 @@ void draw(Model& model)
         for (int i = 0; i < model.count(); ++i) {
             int next = 0;
             do
-                model.actor(i).object->draw(look, voxels, 1024, &next);
+                model.actor(i).object->draw(look, list, VOXELS_AT_ONCE, &next);
             while (next != 0);
         }
     }

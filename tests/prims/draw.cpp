@@ -25,7 +25,7 @@ struct Play {
 
 bool run(Play& play, const std::string& directory, bool printed)
 {
-    static Voxel voxels[256];
+    static VoxelList list;
     Model model;
     std::vector<SoftObject*> objects;
     for (Object& object : play.objects) {
@@ -58,7 +58,8 @@ bool run(Play& play, const std::string& directory, bool printed)
         for (SoftObject* object : objects) {
             int next = 0;
             do {
-                view.show(voxels, object->draw(look, voxels, 256, &next));
+                object->draw(look, list, 256, &next);
+                view.show(list);
             } while (next != 0);
         }
         view.closeGaps();

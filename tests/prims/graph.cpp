@@ -31,12 +31,12 @@ struct Scene {
 
     void update(SoftObject& object)
     {
-        static Voxel voxels[256];
+        static VoxelList list;
         object.setRamp(ramp);
         object.update(look);
         int next = 0;
         do {
-            object.draw(look, voxels, 256, &next);
+            object.draw(look, list, 256, &next);
         } while (next != 0);
     }
 };

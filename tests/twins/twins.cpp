@@ -1,16 +1,21 @@
-// Assembly against C++: each routine of asm/blit.S and its twin in src/blit.cpp get the same input, and all they may
-// touch must come out the same, with guard bytes round every buffer. A new assembly routine gets its part here before
-// anything else uses it.
+// Assembly against C++: each routine of asm/blit.S and asm/scales.S and its twin in src/blit.cpp and src/scales.cpp get
+// the same input, and all they may touch must come out the same, with guard bytes round every buffer. A new assembly
+// routine gets its part here before anything else uses it.
 //
-//   twins [SEED [ROUNDS]]     rounds of random scales and spans, after the cases that are always tried
+//   twins [SEED [ROUNDS]]     rounds of random scales, voxels and spans, after the cases that are always tried
 //
 // Prints what differs, how much was tried, and "N passed, N failed".
+#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "blit.h"
+#include "scales.h"
+
+namespace inasm {
+#include "../../build/scalesdef.h"
+}
 
 namespace {
 
@@ -298,6 +303,308 @@ void randomLists(int rounds)
     }
 }
 
+// --- Scales of voxels
+
+// What asm/scales.S counts on (build/scalesdef.h: its own #defines, by tools/tests.mk).
+static_assert(inasm::VOXEL_X == offsetof(Voxel, x) && inasm::VOXEL_Y == offsetof(Voxel, y) &&
+              inasm::VOXEL_Z == offsetof(Voxel, z) && inasm::VOXEL_WIDE == offsetof(Voxel, wide) &&
+              inasm::VOXEL_HIGH == offsetof(Voxel, high) && inasm::VOXEL_TILTX == offsetof(Voxel, tiltX) &&
+              inasm::VOXEL_TILTY == offsetof(Voxel, tiltY) && inasm::VOXEL_BRIGHT == offsetof(Voxel, brightness), "Voxel");
+static_assert(inasm::FACTOR_X == offsetof(Factors, x) && inasm::FACTOR_Y == offsetof(Factors, y) &&
+              inasm::FACTOR_ZX == offsetof(Factors, zx) && inasm::FACTOR_ZY == offsetof(Factors, zy) &&
+              1 << inasm::FACTOR_SHIFT == sizeof(Factors), "Factors");
+static_assert(inasm::LENS_X == offsetof(Lens, x) && inasm::LENS_Y == offsetof(Lens, y) && inasm::LENS_Z == offsetof(Lens, z) &&
+              inasm::RAMP == offsetof(Lens, ramp) && inasm::FACTORS == offsetof(Lens, factors) &&
+              inasm::CENTREX == offsetof(Lens, centreX) && inasm::CENTREY == offsetof(Lens, centreY) &&
+              inasm::FRAME == offsetof(Lens, frame) && inasm::ZBUFFER == offsetof(Lens, zbuffer) &&
+              inasm::BOX_LEFT == offsetof(Lens, left) && inasm::BOX_TOP == offsetof(Lens, top) &&
+              inasm::BOX_RIGHT == offsetof(Lens, right) && inasm::BOX_BOTTOM == offsetof(Lens, bottom) &&
+              inasm::EMPTY == offsetof(Lens, empty) && inasm::LENS_WORDS * 4 == sizeof(Lens), "Lens");
+static_assert(inasm::GAP == GAP && inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FAR == LENS_FAR &&
+              inasm::LENS_STEPS == LENS_STEPS && inasm::STEEPEST == STEEPEST && inasm::SLOPED_MOST == SLOPED_MOST &&
+              inasm::WIDEST == WIDEST && inasm::SCREEN_WIDTH == WIDE && inasm::SCREEN_HEIGHT == HIGH, "constants");
+
+long voxelsTried = 0, voxelsDrawn = 0;
+
+// A camera and the lens that the view makes of it, its table computed anew.
+struct Optics {
+    double focalX, focalY, centreX, centreY;  // pixels
+    Factors factors[LENS_STEPS];
+    uint8_t ramp[GAP];
+
+    void set(double fx, double fy, double cx, double cy)
+    {
+        focalX = fx;
+        focalY = fy;
+        centreX = cx;
+        centreY = cy;
+        for (int i = 0; i < LENS_STEPS; ++i) {
+            const double z = LENS_NEAR + (i + 0.5) / 8;
+            factors[i].x = static_cast<int32_t>(fx * 4096 / z + 0.5);
+            factors[i].y = static_cast<int32_t>(fy * 4096 / z + 0.5);
+            factors[i].zx = static_cast<int32_t>(z * 32768 / fx);
+            factors[i].zy = static_cast<int32_t>(z * 32768 / fy);
+        }
+        fill(ramp, sizeof ramp);
+    }
+};
+Optics optics;
+
+// One of the demo's, or any that the view allows; or factors that no camera makes (products of extents fit 32 bits).
+void anyOptics()
+{
+    const double focal = 64 + below(437);
+    if (below(2))
+        optics.set(250, 625 / 3.0, 160, 100);
+    else
+        optics.set(focal, below(2) ? focal / 1.2 < 64 ? 64 : focal / 1.2 : 64 + below(437), below(500) - 90.5, below(400) - 100.25);
+    if (below(4))
+        return;
+    for (Factors& f : optics.factors) {
+        f.x = below(65536) >> below(16);
+        f.y = below(65536) >> below(16);
+        f.zx = static_cast<int32_t>(any() >> below(32));
+        f.zy = static_cast<int32_t>(any() >> below(32));
+    }
+}
+
+// Any number, small ones as often as large ones.
+int32_t anything() { return static_cast<int32_t>(any()) >> below(32); }
+
+int32_t minus(int32_t a, int32_t b) { return static_cast<int32_t>(static_cast<uint32_t>(a) - static_cast<uint32_t>(b)); }
+
+// A voxel about (x, y, z), by where and how large it falls on the screen: everywhere, but often at an edge of the screen,
+// at an end of the table, as wide or as large as goes; and some that are nowhere.
+Voxel anyVoxel(const Lens& lens)
+{
+    const auto near = [](int at, int by) { return at + below(2 * by + 1) - by; };
+    int32_t z = LENS_NEAR * 256 + below((LENS_FAR - LENS_NEAR) * 256);
+    if (below(16) == 0)
+        z = near((below(2) ? LENS_NEAR : LENS_FAR) * 256, 40);
+    double column = below(WIDE * 16) / 16.0, row = below(HIGH * 16) / 16.0;
+    double wide = below(18 * 16) / 16.0, high = below(18 * 16) / 16.0;
+    switch (below(8)) {
+    case 0: wide = below(32) / 16.0; break;
+    case 1: high = below(32) / 16.0; break;
+    case 2: wide = WIDEST + (below(33) - 16) / 8.0, high = below(12); break;
+    case 3: high = SLOPED_MOST - wide + (below(33) - 16) / 8.0; break;
+    case 4: wide = below(8), high = below(3) ? below(8) : below(30); break;
+    default: break;
+    }
+    if (below(8) == 0)
+        column = (below(2) ? wide / 2 : WIDE - wide / 2) + (below(33) - 16) / 8.0;
+    if (below(8) == 0)
+        row = (below(2) ? high / 2 : HIGH - high / 2) + (below(33) - 16) / 8.0;
+    const auto extent = [](double e) { return static_cast<int16_t>(e < 0 ? 0 : e > 32767 ? 32767 : e); };
+    Voxel v;
+    fill(&v, sizeof v);  // what lies between the fields, too
+    v.x = static_cast<int32_t>((column - optics.centreX) * z / optics.focalX);
+    v.y = static_cast<int32_t>((optics.centreY - row) * z / optics.focalY);
+    v.z = z;
+    v.wide = extent(wide / 2 * z / optics.focalX);
+    v.high = extent(high / 2 * z / optics.focalY);
+    v.tiltX = static_cast<int16_t>(below(3) == 0 ? anything() : below(1201) - 600);
+    v.tiltY = static_cast<int16_t>(below(3) == 0 ? anything() : below(1201) - 600);
+    v.brightness = static_cast<uint8_t>(below(30) ? below(GAP) : GAP - 2 + below(4));
+    switch (below(50)) {
+    case 0: v.x = anything(); break;
+    case 1: v.y = anything(); break;
+    case 2: v.z = anything(); break;
+    case 3: v.wide = static_cast<int16_t>(anything()); break;
+    case 4: v.high = static_cast<int16_t>(anything()); break;
+    case 5: v.wide = 0; break;
+    case 6: v.high = 0; break;
+    case 7: v.brightness = static_cast<uint8_t>(any()); break;
+    case 8: v.tiltX = static_cast<int16_t>(32767 * (below(2) ? 1 : -1)); break;
+    case 9: v.tiltY = static_cast<int16_t>(32767 * (below(2) ? 1 : -1)); break;
+    default: break;
+    }
+    v.x = minus(v.x, lens.x);
+    v.y = minus(v.y, lens.y);
+    v.z = minus(v.z, lens.z);
+    return v;
+}
+
+// A lens between guards.
+struct Fenced {
+    uint8_t before[64];
+    Lens lens;
+    uint8_t after[64];
+};
+
+void makeLens(Fenced& c, Fenced& a, int shift)
+{
+    fill(&c, sizeof c);
+    Lens& lens = c.lens;
+    // Most objects lie before the viewer; the rest anywhere.
+    lens.x = below(20) ? below(40000) - 20000 : anything();
+    lens.y = below(20) ? below(40000) - 20000 : anything();
+    lens.z = below(20) ? below(65536) : anything();
+    lens.ramp = optics.ramp;
+    lens.factors = optics.factors;
+    lens.centreX = static_cast<int32_t>(optics.centreX * 4096) + 2048;
+    lens.centreY = static_cast<int32_t>(optics.centreY * 4096) + 2048;
+    lens.left = below(2) ? WIDE : below(WIDE);
+    lens.top = below(2) ? HIGH : below(HIGH);
+    lens.right = below(2) ? 0 : below(WIDE);
+    lens.bottom = below(2) ? 0 : below(HIGH);
+    lens.empty = below(1000);
+    memcpy(&a, &c, sizeof c);
+    c.lens.frame = roomC.at(shift).frame.data;
+    c.lens.zbuffer = roomC.at(shift).depth.data;
+    a.lens.frame = roomA.at(shift).frame.data;
+    a.lens.zbuffer = roomA.at(shift).depth.data;
+}
+
+bool sameLens(const Fenced& c, const Fenced& a, int shift)
+{
+    Fenced like = a;
+    like.lens.frame = roomC.at(shift).frame.data;
+    like.lens.zbuffer = roomC.at(shift).depth.data;
+    return a.lens.frame == roomA.at(shift).frame.data && a.lens.zbuffer == roomA.at(shift).depth.data &&
+           memcmp(&like, &c, sizeof c) == 0;
+}
+
+void voxelLists(int rounds)
+{
+    constexpr int MOST = 600;
+    static Voxel voxels[MOST], kept[MOST];
+    static Guarded<const Voxel*, MOST> list, before;
+    static Optics opticsBefore;
+    static Fenced c, a;
+    for (int round = 0; round < rounds; ++round) {
+        const int shift = below(SHIFTS);
+        prepare(shift, below(2) == 0);
+        anyOptics();
+        makeLens(c, a, shift);
+        const int count = below(8) == 0 ? below(3) : below(below(4) == 0 ? MOST : 60);
+        fill(&list, sizeof list);
+        for (int i = 0; i < count; ++i) {
+            voxels[i] = anyVoxel(c.lens);
+            list.data[i] = voxels + below(i + 1);  // some more than once, in no order
+        }
+        memcpy(kept, voxels, sizeof kept);
+        memcpy(&before, &list, sizeof list);
+        memcpy(&opticsBefore, &optics, sizeof optics);
+        // As the view does: what is left is skipped.
+        bool agree = true;
+        for (int i = 0; i <= count; ++i) {
+            const int doneC = drawScalesC(&c.lens, list.data + i, count - i);
+            const int doneA = drawScalesA(&a.lens, list.data + i, count - i);
+            agree = agree && doneC == doneA && doneA >= 0 && doneA <= count - i;
+            if (!agree)
+                break;
+            voxelsDrawn += doneC;
+            i += doneC;
+        }
+        verdict(agree, "voxels: both stop at the same one, round", round);
+        verdict(same(shift), "voxels: frame and Z-buffer, round", round);
+        verdict(sameLens(c, a, shift), "voxels: the lens, round", round);
+        verdict(memcmp(&before, &list, sizeof list) == 0 && memcmp(kept, voxels, sizeof kept) == 0 &&
+                    memcmp(&opticsBefore, &optics, sizeof optics) == 0,
+                "voxels: list, voxels and table are left alone, round", round);
+        voxelsTried += count;
+    }
+}
+
+// One voxel on an empty screen, held against the perspective in double precision: which pixels it takes, their depth and
+// colour, and whether it is one for the loop at all. In doubt (numbers have 12 bits of fraction, and factors change by
+// steps of 1/8 unit) either is right.
+void voxelByVoxel(int rounds)
+{
+    static Fenced c, a;
+    prepare(0, true);
+    Screen& screen = roomA.at(0);
+    memset(screen.frame.data, 0, sizeof screen.frame.data);
+    long wrongPixels = 0, wrongDepths = 0, wrongStops = 0, wrongBoxes = 0, wrongEmpties = 0, drawn = 0, stopped = 0, empty = 0;
+    for (int round = 0; round < rounds; ++round) {
+        if (round % 16 == 0) {
+            const double focal = 100 + below(300);
+            if (round % 32 == 0)
+                optics.set(250, 625 / 3.0, 160, 100);
+            else
+                optics.set(focal, focal / 1.2, below(320), below(200));
+            for (int i = 0; i < GAP; ++i)
+                optics.ramp[i] = static_cast<uint8_t>(200 - 3 * i);
+        }
+        makeLens(c, a, 0);
+        a.lens.left = WIDE;
+        a.lens.top = HIGH;
+        a.lens.right = a.lens.bottom = a.lens.empty = 0;
+        const Voxel v = anyVoxel(a.lens);
+        const Voxel* list = &v;
+        const int done = drawScalesA(&a.lens, &list, 1);
+        const double x = wrappedSum(a.lens.x, v.x) / 256.0, y = wrappedSum(a.lens.y, v.y) / 256.0;
+        const int32_t depth = wrappedSum(a.lens.z, v.z);
+        const double z = depth / 256.0;
+        const bool inTable = depth >= LENS_NEAR * 256 && depth < LENS_FAR * 256 && v.brightness < GAP;
+        if (!inTable) {
+            wrongStops += done != 0;
+            ++stopped;
+        } else {
+            const double column = optics.centreX + x * optics.focalX / z, row = optics.centreY - y * optics.focalY / z;
+            const double halfWide = v.wide / 256.0 * optics.focalX / z, halfHigh = v.high / 256.0 * optics.focalY / z;
+            const double left = column - halfWide, right = column + halfWide, top = row - halfHigh, bottom = row + halfHigh;
+            const auto most = [](double p, double q) { return (p < 0 ? -p : p) > (q < 0 ? -q : q) ? (p < 0 ? -p : p) : (q < 0 ? -q : q); };
+            const double doubtX = 0.01 + 0.0011 * most(left - optics.centreX, right - optics.centreX);
+            const double doubtY = 0.01 + 0.0011 * most(top - optics.centreY, bottom - optics.centreY);
+            // Pixels whose centres lie within, at least and at most.
+            const auto first = [](double edge) { return static_cast<long>(__builtin_ceil(edge - 0.5)); };
+            const long leastLeft = first(left - doubtX), mostLeft = first(left + doubtX), leastRight = first(right - doubtX),
+                       mostRight = first(right + doubtX), leastTop = first(top - doubtY), mostTop = first(top + doubtY),
+                       leastBottom = first(bottom - doubtY), mostBottom = first(bottom + doubtY);
+            const bool surelyOn = leastLeft >= 0 && mostRight <= WIDE && leastTop >= 0 && mostBottom <= HIGH;
+            const bool surelyOff = mostLeft < 0 || leastRight > WIDE || mostTop < 0 || leastBottom > HIGH;
+            const long mostWide = mostRight - leastLeft, mostHigh = mostBottom - leastTop;
+            const long leastWide = leastRight - mostLeft, leastHigh = leastBottom - mostTop;
+            const bool surelySmall = mostWide <= WIDEST && mostWide + mostHigh <= SLOPED_MOST;
+            const bool surelyLarge = leastWide > WIDEST || (leastWide > 0 && leastHigh > 0 && leastWide + leastHigh > SLOPED_MOST);
+            const bool sound = v.wide >= 0 && v.high >= 0;
+            const bool tilted = most(v.tiltX, v.tiltY) <= 16 * 256;
+            wrongStops += sound && (done == 0 ? surelyOn && surelySmall : surelyOff || surelyLarge);
+            stopped += done == 0;
+            empty += a.lens.empty;
+            wrongEmpties += sound && a.lens.empty != 0 && (done == 0 || a.lens.empty != 1 || (leastWide > 0 && leastHigh > 0));
+            long pixels = 0;
+            for (int py = 0; py < HIGH; ++py)
+                for (int px = 0; px < WIDE; ++px) {
+                    const int at = py * WIDE + px;
+                    const bool taken = screen.depth.data[at] != Z_EMPTY;
+                    const bool sure = px >= mostLeft && px < leastRight && py >= mostTop && py < leastBottom;
+                    const bool may = px >= leastLeft && px < mostRight && py >= leastTop && py < mostBottom;
+                    if (!taken) {
+                        wrongPixels += screen.frame.data[at] != 0 || (sure && done == 1);
+                        continue;
+                    }
+                    ++pixels;
+                    wrongPixels += !may || done == 0 || screen.frame.data[at] != optics.ramp[v.brightness];
+                    wrongBoxes += px < a.lens.left || px >= a.lens.right || py < a.lens.top || py >= a.lens.bottom;
+                    // Steps are whole 1/128 units, and no more than STEEPEST.
+                    const auto limited = [](double s) { return s > STEEPEST ? STEEPEST : s < -STEEPEST ? -STEEPEST : s; };
+                    const double across = limited(v.tiltX / 256.0 * z * 128 / optics.focalX),
+                                 down = limited(v.tiltY / 256.0 * z * 128 / optics.focalY);
+                    const double dx = px + 0.5 - column, dy = py + 0.5 - row;
+                    const double expected = z * 128 + across * dx - down * dy;
+                    const double doubt = 2 + most(dx, 0) * (1 + 0.001 * most(across, 0)) + most(dy, 0) * (1 + 0.001 * most(down, 0)) +
+                                         (mostWide + mostHigh) + doubtX * most(across, 0) + doubtY * most(down, 0);
+                    // Tilts are within 16; more may not fit the product.
+                    wrongDepths += tilted && most(screen.depth.data[at] - expected, 0) > doubt;
+                    screen.depth.data[at] = Z_EMPTY;
+                    screen.frame.data[at] = 0;
+                }
+            drawn += pixels > 0;
+            wrongEmpties += sound && done == 1 && (pixels == 0) != (a.lens.empty == 1);
+        }
+        ++voxelsTried;
+    }
+    verdict(wrongStops == 0, "voxels: ordinary ones are drawn, others are left", wrongStops);
+    verdict(wrongPixels == 0, "voxels: pixels as in double precision", wrongPixels);
+    verdict(wrongDepths == 0, "voxels: depths as in double precision", wrongDepths);
+    verdict(wrongBoxes == 0, "voxels: the rectangle holds what is drawn", wrongBoxes);
+    verdict(wrongEmpties == 0, "voxels: those without a pixel are counted", wrongEmpties);
+    verdict(drawn > rounds / 3 && stopped > rounds / 20 && empty > rounds / 100, "voxels: there were some of each kind", drawn);
+}
+
 // Spans of any kind: none, everything, short ones at the ends.
 void spans(Span* rows)
 {
@@ -356,12 +663,28 @@ void registers()
     static Scale list[40];
     for (int i = 0; i < 40; ++i)
         list[i] = clipped(1 + i, 1 + below(30));
+    static Fenced c, f;
+    anyOptics();
+    makeLens(c, f, 0);
+    static Voxel voxels[40];
+    static const Voxel* voxelList[40];
+    for (int i = 0; i < 40; ++i) {
+        do
+            voxels[i] = anyVoxel(f.lens);
+        while (voxels[i].brightness >= GAP);
+        voxelList[i] = voxels + i;
+    }
     static Span rows[HIGH];
     spans(rows);
     static const uint32_t COUNTS[] = {0, 1, 40};
     for (uint32_t count : COUNTS) {
         const uint32_t blit[5] = {word(a.frame.data), word(a.depth.data), word(list), count, 0};
         verdict(damage(reinterpret_cast<const void*>(blitScalesA), blit) == 0, "registers are kept: blitScalesA", count);
+        for (uint32_t i = 0; i < 40; ++i) {
+            // From each: some stop at once, some go on.
+            const uint32_t draw[5] = {word(&f.lens), word(voxelList + i), count < 40 - i ? count : 40 - i, 0, 0};
+            verdict(damage(reinterpret_cast<const void*>(drawScalesA), draw) == 0, "registers are kept: drawScalesA", count);
+        }
         const uint32_t clear[5] = {word(a.frame.data), word(a.depth.data), word(rows), count * 5, 0};
         verdict(damage(reinterpret_cast<const void*>(clearRowsA), clear) == 0, "registers are kept: clearRowsA", count);
         const uint32_t present[5] = {dataSelector(), word(roomC.at(0).frame.data), word(a.frame.data), word(rows), count * 5};
@@ -432,10 +755,12 @@ int main(int count, char** arguments)
     equalDepths();
     empties();
     randomLists(rounds);
+    voxelLists(rounds);
+    voxelByVoxel(10 * rounds);
     clearsAndCopies(rounds);
     registers();
-    printf("# seed %u: %ld scales, %ld pixels, %ld spans tried\n", static_cast<unsigned>(seed), scalesTried, pixelsTried,
-           spansTried);
+    printf("# seed %u: %ld scales, %ld pixels, %ld voxels (%ld drawn in lists), %ld spans tried\n",
+           static_cast<unsigned>(seed), scalesTried, pixelsTried, voxelsTried, voxelsDrawn, spansTried);
     int passed = 0;
     for (int k = 0; k < kindCount; ++k) {
         if (kinds[k].bad == 0) {

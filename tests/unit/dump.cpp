@@ -57,15 +57,17 @@ TEST(a_dumped_frame)
     palette.make(model, false);
     Counts counts{};
     const Look look{model.camera.eye, unit(model.light), false, &counts};
-    std::vector<Voxel> voxels(4096);
+    VoxelList list;
     view.begin();
     for (int i = 0; i < 4; ++i) {
         SoftObject& object = *model.actor(i).object;
         object.shadeRest(look.light);
         object.update(look);
         int next = 0;
-        const int count = object.draw(look, voxels.data(), 4096, &next);
-        view.show(voxels.data(), count);
+        do {
+            object.draw(look, list, VOXELS_AT_ONCE, &next);
+            view.show(list);
+        } while (next != 0);
     }
     view.end();
     Dump dump;

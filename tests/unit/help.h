@@ -2,6 +2,7 @@
 #ifndef FB_TEST_HELP_H
 #define FB_TEST_HELP_H
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "softobj.h"
 #include "sphere.h"
 #include "vec.h"
+#include "view.h"
 
 // STEP: the distance of two neighbouring values of Real. EXACT: the relative error of one operation on it.
 #if FB_REAL == FB_FIXED
@@ -91,6 +93,33 @@ struct Truth {
     }
 };
 
+// Draws voxels that are counted from the eye itself, or from (x, y, z), 1/256 unit; the colour of each is its brightness.
+// Returns the number of scales drawn.
+inline int show(View& view, const Voxel* voxels, size_t count, int32_t x = 0, int32_t y = 0, int32_t z = 0)
+{
+    static const std::vector<uint8_t> ramp = [] {
+        std::vector<uint8_t> r(64);
+        for (size_t i = 0; i < r.size(); ++i)
+            r[i] = static_cast<uint8_t>(i);
+        return r;
+    }();
+    VoxelList list{};
+    list.x = x;
+    list.y = y;
+    list.z = z;
+    list.ramp = ramp.data();
+    int drawn = 0;
+    for (size_t from = 0; from < count; from += VOXELS_AT_ONCE) {
+        list.count = static_cast<int>(std::min<size_t>(count - from, VOXELS_AT_ONCE));
+        for (int i = 0; i < list.count; ++i)
+            list.voxels[i] = voxels + from + i;
+        drawn += view.show(list);
+    }
+    return drawn;
+}
+inline int show(View& view, const Voxel& voxel) { return show(view, &voxel, 1); }
+inline int show(View& view, const std::vector<Voxel>& voxels) { return show(view, voxels.data(), voxels.size()); }
+
 // Spheres with seeds, linked as the test says, and the looks at them.
 struct Scene {
     std::vector<std::unique_ptr<SoftObject>> objects;
@@ -137,16 +166,35 @@ struct Scene {
         for (auto& object : objects)
             object->update(look());
     }
-    // All voxels of an object, drawn in batches of `room`.
+    // All voxels of an object, drawn in batches of `room`; their places from the eye.
     std::vector<Voxel> draw(size_t i, int room = 256)
     {
-        std::vector<Voxel> all, some(static_cast<size_t>(room));
+        std::vector<Voxel> all;
+        VoxelList list;
         int next = 0;
         do {
-            const int count = objects[i]->draw(look(), some.data(), room, &next);
-            all.insert(all.end(), some.begin(), some.begin() + count);
+            objects[i]->draw(look(), list, room, &next);
+            if (list.count > room)
+                std::abort();
+            for (int k = 0; k < list.count; ++k) {
+                all.push_back(*list.voxels[k]);
+                all.back().x += list.x;
+                all.back().y += list.y;
+                all.back().z += list.z;
+            }
         } while (next != 0);
         return all;
+    }
+    // The same into views, as the demo does.
+    void show(size_t i, std::initializer_list<View*> views, int room = 256)
+    {
+        VoxelList list;
+        int next = 0;
+        do {
+            objects[i]->draw(look(), list, room, &next);
+            for (View* view : views)
+                view->show(list);
+        } while (next != 0);
     }
     // The field as object i sees it: its own and its neighbours'.
     Truth truth(size_t i) const

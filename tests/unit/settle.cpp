@@ -113,7 +113,8 @@ bool identical(const std::vector<Voxel>& a, const std::vector<Voxel>& b)
     if (a.size() != b.size())
         return false;
     for (size_t i = 0; i < a.size(); ++i)
-        if (!(a[i].place == b[i].place) || a[i].wide != b[i].wide || a[i].high != b[i].high || a[i].colour != b[i].colour)
+        if (a[i].x != b[i].x || a[i].y != b[i].y || a[i].z != b[i].z || a[i].wide != b[i].wide || a[i].high != b[i].high ||
+            a[i].tiltX != b[i].tiltX || a[i].tiltY != b[i].tiltY || a[i].brightness != b[i].brightness)
             return false;
     return true;
 }
@@ -213,7 +214,7 @@ TEST(normal_is_the_path_where_nothing_blends)
                 continue;
             const Vec n = truth.normal(vec(ball.seedPoint(s)));
             const double lit = std::fmax(0, dot(n, vec(scene.light)) * 63);
-            const double error = std::fabs(s.brightness - lit);
+            const double error = std::fabs(s.voxel.brightness - lit);
             const bool still = std::fabs(number(s.position) - 1) < (printed ? number(printed::DEFORMITY) : 1e-6);
             if (still) {
                 ++rest;
@@ -612,12 +613,103 @@ TEST(drawing_in_parts)
     for (bool printed : {false, true}) {
         Scene scene = pair(30, 26, printed);
         scene.update();
-        const std::vector<Voxel> whole = scene.draw(0, 8192);
+        const std::vector<Voxel> whole = scene.draw(0, VOXELS_AT_ONCE);
         CHECK(whole.size() > 200);
         for (int room : {DRAW_ROOM, DRAW_ROOM + 1, 100, 333}) {
             CHECK(identical(whole, scene.draw(0, room)));
         }
     }
+}
+
+TEST(seeds_at_rest_lie_as_the_viewer_sees_them)
+{
+    // Their scales are kept while the viewer moves little. However slowly he goes on, they are never far from what they
+    // would be made anew: compared with a scene that he has just come to.
+    for (double step : {0.006, 0.013, 0.1, 3.0}) {
+        Scene scene;
+        const SoftObject& ball = scene.ball(20, 0, 0, 0);
+        scene.eye = point(-20, 5, -70);
+        scene.update();
+        double worstSize = 0, worstTilt = 0, worstPlace = 0;
+        long compared = 0, apart = 0, draws = 0;
+        const int frames = static_cast<int>(40 / step);
+        for (int frame = 0; frame < frames; ++frame) {
+            scene.eye.x += real(step);
+            scene.draw(0);
+            ++draws;
+            if (frame % (frames / 10 > 0 ? frames / 10 : 1) != 0 && frame != frames - 1)
+                continue;
+            Scene fresh;
+            const SoftObject& other = fresh.ball(20, 0, 0, 0);
+            fresh.eye = scene.eye;
+            fresh.update();
+            fresh.draw(0);
+            constexpr int SHOWN = SEED_VALID | SEED_KEPT | SEED_FRONT;
+            for (int i = 0; i < ball.seedSlots(); i += 2) {
+                const Seed& a = ball.seed(i);
+                const Seed& b = other.seed(i);
+                const bool shown = (a.flags & SHOWN) == SHOWN, known = (b.flags & SHOWN) == SHOWN;
+                if (!shown && !known)
+                    continue;
+                ++compared;
+                if (shown != known) {
+                    ++apart;
+                    continue;
+                }
+                SAME(a.voxel.brightness, b.voxel.brightness);
+                worstSize = std::fmax(worstSize, std::fmax(std::abs(a.voxel.wide - b.voxel.wide), std::abs(a.voxel.high - b.voxel.high)) / 256.0);
+                worstPlace = std::fmax(worstPlace, size(Vec{double(a.voxel.x - b.voxel.x), double(a.voxel.y - b.voxel.y), double(a.voxel.z - b.voxel.z)}) / 256);
+                // Where the surface bends away the tilt changes fast, and no matter: scales are cut short there.
+                if (std::abs(b.voxel.tiltX) < 512 && std::abs(b.voxel.tiltY) < 512)
+                    worstTilt = std::fmax(worstTilt, std::fmax(std::abs(a.voxel.tiltX - b.voxel.tiltX), std::abs(a.voxel.tiltY - b.voxel.tiltY)) / 256.0);
+            }
+        }
+        note("%g units a frame: scales of %ld seeds within %.3f units of size, %.3f of place, %.3f of tilt; %.1f%% only in one",
+             step, compared, worstSize, worstPlace, worstTilt, 100.0 * apart / compared);
+        CHECK(compared > 1000);
+        CHECK(worstSize < 0.4);
+        CHECK(worstPlace < 0.4);
+        CHECK(worstTilt < 0.4);
+        CHECK(apart * 20 < compared);
+    }
+}
+
+TEST(how_much_of_a_cells_depth_shows)
+{
+    // x / depth and y / depth of places about a root: exact near the viewer, with one depth for all where he is far.
+    Random random;
+    double worstNear = 0, worstFar = 0;
+    int near = 0, far = 0;
+    for (int i = 0; i < 200000; ++i) {
+        const double reach = random.between(1, 100), x = random.between(-400, 400), y = random.between(-400, 400);
+        const double z = random.below(4) ? random.between(0, 500) : random.between(-300, 60);
+        const Vec out{random.between(-0.57, 0.57) * reach, random.between(-0.57, 0.57) * reach, random.between(-0.57, 0.57) * reach};
+        Skew skew;
+        skew.root(vector(x, y, z), real(reach));
+        const Vector place = vector(out.x, out.y, out.z);
+        NEAR(skew.depth(place) / 32.0, z + out.z, 0.07);
+        const auto limited = [](double s) { return s > 4 ? 4 : s < -4 ? -4 : s; };
+        const double depth = std::fmax(z + out.z, 1);
+        const double sideways[2] = {limited((x + out.x) / depth), limited((y + out.y) / depth)};
+        const double got[2] = {skew.x(place) / 256.0, skew.y(place) / 256.0};
+        for (int axis = 0; axis < 2; ++axis) {
+            // Lengths have 5 bits of fraction and their inverse as many as fit.
+            const double doubt = 0.016 + 0.04 / depth * (1 + std::fabs(sideways[axis])) + 0.02 * std::fabs(sideways[axis]);
+            const double error = std::fabs(got[axis] - sideways[axis]);
+            CHECK(std::fabs(got[axis]) <= 5);
+            if (z < 4 * reach - 0.2 || z < 3.8) {
+                ++near;
+                worstNear = std::fmax(worstNear, error - doubt);
+            } else if (z > 4 * reach + 0.2 && z > 4.2 && std::fabs(x) < 2 * z && std::fabs(y) < 2 * z) {
+                ++far;
+                // The depth of the root for that of the place.
+                worstFar = std::fmax(worstFar, error - doubt - std::fabs(sideways[axis] * out.z / z));
+            }
+        }
+    }
+    CHECK(near > 10000 && far > 10000);
+    NEAR(worstNear, 0, 0.001);
+    NEAR(worstFar, 0, 0.001);
 }
 
 TEST(weights_and_missing_links)

@@ -12,13 +12,17 @@ using machine::WIDTH;
 
 namespace {
 
+int32_t steps(double units) { return static_cast<int32_t>(std::lround(units * 256)); }
+
 Voxel voxel(double x, double y, double z, double wide, double high, int colour)
 {
     Voxel v{};
-    v.place = vector(x, y, z);
+    v.x = steps(x);
+    v.y = steps(y);
+    v.z = steps(z);
     v.wide = static_cast<int16_t>(wide * 256);
     v.high = static_cast<int16_t>(high * 256);
-    v.colour = static_cast<uint8_t>(colour);
+    v.brightness = static_cast<uint8_t>(colour);
     return v;
 }
 
@@ -28,7 +32,7 @@ struct Box {
 };
 Box box(const Voxel& v, const Camera& camera)
 {
-    const double x = number(v.place.x), y = number(v.place.y), z = number(v.place.z);
+    const double x = v.x / 256.0, y = v.y / 256.0, z = v.z / 256.0;
     const double column = number(camera.centreX) + number(camera.focalX) * x / z;
     const double row = number(camera.centreY) - number(camera.focalY) * y / z;
     const double wide = v.wide / 256.0 * number(camera.focalX) / z, high = v.high / 256.0 * number(camera.focalY) / z;
@@ -47,9 +51,9 @@ TEST(projection_formula)
         const double z = random.below(3) ? random.between(62, 258) : random.between(1, 511);
         const double spread = 0.9 * z;
         const Voxel v = voxel(random.between(-spread, spread), random.between(-spread, spread) * 0.7, z, random.between(0.1, 8),
-                              random.between(0.1, 8), 1 + random.below(255));
+                              random.between(0.1, 8), 1 + random.below(63));
         view.begin();
-        drawn += view.show(&v, 1);
+        drawn += show(view, v);
         view.end();
         const Box b = box(v, view.camera());
         // Factors stand in a table by steps of 1/8 unit, that is 1/1024 at z = 64; numbers have 12 bits of fraction.
@@ -64,14 +68,14 @@ TEST(projection_formula)
                 const bool outside = x < b.left - ax || x > b.right + ax || y < b.top - ay || y > b.bottom + ay;
                 wrong += (inside && !taken) || (outside && taken);
                 if (taken) {
-                    wrong += view.frame()[row * WIDTH + column] != v.colour;
-                    wrong += std::fabs(view.zbuffer()[row * WIDTH + column] / 128.0 - number(v.place.z)) > 1.0 / 128;
+                    wrong += view.frame()[row * WIDTH + column] != v.brightness;
+                    wrong += std::fabs(view.zbuffer()[row * WIDTH + column] / 128.0 - v.z / 256.0) > 1.0 / 128;
                 } else {
                     wrong += view.zbuffer()[row * WIDTH + column] != Z_EMPTY;
                 }
             }
         if (wrong != 0 && CHECK(wrong == 0) == false)
-            note("at %g %g %g: %ld pixels", number(v.place.x), number(v.place.y), number(v.place.z), wrong);
+            note("at %g %g %g: %ld pixels", v.x / 256.0, v.y / 256.0, v.z / 256.0, wrong);
     }
     CHECK(drawn > 3000);
 }
@@ -89,7 +93,7 @@ TEST(tilted_scales_lie_in_their_plane)
         v.tiltX = static_cast<int16_t>(random.between(-2.5, 2.5) * 256);
         v.tiltY = static_cast<int16_t>(random.between(-2.5, 2.5) * 256);
         view.begin();
-        view.show(&v, 1);
+        show(view, v);
         view.end();
         const Box b = box(v, view.camera());
         const double column = (b.left + b.right) / 2, row = (b.top + b.bottom) / 2;
@@ -119,7 +123,7 @@ TEST(round_on_a_4_to_3_screen)
     NEAR(number(view.camera().focalX), 1.2 * number(view.camera().focalY), 1e-3);
     const Voxel v = voxel(0, 0, 100, 20, 20, 9);
     view.begin();
-    SAME(view.show(&v, 1), 1);
+    SAME(show(view, v), 1);
     view.end();
     int wide = 0, high = 0;
     for (int x = 0; x < WIDTH; ++x)
@@ -140,7 +144,7 @@ TEST(scales_grow_with_nearness)
     for (double z : {240.0, 120.0, 60.0, 30.0, 15.0}) {
         const Voxel v = voxel(0, 0, z, 1.4, 1.4, 5);
         view.begin();
-        view.show(&v, 1);
+        show(view, v);
         view.end();
         int wide = 0;
         for (int x = 0; x < WIDTH; ++x)
@@ -163,7 +167,7 @@ TEST(left_out)
         voxel(0, 30000, 100, 1, 1, 1), voxel(32767, 32767, 511, 1, 1, 1),
     };
     view.begin();
-    SAME(view.show(out, sizeof out / sizeof *out), 0);
+    SAME(show(view, out, sizeof out / sizeof *out), 0);
     view.end();
     for (int i = 0; i < WIDTH * HEIGHT; ++i)
         if (view.frame()[i] != 0) {
@@ -173,7 +177,7 @@ TEST(left_out)
     // The planes themselves.
     const Voxel in[] = {voxel(0, 0, 1, 0.1, 0.1, 1), voxel(0, 0, 511, 5, 5, 1)};
     view.begin();
-    SAME(view.show(in, 2), 2);
+    SAME(show(view, in, 2), 2);
 }
 
 TEST(anything_may_be_shown)
@@ -182,21 +186,93 @@ TEST(anything_may_be_shown)
     View view;
     CHECK(view.open());
     Random random;
+    const auto any = [&] { return static_cast<int32_t>(random.bits()) >> random.below(32); };
     std::vector<Voxel> many(5000);
     for (int round = 0; round < 40; ++round) {
         for (Voxel& v : many) {
-            v.place = {realFromRaw(static_cast<int32_t>(random.bits()) >> random.below(24)),
-                       realFromRaw(static_cast<int32_t>(random.bits()) >> random.below(24)),
-                       realFromRaw(static_cast<int32_t>(random.bits()) >> random.below(24))};
+            for (int32_t* place : {&v.x, &v.y, &v.z})
+                *place = any();
             v.wide = static_cast<int16_t>((random.bits() & 0x7fff) >> random.below(12));
             v.high = static_cast<int16_t>((random.bits() & 0x7fff) >> random.below(12));
-            v.colour = static_cast<uint8_t>(random.bits());
+            v.tiltX = static_cast<int16_t>(any());
+            v.tiltY = static_cast<int16_t>(any());
+            v.brightness = static_cast<uint8_t>(random.below(8) ? random.below(GAP) : static_cast<int>(random.bits()));
         }
+        view.setPixels(round % 8 == 7);
         view.begin();
-        const int drawn = view.show(many.data(), static_cast<int>(many.size()));
+        const int drawn = show(view, many.data(), many.size(), any(), any(), any());
+        view.closeGaps();
         view.end();
         CHECK(drawn >= 0 && drawn <= static_cast<int>(many.size()));
     }
+}
+
+TEST(places_count_from_the_lists_own)
+{
+    // An object's voxels count from its centre: wherever that is, what is drawn is the same as when they count from the
+    // eye, for those that the loop draws and for those that it leaves.
+    View one, two;
+    CHECK(one.open() && two.open());
+    Random random;
+    for (int round = 0; round < 20; ++round) {
+        std::vector<Voxel> list, moved;
+        const int32_t x = steps(random.between(-3000, 3000)), y = steps(random.between(-3000, 3000)), z = steps(random.between(-3000, 3000));
+        for (int i = 0; i < 200; ++i) {
+            Voxel v = voxel(random.between(-60, 60), random.between(-50, 50), random.between(20, 300), random.between(0, 6), random.between(0, 6), 1 + i % 63);
+            v.tiltX = static_cast<int16_t>(random.below(1000) - 500);
+            v.tiltY = static_cast<int16_t>(random.below(1000) - 500);
+            list.push_back(v);
+            v.x -= x;
+            v.y -= y;
+            v.z -= z;
+            moved.push_back(v);
+        }
+        one.begin();
+        two.begin();
+        SAME(show(one, list), show(two, moved.data(), moved.size(), x, y, z));
+        one.end();
+        two.end();
+        CHECK(std::memcmp(one.frame(), two.frame(), WIDTH * HEIGHT) == 0);
+        CHECK(std::memcmp(one.zbuffer(), two.zbuffer(), WIDTH * HEIGHT * 2) == 0);
+        CHECK(std::memcmp(one.rows(), two.rows(), HEIGHT * sizeof(Span)) == 0);
+    }
+}
+
+TEST(colours_are_the_lists_own)
+{
+    // Small scales, large ones and single pixels take their colour from the ramp of the list; marks of gaps have none.
+    View view;
+    CHECK(view.open());
+    uint8_t ramp[64];
+    for (int i = 0; i < 64; ++i)
+        ramp[i] = static_cast<uint8_t>(255 - 2 * i);
+    Voxel voxels[4] = {voxel(-19.9, -0.1, 100, 1, 1, 0), voxel(10.1, -0.1, 100, 8, 8, 63), voxel(0.1, 20, 100, 1, 1, 7),
+                       voxel(0.1, -20, 100, 3, 3, GAP)};
+    VoxelList list{};
+    list.ramp = ramp;
+    list.count = 4;
+    for (int i = 0; i < 4; ++i)
+        list.voxels[i] = voxels + i;
+    for (bool pixels : {false, true}) {
+        view.setPixels(pixels);
+        view.begin();
+        SAME(view.show(list), 3);
+        view.end();
+        SAME(view.frame()[100 * WIDTH + 110], 255);
+        SAME(view.frame()[100 * WIDTH + 185], 255 - 126);
+        SAME(view.frame()[58 * WIDTH + 160], 255 - 14);
+        SAME(view.frame()[141 * WIDTH + 160], 0);
+    }
+    view.setPixels(false);
+    // What covers no pixel's centre is not counted: halfway between two columns there is none for a narrow one.
+    voxels[0] = voxel(0, 0, 125, 0.1, 0.1, 5);
+    voxels[1] = voxel(0.25, 0.3, 125, 0.1, 0.1, 5);
+    list.count = 2;
+    view.begin();
+    SAME(view.show(list), 1);
+    view.end();
+    list.count = 0;
+    SAME(view.show(list), 0);
 }
 
 TEST(nearest_is_seen)
@@ -208,12 +284,12 @@ TEST(nearest_is_seen)
     std::vector<Voxel> list;
     for (int i = 0; i < 400; ++i)
         // Depths apart by more than the Z-buffer's step.
-        list.push_back(voxel(random.between(-40, 40), random.between(-30, 30), 80 + i * 0.1, 4, 4, 1 + i % 255));
+        list.push_back(voxel(random.between(-40, 40), random.between(-30, 30), 80 + i * 0.1, 4, 4, 1 + i % 63));
     std::vector<Voxel> reversed(list.rbegin(), list.rend());
     for (View* view : {&one, &two}) {
         const std::vector<Voxel>& l = view == &one ? list : reversed;
         view->begin();
-        view->show(l.data(), static_cast<int>(l.size()));
+        show(*view, l);
         view->end();
     }
     CHECK(std::memcmp(one.frame(), two.frame(), WIDTH * HEIGHT) == 0);
@@ -232,7 +308,7 @@ TEST(pixels_instead_of_scales)
     for (int i = 0; i < 500; ++i) {
         const Voxel v = voxel(random.between(-40, 40), random.between(-30, 30), random.between(70, 250), 3, 3, 8);
         view.begin();
-        const int drawn = view.show(&v, 1);
+        const int drawn = show(view, v);
         view.end();
         int count = 0, at = -1;
         for (int p = 0; p < WIDTH * HEIGHT; ++p)
@@ -276,11 +352,8 @@ TEST(spans_are_enough)
         CHECK(fresh.open());
         fresh.begin();
         limited.begin();
-        for (size_t i = 0; i < scene.objects.size(); ++i) {
-            const std::vector<Voxel> voxels = scene.draw(i);
-            fresh.show(voxels.data(), static_cast<int>(voxels.size()));
-            limited.show(voxels.data(), static_cast<int>(voxels.size()));
-        }
+        for (size_t i = 0; i < scene.objects.size(); ++i)
+            scene.show(i, {&fresh, &limited});
         if (frame % 10 == 5) {
             const int left = random.below(WIDTH - 20), top = random.below(HEIGHT - 10);
             uint8_t* pixels = limited.overlay(left, top, 20, 10);
