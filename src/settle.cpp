@@ -165,17 +165,15 @@ public:
 
 private:
     REGISTERS SELDOM int32_t facesAway(Real across, Real own) const;
-    bool passed(int16_t due) const { return static_cast<int16_t>(due - travel_) <= 0; }
-    int16_t later(int32_t steps) const { return static_cast<int16_t>(travel_ + steps); }
+    bool passed(int16_t due) const { return static_cast<int16_t>(due - travel_) < 0; }
+    int16_t later(int32_t steps) const { return static_cast<int16_t>(travel_ + steps - 1); }
     SoftObject::PatchState reachOf(SoftObject::Patch& patch, uint32_t& reached) const;
     void activate(uint32_t reached);
     int16_t idleUntil(const SoftObject::Patch& patch) const;
     void rest(SoftObject::Patch& patch);
     void bury(SoftObject::Patch& patch);
-    bool waits(const Seed& s) const
-    {
-        return (s.flags & SEED_WAITS) && !passed(s.wakes);
-    }
+    template <bool PLAIN>
+    SELDOM bool judge(SoftObject::Patch& patch, Seed* s);
     template <bool PLAIN>
     void settlePatches();
     template <bool PLAIN>
@@ -443,7 +441,7 @@ void Settler::travel()
 // Nothing to see of this seed until things have moved on by `steps`, 0 or more.
 inline void Settler::wait(Seed& s, uint8_t flags, int32_t steps) const
 {
-    s.flags = static_cast<uint8_t>(flags | SEED_WAITS);
+    s.flags = flags;
     s.wakes = later(lesser(steps, WAIT_MOST));
 }
 
@@ -846,8 +844,8 @@ void Settler::settleSeed(Seed& s)
         const Real own = awayEdge_ - across;
         const int32_t away = own > Real(0) ? facesAway(across, own) : -1;
         if (away >= 0) {
-            // What it is held for does not matter, nor where; should it come round again it is looked for from there.
-            this->wait(s, static_cast<uint8_t>(s.flags & (SEED_VALID | SEED_PLACED)), away);
+            // Where it is held to be does not matter; should it come round again it is looked for from there.
+            this->wait(s, s.flags & SEED_VALID ? SEED_VALID | SEED_PLACED : s.flags & SEED_PLACED, away);
             return;
         }
     }
@@ -857,6 +855,7 @@ void Settler::settleSeed(Seed& s)
         return;
     }
     ++updated_;
+    s.wakes = static_cast<int16_t>(travel_);
     Real position = s.position;
     bool settled = false;
     if (s.flags & (SEED_VALID | SEED_PLACED)) {
@@ -958,76 +957,80 @@ inline Seed& pairedWith(Seed* s, const Seed& extra)
     return *reinterpret_cast<Seed*>(reinterpret_cast<char*>(s) + extra.neighbour);
 }
 
-// Of a patch all seeds of which wait: until when they do, and those they are paired with.
+// Of a patch to which nothing happened: until when nothing will, nor to the seeds that its own are paired with.
 int16_t Settler::idleUntil(const SoftObject::Patch& patch) const
 {
     int32_t steps = static_cast<int16_t>(patch.due - travel_);
-    const auto wait = [&](const Seed& s) {
-        steps = s.flags & SEED_WAITS ? lesser(steps, static_cast<int16_t>(s.wakes - travel_)) : 0;
-    };
+    const auto wait = [&](const Seed& s) { steps = lesser(steps, static_cast<int16_t>(s.wakes - travel_)); };
     Seed* s = o_.seeds_ + 2 * patch.first;
     for (int i = patch.count; i > 0 && steps > 0; --i, s += 2) {
         wait(s[0]);
-        if (s[1].neighbour != 0)
-            wait(pairedWith(s, s[1]));
+        wait(pairedWith(s, s[1]));
         if (s[1].flags & SEED_ACTIVE)
             wait(s[1]);
     }
-    return later(steps);
+    return static_cast<int16_t>(travel_ + steps);
+}
+
+// Judges a patch anew. True: seed by seed where a neighbour reaches it.
+template <bool PLAIN>
+bool Settler::judge(SoftObject::Patch& patch, Seed* s)
+{
+    const uint8_t before = patch.state;
+    uint32_t reached;
+    const SoftObject::PatchState state = reachOf(patch, reached);
+    patch.idle = patch.due;
+    o_.displaced_ |= state != SoftObject::PATCH_AT_REST;
+    if (state != SoftObject::PATCH_MIXED) {
+        if (before != state && state == SoftObject::PATCH_AT_REST)
+            rest(patch);
+        else if (before != state)
+            bury(patch);
+        for (int i = patch.count; i > 0; --i, s += 2)
+            s->wakes = patch.due;
+        return false;
+    }
+    // When one that they do not know of came near, those that may be seen wait no longer.
+    const bool known = before == SoftObject::PATCH_MIXED;
+    if (!known || (reached & (~patch.reached | MANY)))
+        for (int i = 2 * patch.count; i > 0; --i, ++s)
+            if (!known || (s->flags & SEED_VALID))
+                s->wakes = later(0);
+    patch.reached = reached;
+    if (!PLAIN && o_.tapers_ && !known)
+        patch.stale = SoftObject::STALE_ALL;  // from normals to paths
+    patch.state = SoftObject::PATCH_MIXED;
+    return true;
 }
 
 // All patches of the object, seed by seed where a neighbour reaches them.
 template <bool PLAIN>
 void Settler::settlePatches()
 {
-    SoftObject::Patch* const last = o_.patches_ + o_.patchCount_;
-    for (SoftObject::Patch* p = o_.patches_; p < last; ++p) {
-        SoftObject::Patch& patch = *p;
-        const uint8_t before = patch.state;
-        if (before != SoftObject::PATCH_UNKNOWN && !passed(patch.idle)) {
+    Seed* s = o_.seeds_;
+    SoftObject::Patch* patch = o_.patches_;
+    for (int p = o_.patchCount_; p > 0; --p, ++patch) {
+        const uint8_t before = patch->state;
+        if (before != SoftObject::PATCH_UNKNOWN && !passed(patch->idle)) {
             o_.displaced_ |= before != SoftObject::PATCH_AT_REST;
+            s += 2 * patch->count;
             continue;
         }
-        Seed* s = o_.seeds_ + 2 * patch.first;
-        Seed* const end = s + 2 * patch.count;
-        if (before != SoftObject::PATCH_MIXED || passed(patch.due)) {
-            uint32_t reached;
-            const SoftObject::PatchState state = reachOf(patch, reached);
-            patch.idle = patch.due;
-            if (state == SoftObject::PATCH_AT_REST) {
-                if (before != SoftObject::PATCH_AT_REST)
-                    rest(patch);
-                continue;
-            }
-            o_.displaced_ = true;
-            if (state == SoftObject::PATCH_BURIED) {
-                if (before != SoftObject::PATCH_BURIED)
-                    bury(patch);
-                continue;
-            }
-            if (reached & (~patch.reached | MANY)) {
-                // One that they do not know of came near: those that may be seen wait no longer.
-                for (Seed* each = s; each < end; ++each)
-                    if (each->flags & SEED_VALID)
-                        each->flags = static_cast<uint8_t>(each->flags & ~SEED_WAITS);
-            }
-            patch.reached = reached;
-            if (!PLAIN && o_.tapers_ && before != SoftObject::PATCH_MIXED)
-                patch.stale = SoftObject::STALE_ALL;  // from normals to paths
-            patch.state = SoftObject::PATCH_MIXED;
+        if ((before != SoftObject::PATCH_MIXED || passed(patch->due)) && !judge<PLAIN>(*patch, s)) {
+            s += 2 * patch->count;
+            continue;
         }
-        activate(patch.reached);
-        if (patch.stale != SoftObject::STALE_NONE)
-            o_.posePatch(patch, true);
+        activate(patch->reached);
+        if (patch->stale != SoftObject::STALE_NONE)
+            o_.posePatch(*patch, true);
         bool extras = false, busy = false;
-        for (; s < end; s += 2) {
-            if (!waits(s[0])) {
-                settleSeed<PLAIN>(s[0]);
+        for (int i = patch->count; i > 0; --i, s += 2) {
+            if (passed(s->wakes)) {
+                settleSeed<PLAIN>(*s);
                 busy = true;
             }
+            // In the first ring a seed is paired with itself, to no effect.
             Seed& extra = s[1];
-            if (extra.neighbour == 0)
-                continue;
             Seed& other = pairedWith(s, extra);
             const uint8_t either = s->flags | other.flags;
             if ((either & (SEED_PLACED | SEED_VALID)) != (SEED_PLACED | SEED_VALID)) {
@@ -1040,7 +1043,7 @@ void Settler::settlePatches()
                 continue;
             }
             extras = true;
-            if (!waits(extra)) {
+            if (!(extra.flags & SEED_ACTIVE) || passed(extra.wakes)) {
                 settleSeed<PLAIN>(extra);
                 busy = true;
             }
@@ -1054,9 +1057,9 @@ void Settler::settlePatches()
                 }
             }
         }
-        patch.extras = extras;
+        patch->extras = extras;
         o_.displaced_ = true;
-        patch.idle = busy ? static_cast<int16_t>(travel_) : idleUntil(patch);
+        patch->idle = busy ? static_cast<int16_t>(travel_) : idleUntil(*patch);
     }
 }
 

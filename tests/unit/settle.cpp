@@ -30,10 +30,8 @@ bool settled(const Scene& scene, const SoftObject& object, int i)
     const Seed& s = object.seed(i);
     if (!takesPart(object, i) || !(s.flags & SEED_VALID))
         return false;
-    // A placed seed that waits cannot be seen, and stays where it was.
-    if ((s.flags & SEED_WAITS) && (s.flags & SEED_PLACED))
-        return false;
-    return !scene.printed || (s.flags & SEED_FRONT);
+    // A placed seed that cannot be seen may wait, and stays where it was.
+    return !(scene.printed || (s.flags & SEED_PLACED)) || (s.flags & SEED_FRONT);
 }
 
 // How far the field at the settled seeds of a scene is from the isovalue.
