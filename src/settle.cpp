@@ -177,7 +177,9 @@ private:
     template <bool PLAIN>
     void settlePatches();
     template <bool PLAIN>
-    REGISTERS void settleSeed(Seed& s);
+    __attribute__((always_inline)) void settleSeed(Seed& s);
+    template <bool PLAIN>
+    REGISTERS SELDOM void settleExtra(Seed& s) { settleSeed<PLAIN>(s); }
     template <bool PLAIN>
     Real lookAt(Real position, Real& slope);
     template <bool PLAIN>
@@ -787,7 +789,7 @@ int32_t Settler::facesAway(Real across, Real own) const
 }
 
 template <bool PLAIN>
-void Settler::settleSeed(Seed& s)
+inline void Settler::settleSeed(Seed& s)
 {
     if (!PLAIN) {
         path_ = s.path;
@@ -1044,7 +1046,7 @@ void Settler::settlePatches()
             }
             extras = true;
             if (!(extra.flags & SEED_ACTIVE) || passed(extra.wakes)) {
-                settleSeed<PLAIN>(extra);
+                settleExtra<PLAIN>(extra);
                 busy = true;
             }
             extra.flags |= SEED_ACTIVE;
