@@ -841,20 +841,24 @@ inline void Settler::settleSeed(Seed& s)
     if (!PLAIN)
         lookFrom(s);
     const int32_t along = eye_.along(s);
+    bool notFacing = true;
     if (PLAIN || o_.isBall()) {
         const Real across = realFromRaw(along >> 14 << 11);
         const Real own = awayEdge_ - across;
-        const int32_t away = own > Real(0) ? facesAway(across, own) : -1;
+        notFacing = own > Real(0);
+        const int32_t away = notFacing ? facesAway(across, own) : -1;
         if (away >= 0) {
             // Where it is held to be does not matter; should it come round again it is looked for from there.
             this->wait(s, s.flags & SEED_VALID ? SEED_VALID | SEED_PLACED : s.flags & SEED_PLACED, away);
             return;
         }
     }
-    const int32_t away = eye_.away(along);
-    if (away > 0) {
-        this->wait(s, 0, mulShift16(away, waitAway_));
-        return;
+    if (notFacing) {
+        const int32_t away = eye_.away(along);
+        if (away > 0) {
+            this->wait(s, 0, mulShift16(away, waitAway_));
+            return;
+        }
     }
     ++updated_;
     s.wakes = static_cast<int16_t>(travel_);
