@@ -34,9 +34,11 @@ constexpr Real PLACED_LEAST(0.95);
 constexpr Real POSITION_MOST(1.85);
 // Squared distance / squared size from which a neighbour is left out: its field is 0.006 there, inside the tolerance.
 constexpr Real TOUCHING(0.9);
-// Where a path is looked at for the first time outside the surface, when nothing is known of it.
-const Real PROBES[] = {Real(1.15), Real(1.35), POSITION_MOST};
-const Real PROBES_BETWEEN[] = {Real(1.08), Real(1.25), Real(1.45), Real(1.6)};
+// Where a path is looked at for the first time outside the surface, when nothing is known of it; how much farther out then,
+// and how often where it may come out between.
+constexpr Real PROBE(1.15);
+constexpr Real PROBE_STEP(0.2);
+constexpr int BETWEEN = 3;
 constexpr Real HINT_STEP(0.06);
 constexpr Real NEARLY(0.04);  // of the field: how near the isovalue it must have come there to be looked at in between
 // Squared distance / squared size up to which a neighbour alone fills what the own field lacks at POSITION_MOST: its
@@ -225,6 +227,7 @@ private:
     static inline Real buried_;  // least excess of the field where bracket() looked in vain
     static inline Real found_;       // by newton() or bracket()
     static inline bool again_;       // it did so only where it had come nearest before
+    static inline Real placedMost_;  // where one neighbour alone makes up the isovalue farther out, it is too strong
     static inline Real overshoot_;
     static inline uint32_t looks_, updated_;
     static inline uint16_t travel_;
@@ -320,6 +323,20 @@ void Settler::addNear(const Link& link)
     n.waitAway = least(waitSteps(Real(1), link.speed + o_.eyeSpeed_ * (reach / distance_)), Real(AWAY_STEPS));
 }
 
+// Up to which position the own field is more than this.
+inline Real ownReaches(Real field)
+{
+    int low = (rawFromReal(PROBE) >> 6) + 1, high = rawFromReal(POSITION_MOST) >> 6;
+    while (low < high) {
+        const int middle = (low + high + 1) >> 1;
+        if (ownSteps[middle - OWN_FIRST].value > field)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    return realFromRaw(low << 6);
+}
+
 // Where others are in range than before, or one along whose motion nobody can wait, nobody does.
 void Settler::knowNear()
 {
@@ -366,6 +383,7 @@ void Settler::settle()
     // A seed stays valid a way past the border where a neighbour becomes stronger: as a distance, about one spacing and
     // a half. The fields of the two change by about 3 / size a unit there.
     overshoot_ = least(Real(4.5) * o_.spacing_ / o_.size_, Real(0.7));
+    placedMost_ = ownReaches(shiftDown(ISOVALUE - overshoot_, 1));
     parting_ = Real(1.0) * o_.spacing_ / o_.radius_;
     fromEye_ = o_.centre_ - look_.eye;
     shadeSetup_.set(look_.light, o_.spacing_);
@@ -680,62 +698,77 @@ bool Settler::newton(Real position, Real step)
 }
 
 // From nothing: where the path leaves the surface before POSITION_MOST. Inside at 1, where the own field alone is the
-// isovalue. False: it does not leave. found_ is the place, or where it
-// came nearest to it; if `position` is not 1 that was such a place, and alone is looked at first.
+// isovalue. False: it does not leave, or only where the seed would not be valid. found_ is the place, or where it came nearest
+// to it; if `position` is not 1 that was such a place, and alone is looked at first.
 template <bool PLAIN>
 bool Settler::bracket(Real position)
 {
-    Real slope;
-    Real inside(1), outside(0);
-    // Looks outwards until the path has left; true if it has.
-    const auto leaves = [&](const Real* probe, int count) {
-        inside = Real(1);
-        for (; count > 0; --count, ++probe) {
-            const Real excess = lookAt<PLAIN>(*probe, slope) - ISOVALUE;
-            if (excess < Real(0)) {
-                outside = *probe;
-                return true;
-            }
-            if (excess < buried_) {
-                buried_ = excess;
-                found_ = *probe;
-            }
-            inside = *probe;
-        }
-        return false;
-    };
+    Real slope, inside(1);
     again_ = position != Real(1);
     if (again_) {
         buried_ = lookAt<PLAIN>(position, slope) - ISOVALUE;
         if (buried_ > NEARLY && stepsOf(buried_, waitField()) > TRAVEL_STEPS / 2) {
-            found_ = clamp(slope < Real(0) ? position + HINT_STEP : position - HINT_STEP, PROBES[0], POSITION_MOST);
+            found_ = clamp(slope < Real(0) ? position + HINT_STEP : position - HINT_STEP, PROBE, POSITION_MOST);
             return false;
         }
         again_ = false;
     }
-    buried_ = Real(1);
-    // Where it nearly left it may have between the places looked at, and gone into something else.
-    if (!leaves(PROBES, 3) && !(buried_ < NEARLY && leaves(PROBES_BETWEEN, 4)))
-        return false;
-    position = shiftDown(inside + outside, 1);
-    for (int i = 0; i < LOOK_LIMIT; ++i) {
-        const Real difference = lookAt<PLAIN>(position, slope) - ISOVALUE;
-        if (difference >= Real(0))
+    position = PROBE;
+    Real excess = lookAt<PLAIN>(position, slope) - ISOVALUE;
+    if (excess >= Real(0)) {
+        const Real first = excess, falls = slope;
+        inside = position;
+        position = touchCount_ == 1 ? placedMost_ : POSITION_MOST;
+        excess = lookAt<PLAIN>(position, slope) - ISOVALUE;
+        if (excess >= Real(0)) {
+            buried_ = least(first, excess);
+            found_ = first < excess ? inside : position;
+            // It may have left between the two, and gone into something else.
+            Real low = inside, high = position, lowSlope = falls, highSlope = slope;
+            for (int i = 0;; ++i) {
+                if (i == BETWEEN || lowSlope >= Real(0))
+                    return false;
+                position = highSlope > Real(0) ? low + (high - low) * (lowSlope / (lowSlope - highSlope)) : low + PROBE_STEP;
+                if (position >= high)
+                    return false;
+                excess = lookAt<PLAIN>(position, slope) - ISOVALUE;
+                if (excess < Real(0))
+                    break;
+                if (excess < buried_) {
+                    buried_ = excess;
+                    found_ = position;
+                }
+                if (buried_ > NEARLY)
+                    return false;
+                if (slope < Real(0)) {
+                    low = position;
+                    lowSlope = slope;
+                } else {
+                    high = position;
+                    highSlope = slope;
+                }
+            }
+            inside = low;
+        }
+    }
+    Real outside = position;
+    for (int i = 0;; ++i) {
+        // Where the field is flat a step of Newton's goes nowhere: halved instead.
+        Real next = slope < FLAT ? position - quotient(excess, slope) : shiftDown(inside + outside, 1);
+        found_ = next;
+        if (i > 0 && absolute(next - position) <= shiftDown(SHORT_STEP, 1))
+            return true;
+        if (next <= inside || next >= outside)
+            found_ = next = shiftDown(inside + outside, 1);
+        if (i == LOOK_LIMIT)
+            return true;
+        position = next;
+        excess = lookAt<PLAIN>(position, slope) - ISOVALUE;
+        if (excess >= Real(0))
             inside = position;
         else
             outside = position;
-        // Where the field is flat a step of Newton's goes nowhere: halved instead.
-        Real next = slope < FLAT ? position - quotient(difference, slope) : shiftDown(inside + outside, 1);
-        if (absolute(next - position) <= shiftDown(SHORT_STEP, 1)) {
-            found_ = next;
-            return true;
-        }
-        if (next <= inside || next >= outside)
-            next = shiftDown(inside + outside, 1);
-        position = next;
     }
-    found_ = position;
-    return true;
 }
 
 inline void Settler::lookFrom(const Seed& s)
