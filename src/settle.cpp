@@ -39,7 +39,11 @@ constexpr Real TOUCHING(0.9);
 constexpr Real PROBE(1.15);
 constexpr Real PROBE_STEP(0.2);
 constexpr int BETWEEN = 3;
+// What is searched for again is looked at where it was nearest, and so far on; alone there when the field allows to wait for
+// more than so many steps of travel; there and a step on, but nowhere else, for more than so many.
 constexpr Real HINT_STEP(0.06);
+constexpr int HINT_ALONE = 32;
+constexpr int HINT_NO_SEARCH = 8;
 constexpr Real NEARLY(0.04);  // of the field: how near the isovalue it must have come there to be looked at in between
 // Squared distance / squared size up to which a neighbour alone fills what the own field lacks at POSITION_MOST: its
 // field is 0.477 there, which with the own 0.013 is the isovalue but for the tolerance.
@@ -197,7 +201,9 @@ private:
     void lookFrom(const Seed& s);
     void restTapered(Seed& s);
     template <bool PLAIN>
-    REGISTERS SELDOM bool bracket(Real position);
+    bool search();
+    template <bool PLAIN>
+    REGISTERS SELDOM bool bracket(Real from);
     template <bool PLAIN>
     REGISTERS void shade(Seed& s, Real position);
     void addNear(const Link& link);
@@ -226,6 +232,7 @@ private:
     static inline Real strength_;  // by how much the strongest neighbour is stronger than the overshoot allows
     static inline Real buried_;  // least excess of the field where bracket() looked in vain
     static inline Real found_;       // by newton() or bracket()
+    static inline Real inside_, position_, excess_, slope_;  // of search()
     static inline bool again_;       // it did so only where it had come nearest before
     static inline Real placedMost_;  // where one neighbour alone makes up the isovalue farther out, it is too strong
     static inline Real overshoot_;
@@ -697,61 +704,85 @@ bool Settler::newton(Real position, Real step)
     return false;
 }
 
+// Where a path may leave the surface, looked at from 1 outwards. False: nowhere, or only where the seed would not be valid;
+// found_ is then where it came nearest to it. Else position_ is a place outside, excess_ and slope_ what was found there, and
+// inside_ one farther in.
+template <bool PLAIN>
+bool Settler::search()
+{
+    const auto leaves = [this](Real position) {
+        position_ = position;
+        excess_ = lookAt<PLAIN>(position, slope_) - ISOVALUE;
+        return excess_ < Real(0);
+    };
+    if (leaves(PROBE))
+        return true;
+    Real low = position_, lowSlope = slope_;
+    buried_ = excess_;
+    found_ = inside_ = low;
+    if (leaves(touchCount_ == 1 ? placedMost_ : POSITION_MOST))
+        return true;
+    Real high = position_, highSlope = slope_;
+    // It may have left between the two, and gone into something else.
+    for (int i = 0; i < BETWEEN; ++i) {
+        if (excess_ < buried_) {
+            buried_ = excess_;
+            found_ = position_;
+        }
+        if (lowSlope >= Real(0) || (i > 0 && buried_ > NEARLY))
+            return false;
+        const Real place =
+            highSlope > Real(0) ? low + (high - low) * (lowSlope / (lowSlope - highSlope)) : low + PROBE_STEP;
+        if (place >= high)
+            return false;
+        if (leaves(place)) {
+            inside_ = low;
+            return true;
+        }
+        if (slope_ < Real(0)) {
+            low = place;
+            lowSlope = slope_;
+        } else {
+            high = place;
+            highSlope = slope_;
+        }
+    }
+    return false;
+}
+
 // From nothing: where the path leaves the surface before POSITION_MOST. Inside at 1, where the own field alone is the
 // isovalue. False: it does not leave, or only where the seed would not be valid. found_ is the place, or where it came nearest
-// to it; if `position` is not 1 that was such a place, and alone is looked at first.
+// to it. If `from` is not 1 that was such a place: it is looked at first, and if the field there is well above the isovalue,
+// alone.
 template <bool PLAIN>
-bool Settler::bracket(Real position)
+bool Settler::bracket(Real from)
 {
-    Real slope, inside(1);
-    again_ = position != Real(1);
+    inside_ = Real(1);
+    again_ = from != Real(1);
+    bool out = false;
     if (again_) {
-        buried_ = lookAt<PLAIN>(position, slope) - ISOVALUE;
-        if (buried_ > NEARLY && stepsOf(buried_, waitField()) > TRAVEL_STEPS / 2) {
-            found_ = clamp(slope < Real(0) ? position + HINT_STEP : position - HINT_STEP, PROBE, POSITION_MOST);
-            return false;
+        position_ = from;
+        excess_ = lookAt<PLAIN>(from, slope_) - ISOVALUE;
+        out = excess_ < Real(0);
+        if (!out) {
+            buried_ = excess_;
+            found_ = clamp(slope_ < Real(0) ? from + HINT_STEP : from - HINT_STEP, PROBE, POSITION_MOST);
+            const int32_t steps = stepsOf(buried_, waitField());
+            if (buried_ > NEARLY && steps > HINT_ALONE)
+                return false;
+            position_ = found_;
+            excess_ = lookAt<PLAIN>(found_, slope_) - ISOVALUE;
+            out = excess_ < Real(0);
+            if (!out && steps > HINT_NO_SEARCH) {
+                buried_ = least(buried_, excess_);
+                return false;
+            }
         }
         again_ = false;
     }
-    position = PROBE;
-    Real excess = lookAt<PLAIN>(position, slope) - ISOVALUE;
-    if (excess >= Real(0)) {
-        const Real first = excess, falls = slope;
-        inside = position;
-        position = touchCount_ == 1 ? placedMost_ : POSITION_MOST;
-        excess = lookAt<PLAIN>(position, slope) - ISOVALUE;
-        if (excess >= Real(0)) {
-            buried_ = least(first, excess);
-            found_ = first < excess ? inside : position;
-            // It may have left between the two, and gone into something else.
-            Real low = inside, high = position, lowSlope = falls, highSlope = slope;
-            for (int i = 0;; ++i) {
-                if (i == BETWEEN || lowSlope >= Real(0))
-                    return false;
-                position = highSlope > Real(0) ? low + (high - low) * (lowSlope / (lowSlope - highSlope)) : low + PROBE_STEP;
-                if (position >= high)
-                    return false;
-                excess = lookAt<PLAIN>(position, slope) - ISOVALUE;
-                if (excess < Real(0))
-                    break;
-                if (excess < buried_) {
-                    buried_ = excess;
-                    found_ = position;
-                }
-                if (buried_ > NEARLY)
-                    return false;
-                if (slope < Real(0)) {
-                    low = position;
-                    lowSlope = slope;
-                } else {
-                    high = position;
-                    highSlope = slope;
-                }
-            }
-            inside = low;
-        }
-    }
-    Real outside = position;
+    if (!out && !search<PLAIN>())
+        return false;
+    Real inside = inside_, position = position_, outside = position, excess = excess_, slope = slope_;
     for (int i = 0;; ++i) {
         // Where the field is flat a step of Newton's goes nowhere: halved instead.
         Real next = slope < FLAT ? position - quotient(excess, slope) : shiftDown(inside + outside, 1);
