@@ -39,7 +39,14 @@ extern OwnStep ownSteps[OWN_STEPS];
 
 inline const OwnStep& ownQuick(Real position)
 {
+    // In bytes, for one shift less.
+    static_assert(sizeof(OwnStep) == 16 || FB_REAL != FB_FIXED, "a shift tells where a step lies");
+#if FB_REAL == FB_FIXED
+    const intptr_t from = reinterpret_cast<intptr_t>(ownSteps) - OWN_FIRST * static_cast<intptr_t>(sizeof(OwnStep));
+    return *reinterpret_cast<const OwnStep*>(from + (position.raw >> 2 & ~15));
+#else
     return ownSteps[(rawFromReal(position) >> 6) - OWN_FIRST];
+#endif
 }
 
 // Fills both tables. Call once before any object is updated.

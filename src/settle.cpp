@@ -34,10 +34,16 @@ constexpr Real PLACED_LEAST(0.95);
 constexpr Real POSITION_MOST(1.85);
 // Squared distance / squared size from which a neighbour is left out: its field is 0.006 there, inside the tolerance.
 constexpr Real TOUCHING(0.9);
-// Where a path is looked at for the first time outside the surface, when nothing is known of it.
-const Real PROBES[] = {Real(1.15), Real(1.35), POSITION_MOST};
-const Real PROBES_BETWEEN[] = {Real(1.08), Real(1.25), Real(1.45), Real(1.6)};
+// Where a path is looked at for the first time outside the surface, when nothing is known of it; how much farther out then,
+// and how often where it may come out between.
+constexpr Real PROBE(1.15);
+constexpr Real PROBE_STEP(0.2);
+constexpr int BETWEEN = 3;
+// What is searched for again is looked at where it was nearest, and so far on; alone there when the field allows to wait for
+// more than so many steps of travel; there and a step on, but nowhere else, for more than so many.
 constexpr Real HINT_STEP(0.06);
+constexpr int HINT_ALONE = 32;
+constexpr int HINT_NO_SEARCH = 8;
 constexpr Real NEARLY(0.04);  // of the field: how near the isovalue it must have come there to be looked at in between
 // Squared distance / squared size up to which a neighbour alone fills what the own field lacks at POSITION_MOST: its
 // field is 0.477 there, which with the own 0.013 is the isovalue but for the tolerance.
@@ -154,21 +160,21 @@ public:
 
 private:
     REGISTERS SELDOM int32_t facesAway(Real across, Real own) const;
-    bool passed(int16_t due) const { return static_cast<int16_t>(due - travel_) <= 0; }
-    int16_t later(int32_t steps) const { return static_cast<int16_t>(travel_ + steps); }
+    bool passed(int16_t due) const { return static_cast<int16_t>(due - travel_) < 0; }
+    int16_t later(int32_t steps) const { return static_cast<int16_t>(travel_ + steps - 1); }
     SoftObject::PatchState reachOf(SoftObject::Patch& patch, uint32_t& reached) const;
     void activate(uint32_t reached);
     int16_t idleUntil(const SoftObject::Patch& patch) const;
     void rest(SoftObject::Patch& patch);
     void bury(SoftObject::Patch& patch);
-    bool waits(const Seed& s) const
-    {
-        return (s.flags & SEED_WAITS) && !passed(s.wakes);
-    }
+    template <bool PLAIN>
+    SELDOM bool judge(SoftObject::Patch& patch, Seed* s);
     template <bool PLAIN>
     void settlePatches();
     template <bool PLAIN>
-    REGISTERS void settleSeed(Seed& s);
+    __attribute__((always_inline)) void settleSeed(Seed& s);
+    template <bool PLAIN>
+    REGISTERS SELDOM void settleExtra(Seed& s) { settleSeed<PLAIN>(s); }
     template <bool PLAIN>
     Real lookAt(Real position, Real& slope);
     template <bool PLAIN>
@@ -184,7 +190,9 @@ private:
     void lookFrom(const Seed& s);
     void restTapered(Seed& s);
     template <bool PLAIN>
-    REGISTERS SELDOM bool bracket(Real position);
+    bool search();
+    template <bool PLAIN>
+    REGISTERS SELDOM bool bracket(Real from);
     template <bool PLAIN>
     REGISTERS void shade(Seed& s, Real position);
     void addNear(const Link& link);
@@ -213,7 +221,9 @@ private:
     static inline Real strength_;  // by how much the strongest neighbour is stronger than the overshoot allows
     static inline Real buried_;  // least excess of the field where bracket() looked in vain
     static inline Real found_;       // by newton() or bracket()
+    static inline Real inside_, position_, excess_, slope_;  // of search()
     static inline bool again_;       // it did so only where it had come nearest before
+    static inline Real placedMost_;  // where one neighbour alone makes up the isovalue farther out, it is too strong
     static inline Real overshoot_;
     static inline uint32_t looks_, updated_;
     static inline uint16_t travel_;
@@ -310,6 +320,20 @@ void Settler::addNear(const Link& link)
     n.waitAway = least(waitSteps(Real(1), link.speed + o_.eyeSpeed_ * (reach / distance_)), Real(AWAY_STEPS));
 }
 
+// Up to which position the own field is more than this.
+inline Real ownReaches(Real field)
+{
+    int low = (rawFromReal(PROBE) >> 6) + 1, high = rawFromReal(POSITION_MOST) >> 6;
+    while (low < high) {
+        const int middle = (low + high + 1) >> 1;
+        if (ownSteps[middle - OWN_FIRST].value > field)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    return realFromRaw(low << 6);
+}
+
 // Where others are in range than before, or one along whose motion nobody can wait, nobody does.
 void Settler::knowNear()
 {
@@ -356,6 +380,7 @@ void Settler::settle()
     // A seed stays valid a way past the border where a neighbour becomes stronger: as a distance, about one spacing and
     // a half. The fields of the two change by about 3 / size a unit there.
     overshoot_ = least(Real(1.2) * o_.spacing_ / o_.size_, Real(0.7));
+    placedMost_ = ownReaches(shiftDown(ISOVALUE - overshoot_, 1));
     parting_ = Real(1.0) * o_.spacing_ / o_.radius_;
     skew_.root(o_.centre_ - look_.eye, o_.radius_ * POSITION_MOST);
     setBack_ = mulDiv(1 << 30, 1 << 17, rawFromReal(most(o_.radius_, Real(2))));
@@ -434,7 +459,7 @@ void Settler::travel()
 // Nothing to see of this seed until things have moved on by `steps`, 0 or more.
 inline void Settler::wait(Seed& s, uint8_t flags, int32_t steps) const
 {
-    s.flags = static_cast<uint8_t>(flags | SEED_WAITS);
+    s.flags = flags;
     s.wakes = later(lesser(steps, WAIT_MOST));
 }
 
@@ -673,63 +698,102 @@ bool Settler::newton(Real position, Real step)
     return false;
 }
 
-// From nothing: where the path leaves the surface before POSITION_MOST. Inside at 1, where the own field alone is the
-// isovalue. False: it does not leave. found_ is the place, or where it
-// came nearest to it; if `position` is not 1 that was such a place, and alone is looked at first.
+// Where a path may leave the surface, looked at from 1 outwards. False: nowhere, or only where the seed would not be valid;
+// found_ is then where it came nearest to it. Else position_ is a place outside, excess_ and slope_ what was found there, and
+// inside_ one farther in.
 template <bool PLAIN>
-bool Settler::bracket(Real position)
+bool Settler::search()
 {
-    Real slope;
-    Real inside(1), outside(0);
-    // Looks outwards until the path has left; true if it has.
-    const auto leaves = [&](const Real* probe, int count) {
-        inside = Real(1);
-        for (; count > 0; --count, ++probe) {
-            const Real excess = lookAt<PLAIN>(*probe, slope) - ISOVALUE;
-            if (excess < Real(0)) {
-                outside = *probe;
-                return true;
-            }
-            if (excess < buried_) {
-                buried_ = excess;
-                found_ = *probe;
-            }
-            inside = *probe;
-        }
-        return false;
+    const auto leaves = [this](Real position) {
+        position_ = position;
+        excess_ = lookAt<PLAIN>(position, slope_) - ISOVALUE;
+        return excess_ < Real(0);
     };
-    again_ = position != Real(1);
-    if (again_) {
-        buried_ = lookAt<PLAIN>(position, slope) - ISOVALUE;
-        if (buried_ > NEARLY && stepsOf(buried_, waitField()) > TRAVEL_STEPS / 2) {
-            found_ = clamp(slope < Real(0) ? position + HINT_STEP : position - HINT_STEP, PROBES[0], POSITION_MOST);
+    if (leaves(PROBE))
+        return true;
+    Real low = position_, lowSlope = slope_;
+    buried_ = excess_;
+    found_ = inside_ = low;
+    if (leaves(touchCount_ == 1 ? placedMost_ : POSITION_MOST))
+        return true;
+    Real high = position_, highSlope = slope_;
+    // It may have left between the two, and gone into something else.
+    for (int i = 0; i < BETWEEN; ++i) {
+        if (excess_ < buried_) {
+            buried_ = excess_;
+            found_ = position_;
+        }
+        if (lowSlope >= Real(0) || (i > 0 && buried_ > NEARLY))
             return false;
+        const Real place =
+            highSlope > Real(0) ? low + (high - low) * (lowSlope / (lowSlope - highSlope)) : low + PROBE_STEP;
+        if (place >= high)
+            return false;
+        if (leaves(place)) {
+            inside_ = low;
+            return true;
+        }
+        if (slope_ < Real(0)) {
+            low = place;
+            lowSlope = slope_;
+        } else {
+            high = place;
+            highSlope = slope_;
+        }
+    }
+    return false;
+}
+
+// From nothing: where the path leaves the surface before POSITION_MOST. Inside at 1, where the own field alone is the
+// isovalue. False: it does not leave, or only where the seed would not be valid. found_ is the place, or where it came nearest
+// to it. If `from` is not 1 that was such a place: it is looked at first, and if the field there is well above the isovalue,
+// alone.
+template <bool PLAIN>
+bool Settler::bracket(Real from)
+{
+    inside_ = Real(1);
+    again_ = from != Real(1);
+    bool out = false;
+    if (again_) {
+        position_ = from;
+        excess_ = lookAt<PLAIN>(from, slope_) - ISOVALUE;
+        out = excess_ < Real(0);
+        if (!out) {
+            buried_ = excess_;
+            found_ = clamp(slope_ < Real(0) ? from + HINT_STEP : from - HINT_STEP, PROBE, POSITION_MOST);
+            const int32_t steps = stepsOf(buried_, waitField());
+            if (buried_ > NEARLY && steps > HINT_ALONE)
+                return false;
+            position_ = found_;
+            excess_ = lookAt<PLAIN>(found_, slope_) - ISOVALUE;
+            out = excess_ < Real(0);
+            if (!out && steps > HINT_NO_SEARCH) {
+                buried_ = least(buried_, excess_);
+                return false;
+            }
         }
         again_ = false;
     }
-    buried_ = Real(1);
-    // Where it nearly left it may have between the places looked at, and gone into something else.
-    if (!leaves(PROBES, 3) && !(buried_ < NEARLY && leaves(PROBES_BETWEEN, 4)))
+    if (!out && !search<PLAIN>())
         return false;
-    position = shiftDown(inside + outside, 1);
-    for (int i = 0; i < LOOK_LIMIT; ++i) {
-        const Real difference = lookAt<PLAIN>(position, slope) - ISOVALUE;
-        if (difference >= Real(0))
+    Real inside = inside_, position = position_, outside = position, excess = excess_, slope = slope_;
+    for (int i = 0;; ++i) {
+        // Where the field is flat a step of Newton's goes nowhere: halved instead.
+        Real next = slope < FLAT ? position - quotient(excess, slope) : shiftDown(inside + outside, 1);
+        found_ = next;
+        if (i > 0 && absolute(next - position) <= shiftDown(SHORT_STEP, 1))
+            return true;
+        if (next <= inside || next >= outside)
+            found_ = next = shiftDown(inside + outside, 1);
+        if (i == LOOK_LIMIT)
+            return true;
+        position = next;
+        excess = lookAt<PLAIN>(position, slope) - ISOVALUE;
+        if (excess >= Real(0))
             inside = position;
         else
             outside = position;
-        // Where the field is flat a step of Newton's goes nowhere: halved instead.
-        Real next = slope < FLAT ? position - quotient(difference, slope) : shiftDown(inside + outside, 1);
-        if (absolute(next - position) <= shiftDown(SHORT_STEP, 1)) {
-            found_ = next;
-            return true;
-        }
-        if (next <= inside || next >= outside)
-            next = shiftDown(inside + outside, 1);
-        position = next;
     }
-    found_ = position;
-    return true;
 }
 
 inline void Settler::lookFrom(const Seed& s)
@@ -784,7 +848,7 @@ int32_t Settler::facesAway(Real across, Real own) const
 }
 
 template <bool PLAIN>
-void Settler::settleSeed(Seed& s)
+inline void Settler::settleSeed(Seed& s)
 {
     if (!PLAIN) {
         path_ = s.path;
@@ -838,22 +902,27 @@ void Settler::settleSeed(Seed& s)
     if (!PLAIN)
         lookFrom(s);
     const int32_t along = eye_.along(s);
+    bool notFacing = true;
     if (PLAIN || o_.isBall()) {
         const Real across = realFromRaw(along >> 14 << 11);
         const Real own = awayEdge_ - across;
-        const int32_t away = own > Real(0) ? facesAway(across, own) : -1;
+        notFacing = own > Real(0);
+        const int32_t away = notFacing ? facesAway(across, own) : -1;
         if (away >= 0) {
-            // What it is held for does not matter, nor where; should it come round again it is looked for from there.
-            this->wait(s, static_cast<uint8_t>(s.flags & (SEED_VALID | SEED_PLACED)), away);
+            // Where it is held to be does not matter; should it come round again it is looked for from there.
+            this->wait(s, s.flags & SEED_VALID ? SEED_VALID | SEED_PLACED : s.flags & SEED_PLACED, away);
             return;
         }
     }
-    const int32_t away = eye_.away(along);
-    if (away > 0) {
-        this->wait(s, 0, mulShift16(away, waitAway_));
-        return;
+    if (notFacing) {
+        const int32_t away = eye_.away(along);
+        if (away > 0) {
+            this->wait(s, 0, mulShift16(away, waitAway_));
+            return;
+        }
     }
     ++updated_;
+    s.wakes = static_cast<int16_t>(travel_);
     Real position = s.position;
     bool settled = false;
     if (s.flags & (SEED_VALID | SEED_PLACED)) {
@@ -955,80 +1024,84 @@ inline Seed& pairedWith(Seed* s, const Seed& extra)
     return *reinterpret_cast<Seed*>(reinterpret_cast<char*>(s) + extra.neighbour);
 }
 
-// Of a patch all seeds of which wait: until when they do, and those they are paired with.
+// Of a patch to which nothing happened: until when nothing will, nor to the seeds that its own are paired with.
 int16_t Settler::idleUntil(const SoftObject::Patch& patch) const
 {
     int32_t steps = static_cast<int16_t>(patch.due - travel_);
-    const auto wait = [&](const Seed& s) {
-        steps = s.flags & SEED_WAITS ? lesser(steps, static_cast<int16_t>(s.wakes - travel_)) : 0;
-    };
+    const auto wait = [&](const Seed& s) { steps = lesser(steps, static_cast<int16_t>(s.wakes - travel_)); };
     Seed* s = o_.seeds_ + 2 * patch.first;
     for (int i = patch.count; i > 0 && steps > 0; --i, s += 2) {
         wait(s[0]);
-        if (s[1].neighbour != 0)
-            wait(pairedWith(s, s[1]));
+        wait(pairedWith(s, s[1]));
         if (s[1].flags & SEED_ACTIVE)
             wait(s[1]);
     }
-    return later(steps);
+    return static_cast<int16_t>(travel_ + steps);
+}
+
+// Judges a patch anew. True: seed by seed where a neighbour reaches it.
+template <bool PLAIN>
+bool Settler::judge(SoftObject::Patch& patch, Seed* s)
+{
+    const uint8_t before = patch.state;
+    uint32_t reached;
+    const SoftObject::PatchState state = reachOf(patch, reached);
+    patch.idle = patch.due;
+    o_.displaced_ |= state != SoftObject::PATCH_AT_REST;
+    if (state != SoftObject::PATCH_MIXED) {
+        if (before != state && state == SoftObject::PATCH_AT_REST)
+            rest(patch);
+        else if (before != state)
+            bury(patch);
+        for (int i = patch.count; i > 0; --i, s += 2)
+            s->wakes = patch.due;
+        return false;
+    }
+    // When one that they do not know of came near, those that may be seen wait no longer.
+    const bool known = before == SoftObject::PATCH_MIXED;
+    if (!known || (reached & (~patch.reached | MANY)))
+        for (int i = 2 * patch.count; i > 0; --i, ++s)
+            if (!known || (s->flags & SEED_VALID))
+                s->wakes = later(0);
+    patch.reached = reached;
+    if (!PLAIN && o_.tapers_ && !known)
+        patch.stale = SoftObject::STALE_ALL;  // from normals to paths
+    patch.state = SoftObject::PATCH_MIXED;
+    return true;
 }
 
 // All patches of the object, seed by seed where a neighbour reaches them.
 template <bool PLAIN>
 void Settler::settlePatches()
 {
-    SoftObject::Patch* const last = o_.patches_ + o_.patchCount_;
-    for (SoftObject::Patch* p = o_.patches_; p < last; ++p) {
-        SoftObject::Patch& patch = *p;
-        const uint8_t before = patch.state;
-        if (before != SoftObject::PATCH_UNKNOWN && !passed(patch.idle)) {
+    Seed* s = o_.seeds_;
+    SoftObject::Patch* patch = o_.patches_;
+    for (int p = o_.patchCount_; p > 0; --p, ++patch) {
+        const uint8_t before = patch->state;
+        if (before != SoftObject::PATCH_UNKNOWN && !passed(patch->idle)) {
             o_.displaced_ |= before != SoftObject::PATCH_AT_REST;
+            s += 2 * patch->count;
             continue;
         }
-        Seed* s = o_.seeds_ + 2 * patch.first;
-        Seed* const end = s + 2 * patch.count;
-        if (before != SoftObject::PATCH_MIXED || passed(patch.due)) {
-            uint32_t reached;
-            const SoftObject::PatchState state = reachOf(patch, reached);
-            patch.idle = patch.due;
-            if (state == SoftObject::PATCH_AT_REST) {
-                if (before != SoftObject::PATCH_AT_REST)
-                    rest(patch);
-                continue;
-            }
-            o_.displaced_ = true;
-            if (state == SoftObject::PATCH_BURIED) {
-                if (before != SoftObject::PATCH_BURIED)
-                    bury(patch);
-                continue;
-            }
-            if (reached & (~patch.reached | MANY)) {
-                // One that they do not know of came near: those that may be seen wait no longer.
-                for (Seed* each = s; each < end; ++each)
-                    if (each->flags & SEED_VALID)
-                        each->flags = static_cast<uint8_t>(each->flags & ~SEED_WAITS);
-            }
-            patch.reached = reached;
-            if (!PLAIN && o_.tapers_ && before != SoftObject::PATCH_MIXED)
-                patch.stale = SoftObject::STALE_ALL;  // from normals to paths
-            patch.state = SoftObject::PATCH_MIXED;
+        if ((before != SoftObject::PATCH_MIXED || passed(patch->due)) && !judge<PLAIN>(*patch, s)) {
+            s += 2 * patch->count;
+            continue;
         }
         if (before != SoftObject::PATCH_MIXED)
-            patch.laid = o_.drift_;
-        activate(patch.reached);
-        if (patch.stale != SoftObject::STALE_NONE)
-            o_.posePatch(patch, true);
+            patch->laid = o_.drift_;
+        activate(patch->reached);
+        if (patch->stale != SoftObject::STALE_NONE)
+            o_.posePatch(*patch, true);
         bool extras = false, busy = false;
         uint8_t seen = 0;
-        for (; s < end; s += 2) {
-            if (!waits(s[0])) {
-                settleSeed<PLAIN>(s[0]);
+        for (int i = patch->count; i > 0; --i, s += 2) {
+            if (passed(s->wakes)) {
+                settleSeed<PLAIN>(*s);
                 busy = true;
             }
             seen |= s->flags;
+            // In the first ring a seed is paired with itself, to no effect.
             Seed& extra = s[1];
-            if (extra.neighbour == 0)
-                continue;
             Seed& other = pairedWith(s, extra);
             const uint8_t either = s->flags | other.flags;
             if ((either & (SEED_PLACED | SEED_FRONT)) != (SEED_PLACED | SEED_FRONT)) {
@@ -1041,8 +1114,8 @@ void Settler::settlePatches()
                 continue;
             }
             extras = true;
-            if (!waits(extra)) {
-                settleSeed<PLAIN>(extra);
+            if (!(extra.flags & SEED_ACTIVE) || passed(extra.wakes)) {
+                settleExtra<PLAIN>(extra);
                 busy = true;
             }
             extra.flags |= SEED_ACTIVE;
@@ -1056,10 +1129,10 @@ void Settler::settlePatches()
                 }
             }
         }
-        patch.extras = extras;
-        patch.back = !(seen & SEED_FRONT);
+        patch->extras = extras;
+        patch->back = !(seen & SEED_FRONT);
         o_.displaced_ = true;
-        patch.idle = busy ? static_cast<int16_t>(travel_) : idleUntil(patch);
+        patch->idle = busy ? static_cast<int16_t>(travel_) : idleUntil(*patch);
     }
 }
 

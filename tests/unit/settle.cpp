@@ -30,10 +30,8 @@ bool settled(const Scene& scene, const SoftObject& object, int i)
     const Seed& s = object.seed(i);
     if (!takesPart(object, i) || !(s.flags & SEED_VALID))
         return false;
-    // A placed seed that waits cannot be seen, and stays where it was.
-    if ((s.flags & SEED_WAITS) && (s.flags & SEED_PLACED))
-        return false;
-    return !scene.printed || (s.flags & SEED_FRONT);
+    // A placed seed that cannot be seen may wait, and stays where it was.
+    return !(scene.printed || (s.flags & SEED_PLACED)) || (s.flags & SEED_FRONT);
 }
 
 // How far the field at the settled seeds of a scene is from the isovalue.
@@ -255,7 +253,7 @@ TEST(what_has_not_moved_is_kept)
                 const std::vector<Voxel> after = scene.draw(o);
                 CHECK(identical(before[o], after));
             }
-            CHECK(scene.counts.updated > 50);
+            CHECK(!printed || scene.counts.updated > 50);  // by default they need not even be looked at
             // One look tells that a seed is where it was; none needs its normal again.
             SAME(scene.counts.normals, 0);
             if (printed)
@@ -377,7 +375,7 @@ TEST(small_displacements_are_none)
             moved += settled(scene, ball, i) && (ball.seed(i).flags & SEED_FRONT) != 0 && ball.seed(i).position != before[static_cast<size_t>(i)];
         SAME(moved, 0);
         SAME(scene.counts.normals, 0);
-        CHECK(scene.counts.updated > 20);
+        CHECK(!printed || scene.counts.updated > 20);
         // A whole unit is no small displacement.
         scene.counts = Counts{};
         scene.objects[1]->translate(vector(1, 0, 0));
