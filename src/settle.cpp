@@ -1172,8 +1172,9 @@ void SoftObject::drawQuick(const Look& look, VoxelList& list, int room, int* nex
     const int p = *next;
     if (p == 0) {
         const Vector moved = (look.eye - centre_) - eyeDrawn_;
-        const Real sum = absolute(moved.x) + absolute(moved.y) + absolute(moved.z);
-        const int32_t steps = rawFromReal(least(sum, Real(100))) >> 10;
+        const Real most(100);
+        const Vector limited{clamp(moved.x, -most, most), clamp(moved.y, -most, most), clamp(moved.z, -most, most)};
+        const int32_t steps = rawFromReal(nearLength(limited)) >> 10;
         // Less is left to add up, or slow moves would count for nothing.
         if (steps >= DRIFT_LEAST) {
             drift_ = static_cast<uint16_t>(drift_ + steps);
