@@ -5,16 +5,13 @@
 
 #include "vec.h"
 
-// The colour of a voxel that is not drawn, but tells where a gap between scales may show.
-constexpr uint8_t GAP = 0;
-
 struct Voxel {
     Vector place;      // from the eye, axes of the world, units
     int16_t wide;      // half extents along X and Y, 1/256 unit, 0 or more
     int16_t high;
     int16_t tiltX;     // slope of the depth across the scale: n.x / cosine of the angle at which it is seen, 8 bits of
     int16_t tiltY;     // fraction, within +-16; 0 for a scale that faces the viewer
-    uint8_t colour;    // palette index
+    uint8_t colour;    // palette index; 0 is the background's, and taken for it when gaps are closed
 };
 
 #endif

@@ -667,7 +667,6 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
     int root = -1;
     Vector rootPlace{Real(0), Real(0), Real(0)};
     Voxel* v = voxels;
-    const int16_t gap = static_cast<int16_t>(rawFromReal(spacing_ * Real(1.5) + Real(1.5)) >> 8);
     const int32_t setBack = mulDiv(1 << 30, 1 << 17, rawFromReal(most(radius_, Real(2))));  // 2^31 / radius
     const Voxel* const full = voxels + room - 4 * PATCH_SEEDS;
     int p = *next;
@@ -730,14 +729,6 @@ int SoftObject::drawQuick(const Look& look, Voxel* voxels, int room, int* next)
             }
             v->colour = ramp_[s->brightness];
             ++v;
-            if (s->flags & SEED_EDGE) {
-                // A place where the surface is stretched so much that a gap may show.
-                const Vector aside = (s[s->due].path - s->path) * Real(0.625);
-                v->place = rootPlace + s->path * s->position + aside;
-                v->wide = v->high = gap;
-                v->colour = GAP;
-                ++v;
-            }
         }
     }
     *next = p < patchCount_ ? p : 0;

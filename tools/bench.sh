@@ -120,7 +120,7 @@ per_frame() {
 				else if (f ~ /(^| )SoftObject::draw/) s = "draw"
 				else if (f ~ /(^| )View::(project|show)/) s = "project"
 				else if (f ~ /^blitScalesA/) s = "blit"
-				else if (f ~ /closeGap|addGap|^findEmptyA/) s = "gaps"
+				else if (f ~ /closeGaps|closeRun|closeFrom|closeSlit|fillRow|takeOver|^drawnRunsA/) s = "gaps"
 				else if (f ~ /^clearRowsA|(^| )View::begin/) s = "clear"
 				else if (f ~ /^presentRows|(^| )View::(mark|touch|end)/) s = "present"
 				else s = "other"

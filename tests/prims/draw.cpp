@@ -61,7 +61,7 @@ bool run(Play& play, const std::string& directory, bool printed)
                 view.show(voxels, object->draw(look, voxels, 256, &next));
             } while (next != 0);
         }
-        view.closeGaps();
+        view.closeGaps(real(play.spacing));
         view.end();
         const char* problem = dump.frame(frame, 0, 10, model, view, palette, true);
         if (problem != nullptr) {

@@ -257,19 +257,41 @@ void edges()
     verdict(same(0), "an empty list", 0);
 }
 
-// The first empty depth of a row: none, one anywhere, many; rows of every length and alignment, guards behind.
-void empties()
+// The runs of a row: none, one, many, at the ends; within spans of every kind, at every alignment, with pixels round them.
+void runs()
 {
-    static uint16_t row[400];
+    static uint8_t row[WIDE + 8 + SHIFTS];
+    Span c[WIDE / 2], a[WIDE / 2];
     for (int i = 0; i < 20000; ++i) {
-        const int count = 1 + below(320), start = below(16);
-        for (int x = 0; x < 400; ++x)
-            row[x] = below(3) == 0 && i % 3 == 0 ? 0xffff : static_cast<uint16_t>(below(4) ? below(0xffff) : 0xfffe);
-        if (i % 3 == 1)
-            row[start + below(count)] = 0xffff;
-        row[start + count] = 0xffff;
-        const int c = findEmptyC(row + start, count), a = findEmptyA(row + start, count);
-        verdict(c == a && c >= 0 && c <= count && (c == count || row[start + c] == 0xffff), "the first empty depth", i);
+        uint8_t* const pixels = row + 4 + below(SHIFTS);
+        const bool fine = below(4) == 0;
+        const int share = below(8);
+        for (int x = -4; x < WIDE + 4;) {
+            const uint8_t colour = below(8) < share ? static_cast<uint8_t>(1 + below(255)) : 0;
+            for (int n = 1 + below(fine ? 3 : 60); n > 0 && x < WIDE + 4; --n)
+                pixels[x++] = colour;
+        }
+        int from = 4 * below(WIDE / 4 + 1), to = 4 * below(WIDE / 4 + 1);
+        if (from > to || i % 8 == 0)
+            from = 0, to = WIDE;
+        const Span within = {static_cast<int16_t>(from), static_cast<int16_t>(to)};
+        memset(c, 0x55, sizeof c);
+        memset(a, 0x55, sizeof a);
+        const int count = drawnRunsC(pixels, &within, c);
+        verdict(drawnRunsA(pixels, &within, a) == count && memcmp(c, a, sizeof c) == 0, "runs of drawn pixels", i);
+        // And what they are.
+        long wrong = 0;
+        int x = from;
+        for (int k = 0; k < count; ++k) {
+            wrong += c[k].from >= c[k].to || (k > 0 && c[k].from == x);
+            for (; x < c[k].from; ++x)
+                wrong += pixels[x] != 0;
+            for (; x < c[k].to; ++x)
+                wrong += pixels[x] == 0;
+        }
+        for (; x < to; ++x)
+            wrong += pixels[x] != 0;
+        verdict(wrong == 0 && x == to, "runs are all that is drawn", i);
     }
 }
 
@@ -358,6 +380,7 @@ void registers()
         list[i] = clipped(1 + i, 1 + below(30));
     static Span rows[HIGH];
     spans(rows);
+    static Span runs[WIDE / 2];
     static const uint32_t COUNTS[] = {0, 1, 40};
     for (uint32_t count : COUNTS) {
         const uint32_t blit[5] = {word(a.frame.data), word(a.depth.data), word(list), count, 0};
@@ -366,8 +389,9 @@ void registers()
         verdict(damage(reinterpret_cast<const void*>(clearRowsA), clear) == 0, "registers are kept: clearRowsA", count);
         const uint32_t present[5] = {dataSelector(), word(roomC.at(0).frame.data), word(a.frame.data), word(rows), count * 5};
         verdict(damage(reinterpret_cast<const void*>(presentRows), present) == 0, "registers are kept: presentRows", count);
-        const uint32_t find[5] = {word(a.depth.data), 1 + count, 0, 0, 0};
-        verdict(damage(reinterpret_cast<const void*>(findEmptyA), find) == 0, "registers are kept: findEmptyA", count);
+        const Span within = {0, static_cast<int16_t>(8 * count)};
+        const uint32_t find[5] = {word(a.frame.data), word(&within), word(runs), 0, 0};
+        verdict(damage(reinterpret_cast<const void*>(drawnRunsA), find) == 0, "registers are kept: drawnRunsA", count);
     }
 }
 
@@ -430,7 +454,7 @@ int main(int count, char** arguments)
     largeOnes();
     edges();
     equalDepths();
-    empties();
+    runs();
     randomLists(rounds);
     clearsAndCopies(rounds);
     registers();
