@@ -9,7 +9,7 @@
 // scale may face the viewer. PLACED: a neighbour reaches it
 // and its position is a place where its path leaves the surface; its normal is not its path. ACTIVE: for an
 // oversampled seed, that it takes part. KEPT: brightness and extents hold for the present position.
-// EDGE: a seed beside it is not valid, or parted from it. WAITS: it cannot be seen, nor can that change before `due`.
+// WAITS: it cannot be seen, nor can that change before `due`.
 // OVER: valid, but past the border where a neighbour is stronger.
 enum SeedFlag : uint8_t {
     SEED_VALID = 1,
@@ -17,7 +17,6 @@ enum SeedFlag : uint8_t {
     SEED_PLACED = 4,
     SEED_ACTIVE = 8,
     SEED_KEPT = 16,
-    SEED_EDGE = 32,
     SEED_WAITS = 64,
     SEED_OVER = 128,
 };
@@ -35,8 +34,7 @@ struct Seed {
     int16_t tiltX, tiltY;        // Voxel's, at the present position
     int16_t shiftX, shiftY;      // from the seed to the middle of its scale, 1/256 unit
     uint8_t restBrightness;
-    int16_t due;                 // WAITS: up to which travel of the object (SoftObject); EDGE: how many seeds further on the
-                                 // one beside it lies
+    int16_t due;                 // WAITS: up to which travel of the object (SoftObject)
     int8_t along[3], across[3];  // half axes of the part of the surface that is its own, 1/64 spacing
 };
 

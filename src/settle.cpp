@@ -637,14 +637,6 @@ void Settler::settlePatches()
             if (!waits(extra))
                 settleSeed<PLAIN>(extra);
             extra.flags |= SEED_ACTIVE;
-            if (belt) {
-                // A gap may show between the one that is on the surface and the other.
-                Seed& valid = s->flags & SEED_VALID ? *s : other;
-                if ((valid.flags & (SEED_FRONT | SEED_PLACED)) == (SEED_FRONT | SEED_PLACED)) {
-                    valid.flags |= SEED_EDGE;
-                    valid.due = static_cast<int16_t>(&valid == s ? &other - s : s - &other);
-                }
-            }
         }
         patch.extras = extras;
     }
