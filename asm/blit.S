@@ -217,28 +217,74 @@ clear_done:
         ENDFUNC(clearRowsA)
 
 // ---------------------------------------------------------------------------------------------------------------------
-// int findEmptyA(const uint16_t* depths, int count)
+// int drawnRunsA(const uint8_t* row, const Span* within, Span* runs)
 //
-// 486 and Pentium: 5 and 4 cycles a word; the loop in C++ needs as many, but three instructions.
+//   esi  row            edi  the pixel at hand  edx  the end of `within`     ebx  where the next run goes
+//
+// String instructions again: 486 5 a pixel that is drawn, and 5 for four that are not.
 
         .balign 16
-        FUNC(findEmptyA)
+        FUNC(drawnRunsA)
+        pushl   %ebx
+        pushl   %esi
         pushl   %edi
-        movl    8(%esp), %edi
-        movl    12(%esp), %ecx
-        movl    %ecx, %edx
-        movl    $0xffff, %eax
+        movl    16(%esp), %esi
+        movl    20(%esp), %ecx
+        movl    24(%esp), %ebx
+        movswl  (%ecx), %edi
+        movswl  2(%ecx), %edx
+        xorl    %eax, %eax
+        addl    %esi, %edi
+        addl    %esi, %edx
         cld
-        // while (i < count && depths[i] != Z_EMPTY) ++i
-        repne scasw
-        jne     find_none
-        subl    %ecx, %edx
-        decl    %edx
-find_none:
-        movl    %edx, %eax
+        // while (x < to && row[x] == 0) ++x;   up to a multiple of four from the end, by fours, within the four
+runs_empty:
+        movl    %edx, %ecx
+        subl    %edi, %ecx
+        andl    $3, %ecx
+        jz      runs_fours
+        repe scasb
+        jne     runs_first
+runs_fours:
+        movl    %edx, %ecx
+        subl    %edi, %ecx
+        shrl    $2, %ecx
+        jz      runs_done
+        repe scasl
+        je      runs_done
+        subl    $4, %edi
+        movl    $4, %ecx
+        repe scasb
+runs_first:
+        // runs[count].from = x
+        leal    -1(%edi), %ecx
+        subl    %esi, %ecx
+        movw    %cx, (%ebx)
+        // while (x < to && row[x] != 0) ++x
+        movl    %edx, %ecx
+        subl    %edi, %ecx
+        jz      runs_last
+        repne scasb
+        jne     runs_last
+        // runs[count].to = x;  ++count.  Pixel x is empty, and edi is behind it.
+        leal    -1(%edi), %ecx
+        subl    %esi, %ecx
+        movw    %cx, 2(%ebx)
+        addl    $4, %ebx
+        jmp     runs_empty
+runs_last:
+        subl    %esi, %edx
+        movw    %dx, 2(%ebx)
+        addl    $4, %ebx
+runs_done:
+        movl    %ebx, %eax
+        subl    24(%esp), %eax
+        shrl    $2, %eax
         popl    %edi
+        popl    %esi
+        popl    %ebx
         ret
-        ENDFUNC(findEmptyA)
+        ENDFUNC(drawnRunsA)
 
 // ---------------------------------------------------------------------------------------------------------------------
 // void presentRows(uint32_t selector, uint32_t offset, const uint8_t* frame, const Span* rows, int count)

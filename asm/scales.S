@@ -21,7 +21,6 @@
 #define VOXEL_TILTX  16
 #define VOXEL_TILTY  18
 #define VOXEL_BRIGHT 20
-#define GAP          64
 
 // struct Factors, struct Lens and the constants (include/scales.h)
 #define FACTOR_X   0
@@ -101,7 +100,7 @@
 voxel_loop:
         movl    (%eax), %esi
         movl    %eax, LIST(%esp)
-        // depth = lens->z + v.z;  step = (depth >> 5) - LENS_NEAR * 8;  if (step >= LENS_STEPS || GAP) break
+        // depth = lens->z + v.z;  step = (depth >> 5) - LENS_NEAR * 8;  if (step >= LENS_STEPS) break
         movl    VOXEL_Z(%esi), %ebp
         movl    VOXEL_X(%esi), %ebx
         addl    LENS_Z(%esp), %ebp
@@ -112,8 +111,6 @@ voxel_loop:
         cmpl    $LENS_STEPS, %ebp
         jae     leave
         shll    $FACTOR_SHIFT, %ebp
-        cmpb    $GAP, VOXEL_BRIGHT(%esi)
-        jae     leave
         addl    FACTORS(%esp), %ebp
         // column = centreX + ((lens->x + v.x) * f.x >> 8);  halfWide = wide * f.x >> 8
         imull   FACTOR_X(%ebp), %ebx

@@ -26,8 +26,6 @@ struct Scale {
 
 // The depth of a pixel where nothing was drawn.
 constexpr uint16_t Z_EMPTY = 0xffff;
-// The same, and it is known that no gap is there to close (View::closeGaps()). What is drawn is nearer than both.
-constexpr uint16_t Z_OPEN = 0xfffe;
 
 extern "C" {
 
@@ -41,11 +39,12 @@ void clearRowsC(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
 // Copies the spans of `count` rows from `frame` to a screen of the same layout at `screen`.
 void copyRowsC(uint8_t* screen, const uint8_t* frame, const Span* rows, int count);
 
-// The index of the first of `count` (1 or more) depths that is Z_EMPTY; `count` when none is.
-int findEmptyC(const uint16_t* depths, int count);
+// Finds the runs of drawn pixels (not 0) in a row of WIDTH: writes where each begins and where it ends, at most WIDTH / 2
+// of them, and returns how many. Looks at the pixels of `within` only; its ends are multiples of 4.
+int drawnRunsC(const uint8_t* row, const Span* within, Span* runs);
 
 #if FB_ASM
-int findEmptyA(const uint16_t* depths, int count);
+int drawnRunsA(const uint8_t* row, const Span* within, Span* runs);
 void blitScalesA(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int count);
 void clearRowsA(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
 // The screen is at `offset` in the segment of `selector` (video memory has a selector of its own under DPMI).
@@ -56,11 +55,11 @@ void presentRows(uint32_t selector, uint32_t offset, const uint8_t* frame, const
 
 #if FB_ASM
 #define blitScales blitScalesA
-#define findEmpty findEmptyA
+#define drawnRuns drawnRunsA
 #define clearRows clearRowsA
 #else
 #define blitScales blitScalesC
-#define findEmpty findEmptyC
+#define drawnRuns drawnRunsC
 #define clearRows clearRowsC
 #endif
 

@@ -47,8 +47,7 @@ struct Lens {
 extern "C" {
 
 // Draws up to `count` voxels, in their order, and returns how many were dealt with. It stops at a voxel that is not its
-// business: one of brightness GAP or more, out of the table's depths, not wholly on the screen, or larger than SLOPED_MOST
-// or WIDEST there.
+// business: one out of the table's depths, not wholly on the screen, or larger than SLOPED_MOST or WIDEST there.
 int drawScalesC(Lens* lens, const Voxel* const* voxels, int count);
 #if FB_ASM
 int drawScalesA(Lens* lens, const Voxel* const* voxels, int count);

@@ -10,13 +10,12 @@
 // scale may face the viewer; with the default method only if it is VALID, so that this bit alone tells what to draw.
 // PLACED: a neighbour reaches it and its position is a place where its path leaves the surface; its normal is not its
 // path. ACTIVE: for an oversampled seed, that it takes part. KEPT: brightness and what is known of its scale hold for the
-// present position. EDGE: a seed beside it is not valid, or parted from it.
+// present position.
 enum SeedFlag : uint8_t {
     SEED_VALID = 1,
     SEED_PLACED = 2,
     SEED_ACTIVE = 4,
     SEED_KEPT = 8,
-    SEED_EDGE = 16,
     SEED_FRONT = 128,  // the sign: the quickest bit to ask for
 };
 
@@ -31,7 +30,6 @@ struct Seed {
     uint8_t restBrightness;
     uint16_t root;       // index of the root point: seeds share them
     int16_t dirX, dirY, dirZ;    // the path's direction, unit length = 2^14
-    int16_t due;                 // EDGE: how many seeds further on the one beside it lies
     int16_t wakes;               // up to which travel of the object (SoftObject) nothing happens to it; only where a
                                  // neighbour reaches its patch
     int8_t along[3], across[3];  // half axes of the part of the surface that is its own, 1/64 spacing

@@ -43,9 +43,10 @@ public:
     // Text and lines on top of the picture: marks a rectangle of pixels as touched and gives the frame to draw into.
     uint8_t* overlay(int left, int top, int wide, int high);
 
-    // Closes the gaps that show at the places marked with voxels of brightness GAP: an empty pixel with drawn ones a few
-    // pixels away on all four sides takes the nearest one's colour and depth. For when all objects are drawn.
-    void closeGaps();
+    // Closes the gaps between scales: empty pixels take over colour and depth of the drawn ones beside them, where an
+    // opening is small (the limits stand in view.cpp) or ends between drawn pixels. `spacing` of the seeds, units. For when
+    // all objects are drawn, before anything is written over them; single pixels are left alone.
+    void closeGaps(Real spacing);
 
     // Ends a frame; rows() then tells what differs from the frame before.
     void end();
@@ -56,8 +57,11 @@ public:
 
 private:
     void mark(int left, int top, int right, int bottom);
-    void addGap(const Scale& gap);
-    void closeGap(int at);
+    void closeRun(int y, int from, int to, int spacing);
+    void closeFrom(int y, int from, int to, int step, int widest, int narrowest);
+    void fillRow(int y, const Span& empty);
+    void closeSlit(int y, int x, int end, int step);
+    void takeOver(int at, int from);
     bool project(const Voxel& voxel, Scale* scale) const;
 
     Camera camera_;
@@ -67,8 +71,6 @@ private:
     uint8_t* frame_ = nullptr;
     uint16_t* zbuffer_ = nullptr;
     Factors* factors_ = nullptr;
-    Scale* gaps_ = nullptr;
-    int gapCount_ = 0;
     Span touched_[machine::HEIGHT];
     Span last_[machine::HEIGHT];
     Span present_[machine::HEIGHT];

@@ -11,23 +11,17 @@ struct Voxel {
     int16_t wide, high;  // half extents along X and Y, 1/256 unit, 0 or more
     int16_t tiltX;       // slope of the depth across the scale: n.x / cosine of the angle at which it is seen, 8 bits of
     int16_t tiltY;       // fraction, within +-16; 0 for a scale that faces the viewer
-    uint8_t brightness;  // 0..63; or GAP
+    uint8_t brightness;  // 0..63
 };
 
-// The brightness of a voxel that is not drawn, but tells where a gap between scales may show.
-constexpr uint8_t GAP = 64;
-
 constexpr int VOXELS_AT_ONCE = 1024;
-constexpr int GAPS_AT_ONCE = 128;
 
 // The list of scales: voxels of one object. It refers to the seeds' own, so it holds until the object changes.
 struct VoxelList {
     int32_t x, y, z;       // the object's centre from the eye, 1/256 unit
-    const uint8_t* ramp;   // palette index of each brightness
+    const uint8_t* ramp;   // palette index of each brightness; 0 is the background's, and taken for it when gaps are closed
     int count;             // voxels in the list
-    int gaps;              // of them, marks of gaps, which are kept here
     const Voxel* voxels[VOXELS_AT_ONCE];
-    Voxel gap[GAPS_AT_ONCE];
 };
 
 #endif

@@ -39,12 +39,19 @@ void clearRowsC(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count)
     }
 }
 
-int findEmptyC(const uint16_t* depths, int count)
+int drawnRunsC(const uint8_t* row, const Span* within, Span* runs)
 {
-    int i = 0;
-    while (i < count && depths[i] != Z_EMPTY)
-        ++i;
-    return i;
+    int count = 0;
+    for (int x = within->from;; ++count) {
+        while (x < within->to && row[x] == 0)
+            ++x;
+        if (x == within->to)
+            return count;
+        runs[count].from = static_cast<int16_t>(x);
+        while (x < within->to && row[x] != 0)
+            ++x;
+        runs[count].to = static_cast<int16_t>(x);
+    }
 }
 
 void copyRowsC(uint8_t* screen, const uint8_t* frame, const Span* rows, int count)

@@ -380,7 +380,8 @@ void Demo::frame()
         } while (next != 0);
         object.setRamp(ramp);
     }
-    view_.closeGaps();
+    if (!look.printed)
+        view_.closeGaps(spacing_);
     drawOverlay();
     view_.end();
 }

@@ -73,7 +73,7 @@ const char* Dump::frame(int number, Time time, int rate, const Model& model, con
         uint8_t* to = buffer;
         const uint16_t* from = view.zbuffer() + y * WIDTH;
         for (int i = 0; i < ROWS_AT_ONCE * WIDTH; ++i) {
-            const uint32_t z = from[i] >= Z_OPEN ? 0x7fffffffu : static_cast<uint32_t>(from[i]) << 9;
+            const uint32_t z = from[i] == Z_EMPTY ? 0x7fffffffu : static_cast<uint32_t>(from[i]) << 9;
             for (int part = 0; part < 32; part += 8)
                 *to++ = static_cast<uint8_t>(z >> part);
         }

@@ -20,7 +20,7 @@ int drawScalesC(Lens* lens, const Voxel* const* voxels, int count)
         const Voxel& v = *voxels[i];
         const int32_t depth = wrappedSum(lens->z, v.z);
         const uint32_t step = static_cast<uint32_t>((depth >> 5) - LENS_NEAR * 8);
-        if (step >= static_cast<uint32_t>(LENS_STEPS) || v.brightness >= GAP)
+        if (step >= static_cast<uint32_t>(LENS_STEPS))
             break;
         const Factors& f = lens->factors[step];
         // The pixels whose centres lie in the rectangle: columns, then rows.

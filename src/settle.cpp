@@ -1120,14 +1120,6 @@ void Settler::settlePatches()
             }
             extra.flags |= SEED_ACTIVE;
             seen |= extra.flags;
-            if (belt) {
-                // A gap may show between the one that is on the surface and the other.
-                Seed& valid = s->flags & SEED_VALID ? *s : other;
-                if ((valid.flags & (SEED_FRONT | SEED_PLACED)) == (SEED_FRONT | SEED_PLACED)) {
-                    valid.flags |= SEED_EDGE;
-                    valid.due = static_cast<int16_t>(&valid == s ? &other - s : s - &other);
-                }
-            }
         }
         patch->extras = extras;
         patch->back = !(seen & SEED_FRONT);
@@ -1196,16 +1188,13 @@ void SoftObject::drawQuick(const Look& look, VoxelList& list, int room, int* nex
         if (tapers_)
             eye.rootRadius(tangentAt(roots_[root]));
     };
-    const int16_t mark = static_cast<int16_t>(rawFromReal(spacing_ * Real(1.5) + Real(1.5)) >> 8);
     const Voxel** to = list.voxels;
     const Voxel** const full = to + room - 4 * PATCH_SEEDS;
-    const Voxel* const gapsFull = list.gap + GAPS_AT_ONCE - 2 * PATCH_SEEDS;
-    Voxel* gap = list.gap;
     const uint16_t drift = drift_;
     Seed* const seeds = seeds_;
     Patch* patch = patches_ + p;
     Patch* const last = patches_ + patchCount_;
-    for (; patch < last && to <= full && gap <= gapsFull; ++patch) {
+    for (; patch < last && to <= full; ++patch) {
         bool again = false;
         if (static_cast<int16_t>(drift - patch->laid) >= 0 || patch->stale == STALE_ALL) {
             again = true;
@@ -1235,13 +1224,6 @@ void SoftObject::drawQuick(const Look& look, VoxelList& list, int room, int* nex
                     continue;
             }
             *to++ = &s->voxel;
-            if (s->flags & SEED_EDGE) {
-                // A place where the surface is stretched so much that a gap may show.
-                lookFrom(s->root);
-                const Vector place = rootPlace + s->path * s->position + (s[s->due].path - s->path) * Real(0.625);
-                *gap = {rawFromReal(place.x) >> 8, rawFromReal(place.y) >> 8, rawFromReal(place.z) >> 8, mark, mark, 0, 0, GAP};
-                *to++ = gap++;
-            }
         }
     }
     list.count = static_cast<int>(to - list.voxels);

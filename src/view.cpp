@@ -8,19 +8,21 @@ using machine::WIDTH;
 
 namespace {
 
-// Marked places in a frame (more are left alone), and how far away the sides of a gap may be, pixels.
-constexpr int GAPS_MOST = 1024;
-constexpr int GAP_WIDEST = 8;
-// A mark closer than GAP_STEP pixels to one of the last GAPS_ALIKE is left out.
-constexpr int GAPS_ALIKE = 16;
-constexpr int GAP_STEP = 4;
+// What is taken for a gap (View::closeGaps()), pixels: what is closed all round and up to GAP_WIDE and a spacing of the
+// seeds wide and high; the end of what is open above or below, where it is up to GAP_NARROW and a spacing wide, or to a side,
+// where it is up to GAP_LOW high; and what is up to GAP_THIN wide.
+constexpr int GAP_WIDE = 8;
+constexpr int GAP_NARROW = 2;
+constexpr int GAP_LOW = 4;
+constexpr int GAP_THIN = 2;
+constexpr int GAP_MOST = 32;  // however near the viewer
 constexpr int FRACTION = 12;
 constexpr int32_t HALF = 1 << (FRACTION - 1);
 constexpr int32_t NEAREST = 1 << 8;            // 1 unit
 constexpr int32_t FARTHEST = 511 << 8;         // z in 1/128 unit ends at 512
 
 // A sloped scale of the loop stays within 16 bits: its corners lie less than SLOPED_MOST steps from its middle.
-static_assert(LENS_NEAR * 128 >= SLOPED_MOST * STEEPEST && LENS_FAR * 128 + SLOPED_MOST * STEEPEST < Z_OPEN, "depths");
+static_assert(LENS_NEAR * 128 >= SLOPED_MOST * STEEPEST && LENS_FAR * 128 + SLOPED_MOST * STEEPEST < Z_EMPTY, "depths");
 
 }  // namespace
 
@@ -29,7 +31,6 @@ View::~View()
     free(frame_);
     free(zbuffer_);
     free(factors_);
-    free(gaps_);
 }
 
 bool View::open()
@@ -37,8 +38,7 @@ bool View::open()
     frame_ = allocate<uint8_t>(WIDTH * HEIGHT);
     zbuffer_ = allocate<uint16_t>(WIDTH * HEIGHT);
     factors_ = allocate<Factors>(LENS_STEPS);
-    gaps_ = allocate<Scale>(GAPS_MOST);
-    if (frame_ == nullptr || zbuffer_ == nullptr || factors_ == nullptr || gaps_ == nullptr)
+    if (frame_ == nullptr || zbuffer_ == nullptr || factors_ == nullptr)
         return false;
     memset(frame_, 0, WIDTH * HEIGHT);
     memset(zbuffer_, 0xff, WIDTH * HEIGHT * sizeof *zbuffer_);
@@ -129,7 +129,7 @@ bool View::project(const Voxel& voxel, Scale* scale) const
     scale->top = static_cast<int16_t>(top);
     scale->wide = static_cast<int16_t>(wide);
     scale->high = static_cast<int16_t>(bottom - top);
-    scale->colour = voxel.brightness < GAP ? lens_.ramp[voxel.brightness] : 0;
+    scale->colour = lens_.ramp[voxel.brightness];
 
     // The plane of the surface: the depth changes by tilt (z / focal) from pixel to pixel.
     const int32_t depth = z >> 1;
@@ -172,9 +172,6 @@ int View::show(const VoxelList& list)
         Scale scale;
         if (!project(voxel, &scale)) {
             ++left;
-        } else if (voxel.brightness >= GAP) {
-            ++left;
-            addGap(scale);
         } else {
             blitScales(frame_, zbuffer_, &scale, 1);
             mark(scale.left, scale.top, scale.left + scale.wide, scale.top + scale.high);
@@ -184,62 +181,128 @@ int View::show(const VoxelList& list)
     return list.count - left - lens_.empty;
 }
 
-// Marks come in rows, many for one gap: one that lies nearly where a late one did is left out.
-void View::addGap(const Scale& gap)
+// Whether a pixel is empty and lies right below a drawn one and a little way above another.
+static inline bool inSlit(const uint8_t* pixel)
 {
-    for (int i = gapCount_ > GAPS_ALIKE ? gapCount_ - GAPS_ALIKE : 0; i < gapCount_; ++i) {
-        const int x = gap.left - gaps_[i].left, y = gap.top - gaps_[i].top;
-        if (x > -GAP_STEP && x < GAP_STEP && y > -GAP_STEP && y < GAP_STEP)
-            return;
-    }
-    if (gapCount_ == GAPS_MOST)
-        return;
-    gaps_[gapCount_++] = gap;
-    // What is found open there is noted in the Z-buffer, so it must be cleared with the rest.
-    mark(gap.left, gap.top, gap.left + gap.wide, gap.top + gap.high);
+    static_assert(GAP_LOW == 4, "as many rows are looked at");
+    return pixel[-WIDTH] != 0 && pixel[0] == 0 && (pixel[WIDTH] | pixel[2 * WIDTH] | pixel[3 * WIDTH] | pixel[4 * WIDTH]) != 0;
 }
 
-void View::closeGaps()
+// Looks at each row once, and at more only where a run of empty pixels between drawn ones is short.
+void View::closeGaps(Real spacing)
 {
-    for (int i = 0; i < gapCount_; ++i) {
-        const Scale& gap = gaps_[i];
-        const uint16_t* row = zbuffer_ + gap.top * WIDTH + gap.left;
-        for (int y = gap.high; y > 0; --y, row += WIDTH) {
-            int x = findEmpty(row, gap.wide);
-            while (x < gap.wide) {
-                closeGap(static_cast<int>(row - zbuffer_) + x);
-                ++x;
-                x = x < gap.wide ? x + findEmpty(row + x, gap.wide - x) : x;
+    if (pixels_)
+        return;
+    // A spacing in pixels is this over a depth of the Z-buffer.
+    const int32_t near = mulShift16(focalX_, rawFromReal(spacing)) >> (FRACTION - 7);
+    Span runs[WIDTH / 2];
+    const uint8_t* row = frame_ + WIDTH;
+    for (int y = 1; y < HEIGHT - GAP_LOW; ++y, row += WIDTH) {
+        const Span& touched = touched_[y];
+        if (touched.from >= touched.to)
+            continue;
+        const Span* const end = runs + drawnRuns(row, &touched, runs);
+        int last = 0;  // behind the run before
+        for (const Span* run = runs; run < end; ++run) {
+            const int from = run->from;
+            if (last > 0 && from - last <= GAP_MOST) {
+                const int before = zbuffer_[y * WIDTH + last - 1], behind = zbuffer_[y * WIDTH + from];
+                closeRun(y, last, from, near / ((before > behind ? before : behind) | 1));
             }
+            if (last > 0 && inSlit(row + last))
+                closeSlit(y, last, from, 1);
+            if (from > 0 && inSlit(row + from - 1))
+                closeSlit(y, from - 1, last - 1, -1);
+            last = run->to;
         }
+        if (last > 0 && last < WIDTH && inSlit(row + last))
+            closeSlit(y, last, WIDTH, 1);
     }
-    gapCount_ = 0;
 }
 
-void View::closeGap(int at)
+// Pixels from column `from` to before `to` are empty, those on both sides are not; seeds lie `spacing` pixels apart there.
+void View::closeRun(int y, int from, int to, int spacing)
 {
-    static const int SIDES[] = {-1, 1, -WIDTH, WIDTH};
-    int nearest = GAP_WIDEST + 1, from = at, open = 0;
-    // Not over the edge of the screen: up and down the buffer ends there, to the sides the next row begins.
-    const int x = at % WIDTH;
-    if (x < GAP_WIDEST || x >= WIDTH - GAP_WIDEST || at < GAP_WIDEST * WIDTH || at >= (HEIGHT - GAP_WIDEST) * WIDTH)
+    const uint8_t* row = frame_ + y * WIDTH;
+    int widest = GAP_WIDE + spacing;
+    widest = widest > GAP_MOST ? GAP_MOST : widest;
+    if (to - from > widest)
         return;
-    for (const int side : SIDES) {
-        int far = 1;
-        while (far <= GAP_WIDEST && zbuffer_[at + far * side] >= Z_OPEN)
-            ++far;
-        if (far > GAP_WIDEST) {
-            if (open++ > 0) {
-                zbuffer_[at] = Z_OPEN;
-                return;
-            }
-        } else if (far < nearest) {
-            nearest = far;
-            from = at + far * side;
-        }
+    if (to - from <= GAP_THIN) {
+        const Span thin = {static_cast<int16_t>(from), static_cast<int16_t>(to)};
+        fillRow(y, thin);
     }
-    zbuffer_[at] = zbuffer_[from];
+    // Where it begins, and where it ends if it was not closed from there.
+    for (int step = 1; step >= -1 && row[from] == 0; step -= 2) {
+        int x = from;
+        while (x < to && row[x - step * WIDTH] != 0)
+            ++x;
+        if (x == to)
+            closeFrom(y, from, to, step, widest, GAP_NARROW + spacing);
+    }
+}
+
+// Follows the opening down from a row (or up: `step`) before which it is closed.
+void View::closeFrom(int y, int from, int to, int step, int widest, int narrowest)
+{
+    Span rows[GAP_MOST];
+    int high = 0, narrow = 0;
+    for (;;) {
+        if (narrow == high && to - from <= narrowest)
+            ++narrow;
+        rows[high++] = {static_cast<int16_t>(from), static_cast<int16_t>(to)};
+        const int next = y + high * step;
+        if (next <= 0 || next >= HEIGHT - 1)
+            break;
+        const uint8_t* row = frame_ + next * WIDTH;
+        // What is empty beside it in the next row, all that lies between taken for empty.
+        const int left = from, right = to;
+        while (from < right && row[from] != 0)
+            ++from;
+        if (from == right) {
+            narrow = high;  // closed all round
+            break;
+        }
+        while (row[to - 1] != 0)
+            --to;
+        while (from <= left && from > 0 && to - from <= widest && row[from - 1] == 0)
+            --from;
+        while (to >= right && to < WIDTH && to - from <= widest && row[to] == 0)
+            ++to;
+        if (to - from > widest || from == 0 || to == WIDTH || high == widest)
+            break;
+    }
+    for (int i = 0; i < narrow; ++i)
+        fillRow(y + i * step, rows[i]);
+}
+
+// Empty pixels take over what the nearer end has: `empty` lies between drawn ones.
+void View::fillRow(int y, const Span& empty)
+{
+    const int at = y * WIDTH;
+    for (int x = empty.from; x < empty.to; ++x)
+        if (frame_[at + x] == 0)
+            takeOver(at + x, at + (2 * x < empty.from + empty.to ? empty.from - 1 : empty.to));
+}
+
+// From column x in steps until `end`: closes a slit column by column, with what lies below in it.
+void View::closeSlit(int y, int x, int end, int step)
+{
+    for (; x != end && inSlit(frame_ + y * WIDTH + x); x += step) {
+        const int at = y * WIDTH + x;
+        int high = 1;
+        while (frame_[at + high * WIDTH] == 0)
+            ++high;
+        for (int i = 0; i < high; ++i)
+            takeOver(at + i * WIDTH, 2 * i < high ? at - WIDTH : at + high * WIDTH);
+        mark(x, y, x + 1, y + high);
+    }
+}
+
+inline void View::takeOver(int at, int from)
+{
     frame_[at] = frame_[from];
+    zbuffer_[at] = zbuffer_[from];
 }
 
 uint8_t* View::overlay(int left, int top, int wide, int high)

@@ -62,7 +62,7 @@ bool run(Play& play, const std::string& directory, bool printed)
                 view.show(list);
             } while (next != 0);
         }
-        view.closeGaps();
+        view.closeGaps(real(play.spacing));
         view.end();
         const char* problem = dump.frame(frame, 0, 10, model, view, palette, true);
         if (problem != nullptr) {

@@ -262,19 +262,41 @@ void edges()
     verdict(same(0), "an empty list", 0);
 }
 
-// The first empty depth of a row: none, one anywhere, many; rows of every length and alignment, guards behind.
-void empties()
+// The runs of a row: none, one, many, at the ends; within spans of every kind, at every alignment, with pixels round them.
+void runs()
 {
-    static uint16_t row[400];
+    static uint8_t row[WIDE + 8 + SHIFTS];
+    Span c[WIDE / 2], a[WIDE / 2];
     for (int i = 0; i < 20000; ++i) {
-        const int count = 1 + below(320), start = below(16);
-        for (int x = 0; x < 400; ++x)
-            row[x] = below(3) == 0 && i % 3 == 0 ? 0xffff : static_cast<uint16_t>(below(4) ? below(0xffff) : 0xfffe);
-        if (i % 3 == 1)
-            row[start + below(count)] = 0xffff;
-        row[start + count] = 0xffff;
-        const int c = findEmptyC(row + start, count), a = findEmptyA(row + start, count);
-        verdict(c == a && c >= 0 && c <= count && (c == count || row[start + c] == 0xffff), "the first empty depth", i);
+        uint8_t* const pixels = row + 4 + below(SHIFTS);
+        const bool fine = below(4) == 0;
+        const int share = below(8);
+        for (int x = -4; x < WIDE + 4;) {
+            const uint8_t colour = below(8) < share ? static_cast<uint8_t>(1 + below(255)) : 0;
+            for (int n = 1 + below(fine ? 3 : 60); n > 0 && x < WIDE + 4; --n)
+                pixels[x++] = colour;
+        }
+        int from = 4 * below(WIDE / 4 + 1), to = 4 * below(WIDE / 4 + 1);
+        if (from > to || i % 8 == 0)
+            from = 0, to = WIDE;
+        const Span within = {static_cast<int16_t>(from), static_cast<int16_t>(to)};
+        memset(c, 0x55, sizeof c);
+        memset(a, 0x55, sizeof a);
+        const int count = drawnRunsC(pixels, &within, c);
+        verdict(drawnRunsA(pixels, &within, a) == count && memcmp(c, a, sizeof c) == 0, "runs of drawn pixels", i);
+        // And what they are.
+        long wrong = 0;
+        int x = from;
+        for (int k = 0; k < count; ++k) {
+            wrong += c[k].from >= c[k].to || (k > 0 && c[k].from == x);
+            for (; x < c[k].from; ++x)
+                wrong += pixels[x] != 0;
+            for (; x < c[k].to; ++x)
+                wrong += pixels[x] == 0;
+        }
+        for (; x < to; ++x)
+            wrong += pixels[x] != 0;
+        verdict(wrong == 0 && x == to, "runs are all that is drawn", i);
     }
 }
 
@@ -320,7 +342,7 @@ static_assert(inasm::LENS_X == offsetof(Lens, x) && inasm::LENS_Y == offsetof(Le
               inasm::BOX_LEFT == offsetof(Lens, left) && inasm::BOX_TOP == offsetof(Lens, top) &&
               inasm::BOX_RIGHT == offsetof(Lens, right) && inasm::BOX_BOTTOM == offsetof(Lens, bottom) &&
               inasm::EMPTY == offsetof(Lens, empty) && inasm::LENS_WORDS * 4 == sizeof(Lens), "Lens");
-static_assert(inasm::GAP == GAP && inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FAR == LENS_FAR &&
+static_assert(inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FAR == LENS_FAR &&
               inasm::LENS_STEPS == LENS_STEPS && inasm::STEEPEST == STEEPEST && inasm::SLOPED_MOST == SLOPED_MOST &&
               inasm::WIDEST == WIDEST && inasm::SCREEN_WIDTH == WIDE && inasm::SCREEN_HEIGHT == HIGH, "constants");
 
@@ -330,7 +352,7 @@ long voxelsTried = 0, voxelsDrawn = 0;
 struct Optics {
     double focalX, focalY, centreX, centreY;  // pixels
     Factors factors[LENS_STEPS];
-    uint8_t ramp[GAP];
+    uint8_t ramp[BRIGHTEST + 1];
 
     void set(double fx, double fy, double cx, double cy)
     {
@@ -405,7 +427,7 @@ Voxel anyVoxel(const Lens& lens)
     v.high = extent(high / 2 * z / optics.focalY);
     v.tiltX = static_cast<int16_t>(below(3) == 0 ? anything() : below(1201) - 600);
     v.tiltY = static_cast<int16_t>(below(3) == 0 ? anything() : below(1201) - 600);
-    v.brightness = static_cast<uint8_t>(below(30) ? below(GAP) : GAP - 2 + below(4));
+    v.brightness = static_cast<uint8_t>(below(BRIGHTEST + 1));
     switch (below(50)) {
     case 0: v.x = anything(); break;
     case 1: v.y = anything(); break;
@@ -524,7 +546,7 @@ void voxelByVoxel(int rounds)
                 optics.set(250, 625 / 3.0, 160, 100);
             else
                 optics.set(focal, focal / 1.2, below(320), below(200));
-            for (int i = 0; i < GAP; ++i)
+            for (int i = 0; i <= BRIGHTEST; ++i)
                 optics.ramp[i] = static_cast<uint8_t>(200 - 3 * i);
         }
         makeLens(c, a, 0);
@@ -537,7 +559,7 @@ void voxelByVoxel(int rounds)
         const double x = wrappedSum(a.lens.x, v.x) / 256.0, y = wrappedSum(a.lens.y, v.y) / 256.0;
         const int32_t depth = wrappedSum(a.lens.z, v.z);
         const double z = depth / 256.0;
-        const bool inTable = depth >= LENS_NEAR * 256 && depth < LENS_FAR * 256 && v.brightness < GAP;
+        const bool inTable = depth >= LENS_NEAR * 256 && depth < LENS_FAR * 256;
         if (!inTable) {
             wrongStops += done != 0;
             ++stopped;
@@ -669,13 +691,12 @@ void registers()
     static Voxel voxels[40];
     static const Voxel* voxelList[40];
     for (int i = 0; i < 40; ++i) {
-        do
-            voxels[i] = anyVoxel(f.lens);
-        while (voxels[i].brightness >= GAP);
+        voxels[i] = anyVoxel(f.lens);
         voxelList[i] = voxels + i;
     }
     static Span rows[HIGH];
     spans(rows);
+    static Span runs[WIDE / 2];
     static const uint32_t COUNTS[] = {0, 1, 40};
     for (uint32_t count : COUNTS) {
         const uint32_t blit[5] = {word(a.frame.data), word(a.depth.data), word(list), count, 0};
@@ -689,8 +710,9 @@ void registers()
         verdict(damage(reinterpret_cast<const void*>(clearRowsA), clear) == 0, "registers are kept: clearRowsA", count);
         const uint32_t present[5] = {dataSelector(), word(roomC.at(0).frame.data), word(a.frame.data), word(rows), count * 5};
         verdict(damage(reinterpret_cast<const void*>(presentRows), present) == 0, "registers are kept: presentRows", count);
-        const uint32_t find[5] = {word(a.depth.data), 1 + count, 0, 0, 0};
-        verdict(damage(reinterpret_cast<const void*>(findEmptyA), find) == 0, "registers are kept: findEmptyA", count);
+        const Span within = {0, static_cast<int16_t>(8 * count)};
+        const uint32_t find[5] = {word(a.frame.data), word(&within), word(runs), 0, 0};
+        verdict(damage(reinterpret_cast<const void*>(drawnRunsA), find) == 0, "registers are kept: drawnRunsA", count);
     }
 }
 
@@ -753,7 +775,7 @@ int main(int count, char** arguments)
     largeOnes();
     edges();
     equalDepths();
-    empties();
+    runs();
     randomLists(rounds);
     voxelLists(rounds);
     voxelByVoxel(10 * rounds);

@@ -196,12 +196,12 @@ TEST(anything_may_be_shown)
             v.high = static_cast<int16_t>((random.bits() & 0x7fff) >> random.below(12));
             v.tiltX = static_cast<int16_t>(any());
             v.tiltY = static_cast<int16_t>(any());
-            v.brightness = static_cast<uint8_t>(random.below(8) ? random.below(GAP) : static_cast<int>(random.bits()));
+            v.brightness = static_cast<uint8_t>(random.below(64));
         }
         view.setPixels(round % 8 == 7);
         view.begin();
         const int drawn = show(view, many.data(), many.size(), any(), any(), any());
-        view.closeGaps();
+        view.closeGaps(real(random.between(0.25, 8)));
         view.end();
         CHECK(drawn >= 0 && drawn <= static_cast<int>(many.size()));
     }
@@ -240,18 +240,17 @@ TEST(places_count_from_the_lists_own)
 
 TEST(colours_are_the_lists_own)
 {
-    // Small scales, large ones and single pixels take their colour from the ramp of the list; marks of gaps have none.
+    // Small scales, large ones and single pixels take their colour from the ramp of the list.
     View view;
     CHECK(view.open());
     uint8_t ramp[64];
     for (int i = 0; i < 64; ++i)
         ramp[i] = static_cast<uint8_t>(255 - 2 * i);
-    Voxel voxels[4] = {voxel(-19.9, -0.1, 100, 1, 1, 0), voxel(10.1, -0.1, 100, 8, 8, 63), voxel(0.1, 20, 100, 1, 1, 7),
-                       voxel(0.1, -20, 100, 3, 3, GAP)};
+    Voxel voxels[3] = {voxel(-19.9, -0.1, 100, 1, 1, 0), voxel(10.1, -0.1, 100, 8, 8, 63), voxel(0.1, 20, 100, 1, 1, 7)};
     VoxelList list{};
     list.ramp = ramp;
-    list.count = 4;
-    for (int i = 0; i < 4; ++i)
+    list.count = 3;
+    for (int i = 0; i < 3; ++i)
         list.voxels[i] = voxels + i;
     for (bool pixels : {false, true}) {
         view.setPixels(pixels);
@@ -328,6 +327,163 @@ TEST(pixels_instead_of_scales)
     CHECK(ones > 450);
 }
 
+// Draws a rectangle of pixels.
+static void block(View& view, int left, int top, int right, int bottom, int colour, double z = 125)
+{
+    const Camera& camera = view.camera();
+    const double unitX = z / number(camera.focalX), unitY = z / number(camera.focalY);
+    const Voxel v = voxel(((left + right) / 2.0 - 160) * unitX, (100 - (top + bottom) / 2.0) * unitY, z,
+                          (right - left) / 2.0 * unitX, (bottom - top) / 2.0 * unitY, colour);
+    SAME(view.show(&v, 1), 1);
+}
+
+// Of a rectangle of pixels, how many are drawn.
+static int drawnIn(const View& view, int left, int top, int right, int bottom)
+{
+    int count = 0;
+    for (int y = top; y < bottom; ++y)
+        for (int x = left; x < right; ++x) {
+            const bool drawn = view.frame()[y * WIDTH + x] != 0;
+            CHECK(drawn == (view.zbuffer()[y * WIDTH + x] != Z_EMPTY));
+            count += drawn;
+        }
+    return count;
+}
+
+// Between the blocks of the next tests seeds this far apart are 4 pixels apart: gaps are at most 12 pixels wide and high, the
+// ends of open ones 6 wide.
+static const Real SPACING(2.25);
+
+TEST(gaps_closed_all_round)
+{
+    View view;
+    CHECK(view.open());
+    for (int wide = 1; wide <= 40; ++wide)
+        for (int high = 1; high <= 14; ++high) {
+            const int left = 150, top = 90, right = left + wide, bottom = top + high;
+            view.begin();
+            block(view, 120, 60, left, 140, 7, 100);
+            block(view, right, 60, 220, 140, 8, 140);
+            block(view, 120, 60, 220, top, 9);
+            block(view, 120, bottom, 220, 140, 9);
+            SAME(drawnIn(view, left, top, right, bottom), 0);
+            view.closeGaps(SPACING);
+            view.end();
+            const int at = (top + high / 2) * WIDTH + left;
+            if (wide <= 6 || (wide <= 12 && high <= 12)) {
+                SAME(drawnIn(view, left, top, right, bottom), wide * high);
+                // From the nearer side, with its depth.
+                SAME(view.frame()[at], 7);
+                SAME(view.zbuffer()[at], view.zbuffer()[at - 1]);
+                SAME(view.frame()[at + wide - 1], wide == 1 ? 7 : 8);
+            } else if (high <= 4) {
+                SAME(drawnIn(view, left, top, right, bottom), wide * high);
+                SAME(view.frame()[at], 9);
+            } else {
+                SAME(drawnIn(view, left, top, right, bottom), 0);
+            }
+        }
+}
+
+TEST(gaps_grow_with_spacing_and_nearness)
+{
+    View view;
+    CHECK(view.open());
+    for (double z : {50.0, 100.0, 200.0})
+        for (double spacing : {0.5, 1.0, 2.0, 4.0}) {
+            const int widest = std::min(8 + static_cast<int>(spacing * 250 / z - 0.01), 32);
+            for (int size : {widest, widest + 1}) {
+                view.begin();
+                block(view, 100, 50, 150, 150, 7, z);
+                block(view, 150 + size, 50, 200, 150, 7, z);
+                block(view, 100, 50, 200, 90, 7, z);
+                block(view, 100, 90 + size, 200, 150, 7, z);
+                view.closeGaps(real(spacing));
+                view.end();
+                SAME(drawnIn(view, 150, 90, 150 + size, 90 + size), size == widest ? size * size : 0);
+            }
+        }
+}
+
+TEST(gaps_open_on_a_side)
+{
+    View view;
+    CHECK(view.open());
+    for (int size = 1; size <= 10; ++size) {
+        // Open above, below, on both of these, and to the right.
+        view.begin();
+        block(view, 20, 20, 40, 50, 7);
+        block(view, 40 + size, 20, 70, 50, 7);
+        block(view, 20, 50, 70, 60, 7);
+        block(view, 120, 20, 140, 50, 7);
+        block(view, 140 + size, 20, 170, 50, 7);
+        block(view, 120, 10, 170, 20, 7);
+        block(view, 20, 120, 40, 150, 7);
+        block(view, 40 + size, 120, 70, 150, 7);
+        block(view, 120, 100, 150, 120, 7);
+        block(view, 120, 100, 130, 150, 7);
+        block(view, 120, 120 + size, 150, 150, 7);
+        const int before = drawnIn(view, 0, 0, WIDTH, HEIGHT);
+        view.closeGaps(SPACING);
+        view.end();
+        const int above = drawnIn(view, 40, 20, 40 + size, 50), below = drawnIn(view, 140, 20, 140 + size, 50);
+        const int both = drawnIn(view, 40, 120, 40 + size, 150), right = drawnIn(view, 130, 120, 150, 120 + size);
+        SAME(above, size <= 2 ? 30 * size : size <= 6 ? 12 * size : 0);
+        SAME(below, size <= 6 ? 30 * size : 0);
+        SAME(both, size <= 2 ? 30 * size : 0);
+        SAME(right, size <= 4 ? 20 * size : 0);
+        // And nothing beside.
+        SAME(drawnIn(view, 0, 0, WIDTH, HEIGHT), before + above + below + both + right);
+    }
+}
+
+TEST(gaps_anywhere)
+{
+    // Anything on the screen, up to its edges: what was drawn stays, and what is new looks like something beside it.
+    View view;
+    CHECK(view.open());
+    Random random;
+    long closed = 0;
+    for (int round = 0; round < 60; ++round) {
+        const double spacing = random.between(0.25, 8);
+        view.begin();
+        for (int i = 2 + random.below(300); i > 0; --i) {
+            const double z = random.between(60, 250);
+            const Voxel v = voxel(random.between(-0.64 * z, 0.64 * z), random.between(-0.48 * z, 0.48 * z), z,
+                                  random.between(0.5, 20), random.between(0.5, 20), 1 + random.below(63));
+            show(view, &v, 1);
+        }
+        std::vector<uint8_t> frame(view.frame(), view.frame() + WIDTH * HEIGHT);
+        std::vector<uint16_t> depths(view.zbuffer(), view.zbuffer() + WIDTH * HEIGHT);
+        view.setPixels(true);
+        view.closeGaps(real(spacing));
+        view.setPixels(false);
+        CHECK(std::memcmp(frame.data(), view.frame(), WIDTH * HEIGHT) == 0);
+        view.closeGaps(real(spacing));
+        view.end();
+        long wrong = 0;
+        for (int i = 0; i < WIDTH * HEIGHT; ++i) {
+            const int colour = view.frame()[i], depth = view.zbuffer()[i];
+            wrong += (colour != 0) != (depth != Z_EMPTY);
+            if (depths[i] != Z_EMPTY)
+                wrong += colour != frame[i] || depth != depths[i];
+            else if (colour != 0) {
+                ++closed;
+                const Span& span = view.rows()[i / WIDTH];
+                wrong += i % WIDTH < span.from || i % WIDTH >= span.to;
+                bool like = false;
+                for (int k = 1; k <= 32 && !like; ++k)
+                    for (const int from : {i - k, i + k, i - k * WIDTH, i + k * WIDTH})
+                        like = like || (from >= 0 && from < WIDTH * HEIGHT && view.zbuffer()[from] == depth && view.frame()[from] == colour);
+                wrong += !like;
+            }
+        }
+        SAME(wrong, 0);
+    }
+    note("%ld pixels closed", closed);
+    CHECK(closed > 1000);
+}
+
 TEST(spans_are_enough)
 {
     // A model that moves through everything (past the eye, out of the picture): drawn with clears and presents limited to
@@ -354,6 +510,10 @@ TEST(spans_are_enough)
         limited.begin();
         for (size_t i = 0; i < scene.objects.size(); ++i)
             scene.show(i, {&fresh, &limited});
+        if (frame % 3 != 1) {
+            fresh.closeGaps(Real(2));
+            limited.closeGaps(Real(2));
+        }
         if (frame % 10 == 5) {
             const int left = random.below(WIDTH - 20), top = random.below(HEIGHT - 10);
             uint8_t* pixels = limited.overlay(left, top, 20, 10);
