@@ -253,7 +253,7 @@ public:
     void restExtents(Seed& s, int32_t skewX, int32_t skewY) const
     {
         setExtents(s, s.along[0] * 256 - s.along[2] * skewX, s.along[1] * 256 - s.along[2] * skewY,
-                   s.across[0] * 256 - s.across[2] * skewX, s.across[1] * 256 - s.across[2] * skewY, spacing_);
+                   s.across[0] * 256 - s.across[2] * skewX, s.across[1] * 256 - s.across[2] * skewY, spacing_, false);
     }
 
     // The same of a deformed seed: the cell of the unblended surface that is its own, grown with the position, as it falls
@@ -261,6 +261,7 @@ public:
     // direction; `cosine` is u.n scaled by 2^14.
     void extents(Seed& s, const Normal& n, int32_t cosine, Real position, int32_t skewX, int32_t skewY) const
     {
+        const bool whole = cosine < WHOLE;
         if (cosine < 6500)
             cosine = 6500;  // nearly along the surface: no scale is stretched more than two and a half times
         const int32_t inverse = (1 << 26) / cosine;  // 12 bits of fraction
@@ -272,17 +273,21 @@ public:
         setExtents(s, s.along[0] * 256 - (s.dirX * along >> 14) - alongZ * skewX,
                    s.along[1] * 256 - (s.dirY * along >> 14) - alongZ * skewY,
                    s.across[0] * 256 - (s.dirX * across >> 14) - acrossZ * skewX,
-                   s.across[1] * 256 - (s.dirY * across >> 14) - acrossZ * skewY, size);
+                   s.across[1] * 256 - (s.dirY * across >> 14) - acrossZ * skewY, size, whole);
     }
 
 private:
     // The half axes of a cell as they fall on the picture. Beside each other, cells of a ring make a band along `along`:
     // rectangles as wide as the way from one to the next need not cover the whole of their cells, only, together, the band.
-    static void setExtents(Seed& s, int32_t alongX, int32_t alongY, int32_t acrossX, int32_t acrossY, int32_t size)
+    // Where the surface is much deformed, `whole`, the ring is no even band, and the cell is covered.
+    static void setExtents(Seed& s, int32_t alongX, int32_t alongY, int32_t acrossX, int32_t acrossY, int32_t size, bool whole)
     {
         const int32_t ax = alongX < 0 ? -alongX : alongX, ay = alongY < 0 ? -alongY : alongY;
         int32_t wide = ax, high = ay;
-        if (ax > ay) {
+        if (whole) {
+            wide += acrossX < 0 ? -acrossX : acrossX;
+            high += acrossY < 0 ? -acrossY : acrossY;
+        } else if (ax > ay) {
             const int32_t c = acrossY - acrossX * (alongY * 64 / alongX) / 64;
             high += c < 0 ? -c : c;
         } else if (ay > 0) {
@@ -293,6 +298,7 @@ private:
         s.voxel.high = static_cast<int16_t>(((high + MARGIN) * size >> 14) + MARGIN_UNITS);
     }
 
+    static constexpr int32_t WHOLE = 15500;  // of 2^14: cosine of path and normal
     static constexpr int32_t MARGIN = 256 * 64 / 16;    // a part of the spacing, as of `sum`
     static constexpr int32_t MARGIN_UNITS = 10;           // and what places of seeds are uncertain by, 1/256 unit
 

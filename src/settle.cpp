@@ -379,7 +379,7 @@ void Settler::settle()
     o_.displaced_ = false;
     // A seed stays valid a way past the border where a neighbour becomes stronger: as a distance, about one spacing and
     // a half. The fields of the two change by about 3 / size a unit there.
-    overshoot_ = least(Real(1.2) * o_.spacing_ / o_.size_, Real(0.7));
+    overshoot_ = least(Real(2.0) * o_.spacing_ / o_.size_, Real(0.7));
     placedMost_ = ownReaches(shiftDown(ISOVALUE - overshoot_, 1));
     parting_ = Real(1.0) * o_.spacing_ / o_.radius_;
     skew_.root(o_.centre_ - look_.eye, o_.radius_ * POSITION_MOST);

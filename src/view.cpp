@@ -12,7 +12,7 @@ namespace {
 // seeds wide and high; the end of what is open above or below, where it is up to GAP_NARROW and a spacing wide, or to a side,
 // where it is up to GAP_LOW high; and what is up to GAP_THIN wide.
 constexpr int GAP_WIDE = 8;
-constexpr int GAP_NARROW = 2;
+constexpr int GAP_NARROW = 5;
 constexpr int GAP_LOW = 4;
 constexpr int GAP_THIN = 2;
 constexpr int GAP_MOST = 32;  // however near the viewer
