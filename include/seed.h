@@ -7,11 +7,10 @@
 #include "voxel.h"
 
 // What is known of a seed. VALID: it settled on the surface, in a region that belongs to its own object. FRONT: its
-// scale may face the viewer (with KEPT only). PLACED: a neighbour reaches it
-// and its position is a place where its path leaves the surface; its normal is not its path. ACTIVE: for an
-// oversampled seed, that it takes part. KEPT: brightness and what is known of its scale hold for the present position.
-// EDGE: a seed beside it is not valid, or parted from it. WAITS: it cannot be seen, nor can that change before `due`.
-// OVER: valid, but past the border where a neighbour is stronger.
+// scale may face the viewer (with KEPT only). PLACED: a neighbour reaches it and its position is a place where its path
+// leaves the surface; its normal is not its path. ACTIVE: for an oversampled seed, that it takes part. KEPT: its voxel
+// and FRONT hold for the present position. EDGE: a seed beside it is not valid, or parted from it. WAITS: it cannot be
+// seen, nor can that change before `due`. OVER: valid, but past the border where a neighbour is stronger.
 enum SeedFlag : uint8_t {
     SEED_VALID = 1,
     SEED_FRONT = 2,

@@ -1,5 +1,5 @@
-// Voxel: what draw() makes of a seed and show() puts on the screen (report, Section III, Algorithms: "converts the seed
-// list to a list of scales (called Voxels in the source code)").
+// Voxel: what a seed looks like, draw() lists and show() puts on the screen (report, Section III, Algorithms: "converts
+// the seed list to a list of scales (called Voxels in the source code)").
 #ifndef FB_VOXEL_H
 #define FB_VOXEL_H
 
@@ -22,12 +22,11 @@ constexpr int GAPS_AT_ONCE = 128;
 
 // The list of scales: voxels of one object. It refers to the seeds' own, so it holds until the object changes.
 struct VoxelList {
-    int32_t x, y, z;       // the object's centre from the eye, 1/256 unit
-    const uint8_t* ramp;   // palette index of each brightness
-    int count;             // voxels in the list
-    int gaps;              // of them, marks of gaps, which are kept here
+    int32_t x, y, z;          // the object's centre from the eye, 1/256 unit
+    const uint8_t* ramp;      // palette index of each brightness
+    int count;                // voxels in the list
     const Voxel* voxels[VOXELS_AT_ONCE];
-    Voxel gap[GAPS_AT_ONCE];
+    Voxel gap[GAPS_AT_ONCE];  // those of them that mark gaps and belong to no seed
 };
 
 #endif

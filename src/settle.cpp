@@ -5,7 +5,8 @@
 // - Along a path the squared distance to a neighbour's centre is a polynomial of the position, so that a look costs a
 //   few multiplications. Its derivative comes along: Newton's method instead of slope -1.
 // - The normal is the gradient, put together from the slopes of the last look, instead of three more samples.
-// - A scale is as large as the part of the surface that is the seed's own, in each direction as the viewer sees it.
+// - A scale is as large as the part of the surface that is the seed's own, in each direction as the viewer sees it. The
+//   seed keeps it, counted from the object's centre, as long as neither the seed nor the viewer's side of it changes.
 #include "shade.h"
 #include "softobj.h"
 
