@@ -746,7 +746,7 @@ TEST(what_was_kept_of_a_seed_goes_when_it_changes)
     visited.update();
     visited.draw(0);
     for (int step = 0; step < 40; ++step) {
-        visited.objects[1]->translate(vector(step < 20 ? -2 : 1.5, 0.1, 0));
+        visited.objects[1]->translate(vector(step < 20 ? -2 : 0.25, 0.02, 0));
         visited.update();
         visited.draw(0);
     }

@@ -279,6 +279,40 @@ TEST(colours_are_the_lists_own)
     SAME(view.show(list), 0);
 }
 
+TEST(marked_gaps_are_closed)
+{
+    // A plate with a slit, by steps of a pixel: 250 / 125 columns and 208.33 / 125 rows a unit.
+    View view;
+    CHECK(view.open());
+    const double z = 125, wide = 0.5, high = 0.6;
+    const Voxel plate[] = {
+        voxel(-6 * wide, 0, z, 5 * wide, 12 * high, 10), voxel(6 * wide, 0, z, 5 * wide, 12 * high, 20),
+        voxel(0, 9 * high, z, 2 * wide, 3 * high, 30), voxel(0, -9 * high, z, 2 * wide, 3 * high, 40),
+    };
+    const Voxel mark = voxel(0, 0, z, 6 * wide, 14 * high, GAP);
+    for (bool marked : {false, true, false}) {
+        view.begin();
+        SAME(show(view, plate, 4), 4);
+        if (marked)
+            SAME(show(view, mark), 0);
+        view.closeGaps();
+        view.end();
+        int open = 0, closed = 0, outside = 0;
+        for (int y = 0; y < HEIGHT; ++y)
+            for (int x = 0; x < WIDTH; ++x) {
+                const int at = y * WIDTH + x;
+                if (x >= 149 && x < 171 && y >= 88 && y < 112)
+                    ++(view.frame()[at] == 0 ? open : closed);
+                else
+                    outside += view.frame()[at] != 0;
+                CHECK((view.frame()[at] != 0) == (view.zbuffer()[at] == 16000));
+            }
+        SAME(outside, 0);
+        SAME(open, marked ? 0 : 2 * 12);
+        SAME(open + closed, 22 * 24);
+    }
+}
+
 TEST(nearest_is_seen)
 {
     // The Z-buffer: whatever the order, the nearest scale is what is seen.
