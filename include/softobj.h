@@ -238,6 +238,7 @@ private:
         bool extras;      // oversampled seeds among them take part
         uint8_t stale;    // PatchStale
         bool back;        // at rest, and none of it can be seen
+        bool turned;      // the viewer has moved on since the placed seeds were laid
         uint16_t laid;    // up to which drift_ that holds, and how its seeds at rest lie in the view
     };
     enum PatchState : uint8_t { PATCH_UNKNOWN, PATCH_AT_REST, PATCH_BURIED, PATCH_MIXED };

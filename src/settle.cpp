@@ -627,6 +627,12 @@ void Settler::settlePatches()
             for (Seed* each = s; each < end; ++each)
                 each->flags = static_cast<uint8_t>(each->flags & ~SEED_WAITS);
         }
+        if (patch.turned) {
+            patch.turned = false;
+            for (Seed* each = s; each < end; ++each)
+                if (each->flags & SEED_PLACED)
+                    each->flags = static_cast<uint8_t>(each->flags & ~SEED_KEPT);
+        }
         bool extras = false;
         for (; s < end; s += 2) {
             if (!waits(s[0]))
@@ -733,6 +739,7 @@ void SoftObject::drawQuick(const Look& look, VoxelList& list, int room, int* nex
         const bool again = static_cast<int16_t>(drift_ - patch.laid) >= 0 || patch.stale == STALE_ALL;
         if (again) {
             patch.laid = static_cast<uint16_t>(drift_ + DRIFT_KEPT);
+            patch.turned = !atRest;
             patch.back = atRest && eye.side(patch.axis, patch.across, patch.radius32, patch.spread) == EyeSide::BACK;
         }
         if (patch.back)

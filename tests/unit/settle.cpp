@@ -756,6 +756,24 @@ TEST(what_was_kept_of_a_seed_goes_when_it_changes)
     CHECK(back.shown > 100);
     SAME(back.one, 0);
     SAME(back.other, 0);
+    // Two that move together past the viewer.
+    Scene moving = pair(20, 19, false), moved = pair(20, 19, false);
+    for (int step = 0; step < 100; ++step) {
+        moving.update();
+        moving.draw(0);
+        moving.draw(1);
+        for (auto& object : moving.objects)
+            object->translate(vector(0.5, 0.3, -0.4));
+    }
+    for (size_t o = 0; o < 2; ++o)
+        moved.objects[o]->moveTo(moving.objects[o]->centre());
+    moving.update();
+    moved.update();
+    const Apart apart = compare(moving, moved, 0, SEED_PLACED, 0);
+    note("two move together: of %d placed seeds shown %d only in one, sizes within %.3f units", apart.shown, apart.one, apart.worst);
+    CHECK(apart.shown > 30);
+    CHECK(apart.one * 10 < apart.shown);
+    CHECK(apart.worst < 0.6);
 }
 
 TEST(how_much_of_a_cells_depth_shows)
