@@ -148,8 +148,8 @@ private:
     int32_t distance_, radius_, horizon_, edge_, away_;
 };
 
-// How much of a cell's depth shows sideways: x / depth and y / depth of places about a root, 8 bits of fraction, limited to
-// +-8. Unless the viewer is near, one depth serves for all the places: for the part that it is wrong about is small.
+// How much of a cell's depth shows sideways: x / depth and y / depth of places about a root, 8 bits of fraction, within
+// +-5. Unless the viewer is near, one depth serves for all the places: for the part that it is wrong about is small.
 class Skew {
 public:
     // `root`: from the eye; `reach`: how far from it places may lie.

@@ -42,7 +42,7 @@ constexpr int DRAW_ROOM = 128;
 // What was done for a frame, as the statistics count it.
 struct Counts {
     uint32_t updated;      // seeds whose position was looked for
-    uint32_t drawn;        // scales handed to the view
+    uint32_t drawn;        // scales drawn
     uint32_t iterations;   // looks at the field while seeds were updated: evaluations of the whole sum F
     uint32_t normals;      // surface normals taken from the field
     uint32_t samples;      // evaluations of the whole sum F for normals (three each with the report's method)
@@ -186,8 +186,9 @@ public:
     // Settles the seeds on the surface, if `recalc` says that something changed (report, Section III, update()).
     void update(const Look& look);
 
-    // Lists the voxels of the settled seeds, as many as fit `room` (DRAW_ROOM..VOXELS_AT_ONCE). `*next` is 0 for the first
-    // call of a frame; the call changes it, and as long as it is not 0 there are more.
+    // Lists the voxels of the settled seeds, as many as fit `room` (DRAW_ROOM..VOXELS_AT_ONCE). The list holds until the
+    // next call or update(). `*next` is 0 for the first call of a frame; the call changes it, and as long as it is not 0
+    // there are more.
     void draw(const Look& look, VoxelList& list, int room, int* next);
 
     // Something that its seeds rest on has changed: look again.
@@ -242,6 +243,7 @@ private:
         bool extras;      // oversampled seeds among them take part
         uint8_t stale;    // PatchStale
         bool back;        // none of it can be seen
+        bool turned;      // the viewer has moved on since the placed seeds were laid
         uint16_t laid;    // up to which drift_ that holds if it is at rest, and how its seeds at rest lie in the view
     };
     enum PatchState : uint8_t { PATCH_UNKNOWN, PATCH_AT_REST, PATCH_BURIED, PATCH_MIXED };

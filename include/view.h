@@ -1,5 +1,5 @@
 // View: the camera, the frame buffer and the Z-buffer (report, The Rendering Technique and Appendix A). show() makes
-// scales of voxels by a perspective transformation and draws them.
+// scales of voxels by a perspective transformation and draws them: most by the loop of scales.h, the rest one by one.
 //
 // The viewer looks along +z, y up. A point p from the eye falls on column centreX + focalX p.x / p.z and row
 // centreY - focalY p.y / p.z; pixel i covers [i, i + 1). Mode 13h shows 320x200 pixels on a 4:3 screen, so a pixel is
@@ -36,8 +36,8 @@ public:
     // Starts a frame: clears what the last one touched.
     void begin();
 
-    // Draws the voxels of an object; those before the near plane
-    // (1 unit), behind 511 units or off the screen are left out. Returns the number of scales drawn.
+    // Draws the voxels of an object; those before the near plane (1 unit), behind 511 units or off the screen are left
+    // out. Returns the number of scales drawn.
     int show(const VoxelList& list);
 
     // Text and lines on top of the picture: marks a rectangle of pixels as touched and gives the frame to draw into.

@@ -1,5 +1,5 @@
-// Voxel: what draw() makes of a seed and show() puts on the screen (report, Section III, Algorithms: "converts the seed
-// list to a list of scales (called Voxels in the source code)").
+// Voxel: what a seed looks like, draw() lists and show() puts on the screen (report, Section III, Algorithms: "converts
+// the seed list to a list of scales (called Voxels in the source code)").
 #ifndef FB_VOXEL_H
 #define FB_VOXEL_H
 

@@ -5,7 +5,8 @@
 // - Along a path the squared distance to a neighbour's centre is a polynomial of the position, so that a look costs a
 //   few multiplications. Its derivative comes along: Newton's method instead of slope -1.
 // - The normal is the gradient, put together from the slopes of the last look, instead of three more samples.
-// - A scale is as large as the part of the surface that is the seed's own, in each direction as the viewer sees it.
+// - A scale is as large as the part of the surface that is the seed's own, in each direction as the viewer sees it. The
+//   seed keeps it, counted from the object's centre, as long as neither the seed nor the viewer's side of it changes.
 #include "shade.h"
 #include "softobj.h"
 
@@ -1078,7 +1079,7 @@ void Settler::settlePatches()
     SoftObject::Patch* patch = o_.patches_;
     for (int p = o_.patchCount_; p > 0; --p, ++patch) {
         const uint8_t before = patch->state;
-        if (before != SoftObject::PATCH_UNKNOWN && !passed(patch->idle)) {
+        if (before != SoftObject::PATCH_UNKNOWN && !passed(patch->idle) && !patch->turned) {
             o_.displaced_ |= before != SoftObject::PATCH_AT_REST;
             s += 2 * patch->count;
             continue;
@@ -1092,6 +1093,15 @@ void Settler::settlePatches()
         activate(patch->reached);
         if (patch->stale != SoftObject::STALE_NONE)
             o_.posePatch(*patch, true);
+        if (patch->turned) {
+            patch->turned = false;
+            for (int i = 0; i < 2 * patch->count; ++i) {
+                if ((s[i].flags & (SEED_PLACED | SEED_FRONT)) == (SEED_PLACED | SEED_FRONT)) {
+                    s[i].flags = static_cast<uint8_t>(s[i].flags & ~SEED_KEPT);
+                    s[i].wakes = later(0);
+                }
+            }
+        }
         bool extras = false, busy = false;
         uint8_t seen = 0;
         for (int i = patch->count; i > 0; --i, s += 2) {
@@ -1199,6 +1209,7 @@ void SoftObject::drawQuick(const Look& look, VoxelList& list, int room, int* nex
         if (static_cast<int16_t>(drift - patch->laid) >= 0 || patch->stale == STALE_ALL) {
             again = true;
             patch->laid = static_cast<uint16_t>(drift + DRIFT_KEPT);
+            patch->turned = patch->state == PATCH_MIXED;
             patch->back = patch->state == PATCH_AT_REST
                               ? eye.side(patch->axis, patch->across, patch->radius32, patch->spread) == EyeSide::BACK
                               : patch->state != PATCH_MIXED;

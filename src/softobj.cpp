@@ -348,6 +348,7 @@ void SoftObject::buildPatches()
         patch.extras = false;
         patch.stale = STALE_NONE;
         patch.back = false;
+        patch.turned = false;
         patch.laid = drift_;
         Vector middle{Real(0), Real(0), Real(0)}, axis = middle;
         const Real share = Real(1) / Real(patch.count);

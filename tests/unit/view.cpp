@@ -80,39 +80,43 @@ TEST(projection_formula)
     CHECK(drawn > 3000);
 }
 
-// Scales of the sizes that surfaces are made of; very large ones may be level instead.
+// Scales of the sizes that surfaces are made of; and large and near ones with little tilt, which the view projects itself.
 TEST(tilted_scales_lie_in_their_plane)
 {
     View view;
     CHECK(view.open());
     Random random;
-    long tried = 0;
-    for (int k = 0; k < 2000; ++k) {
-        const double z = random.between(78, 250);
-        Voxel v = voxel(random.between(-0.4 * z, 0.4 * z), random.between(-0.3 * z, 0.3 * z), z, random.between(0.3, 1.4), random.between(0.3, 1.4), 9);
-        v.tiltX = static_cast<int16_t>(random.between(-2.5, 2.5) * 256);
-        v.tiltY = static_cast<int16_t>(random.between(-2.5, 2.5) * 256);
-        view.begin();
-        show(view, v);
-        view.end();
-        const Box b = box(v, view.camera());
-        const double column = (b.left + b.right) / 2, row = (b.top + b.bottom) / 2;
-        long wrong = 0;
-        for (int y = 0; y < HEIGHT; ++y)
-            for (int x = 0; x < WIDTH; ++x) {
-                if (view.frame()[y * WIDTH + x] == 0)
-                    continue;
-                ++tried;
-                const double dx = x + 0.5 - column, dy = y + 0.5 - row;
-                const double expected = z + v.tiltX / 256.0 * dx * z / 250 - v.tiltY / 256.0 * dy * z / number(view.camera().focalY);
-                // Steps are whole 1/128 units, added up from the corner; the centre is as good as the projection.
-                const double tolerance = (std::fabs(dx) + std::fabs(dy) + b.right - b.left + b.bottom - b.top + 2) / 128 +
-                                         0.2 * (std::abs(v.tiltX) + std::abs(v.tiltY)) / 256.0 * z / 208;
-                wrong += std::fabs(view.zbuffer()[y * WIDTH + x] / 128.0 - expected) > tolerance;
-            }
-        SAME(wrong, 0);
+    for (bool large : {false, true}) {
+        long tried = 0;
+        for (int k = 0; k < 2000; ++k) {
+            const double z = large ? random.between(10, 250) : random.between(78, 250);
+            const double size = large ? z / 25 : 0.3, most = large ? z / 10 : 1.4, tilt = large ? 0.18 : 2.5;
+            Voxel v = voxel(random.between(-0.4 * z, 0.4 * z), random.between(-0.3 * z, 0.3 * z), z, random.between(size, most),
+                            random.between(size, most), 9);
+            v.tiltX = static_cast<int16_t>(random.between(-tilt, tilt) * 256);
+            v.tiltY = static_cast<int16_t>(random.between(-tilt, tilt) * 256);
+            view.begin();
+            show(view, v);
+            view.end();
+            const Box b = box(v, view.camera());
+            const double column = (b.left + b.right) / 2, row = (b.top + b.bottom) / 2;
+            long wrong = 0;
+            for (int y = 0; y < HEIGHT; ++y)
+                for (int x = 0; x < WIDTH; ++x) {
+                    if (view.frame()[y * WIDTH + x] == 0)
+                        continue;
+                    ++tried;
+                    const double dx = x + 0.5 - column, dy = y + 0.5 - row;
+                    const double across = v.tiltX / 256.0 * z / 250, down = v.tiltY / 256.0 * z / number(view.camera().focalY);
+                    // Steps are whole 1/128 units, added up from the corner; the centre is as good as the projection.
+                    const double tolerance = (std::fabs(dx) + std::fabs(dy) + b.right - b.left + b.bottom - b.top + 2) / 128 +
+                                             0.2 * (std::abs(v.tiltX) + std::abs(v.tiltY)) / 256.0 * z / 208;
+                    wrong += std::fabs(view.zbuffer()[y * WIDTH + x] / 128.0 - (z + across * dx - down * dy)) > tolerance;
+                }
+            SAME(wrong, 0);
+        }
+        CHECK(tried > 10000);
     }
-    CHECK(tried > 10000);
 }
 
 TEST(round_on_a_4_to_3_screen)
@@ -272,6 +276,40 @@ TEST(colours_are_the_lists_own)
     view.end();
     list.count = 0;
     SAME(view.show(list), 0);
+}
+
+TEST(marked_gaps_are_closed)
+{
+    // A plate with a slit, by steps of a pixel: 250 / 125 columns and 208.33 / 125 rows a unit.
+    View view;
+    CHECK(view.open());
+    const double z = 125, wide = 0.5, high = 0.6;
+    const Voxel plate[] = {
+        voxel(-6 * wide, 0, z, 5 * wide, 12 * high, 10), voxel(6 * wide, 0, z, 5 * wide, 12 * high, 20),
+        voxel(0, 9 * high, z, 2 * wide, 3 * high, 30), voxel(0, -9 * high, z, 2 * wide, 3 * high, 40),
+    };
+    const Voxel mark = voxel(0, 0, z, 6 * wide, 14 * high, GAP);
+    for (bool marked : {false, true, false}) {
+        view.begin();
+        SAME(show(view, plate, 4), 4);
+        if (marked)
+            SAME(show(view, mark), 0);
+        view.closeGaps();
+        view.end();
+        int open = 0, closed = 0, outside = 0;
+        for (int y = 0; y < HEIGHT; ++y)
+            for (int x = 0; x < WIDTH; ++x) {
+                const int at = y * WIDTH + x;
+                if (x >= 149 && x < 171 && y >= 88 && y < 112)
+                    ++(view.frame()[at] == 0 ? open : closed);
+                else
+                    outside += view.frame()[at] != 0;
+                CHECK((view.frame()[at] != 0) == (view.zbuffer()[at] == 16000));
+            }
+        SAME(outside, 0);
+        SAME(open, marked ? 0 : 2 * 12);
+        SAME(open + closed, 22 * 24);
+    }
 }
 
 TEST(nearest_is_seen)
