@@ -12,7 +12,7 @@ namespace {
 // seeds wide and high; the end of what is open above or below, where it is up to GAP_NARROW and a spacing wide, or to a side,
 // where it is up to GAP_LOW high; and what is up to GAP_THIN wide.
 constexpr int GAP_WIDE = 8;
-constexpr int GAP_NARROW = 5;
+constexpr int GAP_NARROW = 4;
 constexpr int GAP_LOW = 4;
 constexpr int GAP_THIN = 2;
 constexpr int GAP_MOST = 32;  // however near the viewer
@@ -248,8 +248,9 @@ void View::closeFrom(int y, int from, int to, int step, int widest, int narrowes
     Span rows[GAP_MOST];
     int high = 0, narrow = 0;
     for (;;) {
-        if (narrow == high && to - from <= narrowest)
-            ++narrow;
+        // All below a neck goes with it.
+        if (to - from <= narrowest)
+            narrow = high + 1;
         rows[high++] = {static_cast<int16_t>(from), static_cast<int16_t>(to)};
         const int next = y + high * step;
         if (next <= 0 || next >= HEIGHT - 1)
