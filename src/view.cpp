@@ -13,7 +13,7 @@ namespace {
 // where it is up to GAP_LOW high; and what is up to GAP_THIN wide.
 constexpr int GAP_WIDE = 8;
 constexpr int GAP_NARROW = 4;
-constexpr int GAP_LOW = 4;
+constexpr int GAP_LOW = 6;
 constexpr int GAP_THIN = 2;
 constexpr int GAP_MOST = 32;  // however near the viewer
 constexpr int FRACTION = 12;
@@ -184,8 +184,9 @@ int View::show(const VoxelList& list)
 // Whether a pixel is empty and lies right below a drawn one and a little way above another.
 static inline bool inSlit(const uint8_t* pixel)
 {
-    static_assert(GAP_LOW == 4, "as many rows are looked at");
-    return pixel[-WIDTH] != 0 && pixel[0] == 0 && (pixel[WIDTH] | pixel[2 * WIDTH] | pixel[3 * WIDTH] | pixel[4 * WIDTH]) != 0;
+    static_assert(GAP_LOW == 6, "as many rows are looked at");
+    return pixel[-WIDTH] != 0 && pixel[0] == 0 &&
+           (pixel[WIDTH] | pixel[2 * WIDTH] | pixel[3 * WIDTH] | pixel[4 * WIDTH] | pixel[5 * WIDTH] | pixel[6 * WIDTH]) != 0;
 }
 
 // Looks at each row once, and at more only where a run of empty pixels between drawn ones is short.

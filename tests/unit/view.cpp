@@ -414,7 +414,7 @@ TEST(gaps_closed_all_round)
                 SAME(view.frame()[at], 7);
                 SAME(view.zbuffer()[at], view.zbuffer()[at - 1]);
                 SAME(view.frame()[at + wide - 1], wide == 1 ? 7 : 8);
-            } else if (high <= 4) {
+            } else if (high <= 6) {
                 SAME(drawnIn(view, left, top, right, bottom), wide * high);
                 SAME(view.frame()[at], 9);
             } else {
@@ -469,7 +469,7 @@ TEST(gaps_open_on_a_side)
         SAME(above, size <= 2 ? 30 * size : size <= 6 ? 12 * size : 0);
         SAME(below, size <= 6 ? 30 * size : 0);
         SAME(both, size <= 2 ? 30 * size : 0);
-        SAME(right, size <= 4 ? 20 * size : 0);
+        SAME(right, size <= 6 ? 20 * size : 0);
         // And nothing beside.
         SAME(drawnIn(view, 0, 0, WIDTH, HEIGHT), before + above + below + both + right);
     }
