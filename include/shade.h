@@ -17,7 +17,7 @@ constexpr int BRIGHTEST = 63;
 // The tables behind normalise() and ShadeSetup. Call once before any object is updated.
 void makeShadeTables();
 
-extern uint16_t inverseRoots[768];  // 2^28 / sqrt(s) for s = (i + 1/2) 2^20
+extern uint16_t inverseRoots[769];  // 2^28 / sqrt(s) for s = (i + 1/2) 2^20
 
 // The direction of a vector of any length in range; the zero vector gives the direction to the viewer.
 inline Normal normalise(const Vector& v)
@@ -136,6 +136,7 @@ public:
     }
 
 private:
+    friend struct ShadeLayout;
     static int32_t steps(Real units)
     {
         const int32_t s = rawFromReal(units) >> 11;
@@ -176,6 +177,7 @@ public:
     int32_t depth(const Vector& out) const { return depth_ + (rawFromReal(out.z) >> 11); }
 
 private:
+    friend struct ShadeLayout;
     static int32_t limited(int32_t skew) { return skew > 1024 ? 1024 : skew < -1024 ? -1024 : skew; }
     static int32_t exactly(Real aside, Real away)
     {
@@ -293,6 +295,7 @@ private:
         s.voxel.high = static_cast<int16_t>(((high + MARGIN) * size >> 14) + MARGIN_UNITS);
     }
 
+    friend struct ShadeLayout;
     static constexpr int32_t MARGIN = 256 * 64 / 16;    // a part of the spacing, as of `sum`
     static constexpr int32_t MARGIN_UNITS = 10;           // and what places of seeds are uncertain by, 1/256 unit
 
