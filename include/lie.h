@@ -1,5 +1,6 @@
 // How a settled seed lies: from what the last look at the field found to its scale. For seeds of one ball among others it is
-// a routine that stands twice: in C++ (src/lie.cpp) and in assembly (asm/shade.S); both do the same, bit for bit.
+// a routine that stands twice: in C++ (src/lie.cpp) and in assembly (asm/shade.S); both do the same, bit for bit, wherever the
+// numbers of C++ do not overflow.
 #ifndef FB_LIE_H
 #define FB_LIE_H
 
@@ -20,13 +21,13 @@ struct ShadeFrame {
     ShadeSetup light;
     int32_t setBack;  // 2^31 / radius of the object, the radius in 1/65536 unit
     Real ownSlope;    // of the own field
-    int32_t count;    // neighbours that matter, and of each dF/dt, weight not included
-    Real slopes[PULLS_MOST];
+    int32_t count;    // neighbours that matter
+    Real slopes[PULLS_MOST];  // dF/dt of each, weight not included
     const Pull* pulls[PULLS_MOST];
 };
 
-// -grad F, but for a factor, is path position along - g with along = ownSlope + sum slope ratio, g = sum slope ratio fromIt.
-// Adds a neighbour's part of it.
+// -grad F, but for a factor, is -(path position along + sum share fromIt), where share = slope ratio and along = ownSlope + sum
+// share. Adds a neighbour's part of it.
 inline void addPull(const Pull& pull, Real slope, Real& along, Vector& g)
 {
     const Real share = slope * pull.ratio;
