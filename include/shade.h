@@ -17,7 +17,7 @@ constexpr int BRIGHTEST = 63;
 // The tables behind normalise() and ShadeSetup. Call once before any object is updated.
 void makeShadeTables();
 
-extern uint16_t inverseRoots[768];  // 2^28 / sqrt(s) for s = (i + 1/2) 2^20
+extern uint16_t inverseRoots[769];  // 2^28 / sqrt(s) for s = (i + 1/2) 2^20
 
 // The direction of a vector of any length in range; the zero vector gives the direction to the viewer.
 inline Normal normalise(const Vector& v)
@@ -136,6 +136,7 @@ public:
     }
 
 private:
+    friend struct ShadeLayout;
     static int32_t steps(Real units)
     {
         const int32_t s = rawFromReal(units) >> 11;
@@ -157,7 +158,7 @@ public:
     {
         root_ = root;
         depth_ = rawFromReal(root.z) >> 11;
-        near_ = depth_ < 4 * (rawFromReal(reach) >> 11) || depth_ < 128;
+        near_ = depth_ < 2 * (rawFromReal(reach) >> 11) || depth_ < 128;
         share_ = near_ ? 0 : (1 << 20) / depth_;
         x_ = near_ ? 0 : limited((rawFromReal(root.x) >> 11) * share_ >> 12);
         y_ = near_ ? 0 : limited((rawFromReal(root.y) >> 11) * share_ >> 12);
@@ -176,6 +177,7 @@ public:
     int32_t depth(const Vector& out) const { return depth_ + (rawFromReal(out.z) >> 11); }
 
 private:
+    friend struct ShadeLayout;
     static int32_t limited(int32_t skew) { return skew > 1024 ? 1024 : skew < -1024 ? -1024 : skew; }
     static int32_t exactly(Real aside, Real away)
     {
@@ -261,11 +263,11 @@ public:
     // direction; `cosine` is u.n scaled by 2^14.
     void extents(Seed& s, const Normal& n, int32_t cosine, Real position, int32_t skewX, int32_t skewY) const
     {
-        const bool whole = cosine < WHOLE;
         if (cosine < 6500)
             cosine = 6500;  // nearly along the surface: no scale is stretched more than two and a half times
         const int32_t inverse = (1 << 26) / cosine;  // 12 bits of fraction
         const int32_t size = spacing_ * (rawFromReal(position) >> 8) >> 8;
+        const bool whole = inverse > WHOLE;
         // (e.n) / (u.n), 8 bits of fraction, 1/64 spacing.
         const int32_t along = ((s.along[0] * n.x + s.along[1] * n.y + s.along[2] * n.z) >> 8) * inverse >> 10;
         const int32_t across = ((s.across[0] * n.x + s.across[1] * n.y + s.across[2] * n.z) >> 8) * inverse >> 10;
@@ -298,7 +300,8 @@ private:
         s.voxel.high = static_cast<int16_t>(((high + MARGIN) * size >> 14) + MARGIN_UNITS);
     }
 
-    static constexpr int32_t WHOLE = 15500;  // of 2^14: cosine of path and normal
+    friend struct ShadeLayout;
+    static constexpr int32_t WHOLE = 4329;  // 12 bits of fraction: a cosine of path and normal below 0.946
     static constexpr int32_t MARGIN = 256 * 64 / 16;    // a part of the spacing, as of `sum`
     static constexpr int32_t MARGIN_UNITS = 10;           // and what places of seeds are uncertain by, 1/256 unit
 

@@ -7,7 +7,7 @@
 // - The normal is the gradient, put together from the slopes of the last look, instead of three more samples.
 // - A scale is as large as the part of the surface that is the seed's own, in each direction as the viewer sees it. The
 //   seed keeps it, counted from the object's centre, as long as neither the seed nor the viewer's side of it changes.
-#include "shade.h"
+#include "lie.h"
 #include "softobj.h"
 
 // Where the compiler would pass what a function is given through memory.
@@ -52,21 +52,19 @@ constexpr Real BURYING(0.265);
 constexpr Real DISPLACEMENT(0.008);  // of the field at the seed's last place: less is taken as not moved
 
 // A neighbour in range, as the seeds of this object see it.
-struct Near {
+struct Near : Pull {
     const SoftObject* object;
     Real weight;
     bool plain;      // weight 1
     bool quick;      // both cores are points: the polynomial below holds
     Vector fromIt;   // from its centre to this object's centre
     Real reach;      // its size
-    Real ratio;      // weight (own size / its size)^2: its share of the gradient
     Real a0, c0;     // t = a0 + position (b + position c0)
     Vector twice;    // b = path . twice; in 16.16: scaled by 2^12 and used with mulHigh
     Real swing;      // length of twice: how much b changes over a unit
     Real touching;   // b below this: its field reaches the seed at rest
     Real meeting;    // b below this: its field reaches the path somewhere up to POSITION_MOST
     Real burying;    // b below this: the whole stretch of the path up to POSITION_MOST lies inside the surface
-    Vector fromIt16; // fromIt / 16
     Real a0Pace;       // how a0 and twice change in an update, if all goes on like this; the latter scaled by 2^16
     Vector twicePace;
     // Steps of travel that seeds wait: for a difference of 1 in squared distance / squared size on this side of where its
@@ -209,15 +207,16 @@ private:
     static inline const Near* active_[NEAR_MOST];
     static inline int activeCount_;
     static inline uint32_t activated_;  // as Patch::reached
-    static inline const Near* touch_[NEAR_MOST];
-    static inline int touchCount_;
+    static inline ShadeFrame frame_;
+    static inline const Pull* (&touch_)[NEAR_MOST] = frame_.pulls;
+    static const Near& touch(int n) { return static_cast<const Near&>(*touch_[n]); }
+    static inline int32_t& touchCount_ = frame_.count;
     static inline int rootIndex_;
     static inline Vector path_;  // not in the plain case, where the root is the centre
     static inline Point root_;
-    static inline Skew skew_;
     static inline Real b_[NEAR_MOST];
-    static inline Real ownSlope_;  // of the last look
-    static inline Real slopes_[NEAR_MOST];  // dF/dt of each active neighbour, weight not included
+    static inline Real& ownSlope_ = frame_.ownSlope;  // of the last look
+    static inline Real (&slopes_)[NEAR_MOST] = frame_.slopes;
     static inline Vector from_[NEAR_MOST];  // not quick ones: from the nearest point of the core, / 16
     static inline Real strength_;  // by how much the strongest neighbour is stronger than the overshoot allows
     static inline Real buried_;  // least excess of the field where bracket() looked in vain
@@ -236,10 +235,9 @@ private:
     static inline Real distance_;  // to the centre
     static inline Real awayShare_, awayOwn_, awayEdge_, waitAlong_;  // see facesAway()
     static inline Real parting_;  // difference of positions that activates the seed between
-    static inline EyeSide eye_;
     static inline Real horizon_;  // of the object in general
-    static inline int32_t setBack_;  // 2^31 / radius
-    static inline ShadeSetup shadeSetup_;
+    static inline EyeSide& eye_ = frame_.eye;
+    static inline Skew& skew_ = frame_.skew;
 };
 
 inline int32_t lesser(int32_t a, int32_t b)
@@ -384,8 +382,8 @@ void Settler::settle()
     placedMost_ = ownReaches(shiftDown(ISOVALUE - overshoot_, 1));
     parting_ = Real(1.0) * o_.spacing_ / o_.radius_;
     skew_.root(o_.centre_ - look_.eye, o_.radius_ * POSITION_MOST);
-    setBack_ = mulDiv(1 << 30, 1 << 17, rawFromReal(most(o_.radius_, Real(2))));
-    shadeSetup_.set(look_.light, o_.spacing_);
+    frame_.setBack = mulDiv(1 << 30, 1 << 17, rawFromReal(most(o_.radius_, Real(2))));
+    frame_.light.set(look_.light, o_.spacing_);
 
     bool plain = o_.isBall();
     for (int i = 0; i < nearCount_; ++i)
@@ -474,7 +472,7 @@ inline Real Settler::waitField() const
 {
     Real steps(WAIT_MOST);
     for (int n = 0; n < touchCount_; ++n)
-        steps = least(steps, touch_[n]->waitField);
+        steps = least(steps, touch(n).waitField);
     return steps;
 }
 
@@ -482,7 +480,7 @@ inline int32_t Settler::waitFacing() const
 {
     int32_t steps = INT32_MAX;
     for (int n = 0; n < touchCount_; ++n)
-        steps = touch_[n]->waitFacing < steps ? touch_[n]->waitFacing : steps;
+        steps = touch(n).waitFacing < steps ? touch(n).waitFacing : steps;
     return steps;
 }
 
@@ -491,7 +489,7 @@ inline Real Settler::fieldPace(const Vector& path, Real position) const
 {
     Real sum(0);
     for (int n = 0; n < touchCount_; ++n) {
-        const Near& near = *touch_[n];
+        const Near& near = touch(n);
         sum += slopes_[n] * (near.a0Pace + position * alongPace(near, path));
     }
     return sum;
@@ -614,7 +612,7 @@ inline Real Settler::lookAt(Real position, Real& slope)
     ownSlope_ = own.slope;
     if (PLAIN && touchCount_ == 1) {
         // Most seeds.
-        const Near& near = *touch_[0];
+        const Near& near = touch(0);
         const Real c = position * near.c0;
         const Real sum = b_[0] + c;
         const Real t = near.a0 + position * sum;
@@ -632,7 +630,7 @@ inline Real Settler::lookAt(Real position, Real& slope)
     }
     Real strongest(0);
     for (int n = 0; n < touchCount_; ++n) {
-        const Near& near = *touch_[n];
+        const Near& near = touch(n);
         Real t, change;
         if (PLAIN || near.quick) {
             const Real c = position * near.c0;
@@ -834,7 +832,7 @@ int32_t Settler::facesAway(Real across, Real own) const
     int32_t wait = stepsOf(own, Real(AWAY_MOST), waitAlong_);
     const Real share = across * awayShare_;
     for (int n = 0; n < touchCount_; ++n) {
-        const Near& near = *touch_[n];
+        const Near& near = touch(n);
         if (!near.quick)
             return -1;
         Real term = share - b_[n] * near.halfSquare;
@@ -972,51 +970,35 @@ inline void Settler::settleSeed(Seed& s)
 template <bool PLAIN>
 inline void Settler::shade(Seed& s, Real position)
 {
-    // -grad F, but for a factor: path position (ownSlope + sum slope ratio) + sum slope ratio fromIt.
-    Real along = ownSlope_;
-    Vector g{Real(0), Real(0), Real(0)};
-    for (int n = 0; n < touchCount_; ++n) {
-        const Near& near = *touch_[n];
-        const Real share = slopes_[n] * near.ratio;
-        if (PLAIN || near.quick) {
-            along += share;
-            g = g - near.fromIt16 * share;
-        } else {
-            g = g - from_[n] * share;
-        }
-    }
-    if (!PLAIN && o_.tapers_) {
-        Vector slope;
-        o_.param(root_ + s.path * position, &slope);
-        g = g - slope * shiftDown(along, 4);
+    const int32_t over = strength_ + overshoot_ > Real(0) ? OVER_BACK : 0;
+    int32_t facing;
+    if (PLAIN) {
+        facing = shadeSeed(&frame_, &s, position, over);
     } else {
-        g = g - s.path * shiftDown(along * position, 4);
+        Real along = ownSlope_;
+        Vector g{Real(0), Real(0), Real(0)};
+        for (int n = 0; n < touchCount_; ++n) {
+            const Near& near = touch(n);
+            if (near.quick)
+                addPull(near, slopes_[n], along, g);
+            else
+                g = g - from_[n] * (slopes_[n] * near.ratio);
+        }
+        if (o_.tapers_) {
+            Vector slope;
+            o_.param(root_ + s.path * position, &slope);
+            g = g - slope * shiftDown(along, 4);
+        } else {
+            g = g - s.path * shiftDown(along * position, 4);
+        }
+        facing = lieOn(frame_, s, g, position, over, root_ - o_.centre_);
     }
-    const Normal normal = normalise(g);
-    const int32_t cosine = (normal.x * s.dirX + normal.y * s.dirY + normal.z * s.dirZ) >> 14;
-    const int32_t facing = eye_.facing(normal, cosine, position);
     if (!eye_.faces(facing)) {
         wait(s, SEED_VALID | SEED_PLACED, mulShift16(-facing, waitFacing()));
         return;
     }
     ++look_.counts->normals;
     s.flags = SEED_VALID | SEED_PLACED | SEED_KEPT | SEED_FRONT;
-    s.voxel.brightness = shadeSetup_.brightness(normal);
-    const Vector out = s.path * position;
-    const int32_t depth = skew_.depth(out);
-    shadeSetup_.extents(s, normal, cosine, position, skew_.x(out), skew_.y(out));
-    int32_t shiftX, shiftY;
-    // Blending flattens: the horizon may be farther.
-    layDown(normal.x, normal.y, facing, depth, 2 * eye_.horizon(), s, shiftX, shiftY);
-    // A tangent plane lies before the surface, the more the larger the scale: set back, so that of two scales the smaller
-    // one, which is nearer to its seed, wins. And beyond the border the neighbour's own seeds come first.
-    int32_t back = mulHigh(s.voxel.wide * s.voxel.wide + s.voxel.high * s.voxel.high, setBack_) >> 6;
-    if (strength_ + overshoot_ > Real(0))
-        back += OVER_BACK;
-    const Vector place = PLAIN ? out : (root_ - o_.centre_) + out;
-    s.voxel.x = (rawFromReal(place.x) >> 8) + shiftX;
-    s.voxel.y = (rawFromReal(place.y) >> 8) + shiftY;
-    s.voxel.z = (rawFromReal(place.z) >> 8) + back;
 }
 
 // The neighbour N of a seed.

@@ -1,11 +1,11 @@
 // The tables of shade.h, made when the program starts.
 #include "shade.h"
 
-uint16_t inverseRoots[768];
+uint16_t inverseRoots[769];
 
 void makeShadeTables()
 {
-    for (uint32_t i = 0; i < 768; ++i) {
+    for (uint32_t i = 0; i < 769; ++i) {
         // 2^28 / sqrt((i + 1/2) 2^20) = 2^18.5 / sqrt(2i + 1); below entry 64 nothing is looked up, and 16 bits end.
         const uint32_t root = squareRoot64(static_cast<uint64_t>(2 * i + 1) << 32);  // 2^16 sqrt(2i + 1)
         const uint32_t top = 0x5a827999u;                                             // 2^30.5, rounded down

@@ -115,7 +115,7 @@ per_frame() {
 			for (f in total) {
 				if (f ~ /^__wrap_|^(\(anonymous namespace\)::)?(tell|bench)/) continue
 				else if (f ~ /^(drawScalesC|blitScalesC)/) s = "twin"
-				else if (f ~ /(^| )Settler::shade/) s = "normals"
+				else if (f ~ /(^| )Settler::shade|^shadeSeedA/) s = "normals"
 				else if (f ~ /(^| )(Settler::|SoftObject::(update|settle|find|inRange|tell))/) s = "update"
 				else if (f ~ /(^| )SoftObject::(draw|layAtRest)/) s = "draw"
 				else if (f ~ /^(drawScalesA|blitScalesA)|(^| )View::(project|show)/) s = "scales"

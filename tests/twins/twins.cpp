@@ -1,8 +1,8 @@
-// Assembly against C++: each routine of asm/blit.S and asm/scales.S and its twin in src/blit.cpp and src/scales.cpp get
-// the same input, and all they may touch must come out the same, with guard bytes round every buffer. A new assembly
+// Assembly against C++: each routine of asm/blit.S, asm/scales.S and asm/shade.S and its twin in src/blit.cpp, src/scales.cpp
+// and src/lie.cpp get the same input, and all they may touch must come out the same, with guard bytes round every buffer. A new assembly
 // routine gets its part here before anything else uses it.
 //
-//   twins [SEED [ROUNDS]]     rounds of random scales, voxels and spans, after the cases that are always tried
+//   twins [SEED [ROUNDS]]     rounds of random scales, voxels, seeds and spans, after the cases that are always tried
 //
 // Prints what differs, how much was tried, and "N passed, N failed".
 #include <stddef.h>
@@ -11,11 +11,45 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lie.h"
 #include "scales.h"
 
 namespace inasm {
 #include "../../build/scalesdef.h"
 }
+namespace inshade {
+#include "../../build/shadedef.h"
+}
+
+// What asm/shade.S counts on.
+struct ShadeLayout {
+    static_assert(inshade::SEED_PATHX == offsetof(Seed, path) && inshade::SEED_PATHY == offsetof(Seed, path.y) &&
+                  inshade::SEED_PATHZ == offsetof(Seed, path.z) && inshade::SEED_X == offsetof(Seed, voxel.x) &&
+                  inshade::SEED_Y == offsetof(Seed, voxel.y) && inshade::SEED_Z == offsetof(Seed, voxel.z) &&
+                  inshade::SEED_WIDE == offsetof(Seed, voxel.wide) && inshade::SEED_HIGH == offsetof(Seed, voxel.high) &&
+                  inshade::SEED_TILTX == offsetof(Seed, voxel.tiltX) && inshade::SEED_TILTY == offsetof(Seed, voxel.tiltY) &&
+                  inshade::SEED_BRIGHT == offsetof(Seed, voxel.brightness) && inshade::SEED_DIRX == offsetof(Seed, dirX) &&
+                  inshade::SEED_DIRY == offsetof(Seed, dirY) && inshade::SEED_DIRZ == offsetof(Seed, dirZ) &&
+                  inshade::SEED_ALONG == offsetof(Seed, along) && inshade::SEED_ACROSS == offsetof(Seed, across), "Seed");
+    static constexpr int EYE = offsetof(ShadeFrame, eye), SKEW = offsetof(ShadeFrame, skew), LIGHT = offsetof(ShadeFrame, light);
+    static_assert(inshade::EYE_X == EYE + offsetof(EyeSide, x_) && inshade::EYE_Y == EYE + offsetof(EyeSide, y_) &&
+                  inshade::EYE_Z == EYE + offsetof(EyeSide, z_) && inshade::EYE_RADIUS == EYE + offsetof(EyeSide, radius_) &&
+                  inshade::EYE_HORIZON == EYE + offsetof(EyeSide, horizon_), "EyeSide");
+    static_assert(inshade::SKEW_ROOTX == SKEW + offsetof(Skew, root_.x) && inshade::SKEW_ROOTY == SKEW + offsetof(Skew, root_.y) &&
+                  inshade::SKEW_ROOTZ == SKEW + offsetof(Skew, root_.z) && inshade::SKEW_DEPTH == SKEW + offsetof(Skew, depth_) &&
+                  inshade::SKEW_SHARE == SKEW + offsetof(Skew, share_) && inshade::SKEW_X == SKEW + offsetof(Skew, x_) &&
+                  inshade::SKEW_Y == SKEW + offsetof(Skew, y_) && inshade::SKEW_NEAR == SKEW + offsetof(Skew, near_), "Skew");
+    static_assert(inshade::LIGHT_X == LIGHT + offsetof(ShadeSetup, x_) && inshade::LIGHT_Y == LIGHT + offsetof(ShadeSetup, y_) &&
+                  inshade::LIGHT_Z == LIGHT + offsetof(ShadeSetup, z_) &&
+                  inshade::LIGHT_SPACING == LIGHT + offsetof(ShadeSetup, spacing_), "ShadeSetup");
+    static_assert(inshade::SET_BACK == offsetof(ShadeFrame, setBack) && inshade::OWN_SLOPE == offsetof(ShadeFrame, ownSlope) &&
+                  inshade::COUNT == offsetof(ShadeFrame, count) && inshade::SLOPES == offsetof(ShadeFrame, slopes) &&
+                  inshade::PULLS == offsetof(ShadeFrame, pulls), "ShadeFrame");
+    static_assert(inshade::PULL_X == offsetof(Pull, fromIt16) && inshade::PULL_Y == offsetof(Pull, fromIt16.y) &&
+                  inshade::PULL_Z == offsetof(Pull, fromIt16.z) && inshade::PULL_RATIO == offsetof(Pull, ratio), "Pull");
+    static_assert(inshade::BRIGHTEST == BRIGHTEST && inshade::MARGIN == ShadeSetup::MARGIN &&
+                  inshade::MARGIN_UNITS == ShadeSetup::MARGIN_UNITS, "constants");
+};
 
 namespace {
 
@@ -61,7 +95,7 @@ struct Kind {
     const char* name;
     long good, bad;
 };
-Kind kinds[32];
+Kind kinds[64];
 int kindCount = 0;
 long scalesTried = 0, pixelsTried = 0, spansTried = 0;
 
@@ -627,6 +661,153 @@ void voxelByVoxel(int rounds)
     verdict(drawn > rounds / 3 && stopped > rounds / 20 && empty > rounds / 100, "voxels: there were some of each kind", drawn);
 }
 
+// --- Seeds that settled
+
+long seedsTried = 0, seedsFacing = 0;
+
+double uniform(double low, double high) { return low + (high - low) * (any() / 4294967296.0); }
+Real real(double value) { return Real(value); }
+Vector vectorOf(const double v[3]) { return {real(v[0]), real(v[1]), real(v[2])}; }
+
+// A direction, evenly over the sphere; often one along an axis or nearly so.
+void anyDirection(double d[3])
+{
+    double size;
+    do {
+        size = 0;
+        for (int i = 0; i < 3; ++i) {
+            d[i] = uniform(-1, 1);
+            size += d[i] * d[i];
+        }
+    } while (size > 1 || size < 0.01);
+    if (below(8) == 0) {
+        for (int i = 0; i < 3; ++i)
+            d[i] = 0;
+        d[below(3)] = size = below(2) ? 1 : -1;
+        size = 1;
+    }
+    for (int i = 0; i < 3; ++i)
+        d[i] /= __builtin_sqrt(size);
+}
+
+// The object, as seen: from near or far, small or large. `toEye` and `light` tell what was chosen.
+void anyFrame(ShadeFrame& f, Pull* pulls, double& radius, double toEye[3], double light[3])
+{
+    static const double RADII[] = {0.5, 4, 12, 60, 300};
+    radius = RADII[below(5)] * uniform(0.5, 1.5);
+    double distance = below(3) == 0 ? radius * uniform(0.5, 4) : below(2) ? radius * uniform(3, 12) : uniform(30, 480);
+    distance = distance < 480 ? distance : 480;  // so that no direction is limited
+    anyDirection(toEye);
+    // The viewer looks along +z: most of what he sees lies there.
+    if (below(4))
+        toEye[2] = -1 - (toEye[2] < 0 ? -toEye[2] : toEye[2]);
+    for (int i = 0; i < 3; ++i)
+        toEye[i] *= distance;
+    anyDirection(light);
+    f.eye.set(vectorOf(toEye), real(radius), Real(0));
+    f.eye.horizon(real(radius * uniform(0.8, 2)));
+    f.skew.root(-vectorOf(toEye), real(radius * 1.85));
+    f.light.set(vectorOf(light), real(below(2) ? 2 : uniform(0.2, 3)));
+    f.setBack = mulDiv(1 << 30, 1 << 17, rawFromReal(most(real(radius), Real(2))));
+    for (int i = 0; i < 4; ++i) {
+        double d[3];
+        anyDirection(d);
+        const double apart = radius * uniform(0.5, 3) / 16;
+        for (int k = 0; k < 3; ++k)
+            d[k] *= apart;
+        pulls[i] = {vectorOf(d), real(below(6) ? uniform(0.1, 4) : uniform(0, 40))};
+    }
+    for (int i = 0; i < PULLS_MOST; ++i)
+        f.pulls[i] = pulls + below(4);
+}
+
+// The seed's place and what the last look left; all else of the seed is anything.
+void anySeed(ShadeFrame& f, Seed& s, double radius, Real& position)
+{
+    fill(&s, sizeof s);
+    double d[3];
+    anyDirection(d);
+    s.dirX = static_cast<int16_t>(d[0] * 16384);
+    s.dirY = static_cast<int16_t>(d[1] * 16384);
+    s.dirZ = static_cast<int16_t>(d[2] * 16384);
+    for (int i = 0; i < 3; ++i)
+        d[i] *= radius;
+    s.path = vectorOf(d);
+    const int most = below(8) ? 40 : 73;
+    for (int i = 0; i < 3; ++i) {
+        s.along[i] = static_cast<int8_t>(below(2 * most + 1) - most);
+        s.across[i] = static_cast<int8_t>(below(2 * most + 1) - most);
+    }
+    if (below(16) == 0)
+        s.along[0] = s.along[1] = s.across[0] = s.across[1] = 0;
+    position = real(below(8) ? uniform(0.95, 1.85) : below(2) ? 0.95 : 1.85);
+    // Short gradients and none at all, too.
+    const double scale = below(8) ? 1 : below(2) ? 1.0 / (1 << below(17)) : 0;
+    f.ownSlope = real(uniform(-3, below(4) ? 0 : 3) * scale);
+    f.count = below(8) ? below(3) : below(10);
+    for (int i = 0; i < f.count; ++i)
+        f.slopes[i] = real(uniform(-3, 0) * scale / (f.count > 2 ? f.count : 1));
+}
+
+// Seeds with guards round them; what faces the viewer and how bright it is also held against double precision.
+void seedBySeed(int rounds)
+{
+    static ShadeFrame frame;
+    static Pull pulls[4];
+    struct { uint8_t before[64]; Seed seed; uint8_t after[64]; } c, a;
+    double radius = 1, toEye[3], light[3];
+    long wrongFacing = 0, wrongBright = 0;
+    for (int round = 0; round < rounds; ++round) {
+        if (round % 16 == 0)
+            anyFrame(frame, pulls, radius, toEye, light);
+        fill(&c, sizeof c);
+        Real position;
+        anySeed(frame, c.seed, radius, position);
+        memcpy(&a, &c, sizeof c);
+        static ShadeFrame frameBefore;
+        memcpy(&frameBefore, &frame, sizeof frame);
+        const int32_t over = below(2) ? 128 : 0;
+        const int32_t ofC = shadeSeedC(&frame, &c.seed, position, over), ofA = shadeSeedA(&frame, &a.seed, position, over);
+        verdict(ofC == ofA, "seeds: the same facing, round", round);
+        verdict(memcmp(&c, &a, sizeof c) == 0, "seeds: the same scale, round", round);
+        verdict(memcmp(&frame, &frameBefore, sizeof frame) == 0, "seeds: the frame is left alone, round", round);
+        ++seedsTried;
+        seedsFacing += ofA > 0;
+        double path[3] = {c.seed.path.x.raw / 65536.0, c.seed.path.y.raw / 65536.0, c.seed.path.z.raw / 65536.0};
+        double along = frame.ownSlope.raw / 65536.0, g[3] = {0, 0, 0};
+        for (int i = 0; i < frame.count; ++i) {
+            const double share = frame.slopes[i].raw / 65536.0 * frame.pulls[i]->ratio.raw / 65536.0;
+            along += share;
+            g[0] -= frame.pulls[i]->fromIt16.x.raw / 65536.0 * share;
+            g[1] -= frame.pulls[i]->fromIt16.y.raw / 65536.0 * share;
+            g[2] -= frame.pulls[i]->fromIt16.z.raw / 65536.0 * share;
+        }
+        double size = 0, facing = 0, bright = 0, far = 0;
+        for (int i = 0; i < 3; ++i) {
+            g[i] -= path[i] * along * position.raw / 65536.0 / 16;
+            size += g[i] * g[i];
+        }
+        // A short one is coarse: its steps are path / 65536.
+        const double coarse = 0.05 + radius / 200;
+        if (size < coarse * coarse)
+            continue;
+        for (int i = 0; i < 3; ++i) {
+            const double way = toEye[i] - path[i] * position.raw / 65536.0;
+            facing += g[i] / __builtin_sqrt(size) * way;
+            far += way * way;
+            bright += g[i] / __builtin_sqrt(size) * light[i];
+        }
+        const double off = facing - ofA / 32.0, doubt = 0.3 + 0.02 * (__builtin_sqrt(far) + radius);
+        wrongFacing += off > doubt || off < -doubt;
+        bright = bright < 0 ? 0 : bright * 63;
+        const double offBright = bright - a.seed.voxel.brightness;
+        wrongBright += ofA > 0 && (offBright > 2 || offBright < -2);
+    }
+    verdict(wrongFacing == 0, "seeds: they face the viewer as in double precision", wrongFacing);
+    verdict(wrongBright == 0, "seeds: they are as bright as in double precision", wrongBright);
+    verdict(seedsFacing > seedsTried / 5 && seedsFacing < seedsTried * 4 / 5, "seeds: there were some of each kind", seedsFacing);
+}
+
 // Spans of any kind: none, everything, short ones at the ends.
 void spans(Span* rows)
 {
@@ -693,6 +874,17 @@ void registers()
     for (int i = 0; i < 40; ++i) {
         voxels[i] = anyVoxel(f.lens);
         voxelList[i] = voxels + i;
+    }
+    static ShadeFrame frame;
+    static Pull pulls[4];
+    for (int i = 0; i < 200; ++i) {
+        double radius, toEye[3], light[3];
+        anyFrame(frame, pulls, radius, toEye, light);
+        Seed seed;
+        Real position;
+        anySeed(frame, seed, radius, position);
+        const uint32_t shade[5] = {word(&frame), word(&seed), static_cast<uint32_t>(position.raw), 0, 0};
+        verdict(damage(reinterpret_cast<const void*>(shadeSeedA), shade) == 0, "registers are kept: shadeSeedA", i);
     }
     static Span rows[HIGH];
     spans(rows);
@@ -779,10 +971,12 @@ int main(int count, char** arguments)
     randomLists(rounds);
     voxelLists(rounds);
     voxelByVoxel(10 * rounds);
+    makeShadeTables();
+    seedBySeed(500 * rounds);
     clearsAndCopies(rounds);
     registers();
-    printf("# seed %u: %ld scales, %ld pixels, %ld voxels (%ld drawn in lists), %ld spans tried\n",
-           static_cast<unsigned>(seed), scalesTried, pixelsTried, voxelsTried, voxelsDrawn, spansTried);
+    printf("# seed %u: %ld scales, %ld pixels, %ld voxels (%ld drawn in lists), %ld seeds (%ld facing), %ld spans tried\n",
+           static_cast<unsigned>(seed), scalesTried, pixelsTried, voxelsTried, voxelsDrawn, seedsTried, seedsFacing, spansTried);
     int passed = 0;
     for (int k = 0; k < kindCount; ++k) {
         if (kinds[k].bad == 0) {
