@@ -121,7 +121,7 @@ constexpr int TRAVEL_STEPS = 64;
 constexpr int WAIT_MOST = 0x3000;
 
 // Steps of travel after which it is asked again whether all that reached a patch still do.
-constexpr int RECHECK = 6 * TRAVEL_STEPS;
+constexpr int RECHECK = 10 * TRAVEL_STEPS;
 
 // Seeds that stay where they are wait if the field takes at least so many steps to change by the tolerance.
 constexpr int KEPT_STEPS = 20;
