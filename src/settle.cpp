@@ -129,8 +129,9 @@ constexpr int KEPT_STEPS = 20;
 // Of SoftObject::Patch::reached: the bit that stands for many.
 constexpr uint32_t MANY = 1u << 31;
 
-// Assumed speeds, units an update: never less than this; given up when all is so many times as fast, or as slow.
+// Assumed speeds, units an update: never less than this nor more; given up when all is so many times as fast, or as slow.
 constexpr Real SPEED_LEAST(1.0 / 64);
+constexpr Real SPEED_MOST(100);
 constexpr Real SPEED_CHANGE(3);
 
 // Of SoftObject::turning_: from here on nobody counts on how others move. Updates that they are counted on at most.
@@ -151,6 +152,7 @@ inline Real nearLength(const Vector& v)
 }
 
 constexpr Real TWICE_LIMIT(7.9);  // units of twice, so that its scaled form fits
+constexpr Real PACE_LIMIT(60);    // and units of what twicePace is made from
 
 inline Vector scaledTwice(const Vector& v)
 {
@@ -243,6 +245,7 @@ private:
     static inline bool woken_;  // by a jump of it
     static inline int32_t waitAway_;  // steps of travel for 1/32 unit of EyeSide::away(), 16 bits of fraction
     static inline Vector toEye_;  // unit length, from the centre
+    static inline Real eyeSlowness_;
     static inline Real distance_;  // to the centre
     static inline Real awayShare_, awayOwn_, awayEdge_, waitAlong_;  // see facesAway()
     static inline Real parting_;  // difference of positions that activates the seed between
@@ -266,10 +269,16 @@ inline int32_t stepsOf(Real difference, Real wait)
     return stepsOf(difference, Real(1), wait);
 }
 
-// Steps of travel while something of this speed goes so far.
-inline Real waitSteps(Real units, Real speed)
+// Steps of travel while something goes so far; `slowness` is 1 / its speed.
+inline Real waitSteps(Real units, Real slowness)
 {
-    return least(units / speed, Real(WAIT_MOST / TRAVEL_STEPS)) * Real(TRAVEL_STEPS);
+    return least(units * slowness, Real(WAIT_MOST / TRAVEL_STEPS)) * Real(TRAVEL_STEPS);
+}
+
+// Whether each component is less than `most` from 0.
+inline bool within(const Vector& v, Real most)
+{
+    return absolute(v.x) < most && absolute(v.y) < most && absolute(v.z) < most;
 }
 
 void Settler::addNear(const Link& link)
@@ -277,10 +286,9 @@ void Settler::addNear(const Link& link)
     const SoftObject& other = *link.object;
     Near& n = near_[nearCount_++];
     n.object = &other;
-    n.waitField = waitSteps(other.size() * WAIT_FIELD, link.speed);
-    n.waitFacing = mulDiv(rawFromReal(waitSteps(o_.radius() * WAIT_FACING, link.speed)), 1, eye_.distance32());
-    n.waitApart = waitSteps(other.size() * WAIT_APART, link.speed);
-    n.waitBuried = waitSteps(other.size() * WAIT_BURIED, link.speed);
+    const Real slowness = Real(1) / link.speed;
+    n.waitField = waitSteps(other.size() * WAIT_FIELD, slowness);
+    n.waitFacing = rawFromReal(waitSteps(o_.radius() * WAIT_FACING, slowness)) / eye_.distance32();
     n.weight = link.weight;
     n.plain = link.weight == Real(1);
     n.fromIt = o_.centre() - other.centre();
@@ -295,12 +303,12 @@ void Settler::addNear(const Link& link)
     const Real inverse = Real(16) / other.size();
     const Vector e = n.fromIt * inverse;
     const Real r = o_.radius() * inverse;
-    if (absolute(e.x) > Real(80) || absolute(e.y) > Real(80) || absolute(e.z) > Real(80) || r > Real(80))
+    if (!within(e, Real(80)) || r > Real(80))
         return;
     n.a0 = shiftDown(dot(e, e), 8);
     n.c0 = shiftDown(r * r, 8);
     const Vector twice = e * (inverse * Real(1.0 / 128));
-    if (absolute(twice.x) > TWICE_LIMIT || absolute(twice.y) > TWICE_LIMIT || absolute(twice.z) > TWICE_LIMIT)
+    if (!within(twice, TWICE_LIMIT))
         return;
     n.twice = scaledTwice(twice);
     n.swing = length(twice) + Real(0.0001);
@@ -315,9 +323,14 @@ void Settler::addNear(const Link& link)
         n.burying = -n.a0 - n.c0;  // too weak to bury alone
     n.quick = true;
 
-    const Vector pace = link.pace * -inverse;
+    n.waitApart = waitSteps(n.reach * WAIT_APART, slowness);
+    n.waitBuried = waitSteps(n.reach * WAIT_BURIED, slowness);
+    const Vector none{Real(0), Real(0), Real(0)};
+    Vector pace = link.pace * -inverse;
+    pace = within(pace, PACE_LIMIT) ? pace : none;
     n.a0Pace = shiftDown(dot(e, pace), 7);
-    const Vector twicePace = pace * inverse;
+    Vector twicePace = pace * inverse;
+    twicePace = within(twicePace, PACE_LIMIT) ? twicePace : none;
 #if FB_REAL == FB_FIXED
     n.twicePace = {shiftUp(twicePace.x, 9), shiftUp(twicePace.y, 9), shiftUp(twicePace.z, 9)};
 #else
@@ -327,7 +340,7 @@ void Settler::addNear(const Link& link)
     n.halfSquare = shiftDown(PLACED_LEAST * n.reach * (n.reach / distance_), 1);
     n.awayLimit = awayOwn_ - dot(n.fromIt, toEye_) - AWAY_DOUBT;
     const Real reach = absolute(n.fromIt.x) + absolute(n.fromIt.y) + absolute(n.fromIt.z) + o_.radius();
-    n.waitAway = least(waitSteps(Real(1), link.speed + o_.eyeSpeed_ * (reach / distance_)), Real(AWAY_STEPS));
+    n.waitAway = least(waitSteps(Real(1), Real(1) / (link.speed + o_.eyeSpeed_ * (reach / distance_))), Real(AWAY_STEPS));
 }
 
 // Up to which position the own field is more than this.
@@ -378,8 +391,9 @@ void Settler::settle()
     toEye_ = {realFromRaw(toEye.x * 4), realFromRaw(toEye.y * 4), realFromRaw(toEye.z * 4)};
     awayShare_ = PLACED_LEAST * (o_.radius() / distance_);
     awayOwn_ = PLACED_LEAST * awayShare_ * o_.radius();
-    awayEdge_ = PLACED_LEAST * o_.radius() - AWAY_DOUBT;
-    waitAlong_ = least(waitSteps(Real(1), o_.eyeSpeed_), Real(AWAY_STEPS));
+    // Not from within, where terms grow without limit.
+    awayEdge_ = distance_ > Real(8) && distance_ > o_.radius() ? PLACED_LEAST * o_.radius() - AWAY_DOUBT : Real(-2000);
+    waitAlong_ = least(waitSteps(Real(1), eyeSlowness_), Real(AWAY_STEPS));
     Link links[NEAR_MOST];
     const int count = o_.findNear(links);
     for (int i = 0; i < count; ++i)
@@ -442,7 +456,7 @@ void Settler::travel()
             speed += shiftDown(speed, 6);
         else if (way < speed * fastest)
             speed -= shiftDown(speed, 5);
-        speed = most(speed, SPEED_LEAST);
+        speed = clamp(speed, SPEED_LEAST, SPEED_MOST);
     };
     settleSpeed(o_.eyeSpeed_, eyeWay);
     Real turning = anew || grows ? Real(1) : Real(0);
@@ -450,7 +464,7 @@ void Settler::travel()
     for (List<Link>::Node* node = o_.skel_.first(); node != nullptr; node = node->next) {
         Link& link = node->item;
         settleSpeed(link.speed, link.way);
-        const Vector pace = link.moved * share, change = pace - link.pace;
+        const Vector pace = anew ? Vector{Real(0), Real(0), Real(0)} : link.moved * share, change = pace - link.pace;
         link.pace = pace;
         turning = most(turning, least((absolute(change.x) + absolute(change.y) + absolute(change.z)) / link.speed, Real(1)));
     }
@@ -462,7 +476,8 @@ void Settler::travel()
     const int32_t steps = woken_ ? SoftObject::TRAVEL_JUMP : floorToInt(fastest * Real(TRAVEL_STEPS)) + 1;
     o_.travel_ = static_cast<uint16_t>(o_.travel_ + steps);
     travel_ = o_.travel_;
-    waitAway_ = rawFromReal(waitSteps(WAIT_AWAY * Real(1.0 / 32), o_.eyeSpeed_));
+    eyeSlowness_ = Real(1) / o_.eyeSpeed_;
+    waitAway_ = rawFromReal(waitSteps(WAIT_AWAY * Real(1.0 / 32), eyeSlowness_));
 }
 
 // Nothing to see of this seed until things have moved on by `steps`, 0 or more.
@@ -510,11 +525,13 @@ int32_t Settler::holdSteps(const Vector& path, Real position, Real most) const
 {
     const Real wait = waitField();
     const int32_t least = stepsOf(most, wait);
+    // By how fast it falls, but allowing for a quarter of what is possible more it is at most four times that.
     if (least >= paceSteps_)
         return least;
     const Real pace = fieldPace(path, position);
-    const Real doubt = Real(TRAVEL_STEPS / 4) / wait;
-    const Real falls = pace < Real(0) ? doubt - pace - shiftDown(pace, 2) : doubt;
+    if (pace >= Real(0))
+        return lesser(4 * least, paceSteps_);
+    const Real falls = Real(TRAVEL_STEPS / 4) / wait - pace - shiftDown(pace, 2);
     const int32_t steps = floorToInt(::least(::least(most, Real(1)) / falls, Real(PACE_MOST)) * Real(TRAVEL_STEPS));
     return steps < least ? least : lesser(steps, paceSteps_);
 }
