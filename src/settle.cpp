@@ -317,14 +317,20 @@ void Settler::addNear(const Link& link)
     n.meeting = most(n.touching, most((TOUCHING - n.a0 - n.c0 * Real(2.25)) * Real(1 / 1.5),
                                       (TOUCHING - n.a0 - n.c0 * (POSITION_MOST * POSITION_MOST)) * (Real(1) / POSITION_MOST)));
     // t is convex along the path: what holds at both ends of the stretch holds between.
-    n.burying = least(BURYING - n.a0 - n.c0,
-                      (BURYING - n.a0 - n.c0 * (POSITION_MOST * POSITION_MOST)) * (Real(1) / POSITION_MOST));
+    const Real near = BURYING - n.a0 - n.c0;
+    n.burying = (BURYING - n.a0 - n.c0 * (POSITION_MOST * POSITION_MOST)) * (Real(1) / POSITION_MOST);
+    // A difference there is more in t.
+    Real buried = n.reach * WAIT_BURIED;
+    if (n.burying < near)
+        buried = buried * Real(1.5);
+    else
+        n.burying = near;
     if (!n.plain && n.weight < Real(1))
         n.burying = -n.a0 - n.c0;  // too weak to bury alone
     n.quick = true;
 
     n.waitApart = waitSteps(n.reach * WAIT_APART, slowness);
-    n.waitBuried = waitSteps(n.reach * WAIT_BURIED, slowness);
+    n.waitBuried = waitSteps(buried, slowness);
     const Vector none{Real(0), Real(0), Real(0)};
     Vector pace = link.pace * -inverse;
     pace = within(pace, PACE_LIMIT) ? pace : none;
@@ -340,7 +346,10 @@ void Settler::addNear(const Link& link)
     n.halfSquare = shiftDown(PLACED_LEAST * n.reach * (n.reach / distance_), 1);
     n.awayLimit = awayOwn_ - dot(n.fromIt, toEye_) - AWAY_DOUBT;
     const Real reach = absolute(n.fromIt.x) + absolute(n.fromIt.y) + absolute(n.fromIt.z) + o_.radius();
-    n.waitAway = least(waitSteps(Real(1), Real(1) / (link.speed + o_.eyeSpeed_ * (reach / distance_))), Real(AWAY_STEPS));
+    // How far it goes away from the eye in an update, if all goes on like this; half its speed for what else it may do, and
+    // what the eye does.
+    const Real closing = most(-dot(link.pace, toEye_), Real(0)) + shiftDown(link.speed, 1) + o_.eyeSpeed_ * (reach / distance_);
+    n.waitAway = least(waitSteps(Real(1), Real(1) / closing), Real(AWAY_STEPS));
 }
 
 // Up to which position the own field is more than this.
@@ -866,7 +875,9 @@ int32_t Settler::facesAway(Real across, Real own) const
             return -1;
         wait = lesser(wait, stepsOf(beyond, Real(AWAY_MOST), near.waitAway));
     }
-    return wait;
+    // Half of it is sure whatever they do.
+    const int32_t counted = 2 * paceSteps_;
+    return wait <= counted ? wait : wait < 2 * counted ? counted : wait >> 1;
 }
 
 template <bool PLAIN>
