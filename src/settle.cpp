@@ -42,8 +42,8 @@ constexpr int BETWEEN = 3;
 // What is searched for again is looked at where it was nearest, and so far on; alone there when the field allows to wait for
 // more than so many steps of travel; there and a step on, but nowhere else, for more than so many.
 constexpr Real HINT_STEP(0.06);
-constexpr int HINT_ALONE = 32;
-constexpr int HINT_NO_SEARCH = 8;
+constexpr int HINT_ALONE = 64;
+constexpr int HINT_NO_SEARCH = 24;
 constexpr Real NEARLY(0.04);  // of the field: how near the isovalue it must have come there to be looked at in between
 // Squared distance / squared size up to which a neighbour alone fills what the own field lacks at POSITION_MOST: its
 // field is 0.477 there, which with the own 0.013 is the isovalue but for the tolerance.
@@ -103,8 +103,8 @@ inline Real alongPace(const Near& near, const Vector& path)
 // radii. The first two are what the distance allows.
 constexpr Real WAIT_APART(0.45);
 constexpr Real WAIT_BURIED(0.95);
-constexpr Real WAIT_FIELD(0.4);
-constexpr Real WAIT_FACING(1.2);
+constexpr Real WAIT_FIELD(0.3);
+constexpr Real WAIT_FACING(1.0);
 
 // Of the distance to the eye a unit of its way at most changes by how far a path points away, and so does the way itself.
 constexpr Real WAIT_AWAY(1 / 1.8);
@@ -534,13 +534,13 @@ int32_t Settler::holdSteps(const Vector& path, Real position, Real most) const
 {
     const Real wait = waitField();
     const int32_t least = stepsOf(most, wait);
-    // By how fast it falls, but allowing for a quarter of what is possible more it is at most four times that.
+    // By how fast it falls, but allowing for half of what is possible more it is at most twice that.
     if (least >= paceSteps_)
         return least;
     const Real pace = fieldPace(path, position);
     if (pace >= Real(0))
-        return lesser(4 * least, paceSteps_);
-    const Real falls = Real(TRAVEL_STEPS / 4) / wait - pace - shiftDown(pace, 2);
+        return lesser(2 * least, paceSteps_);
+    const Real falls = Real(TRAVEL_STEPS / 2) / wait - pace - shiftDown(pace, 2);
     const int32_t steps = floorToInt(::least(::least(most, Real(1)) / falls, Real(PACE_MOST)) * Real(TRAVEL_STEPS));
     return steps < least ? least : lesser(steps, paceSteps_);
 }
