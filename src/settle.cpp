@@ -43,8 +43,8 @@ constexpr int BETWEEN = 3;
 // What is searched for again is looked at where it was nearest, and so far on; alone there when the field allows to wait for
 // more than so many steps of travel; there and a step on, but nowhere else, for more than so many.
 constexpr Real HINT_STEP(0.06);
-constexpr int HINT_ALONE = 32;
-constexpr int HINT_NO_SEARCH = 8;
+constexpr int HINT_ALONE = 64;
+constexpr int HINT_NO_SEARCH = 24;
 constexpr Real NEARLY(0.04);  // of the field: how near the isovalue it must have come there to be looked at in between
 // Squared distance / squared size up to which a neighbour alone fills what the own field lacks at POSITION_MOST: its
 // field is 0.477 there, which with the own 0.013 is the isovalue but for the tolerance.
@@ -102,8 +102,8 @@ inline Real alongPace(const Near& near, const Vector& path)
 // radii. The first two are what the distance allows.
 constexpr Real WAIT_APART(0.45);
 constexpr Real WAIT_BURIED(0.95);
-constexpr Real WAIT_FIELD(0.4);
-constexpr Real WAIT_FACING(1.2);
+constexpr Real WAIT_FIELD(0.3);
+constexpr Real WAIT_FACING(1.0);
 
 // Of the distance to the eye a unit of its way at most changes by how far a path points away, and so does the way itself.
 constexpr Real WAIT_AWAY(1 / 1.8);
@@ -120,7 +120,7 @@ constexpr int TRAVEL_STEPS = 64;
 constexpr int WAIT_MOST = 0x3000;
 
 // Steps of travel after which it is asked again whether all that reached a patch still do.
-constexpr int RECHECK = 6 * TRAVEL_STEPS;
+constexpr int RECHECK = 10 * TRAVEL_STEPS;
 
 // Seeds that stay where they are wait if the field takes at least so many steps to change by the tolerance.
 constexpr int KEPT_STEPS = 20;
@@ -128,8 +128,9 @@ constexpr int KEPT_STEPS = 20;
 // Of SoftObject::Patch::reached: the bit that stands for many.
 constexpr uint32_t MANY = 1u << 31;
 
-// Assumed speeds, units an update: never less than this; given up when all is so many times as fast, or as slow.
+// Assumed speeds, units an update: never less than this nor more; given up when all is so many times as fast, or as slow.
 constexpr Real SPEED_LEAST(1.0 / 64);
+constexpr Real SPEED_MOST(100);
 constexpr Real SPEED_CHANGE(3);
 
 // Of SoftObject::turning_: from here on nobody counts on how others move. Updates that they are counted on at most.
@@ -139,6 +140,7 @@ constexpr int PACE_MOST = 16;
 constexpr int32_t OVER_BACK = 128;  // 1/256 unit: how far a seed beyond the border is set back
 
 constexpr Real TWICE_LIMIT(7.9);  // units of twice, so that its scaled form fits
+constexpr Real PACE_LIMIT(60);    // and units of what twicePace is made from
 
 inline Vector scaledTwice(const Vector& v)
 {
@@ -232,6 +234,7 @@ private:
     static inline bool woken_;  // by a jump of it
     static inline int32_t waitAway_;  // steps of travel for 1/32 unit of EyeSide::away(), 16 bits of fraction
     static inline Vector toEye_;  // unit length, from the centre
+    static inline Real eyeSlowness_;
     static inline Real distance_;  // to the centre
     static inline Real awayShare_, awayOwn_, awayEdge_, waitAlong_;  // see facesAway()
     static inline Real parting_;  // difference of positions that activates the seed between
@@ -255,10 +258,16 @@ inline int32_t stepsOf(Real difference, Real wait)
     return stepsOf(difference, Real(1), wait);
 }
 
-// Steps of travel while something of this speed goes so far.
-inline Real waitSteps(Real units, Real speed)
+// Steps of travel while something goes so far; `slowness` is 1 / its speed.
+inline Real waitSteps(Real units, Real slowness)
 {
-    return least(units / speed, Real(WAIT_MOST / TRAVEL_STEPS)) * Real(TRAVEL_STEPS);
+    return least(units * slowness, Real(WAIT_MOST / TRAVEL_STEPS)) * Real(TRAVEL_STEPS);
+}
+
+// Whether each component is less than `most` from 0.
+inline bool within(const Vector& v, Real most)
+{
+    return absolute(v.x) < most && absolute(v.y) < most && absolute(v.z) < most;
 }
 
 void Settler::addNear(const Link& link)
@@ -266,10 +275,9 @@ void Settler::addNear(const Link& link)
     const SoftObject& other = *link.object;
     Near& n = near_[nearCount_++];
     n.object = &other;
-    n.waitField = waitSteps(other.size() * WAIT_FIELD, link.speed);
-    n.waitFacing = mulDiv(rawFromReal(waitSteps(o_.radius() * WAIT_FACING, link.speed)), 1, eye_.distance32());
-    n.waitApart = waitSteps(other.size() * WAIT_APART, link.speed);
-    n.waitBuried = waitSteps(other.size() * WAIT_BURIED, link.speed);
+    const Real slowness = Real(1) / link.speed;
+    n.waitField = waitSteps(other.size() * WAIT_FIELD, slowness);
+    n.waitFacing = rawFromReal(waitSteps(o_.radius() * WAIT_FACING, slowness)) / eye_.distance32();
     n.weight = link.weight;
     n.plain = link.weight == Real(1);
     n.fromIt = o_.centre() - other.centre();
@@ -284,12 +292,12 @@ void Settler::addNear(const Link& link)
     const Real inverse = Real(16) / other.size();
     const Vector e = n.fromIt * inverse;
     const Real r = o_.radius() * inverse;
-    if (absolute(e.x) > Real(80) || absolute(e.y) > Real(80) || absolute(e.z) > Real(80) || r > Real(80))
+    if (!within(e, Real(80)) || r > Real(80))
         return;
     n.a0 = shiftDown(dot(e, e), 8);
     n.c0 = shiftDown(r * r, 8);
     const Vector twice = e * (inverse * Real(1.0 / 128));
-    if (absolute(twice.x) > TWICE_LIMIT || absolute(twice.y) > TWICE_LIMIT || absolute(twice.z) > TWICE_LIMIT)
+    if (!within(twice, TWICE_LIMIT))
         return;
     n.twice = scaledTwice(twice);
     n.swing = nearLength(twice) + Real(0.0001);
@@ -298,15 +306,26 @@ void Settler::addNear(const Link& link)
     n.meeting = most(n.touching, most((TOUCHING - n.a0 - n.c0 * Real(2.25)) * Real(1 / 1.5),
                                       (TOUCHING - n.a0 - n.c0 * (POSITION_MOST * POSITION_MOST)) * (Real(1) / POSITION_MOST)));
     // t is convex along the path: what holds at both ends of the stretch holds between.
-    n.burying = least(BURYING - n.a0 - n.c0,
-                      (BURYING - n.a0 - n.c0 * (POSITION_MOST * POSITION_MOST)) * (Real(1) / POSITION_MOST));
+    const Real near = BURYING - n.a0 - n.c0;
+    n.burying = (BURYING - n.a0 - n.c0 * (POSITION_MOST * POSITION_MOST)) * (Real(1) / POSITION_MOST);
+    // A difference there is more in t.
+    Real buried = n.reach * WAIT_BURIED;
+    if (n.burying < near)
+        buried = buried * Real(1.5);
+    else
+        n.burying = near;
     if (!n.plain && n.weight < Real(1))
         n.burying = -n.a0 - n.c0;  // too weak to bury alone
     n.quick = true;
 
-    const Vector pace = link.pace * -inverse;
+    n.waitApart = waitSteps(n.reach * WAIT_APART, slowness);
+    n.waitBuried = waitSteps(buried, slowness);
+    const Vector none{Real(0), Real(0), Real(0)};
+    Vector pace = link.pace * -inverse;
+    pace = within(pace, PACE_LIMIT) ? pace : none;
     n.a0Pace = shiftDown(dot(e, pace), 7);
-    const Vector twicePace = pace * inverse;
+    Vector twicePace = pace * inverse;
+    twicePace = within(twicePace, PACE_LIMIT) ? twicePace : none;
 #if FB_REAL == FB_FIXED
     n.twicePace = {shiftUp(twicePace.x, 9), shiftUp(twicePace.y, 9), shiftUp(twicePace.z, 9)};
 #else
@@ -316,7 +335,10 @@ void Settler::addNear(const Link& link)
     n.halfSquare = shiftDown(PLACED_LEAST * n.reach * (n.reach / distance_), 1);
     n.awayLimit = awayOwn_ - dot(n.fromIt, toEye_) - AWAY_DOUBT;
     const Real reach = absolute(n.fromIt.x) + absolute(n.fromIt.y) + absolute(n.fromIt.z) + o_.radius();
-    n.waitAway = least(waitSteps(Real(1), link.speed + o_.eyeSpeed_ * (reach / distance_)), Real(AWAY_STEPS));
+    // How far it goes away from the eye in an update, if all goes on like this; half its speed for what else it may do, and
+    // what the eye does.
+    const Real closing = most(-dot(link.pace, toEye_), Real(0)) + shiftDown(link.speed, 1) + o_.eyeSpeed_ * (reach / distance_);
+    n.waitAway = least(waitSteps(Real(1), Real(1) / closing), Real(AWAY_STEPS));
 }
 
 // Up to which position the own field is more than this.
@@ -367,8 +389,9 @@ void Settler::settle()
     toEye_ = {realFromRaw(toEye.x * 4), realFromRaw(toEye.y * 4), realFromRaw(toEye.z * 4)};
     awayShare_ = PLACED_LEAST * (o_.radius() / distance_);
     awayOwn_ = PLACED_LEAST * awayShare_ * o_.radius();
-    awayEdge_ = PLACED_LEAST * o_.radius() - AWAY_DOUBT;
-    waitAlong_ = least(waitSteps(Real(1), o_.eyeSpeed_), Real(AWAY_STEPS));
+    // Not from within, where terms grow without limit.
+    awayEdge_ = distance_ > Real(8) && distance_ > o_.radius() ? PLACED_LEAST * o_.radius() - AWAY_DOUBT : Real(-2000);
+    waitAlong_ = least(waitSteps(Real(1), eyeSlowness_), Real(AWAY_STEPS));
     Link links[NEAR_MOST];
     const int count = o_.findNear(links);
     for (int i = 0; i < count; ++i)
@@ -432,7 +455,7 @@ void Settler::travel()
             speed += shiftDown(speed, 6);
         else if (way < speed * fastest)
             speed -= shiftDown(speed, 5);
-        speed = most(speed, SPEED_LEAST);
+        speed = clamp(speed, SPEED_LEAST, SPEED_MOST);
     };
     settleSpeed(o_.eyeSpeed_, eyeWay);
     Real turning = anew || grows ? Real(1) : Real(0);
@@ -440,7 +463,7 @@ void Settler::travel()
     for (List<Link>::Node* node = o_.skel_.first(); node != nullptr; node = node->next) {
         Link& link = node->item;
         settleSpeed(link.speed, link.way);
-        const Vector pace = link.moved * share, change = pace - link.pace;
+        const Vector pace = anew ? Vector{Real(0), Real(0), Real(0)} : link.moved * share, change = pace - link.pace;
         link.pace = pace;
         turning = most(turning, least((absolute(change.x) + absolute(change.y) + absolute(change.z)) / link.speed, Real(1)));
     }
@@ -452,7 +475,8 @@ void Settler::travel()
     const int32_t steps = woken_ ? SoftObject::TRAVEL_JUMP : floorToInt(fastest * Real(TRAVEL_STEPS)) + 1;
     o_.travel_ = static_cast<uint16_t>(o_.travel_ + steps);
     travel_ = o_.travel_;
-    waitAway_ = rawFromReal(waitSteps(WAIT_AWAY * Real(1.0 / 32), o_.eyeSpeed_));
+    eyeSlowness_ = Real(1) / o_.eyeSpeed_;
+    waitAway_ = rawFromReal(waitSteps(WAIT_AWAY * Real(1.0 / 32), eyeSlowness_));
 }
 
 // Nothing to see of this seed until things have moved on by `steps`, 0 or more.
@@ -500,11 +524,13 @@ int32_t Settler::holdSteps(const Vector& path, Real position, Real most) const
 {
     const Real wait = waitField();
     const int32_t least = stepsOf(most, wait);
+    // By how fast it falls, but allowing for half of what is possible more it is at most twice that.
     if (least >= paceSteps_)
         return least;
     const Real pace = fieldPace(path, position);
-    const Real doubt = Real(TRAVEL_STEPS / 4) / wait;
-    const Real falls = pace < Real(0) ? doubt - pace - shiftDown(pace, 2) : doubt;
+    if (pace >= Real(0))
+        return lesser(2 * least, paceSteps_);
+    const Real falls = Real(TRAVEL_STEPS / 2) / wait - pace - shiftDown(pace, 2);
     const int32_t steps = floorToInt(::least(::least(most, Real(1)) / falls, Real(PACE_MOST)) * Real(TRAVEL_STEPS));
     return steps < least ? least : lesser(steps, paceSteps_);
 }
@@ -843,7 +869,9 @@ int32_t Settler::facesAway(Real across, Real own) const
             return -1;
         wait = lesser(wait, stepsOf(beyond, Real(AWAY_MOST), near.waitAway));
     }
-    return wait;
+    // Half of it is sure whatever they do.
+    const int32_t counted = 2 * paceSteps_;
+    return wait <= counted ? wait : wait < 2 * counted ? counted : wait >> 1;
 }
 
 template <bool PLAIN>
