@@ -103,7 +103,7 @@ inline Real alongPace(const Near& near, const Vector& path)
 constexpr Real WAIT_APART(0.45);
 constexpr Real WAIT_BURIED(0.95);
 constexpr Real WAIT_FIELD(0.3);
-constexpr Real WAIT_FACING(1.0);
+constexpr Real WAIT_FACING(0.75);
 
 // Of the distance to the eye a unit of its way at most changes by how far a path points away, and so does the way itself.
 constexpr Real WAIT_AWAY(1 / 1.8);
