@@ -403,7 +403,7 @@ void Settler::settle()
     // a half. The fields of the two change by about 3 / size a unit there.
     overshoot_ = least(Real(2.0) * o_.spacing_ / o_.size_, Real(0.7));
     placedMost_ = ownReaches(shiftDown(ISOVALUE - overshoot_, 1));
-    parting_ = Real(1.0) * o_.spacing_ / o_.radius_;
+    parting_ = Real(2.0) * o_.spacing_ / o_.radius_;
     skew_.root(o_.centre_ - look_.eye, o_.radius_ * POSITION_MOST);
     frame_.setBack = mulDiv(1 << 30, 1 << 17, rawFromReal(most(o_.radius_, Real(2))));
     frame_.light.set(look_.light, o_.spacing_);
@@ -1128,8 +1128,9 @@ void Settler::settlePatches()
                 extra.flags = 0;
                 continue;
             }
+            // Beside one that is inside there is nothing else; one that is only beyond a border has the neighbour's own.
             const bool belt = ((s->flags ^ other.flags) & SEED_VALID) != 0;
-            if (!belt && absolute(s->position - other.position) <= parting_) {
+            if (belt ? (s->flags & other.flags & SEED_PLACED) != 0 : absolute(s->position - other.position) <= parting_) {
                 extra.flags = 0;
                 continue;
             }
