@@ -232,6 +232,9 @@ void View::closeRun(int y, int from, int to, int spacing)
     if (to - from <= GAP_THIN) {
         const Span thin = {static_cast<int16_t>(from), static_cast<int16_t>(to)};
         fillRow(y, thin);
+        // What lies above may have been open to it.
+        closeAbove(y, from, widest, GAP_NARROW + spacing);
+        closeAbove(y, to - 1, widest, GAP_NARROW + spacing);
     }
     // Where it begins, and where it ends if it was not closed from there.
     for (int step = 1; step >= -1 && row[from] == 0; step -= 2) {
@@ -241,6 +244,25 @@ void View::closeRun(int y, int from, int to, int spacing)
         if (x == to)
             closeFrom(y, from, to, step, widest, GAP_NARROW + spacing);
     }
+}
+
+// What is empty above a pixel that has just been filled is followed up, if that has closed it below.
+void View::closeAbove(int y, int x, int widest, int narrowest)
+{
+    const uint8_t* row = frame_ + (y - 1) * WIDTH;
+    if (y < 2 || row[x] != 0)
+        return;
+    int from = x, to = x + 1;
+    while (from > 0 && to - from <= widest && row[from - 1] == 0)
+        --from;
+    while (to < WIDTH && to - from <= widest && row[to] == 0)
+        ++to;
+    if (to - from > widest || from == 0 || to == WIDTH)
+        return;
+    for (int i = from; i < to; ++i)
+        if (row[i + WIDTH] == 0)
+            return;
+    closeFrom(y - 1, from, to, -1, widest, narrowest);
 }
 
 // Follows the opening down from a row (or up: `step`) before which it is closed.
