@@ -399,9 +399,9 @@ void Settler::settle()
     knowNear();
 
     o_.displaced_ = false;
-    // A seed stays valid a way past the border where a neighbour becomes stronger: as a distance, about one spacing and
-    // a half. The fields of the two change by about 3 / size a unit there.
-    overshoot_ = least(Real(2.0) * o_.spacing_ / o_.size_, Real(0.7));
+    // A seed stays valid a way past the border where a neighbour becomes stronger: as a distance, about a unit at the usual
+    // spacings. The fields of the two change by about 3 / size a unit there.
+    overshoot_ = least((Real(2.2) + Real(0.6) * o_.spacing_) / o_.size_, Real(0.7));
     placedMost_ = ownReaches(shiftDown(ISOVALUE - overshoot_, 1));
     parting_ = Real(2.0) * o_.spacing_ / o_.radius_;
     skew_.root(o_.centre_ - look_.eye, o_.radius_ * POSITION_MOST);
