@@ -58,6 +58,7 @@ public:
 private:
     void mark(int left, int top, int right, int bottom);
     void closeRun(int y, int from, int to, int spacing);
+    void closeCorner(int y, int x, int step);
     void closeAbove(int y, int x, int widest, int narrowest);
     void closeFrom(int y, int from, int to, int step, int widest, int narrowest);
     void fillRow(int y, const Span& empty);

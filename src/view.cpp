@@ -227,8 +227,11 @@ void View::closeRun(int y, int from, int to, int spacing)
     const uint8_t* row = frame_ + y * WIDTH;
     int widest = GAP_WIDE + spacing;
     widest = widest > GAP_MOST ? GAP_MOST : widest;
-    if (to - from > widest)
+    if (to - from > widest) {
+        closeCorner(y, from, 1);
+        closeCorner(y, to - 1, -1);
         return;
+    }
     if (to - from <= GAP_THIN) {
         const Span thin = {static_cast<int16_t>(from), static_cast<int16_t>(to)};
         fillRow(y, thin);
@@ -298,6 +301,20 @@ void View::closeFrom(int y, int from, int to, int step, int widest, int narrowes
     }
     for (int i = 0; i < narrow; ++i)
         fillRow(y + i * step, rows[i]);
+    if (narrow > 0 && narrow < high) {
+        closeCorner(y + narrow * step, rows[narrow].from, 1);
+        closeCorner(y + narrow * step, rows[narrow].to - 1, -1);
+    }
+}
+
+// An empty pixel beside which, against `step`, a drawn one lies: in a corner with two pixels or more on each side, which is
+// none of a round outline, it is closed.
+void View::closeCorner(int y, int x, int step)
+{
+    const uint8_t* pixel = frame_ + y * WIDTH + x;
+    const int along = pixel[-WIDTH] != 0 ? -WIDTH : WIDTH;
+    if (pixel[0] == 0 && pixel[-step] != 0 && pixel[along] != 0 && pixel[along + step] != 0 && pixel[-step - along] != 0)
+        takeOver(y * WIDTH + x, y * WIDTH + x - step);
 }
 
 // Empty pixels take over what the nearer end has: `empty` lies between drawn ones.

@@ -119,7 +119,7 @@ per_frame() {
 				else if (f ~ /(^| )(Settler::|SoftObject::(update|settle|find|inRange|tell))/) s = "update"
 				else if (f ~ /(^| )SoftObject::(draw|layAtRest)/) s = "draw"
 				else if (f ~ /^(drawScalesA|blitScalesA)|(^| )View::(project|show)/) s = "scales"
-				else if (f ~ /closeGaps|closeRun|closeAbove|closeFrom|closeSlit|fillRow|takeOver|^drawnRunsA/) s = "gaps"
+				else if (f ~ /closeGaps|closeRun|closeCorner|closeAbove|closeFrom|closeSlit|fillRow|takeOver|^drawnRunsA/) s = "gaps"
 				else if (f ~ /^clearRowsA|(^| )View::begin/) s = "clear"
 				else if (f ~ /^presentRows|(^| )View::(mark|touch|end)/) s = "present"
 				else s = "other"
