@@ -227,11 +227,8 @@ void View::closeRun(int y, int from, int to, int spacing)
     const uint8_t* row = frame_ + y * WIDTH;
     int widest = GAP_WIDE + spacing;
     widest = widest > GAP_MOST ? GAP_MOST : widest;
-    if (to - from > widest) {
-        closeCorner(y, from, 1);
-        closeCorner(y, to - 1, -1);
+    if (to - from > widest)
         return;
-    }
     if (to - from <= GAP_THIN) {
         const Span thin = {static_cast<int16_t>(from), static_cast<int16_t>(to)};
         fillRow(y, thin);
