@@ -6,11 +6,10 @@
 #include "vec.h"
 
 // What is known of a seed. VALID: it settled on the surface, in a region that belongs to its own object. FRONT: its
-// scale may face the viewer. PLACED: a neighbour reaches it
-// and its position is a place where its path leaves the surface; its normal is not its path. ACTIVE: for an
-// oversampled seed, that it takes part. KEPT: brightness and extents hold for the present position.
-// EDGE: a seed beside it is not valid, or parted from it.
-// OVER: valid, but past the border where a neighbour is stronger.
+// scale may face the viewer. PLACED: a neighbour reaches it and its position is a place where its path leaves the surface;
+// its normal is not its path. ACTIVE: for an oversampled seed, that it takes part. KEPT: brightness and extents hold for the
+// present position. EDGE: a seed beside it is not valid, or parted from it. OVER: valid, but past the border where a
+// neighbour is stronger.
 enum SeedFlag : uint8_t {
     SEED_VALID = 1,
     SEED_FRONT = 2,
