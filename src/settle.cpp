@@ -381,6 +381,7 @@ void Settler::knowNear()
     if (!woken_)
         o_.travel_ = static_cast<uint16_t>(o_.travel_ + SoftObject::TRAVEL_JUMP);
     travel_ = o_.travel_;
+    woken_ = true;
 }
 
 void Settler::settle()
@@ -1067,7 +1068,7 @@ int16_t Settler::idleUntil(const SoftObject::Patch& patch) const
         if (s[1].flags & SEED_ACTIVE)
             wait(s[1]);
     }
-    return static_cast<int16_t>(travel_ + steps);
+    return static_cast<int16_t>(travel_ + (steps < 0 ? 0 : steps));
 }
 
 // Judges a patch anew. True: seed by seed where a neighbour reaches it.
@@ -1089,13 +1090,13 @@ bool Settler::judge(SoftObject::Patch& patch, Seed* s)
         return false;
     }
     // When one that they do not know of came near, those that may be seen wait no longer.
-    const bool known = before == SoftObject::PATCH_MIXED;
+    const bool known = before == SoftObject::PATCH_MIXED && !woken_;
     if (!known || (reached & (~patch.reached | MANY)))
         for (int i = 2 * patch.count; i > 0; --i, ++s)
             if (!known || (s->flags & SEED_VALID))
                 s->wakes = later(0);
     patch.reached = reached;
-    if (!PLAIN && o_.tapers_ && !known)
+    if (!PLAIN && o_.tapers_ && before != SoftObject::PATCH_MIXED)
         patch.stale = SoftObject::STALE_ALL;  // from normals to paths
     patch.state = SoftObject::PATCH_MIXED;
     return true;
@@ -1109,12 +1110,12 @@ void Settler::settlePatches()
     SoftObject::Patch* patch = o_.patches_;
     for (int p = o_.patchCount_; p > 0; --p, ++patch) {
         const uint8_t before = patch->state;
-        if (before != SoftObject::PATCH_UNKNOWN && !passed(patch->idle)) {
+        if (before != SoftObject::PATCH_UNKNOWN && !woken_ && !passed(patch->idle)) {
             o_.displaced_ |= before != SoftObject::PATCH_AT_REST;
             s += 2 * patch->count;
             continue;
         }
-        if ((before != SoftObject::PATCH_MIXED || passed(patch->due)) && !judge<PLAIN>(*patch, s)) {
+        if ((before != SoftObject::PATCH_MIXED || woken_ || passed(patch->due)) && !judge<PLAIN>(*patch, s)) {
             s += 2 * patch->count;
             continue;
         }
