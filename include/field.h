@@ -33,8 +33,8 @@ struct OwnStep {
     Real steep;
     Real unused;  // makes the size a power of two
 };
-constexpr int OWN_FIRST = 960;
-constexpr int OWN_STEPS = 960;
+constexpr int OWN_FIRST = 940;
+constexpr int OWN_STEPS = 1000;
 extern OwnStep ownSteps[OWN_STEPS];
 
 inline const OwnStep& ownQuick(Real position)

@@ -43,8 +43,8 @@ constexpr int BETWEEN = 3;
 // What is searched for again is looked at where it was nearest, and so far on; alone there when the field allows to wait for
 // more than so many steps of travel; there and a step on, but nowhere else, for more than so many.
 constexpr Real HINT_STEP(0.06);
-constexpr int HINT_ALONE = 64;
-constexpr int HINT_NO_SEARCH = 24;
+constexpr int HINT_ALONE = 32;
+constexpr int HINT_NO_SEARCH = 12;
 constexpr Real NEARLY(0.04);  // of the field: how near the isovalue it must have come there to be looked at in between
 // Squared distance / squared size up to which a neighbour alone fills what the own field lacks at POSITION_MOST: its
 // field is 0.477 there, which with the own 0.013 is the isovalue but for the tolerance.
@@ -370,6 +370,7 @@ void Settler::knowNear()
     if (!woken_)
         o_.travel_ = static_cast<uint16_t>(o_.travel_ + SoftObject::TRAVEL_JUMP);
     travel_ = o_.travel_;
+    woken_ = true;
 }
 
 void Settler::settle()
@@ -1047,7 +1048,7 @@ int16_t Settler::idleUntil(const SoftObject::Patch& patch) const
         if (s[1].flags & SEED_ACTIVE)
             wait(s[1]);
     }
-    return static_cast<int16_t>(travel_ + steps);
+    return static_cast<int16_t>(travel_ + (steps < 0 ? 0 : steps));
 }
 
 // Judges a patch anew. True: seed by seed where a neighbour reaches it.
@@ -1069,13 +1070,13 @@ bool Settler::judge(SoftObject::Patch& patch, Seed* s)
         return false;
     }
     // When one that they do not know of came near, those that may be seen wait no longer.
-    const bool known = before == SoftObject::PATCH_MIXED;
+    const bool known = before == SoftObject::PATCH_MIXED && !woken_;
     if (!known || (reached & (~patch.reached | MANY)))
         for (int i = 2 * patch.count; i > 0; --i, ++s)
             if (!known || (s->flags & SEED_VALID))
                 s->wakes = later(0);
     patch.reached = reached;
-    if (!PLAIN && o_.tapers_ && !known)
+    if (!PLAIN && o_.tapers_ && before != SoftObject::PATCH_MIXED)
         patch.stale = SoftObject::STALE_ALL;  // from normals to paths
     patch.state = SoftObject::PATCH_MIXED;
     return true;
@@ -1089,12 +1090,12 @@ void Settler::settlePatches()
     SoftObject::Patch* patch = o_.patches_;
     for (int p = o_.patchCount_; p > 0; --p, ++patch) {
         const uint8_t before = patch->state;
-        if (before != SoftObject::PATCH_UNKNOWN && !passed(patch->idle) && !patch->turned) {
+        if (before != SoftObject::PATCH_UNKNOWN && !woken_ && !patch->turned && !passed(patch->idle)) {
             o_.displaced_ |= before != SoftObject::PATCH_AT_REST;
             s += 2 * patch->count;
             continue;
         }
-        if ((before != SoftObject::PATCH_MIXED || passed(patch->due)) && !judge<PLAIN>(*patch, s)) {
+        if ((before != SoftObject::PATCH_MIXED || woken_ || passed(patch->due)) && !judge<PLAIN>(*patch, s)) {
             s += 2 * patch->count;
             continue;
         }
