@@ -252,10 +252,11 @@ public:
     // Half extents of the scale of a seed at rest: its cell as the viewer sees it. `skewX` and `skewY` are x / depth and
     // y / depth of the place from the eye, 8 bits of fraction: off the viewing axis that much of the cell's depth shows
     // sideways.
-    void restExtents(Seed& s, int32_t skewX, int32_t skewY) const
+    // `whole`: all of it, and not what the seeds of a ring cover together.
+    void restExtents(Seed& s, int32_t skewX, int32_t skewY, bool whole) const
     {
         setExtents(s, s.along[0] * 256 - s.along[2] * skewX, s.along[1] * 256 - s.along[2] * skewY,
-                   s.across[0] * 256 - s.across[2] * skewX, s.across[1] * 256 - s.across[2] * skewY, spacing_, false);
+                   s.across[0] * 256 - s.across[2] * skewX, s.across[1] * 256 - s.across[2] * skewY, spacing_, whole);
     }
 
     // The same of a deformed seed: the cell of the unblended surface that is its own, grown with the position, as it falls

@@ -1165,7 +1165,8 @@ inline bool SoftObject::layAtRest(Seed& s, const Vector& root, const EyeSide& ey
         return false;
     }
     const int32_t depth = skew.depth(s.path);
-    shadeSetup.restExtents(s, skew.x(s.path), skew.y(s.path));
+    // Near the viewer a ring is no straight band in the picture.
+    shadeSetup.restExtents(s, skew.x(s.path), skew.y(s.path), depth < 37 * 32);
     int32_t shiftX, shiftY;
     layDown(s.dirX, s.dirY, eye.restFacing(along), depth, eye.horizon(), s, shiftX, shiftY);
     s.voxel.x = (rawFromReal(root.x + s.path.x) >> 8) + shiftX;
@@ -1213,6 +1214,9 @@ void SoftObject::drawQuick(const Look& look, VoxelList& list, int room, int* nex
     const Voxel** to = list.voxels;
     const Voxel** const full = to + room - 4 * PATCH_SEEDS;
     const uint16_t drift = drift_;
+    // The nearer he is the more a move turns what he sees.
+    const int32_t away = eye.distance32() - (rawFromReal(shiftUp(coreReach(), 1) + radius_) >> 11);
+    const int32_t kept = away / DRIFT_SHARE < 1 ? 1 : away / DRIFT_SHARE > DRIFT_KEPT ? DRIFT_KEPT : away / DRIFT_SHARE;
     Seed* const seeds = seeds_;
     Patch* patch = patches_ + p;
     Patch* const last = patches_ + patchCount_;
@@ -1220,7 +1224,7 @@ void SoftObject::drawQuick(const Look& look, VoxelList& list, int room, int* nex
         bool again = false;
         if (static_cast<int16_t>(drift - patch->laid) >= 0 || patch->stale == STALE_ALL) {
             again = true;
-            patch->laid = static_cast<uint16_t>(drift + DRIFT_KEPT);
+            patch->laid = static_cast<uint16_t>(drift + kept);
             patch->turned = patch->state == PATCH_MIXED;
             patch->back = patch->state == PATCH_AT_REST
                               ? eye.side(patch->axis, patch->across, patch->radius32, patch->spread) == EyeSide::BACK

@@ -141,7 +141,9 @@ bool View::project(const Voxel& voxel, Scale* scale) const
                           static_cast<int64_t>(down) * ((top << FRACTION) + HALF - row);
     int32_t first = depth + static_cast<int32_t>(slope >> FRACTION);
     // Might it leave 16 bits at a corner? Then it faces the viewer.
-    const int32_t swing = (across < 0 ? -across : across) * WIDTH + (down < 0 ? -down : down) * HEIGHT;
+    const int32_t columns = (halfWide >> FRACTION) + 2, rows = (halfHigh >> FRACTION) + 2;
+    const int32_t swing = (across < 0 ? -across : across) * (columns < WIDTH ? columns : WIDTH) +
+                          (down < 0 ? -down : down) * (rows < HEIGHT ? rows : HEIGHT);
     if (depth - swing < 0 || depth + swing >= Z_EMPTY) {
         across = down = 0;
         first = depth;
