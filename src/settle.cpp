@@ -49,7 +49,7 @@ constexpr Real NEARLY(0.04);  // of the field: how near the isovalue it must hav
 // Squared distance / squared size up to which a neighbour alone fills what the own field lacks at POSITION_MOST: its
 // field is 0.477 there, which with the own 0.013 is the isovalue but for the tolerance.
 constexpr Real BURYING(0.265);
-constexpr Real DISPLACEMENT(0.008);  // of the field at the seed's last place: less is taken as not moved
+constexpr Real DISPLACEMENT(0.010);  // of the field at the seed's last place: less is taken as not moved
 
 // A neighbour in range, as the seeds of this object see it.
 struct Near : Pull {
@@ -103,7 +103,7 @@ inline Real alongPace(const Near& near, const Vector& path)
 constexpr Real WAIT_APART(0.45);
 constexpr Real WAIT_BURIED(0.95);
 constexpr Real WAIT_FIELD(0.3);
-constexpr Real WAIT_FACING(0.75);
+constexpr Real WAIT_FACING(0.9);
 
 // Of the distance to the eye a unit of its way at most changes by how far a path points away, and so does the way itself.
 constexpr Real WAIT_AWAY(1 / 1.8);
@@ -402,9 +402,9 @@ void Settler::settle()
     o_.displaced_ = false;
     // A seed stays valid a way past the border where a neighbour becomes stronger: as a distance, about a unit at the usual
     // spacings. The fields of the two change by about 3 / size a unit there.
-    overshoot_ = least((Real(2.2) + Real(0.6) * o_.spacing_) / o_.size_, Real(0.7));
+    overshoot_ = least((Real(2.8) + Real(0.1) * o_.spacing_) / o_.size_, Real(0.7));
     placedMost_ = ownReaches(shiftDown(ISOVALUE - overshoot_, 1));
-    parting_ = Real(2.0) * o_.spacing_ / o_.radius_;
+    parting_ = Real(4.0) * o_.spacing_ / o_.radius_;
     skew_.root(o_.centre_ - look_.eye, o_.radius_ * POSITION_MOST);
     frame_.setBack = mulDiv(1 << 30, 1 << 17, rawFromReal(most(o_.radius_, Real(2))));
     frame_.light.set(look_.light, o_.spacing_);

@@ -11,8 +11,8 @@ namespace {
 // What is taken for a gap (View::closeGaps()), pixels: what is closed all round and up to GAP_WIDE and a spacing of the
 // seeds wide and high; the end of what is open above or below, where it is up to GAP_NARROW and a spacing wide, or to a side,
 // where it is up to GAP_LOW high; and what is up to GAP_THIN wide.
-constexpr int GAP_WIDE = 8;
-constexpr int GAP_NARROW = 4;
+constexpr int GAP_WIDE = 10;
+constexpr int GAP_NARROW = 8;
 constexpr int GAP_LOW = 6;
 constexpr int GAP_THIN = 2;
 constexpr int GAP_MOST = 32;  // however near the viewer
@@ -300,7 +300,7 @@ void View::closeFrom(int y, int from, int to, int step, int widest, int narrowes
     }
     for (int i = 0; i < narrow; ++i)
         fillRow(y + i * step, rows[i]);
-    if (narrow > 0 && narrow < high) {
+    if (narrow < high) {
         closeCorner(y + narrow * step, rows[narrow].from, 1);
         closeCorner(y + narrow * step, rows[narrow].to - 1, -1);
     }

@@ -354,8 +354,8 @@ static int drawnIn(const View& view, int left, int top, int right, int bottom)
     return count;
 }
 
-// Between the blocks of the next tests seeds this far apart are 4 pixels apart: gaps are at most 12 pixels wide and high, the
-// ends of open ones 8 wide.
+// Between the blocks of the next tests seeds this far apart are 4 pixels apart: gaps are at most 14 pixels wide and high, the
+// ends of open ones 12 wide.
 static const Real SPACING(2.25);
 
 TEST(gaps_closed_all_round)
@@ -374,7 +374,7 @@ TEST(gaps_closed_all_round)
             view.closeGaps(SPACING);
             view.end();
             const int at = (top + high / 2) * WIDTH + left;
-            if (wide <= 8 || (wide <= 12 && high <= 12)) {
+            if (wide <= 12 || (wide <= 14 && high <= 14)) {
                 SAME(drawnIn(view, left, top, right, bottom), wide * high);
                 // From the nearer side, with its depth.
                 SAME(view.frame()[at], 7);
@@ -395,7 +395,7 @@ TEST(gaps_grow_with_spacing_and_nearness)
     CHECK(view.open());
     for (double z : {50.0, 100.0, 200.0})
         for (double spacing : {0.5, 1.0, 2.0, 4.0}) {
-            const int widest = std::min(8 + static_cast<int>(spacing * 250 / z - 0.01), 32);
+            const int widest = std::min(10 + static_cast<int>(spacing * 250 / z - 0.01), 32);
             for (int size : {widest, widest + 1}) {
                 view.begin();
                 block(view, 100, 50, 150, 150, 7, z);
@@ -432,8 +432,8 @@ TEST(gaps_open_on_a_side)
         view.end();
         const int above = drawnIn(view, 40, 20, 40 + size, 50), below = drawnIn(view, 140, 20, 140 + size, 50);
         const int both = drawnIn(view, 40, 120, 40 + size, 150), right = drawnIn(view, 130, 120, 150, 120 + size);
-        SAME(above, size <= 2 ? 30 * size : size <= 8 ? 12 * size : 0);
-        SAME(below, size <= 8 ? 30 * size : 0);
+        SAME(above, size <= 2 ? 30 * size : size <= 12 ? 14 * size : 0);
+        SAME(below, size <= 12 ? 30 * size : 0);
         SAME(both, size <= 2 ? 30 * size : 0);
         SAME(right, size <= 6 ? 20 * size : 0);
         // And nothing beside.
