@@ -137,6 +137,10 @@ constexpr Real SPEED_CHANGE(3);
 constexpr Real TURNING_WILD(0.25);
 constexpr int PACE_MOST = 16;
 
+// Depth, 1/32 unit, before which the whole cell of a seed at rest is covered: near the viewer a ring is no straight band in
+// the picture.
+constexpr int32_t WHOLE_BEFORE = 37 * 32;
+
 constexpr int32_t OVER_BACK = 128;  // 1/256 unit: how far a seed beyond the border is set back
 
 constexpr Real TWICE_LIMIT(7.9);  // units of twice, so that its scaled form fits
@@ -610,6 +614,7 @@ void Settler::bury(SoftObject::Patch& patch)
     }
     patch.state = SoftObject::PATCH_BURIED;
     patch.back = true;
+    patch.turned = false;
 }
 
 void Settler::rest(SoftObject::Patch& patch)
@@ -623,6 +628,7 @@ void Settler::rest(SoftObject::Patch& patch)
     }
     patch.state = SoftObject::PATCH_AT_REST;
     patch.extras = false;
+    patch.turned = false;
     patch.laid = o_.drift_;
     if (o_.tapers_)
         patch.stale = SoftObject::STALE_ALL;  // from paths to normals
@@ -1165,8 +1171,7 @@ inline bool SoftObject::layAtRest(Seed& s, const Vector& root, const EyeSide& ey
         return false;
     }
     const int32_t depth = skew.depth(s.path);
-    // Near the viewer a ring is no straight band in the picture.
-    shadeSetup.restExtents(s, skew.x(s.path), skew.y(s.path), depth < 37 * 32);
+    shadeSetup.restExtents(s, skew.x(s.path), skew.y(s.path), depth < WHOLE_BEFORE);
     int32_t shiftX, shiftY;
     layDown(s.dirX, s.dirY, eye.restFacing(along), depth, eye.horizon(), s, shiftX, shiftY);
     s.voxel.x = (rawFromReal(root.x + s.path.x) >> 8) + shiftX;
