@@ -8,6 +8,7 @@
 #include "options.h"
 #include "overlay.h"
 #include "palette.h"
+#include "profile.h"
 #include "scene.h"
 #include "shade.h"
 #include "stats.h"
@@ -93,6 +94,7 @@ private:
 const char* Demo::prepare(int* status)
 {
     makeFieldSteps();
+    makeProfileSteps();
     makeShadeTables();
     spacing_ = options_.spacing;
     *status = 1;

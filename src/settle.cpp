@@ -1,4 +1,4 @@
-// How seeds settle and are drawn by default: the surface of the report's update(), found with less work.
+// How seeds settle by default: the surface of the report's update(), found with less work.
 //
 // What is different from the printed method (printed.cpp):
 // - A run of seeds (a Patch) that no neighbour reaches rests at position 1.0 exactly, and needs no look at the field.
@@ -8,6 +8,7 @@
 // - A scale is as large as the part of the surface that is the seed's own, in each direction as the viewer sees it. The
 //   seed keeps it, counted from the object's centre, as long as neither the seed nor the viewer's side of it changes.
 #include "lie.h"
+#include "profile.h"
 #include "softobj.h"
 
 // Where the compiler would pass what a function is given through memory.
@@ -51,6 +52,8 @@ constexpr Real NEARLY(0.04);  // of the field: how near the isovalue it must hav
 constexpr Real BURYING(0.265);
 constexpr Real DISPLACEMENT(0.010);  // of the field at the seed's last place: less is taken as not moved
 
+constexpr Real KEPT(0.1);  // units: a seed between two that has moved by less lies as it did
+
 // A neighbour in range, as the seeds of this object see it.
 struct Near : Pull {
     const SoftObject* object;
@@ -67,6 +70,8 @@ struct Near : Pull {
     Real burying;    // b below this: the whole stretch of the path up to POSITION_MOST lies inside the surface
     Real a0Pace;       // how a0 and twice change in an update, if all goes on like this; the latter scaled by 2^16
     Vector twicePace;
+    Profile* profile;  // made when the first seed needs it
+    mutable bool profiled;
     // Steps of travel that seeds wait: for a difference of 1 in squared distance / squared size on this side of where its
     // field ends, and of where it buries; for a difference of 1 in the field; for a facing of 1/32 unit (16 bits of fraction).
     Real waitApart, waitBuried, waitField;
@@ -137,10 +142,6 @@ constexpr Real SPEED_CHANGE(3);
 constexpr Real TURNING_WILD(0.25);
 constexpr int PACE_MOST = 16;
 
-// Depth, 1/32 unit, before which the whole cell of a seed at rest is covered: near the viewer a ring is no straight band in
-// the picture.
-constexpr int32_t WHOLE_BEFORE = 37 * 32;
-
 constexpr int32_t OVER_BACK = 128;  // 1/256 unit: how far a seed beyond the border is set back
 
 constexpr Real TWICE_LIMIT(7.9);  // units of twice, so that its scaled form fits
@@ -178,6 +179,7 @@ private:
     void settlePatches();
     template <bool PLAIN>
     __attribute__((always_inline)) void settleSeed(Seed& s);
+    void settleBetween(Seed& s);
     template <bool PLAIN>
     REGISTERS SELDOM void settleExtra(Seed& s) { settleSeed<PLAIN>(s); }
     template <bool PLAIN>
@@ -207,6 +209,7 @@ private:
     const Look& look_;
     // One object is settled at a time. At fixed addresses all this needs no register to find it.
     static inline Near near_[NEAR_MOST];
+    static inline Profile profiles_[NEAR_MOST];
     static inline int nearCount_;
 
     // Of the patch at hand, and of those the ones that reach the seed at hand.
@@ -230,7 +233,9 @@ private:
     static inline Real inside_, position_, excess_, slope_;  // of search()
     static inline bool again_;       // it did so only where it had come nearest before
     static inline Real placedMost_;  // where one neighbour alone makes up the isovalue farther out, it is too strong
+    static inline Real evenMost_;    // up to where the own field is the stronger one of two
     static inline Real overshoot_;
+    static inline Real kept_;        // of the position: less is taken as not moved
     static inline uint32_t looks_, updated_;
     static inline uint16_t travel_;
     static inline int32_t paceSteps_;  // steps of travel for which others are thought to move on as they do
@@ -277,7 +282,9 @@ inline bool within(const Vector& v, Real most)
 void Settler::addNear(const Link& link)
 {
     const SoftObject& other = *link.object;
-    Near& n = near_[nearCount_++];
+    Near& n = near_[nearCount_];
+    n.profile = &profiles_[nearCount_++];
+    n.profiled = false;
     n.object = &other;
     const Real slowness = Real(1) / link.speed;
     n.waitField = waitSteps(other.size() * WAIT_FIELD, slowness);
@@ -408,6 +415,8 @@ void Settler::settle()
     // spacings. The fields of the two change by about 3 / size a unit there.
     overshoot_ = least((Real(2.8) + Real(0.1) * o_.spacing_) / o_.size_, Real(0.7));
     placedMost_ = ownReaches(shiftDown(ISOVALUE - overshoot_, 1));
+    evenMost_ = ownReaches(shiftDown(ISOVALUE, 1));
+    kept_ = KEPT / o_.radius_;
     parting_ = Real(4.0) * o_.spacing_ / o_.radius_;
     skew_.root(o_.centre_ - look_.eye, o_.radius_ * POSITION_MOST);
     frame_.setBack = mulDiv(1 << 30, 1 << 17, rawFromReal(most(o_.radius_, Real(2))));
@@ -881,6 +890,36 @@ int32_t Settler::facesAway(Real across, Real own) const
     return wait <= counted ? wait : wait < 2 * counted ? counted : wait >> 1;
 }
 
+// A seed that one neighbour alone reaches.
+inline void Settler::settleBetween(Seed& s)
+{
+    const Near& near = touch(0);
+    const Real b = b_[0];
+    const Profile& profile = *near.profile;
+    if (!near.profiled) {
+        near.profiled = true;
+        near.profile->make(near.a0, near.c0, -near.swing * o_.radius_, placedMost_);
+    }
+    ++updated_;
+    ++looks_;
+    Real position;
+    const bool leaves = profile.place(b, position);
+    if (!leaves || position > placedMost_) {
+        s.position = leaves ? position : Real(1);
+        wait(s, leaves ? SEED_PLACED : 0, most(profile.edge() - b, Real(0)), near.waitApart);
+        return;
+    }
+    s.wakes = static_cast<int16_t>(travel_);
+    if ((s.flags & SEED_KEPT) && absolute(position - s.position) <= kept_)
+        return;
+    s.position = position;
+    ownSlope_ = ownQuick(position).slope;
+    const Real t = near.a0 + position * (b + position * near.c0);
+    slopes_[0] = geoffQuick(clamp(t, Real(0), TOUCHING)).slope;
+    strength_ = position > evenMost_ ? -shiftDown(overshoot_, 1) : -overshoot_;
+    shade<true>(s, position);
+}
+
 template <bool PLAIN>
 inline void Settler::settleSeed(Seed& s)
 {
@@ -954,6 +993,10 @@ inline void Settler::settleSeed(Seed& s)
             this->wait(s, 0, mulShift16(away, waitAway_));
             return;
         }
+    }
+    if (PLAIN && touchCount_ == 1) {
+        settleBetween(s);
+        return;
     }
     ++updated_;
     s.wakes = static_cast<int16_t>(travel_);
@@ -1159,105 +1202,4 @@ void Settler::settlePatches()
 void SoftObject::updateQuick(const Look& look)
 {
     Settler(*this, look).settle();
-}
-
-// How a seed at rest lies in the view, for as long as the object stays about where it is. False: it cannot be seen.
-inline bool SoftObject::layAtRest(Seed& s, const Vector& root, const EyeSide& eye, const Skew& skew, const ShadeSetup& shadeSetup)
-{
-    s.flags |= SEED_KEPT;
-    const int32_t along = eye.along(s);
-    if (!eye.seen(along)) {
-        s.flags = static_cast<uint8_t>(s.flags & ~SEED_FRONT);
-        return false;
-    }
-    const int32_t depth = skew.depth(s.path);
-    shadeSetup.restExtents(s, skew.x(s.path), skew.y(s.path), depth < WHOLE_BEFORE);
-    int32_t shiftX, shiftY;
-    layDown(s.dirX, s.dirY, eye.restFacing(along), depth, eye.horizon(), s, shiftX, shiftY);
-    s.voxel.x = (rawFromReal(root.x + s.path.x) >> 8) + shiftX;
-    s.voxel.y = (rawFromReal(root.y + s.path.y) >> 8) + shiftY;
-    s.voxel.z = rawFromReal(root.z + s.path.z) >> 8;
-    return true;
-}
-
-void SoftObject::drawQuick(const Look& look, VoxelList& list, int room, int* next)
-{
-    EyeSide eye;
-    eye.set(look.eye - centre_, radius_, coreReach());
-    const Real horizon = horizonRadius(look.eye);
-    const bool manyRoots = rootCount_ > 1;
-    eye.horizon(horizon);
-    ShadeSetup shadeSetup;
-    shadeSetup.set(look.light, spacing_);
-    const int p = *next;
-    if (p == 0) {
-        const Vector moved = (look.eye - centre_) - eyeDrawn_;
-        const Real most(100);
-        const Vector limited{clamp(moved.x, -most, most), clamp(moved.y, -most, most), clamp(moved.z, -most, most)};
-        const int32_t steps = rawFromReal(nearLength(limited)) >> 10;
-        // Less is left to add up, or slow moves would count for nothing.
-        if (steps >= DRIFT_LEAST) {
-            drift_ = static_cast<uint16_t>(drift_ + steps);
-            eyeDrawn_ = look.eye - centre_;
-        }
-    }
-    int root = -1;
-    Skew skew;
-    Vector rootPlace{Real(0), Real(0), Real(0)};  // from the centre
-    const auto lookFrom = [&](int r) {
-        if (r == root)
-            return;
-        root = r;
-        skew.root(roots_[root] - look.eye, radius_);
-        rootPlace = roots_[root] - centre_;
-        eye.root(rootPlace);
-        if (manyRoots)
-            eye.horizon(horizonAt(roots_[root], horizon));
-        if (tapers_)
-            eye.rootRadius(tangentAt(roots_[root]));
-    };
-    const Voxel** to = list.voxels;
-    const Voxel** const full = to + room - 4 * PATCH_SEEDS;
-    const uint16_t drift = drift_;
-    // The nearer he is the more a move turns what he sees.
-    const int32_t away = eye.distance32() - (rawFromReal(shiftUp(coreReach(), 1) + radius_) >> 11);
-    const int32_t kept = away / DRIFT_SHARE < 1 ? 1 : away / DRIFT_SHARE > DRIFT_KEPT ? DRIFT_KEPT : away / DRIFT_SHARE;
-    Seed* const seeds = seeds_;
-    Patch* patch = patches_ + p;
-    Patch* const last = patches_ + patchCount_;
-    for (; patch < last && to <= full; ++patch) {
-        bool again = false;
-        if (static_cast<int16_t>(drift - patch->laid) >= 0 || patch->stale == STALE_ALL) {
-            again = true;
-            patch->laid = static_cast<uint16_t>(drift + kept);
-            patch->turned = patch->state == PATCH_MIXED;
-            patch->back = patch->state == PATCH_AT_REST
-                              ? eye.side(patch->axis, patch->across, patch->radius32, patch->spread) == EyeSide::BACK
-                              : patch->state != PATCH_MIXED;
-        }
-        if (patch->back)
-            continue;
-        if (patch->stale == STALE_ALL)
-            posePatch(*patch, false);
-        Seed* s = seeds + 2 * patch->first;
-        const Seed* const end = s + 2 * patch->count;
-        const int step = patch->extras ? 1 : 2;
-        if (again) {
-            for (Seed* each = s; each < end; each += step)
-                if ((each->flags & (SEED_VALID | SEED_PLACED)) == SEED_VALID)
-                    each->flags = static_cast<uint8_t>((each->flags & ~SEED_KEPT) | SEED_FRONT);
-        }
-        for (; s < end; s += step) {
-            if (!(s->flags & SEED_FRONT))
-                continue;
-            if (!(s->flags & SEED_KEPT)) {
-                lookFrom(s->root);
-                if (!layAtRest(*s, rootPlace, eye, skew, shadeSetup))
-                    continue;
-            }
-            *to++ = &s->voxel;
-        }
-    }
-    list.count = static_cast<int>(to - list.voxels);
-    *next = patch < last ? static_cast<int>(patch - patches_) : 0;
 }

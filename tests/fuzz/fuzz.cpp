@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "field.h"
+#include "profile.h"
 #include "scene.h"
 #include "shade.h"
 #include "voxel.h"
@@ -262,6 +263,7 @@ int main(int count, char** arguments)
     }
     const size_t given = pool.size();
     makeFieldSteps();
+    makeProfileSteps();
     makeShadeTables();
     signal(SIGALRM, onAlarm);
     alarm(10);

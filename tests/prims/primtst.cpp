@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "field.h"
+#include "profile.h"
 
 int passed = 0, failed = 0;
 
@@ -89,6 +90,7 @@ const std::vector<Sample> MANY = {
 int main(int count, char** arguments)
 {
     makeFieldSteps();
+    makeProfileSteps();
     makeShadeTables();
     if (count == 2 && std::strcmp(arguments[1], "even") == 0) {
         testEvenness(true);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "machine.h"
+#include "profile.h"
 #include "scene.h"
 
 namespace {
@@ -325,6 +326,7 @@ void changes()
 int main()
 {
     makeFieldSteps();
+    makeProfileSteps();
     motion();
     links();
     complaints();

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "field.h"
+#include "profile.h"
 #include "shade.h"
 
 namespace {
@@ -56,6 +57,7 @@ void note(const char* format, ...)
 int main(int count, char** arguments)
 {
     makeFieldSteps();
+    makeProfileSteps();
     makeShadeTables();
     int passed = 0, failed = 0;
     for (fbtest::Test* test = first; test != nullptr; test = test->next) {
