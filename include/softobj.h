@@ -11,9 +11,6 @@
 #include "voxel.h"
 
 class SoftObject;
-class EyeSide;
-class ShadeSetup;
-class Skew;
 
 // Most neighbours that one object can blend with at a time; further ones are left out.
 constexpr int NEAR_MOST = 63;
@@ -220,6 +217,7 @@ protected:
 
 private:
     friend class Settler;
+    friend class Lister;
     friend class Counter;
     friend class Filler;
 
@@ -294,8 +292,6 @@ private:
     void drawPrinted(const Look& look, VoxelList& list, int room, int* next);
     void updateQuick(const Look& look);
     void drawQuick(const Look& look, VoxelList& list, int room, int* next);
-    static bool layAtRest(Seed& s, const Vector& root, const EyeSide& eye, const Skew& skew,
-                          const ShadeSetup& shadeSetup);
     void freeSeeds();
 
     int number_;

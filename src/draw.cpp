@@ -3,111 +3,212 @@
 #include "shade.h"
 #include "softobj.h"
 
+// What is seldom needed stays out of the way of what often is.
+#define SELDOM __attribute__((noinline))
+
+// Where the compiler would pass what a function is given through memory.
+#if FB_I386
+#define REGISTERS __attribute__((regparm(3)))
+#else
+#define REGISTERS
+#endif
+
 namespace {
 
 // Depth, 1/32 unit, before which the whole cell of a seed at rest is covered: near the viewer a ring is no straight band in
 // the picture.
 constexpr int32_t WHOLE_BEFORE = 37 * 32;
 
+// Lists those of a patch that are seen, unless it meets one that does not lie in the view yet: then false, and `to` as it
+// was. Without a loop, for it is done for most seeds of a frame. `end` is behind the patch's seeds, `count` of which (1..8)
+// are regular ones; `extras`: the oversampled ones between are meant too.
+inline bool listKept(const Seed* end, int count, bool extras, const Voxel**& to)
+{
+    const Voxel** at = to;
+#define LIST(i) \
+    if (end[-(i)].flags & SEED_FRONT) { \
+        if (!(end[-(i)].flags & SEED_KEPT)) \
+            return false; \
+        *at++ = &end[-(i)].voxel; \
+    } \
+    [[fallthrough]]
+    if (!extras) {
+        switch (count) {
+        default: LIST(16);
+        case 7: LIST(14);
+        case 6: LIST(12);
+        case 5: LIST(10);
+        case 4: LIST(8);
+        case 3: LIST(6);
+        case 2: LIST(4);
+        case 1: LIST(2);
+        case 0: break;
+        }
+    } else {
+        switch (count) {
+        default: LIST(16); case -1: LIST(15);
+        case 7: LIST(14); case -2: LIST(13);
+        case 6: LIST(12); case -3: LIST(11);
+        case 5: LIST(10); case -4: LIST(9);
+        case 4: LIST(8); case -5: LIST(7);
+        case 3: LIST(6); case -6: LIST(5);
+        case 2: LIST(4); case -7: LIST(3);
+        case 1: LIST(2); case -8: LIST(1);
+        case 0: break;
+        }
+    }
+#undef LIST
+    to = at;
+    return true;
+}
+
 }  // namespace
 
-// How a seed at rest lies in the view, for as long as the object stays about where it is. False: it cannot be seen.
-inline bool SoftObject::layAtRest(Seed& s, const Vector& root, const EyeSide& eye, const Skew& skew, const ShadeSetup& shadeSetup)
+// Lays the seeds at rest of one object in the view, and lists what is seen of it.
+class Lister {
+public:
+    // SoftObject::draw()
+    static void list(SoftObject& object, const Look& look, VoxelList& list, int room, int* next);
+
+private:
+    static void setUp();
+    static void drift();
+    REGISTERS SELDOM static void lookFrom(int root);
+    REGISTERS SELDOM static void lay(Seed& s, int32_t along);
+    template <bool AGAIN, int STEP>
+    REGISTERS SELDOM static void layRun(Seed* s, const Seed* end);
+
+    // One object is listed at a time. At fixed addresses all this needs no register to find it.
+    static inline SoftObject* o_;
+    static inline const Look* look_;
+    static inline EyeSide eye_;
+    static inline Skew skew_;
+    static inline ShadeSetup light_;
+    static inline Real horizon_;        // of the object in general
+    static inline int root_;            // what eye_ and skew_ are set for
+    static inline Vector rootPlace_;    // from the centre
+};
+
+void Lister::setUp()
 {
-    s.flags |= SEED_KEPT;
-    const int32_t along = eye.along(s);
-    if (!eye.seen(along)) {
-        s.flags = static_cast<uint8_t>(s.flags & ~SEED_FRONT);
-        return false;
+    eye_.set(look_->eye - o_->centre_, o_->radius_, o_->coreReach());
+    horizon_ = o_->horizonRadius(look_->eye);
+    eye_.horizon(horizon_);
+    light_.set(look_->light, o_->spacing_);
+    root_ = -1;
+}
+
+// Adds up how far the viewer has moved.
+void Lister::drift()
+{
+    const Vector moved = (look_->eye - o_->centre_) - o_->eyeDrawn_;
+    const Real most(100);
+    const Vector limited{clamp(moved.x, -most, most), clamp(moved.y, -most, most), clamp(moved.z, -most, most)};
+    const int32_t steps = rawFromReal(nearLength(limited)) >> 10;
+    // Less is left to add up, or slow moves would count for nothing.
+    if (steps >= SoftObject::DRIFT_LEAST) {
+        o_->drift_ = static_cast<uint16_t>(o_->drift_ + steps);
+        o_->eyeDrawn_ = look_->eye - o_->centre_;
     }
-    const int32_t depth = skew.depth(s.path);
-    shadeSetup.restExtents(s, skew.x(s.path), skew.y(s.path), depth < WHOLE_BEFORE);
+}
+
+void Lister::lookFrom(int root)
+{
+    root_ = root;
+    skew_.root(o_->roots_[root] - look_->eye, o_->radius_);
+    rootPlace_ = o_->roots_[root] - o_->centre_;
+    eye_.root(rootPlace_);
+    if (o_->rootCount_ > 1)
+        eye_.horizon(o_->horizonAt(o_->roots_[root], horizon_));
+    if (o_->tapers_)
+        eye_.rootRadius(o_->tangentAt(o_->roots_[root]));
+}
+
+// How a seed at rest that is seen lies in the view, for as long as the object stays about where it is.
+void Lister::lay(Seed& s, int32_t along)
+{
+    s.flags |= SEED_FRONT | SEED_KEPT;
+    const int32_t depth = skew_.depth(s.path);
+    light_.restExtents(s, skew_.x(s.path), skew_.y(s.path), depth < WHOLE_BEFORE);
     int32_t shiftX, shiftY;
-    layDown(s.dirX, s.dirY, eye.restFacing(along), depth, eye.horizon(), s, shiftX, shiftY);
-    s.voxel.x = (rawFromReal(root.x + s.path.x) >> 8) + shiftX;
-    s.voxel.y = (rawFromReal(root.y + s.path.y) >> 8) + shiftY;
-    s.voxel.z = rawFromReal(root.z + s.path.z) >> 8;
-    return true;
+    layDown(s.dirX, s.dirY, eye_.restFacing(along), depth, eye_.horizon(), s, shiftX, shiftY);
+    s.voxel.x = (rawFromReal(rootPlace_.x + s.path.x) >> 8) + shiftX;
+    s.voxel.y = (rawFromReal(rootPlace_.y + s.path.y) >> 8) + shiftY;
+    s.voxel.z = rawFromReal(rootPlace_.z + s.path.z) >> 8;
+}
+
+// Lays every STEPth seed of a run that is at rest; without AGAIN only those that have come to rest just now.
+template <bool AGAIN, int STEP>
+void Lister::layRun(Seed* s, const Seed* end)
+{
+    // A seed that may be seen at rest is VALID and not PLACED; one that has come to rest is FRONT and not KEPT besides.
+    constexpr int MASK = AGAIN ? SEED_VALID | SEED_PLACED : SEED_FRONT | SEED_KEPT, WANTED = AGAIN ? SEED_VALID : SEED_FRONT;
+    for (; s < end; s += STEP) {
+        if ((s->flags & MASK) != WANTED)
+            continue;
+        if (s->root != root_)
+            lookFrom(s->root);
+        const int32_t along = eye_.along(*s);
+        if (eye_.seen(along))
+            lay(*s, along);
+        else
+            s->flags = static_cast<uint8_t>((s->flags & ~SEED_FRONT) | SEED_KEPT);
+    }
+}
+
+void Lister::list(SoftObject& object, const Look& look, VoxelList& list, int room, int* next)
+{
+    o_ = &object;
+    look_ = &look;
+    setUp();
+    const int p = *next;
+    if (p == 0)
+        drift();
+    const Voxel** to = list.voxels;
+    const Voxel** const full = to + room - 4 * SoftObject::PATCH_SEEDS;
+    const uint16_t drift = o_->drift_;
+    // The nearer he is the more a move turns what he sees.
+    const int32_t away = eye_.distance32() - (rawFromReal(shiftUp(o_->coreReach(), 1) + o_->radius_) >> 11);
+    const int32_t share = away / SoftObject::DRIFT_SHARE;
+    const int32_t kept = share < 1 ? 1 : share > SoftObject::DRIFT_KEPT ? SoftObject::DRIFT_KEPT : share;
+    Seed* const seeds = o_->seeds_;
+    SoftObject::Patch* patch = o_->patches_ + p;
+    SoftObject::Patch* const last = o_->patches_ + o_->patchCount_;
+    while (patch < last) {
+        SoftObject::Patch& each = *patch++;
+        const bool again = static_cast<int16_t>(drift - each.laid) >= 0;
+        if (again) {
+            each.laid = static_cast<uint16_t>(drift + kept);
+            each.turned = each.state == SoftObject::PATCH_MIXED;
+            each.back = each.state == SoftObject::PATCH_AT_REST
+                            ? eye_.side(each.axis, each.across, each.radius32, each.spread) == EyeSide::BACK
+                            : each.state != SoftObject::PATCH_MIXED;
+            if (each.stale == SoftObject::STALE_ALL) {
+                // What is to be turned first is judged every time until it is.
+                if (each.back)
+                    each.laid = drift;
+                else
+                    o_->posePatch(each, false);
+            }
+        }
+        if (each.back)
+            continue;
+        Seed* const first = seeds + 2 * each.first;
+        const Seed* const end = first + 2 * each.count;
+        if (again)
+            each.extras ? layRun<true, 1>(first, end) : layRun<true, 2>(first, end);
+        if (!listKept(end, each.count, each.extras, to)) {
+            layRun<false, 1>(first, end);
+            listKept(end, each.count, each.extras, to);
+        }
+        if (to > full)
+            break;
+    }
+    list.count = static_cast<int>(to - list.voxels);
+    *next = patch < last ? static_cast<int>(patch - o_->patches_) : 0;
 }
 
 void SoftObject::drawQuick(const Look& look, VoxelList& list, int room, int* next)
 {
-    EyeSide eye;
-    eye.set(look.eye - centre_, radius_, coreReach());
-    const Real horizon = horizonRadius(look.eye);
-    const bool manyRoots = rootCount_ > 1;
-    eye.horizon(horizon);
-    ShadeSetup shadeSetup;
-    shadeSetup.set(look.light, spacing_);
-    const int p = *next;
-    if (p == 0) {
-        const Vector moved = (look.eye - centre_) - eyeDrawn_;
-        const Real most(100);
-        const Vector limited{clamp(moved.x, -most, most), clamp(moved.y, -most, most), clamp(moved.z, -most, most)};
-        const int32_t steps = rawFromReal(nearLength(limited)) >> 10;
-        // Less is left to add up, or slow moves would count for nothing.
-        if (steps >= DRIFT_LEAST) {
-            drift_ = static_cast<uint16_t>(drift_ + steps);
-            eyeDrawn_ = look.eye - centre_;
-        }
-    }
-    int root = -1;
-    Skew skew;
-    Vector rootPlace{Real(0), Real(0), Real(0)};  // from the centre
-    const auto lookFrom = [&](int r) {
-        if (r == root)
-            return;
-        root = r;
-        skew.root(roots_[root] - look.eye, radius_);
-        rootPlace = roots_[root] - centre_;
-        eye.root(rootPlace);
-        if (manyRoots)
-            eye.horizon(horizonAt(roots_[root], horizon));
-        if (tapers_)
-            eye.rootRadius(tangentAt(roots_[root]));
-    };
-    const Voxel** to = list.voxels;
-    const Voxel** const full = to + room - 4 * PATCH_SEEDS;
-    const uint16_t drift = drift_;
-    // The nearer he is the more a move turns what he sees.
-    const int32_t away = eye.distance32() - (rawFromReal(shiftUp(coreReach(), 1) + radius_) >> 11);
-    const int32_t kept = away / DRIFT_SHARE < 1 ? 1 : away / DRIFT_SHARE > DRIFT_KEPT ? DRIFT_KEPT : away / DRIFT_SHARE;
-    Seed* const seeds = seeds_;
-    Patch* patch = patches_ + p;
-    Patch* const last = patches_ + patchCount_;
-    for (; patch < last && to <= full; ++patch) {
-        bool again = false;
-        if (static_cast<int16_t>(drift - patch->laid) >= 0 || patch->stale == STALE_ALL) {
-            again = true;
-            patch->laid = static_cast<uint16_t>(drift + kept);
-            patch->turned = patch->state == PATCH_MIXED;
-            patch->back = patch->state == PATCH_AT_REST
-                              ? eye.side(patch->axis, patch->across, patch->radius32, patch->spread) == EyeSide::BACK
-                              : patch->state != PATCH_MIXED;
-        }
-        if (patch->back)
-            continue;
-        if (patch->stale == STALE_ALL)
-            posePatch(*patch, false);
-        Seed* s = seeds + 2 * patch->first;
-        const Seed* const end = s + 2 * patch->count;
-        const int step = patch->extras ? 1 : 2;
-        if (again) {
-            for (Seed* each = s; each < end; each += step)
-                if ((each->flags & (SEED_VALID | SEED_PLACED)) == SEED_VALID)
-                    each->flags = static_cast<uint8_t>((each->flags & ~SEED_KEPT) | SEED_FRONT);
-        }
-        for (; s < end; s += step) {
-            if (!(s->flags & SEED_FRONT))
-                continue;
-            if (!(s->flags & SEED_KEPT)) {
-                lookFrom(s->root);
-                if (!layAtRest(*s, rootPlace, eye, skew, shadeSetup))
-                    continue;
-            }
-            *to++ = &s->voxel;
-        }
-    }
-    list.count = static_cast<int>(to - list.voxels);
-    *next = patch < last ? static_cast<int>(patch - patches_) : 0;
+    Lister::list(*this, look, list, room, next);
 }

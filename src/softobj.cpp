@@ -440,6 +440,7 @@ void SoftObject::poseSeeds()
         facePatch(patch, turn * patchRest_[p].axis);
         patch.state = PATCH_UNKNOWN;
         patch.stale = STALE_ALL;
+        patch.laid = drift_;
     }
     stale_ = true;
 }
@@ -515,6 +516,7 @@ void SoftObject::shadeRest(const Vector& light)
         for (int p = 0; p < patchCount_; ++p) {
             patches_[p].state = PATCH_UNKNOWN;
             patches_[p].stale = STALE_ALL;
+            patches_[p].laid = drift_;
         }
         stale_ = true;
         return;
