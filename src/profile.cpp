@@ -52,12 +52,12 @@ void Profile::make(Real a0, Real c0, Real least, Real border)
     }
     top_ = b[0];
     depth_ = top_ - lowest;
-    shift_ = 8;
-    while (depth_ >> shift_ >= CELLS)
-        ++shift_;
+    fine_ = 0;
+    while (depth_ >> (fine_ + 8) >= CELLS)
+        ++fine_;
 
     Cell* cell = cells_;
-    const int32_t width = 1 << shift_;
+    const int32_t width = 1 << (fine_ + 8);
     int32_t low = top_, at = top_ - width;  // the least b up to here; the lower end of the cell at hand
     cell->position = rawFromReal(steps[0].position);
     cell->rise = 0;

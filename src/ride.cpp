@@ -1,0 +1,175 @@
+// The seeds of a patch, in C++: what asm/ride.S does, said plainly.
+#include "field.h"
+#include "ride.h"
+
+RideFrame ride;
+
+namespace {
+
+// Nothing to see of this seed until things have moved on by `steps`, 0 or more.
+void wait(Seed& s, uint8_t flags, int32_t steps)
+{
+    s.flags = flags;
+    s.wakes = static_cast<int16_t>(ride.later + lesser(steps, WAIT_MOST));
+}
+
+const RideNear& touch(int n)
+{
+    return *reinterpret_cast<const RideNear*>(ride.shade.pulls[n]);
+}
+
+// No neighbour reaches it: how long for.
+void lieAtRest(Seed& s)
+{
+    int32_t steps = WAIT_MOST;
+    for (const RideNear* near = ride.first; near != nullptr; near = near->next)
+        steps = lesser(steps, stepsOf(shiftUp(near->sum, B_SHIFT) - near->touching, near->waitApart));
+    s.position = Real(1);
+    // One that was at rest before lies as it did; the others are to be laid.
+    const bool lies = (s.flags & (SEED_KEPT | SEED_PLACED)) == SEED_KEPT;
+    wait(s, lies ? SEED_VALID | SEED_KEPT | (s.flags & SEED_FRONT) : SEED_VALID | SEED_FRONT, steps);
+    s.voxel.brightness = s.restBrightness;
+}
+
+// See Settler::facesAway(): true, and it waits.
+bool facesAway(Seed& s, int32_t along)
+{
+    const Real across = realFromRaw(along >> 14 << 11);
+    const Real share = across * ride.awayShare;
+    for (int n = ride.shade.count - 1; n >= 0; --n) {
+        const RideNear& near = touch(n);
+        Real term = share - ride.b[n] * near.halfSquare;
+        if (term > Real(0))
+            term += term;  // POSITION_MOST / PLACED_LEAST, rounded up
+        const Real beyond = near.awayLimit - term;
+        if (beyond <= Real(0))
+            return false;
+        ride.beyond[n] = beyond;
+    }
+    int32_t steps = stepsOf(ride.awayEdge - across, Real(AWAY_MOST), ride.waitAlong);
+    for (int n = ride.shade.count - 1; n >= 0; --n)
+        steps = lesser(steps, stepsOf(ride.beyond[n], Real(AWAY_MOST), touch(n).waitAway));
+    // Half of it is sure whatever they do.
+    const int32_t counted = 2 * ride.paceSteps;
+    if (steps > counted)
+        steps = steps < 2 * counted ? counted : steps >> 1;
+    // Where it is held to be does not matter; should it come round again it is looked for from there.
+    wait(s, s.flags & SEED_VALID ? SEED_VALID | SEED_PLACED : s.flags & SEED_PLACED, steps);
+    return true;
+}
+
+// One neighbour alone reaches it.
+void settleBetween(Seed& s)
+{
+    RideNear& near = const_cast<RideNear&>(touch(0));
+    const Real b = ride.b[0];
+    ++ride.placed;
+    Real position;
+    bool leaves = near.profile->place(b, position);
+    if (!leaves && !near.profile->made()) {
+        ride.profileFor(&near);
+        leaves = near.profile->place(b, position);
+    }
+    if (!leaves || position > ride.placedMost) {
+        s.position = leaves ? position : Real(1);
+        wait(s, leaves ? SEED_PLACED : 0, stepsOf(most(near.profile->edge() - b, Real(0)), near.waitApart));
+        return;
+    }
+    s.wakes = static_cast<int16_t>(ride.later + 1);
+    if ((s.flags & SEED_KEPT) && absolute(position - s.position) <= ride.kept)
+        return;
+    s.position = position;
+    ride.shade.ownSlope = ownQuick(position).slope;
+    const Real t = near.a0 + position * (b + position * near.c0);
+    ride.shade.slopes[0] = geoffQuick(clamp(t, Real(0), TOUCHING)).slope;
+    const int32_t facing = shadeSeed(&ride.shade, &s, position, position > ride.evenMost ? OVER_BACK : 0);
+    if (facing <= 0) {
+        wait(s, SEED_VALID | SEED_PLACED, mulShift16(-facing, near.waitFacing));
+        return;
+    }
+    ++ride.normals;
+    s.flags = SEED_VALID | SEED_PLACED | SEED_KEPT | SEED_FRONT;
+}
+
+void settle(Seed& s)
+{
+    // Which neighbours are near enough to matter, or one so near that the seed lies inside anyway?
+    int met = 0, apart = 0;
+    for (RideNear* near = ride.first; near != nullptr; near = near->next) {
+        const Real sum = alongSum(s.path, near->twice);
+        near->sum = sum;
+        if (sum >= near->meetingSum)
+            continue;
+        if (sum < near->buryingSum) {
+            s.position = Real(1);
+            wait(s, 0, stepsOf(near->burying - shiftUp(sum, B_SHIFT), near->waitBuried));
+            return;
+        }
+        apart += sum >= near->touchingSum;
+        ride.b[met] = shiftUp(sum, B_SHIFT);
+        ride.shade.pulls[met++] = &near->pull;
+    }
+    if (met == apart) {
+        lieAtRest(s);
+        return;
+    }
+    ride.shade.count = met;
+    const int32_t along = ride.shade.eye.along(s);
+    if (along < ride.awayAlong) {
+        if (facesAway(s, along))
+            return;
+        const int32_t away = ride.shade.eye.away(along);
+        if (away > 0) {
+            wait(s, 0, mulShift16(away, ride.waitAway));
+            return;
+        }
+    }
+    if (met == 1) {
+        settleBetween(s);
+        return;
+    }
+    ++ride.several;
+    s.wakes = static_cast<int16_t>(ride.later + 1);
+    if (!(s.flags & (SEED_VALID | SEED_PLACED))) {
+        ride.lost(&s);
+        return;
+    }
+    rideLookC(s.position);
+    if (!(s.flags & SEED_KEPT) || ride.strength > Real(0) || absolute(ride.excess) > DISPLACEMENT)
+        ride.moves(&s);
+    else if (ride.keptWait)
+        ride.stays(&s);
+}
+
+}  // namespace
+
+void rideLookC(Real position)
+{
+    ++ride.looks;
+    const OwnStep& own = ownQuick(position);
+    Real field = own.value, steep = own.steep, strongest(0);
+    ride.shade.ownSlope = own.slope;
+    for (int n = 0; n < ride.shade.count; ++n) {
+        const RideNear& near = touch(n);
+        const Real c = position * near.c0;
+        const Real sum = ride.b[n] + c;
+        const Real t = near.a0 + position * sum;
+        if (static_cast<uint32_t>(rawFromReal(t)) >= 65536) {
+            ride.shade.slopes[n] = Real(0);
+            continue;
+        }
+        const FieldStep& step = geoffQuick(t);
+        ride.shade.slopes[n] = step.slope;
+        field += step.value;
+        steep += step.slope * (sum + c);
+        strongest = most(strongest, step.value);
+    }
+    ride.excess = field - ISOVALUE;
+    ride.slope = steep;
+    ride.strength = strongest - own.value - ride.overshoot;
+}
+
+int32_t rideC(Seed* seeds, int32_t count, int32_t turned)
+{
+    return throughSeeds(seeds, count, turned, settle);
+}
