@@ -13,8 +13,8 @@ void makeProfileSteps();
 class Profile {
 public:
     // From here on until make() it has no places.
-    void clear() { depth_ = INT32_MIN; }
-    bool made() const { return depth_ != INT32_MIN; }
+    void clear() { depth_ = NOT_MADE; }
+    bool made() const { return depth_ != NOT_MADE; }
 
     // The neighbour's squared distance / squared size is a0 + position (b + position c0) along the paths, b tells them apart,
     // and none has less than `least`. `border`: the position from which on the neighbour is too strong (1..2).
@@ -39,6 +39,7 @@ public:
 private:
     friend struct RideLayout;
     static constexpr int CELLS = 64;
+    static constexpr int32_t NOT_MADE = INT32_MIN;  // a depth
     struct Cell {
         int32_t position;  // raw; at its upper end
         int32_t rise;      // to its lower end
