@@ -158,11 +158,11 @@ asleep\turned:
         movb    SEED_FLAGS(%esi), %al
         movl    SEED_SIZE+SEED_NEIGHBOUR(%esi), %ecx
         orb     %al, SEEN(%esp)
-        // if (((flags | other.flags) & (PLACED | FRONT)) == (PLACED | FRONT)) ..
+        // if (((flags | other.flags) & (PLACED | FRONT)) == (PLACED | FRONT)) ..: FRONT is the sign
         orb     SEED_FLAGS(%esi,%ecx), %al
-        andb    $PLACED|FRONT, %al
-        cmpb    $PLACED|FRONT, %al
-        je      pair\turned
+        jns     none\turned
+        testb   $PLACED, %al
+        jnz     pair\turned
 none\turned:
         // else extra.flags = 0
         movb    $0, SEED_SIZE+SEED_FLAGS(%esi)
@@ -275,8 +275,8 @@ next:
         addl    %ecx, %edx
         // if (sum >= meetingSum) continue
         cmpl    NEAR_MEETINGSUM(%ebx), %edx
-        movl    %edx, NEAR_SUM(%ebx)
         jl      met
+        movl    %edx, NEAR_SUM(%ebx)
         movl    NEAR_NEXT(%ebx), %ebx
         testl   %ebx, %ebx
         jnz     next
@@ -442,6 +442,7 @@ at_rest:
 
         // ++apart
 only_met:
+        movl    %edx, NEAR_SUM(%ebx)
         incl    %ebp
         jmp     touched
 

@@ -34,7 +34,7 @@ struct RideNear {
     // whole stretch of the path lies inside the surface. For sums(), of b / 2^B_SHIFT, rounded up.
     Real meetingSum, touchingSum, buryingSum;
     Real touching, burying;
-    Real sum;  // of the seed at hand
+    Real sum;  // of the seed at hand, where its field does not reach it at rest
     // Steps of travel that seeds wait: for a difference of 1 in squared distance / squared size on this side of where its
     // field ends, and of where it buries; for a facing of 1/32 unit (16 bits of fraction).
     Real waitApart, waitBuried;

@@ -97,7 +97,8 @@ void settle(Seed& s)
     int met = 0, apart = 0;
     for (RideNear* near = ride.first; near != nullptr; near = near->next) {
         const Real sum = alongSum(s.path, near->twice);
-        near->sum = sum;
+        if (sum >= near->touchingSum)
+            near->sum = sum;
         if (sum >= near->meetingSum)
             continue;
         if (sum < near->buryingSum) {
