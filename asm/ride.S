@@ -73,16 +73,17 @@
 #define RIDE_SEVERAL 72
 #define RIDE_LOOKS   76
 #define RIDE_NORMALS 80
-#define RIDE_EXCESS  84
-#define RIDE_SLOPE   88
-#define RIDE_STRENGTH 92
-#define RIDE_PROFILEFOR 96
-#define RIDE_STAYS   100
-#define RIDE_MOVES   104
-#define RIDE_LOST    108
-#define RIDE_B       112
-#define RIDE_BEYOND  364
-#define RIDE_SHADE   616
+#define RIDE_UNSETTLED 84
+#define RIDE_EXCESS  88
+#define RIDE_SLOPE   92
+#define RIDE_STRENGTH 96
+#define RIDE_PROFILEFOR 100
+#define RIDE_STAYS   104
+#define RIDE_HELD    108
+#define RIDE_LOST    112
+#define RIDE_B       116
+#define RIDE_BEYOND  368
+#define RIDE_SHADE   620
 // of which these are in its ShadeFrame (include/lie.h)
 #define EYE_X        RIDE_SHADE+24
 #define EYE_Y        RIDE_SHADE+28
@@ -109,6 +110,12 @@
 #define AWAY_MOST    24*65536
 #define TOUCHING     58982
 #define DISPLACEMENT 655
+#define SHORT_STEP   3277
+#define LONGEST_STEP 16384
+#define LOOK_LIMIT   8
+#define FLAT         -13107
+#define PLACED_LEAST 62259
+#define POSITION_MOST 121242
 #define OVER_BACK    128
 #define ISOVALUE     32768
 #define OWN_FIRST    940
@@ -570,22 +577,75 @@ several:
         movw    RIDE(RIDE_TRAVEL+2), %ax
         incl    RIDE(RIDE_SEVERAL)
         movw    %ax, SEED_WAKES(%esi)
-        // if (!(flags & (VALID | PLACED))) lost(&s), return
+        // if (!(flags & (VALID | PLACED))) lost(&s, position), return
+        movl    SEED_POSITION(%esi), %ebp
         testb   $VALID|PLACED, SEED_FLAGS(%esi)
         jz      lost
         // rideLook(position)
-        movl    SEED_POSITION(%esi), %ebp
         call    look
-        // if (!(flags & KEPT) || strength > 0 || |excess| > DISPLACEMENT) moves(&s)
+        // if ((flags & KEPT) && strength <= 0 && |excess| <= DISPLACEMENT) ..
         testb   $KEPT, SEED_FLAGS(%esi)
-        jz      moves
+        jz      newton
         cmpl    $0, RIDE(RIDE_STRENGTH)
-        jg      moves
+        jg      newton
         movl    RIDE(RIDE_EXCESS), %eax
         addl    $DISPLACEMENT, %eax
         cmpl    $2*DISPLACEMENT, %eax
-        ja      moves
-        // else if (keptWait) stays(&s)
+        jbe     stays
+
+        // Newton's method.
+        //   ebp  position
+newton:
+        pushl   $LOOK_LIMIT
+newton_step:
+        // if (slope > FLAT) return false;  step = quotient(-excess, slope)
+        movl    RIDE(RIDE_SLOPE), %ecx
+        movl    $-65536, %eax
+        cmpl    $FLAT, %ecx
+        jg      newton_fails
+        imull   RIDE(RIDE_EXCESS)
+        idivl   %ecx
+        // step = clamp(step, -LONGEST_STEP, LONGEST_STEP)
+        leal    LONGEST_STEP(%eax), %edx
+        cmpl    $2*LONGEST_STEP, %edx
+        ja      limit_step
+step_limited:
+        // position += step;  if (position < PLACED_LEAST || position > POSITION_MOST) return false
+        addl    %eax, %ebp
+        leal    -PLACED_LEAST(%ebp), %edx
+        cmpl    $POSITION_MOST-PLACED_LEAST, %edx
+        ja      newton_fails
+        // if (|step| <= SHORT_STEP) return true
+        addl    $SHORT_STEP, %eax
+        cmpl    $2*SHORT_STEP, %eax
+        jbe     settled
+        // if (i < LOOK_LIMIT) rideLook(position)
+        decl    (%esp)
+        jz      unsettled
+        call    look
+        jmp     newton_step
+settled:
+        popl    %edx
+        // seed.position = position;  if (strength > 0) held(&s)
+        movl    RIDE(RIDE_STRENGTH), %edx
+        movl    %ebp, %ecx
+        movl    %ebp, SEED_POSITION(%esi)
+        testl   %edx, %edx
+        jg      held
+        // else shade(s, position, strength + overshoot > 0)
+        xorl    %eax, %eax
+        addl    RIDE(RIDE_OVERSHOOT), %edx
+        jle     shade
+        movl    $OVER_BACK, %eax
+        jmp     shade
+
+held:
+        pushl   %esi
+        call    *RIDE(RIDE_HELD)
+        popl    %ecx
+        ret
+stays:
+        // if (keptWait) stays(&s)
         cmpl    $0, RIDE(RIDE_KEPTWAIT)
         je      1f
         pushl   %esi
@@ -593,16 +653,24 @@ several:
         popl    %ecx
 1:
         ret
-moves:
-        pushl   %esi
-        call    *RIDE(RIDE_MOVES)
-        popl    %ecx
-        ret
+unsettled:
+        incl    RIDE(RIDE_UNSETTLED)
+newton_fails:
+        // lost(&s, 1)
+        popl    %edx
+        movl    $65536, %ebp
 lost:
+        pushl   %ebp
         pushl   %esi
         call    *RIDE(RIDE_LOST)
-        popl    %ecx
+        addl    $8, %esp
         ret
+limit_step:
+        // step < 0 ? -LONGEST_STEP : LONGEST_STEP
+        sarl    $31, %eax
+        andl    $-2*LONGEST_STEP, %eax
+        addl    $LONGEST_STEP, %eax
+        jmp     step_limited
 
         // Seldom
 above:
@@ -618,9 +686,19 @@ beyond_border:
         movl    $OVER_BACK, %eax
         jmp     shade
 faces_not:
-        // wait(VALID | PLACED, mulShift16(-facing, waitFacing))
+        // wait(VALID | PLACED, mulShift16(-facing, the least waitFacing))
+        movl    RIDE(COUNT), %edi
         negl    %eax
-        imull   NEAR_WAITFACING(%ebx)
+        movl    $0x7fffffff, %ecx
+1:
+        movl    RIDE(PULLS-4)(,%edi,4), %ebx
+        cmpl    %ecx, NEAR_WAITFACING(%ebx)
+        jge     2f
+        movl    NEAR_WAITFACING(%ebx), %ecx
+2:
+        decl    %edi
+        jnz     1b
+        imull   %ecx
         shrdl   $16, %edx, %eax
         movl    %eax, %edx
         movb    $VALID|PLACED, %al

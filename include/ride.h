@@ -11,6 +11,16 @@
 // Squared distance / squared size from which a neighbour is left out: its field is 0.006 there, inside the tolerance.
 constexpr Real TOUCHING(0.9);
 constexpr Real DISPLACEMENT(0.010);  // of the field at the seed's last place: less is taken as not moved
+// A seed is looked for to within 0.01 of the field. Newton's last step is taken without another look when it is short.
+constexpr Real SHORT_STEP(0.05);     // of the position: what remains after it is below 2 SHORT_STEP^2 in the field
+constexpr Real LONGEST_STEP(0.25);   // of the position
+constexpr int LOOK_LIMIT = 8;        // then the surface is bracketed and bisected
+constexpr Real FLAT(-0.2);           // slope above which Newton's method is not trusted
+// No seed is looked for farther in: there its own field is more than the isovalue.
+constexpr Real PLACED_LEAST(0.95);
+// No valid seed lies farther out: there its own field is 0.013, and a neighbour that makes up the rest alone is stronger by
+// more than the overshoot.
+constexpr Real POSITION_MOST(1.85);
 constexpr int32_t OVER_BACK = 128;   // 1/256 unit: how far a seed beyond the border is set back
 // Travel is counted in steps; no seed waits longer than so many of them.
 constexpr int WAIT_MOST = 0x3000;
@@ -63,15 +73,16 @@ struct RideFrame {
     int32_t several;      // counts those that more than one neighbour reaches
     int32_t looks;        // counts rideLook()s
     int32_t normals;      // counts seeds that were shaded and face the viewer
+    int32_t unsettled;    // counts those that LOOK_LIMIT looks did not settle
     // Of the last look: the field less the isovalue, its slope along the path, by how much the strongest neighbour is stronger
     // than the overshoot allows.
     Real excess, slope, strength;
     void (*profileFor)(RideNear*);  // makes the profile; before that it has been Profile::clear()ed
-    // Of a seed that several neighbours reach, and that may be seen. It is where it was; how long it stays. It is not: the last
-    // look was at its position. It is to be looked for from its position.
+    // Of a seed that several neighbours reach, and that may be seen. It is where it was; how long it stays. Its position is a
+    // place where the path leaves the surface, but a neighbour is too strong. It is to be looked for from a position.
     void (*stays)(Seed*);
-    void (*moves)(Seed*);
-    void (*lost)(Seed*);
+    void (*held)(Seed*);
+    void (*lost)(Seed*, Real from);
     Real b[PULLS_MOST];      // of the neighbours that matter: shade.pulls, of which each is a RideNear's
     Real beyond[PULLS_MOST];
     ShadeFrame shade;
@@ -137,6 +148,16 @@ inline int32_t stepsOf(Real difference, Real most, Real wait)
 inline int32_t stepsOf(Real difference, Real wait)
 {
     return stepsOf(difference, Real(1), wait);
+}
+
+// a / b where the quotient is known to fit.
+inline Real quotient(Real a, Real b)
+{
+#if FB_REAL == FB_FIXED
+    return Real::fromRaw(mulDiv(a.raw, 65536, b.raw));
+#else
+    return a / b;
+#endif
 }
 
 inline int32_t lesser(int32_t a, int32_t b)

@@ -58,6 +58,21 @@ bool facesAway(Seed& s, int32_t along)
     return true;
 }
 
+// It has settled; `beyond`: where a neighbour is stronger than it.
+void shade(Seed& s, Real position, bool beyond)
+{
+    const int32_t facing = shadeSeed(&ride.shade, &s, position, beyond ? OVER_BACK : 0);
+    if (facing > 0) {
+        ++ride.normals;
+        s.flags = SEED_VALID | SEED_PLACED | SEED_KEPT | SEED_FRONT;
+        return;
+    }
+    int32_t waitFacing = INT32_MAX;
+    for (int n = 0; n < ride.shade.count; ++n)
+        waitFacing = lesser(waitFacing, touch(n).waitFacing);
+    wait(s, SEED_VALID | SEED_PLACED, mulShift16(-facing, waitFacing));
+}
+
 // One neighbour alone reaches it.
 void settleBetween(Seed& s)
 {
@@ -82,13 +97,54 @@ void settleBetween(Seed& s)
     ride.shade.ownSlope = ownQuick(position).slope;
     const Real t = near.a0 + position * (b + position * near.c0);
     ride.shade.slopes[0] = geoffQuick(clamp(t, Real(0), TOUCHING)).slope;
-    const int32_t facing = shadeSeed(&ride.shade, &s, position, position > ride.evenMost ? OVER_BACK : 0);
-    if (facing <= 0) {
-        wait(s, SEED_VALID | SEED_PLACED, mulShift16(-facing, near.waitFacing));
+    shade(s, position, position > ride.evenMost);
+}
+
+// From where it was, after a look there. False: the method does not apply here. Else `position` is the place, and the last
+// look's terms are left for the normal.
+bool newton(Real& position)
+{
+    for (int i = 1; i <= LOOK_LIMIT; ++i) {
+        if (ride.slope > FLAT)
+            return false;
+        Real step = quotient(-ride.excess, ride.slope);
+        step = clamp(step, -LONGEST_STEP, LONGEST_STEP);
+        position += step;
+        if (position < PLACED_LEAST || position > POSITION_MOST)
+            return false;
+        if (absolute(step) <= SHORT_STEP)
+            return true;
+        if (i < LOOK_LIMIT)
+            rideLookC(position);
+    }
+    ++ride.unsettled;
+    return false;
+}
+
+void settleAmong(Seed& s)
+{
+    ++ride.several;
+    s.wakes = static_cast<int16_t>(ride.later + 1);
+    Real position = s.position;
+    if (!(s.flags & (SEED_VALID | SEED_PLACED))) {
+        ride.lost(&s, position);
         return;
     }
-    ++ride.normals;
-    s.flags = SEED_VALID | SEED_PLACED | SEED_KEPT | SEED_FRONT;
+    rideLookC(position);
+    if ((s.flags & SEED_KEPT) && ride.strength <= Real(0) && absolute(ride.excess) <= DISPLACEMENT) {
+        if (ride.keptWait)
+            ride.stays(&s);
+        return;
+    }
+    if (!newton(position)) {
+        ride.lost(&s, Real(1));
+        return;
+    }
+    s.position = position;
+    if (ride.strength > Real(0))
+        ride.held(&s);
+    else
+        shade(s, position, ride.strength + ride.overshoot > Real(0));
 }
 
 void settle(Seed& s)
@@ -125,21 +181,10 @@ void settle(Seed& s)
             return;
         }
     }
-    if (met == 1) {
+    if (met == 1)
         settleBetween(s);
-        return;
-    }
-    ++ride.several;
-    s.wakes = static_cast<int16_t>(ride.later + 1);
-    if (!(s.flags & (SEED_VALID | SEED_PLACED))) {
-        ride.lost(&s);
-        return;
-    }
-    rideLookC(s.position);
-    if (!(s.flags & SEED_KEPT) || ride.strength > Real(0) || absolute(ride.excess) > DISPLACEMENT)
-        ride.moves(&s);
-    else if (ride.keptWait)
-        ride.stays(&s);
+    else
+        settleAmong(s);
 }
 
 }  // namespace

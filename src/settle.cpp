@@ -22,17 +22,6 @@
 
 namespace {
 
-// A seed is looked for to within 0.01 of the field. Newton's last step is taken without another look when it is short.
-constexpr Real SHORT_STEP(0.05);     // of the position: what remains after it is below 2 SHORT_STEP^2 in the field
-constexpr Real LONGEST_STEP(0.25);   // of the position
-constexpr int LOOK_LIMIT = 8;        // then the surface is bracketed and bisected
-constexpr Real FLAT(-0.2);           // slope above which Newton's method is not trusted
-
-// No seed is looked for farther in: there its own field is more than the isovalue.
-constexpr Real PLACED_LEAST(0.95);
-// No valid seed lies farther out: there its own field is 0.013, and a neighbour that makes up the rest alone is stronger by
-// more than the overshoot.
-constexpr Real POSITION_MOST(1.85);
 // Where a path is looked at for the first time outside the surface, when nothing is known of it; how much farther out then,
 // and how often where it may come out between.
 constexpr Real PROBE(1.15);
@@ -151,16 +140,14 @@ private:
     void settleSeed(Seed& s);
     static void profileFor(RideNear* near);
     static void stays(Seed* s);
-    static void moves(Seed* s);
-    static void lost(Seed* s);
-    template <bool PLAIN>
-    REGISTERS SELDOM void follow(Seed& s, Real off, Real slope);
+    static void held(Seed* s);
+    static void lost(Seed* s, Real from);
+    void follow(Seed& s, Real off, Real slope);
     template <bool PLAIN>
     REGISTERS void settleAt(Seed& s, Real position, bool settled);
     template <bool PLAIN>
     Real lookAt(Real position, Real& slope);
-    template <bool PLAIN>
-    REGISTERS SELDOM bool newton(Real position, Real step);
+    bool newton(Real position, Real step);
     void travel();
     void wait(Seed& s, uint8_t flags, int32_t steps) const;
     void wait(Seed& s, uint8_t flags, Real difference, Real steps) const;
@@ -353,7 +340,7 @@ void Settler::settle()
     activated_ = 0;
     rootIndex_ = -1;
     updated_ = 0;
-    ride.placed = ride.several = ride.looks = ride.normals = 0;
+    ride.placed = ride.several = ride.looks = ride.normals = ride.unsettled = 0;
     eye_.set(look_.eye - o_.centre_, o_.radius_, o_.coreReach());
     horizon_ = o_.horizonRadius(look_.eye);
     eye_.horizon(horizon_);
@@ -395,13 +382,14 @@ void Settler::settle()
     ride.keptWait = keptWait_;
     ride.profileFor = profileFor;
     ride.stays = stays;
-    ride.moves = moves;
+    ride.held = held;
     ride.lost = lost;
     settler_ = this;
     settlePatches(plain);
     look_.counts->iterations += static_cast<uint32_t>(ride.looks + ride.placed);
     look_.counts->updated += updated_ + static_cast<uint32_t>(ride.placed + ride.several);
     look_.counts->normals += static_cast<uint32_t>(ride.normals);
+    look_.counts->unsettled += static_cast<uint32_t>(ride.unsettled);
 }
 
 // Adds up how far neighbours and viewer have moved against the object since its last update. One sum must do for all of
@@ -668,19 +656,8 @@ inline Real Settler::lookAt(Real position, Real& slope)
     return field;
 }
 
-// a / b where the quotient is known to fit.
-inline Real quotient(Real a, Real b)
-{
-#if FB_REAL == FB_FIXED
-    return Real::fromRaw(mulDiv(a.raw, 65536, b.raw));
-#else
-    return a / b;
-#endif
-}
-
 // From a position near the surface, and the step that a look there gave. False: the method does not apply here. Else found_
 // is the position, and the last look's terms are left for the normal.
-template <bool PLAIN>
 bool Settler::newton(Real position, Real step)
 {
     for (int i = 1; i < LOOK_LIMIT; ++i) {
@@ -692,12 +669,12 @@ bool Settler::newton(Real position, Real step)
         if (absolute(step) <= SHORT_STEP)
             return true;
         Real slope;
-        const Real field = lookAt<PLAIN>(position, slope);
+        const Real field = lookAt<false>(position, slope);
         if (slope > FLAT)
             return false;
         step = quotient(ISOVALUE - field, slope);
     }
-    ++look_.counts->unsettled;
+    ++ride.unsettled;
     return false;
 }
 
@@ -867,18 +844,17 @@ void Settler::stays(Seed* s)
         settler_->wait(*s, s->flags, steps);
 }
 
-void Settler::moves(Seed* s)
+void Settler::held(Seed* s)
 {
-    settler_->follow<true>(*s, ride.excess, ride.slope);
+    settler_->wait(*s, SEED_PLACED, settler_->holdSteps(s->path, s->position, strength_));
 }
 
-void Settler::lost(Seed* s)
+void Settler::lost(Seed* s, Real from)
 {
-    settler_->settleAt<true>(*s, s->position, false);
+    settler_->settleAt<true>(*s, from, false);
 }
 
 // From where it was; `off` and `slope`: what a look there gave.
-template <bool PLAIN>
 void Settler::follow(Seed& s, Real off, Real slope)
 {
     Real position = s.position;
@@ -889,11 +865,11 @@ void Settler::follow(Seed& s, Real off, Real slope)
             position += step;
             settled = position >= PLACED_LEAST && position <= POSITION_MOST;
         } else {
-            settled = newton<PLAIN>(position, step);
+            settled = newton(position, step);
             position = found_;
         }
     }
-    settleAt<PLAIN>(s, settled ? position : Real(1), settled);
+    settleAt<false>(s, settled ? position : Real(1), settled);
 }
 
 // Settled there, or to be looked for from there.
@@ -911,7 +887,10 @@ inline void Settler::settleAt(Seed& s, Real position, bool settled)
         return;
     }
     if (strength_ > Real(0)) {
-        wait(s, SEED_PLACED, PLAIN ? holdSteps(s.path, position, strength_) : stepsOf(strength_, waitField()));
+        if (PLAIN)
+            held(&s);
+        else
+            wait(s, SEED_PLACED, stepsOf(strength_, waitField()));
         return;
     }
     shade<PLAIN>(s, position);
@@ -996,7 +975,7 @@ void Settler::settleSeed(Seed& s)
     Real slope;
     const Real off = lookAt<false>(s.position, slope) - ISOVALUE;
     if (!(s.flags & SEED_KEPT) || strength_ > Real(0) || absolute(off) > DISPLACEMENT)
-        follow<false>(s, off, slope);
+        follow(s, off, slope);
 }
 
 // Brightness, extents and tilt from the gradient of the field, put together from the last look.

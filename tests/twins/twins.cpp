@@ -93,10 +93,10 @@ struct RideLayout {
                   inride::RIDE_OVERSHOOT == offsetof(RideFrame, overshoot) && inride::RIDE_KEPTWAIT == offsetof(RideFrame, keptWait) &&
                   inride::RIDE_PLACED == offsetof(RideFrame, placed) && inride::RIDE_SEVERAL == offsetof(RideFrame, several) &&
                   inride::RIDE_LOOKS == offsetof(RideFrame, looks) && inride::RIDE_NORMALS == offsetof(RideFrame, normals) &&
-                  inride::RIDE_EXCESS == offsetof(RideFrame, excess) && inride::RIDE_SLOPE == offsetof(RideFrame, slope) &&
+                  inride::RIDE_UNSETTLED == offsetof(RideFrame, unsettled) && inride::RIDE_EXCESS == offsetof(RideFrame, excess) && inride::RIDE_SLOPE == offsetof(RideFrame, slope) &&
                   inride::RIDE_STRENGTH == offsetof(RideFrame, strength) &&
                   inride::RIDE_PROFILEFOR == offsetof(RideFrame, profileFor) && inride::RIDE_STAYS == offsetof(RideFrame, stays) &&
-                  inride::RIDE_MOVES == offsetof(RideFrame, moves) && inride::RIDE_LOST == offsetof(RideFrame, lost) &&
+                  inride::RIDE_HELD == offsetof(RideFrame, held) && inride::RIDE_LOST == offsetof(RideFrame, lost) &&
                   inride::RIDE_B == offsetof(RideFrame, b) && inride::RIDE_BEYOND == offsetof(RideFrame, beyond) &&
                   inride::RIDE_SHADE == offsetof(RideFrame, shade), "RideFrame");
     static constexpr int SHADE = offsetof(RideFrame, shade), EYE = SHADE + offsetof(ShadeFrame, eye);
@@ -111,6 +111,8 @@ struct RideLayout {
                   inride::PROFILE_CELL == sizeof(Profile::Cell) && inride::NOT_MADE == Profile::NOT_MADE, "Profile");
     static_assert(inride::B_SHIFT == B_SHIFT && inride::WAIT_MOST == WAIT_MOST && inride::AWAY_MOST == Real(AWAY_MOST).raw &&
                   inride::TOUCHING == TOUCHING.raw && inride::DISPLACEMENT == DISPLACEMENT.raw && inride::OVER_BACK == OVER_BACK &&
+                  inride::SHORT_STEP == SHORT_STEP.raw && inride::LONGEST_STEP == LONGEST_STEP.raw && inride::LOOK_LIMIT == LOOK_LIMIT &&
+                  inride::FLAT == FLAT.raw && inride::PLACED_LEAST == PLACED_LEAST.raw && inride::POSITION_MOST == POSITION_MOST.raw &&
                   inride::ISOVALUE == ISOVALUE.raw && inride::OWN_FIRST == OWN_FIRST && inride::OWN_STEP == sizeof(OwnStep) &&
                   offsetof(OwnStep, value) == 0 && inride::OWN_OFFSET == offsetof(OwnStep, slope) &&
                   inride::STEEP_OFFSET == offsetof(OwnStep, steep) && inride::FIELD_STEP == sizeof(FieldStep) &&
@@ -952,8 +954,16 @@ void seedCalled(Seed* s, uint32_t which, bool looked)
         s->wakes = static_cast<int16_t>(calls >> 8);
 }
 void staysCalled(Seed* s) { seedCalled(s, 1, true); }
-void movesCalled(Seed* s) { seedCalled(s, 2, true); }
-void lostCalled(Seed* s) { seedCalled(s, 3, false); }
+void heldCalled(Seed* s)
+{
+    called(static_cast<uint32_t>(s->position.raw));
+    seedCalled(s, 2, true);
+}
+void lostCalled(Seed* s, Real from)
+{
+    called(static_cast<uint32_t>(from.raw));
+    seedCalled(s, 3, false);
+}
 
 // The object and its neighbours, at any distance from within to out of reach.
 void anyRide()
@@ -1020,10 +1030,10 @@ void anyRide()
     ride.partingTwice = ride.parting + ride.parting;
     ride.overshoot = real(uniform(0.03, 0.7));
     ride.keptWait = below(3);
-    ride.placed = ride.several = ride.looks = ride.normals = 0;
+    ride.placed = ride.several = ride.looks = ride.normals = ride.unsettled = 0;
     ride.profileFor = makeProfile;
     ride.stays = staysCalled;
-    ride.moves = movesCalled;
+    ride.held = heldCalled;
     ride.lost = lostCalled;
 }
 
