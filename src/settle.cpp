@@ -497,8 +497,9 @@ int32_t Settler::holdSteps(const Vector& path, Real position, Real most) const
 {
     const Real wait = waitField();
     const int32_t least = stepsOf(most, wait);
-    // By how fast it falls, but allowing for half of what is possible more it is at most twice that.
-    if (least >= paceSteps_)
+    // By how fast it falls, but allowing for half of what is possible more it is at most twice that: not worth the while where
+    // even that hardly lasts beyond the next update.
+    if (least >= paceSteps_ || 2 * least <= TRAVEL_STEPS)
         return least;
     const Real pace = fieldPace(path, position);
     if (pace >= Real(0))
