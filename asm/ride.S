@@ -39,17 +39,30 @@
 #define NEAR_MEETINGSUM 36
 #define NEAR_TOUCHINGSUM 40
 #define NEAR_BURYINGSUM 44
-#define NEAR_TOUCHING 48
-#define NEAR_BURYING 52
-#define NEAR_SUM     56
-#define NEAR_WAITAPART 60
-#define NEAR_WAITBURIED 64
-#define NEAR_WAITFACING 68
-#define NEAR_HALFSQUARE 72
-#define NEAR_AWAYLIMIT 76
-#define NEAR_WAITAWAY 80
-#define NEAR_PROFILE 84
-#define NEAR_NEXT    88
+#define NEAR_MEETINGRUNSUM 48
+#define NEAR_SWING   52
+#define NEAR_TOUCHING 56
+#define NEAR_BURYING 60
+#define NEAR_SUM     64
+#define NEAR_WAITAPART 68
+#define NEAR_WAITBURIED 72
+#define NEAR_WAITFACING 76
+#define NEAR_HALFSQUARE 80
+#define NEAR_AWAYLIMIT 84
+#define NEAR_WAITAWAY 88
+#define NEAR_PROFILE 92
+#define NEAR_NEXT    96
+#define NEAR_MORE    100
+#define NEAR_BIT     104
+
+// struct SeedRun (include/seed.h)
+#define RUN_MIDDLEX  0
+#define RUN_MIDDLEY  4
+#define RUN_MIDDLEZ  8
+#define RUN_HALFX    12
+#define RUN_HALFY    16
+#define RUN_HALFZ    20
+#define RUN_WIDE     24
 
 // struct RideFrame
 #define RIDE_FIRST   0
@@ -77,13 +90,16 @@
 #define RIDE_EXCESS  88
 #define RIDE_SLOPE   92
 #define RIDE_STRENGTH 96
-#define RIDE_PROFILEFOR 100
-#define RIDE_STAYS   104
-#define RIDE_HELD    108
-#define RIDE_LOST    112
-#define RIDE_B       116
-#define RIDE_BEYOND  368
-#define RIDE_SHADE   620
+#define RIDE_INRANGE 100
+#define RIDE_REACHED 104
+#define RIDE_HOLDS   108
+#define RIDE_PROFILEFOR 112
+#define RIDE_STAYS   116
+#define RIDE_HELD    120
+#define RIDE_LOST    124
+#define RIDE_B       128
+#define RIDE_BEYOND  380
+#define RIDE_SHADE   632
 // of which these are in its ShadeFrame (include/lie.h)
 #define EYE_X        RIDE_SHADE+24
 #define EYE_Y        RIDE_SHADE+28
@@ -124,10 +140,15 @@
 #define STEEP_OFFSET 8
 #define FIELD_STEP   8
 #define SLOPE_OFFSET 4
+#define RUN_DOUBT    262
+#define RECHECK      640
+#define REACHES_NONE 1
+#define REACHES_BURYING 2
+#define REACHES_SOME 3
 #define BUSY         0x200
 #define EXTRAS       0x100
 
-// The arguments; the first gives its place to the result.
+// The arguments of rideA; the first gives its place to the result.
 #define SEEDS  20
 #define SEEN   20
 #define LEFT   24
@@ -802,6 +823,144 @@ no_field:
         decl    %edi
         jns     1b
         jmp     looked
+
+// ---------------------------------------------------------------------------------------------------------------------
+// int32_t rideReachA(const SeedRun* run)
+//
+//   esi  run     ebx  neighbour     edi  touched, then steps
+
+        .balign 16
+        FUNC(rideReachA)
+        pushl   %ebp
+        pushl   %ebx
+        pushl   %esi
+        pushl   %edi
+        movl    RIDE(RIDE_INRANGE), %ebx
+        movl    20(%esp), %esi
+        xorl    %edi, %edi
+        movl    $0, RIDE(RIDE_REACHED)
+        testl   %ebx, %ebx
+        jz      reach_none
+1:
+        // sum = alongSum(middle, twice)
+        movl    RUN_MIDDLEX(%esi), %eax
+        imull   NEAR_TWICEX(%ebx)
+        movl    %edx, %ecx
+        movl    RUN_MIDDLEY(%esi), %eax
+        imull   NEAR_TWICEY(%ebx)
+        addl    %edx, %ecx
+        movl    RUN_MIDDLEZ(%esi), %eax
+        imull   NEAR_TWICEZ(%ebx)
+        addl    %edx, %ecx
+        // change = |alongSum(half, twice)| + scaledProduct(wide, swing) + (RUN_DOUBT >> B_SHIFT)
+        movl    RUN_HALFX(%esi), %eax
+        imull   NEAR_TWICEX(%ebx)
+        movl    %edx, %ebp
+        movl    RUN_HALFY(%esi), %eax
+        imull   NEAR_TWICEY(%ebx)
+        addl    %edx, %ebp
+        movl    RUN_HALFZ(%esi), %eax
+        imull   NEAR_TWICEZ(%ebx)
+        movl    RUN_WIDE(%esi), %eax
+        addl    %edx, %ebp
+        jns     2f
+        negl    %ebp
+2:
+        imull   NEAR_SWING(%ebx)
+        leal    RUN_DOUBT>>B_SHIFT(%ebp,%edx), %ebp
+        // if (sum + change < buryingSum) ..
+        leal    (%ecx,%ebp), %eax
+        subl    %ebp, %ecx
+        cmpl    NEAR_BURYINGSUM(%ebx), %eax
+        jl      reach_burying
+        // near.sum = sum - change;  if (near.sum < touchingSum) touched
+        movl    %ecx, NEAR_SUM(%ebx)
+        cmpl    NEAR_TOUCHINGSUM(%ebx), %ecx
+        jge     2f
+        incl    %edi
+2:
+        // if (near.sum < meetingRunSum) reached |= bit
+        cmpl    NEAR_MEETINGRUNSUM(%ebx), %ecx
+        jge     2f
+        movl    NEAR_BIT(%ebx), %eax
+        orl     %eax, RIDE(RIDE_REACHED)
+2:
+        movl    NEAR_MORE(%ebx), %ebx
+        testl   %ebx, %ebx
+        jnz     1b
+
+        // if (touched) holds = RECHECK, and for each that does not reach it
+        movl    RIDE(RIDE_INRANGE), %ebx
+        testl   %edi, %edi
+        jz      reach_none
+        movl    $RECHECK, %edi
+1:
+        // holds = lesser(holds, stepsOf((sum - meetingRunSum) << B_SHIFT, waitApart))
+        movl    NEAR_SUM(%ebx), %eax
+        subl    NEAR_MEETINGRUNSUM(%ebx), %eax
+        jl      3f
+        cmpl    $65536>>B_SHIFT, %eax
+        jle     2f
+        movl    $65536>>B_SHIFT, %eax
+2:
+        shll    $B_SHIFT, %eax
+        imull   NEAR_WAITAPART(%ebx)
+        cmpl    %edi, %edx
+        jge     3f
+        movl    %edx, %edi
+3:
+        movl    NEAR_MORE(%ebx), %ebx
+        testl   %ebx, %ebx
+        jnz     1b
+        movl    $REACHES_SOME, %eax
+reach_done:
+        movl    %edi, RIDE(RIDE_HOLDS)
+        popl    %edi
+        popl    %esi
+        popl    %ebx
+        popl    %ebp
+        ret
+
+        // Else holds = WAIT_MOST, and for each
+reach_none:
+        movl    $WAIT_MOST, %edi
+        testl   %ebx, %ebx
+        jz      3f
+1:
+        // holds = lesser(holds, stepsOf((sum - touchingSum) << B_SHIFT, waitApart))
+        movl    NEAR_SUM(%ebx), %eax
+        subl    NEAR_TOUCHINGSUM(%ebx), %eax
+        cmpl    $65536>>B_SHIFT, %eax
+        jle     2f
+        movl    $65536>>B_SHIFT, %eax
+2:
+        shll    $B_SHIFT, %eax
+        imull   NEAR_WAITAPART(%ebx)
+        cmpl    %edi, %edx
+        jge     2f
+        movl    %edx, %edi
+2:
+        movl    NEAR_MORE(%ebx), %ebx
+        testl   %ebx, %ebx
+        jnz     1b
+3:
+        movl    $REACHES_NONE, %eax
+        jmp     reach_done
+
+        // holds = stepsOf((buryingSum - (sum + change)) << B_SHIFT, waitBuried)
+reach_burying:
+        negl    %eax
+        addl    NEAR_BURYINGSUM(%ebx), %eax
+        cmpl    $65536>>B_SHIFT, %eax
+        jle     1f
+        movl    $65536>>B_SHIFT, %eax
+1:
+        shll    $B_SHIFT, %eax
+        imull   NEAR_WAITBURIED(%ebx)
+        movl    $REACHES_BURYING, %eax
+        movl    %edx, %edi
+        jmp     reach_done
+        ENDFUNC(rideReachA)
 
 // void rideLookA(Real position)
         .balign 4

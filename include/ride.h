@@ -24,6 +24,10 @@ constexpr Real POSITION_MOST(1.85);
 constexpr int32_t OVER_BACK = 128;   // 1/256 unit: how far a seed beyond the border is set back
 // Travel is counted in steps; no seed waits longer than so many of them.
 constexpr int WAIT_MOST = 0x3000;
+// Steps of travel after which it is asked again whether all that reached a patch still do.
+constexpr int RECHECK = 640;
+// Of b: by how much the numbers of a run may be wrong together.
+constexpr Real RUN_DOUBT(0.004);
 // The most units of what is known of directions to the eye that are waited for.
 constexpr int AWAY_MOST = 24;
 
@@ -43,8 +47,11 @@ struct RideNear {
     // b below these: its field reaches the path somewhere up to where the last seeds lie; it reaches the seed at rest; that
     // whole stretch of the path lies inside the surface. For sums(), of b / 2^B_SHIFT, rounded up.
     Real meetingSum, touchingSum, buryingSum;
+    // The same as meetingSum for a run and the oversampled seeds beside it; and how much b changes over half a unit, scaled as
+    // `twice`.
+    Real meetingRunSum, swing;
     Real touching, burying;
-    Real sum;  // of the seed at hand, where its field does not reach it at rest
+    Real sum;  // of the seed at hand, where its field does not reach it at rest; of the nearest place of the run at hand
     // Steps of travel that seeds wait: for a difference of 1 in squared distance / squared size on this side of where its
     // field ends, and of where it buries; for a facing of 1/32 unit (16 bits of fraction).
     Real waitApart, waitBuried;
@@ -52,6 +59,8 @@ struct RideNear {
     Real halfSquare, awayLimit, waitAway;  // see Settler::facesAway()
     Profile* profile;
     RideNear* next;  // of those that reach the patch
+    RideNear* more;  // of those in range
+    uint32_t bit;    // of RideFrame::reached
 };
 
 // What is constant over the seeds of an object or of a patch, and what was found for the seed at hand.
@@ -77,6 +86,11 @@ struct RideFrame {
     // Of the last look: the field less the isovalue, its slope along the path, by how much the strongest neighbour is stronger
     // than the overshoot allows.
     Real excess, slope, strength;
+    RideNear* inRange;    // may be null
+    // Of the last rideReach(): the bits of the neighbours that reach the run; steps of travel until others may do, or the state
+    // changes.
+    uint32_t reached;
+    int32_t holds;
     void (*profileFor)(RideNear*);  // makes the profile; before that it has been Profile::clear()ed
     // Of a seed that several neighbours reach, and that may be seen. It is where it was; how long it stays. Its position is a
     // place where the path leaves the surface, but a neighbour is too strong. It is to be looked for from a position.
@@ -95,11 +109,17 @@ extern "C" RideFrame ride;
 constexpr int32_t RIDE_EXTRAS = 0x100;  // some oversampled seed takes part
 constexpr int32_t RIDE_BUSY = 0x200;    // some seed was awake
 
+// What becomes of a run: all of it rests where it would be alone, or is inside, or it depends.
+enum RideReach : int32_t { REACHES_NONE = 1, REACHES_BURYING, REACHES_SOME };
+
 extern "C" {
 
 // Settles what is awake of `count` (1 or more) seeds, and of the oversampled ones behind them (see SoftObject's seeds). `turned`,
 // 0 or 1: those that are placed are to be laid anew.
 int32_t rideC(Seed* seeds, int32_t count, int32_t turned);
+
+// What neighbours do to a run: RideReach.
+int32_t rideReachC(const SeedRun* run);
 
 // The field at a position (0.95..1.85) of the path for which ride.b, shade.pulls and shade.count are set: to ride.excess,
 // slope and strength; and to ride.shade what the normal needs.
@@ -107,6 +127,7 @@ void rideLookC(Real position);
 
 #if FB_ASM && FB_REAL == FB_FIXED
 int32_t rideA(Seed* seeds, int32_t count, int32_t turned);
+int32_t rideReachA(const SeedRun* run);
 void rideLookA(Real position);
 #endif
 
@@ -114,20 +135,28 @@ void rideLookA(Real position);
 
 #if FB_ASM && FB_REAL == FB_FIXED
 #define rideSeeds rideA
+#define rideReach rideReachA
 #define rideLook rideLookA
 #else
 #define rideSeeds rideC
+#define rideReach rideReachC
 #define rideLook rideLookC
 #endif
+
+// The product of a length and a number that is scaled as RideNear::twice, / 2^B_SHIFT.
+inline Real scaledProduct(Real a, Real scaled)
+{
+#if FB_REAL == FB_FIXED
+    return Real::fromRaw(mulHigh(a.raw, scaled.raw));
+#else
+    return a * scaled;
+#endif
+}
 
 // b / 2^B_SHIFT of a path.
 inline Real alongSum(const Vector& path, const Vector& twice)
 {
-#if FB_REAL == FB_FIXED
-    return Real::fromRaw(mulHigh(path.x.raw, twice.x.raw) + mulHigh(path.y.raw, twice.y.raw) + mulHigh(path.z.raw, twice.z.raw));
-#else
-    return dot(path, twice);
-#endif
+    return scaledProduct(path.x, twice.x) + scaledProduct(path.y, twice.y) + scaledProduct(path.z, twice.z);
 }
 
 // What such a sum is compared with, for b below a limit.

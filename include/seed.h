@@ -35,6 +35,13 @@ struct Seed {
     int8_t along[3], across[3];  // half axes of the part of the surface that is its own, 1/64 spacing
 };
 
+// Where the seeds of a run of a ring rest, counted from the object's centre: none is farther than wide / 2 from the straight
+// line from middle - half to middle + half.
+struct SeedRun {
+    Vector middle, half;
+    Real wide;
+};
+
 // Receives the seeds of a primitive, ring by ring, in the object's own space: centred on the origin and axis-aligned
 // ("canonical" space, Appendix C). It is run twice: once to count, once to fill.
 class SeedMaker {

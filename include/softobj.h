@@ -230,8 +230,8 @@ private:
     struct Patch {
         int32_t first;    // index of the first seed / 2
         int32_t count;
-        Vector middle;    // of the rest places, from the centre
-        Real radius;      // of a ball round `middle` that holds them
+        SeedRun run;      // where they rest
+        Real radius;      // of a ball round run.middle that holds them
         int16_t axis[3];  // mean direction, unit length = 2^14
         int16_t spread;   // greatest |direction - axis|, the same scale
         int32_t across;   // middle . axis and radius in 1/32 unit
@@ -265,7 +265,8 @@ private:
         int16_t normal[3];           // of the surface, unit length = 2^14; only where the object tapers
     };
     struct PatchRest {
-        Vector middle, axis;
+        SeedRun run;
+        Vector axis;
         Real radius;
     };
 
@@ -273,6 +274,7 @@ private:
     void linkChanged();
     bool inRange(const SoftObject& other) const;
     void buildPatches();
+    SeedRun runOf(const Patch& patch, const Vector& middle) const;
     static void facePatch(Patch& patch, const Vector& axis);
     bool keepRest();
     // It looks the same from everywhere.

@@ -189,6 +189,32 @@ void settle(Seed& s)
 
 }  // namespace
 
+int32_t rideReachC(const SeedRun* run)
+{
+    bool touched = false;
+    ride.reached = 0;
+    for (RideNear* near = ride.inRange; near != nullptr; near = near->more) {
+        const Real sum = alongSum(run->middle, near->twice);
+        const Real change = absolute(alongSum(run->half, near->twice)) + scaledProduct(run->wide, near->swing) +
+                            shiftDown(RUN_DOUBT, B_SHIFT);
+        if (sum + change < near->buryingSum) {
+            ride.holds = stepsOf(shiftUp(near->buryingSum - (sum + change), B_SHIFT), near->waitBuried);
+            return REACHES_BURYING;
+        }
+        near->sum = sum - change;
+        touched = touched || near->sum < near->touchingSum;
+        if (near->sum < near->meetingRunSum)
+            ride.reached |= near->bit;
+    }
+    ride.holds = touched ? RECHECK : WAIT_MOST;
+    for (const RideNear* near = ride.inRange; near != nullptr; near = near->more) {
+        const Real beyond = near->sum - (touched ? near->meetingRunSum : near->touchingSum);
+        if (beyond >= Real(0))
+            ride.holds = lesser(ride.holds, stepsOf(shiftUp(beyond, B_SHIFT), near->waitApart));
+    }
+    return touched ? REACHES_SOME : REACHES_NONE;
+}
+
 void rideLookC(Real position)
 {
     ++ride.looks;

@@ -46,7 +46,7 @@ struct Near : RideNear {
     bool quick;      // both cores are points: the polynomial of RideNear holds
     Vector fromIt;   // from its centre to this object's centre
     Real reach;      // its size
-    Real swing;      // length of twice: how much b changes over a unit
+    Real change;     // length of twice: how much b changes over a unit
     Real meeting;    // see meetingSum
     Real a0Pace;       // how a0 and twice change in an update, if all goes on like this; the latter scaled by 2^16
     Vector twicePace;
@@ -88,8 +88,7 @@ constexpr int AWAY_STEPS = 500;
 // Travel is counted in steps, this many for an update in which all moves as fast as is assumed.
 constexpr int TRAVEL_STEPS = 64;
 
-// Steps of travel after which it is asked again whether all that reached a patch still do.
-constexpr int RECHECK = 10 * TRAVEL_STEPS;
+static_assert(RECHECK == 10 * TRAVEL_STEPS, "ten updates");
 
 // Seeds that stay where they are wait if the field takes at least so many steps to change by the tolerance.
 constexpr int KEPT_STEPS = 20;
@@ -107,6 +106,9 @@ constexpr Real TURNING_WILD(0.25);
 constexpr int PACE_MOST = 16;
 
 constexpr Real TWICE_LIMIT(7.9);  // units of twice, so that its scaled form fits
+// In spacings, how far an oversampled seed may rest from the run that it belongs to.
+constexpr Real BESIDE(0.75);
+
 constexpr Real PACE_LIMIT(60);    // and units of what twicePace is made from
 
 inline Vector scaledTwice(const Vector& v)
@@ -127,6 +129,9 @@ public:
     void settle();
 
 private:
+    static_assert(static_cast<int>(REACHES_NONE) == SoftObject::PATCH_AT_REST &&
+                  static_cast<int>(REACHES_BURYING) == SoftObject::PATCH_BURIED &&
+                  static_cast<int>(REACHES_SOME) == SoftObject::PATCH_MIXED, "the states of patches");
     REGISTERS SELDOM int32_t facesAway(Real across, Real own) const;
     bool passed(int16_t due) const { return static_cast<int16_t>(due - travel_) < 0; }
     int16_t later(int32_t steps) const { return static_cast<int16_t>(travel_ + steps - 1); }
@@ -136,7 +141,7 @@ private:
     void rest(SoftObject::Patch& patch);
     void bury(SoftObject::Patch& patch);
     SELDOM bool judge(SoftObject::Patch& patch, Seed* s);
-    void settlePatches(bool plain);
+    void settlePatches();
     void settleSeed(Seed& s);
     static void profileFor(RideNear* near);
     static void stays(Seed* s);
@@ -173,6 +178,7 @@ private:
     static inline Near near_[NEAR_MOST];
     static inline Profile profiles_[NEAR_MOST];
     static inline int nearCount_;
+    static inline bool plain_;  // all are balls of weight 1: see ride.h
     static inline Settler* settler_;
 
     // Of the patch at hand, and of those the ones that reach the seed at hand.
@@ -228,7 +234,14 @@ void Settler::addNear(const Link& link)
 {
     const SoftObject& other = *link.object;
     Near& n = near_[nearCount_];
-    n.profile = &profiles_[nearCount_++];
+    n.profile = &profiles_[nearCount_];
+    n.bit = nearCount_ < 31 ? 1u << nearCount_ : MANY;
+    n.more = nullptr;
+    if (nearCount_ == 0)
+        ride.inRange = &n;
+    else
+        near_[nearCount_ - 1].more = &n;
+    ++nearCount_;
     n.profile->clear();
     n.object = &other;
     const Real slowness = Real(1) / link.speed;
@@ -256,7 +269,12 @@ void Settler::addNear(const Link& link)
     if (!within(twice, TWICE_LIMIT))
         return;
     n.twice = scaledTwice(twice);
-    n.swing = nearLength(twice) + Real(0.0001);
+    n.change = nearLength(twice) + Real(0.0001);
+#if FB_REAL == FB_FIXED
+    n.swing = shiftUp(n.change, 11);
+#else
+    n.swing = shiftDown(n.change, 1);
+#endif
     // At rest, or a way further out where other neighbours may have pulled the seed.
     n.touching = most(TOUCHING - n.a0 - n.c0, (TOUCHING - n.a0 - n.c0 * Real(1.44)) * Real(1 / 1.2));
     n.meeting = most(n.touching, most((TOUCHING - n.a0 - n.c0 * Real(2.25)) * Real(1 / 1.5),
@@ -275,6 +293,7 @@ void Settler::addNear(const Link& link)
     n.meetingSum = sumBelow(n.meeting);
     n.touchingSum = sumBelow(n.touching);
     n.buryingSum = sumBelow(n.burying);
+    n.meetingRunSum = sumBelow(n.meeting + n.change * (o_.spacing_ * BESIDE));
     n.quick = true;
 
     n.waitApart = waitSteps(n.reach * WAIT_APART, slowness);
@@ -336,7 +355,7 @@ void Settler::settle()
 {
     nearCount_ = 0;
     keptWait_ = true;
-    ride.first = nullptr;
+    ride.first = ride.inRange = nullptr;
     activated_ = 0;
     rootIndex_ = -1;
     updated_ = 0;
@@ -373,9 +392,9 @@ void Settler::settle()
     frame_.setBack = mulDiv(1 << 30, 1 << 17, rawFromReal(most(o_.radius_, Real(2))));
     frame_.light.set(look_.light, o_.spacing_);
 
-    bool plain = o_.isBall();
+    plain_ = o_.isBall();
     for (int i = 0; i < nearCount_; ++i)
-        plain = plain && near_[i].quick && near_[i].plain;
+        plain_ = plain_ && near_[i].quick && near_[i].plain;
     ride.travel = static_cast<int32_t>(static_cast<uint32_t>(travel_) << 16);
     ride.later = travel_ - 1;
     ride.awayAlong = (rawFromReal(awayEdge_) + 2047) >> 11 << 14;
@@ -385,7 +404,7 @@ void Settler::settle()
     ride.held = held;
     ride.lost = lost;
     settler_ = this;
-    settlePatches(plain);
+    settlePatches();
     look_.counts->iterations += static_cast<uint32_t>(ride.looks + ride.placed);
     look_.counts->updated += updated_ + static_cast<uint32_t>(ride.placed + ride.several);
     look_.counts->normals += static_cast<uint32_t>(ride.normals);
@@ -523,15 +542,21 @@ int32_t Settler::keptSteps(const Vector& path, Real position, Real off) const
 // What becomes of the patch and which neighbours reach it, and until when.
 SoftObject::PatchState Settler::reachOf(SoftObject::Patch& patch, uint32_t& reached) const
 {
+    if (plain_) {
+        const int32_t state = rideReach(&patch.run);
+        reached = ride.reached;
+        patch.due = later(ride.holds);
+        return static_cast<SoftObject::PatchState>(state);
+    }
     bool touched = false;
-    uint32_t bit = 1;
     int32_t rest = WAIT_MOST, further = RECHECK;
     reached = 0;
-    for (int i = 0; i < nearCount_; ++i, bit <<= (bit < MANY)) {
+    for (int i = 0; i < nearCount_; ++i) {
         const Near& near = near_[i];
         if (near.quick) {
-            const Real b = alongPath(near, patch.middle), change = near.swing * patch.radius;
-            const Real nearest = b - change;
+            const Real b = alongPath(near, patch.run.middle);
+            const Real change = absolute(alongPath(near, patch.run.half)) + shiftDown(near.change * patch.run.wide, 1) + RUN_DOUBT;
+            const Real nearest = b - change, meeting = shiftUp(near.meetingRunSum, B_SHIFT);
             if (b + change < near.burying) {
                 patch.due = later(stepsOf(near.burying - b - change, near.waitBuried));
                 return SoftObject::PATCH_BURIED;
@@ -540,16 +565,16 @@ SoftObject::PatchState Settler::reachOf(SoftObject::Patch& patch, uint32_t& reac
                 touched = true;
             else
                 rest = lesser(rest, stepsOf(nearest - near.touching, near.waitApart));
-            if (nearest < near.meeting)
-                reached |= bit;
+            if (nearest < meeting)
+                reached |= near.bit;
             else
-                further = lesser(further, stepsOf(nearest - near.meeting, near.waitApart));
+                further = lesser(further, stepsOf(nearest - meeting, near.waitApart));
         } else {
-            const Vector v = near.object->fromCore(o_.centre_ + patch.middle);
+            const Vector v = near.object->fromCore(o_.centre_ + patch.run.middle);
             const Real limit = near.reach + patch.radius;
             if (absolute(v.x) < limit && absolute(v.y) < limit && absolute(v.z) < limit) {
                 touched = true;
-                reached |= bit;
+                reached |= near.bit;
             }
         }
     }
@@ -834,7 +859,7 @@ int32_t Settler::facesAway(Real across, Real own) const
 void Settler::profileFor(RideNear* ofRide)
 {
     const Near& near = static_cast<const Near&>(*ofRide);
-    near.profile->make(near.a0, near.c0, -near.swing * settler_->o_.radius_, ride.placedMost);
+    near.profile->make(near.a0, near.c0, -near.change * settler_->o_.radius_, ride.placedMost);
 }
 
 // Where it was, and what is known of it holds.
@@ -1060,7 +1085,7 @@ bool Settler::judge(SoftObject::Patch& patch, Seed* s)
 }
 
 // All patches of the object, seed by seed where a neighbour reaches them.
-void Settler::settlePatches(bool plain)
+void Settler::settlePatches()
 {
     Seed* s = o_.seeds_;
     SoftObject::Patch* patch = o_.patches_;
@@ -1079,7 +1104,7 @@ void Settler::settlePatches(bool plain)
             o_.posePatch(*patch, true);
         const int32_t turned = patch->turned;
         patch->turned = false;
-        const int32_t seen = plain ? rideSeeds(s, patch->count, turned)
+        const int32_t seen = plain_ ? rideSeeds(s, patch->count, turned)
                                    : throughSeeds(s, patch->count, turned, [this](Seed& seed) { settleSeed(seed); });
         patch->extras = (seen & RIDE_EXTRAS) != 0;
         patch->back = !(seen & SEED_FRONT);

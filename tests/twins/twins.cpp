@@ -73,6 +73,8 @@ struct RideLayout {
                   inride::NEAR_MEETINGSUM == offsetof(RideNear, meetingSum) &&
                   inride::NEAR_TOUCHINGSUM == offsetof(RideNear, touchingSum) &&
                   inride::NEAR_BURYINGSUM == offsetof(RideNear, buryingSum) &&
+                  inride::NEAR_MEETINGRUNSUM == offsetof(RideNear, meetingRunSum) && inride::NEAR_SWING == offsetof(RideNear, swing) &&
+                  inride::NEAR_MORE == offsetof(RideNear, more) && inride::NEAR_BIT == offsetof(RideNear, bit) &&
                   inride::NEAR_TOUCHING == offsetof(RideNear, touching) && inride::NEAR_BURYING == offsetof(RideNear, burying) &&
                   inride::NEAR_SUM == offsetof(RideNear, sum) && inride::NEAR_WAITAPART == offsetof(RideNear, waitApart) &&
                   inride::NEAR_WAITBURIED == offsetof(RideNear, waitBuried) &&
@@ -95,10 +97,16 @@ struct RideLayout {
                   inride::RIDE_LOOKS == offsetof(RideFrame, looks) && inride::RIDE_NORMALS == offsetof(RideFrame, normals) &&
                   inride::RIDE_UNSETTLED == offsetof(RideFrame, unsettled) && inride::RIDE_EXCESS == offsetof(RideFrame, excess) && inride::RIDE_SLOPE == offsetof(RideFrame, slope) &&
                   inride::RIDE_STRENGTH == offsetof(RideFrame, strength) &&
+                  inride::RIDE_INRANGE == offsetof(RideFrame, inRange) && inride::RIDE_REACHED == offsetof(RideFrame, reached) &&
+                  inride::RIDE_HOLDS == offsetof(RideFrame, holds) &&
                   inride::RIDE_PROFILEFOR == offsetof(RideFrame, profileFor) && inride::RIDE_STAYS == offsetof(RideFrame, stays) &&
                   inride::RIDE_HELD == offsetof(RideFrame, held) && inride::RIDE_LOST == offsetof(RideFrame, lost) &&
                   inride::RIDE_B == offsetof(RideFrame, b) && inride::RIDE_BEYOND == offsetof(RideFrame, beyond) &&
                   inride::RIDE_SHADE == offsetof(RideFrame, shade), "RideFrame");
+    static_assert(inride::RUN_MIDDLEX == offsetof(SeedRun, middle) && inride::RUN_MIDDLEY == offsetof(SeedRun, middle.y) &&
+                  inride::RUN_MIDDLEZ == offsetof(SeedRun, middle.z) && inride::RUN_HALFX == offsetof(SeedRun, half) &&
+                  inride::RUN_HALFY == offsetof(SeedRun, half.y) && inride::RUN_HALFZ == offsetof(SeedRun, half.z) &&
+                  inride::RUN_WIDE == offsetof(SeedRun, wide), "SeedRun");
     static constexpr int SHADE = offsetof(RideFrame, shade), EYE = SHADE + offsetof(ShadeFrame, eye);
     static_assert(inride::EYE_X == EYE + inshade::EYE_X && inride::EYE_Y == EYE + inshade::EYE_Y &&
                   inride::EYE_Z == EYE + inshade::EYE_Z && offsetof(ShadeFrame, eye) == 0 &&
@@ -117,6 +125,8 @@ struct RideLayout {
                   offsetof(OwnStep, value) == 0 && inride::OWN_OFFSET == offsetof(OwnStep, slope) &&
                   inride::STEEP_OFFSET == offsetof(OwnStep, steep) && inride::FIELD_STEP == sizeof(FieldStep) &&
                   offsetof(FieldStep, value) == 0 && inride::SLOPE_OFFSET == offsetof(FieldStep, slope) &&
+                  inride::RUN_DOUBT == RUN_DOUBT.raw && inride::RECHECK == RECHECK && inride::REACHES_NONE == REACHES_NONE &&
+                  inride::REACHES_BURYING == REACHES_BURYING && inride::REACHES_SOME == REACHES_SOME &&
                   inride::BUSY == RIDE_BUSY && inride::EXTRAS == RIDE_EXTRAS, "constants");
 };
 
@@ -1004,15 +1014,18 @@ void anyRide()
         n.waitApart = real(below(4) ? uniform(0, 200) : uniform(0, WAIT_MOST));
         n.waitBuried = real(below(4) ? uniform(0, 200) : uniform(0, WAIT_MOST));
         n.waitFacing = below(0x10000);
+        n.meetingRunSum = Real::fromRaw(n.meetingSum.raw + below(8192));
+        n.swing = real(2 * nearDistance[i] / (nearSize[i] * nearSize[i]) * 2048);
+        n.bit = 1u << i;
+        n.more = n.next = last;
         n.halfSquare = real(uniform(0, 1) * nearSize[i]);
         n.awayLimit = real(uniform(-10, 20));
         n.waitAway = real(uniform(0, 500));
         n.profile = &profiles[i];
         n.profile->clear();
-        n.next = last;
         last = &n;
     }
-    ride.first = last;
+    ride.first = ride.inRange = last;
     const int32_t travel = static_cast<int16_t>(any());
     ride.travel = travel * 65536;
     ride.later = below(2) ? travel - 1 : (travel & 0xffff) - 1;
@@ -1066,7 +1079,7 @@ void anyRings()
 void rideByRide(int rounds)
 {
     static RideState start, ofC, ofA;
-    long wrongFields = 0;
+    long wrongFields = 0, wrongReaches = 0, reachesFound[4] = {0, 0, 0, 0};
     for (int round = 0; round < rounds; ++round) {
         if (round % 4 == 0)
             anyRide();
@@ -1112,6 +1125,45 @@ void rideByRide(int rounds)
             const double doubt = 0.02 + 0.02 / nearRadius;
             wrongFields += off > doubt || off < -doubt;
         }
+        // A run: by chance, along the way to a neighbour, or so small that it is all in one state.
+        SeedRun run = {rings.seeds[2 * RING].path, rings.seeds[2 * RING + 2].path, real(nearRadius * uniform(0, 1))};
+        if (below(3)) {
+            const double share = below(3) ? uniform(0, 0.2) : 0;
+            for (int k = 0; k < 3; ++k) {
+                const double way = below(2) ? -nearWay[0][k] * nearRadius / (nearDistance[0] + 0.01) : (&run.middle.x)[k].raw / 65536.0;
+                (&run.middle.x)[k] = real(way);
+                (&run.half.x)[k] = real((&run.half.x)[k].raw / 65536.0 * share);
+            }
+            run.wide = real(nearRadius * share);
+        }
+        if (round % 32 == 0)
+            ride.inRange = nullptr;
+        save(start);
+        const int32_t reachC = rideReachC(&run);
+        save(ofC);
+        restore(start);
+        const int32_t reachA = rideReachA(&run);
+        save(ofA);
+        verdict(reachC == reachA && memcmp(&ofC, &ofA, sizeof ofC) == 0, "rides: the same reach, round", round);
+        ++reachesFound[reachA];
+        if (ride.inRange != nullptr) {
+            // What holds for all of it holds for its ends.
+            for (int end = -1; end <= 1; ++end) {
+                bool none = true, buried = false;
+                double nearest = 9;
+                for (const RideNear* near = ride.first; near != nullptr; near = near->next) {
+                    double b = 0;
+                    for (int k = 0; k < 3; ++k)
+                        b += ((&run.middle.x)[k].raw + end * static_cast<double>((&run.half.x)[k].raw)) / 65536 * (&near->twice.x)[k].raw / 65536 / 4096;
+                    none = none && b >= near->touching.raw / 65536.0;
+                    buried = buried || b < near->burying.raw / 65536.0;
+                    nearest = b < nearest ? b : nearest;
+                    wrongReaches += b < near->meetingSum.raw / 4096.0 && reachA == REACHES_SOME && !(ride.reached & near->bit);
+                }
+                wrongReaches += (reachA == REACHES_NONE && !none) || (reachA == REACHES_BURYING && !buried);
+            }
+        }
+        ride.inRange = ride.first;
         if (round % 8 == 0) {
             // A look for itself.
             ride.shade.count = below(NEARS);
@@ -1130,6 +1182,9 @@ void rideByRide(int rounds)
         }
     }
     verdict(wrongFields == 0, "rides: seeds lie on the surface as in double precision", wrongFields);
+    verdict(wrongReaches == 0, "rides: what is said of a run holds for its ends", wrongReaches);
+    verdict(reachesFound[1] > rounds / 50 && reachesFound[2] > rounds / 50 && reachesFound[3] > rounds / 50, "rides: there were runs of each kind",
+            reachesFound[1] < reachesFound[2] ? reachesFound[1] : reachesFound[2]);
     long least = seedsRidden;
     for (long found : ridesFound)
         least = found < least ? found : least;
@@ -1219,6 +1274,9 @@ void registers()
         anyRings();
         const uint32_t all[5] = {word(rings.seeds + 2 * RING), 1u + static_cast<uint32_t>(below(RING)), static_cast<uint32_t>(below(2)), 0, 0};
         verdict(damage(reinterpret_cast<const void*>(rideA), all) == 0, "registers are kept: rideA", i);
+        const SeedRun run = {rings.seeds[0].path, rings.seeds[2].path, real(nearRadius * uniform(0, 0.2))};
+        const uint32_t reach[5] = {word(&run), 0, 0, 0, 0};
+        verdict(damage(reinterpret_cast<const void*>(rideReachA), reach) == 0, "registers are kept: rideReachA", i);
         const uint32_t look[5] = {65536u + static_cast<uint32_t>(below(50000)), 0, 0, 0, 0};
         verdict(damage(reinterpret_cast<const void*>(rideLookA), look) == 0, "registers are kept: rideLookA", i);
     }
