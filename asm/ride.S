@@ -63,6 +63,10 @@
 #define RUN_HALFY    16
 #define RUN_HALFZ    20
 #define RUN_WIDE     24
+#define RUN_COUNT    28
+#define RUN_TURNED   32
+#define RUN_EXTRAS   33
+#define RUN_BACK     34
 
 // struct RideFrame
 #define RIDE_FIRST   0
@@ -145,14 +149,14 @@
 #define REACHES_NONE 1
 #define REACHES_BURYING 2
 #define REACHES_SOME 3
-#define BUSY         0x200
-#define EXTRAS       0x100
 
-// The arguments of rideA; the first gives its place to the result.
-#define SEEDS  20
-#define SEEN   20
-#define LEFT   24
-#define TURNED 28
+// On the stack of rideA: the flags of all seeds together and, in the byte above, whether any was awake; the arguments, of which
+// the last gives its place to how many seeds are left.
+#define SEEN   0
+#define BUSY   1
+#define RUN    24
+#define SEEDS  28
+#define LEFT   28
 
 # define RIDE(field) SYM(ride)+field
 # define OWN(field) SYM(ownSteps)-OWN_FIRST*OWN_STEP+field
@@ -160,7 +164,7 @@
         .text
 
 // ---------------------------------------------------------------------------------------------------------------------
-// int32_t rideA(Seed* seeds, int32_t count, int32_t turned)
+// int32_t rideA(SeedRun* run, Seed* seeds)
 //
 //   esi  seed; the rest is anybody's
 
@@ -180,7 +184,7 @@ seed\turned:
         jns     asleep\turned
 awake\turned:
         call    settle
-        orb     $BUSY>>8, SEEN+1(%esp)
+        movb    $1, BUSY(%esp)
 asleep\turned:
         // seen |= flags;  other = seed + extra.neighbour
         movb    SEED_FLAGS(%esi), %al
@@ -230,14 +234,15 @@ between\turned:
         jns     2f
 extra\turned:
         call    settle
-        orb     $BUSY>>8, SEEN+1(%esp)
+        movb    $1, BUSY(%esp)
 2:
-        // extra.flags |= ACTIVE;  seen |= EXTRAS | extra.flags
+        // extra.flags |= ACTIVE;  seen |= extra.flags;  extras = true
         movb    SEED_FLAGS(%esi), %al
         orb     $ACTIVE, %al
         movb    %al, SEED_FLAGS(%esi)
         orb     %al, SEEN(%esp)
-        orb     $EXTRAS>>8, SEEN+1(%esp)
+        movl    RUN(%esp), %ecx
+        movb    $1, RUN_EXTRAS(%ecx)
         addl    $SEED_SIZE, %esi
         decl    LEFT(%esp)
         jnz     seed\turned
@@ -256,10 +261,16 @@ belt\turned:
         pushl   %ebx
         pushl   %esi
         pushl   %edi
+        pushl   $0
+        movl    RUN(%esp), %ecx
         movl    SEEDS(%esp), %esi
-        movl    $0, SEEN(%esp)
-        cmpl    $0, TURNED(%esp)
-        jne     seed1
+        // left = count;  turned = extras = false
+        movl    RUN_COUNT(%ecx), %eax
+        movb    RUN_TURNED(%ecx), %dl
+        movl    %eax, LEFT(%esp)
+        movw    $0, RUN_TURNED(%ecx)
+        testb   %dl, %dl
+        jnz     seed1
         .balign 4
         SEEDS_LOOP 0
         .balign 4
@@ -272,11 +283,18 @@ turn_extra:
         .balign 4
         SEEDS_LOOP 1
 done:
-        movl    SEEN(%esp), %eax
+        // back = !(seen & FRONT)
+        movl    RUN(%esp), %ecx
+        popl    %eax
+        movb    %al, %dl
         popl    %edi
+        notb    %dl
         popl    %esi
+        shrb    $7, %dl
         popl    %ebx
+        movb    %dl, RUN_BACK(%ecx)
         popl    %ebp
+        shrl    $8, %eax
         ret
         ENDFUNC(rideA)
 

@@ -105,18 +105,14 @@ struct RideFrame {
 // What is at a fixed address needs no register to find it; one object is settled at a time.
 extern "C" RideFrame ride;
 
-// Of ride()'s result, beside the SeedFlags of all seeds together.
-constexpr int32_t RIDE_EXTRAS = 0x100;  // some oversampled seed takes part
-constexpr int32_t RIDE_BUSY = 0x200;    // some seed was awake
-
 // What becomes of a run: all of it rests where it would be alone, or is inside, or it depends.
 enum RideReach : int32_t { REACHES_NONE = 1, REACHES_BURYING, REACHES_SOME };
 
 extern "C" {
 
-// Settles what is awake of `count` (1 or more) seeds, and of the oversampled ones behind them (see SoftObject's seeds). `turned`,
-// 0 or 1: those that are placed are to be laid anew.
-int32_t rideC(Seed* seeds, int32_t count, int32_t turned);
+// Settles what is awake of the seeds of a run, one or more, and of the oversampled ones behind them (see SoftObject's seeds);
+// sets `turned`, `extras` and `back` of the run. Returns 0 if none was awake, else 1.
+int32_t rideC(SeedRun* run, Seed* seeds);
 
 // What neighbours do to a run: RideReach.
 int32_t rideReachC(const SeedRun* run);
@@ -126,7 +122,7 @@ int32_t rideReachC(const SeedRun* run);
 void rideLookC(Real position);
 
 #if FB_ASM && FB_REAL == FB_FIXED
-int32_t rideA(Seed* seeds, int32_t count, int32_t turned);
+int32_t rideA(SeedRun* run, Seed* seeds);
 int32_t rideReachA(const SeedRun* run);
 void rideLookA(Real position);
 #endif
@@ -202,8 +198,12 @@ inline Seed& pairedWith(Seed* s, const Seed& extra)
 
 // What rideC() does, by a settle(Seed&) for those that are awake.
 template <class Settle>
-inline int32_t throughSeeds(Seed* s, int32_t count, int32_t turned, Settle settle)
+inline int32_t throughSeeds(SeedRun& run, Seed* s, Settle settle)
 {
+    const bool turned = run.turned;
+    run.turned = run.extras = false;
+    run.back = true;
+    bool busy = false;
     const auto passed = [](const Seed& seed) { return static_cast<int16_t>(seed.wakes - (ride.travel >> 16)) < 0; };
     const auto turn = [](Seed& seed) {
         if ((seed.flags & (SEED_PLACED | SEED_FRONT)) == (SEED_PLACED | SEED_FRONT)) {
@@ -211,15 +211,15 @@ inline int32_t throughSeeds(Seed* s, int32_t count, int32_t turned, Settle settl
             seed.wakes = static_cast<int16_t>(ride.later);
         }
     };
-    int32_t seen = 0;
-    for (; count > 0; --count, s += 2) {
+    for (int i = run.count; i > 0; --i, s += 2) {
         if (turned)
             turn(*s);
         if (passed(*s)) {
             settle(*s);
-            seen |= RIDE_BUSY;
+            busy = true;
         }
-        seen |= s->flags;
+        if (s->flags & SEED_FRONT)
+            run.back = false;
         // In the first ring a seed is paired with itself, to no effect.
         Seed& extra = s[1];
         const Seed& other = pairedWith(s, extra);
@@ -238,12 +238,14 @@ inline int32_t throughSeeds(Seed* s, int32_t count, int32_t turned, Settle settl
             turn(extra);
         if (!(extra.flags & SEED_ACTIVE) || passed(extra)) {
             settle(extra);
-            seen |= RIDE_BUSY;
+            busy = true;
         }
         extra.flags |= SEED_ACTIVE;
-        seen |= RIDE_EXTRAS | extra.flags;
+        if (extra.flags & SEED_FRONT)
+            run.back = false;
+        run.extras = true;
     }
-    return seen;
+    return busy;
 }
 
 #endif

@@ -241,7 +241,7 @@ void rideLookC(Real position)
     ride.strength = strongest - own.value - ride.overshoot;
 }
 
-int32_t rideC(Seed* seeds, int32_t count, int32_t turned)
+int32_t rideC(SeedRun* run, Seed* seeds)
 {
-    return throughSeeds(seeds, count, turned, settle);
+    return throughSeeds(*run, seeds, settle);
 }

@@ -140,7 +140,8 @@ private:
     int16_t idleUntil(const SoftObject::Patch& patch) const;
     void rest(SoftObject::Patch& patch);
     void bury(SoftObject::Patch& patch);
-    SELDOM bool judge(SoftObject::Patch& patch, Seed* s);
+    bool judge(SoftObject::Patch& patch, Seed* s);
+    SELDOM bool become(SoftObject::Patch& patch, Seed* s, SoftObject::PatchState state, uint32_t reached);
     void settlePatches();
     void settleSeed(Seed& s);
     static void profileFor(RideNear* near);
@@ -542,20 +543,14 @@ int32_t Settler::keptSteps(const Vector& path, Real position, Real off) const
 // What becomes of the patch and which neighbours reach it, and until when.
 SoftObject::PatchState Settler::reachOf(SoftObject::Patch& patch, uint32_t& reached) const
 {
-    if (plain_) {
-        const int32_t state = rideReach(&patch.run);
-        reached = ride.reached;
-        patch.due = later(ride.holds);
-        return static_cast<SoftObject::PatchState>(state);
-    }
     bool touched = false;
     int32_t rest = WAIT_MOST, further = RECHECK;
     reached = 0;
     for (int i = 0; i < nearCount_; ++i) {
         const Near& near = near_[i];
         if (near.quick) {
-            const Real b = alongPath(near, patch.run.middle);
-            const Real change = absolute(alongPath(near, patch.run.half)) + shiftDown(near.change * patch.run.wide, 1) + RUN_DOUBT;
+            const Real b = alongPath(near, patch.middle);
+            const Real change = absolute(alongPath(near, patch.half)) + shiftDown(near.change * patch.wide, 1) + RUN_DOUBT;
             const Real nearest = b - change, meeting = shiftUp(near.meetingRunSum, B_SHIFT);
             if (b + change < near.burying) {
                 patch.due = later(stepsOf(near.burying - b - change, near.waitBuried));
@@ -570,7 +565,7 @@ SoftObject::PatchState Settler::reachOf(SoftObject::Patch& patch, uint32_t& reac
             else
                 further = lesser(further, stepsOf(nearest - meeting, near.waitApart));
         } else {
-            const Vector v = near.object->fromCore(o_.centre_ + patch.run.middle);
+            const Vector v = near.object->fromCore(o_.centre_ + patch.middle);
             const Real limit = near.reach + patch.radius;
             if (absolute(v.x) < limit && absolute(v.y) < limit && absolute(v.z) < limit) {
                 touched = true;
@@ -1055,11 +1050,27 @@ int16_t Settler::idleUntil(const SoftObject::Patch& patch) const
 }
 
 // Judges a patch anew. True: seed by seed where a neighbour reaches it.
-bool Settler::judge(SoftObject::Patch& patch, Seed* s)
+inline bool Settler::judge(SoftObject::Patch& patch, Seed* s)
+{
+    uint32_t reached;
+    SoftObject::PatchState state;
+    if (plain_) {
+        state = static_cast<SoftObject::PatchState>(rideReach(&patch));
+        reached = ride.reached;
+        patch.due = later(ride.holds);
+    } else {
+        state = reachOf(patch, reached);
+    }
+    // When one that they do not know of came near, those that may be seen wait no longer.
+    if (woken_ || patch.state != state || state != SoftObject::PATCH_MIXED || (reached & (~patch.reached | MANY)))
+        return become(patch, s, state, reached);
+    patch.reached = reached;
+    return true;
+}
+
+bool Settler::become(SoftObject::Patch& patch, Seed* s, SoftObject::PatchState state, uint32_t reached)
 {
     const uint8_t before = patch.state;
-    uint32_t reached;
-    const SoftObject::PatchState state = reachOf(patch, reached);
     patch.idle = patch.due;
     o_.displaced_ |= state != SoftObject::PATCH_AT_REST;
     if (state != SoftObject::PATCH_MIXED) {
@@ -1071,15 +1082,16 @@ bool Settler::judge(SoftObject::Patch& patch, Seed* s)
             s->wakes = patch.due;
         return false;
     }
-    // When one that they do not know of came near, those that may be seen wait no longer.
     const bool known = before == SoftObject::PATCH_MIXED && !woken_;
-    if (!known || (reached & (~patch.reached | MANY)))
-        for (int i = 2 * patch.count; i > 0; --i, ++s)
-            if (!known || (s->flags & SEED_VALID))
-                s->wakes = later(0);
+    for (int i = 2 * patch.count; i > 0; --i, ++s)
+        if (!known || (s->flags & SEED_VALID))
+            s->wakes = later(0);
     patch.reached = reached;
-    if (o_.tapers_ && before != SoftObject::PATCH_MIXED)
-        patch.stale = SoftObject::STALE_ALL;  // from normals to paths
+    if (before != SoftObject::PATCH_MIXED) {
+        patch.laid = o_.drift_;
+        if (o_.tapers_)
+            patch.stale = SoftObject::STALE_ALL;  // from normals to paths
+    }
     patch.state = SoftObject::PATCH_MIXED;
     return true;
 }
@@ -1097,19 +1109,12 @@ void Settler::settlePatches()
         }
         if ((before != SoftObject::PATCH_MIXED || woken_ || passed(patch->due)) && !judge(*patch, s))
             continue;
-        if (before != SoftObject::PATCH_MIXED)
-            patch->laid = o_.drift_;
         activate(patch->reached);
         if (patch->stale != SoftObject::STALE_NONE)
             o_.posePatch(*patch, true);
-        const int32_t turned = patch->turned;
-        patch->turned = false;
-        const int32_t seen = plain_ ? rideSeeds(s, patch->count, turned)
-                                   : throughSeeds(s, patch->count, turned, [this](Seed& seed) { settleSeed(seed); });
-        patch->extras = (seen & RIDE_EXTRAS) != 0;
-        patch->back = !(seen & SEED_FRONT);
+        const int32_t busy = plain_ ? rideSeeds(patch, s) : throughSeeds(*patch, s, [this](Seed& seed) { settleSeed(seed); });
         o_.displaced_ = true;
-        patch->idle = seen & RIDE_BUSY ? static_cast<int16_t>(travel_) : idleUntil(*patch);
+        patch->idle = busy ? static_cast<int16_t>(travel_) : idleUntil(*patch);
     }
 }
 

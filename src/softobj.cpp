@@ -325,7 +325,7 @@ void SoftObject::facePatch(Patch& patch, const Vector& axis)
     patch.axis[0] = toDirection(axis.x);
     patch.axis[1] = toDirection(axis.y);
     patch.axis[2] = toDirection(axis.z);
-    patch.across = rawFromReal(dot(patch.run.middle, axis)) >> 11;
+    patch.across = rawFromReal(dot(patch.middle, axis)) >> 11;
     patch.radius32 = (rawFromReal(patch.radius) >> 11) + 1;
 }
 
@@ -339,20 +339,22 @@ Vector SoftObject::restNormal(const Seed& s) const
     return {part * Real(normal[0]), part * Real(normal[1]), part * Real(normal[2])};
 }
 
-SeedRun SoftObject::runOf(const Patch& patch, const Vector& middle) const
+// The straight line that its seeds lie along.
+void SoftObject::alignPatch(Patch& patch) const
 {
     const auto rests = [&](int i) {
         const Seed& s = seeds_[2 * (patch.first + i)];
-        return rootRest_[s.root] + s.path - middle;
+        return rootRest_[s.root] + s.path - patch.middle;
     };
-    const Vector half = (rests(patch.count - 1) - rests(0)) * Real(0.5), along = unit(half);
-    const Real most = length(half);
+    patch.half = (rests(patch.count - 1) - rests(0)) * Real(0.5);
+    const Vector along = unit(patch.half);
+    const Real most = length(patch.half);
     Real thick(0);
     for (int i = 0; i < patch.count; ++i) {
         const Vector v = rests(i);
         thick = ::most(thick, length(v - along * clamp(dot(v, along), -most, most)));
     }
-    return {middle, half, thick + thick + Real(0.002)};
+    patch.wide = thick + thick + Real(0.002);
 }
 
 void SoftObject::buildPatches()
@@ -373,7 +375,8 @@ void SoftObject::buildPatches()
             middle = middle + (rootRest_[s.root] + s.path) * share;
             axis = axis + restNormal(s) * share;
         }
-        patch.run = runOf(patch, middle);
+        patch.middle = middle;
+        alignPatch(patch);
         axis = unit(axis);
         patch.radius = Real(0);
         Real spread(0);
@@ -417,7 +420,7 @@ bool SoftObject::keepRest()
     for (int p = 0; p < patchCount_; ++p) {
         const Patch& patch = patches_[p];
         const Real part(1.0 / 16384);
-        patchRest_[p] = {patch.run, {part * Real(patch.axis[0]), part * Real(patch.axis[1]), part * Real(patch.axis[2])},
+        patchRest_[p] = {patch.middle, patch.half, patch.wide, {part * Real(patch.axis[0]), part * Real(patch.axis[1]), part * Real(patch.axis[2])},
                          patch.radius};
     }
     return true;
@@ -451,7 +454,9 @@ void SoftObject::poseSeeds()
     }
     for (int p = 0; p < patchCount_; ++p) {
         Patch& patch = patches_[p];
-        patch.run = {pose_ * patchRest_[p].run.middle, pose_ * patchRest_[p].run.half, patchRest_[p].run.wide * ratio};
+        patch.middle = pose_ * patchRest_[p].middle;
+        patch.half = pose_ * patchRest_[p].half;
+        patch.wide = patchRest_[p].wide * ratio;
         patch.radius = patchRest_[p].radius * ratio;
         facePatch(patch, turn * patchRest_[p].axis);
         patch.state = PATCH_UNKNOWN;

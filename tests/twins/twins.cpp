@@ -106,7 +106,9 @@ struct RideLayout {
     static_assert(inride::RUN_MIDDLEX == offsetof(SeedRun, middle) && inride::RUN_MIDDLEY == offsetof(SeedRun, middle.y) &&
                   inride::RUN_MIDDLEZ == offsetof(SeedRun, middle.z) && inride::RUN_HALFX == offsetof(SeedRun, half) &&
                   inride::RUN_HALFY == offsetof(SeedRun, half.y) && inride::RUN_HALFZ == offsetof(SeedRun, half.z) &&
-                  inride::RUN_WIDE == offsetof(SeedRun, wide), "SeedRun");
+                  inride::RUN_WIDE == offsetof(SeedRun, wide) && inride::RUN_COUNT == offsetof(SeedRun, count) &&
+                  inride::RUN_TURNED == offsetof(SeedRun, turned) && inride::RUN_EXTRAS == inride::RUN_TURNED + 1 &&
+                  inride::RUN_EXTRAS == offsetof(SeedRun, extras) && inride::RUN_BACK == offsetof(SeedRun, back), "SeedRun");
     static constexpr int SHADE = offsetof(RideFrame, shade), EYE = SHADE + offsetof(ShadeFrame, eye);
     static_assert(inride::EYE_X == EYE + inshade::EYE_X && inride::EYE_Y == EYE + inshade::EYE_Y &&
                   inride::EYE_Z == EYE + inshade::EYE_Z && offsetof(ShadeFrame, eye) == 0 &&
@@ -126,8 +128,7 @@ struct RideLayout {
                   inride::STEEP_OFFSET == offsetof(OwnStep, steep) && inride::FIELD_STEP == sizeof(FieldStep) &&
                   offsetof(FieldStep, value) == 0 && inride::SLOPE_OFFSET == offsetof(FieldStep, slope) &&
                   inride::RUN_DOUBT == RUN_DOUBT.raw && inride::RECHECK == RECHECK && inride::REACHES_NONE == REACHES_NONE &&
-                  inride::REACHES_BURYING == REACHES_BURYING && inride::REACHES_SOME == REACHES_SOME &&
-                  inride::BUSY == RIDE_BUSY && inride::EXTRAS == RIDE_EXTRAS, "constants");
+                  inride::REACHES_BURYING == REACHES_BURYING && inride::REACHES_SOME == REACHES_SOME, "constants");
 };
 
 namespace {
@@ -898,12 +899,14 @@ struct Rings {
 constexpr int NEARS = 6;
 // All that a ride may touch.
 struct RideState {
+    SeedRun run;
     Rings rings;
     RideFrame frame;
     RideNear nears[NEARS];
     Profile profiles[NEARS];
     uint32_t calls;  // what the calls back were told, in their order
 };
+SeedRun run;
 Rings rings;
 RideNear nears[NEARS];
 Profile profiles[NEARS];
@@ -913,6 +916,7 @@ long seedsRidden = 0, ridesFound[8];
 
 void save(RideState& to)
 {
+    memcpy(&to.run, &run, sizeof run);
     memcpy(&to.rings, &rings, sizeof rings);
     memcpy(&to.frame, &ride, sizeof ride);
     memcpy(&to.nears, &nears, sizeof nears);
@@ -921,6 +925,7 @@ void save(RideState& to)
 }
 void restore(const RideState& from)
 {
+    memcpy(&run, &from.run, sizeof run);
     memcpy(&rings, &from.rings, sizeof rings);
     memcpy(&ride, &from.frame, sizeof ride);
     memcpy(&nears, &from.nears, sizeof nears);
@@ -1085,14 +1090,19 @@ void rideByRide(int rounds)
             anyRide();
         anyRings();
         calls = static_cast<uint32_t>(round);
-        const int count = below(4) ? RING : 1 + below(RING), turned = below(2);
+        const int count = below(4) ? RING : 1 + below(RING);
+        fill(&run, sizeof run);
+        run.count = count;
+        run.turned = below(2);
+        run.extras = below(2);
+        run.back = below(2);
         save(start);
-        const int32_t c = rideC(rings.seeds + 2 * RING, count, turned);
+        const int32_t c = rideC(&run, rings.seeds + 2 * RING);
         save(ofC);
         restore(start);
-        const int32_t a = rideA(rings.seeds + 2 * RING, count, turned);
+        const int32_t a = rideA(&run, rings.seeds + 2 * RING);
         save(ofA);
-        verdict(c == a, "rides: the same result, round", round);
+        verdict(c == a && memcmp(&ofC.run, &ofA.run, sizeof run) == 0, "rides: the same result, round", round);
         verdict(memcmp(&ofC.rings, &ofA.rings, sizeof rings) == 0, "rides: the same seeds, round", round);
         verdict(memcmp(&ofC.frame, &ofA.frame, sizeof ride) == 0, "rides: the same frame, round", round);
         verdict(memcmp(&ofC.nears, &ofA.nears, sizeof nears) == 0 && memcmp(&ofC.profiles, &ofA.profiles, sizeof profiles) == 0,
@@ -1107,7 +1117,7 @@ void rideByRide(int rounds)
             const Seed& s = rings.seeds[i];
             const Seed& before = start.rings.seeds[i];
             ridesFound[4] += s.flags == 0 && before.flags != 0;
-            ridesFound[5] += (a & RIDE_EXTRAS) != 0 && (i & 1) && (s.flags & SEED_ACTIVE) && memcmp(&s, &before, sizeof s) != 0;
+            ridesFound[5] += run.extras && (i & 1) && (s.flags & SEED_ACTIVE) && memcmp(&s, &before, sizeof s) != 0;
             ridesFound[6] += s.flags == (SEED_VALID | SEED_FRONT) && before.flags != s.flags;
             ridesFound[7] += s.flags == (SEED_VALID | SEED_PLACED) && before.flags != s.flags;
             // Of one that has just been laid the neighbours are not known any more: only where there is one alone.
@@ -1126,7 +1136,9 @@ void rideByRide(int rounds)
             wrongFields += off > doubt || off < -doubt;
         }
         // A run: by chance, along the way to a neighbour, or so small that it is all in one state.
-        SeedRun run = {rings.seeds[2 * RING].path, rings.seeds[2 * RING + 2].path, real(nearRadius * uniform(0, 1))};
+        run.middle = rings.seeds[2 * RING].path;
+        run.half = rings.seeds[2 * RING + 2].path;
+        run.wide = real(nearRadius * uniform(0, 1));
         if (below(3)) {
             const double share = below(3) ? uniform(0, 0.2) : 0;
             for (int k = 0; k < 3; ++k) {
@@ -1272,9 +1284,9 @@ void registers()
     for (int i = 0; i < 2000; ++i) {
         anyRide();
         anyRings();
-        const uint32_t all[5] = {word(rings.seeds + 2 * RING), 1u + static_cast<uint32_t>(below(RING)), static_cast<uint32_t>(below(2)), 0, 0};
+        run = {rings.seeds[0].path, rings.seeds[2].path, real(nearRadius * uniform(0, 0.2)), 1 + below(RING), below(2) != 0, false, false};
+        const uint32_t all[5] = {word(&run), word(rings.seeds + 2 * RING), 0, 0, 0};
         verdict(damage(reinterpret_cast<const void*>(rideA), all) == 0, "registers are kept: rideA", i);
-        const SeedRun run = {rings.seeds[0].path, rings.seeds[2].path, real(nearRadius * uniform(0, 0.2))};
         const uint32_t reach[5] = {word(&run), 0, 0, 0, 0};
         verdict(damage(reinterpret_cast<const void*>(rideReachA), reach) == 0, "registers are kept: rideReachA", i);
         const uint32_t look[5] = {65536u + static_cast<uint32_t>(below(50000)), 0, 0, 0, 0};
