@@ -6,8 +6,8 @@ namespace {
 
 // The own field along a path and the neighbour's make up the isovalue together: at the position where the own one is the
 // isovalue less F(t), the neighbour has to be at t. By steps of t, from where its field begins to where it is alone.
-constexpr int STEPS = 33;
-constexpr Real FIRST(0.90), STEP(0.02);
+constexpr int STEPS = 22;
+constexpr Real FIRST(0.90), STEP(0.03);
 
 struct Step {
     Real t, position, inverse;
