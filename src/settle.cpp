@@ -30,8 +30,8 @@ constexpr int BETWEEN = 3;
 // What is searched for again is looked at where it was nearest, and so far on; alone there when the field allows to wait for
 // more than so many steps of travel; there and a step on, but nowhere else, for more than so many.
 constexpr Real HINT_STEP(0.06);
-constexpr int HINT_ALONE = 32;
-constexpr int HINT_NO_SEARCH = 12;
+constexpr int HINT_ALONE = 10;
+constexpr int HINT_NO_SEARCH = 6;
 constexpr Real NEARLY(0.04);  // of the field: how near the isovalue it must have come there to be looked at in between
 // Squared distance / squared size up to which a neighbour alone fills what the own field lacks at POSITION_MOST: its
 // field is 0.477 there, which with the own 0.013 is the isovalue but for the tolerance.
