@@ -128,7 +128,6 @@
 #define B_SHIFT      4
 #define WAIT_MOST    0x3000
 #define AWAY_MOST    24*65536
-#define TOUCHING     58982
 #define DISPLACEMENT 655
 #define SHORT_STEP   3277
 #define LONGEST_STEP 16384
@@ -142,6 +141,7 @@
 #define OWN_STEP     16
 #define OWN_OFFSET   4
 #define STEEP_OFFSET 8
+#define OTHER_OFFSET 12
 #define FIELD_STEP   8
 #define SLOPE_OFFSET 4
 #define RUN_DOUBT    262
@@ -402,28 +402,15 @@ in_profile:
         cmpl    RIDE(RIDE_KEPTTWICE), %eax
         jbe     lies
 lay:
-        // ownSlope = ownQuick(position).slope
+        // ownSlope = ownQuick(position).slope;  slopes[0] = .otherSlope
         movl    %ecx, %edx
-        movl    NEAR_CZERO(%ebx), %eax
-        sarl    $2, %edx
         movl    %ecx, SEED_POSITION(%esi)
+        sarl    $2, %edx
         andl    $-OWN_STEP, %edx
-        movl    OWN(OWN_OFFSET)(%edx), %edx
-        movl    %edx, RIDE(OWN_SLOPE)
-        // t = a0 + position * (b + position * c0), limited to 0..TOUCHING
-        imull   %ecx
-        shrdl   $16, %edx, %eax
-        addl    RIDE(RIDE_B), %eax
-        imull   %ecx
-        shrdl   $16, %edx, %eax
-        addl    NEAR_AZERO(%ebx), %eax
-        cmpl    $TOUCHING, %eax
-        ja      limit_param
-param_limited:
-        // slopes[0] = geoffQuick(t).slope
-        shrl    $6, %eax
-        movl    SYM(fieldSteps)+SLOPE_OFFSET(,%eax,FIELD_STEP), %eax
-        movl    %eax, RIDE(SLOPES)
+        movl    OWN(OWN_OFFSET)(%edx), %eax
+        movl    OWN(OTHER_OFFSET)(%edx), %edx
+        movl    %eax, RIDE(OWN_SLOPE)
+        movl    %edx, RIDE(SLOPES)
         // facing = shadeSeed(&shade, &s, position, position > evenMost ? OVER_BACK : 0)
         xorl    %eax, %eax
         cmpl    RIDE(RIDE_EVENMOST), %ecx
@@ -715,12 +702,6 @@ limit_step:
 above:
         xorl    %eax, %eax
         jmp     in_profile
-limit_param:
-        // t < 0 ? 0 : TOUCHING
-        sarl    $31, %eax
-        notl    %eax
-        andl    $TOUCHING, %eax
-        jmp     param_limited
 beyond_border:
         movl    $OVER_BACK, %eax
         jmp     shade
@@ -796,16 +777,14 @@ look:
         movl    RIDE(COUNT), %edi
         movl    %eax, RIDE(RIDE_EXCESS)
         movl    $0, RIDE(RIDE_STRENGTH)
-        decl    %edi
-        js      looked
 1:
         // c = position * c0;  sum = b[n] + c;  t = a0 + position * sum
-        movl    RIDE(PULLS)(,%edi,4), %ebx
+        movl    RIDE(PULLS-4)(,%edi,4), %ebx
         movl    NEAR_CZERO(%ebx), %eax
         imull   %ebp
         shrdl   $16, %edx, %eax
         movl    %eax, %ecx
-        addl    RIDE(RIDE_B)(,%edi,4), %eax
+        addl    RIDE(RIDE_B-4)(,%edi,4), %eax
         addl    %eax, %ecx
         imull   %ebp
         shrdl   $16, %edx, %eax
@@ -823,12 +802,12 @@ look:
         movl    %edx, RIDE(RIDE_STRENGTH)
 2:
         // slopes[n] = step.slope;  slope += step.slope * (sum + c)
-        movl    %eax, RIDE(SLOPES)(,%edi,4)
+        movl    %eax, RIDE(SLOPES-4)(,%edi,4)
         imull   %ecx
         shrdl   $16, %edx, %eax
         addl    %eax, RIDE(RIDE_SLOPE)
         decl    %edi
-        jns     1b
+        jnz     1b
 looked:
         // strength = strongest - ownQuick(position).value - overshoot
         popl    %eax
@@ -837,9 +816,9 @@ looked:
         ret
 no_field:
         // slopes[n] = 0
-        movl    $0, RIDE(SLOPES)(,%edi,4)
+        movl    $0, RIDE(SLOPES-4)(,%edi,4)
         decl    %edi
-        jns     1b
+        jnz     1b
         jmp     looked
 
 // ---------------------------------------------------------------------------------------------------------------------

@@ -95,8 +95,7 @@ void settleBetween(Seed& s)
         return;
     s.position = position;
     ride.shade.ownSlope = ownQuick(position).slope;
-    const Real t = near.a0 + position * (b + position * near.c0);
-    ride.shade.slopes[0] = geoffQuick(clamp(t, Real(0), TOUCHING)).slope;
+    ride.shade.slopes[0] = ownQuick(position).otherSlope;
     shade(s, position, position > ride.evenMost);
 }
 

@@ -120,12 +120,12 @@ struct RideLayout {
                   inride::PROFILE_RISE == offsetof(Profile, cells_) + offsetof(Profile::Cell, rise) &&
                   inride::PROFILE_CELL == sizeof(Profile::Cell) && inride::NOT_MADE == Profile::NOT_MADE, "Profile");
     static_assert(inride::B_SHIFT == B_SHIFT && inride::WAIT_MOST == WAIT_MOST && inride::AWAY_MOST == Real(AWAY_MOST).raw &&
-                  inride::TOUCHING == TOUCHING.raw && inride::DISPLACEMENT == DISPLACEMENT.raw && inride::OVER_BACK == OVER_BACK &&
+                  inride::DISPLACEMENT == DISPLACEMENT.raw && inride::OVER_BACK == OVER_BACK &&
                   inride::SHORT_STEP == SHORT_STEP.raw && inride::LONGEST_STEP == LONGEST_STEP.raw && inride::LOOK_LIMIT == LOOK_LIMIT &&
                   inride::FLAT == FLAT.raw && inride::PLACED_LEAST == PLACED_LEAST.raw && inride::POSITION_MOST == POSITION_MOST.raw &&
                   inride::ISOVALUE == ISOVALUE.raw && inride::OWN_FIRST == OWN_FIRST && inride::OWN_STEP == sizeof(OwnStep) &&
                   offsetof(OwnStep, value) == 0 && inride::OWN_OFFSET == offsetof(OwnStep, slope) &&
-                  inride::STEEP_OFFSET == offsetof(OwnStep, steep) && inride::FIELD_STEP == sizeof(FieldStep) &&
+                  inride::STEEP_OFFSET == offsetof(OwnStep, steep) && inride::OTHER_OFFSET == offsetof(OwnStep, otherSlope) && inride::FIELD_STEP == sizeof(FieldStep) &&
                   offsetof(FieldStep, value) == 0 && inride::SLOPE_OFFSET == offsetof(FieldStep, slope) &&
                   inride::RUN_DOUBT == RUN_DOUBT.raw && inride::RECHECK == RECHECK && inride::REACHES_NONE == REACHES_NONE &&
                   inride::REACHES_BURYING == REACHES_BURYING && inride::REACHES_SOME == REACHES_SOME, "constants");
@@ -1178,7 +1178,7 @@ void rideByRide(int rounds)
         ride.inRange = ride.first;
         if (round % 8 == 0) {
             // A look for itself.
-            ride.shade.count = below(NEARS);
+            ride.shade.count = 1 + below(NEARS - 1);
             for (int n = 0; n < ride.shade.count; ++n) {
                 ride.shade.pulls[n] = &nears[below(ride.first == nears ? 1 : 2)].pull;
                 ride.b[n] = real(uniform(-4, 4));
@@ -1289,6 +1289,8 @@ void registers()
         verdict(damage(reinterpret_cast<const void*>(rideA), all) == 0, "registers are kept: rideA", i);
         const uint32_t reach[5] = {word(&run), 0, 0, 0, 0};
         verdict(damage(reinterpret_cast<const void*>(rideReachA), reach) == 0, "registers are kept: rideReachA", i);
+        ride.shade.count = 1;
+        ride.shade.pulls[0] = &nears[0].pull;
         const uint32_t look[5] = {65536u + static_cast<uint32_t>(below(50000)), 0, 0, 0, 0};
         verdict(damage(reinterpret_cast<const void*>(rideLookA), look) == 0, "registers are kept: rideLookA", i);
     }
