@@ -168,9 +168,10 @@
 //
 //   esi  seed; the rest is anybody's
 
-// The loop stands twice: for `turned`, and without it.
-        .macro  SEEDS_LOOP turned
-seed\turned:
+// The loop stands four times. `turned`: seeds are to be laid anew. `quiet`: no oversampled seed takes part, so that there is none
+// to be put aside. `busy`: it is known that some seed was awake.
+        .macro  SEEDS_LOOP name turned quiet busy
+seed_\name:
         .if     \turned
         // if ((flags & (PLACED | FRONT)) == (PLACED | FRONT)) flags &= ~KEPT, and it is awake
         movb    SEED_FLAGS(%esi), %al
@@ -181,44 +182,52 @@ seed\turned:
         // if (static_cast<int16_t>(wakes - travel) < 0): both in the upper half of a word, below them there is no borrow
         movl    SEED_DIRZ(%esi), %eax
         subl    RIDE(RIDE_TRAVEL), %eax
-        jns     asleep\turned
-awake\turned:
+        .if     \quiet && !\busy
+        js      first_awake
+        .else
+        jns     asleep_\name
+awake_\name:
         call    settle
+        .if     !\busy
         movb    $1, BUSY(%esp)
-asleep\turned:
+        .endif
+        .endif
+asleep_\name:
         // seen |= flags;  other = seed + extra.neighbour
         movb    SEED_FLAGS(%esi), %al
         movl    SEED_SIZE+SEED_NEIGHBOUR(%esi), %ecx
         orb     %al, SEEN(%esp)
         // if (((flags | other.flags) & (PLACED | FRONT)) == (PLACED | FRONT)) ..: FRONT is the sign
         orb     SEED_FLAGS(%esi,%ecx), %al
-        jns     none\turned
+        jns     none_\name
         testb   $PLACED, %al
-        jnz     pair\turned
-none\turned:
+        jnz     pair_\name
+none_\name:
         // else extra.flags = 0
+        .if     !\quiet
         movb    $0, SEED_SIZE+SEED_FLAGS(%esi)
+        .endif
         addl    $2*SEED_SIZE, %esi
         decl    LEFT(%esp)
-        jnz     seed\turned
+        jnz     seed_\name
         jmp     done
 
         .balign 4
-pair\turned:
+pair_\name:
         // belt = ((flags ^ other.flags) & VALID) != 0
         movb    SEED_FLAGS(%esi), %al
         movb    SEED_FLAGS(%esi,%ecx), %dl
         movb    %al, %ah
         xorb    %dl, %ah
         testb   $VALID, %ah
-        jnz     belt\turned
+        jnz     belt_\name
         // if (|position - other.position| <= parting) none
         movl    SEED_POSITION(%esi), %eax
         subl    SEED_POSITION(%esi,%ecx), %eax
         addl    RIDE(RIDE_PARTING), %eax
         cmpl    RIDE(RIDE_PARTINGTWICE), %eax
-        jbe     none\turned
-between\turned:
+        jbe     none_\name
+between_\name:
         addl    $SEED_SIZE, %esi
         .if     \turned
         movb    SEED_FLAGS(%esi), %al
@@ -228,11 +237,11 @@ between\turned:
         .endif
         // if (!(extra.flags & ACTIVE) || passed(extra)) settle(extra)
         testb   $ACTIVE, SEED_FLAGS(%esi)
-        jz      extra\turned
+        jz      extra_\name
         movl    SEED_DIRZ(%esi), %eax
         subl    RIDE(RIDE_TRAVEL), %eax
         jns     2f
-extra\turned:
+extra_\name:
         call    settle
         movb    $1, BUSY(%esp)
 2:
@@ -245,14 +254,14 @@ extra\turned:
         movb    $1, RUN_EXTRAS(%ecx)
         addl    $SEED_SIZE, %esi
         decl    LEFT(%esp)
-        jnz     seed\turned
+        jnz     seed_\name
         jmp     done
-belt\turned:
+belt_\name:
         // if (flags & other.flags & PLACED) none
         andb    %dl, %al
         testb   $PLACED, %al
-        jnz     none\turned
-        jmp     between\turned
+        jnz     none_\name
+        jmp     between_\name
         .endm
 
         .balign 16
@@ -267,21 +276,31 @@ belt\turned:
         // left = count;  turned = extras = false
         movl    RUN_COUNT(%ecx), %eax
         movb    RUN_TURNED(%ecx), %dl
+        movb    RUN_EXTRAS(%ecx), %dh
         movl    %eax, LEFT(%esp)
         movw    $0, RUN_TURNED(%ecx)
         testb   %dl, %dl
-        jnz     seed1
+        jnz     seed_turned
+        testb   %dh, %dh
+        jnz     seed_extras
         .balign 4
-        SEEDS_LOOP 0
+        SEEDS_LOOP quiet 0 1 0
+first_awake:
+        movb    $1, BUSY(%esp)
+        jmp     awake_busy
+        .balign 4
+        SEEDS_LOOP busy 0 1 1
+        .balign 4
+        SEEDS_LOOP extras 0 0 0
         .balign 4
 turn:
         andb    $~KEPT, SEED_FLAGS(%esi)
-        jmp     awake1
+        jmp     awake_turned
 turn_extra:
         andb    $~KEPT, SEED_FLAGS(%esi)
-        jmp     extra1
+        jmp     extra_turned
         .balign 4
-        SEEDS_LOOP 1
+        SEEDS_LOOP turned 1 0 0
 done:
         // back = !(seen & FRONT)
         movl    RUN(%esp), %ecx

@@ -111,7 +111,8 @@ enum RideReach : int32_t { REACHES_NONE = 1, REACHES_BURYING, REACHES_SOME };
 extern "C" {
 
 // Settles what is awake of the seeds of a run, one or more, and of the oversampled ones behind them (see SoftObject's seeds);
-// sets `turned`, `extras` and `back` of the run. Returns 0 if none was awake, else 1.
+// sets `turned`, `extras` and `back` of the run. Where `extras` is false none of the oversampled ones takes part, and all their
+// flags are 0. Returns 0 if none was awake, else 1.
 int32_t rideC(SeedRun* run, Seed* seeds);
 
 // What neighbours do to a run: RideReach.

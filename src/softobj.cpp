@@ -447,7 +447,8 @@ void SoftObject::poseSeeds()
             Seed& s = seeds_[i];
             const Real step = shiftDown(radius_, 14);
             s.path = {step * Real(s.dirX), step * Real(s.dirY), step * Real(s.dirZ)};
-            s.flags = static_cast<uint8_t>(s.flags & ~SEED_KEPT);
+            // buildPatches() takes it that no oversampled one takes part.
+            s.flags = i & 1 ? 0 : static_cast<uint8_t>(s.flags & ~SEED_KEPT);
         }
         buildPatches();
         return;

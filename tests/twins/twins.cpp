@@ -1096,6 +1096,9 @@ void rideByRide(int rounds)
         run.turned = below(2);
         run.extras = below(2);
         run.back = below(2);
+        if (!run.extras)
+            for (int i = 2 * RING + 1; i < 4 * RING; i += 2)
+                rings.seeds[i].flags = 0;
         save(start);
         const int32_t c = rideC(&run, rings.seeds + 2 * RING);
         save(ofC);
