@@ -7,6 +7,8 @@
 // - The normal is the gradient, put together from the slopes of the last look, instead of three more samples.
 // - A scale is as large as the part of the surface that is the seed's own, in each direction as the viewer sees it. The
 //   seed keeps it, counted from the object's centre, as long as neither the seed nor the viewer's side of it changes.
+// Where all that are in range are balls of weight 1, what is often is done by ride.h; the rest of their case, and all of the
+// others, is here.
 #include "ride.h"
 #include "softobj.h"
 
