@@ -224,7 +224,7 @@ private:
     friend class Filler;
 
     // Most seeds that are judged as one.
-    static constexpr int PATCH_SEEDS = 8;
+    static constexpr int PATCH_SEEDS = 12;
 
     // A run of seeds of one ring, small enough to be judged as one.
     struct Patch : SeedRun {
