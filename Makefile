@@ -33,10 +33,10 @@ build/host32/%.o: %.S
 	@mkdir -p $(@D)
 	$(HOST_CXX) -m32 -x assembler-with-cpp -Iasm -MMD -MP -c $< -o $@
 
-build/demo32: $(patsubst %.cpp,build/host32/%.o,$(HOST_SOURCES)) build/host32/asm/blit.o build/host32/asm/scales.o build/host32/asm/shade.o
+build/demo32: $(patsubst %.cpp,build/host32/%.o,$(HOST_SOURCES)) build/host32/asm/blit.o build/host32/asm/scales.o build/host32/asm/shade.o build/host32/asm/ride.o
 	$(HOST_CXX) -m32 -no-pie -static -o $@ $^
 
-build/DEMO.EXE: $(patsubst %.cpp,build/dos/%.o,$(SOURCES)) build/dos/asm/shade.o $(DOS_BASE) build/STUB.EXE build/mkexe tools/dos.ld
+build/DEMO.EXE: $(patsubst %.cpp,build/dos/%.o,$(SOURCES)) build/dos/asm/shade.o build/dos/asm/ride.o $(DOS_BASE) build/STUB.EXE build/mkexe tools/dos.ld
 	$(DOS_LINK)
 
 # Where a frame's time goes: larger code, 7% fewer instructions a frame.

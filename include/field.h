@@ -25,13 +25,14 @@ struct FieldStep {
 constexpr int FIELD_STEPS = 1024;
 extern FieldStep fieldSteps[FIELD_STEPS];
 
-// The own field of an object along a seed's path by steps of 1/1024 of the position p, as t = p^2 / 4: F, dF/dt and dF/dp.
+// The own field of an object along a seed's path by steps of 1/1024 of the position p, as t = p^2 / 4: F, dF/dt and dF/dp. And
+// dF/dt of the neighbour's if the two make up the isovalue there.
 // OWN_FIRST / 1024 <= p < (OWN_FIRST + OWN_STEPS) / 1024.
 struct OwnStep {
     Real value;
     Real slope;
     Real steep;
-    Real unused;  // makes the size a power of two
+    Real otherSlope;
 };
 constexpr int OWN_FIRST = 940;
 constexpr int OWN_STEPS = 1000;

@@ -12,6 +12,10 @@ void makeProfileSteps();
 
 class Profile {
 public:
+    // From here on until make() it has no places.
+    void clear() { depth_ = NOT_MADE; }
+    bool made() const { return depth_ != NOT_MADE; }
+
     // The neighbour's squared distance / squared size is a0 + position (b + position c0) along the paths, b tells them apart,
     // and none has less than `least`. `border`: the position from which on the neighbour is too strong (1..2).
     void make(Real a0, Real c0, Real least, Real border);
@@ -23,7 +27,7 @@ public:
         const int32_t in = top_ - rawFromReal(b);
         if (in >= depth_)
             return false;
-        const int32_t fine = in < 0 ? 0 : in >> (shift_ - 8);
+        const int32_t fine = in < 0 ? 0 : in >> fine_;
         const Cell& cell = cells_[fine >> 8];
         position = realFromRaw(cell.position + (cell.rise * (fine & 255) >> 8));
         return true;
@@ -33,14 +37,16 @@ public:
     Real edge() const { return edge_; }
 
 private:
+    friend struct RideLayout;
     static constexpr int CELLS = 64;
+    static constexpr int32_t NOT_MADE = INT32_MIN;  // a depth
     struct Cell {
         int32_t position;  // raw; at its upper end
         int32_t rise;      // to its lower end
     };
 
     int32_t top_, depth_;  // raw
-    int shift_;            // log2 of how wide a cell is
+    int fine_;             // log2 of the 256th of how wide a cell is
     Real edge_;
     Cell cells_[CELLS + 1];
 };

@@ -35,6 +35,17 @@ struct Seed {
     int8_t along[3], across[3];  // half axes of the part of the surface that is its own, 1/64 spacing
 };
 
+// A run of seeds of a ring. Where they rest, counted from the object's centre: none is farther than wide / 2 from the straight
+// line from middle - half to middle + half.
+struct SeedRun {
+    Vector middle, half;
+    Real wide;
+    int32_t count;
+    bool turned;   // the viewer has moved on since the placed seeds were laid
+    bool extras;   // oversampled seeds among them take part
+    bool back;     // none of it can be seen
+};
+
 // Receives the seeds of a primitive, ring by ring, in the object's own space: centred on the origin and axis-aligned
 // ("canonical" space, Appendix C). It is run twice: once to count, once to fill.
 class SeedMaker {

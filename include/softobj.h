@@ -222,14 +222,12 @@ private:
     friend class Filler;
 
     // Most seeds that are judged as one.
-    static constexpr int PATCH_SEEDS = 8;
+    static constexpr int PATCH_SEEDS = 12;
 
     // A run of seeds of one ring, small enough to be judged as one.
-    struct Patch {
+    struct Patch : SeedRun {
         int32_t first;    // index of the first seed / 2
-        int32_t count;
-        Vector middle;    // of the rest places, from the centre
-        Real radius;      // of a ball round `middle` that holds them
+        Real radius;      // of a ball round `middle` that holds the places where they rest
         int16_t axis[3];  // mean direction, unit length = 2^14
         int16_t spread;   // greatest |direction - axis|, the same scale
         int32_t across;   // middle . axis and radius in 1/32 unit
@@ -238,10 +236,7 @@ private:
         int16_t due;      // up to which travel of the object no further one does, nor its state changes
         int16_t idle;     // up to which travel nothing at all happens to it
         uint8_t state;    // PatchState
-        bool extras;      // oversampled seeds among them take part
         uint8_t stale;    // PatchStale
-        bool back;        // none of it can be seen
-        bool turned;      // the viewer has moved on since the placed seeds were laid
         uint16_t laid;    // up to which drift_ that holds if it is at rest, and how its seeds at rest lie in the view
     };
     enum PatchState : uint8_t { PATCH_UNKNOWN, PATCH_AT_REST, PATCH_BURIED, PATCH_MIXED };
@@ -263,7 +258,9 @@ private:
         int16_t normal[3];           // of the surface, unit length = 2^14; only where the object tapers
     };
     struct PatchRest {
-        Vector middle, axis;
+        Vector middle, half;
+        Real wide;
+        Vector axis;
         Real radius;
     };
 
@@ -271,6 +268,7 @@ private:
     void linkChanged();
     bool inRange(const SoftObject& other) const;
     void buildPatches();
+    void alignPatch(Patch& patch) const;
     static void facePatch(Patch& patch, const Vector& axis);
     bool keepRest();
     // It looks the same from everywhere.

@@ -19,8 +19,10 @@ namespace {
 // the picture.
 constexpr int32_t WHOLE_BEFORE = 37 * 32;
 
+constexpr int LISTED_MOST = 12;
+
 // Lists those of a patch that are seen, unless it meets one that does not lie in the view yet: then false, and `to` as it
-// was. Without a loop, for it is done for most seeds of a frame. `end` is behind the patch's seeds, `count` of which (1..8)
+// was. Without a loop, for it is done for most seeds of a frame. `end` is behind the patch's seeds, `count` of which (1..LISTED_MOST)
 // are regular ones; `extras`: the oversampled ones between are meant too.
 inline bool listKept(const Seed* end, int count, bool extras, const Voxel**& to)
 {
@@ -34,7 +36,11 @@ inline bool listKept(const Seed* end, int count, bool extras, const Voxel**& to)
     [[fallthrough]]
     if (!extras) {
         switch (count) {
-        default: LIST(16);
+        default: LIST(24);
+        case 11: LIST(22);
+        case 10: LIST(20);
+        case 9: LIST(18);
+        case 8: LIST(16);
         case 7: LIST(14);
         case 6: LIST(12);
         case 5: LIST(10);
@@ -46,14 +52,18 @@ inline bool listKept(const Seed* end, int count, bool extras, const Voxel**& to)
         }
     } else {
         switch (count) {
-        default: LIST(16); case -1: LIST(15);
-        case 7: LIST(14); case -2: LIST(13);
-        case 6: LIST(12); case -3: LIST(11);
-        case 5: LIST(10); case -4: LIST(9);
-        case 4: LIST(8); case -5: LIST(7);
-        case 3: LIST(6); case -6: LIST(5);
-        case 2: LIST(4); case -7: LIST(3);
-        case 1: LIST(2); case -8: LIST(1);
+        default: LIST(24); case -1: LIST(23);
+        case 11: LIST(22); case -2: LIST(21);
+        case 10: LIST(20); case -3: LIST(19);
+        case 9: LIST(18); case -4: LIST(17);
+        case 8: LIST(16); case -5: LIST(15);
+        case 7: LIST(14); case -6: LIST(13);
+        case 6: LIST(12); case -7: LIST(11);
+        case 5: LIST(10); case -8: LIST(9);
+        case 4: LIST(8); case -9: LIST(7);
+        case 3: LIST(6); case -10: LIST(5);
+        case 2: LIST(4); case -11: LIST(3);
+        case 1: LIST(2); case -12: LIST(1);
         case 0: break;
         }
     }
@@ -158,6 +168,7 @@ void Lister::layRun(Seed* s, const Seed* end)
 
 void Lister::list(SoftObject& object, const Look& look, VoxelList& list, int room, int* next)
 {
+    static_assert(SoftObject::PATCH_SEEDS <= LISTED_MOST, "a patch is listed as a whole");
     o_ = &object;
     look_ = &look;
     setUp();

@@ -28,6 +28,15 @@ void makeFieldSteps()
     for (int i = 0; i < OWN_STEPS; ++i) {
         const Real position = realFromRaw((2 * (OWN_FIRST + i) + 1) * 32);
         const Real t = shiftDown(position * position, 2);
-        ownSteps[i] = {geoff(t), geoffSlope(t), geoffSlope(t) * shiftDown(position, 1), Real(0)};
+        const Real own = geoff(t);
+        int32_t low = 0, high = 65536;
+        while (low < high) {
+            const int32_t middle = (low + high + 1) >> 1;
+            if (geoff(realFromRaw(middle)) >= ISOVALUE - own)
+                low = middle;
+            else
+                high = middle - 1;
+        }
+        ownSteps[i] = {own, geoffSlope(t), geoffSlope(t) * shiftDown(position, 1), geoffSlope(realFromRaw(low))};
     }
 }

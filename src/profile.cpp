@@ -6,8 +6,8 @@ namespace {
 
 // The own field along a path and the neighbour's make up the isovalue together: at the position where the own one is the
 // isovalue less F(t), the neighbour has to be at t. By steps of t, from where its field begins to where it is alone.
-constexpr int STEPS = 33;
-constexpr Real FIRST(0.90), STEP(0.02);
+constexpr int STEPS = 22;
+constexpr Real FIRST(0.90), STEP(0.03);
 
 struct Step {
     Real t, position, inverse;
@@ -52,43 +52,50 @@ void Profile::make(Real a0, Real c0, Real least, Real border)
     }
     top_ = b[0];
     depth_ = top_ - lowest;
-    shift_ = 8;
-    while (depth_ >> shift_ >= CELLS)
-        ++shift_;
+    fine_ = 0;
+    while (depth_ >> (fine_ + 8) >= CELLS)
+        ++fine_;
 
     Cell* cell = cells_;
-    const int32_t width = 1 << shift_;
+    const int32_t width = 1 << (fine_ + 8);
     int32_t low = top_, at = top_ - width;  // the least b up to here; the lower end of the cell at hand
     cell->position = rawFromReal(steps[0].position);
-    cell->rise = 0;
+    int32_t end = cell->position, edgeFrom = rawFromReal(border);
     edge_ = realFromRaw(lowest);
-    int32_t end = cell->position;
-    bool whole = true, within = true;
+    bool whole = true;
     for (int i = 1; i < count; ++i) {
-        if (b[i] >= low)
+        const int32_t next = b[i];
+        if (next >= low)
             continue;
-        if (within && steps[i].position >= border) {
-            edge_ = realFromRaw(b[i]);
-            within = false;
+        const int32_t from = rawFromReal(steps[i - 1].position);
+        end = rawFromReal(steps[i].position);
+        if (end >= edgeFrom) {
+            edge_ = realFromRaw(next);
+            edgeFrom = INT32_MAX;
         }
-        const int32_t from = rawFromReal(steps[i - 1].position), rise = rawFromReal(steps[i].position) - from;
         // Over a gap nothing is in between: all of the cell is taken to lie before it.
         if (b[i - 1] > low)
             whole = false;
-        if (b[i] <= at) {
-            const int32_t slope = mulDiv(rise, 65536, b[i - 1] - b[i]);
-            for (; b[i] <= at; at -= width) {
-                const int32_t position = from + mulShift16(b[i - 1] - at, slope);
-                cell->rise = whole ? position - cell->position : 0;
-                whole = true;
-                ++cell;
-                cell->position = position;
-                cell->rise = 0;
-            }
-        }
-        low = b[i];
-        end = from + rise;
+        low = next;
+        if (next > at)
+            continue;
+        const int32_t slope = mulDiv(end - from, 65536, b[i - 1] - next);
+        int32_t position = from + mulShift16(b[i - 1] - at, slope);
+        cell->rise = whole ? position - cell->position : 0;
+        whole = true;
+        (++cell)->position = position;
+        at -= width;
+        if (next > at)
+            continue;
+        const int32_t rise = mulShift16(width, slope);
+        do {
+            cell->rise = rise;
+            position += rise;
+            (++cell)->position = position;
+            at -= width;
+        } while (next <= at);
     }
+    cell->rise = 0;
     // The last cell is seldom filled: its slope is as if it were.
     const int32_t rest = at + width - low;
     if (whole && rest > width >> 3)

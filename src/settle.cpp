@@ -7,8 +7,9 @@
 // - The normal is the gradient, put together from the slopes of the last look, instead of three more samples.
 // - A scale is as large as the part of the surface that is the seed's own, in each direction as the viewer sees it. The
 //   seed keeps it, counted from the object's centre, as long as neither the seed nor the viewer's side of it changes.
-#include "lie.h"
-#include "profile.h"
+// Where all that are in range are balls of weight 1, what is often is done by ride.h; the rest of their case, and all of the
+// others, is here.
+#include "ride.h"
 #include "softobj.h"
 
 // Where the compiler would pass what a function is given through memory.
@@ -23,19 +24,6 @@
 
 namespace {
 
-// A seed is looked for to within 0.01 of the field. Newton's last step is taken without another look when it is short.
-constexpr Real SHORT_STEP(0.05);     // of the position: what remains after it is below 2 SHORT_STEP^2 in the field
-constexpr Real LONGEST_STEP(0.25);   // of the position
-constexpr int LOOK_LIMIT = 8;        // then the surface is bracketed and bisected
-constexpr Real FLAT(-0.2);           // slope above which Newton's method is not trusted
-
-// No seed is looked for farther in: there its own field is more than the isovalue.
-constexpr Real PLACED_LEAST(0.95);
-// No valid seed lies farther out: there its own field is 0.013, and a neighbour that makes up the rest alone is stronger by
-// more than the overshoot.
-constexpr Real POSITION_MOST(1.85);
-// Squared distance / squared size from which a neighbour is left out: its field is 0.006 there, inside the tolerance.
-constexpr Real TOUCHING(0.9);
 // Where a path is looked at for the first time outside the surface, when nothing is known of it; how much farther out then,
 // and how often where it may come out between.
 constexpr Real PROBE(1.15);
@@ -44,51 +32,33 @@ constexpr int BETWEEN = 3;
 // What is searched for again is looked at where it was nearest, and so far on; alone there when the field allows to wait for
 // more than so many steps of travel; there and a step on, but nowhere else, for more than so many.
 constexpr Real HINT_STEP(0.06);
-constexpr int HINT_ALONE = 32;
-constexpr int HINT_NO_SEARCH = 12;
+constexpr int HINT_ALONE = 10;
+constexpr int HINT_NO_SEARCH = 6;
 constexpr Real NEARLY(0.04);  // of the field: how near the isovalue it must have come there to be looked at in between
 // Squared distance / squared size up to which a neighbour alone fills what the own field lacks at POSITION_MOST: its
 // field is 0.477 there, which with the own 0.013 is the isovalue but for the tolerance.
 constexpr Real BURYING(0.265);
-constexpr Real DISPLACEMENT(0.010);  // of the field at the seed's last place: less is taken as not moved
-
 constexpr Real KEPT(0.1);  // units: a seed between two that has moved by less lies as it did
 
 // A neighbour in range, as the seeds of this object see it.
-struct Near : Pull {
+struct Near : RideNear {
     const SoftObject* object;
     Real weight;
     bool plain;      // weight 1
-    bool quick;      // both cores are points: the polynomial below holds
+    bool quick;      // both cores are points: the polynomial of RideNear holds
     Vector fromIt;   // from its centre to this object's centre
     Real reach;      // its size
-    Real a0, c0;     // t = a0 + position (b + position c0)
-    Vector twice;    // b = path . twice; in 16.16: scaled by 2^12 and used with mulHigh
-    Real swing;      // length of twice: how much b changes over a unit
-    Real touching;   // b below this: its field reaches the seed at rest
-    Real meeting;    // b below this: its field reaches the path somewhere up to POSITION_MOST
-    Real burying;    // b below this: the whole stretch of the path up to POSITION_MOST lies inside the surface
+    Real change;     // length of twice: how much b changes over a unit
+    Real meeting;    // see meetingSum
     Real a0Pace;       // how a0 and twice change in an update, if all goes on like this; the latter scaled by 2^16
     Vector twicePace;
-    Profile* profile;  // made when the first seed needs it
-    mutable bool profiled;
-    // Steps of travel that seeds wait: for a difference of 1 in squared distance / squared size on this side of where its
-    // field ends, and of where it buries; for a difference of 1 in the field; for a facing of 1/32 unit (16 bits of fraction).
-    Real waitApart, waitBuried, waitField;
-    // See Settler::facesAway().
-    Real halfSquare, awayLimit, waitAway;
-    int32_t waitFacing;
+    Real waitField;  // steps of travel that seeds wait for a difference of 1 in the field
 };
 
-// b of a path, see Near.
+// b of a path.
 inline Real alongPath(const Near& near, const Vector& path)
 {
-#if FB_REAL == FB_FIXED
-    return shiftUp(Real::fromRaw(mulHigh(path.x.raw, near.twice.x.raw) + mulHigh(path.y.raw, near.twice.y.raw) +
-                                 mulHigh(path.z.raw, near.twice.z.raw)), 4);
-#else
-    return dot(path, near.twice);
-#endif
+    return shiftUp(alongSum(path, near.twice), B_SHIFT);
 }
 
 // How b of a path changes in an update, if all goes on like this.
@@ -113,19 +83,14 @@ constexpr Real WAIT_FACING(0.9);
 // Of the distance to the eye a unit of its way at most changes by how far a path points away, and so does the way itself.
 constexpr Real WAIT_AWAY(1 / 1.8);
 
-// What is known of directions to the eye is uncertain by so many units. The most of them, and the most steps for one, that
-// are waited for.
+// What is known of directions to the eye is uncertain by so many units. The most steps for one that are waited for.
 constexpr Real AWAY_DOUBT(0.3);
-constexpr int AWAY_MOST = 24;
 constexpr int AWAY_STEPS = 500;
 
-// Travel is counted in steps, this many for an update in which all moves as fast as is assumed. No seed waits longer than
-// WAIT_MOST of them.
+// Travel is counted in steps, this many for an update in which all moves as fast as is assumed.
 constexpr int TRAVEL_STEPS = 64;
-constexpr int WAIT_MOST = 0x3000;
 
-// Steps of travel after which it is asked again whether all that reached a patch still do.
-constexpr int RECHECK = 10 * TRAVEL_STEPS;
+static_assert(RECHECK == 10 * TRAVEL_STEPS, "ten updates");
 
 // Seeds that stay where they are wait if the field takes at least so many steps to change by the tolerance.
 constexpr int KEPT_STEPS = 20;
@@ -142,9 +107,10 @@ constexpr Real SPEED_CHANGE(3);
 constexpr Real TURNING_WILD(0.25);
 constexpr int PACE_MOST = 16;
 
-constexpr int32_t OVER_BACK = 128;  // 1/256 unit: how far a seed beyond the border is set back
-
 constexpr Real TWICE_LIMIT(7.9);  // units of twice, so that its scaled form fits
+// In spacings, how far an oversampled seed may rest from the run that it belongs to.
+constexpr Real BESIDE(0.75);
+
 constexpr Real PACE_LIMIT(60);    // and units of what twicePace is made from
 
 inline Vector scaledTwice(const Vector& v)
@@ -165,6 +131,9 @@ public:
     void settle();
 
 private:
+    static_assert(static_cast<int>(REACHES_NONE) == SoftObject::PATCH_AT_REST &&
+                  static_cast<int>(REACHES_BURYING) == SoftObject::PATCH_BURIED &&
+                  static_cast<int>(REACHES_SOME) == SoftObject::PATCH_MIXED, "the states of patches");
     REGISTERS SELDOM int32_t facesAway(Real across, Real own) const;
     bool passed(int16_t due) const { return static_cast<int16_t>(due - travel_) < 0; }
     int16_t later(int32_t steps) const { return static_cast<int16_t>(travel_ + steps - 1); }
@@ -173,19 +142,20 @@ private:
     int16_t idleUntil(const SoftObject::Patch& patch) const;
     void rest(SoftObject::Patch& patch);
     void bury(SoftObject::Patch& patch);
-    template <bool PLAIN>
-    SELDOM bool judge(SoftObject::Patch& patch, Seed* s);
-    template <bool PLAIN>
+    bool judge(SoftObject::Patch& patch, Seed* s);
+    SELDOM bool become(SoftObject::Patch& patch, Seed* s, SoftObject::PatchState state, uint32_t reached);
     void settlePatches();
+    void settleSeed(Seed& s);
+    static void profileFor(RideNear* near);
+    static void stays(Seed* s);
+    static void held(Seed* s);
+    static void lost(Seed* s, Real from);
+    void follow(Seed& s, Real off, Real slope);
     template <bool PLAIN>
-    __attribute__((always_inline)) void settleSeed(Seed& s);
-    void settleBetween(Seed& s);
-    template <bool PLAIN>
-    REGISTERS SELDOM void settleExtra(Seed& s) { settleSeed<PLAIN>(s); }
+    REGISTERS void settleAt(Seed& s, Real position, bool settled);
     template <bool PLAIN>
     Real lookAt(Real position, Real& slope);
-    template <bool PLAIN>
-    REGISTERS SELDOM bool newton(Real position, Real step);
+    bool newton(Real position, Real step);
     void travel();
     void wait(Seed& s, uint8_t flags, int32_t steps) const;
     void wait(Seed& s, uint8_t flags, Real difference, Real steps) const;
@@ -211,61 +181,45 @@ private:
     static inline Near near_[NEAR_MOST];
     static inline Profile profiles_[NEAR_MOST];
     static inline int nearCount_;
+    static inline bool plain_;  // all are balls of weight 1: see ride.h
+    static inline Settler* settler_;
 
     // Of the patch at hand, and of those the ones that reach the seed at hand.
-    static inline const Near* active_[NEAR_MOST];
-    static inline int activeCount_;
     static inline uint32_t activated_;  // as Patch::reached
-    static inline ShadeFrame frame_;
+    static inline ShadeFrame& frame_ = ride.shade;
     static inline const Pull* (&touch_)[NEAR_MOST] = frame_.pulls;
-    static const Near& touch(int n) { return static_cast<const Near&>(*touch_[n]); }
+    static const Near& touch(int n) { return *reinterpret_cast<const Near*>(touch_[n]); }
     static inline int32_t& touchCount_ = frame_.count;
     static inline int rootIndex_;
     static inline Vector path_;  // not in the plain case, where the root is the centre
     static inline Point root_;
-    static inline Real b_[NEAR_MOST];
+    static inline Real (&b_)[NEAR_MOST] = ride.b;
     static inline Real& ownSlope_ = frame_.ownSlope;  // of the last look
     static inline Real (&slopes_)[NEAR_MOST] = frame_.slopes;
     static inline Vector from_[NEAR_MOST];  // not quick ones: from the nearest point of the core, / 16
-    static inline Real strength_;  // by how much the strongest neighbour is stronger than the overshoot allows
+    static inline Real& strength_ = ride.strength;
     static inline Real buried_;  // least excess of the field where bracket() looked in vain
     static inline Real found_;       // by newton() or bracket()
     static inline Real inside_, position_, excess_, slope_;  // of search()
     static inline bool again_;       // it did so only where it had come nearest before
-    static inline Real placedMost_;  // where one neighbour alone makes up the isovalue farther out, it is too strong
-    static inline Real evenMost_;    // up to where the own field is the stronger one of two
-    static inline Real overshoot_;
-    static inline Real kept_;        // of the position: less is taken as not moved
-    static inline uint32_t looks_, updated_;
+    static inline Real& overshoot_ = ride.overshoot;
+    static inline uint32_t updated_;
     static inline uint16_t travel_;
-    static inline int32_t paceSteps_;  // steps of travel for which others are thought to move on as they do
-    static inline bool keptWait_;      // those that stay where they are wait too
+    static inline int32_t& paceSteps_ = ride.paceSteps;
+    static inline bool keptWait_;  // those that stay where they are wait too
     static inline bool woken_;  // by a jump of it
-    static inline int32_t waitAway_;  // steps of travel for 1/32 unit of EyeSide::away(), 16 bits of fraction
+    static inline int32_t& waitAway_ = ride.waitAway;
     static inline Vector toEye_;  // unit length, from the centre
     static inline Real eyeSlowness_;
     static inline Real distance_;  // to the centre
-    static inline Real awayShare_, awayOwn_, awayEdge_, waitAlong_;  // see facesAway()
-    static inline Real parting_;  // difference of positions that activates the seed between
+    static inline Real& awayShare_ = ride.awayShare;  // see facesAway()
+    static inline Real& awayEdge_ = ride.awayEdge;
+    static inline Real& waitAlong_ = ride.waitAlong;
+    static inline Real awayOwn_;
     static inline Real horizon_;  // of the object in general
     static inline EyeSide& eye_ = frame_.eye;
     static inline Skew& skew_ = frame_.skew;
 };
-
-inline int32_t lesser(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
-}
-
-// Steps of travel to wait for a difference when there are `wait` for 1; for those larger than `most` no more.
-inline int32_t stepsOf(Real difference, Real most, Real wait)
-{
-    return floorToInt(least(difference, most) * wait);
-}
-inline int32_t stepsOf(Real difference, Real wait)
-{
-    return stepsOf(difference, Real(1), wait);
-}
 
 // Steps of travel while something goes so far; `slowness` is 1 / its speed.
 inline Real waitSteps(Real units, Real slowness)
@@ -283,8 +237,15 @@ void Settler::addNear(const Link& link)
 {
     const SoftObject& other = *link.object;
     Near& n = near_[nearCount_];
-    n.profile = &profiles_[nearCount_++];
-    n.profiled = false;
+    n.profile = &profiles_[nearCount_];
+    n.bit = nearCount_ < 31 ? 1u << nearCount_ : MANY;
+    n.more = nullptr;
+    if (nearCount_ == 0)
+        ride.inRange = &n;
+    else
+        near_[nearCount_ - 1].more = &n;
+    ++nearCount_;
+    n.profile->clear();
     n.object = &other;
     const Real slowness = Real(1) / link.speed;
     n.waitField = waitSteps(other.size() * WAIT_FIELD, slowness);
@@ -294,8 +255,8 @@ void Settler::addNear(const Link& link)
     n.fromIt = o_.centre() - other.centre();
     n.reach = other.size();
     const Real proportion = least(o_.size() / other.size(), Real(20));
-    n.ratio = proportion * proportion * link.weight;
-    n.fromIt16 = n.fromIt * Real(1.0 / 16);
+    n.pull.ratio = proportion * proportion * link.weight;
+    n.pull.fromIt16 = n.fromIt * Real(1.0 / 16);
     n.quick = false;
     if (o_.coreReach() > Real(0) || other.coreReach() > Real(0))
         return;
@@ -311,7 +272,12 @@ void Settler::addNear(const Link& link)
     if (!within(twice, TWICE_LIMIT))
         return;
     n.twice = scaledTwice(twice);
-    n.swing = nearLength(twice) + Real(0.0001);
+    n.change = nearLength(twice) + Real(0.0001);
+#if FB_REAL == FB_FIXED
+    n.swing = shiftUp(n.change, 11);
+#else
+    n.swing = shiftDown(n.change, 1);
+#endif
     // At rest, or a way further out where other neighbours may have pulled the seed.
     n.touching = most(TOUCHING - n.a0 - n.c0, (TOUCHING - n.a0 - n.c0 * Real(1.44)) * Real(1 / 1.2));
     n.meeting = most(n.touching, most((TOUCHING - n.a0 - n.c0 * Real(2.25)) * Real(1 / 1.5),
@@ -327,6 +293,10 @@ void Settler::addNear(const Link& link)
         n.burying = near;
     if (!n.plain && n.weight < Real(1))
         n.burying = -n.a0 - n.c0;  // too weak to bury alone
+    n.meetingSum = sumBelow(n.meeting);
+    n.touchingSum = sumBelow(n.touching);
+    n.buryingSum = sumBelow(n.burying);
+    n.meetingRunSum = sumBelow(n.meeting + n.change * (o_.spacing_ * BESIDE));
     n.quick = true;
 
     n.waitApart = waitSteps(n.reach * WAIT_APART, slowness);
@@ -388,10 +358,11 @@ void Settler::settle()
 {
     nearCount_ = 0;
     keptWait_ = true;
-    activeCount_ = 0;
+    ride.first = ride.inRange = nullptr;
     activated_ = 0;
     rootIndex_ = -1;
-    looks_ = updated_ = 0;
+    updated_ = 0;
+    ride.placed = ride.several = ride.looks = ride.normals = ride.unsettled = 0;
     eye_.set(look_.eye - o_.centre_, o_.radius_, o_.coreReach());
     horizon_ = o_.horizonRadius(look_.eye);
     eye_.horizon(horizon_);
@@ -414,23 +385,33 @@ void Settler::settle()
     // A seed stays valid a way past the border where a neighbour becomes stronger: as a distance, about a unit at the usual
     // spacings. The fields of the two change by about 3 / size a unit there.
     overshoot_ = least((Real(2.8) + Real(0.1) * o_.spacing_) / o_.size_, Real(0.7));
-    placedMost_ = ownReaches(shiftDown(ISOVALUE - overshoot_, 1));
-    evenMost_ = ownReaches(shiftDown(ISOVALUE, 1));
-    kept_ = KEPT / o_.radius_;
-    parting_ = Real(4.0) * o_.spacing_ / o_.radius_;
+    ride.placedMost = ownReaches(shiftDown(ISOVALUE - overshoot_, 1));
+    ride.evenMost = ownReaches(shiftDown(ISOVALUE, 1));
+    ride.kept = KEPT / o_.radius_;
+    ride.keptTwice = ride.kept + ride.kept;
+    ride.parting = Real(4.0) * o_.spacing_ / o_.radius_;
+    ride.partingTwice = ride.parting + ride.parting;
     skew_.root(o_.centre_ - look_.eye, o_.radius_ * POSITION_MOST);
     frame_.setBack = mulDiv(1 << 30, 1 << 17, rawFromReal(most(o_.radius_, Real(2))));
     frame_.light.set(look_.light, o_.spacing_);
 
-    bool plain = o_.isBall();
+    plain_ = o_.isBall();
     for (int i = 0; i < nearCount_; ++i)
-        plain = plain && near_[i].quick && near_[i].plain;
-    if (plain)
-        settlePatches<true>();
-    else
-        settlePatches<false>();
-    look_.counts->iterations += looks_;
-    look_.counts->updated += updated_;
+        plain_ = plain_ && near_[i].quick && near_[i].plain;
+    ride.travel = static_cast<int32_t>(static_cast<uint32_t>(travel_) << 16);
+    ride.later = travel_ - 1;
+    ride.awayAlong = (rawFromReal(awayEdge_) + 2047) >> 11 << 14;
+    ride.keptWait = keptWait_;
+    ride.profileFor = profileFor;
+    ride.stays = stays;
+    ride.held = held;
+    ride.lost = lost;
+    settler_ = this;
+    settlePatches();
+    look_.counts->iterations += static_cast<uint32_t>(ride.looks + ride.placed);
+    look_.counts->updated += updated_ + static_cast<uint32_t>(ride.placed + ride.several);
+    look_.counts->normals += static_cast<uint32_t>(ride.normals);
+    look_.counts->unsettled += static_cast<uint32_t>(ride.unsettled);
 }
 
 // Adds up how far neighbours and viewer have moved against the object since its last update. One sum must do for all of
@@ -538,8 +519,9 @@ int32_t Settler::holdSteps(const Vector& path, Real position, Real most) const
 {
     const Real wait = waitField();
     const int32_t least = stepsOf(most, wait);
-    // By how fast it falls, but allowing for half of what is possible more it is at most twice that.
-    if (least >= paceSteps_)
+    // By how fast it falls, but allowing for half of what is possible more it is at most twice that: not worth the while where
+    // even that hardly lasts beyond the next update.
+    if (least >= paceSteps_ || 2 * least <= TRAVEL_STEPS)
         return least;
     const Real pace = fieldPace(path, position);
     if (pace >= Real(0))
@@ -564,14 +546,14 @@ int32_t Settler::keptSteps(const Vector& path, Real position, Real off) const
 SoftObject::PatchState Settler::reachOf(SoftObject::Patch& patch, uint32_t& reached) const
 {
     bool touched = false;
-    uint32_t bit = 1;
     int32_t rest = WAIT_MOST, further = RECHECK;
     reached = 0;
-    for (int i = 0; i < nearCount_; ++i, bit <<= (bit < MANY)) {
+    for (int i = 0; i < nearCount_; ++i) {
         const Near& near = near_[i];
         if (near.quick) {
-            const Real b = alongPath(near, patch.middle), change = near.swing * patch.radius;
-            const Real nearest = b - change;
+            const Real b = alongPath(near, patch.middle);
+            const Real change = absolute(alongPath(near, patch.half)) + shiftDown(near.change * patch.wide, 1) + RUN_DOUBT;
+            const Real nearest = b - change, meeting = shiftUp(near.meetingRunSum, B_SHIFT);
             if (b + change < near.burying) {
                 patch.due = later(stepsOf(near.burying - b - change, near.waitBuried));
                 return SoftObject::PATCH_BURIED;
@@ -580,16 +562,16 @@ SoftObject::PatchState Settler::reachOf(SoftObject::Patch& patch, uint32_t& reac
                 touched = true;
             else
                 rest = lesser(rest, stepsOf(nearest - near.touching, near.waitApart));
-            if (nearest < near.meeting)
-                reached |= bit;
+            if (nearest < meeting)
+                reached |= near.bit;
             else
-                further = lesser(further, stepsOf(nearest - near.meeting, near.waitApart));
+                further = lesser(further, stepsOf(nearest - meeting, near.waitApart));
         } else {
             const Vector v = near.object->fromCore(o_.centre_ + patch.middle);
             const Real limit = near.reach + patch.radius;
             if (absolute(v.x) < limit && absolute(v.y) < limit && absolute(v.z) < limit) {
                 touched = true;
-                reached |= bit;
+                reached |= near.bit;
             }
         }
     }
@@ -603,15 +585,19 @@ void Settler::activate(uint32_t reached)
     if (reached == activated_)
         return;
     activated_ = reached;
-    int count = 0;
-    const Near* near = near_;
+    RideNear** last = &ride.first;
+    const auto add = [&](Near& near) {
+        *last = &near;
+        last = &near.next;
+    };
+    Near* near = near_;
     for (uint32_t rest = reached & ~MANY; rest != 0; rest >>= 1, ++near)
         if (rest & 1)
-            active_[count++] = near;
+            add(*near);
     if (reached & MANY)
         for (int i = 31; i < nearCount_; ++i)
-            active_[count++] = &near_[i];
-    activeCount_ = count;
+            add(near_[i]);
+    *last = nullptr;
 }
 
 void Settler::bury(SoftObject::Patch& patch)
@@ -648,33 +634,20 @@ void Settler::rest(SoftObject::Patch& patch)
 template <bool PLAIN>
 inline Real Settler::lookAt(Real position, Real& slope)
 {
-    ++looks_;
+    if (PLAIN) {
+        rideLook(position);
+        slope = ride.slope;
+        return ride.excess + ISOVALUE;
+    }
+    ++ride.looks;
     const OwnStep& own = ownQuick(position);
     Real field = own.value, steep = own.steep;
     ownSlope_ = own.slope;
-    if (PLAIN && touchCount_ == 1) {
-        // Most seeds.
-        const Near& near = touch(0);
-        const Real c = position * near.c0;
-        const Real sum = b_[0] + c;
-        const Real t = near.a0 + position * sum;
-        if (static_cast<uint32_t>(rawFromReal(t)) < 65536) {
-            const FieldStep& step = geoffQuick(t);
-            slopes_[0] = step.slope;
-            slope = steep + step.slope * (sum + c);
-            strength_ = step.value - own.value - overshoot_;
-            return field + step.value;
-        }
-        slopes_[0] = Real(0);
-        slope = steep;
-        strength_ = -own.value - overshoot_;
-        return field;
-    }
     Real strongest(0);
     for (int n = 0; n < touchCount_; ++n) {
         const Near& near = touch(n);
         Real t, change;
-        if (PLAIN || near.quick) {
+        if (near.quick) {
             const Real c = position * near.c0;
             change = b_[n] + c;
             t = near.a0 + position * change;
@@ -693,7 +666,7 @@ inline Real Settler::lookAt(Real position, Real& slope)
         const FieldStep& step = geoffQuick(t);
         slopes_[n] = step.slope;
         Real part = step.value, partSlope = step.slope * change;
-        if (!PLAIN && !near.plain) {
+        if (!near.plain) {
             part = part * near.weight;
             partSlope = partSlope * near.weight;
         }
@@ -706,19 +679,8 @@ inline Real Settler::lookAt(Real position, Real& slope)
     return field;
 }
 
-// a / b where the quotient is known to fit.
-inline Real quotient(Real a, Real b)
-{
-#if FB_REAL == FB_FIXED
-    return Real::fromRaw(mulDiv(a.raw, 65536, b.raw));
-#else
-    return a / b;
-#endif
-}
-
 // From a position near the surface, and the step that a look there gave. False: the method does not apply here. Else found_
 // is the position, and the last look's terms are left for the normal.
-template <bool PLAIN>
 bool Settler::newton(Real position, Real step)
 {
     for (int i = 1; i < LOOK_LIMIT; ++i) {
@@ -730,12 +692,12 @@ bool Settler::newton(Real position, Real step)
         if (absolute(step) <= SHORT_STEP)
             return true;
         Real slope;
-        const Real field = lookAt<PLAIN>(position, slope);
+        const Real field = lookAt<false>(position, slope);
         if (slope > FLAT)
             return false;
         step = quotient(ISOVALUE - field, slope);
     }
-    ++look_.counts->unsettled;
+    ++ride.unsettled;
     return false;
 }
 
@@ -755,7 +717,7 @@ bool Settler::search()
     Real low = position_, lowSlope = slope_;
     buried_ = excess_;
     found_ = inside_ = low;
-    if (leaves(touchCount_ == 1 ? placedMost_ : POSITION_MOST))
+    if (leaves(touchCount_ == 1 ? ride.placedMost : POSITION_MOST))
         return true;
     Real high = position_, highSlope = slope_;
     // It may have left between the two, and gone into something else.
@@ -890,51 +852,86 @@ int32_t Settler::facesAway(Real across, Real own) const
     return wait <= counted ? wait : wait < 2 * counted ? counted : wait >> 1;
 }
 
-// A seed that one neighbour alone reaches.
-inline void Settler::settleBetween(Seed& s)
+// The first seed between two balls.
+void Settler::profileFor(RideNear* ofRide)
 {
-    const Near& near = touch(0);
-    const Real b = b_[0];
-    const Profile& profile = *near.profile;
-    if (!near.profiled) {
-        near.profiled = true;
-        near.profile->make(near.a0, near.c0, -near.swing * o_.radius_, placedMost_);
-    }
-    ++updated_;
-    ++looks_;
-    Real position;
-    const bool leaves = profile.place(b, position);
-    if (!leaves || position > placedMost_) {
-        s.position = leaves ? position : Real(1);
-        wait(s, leaves ? SEED_PLACED : 0, most(profile.edge() - b, Real(0)), near.waitApart);
-        return;
-    }
-    s.wakes = static_cast<int16_t>(travel_);
-    if ((s.flags & SEED_KEPT) && absolute(position - s.position) <= kept_)
-        return;
-    s.position = position;
-    ownSlope_ = ownQuick(position).slope;
-    const Real t = near.a0 + position * (b + position * near.c0);
-    slopes_[0] = geoffQuick(clamp(t, Real(0), TOUCHING)).slope;
-    strength_ = position > evenMost_ ? -shiftDown(overshoot_, 1) : -overshoot_;
-    shade<true>(s, position);
+    const Near& near = static_cast<const Near&>(*ofRide);
+    near.profile->make(near.a0, near.c0, -near.change * settler_->o_.radius_, ride.placedMost);
 }
 
-template <bool PLAIN>
-inline void Settler::settleSeed(Seed& s)
+// Where it was, and what is known of it holds.
+void Settler::stays(Seed* s)
 {
-    if (!PLAIN) {
-        path_ = s.path;
-        root_ = o_.roots_[s.root];
+    const int32_t steps = settler_->keptSteps(s->path, s->position, ride.excess);
+    if (steps > 0)
+        settler_->wait(*s, s->flags, steps);
+}
+
+void Settler::held(Seed* s)
+{
+    settler_->wait(*s, SEED_PLACED, settler_->holdSteps(s->path, s->position, strength_));
+}
+
+void Settler::lost(Seed* s, Real from)
+{
+    settler_->settleAt<true>(*s, from, false);
+}
+
+// From where it was; `off` and `slope`: what a look there gave.
+void Settler::follow(Seed& s, Real off, Real slope)
+{
+    Real position = s.position;
+    bool settled = false;
+    if (slope <= FLAT) {
+        const Real step = quotient(-off, slope);
+        if (absolute(step) <= SHORT_STEP) {
+            position += step;
+            settled = position >= PLACED_LEAST && position <= POSITION_MOST;
+        } else {
+            settled = newton(position, step);
+            position = found_;
+        }
     }
+    settleAt<false>(s, settled ? position : Real(1), settled);
+}
+
+// Settled there, or to be looked for from there.
+template <bool PLAIN>
+inline void Settler::settleAt(Seed& s, Real position, bool settled)
+{
+    if (!settled) {
+        settled = bracket<PLAIN>(position);
+        position = found_;
+    }
+    s.position = position;
+    if (!settled) {
+        // Inside everywhere: buried by this much of the field at least.
+        wait(s, 0, PLAIN && again_ ? holdSteps(s.path, position, buried_) : stepsOf(buried_, waitField()));
+        return;
+    }
+    if (strength_ > Real(0)) {
+        if (PLAIN)
+            held(&s);
+        else
+            wait(s, SEED_PLACED, stepsOf(strength_, waitField()));
+        return;
+    }
+    shade<PLAIN>(s, position);
+}
+
+// Where not all are balls of weight 1; else see ride.h.
+void Settler::settleSeed(Seed& s)
+{
+    path_ = s.path;
+    root_ = o_.roots_[s.root];
 
     // Which neighbours are near enough to matter, or one so near that the seed lies inside anyway?
     int touching = 0;
     bool touched = false;
     int32_t wait = WAIT_MOST;
-    for (int n = 0; n < activeCount_; ++n) {
-        const Near& near = *active_[n];
-        if (PLAIN || near.quick) {
+    for (RideNear* active = ride.first; active != nullptr; active = active->next) {
+        const Near& near = static_cast<const Near&>(*active);
+        if (near.quick) {
             const Real b = alongPath(near, s.path);
             const Real beyond = b - near.touching;
             if (beyond < Real(0)) {
@@ -950,18 +947,17 @@ inline void Settler::settleSeed(Seed& s)
                     continue;
             }
             b_[touching] = b;
-            touch_[touching++] = &near;
         } else {
             // At rest, or a way further out where other neighbours may have pulled the seed.
             Vector unused;
             touched = touched || near.object->param(root_ + path_, &unused) < TOUCHING ||
                       near.object->param(root_ + path_ * Real(1.2), &unused) < TOUCHING;
-            touch_[touching++] = &near;
         }
+        touch_[touching++] = &near.pull;
     }
     touchCount_ = touching;
     if (!touched) {
-        if (!PLAIN && o_.tapers_) {
+        if (o_.tapers_) {
             restTapered(s);
             return;
         }
@@ -972,11 +968,10 @@ inline void Settler::settleSeed(Seed& s)
         s.voxel.brightness = s.restBrightness;
         return;
     }
-    if (!PLAIN)
-        lookFrom(s);
+    lookFrom(s);
     const int32_t along = eye_.along(s);
     bool notFacing = true;
-    if (PLAIN || o_.isBall()) {
+    if (o_.isBall()) {
         const Real across = realFromRaw(along >> 14 << 11);
         const Real own = awayEdge_ - across;
         notFacing = own > Real(0);
@@ -994,54 +989,16 @@ inline void Settler::settleSeed(Seed& s)
             return;
         }
     }
-    if (PLAIN && touchCount_ == 1) {
-        settleBetween(s);
-        return;
-    }
     ++updated_;
     s.wakes = static_cast<int16_t>(travel_);
-    Real position = s.position;
-    bool settled = false;
-    if (s.flags & (SEED_VALID | SEED_PLACED)) {
-        Real slope;
-        const Real off = lookAt<PLAIN>(position, slope) - ISOVALUE;
-        if ((s.flags & SEED_KEPT) && strength_ <= Real(0) && absolute(off) <= DISPLACEMENT) {
-            // Where it was, and what is known of it holds.
-            if (PLAIN && keptWait_) {
-                const int32_t steps = keptSteps(s.path, position, off);
-                if (steps > 0)
-                    this->wait(s, s.flags, steps);
-            }
-            return;
-        }
-        if (slope <= FLAT) {
-            const Real step = quotient(-off, slope);
-            if (absolute(step) <= SHORT_STEP) {
-                position += step;
-                settled = position >= PLACED_LEAST && position <= POSITION_MOST;
-            } else {
-                settled = newton<PLAIN>(position, step);
-                position = found_;
-            }
-        }
-        if (!settled)
-            position = Real(1);
-    }
-    if (!settled) {
-        settled = bracket<PLAIN>(position);
-        position = found_;
-    }
-    s.position = position;
-    if (!settled) {
-        // Inside everywhere: buried by this much of the field at least.
-        this->wait(s, 0, PLAIN && again_ ? holdSteps(s.path, position, buried_) : stepsOf(buried_, waitField()));
+    if (!(s.flags & (SEED_VALID | SEED_PLACED))) {
+        settleAt<false>(s, s.position, false);
         return;
     }
-    if (strength_ > Real(0)) {
-        this->wait(s, SEED_PLACED, PLAIN ? holdSteps(s.path, position, strength_) : stepsOf(strength_, waitField()));
-        return;
-    }
-    shade<PLAIN>(s, position);
+    Real slope;
+    const Real off = lookAt<false>(s.position, slope) - ISOVALUE;
+    if (!(s.flags & SEED_KEPT) || strength_ > Real(0) || absolute(off) > DISPLACEMENT)
+        follow(s, off, slope);
 }
 
 // Brightness, extents and tilt from the gradient of the field, put together from the last look.
@@ -1058,9 +1015,9 @@ inline void Settler::shade(Seed& s, Real position)
         for (int n = 0; n < touchCount_; ++n) {
             const Near& near = touch(n);
             if (near.quick)
-                addPull(near, slopes_[n], along, g);
+                addPull(near.pull, slopes_[n], along, g);
             else
-                g = g - from_[n] * (slopes_[n] * near.ratio);
+                g = g - from_[n] * (slopes_[n] * near.pull.ratio);
         }
         if (o_.tapers_) {
             Vector slope;
@@ -1075,14 +1032,8 @@ inline void Settler::shade(Seed& s, Real position)
         wait(s, SEED_VALID | SEED_PLACED, mulShift16(-facing, waitFacing()));
         return;
     }
-    ++look_.counts->normals;
+    ++ride.normals;
     s.flags = SEED_VALID | SEED_PLACED | SEED_KEPT | SEED_FRONT;
-}
-
-// The neighbour N of a seed.
-inline Seed& pairedWith(Seed* s, const Seed& extra)
-{
-    return *reinterpret_cast<Seed*>(reinterpret_cast<char*>(s) + extra.neighbour);
 }
 
 // Of a patch to which nothing happened: until when nothing will, nor to the seeds that its own are paired with.
@@ -1101,12 +1052,27 @@ int16_t Settler::idleUntil(const SoftObject::Patch& patch) const
 }
 
 // Judges a patch anew. True: seed by seed where a neighbour reaches it.
-template <bool PLAIN>
-bool Settler::judge(SoftObject::Patch& patch, Seed* s)
+inline bool Settler::judge(SoftObject::Patch& patch, Seed* s)
+{
+    uint32_t reached;
+    SoftObject::PatchState state;
+    if (plain_) {
+        state = static_cast<SoftObject::PatchState>(rideReach(&patch));
+        reached = ride.reached;
+        patch.due = later(ride.holds);
+    } else {
+        state = reachOf(patch, reached);
+    }
+    // When one that they do not know of came near, those that may be seen wait no longer.
+    if (woken_ || patch.state != state || state != SoftObject::PATCH_MIXED || (reached & (~patch.reached | MANY)))
+        return become(patch, s, state, reached);
+    patch.reached = reached;
+    return true;
+}
+
+bool Settler::become(SoftObject::Patch& patch, Seed* s, SoftObject::PatchState state, uint32_t reached)
 {
     const uint8_t before = patch.state;
-    uint32_t reached;
-    const SoftObject::PatchState state = reachOf(patch, reached);
     patch.idle = patch.due;
     o_.displaced_ |= state != SoftObject::PATCH_AT_REST;
     if (state != SoftObject::PATCH_MIXED) {
@@ -1118,82 +1084,37 @@ bool Settler::judge(SoftObject::Patch& patch, Seed* s)
             s->wakes = patch.due;
         return false;
     }
-    // When one that they do not know of came near, those that may be seen wait no longer.
     const bool known = before == SoftObject::PATCH_MIXED && !woken_;
-    if (!known || (reached & (~patch.reached | MANY)))
-        for (int i = 2 * patch.count; i > 0; --i, ++s)
-            if (!known || (s->flags & SEED_VALID))
-                s->wakes = later(0);
+    for (int i = 2 * patch.count; i > 0; --i, ++s)
+        if (!known || (s->flags & SEED_VALID))
+            s->wakes = later(0);
     patch.reached = reached;
-    if (!PLAIN && o_.tapers_ && before != SoftObject::PATCH_MIXED)
-        patch.stale = SoftObject::STALE_ALL;  // from normals to paths
+    if (before != SoftObject::PATCH_MIXED) {
+        patch.laid = o_.drift_;
+        if (o_.tapers_)
+            patch.stale = SoftObject::STALE_ALL;  // from normals to paths
+    }
     patch.state = SoftObject::PATCH_MIXED;
     return true;
 }
 
 // All patches of the object, seed by seed where a neighbour reaches them.
-template <bool PLAIN>
 void Settler::settlePatches()
 {
     Seed* s = o_.seeds_;
     SoftObject::Patch* patch = o_.patches_;
-    for (int p = o_.patchCount_; p > 0; --p, ++patch) {
+    for (int p = o_.patchCount_; p > 0; --p, s += 2 * patch->count, ++patch) {
         const uint8_t before = patch->state;
         if (before != SoftObject::PATCH_UNKNOWN && !woken_ && !patch->turned && !passed(patch->idle)) {
             o_.displaced_ |= before != SoftObject::PATCH_AT_REST;
-            s += 2 * patch->count;
             continue;
         }
-        if ((before != SoftObject::PATCH_MIXED || woken_ || passed(patch->due)) && !judge<PLAIN>(*patch, s)) {
-            s += 2 * patch->count;
+        if ((before != SoftObject::PATCH_MIXED || woken_ || passed(patch->due)) && !judge(*patch, s))
             continue;
-        }
-        if (before != SoftObject::PATCH_MIXED)
-            patch->laid = o_.drift_;
         activate(patch->reached);
         if (patch->stale != SoftObject::STALE_NONE)
             o_.posePatch(*patch, true);
-        if (patch->turned) {
-            patch->turned = false;
-            for (int i = 0; i < 2 * patch->count; ++i) {
-                if ((s[i].flags & (SEED_PLACED | SEED_FRONT)) == (SEED_PLACED | SEED_FRONT)) {
-                    s[i].flags = static_cast<uint8_t>(s[i].flags & ~SEED_KEPT);
-                    s[i].wakes = later(0);
-                }
-            }
-        }
-        bool extras = false, busy = false;
-        uint8_t seen = 0;
-        for (int i = patch->count; i > 0; --i, s += 2) {
-            if (passed(s->wakes)) {
-                settleSeed<PLAIN>(*s);
-                busy = true;
-            }
-            seen |= s->flags;
-            // In the first ring a seed is paired with itself, to no effect.
-            Seed& extra = s[1];
-            Seed& other = pairedWith(s, extra);
-            const uint8_t either = s->flags | other.flags;
-            if ((either & (SEED_PLACED | SEED_FRONT)) != (SEED_PLACED | SEED_FRONT)) {
-                extra.flags = 0;
-                continue;
-            }
-            // Beside one that is inside there is nothing else; one that is only beyond a border has the neighbour's own.
-            const bool belt = ((s->flags ^ other.flags) & SEED_VALID) != 0;
-            if (belt ? (s->flags & other.flags & SEED_PLACED) != 0 : absolute(s->position - other.position) <= parting_) {
-                extra.flags = 0;
-                continue;
-            }
-            extras = true;
-            if (!(extra.flags & SEED_ACTIVE) || passed(extra.wakes)) {
-                settleExtra<PLAIN>(extra);
-                busy = true;
-            }
-            extra.flags |= SEED_ACTIVE;
-            seen |= extra.flags;
-        }
-        patch->extras = extras;
-        patch->back = !(seen & SEED_FRONT);
+        const int32_t busy = plain_ ? rideSeeds(patch, s) : throughSeeds(*patch, s, [this](Seed& seed) { settleSeed(seed); });
         o_.displaced_ = true;
         patch->idle = busy ? static_cast<int16_t>(travel_) : idleUntil(*patch);
     }

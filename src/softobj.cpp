@@ -339,6 +339,24 @@ Vector SoftObject::restNormal(const Seed& s) const
     return {part * Real(normal[0]), part * Real(normal[1]), part * Real(normal[2])};
 }
 
+// The straight line that its seeds lie along.
+void SoftObject::alignPatch(Patch& patch) const
+{
+    const auto rests = [&](int i) {
+        const Seed& s = seeds_[2 * (patch.first + i)];
+        return rootRest_[s.root] + s.path - patch.middle;
+    };
+    patch.half = (rests(patch.count - 1) - rests(0)) * Real(0.5);
+    const Vector along = unit(patch.half);
+    const Real most = length(patch.half);
+    Real thick(0);
+    for (int i = 0; i < patch.count; ++i) {
+        const Vector v = rests(i);
+        thick = ::most(thick, length(v - along * clamp(dot(v, along), -most, most)));
+    }
+    patch.wide = thick + thick + Real(0.002);
+}
+
 void SoftObject::buildPatches()
 {
     for (int p = 0; p < patchCount_; ++p) {
@@ -358,6 +376,7 @@ void SoftObject::buildPatches()
             axis = axis + restNormal(s) * share;
         }
         patch.middle = middle;
+        alignPatch(patch);
         axis = unit(axis);
         patch.radius = Real(0);
         Real spread(0);
@@ -401,7 +420,7 @@ bool SoftObject::keepRest()
     for (int p = 0; p < patchCount_; ++p) {
         const Patch& patch = patches_[p];
         const Real part(1.0 / 16384);
-        patchRest_[p] = {patch.middle, {part * Real(patch.axis[0]), part * Real(patch.axis[1]), part * Real(patch.axis[2])},
+        patchRest_[p] = {patch.middle, patch.half, patch.wide, {part * Real(patch.axis[0]), part * Real(patch.axis[1]), part * Real(patch.axis[2])},
                          patch.radius};
     }
     return true;
@@ -428,7 +447,8 @@ void SoftObject::poseSeeds()
             Seed& s = seeds_[i];
             const Real step = shiftDown(radius_, 14);
             s.path = {step * Real(s.dirX), step * Real(s.dirY), step * Real(s.dirZ)};
-            s.flags = static_cast<uint8_t>(s.flags & ~SEED_KEPT);
+            // buildPatches() takes it that no oversampled one takes part.
+            s.flags = i & 1 ? 0 : static_cast<uint8_t>(s.flags & ~SEED_KEPT);
         }
         buildPatches();
         return;
@@ -436,6 +456,8 @@ void SoftObject::poseSeeds()
     for (int p = 0; p < patchCount_; ++p) {
         Patch& patch = patches_[p];
         patch.middle = pose_ * patchRest_[p].middle;
+        patch.half = pose_ * patchRest_[p].half;
+        patch.wide = patchRest_[p].wide * ratio;
         patch.radius = patchRest_[p].radius * ratio;
         facePatch(patch, turn * patchRest_[p].axis);
         patch.state = PATCH_UNKNOWN;

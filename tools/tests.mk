@@ -53,15 +53,15 @@ build/san/unit: $(UNIT_PARTS:%.cpp=build/san/%.o)
 build/san/demo: $(patsubst %.cpp,build/san/%.o,$(TEST_PARTS) src/main.cpp)
 	$(TEST_CXX) $(SANITIZE) -o $@ $^
 
-build/twins: build/host32/tests/twins/twins.o $(patsubst %,build/host32/%.o,src/blit src/scales src/lie src/shade src/real \
-	asm/blit asm/scales asm/shade)
+build/twins: build/host32/tests/twins/twins.o $(patsubst %,build/host32/%.o,src/blit src/scales src/lie src/ride src/profile src/field src/shade src/real \
+	asm/blit asm/scales asm/shade asm/ride)
 	$(TEST_CXX) -m32 -no-pie -static -o $@ $^
 
 # The numbers in the assembly, for the compiler to compare with what they stand for.
 build/%def.h: asm/%.S
 	@mkdir -p $(@D)
 	sed -n 's/^#define \([A-Z_]*\) *\([^ ].*\)/constexpr int \1 = \2;/p' $< | sed 's;\(/\*.*\*/\)\;$$;\;;' > $@
-build/host32/tests/twins/twins.o: build/scalesdef.h build/shadedef.h
+build/host32/tests/twins/twins.o: build/scalesdef.h build/shadedef.h build/ridedef.h
 
 -include $(wildcard build/host32/tests/twins/*.d)
 

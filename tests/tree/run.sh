@@ -52,7 +52,7 @@ ok "no exceptions, no RTTI" none sh -c "grep -E '^(src|include)/.*\.(cpp|h)\$' '
 ok "no DOS outside its place" none sh -c "grep -E '^(src/[^/]*\.cpp|src/host/.*|include/.*)\$' '$dir/files' |
 	xargs grep -n -i -E 'int +[\$]0x|go32|__dpmi|dpmi\.h|<dos\.h>'"
 # An assembly routine that the twins do not try is not finished.
-routines=$(sed -n -e 's/^[[:space:]]*\.globl[[:space:]]*SYM(\(.*\))/\1/p' -e 's/^[[:space:]]*FUNC(\(.*\))/\1/p' asm/blit.S asm/scales.S asm/shade.S)
+routines=$(sed -n -e 's/^[[:space:]]*\.globl[[:space:]]*SYM(\(.*\))/\1/p' -e 's/^[[:space:]]*FUNC(\(.*\))/\1/p' asm/blit.S asm/scales.S asm/shade.S asm/ride.S)
 ok "assembly routines found" test "$(echo $routines | wc -w)" -ge 3
 for routine in $routines; do
 	ok "the twins try $routine" grep -q "$routine(" tests/twins/twins.cpp

@@ -1,6 +1,6 @@
-// Assembly against C++: each routine of asm/blit.S, asm/scales.S and asm/shade.S and its twin in src/blit.cpp, src/scales.cpp
-// and src/lie.cpp get the same input, and all they may touch must come out the same, with guard bytes round every buffer. A new assembly
-// routine gets its part here before anything else uses it.
+// Assembly against C++: each routine of asm/blit.S, asm/scales.S, asm/shade.S and asm/ride.S and its twin in src/blit.cpp,
+// src/scales.cpp, src/lie.cpp and src/ride.cpp get the same input, and all they may touch must come out the same, with guard
+// bytes round every buffer. A new assembly routine gets its part here before anything else uses it.
 //
 //   twins [SEED [ROUNDS]]     rounds of random scales, voxels, seeds and spans, after the cases that are always tried
 //
@@ -11,7 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "field.h"
 #include "lie.h"
+#include "ride.h"
 #include "scales.h"
 
 namespace inasm {
@@ -19,6 +21,9 @@ namespace inasm {
 }
 namespace inshade {
 #include "../../build/shadedef.h"
+}
+namespace inride {
+#include "../../build/ridedef.h"
 }
 
 // What asm/shade.S counts on.
@@ -49,6 +54,81 @@ struct ShadeLayout {
                   inshade::PULL_Z == offsetof(Pull, fromIt16.z) && inshade::PULL_RATIO == offsetof(Pull, ratio), "Pull");
     static_assert(inshade::BRIGHTEST == BRIGHTEST && inshade::MARGIN == ShadeSetup::MARGIN &&
                   inshade::MARGIN_UNITS == ShadeSetup::MARGIN_UNITS, "constants");
+};
+
+// What asm/ride.S counts on.
+struct RideLayout {
+    static_assert(inride::SEED_SIZE == sizeof(Seed) && inride::SEED_PATHX == offsetof(Seed, path) &&
+                  inride::SEED_PATHY == offsetof(Seed, path.y) && inride::SEED_PATHZ == offsetof(Seed, path.z) &&
+                  inride::SEED_POSITION == offsetof(Seed, position) && inride::SEED_NEIGHBOUR == offsetof(Seed, neighbour) &&
+                  inride::SEED_BRIGHT == offsetof(Seed, voxel.brightness) && inride::SEED_FLAGS == offsetof(Seed, flags) &&
+                  inride::SEED_REST == offsetof(Seed, restBrightness) && inride::SEED_DIRX == offsetof(Seed, dirX) &&
+                  inride::SEED_DIRY == offsetof(Seed, dirY) && inride::SEED_DIRZ == offsetof(Seed, dirZ) &&
+                  inride::SEED_WAKES == offsetof(Seed, wakes) && inride::SEED_WAKES == inride::SEED_DIRZ + 2, "Seed");
+    static_assert(inride::VALID == SEED_VALID && inride::PLACED == SEED_PLACED && inride::ACTIVE == SEED_ACTIVE &&
+                  inride::KEPT == SEED_KEPT && inride::FRONT == SEED_FRONT, "SeedFlag");
+    static_assert(offsetof(RideNear, pull) == 0 && inride::NEAR_AZERO == offsetof(RideNear, a0) &&
+                  inride::NEAR_CZERO == offsetof(RideNear, c0) && inride::NEAR_TWICEX == offsetof(RideNear, twice) &&
+                  inride::NEAR_TWICEY == offsetof(RideNear, twice.y) && inride::NEAR_TWICEZ == offsetof(RideNear, twice.z) &&
+                  inride::NEAR_MEETINGSUM == offsetof(RideNear, meetingSum) &&
+                  inride::NEAR_TOUCHINGSUM == offsetof(RideNear, touchingSum) &&
+                  inride::NEAR_BURYINGSUM == offsetof(RideNear, buryingSum) &&
+                  inride::NEAR_MEETINGRUNSUM == offsetof(RideNear, meetingRunSum) && inride::NEAR_SWING == offsetof(RideNear, swing) &&
+                  inride::NEAR_MORE == offsetof(RideNear, more) && inride::NEAR_BIT == offsetof(RideNear, bit) &&
+                  inride::NEAR_TOUCHING == offsetof(RideNear, touching) && inride::NEAR_BURYING == offsetof(RideNear, burying) &&
+                  inride::NEAR_SUM == offsetof(RideNear, sum) && inride::NEAR_WAITAPART == offsetof(RideNear, waitApart) &&
+                  inride::NEAR_WAITBURIED == offsetof(RideNear, waitBuried) &&
+                  inride::NEAR_WAITFACING == offsetof(RideNear, waitFacing) &&
+                  inride::NEAR_HALFSQUARE == offsetof(RideNear, halfSquare) &&
+                  inride::NEAR_AWAYLIMIT == offsetof(RideNear, awayLimit) && inride::NEAR_WAITAWAY == offsetof(RideNear, waitAway) &&
+                  inride::NEAR_PROFILE == offsetof(RideNear, profile) && inride::NEAR_NEXT == offsetof(RideNear, next), "RideNear");
+    static_assert(inride::RIDE_FIRST == offsetof(RideFrame, first) && inride::RIDE_TRAVEL == offsetof(RideFrame, travel) &&
+                  inride::RIDE_LATER == offsetof(RideFrame, later) && inride::RIDE_AWAYEDGE == offsetof(RideFrame, awayEdge) &&
+                  inride::RIDE_AWAYSHARE == offsetof(RideFrame, awayShare) &&
+                  inride::RIDE_WAITALONG == offsetof(RideFrame, waitAlong) &&
+                  inride::RIDE_AWAYALONG == offsetof(RideFrame, awayAlong) && inride::RIDE_WAITAWAY == offsetof(RideFrame, waitAway) &&
+                  inride::RIDE_PACESTEPS == offsetof(RideFrame, paceSteps) &&
+                  inride::RIDE_PLACEDMOST == offsetof(RideFrame, placedMost) && inride::RIDE_EVENMOST == offsetof(RideFrame, evenMost) &&
+                  inride::RIDE_KEPT == offsetof(RideFrame, kept) && inride::RIDE_KEPTTWICE == offsetof(RideFrame, keptTwice) &&
+                  inride::RIDE_PARTING == offsetof(RideFrame, parting) &&
+                  inride::RIDE_PARTINGTWICE == offsetof(RideFrame, partingTwice) &&
+                  inride::RIDE_OVERSHOOT == offsetof(RideFrame, overshoot) && inride::RIDE_KEPTWAIT == offsetof(RideFrame, keptWait) &&
+                  inride::RIDE_PLACED == offsetof(RideFrame, placed) && inride::RIDE_SEVERAL == offsetof(RideFrame, several) &&
+                  inride::RIDE_LOOKS == offsetof(RideFrame, looks) && inride::RIDE_NORMALS == offsetof(RideFrame, normals) &&
+                  inride::RIDE_UNSETTLED == offsetof(RideFrame, unsettled) && inride::RIDE_EXCESS == offsetof(RideFrame, excess) && inride::RIDE_SLOPE == offsetof(RideFrame, slope) &&
+                  inride::RIDE_STRENGTH == offsetof(RideFrame, strength) &&
+                  inride::RIDE_INRANGE == offsetof(RideFrame, inRange) && inride::RIDE_REACHED == offsetof(RideFrame, reached) &&
+                  inride::RIDE_HOLDS == offsetof(RideFrame, holds) &&
+                  inride::RIDE_PROFILEFOR == offsetof(RideFrame, profileFor) && inride::RIDE_STAYS == offsetof(RideFrame, stays) &&
+                  inride::RIDE_HELD == offsetof(RideFrame, held) && inride::RIDE_LOST == offsetof(RideFrame, lost) &&
+                  inride::RIDE_B == offsetof(RideFrame, b) && inride::RIDE_BEYOND == offsetof(RideFrame, beyond) &&
+                  inride::RIDE_SHADE == offsetof(RideFrame, shade), "RideFrame");
+    static_assert(inride::RUN_MIDDLEX == offsetof(SeedRun, middle) && inride::RUN_MIDDLEY == offsetof(SeedRun, middle.y) &&
+                  inride::RUN_MIDDLEZ == offsetof(SeedRun, middle.z) && inride::RUN_HALFX == offsetof(SeedRun, half) &&
+                  inride::RUN_HALFY == offsetof(SeedRun, half.y) && inride::RUN_HALFZ == offsetof(SeedRun, half.z) &&
+                  inride::RUN_WIDE == offsetof(SeedRun, wide) && inride::RUN_COUNT == offsetof(SeedRun, count) &&
+                  inride::RUN_TURNED == offsetof(SeedRun, turned) && inride::RUN_EXTRAS == inride::RUN_TURNED + 1 &&
+                  inride::RUN_EXTRAS == offsetof(SeedRun, extras) && inride::RUN_BACK == offsetof(SeedRun, back), "SeedRun");
+    static constexpr int SHADE = offsetof(RideFrame, shade), EYE = SHADE + offsetof(ShadeFrame, eye);
+    static_assert(inride::EYE_X == EYE + inshade::EYE_X && inride::EYE_Y == EYE + inshade::EYE_Y &&
+                  inride::EYE_Z == EYE + inshade::EYE_Z && offsetof(ShadeFrame, eye) == 0 &&
+                  inride::OWN_SLOPE == SHADE + offsetof(ShadeFrame, ownSlope) && inride::COUNT == SHADE + offsetof(ShadeFrame, count) &&
+                  inride::SLOPES == SHADE + offsetof(ShadeFrame, slopes) && inride::PULLS == SHADE + offsetof(ShadeFrame, pulls), "ShadeFrame");
+    static_assert(inride::PROFILE_TOP == offsetof(Profile, top_) && inride::PROFILE_DEPTH == offsetof(Profile, depth_) &&
+                  inride::PROFILE_FINE == offsetof(Profile, fine_) && inride::PROFILE_EDGE == offsetof(Profile, edge_) &&
+                  inride::PROFILE_PLACE == offsetof(Profile, cells_) + offsetof(Profile::Cell, position) &&
+                  inride::PROFILE_RISE == offsetof(Profile, cells_) + offsetof(Profile::Cell, rise) &&
+                  inride::PROFILE_CELL == sizeof(Profile::Cell) && inride::NOT_MADE == Profile::NOT_MADE, "Profile");
+    static_assert(inride::B_SHIFT == B_SHIFT && inride::WAIT_MOST == WAIT_MOST && inride::AWAY_MOST == Real(AWAY_MOST).raw &&
+                  inride::DISPLACEMENT == DISPLACEMENT.raw && inride::OVER_BACK == OVER_BACK &&
+                  inride::SHORT_STEP == SHORT_STEP.raw && inride::LONGEST_STEP == LONGEST_STEP.raw && inride::LOOK_LIMIT == LOOK_LIMIT &&
+                  inride::FLAT == FLAT.raw && inride::PLACED_LEAST == PLACED_LEAST.raw && inride::POSITION_MOST == POSITION_MOST.raw &&
+                  inride::ISOVALUE == ISOVALUE.raw && inride::OWN_FIRST == OWN_FIRST && inride::OWN_STEP == sizeof(OwnStep) &&
+                  offsetof(OwnStep, value) == 0 && inride::OWN_OFFSET == offsetof(OwnStep, slope) &&
+                  inride::STEEP_OFFSET == offsetof(OwnStep, steep) && inride::OTHER_OFFSET == offsetof(OwnStep, otherSlope) && inride::FIELD_STEP == sizeof(FieldStep) &&
+                  offsetof(FieldStep, value) == 0 && inride::SLOPE_OFFSET == offsetof(FieldStep, slope) &&
+                  inride::RUN_DOUBT == RUN_DOUBT.raw && inride::RECHECK == RECHECK && inride::REACHES_NONE == REACHES_NONE &&
+                  inride::REACHES_BURYING == REACHES_BURYING && inride::REACHES_SOME == REACHES_SOME, "constants");
 };
 
 namespace {
@@ -808,6 +888,324 @@ void seedBySeed(int rounds)
     verdict(seedsFacing > seedsTried / 5 && seedsFacing < seedsTried * 4 / 5, "seeds: there were some of each kind", seedsFacing);
 }
 
+// --- The seeds of a patch
+
+constexpr int RING = 8;
+struct Rings {
+    uint8_t before[64];
+    Seed seeds[4 * RING];  // two rings, of which the second is settled
+    uint8_t after[64];
+};
+constexpr int NEARS = 6;
+// All that a ride may touch.
+struct RideState {
+    SeedRun run;
+    Rings rings;
+    RideFrame frame;
+    RideNear nears[NEARS];
+    Profile profiles[NEARS];
+    uint32_t calls;  // what the calls back were told, in their order
+};
+SeedRun run;
+Rings rings;
+RideNear nears[NEARS];
+Profile profiles[NEARS];
+uint32_t calls;
+double nearRadius, nearDistance[NEARS], nearSize[NEARS], nearWay[NEARS][3];
+long seedsRidden = 0, ridesFound[8];
+
+void save(RideState& to)
+{
+    memcpy(&to.run, &run, sizeof run);
+    memcpy(&to.rings, &rings, sizeof rings);
+    memcpy(&to.frame, &ride, sizeof ride);
+    memcpy(&to.nears, &nears, sizeof nears);
+    memcpy(&to.profiles, &profiles, sizeof profiles);
+    to.calls = calls;
+}
+void restore(const RideState& from)
+{
+    memcpy(&run, &from.run, sizeof run);
+    memcpy(&rings, &from.rings, sizeof rings);
+    memcpy(&ride, &from.frame, sizeof ride);
+    memcpy(&nears, &from.nears, sizeof nears);
+    memcpy(&profiles, &from.profiles, sizeof profiles);
+    calls = from.calls;
+}
+
+void called(uint32_t what)
+{
+    calls = (calls ^ what) * 0x9e3779b1u;
+    calls ^= calls >> 15;
+}
+
+void makeProfile(RideNear* near)
+{
+    called(static_cast<uint32_t>(near - nears));
+    const int i = static_cast<int>(near - nears);
+    near->profile->make(near->a0, near->c0, real(-2 * nearDistance[i] / (nearSize[i] * nearSize[i]) * nearRadius - 0.01), ride.placedMost);
+}
+
+// What is left to the caller: it may look again, shade, and do with the seed what it likes.
+void seedCalled(Seed* s, uint32_t which, bool looked)
+{
+    called(which);
+    called(static_cast<uint32_t>(s - rings.seeds));
+    called(static_cast<uint32_t>(ride.shade.count));
+    for (int n = 0; n < ride.shade.count; ++n) {
+        called(static_cast<uint32_t>(ride.b[n].raw));
+        called(static_cast<uint32_t>(reinterpret_cast<const RideNear*>(ride.shade.pulls[n]) - nears));
+        called(looked ? static_cast<uint32_t>(ride.shade.slopes[n].raw) : 0);
+    }
+    if (looked) {
+        called(static_cast<uint32_t>(ride.excess.raw));
+        called(static_cast<uint32_t>(ride.slope.raw));
+        called(static_cast<uint32_t>(ride.strength.raw));
+        called(static_cast<uint32_t>(ride.shade.ownSlope.raw));
+    }
+    s->flags = static_cast<uint8_t>(calls);
+    s->position = Real::fromRaw(65536 + static_cast<int32_t>(calls >> 17));
+    if (calls & 1)
+        s->wakes = static_cast<int16_t>(calls >> 8);
+}
+void staysCalled(Seed* s) { seedCalled(s, 1, true); }
+void heldCalled(Seed* s)
+{
+    called(static_cast<uint32_t>(s->position.raw));
+    seedCalled(s, 2, true);
+}
+void lostCalled(Seed* s, Real from)
+{
+    called(static_cast<uint32_t>(from.raw));
+    seedCalled(s, 3, false);
+}
+
+// The object and its neighbours, at any distance from within to out of reach.
+void anyRide()
+{
+    static Pull none[4];
+    double toEye[3], light[3];
+    do
+        anyFrame(ride.shade, none, nearRadius, toEye, light);
+    while (nearRadius > 50);
+    RideNear* last = nullptr;
+    const int count = 1 + below(below(4) ? 3 : NEARS);
+    for (int i = 0; i < count; ++i) {
+        RideNear& n = nears[i];
+        fill(&n, sizeof n);
+        double d[3], twice[3], most;
+        do {
+            nearSize[i] = 2 * nearRadius * uniform(0.4, 2.5);
+            nearDistance[i] = nearRadius * uniform(0, 1) + nearSize[i] * uniform(0, 1);
+            anyDirection(d);
+            most = 0;
+            for (int k = 0; k < 3; ++k) {
+                nearWay[i][k] = d[k] * nearDistance[i];
+                twice[k] = 2 * nearWay[i][k] / (nearSize[i] * nearSize[i]);
+                most = twice[k] > most ? twice[k] : -twice[k] > most ? -twice[k] : most;
+            }
+        } while (most > 7.8);
+        const double proportion = 2 * nearRadius / nearSize[i];
+        n.pull = {{real(nearWay[i][0] / 16), real(nearWay[i][1] / 16), real(nearWay[i][2] / 16)}, real(proportion * proportion)};
+        const double a0 = nearDistance[i] * nearDistance[i] / (nearSize[i] * nearSize[i]), c0 = proportion * proportion / 4;
+        n.a0 = real(a0);
+        n.c0 = real(c0);
+        n.twice = {real(twice[0] * 4096), real(twice[1] * 4096), real(twice[2] * 4096)};
+        n.touching = real(0.9 - a0 - c0);
+        n.touchingSum = sumBelow(n.touching);
+        n.meetingSum = sumBelow(real(0.9 - a0 - c0 + uniform(0, 0.5)));
+        n.burying = real(0.265 - a0 - c0);
+        n.buryingSum = sumBelow(n.burying);
+        n.waitApart = real(below(4) ? uniform(0, 200) : uniform(0, WAIT_MOST));
+        n.waitBuried = real(below(4) ? uniform(0, 200) : uniform(0, WAIT_MOST));
+        n.waitFacing = below(0x10000);
+        n.meetingRunSum = Real::fromRaw(n.meetingSum.raw + below(8192));
+        n.swing = real(2 * nearDistance[i] / (nearSize[i] * nearSize[i]) * 2048);
+        n.bit = 1u << i;
+        n.more = n.next = last;
+        n.halfSquare = real(uniform(0, 1) * nearSize[i]);
+        n.awayLimit = real(uniform(-10, 20));
+        n.waitAway = real(uniform(0, 500));
+        n.profile = &profiles[i];
+        n.profile->clear();
+        last = &n;
+    }
+    ride.first = ride.inRange = last;
+    const int32_t travel = static_cast<int16_t>(any());
+    ride.travel = travel * 65536;
+    ride.later = below(2) ? travel - 1 : (travel & 0xffff) - 1;
+    ride.awayEdge = below(4) ? real(0.95 * nearRadius - 0.3) : Real(-2000);
+    ride.awayShare = real(uniform(0, 0.5));
+    ride.waitAlong = real(uniform(0, 500));
+    ride.awayAlong = (ride.awayEdge.raw + 2047) >> 11 << 14;
+    ride.waitAway = below(0x100000);
+    ride.paceSteps = below(1024);
+    ride.placedMost = real(uniform(1.2, 1.85));
+    ride.evenMost = real(uniform(1.1, 1.6));
+    ride.kept = real(0.1 / nearRadius);
+    ride.keptTwice = ride.kept + ride.kept;
+    ride.parting = real(uniform(0, 0.5));
+    ride.partingTwice = ride.parting + ride.parting;
+    ride.overshoot = real(uniform(0.03, 0.7));
+    ride.keptWait = below(3);
+    ride.placed = ride.several = ride.looks = ride.normals = ride.unsettled = 0;
+    ride.profileFor = makeProfile;
+    ride.stays = staysCalled;
+    ride.held = heldCalled;
+    ride.lost = lostCalled;
+}
+
+void anyRings()
+{
+    static const uint8_t FLAGS[] = {0, SEED_PLACED, SEED_VALID | SEED_PLACED, SEED_VALID | SEED_FRONT, SEED_VALID | SEED_KEPT | SEED_FRONT,
+                                    SEED_VALID | SEED_KEPT, SEED_VALID | SEED_PLACED | SEED_KEPT | SEED_FRONT,
+                                    SEED_VALID | SEED_PLACED | SEED_KEPT | SEED_FRONT};
+    fill(&rings, sizeof rings);
+    const int32_t travel = ride.travel >> 16;
+    const bool alike = below(2);
+    const double place = uniform(0.95, 1.6);
+    for (int i = 0; i < 4 * RING; ++i) {
+        Seed& s = rings.seeds[i];
+        Real position;
+        anySeed(ride.shade, s, nearRadius, position);
+        s.position = below(3) == 0 ? Real(1) : alike ? real(place + uniform(0, 0.1)) : position;
+        s.flags = below(8) ? FLAGS[below(8)] : static_cast<uint8_t>(any());
+        if (i & 1)
+            s.flags = below(2) ? 0 : static_cast<uint8_t>(s.flags | SEED_ACTIVE);
+        s.wakes = static_cast<int16_t>(below(8) ? travel + below(5) - 3 : static_cast<int>(any()));
+        s.neighbour = below(8) ? -static_cast<int32_t>((2 * RING - 2 * (below(3) - 1)) * sizeof(Seed)) : 0;
+    }
+    // The neighbours of the first and the last one stay within the first ring.
+    rings.seeds[2 * RING + 1].neighbour = 0;
+    rings.seeds[4 * RING - 1].neighbour = -static_cast<int32_t>(2 * RING * sizeof(Seed));
+}
+
+// Both ride; and of the seeds that a profile placed the field is held against double precision.
+void rideByRide(int rounds)
+{
+    static RideState start, ofC, ofA;
+    long wrongFields = 0, wrongReaches = 0, reachesFound[4] = {0, 0, 0, 0};
+    for (int round = 0; round < rounds; ++round) {
+        if (round % 4 == 0)
+            anyRide();
+        anyRings();
+        calls = static_cast<uint32_t>(round);
+        const int count = below(4) ? RING : 1 + below(RING);
+        fill(&run, sizeof run);
+        run.count = count;
+        run.turned = below(2);
+        run.extras = below(2);
+        run.back = below(2);
+        if (!run.extras)
+            for (int i = 2 * RING + 1; i < 4 * RING; i += 2)
+                rings.seeds[i].flags = 0;
+        save(start);
+        const int32_t c = rideC(&run, rings.seeds + 2 * RING);
+        save(ofC);
+        restore(start);
+        const int32_t a = rideA(&run, rings.seeds + 2 * RING);
+        save(ofA);
+        verdict(c == a && memcmp(&ofC.run, &ofA.run, sizeof run) == 0, "rides: the same result, round", round);
+        verdict(memcmp(&ofC.rings, &ofA.rings, sizeof rings) == 0, "rides: the same seeds, round", round);
+        verdict(memcmp(&ofC.frame, &ofA.frame, sizeof ride) == 0, "rides: the same frame, round", round);
+        verdict(memcmp(&ofC.nears, &ofA.nears, sizeof nears) == 0 && memcmp(&ofC.profiles, &ofA.profiles, sizeof profiles) == 0,
+                "rides: the same neighbours, round", round);
+        verdict(ofC.calls == ofA.calls, "rides: the same calls, round", round);
+        seedsRidden += count;
+        ridesFound[0] += ride.placed - start.frame.placed;
+        ridesFound[1] += ride.several - start.frame.several;
+        ridesFound[2] += ride.looks - start.frame.looks;
+        ridesFound[3] += ride.normals - start.frame.normals;
+        for (int i = 2 * RING; i < 2 * RING + 2 * count; ++i) {
+            const Seed& s = rings.seeds[i];
+            const Seed& before = start.rings.seeds[i];
+            ridesFound[4] += s.flags == 0 && before.flags != 0;
+            ridesFound[5] += run.extras && (i & 1) && (s.flags & SEED_ACTIVE) && memcmp(&s, &before, sizeof s) != 0;
+            ridesFound[6] += s.flags == (SEED_VALID | SEED_FRONT) && before.flags != s.flags;
+            ridesFound[7] += s.flags == (SEED_VALID | SEED_PLACED) && before.flags != s.flags;
+            // Of one that has just been laid the neighbours are not known any more: only where there is one alone.
+            if (ride.first->next != nullptr || s.position == before.position || s.flags != (SEED_VALID | SEED_PLACED | SEED_KEPT | SEED_FRONT))
+                continue;
+            const double p = s.position.raw / 65536.0, size = nearSize[0];
+            double t = 0;
+            for (int k = 0; k < 3; ++k) {
+                const double way = nearWay[0][k] + p * (&s.path.x)[k].raw / 65536.0;
+                t += way * way / (size * size);
+            }
+            const auto field = [](double at) { return at >= 1 ? 0 : 1 - at * (22.0 / 9 - at * (17.0 / 9 - at * 4 / 9)); };
+            const double off = field(t) + field(p * p / 4) - 0.5;
+            // Paths of small objects are coarse.
+            const double doubt = 0.02 + 0.02 / nearRadius;
+            wrongFields += off > doubt || off < -doubt;
+        }
+        // A run: by chance, along the way to a neighbour, or so small that it is all in one state.
+        run.middle = rings.seeds[2 * RING].path;
+        run.half = rings.seeds[2 * RING + 2].path;
+        run.wide = real(nearRadius * uniform(0, 1));
+        if (below(3)) {
+            const double share = below(3) ? uniform(0, 0.2) : 0;
+            for (int k = 0; k < 3; ++k) {
+                const double way = below(2) ? -nearWay[0][k] * nearRadius / (nearDistance[0] + 0.01) : (&run.middle.x)[k].raw / 65536.0;
+                (&run.middle.x)[k] = real(way);
+                (&run.half.x)[k] = real((&run.half.x)[k].raw / 65536.0 * share);
+            }
+            run.wide = real(nearRadius * share);
+        }
+        if (round % 32 == 0)
+            ride.inRange = nullptr;
+        save(start);
+        const int32_t reachC = rideReachC(&run);
+        save(ofC);
+        restore(start);
+        const int32_t reachA = rideReachA(&run);
+        save(ofA);
+        verdict(reachC == reachA && memcmp(&ofC, &ofA, sizeof ofC) == 0, "rides: the same reach, round", round);
+        ++reachesFound[reachA];
+        if (ride.inRange != nullptr) {
+            // What holds for all of it holds for its ends.
+            for (int end = -1; end <= 1; ++end) {
+                bool none = true, buried = false;
+                double nearest = 9;
+                for (const RideNear* near = ride.first; near != nullptr; near = near->next) {
+                    double b = 0;
+                    for (int k = 0; k < 3; ++k)
+                        b += ((&run.middle.x)[k].raw + end * static_cast<double>((&run.half.x)[k].raw)) / 65536 * (&near->twice.x)[k].raw / 65536 / 4096;
+                    none = none && b >= near->touching.raw / 65536.0;
+                    buried = buried || b < near->burying.raw / 65536.0;
+                    nearest = b < nearest ? b : nearest;
+                    wrongReaches += b < near->meetingSum.raw / 4096.0 && reachA == REACHES_SOME && !(ride.reached & near->bit);
+                }
+                wrongReaches += (reachA == REACHES_NONE && !none) || (reachA == REACHES_BURYING && !buried);
+            }
+        }
+        ride.inRange = ride.first;
+        if (round % 8 == 0) {
+            // A look for itself.
+            ride.shade.count = 1 + below(NEARS - 1);
+            for (int n = 0; n < ride.shade.count; ++n) {
+                ride.shade.pulls[n] = &nears[below(ride.first == nears ? 1 : 2)].pull;
+                ride.b[n] = real(uniform(-4, 4));
+            }
+            const Real position = real(uniform(0.95, 1.85));
+            save(start);
+            rideLookC(position);
+            save(ofC);
+            restore(start);
+            rideLookA(position);
+            save(ofA);
+            verdict(memcmp(&ofC, &ofA, sizeof ofC) == 0, "rides: the same look, round", round);
+        }
+    }
+    verdict(wrongFields == 0, "rides: seeds lie on the surface as in double precision", wrongFields);
+    verdict(wrongReaches == 0, "rides: what is said of a run holds for its ends", wrongReaches);
+    verdict(reachesFound[1] > rounds / 50 && reachesFound[2] > rounds / 50 && reachesFound[3] > rounds / 50, "rides: there were runs of each kind",
+            reachesFound[1] < reachesFound[2] ? reachesFound[1] : reachesFound[2]);
+    long least = seedsRidden;
+    for (long found : ridesFound)
+        least = found < least ? found : least;
+    verdict(least > seedsRidden / 200, "rides: there were some of each kind", least);
+}
+
 // Spans of any kind: none, everything, short ones at the ends.
 void spans(Span* rows)
 {
@@ -885,6 +1283,19 @@ void registers()
         anySeed(frame, seed, radius, position);
         const uint32_t shade[5] = {word(&frame), word(&seed), static_cast<uint32_t>(position.raw), 0, 0};
         verdict(damage(reinterpret_cast<const void*>(shadeSeedA), shade) == 0, "registers are kept: shadeSeedA", i);
+    }
+    for (int i = 0; i < 2000; ++i) {
+        anyRide();
+        anyRings();
+        run = {rings.seeds[0].path, rings.seeds[2].path, real(nearRadius * uniform(0, 0.2)), 1 + below(RING), below(2) != 0, false, false};
+        const uint32_t all[5] = {word(&run), word(rings.seeds + 2 * RING), 0, 0, 0};
+        verdict(damage(reinterpret_cast<const void*>(rideA), all) == 0, "registers are kept: rideA", i);
+        const uint32_t reach[5] = {word(&run), 0, 0, 0, 0};
+        verdict(damage(reinterpret_cast<const void*>(rideReachA), reach) == 0, "registers are kept: rideReachA", i);
+        ride.shade.count = 1;
+        ride.shade.pulls[0] = &nears[0].pull;
+        const uint32_t look[5] = {65536u + static_cast<uint32_t>(below(50000)), 0, 0, 0, 0};
+        verdict(damage(reinterpret_cast<const void*>(rideLookA), look) == 0, "registers are kept: rideLookA", i);
     }
     static Span rows[HIGH];
     spans(rows);
@@ -972,11 +1383,16 @@ int main(int count, char** arguments)
     voxelLists(rounds);
     voxelByVoxel(10 * rounds);
     makeShadeTables();
+    makeFieldSteps();
+    makeProfileSteps();
     seedBySeed(500 * rounds);
+    rideByRide(250 * rounds);
     clearsAndCopies(rounds);
     registers();
-    printf("# seed %u: %ld scales, %ld pixels, %ld voxels (%ld drawn in lists), %ld seeds (%ld facing), %ld spans tried\n",
-           static_cast<unsigned>(seed), scalesTried, pixelsTried, voxelsTried, voxelsDrawn, seedsTried, seedsFacing, spansTried);
+    printf("# seed %u: %ld scales, %ld pixels, %ld voxels (%ld drawn in lists), %ld seeds (%ld facing), %ld spans tried\n"
+           "# rides: %ld seeds: %ld placed, %ld of several, %ld looks, %ld normals, %ld inside, %ld between, %ld at rest, %ld away\n",
+           static_cast<unsigned>(seed), scalesTried, pixelsTried, voxelsTried, voxelsDrawn, seedsTried, seedsFacing, spansTried,
+           seedsRidden, ridesFound[0], ridesFound[1], ridesFound[2], ridesFound[3], ridesFound[4], ridesFound[5], ridesFound[6], ridesFound[7]);
     int passed = 0;
     for (int k = 0; k < kindCount; ++k) {
         if (kinds[k].bad == 0) {
