@@ -94,30 +94,33 @@
 #define RIDE_PLACED  68
 #define RIDE_SEVERAL 72
 #define RIDE_LOOKS   76
-#define RIDE_NORMALS 80
-#define RIDE_UNSETTLED 84
-#define RIDE_EXCESS  88
-#define RIDE_SLOPE   92
-#define RIDE_STRENGTH 96
-#define RIDE_INRANGE 100
-#define RIDE_REACHED 104
-#define RIDE_HOLDS   108
-#define RIDE_PROFILEFOR 112
-#define RIDE_STAYS   116
-#define RIDE_HELD    120
-#define RIDE_LOST    124
-#define RIDE_B       128
-#define RIDE_BEYOND  380
-#define RIDE_SHADE   632
+#define RIDE_SHADED  80
+#define RIDE_FACING  84
+#define RIDE_NORMALS 88
+#define RIDE_UNSETTLED 92
+#define RIDE_EXCESS  96
+#define RIDE_SLOPE   100
+#define RIDE_STRENGTH 104
+#define RIDE_INRANGE 108
+#define RIDE_REACHED 112
+#define RIDE_HOLDS   116
+#define RIDE_PROFILEFOR 120
+#define RIDE_STAYS   124
+#define RIDE_HELD    128
+#define RIDE_LOST    132
+#define RIDE_ROUGH   136
+#define RIDE_B       140
+#define RIDE_BEYOND  392
+#define RIDE_SHADE   644
 // of which these are in its ShadeFrame (include/lie.h)
 #define EYE_X        RIDE_SHADE+24
 #define EYE_Y        RIDE_SHADE+28
 #define EYE_Z        RIDE_SHADE+32
 #define EYE_AWAY     RIDE_SHADE+52
-#define OWN_SLOPE    RIDE_SHADE+108
-#define COUNT        RIDE_SHADE+112
-#define SLOPES       RIDE_SHADE+116
-#define PULLS        RIDE_SHADE+368
+#define OWN_SLOPE    RIDE_SHADE+112
+#define COUNT        RIDE_SHADE+116
+#define SLOPES       RIDE_SHADE+120
+#define PULLS        RIDE_SHADE+372
 
 // class Profile (include/profile.h)
 #define PROFILE_TOP  0
@@ -141,6 +144,7 @@
 #define PLACED_LEAST 62259
 #define POSITION_MOST 121242
 #define OVER_BACK    128
+#define ROUGH        10
 #define ISOVALUE     32768
 #define OWN_FIRST    940
 #define OWN_STEP     16
@@ -193,6 +197,10 @@ seed_\name:
         jns     asleep_\name
 awake_\name:
         call    settle
+        // if (shaded == s) ..
+        cmpl    RIDE(RIDE_SHADED), %esi
+        je      shaded_\name
+told_\name:
         .if     !\busy
         movb    $1, BUSY(%esp)
         .endif
@@ -249,6 +257,8 @@ between_\name:
 extra_\name:
         call    settle
         movb    $1, BUSY(%esp)
+        cmpl    RIDE(RIDE_SHADED), %esi
+        je      shaded_extra_\name
 2:
         // extra.flags |= ACTIVE;  seen |= extra.flags;  extras = true
         movb    SEED_FLAGS(%esi), %al
@@ -261,6 +271,14 @@ extra_\name:
         decl    LEFT(%esp)
         jnz     seed_\name
         jmp     done
+        .if     !\quiet || \busy
+shaded_\name:
+        call    shaded_seed
+        jmp     told_\name
+        .endif
+shaded_extra_\name:
+        call    shaded_extra
+        jmp     2b
 belt_\name:
         // if (flags & other.flags & PLACED) none
         andb    %dl, %al
@@ -452,6 +470,8 @@ shade:
         // ++normals;  flags = VALID | PLACED | KEPT | FRONT
         incl    RIDE(RIDE_NORMALS)
         movb    $VALID|PLACED|KEPT|FRONT, SEED_FLAGS(%esi)
+        movl    %esi, RIDE(RIDE_SHADED)
+        movl    %eax, RIDE(RIDE_FACING)
 lies:
         ret
 
@@ -688,6 +708,47 @@ settled:
         jle     shade
         movl    $OVER_BACK, %eax
         jmp     shade
+
+        // shaded = null;  if (differ(*s, other) || (i < count && differ(*s, s[-2]))) rough(s).  With a return address more than
+        // the loop on the stack
+        .macro  DIFFER
+        subl    %eax, %edx
+        addl    $ROUGH, %edx
+        cmpl    $2*ROUGH, %edx
+        ja      rough
+        .endm
+
+shaded_seed:
+        movzbl  SEED_BRIGHT(%esi), %eax
+        movl    SEED_SIZE+SEED_NEIGHBOUR(%esi), %ecx
+        movl    $0, RIDE(RIDE_SHADED)
+        addl    %esi, %ecx
+        movzbl  SEED_BRIGHT(%ecx), %edx
+        DIFFER
+        movl    4+RUN(%esp), %edx
+        movl    RUN_COUNT(%edx), %edx
+        cmpl    4+LEFT(%esp), %edx
+        je      1f
+        movzbl  SEED_BRIGHT-2*SEED_SIZE(%esi), %edx
+        DIFFER
+1:
+        ret
+        // The same of an oversampled one and the two that it lies between
+shaded_extra:
+        movzbl  SEED_BRIGHT(%esi), %eax
+        movl    SEED_NEIGHBOUR(%esi), %ecx
+        movl    $0, RIDE(RIDE_SHADED)
+        addl    %esi, %ecx
+        movzbl  SEED_BRIGHT-SEED_SIZE(%esi), %edx
+        DIFFER
+        movzbl  SEED_BRIGHT-SEED_SIZE(%ecx), %edx
+        DIFFER
+        ret
+rough:
+        pushl   %esi
+        call    *RIDE(RIDE_ROUGH)
+        popl    %ecx
+        ret
 
 held:
         pushl   %esi

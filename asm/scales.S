@@ -20,7 +20,10 @@
 #define VOXEL_HIGH   14
 #define VOXEL_TILTX  16
 #define VOXEL_TILTY  18
-#define VOXEL_BRIGHT 20
+#define VOXEL_BRIGHT 20                 /* and behind it, bytes all: */
+#define VOXEL_REACH  21
+#define VOXEL_SLOPEX 22
+#define VOXEL_SLOPEY 23
 
 // struct Factors, struct Lens and the constants (include/scales.h)
 #define FACTOR_X   0
@@ -59,7 +62,14 @@
 #define LEFT       68
 #define STEP       72
 #define ZROW       76
-#define LOCALS     80
+#define FIRST      80
+#define ROWS_LEFT  84
+#define ENTRY      88
+#define ZMOST      92
+#define SHADE_STEP 96
+#define SHADE_ROW  100
+#define FINE_TOP   104
+#define LOCALS     108
 
         .text
 
@@ -210,8 +220,10 @@ down_limited:
         negl    %ebp
         sarl    $1, %eax
         addl    %ecx, %eax
-        // colour = ramp[brightness]
-        movzbl  VOXEL_BRIGHT(%esi), %ecx
+        // if (isFine(v)) ..;  colour = ramp[brightness]
+        movl    VOXEL_BRIGHT(%esi), %ecx
+        cmpl    $255, %ecx
+        ja      fine
         addl    RAMP(%esp), %ecx
         movb    (%ecx), %cl
         // start = top * WIDTH + left;  pixels = frame + start;  depths = zbuffer + start;   320 = 5 * 64
@@ -272,6 +284,203 @@ rows_\wide:
         ROWS    15
         ROWS    16
 
+        // A voxel that ends where it gets too far away, or whose brightness changes. Here still: eax z, ebx its step, ebp the
+        // step from row to row, esi the voxel, edi the width, edx the first row.
+        .balign 16
+fine:
+        movl    %eax, FIRST(%esp)
+        cmpl    $0xffff, %ecx
+        jbe     ending
+        movl    ZROW(%esp), %eax        // the rows
+        movl    %ebp, ZROW(%esp)
+        movl    %eax, ROWS_LEFT(%esp)
+        movl    %edx, FINE_TOP(%esp)
+        // zMost = reach != 0 ? (depth >> 1) + reach * 4 : NO_END
+        movl    DEPTH(%esp), %ebp
+        movzbl  %ch, %eax
+        testl   %eax, %eax
+        jz      no_end
+        sarl    $1, %ebp
+        leal    (%ebp,%eax,4), %eax
+ends:
+        movl    %eax, ZMOST(%esp)
+        movl    DEPTH(%esp), %ebp
+        shrl    $5, %ebp
+        subl    $LENS_NEAR*8, %ebp
+        shll    $FACTOR_SHIFT, %ebp
+        addl    FACTORS(%esp), %ebp
+        // shadeAcross = slopeX * f.zx >> 10;  across = shadeAcross * (((left + 1) << 12) - column)
+        movl    VOXEL_X(%esi), %eax
+        addl    LENS_X(%esp), %eax
+        imull   FACTOR_X(%ebp), %eax
+        sarl    $8, %eax
+        movl    LEFT(%esp), %ecx
+        addl    CENTREX(%esp), %eax
+        incl    %ecx
+        movsbl  VOXEL_SLOPEX(%esi), %edx
+        shll    $12, %ecx
+        imull   FACTOR_ZX(%ebp), %edx
+        sarl    $10, %edx
+        subl    %eax, %ecx
+        movl    %edx, SHADE_STEP(%esp)
+        imull   %edx, %ecx
+        // shadeDown = -(slopeY * f.zy >> 10);  shadeRow = shadeDown - shadeAcross * wide
+        imull   %edi, %edx
+        movsbl  VOXEL_SLOPEY(%esi), %eax
+        imull   FACTOR_ZY(%ebp), %eax
+        sarl    $10, %eax
+        addl    %eax, %edx
+        negl    %edx
+        movl    %edx, SHADE_ROW(%esp)
+        // shade = brightness * 256 + 128 + ((across + shadeDown * (((top + 1) << 12) - row)) >> 12), row = centreY - ..
+        movl    VOXEL_Y(%esi), %edx
+        addl    LENS_Y(%esp), %edx
+        imull   FACTOR_Y(%ebp), %edx
+        sarl    $8, %edx
+        movl    FINE_TOP(%esp), %ebp
+        subl    CENTREY(%esp), %edx
+        incl    %ebp
+        shll    $12, %ebp
+        addl    %ebp, %edx
+        imull   %eax, %edx
+        subl    %edx, %ecx
+        movzbl  VOXEL_BRIGHT(%esi), %eax
+        sarl    $12, %ecx
+        shll    $8, %eax
+        leal    128(%ecx,%eax), %ecx
+        // The rows are drawn by the end of one loop of 16 pixels, from the pixel that is that far from its end.
+        movl    fine_of(,%edi,4), %eax
+        movl    FINE_TOP(%esp), %edx
+        movl    %eax, ENTRY(%esp)
+        leal    (%edx,%edx,4), %esi
+        shll    $6, %esi
+        movl    LEFT(%esp), %edx
+        addl    %edi, %edx
+        movl    FRAME(%esp), %edi
+        leal    -WIDEST-1(%esi,%edx), %esi
+        addl    %esi, %edi
+        addl    %esi, %esi
+        addl    ZBUFFER(%esp), %esi
+        movl    FIRST(%esp), %eax
+        movl    RAMP(%esp), %ebp
+        jmp     *ENTRY(%esp)
+no_end:
+        movl    $0x7fffffff, %eax
+        jmp     ends
+
+        // One brightness, but it ends.
+        .balign 4
+ending:
+        leal    (%edx,%edx,4), %esi
+        movzbl  %ch, %eax
+        movl    DEPTH(%esp), %edx
+        shll    $6, %esi
+        sarl    $1, %edx
+        addl    LEFT(%esp), %esi
+        leal    (%edx,%eax,4), %eax
+        movl    ZROW(%esp), %edx
+        movzbl  %cl, %ecx
+        movl    %ebp, ZROW(%esp)
+        addl    RAMP(%esp), %ecx
+        movl    ending_of(,%edi,4), %ebp
+        movb    (%ecx), %cl
+        movl    %ebp, ENTRY(%esp)
+        movl    FRAME(%esp), %edi
+        movl    %eax, %ebp
+        addl    %esi, %edi
+        addl    %esi, %esi
+        movl    FIRST(%esp), %eax
+        addl    ZBUFFER(%esp), %esi
+        jmp     *ENTRY(%esp)
+
+        // (z <= zMost && z < depths[x]): depths[x] = z, pixels[x] = colour.  Taken 7 instructions, else 3 or 5.
+        .macro  ENDING wide
+        .balign 16
+ending_\wide:
+        .set    x, 0
+        .rept   \wide
+        cmpl    %ebp, %eax
+        jg      1f
+        cmpw    2*x(%esi), %ax
+        jae     1f
+        movw    %ax, 2*x(%esi)
+        movb    %cl, x(%edi)
+1:
+        addl    %ebx, %eax
+        .set    x, x + 1
+        .endr
+        addl    ZROW(%esp), %eax
+        addl    $2*SCREEN_WIDTH, %esi
+        addl    $SCREEN_WIDTH, %edi
+        decl    %edx
+        jnz     ending_\wide
+        jmp     fine_done
+        .endm
+
+        ENDING  1
+        ENDING  2
+        ENDING  3
+        ENDING  4
+        ENDING  5
+        ENDING  6
+        ENDING  7
+        ENDING  8
+        ENDING  9
+        ENDING  10
+        ENDING  11
+        ENDING  12
+        ENDING  13
+        ENDING  14
+        ENDING  15
+        ENDING  16
+
+        // (z <= zMost && z < depths[x]): depths[x] = z, pixels[x] = ramp[shade >> 8].  Taken 9 instructions, else 4 or 6.
+        .macro  FINE_PIXEL wide
+fine_\wide:
+        cmpl    ZMOST(%esp), %eax
+        jg      1f
+        cmpw    2*(WIDEST+1-\wide)(%esi), %ax
+        jae     1f
+        movsbl  %ch, %edx
+        movb    (%ebp,%edx), %dl
+        movw    %ax, 2*(WIDEST+1-\wide)(%esi)
+        movb    %dl, WIDEST+1-\wide(%edi)
+1:
+        addl    %ebx, %eax
+        addl    SHADE_STEP(%esp), %ecx
+        .endm
+
+        .balign 16
+        FINE_PIXEL 16
+        FINE_PIXEL 15
+        FINE_PIXEL 14
+        FINE_PIXEL 13
+        FINE_PIXEL 12
+        FINE_PIXEL 11
+        FINE_PIXEL 10
+        FINE_PIXEL 9
+        FINE_PIXEL 8
+        FINE_PIXEL 7
+        FINE_PIXEL 6
+        FINE_PIXEL 5
+        FINE_PIXEL 4
+        FINE_PIXEL 3
+        FINE_PIXEL 2
+        FINE_PIXEL 1
+        addl    ZROW(%esp), %eax
+        addl    SHADE_ROW(%esp), %ecx
+        addl    $2*SCREEN_WIDTH, %esi
+        addl    $SCREEN_WIDTH, %edi
+        decl    ROWS_LEFT(%esp)
+        jz      fine_done
+        jmp     *ENTRY(%esp)
+fine_done:
+        movl    LIST(%esp), %eax
+        addl    $4, %eax
+        cmpl    END(%esp), %eax
+        jb      voxel_loop
+        jmp     leave_at
+
 leave:
         movl    LIST(%esp), %eax
 leave_at:
@@ -331,5 +540,13 @@ rows_of:
         .long   leave                   // width 0 does not come so far
         .long   rows_1, rows_2, rows_3, rows_4, rows_5, rows_6, rows_7, rows_8
         .long   rows_9, rows_10, rows_11, rows_12, rows_13, rows_14, rows_15, rows_16
+ending_of:
+        .long   leave
+        .long   ending_1, ending_2, ending_3, ending_4, ending_5, ending_6, ending_7, ending_8
+        .long   ending_9, ending_10, ending_11, ending_12, ending_13, ending_14, ending_15, ending_16
+fine_of:
+        .long   leave
+        .long   fine_1, fine_2, fine_3, fine_4, fine_5, fine_6, fine_7, fine_8
+        .long   fine_9, fine_10, fine_11, fine_12, fine_13, fine_14, fine_15, fine_16
 
 ASM_END

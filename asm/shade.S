@@ -22,6 +22,7 @@
 #define SEED_TILTX   36
 #define SEED_TILTY   38
 #define SEED_BRIGHT  40
+#define SEED_REACH   41
 #define SEED_DIRX    48
 #define SEED_DIRY    50
 #define SEED_DIRZ    52
@@ -34,23 +35,25 @@
 #define EYE_Z        32
 #define EYE_RADIUS   40
 #define EYE_HORIZON  44
-#define SKEW_ROOTX   56
-#define SKEW_ROOTY   60
-#define SKEW_ROOTZ   64
-#define SKEW_DEPTH   68
-#define SKEW_SHARE   72
-#define SKEW_X       76
-#define SKEW_Y       80
-#define SKEW_NEAR    84
-#define LIGHT_X      88
-#define LIGHT_Y      92
-#define LIGHT_Z      96
-#define LIGHT_SPACING 100
-#define SET_BACK     104
-#define OWN_SLOPE    108
-#define COUNT        112
-#define SLOPES       116
-#define PULLS        368
+#define EYE_LIMB     56
+#define SKEW_ROOTX   60
+#define SKEW_ROOTY   64
+#define SKEW_ROOTZ   68
+#define SKEW_DEPTH   72
+#define SKEW_SHARE   76
+#define SKEW_X       80
+#define SKEW_Y       84
+#define SKEW_NEAR    88
+#define LIGHT_X      92
+#define LIGHT_Y      96
+#define LIGHT_Z      100
+#define LIGHT_SPACING 104
+#define SET_BACK     108
+#define OWN_SLOPE    112
+#define COUNT        116
+#define SLOPES       120
+#define PULLS        372
+#define NORMAL       624
 
 // struct Pull
 #define PULL_X       0
@@ -60,7 +63,7 @@
 
 // Constants (include/shade.h)
 #define BRIGHTEST    63
-#define MARGIN       1024
+#define MARGIN       768
 #define MARGIN_UNITS 10
 #define STRETCHED    6500
 #define WHOLE        4329
@@ -71,14 +74,10 @@
 #define LEFT       4
 #define COSINE     0
 #define ALONGX     0
-#define LIMITX     0
 #define FACING     4
-#define RATIO      8
-#define SIDEX      12
-#define SIDEY      16
+#define DEPTH      8
 #define ALONGY     20
 #define SHARE      20
-#define DIVISOR    20
 #define SKEWX      24
 #define SKEWY      28
 #define INVERSE    32
@@ -222,37 +221,27 @@ normal:
         addl    %edx, %eax
         sarl    $14, %eax
         movl    %eax, FACING(%esp)
-        // if (facing <= 0) return
-        testl   %eax, %eax
+        // if (facing <= limb) return facing - limb
+        subl    EYE_LIMB(%ecx), %eax
         jle     away
-        // out = path * position;  z = out.z >> 8;  depth = skew.depth + (out.z >> 11);  if (depth < 32) ..
+        // out = path * position;  z = out.z >> 8;  depth = skew.depth + (out.z >> 11)
         movl    SEED_PATHZ(%ebp), %eax
         imull   POSITION(%esp)
         shrdl   $24, %edx, %eax
         movl    %eax, SEED_Z(%ebp)
         sarl    $3, %eax
         addl    SKEW_DEPTH(%ecx), %eax
-        cmpl    $32, %eax
-        jl      near_plane
-        // least = (depth >> 4) + 1;  ratio = (depth << 8) / (facing < least ? least : facing)
-        movl    %eax, %edx
-        sarl    $4, %edx
-        cmpl    FACING(%esp), %edx
-        jge     grazing
-        shll    $8, %eax
-        xorl    %edx, %edx
-        divl    FACING(%esp)
-ratio_known:
-        // tiltX = n.x * ratio >> 14;  tiltY = n.y * ratio >> 14
-        movl    %eax, RATIO(%esp)
-        movl    %eax, %edx
-        imull   %ebx, %eax
-        imull   %esi, %edx
-        sarl    $14, %eax
-        sarl    $14, %edx
+        movl    %eax, DEPTH(%esp)
+        // normal = n;  tiltX = n.x >> 6;  tiltY = n.y >> 6
+        movl    %ebx, NORMAL(%ecx)
+        movl    %ebx, %eax
+        movl    %esi, NORMAL+4(%ecx)
+        movl    %esi, %edx
+        movl    %edi, NORMAL+8(%ecx)
+        sarl    $6, %eax
         movw    %ax, SEED_TILTX(%ebp)
+        sarl    $6, %edx
         movw    %dx, SEED_TILTY(%ebp)
-tilted:
         // brightness = (((n.x * light.x + n.y * light.y + n.z * light.z) >> 14) * BRIGHTEST + 8192) >> 14, limited
         movl    LIGHT_X(%ecx), %eax
         imull   %ebx, %eax
@@ -269,7 +258,8 @@ tilted:
         cmpl    $BRIGHTEST, %eax
         ja      limit_bright
 bright_limited:
-        movb    %al, SEED_BRIGHT(%ebp)
+        // brightness, and reach = slopeX = slopeY = 0
+        movl    %eax, SEED_BRIGHT(%ebp)
         cmpb    $0, SKEW_NEAR(%ecx)
         jne     near_viewer
         // x = out.x >> 8;  skewX = skew.x + ((out.x >> 11) * share >> 12)
@@ -329,9 +319,7 @@ cosine_limited:
         movsbl  SEED_ACROSS+1(%ebp), %edx
         imull   %esi, %edx
         addl    %edx, %edi
-        movl    %ebx, SIDEX(%esp)
         sarl    $8, %edi
-        movl    %esi, SIDEY(%esp)
         imull   %ecx, %edi
         sarl    $10, %edi
         // alongZ = s.along[2] - (dirZ * along >> 22);  acrossZ = s.across[2] - (dirZ * across >> 22)
@@ -426,18 +414,20 @@ extents:
         movw    %si, SEED_HIGH(%ebp)
         movswl  %cx, %ecx
         movswl  %si, %esi
-        // if (ratio >= 400) ..
+        // if (2 * facing < depth && depth >= 32) ..
         movl    FRAME(%esp), %edi
-        movl    RATIO(%esp), %eax
-        cmpl    $400, %eax
-        jge     may_be_cut
+        movl    FACING(%esp), %eax
+        movl    DEPTH(%esp), %ebx
+        addl    %eax, %eax
+        cmpl    %ebx, %eax
+        jl      near_horizon
 whole:
-        // z += (mulHigh(wide * wide + high * high, setBack) >> 6) + over
+        // z += (mulHigh(wide * wide + high * high, setBack) >> 7) + over
         imull   %ecx, %ecx
         imull   %esi, %esi
         leal    (%ecx,%esi), %eax
         imull   SET_BACK(%edi)
-        sarl    $6, %edx
+        sarl    $7, %edx
         addl    OVER(%esp), %edx
         addl    %edx, SEED_Z(%ebp)
         movl    FACING(%esp), %eax
@@ -536,99 +526,38 @@ taller:
         leal    MARGIN(%ecx,%eax), %ecx
         jmp     extents
 
-        // Near the horizon.  if (ratio >= 1024 || extent >= 2048 || extent * ratio * (ratio >> 6) > (..) << 12) cut
+        // reach = mulDiv(mulDiv(facing, facing, depth), 2 * horizon, 2 * depth) + 1
         .balign 4
-may_be_cut:
-        cmpl    $1024, %eax
-        jge     cut
-        movl    %ecx, %edx
-        cmpl    %esi, %ecx
-        jge     1f
-        movl    %esi, %edx
-1:
-        cmpl    $2048, %edx
-        jge     cut
-        imull   %eax, %edx
-        sarl    $6, %eax
-        imull   %eax, %edx
-        movl    EYE_HORIZON(%edi), %eax
-        addl    %eax, %eax
-        cmpl    $8191, %eax
-        jg      limit_horizon
-horizon_limited:
-        shll    $12, %eax
-        cmpl    %eax, %edx
-        jle     whole
-cut:
-        // away = mulDiv(mulDiv(facing, facing, depth), radius, depth) * 4
-        movl    SEED_Z(%ebp), %ebx
-        sarl    $3, %ebx
-        movl    FACING(%esp), %eax
-        addl    SKEW_DEPTH(%edi), %ebx
+near_horizon:
+        cmpl    $32, %ebx
+        jl      whole
+        sarl    $1, %eax
         imull   %eax
         idivl   %ebx
-        movl    EYE_HORIZON(%edi), %edx
-        addl    %edx, %edx
-        imull   %edx
+        imull   EYE_HORIZON(%edi)
         idivl   %ebx
-        shll    $16, %eax               // away << 14
+        incl    %eax
+        // if (reach < 256 && (|tiltX * wide| + |tiltY * high|) >> 11 >= reach)
+        cmpl    $255, %eax
+        jg      whole
         movl    %eax, %ebx
-        // sideX = |nx|;  sideY = |ny|
-        movl    SIDEX(%esp), %eax
-        cltd
-        xorl    %edx, %eax
-        subl    %edx, %eax
-        movl    %eax, %edi
-        orl     $512, %eax
-        movl    %eax, DIVISOR(%esp)
-        // limitX = (away << 14) / (sideX | 512) + (high * sideY >> 16)
-        movl    %ebx, %eax
-        cltd
-        idivl   DIVISOR(%esp)
-        movl    %eax, LIMITX(%esp)
-        movl    SIDEY(%esp), %eax
-        cltd
-        xorl    %edx, %eax
-        subl    %edx, %eax
-        movl    %eax, %edx
-        imull   %esi, %eax
-        orl     $512, %edx
-        sarl    $16, %eax
-        movl    %edx, DIVISOR(%esp)
-        addl    %eax, LIMITX(%esp)
-        // limitY = (away << 14) / (sideY | 512) + (wide * sideX >> 16)
-        movl    %ebx, %eax
-        cltd
-        idivl   DIVISOR(%esp)
-        imull   %ecx, %edi
-        sarl    $16, %edi
-        addl    %edi, %eax
-        // if (limitX < wide) cut = (wide - limitX) >> 1, wide -= cut, x += nx < 0 ? cut : -cut
-        movl    %ecx, %edx
-        movl    FRAME(%esp), %edi
-        subl    LIMITX(%esp), %edx
-        jle     1f
-        sarl    $1, %edx
-        subl    %edx, %ecx
-        movw    %cx, SEED_WIDE(%ebp)
-        cmpl    $0, SIDEX(%esp)
-        jl      2f
-        negl    %edx
-2:
-        addl    %edx, SEED_X(%ebp)
+        movswl  SEED_TILTX(%ebp), %eax
+        imull   %ecx, %eax
+        testl   %eax, %eax
+        jns     1f
+        negl    %eax
 1:
-        // if (limitY < high) cut = (high - limitY) >> 1, high -= cut, y += ny < 0 ? cut : -cut
-        movl    %esi, %edx
-        subl    %eax, %edx
-        jle     whole
-        sarl    $1, %edx
-        subl    %edx, %esi
-        movw    %si, SEED_HIGH(%ebp)
-        cmpl    $0, SIDEY(%esp)
-        jl      2f
+        movswl  SEED_TILTY(%ebp), %edx
+        imull   %esi, %edx
+        testl   %edx, %edx
+        jns     1f
         negl    %edx
-2:
-        addl    %edx, SEED_Y(%ebp)
+1:
+        addl    %edx, %eax
+        sarl    $11, %eax
+        cmpl    %ebx, %eax
+        jl      whole
+        movb    %bl, SEED_REACH(%ebp)
         jmp     whole
 
         // Seldom
@@ -646,18 +575,6 @@ no_direction:
         xorl    %esi, %esi
         movl    $-16384, %edi
         jmp     normal
-near_plane:
-        // tiltX = tiltY = 0; and no cut
-        movl    $0, RATIO(%esp)
-        movl    $0, SEED_TILTX(%ebp)
-        jmp     tilted
-grazing:
-        incl    %edx
-        shll    $8, %eax
-        movl    %edx, RATIO(%esp)
-        xorl    %edx, %edx
-        divl    RATIO(%esp)
-        jmp     ratio_known
 limit_bright:
         // step < 0 ? 0 : BRIGHTEST
         sarl    $31, %eax
@@ -684,9 +601,6 @@ no_extent:
         addl    $MARGIN, %ecx
         addl    $MARGIN, %esi
         jmp     extents
-limit_horizon:
-        movl    $8191, %eax
-        jmp     horizon_limited
         ENDFUNC(shadeSeedA)
 
 ASM_END

@@ -26,6 +26,15 @@ struct Scale {
     int32_t colour;   // palette index
 };
 
+// One that ends where it gets too far away, or whose brightness changes across it. `ramp` has the palette index of each
+// brightness that occurs. The brightnesses have 8 bits of fraction; what it is at the top left pixel, and how it changes
+// like the depth.
+struct FineScale : Scale {
+    int32_t zMost;  // of what is drawn
+    const uint8_t* ramp;
+    int32_t shade, shadeStep, shadeRow;
+};
+
 // The depth of a pixel where nothing was drawn.
 constexpr uint16_t Z_EMPTY = 0xffff;
 
@@ -34,6 +43,9 @@ extern "C" {
 // Draws `count` scales: a pixel is taken where the scale's z is less than the Z-buffer's, so the first of two at equal
 // depth stays. `frame` has 320x200 bytes, `zbuffer` 320x200 words, top row first.
 void blitScalesC(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int count);
+
+// Draws one of the other kind. These are few and there is only this routine; most are drawn by drawScales().
+void blitFine(uint8_t* frame, uint16_t* zbuffer, const FineScale& scale);
 
 // Clears the spans of `count` rows from the top: frame to 0, Z-buffer to Z_EMPTY.
 void clearRowsC(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);

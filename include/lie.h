@@ -24,6 +24,7 @@ struct ShadeFrame {
     int32_t count;    // neighbours that matter
     Real slopes[PULLS_MOST];  // dF/dt of each, weight not included
     const Pull* pulls[PULLS_MOST];
+    mutable Normal normal;    // out: of the seed that was shaded last and faces the viewer
 };
 
 // -grad F, but for a factor, is -(path position along + sum share fromIt), where share = slope ratio and along = ownSlope + sum
@@ -37,27 +38,27 @@ inline void addPull(const Pull& pull, Real slope, Real& along, Vector& g)
 
 // Brightness, extents, tilt and place of a seed that has settled at a position of its path, from the field's gradient there
 // (any length, away from the surface) and its root's place from the centre. `over`: 1/256 unit that it is set back besides.
-// Returns EyeSide::facing(); of a seed that faces away nothing else is changed.
+// Returns EyeSide::facing(), more than 0, or if it cannot be seen EyeSide::beforeLimb(); then nothing is changed.
 inline int32_t lieOn(const ShadeFrame& f, Seed& s, const Vector& gradient, Real position, int32_t over, const Vector& root)
 {
     const Normal normal = normalise(gradient);
     const int32_t cosine = (normal.x * s.dirX + normal.y * s.dirY + normal.z * s.dirZ) >> 14;
     const int32_t facing = f.eye.facing(normal, cosine, position);
-    if (!f.eye.faces(facing))
-        return facing;
+    if (f.eye.beforeLimb(facing) <= 0)
+        return f.eye.beforeLimb(facing);
+    f.normal = normal;
     s.voxel.brightness = f.light.brightness(normal);
     const Vector out = s.path * position;
     const int32_t depth = f.skew.depth(out);
     f.light.extents(s, normal, cosine, position, f.skew.x(out), f.skew.y(out));
-    int32_t shiftX, shiftY;
     // Blending flattens: the horizon may be farther.
-    layDown(normal.x, normal.y, facing, depth, 2 * f.eye.horizon(), s, shiftX, shiftY);
-    // A tangent plane lies before the surface, the more the larger the scale: set back, so that of two scales the smaller
+    layDown(normal.x, normal.y, facing, depth, 2 * f.eye.horizon(), s);
+    // A scale lies before a round surface, the more the larger it is: set back, so that of two scales the smaller
     // one, which is nearer to its seed, wins. And beyond the border the neighbour's own seeds come first.
-    const int32_t back = (mulHigh(s.voxel.wide * s.voxel.wide + s.voxel.high * s.voxel.high, f.setBack) >> 6) + over;
+    const int32_t back = (mulHigh(s.voxel.wide * s.voxel.wide + s.voxel.high * s.voxel.high, f.setBack) >> 7) + over;
     const Vector place = root + out;
-    s.voxel.x = (rawFromReal(place.x) >> 8) + shiftX;
-    s.voxel.y = (rawFromReal(place.y) >> 8) + shiftY;
+    s.voxel.x = rawFromReal(place.x) >> 8;
+    s.voxel.y = rawFromReal(place.y) >> 8;
     s.voxel.z = (rawFromReal(place.z) >> 8) + back;
     return facing;
 }

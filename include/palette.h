@@ -8,6 +8,7 @@
 class Palette {
 public:
     static constexpr int STEPS = 64;
+    static constexpr int RAMP = STEPS + 2 * SHADING_MOST;  // with the ends again, see VoxelList
 
     // Of 63: the light that reaches every place, in colour. The grey ramp starts in the dark, so that all its steps are
     // there for the form.
@@ -28,8 +29,8 @@ private:
     static constexpr int RAMPS_MOST = 17;
 
     uint8_t dac_[768];
-    uint8_t ramps_[RAMPS_MOST][STEPS];
-    uint8_t raised_[STEPS];
+    uint8_t ramps_[RAMPS_MOST][RAMP];
+    uint8_t raised_[RAMP];
 };
 
 #endif

@@ -20,7 +20,7 @@ public:
     // and none has less than `least`. `border`: the position from which on the neighbour is too strong (1..2).
     void make(Real a0, Real c0, Real least, Real border);
 
-    // The place where a path with this b first leaves the surface (1..1.9), within about 0.01 of the field. From `top()` on the
+    // The place where a path with this b first leaves the surface (1..1.75), within about 0.01 of the field; 1 where the
     // neighbour does not reach it. False: it leaves nowhere, or where the neighbour has nearly all of the field.
     bool place(Real b, Real& position) const
     {

@@ -22,6 +22,9 @@ constexpr Real PLACED_LEAST(0.95);
 // more than the overshoot.
 constexpr Real POSITION_MOST(1.85);
 constexpr int32_t OVER_BACK = 128;   // 1/256 unit: how far a seed beyond the border is set back
+// Steps of brightness between two seeds side by side: where it is more, and the brightness of both the same all over, the
+// cells show.
+constexpr int ROUGH = 10;
 // Travel is counted in steps; no seed waits longer than so many of them.
 constexpr int WAIT_MOST = 0x3000;
 // Steps of travel after which it is asked again whether all that reached a patch still do.
@@ -81,6 +84,8 @@ struct RideFrame {
     int32_t placed;       // counts seeds that were placed by a profile
     int32_t several;      // counts those that more than one neighbour reaches
     int32_t looks;        // counts rideLook()s
+    const Seed* shaded;   // the seed at hand, if it has been shaded and faces the viewer, else null
+    int32_t facing;       // and EyeSide::facing() of that
     int32_t normals;      // counts seeds that were shaded and face the viewer
     int32_t unsettled;    // counts those that LOOK_LIMIT looks did not settle
     // Of the last look: the field less the isovalue, its slope along the path, by how much the strongest neighbour is stronger
@@ -97,6 +102,7 @@ struct RideFrame {
     void (*stays)(Seed*);
     void (*held)(Seed*);
     void (*lost)(Seed*, Real from);
+    void (*rough)(Seed*);    // its brightness differs much from that of one beside it
     Real b[PULLS_MOST];      // of the neighbours that matter: shade.pulls, of which each is a RideNear's
     Real beyond[PULLS_MOST];
     ShadeFrame shade;
@@ -197,6 +203,12 @@ inline Seed& pairedWith(Seed* s, const Seed& extra)
     return *reinterpret_cast<Seed*>(reinterpret_cast<char*>(s) + extra.neighbour);
 }
 
+// Whether the cells of two seeds side by side show.
+inline bool differ(const Seed& s, const Seed& t)
+{
+    return static_cast<unsigned>(t.voxel.brightness - s.voxel.brightness + ROUGH) > 2 * ROUGH;
+}
+
 // What rideC() does, by a settle(Seed&) for those that are awake.
 template <class Settle>
 inline int32_t throughSeeds(SeedRun& run, Seed* s, Settle settle)
@@ -218,6 +230,11 @@ inline int32_t throughSeeds(SeedRun& run, Seed* s, Settle settle)
         if (passed(*s)) {
             settle(*s);
             busy = true;
+            if (ride.shaded == s) {
+                ride.shaded = nullptr;
+                if (differ(*s, pairedWith(s, s[1])) || (i < run.count && differ(*s, s[-2])))
+                    ride.rough(s);
+            }
         }
         if (s->flags & SEED_FRONT)
             run.back = false;
@@ -240,6 +257,11 @@ inline int32_t throughSeeds(SeedRun& run, Seed* s, Settle settle)
         if (!(extra.flags & SEED_ACTIVE) || passed(extra)) {
             settle(extra);
             busy = true;
+            if (ride.shaded == &extra) {
+                ride.shaded = nullptr;
+                if (differ(extra, *s) || differ(extra, other))
+                    ride.rough(&extra);
+            }
         }
         extra.flags |= SEED_ACTIVE;
         if (extra.flags & SEED_FRONT)

@@ -24,6 +24,25 @@ constexpr int32_t wrappedProduct(int32_t a, int32_t b)
     return static_cast<int32_t>(static_cast<uint32_t>(a) * static_cast<uint32_t>(b));
 }
 
+// Whether there is more to a voxel than a rectangle of one colour.
+inline bool isFine(const Voxel& v)
+{
+    return (v.reach | v.slopeX | v.slopeY) != 0;
+}
+
+// How far away a voxel's pixels may be, 1/128 unit, when its middle is at `z`.
+constexpr int32_t NO_END = 0x7fffffff;
+inline int32_t endOf(const Voxel& v, int32_t z)
+{
+    return v.reach != 0 ? z + v.reach * 4 : NO_END;
+}
+
+// Of a slope of brightness and Factors::zx or zy: the change from pixel to pixel, 8 bits of fraction.
+inline int32_t shadeStep(int slope, int32_t factor)
+{
+    return wrappedProduct(slope, factor) >> 10;
+}
+
 // What a depth makes of lengths.
 struct Factors {
     int32_t x, y;    // focal 2^12 / z: 1/256 unit to 1/2^20 pixel
@@ -35,7 +54,7 @@ constexpr int LENS_STEPS = (LENS_FAR - LENS_NEAR) * 8;
 // The camera and the object in the terms of the loop, and what it has drawn.
 struct Lens {
     int32_t x, y, z;                   // the object's centre from the eye, 1/256 unit
-    const uint8_t* ramp;               // palette index of each brightness
+    const uint8_t* ramp;               // as VoxelList's
     const Factors* factors;            // one for each 1/8 unit of depth from LENS_NEAR to LENS_FAR units
     int32_t centreX, centreY;          // pixels with 12 bits of fraction, and half a pixel more
     uint8_t* frame;                    // as for blitScales()

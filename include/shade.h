@@ -80,7 +80,8 @@ public:
         toEye_[2] = steps(toEye.z);
         radius_ = steps(radius);
         horizon_ = radius_;
-        edge_ = radius_ << 14;
+        limb_ = reach > Real(0) ? 0 : distance_ >> 5;
+        edge_ = (radius_ + limb_) << 14;
         away_ = -(distance_ * 13107);  // cosine -0.8
         root({Real(0), Real(0), Real(0)});
     }
@@ -97,7 +98,7 @@ public:
     void rootRadius(Real radius)
     {
         radius_ = steps(radius);
-        edge_ = radius_ << 14;
+        edge_ = (radius_ + limb_) << 14;
     }
 
     // Radius of curvature of the surface where the viewer sees its horizon, 1/32 unit: the object's own, unless told.
@@ -122,8 +123,9 @@ public:
         return (n.x * x_ + n.y * y_ + n.z * z_ - cosine * (radius_ * (rawFromReal(position) >> 8) >> 8)) >> 14;
     }
 
-    // Of facing(): whether it may be seen.
-    bool faces(int32_t facing) const { return facing > 0; }
+    // Of facing(): by how much more than at the limb it may be seen; 0 or less, not at all. On a ball a scale that is seen
+    // nearly edge-on adds next to nothing to those before it; on flat parts it may be all there is.
+    int32_t beforeLimb(int32_t facing) const { return facing - limb_; }
 
     // The same for all seeds at rest of a patch: `axis` their mean direction, `across` = middle . axis and `radius` of the
     // ball round their middle in 1/32 unit, `spread` the greatest distance of a direction from the axis; directions scaled
@@ -146,7 +148,7 @@ private:
     Vector centre_;
     int32_t toEye_[3];
     int32_t x_, y_, z_;
-    int32_t distance_, radius_, horizon_, edge_, away_;
+    int32_t distance_, radius_, horizon_, edge_, away_, limb_;
 };
 
 // How much of a cell's depth shows sideways: x / depth and y / depth of places about a root, 8 bits of fraction, within
@@ -190,44 +192,25 @@ private:
     bool near_ = true;
 };
 
-// For a seed with normal (nx, ny, ..) scaled by 2^14, with facing() and depth along the viewing axis in 1/32 unit, on a
-// surface of curvature 1 / radius (radius in 1/32 unit), with the half extents of its whole cell already set: its tilt,
-// and the part of the cell that is this side of the horizon. `shiftX` and `shiftY`: from the seed to the middle of that
-// part, 1/256 unit.
+// How a scale lies, from nx and ny of its normal (scaled by 2^14), facing() and the depth along the viewing axis in 1/32
+// unit: its tilt, and where it ends on a surface of curvature 1 / radius (1/32 unit).
 //
-// The tilt is n.x and n.y over the cosine of the angle at which the surface is seen, facing / depth. Near the horizon the
-// scale would stand out over the edge of the object: there it is cut to where the horizon is, cosine^2 radius / 2 away,
-// and a little more where the edge runs aslant. What lies before the near plane is not drawn, and left as it is.
-inline void layDown(int32_t nx, int32_t ny, int32_t facing, int32_t depth, int32_t radius, Seed& s, int32_t& shiftX,
-                    int32_t& shiftY)
+// The tilt is n.x and n.y. That is less than the surface's own, which goes to infinity at the horizon: of two scales that
+// overlap on a round body the nearer one is to win, and always the same one, lest their border be unsteady. Near the
+// horizon, which is cosine^2 radius / 2 away, a scale would stand out over the edge of the object: it ends there. Along
+// its plane it is as much deeper there, for then the tilt is about 1. What does not extend so far needs no end.
+inline void layDown(int32_t nx, int32_t ny, int32_t facing, int32_t depth, int32_t radius, Seed& s)
 {
-    shiftX = shiftY = 0;
-    if (depth < 32) {
-        s.voxel.tiltX = s.voxel.tiltY = 0;
+    s.voxel.tiltX = static_cast<int16_t>(nx >> 6);
+    s.voxel.tiltY = static_cast<int16_t>(ny >> 6);
+    s.voxel.reach = 0;
+    s.voxel.slopeX = s.voxel.slopeY = 0;
+    if (2 * facing >= depth || depth < 32)
         return;
-    }
-    const int32_t least = (depth >> 4) + 1;
-    const int32_t ratio = (depth << 8) / (facing < least ? least : facing);
-    s.voxel.tiltX = static_cast<int16_t>(nx * ratio >> 14);
-    s.voxel.tiltY = static_cast<int16_t>(ny * ratio >> 14);
-    // The cut begins where cosine^2 radius / 2 is less than the extents, and cosine = 256 / ratio.
-    const int32_t extent = s.voxel.wide > s.voxel.high ? s.voxel.wide : s.voxel.high;
-    if (ratio < 400 || (ratio < 1024 && extent < 2048 && extent * ratio * (ratio >> 6) <= (radius < 8192 ? radius : 8191) << 12))
-        return;
-    const int32_t away = facing > 0 ? mulDiv(mulDiv(facing, facing, depth), radius, depth) * 4 : 0;
-    const int32_t sideX = nx < 0 ? -nx : nx, sideY = ny < 0 ? -ny : ny;
-    const int32_t limitX = (away << 14) / (sideX | 512) + (s.voxel.high * sideY >> 16);
-    const int32_t limitY = (away << 14) / (sideY | 512) + (s.voxel.wide * sideX >> 16);
-    if (limitX < s.voxel.wide) {
-        const int32_t cut = (s.voxel.wide - limitX) >> 1;
-        s.voxel.wide = static_cast<int16_t>(s.voxel.wide - cut);
-        shiftX = nx < 0 ? cut : -cut;
-    }
-    if (limitY < s.voxel.high) {
-        const int32_t cut = (s.voxel.high - limitY) >> 1;
-        s.voxel.high = static_cast<int16_t>(s.voxel.high - cut);
-        shiftY = ny < 0 ? cut : -cut;
-    }
+    const int32_t reach = facing > 0 ? mulDiv(mulDiv(facing, facing, depth), radius, 2 * depth) + 1 : 1;
+    const int32_t x = s.voxel.tiltX * s.voxel.wide, y = s.voxel.tiltY * s.voxel.high;
+    if (reach < 256 && ((x < 0 ? -x : x) + (y < 0 ? -y : y)) >> 11 >= reach)
+        s.voxel.reach = static_cast<uint8_t>(reach);
 }
 
 // Brightness and extents, for one light and one spacing.
@@ -240,6 +223,9 @@ public:
         z_ = rawFromReal(light.z) >> 2;
         spacing_ = rawFromReal(spacing) >> 8;
     }
+
+    // Towards the light, 1.0 = 2^14.
+    Normal light() const { return {x_, y_, z_}; }
 
     // "Brightness proportional to the angle" of normal and light: Lambert's cosine, 0..63.
     uint8_t brightness(const Normal& n) const
@@ -303,7 +289,7 @@ private:
 
     friend struct ShadeLayout;
     static constexpr int32_t WHOLE = 4329;  // 12 bits of fraction: a cosine of path and normal below 0.946
-    static constexpr int32_t MARGIN = 256 * 64 / 16;    // a part of the spacing, as of `sum`
+    static constexpr int32_t MARGIN = 256 * 64 * 3 / 64;    // a part of the spacing, as of `sum`
     static constexpr int32_t MARGIN_UNITS = 10;           // and what places of seeds are uncertain by, 1/256 unit
 
     int32_t x_, y_, z_, spacing_;

@@ -192,7 +192,7 @@ public:
     void setRecalc() { recalc_ = true; }
     bool recalc() const { return recalc_; }
 
-    // The palette indices of brightness 0..63. Not owned.
+    // The palette indices of brightness 0..63, and of SHADING_MOST more before and behind (see VoxelList). Not owned.
     void setRamp(const uint8_t* ramp) { ramp_ = ramp; }
     const uint8_t* ramp() const { return ramp_; }
 

@@ -64,7 +64,7 @@ private:
     void fillRow(int y, const Span& empty);
     void closeSlit(int y, int x, int end, int step);
     void takeOver(int at, int from);
-    bool project(const Voxel& voxel, Scale* scale) const;
+    bool project(const Voxel& voxel, FineScale* scale) const;
 
     Camera camera_;
     int32_t focalX_ = 0, focalY_ = 0, centreX_ = 0, centreY_ = 0;  // pixels, 12 bits of fraction

@@ -9,17 +9,22 @@
 struct Voxel {
     int32_t x, y, z;     // from the object's centre, axes of the world, 1/256 unit
     int16_t wide, high;  // half extents along X and Y, 1/256 unit, 0 or more
-    int16_t tiltX;       // slope of the depth across the scale: n.x / cosine of the angle at which it is seen, 8 bits of
-    int16_t tiltY;       // fraction, within +-16; 0 for a scale that faces the viewer
-    uint8_t brightness;  // 0..63
+    int16_t tiltX, tiltY;    // slopes of the depth across the scale, 8 bits of fraction
+    uint8_t brightness;      // 0..63
+    uint8_t reach;           // what lies farther behind the middle than this, 1/32 unit, is left out: there the surface has bent
+                             // out of sight; 0: all is drawn
+    int8_t slopeX, slopeY;   // how the brightness changes across, 1/8 step a unit; no more than SHADING_MOST to any corner
 };
+
+constexpr int SHADING_MOST = 24;
 
 constexpr int VOXELS_AT_ONCE = 1024;
 
 // The list of scales: voxels of one object. It refers to the seeds' own, so it holds until the object changes.
 struct VoxelList {
     int32_t x, y, z;       // the object's centre from the eye, 1/256 unit
-    const uint8_t* ramp;   // palette index of each brightness; 0 is the background's, and taken for it when gaps are closed
+    const uint8_t* ramp;   // palette index of each brightness, and of SHADING_MOST more at both ends like those; 0 is the
+                           // background's, and taken for it when gaps are closed
     int count;             // voxels in the list
     const Voxel* voxels[VOXELS_AT_ONCE];
 };

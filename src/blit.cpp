@@ -28,6 +28,28 @@ void blitScalesC(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int cou
     }
 }
 
+void blitFine(uint8_t* frame, uint16_t* zbuffer, const FineScale& scale)
+{
+    const int start = scale.top * WIDTH + scale.left;
+    uint8_t* pixels = frame + start;
+    uint16_t* depths = zbuffer + start;
+    uint32_t z = static_cast<uint32_t>(scale.z), shade = static_cast<uint32_t>(scale.shade);
+    for (int y = scale.high; y > 0; --y) {
+        for (int x = 0; x < scale.wide; ++x) {
+            if (static_cast<int32_t>(z) <= scale.zMost && static_cast<uint16_t>(z) < depths[x]) {
+                depths[x] = static_cast<uint16_t>(z);
+                pixels[x] = scale.ramp[static_cast<int8_t>(shade >> 8)];
+            }
+            z += static_cast<uint32_t>(scale.zStep);
+            shade += static_cast<uint32_t>(scale.shadeStep);
+        }
+        z += static_cast<uint32_t>(scale.zRow);
+        shade += static_cast<uint32_t>(scale.shadeRow);
+        pixels += WIDTH;
+        depths += WIDTH;
+    }
+}
+
 void clearRowsC(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count)
 {
     for (; count > 0; --count, ++rows, frame += WIDTH, zbuffer += WIDTH) {

@@ -140,10 +140,9 @@ void Lister::lay(Seed& s, int32_t along)
     s.flags |= SEED_FRONT | SEED_KEPT;
     const int32_t depth = skew_.depth(s.path);
     light_.restExtents(s, skew_.x(s.path), skew_.y(s.path), depth < WHOLE_BEFORE);
-    int32_t shiftX, shiftY;
-    layDown(s.dirX, s.dirY, eye_.restFacing(along), depth, eye_.horizon(), s, shiftX, shiftY);
-    s.voxel.x = (rawFromReal(rootPlace_.x + s.path.x) >> 8) + shiftX;
-    s.voxel.y = (rawFromReal(rootPlace_.y + s.path.y) >> 8) + shiftY;
+    layDown(s.dirX, s.dirY, eye_.restFacing(along), depth, eye_.horizon(), s);
+    s.voxel.x = rawFromReal(rootPlace_.x + s.path.x) >> 8;
+    s.voxel.y = rawFromReal(rootPlace_.y + s.path.y) >> 8;
     s.voxel.z = rawFromReal(rootPlace_.z + s.path.z) >> 8;
 }
 

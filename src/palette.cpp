@@ -25,6 +25,16 @@ uint8_t shade(int full, int step)
     return static_cast<uint8_t>(value + (63 - value) * (step - HIGHLIGHT) / (2 * (63 - HIGHLIGHT)));
 }
 
+// Repeats the ends of a ramp; returns it.
+const uint8_t* lengthen(uint8_t* ramp)
+{
+    for (int i = 1; i <= SHADING_MOST; ++i) {
+        ramp[-i] = ramp[0];
+        ramp[Palette::STEPS - 1 + i] = ramp[Palette::STEPS - 1];
+    }
+    return ramp;
+}
+
 }  // namespace
 
 void Palette::make(Model& model, bool grey)
@@ -34,10 +44,11 @@ void Palette::make(Model& model, bool grey)
         for (int i = 0; i < STEPS; ++i) {
             const uint8_t value = static_cast<uint8_t>(i < DARKEST ? DARKEST : i);
             memset(dac_ + 3 * (1 + i), value, 3);
-            ramps_[0][i] = static_cast<uint8_t>(1 + i);
+            ramps_[0][SHADING_MOST + i] = static_cast<uint8_t>(1 + i);
         }
+        const uint8_t* ramp = lengthen(ramps_[0] + SHADING_MOST);
         for (int i = 0; i < model.count(); ++i)
-            model.actor(i).object->setRamp(ramps_[0]);
+            model.actor(i).object->setRamp(ramp);
         return;
     }
     dac_[0] = 1;
@@ -57,7 +68,8 @@ void Palette::make(Model& model, bool grey)
     const int steps = 255 / count < STEPS ? 255 / count : STEPS;
     for (int c = 0; c < count; ++c) {
         for (int i = 0; i < STEPS; ++i)
-            ramps_[c][i] = static_cast<uint8_t>(1 + c * steps + i * steps / STEPS);
+            ramps_[c][SHADING_MOST + i] = static_cast<uint8_t>(1 + c * steps + i * steps / STEPS);
+        lengthen(ramps_[c] + SHADING_MOST);
         for (int i = 0; i < steps; ++i) {
             const int step = i * 63 / (steps - 1);
             uint8_t* entry = dac_ + 3 * (1 + c * steps + i);
@@ -71,7 +83,7 @@ void Palette::make(Model& model, bool grey)
         for (int c = 1; c < count; ++c)
             if (distance(colours[c], model.actor(i).colour) < distance(colours[best], model.actor(i).colour))
                 best = c;
-        model.actor(i).object->setRamp(ramps_[best]);
+        model.actor(i).object->setRamp(ramps_[best] + SHADING_MOST);
     }
 }
 
@@ -79,7 +91,7 @@ const uint8_t* Palette::raised(const uint8_t* ramp, int steps)
 {
     for (int i = 0; i < STEPS; ++i) {
         const int step = i + steps;
-        raised_[i] = ramp[step < 0 ? 0 : step > STEPS - 1 ? STEPS - 1 : step];
+        raised_[SHADING_MOST + i] = ramp[step < 0 ? 0 : step > STEPS - 1 ? STEPS - 1 : step];
     }
-    return raised_;
+    return lengthen(raised_ + SHADING_MOST);
 }

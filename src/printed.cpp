@@ -151,7 +151,9 @@ void SoftObject::drawPrinted(const Look& look, VoxelList& list, int room, int* n
         v.z = rawFromReal(place.z) >> 8;
         v.wide = static_cast<int16_t>(extent > INT16_MAX ? INT16_MAX : extent);
         v.high = v.wide;
-        v.tiltX = v.tiltY = 0;  // the report's scales face the viewer
+        v.tiltX = v.tiltY = 0;  // the report's scales face the viewer, and each has one brightness
+        v.reach = 0;
+        v.slopeX = v.slopeY = 0;
         list.voxels[list.count++] = &v;
     }
     *next = i < 2 * regular_ ? i : 0;

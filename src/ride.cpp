@@ -65,6 +65,8 @@ void shade(Seed& s, Real position, bool beyond)
     if (facing > 0) {
         ++ride.normals;
         s.flags = SEED_VALID | SEED_PLACED | SEED_KEPT | SEED_FRONT;
+        ride.shaded = &s;
+        ride.facing = facing;
         return;
     }
     int32_t waitFacing = INT32_MAX;

@@ -52,16 +52,27 @@ int drawScalesC(Lens* lens, const Voxel* const* voxels, int count)
         // The plane of the surface: from the scale's middle to the middle of its first pixel, and on from there.
         const int32_t across = limited(wrappedProduct(v.tiltX, f.zx) >> 16);
         const int32_t down = -limited(wrappedProduct(v.tiltY, f.zy) >> 16);
-        Scale scale;
+        const int32_t toColumn = ((left + 1) << 12) - column, toRow = ((top + 1) << 12) - row;
+        FineScale scale;
         scale.left = static_cast<int16_t>(left);
         scale.top = static_cast<int16_t>(top);
         scale.wide = static_cast<int16_t>(wide);
         scale.high = static_cast<int16_t>(high);
-        scale.z = (depth >> 1) + ((across * (((left + 1) << 12) - column) + down * (((top + 1) << 12) - row)) >> 12);
+        scale.z = (depth >> 1) + ((across * toColumn + down * toRow) >> 12);
         scale.zStep = across;
         scale.zRow = down - across * wide;
-        scale.colour = lens->ramp[v.brightness];
-        blitScalesC(lens->frame, lens->zbuffer, &scale, 1);
+        if (!isFine(v)) {
+            scale.colour = lens->ramp[v.brightness];
+            blitScalesC(lens->frame, lens->zbuffer, &scale, 1);
+            continue;
+        }
+        scale.zMost = endOf(v, depth >> 1);
+        const int32_t shadeAcross = shadeStep(v.slopeX, f.zx), shadeDown = -shadeStep(v.slopeY, f.zy);
+        scale.ramp = lens->ramp;
+        scale.shade = v.brightness * 256 + 128 + (wrappedSum(wrappedProduct(shadeAcross, toColumn), wrappedProduct(shadeDown, toRow)) >> 12);
+        scale.shadeStep = shadeAcross;
+        scale.shadeRow = wrappedSum(shadeDown, -wrappedProduct(shadeAcross, wide));
+        blitFine(lens->frame, lens->zbuffer, scale);
     }
     return i;
 }

@@ -38,6 +38,8 @@ constexpr Real NEARLY(0.04);  // of the field: how near the isovalue it must hav
 // Squared distance / squared size up to which a neighbour alone fills what the own field lacks at POSITION_MOST: its
 // field is 0.477 there, which with the own 0.013 is the isovalue but for the tolerance.
 constexpr Real BURYING(0.265);
+constexpr int EVEN = 8;  // steps of brightness from the middle of a scale to its corner: less is none
+constexpr Real RATIO_BENT(16);  // squared proportion of sizes up to which the brightness may change across a scale
 constexpr Real KEPT(0.1);  // units: a seed between two that has moved by less lies as it did
 
 // A neighbour in range, as the seeds of this object see it.
@@ -48,6 +50,7 @@ struct Near : RideNear {
     bool quick;      // both cores are points: the polynomial of RideNear holds
     Vector fromIt;   // from its centre to this object's centre
     Real reach;      // its size
+    Real bend;       // 2 ratio / size^2: its share of how the gradient changes
     Real change;     // length of twice: how much b changes over a unit
     Real meeting;    // see meetingSum
     Real a0Pace;       // how a0 and twice change in an update, if all goes on like this; the latter scaled by 2^16
@@ -172,6 +175,8 @@ private:
     REGISTERS SELDOM bool bracket(Real from);
     template <bool PLAIN>
     REGISTERS void shade(Seed& s, Real position);
+    REGISTERS SELDOM void shadeAcross(Seed& s) const;
+    static void rough(Seed* s);
     void addNear(const Link& link);
     void knowNear();
 
@@ -198,6 +203,7 @@ private:
     static inline Real (&slopes_)[NEAR_MOST] = frame_.slopes;
     static inline Vector from_[NEAR_MOST];  // not quick ones: from the nearest point of the core, / 16
     static inline Real& strength_ = ride.strength;
+    static inline Real ownBend_;  // 2 / size^2
     static inline Real buried_;  // least excess of the field where bracket() looked in vain
     static inline Real found_;       // by newton() or bracket()
     static inline Real inside_, position_, excess_, slope_;  // of search()
@@ -297,6 +303,7 @@ void Settler::addNear(const Link& link)
     n.touchingSum = sumBelow(n.touching);
     n.buryingSum = sumBelow(n.burying);
     n.meetingRunSum = sumBelow(n.meeting + n.change * (o_.spacing_ * BESIDE));
+    n.bend = shiftDown(least(n.pull.ratio, RATIO_BENT) * inverse * inverse, 7);
     n.quick = true;
 
     n.waitApart = waitSteps(n.reach * WAIT_APART, slowness);
@@ -384,7 +391,7 @@ void Settler::settle()
     o_.displaced_ = false;
     // A seed stays valid a way past the border where a neighbour becomes stronger: as a distance, about a unit at the usual
     // spacings. The fields of the two change by about 3 / size a unit there.
-    overshoot_ = least((Real(2.8) + Real(0.1) * o_.spacing_) / o_.size_, Real(0.7));
+    overshoot_ = least((Real(1.8) + Real(0.1) * o_.spacing_) / o_.size_, Real(0.7));
     ride.placedMost = ownReaches(shiftDown(ISOVALUE - overshoot_, 1));
     ride.evenMost = ownReaches(shiftDown(ISOVALUE, 1));
     ride.kept = KEPT / o_.radius_;
@@ -406,6 +413,9 @@ void Settler::settle()
     ride.stays = stays;
     ride.held = held;
     ride.lost = lost;
+    ride.rough = rough;
+    ride.shaded = nullptr;
+    ownBend_ = shiftDown(o_.inverse_ * o_.inverse_, 7);
     settler_ = this;
     settlePatches();
     look_.counts->iterations += static_cast<uint32_t>(ride.looks + ride.placed);
@@ -1028,12 +1038,89 @@ inline void Settler::shade(Seed& s, Real position)
         }
         facing = lieOn(frame_, s, g, position, over, root_ - o_.centre_);
     }
-    if (!eye_.faces(facing)) {
+    if (facing <= 0) {
         wait(s, SEED_VALID | SEED_PLACED, mulShift16(-facing, waitFacing()));
         return;
     }
     ++ride.normals;
     s.flags = SEED_VALID | SEED_PLACED | SEED_KEPT | SEED_FRONT;
+    if (PLAIN) {
+        ride.shaded = &s;
+        ride.facing = facing;
+    }
+}
+
+
+// How the brightness changes across the seed that has just been shaded, where only balls reach it.
+//
+// The normal is n = -grad F / |grad F|, so along a tangent t of the surface the brightness n.light changes by
+// -(H t).light' / |grad F|, with H the derivatives of the gradient and light' the light less what of it is along n. Of a
+// ball with the seed at v from its centre, field f(q), q = v^2 / R^2, H has 2 f' / R^2 of the unit matrix and 4 f'' / R^4 of
+// the product of v with itself. All is counted in 2 / (own R)^2, as the gradient is (addPull()).
+//
+// In whole numbers: lengths in 1/256 unit, directions with 14 bits of fraction, shares of the gradient and what bends it with
+// 10.
+void Settler::shadeAcross(Seed& s) const
+{
+    const Real position = s.position;
+    const Normal n = frame_.normal, light = frame_.light.light();
+    const auto product = [](const Normal& a, const Normal& b) { return (a.x * b.x + a.y * b.y + a.z * b.z) >> 14; };
+    const Normal place{s.voxel.x, s.voxel.y, rawFromReal(s.path.z * position) >> 8};
+    const int32_t facing = product(n, light), outward = product(place, n);
+    const int32_t aside = product(place, light) - (facing * outward >> 14);
+    const auto bend = [](Real t, Real share, int32_t off) {
+        return mulShift16(rawFromReal(share * (Real(34.0 / 9) - t * Real(24.0 / 9))) * 4, off);
+    };
+    int32_t along = rawFromReal(ownSlope_) >> 6, pulled = 0;
+    int32_t bent = bend(shiftDown(position * position, 2), ownBend_, aside);
+    int32_t x = 0, y = 0, z = 0;
+    for (int i = 0; i < touchCount_; ++i) {
+        const Near& near = touch(i);
+        if (near.pull.ratio > RATIO_BENT)
+            return;
+        const int32_t share = rawFromReal(slopes_[i] * near.pull.ratio) >> 6;
+        if (share == 0)
+            continue;
+        const Normal from{rawFromReal(near.fromIt.x) >> 8, rawFromReal(near.fromIt.y) >> 8, rawFromReal(near.fromIt.z) >> 8};
+        const int32_t out = product(from, n);
+        const Real t = near.a0 + position * (ride.b[i] + position * near.c0);
+        const int32_t part = bend(t, near.bend, aside + product(from, light) - (facing * out >> 14));
+        along += share;
+        pulled += share * out;
+        bent += part;
+        x += part * from.x;
+        y += part * from.y;
+        z += part * from.z;
+    }
+    x = ((x + bent * place.x) >> 8) + (along * light.x >> 14);
+    y = ((y + bent * place.y) >> 8) + (along * light.y >> 14);
+    z = ((z + bent * place.z) >> 8) + (along * light.z >> 14);
+    const int32_t steep = -(along * outward + pulled) >> 8;
+    if (steep < 16)
+        return;
+    // A way across the picture is a longer one on the surface, twice as long at most.
+    const int32_t depth = skew_.depth(s.path * position);
+    const int32_t longer = 2 * ride.facing > depth ? (depth << 8) / ride.facing : 512, deep = longer * z >> 8;
+    const auto change = [steep](int32_t c) {
+        const int32_t most = steep >> 2;
+        return (c < -most ? -most : c > most ? most : c) * (-8 * BRIGHTEST) / steep;
+    };
+    x = change(x + (n.x * deep >> 14));
+    y = change(y + (n.y * deep >> 14));
+    int32_t corner = ((x < 0 ? -x : x) * s.voxel.wide + (y < 0 ? -y : y) * s.voxel.high) >> 11;
+    if (corner < EVEN)
+        return;
+    for (; corner > SHADING_MOST; corner >>= 1) {
+        x /= 2;
+        y /= 2;
+    }
+    s.voxel.slopeX = static_cast<int8_t>(x);
+    s.voxel.slopeY = static_cast<int8_t>(y);
+}
+
+void Settler::rough(Seed* s)
+{
+    settler_->shadeAcross(*s);
 }
 
 // Of a patch to which nothing happened: until when nothing will, nor to the seeds that its own are paired with.

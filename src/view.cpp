@@ -97,7 +97,7 @@ void View::mark(int left, int top, int right, int bottom)
 }
 
 // A voxel that drawScales() left: any size and place. False: not on the screen.
-bool View::project(const Voxel& voxel, Scale* scale) const
+bool View::project(const Voxel& voxel, FineScale* scale) const
 {
     const int32_t x = wrappedSum(lens_.x, voxel.x), y = wrappedSum(lens_.y, voxel.y), z = wrappedSum(lens_.z, voxel.z);
     if (z < NEAREST || z > FARTHEST)
@@ -151,6 +151,15 @@ bool View::project(const Voxel& voxel, Scale* scale) const
     scale->z = first;
     scale->zStep = across;
     scale->zRow = down - across * wide;
+
+    scale->zMost = endOf(voxel, depth);
+    const int32_t shadeAcross = shadeStep(voxel.slopeX, mulDiv(z, 1 << 19, focalX_)), shadeDown = -shadeStep(voxel.slopeY, mulDiv(z, 1 << 19, focalY_));
+    const int64_t shade = static_cast<int64_t>(shadeAcross) * ((left << FRACTION) + HALF - column) +
+                          static_cast<int64_t>(shadeDown) * ((top << FRACTION) + HALF - row);
+    scale->ramp = lens_.ramp;
+    scale->shade = voxel.brightness * 256 + 128 + static_cast<int32_t>(shade >> FRACTION);
+    scale->shadeStep = shadeAcross;
+    scale->shadeRow = shadeDown - shadeAcross * wide;
     return true;
 }
 
@@ -171,11 +180,14 @@ int View::show(const VoxelList& list)
         if (i == list.count)
             break;
         const Voxel& voxel = *list.voxels[i];
-        Scale scale;
+        FineScale scale;
         if (!project(voxel, &scale)) {
             ++left;
         } else {
-            blitScales(frame_, zbuffer_, &scale, 1);
+            if (isFine(voxel))
+                blitFine(frame_, zbuffer_, scale);
+            else
+                blitScales(frame_, zbuffer_, &scale, 1);
             mark(scale.left, scale.top, scale.left + scale.wide, scale.top + scale.high);
         }
     }

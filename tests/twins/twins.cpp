@@ -33,13 +33,13 @@ struct ShadeLayout {
                   inshade::SEED_Y == offsetof(Seed, voxel.y) && inshade::SEED_Z == offsetof(Seed, voxel.z) &&
                   inshade::SEED_WIDE == offsetof(Seed, voxel.wide) && inshade::SEED_HIGH == offsetof(Seed, voxel.high) &&
                   inshade::SEED_TILTX == offsetof(Seed, voxel.tiltX) && inshade::SEED_TILTY == offsetof(Seed, voxel.tiltY) &&
-                  inshade::SEED_BRIGHT == offsetof(Seed, voxel.brightness) && inshade::SEED_DIRX == offsetof(Seed, dirX) &&
+                  inshade::SEED_BRIGHT == offsetof(Seed, voxel.brightness) && inshade::SEED_REACH == offsetof(Seed, voxel.reach) && inshade::SEED_DIRX == offsetof(Seed, dirX) &&
                   inshade::SEED_DIRY == offsetof(Seed, dirY) && inshade::SEED_DIRZ == offsetof(Seed, dirZ) &&
                   inshade::SEED_ALONG == offsetof(Seed, along) && inshade::SEED_ACROSS == offsetof(Seed, across), "Seed");
     static constexpr int EYE = offsetof(ShadeFrame, eye), SKEW = offsetof(ShadeFrame, skew), LIGHT = offsetof(ShadeFrame, light);
     static_assert(inshade::EYE_X == EYE + offsetof(EyeSide, x_) && inshade::EYE_Y == EYE + offsetof(EyeSide, y_) &&
                   inshade::EYE_Z == EYE + offsetof(EyeSide, z_) && inshade::EYE_RADIUS == EYE + offsetof(EyeSide, radius_) &&
-                  inshade::EYE_HORIZON == EYE + offsetof(EyeSide, horizon_), "EyeSide");
+                  inshade::EYE_HORIZON == EYE + offsetof(EyeSide, horizon_) && inshade::EYE_LIMB == EYE + offsetof(EyeSide, limb_), "EyeSide");
     static_assert(inshade::SKEW_ROOTX == SKEW + offsetof(Skew, root_.x) && inshade::SKEW_ROOTY == SKEW + offsetof(Skew, root_.y) &&
                   inshade::SKEW_ROOTZ == SKEW + offsetof(Skew, root_.z) && inshade::SKEW_DEPTH == SKEW + offsetof(Skew, depth_) &&
                   inshade::SKEW_SHARE == SKEW + offsetof(Skew, share_) && inshade::SKEW_X == SKEW + offsetof(Skew, x_) &&
@@ -49,7 +49,7 @@ struct ShadeLayout {
                   inshade::LIGHT_SPACING == LIGHT + offsetof(ShadeSetup, spacing_), "ShadeSetup");
     static_assert(inshade::SET_BACK == offsetof(ShadeFrame, setBack) && inshade::OWN_SLOPE == offsetof(ShadeFrame, ownSlope) &&
                   inshade::COUNT == offsetof(ShadeFrame, count) && inshade::SLOPES == offsetof(ShadeFrame, slopes) &&
-                  inshade::PULLS == offsetof(ShadeFrame, pulls), "ShadeFrame");
+                  inshade::PULLS == offsetof(ShadeFrame, pulls) && inshade::NORMAL == offsetof(ShadeFrame, normal), "ShadeFrame");
     static_assert(inshade::PULL_X == offsetof(Pull, fromIt16) && inshade::PULL_Y == offsetof(Pull, fromIt16.y) &&
                   inshade::PULL_Z == offsetof(Pull, fromIt16.z) && inshade::PULL_RATIO == offsetof(Pull, ratio), "Pull");
     static_assert(inshade::BRIGHTEST == BRIGHTEST && inshade::MARGIN == ShadeSetup::MARGIN &&
@@ -94,13 +94,14 @@ struct RideLayout {
                   inride::RIDE_PARTINGTWICE == offsetof(RideFrame, partingTwice) &&
                   inride::RIDE_OVERSHOOT == offsetof(RideFrame, overshoot) && inride::RIDE_KEPTWAIT == offsetof(RideFrame, keptWait) &&
                   inride::RIDE_PLACED == offsetof(RideFrame, placed) && inride::RIDE_SEVERAL == offsetof(RideFrame, several) &&
-                  inride::RIDE_LOOKS == offsetof(RideFrame, looks) && inride::RIDE_NORMALS == offsetof(RideFrame, normals) &&
+                  inride::RIDE_LOOKS == offsetof(RideFrame, looks) && inride::RIDE_NORMALS == offsetof(RideFrame, normals) && inride::RIDE_SHADED == offsetof(RideFrame, shaded) &&
+                  inride::RIDE_FACING == offsetof(RideFrame, facing) &&
                   inride::RIDE_UNSETTLED == offsetof(RideFrame, unsettled) && inride::RIDE_EXCESS == offsetof(RideFrame, excess) && inride::RIDE_SLOPE == offsetof(RideFrame, slope) &&
                   inride::RIDE_STRENGTH == offsetof(RideFrame, strength) &&
                   inride::RIDE_INRANGE == offsetof(RideFrame, inRange) && inride::RIDE_REACHED == offsetof(RideFrame, reached) &&
                   inride::RIDE_HOLDS == offsetof(RideFrame, holds) &&
                   inride::RIDE_PROFILEFOR == offsetof(RideFrame, profileFor) && inride::RIDE_STAYS == offsetof(RideFrame, stays) &&
-                  inride::RIDE_HELD == offsetof(RideFrame, held) && inride::RIDE_LOST == offsetof(RideFrame, lost) &&
+                  inride::RIDE_HELD == offsetof(RideFrame, held) && inride::RIDE_ROUGH == offsetof(RideFrame, rough) && inride::RIDE_LOST == offsetof(RideFrame, lost) &&
                   inride::RIDE_B == offsetof(RideFrame, b) && inride::RIDE_BEYOND == offsetof(RideFrame, beyond) &&
                   inride::RIDE_SHADE == offsetof(RideFrame, shade), "RideFrame");
     static_assert(inride::RUN_MIDDLEX == offsetof(SeedRun, middle) && inride::RUN_MIDDLEY == offsetof(SeedRun, middle.y) &&
@@ -120,7 +121,7 @@ struct RideLayout {
                   inride::PROFILE_RISE == offsetof(Profile, cells_) + offsetof(Profile::Cell, rise) &&
                   inride::PROFILE_CELL == sizeof(Profile::Cell) && inride::NOT_MADE == Profile::NOT_MADE, "Profile");
     static_assert(inride::B_SHIFT == B_SHIFT && inride::WAIT_MOST == WAIT_MOST && inride::AWAY_MOST == Real(AWAY_MOST).raw &&
-                  inride::DISPLACEMENT == DISPLACEMENT.raw && inride::OVER_BACK == OVER_BACK &&
+                  inride::DISPLACEMENT == DISPLACEMENT.raw && inride::OVER_BACK == OVER_BACK && inride::ROUGH == ROUGH &&
                   inride::SHORT_STEP == SHORT_STEP.raw && inride::LONGEST_STEP == LONGEST_STEP.raw && inride::LOOK_LIMIT == LOOK_LIMIT &&
                   inride::FLAT == FLAT.raw && inride::PLACED_LEAST == PLACED_LEAST.raw && inride::POSITION_MOST == POSITION_MOST.raw &&
                   inride::ISOVALUE == ISOVALUE.raw && inride::OWN_FIRST == OWN_FIRST && inride::OWN_STEP == sizeof(OwnStep) &&
@@ -445,7 +446,9 @@ void randomLists(int rounds)
 static_assert(inasm::VOXEL_X == offsetof(Voxel, x) && inasm::VOXEL_Y == offsetof(Voxel, y) &&
               inasm::VOXEL_Z == offsetof(Voxel, z) && inasm::VOXEL_WIDE == offsetof(Voxel, wide) &&
               inasm::VOXEL_HIGH == offsetof(Voxel, high) && inasm::VOXEL_TILTX == offsetof(Voxel, tiltX) &&
-              inasm::VOXEL_TILTY == offsetof(Voxel, tiltY) && inasm::VOXEL_BRIGHT == offsetof(Voxel, brightness), "Voxel");
+              inasm::VOXEL_TILTY == offsetof(Voxel, tiltY) && inasm::VOXEL_BRIGHT == offsetof(Voxel, brightness) &&
+              inasm::VOXEL_REACH == offsetof(Voxel, reach) && inasm::VOXEL_REACH == inasm::VOXEL_BRIGHT + 1 &&
+              inasm::VOXEL_SLOPEX == offsetof(Voxel, slopeX) && inasm::VOXEL_SLOPEY == offsetof(Voxel, slopeY), "Voxel");
 static_assert(inasm::FACTOR_X == offsetof(Factors, x) && inasm::FACTOR_Y == offsetof(Factors, y) &&
               inasm::FACTOR_ZX == offsetof(Factors, zx) && inasm::FACTOR_ZY == offsetof(Factors, zy) &&
               1 << inasm::FACTOR_SHIFT == sizeof(Factors), "Factors");
@@ -466,7 +469,8 @@ long voxelsTried = 0, voxelsDrawn = 0;
 struct Optics {
     double focalX, focalY, centreX, centreY;  // pixels
     Factors factors[LENS_STEPS];
-    uint8_t ramp[BRIGHTEST + 1];
+    uint8_t ramps[384];  // of any byte, signed or not
+    const uint8_t* ramp() const { return ramps + 128; }
 
     void set(double fx, double fy, double cx, double cy)
     {
@@ -481,7 +485,7 @@ struct Optics {
             factors[i].zx = static_cast<int32_t>(z * 32768 / fx);
             factors[i].zy = static_cast<int32_t>(z * 32768 / fy);
         }
-        fill(ramp, sizeof ramp);
+        fill(ramps, sizeof ramps);
     }
 };
 Optics optics;
@@ -542,6 +546,12 @@ Voxel anyVoxel(const Lens& lens)
     v.tiltX = static_cast<int16_t>(below(3) == 0 ? anything() : below(1201) - 600);
     v.tiltY = static_cast<int16_t>(below(3) == 0 ? anything() : below(1201) - 600);
     v.brightness = static_cast<uint8_t>(below(BRIGHTEST + 1));
+    v.reach = static_cast<uint8_t>(below(2) ? 0 : any() >> (24 + below(6)));
+    v.slopeX = v.slopeY = 0;
+    if (below(2) == 0) {
+        v.slopeX = static_cast<int8_t>(any());
+        v.slopeY = static_cast<int8_t>(any());
+    }
     switch (below(50)) {
     case 0: v.x = anything(); break;
     case 1: v.y = anything(); break;
@@ -550,7 +560,7 @@ Voxel anyVoxel(const Lens& lens)
     case 4: v.high = static_cast<int16_t>(anything()); break;
     case 5: v.wide = 0; break;
     case 6: v.high = 0; break;
-    case 7: v.brightness = static_cast<uint8_t>(any()); break;
+    case 7: v.brightness = static_cast<uint8_t>(any() & (isFine(v) ? 127 : 255)); break;
     case 8: v.tiltX = static_cast<int16_t>(32767 * (below(2) ? 1 : -1)); break;
     case 9: v.tiltY = static_cast<int16_t>(32767 * (below(2) ? 1 : -1)); break;
     default: break;
@@ -576,7 +586,7 @@ void makeLens(Fenced& c, Fenced& a, int shift)
     lens.x = below(20) ? below(40000) - 20000 : anything();
     lens.y = below(20) ? below(40000) - 20000 : anything();
     lens.z = below(20) ? below(65536) : anything();
-    lens.ramp = optics.ramp;
+    lens.ramp = optics.ramp();
     lens.factors = optics.factors;
     lens.centreX = static_cast<int32_t>(optics.centreX * 4096) + 2048;
     lens.centreY = static_cast<int32_t>(optics.centreY * 4096) + 2048;
@@ -652,7 +662,7 @@ void voxelByVoxel(int rounds)
     prepare(0, true);
     Screen& screen = roomA.at(0);
     memset(screen.frame.data, 0, sizeof screen.frame.data);
-    long wrongPixels = 0, wrongDepths = 0, wrongStops = 0, wrongBoxes = 0, wrongEmpties = 0, drawn = 0, stopped = 0, empty = 0;
+    long wrongPixels = 0, wrongEnds = 0, wrongShades = 0, shaded = 0, wrongDepths = 0, wrongStops = 0, wrongBoxes = 0, wrongEmpties = 0, drawn = 0, stopped = 0, empty = 0;
     for (int round = 0; round < rounds; ++round) {
         if (round % 16 == 0) {
             const double focal = 100 + below(300);
@@ -660,8 +670,8 @@ void voxelByVoxel(int rounds)
                 optics.set(250, 625 / 3.0, 160, 100);
             else
                 optics.set(focal, focal / 1.2, below(320), below(200));
-            for (int i = 0; i <= BRIGHTEST; ++i)
-                optics.ramp[i] = static_cast<uint8_t>(200 - 3 * i);
+            for (int i = 0; i < 384; ++i)
+                optics.ramps[i] = static_cast<uint8_t>(5 * i + 7);
         }
         makeLens(c, a, 0);
         a.lens.left = WIDE;
@@ -708,13 +718,6 @@ void voxelByVoxel(int rounds)
                     const bool taken = screen.depth.data[at] != Z_EMPTY;
                     const bool sure = px >= mostLeft && px < leastRight && py >= mostTop && py < leastBottom;
                     const bool may = px >= leastLeft && px < mostRight && py >= leastTop && py < mostBottom;
-                    if (!taken) {
-                        wrongPixels += screen.frame.data[at] != 0 || (sure && done == 1);
-                        continue;
-                    }
-                    ++pixels;
-                    wrongPixels += !may || done == 0 || screen.frame.data[at] != optics.ramp[v.brightness];
-                    wrongBoxes += px < a.lens.left || px >= a.lens.right || py < a.lens.top || py >= a.lens.bottom;
                     // Steps are whole 1/128 units, and no more than STEEPEST.
                     const auto limited = [](double s) { return s > STEEPEST ? STEEPEST : s < -STEEPEST ? -STEEPEST : s; };
                     const double across = limited(v.tiltX / 256.0 * z * 128 / optics.focalX),
@@ -724,17 +727,38 @@ void voxelByVoxel(int rounds)
                     const double doubt = 2 + most(dx, 0) * (1 + 0.001 * most(across, 0)) + most(dy, 0) * (1 + 0.001 * most(down, 0)) +
                                          (mostWide + mostHigh) + doubtX * most(across, 0) + doubtY * most(down, 0);
                     // Tilts are within 16; more may not fit the product.
+                    const double end = v.reach != 0 && tilted ? z * 128 + v.reach * 4 : 1e9;
+                    if (!taken) {
+                        wrongPixels += screen.frame.data[at] != 0 || (sure && done == 1 && expected + doubt < end && (tilted || v.reach == 0));
+                        continue;
+                    }
+                    ++pixels;
+                    wrongPixels += !may || done == 0;
+                    wrongEnds += expected - doubt > end;
+                    const double shade = v.brightness + v.slopeX / 8.0 * dx * z / optics.focalX - v.slopeY / 8.0 * dy * z / optics.focalY;
+                    // Steps are whole 1/256 from pixel to pixel, and lengths are good to a thousandth.
+                    const double unsure = 0.01 + (most(dx, 0) + most(dy, 0)) / 256 + 0.0021 * (most(v.slopeX, 0) + most(v.slopeY, 0)) / 8 *
+                                          (most(dx, dy) + 8 * (doubtX + doubtY) / 0.01) * z / optics.focalX;
+                    const bool plain = (v.slopeX | v.slopeY) == 0;
+                    bool right = false;
+                    for (double b = __builtin_floor(shade + 0.5 - unsure); b <= __builtin_floor(shade + 0.5 + unsure); ++b)
+                        right = right || screen.frame.data[at] == optics.ramp()[static_cast<int8_t>(static_cast<int>(b))];
+                    wrongShades += plain ? screen.frame.data[at] != optics.ramp()[v.brightness] : !right;
+                    shaded += !plain;
+                    wrongBoxes += px < a.lens.left || px >= a.lens.right || py < a.lens.top || py >= a.lens.bottom;
                     wrongDepths += tilted && most(screen.depth.data[at] - expected, 0) > doubt;
                     screen.depth.data[at] = Z_EMPTY;
                     screen.frame.data[at] = 0;
                 }
             drawn += pixels > 0;
-            wrongEmpties += sound && done == 1 && (pixels == 0) != (a.lens.empty == 1);
+            wrongEmpties += sound && done == 1 && v.reach == 0 && (pixels == 0) != (a.lens.empty == 1);
         }
         ++voxelsTried;
     }
     verdict(wrongStops == 0, "voxels: ordinary ones are drawn, others are left", wrongStops);
     verdict(wrongPixels == 0, "voxels: pixels as in double precision", wrongPixels);
+    verdict(wrongEnds == 0, "voxels: nothing behind where they end", wrongEnds);
+    verdict(wrongShades == 0 && shaded > rounds, "voxels: brightness as in double precision", wrongShades);
     verdict(wrongDepths == 0, "voxels: depths as in double precision", wrongDepths);
     verdict(wrongBoxes == 0, "voxels: the rectangle holds what is drawn", wrongBoxes);
     verdict(wrongEmpties == 0, "voxels: those without a pixel are counted", wrongEmpties);
@@ -847,7 +871,12 @@ void seedBySeed(int rounds)
         static ShadeFrame frameBefore;
         memcpy(&frameBefore, &frame, sizeof frame);
         const int32_t over = below(2) ? 128 : 0;
-        const int32_t ofC = shadeSeedC(&frame, &c.seed, position, over), ofA = shadeSeedA(&frame, &a.seed, position, over);
+        const int32_t ofC = shadeSeedC(&frame, &c.seed, position, over);
+        const Normal normal = frame.normal;
+        frame.normal = frameBefore.normal;
+        const int32_t ofA = shadeSeedA(&frame, &a.seed, position, over);
+        verdict(memcmp(&frame.normal, &normal, sizeof normal) == 0, "seeds: the same normal, round", round);
+        frame.normal = frameBefore.normal;
         verdict(ofC == ofA, "seeds: the same facing, round", round);
         verdict(memcmp(&c, &a, sizeof c) == 0, "seeds: the same scale, round", round);
         verdict(memcmp(&frame, &frameBefore, sizeof frame) == 0, "seeds: the frame is left alone, round", round);
@@ -877,6 +906,8 @@ void seedBySeed(int rounds)
             far += way * way;
             bright += g[i] / __builtin_sqrt(size) * light[i];
         }
+        if (ofA <= 0)
+            facing += frame.eye.beforeLimb(0) / 32.0;
         const double off = facing - ofA / 32.0, doubt = 0.3 + 0.02 * (__builtin_sqrt(far) + radius);
         wrongFacing += off > doubt || off < -doubt;
         bright = bright < 0 ? 0 : bright * 63;
@@ -946,6 +977,8 @@ void makeProfile(RideNear* near)
     near->profile->make(near->a0, near->c0, real(-2 * nearDistance[i] / (nearSize[i] * nearSize[i]) * nearRadius - 0.01), ride.placedMost);
 }
 
+long ridesRough = 0;
+
 // What is left to the caller: it may look again, shade, and do with the seed what it likes.
 void seedCalled(Seed* s, uint32_t which, bool looked)
 {
@@ -978,6 +1011,16 @@ void lostCalled(Seed* s, Real from)
 {
     called(static_cast<uint32_t>(from.raw));
     seedCalled(s, 3, false);
+    if (calls & 2)
+        ride.shaded = s;
+}
+void roughCalled(Seed* s)
+{
+    called(4);
+    called(static_cast<uint32_t>(s - rings.seeds));
+    called(static_cast<uint32_t>(ride.facing));
+    s->voxel.slopeX = static_cast<int8_t>(calls);
+    ++ridesRough;
 }
 
 // The object and its neighbours, at any distance from within to out of reach.
@@ -1053,6 +1096,9 @@ void anyRide()
     ride.stays = staysCalled;
     ride.held = heldCalled;
     ride.lost = lostCalled;
+    ride.rough = roughCalled;
+    ride.shaded = nullptr;
+    ride.facing = 0;
 }
 
 void anyRings()
@@ -1201,6 +1247,7 @@ void rideByRide(int rounds)
     verdict(reachesFound[1] > rounds / 50 && reachesFound[2] > rounds / 50 && reachesFound[3] > rounds / 50, "rides: there were runs of each kind",
             reachesFound[1] < reachesFound[2] ? reachesFound[1] : reachesFound[2]);
     long least = seedsRidden;
+    verdict(ridesRough > 1000, "rides: there were rough ones", ridesRough);
     for (long found : ridesFound)
         least = found < least ? found : least;
     verdict(least > seedsRidden / 200, "rides: there were some of each kind", least);

@@ -560,7 +560,8 @@ TEST(overshoot_tolerance)
         }
         note("%s: %d seeds beyond the border, the farthest by %.2f units and %.4f of the field", printed ? "printed" : "default", beyond, farthest,
              strongest);
-        CHECK(beyond > 5);
+        // By default no more are wanted than keep the border closed.
+        CHECK(beyond > (printed ? 5 : 1));
         // Not far, though: that ground is the other's.
         CHECK(farthest < 2 * 4);
         if (printed)
@@ -593,12 +594,14 @@ TEST(oversampled_seeds_take_part_where_positions_part)
         Scene near = pair(20, 19, printed);
         near.update();
         const int there = activeSeeds(near);
-        CHECK(there > 10);
+        // As printed, wherever positions differ; by default, only beside what is inside or far apart.
+        CHECK(there > (printed ? 10 : 1));
         int drawn = 0;
         for (size_t o = 0; o < 2; ++o)
             for (int i = 1; i < near.objects[o]->seedSlots(); i += 2)
                 drawn += settled(near, *near.objects[o], i);
-        CHECK(drawn > 5);
+        note("%s: %d active, %d drawn", printed ? "printed" : "default", there, drawn);
+        CHECK(drawn > (printed ? 5 : 0));
         near.objects[0]->moveTo(point(-40, 0, 0));
         near.update();
         SAME(activeSeeds(near), 0);
