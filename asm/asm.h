@@ -5,6 +5,7 @@
    SECTION(name), SECTION_BSS(name)    a section of its own, with code and data, or without contents
    FUNC(name), ENDFUNC(name)    round a routine that C++ calls: its label and, on ELF, its type and size, by which profilers
                know it
+   LOCAL(name), ENDFUNC(name)   the same of one that only its own file calls
    ASM_END     last line of each file: on ELF it says that the file needs no executable stack */
 #ifndef ASM_ASM_H
 #define ASM_ASM_H
@@ -12,6 +13,7 @@
 #ifdef __DJGPP__
 #define SYM(name) _##name
 #define FUNC(name) .globl SYM(name); SYM(name):
+#define LOCAL(name) name:
 #define ENDFUNC(name)
 #define SECTION(name) .section name, "wx"
 #define SECTION_BSS(name) .section name, "b"
@@ -19,6 +21,7 @@
 #else
 #define SYM(name) name
 #define FUNC(name) .globl name; .type name, @function; name:
+#define LOCAL(name) .type name, @function; name:
 #define ENDFUNC(name) .size name, . - name
 #define SECTION(name) .section name, "awx", @progbits
 #define SECTION_BSS(name) .section name, "aw", @nobits

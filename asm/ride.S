@@ -346,7 +346,7 @@ done:
 //   ebx  neighbour     edi  met     ebp  apart
 
         .balign 16
-settle:
+        LOCAL(settle)
         movl    RIDE(RIDE_FIRST), %ebx
         xorl    %edi, %edi
         xorl    %ebp, %ebp
@@ -839,6 +839,7 @@ too_far:
         imull   NEAR_WAITAPART(%ebx)
         movl    %ebp, %eax
         jmp     wait
+        ENDFUNC(settle)
 
 // ---------------------------------------------------------------------------------------------------------------------
 // The field at the position ebp of a path. Keeps esi and ebp.
@@ -846,7 +847,7 @@ too_far:
 //   ebx  neighbour     edi  neighbours left
 
         .balign 16
-look:
+        LOCAL(look)
         incl    RIDE(RIDE_LOOKS)
         // excess = ownQuick(position).value - ISOVALUE;  slope = .steep;  ownSlope = .slope;  strongest = 0
         movl    %ebp, %eax
@@ -905,6 +906,7 @@ no_field:
         decl    %edi
         jnz     1b
         jmp     looked
+        ENDFUNC(look)
 
 // ---------------------------------------------------------------------------------------------------------------------
 // int32_t rideReachA(const SeedRun* run)

@@ -12,7 +12,7 @@ build/BENCH.BAT: tools/bench.bat
 	@mkdir -p build
 	awk '{ sub(/\r$$/, ""); printf "%s\r\n", $$0 }' tools/bench.bat > $@
 
-BENCH_WRAP = -Wl,--wrap=drawScalesA -Wl,--wrap=blitScalesA -Wl,--wrap=clearRowsA -Wl,--wrap=_ZN7machine7presentEPKhPK4Span
+BENCH_WRAP = -Wl,--wrap=drawScalesA -Wl,--wrap=blitScalesA -Wl,--wrap=blitFine -Wl,--wrap=clearRowsA -Wl,--wrap=_ZN7machine7presentEPKhPK4Span
 BENCH_TWINS = build/bench/blit486.o build/bench/scales486.o
 BENCH_PARTS = $(filter-out build/host32/src/blit.o build/host32/src/scales.o,$(patsubst %.cpp,build/host32/%.o,$(HOST_SOURCES))) \
 	build/host32/asm/blit.o build/host32/asm/scales.o build/host32/asm/shade.o build/host32/asm/ride.o build/host32/tools/bench.o

@@ -114,10 +114,10 @@ per_frame() {
 		END {
 			for (f in total) {
 				if (f ~ /^__wrap_|^(\(anonymous namespace\)::)?(tell|bench)/) continue
-				else if (f ~ /^(drawScalesC|blitScalesC)/) s = "twin"
-				else if (f ~ /(^| )Settler::shade|^shadeSeedA/) s = "normals"
-				else if (f ~ /(^| )(Settler::|SoftObject::(update|settle|find|inRange|tell))/) s = "update"
-				else if (f ~ /(^| )SoftObject::(draw|layAtRest)/) s = "draw"
+				else if (f ~ /^(drawScalesC|blitScalesC|blitFine)/) s = "twin"
+				else if (f ~ /(^| )Settler::(shade|rough)|^shadeSeedA/) s = "normals"
+				else if (f ~ /(^| )(Settler::|Profile::|SoftObject::(update|settle|find|inRange|tell))|^(ride.*A|settle|look)$/) s = "update"
+				else if (f ~ /(^| )(Lister::|SoftObject::draw)/) s = "draw"
 				else if (f ~ /^(drawScalesA|blitScalesA)|(^| )View::(project|show)/) s = "scales"
 				else if (f ~ /closeGaps|closeRun|closeCorner|closeAbove|closeFrom|closeSlit|fillRow|takeOver|^drawnRunsA/) s = "gaps"
 				else if (f ~ /^clearRowsA|(^| )View::begin/) s = "clear"
