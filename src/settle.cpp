@@ -5,8 +5,10 @@
 // - Along a path the squared distance to a neighbour's centre is a polynomial of the position, so that a look costs a
 //   few multiplications. Its derivative comes along: Newton's method instead of slope -1.
 // - The normal is the gradient, put together from the slopes of the last look, instead of three more samples.
+// - A seed that one neighbour alone reaches is placed by the profile of the pair (profile.h), without a look.
 // - A scale is as large as the part of the surface that is the seed's own, in each direction as the viewer sees it. The
-//   seed keeps it, counted from the object's centre, as long as neither the seed nor the viewer's side of it changes.
+//   seed keeps it, counted from the object's centre, as long as neither the seed nor the viewer's side of it changes. Where
+//   the seeds beside it differ much in brightness, that changes across the scale.
 // Where all that are in range are balls of weight 1, what is often is done by ride.h; the rest of their case, and all of the
 // others, is here.
 #include "ride.h"
