@@ -392,8 +392,13 @@ void Settler::settle()
 
     o_.displaced_ = false;
     // A seed stays valid a way past the border where a neighbour becomes stronger: as a distance, about a unit at the usual
-    // spacings. The fields of the two change by about 3 / size a unit there.
-    overshoot_ = least((Real(1.8) + Real(0.1) * o_.spacing_) / o_.size_, Real(0.7));
+    // spacings. The fields of the two change by about 3 / size a unit there. Farther where one is more than twice as large
+    // as the other: the surface bends more sharply between them.
+    Real past(1.8);
+    for (int i = 0; i < nearCount_; ++i)
+        if (near_[i].reach > shiftUp(o_.size_, 1) || o_.size_ > shiftUp(near_[i].reach, 1))
+            past = Real(2.8);
+    overshoot_ = least((past + Real(0.1) * o_.spacing_) / o_.size_, Real(0.7));
     ride.placedMost = ownReaches(shiftDown(ISOVALUE - overshoot_, 1));
     ride.evenMost = ownReaches(shiftDown(ISOVALUE, 1));
     ride.kept = KEPT / o_.radius_;
