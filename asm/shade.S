@@ -2,10 +2,10 @@
 // include/shade.h and says what it is about; the tests feed both the same input. Above each group of instructions stands the
 // line of C++ that it implements.
 //
-// A seed that faces the viewer and has one neighbour takes about 330 instructions, one that faces away 110. Of the 330, more
-// than fifty are multiplications (9 to 38 cycles on the 386, as many as their second factor has bits; 13 to 42 on the 486; 10
-// on the Pentium), a dozen of them with products of 64 bits, and three or four divisions (38 to 46 cycles; four more where
-// the scale is cut at the horizon). What is seldom stands behind the end, so that the way through has few jumps. Bytes and
+// A seed that faces the viewer and has one neighbour takes about 310 instructions, one that faces away 110. Of the 310,
+// some fifty are multiplications (9 to 38 cycles on the 386, as many as their second factor has bits; 13 to 42 on the 486; 10
+// on the Pentium), a dozen of them with products of 64 bits, and two are divisions (38 to 46 cycles; two more where
+// the scale may end at the horizon). What is seldom stands behind the end, so that the way through has few jumps. Bytes and
 // words are loaded with their sign (3 cycles on the 486 and Pentium, not paired): seeds are kept small.
 
 #include "asm.h"

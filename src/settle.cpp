@@ -5,8 +5,10 @@
 // - Along a path the squared distance to a neighbour's centre is a polynomial of the position, so that a look costs a
 //   few multiplications. Its derivative comes along: Newton's method instead of slope -1.
 // - The normal is the gradient, put together from the slopes of the last look, instead of three more samples.
+// - A seed that one neighbour alone reaches is placed by the profile of the pair (profile.h), without a look.
 // - A scale is as large as the part of the surface that is the seed's own, in each direction as the viewer sees it. The
-//   seed keeps it, counted from the object's centre, as long as neither the seed nor the viewer's side of it changes.
+//   seed keeps it, counted from the object's centre, as long as neither the seed nor the viewer's side of it changes. Where
+//   the seeds beside it differ much in brightness, that changes across the scale.
 // Where all that are in range are balls of weight 1, what is often is done by ride.h; the rest of their case, and all of the
 // others, is here.
 #include "ride.h"
@@ -390,8 +392,13 @@ void Settler::settle()
 
     o_.displaced_ = false;
     // A seed stays valid a way past the border where a neighbour becomes stronger: as a distance, about a unit at the usual
-    // spacings. The fields of the two change by about 3 / size a unit there.
-    overshoot_ = least((Real(1.8) + Real(0.1) * o_.spacing_) / o_.size_, Real(0.7));
+    // spacings. The fields of the two change by about 3 / size a unit there. Farther where one is more than twice as large
+    // as the other: the surface bends more sharply between them.
+    Real past(1.8);
+    for (int i = 0; i < nearCount_; ++i)
+        if (near_[i].reach > shiftUp(o_.size_, 1) || o_.size_ > shiftUp(near_[i].reach, 1))
+            past = Real(2.8);
+    overshoot_ = least((past + Real(0.1) * o_.spacing_) / o_.size_, Real(0.7));
     ride.placedMost = ownReaches(shiftDown(ISOVALUE - overshoot_, 1));
     ride.evenMost = ownReaches(shiftDown(ISOVALUE, 1));
     ride.kept = KEPT / o_.radius_;

@@ -153,7 +153,8 @@ bool View::project(const Voxel& voxel, FineScale* scale) const
     scale->zRow = down - across * wide;
 
     scale->zMost = endOf(voxel, depth);
-    const int32_t shadeAcross = shadeStep(voxel.slopeX, mulDiv(z, 1 << 19, focalX_)), shadeDown = -shadeStep(voxel.slopeY, mulDiv(z, 1 << 19, focalY_));
+    const int32_t shadeAcross = shadeStep(voxel.slopeX, mulDiv(z, 1 << 19, focalX_));
+    const int32_t shadeDown = -shadeStep(voxel.slopeY, mulDiv(z, 1 << 19, focalY_));
     const int64_t shade = static_cast<int64_t>(shadeAcross) * ((left << FRACTION) + HALF - column) +
                           static_cast<int64_t>(shadeDown) * ((top << FRACTION) + HALF - row);
     scale->ramp = lens_.ramp;

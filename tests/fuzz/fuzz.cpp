@@ -213,9 +213,9 @@ const Time TIMES[] = {0, 65536 / 10, 65536 * 3 + 777, 12345678, 65536ull * 3599,
 void draw(Model& model)
 {
     static VoxelList list;
-    static uint8_t ramp[64];
+    static uint8_t ramp[64 + 2 * SHADING_MOST];
     for (int i = 0; i < model.count(); ++i)
-        model.actor(i).object->setRamp(ramp);
+        model.actor(i).object->setRamp(ramp + SHADING_MOST);
     if (!model.resample(Real(6)))
         failed("no memory for seeds");
     Counts counts{};

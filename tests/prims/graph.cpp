@@ -27,12 +27,12 @@ Point point(double x, double y, double z)
 struct Scene {
     Counts counts{};
     Look look{{Real(0), Real(0), Real(-120)}, {Real(0), Real(1), Real(0)}, false, &counts};
-    uint8_t ramp[64] = {};
+    uint8_t ramp[64 + 2 * SHADING_MOST] = {};
 
     void update(SoftObject& object)
     {
         static VoxelList list;
-        object.setRamp(ramp);
+        object.setRamp(ramp + SHADING_MOST);
         object.update(look);
         int next = 0;
         do {

@@ -98,16 +98,16 @@ struct Truth {
 inline int show(View& view, const Voxel* voxels, size_t count, int32_t x = 0, int32_t y = 0, int32_t z = 0)
 {
     static const std::vector<uint8_t> ramp = [] {
-        std::vector<uint8_t> r(64);
-        for (size_t i = 0; i < r.size(); ++i)
-            r[i] = static_cast<uint8_t>(i);
+        std::vector<uint8_t> r(64 + 2 * SHADING_MOST);
+        for (int i = 0; i < static_cast<int>(r.size()); ++i)
+            r[static_cast<size_t>(i)] = static_cast<uint8_t>(std::clamp(i - SHADING_MOST, 0, 63));
         return r;
     }();
     VoxelList list{};
     list.x = x;
     list.y = y;
     list.z = z;
-    list.ramp = ramp.data();
+    list.ramp = ramp.data() + SHADING_MOST;
     int drawn = 0;
     for (size_t from = 0; from < count; from += VOXELS_AT_ONCE) {
         list.count = static_cast<int>(std::min<size_t>(count - from, VOXELS_AT_ONCE));
@@ -127,12 +127,12 @@ struct Scene {
     bool printed = false;
     Point eye{Real(0), Real(0), Real(-120)};
     Vector light = unit(vector(0.5, 0.7, -0.5));
-    uint8_t ramp[64];
+    uint8_t ramp[64 + 2 * SHADING_MOST];
 
     Scene()
     {
-        for (int i = 0; i < 64; ++i)
-            ramp[i] = static_cast<uint8_t>(i);
+        for (int i = 0; i < 64 + 2 * SHADING_MOST; ++i)
+            ramp[i] = static_cast<uint8_t>(std::clamp(i - SHADING_MOST, 0, 63));
     }
 
     SoftObject& add(SoftObject* object, double x, double y, double z, double spacing = 2)
@@ -142,7 +142,7 @@ struct Scene {
         if (!object->resample(real(spacing)))
             std::abort();
         object->shadeRest(light);
-        object->setRamp(ramp);
+        object->setRamp(ramp + SHADING_MOST);
         return *object;
     }
     SoftObject& ball(double size, double x, double y, double z, double spacing = 2)

@@ -114,7 +114,8 @@ bool identical(const std::vector<Voxel>& a, const std::vector<Voxel>& b)
         return false;
     for (size_t i = 0; i < a.size(); ++i)
         if (a[i].x != b[i].x || a[i].y != b[i].y || a[i].z != b[i].z || a[i].wide != b[i].wide || a[i].high != b[i].high ||
-            a[i].tiltX != b[i].tiltX || a[i].tiltY != b[i].tiltY || a[i].brightness != b[i].brightness)
+            a[i].tiltX != b[i].tiltX || a[i].tiltY != b[i].tiltY || a[i].brightness != b[i].brightness ||
+            a[i].reach != b[i].reach || a[i].slopeX != b[i].slopeX || a[i].slopeY != b[i].slopeY)
             return false;
     return true;
 }
@@ -606,6 +607,50 @@ TEST(oversampled_seeds_take_part_where_positions_part)
         near.update();
         SAME(activeSeeds(near), 0);
     }
+}
+
+TEST(brightness_changes_across_scales_as_over_the_surface)
+{
+    // Where a pair bends sharply: against brightness a little beside the seed, on the plane that touches the surface there.
+    // Ways across the picture are taken to be those of the viewing axis, and no longer than twice as long on the surface.
+    double sum = 0, off = 0;
+    int changing = 0, wrongWay = 0;
+    for (double distance = 11; distance < 20; distance += 0.5) {
+        Scene scene = pair(20, distance, false);
+        scene.update();
+        for (size_t o = 0; o < 2; ++o) {
+            const SoftObject& ball = *scene.objects[o];
+            const Truth truth = scene.truth(o);
+            for (int i = 0; i < ball.seedSlots(); ++i) {
+                const Seed& s = ball.seed(i);
+                if (!(s.flags & SEED_FRONT) || (s.voxel.slopeX | s.voxel.slopeY) == 0)
+                    continue;
+                const Vec p = vec(ball.seedPoint(s)), n = truth.normal(p), way = p - vec(toVector(scene.eye));
+                const double cosine = -dot(n, way) / size(way);
+                if (cosine < 0.55)
+                    continue;
+                const auto change = [&](const Vec& across) {
+                    const Vec along = across + way * (-dot(n, across) / dot(n, way));
+                    const double h = 0.02, here = dot(truth.normal(p + along * h), vec(scene.light)),
+                                 there = dot(truth.normal(p - along * h), vec(scene.light));
+                    return 63 * (here - there) / (2 * h);
+                };
+                const double x = change({1, 0, 0}), y = change({0, 1, 0}), ourX = s.voxel.slopeX / 8.0, ourY = s.voxel.slopeY / 8.0;
+                // Those that were limited are too small.
+                const double corner = (std::fabs(x) * s.voxel.wide + std::fabs(y) * s.voxel.high) / 256;
+                wrongWay += x * ourX + y * ourY <= 0;
+                ++changing;
+                if (corner > SHADING_MOST)
+                    continue;
+                sum += std::hypot(x, y);
+                off += std::hypot(x - ourX, y - ourY);
+            }
+        }
+    }
+    note("%d scales, %d of them the wrong way, off by %.1f%%", changing, wrongWay, 100 * off / sum);
+    CHECK(changing > 20);
+    SAME(wrongWay, 0);
+    CHECK(off < 0.2 * sum);
 }
 
 // --- Drawing
