@@ -27,6 +27,15 @@
 #define FB_I386 0
 #endif
 
+// For functions of the innermost loops: arguments in registers, where the compiler would pass them through memory; and what
+// is seldom needed stays out of the way of what often is.
+#if FB_I386
+#define REGISTERS __attribute__((regparm(3)))
+#else
+#define REGISTERS
+#endif
+#define SELDOM __attribute__((noinline))
+
 // High 32 bits of the signed 64-bit product: one imul on the 386.
 inline int32_t mulHigh(int32_t a, int32_t b)
 {

@@ -124,8 +124,8 @@ int32_t rideC(SeedRun* run, Seed* seeds);
 // What neighbours do to a run: RideReach.
 int32_t rideReachC(const SeedRun* run);
 
-// The field at a position (0.95..1.85) of the path for which ride.b, shade.pulls and shade.count (1 or more) are set: to ride.excess,
-// slope and strength; and to ride.shade what the normal needs.
+// The field at a position (0.95..1.85) of the path for which ride.b, shade.pulls and shade.count (1 or more) are set: to
+// ride.excess, slope and strength; and to ride.shade what the normal needs.
 void rideLookC(Real position);
 
 #if FB_ASM && FB_REAL == FB_FIXED

@@ -3,27 +3,17 @@
 #include "shade.h"
 #include "softobj.h"
 
-// What is seldom needed stays out of the way of what often is.
-#define SELDOM __attribute__((noinline))
-
-// Where the compiler would pass what a function is given through memory.
-#if FB_I386
-#define REGISTERS __attribute__((regparm(3)))
-#else
-#define REGISTERS
-#endif
-
 namespace {
 
 // Depth, 1/32 unit, before which the whole cell of a seed at rest is covered: near the viewer a ring is no straight band in
 // the picture.
 constexpr int32_t WHOLE_BEFORE = 37 * 32;
 
-constexpr int LISTED_MOST = 12;
+constexpr int LISTED_MOST = 12;  // regular seeds of a patch
 
 // Lists those of a patch that are seen, unless it meets one that does not lie in the view yet: then false, and `to` as it
-// was. Without a loop, for it is done for most seeds of a frame. `end` is behind the patch's seeds, `count` of which (1..LISTED_MOST)
-// are regular ones; `extras`: the oversampled ones between are meant too.
+// was. Without a loop, for it is done for most seeds of a frame. `end` is behind the patch's seeds, `count` of which
+// (1..LISTED_MOST) are regular ones; `extras`: the oversampled ones between are meant too.
 inline bool listKept(const Seed* end, int count, bool extras, const Voxel**& to)
 {
     const Voxel** at = to;

@@ -69,7 +69,8 @@ int drawScalesC(Lens* lens, const Voxel* const* voxels, int count)
         scale.zMost = endOf(v, depth >> 1);
         const int32_t shadeAcross = shadeStep(v.slopeX, f.zx), shadeDown = -shadeStep(v.slopeY, f.zy);
         scale.ramp = lens->ramp;
-        scale.shade = v.brightness * 256 + 128 + (wrappedSum(wrappedProduct(shadeAcross, toColumn), wrappedProduct(shadeDown, toRow)) >> 12);
+        const int32_t toFirst = wrappedSum(wrappedProduct(shadeAcross, toColumn), wrappedProduct(shadeDown, toRow));
+        scale.shade = v.brightness * 256 + 128 + (toFirst >> 12);
         scale.shadeStep = shadeAcross;
         scale.shadeRow = wrappedSum(shadeDown, -wrappedProduct(shadeAcross, wide));
         blitFine(lens->frame, lens->zbuffer, scale);

@@ -14,16 +14,6 @@
 #include "ride.h"
 #include "softobj.h"
 
-// Where the compiler would pass what a function is given through memory.
-#if FB_I386
-#define REGISTERS __attribute__((regparm(3)))
-#else
-#define REGISTERS
-#endif
-
-// What is seldom needed stays out of the way of what often is.
-#define SELDOM __attribute__((noinline))
-
 namespace {
 
 // Where a path is looked at for the first time outside the surface, when nothing is known of it; how much farther out then,
@@ -177,8 +167,7 @@ private:
     REGISTERS SELDOM bool bracket(Real from);
     template <bool PLAIN>
     REGISTERS void shade(Seed& s, Real position);
-    REGISTERS SELDOM void shadeAcross(Seed& s) const;
-    static void rough(Seed* s);
+    static void shadeAcross(Seed* seed);
     void addNear(const Link& link);
     void knowNear();
 
@@ -420,7 +409,7 @@ void Settler::settle()
     ride.stays = stays;
     ride.held = held;
     ride.lost = lost;
-    ride.rough = rough;
+    ride.rough = shadeAcross;
     ride.shaded = nullptr;
     ownBend_ = shiftDown(o_.inverse_ * o_.inverse_, 7);
     settler_ = this;
@@ -1057,7 +1046,6 @@ inline void Settler::shade(Seed& s, Real position)
     }
 }
 
-
 // How the brightness changes across the seed that has just been shaded, where only balls reach it.
 //
 // The normal is n = -grad F / |grad F|, so along a tangent t of the surface the brightness n.light changes by
@@ -1067,8 +1055,9 @@ inline void Settler::shade(Seed& s, Real position)
 //
 // In whole numbers: lengths in 1/256 unit, directions with 14 bits of fraction, shares of the gradient and what bends it with
 // 10.
-void Settler::shadeAcross(Seed& s) const
+void Settler::shadeAcross(Seed* seed)
 {
+    Seed& s = *seed;
     const Real position = s.position;
     const Normal n = frame_.normal, light = frame_.light.light();
     const auto product = [](const Normal& a, const Normal& b) { return (a.x * b.x + a.y * b.y + a.z * b.z) >> 14; };
@@ -1123,11 +1112,6 @@ void Settler::shadeAcross(Seed& s) const
     }
     s.voxel.slopeX = static_cast<int8_t>(x);
     s.voxel.slopeY = static_cast<int8_t>(y);
-}
-
-void Settler::rough(Seed* s)
-{
-    settler_->shadeAcross(*s);
 }
 
 // Of a patch to which nothing happened: until when nothing will, nor to the seeds that its own are paired with.
