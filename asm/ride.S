@@ -109,9 +109,11 @@
 #define RIDE_HELD    128
 #define RIDE_LOST    132
 #define RIDE_ROUGH   136
-#define RIDE_B       140
-#define RIDE_BEYOND  392
-#define RIDE_SHADE   644
+#define RIDE_UNEVEN  140
+#define RIDE_UNEVENTWICE 144
+#define RIDE_B       148
+#define RIDE_BEYOND  400
+#define RIDE_SHADE   652
 // of which these are in its ShadeFrame (include/lie.h)
 #define EYE_X        RIDE_SHADE+24
 #define EYE_Y        RIDE_SHADE+28
@@ -144,7 +146,6 @@
 #define PLACED_LEAST 62259
 #define POSITION_MOST 121242
 #define OVER_BACK    128
-#define ROUGH        10
 #define ISOVALUE     32768
 #define OWN_FIRST    940
 #define OWN_STEP     16
@@ -411,7 +412,7 @@ faces:
         //   ebx  neighbour     ecx  position
         movl    RIDE(PULLS), %ebx
         incl    RIDE(RIDE_PLACED)
-        // in = top - b;  if (in >= depth) ..;  in = in < 0 ? 0 : in >> fine
+        // in = top - b;  if (in >= depth) ..;  in >>= fine
         movl    NEAR_PROFILE(%ebx), %ebp
 place:
         movl    PROFILE_TOP(%ebp), %eax
@@ -422,13 +423,13 @@ place:
         testl   %eax, %eax
         jl      above
         sarl    %cl, %eax
-in_profile:
         // position = cells[in >> 8].position + (cells[in >> 8].rise * (in & 255) >> 8)
         movzbl  %al, %ecx
         shrl    $8, %eax
         imull   PROFILE_RISE(%ebp,%eax,PROFILE_CELL), %ecx
         sarl    $8, %ecx
         addl    PROFILE_PLACE(%ebp,%eax,PROFILE_CELL), %ecx
+placed:
         // if (position > placedMost) ..
         cmpl    RIDE(RIDE_PLACEDMOST), %ecx
         jg      too_far
@@ -713,8 +714,8 @@ settled:
         // the loop on the stack
         .macro  DIFFER
         subl    %eax, %edx
-        addl    $ROUGH, %edx
-        cmpl    $2*ROUGH, %edx
+        addl    RIDE(RIDE_UNEVEN), %edx
+        cmpl    RIDE(RIDE_UNEVENTWICE), %edx
         ja      rough
         .endm
 
@@ -785,8 +786,15 @@ limit_step:
 
         // Seldom
 above:
-        xorl    %eax, %eax
-        jmp     in_profile
+        // position = a0 + c0 + b >= 1 ? 1 : cells[0].position
+        movl    RIDE(RIDE_B), %eax
+        movl    $65536, %ecx
+        addl    NEAR_AZERO(%ebx), %eax
+        addl    NEAR_CZERO(%ebx), %eax
+        cmpl    %ecx, %eax
+        jge     placed
+        movl    PROFILE_PLACE(%ebp), %ecx
+        jmp     placed
 beyond_border:
         movl    $OVER_BACK, %eax
         jmp     shade

@@ -64,7 +64,7 @@
 // Constants (include/shade.h)
 #define BRIGHTEST    63
 #define MARGIN       768
-#define MARGIN_UNITS 10
+#define MARGIN_UNITS 6
 #define STRETCHED    6500
 #define WHOLE        4329
 #define MOST_SKEW    1024

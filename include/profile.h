@@ -33,6 +33,9 @@ public:
         return true;
     }
 
+    // Whether the path is one of those that the neighbour's field only just reaches, or not where they leave the surface.
+    bool above(Real b) const { return rawFromReal(b) > top_; }
+
     // A b at or below that of the border.
     Real edge() const { return edge_; }
 

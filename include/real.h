@@ -157,6 +157,16 @@ constexpr Real least(Real a, Real b) { return b < a ? b : a; }
 constexpr Real most(Real a, Real b) { return a < b ? b : a; }
 constexpr Real clamp(Real a, Real low, Real high) { return a < low ? low : high < a ? high : a; }
 
+// a / b where the quotient is known to fit.
+inline Real quotient(Real a, Real b)
+{
+#if FB_REAL == FB_FIXED
+    return Real::fromRaw(mulDiv(a.raw, 65536, b.raw));
+#else
+    return a / b;
+#endif
+}
+
 // Square root; 0 for values below 0. Exact to the last bit (rounded down) for 16.16.
 Real squareRoot(Real a);
 

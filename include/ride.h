@@ -22,9 +22,6 @@ constexpr Real PLACED_LEAST(0.95);
 // more than the overshoot.
 constexpr Real POSITION_MOST(1.85);
 constexpr int32_t OVER_BACK = 128;   // 1/256 unit: how far a seed beyond the border is set back
-// Steps of brightness between two seeds side by side: where it is more, and the brightness of both the same all over, the
-// cells show.
-constexpr int ROUGH = 10;
 // Travel is counted in steps; no seed waits longer than so many of them.
 constexpr int WAIT_MOST = 0x3000;
 // Steps of travel after which it is asked again whether all that reached a patch still do.
@@ -103,6 +100,7 @@ struct RideFrame {
     void (*held)(Seed*);
     void (*lost)(Seed*, Real from);
     void (*rough)(Seed*);    // its brightness differs much from that of one beside it
+    int32_t uneven, unevenTwice;  // that is, by more than so many steps: if both had one all over, the cells would show
     Real b[PULLS_MOST];      // of the neighbours that matter: shade.pulls, of which each is a RideNear's
     Real beyond[PULLS_MOST];
     ShadeFrame shade;
@@ -182,16 +180,6 @@ inline int32_t stepsOf(Real difference, Real wait)
     return stepsOf(difference, Real(1), wait);
 }
 
-// a / b where the quotient is known to fit.
-inline Real quotient(Real a, Real b)
-{
-#if FB_REAL == FB_FIXED
-    return Real::fromRaw(mulDiv(a.raw, 65536, b.raw));
-#else
-    return a / b;
-#endif
-}
-
 inline int32_t lesser(int32_t a, int32_t b)
 {
     return a < b ? a : b;
@@ -206,7 +194,7 @@ inline Seed& pairedWith(Seed* s, const Seed& extra)
 // Whether the cells of two seeds side by side show.
 inline bool differ(const Seed& s, const Seed& t)
 {
-    return static_cast<unsigned>(t.voxel.brightness - s.voxel.brightness + ROUGH) > 2 * ROUGH;
+    return static_cast<unsigned>(t.voxel.brightness - s.voxel.brightness + ride.uneven) > static_cast<unsigned>(ride.unevenTwice);
 }
 
 // What rideC() does, by a settle(Seed&) for those that are awake.

@@ -80,7 +80,7 @@ public:
         toEye_[2] = steps(toEye.z);
         radius_ = steps(radius);
         horizon_ = radius_;
-        limb_ = reach > Real(0) ? 0 : distance_ >> 5;
+        limb_ = reach > Real(0) ? 0 : distance_ * 5 >> 7;
         edge_ = (radius_ + limb_) << 14;
         away_ = -(distance_ * 13107);  // cosine -0.8
         root({Real(0), Real(0), Real(0)});
@@ -213,6 +213,24 @@ inline void layDown(int32_t nx, int32_t ny, int32_t facing, int32_t depth, int32
         s.voxel.reach = static_cast<uint8_t>(reach);
 }
 
+// Steps of brightness from the middle of a scale to its corner: less is none; and on small objects.
+constexpr int EVEN = 8, EVEN_SMALL = 1;
+
+// How the brightness changes across a scale, 1/8 step a unit, at most 2^15: not at all where it is less than `even` to the
+// corner, and no more than a voxel may have.
+inline void setSlopes(Voxel& v, int32_t x, int32_t y, int even)
+{
+    int32_t corner = ((x < 0 ? -x : x) * v.wide + (y < 0 ? -y : y) * v.high) >> 11;
+    if (corner < even)
+        return;
+    for (; corner > SHADING_MOST; corner >>= 1) {
+        x /= 2;
+        y /= 2;
+    }
+    v.slopeX = static_cast<int8_t>(x < -127 ? -127 : x > 127 ? 127 : x);
+    v.slopeY = static_cast<int8_t>(y < -127 ? -127 : y > 127 ? 127 : y);
+}
+
 // Brightness and extents, for one light and one spacing.
 class ShadeSetup {
 public:
@@ -290,7 +308,7 @@ private:
     friend struct ShadeLayout;
     static constexpr int32_t WHOLE = 4329;  // 12 bits of fraction: a cosine of path and normal below 0.946
     static constexpr int32_t MARGIN = 256 * 64 * 3 / 64;    // a part of the spacing, as of `sum`
-    static constexpr int32_t MARGIN_UNITS = 10;           // and what places of seeds are uncertain by, 1/256 unit
+    static constexpr int32_t MARGIN_UNITS = 6;           // and what places of seeds are uncertain by, 1/256 unit
 
     int32_t x_, y_, z_, spacing_;
 };

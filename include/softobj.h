@@ -143,6 +143,8 @@ public:
     Real radius() const { return radius_; }
     const Matrix& turn() const { return turn_; }
     int number() const { return number_; }
+    // It looks the same from everywhere.
+    bool isBall() const { return !tapers_ && coreReach() == Real(0); }
 
     // --- The graph
 
@@ -271,8 +273,6 @@ private:
     void alignPatch(Patch& patch) const;
     static void facePatch(Patch& patch, const Vector& axis);
     bool keepRest();
-    // It looks the same from everywhere.
-    bool isBall() const { return !tapers_ && coreReach() == Real(0); }
     Vector restNormal(const Seed& s) const;
     void poseSeeds();
     // A component of a vector of whole numbers, turned.
@@ -318,6 +318,7 @@ private:
     // where the viewer was at the last update, and how fast he is.
     uint16_t travel_;
     bool linksChanged_;
+    bool bent_;           // a much smaller object was in range at the last update
     Real turning_;        // by what part of itself the pace of some link changes in an update, at most; 1: anything may happen
     uint32_t nearMark_;   // of the neighbours that were in range then, and their order
     Vector eyeApart_;
@@ -326,8 +327,8 @@ private:
     // How far the viewer has moved against it, 1/64 unit, counted in moves of DRIFT_LEAST or more; wraps round. Where he
     // was at the last of them. And how far he may move until seeds at rest are laid anew: his distance in 1/32 unit over
     // DRIFT_SHARE, a twentieth of it, which turns what he sees of them by three degrees at most; but no more than DRIFT_KEPT.
-    static constexpr int32_t DRIFT_KEPT = 320;
-    static constexpr int32_t DRIFT_SHARE = 10;
+    static constexpr int32_t DRIFT_KEPT = 400;
+    static constexpr int32_t DRIFT_SHARE = 8;
     static constexpr int32_t DRIFT_LEAST = 16;
     uint16_t drift_;
     Vector eyeDrawn_;

@@ -16,7 +16,7 @@ struct Voxel {
     int8_t slopeX, slopeY;   // how the brightness changes across, 1/8 step a unit; no more than SHADING_MOST to any corner
 };
 
-constexpr int SHADING_MOST = 24;
+constexpr int SHADING_MOST = 64;
 
 constexpr int VOXELS_AT_ONCE = 1024;
 

@@ -9,6 +9,11 @@ namespace {
 // the picture.
 constexpr int32_t WHOLE_BEFORE = 37 * 32;
 
+// Steps of brightness from a seed at rest to the next, up to which each scale of a ball has one alone.
+constexpr int COARSE = 16;
+// -z of a normal scaled by 2^14: no way across the picture is taken for more than about twice that on the surface.
+constexpr int32_t TILTED_MOST = 7000;
+
 constexpr int LISTED_MOST = 12;  // regular seeds of a patch
 
 // Lists those of a patch that are seen, unless it meets one that does not lie in the view yet: then false, and `to` as it
@@ -75,6 +80,7 @@ private:
     static void drift();
     REGISTERS SELDOM static void lookFrom(int root);
     REGISTERS SELDOM static void lay(Seed& s, int32_t along);
+    REGISTERS SELDOM static void shadeAcross(Seed& s);
     template <bool AGAIN, int STEP>
     REGISTERS SELDOM static void layRun(Seed* s, const Seed* end);
 
@@ -85,6 +91,7 @@ private:
     static inline Skew skew_;
     static inline ShadeSetup light_;
     static inline Real horizon_;        // of the object in general
+    static inline int32_t change_;      // of the brightness, 1/8 step a unit for a unit of light, 8 bits of fraction; 0: none
     static inline int root_;            // what eye_ and skew_ are set for
     static inline Vector rootPlace_;    // from the centre
 };
@@ -95,6 +102,9 @@ void Lister::setUp()
     horizon_ = o_->horizonRadius(look_->eye);
     eye_.horizon(horizon_);
     light_.set(look_->light, o_->spacing_);
+    change_ = 0;
+    if (o_->isBall() && o_->spacing_ * Real(BRIGHTEST) > o_->radius_ * Real(COARSE))
+        change_ = mulDiv(8 * BRIGHTEST << 8, 65536, rawFromReal(o_->radius_));
     root_ = -1;
 }
 
@@ -134,6 +144,19 @@ void Lister::lay(Seed& s, int32_t along)
     s.voxel.x = rawFromReal(rootPlace_.x + s.path.x) >> 8;
     s.voxel.y = rawFromReal(rootPlace_.y + s.path.y) >> 8;
     s.voxel.z = rawFromReal(rootPlace_.z + s.path.z) >> 8;
+    if (change_ != 0)
+        shadeAcross(s);
+}
+
+// How the brightness changes across a seed at rest: on a ball the normal changes by 1 / radius along the surface.
+void Lister::shadeAcross(Seed& s)
+{
+    const Normal light = light_.light();
+    const int32_t z = s.dirZ > -TILTED_MOST ? -TILTED_MOST : s.dirZ;
+    const auto change = [&](int32_t across, int32_t lit) {
+        return static_cast<int32_t>(static_cast<int64_t>(change_) * (lit - mulDiv(across, light.z, z)) >> 22);
+    };
+    setSlopes(s.voxel, change(s.dirX, light.x), change(s.dirY, light.y), EVEN_SMALL);
 }
 
 // Lays every STEPth seed of a run that is at rest; without AGAIN only those that have come to rest just now.

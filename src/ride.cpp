@@ -87,6 +87,9 @@ void settleBetween(Seed& s)
         ride.profileFor(&near);
         leaves = near.profile->place(b, position);
     }
+    // Farther out it may come near, but the path has left the surface before.
+    if (near.profile->above(b) && near.a0 + near.c0 + b >= Real(1))
+        position = Real(1);
     if (!leaves || position > ride.placedMost) {
         s.position = leaves ? position : Real(1);
         wait(s, leaves ? SEED_PLACED : 0, stepsOf(most(near.profile->edge() - b, Real(0)), near.waitApart));

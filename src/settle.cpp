@@ -24,14 +24,24 @@ constexpr int BETWEEN = 3;
 // What is searched for again is looked at where it was nearest, and so far on; alone there when the field allows to wait for
 // more than so many steps of travel; there and a step on, but nowhere else, for more than so many.
 constexpr Real HINT_STEP(0.06);
+constexpr Real HINT_FAR(0.3);  // where it slopes much
 constexpr int HINT_ALONE = 10;
 constexpr int HINT_NO_SEARCH = 6;
+// Of the field: where it is so much above the isovalue at its lowest, as far as can be told from slopes, it is not searched
+// any further.
+constexpr Real VALLEY(0.008);
+constexpr Real BARELY(0.003);  // of the field: by how much more than the isovalue is taken for outside all the same
 constexpr Real NEARLY(0.04);  // of the field: how near the isovalue it must have come there to be looked at in between
 // Squared distance / squared size up to which a neighbour alone fills what the own field lacks at POSITION_MOST: its
-// field is 0.477 there, which with the own 0.013 is the isovalue but for the tolerance.
-constexpr Real BURYING(0.265);
-constexpr int EVEN = 8;  // steps of brightness from the middle of a scale to its corner: less is none
-constexpr Real RATIO_BENT(16);  // squared proportion of sizes up to which the brightness may change across a scale
+// field is 0.492 there, which with the own 0.013 is a little more than the isovalue.
+constexpr Real BURYING(0.255);
+// Steps of brightness between two seeds side by side from which on it changes across them; and where there are but a few of
+// them on an object, which is up to this size in spacings.
+constexpr int UNEVEN = 13;
+constexpr int UNEVEN_SMALL = 1;
+constexpr Real SMALL(8);
+// Squared proportion of sizes from which on a neighbour turns the normals of seeds that it hardly moves.
+constexpr Real RATIO_LIGHT(4);
 constexpr Real KEPT(0.1);  // units: a seed between two that has moved by less lies as it did
 
 // A neighbour in range, as the seeds of this object see it.
@@ -72,7 +82,7 @@ inline Real alongPace(const Near& near, const Vector& path)
 // radii. The first two are what the distance allows.
 constexpr Real WAIT_APART(0.45);
 constexpr Real WAIT_BURIED(0.95);
-constexpr Real WAIT_FIELD(0.3);
+constexpr Real WAIT_FIELD(0.5);
 constexpr Real WAIT_FACING(0.9);
 
 // Of the distance to the eye a unit of its way at most changes by how far a path points away, and so does the way itself.
@@ -204,6 +214,8 @@ private:
     static inline uint16_t travel_;
     static inline int32_t& paceSteps_ = ride.paceSteps;
     static inline bool keptWait_;  // those that stay where they are wait too
+    static inline bool small_;
+    static inline bool bent_;   // what lies about where it did may face another way
     static inline bool woken_;  // by a jump of it
     static inline int32_t& waitAway_ = ride.waitAway;
     static inline Vector toEye_;  // unit length, from the centre
@@ -261,7 +273,7 @@ void Settler::addNear(const Link& link)
     const Real inverse = Real(16) / other.size();
     const Vector e = n.fromIt * inverse;
     const Real r = o_.radius() * inverse;
-    if (!within(e, Real(80)) || r > Real(80))
+    if (!within(e, Real(104)) || r > Real(104))
         return;
     n.a0 = shiftDown(dot(e, e), 8);
     n.c0 = shiftDown(r * r, 8);
@@ -294,7 +306,7 @@ void Settler::addNear(const Link& link)
     n.touchingSum = sumBelow(n.touching);
     n.buryingSum = sumBelow(n.burying);
     n.meetingRunSum = sumBelow(n.meeting + n.change * (o_.spacing_ * BESIDE));
-    n.bend = shiftDown(least(n.pull.ratio, RATIO_BENT) * inverse * inverse, 7);
+    n.bend = shiftDown(n.pull.ratio * inverse * inverse, 7);
     n.quick = true;
 
     n.waitApart = waitSteps(n.reach * WAIT_APART, slowness);
@@ -390,9 +402,15 @@ void Settler::settle()
     overshoot_ = least((past + Real(0.1) * o_.spacing_) / o_.size_, Real(0.7));
     ride.placedMost = ownReaches(shiftDown(ISOVALUE - overshoot_, 1));
     ride.evenMost = ownReaches(shiftDown(ISOVALUE, 1));
-    ride.kept = KEPT / o_.radius_;
+    bool bent = false;
+    for (int i = 0; i < nearCount_; ++i)
+        bent = bent || near_[i].pull.ratio > RATIO_LIGHT;
+    bent_ = bent || o_.bent_;
+    o_.bent_ = bent;
+    ride.kept = bent_ ? Real(0) : KEPT / o_.radius_;
     ride.keptTwice = ride.kept + ride.kept;
-    ride.parting = Real(4.0) * o_.spacing_ / o_.radius_;
+    // A small one makes a bump of few seeds.
+    ride.parting = Real(bent_ ? 0.5 : 4.0) * o_.spacing_ / o_.radius_;
     ride.partingTwice = ride.parting + ride.parting;
     skew_.root(o_.centre_ - look_.eye, o_.radius_ * POSITION_MOST);
     frame_.setBack = mulDiv(1 << 30, 1 << 17, rawFromReal(most(o_.radius_, Real(2))));
@@ -404,12 +422,15 @@ void Settler::settle()
     ride.travel = static_cast<int32_t>(static_cast<uint32_t>(travel_) << 16);
     ride.later = travel_ - 1;
     ride.awayAlong = (rawFromReal(awayEdge_) + 2047) >> 11 << 14;
-    ride.keptWait = keptWait_;
+    ride.keptWait = keptWait_ || bent_;
     ride.profileFor = profileFor;
     ride.stays = stays;
     ride.held = held;
     ride.lost = lost;
     ride.rough = shadeAcross;
+    small_ = o_.size_ < o_.spacing_ * SMALL;
+    ride.uneven = small_ || bent_ ? UNEVEN_SMALL : UNEVEN;
+    ride.unevenTwice = 2 * ride.uneven;
     ride.shaded = nullptr;
     ownBend_ = shiftDown(o_.inverse_ * o_.inverse_, 7);
     settler_ = this;
@@ -716,11 +737,21 @@ bool Settler::search()
     const auto leaves = [this](Real position) {
         position_ = position;
         excess_ = lookAt<PLAIN>(position, slope_) - ISOVALUE;
-        return excess_ < Real(0);
+        return excess_ < BARELY;
     };
     if (leaves(PROBE))
         return true;
     Real low = position_, lowSlope = slope_;
+    if (bent_ && lowSlope > Real(0)) {
+        // A small one close by may leave a gap before it.
+        const Real excess = excess_;
+        if (leaves(Real(1)))
+            return true;
+        if (slope_ < Real(0) && leaves(Real(1) + (PROBE - Real(1)) * (slope_ / (slope_ - lowSlope))))
+            return true;
+        excess_ = excess;
+        position_ = low;
+    }
     buried_ = excess_;
     found_ = inside_ = low;
     if (leaves(touchCount_ == 1 ? ride.placedMost : POSITION_MOST))
@@ -766,19 +797,31 @@ bool Settler::bracket(Real from)
     if (again_) {
         position_ = from;
         excess_ = lookAt<PLAIN>(from, slope_) - ISOVALUE;
-        out = excess_ < Real(0);
+        out = excess_ < BARELY;
         if (!out) {
-            buried_ = excess_;
-            found_ = clamp(slope_ < Real(0) ? from + HINT_STEP : from - HINT_STEP, PROBE, POSITION_MOST);
+            // Where it slopes, it comes nearer elsewhere.
+            buried_ = excess_ - shiftDown(slope_ * slope_, 2);
+            const Real way = clamp(shiftDown(absolute(slope_), 1), HINT_STEP, HINT_FAR);
+            found_ = clamp(slope_ < Real(0) ? from + way : from - way, PROBE, POSITION_MOST);
             const int32_t steps = stepsOf(buried_, waitField());
             if (buried_ > NEARLY && steps > HINT_ALONE)
                 return false;
+            const Real first = excess_, firstSlope = slope_;
             position_ = found_;
             excess_ = lookAt<PLAIN>(found_, slope_) - ISOVALUE;
-            out = excess_ < Real(0);
+            out = excess_ < BARELY;
             if (!out && steps > HINT_NO_SEARCH) {
                 buried_ = least(buried_, excess_);
                 return false;
+            }
+            // Where it falls on one side and rises on the other, the least of it lies between.
+            if (!out && (firstSlope < Real(0)) != (slope_ < Real(0))) {
+                const Real share = firstSlope / (firstSlope - slope_);
+                buried_ = first + shiftDown(firstSlope * (found_ - from) * share, 1);
+                if (buried_ > VALLEY) {
+                    found_ = from + (found_ - from) * share;
+                    return false;
+                }
             }
         }
         again_ = false;
@@ -865,9 +908,13 @@ void Settler::profileFor(RideNear* ofRide)
     near.profile->make(near.a0, near.c0, -near.change * settler_->o_.radius_, ride.placedMost);
 }
 
-// Where it was, and what is known of it holds.
+// Where it was, and what is known of it holds, unless its normal may have turned all the same.
 void Settler::stays(Seed* s)
 {
+    if (bent_) {
+        settler_->shade<true>(*s, s->position);
+        return;
+    }
     const int32_t steps = settler_->keptSteps(s->path, s->position, ride.excess);
     if (steps > 0)
         settler_->wait(*s, s->flags, steps);
@@ -1003,7 +1050,7 @@ void Settler::settleSeed(Seed& s)
     }
     Real slope;
     const Real off = lookAt<false>(s.position, slope) - ISOVALUE;
-    if (!(s.flags & SEED_KEPT) || strength_ > Real(0) || absolute(off) > DISPLACEMENT)
+    if (!(s.flags & SEED_KEPT) || bent_ || strength_ > Real(0) || absolute(off) > DISPLACEMENT)
         follow(s, off, slope);
 }
 
@@ -1064,6 +1111,8 @@ void Settler::shadeAcross(Seed* seed)
     const Normal place{s.voxel.x, s.voxel.y, rawFromReal(s.path.z * position) >> 8};
     const int32_t facing = product(n, light), outward = product(place, n);
     const int32_t aside = product(place, light) - (facing * outward >> 14);
+    // Of a product of a length.
+    const auto units = [](int32_t a, int32_t length) { return static_cast<int32_t>(static_cast<int64_t>(a) * length >> 8); };
     const auto bend = [](Real t, Real share, int32_t off) {
         return mulShift16(rawFromReal(share * (Real(34.0 / 9) - t * Real(24.0 / 9))) * 4, off);
     };
@@ -1072,8 +1121,6 @@ void Settler::shadeAcross(Seed* seed)
     int32_t x = 0, y = 0, z = 0;
     for (int i = 0; i < touchCount_; ++i) {
         const Near& near = touch(i);
-        if (near.pull.ratio > RATIO_BENT)
-            return;
         const int32_t share = rawFromReal(slopes_[i] * near.pull.ratio) >> 6;
         if (share == 0)
             continue;
@@ -1082,36 +1129,28 @@ void Settler::shadeAcross(Seed* seed)
         const Real t = near.a0 + position * (ride.b[i] + position * near.c0);
         const int32_t part = bend(t, near.bend, aside + product(from, light) - (facing * out >> 14));
         along += share;
-        pulled += share * out;
+        pulled += units(share, out);
         bent += part;
-        x += part * from.x;
-        y += part * from.y;
-        z += part * from.z;
+        x += units(part, from.x);
+        y += units(part, from.y);
+        z += units(part, from.z);
     }
-    x = ((x + bent * place.x) >> 8) + (along * light.x >> 14);
-    y = ((y + bent * place.y) >> 8) + (along * light.y >> 14);
-    z = ((z + bent * place.z) >> 8) + (along * light.z >> 14);
-    const int32_t steep = -(along * outward + pulled) >> 8;
+    x += units(bent, place.x) + mulDiv(along, light.x, 1 << 14);
+    y += units(bent, place.y) + mulDiv(along, light.y, 1 << 14);
+    z += units(bent, place.z) + mulDiv(along, light.z, 1 << 14);
+    const int32_t steep = -(units(along, outward) + pulled);
     if (steep < 16)
         return;
     // A way across the picture is a longer one on the surface, twice as long at most.
     const int32_t depth = skew_.depth(s.path * position);
-    const int32_t longer = 2 * ride.facing > depth ? (depth << 8) / ride.facing : 512, deep = longer * z >> 8;
+    const int32_t longer = 2 * ride.facing > depth ? (depth << 8) / ride.facing : 512, deep = units(longer, z);
     const auto change = [steep](int32_t c) {
         const int32_t most = steep >> 2;
-        return (c < -most ? -most : c > most ? most : c) * (-8 * BRIGHTEST) / steep;
+        return mulDiv(c < -most ? -most : c > most ? most : c, -8 * BRIGHTEST, steep);
     };
-    x = change(x + (n.x * deep >> 14));
-    y = change(y + (n.y * deep >> 14));
-    int32_t corner = ((x < 0 ? -x : x) * s.voxel.wide + (y < 0 ? -y : y) * s.voxel.high) >> 11;
-    if (corner < EVEN)
-        return;
-    for (; corner > SHADING_MOST; corner >>= 1) {
-        x /= 2;
-        y /= 2;
-    }
-    s.voxel.slopeX = static_cast<int8_t>(x);
-    s.voxel.slopeY = static_cast<int8_t>(y);
+    x = change(x + mulDiv(n.x, deep, 1 << 14));
+    y = change(y + mulDiv(n.y, deep, 1 << 14));
+    setSlopes(s.voxel, x, y, small_ || bent_ ? EVEN_SMALL : EVEN);
 }
 
 // Of a patch to which nothing happened: until when nothing will, nor to the seeds that its own are paired with.

@@ -122,7 +122,7 @@ SoftObject::SoftObject(int number, Real size, bool tapers)
     : number_(number), centre_{Real(0), Real(0), Real(0)}, turn_(Matrix::identity()), size_(size),
       radius_(shiftDown(size, 1)), inverse_(Real(16) / size), recalc_(true), tapers_(tapers), displaced_(false),
       restStale_(false), spacing_(2), wanted_(2), laidSize_(size), stale_(false),
-      light_{Real(0), Real(0), Real(0)}, ramp_(nullptr), travel_(0), linksChanged_(true), turning_(1), nearMark_(0),
+      light_{Real(0), Real(0), Real(0)}, ramp_(nullptr), travel_(0), linksChanged_(true), bent_(false), turning_(1), nearMark_(0),
       eyeApart_{Real(0), Real(0), Real(0)}, eyeSpeed_(0), sizeSeen_(size), drift_(0), eyeDrawn_{Real(0), Real(0), Real(0)},
       seeds_(nullptr), regular_(0), extra_(0), roots_(nullptr), rootRest_(nullptr), rootCount_(0), rest_(nullptr),
       patchRest_(nullptr), patches_(nullptr), patchCount_(0), kept_(nullptr)

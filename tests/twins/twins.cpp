@@ -101,7 +101,8 @@ struct RideLayout {
                   inride::RIDE_INRANGE == offsetof(RideFrame, inRange) && inride::RIDE_REACHED == offsetof(RideFrame, reached) &&
                   inride::RIDE_HOLDS == offsetof(RideFrame, holds) &&
                   inride::RIDE_PROFILEFOR == offsetof(RideFrame, profileFor) && inride::RIDE_STAYS == offsetof(RideFrame, stays) &&
-                  inride::RIDE_HELD == offsetof(RideFrame, held) && inride::RIDE_ROUGH == offsetof(RideFrame, rough) && inride::RIDE_LOST == offsetof(RideFrame, lost) &&
+                  inride::RIDE_HELD == offsetof(RideFrame, held) && inride::RIDE_ROUGH == offsetof(RideFrame, rough) && inride::RIDE_UNEVEN == offsetof(RideFrame, uneven) &&
+                  inride::RIDE_UNEVENTWICE == offsetof(RideFrame, unevenTwice) && inride::RIDE_LOST == offsetof(RideFrame, lost) &&
                   inride::RIDE_B == offsetof(RideFrame, b) && inride::RIDE_BEYOND == offsetof(RideFrame, beyond) &&
                   inride::RIDE_SHADE == offsetof(RideFrame, shade), "RideFrame");
     static_assert(inride::RUN_MIDDLEX == offsetof(SeedRun, middle) && inride::RUN_MIDDLEY == offsetof(SeedRun, middle.y) &&
@@ -121,7 +122,7 @@ struct RideLayout {
                   inride::PROFILE_RISE == offsetof(Profile, cells_) + offsetof(Profile::Cell, rise) &&
                   inride::PROFILE_CELL == sizeof(Profile::Cell) && inride::NOT_MADE == Profile::NOT_MADE, "Profile");
     static_assert(inride::B_SHIFT == B_SHIFT && inride::WAIT_MOST == WAIT_MOST && inride::AWAY_MOST == Real(AWAY_MOST).raw &&
-                  inride::DISPLACEMENT == DISPLACEMENT.raw && inride::OVER_BACK == OVER_BACK && inride::ROUGH == ROUGH &&
+                  inride::DISPLACEMENT == DISPLACEMENT.raw && inride::OVER_BACK == OVER_BACK &&
                   inride::SHORT_STEP == SHORT_STEP.raw && inride::LONGEST_STEP == LONGEST_STEP.raw && inride::LOOK_LIMIT == LOOK_LIMIT &&
                   inride::FLAT == FLAT.raw && inride::PLACED_LEAST == PLACED_LEAST.raw && inride::POSITION_MOST == POSITION_MOST.raw &&
                   inride::ISOVALUE == ISOVALUE.raw && inride::OWN_FIRST == OWN_FIRST && inride::OWN_STEP == sizeof(OwnStep) &&
@@ -1097,6 +1098,8 @@ void anyRide()
     ride.held = heldCalled;
     ride.lost = lostCalled;
     ride.rough = roughCalled;
+    ride.uneven = 10;
+    ride.unevenTwice = 20;
     ride.shaded = nullptr;
     ride.facing = 0;
 }
