@@ -18,6 +18,11 @@ struct Camera {
     Real centreY{100};
 };
 
+// Pixels: columns left to before right, rows top to before bottom.
+struct Rectangle {
+    int left, top, right, bottom;
+};
+
 class View {
 public:
     ~View();
@@ -40,13 +45,29 @@ public:
     // out. Returns the number of scales drawn.
     int show(const VoxelList& list);
 
+    // The smallest rectangle known to hold all that has been shown since the last call or begin().
+    Rectangle takeShown();
+
     // Text and lines on top of the picture: marks a rectangle of pixels as touched and gives the frame to draw into.
     uint8_t* overlay(int left, int top, int wide, int high);
 
     // Closes the gaps between scales: empty pixels take over colour and depth of the drawn ones beside them, where an
     // opening is small (the limits stand in view.cpp) or ends between drawn pixels. `spacing` of the seeds, units. For when
     // all objects are drawn, before anything is written over them; single pixels are left alone.
-    void closeGaps(Real spacing);
+    // Returns the number of pixels that were drawn before.
+    int closeGaps(Real spacing);
+
+    // Of the frame as it is so far: a pixel (row * WIDTH + column) is given a depth (1/128 unit) and a colour, or what
+    // another one has; and between which columns of a row anything may be drawn.
+    void setPixel(int at, int depth, uint8_t colour)
+    {
+        zbuffer_[at] = static_cast<uint16_t>(depth);
+        frame_[at] = colour;
+    }
+    void copyPixel(int at, int from) { takeOver(at, from); }
+    // A pixel that was empty is to be drawn: it may lie beyond all that was touched.
+    void touchPixel(int at);
+    const Span& touched(int row) const { return touched_[row]; }
 
     // Ends a frame; rows() then tells what differs from the frame before.
     void end();
@@ -63,13 +84,18 @@ private:
     void closeFrom(int y, int from, int to, int step, int widest, int narrowest);
     void fillRow(int y, const Span& empty);
     void closeSlit(int y, int x, int end, int step);
-    void takeOver(int at, int from);
+    void takeOver(int at, int from)
+    {
+        frame_[at] = frame_[from];
+        zbuffer_[at] = zbuffer_[from];
+    }
     bool project(const Voxel& voxel, FineScale* scale) const;
 
     Camera camera_;
     int32_t focalX_ = 0, focalY_ = 0, centreX_ = 0, centreY_ = 0;  // pixels, 12 bits of fraction
     Lens lens_{};
     bool pixels_ = false;
+    Rectangle shown_{machine::WIDTH, machine::HEIGHT, 0, 0};
     uint8_t* frame_ = nullptr;
     uint16_t* zbuffer_ = nullptr;
     Factors* factors_ = nullptr;

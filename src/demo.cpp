@@ -2,6 +2,7 @@
 #include "demo.h"
 
 #include "alloc.h"
+#include "contour.h"
 #include "dump.h"
 #include "edit.h"
 #include "machine.h"
@@ -60,6 +61,7 @@ private:
     const Options& options_;
     Model model_;
     View view_;
+    Contours contours_;
     Palette palette_;
     Dump dump_;
     Stats stats_;
@@ -365,6 +367,7 @@ void Demo::frame()
     }
 
     view_.begin();
+    contours_.begin();
     const int selected = editor_.selected();
     for (int i = 0; i < count; ++i) {
         SoftObject& object = *model_.actor(order[i]).object;
@@ -380,10 +383,14 @@ void Demo::frame()
             object.draw(look, *voxels_, VOXELS_AT_ONCE, &next);
             counts_.drawn += static_cast<uint32_t>(view_.show(*voxels_));
         } while (next != 0);
+        contours_.add(object, view_.takeShown());
         object.setRamp(ramp);
     }
-    if (!look.printed)
-        view_.closeGaps(spacing_);
+    if (!look.printed) {
+        const int pixels = view_.closeGaps(spacing_);
+        if (!view_.pixels())
+            contours_.correct(view_, look, spacing_, pixels);
+    }
     drawOverlay();
     view_.end();
 }

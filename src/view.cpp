@@ -76,6 +76,7 @@ void View::setCamera(const Camera& camera)
 void View::begin()
 {
     clearRows(frame_, zbuffer_, touched_, HEIGHT);
+    shown_ = {WIDTH, HEIGHT, 0, 0};
     for (int y = 0; y < HEIGHT; ++y)
         touched_[y] = {WIDTH, 0};
 }
@@ -88,12 +89,30 @@ void View::mark(int left, int top, int right, int bottom)
     bottom = bottom > HEIGHT ? HEIGHT : bottom;
     if (left >= right)
         return;
+    shown_.left = left < shown_.left ? left : shown_.left;
+    shown_.right = right > shown_.right ? right : shown_.right;
+    shown_.top = top < shown_.top ? top : shown_.top;
+    shown_.bottom = bottom > shown_.bottom ? bottom : shown_.bottom;
     for (int y = top; y < bottom; ++y) {
         if (touched_[y].from > left)
             touched_[y].from = static_cast<int16_t>(left);
         if (touched_[y].to < right)
             touched_[y].to = static_cast<int16_t>(right);
     }
+}
+
+void View::touchPixel(int at)
+{
+    const int row = at / WIDTH, column = at - row * WIDTH;
+    if (column < touched_[row].from || column >= touched_[row].to)
+        mark(column, row, column + 1, row + 1);
+}
+
+Rectangle View::takeShown()
+{
+    const Rectangle box = shown_;
+    shown_ = {WIDTH, HEIGHT, 0, 0};
+    return box;
 }
 
 // A voxel that drawScales() left: any size and place. False: not on the screen.
@@ -205,10 +224,11 @@ static inline bool inSlit(const uint8_t* pixel)
 }
 
 // Looks at each row once, and at more only where a run of empty pixels between drawn ones is short.
-void View::closeGaps(Real spacing)
+int View::closeGaps(Real spacing)
 {
     if (pixels_)
-        return;
+        return 0;
+    int drawn = 0;
     // A spacing in pixels is this over a depth of the Z-buffer.
     const int32_t near = mulShift16(focalX_, rawFromReal(spacing)) >> (FRACTION - 7);
     Span runs[WIDTH / 2];
@@ -221,6 +241,7 @@ void View::closeGaps(Real spacing)
         int last = 0;  // behind the run before
         for (const Span* run = runs; run < end; ++run) {
             const int from = run->from;
+            drawn += run->to - from;
             if (last > 0 && from - last <= GAP_MOST) {
                 const int before = zbuffer_[y * WIDTH + last - 1], behind = zbuffer_[y * WIDTH + from];
                 closeRun(y, last, from, near / ((before > behind ? before : behind) | 1));
@@ -234,6 +255,7 @@ void View::closeGaps(Real spacing)
         if (last > 0 && last < WIDTH && inSlit(row + last))
             closeSlit(y, last, WIDTH, 1);
     }
+    return drawn;
 }
 
 // Pixels from column `from` to before `to` are empty, those on both sides are not; seeds lie `spacing` pixels apart there.
@@ -350,12 +372,6 @@ void View::closeSlit(int y, int x, int end, int step)
             takeOver(at + i * WIDTH, 2 * i < high ? at - WIDTH : at + high * WIDTH);
         mark(x, y, x + 1, y + high);
     }
-}
-
-inline void View::takeOver(int at, int from)
-{
-    frame_[at] = frame_[from];
-    zbuffer_[at] = zbuffer_[from];
 }
 
 uint8_t* View::overlay(int left, int top, int wide, int high)

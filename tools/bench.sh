@@ -120,6 +120,7 @@ per_frame() {
 				else if (f ~ /(^| )(Lister::|SoftObject::draw)/) s = "draw"
 				else if (f ~ /^(drawScalesA|blitScalesA)|(^| )View::(project|show)/) s = "scales"
 				else if (f ~ /closeGaps|closeRun|closeCorner|closeAbove|closeFrom|closeSlit|fillRow|takeOver|^drawnRunsA/) s = "gaps"
+				else if (f ~ /(^| )Contours::/) s = "contours"
 				else if (f ~ /^clearRowsA|(^| )View::begin/) s = "clear"
 				else if (f ~ /^presentRows|(^| )View::(mark|touch|end)/) s = "present"
 				else s = "other"
@@ -157,6 +158,7 @@ page_stages() {
 	draw draw: scales of seeds
 	scales scales: project and draw them (assembly but for few)
 	gaps close what gaps are left
+	contours put outlines right
 	clear clear (assembly; string instructions, by repetition)
 	present present (assembly; likewise)
 	other other: move the objects, and the rest
