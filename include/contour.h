@@ -68,6 +68,7 @@ private:
     bool visit(int at);
     bool peek(int at, int here);
     bool putAny(int at, int depth);
+    bool buried() const;
     void uncover(int at);
     void aim(int at);
     Vector onRay(Real depth) const;

@@ -19,8 +19,10 @@ constexpr int HEIGHTS = 64;
 constexpr Real DEEP(2);
 // Spacing of the seeds in pixels, from which on the background is looked at too: outlines are ragged by as much.
 constexpr int COARSE = 10;
-// In spacings, the size of objects that are drawn by a few scales only, with which it is the same.
+// In spacings, the size of objects that are drawn by a few scales only, with which it is the same; as long as they are few, for
+// with many it would be the most of the work.
 constexpr Real SMALL(8);
+constexpr int FEW = 16;
 // Jumps are looked for at every so manyth pixel of every so manyth row, and followed from there.
 constexpr int STEP_ACROSS = 4;
 constexpr int STEP_DOWN = 3;
@@ -45,6 +47,7 @@ constexpr Real ALONE(256 * 0.25);
 constexpr Real NEARLY(256 * 0.03);
 constexpr Real STRONGEST(256 * 0.36);  // where two make up the isovalue, it is the stronger one
 constexpr Real NOBODY(256 * 0.6);
+constexpr Real CLEARLY(256 * 0.02);  // by how much less one is stronger than another
 constexpr Real UNLIKELY(0.3);  // of the field
 constexpr Real FAR(256 * 0.9);  // where others would have to make up for all of it
 
@@ -246,7 +249,7 @@ void Contours::setUp(const Look& look, Real spacing)
         d.inverse16 = Real(16) / d.size;
         d.inverse256 = d.inverse16 * d.inverse16;
     }
-    if (!together_)
+    if (balls_ && !together_)
         jump = ::least(jump, spacing * JUMP_SHARP);
     jump_ = rawFromReal(jump) >> 9;
     const Camera& c = view_->camera();
@@ -254,7 +257,7 @@ void Contours::setUp(const Look& look, Real spacing)
     whole_ = false;
     for (int i = 0; i < count_; ++i) {
         const Drawn& d = drawn_[i];
-        whole_ = whole_ || (d.ball && (d.from.z - shiftDown(d.size, 1) < coarse || d.size < spacing * SMALL));
+        whole_ = whole_ || (d.ball && (d.from.z - shiftDown(d.size, 1) < coarse || (count_ <= FEW && d.size < spacing * SMALL)));
     }
     perColumn_ = mulDiv(65536, 1 << 28, rawFromReal(c.focalX));
     perRow_ = mulDiv(65536, 1 << 28, rawFromReal(c.focalY));
@@ -293,7 +296,7 @@ void Contours::choose(int pixels, Real spacing)
     // Of a jump found in one row, three others were not; about a third of them is wrong by a pixel. So that is what squares of
     // heights (half units) may add up to.
     int32_t room = mulDiv(pixels, rawFromReal(spacing * spacing * LEFT), 65536);
-    if (jumps_ == JUMPS_MOST || whole_ || !together_)
+    if (jumps_ == JUMPS_MOST || whole_ || (balls_ && !together_))
         room = 0;
     int32_t squares[HEIGHTS] = {};
     for (int i = 0; i < jumps_; ++i) {
@@ -393,13 +396,30 @@ bool Contours::putAny(int at, int depth)
     for (int i = 0; i < count_; ++i) {
         if (!drawn_[i].ball)
             continue;
+        // Most are far from the ray; to find what they blend with takes longer than to see that.
+        if (param(drawn_[i], onRay(nearest(drawn_[i]))) > FAR && param(drawn_[i], onRay(realFromRaw(depth << 9))) >= Real(256))
+            continue;
         setOwner(&drawn_[i]);
         if (grazes(NO_DEPTH) || meets(depth, NO_DEPTH)) {
             front();
+            if (!together_ && buried())
+                continue;
             put(at);
             return true;
         }
     }
+    return false;
+}
+
+// Whether something that blends with the owner is stronger at u_: then it is not the owner's surface, and nobody's if the two do
+// not blend with the same others.
+bool Contours::buried() const
+{
+    const auto param = [&](const Along& a) { return a.param + u_ * (a.slope + u_ * a.bend); };
+    const Real own = param(along_[0]);
+    for (int n = 1; n < reached_; ++n)
+        if (along_[n].weight >= Real(1) && own - param(along_[n]) > CLEARLY)
+            return true;
     return false;
 }
 
@@ -499,12 +519,18 @@ void Contours::gatherParty(Party& party, const Drawn* head) const
     party.head = head;
     party.links = 0;
     const List<Link>& skel = head->object->skel();
-    for (auto* node = skel.first(); node != nullptr; node = node->next)
-        for (int i = 0; i < count_ && party.links < NEAR_MOST; ++i)
-            if (drawn_[i].object == node->item.object && drawn_[i].ball) {
-                party.linked[party.links] = &drawn_[i];
-                party.weights[party.links++] = node->item.weight;
-            }
+    // Few are near and many may be linked.
+    for (int i = 0; i < count_ && party.links < NEAR_MOST; ++i) {
+        if (!drawn_[i].ball || !near(*head, drawn_[i]))
+            continue;
+        auto* node = skel.first();
+        while (node != nullptr && node->item.object != drawn_[i].object)
+            node = node->next;
+        if (node != nullptr) {
+            party.linked[party.links] = &drawn_[i];
+            party.weights[party.links++] = node->item.weight;
+        }
+    }
 }
 
 void Contours::take(const Party& party)
