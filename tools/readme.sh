@@ -2,15 +2,16 @@
 # Puts measured figures into README.md: what stands there between "<!-- measured: NAME -->" and "<!-- end -->" is made
 # anew by measuring, so that no figure is typed by hand.
 #
-#   sh tools/readme.sh [NAME...]    stats truth bench pictures; default: all but pictures (ten minutes)
+#   sh tools/readme.sh [NAME...]    stats truth hurt bench pictures; default: all but pictures (ten minutes)
 #
 #   stats     DEMO.EXE's statistics of 600 frames in DOSBox, by default and with /P
 #   truth     the minute of the four spheres held against the true surface
+#   hurt      the same of scenes made to hurt, and of random ones
 #   bench     the benchmark, over the whole minute
 #   pictures  all pictures (tools/picture.sh)
 set -eu
 cd "$(dirname "$0")/.." || exit 1
-[ $# -gt 0 ] || set -- stats truth bench
+[ $# -gt 0 ] || set -- stats truth hurt bench
 dir=$(mktemp -d "${TMPDIR:-/tmp}/fbreadme.XXXXXX")
 trap 'rm -rf "$dir"' EXIT
 trap 'exit 1' HUP INT TERM
@@ -94,6 +95,15 @@ truth() {
 	put truth "$dir/truth"
 }
 
+hurt() {
+	{
+		echo '```'
+		sh tests/scenes/truth.sh some
+		echo '```'
+	} >"$dir/hurt"
+	put hurt "$dir/hurt"
+}
+
 bench() {
 	make -s bench FULL=1 >/dev/null
 	{
@@ -110,9 +120,9 @@ pictures() {
 
 for block in "$@"; do
 	case $block in
-	stats | truth | bench | pictures) $block ;;
+	stats | truth | hurt | bench | pictures) $block ;;
 	*)
-		echo "readme.sh: stats, truth, bench or pictures is expected, not $block" >&2
+		echo "readme.sh: stats, truth, hurt, bench or pictures is expected, not $block" >&2
 		exit 2
 		;;
 	esac
