@@ -23,8 +23,8 @@ public:
     void add(const SoftObject& object, const Rectangle& box);
 
     // Puts right the pixels beside jumps of the depth, and those where surfaces cross that do not blend, when all is drawn and
-    // gaps are closed. Only balls are looked at, against whatever lies behind them; which is the background only where the
-    // viewer is near, or objects are small. `spacing` of the seeds, units; `pixels` that are drawn, about.
+    // gaps are closed. Only where all objects are balls. What lies behind is the background only where the viewer is near, or
+    // where objects are small and few. `spacing` of the seeds, units; `pixels` that are drawn, about.
     void correct(View& view, const Look& look, Real spacing, int pixels);
 
 private:

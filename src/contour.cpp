@@ -122,7 +122,7 @@ void Contours::correct(View& view, const Look& look, Real spacing, int pixels)
     view_ = &view;
     queued_ = jumps_ = 0;
     setUp(look, spacing);
-    if (count_ < 2 && !whole_)
+    if (!balls_ || (count_ < 2 && !whole_))
         return;
     const Real jump = realFromRaw(jump_ << 9), apart = jump * Real(0.75), deep = jump * DEEP;
     deep_ = false;
@@ -130,7 +130,7 @@ void Contours::correct(View& view, const Look& look, Real spacing, int pixels)
         for (int j = 0; j < count_; ++j) {
             const Real behind = drawn_[j].from.z - drawn_[i].from.z;
             deep_ = deep_ || behind > deep;
-            if (behind > apart || !drawn_[i].ball || !drawn_[j].ball)
+            if (behind > apart)
                 scan(drawn_[i], drawn_[j]);
         }
     if (whole_)
@@ -249,7 +249,7 @@ void Contours::setUp(const Look& look, Real spacing)
         d.inverse16 = Real(16) / d.size;
         d.inverse256 = d.inverse16 * d.inverse16;
     }
-    if (balls_ && !together_)
+    if (!together_)
         jump = ::least(jump, spacing * JUMP_SHARP);
     jump_ = rawFromReal(jump) >> 9;
     const Camera& c = view_->camera();
@@ -296,7 +296,7 @@ void Contours::choose(int pixels, Real spacing)
     // Of a jump found in one row, three others were not; about a third of them is wrong by a pixel. So that is what squares of
     // heights (half units) may add up to.
     int32_t room = mulDiv(pixels, rawFromReal(spacing * spacing * LEFT), 65536);
-    if (jumps_ == JUMPS_MOST || whole_ || (balls_ && !together_))
+    if (jumps_ == JUMPS_MOST || whole_ || !together_)
         room = 0;
     int32_t squares[HEIGHTS] = {};
     for (int i = 0; i < jumps_; ++i) {
@@ -458,8 +458,8 @@ void Contours::uncover(int at)
             return;
         }
     }
-    // Where the background is looked at, it may be that; but what other objects there are is not known.
-    if (whole_ && balls_ && own(z[last])) {
+    // Where the background is looked at, it may be that.
+    if (whole_ && own(z[last])) {
         if (grazes(NO_DEPTH) || meets(z[last], NO_DEPTH)) {
             front();
             put(at);
