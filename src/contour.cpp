@@ -23,6 +23,8 @@ constexpr int COARSE = 10;
 // with many it would be the most of the work.
 constexpr Real SMALL(8);
 constexpr int FEW = 16;
+// Who asks for seeds farther apart than this asks for speed.
+constexpr Real USUAL(2);
 // Jumps are looked for at every so manyth pixel of every so manyth row, and followed from there.
 constexpr int STEP_ACROSS = 4;
 constexpr int STEP_DOWN = 3;
@@ -253,11 +255,11 @@ void Contours::setUp(const Look& look, Real spacing)
         jump = ::least(jump, spacing * JUMP_SHARP);
     jump_ = rawFromReal(jump) >> 9;
     const Camera& c = view_->camera();
-    const Real coarse = spacing * c.focalX * Real(1.0 / COARSE);
+    const Real fine = ::least(spacing, USUAL), coarse = fine * c.focalX * Real(1.0 / COARSE);
     whole_ = false;
     for (int i = 0; i < count_; ++i) {
         const Drawn& d = drawn_[i];
-        whole_ = whole_ || (d.ball && (d.from.z - shiftDown(d.size, 1) < coarse || (count_ <= FEW && d.size < spacing * SMALL)));
+        whole_ = whole_ || (d.ball && (d.from.z - shiftDown(d.size, 1) < coarse || (count_ <= FEW && d.size < fine * SMALL)));
     }
     perColumn_ = mulDiv(65536, 1 << 28, rawFromReal(c.focalX));
     perRow_ = mulDiv(65536, 1 << 28, rawFromReal(c.focalY));

@@ -89,11 +89,11 @@ if command -v valgrind >/dev/null; then
 			if (seen["fps"] != 19 || seen["instructions"] != 10 || seen["stage"] != 9 || seen["loop"] != 5 || seen["growth"] != 5)
 				bad = 1
 			sum = 0
-			split("update normals draw scales gaps clear present other", names, " ")
+			split("update normals draw scales gaps contours clear present other", names, " ")
 			for (i in names) {
 				cost = number["stage", names[i], "instructions"]
-				# Closing gaps may one day cost nothing; the others are work.
-				if (cost <= 0 && names[i] != "gaps") { print names[i] ": " cost; bad = 1 }
+				# Closing gaps and putting outlines right may one day cost nothing; the others are work.
+				if (cost <= 0 && names[i] != "gaps" && names[i] != "contours") { print names[i] ": " cost; bad = 1 }
 				sum += cost
 			}
 			all = number["stage", "all", "instructions"]
