@@ -16,7 +16,11 @@
 class Contours {
 public:
     // Starts a frame: no object is drawn yet.
-    void begin() { count_ = 0; }
+    void begin()
+    {
+        count_ = 0;
+        balls_ = true;
+    }
 
     // An object as it has just been drawn, with the ramp that it has now, and where it was drawn. No more than OBJECTS_MOST are
     // taken.
@@ -37,7 +41,7 @@ private:
         const SoftObject* object;
         const uint8_t* ramp;
         Rectangle box;
-        bool ball;
+        bool within;              // near enough for the numbers here
         Vector from;              // from the eye to its centre
         Real size;
         int32_t inverse;              // 1 / size, 29 bits of fraction
@@ -99,8 +103,8 @@ private:
     int count_ = 0;
     bool deep_;                       // some object is far behind another
     bool whole_;                      // the background is looked at too
-    bool together_;                   // all are balls that blend with all others
-    bool balls_;                      // all are balls
+    bool together_;                   // all blend with all others
+    bool balls_ = true;               // all are balls
 
     Party parties_[2];
     const Drawn* owner_ = nullptr;    // of the surface in question: the head of party_

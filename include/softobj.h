@@ -326,7 +326,7 @@ private:
     Real sizeSeen_;
     // How far the viewer has moved against it, 1/64 unit, counted in moves of DRIFT_LEAST or more; wraps round. Where he
     // was at the last of them. And how far he may move until seeds at rest are laid anew: his distance in 1/32 unit over
-    // DRIFT_SHARE, a twentieth of it, which turns what he sees of them by three degrees at most; but no more than DRIFT_KEPT.
+    // DRIFT_SHARE, a sixteenth of it, which turns what he sees of them by 3.6 degrees at most; but no more than DRIFT_KEPT.
     static constexpr int32_t DRIFT_KEPT = 400;
     static constexpr int32_t DRIFT_SHARE = 8;
     static constexpr int32_t DRIFT_LEAST = 16;

@@ -61,12 +61,13 @@ public:
     // another one has; and between which columns of a row anything may be drawn.
     void setPixel(int at, int depth, uint8_t colour)
     {
+        // What was empty may lie beyond all that was touched.
+        if (zbuffer_[at] == Z_EMPTY)
+            touchPixel(at);
         zbuffer_[at] = static_cast<uint16_t>(depth);
         frame_[at] = colour;
     }
     void copyPixel(int at, int from) { takeOver(at, from); }
-    // A pixel that was empty is to be drawn: it may lie beyond all that was touched.
-    void touchPixel(int at);
     const Span& touched(int row) const { return touched_[row]; }
 
     // Ends a frame; rows() then tells what differs from the frame before.
@@ -77,6 +78,7 @@ public:
     const Span* rows() const { return present_; }
 
 private:
+    void touchPixel(int at);
     void mark(int left, int top, int right, int bottom);
     void closeRun(int y, int from, int to, int spacing);
     void closeCorner(int y, int x, int step);

@@ -1,6 +1,8 @@
 // Pixels beside jumps of the depth, held against the surface.
 #include "contour.h"
 
+#include "model.h"
+
 using machine::HEIGHT;
 using machine::WIDTH;
 
@@ -77,28 +79,21 @@ inline int least(int a, int b, int c)
     return a < b ? (a < c ? a : c) : b < c ? b : c;
 }
 
-// a b where b has 28 bits of fraction; 16 a b where it has 29 and a is less than 256.
-inline Real product28(Real a, int32_t b)
+// a b / 2^BITS, where a is less than 2^(BITS - 17). Of a b with 29 bits of fraction and 25 of them it makes 16 times the product.
+template <int BITS>
+inline Real product(Real a, int32_t b)
 {
 #if FB_REAL == FB_FIXED
-    return Real::fromRaw(mulHigh(a.raw * 16, b));
+    return Real::fromRaw(mulHigh(a.raw * (1 << (32 - BITS)), b));
 #else
-    return a * (static_cast<Real>(b) / (1 << 28));
+    return a * (static_cast<Real>(b) / (1 << BITS));
 #endif
 }
 
-inline Real product25(Real a, int32_t b)
+// 16 v / size, of Drawn::inverse.
+inline Vector inSizes(const Vector& v, int32_t inverse)
 {
-#if FB_REAL == FB_FIXED
-    return Real::fromRaw(mulHigh(a.raw * 128, b));
-#else
-    return a * (static_cast<Real>(b) / (1 << 25));
-#endif
-}
-
-inline Vector product25(const Vector& v, int32_t b)
-{
-    return {product25(v.x, b), product25(v.y, b), product25(v.z, b)};
+    return {product<25>(v.x, inverse), product<25>(v.y, inverse), product<25>(v.z, inverse)};
 }
 
 // a b / 256 with all its bits.
@@ -115,16 +110,19 @@ inline Real product256(Real a, Real b)
 
 void Contours::add(const SoftObject& object, const Rectangle& box)
 {
+    balls_ = balls_ && object.isBall();
     if (count_ < OBJECTS_MOST)
-        drawn_[count_++] = {&object, object.ramp(), box, object.isBall(), {Real(0), Real(0), Real(0)}, Real(0), 0, Real(0), Real(0)};
+        drawn_[count_++] = {&object, object.ramp(), box, false, {Real(0), Real(0), Real(0)}, Real(0), 0, Real(0), Real(0)};
 }
 
 void Contours::correct(View& view, const Look& look, Real spacing, int pixels)
 {
+    if (!balls_)
+        return;
     view_ = &view;
     queued_ = jumps_ = 0;
     setUp(look, spacing);
-    if (!balls_ || (count_ < 2 && !whole_))
+    if (count_ < 2 && !whole_)
         return;
     const Real jump = realFromRaw(jump_ << 9), apart = jump * Real(0.75), deep = jump * DEEP;
     deep_ = false;
@@ -137,13 +135,13 @@ void Contours::correct(View& view, const Look& look, Real spacing, int pixels)
         }
     if (whole_)
         for (int i = 0; i < count_; ++i)
-            if (drawn_[i].ball)
+            if (drawn_[i].within)
                 scan(drawn_[i], drawn_[i]);
     choose(pixels, spacing);
     if (!together_)
         for (int i = 0; i < count_; ++i)
             for (int j = 0; j < i; ++j)
-                if (drawn_[i].ball && drawn_[j].ball && !linked(drawn_[i], drawn_[j]) && near(drawn_[i], drawn_[j]))
+                if (drawn_[i].within && drawn_[j].within && !linked(drawn_[i], drawn_[j]) && near(drawn_[i], drawn_[j]))
                     cross(drawn_[i], drawn_[j]);
     owner_ = nullptr;
     for (int i = 0; i < queued_; ++i) {
@@ -174,7 +172,7 @@ void Contours::aim(int at)
 
 inline Vector Contours::onRay(Real depth) const
 {
-    return {product28(depth, rayX_), product28(depth, rayY_), depth};
+    return {product<28>(depth, rayX_), product<28>(depth, rayY_), depth};
 }
 
 // Where the ray comes nearest to an object's centre.
@@ -189,19 +187,14 @@ inline Real Contours::param(const Drawn& d, const Vector& place) const
     const Vector v = place - d.from;
     if (absolute(v.x) >= d.size || absolute(v.y) >= d.size || absolute(v.z) >= d.size)
         return Real(256);
-    const Vector v16 = product25(v, d.inverse);
+    const Vector v16 = inSizes(v, d.inverse);
     return dot(v16, v16);
 }
 
 bool Contours::linked(const Drawn& a, const Drawn& b)
 {
-    const auto has = [](const Drawn& from, const Drawn& to) {
-        for (auto* node = from.object->skel().first(); node != nullptr; node = node->next)
-            if (node->item.object == to.object)
-                return true;
-        return false;
-    };
-    return has(a, b) || has(b, a);
+    Real unused;
+    return Model::linked(a.object, b.object, &unused) || Model::linked(b.object, a.object, &unused);
 }
 
 // Whether their surfaces may touch, blended with others or not.
@@ -233,19 +226,18 @@ void Contours::setUp(const Look& look, Real spacing)
 {
     light_.set(look.light, spacing);
     owner_ = nullptr;
-    together_ = balls_ = true;
+    together_ = true;
     Real jump = spacing * JUMP;
     for (int i = 0; i < count_; ++i) {
         Drawn& d = drawn_[i];
         int links = 0;
         for (auto* node = d.object->skel().first(); node != nullptr; node = node->next)
             ++links;
-        together_ = together_ && d.ball && links == count_ - 1;
-        balls_ = balls_ && d.ball;
+        together_ = together_ && links == count_ - 1;
         d.from = d.object->centre() - look.eye;
         d.size = d.object->size();
-        d.ball = d.ball && absolute(d.from.x) < FARTHEST && absolute(d.from.y) < FARTHEST && absolute(d.from.z) < FARTHEST;
-        if (d.ball)
+        d.within = absolute(d.from.x) < FARTHEST && absolute(d.from.y) < FARTHEST && absolute(d.from.z) < FARTHEST;
+        if (d.within)
             jump = ::least(jump, d.size * JUMP_SMALL);
         d.inverse = mulDiv(65536, 1 << 29, rawFromReal(d.size));
         d.inverse16 = Real(16) / d.size;
@@ -259,7 +251,7 @@ void Contours::setUp(const Look& look, Real spacing)
     whole_ = false;
     for (int i = 0; i < count_; ++i) {
         const Drawn& d = drawn_[i];
-        whole_ = whole_ || (d.ball && (d.from.z - shiftDown(d.size, 1) < coarse || (count_ <= FEW && d.size < fine * SMALL)));
+        whole_ = whole_ || (d.within && (d.from.z - shiftDown(d.size, 1) < coarse || (count_ <= FEW && d.size < fine * SMALL)));
     }
     perColumn_ = mulDiv(65536, 1 << 28, rawFromReal(c.focalX));
     perRow_ = mulDiv(65536, 1 << 28, rawFromReal(c.focalY));
@@ -295,8 +287,8 @@ void Contours::find(int at, const Drawn& far)
 // are to be visited, and what is deeper than those left out.
 void Contours::choose(int pixels, Real spacing)
 {
-    // Of a jump found in one row, three others were not; about a third of them is wrong by a pixel. So that is what squares of
-    // heights (half units) may add up to.
+    // Each stands for those of the rows between, and only a part of them are wrong: how many is in LEFT, which is as large as
+    // the error of the default animation's depths allows.
     int32_t room = mulDiv(pixels, rawFromReal(spacing * spacing * LEFT), 65536);
     if (jumps_ == JUMPS_MOST || whole_ || !together_)
         room = 0;
@@ -396,7 +388,7 @@ bool Contours::peek(int at, int here)
 bool Contours::putAny(int at, int depth)
 {
     for (int i = 0; i < count_; ++i) {
-        if (!drawn_[i].ball)
+        if (!drawn_[i].within)
             continue;
         // Most are far from the ray; to find what they blend with takes longer than to see that.
         if (param(drawn_[i], onRay(nearest(drawn_[i]))) > FAR && param(drawn_[i], onRay(realFromRaw(depth << 9))) >= Real(256))
@@ -426,11 +418,10 @@ bool Contours::buried() const
 }
 
 // The nearest surface is not what the pixel shows: it is the next one beside it. Where there are more than one, that which the
-// ray meets, or else the last.
+// ray meets, or else the last; where the background is looked at, it may be that.
 void Contours::uncover(int at)
 {
     const uint16_t* const z = view_->zbuffer() + at;
-    int last = 0;
     for (int before = *z + jump_;;) {
         int next = NO_DEPTH, place = 0, farthest = 0;
         for (const int to : beside) {
@@ -443,37 +434,28 @@ void Contours::uncover(int at)
             }
             farthest = there > farthest ? there : farthest;
         }
-        if (next == NO_DEPTH) {
-            if (farthest != Z_EMPTY)
-                break;
-            if (!putAny(at, *z))
-                view_->setPixel(at, Z_EMPTY, 0);
-            return;
-        }
-        last = place;
-        before = next + jump_;
-        if (farthest <= before)
+        if (next == NO_DEPTH)
             break;
-        if (own(next) && (grazes(before) || meets(next, before))) {
+        before = next + jump_;
+        const bool last = farthest <= before;
+        if (last && !(whole_ && own(next))) {
+            view_->copyPixel(at, at + place);
+            return;
+        }
+        const int most = last ? NO_DEPTH : before;
+        if (own(next) && (grazes(most) || meets(next, most))) {
             front();
             put(at);
             return;
         }
+        if (last)
+            break;
     }
-    // Where the background is looked at, it may be that.
-    if (whole_ && own(z[last])) {
-        if (grazes(NO_DEPTH) || meets(z[last], NO_DEPTH)) {
-            front();
-            put(at);
-        } else if (!putAny(at, *z)) {
-            view_->setPixel(at, Z_EMPTY, 0);
-        }
-        return;
-    }
-    view_->copyPixel(at, at + last);
+    if (!putAny(at, *z))
+        view_->setPixel(at, Z_EMPTY, 0);
 }
 
-// Finds whose surface the ray meets at a depth (1/128 unit). False: no ball's.
+// Finds whose surface the ray meets at a depth (1/128 unit). False: nobody's that is known.
 bool Contours::own(int depth)
 {
     const Vector place = onRay(realFromRaw(depth << 9));
@@ -503,7 +485,7 @@ bool Contours::own(int depth)
             }
         }
     }
-    if (best == nullptr || !best->ball)
+    if (best == nullptr || !best->within)
         return false;
     if (best != owner_)
         setOwner(best);
@@ -520,18 +502,11 @@ void Contours::gatherParty(Party& party, const Drawn* head) const
 {
     party.head = head;
     party.links = 0;
-    const List<Link>& skel = head->object->skel();
     // Few are near and many may be linked.
     for (int i = 0; i < count_ && party.links < NEAR_MOST; ++i) {
-        if (!drawn_[i].ball || !near(*head, drawn_[i]))
-            continue;
-        auto* node = skel.first();
-        while (node != nullptr && node->item.object != drawn_[i].object)
-            node = node->next;
-        if (node != nullptr) {
-            party.linked[party.links] = &drawn_[i];
-            party.weights[party.links++] = node->item.weight;
-        }
+        const Drawn& d = drawn_[i];
+        if (d.within && near(*head, d) && Model::linked(head->object, d.object, &party.weights[party.links]))
+            party.linked[party.links++] = &d;
     }
 }
 
@@ -568,7 +543,7 @@ void Contours::gather(Real depth)
 inline void Contours::lay(Along& a, const Vector& place) const
 {
     const Drawn& d = *a.drawn;
-    const Vector v = product25(place, d.inverse);
+    const Vector v = inSizes(place, d.inverse);
     a.param = dot(v, v);
     a.slope = shiftUp(dot(v, ray_), 1) * d.inverse16;
     a.bend = square_ * d.inverse256;
@@ -824,7 +799,5 @@ void Contours::put(int at)
         if (q < Real(1))
             g = g - v * (geoffSlope(q) * a.weight * a.drawn->inverse16);
     }
-    if (view_->zbuffer()[at] == Z_EMPTY)
-        view_->touchPixel(at);
     view_->setPixel(at, rawFromReal(depth) >> 9, owner_->ramp[light_.brightness(normalise(g))]);
 }

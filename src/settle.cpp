@@ -214,7 +214,7 @@ private:
     static inline uint16_t travel_;
     static inline int32_t& paceSteps_ = ride.paceSteps;
     static inline bool keptWait_;  // those that stay where they are wait too
-    static inline bool small_;
+    static inline int even_;    // see setSlopes()
     static inline bool bent_;   // what lies about where it did may face another way
     static inline bool woken_;  // by a jump of it
     static inline int32_t& waitAway_ = ride.waitAway;
@@ -428,8 +428,9 @@ void Settler::settle()
     ride.held = held;
     ride.lost = lost;
     ride.rough = shadeAcross;
-    small_ = o_.size_ < o_.spacing_ * SMALL;
-    ride.uneven = small_ || bent_ ? UNEVEN_SMALL : UNEVEN;
+    const bool coarse = bent_ || o_.size_ < o_.spacing_ * SMALL;
+    even_ = coarse ? EVEN_SMALL : EVEN;
+    ride.uneven = coarse ? UNEVEN_SMALL : UNEVEN;
     ride.unevenTwice = 2 * ride.uneven;
     ride.shaded = nullptr;
     ownBend_ = shiftDown(o_.inverse_ * o_.inverse_, 7);
@@ -1150,7 +1151,7 @@ void Settler::shadeAcross(Seed* seed)
     };
     x = change(x + mulDiv(n.x, deep, 1 << 14));
     y = change(y + mulDiv(n.y, deep, 1 << 14));
-    setSlopes(s.voxel, x, y, small_ || bent_ ? EVEN_SMALL : EVEN);
+    setSlopes(s.voxel, x, y, even_);
 }
 
 // Of a patch to which nothing happened: until when nothing will, nor to the seeds that its own are paired with.
