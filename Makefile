@@ -6,13 +6,14 @@ REAL ?= FIXED
 
 all: build/DEMO.EXE build/demo
 
-SOURCES = $(wildcard src/*.cpp)
-HOST_SOURCES = $(SOURCES) $(wildcard src/host/*.cpp)
+include tools/parts.mk
+
+HOST_SOURCES = $(PROGRAM) $(wildcard src/host/*.cpp)
 HOST_OPT = -O2
 HOST_FLAGS = -std=c++17 $(HOST_OPT) -fno-exceptions -fno-rtti -Wall -Wextra -Iinclude -DFB_REAL=FB_$(REAL) $(HOST_DEFINES)
 
 DOS_DEFINES = -DFB_ASM=1 -DFB_REAL=FB_$(REAL)
-include $(wildcard tools/*.mk)
+include $(filter-out tools/parts.mk,$(wildcard tools/*.mk))
 
 # The host program: any C++17 compiler, 64 bits or 32, loops in C++.
 build/host/%.o: %.cpp
@@ -33,20 +34,19 @@ build/host32/%.o: %.S
 	@mkdir -p $(@D)
 	$(HOST_CXX) -m32 -x assembler-with-cpp -Iasm -MMD -MP -c $< -o $@
 
-build/demo32: $(patsubst %.cpp,build/host32/%.o,$(HOST_SOURCES)) build/host32/asm/blit.o build/host32/asm/scales.o build/host32/asm/shade.o build/host32/asm/ride.o
+build/demo32: $(patsubst %.cpp,build/host32/%.o,$(HOST_SOURCES)) $(KERNELS:%.S=build/host32/%.o)
 	$(HOST_CXX) -m32 -no-pie -static -o $@ $^
 
-build/DEMO.EXE: $(patsubst %.cpp,build/dos/%.o,$(SOURCES)) build/dos/asm/shade.o build/dos/asm/ride.o $(DOS_BASE) build/STUB.EXE build/mkexe tools/dos.ld
+build/DEMO.EXE: $(patsubst %.cpp,build/dos/%.o,$(PROGRAM)) $(KERNELS:%.S=build/dos/%.o) $(DOS_BASE) build/STUB.EXE build/mkexe tools/dos.ld
 	$(DOS_LINK)
 
 # Where a frame's time goes: larger code, 7% fewer instructions a frame.
-QUICK = src/settle.o src/draw.o src/view.o
-$(addprefix build/host/,$(QUICK)) $(addprefix build/host32/,$(QUICK)): HOST_OPT = -O3
-$(addprefix build/dos/,$(QUICK)): DOS_OPT = -O3
+$(QUICK:%=build/host/%.o) $(QUICK:%=build/host32/%.o): HOST_OPT = -O3
+$(QUICK:%=build/dos/%.o): DOS_OPT = -O3
 
 clean:
 	rm -rf build
 
 .PHONY: all clean
 
--include $(wildcard build/host/src/*.d build/host/src/host/*.d build/host32/src/*.d build/host32/src/host/*.d)
+-include $(wildcard build/host/src/*/*.d build/host32/src/*/*.d build/host32/asm/*.d)

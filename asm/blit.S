@@ -1,4 +1,4 @@
-// The innermost loops for the 386 and up. src/blit.cpp has each of them in C++ and says what it does; the tests feed
+// The innermost loops for the 386 and up. src/picture/blit.cpp has each of them in C++ and says what it does; the tests feed
 // both the same input. Above each group of instructions stands the line of C++ that it implements.
 //
 // Cycles are given as "486 / Pentium" with everything in the first-level cache. A 16-bit operand has a prefix byte: one
@@ -7,7 +7,7 @@
 
 #include "asm.h"
 
-// struct Scale (include/blit.h)
+// struct Scale (include/picture/blit.h)
 #define LEFT    0
 #define TOP     2
 #define WIDE    4

@@ -1,5 +1,5 @@
-// The seeds of a patch that neighbours reach, for the 386 and up: what settling costs most of the time. src/ride.cpp has it in
-// C++, include/ride.h says what it is about; the tests feed both the same input. Above each group of instructions stands the
+// The seeds of a patch that neighbours reach, for the 386 and up: what settling costs most of the time. src/surface/ride.cpp has it in
+// C++, include/surface/ride.h says what it is about; the tests feed both the same input. Above each group of instructions stands the
 // line of C++ that it implements.
 //
 // In assembly because it is multiplications of 32 by 32 bits of which the upper half or the middle is wanted, with hardly
@@ -15,7 +15,7 @@
 
 #include "asm.h"
 
-// struct Seed and SeedFlag (include/seed.h)
+// struct Seed and SeedFlag (include/model/seed.h)
 #define SEED_SIZE    64
 #define SEED_PATHX   0
 #define SEED_PATHY   4
@@ -35,7 +35,7 @@
 #define KEPT         8
 #define FRONT        128
 
-// struct RideNear (include/ride.h)
+// struct RideNear (include/surface/ride.h)
 #define NEAR_AZERO   16
 #define NEAR_CZERO   20
 #define NEAR_TWICEX  24
@@ -60,7 +60,7 @@
 #define NEAR_MORE    100
 #define NEAR_BIT     104
 
-// struct SeedRun (include/seed.h)
+// struct SeedRun (include/model/seed.h)
 #define RUN_MIDDLEX  0
 #define RUN_MIDDLEY  4
 #define RUN_MIDDLEZ  8
@@ -114,7 +114,7 @@
 #define RIDE_B       148
 #define RIDE_BEYOND  400
 #define RIDE_SHADE   652
-// of which these are in its ShadeFrame (include/lie.h)
+// of which these are in its ShadeFrame (include/surface/lie.h)
 #define EYE_X        RIDE_SHADE+24
 #define EYE_Y        RIDE_SHADE+28
 #define EYE_Z        RIDE_SHADE+32
@@ -124,7 +124,7 @@
 #define SLOPES       RIDE_SHADE+120
 #define PULLS        RIDE_SHADE+372
 
-// class Profile (include/profile.h)
+// class Profile (include/surface/profile.h)
 #define PROFILE_TOP  0
 #define PROFILE_DEPTH 4
 #define PROFILE_FINE 8
@@ -134,7 +134,7 @@
 #define PROFILE_CELL 8
 #define NOT_MADE     -0x7fffffff-1
 
-// Constants (include/ride.h, include/field.h)
+// Constants (include/surface/ride.h, include/model/field.h)
 #define B_SHIFT      4
 #define WAIT_MOST    0x3000
 #define AWAY_MOST    24*65536

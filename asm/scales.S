@@ -1,5 +1,5 @@
 // From voxels to pixels, for the 386 and up: the loop that a frame spends most of its time in but for settling.
-// src/scales.cpp has it in C++ and says what it does; the tests feed both the same input. Above each group of instructions
+// src/picture/scales.cpp has it in C++ and says what it does; the tests feed both the same input. Above each group of instructions
 // stands the line of C++ that it implements.
 //
 // What a scale costs before its first pixel are the eight multiplications (one takes as long as its second factor has
@@ -12,7 +12,7 @@
 
 #include "asm.h"
 
-// struct Voxel (include/voxel.h)
+// struct Voxel (include/surface/voxel.h)
 #define VOXEL_X      0
 #define VOXEL_Y      4
 #define VOXEL_Z      8
@@ -25,7 +25,7 @@
 #define VOXEL_SLOPEX 22
 #define VOXEL_SLOPEY 23
 
-// struct Factors, struct Lens and the constants (include/scales.h)
+// struct Factors, struct Lens and the constants (include/picture/scales.h)
 #define FACTOR_X   0
 #define FACTOR_Y   4
 #define FACTOR_ZX  8

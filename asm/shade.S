@@ -1,5 +1,5 @@
-// How a settled seed lies, for the 386 and up. src/lie.cpp has it in C++; what it calls stands in include/lie.h and
-// include/shade.h and says what it is about; the tests feed both the same input. Above each group of instructions stands the
+// How a settled seed lies, for the 386 and up. src/surface/lie.cpp has it in C++; what it calls stands in include/lie.h and
+// include/surface/shade.h and says what it is about; the tests feed both the same input. Above each group of instructions stands the
 // line of C++ that it implements.
 //
 // A seed that faces the viewer and has one neighbour takes about 310 instructions, one that faces away 110. Of the 310,
@@ -10,7 +10,7 @@
 
 #include "asm.h"
 
-// struct Seed (include/seed.h)
+// struct Seed (include/model/seed.h)
 #define SEED_PATHX   0
 #define SEED_PATHY   4
 #define SEED_PATHZ   8
@@ -29,7 +29,7 @@
 #define SEED_ALONG   56
 #define SEED_ACROSS  59
 
-// struct ShadeFrame (include/lie.h)
+// struct ShadeFrame (include/surface/lie.h)
 #define EYE_X        24
 #define EYE_Y        28
 #define EYE_Z        32
@@ -61,7 +61,7 @@
 #define PULL_Z       8
 #define PULL_RATIO   12
 
-// Constants (include/shade.h)
+// Constants (include/surface/shade.h)
 #define BRIGHTEST    63
 #define MARGIN       768
 #define MARGIN_UNITS 6

@@ -14,7 +14,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "scales.h"
+#include "picture/scales.h"
 
 namespace {
 

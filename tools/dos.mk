@@ -30,7 +30,7 @@ build/dos/%.o: %.S
 # The run-time and the machine are called seldom: small, not fast.
 build/dos/src/rt/%.o build/dos/src/dos/%.o: DOS_OPT = -Os
 
-DOS_BASE = build/dos/asm/start.o build/dos/asm/trap.o build/dos/asm/blit.o build/dos/asm/scales.o \
+DOS_BASE = build/dos/asm/start/start.o build/dos/asm/start/trap.o \
 	$(patsubst %.cpp,build/dos/%.o,$(wildcard src/rt/*.cpp src/dos/*.cpp))
 
 # Objects to an ELF file that lies where the loader puts it, and that with the stub in front. (Newer linkers warn of code
@@ -40,7 +40,7 @@ DOS_LINK = $(DOS_LD) $(DOS_LDFLAGS) -T tools/dos.ld -o build/dos/$(@F).elf $(fil
 	build/mkexe build/STUB.EXE build/dos/$(@F).elf $@
 
 # Tests of the machine and the run-time on the machine itself.
-build/MTEST.EXE: build/dos/tests/dos/mtest.o $(DOS_BASE) build/STUB.EXE build/mkexe tools/dos.ld
+build/MTEST.EXE: build/dos/tests/dos/mtest.o build/dos/asm/blit.o build/dos/asm/scales.o $(DOS_BASE) build/STUB.EXE build/mkexe tools/dos.ld
 	$(DOS_LINK)
 
 -include $(wildcard build/dos/*/*.d build/dos/*/*/*.d)

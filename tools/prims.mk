@@ -1,4 +1,4 @@
 # The tests of the primitives. Included by the Makefile, after tools/tests.mk's variants.
-build/primtst: $(patsubst %.cpp,build/fixed/%.o,$(filter-out src/main.cpp,$(wildcard src/*.cpp)) src/host/host.cpp \
+build/primtst: $(patsubst %.cpp,build/fixed/%.o,$(filter-out $(MAIN),$(PROGRAM)) src/host/host.cpp \
 		$(wildcard tests/prims/*.cpp))
 	$(HOST_CXX) -o $@ $^

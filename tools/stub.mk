@@ -17,9 +17,9 @@ build/STUB.EXE: build/stub/stub.elf build/mkexe
 build/stub/stub.elf: $(STUB_OBJ) tools/stub.ld
 	$(STUB_LD) -T tools/stub.ld --no-check-sections -Map build/stub/stub.map -o $@ $(STUB_OBJ)
 
-build/stub/%.o: asm/%.S asm/asm.h asm/dpmi.h
+build/stub/%.o: asm/stub/%.S asm/asm.h asm/stub/dpmi.h
 	@mkdir -p build/stub
-	$(STUB_CC) -c -o $@ $<
+	$(STUB_CC) -Iasm -c -o $@ $<
 
 build/mkexe: tools/mkexe.cpp
 	@mkdir -p build
@@ -29,7 +29,7 @@ build/mkexe: tools/mkexe.cpp
 
 # The program that tries a DPMI host, and the one that brings DOSBox to V86 mode (tests/dpmi). For the rules of DOS
 # programs this needs the Makefile.
-build/DTEST.EXE: build/dos/tests/dpmi/dtest.o build/dos/tests/dpmi/dtesta.o build/dos/asm/start.o \
+build/DTEST.EXE: build/dos/tests/dpmi/dtest.o build/dos/tests/dpmi/dtesta.o build/dos/asm/start/start.o \
 		$(patsubst %.cpp,build/dos/%.o,$(wildcard src/rt/*.cpp)) build/STUB.EXE build/mkexe tools/dos.ld
 	$(DOS_LINK)
 

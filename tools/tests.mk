@@ -10,7 +10,7 @@ TEST_CXX ?= $(HOST_CXX)
 TEST_FLAGS = -std=c++17 -Wall -Wextra -Iinclude
 
 # The program as the tests link it: all but main(), on the machine with nothing behind it.
-TEST_PARTS = $(filter-out src/main.cpp,$(wildcard src/*.cpp)) src/host/host.cpp
+TEST_PARTS = $(filter-out $(MAIN),$(PROGRAM)) src/host/host.cpp
 
 test:
 	@sh tests/run.sh
@@ -43,18 +43,18 @@ build/unit-fixed: $(UNIT_PARTS:%.cpp=build/fixed/%.o)
 build/unit-float: $(UNIT_PARTS:%.cpp=build/float/%.o)
 build/unit-double: $(UNIT_PARTS:%.cpp=build/double/%.o)
 
-build/demo-float: $(patsubst %.cpp,build/float/%.o,$(TEST_PARTS) src/main.cpp)
+build/demo-float: $(patsubst %.cpp,build/float/%.o,$(TEST_PARTS) $(MAIN))
 	$(TEST_CXX) -o $@ $^
-build/demo-double: $(patsubst %.cpp,build/double/%.o,$(TEST_PARTS) src/main.cpp)
+build/demo-double: $(patsubst %.cpp,build/double/%.o,$(TEST_PARTS) $(MAIN))
 	$(TEST_CXX) -o $@ $^
 
 build/san/unit: $(UNIT_PARTS:%.cpp=build/san/%.o)
 	$(TEST_CXX) $(SANITIZE) -o $@ $^
-build/san/demo: $(patsubst %.cpp,build/san/%.o,$(TEST_PARTS) src/main.cpp)
+build/san/demo: $(patsubst %.cpp,build/san/%.o,$(TEST_PARTS) $(MAIN))
 	$(TEST_CXX) $(SANITIZE) -o $@ $^
 
-build/twins: build/host32/tests/twins/twins.o $(patsubst %,build/host32/%.o,src/blit src/scales src/lie src/ride src/profile src/field src/shade src/real \
-	asm/blit asm/scales asm/shade asm/ride)
+build/twins: build/host32/tests/twins/twins.o $(patsubst %,build/host32/%.o,src/picture/blit src/picture/scales src/surface/lie src/surface/ride src/surface/profile src/model/field \
+	src/surface/shade src/math/real $(KERNELS:%.S=%))
 	$(TEST_CXX) -m32 -no-pie -static -o $@ $^
 
 # The numbers in the assembly, for the compiler to compare with what they stand for.

@@ -1,5 +1,5 @@
 // Processor exceptions: a wild pointer or a division by zero ends in text mode, with everything put back, a line that
-// says what happened and where, and exit status 1. asm/trap.S catches them and stores the registers.
+// says what happened and where, and exit status 1. asm/start/trap.S catches them and stores the registers.
 #include "machine.h"
 #include "pc.h"
 #include "rt.h"

@@ -14,7 +14,7 @@
 #include "../../src/dos/pc.h"
 #include "machine.h"
 #include "rt.h"
-#include "wide.h"
+#include "math/wide.h"
 
 namespace {
 

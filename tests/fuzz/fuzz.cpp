@@ -18,11 +18,11 @@
 #include <unistd.h>
 #include <vector>
 
-#include "field.h"
-#include "profile.h"
-#include "scene.h"
-#include "shade.h"
-#include "voxel.h"
+#include "model/field.h"
+#include "surface/profile.h"
+#include "model/scene.h"
+#include "surface/shade.h"
+#include "surface/voxel.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-#include "field.h"
+#include "model/field.h"
 
 namespace {
 

@@ -5,10 +5,10 @@
 #include <cstring>
 #include <sys/stat.h>
 
-#include "dump.h"
+#include "app/dump.h"
 #include "machine.h"
-#include "palette.h"
-#include "view.h"
+#include "picture/palette.h"
+#include "picture/view.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "field.h"
+#include "model/field.h"
 
 namespace {
 

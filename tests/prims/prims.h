@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "alloc.h"
-#include "cone.h"
-#include "cylinder.h"
-#include "disc.h"
-#include "model.h"
-#include "shade.h"
-#include "sphere.h"
-#include "torus.h"
+#include "math/alloc.h"
+#include "model/cone.h"
+#include "model/cylinder.h"
+#include "model/disc.h"
+#include "model/model.h"
+#include "surface/shade.h"
+#include "model/sphere.h"
+#include "model/torus.h"
 
 inline double number(Real a)
 {

@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <cstring>
 
-#include "field.h"
-#include "profile.h"
+#include "model/field.h"
+#include "surface/profile.h"
 
 int passed = 0, failed = 0;
 

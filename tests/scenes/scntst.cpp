@@ -6,8 +6,8 @@
 #include <string>
 
 #include "machine.h"
-#include "profile.h"
-#include "scene.h"
+#include "surface/profile.h"
+#include "model/scene.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
-// Assembly against C++: each routine of asm/blit.S, asm/scales.S, asm/shade.S and asm/ride.S and its twin in src/blit.cpp,
-// src/scales.cpp, src/lie.cpp and src/ride.cpp get the same input, and all they may touch must come out the same, with guard
+// Assembly against C++: each routine of asm/blit.S, asm/scales.S, asm/shade.S and asm/ride.S and its twin in src/picture/blit.cpp,
+// src/picture/scales.cpp, src/surface/lie.cpp and src/ride.cpp get the same input, and all they may touch must come out the same, with guard
 // bytes round every buffer. A new assembly routine gets its part here before anything else uses it.
 //
 //   twins [SEED [ROUNDS]]     rounds of random scales, voxels, seeds and spans, after the cases that are always tried
@@ -11,10 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "field.h"
-#include "lie.h"
-#include "ride.h"
-#include "scales.h"
+#include "model/field.h"
+#include "surface/lie.h"
+#include "surface/ride.h"
+#include "picture/scales.h"
 
 namespace inasm {
 #include "../../build/scalesdef.h"

@@ -1,5 +1,5 @@
 // The animation: exactly repeatable, driven by time alone, on the report's circles.
-#include "anim.h"
+#include "model/anim.h"
 
 #include "help.h"
 #include "test.h"

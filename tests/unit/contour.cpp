@@ -1,11 +1,11 @@
 // Contours: held against surfaces that the test finds for itself along each pixel's ray, in double precision.
-#include "contour.h"
+#include "picture/contour.h"
 
 #include <array>
 #include <cstring>
 
 #include "help.h"
-#include "palette.h"
+#include "picture/palette.h"
 #include "test.h"
 
 using machine::HEIGHT;

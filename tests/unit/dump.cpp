@@ -1,5 +1,5 @@
 // Dumped frames: what the three files hold, and what happens where they cannot be written.
-#include "dump.h"
+#include "app/dump.h"
 
 #include <dirent.h>
 #include <sys/stat.h>

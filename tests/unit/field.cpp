@@ -1,5 +1,5 @@
 // The Geoff function and its table, held against the polynomial in double precision.
-#include "field.h"
+#include "model/field.h"
 
 #include "help.h"
 #include "test.h"

@@ -7,13 +7,13 @@
 #include <memory>
 #include <vector>
 
-#include "alloc.h"
-#include "model.h"
-#include "shade.h"
-#include "softobj.h"
-#include "sphere.h"
-#include "vec.h"
-#include "view.h"
+#include "math/alloc.h"
+#include "model/model.h"
+#include "surface/shade.h"
+#include "model/softobj.h"
+#include "model/sphere.h"
+#include "math/vec.h"
+#include "picture/view.h"
 
 // STEP: the distance of two neighbouring values of Real. EXACT: the relative error of one operation on it.
 #if FB_REAL == FB_FIXED

@@ -1,5 +1,5 @@
 // The list.
-#include "list.h"
+#include "math/list.h"
 
 #include "test.h"
 

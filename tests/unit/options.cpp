@@ -1,5 +1,5 @@
 // The command line: every switch in every spelling, and every bad value refused with a line that names it.
-#include "options.h"
+#include "app/options.h"
 
 #include <cstring>
 

@@ -1,5 +1,5 @@
 // Palettes: ramps that rise, colours shared out among many objects.
-#include "palette.h"
+#include "picture/palette.h"
 
 #include "help.h"
 #include "test.h"

@@ -1,9 +1,9 @@
 // Profiles of pairs of balls, held against the field of both in double precision.
-#include "profile.h"
+#include "surface/profile.h"
 
 #include <cmath>
 
-#include "field.h"
+#include "model/field.h"
 #include "help.h"
 #include "test.h"
 

@@ -1,12 +1,12 @@
 // Real in its three kinds: what every kind promises, and what 16.16 promises besides.
-#include "real.h"
+#include "math/real.h"
 
 #include <cmath>
 #include <cstdlib>
 
 #include "help.h"
 #include "test.h"
-#include "wide.h"
+#include "math/wide.h"
 
 TEST(real_conversions)
 {

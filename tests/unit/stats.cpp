@@ -1,5 +1,5 @@
 // The statistics block.
-#include "stats.h"
+#include "app/stats.h"
 
 #include <cstring>
 #include <sstream>

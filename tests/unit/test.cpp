@@ -4,9 +4,9 @@
 #include <cstdarg>
 #include <cstring>
 
-#include "field.h"
-#include "profile.h"
-#include "shade.h"
+#include "model/field.h"
+#include "surface/profile.h"
+#include "surface/shade.h"
 
 namespace {
 

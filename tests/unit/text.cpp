@@ -1,5 +1,5 @@
 // Numbers to text and back.
-#include "text.h"
+#include "math/text.h"
 
 #include <cstring>
 #include <string>

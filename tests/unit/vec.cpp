@@ -1,5 +1,5 @@
 // Point, Vector and Matrix, held against double precision.
-#include "vec.h"
+#include "math/vec.h"
 
 #include "help.h"
 #include "test.h"

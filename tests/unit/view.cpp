@@ -1,6 +1,6 @@
 // The view: the projection formula, clipping, and the promise that what is cleared and presented by spans looks the same
 // as the whole screen.
-#include "view.h"
+#include "picture/view.h"
 
 #include <cstring>
 

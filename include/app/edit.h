@@ -1,0 +1,78 @@
+// Editor: what a user may do to the model by hand, each with one call, and each undone with another. It knows nothing of
+// keys, mice and screens: src/app/demo.cpp maps those to these calls.
+#ifndef FB_EDIT_H
+#define FB_EDIT_H
+
+#include "model/model.h"
+
+class Editor {
+public:
+    // Steps that can be undone. Where memory does not hold so many, the oldest are forgotten.
+    static constexpr int STEPS_MOST = 64;
+
+    // Changes of one kind to one object are one step as long as they follow each other within this time.
+    static constexpr Time GESTURE = 65536;
+
+    explicit Editor(Model& model) : model_(model) {}
+    ~Editor();
+    Editor(const Editor&) = delete;
+    Editor& operator=(const Editor&) = delete;
+
+    // The selected object, an index for Model::actor(); and the one that was selected before it (-1: none).
+    int selected() const { return find(selected_) < 0 ? 0 : find(selected_); }
+    int before() const { return find(before_) == selected() ? -1 : find(before_); }
+    void selectNext();
+
+    // Every operation below returns true when it changed the model: it must then be moved (Anim::move), and its ramps
+    // made anew. message() then says in a few words what was done, or why nothing was. `now` only tells gestures apart.
+
+    // Moves the selected object by a vector of the world; with it goes all that it carries.
+    bool move(const Vector& by, Time now);
+    // Turns it about axis 0, 1 or 2 (x, y, z) by so many degrees.
+    bool turn(int axis, Real degrees, Time now);
+    // Changes its size; and its last measure but the size (length, ring, disc), by so many units.
+    bool size(Real by, Time now);
+    bool measure(Real by, Time now);
+    // A new object of a kind where the selected one is, blending with it; it is then the selected one.
+    bool add(const char* kind);
+    // Takes the selected object out. The last object stays.
+    bool remove();
+    // Links the selected object with the one selected before, or parts them.
+    bool link();
+    bool unlink();
+    // Back to before the last step.
+    bool undo();
+    int steps() const { return stepCount_; }
+
+    // Writes the scene; reads one, which takes the place of the model with seeds `spacing` apart.
+    void save(const char* name);
+    bool load(const char* name, Real spacing);
+
+    // Words for the screen, capital letters; never null.
+    const char* message() const { return message_; }
+    // The selected object in words: its name, kind, measures, and how many it blends with.
+    void describe(char* to, int size) const;
+
+private:
+    enum Action { NONE, MOVE, TURN, SIZE, MEASURE, OTHER };
+
+    int find(int number) const;
+    Actor& current() { return model_.actor(selected()); }
+    bool begin(Action action, Time now);
+    void drop();
+    bool changeMeasure(int which, Real by, Action action, Time now);
+    bool pairOf(SoftObject** a, SoftObject** b);
+    void say(const char* what, const char* name = "", const char* and_ = "", const char* other = "");
+
+    Model& model_;
+    int selected_ = 1;  // numbers: they stay what they are when other objects come and go
+    int before_ = 0;
+    Model::Record* step_[STEPS_MOST];
+    int stepCount_ = 0;
+    Action action_ = NONE;
+    int acted_ = 0;
+    Time actedAt_ = 0;
+    char message_[96] = "";
+};
+
+#endif

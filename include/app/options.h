@@ -1,0 +1,36 @@
+// Options: what the command line asks for. The switches are fixed from outside; the README lists them.
+#ifndef FB_OPTIONS_H
+#define FB_OPTIONS_H
+
+#include "math/real.h"
+
+struct Options {
+    bool interactive = false;       // /I
+    bool grey = false;              // /G
+    bool printed = false;           // /P
+    bool help = false;              // /?
+    bool retrace = false;           // /V: wait for the vertical retrace
+    bool noPresent = false;         // /X: draw, but do not copy to the card
+    Real spacing{2};                // /S:n, SPACING_LEAST..SPACING_MOST units
+    int32_t frames = 0;             // /N:n; 0: off
+    int32_t seconds = 0;            // /T:n; 0: off
+    int32_t rate = 10;              // /R:n, frames for a second of animation with /N
+    const char* dumpDirectory = nullptr;  // /D:dir
+    const char* modelFile = nullptr;      // /M:file
+    const char* recordFile = nullptr;     // /O:file, one CSV record is appended
+};
+
+constexpr Real SPACING_LEAST(0.25);
+constexpr Real SPACING_MOST(8);
+constexpr int32_t FRAMES_MOST = 9999999;  // dumped frames have seven digits
+constexpr int32_t SECONDS_MOST = 86400;
+constexpr int32_t RATE_MOST = 1000;
+
+// Reads the command line; null, or one line that names the switch and the range it accepts. The strings of `options`
+// point into `arguments`.
+const char* parseOptions(int count, char** arguments, Options* options);
+
+// The switches and keys, for /?.
+extern const char* const HELP;
+
+#endif

@@ -1,0 +1,68 @@
+// Point, Vector, Matrix: the report's simple types (Section III, Data Structures), with the operations it names.
+// Units are the model's; components are Real, so in 16.16 each must stay within +-32767.
+#ifndef FB_VEC_H
+#define FB_VEC_H
+
+#include "math/real.h"
+
+// A 3-D direction vector. "Can be added and subtracted, equated to points, and the length modified without changing
+// the direction. Dot products and projections are also defined."
+struct Vector {
+    Real x, y, z;
+};
+
+// A location in 3-space. "Can be subtracted to give a vector, and adding a vector to a point gives a new point."
+struct Point {
+    Real x, y, z;
+};
+
+constexpr Vector operator-(const Vector& a) { return {-a.x, -a.y, -a.z}; }
+constexpr Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+constexpr Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+constexpr Vector operator*(const Vector& a, Real b) { return {a.x * b, a.y * b, a.z * b}; }
+constexpr Vector operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+constexpr Point operator+(const Point& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+constexpr Point operator-(const Point& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+constexpr bool operator==(const Vector& a, const Vector& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+constexpr bool operator==(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+// "Points can be equated to vectors."
+constexpr Vector toVector(const Point& p) { return {p.x, p.y, p.z}; }
+constexpr Point toPoint(const Vector& v) { return {v.x, v.y, v.z}; }
+
+// Sum of products; in 16.16 it must stay below 32768, so both lengths below 181, or one of them small.
+constexpr Real dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+constexpr Vector cross(const Vector& a, const Vector& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+// Euclidean length, for components of any size in range (computed on 64 bits in 16.16).
+Real length(const Vector& v);
+
+// The vector of the same direction with the given length; the zero vector has no direction and stays zero.
+Vector withLength(const Vector& v, Real newLength);
+inline Vector unit(const Vector& v) { return withLength(v, Real(1)); }
+
+// The part of `v` along `onto` (which need not have unit length; zero gives zero).
+Vector projection(const Vector& v, const Vector& onto);
+
+// A 4x4 matrix for column vectors, m[row][column]. "Can be equated and multiplied by matrices to give new matrices,
+// and multiplied by points and vectors to give new points and vectors." The last row is 0 0 0 1 for all that the
+// program makes; a point takes the translation in column 3, a vector does not.
+struct Matrix {
+    Real m[4][4];
+
+    static Matrix identity();
+    static Matrix translation(const Vector& by);
+    static Matrix scaling(Real by);
+    // Turn by `angle` about an axis through the origin, anticlockwise when the axis points at the reader in a
+    // right-handed system. The axis need not have unit length; a zero axis gives the identity.
+    static Matrix rotation(const Vector& axis, Angle angle);
+};
+
+Matrix operator*(const Matrix& a, const Matrix& b);
+Point operator*(const Matrix& a, const Point& p);
+Vector operator*(const Matrix& a, const Vector& v);
+
+#endif

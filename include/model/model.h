@@ -1,0 +1,125 @@
+// Model: which objects there are, what they blend with, how they are lit, seen, coloured and moved; and the groups that
+// move, turn and scale objects as one.
+#ifndef FB_MODEL_H
+#define FB_MODEL_H
+
+#include "model/anim.h"
+#include "model/kind.h"
+#include "model/softobj.h"
+#include "picture/view.h"
+
+struct Colour {
+    uint8_t red, green, blue;  // 0..255
+};
+
+// Room for a name: 15 characters and the final 0.
+constexpr int NAME_ROOM = 16;
+
+// An item of the model: an object with its part in the scene, or a group (which has no object).
+struct Actor {
+    SoftObject* object = nullptr;
+    Colour colour{255, 255, 255};
+    Motion motion;
+    int number = 0;                // objects count from 1, groups from -1 downwards
+    char name[NAME_ROOM] = "";
+    const Kind* kind = nullptr;    // null: a group, or an object that was made elsewhere
+    Real measure[MEASURES_MOST] = {Real(0), Real(0), Real(0)};  // as the kind has them, before any scaling
+    Pose pose;                     // as Anim::move() left it
+    Real made{0};                  // size() of the object before any scaling
+};
+
+class Model {
+public:
+    static constexpr int OBJECTS_MOST = 128;
+    static constexpr int GROUPS_MOST = 64;
+    static constexpr int KEYS_MOST = 1024;
+
+    Model() = default;
+    ~Model() { clear(); }
+    Model(const Model&) = delete;
+    Model& operator=(const Model&) = delete;
+
+    // The report's predefined model: four spheres of sizes 20, 25, 30 and 35, each blending with the other three, on
+    // circular paths round the origin. False: no memory.
+    bool makeFourSpheres();
+
+    // Takes over an object made with make<>(). False (and the object destroyed): no room.
+    bool add(SoftObject* object, const Colour& colour, const Motion& motion);
+
+    // Adds an item as described, making its object; name, kind, measures, colour and motion are taken, the number is
+    // given here. A parent must be there already. Null: no room or no memory.
+    Actor* addItem(const Actor& described);
+
+    // Takes an item out of the model, and its keys. What it carried is carried by its own parent from then on: the
+    // centre stays where it is now, but what the item added to its motion and its turn is gone.
+    void remove(Actor* item);
+
+    // Makes the object of an item anew, after its measures were changed. False: no memory, and the object that was
+    // there stays.
+    bool remake(Actor* item);
+
+    // Adds a key to an item, whose times must rise. False: no room or no memory.
+    bool addKey(Actor* item, const Key& key);
+
+    // Links two objects both ways with one weight. False: no memory; then they are not linked.
+    bool link(SoftObject* a, SoftObject* b, Real weight);
+    void unlink(SoftObject* a, SoftObject* b);
+    // Links every object with every other. False: no memory.
+    bool linkAll(Real weight);
+    // Whether `a` blends with `b`, and with which weight.
+    static bool linked(const SoftObject* a, const SoftObject* b, Real* weight);
+
+    // Lays out the seeds of all objects, `spacing` units apart. False: no memory; objects already done are put back to
+    // the spacing they had where that is possible.
+    bool resample(Real spacing);
+
+    // Number of seeds of all objects: regular, oversampled.
+    int seeds() const;
+    int oversampledSeeds() const;
+
+    // The objects, in the order they were added.
+    int count() const { return count_; }
+    Actor& actor(int i) { return *actors_[i]; }
+    const Actor& actor(int i) const { return *actors_[i]; }
+
+    // Objects and groups, parents before their children.
+    int items() const { return itemCount_; }
+    Actor& item(int i) { return *items_[i]; }
+    const Actor& item(int i) const { return *items_[i]; }
+    Actor* itemNumbered(int number) const;
+    Actor* itemNamed(const char* name) const;
+
+    // The inverse of turn and scale of a pose (not of its place), for `v` in the world.
+    static Vector inverse(const Pose& pose, const Vector& v);
+
+    const Key* keys() const { return keys_; }
+    int keyCount() const { return keyCount_; }
+
+    // Takes everything that `other` has, and gives it what this one had.
+    void swap(Model& other);
+
+    // A copy of everything but the seeds, small enough to be kept many times over. Null: no memory. Freed by free().
+    struct Record;
+    Record* record() const;
+
+    // Goes back to a record of this model. Objects that have not changed since keep their seeds. False: no memory, and
+    // nothing was changed.
+    bool restore(const Record* record);
+
+    Camera camera;
+    Vector light{Real(0.5), Real(0.7), Real(-0.5)};  // from the model to the light, any length but 0
+
+private:
+    void clear();
+    bool layOut(SoftObject* object) const;
+
+    Actor* actors_[OBJECTS_MOST];
+    Actor* items_[OBJECTS_MOST + GROUPS_MOST];  // owned
+    int count_ = 0;
+    int itemCount_ = 0;
+    Key* keys_ = nullptr;  // room for KEYS_MOST as soon as there is one
+    int keyCount_ = 0;
+    Real spacing_{0};      // as last laid out; 0: not yet
+};
+
+#endif

@@ -1,0 +1,32 @@
+// The soft torus: its core is a circle.
+#ifndef FB_TORUS_H
+#define FB_TORUS_H
+
+#include "model/softobj.h"
+
+class Torus : public SoftObject {
+public:
+    // The core is a circle of radius `ring` about the object's y axis. The tube, of radius size / 2, must not touch
+    // itself: a ring below leastRing() is taken as that.
+    Torus(int number, Real size, Real ring);
+
+    // The smallest ring for a size: it leaves a hole of a quarter of the tube's radius.
+    static Real leastRing(Real size) { return size * Real(0.625); }
+
+    Vector fromCore(const Point& p) const override;
+    void layOutSeeds(SeedMaker& maker, Real spacing) const override;
+    bool ringsClose() const override { return true; }
+    Real horizonRadius(const Point& eye) const override;
+    Real coreReach() const override { return ring_; }
+    void placeCore() override;
+    void describe(char* to, int size) const override;
+
+    Real ring() const { return ring_; }
+
+private:
+    Real ring_;
+    Real ringMade_, sizeMade_;  // as made: scaling never adds up errors
+    Vector axis_;               // unit length, in the world
+};
+
+#endif

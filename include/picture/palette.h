@@ -1,0 +1,36 @@
+// The 256 colours of mode 13h: a ramp of brightness for each colour of the model, or one grey ramp of 64 steps (/G,
+// "a monochrome mode that gives a nicer display").
+#ifndef FB_PALETTE_H
+#define FB_PALETTE_H
+
+#include "model/model.h"
+
+class Palette {
+public:
+    static constexpr int STEPS = 64;
+    static constexpr int RAMP = STEPS + 2 * SHADING_MOST;  // with the ends again, see VoxelList
+
+    // Of 63: the light that reaches every place, in colour. The grey ramp starts in the dark, so that all its steps are
+    // there for the form.
+    static constexpr int AMBIENT = 9;
+
+    // Makes ramps for the model's colours and hands each object its own. Colours that do not fit (the ramps share 255
+    // entries, at least 15 each) take the nearest that does.
+    void make(Model& model, bool grey);
+
+    // Red, green and blue of the 256 colours, 0..63, as the DAC takes them.
+    const uint8_t* dac() const { return dac_; }
+
+    // A ramp like the object's own with its brightness raised by `steps`, for the selected one; valid until the next
+    // call.
+    const uint8_t* raised(const uint8_t* ramp, int steps);
+
+private:
+    static constexpr int RAMPS_MOST = 17;
+
+    uint8_t dac_[768];
+    uint8_t ramps_[RAMPS_MOST][RAMP];
+    uint8_t raised_[RAMP];
+};
+
+#endif

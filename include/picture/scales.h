@@ -1,0 +1,83 @@
+// From voxels to pixels: the perspective transformation of the seeds' scales (report, The Rendering Technique) and their
+// drawing, in one go for all that are of ordinary size and place. It stands twice, like the loops of blit.h: in C++
+// (src/picture/scales.cpp) and in assembly (asm/scales.S); both do the same, bit for bit.
+#ifndef FB_SCALES_H
+#define FB_SCALES_H
+
+#include "picture/blit.h"
+#include "surface/voxel.h"
+
+// Depth steps (1/128 unit) from pixel to pixel; a surface seen more edge-on than this is taken as this steep.
+constexpr int32_t STEEPEST = 400;
+// Width and height of a scale, together, up to which no corner leaves the 16 bits of a depth while its middle is in the
+// table's range; and the widest that there is a loop for.
+constexpr int SLOPED_MOST = 24;
+constexpr int WIDEST = 16;
+
+// Modulo 2^32, as the processor does it: no place or tilt whatever does harm.
+constexpr int32_t wrappedSum(int32_t a, int32_t b)
+{
+    return static_cast<int32_t>(static_cast<uint32_t>(a) + static_cast<uint32_t>(b));
+}
+constexpr int32_t wrappedProduct(int32_t a, int32_t b)
+{
+    return static_cast<int32_t>(static_cast<uint32_t>(a) * static_cast<uint32_t>(b));
+}
+
+// Whether there is more to a voxel than a rectangle of one colour.
+inline bool isFine(const Voxel& v)
+{
+    return (v.reach | v.slopeX | v.slopeY) != 0;
+}
+
+// How far away a voxel's pixels may be, 1/128 unit, when its middle is at `z`.
+constexpr int32_t NO_END = 0x7fffffff;
+inline int32_t endOf(const Voxel& v, int32_t z)
+{
+    return v.reach != 0 ? z + v.reach * 4 : NO_END;
+}
+
+// Of a slope of brightness and Factors::zx or zy: the change from pixel to pixel, 8 bits of fraction.
+inline int32_t shadeStep(int slope, int32_t factor)
+{
+    return wrappedProduct(slope, factor) >> 10;
+}
+
+// What a depth makes of lengths.
+struct Factors {
+    int32_t x, y;    // focal 2^12 / z: 1/256 unit to 1/2^20 pixel
+    int32_t zx, zy;  // z 2^15 / focal: a tilt to the change of depth from pixel to pixel, 1/2^16 of 1/128 unit
+};
+constexpr int LENS_NEAR = 76, LENS_FAR = 256;
+constexpr int LENS_STEPS = (LENS_FAR - LENS_NEAR) * 8;
+
+// The camera and the object in the terms of the loop, and what it has drawn.
+struct Lens {
+    int32_t x, y, z;                   // the object's centre from the eye, 1/256 unit
+    const uint8_t* ramp;               // as VoxelList's
+    const Factors* factors;            // one for each 1/8 unit of depth from LENS_NEAR to LENS_FAR units
+    int32_t centreX, centreY;          // pixels with 12 bits of fraction, and half a pixel more
+    uint8_t* frame;                    // as for blitScales()
+    uint16_t* zbuffer;
+    int32_t left, top, right, bottom;  // in and out: a rectangle that grows to hold at least all that is drawn
+    int32_t empty;                     // in and out: counts voxels that cover no pixel's centre, and so are not drawn
+};
+
+extern "C" {
+
+// Draws up to `count` voxels, in their order, and returns how many were dealt with. It stops at a voxel that is not its
+// business: one out of the table's depths, not wholly on the screen, or larger than SLOPED_MOST or WIDEST there.
+int drawScalesC(Lens* lens, const Voxel* const* voxels, int count);
+#if FB_ASM
+int drawScalesA(Lens* lens, const Voxel* const* voxels, int count);
+#endif
+
+}
+
+#if FB_ASM
+#define drawScales drawScalesA
+#else
+#define drawScales drawScalesC
+#endif
+
+#endif

@@ -1,0 +1,109 @@
+// View: the camera, the frame buffer and the Z-buffer (report, The Rendering Technique and Appendix A). show() makes
+// scales of voxels by a perspective transformation and draws them: most by the loop of scales.h, the rest one by one.
+//
+// The viewer looks along +z, y up. A point p from the eye falls on column centreX + focalX p.x / p.z and row
+// centreY - focalY p.y / p.z; pixel i covers [i, i + 1). Mode 13h shows 320x200 pixels on a 4:3 screen, so a pixel is
+// 5 wide to 6 high and focalX = 1.2 focalY.
+#ifndef FB_VIEW_H
+#define FB_VIEW_H
+
+#include "picture/scales.h"
+#include "math/vec.h"
+
+struct Camera {
+    Point eye{Real(0), Real(0), Real(-120)};
+    Real focalX{250};
+    Real focalY{208.333333};
+    Real centreX{160};
+    Real centreY{100};
+};
+
+// Pixels: columns left to before right, rows top to before bottom.
+struct Rectangle {
+    int left, top, right, bottom;
+};
+
+class View {
+public:
+    ~View();
+
+    // Makes the buffers. False: no memory.
+    bool open();
+
+    // Takes on a camera. 64 <= focal <= 500 pixels.
+    void setCamera(const Camera& camera);
+    const Camera& camera() const { return camera_; }
+
+    // Scales or single pixels (the report's '*' key).
+    void setPixels(bool pixels) { pixels_ = pixels; }
+    bool pixels() const { return pixels_; }
+
+    // Starts a frame: clears what the last one touched.
+    void begin();
+
+    // Draws the voxels of an object; those before the near plane (1 unit), behind 511 units or off the screen are left
+    // out. Returns the number of scales drawn.
+    int show(const VoxelList& list);
+
+    // The smallest rectangle known to hold all that has been shown since the last call or begin().
+    Rectangle takeShown();
+
+    // Text and lines on top of the picture: marks a rectangle of pixels as touched and gives the frame to draw into.
+    uint8_t* overlay(int left, int top, int wide, int high);
+
+    // Closes the gaps between scales: empty pixels take over colour and depth of the drawn ones beside them, where an
+    // opening is small (the limits stand in view.cpp) or ends between drawn pixels. `spacing` of the seeds, units. For when
+    // all objects are drawn, before anything is written over them; single pixels are left alone.
+    // Returns the number of pixels that were drawn before.
+    int closeGaps(Real spacing);
+
+    // Of the frame as it is so far: a pixel (row * WIDTH + column) is given a depth (1/128 unit) and a colour, or what
+    // another one has; and between which columns of a row anything may be drawn.
+    void setPixel(int at, int depth, uint8_t colour)
+    {
+        // What was empty may lie beyond all that was touched.
+        if (zbuffer_[at] == Z_EMPTY)
+            touchPixel(at);
+        zbuffer_[at] = static_cast<uint16_t>(depth);
+        frame_[at] = colour;
+    }
+    void copyPixel(int at, int from) { takeOver(at, from); }
+    const Span& touched(int row) const { return touched_[row]; }
+
+    // Ends a frame; rows() then tells what differs from the frame before.
+    void end();
+
+    const uint8_t* frame() const { return frame_; }
+    const uint16_t* zbuffer() const { return zbuffer_; }
+    const Span* rows() const { return present_; }
+
+private:
+    void touchPixel(int at);
+    void mark(int left, int top, int right, int bottom);
+    void closeRun(int y, int from, int to, int spacing);
+    void closeCorner(int y, int x, int step);
+    void closeAbove(int y, int x, int widest, int narrowest);
+    void closeFrom(int y, int from, int to, int step, int widest, int narrowest);
+    void fillRow(int y, const Span& empty);
+    void closeSlit(int y, int x, int end, int step);
+    void takeOver(int at, int from)
+    {
+        frame_[at] = frame_[from];
+        zbuffer_[at] = zbuffer_[from];
+    }
+    bool project(const Voxel& voxel, FineScale* scale) const;
+
+    Camera camera_;
+    int32_t focalX_ = 0, focalY_ = 0, centreX_ = 0, centreY_ = 0;  // pixels, 12 bits of fraction
+    Lens lens_{};
+    bool pixels_ = false;
+    Rectangle shown_{machine::WIDTH, machine::HEIGHT, 0, 0};
+    uint8_t* frame_ = nullptr;
+    uint16_t* zbuffer_ = nullptr;
+    Factors* factors_ = nullptr;
+    Span touched_[machine::HEIGHT];
+    Span last_[machine::HEIGHT];
+    Span present_[machine::HEIGHT];
+};
+
+#endif

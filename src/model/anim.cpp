@@ -1,0 +1,196 @@
+// Objects on their paths.
+#include "model/anim.h"
+
+#include "model/model.h"
+#include "math/text.h"
+
+namespace {
+
+constexpr Vector X_AXIS{Real(1), Real(0), Real(0)}, Y_AXIS{Real(0), Real(1), Real(0)}, Z_AXIS{Real(0), Real(0), Real(1)};
+
+// What the keys of a motion say at one time.
+struct Keyed {
+    Real value[Key::VALUES];
+};
+
+// a * top / bottom for 0 <= top <= bottom.
+Real share(Real a, int32_t top, int32_t bottom)
+{
+    return realFromRaw(mulDiv(rawFromReal(a), top, bottom));
+}
+
+// Between keys: linear, or a cubic through the keys (Hermite) whose slope at a key is that of the line between the keys
+// on either side of it; at the ends of a run that does not repeat the slope is 0.
+Keyed keyed(const Key* keys, const Motion& motion, Time time)
+{
+    const int count = motion.keyCount;
+    Keyed now;
+    int32_t t;
+    if (motion.repeat > 0) {
+        uint32_t rest;
+        divide64(time, static_cast<uint32_t>(motion.repeat), &rest);
+        t = static_cast<int32_t>(rest);
+    } else {
+        const int32_t last = keys[count - 1].time;
+        t = time > static_cast<Time>(last) ? last : static_cast<int32_t>(time);
+    }
+    // The last key not after t; -1 before the first.
+    int at = -1;
+    while (at + 1 < count && keys[at + 1].time <= t)
+        ++at;
+    const bool round = motion.repeat > 0;
+    if (!round && (at < 0 || at == count - 1)) {
+        for (int i = 0; i < Key::VALUES; ++i)
+            now.value[i] = keys[at < 0 ? 0 : at].value[i];
+        return now;
+    }
+    // Key i of an endless row, and its time counted from that of this round.
+    const auto index = [&](int i) { return (i + 2 * count) % count; };
+    const auto timeOf = [&](int i) {
+        return static_cast<int64_t>(keys[index(i)].time) + (i < 0 ? -motion.repeat : i >= count ? motion.repeat : 0);
+    };
+    const Key &from = keys[index(at)], &to = keys[index(at + 1)];
+    const int64_t start = timeOf(at), end = timeOf(at + 1);
+    const int32_t wide = static_cast<int32_t>(end - start);
+    const Real s = realFromRaw(wide == 0 ? 0 : mulDiv(static_cast<int32_t>(t - start), 65536, wide));
+    if (!motion.smooth || wide == 0) {
+        for (int i = 0; i < Key::VALUES; ++i)
+            now.value[i] = from.value[i] + (to.value[i] - from.value[i]) * s;
+        return now;
+    }
+    const Real s2 = s * s, s3 = s2 * s;
+    const Real onto = s2 * Real(3) - s3 * Real(2);
+    const Real outSlope = s3 - s2 * Real(2) + s, inSlope = s3 - s2;
+    const bool before = round || at > 0, after = round || at + 2 < count;
+    const Key& previous = keys[before ? index(at - 1) : 0];
+    const Key& next = keys[after ? index(at + 2) : 0];
+    const int32_t aroundFrom = before ? static_cast<int32_t>(end - timeOf(at - 1)) : 1;
+    const int32_t aroundTo = after ? static_cast<int32_t>(timeOf(at + 2) - start) : 1;
+    for (int i = 0; i < Key::VALUES; ++i) {
+        const Real a = from.value[i], b = to.value[i];
+        const Real slopeFrom = before ? share(b - previous.value[i], wide, aroundFrom) : Real(0);
+        const Real slopeTo = after ? share(next.value[i] - a, wide, aroundTo) : Real(0);
+        now.value[i] = a + (b - a) * onto + slopeFrom * outSlope + slopeTo * inSlope;
+    }
+    return now;
+}
+
+Real limited(Real a)
+{
+    return clamp(a, Real(-SPACE), Real(SPACE));
+}
+
+// The pose of an item within its parent.
+Pose poseAt(const Model& model, const Motion& motion, Time time)
+{
+    Pose pose;
+    pose.place = placeAt(motion, time);
+    pose.scale = motion.scale;
+    if (motion.parts == 0)
+        return pose;
+    if (motion.parts & MOTION_TURN)
+        pose.turn = turnFrom(motion.turn);
+    if (motion.parts & MOTION_PATH) {
+        const auto part = [&](Real amplitude, int i) { return amplitude * sine(angleAt(motion.along[i], time)); };
+        pose.place = pose.place + Vector{part(motion.path.x, 0), part(motion.path.y, 1), part(motion.path.z, 2)};
+    }
+    if (motion.parts & MOTION_SPIN)
+        pose.turn = Matrix::rotation(motion.spinAxis, angleAt(motion.spin, time)) * pose.turn;
+    if (motion.parts & MOTION_PULSE)
+        pose.scale = pose.scale * (Real(1) + motion.pulse * sine(angleAt(motion.pulsing, time)));
+    if ((motion.parts & MOTION_KEYS) && motion.keyCount > 0) {
+        const Keyed now = keyed(model.keys() + motion.firstKey, motion, time);
+        pose.place = pose.place + Vector{now.value[0], now.value[1], now.value[2]};
+        if (now.value[3] != Real(0))
+            pose.turn = Matrix::rotation(motion.keyAxis, fromDegrees(now.value[3])) * pose.turn;
+        pose.scale = pose.scale * clamp(now.value[4], SCALE_LEAST, SCALE_MOST);
+    }
+    if (motion.parts & MOTION_SWING) {
+        const Real angle = motion.swingAngle * sine(angleAt(motion.swing, time));
+        pose.turn = Matrix::rotation(motion.swingAxis, fromDegrees(angle)) * pose.turn;
+    }
+    pose.scale = clamp(pose.scale, SCALE_LEAST, SCALE_MOST);
+    return pose;
+}
+
+bool sameTurn(const Matrix& a, const Matrix& b)
+{
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            if (a.m[i][j] != b.m[i][j])
+                return false;
+    return true;
+}
+
+}  // namespace
+
+Wave makeWave(Real seconds, Real phase)
+{
+    Wave wave;
+    wave.phase = turns(phase);
+    wave.period = seconds;
+    const int32_t raw = rawFromReal(seconds);
+    if (raw == 0)
+        return wave;
+    // Turns a second: rounded down, so that no period shorter than the one asked for comes out.
+    uint32_t rest;
+    const uint64_t rate = divide64(0xffffffffull << 16, static_cast<uint32_t>(raw < 0 ? -raw : raw), &rest);
+    wave.rate = raw < 0 ? 0 - rate : rate;
+    return wave;
+}
+
+Angle fromDegrees(Real degrees)
+{
+    constexpr int32_t TURN = 360 << 16;
+    int32_t raw = rawFromReal(degrees) % TURN;
+    if (raw >= TURN / 2)
+        raw -= TURN;
+    if (raw < -TURN / 2)
+        raw += TURN;
+    return static_cast<Angle>(mulDiv(raw, 65536, 360));
+}
+
+Matrix turnFrom(const Vector& degrees)
+{
+    Matrix turn = Matrix::rotation(X_AXIS, fromDegrees(degrees.x));
+    if (degrees.y != Real(0))
+        turn = Matrix::rotation(Y_AXIS, fromDegrees(degrees.y)) * turn;
+    if (degrees.z != Real(0))
+        turn = Matrix::rotation(Z_AXIS, fromDegrees(degrees.z)) * turn;
+    return turn;
+}
+
+Point placeAt(const Motion& motion, Time time)
+{
+    const Angle angle = angleAt(motion.circle, time);
+    return motion.centre + motion.u * cosine(angle) + motion.v * sine(angle);
+}
+
+void Anim::move(Model& model, Time time)
+{
+    // Parents stand before their children.
+    for (int i = 0; i < model.items(); ++i) {
+        Actor& actor = model.item(i);
+        Pose pose = poseAt(model, actor.motion, time);
+        if (actor.motion.parent != 0) {
+            const Actor* parent = model.itemNumbered(actor.motion.parent);
+            if (parent != nullptr) {
+                // Limited before it is turned and scaled, so that no product leaves 16.16.
+                const Vector arm{limited(pose.place.x), limited(pose.place.y), limited(pose.place.z)};
+                pose.place = parent->pose.place + parent->pose.turn * (arm * parent->pose.scale);
+                pose.turn = parent->pose.turn * pose.turn;
+                pose.scale = clamp(pose.scale * parent->pose.scale, SCALE_LEAST, SCALE_MOST);
+            }
+        }
+        pose.place = {limited(pose.place.x), limited(pose.place.y), limited(pose.place.z)};
+        const bool turned = !sameTurn(pose.turn, actor.pose.turn);
+        actor.pose = pose;
+        if (actor.object == nullptr)
+            continue;
+        SoftObject& object = *actor.object;
+        object.setSize(actor.made * pose.scale);
+        if (turned && object.coreReach() > Real(0))
+            object.setTurn(pose.turn);
+        object.moveTo(pose.place);
+    }
+}

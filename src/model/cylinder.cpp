@@ -1,0 +1,81 @@
+// Seeds on a cylinder with round ends: rings up its outline, from pole to pole.
+#include "model/cylinder.h"
+
+#include "rt.h"
+#include "model/round.h"
+#include "math/text.h"
+
+Cylinder::Cylinder(int number, Real size, Real length)
+    : SoftObject(number, size), half_(shiftDown(most(length, Real(0)), 1)), halfMade_(half_), sizeMade_(size),
+      axis_{Real(0), Real(1), Real(0)}
+{
+}
+
+void Cylinder::placeCore()
+{
+    half_ = halfMade_ * (size() / sizeMade_);
+    axis_ = {turn().m[0][1], turn().m[1][1], turn().m[2][1]};
+}
+
+Vector Cylinder::fromCore(const Point& p) const
+{
+    const Vector v = p - centre();
+    return v - axis_ * clamp(dot(v, axis_), -half_, half_);
+}
+
+Real Cylinder::horizonRadius(const Point& eye) const
+{
+    // Seen across it bends as its radius says, along it not at all.
+    const Real across = Real(1) - squaredCosine(eye - centre(), axis_);
+    const Real flattest = radius() + shiftUp(length(), 1);
+    return across * flattest <= radius() ? flattest : radius() / across;
+}
+
+Real Cylinder::horizonAt(const Point& root, Real general) const
+{
+    return absolute(dot(root - centre(), axis_)) < half_ - Real(0.01) ? general : radius();
+}
+
+void Cylinder::layOutSeeds(SeedMaker& maker, Real spacing) const
+{
+    // The outline: a quarter circle, the side, a quarter circle. The rings lie in the middles of equal parts of it.
+    const Real cap = radius() * HALF_PI, body = length();
+    const Real outline = shiftUp(cap, 1) + body;
+    const int rings = stepsIn(outline, spacing);
+    Ring ring{};
+    ring.radius = radius();
+    ring.across = portion(outline, 1, 2 * rings);
+    int bottom = -1, top = -1;
+    for (int k = 0; k < rings; ++k) {
+        const Real at = portion(outline, 2 * k + 1, 2 * rings);
+        Angle latitude = 0;
+        int* shared = nullptr;
+        if (at < cap) {
+            latitude = quarterTurn(at, cap) - 0x40000000u;
+            ring.height = -half_;
+            shared = &bottom;
+        } else if (at < cap + body) {
+            ring.height = at - cap - half_;
+        } else {
+            latitude = quarterTurn(least(at - cap - body, cap), cap);
+            ring.height = half_;
+            shared = &top;
+        }
+        ring.pathSine = ring.normalSine = sine(latitude);
+        ring.pathCosine = ring.normalCosine = cosine(latitude);
+        // "In the case of cylinders, all seeds in each end cap have a common root."
+        int root = shared == nullptr ? -1 : *shared;
+        if (root < 0)
+            root = addRoots(maker, ring, spacing);
+        if (shared != nullptr)
+            *shared = root;
+        addSeeds(maker, ring, spacing, root);
+    }
+}
+
+void Cylinder::describe(char* to, int size) const
+{
+    const Point a = centre() - axis_ * half_, b = centre() + axis_ * half_;
+    const Real numbers[] = {a.x, a.y, a.z, b.x, b.y, b.z, this->size()};
+    describeAs("cylinder", numbers, 7, to, size);
+}

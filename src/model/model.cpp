@@ -1,0 +1,432 @@
+// The model, and the one that comes with the program.
+#include "model/model.h"
+
+#include "math/alloc.h"
+
+namespace {
+
+// Radius of the circular paths, units.
+constexpr int PATH = 22;
+
+// A sphere on a circle of PATH units round the origin, the plane of which is given by two perpendicular unit vectors.
+Actor circlingSphere(const char* name, int size, const Colour& colour, const Vector& u, const Vector& v, Real phase,
+                     int seconds)
+{
+    Actor actor;
+    strcpy(actor.name, name);
+    actor.kind = kindNamed("sphere");
+    actor.measure[0] = Real(size);
+    actor.colour = colour;
+    actor.motion.u = u * Real(PATH);
+    actor.motion.v = v * Real(PATH);
+    actor.motion.circle = makeWave(Real(seconds), phase);
+    return actor;
+}
+
+template <class T>
+void exchange(T& a, T& b)
+{
+    const T t = a;
+    a = b;
+    b = t;
+}
+
+}  // namespace
+
+// One block of memory: this, then the items, the keys and the links.
+struct alignas(Actor) Model::Record {
+    struct Pair {
+        int16_t a, b;  // numbers
+        Real weight;
+    };
+    int items, keys, pairs;
+    Camera camera;
+    Vector light;
+
+    Actor* item() { return reinterpret_cast<Actor*>(this + 1); }
+    const Actor* item() const { return reinterpret_cast<const Actor*>(this + 1); }
+    Key* key() { return reinterpret_cast<Key*>(item() + items); }
+    const Key* key() const { return reinterpret_cast<const Key*>(item() + items); }
+    Pair* pair() { return reinterpret_cast<Pair*>(key() + keys); }
+    const Pair* pair() const { return reinterpret_cast<const Pair*>(key() + keys); }
+};
+
+void Model::clear()
+{
+    for (int i = 0; i < itemCount_; ++i) {
+        destroy(items_[i]->object);
+        destroy(items_[i]);
+    }
+    itemCount_ = count_ = 0;
+    free(keys_);
+    keys_ = nullptr;
+    keyCount_ = 0;
+}
+
+bool Model::layOut(SoftObject* object) const
+{
+    if (spacing_ == Real(0))
+        return true;
+    if (!object->resample(spacing_))
+        return false;
+    object->shadeRest(unit(light));
+    return true;
+}
+
+bool Model::add(SoftObject* object, const Colour& colour, const Motion& motion)
+{
+    Actor described;
+    described.colour = colour;
+    described.motion = motion;
+    Actor* actor = object == nullptr || count_ == OBJECTS_MOST ? nullptr : make<Actor>(described);
+    if (actor == nullptr) {
+        destroy(object);
+        return false;
+    }
+    actor->object = object;
+    actor->number = object->number();
+    snprintf(actor->name, sizeof actor->name, "object%d", actor->number);
+    actor->measure[0] = actor->made = object->size();
+    actors_[count_++] = actor;
+    items_[itemCount_++] = actor;
+    return true;
+}
+
+Actor* Model::addItem(const Actor& described)
+{
+    const bool group = described.kind == nullptr;
+    int number = group ? -1 : 1, groups = 0;
+    for (int i = 0; i < itemCount_; ++i) {
+        const int taken = items_[i]->number;
+        groups += taken < 0;
+        if (group ? taken <= number : taken >= number)
+            number = taken + (group ? -1 : 1);
+    }
+    if (group ? groups == GROUPS_MOST : count_ == OBJECTS_MOST)
+        return nullptr;
+    Actor* item = make<Actor>(described);
+    if (item == nullptr)
+        return nullptr;
+    item->number = number;
+    item->motion.firstKey = item->motion.keyCount = 0;
+    item->pose = Pose();
+    item->object = nullptr;
+    if (!group) {
+        item->object = described.kind->make(number, described.measure);
+        if (item->object == nullptr || !layOut(item->object)) {
+            destroy(item->object);
+            destroy(item);
+            return nullptr;
+        }
+        item->made = item->object->size();
+        actors_[count_++] = item;
+    }
+    items_[itemCount_++] = item;
+    return item;
+}
+
+void Model::remove(Actor* item)
+{
+    int at = 0;
+    while (items_[at] != item)
+        ++at;
+    for (int i = at + 1; i < itemCount_; ++i) {
+        Motion& motion = items_[i]->motion;
+        if (item->number == motion.parent) {
+            // The pose of what is taken away becomes part of the centre of its children.
+            motion.parent = item->motion.parent;
+            const Vector arm = item->pose.turn * (toVector(motion.centre) * item->pose.scale);
+            motion.centre = item->pose.place + arm;
+            const Actor* parent = itemNumbered(motion.parent);
+            if (parent != nullptr) {
+                const Vector from = motion.centre - parent->pose.place;
+                motion.centre = toPoint(inverse(parent->pose, from));
+            }
+            motion.centre = {clamp(motion.centre.x, Real(-SPACE), Real(SPACE)),
+                             clamp(motion.centre.y, Real(-SPACE), Real(SPACE)),
+                             clamp(motion.centre.z, Real(-SPACE), Real(SPACE))};
+        }
+        items_[i - 1] = items_[i];
+    }
+    --itemCount_;
+
+    const int first = item->motion.firstKey, keys = item->motion.keyCount;
+    if (keys > 0) {
+        memmove(keys_ + first, keys_ + first + keys, static_cast<size_t>(keyCount_ - first - keys) * sizeof(Key));
+        keyCount_ -= keys;
+        for (int i = 0; i < itemCount_; ++i)
+            if (items_[i]->motion.firstKey > first)
+                items_[i]->motion.firstKey = static_cast<int16_t>(items_[i]->motion.firstKey - keys);
+    }
+
+    if (item->object != nullptr) {
+        int after = 0;
+        for (int i = 0; i < count_; ++i) {
+            if (actors_[i] == item)
+                continue;
+            actors_[i]->object->unlink(item->object);
+            actors_[after++] = actors_[i];
+        }
+        count_ = after;
+    }
+    destroy(item->object);
+    destroy(item);
+}
+
+bool Model::remake(Actor* item)
+{
+    SoftObject* fresh = item->kind->make(item->number, item->measure);
+    if (fresh == nullptr || !layOut(fresh)) {
+        destroy(fresh);
+        return false;
+    }
+    // The links, at both ends; where memory fails the link is lost, never half of it.
+    for (int i = 0; i < count_; ++i) {
+        SoftObject* other = actors_[i]->object;
+        Real weight;
+        if (other == item->object || !linked(other, item->object, &weight))
+            continue;
+        other->unlink(item->object);
+        link(fresh, other, weight);
+    }
+    fresh->setRamp(item->object->ramp());
+    destroy(item->object);
+    item->object = fresh;
+    item->pose = Pose();
+    item->made = fresh->size();
+    return true;
+}
+
+bool Model::addKey(Actor* item, const Key& key)
+{
+    if (keyCount_ == KEYS_MOST)
+        return false;
+    if (keys_ == nullptr) {
+        keys_ = allocate<Key>(KEYS_MOST);
+        if (keys_ == nullptr)
+            return false;
+    }
+    Motion& motion = item->motion;
+    if (motion.keyCount == 0)
+        motion.firstKey = static_cast<int16_t>(keyCount_);
+    const int at = motion.firstKey + motion.keyCount;
+    memmove(keys_ + at + 1, keys_ + at, static_cast<size_t>(keyCount_ - at) * sizeof(Key));
+    keys_[at] = key;
+    ++keyCount_;
+    for (int i = 0; i < itemCount_; ++i)
+        if (items_[i] != item && items_[i]->motion.keyCount > 0 && items_[i]->motion.firstKey >= at)
+            ++items_[i]->motion.firstKey;
+    ++motion.keyCount;
+    motion.parts |= MOTION_KEYS;
+    return true;
+}
+
+bool Model::link(SoftObject* a, SoftObject* b, Real weight)
+{
+    if (a->link(b, weight) && b->link(a, weight))
+        return true;
+    unlink(a, b);
+    return false;
+}
+
+void Model::unlink(SoftObject* a, SoftObject* b)
+{
+    a->unlink(b);
+    b->unlink(a);
+}
+
+bool Model::linked(const SoftObject* a, const SoftObject* b, Real* weight)
+{
+    for (const List<Link>::Node* node = a->skel().first(); node != nullptr; node = node->next) {
+        if (node->item.object == b) {
+            *weight = node->item.weight;
+            return true;
+        }
+    }
+    return false;
+}
+
+Vector Model::inverse(const Pose& pose, const Vector& v)
+{
+    // The inverse of a rotation is its transpose.
+    Matrix back = Matrix::identity();
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            back.m[i][j] = pose.turn.m[j][i];
+    const Vector turned = back * v;
+    return {turned.x / pose.scale, turned.y / pose.scale, turned.z / pose.scale};
+}
+
+bool Model::makeFourSpheres()
+{
+    const Real h(0.70710678);
+    const Vector x{Real(1), Real(0), Real(0)}, y{Real(0), Real(1), Real(0)}, z{Real(0), Real(0), Real(1)};
+    const Vector slant{Real(0), h, h};
+    const bool done =
+        addItem(circlingSphere("red", 20, {255, 64, 48}, x, y, Real(0), 5)) != nullptr &&
+        addItem(circlingSphere("green", 25, {64, 208, 72}, y, z, Real(0.25), 7)) != nullptr &&
+        addItem(circlingSphere("blue", 30, {72, 112, 255}, z, x, Real(0.5), 9)) != nullptr &&
+        addItem(circlingSphere("yellow", 35, {255, 200, 48}, x, slant, Real(0.75), 11)) != nullptr;
+    return done && linkAll(Real(1));
+}
+
+bool Model::linkAll(Real weight)
+{
+    for (int i = 0; i < count_; ++i)
+        for (int j = 0; j < i; ++j)
+            if (!link(actors_[i]->object, actors_[j]->object, weight))
+                return false;
+    return true;
+}
+
+bool Model::resample(Real spacing)
+{
+    for (int i = 0; i < count_; ++i) {
+        const Real before = actors_[i]->object->spacing();
+        if (!actors_[i]->object->resample(spacing)) {
+            while (--i >= 0)
+                actors_[i]->object->resample(before);
+            return false;
+        }
+        actors_[i]->object->shadeRest(unit(light));
+    }
+    spacing_ = spacing;
+    return true;
+}
+
+int Model::seeds() const
+{
+    int sum = 0;
+    for (int i = 0; i < count_; ++i)
+        sum += actors_[i]->object->seeds();
+    return sum;
+}
+
+int Model::oversampledSeeds() const
+{
+    int sum = 0;
+    for (int i = 0; i < count_; ++i)
+        sum += actors_[i]->object->oversampledSeeds();
+    return sum;
+}
+
+Actor* Model::itemNumbered(int number) const
+{
+    for (int i = 0; i < itemCount_; ++i)
+        if (items_[i]->number == number)
+            return items_[i];
+    return nullptr;
+}
+
+Actor* Model::itemNamed(const char* name) const
+{
+    for (int i = 0; i < itemCount_; ++i)
+        if (strcmp(items_[i]->name, name) == 0)
+            return items_[i];
+    return nullptr;
+}
+
+void Model::swap(Model& other)
+{
+    for (int i = 0; i < OBJECTS_MOST; ++i)
+        exchange(actors_[i], other.actors_[i]);
+    for (int i = 0; i < OBJECTS_MOST + GROUPS_MOST; ++i)
+        exchange(items_[i], other.items_[i]);
+    exchange(count_, other.count_);
+    exchange(itemCount_, other.itemCount_);
+    exchange(keys_, other.keys_);
+    exchange(keyCount_, other.keyCount_);
+    exchange(spacing_, other.spacing_);
+    exchange(camera, other.camera);
+    exchange(light, other.light);
+}
+
+Model::Record* Model::record() const
+{
+    int pairs = 0;
+    for (int i = 0; i < count_; ++i)
+        for (const List<Link>::Node* node = actors_[i]->object->skel().first(); node != nullptr; node = node->next)
+            pairs += node->item.object->number() > actors_[i]->number;
+    const size_t bytes = sizeof(Record) + static_cast<size_t>(itemCount_) * sizeof(Actor) +
+                         static_cast<size_t>(keyCount_) * sizeof(Key) + static_cast<size_t>(pairs) * sizeof(Record::Pair);
+    Record* record = static_cast<Record*>(malloc(bytes));
+    if (record == nullptr)
+        return nullptr;
+    record->items = itemCount_;
+    record->keys = keyCount_;
+    record->pairs = pairs;
+    record->camera = camera;
+    record->light = light;
+    for (int i = 0; i < itemCount_; ++i)
+        record->item()[i] = *items_[i];
+    if (keyCount_ > 0)
+        memcpy(record->key(), keys_, static_cast<size_t>(keyCount_) * sizeof(Key));
+    Record::Pair* pair = record->pair();
+    for (int i = 0; i < count_; ++i)
+        for (const List<Link>::Node* node = actors_[i]->object->skel().first(); node != nullptr; node = node->next)
+            if (node->item.object->number() > actors_[i]->number)
+                *pair++ = {static_cast<int16_t>(actors_[i]->number), static_cast<int16_t>(node->item.object->number()),
+                           node->item.weight};
+    return record;
+}
+
+bool Model::restore(const Record* record)
+{
+    // What can fail comes first, beside what is there.
+    Model before;
+    bool good = true;
+    before.spacing_ = spacing_;
+    for (int i = 0; good && i < record->items; ++i) {
+        Actor* item = make<Actor>(record->item()[i]);
+        if (item == nullptr) {
+            good = false;
+            break;
+        }
+        const bool group = item->object == nullptr;
+        item->object = nullptr;
+        before.items_[before.itemCount_++] = item;
+        if (group)
+            continue;
+        before.actors_[before.count_++] = item;
+        const Actor* now = itemNumbered(item->number);
+        bool same = now != nullptr && now->kind == item->kind;
+        for (int m = 0; same && m < MEASURES_MOST; ++m)
+            same = now->measure[m] == item->measure[m];
+        if (same)
+            continue;  // its object is taken over below
+        item->pose = Pose();
+        item->object = item->kind == nullptr ? nullptr : item->kind->make(item->number, item->measure);
+        good = item->object != nullptr && layOut(item->object);
+        item->made = good ? item->object->size() : Real(0);
+    }
+    if (good && record->keys > 0) {
+        before.keys_ = allocate<Key>(KEYS_MOST);
+        good = before.keys_ != nullptr;
+        if (good)
+            memcpy(before.keys_, record->key(), static_cast<size_t>(record->keys) * sizeof(Key));
+        before.keyCount_ = record->keys;
+    }
+    if (!good)
+        return false;
+
+    for (int i = 0; i < count_; ++i)
+        for (int j = 0; j < i; ++j)
+            unlink(actors_[i]->object, actors_[j]->object);
+    for (int i = 0; i < before.count_; ++i) {
+        Actor* item = before.actors_[i];
+        if (item->object != nullptr)
+            continue;
+        Actor* now = itemNumbered(item->number);
+        item->object = now->object;
+        item->pose = now->pose;
+        item->made = now->made;
+        now->object = nullptr;
+    }
+    before.camera = record->camera;
+    before.light = record->light;
+    swap(before);
+    const Record::Pair* pair = record->pair();
+    for (int i = 0; i < record->pairs; ++i)
+        good = link(itemNumbered(pair[i].a)->object, itemNumbered(pair[i].b)->object, pair[i].weight) && good;
+    return true;
+}

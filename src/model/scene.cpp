@@ -1,0 +1,898 @@
+// Scene files: the reader goes word by word and knows at each what it expects, so that it can say so; the writer writes
+// what the reader reads.
+#include "model/scene.h"
+
+#include "machine.h"
+#include "rt.h"
+#include "math/text.h"
+
+namespace {
+
+constexpr char END_OF_TEXT = 26;  // Ctrl-Z
+constexpr int WORD_ROOM = 32;
+
+// "blend all" goes through every pair; no scene needs it often.
+constexpr int ALL_MOST = 8;
+
+char problem[320];
+
+bool isLetter(char c)
+{
+    return c >= 'a' && c <= 'z';
+}
+
+bool isDigit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+// Where the characters come from: a file, or a text in memory.
+class Source {
+public:
+    explicit Source(int file) : file_(file) {}
+    Source(const char* text, uint32_t length) : at_(text), end_(text + length) {}
+
+    // The next character; -1 at the end, -2 when the file cannot be read.
+    int next()
+    {
+        if (at_ == end_) {
+            if (file_ < 0)
+                return -1;
+            const int32_t got = machine::readFile(file_, buffer_, sizeof buffer_);
+            if (got <= 0)
+                return got == 0 ? -1 : -2;
+            at_ = buffer_;
+            end_ = buffer_ + got;
+        }
+        return static_cast<unsigned char>(*at_++);
+    }
+
+private:
+    int file_ = -1;
+    const char* at_ = nullptr;
+    const char* end_ = nullptr;
+    char buffer_[1024];
+};
+
+// Every function that returns a bool says by false that it has complained.
+class Reader {
+public:
+    Reader(const char* name, Source& source, Model& model) : name_(name), source_(source), model_(model) {}
+
+    bool read();
+    SceneEnd end() const { return end_; }
+
+private:
+    bool nextLine(bool* there);
+    bool nextWord();
+    bool expected(const char* what);
+    bool trouble(const char* what);
+    bool is(const char* word) const { return strcmp(word_, word) == 0; }
+
+    bool readReal(const char* what, Real least, Real most, Real* value);
+    bool readVector(const char* what, int most, Vector* value);
+    bool readDirection(const char* what, Vector* value);
+    bool readName(const char* what);
+    bool readKnown(const char* what, Actor** item);
+    bool readPeriod(Real* seconds);
+    bool readPhase(Real* phase);
+    bool readEnd();
+
+    bool statement();
+    bool object(const Kind* kind);
+    bool camera();
+    bool circle();
+    bool path();
+    bool turning(bool swings);
+    bool pulse();
+    bool keys();
+    bool key();
+    bool blend();
+    bool wave(bool given, Real period, Real phase, Wave* wave);
+
+    const char* name_;
+    Source& source_;
+    Model& model_;
+    SceneEnd end_ = SCENE_GOOD;
+    int line_ = 0;
+    bool over_ = false;
+    int allBlended_ = 0;
+    char text_[LINE_MOST + 1];
+    const char* at_ = nullptr;
+    const char* word_ = "";
+    char room_[WORD_ROOM];
+};
+
+// --- Lines and words
+
+// The next line, in lower case and without its comment, into text_.
+bool Reader::nextLine(bool* there)
+{
+    int length = 0;
+    bool comment = false, some = false;
+    *there = false;
+    text_[0] = 0;
+    at_ = text_;
+    word_ = "";
+    if (over_)
+        return true;
+    ++line_;
+    if (line_ > SCENE_LINES_MOST) {
+        word_ = "one more line";
+        char most[60];
+        snprintf(most, sizeof most, "at most %d lines", SCENE_LINES_MOST);
+        return expected(most);
+    }
+    for (int characters = 0;; ++characters) {
+        const int c = source_.next();
+        if (c == -2) {
+            snprintf(problem, sizeof problem, "%.100s: %s", name_, machine::fileTrouble());
+            end_ = SCENE_BAD;
+            return false;
+        }
+        if (c == -1 || c == END_OF_TEXT) {
+            over_ = true;
+            if (!some)
+                return true;
+            break;
+        }
+        some = true;
+        if (c == '\n')
+            break;
+        if (c == '\r')
+            continue;
+        if (characters >= LINE_MOST) {
+            text_[length < 20 ? length : 20] = 0;
+            snprintf(room_, sizeof room_, "%.20s...", text_);
+            word_ = room_;
+            char most[60];
+            snprintf(most, sizeof most, "a line of at most %d characters", LINE_MOST);
+            return expected(most);
+        }
+        comment = comment || c == '#';
+        if (!comment)
+            text_[length++] = static_cast<char>(c == '\t' ? ' ' : c == 0 ? '?' : c >= 'A' && c <= 'Z' ? c + 32 : c);
+    }
+    text_[length] = 0;
+    *there = true;
+    return true;
+}
+
+// The next word of the line into word_; false, and word_ is empty, at its end.
+bool Reader::nextWord()
+{
+    while (*at_ == ' ')
+        ++at_;
+    int length = 0;
+    while (*at_ != ' ' && *at_ != 0) {
+        if (length < WORD_ROOM - 1)
+            room_[length++] = *at_;
+        ++at_;
+    }
+    room_[length] = 0;
+    word_ = room_;
+    return length > 0;
+}
+
+bool Reader::expected(const char* what)
+{
+    char read[WORD_ROOM];
+    int length = 0;
+    // Only what any screen can show.
+    for (; word_[length] != 0 && length < WORD_ROOM - 1; ++length)
+        read[length] = word_[length] >= ' ' && word_[length] <= '~' ? word_[length] : '?';
+    read[length] = 0;
+    if (length == 0)
+        snprintf(problem, sizeof problem, "%.100s:%d: end of line: expected %s", name_, line_, what);
+    else
+        snprintf(problem, sizeof problem, "%.100s:%d: '%s': expected %s", name_, line_, read, what);
+    end_ = SCENE_BAD;
+    return false;
+}
+
+bool Reader::trouble(const char* what)
+{
+    snprintf(problem, sizeof problem, "%.100s:%d: %s", name_, line_, what);
+    end_ = SCENE_TROUBLE;
+    return false;
+}
+
+// --- Values
+
+bool Reader::readReal(const char* what, Real low, Real high, Real* value)
+{
+    nextWord();
+    if (parseReal(word_, value) && *value >= low && *value <= high)
+        return true;
+    char from[24], to[24], text[100];
+    formatReal(from, sizeof from, low);
+    formatReal(to, sizeof to, high);
+    snprintf(text, sizeof text, "%.40s from %s to %s", what, from, to);
+    return expected(text);
+}
+
+bool Reader::readVector(const char* what, int limit, Vector* value)
+{
+    char text[60];
+    const auto part = [&](const char* axis, Real* to) {
+        snprintf(text, sizeof text, "%.40s, %s", what, axis);
+        return readReal(text, Real(-limit), Real(limit), to);
+    };
+    return part("x", &value->x) && part("y", &value->y) && part("z", &value->z);
+}
+
+bool Reader::readDirection(const char* what, Vector* value)
+{
+    if (!readVector(what, SPACE, value))
+        return false;
+    if (*value == Vector{Real(0), Real(0), Real(0)})
+        return expected("a direction, not 0 0 0");
+    return true;
+}
+
+// A name into word_: a letter, then letters, digits, '-' or '_'.
+bool Reader::readName(const char* what)
+{
+    nextWord();
+    bool good = isLetter(word_[0]);
+    int length = 0;
+    for (; word_[length] != 0; ++length)
+        good = good && (isLetter(word_[length]) || isDigit(word_[length]) || word_[length] == '-' || word_[length] == '_');
+    return good && length < NAME_ROOM ? true : expected(what);
+}
+
+bool Reader::readKnown(const char* what, Actor** item)
+{
+    nextWord();
+    *item = word_[0] == 0 ? nullptr : model_.itemNamed(word_);
+    return *item != nullptr ? true : expected(what);
+}
+
+bool Reader::readEnd()
+{
+    return nextWord() ? expected("the end of the line") : true;
+}
+
+// --- Statements
+
+bool Reader::read()
+{
+    bool there;
+    for (;;) {
+        if (!nextLine(&there))
+            return false;
+        if (!there)
+            break;
+        if (nextWord() && !statement())
+            return false;
+    }
+    word_ = "end of file";
+    return model_.count() > 0 ? true : expected("at least one object");
+}
+
+bool Reader::statement()
+{
+    const Kind* kind = kindNamed(word_);
+    if (kind != nullptr || is("group"))
+        return object(kind);
+    if (is("eye") || is("focal") || is("light"))
+        return camera();
+    if (is("circle"))
+        return circle();
+    if (is("path"))
+        return path();
+    if (is("spin") || is("swing"))
+        return turning(is("swing"));
+    if (is("pulse"))
+        return pulse();
+    if (is("keys"))
+        return keys();
+    if (is("key"))
+        return key();
+    if (is("blend"))
+        return blend();
+    char text[200];
+    int length = 0;
+    for (int i = 0; i < KIND_COUNT; ++i)
+        length += snprintf(text + length, sizeof text - static_cast<size_t>(length), "%s, ", KINDS[i].word);
+    snprintf(text + length, sizeof text - static_cast<size_t>(length),
+             "group, blend, circle, path, spin, swing, pulse, keys, key, eye, focal or light");
+    return expected(text);
+}
+
+bool Reader::object(const Kind* kind)
+{
+    static const Colour COLOURS[] = {{255, 64, 48},  {64, 208, 72},  {72, 112, 255}, {255, 200, 48},
+                                     {224, 80, 224}, {64, 208, 216}, {255, 136, 40}, {208, 208, 208}};
+    Actor actor;
+    actor.kind = kind;
+    actor.colour = COLOURS[model_.count() % 8];
+    if (!readName("a name of 1 to 15 letters, digits, - or _, a letter first"))
+        return false;
+    if (is("all"))
+        return expected("another name; all stands for every object");
+    if (model_.itemNamed(word_) != nullptr)
+        return expected("a name that is not taken yet");
+    strcpy(actor.name, word_);
+    int groups = model_.items() - model_.count();
+    if (kind != nullptr ? model_.count() == Model::OBJECTS_MOST : groups == Model::GROUPS_MOST)
+        return expected(kind != nullptr ? "at most 128 objects" : "at most 64 groups");
+
+    const int measures = kind == nullptr ? 0 : kind->measures;
+    int given = 0;  // one bit a measure
+    while (nextWord()) {
+        bool measured = false;
+        for (int i = 0; i < measures && !measured; ++i) {
+            const Measure& m = kind->measure[i];
+            if (!is(m.word))
+                continue;
+            if (!readReal(m.word, m.least, m.most, &actor.measure[i]))
+                return false;
+            given |= 1 << i;
+            measured = true;
+        }
+        if (measured)
+            continue;
+        if (is("at")) {
+            Vector v;
+            if (!readVector("a place", SPACE, &v))
+                return false;
+            actor.motion.centre = toPoint(v);
+        } else if (is("turn")) {
+            const Real most = DEGREES_MOST;
+            Vector& v = actor.motion.turn;
+            if (!readReal("degrees about x", -most, most, &v.x) || !readReal("degrees about y", -most, most, &v.y) ||
+                !readReal("degrees about z", -most, most, &v.z))
+                return false;
+            actor.motion.parts |= MOTION_TURN;
+        } else if (is("in")) {
+            Actor* parent;
+            if (!readKnown("a group or an object of a line above", &parent))
+                return false;
+            actor.motion.parent = parent->number;
+        } else if (kind != nullptr && is("colour")) {
+            Real part[3];
+            for (int i = 0; i < 3; ++i)
+                if (!readReal("red, green and blue", Real(0), Real(255), &part[i]))
+                    return false;
+            actor.colour = {static_cast<uint8_t>(floorToInt(part[0])), static_cast<uint8_t>(floorToInt(part[1])),
+                            static_cast<uint8_t>(floorToInt(part[2]))};
+        } else if (kind == nullptr && is("scale")) {
+            if (!readReal("a scale", SCALE_LEAST, SCALE_MOST, &actor.motion.scale))
+                return false;
+        } else {
+            char text[120];
+            int length = 0;
+            for (int i = 0; i < measures; ++i)
+                length += snprintf(text + length, sizeof text - static_cast<size_t>(length), "%s, ", kind->measure[i].word);
+            snprintf(text + length, sizeof text - static_cast<size_t>(length), "at, turn, %s or in",
+                     kind != nullptr ? "colour" : "scale");
+            return expected(text);
+        }
+    }
+    for (int i = 0; i < measures; ++i)
+        if ((given & 1 << i) == 0)
+            return expected(kind->measure[i].word);
+    if (kind != nullptr && kind->expects != nullptr) {
+        const char* fits = kind->expects(actor.measure);
+        if (fits != nullptr) {
+            word_ = actor.name;
+            return expected(fits);
+        }
+    }
+    return model_.addItem(actor) != nullptr ? true : trouble("not enough memory for the model");
+}
+
+bool Reader::camera()
+{
+    if (is("eye")) {
+        Vector v;
+        if (!readVector("the eye's place", SPACE, &v))
+            return false;
+        model_.camera.eye = toPoint(v);
+    } else if (is("light")) {
+        if (!readDirection("the direction to the light", &model_.light))
+            return false;
+    } else {
+        const Real low(FOCAL_LEAST), high(FOCAL_MOST);
+        Camera& camera = model_.camera;
+        if (!readReal("pixels across", low, high, &camera.focalX))
+            return false;
+        // A pixel is 5 wide to 6 high.
+        camera.focalY = most(realFromRaw(mulDiv(rawFromReal(camera.focalX), 5, 6)), low);
+        const char* behind = at_;
+        if (nextWord()) {
+            at_ = behind;
+            if (!readReal("pixels down", low, high, &camera.focalY))
+                return false;
+        }
+    }
+    return readEnd();
+}
+
+bool Reader::wave(bool given, Real period, Real phase, Wave* wave)
+{
+    if (!given)
+        return expected("period");
+    *wave = makeWave(period, phase);
+    return true;
+}
+
+// What follows the word `period`: a time whose sign says which way round.
+bool Reader::readPeriod(Real* seconds)
+{
+    if (!readReal("seconds", -PERIOD_MOST, PERIOD_MOST, seconds))
+        return false;
+    return absolute(*seconds) >= PERIOD_LEAST ? true : expected("0.1 seconds or more, or -0.1 or less to go backwards");
+}
+
+bool Reader::readPhase(Real* phase)
+{
+    return readReal("a phase in turns", Real(-1), Real(1), phase);
+}
+
+bool Reader::circle()
+{
+    Actor* item;
+    if (!readKnown("the name of an object or a group", &item))
+        return false;
+    Vector u{Real(0), Real(0), Real(0)}, v = u;
+    Real radius(0), period(0), phase(0);
+    char first = 'x', second = 'y';
+    bool round = false, across = false, down = false, timed = false;
+    while (nextWord()) {
+        if (is("radius")) {
+            if (!readReal("a radius", Real(0), Real(SPACE), &radius))
+                return false;
+            round = true;
+        } else if (is("plane")) {
+            nextWord();
+            if (!is("xy") && !is("yz") && !is("zx") && !is("yx") && !is("zy") && !is("xz"))
+                return expected("xy, yz, zx, yx, zy or xz");
+            first = word_[0];
+            second = word_[1];
+        } else if (is("u")) {
+            if (!readVector("an arm", SPACE, &u))
+                return false;
+            across = true;
+        } else if (is("v")) {
+            if (!readVector("an arm", SPACE, &v))
+                return false;
+            down = true;
+        } else if (is("period")) {
+            if (!readPeriod(&period))
+                return false;
+            timed = true;
+        } else if (is("phase")) {
+            if (!readPhase(&phase))
+                return false;
+        } else {
+            return expected("radius, plane, u, v, period or phase");
+        }
+    }
+    if (round == (across && down) || across != down)
+        return expected("a radius, or both u and v");
+    if (round) {
+        (first == 'x' ? u.x : first == 'y' ? u.y : u.z) = radius;
+        (second == 'x' ? v.x : second == 'y' ? v.y : v.z) = radius;
+    }
+    item->motion.u = u;
+    item->motion.v = v;
+    return wave(timed, period, phase, &item->motion.circle);
+}
+
+bool Reader::path()
+{
+    Actor* item;
+    if (!readKnown("the name of an object or a group", &item))
+        return false;
+    Motion& motion = item->motion;
+    bool some = false;
+    while (nextWord()) {
+        const int axis = is("x") ? 0 : is("y") ? 1 : is("z") ? 2 : -1;
+        if (axis < 0)
+            return expected("x, y or z, each with amplitude, period and phase");
+        Real* amplitude = axis == 0 ? &motion.path.x : axis == 1 ? &motion.path.y : &motion.path.z;
+        Real period, phase;
+        if (!readReal("an amplitude", Real(0), Real(SPACE), amplitude) || !readPeriod(&period) || !readPhase(&phase))
+            return false;
+        motion.along[axis] = makeWave(period, phase);
+        motion.parts |= MOTION_PATH;
+        some = true;
+    }
+    return some ? true : expected("x, y or z, each with amplitude, period and phase");
+}
+
+bool Reader::turning(bool swings)
+{
+    Actor* item;
+    if (!readKnown("the name of an object or a group", &item))
+        return false;
+    Vector axis{Real(0), Real(1), Real(0)};
+    Real angle(0), period(0), phase(0);
+    bool pointed = false, wide = !swings, timed = false;
+    while (nextWord()) {
+        if (is("axis")) {
+            if (!readDirection("an axis", &axis))
+                return false;
+            pointed = true;
+        } else if (swings && is("angle")) {
+            if (!readReal("degrees", -DEGREES_MOST, DEGREES_MOST, &angle))
+                return false;
+            wide = true;
+        } else if (is("period")) {
+            if (!readPeriod(&period))
+                return false;
+            timed = true;
+        } else if (is("phase")) {
+            if (!readPhase(&phase))
+                return false;
+        } else {
+            return expected(swings ? "axis, angle, period or phase" : "axis, period or phase");
+        }
+    }
+    if (!pointed)
+        return expected("axis");
+    if (!wide)
+        return expected("angle");
+    Motion& motion = item->motion;
+    if (swings) {
+        motion.swingAxis = axis;
+        motion.swingAngle = angle;
+        motion.parts |= MOTION_SWING;
+        return wave(timed, period, phase, &motion.swing);
+    }
+    motion.spinAxis = axis;
+    motion.parts |= MOTION_SPIN;
+    return wave(timed, period, phase, &motion.spin);
+}
+
+bool Reader::pulse()
+{
+    Actor* item;
+    if (!readKnown("the name of an object or a group", &item))
+        return false;
+    Real by(0), period(0), phase(0);
+    bool given = false, timed = false;
+    while (nextWord()) {
+        if (is("by")) {
+            if (!readReal("a share of the size", Real(0), PULSE_MOST, &by))
+                return false;
+            given = true;
+        } else if (is("period")) {
+            if (!readPeriod(&period))
+                return false;
+            timed = true;
+        } else if (is("phase")) {
+            if (!readPhase(&phase))
+                return false;
+        } else {
+            return expected("by, period or phase");
+        }
+    }
+    if (!given)
+        return expected("by");
+    item->motion.pulse = by;
+    item->motion.parts |= MOTION_PULSE;
+    return wave(timed, period, phase, &item->motion.pulsing);
+}
+
+bool Reader::keys()
+{
+    Actor* item;
+    if (!readKnown("the name of an object or a group", &item))
+        return false;
+    Motion& motion = item->motion;
+    if (motion.keyCount > 0) {
+        word_ = item->name;
+        return expected("keys before the first key");
+    }
+    while (nextWord()) {
+        if (is("linear") || is("smooth")) {
+            motion.smooth = is("smooth");
+        } else if (is("repeat")) {
+            Real repeat;
+            if (!readReal("seconds", PERIOD_LEAST, KEY_TIME_MOST, &repeat))
+                return false;
+            motion.repeat = rawFromReal(repeat);
+        } else if (is("axis")) {
+            if (!readDirection("an axis", &motion.keyAxis))
+                return false;
+        } else {
+            return expected("linear, smooth, repeat or axis");
+        }
+    }
+    return true;
+}
+
+bool Reader::key()
+{
+    Actor* item;
+    if (!readKnown("the name of an object or a group", &item))
+        return false;
+    const Motion& motion = item->motion;
+    Real time;
+    if (!readReal("seconds", Real(0), KEY_TIME_MOST, &time))
+        return false;
+    Key key{rawFromReal(time), {Real(0), Real(0), Real(0), Real(0), Real(1)}};
+    if (motion.keyCount > 0 && key.time <= model_.keys()[motion.firstKey + motion.keyCount - 1].time)
+        return expected("a time after that of the key before");
+    if (motion.repeat > 0 && key.time >= motion.repeat)
+        return expected("a time before that of repeat");
+    Vector v;
+    if (!readVector("a place", SPACE, &v))
+        return false;
+    key.value[0] = v.x;
+    key.value[1] = v.y;
+    key.value[2] = v.z;
+    while (nextWord()) {
+        if (is("angle")) {
+            if (!readReal("degrees", -KEY_DEGREES_MOST, KEY_DEGREES_MOST, &key.value[3]))
+                return false;
+        } else if (is("scale")) {
+            if (!readReal("a scale", SCALE_LEAST, SCALE_MOST, &key.value[4]))
+                return false;
+        } else {
+            return expected("angle or scale");
+        }
+    }
+    if (model_.keyCount() == Model::KEYS_MOST) {
+        word_ = "key";
+        return expected("at most 1024 keys");
+    }
+    return model_.addKey(item, key) ? true : trouble("not enough memory for the keys");
+}
+
+bool Reader::blend()
+{
+    nextWord();
+    const bool all = is("all");
+    Actor *a = nullptr, *b = nullptr;
+    if (!all) {
+        a = model_.itemNamed(word_);
+        if (word_[0] == 0 || a == nullptr || a->object == nullptr)
+            return expected("all, or the name of an object");
+        if (!readKnown("the name of a second object", &b))
+            return false;
+        if (b->object == nullptr || a == b)
+            return expected("the name of a second object");
+    }
+    if (all && ++allBlended_ > ALL_MOST)
+        return expected("blend all in at most 8 lines");
+    Real weight(1);
+    const char* behind = at_;
+    if (nextWord()) {
+        at_ = behind;
+        if (!readReal("a weight", Real(0), WEIGHT_MOST, &weight) || !readEnd())
+            return false;
+    }
+    const bool good = all ? model_.linkAll(weight) : model_.link(a->object, b->object, weight);
+    return good ? true : trouble("not enough memory for the links");
+}
+
+const char* readFrom(const char* name, Source& source, Model& model, SceneEnd* end)
+{
+    Reader reader(name, source, model);
+    const bool good = reader.read();
+    *end = reader.end();
+    return good ? nullptr : problem;
+}
+
+// --- Writing
+
+class Writer {
+public:
+    Writer(bool (*put)(void*, const char*), void* to) : put_(put), to_(to) {}
+
+    bool write(const Model& model);
+
+private:
+    // Words and numbers are gathered in line_ until end(). No line the writer makes is longer than LINE_MOST.
+    Writer& word(const char* text);
+    Writer& number(Real value);
+    Writer& vector(const Vector& v) { return number(v.x).number(v.y).number(v.z); }
+    Writer& period(const Wave& wave);
+    void end();
+    void item(const Model& model, const Actor& actor);
+
+    bool (*put_)(void*, const char*);
+    void* to_;
+    bool good_ = true;
+    int length_ = 0;
+    char line_[LINE_MOST + 2];
+};
+
+Writer& Writer::word(const char* text)
+{
+    length_ += snprintf(line_ + length_, sizeof line_ - static_cast<size_t>(length_), "%s%s", length_ > 0 ? " " : "", text);
+    if (length_ > LINE_MOST)
+        length_ = LINE_MOST;
+    return *this;
+}
+
+// The shortest text that reads back as the value.
+Writer& Writer::number(Real value)
+{
+    const int32_t raw = rawFromReal(value);
+    char text[24];
+    text[0] = '-';
+    char* digits = raw < 0 ? text + 1 : text;
+    for (int decimals = 0; decimals <= 6; ++decimals) {
+        formatQuotient(digits, 20, static_cast<uint32_t>(raw < 0 ? -raw : raw), 65536, decimals);
+        Real back;
+        if (parseReal(text, &back) && back == value)
+            break;
+    }
+    return word(text);
+}
+
+Writer& Writer::period(const Wave& wave)
+{
+    word("period").number(wave.period);
+    if (wave.phase != 0)
+        word("phase").number(realFromRaw(static_cast<int32_t>(wave.phase >> 16)));
+    return *this;
+}
+
+void Writer::end()
+{
+    line_[length_] = '\n';
+    line_[length_ + 1] = 0;
+    good_ = good_ && put_(to_, line_);
+    length_ = 0;
+}
+
+void Writer::item(const Model& model, const Actor& actor)
+{
+    const Motion& m = actor.motion;
+    word(actor.object == nullptr ? "group" : actor.kind == nullptr ? "sphere" : actor.kind->word).word(actor.name);
+    if (actor.object != nullptr) {
+        const int measures = actor.kind == nullptr ? 1 : actor.kind->measures;
+        for (int i = 0; i < measures; ++i)
+            word(actor.kind == nullptr ? "size" : actor.kind->measure[i].word).number(actor.measure[i]);
+    }
+    if (!(m.centre == Point{Real(0), Real(0), Real(0)}))
+        word("at").vector(toVector(m.centre));
+    if (m.parts & MOTION_TURN)
+        word("turn").vector(m.turn);
+    if (m.scale != Real(1))
+        word("scale").number(m.scale);
+    if (actor.object != nullptr)
+        word("colour").vector({Real(actor.colour.red), Real(actor.colour.green), Real(actor.colour.blue)});
+    const Actor* parent = m.parent == 0 ? nullptr : model.itemNumbered(m.parent);
+    if (parent != nullptr)
+        word("in").word(parent->name);
+    end();
+    if (m.circle.period != Real(0)) {
+        word("circle").word(actor.name).word("u").vector(m.u).word("v").vector(m.v).period(m.circle);
+        end();
+    }
+    if (m.parts & MOTION_PATH) {
+        word("path").word(actor.name);
+        const Real amplitude[3] = {m.path.x, m.path.y, m.path.z};
+        for (int i = 0; i < 3; ++i) {
+            if (m.along[i].period == Real(0))
+                continue;
+            word(i == 0 ? "x" : i == 1 ? "y" : "z").number(amplitude[i]).number(m.along[i].period);
+            number(realFromRaw(static_cast<int32_t>(m.along[i].phase >> 16)));
+        }
+        end();
+    }
+    if (m.parts & MOTION_SPIN) {
+        word("spin").word(actor.name).word("axis").vector(m.spinAxis).period(m.spin);
+        end();
+    }
+    if (m.parts & MOTION_SWING) {
+        word("swing").word(actor.name).word("axis").vector(m.swingAxis).word("angle").number(m.swingAngle);
+        period(m.swing);
+        end();
+    }
+    if (m.parts & MOTION_PULSE) {
+        word("pulse").word(actor.name).word("by").number(m.pulse).period(m.pulsing);
+        end();
+    }
+    if (m.keyCount > 0 || m.smooth || m.repeat > 0) {
+        word("keys").word(actor.name).word(m.smooth ? "smooth" : "linear");
+        if (m.repeat > 0)
+            word("repeat").number(realFromRaw(m.repeat));
+        word("axis").vector(m.keyAxis);
+        end();
+    }
+    for (int i = 0; i < m.keyCount; ++i) {
+        const Key& key = model.keys()[m.firstKey + i];
+        word("key").word(actor.name).number(realFromRaw(key.time));
+        vector({key.value[0], key.value[1], key.value[2]});
+        if (key.value[3] != Real(0))
+            word("angle").number(key.value[3]);
+        if (key.value[4] != Real(1))
+            word("scale").number(key.value[4]);
+        end();
+    }
+}
+
+bool Writer::write(const Model& model)
+{
+    const Camera& camera = model.camera;
+    word("eye").vector(toVector(camera.eye));
+    end();
+    word("focal").number(camera.focalX).number(camera.focalY);
+    end();
+    word("light").vector(model.light);
+    end();
+    for (int i = 0; i < model.items(); ++i)
+        item(model, model.item(i));
+
+    // Links: one line where all are alike, else one for each.
+    Real common(1), weight;
+    bool alike = model.count() > 1;
+    for (int i = 0; i < model.count(); ++i) {
+        for (int j = 0; j < i && alike; ++j) {
+            alike = Model::linked(model.actor(i).object, model.actor(j).object, &weight);
+            if (i == 1)
+                common = weight;
+            alike = alike && weight == common;
+        }
+    }
+    if (alike) {
+        word("blend").word("all");
+        if (common != Real(1))
+            number(common);
+        end();
+        return good_;
+    }
+    for (int i = 0; i < model.count(); ++i) {
+        for (int j = 0; j < i; ++j) {
+            if (!Model::linked(model.actor(i).object, model.actor(j).object, &weight))
+                continue;
+            word("blend").word(model.actor(i).name).word(model.actor(j).name);
+            if (weight != Real(1))
+                number(weight);
+            end();
+        }
+    }
+    return good_;
+}
+
+bool putToFile(void* to, const char* line)
+{
+    return machine::writeFile(*static_cast<int*>(to), line, static_cast<uint32_t>(strlen(line))) >= 0;
+}
+
+}  // namespace
+
+const char* readScene(const char* name, Model& model, SceneEnd* end)
+{
+    const int file = machine::openFile(name);
+    if (file < 0) {
+        *end = SCENE_BAD;
+        snprintf(problem, sizeof problem, "%.100s: %s", name, machine::fileTrouble());
+        return problem;
+    }
+    Source source(file);
+    const char* wrong = readFrom(name, source, model, end);
+    machine::closeFile(file);
+    return wrong;
+}
+
+const char* readSceneText(const char* name, const char* text, uint32_t length, Model& model, SceneEnd* end)
+{
+    Source source(text, length);
+    return readFrom(name, source, model, end);
+}
+
+bool writeSceneText(bool (*put)(void* to, const char* line), void* to, const Model& model)
+{
+    return Writer(put, to).write(model);
+}
+
+const char* writeScene(const char* name, const Model& model)
+{
+    int file = machine::createFile(name);
+    bool good = file >= 0 && writeSceneText(putToFile, &file, model);
+    if (file >= 0)
+        good = machine::closeFile(file) && good;
+    if (good)
+        return nullptr;
+    snprintf(problem, sizeof problem, "%.100s: %s", name, machine::fileTrouble());
+    return problem;
+}

@@ -1,0 +1,62 @@
+// Seeds on a sphere: a stack of rings, each ring a row of seeds (report, Appendix C, Figure 8).
+#include "model/sphere.h"
+
+#include "rt.h"
+#include "math/text.h"
+
+namespace {
+constexpr int64_t PI_16 = 205887;       // pi, 16.16
+constexpr int64_t TWO_PI_16 = 411775;
+constexpr int FEWEST_IN_RING = 4;
+}
+
+int ringCount(Real radius, Real spacing)
+{
+    const uint64_t half = static_cast<uint64_t>((rawFromReal(radius) * PI_16) >> 16);
+    const uint32_t gap = static_cast<uint32_t>(rawFromReal(spacing));
+    uint32_t rest;
+    return static_cast<int>(divide64(half + gap - 1, gap, &rest));
+}
+
+int seedsInRing(Real radius, Real spacing, int32_t cosine30)
+{
+    const int64_t ring = (static_cast<int64_t>(rawFromReal(radius)) * cosine30) >> 30;
+    const uint64_t around = static_cast<uint64_t>((ring * TWO_PI_16) >> 16);
+    uint32_t rest;
+    const int count = static_cast<int>(divide64(around, static_cast<uint32_t>(rawFromReal(spacing)), &rest));
+    return count < FEWEST_IN_RING ? FEWEST_IN_RING : count;
+}
+
+void Sphere::layOutSeeds(SeedMaker& maker, Real spacing) const
+{
+    const int root = maker.addRoot({Real(0), Real(0), Real(0)});
+    const int rings = ringCount(radius(), spacing);
+    // Half the distance of two rings: radius * pi / rings / 2.
+    const Real across = radius() * realFromRaw(static_cast<int32_t>(PI_16)) / Real(2 * rings);
+    const uint32_t latitudeStep = 0x40000000u / static_cast<uint32_t>(rings);
+    for (int k = 0; k < rings; ++k) {
+        // -pi/2 + pi (k + 1/2) / rings
+        const Angle latitude = static_cast<uint32_t>(2 * k + 1) * latitudeStep - 0x40000000u;
+        const Real sinLatitude = sine(latitude), cosLatitude = cosine(latitude);
+        const int count = seedsInRing(radius(), spacing, cosine30(latitude));
+        const Real along = radius() * cosLatitude * realFromRaw(static_cast<int32_t>(PI_16)) / Real(count);
+        const uint32_t step = 0xffffffffu / static_cast<uint32_t>(count);
+        maker.beginRing();
+        for (int i = 0; i < count; ++i) {
+            const Angle longitude = static_cast<uint32_t>(i) * step;
+            const Real s = sine(longitude), c = cosine(longitude);
+            maker.addSeed(root, {cosLatitude * s, sinLatitude, cosLatitude * c}, {along * c, Real(0), -(along * s)},
+                          {-(across * sinLatitude * s), across * cosLatitude, -(across * sinLatitude * c)});
+        }
+    }
+}
+
+void Sphere::describe(char* to, int size) const
+{
+    char x[24], y[24], z[24], r[24];
+    formatReal(x, sizeof x, centre().x);
+    formatReal(y, sizeof y, centre().y);
+    formatReal(z, sizeof z, centre().z);
+    formatReal(r, sizeof r, this->size());
+    snprintf(to, static_cast<size_t>(size), "sphere %d %s %s %s %s", number(), x, y, z, r);
+}

@@ -1,0 +1,79 @@
+// From voxels to pixels in C++: what asm/scales.S does, said plainly.
+#include "picture/scales.h"
+
+using machine::HEIGHT;
+using machine::WIDTH;
+
+namespace {
+
+inline int32_t limited(int32_t step)
+{
+    return step > STEEPEST ? STEEPEST : step < -STEEPEST ? -STEEPEST : step;
+}
+
+}  // namespace
+
+int drawScalesC(Lens* lens, const Voxel* const* voxels, int count)
+{
+    int i = 0;
+    for (; i < count; ++i) {
+        const Voxel& v = *voxels[i];
+        const int32_t depth = wrappedSum(lens->z, v.z);
+        const uint32_t step = static_cast<uint32_t>((depth >> 5) - LENS_NEAR * 8);
+        if (step >= static_cast<uint32_t>(LENS_STEPS))
+            break;
+        const Factors& f = lens->factors[step];
+        // The pixels whose centres lie in the rectangle: columns, then rows.
+        int32_t column, row;
+        if (__builtin_mul_overflow(wrappedSum(lens->x, v.x), f.x, &column))
+            break;
+        column = lens->centreX + (column >> 8);
+        const int32_t halfWide = v.wide * f.x >> 8;
+        const int left = (column - halfWide) >> 12, right = (column + halfWide) >> 12, wide = right - left;
+        if (left < 0 || right > WIDTH)
+            break;
+        lens->left = left < lens->left ? left : lens->left;
+        lens->right = right > lens->right ? right : lens->right;
+        if (wide < 0 || wide > WIDEST || __builtin_mul_overflow(wrappedSum(lens->y, v.y), f.y, &row))
+            break;
+        row = lens->centreY - (row >> 8);
+        const int32_t halfHigh = v.high * f.y >> 8;
+        const int top = (row - halfHigh) >> 12, bottom = (row + halfHigh) >> 12, high = bottom - top;
+        if (top < 0 || bottom > HEIGHT)
+            break;
+        lens->top = top < lens->top ? top : lens->top;
+        lens->bottom = bottom > lens->bottom ? bottom : lens->bottom;
+        if (wide + high > SLOPED_MOST)
+            break;
+        if (wide == 0 || high <= 0) {
+            ++lens->empty;
+            continue;
+        }
+        // The plane of the surface: from the scale's middle to the middle of its first pixel, and on from there.
+        const int32_t across = limited(wrappedProduct(v.tiltX, f.zx) >> 16);
+        const int32_t down = -limited(wrappedProduct(v.tiltY, f.zy) >> 16);
+        const int32_t toColumn = ((left + 1) << 12) - column, toRow = ((top + 1) << 12) - row;
+        FineScale scale;
+        scale.left = static_cast<int16_t>(left);
+        scale.top = static_cast<int16_t>(top);
+        scale.wide = static_cast<int16_t>(wide);
+        scale.high = static_cast<int16_t>(high);
+        scale.z = (depth >> 1) + ((across * toColumn + down * toRow) >> 12);
+        scale.zStep = across;
+        scale.zRow = down - across * wide;
+        if (!isFine(v)) {
+            scale.colour = lens->ramp[v.brightness];
+            blitScalesC(lens->frame, lens->zbuffer, &scale, 1);
+            continue;
+        }
+        scale.zMost = endOf(v, depth >> 1);
+        const int32_t shadeAcross = shadeStep(v.slopeX, f.zx), shadeDown = -shadeStep(v.slopeY, f.zy);
+        scale.ramp = lens->ramp;
+        const int32_t toFirst = wrappedSum(wrappedProduct(shadeAcross, toColumn), wrappedProduct(shadeDown, toRow));
+        scale.shade = v.brightness * 256 + 128 + (toFirst >> 12);
+        scale.shadeStep = shadeAcross;
+        scale.shadeRow = wrappedSum(shadeDown, -wrappedProduct(shadeAcross, wide));
+        blitFine(lens->frame, lens->zbuffer, scale);
+    }
+    return i;
+}

@@ -1,0 +1,392 @@
+// Perspective, and the way from voxels to pixels.
+#include "picture/view.h"
+
+#include "math/alloc.h"
+
+using machine::HEIGHT;
+using machine::WIDTH;
+
+namespace {
+
+// What is taken for a gap (View::closeGaps()), pixels: what is closed all round and up to GAP_WIDE and a spacing of the
+// seeds wide and high; the end of what is open above or below, where it is up to GAP_NARROW and a spacing wide, or to a side,
+// where it is up to GAP_LOW high; and what is up to GAP_THIN wide.
+constexpr int GAP_WIDE = 10;
+constexpr int GAP_NARROW = 8;
+constexpr int GAP_LOW = 6;
+constexpr int GAP_THIN = 2;
+constexpr int GAP_MOST = 32;  // however near the viewer
+constexpr int FRACTION = 12;
+constexpr int32_t HALF = 1 << (FRACTION - 1);
+constexpr int32_t NEAREST = 1 << 8;            // 1 unit
+constexpr int32_t FARTHEST = 511 << 8;         // z in 1/128 unit ends at 512
+
+// A sloped scale of the loop stays within 16 bits: its corners lie less than SLOPED_MOST steps from its middle.
+static_assert(LENS_NEAR * 128 >= SLOPED_MOST * STEEPEST && LENS_FAR * 128 + SLOPED_MOST * STEEPEST < Z_EMPTY, "depths");
+
+}  // namespace
+
+View::~View()
+{
+    free(frame_);
+    free(zbuffer_);
+    free(factors_);
+}
+
+bool View::open()
+{
+    frame_ = allocate<uint8_t>(WIDTH * HEIGHT);
+    zbuffer_ = allocate<uint16_t>(WIDTH * HEIGHT);
+    factors_ = allocate<Factors>(LENS_STEPS);
+    if (frame_ == nullptr || zbuffer_ == nullptr || factors_ == nullptr)
+        return false;
+    memset(frame_, 0, WIDTH * HEIGHT);
+    memset(zbuffer_, 0xff, WIDTH * HEIGHT * sizeof *zbuffer_);
+    for (int y = 0; y < HEIGHT; ++y) {
+        touched_[y] = {0, 0};
+        last_[y] = {0, WIDTH};  // the screen may hold anything before the first frame
+    }
+    setCamera(camera_);
+    return true;
+}
+
+void View::setCamera(const Camera& camera)
+{
+    camera_ = camera;
+    focalX_ = rawFromReal(camera.focalX) >> (16 - FRACTION);
+    focalY_ = rawFromReal(camera.focalY) >> (16 - FRACTION);
+    centreX_ = rawFromReal(camera.centreX) >> (16 - FRACTION);
+    centreY_ = rawFromReal(camera.centreY) >> (16 - FRACTION);
+    lens_.factors = factors_;
+    lens_.frame = frame_;
+    lens_.zbuffer = zbuffer_;
+    lens_.centreX = centreX_ + HALF;
+    lens_.centreY = centreY_ + HALF;
+    for (int i = 0; i < LENS_STEPS; ++i) {
+        // The middle of the step: (2i + 1) / 16 units beyond the nearest.
+        const int32_t z16 = 16 * 8 * LENS_NEAR / 8 + 2 * i + 1;
+        Factors& f = factors_[i];
+        f.x = (focalX_ * 16 + z16 / 2) / z16;
+        f.y = (focalY_ * 16 + z16 / 2) / z16;
+        f.zx = mulDiv(z16, 1 << 23, focalX_);
+        f.zy = mulDiv(z16, 1 << 23, focalY_);
+    }
+}
+
+void View::begin()
+{
+    clearRows(frame_, zbuffer_, touched_, HEIGHT);
+    shown_ = {WIDTH, HEIGHT, 0, 0};
+    for (int y = 0; y < HEIGHT; ++y)
+        touched_[y] = {WIDTH, 0};
+}
+
+void View::mark(int left, int top, int right, int bottom)
+{
+    left = left < 0 ? 0 : left & ~3;
+    right = right > WIDTH ? WIDTH : (right + 3) & ~3;
+    top = top < 0 ? 0 : top;
+    bottom = bottom > HEIGHT ? HEIGHT : bottom;
+    if (left >= right)
+        return;
+    shown_.left = left < shown_.left ? left : shown_.left;
+    shown_.right = right > shown_.right ? right : shown_.right;
+    shown_.top = top < shown_.top ? top : shown_.top;
+    shown_.bottom = bottom > shown_.bottom ? bottom : shown_.bottom;
+    for (int y = top; y < bottom; ++y) {
+        if (touched_[y].from > left)
+            touched_[y].from = static_cast<int16_t>(left);
+        if (touched_[y].to < right)
+            touched_[y].to = static_cast<int16_t>(right);
+    }
+}
+
+void View::touchPixel(int at)
+{
+    const int row = at / WIDTH, column = at - row * WIDTH;
+    if (column < touched_[row].from || column >= touched_[row].to)
+        mark(column, row, column + 1, row + 1);
+}
+
+Rectangle View::takeShown()
+{
+    const Rectangle box = shown_;
+    shown_ = {WIDTH, HEIGHT, 0, 0};
+    return box;
+}
+
+// A voxel that drawScales() left: any size and place. False: not on the screen.
+bool View::project(const Voxel& voxel, FineScale* scale) const
+{
+    const int32_t x = wrappedSum(lens_.x, voxel.x), y = wrappedSum(lens_.y, voxel.y), z = wrappedSum(lens_.z, voxel.z);
+    if (z < NEAREST || z > FARTHEST)
+        return false;
+    // Off the screen by far? Then the quotients below might not fit.
+    const int32_t side = z * 16;
+    if (x > side || x < -side || y > side || y < -side)
+        return false;
+    int32_t halfWide = HALF - 1, halfHigh = HALF - 1;
+    if (!pixels_) {
+        halfWide = mulDiv(voxel.wide, focalX_, z);
+        halfHigh = mulDiv(voxel.high, focalY_, z);
+    }
+    const int32_t column = mulDiv(x, focalX_, z) + centreX_;
+    const int32_t row = centreY_ - mulDiv(y, focalY_, z);
+    // The pixels whose centres lie in the rectangle.
+    int left = (column - halfWide + HALF) >> FRACTION;
+    int right = (column + halfWide + HALF) >> FRACTION;
+    int top = (row - halfHigh + HALF) >> FRACTION;
+    int bottom = (row + halfHigh + HALF) >> FRACTION;
+    left = left < 0 ? 0 : left;
+    right = right > WIDTH ? WIDTH : right;
+    top = top < 0 ? 0 : top;
+    bottom = bottom > HEIGHT ? HEIGHT : bottom;
+    if (left >= right || top >= bottom)
+        return false;
+    const int wide = right - left;
+    scale->left = static_cast<int16_t>(left);
+    scale->top = static_cast<int16_t>(top);
+    scale->wide = static_cast<int16_t>(wide);
+    scale->high = static_cast<int16_t>(bottom - top);
+    scale->colour = lens_.ramp[voxel.brightness];
+
+    // The plane of the surface: the depth changes by tilt (z / focal) from pixel to pixel.
+    const int32_t depth = z >> 1;
+    int32_t across = mulDiv(voxel.tiltX, z << 3, focalX_), down = -mulDiv(voxel.tiltY, z << 3, focalY_);
+    across = across > STEEPEST ? STEEPEST : across < -STEEPEST ? -STEEPEST : across;
+    down = down > STEEPEST ? STEEPEST : down < -STEEPEST ? -STEEPEST : down;
+    // From the scale's centre to the centre of its first pixel.
+    const int64_t slope = static_cast<int64_t>(across) * ((left << FRACTION) + HALF - column) +
+                          static_cast<int64_t>(down) * ((top << FRACTION) + HALF - row);
+    int32_t first = depth + static_cast<int32_t>(slope >> FRACTION);
+    // Might it leave 16 bits at a corner? Then it faces the viewer.
+    const int32_t columns = (halfWide >> FRACTION) + 2, rows = (halfHigh >> FRACTION) + 2;
+    const int32_t swing = (across < 0 ? -across : across) * (columns < WIDTH ? columns : WIDTH) +
+                          (down < 0 ? -down : down) * (rows < HEIGHT ? rows : HEIGHT);
+    if (depth - swing < 0 || depth + swing >= Z_EMPTY) {
+        across = down = 0;
+        first = depth;
+    }
+    scale->z = first;
+    scale->zStep = across;
+    scale->zRow = down - across * wide;
+
+    scale->zMost = endOf(voxel, depth);
+    const int32_t shadeAcross = shadeStep(voxel.slopeX, mulDiv(z, 1 << 19, focalX_));
+    const int32_t shadeDown = -shadeStep(voxel.slopeY, mulDiv(z, 1 << 19, focalY_));
+    const int64_t shade = static_cast<int64_t>(shadeAcross) * ((left << FRACTION) + HALF - column) +
+                          static_cast<int64_t>(shadeDown) * ((top << FRACTION) + HALF - row);
+    scale->ramp = lens_.ramp;
+    scale->shade = voxel.brightness * 256 + 128 + static_cast<int32_t>(shade >> FRACTION);
+    scale->shadeStep = shadeAcross;
+    scale->shadeRow = shadeDown - shadeAcross * wide;
+    return true;
+}
+
+int View::show(const VoxelList& list)
+{
+    lens_.x = list.x;
+    lens_.y = list.y;
+    lens_.z = list.z;
+    lens_.ramp = list.ramp;
+    lens_.left = WIDTH;
+    lens_.top = HEIGHT;
+    lens_.right = lens_.bottom = 0;
+    lens_.empty = 0;
+    int left = 0;  // voxels not drawn
+    for (int i = 0; i < list.count; ++i) {
+        if (!pixels_)
+            i += drawScales(&lens_, list.voxels + i, list.count - i);
+        if (i == list.count)
+            break;
+        const Voxel& voxel = *list.voxels[i];
+        FineScale scale;
+        if (!project(voxel, &scale)) {
+            ++left;
+        } else {
+            if (isFine(voxel))
+                blitFine(frame_, zbuffer_, scale);
+            else
+                blitScales(frame_, zbuffer_, &scale, 1);
+            mark(scale.left, scale.top, scale.left + scale.wide, scale.top + scale.high);
+        }
+    }
+    mark(lens_.left, lens_.top, lens_.right, lens_.bottom);
+    return list.count - left - lens_.empty;
+}
+
+// Whether a pixel is empty and lies right below a drawn one and a little way above another.
+static inline bool inSlit(const uint8_t* pixel)
+{
+    static_assert(GAP_LOW == 6, "as many rows are looked at");
+    return pixel[-WIDTH] != 0 && pixel[0] == 0 &&
+           (pixel[WIDTH] | pixel[2 * WIDTH] | pixel[3 * WIDTH] | pixel[4 * WIDTH] | pixel[5 * WIDTH] | pixel[6 * WIDTH]) != 0;
+}
+
+// Looks at each row once, and at more only where a run of empty pixels between drawn ones is short.
+int View::closeGaps(Real spacing)
+{
+    if (pixels_)
+        return 0;
+    int drawn = 0;
+    // A spacing in pixels is this over a depth of the Z-buffer.
+    const int32_t near = mulShift16(focalX_, rawFromReal(spacing)) >> (FRACTION - 7);
+    Span runs[WIDTH / 2];
+    const uint8_t* row = frame_ + WIDTH;
+    for (int y = 1; y < HEIGHT - GAP_LOW; ++y, row += WIDTH) {
+        const Span& touched = touched_[y];
+        if (touched.from >= touched.to)
+            continue;
+        const Span* const end = runs + drawnRuns(row, &touched, runs);
+        int last = 0;  // behind the run before
+        for (const Span* run = runs; run < end; ++run) {
+            const int from = run->from;
+            drawn += run->to - from;
+            if (last > 0 && from - last <= GAP_MOST) {
+                const int before = zbuffer_[y * WIDTH + last - 1], behind = zbuffer_[y * WIDTH + from];
+                closeRun(y, last, from, near / ((before > behind ? before : behind) | 1));
+            }
+            if (last > 0 && inSlit(row + last))
+                closeSlit(y, last, from, 1);
+            if (from > 0 && inSlit(row + from - 1))
+                closeSlit(y, from - 1, last - 1, -1);
+            last = run->to;
+        }
+        if (last > 0 && last < WIDTH && inSlit(row + last))
+            closeSlit(y, last, WIDTH, 1);
+    }
+    return drawn;
+}
+
+// Pixels from column `from` to before `to` are empty, those on both sides are not; seeds lie `spacing` pixels apart there.
+void View::closeRun(int y, int from, int to, int spacing)
+{
+    const uint8_t* row = frame_ + y * WIDTH;
+    int widest = GAP_WIDE + spacing;
+    widest = widest > GAP_MOST ? GAP_MOST : widest;
+    if (to - from > widest)
+        return;
+    if (to - from <= GAP_THIN) {
+        const Span thin = {static_cast<int16_t>(from), static_cast<int16_t>(to)};
+        fillRow(y, thin);
+        // What lies above may have been open to it.
+        closeAbove(y, from, widest, GAP_NARROW + spacing);
+        closeAbove(y, to - 1, widest, GAP_NARROW + spacing);
+    }
+    // Where it begins, and where it ends if it was not closed from there.
+    for (int step = 1; step >= -1 && row[from] == 0; step -= 2) {
+        int x = from;
+        while (x < to && row[x - step * WIDTH] != 0)
+            ++x;
+        if (x == to)
+            closeFrom(y, from, to, step, widest, GAP_NARROW + spacing);
+    }
+}
+
+// What is empty above a pixel that has just been filled is followed up, if that has closed it below.
+void View::closeAbove(int y, int x, int widest, int narrowest)
+{
+    const uint8_t* row = frame_ + (y - 1) * WIDTH;
+    if (y < 2 || row[x] != 0)
+        return;
+    int from = x, to = x + 1;
+    while (from > 0 && to - from <= widest && row[from - 1] == 0)
+        --from;
+    while (to < WIDTH && to - from <= widest && row[to] == 0)
+        ++to;
+    if (to - from > widest || from == 0 || to == WIDTH)
+        return;
+    for (int i = from; i < to; ++i)
+        if (row[i + WIDTH] == 0)
+            return;
+    closeFrom(y - 1, from, to, -1, widest, narrowest);
+}
+
+// Follows the opening down from a row (or up: `step`) before which it is closed.
+void View::closeFrom(int y, int from, int to, int step, int widest, int narrowest)
+{
+    Span rows[GAP_MOST];
+    int high = 0, narrow = 0;
+    for (;;) {
+        // All below a neck goes with it.
+        if (to - from <= narrowest)
+            narrow = high + 1;
+        rows[high++] = {static_cast<int16_t>(from), static_cast<int16_t>(to)};
+        const int next = y + high * step;
+        if (next <= 0 || next >= HEIGHT - 1)
+            break;
+        const uint8_t* row = frame_ + next * WIDTH;
+        // What is empty beside it in the next row, all that lies between taken for empty.
+        const int left = from, right = to;
+        while (from < right && row[from] != 0)
+            ++from;
+        if (from == right) {
+            narrow = high;  // closed all round
+            break;
+        }
+        while (row[to - 1] != 0)
+            --to;
+        while (from <= left && from > 0 && to - from <= widest && row[from - 1] == 0)
+            --from;
+        while (to >= right && to < WIDTH && to - from <= widest && row[to] == 0)
+            ++to;
+        if (to - from > widest || from == 0 || to == WIDTH || high == widest)
+            break;
+    }
+    for (int i = 0; i < narrow; ++i)
+        fillRow(y + i * step, rows[i]);
+    if (narrow < high) {
+        closeCorner(y + narrow * step, rows[narrow].from, 1);
+        closeCorner(y + narrow * step, rows[narrow].to - 1, -1);
+    }
+}
+
+// An empty pixel beside which, against `step`, a drawn one lies: in a corner with two pixels or more on each side, which is
+// none of a round outline, it is closed.
+void View::closeCorner(int y, int x, int step)
+{
+    const uint8_t* pixel = frame_ + y * WIDTH + x;
+    const int along = pixel[-WIDTH] != 0 ? -WIDTH : WIDTH;
+    if (pixel[0] == 0 && pixel[-step] != 0 && pixel[along] != 0 && pixel[along + step] != 0 && pixel[-step - along] != 0)
+        takeOver(y * WIDTH + x, y * WIDTH + x - step);
+}
+
+// Empty pixels take over what the nearer end has: `empty` lies between drawn ones.
+void View::fillRow(int y, const Span& empty)
+{
+    const int at = y * WIDTH;
+    for (int x = empty.from; x < empty.to; ++x)
+        if (frame_[at + x] == 0)
+            takeOver(at + x, at + (2 * x < empty.from + empty.to ? empty.from - 1 : empty.to));
+}
+
+// From column x in steps until `end`: closes a slit column by column, with what lies below in it.
+void View::closeSlit(int y, int x, int end, int step)
+{
+    for (; x != end && inSlit(frame_ + y * WIDTH + x); x += step) {
+        const int at = y * WIDTH + x;
+        int high = 1;
+        while (frame_[at + high * WIDTH] == 0)
+            ++high;
+        for (int i = 0; i < high; ++i)
+            takeOver(at + i * WIDTH, 2 * i < high ? at - WIDTH : at + high * WIDTH);
+        mark(x, y, x + 1, y + high);
+    }
+}
+
+uint8_t* View::overlay(int left, int top, int wide, int high)
+{
+    mark(left, top, left + wide, top + high);
+    return frame_;
+}
+
+void View::end()
+{
+    for (int y = 0; y < HEIGHT; ++y) {
+        const Span& now = touched_[y];
+        Span& before = last_[y];
+        present_[y].from = before.from < now.from ? before.from : now.from;
+        present_[y].to = before.to > now.to ? before.to : now.to;
+        before = now;
+    }
+}

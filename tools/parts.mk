@@ -1,0 +1,11 @@
+# What the program is made of: the one list of its rooms and kernels. Included by Makefile and Makefile.djgpp before
+# anything else that names a source.
+#
+#   PROGRAM     every source of the program but the machine it runs on, main() included
+#   KERNELS     the assembly kernels, each of which has a C++ twin
+#   QUICK       where a frame's time goes, without .cpp: larger code for fewer instructions
+ROOMS = math model surface picture app
+PROGRAM = $(wildcard $(ROOMS:%=src/%/*.cpp))
+KERNELS = $(wildcard asm/*.S)
+MAIN = src/app/main.cpp
+QUICK = src/surface/settle src/surface/draw src/picture/view
