@@ -10,7 +10,7 @@ inline void operator delete(void*, void*, InPlace) noexcept {}
 
 // A new T, or null when there is no memory. Ended by destroy().
 template <class T, class... Args>
-T* make(const Args&... args)
+T* make(Args&&... args)
 {
     void* at = malloc(sizeof(T));
     return at == nullptr ? nullptr : new (at, InPlace{}) T(args...);

@@ -14,32 +14,25 @@ public:
     // The side slopes by 45 degrees at most.
     static Real leastLength(Real size1, Real size2) { return shiftDown(absolute(size1 - size2), 1); }
 
-    Vector fromCore(const Point& p) const override;
-    Real sizeAt(const Point& p) const override;
-    Real tangentAt(const Point& root) const override;
-    Real taperedParam(const Point& p, Vector* slope) const override;
+    Vector fromCore(const Vector& q) const override;
+    Real param(const Vector& q, Vector* slope) const override;
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
-    Real horizonRadius(const Point& eye) const override;
-    Real horizonAt(const Point& root, Real general) const override;
-    Real coreReach() const override { return half_; }
-    void placeCore() override;
+    Real horizonRadius(const Vector& toEye) const override;
+    Real horizonAt(const Vector& root, Real general) const override;
     void describe(char* to, int size) const override;
 
-    Real size1() const { return size1_; }
-    Real size2() const { return size2_; }
-    Real length() const { return shiftUp(half_, 1); }
+    Real size1() const { return grown(size1Made_); }
+    Real size2() const { return grown(size2Made_); }
+    Real length() const { return shiftUp(coreReach(), 1); }
 
 private:
-    // From the core's middle along the axis: the nearest point of the core to `p`.
-    Real along(const Point& p) const { return clamp(dot(p - centre(), axis_), -half_, half_); }
-    Real sizeAlong(Real along) const { return mean_ + along * taper_; }
+    // The size at distance y from the core's middle, in units, and in core space.
+    Real sizeAlong(Real y) const { return shiftDown(size1() + size2(), 1) + y * taper_; }
+    Real size16Along(Real y) const { return mean16_ + y * taper_; }
 
-    Real size1_, size2_;
-    Real half_;                      // of the core's length
-    Real mean_, taper_;              // size at distance s from the middle: mean + s taper
+    Real size1Made_, size2Made_;     // as made: scaling never adds up errors
+    Real mean16_, taper_;            // size at distance y from the middle: mean + y taper
     Real normalSine_, normalCosine_; // latitude of the side's normal
-    Real size1Made_, size2Made_, halfMade_, sizeMade_;  // as made: scaling never adds up errors
-    Vector axis_;                    // unit length, in the world
 };
 
 #endif

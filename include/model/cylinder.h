@@ -11,21 +11,13 @@ public:
     // centre. The ends are round: the surface reaches size / 2 beyond the core.
     Cylinder(int number, Real size, Real length);
 
-    Vector fromCore(const Point& p) const override;
+    Vector fromCore(const Vector& q) const override;
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
-    Real horizonRadius(const Point& eye) const override;
-    Real horizonAt(const Point& root, Real general) const override;
-    Real coreReach() const override { return half_; }
-    void placeCore() override;
+    Real horizonRadius(const Vector& toEye) const override;
+    Real horizonAt(const Vector& root, Real general) const override;
     void describe(char* to, int size) const override;
 
-    Real length() const { return shiftUp(half_, 1); }
-
-private:
-    Real half_;      // of the core's length
-    Real halfMade_;  // the same, and the size, as made: scaling never adds up errors
-    Real sizeMade_;
-    Vector axis_;    // of the core, unit length, in the world
+    Real length() const { return shiftUp(coreReach(), 1); }
 };
 
 #endif

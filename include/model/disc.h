@@ -11,19 +11,12 @@ public:
     // surface lies size / 2 from it.
     Disc(int number, Real size, Real discRadius);
 
-    Vector fromCore(const Point& p) const override;
+    Vector fromCore(const Vector& q) const override;
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
-    Real horizonRadius(const Point& eye) const override;
-    Real coreReach() const override { return disc_; }
-    void placeCore() override;
+    Real horizonRadius(const Vector& toEye) const override;
     void describe(char* to, int size) const override;
 
-    Real discRadius() const { return disc_; }
-
-private:
-    Real disc_;
-    Real discMade_, sizeMade_;  // as made: scaling never adds up errors
-    Vector axis_;               // unit length, in the world
+    Real discRadius() const { return coreReach(); }
 };
 
 #endif

@@ -4,9 +4,10 @@
 #define FB_MODEL_H
 
 #include "model/anim.h"
+#include "model/body.h"
 #include "model/kind.h"
 #include "model/softobj.h"
-#include "picture/view.h"
+#include "model/camera.h"
 
 struct Colour {
     uint8_t red, green, blue;  // 0..255
@@ -71,7 +72,12 @@ public:
 
     // Lays out the seeds of all objects, `spacing` units apart. False: no memory; objects already done are put back to
     // the spacing they had where that is possible.
-    bool resample(Real spacing);
+    bool resample(Real spacing, SurfaceMaker makeSurface);
+
+    SurfaceMaker surfaceMaker() const { return makeSurface_; }
+
+    // The bodies that the links make, found anew when they have changed. Null: no memory.
+    const Bodies* bodies();
 
     // Number of seeds of all objects: regular, oversampled.
     int seeds() const;
@@ -120,6 +126,9 @@ private:
     Key* keys_ = nullptr;  // room for KEYS_MOST as soon as there is one
     int keyCount_ = 0;
     Real spacing_{0};      // as last laid out; 0: not yet
+    SurfaceMaker makeSurface_ = nullptr;
+    Bodies bodies_;
+    bool bodiesKnown_ = false;
 };
 
 #endif

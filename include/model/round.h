@@ -41,14 +41,14 @@ inline Angle quarterTurn(Real part, Real of)
     return static_cast<Angle>(mulDiv(rawFromReal(part), 1 << 30, rawFromReal(of)));
 }
 
-// The square of the cosine of the angle between `v`, of any length, and a unit vector.
-Real squaredCosine(const Vector& v, const Vector& unitVector);
+// The square of the cosine of the angle between `v`, of any length, and the y axis.
+Real squaredCosineY(const Vector& v);
 
 constexpr Real PI(3.14159265);
 constexpr Real HALF_PI(1.57079633);
 
 // Length of a vector of up to 16000 units, good to 1/100000 of itself and the last bit: for distances that are needed
-// often. Two orders of magnitude quicker than length() on a 386, which computes every bit. Wants makeShadeTables().
+// often. Two orders of magnitude quicker than length() on a 386, which computes every bit. Wants makeNormalTable().
 Real lengthQuick(const Vector& v);
 
 #endif

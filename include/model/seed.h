@@ -4,50 +4,49 @@
 #define FB_SEED_H
 
 #include "math/vec.h"
-#include "surface/voxel.h"
 
-// What is known of a seed. VALID: it settled on the surface, in a region that belongs to its own object. FRONT: its
-// scale may face the viewer; with the default method only if it is VALID, so that this bit alone tells what to draw.
-// PLACED: a neighbour reaches it and its position is a place where its path leaves the surface; its normal is not its
-// path. ACTIVE: for an oversampled seed, that it takes part. KEPT: brightness and what is known of its scale hold for the
-// present position.
+// The states of a seed. A method of finding the surface (model/surface.h) sets and clears them; nobody else does.
+//
+//   state         set                                      cleared
+//   SEED_VALID    it settled on the surface, where its     its path leaves the surface in a neighbour's territory, or
+//                 own object is the strongest              nowhere
+//   SEED_ACTIVE   an oversampled seed takes part           its regular seed and that one's neighbour lie alike again
+//   SEED_RESTING  no neighbour reaches it: it is at        a neighbour reaches it
+//                 position 1 with the normal of the
+//                 unblended surface
+//   SEED_FRONT    /P only: its path does not point away    it does
+//                 from the viewer
+//   SEED_KEPT     /P only: normal and brightness hold for  the seed moved
+//                 the present position
 enum SeedFlag : uint8_t {
     SEED_VALID = 1,
-    SEED_PLACED = 2,
-    SEED_ACTIVE = 4,
-    SEED_KEPT = 8,
-    SEED_FRONT = 128,  // the sign: the quickest bit to ask for
+    SEED_ACTIVE = 2,
+    SEED_RESTING = 4,
+    SEED_FRONT = 8,
+    SEED_KEPT = 16,
 };
 
-// seed = root + position * path. All lengths in units, 16.16 unless said otherwise.
+// A unit vector in whole numbers: each component is scaled by 2^14.
+struct Direction14 {
+    int16_t x, y, z;
+};
+
+// seed = root + position * path, in the object's own space: centred on the origin, axis-aligned, as large as when the
+// seeds were laid out. Seeds never turn; the world turns round them. Lengths in units.
 struct Seed {
-    Vector path;         // from root to the unblended surface: as long as the object's radius
+    Vector path;         // from root to the unblended surface
     Real position;       // along the path; 1.0 on the unblended surface
-    int32_t neighbour;   // index of the seed N of the ring before (Appendix C, Oversampling); -1 in the first ring. Of the
-                         // oversampled seed: how many bytes further on than the seed before it N lies; 0 in the first ring
-    Voxel voxel;         // of a KEPT seed: its scale, at the present position; its brightness always
-    uint8_t flags;       // SeedFlag
-    uint8_t restBrightness;
+    int32_t neighbour;   // index of the seed N of the ring before (Appendix C, Oversampling); -1 in the first ring
+    Direction14 normal;  // of the surface at the seed
     uint16_t root;       // index of the root point: seeds share them
-    int16_t dirX, dirY, dirZ;    // the path's direction, unit length = 2^14
-    int16_t wakes;               // up to which travel of the object (SoftObject) nothing happens to it; only where a
-                                 // neighbour reaches its patch
-    int8_t along[3], across[3];  // half axes of the part of the surface that is its own, 1/64 spacing
+    uint8_t flags;       // SeedFlag
+    int8_t aside;        // how far N lies along the ring, in 1/64 of the way to the successor
+    // Half axes of the part of the unblended surface that is the seed's own, 1/64 of the spacing.
+    int8_t along[3], across[3];
 };
 
-// A run of seeds of a ring. Where they rest, counted from the object's centre: none is farther than wide / 2 from the straight
-// line from middle - half to middle + half.
-struct SeedRun {
-    Vector middle, half;
-    Real wide;
-    int32_t count;
-    bool turned;   // the viewer has moved on since the placed seeds were laid
-    bool extras;   // oversampled seeds among them take part
-    bool back;     // none of it can be seen
-};
-
-// Receives the seeds of a primitive, ring by ring, in the object's own space: centred on the origin and axis-aligned
-// ("canonical" space, Appendix C). It is run twice: once to count, once to fill.
+// Receives the seeds of a primitive, ring by ring, in the object's own space (Appendix C: "canonical" space). It is run
+// twice: once to count, once to fill.
 class SeedMaker {
 public:
     virtual ~SeedMaker() {}

@@ -8,7 +8,7 @@ class Sphere : public SoftObject {
 public:
     Sphere(int number, Real size) : SoftObject(number, size) {}
 
-    Vector fromCore(const Point& p) const override { return p - centre(); }
+    Vector fromCore(const Vector& q) const override { return q; }
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
     void describe(char* to, int size) const override;
 };

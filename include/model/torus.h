@@ -13,20 +13,15 @@ public:
     // The smallest ring for a size: it leaves a hole of a quarter of the tube's radius.
     static Real leastRing(Real size) { return size * Real(0.625); }
 
-    Vector fromCore(const Point& p) const override;
+    Vector fromCore(const Vector& q) const override;
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
     bool ringsClose() const override { return true; }
-    Real horizonRadius(const Point& eye) const override;
-    Real coreReach() const override { return ring_; }
-    void placeCore() override;
+    Real horizonRadius(const Vector& toEye) const override;
     void describe(char* to, int size) const override;
 
-    Real ring() const { return ring_; }
+    bool coreConvex() const override { return false; }
 
-private:
-    Real ring_;
-    Real ringMade_, sizeMade_;  // as made: scaling never adds up errors
-    Vector axis_;               // unit length, in the world
+    Real ring() const { return coreReach(); }
 };
 
 #endif

@@ -4,6 +4,7 @@
 #define FB_PALETTE_H
 
 #include "model/model.h"
+#include "surface/voxel.h"
 
 class Palette {
 public:

@@ -8,15 +8,7 @@
 #define FB_VIEW_H
 
 #include "picture/scales.h"
-#include "math/vec.h"
-
-struct Camera {
-    Point eye{Real(0), Real(0), Real(-120)};
-    Real focalX{250};
-    Real focalY{208.333333};
-    Real centreX{160};
-    Real centreY{100};
-};
+#include "model/camera.h"
 
 // Pixels: columns left to before right, rows top to before bottom.
 struct Rectangle {

@@ -3,7 +3,7 @@
 #ifndef FB_VOXEL_H
 #define FB_VOXEL_H
 
-#include <stdint.h>
+#include "math/vec.h"
 
 // A scale in space. A seed keeps its own as long as nothing about it changes, wherever the object goes.
 struct Voxel {
@@ -20,13 +20,31 @@ constexpr int SHADING_MOST = 64;
 
 constexpr int VOXELS_AT_ONCE = 1024;
 
-// The list of scales: voxels of one object. It refers to the seeds' own, so it holds until the object changes.
+// The list of scales: voxels of one object.
 struct VoxelList {
     int32_t x, y, z;       // the object's centre from the eye, 1/256 unit
     const uint8_t* ramp;   // palette index of each brightness, and of SHADING_MOST more at both ends like those; 0 is the
                            // background's, and taken for it when gaps are closed
     int count;             // voxels in the list
     const Voxel* voxels[VOXELS_AT_ONCE];
+    Voxel store[VOXELS_AT_ONCE];
+
+    // Empties the list for an object, the centre of which is `place` from the eye.
+    void begin(const Vector& place, const uint8_t* objectRamp)
+    {
+        x = rawFromReal(place.x) >> 8;
+        y = rawFromReal(place.y) >> 8;
+        z = rawFromReal(place.z) >> 8;
+        ramp = objectRamp;
+        count = 0;
+    }
+    // Where the next voxel may be written, and that it has been.
+    Voxel* room() { return store + count; }
+    void take()
+    {
+        voxels[count] = store + count;
+        ++count;
+    }
 };
 
 #endif

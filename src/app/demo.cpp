@@ -2,16 +2,15 @@
 #include "app/demo.h"
 
 #include "math/alloc.h"
-#include "picture/contour.h"
 #include "app/dump.h"
 #include "app/edit.h"
 #include "machine.h"
 #include "app/options.h"
 #include "app/overlay.h"
 #include "picture/palette.h"
-#include "surface/profile.h"
+#include "surface/engine.h"
 #include "model/scene.h"
-#include "surface/shade.h"
+#include "math/normal.h"
 #include "app/stats.h"
 #include "math/text.h"
 
@@ -43,6 +42,7 @@ public:
     int run();
 
 private:
+    SurfaceMaker surfaceMaker() const { return options_.printed ? makeReport98 : makeEngine; }
     const char* prepare(int* status);
     void key(int code);
     void mouse();
@@ -61,7 +61,6 @@ private:
     const Options& options_;
     Model model_;
     View view_;
-    Contours contours_;
     Palette palette_;
     Dump dump_;
     Stats stats_;
@@ -96,8 +95,7 @@ private:
 const char* Demo::prepare(int* status)
 {
     makeFieldSteps();
-    makeProfileSteps();
-    makeShadeTables();
+    makeNormalTable();
     spacing_ = options_.spacing;
     *status = 1;
     if (options_.modelFile != nullptr) {
@@ -111,7 +109,7 @@ const char* Demo::prepare(int* status)
         return "not enough memory for the model";
     }
     Anim::move(model_, 0);
-    if (!model_.resample(spacing_))
+    if (!model_.resample(spacing_, surfaceMaker()))
         return "not enough memory for seeds that close; try a larger spacing with /S";
     voxels_ = allocate<VoxelList>(1);
     if (voxels_ == nullptr || !view_.open())
@@ -177,7 +175,7 @@ void Demo::mouse()
 
 void Demo::resample(Real spacing)
 {
-    if (spacing < SPACING_LEAST || spacing > SPACING_MOST || !model_.resample(spacing))
+    if (spacing < SPACING_LEAST || spacing > SPACING_MOST || !model_.resample(spacing, surfaceMaker()))
         return;  // at the end of the range, or of memory: it stays as it is
     spacing_ = spacing;
     stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
@@ -354,11 +352,11 @@ void Demo::frame()
     }
 
     counts_ = Counts{};
-    const Look look{model_.camera.eye, unit(model_.light), options_.printed, &counts_};
+    const FrameContext frame{model_.camera.eye, unit(model_.light), model_.bodies(), &counts_};
     int order[Model::OBJECTS_MOST];
     const int count = model_.count();
     for (int i = 0; i < count; ++i) {
-        model_.actor(i).object->update(look);
+        model_.actor(i).object->update(frame);
         // Near objects first: what they hide is then only compared, not drawn.
         int at = i;
         for (; at > 0 && model_.actor(order[at - 1]).object->centre().z > model_.actor(i).object->centre().z; --at)
@@ -367,7 +365,6 @@ void Demo::frame()
     }
 
     view_.begin();
-    contours_.begin();
     const int selected = editor_.selected();
     for (int i = 0; i < count; ++i) {
         SoftObject& object = *model_.actor(order[i]).object;
@@ -380,17 +377,13 @@ void Demo::frame()
         }
         int next = 0;
         do {
-            object.draw(look, *voxels_, VOXELS_AT_ONCE, &next);
+            object.draw(frame, *voxels_, VOXELS_AT_ONCE, &next);
             counts_.drawn += static_cast<uint32_t>(view_.show(*voxels_));
         } while (next != 0);
-        contours_.add(object, view_.takeShown());
         object.setRamp(ramp);
     }
-    if (!look.printed) {
-        const int pixels = view_.closeGaps(spacing_);
-        if (!view_.pixels())
-            contours_.correct(view_, look, spacing_, pixels);
-    }
+    if (!options_.printed)
+        view_.closeGaps(spacing_);
     drawOverlay();
     view_.end();
 }

@@ -285,7 +285,7 @@ bool Editor::load(const char* name, Real spacing)
     const char* problem = readScene(name, *fresh, &end);
     if (problem == nullptr)
         Anim::move(*fresh, 0);
-    if (problem == nullptr && !fresh->resample(spacing))
+    if (problem == nullptr && !fresh->resample(spacing, model_.surfaceMaker()))
         problem = "no memory for so many seeds";
     const bool good = problem == nullptr && begin(OTHER, 0);
     if (good) {

@@ -5,35 +5,24 @@
 #include "model/round.h"
 #include "math/text.h"
 
-Cylinder::Cylinder(int number, Real size, Real length)
-    : SoftObject(number, size), half_(shiftDown(most(length, Real(0)), 1)), halfMade_(half_), sizeMade_(size),
-      axis_{Real(0), Real(1), Real(0)}
+Cylinder::Cylinder(int number, Real size, Real length) : SoftObject(number, size, shiftDown(most(length, Real(0)), 1)) {}
+
+Vector Cylinder::fromCore(const Vector& q) const
 {
+    return {q.x, q.y - clamp(q.y, -coreReach16(), coreReach16()), q.z};
 }
 
-void Cylinder::placeCore()
-{
-    half_ = halfMade_ * (size() / sizeMade_);
-    axis_ = {turn().m[0][1], turn().m[1][1], turn().m[2][1]};
-}
-
-Vector Cylinder::fromCore(const Point& p) const
-{
-    const Vector v = p - centre();
-    return v - axis_ * clamp(dot(v, axis_), -half_, half_);
-}
-
-Real Cylinder::horizonRadius(const Point& eye) const
+Real Cylinder::horizonRadius(const Vector& toEye) const
 {
     // Seen across it bends as its radius says, along it not at all.
-    const Real across = Real(1) - squaredCosine(eye - centre(), axis_);
+    const Real across = Real(1) - squaredCosineY(toEye);
     const Real flattest = radius() + shiftUp(length(), 1);
     return across * flattest <= radius() ? flattest : radius() / across;
 }
 
-Real Cylinder::horizonAt(const Point& root, Real general) const
+Real Cylinder::horizonAt(const Vector& root, Real general) const
 {
-    return absolute(dot(root - centre(), axis_)) < half_ - Real(0.01) ? general : radius();
+    return absolute(root.y) < coreReach() - Real(0.01) ? general : radius();
 }
 
 void Cylinder::layOutSeeds(SeedMaker& maker, Real spacing) const
@@ -52,13 +41,13 @@ void Cylinder::layOutSeeds(SeedMaker& maker, Real spacing) const
         int* shared = nullptr;
         if (at < cap) {
             latitude = quarterTurn(at, cap) - 0x40000000u;
-            ring.height = -half_;
+            ring.height = -coreReach();
             shared = &bottom;
         } else if (at < cap + body) {
-            ring.height = at - cap - half_;
+            ring.height = at - cap - coreReach();
         } else {
             latitude = quarterTurn(least(at - cap - body, cap), cap);
-            ring.height = half_;
+            ring.height = coreReach();
             shared = &top;
         }
         ring.pathSine = ring.normalSine = sine(latitude);
@@ -75,7 +64,7 @@ void Cylinder::layOutSeeds(SeedMaker& maker, Real spacing) const
 
 void Cylinder::describe(char* to, int size) const
 {
-    const Point a = centre() - axis_ * half_, b = centre() + axis_ * half_;
+    const Point a = centre() - axis() * coreReach(), b = centre() + axis() * coreReach();
     const Real numbers[] = {a.x, a.y, a.z, b.x, b.y, b.z, this->size()};
     describeAs("cylinder", numbers, 7, to, size);
 }

@@ -5,32 +5,22 @@
 #include "model/round.h"
 #include "math/text.h"
 
-Disc::Disc(int number, Real size, Real discRadius)
-    : SoftObject(number, size), disc_(most(discRadius, Real(0))), discMade_(disc_), sizeMade_(size),
-      axis_{Real(0), Real(1), Real(0)}
+Disc::Disc(int number, Real size, Real discRadius) : SoftObject(number, size, most(discRadius, Real(0))) {}
+
+Vector Disc::fromCore(const Vector& q) const
 {
+    const Real away = lengthQuick({q.x, Real(0), q.z});
+    if (away <= coreReach16())
+        return {Real(0), q.y, Real(0)};
+    const Real share = (away - coreReach16()) / away;
+    return {q.x * share, q.y, q.z * share};
 }
 
-void Disc::placeCore()
-{
-    disc_ = discMade_ * (size() / sizeMade_);
-    axis_ = {turn().m[0][1], turn().m[1][1], turn().m[2][1]};
-}
-
-Vector Disc::fromCore(const Point& p) const
-{
-    const Vector v = p - centre();
-    const Vector upright = axis_ * dot(v, axis_);
-    const Vector across = v - upright;
-    const Real away = lengthQuick(across);
-    return away <= disc_ ? upright : upright + across * ((away - disc_) / away);
-}
-
-Real Disc::horizonRadius(const Point& eye) const
+Real Disc::horizonRadius(const Vector& toEye) const
 {
     // Seen from above the edge is the rim; from the side the faces are, and they do not bend at all.
-    const Real above = squaredCosine(eye - centre(), axis_);
-    const Real flattest = radius() + shiftUp(disc_, 1);
+    const Real above = squaredCosineY(toEye);
+    const Real flattest = radius() + shiftUp(discRadius(), 1);
     return above * flattest <= radius() ? flattest : radius() / above;
 }
 
@@ -38,7 +28,7 @@ void Disc::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
     // The lower half of the outline: the face, and a quarter circle of the rim.
     const Real rim = radius() * HALF_PI;
-    const Real half = disc_ + rim;
+    const Real half = discRadius() + rim;
     const int rings = stepsIn(half, shiftDown(spacing, 1));
     Ring ring{};
     ring.radius = radius();
@@ -50,11 +40,11 @@ void Disc::layOutSeeds(SeedMaker& maker, Real spacing) const
         const int below = k < mirrored ? k : mirrored;
         const Real at = portion(half, 2 * below + 1, rings);
         Angle latitude = 0xc0000000u;
-        ring.core = disc_;
-        if (at < disc_)
+        ring.core = discRadius();
+        if (at < discRadius())
             ring.core = at;
         else
-            latitude += quarterTurn(least(at - disc_, rim), rim);
+            latitude += quarterTurn(least(at - discRadius(), rim), rim);
         if (k == mirrored)
             latitude = 0;
         else if (k > mirrored)
@@ -76,6 +66,6 @@ void Disc::layOutSeeds(SeedMaker& maker, Real spacing) const
 
 void Disc::describe(char* to, int size) const
 {
-    const Real numbers[] = {centre().x, centre().y, centre().z, axis_.x, axis_.y, axis_.z, disc_, this->size()};
+    const Real numbers[] = {centre().x, centre().y, centre().z, axis().x, axis().y, axis().z, discRadius(), this->size()};
     describeAs("disc", numbers, 8, to, size);
 }

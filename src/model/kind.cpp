@@ -10,7 +10,7 @@
 
 namespace {
 
-constexpr Measure SIZE{"size", Real(SIZE_LEAST), Real(SIZE_MOST), Real(20)};
+constexpr Measure SIZE{"size", Real(MIN_SIZE), Real(MAX_SIZE), Real(20)};
 
 SoftObject* makeSphere(int number, const Real* m)
 {
@@ -57,7 +57,7 @@ const Kind KINDS[] = {
     {"disc", 2, {SIZE, {"disc", Real(0), Real(100), Real(16)}}, makeDisc, nullptr},
     {"cone",
      3,
-     {SIZE, {"tip", Real(SIZE_LEAST), Real(SIZE_MOST), Real(8)}, {"length", Real(0), Real(100), Real(24)}},
+     {SIZE, {"tip", Real(MIN_SIZE), Real(MAX_SIZE), Real(8)}, {"length", Real(0), Real(100), Real(24)}},
      makeCone,
      coneExpects},
 };

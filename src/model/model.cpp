@@ -67,10 +67,7 @@ bool Model::layOut(SoftObject* object) const
 {
     if (spacing_ == Real(0))
         return true;
-    if (!object->resample(spacing_))
-        return false;
-    object->shadeRest(unit(light));
-    return true;
+    return object->resample(spacing_, makeSurface_);
 }
 
 bool Model::add(SoftObject* object, const Colour& colour, const Motion& motion)
@@ -87,6 +84,7 @@ bool Model::add(SoftObject* object, const Colour& colour, const Motion& motion)
     actor->number = object->number();
     snprintf(actor->name, sizeof actor->name, "object%d", actor->number);
     actor->measure[0] = actor->made = object->size();
+    bodiesKnown_ = false;
     actors_[count_++] = actor;
     items_[itemCount_++] = actor;
     return true;
@@ -119,6 +117,7 @@ Actor* Model::addItem(const Actor& described)
             return nullptr;
         }
         item->made = item->object->size();
+        bodiesKnown_ = false;
         actors_[count_++] = item;
     }
     items_[itemCount_++] = item;
@@ -168,6 +167,7 @@ void Model::remove(Actor* item)
             actors_[after++] = actors_[i];
         }
         count_ = after;
+        bodiesKnown_ = false;
     }
     destroy(item->object);
     destroy(item);
@@ -189,6 +189,7 @@ bool Model::remake(Actor* item)
         other->unlink(item->object);
         link(fresh, other, weight);
     }
+    bodiesKnown_ = false;
     fresh->setRamp(item->object->ramp());
     destroy(item->object);
     item->object = fresh;
@@ -223,6 +224,7 @@ bool Model::addKey(Actor* item, const Key& key)
 
 bool Model::link(SoftObject* a, SoftObject* b, Real weight)
 {
+    bodiesKnown_ = false;
     if (a->link(b, weight) && b->link(a, weight))
         return true;
     unlink(a, b);
@@ -231,6 +233,7 @@ bool Model::link(SoftObject* a, SoftObject* b, Real weight)
 
 void Model::unlink(SoftObject* a, SoftObject* b)
 {
+    bodiesKnown_ = false;
     a->unlink(b);
     b->unlink(a);
 }
@@ -279,19 +282,33 @@ bool Model::linkAll(Real weight)
     return true;
 }
 
-bool Model::resample(Real spacing)
+bool Model::resample(Real spacing, SurfaceMaker makeSurface)
 {
     for (int i = 0; i < count_; ++i) {
         const Real before = actors_[i]->object->spacing();
-        if (!actors_[i]->object->resample(spacing)) {
+        if (!actors_[i]->object->resample(spacing, makeSurface)) {
             while (--i >= 0)
-                actors_[i]->object->resample(before);
+                actors_[i]->object->resample(before, makeSurface);
             return false;
         }
-        actors_[i]->object->shadeRest(unit(light));
     }
     spacing_ = spacing;
+    makeSurface_ = makeSurface;
     return true;
+}
+
+const Bodies* Model::bodies()
+{
+    if (!bodiesKnown_) {
+        SoftObject* objects[OBJECTS_MOST];
+        for (int i = 0; i < count_; ++i)
+            objects[i] = actors_[i]->object;
+        bodiesKnown_ = bodies_.find(objects, count_);
+    }
+    if (!bodiesKnown_)
+        return nullptr;
+    bodies_.spreadRecalc();
+    return &bodies_;
 }
 
 int Model::seeds() const
@@ -337,6 +354,8 @@ void Model::swap(Model& other)
     exchange(keys_, other.keys_);
     exchange(keyCount_, other.keyCount_);
     exchange(spacing_, other.spacing_);
+    exchange(makeSurface_, other.makeSurface_);
+    bodiesKnown_ = other.bodiesKnown_ = false;
     exchange(camera, other.camera);
     exchange(light, other.light);
 }
@@ -376,6 +395,7 @@ bool Model::restore(const Record* record)
     Model before;
     bool good = true;
     before.spacing_ = spacing_;
+    before.makeSurface_ = makeSurface_;
     for (int i = 0; good && i < record->items; ++i) {
         Actor* item = make<Actor>(record->item()[i]);
         if (item == nullptr) {

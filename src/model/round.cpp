@@ -1,7 +1,7 @@
 // Rings of seeds, and quick lengths, for all primitives with round parts.
 #include "model/round.h"
 
-#include "surface/shade.h"
+#include "math/normal.h"
 #include "model/sphere.h"
 
 namespace {
@@ -73,9 +73,9 @@ void addSeeds(SeedMaker& maker, const Ring& ring, Real spacing, int root)
     }
 }
 
-Real squaredCosine(const Vector& v, const Vector& unitVector)
+Real squaredCosineY(const Vector& v)
 {
-    const Real cosine = dot(unit(v), unitVector);
+    const Real cosine = unit(v).y;
     return cosine * cosine;
 }
 

@@ -5,47 +5,29 @@
 #include "model/round.h"
 #include "math/text.h"
 
-Torus::Torus(int number, Real size, Real ring)
-    : SoftObject(number, size), ring_(most(ring, leastRing(size))), ringMade_(ring_), sizeMade_(size),
-      axis_{Real(0), Real(1), Real(0)}
+Torus::Torus(int number, Real size, Real ring) : SoftObject(number, size, most(ring, leastRing(size))) {}
+
+Vector Torus::fromCore(const Vector& q) const
 {
+    const Real away = lengthQuick({q.x, Real(0), q.z});
+    // On the axis all of the circle is equally near, and any direction serves; beside it few bits are left of one.
+    if (away < Real(0.01))
+        return {away - coreReach16(), q.y, Real(0)};
+    const Real share = (away - coreReach16()) / away;
+    return {q.x * share, q.y, q.z * share};
 }
 
-void Torus::placeCore()
-{
-    ring_ = ringMade_ * (size() / sizeMade_);
-    axis_ = {turn().m[0][1], turn().m[1][1], turn().m[2][1]};
-}
-
-Vector Torus::fromCore(const Point& p) const
-{
-    const Vector v = p - centre();
-    const Vector upright = axis_ * dot(v, axis_);
-    const Vector across = v - upright;
-    const Real away = lengthQuick(across);
-    // Close to the axis a direction has few bits and is made square to it with care; on it all of the circle is equally
-    // near, and any direction serves.
-    if (away < Real(1)) {
-        Vector out = unit(across);
-        if (out == Vector{Real(0), Real(0), Real(0)})
-            out = {turn().m[0][0], turn().m[1][0], turn().m[2][0]};
-        out = out - axis_ * dot(out, axis_);
-        return upright + (across - withLength(out, ring_));
-    }
-    return upright + across * ((away - ring_) / away);
-}
-
-Real Torus::horizonRadius(const Point& eye) const
+Real Torus::horizonRadius(const Vector& toEye) const
 {
     // Seen from above the edge is that of the tube; from the side it is partly the top, which bends as the ring does.
-    return radius() + ring_ * (Real(1) - squaredCosine(eye - centre(), axis_));
+    return radius() + ring() * (Real(1) - squaredCosineY(toEye));
 }
 
 void Torus::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
     const int rings = stepsIn(radius() * PI, shiftDown(spacing, 1));
     Ring ring{};
-    ring.core = ring_;
+    ring.core = this->ring();
     ring.radius = radius();
     ring.across = portion(radius() * PI, 1, rings);
     // From the inside of the hole, below, out and up and in again. Ring k and the one as far from the end mirror each
@@ -76,6 +58,6 @@ void Torus::layOutSeeds(SeedMaker& maker, Real spacing) const
 
 void Torus::describe(char* to, int size) const
 {
-    const Real numbers[] = {centre().x, centre().y, centre().z, axis_.x, axis_.y, axis_.z, ring_, this->size()};
+    const Real numbers[] = {centre().x, centre().y, centre().z, axis().x, axis().y, axis().z, ring(), this->size()};
     describeAs("torus", numbers, 8, to, size);
 }

@@ -196,7 +196,7 @@ void testCores()
     describes(*Object(make<Disc>(1, Real(10), Real(-1))), "disc 1 0 0 0 0 1 0 0 10");
     describes(*Object(make<Cone>(1, Real(30), Real(10), Real(2))), "cone 1 0 -5 0 30 0 5 0 10");
     describes(*Object(make<Cone>(1, Real(10), Real(10), Real(0))), "cone 1 0 0 0 10 0 0 0 10");
-    for (const Real size : {Real(SIZE_LEAST), Real(SIZE_MOST)})
+    for (const Real size : {Real(MIN_SIZE), Real(MAX_SIZE)})
         for (const char* kind : {"sphere", "cylinder", "torus", "disc", "cone"}) {
             Object object = Sample{kind, number(size), number(size), 0}.make();
             check(object->resample(Real(4)) && object->seeds() >= 4, "%s of size %d: no seeds", kind, floorToInt(size));

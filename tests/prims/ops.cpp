@@ -138,12 +138,12 @@ void testScaling(const Sample& sample)
 
     // The limits.
     object->scale(Real(1000));
-    check(object->size() == Real(SIZE_MOST), "%s: size %g", name, number(object->size()));
+    check(object->size() == Real(MAX_SIZE), "%s: size %g", name, number(object->size()));
     for (int i = 0; i < 8; ++i)
         object->scale(Real(0.1));
-    check(object->size() == Real(SIZE_LEAST), "%s: size %g", name, number(object->size()));
+    check(object->size() == Real(MIN_SIZE), "%s: size %g", name, number(object->size()));
     object->scale(Real(0));
-    check(object->size() == Real(SIZE_LEAST), "%s: size %g", name, number(object->size()));
+    check(object->size() == Real(MIN_SIZE), "%s: size %g", name, number(object->size()));
 
     // Laid out anew while turned and moved.
     Object other = sample.make();

@@ -116,10 +116,10 @@ TEST(scaling)
     NEAR(size(stick->b() - stick->a()), 18, 2e-3);
     // Limits: the size stays within its range.
     stick->scale(Real(100));
-    NEAR(number(stick->size()), SIZE_MOST, 0.01);
+    NEAR(number(stick->size()), MAX_SIZE, 0.01);
     for (int i = 0; i < 10; ++i)
         stick->scale(Real(0.125));
-    NEAR(number(stick->size()), SIZE_LEAST, 0.01);
+    NEAR(number(stick->size()), MIN_SIZE, 0.01);
 }
 
 TEST(the_graph)
@@ -178,8 +178,8 @@ TEST(field_of_a_primitive)
         CHECK(ball.fieldFunc(point(0, 0, -far)) == Real(0));
     }
     // Sizes at both ends.
-    SoftObject& large = scene.ball(SIZE_MOST, 0, 0, 0, 8);
-    SoftObject& tiny = scene.ball(SIZE_LEAST, 0, 0, 0, 0.25);
+    SoftObject& large = scene.ball(MAX_SIZE, 0, 0, 0, 8);
+    SoftObject& tiny = scene.ball(MIN_SIZE, 0, 0, 0, 0.25);
     for (int i = 0; i < 5000; ++i) {
         const Vec p{random.between(-110, 110), random.between(-110, 110), random.between(-110, 110)};
         NEAR(number(large.fieldFunc(point(p.x, p.y, p.z))), trueGeoff(dot(p, p) / 10000), 5e-4);

@@ -1,0 +1,61 @@
+// Normal: a unit vector in whole numbers, and lengths by the same table: for what is done for every seed of a frame.
+#ifndef FB_NORMAL_H
+#define FB_NORMAL_H
+
+#include "math/vec.h"
+
+// A unit normal, each component scaled by 2^14; good to about 1/250.
+struct Normal {
+    int32_t x, y, z;
+};
+
+// The table behind normalise(). Call once before any object is made.
+void makeNormalTable();
+
+extern uint16_t inverseRoots[769];  // 2^28 / sqrt(s) for s = (i + 1/2) 2^20
+
+// The direction of a vector of any length in range; the zero vector gives the direction to the viewer.
+inline Normal normalise(const Vector& v)
+{
+#if FB_REAL == FB_FIXED
+    int32_t x = v.x.raw, y = v.y.raw, z = v.z.raw;
+    const uint32_t bits = static_cast<uint32_t>(x < 0 ? ~x : x) | static_cast<uint32_t>(y < 0 ? ~y : y) |
+                          static_cast<uint32_t>(z < 0 ? ~z : z);
+    if (bits == 0)
+        return {0, 0, -16384};
+    // To 14 bits and a sign, so that the sum of squares has 26 to 30 bits.
+    const int excess = 18 - __builtin_clz(bits);
+    if (excess >= 0) {
+        x >>= excess;
+        y >>= excess;
+        z >>= excess;
+    } else {
+        x *= 1 << -excess;
+        y *= 1 << -excess;
+        z *= 1 << -excess;
+    }
+    const int32_t inverse = inverseRoots[static_cast<uint32_t>(x * x + y * y + z * z) >> 20];
+    return {(x * inverse) >> 14, (y * inverse) >> 14, (z * inverse) >> 14};
+#else
+    const Real size = length(v);
+    if (!(size > Real(0)))
+        return {0, 0, -16384};
+    return {static_cast<int32_t>(v.x / size * 16384), static_cast<int32_t>(v.y / size * 16384),
+            static_cast<int32_t>(v.z / size * 16384)};
+#endif
+}
+
+// The length of a vector (each component up to 10000 units), or up to a hundredth more.
+inline Real nearLength(const Vector& v)
+{
+#if FB_REAL == FB_FIXED
+    const Normal n = normalise(v);
+    const Vector along{Real::fromRaw(n.x * 4), Real::fromRaw(n.y * 4), Real::fromRaw(n.z * 4)};
+    const Real l = dot(v, along);
+    return l + shiftDown(l, 7);
+#else
+    return length(v);
+#endif
+}
+
+#endif

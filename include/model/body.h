@@ -1,0 +1,46 @@
+// Bodies: objects that links join, directly or through others, make one body, and the body has one field:
+//
+//     g_i = f_i + sum over the links of i of w_ij f_j        F = sum of f_i^2 g_i / sum of f_i^2
+//
+// Where all objects that reach a point are linked with each other at weight 1, F is the plain sum of their fields, the
+// report's implicit function; elsewhere it passes smoothly from one object's sum to another's.
+#ifndef FB_BODY_H
+#define FB_BODY_H
+
+#include "math/real.h"
+
+class SoftObject;
+
+class Bodies {
+public:
+    Bodies() = default;
+    ~Bodies();
+    Bodies(const Bodies&) = delete;
+    Bodies& operator=(const Bodies&) = delete;
+
+    // Finds the bodies of `count` objects from their links, and numbers the objects (SoftObject::slot()) in the order
+    // given. False: no memory; there are no bodies then.
+    bool find(SoftObject* const* objects, int count);
+
+    // The objects of the body that an object belongs to, itself among them.
+    SoftObject* const* members(const SoftObject& object) const;
+    int memberCount(const SoftObject& object) const;
+
+    // The weight of the link between two objects, by their slots; 0 where there is none.
+    Real weight(int slotA, int slotB) const { return weights_[slotA * count_ + slotB]; }
+
+    // An object whose recalc flag is set tells those that it is linked to; this tells the rest of its body that it can reach.
+    void spreadRecalc() const;
+
+private:
+    void release();
+
+    int count_ = 0;
+    Real* weights_ = nullptr;         // count_ rows of count_
+    SoftObject** members_ = nullptr;  // body after body
+    int16_t* first_ = nullptr;        // by slot: where its body begins in members_
+    int16_t* size_ = nullptr;         // by slot: how many it has
+    bool* complete_ = nullptr;        // by slot: all of its body are linked with all
+};
+
+#endif

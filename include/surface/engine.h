@@ -1,0 +1,14 @@
+// The two ways in which the surface of an object is found (model/surface.h): ours and the report's.
+#ifndef FB_ENGINE_H
+#define FB_ENGINE_H
+
+#include "model/surface.h"
+
+// Ours: the surface of contract and report found with as little work as we know, one way for every kind of object and any
+// graph of links. Null: no memory.
+Surface* makeEngine(SoftObject& object);
+
+// The report's own methods, as printed (/P).
+Surface* makeReport98(SoftObject& object);
+
+#endif

@@ -1,0 +1,93 @@
+// The world as one object sees it.
+#include "gather.h"
+
+#include "math/normal.h"
+
+namespace {
+
+// The object's rotation transposed, times a vector, is what toOwnAxes() does; this is the same for a unit axis of the world.
+void axisInOwn(const SoftObject& object, const Vector& axis, int32_t* to)
+{
+    const Vector v = object.toOwnAxes(axis);
+    to[0] = rawFromReal(v.x) >> 2;
+    to[1] = rawFromReal(v.y) >> 2;
+    to[2] = rawFromReal(v.z) >> 2;
+}
+
+// Own space to the core space of a neighbour that is no point.
+void aim(const SoftObject& object, Neighbour& near)
+{
+    const SoftObject& other = *near.object;
+    const Real worldInverse = Real(CORE_SIZE) / other.size();
+    const Vector units[] = {{Real(1), Real(0), Real(0)}, {Real(0), Real(1), Real(0)}, {Real(0), Real(0), Real(1)}};
+    const bool ball = object.isBall();
+    for (int j = 0; j < 3; ++j) {
+        const Vector inWorld = ball ? units[j] : object.turn() * units[j];
+        const Vector v = other.toOwnAxes(inWorld) * near.inverse16;
+        near.toCore.m[0][j] = v.x;
+        near.toCore.m[1][j] = v.y;
+        near.toCore.m[2][j] = v.z;
+    }
+    const Vector offset = other.toOwnAxes(object.centre() - other.centre()) * worldInverse;
+    near.toCore.m[0][3] = offset.x;
+    near.toCore.m[1][3] = offset.y;
+    near.toCore.m[2][3] = offset.z;
+}
+
+}  // namespace
+
+Vector Neighbour::fromCore16(const Vector& q) const
+{
+    if (point)
+        return (q - centre) * Real(16);
+    const Vector v = object->fromCore(toVector(toCore * toPoint(q)));
+    return v * size;  // core space has CORE_SIZE = 16 to a size
+}
+
+OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
+{
+    OwnFrame own;
+    own.growth = object.growth();
+    const Real most(1000);
+    const Vector toEye = frame.eye - object.centre();
+    own.eye = object.toOwnAxes({clamp(toEye.x, -most, most), clamp(toEye.y, -most, most), clamp(toEye.z, -most, most)});
+    own.eye32[0] = rawFromReal(own.eye.x) >> 11;
+    own.eye32[1] = rawFromReal(own.eye.y) >> 11;
+    own.eye32[2] = rawFromReal(own.eye.z) >> 11;
+    own.distance32 = (rawFromReal(nearLength(own.eye)) >> 11) + 1;
+    axisInOwn(object, frame.light, own.light);
+    axisInOwn(object, {Real(1), Real(0), Real(0)}, own.right);
+    axisInOwn(object, {Real(0), Real(1), Real(0)}, own.up);
+    axisInOwn(object, {Real(0), Real(0), Real(1)}, own.ahead);
+    return own;
+}
+
+int gather(const SoftObject& object, const FrameContext& frame, Neighbour* neighbours)
+{
+    SoftObject* const* member = frame.bodies->members(object);
+    SoftObject* const* const end = member + frame.bodies->memberCount(object);
+    const Real growth = object.growth();
+    int count = 0;
+    for (; member < end && count < NEIGHBOURS_MAX; ++member) {
+        const SoftObject& other = **member;
+        if (&other == &object || !object.inRange(other))
+            continue;
+        Neighbour& near = neighbours[count++];
+        near.object = &other;
+        near.point = other.isBall();
+        const Vector apart = object.toOwnAxes(other.centre() - object.centre());
+        const bool grown = object.size() != object.laidSize();
+        near.centre = grown ? Vector{apart.x / growth, apart.y / growth, apart.z / growth} : apart;
+        near.size = grown ? other.size() / growth : other.size();
+        near.inverse16 = Real(CORE_SIZE) / near.size;
+        const Real proportion = least(object.size() / other.size(), Real(60));
+        near.ratio = proportion * proportion;
+        near.x16 = rawFromReal(near.centre.x) >> 12;
+        near.y16 = rawFromReal(near.centre.y) >> 12;
+        near.z16 = rawFromReal(near.centre.z) >> 12;
+        near.size16 = (rawFromReal(near.size) >> 12) + 1;
+        if (!near.point)
+            aim(object, near);
+    }
+    return count;
+}

@@ -1,0 +1,42 @@
+// Gather: what one object sees in a frame, in its own axes: the viewer, the light, and the neighbours whose fields may reach
+// its seeds. Seeds never turn; the world turns round them.
+#ifndef FB_GATHER_H
+#define FB_GATHER_H
+
+#include "model/body.h"
+#include "model/softobj.h"
+
+// Most neighbours of an object at a time; further ones are left out.
+constexpr int NEIGHBOURS_MAX = 127;
+
+// A neighbour in the own space of the object that is being updated.
+struct Neighbour {
+    const SoftObject* object;
+    Vector centre;      // units of own space, as all that follows
+    Real size;          // where its field ends, from its core
+    Real inverse16;     // CORE_SIZE / size
+    Real ratio;         // squared proportion of the own size to `size`: its share of the gradient
+    bool point;         // its core is its centre
+    int32_t x16, y16, z16, size16;  // centre and size in 1/16 unit
+    Matrix toCore;      // own space to the core space of the neighbour; unless `point`
+
+    // The vector from its core to a place of own space, in 1/16 unit.
+    Vector fromCore16(const Vector& q) const;
+};
+
+// The frame as one object sees it: own axes, counted from its centre, in units of the world.
+struct OwnFrame {
+    Vector eye;
+    int32_t eye32[3];             // the same, 1/32 unit
+    int32_t distance32;           // of the eye, 1/32 unit
+    int32_t light[3];             // unit vector towards the light, 1.0 = 2^14
+    int32_t right[3], up[3], ahead[3];  // axes of the view, 1.0 = 2^14
+    Real growth;                  // units of the world in a unit of own space
+};
+
+OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame);
+
+// Writes the neighbours in range, at most NEIGHBOURS_MAX, and returns how many there are.
+int gather(const SoftObject& object, const FrameContext& frame, Neighbour* neighbours);
+
+#endif

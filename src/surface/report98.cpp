@@ -1,0 +1,234 @@
+// The report's own methods, as printed (Section III, Algorithms and Optimizations): linear interpolation with slope -1,
+// the whole field sum for every guess, normals from three samples. Kept for comparison (/P); the engine finds the same
+// surface with less work.
+#include "math/alloc.h"
+#include "model/softobj.h"
+#include "surface/engine.h"
+#include "surface/voxel.h"
+
+namespace {
+
+// The report's tolerances. It names them and gives no figure; these are ours.
+constexpr Real LOCATION_TOLERANCE(0.00004);  // of the field: "desired accuracy"
+constexpr int ITERATION_LIMIT = 32;
+constexpr Real BACK_FACE(-0.43);             // cosine of path and direction to the viewer, below which a seed is skipped
+constexpr Real DISPLACEMENT(0.001);          // of the position: less is taken as not moved
+constexpr Real DEFORMITY(0.01);              // of the position: less, and the normal is the path
+constexpr Real OVERSHOOT(0.05);              // of the field: by how much a neighbour may be stronger
+constexpr Real OVERSAMPLE(0.05);             // difference of positions that activates the seed between
+constexpr Real SAMPLE_DISTANCE(0.5);         // units: the three samples for a normal
+constexpr Real SCALE(0.75);                  // half a scale, in spacings
+constexpr Real MAGNIFICATION(2.0);           // growth of a scale with |position - 1|
+
+// Most neighbours that one object can blend with at a time; further ones are left out.
+constexpr int NEAR_MAX = 63;
+
+class Report98 : public Surface {
+public:
+    explicit Report98(SoftObject& object) : object_(object) {}
+    ~Report98() override { free(kept_); }
+    bool open();
+
+    void update(const FrameContext& frame) override;
+    void draw(const FrameContext& frame, VoxelList& list, int room, int* next) override;
+
+private:
+    // What is kept of a seed from frame to frame: "all seed position values, spatial locations and surface normals".
+    struct Kept {
+        Vector path;  // turned as the object is
+        Point point;
+        Vector normal;
+        uint8_t brightness;
+    };
+
+    int findNear(Link* near) const;
+    void pose();
+    void settle(int i, const FrameContext& frame, const Vector& toEye, const Link* near, int nearCount);
+    Point rootPoint(const Seed& s) const { return object_.toWorld(object_.root(s.root)); }
+
+    SoftObject& object_;
+    Kept* kept_ = nullptr;
+    bool displaced_ = false;
+};
+
+// "Brightness proportional to the angle" of normal and light, 0..63, from the cosine.
+uint8_t brightness(Real cosine)
+{
+    const int step = floorToInt(cosine * Real(63) + Real(0.5));
+    return static_cast<uint8_t>(step < 0 ? 0 : step > 63 ? 63 : step);
+}
+
+bool Report98::open()
+{
+    const int slots = object_.seedSlots();
+    kept_ = allocate<Kept>(static_cast<uint32_t>(slots));
+    if (kept_ == nullptr)
+        return false;
+    memset(static_cast<void*>(kept_), 0, sizeof(Kept) * static_cast<size_t>(slots));
+    for (int i = 0; i < slots; ++i)
+        object_.seed(i).flags = SEED_VALID;
+    return true;
+}
+
+// "Rotate all seed roots about the center of rotation, apply the same rotation to all path vectors."
+void Report98::pose()
+{
+    for (int i = 0; i < object_.seedSlots(); ++i)
+        kept_[i].path = object_.toWorld(object_.seed(i).path) - object_.centre();
+}
+
+// The neighbours close enough to matter, tested once at the start of an update cycle.
+int Report98::findNear(Link* near) const
+{
+    int count = 0;
+    for (const List<Link>::Node* node = object_.skel().first(); node != nullptr && count < NEAR_MAX; node = node->next) {
+        if (object_.inRange(*node->item.object))
+            near[count++] = node->item;
+    }
+    return count;
+}
+
+void Report98::update(const FrameContext& frame)
+{
+    pose();
+    Link near[NEAR_MAX];
+    const int nearCount = findNear(near);
+    const Vector toEye = unit(frame.eye - object_.centre());
+    displaced_ = false;
+    // "The regular seeds at even positions in an array, and the corresponding extra samples at the following odd
+    // position. The index in the update loop is incremented by one or two depending on the status of the extra seed."
+    for (int i = 0; i < object_.seedSlots(); i += 2) {
+        const Seed& s = object_.seed(i);
+        Seed& extra = object_.seed(i + 1);
+        settle(i, frame, toEye, near, nearCount);
+        if (s.neighbour >= 0 && absolute(s.position - object_.seed(s.neighbour).position) > OVERSAMPLE) {
+            extra.flags |= SEED_ACTIVE;
+            settle(i + 1, frame, toEye, near, nearCount);
+        } else {
+            extra.flags = SEED_VALID;
+            extra.position = s.position;
+        }
+    }
+    object_.setDisplaced(displaced_);
+}
+
+void Report98::settle(int i, const FrameContext& frame, const Vector& toEye, const Link* near, int nearCount)
+{
+    Seed& s = object_.seed(i);
+    const Point root = rootPoint(s);
+    const Vector path = kept_[i].path;
+
+    // "Seeds whose paths point nearly away from the viewer [...] are assumed to be invisible."
+    const bool front = dot(path, toEye) >= BACK_FACE * object_.radius();
+    s.flags = static_cast<uint8_t>(front ? s.flags | SEED_FRONT : s.flags & ~SEED_FRONT);
+    if (!front)
+        return;
+
+    // "If the seed was valid before, use its last position", else "a reliable starting position".
+    Real position = s.flags & SEED_VALID ? s.position : Real(1);
+    Point point = root + path * position;
+    bool highest;
+    Real difference;
+    int iterations = 0;
+    do {
+        const Real own = object_.fieldFunc(point);
+        Real field = own;
+        highest = true;
+        for (int n = 0; n < nearCount; ++n) {
+            const Real part = near[n].object->fieldFunc(point) * near[n].weight;
+            field += part;
+            if (part > own + OVERSHOOT)
+                highest = false;
+        }
+        ++iterations;
+        difference = absolute(field - ISOVALUE);
+        if (difference > LOCATION_TOLERANCE) {
+            position -= ISOVALUE - field;  // the slope is taken as -1
+            point = root + path * position;
+        }
+    } while (highest && difference > LOCATION_TOLERANCE && iterations < ITERATION_LIMIT);
+
+    ++frame.counts->updated;
+    frame.counts->iterations += static_cast<uint32_t>(iterations);
+    if (highest && difference > LOCATION_TOLERANCE)
+        ++frame.counts->unsettled;
+
+    // "If they have not moved by a certain minimum amount between frames, they are assumed not to have moved."
+    const bool wasValid = (s.flags & SEED_VALID) != 0;
+    s.flags = static_cast<uint8_t>(highest ? s.flags | SEED_VALID : s.flags & ~SEED_VALID);
+    if (!wasValid || absolute(position - s.position) >= DISPLACEMENT) {
+        s.position = position;
+        s.flags = static_cast<uint8_t>(s.flags & ~SEED_KEPT);
+    }
+    kept_[i].point = root + path * s.position;
+    if (!highest || absolute(s.position - Real(1)) >= DEFORMITY)
+        displaced_ = true;
+}
+
+void Report98::draw(const FrameContext& frame, VoxelList& list, int room, int* next)
+{
+    list.begin(object_.centre() - frame.eye, object_.ramp());
+    const Real inverseRadius = Real(1) / object_.radius();
+    Link near[NEAR_MAX];
+    const int nearCount = findNear(near);
+    const auto sum = [&](const Point& p) {
+        Real field = object_.fieldFunc(p);
+        for (int n = 0; n < nearCount; ++n)
+            field += near[n].object->fieldFunc(p) * near[n].weight;
+        return field;
+    };
+    int i = *next;
+    for (; i < object_.seedSlots() && list.count < room; ++i) {
+        Seed& s = object_.seed(i);
+        if ((i & 1) != 0 && !(s.flags & SEED_ACTIVE))
+            continue;
+        if ((s.flags & (SEED_VALID | SEED_FRONT)) != (SEED_VALID | SEED_FRONT))
+            continue;
+        Kept& kept = kept_[i];
+        const Real deformity = absolute(s.position - Real(1));
+        if (deformity < DEFORMITY) {
+            // "If the surface deformity is below a certain tolerance then the surface normal for a seed has the same
+            // direction as that seed's path and need not be calculated."
+            kept.brightness = brightness(dot(kept.path, frame.light) * inverseRadius);
+            s.flags = static_cast<uint8_t>(s.flags & ~SEED_KEPT);
+        } else if (!(s.flags & SEED_KEPT)) {
+            // "Three additional samples, each displaced from the seed by a fixed distance along the X, Y and Z axes."
+            const Point& p = kept.point;
+            const Real d = SAMPLE_DISTANCE;
+            kept.normal = unit({ISOVALUE - sum({p.x + d, p.y, p.z}), ISOVALUE - sum({p.x, p.y + d, p.z}),
+                                ISOVALUE - sum({p.x, p.y, p.z + d})});
+            kept.brightness = brightness(dot(kept.normal, frame.light));
+            s.flags |= SEED_KEPT;
+            ++frame.counts->normals;
+            frame.counts->samples += 3;
+        }
+        // Dynamic scale magnification: larger where the surface is deformed.
+        const Real half = object_.spacing() * SCALE * (Real(1) + deformity * MAGNIFICATION);
+        const int32_t extent = rawFromReal(half) >> 8;
+        Voxel& v = *list.room();
+        v.brightness = kept.brightness;
+        const Vector place = kept.point - object_.centre();
+        v.x = rawFromReal(place.x) >> 8;
+        v.y = rawFromReal(place.y) >> 8;
+        v.z = rawFromReal(place.z) >> 8;
+        v.wide = static_cast<int16_t>(extent > INT16_MAX ? INT16_MAX : extent);
+        v.high = v.wide;
+        v.tiltX = v.tiltY = 0;  // the report's scales face the viewer, and each has one brightness
+        v.reach = 0;
+        v.slopeX = v.slopeY = 0;
+        list.take();
+    }
+    *next = i < object_.seedSlots() ? i : 0;
+}
+
+}  // namespace
+
+Surface* makeReport98(SoftObject& object)
+{
+    Report98* const report = make<Report98>(object);
+    if (report != nullptr && !report->open()) {
+        destroy(report);
+        return nullptr;
+    }
+    return report;
+}
