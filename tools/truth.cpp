@@ -24,7 +24,7 @@ const char usage[] =
     "  --worst N        list the N worst frames (3)\n"
     "  --out OUT        and write them as pictures: ours, true, difference (red:\n"
     "                   hole, magenta: see-through, yellow: outside, blue: rim\n"
-    "                   not drawn, teal: left out, grey: error of brightness x 4)\n"
+    "                   not drawn, grey: error of brightness x 4)\n"
     "  --bars NAME      spacing2 or spacing1: exit 1 if a bar is broken\n"
     "  --every N        judge only every Nth frame (1; more leaves flicker out)\n"
     "  --threads N      1 to 16 (2)\n";
@@ -99,7 +99,6 @@ void printTotals(const Figures &f) {
   count("surface pixels", f.surface);
   count("interior pixels", f.interior);
   count("drawn pixels", f.drawn);
-  count("seam pixels, left out", f.seams);
   count("holes", f.holes);
   count("see-through pixels", f.seeThrough);
   real("see-through, percent of interior pixels", f.seeThroughShare(), f.interior);
@@ -117,15 +116,15 @@ void printTotals(const Figures &f) {
 }
 
 const char csvHead[] =
-    "frame,time,surface,interior,drawn,seams,holes,seethrough,seethrough_pct,outside,outside_pct,"
+    "frame,time,surface,interior,drawn,holes,seethrough,seethrough_pct,outside,outside_pct,"
     "outside5x5_pct,rim_missing,depth_rms,depth_rms_smooth,brightness_rms,flicker,flicker_pct,"
     "flicker_edge_pct\n";
 
 // Absent figures are empty fields.
 std::string csvLine(long n, double time, const Figures &f) {
   char b[512];
-  std::snprintf(b, sizeof b, "%ld,%.3f,%ld,%ld,%ld,%ld,%ld,%ld,%.4f,%ld,%.4f,%.4f,%ld,%.4f,%.4f,", n,
-                time, f.surface, f.interior, f.drawn, f.seams, f.holes, f.seeThrough,
+  std::snprintf(b, sizeof b, "%ld,%.3f,%ld,%ld,%ld,%ld,%ld,%.4f,%ld,%.4f,%.4f,%ld,%.4f,%.4f,", n,
+                time, f.surface, f.interior, f.drawn, f.holes, f.seeThrough,
                 f.seeThroughShare(), f.outside, f.outsideShare(), f.outsideBoxShare(),
                 f.missing - f.holes, f.depthRms(), f.smoothRms());
   std::string line = b;

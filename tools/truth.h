@@ -51,10 +51,11 @@ struct Kind {
   const char *(*set)(Object &, const double *);
   // q at a point, and its gradient if asked for.
   double (*q)(const Object &, Vec p, Vec *gradient);
-  // Where q along a ray is a chain of quadratics: appends the depths at which
-  // one passes into the next or into q = 1. Null if it is no such chain.
+  // Appends the depths along a ray at which q's smooth pieces meet; of a chain
+  // of quadratics also where q = 1.
   void (*breaks)(const Object &, const Ray &, std::vector<double> &);
-  // The quadratic that holds at depth t: q = c[0] + c[1] t + c[2] t^2.
+  // The quadratic that holds at depth t: q = c[0] + c[1] t + c[2] t^2. Null if
+  // q along a ray is no chain of quadratics.
   void (*quadratic)(const Object &, const Ray &, double t, double c[3]);
   // Where it is not: bounds of q for depths in [a, b], tightening as b - a
   // shrinks.
@@ -105,11 +106,7 @@ bool parseScene(const std::string &text, const std::string &name, Scene &, std::
 struct Hit {
   double depth = -1;  // -1: no surface
   float shade = 0;    // ramp steps, 0 to 63, not rounded
-  int object = -1;    // index of the object that is strongest there
-  // The ray ran through a place where one object's surface stops short of its
-  // neighbour's, which only a model with some but not all links has. There is
-  // no true surface to hold the drawing against; such pixels are left out.
-  bool seam = false;
+  int object = -1;    // index of the object whose own field is strongest there
   bool any() const { return depth >= 0; }
 };
 
@@ -127,13 +124,24 @@ public:
   bool inColumn(int i, double column) const;
   // The eye lies inside the surface: there is no picture to speak of.
   bool eyeInside() const;
-  // For tests: treat every object singly even where one sum would do.
-  void forgetGroups();
+  // The field of a body at a point, its gradient, and the object whose own
+  // field is the strongest; unchanged where nothing reaches.
+  double field(int number, Vec p, Vec *gradient, int *strongest) const;
+  // The body of an object: objects that links join, directly or through
+  // others, have the same.
+  int bodyOf(int object) const { return body[object]; }
+  // For tests: do not use that a sum is enough where all are linked alike.
+  void forgetPlain();
 private:
   struct Work;
-  double first(Work &, int fn, const double *c, double a, double b) const;
+  double first(const Work &, const int *which, int n, const double *form, const char *known, bool sum,
+               double a, double b) const;
+  bool follow(const Work &, int object, double a, double b, double *form) const;
   const Scene &scene;
-  std::vector<int> group;   // objects of one number: all linked, weight 1; -1: single treatment
+  std::vector<int> body;     // of each object
+  std::vector<char> plain;   // of each body: every pair is linked with weight 1
+  int bodies = 0;
+  bool usePlain = true;
 };
 
 // A picture's worth of hits, with MARGIN pixels beyond each edge so that the
@@ -188,7 +196,6 @@ struct Figures {
   long surface = 0;        // surface there
   long drawn = 0;          // something drawn
   long interior = 0;       // surface there and at all eight neighbours
-  long seams = 0;          // left out, see Hit::seam
   long holes = 0;          // interior, nothing drawn
   long seeThrough = 0;     // interior, drawn more than 4 units behind
   long outside = 0;        // drawn, no surface within a distance of 2

@@ -46,7 +46,7 @@ bool whole(const Picture &t, int column, int row, bool calm) {
   for (int y = -1; y <= 1; y++)
     for (int x = -1; x <= 1; x++) {
       const Hit &h = t.at(column + x, row + y);
-      if (!h.any() || h.seam) return false;
+      if (!h.any()) return false;
       least = std::min(least, h.depth);
       most = std::max(most, h.depth);
     }
@@ -70,7 +70,7 @@ double share(long part, long of) { return of ? 100.0 * part / of : 0; }
 void Figures::add(const Figures &o) {
   long Figures::*const counts[] = {
       &Figures::frames, &Figures::eyeInside, &Figures::surface, &Figures::drawn,
-      &Figures::interior, &Figures::seams, &Figures::holes, &Figures::seeThrough,
+      &Figures::interior, &Figures::holes, &Figures::seeThrough,
       &Figures::outside, &Figures::outsideBox, &Figures::missing, &Figures::both,
       &Figures::smooth, &Figures::shaded, &Figures::pairs, &Figures::flickerBase,
       &Figures::flicker, &Figures::flickerEdge};
@@ -109,10 +109,6 @@ Figures compare(const Frame &f, const Picture &t) {
         continue;
       }
       r.surface++;
-      if (h.seam) {
-        r.seams++;
-        continue;
-      }
       bool interior = whole(t, x, y, false);
       r.interior += interior;
       if (!drawn) {
@@ -149,7 +145,7 @@ void compareFlicker(const Frame &before, const Picture &beforeTruth,
       bool d0 = before.drawn(x, y), d1 = after.drawn(x, y);
       const Hit &h0 = beforeTruth.at(x, y), &h1 = afterTruth.at(x, y);
       r.flickerBase += d1;
-      if ((!d0 && !d1) || h0.seam || h1.seam) continue;
+      if (!d0 && !d1) continue;
       double s0 = d0 ? before.step(x, y, h0.object) : 0;
       double s1 = d1 ? after.step(x, y, h1.object) : 0;
       double t0 = h0.any() ? h0.shade : 0, t1 = h1.any() ? h1.shade : 0;
@@ -204,9 +200,7 @@ std::vector<uint8_t> sheet(const Frame &f, const Picture &t) {
         gap[0] = (uint8_t)r, gap[1] = (uint8_t)g, gap[2] = (uint8_t)b;
       };
       paint(0, 0, 0);
-      if (h.seam) {
-        paint(0, 96, 96);
-      } else if (!h.any()) {
+      if (!h.any()) {
         if (drawn) surfaceNear(t, x, y, 4) ? paint(96, 96, 0) : paint(255, 255, 0);
       } else if (!drawn) {
         whole(t, x, y, false) ? paint(255, 0, 0) : paint(0, 0, 160);

@@ -120,6 +120,7 @@ bool parseScene(const std::string &text, const std::string &name, Scene &s, std:
         return fail("a ramp wants a colour that is not black");
       s.ramps[(int)v[0]] = {v[1], v[2], v[3]};
     }
+    if (word == "blend" && v.size() > 2 && v[2] < 0) return fail("a link's weight must not be negative");
     if (word == "blend") links.push_back({lineNumber, v[0], v[1], v.size() > 2 ? v[2] : 1});
   }
   size_t n = s.objects.size();
