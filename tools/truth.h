@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace truth {
@@ -87,7 +88,8 @@ struct Scene {
   double ambient = 0;                    // share of the ramp that needs no light
   std::vector<Object> objects;
   std::vector<std::vector<double>> weight;  // [i][j]: scale of what j adds to i; 0: not linked
-  std::map<int, Colour> ramps;           // object number -> colour at full brightness
+  double highlight = 1;                  // light above which a colour turns towards white
+  std::map<int, Colour> ramps;           // object number -> colour at full light, but for the highlight
 };
 
 // The Geoff function of q = r^2/R^2 and its derivative by q; 0 beyond q = 1.
@@ -170,9 +172,42 @@ struct Frame {
   bool shaded() const { return grey || !scene.ramps.empty(); }
   bool drawn(int column, int row) const { return z[row * WIDTH + column] != EMPTY; }
   double depth(int column, int row) const { return z[row * WIDTH + column] / 65536.0; }
-  // Ramp steps. `object` is the index of the object that should be there, or
-  // -1; it decides between ramps that fit about as well.
-  double step(int column, int row, int object) const;
+  const uint8_t *pixel(int column, int row) const { return &rgb[3 * (row * WIDTH + column)]; }
+};
+
+// What the colours of a frame's pixels tell: whose they are and how bright. A
+// ramp's colours are those of the dump: 64 steps of light, of which a palette
+// may hold fewer, six bits a channel. Objects of one colour share a ramp, and
+// nothing tells them apart. A frame without ramps is read as grey.
+class Ramps {
+public:
+  explicit Ramps(const Scene &);
+  // The ramp of an object, by index; -1: none.
+  int of(int object) const { return object < 0 ? -1 : ofObject[object]; }
+  // The ramp that a pixel's colour comes from; -1: none, or more than one comes
+  // as near.
+  int shown(const uint8_t *rgb) const;
+  // The brightness of a pixel in ramp steps. `object` is the index of the
+  // object that should be there, or -1; its ramp is taken if it fits as well as
+  // any.
+  double step(const uint8_t *rgb, int object) const;
+  // The colour for an object's brightness in ramp steps.
+  void paint(int object, double step, uint8_t *rgb) const;
+private:
+  struct Reading {
+    int ramp;                  // as shown() has it
+    int nearest;
+    std::vector<double> miss;  // of each ramp: distance from its nearest colour, squared
+    std::vector<double> step;  // and the brightness there
+  };
+  const Reading &read(const uint8_t *rgb) const;
+  struct Steps {
+    uint8_t rgb[RAMP][3];
+  };
+  double ambient;
+  std::vector<int> ofObject;
+  std::vector<Steps> steps;
+  mutable std::unordered_map<uint32_t, Reading> known;
 };
 
 // Reads DIR/F<n>.TXT, .PPM and .Z. False and a reason if any is missing or bad.
@@ -207,6 +242,10 @@ struct Figures {
   double smooth2 = 0;
   long shaded = 0;         // those whose brightness can be told
   double shade2 = 0;       // sum of squared brightness errors
+  long coloured = 0;       // those whose object can be told by its colour
+  long wrongColour = 0;    // of another object's colour, none of which is truly within a distance of 1
+  long borderTrue = 0;     // pairs of those above and beside each other, of two objects by the truth
+  long border = 0;         // and by their colours
   long pairs = 0;          // pairs of frames close enough in time for flicker
   long flickerBase = 0;    // drawn pixels of the second frame of such pairs
   long flicker = 0;        // brightness jumps where the true one does not
@@ -215,6 +254,8 @@ struct Figures {
   double depthRms() const;
   double smoothRms() const;
   double shadeRms() const;
+  double colourShare() const;      // percent of drawn pixels
+  double borderRatio() const;      // 1: as long as the true borders
   double seeThroughShare() const;  // percent, as are the next four
   double outsideShare() const;
   double outsideBoxShare() const;

@@ -672,43 +672,175 @@ static void definitions() {
   check(differ == 0, "rays with and without the rest of the objects");
 }
 
+static void paintGrey(Frame &f, int column, int row, int step) {
+  for (int k = 0; k < 3; k++) f.rgb[3 * place(column, row) + k] = (uint8_t)(step << 2 | step >> 4);
+}
+
 static void brightness() {
   // All light ambient: the true step is 63 everywhere.
   Made m = made("ambient 1\nsphere 1 0 0 0 60\n");
-  check(m.frame.step(160, 100, 0) == 63, "full grey is step 63");
+  auto grey = [&]() { return Ramps(m.frame.scene).step(m.frame.pixel(160, 100), 0); };
+  check(grey() == 63, "full grey is step 63");
   checkNear(compare(m.frame, m.picture).shadeRms(), 0, 1e-6, "brightness of the truth");
-  auto paint = [&](Frame &f, int column, int row, int step) {
-    for (int k = 0; k < 3; k++) f.rgb[3 * place(column, row) + k] = (uint8_t)(step << 2 | step >> 4);
-  };
   for (int step = 0; step < 64; step++) {
-    paint(m.frame, 160, 100, step);
-    bool a = m.frame.step(160, 100, 0) == step;
+    paintGrey(m.frame, 160, 100, step);
+    bool a = grey() == step;
     for (int k = 0; k < 3; k++) m.frame.rgb[3 * place(160, 100) + k] = (uint8_t)std::lround(step * 255 / 63.0);
-    check(a && m.frame.step(160, 100, 0) == step, "step " + std::to_string(step) + " of both ways to 8 bits");
+    check(a && grey() == step, "step " + std::to_string(step) + " of both ways to 8 bits");
   }
   for (int r = 0; r < HEIGHT; r++)
-    for (int c = 0; c < WIDTH; c++) paint(m.frame, c, r, 60);
+    for (int c = 0; c < WIDTH; c++) paintGrey(m.frame, c, r, 60);
   checkNear(compare(m.frame, m.picture).shadeRms(), 3, 1e-6, "three steps too dark");
 
   // Colours: known with the ramps, unknown without.
   Made c = made("ramp 1 255 128 0\nramp 2 0 64 255\nsphere 1 -15 0 0 40\nsphere 2 15 0 0 40\n");
-  c.frame.grey = false;
   Figures f = compare(c.frame, c.picture);
-  check(f.shaded == f.both && f.shadeRms() < 0.6, "brightness in colour");
+  check(f.shaded == f.both && f.shadeRms() < 0.32, "brightness in colour");
   Frame without = c.frame;
   without.scene.ramps.clear();
   f = compare(without, c.picture);
-  check(f.shaded == 0 && f.both > 0, "no ramps, no brightness figure");
-  // A pixel in the other object's colour is read by that colour.
-  uint8_t *p = &c.frame.rgb[3 * place(130, 100)];
-  p[0] = 0, p[1] = 32, p[2] = 128;
-  checkNear(c.frame.step(130, 100, 0), 31.6, 0.5, "the colour of the neighbour");
-  // A dark one fits both; then the object that should be there decides.
-  p[0] = 4, p[1] = 4, p[2] = 6;
-  checkNear(c.frame.step(130, 100, 0), 63 * (4 * 255 + 4 * 128) / (255.0 * 255 + 128 * 128), 1e-9,
-            "a dark pixel by the first ramp");
-  checkNear(c.frame.step(130, 100, 1), 63 * (4 * 64 + 6 * 255) / (255.0 * 255 + 64 * 64), 1e-9,
-            "a dark pixel by the second ramp");
+  check(f.shaded == 0 && f.coloured == 0 && f.both > 0, "no ramps, no brightness figure, no colour figure");
+
+  // The program's palette, worked out by hand: the darkest, one in the middle,
+  // the last below the highlight, the brightest.
+  const std::string lit = "ambient 0.142857\nhighlight 0.825397\n";
+  Made p = made(lit + "ramp 1 255 64 48\nramp 2 72 112 255\nsphere 1 -15 0 0 40\nsphere 2 15 0 0 40\n");
+  Ramps ramps(p.frame.scene);
+  struct {
+    int light, red, green, blue;   // of 63
+  } rows[] = {{0, 9, 2, 1}, {21, 27, 6, 4}, {52, 53, 12, 9}, {63, 63, 39, 37}};
+  for (auto &row : rows) {
+    const int six[3] = {row.red, row.green, row.blue};
+    uint8_t rgb[3], painted[3];
+    for (int k = 0; k < 3; k++) rgb[k] = (uint8_t)std::lround(six[k] * 255 / 63.0);
+    double step = 9 + row.light * 54 / 63.0;
+    ramps.paint(0, step, painted);
+    const std::string name = "light " + std::to_string(row.light) + " of a ramp";
+    check(std::equal(rgb, rgb + 3, painted), name);
+    checkNear(ramps.step(rgb, 0), step, 0.44, name + ": back to the step");
+    check(ramps.shown(rgb) == ramps.of(0), name + ": its own ramp");
+    // A pixel in the other object's colour is read by that colour.
+    checkNear(ramps.step(rgb, 1), step, 0.44, name + ": expected on the other");
+  }
+  for (int object : {0, 1})
+    for (int light = 0; light < 64; light++) {
+      uint8_t rgb[3];
+      ramps.paint(object, 9 + light * 54 / 63.0, rgb);
+      check(ramps.shown(rgb) == ramps.of(object) && std::fabs(ramps.step(rgb, object) - (9 + light * 54 / 63.0)) < 0.44,
+            "there and back, object " + std::to_string(object) + ", light " + std::to_string(light));
+    }
+  f = compare(p.frame, p.picture);
+  check(f.shadeRms() < 0.5 && f.coloured == f.both, "brightness in the program's ramps");
+  // Ten steps off at every pixel.
+  for (int r = 0; r < HEIGHT; r++)
+    for (int col = 0; col < WIDTH; col++) {
+      const Hit &h = p.picture.at(col, r);
+      if (!h.any()) continue;
+      ramps.paint(h.object, h.shade >= 30 ? h.shade - 10 : h.shade + 10, &p.frame.rgb[3 * place(col, r)]);
+    }
+  checkNear(compare(p.frame, p.picture).shadeRms(), 10, 0.3, "ten steps off in colour");
+  // Black fits both ramps where nothing is ambient; then the object that
+  // should be there decides, and the colour tells nothing.
+  Ramps dark(c.frame.scene);
+  const uint8_t black[3] = {0, 0, 0};
+  check(dark.shown(black) < 0 && dark.step(black, 0) < 1 && dark.step(black, 1) < 1, "black is anybody's");
+  const uint8_t alien[3] = {0, 255, 0};
+  check(dark.shown(alien) < 0, "a colour of no ramp");
+}
+
+static void colours() {
+  const std::string balls = "sphere 1 -10 0 0 60\nsphere 2 10 0 0 60\nblend 1 2\n";
+  const std::string lit = "eye 0 0 -200\nambient 0.5\n";
+  const std::string ramps = "ramp 1 255 64 48\nramp 2 72 112 255\n";
+  // Two balls alike: the true border is the upright line between columns 159
+  // and 160, as long as the picture is high there.
+  Made m = made(lit + balls + ramps);
+  int high = 0, top = 0;
+  for (int r = 0; r < HEIGHT; r++)
+    if (m.picture.at(159, r).any() && m.picture.at(160, r).any()) {
+      if (!high) top = r;
+      high++;
+    }
+  Figures f = compare(m.frame, m.picture);
+  check(high > 50 && f.borderTrue == high && f.border == high, "an upright border");
+  check(f.coloured == f.drawn && f.wrongColour == 0, "colours of the truth");
+  auto give = [](Made &to, int column, int row, int object) {
+    Ramps(to.frame.scene).paint(object, 40, &to.frame.rgb[3 * place(column, row)]);
+  };
+
+  // Scraps: five pixels apart from each other, far inside the first ball.
+  Made scraps = m;
+  for (int i = 0; i < 5; i++) give(scraps, 130 + 3 * i, 100, 1);
+  f = compare(scraps.frame, scraps.picture);
+  check(f.wrongColour == 5, "five scraps of colour");
+  check(f.border == high + 20 && f.borderTrue == high, "a scrap has a border of four");
+  checkNear(f.colourShare(), 100.0 * 5 / f.drawn, 1e-12, "their share of drawn pixels");
+  checkNear(f.borderRatio(), (high + 20.0) / high, 1e-12, "border over true border");
+  std::vector<uint8_t> picture = sheet(scraps.frame, scraps.picture);
+  auto painted = [&](int column, int row) { return &picture[3 * (row * SHEET_WIDTH + 2 * (WIDTH + 4) + column)]; };
+  check(painted(133, 100)[0] == 0 && painted(133, 100)[1] == 255 && painted(133, 100)[2] == 255, "a scrap is cyan");
+  check(painted(132, 100)[0] == 0 && painted(132, 100)[1] == 128 && painted(132, 100)[2] == 0, "its border is green");
+  check(painted(140, 80)[1] == painted(140, 80)[0], "the rest is grey");
+  // A pixel from the other's region is near enough, two are not, nor is a diagonal.
+  Made close = m;
+  give(close, 159, 100, 1);
+  check(compare(close.frame, close.picture).wrongColour == 0, "a pixel over the border");
+  give(close, 158, 100, 1);
+  check(compare(close.frame, close.picture).wrongColour == 1, "two pixels over the border");
+  Made corner = made(lit + ramps + "sphere 1 0 0 20 120\nsphere 2 0 0 -60 40\n");
+  int wrong = 0, beside = 0;
+  for (int r = 1; r < HEIGHT - 1; r++)
+    for (int c = 1; c < WIDTH - 1; c++) {
+      auto is = [&](int x, int y) { return corner.picture.at(x, y).object == 1; };
+      if (is(c, r) || !corner.picture.at(c, r).any()) continue;
+      bool four = is(c + 1, r) || is(c - 1, r) || is(c, r + 1) || is(c, r - 1);
+      bool diagonal = is(c + 1, r + 1) || is(c - 1, r - 1) || is(c - 1, r + 1) || is(c + 1, r - 1);
+      if (!four && !diagonal) continue;
+      Made one = corner;
+      give(one, c, r, 1);
+      f = compare(one.frame, one.picture);
+      wrong += f.wrongColour != (four ? 0 : 1);
+      beside++;
+      if (beside > 60) r = c = HEIGHT * WIDTH;
+    }
+  check(beside > 20 && wrong == 0, "beside and diagonal: " + std::to_string(wrong) + " wrong of " + std::to_string(beside));
+
+  // A comb: every second row reaches three pixels into the other's region.
+  Made comb = m;
+  int teeth = 0, gaps = 0;
+  for (int r = top; r < top + high; r += 2) {
+    teeth++;
+    for (int c = 160; c < 163; c++) give(comb, c, r, 0);
+    gaps += 3 * ((r > top) + (r + 1 < top + high));
+  }
+  f = compare(comb.frame, comb.picture);
+  // Away from the picture's top and bottom all of the comb's pixels are there.
+  bool whole = true;
+  for (int c = 157; c < 164; c++) whole = whole && m.picture.at(c, top).any() && m.picture.at(c, top + high - 1).any();
+  check(whole && f.wrongColour == 2 * teeth, "a comb: two of a tooth's three pixels are wrong");
+  check(f.border == high + gaps && f.borderTrue == high, "a comb's border: its teeth's sides as well");
+
+  // Holes and what sticks out have no colour to be judged.
+  Made hole = m;
+  hole.frame.z[place(159, 100)] = EMPTY;
+  f = compare(hole.frame, hole.picture);
+  check(f.coloured == f.surface - 1 && f.borderTrue == high - 1 && f.border == high - 1, "a hole in the border");
+  Made out = m;
+  out.frame.z[place(3, 3)] = 65536;
+  give(out, 3, 3, 0);
+  check(compare(out.frame, out.picture).wrongColour == 0, "what sticks out is not judged twice");
+
+  // Two objects of one colour; two ramps that a palette cannot tell apart; grey.
+  Made same = made(lit + balls + "ramp 1 255 64 48\nramp 2 255 64 48\n");
+  f = compare(same.frame, same.picture);
+  check(f.coloured == f.drawn && f.border == 0 && f.borderTrue == 0, "one colour, no border");
+  Made alike = made(lit + balls + "ramp 1 100 100 40\nramp 2 101 100 40\n");
+  check(compare(alike.frame, alike.picture).coloured == 0, "colours alike tell nothing");
+  Made grey = made(lit + balls);
+  check(compare(grey.frame, grey.picture).coloured == 0, "grey tells nothing");
+  // One object before another without a link: the border is its outline.
+  f = compare(corner.frame, corner.picture);
+  check(f.borderTrue > 60 && f.border == f.borderTrue, "an outline before another object is a border");
 }
 
 static void flickers() {
@@ -783,6 +915,7 @@ int main() {
   counts();
   definitions();
   brightness();
+  colours();
   flickers();
   texts();
   std::printf("%d passed, %d failed\n", passed, failed);
