@@ -1,57 +1,79 @@
 // truth: holds dumped frames against the surface they should show.
 //
-//   truth [options] DIR            figures of the frames in DIR
+//   truth [options] DIR...         figures of the frames in the directories
 //   truth --render OUT SCENE...    the true frames of scene texts, into OUT
 //
 // This file exists to be the command line round the yardstick: it walks the
-// frames, prints the figures, one `name: value` a line, and judges them.
+// frames, prints the figures, one `name: value` a line or one row of a table,
+// and judges them.
 #include "truth.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <sstream>
 
 using namespace truth;
 
 namespace {
 
 const char usage[] =
-    "truth [options] DIR             hold the frames in DIR against the surface\n"
+    "truth [options] DIR...          hold the frames in the directories against the surface\n"
     "truth --render OUT SCENE...     write the true frames of scene texts into OUT\n"
+    "truth --head                    the head of the table: figures and bars\n"
     "  -v               one line for every frame\n"
     "  --csv FILE       one record for every frame\n"
     "  --worst N        list the N worst frames (3)\n"
     "  --out OUT        and write them as pictures: ours, true, difference (red:\n"
     "                   hole, magenta: see-through, yellow: outside, blue: rim\n"
-    "                   not drawn, teal: left out, grey: error of brightness x 4)\n"
+    "                   not drawn, cyan: another object's colour, green: a border\n"
+    "                   of colours where there is none, grey: error of brightness\n"
+    "                   x 4)\n"
     "  --bars NAME      spacing2 or spacing1: exit 1 if a bar is broken\n"
+    "  --row NAME       with --bars: print a row of the table instead, a figure\n"
+    "                   beyond its bar with a '!'\n"
+    "  --limits FILE    with --row: lines \"name spacing figure limit\", figures as\n"
+    "                   the table has them. A figure listed for this name and\n"
+    "                   spacing breaks its bar only beyond its limit ('!!')\n"
+    "  --list FILE      with --row: append the figures to FILE, as such lines\n"
     "  --every N        judge only every Nth frame (1; more leaves flicker out)\n"
+    "  --pairs          and the frame after each of them, for flicker\n"
     "  --threads N      1 to 16 (2)\n";
 
 // The bars a picture has to meet, and the totals held against them.
 struct Bar {
   const char *name;
+  const char *column;   // of the table
+  int decimals;
   double spacing2, spacing1;
   double (*value)(const Figures &);
   bool (*known)(const Figures &);
 };
 
 const Bar bars[] = {
-    {"holes", 0, 0, [](const Figures &f) { return (double)f.holes; },
+    {"holes", "holes", 0, 0, 0, [](const Figures &f) { return (double)f.holes; },
      [](const Figures &f) { return f.interior > 0; }},
-    {"see-through, percent of interior pixels", 0.1, 0.02,
+    {"see-through, percent of interior pixels", "see-through", 3, 0.05, 0.02,
      [](const Figures &f) { return f.seeThroughShare(); },
      [](const Figures &f) { return f.interior > 0; }},
-    {"outside, percent of drawn pixels", 2, 1, [](const Figures &f) { return f.outsideShare(); },
+    {"outside, percent of drawn pixels", "outside", 3, 1, 0.5,
+     [](const Figures &f) { return f.outsideShare(); },
      [](const Figures &f) { return f.drawn > 0; }},
-    {"depth RMS, units", 1.0, 0.6, [](const Figures &f) { return f.depthRms(); },
+    {"depth RMS, units", "depth", 3, 1.0, 0.6, [](const Figures &f) { return f.depthRms(); },
      [](const Figures &f) { return f.both > 0; }},
-    {"brightness RMS, ramp steps", 5, 3, [](const Figures &f) { return f.shadeRms(); },
+    {"brightness RMS, ramp steps", "brightness", 2, 2.5, 1.5,
+     [](const Figures &f) { return f.shadeRms(); },
      [](const Figures &f) { return f.shaded > 0; }},
-    {"flicker, percent of drawn pixels", 0.1, 0.1,
+    {"flicker, percent of drawn pixels", "flicker", 3, 0.1, 0.05,
      [](const Figures &f) { return f.flickerShare(); },
      [](const Figures &f) { return f.pairs > 0; }},
+    {"colour, percent of drawn pixels", "colour", 3, 0.05, 0.02,
+     [](const Figures &f) { return f.colourShare(); },
+     [](const Figures &f) { return f.coloured > 0; }},
+    {"border, drawn over true length", "border", 2, 1.3, 1.2,
+     [](const Figures &f) { return f.borderRatio(); },
+     [](const Figures &f) { return f.borderTrue > 0; }},
 };
 
 // How bad a frame is: its figures in units of the bars, holes one each.
@@ -99,7 +121,6 @@ void printTotals(const Figures &f) {
   count("surface pixels", f.surface);
   count("interior pixels", f.interior);
   count("drawn pixels", f.drawn);
-  count("seam pixels, left out", f.seams);
   count("holes", f.holes);
   count("see-through pixels", f.seeThrough);
   real("see-through, percent of interior pixels", f.seeThroughShare(), f.interior);
@@ -110,6 +131,12 @@ void printTotals(const Figures &f) {
   real("depth RMS, units", f.depthRms(), f.both);
   real("depth RMS away from jumps, units", f.smoothRms(), f.smooth);
   real("brightness RMS, ramp steps", f.shadeRms(), f.shaded);
+  count("pixels whose object their colour tells", f.coloured);
+  count("pixels of another object's colour", f.wrongColour);
+  real("colour, percent of drawn pixels", f.colourShare(), f.coloured);
+  count("true border", f.borderTrue);
+  count("drawn border", f.border);
+  real("border, drawn over true length", f.borderRatio(), f.borderTrue);
   count("flicker pairs", f.pairs);
   count("flicker pixels", f.flicker);
   real("flicker, percent of drawn pixels", f.flickerShare(), f.pairs);
@@ -117,15 +144,15 @@ void printTotals(const Figures &f) {
 }
 
 const char csvHead[] =
-    "frame,time,surface,interior,drawn,seams,holes,seethrough,seethrough_pct,outside,outside_pct,"
+    "frame,time,surface,interior,drawn,holes,seethrough,seethrough_pct,outside,outside_pct,"
     "outside5x5_pct,rim_missing,depth_rms,depth_rms_smooth,brightness_rms,flicker,flicker_pct,"
-    "flicker_edge_pct\n";
+    "flicker_edge_pct,colour,colour_pct,border\n";
 
 // Absent figures are empty fields.
 std::string csvLine(long n, double time, const Figures &f) {
   char b[512];
-  std::snprintf(b, sizeof b, "%ld,%.3f,%ld,%ld,%ld,%ld,%ld,%ld,%.4f,%ld,%.4f,%.4f,%ld,%.4f,%.4f,", n,
-                time, f.surface, f.interior, f.drawn, f.seams, f.holes, f.seeThrough,
+  std::snprintf(b, sizeof b, "%ld,%.3f,%ld,%ld,%ld,%ld,%ld,%.4f,%ld,%.4f,%.4f,%ld,%.4f,%.4f,", n,
+                time, f.surface, f.interior, f.drawn, f.holes, f.seeThrough,
                 f.seeThroughShare(), f.outside, f.outsideShare(), f.outsideBoxShare(),
                 f.missing - f.holes, f.depthRms(), f.smoothRms());
   std::string line = b;
@@ -133,9 +160,15 @@ std::string csvLine(long n, double time, const Figures &f) {
   else std::snprintf(b, sizeof b, ",");
   line += b;
   if (f.pairs)
-    std::snprintf(b, sizeof b, "%ld,%.4f,%.4f\n", f.flicker, f.flickerShare(), f.flickerEdgeShare());
+    std::snprintf(b, sizeof b, "%ld,%.4f,%.4f,", f.flicker, f.flickerShare(), f.flickerEdgeShare());
   else
-    std::snprintf(b, sizeof b, ",,\n");
+    std::snprintf(b, sizeof b, ",,,");
+  line += b;
+  if (f.coloured) std::snprintf(b, sizeof b, "%ld,%.4f,", f.wrongColour, f.colourShare());
+  else std::snprintf(b, sizeof b, ",,");
+  line += b;
+  if (f.borderTrue) std::snprintf(b, sizeof b, "%.4f\n", f.borderRatio());
+  else std::snprintf(b, sizeof b, "\n");
   return line + b;
 }
 
@@ -144,14 +177,89 @@ void printFrame(long n, double time, const Figures &f) {
               n, time, f.holes, f.seeThroughShare(), f.outsideShare(), f.depthRms(), f.smoothRms());
   if (f.shaded) std::printf(" brightness %.2f", f.shadeRms());
   if (f.pairs) std::printf(" flicker %.3f%%", f.flickerShare());
+  if (f.coloured) std::printf(" colour %.3f%%", f.colourShare());
+  if (f.borderTrue) std::printf(" border %.3f", f.borderRatio());
   std::printf("\n");
+}
+
+void printHead() {
+  std::printf("%-16s", "scene");
+  for (const Bar &b : bars) std::printf(" %11s", b.column);
+  for (int spacing : {2, 1}) {
+    std::printf("\nbars, spacing %d ", spacing);
+    for (const Bar &b : bars) std::printf(" %11g", spacing == 2 ? b.spacing2 : b.spacing1);
+  }
+  std::printf("\n");
+}
+
+// A line of a list of limits.
+struct Limit {
+  std::string scene, spacing, figure;
+  double most;
+};
+
+bool readLimits(const std::string &path, std::vector<Limit> &limits, std::string &why) {
+  std::string text, line;
+  if (!readFile(path, text, why)) return false;
+  std::istringstream lines(text);
+  for (int number = 1; std::getline(lines, line); number++) {
+    std::istringstream words(line.substr(0, line.find('#')));
+    Limit l;
+    std::string more;
+    if (!(words >> l.scene)) continue;
+    bool good = words >> l.spacing >> l.figure >> l.most && !(words >> more);
+    bool known = false;
+    for (const Bar &b : bars) known = known || l.figure == b.column;
+    if (!good || !known) {
+      why = path + ":" + std::to_string(number) + ": expected scene, spacing, figure and limit";
+      return false;
+    }
+    limits.push_back(l);
+  }
+  return true;
+}
+
+// One row of the table. True if nothing is beyond its bar and its limit.
+bool printRow(const std::string &name, int spacing, const std::vector<Limit> &limits, const std::string &listName,
+              const Figures &f, std::string &why) {
+  const std::string number = std::to_string(spacing);
+  bool good = true;
+  std::string list;
+  std::printf("%-13s %s ", name.c_str(), number.c_str());
+  for (const Bar &b : bars) {
+    if (!b.known(f)) {
+      std::printf(" %11s", "-");
+      continue;
+    }
+    double v = b.value(f), most = spacing == 2 ? b.spacing2 : b.spacing1;
+    const char *mark = v > most ? "!" : "";
+    for (const Limit &l : limits)
+      if (l.scene == name && l.spacing == number && l.figure == b.column) most = std::max(most, l.most);
+    if (v > most) {
+      good = false;
+      if (!limits.empty()) mark = "!!";
+    }
+    char cell[48];
+    std::snprintf(cell, sizeof cell, "%.*f%s", b.decimals, v, mark);
+    std::printf(" %11s", cell);
+    std::snprintf(cell, sizeof cell, " %.*f\n", b.decimals, v);
+    list += name + " " + number + " " + b.column + cell;
+  }
+  std::printf("\n");
+  if (listName.empty()) return good;
+  FILE *file = std::fopen(listName.c_str(), "a");
+  bool written = file && std::fputs(list.c_str(), file) >= 0;
+  if (file && std::fclose(file) != 0) written = false;
+  if (!written) why = listName + ": cannot be written";
+  return good && written;
 }
 
 }  // namespace
 
 int main(int argc, char **argv) {
-  bool verbose = false, rendering = false;
-  std::string csvName, out, why;
+  bool verbose = false, rendering = false, pairs = false;
+  std::string csvName, out, why, row, listName;
+  std::vector<Limit> limits;
   std::vector<std::string> names;
   long worst = 3, threads = 2, every = 1;
   int bar = -1;
@@ -165,6 +273,17 @@ int main(int argc, char **argv) {
     if (a == "-h" || a == "--help") {
       std::fputs(usage, stdout);
       return 0;
+    } else if (a == "--head") {
+      printHead();
+      return 0;
+    } else if (a == "--pairs") {
+      pairs = true;
+    } else if (a == "--row" && i + 1 < argc) {
+      row = argv[++i];
+    } else if (a == "--list" && i + 1 < argc) {
+      listName = argv[++i];
+    } else if (a == "--limits" && i + 1 < argc) {
+      if (!readLimits(argv[++i], limits, why)) return trouble(why);
     } else if (a == "-v") {
       verbose = true;
     } else if (a == "--render" && i + 1 < argc) {
@@ -191,49 +310,62 @@ int main(int argc, char **argv) {
   }
   if (names.empty()) return trouble(rendering ? "no scene named" : "no directory named (--help lists the options)");
   if (rendering) return render(out, names, (int)threads);
-  if (names.size() > 1) return trouble("more than one directory: " + names[1]);
+  if (!row.empty() && bar < 0) return trouble("--row wants --bars");
 
-  const std::string &dir = names[0];
-  std::vector<long> numbers;
-  if (!listFrames(dir, numbers, why)) return trouble(why);
   Figures total;
   struct Rank {
     double badness;
+    size_t dir;
     long number;
   };
   std::vector<Rank> ranks;
   std::string csv = csvHead;
   Frame frame, before;
   Picture picture, beforePicture;
-  long judged = 0;
-  for (size_t k = 0; k < numbers.size(); k += every) {
-    long n = numbers[k];
-    std::swap(frame, before);
-    std::swap(picture, beforePicture);
-    if (!readFrame(dir, n, frame, why)) return trouble(why);
-    picture.trace(frame.scene, (int)threads);
-    Figures f = compare(frame, picture);
-    // Flicker is between neighbours in the run only.
-    if (judged++ && numbers[k - every] == n - 1) compareFlicker(before, beforePicture, frame, picture, f);
-    total.add(f);
-    ranks.push_back({badness(f), n});
-    if (verbose) printFrame(n, frame.scene.time, f);
-    if (!csvName.empty()) csv += csvLine(n, frame.scene.time, f);
+  for (size_t d = 0; d < names.size(); d++) {
+    std::vector<long> numbers;
+    if (!listFrames(names[d], numbers, why)) return trouble(why);
+    long last = -1;
+    for (size_t k = 0; k < numbers.size(); k++) {
+      if (k % every != 0 && !(pairs && k % every == 1)) continue;
+      long n = numbers[k];
+      std::swap(frame, before);
+      std::swap(picture, beforePicture);
+      if (!readFrame(names[d], n, frame, why)) return trouble(why);
+      picture.trace(frame.scene, (int)threads);
+      Figures f = compare(frame, picture);
+      // Flicker is between neighbours in the run only.
+      if (last >= 0 && last == n - 1) compareFlicker(before, beforePicture, frame, picture, f);
+      last = n;
+      total.add(f);
+      ranks.push_back({badness(f), d, n});
+      if (verbose) printFrame(n, frame.scene.time, f);
+      if (!csvName.empty()) csv += csvLine(n, frame.scene.time, f);
+    }
   }
   if (!csvName.empty() && !writeFile(csvName, csv, why)) return trouble(why);
 
-  std::sort(ranks.begin(), ranks.end(), [](const Rank &a, const Rank &b) {
-    return a.badness != b.badness ? a.badness > b.badness : a.number < b.number;
-  });
+  std::stable_sort(ranks.begin(), ranks.end(),
+                   [](const Rank &a, const Rank &b) { return a.badness > b.badness; });
   if ((size_t)worst < ranks.size()) ranks.resize(worst);
   for (const Rank &r : ranks) {
-    std::printf("worst frame: %ld (%.2f bars)\n", r.number, r.badness);
+    if (row.empty()) {
+      std::printf("worst frame: %ld (%.2f bars)", r.number, r.badness);
+      if (names.size() > 1) std::printf(" in %s", names[r.dir].c_str());
+      std::printf("\n");
+    }
     if (out.empty()) continue;
-    if (!readFrame(dir, r.number, frame, why)) return trouble(why);
+    if (!readFrame(names[r.dir], r.number, frame, why)) return trouble(why);
     picture.trace(frame.scene, (int)threads);
-    char name[32];
-    std::snprintf(name, sizeof name, "/W%07ld.PPM", r.number);
+    char name[48];
+    // A second directory's frames stand beside the first's.
+    if (r.dir) std::snprintf(name, sizeof name, "/W%07ld-%d.PPM", r.number, (int)r.dir + 1);
+    else std::snprintf(name, sizeof name, "/W%07ld.PPM", r.number);
     if (!writePpm(out + name, SHEET_WIDTH, HEIGHT, sheet(frame, picture), why)) return trouble(why);
+  }
+  if (!row.empty()) {
+    bool good = printRow(row, bar, limits, listName, total, why);
+    return why.empty() ? !good : trouble(why);
   }
   printTotals(total);
 

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace truth {
@@ -51,10 +52,11 @@ struct Kind {
   const char *(*set)(Object &, const double *);
   // q at a point, and its gradient if asked for.
   double (*q)(const Object &, Vec p, Vec *gradient);
-  // Where q along a ray is a chain of quadratics: appends the depths at which
-  // one passes into the next or into q = 1. Null if it is no such chain.
+  // Appends the depths along a ray at which q's smooth pieces meet; of a chain
+  // of quadratics also where q = 1.
   void (*breaks)(const Object &, const Ray &, std::vector<double> &);
-  // The quadratic that holds at depth t: q = c[0] + c[1] t + c[2] t^2.
+  // The quadratic that holds at depth t: q = c[0] + c[1] t + c[2] t^2. Null if
+  // q along a ray is no chain of quadratics.
   void (*quadratic)(const Object &, const Ray &, double t, double c[3]);
   // Where it is not: bounds of q for depths in [a, b], tightening as b - a
   // shrinks.
@@ -86,7 +88,8 @@ struct Scene {
   double ambient = 0;                    // share of the ramp that needs no light
   std::vector<Object> objects;
   std::vector<std::vector<double>> weight;  // [i][j]: scale of what j adds to i; 0: not linked
-  std::map<int, Colour> ramps;           // object number -> colour at full brightness
+  double highlight = 1;                  // light above which a colour turns towards white
+  std::map<int, Colour> ramps;           // object number -> colour at full light, but for the highlight
 };
 
 // The Geoff function of q = r^2/R^2 and its derivative by q; 0 beyond q = 1.
@@ -105,11 +108,7 @@ bool parseScene(const std::string &text, const std::string &name, Scene &, std::
 struct Hit {
   double depth = -1;  // -1: no surface
   float shade = 0;    // ramp steps, 0 to 63, not rounded
-  int object = -1;    // index of the object that is strongest there
-  // The ray ran through a place where one object's surface stops short of its
-  // neighbour's, which only a model with some but not all links has. There is
-  // no true surface to hold the drawing against; such pixels are left out.
-  bool seam = false;
+  int object = -1;    // index of the object whose own field is strongest there
   bool any() const { return depth >= 0; }
 };
 
@@ -127,13 +126,24 @@ public:
   bool inColumn(int i, double column) const;
   // The eye lies inside the surface: there is no picture to speak of.
   bool eyeInside() const;
-  // For tests: treat every object singly even where one sum would do.
-  void forgetGroups();
+  // The field of a body at a point, its gradient, and the object whose own
+  // field is the strongest; unchanged where nothing reaches.
+  double field(int number, Vec p, Vec *gradient, int *strongest) const;
+  // The body of an object: objects that links join, directly or through
+  // others, have the same.
+  int bodyOf(int object) const { return body[object]; }
+  // For tests: do not use that a sum is enough where all are linked alike.
+  void forgetPlain();
 private:
   struct Work;
-  double first(Work &, int fn, const double *c, double a, double b) const;
+  double first(const Work &, const int *which, int n, const double *form, const char *known, bool sum,
+               double a, double b) const;
+  bool follow(const Work &, int object, double a, double b, double *form) const;
   const Scene &scene;
-  std::vector<int> group;   // objects of one number: all linked, weight 1; -1: single treatment
+  std::vector<int> body;     // of each object
+  std::vector<char> plain;   // of each body: every pair is linked with weight 1
+  int bodies = 0;
+  bool usePlain = true;
 };
 
 // A picture's worth of hits, with MARGIN pixels beyond each edge so that the
@@ -162,9 +172,42 @@ struct Frame {
   bool shaded() const { return grey || !scene.ramps.empty(); }
   bool drawn(int column, int row) const { return z[row * WIDTH + column] != EMPTY; }
   double depth(int column, int row) const { return z[row * WIDTH + column] / 65536.0; }
-  // Ramp steps. `object` is the index of the object that should be there, or
-  // -1; it decides between ramps that fit about as well.
-  double step(int column, int row, int object) const;
+  const uint8_t *pixel(int column, int row) const { return &rgb[3 * (row * WIDTH + column)]; }
+};
+
+// What the colours of a frame's pixels tell: whose they are and how bright. A
+// ramp's colours are those of the dump: 64 steps of light, of which a palette
+// may hold fewer, six bits a channel. Objects of one colour share a ramp, and
+// nothing tells them apart. A frame without ramps is read as grey.
+class Ramps {
+public:
+  explicit Ramps(const Scene &);
+  // The ramp of an object, by index; -1: none.
+  int of(int object) const { return object < 0 ? -1 : ofObject[object]; }
+  // The ramp that a pixel's colour comes from; -1: none, or more than one comes
+  // as near.
+  int shown(const uint8_t *rgb) const;
+  // The brightness of a pixel in ramp steps. `object` is the index of the
+  // object that should be there, or -1; its ramp is taken if it fits as well as
+  // any.
+  double step(const uint8_t *rgb, int object) const;
+  // The colour for an object's brightness in ramp steps.
+  void paint(int object, double step, uint8_t *rgb) const;
+private:
+  struct Reading {
+    int ramp;                  // as shown() has it
+    int nearest;
+    std::vector<double> miss;  // of each ramp: distance from its nearest colour, squared
+    std::vector<double> step;  // and the brightness there
+  };
+  const Reading &read(const uint8_t *rgb) const;
+  struct Steps {
+    uint8_t rgb[RAMP][3];
+  };
+  double ambient;
+  std::vector<int> ofObject;
+  std::vector<Steps> steps;
+  mutable std::unordered_map<uint32_t, Reading> known;
 };
 
 // Reads DIR/F<n>.TXT, .PPM and .Z. False and a reason if any is missing or bad.
@@ -188,7 +231,6 @@ struct Figures {
   long surface = 0;        // surface there
   long drawn = 0;          // something drawn
   long interior = 0;       // surface there and at all eight neighbours
-  long seams = 0;          // left out, see Hit::seam
   long holes = 0;          // interior, nothing drawn
   long seeThrough = 0;     // interior, drawn more than 4 units behind
   long outside = 0;        // drawn, no surface within a distance of 2
@@ -200,6 +242,10 @@ struct Figures {
   double smooth2 = 0;
   long shaded = 0;         // those whose brightness can be told
   double shade2 = 0;       // sum of squared brightness errors
+  long coloured = 0;       // those whose object can be told by its colour
+  long wrongColour = 0;    // of another object's colour, none of which is truly within a distance of 1
+  long borderTrue = 0;     // pairs of those above and beside each other, of two objects by the truth
+  long border = 0;         // and by their colours
   long pairs = 0;          // pairs of frames close enough in time for flicker
   long flickerBase = 0;    // drawn pixels of the second frame of such pairs
   long flicker = 0;        // brightness jumps where the true one does not
@@ -208,6 +254,8 @@ struct Figures {
   double depthRms() const;
   double smoothRms() const;
   double shadeRms() const;
+  double colourShare() const;      // percent of drawn pixels
+  double borderRatio() const;      // 1: as long as the true borders
   double seeThroughShare() const;  // percent, as are the next four
   double outsideShare() const;
   double outsideBoxShare() const;

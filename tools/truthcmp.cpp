@@ -10,34 +10,91 @@
 
 namespace truth {
 
-// The DAC has six bits a channel, so a grey's ramp step is its DAC value. In
-// colour the step is the multiple of a ramp's colour that comes nearest.
-double Frame::step(int column, int row, int object) const {
-  const uint8_t *p = &rgb[3 * (row * WIDTH + column)];
-  if (scene.ramps.empty()) return std::floor(p[0] * (RAMP - 1) / 255.0 + 0.5);
-  // The true object's own ramp is taken if it explains the pixel to within
-  // the six bits; dark pixels fit any ramp.
-  const double same = 3 * 4.0 * 4.0;
-  double best = 1e300, step = 0;
-  for (const auto &r : scene.ramps) {
-    const Colour &c = r.second;
-    double k = (p[0] * c.r + p[1] * c.g + p[2] * c.b) / (c.r * c.r + c.g * c.g + c.b * c.b);
-    double dr = p[0] - k * c.r, dg = p[1] - k * c.g, db = p[2] - k * c.b;
-    double miss = dr * dr + dg * dg + db * db;
-    if (object >= 0 && scene.objects[object].number == r.first && miss <= same) miss = -1;
-    if (miss < best) best = miss, step = k * (RAMP - 1);
+namespace {
+
+// A DAC value of six bits as the dump has it.
+uint8_t eight(int six) { return (uint8_t)((six * 255 + 31) / 63); }
+
+// Colours this far apart (of 255, over all channels) are not the same.
+const double APART = 2;
+// A colour further than this from all of a ramp's is not the ramp's.
+const double OFF = 14;
+
+}  // namespace
+
+Ramps::Ramps(const Scene &s) : ambient(s.ambient), ofObject(s.objects.size(), -1) {
+  std::vector<Colour> colours;
+  for (size_t i = 0; i < s.objects.size(); i++) {
+    auto ramp = s.ramps.find(s.objects[i].number);
+    if (ramp == s.ramps.end()) continue;
+    const Colour &c = ramp->second;
+    size_t k = 0;
+    while (k < colours.size() && !(colours[k].r == c.r && colours[k].g == c.g && colours[k].b == c.b)) k++;
+    if (k == colours.size()) colours.push_back(c);
+    ofObject[i] = (int)k;
   }
-  return step;
+  // Whole numbers, rounded down, as the program has them for its palette.
+  const int top = RAMP - 1, dark = (int)std::lround(s.ambient * top), high = (int)std::lround(s.highlight * top);
+  for (const Colour &c : colours) {
+    Steps ramp;
+    const double full[3] = {c.r, c.g, c.b};
+    for (int step = 0; step < RAMP; step++)
+      for (int k = 0; k < 3; k++) {
+        int value = (int)full[k] * top / 255 * (dark + step * (top - dark) / top) / top;
+        if (step > high) value += (top - value) * (step - high) / (2 * (top - high));
+        ramp.rgb[step][k] = eight(value);
+      }
+    steps.push_back(ramp);
+  }
+}
+
+const Ramps::Reading &Ramps::read(const uint8_t *rgb) const {
+  uint32_t key = (uint32_t)rgb[0] << 16 | rgb[1] << 8 | rgb[2];
+  auto there = known.find(key);
+  if (there != known.end()) return there->second;
+  Reading r{-1, -1, {}, {}};
+  for (const Steps &ramp : steps) {
+    double miss = 1e300, sum = 0;
+    int count = 0;
+    for (int step = 0; step < RAMP; step++) {
+      double d = 0;
+      for (int k = 0; k < 3; k++) d += (rgb[k] - ramp.rgb[step][k]) * (rgb[k] - ramp.rgb[step][k]);
+      // Steps of one colour count with their middle.
+      if (d < miss) miss = d, sum = 0, count = 0;
+      if (d == miss) sum += step, count++;
+    }
+    if (r.nearest < 0 || miss < r.miss[r.nearest]) r.nearest = (int)r.miss.size();
+    r.miss.push_back(miss);
+    r.step.push_back((RAMP - 1) * ambient + (1 - ambient) * sum / count);
+  }
+  if (r.nearest >= 0 && r.miss[r.nearest] <= OFF * OFF) {
+    r.ramp = r.nearest;
+    double least = std::sqrt(r.miss[r.nearest]);
+    for (size_t k = 0; k < r.miss.size(); k++)
+      if ((int)k != r.nearest && std::sqrt(r.miss[k]) <= least + APART) r.ramp = -1;
+  }
+  return known[key] = r;
+}
+
+int Ramps::shown(const uint8_t *rgb) const { return steps.empty() ? -1 : read(rgb).ramp; }
+
+double Ramps::step(const uint8_t *rgb, int object) const {
+  if (steps.empty()) return std::floor(rgb[0] * (RAMP - 1) / 255.0 + 0.5);
+  const Reading &r = read(rgb);
+  int k = of(object);
+  if (k < 0 || std::sqrt(r.miss[k]) > std::sqrt(r.miss[r.nearest]) + APART) k = r.nearest;
+  return r.step[k];
+}
+
+void Ramps::paint(int object, double brightness, uint8_t *rgb) const {
+  int k = of(object);
+  double light = k < 0 ? brightness : ambient < 1 ? (brightness - ambient * (RAMP - 1)) / (1 - ambient) : RAMP - 1;
+  int step = std::min(std::max((int)std::floor(light + 0.5), 0), RAMP - 1);
+  if (k >= 0) std::copy_n(steps[k].rgb[step], 3, rgb);
+  else std::fill_n(rgb, 3, eight(step));
 }
 
 namespace {
-
-// The darkest and the brightest of DAC values seen as 8 bits.
-uint8_t dac(double full, double step) {
-  int six = (int)std::floor(full / 255 * step + 0.5);
-  six = std::min(std::max(six, 0), 63);
-  return (uint8_t)(six << 2 | six >> 4);
-}
 
 // All of the 3 by 3 pixels show the surface, without a jump of more than
 // BEHIND in depth between them if `calm`.
@@ -46,7 +103,7 @@ bool whole(const Picture &t, int column, int row, bool calm) {
   for (int y = -1; y <= 1; y++)
     for (int x = -1; x <= 1; x++) {
       const Hit &h = t.at(column + x, row + y);
-      if (!h.any() || h.seam) return false;
+      if (!h.any()) return false;
       least = std::min(least, h.depth);
       most = std::max(most, h.depth);
     }
@@ -62,6 +119,33 @@ bool surfaceNear(const Picture &t, int column, int row, int limit) {
   return false;
 }
 
+// Whether a pixel's colour tells its object, and there is surface: which ramp it is by its colour, and by the truth.
+bool coloured(const Frame &f, const Picture &t, const Ramps &ramps, int column, int row, int &drawn, int &truly) {
+  const Hit &h = t.at(column, row);
+  if (!h.any() || !f.drawn(column, row)) return false;
+  drawn = ramps.shown(f.pixel(column, row)), truly = ramps.of(h.object);
+  return drawn >= 0 && truly >= 0;
+}
+
+// The ramp is truly there, or right above, below or beside.
+bool rampNear(const Picture &t, const Ramps &ramps, int column, int row, int ramp) {
+  const int x[] = {0, 1, -1, 0, 0}, y[] = {0, 0, 0, 1, -1};
+  for (int k = 0; k < 5; k++) {
+    const Hit &h = t.at(column + x[k], row + y[k]);
+    if (h.any() && ramps.of(h.object) == ramp) return true;
+  }
+  return false;
+}
+
+// The borders of a pixel with the one to its right (dx = 1) or below it (dy = 1): drawn and true ones.
+void borders(const Frame &f, const Picture &t, const Ramps &ramps, int column, int row, int dx, int dy, bool &drawn,
+             bool &truly) {
+  int d0, t0, d1, t1;
+  bool both = column + dx < WIDTH && row + dy < HEIGHT && coloured(f, t, ramps, column, row, d0, t0) &&
+              coloured(f, t, ramps, column + dx, row + dy, d1, t1);
+  drawn = both && d0 != d1, truly = both && t0 != t1;
+}
+
 double rms(double sum, long n) { return n ? std::sqrt(sum / n) : 0; }
 double share(long part, long of) { return of ? 100.0 * part / of : 0; }
 
@@ -70,9 +154,10 @@ double share(long part, long of) { return of ? 100.0 * part / of : 0; }
 void Figures::add(const Figures &o) {
   long Figures::*const counts[] = {
       &Figures::frames, &Figures::eyeInside, &Figures::surface, &Figures::drawn,
-      &Figures::interior, &Figures::seams, &Figures::holes, &Figures::seeThrough,
+      &Figures::interior, &Figures::holes, &Figures::seeThrough,
       &Figures::outside, &Figures::outsideBox, &Figures::missing, &Figures::both,
-      &Figures::smooth, &Figures::shaded, &Figures::pairs, &Figures::flickerBase,
+      &Figures::smooth, &Figures::shaded, &Figures::coloured, &Figures::wrongColour,
+      &Figures::borderTrue, &Figures::border, &Figures::pairs, &Figures::flickerBase,
       &Figures::flicker, &Figures::flickerEdge};
   for (auto m : counts) this->*m += o.*m;
   depth2 += o.depth2;
@@ -83,6 +168,8 @@ void Figures::add(const Figures &o) {
 double Figures::depthRms() const { return rms(depth2, both); }
 double Figures::smoothRms() const { return rms(smooth2, smooth); }
 double Figures::shadeRms() const { return rms(shade2, shaded); }
+double Figures::colourShare() const { return share(wrongColour, drawn); }
+double Figures::borderRatio() const { return borderTrue ? (double)border / borderTrue : 0; }
 double Figures::seeThroughShare() const { return share(seeThrough, interior); }
 double Figures::outsideShare() const { return share(outside, drawn); }
 double Figures::outsideBoxShare() const { return share(outsideBox, drawn); }
@@ -96,6 +183,7 @@ Figures compare(const Frame &f, const Picture &t) {
     r.eyeInside = 1;
     return r;
   }
+  const Ramps ramps(f.scene);
   for (int y = 0; y < HEIGHT; y++)
     for (int x = 0; x < WIDTH; x++) {
       const Hit &h = t.at(x, y);
@@ -109,10 +197,6 @@ Figures compare(const Frame &f, const Picture &t) {
         continue;
       }
       r.surface++;
-      if (h.seam) {
-        r.seams++;
-        continue;
-      }
       bool interior = whole(t, x, y, false);
       r.interior += interior;
       if (!drawn) {
@@ -129,9 +213,18 @@ Figures compare(const Frame &f, const Picture &t) {
         r.smooth2 += error * error;
       }
       if (f.shaded()) {
-        double e = f.step(x, y, h.object) - h.shade;
+        double e = ramps.step(f.pixel(x, y), h.object) - h.shade;
         r.shaded++;
         r.shade2 += e * e;
+      }
+      int shown, truly;
+      if (!coloured(f, t, ramps, x, y, shown, truly)) continue;
+      r.coloured++;
+      r.wrongColour += !rampNear(t, ramps, x, y, shown);
+      for (int k = 0; k < 2; k++) {
+        bool ours, real;
+        borders(f, t, ramps, x, y, k == 0, k == 1, ours, real);
+        r.border += ours, r.borderTrue += real;
       }
     }
   return r;
@@ -143,15 +236,16 @@ void compareFlicker(const Frame &before, const Picture &beforeTruth,
   if (!(dt > 0 && dt <= PAIR) || !before.shaded() || !after.shaded()) return;
   if (beforeTruth.eyeInside || afterTruth.eyeInside) return;
   r.pairs++;
+  const Ramps ramps0(before.scene), ramps1(after.scene);
   const double jump = RAMP / 4.0, still = RAMP / 16.0;
   for (int y = 0; y < HEIGHT; y++)
     for (int x = 0; x < WIDTH; x++) {
       bool d0 = before.drawn(x, y), d1 = after.drawn(x, y);
       const Hit &h0 = beforeTruth.at(x, y), &h1 = afterTruth.at(x, y);
       r.flickerBase += d1;
-      if ((!d0 && !d1) || h0.seam || h1.seam) continue;
-      double s0 = d0 ? before.step(x, y, h0.object) : 0;
-      double s1 = d1 ? after.step(x, y, h1.object) : 0;
+      if (!d0 && !d1) continue;
+      double s0 = d0 ? ramps0.step(before.pixel(x, y), h0.object) : 0;
+      double s1 = d1 ? ramps1.step(after.pixel(x, y), h1.object) : 0;
       double t0 = h0.any() ? h0.shade : 0, t1 = h1.any() ? h1.shade : 0;
       if (std::fabs(s1 - s0) <= jump || std::fabs(t1 - t0) >= still) continue;
       r.flickerEdge++;
@@ -159,37 +253,23 @@ void compareFlicker(const Frame &before, const Picture &beforeTruth,
     }
 }
 
-namespace {
-
-void putTruth(const Scene &s, const Hit &h, uint8_t *p) {
-  double step = std::floor(h.shade + 0.5);
-  Colour full{255, 255, 255};
-  if (!s.ramps.empty()) {
-    auto ramp = s.ramps.find(h.object < 0 ? -1 : s.objects[h.object].number);
-    if (ramp != s.ramps.end()) full = ramp->second;
-  }
-  p[0] = dac(full.r, step);
-  p[1] = dac(full.g, step);
-  p[2] = dac(full.b, step);
-}
-
-}  // namespace
-
 void drawTruth(const Scene &s, const Picture &t, Frame &f) {
   f.scene = s;
   f.rgb.assign(WIDTH * HEIGHT * 3, 0);
   f.z.assign(WIDTH * HEIGHT, EMPTY);
   f.grey = s.ramps.empty();
+  const Ramps ramps(s);
   for (int y = 0; y < HEIGHT; y++)
     for (int x = 0; x < WIDTH; x++) {
       const Hit &h = t.at(x, y);
       if (!h.any()) continue;
       f.z[y * WIDTH + x] = (int32_t)std::floor(std::min(h.depth, 32767.0) * 65536 + 0.5);
-      putTruth(s, h, &f.rgb[3 * (y * WIDTH + x)]);
+      ramps.paint(h.object, h.shade, &f.rgb[3 * (y * WIDTH + x)]);
     }
 }
 
 std::vector<uint8_t> sheet(const Frame &f, const Picture &t) {
+  const Ramps ramps(f.scene);
   std::vector<uint8_t> out(SHEET_WIDTH * HEIGHT * 3, 64);
   for (int y = 0; y < HEIGHT; y++)
     for (int x = 0; x < WIDTH; x++) {
@@ -199,23 +279,32 @@ std::vector<uint8_t> sheet(const Frame &f, const Picture &t) {
       bool drawn = f.drawn(x, y);
       std::copy_n(&f.rgb[3 * (y * WIDTH + x)], 3, ours);
       std::fill_n(ideal, 3, 0);
-      if (h.any()) putTruth(f.scene, h, ideal);
+      if (h.any()) ramps.paint(h.object, h.shade, ideal);
       auto paint = [&](int r, int g, int b) {
         gap[0] = (uint8_t)r, gap[1] = (uint8_t)g, gap[2] = (uint8_t)b;
       };
       paint(0, 0, 0);
-      if (h.seam) {
-        paint(0, 96, 96);
-      } else if (!h.any()) {
+      if (!h.any()) {
         if (drawn) surfaceNear(t, x, y, 4) ? paint(96, 96, 0) : paint(255, 255, 0);
       } else if (!drawn) {
         whole(t, x, y, false) ? paint(255, 0, 0) : paint(0, 0, 160);
       } else {
         double error = f.depth(x, y) - h.depth;
+        int shown, truly;
+        bool stray = false;
+        for (int k = 0; k < 2; k++) {
+          bool mine, real;
+          borders(f, t, ramps, x, y, k == 0, k == 1, mine, real);
+          stray = stray || (mine && !real);
+        }
         if (error > BEHIND && whole(t, x, y, false)) {
           paint(255, 0, 255);
+        } else if (coloured(f, t, ramps, x, y, shown, truly) && !rampNear(t, ramps, x, y, shown)) {
+          paint(0, 255, 255);
+        } else if (stray) {
+          paint(0, 128, 0);
         } else {
-          double e = f.shaded() ? std::fabs(f.step(x, y, h.object) - h.shade) * 4
+          double e = f.shaded() ? std::fabs(ramps.step(f.pixel(x, y), h.object) - h.shade) * 4
                                 : std::fabs(error) * 32;
           int grey = (int)std::min(e, 255.0);
           paint(grey, grey, grey);

@@ -3,17 +3,22 @@
 // This file exists to give an answer that can be trusted near tangents, where
 // stepping along the ray and looking for a change of sign would miss thin
 // slices. Along a ray the field of a sphere or cylinder is a chain of
-// polynomials of degree six in the depth. On each link of the chain they are
-// added up in Bernstein form, whose coefficients enclose the values, and the
-// link is halved until the enclosure excludes the surface or the first
-// crossing is pinned down. Kinds whose field is no polynomial add an enclosure
-// of their own.
+// polynomials of degree six in the depth, in Bernstein form, whose
+// coefficients enclose the values. The fields of other kinds are enclosed by
+// bounds until the stretch is short enough for a polynomial that follows them
+// to the eleventh decimal.
 //
-// The surface is the report's: object i's is where its own field and what its
-// linked neighbours add reach the isovalue, as long as no neighbour is
-// stronger there; what is seen is the nearest of all objects' surfaces. Where
-// all of a group are linked to each other with weight 1, that is the surface
-// of the group's sum, and is found as such.
+// The objects that links join make one body, with one field:
+//
+//   F = sum f_i^2 g_i / sum f_i^2,   g_i = f_i + sum w_ij f_j
+//
+// F is an average of the g_i, so there is no surface where all g_i are below
+// the isovalue, however small the f_i are. Elsewhere the sign is that of
+// sum f_i^2 (g_i - isovalue), a polynomial of degree eighteen. Where all
+// objects of the body that reach a stretch are linked with weight 1, F is
+// their plain sum, of degree six. A stretch is halved until the enclosures
+// exclude the surface or the first crossing is pinned down. Bodies do not know
+// of each other: the nearest surface is seen.
 #include "truth.h"
 
 #include <algorithm>
@@ -130,6 +135,12 @@ void cylinderQuadratic(const Object &o, const Ray &ray, double t, double c[3]) {
   else bodyQuadratic(o, ray, c);
 }
 
+// Where a ray passes a plane square to the axis, `at` along it from o.a.
+void whereAlong(const Object &o, const Ray &ray, double at, std::vector<double> &t) {
+  double d = dot(ray.dir, o.u);
+  if (d != 0) t.push_back((at - dot(ray.eye - o.a, o.u)) / d);
+}
+
 void cylinderBreaks(const Object &o, const Ray &ray, std::vector<double> &t) {
   double c[3];
   bodyQuadratic(o, ray, c);
@@ -138,11 +149,8 @@ void cylinderBreaks(const Object &o, const Ray &ray, std::vector<double> &t) {
   whereOne(c, t);
   pointQuadratic(ray, o.a + o.u * o.len, o.size, c);
   whereOne(c, t);
-  double d = dot(ray.dir, o.u), s = dot(ray.eye - o.a, o.u);
-  if (d != 0) {
-    t.push_back(-s / d);
-    t.push_back((o.len - s) / d);
-  }
+  whereAlong(o, ray, 0, t);
+  whereAlong(o, ray, o.len, t);
 }
 
 // ---- kinds without a polynomial --------------------------------------------
@@ -222,12 +230,34 @@ void coneBounds(const Object &o, const Ray &ray, double a, double b, double &low
   high = (d + h) * (d + h) / (least * least);
 }
 
+// A torus is smooth but on its axis; there the ray is nearest to the axis.
+void torusBreaks(const Object &o, const Ray &ray, std::vector<double> &t) {
+  Vec d = ray.dir - o.u * dot(ray.dir, o.u), m = ray.eye - o.a;
+  double k = dot(d, d);
+  if (k > 0) t.push_back(-dot(m, d) / k);
+}
+
+// A disc's flat part ends at its radius.
+void discBreaks(const Object &o, const Ray &ray, std::vector<double> &t) {
+  if (!(o.len > 0)) return;
+  Object tube = o;
+  tube.size = o.len;
+  double c[3];
+  bodyQuadratic(tube, ray, c);
+  whereOne(c, t);
+}
+
+void coneBreaks(const Object &o, const Ray &ray, std::vector<double> &t) {
+  whereAlong(o, ray, 0, t);
+  whereAlong(o, ray, o.len, t);
+}
+
 const Kind kinds[] = {
     {"sphere", 4, sphereSet, sphereQ, sphereBreaks, sphereQuadratic, nullptr},
     {"cylinder", 7, cylinderSet, cylinderQ, cylinderBreaks, cylinderQuadratic, nullptr},
-    {"torus", 8, setRound, torusQ, nullptr, nullptr, distanceBounds},
-    {"disc", 8, setRound, discQ, nullptr, nullptr, distanceBounds},
-    {"cone", 8, coneSet, coneQ, nullptr, nullptr, coneBounds},
+    {"torus", 8, setRound, torusQ, torusBreaks, nullptr, distanceBounds},
+    {"disc", 8, setRound, discQ, discBreaks, nullptr, distanceBounds},
+    {"cone", 8, coneSet, coneQ, coneBreaks, nullptr, coneBounds},
 };
 
 // ---- Bernstein form ----------------------------------------------------------
@@ -265,51 +295,119 @@ void fieldForm(const double quad[3], double a, double b, double f[N]) {
 }
 
 // Halves the interval: left and right are the forms on the two halves.
-void halve(const double c[N], double left[N], double right[N]) {
-  double w[N];
-  std::copy(c, c + N, w);
-  for (int k = 0; k < N; k++) {
+template <int M>
+void halve(const double *c, double *left, double *right) {
+  double w[M];
+  std::copy(c, c + M, w);
+  for (int k = 0; k < M; k++) {
     left[k] = w[0];
-    right[N - 1 - k] = w[N - 1 - k];
-    for (int i = 0; i < N - 1 - k; i++) w[i] = (w[i] + w[i + 1]) / 2;
+    right[M - 1 - k] = w[M - 1 - k];
+    for (int i = 0; i < M - 1 - k; i++) w[i] = (w[i] + w[i + 1]) / 2;
   }
 }
 
-double value(const double c[N], double x) {
-  double w[N];
-  std::copy(c, c + N, w);
-  for (int n = N - 1; n > 0; n--)
+template <int M>
+double value(const double *c, double x) {
+  double w[M];
+  std::copy(c, c + M, w);
+  for (int n = M - 1; n > 0; n--)
     for (int i = 0; i < n; i++) w[i] += x * (w[i + 1] - w[i]);
   return w[0];
 }
 
 // The only zero in [0, 1] of a form that starts below and ends above or at 0.
-double onlyZero(const double c[N]) {
-  double x0 = 0, x1 = 1, f0 = c[0], f1 = c[N - 1];
-  for (int i = 0; i < 60 && x1 - x0 > 1e-11; i++) {
-    // False position, its weight halved where one end stays (Illinois).
+template <int M>
+double onlyZero(const double *c) {
+  double x0 = 0, x1 = 1, f0 = c[0], f1 = c[M - 1];
+  for (int i = 0; i < 160 && x1 - x0 > 1e-12; i++) {
+    // False position, its weight halved where one end stays (Illinois); every
+    // third time the middle, because the form may be flat at one end.
     double x = x0 - f0 * (x1 - x0) / (f1 - f0);
-    if (!(x > x0 && x < x1)) x = (x0 + x1) / 2;
-    double f = value(c, x);
+    if (i % 3 == 2 || !(x > x0 && x < x1)) x = (x0 + x1) / 2;
+    double f = value<M>(c, x);
     if (f >= 0) {
-      if (f < 1e-14) return x;
+      if (f == 0) return x;
       x1 = x, f1 = f, f0 /= 2;
     } else {
       x0 = x, f0 = f, f1 /= 2;
-      if (f > -1e-14) return x;
     }
   }
   return x1;
 }
 
+template <int M>
+int signChanges(const double *c) {
+  int changes = 0;
+  for (int k = 1; k < M; k++) changes += (c[k] >= 0) != (c[k - 1] >= 0);
+  return changes;
+}
+
+// Forms that go through values at N evenly spaced places: the inverse of the
+// Bernstein polynomials' values there.
+struct Through {
+  double m[N][N];
+  Through() {
+    double a[N][2 * N] = {};
+    for (int r = 0; r < N; r++) {
+      double x = r / double(N - 1), choose = 1;
+      for (int k = 0; k < N; k++) {
+        a[r][k] = choose * std::pow(x, k) * std::pow(1 - x, N - 1 - k);
+        choose = choose * (N - 1 - k) / (k + 1);
+      }
+      a[r][N + r] = 1;
+    }
+    for (int k = 0; k < N; k++) {
+      int most = k;
+      for (int r = k; r < N; r++)
+        if (std::fabs(a[r][k]) > std::fabs(a[most][k])) most = r;
+      std::swap(a[k], a[most]);
+      for (int r = 0; r < N; r++) {
+        double s = r == k ? 0 : a[r][k] / a[k][k];
+        for (int c = 0; c < 2 * N; c++) a[r][c] -= s * a[k][c];
+      }
+    }
+    for (int r = 0; r < N; r++)
+      for (int c = 0; c < N; c++) m[r][c] = a[r][N + c] / a[r][r];
+  }
+};
+const Through through;
+
+const int BODY = 19;   // coefficients of degree eighteen
+const int SQUARE = 13;
+
+double choose(int n, int k) {
+  double c = 1;
+  for (int i = 0; i < k; i++) c = c * (n - i) / (i + 1);
+  return c;
+}
+
+// What scales the products of forms.
+struct Choices {
+  double six[N], twelve[SQUARE], eighteen[BODY];
+  Choices() {
+    for (int k = 0; k < N; k++) six[k] = choose(6, k);
+    for (int k = 0; k < SQUARE; k++) twelve[k] = choose(12, k);
+    for (int k = 0; k < BODY; k++) eighteen[k] = choose(18, k);
+  }
+};
+const Choices choices;
+
+// Adds f^2 g to a form of degree eighteen.
+void addSquareTimes(const double f[N], const double g[N], double to[BODY]) {
+  double fs[N], gs[N], square[SQUARE] = {}, all[BODY] = {};
+  for (int k = 0; k < N; k++) fs[k] = f[k] * choices.six[k], gs[k] = g[k] * choices.six[k];
+  for (int i = 0; i < N; i++)
+    for (int k = 0; k < N; k++) square[i + k] += fs[i] * fs[k];
+  for (int i = 0; i < SQUARE; i++)
+    for (int k = 0; k < N; k++) all[i + k] += square[i] * gs[k];
+  for (int k = 0; k < BODY; k++) to[k] += all[k] / choices.eighteen[k];
+}
+
 // Shortest stretch of depth looked into. Field missed in a stretch this short
 // is less than its length times the steepest slope, 1.6/R.
 const double FINEST = 1e-7;
-// How far another object may be the stronger one at a belt: above rounding,
-// far below anything that shows.
-const double BELT = 1e-6;
-// Own surface value from which on a meeting is a seam and not a belt.
-const double SEAM = 1e-3;
+// How far a form may be from the field it follows.
+const double FOLLOWS = 1e-11;
 
 }  // namespace
 
@@ -319,45 +417,83 @@ const Kind *findKind(const std::string &word) {
   return nullptr;
 }
 
-// What one call of trace() works with. The functions of one surface have to be
-// at or above zero together: the surface's own sum less the isovalue, and the
-// object's lead over each linked neighbour.
+// What one call of trace() works with.
 struct Tracer::Work {
   Ray ray;
   std::vector<double> t;          // depths where polynomials change
   std::vector<int> live;          // objects whose field reaches the stretch
   std::vector<double> form;       // their Bernstein coefficients, N each
-  std::vector<double> start;      // coefficients of the functions at hand
-  struct Term {
-    int fn, object;
-    double weight;
-  };
-  std::vector<Term> terms;        // fields without a polynomial
-  const Scene *scene;
-
-  double field(int i, double at) const {
-    const Object &o = scene->objects[i];
-    return geoff(o.kind->q(o, point(ray, at), nullptr));
-  }
+  std::vector<char> known;        // whether they are there
 };
 
-Tracer::Tracer(const Scene &s) : scene(s), group(s.objects.size(), -1) {
+Tracer::Tracer(const Scene &s) : scene(s), body(s.objects.size(), -1) {
   int n = (int)s.objects.size();
-  // A group is an object with all it is linked to, if they are linked alike.
+  std::vector<int> reached;
   for (int i = 0; i < n; i++) {
-    if (group[i] >= 0) continue;
-    bool whole = true;
-    auto in = [&](int j) { return j == i || s.weight[i][j] != 0; };
-    for (int j = 0; whole && j < n; j++)
-      for (int k = 0; whole && in(j) && k < n; k++)
-        if (k != j) whole = in(k) ? s.weight[j][k] == 1 : s.weight[j][k] == 0;
-    if (whole)
+    if (body[i] >= 0) continue;
+    int number = bodies++;
+    body[i] = number;
+    reached.assign(1, i);
+    for (size_t k = 0; k < reached.size(); k++)
       for (int j = 0; j < n; j++)
-        if (in(j)) group[j] = i;
+        if (body[j] < 0 && s.weight[reached[k]][j] != 0) body[j] = number, reached.push_back(j);
+    bool alike = true;
+    for (int j : reached)
+      for (int k : reached) alike = alike && (j == k || s.weight[j][k] == 1);
+    plain.push_back(alike);
   }
 }
 
-void Tracer::forgetGroups() { std::fill(group.begin(), group.end(), -1); }
+void Tracer::forgetPlain() {
+  usePlain = false;
+  std::fill(plain.begin(), plain.end(), 0);
+}
+
+double Tracer::field(int number, Vec p, Vec *gradient, int *strongest) const {
+  int n = (int)scene.objects.size();
+  static thread_local std::vector<double> f;
+  static thread_local std::vector<Vec> df;
+  static thread_local std::vector<int> here;
+  f.clear(), df.clear(), here.clear();
+  double most = 0;
+  for (int i = 0; i < n; i++) {
+    if (body[i] != number) continue;
+    const Object &o = scene.objects[i];
+    Vec g{0, 0, 0};
+    double q = o.kind->q(o, p, gradient ? &g : nullptr);
+    if (q >= 1) continue;
+    double v = geoff(q);
+    if (v > most) {
+      most = v;
+      if (strongest) *strongest = i;
+    }
+    here.push_back(i), f.push_back(v), df.push_back(g * geoffSlope(q));
+  }
+  if (!(most > 0)) return 0;
+  // All fields by the strongest, so that the squares of small ones are kept.
+  double above = 0, below = 0;
+  size_t m = here.size();
+  std::vector<double> sum(m);
+  for (size_t i = 0; i < m; i++) {
+    sum[i] = f[i];
+    for (size_t j = 0; j < m; j++)
+      if (i != j) sum[i] += scene.weight[here[i]][here[j]] * f[j];
+    double share = f[i] / most * (f[i] / most);
+    above += share * sum[i], below += share;
+  }
+  double F = above / below;
+  if (gradient) {
+    *gradient = {0, 0, 0};
+    for (size_t i = 0; i < m; i++) {
+      double share = f[i] / most;
+      *gradient = *gradient + df[i] * (2 * share / most * (sum[i] - F) + share * share);
+      for (size_t j = 0; j < m; j++)
+        if (i != j) *gradient = *gradient + df[j] * (share * share * scene.weight[here[i]][here[j]]);
+    }
+    *gradient = *gradient * (1 / below);
+  }
+  return F;
+}
 
 // The rays of one row lie in a plane through the eye.
 bool Tracer::inRow(int i, double row) const {
@@ -375,72 +511,136 @@ bool Tracer::inColumn(int i, double column) const {
 }
 
 bool Tracer::eyeInside() const {
-  for (size_t i = 0; i < scene.objects.size(); i++) {
-    const Object &o = scene.objects[i];
-    double f = geoff(o.kind->q(o, scene.eye, nullptr)), sum = f;
-    bool strongest = true;
-    for (size_t j = 0; j < scene.objects.size(); j++) {
-      double w = scene.weight[i][j];
-      if (w == 0) continue;
-      const Object &p = scene.objects[j];
-      double g = geoff(p.kind->q(p, scene.eye, nullptr));
-      sum += w * g;
-      if (std::min(w, 1.0) * g > f + BELT) strongest = false;
-    }
-    if (strongest && sum >= scene.isovalue) return true;
-  }
+  for (int k = 0; k < bodies; k++)
+    if (field(k, scene.eye, nullptr, nullptr) >= scene.isovalue) return true;
   return false;
 }
 
-// The least depth in [a, b] at which all `fn` functions are at or above zero;
-// below 0 if there is none. c holds their polynomial parts, N each.
-double Tracer::first(Work &w, int fn, const double *c, double a, double b) const {
-  if (fn == 1 && w.terms.empty()) {
-    double high = *std::max_element(c, c + N);
-    if (high < 0) return -1;
-    if (c[0] >= 0) return a;
-    int changes = 0;
-    for (int k = 1; k < N; k++) changes += (c[k] >= 0) != (c[k - 1] >= 0);
-    if (changes == 1) return a + (b - a) * onlyZero(c);
-  } else {
-    bool now = true;
-    for (int k = 0; k < fn; k++) {
-      const double *p = c + k * N;
-      double high = *std::max_element(p, p + N), here = p[0];
-      for (const Work::Term &t : w.terms)
-        if (t.fn == k) {
-          const Object &o = scene.objects[t.object];
-          double lowQ, highQ;
-          o.kind->bounds(o, w.ray, a, b, lowQ, highQ);
-          high += t.weight * geoff(t.weight > 0 ? lowQ : highQ);
-        }
-      if (high < 0) return -1;
-      for (const Work::Term &t : w.terms)
-        if (now && t.fn == k) here += t.weight * w.field(t.object, a);
-      now = now && here >= 0;
+namespace {
+
+// The least depth in [a, b] at which the form is at or above zero; below 0 if
+// there is none.
+double firstOf(const double *c, double a, double b) {
+  if (*std::max_element(c, c + N) < 0) return -1;
+  if (c[0] >= 0) return a;
+  if (signChanges<N>(c) == 1) return a + (b - a) * onlyZero<N>(c);
+  if (b - a < FINEST) return c[N - 1] >= 0 ? b : -1;
+  double left[N], right[N], mid = (a + b) / 2;
+  halve<N>(c, left, right);
+  double t = firstOf(left, a, mid);
+  return t >= 0 ? t : firstOf(right, mid, b);
+}
+
+// The same where the form of degree eighteen is, and one of the n sums less
+// the isovalue.
+double firstOfBody(const double *c, const double *sums, int n, double a, double b) {
+  if (*std::max_element(sums, sums + n * N) < 0) return -1;
+  if (*std::max_element(c, c + BODY) < 0) return -1;
+  bool starts = false, ends = false;
+  for (int k = 0; k < n; k++) {
+    starts = starts || sums[k * N] >= 0;
+    ends = ends || sums[k * N + N - 1] >= 0;
+  }
+  if (c[0] >= 0 && starts) return a;
+  if (ends && signChanges<BODY>(c) == 1 && c[0] < 0) return a + (b - a) * onlyZero<BODY>(c);
+  if (b - a < FINEST) return ends && c[BODY - 1] >= 0 ? b : -1;
+  double left[BODY], right[BODY], mid = (a + b) / 2;
+  std::vector<double> half(2 * n * N);
+  halve<BODY>(c, left, right);
+  for (int k = 0; k < n; k++) halve<N>(sums + k * N, &half[k * N], &half[(n + k) * N]);
+  double t = firstOfBody(left, half.data(), n, a, mid);
+  return t >= 0 ? t : firstOfBody(right, half.data() + n * N, n, mid, b);
+}
+
+}  // namespace
+
+// A form on [a, b] that follows an object's field; false if none of degree six does.
+bool Tracer::follow(const Work &w, int i, double a, double b, double *form) const {
+  const Object &o = scene.objects[i];
+  // A longer stretch could hold what none of the places looked at shows.
+  double least = o.size2 > 0 ? std::min(o.size, o.size2) : o.size;
+  if ((b - a) * length(w.ray.dir) > least / 2) return false;
+  auto at = [&](double x) { return geoff(o.kind->q(o, point(w.ray, a + (b - a) * x), nullptr)); };
+  double v[N];
+  for (int k = 0; k < N; k++) v[k] = at(k / double(N - 1));
+  for (int k = 0; k < N; k++) {
+    form[k] = 0;
+    for (int j = 0; j < N; j++) form[k] += through.m[k][j] * v[j];
+  }
+  for (double x : {1 / 12.0, 5 / 12.0, 7 / 12.0, 11 / 12.0})
+    if (std::fabs(value<N>(form, x) - at(x)) > FOLLOWS) return false;
+  return true;
+}
+
+// The least depth in [a, b] at which the body's field is at or above the
+// isovalue; below 0 if there is none. `which` are its n objects that reach the
+// stretch, `form` their fields where `known`; `sum` says that F is their sum.
+double Tracer::first(const Work &w, const int *which, int n, const double *form, const char *known, bool sum,
+                     double a, double b) const {
+  std::vector<double> now(form, form + n * N);
+  std::vector<char> have(known, known + n);
+  bool all = true;
+  for (int k = 0; k < n; k++) all = all && have[k];
+  if (!all) {
+    // Enough to exclude the surface, before polynomials are laid.
+    std::vector<double> low(n), high(n);
+    for (int k = 0; k < n; k++) {
+      if (have[k]) {
+        low[k] = std::max(*std::min_element(&now[k * N], &now[k * N] + N), 0.0);
+        high[k] = std::max(*std::max_element(&now[k * N], &now[k * N] + N), 0.0);
+      } else {
+        const Object &o = scene.objects[which[k]];
+        double lowQ, highQ;
+        o.kind->bounds(o, w.ray, a, b, lowQ, highQ);
+        low[k] = geoff(highQ), high[k] = geoff(lowQ);
+      }
     }
-    if (now) return a;
-  }
-  if (b - a < FINEST) {
-    for (int k = 0; k < fn; k++) {
-      double there = c[k * N + N - 1];
-      for (const Work::Term &t : w.terms)
-        if (t.fn == k) there += t.weight * w.field(t.object, b);
-      if (there < 0) return -1;
+    double excess = 0, most = -1;
+    if (sum) {
+      for (int k = 0; k < n; k++) excess += high[k];
+      most = excess -= scene.isovalue;
+    } else {
+      for (int k = 0; k < n; k++) {
+        double g = high[k] - scene.isovalue;
+        for (int j = 0; j < n; j++)
+          if (j != k) g += scene.weight[which[k]][which[j]] * high[j];
+        most = std::max(most, g);
+        excess += g * (g > 0 ? high[k] * high[k] : low[k] * low[k]);
+      }
     }
-    return b;
+    if (most < 0 || excess < 0) return -1;
+    all = true;
+    for (int k = 0; k < n && all; k++)
+      if (!have[k]) all = follow(w, which[k], a, b, &now[k * N]), have[k] = all;
+    if (!all && b - a < FINEST)
+      return field(body[which[0]], point(w.ray, b), nullptr, nullptr) >= scene.isovalue ? b : -1;
   }
-  double few[2 * 4 * N];
-  std::vector<double> many;
-  double *left = few;
-  if (fn > 4) {
-    many.resize(2 * fn * N);
-    left = many.data();
+  if (!all) {
+    std::vector<double> left(n * N), right(n * N);
+    for (int k = 0; k < n; k++)
+      if (have[k]) halve<N>(&now[k * N], &left[k * N], &right[k * N]);
+    double mid = (a + b) / 2, t = first(w, which, n, left.data(), have.data(), sum, a, mid);
+    return t >= 0 ? t : first(w, which, n, right.data(), have.data(), sum, mid, b);
   }
-  double *right = left + fn * N;
-  for (int k = 0; k < fn; k++) halve(c + k * N, left + k * N, right + k * N);
-  double mid = (a + b) / 2, t = first(w, fn, left, a, mid);
-  return t >= 0 ? t : first(w, fn, right, mid, b);
+  if (sum) {
+    double c[N];
+    std::fill(c, c + N, -scene.isovalue);
+    for (int k = 0; k < n * N; k++) c[k % N] += now[k];
+    return firstOf(c, a, b);
+  }
+  std::vector<double> sums(n * N);
+  for (int k = 0; k < n; k++)
+    for (int c = 0; c < N; c++) sums[k * N + c] = now[k * N + c] - scene.isovalue;
+  for (int k = 0; k < n; k++)
+    for (int j = 0; j < n; j++) {
+      double weight = j == k ? 0 : scene.weight[which[k]][which[j]];
+      if (weight != 0)
+        for (int c = 0; c < N; c++) sums[k * N + c] += weight * now[j * N + c];
+    }
+  if (*std::max_element(sums.begin(), sums.end()) < 0) return -1;
+  double c[BODY] = {};
+  for (int k = 0; k < n; k++) addSquareTimes(&now[k * N], &sums[k * N], c);
+  return firstOfBody(c, sums.data(), n, a, b);
 }
 
 Hit Tracer::trace(double column, double row) const {
@@ -452,15 +652,13 @@ Hit Tracer::trace(double column, double row) const {
 Hit Tracer::trace(double column, double row, const int *which, int count) const {
   static thread_local Work w;
   Hit hit;
-  w.scene = &scene;
   w.ray.eye = scene.eye;
   w.ray.dir = {(column - scene.centreX) / scene.focalX, -(row - scene.centreY) / scene.focalY, 1};
   w.t.clear();
   for (int n = 0; n < count; n++) {
     const Object &o = scene.objects[which[n]];
-    if (o.kind->breaks) {
-      o.kind->breaks(o, w.ray, w.t);
-    } else {
+    o.kind->breaks(o, w.ray, w.t);
+    if (!o.kind->quadratic) {
       double c[3];
       pointQuadratic(w.ray, o.middle, o.reach, c);
       whereOne(c, w.t);
@@ -475,74 +673,45 @@ Hit Tracer::trace(double column, double row, const int *which, int count) const 
     double a = w.t[link], b = w.t[link + 1];
     if (a < 0 || b <= a) continue;
     w.live.clear();
+    Vec m = point(w.ray, (a + b) / 2);
     for (int n = 0; n < count; n++) {
       const Object &o = scene.objects[which[n]];
-      Vec m = point(w.ray, (a + b) / 2);
-      bool on = o.kind->breaks ? o.kind->q(o, m, nullptr) < 1
-                               : dot(m - o.middle, m - o.middle) < o.reach * o.reach;
+      bool on = o.kind->quadratic ? o.kind->q(o, m, nullptr) < 1
+                                  : dot(m - o.middle, m - o.middle) < o.reach * o.reach;
       if (on) w.live.push_back(which[n]);
     }
     if (w.live.empty()) continue;
+    // Body by body.
+    std::stable_sort(w.live.begin(), w.live.end(), [&](int i, int j) { return body[i] < body[j]; });
     int lives = (int)w.live.size();
     w.form.assign(lives * N, 0);
+    w.known.assign(lives, 0);
     for (int n = 0; n < lives; n++) {
       const Object &o = scene.objects[w.live[n]];
-      if (!o.kind->breaks) continue;
+      if (!o.kind->quadratic) continue;
       double quad[3];
       o.kind->quadratic(o, w.ray, (a + b) / 2, quad);
       fieldForm(quad, a, b, &w.form[n * N]);
+      w.known[n] = 1;
     }
-    // Adds `weight` times a live object's field to function fn.
-    auto add = [&](int fn, int n, double weight) {
-      if (scene.objects[w.live[n]].kind->breaks)
-        for (int k = 0; k < N; k++) w.start[fn * N + k] += weight * w.form[n * N + k];
-      else
-        w.terms.push_back({fn, w.live[n], weight});
-    };
-    for (int n = 0; n < lives; n++) {
-      int i = w.live[n], fns = 1;
-      w.terms.clear();
-      w.start.assign(N, -scene.isovalue);
-      if (group[i] >= 0) {
-        bool done = false;
-        for (int m = 0; m < n; m++) done = done || group[w.live[m]] == group[i];
-        if (done) continue;
-        for (int m = n; m < lives; m++)
-          if (group[w.live[m]] == group[i]) add(0, m, 1);
-      } else {
-        add(0, n, 1);
-        for (int m = 0; m < lives; m++) {
-          double weight = m == n ? 0 : scene.weight[i][w.live[m]];
-          if (weight == 0) continue;
-          add(0, m, weight);
-          w.start.resize((fns + 1) * N, BELT);
-          add(fns, n, 1);
-          add(fns, m, -std::min(weight, 1.0));
-          fns++;
-        }
+    for (int n = 0, end; n < lives; n = end) {
+      int number = body[w.live[n]];
+      for (end = n; end < lives && body[w.live[end]] == number;) end++;
+      bool sum = plain[number];
+      if (!sum && usePlain) {
+        sum = true;
+        for (int i = n; sum && i < end; i++)
+          for (int j = n; sum && j < i; j++) sum = scene.weight[w.live[i]][w.live[j]] == 1;
       }
-      double t = first(w, fns, w.start.data(), a, b);
-      if (t >= 0 && (found < 0 || t < found)) found = t, owner = i;
+      double t = first(w, &w.live[n], end - n, &w.form[n * N], &w.known[n], sum, a, b);
+      if (t >= 0 && (found < 0 || t < found)) found = t, owner = number;
     }
   }
   if (found < 0) return hit;
 
-  // The owner's surface, its gradient, and who is strongest there.
-  Vec p = point(w.ray, found), gradient{0, 0, 0};
-  double sum = 0, most = -1;
-  for (int n = 0; n < count; n++) {
-    int j = which[n];
-    double weight = j == owner ? 1 : scene.weight[owner][j];
-    if (weight == 0) continue;
-    const Object &o = scene.objects[j];
-    Vec g;
-    double q = o.kind->q(o, p, &g), f = geoff(q);
-    sum += weight * f;
-    gradient = gradient + g * (weight * geoffSlope(q));
-    if (f > most && (group[owner] >= 0 || j == owner)) most = f, hit.object = j;
-  }
+  Vec gradient;
+  field(owner, point(w.ray, found), &gradient, &hit.object);
   hit.depth = found;
-  hit.seam = sum - scene.isovalue > SEAM;
   double len = length(gradient);
   double cosine = len > 0 ? std::max(0.0, -dot(gradient, scene.light) / len) : 0;
   hit.shade = (float)((RAMP - 1) * (scene.ambient + (1 - scene.ambient) * cosine));

@@ -45,7 +45,7 @@ struct Fact {
 const Fact facts[] = {
     {"time", 1, 1, true},   {"eye", 3, 3, true},       {"focal", 2, 2, true},
     {"centre", 2, 2, true}, {"light", 3, 3, true},     {"isovalue", 1, 1, false},
-    {"blend", 2, 3, false}, {"ambient", 1, 1, false},  {"ramp", 4, 4, false},
+    {"blend", 2, 3, false}, {"ambient", 1, 1, false}, {"highlight", 1, 1, false},  {"ramp", 4, 4, false},
 };
 
 }  // namespace
@@ -115,11 +115,16 @@ bool parseScene(const std::string &text, const std::string &name, Scene &s, std:
       if (v[0] < 0 || v[0] > 1) return fail("ambient must be from 0 to 1");
       s.ambient = v[0];
     }
+    if (word == "highlight") {
+      if (v[0] < 0 || v[0] > 1) return fail("highlight must be from 0 to 1");
+      s.highlight = v[0];
+    }
     if (word == "ramp") {
       if (v[1] < 0 || v[2] < 0 || v[3] < 0 || v[1] + v[2] + v[3] <= 0)
         return fail("a ramp wants a colour that is not black");
       s.ramps[(int)v[0]] = {v[1], v[2], v[3]};
     }
+    if (word == "blend" && v.size() > 2 && v[2] < 0) return fail("a link's weight must not be negative");
     if (word == "blend") links.push_back({lineNumber, v[0], v[1], v.size() > 2 ? v[2] : 1});
   }
   size_t n = s.objects.size();

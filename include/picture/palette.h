@@ -15,9 +15,17 @@ public:
     // there for the form.
     static constexpr int AMBIENT = 9;
 
+    // Of 63: above this light a colour turns towards white, and is half way there at full light. A highlight, at no cost
+    // when drawing.
+    static constexpr int HIGHLIGHT = 52;
+
     // Makes ramps for the model's colours and hands each object its own. Colours that do not fit (the ramps share 255
     // entries, at least 15 each) take the nearest that does.
     void make(Model& model, bool grey);
+
+    // The colour at full light, but for the highlight, of the ramp that shows the model's object i: its own, or the
+    // nearest to it that has a ramp. Not for the grey ramp.
+    const Colour& shown(int i) const { return colours_[rampOf_[i]]; }
 
     // Red, green and blue of the 256 colours, 0..63, as the DAC takes them.
     const uint8_t* dac() const { return dac_; }
@@ -30,6 +38,8 @@ private:
     static constexpr int RAMPS_MOST = 17;
 
     uint8_t dac_[768];
+    Colour colours_[RAMPS_MOST];
+    uint8_t rampOf_[Model::OBJECTS_MOST];
     uint8_t ramps_[RAMPS_MOST][RAMP];
     uint8_t raised_[RAMP];
 };

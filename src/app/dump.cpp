@@ -142,8 +142,11 @@ const char* Dump::frame(int number, Time time, int rate, const Model& model, con
         formatQuotient(a, sizeof a, Palette::AMBIENT, 63, 6);
         snprintf(text, sizeof text, "ambient %s", a);
         line(text);
+        formatQuotient(a, sizeof a, Palette::HIGHLIGHT, 63, 6);
+        snprintf(text, sizeof text, "highlight %s", a);
+        line(text);
         for (int i = 0; i < model.count(); ++i) {
-            const Colour& colour = model.actor(i).colour;
+            const Colour& colour = palette.shown(i);
             snprintf(text, sizeof text, "ramp %d %d %d %d", model.actor(i).object->number(), colour.red, colour.green,
                      colour.blue);
             line(text);

@@ -8,9 +8,6 @@ namespace {
 // Brightness that the grey ramp never undercuts, of 64 steps: what no light reaches still stands out from the background.
 constexpr int DARKEST = 2;
 
-// Above this step a colour turns towards white: a highlight, at no cost when drawing.
-constexpr int HIGHLIGHT = 52;
-
 int distance(const Colour& a, const Colour& b)
 {
     const int red = a.red - b.red, green = a.green - b.green, blue = a.blue - b.blue;
@@ -20,9 +17,10 @@ int distance(const Colour& a, const Colour& b)
 uint8_t shade(int full, int step)
 {
     const int value = full * 63 / 255 * (Palette::AMBIENT + step * (63 - Palette::AMBIENT) / 63) / 63;
-    if (step <= HIGHLIGHT)
+    const int over = step - Palette::HIGHLIGHT;
+    if (over <= 0)
         return static_cast<uint8_t>(value);
-    return static_cast<uint8_t>(value + (63 - value) * (step - HIGHLIGHT) / (2 * (63 - HIGHLIGHT)));
+    return static_cast<uint8_t>(value + (63 - value) * over / (2 * (63 - Palette::HIGHLIGHT)));
 }
 
 // Repeats the ends of a ramp; returns it.
@@ -54,14 +52,13 @@ void Palette::make(Model& model, bool grey)
     dac_[0] = 1;
     dac_[1] = 1;
     dac_[2] = 6;
-    Colour colours[RAMPS_MOST];
     int count = 0;
     for (int i = 0; i < model.count(); ++i) {
         bool there = false;
         for (int c = 0; c < count; ++c)
-            there = there || distance(colours[c], model.actor(i).colour) == 0;
+            there = there || distance(colours_[c], model.actor(i).colour) == 0;
         if (!there && count < RAMPS_MOST)
-            colours[count++] = model.actor(i).colour;
+            colours_[count++] = model.actor(i).colour;
     }
     if (count == 0)
         return;
@@ -73,16 +70,17 @@ void Palette::make(Model& model, bool grey)
         for (int i = 0; i < steps; ++i) {
             const int step = i * 63 / (steps - 1);
             uint8_t* entry = dac_ + 3 * (1 + c * steps + i);
-            entry[0] = shade(colours[c].red, step);
-            entry[1] = shade(colours[c].green, step);
-            entry[2] = shade(colours[c].blue, step);
+            entry[0] = shade(colours_[c].red, step);
+            entry[1] = shade(colours_[c].green, step);
+            entry[2] = shade(colours_[c].blue, step);
         }
     }
     for (int i = 0; i < model.count(); ++i) {
         int best = 0;
         for (int c = 1; c < count; ++c)
-            if (distance(colours[c], model.actor(i).colour) < distance(colours[best], model.actor(i).colour))
+            if (distance(colours_[c], model.actor(i).colour) < distance(colours_[best], model.actor(i).colour))
                 best = c;
+        rampOf_[i] = static_cast<uint8_t>(best);
         model.actor(i).object->setRamp(ramps_[best] + SHADING_MOST);
     }
 }

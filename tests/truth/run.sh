@@ -103,8 +103,8 @@ ok "a line for each frame" test "$(grep -c '^frame ' "$dir/log")" -eq 4
 ok "picture of the worst" test "$(wc -c <"$dir/out/W0000001.PPM")" -eq $((968 * 200 * 3 + 15))
 ok "pictures of two only" test "$(ls "$dir/out" | wc -l)" -eq 2
 ok "records" test "$(wc -l <"$dir/csv")" -eq 5
-ok "as many fields in each" test "$(awk -F, '{ print NF }' "$dir/csv" | sort -u)" = 19
-ok "record of the holes" test "$(awk -F, '$1 == 1 { print $7 }' "$dir/csv")" = 3
+ok "as many fields in each" test "$(awk -F, '{ print NF }' "$dir/csv" | sort -u)" = 21
+ok "record of the holes" test "$(awk -F, '$1 == 1 { print $6 }' "$dir/csv")" = 3
 
 # Flicker: eleven pixels of frame 2 go dark and come back, so both pairs with
 # frame 2 in them see them.
@@ -132,7 +132,43 @@ time/' "$dir/S0.TXT" >"$dir/ramps.txt"
 mkdir "$dir/ramped"
 ok "render in colour" "$tool" --render "$dir/ramped" "$dir/ramps.txt"
 "$tool" --bars spacing1 "$dir/ramped" >"$dir/log" 2>&1
+ok "no colour is wrong" line "$dir/log" "pixels of another object's colour: 0"
+ok "the border is the true one" line "$dir/log" "border, drawn over true length: 1.0000"
 ok "colour with ramps" sh -c "grep '^brightness RMS' '$dir/log' | grep -q ': 0\.'"
+
+
+# Several directories, and a part of the frames with the ones after them.
+"$tool" "$dir/true" "$dir/bad" >"$dir/log" 2>&1
+ok "two directories" line "$dir/log" "frames: 8"
+ok "pairs within each" line "$dir/log" "flicker pairs: 6"
+ok "holes of both" line "$dir/log" "holes: 3"
+"$tool" --every 3 --pairs "$dir/true" >"$dir/log" 2>&1
+ok "frames 0, 1 and 3" line "$dir/log" "frames: 3"
+ok "one pair" line "$dir/log" "flicker pairs: 1"
+
+# Rows of the table, and limits beyond the bars.
+"$tool" --head >"$dir/log"
+ok "head and two bars" test "$(wc -l <"$dir/log")" -eq 3
+"$tool" --bars spacing2 --row TRUE "$dir/true" >"$dir/log"
+ok "a row that holds" test $? -eq 0
+ok "one line" test "$(wc -l <"$dir/log")" -eq 1
+ok "no mark" sh -c "! grep -q '!' '$dir/log'"
+"$tool" --bars spacing2 --row BAD "$dir/bad" >"$dir/log"
+ok "a row that does not" test $? -eq 1
+ok "three holes marked" grep -q ' 3! ' "$dir/log"
+printf '# known\nBAD 2 holes 3\nBAD 1 holes 2\nTRUE 2 holes 2\n' >"$dir/limits"
+"$tool" --bars spacing2 --row BAD --limits "$dir/limits" --list "$dir/list" "$dir/bad" >"$dir/log"
+ok "within its limit" test $? -eq 0
+ok "still marked" grep -q ' 3! ' "$dir/log"
+ok "figures listed" line "$dir/list" "BAD 2 holes 3"
+"$tool" --bars spacing1 --row BAD --limits "$dir/limits" "$dir/bad" >"$dir/log"
+ok "beyond its limit" test $? -eq 1
+ok "marked twice" grep -q ' 3!! ' "$dir/log"
+"$tool" --bars spacing2 --row TRUE --limits "$dir/limits" "$dir/bad" >"$dir/log"
+ok "another's limit does not help" test $? -eq 1
+echo "BAD 2 hole 3" >"$dir/limits"
+ok "a limit of no figure" says 2 "limits:1: expected" "$tool" --bars spacing2 --row A --limits "$dir/limits" "$dir/true"
+ok "a row without bars" says 2 "--row wants --bars" "$tool" --row A "$dir/true"
 
 # Trouble: one line, status 2.
 ok "no directory" says 2 "no directory" "$tool"
