@@ -26,7 +26,7 @@ build/bench32: $(BENCH_PARTS) $(BENCH_TWINS)
 	$(HOST_CXX) -m32 -no-pie -static $(BENCH_WRAP) -o $@ $^
 
 # What tells whose the instructions are that callgrind counted.
-build/cost: tools/cost.cpp
+build/cost: tools/cost.cpp tools/clk486.h
 	@mkdir -p build
 	$(HOST_CXX) -std=c++17 -O2 -Wall -Wextra -o $@ $<
 

@@ -1,19 +1,22 @@
-// cost: instructions a frame of each room of the program, of its sources and of its functions.
+// cost: instructions a frame of each room of the program, of its sources and of its functions, and the clocks that a 486
+// takes for them, as far as tables tell (clk486.h).
 //
-//   cost [-t FUNCTIONS] MAP SHORT LONG FRAMES
+//   cost [-t FUNCTIONS] MAP CODE SHORT LONG FRAMES
 //
 // SHORT and LONG are callgrind's counts by address (--dump-instr=yes) of two runs of the same program, LONG with FRAMES
 // frames more; what both do alike, the start and the end, falls out. MAP is the linker's map of the program: the object
 // file that an address comes from says whose it is, so no function has to be known by name, and what the compiler makes
 // inline counts for the source it is inlined into. A kernel asm/X.S belongs to the room that has X.cpp. What the C
-// library does counts for those who call it.
+// library does counts for those who call it, at the clocks that its instructions take in the mean. CODE is the program
+// as objdump -d -w has it.
 //
-// Each line of the output is WHAT NAME INSTRUCTIONS:
+// Each line of the output is WHAT NAME INSTRUCTIONS CLOCKS:
 //
 //     all      all          the sum of the rooms
 //     room     ROOM         a folder of src; asm for kernels without a twin; library for what nobody of ours called
 //     source   ROOM/NAME    a source with its kernel
 //     function ROOM/NAME:F  the dearest functions
+//     unknown  all          instructions that the tables do not have; taken at 2 clocks
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
@@ -26,6 +29,8 @@
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "clk486.h"
 
 namespace {
 
@@ -128,6 +133,7 @@ const std::string* Map::sourceAt(uint32_t address) const
 
 struct Counts {
     std::map<uint32_t, double> executed;       // times that the instruction at an address was executed
+    std::map<uint32_t, double> taken;          // times that the jump there was taken
     std::map<uint32_t, std::string> function;  // the function it stands in
     std::map<uint32_t, double> called;         // instructions of the C library's functions that are called there
 };
@@ -138,6 +144,7 @@ void add(Counts* counts, const std::string& name, const Map& map, double sign)
     std::string line, function;
     bool byAddress = false, call = false, jump = false;
     uint32_t callee = 0;
+    double taken = 0;
     while (getline(file, line)) {
         if (line.compare(0, 10, "positions:") == 0)
             byAddress = line.find("instr") != std::string::npos;
@@ -148,6 +155,7 @@ void add(Counts* counts, const std::string& name, const Map& map, double sign)
             callee = address(line.substr(line.find(' ') + 1));
         } else if (line.compare(0, 5, "jcnd=") == 0 || line.compare(0, 5, "jump=") == 0) {
             jump = true;
+            taken = line[1] == 'c' ? strtod(line.c_str() + 5, nullptr) : 0;
         } else if (line.compare(0, 2, "0x") == 0) {
             char* rest;
             const uint32_t at = static_cast<uint32_t>(strtoul(line.c_str(), &rest, 16));
@@ -156,7 +164,9 @@ void add(Counts* counts, const std::string& name, const Map& map, double sign)
             if (call) {
                 if (map.sourceAt(callee) == nullptr && map.sourceAt(at) != nullptr)
                     counts->called[at] += sign * cost;
-            } else if (!jump) {
+            } else if (jump) {
+                counts->taken[at] += sign * taken;
+            } else {
                 counts->executed[at] += sign * cost;
                 counts->function[at] = function;
             }
@@ -167,16 +177,76 @@ void add(Counts* counts, const std::string& name, const Map& map, double sign)
         fail(name + ": no counts by address (valgrind --tool=callgrind --dump-instr=yes --compress-pos=no --compress-strings=no)");
 }
 
-using Sums = std::map<std::string, double>;
+// --- Clocks
+
+using Code = std::map<uint32_t, Instruction>;
+
+Code codeOf(const std::string& name)
+{
+    std::ifstream file = open(name);
+    std::string line;
+    Code code;
+    Instruction instruction;
+    while (getline(file, line)) {
+        if (Clocks486::parse(line, &instruction))
+            code[instruction.address] = instruction;
+    }
+    if (code.empty())
+        fail(name + ": no instructions (objdump -d -w)");
+    return code;
+}
+
+double clocksAt(const Code& code, const Counts& counts, uint32_t at, double times, double* unknown)
+{
+    const auto found = code.find(at);
+    if (found == code.end())
+        fail("the code does not go with the counts");
+    const Instruction& i = found->second;
+    const auto number = [](const std::map<uint32_t, double>& of, uint32_t address) {
+        const auto there = of.find(address);
+        return there == of.end() ? 0 : there->second;
+    };
+    Executed executed;
+    executed.times = times;
+    executed.taken = number(counts.taken, at);
+    // As often as it went on to what stands behind it.
+    executed.begun = std::min(times, number(counts.executed, at + static_cast<uint32_t>(i.length)));
+    const Instruction* before = nullptr;
+    if (found != code.begin()) {
+        const Instruction& previous = std::prev(found)->second;
+        if (previous.address + static_cast<uint32_t>(previous.length) == at)
+            before = &previous;
+    }
+    bool known;
+    const double clocks = Clocks486::of(i, before, executed, &known);
+    *unknown += known ? 0 : times;
+    return clocks;
+}
+
+// --- Sums
+
+struct Cost {
+    double instructions = 0, clocks = 0;
+
+    void add(double instructionsMore, double clocksMore)
+    {
+        instructions += instructionsMore;
+        clocks += clocksMore;
+    }
+};
+
+using Sums = std::map<std::string, Cost>;
 
 void print(const char* what, const Sums& sums, double frames, size_t most)
 {
     std::vector<std::pair<double, std::string>> sorted;
     for (const auto& sum : sums)
-        sorted.push_back({-sum.second, sum.first});
+        sorted.push_back({-sum.second.instructions, sum.first});
     std::sort(sorted.begin(), sorted.end());
-    for (size_t i = 0; i < sorted.size() && i < most; ++i)
-        printf("%s %s %.0f\n", what, sorted[i].second.c_str(), -sorted[i].first / frames);
+    for (size_t i = 0; i < sorted.size() && i < most; ++i) {
+        const Cost& cost = sums.at(sorted[i].second);
+        printf("%s %s %.0f %.0f\n", what, sorted[i].second.c_str(), cost.instructions / frames, cost.clocks / frames);
+    }
 }
 
 }  // namespace
@@ -189,39 +259,46 @@ int main(int count, char** arguments)
         arguments += 2;
         count -= 2;
     }
-    const double frames = count == 5 ? atof(arguments[4]) : 0;
+    const double frames = count == 6 ? atof(arguments[5]) : 0;
     if (frames <= 0) {
-        fputs("usage: cost [-t FUNCTIONS] MAP SHORT LONG FRAMES\n", stderr);
+        fputs("usage: cost [-t FUNCTIONS] MAP CODE SHORT LONG FRAMES\n", stderr);
         return 2;
     }
     const Map map(arguments[1]);
+    const Code code = codeOf(arguments[2]);
     Counts counts;
-    add(&counts, arguments[2], map, -1);
-    add(&counts, arguments[3], map, 1);
+    add(&counts, arguments[3], map, -1);
+    add(&counts, arguments[4], map, 1);
 
-    Sums all, rooms, sources, dearest;
-    const auto book = [&](uint32_t at, double cost) {
+    Sums all, rooms, sources, dearest, unknown;
+    unknown["all"];
+    const auto book = [&](uint32_t at, double instructions, double clocks) {
         const std::string* source = map.sourceAt(at);
-        all["all"] += cost;
-        rooms[source == nullptr ? "library" : source->substr(0, source->find('/'))] += cost;
+        all["all"].add(instructions, clocks);
+        rooms[source == nullptr ? "library" : source->substr(0, source->find('/'))].add(instructions, clocks);
         if (source == nullptr)
             return;
-        sources[*source] += cost;
+        sources[*source].add(instructions, clocks);
         std::string function = counts.function[at];
         function.erase(std::remove(function.begin(), function.end(), ' '), function.end());
-        dearest[*source + ":" + function] += cost;
+        dearest[*source + ":" + function].add(instructions, clocks);
     };
     for (const auto& at : counts.executed)
-        book(at.first, at.second);
-    // The C library's own count has what was booked on callers.
+        book(at.first, at.second, clocksAt(code, counts, at.first, at.second, &unknown["all"].instructions));
+    // The C library's own count has what is booked on its callers now.
+    const Cost library = rooms["library"];
+    const double clocksEach = library.instructions > 0 ? library.clocks / library.instructions : 1;
     for (const auto& at : counts.called) {
-        book(at.first, at.second);
-        all["all"] -= at.second;
-        rooms["library"] -= at.second;
+        const double clocks = at.second * clocksEach;
+        book(at.first, at.second, clocks);
+        all["all"].add(-at.second, -clocks);
+        rooms["library"].add(-at.second, -clocks);
     }
+    unknown["all"].clocks = 2 * unknown["all"].instructions;
     print("all", all, frames, 1);
     print("room", rooms, frames, rooms.size());
     print("source", sources, frames, sources.size());
     print("function", dearest, frames, functions);
+    print("unknown", unknown, frames, 1);
     return 0;
 }

@@ -4,7 +4,7 @@
 #
 #   count.sh DIR FUNCTIONS SCENE SHORT LONG SWITCHES...
 #
-# DIR holds demo32 and demo32.map, and gets NAME.cost, what tools/cost.cpp tells of SHORT and LONG frames of the scene
+# DIR holds demo32, demo32.map and demo32.asm (objdump -d -w), and gets NAME.cost, what tools/cost.cpp tells of SHORT and LONG frames of the scene
 # file SCENE with SWITCHES. NAME is that of the file, or $NAME from the environment.
 set -eu
 dir=$1 functions=$2 scene=$3 short=$4 long=$5
@@ -20,4 +20,4 @@ for run in short long; do
 		exit 1
 	}
 done
-build/cost -t "$functions" "$dir/demo32.map" "$dir/$name.short" "$dir/$name.long" $((long - short)) >"$dir/$name.cost"
+build/cost -t "$functions" "$dir/demo32.map" "$dir/demo32.asm" "$dir/$name.short" "$dir/$name.long" $((long - short)) >"$dir/$name.cost"

@@ -4,7 +4,7 @@
 #
 #   instr.sh [-t N] [-f] [-s SPACING] [SCENE...]
 #
-#   -t N        the N dearest functions of each scene, too
+#   -t N        the N dearest functions of each scene, too: instructions and estimated clocks a frame
 #   -f          the sources behind each scene's rooms, too
 #   -s SPACING  another spacing than 2 (the bars are for 2)
 #   SCENE       the name of a scene of tools/scenes or tests/scenes/speed (walk), or a scene file; default: all of both
@@ -49,6 +49,7 @@ done
 make -s -j2 build/demo32 build/cost
 # What is counted stays the same when the program is built anew meanwhile.
 cp build/demo32 build/demo32.map "$work"
+objdump -d -w "$work/demo32" >"$work/demo32.asm"
 
 xargs -P 2 -I FILE sh tools/count.sh "$work" "$functions" FILE 5 75 /G /R:35 "/S:$spacing" <"$work/list"
 
@@ -57,7 +58,7 @@ while read -r file; do
 	name=$(basename "$file" .FB)
 	awk -v name="$name" '
 		FILENAME ~ /bars/ { if ($1 == name || ($1 == "other" && !bar)) { bar = $2; aim = $3 } next }
-		$1 == "all" { all = $3 / 1e6 }
+		$1 == "all" { all = $3 / 1e6; clocks = $4 / 1e6 }
 		$1 == "room" { room[$2] = $3 / 1e6 }
 		END {
 			# What has no column of its own: the machine, the C library, a kernel without a twin.
@@ -65,18 +66,19 @@ while read -r file; do
 			line = ""
 			n = split("math model surface picture app", names, " ")
 			for (i = 1; i <= n; ++i) { rest -= room[names[i]]; line = line sprintf(" %8.3f", room[names[i]]) }
-			printf "%012.6f %-8s %8.3f %6.2f%s %6s %s %8.3f\n", all / bar, name, all, bar, (all > bar) ? "!" : " ",
-				(aim > 0) ? sprintf("%.2f", aim) : "-", line, rest
+			printf "%012.6f %-8s %8.3f %6.2f%s %6s %s %8.3f %8.2f\n", all / bar, name, all, bar, (all > bar) ? "!" : " ",
+				(aim > 0) ? sprintf("%.2f", aim) : "-", line, rest, clocks
 		}' tools/bars.txt "$work/$name.cost"
 done <"$work/list" | sort -r | sed 's/^[^ ]* //' >"$work/table"
-echo "Millions of instructions a frame (70 frames, 35 a second, spacing $spacing); ! above its bar"
+echo "Millions of instructions a frame (70 frames, 35 a second, spacing $spacing); ! above its bar."
+echo "clocks: millions a frame on a 486, an estimate (tools/clk486.h); 6.6 are ten frames a second at 66 MHz."
 echo
-echo "scene         all    bar     aim      math    model  surface  picture      app     rest"
+echo "scene         all    bar     aim      math    model  surface  picture      app     rest   clocks"
 cat "$work/table"
 while read -r name rest; do
 	[ $sources = yes ] || [ "$functions" -gt 0 ] || break
 	echo
 	echo "$name"
-	[ $sources = no ] || awk '$1 == "source" && $3 > 0 { printf "  %10d  %s\n", $3, $2 }' "$work/$name.cost"
-	awk '$1 == "function" { printf "  %10d  %s\n", $3, $2 }' "$work/$name.cost"
+	[ $sources = no ] || awk '$1 == "source" && $3 > 0 { printf "  %10d %10d  %s\n", $3, $4, $2 }' "$work/$name.cost"
+	awk '$1 == "function" { printf "  %10d %10d  %s\n", $3, $4, $2 }' "$work/$name.cost"
 done <"$work/table"
