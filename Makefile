@@ -35,7 +35,7 @@ build/host32/%.o: %.S
 	$(HOST_CXX) -m32 -x assembler-with-cpp -Iasm -MMD -MP -c $< -o $@
 
 build/demo32: $(patsubst %.cpp,build/host32/%.o,$(HOST_SOURCES)) $(KERNELS:%.S=build/host32/%.o)
-	$(HOST_CXX) -m32 -no-pie -static -o $@ $^
+	$(HOST_CXX) -m32 -no-pie -static -Wl,-Map=$@.map -o $@ $^
 
 build/DEMO.EXE: $(patsubst %.cpp,build/dos/%.o,$(PROGRAM)) $(KERNELS:%.S=build/dos/%.o) $(DOS_BASE) build/STUB.EXE build/mkexe tools/dos.ld
 	$(DOS_LINK)

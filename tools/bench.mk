@@ -25,6 +25,11 @@ build/bench/%486.o: src/picture/%.cpp include/picture/blit.h include/picture/sca
 build/bench32: $(BENCH_PARTS) $(BENCH_TWINS)
 	$(HOST_CXX) -m32 -no-pie -static $(BENCH_WRAP) -o $@ $^
 
+# What tells whose the instructions are that callgrind counted.
+build/cost: tools/cost.cpp tools/clk486.h
+	@mkdir -p build
+	$(HOST_CXX) -std=c++17 -O2 -Wall -Wextra -o $@ $<
+
 bench: build/DEMO.EXE build/bench32 build/demo32
 	@BENCH_SECONDS="$(SECONDS)" FULL="$(FULL)" BENCH_GROWTH="$(GROWTH)" sh tools/bench.sh
 
