@@ -16,19 +16,19 @@
 #include "asm.h"
 
 // struct Seed and SeedFlag (include/model/seed.h)
-#define SEED_SIZE    64
+#define SEED_SIZE    68
 #define SEED_PATHX   0
 #define SEED_PATHY   4
 #define SEED_PATHZ   8
 #define SEED_POSITION 12
 #define SEED_NEIGHBOUR 16
 #define SEED_BRIGHT  40
-#define SEED_FLAGS   44
-#define SEED_REST    45
-#define SEED_DIRX    48
-#define SEED_DIRY    50
-#define SEED_DIRZ    52
-#define SEED_WAKES   54
+#define SEED_FLAGS   48
+#define SEED_REST    49
+#define SEED_DIRX    52
+#define SEED_DIRY    54
+#define SEED_DIRZ    56
+#define SEED_WAKES   58
 #define VALID        1
 #define PLACED       2
 #define ACTIVE       4

@@ -23,11 +23,12 @@
 #define SEED_TILTY   38
 #define SEED_BRIGHT  40
 #define SEED_REACH   41
-#define SEED_DIRX    48
-#define SEED_DIRY    50
-#define SEED_DIRZ    52
-#define SEED_ALONG   56
-#define SEED_ACROSS  59
+#define SEED_SLOPES  44
+#define SEED_DIRX    52
+#define SEED_DIRY    54
+#define SEED_DIRZ    56
+#define SEED_ALONG   60
+#define SEED_ACROSS  63
 
 // struct ShadeFrame (include/surface/lie.h)
 #define EYE_X        24
@@ -259,7 +260,8 @@ normal:
         ja      limit_bright
 bright_limited:
         // brightness, and reach = slopeX = slopeY = 0
-        movl    %eax, SEED_BRIGHT(%ebp)
+        movw    %ax, SEED_BRIGHT(%ebp)
+        movw    $0, SEED_SLOPES(%ebp)
         cmpb    $0, SKEW_NEAR(%ecx)
         jne     near_viewer
         // x = out.x >> 8;  skewX = skew.x + ((out.x >> 11) * share >> 12)
