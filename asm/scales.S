@@ -35,7 +35,7 @@
 #define FACTOR_ZY  12
 #define FACTOR_SIZE 16
 #define LENS_NEAR  76
-#define LENS_FAR   256
+#define LENS_FAR   432
 #define LENS_STEPS ((LENS_FAR - LENS_NEAR) * 8)
 #define STEEPEST   400
 #define SLOPED_MOST 24

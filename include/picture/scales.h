@@ -54,7 +54,7 @@ struct Factors {
     int32_t x, y;    // focal 2^12 / z: 1/256 unit to 1/2^20 pixel
     int32_t zx, zy;  // z 2^15 / focal: a tilt to the change of depth from pixel to pixel, 1/2^16 of 1/128 unit
 };
-constexpr int LENS_NEAR = 76, LENS_FAR = 256;
+constexpr int LENS_NEAR = 76, LENS_FAR = 432;
 constexpr int LENS_STEPS = (LENS_FAR - LENS_NEAR) * 8;
 
 // The camera and the object in the terms of the loop, and what it has drawn.
