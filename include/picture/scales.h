@@ -27,7 +27,13 @@ constexpr int32_t wrappedProduct(int32_t a, int32_t b)
 // Whether there is more to a voxel than a rectangle of one colour.
 inline bool isFine(const Voxel& v)
 {
-    return (v.reach | v.slopeX | v.slopeY) != 0;
+    return (v.reach | v.slopeX | v.slopeY | v.cutX | v.cutY) != 0;
+}
+
+// Whether part of a voxel is left out by its linear function.
+inline bool isCut(const Voxel& v)
+{
+    return (v.cutX | v.cutY) != 0;
 }
 
 // How far away a voxel's pixels may be, 1/128 unit, when its middle is at `z`.
@@ -37,7 +43,7 @@ inline int32_t endOf(const Voxel& v, int32_t z)
     return v.reach != 0 ? z + v.reach * 4 : NO_END;
 }
 
-// Of a slope of brightness and Factors::zx or zy: the change from pixel to pixel, 8 bits of fraction.
+// Of a slope of brightness or of what cuts, and Factors::zx or zy: the change from pixel to pixel, 8 bits of fraction.
 inline int32_t shadeStep(int slope, int32_t factor)
 {
     return wrappedProduct(slope, factor) >> 10;
@@ -48,7 +54,7 @@ struct Factors {
     int32_t x, y;    // focal 2^12 / z: 1/256 unit to 1/2^20 pixel
     int32_t zx, zy;  // z 2^15 / focal: a tilt to the change of depth from pixel to pixel, 1/2^16 of 1/128 unit
 };
-constexpr int LENS_NEAR = 76, LENS_FAR = 256;
+constexpr int LENS_NEAR = 76, LENS_FAR = 432;
 constexpr int LENS_STEPS = (LENS_FAR - LENS_NEAR) * 8;
 
 // The camera and the object in the terms of the loop, and what it has drawn.
@@ -59,14 +65,15 @@ struct Lens {
     int32_t centreX, centreY;          // pixels with 12 bits of fraction, and half a pixel more
     uint8_t* frame;                    // as for blitScales()
     uint16_t* zbuffer;
-    int32_t left, top, right, bottom;  // in and out: a rectangle that grows to hold at least all that is drawn
+    int32_t left, top, right, bottom;  // in and out: a rectangle that grows to hold at least all that is drawn; each lies on
+                                       // the screen, so what does not make it larger needs no test for the screen's edges
     int32_t empty;                     // in and out: counts voxels that cover no pixel's centre, and so are not drawn
 };
 
 extern "C" {
 
 // Draws up to `count` voxels, in their order, and returns how many were dealt with. It stops at a voxel that is not its
-// business: one out of the table's depths, not wholly on the screen, or larger than SLOPED_MOST or WIDEST there.
+// business: one out of the table's depths, not wholly on the screen, larger than SLOPED_MOST or WIDEST there, or cut.
 int drawScalesC(Lens* lens, const Voxel* const* voxels, int count);
 #if FB_ASM
 int drawScalesA(Lens* lens, const Voxel* const* voxels, int count);

@@ -13,7 +13,9 @@ struct Voxel {
     uint8_t brightness;      // 0..63
     uint8_t reach;           // what lies farther behind the middle than this, 1/32 unit, is left out: there the surface has bent
                              // out of sight; 0: all is drawn
+    int8_t cutX, cutY;       // slopes of a linear function across the scale, 1/8 a unit; both 0: it is not cut
     int8_t slopeX, slopeY;   // how the brightness changes across, 1/8 step a unit; no more than SHADING_MOST to any corner
+    int16_t cutAt;           // that function in the middle, 1/8; where it is negative nothing is drawn
 };
 
 constexpr int SHADING_MOST = 64;

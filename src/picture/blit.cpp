@@ -34,17 +34,20 @@ void blitFine(uint8_t* frame, uint16_t* zbuffer, const FineScale& scale)
     uint8_t* pixels = frame + start;
     uint16_t* depths = zbuffer + start;
     uint32_t z = static_cast<uint32_t>(scale.z), shade = static_cast<uint32_t>(scale.shade);
+    uint32_t cut = static_cast<uint32_t>(scale.cut);
     for (int y = scale.high; y > 0; --y) {
         for (int x = 0; x < scale.wide; ++x) {
-            if (static_cast<int32_t>(z) <= scale.zMost && static_cast<uint16_t>(z) < depths[x]) {
+            if (static_cast<uint16_t>(z) < depths[x] && static_cast<int32_t>(z) <= scale.zMost && static_cast<int32_t>(cut) >= 0) {
                 depths[x] = static_cast<uint16_t>(z);
                 pixels[x] = scale.ramp[static_cast<int8_t>(shade >> 8)];
             }
             z += static_cast<uint32_t>(scale.zStep);
             shade += static_cast<uint32_t>(scale.shadeStep);
+            cut += static_cast<uint32_t>(scale.cutStep);
         }
         z += static_cast<uint32_t>(scale.zRow);
         shade += static_cast<uint32_t>(scale.shadeRow);
+        cut += static_cast<uint32_t>(scale.cutRow);
         pixels += WIDTH;
         depths += WIDTH;
     }

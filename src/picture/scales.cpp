@@ -30,25 +30,41 @@ int drawScalesC(Lens* lens, const Voxel* const* voxels, int count)
         column = lens->centreX + (column >> 8);
         const int32_t halfWide = v.wide * f.x >> 8;
         const int left = (column - halfWide) >> 12, right = (column + halfWide) >> 12, wide = right - left;
-        if (left < 0 || right > WIDTH)
-            break;
-        lens->left = left < lens->left ? left : lens->left;
-        lens->right = right > lens->right ? right : lens->right;
+        if (left < lens->left) {
+            if (left < 0)
+                break;
+            lens->left = left;
+        }
+        if (right > lens->right) {
+            if (right > WIDTH)
+                break;
+            lens->right = right;
+        }
+        if (wide == 0) {
+            ++lens->empty;
+            continue;
+        }
         if (wide < 0 || wide > WIDEST || __builtin_mul_overflow(wrappedSum(lens->y, v.y), f.y, &row))
             break;
         row = lens->centreY - (row >> 8);
         const int32_t halfHigh = v.high * f.y >> 8;
         const int top = (row - halfHigh) >> 12, bottom = (row + halfHigh) >> 12, high = bottom - top;
-        if (top < 0 || bottom > HEIGHT)
-            break;
-        lens->top = top < lens->top ? top : lens->top;
-        lens->bottom = bottom > lens->bottom ? bottom : lens->bottom;
-        if (wide + high > SLOPED_MOST)
-            break;
-        if (wide == 0 || high <= 0) {
+        if (top < lens->top) {
+            if (top < 0)
+                break;
+            lens->top = top;
+        }
+        if (bottom > lens->bottom) {
+            if (bottom > HEIGHT)
+                break;
+            lens->bottom = bottom;
+        }
+        if (high <= 0) {
             ++lens->empty;
             continue;
         }
+        if (wide + high > SLOPED_MOST || isCut(v))
+            break;
         // The plane of the surface: from the scale's middle to the middle of its first pixel, and on from there.
         const int32_t across = limited(wrappedProduct(v.tiltX, f.zx) >> 16);
         const int32_t down = -limited(wrappedProduct(v.tiltY, f.zy) >> 16);
@@ -73,6 +89,7 @@ int drawScalesC(Lens* lens, const Voxel* const* voxels, int count)
         scale.shade = v.brightness * 256 + 128 + (toFirst >> 12);
         scale.shadeStep = shadeAcross;
         scale.shadeRow = wrappedSum(shadeDown, -wrappedProduct(shadeAcross, wide));
+        scale.cut = scale.cutStep = scale.cutRow = 0;
         blitFine(lens->frame, lens->zbuffer, scale);
     }
     return i;

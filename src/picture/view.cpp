@@ -156,9 +156,8 @@ bool View::project(const Voxel& voxel, FineScale* scale) const
     across = across > STEEPEST ? STEEPEST : across < -STEEPEST ? -STEEPEST : across;
     down = down > STEEPEST ? STEEPEST : down < -STEEPEST ? -STEEPEST : down;
     // From the scale's centre to the centre of its first pixel.
-    const int64_t slope = static_cast<int64_t>(across) * ((left << FRACTION) + HALF - column) +
-                          static_cast<int64_t>(down) * ((top << FRACTION) + HALF - row);
-    int32_t first = depth + static_cast<int32_t>(slope >> FRACTION);
+    const int64_t toColumn = (left << FRACTION) + HALF - column, toRow = (top << FRACTION) + HALF - row;
+    int32_t first = depth + static_cast<int32_t>((across * toColumn + down * toRow) >> FRACTION);
     // Might it leave 16 bits at a corner? Then it faces the viewer.
     const int32_t columns = (halfWide >> FRACTION) + 2, rows = (halfHigh >> FRACTION) + 2;
     const int32_t swing = (across < 0 ? -across : across) * (columns < WIDTH ? columns : WIDTH) +
@@ -172,14 +171,16 @@ bool View::project(const Voxel& voxel, FineScale* scale) const
     scale->zRow = down - across * wide;
 
     scale->zMost = endOf(voxel, depth);
-    const int32_t shadeAcross = shadeStep(voxel.slopeX, mulDiv(z, 1 << 19, focalX_));
-    const int32_t shadeDown = -shadeStep(voxel.slopeY, mulDiv(z, 1 << 19, focalY_));
-    const int64_t shade = static_cast<int64_t>(shadeAcross) * ((left << FRACTION) + HALF - column) +
-                          static_cast<int64_t>(shadeDown) * ((top << FRACTION) + HALF - row);
+    const int32_t pixelX = mulDiv(z, 1 << 19, focalX_), pixelY = mulDiv(z, 1 << 19, focalY_);
+    const int32_t shadeAcross = shadeStep(voxel.slopeX, pixelX), shadeDown = -shadeStep(voxel.slopeY, pixelY);
     scale->ramp = lens_.ramp;
-    scale->shade = voxel.brightness * 256 + 128 + static_cast<int32_t>(shade >> FRACTION);
+    scale->shade = voxel.brightness * 256 + 128 + static_cast<int32_t>((shadeAcross * toColumn + shadeDown * toRow) >> FRACTION);
     scale->shadeStep = shadeAcross;
     scale->shadeRow = shadeDown - shadeAcross * wide;
+    const int32_t cutAcross = shadeStep(voxel.cutX, pixelX), cutDown = -shadeStep(voxel.cutY, pixelY);
+    scale->cut = isCut(voxel) ? voxel.cutAt * 32 + static_cast<int32_t>((cutAcross * toColumn + cutDown * toRow) >> FRACTION) : 0;
+    scale->cutStep = cutAcross;
+    scale->cutRow = cutDown - cutAcross * wide;
     return true;
 }
 

@@ -33,7 +33,8 @@ struct ShadeLayout {
                   inshade::SEED_Y == offsetof(Seed, voxel.y) && inshade::SEED_Z == offsetof(Seed, voxel.z) &&
                   inshade::SEED_WIDE == offsetof(Seed, voxel.wide) && inshade::SEED_HIGH == offsetof(Seed, voxel.high) &&
                   inshade::SEED_TILTX == offsetof(Seed, voxel.tiltX) && inshade::SEED_TILTY == offsetof(Seed, voxel.tiltY) &&
-                  inshade::SEED_BRIGHT == offsetof(Seed, voxel.brightness) && inshade::SEED_REACH == offsetof(Seed, voxel.reach) && inshade::SEED_DIRX == offsetof(Seed, dirX) &&
+                  inshade::SEED_BRIGHT == offsetof(Seed, voxel.brightness) && inshade::SEED_REACH == offsetof(Seed, voxel.reach) &&
+                  inshade::SEED_SLOPES == offsetof(Seed, voxel.slopeX) && inshade::SEED_DIRX == offsetof(Seed, dirX) &&
                   inshade::SEED_DIRY == offsetof(Seed, dirY) && inshade::SEED_DIRZ == offsetof(Seed, dirZ) &&
                   inshade::SEED_ALONG == offsetof(Seed, along) && inshade::SEED_ACROSS == offsetof(Seed, across), "Seed");
     static constexpr int EYE = offsetof(ShadeFrame, eye), SKEW = offsetof(ShadeFrame, skew), LIGHT = offsetof(ShadeFrame, light);
@@ -449,10 +450,13 @@ static_assert(inasm::VOXEL_X == offsetof(Voxel, x) && inasm::VOXEL_Y == offsetof
               inasm::VOXEL_HIGH == offsetof(Voxel, high) && inasm::VOXEL_TILTX == offsetof(Voxel, tiltX) &&
               inasm::VOXEL_TILTY == offsetof(Voxel, tiltY) && inasm::VOXEL_BRIGHT == offsetof(Voxel, brightness) &&
               inasm::VOXEL_REACH == offsetof(Voxel, reach) && inasm::VOXEL_REACH == inasm::VOXEL_BRIGHT + 1 &&
-              inasm::VOXEL_SLOPEX == offsetof(Voxel, slopeX) && inasm::VOXEL_SLOPEY == offsetof(Voxel, slopeY), "Voxel");
+              inasm::VOXEL_CUTX == offsetof(Voxel, cutX) && inasm::VOXEL_CUTX == inasm::VOXEL_BRIGHT + 2 &&
+              inasm::VOXEL_CUTY == offsetof(Voxel, cutY) && inasm::VOXEL_CUTY == inasm::VOXEL_BRIGHT + 3 &&
+              inasm::VOXEL_SLOPEX == offsetof(Voxel, slopeX) && inasm::VOXEL_SLOPEY == inasm::VOXEL_SLOPEX + 1 &&
+              inasm::VOXEL_SLOPEY == offsetof(Voxel, slopeY), "Voxel");
 static_assert(inasm::FACTOR_X == offsetof(Factors, x) && inasm::FACTOR_Y == offsetof(Factors, y) &&
               inasm::FACTOR_ZX == offsetof(Factors, zx) && inasm::FACTOR_ZY == offsetof(Factors, zy) &&
-              1 << inasm::FACTOR_SHIFT == sizeof(Factors), "Factors");
+              inasm::FACTOR_SIZE == sizeof(Factors), "Factors");
 static_assert(inasm::LENS_X == offsetof(Lens, x) && inasm::LENS_Y == offsetof(Lens, y) && inasm::LENS_Z == offsetof(Lens, z) &&
               inasm::RAMP == offsetof(Lens, ramp) && inasm::FACTORS == offsetof(Lens, factors) &&
               inasm::CENTREX == offsetof(Lens, centreX) && inasm::CENTREY == offsetof(Lens, centreY) &&
@@ -552,6 +556,11 @@ Voxel anyVoxel(const Lens& lens)
     if (below(2) == 0) {
         v.slopeX = static_cast<int8_t>(any());
         v.slopeY = static_cast<int8_t>(any());
+    }
+    v.cutX = v.cutY = 0;
+    if (below(50) == 0) {
+        v.cutX = static_cast<int8_t>(any() >> below(32));
+        v.cutY = static_cast<int8_t>(any() >> below(32));
     }
     switch (below(50)) {
     case 0: v.x = anything(); break;
@@ -708,7 +717,8 @@ void voxelByVoxel(int rounds)
             const bool surelyLarge = leastWide > WIDEST || (leastWide > 0 && leastHigh > 0 && leastWide + leastHigh > SLOPED_MOST);
             const bool sound = v.wide >= 0 && v.high >= 0;
             const bool tilted = most(v.tiltX, v.tiltY) <= 16 * 256;
-            wrongStops += sound && (done == 0 ? surelyOn && surelySmall : surelyOff || surelyLarge);
+            wrongStops += sound && (done == 0 ? surelyOn && surelySmall && !isCut(v) : (surelyOff && a.lens.empty == 0) || surelyLarge);
+            wrongStops += done != 0 && a.lens.empty == 0 && isCut(v);
             stopped += done == 0;
             empty += a.lens.empty;
             wrongEmpties += sound && a.lens.empty != 0 && (done == 0 || a.lens.empty != 1 || (leastWide > 0 && leastHigh > 0));
