@@ -10,16 +10,16 @@ namespace {
 class Engine : public Surface {
 public:
     explicit Engine(SoftObject& object) : object_(object) {}
-    ~Engine() override { free(strips_); }
+    ~Engine() override { free(patches_); }
 
     // False: no memory.
     bool open()
     {
-        count_ = stripsOf(object_);
-        strips_ = allocate<Strip>(static_cast<uint32_t>(count_));
-        if (strips_ == nullptr)
+        count_ = patchesOf(object_);
+        patches_ = allocate<Patch>(static_cast<uint32_t>(count_));
+        if (patches_ == nullptr)
             return false;
-        makeStrips(object_, strips_);
+        makePatches(object_, patches_);
         return true;
     }
 
@@ -28,29 +28,29 @@ public:
 
 private:
     SoftObject& object_;
-    Strip* strips_ = nullptr;
+    Patch* patches_ = nullptr;
     int count_ = 0;
 };
 
-// Gather what reaches the object, classify its strips, settle those that need it.
+// Gather what reaches the object, classify its patches, settle those that need it.
 void Engine::update(const FrameContext& frame)
 {
     Neighbour neighbours[NEIGHBOURS_MAX];
     const OwnFrame own = ownFrame(object_, frame);
     const int count = gather(object_, frame, neighbours);
     bool displaced = false;
-    Reached reached;
-    for (Strip* strip = strips_; strip < strips_ + count_; ++strip) {
-        const StripState before = strip->state;
-        strip->state = count == 0 ? STRIP_REST : classify(*strip, own, neighbours, count, reached);
-        if (strip->state == STRIP_MIXED)
-            settleStrip(object_, *strip, reached, frame);
-        else if (strip->state == STRIP_REST && before != STRIP_REST)
-            restStrip(object_, *strip);
-        else if (strip->state != STRIP_REST && strip->state != before)
-            loseStrip(object_, *strip);
-        displaced = displaced || strip->state != STRIP_REST;
+    for (Patch* patch = patches_; patch < patches_ + count_; ++patch) {
+        const PatchState before = patch->state;
+        classify(*patch, own, neighbours, count);
+        if (patch->state == PATCH_MIXED)
+            settle(object_, *patch, neighbours, frame);
+        else if (patch->state != before)
+            patch->state == PATCH_REST ? rest(object_, *patch) : lose(object_, *patch);
+        displaced = displaced || patch->state != PATCH_REST;
     }
+    for (Patch* patch = patches_; patch < patches_ + count_; ++patch)
+        if (patch->state == PATCH_MIXED)
+            oversample(object_, *patch, neighbours, frame);
     object_.setDisplaced(displaced);
 }
 
@@ -61,19 +61,19 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
     Shader shader(object_, own, frame);
     list.begin(object_.centre() - frame.eye, object_.ramp());
     int at = *next;
-    for (; at < count_ && list.count + 2 * STRIP_SEEDS <= room; ++at) {
-        const Strip& strip = strips_[at];
-        if (strip.state == STRIP_INSIDE || strip.state == STRIP_AWAY || (strip.state == STRIP_REST && restsAway(strip, own)))
+    for (; at < count_ && list.count + 2 * PATCH_RINGS * PATCH_SEEDS <= room; ++at) {
+        const Patch& patch = patches_[at];
+        if (patch.state != PATCH_MIXED && (patch.state != PATCH_REST || restsAway(patch, own)))
             continue;
-        shader.setStrip(strip);
-        const Seed* s = &object_.seed(2 * strip.first);
-        for (const Seed* const end = s + 2 * strip.count; s < end; s += 2) {
+        shader.setPatch(patch);
+        forSeeds(patch, [&](int i) {
+            const Seed* s = &object_.seed(i);
             if ((s->flags & SEED_VALID) && shader.shade(*s, false, list.room()))
                 list.take();
-            const uint8_t flags = s[1].flags;
-            if ((flags & SEED_ACTIVE) && (flags & SEED_VALID) && shader.shade(s[1], true, list.room()))
+            constexpr int TAKES_PART = SEED_ACTIVE | SEED_VALID;
+            if ((s[1].flags & TAKES_PART) == TAKES_PART && shader.shade(s[1], true, list.room()))
                 list.take();
-        }
+        });
     }
     *next = at < count_ ? at : 0;
 }

@@ -18,29 +18,22 @@ void axisInOwn(const SoftObject& object, const Vector& axis, int32_t* to)
 void aim(const SoftObject& object, Neighbour& near)
 {
     const SoftObject& other = *near.object;
-    const Real worldInverse = Real(CORE_SIZE) / other.size();
-    const Vector units[] = {{Real(1), Real(0), Real(0)}, {Real(0), Real(1), Real(0)}, {Real(0), Real(0), Real(1)}};
-    const bool ball = object.isBall();
-    for (int j = 0; j < 3; ++j) {
-        const Vector inWorld = ball ? units[j] : object.turn() * units[j];
-        const Vector v = other.toOwnAxes(inWorld) * near.inverse16;
-        near.toCore.m[0][j] = v.x;
-        near.toCore.m[1][j] = v.y;
-        near.toCore.m[2][j] = v.z;
-    }
-    const Vector offset = other.toOwnAxes(object.centre() - other.centre()) * worldInverse;
-    near.toCore.m[0][3] = offset.x;
-    near.toCore.m[1][3] = offset.y;
-    near.toCore.m[2][3] = offset.z;
+    near.half = other.segmentHalf16();
+    near.kind = near.half > Real(0) ? Neighbour::SEGMENT : Neighbour::OTHER;
+    // Row i: axis i of the neighbour, in own axes.
+    const Matrix& turn = other.turn();
+    for (int i = 0; i < 3; ++i)
+        near.toCore[i] = object.toOwnAxes({turn.m[0][i], turn.m[1][i], turn.m[2][i]}) * near.inverse16;
+    near.offset = other.toOwnAxes(object.centre() - other.centre()) * (Real(CORE_SIZE) / other.size());
 }
 
 }  // namespace
 
 Vector Neighbour::fromCore16(const Vector& q) const
 {
-    if (point)
+    if (kind == POINT)
         return (q - centre) * Real(16);
-    const Vector v = object->fromCore(toVector(toCore * toPoint(q)));
+    const Vector v = object->fromCore(inCore(q) + offset);
     return v * size;  // core space has CORE_SIZE = 16 to a size
 }
 
@@ -74,7 +67,7 @@ int gather(const SoftObject& object, const FrameContext& frame, Neighbour* neigh
             continue;
         Neighbour& near = neighbours[count++];
         near.object = &other;
-        near.point = other.isBall();
+        near.kind = Neighbour::POINT;
         const Vector apart = object.toOwnAxes(other.centre() - object.centre());
         const bool grown = object.size() != object.laidSize();
         near.centre = grown ? Vector{apart.x / growth, apart.y / growth, apart.z / growth} : apart;
@@ -86,7 +79,8 @@ int gather(const SoftObject& object, const FrameContext& frame, Neighbour* neigh
         near.y16 = rawFromReal(near.centre.y) >> 12;
         near.z16 = rawFromReal(near.centre.z) >> 12;
         near.size16 = (rawFromReal(near.size) >> 12) + 1;
-        if (!near.point)
+        near.inverse = (1 << 24) / near.size16;
+        if (!other.isBall())
             aim(object, near);
     }
     return count;

@@ -16,9 +16,34 @@ struct Neighbour {
     Real size;          // where its field ends, from its core
     Real inverse16;     // CORE_SIZE / size
     Real ratio;         // squared proportion of the own size to `size`: its share of the gradient
-    bool point;         // its core is its centre
     int32_t x16, y16, z16, size16;  // centre and size in 1/16 unit
-    Matrix toCore;      // own space to the core space of the neighbour; unless `point`
+    int32_t inverse;    // 2^24 / size16
+    // What kind of core it has: its centre, a segment of `half` units of core space to each side, or what the primitive says.
+    enum Kind : uint8_t { POINT, SEGMENT, OTHER } kind;
+    Real half;
+    Vector toCore[3];   // the rows of the map from own space to its core space; no point
+    Vector offset;      // and the own centre there
+
+    // A vector of own space in core space, and half a gradient times CORE_SIZE^2 (see SoftObject::param()) in own space, where
+    // it is times size^2.
+    Vector inCore(const Vector& v) const { return {dot(toCore[0], v), dot(toCore[1], v), dot(toCore[2], v)}; }
+    Vector fromCoreSpace(const Vector& v) const
+    {
+        const Real scale = size * size * Real(1.0 / (CORE_SIZE * CORE_SIZE));
+        return (toCore[0] * v.x + toCore[1] * v.y + toCore[2] * v.z) * scale;
+    }
+    // SoftObject::param() of it.
+    Real param(const Vector& q, Vector* slope) const
+    {
+        if (kind != SEGMENT)
+            return object->param(q, slope);
+        const Vector v{q.x, q.y - clamp(q.y, -half, half), q.z};
+        *slope = v;
+        const Real end(CORE_SIZE);
+        if (absolute(v.x) >= end || absolute(v.y) >= end || absolute(v.z) >= end)
+            return Real(1);
+        return shiftDown(dot(v, v), 8);
+    }
 
     // The vector from its core to a place of own space, in 1/16 unit.
     Vector fromCore16(const Vector& q) const;

@@ -19,8 +19,6 @@ constexpr Real FIRST(0.7), LAST(1.98), SEARCH_STEP(0.16);
 // Of the field: a seed that is this far inside where it was nearest to the surface is still inside a frame later; and
 // a valley this shallow above the isovalue is looked into.
 constexpr Real DEEP(0.1), VALLEY(0.12);
-// The report's overshoot tolerance: by how much a neighbour's field may be stronger than the own.
-constexpr Real OVERSHOOT(0.05);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
 constexpr Real PARTED(1.5);
 
@@ -41,21 +39,27 @@ struct Sample {
     Real excess, slope, dominance;
 };
 
+// A neighbour as the seeds of one root see it: what is the same for all of them.
+struct FromRoot {
+    const Neighbour* near;
+    Real a, c;       // a point: squared distance of the root and squared length of the paths, over squared size
+    Vector twice16;  // 32 (root - centre) / size^2
+    Vector from;     // else: the root in its core space
+};
+
+// Settles seeds one by one; what is the same for several is worked out once.
 class Path {
 public:
-    Path(SoftObject& object, const Reached& reached, const FrameContext& frame)
-        : object_(object), reached_(reached), bodies_(*frame.bodies), counts_(*frame.counts)
-    {
-        plain_ = mutual();
-    }
+    Path(SoftObject& object, const Patch& patch, const Neighbour* neighbours, const FrameContext& frame);
 
     // Settles one seed.
     void settle(Seed& s);
 
 private:
-    bool mutual() const;
+    void setRoot(const Seed& s);
     bool touch(const Seed& s);
     Sample look(Real position);
+    bool mutual() const;
     void blend(Real position, Sample& sample);
     bool follow(Real* position, Sample* sample);
     bool search(Real* position, Sample* sample);
@@ -63,107 +67,140 @@ private:
     Vector outward(Real position) const;
 
     SoftObject& object_;
-    const Reached& reached_;
     const Bodies& bodies_;
     Counts& counts_;
-    bool plain_;          // all that reach the strip are linked with each other at weight 1: the sum is F
+    int reached_ = 0;
+    FromRoot near_[NEIGHBOURS_MAX];
+    bool complete_;       // all that reach the patch are linked with each other at weight 1
 
     // The path at hand.
+    int rootIndex_ = -1;
     Vector root_, path_;
+    bool plain_;          // the sum of the fields is F
     int touched_;
     Along along_[NEIGHBOURS_MAX];
     Real own_, ownSlope_;             // F and dF/dt of the own field at the last position
     Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, if not plain
 };
 
-bool Path::mutual() const
+Path::Path(SoftObject& object, const Patch& patch, const Neighbour* neighbours, const FrameContext& frame)
+    : object_(object), bodies_(*frame.bodies), counts_(*frame.counts)
 {
-    for (int i = 0; i < reached_.count; ++i) {
-        const int slot = reached_.near[i]->object->slot();
-        if (bodies_.weight(object_.slot(), slot) != Real(1))
-            return false;
-        for (int j = 0; j < i; ++j)
-            if (bodies_.weight(reached_.near[j]->object->slot(), slot) != Real(1))
-                return false;
+    for (int word = 0; word < static_cast<int>(sizeof patch.reached / sizeof patch.reached[0]); ++word)
+        for (uint32_t bits = patch.reached[word]; bits != 0; bits &= bits - 1)
+            near_[reached_++].near = neighbours + 32 * word + __builtin_ctz(bits);
+    complete_ = true;
+    for (int i = 0; i < reached_ && complete_; ++i) {
+        const int slot = near_[i].near->object->slot();
+        complete_ = bodies_.weight(object_.slot(), slot) == Real(1);
+        for (int j = 0; j < i && complete_; ++j)
+            complete_ = bodies_.weight(near_[j].near->object->slot(), slot) == Real(1);
     }
-    return true;
+    plain_ = complete_;
+}
+
+void Path::setRoot(const Seed& s)
+{
+    rootIndex_ = s.root;
+    root_ = object_.root(s.root);
+    for (int i = 0; i < reached_; ++i) {
+        FromRoot& to = near_[i];
+        const Neighbour& near = *to.near;
+        if (near.kind == Neighbour::POINT) {
+            const Vector e = (root_ - near.centre) * near.inverse16;
+            const Vector d = s.path * near.inverse16;
+            to.a = shiftDown(dot(e, e), 8);
+            to.c = shiftDown(dot(d, d), 8);
+            to.twice16 = e * shiftDown(near.inverse16, 3);
+        } else {
+            to.from = near.inCore(root_) + near.offset;
+        }
+    }
 }
 
 // Finds out which neighbours reach the path where the seed may lie. False: none.
 bool Path::touch(const Seed& s)
 {
-    root_ = object_.root(s.root);
+    if (s.root != rootIndex_)
+        setRoot(s);
     path_ = s.path;
-    touched_ = 0;
     bool reached = false;
-    for (int i = 0; i < reached_.count; ++i) {
-        const Neighbour& near = *reached_.near[i];
-        Along& along = along_[touched_];
-        along.near = &near;
-        if (near.point) {
-            const Vector e = (root_ - near.centre) * near.inverse16;
-            const Vector d = path_ * near.inverse16;
-            along.a = shiftDown(dot(e, e), 8);
-            along.b = shiftDown(dot(e, d), 7);
-            along.c = shiftDown(dot(d, d), 8);
-            const Real atRest = along.a + along.b + along.c;
-            if (atRest >= Real(1)) {
-                // Out of reach at rest: within reach on the way out?
-                const Real slope = along.b + along.c + along.c;
-                if (slope >= Real(0) || along.a + Real(1.4) * (along.b + Real(1.4) * along.c) >= Real(1))
-                    if (slope >= Real(0) || along.a + Real(1.9) * (along.b + Real(1.9) * along.c) >= Real(1))
-                        continue;
+    Along* along = along_;
+    for (const FromRoot *from = near_, *const end = near_ + reached_; from < end; ++from) {
+        along->near = from->near;
+        if (from->near->kind == Neighbour::POINT) {
+            const Real b = shiftDown(dot(path_, from->twice16), 4);
+            if (from->a + b + from->c < Real(1)) {
+                reached = true;
             } else {
-                reached = true;
+                // Out of reach at rest: within reach on the way out?
+                const auto beyond = [&](Real p) { return from->a + p * (b + p * from->c) >= Real(1); };
+                if (b + from->c + from->c >= Real(0) || (beyond(Real(1.4)) && beyond(Real(1.9))))
+                    continue;
             }
+            along->a = from->a;
+            along->b = b;
+            along->c = from->c;
         } else {
-            along.from = toVector(near.toCore * toPoint(root_));
-            along.step = near.toCore * path_;
+            along->from = from->from;
+            along->step = from->near->inCore(path_);
             Vector unused;
-            if (near.object->param(along.from + along.step, &unused) < Real(1))
+            if (from->near->param(along->from + along->step, &unused) < Real(1))
                 reached = true;
-            else if (near.object->param(along.from + along.step * Real(1.5), &unused) >= Real(1))
+            else if (from->near->param(along->from + along->step * Real(1.5), &unused) >= Real(1))
                 continue;
         }
-        ++touched_;
+        ++along;
     }
+    touched_ = static_cast<int>(along - along_);
     return reached;
+}
+
+// Whether those that touch the path are all linked with each other at weight 1.
+bool Path::mutual() const
+{
+    for (int i = 0; i < touched_; ++i) {
+        const int slot = along_[i].near->object->slot();
+        if (bodies_.weight(object_.slot(), slot) != Real(1))
+            return false;
+        for (int j = 0; j < i; ++j)
+            if (bodies_.weight(along_[j].near->object->slot(), slot) != Real(1))
+                return false;
+    }
+    return true;
 }
 
 Sample Path::look(Real position)
 {
     ++counts_.iterations;
-    Sample sample;
     const Real t = shiftDown(position * position, 2);
     const FieldStep own = t < Real(1) ? geoffQuick(t) : FieldStep{Real(0), Real(0)};
     own_ = own.value;
     ownSlope_ = own.slope;
     Real sum = own.value, slope = shiftDown(own.slope * position, 1), strongest(0);
-    for (int i = 0; i < touched_; ++i) {
-        Along& along = along_[i];
+    for (Along *along = along_, *const end = along_ + touched_; along < end; ++along) {
         Real param;
-        if (along.near->point) {
-            param = along.a + position * (along.b + position * along.c);
-            along.change = along.b + shiftUp(position * along.c, 1);
+        if (along->near->kind == Neighbour::POINT) {
+            const Real outer = position * along->c;
+            param = along->a + position * (along->b + outer);
+            along->change = along->b + outer + outer;
         } else {
-            param = along.near->object->param(along.from + along.step * position, &along.out);
-            along.change = shiftDown(dot(along.out, along.step), 7);
+            param = along->near->param(along->from + along->step * position, &along->out);
+            along->change = shiftDown(dot(along->out, along->step), 7);
         }
         if (param >= Real(1)) {
-            along.value = along.slope = Real(0);
+            along->value = along->slope = Real(0);
             continue;
         }
         const FieldStep field = geoffQuick(param < Real(0) ? Real(0) : param);
-        along.value = field.value;
-        along.slope = field.slope;
+        along->value = field.value;
+        along->slope = field.slope;
         sum += field.value;
-        slope += field.slope * along.change;
+        slope += field.slope * along->change;
         if (field.value > strongest)
             strongest = field.value;
     }
-    sample.excess = sum - ISOVALUE;
-    sample.slope = slope;
-    sample.dominance = strongest - own.value;
+    Sample sample{sum - ISOVALUE, slope, strongest - own.value};
     if (!plain_)
         blend(position, sample);
     return sample;
@@ -228,7 +265,7 @@ bool Path::follow(Real* position, Sample* sample)
             return true;
         if (sample->slope > FLAT)
             return false;
-        const Real step = clamp(-sample->excess / sample->slope, -LONGEST_STEP, LONGEST_STEP);
+        const Real step = clamp(quotient(-sample->excess, sample->slope), -LONGEST_STEP, LONGEST_STEP);
         *position += step;
         if (*position < FIRST || *position > LAST)
             return false;
@@ -248,7 +285,7 @@ bool Path::bisect(Real inside, Real outside, Real* position, Sample* sample)
         if (absolute(sample->excess) <= TOLERANCE)
             return true;
         if (sample->slope <= FLAT) {
-            const Real step = -sample->excess / sample->slope;
+            const Real step = quotient(-sample->excess, sample->slope);
             const Real to = *position + step;
             if (to > inside && to < outside && absolute(step) <= SHORT_STEP) {
                 *position = to;
@@ -306,9 +343,10 @@ bool Path::search(Real* position, Sample* sample)
 Vector Path::outward(Real position) const
 {
     const Real own = plain_ ? ownSlope_ : ownSlope_ * share_[0];
+    const Vector place = root_ + path_ * position;
     Vector g;
     if (object_.tapers()) {
-        object_.param((root_ + path_ * position) * (Real(CORE_SIZE) / object_.laidSize()), &g);
+        object_.param(place * (Real(CORE_SIZE) / object_.laidSize()), &g);
         g = g * -shiftDown(own * object_.laidSize(), 4);
     } else {
         g = path_ * -(own * position);
@@ -319,17 +357,10 @@ Vector Path::outward(Real position) const
             continue;
         const Neighbour& near = *along.near;
         const Real push = -((plain_ ? along.slope : along.slope * share_[i + 1]) * near.ratio);
-        if (near.point) {
-            g = g + (root_ - near.centre + path_ * position) * push;
-        } else {
-            // Back from core space: the transposed rotation, and CORE_SIZE units a size.
-            const Real(&m)[4][4] = near.toCore.m;
-            const Vector& v = along.out;
-            const Real back = near.size * near.size * Real(1.0 / (CORE_SIZE * CORE_SIZE));
-            const Vector own{m[0][0] * v.x + m[1][0] * v.y + m[2][0] * v.z, m[0][1] * v.x + m[1][1] * v.y + m[2][1] * v.z,
-                             m[0][2] * v.x + m[1][2] * v.y + m[2][2] * v.z};
-            g = g + own * back * push;
-        }
+        if (near.kind == Neighbour::POINT)
+            g = g + (place - near.centre) * push;
+        else
+            g = g + near.fromCoreSpace(along.out) * push;
     }
     return g;
 }
@@ -344,12 +375,13 @@ void Path::settle(Seed& s)
         s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
         return;
     }
+    plain_ = complete_ || mutual();
     ++counts_.updated;
     const bool wasValid = (s.flags & SEED_VALID) != 0;
     s.flags &= SEED_ACTIVE;
     Real position = s.position;
     Sample sample = look(position);
-    if (!wasValid && sample.excess > DEEP)
+    if (!wasValid && (sample.excess > DEEP || sample.dominance > OVERSHOOT + DEEP))
         return;
     if (!follow(&position, &sample)) {
         const bool found = search(&position, &sample);
@@ -379,44 +411,57 @@ bool parted(const SoftObject& object, const Seed& s)
 
 }  // namespace
 
-void settleStrip(SoftObject& object, const Strip& strip, const Reached& reached, const FrameContext& frame)
+void settle(SoftObject& object, Patch& patch, const Neighbour* neighbours, const FrameContext& frame)
 {
-    Path path(object, reached, frame);
-    const int end = 2 * (strip.first + strip.count);
-    for (int i = 2 * strip.first; i < end; i += 2)
-        path.settle(object.seed(i));
-    for (int i = 2 * strip.first; i < end; i += 2) {
-        const Seed& s = object.seed(i);
-        Seed& extra = object.seed(i + 1);
-        if (!parted(object, s)) {
-            extra.flags = 0;
-            continue;
-        }
-        if (!(extra.flags & SEED_ACTIVE)) {
-            extra.flags = SEED_ACTIVE | SEED_VALID;
-            extra.position = s.position;
-        }
-        path.settle(extra);
-    }
+    Path path(object, patch, neighbours, frame);
+    uint8_t valid = 0;
+    forSeeds(patch, [&](int i) {
+        Seed& s = object.seed(i);
+        path.settle(s);
+        valid |= s.flags;
+    });
+    patch.barren = !(valid & SEED_VALID);
 }
 
-void restStrip(SoftObject& object, const Strip& strip)
+void oversample(SoftObject& object, const Patch& patch, const Neighbour* neighbours, const FrameContext& frame)
 {
-    const int end = 2 * (strip.first + strip.count);
-    for (int i = 2 * strip.first; i < end; i += 2) {
+    bool any = false;
+    forSeeds(patch, [&](int i) {
+        Seed& extra = object.seed(i + 1);
+        if (!parted(object, object.seed(i))) {
+            extra.flags = 0;
+            return;
+        }
+        any = true;
+        if (!(extra.flags & SEED_ACTIVE)) {
+            extra.flags = SEED_ACTIVE | SEED_VALID;
+            extra.position = object.seed(i).position;
+        }
+    });
+    if (!any)
+        return;
+    Path path(object, patch, neighbours, frame);
+    forSeeds(patch, [&](int i) {
+        if (object.seed(i + 1).flags & SEED_ACTIVE)
+            path.settle(object.seed(i + 1));
+    });
+}
+
+void rest(SoftObject& object, const Patch& patch)
+{
+    forSeeds(patch, [&](int i) {
         Seed& s = object.seed(i);
         s.position = Real(1);
         s.normal = object.restNormal(s);
         s.flags = SEED_VALID | SEED_RESTING;
         object.seed(i + 1).flags = 0;
-    }
+    });
 }
 
-void loseStrip(SoftObject& object, const Strip& strip)
+void lose(SoftObject& object, const Patch& patch)
 {
-    const int end = 2 * (strip.first + strip.count);
-    for (int i = 2 * strip.first; i < end; i += 2) {
+    forSeeds(patch, [&](int i) {
         object.seed(i).flags = object.seed(i + 1).flags = 0;
         object.seed(i).position = Real(1);
-    }
+    });
 }

@@ -2,16 +2,19 @@
 #ifndef FB_SETTLE_H
 #define FB_SETTLE_H
 
-#include "strip.h"
+#include "patch.h"
 
-// Settles a strip that neighbours reach: regular seeds, then the oversampled ones that are needed. Position, normal and flags
-// of its seeds are set; a seed that finds no surface of its own object is left without SEED_VALID.
-void settleStrip(SoftObject& object, const Strip& strip, const Reached& reached, const FrameContext& frame);
+// Settles the regular seeds of a patch that neighbours reach: position, normal and flags. A seed that finds no surface of its
+// own object is left without SEED_VALID.
+void settle(SoftObject& object, Patch& patch, const Neighbour* neighbours, const FrameContext& frame);
 
-// Puts the seeds of a strip where no neighbour reaches them.
-void restStrip(SoftObject& object, const Strip& strip);
+// Settles those oversampled seeds of such a patch that are needed, when all regular ones have been; the others end.
+void oversample(SoftObject& object, const Patch& patch, const Neighbour* neighbours, const FrameContext& frame);
 
-// Marks the seeds of a strip as not on the surface.
-void loseStrip(SoftObject& object, const Strip& strip);
+// Puts the seeds of a patch where no neighbour reaches them.
+void rest(SoftObject& object, const Patch& patch);
+
+// Marks the seeds of a patch as not on the surface.
+void lose(SoftObject& object, const Patch& patch);
 
 #endif

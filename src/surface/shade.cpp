@@ -55,13 +55,13 @@ Shader::Shader(const SoftObject& object, const OwnFrame& own, const FrameContext
     horizon_ = generalHorizon_;
 }
 
-void Shader::setStrip(const Strip& strip)
+void Shader::setPatch(const Patch& patch)
 {
-    // The middle of the strip in the view, 1/32 unit.
+    // The middle of the patch in the view, 1/32 unit.
     int32_t view[3];
     const int32_t* const axes[] = {own_.right, own_.up, own_.ahead};
     for (int i = 0; i < 3; ++i)
-        view[i] = (strip.middle[0] * axes[i][0] + strip.middle[1] * axes[i][1] + strip.middle[2] * axes[i][2]) >> 13;
+        view[i] = (patch.middle[0] * axes[i][0] + patch.middle[1] * axes[i][1] + patch.middle[2] * axes[i][2]) >> 13;
     const int32_t depth = depth_ + view[2] < NEAREST ? NEAREST : depth_ + view[2];
     const int32_t shearX = limited(((away_[0] + view[0]) << 12) / depth, 5 << 12);
     const int32_t shearY = limited(((away_[1] + view[1]) << 12) / depth, 5 << 12);
@@ -70,7 +70,7 @@ void Shader::setStrip(const Strip& strip)
         row_[i] = own_.up[i] - (own_.ahead[i] * shearY >> 12);
     }
     if (object_.roots() > 1) {
-        const Seed& s = object_.seed(2 * strip.first);
+        const Seed& s = object_.seed(2 * patch.first[0]);
         horizon_ = rawFromReal(object_.horizonAt(object_.root(s.root), realFromRaw(generalHorizon_ << 11))) >> 11;
     }
 }

@@ -2,7 +2,7 @@
 #ifndef FB_SHADE_H
 #define FB_SHADE_H
 
-#include "strip.h"
+#include "patch.h"
 #include "surface/voxel.h"
 
 // Steps of brightness: 0..63, the 64-step ramp.
@@ -21,8 +21,8 @@ class Shader {
 public:
     Shader(const SoftObject& object, const OwnFrame& own, const FrameContext& frame);
 
-    // To be called before the seeds of a strip: from where the viewer sees it.
-    void setStrip(const Strip& strip);
+    // To be called before the seeds of a patch: from where the viewer sees it.
+    void setPatch(const Patch& patch);
 
     // Fills in the voxel of a valid seed. False: it faces away.
     bool shade(const Seed& s, bool oversampled, Voxel* voxel);
@@ -38,10 +38,10 @@ private:
     int32_t spacing_;        // 1/256 unit of the world
     int32_t limb_;           // a seed that faces the viewer less than this is not drawn, 1/32 unit
     int32_t generalHorizon_; // radius of curvature at the edge of the object, 1/32 unit
-    int32_t horizon_;        // of the strip
+    int32_t horizon_;        // of the patch
     int32_t depth_;          // of the object's centre along the viewing axis, 1/32 unit
     int32_t away_[2];        // the centre from the eye, across the view, 1/32 unit
-    // Of the strip: the axes of the picture plane, sheared along the ray through its middle, so that a part of a vector along
+    // Of the patch: the axes of the picture plane, sheared along the ray through its middle, so that a part of a vector along
     // the view shows sideways; 1.0 = 2^14.
     int32_t column_[3], row_[3];
     // Of the seed: half axes of its cell as they fall on the picture, 1/64 spacing with 8 bits of fraction.
