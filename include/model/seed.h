@@ -14,6 +14,9 @@
 //   SEED_RESTING  no neighbour reaches it: it is at        a neighbour reaches it
 //                 position 1 with the normal of the
 //                 unblended surface
+//   SEED_BORDER   a neighbour is about as strong there     none is
+//   SEED_ASLEEP   its patch is drawn as one scale, and     all of its patch are
+//                 it is not settled
 //   SEED_FRONT    /P only: its path does not point away    it does
 //                 from the viewer
 //   SEED_KEPT     /P only: normal and brightness hold for  the seed moved
@@ -24,6 +27,8 @@ enum SeedFlag : uint8_t {
     SEED_RESTING = 4,
     SEED_FRONT = 8,
     SEED_KEPT = 16,
+    SEED_BORDER = 32,
+    SEED_ASLEEP = 64,
 };
 
 // A unit vector in whole numbers: each component is scaled by 2^14.

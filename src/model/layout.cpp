@@ -87,7 +87,7 @@ public:
         s.neighbour = -1;
         s.normal = {0, 0, 0};
         s.root = static_cast<uint16_t>(root);
-        s.flags = SEED_VALID;
+        s.flags = SEED_VALID | SEED_RESTING;
         s.aside = 0;
         setCell(s.along, along, inverseSpacing_);
         setCell(s.across, across, inverseSpacing_);

@@ -52,8 +52,8 @@ void setPatch(const SoftObject& object, Patch& patch)
     patch.middle[2] = static_cast<int16_t>(steps16(middle.z));
     patch.radius = static_cast<int16_t>(steps16(radius + shiftDown(object.spacing(), 1)) + 2);
     patch.path = static_cast<int16_t>(steps16(path) + 1);
-    patch.state = PATCH_NEW;
-    patch.barren = false;
+    patch.state = PATCH_REST;
+    patch.coarse = false;
 }
 
 struct Step {
@@ -85,70 +85,6 @@ inline bool within(const Step& away, int32_t distance)
     return square(away) < distance * distance;
 }
 
-// The square root of a squared distance.
-int32_t root(uint32_t square)
-{
-    if (square == 0)
-        return 0;
-    // To 26 to 30 bits, which the table of reciprocal roots is for.
-    const int shift = (__builtin_clz(square) - 2) & ~1;
-    const uint32_t scaled = shift >= 0 ? square << shift : square >> -shift;
-    const uint32_t r = static_cast<uint32_t>(static_cast<uint64_t>(scaled) * inverseRoots[scaled >> 20] >> 28);
-    return static_cast<int32_t>(shift >= 0 ? r >> (shift / 2) : r << (-shift / 2));
-}
-
-// A neighbour's field at a distance from its core, 1/16 unit.
-Real fieldAt(const Neighbour& near, int32_t distance)
-{
-    if (distance >= near.size16)
-        return Real(0);
-    const Real u = realFromRaw(distance < 0 ? 0 : distance * near.inverse >> 8);
-    const Real t = u * u;
-    return t < Real(1) ? geoffQuick(t).value : Real(0);
-}
-
-// A stretch of all paths of a patch: the part of space that the seeds may be in, and the own field at its ends.
-struct Stretch {
-    int32_t from, to;  // positions, 1/16
-    Real most, least;  // of the own field there
-};
-constexpr Real own(double p)
-{
-    return Real(p >= 2 ? 0.0 : 1 - p * p / 4 * (22.0 / 9 - p * p / 4 * (17.0 / 9 - p * p / 4 * 4 / 9)));
-}
-constexpr Stretch STRETCHES[] = {{16, 20, own(1), own(1.25)}, {20, 25, own(1.25), own(1.5625)}, {25, 32, own(1.5625), own(2)}};
-
-inline Step middleOf(const Patch& patch, const Stretch& stretch)
-{
-    return above(patch, patch.path * (stretch.from + stretch.to - 32) >> 5);
-}
-
-inline int32_t radiusOf(const Patch& patch, const Stretch& stretch)
-{
-    return (patch.radius * stretch.to >> 4) + (patch.path * (stretch.to - stretch.from) >> 5) + 1;
-}
-
-// Whether no seed of the patch can be on the surface of its own object: all along the paths either the fields sum up to
-// more than the isovalue, or one of them is stronger than the own.
-bool inside(const Patch& patch, const Reached& reached)
-{
-    for (const Stretch& stretch : STRETCHES) {
-        const Step middle = middleOf(patch, stretch);
-        const int32_t radius = radiusOf(patch, stretch);
-        Real sum = stretch.least;
-        bool proved = false;
-        for (int i = 0; i < reached.count && !proved; ++i) {
-            const Neighbour& near = *reached.near[i];
-            const Real field = fieldAt(near, root(static_cast<uint32_t>(square(fromCore(near, middle)))) + radius);
-            sum += field;
-            proved = sum > ISOVALUE || field > stretch.most + OVERSHOOT;
-        }
-        if (!proved)
-            return false;
-    }
-    return true;
-}
-
 // The patch's axis times what leads from a place to the eye, 1/16 unit.
 inline int32_t facing(const Patch& patch, const Step& toEye)
 {
@@ -158,47 +94,6 @@ inline int32_t facing(const Patch& patch, const Step& toEye)
 Step toEyeFrom(const Step& place, const OwnFrame& own)
 {
     return {(own.eye32[0] >> 1) - place.x, (own.eye32[1] >> 1) - place.y, (own.eye32[2] >> 1) - place.z};
-}
-
-// Whether the gradient of a neighbour's field points away from the eye wherever the patch's seeds may settle: at both ends
-// of their paths, and between them, where the scalar product is at most a quarter of the squared way larger.
-bool pointsAway(const Neighbour& near, const Patch& patch, const Step& atRest, const OwnFrame& own)
-{
-    const int32_t sway = patch.radius * 2, distance = own.distance32 >> 1;
-    const auto away = [&](const Step& v, const Step& place) {
-        const Step e = toEyeFrom(place, own);
-        const int32_t product = ((v.x * e.x + v.y * e.y) >> 4) + (v.z * e.z >> 4);
-        const int32_t doubt = (sway * (distance + near.size16) >> 4) + (patch.path * patch.path >> 6);
-        return product + doubt < 0;
-    };
-    const Step end = above(patch, patch.path);
-    return away(atRest, above(patch, 0)) && away(fromCore(near, end), end);
-}
-
-// Whether the patch is hidden behind its own object: behind the ball round its root that the unblended surface touches, where
-// it is too far round for blending to pull it out beside that. `front` is as of facing().
-bool hidden(const Patch& patch, const Reached& reached, const OwnFrame& own, int32_t front)
-{
-    // Cosine of path and direction to the eye, 1.0 = 2^14.
-    const int32_t distance = own.distance32 >> 1;
-    const int32_t along = front + patch.path + patch.radius + (distance * patch.spread >> 14);
-    if (along >= 0)
-        return false;
-    const int32_t cosine = (along << 12) / distance;
-    const Real sine2 = realFromRaw(65536 - (cosine * cosine >> 8));
-    // Beyond this position it would show: t = p^2 / 4 = 1 / (4 sine^2).
-    const Real t = sine2 < Real(0.36) ? Real(0.69) : Real(0.25) / sine2;
-    constexpr Stretch NEAR{16, 26, Real(0), Real(0)};  // up to t = 0.69
-    const Step middle = middleOf(patch, NEAR);
-    const int32_t radius = radiusOf(patch, NEAR);
-    Real sum = geoffQuick(t).value;
-    for (int i = 0; i < reached.count; ++i) {
-        const Neighbour& near = *reached.near[i];
-        sum += fieldAt(near, root(static_cast<uint32_t>(square(fromCore(near, middle)))) - radius);
-        if (sum >= ISOVALUE)
-            return false;
-    }
-    return true;
 }
 
 }  // namespace
@@ -228,21 +123,46 @@ int patchesOf(const SoftObject& object)
     return patches;
 }
 
+// Whether the rings of a band have about as many seeds each, so that one cell may stand for seeds of all of them.
+static bool evenBand(const SoftObject& object, int ring, const Band& band)
+{
+    int least = 0, most = 0;
+    for (int k = ring; k < ring + band.rings; ++k) {
+        const int count = object.ringStart(k + 1) - object.ringStart(k);
+        least = k == ring || count < least ? count : least;
+        most = count > most ? count : most;
+    }
+    return band.rings == PATCH_RINGS && band.runs >= PATCH_RINGS && 4 * most <= 5 * least;
+}
+
 void makePatches(const SoftObject& object, Patch* patches)
 {
+    int first = 0, firstBefore = -1, runsBefore = 0;
     for (int ring = 0; ring < object.rings(); ring += PATCH_RINGS) {
         const Band band(object, ring);
-        for (int run = 0; run < band.runs; ++run, ++patches) {
+        const bool even = evenBand(object, ring, band);
+        for (int run = 0; run < band.runs; ++run) {
+            Patch& patch = patches[first + run];
             for (int k = 0; k < PATCH_RINGS; ++k) {
-                patches->first[k] = patches->count[k] = 0;
+                patch.first[k] = patch.count[k] = 0;
                 if (k >= band.rings)
                     continue;
                 const int start = object.ringStart(ring + k), inRing = object.ringStart(ring + k + 1) - start;
-                patches->first[k] = start + inRing * run / band.runs;
-                patches->count[k] = static_cast<uint8_t>(start + inRing * (run + 1) / band.runs - patches->first[k]);
+                patch.first[k] = start + inRing * run / band.runs;
+                patch.count[k] = static_cast<uint8_t>(start + inRing * (run + 1) / band.runs - patch.first[k]);
             }
-            setPatch(object, *patches);
+            const int k = patch.count[band.rings / 2] > 0 ? band.rings / 2 : 0;
+            patch.centre = 2 * (patch.first[k] + patch.count[k] / 2);
+            patch.even = even;
+            patch.width16 = static_cast<int16_t>((object.ringStart(ring + k + 1) - object.ringStart(ring + k)) * 16 / band.runs);
+            patch.before = first + (run > 0 ? run : band.runs) - 1;
+            patch.next = first + (run + 1 < band.runs ? run + 1 : 0);
+            patch.above = firstBefore < 0 ? -1 : firstBefore + run * runsBefore / band.runs;
+            setPatch(object, patch);
         }
+        firstBefore = first;
+        runsBefore = band.runs;
+        first += band.runs;
     }
 }
 
@@ -252,36 +172,13 @@ bool restsAway(const Patch& patch, const OwnFrame& own)
     return facing(patch, toEyeFrom(above(patch, 0), own)) < -doubt;
 }
 
-static PatchState judge(const Patch& patch, const OwnFrame& own, const Reached& reached)
-{
-    // Asked only where it is likely: it costs as much as settling a seed.
-    if (patch.barren && inside(patch, reached))
-        return PATCH_INSIDE;
-    const Step rest = above(patch, 0);
-    const int32_t front = facing(patch, toEyeFrom(rest, own)), distance = own.distance32 >> 1;
-    if (front >= 0)
-        return PATCH_MIXED;
-    if (hidden(patch, reached, own, front))
-        return PATCH_AWAY;
-    // Seeds that are pushed in are seen from farther round.
-    const int32_t doubt = (distance * patch.spread >> 14) + patch.radius + (patch.path >> 2);
-    if (front >= -doubt)
-        return PATCH_MIXED;
-    for (int i = 0; i < reached.count; ++i)
-        if (!pointsAway(*reached.near[i], patch, fromCore(*reached.near[i], rest), own))
-            return PATCH_MIXED;
-    return PATCH_AWAY;
-}
-
-void classify(Patch& patch, const OwnFrame& own, const Neighbour* neighbours, int count)
+bool classify(Patch& patch, const Neighbour* neighbours, int count)
 {
     const Step rest = above(patch, 0);
     // Seeds that a neighbour pulls out may come within reach of another: half way along what is left of their paths.
     const Step beyond = above(patch, patch.path >> 1);
     const int32_t beyondRadius = (patch.path >> 1) + patch.radius + (patch.radius >> 1);
     bool touched = false;
-    Reached reached;
-    reached.count = 0;
     memset(patch.reached, 0, sizeof patch.reached);
     for (int i = 0; i < count; ++i) {
         const Neighbour& near = neighbours[i];
@@ -289,8 +186,48 @@ void classify(Patch& patch, const OwnFrame& own, const Neighbour* neighbours, in
             touched = true;
         else if (!within(fromCore(near, beyond), near.size16 + beyondRadius))
             continue;
-        reached.near[reached.count++] = &near;
         patch.reached[i >> 5] |= 1u << (i & 31);
     }
-    patch.state = touched ? judge(patch, own, reached) : PATCH_REST;
+    return touched;
+}
+
+int32_t facing(const SoftObject& object, const Seed& s, const OwnFrame& own)
+{
+    const Vector place = object.root(s.root) + s.path * s.position;
+    const int32_t product = (s.normal.x * (own.eye32[0] - (rawFromReal(place.x) >> 11)) +
+                             s.normal.y * (own.eye32[1] - (rawFromReal(place.y) >> 11)) +
+                             s.normal.z * (own.eye32[2] - (rawFromReal(place.z) >> 11))) >> 14;
+    return (product << 12) / (own.distance32 >> 2);
+}
+
+namespace {
+
+// Cosine of a surface to the viewer from which on one scale may do.
+constexpr int32_t COARSE_FACING = 7400;
+// Squared length of the difference of two normals, 1.0 = 2^14, and difference of two positions as a length in spacings, up
+// to which patches lie alike.
+constexpr int32_t ALIKE_NORMALS = (1 << 14) * 2 / 5;
+constexpr Real ALIKE_POSITIONS(1.0);
+
+bool alike(const SoftObject& object, const Patch* patches, const Seed& s, int beside)
+{
+    if (beside < 0)
+        return true;
+    const Patch& patch = patches[beside];
+    const Seed& other = object.seed(patch.centre);
+    if ((patch.state != PATCH_REST && patch.state != PATCH_MIXED) || !(other.flags & SEED_VALID))
+        return false;
+    const int32_t x = s.normal.x - other.normal.x, y = s.normal.y - other.normal.y, z = s.normal.z - other.normal.z;
+    return ((x * x + y * y + z * z) >> 14) <= ALIKE_NORMALS &&
+           absolute(s.position - other.position) * object.radius() <= object.spacing() * ALIKE_POSITIONS;
+}
+
+}  // namespace
+
+bool mayBeCoarse(const SoftObject& object, const Patch* patches, const Patch& patch, const OwnFrame& own)
+{
+    const Seed& s = object.seed(patch.centre);
+    return patch.even && (s.flags & SEED_VALID) && !(s.flags & SEED_BORDER) && facing(object, s, own) > COARSE_FACING &&
+           alike(object, patches, s, patch.before) && alike(object, patches, s, patch.next) &&
+           alike(object, patches, s, patch.above);
 }

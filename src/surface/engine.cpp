@@ -38,19 +38,42 @@ void Engine::update(const FrameContext& frame)
     Neighbour neighbours[NEIGHBOURS_MAX];
     const OwnFrame own = ownFrame(object_, frame);
     const int count = gather(object_, frame, neighbours);
+    Settler settler(object_, neighbours, count, frame);
     bool displaced = false;
-    for (Patch* patch = patches_; patch < patches_ + count_; ++patch) {
-        const PatchState before = patch->state;
-        classify(*patch, own, neighbours, count);
-        if (patch->state == PATCH_MIXED)
-            settle(object_, *patch, neighbours, frame);
-        else if (patch->state != before)
-            patch->state == PATCH_REST ? rest(object_, *patch) : lose(object_, *patch);
-        displaced = displaced || patch->state != PATCH_REST;
+    Patch* const end = patches_ + count_;
+    for (Patch* patch = patches_; patch < end; ++patch) {
+        if (!classify(*patch, neighbours, count)) {
+            if (patch->state != PATCH_REST)
+                rest(object_, *patch);
+            patch->state = PATCH_REST;
+            continue;
+        }
+        displaced = true;
+        settler.setPatch(*patch);
+        patch->state = settler.probe(*patch, own);
+        if (patch->state != PATCH_MIXED)
+            sleep(object_, *patch);
     }
-    for (Patch* patch = patches_; patch < patches_ + count_; ++patch)
-        if (patch->state == PATCH_MIXED)
-            oversample(object_, *patch, neighbours, frame);
+    for (Patch* patch = patches_; patch < end; ++patch) {
+        if (patch->state == PATCH_REST && restsAway(*patch, own))
+            continue;
+        if (patch->state == PATCH_REST || patch->state == PATCH_MIXED)
+            patch->coarse = mayBeCoarse(object_, patches_, *patch, own);
+        if (patch->state != PATCH_MIXED)
+            continue;
+        if (patch->coarse) {
+            sleep(object_, *patch);
+        } else {
+            settler.setPatch(*patch);
+            settler.settleRest(*patch);
+        }
+    }
+    for (Patch* patch = patches_; patch < end; ++patch) {
+        if (patch->state != PATCH_MIXED || patch->coarse)
+            continue;
+        settler.setPatch(*patch);
+        settler.oversample(*patch);
+    }
     object_.setDisplaced(displaced);
 }
 
@@ -66,6 +89,11 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
         if (patch.state != PATCH_MIXED && (patch.state != PATCH_REST || restsAway(patch, own)))
             continue;
         shader.setPatch(patch);
+        if (patch.coarse) {
+            if (shader.shadePatch(patch, patches_, list.room()))
+                list.take();
+            continue;
+        }
         forSeeds(patch, [&](int i) {
             const Seed* s = &object_.seed(i);
             if ((s->flags & SEED_VALID) && shader.shade(*s, false, list.room()))

@@ -216,6 +216,8 @@ void Report98::draw(const FrameContext& frame, VoxelList& list, int room, int* n
         v.tiltX = v.tiltY = 0;  // the report's scales face the viewer, and each has one brightness
         v.reach = 0;
         v.slopeX = v.slopeY = 0;
+        v.cutX = v.cutY = 0;
+        v.cutAt = 0;
         list.take();
     }
     *next = i < object_.seedSlots() ? i : 0;

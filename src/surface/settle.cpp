@@ -18,136 +18,92 @@ constexpr int NEWTON_STEPS = 5;
 constexpr Real FIRST(0.7), LAST(1.98), SEARCH_STEP(0.16);
 // Of the field: a seed that is this far inside where it was nearest to the surface is still inside a frame later; and
 // a valley this shallow above the isovalue is looked into.
-constexpr Real DEEP(0.1), VALLEY(0.12);
+constexpr Real DEEP(0.06), VALLEY(0.12);
+// Of the field: a neighbour that is weaker than the own by less is near.
+constexpr Real BORDER(0.25);
+// What a field changes by at most over its size.
+constexpr Real STEEPEST(1.3);
+// Cosine (1.0 = 2^14) by which the middle of a patch must face away, more than its seeds differ, to be out of sight as a whole.
+constexpr int32_t TURNED = 2000;
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
 constexpr Real PARTED(1.5);
 
-// A neighbour's field along the path at hand.
-struct Along {
-    const Neighbour* near;
-    Real a, b, c;       // a point: t = a + p (b + p c)
-    Vector from, step;  // else: from + p step, in its core space
-    // At the last position looked at.
-    Real value, slope;  // F and dF/dt
-    Real change;        // dt/dp
-    Vector out;         // half the gradient of t in its core space, times CORE_SIZE^2; no point
-};
+}  // namespace
 
-// The body's field at a position: its excess over the isovalue, its slope along the path, how much stronger than the own
-// field the strongest neighbour's is.
-struct Sample {
-    Real excess, slope, dominance;
-};
-
-// A neighbour as the seeds of one root see it: what is the same for all of them.
-struct FromRoot {
-    const Neighbour* near;
-    Real a, c;       // a point: squared distance of the root and squared length of the paths, over squared size
-    Vector twice16;  // 32 (root - centre) / size^2
-    Vector from;     // else: the root in its core space
-};
-
-// Settles seeds one by one; what is the same for several is worked out once.
-class Path {
-public:
-    Path(SoftObject& object, const Patch& patch, const Neighbour* neighbours, const FrameContext& frame);
-
-    // Settles one seed.
-    void settle(Seed& s);
-
-private:
-    void setRoot(const Seed& s);
-    bool touch(const Seed& s);
-    Sample look(Real position);
-    bool mutual() const;
-    void blend(Real position, Sample& sample);
-    bool follow(Real* position, Sample* sample);
-    bool search(Real* position, Sample* sample);
-    bool bisect(Real inside, Real outside, Real* position, Sample* sample);
-    Vector outward(Real position) const;
-
-    SoftObject& object_;
-    const Bodies& bodies_;
-    Counts& counts_;
-    int reached_ = 0;
-    FromRoot near_[NEIGHBOURS_MAX];
-    bool complete_;       // all that reach the patch are linked with each other at weight 1
-
-    // The path at hand.
-    int rootIndex_ = -1;
-    Vector root_, path_;
-    bool plain_;          // the sum of the fields is F
-    int touched_;
-    Along along_[NEIGHBOURS_MAX];
-    Real own_, ownSlope_;             // F and dF/dt of the own field at the last position
-    Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, if not plain
-};
-
-Path::Path(SoftObject& object, const Patch& patch, const Neighbour* neighbours, const FrameContext& frame)
-    : object_(object), bodies_(*frame.bodies), counts_(*frame.counts)
+Settler::Settler(SoftObject& object, const Neighbour* neighbours, int count, const FrameContext& frame)
+    : object_(object), neighbours_(neighbours), bodies_(*frame.bodies), counts_(*frame.counts)
 {
-    for (int word = 0; word < static_cast<int>(sizeof patch.reached / sizeof patch.reached[0]); ++word)
-        for (uint32_t bits = patch.reached[word]; bits != 0; bits &= bits - 1)
-            near_[reached_++].near = neighbours + 32 * word + __builtin_ctz(bits);
     complete_ = true;
-    for (int i = 0; i < reached_ && complete_; ++i) {
-        const int slot = near_[i].near->object->slot();
-        complete_ = bodies_.weight(object_.slot(), slot) == Real(1);
+    for (int i = 0; i < count; ++i) {
+        from_[i].root = -1;
+        const int slot = neighbours[i].object->slot();
+        complete_ = complete_ && bodies_.weight(object_.slot(), slot) == Real(1);
         for (int j = 0; j < i && complete_; ++j)
-            complete_ = bodies_.weight(near_[j].near->object->slot(), slot) == Real(1);
+            complete_ = bodies_.weight(neighbours[j].object->slot(), slot) == Real(1);
     }
-    plain_ = complete_;
 }
 
-void Path::setRoot(const Seed& s)
+void Settler::setPatch(const Patch& patch)
 {
-    rootIndex_ = s.root;
-    root_ = object_.root(s.root);
-    for (int i = 0; i < reached_; ++i) {
-        FromRoot& to = near_[i];
-        const Neighbour& near = *to.near;
-        if (near.kind == Neighbour::POINT) {
-            const Vector e = (root_ - near.centre) * near.inverse16;
-            const Vector d = s.path * near.inverse16;
-            to.a = shiftDown(dot(e, e), 8);
-            to.c = shiftDown(dot(d, d), 8);
-            to.twice16 = e * shiftDown(near.inverse16, 3);
-        } else {
-            to.from = near.inCore(root_) + near.offset;
+    reached_ = 0;
+    smallest_ = object_.laidSize();
+    for (int word = 0; word < static_cast<int>(sizeof patch.reached / sizeof patch.reached[0]); ++word)
+        for (uint32_t bits = patch.reached[word]; bits != 0; bits &= bits - 1) {
+            const int i = 32 * word + __builtin_ctz(bits);
+            reachedBy_[reached_++] = static_cast<uint8_t>(i);
+            smallest_ = least(smallest_, neighbours_[i].size);
         }
+}
+
+// What is the same for all seeds of a root.
+void Settler::setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const
+{
+    to.root = s.root;
+    const Vector& root = object_.root(s.root);
+    if (near.kind == Neighbour::POINT) {
+        const Vector e = (root - near.centre) * near.inverse16;
+        const Vector d = s.path * near.inverse16;
+        to.a = shiftDown(dot(e, e), 8);
+        to.c = shiftDown(dot(d, d), 8);
+        to.twice16 = e * shiftDown(near.inverse16, 3);
+    } else {
+        to.from = near.inCore(root) + near.offset;
     }
 }
 
 // Finds out which neighbours reach the path where the seed may lie. False: none.
-bool Path::touch(const Seed& s)
+bool Settler::touch(const Seed& s)
 {
-    if (s.root != rootIndex_)
-        setRoot(s);
+    root_ = object_.root(s.root);
     path_ = s.path;
     bool reached = false;
     Along* along = along_;
-    for (const FromRoot *from = near_, *const end = near_ + reached_; from < end; ++from) {
-        along->near = from->near;
-        if (from->near->kind == Neighbour::POINT) {
-            const Real b = shiftDown(dot(path_, from->twice16), 4);
-            if (from->a + b + from->c < Real(1)) {
+    for (int i = 0; i < reached_; ++i) {
+        const Neighbour& near = neighbours_[reachedBy_[i]];
+        FromRoot& from = from_[reachedBy_[i]];
+        if (from.root != s.root)
+            setRoot(near, s, from);
+        along->near = &near;
+        if (near.kind == Neighbour::POINT) {
+            const Real b = shiftDown(dot(path_, from.twice16), 4);
+            if (from.a + b + from.c < Real(1)) {
                 reached = true;
             } else {
                 // Out of reach at rest: within reach on the way out?
-                const auto beyond = [&](Real p) { return from->a + p * (b + p * from->c) >= Real(1); };
-                if (b + from->c + from->c >= Real(0) || (beyond(Real(1.4)) && beyond(Real(1.9))))
+                const auto beyond = [&](Real p) { return from.a + p * (b + p * from.c) >= Real(1); };
+                if (b + from.c + from.c >= Real(0) || (beyond(Real(1.4)) && beyond(Real(1.9))))
                     continue;
             }
-            along->a = from->a;
+            along->a = from.a;
             along->b = b;
-            along->c = from->c;
+            along->c = from.c;
         } else {
-            along->from = from->from;
-            along->step = from->near->inCore(path_);
+            along->from = from.from;
+            along->step = near.inCore(path_);
             Vector unused;
-            if (from->near->param(along->from + along->step, &unused) < Real(1))
+            if (near.param(along->from + along->step, &unused) < Real(1))
                 reached = true;
-            else if (from->near->param(along->from + along->step * Real(1.5), &unused) >= Real(1))
+            else if (near.param(along->from + along->step * Real(1.5), &unused) >= Real(1))
                 continue;
         }
         ++along;
@@ -157,7 +113,7 @@ bool Path::touch(const Seed& s)
 }
 
 // Whether those that touch the path are all linked with each other at weight 1.
-bool Path::mutual() const
+bool Settler::mutual() const
 {
     for (int i = 0; i < touched_; ++i) {
         const int slot = along_[i].near->object->slot();
@@ -170,7 +126,7 @@ bool Path::mutual() const
     return true;
 }
 
-Sample Path::look(Real position)
+Sample Settler::look(Real position)
 {
     ++counts_.iterations;
     const Real t = shiftDown(position * position, 2);
@@ -208,7 +164,7 @@ Sample Path::look(Real position)
 
 // The body's field where not all are linked with all at weight 1 (model/body.h), from the fields that look() found. With
 // x_i = f_i / the strongest, dF/df_k = (2 x_k (g_k - F) / strongest + x_k^2 + sum of w_ik x_i^2) / sum of x_i^2.
-void Path::blend(Real position, Sample& sample)
+void Settler::blend(Real position, Sample& sample)
 {
     const int count = touched_ + 1;
     Real f[NEIGHBOURS_MAX + 1], x2[NEIGHBOURS_MAX + 1], x[NEIGHBOURS_MAX + 1], g[NEIGHBOURS_MAX + 1];
@@ -258,7 +214,7 @@ void Path::blend(Real position, Sample& sample)
 
 // Newton's method from a sample already taken. True: `*position` is on the surface, and `*sample` was taken there or a
 // short step before.
-bool Path::follow(Real* position, Sample* sample)
+bool Settler::follow(Real* position, Sample* sample)
 {
     for (int i = 0; i < NEWTON_STEPS; ++i) {
         if (absolute(sample->excess) <= TOLERANCE && sample->slope <= FLAT)
@@ -277,7 +233,7 @@ bool Path::follow(Real* position, Sample* sample)
 }
 
 // Between a position inside and one outside.
-bool Path::bisect(Real inside, Real outside, Real* position, Sample* sample)
+bool Settler::bisect(Real inside, Real outside, Real* position, Sample* sample)
 {
     for (int i = 0; i < 12; ++i) {
         *position = shiftDown(inside + outside, 1);
@@ -302,7 +258,7 @@ bool Path::bisect(Real inside, Real outside, Real* position, Sample* sample)
 
 // Looks for the first place where the path leaves the surface. False: there is none, and `*position` is where the field was
 // lowest.
-bool Path::search(Real* position, Sample* sample)
+bool Settler::search(Real* position, Sample* sample)
 {
     Real before = FIRST, lowest = FIRST;
     Sample there = look(before);
@@ -340,7 +296,7 @@ bool Path::search(Real* position, Sample* sample)
 
 // The direction in which the field falls at a position that has just been looked at, any length, own axes: each field pushes
 // away from its core by its slope over its squared size.
-Vector Path::outward(Real position) const
+Vector Settler::outward(Real position) const
 {
     const Real own = plain_ ? ownSlope_ : ownSlope_ * share_[0];
     const Vector place = root_ + path_ * position;
@@ -365,7 +321,7 @@ Vector Path::outward(Real position) const
     return g;
 }
 
-void Path::settle(Seed& s)
+Real Settler::settle(Seed& s)
 {
     if (!touch(s)) {
         if (!(s.flags & SEED_RESTING)) {
@@ -373,7 +329,7 @@ void Path::settle(Seed& s)
             s.normal = object_.restNormal(s);
         }
         s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
-        return;
+        return Real(0);
     }
     plain_ = complete_ || mutual();
     ++counts_.updated;
@@ -381,22 +337,56 @@ void Path::settle(Seed& s)
     s.flags &= SEED_ACTIVE;
     Real position = s.position;
     Sample sample = look(position);
-    if (!wasValid && (sample.excess > DEEP || sample.dominance > OVERSHOOT + DEEP))
-        return;
+    if (!wasValid) {
+        const Real margin = most(sample.excess, sample.dominance - OVERSHOOT);
+        if (margin > DEEP)
+            return margin;
+    }
     if (!follow(&position, &sample)) {
         const bool found = search(&position, &sample);
         s.position = position;
         if (!found)
-            return;
+            return sample.excess;
     }
     s.position = position;
     if (sample.dominance > OVERSHOOT)
-        return;
+        return sample.dominance - OVERSHOOT;
     const Normal n = normalise(outward(position));
     s.normal = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
-    s.flags |= SEED_VALID;
+    s.flags |= sample.dominance > -BORDER ? SEED_VALID | SEED_BORDER : SEED_VALID;
     ++counts_.normals;
+    return Real(0);
 }
+
+PatchState Settler::probe(const Patch& patch, const OwnFrame& own)
+{
+    Seed& s = object_.seed(patch.centre);
+    const Real margin = settle(s);
+    if (!(s.flags & SEED_VALID)) {
+        // The other seeds are no farther than the patch reaches, across which a field changes by its size at most.
+        const Real enough = realFromRaw(patch.radius << 12) / smallest_ * STEEPEST;
+        return margin > clamp(enough, Real(0.1), Real(0.45)) ? PATCH_INSIDE : PATCH_MIXED;
+    }
+    return facing(object_, s, own) < -(patch.spread + TURNED) ? PATCH_AWAY : PATCH_MIXED;
+}
+
+void Settler::settleRest(const Patch& patch)
+{
+    const Seed& centre = object_.seed(patch.centre);
+    forSeeds(patch, [&](int i) {
+        Seed& s = object_.seed(i);
+        if (&s == &centre)
+            return;
+        if (s.flags & SEED_ASLEEP) {
+            // It has slept: it is likely to be where the one in the middle is.
+            s.position = centre.position;
+            s.flags = SEED_VALID;
+        }
+        settle(s);
+    });
+}
+
+namespace {
 
 // Whether the seed between a seed and its neighbour N is needed: only one of the two is on the surface, or they have parted.
 bool parted(const SoftObject& object, const Seed& s)
@@ -404,6 +394,8 @@ bool parted(const SoftObject& object, const Seed& s)
     if (s.neighbour < 0)
         return false;
     const Seed& n = object.seed(s.neighbour);
+    if (n.flags & SEED_ASLEEP)
+        return false;
     if ((s.flags ^ n.flags) & SEED_VALID)
         return true;
     return (s.flags & SEED_VALID) && absolute(s.position - n.position) * object.radius() > object.spacing() * PARTED;
@@ -411,39 +403,19 @@ bool parted(const SoftObject& object, const Seed& s)
 
 }  // namespace
 
-void settle(SoftObject& object, Patch& patch, const Neighbour* neighbours, const FrameContext& frame)
+void Settler::oversample(const Patch& patch)
 {
-    Path path(object, patch, neighbours, frame);
-    uint8_t valid = 0;
     forSeeds(patch, [&](int i) {
-        Seed& s = object.seed(i);
-        path.settle(s);
-        valid |= s.flags;
-    });
-    patch.barren = !(valid & SEED_VALID);
-}
-
-void oversample(SoftObject& object, const Patch& patch, const Neighbour* neighbours, const FrameContext& frame)
-{
-    bool any = false;
-    forSeeds(patch, [&](int i) {
-        Seed& extra = object.seed(i + 1);
-        if (!parted(object, object.seed(i))) {
+        Seed& extra = object_.seed(i + 1);
+        if (!parted(object_, object_.seed(i))) {
             extra.flags = 0;
             return;
         }
-        any = true;
         if (!(extra.flags & SEED_ACTIVE)) {
             extra.flags = SEED_ACTIVE | SEED_VALID;
-            extra.position = object.seed(i).position;
+            extra.position = object_.seed(i).position;
         }
-    });
-    if (!any)
-        return;
-    Path path(object, patch, neighbours, frame);
-    forSeeds(patch, [&](int i) {
-        if (object.seed(i + 1).flags & SEED_ACTIVE)
-            path.settle(object.seed(i + 1));
+        settle(extra);
     });
 }
 
@@ -451,17 +423,20 @@ void rest(SoftObject& object, const Patch& patch)
 {
     forSeeds(patch, [&](int i) {
         Seed& s = object.seed(i);
+        object.seed(i + 1).flags = 0;
+        if (s.flags == (SEED_VALID | SEED_RESTING))
+            return;
         s.position = Real(1);
         s.normal = object.restNormal(s);
         s.flags = SEED_VALID | SEED_RESTING;
-        object.seed(i + 1).flags = 0;
     });
 }
 
-void lose(SoftObject& object, const Patch& patch)
+void sleep(SoftObject& object, const Patch& patch)
 {
     forSeeds(patch, [&](int i) {
-        object.seed(i).flags = object.seed(i + 1).flags = 0;
-        object.seed(i).position = Real(1);
+        object.seed(i + 1).flags = 0;
+        if (i != patch.centre)
+            object.seed(i).flags = SEED_ASLEEP;
     });
 }

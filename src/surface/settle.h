@@ -4,17 +4,87 @@
 
 #include "patch.h"
 
-// Settles the regular seeds of a patch that neighbours reach: position, normal and flags. A seed that finds no surface of its
-// own object is left without SEED_VALID.
-void settle(SoftObject& object, Patch& patch, const Neighbour* neighbours, const FrameContext& frame);
+// A neighbour's field along the path at hand.
+struct Along {
+    const Neighbour* near;
+    Real a, b, c;       // a point: t = a + p (b + p c)
+    Vector from, step;  // else: from + p step, in its core space
+    // At the last position looked at.
+    Real value, slope;  // F and dF/dt
+    Real change;        // dt/dp
+    Vector out;         // half the gradient of t in its core space, times CORE_SIZE^2; no point
+};
 
-// Settles those oversampled seeds of such a patch that are needed, when all regular ones have been; the others end.
-void oversample(SoftObject& object, const Patch& patch, const Neighbour* neighbours, const FrameContext& frame);
+// The body's field at a position: its excess over the isovalue, its slope along the path, how much stronger than the own
+// field the strongest neighbour's is.
+struct Sample {
+    Real excess, slope, dominance;
+};
+
+// A neighbour as the seeds of one root see it: what is the same for all of them.
+struct FromRoot {
+    int root;        // index of the root; -1: none yet
+    Real a, c;       // a point: squared distance of the root and squared length of the paths, over squared size
+    Vector twice16;  // 32 (root - centre) / size^2
+    Vector from;     // else: the root in its core space
+};
+
+// Settles the seeds of one object, one settler for every scene. Made once for an object and a frame.
+class Settler {
+public:
+    Settler(SoftObject& object, const Neighbour* neighbours, int count, const FrameContext& frame);
+
+    // To be called before anything else about the seeds of a patch.
+    void setPatch(const Patch& patch);
+
+    // Settles the seed in the middle of a patch that neighbours reach, and says from it what becomes of the patch.
+    PatchState probe(const Patch& patch, const OwnFrame& own);
+
+    // Settles the other regular seeds of a patch.
+    void settleRest(const Patch& patch);
+
+    // Settles those oversampled seeds of a patch that are needed, when all regular ones have been; the others end.
+    void oversample(const Patch& patch);
+
+private:
+    // Sets position, normal and flags of a seed. One that finds no surface of its own object is left without SEED_VALID;
+    // returned is then by how much of the field it lies inside.
+    Real settle(Seed& s);
+    void setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const;
+    bool touch(const Seed& s);
+    Sample look(Real position);
+    bool mutual() const;
+    void blend(Real position, Sample& sample);
+    bool follow(Real* position, Sample* sample);
+    bool search(Real* position, Sample* sample);
+    bool bisect(Real inside, Real outside, Real* position, Sample* sample);
+    Vector outward(Real position) const;
+
+    SoftObject& object_;
+    const Neighbour* neighbours_;
+    const Bodies& bodies_;
+    Counts& counts_;
+    bool complete_;       // all neighbours are linked with each other, and with the object, at weight 1
+    FromRoot from_[NEIGHBOURS_MAX];
+
+    // Of the patch: those that reach it, and the size of the smallest, or of the object.
+    int reached_ = 0;
+    uint8_t reachedBy_[NEIGHBOURS_MAX];
+    Real smallest_;
+
+    // Of the path at hand.
+    Vector root_, path_;
+    bool plain_;                      // the sum of the fields is F
+    int touched_;
+    Along along_[NEIGHBOURS_MAX];
+    Real own_, ownSlope_;             // F and dF/dt of the own field at the last position
+    Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, if not plain
+};
 
 // Puts the seeds of a patch where no neighbour reaches them.
 void rest(SoftObject& object, const Patch& patch);
 
-// Marks the seeds of a patch as not on the surface.
-void lose(SoftObject& object, const Patch& patch);
+// Puts all seeds of a patch but the one in the middle to sleep: they are neither settled nor drawn.
+void sleep(SoftObject& object, const Patch& patch);
 
 #endif

@@ -26,22 +26,20 @@ constexpr int32_t NEAREST = 32;
 // No scale is stretched to more than two and a half times its cell by blending: cosine of path and normal.
 constexpr int32_t LEAST_COSINE = 6500;
 
-// What a scale is larger than its cell: a part of the spacing (1.0 = 64 * 256), and what places of seeds are uncertain by
-// (1/256 unit).
-constexpr int32_t MARGIN = 64 * 256 * 3 / 64;
-constexpr int32_t MARGIN_UNITS = 6;
+// What a scale is larger than its cell to each side: a part of the cell (1/32), and what places are uncertain by (1/256 unit).
+constexpr int32_t MARGIN = 1;
+constexpr int32_t MARGIN_UNITS = 14;
 
-// A cell whose path and normal part by more than this cosine says lies in no even band of its ring (inverse, 12 bits of
-// fraction).
+// Beyond this cosine of path and normal a cell lies in no even band of its ring; inverse, 12 bits of fraction.
 constexpr int32_t UNEVEN = 4329;
 
 // Change of brightness (1/8 step) from the middle of a scale to its corner below which it has one brightness.
-constexpr int32_t FLAT = 12;
+constexpr int32_t FLAT = 8;
 
 }  // namespace
 
 Shader::Shader(const SoftObject& object, const OwnFrame& own, const FrameContext& frame)
-    : object_(object), own_(own), grown_(object.size() != object.laidSize()),
+    : object_(object), own_(own), grown_(object.size() != object.laidSize()), turned_(!object.isBall()),
       spacing_(rawFromReal(object.spacing() * own.growth) >> 8)
 {
     const Vector place = object.centre() - frame.eye;
@@ -53,6 +51,7 @@ Shader::Shader(const SoftObject& object, const OwnFrame& own, const FrameContext
     limb_ = object.coreReach() > Real(0) ? own.distance32 >> 7 : own.distance32 * 5 >> 7;
     generalHorizon_ = rawFromReal(object.horizonRadius(own.eye)) >> 11;
     horizon_ = generalHorizon_;
+    inverseRadius_ = (1 << 24) / ((rawFromReal(shiftDown(object.laidSize(), 1)) >> 10) + 1);
 }
 
 void Shader::setPatch(const Patch& patch)
@@ -61,7 +60,8 @@ void Shader::setPatch(const Patch& patch)
     int32_t view[3];
     const int32_t* const axes[] = {own_.right, own_.up, own_.ahead};
     for (int i = 0; i < 3; ++i)
-        view[i] = (patch.middle[0] * axes[i][0] + patch.middle[1] * axes[i][1] + patch.middle[2] * axes[i][2]) >> 13;
+        view[i] = turned_ ? (patch.middle[0] * axes[i][0] + patch.middle[1] * axes[i][1] + patch.middle[2] * axes[i][2]) >> 13
+                          : patch.middle[i] * 2;
     const int32_t depth = depth_ + view[2] < NEAREST ? NEAREST : depth_ + view[2];
     const int32_t shearX = limited(((away_[0] + view[0]) << 12) / depth, 5 << 12);
     const int32_t shearY = limited(((away_[1] + view[1]) << 12) / depth, 5 << 12);
@@ -70,137 +70,182 @@ void Shader::setPatch(const Patch& patch)
         row_[i] = own_.up[i] - (own_.ahead[i] * shearY >> 12);
     }
     if (object_.roots() > 1) {
-        const Seed& s = object_.seed(2 * patch.first[0]);
+        const Seed& s = object_.seed(patch.centre);
         horizon_ = rawFromReal(object_.horizonAt(object_.root(s.root), realFromRaw(generalHorizon_ << 11))) >> 11;
     }
 }
 
-bool Shader::shade(const Seed& s, bool oversampled, Voxel* voxel)
+// Place, tilt and brightness. False: it faces away.
+bool Shader::place(const Seed& s, Voxel* voxel)
 {
-    // The seed's place from the centre, own axes.
     Vector place = object_.root(s.root) + (s.flags & SEED_RESTING ? s.path : s.path * s.position);
     if (grown_)
         place = place * own_.growth;
     const int32_t x = rawFromReal(place.x) >> 8, y = rawFromReal(place.y) >> 8, z = rawFromReal(place.z) >> 8;
-    const int32_t facing = (s.normal.x * (own_.eye32[0] - (x >> 3)) + s.normal.y * (own_.eye32[1] - (y >> 3)) +
-                            s.normal.z * (own_.eye32[2] - (z >> 3))) >> 14;
-    if (facing <= limb_)
+    const Direction14 n = s.normal;
+    facing_ = (n.x * (own_.eye32[0] - (x >> 3)) + n.y * (own_.eye32[1] - (y >> 3)) + n.z * (own_.eye32[2] - (z >> 3))) >> 14;
+    if (facing_ <= limb_)
         return false;
-    voxel->x = (x * own_.right[0] + y * own_.right[1] + z * own_.right[2]) >> 14;
-    voxel->y = (x * own_.up[0] + y * own_.up[1] + z * own_.up[2]) >> 14;
-    voxel->z = (x * own_.ahead[0] + y * own_.ahead[1] + z * own_.ahead[2]) >> 14;
+    int32_t nx = n.x, ny = n.y;
+    if (turned_) {
+        voxel->x = (x * own_.right[0] + y * own_.right[1] + z * own_.right[2]) >> 14;
+        voxel->y = (x * own_.up[0] + y * own_.up[1] + z * own_.up[2]) >> 14;
+        voxel->z = (x * own_.ahead[0] + y * own_.ahead[1] + z * own_.ahead[2]) >> 14;
+        nx = product(n, own_.right);
+        ny = product(n, own_.up);
+    } else {
+        voxel->x = x;
+        voxel->y = y;
+        voxel->z = z;
+    }
     const int32_t depth = depth_ + (voxel->z >> 3);
     if (depth < NEAREST)
         return false;
-    extents(s, facing, oversampled, voxel);
     // The tangent plane: depth changes by n.x depth / (n . to eye) for a unit across the view.
-    const int32_t steep = (depth << 8) / facing;
-    voxel->tiltX = static_cast<int16_t>(limited(product(s.normal, own_.right) * steep >> 14, 20000));
-    voxel->tiltY = static_cast<int16_t>(limited(product(s.normal, own_.up) * steep >> 14, 20000));
-    end(facing, depth, voxel);
-    voxel->brightness = static_cast<uint8_t>((brightness8(s.normal, own_.light) + 128) >> 8);
-    slopes(s, oversampled, voxel);
+    const int32_t steep = (depth << 8) / facing_;
+    voxel->tiltX = static_cast<int16_t>(limited(nx * steep >> 14, 20000));
+    voxel->tiltY = static_cast<int16_t>(limited(ny * steep >> 14, 20000));
+    voxel->cutX = voxel->cutY = 0;
+    voxel->cutAt = 0;
+    brightness_ = brightnessOf(s);
+    voxel->brightness = static_cast<uint8_t>((brightness_ + 128) >> 8);
     return true;
 }
 
-// Half width and height: the cell of the unblended surface that is the seed's own, grown with the position, as it falls along
-// the path onto the tangent plane. A half axis e becomes e - u (e.n) / (u.n) with u the path.
-void Shader::extents(const Seed& s, int32_t, bool oversampled, Voxel* voxel)
+// The cell of the unblended surface that is the seed's own, so many times as long (1/16), grown with the position, as it falls
+// along the path onto the tangent plane. A half axis e becomes e - u (e.n) / (u.n) with u the path.
+void Shader::cell(const Seed& s, int32_t along16, int32_t across16)
 {
-    const auto along = [&](const int32_t axis[3]) { return s.along[0] * axis[0] + s.along[1] * axis[1] + s.along[2] * axis[2]; };
-    const auto across = [&](const int32_t axis[3]) { return s.across[0] * axis[0] + s.across[1] * axis[1] + s.across[2] * axis[2]; };
-    alongX_ = along(column_) >> 6;
-    alongY_ = along(row_) >> 6;
-    acrossX_ = across(column_) >> 6;
-    acrossY_ = across(row_) >> 6;
+    const auto along = [&](const int32_t a[3]) { return s.along[0] * a[0] + s.along[1] * a[1] + s.along[2] * a[2]; };
+    const auto across = [&](const int32_t a[3]) { return s.across[0] * a[0] + s.across[1] * a[1] + s.across[2] * a[2]; };
+    // 1/64 spacing, 8 bits of fraction.
+    int32_t ax = along(column_) >> 6, ay = along(row_) >> 6, cx = across(column_) >> 6, cy = across(row_) >> 6;
     int32_t size = spacing_;
-    bool whole = oversampled;
+    uneven_ = false;
     if (!(s.flags & SEED_RESTING)) {
         const int32_t ux = rawFromReal(s.path.x) >> 10, uy = rawFromReal(s.path.y) >> 10, uz = rawFromReal(s.path.z) >> 10;
-        const int32_t radius = rawFromReal(object_.radius()) >> 10;
-        int32_t cosine = (ux * s.normal.x + uy * s.normal.y + uz * s.normal.z) / (radius < 1 ? 1 : radius);
+        int32_t cosine = mulShift16((ux * s.normal.x + uy * s.normal.y + uz * s.normal.z) >> 6, inverseRadius_) >> 2;
         if (cosine < LEAST_COSINE)
             cosine = LEAST_COSINE;
         const int32_t inverse = (1 << 26) / cosine;  // 12 bits of fraction
-        whole = whole || inverse > UNEVEN;
+        uneven_ = inverse > UNEVEN;
         // (e.n) / (u.n), 1/64 spacing with 8 bits of fraction.
         const int32_t n[] = {s.normal.x, s.normal.y, s.normal.z};
         const int32_t offAlong = (along(n) >> 6) * (inverse >> 4) >> 8;
         const int32_t offAcross = (across(n) >> 6) * (inverse >> 4) >> 8;
-        const int32_t uX = (ux * column_[0] + uy * column_[1] + uz * column_[2]) / (radius < 1 ? 1 : radius);
-        const int32_t uY = (ux * row_[0] + uy * row_[1] + uz * row_[2]) / (radius < 1 ? 1 : radius);
-        alongX_ -= offAlong * uX >> 14;
-        alongY_ -= offAlong * uY >> 14;
-        acrossX_ -= offAcross * uX >> 14;
-        acrossY_ -= offAcross * uY >> 14;
+        const int32_t ox = mulShift16((ux * column_[0] + uy * column_[1] + uz * column_[2]) >> 6, inverseRadius_) >> 2;
+        const int32_t oy = mulShift16((ux * row_[0] + uy * row_[1] + uz * row_[2]) >> 6, inverseRadius_) >> 2;
+        ax -= offAlong * ox >> 14;
+        ay -= offAlong * oy >> 14;
+        cx -= offAcross * ox >> 14;
+        cy -= offAcross * oy >> 14;
         size = size * (rawFromReal(s.position) >> 8) >> 8;
     }
-    const int32_t ax = magnitude(alongX_), ay = magnitude(alongY_);
+    along_.x = (ax * size >> 14) * along16 >> 4;
+    along_.y = (ay * size >> 14) * along16 >> 4;
+    across_.x = (cx * size >> 14) * across16 >> 4;
+    across_.y = (cy * size >> 14) * across16 >> 4;
+}
+
+// Half width and height of the scale. Beside each other, cells of a ring make a band: rectangles as wide as the way from one
+// to the next need not cover the whole of their cells, only, together, the band.
+void Shader::extents(bool whole, Voxel* voxel) const
+{
+    const int32_t ax = magnitude(along_.x), ay = magnitude(along_.y);
     int32_t width = ax, height = ay;
-    // Beside each other, cells of a ring make a band: rectangles as wide as the way from one to the next need not cover the
-    // whole of their cells, only, together, the band. Where the surface is much deformed the ring is no even band.
     if (whole) {
-        width += magnitude(acrossX_);
-        height += magnitude(acrossY_);
+        width += magnitude(across_.x);
+        height += magnitude(across_.y);
     } else if (ax > ay) {
-        height += magnitude(acrossY_ - acrossX_ * (alongY_ * 64 / alongX_) / 64);
+        height += magnitude(across_.y - across_.x * ((along_.y << 6) / along_.x) / 64);
     } else if (ay > 0) {
-        width += magnitude(acrossX_ - acrossY_ * (alongX_ * 64 / alongY_) / 64);
+        width += magnitude(across_.x - across_.y * ((along_.x << 6) / along_.y) / 64);
     }
-    voxel->wide = static_cast<int16_t>(((width + MARGIN) * size >> 14) + MARGIN_UNITS);
-    voxel->high = static_cast<int16_t>(((height + MARGIN) * size >> 14) + MARGIN_UNITS);
+    voxel->wide = static_cast<int16_t>(limited(width + (width >> 5) * MARGIN + MARGIN_UNITS, 32000));
+    voxel->high = static_cast<int16_t>(limited(height + (height >> 5) * MARGIN + MARGIN_UNITS, 32000));
 }
 
 // Where a round surface bends out of sight its tangent plane goes on: the scale ends there. The limb is cos^2 radius / 2
 // away across the view, with cos the cosine of normal and viewer; along the plane that is cos radius / 2 deep.
-void Shader::end(int32_t facing, int32_t, Voxel* voxel) const
+void Shader::end(Voxel* voxel) const
 {
     const int32_t curvature = horizon_ > 8000 ? 8000 : horizon_;
-    const int32_t reach = curvature * facing / (2 * own_.distance32) + 1;
+    const int32_t reach = curvature * facing_ / (2 * own_.distance32) + 1;
     voxel->reach = 0;
     if (reach < 256 && (magnitude(voxel->tiltX) * voxel->wide + magnitude(voxel->tiltY) * voxel->high) >> 11 >= reach)
         voxel->reach = static_cast<uint8_t>(reach);
 }
 
-// How the brightness changes across the scale, from what it is at the next seed of the ring and at N of the ring before: two
-// ways on the surface with the change along each.
-void Shader::slopes(const Seed& s, bool oversampled, Voxel* voxel) const
+// How the brightness changes across the scale, from its change along two ways.
+void Shader::slopes(const Way& along, const Way& across, Voxel* voxel)
 {
     voxel->slopeX = voxel->slopeY = 0;
-    const int index = static_cast<int>(&s - &object_.seed(0));
-    if (oversampled || s.neighbour < 0)
+    const int32_t det = along.x * across.y - along.y * across.x;
+    if (magnitude(det) < 512)
         return;
-    const int32_t here = brightness8(s.normal, own_.light);
-    // Half way along the ring: forwards, or at its end backwards.
-    int32_t along = 0;
-    const Seed* next = index + 2 < object_.seedSlots() ? &s + 2 : &s;
-    const Seed* last = index >= 2 ? &s - 2 : &s;
-    if ((next->flags & SEED_VALID) && next->neighbour >= s.neighbour)
-        along = (brightness8(next->normal, own_.light) - here) >> 1;
-    else if (last->flags & SEED_VALID)
-        along = (here - brightness8(last->normal, own_.light)) >> 1;
-    const Seed& n = object_.seed(s.neighbour);
-    int32_t across = 0;
-    if (n.flags & SEED_VALID)
-        across = (here - brightness8(n.normal, own_.light) + (along * 2 * s.aside >> 6)) >> 1;
-    const int32_t det = (alongX_ * acrossY_ - alongY_ * acrossX_) >> 8;
-    if (magnitude(det) < 256)
-        return;
-    // Steps with 8 bits over 1/64 spacing with 8 bits, to 1/8 step a unit.
-    const auto slope = [&](int32_t top) {
-        // top: 16 bits of fraction and det 8, of steps * half axes
-        return limited(top / det, 1 << 20);
+    // Per unit, in 1/8 step.
+    const int32_t inverse = (1 << 28) / det;
+    const auto slope = [inverse](int32_t top) {
+        return static_cast<int32_t>(static_cast<int64_t>(top) * inverse >> 25);
     };
-    int32_t gx = slope(along * acrossY_ - across * alongY_), gy = slope(alongX_ * across - acrossX_ * along);
-    gx = mulDiv(gx, 64 * 8 * 256 / 256, spacing_ < 1 ? 1 : spacing_);
-    gy = mulDiv(gy, 64 * 8 * 256 / 256, spacing_ < 1 ? 1 : spacing_);
-    int32_t corner = (magnitude(gx) * voxel->wide + magnitude(gy) * voxel->high) >> 8;
+    int32_t x = slope(along.change * across.y - across.change * along.y);
+    int32_t y = slope(along.x * across.change - across.x * along.change);
+    int32_t corner = (magnitude(x) * voxel->wide + magnitude(y) * voxel->high) >> 8;
     if (corner < FLAT)
         return;
     for (; corner > SHADING_MOST * 8; corner >>= 1) {
-        gx /= 2;
-        gy /= 2;
+        x /= 2;
+        y /= 2;
     }
-    voxel->slopeX = static_cast<int8_t>(limited(gx, 127));
-    voxel->slopeY = static_cast<int8_t>(limited(gy, 127));
+    voxel->slopeX = static_cast<int8_t>(limited(x, 127));
+    voxel->slopeY = static_cast<int8_t>(limited(y, 127));
+}
+
+bool Shader::shade(const Seed& s, bool oversampled, Voxel* voxel)
+{
+    if (!place(s, voxel))
+        return false;
+    cell(s, 16, 16);
+    extents(oversampled || uneven_, voxel);
+    end(voxel);
+    voxel->slopeX = voxel->slopeY = 0;
+    if (oversampled || s.neighbour < 0)
+        return true;
+    // Half way along the ring: to the next seed of it, or at its end from the one before. Half way across: from N.
+    const Seed &next = (&s)[2], &last = (&s)[-2], &n = object_.seed(s.neighbour);
+    along_.change = across_.change = 0;
+    if (&next <= &object_.seed(object_.seedSlots() - 2) && (next.flags & SEED_VALID) && next.neighbour >= s.neighbour)
+        along_.change = (brightnessOf(next) - brightness_) >> 1;
+    else if (last.flags & SEED_VALID)
+        along_.change = (brightness_ - brightnessOf(last)) >> 1;
+    if (n.flags & SEED_VALID)
+        across_.change = (brightness_ - brightnessOf(n) + (along_.change * s.aside >> 5)) >> 1;
+    slopes(along_, across_, voxel);
+    return true;
+}
+
+Shader::Way Shader::wayTo(const Vector& from, const Vector& to, int32_t change) const
+{
+    const Vector v = to - from;
+    const int32_t x = rawFromReal(v.x) >> 8, y = rawFromReal(v.y) >> 8, z = rawFromReal(v.z) >> 8;
+    return {(x * column_[0] + y * column_[1] + z * column_[2]) >> 15, (x * row_[0] + y * row_[1] + z * row_[2]) >> 15,
+            change >> 1};
+}
+
+bool Shader::shadePatch(const Patch& patch, const Patch* patches, Voxel* voxel)
+{
+    const Seed& s = object_.seed(patch.centre);
+    if (!place(s, voxel))
+        return false;
+    cell(s, patch.width16 + 4, 16 * PATCH_RINGS);
+    extents(uneven_, voxel);
+    end(voxel);
+    const auto rests = [&](const Seed& seed) { return object_.root(seed.root) + seed.path * seed.position; };
+    const Vector here = rests(s);
+    const auto way = [&](int beside) {
+        const Seed& other = object_.seed(patches[beside].centre);
+        return wayTo(here, rests(other), brightnessOf(other) - brightness_);
+    };
+    slopes(way(patch.next), patch.above >= 0 ? way(patch.above) : Way{across_.x, across_.y, 0}, voxel);
+    return true;
 }
