@@ -213,7 +213,7 @@ Figures compare(const Frame &f, const Picture &t) {
         r.smooth2 += error * error;
       }
       if (f.shaded()) {
-        double e = ramps.step(f.pixel(x, y), h.object) - h.shade;
+        double e = (ramps.step(f.pixel(x, y), h.object) - h.shade) * f.scene.lightSteps();
         r.shaded++;
         r.shade2 += e * e;
       }
@@ -237,7 +237,7 @@ void compareFlicker(const Frame &before, const Picture &beforeTruth,
   if (beforeTruth.eyeInside || afterTruth.eyeInside) return;
   r.pairs++;
   const Ramps ramps0(before.scene), ramps1(after.scene);
-  const double jump = RAMP / 4.0, still = RAMP / 16.0;
+  const double steps = after.scene.lightSteps(), jump = RAMP / 4.0 / steps, still = RAMP / 16.0 / steps;
   for (int y = 0; y < HEIGHT; y++)
     for (int x = 0; x < WIDTH; x++) {
       bool d0 = before.drawn(x, y), d1 = after.drawn(x, y);
