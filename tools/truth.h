@@ -113,6 +113,9 @@ struct Hit {
   double depth = -1;  // -1: no surface
   float shade = 0;    // ramp steps, 0 to 63, not rounded
   int object = -1;    // index of the object whose own field is strongest there
+  // One of another colour is as strong, as where cores coincide: the point's
+  // colour is either's, and is not judged.
+  bool tied = false;
   bool any() const { return depth >= 0; }
 };
 
@@ -142,6 +145,7 @@ private:
   struct Work;
   double first(const Work &, const int *which, int n, const double *form, const char *known, bool sum,
                double a, double b) const;
+  bool tie(int object, Vec p) const;
   bool follow(const Work &, int object, double a, double b, double *form) const;
   const Scene &scene;
   std::vector<int> body;     // of each object

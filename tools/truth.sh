@@ -54,10 +54,10 @@ else
 	[ -n "$file" ] || usage "'$scene': no such scene"
 fi
 
-# Frames to play: ten times those to be judged, so that they are spread over the motion.
+# Frames to play: more than those to be judged, so that they are spread over the motion.
 least() { [ "$1" -lt "$2" ] && echo "$1" || echo "$2"; }
 slow=$(least $((frames * 10)) ${minute:-240})
-quick=$(least $((frames * 10)) 210)
+quick=$(least $((frames * 4)) 210)
 every=$(((slow + frames - 1) / frames))
 pairs=$(((2 * quick + frames - 1) / frames))
 [ $pairs -ge 2 ] || pairs=2
@@ -87,7 +87,9 @@ row() {
 		mv "$dir/quick$1/$(printf F%07d "$number")".* "$dir/quick$1/$(printf F%07d $((number + 1)))".* "$dir/pairs$1"
 	done
 	rm -rf "$dir/slow$1" "$dir/quick$1"
-	build/truth --threads "$2" --bars "spacing$1" --row "$name" --worst 2 ${QUIET:---out "$dir/sheets$1"} \
+	sheets=$dir/sheets$1
+	[ -z "${QUIET:-}" ] || sheets=
+	build/truth --threads "$2" --bars "spacing$1" --row "$name" --worst 2 ${sheets:+--out "$sheets"} \
 		${LIMITS:+--limits "$LIMITS"} ${LIST:+--list "$LIST"} "$dir/part$1" "$dir/pairs$1" 2>&1
 }
 

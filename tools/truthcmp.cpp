@@ -122,7 +122,7 @@ bool surfaceNear(const Picture &t, int column, int row, int limit) {
 // Whether a pixel's colour tells its object, and there is surface: which ramp it is by its colour, and by the truth.
 bool coloured(const Frame &f, const Picture &t, const Ramps &ramps, int column, int row, int &drawn, int &truly) {
   const Hit &h = t.at(column, row);
-  if (!h.any() || !f.drawn(column, row)) return false;
+  if (!h.any() || h.tied || !f.drawn(column, row)) return false;
   drawn = ramps.shown(f.pixel(column, row)), truly = ramps.of(h.object);
   return drawn >= 0 && truly >= 0;
 }
