@@ -2,11 +2,15 @@
 //
 //   mkscene SEED [OBJECTS]      writes a scene file to standard output
 //
-// Two to eight spheres (or as many as asked for) of sizes from 5 to 60, on paths of every kind, most of them linked,
-// within what the default camera sees. This file exists so that the picture is tried on scenes nobody chose.
+// Three to nine objects (or as many as asked for) of all kinds, within what the default camera sees; some in groups, most
+// of them moving, some turning, swinging or pulsing; linked in one of several graphs, with weights up to 4. This file
+// exists so that the picture is tried on scenes nobody chose.
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -22,6 +26,78 @@ uint64_t next() {
 
 int between(int low, int high) { return low + (int)(next() % (uint64_t)(high - low + 1)); }
 double tenths(int low, int high) { return between(low * 10, high * 10) / 10.0; }
+// True once in so many times.
+bool once(int times) { return between(1, times) == 1; }
+
+// An axis that is never 0 0 0.
+void printAxis() {
+  int x = between(-2, 2), y = between(-2, 2), z = between(-2, 2);
+  if (!x && !y && !z) y = 1;
+  printf(" axis %d %d %d", x, y, z);
+}
+
+void printTurning(const char *name) {
+  if (once(2)) {
+    printf("spin %s", name);
+    printAxis();
+    const double period = tenths(3, 12);
+    printf(" period %s%.1f\n", once(2) ? "-" : "", period);
+  } else {
+    printf("swing %s", name);
+    printAxis();
+    const int angle = between(10, 70);
+    const double period = tenths(2, 9);
+    printf(" angle %d period %.1f phase 0.%d\n", angle, period, between(0, 9));
+  }
+}
+
+void printMoving(const char *name) {
+  static const char *const planes[] = {"xy", "yz", "zx", "yx", "zy", "xz"};
+  switch (between(0, 3)) {
+    case 0: break;
+    case 1: {
+      const double radius = tenths(2, 26);
+      const char *plane = planes[between(0, 5)];
+      const char *sign = once(2) ? "-" : "";
+      const double period = tenths(2, 12);
+      printf("circle %s radius %.1f plane %s period %s%.1f phase 0.%d\n", name, radius, plane, sign, period, between(0, 9));
+      break;
+    }
+    case 2:
+      printf("path %s", name);
+      for (char axis = 'x'; axis <= 'z'; axis++) {
+        const double amplitude = tenths(0, 20), period = tenths(2, 12);
+        printf(" %c %.1f %.1f 0.%d", axis, amplitude, period, between(0, 9));
+      }
+      printf("\n");
+      break;
+    case 3: {
+      const int keys = between(2, 5);
+      printf("keys %s %s repeat %d\n", name, once(2) ? "smooth" : "linear", 2 * keys);
+      for (int k = 0; k < keys; k++) {
+        const double time = 2 * k + tenths(0, 1), x = tenths(-20, 20), y = tenths(-14, 14), z = tenths(-16, 16);
+        printf("key %s %.1f %.1f %.1f %.1f", name, time, x, y, z);
+        if (once(3)) printf(" angle %d", between(-180, 180));
+        if (once(4)) printf(" scale %.1f", tenths(0, 1) * 0.8 + 0.6);
+        printf("\n");
+      }
+      break;
+    }
+  }
+}
+
+// Three of four links have the report's weight.
+double weight() {
+  if (!once(4)) return 1;
+  return once(2) ? between(2, 9) / 10.0 : between(11, 40) / 10.0;
+}
+
+void printLink(int i, int j) {
+  const double w = weight();
+  printf("blend o%d o%d", i, j);
+  if (w != 1) printf(" %.1f", w);
+  printf("\n");
+}
 
 }  // namespace
 
@@ -33,7 +109,7 @@ int main(int count, char **arguments) {
     return 2;
   }
   state = seed;
-  int objects = between(2, 8);
+  int objects = between(3, 9);
   if (count == 3) {
     objects = atoi(arguments[2]);
     if (objects < 1 || objects > 128) {
@@ -41,42 +117,84 @@ int main(int count, char **arguments) {
       return 2;
     }
   }
-  printf("# Random scene %llu of %d spheres.\n", seed, objects);
-  static const char *const planes[] = {"xy", "yz", "zx", "yx", "zy", "xz"};
-  for (int i = 1; i <= objects; i++) {
-    // Sizes on a scale where halving is as likely as doubling; many objects are small.
-    int size = between(5, 16);
-    for (int d = between(0, objects > 8 ? 1 : 2); d > 0; d--) size = size * 19 / 10;
-    printf("sphere s%d size %d at %.1f %.1f %.1f\n", i, size, tenths(-20, 20), tenths(-14, 14), tenths(-20, 30));
-    switch (between(0, 3)) {
-      case 0: break;
-      case 1:
-        printf("circle s%d radius %.1f plane %s period %s%.1f phase 0.%d\n", i, tenths(2, 26), planes[between(0, 5)],
-               between(0, 1) ? "-" : "", tenths(2, 12), between(0, 9));
-        break;
-      case 2:
-        printf("path s%d", i);
-        for (char axis = 'x'; axis <= 'z'; axis++)
-          printf(" %c %.1f %.1f 0.%d", axis, tenths(0, 20), tenths(2, 12), between(0, 9));
-        printf("\n");
-        break;
-      case 3: {
-        const int keys = between(2, 5);
-        printf("keys s%d %s repeat %d\n", i, between(0, 1) ? "smooth" : "linear", 2 * keys);
-        for (int k = 0; k < keys; k++)
-          printf("key s%d %.1f %.1f %.1f %.1f\n", i, 2 * k + tenths(0, 1), tenths(-20, 20), tenths(-14, 14), tenths(-16, 16));
-        break;
-      }
+  printf("# Random scene %llu of %d objects.\n", seed, objects);
+
+  const int groups = std::max(between(-1, 2), 0);
+  for (int g = 1; g <= groups; g++) {
+    const std::string name = "g" + std::to_string(g);
+    const double x = tenths(-14, 14), y = tenths(-10, 10), z = tenths(-6, 20);
+    printf("group %s at %.1f %.1f %.1f", name.c_str(), x, y, z);
+    if (once(3)) printf(" scale 0.%d", between(6, 9));
+    if (g == 2 && once(2)) printf(" in g1");
+    printf("\n");
+    if (!once(3)) printTurning(name.c_str());
+    if (once(3)) {
+      const int across = between(2, 12);
+      printf("path %s x %d 7 0 z %d 9 0.25\n", name.c_str(), across, between(2, 12));
     }
   }
-  switch (between(0, 3)) {
+
+  // Few of many objects may be large.
+  const int doublings = objects > 24 ? 0 : objects > 9 ? 1 : 2;
+  for (int i = 1; i <= objects; i++) {
+    const std::string name = "o" + std::to_string(i);
+    const int kind = between(0, 8);
+    // Sizes on a scale where halving is as likely as doubling.
+    int size = between(5, 16);
+    const int most = kind < 4 ? doublings : std::min(doublings, 1);
+    for (int d = between(0, most); d > 0; d--) size = size * 19 / 10;
+    if (kind < 4) {
+      printf("sphere %s size %d", name.c_str(), size);
+    } else if (kind < 6) {
+      printf("cylinder %s size %d length %d", name.c_str(), size, between(5, 44));
+    } else if (kind == 6) {
+      printf("torus %s size %d ring %d", name.c_str(), size, std::max(between(8, 28), (size * 5 + 7) / 8));
+    } else if (kind == 7) {
+      printf("disc %s size %d disc %d", name.c_str(), size, between(4, 24));
+    } else {
+      const int tip = between(3, 24);
+      printf("cone %s size %d tip %d length %d", name.c_str(), size, tip, std::max(between(8, 40), (abs(size - tip) + 1) / 2));
+    }
+    const double x = tenths(-20, 20), y = tenths(-14, 14), z = tenths(-16, 30);
+    printf(" at %.1f %.1f %.1f", x, y, z);
+    if (kind >= 4) {
+      const int a = between(-180, 180), b = between(-180, 180);
+      printf(" turn %d %d %d", a, b, between(-180, 180));
+    }
+    if (groups > 0 && !once(3)) printf(" in g%d", between(1, groups));
+    printf("\n");
+    printMoving(name.c_str());
+    if (kind >= 4 && once(2)) printTurning(name.c_str());
+    if (once(5)) {
+      const int by = between(5, 40);
+      printf("pulse %s by 0.%02d period %.1f\n", name.c_str(), by, tenths(2, 8));
+    }
+  }
+
+  switch (between(0, 7)) {
     case 0:
+    case 1: printf("blend all\n"); break;
+    case 2: printf("blend all %.1f\n", between(3, 40) / 10.0); break;
+    case 3:
+      // A chain.
+      for (int i = 2; i <= objects; i++) printLink(i, i - 1);
+      break;
+    case 4:
+      // All with the first.
+      for (int i = 2; i <= objects; i++) printLink(1, i);
+      break;
+    case 5:
+      // Two bodies, each linked throughout.
+      for (int i = 1; i <= objects; i++)
+        for (int j = 1; j < i; j++)
+          if ((i - j) % 2 == 0) printLink(i, j);
+      break;
+    default:
       // About half of the pairs.
       for (int i = 1; i <= objects; i++)
         for (int j = 1; j < i; j++)
-          if (between(0, 1)) printf("blend s%d s%d\n", i, j);
+          if (once(2)) printLink(i, j);
       break;
-    default: printf("blend all\n"); break;
   }
   return 0;
 }

@@ -69,10 +69,10 @@ stats() {
 truth() {
 	make -s build/demo build/truth
 	for spacing in 2 1; do
-		build/demo /G /S:$spacing /N:600 "/D:$dir/f" >"$dir/said"
+		build/demo /S:$spacing /N:600 "/D:$dir/f" >"$dir/said"
 		build/truth "$dir/f" >"$dir/truth$spacing"
 		rm -rf "$dir/f"
-		build/demo /G /S:$spacing /R:70 /N:700 "/D:$dir/f" >"$dir/said"
+		build/demo /S:$spacing /R:70 /N:700 "/D:$dir/f" >"$dir/said"
 		build/truth "$dir/f" >"$dir/flicker$spacing"
 		rm -rf "$dir/f"
 	done
@@ -85,11 +85,13 @@ truth() {
 			echo "| $text | $(value "$name" "$dir/${file}2") | $aim2 | $(value "$name" "$dir/${file}1") | $aim1 |"
 		done <<-END
 		holes|holes: pixels left empty inside the surface|0|0
-		see-through, percent of interior pixels|see-through, % of pixels inside|0.1|0.02
-		outside, percent of drawn pixels|outside, % of drawn pixels|2|1
+		see-through, percent of interior pixels|see-through, % of pixels inside|0.05|0.02
+		outside, percent of drawn pixels|outside, % of drawn pixels|1|0.5
 		depth RMS, units|depth error, RMS, units|1.0|0.6
-		brightness RMS, ramp steps|brightness error, RMS, of 64 steps|5|3
-		flicker, percent of drawn pixels|flicker, % of drawn pixels|0.1|0.1
+		brightness RMS, ramp steps|brightness error, RMS, of 64 steps|2.5|1.5
+		flicker, percent of drawn pixels|flicker, % of drawn pixels|0.1|0.05
+		colour, percent of drawn pixels|another object's colour more than a pixel away from it, % of drawn pixels|0.05|0.02
+		border, drawn over true length|borders between colours, drawn over true length|1.3|1.2
 		END
 	} >"$dir/truth"
 	put truth "$dir/truth"

@@ -35,7 +35,8 @@ const char usage[] =
     "                   beyond its bar with a '!'\n"
     "  --limits FILE    with --row: lines \"name spacing figure limit\", figures as\n"
     "                   the table has them. A figure listed for this name and\n"
-    "                   spacing breaks its bar only beyond its limit ('!!')\n"
+    "                   spacing breaks its bar only beyond its limit; one\n"
+    "                   that breaks it bears '!!'\n"
     "  --list FILE      with --row: append the figures to FILE, as such lines\n"
     "  --every N        judge only every Nth frame (1; more leaves flicker out)\n"
     "  --pairs          and the frame after each of them, for flicker\n"
@@ -220,7 +221,7 @@ bool readLimits(const std::string &path, std::vector<Limit> &limits, std::string
 }
 
 // One row of the table. True if nothing is beyond its bar and its limit.
-bool printRow(const std::string &name, int spacing, const std::vector<Limit> &limits, const std::string &listName,
+bool printRow(const std::string &name, int spacing, const std::vector<Limit> *limits, const std::string &listName,
               const Figures &f, std::string &why) {
   const std::string number = std::to_string(spacing);
   bool good = true;
@@ -233,11 +234,12 @@ bool printRow(const std::string &name, int spacing, const std::vector<Limit> &li
     }
     double v = b.value(f), most = spacing == 2 ? b.spacing2 : b.spacing1;
     const char *mark = v > most ? "!" : "";
-    for (const Limit &l : limits)
-      if (l.scene == name && l.spacing == number && l.figure == b.column) most = std::max(most, l.most);
+    if (limits)
+      for (const Limit &l : *limits)
+        if (l.scene == name && l.spacing == number && l.figure == b.column) most = std::max(most, l.most);
     if (v > most) {
       good = false;
-      if (!limits.empty()) mark = "!!";
+      if (limits) mark = "!!";
     }
     char cell[48];
     std::snprintf(cell, sizeof cell, "%.*f%s", b.decimals, v, mark);
@@ -257,7 +259,7 @@ bool printRow(const std::string &name, int spacing, const std::vector<Limit> &li
 }  // namespace
 
 int main(int argc, char **argv) {
-  bool verbose = false, rendering = false, pairs = false;
+  bool verbose = false, rendering = false, pairs = false, limited = false;
   std::string csvName, out, why, row, listName;
   std::vector<Limit> limits;
   std::vector<std::string> names;
@@ -283,6 +285,7 @@ int main(int argc, char **argv) {
     } else if (a == "--list" && i + 1 < argc) {
       listName = argv[++i];
     } else if (a == "--limits" && i + 1 < argc) {
+      limited = true;
       if (!readLimits(argv[++i], limits, why)) return trouble(why);
     } else if (a == "-v") {
       verbose = true;
@@ -364,7 +367,7 @@ int main(int argc, char **argv) {
     if (!writePpm(out + name, SHEET_WIDTH, HEIGHT, sheet(frame, picture), why)) return trouble(why);
   }
   if (!row.empty()) {
-    bool good = printRow(row, bar, limits, listName, total, why);
+    bool good = printRow(row, bar, limited ? &limits : nullptr, listName, total, why);
     return why.empty() ? !good : trouble(why);
   }
   printTotals(total);

@@ -86,6 +86,10 @@ struct Scene {
   Vec light{0, 0, 0};                    // unit vector towards the light
   double isovalue = 0.5;
   double ambient = 0;                    // share of the ramp that needs no light
+  // Steps of light in a step of the ramp: light is what the ambient share
+  // leaves. Figures of brightness are in steps of light, so that a frame in
+  // colour is judged as strictly as one in grey, which has no ambient share.
+  double lightSteps() const { return ambient < 1 ? 1 / (1 - ambient) : 1; }
   std::vector<Object> objects;
   std::vector<std::vector<double>> weight;  // [i][j]: scale of what j adds to i; 0: not linked
   double highlight = 1;                  // light above which a colour turns towards white
@@ -109,6 +113,9 @@ struct Hit {
   double depth = -1;  // -1: no surface
   float shade = 0;    // ramp steps, 0 to 63, not rounded
   int object = -1;    // index of the object whose own field is strongest there
+  // One of another colour is as strong, as where cores coincide: the point's
+  // colour is either's, and is not judged.
+  bool tied = false;
   bool any() const { return depth >= 0; }
 };
 
@@ -138,6 +145,7 @@ private:
   struct Work;
   double first(const Work &, const int *which, int n, const double *form, const char *known, bool sum,
                double a, double b) const;
+  bool tie(int object, Vec p) const;
   bool follow(const Work &, int object, double a, double b, double *form) const;
   const Scene &scene;
   std::vector<int> body;     // of each object
@@ -241,7 +249,7 @@ struct Figures {
   long smooth = 0;         // those with no jump of the true depth beside them
   double smooth2 = 0;
   long shaded = 0;         // those whose brightness can be told
-  double shade2 = 0;       // sum of squared brightness errors
+  double shade2 = 0;       // sum of squared brightness errors, steps of light
   long coloured = 0;       // those whose object can be told by its colour
   long wrongColour = 0;    // of another object's colour, none of which is truly within a distance of 1
   long borderTrue = 0;     // pairs of those above and beside each other, of two objects by the truth

@@ -122,7 +122,7 @@ bool surfaceNear(const Picture &t, int column, int row, int limit) {
 // Whether a pixel's colour tells its object, and there is surface: which ramp it is by its colour, and by the truth.
 bool coloured(const Frame &f, const Picture &t, const Ramps &ramps, int column, int row, int &drawn, int &truly) {
   const Hit &h = t.at(column, row);
-  if (!h.any() || !f.drawn(column, row)) return false;
+  if (!h.any() || h.tied || !f.drawn(column, row)) return false;
   drawn = ramps.shown(f.pixel(column, row)), truly = ramps.of(h.object);
   return drawn >= 0 && truly >= 0;
 }
@@ -213,7 +213,7 @@ Figures compare(const Frame &f, const Picture &t) {
         r.smooth2 += error * error;
       }
       if (f.shaded()) {
-        double e = ramps.step(f.pixel(x, y), h.object) - h.shade;
+        double e = (ramps.step(f.pixel(x, y), h.object) - h.shade) * f.scene.lightSteps();
         r.shaded++;
         r.shade2 += e * e;
       }
@@ -237,7 +237,7 @@ void compareFlicker(const Frame &before, const Picture &beforeTruth,
   if (beforeTruth.eyeInside || afterTruth.eyeInside) return;
   r.pairs++;
   const Ramps ramps0(before.scene), ramps1(after.scene);
-  const double jump = RAMP / 4.0, still = RAMP / 16.0;
+  const double steps = after.scene.lightSteps(), jump = RAMP / 4.0 / steps, still = RAMP / 16.0 / steps;
   for (int y = 0; y < HEIGHT; y++)
     for (int x = 0; x < WIDTH; x++) {
       bool d0 = before.drawn(x, y), d1 = after.drawn(x, y);

@@ -406,6 +406,9 @@ void addSquareTimes(const double f[N], const double g[N], double to[BODY]) {
 // Shortest stretch of depth looked into. Field missed in a stretch this short
 // is less than its length times the steepest slope, 1.6/R.
 const double FINEST = 1e-7;
+// Fields that differ by a smaller share are as strong as each other; that is a
+// band of about a thousandth of a unit at a border.
+const double TIE = 1e-4;
 // How far a form may be from the field it follows.
 const double FOLLOWS = 1e-11;
 
@@ -553,6 +556,24 @@ double firstOfBody(const double *c, const double *sums, int n, double a, double 
 }
 
 }  // namespace
+
+// Whether another object of the body, of another colour, is as strong at p.
+bool Tracer::tie(int object, Vec p) const {
+  auto colour = [&](int i) {
+    auto ramp = scene.ramps.find(scene.objects[i].number);
+    return ramp == scene.ramps.end() ? Colour{-1, -1, -1} : ramp->second;
+  };
+  const Object &o = scene.objects[object];
+  double most = geoff(o.kind->q(o, p, nullptr));
+  for (int i = 0; i < (int)scene.objects.size(); i++) {
+    if (i == object || body[i] != body[object]) continue;
+    const Object &other = scene.objects[i];
+    if (geoff(other.kind->q(other, p, nullptr)) < most * (1 - TIE)) continue;
+    Colour a = colour(object), b = colour(i);
+    if (a.r != b.r || a.g != b.g || a.b != b.b) return true;
+  }
+  return false;
+}
 
 // A form on [a, b] that follows an object's field; false if none of degree six does.
 bool Tracer::follow(const Work &w, int i, double a, double b, double *form) const {
@@ -711,6 +732,7 @@ Hit Tracer::trace(double column, double row, const int *which, int count) const 
 
   Vec gradient;
   field(owner, point(w.ray, found), &gradient, &hit.object);
+  hit.tied = tie(hit.object, point(w.ray, found));
   hit.depth = found;
   double len = length(gradient);
   double cosine = len > 0 ? std::max(0.0, -dot(gradient, scene.light) / len) : 0;
