@@ -64,18 +64,20 @@
 #define BOX_RIGHT  44
 #define BOX_BOTTOM 48
 #define EMPTY      52
-#define LENS_WORDS 14
-#define LIST       56                   /* the next voxel's place in the list */
-#define END        60
-#define DEPTH      64                   /* 1/128 unit beyond the nearest of the table */
-#define NOT_LEFT   68                   /* ~left: it is what shortens the arithmetic */
-#define BOTTOM     72
-#define KIND       76                   /* rows - 1, and the first row of the kind in the table */
-#define ZMOST      80
-#define FROM_COLUMN 84                  /* the way from the first pixel's middle to the scale's, to the left and down */
-#define FROM_ROW   88
-#define ROW        92
-#define LOCALS     96
+#define TILT_ADD   56
+#define TILT_BITS  60
+#define LENS_WORDS 16
+#define LIST       64                   /* the voxel's place in the list, counted in bytes from the end: below 0 */
+#define END        68
+#define DEPTH      72                   /* 1/128 unit beyond the nearest of the table */
+#define NOT_LEFT   76                   /* ~left: it is what shortens the arithmetic */
+#define BOTTOM     80
+#define KIND       84                   /* rows - 1, and the first row of the kind in the table */
+#define ZMOST      88
+#define FROM_COLUMN 92                  /* the way from the first pixel's middle to the scale's, to the left and down */
+#define FROM_ROW   96
+#define ROW        100
+#define LOCALS     104
 
         .text
 
@@ -113,15 +115,18 @@
         cld
         rep movsl
         subl    $LENS_NEAR*256, LENS_Z(%esp)
-        leal    (%eax,%edx,4), %edx
-        movl    %edx, END(%esp)
-        cmpl    %edx, %eax
-        jae     leave_at
+        leal    (%eax,%edx,4), %eax
+        movl    %eax, END(%esp)
+        negl    %edx
+        jns     leave_at
+        shll    $2, %edx
+        movl    %edx, LIST(%esp)
 
         .balign 16
 voxel_loop:
-        movl    (%eax), %esi
-        movl    %eax, LIST(%esp)
+        movl    END(%esp), %eax
+        movl    LIST(%esp), %edx
+        movl    (%eax,%edx), %esi
         // depth = lens->z + v.z;  step = (depth >> 5) - LENS_NEAR * 8;  if (step >= LENS_STEPS) break
         movl    VOXEL_Z(%esi), %ebp
         movl    VOXEL_X(%esi), %ebx
@@ -199,23 +204,18 @@ bottom_grown:
         cmpl    $255, VOXEL_BRIGHT(%esi)
         ja      special
 not_special:
-        // across = limited(tiltX * f.zx >> 16)
+        // across = limited(tiltX * f.zx >> 16);  down = -limited(tiltY * f.zy >> 16);   eax has -down
+        movl    VOXEL_TILTX(%esi), %eax // both: Lens::tiltAdd
         movswl  VOXEL_TILTX(%esi), %ebx
+        addl    TILT_ADD(%esp), %eax
         imull   FACTOR_ZX(%ebp), %ebx
-        sarl    $16, %ebx
-        leal    STEEPEST(%ebx), %eax
-        cmpl    $2*STEEPEST, %eax
-        ja      limit_across
-across_limited:
-        // down = -limited(tiltY * f.zy >> 16);   eax has -down
+        testl   TILT_BITS(%esp), %eax
         movswl  VOXEL_TILTY(%esi), %eax
+        jnz     steep
         imull   FACTOR_ZY(%ebp), %eax
+        sarl    $16, %ebx
         sarl    $16, %eax
-        cmpl    $STEEPEST, %eax
-        jg      limit_up
-        cmpl    $-STEEPEST, %eax
-        jl      limit_down
-down_limited:
+steps_limited:
         // if (!isFine(v)) ..
         cmpw    $0, VOXEL_SLOPEX(%esi)
         je      even
@@ -352,11 +352,9 @@ even:
         .endm
 
         .macro  NEXT_VOXEL
-        movl    LIST(%esp), %eax
-        addl    $4, %eax
-        cmpl    END(%esp), %eax
-        jb      voxel_loop
-        jmp     leave_at
+        addl    $4, LIST(%esp)
+        jnz     voxel_loop
+        jmp     leave
         .endm
 
         // for (y = high; y > 0; --y, z += zRow), up to UNROLLED rows. edi is the pixel behind the first one of the row below
@@ -412,7 +410,8 @@ even:
         .endr
 
 leave:
-        movl    LIST(%esp), %eax
+        movl    END(%esp), %eax
+        addl    LIST(%esp), %eax
 leave_at:
         // What changed of the lens goes back; the number of voxels done
         movl    LOCALS+20(%esp), %edx   // lens
@@ -473,19 +472,20 @@ grow_bottom:
         jg      leave
         movl    %eax, BOX_BOTTOM(%esp)
         jmp     bottom_grown
-limit_across:
-        sarl    $31, %ebx               // 0 or -1
-        xorl    $STEEPEST, %ebx         // STEEPEST or -STEEPEST - 1
-        movl    %ebx, %eax
-        shrl    $31, %eax
-        addl    %eax, %ebx
-        jmp     across_limited
-limit_up:
-        movl    $STEEPEST, %eax
-        jmp     down_limited
-limit_down:
-        movl    $-STEEPEST, %eax
-        jmp     down_limited
+steep:
+        imull   FACTOR_ZY(%ebp), %eax
+        .irp    step, %ebx, %eax
+        sarl    $16, \step
+        cmpl    $STEEPEST, \step
+        jle     1f
+        movl    $STEEPEST, \step
+1:
+        cmpl    $-STEEPEST, \step
+        jge     1f
+        movl    $-STEEPEST, \step
+1:
+        .endr
+        jmp     steps_limited
         ENDFUNC(drawScalesA)
 
         // Where the code for each kind, height and width begins. The kind that ends comes behind the shaded one (KIND).
@@ -507,6 +507,7 @@ limit_down:
         .endr
         .endm
 
+        .data
         .balign 4
 even_ways:
         WAYS    even

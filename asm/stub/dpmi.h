@@ -87,6 +87,7 @@
 #define ARENAS      16          /* pieces of extended memory (one XMS handle each) */
 #define BLOCKS      320         /* client's memory blocks; DJGPP's sbrk can use 256 */
 
+#define AGAIN_MOST  10000       /* exception handlers that return to the same fault one after the other: the program's end */
 #define FAULT_PAGES 32          /* page faults in DOSBox: pages that the rest of an instruction may need */
 #define ROM_PAGE    0xf0000
 

@@ -72,6 +72,10 @@ hook_vec:       .byte   0x08, 0x09, 0x0a, 0x0b, 0x0c, 0x0d, 0x0e, 0x0f
         .globl  hlt_table
 hlt_table:      .long   crash, hlt_upret, hlt_cbret, hlt_excret, hlt_rawsw, hlt_state
 
+/* What has to be the same in a frame for a fault to be the same again. */
+        .globl  again_fields
+again_fields:   .byte   F_EIP, F_ESP, F_EAX, F_ECX, F_EDX, F_EBX, F_EBP, F_ESI, F_EDI, 0xff
+
 /* --- Texts of a crash. --- */
         .globl  exc_names, crash_lines, msg_exception, msg_nesting, msg_base, msg_limit
         .macro  NAMES n:vararg
@@ -172,6 +176,9 @@ rmregs:         .skip   R_SIZE
 fault_frame:    .skip   F_SIZE          /* page faults in DOSBox, see dpmiint.S */
 fault_pages:    .skip   FAULT_PAGES * 4 /* numbers of pages to be absent again */
 fault_count:    .skip   4
+                .globl  again_frame, again_count
+again_frame:    .skip   F_SIZE          /* what the last exception handler returned to */
+again_count:    .skip   4               /* how often that has been the same fault again */
                 .globl  shrunk
 shrunk:         .skip   2               /* a selector whose limit the client made less than a page, or 0 */
 fault_pending:  .skip   1

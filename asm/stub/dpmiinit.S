@@ -250,15 +250,17 @@ vectors:
         loop    2b
 3:      ret
 
-/* --- Memory and A20 in plain real mode. Linear addresses are physical ones; mapped are the first MB, the
-       HMA and, as they are asked for, the client's blocks, so that a wild pointer is noticed. Page tables come
-       from a pool of their own. ES = page directory. Carry, DX: message. --- */
+/* --- Memory and A20 in plain real mode. Linear addresses are physical ones; mapped are the first MB and, as they
+       are asked for, the client's blocks, so that a wild pointer is noticed. The 64 KB behind the first MB are
+       left out: a stack that grows below the program's first byte ends there, where the processor does not look at
+       the limit of the stack's segment (an emulator's; or a limit of 4 GB). Page tables come from a pool of their
+       own. ES = page directory. Carry, DX: message. --- */
 memory_init:
         mov     $0x1000, %di
         mov     $7, %eax
 1:      stosl
         add     $0x1000, %eax
-        cmp     $0x110000, %eax
+        cmp     $0x100000, %eax
         jb      1b
         mov     $0x4300, %ax
         int     $0x2f
@@ -661,7 +663,9 @@ rm_int24:
         mov     $3, %al
         iret
 
-/* Ctrl-C: ends the program with its registers printed, unless it is one that ours has started. */
+/* Ctrl-C: ends the program with its registers printed, unless it is one that ours has started. A program that has
+   taken the keyboard's interrupt (DJGPP's libc does) sees the key there and does what it wants to; the key
+   goes on to the BIOS, where DOS finds it later: that is no second Ctrl-C, and DOS goes on. */
 rm_int23:
         push    %ax
         push    %bx
@@ -670,8 +674,11 @@ rm_int23:
         cmp     %cs:psp_seg, %bx
         pop     %bx
         pop     %ax
-        je      up_stubs + (CALLBACKS + HOOKS + 1) * 5
+        je      1f
         ljmp    *%cs:old_23
+1:      cmpw    $USER_CS, %cs:pm_vec + 9 * 8 + 4
+        je      up_stubs + (CALLBACKS + HOOKS + 1) * 5
+        iret
 
 /* Extended memory: none left. */
 rm_int15:

@@ -291,6 +291,20 @@ entry_exc_code:
         movl    %cr2, %edx
         movl    %edx, F_CR2(%ebp)
 deliver:
+        pushl   %eax                    /* a handler that returned to the same fault, nothing changed? */
+        movl    $again_fields, %esi
+1:      xorl    %eax, %eax
+        lodsb
+        cmpb    $0xff, %al
+        je      2f
+        movl    (%ebp, %eax), %edx
+        cmpl    again_frame(%eax), %edx
+        je      1b
+        movl    $-1, again_count
+2:      incl    again_count
+        cmpl    $AGAIN_MOST, again_count
+        popl    %eax
+        ja      crash
         movzwl  exc_vec + 4(, %eax, 8), %ebx
         testl   %ebx, %ebx
         jz      2f
@@ -481,6 +495,12 @@ hlt_excret:
         movl    %eax, F_ESP(%ebp)
         movl    %es:20(%esi), %eax
         movl    %eax, F_SS(%ebp)
+        pushl   %ds
+        popl    %es
+        movl    %ebp, %esi
+        movl    $again_frame, %edi
+        movl    $F_SIZE / 4, %ecx
+        rep movsl
         jmp     exit_frame
 
 /* A fault in the host: vector, error code, EIP, CS, EFLAGS on the stack, then what was there. Expected only

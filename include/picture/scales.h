@@ -68,7 +68,26 @@ struct Lens {
     int32_t left, top, right, bottom;  // in and out: a rectangle that grows to hold at least all that is drawn; each lies on
                                        // the screen, so what does not make it larger needs no test for the screen's edges
     int32_t empty;                     // in and out: counts voxels that cover no pixel's centre, and so are not drawn
+    uint32_t tiltAdd, tiltBits;        // limitTilts()
 };
+
+// Finds out, once for a table, which tilts need no test for STEEPEST: where tiltX and tiltY as one double word, plus
+// tiltAdd, have none of tiltBits, both lie in -TILT - 1 .. TILT, and no factor of the table makes more of that.
+inline void limitTilts(Lens* lens)
+{
+    uint32_t most = 1;
+    for (int i = 0; i < LENS_STEPS; ++i) {
+        const Factors& f = lens->factors[i];
+        most = static_cast<uint32_t>(f.zx) > most ? static_cast<uint32_t>(f.zx) : most;
+        most = static_cast<uint32_t>(f.zy) > most ? static_cast<uint32_t>(f.zy) : most;
+    }
+    const uint32_t tilts = (static_cast<uint32_t>(STEEPEST) << 16) / most;
+    uint32_t tilt = 1 << 14;
+    while (tilt != 0 && tilt + 1 > tilts)
+        tilt >>= 1;
+    lens->tiltAdd = tilt * 0x10001;
+    lens->tiltBits = tilt == 0 ? 0xffffffff : ~((2 * tilt - 1) * 0x10001);
+}
 
 extern "C" {
 

@@ -71,6 +71,7 @@ void View::setCamera(const Camera& camera)
         f.zx = mulDiv(z16, 1 << 23, focalX_);
         f.zy = mulDiv(z16, 1 << 23, focalY_);
     }
+    limitTilts(&lens_);
 }
 
 void View::begin()

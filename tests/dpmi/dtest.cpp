@@ -4,8 +4,10 @@
 //   DTEST ALL             every service, with arguments that it must take and such that it must refuse (default)
 //   DTEST GOOD [NOWILD]   only the former: what every host should do. Some crash from the latter. NOWILD: no wild pointers
 //   DTEST TICKS N DIV     N timer interrupts at 1193182/DIV Hz, reflected to real mode under load; none may be lost
-//   DTEST CRASH KIND      ends by an exception: 0, 6, 13, 14 (wild pointer), S (stack overflow)
+//   DTEST CRASH KIND      ends by an exception: 0, 6, 13, 14 (wild pointer), S (stack overflow), L (the same with frames of
+//                         4 and 8 KB, and handlers like those of DJGPP's libc), R (a handler that returns, and nothing is better)
 //   DTEST BREAK           ends by Ctrl-C
+//   DTEST CATCH           takes the keyboard's interrupt, as DJGPP's libc does: Ctrl-C is its own business, and DOS goes on
 //   DTEST MOUSE SECONDS   counts calls of the mouse driver's call-back
 //   DTEST FREE            prints free DOS and extended memory, to be compared before and after other programs
 //   DTEST SCREEN          prints the video mode and the text on the screen
@@ -40,6 +42,9 @@ uint32_t int21(uint32_t eax);
 uint32_t int33(uint32_t eax);
 uint32_t int60(uint32_t eax);
 void overflow();
+void largeFrames();
+void exceptionAgain();
+void exceptionOnStack();
 extern volatile uint32_t ticks, counted, seenError, seenEip, seenStack, raiseEip, wildSteps, nestedStack, rawEsp, rawEbp;
 extern volatile uint32_t intFlags, intEbx;
 extern struct Far {
@@ -901,6 +906,17 @@ int screen() {
     return 0;
 }
 
+// Ctrl-C as the BIOS's keyboard buffer has it, and DOS looking for it.
+void typeBreak() {
+    dpmi::RealRegs regs = {};
+    regs.eax = 0x0500;
+    regs.ecx = 0x2e03;
+    dpmi::realInterrupt(0x16, &regs);
+    for (int i = 0; i < 1000; ++i) int21(0x0b00);
+    regs = {};
+    dpmi::realInterrupt(0x23, &regs);  // DOSBox's DOS does not look for it
+}
+
 }  // namespace
 
 // A call-back's work: calls DOS, and itself through real mode as often as CX says.
@@ -959,15 +975,19 @@ int main(int argc, char** argv) {
     if (strcmp(what, "MOUSE") == 0 && argc > 2) return mouse(number(argv[2]));
     if (strcmp(what, "FREE") == 0) return freeMemory();
     if (strcmp(what, "SCREEN") == 0) return screen();
+    if (strcmp(what, "CATCH") == 0) {
+        const Int31 before = call(0x0204, 9);
+        oldHandler.offset = before.edx;
+        oldHandler.selector = uint16_t(before.ecx);
+        check("0205 the keyboard's interrupt", !carry(call(0x0205, 9, dpmi::codeSelector(), offsetOf(tickChain))));
+        typeBreak();
+        check("Ctrl-C is left to a program that has the keyboard", true);
+        check("0205 given back", !carry(call(0x0205, 9, before.ecx, before.edx)));
+        return failures == 0 ? 0 : 1;
+    }
     if (strcmp(what, "BREAK") == 0) {
         int10(0x0013);
-        dpmi::RealRegs regs = {};
-        regs.eax = 0x0500;
-        regs.ecx = 0x2e03;
-        dpmi::realInterrupt(0x16, &regs);
-        for (int i = 0; i < 1000; ++i) int21(0x0b00);
-        regs = {};
-        dpmi::realInterrupt(0x23, &regs);  // DOSBox's DOS does not look for it
+        typeBreak();
         print("FAIL still here\n");
         return 1;
     }
@@ -976,6 +996,10 @@ int main(int argc, char** argv) {
         call(0x0008, dataSelector, (stubInfo.initialSize - 1) >> 16, low(stubInfo.initialSize - 1));
         if (argv[2][0] == 'S') {
             overflow();
+        } else if (argv[2][0] == 'L' || argv[2][0] == 'R') {
+            for (uint32_t exception = 12; exception <= 14; ++exception)
+                call(0x0203, exception, dpmi::codeSelector(), offsetOf(argv[2][0] == 'L' ? exceptionOnStack : exceptionAgain));
+            if (argv[2][0] == 'L') largeFrames(); else raise(14);
         } else {
             raise(int(number(argv[2])));
         }

@@ -254,7 +254,51 @@ SYM(overflow):
         pushl   $0x12345678
         jmp     SYM(overflow)
 
+// void largeFrames(): calls itself for ever, with frames of 4 and 8 KB in turn, of which it writes a little at the top
+        .globl  SYM(largeFrames)
+SYM(largeFrames):
+        subl    $4096-4, %esp
+        movl    $0x12345678, (%esp)
+        call    1f
+1:      subl    $8192-4, %esp
+        movl    $0x12345678, (%esp)
+        call    SYM(largeFrames)
+
+// Exception handler: returns, and nothing is better
+        .globl  SYM(exceptionAgain)
+SYM(exceptionAgain):
+        lretl
+
+// Exception handler as in DJGPP's libc: writes the state to the stack that was there, and goes on on it in a function
+// that does not return; from a fault in itself, on a stack of its own
+        .globl  SYM(exceptionOnStack)
+SYM(exceptionOnStack):
+        pushl   %eax
+        pushl   %ebx
+        pushl   %ds
+        movw    %cs:SYM(dataSelector), %ds
+        movl    $goOn, 24(%esp)         // EIP
+        movw    %ds, %ax
+        cmpw    %ax, 40(%esp)           // SS
+        je      1f
+        movw    %ax, 40(%esp)
+        movl    $ownStackTop, 36(%esp)  // ESP
+1:      subl    $92, 36(%esp)
+        movl    36(%esp), %ebx
+        movl    $0x5a5a5a5a, (%ebx)
+        popl    %ds
+        popl    %ebx
+        popl    %eax
+        lretl
+goOn:
+        movw    %cs:SYM(dataSelector), %ds
+        pushl   $0
+        ud2
+
         .data
+        .balign 4
+        .skip   1024
+ownStackTop:
         .globl  SYM(dataSelector), SYM(ticks), SYM(oldHandler), SYM(counted), SYM(seenError), SYM(seenEip)
         .globl  SYM(seenStack), SYM(wildSteps), SYM(nestedStack), SYM(rawEsp), SYM(rawEbp), SYM(rawToReal)
         .globl  SYM(intFlags), SYM(intEbx)

@@ -79,11 +79,19 @@ crash 'CRASH 6' 'Invalid Opcode at eip=' --
 crash 'CRASH 13' 'General Protection Fault at eip=' --
 crash 'CRASH 14' 'Page fault at eip=' --
 crash 'CRASH S' ' at eip=' --
+crash 'CRASH L' ' at eip=' --
+crash 'CRASH L' ' at eip=' -o dos.xms=false -o dos.ems=false -o dos.umb=false --
+crash 'CRASH L' ' at eip=' -- V86
+crash 'CRASH R' 'Page fault at eip=' --
 crash 'CRASH 14' 'Page fault at eip=' -o cpu.core=dynamic --
 crash 'CRASH 14' 'Page fault at eip=' -- V86
 crash 'CRASH 0' 'Division by Zero at eip=' -- V86
 crash BREAK 'Control-C Pressed at eip=' --
 crash BREAK 'Control-C Pressed at eip=' -- V86
+dos -- 'DTEST CATCH > CATCH.TXT' V86 'DTEST CATCH > CATCH86.TXT'
+ran "$c/CATCH.TXT"
+ok 'CATCH: to its end' has "$c/CATCH.TXT" 'ok 0205 given back'
+ok 'CATCH in V86 mode: to its end' has "$c/CATCH86.TXT" 'ok 0205 given back'
 
 # Fifty in a row
 set -- 'DTEST FREE > BEFORE.TXT'

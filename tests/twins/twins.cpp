@@ -463,7 +463,8 @@ static_assert(inasm::LENS_X == offsetof(Lens, x) && inasm::LENS_Y == offsetof(Le
               inasm::FRAME == offsetof(Lens, frame) && inasm::ZBUFFER == offsetof(Lens, zbuffer) &&
               inasm::BOX_LEFT == offsetof(Lens, left) && inasm::BOX_TOP == offsetof(Lens, top) &&
               inasm::BOX_RIGHT == offsetof(Lens, right) && inasm::BOX_BOTTOM == offsetof(Lens, bottom) &&
-              inasm::EMPTY == offsetof(Lens, empty) && inasm::LENS_WORDS * 4 == sizeof(Lens), "Lens");
+              inasm::EMPTY == offsetof(Lens, empty) && inasm::TILT_ADD == offsetof(Lens, tiltAdd) &&
+              inasm::TILT_BITS == offsetof(Lens, tiltBits) && inasm::LENS_WORDS * 4 == sizeof(Lens), "Lens");
 static_assert(inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FAR == LENS_FAR &&
               inasm::LENS_STEPS == LENS_STEPS && inasm::STEEPEST == STEEPEST && inasm::SLOPED_MOST == SLOPED_MOST &&
               inasm::WIDEST == WIDEST && inasm::SCREEN_WIDTH == WIDE && inasm::SCREEN_HEIGHT == HIGH, "constants");
@@ -605,6 +606,7 @@ void makeLens(Fenced& c, Fenced& a, int shift)
     lens.right = below(2) ? 0 : below(WIDE);
     lens.bottom = below(2) ? 0 : below(HIGH);
     lens.empty = below(1000);
+    limitTilts(&lens);
     memcpy(&a, &c, sizeof c);
     c.lens.frame = roomC.at(shift).frame.data;
     c.lens.zbuffer = roomC.at(shift).depth.data;

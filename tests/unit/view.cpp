@@ -211,6 +211,57 @@ TEST(anything_may_be_shown)
     }
 }
 
+TEST(cut_scales_end_at_a_line)
+{
+    // What is drawn of a scale that is cut are the pixels of the whole one where its linear function is not negative; in
+    // doubt (steps from pixel to pixel are rounded) either is right.
+    View view, whole;
+    CHECK(view.open() && whole.open());
+    Random random;
+    long within = 0, left = 0, doubtful = 0;
+    for (int round = 0; round < 3000; ++round) {
+        const double z = random.between(40, 480);
+        Voxel v = voxel(random.between(-0.4 * z, 0.4 * z), random.between(-0.3 * z, 0.3 * z), z, random.between(0, z / 20), random.between(0, z / 20), 1 + round % 63);
+        if (round % 3 == 0) {
+            v.slopeX = static_cast<int8_t>(random.below(13) - 6);
+            v.slopeY = static_cast<int8_t>(random.below(13) - 6);
+        }
+        v.cutX = 1;
+        v.cutAt = INT16_MAX;
+        whole.begin();
+        show(whole, {v});
+        v.cutX = static_cast<int8_t>(random.below(255) - 127);
+        v.cutY = static_cast<int8_t>(random.below(255) - 127);
+        const double most = (std::abs(v.cutX) * v.wide + std::abs(v.cutY) * v.high) / 256.0;
+        v.cutAt = static_cast<int16_t>(random.between(-1.2, 1.2) * most);
+        view.begin();
+        show(view, {v});
+        const double column = 160 + 250 * (v.x / 256.0) / (v.z / 256.0), row = 100 - number(view.camera().focalY) * (v.y / 256.0) / (v.z / 256.0);
+        for (int i = 0; i < WIDTH * HEIGHT; ++i) {
+            if (whole.zbuffer()[i] == Z_EMPTY) {
+                SAME(view.zbuffer()[i], Z_EMPTY);
+                continue;
+            }
+            const double across = i % WIDTH + 0.5 - column, up = row - (i / WIDTH + 0.5);
+            const double dx = across * z / 250, dy = up * z / number(view.camera().focalY);
+            const double value = (v.cutAt + v.cutX * dx + v.cutY * dy) / 8;
+            const double doubt = (std::abs(across) + std::abs(up) + 2) / 256 + 0.004 * (std::abs(v.cutX) + std::abs(v.cutY)) * z / 250 / 8;
+            const bool drawn = view.zbuffer()[i] != Z_EMPTY;
+            if (drawn)
+                CHECK(view.zbuffer()[i] == whole.zbuffer()[i] && view.frame()[i] == whole.frame()[i]);
+            if (v.cutX == 0 && v.cutY == 0)
+                CHECK(drawn);
+            else if (std::abs(value) > doubt)
+                SAME(drawn, value > 0);
+            else
+                ++doubtful;
+            ++(drawn ? within : left);
+        }
+    }
+    note("%ld pixels drawn, %ld cut off, %ld in doubt", within, left, doubtful);
+    CHECK(within > 20000 && left > 20000 && doubtful < (within + left) / 50);
+}
+
 TEST(places_count_from_the_lists_own)
 {
     // An object's voxels count from its centre: wherever that is, what is drawn is the same as when they count from the
