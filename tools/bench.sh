@@ -15,7 +15,7 @@ cd "$(dirname "$0")/.." || exit 1
 
 seconds=${BENCH_SECONDS:-}
 [ -n "$seconds" ] || seconds=20
-[ -z "${FULL:-}" ] || seconds=60
+[ -z "${FULL:-}" ] || seconds=${BENCH_SECONDS:-60}
 frames=${BENCH_FRAMES:-}
 [ -n "$frames" ] || frames=70
 for number in "$seconds" "$frames"; do
