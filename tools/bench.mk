@@ -1,7 +1,10 @@
 # How the benchmark is built. Included by the Makefile.
 #
-#   make bench              a page of figures, and build/bench.csv with the same (tools/bench.sh tells more)
-#   make bench SECONDS=10   shorter runs; FULL=1: the whole minute of the animation in each
+#   make bench              a page of figures, and build/bench.csv with a line for each scene (tools/bench.sh tells more)
+#   make bench SECONDS=10   shorter runs; FULL=1: the whole minute of the animation in each, five speeds, five spacings
+#   make bench SCENES="FOUR WALK"   of the shipped scenes only these; FRAMES=n: frames counted (70)
+#   sh tools/instr.sh       the quick look: instructions a frame of every scene
+#   build/cost              whose the instructions are that callgrind counted
 #   build/BENCH.BAT         the runs for a real machine, beside DEMO.EXE
 #   build/bench32           the 32-bit host program with tools/bench.cpp linked in, for counting instructions
 
@@ -25,13 +28,18 @@ build/bench/%486.o: src/picture/%.cpp include/picture/blit.h include/picture/sca
 build/bench32: $(BENCH_PARTS) $(BENCH_TWINS)
 	$(HOST_CXX) -m32 -no-pie -static $(BENCH_WRAP) -o $@ $^
 
-# What tells whose the instructions are that callgrind counted.
 build/cost: tools/cost.cpp tools/clk486.h
 	@mkdir -p build
 	$(HOST_CXX) -std=c++17 -O2 -Wall -Wextra -o $@ $<
 
-bench: build/DEMO.EXE build/bench32 build/demo32
-	@BENCH_SECONDS="$(SECONDS)" FULL="$(FULL)" BENCH_GROWTH="$(GROWTH)" sh tools/bench.sh
+# What the benchmark asks DOSBox's BIOS for the time with.
+build/TICKS.COM: tools/ticks.S
+	@mkdir -p build/bench
+	$(HOST_CXX) -m32 -c $< -o build/bench/ticks.o
+	$(DOS_LD) -m elf_i386 -Ttext 0x100 --oformat binary -o $@ build/bench/ticks.o
+
+bench: build/DEMO.EXE build/TICKS.COM build/bench32 build/demo32 build/cost
+	@BENCH_SECONDS="$(SECONDS)" BENCH_FRAMES="$(FRAMES)" BENCH_SCENES="$(SCENES)" FULL="$(FULL)" sh tools/bench.sh
 
 .PHONY: bench
 

@@ -4,17 +4,18 @@
 #
 #   count.sh DIR FUNCTIONS SCENE SHORT LONG SWITCHES...
 #
-# DIR holds demo32, demo32.map and demo32.asm (objdump -d -w), and gets NAME.cost, what tools/cost.cpp tells of SHORT and LONG frames of the scene
-# file SCENE with SWITCHES. NAME is that of the file, or $NAME from the environment.
+# DIR holds demo32, demo32.map and demo32.asm (objdump -d -w), and gets NAME.cost, what tools/cost.cpp tells of SHORT and
+# LONG frames of the scene file SCENE with SWITCHES, and the statistics of both, NAME.short.txt and NAME.long.txt. NAME is
+# that of the file.
 set -eu
 dir=$1 functions=$2 scene=$3 short=$4 long=$5
 shift 5
-name=${NAME:-$(basename "$scene" .FB)}
+name=$(basename "$scene" .FB)
 for run in short long; do
 	frames=$short
 	[ $run = short ] || frames=$long
 	valgrind --tool=callgrind --dump-instr=yes --collect-jumps=yes --compress-strings=no --compress-pos=no \
-		--callgrind-out-file="$dir/$name.$run" "$dir/demo32" "$@" "/N:$frames" "/M:$scene" >"$dir/$name.txt" 2>"$dir/$name.log" || {
+		--callgrind-out-file="$dir/$name.$run" "$dir/demo32" "$@" "/N:$frames" "/M:$scene" >"$dir/$name.$run.txt" 2>"$dir/$name.log" || {
 		echo "count.sh: $scene did not run:" >&2
 		tail -n 5 "$dir/$name.log" >&2
 		exit 1

@@ -2,24 +2,28 @@
 # Instructions a frame of scenes, by the room of the program that they are spent in, beside the bars of tools/bars.txt:
 # the quick look while one works on the speed. `make bench` tells more.
 #
-#   instr.sh [-t N] [-f] [-s SPACING] [SCENE...]
+#   instr.sh [-t N] [-f] [-s SPACING] [-n FRAMES] [-d DIR] [SCENE...]
 #
 #   -t N        the N dearest functions of each scene, too: instructions and estimated clocks a frame
 #   -f          the sources behind each scene's rooms, too
 #   -s SPACING  another spacing than 2 (the bars are for 2)
+#   -n FRAMES   another number of frames than 70
+#   -d DIR      another place than build/instr for what was counted: NAME.long for callgrind_annotate, NAME.cost
 #   SCENE       the name of a scene of tools/scenes or tests/scenes/speed (walk), or a scene file; default: all of both
 #
 # The 32-bit host program is run under callgrind with /G /R:35, once for 5 frames and once for 75; the difference is 70
-# frames. Two scenes run at a time. build/instr keeps what was counted: NAME.long for callgrind_annotate, NAME.cost.
+# frames. Two scenes run at a time.
 set -eu
 cd "$(dirname "$0")/.." || exit 1
 
-functions=0 sources=no spacing=2
-while getopts t:fs: option; do
+functions=0 sources=no spacing=2 frames=70 work=build/instr
+while getopts t:fs:n:d: option; do
 	case $option in
 	t) functions=$OPTARG ;;
 	f) sources=yes ;;
 	s) spacing=$OPTARG ;;
+	n) frames=$OPTARG ;;
+	d) work=$OPTARG ;;
 	*) sed -n 's/^#   \(instr.sh\)/usage: \1/p' "$0" >&2 && exit 2 ;;
 	esac
 done
@@ -29,7 +33,6 @@ command -v valgrind >/dev/null || {
 	exit 1
 }
 [ $# -gt 0 ] || set -- tools/scenes/*.FB tests/scenes/speed/*.FB
-work=build/instr
 mkdir -p "$work"
 : >"$work/list"
 for scene in "$@"; do
@@ -51,7 +54,7 @@ make -s -j2 build/demo32 build/cost
 cp build/demo32 build/demo32.map "$work"
 objdump -d -w "$work/demo32" >"$work/demo32.asm"
 
-xargs -P 2 -I FILE sh tools/count.sh "$work" "$functions" FILE 5 75 /G /R:35 "/S:$spacing" <"$work/list"
+xargs -P 2 -I FILE sh tools/count.sh "$work" "$functions" FILE 5 $((frames + 5)) /G /R:35 "/S:$spacing" <"$work/list"
 
 # The worst first: by how far it is above its bar.
 while read -r file; do
@@ -70,7 +73,7 @@ while read -r file; do
 				(aim > 0) ? sprintf("%.2f", aim) : "-", line, rest, clocks
 		}' tools/bars.txt "$work/$name.cost"
 done <"$work/list" | sort -r | sed 's/^[^ ]* //' >"$work/table"
-echo "Millions of instructions a frame (70 frames, 35 a second, spacing $spacing); ! above its bar."
+echo "Millions of instructions a frame ($frames frames, 35 a second, spacing $spacing); ! above its bar."
 echo "clocks: millions a frame on a 486, an estimate (tools/clk486.h); 6.6 are ten frames a second at 66 MHz."
 echo
 echo "scene         all    bar     aim      math    model  surface  picture      app     rest   clocks"

@@ -406,11 +406,12 @@ const char* Demo::record()
         Stats::formatHeader(text, sizeof text);
         good = machine::writeFile(file, text, static_cast<uint32_t>(strlen(text))) >= 0;
     }
-    char spacing[24], settings[64];
+    char spacing[24], settings[128];
     formatReal(spacing, sizeof spacing, spacing_);
-    snprintf(settings, sizeof settings, "S:%s%s%s%s%s%s", spacing, options_.interactive ? " I" : "",
+    const char* model = options_.modelFile;
+    snprintf(settings, sizeof settings, "S:%s%s%s%s%s%s%s%.60s", spacing, options_.interactive ? " I" : "",
              options_.grey ? " G" : "", options_.printed ? " P" : "", options_.retrace ? " V" : "",
-             options_.noPresent ? " X" : "");
+             options_.noPresent ? " X" : "", model != nullptr ? " M:" : "", model != nullptr ? model : "");
     stats_.formatRecord(text, sizeof text, settings);
     good = good && machine::writeFile(file, text, static_cast<uint32_t>(strlen(text))) >= 0;
     if (file >= 0)

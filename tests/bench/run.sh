@@ -1,14 +1,14 @@
 #!/bin/sh
-# Measuring: records of /O, the switches /V and /X, BENCH.BAT, and the benchmark itself, whose figures must be the same
-# when taken again.
+# Measuring: records of /O, the switches /V and /X, BENCH.BAT, the tool that says whose instructions are and what they
+# cost, and the benchmark itself, whose figures must be the same when taken again.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 . tests/lib.sh
 
-build build/DEMO.EXE build/BENCH.BAT build/demo build/bench32 build/demo32
+build build/DEMO.EXE build/BENCH.BAT build/TICKS.COM build/demo build/bench32 build/demo32 build/cost
 host=$(pwd)/build/demo
 c=$dir/c
-mkdir "$c" && cp build/DEMO.EXE build/BENCH.BAT "$c" || exit 1
+mkdir "$c" && cp build/DEMO.EXE build/BENCH.BAT tools/scenes/GULP.FB "$c" || exit 1
 
 dos() {
 	sh tools/dosbox.sh -d "$c" "$@"
@@ -54,10 +54,12 @@ ok "/X: the same frames" diff -rq "$dir/shown" "$dir/hidden"
 # ---- In DOSBox
 
 dos -c 30000 -- 'CALL BENCH.BAT REC.CSV 1 > OUT.TXT'
-ok "BENCH.BAT: a header and eight records" lines 9 "$c/REC.CSV"
+ok "BENCH.BAT: a header, eight records, and one of a scene that is there" lines 10 "$c/REC.CSV"
 ok "BENCH.BAT: lines end as DOS has them" dos_lines "$c/REC.CSV"
 ok "BENCH.BAT: its runs" test "$(sed -n '2,$s/,.*//p' "$c/REC.CSV" | tr '\n' ';')" = \
-	"S:2;S:2 G;S:2 G P;S:2 G X;S:2 G V;S:4 G;S:1 G;S:0.5 G;"
+	"S:2;S:2 G;S:2 G P;S:2 G X;S:2 G V;S:4 G;S:1 G;S:0.5 G;S:2 G M:GULP.FB;"
+ok "BENCH.BAT: every shipped scene but the built-in one" sh -c "cd tools/scenes && for f in *.FB; do
+	[ \$f = FOUR.FB ] || grep -q \"^IF EXIST \$f DEMO .*/M:\$f\" ../bench.bat || exit 1; done"
 ok "BENCH.BAT: a second each" sh -c "tr -d '\r' <'$c/REC.CSV' | awk -F , 'NR > 1 && (\$3 < 1 || \$2 < 1) { bad = 1 } END { exit bad }'"
 fps() { # fps SWITCHES: of the record
 	tr -d '\r' <"$c/REC.CSV" | awk -F , -v switches="$1" '$1 == switches { print $4 }'
@@ -79,47 +81,119 @@ dos -c 42000 -- 'DEMO /G /T:5 > A.TXT' 'DEMO /G /T:5 > B.TXT'
 ok "the same frames a second again, to within 1%" awk -v a="$(value fps "$c/A.TXT")" -v b="$(value fps "$c/B.TXT")" \
 	'BEGIN { exit !(a > 0 && b > 0 && a / b < 1.01 && b / a < 1.01) }'
 
-# ---- The benchmark, as short as it goes
+# ---- What the BIOS counts
+
+cp build/TICKS.COM "$c"
+printf 'sphere ONE size 8\r\n' >"$c/SMALL.FB"
+dos -c 25000 -- 'TICKS > T1.TXT' 'DEMO /G /M:SMALL.FB /T:2 > OUT.TXT' 'TICKS > T2.TXT'
+ticks=$((0x$(tr -d '\r\n' <"$c/T2.TXT") - 0x$(tr -d '\r\n' <"$c/T1.TXT")))
+# Two seconds are 36.4 ticks; the start of so small a scene takes less than half a second.
+echo "# $ticks ticks for two seconds and a start"
+ok "TICKS.COM: ticks of 18.2 a second" test "$ticks" -ge 36 -a "$ticks" -le 46
+
+# ---- Whose the instructions are, and what they cost, by a program of known cost
 
 if command -v valgrind >/dev/null; then
-	ok "make bench" make -s bench SECONDS=1 GROWTH=1
+	mkdir -p "$dir/src/one" "$dir/src/two" "$dir/asm" "$dir/lib"
+	part=0
+	for object in src/one/first src/two/second asm/second lib/library; do
+		part=$((part + 1))
+		${CXX:-g++} -m32 -DPART=$part -c tests/bench/seq.S -o "$dir/$object.o"
+	done
+	${CXX:-g++} -m32 -nostdlib -static -no-pie -Wl,-Map="$dir/seq.map" -o "$dir/seq" "$dir/src/one/first.o" \
+		"$dir/src/two/second.o" "$dir/asm/second.o" "$dir/lib/library.o"
+	objdump -d -w "$dir/seq" >"$dir/seq.asm"
+	round() { # round FILE ARGUMENTS...: counts a run
+		out=$1
+		shift
+		valgrind --tool=callgrind --dump-instr=yes --collect-jumps=yes --compress-strings=no --compress-pos=no \
+			--callgrind-out-file="$dir/$out" "$dir/seq" "$@" >"$dir/log" 2>&1
+	}
+	round short
+	round long 2 3 4 5 6 7 8 9 10 11
+	build/cost -t 9 "$dir/seq.map" "$dir/seq.asm" "$dir/short" "$dir/long" 10 >"$dir/cost"
+	# What the comments of the program say of each part; `rep stosl` counts for each of four words and for finding the end.
+	awk '/PART|^#else/ { ++part }
+		{ at = index($0, "#: ") }
+		at { split(substr($0, at + 3), word, " "); clocks[part] += word[1]; count[part] += $1 == "rep" ? 5 : 1 }
+		END {
+			print "all all", count[2] + count[3] + count[4] + count[5], clocks[2] + clocks[3] + clocks[4] + clocks[5]
+			print "room one", count[2] + count[5], clocks[2] + clocks[5]
+			print "room two", count[3] + count[4], clocks[3] + clocks[4]
+			print "room library 0 0"
+			print "source one/first", count[2] + count[5], clocks[2] + clocks[5]
+			print "source two/second", count[3] + count[4], clocks[3] + clocks[4]
+			print "unknown all 0 0"
+		}' tests/bench/seq.S >"$dir/known"
+	grep -v '^function' "$dir/cost" >"$dir/told"
+	ok "instructions and clocks of a known program" diff "$dir/known" "$dir/told"
+	ok "its functions: two" test "$(grep -c '^function' "$dir/cost")" -eq 2
+	ok "no counts: status 1" status 1 build/cost "$dir/seq.map" "$dir/seq.asm" "$dir/none" "$dir/long" 10
+	ok "counts not by address: status 1" status 1 build/cost "$dir/seq.map" "$dir/seq.asm" "$dir/log" "$dir/long" 10
+	ok "the code of another program: status 1" status 1 sh -c "sed 's/^ 8049/ 9049/' '$dir/seq.asm' >'$dir/other.asm' &&
+		build/cost '$dir/seq.map' '$dir/other.asm' '$dir/short' '$dir/long' 10"
+fi
+
+# ---- The benchmark, as short as it goes
+
+ok "every bar is a number" awk '!/^#/ && (NF != 3 || $2 + 0 <= 0 || $3 + 0 < 0) { exit 1 }' tools/bars.txt
+ok "every shipped scene has a bar of its own" sh -c "cd tools/scenes && for f in *.FB; do grep -q \"^\${f%.FB} \" ../bars.txt || exit 1; done"
+for scene in tests/scenes/speed/*.FB; do
+	ok "$scene plays" "$host" /S:4 /N:1 "/M:$scene"
+done
+if command -v valgrind >/dev/null; then
+	ok "make bench" make -s bench FULL=1 SECONDS=1 FRAMES=5 SCENES="FOUR GULP"
+	awk -F , '
+		NR == 1 { columns = NF; for (i = 1; i <= NF; ++i) column[$i] = i; next }
+		NF != columns { print "line " NR ": " NF " columns of " columns; bad = 1 }
+		{ seen[$1] = 1; ++lines }
+		{ sum = 0; for (i = column["math"]; i <= column["rest"]; ++i) { sum += $i; if ($i < 0) bad = 1 } }
+		# Rounded, each room by itself.
+		sum < $column["instructions"] - 7 || sum > $column["instructions"] + 7 { print $1 ": rooms are " sum " of " $column["instructions"]; bad = 1 }
+		# The model of a mean instruction of 1 to 10 clocks holds for any program.
+		$column["clocks"] < $column["instructions"] || $column["clocks"] > 10 * $column["instructions"] { print $1 ": " $column["clocks"] " clocks"; bad = 1 }
+		$column["rest"] > $column["instructions"] / 10 { print $1 ": a room has got lost"; bad = 1 }
+		$column["scales"] <= 0 { print $1 ": no scales"; bad = 1 }
+		{ above = $column["instructions"] / $column["bar"] }
+		($column["fps"] != "") { if (played && above > last) { print $1 " stands too low"; bad = 1 } played += 1; last = above }
+		# What is counted on the host is what DOSBox counts, but for interrupts and what is drawn at another pace.
+		($column["fps"] != "") {
+			other = 25000000 / $column["fps"]
+			print "# " $1 ": instructions a frame: " $column["instructions"] " counted, " int(other) " by DOSBox"
+			if ($1 == "FOUR" && ($column["instructions"] > 1.25 * other || other > 1.25 * $column["instructions"])) bad = 1
+			if ($column["start"] < 0.1 || $column["start"] > 60) { print $1 ": start " $column["start"]; bad = 1 }
+		}
+		END { if (played != 2 || lines < 3 || !seen["FOUR"] || !seen["GULP"] || !seen["BODY64"]) bad = 1; exit bad }
+		' build/bench.csv >"$dir/csv"
+	ok "bench.csv: a line a scene, and its parts agree" test $? -eq 0
+	sed 's/^\([^#]\)/# \1/' "$dir/csv"
 	awk -F , 'NF != 4 || $4 == "" { print; bad = 1 }
 		{ seen[$1] += 1; number[$1, $2, $3] = $4 }
 		END {
-			if (seen["fps"] != 19 || seen["instructions"] != 10 || seen["stage"] != 10 || seen["loop"] != 5 || seen["growth"] != 5)
-				bad = 1
-			sum = 0
-			split("update normals draw scales gaps contours clear present other", names, " ")
-			for (i in names) {
-				cost = number["stage", names[i], "instructions"]
-				# Closing gaps and putting outlines right may one day cost nothing; the others are work.
-				if (cost <= 0 && names[i] != "gaps" && names[i] != "contours") { print names[i] ": " cost; bad = 1 }
-				sum += cost
-			}
-			all = number["stage", "all", "instructions"]
-			if (number["stage", "other", "instructions"] > all / 20) { print "a stage has got lost"; bad = 1 }
-			if (sum != all) { print "the stages are " sum " of " all; bad = 1 }
-			# What is counted on the host is what DOSBox counts, but for interrupts; held against the speed that comes nearest
-			# to the 35 frames a second counted at, for the closer the frames, the less there is to do for each.
-			split("8000 25000 42000 100000 177000", speeds, " ")
-			far = 1e9
-			for (i in speeds) {
-				f = number["fps", speeds[i], "ours"]
-				apart = f <= 0 ? 1e9 : f > 35 ? f / 35 : 35 / f
-				if (apart < far) { far = apart; other = number["instructions", speeds[i], "ours"] }
-			}
-			print "# instructions a frame: " all " counted, " other " by DOSBox"
-			if (all > 1.25 * other || other > 1.25 * all) bad = 1
-			if (number["loop", "loop", "instructions"] > number["stage", "scales", "instructions"]) { print "the loop is more than its stage"; bad = 1 }
-			if (number["loop", "loop", "instructions"] >= number["loop", "twin", "instructions"]) {
-				print "the assembly does not pay"
-				bad = 1
-			}
+			if (seen["spacing"] != 2 || seen["apart"] != 2 || seen["body"] != 1 || seen["loop"] != 4) bad = 1
+			if (seen["fps"] != 19 || seen["instructions"] != 10 || seen["growth"] != 5) bad = 1
+			# Seeds: four times as many at each step, and a cost that grows.
+			if (number["growth", "0.25", "instructions"] <= number["growth", "1", "instructions"]) { print "spacings"; bad = 1 }
+			# Four times the seeds cost more, but less than eight times as much.
+			if (number["spacing", "FOUR", "times"] < 1 || number["spacing", "FOUR", "times"] > 8) { print "growth"; bad = 1 }
+			if (number["loop", "assembly", "instructions"] <= 0) bad = 1
+			if (number["loop", "assembly", "instructions"] >= number["loop", "twin", "instructions"]) { print "the assembly does not pay"; bad = 1 }
 			exit bad
-		}' build/bench.csv >"$dir/csv"
-	ok "bench.csv: complete, and its parts agree" test $? -eq 0
-	cat "$dir/csv" | sed 's/^\([^#]\)/# \1/'
-	ok "one page" test "$(wc -l <build/bench.txt)" -le 60
+		}' build/figures.csv >"$dir/figures"
+	ok "figures.csv: complete" test $? -eq 0
+	sed 's/^/# /' "$dir/figures"
+	ok "one page" test "$(wc -l <build/bench.txt)" -le 90
+
+	# Once more; by instr.sh alone, for frames a second are tried above.
+	counted() { awk -F , '$1 == "GULP" { print $4 }' build/bench.csv; }
+	sh tools/instr.sh -n 5 -d "$dir/again" -t 3 gulp >"$dir/instr"
+	again=$(awk '$1 == "all" { print $3 }' "$dir/again/GULP.cost")
+	ok "the same instructions again, to within 1%" awk -v a="$again" -v b="$(counted)" 'BEGIN { exit !(a > 0 && a / b < 1.01 && b / a < 1.01) }'
+	ok "instr.sh: a line for the scene" test "$(grep -c '^GULP .*\..*\..*\.' "$dir/instr")" -eq 1
+	ok "instr.sh: three functions" test "$(grep -c '^ *[0-9].*/.*:' "$dir/instr")" -ge 3
+	ok "instr.sh: no such scene: status 2" status 2 sh tools/instr.sh nosuch
+	ok "a scene that is not shipped is refused" status 2 env BENCH_SCENES=NONE sh tools/bench.sh
+	ok "a wrong number of frames is refused" status 2 env BENCH_FRAMES=x sh tools/bench.sh
 else
 	echo "# no valgrind: make bench is not tried"
 fi
