@@ -43,6 +43,7 @@ struct Seed {
     Real position;       // along the path; 1.0 on the unblended surface
     int32_t neighbour;   // index of the seed N of the ring before (Appendix C, Oversampling); -1 in the first ring
     Direction14 normal;  // of the surface at the seed
+    int16_t brightness8; // of the surface there, 0..63 with 8 bits of fraction
     uint16_t root;       // index of the root point: seeds share them
     uint8_t flags;       // SeedFlag
     int8_t aside;        // how far N lies along the ring, in 1/64 of the way to the successor

@@ -158,8 +158,11 @@ void makePatches(const SoftObject& object, Patch* patches)
             patch.before = first + (run > 0 ? run : band.runs) - 1;
             patch.next = first + (run + 1 < band.runs ? run + 1 : 0);
             patch.above = firstBefore < 0 ? -1 : firstBefore + run * runsBefore / band.runs;
+            patch.below = -1;
             setPatch(object, patch);
         }
+        for (int run = 0; run < runsBefore; ++run)
+            patches[firstBefore + run].below = first + run * band.runs / runsBefore;
         firstBefore = first;
         runsBefore = band.runs;
         first += band.runs;
@@ -229,5 +232,5 @@ bool mayBeCoarse(const SoftObject& object, const Patch* patches, const Patch& pa
     const Seed& s = object.seed(patch.centre);
     return patch.even && (s.flags & SEED_VALID) && !(s.flags & SEED_BORDER) && facing(object, s, own) > COARSE_FACING &&
            alike(object, patches, s, patch.before) && alike(object, patches, s, patch.next) &&
-           alike(object, patches, s, patch.above);
+           alike(object, patches, s, patch.above) && alike(object, patches, s, patch.below);
 }

@@ -28,9 +28,21 @@ public:
 
 private:
     SoftObject& object_;
+    bool turned(const int32_t* light);
+
+    int32_t light_[3] = {0, 0, 0};  // at the last update, own axes
     Patch* patches_ = nullptr;
     int count_ = 0;
 };
+
+// Whether the light comes from another side of the object than at the last update.
+bool Engine::turned(const int32_t* light)
+{
+    const bool same = light[0] == light_[0] && light[1] == light_[1] && light[2] == light_[2];
+    for (int i = 0; i < 3; ++i)
+        light_[i] = light[i];
+    return !same;
+}
 
 // Gather what reaches the object, classify its patches, settle those that need it.
 void Engine::update(const FrameContext& frame)
@@ -38,25 +50,34 @@ void Engine::update(const FrameContext& frame)
     Neighbour neighbours[NEIGHBOURS_MAX];
     const OwnFrame own = ownFrame(object_, frame);
     const int count = gather(object_, frame, neighbours);
-    Settler settler(object_, neighbours, count, frame);
+    Settler settler(object_, own, neighbours, count, frame);
+    const bool lightTurned = turned(own.light);
     bool displaced = false;
     Patch* const end = patches_ + count_;
     for (Patch* patch = patches_; patch < end; ++patch) {
+        if (patch->state == PATCH_INSIDE && settler.stillInside(*patch)) {
+            displaced = true;
+            continue;
+        }
         if (!classify(*patch, neighbours, count)) {
             if (patch->state != PATCH_REST)
-                rest(object_, *patch);
+                rest(object_, *patch, own);
             patch->state = PATCH_REST;
             continue;
         }
         displaced = true;
         settler.setPatch(*patch);
-        patch->state = settler.probe(*patch, own);
+        patch->state = settler.probe(*patch);
         if (patch->state != PATCH_MIXED)
             sleep(object_, *patch);
     }
     for (Patch* patch = patches_; patch < end; ++patch) {
-        if (patch->state == PATCH_REST && restsAway(*patch, own))
-            continue;
+        if (patch->state == PATCH_REST) {
+            if (lightTurned)
+                light(object_, *patch, own);
+            if (restsAway(*patch, own))
+                continue;
+        }
         if (patch->state == PATCH_REST || patch->state == PATCH_MIXED)
             patch->coarse = mayBeCoarse(object_, patches_, *patch, own);
         if (patch->state != PATCH_MIXED)

@@ -59,6 +59,17 @@ struct OwnFrame {
     Real growth;                  // units of the world in a unit of own space
 };
 
+// Steps of brightness: 0..63, the 64-step ramp.
+constexpr int BRIGHTEST = 63;
+
+// Brightness of a surface that faces along `normal` under a light from `light` (both 1.0 = 2^14): Lambert's cosine, 8 bits of
+// fraction, 0..63 * 256 (report, The Rendering Technique).
+inline int16_t brightness8(const Direction14& normal, const int32_t light[3])
+{
+    const int32_t cosine = (normal.x * light[0] + normal.y * light[1] + normal.z * light[2]) >> 14;
+    return static_cast<int16_t>(cosine <= 0 ? 0 : cosine * BRIGHTEST >> 6);
+}
+
 OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame);
 
 // Writes the neighbours in range, at most NEIGHBOURS_MAX, and returns how many there are.

@@ -3,6 +3,7 @@
 #include "settle.h"
 
 #include "math/normal.h"
+#include "rt.h"
 
 namespace {
 
@@ -30,13 +31,15 @@ constexpr Real PARTED(1.5);
 
 }  // namespace
 
-Settler::Settler(SoftObject& object, const Neighbour* neighbours, int count, const FrameContext& frame)
-    : object_(object), neighbours_(neighbours), bodies_(*frame.bodies), counts_(*frame.counts)
+Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbour* neighbours, int count, const FrameContext& frame)
+    : object_(object), own_(own), neighbours_(neighbours), bodies_(*frame.bodies), counts_(*frame.counts)
 {
     complete_ = true;
+    memset(numberOf_, -1, sizeof numberOf_);
     for (int i = 0; i < count; ++i) {
         from_[i].root = -1;
         const int slot = neighbours[i].object->slot();
+        numberOf_[slot] = static_cast<int8_t>(i);
         complete_ = complete_ && bodies_.weight(object_.slot(), slot) == Real(1);
         for (int j = 0; j < i && complete_; ++j)
             complete_ = bodies_.weight(neighbours[j].object->slot(), slot) == Real(1);
@@ -131,7 +134,7 @@ Sample Settler::look(Real position)
     ++counts_.iterations;
     const Real t = shiftDown(position * position, 2);
     const FieldStep own = t < Real(1) ? geoffQuick(t) : FieldStep{Real(0), Real(0)};
-    own_ = own.value;
+    ownField_ = own.value;
     ownSlope_ = own.slope;
     Real sum = own.value, slope = shiftDown(own.slope * position, 1), strongest(0);
     for (Along *along = along_, *const end = along_ + touched_; along < end; ++along) {
@@ -169,9 +172,9 @@ void Settler::blend(Real position, Sample& sample)
     const int count = touched_ + 1;
     Real f[NEIGHBOURS_MAX + 1], x2[NEIGHBOURS_MAX + 1], x[NEIGHBOURS_MAX + 1], g[NEIGHBOURS_MAX + 1];
     int slot[NEIGHBOURS_MAX + 1];
-    f[0] = own_;
+    f[0] = ownField_;
     slot[0] = object_.slot();
-    Real strongest = own_;
+    Real strongest = ownField_;
     for (int i = 1; i < count; ++i) {
         f[i] = along_[i - 1].value;
         slot[i] = along_[i - 1].near->object->slot();
@@ -328,6 +331,7 @@ Real Settler::settle(Seed& s)
             s.position = Real(1);
             s.normal = object_.restNormal(s);
         }
+        s.brightness8 = brightness8(s.normal, own_.light);
         s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
         return Real(0);
     }
@@ -353,21 +357,60 @@ Real Settler::settle(Seed& s)
         return sample.dominance - OVERSHOOT;
     const Normal n = normalise(outward(position));
     s.normal = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
+    s.brightness8 = brightness8(s.normal, own_.light);
     s.flags |= sample.dominance > -BORDER ? SEED_VALID | SEED_BORDER : SEED_VALID;
     ++counts_.normals;
     return Real(0);
 }
 
-PatchState Settler::probe(const Patch& patch, const OwnFrame& own)
+// By how much of the field the seed in the middle of a patch must lie inside, for all of the patch to do so: the other seeds
+// are no farther than the patch reaches, and a field changes by about its size at most over that of its object.
+static Real enough(const Patch& patch, Real size)
+{
+    return clamp(realFromRaw(patch.radius << 12) / size * STEEPEST, Real(0.1), Real(0.45));
+}
+
+bool Settler::stillInside(const Patch& patch)
+{
+    const int i = numberOf_[patch.blocker];
+    if (i < 0 || neighbours_[i].kind != Neighbour::POINT)
+        return false;
+    const Seed& s = object_.seed(patch.centre);
+    FromRoot& from = from_[i];
+    if (from.root != s.root)
+        setRoot(neighbours_[i], s, from);
+    const Real p = s.position, b = shiftDown(dot(s.path, from.twice16), 4);
+    const Real param = from.a + p * (b + p * from.c);
+    if (param >= Real(0.6))
+        return false;
+    const Real own = geoffQuick(least(shiftDown(p * p, 2), Real(0.999))).value;
+    const Real field = geoffQuick(most(param, Real(0))).value;
+    return most(complete_ ? own + field - ISOVALUE : Real(0), field - own - OVERSHOOT) > enough(patch, neighbours_[i].size);
+}
+
+// Of those that touch the seed that was settled last, the one with the strongest field.
+int Settler::strongest() const
+{
+    int slot = 0;
+    Real most(0);
+    for (int i = 0; i < touched_; ++i) {
+        if (along_[i].value > most) {
+            most = along_[i].value;
+            slot = along_[i].near->object->slot();
+        }
+    }
+    return slot;
+}
+
+PatchState Settler::probe(Patch& patch)
 {
     Seed& s = object_.seed(patch.centre);
     const Real margin = settle(s);
     if (!(s.flags & SEED_VALID)) {
-        // The other seeds are no farther than the patch reaches, across which a field changes by its size at most.
-        const Real enough = realFromRaw(patch.radius << 12) / smallest_ * STEEPEST;
-        return margin > clamp(enough, Real(0.1), Real(0.45)) ? PATCH_INSIDE : PATCH_MIXED;
+        patch.blocker = static_cast<uint8_t>(strongest());
+        return margin > enough(patch, smallest_) ? PATCH_INSIDE : PATCH_MIXED;
     }
-    return facing(object_, s, own) < -(patch.spread + TURNED) ? PATCH_AWAY : PATCH_MIXED;
+    return facing(object_, s, own_) < -(patch.spread + TURNED) ? PATCH_AWAY : PATCH_MIXED;
 }
 
 void Settler::settleRest(const Patch& patch)
@@ -419,7 +462,7 @@ void Settler::oversample(const Patch& patch)
     });
 }
 
-void rest(SoftObject& object, const Patch& patch)
+void rest(SoftObject& object, const Patch& patch, const OwnFrame& own)
 {
     forSeeds(patch, [&](int i) {
         Seed& s = object.seed(i);
@@ -428,7 +471,16 @@ void rest(SoftObject& object, const Patch& patch)
             return;
         s.position = Real(1);
         s.normal = object.restNormal(s);
+        s.brightness8 = brightness8(s.normal, own.light);
         s.flags = SEED_VALID | SEED_RESTING;
+    });
+}
+
+void light(SoftObject& object, const Patch& patch, const OwnFrame& own)
+{
+    forSeeds(patch, [&](int i) {
+        Seed& s = object.seed(i);
+        s.brightness8 = brightness8(s.normal, own.light);
     });
 }
 

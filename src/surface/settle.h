@@ -32,13 +32,16 @@ struct FromRoot {
 // Settles the seeds of one object, one settler for every scene. Made once for an object and a frame.
 class Settler {
 public:
-    Settler(SoftObject& object, const Neighbour* neighbours, int count, const FrameContext& frame);
+    Settler(SoftObject& object, const OwnFrame& own, const Neighbour* neighbours, int count, const FrameContext& frame);
 
     // To be called before anything else about the seeds of a patch.
     void setPatch(const Patch& patch);
 
     // Settles the seed in the middle of a patch that neighbours reach, and says from it what becomes of the patch.
-    PatchState probe(const Patch& patch, const OwnFrame& own);
+    PatchState probe(Patch& patch);
+
+    // Whether a patch that lay inside still does, by the field of the neighbour alone that was the strongest then.
+    bool stillInside(const Patch& patch);
 
     // Settles the other regular seeds of a patch.
     void settleRest(const Patch& patch);
@@ -60,12 +63,16 @@ private:
     bool bisect(Real inside, Real outside, Real* position, Sample* sample);
     Vector outward(Real position) const;
 
+    int strongest() const;
+
     SoftObject& object_;
+    const OwnFrame& own_;
     const Neighbour* neighbours_;
     const Bodies& bodies_;
     Counts& counts_;
     bool complete_;       // all neighbours are linked with each other, and with the object, at weight 1
     FromRoot from_[NEIGHBOURS_MAX];
+    int8_t numberOf_[NEIGHBOURS_MAX + 1];  // by slot: number of the neighbour; -1: out of range
 
     // Of the patch: those that reach it, and the size of the smallest, or of the object.
     int reached_ = 0;
@@ -77,12 +84,15 @@ private:
     bool plain_;                      // the sum of the fields is F
     int touched_;
     Along along_[NEIGHBOURS_MAX];
-    Real own_, ownSlope_;             // F and dF/dt of the own field at the last position
+    Real ownField_, ownSlope_;             // F and dF/dt of the own field at the last position
     Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, if not plain
 };
 
 // Puts the seeds of a patch where no neighbour reaches them.
-void rest(SoftObject& object, const Patch& patch);
+void rest(SoftObject& object, const Patch& patch, const OwnFrame& own);
+
+// Works out the brightness of its seeds anew, when the light comes from another side of the object.
+void light(SoftObject& object, const Patch& patch, const OwnFrame& own);
 
 // Puts all seeds of a patch but the one in the middle to sleep: they are neither settled nor drawn.
 void sleep(SoftObject& object, const Patch& patch);

@@ -76,7 +76,7 @@ void Shader::setPatch(const Patch& patch)
 }
 
 // Place, tilt and brightness. False: it faces away.
-bool Shader::place(const Seed& s, Voxel* voxel)
+inline bool Shader::place(const Seed& s, Voxel* voxel)
 {
     Vector place = object_.root(s.root) + (s.flags & SEED_RESTING ? s.path : s.path * s.position);
     if (grown_)
@@ -107,19 +107,29 @@ bool Shader::place(const Seed& s, Voxel* voxel)
     voxel->tiltY = static_cast<int16_t>(limited(ny * steep >> 14, 20000));
     voxel->cutX = voxel->cutY = 0;
     voxel->cutAt = 0;
-    brightness_ = brightnessOf(s);
-    voxel->brightness = static_cast<uint8_t>((brightness_ + 128) >> 8);
+    voxel->brightness = static_cast<uint8_t>((s.brightness8 + 128) >> 8);
     return true;
 }
 
-// The cell of the unblended surface that is the seed's own, so many times as long (1/16), grown with the position, as it falls
-// along the path onto the tangent plane. A half axis e becomes e - u (e.n) / (u.n) with u the path.
-void Shader::cell(const Seed& s, int32_t along16, int32_t across16)
+// The cell of the unblended surface that is the seed's own, grown with the position, as it falls along the path onto the
+// tangent plane. A half axis e becomes e - u (e.n) / (u.n) with u the path.
+inline void Shader::cell(const Seed& s)
 {
     const auto along = [&](const int32_t a[3]) { return s.along[0] * a[0] + s.along[1] * a[1] + s.along[2] * a[2]; };
     const auto across = [&](const int32_t a[3]) { return s.across[0] * a[0] + s.across[1] * a[1] + s.across[2] * a[2]; };
     // 1/64 spacing, 8 bits of fraction.
-    int32_t ax = along(column_) >> 6, ay = along(row_) >> 6, cx = across(column_) >> 6, cy = across(row_) >> 6;
+    int32_t ax, ay, cx, cy;
+    if (turned_) {
+        ax = along(column_) >> 6;
+        ay = along(row_) >> 6;
+        cx = across(column_) >> 6;
+        cy = across(row_) >> 6;
+    } else {
+        ax = s.along[0] * 256 + (s.along[2] * column_[2] >> 6);
+        ay = s.along[1] * 256 + (s.along[2] * row_[2] >> 6);
+        cx = s.across[0] * 256 + (s.across[2] * column_[2] >> 6);
+        cy = s.across[1] * 256 + (s.across[2] * row_[2] >> 6);
+    }
     int32_t size = spacing_;
     uneven_ = false;
     if (!(s.flags & SEED_RESTING)) {
@@ -141,15 +151,24 @@ void Shader::cell(const Seed& s, int32_t along16, int32_t across16)
         cy -= offAcross * oy >> 14;
         size = size * (rawFromReal(s.position) >> 8) >> 8;
     }
-    along_.x = (ax * size >> 14) * along16 >> 4;
-    along_.y = (ay * size >> 14) * along16 >> 4;
-    across_.x = (cx * size >> 14) * across16 >> 4;
-    across_.y = (cy * size >> 14) * across16 >> 4;
+    along_.x = ax * size >> 14;
+    along_.y = ay * size >> 14;
+    across_.x = cx * size >> 14;
+    across_.y = cy * size >> 14;
+}
+
+// Makes the cell so many times as long, 1/16.
+inline void Shader::stretch(int32_t along16, int32_t across16)
+{
+    along_.x = along_.x * along16 >> 4;
+    along_.y = along_.y * along16 >> 4;
+    across_.x = across_.x * across16 >> 4;
+    across_.y = across_.y * across16 >> 4;
 }
 
 // Half width and height of the scale. Beside each other, cells of a ring make a band: rectangles as wide as the way from one
 // to the next need not cover the whole of their cells, only, together, the band.
-void Shader::extents(bool whole, Voxel* voxel) const
+inline void Shader::extents(bool whole, Voxel* voxel) const
 {
     const int32_t ax = magnitude(along_.x), ay = magnitude(along_.y);
     int32_t width = ax, height = ay;
@@ -167,7 +186,7 @@ void Shader::extents(bool whole, Voxel* voxel) const
 
 // Where a round surface bends out of sight its tangent plane goes on: the scale ends there. The limb is cos^2 radius / 2
 // away across the view, with cos the cosine of normal and viewer; along the plane that is cos radius / 2 deep.
-void Shader::end(Voxel* voxel) const
+inline void Shader::end(Voxel* voxel) const
 {
     const int32_t curvature = horizon_ > 8000 ? 8000 : horizon_;
     const int32_t reach = curvature * facing_ / (2 * own_.distance32) + 1;
@@ -177,7 +196,7 @@ void Shader::end(Voxel* voxel) const
 }
 
 // How the brightness changes across the scale, from its change along two ways.
-void Shader::slopes(const Way& along, const Way& across, Voxel* voxel)
+inline void Shader::slopes(const Way& along, const Way& across, Voxel* voxel)
 {
     voxel->slopeX = voxel->slopeY = 0;
     const int32_t det = along.x * across.y - along.y * across.x;
@@ -205,7 +224,7 @@ bool Shader::shade(const Seed& s, bool oversampled, Voxel* voxel)
 {
     if (!place(s, voxel))
         return false;
-    cell(s, 16, 16);
+    cell(s);
     extents(oversampled || uneven_, voxel);
     end(voxel);
     voxel->slopeX = voxel->slopeY = 0;
@@ -215,11 +234,11 @@ bool Shader::shade(const Seed& s, bool oversampled, Voxel* voxel)
     const Seed &next = (&s)[2], &last = (&s)[-2], &n = object_.seed(s.neighbour);
     along_.change = across_.change = 0;
     if (&next <= &object_.seed(object_.seedSlots() - 2) && (next.flags & SEED_VALID) && next.neighbour >= s.neighbour)
-        along_.change = (brightnessOf(next) - brightness_) >> 1;
+        along_.change = (next.brightness8 - s.brightness8) >> 1;
     else if (last.flags & SEED_VALID)
-        along_.change = (brightness_ - brightnessOf(last)) >> 1;
+        along_.change = (s.brightness8 - last.brightness8) >> 1;
     if (n.flags & SEED_VALID)
-        across_.change = (brightness_ - brightnessOf(n) + (along_.change * s.aside >> 5)) >> 1;
+        across_.change = (s.brightness8 - n.brightness8 + (along_.change * s.aside >> 5)) >> 1;
     slopes(along_, across_, voxel);
     return true;
 }
@@ -237,15 +256,18 @@ bool Shader::shadePatch(const Patch& patch, const Patch* patches, Voxel* voxel)
     const Seed& s = object_.seed(patch.centre);
     if (!place(s, voxel))
         return false;
-    cell(s, patch.width16 + 4, 16 * PATCH_RINGS);
+    cell(s);
+    stretch(patch.width16 + 4, 16 * PATCH_RINGS);
     extents(uneven_, voxel);
     end(voxel);
-    const auto rests = [&](const Seed& seed) { return object_.root(seed.root) + seed.path * seed.position; };
-    const Vector here = rests(s);
-    const auto way = [&](int beside) {
-        const Seed& other = object_.seed(patches[beside].centre);
-        return wayTo(here, rests(other), brightnessOf(other) - brightness_);
+    const auto rests = [&](int beside) {
+        const Seed& seed = object_.seed(patches[beside].centre);
+        return object_.root(seed.root) + seed.path * seed.position;
     };
-    slopes(way(patch.next), patch.above >= 0 ? way(patch.above) : Way{across_.x, across_.y, 0}, voxel);
+    const auto way = [&](int from, int to) {
+        return wayTo(rests(from), rests(to), object_.seed(patches[to].centre).brightness8 - object_.seed(patches[from].centre).brightness8);
+    };
+    const int here = static_cast<int>(&patch - patches);
+    slopes(way(patch.before, patch.next), way(patch.above < 0 ? here : patch.above, patch.below < 0 ? here : patch.below), voxel);
     return true;
 }

@@ -5,17 +5,6 @@
 #include "patch.h"
 #include "surface/voxel.h"
 
-// Steps of brightness: 0..63, the 64-step ramp.
-constexpr int BRIGHTEST = 63;
-
-// Brightness of a surface that faces along `normal` under a light from `light` (both 1.0 = 2^14): Lambert's cosine, 8 bits of
-// fraction, 0..63 * 256 (report, The Rendering Technique).
-inline int32_t brightness8(const Direction14& normal, const int32_t light[3])
-{
-    const int32_t cosine = (normal.x * light[0] + normal.y * light[1] + normal.z * light[2]) >> 14;
-    return cosine <= 0 ? 0 : cosine * BRIGHTEST >> 6;
-}
-
 // Turns the seeds of one object into voxels. Made once for an object and a frame.
 class Shader {
 public:
@@ -38,12 +27,12 @@ private:
     };
 
     bool place(const Seed& s, Voxel* voxel);
-    void cell(const Seed& s, int32_t along16, int32_t across16);
+    void cell(const Seed& s);
+    void stretch(int32_t along16, int32_t across16);
     void extents(bool whole, Voxel* voxel) const;
     void end(Voxel* voxel) const;
     Way wayTo(const Vector& from, const Vector& to, int32_t change) const;
     static void slopes(const Way& along, const Way& across, Voxel* voxel);
-    int32_t brightnessOf(const Seed& s) const { return brightness8(s.normal, own_.light); }
 
     const SoftObject& object_;
     const OwnFrame& own_;
@@ -61,7 +50,6 @@ private:
     int32_t column_[3], row_[3];
     // Of the seed.
     int32_t facing_;          // its normal times the vector to the eye, 1/32 unit
-    int32_t brightness_;      // 8 bits of fraction
     bool uneven_;             // blending has torn its ring out of line
     Way along_, across_;      // half axes of its cell
 };
