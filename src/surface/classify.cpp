@@ -100,13 +100,13 @@ Step toEyeFrom(const Step& place, const OwnFrame& own)
 
 // The rings from `ring` on that one band of patches has, the most seeds of one of them, and how many patches that takes.
 struct Band {
-    int rings, runs;
+    int rings, runs, most;
 
     Band(const SoftObject& object, int ring)
     {
         const int left = object.rings() - ring;
         rings = left < PATCH_RINGS ? left : PATCH_RINGS;
-        int most = 0;
+        most = 0;
         for (int k = ring; k < ring + rings; ++k) {
             const int count = object.ringStart(k + 1) - object.ringStart(k);
             most = count > most ? count : most;
@@ -123,7 +123,7 @@ int patchesOf(const SoftObject& object)
     return patches;
 }
 
-// Whether the rings of a band have about as many seeds each, so that one cell may stand for seeds of all of them.
+// Whether the rings of a band are near enough to equal in length that one cell may stand for seeds of all of them.
 static bool evenBand(const SoftObject& object, int ring, const Band& band)
 {
     int least = 0, most = 0;
@@ -132,7 +132,7 @@ static bool evenBand(const SoftObject& object, int ring, const Band& band)
         least = k == ring || count < least ? count : least;
         most = count > most ? count : most;
     }
-    return band.rings == PATCH_RINGS && band.runs >= PATCH_RINGS && 4 * most <= 5 * least;
+    return band.rings == PATCH_RINGS && band.runs >= PATCH_RINGS && most <= 2 * least;
 }
 
 void makePatches(const SoftObject& object, Patch* patches)
@@ -154,7 +154,7 @@ void makePatches(const SoftObject& object, Patch* patches)
             const int k = patch.count[band.rings / 2] > 0 ? band.rings / 2 : 0;
             patch.centre = 2 * (patch.first[k] + patch.count[k] / 2);
             patch.even = even;
-            patch.width16 = static_cast<int16_t>((object.ringStart(ring + k + 1) - object.ringStart(ring + k)) * 16 / band.runs);
+            patch.width16 = static_cast<int16_t>(band.most * 16 / band.runs);
             patch.before = first + (run > 0 ? run : band.runs) - 1;
             patch.next = first + (run + 1 < band.runs ? run + 1 : 0);
             patch.above = firstBefore < 0 ? -1 : firstBefore + run * runsBefore / band.runs;
@@ -209,7 +209,7 @@ namespace {
 constexpr int32_t COARSE_FACING = 7400;
 // Squared length of the difference of two normals, 1.0 = 2^14, and difference of two positions as a length in spacings, up
 // to which patches lie alike.
-constexpr int32_t ALIKE_NORMALS = (1 << 14) * 2 / 5;
+constexpr int32_t ALIKE_NORMALS = (1 << 14) / 2;
 constexpr Real ALIKE_POSITIONS(1.0);
 
 bool alike(const SoftObject& object, const Patch* patches, const Seed& s, int beside)

@@ -30,6 +30,7 @@ private:
     SoftObject& object_;
     bool turned(const int32_t* light);
 
+    uint32_t updates_ = 0;
     int32_t light_[3] = {0, 0, 0};  // at the last update, own axes
     Patch* patches_ = nullptr;
     int count_ = 0;
@@ -50,7 +51,7 @@ void Engine::update(const FrameContext& frame)
     Neighbour neighbours[NEIGHBOURS_MAX];
     const OwnFrame own = ownFrame(object_, frame);
     const int count = gather(object_, frame, neighbours);
-    Settler settler(object_, own, neighbours, count, frame);
+    Settler settler(object_, own, neighbours, count, frame, ++updates_);
     const bool lightTurned = turned(own.light);
     bool displaced = false;
     Patch* const end = patches_ + count_;

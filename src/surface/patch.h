@@ -25,9 +25,9 @@ struct Patch {
     uint8_t count[PATCH_RINGS];  // and how many there are
     PatchState state;
     bool coarse;        // one scale, that of the seed in the middle, stands for all; the other seeds are not settled
-    uint8_t blocker;    // of a PATCH_INSIDE one: slot of the neighbour that was the strongest there
+    uint8_t blocker;    // slot of the neighbour that was the strongest where a seed was not on the surface
     bool even;          // its rings have about as many seeds each
-    int16_t width16;    // of the ring in the middle, in its seeds: 1/16
+    int16_t width16;    // of its longest ring, in seeds: 1/16
     int32_t centre;     // slot of the seed in the middle
     int32_t before, next, above, below;  // number of the patches beside it, and of one of the bands beside it; -1: none
     int16_t middle[3];  // of where its seeds rest

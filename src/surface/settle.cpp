@@ -26,13 +26,16 @@ constexpr Real BORDER(0.25);
 constexpr Real STEEPEST(1.3);
 // Cosine (1.0 = 2^14) by which the middle of a patch must face away, more than its seeds differ, to be out of sight as a whole.
 constexpr int32_t TURNED = 2000;
+// Cosines (1.0 = 2^14) by which a seed faces away that is looked at less often.
+constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000;
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
 constexpr Real PARTED(1.5);
 
 }  // namespace
 
-Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbour* neighbours, int count, const FrameContext& frame)
-    : object_(object), own_(own), neighbours_(neighbours), bodies_(*frame.bodies), counts_(*frame.counts)
+Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbour* neighbours, int count, const FrameContext& frame,
+                 uint32_t updates)
+    : object_(object), own_(own), neighbours_(neighbours), bodies_(*frame.bodies), counts_(*frame.counts), frame_(updates)
 {
     complete_ = true;
     memset(numberOf_, -1, sizeof numberOf_);
@@ -370,12 +373,11 @@ static Real enough(const Patch& patch, Real size)
     return clamp(realFromRaw(patch.radius << 12) / size * STEEPEST, Real(0.1), Real(0.45));
 }
 
-bool Settler::stillInside(const Patch& patch)
+bool Settler::blocked(const Patch& patch, const Seed& s, Real margin)
 {
     const int i = numberOf_[patch.blocker];
     if (i < 0 || neighbours_[i].kind != Neighbour::POINT)
         return false;
-    const Seed& s = object_.seed(patch.centre);
     FromRoot& from = from_[i];
     if (from.root != s.root)
         setRoot(neighbours_[i], s, from);
@@ -385,7 +387,13 @@ bool Settler::stillInside(const Patch& patch)
         return false;
     const Real own = geoffQuick(least(shiftDown(p * p, 2), Real(0.999))).value;
     const Real field = geoffQuick(most(param, Real(0))).value;
-    return most(complete_ ? own + field - ISOVALUE : Real(0), field - own - OVERSHOOT) > enough(patch, neighbours_[i].size);
+    return field - own > OVERSHOOT + margin || (complete_ && own + field > ISOVALUE + margin);
+}
+
+bool Settler::stillInside(const Patch& patch)
+{
+    const int i = numberOf_[patch.blocker];
+    return i >= 0 && blocked(patch, object_.seed(patch.centre), enough(patch, neighbours_[i].size));
 }
 
 // Of those that touch the seed that was settled last, the one with the strongest field.
@@ -413,7 +421,7 @@ PatchState Settler::probe(Patch& patch)
     return facing(object_, s, own_) < -(patch.spread + TURNED) ? PATCH_AWAY : PATCH_MIXED;
 }
 
-void Settler::settleRest(const Patch& patch)
+void Settler::settleRest(Patch& patch)
 {
     const Seed& centre = object_.seed(patch.centre);
     forSeeds(patch, [&](int i) {
@@ -424,9 +432,23 @@ void Settler::settleRest(const Patch& patch)
             // It has slept: it is likely to be where the one in the middle is.
             s.position = centre.position;
             s.flags = SEED_VALID;
-        }
+        } else if (waits(s) || (!(s.flags & SEED_VALID) && blocked(patch, s, DEEP)))
+            return;
         settle(s);
+        if (!(s.flags & SEED_VALID))
+            patch.blocker = static_cast<uint8_t>(strongest());
     });
+}
+
+// Coherence over time: a seed that faces away is looked at in every second frame only, one that faces well away in every
+// fourth.
+bool Settler::waits(const Seed& s) const
+{
+    if ((s.flags & (SEED_VALID | SEED_RESTING)) != SEED_VALID)
+        return false;
+    const int32_t away = -facing(object_, s, own_);
+    const uint32_t turn = static_cast<uint32_t>(&s - &object_.seed(0)) / 2 + frame_;
+    return away > WELL_AWAY ? (turn & 3) != 0 : away > LITTLE_AWAY ? (turn & 1) != 0 : false;
 }
 
 namespace {

@@ -29,10 +29,12 @@ struct FromRoot {
     Vector from;     // else: the root in its core space
 };
 
-// Settles the seeds of one object, one settler for every scene. Made once for an object and a frame.
+// Settles the seeds of one object, one settler for every scene. Made once for an object and a frame; `updates` counts those
+// of the object.
 class Settler {
 public:
-    Settler(SoftObject& object, const OwnFrame& own, const Neighbour* neighbours, int count, const FrameContext& frame);
+    Settler(SoftObject& object, const OwnFrame& own, const Neighbour* neighbours, int count, const FrameContext& frame,
+            uint32_t updates);
 
     // To be called before anything else about the seeds of a patch.
     void setPatch(const Patch& patch);
@@ -44,7 +46,7 @@ public:
     bool stillInside(const Patch& patch);
 
     // Settles the other regular seeds of a patch.
-    void settleRest(const Patch& patch);
+    void settleRest(Patch& patch);
 
     // Settles those oversampled seeds of a patch that are needed, when all regular ones have been; the others end.
     void oversample(const Patch& patch);
@@ -64,12 +66,15 @@ private:
     Vector outward(Real position) const;
 
     int strongest() const;
+    bool blocked(const Patch& patch, const Seed& s, Real margin);
+    bool waits(const Seed& s) const;
 
     SoftObject& object_;
     const OwnFrame& own_;
     const Neighbour* neighbours_;
     const Bodies& bodies_;
     Counts& counts_;
+    uint32_t frame_;      // number of the update
     bool complete_;       // all neighbours are linked with each other, and with the object, at weight 1
     FromRoot from_[NEIGHBOURS_MAX];
     int8_t numberOf_[NEIGHBOURS_MAX + 1];  // by slot: number of the neighbour; -1: out of range
