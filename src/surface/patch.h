@@ -28,6 +28,7 @@ struct Patch {
     uint8_t blocker;    // slot of the neighbour that was the strongest where a seed was not on the surface
     bool even;          // its rings have about as many seeds each
     int16_t width16;    // of its longest ring, in seeds: 1/16
+    int32_t facing;     // of a settled patch: cosine of the surface in the middle and the direction to the viewer
     int32_t centre;     // slot of the seed in the middle
     int32_t before, next, above, below;  // number of the patches beside it, and of one of the bands beside it; -1: none
     int16_t middle[3];  // of where its seeds rest

@@ -72,50 +72,98 @@ void Settler::setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const
         to.a = shiftDown(dot(e, e), 8);
         to.c = shiftDown(dot(d, d), 8);
         to.twice16 = e * shiftDown(near.inverse16, 3);
+        to.apart = root - near.centre;
     } else {
-        to.from = near.inCore(root) + near.offset;
+        to.apart = near.inCore(root) + near.offset;
     }
 }
 
-// Finds out which neighbours reach the path where the seed may lie. False: none.
-bool Settler::touch(const Seed& s)
+// Adds up the fields at one position of the path at hand.
+struct Settler::Sum {
+    Settler& settler;
+    Real position, sum, slope, strongest;
+
+    Sum(Settler& of, Real at) : settler(of), position(at), strongest(0)
+    {
+        const Real t = shiftDown(at * at, 2);
+        const FieldStep own = t < Real(1) ? geoffQuick(t) : FieldStep{Real(0), Real(0)};
+        settler.ownField_ = sum = own.value;
+        settler.ownSlope_ = own.slope;
+        slope = shiftDown(own.slope * at, 1);
+    }
+    // A neighbour's, from its t < 1.
+    void add(Along& along, Real param)
+    {
+        const FieldStep field = geoffQuick(param < Real(0) ? Real(0) : param);
+        along.value = field.value;
+        along.slope = field.slope;
+        along.change = along.near->kind == Neighbour::POINT ? along.b + shiftUp(position * along.from->c, 1)
+                                                            : shiftDown(dot(along.out, along.step), 7);
+        sum += field.value;
+        slope += field.slope * along.change;
+        if (field.value > strongest)
+            strongest = field.value;
+    }
+    Sample sample()
+    {
+        Sample all{sum - ISOVALUE, slope, strongest - settler.ownField_};
+        if (!settler.plain_)
+            settler.blend(position, all);
+        return all;
+    }
+};
+
+// Takes up the path of a seed: finds out which neighbours may reach it, and looks at the position where the seed is. Those that
+// do not reach it there are kept if they might elsewhere on the path. False: none reaches it there.
+bool Settler::begin(const Seed& s, Sample* sample)
 {
     root_ = object_.root(s.root);
     path_ = s.path;
-    bool reached = false;
+    const Real position = s.position;
+    Sum sum(*this, position);
     Along* along = along_;
+    bool touched = false;
     for (int i = 0; i < reached_; ++i) {
         const Neighbour& near = neighbours_[reachedBy_[i]];
         FromRoot& from = from_[reachedBy_[i]];
         if (from.root != s.root)
             setRoot(near, s, from);
         along->near = &near;
+        along->from = &from;
+        Real param;
         if (near.kind == Neighbour::POINT) {
-            const Real b = shiftDown(dot(path_, from.twice16), 4);
-            if (from.a + b + from.c < Real(1)) {
-                reached = true;
-            } else {
-                // Out of reach at rest: within reach on the way out?
-                const auto beyond = [&](Real p) { return from.a + p * (b + p * from.c) >= Real(1); };
-                if (b + from.c + from.c >= Real(0) || (beyond(Real(1.4)) && beyond(Real(1.9))))
+            along->b = shiftDown(dot(path_, from.twice16), 4);
+            param = along->pointParam(position);
+            if (param >= Real(1)) {
+                // Farther out the path leads away from it, or does not come near enough.
+                const Real change = along->b + shiftUp(position * from.c, 1);
+                if (change >= Real(0) ? position <= Real(1) || along->pointParam(Real(1)) >= Real(1)
+                                      : along->pointParam(Real(1.5)) >= Real(1) && along->pointParam(Real(1.9)) >= Real(1))
                     continue;
-            }
-            along->a = from.a;
-            along->b = b;
-            along->c = from.c;
-        } else {
-            along->from = from.from;
-            along->step = near.inCore(path_);
-            Vector unused;
-            if (near.param(along->from + along->step, &unused) < Real(1))
-                reached = true;
-            else if (near.param(along->from + along->step * Real(1.5), &unused) >= Real(1))
+                along->value = along->slope = Real(0);
+                ++along;
                 continue;
+            }
+        } else {
+            along->step = near.inCore(path_);
+            param = along->coreParam(position);
+            if (param >= Real(1)) {
+                if (along->coreParam(Real(1.3)) >= Real(1))
+                    continue;
+                along->value = along->slope = Real(0);
+                ++along;
+                continue;
+            }
         }
+        touched = true;
+        sum.add(*along, param);
         ++along;
     }
     touched_ = static_cast<int>(along - along_);
-    return reached;
+    plain_ = complete_ || mutual();
+    ++counts_.iterations;
+    *sample = sum.sample();
+    return touched;
 }
 
 // Whether those that touch the path are all linked with each other at weight 1.
@@ -135,37 +183,15 @@ bool Settler::mutual() const
 Sample Settler::look(Real position)
 {
     ++counts_.iterations;
-    const Real t = shiftDown(position * position, 2);
-    const FieldStep own = t < Real(1) ? geoffQuick(t) : FieldStep{Real(0), Real(0)};
-    ownField_ = own.value;
-    ownSlope_ = own.slope;
-    Real sum = own.value, slope = shiftDown(own.slope * position, 1), strongest(0);
+    Sum sum(*this, position);
     for (Along *along = along_, *const end = along_ + touched_; along < end; ++along) {
-        Real param;
-        if (along->near->kind == Neighbour::POINT) {
-            const Real outer = position * along->c;
-            param = along->a + position * (along->b + outer);
-            along->change = along->b + outer + outer;
-        } else {
-            param = along->near->param(along->from + along->step * position, &along->out);
-            along->change = shiftDown(dot(along->out, along->step), 7);
-        }
-        if (param >= Real(1)) {
+        const Real param = along->near->kind == Neighbour::POINT ? along->pointParam(position) : along->coreParam(position);
+        if (param >= Real(1))
             along->value = along->slope = Real(0);
-            continue;
-        }
-        const FieldStep field = geoffQuick(param < Real(0) ? Real(0) : param);
-        along->value = field.value;
-        along->slope = field.slope;
-        sum += field.value;
-        slope += field.slope * along->change;
-        if (field.value > strongest)
-            strongest = field.value;
+        else
+            sum.add(*along, param);
     }
-    Sample sample{sum - ISOVALUE, slope, strongest - own.value};
-    if (!plain_)
-        blend(position, sample);
-    return sample;
+    return sum.sample();
 }
 
 // The body's field where not all are linked with all at weight 1 (model/body.h), from the fields that look() found. With
@@ -304,46 +330,50 @@ bool Settler::search(Real* position, Sample* sample)
 // away from its core by its slope over its squared size.
 Vector Settler::outward(Real position) const
 {
-    const Real own = plain_ ? ownSlope_ : ownSlope_ * share_[0];
-    const Vector place = root_ + path_ * position;
-    Vector g;
-    if (object_.tapers()) {
-        object_.param(place * (Real(CORE_SIZE) / object_.laidSize()), &g);
-        g = g * -shiftDown(own * object_.laidSize(), 4);
-    } else {
-        g = path_ * -(own * position);
-    }
+    const Real own = -(plain_ ? ownSlope_ : ownSlope_ * share_[0]);
+    Vector g{Real(0), Real(0), Real(0)};
+    // Points push along the path, and from where they stand to the root.
+    Real along = object_.tapers() ? Real(0) : own;
     for (int i = 0; i < touched_; ++i) {
-        const Along& along = along_[i];
-        if (along.slope == Real(0))
+        const Along& to = along_[i];
+        if (to.slope == Real(0))
             continue;
-        const Neighbour& near = *along.near;
-        const Real push = -((plain_ ? along.slope : along.slope * share_[i + 1]) * near.ratio);
-        if (near.kind == Neighbour::POINT)
-            g = g + (place - near.centre) * push;
-        else
-            g = g + near.fromCoreSpace(along.out) * push;
+        const Real push = -((plain_ ? to.slope : to.slope * share_[i + 1]) * to.near->ratio);
+        if (to.near->kind == Neighbour::POINT) {
+            along += push;
+            g = g + to.from->apart * push;
+        } else {
+            g = g + to.near->fromCoreSpace(to.out) * push;
+        }
+    }
+    g = g + path_ * (along * position);
+    if (object_.tapers()) {
+        Vector slope;
+        object_.param((root_ + path_ * position) * (Real(CORE_SIZE) / object_.laidSize()), &slope);
+        g = g + slope * shiftDown(own * object_.laidSize(), 4);
     }
     return g;
 }
 
 Real Settler::settle(Seed& s)
 {
-    if (!touch(s)) {
-        if (!(s.flags & SEED_RESTING)) {
-            s.position = Real(1);
+    Sample sample;
+    bool touched = begin(s, &sample);
+    if (!touched && s.position != Real(1)) {
+        s.position = Real(1);
+        touched = begin(s, &sample);
+    }
+    if (!touched) {
+        if (!(s.flags & SEED_RESTING))
             s.normal = object_.restNormal(s);
-        }
         s.brightness8 = brightness8(s.normal, own_.light);
         s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
         return Real(0);
     }
-    plain_ = complete_ || mutual();
     ++counts_.updated;
     const bool wasValid = (s.flags & SEED_VALID) != 0;
     s.flags &= SEED_ACTIVE;
     Real position = s.position;
-    Sample sample = look(position);
     if (!wasValid) {
         const Real margin = most(sample.excess, sample.dominance - OVERSHOOT);
         if (margin > DEEP)
@@ -418,12 +448,14 @@ PatchState Settler::probe(Patch& patch)
         patch.blocker = static_cast<uint8_t>(strongest());
         return margin > enough(patch, smallest_) ? PATCH_INSIDE : PATCH_MIXED;
     }
-    return facing(object_, s, own_) < -(patch.spread + TURNED) ? PATCH_AWAY : PATCH_MIXED;
+    patch.facing = facing(object_, s, own_);
+    return patch.facing < -(patch.spread + TURNED) ? PATCH_AWAY : PATCH_MIXED;
 }
 
 void Settler::settleRest(Patch& patch)
 {
     const Seed& centre = object_.seed(patch.centre);
+    const bool someAway = !(centre.flags & SEED_VALID) || patch.facing < patch.spread;
     forSeeds(patch, [&](int i) {
         Seed& s = object_.seed(i);
         if (&s == &centre)
@@ -432,7 +464,7 @@ void Settler::settleRest(Patch& patch)
             // It has slept: it is likely to be where the one in the middle is.
             s.position = centre.position;
             s.flags = SEED_VALID;
-        } else if (waits(s) || (!(s.flags & SEED_VALID) && blocked(patch, s, DEEP)))
+        } else if ((someAway && waits(s)) || (!(s.flags & SEED_VALID) && blocked(patch, s, DEEP)))
             return;
         settle(s);
         if (!(s.flags & SEED_VALID))

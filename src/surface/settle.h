@@ -4,29 +4,33 @@
 
 #include "patch.h"
 
+// A neighbour as the seeds of one root see it: what is the same for all of them.
+struct FromRoot {
+    int root;        // index of the root; -1: none yet
+    Real a, c;       // a point: squared distance of the root and squared length of the paths, over squared size
+    Vector twice16;  // and 32 (root - centre) / size^2
+    Vector apart;    // a point: from its centre to the root; else the root in its core space
+};
+
 // A neighbour's field along the path at hand.
 struct Along {
     const Neighbour* near;
-    Real a, b, c;       // a point: t = a + p (b + p c)
-    Vector from, step;  // else: from + p step, in its core space
+    const FromRoot* from;
+    Real b;             // a point: t = a + p (b + p c)
+    Vector step;        // else: the path in its core space
     // At the last position looked at.
     Real value, slope;  // F and dF/dt
     Real change;        // dt/dp
     Vector out;         // half the gradient of t in its core space, times CORE_SIZE^2; no point
+
+    Real pointParam(Real p) const { return from->a + p * (b + p * from->c); }
+    Real coreParam(Real p) { return near->param(from->apart + step * p, &out); }
 };
 
 // The body's field at a position: its excess over the isovalue, its slope along the path, how much stronger than the own
 // field the strongest neighbour's is.
 struct Sample {
     Real excess, slope, dominance;
-};
-
-// A neighbour as the seeds of one root see it: what is the same for all of them.
-struct FromRoot {
-    int root;        // index of the root; -1: none yet
-    Real a, c;       // a point: squared distance of the root and squared length of the paths, over squared size
-    Vector twice16;  // 32 (root - centre) / size^2
-    Vector from;     // else: the root in its core space
 };
 
 // Settles the seeds of one object, one settler for every scene. Made once for an object and a frame; `updates` counts those
@@ -56,7 +60,8 @@ private:
     // returned is then by how much of the field it lies inside.
     Real settle(Seed& s);
     void setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const;
-    bool touch(const Seed& s);
+    struct Sum;
+    bool begin(const Seed& s, Sample* sample);
     Sample look(Real position);
     bool mutual() const;
     void blend(Real position, Sample& sample);
