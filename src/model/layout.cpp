@@ -89,6 +89,7 @@ public:
         s.root = static_cast<uint16_t>(root);
         s.flags = SEED_VALID | SEED_RESTING;
         s.aside = 0;
+        s.still = 0;
         setCell(s.along, along, inverseSpacing_);
         setCell(s.across, across, inverseSpacing_);
     }

@@ -194,54 +194,65 @@ Sample Settler::look(Real position)
     return sum.sample();
 }
 
-// The body's field where not all are linked with all at weight 1 (model/body.h), from the fields that look() found. With
+// The body's field where not all are linked with all at weight 1 (model/body.h), from the fields that were found. With
 // x_i = f_i / the strongest, dF/df_k = (2 x_k (g_k - F) / strongest + x_k^2 + sum of w_ik x_i^2) / sum of x_i^2.
 void Settler::blend(Real position, Sample& sample)
 {
-    const int count = touched_ + 1;
-    Real f[NEIGHBOURS_MAX + 1], x2[NEIGHBOURS_MAX + 1], x[NEIGHBOURS_MAX + 1], g[NEIGHBOURS_MAX + 1];
-    int slot[NEIGHBOURS_MAX + 1];
-    f[0] = ownField_;
-    slot[0] = object_.slot();
-    Real strongest = ownField_;
-    for (int i = 1; i < count; ++i) {
-        f[i] = along_[i - 1].value;
-        slot[i] = along_[i - 1].near->object->slot();
-        strongest = most(strongest, f[i]);
-    }
-    if (strongest <= Real(0.0005)) {
-        for (int i = 0; i < count; ++i)
-            share_[i] = Real(1);
+    // Those that have a field here, the own first.
+    struct Part {
+        Real f, slope, change;  // F, dF/dt, dt/dp
+        Real x, x2, g, linked;  // linked: sum of w_ik x_i^2
+        int slot, at;
+    };
+    Part parts[NEIGHBOURS_MAX + 1];
+    int count = 0;
+    Real strongest(0);
+    const auto add = [&](Real f, Real slope, Real change, int slot, int at) {
+        share_[at] = Real(1);
+        if (f <= Real(0))
+            return;
+        strongest = most(strongest, f);
+        parts[count++] = {f, slope, change, Real(0), Real(0), f, Real(0), slot, at};
+    };
+    add(ownField_, ownSlope_, shiftDown(position, 1), object_.slot(), 0);
+    for (int i = 0; i < touched_; ++i)
+        add(along_[i].value, along_[i].slope, along_[i].change, along_[i].near->object->slot(), i + 1);
+    if (count < 2 || strongest <= Real(0.0005))
         return;
+    const Real inverse = quotient(Real(1), strongest);
+    for (int i = 0; i < count; ++i) {
+        parts[i].x = parts[i].f * inverse;
+        parts[i].x2 = parts[i].x * parts[i].x;
     }
-    const Real inverse = Real(1) / strongest;
+    bool plain = true;
     Real below(0), above(0);
     for (int i = 0; i < count; ++i) {
-        x[i] = f[i] * inverse;
-        x2[i] = x[i] * x[i];
-        g[i] = f[i];
-        for (int j = 0; j < count; ++j)
-            if (j != i && f[j] > Real(0))
-                g[i] += bodies_.weight(slot[i], slot[j]) * f[j];
-        below += x2[i];
-        above += x2[i] * g[i];
+        Part& a = parts[i];
+        for (int j = i + 1; j < count; ++j) {
+            Part& b = parts[j];
+            const Real w = bodies_.weight(a.slot, b.slot);
+            plain = plain && w == Real(1);
+            if (w == Real(0))
+                continue;
+            a.g += w * b.f;
+            b.g += w * a.f;
+            a.linked += w * b.x2;
+            b.linked += w * a.x2;
+        }
+        below += a.x2;
+        above += a.x2 * a.g;
     }
-    const Real field = above / below, share = Real(1) / below;
+    if (plain)
+        return;
+    const Real share = quotient(Real(1), below), field = above * share, twice = inverse + inverse;
     sample.excess = field - ISOVALUE;
-    // Slopes, each multiplied by what it counts.
-    Real slope(0);
-    const Real twice = inverse + inverse;
-    for (int k = 0; k < count; ++k) {
-        Real part = x[k] * (g[k] - field) * twice + x2[k];
-        for (int i = 0; i < count; ++i)
-            if (i != k)
-                part += bodies_.weight(slot[i], slot[k]) * x2[i];
-        share_[k] = part * share;
+    sample.slope = Real(0);
+    for (int i = 0; i < count; ++i) {
+        const Part& a = parts[i];
+        const Real part = (a.x * (a.g - field) * twice + a.x2 + a.linked) * share;
+        share_[a.at] = part;
+        sample.slope += part * a.slope * a.change;
     }
-    slope = share_[0] * shiftDown(ownSlope_ * position, 1);
-    for (int k = 1; k < count; ++k)
-        slope += share_[k] * along_[k - 1].slope * along_[k - 1].change;
-    sample.slope = slope;
 }
 
 // Newton's method from a sample already taken. True: `*position` is on the surface, and `*sample` was taken there or a
@@ -379,6 +390,7 @@ Real Settler::settle(Seed& s)
         if (margin > DEEP)
             return margin;
     }
+    const bool still = absolute(sample.excess) <= TOLERANCE;
     if (!follow(&position, &sample)) {
         const bool found = search(&position, &sample);
         s.position = position;
@@ -391,6 +403,7 @@ Real Settler::settle(Seed& s)
     const Normal n = normalise(outward(position));
     s.normal = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
     s.brightness8 = brightness8(s.normal, own_.light);
+    s.still = static_cast<uint8_t>(!still ? 0 : s.still == 0 ? 1 : 3);
     s.flags |= sample.dominance > -BORDER ? SEED_VALID | SEED_BORDER : SEED_VALID;
     ++counts_.normals;
     return Real(0);
@@ -464,7 +477,7 @@ void Settler::settleRest(Patch& patch)
             // It has slept: it is likely to be where the one in the middle is.
             s.position = centre.position;
             s.flags = SEED_VALID;
-        } else if ((someAway && waits(s)) || (!(s.flags & SEED_VALID) && blocked(patch, s, DEEP)))
+        } else if (waits(s, someAway) || (!(s.flags & SEED_VALID) && blocked(patch, s, DEEP)))
             return;
         settle(s);
         if (!(s.flags & SEED_VALID))
@@ -472,15 +485,19 @@ void Settler::settleRest(Patch& patch)
     });
 }
 
-// Coherence over time: a seed that faces away is looked at in every second frame only, one that faces well away in every
-// fourth.
-bool Settler::waits(const Seed& s) const
+// Coherence over time: a seed that has not moved is looked at in every second frame only, and in every fourth when it has not
+// moved twice; so is one that faces away a little or well.
+bool Settler::waits(const Seed& s, bool someAway) const
 {
     if ((s.flags & (SEED_VALID | SEED_RESTING)) != SEED_VALID)
         return false;
-    const int32_t away = -facing(object_, s, own_);
+    uint32_t mask = s.still;
+    if (someAway) {
+        const int32_t away = -facing(object_, s, own_);
+        mask |= away > WELL_AWAY ? 3 : away > LITTLE_AWAY ? 1 : 0;
+    }
     const uint32_t turn = static_cast<uint32_t>(&s - &object_.seed(0)) / 2 + frame_;
-    return away > WELL_AWAY ? (turn & 3) != 0 : away > LITTLE_AWAY ? (turn & 1) != 0 : false;
+    return (turn & mask) != 0;
 }
 
 namespace {

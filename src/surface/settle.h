@@ -72,7 +72,7 @@ private:
 
     int strongest() const;
     bool blocked(const Patch& patch, const Seed& s, Real margin);
-    bool waits(const Seed& s) const;
+    bool waits(const Seed& s, bool someAway) const;
 
     SoftObject& object_;
     const OwnFrame& own_;
