@@ -5,9 +5,15 @@
 
 namespace {
 
+template <class Part>
+inline int32_t product(const Part a[3], const int32_t b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 inline int32_t product(const Direction14& a, const int32_t b[3])
 {
-    return (a.x * b[0] + a.y * b[1] + a.z * b[2]) >> 14;
+    return a.x * b[0] + a.y * b[1] + a.z * b[2];
 }
 
 inline int32_t magnitude(int32_t a)
@@ -33,6 +39,9 @@ constexpr int32_t MARGIN_UNITS = 14;
 // Beyond this cosine of path and normal a cell lies in no even band of its ring; inverse, 12 bits of fraction.
 constexpr int32_t UNEVEN = 4329;
 
+// No depth changes more than this across a scale, 8 bits of fraction.
+constexpr int32_t STEEPEST_TILT = 20000;
+
 // Change of brightness (1/8 step) from the middle of a scale to its corner below which it has one brightness.
 constexpr int32_t FLAT = 8;
 
@@ -51,6 +60,10 @@ Shader::Shader(const SoftObject& object, const OwnFrame& own, const FrameContext
     limb_ = object.coreReach() > Real(0) ? own.distance32 >> 7 : own.distance32 * 5 >> 7;
     generalHorizon_ = rawFromReal(object.horizonRadius(own.eye)) >> 11;
     horizon_ = generalHorizon_;
+    lastSeed_ = &object.seed(object.seedSlots() - 2);
+    const int32_t radius = (rawFromReal(object.radius()) >> 8) + 1;
+    for (int i = 0; i < 3; ++i)
+        gradient_[i] = own.light[i] * (BRIGHTEST * 32) / radius;
     inverseRadius_ = (1 << 24) / ((rawFromReal(shiftDown(object.laidSize(), 1)) >> 10) + 1);
 }
 
@@ -69,116 +82,126 @@ void Shader::setPatch(const Patch& patch)
         column_[i] = own_.right[i] - (own_.ahead[i] * shearX >> 12);
         row_[i] = own_.up[i] - (own_.ahead[i] * shearY >> 12);
     }
+    for (int i = 0; i < 3; ++i) {
+        cellColumn_[i] = column_[i] * spacing_ >> 8;
+        cellRow_[i] = row_[i] * spacing_ >> 8;
+    }
+    gradientAhead_ = (gradient_[2] + (gradient_[0] * (shearX >> 4) >> 8) + (gradient_[1] * (shearY >> 4) >> 8)) >> 4;
+    int32_t horizon = generalHorizon_;
     if (object_.roots() > 1) {
         const Seed& s = object_.seed(patch.centre);
-        horizon_ = rawFromReal(object_.horizonAt(object_.root(s.root), realFromRaw(generalHorizon_ << 11))) >> 11;
+        horizon = rawFromReal(object_.horizonAt(object_.root(s.root), realFromRaw(generalHorizon_ << 11))) >> 11;
     }
+    horizonShare_ = (limited(horizon, 8000) << 15) / own_.distance32;
 }
 
-// Place, tilt and brightness. False: it faces away.
-inline bool Shader::place(const Seed& s, Voxel* voxel)
+// Place, tilt and brightness. Returned is the normal times the vector to the eye, 1/32 unit; 0: it faces away.
+template <bool TURNED>
+inline int32_t Shader::place(const Seed& s, Voxel* voxel) const
 {
-    Vector place = object_.root(s.root) + (s.flags & SEED_RESTING ? s.path : s.path * s.position);
+    Vector place = s.flags & SEED_RESTING ? s.path : s.path * s.position;
+    if (TURNED)
+        place = place + object_.root(s.root);
     if (grown_)
         place = place * own_.growth;
     const int32_t x = rawFromReal(place.x) >> 8, y = rawFromReal(place.y) >> 8, z = rawFromReal(place.z) >> 8;
     const Direction14 n = s.normal;
-    facing_ = (n.x * (own_.eye32[0] - (x >> 3)) + n.y * (own_.eye32[1] - (y >> 3)) + n.z * (own_.eye32[2] - (z >> 3))) >> 14;
-    if (facing_ <= limb_)
-        return false;
-    int32_t nx = n.x, ny = n.y;
-    if (turned_) {
+    const int32_t facing =
+        (n.x * (own_.eye32[0] - (x >> 3)) + n.y * (own_.eye32[1] - (y >> 3)) + n.z * (own_.eye32[2] - (z >> 3))) >> 14;
+    if (facing <= limb_)
+        return 0;
+    int32_t ahead = z;
+    if (TURNED)
+        ahead = (x * own_.ahead[0] + y * own_.ahead[1] + z * own_.ahead[2]) >> 14;
+    const int32_t depth = depth_ + (ahead >> 3);
+    if (depth < NEAREST)
+        return 0;
+    voxel->z = ahead;
+    // The tangent plane: depth changes by n.x depth / (n . to eye) for a unit across the view.
+    const int32_t steep = (depth << 8) / facing;
+    int32_t tiltX, tiltY;
+    if (TURNED) {
         voxel->x = (x * own_.right[0] + y * own_.right[1] + z * own_.right[2]) >> 14;
         voxel->y = (x * own_.up[0] + y * own_.up[1] + z * own_.up[2]) >> 14;
-        voxel->z = (x * own_.ahead[0] + y * own_.ahead[1] + z * own_.ahead[2]) >> 14;
-        nx = product(n, own_.right);
-        ny = product(n, own_.up);
+        tiltX = (product(n, own_.right) >> 14) * steep >> 14;
+        tiltY = (product(n, own_.up) >> 14) * steep >> 14;
     } else {
         voxel->x = x;
         voxel->y = y;
-        voxel->z = z;
+        tiltX = n.x * steep >> 14;
+        tiltY = n.y * steep >> 14;
     }
-    const int32_t depth = depth_ + (voxel->z >> 3);
-    if (depth < NEAREST)
-        return false;
-    // The tangent plane: depth changes by n.x depth / (n . to eye) for a unit across the view.
-    const int32_t steep = (depth << 8) / facing_;
-    voxel->tiltX = static_cast<int16_t>(limited(nx * steep >> 14, 20000));
-    voxel->tiltY = static_cast<int16_t>(limited(ny * steep >> 14, 20000));
+    if (steep > STEEPEST_TILT) {
+        tiltX = limited(tiltX, STEEPEST_TILT);
+        tiltY = limited(tiltY, STEEPEST_TILT);
+    }
+    voxel->tiltX = static_cast<int16_t>(tiltX);
+    voxel->tiltY = static_cast<int16_t>(tiltY);
     voxel->cutX = voxel->cutY = 0;
     voxel->cutAt = 0;
     voxel->brightness = static_cast<uint8_t>((s.brightness8 + 128) >> 8);
-    return true;
+    return facing;
 }
 
 // The cell of the unblended surface that is the seed's own, grown with the position, as it falls along the path onto the
 // tangent plane. A half axis e becomes e - u (e.n) / (u.n) with u the path.
-inline void Shader::cell(const Seed& s)
+template <bool TURNED>
+inline void Shader::cell(const Seed& s, Cell& c) const
 {
-    const auto along = [&](const int32_t a[3]) { return s.along[0] * a[0] + s.along[1] * a[1] + s.along[2] * a[2]; };
-    const auto across = [&](const int32_t a[3]) { return s.across[0] * a[0] + s.across[1] * a[1] + s.across[2] * a[2]; };
-    // 1/64 spacing, 8 bits of fraction.
-    int32_t ax, ay, cx, cy;
-    if (turned_) {
-        ax = along(column_) >> 6;
-        ay = along(row_) >> 6;
-        cx = across(column_) >> 6;
-        cy = across(row_) >> 6;
+    if (TURNED) {
+        c.along.x = product(s.along, cellColumn_) >> 12;
+        c.along.y = product(s.along, cellRow_) >> 12;
+        c.across.x = product(s.across, cellColumn_) >> 12;
+        c.across.y = product(s.across, cellRow_) >> 12;
     } else {
-        ax = s.along[0] * 256 + (s.along[2] * column_[2] >> 6);
-        ay = s.along[1] * 256 + (s.along[2] * row_[2] >> 6);
-        cx = s.across[0] * 256 + (s.across[2] * column_[2] >> 6);
-        cy = s.across[1] * 256 + (s.across[2] * row_[2] >> 6);
+        c.along.x = (s.along[0] * spacing_ >> 6) + (s.along[2] * cellColumn_[2] >> 12);
+        c.along.y = (s.along[1] * spacing_ >> 6) + (s.along[2] * cellRow_[2] >> 12);
+        c.across.x = (s.across[0] * spacing_ >> 6) + (s.across[2] * cellColumn_[2] >> 12);
+        c.across.y = (s.across[1] * spacing_ >> 6) + (s.across[2] * cellRow_[2] >> 12);
     }
-    int32_t size = spacing_;
-    uneven_ = false;
+    c.uneven = false;
     if (!(s.flags & SEED_RESTING)) {
-        const int32_t ux = rawFromReal(s.path.x) >> 10, uy = rawFromReal(s.path.y) >> 10, uz = rawFromReal(s.path.z) >> 10;
-        int32_t cosine = mulShift16((ux * s.normal.x + uy * s.normal.y + uz * s.normal.z) >> 6, inverseRadius_) >> 2;
+        // The path over the radius, 1.0 = 2^14, and its cosine to the normal.
+        const int32_t u[] = {mulShift16(rawFromReal(s.path.x), inverseRadius_) >> 4, mulShift16(rawFromReal(s.path.y), inverseRadius_) >> 4,
+                             mulShift16(rawFromReal(s.path.z), inverseRadius_) >> 4};
+        int32_t cosine = product(s.normal, u) >> 14;
         if (cosine < LEAST_COSINE)
             cosine = LEAST_COSINE;
         const int32_t inverse = (1 << 26) / cosine;  // 12 bits of fraction
-        uneven_ = inverse > UNEVEN;
+        c.uneven = inverse > UNEVEN;
+        const int32_t position = rawFromReal(s.position) >> 8;
         // (e.n) / (u.n), 1/64 spacing with 8 bits of fraction.
         const int32_t n[] = {s.normal.x, s.normal.y, s.normal.z};
-        const int32_t offAlong = (along(n) >> 6) * (inverse >> 4) >> 8;
-        const int32_t offAcross = (across(n) >> 6) * (inverse >> 4) >> 8;
-        const int32_t ox = mulShift16((ux * column_[0] + uy * column_[1] + uz * column_[2]) >> 6, inverseRadius_) >> 2;
-        const int32_t oy = mulShift16((ux * row_[0] + uy * row_[1] + uz * row_[2]) >> 6, inverseRadius_) >> 2;
-        ax -= offAlong * ox >> 14;
-        ay -= offAlong * oy >> 14;
-        cx -= offAcross * ox >> 14;
-        cy -= offAcross * oy >> 14;
-        size = size * (rawFromReal(s.position) >> 8) >> 8;
+        const int32_t offAlong = (product(s.along, n) >> 8) * inverse >> 10;
+        const int32_t offAcross = (product(s.across, n) >> 8) * inverse >> 10;
+        int32_t ox, oy;
+        if (TURNED) {
+            ox = (u[0] * (cellColumn_[0] >> 4) + u[1] * (cellColumn_[1] >> 4) + u[2] * (cellColumn_[2] >> 4)) >> 14;
+            oy = (u[0] * (cellRow_[0] >> 4) + u[1] * (cellRow_[1] >> 4) + u[2] * (cellRow_[2] >> 4)) >> 14;
+        } else {
+            ox = (u[0] * (cellColumn_[0] >> 4) + u[2] * (cellColumn_[2] >> 4)) >> 14;
+            oy = (u[1] * (cellRow_[1] >> 4) + u[2] * (cellRow_[2] >> 4)) >> 14;
+        }
+        c.along.x = (c.along.x - (offAlong * ox >> 16)) * position >> 8;
+        c.along.y = (c.along.y - (offAlong * oy >> 16)) * position >> 8;
+        c.across.x = (c.across.x - (offAcross * ox >> 16)) * position >> 8;
+        c.across.y = (c.across.y - (offAcross * oy >> 16)) * position >> 8;
     }
-    along_.x = ax * size >> 14;
-    along_.y = ay * size >> 14;
-    across_.x = cx * size >> 14;
-    across_.y = cy * size >> 14;
-}
-
-// Makes the cell so many times as long, 1/16.
-inline void Shader::stretch(int32_t along16, int32_t across16)
-{
-    along_.x = along_.x * along16 >> 4;
-    along_.y = along_.y * along16 >> 4;
-    across_.x = across_.x * across16 >> 4;
-    across_.y = across_.y * across16 >> 4;
+    c.area = c.along.x * c.across.y - c.along.y * c.across.x;
 }
 
 // Half width and height of the scale. Beside each other, cells of a ring make a band: rectangles as wide as the way from one
 // to the next need not cover the whole of their cells, only, together, the band.
-inline void Shader::extents(bool whole, Voxel* voxel) const
+inline void Shader::extents(const Cell& c, bool whole, Voxel* voxel)
 {
-    const int32_t ax = magnitude(along_.x), ay = magnitude(along_.y);
-    int32_t width = ax, height = ay;
+    int32_t width = magnitude(c.along.x), height = magnitude(c.along.y);
     if (whole) {
-        width += magnitude(across_.x);
-        height += magnitude(across_.y);
-    } else if (ax > ay) {
-        height += magnitude(across_.y - across_.x * ((along_.y << 6) / along_.x) / 64);
-    } else if (ay > 0) {
-        width += magnitude(across_.x - across_.y * ((along_.x << 6) / along_.y) / 64);
+        width += magnitude(c.across.x);
+        height += magnitude(c.across.y);
+    } else if (width > height) {
+        height += magnitude(c.area) / width;
+    } else if (height > 0) {
+        width += magnitude(c.area) / height;
     }
     voxel->wide = static_cast<int16_t>(limited(width + (width >> 5) * MARGIN + MARGIN_UNITS, 32000));
     voxel->high = static_cast<int16_t>(limited(height + (height >> 5) * MARGIN + MARGIN_UNITS, 32000));
@@ -186,29 +209,17 @@ inline void Shader::extents(bool whole, Voxel* voxel) const
 
 // Where a round surface bends out of sight its tangent plane goes on: the scale ends there. The limb is cos^2 radius / 2
 // away across the view, with cos the cosine of normal and viewer; along the plane that is cos radius / 2 deep.
-inline void Shader::end(Voxel* voxel) const
+inline void Shader::end(int32_t facing, Voxel* voxel) const
 {
-    const int32_t curvature = horizon_ > 8000 ? 8000 : horizon_;
-    const int32_t reach = curvature * facing_ / (2 * own_.distance32) + 1;
+    const int32_t reach = mulShift16(horizonShare_, facing) + 1;
     voxel->reach = 0;
     if (reach < 256 && (magnitude(voxel->tiltX) * voxel->wide + magnitude(voxel->tiltY) * voxel->high) >> 11 >= reach)
         voxel->reach = static_cast<uint8_t>(reach);
 }
 
-// How the brightness changes across the scale, from its change along two ways.
-inline void Shader::slopes(const Way& along, const Way& across, Voxel* voxel)
+// How the brightness changes across the scale, 1/8 step a unit; not at all when that is next to nothing.
+inline void Shader::setSlopes(int32_t x, int32_t y, Voxel* voxel)
 {
-    voxel->slopeX = voxel->slopeY = 0;
-    const int32_t det = along.x * across.y - along.y * across.x;
-    if (magnitude(det) < 512)
-        return;
-    // Per unit, in 1/8 step.
-    const int32_t inverse = (1 << 28) / det;
-    const auto slope = [inverse](int32_t top) {
-        return static_cast<int32_t>(static_cast<int64_t>(top) * inverse >> 25);
-    };
-    int32_t x = slope(along.change * across.y - across.change * along.y);
-    int32_t y = slope(along.x * across.change - across.x * along.change);
     int32_t corner = (magnitude(x) * voxel->wide + magnitude(y) * voxel->high) >> 8;
     if (corner < FLAT)
         return;
@@ -220,27 +231,59 @@ inline void Shader::slopes(const Way& along, const Way& across, Voxel* voxel)
     voxel->slopeY = static_cast<int8_t>(limited(y, 127));
 }
 
+// The same from its change along two ways.
+inline void Shader::slopes(const Cell& c, Voxel* voxel)
+{
+    if ((c.along.change | c.across.change) == 0 || magnitude(c.area) < 512)
+        return;
+    const int32_t inverse = ((1 << 28) / c.area) * 128;
+    setSlopes(mulHigh(c.along.change * c.across.y - c.across.change * c.along.y, inverse),
+              mulHigh(c.along.x * c.across.change - c.across.x * c.along.change, inverse), voxel);
+}
+
+// The same of a ball where nothing blends with it, by its curvature.
+inline void Shader::roundSlopes(Voxel* voxel) const
+{
+    setSlopes((gradient_[0] + (voxel->tiltX * gradientAhead_ >> 4)) >> 8, (gradient_[1] + (voxel->tiltY * gradientAhead_ >> 4)) >> 8, voxel);
+}
+
+// How the brightness changes along the half axes of a cell. Along the ring: to the next seed of it, or at its end from the
+// one before. Across: from N.
+inline void Shader::changes(const Seed& s, Cell& c) const
+{
+    const Seed &next = (&s)[2], &last = (&s)[-2], &n = object_.seed(s.neighbour);
+    c.along.change = c.across.change = 0;
+    if (&next <= lastSeed_ && (next.flags & SEED_VALID) && next.neighbour >= s.neighbour)
+        c.along.change = (next.brightness8 - s.brightness8) >> 1;
+    else if (last.flags & SEED_VALID)
+        c.along.change = (s.brightness8 - last.brightness8) >> 1;
+    if (n.flags & SEED_VALID)
+        c.across.change = (s.brightness8 - n.brightness8 + (c.along.change * s.aside >> 5)) >> 1;
+}
+
+template <bool TURNED>
+inline bool Shader::shadeAs(const Seed& s, bool oversampled, Voxel* voxel) const
+{
+    const int32_t facing = place<TURNED>(s, voxel);
+    if (facing == 0)
+        return false;
+    Cell c;
+    cell<TURNED>(s, c);
+    extents(c, oversampled || c.uneven, voxel);
+    end(facing, voxel);
+    voxel->slopeX = voxel->slopeY = 0;
+    if (!TURNED && (s.flags & SEED_RESTING) && s.brightness8 > 0) {
+        roundSlopes(voxel);
+    } else if (!oversampled && s.neighbour >= 0) {
+        changes(s, c);
+        slopes(c, voxel);
+    }
+    return true;
+}
+
 bool Shader::shade(const Seed& s, bool oversampled, Voxel* voxel)
 {
-    if (!place(s, voxel))
-        return false;
-    cell(s);
-    extents(oversampled || uneven_, voxel);
-    end(voxel);
-    voxel->slopeX = voxel->slopeY = 0;
-    if (oversampled || s.neighbour < 0)
-        return true;
-    // Half way along the ring: to the next seed of it, or at its end from the one before. Half way across: from N.
-    const Seed &next = (&s)[2], &last = (&s)[-2], &n = object_.seed(s.neighbour);
-    along_.change = across_.change = 0;
-    if (&next <= &object_.seed(object_.seedSlots() - 2) && (next.flags & SEED_VALID) && next.neighbour >= s.neighbour)
-        along_.change = (next.brightness8 - s.brightness8) >> 1;
-    else if (last.flags & SEED_VALID)
-        along_.change = (s.brightness8 - last.brightness8) >> 1;
-    if (n.flags & SEED_VALID)
-        across_.change = (s.brightness8 - n.brightness8 + (along_.change * s.aside >> 5)) >> 1;
-    slopes(along_, across_, voxel);
-    return true;
+    return turned_ ? shadeAs<true>(s, oversampled, voxel) : shadeAs<false>(s, oversampled, voxel);
 }
 
 Shader::Way Shader::wayTo(const Vector& from, const Vector& to, int32_t change) const
@@ -254,12 +297,27 @@ Shader::Way Shader::wayTo(const Vector& from, const Vector& to, int32_t change) 
 bool Shader::shadePatch(const Patch& patch, const Patch* patches, Voxel* voxel)
 {
     const Seed& s = object_.seed(patch.centre);
-    if (!place(s, voxel))
+    const int32_t facing = turned_ ? place<true>(s, voxel) : place<false>(s, voxel);
+    if (facing == 0)
         return false;
-    cell(s);
-    stretch(patch.width16 + 4, 16 * PATCH_RINGS);
-    extents(uneven_, voxel);
-    end(voxel);
+    Cell c;
+    if (turned_)
+        cell<true>(s, c);
+    else
+        cell<false>(s, c);
+    const int32_t along16 = patch.width16 + 4;
+    c.along.x = c.along.x * along16 >> 4;
+    c.along.y = c.along.y * along16 >> 4;
+    c.across.x *= PATCH_RINGS;
+    c.across.y *= PATCH_RINGS;
+    c.area = c.along.x * c.across.y - c.along.y * c.across.x;
+    extents(c, c.uneven, voxel);
+    end(facing, voxel);
+    voxel->slopeX = voxel->slopeY = 0;
+    if (!turned_ && (s.flags & SEED_RESTING) && s.brightness8 > 0) {
+        roundSlopes(voxel);
+        return true;
+    }
     const auto rests = [&](int beside) {
         const Seed& seed = object_.seed(patches[beside].centre);
         return object_.root(seed.root) + seed.path * seed.position;
@@ -268,6 +326,9 @@ bool Shader::shadePatch(const Patch& patch, const Patch* patches, Voxel* voxel)
         return wayTo(rests(from), rests(to), object_.seed(patches[to].centre).brightness8 - object_.seed(patches[from].centre).brightness8);
     };
     const int here = static_cast<int>(&patch - patches);
-    slopes(way(patch.before, patch.next), way(patch.above < 0 ? here : patch.above, patch.below < 0 ? here : patch.below), voxel);
+    c.along = way(patch.before, patch.next);
+    c.across = way(patch.above < 0 ? here : patch.above, patch.below < 0 ? here : patch.below);
+    c.area = c.along.x * c.across.y - c.along.y * c.across.x;
+    slopes(c, voxel);
     return true;
 }

@@ -25,14 +25,26 @@ private:
     struct Way {
         int32_t x, y, change;
     };
+    // Two ways, the half axes of a cell, and twice the area that they span.
+    struct Cell {
+        Way along, across;
+        int32_t area;
+        bool uneven;  // blending has torn its ring out of line
+    };
 
-    bool place(const Seed& s, Voxel* voxel);
-    void cell(const Seed& s);
-    void stretch(int32_t along16, int32_t across16);
-    void extents(bool whole, Voxel* voxel) const;
-    void end(Voxel* voxel) const;
+    template <bool TURNED>
+    bool shadeAs(const Seed& s, bool oversampled, Voxel* voxel) const;
+    template <bool TURNED>
+    int32_t place(const Seed& s, Voxel* voxel) const;
+    template <bool TURNED>
+    void cell(const Seed& s, Cell& c) const;
+    static void extents(const Cell& c, bool whole, Voxel* voxel);
+    void end(int32_t facing, Voxel* voxel) const;
+    void changes(const Seed& s, Cell& c) const;
     Way wayTo(const Vector& from, const Vector& to, int32_t change) const;
-    static void slopes(const Way& along, const Way& across, Voxel* voxel);
+    static void slopes(const Cell& c, Voxel* voxel);
+    static void setSlopes(int32_t x, int32_t y, Voxel* voxel);
+    void roundSlopes(Voxel* voxel) const;
 
     const SoftObject& object_;
     const OwnFrame& own_;
@@ -45,13 +57,14 @@ private:
     int32_t depth_;           // of the object's centre along the viewing axis, 1/32 unit
     int32_t away_[2];         // the centre from the eye, across the view, 1/32 unit
     int32_t inverseRadius_;   // 2^24 / radius in 1/64 unit
+    const Seed* lastSeed_;    // the last regular one
+    int32_t gradient_[3];     // of the brightness over a ball, 1/8 step a unit with 8 bits of fraction
     // Of the patch: the axes of the picture plane, sheared along the ray through its middle, so that a part of a vector along
-    // the view shows sideways; 1.0 = 2^14.
+    // the view shows sideways; 1.0 = 2^14. The same times the spacing, 6 bits of fraction.
     int32_t column_[3], row_[3];
-    // Of the seed.
-    int32_t facing_;          // its normal times the vector to the eye, 1/32 unit
-    bool uneven_;             // blending has torn its ring out of line
-    Way along_, across_;      // half axes of its cell
+    int32_t cellColumn_[3], cellRow_[3];
+    int32_t horizonShare_;    // of the horizon: half of it over the distance of the eye, 16 bits of fraction
+    int32_t gradientAhead_;   // how the brightness of a ball changes with the depth, 1/8 step a unit with 4 bits of fraction
 };
 
 #endif
