@@ -49,23 +49,22 @@ TEST(a_dumped_frame)
     Model model;
     CHECK(model.makeFourSpheres());
     Anim::move(model, 78643);  // 1.2 s
-    CHECK(model.resample(Real(4)));
+    CHECK(model.resample(Real(4), makeEngine));
     View view;
     CHECK(view.open());
     view.setCamera(model.camera);
     Palette palette;
     palette.make(model, false);
     Counts counts{};
-    const Look look{model.camera.eye, unit(model.light), false, &counts};
+    const FrameContext frame{model.camera.eye, unit(model.light), model.bodies(), &counts};
     VoxelList list;
     view.begin();
     for (int i = 0; i < 4; ++i) {
         SoftObject& object = *model.actor(i).object;
-        object.shadeRest(look.light);
-        object.update(look);
+        object.update(frame);
         int next = 0;
         do {
-            object.draw(look, list, VOXELS_AT_ONCE, &next);
+            object.draw(frame, list, VOXELS_AT_ONCE, &next);
             view.show(list);
         } while (next != 0);
     }

@@ -34,8 +34,8 @@ TEST(field_table_is_as_good_as_stated)
         slope = std::fmax(slope, std::fabs(number(s) - trueSlope(number(t))));
     }
     note("value within %.5f, slope within %.5f", value, slope);
-    CHECK(value <= 0.0013);
-    CHECK(slope <= 0.003);
+    CHECK(value <= 0.00003);
+    CHECK(slope <= 0.008);
 }
 
 TEST(isovalue_is_the_report_s)

@@ -9,9 +9,10 @@
 
 #include "math/alloc.h"
 #include "model/model.h"
-#include "surface/shade.h"
 #include "model/softobj.h"
 #include "model/sphere.h"
+#include "surface/engine.h"
+#include "surface/voxel.h"
 #include "math/vec.h"
 #include "picture/view.h"
 
@@ -120,29 +121,37 @@ inline int show(View& view, const Voxel* voxels, size_t count, int32_t x = 0, in
 inline int show(View& view, const Voxel& voxel) { return show(view, &voxel, 1); }
 inline int show(View& view, const std::vector<Voxel>& voxels) { return show(view, voxels.data(), voxels.size()); }
 
-// Spheres with seeds, linked as the test says, and the looks at them.
+// Objects with seeds, linked as the test says, and the frames of them.
 struct Scene {
     std::vector<std::unique_ptr<SoftObject>> objects;
+    std::unique_ptr<Bodies> bodies = std::make_unique<Bodies>();
     Counts counts{};
     bool printed = false;
     Point eye{Real(0), Real(0), Real(-120)};
     Vector light = unit(vector(0.5, 0.7, -0.5));
-    uint8_t ramp[64 + 2 * SHADING_MOST];
+    std::vector<uint8_t> ramp;
 
-    Scene()
+    Scene() : ramp(64 + 2 * SHADING_MOST)
     {
-        for (int i = 0; i < 64 + 2 * SHADING_MOST; ++i)
-            ramp[i] = static_cast<uint8_t>(std::clamp(i - SHADING_MOST, 0, 63));
+        for (int i = 0; i < static_cast<int>(ramp.size()); ++i)
+            ramp[static_cast<size_t>(i)] = static_cast<uint8_t>(std::clamp(i - SHADING_MOST, 0, 63));
+    }
+    Scene(Scene&&) = default;
+    // Objects that are linked with each other go before the links do.
+    ~Scene()
+    {
+        for (auto& object : objects)
+            for (auto& other : objects)
+                other->unlink(object.get());
     }
 
     SoftObject& add(SoftObject* object, double x, double y, double z, double spacing = 2)
     {
         objects.emplace_back(object);
         object->moveTo(point(x, y, z));
-        if (!object->resample(real(spacing)))
+        if (!object->resample(real(spacing), printed ? makeReport98 : makeEngine))
             std::abort();
-        object->shadeRest(light);
-        object->setRamp(ramp + SHADING_MOST);
+        object->setRamp(ramp.data() + SHADING_MOST);
         return *object;
     }
     SoftObject& ball(double size, double x, double y, double z, double spacing = 2)
@@ -160,27 +169,37 @@ struct Scene {
             for (size_t j = 0; j < i; ++j)
                 link(i, j);
     }
-    Look look() { return Look{eye, light, printed, &counts}; }
+    FrameContext frame() { return {eye, light, bodies.get(), &counts}; }
+    void findBodies()
+    {
+        std::vector<SoftObject*> all;
+        for (auto& object : objects)
+            all.push_back(object.get());
+        if (!bodies->find(all.data(), static_cast<int>(all.size())))
+            std::abort();
+    }
     void update()
     {
+        findBodies();
+        bodies->spreadRecalc();
         for (auto& object : objects)
-            object->update(look());
+            object->update(frame());
     }
     // All voxels of an object, drawn in batches of `room`; their places from the eye.
     std::vector<Voxel> draw(size_t i, int room = 256)
     {
         std::vector<Voxel> all;
-        VoxelList list;
+        auto list = std::make_unique<VoxelList>();
         int next = 0;
         do {
-            objects[i]->draw(look(), list, room, &next);
-            if (list.count > room)
+            objects[i]->draw(frame(), *list, room, &next);
+            if (list->count > room)
                 std::abort();
-            for (int k = 0; k < list.count; ++k) {
-                all.push_back(*list.voxels[k]);
-                all.back().x += list.x;
-                all.back().y += list.y;
-                all.back().z += list.z;
+            for (int k = 0; k < list->count; ++k) {
+                all.push_back(*list->voxels[k]);
+                all.back().x += list->x;
+                all.back().y += list->y;
+                all.back().z += list->z;
             }
         } while (next != 0);
         return all;
@@ -188,15 +207,15 @@ struct Scene {
     // The same into views, as the demo does.
     void show(size_t i, std::initializer_list<View*> views, int room = 256)
     {
-        VoxelList list;
+        auto list = std::make_unique<VoxelList>();
         int next = 0;
         do {
-            objects[i]->draw(look(), list, room, &next);
+            objects[i]->draw(frame(), *list, room, &next);
             for (View* view : views)
-                view->show(list);
+                view->show(*list);
         } while (next != 0);
     }
-    // The field as object i sees it: its own and its neighbours'.
+    // The field as object i sees it: its own and its neighbours'. Balls alone.
     Truth truth(size_t i) const
     {
         Truth t;

@@ -8,31 +8,18 @@
 class Stick : public SoftObject {
 public:
     // Half the length of the core, units.
-    Stick(int number, double size, double half) : SoftObject(number, real(size)), half_(real(half)), made_(half_), sizeMade_(this->size())
-    {
-        place();
-    }
+    Stick(int number, double size, double half) : SoftObject(number, real(size), real(half)) {}
 
-    Vector fromCore(const Point& p) const override
+    Vector fromCore(const Vector& q) const override
     {
-        ++looks;
-        const Vector v = p - a_;
-        const Vector along = unit(b_ - a_);
-        const Real t = clamp(::dot(v, along), Real(0), half_ * Real(2));
-        return v - along * t;
-    }
-    Real coreReach() const override { return half_; }
-    void placeCore() override
-    {
-        half_ = made_ * (size() / sizeMade_);
-        place();
+        return {q.x - clamp(q.x, -coreReach16(), coreReach16()), q.y, q.z};
     }
     void describe(char* to, int size) const override { snprintf(to, static_cast<size_t>(size), "stick %d", number()); }
 
     void layOutSeeds(SeedMaker& maker, Real spacing) const override
     {
         // Rings round the axis: a cap, the body, a cap. Each ring has its root on the core; a cap shares one.
-        const double g = number_(spacing), r = number_(radius()), h = number_(half_);
+        const double g = number_(spacing), r = number_(radius()), h = number_(coreReach());
         const int cap = std::max(1, static_cast<int>(std::ceil(M_PI / 2 * r / g)));
         const int body = std::max(1, static_cast<int>(std::ceil(2 * h / g)));
         const int left = maker.addRoot({real(-h), Real(0), Real(0)});
@@ -46,17 +33,15 @@ public:
     }
 
     // The ends of the core in the world.
-    Vec a() const { return vec(a_); }
-    Vec b() const { return vec(b_); }
-
-    mutable long looks = 0;  // how often its field was asked for
+    Vec a() const { return end(-1); }
+    Vec b() const { return end(1); }
 
 private:
     static double number_(Real v) { return ::number(v); }
-    void place()
+    Vec end(double side) const
     {
-        a_ = toWorld({-half_, Real(0), Real(0)});
-        b_ = toWorld({half_, Real(0), Real(0)});
+        const Matrix& m = turn();
+        return vec(centre()) + vec(Vector{m.m[0][0], m.m[1][0], m.m[2][0]}) * (side * ::number(coreReach()));
     }
     static void ring(SeedMaker& maker, int root, double latitude, double r, double g, bool)
     {
@@ -70,10 +55,6 @@ private:
                           vector(g / 2 * c, -g / 2 * s * std::cos(a), -g / 2 * s * std::sin(a)));
         }
     }
-
-    Real half_;
-    Real made_, sizeMade_;  // as made
-    Point a_, b_;
 };
 
 #endif

@@ -4,9 +4,8 @@
 #include <cstdarg>
 #include <cstring>
 
+#include "math/normal.h"
 #include "model/field.h"
-#include "surface/profile.h"
-#include "surface/shade.h"
 
 namespace {
 
@@ -57,8 +56,7 @@ void note(const char* format, ...)
 int main(int count, char** arguments)
 {
     makeFieldSteps();
-    makeProfileSteps();
-    makeShadeTables();
+    makeNormalTable();
     int passed = 0, failed = 0;
     for (fbtest::Test* test = first; test != nullptr; test = test->next) {
         const std::string name = std::string(tail(test->file)) + " " + test->name;
