@@ -15,6 +15,7 @@ public:
     static Real leastLength(Real size1, Real size2) { return shiftDown(absolute(size1 - size2), 1); }
 
     Vector fromCore(const Vector& q) const override;
+    Real segmentHalf16() const override { return coreReach16(); }
     Real param(const Vector& q, Vector* slope) const override;
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
     Real horizonRadius(const Vector& toEye) const override;

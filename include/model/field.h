@@ -30,10 +30,10 @@ void makeFieldSteps();
 // F and dF/dt for 0 <= t < 1 from the table, by a straight line within each step: good to 2e-5 and 0.008.
 inline FieldStep geoffQuick(Real t)
 {
-    const int32_t raw = rawFromReal(t);
+    const int32_t raw = rawFromReal(t), off = (raw & 255) - 128;
     const FieldStep& step = fieldSteps[raw >> 8];
-    const Real off = realFromRaw((raw & 255) - 128);
-    return {step.value + step.slope * off, step.slope};
+    // The product of so few bits needs no more than 32.
+    return {step.value + realFromRaw(rawFromReal(step.slope) * off >> 16), step.slope};
 }
 
 #endif

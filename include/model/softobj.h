@@ -50,8 +50,8 @@ public:
     // tapers.
     virtual Real param(const Vector& q, Vector* slope) const;
 
-    // Where the core is a segment along the y axis and nothing tapers: half its length in core space. Else 0. It is only a
-    // hint: param() would say the same, slower.
+    // Where the core is a segment along the y axis: half its length in core space. Else 0. It is only a hint: fromCore()
+    // would say the same, slower.
     virtual Real segmentHalf16() const { return Real(0); }
 
     // Roots and seeds in the object's own space, `spacing` units apart on the unblended surface.

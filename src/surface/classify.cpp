@@ -76,6 +76,13 @@ inline Step fromCore(const Neighbour& near, const Step& at)
 {
     if (near.kind == Neighbour::POINT)
         return {at.x - near.x16, at.y - near.y16, at.z - near.z16};
+    if (near.segment) {
+        // On the segment, as near as can be.
+        const Step d{at.x - near.x16, at.y - near.y16, at.z - near.z16};
+        const int32_t along = (d.x * near.axis[0] + d.y * near.axis[1] + d.z * near.axis[2]) >> 14;
+        const int32_t on = along > near.half16 ? near.half16 : along < -near.half16 ? -near.half16 : along;
+        return {d.x - (near.axis[0] * on >> 14), d.y - (near.axis[1] * on >> 14), d.z - (near.axis[2] * on >> 14)};
+    }
     const Vector v = near.fromCore16({realFromRaw(at.x << 12), realFromRaw(at.y << 12), realFromRaw(at.z << 12)});
     return {floorToInt(v.x), floorToInt(v.y), floorToInt(v.z)};
 }
@@ -185,10 +192,9 @@ bool classify(Patch& patch, const Neighbour* neighbours, int count)
     memset(patch.reached, 0, sizeof patch.reached);
     for (int i = 0; i < count; ++i) {
         const Neighbour& near = neighbours[i];
-        if (within(fromCore(near, rest), near.size16 + patch.radius))
-            touched = true;
-        else if (!within(fromCore(near, beyond), near.size16 + beyondRadius))
+        if (!within(fromCore(near, beyond), near.size16 + beyondRadius))
             continue;
+        touched = touched || within(fromCore(near, rest), near.size16 + patch.radius);
         patch.reached[i >> 5] |= 1u << (i & 31);
     }
     return touched;

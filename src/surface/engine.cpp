@@ -93,7 +93,6 @@ void Engine::update(const FrameContext& frame)
     for (Patch* patch = patches_; patch < end; ++patch) {
         if (patch->state != PATCH_MIXED || patch->coarse)
             continue;
-        settler.setPatch(*patch);
         settler.oversample(*patch);
     }
     object_.setDisplaced(displaced);

@@ -19,11 +19,17 @@ void aim(const SoftObject& object, Neighbour& near)
 {
     const SoftObject& other = *near.object;
     near.half = other.segmentHalf16();
-    near.kind = near.half > Real(0) ? Neighbour::SEGMENT : Neighbour::OTHER;
+    near.segment = near.half > Real(0);
+    near.kind = near.segment && !other.tapers() ? Neighbour::SEGMENT : Neighbour::OTHER;
+    near.half16 = rawFromReal(near.half * near.size) >> 16;
     // Row i: axis i of the neighbour, in own axes.
     const Matrix& turn = other.turn();
     for (int i = 0; i < 3; ++i)
         near.toCore[i] = object.toOwnAxes({turn.m[0][i], turn.m[1][i], turn.m[2][i]}) * near.inverse16;
+    const Vector axis = object.toOwnAxes({turn.m[0][1], turn.m[1][1], turn.m[2][1]});
+    near.axis[0] = rawFromReal(axis.x) >> 2;
+    near.axis[1] = rawFromReal(axis.y) >> 2;
+    near.axis[2] = rawFromReal(axis.z) >> 2;
     near.offset = other.toOwnAxes(object.centre() - other.centre()) * (Real(CORE_SIZE) / other.size());
 }
 
@@ -79,7 +85,7 @@ int gather(const SoftObject& object, const FrameContext& frame, Neighbour* neigh
         near.y16 = rawFromReal(near.centre.y) >> 12;
         near.z16 = rawFromReal(near.centre.z) >> 12;
         near.size16 = (rawFromReal(near.size) >> 12) + 1;
-        near.inverse = (1 << 24) / near.size16;
+        near.segment = false;
         if (!other.isBall())
             aim(object, near);
     }

@@ -17,7 +17,8 @@ struct Neighbour {
     Real inverse16;     // CORE_SIZE / size
     Real ratio;         // squared proportion of the own size to `size`: its share of the gradient
     int32_t x16, y16, z16, size16;  // centre and size in 1/16 unit
-    int32_t inverse;    // 2^24 / size16
+    bool segment;       // its core is a segment to each side of its centre, half16 long; whether or not it tapers
+    int32_t half16, axis[3];        // its direction, 1.0 = 2^14
     // What kind of core it has: its centre, a segment of `half` units of core space to each side, or what the primitive says.
     enum Kind : uint8_t { POINT, SEGMENT, OTHER } kind;
     Real half;

@@ -97,8 +97,6 @@ struct Settler::Sum {
         const FieldStep field = geoffQuick(param < Real(0) ? Real(0) : param);
         along.value = field.value;
         along.slope = field.slope;
-        along.change = along.near->kind == Neighbour::POINT ? along.b + shiftUp(position * along.from->c, 1)
-                                                            : shiftDown(dot(along.out, along.step), 7);
         sum += field.value;
         slope += field.slope * along.change;
         if (field.value > strongest)
@@ -107,7 +105,7 @@ struct Settler::Sum {
     Sample sample()
     {
         Sample all{sum - ISOVALUE, slope, strongest - settler.ownField_};
-        if (!settler.plain_)
+        if (!settler.complete_)
             settler.blend(position, all);
         return all;
     }
@@ -133,11 +131,10 @@ bool Settler::begin(const Seed& s, Sample* sample)
         Real param;
         if (near.kind == Neighbour::POINT) {
             along->b = shiftDown(dot(path_, from.twice16), 4);
-            param = along->pointParam(position);
+            param = along->pointChange(position);
             if (param >= Real(1)) {
                 // Farther out the path leads away from it, or does not come near enough.
-                const Real change = along->b + shiftUp(position * from.c, 1);
-                if (change >= Real(0) ? position <= Real(1) || along->pointParam(Real(1)) >= Real(1)
+                if (along->change >= Real(0) ? position <= Real(1) || along->pointParam(Real(1)) >= Real(1)
                                       : along->pointParam(Real(1.5)) >= Real(1) && along->pointParam(Real(1.9)) >= Real(1))
                     continue;
                 along->value = along->slope = Real(0);
@@ -146,7 +143,7 @@ bool Settler::begin(const Seed& s, Sample* sample)
             }
         } else {
             along->step = near.inCore(path_);
-            param = along->coreParam(position);
+            param = along->coreChange(position);
             if (param >= Real(1)) {
                 if (along->coreParam(Real(1.3)) >= Real(1))
                     continue;
@@ -160,24 +157,9 @@ bool Settler::begin(const Seed& s, Sample* sample)
         ++along;
     }
     touched_ = static_cast<int>(along - along_);
-    plain_ = complete_ || mutual();
     ++counts_.iterations;
     *sample = sum.sample();
     return touched;
-}
-
-// Whether those that touch the path are all linked with each other at weight 1.
-bool Settler::mutual() const
-{
-    for (int i = 0; i < touched_; ++i) {
-        const int slot = along_[i].near->object->slot();
-        if (bodies_.weight(object_.slot(), slot) != Real(1))
-            return false;
-        for (int j = 0; j < i; ++j)
-            if (bodies_.weight(along_[j].near->object->slot(), slot) != Real(1))
-                return false;
-    }
-    return true;
 }
 
 Sample Settler::look(Real position)
@@ -185,7 +167,7 @@ Sample Settler::look(Real position)
     ++counts_.iterations;
     Sum sum(*this, position);
     for (Along *along = along_, *const end = along_ + touched_; along < end; ++along) {
-        const Real param = along->near->kind == Neighbour::POINT ? along->pointParam(position) : along->coreParam(position);
+        const Real param = along->near->kind == Neighbour::POINT ? along->pointChange(position) : along->coreChange(position);
         if (param >= Real(1))
             along->value = along->slope = Real(0);
         else
@@ -341,7 +323,7 @@ bool Settler::search(Real* position, Sample* sample)
 // away from its core by its slope over its squared size.
 Vector Settler::outward(Real position) const
 {
-    const Real own = -(plain_ ? ownSlope_ : ownSlope_ * share_[0]);
+    const Real own = -(complete_ ? ownSlope_ : ownSlope_ * share_[0]);
     Vector g{Real(0), Real(0), Real(0)};
     // Points push along the path, and from where they stand to the root.
     Real along = object_.tapers() ? Real(0) : own;
@@ -349,7 +331,7 @@ Vector Settler::outward(Real position) const
         const Along& to = along_[i];
         if (to.slope == Real(0))
             continue;
-        const Real push = -((plain_ ? to.slope : to.slope * share_[i + 1]) * to.near->ratio);
+        const Real push = -((complete_ ? to.slope : to.slope * share_[i + 1]) * to.near->ratio);
         if (to.near->kind == Neighbour::POINT) {
             along += push;
             g = g + to.from->apart * push;
@@ -519,17 +501,25 @@ bool parted(const SoftObject& object, const Seed& s)
 
 void Settler::oversample(const Patch& patch)
 {
+    bool any = false;
     forSeeds(patch, [&](int i) {
         Seed& extra = object_.seed(i + 1);
         if (!parted(object_, object_.seed(i))) {
             extra.flags = 0;
             return;
         }
+        any = true;
         if (!(extra.flags & SEED_ACTIVE)) {
             extra.flags = SEED_ACTIVE | SEED_VALID;
             extra.position = object_.seed(i).position;
         }
-        settle(extra);
+    });
+    if (!any)
+        return;
+    setPatch(patch);
+    forSeeds(patch, [&](int i) {
+        if (object_.seed(i + 1).flags & SEED_ACTIVE)
+            settle(object_.seed(i + 1));
     });
 }
 

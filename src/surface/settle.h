@@ -23,8 +23,21 @@ struct Along {
     Real change;        // dt/dp
     Vector out;         // half the gradient of t in its core space, times CORE_SIZE^2; no point
 
+    // t at a position; the second two also set what else there is to know there.
     Real pointParam(Real p) const { return from->a + p * (b + p * from->c); }
+    Real pointChange(Real p)
+    {
+        const Real outer = p * from->c, inner = b + outer;
+        change = inner + outer;
+        return from->a + p * inner;
+    }
     Real coreParam(Real p) { return near->param(from->apart + step * p, &out); }
+    Real coreChange(Real p)
+    {
+        const Real t = coreParam(p);
+        change = shiftDown(dot(out, step), 7);
+        return t;
+    }
 };
 
 // The body's field at a position: its excess over the isovalue, its slope along the path, how much stronger than the own
@@ -52,7 +65,7 @@ public:
     // Settles the other regular seeds of a patch.
     void settleRest(Patch& patch);
 
-    // Settles those oversampled seeds of a patch that are needed, when all regular ones have been; the others end.
+    // Calls setPatch() by itself. Settles those oversampled seeds of a patch that are needed, when all regular ones have been; the others end.
     void oversample(const Patch& patch);
 
 private:
@@ -63,7 +76,6 @@ private:
     struct Sum;
     bool begin(const Seed& s, Sample* sample);
     Sample look(Real position);
-    bool mutual() const;
     void blend(Real position, Sample& sample);
     bool follow(Real* position, Sample* sample);
     bool search(Real* position, Sample* sample);
@@ -80,7 +92,7 @@ private:
     const Bodies& bodies_;
     Counts& counts_;
     uint32_t frame_;      // number of the update
-    bool complete_;       // all neighbours are linked with each other, and with the object, at weight 1
+    bool complete_;       // all neighbours are linked with each other, and with the object, at weight 1: the sum is F
     FromRoot from_[NEIGHBOURS_MAX];
     int8_t numberOf_[NEIGHBOURS_MAX + 1];  // by slot: number of the neighbour; -1: out of range
 
@@ -91,11 +103,10 @@ private:
 
     // Of the path at hand.
     Vector root_, path_;
-    bool plain_;                      // the sum of the fields is F
     int touched_;
     Along along_[NEIGHBOURS_MAX];
     Real ownField_, ownSlope_;             // F and dF/dt of the own field at the last position
-    Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, if not plain
+    Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, unless complete_
 };
 
 // Puts the seeds of a patch where no neighbour reaches them.
