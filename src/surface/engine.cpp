@@ -102,28 +102,8 @@ void Engine::update(const FrameContext& frame)
 void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* next)
 {
     const OwnFrame own = ownFrame(object_, frame);
-    Shader shader(object_, own, frame);
     list.begin(object_.centre() - frame.eye, object_.ramp());
-    int at = *next;
-    for (; at < count_ && list.count + 2 * PATCH_RINGS * PATCH_SEEDS <= room; ++at) {
-        const Patch& patch = patches_[at];
-        if (patch.state != PATCH_MIXED && (patch.state != PATCH_REST || restsAway(patch, own)))
-            continue;
-        shader.setPatch(patch);
-        if (patch.coarse) {
-            if (shader.shadePatch(patch, patches_, list.room()))
-                list.take();
-            continue;
-        }
-        forSeeds(patch, [&](int i) {
-            const Seed* s = &object_.seed(i);
-            if ((s->flags & SEED_VALID) && shader.shade(*s, false, list.room()))
-                list.take();
-            constexpr int TAKES_PART = SEED_ACTIVE | SEED_VALID;
-            if ((s[1].flags & TAKES_PART) == TAKES_PART && shader.shade(s[1], true, list.room()))
-                list.take();
-        });
-    }
+    const int at = shadePatches(object_, own, frame, patches_, count_, *next, list, room);
     *next = at < count_ ? at : 0;
 }
 

@@ -26,6 +26,11 @@ inline int32_t limited(int32_t a, int32_t most)
     return a > most ? most : a < -most ? -most : a;
 }
 
+inline int32_t smaller(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
 // Nearer than this (1/32 unit) nothing is drawn.
 constexpr int32_t NEAREST = 32;
 
@@ -45,11 +50,80 @@ constexpr int32_t STEEPEST_TILT = 20000;
 // Change of brightness (1/8 step) from the middle of a scale to its corner below which it has one brightness.
 constexpr int32_t FLAT = 8;
 
-}  // namespace
+// Half of a way along the surface as it falls on the picture, 1/256 unit, and what the brightness changes by over it, 8 bits
+// of fraction.
+struct Way {
+    int32_t x, y, change;
+};
 
-Shader::Shader(const SoftObject& object, const OwnFrame& own, const FrameContext& frame)
-    : object_(object), own_(own), grown_(object.size() != object.laidSize()), turned_(!object.isBall()),
-      spacing_(rawFromReal(object.spacing() * own.growth) >> 8)
+// Two ways, the half axes of a cell, and the area between them.
+struct Cell {
+    Way along, across;
+    int32_t area;
+    bool uneven;  // blending has torn its ring out of line
+};
+
+// What a scale is besides its place.
+struct Scale {
+    int32_t facing;        // the seed's normal times the vector to the eye, 1/32 unit
+    int32_t tiltX, tiltY;  // as those of its voxel
+    int32_t wide, high;
+};
+
+// Turns the seeds of one object into voxels. Made once for an object and a frame, and only here, so that the compiler may keep
+// it on the stack, where it needs no register to be found. TURNED: the own axes are not those of the world.
+template <bool TURNED>
+class Shader {
+public:
+    Shader(const SoftObject& object, const OwnFrame& own, const FrameContext& frame);
+
+    // To be called before the seeds of a patch: from where the viewer sees it.
+    void setPatch(const Patch& patch);
+
+    // Lists the voxels of a patch.
+    template <bool RESTING>
+    void shadeSeeds(const Patch& patch, VoxelList& list) const;
+
+    // Fills in the one voxel of a coarse patch. False: it faces away.
+    bool shadePatch(const Patch& patch, const Patch* patches, Voxel* voxel) const;
+
+private:
+    template <bool RESTING>
+    bool shade(const Seed& s, bool oversampled, Voxel* voxel) const;
+    template <bool RESTING>
+    bool place(const Seed& s, Scale& scale, Voxel* voxel) const;
+    template <bool RESTING>
+    void cell(const Seed& s, Cell& c) const;
+    void end(const Scale& scale, Voxel* voxel) const;
+    void changes(const Seed& s, Cell& c) const;
+    Way wayTo(const Vector& from, const Vector& to, int32_t change) const;
+    void roundSlopes(const Scale& scale, Voxel* voxel) const;
+
+    const SoftObject& object_;
+    const OwnFrame own_;      // a copy, for the same reason
+    const Seed* seeds_;
+    const Seed* lastSeed_;    // the last regular one
+    const Vector* roots_;
+    bool grown_;
+    int32_t spacing_;         // 1/256 unit of the world
+    int32_t limb_;            // a seed that faces the viewer less than this is not drawn, 1/32 unit
+    int32_t generalHorizon_;  // radius of curvature at the edge of the object, 1/32 unit
+    int32_t depth_;           // of the object's centre along the viewing axis, 1/32 unit
+    int32_t away_[2];         // the centre from the eye, across the view, 1/32 unit
+    int32_t inverseRadius_;   // 2^24 / radius in 1/64 unit
+    int32_t gradient_[3];     // of the brightness over a ball, 1/8 step a unit with 8 bits of fraction
+    // Of the patch: the axes of the picture plane, sheared along the ray through its middle, so that a part of a vector along
+    // the view shows sideways; 1.0 = 2^14. The same times the spacing, 6 bits of fraction.
+    int32_t column_[3], row_[3];
+    int32_t cellColumn_[3], cellRow_[3];
+    int32_t horizonShare_;    // of the horizon: half of it over the distance of the eye, 16 bits of fraction
+    int32_t gradientAhead_;   // how the brightness of a ball changes with the depth, 1/8 step a unit with 4 bits of fraction
+};
+
+template <bool TURNED>
+inline Shader<TURNED>::Shader(const SoftObject& object, const OwnFrame& own, const FrameContext& frame)
+    : object_(object), own_(own), seeds_(&object.seed(0)), lastSeed_(&object.seed(object.seedSlots() - 2)), roots_(&object.root(0)),
+      grown_(object.size() != object.laidSize()), spacing_(rawFromReal(object.spacing() * own.growth) >> 8)
 {
     const Vector place = object.centre() - frame.eye;
     depth_ = rawFromReal(place.z) >> 11;
@@ -59,21 +133,20 @@ Shader::Shader(const SoftObject& object, const OwnFrame& own, const FrameContext
     // there is.
     limb_ = object.coreReach() > Real(0) ? own.distance32 >> 7 : own.distance32 * 5 >> 7;
     generalHorizon_ = rawFromReal(object.horizonRadius(own.eye)) >> 11;
-    horizon_ = generalHorizon_;
-    lastSeed_ = &object.seed(object.seedSlots() - 2);
     const int32_t radius = (rawFromReal(object.radius()) >> 8) + 1;
     for (int i = 0; i < 3; ++i)
         gradient_[i] = own.light[i] * (BRIGHTEST * 32) / radius;
     inverseRadius_ = (1 << 24) / ((rawFromReal(shiftDown(object.laidSize(), 1)) >> 10) + 1);
 }
 
-void Shader::setPatch(const Patch& patch)
+template <bool TURNED>
+inline void Shader<TURNED>::setPatch(const Patch& patch)
 {
     // The middle of the patch in the view, 1/32 unit.
     int32_t view[3];
     const int32_t* const axes[] = {own_.right, own_.up, own_.ahead};
     for (int i = 0; i < 3; ++i)
-        view[i] = turned_ ? (patch.middle[0] * axes[i][0] + patch.middle[1] * axes[i][1] + patch.middle[2] * axes[i][2]) >> 13
+        view[i] = TURNED ? (patch.middle[0] * axes[i][0] + patch.middle[1] * axes[i][1] + patch.middle[2] * axes[i][2]) >> 13
                           : patch.middle[i] * 2;
     const int32_t depth = depth_ + view[2] < NEAREST ? NEAREST : depth_ + view[2];
     const int32_t shearX = limited(((away_[0] + view[0]) << 12) / depth, 5 << 12);
@@ -95,13 +168,14 @@ void Shader::setPatch(const Patch& patch)
     horizonShare_ = (limited(horizon, 8000) << 15) / own_.distance32;
 }
 
-// Place, tilt and brightness. Returned is the normal times the vector to the eye, 1/32 unit; 0: it faces away.
+// Place, tilt and brightness. False: it faces away.
 template <bool TURNED>
-inline int32_t Shader::place(const Seed& s, Voxel* voxel) const
+template <bool RESTING>
+inline bool Shader<TURNED>::place(const Seed& s, Scale& scale, Voxel* voxel) const
 {
-    Vector place = s.flags & SEED_RESTING ? s.path : s.path * s.position;
+    Vector place = RESTING || (s.flags & SEED_RESTING) ? s.path : s.path * s.position;
     if (TURNED)
-        place = place + object_.root(s.root);
+        place = place + roots_[s.root];
     if (grown_)
         place = place * own_.growth;
     const int32_t x = rawFromReal(place.x) >> 8, y = rawFromReal(place.y) >> 8, z = rawFromReal(place.z) >> 8;
@@ -109,13 +183,13 @@ inline int32_t Shader::place(const Seed& s, Voxel* voxel) const
     const int32_t facing =
         (n.x * (own_.eye32[0] - (x >> 3)) + n.y * (own_.eye32[1] - (y >> 3)) + n.z * (own_.eye32[2] - (z >> 3))) >> 14;
     if (facing <= limb_)
-        return 0;
+        return false;
     int32_t ahead = z;
     if (TURNED)
         ahead = (x * own_.ahead[0] + y * own_.ahead[1] + z * own_.ahead[2]) >> 14;
     const int32_t depth = depth_ + (ahead >> 3);
     if (depth < NEAREST)
-        return 0;
+        return false;
     voxel->z = ahead;
     // The tangent plane: depth changes by n.x depth / (n . to eye) for a unit across the view.
     const int32_t steep = (depth << 8) / facing;
@@ -140,13 +214,17 @@ inline int32_t Shader::place(const Seed& s, Voxel* voxel) const
     voxel->cutX = voxel->cutY = 0;
     voxel->cutAt = 0;
     voxel->brightness = static_cast<uint8_t>((s.brightness8 + 128) >> 8);
-    return facing;
+    scale.facing = facing;
+    scale.tiltX = tiltX;
+    scale.tiltY = tiltY;
+    return true;
 }
 
 // The cell of the unblended surface that is the seed's own, grown with the position, as it falls along the path onto the
 // tangent plane. A half axis e becomes e - u (e.n) / (u.n) with u the path.
 template <bool TURNED>
-inline void Shader::cell(const Seed& s, Cell& c) const
+template <bool RESTING>
+inline void Shader<TURNED>::cell(const Seed& s, Cell& c) const
 {
     if (TURNED) {
         c.along.x = product(s.along, cellColumn_) >> 12;
@@ -160,7 +238,7 @@ inline void Shader::cell(const Seed& s, Cell& c) const
         c.across.y = (s.across[1] * spacing_ >> 6) + (s.across[2] * cellRow_[2] >> 12);
     }
     c.uneven = false;
-    if (!(s.flags & SEED_RESTING)) {
+    if (!RESTING && !(s.flags & SEED_RESTING)) {
         // The path over the radius, 1.0 = 2^14, and its cosine to the normal.
         const int32_t u[] = {mulShift16(rawFromReal(s.path.x), inverseRadius_) >> 4, mulShift16(rawFromReal(s.path.y), inverseRadius_) >> 4,
                              mulShift16(rawFromReal(s.path.z), inverseRadius_) >> 4};
@@ -192,7 +270,7 @@ inline void Shader::cell(const Seed& s, Cell& c) const
 
 // Half width and height of the scale. Beside each other, cells of a ring make a band: rectangles as wide as the way from one
 // to the next need not cover the whole of their cells, only, together, the band.
-inline void Shader::extents(const Cell& c, bool whole, Voxel* voxel)
+inline void extents(const Cell& c, bool whole, Scale& scale, Voxel* voxel)
 {
     int32_t width = magnitude(c.along.x), height = magnitude(c.along.y);
     if (whole) {
@@ -203,24 +281,27 @@ inline void Shader::extents(const Cell& c, bool whole, Voxel* voxel)
     } else if (height > 0) {
         width += magnitude(c.area) / height;
     }
-    voxel->wide = static_cast<int16_t>(limited(width + (width >> 5) * MARGIN + MARGIN_UNITS, 32000));
-    voxel->high = static_cast<int16_t>(limited(height + (height >> 5) * MARGIN + MARGIN_UNITS, 32000));
+    scale.wide = smaller(width + (width >> 5) * MARGIN + MARGIN_UNITS, 32000);
+    scale.high = smaller(height + (height >> 5) * MARGIN + MARGIN_UNITS, 32000);
+    voxel->wide = static_cast<int16_t>(scale.wide);
+    voxel->high = static_cast<int16_t>(scale.high);
 }
 
 // Where a round surface bends out of sight its tangent plane goes on: the scale ends there. The limb is cos^2 radius / 2
 // away across the view, with cos the cosine of normal and viewer; along the plane that is cos radius / 2 deep.
-inline void Shader::end(int32_t facing, Voxel* voxel) const
+template <bool TURNED>
+inline void Shader<TURNED>::end(const Scale& scale, Voxel* voxel) const
 {
-    const int32_t reach = mulShift16(horizonShare_, facing) + 1;
+    const int32_t reach = mulShift16(horizonShare_, scale.facing) + 1;
     voxel->reach = 0;
-    if (reach < 256 && (magnitude(voxel->tiltX) * voxel->wide + magnitude(voxel->tiltY) * voxel->high) >> 11 >= reach)
+    if (reach < 256 && (magnitude(scale.tiltX) * scale.wide + magnitude(scale.tiltY) * scale.high) >> 11 >= reach)
         voxel->reach = static_cast<uint8_t>(reach);
 }
 
 // How the brightness changes across the scale, 1/8 step a unit; not at all when that is next to nothing.
-inline void Shader::setSlopes(int32_t x, int32_t y, Voxel* voxel)
+inline void setSlopes(int32_t x, int32_t y, const Scale& scale, Voxel* voxel)
 {
-    int32_t corner = (magnitude(x) * voxel->wide + magnitude(y) * voxel->high) >> 8;
+    int32_t corner = (magnitude(x) * scale.wide + magnitude(y) * scale.high) >> 8;
     if (corner < FLAT)
         return;
     for (; corner > SHADING_MOST * 8; corner >>= 1) {
@@ -232,26 +313,29 @@ inline void Shader::setSlopes(int32_t x, int32_t y, Voxel* voxel)
 }
 
 // The same from its change along two ways.
-inline void Shader::slopes(const Cell& c, Voxel* voxel)
+inline void slopes(const Cell& c, const Scale& scale, Voxel* voxel)
 {
     if ((c.along.change | c.across.change) == 0 || magnitude(c.area) < 512)
         return;
     const int32_t inverse = ((1 << 28) / c.area) * 128;
     setSlopes(mulHigh(c.along.change * c.across.y - c.across.change * c.along.y, inverse),
-              mulHigh(c.along.x * c.across.change - c.across.x * c.along.change, inverse), voxel);
+              mulHigh(c.along.x * c.across.change - c.across.x * c.along.change, inverse), scale, voxel);
 }
 
 // The same of a ball where nothing blends with it, by its curvature.
-inline void Shader::roundSlopes(Voxel* voxel) const
+template <bool TURNED>
+inline void Shader<TURNED>::roundSlopes(const Scale& scale, Voxel* voxel) const
 {
-    setSlopes((gradient_[0] + (voxel->tiltX * gradientAhead_ >> 4)) >> 8, (gradient_[1] + (voxel->tiltY * gradientAhead_ >> 4)) >> 8, voxel);
+    setSlopes((gradient_[0] + (scale.tiltX * gradientAhead_ >> 4)) >> 8, (gradient_[1] + (scale.tiltY * gradientAhead_ >> 4)) >> 8, scale,
+              voxel);
 }
 
 // How the brightness changes along the half axes of a cell. Along the ring: to the next seed of it, or at its end from the
 // one before. Across: from N.
-inline void Shader::changes(const Seed& s, Cell& c) const
+template <bool TURNED>
+inline void Shader<TURNED>::changes(const Seed& s, Cell& c) const
 {
-    const Seed &next = (&s)[2], &last = (&s)[-2], &n = object_.seed(s.neighbour);
+    const Seed &next = (&s)[2], &last = (&s)[-2], &n = seeds_[s.neighbour];
     c.along.change = c.across.change = 0;
     if (&next <= lastSeed_ && (next.flags & SEED_VALID) && next.neighbour >= s.neighbour)
         c.along.change = (next.brightness8 - s.brightness8) >> 1;
@@ -262,31 +346,49 @@ inline void Shader::changes(const Seed& s, Cell& c) const
 }
 
 template <bool TURNED>
-inline bool Shader::shadeAs(const Seed& s, bool oversampled, Voxel* voxel) const
+template <bool RESTING>
+inline bool Shader<TURNED>::shade(const Seed& s, bool oversampled, Voxel* voxel) const
 {
-    const int32_t facing = place<TURNED>(s, voxel);
-    if (facing == 0)
+    Scale scale;
+    if (!place<RESTING>(s, scale, voxel))
         return false;
     Cell c;
-    cell<TURNED>(s, c);
-    extents(c, oversampled || c.uneven, voxel);
-    end(facing, voxel);
+    cell<RESTING>(s, c);
+    extents(c, oversampled || c.uneven, scale, voxel);
+    end(scale, voxel);
     voxel->slopeX = voxel->slopeY = 0;
-    if (!TURNED && (s.flags & SEED_RESTING) && s.brightness8 > 0) {
-        roundSlopes(voxel);
+    if (!TURNED && (RESTING || (s.flags & SEED_RESTING)) && s.brightness8 > 0) {
+        roundSlopes(scale, voxel);
     } else if (!oversampled && s.neighbour >= 0) {
         changes(s, c);
-        slopes(c, voxel);
+        slopes(c, scale, voxel);
     }
     return true;
 }
 
-bool Shader::shade(const Seed& s, bool oversampled, Voxel* voxel)
+template <bool TURNED>
+template <bool RESTING>
+inline void Shader<TURNED>::shadeSeeds(const Patch& patch, VoxelList& list) const
 {
-    return turned_ ? shadeAs<true>(s, oversampled, voxel) : shadeAs<false>(s, oversampled, voxel);
+    Voxel* voxel = list.room();
+    for (int ring = 0; ring < PATCH_RINGS; ++ring) {
+        const Seed* s = seeds_ + 2 * patch.first[ring];
+        const Seed* const end = s + 2 * patch.count[ring];
+        // Regular seeds and oversampled ones take turns; of those at rest only the regular ones are there.
+        bool oversampled = false;
+        for (; s < end; s += RESTING ? 2 : 1) {
+            const int needed = oversampled ? SEED_ACTIVE | SEED_VALID : SEED_VALID;
+            if ((RESTING || (s->flags & needed) == needed) && shade<RESTING>(*s, oversampled, voxel)) {
+                list.take();
+                ++voxel;
+            }
+            oversampled = !RESTING && !oversampled;
+        }
+    }
 }
 
-Shader::Way Shader::wayTo(const Vector& from, const Vector& to, int32_t change) const
+template <bool TURNED>
+inline Way Shader<TURNED>::wayTo(const Vector& from, const Vector& to, int32_t change) const
 {
     const Vector v = to - from;
     const int32_t x = rawFromReal(v.x) >> 8, y = rawFromReal(v.y) >> 8, z = rawFromReal(v.z) >> 8;
@@ -294,41 +396,71 @@ Shader::Way Shader::wayTo(const Vector& from, const Vector& to, int32_t change) 
             change >> 1};
 }
 
-bool Shader::shadePatch(const Patch& patch, const Patch* patches, Voxel* voxel)
+template <bool TURNED>
+inline bool Shader<TURNED>::shadePatch(const Patch& patch, const Patch* patches, Voxel* voxel) const
 {
-    const Seed& s = object_.seed(patch.centre);
-    const int32_t facing = turned_ ? place<true>(s, voxel) : place<false>(s, voxel);
-    if (facing == 0)
+    const Seed& s = seeds_[patch.centre];
+    Scale scale;
+    if (!place<false>(s, scale, voxel))
         return false;
     Cell c;
-    if (turned_)
-        cell<true>(s, c);
-    else
-        cell<false>(s, c);
+    cell<false>(s, c);
     const int32_t along16 = patch.width16 + 4;
     c.along.x = c.along.x * along16 >> 4;
     c.along.y = c.along.y * along16 >> 4;
     c.across.x *= PATCH_RINGS;
     c.across.y *= PATCH_RINGS;
     c.area = c.along.x * c.across.y - c.along.y * c.across.x;
-    extents(c, c.uneven, voxel);
-    end(facing, voxel);
+    extents(c, c.uneven, scale, voxel);
+    end(scale, voxel);
     voxel->slopeX = voxel->slopeY = 0;
-    if (!turned_ && (s.flags & SEED_RESTING) && s.brightness8 > 0) {
-        roundSlopes(voxel);
+    if (!TURNED && (s.flags & SEED_RESTING) && s.brightness8 > 0) {
+        roundSlopes(scale, voxel);
         return true;
     }
     const auto rests = [&](int beside) {
-        const Seed& seed = object_.seed(patches[beside].centre);
-        return object_.root(seed.root) + seed.path * seed.position;
+        const Seed& seed = seeds_[patches[beside].centre];
+        return roots_[seed.root] + seed.path * seed.position;
     };
     const auto way = [&](int from, int to) {
-        return wayTo(rests(from), rests(to), object_.seed(patches[to].centre).brightness8 - object_.seed(patches[from].centre).brightness8);
+        return wayTo(rests(from), rests(to), seeds_[patches[to].centre].brightness8 - seeds_[patches[from].centre].brightness8);
     };
     const int here = static_cast<int>(&patch - patches);
     c.along = way(patch.before, patch.next);
     c.across = way(patch.above < 0 ? here : patch.above, patch.below < 0 ? here : patch.below);
     c.area = c.along.x * c.across.y - c.along.y * c.across.x;
-    slopes(c, voxel);
+    slopes(c, scale, voxel);
     return true;
+}
+
+template <bool TURNED>
+int shadeAs(const SoftObject& object, const OwnFrame& own, const FrameContext& frame, const Patch* patches, int count, int first,
+            VoxelList& list, int room)
+{
+    Shader<TURNED> shader(object, own, frame);
+    int at = first;
+    for (; at < count && list.count + 2 * PATCH_RINGS * PATCH_SEEDS <= room; ++at) {
+        const Patch& patch = patches[at];
+        if (patch.state != PATCH_MIXED && (patch.state != PATCH_REST || restsAway(patch, own)))
+            continue;
+        shader.setPatch(patch);
+        if (patch.coarse) {
+            if (shader.shadePatch(patch, patches, list.room()))
+                list.take();
+        } else if (patch.state == PATCH_REST) {
+            shader.template shadeSeeds<true>(patch, list);
+        } else {
+            shader.template shadeSeeds<false>(patch, list);
+        }
+    }
+    return at;
+}
+
+}  // namespace
+
+int shadePatches(const SoftObject& object, const OwnFrame& own, const FrameContext& frame, const Patch* patches, int count, int first,
+                 VoxelList& list, int room)
+{
+    return object.isBall() ? shadeAs<false>(object, own, frame, patches, count, first, list, room)
+                           : shadeAs<true>(object, own, frame, patches, count, first, list, room);
 }
