@@ -1,0 +1,113 @@
+// Bodies: what links join, and whom it tells of movement.
+#include "help.h"
+#include "test.h"
+
+namespace {
+
+// The numbers of the objects of a body, in order.
+std::vector<int> members(const Scene& scene, size_t i)
+{
+    SoftObject* const* list = scene.bodies->members(*scene.objects[i]);
+    std::vector<int> numbers;
+    for (int k = 0; k < scene.bodies->memberCount(*scene.objects[i]); ++k)
+        numbers.push_back(list[k]->number());
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+}
+
+}  // namespace
+
+TEST(bodies_are_what_links_join)
+{
+    Scene scene;
+    for (int i = 0; i < 7; ++i)
+        scene.ball(10, 30.0 * i, 0, 0, 4);
+    scene.link(0, 3);
+    scene.link(3, 5);
+    scene.link(1, 6, 0.5);
+    scene.findBodies();
+    const std::vector<int> first{1, 4, 6}, second{2, 7}, third{3};
+    for (size_t i : {0, 3, 5})
+        CHECK(members(scene, i) == first);
+    for (size_t i : {1, 6})
+        CHECK(members(scene, i) == second);
+    CHECK(members(scene, 2) == third);
+    const auto weight = [&](size_t a, size_t b) {
+        return number(scene.bodies->weight(scene.objects[a]->slot(), scene.objects[b]->slot()));
+    };
+    NEAR(weight(0, 3), 1, 0);
+    NEAR(weight(3, 0), 1, 0);
+    NEAR(weight(1, 6), 0.5, 0);
+    NEAR(weight(0, 5), 0, 0);
+    NEAR(weight(2, 2), 0, 0);
+    // Found anew, as the links are then.
+    scene.objects[3]->unlink(scene.objects[5].get());
+    scene.objects[5]->unlink(scene.objects[3].get());
+    scene.link(2, 5, 2);
+    scene.findBodies();
+    CHECK((members(scene, 0) == std::vector<int>{1, 4}));
+    CHECK((members(scene, 5) == std::vector<int>{3, 6}));
+    NEAR(weight(2, 5), 2, 0);
+    NEAR(weight(3, 5), 0, 0);
+}
+
+TEST(bodies_of_any_graph)
+{
+    // Against a search of its own, for random graphs of all sizes.
+    Random random;
+    for (int round = 0; round < 60; ++round) {
+        Scene scene;
+        const size_t count = static_cast<size_t>(1 + random.below(40));
+        for (size_t i = 0; i < count; ++i)
+            scene.ball(4, 0, 0, 0, 8);
+        std::vector<size_t> mark(count);
+        for (size_t i = 0; i < count; ++i)
+            mark[i] = i;
+        for (int k = random.below(40); k > 0; --k) {
+            const size_t a = static_cast<size_t>(random.below(static_cast<int>(count)));
+            const size_t b = static_cast<size_t>(random.below(static_cast<int>(count)));
+            if (a == b)
+                continue;
+            scene.link(a, b);
+            const size_t from = mark[b], to = mark[a];
+            for (size_t& m : mark)
+                m = m == from ? to : m;
+        }
+        scene.findBodies();
+        for (size_t i = 0; i < count; ++i) {
+            std::vector<int> expected;
+            for (size_t j = 0; j < count; ++j)
+                if (mark[j] == mark[i])
+                    expected.push_back(static_cast<int>(j) + 1);
+            CHECK(members(scene, i) == expected);
+        }
+    }
+}
+
+TEST(bodies_are_told_of_movement)
+{
+    // A chain: its ends are not linked, but reach each other; one apart is in reach of none, one is another body.
+    Scene scene;
+    scene.ball(20, 0, 0, 0, 4);
+    scene.ball(20, 8, 0, 0, 4);
+    scene.ball(20, 16, 0, 0, 4);
+    scene.ball(20, 90, 0, 0, 4);
+    scene.ball(20, 4, 0, 0, 4);
+    scene.link(0, 1);
+    scene.link(1, 2);
+    scene.link(2, 3);
+    scene.update();
+    for (auto& object : scene.objects)
+        CHECK(!object->recalc());
+    scene.objects[0]->translate(vector(0, 1, 0));
+    scene.bodies->spreadRecalc();
+    CHECK(scene.objects[1]->recalc());
+    CHECK(scene.objects[2]->recalc());
+    CHECK(!scene.objects[3]->recalc());
+    CHECK(!scene.objects[4]->recalc());
+    // Nothing moved, nobody is told.
+    scene.update();
+    scene.bodies->spreadRecalc();
+    for (auto& object : scene.objects)
+        CHECK(!object->recalc());
+}

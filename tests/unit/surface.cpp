@@ -1,0 +1,470 @@
+// Scenes in, voxels out: whatever objects, links and weights a scene has, every voxel lies on the surface of the body, faces
+// as that does, and none is missing where the viewer sees it. The truth is in double precision throughout.
+#include "help.h"
+#include "test.h"
+#include "truth.h"
+
+namespace {
+
+// What the voxels of scenes are off by.
+struct Errors {
+    long count = 0;
+    double worst = 0, sum = 0;              // distance from the surface, units
+    long astray = 0;                        // voxels farther from it than they may be
+    double worstLight = 0, sumLight = 0;    // brightness, steps of 64
+    long dim = 0;                           // voxels of another brightness than they may have
+    double strongest = -1;                  // by how much a neighbour's field is stronger
+    long foreign = 0;                       // voxels where it is too much so
+    long away = 0;                          // voxels that face away from the viewer
+
+    void report(const char* what) const
+    {
+        note("%s: %ld voxels, %.3f units off the surface at most, %.4f on average, %ld astray; brightness %.1f, %.2f, %ld; "
+             "neighbours stronger by %.3f at most, %ld; %ld face away",
+             what, count, worst, count > 0 ? sum / count : 0, astray, worstLight, count > 0 ? sumLight / count : 0, dim, strongest, foreign, away);
+    }
+};
+
+// A voxel may be this far from the surface (units, and parts of the spacing on small objects), and its brightness off by as
+// many steps of 64.
+constexpr double ASTRAY = 0.35;
+constexpr double DIM = 8;
+
+Vec placeOf(const Scene& scene, const Voxel& voxel)
+{
+    return vec(scene.eye) + Vec{voxel.x / 256.0, voxel.y / 256.0, voxel.z / 256.0};
+}
+
+double lit(const Scene& scene, const Vec& fall)
+{
+    return std::fmax(0, dot(fall, vec(scene.light)) / size(fall) * 63);
+}
+
+// Holds all voxels of a frame against the body.
+void measure(Scene& scene, const Body& body, Errors& errors)
+{
+    for (size_t o = 0; o < scene.objects.size(); ++o) {
+        const std::vector<size_t> joined = body.joined(o);
+        for (const Voxel& voxel : scene.draw(o)) {
+            const Vec p = placeOf(scene, voxel);
+            const Vec fall = body.fall(joined, p);
+            const double steep = size(fall), off = body.field(joined, p) - 0.5;
+            // Where the field is flat, a place is as good as those round it.
+            const double distance = std::fabs(off) / std::fmax(steep, 0.3 / body.cores[o].size);
+            ++errors.count;
+            errors.worst = std::fmax(errors.worst, distance);
+            errors.sum += distance;
+            errors.astray += distance > ASTRAY;
+            const double light = std::fabs(voxel.brightness - lit(scene, fall));
+            errors.worstLight = std::fmax(errors.worstLight, light);
+            errors.sumLight += light;
+            errors.dim += light > DIM;
+            const double stronger = body.dominance(o, joined, p);
+            errors.strongest = std::fmax(errors.strongest, stronger);
+            errors.foreign += stronger > 0.08;
+            errors.away += dot(fall, vec(scene.eye) - p) < -0.2 * steep * size(vec(scene.eye) - p);
+        }
+    }
+}
+
+// Of the places where paths of regular seeds leave the surface in plain sight, how many have no voxel of the object near.
+struct Missing {
+    long count = 0, missing = 0;
+    double farthest = 0;
+};
+
+void seek(Scene& scene, const Body& body, Missing& result)
+{
+    for (size_t o = 0; o < scene.objects.size(); ++o) {
+        const std::vector<size_t> joined = body.joined(o);
+        const SoftObject& object = *scene.objects[o];
+        std::vector<Vec> places;
+        for (const Voxel& voxel : scene.draw(o))
+            places.push_back(placeOf(scene, voxel));
+        for (int i = 0; i < object.seedSlots(); i += 2) {
+            const Seed& s = object.seed(i);
+            const Vec root = vec(object.toWorld(object.root(s.root)));
+            const Vec path = vec(object.toWorld(object.root(s.root) + s.path)) - root;
+            const double position = body.leaves(joined, root, path);
+            if (position >= 1.9)
+                continue;
+            const Vec p = root + path * position;
+            const Vec fall = body.fall(joined, p);
+            const Vec toEye = vec(scene.eye) - p;
+            if (body.dominance(o, joined, p) > -0.05 || dot(fall, toEye) < 0.3 * size(fall) * size(toEye))
+                continue;
+            // No voxel farther away than those of a patch drawn as one may be, where paths have spread.
+            double nearest = 1e9;
+            for (const Vec& place : places)
+                nearest = std::fmin(nearest, size(place - p));
+            const double spread = nearest / (number(object.spacing()) * position);
+            ++result.count;
+            result.farthest = std::fmax(result.farthest, spread);
+            result.missing += spread > 2.5;
+        }
+    }
+}
+
+// Nothing to be seen that should not be, and next to nothing missing.
+void judge(const char* what, const Errors& errors, const Missing& missing)
+{
+    errors.report(what);
+    note("%s: %ld seeds in sight, %ld without a voxel near, the farthest %.2f spacings from one", what, missing.count, missing.missing,
+         missing.farthest);
+    CHECK(errors.count > 0);
+    CHECK(missing.count > 0);
+    // Single ones may be off where two parts of the surface meet in a fold, or a patch lies half behind the edge.
+    CHECK(errors.astray <= errors.count / 5000);
+    CHECK(errors.worst < 1.5 * ASTRAY);
+    CHECK(errors.foreign <= 1 + errors.count / 5000);
+    CHECK(errors.away <= errors.count / 10000);
+    CHECK(missing.missing <= missing.count / 500);
+    CHECK(errors.sumLight <= 0.5 * errors.count);
+    CHECK(errors.dim <= errors.count / 200);
+}
+
+// A frame of a scene.
+void look(Scene& scene, Errors& errors, Missing& missing, const std::vector<const Kind*>& kinds = {})
+{
+    scene.update();
+    const Body body(scene, kinds);
+    measure(scene, body, errors);
+    seek(scene, body, missing);
+}
+
+// Two balls alike on the x axis, linked.
+Scene pair(double size, double apart, bool printed)
+{
+    Scene scene;
+    scene.printed = printed;
+    scene.ball(size, -apart / 2, 0, 0);
+    scene.ball(size, apart / 2, 0, 0);
+    scene.link(0, 1);
+    return scene;
+}
+
+bool identical(const std::vector<Voxel>& a, const std::vector<Voxel>& b)
+{
+    if (a.size() != b.size())
+        return false;
+    for (size_t i = 0; i < a.size(); ++i)
+        if (a[i].x != b[i].x || a[i].y != b[i].y || a[i].z != b[i].z || a[i].wide != b[i].wide || a[i].high != b[i].high ||
+            a[i].tiltX != b[i].tiltX || a[i].tiltY != b[i].tiltY || a[i].brightness != b[i].brightness ||
+            a[i].reach != b[i].reach || a[i].slopeX != b[i].slopeX || a[i].slopeY != b[i].slopeY)
+            return false;
+    return true;
+}
+
+SoftObject* makeOf(const Kind& kind, int number)
+{
+    Real measures[MEASURES_MOST];
+    for (int i = 0; i < kind.measures; ++i)
+        measures[i] = kind.measure[i].usual;
+    return kind.make(number, measures);
+}
+
+}  // namespace
+
+TEST(an_object_alone)
+{
+    for (int k = 0; k < KIND_COUNT; ++k) {
+        Errors errors;
+        Missing missing;
+        Random random;
+        for (int round = 0; round < 6; ++round) {
+            Scene scene;
+            scene.add(makeOf(KINDS[k], 1), random.between(-30, 30), random.between(-20, 20), random.between(-20, 40));
+            scene.objects[0]->rotate(scene.objects[0]->centre(), vector(random.between(-1, 1), random.between(-1, 1), 1), random.bits());
+            look(scene, errors, missing, {&KINDS[k]});
+            SAME(scene.counts.updated, 0);
+            SAME(scene.counts.normals, 0);
+        }
+        judge(KINDS[k].word, errors, missing);
+        SAME(missing.missing, 0);
+        CHECK(errors.worst < 0.05);
+    }
+}
+
+TEST(balls_of_any_size_anywhere)
+{
+    Random random;
+    Errors errors;
+    Missing missing;
+    for (int round = 0; round < 30; ++round) {
+        Scene scene;
+        const int count = 2 + random.below(4);
+        std::vector<Vector> speed;
+        for (int i = 0; i < count; ++i) {
+            scene.ball(random.between(6, 45), random.between(-25, 25), random.between(-20, 20), random.between(-25, 25),
+                       random.between(1.5, 4));
+            speed.push_back(vector(random.between(-3, 3), random.between(-3, 3), random.between(-3, 3)));
+        }
+        scene.linkAll();
+        for (int frame = 0; frame < 6; ++frame) {
+            look(scene, errors, missing);
+            for (size_t i = 0; i < speed.size(); ++i)
+                scene.objects[i]->translate(speed[i]);
+        }
+    }
+    judge("balls", errors, missing);
+}
+
+TEST(every_kind_with_every_kind)
+{
+    for (int a = 0; a < KIND_COUNT; ++a) {
+        for (int b = 0; b <= a; ++b) {
+            Errors errors;
+            Missing missing;
+            Random random;
+            Scene scene;
+            const std::vector<const Kind*> kinds{&KINDS[a], &KINDS[b]};
+            scene.add(makeOf(KINDS[a], 1), -9, 0, 0);
+            scene.add(makeOf(KINDS[b], 2), 9, 2, 3);
+            scene.linkAll();
+            for (int frame = 0; frame < 6; ++frame) {
+                look(scene, errors, missing, kinds);
+                scene.objects[0]->translate(vector(0.7, -0.3, 0.2));
+                scene.objects[0]->rotate(scene.objects[0]->centre(), vector(1, 2, -1), 0x04000000u);
+                scene.objects[1]->rotate(scene.objects[1]->centre(), vector(1, 0.5, 3), 0x05000000u);
+            }
+            judge((std::string(KINDS[a].word) + " and " + KINDS[b].word).c_str(), errors, missing);
+            CHECK(scene.counts.updated > 0);
+        }
+    }
+}
+
+TEST(chains)
+{
+    // Each linked with the one before alone; those two apart reach each other too.
+    Errors errors;
+    Missing missing;
+    for (double apart : {6.0, 9.0, 13.0}) {
+        Scene scene;
+        for (int i = 0; i < 5; ++i)
+            scene.ball(20 + 3 * (i & 1), apart * (i - 2), 2 * (i & 1), 3 * (i % 3));
+        for (size_t i = 1; i < 5; ++i)
+            scene.link(i - 1, i);
+        for (int frame = 0; frame < 4; ++frame) {
+            look(scene, errors, missing);
+            scene.objects[2]->translate(vector(0.5, 1, 0));
+        }
+    }
+    judge("chains", errors, missing);
+    // Two objects without a link are two bodies, wherever they are.
+    Scene apart;
+    apart.ball(20, -4, 0, 0);
+    apart.ball(20, 4, 0, 0);
+    apart.update();
+    SAME(apart.counts.updated, 0);
+    const Body body(apart);
+    Errors alone;
+    measure(apart, body, alone);
+    CHECK(alone.count > 100);
+    SAME(alone.astray, 0);
+}
+
+TEST(weights)
+{
+    for (double weight : {0.25, 0.5, 1.5, 2.0, 3.0, 4.0}) {
+        Errors errors;
+        Missing missing;
+        for (double apart : {22.0, 16.0, 12.0}) {
+            Scene scene;
+            scene.ball(24, -apart / 2, 0, 0);
+            scene.ball(20, apart / 2, 3, 2);
+            scene.link(0, 1, weight);
+            look(scene, errors, missing);
+            // Links of several weights in one body, one of them missing.
+            Scene three;
+            three.ball(24, -apart / 2, 0, 0);
+            three.ball(20, apart / 2, 3, 2);
+            three.ball(22, 0, apart / 2, -2);
+            three.link(0, 1, weight);
+            three.link(1, 2, 1);
+            look(three, errors, missing);
+        }
+        judge(("weight " + std::to_string(weight).substr(0, 4)).c_str(), errors, missing);
+    }
+}
+
+TEST(crowds)
+{
+    const auto held = [](const char* what, Scene& scene) {
+        Errors errors;
+        Missing missing;
+        for (int frame = 0; frame < 3; ++frame) {
+            for (auto& object : scene.objects)
+                object->setRecalc();
+            look(scene, errors, missing);
+        }
+        judge(what, errors, missing);
+    };
+    {
+        // At one place all are equally strong, and all of them are seen.
+        Scene scene;
+        for (int i = 0; i < 40; ++i)
+            scene.ball(20, 0, 0, 0, 4);
+        scene.linkAll();
+        scene.update();
+        const Body body(scene);
+        Errors errors;
+        measure(scene, body, errors);
+        errors.report("40 at one place");
+        CHECK(errors.count > 40);
+        SAME(errors.astray, 0);
+        SAME(errors.foreign, 0);
+    }
+    {
+        Scene scene;
+        scene.ball(20, 0, 0, 0);
+        scene.ball(20, 0, 0, 0);
+        scene.link(0, 1, 2);
+        scene.update();
+        const Body body(scene);
+        Errors errors;
+        measure(scene, body, errors);
+        errors.report("two at one place, weight 2");
+        CHECK(errors.count > 100);
+        SAME(errors.astray, 0);
+        SAME(errors.foreign, 0);
+    }
+    {
+        Scene scene;
+        scene.ball(24, -4, 0, 0);
+        scene.ball(20, 4, 0, 0);
+        scene.link(0, 1, 2);
+        held("24 and 20, 8 apart, weight 2", scene);
+    }
+    {
+        Random random;
+        Scene scene;
+        for (int i = 0; i < 40; ++i)
+            scene.ball(random.between(10, 24), random.between(-14, 14), random.between(-14, 14), random.between(-14, 14), 3);
+        scene.linkAll();
+        held("40 in a crowd", scene);
+    }
+}
+
+TEST(what_moves_leaves_no_trace)
+{
+    // A small ball goes round two large ones, in small steps and in leaps: what it has passed is as if it had never been there.
+    for (int steps : {240, 12}) {
+        Scene scene;
+        scene.ball(60, -8, 0, 16);
+        scene.ball(40, 24, 8, 10);
+        scene.ball(10, 30, 0, 0);
+        scene.linkAll();
+        Errors errors;
+        Missing missing;
+        for (int step = 0; step <= steps; ++step) {
+            const double angle = step * 2 * M_PI / steps;
+            scene.objects[2]->moveTo(point(30 * std::cos(angle), 30 * std::sin(angle), 0));
+            scene.update();
+            if (step % (steps / 6) != 0)
+                continue;
+            const Body body(scene);
+            measure(scene, body, errors);
+            seek(scene, body, missing);
+        }
+        judge(steps > 100 ? "small steps" : "leaps", errors, missing);
+    }
+}
+
+TEST(what_turns_is_lit_anew)
+{
+    Scene scene;
+    const std::vector<const Kind*> kinds{kindNamed("cone"), kindNamed("cylinder")};
+    scene.add(makeOf(*kinds[0], 1), -10, 0, 0);
+    scene.add(makeOf(*kinds[1], 2), 14, 0, 0);
+    scene.link(0, 1);
+    Errors errors;
+    Missing missing;
+    for (int frame = 0; frame < 16; ++frame) {
+        look(scene, errors, missing, kinds);
+        scene.objects[0]->rotate(scene.objects[0]->centre(), vector(1, 0.5, 0.2), 0x09000000u);
+        scene.objects[1]->rotate(scene.objects[1]->centre(), vector(0, 1, 1), 0x15000000u);
+        if (frame == 9)
+            scene.objects[1]->moveTo(point(60, 0, 0));
+    }
+    judge("turning", errors, missing);
+}
+
+TEST(what_grows_takes_its_seeds_along)
+{
+    Scene scene;
+    scene.ball(20, -8, 0, 0);
+    scene.ball(20, 8, 0, 0);
+    scene.link(0, 1);
+    Errors errors;
+    Missing missing;
+    for (double to : {22.0, 24.0, 27.0, 31.0, 22.0, 12.0, 17.0}) {
+        scene.objects[0]->setSize(real(to));
+        look(scene, errors, missing);
+    }
+    judge("growing", errors, missing);
+}
+
+TEST(what_has_not_changed_is_left_alone)
+{
+    for (bool printed : {false, true}) {
+        Scene scene = pair(20, 15, printed);
+        scene.update();
+        CHECK(scene.counts.updated > 0);
+        CHECK(!scene.objects[0]->recalc());
+        const std::vector<Voxel> before[2] = {scene.draw(0), scene.draw(1)};
+        CHECK(before[0].size() > 30 && before[1].size() > 30);
+        scene.counts = Counts{};
+        scene.update();
+        SAME(scene.counts.updated, 0);
+        SAME(scene.counts.iterations, 0);
+        for (size_t o = 0; o < 2; ++o)
+            CHECK(identical(before[o], scene.draw(o)));
+    }
+}
+
+TEST(only_what_is_near_is_told)
+{
+    for (bool printed : {false, true}) {
+        Scene scene = pair(20, 80, printed);
+        scene.update();
+        CHECK(!scene.objects[0]->recalc() && !scene.objects[1]->recalc());
+        // Far away it moves, and the other is not told.
+        scene.objects[0]->translate(vector(1, 0, 0));
+        CHECK(scene.objects[0]->recalc());
+        CHECK(!scene.objects[1]->recalc());
+        scene.update();
+        // "This works as long as there are no huge jumps": here they are safe, in and out.
+        scene.objects[0]->moveTo(point(30, 0, 0));
+        CHECK(scene.objects[1]->recalc());
+        scene.update();
+        scene.objects[0]->moveTo(point(-60, 0, 0));
+        CHECK(scene.objects[1]->recalc());
+        scene.update();
+        scene.objects[0]->translate(vector(-1, 0, 0));
+        CHECK(!scene.objects[1]->recalc());
+        // Blending ones tell each other of everything.
+        Scene near = pair(20, 19, printed);
+        near.update();
+        near.objects[1]->translate(vector(0.1, 0, 0));
+        CHECK(near.objects[0]->recalc());
+        near.update();
+        near.objects[1]->scale(Real(1.0625));
+        CHECK(near.objects[0]->recalc());
+        near.update();
+        near.objects[1]->rotate(near.objects[0]->centre(), vector(0, 0, 1), 0x01000000u);
+        CHECK(near.objects[0]->recalc());
+    }
+}
+
+TEST(drawing_in_parts)
+{
+    // However little room there is for voxels at a time, they are the same.
+    for (bool printed : {false, true}) {
+        Scene scene = pair(60, 30, printed);
+        scene.update();
+        const std::vector<Voxel> whole = scene.draw(0, VOXELS_AT_ONCE);
+        CHECK(whole.size() > 200);
+        for (int room : {DRAW_ROOM, DRAW_ROOM + 1, 200, 333})
+            CHECK(identical(whole, scene.draw(0, room)));
+    }
+}
