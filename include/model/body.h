@@ -7,7 +7,7 @@
 #ifndef FB_BODY_H
 #define FB_BODY_H
 
-#include "math/real.h"
+#include "math/vec.h"
 
 class SoftObject;
 
@@ -32,7 +32,19 @@ public:
     // An object whose recalc flag is set tells those that it is linked to; this tells the rest of its body that it can reach.
     void spreadRecalc() const;
 
+    // Starts a frame: finds out how far the objects have gone since the last.
+    void beginFrame();
+    // Whether some object went so far, or turned so, that nothing that was known of its surroundings is worth much.
+    bool leapt() const { return leapt_; }
+
 private:
+    // How an object stood in the last frame.
+    struct Stand {
+        Point centre;
+        Vector turn;  // three elements of the rotation, any of which changes with it
+        Real size;
+    };
+    static Stand standOf(const SoftObject& object);
     void release();
 
     int count_ = 0;
@@ -40,6 +52,8 @@ private:
     SoftObject** members_ = nullptr;  // body after body
     int16_t* first_ = nullptr;        // by slot: where its body begins in members_
     int16_t* size_ = nullptr;         // by slot: how many it has
+    Stand* stands_ = nullptr;         // by slot
+    bool leapt_ = false;
     bool* complete_ = nullptr;        // by slot: all of its body are linked with all
 };
 

@@ -16,11 +16,13 @@ void Bodies::release()
     free(first_);
     free(size_);
     free(complete_);
+    free(stands_);
     weights_ = nullptr;
     members_ = nullptr;
     first_ = nullptr;
     size_ = nullptr;
     complete_ = nullptr;
+    stands_ = nullptr;
     count_ = 0;
 }
 
@@ -33,14 +35,16 @@ bool Bodies::find(SoftObject* const* objects, int count)
     first_ = allocate<int16_t>(n);
     size_ = allocate<int16_t>(n);
     complete_ = allocate<bool>(n);
+    stands_ = allocate<Stand>(n);
     if (weights_ == nullptr || members_ == nullptr || first_ == nullptr || size_ == nullptr ||
-        complete_ == nullptr) {
+        complete_ == nullptr || stands_ == nullptr) {
         release();
         return false;
     }
     count_ = count;
     for (int i = 0; i < count; ++i) {
         objects[i]->setSlot(i);
+        stands_[i] = standOf(*objects[i]);
         first_[i] = -1;
         for (int j = 0; j < count; ++j)
             weights_[i * count + j] = Real(0);
@@ -75,6 +79,29 @@ bool Bodies::find(SoftObject* const* objects, int count)
         }
     }
     return true;
+}
+
+Bodies::Stand Bodies::standOf(const SoftObject& object)
+{
+    return {object.centre(), {object.turn().m[1][0], object.turn().m[2][0], object.turn().m[2][1]}, object.size()};
+}
+
+void Bodies::beginFrame()
+{
+    // A way of a few units in one frame.
+    constexpr Real LEAP(3.5);
+    leapt_ = false;
+    for (int i = 0; i < count_; ++i) {
+        const SoftObject& object = *members_[i];
+        Stand& before = stands_[object.slot()];
+        const Stand now = standOf(object);
+        const Vector way = now.centre - before.centre, turn = now.turn - before.turn;
+        const Real reach = object.coreReach() + object.size();
+        leapt_ = leapt_ || absolute(way.x) + absolute(way.y) + absolute(way.z) + absolute(now.size - before.size) > LEAP ||
+                 (!object.isBall() && (absolute(turn.x) + absolute(turn.y) + absolute(turn.z)) * reach > LEAP);
+        before = now;
+    }
+    spreadRecalc();
 }
 
 void Bodies::spreadRecalc() const

@@ -307,7 +307,7 @@ const Bodies* Model::bodies()
     }
     if (!bodiesKnown_)
         return nullptr;
-    bodies_.spreadRecalc();
+    bodies_.beginFrame();
     return &bodies_;
 }
 

@@ -348,6 +348,28 @@ Vector Settler::outward(Real position) const
     return g;
 }
 
+// Which way and how far it is to where the strongest neighbour's field is as strong as the own, to first order.
+void Settler::findBorder(Seed& s, Real dominance) const
+{
+    const Along* other = along_;
+    for (int i = 1; i < touched_; ++i)
+        if (along_[i].value > other->value)
+            other = along_ + i;
+    // Gradients, times half the squared size of the object.
+    const Vector place = path_ * s.position;
+    Vector g = place * ownSlope_;
+    const Real push = other->slope * other->near->ratio;
+    if (other->near->kind == Neighbour::POINT)
+        g = g - (other->from->apart + place) * push;
+    else
+        g = g - other->near->fromCoreSpace(other->out) * push;
+    const Real steep = nearLength(g), size = object_.laidSize();
+    const Real distance = clamp(-dominance * size, Real(-100), Real(100)) * size * Real(0.5);
+    s.apart = static_cast<int16_t>(rawFromReal(clamp(absolute(distance) < steep * Real(30) ? distance / steep : Real(30), Real(-30), Real(30))) >> 8);
+    const Normal n = normalise(g);
+    s.border = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
+}
+
 Real Settler::settle(Seed& s)
 {
     Sample sample;
@@ -367,13 +389,13 @@ Real Settler::settle(Seed& s)
     const bool wasValid = (s.flags & SEED_VALID) != 0;
     s.flags &= SEED_ACTIVE;
     Real position = s.position;
-    if (!wasValid) {
+    if (!wasValid && !bodies_.leapt()) {
         const Real margin = most(sample.excess, sample.dominance - OVERSHOOT);
         if (margin > DEEP)
             return margin;
     }
     const bool still = absolute(sample.excess) <= TOLERANCE;
-    if (!follow(&position, &sample)) {
+    if ((!wasValid && bodies_.leapt()) || !follow(&position, &sample)) {
         const bool found = search(&position, &sample);
         s.position = position;
         if (!found)
@@ -386,7 +408,11 @@ Real Settler::settle(Seed& s)
     s.normal = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
     s.brightness8 = brightness8(s.normal, own_.light);
     s.still = static_cast<uint8_t>(!still ? 0 : s.still == 0 ? 1 : 3);
-    s.flags |= sample.dominance > -BORDER ? SEED_VALID | SEED_BORDER : SEED_VALID;
+    s.flags |= SEED_VALID;
+    if (sample.dominance > -BORDER) {
+        s.flags |= SEED_BORDER;
+        findBorder(s, sample.dominance);
+    }
     ++counts_.normals;
     return Real(0);
 }
@@ -401,7 +427,7 @@ static Real enough(const Patch& patch, Real size)
 bool Settler::blocked(const Patch& patch, const Seed& s, Real margin)
 {
     const int i = numberOf_[patch.blocker];
-    if (i < 0 || neighbours_[i].kind != Neighbour::POINT)
+    if (i < 0 || bodies_.leapt() || neighbours_[i].kind != Neighbour::POINT)
         return false;
     FromRoot& from = from_[i];
     if (from.root != s.root)
@@ -471,7 +497,7 @@ void Settler::settleRest(Patch& patch)
 // moved twice; so is one that faces away a little or well.
 bool Settler::waits(const Seed& s, bool someAway) const
 {
-    if ((s.flags & (SEED_VALID | SEED_RESTING)) != SEED_VALID)
+    if ((s.flags & (SEED_VALID | SEED_RESTING)) != SEED_VALID || bodies_.leapt())
         return false;
     uint32_t mask = s.still;
     if (someAway) {

@@ -81,6 +81,7 @@ private:
     bool search(Real* position, Sample* sample);
     bool bisect(Real inside, Real outside, Real* position, Sample* sample);
     Vector outward(Real position) const;
+    void findBorder(Seed& s, Real dominance) const;
 
     int strongest() const;
     bool blocked(const Patch& patch, const Seed& s, Real margin);

@@ -44,6 +44,9 @@ constexpr int32_t MARGIN_UNITS = 14;
 // Beyond this cosine of path and normal a cell lies in no even band of its ring; inverse, 12 bits of fraction.
 constexpr int32_t UNEVEN = 4329;
 
+// By how much scales of two objects overlap at their border, 1/256 unit.
+constexpr int32_t BORDER_MARGIN = 40;
+
 // No depth changes more than this across a scale, 8 bits of fraction.
 constexpr int32_t STEEPEST_TILT = 20000;
 
@@ -98,6 +101,7 @@ private:
     void changes(const Seed& s, Cell& c) const;
     Way wayTo(const Vector& from, const Vector& to, int32_t change) const;
     void roundSlopes(const Scale& scale, Voxel* voxel) const;
+    bool cut(const Seed& s, const Scale& scale, Voxel* voxel) const;
 
     const SoftObject& object_;
     const OwnFrame own_;      // a copy, for the same reason
@@ -115,6 +119,7 @@ private:
     // Of the patch: the axes of the picture plane, sheared along the ray through its middle, so that a part of a vector along
     // the view shows sideways; 1.0 = 2^14. The same times the spacing, 6 bits of fraction.
     int32_t column_[3], row_[3];
+    int32_t shearX_, shearY_;  // 12 bits of fraction
     int32_t cellColumn_[3], cellRow_[3];
     int32_t horizonShare_;    // of the horizon: half of it over the distance of the eye, 16 bits of fraction
     int32_t gradientAhead_;   // how the brightness of a ball changes with the depth, 1/8 step a unit with 4 bits of fraction
@@ -151,6 +156,8 @@ inline void Shader<TURNED>::setPatch(const Patch& patch)
     const int32_t depth = depth_ + view[2] < NEAREST ? NEAREST : depth_ + view[2];
     const int32_t shearX = limited(((away_[0] + view[0]) << 12) / depth, 5 << 12);
     const int32_t shearY = limited(((away_[1] + view[1]) << 12) / depth, 5 << 12);
+    shearX_ = shearX;
+    shearY_ = shearY;
     for (int i = 0; i < 3; ++i) {
         column_[i] = own_.right[i] - (own_.ahead[i] * shearX >> 12);
         row_[i] = own_.up[i] - (own_.ahead[i] * shearY >> 12);
@@ -330,6 +337,40 @@ inline void Shader<TURNED>::roundSlopes(const Scale& scale, Voxel* voxel) const
               voxel);
 }
 
+// Where another object is the strongest the scale ends: a straight line, for the difference of two fields is nearly linear
+// across it. False: nothing is left.
+template <bool TURNED>
+inline bool Shader<TURNED>::cut(const Seed& s, const Scale& scale, Voxel* voxel) const
+{
+    int32_t x = s.border.x, y = s.border.y, z = s.border.z;
+    if (TURNED) {
+        x = product(s.border, own_.right) >> 14;
+        y = product(s.border, own_.up) >> 14;
+        z = product(s.border, own_.ahead) >> 14;
+    }
+    // A step across the view leads along the ray as well, as far as the scale is tilted.
+    const int32_t along = z + ((x * shearX_ + y * shearY_) >> 12);
+    int32_t cutX = x + (scale.tiltX * (along >> 2) >> 6), cutY = y + (scale.tiltY * (along >> 2) >> 6);
+    int32_t at = (s.apart + BORDER_MARGIN) * 64, unit = 1 << 14;
+    while (magnitude(cutX) > 127 || magnitude(cutY) > 127) {
+        cutX >>= 1;
+        cutY >>= 1;
+        at >>= 1;
+        unit >>= 1;
+    }
+    if (unit < 16 || (cutX | cutY) == 0)
+        return true;
+    const int32_t corner = (magnitude(cutX) * scale.wide + magnitude(cutY) * scale.high) >> 8;
+    if (at >= corner)
+        return true;
+    if (at <= -corner)
+        return false;
+    voxel->cutX = static_cast<int8_t>(cutX);
+    voxel->cutY = static_cast<int8_t>(cutY);
+    voxel->cutAt = static_cast<int16_t>(limited(at, 32000));
+    return true;
+}
+
 // How the brightness changes along the half axes of a cell. Along the ring: to the next seed of it, or at its end from the
 // one before. Across: from N.
 template <bool TURNED>
@@ -356,6 +397,8 @@ inline bool Shader<TURNED>::shade(const Seed& s, bool oversampled, Voxel* voxel)
     cell<RESTING>(s, c);
     extents(c, oversampled || c.uneven, scale, voxel);
     end(scale, voxel);
+    if (!RESTING && (s.flags & SEED_BORDER) && !cut(s, scale, voxel))
+        return false;
     voxel->slopeX = voxel->slopeY = 0;
     if (!TURNED && (RESTING || (s.flags & SEED_RESTING)) && s.brightness8 > 0) {
         roundSlopes(scale, voxel);
