@@ -89,7 +89,7 @@ Bodies::Stand Bodies::standOf(const SoftObject& object)
 void Bodies::beginFrame()
 {
     // A way of a few units in one frame.
-    constexpr Real LEAP(3.5);
+    constexpr Real LEAP(9);
     leapt_ = false;
     for (int i = 0; i < count_; ++i) {
         const SoftObject& object = *members_[i];

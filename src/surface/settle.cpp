@@ -421,7 +421,7 @@ Real Settler::settle(Seed& s)
 // are no farther than the patch reaches, and a field changes by about its size at most over that of its object.
 static Real enough(const Patch& patch, Real size)
 {
-    return clamp(realFromRaw(patch.radius << 12) / size * STEEPEST, Real(0.1), Real(0.45));
+    return clamp(realFromRaw(patch.radius << 12) / size * STEEPEST, Real(0.1), Real(0.6));
 }
 
 bool Settler::blocked(const Patch& patch, const Seed& s, Real margin)
