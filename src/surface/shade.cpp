@@ -454,7 +454,7 @@ inline bool Shader<TURNED>::shadePatch(const Patch& patch, const Patch* patches,
     c.across.x *= PATCH_RINGS;
     c.across.y *= PATCH_RINGS;
     c.area = c.along.x * c.across.y - c.along.y * c.across.x;
-    extents(c, c.uneven, scale, voxel);
+    extents(c, true, scale, voxel);
     end(scale, voxel);
     voxel->slopeX = voxel->slopeY = 0;
     if (!TURNED && (s.flags & SEED_RESTING) && s.brightness8 > 0) {
