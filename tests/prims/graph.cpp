@@ -77,8 +77,8 @@ void testLinks(const Sample& sample)
     Object a = sample.make(1);
     {
         Object b = FEW[0].make(2);
-        a->resample(Real(2));
-        b->resample(Real(2));
+        a->resample(Real(2), makeEngine);
+        b->resample(Real(2), makeEngine);
         b->moveTo(point(0, 0, -18));
         scene.update(*a);
         scene.update(*b);
@@ -153,7 +153,7 @@ void testComingAndGoing()
         case 0: {
             Object made = FEW[static_cast<size_t>(below(static_cast<int>(FEW.size())))].make(step + 1);
             made->moveTo(point(between(-30, 30), between(-30, 30), between(-30, 30)));
-            if (!check(made->resample(Real(3)), "no seeds"))
+            if (!check(made->resample(Real(3), makeEngine), "no seeds"))
                 return;
             objects.push_back(std::move(made));
             break;

@@ -55,7 +55,7 @@ void testMoves(const Sample& sample)
 {
     const char* name = sample.kind;
     Object object = sample.make();
-    object->resample(Real(2));
+    object->resample(Real(2), makeEngine);
     const std::vector<Vec> start = places(*object);
     const Vec by{12.5, -3.25, 40};
     object->translate({real(by.x), real(by.y), real(by.z)});
@@ -97,7 +97,7 @@ void testScaling(const Sample& sample)
     const char* name = sample.kind;
     const bool tapers = std::string(name) == "cone";
     Object object = sample.make();
-    object->resample(Real(2));
+    object->resample(Real(2), makeEngine);
     object->moveTo(toReal({5, 6, 7}));
     const std::vector<Vec> start = places(*object);
     const int seeds = object->seeds();
@@ -147,10 +147,10 @@ void testScaling(const Sample& sample)
 
     // Laid out anew while turned and moved.
     Object other = sample.make();
-    other->resample(Real(2));
+    other->resample(Real(2), makeEngine);
     other->rotate(toReal({3, 1, 2}), {Real(1), Real(2), Real(3)}, 0x33333333u);
     const std::vector<Vec> before = places(*other);
-    check(other->resample(Real(2)) && apart(places(*other), before) < 0.002, "%s: laid out elsewhere when turned", name);
+    check(other->resample(Real(2), makeEngine) && apart(places(*other), before) < 0.002, "%s: laid out elsewhere when turned", name);
 }
 
 // A million turns: path lengths, and the distance from what it turns about.
@@ -158,7 +158,7 @@ void testMillion(const Sample& sample)
 {
     const char* name = sample.kind;
     Object object = sample.make();
-    object->resample(Real(8));
+    object->resample(Real(8), makeEngine);
     object->moveTo(toReal({30, -10, 5}));
     const double distance = size({30, -10, 5});
     double worst = 0;
