@@ -82,7 +82,7 @@ void testField(const Sample& sample)
                 const auto at = [&](Vec v) { return sample.param(inOwn(*object, sample, p + v)); };
                 const Vec exact = Vec{at({d, 0, 0}) - at({-d, 0, 0}), at({0, d, 0}) - at({0, -d, 0}), at({0, 0, d}) - at({0, 0, -d})} *
                                   (half / (2 * d));
-                const Vec world = vec(object->toWorld(s)) - vec(object->centre());
+                const Vec world = vec(object->isBall() ? s : object->turn() * s);
                 slopes = std::fmax(slopes, size(world - exact) / size(exact));
             }
         }
@@ -113,7 +113,8 @@ void testSeeds(const Sample& sample, bool posed)
             roots.insert(s.root);
             valid = valid && s.position == Real(1) && s.neighbour < object->seedSlots() && (s.neighbour == -1 || s.neighbour % 2 == 0);
         }
-        const Vec at = vec(object->seedPoint(s)) - vec(s.path) * (number(s.position) - 1), path = vec(s.path), root = at - path;
+        const Vec root = vec(object->toWorld(object->root(s.root))), at = vec(object->toWorld(object->root(s.root) + s.path));
+        const Vec path = at - root;
         rest = std::fmax(rest, std::fabs(sample.param(inOwn(*object, sample, at)) - 0.25));
         if (std::string(sample.kind) != "cone")
             longest = std::fmax(longest, std::fabs(size(path) - radius));
