@@ -19,9 +19,9 @@
 #include <vector>
 
 #include "model/field.h"
-#include "surface/profile.h"
 #include "model/scene.h"
-#include "surface/shade.h"
+#include "math/normal.h"
+#include "surface/engine.h"
 #include "surface/voxel.h"
 
 namespace {
@@ -216,18 +216,20 @@ void draw(Model& model)
     static uint8_t ramp[64 + 2 * SHADING_MOST];
     for (int i = 0; i < model.count(); ++i)
         model.actor(i).object->setRamp(ramp + SHADING_MOST);
-    if (!model.resample(Real(6)))
+    if (!model.resample(Real(6), below(4) == 0 ? makeReport98 : makeEngine))
         failed("no memory for seeds");
     Counts counts{};
-    const Look look{model.camera.eye, unit(model.light), below(4) == 0, &counts};
     for (Time time : TIMES) {
         Anim::move(model, time);
+        const FrameContext frame{model.camera.eye, unit(model.light), model.bodies(), &counts};
+        if (frame.bodies == nullptr)
+            failed("no memory for bodies");
         for (int i = 0; i < model.count(); ++i)
-            model.actor(i).object->update(look);
+            model.actor(i).object->update(frame);
         for (int i = 0; i < model.count(); ++i) {
             int next = 0;
             do
-                model.actor(i).object->draw(look, list, VOXELS_AT_ONCE, &next);
+                model.actor(i).object->draw(frame, list, VOXELS_AT_ONCE, &next);
             while (next != 0);
         }
     }
@@ -263,8 +265,7 @@ int main(int count, char** arguments)
     }
     const size_t given = pool.size();
     makeFieldSteps();
-    makeProfileSteps();
-    makeShadeTables();
+    makeNormalTable();
     signal(SIGALRM, onAlarm);
     alarm(10);
     __sanitizer_set_death_callback(onDeath);

@@ -36,7 +36,7 @@ bool run(Play& play, const std::string& directory, bool printed)
     for (const auto& link : play.links)
         if (!model.link(objects[static_cast<size_t>(link.first)], objects[static_cast<size_t>(link.second)], Real(1)))
             return false;
-    if (!model.resample(real(play.spacing)))
+    if (!model.resample(real(play.spacing), printed ? makeReport98 : makeEngine))
         return false;
     View view;
     Palette palette;
@@ -51,14 +51,14 @@ bool run(Play& play, const std::string& directory, bool printed)
     for (int frame = 0; frame < FRAMES; ++frame) {
         play.move(objects, frame);
         Counts counts{};
-        const Look look{model.camera.eye, unit(model.light), printed, &counts};
+        const FrameContext context{model.camera.eye, unit(model.light), model.bodies(), &counts};
         for (SoftObject* object : objects)
-            object->update(look);
+            object->update(context);
         view.begin();
         for (SoftObject* object : objects) {
             int next = 0;
             do {
-                object->draw(look, list, 256, &next);
+                object->draw(context, list, 256, &next);
                 view.show(list);
             } while (next != 0);
         }

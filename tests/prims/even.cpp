@@ -46,7 +46,7 @@ void testEvenness(bool table)
     for (const Sample& sample : MANY)
         for (const double spacing : {0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0}) {
             Object object = sample.make();
-            if (!check(object->resample(real(spacing)), "%s: no seeds at %g", sample.name().c_str(), spacing))
+            if (!check(object->resample(real(spacing), makeEngine), "%s: no seeds at %g", sample.name().c_str(), spacing))
                 continue;
             std::vector<Vec> points;
             for (int i = 0; i < object->seedSlots(); i += 2)

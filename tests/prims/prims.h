@@ -13,7 +13,8 @@
 #include "model/cylinder.h"
 #include "model/disc.h"
 #include "model/model.h"
-#include "surface/shade.h"
+#include "surface/engine.h"
+#include "surface/voxel.h"
 #include "model/sphere.h"
 #include "model/torus.h"
 

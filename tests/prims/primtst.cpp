@@ -10,7 +10,7 @@
 #include <cstring>
 
 #include "model/field.h"
-#include "surface/profile.h"
+#include "math/normal.h"
 
 int passed = 0, failed = 0;
 
@@ -90,8 +90,7 @@ const std::vector<Sample> MANY = {
 int main(int count, char** arguments)
 {
     makeFieldSteps();
-    makeProfileSteps();
-    makeShadeTables();
+    makeNormalTable();
     if (count == 2 && std::strcmp(arguments[1], "even") == 0) {
         testEvenness(true);
         return 0;

@@ -6,7 +6,8 @@
 #include <string>
 
 #include "machine.h"
-#include "surface/profile.h"
+#include "math/normal.h"
+#include "surface/engine.h"
 #include "model/scene.h"
 
 namespace {
@@ -125,8 +126,8 @@ void motion()
     const std::string text = S + "cylinder c size 12 length 30 at 40 0 0\npulse s by 0.3 period 3\npulse c by 0.7 period 2";
     read(text, once);
     read(text, often);
-    once.resample(Real(2));
-    often.resample(Real(2));
+    once.resample(Real(2), makeEngine);
+    often.resample(Real(2), makeEngine);
     for (int i = 0; i <= 500; ++i)
         Anim::move(often, at(i * 0.0373));
     Anim::move(once, at(500 * 0.0373));
@@ -283,7 +284,7 @@ void changes()
     Model model;
     read("group g at 10 0 0 turn 0 0 90\nsphere a size 9\nsphere b size 9 at 5 0 0 in g\ncylinder c size 9 length 8 in b\n"
          "key a 0 0 0 0\nkey a 2 1 1 1\nkey c 0 0 1 0\nkey c 1 0 2 0\nblend all 0.5", model);
-    model.resample(Real(2));
+    model.resample(Real(2), makeEngine);
     Anim::move(model, 0);
     Model::Record* record = model.record();
     check(record != nullptr, "a record");
@@ -326,7 +327,7 @@ void changes()
 int main()
 {
     makeFieldSteps();
-    makeProfileSteps();
+    makeNormalTable();
     motion();
     links();
     complaints();
