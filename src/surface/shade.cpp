@@ -26,6 +26,11 @@ inline int32_t limited(int32_t a, int32_t most)
     return a > most ? most : a < -most ? -most : a;
 }
 
+inline int32_t larger(int32_t a, int32_t b)
+{
+    return a < b ? b : a;
+}
+
 inline int32_t smaller(int32_t a, int32_t b)
 {
     return a < b ? a : b;
@@ -94,6 +99,8 @@ private:
     bool place(const Seed& s, Scale& scale, Voxel* voxel) const;
     template <bool RESTING>
     void cell(const Seed& s, Cell& c) const;
+    template <class Part>
+    Way onPicture(const Part axis[3]) const;
     void end(const Scale& scale, Voxel* voxel) const;
     void changes(const Seed& s, Cell& c) const;
     Way wayTo(const Vector& from, const Vector& to, int32_t change) const;
@@ -113,9 +120,12 @@ private:
     int32_t inverseRadius_;   // 2^24 / radius in 1/64 unit
     int32_t gradient_[3];     // of the brightness over a ball, 1/8 step a unit with 8 bits of fraction
     // Of the patch: the axes of the picture plane, sheared along the ray through its middle, so that a part of a vector along
-    // the view shows sideways; 1.0 = 2^14. The same times the spacing, 6 bits of fraction.
+    // the view shows sideways; 1.0 = 2^14.
     int32_t column_[3], row_[3];
-    int32_t cellColumn_[3], cellRow_[3];
+    // Both times the spacing, column in the upper half, row in the lower, rounded so that a cell has 16 bits; and by what to
+    // shift what comes of them.
+    uint32_t cellBoth_[3];
+    int cellShift_;
     int32_t horizonShare_;    // of the horizon: half of it over the distance of the eye, 16 bits of fraction
     int32_t gradientAhead_;   // how the brightness of a ball changes with the depth, 1/8 step a unit with 4 bits of fraction
 };
@@ -155,10 +165,15 @@ inline void Shader<TURNED>::setPatch(const Patch& patch)
         column_[i] = own_.right[i] - (own_.ahead[i] * shearX >> 12);
         row_[i] = own_.up[i] - (own_.ahead[i] * shearY >> 12);
     }
+    // No axis of the picture plane is longer than this, and no half axis of a cell longer than 128: a sum of products has 16 bits.
+    const int32_t longest = ((1 << 14) + (larger(magnitude(shearX), magnitude(shearY)) << 2)) * spacing_ >> 8;
+    const int bits = 24 - __builtin_clz(static_cast<uint32_t>(longest) | 0xff);
+    const int32_t half = 128 << bits;
     for (int i = 0; i < 3; ++i) {
-        cellColumn_[i] = column_[i] * spacing_ >> 8;
-        cellRow_[i] = row_[i] * spacing_ >> 8;
+        const int32_t column = (column_[i] * spacing_ + half) >> (bits + 8), row = (row_[i] * spacing_ + half) >> (bits + 8);
+        cellBoth_[i] = (static_cast<uint32_t>(column) << 16) + static_cast<uint32_t>(row);
     }
+    cellShift_ = 28 - bits;
     gradientAhead_ = (gradient_[2] + (gradient_[0] * (shearX >> 4) >> 8) + (gradient_[1] * (shearY >> 4) >> 8)) >> 4;
     int32_t horizon = generalHorizon_;
     if (object_.roots() > 1) {
@@ -220,23 +235,24 @@ inline bool Shader<TURNED>::place(const Seed& s, Scale& scale, Voxel* voxel) con
     return true;
 }
 
+// A half axis of a cell, as the seeds have it, or as short a vector: both sums of products are one, each 16 bits wide.
+template <bool TURNED>
+template <class Part>
+inline Way Shader<TURNED>::onPicture(const Part axis[3]) const
+{
+    const uint32_t sum = static_cast<uint32_t>(axis[0]) * cellBoth_[0] + static_cast<uint32_t>(axis[1]) * cellBoth_[1] +
+                         static_cast<uint32_t>(axis[2]) * cellBoth_[2];
+    return {static_cast<int32_t>(sum + 0x8000) >> cellShift_, static_cast<int32_t>(sum << 16) >> cellShift_, 0};
+}
+
 // The cell of the unblended surface that is the seed's own, grown with the position, as it falls along the path onto the
 // tangent plane. A half axis e becomes e - u (e.n) / (u.n) with u the path.
 template <bool TURNED>
 template <bool RESTING>
 inline void Shader<TURNED>::cell(const Seed& s, Cell& c) const
 {
-    if (TURNED) {
-        c.along.x = product(s.along, cellColumn_) >> 12;
-        c.along.y = product(s.along, cellRow_) >> 12;
-        c.across.x = product(s.across, cellColumn_) >> 12;
-        c.across.y = product(s.across, cellRow_) >> 12;
-    } else {
-        c.along.x = (s.along[0] * spacing_ >> 6) + (s.along[2] * cellColumn_[2] >> 12);
-        c.along.y = (s.along[1] * spacing_ >> 6) + (s.along[2] * cellRow_[2] >> 12);
-        c.across.x = (s.across[0] * spacing_ >> 6) + (s.across[2] * cellColumn_[2] >> 12);
-        c.across.y = (s.across[1] * spacing_ >> 6) + (s.across[2] * cellRow_[2] >> 12);
-    }
+    c.along = onPicture(s.along);
+    c.across = onPicture(s.across);
     c.uneven = false;
     if (!RESTING && !(s.flags & SEED_RESTING)) {
         // The path over the radius, 1.0 = 2^14, and its cosine to the normal.
@@ -252,18 +268,12 @@ inline void Shader<TURNED>::cell(const Seed& s, Cell& c) const
         const int32_t n[] = {s.normal.x, s.normal.y, s.normal.z};
         const int32_t offAlong = (product(s.along, n) >> 8) * inverse >> 10;
         const int32_t offAcross = (product(s.across, n) >> 8) * inverse >> 10;
-        int32_t ox, oy;
-        if (TURNED) {
-            ox = (u[0] * (cellColumn_[0] >> 4) + u[1] * (cellColumn_[1] >> 4) + u[2] * (cellColumn_[2] >> 4)) >> 14;
-            oy = (u[0] * (cellRow_[0] >> 4) + u[1] * (cellRow_[1] >> 4) + u[2] * (cellRow_[2] >> 4)) >> 14;
-        } else {
-            ox = (u[0] * (cellColumn_[0] >> 4) + u[2] * (cellColumn_[2] >> 4)) >> 14;
-            oy = (u[1] * (cellRow_[1] >> 4) + u[2] * (cellRow_[2] >> 4)) >> 14;
-        }
-        c.along.x = (c.along.x - (offAlong * ox >> 16)) * position >> 8;
-        c.along.y = (c.along.y - (offAlong * oy >> 16)) * position >> 8;
-        c.across.x = (c.across.x - (offAcross * ox >> 16)) * position >> 8;
-        c.across.y = (c.across.y - (offAcross * oy >> 16)) * position >> 8;
+        const int32_t short7[] = {u[0] >> 7, u[1] >> 7, u[2] >> 7};
+        const Way path = onPicture(short7);
+        c.along.x = (c.along.x - (offAlong * path.x >> 15)) * position >> 8;
+        c.along.y = (c.along.y - (offAlong * path.y >> 15)) * position >> 8;
+        c.across.x = (c.across.x - (offAcross * path.x >> 15)) * position >> 8;
+        c.across.y = (c.across.y - (offAcross * path.y >> 15)) * position >> 8;
     }
     c.area = c.along.x * c.across.y - c.along.y * c.across.x;
 }
