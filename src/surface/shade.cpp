@@ -99,6 +99,9 @@ private:
     bool place(const Seed& s, Scale& scale, Voxel* voxel) const;
     template <bool RESTING>
     void cell(const Seed& s, Cell& c) const;
+    // A length of own space in the world.
+    int32_t grown(int32_t length) const { return grown_ ? mulShift16(length, rawFromReal(own_.growth)) : length; }
+    int32_t horizonOf(const Patch& patch, const int32_t middle[3]) const;
     template <class Part>
     Way onPicture(const Part axis[3]) const;
     void end(const Scale& scale, Voxel* voxel) const;
@@ -114,7 +117,9 @@ private:
     bool grown_;
     int32_t spacing_;         // 1/256 unit of the world
     int32_t limb_;            // a seed that faces the viewer less than this is not drawn, 1/32 unit
-    int32_t generalHorizon_;  // radius of curvature at the edge of the object, 1/32 unit
+    int32_t generalHorizon_;  // radius of curvature of a ball, 1/32 unit
+    int32_t flattest_;        // the greatest, 1/32 unit
+    int32_t core2_;           // squared distance from which on a root lies at the end of the core, 1/16 unit of own space
     int32_t depth_;           // of the object's centre along the viewing axis, 1/32 unit
     int32_t away_[2];         // the centre from the eye, across the view, 1/32 unit
     int32_t inverseRadius_;   // 2^24 / radius in 1/64 unit
@@ -143,6 +148,9 @@ inline Shader<TURNED>::Shader(const SoftObject& object, const OwnFrame& own, con
     // there is.
     limb_ = object.coreReach() > Real(0) ? own.distance32 >> 7 : own.distance32 * 5 >> 7;
     generalHorizon_ = rawFromReal(object.horizonRadius(own.eye)) >> 11;
+    flattest_ = smaller((rawFromReal(object.radius()) >> 11) + (rawFromReal(object.coreReach()) >> 11) * 4, 8000);
+    const int32_t reach16 = (rawFromReal(object.coreReach() / own.growth) >> 12) - 2;
+    core2_ = reach16 * reach16;
     const int32_t radius = (rawFromReal(object.radius()) >> 8) + 1;
     for (int i = 0; i < 3; ++i)
         gradient_[i] = own.light[i] * (BRIGHTEST * 32) / radius;
@@ -154,10 +162,10 @@ inline void Shader<TURNED>::setPatch(const Patch& patch)
 {
     // The middle of the patch in the view, 1/32 unit.
     int32_t view[3];
+    const int32_t middle[] = {grown(patch.middle[0] * 2), grown(patch.middle[1] * 2), grown(patch.middle[2] * 2)};
     const int32_t* const axes[] = {own_.right, own_.up, own_.ahead};
     for (int i = 0; i < 3; ++i)
-        view[i] = TURNED ? (patch.middle[0] * axes[i][0] + patch.middle[1] * axes[i][1] + patch.middle[2] * axes[i][2]) >> 13
-                          : patch.middle[i] * 2;
+        view[i] = TURNED ? product(middle, axes[i]) >> 14 : middle[i];
     const int32_t depth = depth_ + view[2] < NEAREST ? NEAREST : depth_ + view[2];
     const int32_t shearX = limited(((away_[0] + view[0]) << 12) / depth, 5 << 12);
     const int32_t shearY = limited(((away_[1] + view[1]) << 12) / depth, 5 << 12);
@@ -176,11 +184,11 @@ inline void Shader<TURNED>::setPatch(const Patch& patch)
     cellShift_ = 28 - bits;
     gradientAhead_ = (gradient_[2] + (gradient_[0] * (shearX >> 4) >> 8) + (gradient_[1] * (shearY >> 4) >> 8)) >> 4;
     int32_t horizon = generalHorizon_;
-    if (object_.roots() > 1) {
-        const Seed& s = object_.seed(patch.centre);
-        horizon = rawFromReal(object_.horizonAt(object_.root(s.root), realFromRaw(generalHorizon_ << 11))) >> 11;
-    }
-    horizonShare_ = (limited(horizon, 8000) << 15) / own_.distance32;
+    if (TURNED && patch.state == PATCH_REST)
+        horizon = horizonOf(patch, middle);
+    else if (TURNED)
+        horizon = rawFromReal(object_.horizonAt(roots_[seeds_[patch.centre].root], realFromRaw(generalHorizon_ << 11))) >> 11;
+    horizonShare_ = (smaller(horizon, 8000) << 15) / own_.distance32;
 }
 
 // Place, tilt and brightness. False: it faces away.
@@ -233,6 +241,33 @@ inline bool Shader<TURNED>::place(const Seed& s, Scale& scale, Voxel* voxel) con
     scale.tiltX = tiltX;
     scale.tiltY = tiltY;
     return true;
+}
+
+// Radius of curvature of the unblended surface along the view, 1/32 unit; the greatest where it is flat or hollow. All that is no ball
+// is turned about its y axis: round that it bends by n.r / r with r the way from the axis, and in the plane of the axis as a
+// ball does where its core ends, else not at all.
+template <bool TURNED>
+inline int32_t Shader<TURNED>::horizonOf(const Patch& patch, const int32_t middle[3]) const
+{
+    const Vector& root = roots_[seeds_[patch.centre].root];
+    const int32_t root16[] = {rawFromReal(root.x) >> 12, rawFromReal(root.y) >> 12, rawFromReal(root.z) >> 12};
+    const bool end = product(root16, root16) >= core2_;
+    const int32_t radius = grown(patch.path * 2);
+    const int32_t x = middle[0], y = middle[1], z = middle[2];
+    const Normal out = normalise({realFromRaw(x << 8), Real(0), realFromRaw(z << 8)});
+    const Normal view = normalise({realFromRaw((x - own_.eye32[0]) << 8), realFromRaw((y - own_.eye32[1]) << 8),
+                                   realFromRaw((z - own_.eye32[2]) << 8)});
+    const int32_t away = (x * out.x + z * out.z) >> 14;
+    // Radius over radius of curvature, 1.0 = 2^14.
+    int32_t bend = 1 << 14;
+    if (!end || away > radius >> 1) {
+        const int32_t round = (view.z * out.x - view.x * out.z) >> 14;
+        const int32_t share = round * round >> 14;
+        const int32_t facing = (patch.axis[0] * out.x + patch.axis[2] * out.z) >> 14;
+        const int32_t hoop = away > 0 ? limited(facing * radius / away, 1 << 15) : 0;
+        bend = (end ? bend - share : 0) + (share * hoop >> 14);
+    }
+    return bend * (flattest_ >> 4) <= radius << 10 ? flattest_ : (radius << 14) / bend;
 }
 
 // A half axis of a cell, as the seeds have it, or as short a vector: both sums of products are one, each 16 bits wide.
