@@ -26,6 +26,11 @@ inline int32_t limited(int32_t a, int32_t most)
     return a > most ? most : a < -most ? -most : a;
 }
 
+inline int32_t larger(int32_t a, int32_t b)
+{
+    return a < b ? b : a;
+}
+
 inline int32_t smaller(int32_t a, int32_t b)
 {
     return a < b ? a : b;
@@ -97,6 +102,11 @@ private:
     bool place(const Seed& s, Scale& scale, Voxel* voxel) const;
     template <bool RESTING>
     void cell(const Seed& s, Cell& c) const;
+    // A length of own space in the world.
+    int32_t grown(int32_t length) const { return grown_ ? mulShift16(length, rawFromReal(own_.growth)) : length; }
+    int32_t horizonOf(const Patch& patch, const int32_t middle[3]) const;
+    template <class Part>
+    Way onPicture(const Part axis[3]) const;
     void end(const Scale& scale, Voxel* voxel) const;
     void changes(const Seed& s, Cell& c) const;
     Way wayTo(const Vector& from, const Vector& to, int32_t change) const;
@@ -111,16 +121,21 @@ private:
     bool grown_;
     int32_t spacing_;         // 1/256 unit of the world
     int32_t limb_;            // a seed that faces the viewer less than this is not drawn, 1/32 unit
-    int32_t generalHorizon_;  // radius of curvature at the edge of the object, 1/32 unit
+    int32_t generalHorizon_;  // radius of curvature of a ball, 1/32 unit
+    int32_t flattest_;        // the greatest, 1/32 unit
+    int32_t core2_;           // squared distance from which on a root lies at the end of the core, 1/16 unit of own space
     int32_t depth_;           // of the object's centre along the viewing axis, 1/32 unit
     int32_t away_[2];         // the centre from the eye, across the view, 1/32 unit
     int32_t inverseRadius_;   // 2^24 / radius in 1/64 unit
     int32_t gradient_[3];     // of the brightness over a ball, 1/8 step a unit with 8 bits of fraction
     // Of the patch: the axes of the picture plane, sheared along the ray through its middle, so that a part of a vector along
-    // the view shows sideways; 1.0 = 2^14. The same times the spacing, 6 bits of fraction.
+    // the view shows sideways; 1.0 = 2^14.
     int32_t column_[3], row_[3];
     int32_t shearX_, shearY_;  // 12 bits of fraction
-    int32_t cellColumn_[3], cellRow_[3];
+    // Both times the spacing, column in the upper half, row in the lower, rounded so that a cell has 16 bits; and by what to
+    // shift what comes of them.
+    uint32_t cellBoth_[3];
+    int cellShift_;
     int32_t horizonShare_;    // of the horizon: half of it over the distance of the eye, 16 bits of fraction
     int32_t gradientAhead_;   // how the brightness of a ball changes with the depth, 1/8 step a unit with 4 bits of fraction
 };
@@ -138,6 +153,9 @@ inline Shader<TURNED>::Shader(const SoftObject& object, const OwnFrame& own, con
     // there is.
     limb_ = object.coreReach() > Real(0) ? own.distance32 >> 7 : own.distance32 * 5 >> 7;
     generalHorizon_ = rawFromReal(object.horizonRadius(own.eye)) >> 11;
+    flattest_ = smaller((rawFromReal(object.radius()) >> 11) + (rawFromReal(object.coreReach()) >> 11) * 4, 8000);
+    const int32_t reach16 = (rawFromReal(object.coreReach() / own.growth) >> 12) - 2;
+    core2_ = reach16 * reach16;
     const int32_t radius = (rawFromReal(object.radius()) >> 8) + 1;
     for (int i = 0; i < 3; ++i)
         gradient_[i] = own.light[i] * (BRIGHTEST * 32) / radius;
@@ -149,10 +167,10 @@ inline void Shader<TURNED>::setPatch(const Patch& patch)
 {
     // The middle of the patch in the view, 1/32 unit.
     int32_t view[3];
+    const int32_t middle[] = {grown(patch.middle[0] * 2), grown(patch.middle[1] * 2), grown(patch.middle[2] * 2)};
     const int32_t* const axes[] = {own_.right, own_.up, own_.ahead};
     for (int i = 0; i < 3; ++i)
-        view[i] = TURNED ? (patch.middle[0] * axes[i][0] + patch.middle[1] * axes[i][1] + patch.middle[2] * axes[i][2]) >> 13
-                          : patch.middle[i] * 2;
+        view[i] = TURNED ? product(middle, axes[i]) >> 14 : middle[i];
     const int32_t depth = depth_ + view[2] < NEAREST ? NEAREST : depth_ + view[2];
     const int32_t shearX = limited(((away_[0] + view[0]) << 12) / depth, 5 << 12);
     const int32_t shearY = limited(((away_[1] + view[1]) << 12) / depth, 5 << 12);
@@ -162,17 +180,22 @@ inline void Shader<TURNED>::setPatch(const Patch& patch)
         column_[i] = own_.right[i] - (own_.ahead[i] * shearX >> 12);
         row_[i] = own_.up[i] - (own_.ahead[i] * shearY >> 12);
     }
+    // No axis of the picture plane is longer than this, and no half axis of a cell longer than 128: a sum of products has 16 bits.
+    const int32_t longest = ((1 << 14) + (larger(magnitude(shearX), magnitude(shearY)) << 2)) * spacing_ >> 8;
+    const int bits = 24 - __builtin_clz(static_cast<uint32_t>(longest) | 0xff);
+    const int32_t half = 128 << bits;
     for (int i = 0; i < 3; ++i) {
-        cellColumn_[i] = column_[i] * spacing_ >> 8;
-        cellRow_[i] = row_[i] * spacing_ >> 8;
+        const int32_t column = (column_[i] * spacing_ + half) >> (bits + 8), row = (row_[i] * spacing_ + half) >> (bits + 8);
+        cellBoth_[i] = (static_cast<uint32_t>(column) << 16) + static_cast<uint32_t>(row);
     }
+    cellShift_ = 28 - bits;
     gradientAhead_ = (gradient_[2] + (gradient_[0] * (shearX >> 4) >> 8) + (gradient_[1] * (shearY >> 4) >> 8)) >> 4;
     int32_t horizon = generalHorizon_;
-    if (object_.roots() > 1) {
-        const Seed& s = object_.seed(patch.centre);
-        horizon = rawFromReal(object_.horizonAt(object_.root(s.root), realFromRaw(generalHorizon_ << 11))) >> 11;
-    }
-    horizonShare_ = (limited(horizon, 8000) << 15) / own_.distance32;
+    if (TURNED && patch.state == PATCH_REST)
+        horizon = horizonOf(patch, middle);
+    else if (TURNED)
+        horizon = rawFromReal(object_.horizonAt(roots_[seeds_[patch.centre].root], realFromRaw(generalHorizon_ << 11))) >> 11;
+    horizonShare_ = (smaller(horizon, 8000) << 15) / own_.distance32;
 }
 
 // Place, tilt and brightness. False: it faces away.
@@ -227,23 +250,51 @@ inline bool Shader<TURNED>::place(const Seed& s, Scale& scale, Voxel* voxel) con
     return true;
 }
 
+// Radius of curvature of the unblended surface along the view, 1/32 unit; the greatest where it is flat or hollow. All that is no ball
+// is turned about its y axis: round that it bends by n.r / r with r the way from the axis, and in the plane of the axis as a
+// ball does where its core ends, else not at all.
+template <bool TURNED>
+inline int32_t Shader<TURNED>::horizonOf(const Patch& patch, const int32_t middle[3]) const
+{
+    const Vector& root = roots_[seeds_[patch.centre].root];
+    const int32_t root16[] = {rawFromReal(root.x) >> 12, rawFromReal(root.y) >> 12, rawFromReal(root.z) >> 12};
+    const bool end = product(root16, root16) >= core2_;
+    const int32_t radius = grown(patch.path * 2);
+    const int32_t x = middle[0], y = middle[1], z = middle[2];
+    const Normal out = normalise({realFromRaw(x << 8), Real(0), realFromRaw(z << 8)});
+    const Normal view = normalise({realFromRaw((x - own_.eye32[0]) << 8), realFromRaw((y - own_.eye32[1]) << 8),
+                                   realFromRaw((z - own_.eye32[2]) << 8)});
+    const int32_t away = (x * out.x + z * out.z) >> 14;
+    // Radius over radius of curvature, 1.0 = 2^14.
+    int32_t bend = 1 << 14;
+    if (!end || away > radius >> 1) {
+        const int32_t round = (view.z * out.x - view.x * out.z) >> 14;
+        const int32_t share = round * round >> 14;
+        const int32_t facing = (patch.axis[0] * out.x + patch.axis[2] * out.z) >> 14;
+        const int32_t hoop = away > 0 ? limited(facing * radius / away, 1 << 15) : 0;
+        bend = (end ? bend - share : 0) + (share * hoop >> 14);
+    }
+    return bend * (flattest_ >> 4) <= radius << 10 ? flattest_ : (radius << 14) / bend;
+}
+
+// A half axis of a cell, as the seeds have it, or as short a vector: both sums of products are one, each 16 bits wide.
+template <bool TURNED>
+template <class Part>
+inline Way Shader<TURNED>::onPicture(const Part axis[3]) const
+{
+    const uint32_t sum = static_cast<uint32_t>(axis[0]) * cellBoth_[0] + static_cast<uint32_t>(axis[1]) * cellBoth_[1] +
+                         static_cast<uint32_t>(axis[2]) * cellBoth_[2];
+    return {static_cast<int32_t>(sum + 0x8000) >> cellShift_, static_cast<int32_t>(sum << 16) >> cellShift_, 0};
+}
+
 // The cell of the unblended surface that is the seed's own, grown with the position, as it falls along the path onto the
 // tangent plane. A half axis e becomes e - u (e.n) / (u.n) with u the path.
 template <bool TURNED>
 template <bool RESTING>
 inline void Shader<TURNED>::cell(const Seed& s, Cell& c) const
 {
-    if (TURNED) {
-        c.along.x = product(s.along, cellColumn_) >> 12;
-        c.along.y = product(s.along, cellRow_) >> 12;
-        c.across.x = product(s.across, cellColumn_) >> 12;
-        c.across.y = product(s.across, cellRow_) >> 12;
-    } else {
-        c.along.x = (s.along[0] * spacing_ >> 6) + (s.along[2] * cellColumn_[2] >> 12);
-        c.along.y = (s.along[1] * spacing_ >> 6) + (s.along[2] * cellRow_[2] >> 12);
-        c.across.x = (s.across[0] * spacing_ >> 6) + (s.across[2] * cellColumn_[2] >> 12);
-        c.across.y = (s.across[1] * spacing_ >> 6) + (s.across[2] * cellRow_[2] >> 12);
-    }
+    c.along = onPicture(s.along);
+    c.across = onPicture(s.across);
     c.uneven = false;
     if (!RESTING && !(s.flags & SEED_RESTING)) {
         // The path over the radius, 1.0 = 2^14, and its cosine to the normal.
@@ -259,18 +310,12 @@ inline void Shader<TURNED>::cell(const Seed& s, Cell& c) const
         const int32_t n[] = {s.normal.x, s.normal.y, s.normal.z};
         const int32_t offAlong = (product(s.along, n) >> 8) * inverse >> 10;
         const int32_t offAcross = (product(s.across, n) >> 8) * inverse >> 10;
-        int32_t ox, oy;
-        if (TURNED) {
-            ox = (u[0] * (cellColumn_[0] >> 4) + u[1] * (cellColumn_[1] >> 4) + u[2] * (cellColumn_[2] >> 4)) >> 14;
-            oy = (u[0] * (cellRow_[0] >> 4) + u[1] * (cellRow_[1] >> 4) + u[2] * (cellRow_[2] >> 4)) >> 14;
-        } else {
-            ox = (u[0] * (cellColumn_[0] >> 4) + u[2] * (cellColumn_[2] >> 4)) >> 14;
-            oy = (u[1] * (cellRow_[1] >> 4) + u[2] * (cellRow_[2] >> 4)) >> 14;
-        }
-        c.along.x = (c.along.x - (offAlong * ox >> 16)) * position >> 8;
-        c.along.y = (c.along.y - (offAlong * oy >> 16)) * position >> 8;
-        c.across.x = (c.across.x - (offAcross * ox >> 16)) * position >> 8;
-        c.across.y = (c.across.y - (offAcross * oy >> 16)) * position >> 8;
+        const int32_t short7[] = {u[0] >> 7, u[1] >> 7, u[2] >> 7};
+        const Way path = onPicture(short7);
+        c.along.x = (c.along.x - (offAlong * path.x >> 15)) * position >> 8;
+        c.along.y = (c.along.y - (offAlong * path.y >> 15)) * position >> 8;
+        c.across.x = (c.across.x - (offAcross * path.x >> 15)) * position >> 8;
+        c.across.y = (c.across.y - (offAcross * path.y >> 15)) * position >> 8;
     }
     c.area = c.along.x * c.across.y - c.along.y * c.across.x;
 }
