@@ -7,8 +7,9 @@
 #   sh tests/scenes/truth.sh full      many of them, 24 random scenes (half an hour)
 #   sh tests/scenes/truth.sh quick     a few, 1 random scene, for a look
 #
-# SCENES names other scenes instead, as tools/truth.sh takes them; SPACING is 2 or 1 for one spacing only; DEMO, SWITCHES, LIMITS and LIST are as there. Ends with 1
-# when a bar is broken or a run failed; with LIMITS, when a figure is beyond both its bar and its limit.
+# SCENES names other scenes instead, as tools/truth.sh takes them; SPACING is 2 or 1 for one spacing only; DEMO, SWITCHES,
+# LIMITS and LIST are as there. Ends with 1 when a bar is broken or a run failed; with LIMITS, when a figure is beyond both
+# its bar and its limit.
 set -u
 cd "$(dirname "$0")/../.." || exit 2
 mode=${1:-some}
