@@ -28,7 +28,8 @@ constexpr int FOCAL_MOST = 500;
 // How reading or writing ended, as the program's exit status has it.
 enum SceneEnd { SCENE_GOOD = 0, SCENE_TROUBLE = 1, SCENE_BAD = 2 };
 
-// Reads a scene file into an empty model. Null, or one line that names the file, the line, what was read and what was
+// Reads a scene file into an empty model; where there is no file of that name, and it has no ending, ".FB" is tried.
+// Null, or one line that names the file, the line, what was read and what was
 // expected; the model is then only good for being destroyed. `*end` tells bad files (and missing ones) from memory that
 // ran out.
 const char* readScene(const char* name, Model& model, SceneEnd* end);

@@ -14,7 +14,17 @@ constexpr int WORD_ROOM = 32;
 // "blend all" goes through every pair; no scene needs it often.
 constexpr int ALL_MOST = 8;
 
-char problem[320];
+char problem[640];
+
+// Names in messages: whole, as long as no path is longer than this.
+constexpr int PLAIN_ROOM = 260;
+
+const char* troubleWith(const char* name, const char* what)
+{
+    char plain[PLAIN_ROOM];
+    snprintf(problem, sizeof problem, "%s: %s", plainText(plain, sizeof plain, name), what);
+    return problem;
+}
 
 bool isLetter(char c)
 {
@@ -126,7 +136,7 @@ bool Reader::nextLine(bool* there)
     for (int characters = 0;; ++characters) {
         const int c = source_.next();
         if (c == -2) {
-            snprintf(problem, sizeof problem, "%.100s: %s", name_, machine::fileTrouble());
+            troubleWith(name_, machine::fileTrouble());
             end_ = SCENE_BAD;
             return false;
         }
@@ -182,17 +192,20 @@ bool Reader::expected(const char* what)
     for (; word_[length] != 0 && length < WORD_ROOM - 1; ++length)
         read[length] = word_[length] >= ' ' && word_[length] <= '~' ? word_[length] : '?';
     read[length] = 0;
+    char name[PLAIN_ROOM];
+    plainText(name, sizeof name, name_);
     if (length == 0)
-        snprintf(problem, sizeof problem, "%.100s:%d: end of line: expected %s", name_, line_, what);
+        snprintf(problem, sizeof problem, "%s:%d: end of line: expected %s", name, line_, what);
     else
-        snprintf(problem, sizeof problem, "%.100s:%d: '%s': expected %s", name_, line_, read, what);
+        snprintf(problem, sizeof problem, "%s:%d: '%s': expected %s", name, line_, read, what);
     end_ = SCENE_BAD;
     return false;
 }
 
 bool Reader::trouble(const char* what)
 {
-    snprintf(problem, sizeof problem, "%.100s:%d: %s", name_, line_, what);
+    char name[PLAIN_ROOM];
+    snprintf(problem, sizeof problem, "%s:%d: %s", plainText(name, sizeof name, name_), line_, what);
     end_ = SCENE_TROUBLE;
     return false;
 }
@@ -862,11 +875,29 @@ bool putToFile(void* to, const char* line)
 
 const char* readScene(const char* name, Model& model, SceneEnd* end)
 {
-    const int file = machine::openFile(name);
+    // WALK is as good as WALK.FB; what is there under the name as it was given comes first.
+    static const char* const ENDINGS[] = {".FB", ".fb"};
+    int file = machine::openFile(name);
+    const char* trouble = machine::fileTrouble();
+    char longer[PLAIN_ROOM];
+    const size_t length = strlen(name);
+    if (file < 0 && length > 0 && length + 4 <= sizeof longer) {
+        bool dot = false;
+        for (const char* c = name; *c != 0; ++c)
+            dot = *c == '.' || (dot && *c != '/' && *c != '\\');
+        for (const char* ending : ENDINGS) {
+            if (dot || file >= 0)
+                break;
+            strcpy(longer, name);
+            strcpy(longer + length, ending);
+            file = machine::openFile(longer);
+            if (file >= 0)
+                name = longer;
+        }
+    }
     if (file < 0) {
         *end = SCENE_BAD;
-        snprintf(problem, sizeof problem, "%.100s: %s", name, machine::fileTrouble());
-        return problem;
+        return troubleWith(name, trouble);
     }
     Source source(file);
     const char* wrong = readFrom(name, source, model, end);
@@ -887,12 +918,11 @@ bool writeSceneText(bool (*put)(void* to, const char* line), void* to, const Mod
 
 const char* writeScene(const char* name, const Model& model)
 {
-    int file = machine::createFile(name);
-    bool good = file >= 0 && writeSceneText(putToFile, &file, model);
-    if (file >= 0)
-        good = machine::closeFile(file) && good;
-    if (good)
-        return nullptr;
-    snprintf(problem, sizeof problem, "%.100s: %s", name, machine::fileTrouble());
-    return problem;
+    int file = machine::beginSave(name);
+    bool good = file >= 0;
+    if (good) {
+        good = writeSceneText(putToFile, &file, model);
+        good = machine::endSave(file, good);
+    }
+    return good ? nullptr : troubleWith(name, machine::fileTrouble());
 }
