@@ -29,7 +29,14 @@ build/scntst: tests/scenes/scntst.cpp $(SCNTST_PARTS) tools/scenes.mk
 # make run                          the four spheres, in DOSBox
 # make run SCENE=walk               a shipped scene (tools/scenes), or a scene file
 # make run SWITCHES="/I /G"         with switches of the program
-run: build/DEMO.EXE build/mkgif build/ppm2png
+run: play-parts
 	@sh tools/play.sh "$(SCENE)" $(SWITCHES)
 
-.PHONY: run
+play-parts: build/DEMO.EXE build/PLAY.COM build/mkgif build/ppm2png
+
+build/PLAY.COM: tools/play.S
+	@mkdir -p build/stub
+	$(STUB_CC) -c -o build/stub/play.o $<
+	$(STUB_LD) -Ttext 0x100 -e start --oformat binary -o $@ build/stub/play.o
+
+.PHONY: run play-parts
