@@ -2,8 +2,8 @@
 // way of scripting animations and reading in models from files").
 //
 // One statement a line; words separated by blanks; everything behind a '#' is a comment; upper and lower case are the
-// same. Lines end with LF or CR LF; a Ctrl-Z ends the text, as DOS editors have it. Numbers are decimal. README.md
-// describes the statements.
+// same. Lines end with LF or CR LF; a Ctrl-Z ends the text, as DOS editors have it. Numbers are decimal. The README.md
+// of tools/scenes describes the statements.
 #ifndef FB_SCENE_H
 #define FB_SCENE_H
 
