@@ -568,7 +568,9 @@ bool Reader::addRow(Actor& actor, int count, const Vector& step, bool coloured)
     }
     const Real edge(SPACE);
     for (int i = 0; i < count; ++i) {
-        snprintf(actor.name, sizeof actor.name, "%s%d", row.name, i + 1);
+        char name[NAME_ROOM + 12];
+        snprintf(name, sizeof name, "%s%d", row.name, i + 1);
+        memcpy(actor.name, name, NAME_ROOM);  // it fits, as was found above
         if (model_.itemNamed(actor.name) != nullptr || rowNamed(actor.name) != nullptr) {
             word_ = actor.name;
             return expected("a name that is not taken yet");
@@ -1090,8 +1092,12 @@ void Writer::further(const Actor& actor, MotionPart part)
             word("circle").word(actor.name).word("u").vector(move.a).word("v").vector(move.b).period(move.wave);
             break;
         case MOTION_PATH: {
-            const bool y = move.a.y != none, z = move.a.z != none;
-            word("path").word(actor.name).word(y ? "y" : z ? "z" : "x").number(y ? move.a.y : z ? move.a.z : move.a.x);
+            // Without an amplitude it may be along any axis that has a path already.
+            const Motion& m = actor.motion;
+            const Real amplitude = move.a.x + move.a.y + move.a.z;
+            const bool still = amplitude == none, notX = still ? m.along[0].period == none : move.a.x == none;
+            const bool y = notX && (still ? m.along[1].period != none : move.a.y != none);
+            word("path").word(actor.name).word(y ? "y" : notX ? "z" : "x").number(amplitude);
             number(move.wave.period).number(realFromRaw(static_cast<int32_t>(move.wave.phase >> 16)));
             break;
         }
