@@ -278,7 +278,7 @@ void rows()
     };
     check(with("b1", "p") == 0.5 && with("p", "b5") == 0.5, "each with the other");
     check(with("q1", "b3") == 2 && with("q2", "b5") == 2 && with("q1", "q2") == 1, "two rows, and a row with itself");
-    check(with("b2", "b3") == 3 && with("b1", "b3") == -1 && with("p", "q1") == -1, "and nothing else");
+    check(with("b2", "b3") == 3 && with("b1", "b3") == -1 && with("p", "q1") == -1 && with("q1", "q1") == -1, "and nothing else");
 
     taken("sphere s size 9 repeat 128\nblend s s", "a row of 128");
     refused("sphere s size 9 repeat 129", "T.FB:1: '129': expected a whole number from 2 to 128");
@@ -346,7 +346,8 @@ void saved()
         Anim::move(model, at(t * 0.317));
         Anim::move(again, at(t * 0.317));
         for (int i = 0; i < model.items(); ++i)
-            same = same && model.item(i).pose.place == again.item(i).pose.place && model.item(i).pose.scale == again.item(i).pose.scale;
+            same = same && model.item(i).pose.place == again.item(i).pose.place && model.item(i).pose.scale == again.item(i).pose.scale &&
+                   memcmp(&model.item(i).pose.turn, &again.item(i).pose.turn, sizeof(Matrix)) == 0;
     }
     check(same, "moves the same");
 }
