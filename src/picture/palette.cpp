@@ -20,15 +20,24 @@ bool same(const Colour& a, const Colour& b)
     return a.red == b.red && a.green == b.green && a.blue == b.blue;
 }
 
-// A part of a colour at one step, rounded once.
-uint8_t shade(int full, int step)
+// A colour at one step, as the DAC takes it, each part rounded once. A highlight goes towards white at a right angle to the
+// colour: what it has of the colour itself stays the light's share, so that a dump's `ramp` line holds for it too.
+void shade(const Colour& colour, int step, uint8_t* to)
 {
     constexpr int WHOLE = 255 * 63;
-    // The part times the light, of 63 and of WHOLE.
-    int value = full * (63 * Palette::AMBIENT + step * (63 - Palette::AMBIENT));
-    if (step > HIGHLIGHT)
-        value += (63 * WHOLE - value) * (step - HIGHLIGHT) / (2 * (63 - HIGHLIGHT));
-    return static_cast<uint8_t>((value + WHOLE / 2) / WHOLE);
+    const int parts[3] = {colour.red, colour.green, colour.blue};
+    const int sum = parts[0] + parts[1] + parts[2];
+    const int square = parts[0] * parts[0] + parts[1] * parts[1] + parts[2] * parts[2];
+    for (int p = 0; p < 3; ++p) {
+        // The part times the light, of 63 and of WHOLE.
+        int value = parts[p] * (63 * Palette::AMBIENT + step * (63 - Palette::AMBIENT));
+        if (step > HIGHLIGHT && square > 0) {
+            const int white = 255 - 255 * sum * parts[p] / square;
+            value += white * 63 * 63 * (step - HIGHLIGHT) / (2 * (63 - HIGHLIGHT));
+        }
+        value = value < 0 ? 0 : value > 63 * WHOLE ? 63 * WHOLE : value;
+        to[p] = static_cast<uint8_t>((value + WHOLE / 2) / WHOLE);
+    }
 }
 
 // What a ramp would have from `step` on, for `steps` steps that the DAC cannot tell apart.
@@ -145,10 +154,7 @@ void Palette::make(Model& model, bool grey)
                 ramps_[c][SHADING_MOST + i] = static_cast<uint8_t>(1 + c * steps + (i * (steps - 1) + 31) / 63);
             for (int i = 0; i < steps; ++i) {
                 const int step = (i * 63 + (steps - 1) / 2) / (steps - 1);
-                uint8_t* entry = dac_ + 3 * (1 + c * steps + i);
-                entry[0] = shade(colours[c].red, step);
-                entry[1] = shade(colours[c].green, step);
-                entry[2] = shade(colours[c].blue, step);
+                shade(colours[c], step, dac_ + 3 * (1 + c * steps + i));
             }
         }
     }
@@ -165,7 +171,8 @@ void Palette::share(const Colour* colours, int count)
     int wished = 0;
     for (int c = 0; c < count; ++c) {
         for (int step = 0; step < STEPS; ++step) {
-            const uint8_t part[3] = {shade(colours[c].red, step), shade(colours[c].green, step), shade(colours[c].blue, step)};
+            uint8_t part[3];
+            shade(colours[c], step, part);
             if (step > 0 && memcmp(wishes[wished - 1].part, part, sizeof part) == 0) {
                 ++wishes[wished - 1].steps;
                 continue;

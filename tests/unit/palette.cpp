@@ -116,6 +116,17 @@ TEST(ramps_are_true_to_their_colours)
                 worst = square > worst ? square : worst;
             }
         }
+        // Highlights: their share of the colour itself is that too, where each colour has its own shades.
+        for (int o = 0; bar.colours <= 4 && o < bar.colours; ++o) {
+            const Colour& full = colours[o];
+            const uint8_t* ramp = model.actor(o).object->ramp();
+            const double square = full.red * full.red + full.green * full.green + full.blue * full.blue;
+            for (int step = 53; step < 64; ++step) {
+                const uint8_t* c = palette.dac() + 3 * ramp[step];
+                const double share = (c[0] * full.red + c[1] * full.green + c[2] * full.blue) / square * 255 / 63;
+                CHECK(std::fabs(share - (9 + 54 * step / 63.0) / 63) < 0.025);
+            }
+        }
         const double rms = std::sqrt(sum / (53 * bar.colours));
         worst = std::sqrt(worst);
         note("%d colours: off by %.2f of 63, at most %.2f", bar.colours, rms, worst);
