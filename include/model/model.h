@@ -16,6 +16,9 @@ struct Colour {
 // Room for a name: 15 characters and the final 0.
 constexpr int NAME_ROOM = 16;
 
+// Room for the title of a scene: 47 characters and the final 0.
+constexpr int TITLE_ROOM = 48;
+
 // An item of the model: an object with its part in the scene, or a group (which has no object).
 struct Actor {
     SoftObject* object = nullptr;
@@ -114,6 +117,7 @@ public:
 
     Camera camera;
     Vector light{Real(0.5), Real(0.7), Real(-0.5)};  // from the model to the light, any length but 0
+    char title[TITLE_ROOM] = "";                     // what the scene calls itself; may be empty
 
 private:
     void clear();

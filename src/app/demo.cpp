@@ -2,6 +2,7 @@
 #include "app/demo.h"
 
 #include "math/alloc.h"
+#include "app/csv.h"
 #include "app/dump.h"
 #include "app/edit.h"
 #include "machine.h"
@@ -56,12 +57,12 @@ private:
     void countFrames();
     bool finished() const;
     void findTime();
-    const char* record();
 
     const Options& options_;
     Model model_;
     View view_;
     Palette palette_;
+    Csv csv_;
     Dump dump_;
     Stats stats_;
     VoxelList* voxels_ = nullptr;
@@ -117,6 +118,12 @@ const char* Demo::prepare(int* status)
     view_.setCamera(model_.camera);
     palette_.make(model_, options_.grey);
     overlay_.setPalette(palette_);
+    if (options_.recordFile != nullptr) {
+        const char* problem = csv_.check(options_.recordFile, status);
+        if (problem != nullptr)
+            return problem;
+        *status = 1;
+    }
     if (options_.dumpDirectory != nullptr)
         return dump_.open(options_.dumpDirectory);
     return nullptr;
@@ -395,34 +402,6 @@ bool Demo::finished() const
             machine::clock() - started_ >= static_cast<uint64_t>(options_.seconds) * machine::CLOCK_HZ);
 }
 
-// Appends the statistics to the file of /O. Null, or one line.
-const char* Demo::record()
-{
-    bool fresh;
-    const int file = machine::appendFile(options_.recordFile, &fresh);
-    bool good = file >= 0;
-    char text[1024];
-    if (good && fresh) {
-        Stats::formatHeader(text, sizeof text);
-        good = machine::writeFile(file, text, static_cast<uint32_t>(strlen(text))) >= 0;
-    }
-    char spacing[24], settings[128];
-    formatReal(spacing, sizeof spacing, spacing_);
-    const char* model = options_.modelFile;
-    snprintf(settings, sizeof settings, "S:%s%s%s%s%s%s%s%.60s", spacing, options_.interactive ? " I" : "",
-             options_.grey ? " G" : "", options_.printed ? " P" : "", options_.retrace ? " V" : "",
-             options_.noPresent ? " X" : "", model != nullptr ? " M:" : "", model != nullptr ? model : "");
-    stats_.formatRecord(text, sizeof text, settings);
-    good = good && machine::writeFile(file, text, static_cast<uint32_t>(strlen(text))) >= 0;
-    if (file >= 0)
-        good = machine::closeFile(file) && good;
-    if (good)
-        return nullptr;
-    static char problem[160];
-    snprintf(problem, sizeof problem, "%.100s: %s", options_.recordFile, machine::fileTrouble());
-    return problem;
-}
-
 int Demo::run()
 {
     const char* problem = machine::start();
@@ -471,11 +450,13 @@ int Demo::run()
     }
     stats_.setTime(machine::clock() - started_);
     machine::stop();
+    if (options_.rateGiven && options_.frames == 0)
+        machine::err("/R has no effect without /N.\n");
     char text[1024];
     stats_.format(text, sizeof text);
     machine::out(text);
     if (options_.recordFile != nullptr) {
-        problem = record();
+        problem = csv_.append(options_, spacing_, stats_);
         if (problem != nullptr)
             machine::fail(1, problem);
     }

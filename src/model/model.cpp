@@ -42,6 +42,7 @@ struct alignas(Actor) Model::Record {
     int items, keys, pairs;
     Camera camera;
     Vector light;
+    char title[TITLE_ROOM];
 
     Actor* item() { return reinterpret_cast<Actor*>(this + 1); }
     const Actor* item() const { return reinterpret_cast<const Actor*>(this + 1); }
@@ -358,6 +359,8 @@ void Model::swap(Model& other)
     bodiesKnown_ = other.bodiesKnown_ = false;
     exchange(camera, other.camera);
     exchange(light, other.light);
+    for (int i = 0; i < TITLE_ROOM; ++i)
+        exchange(title[i], other.title[i]);
 }
 
 Model::Record* Model::record() const
@@ -376,6 +379,7 @@ Model::Record* Model::record() const
     record->pairs = pairs;
     record->camera = camera;
     record->light = light;
+    memcpy(record->title, title, sizeof title);
     for (int i = 0; i < itemCount_; ++i)
         record->item()[i] = *items_[i];
     if (keyCount_ > 0)
@@ -444,6 +448,7 @@ bool Model::restore(const Record* record)
     }
     before.camera = record->camera;
     before.light = record->light;
+    memcpy(before.title, record->title, sizeof title);
     swap(before);
     const Record::Pair* pair = record->pair();
     for (int i = 0; i < record->pairs; ++i)
