@@ -11,6 +11,7 @@ struct Options {
     bool help = false;              // /?
     bool retrace = false;           // /V: wait for the vertical retrace
     bool noPresent = false;         // /X: draw, but do not copy to the card
+    bool benchmark = false;         // /B: BENCHMARK_SECONDS, unless /T or /N say otherwise, and one line at the end
     Real spacing{2};                // /S:n, SPACING_LEAST..SPACING_MOST units
     int32_t frames = 0;             // /N:n; 0: off
     int32_t seconds = 0;            // /T:n; 0: off
@@ -18,6 +19,7 @@ struct Options {
     const char* dumpDirectory = nullptr;  // /D:dir
     const char* modelFile = nullptr;      // /M:file
     const char* recordFile = nullptr;     // /O:file, one CSV record is appended
+    const char* filmFile = nullptr;       // /F:file, what is played as an FLI file
 };
 
 constexpr Real SPACING_LEAST(0.25);
@@ -25,6 +27,7 @@ constexpr Real SPACING_MOST(8);
 constexpr int32_t FRAMES_MOST = 9999999;  // dumped frames have seven digits
 constexpr int32_t SECONDS_MOST = 86400;
 constexpr int32_t RATE_MOST = 1000;
+constexpr int32_t BENCHMARK_SECONDS = 60;
 
 // Reads the command line; null, or one line that names the switch and the range it accepts. The strings of `options`
 // point into `arguments`.

@@ -14,8 +14,11 @@ public:
     // there for the form.
     static constexpr int AMBIENT = 9;
 
-    // Makes ramps for the model's colours and hands each object its own. Colours that do not fit (the ramps share 255
-    // entries, at least 15 each) take the nearest that does.
+    // The entry of text and marks: the same near-white in every scene, no part of a ramp.
+    static constexpr uint8_t INK = 255;
+
+    // Makes ramps for the model's colours and hands each object its own. Colours that do not fit (the ramps share 254
+    // entries, at least 14 each) take the nearest that does.
     void make(Model& model, bool grey);
 
     // Red, green and blue of the 256 colours, 0..63, as the DAC takes them.
@@ -26,6 +29,7 @@ public:
     const uint8_t* raised(const uint8_t* ramp, int steps);
 
 private:
+    static constexpr int ENTRIES = INK - 1;  // for ramps, from 1 on
     static constexpr int RAMPS_MOST = 17;
 
     uint8_t dac_[768];

@@ -16,12 +16,16 @@ const char* const HELP =
     "  /T:n      stop after n seconds, 1 to 86400\n"
     "  /D:dir    write every frame into dir\n"
     "  /M:file   model and animation from a file\n"
+    "  /F:file   film: what is played, as one FLI file\n"
+    "  /B        benchmark: one minute, and one line about it\n"
     "  /O:file   append the statistics to file, as one CSV record\n"
     "  /V        wait for the vertical retrace\n"
     "  /X        draw, but do not copy to the card\n"
     "  /?        this page\n"
     "\n"
     "Keys:  *  scales or pixels   -  coarser   +  finer   F  frames a second\n"
+    "       Space  stop and go   .  a step   Home  from the start   <  >  speed\n"
+    "       N  next scene   P  picture to a file\n"
     "       F1  all keys; with /I there are more, to change the model   ESC  ends\n"
     "Mouse (with /I):  left button selects the next object; moving it moves the\n"
     "object in X and Y, in X and Z while the right button is held. Without a mouse:\n"
@@ -50,7 +54,7 @@ bool wholeWithin(const char* text, int32_t most, int32_t* value)
 
 const char* parseOptions(int count, char** arguments, Options* options)
 {
-    static const char KNOWN[] = "unknown switch; known are /I /G /P /S:n /N:n /R:n /T:n /D:dir /M:file /O:file /V /X /?";
+    static const char KNOWN[] = "unknown switch; known are /I /G /P /S:n /N:n /R:n /T:n /D:dir /M:file /F:file /B /O:file /V /X /?";
     for (int i = 1; i < count; ++i) {
         const char* argument = arguments[i];
         if ((argument[0] != '/' && argument[0] != '-') || argument[1] == 0)
@@ -67,10 +71,12 @@ const char* parseOptions(int count, char** arguments, Options* options)
         case 'P': flag = &options->printed; break;
         case 'V': flag = &options->retrace; break;
         case 'X': flag = &options->noPresent; break;
+        case 'B': flag = &options->benchmark; break;
         case '?': flag = &options->help; break;
         case 'D': name = &options->dumpDirectory; break;
         case 'M': name = &options->modelFile; break;
         case 'O': name = &options->recordFile; break;
+        case 'F': name = &options->filmFile; break;
         case 'S': {
             Real spacing;
             if (value == nullptr || !parseReal(value, &spacing) || spacing < SPACING_LEAST || spacing > SPACING_MOST)
@@ -102,5 +108,7 @@ const char* parseOptions(int count, char** arguments, Options* options)
             *name = value;
         }
     }
+    if (options->benchmark && options->seconds == 0 && options->frames == 0)
+        options->seconds = BENCHMARK_SECONDS;
     return nullptr;
 }

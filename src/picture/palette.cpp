@@ -11,6 +11,9 @@ constexpr int DARKEST = 2;
 // Above this step a colour turns towards white: a highlight, at no cost when drawing.
 constexpr int HIGHLIGHT = 52;
 
+// Of Palette::INK, as the DAC takes it.
+constexpr uint8_t INK_COLOUR[3] = {63, 63, 56};
+
 int distance(const Colour& a, const Colour& b)
 {
     const int red = a.red - b.red, green = a.green - b.green, blue = a.blue - b.blue;
@@ -40,6 +43,7 @@ const uint8_t* lengthen(uint8_t* ramp)
 void Palette::make(Model& model, bool grey)
 {
     memset(dac_, 0, sizeof dac_);
+    memcpy(dac_ + 3 * INK, INK_COLOUR, sizeof INK_COLOUR);
     if (grey) {
         for (int i = 0; i < STEPS; ++i) {
             const uint8_t value = static_cast<uint8_t>(i < DARKEST ? DARKEST : i);
@@ -65,7 +69,7 @@ void Palette::make(Model& model, bool grey)
     }
     if (count == 0)
         return;
-    const int steps = 255 / count < STEPS ? 255 / count : STEPS;
+    const int steps = ENTRIES / count < STEPS ? ENTRIES / count : STEPS;
     for (int c = 0; c < count; ++c) {
         for (int i = 0; i < STEPS; ++i)
             ramps_[c][SHADING_MOST + i] = static_cast<uint8_t>(1 + c * steps + i * steps / STEPS);

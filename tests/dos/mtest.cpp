@@ -419,6 +419,15 @@ void testKeys() {
     check("ESC, after an empty entry", machine::key() == machine::KEY_ESC);
     check("*", machine::key() == '*');
     check("no key", machine::key() == 0);
+    const uint8_t flags = pc::peek8(0x417);
+    pc::poke8(0x417, uint8_t(flags | 0x40));
+    stuffKey(0x2d58);  // X alone, and x with Shift, as Caps Lock has them
+    stuffKey(0x2d78);
+    stuffKey(0x0231);
+    check("Caps Lock: x", machine::key() == 'x');
+    check("Caps Lock: X", machine::key() == 'X');
+    check("Caps Lock: 1", machine::key() == '1');
+    pc::poke8(0x417, flags);
     const bool mouse = machine::openMouse();
     const machine::Mouse m = machine::mouse();
     print("# mouse: %s, %d %d\n", mouse ? "yes" : "no", m.dx, m.dy);
@@ -571,7 +580,6 @@ int play(uint32_t seconds) {
     int dy = 0;
     int lefts = 0;
     int rights = 0;
-    bool left = false;
     bool right = false;
     bool done = false;
     machine::present(frame, rows);
@@ -585,9 +593,8 @@ int play(uint32_t seconds) {
         const machine::Mouse m = machine::mouse();
         dx += m.dx;
         dy += m.dy;
-        lefts += m.left && !left ? 1 : 0;
+        lefts += m.presses;
         rights += m.right && !right ? 1 : 0;
-        left = m.left;
         right = m.right;
         machine::waitRetrace();
     }

@@ -34,7 +34,7 @@ for i in 1 2 3 4 5; do
 done
 sleep 0.5
 # A sphere too many, taken back; then saved.
-type Insert u F2 Escape
+type Insert u F2 Return Escape
 wait $running
 
 ok 'the program ended well' has "$c/OUT.TXT" 'frames: '

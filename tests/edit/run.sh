@@ -7,7 +7,7 @@ set -u
 cd "$(dirname "$0")/../.." || exit 1
 top=$(pwd)
 if [ -z "${DEMO:-}" ]; then
-	make -s build/demo build/demo32 || { echo "0 passed, 1 failed"; exit 1; }
+	make -s build/demo build/demo32 build/filmtst || { echo "0 passed, 1 failed"; exit 1; }
 	DEMO=build/demo
 fi
 demo=$top/$DEMO
@@ -177,7 +177,7 @@ ok "moved" has 29 "sphere 1 16 0 0 20"
 ok "the second gesture undone" has 30 "sphere 1 10 0 0 20"
 ok "the first gesture undone" has 31 "sphere 1 0 0 0 20"
 
-# --- Saving and loading
+# --- Saving and loading: F2 asks for a name, F3 for one of a list
 rm -f SAVED.FB
 play 8 /M:one.fb <<'END'
 1 key TAB
@@ -185,50 +185,104 @@ play 8 /M:one.fb <<'END'
 1 key y
 1 mouse 13 -7 -
 2 key F2
+2 key ENTER
 3 key DEL
 3 key TAB
 3 key DEL
 4 key F3
+4 key ENTER
 5 key u
+6 key r
 END
 ok "saved" test -s SAVED.FB
 ok "changed after that" count 3 sphere 1
 ok "loaded: as it was saved" alike 2 4
 ok "loading can be undone" alike 3 5
+ok "and done again" alike 4 6
 cp SAVED.FB first.fb
 play 2 /M:first.fb <<'END'
 0 key F2
+0 key ENTER
 END
-ok "saved again: the same text" cmp first.fb SAVED.FB
+ok "a file that is there is not proposed" cmp first.fb SAVED2.FB
 ok "and the same scene" count 1 blend 1
+play 4 /M:first.fb <<'END'
+0 key F2
+0 key BACKSPACE
+0 key BACKSPACE
+0 key BACKSPACE
+0 key BACKSPACE
+0 key 9
+0 key ENTER
+1 key DEL
+2 key F2
+2 key ENTER
+END
+ok "a name typed, without its end" test -s SAVED9.FB
+ok "saved under it again, without a question" sh -c '! cmp -s first.fb SAVED9.FB'
+cp SAVED.FB kept
+save_over() { # one more event
+	play 3 /M:one.fb <<END
+0 key F2
+0 key BACKSPACE
+0 key BACKSPACE
+0 key BACKSPACE
+0 key BACKSPACE
+0 key ENTER
+$1
+END
+}
+rm -f SAVED3.FB SAVED2.FB SAVED9.FB
+save_over ""
+ok "a file that is there is not replaced at once" cmp kept SAVED.FB
+save_over "1 key ESC"
+ok "nor after ESC" cmp kept SAVED.FB
+save_over "1 key ENTER"
+ok "but after a second Enter" sh -c '! cmp -s kept SAVED.FB'
+cp kept SAVED.FB
+play 4 /M:one.fb <<'END'
+0 key F2
+1 key ESC
+2 key RIGHT
+END
+ok "ESC leaves the question, not the program" has 3 "sphere 1 2 0 0 20"
 rm -f SAVED.FB
 play 4 <<'END'
 1 key F2
+1 key ENTER
 END
 "$demo" /N:20 /S:4 /D:a >out 2>&1
 "$demo" /N:20 /S:4 /D:b /M:SAVED.FB >out 2>&1
 ok "the model built in, saved: the same frames" diff -r a b
-rm -f SAVED.FB
-play 4 /M:one.fb <<'END'
+mkdir none
+rm -rf d
+cp one.fb none/one.scene
+(cd none && play 4 /M:one.scene <<'END'
 1 key F3
+1 key ENTER
 END
+	mv d ..)
 ok "nothing to load: it stays" alike 0 2
 echo "sphere a size 20
 sphere b size" >SAVED.FB
 play 4 /M:one.fb <<'END'
 1 key F3
+1 key HOME
+1 key ENTER
 2 key RIGHT
 END
 ok "a bad file: it stays" alike 0 1
 ok "and goes on" has 2 "sphere 1 2 0 0 20"
 rm -f SAVED.FB
-mkdir SAVED.FB
 play 4 /M:one.fb <<'END'
 1 key F2
+1 key BACKSPACE
+1 key /
+1 key x
+1 key ENTER
 2 key RIGHT
 END
 ok "nowhere to save: it goes on" has 2 "sphere 1 2 0 0 20"
-rmdir SAVED.FB
 
 # --- Groups: moved in the world's directions, whatever the group is turned and scaled to
 cat >group.fb <<'END'
@@ -246,6 +300,94 @@ ok "moved in the world" has 1 "sphere 1 12 10 0 20"
 ok "with what it carries" has 1 "sphere 2 12 20 0 16"
 ok "what it carried stays" has 2 "sphere 2 12 20 0 16"
 ok "and back" alike 1 3
+
+play 12 /M:one.fb <<'END'
+1 key TAB
+1 key g
+2 key s
+3 key RIGHT
+4 key s
+5 key RIGHT
+6 key G
+7 key u
+8 key TAB
+8 key g
+9 key G
+END
+ok "into a group: all stay where they are" alike 0 1
+ok "the whole group moves" sh -c '! cmp -s d/F0000002.TXT d/F0000003.TXT'
+moved() { # FRAME FRAME SPHERE: how far it goes along x
+	echo "$(scene "$1" | grep "^sphere $3 ") $(scene "$2" | grep "^sphere $3 ")" | awk '{ print $9 - $3 }'
+}
+ok "both of it" test "$(moved 2 3 1) $(moved 2 3 2) $(moved 2 3 3)" = "2 2 0"
+ok "then one alone" test "$(moved 4 5 1) $(moved 4 5 2)" = "0 2"
+ok "out of it again: it stays where it is" alike 5 6
+ok "undone" alike 5 7
+ok "a third one joins" alike 5 8
+
+# --- Colour, weight, motion, light; undo, redo
+rm -f SAVED*.FB
+play 16 /M:one.fb <<'END'
+1 key h
+2 key h
+3 key H
+4 key TAB
+4 key l
+5 key w
+6 key W
+7 key W
+7 key W
+7 key W
+8 key q
+9 key e
+10 key Q
+10 key E
+11 key u
+12 key r
+END
+ok "another colour" lacks 1 "ramp 1 255 64 48"
+ok "and another" sh -c '! grep -qxF "$(grep "^ramp 1 " d/F0000001.TXT)" d/F0000002.TXT'
+ok "and back" alike 1 3
+ok "linked" has 4 "blend 1 2"
+ok "a greater weight" has 5 "blend 1 2 1.25"
+ok "and less" has 6 "blend 1 2"
+ok "and less" has 7 "blend 1 2 0.25"
+ok "the light comes from elsewhere" lacks 8 "light 0.5 0.7 -0.5"
+ok "and still elsewhere" sh -c '! grep -qxF "$(grep "^light " d/F0000008.TXT)" d/F0000009.TXT'
+ok "undone" sh -c '! cmp -s d/F0000010.TXT d/F0000011.TXT'
+ok "done again" alike 10 12
+# The picture under another light is that of a scene which has it from the start.
+play 40 /M:one.fb <<'END'
+1 key e
+1 key F2
+1 key ENTER
+39 key p
+END
+cp SAVED.FB lit.fb
+mv d d1
+play 40 /M:lit.fb </dev/null
+ok "seen in the new light" cmp d1/F0000002.Z d/F0000002.Z
+"$top/build/filmtst" pcx SHOT0001.PCX shot.ppm
+ok "a screenshot is what is shown" cmp shot.ppm d1/F0000039.PPM
+ok "as bright as from the start" cmp d1/F0000038.PPM d/F0000038.PPM
+rm -f SAVED*.FB SHOT*.PCX
+# Each motion moves it when time runs, and the last one lets it stand.
+play 80 /M:one.fb <<'END'
+0 key SPACE
+1 key o
+10 key o
+20 key o
+30 key o
+40 key o
+50 key o
+60 key o
+61 key v
+END
+for from in 2 12 42 62; do
+	# (A ball that spins or swings looks the same.)
+	ok "it moves: frame $from" sh -c "! cmp -s \"$(printf 'd/F%07d.Z' $from)\" \"$(printf 'd/F%07d.Z' $((from + 4)))\""
+done
+ok "then it stands" alike 52 56
 
 # --- Running, and nothing else moves by itself
 play 12 <<'END'
