@@ -655,6 +655,6 @@ void Editor::describe(char* to, int size) const
     if (length < size && Model::linked(actor.object, model_.actor(other).object, &weight)) {
         char text[24];
         formatReal(text, sizeof text, weight);
-        snprintf(to + length, static_cast<size_t>(size - length), ", linked by %s", text);
+        snprintf(to + length, static_cast<size_t>(size - length), ", weight %s", text);
     }
 }

@@ -17,35 +17,34 @@ constexpr Time GREETING = 65536 * 3;
 constexpr int RATE_LETTERS = 11;
 
 const char* const PAGE[] = {
-    "F1     this page     f     frames a second",
-    "*      scales or single pixels",
-    "- +    coarser, finer",
-    "space  stop and go   .     a step on",
-    "< >    slower,faster Home  from the start",
-    "n      the next scene",
-    "p      a picture to a file (PCX)",
-    "ESC    ends",
+    "F1      this page       ESC     ends",
+    "*       scales, pixels  - +     coarser, finer",
+    "space   stop and go     .       a step on",
+    "Home    from the start  < >     slower, faster",
+    "n       the next scene  f       frames a second",
+    "p       picture to a file (PCX)",
 };
 
 const char* const HANDS_PAGE[] = {
-    "F1  this page             ESC ends",
-    "*   scales or pixels      - + coarser, finer",
-    "spc stop and go   < >     slower, faster",
-    "Home from start   p picture   f frame rate",
+    "F1      this page       ESC     ends",
+    "*       scales, pixels  - +     coarser, finer",
+    "space   stop and go     < >     slower, faster",
+    "Home    from the start  p f     picture, rate",
     "",
-    "Tab, left button: selects the next",
-    "m   mouse with pointer, a click picks",
-    "mouse, arrows, PgUp PgDn  move it",
-    "x y z   turn it           X Y Z other way",
-    "1 2   size                3 4   length, ring",
-    "a c t d n   new sphere, cylinder, torus,",
-    "            disc, cone    Del deletes it",
-    "l k   link, part it and the one before",
-    "w W   weight of that link",
-    "h H   colour              o     its motion",
-    "v V   faster, slower      q e   light",
-    "g G   into, out of group  s     whole group",
-    "u r   undo, redo          F2 F3 save, load",
+    "Tab     the next object, as the left button",
+    "m       pointer: a click picks, held moves",
+    "arrows  move it; PgUp PgDn or right button",
+    "x y z   turn it         1 2     size",
+    "Del     delete it       3 4     length, ring",
+    "a c t   new sphere, cylinder, torus",
+    "d n     new disc, cone",
+    "l k     link, part it and the one before",
+    "w       link's weight   h       colour",
+    "o       motion          v       its period",
+    "q e     the light       g s     group, whole",
+    "u r     undo, redo      F2 F3   save, load",
+    "",
+    "Shift with x y z w h v q e g: the other way",
 };
 
 // A page of lines in a panel in the middle of the screen.
@@ -114,7 +113,7 @@ void Demo::drawHands()
 
 void Demo::drawOverlay()
 {
-    if (options_.interactive)
+    if (options_.interactive && !help_)
         drawHands();
     char text[64];
     int wide = machine::WIDTH - 2 * EDGE;
@@ -154,7 +153,6 @@ void Demo::drawAsk()
     if (ask_.state() == Ask::LINE) {
         snprintf(line, sizeof line, "> %s_", ask_.line());
         page[lines++] = line;
-        page[lines++] = "";
     } else {
         for (int i = 0; i < Ask::LINES_SHOWN && ask_.firstShown() + i < ask_.count(); ++i) {
             const int at = ask_.firstShown() + i;
@@ -165,6 +163,7 @@ void Demo::drawAsk()
             }
         }
     }
+    page[lines++] = "";
     page[lines++] = "Enter takes it   ESC goes back";
     drawPage(overlay_, page, lines);
 }

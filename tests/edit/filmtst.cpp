@@ -5,6 +5,7 @@
 //   filmtst same FILE.FLI FROM DIR       each frame is DIR/F%07d.PPM, the first of them number FROM
 //   filmtst frame FILE.FLI N OUT.PPM     one frame as a picture
 //   filmtst pcx FILE.PCX OUT.PPM         a screenshot as a picture
+//   filmtst ink FILE.PPM X Y WIDE HIGH   how many pixels of a part have the colour of text
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -237,6 +238,18 @@ int main(int count, char** arguments)
     if (what == "pcx" && count == 4) {
         readPcx(arguments[2], picture);
         write(arguments[3], picture.ppm());
+        return 0;
+    }
+    if (what == "ink" && count == 7) {
+        const std::string text = contents(arguments[2]);
+        const size_t start = text.size() - WIDTH * HEIGHT * 3;
+        const int x = std::atoi(arguments[3]), y = std::atoi(arguments[4]);
+        const int wide = std::atoi(arguments[5]), high = std::atoi(arguments[6]);
+        int ink = 0;
+        for (int row = y; row < y + high; ++row)
+            for (int column = x; column < x + wide; ++column)
+                ink += text.compare(start + static_cast<size_t>(row * WIDTH + column) * 3, 3, "\xff\xff\xe3") == 0;
+        std::printf("%d\n", ink);
         return 0;
     }
     if (count < 3)

@@ -71,6 +71,60 @@ END
 ok "left button selects the next" has 3 "sphere 2 31 0 0 20"
 ok "the mouse cannot lose it" has 4 "sphere 2 -76.79993 -57.59949 0 20"
 
+# Presses while one frame was drawn are all there; and so are those of a fast hand.
+play 4 /M:one.fb <<'END'
+1 mouse 0 0 L
+1 mouse 0 0 -
+1 mouse 0 0 L
+1 mouse 0 0 -
+2 key RIGHT
+END
+ok "two clicks in a frame select the next but one" has 2 "cylinder 3 -28 -10 0 -28 10 0 12"
+
+# --- The pointer: from the middle of the screen, two mickeys a pixel
+play 9 /M:one.fb <<'END'
+1 key m
+1 mouse 125 0 -
+2 mouse 0 0 L
+3 mouse 48 -24 L
+4 mouse 0 0 -
+5 mouse 60 60 -
+6 key RIGHT
+7 mouse 0 100 L
+8 key RIGHT
+END
+ok "a pointer moves no object" alike 0 1
+ok "a click on it selects and moves nothing" alike 0 2
+ok "held, it goes with the pointer" has 3 "sphere 2 41.51917 6.91132 0 20"
+ok "let go, it stays" alike 3 5
+ok "it is the selected one" has 6 "sphere 2 43.51917 6.91132 0 20"
+ok "a click on nothing" alike 6 7
+ok "leaves it selected" has 8 "sphere 2 45.51917 6.91132 0 20"
+ok "the others stay" has 8 "sphere 1 0 0 0 20"
+
+# --- What does not wait for the end of a frame
+ends() { # SCRIPT SWITCHES...
+	printf "$1" >script
+	shift
+	FB_INPUT=script "$demo" "$@" >out 2>err
+	echo $? >status
+}
+ends '4.3 key ESC\n' /N:50
+ok "ESC in the middle of a frame" grep -qx "frames: 4" out
+ends '4.100 key ESC\n' /N:50
+ok "ESC at its end" grep -qx "frames: 5" out
+rm -rf d
+ends '4.3 key BREAK\n' /N:50 /D:d
+ok "Ctrl-C in the middle of a frame" test "$(cat status) $(ls d/*.PPM | wc -l)" = "1 4"
+rm -rf a b
+ends '' /N:9 /D:a
+ends '4.3 key f\n4.5 key f\n' /N:9 /D:b
+ok "other keys wait, and nothing is lost of the frame" diff -r a b
+printf '2 key INS\n4 key h\n6 key u\n8 key DEL\n' >script
+FB_LOG=log1 FB_INPUT=script "$demo" /I /N:12 >out 2>err
+ok "another palette: four times, and the first" test "$(grep -c palette log1)" -ge 5
+ok "each with its frame" test "$(sed 1d log1 | awk 'last == "palette" && $1 != "present" { ++bad } { last = $1 } END { print bad + 0 }')" = 0
+
 # --- Turning, sizes
 play 9 /M:one.fb <<'END'
 1 key TAB
@@ -432,6 +486,128 @@ END
 rm -rf b
 FB_INPUT=script "$demo" /N:10 /S:4 /D:b >out 2>&1
 ok "automatic: no key edits" diff -r a b
+
+# Long names take a second line; long messages make way for the frame rate.
+ink() { "$top/build/filmtst" ink "$(printf 'd/F%07d.PPM' "$1")" "$2" "$3" "$4" "$5"; } # frame x y wide high
+cat >long.fb <<'END'
+sphere averyveryverylo size 20.125
+cone theotherlongone size 20.125 tip 12.25 length 30.375 at 10 0 0
+END
+play 60 /M:long.fb <<'END'
+20 key f
+30 key TAB
+32 key l
+40 key F2
+40 key /
+40 key x
+40 key y
+40 key ENTER
+END
+ok "one line at the top" test "$(ink 10 0 12 320 9)" -eq 0
+ok "two where there is more to say" test "$(ink 34 0 12 320 9)" -gt 50
+ok "the frame rate" test "$(ink 25 240 189 80 11)" -gt 50
+ok "is not written over" test "$(ink 25 240 150 80 50)" -eq "$(ink 42 240 150 80 50)"
+ok "a long message beside it" test "$(ink 42 0 180 240 20)" -gt 200
+
+# --- Automatic mode: time held, stepped, begun again, slower and faster
+auto() { # FRAMES SWITCHES...: the script on standard input, frames into d/
+	frames=$1
+	shift
+	cat >script
+	rm -rf d
+	FB_INPUT=script "$demo" "/N:$frames" /R:8 /S:8 /D:d "$@" >out 2>&1 || bad "the program ended with $?: $(tail -n 1 out)"
+}
+auto 40 </dev/null
+rm -rf plain
+mv d plain
+was() { # FRAME PLAIN: the scene is that of a frame of the run without keys
+	scene "$1" >one
+	sed 1d "$(printf 'plain/F%07d.TXT' "$2")" | diff one -
+}
+auto 30 <<'END'
+10 key SPACE
+12 key .
+13 key .
+15 key SPACE
+18 key HOME
+20 key .
+END
+ok "space holds it" was 11 9
+ok "a step" was 12 10
+ok "another" was 14 11
+ok "space lets it go" was 17 14
+ok "from the start" was 19 2
+ok "a step holds it too" was 29 3
+auto 20 <<'END'
+0 key >
+5 key <
+10 key <
+END
+ok "faster" was 4 8
+ok "slower again" was 9 13
+ok "and half as fast" was 19 18
+(i=0; while [ $i -lt 9 ]; do echo "0 key >"; i=$((i + 1)); done) | auto 4
+ok "at most eight times" was 3 24
+(i=0; while [ $i -lt 9 ]; do echo "0 key <"; i=$((i + 1)); done; echo "1 key SPACE") | auto 12
+ok "a message tells so" test "$(ink 2 0 185 200 15)" -gt 50
+auto 6 <<'END'
+1 key +
+2 key -
+END
+ok "the spacing is told" test "$(ink 1 0 185 200 15)" -gt 50
+ok "and frames without keys bear no words" test "$(ink 0 0 0 320 200)" -eq 0
+
+# The next scene: those beside the program, in order.
+mkdir beside
+cp "$demo" beside/demo
+echo "sphere a size 11" >beside/A.FB
+echo "sphere b size" >beside/B.FB
+echo "sphere c size 13" >beside/c.fb
+printf '1 key n\n2 key n\n3 key n\n4 key n\n' >script
+rm -rf d
+FB_INPUT=script beside/demo /N:6 /S:8 /D:d >out 2>&1
+ok "the first scene" has 1 "sphere 1 0 0 0 11"
+ok "a bad one: it stays" alike 1 2
+ok "and says why" test "$(ink 2 0 180 320 20)" -gt 100
+ok "the one behind it" has 3 "sphere 1 0 0 0 13"
+ok "then the first again" alike 4 1
+rm -rf d
+FB_INPUT=script beside/demo /N:6 /S:8 /D:d /M:beside/B.FB >out 2>&1
+ok "a bad scene from the start ends it" test ! -e d
+FB_INPUT=script beside/demo /N:6 /S:8 /D:d /M:beside/A.FB >out 2>&1
+ok "on from the one that was loaded" has 2 "sphere 1 0 0 0 13"
+rm -rf none
+mkdir none
+cp "$demo" none/demo
+FB_INPUT=script none/demo /N:6 /S:8 /D:none/d >out 2>&1
+ok "no scenes: it goes on" test -s none/d/F0000005.PPM
+
+# Films: what was dumped, on 64 and 32 bits, in colour and grey; the first words of a run in real time.
+film() { "$top/build/filmtst" "$@"; }
+rm -rf d
+printf '5 key h\n7 key INS\n9 key F1\n11 key F1\n' >script
+FB_INPUT=script "$demo" /I /N:30 /D:d /F:f.fli >out 2>&1
+ok "a film is what was shown, colours that change too" film same f.fli 0 d
+rm -rf d
+"$demo" /N:20 /R:35 /G /D:d /F:f.fli >out 2>&1
+ok "in grey" film same f.fli 0 d
+ok "at its pace" sh -c "'$top/build/filmtst' frames f.fli | grep -q '^20 frames of 2/70 s'"
+if [ -c /dev/full ]; then
+	ok "a full disk" sh -c "! '$demo' /N:2 /F:/dev/full 2>err && grep -q 'disk full' err"
+fi
+ok "a film that cannot be" sh -c "! '$demo' /N:2 /F:none/none/x.fli 2>err && grep -q 'none/none/x.fli: no such file' err"
+timeout -s INT 4.5 "$demo" /S:8 /F:f.fli >out 2>&1
+ok "broken off, it is whole" film frames f.fli
+mkdir -p d
+film frame f.fli 30 d/F0000000.PPM
+film frame f.fli 120 d/F0000001.PPM
+ok "F1 help, ESC ends" test "$(ink 0 0 185 200 15)" -gt 50
+ok "after three seconds no more" test "$(ink 1 0 185 200 15)" -eq 0
+"$demo" /T:1 /S:8 /F:f.fli >out 2>&1
+film frame f.fli 20 d/F0000000.PPM
+ok "not in a run of so many seconds" test "$(ink 0 0 0 320 200)" -eq 0
+"$demo" /B /T:1 /S:8 >out 2>&1
+ok "a benchmark says one line" sh -c 'test $(wc -l <out) -eq 1 && grep -q "^four spheres, spacing 8: [0-9.]* frames a second ([0-9]* frames in 1.0[0-9] seconds)$" out'
 
 # --- The same on 32 bits
 if [ -x "$top/build/demo32" ] && [ "$DEMO" = build/demo ]; then
