@@ -92,7 +92,7 @@ TEST(more_colours_than_fit)
             CHECK(light(palette, ramp[i]) >= light(palette, ramp[i - 1]));
             steps += ramp[i] != ramp[i - 1];
         }
-        CHECK(steps >= 15);
+        CHECK(steps >= 14);
     }
     // Equal colours share one ramp.
     Model same;
