@@ -89,6 +89,11 @@ uint64_t clock();
 // ignores it.
 void standStill(bool still);
 
+// The date and the time of day, "2026-11-21 22:14:05", and the machine in a few words without a comma ("DOS 5.0 80486").
+// Both take at least 64 bytes.
+void date(char* to, int size);
+void describe(char* to, int size);
+
 // --- Keyboard and mouse
 
 // The next key pressed, or 0: a character, or one of the KEY_ codes above. Does not wait. Letters come as they would
@@ -128,6 +133,17 @@ struct FileName {
     char text[32];
 };
 int listFiles(const char* directory, const char* ending, FileName* to, int room);
+// How many bytes an open file has; -1 on failure.
+int32_t fileBytes(int file);
+// Cuts a file that is open for writing off behind its first `bytes` bytes.
+bool cutFile(int file, uint32_t bytes);
+// Removes a plain file; false for anything else.
+bool removeFile(const char* name);
+// Saving that never loses what was there: what is written to the handle goes to a file of another name beside `name`,
+// which endSave() closes and puts in the place of `name`; with `good` false, or when that fails, it removes it, and what
+// was there before stays. One file at a time.
+int beginSave(const char* name);
+bool endSave(int file, bool good);
 // Makes a directory; true too when it is there already.
 bool makeDirectory(const char* name);
 const char* fileTrouble();

@@ -17,8 +17,9 @@ public:
     // The entry of text and marks: the same near-white in every scene, no part of a ramp.
     static constexpr uint8_t INK = 255;
 
-    // Makes ramps for the model's colours and hands each object its own. Colours that do not fit (the ramps share 254
-    // entries, at least 14 each) take the nearest that does.
+    // Makes ramps for the model's colours and hands each object its own. The ramps of up to four colours have 63 entries
+    // or more each. More colours share the 254 entries by need: those that are nearest to each other in colour and
+    // brightness are one, so that each ramp is as true as its neighbours leave it.
     void make(Model& model, bool grey);
 
     // Red, green and blue of the 256 colours, 0..63, as the DAC takes them.
@@ -30,7 +31,10 @@ public:
 
 private:
     static constexpr int ENTRIES = INK - 1;  // for ramps, from 1 on
-    static constexpr int RAMPS_MOST = 17;
+    static constexpr int RAMPS_MOST = Model::OBJECTS_MOST;
+    static constexpr int EVEN_MOST = 4;      // colours whose ramps have entries of their own
+
+    void share(const Colour* colours, int count);
 
     uint8_t dac_[768];
     uint8_t ramps_[RAMPS_MOST][RAMP];

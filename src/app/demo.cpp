@@ -58,6 +58,12 @@ const char* Demo::prepare(int* status)
         return "not enough memory for the picture";
     view_.setCamera(model_.camera);
     palette_.make(model_, options_.grey);
+    if (options_.recordFile != nullptr) {
+        const char* problem = csv_.check(options_.recordFile, status);
+        if (problem != nullptr)
+            return problem;
+        *status = 1;
+    }
     if (options_.filmFile != nullptr) {
         const char* problem = film_.open(options_.filmFile, options_.frames > 0 ? options_.rate : 0);
         if (problem != nullptr)
@@ -238,33 +244,6 @@ const char* Demo::keepFrame()
     return problem;
 }
 
-// Appends the statistics to the file of /O. Null, or one line.
-const char* Demo::record()
-{
-    bool fresh;
-    const int file = machine::appendFile(options_.recordFile, &fresh);
-    bool good = file >= 0;
-    char text[1024];
-    if (good && fresh) {
-        Stats::formatHeader(text, sizeof text);
-        good = machine::writeFile(file, text, static_cast<uint32_t>(strlen(text))) >= 0;
-    }
-    char spacing[24], settings[64];
-    formatReal(spacing, sizeof spacing, spacing_);
-    snprintf(settings, sizeof settings, "S:%s%s%s%s%s%s", spacing, options_.interactive ? " I" : "",
-             options_.grey ? " G" : "", options_.printed ? " P" : "", options_.retrace ? " V" : "",
-             options_.noPresent ? " X" : "");
-    stats_.formatRecord(text, sizeof text, settings);
-    good = good && machine::writeFile(file, text, static_cast<uint32_t>(strlen(text))) >= 0;
-    if (file >= 0)
-        good = machine::closeFile(file) && good;
-    if (good)
-        return nullptr;
-    static char problem[160];
-    snprintf(problem, sizeof problem, "%.100s: %s", options_.recordFile, machine::fileTrouble());
-    return problem;
-}
-
 // What the run came to, on standard output: the statistics, or the one line of /B.
 void Demo::sayResults(uint64_t ticks)
 {
@@ -334,9 +313,11 @@ int Demo::run()
     stats_.setTime(ticks);
     problem = film_.close();
     machine::stop();
+    if (options_.rateGiven && options_.frames == 0)
+        machine::err("/R has no effect without /N.\n");
     sayResults(ticks);
     if (problem == nullptr && options_.recordFile != nullptr)
-        problem = record();
+        problem = csv_.append(options_, spacing_, stats_);
     if (problem != nullptr)
         machine::fail(1, problem);
     return 0;

@@ -4,6 +4,7 @@
 #define FB_LOOP_H
 
 #include "app/ask.h"
+#include "app/csv.h"
 #include "app/dump.h"
 #include "app/edit.h"
 #include "app/film.h"
@@ -37,7 +38,6 @@ private:
     void resample(Real spacing);
     void changed();
     void sayResults(uint64_t ticks);
-    const char* record();
 
     // --- Keys and mouse (keys.cpp)
     void takeKeys();
@@ -74,6 +74,7 @@ private:
     Contours contours_;
     Palette palette_;
     bool paletteStale_ = false;  // the card has another one: it is set with the next frame
+    Csv csv_;
     Dump dump_;
     Film film_;
     Stats stats_;

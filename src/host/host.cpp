@@ -26,6 +26,7 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#include <sys/utsname.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -213,6 +214,10 @@ int failed() {
     return -1;
 }
 
+// The file that beginSave() made, and the one whose place it takes; both empty while nothing is being saved.
+char* savedAs = nullptr;
+char* saving = nullptr;
+
 void put(int stream, const char* text) {
     size_t left = strlen(text);
     while (left > 0) {
@@ -337,6 +342,23 @@ void standStill(bool wish) {
     still = wish;
 }
 
+void date(char* to, int size) {
+    const time_t now = time(nullptr);
+    tm local;
+    if (localtime_r(&now, &local) == nullptr || strftime(to, static_cast<size_t>(size), "%Y-%m-%d %H:%M:%S", &local) == 0) {
+        to[0] = '\0';
+    }
+}
+
+void describe(char* to, int size) {
+    utsname names;
+    if (uname(&names) != 0) {
+        snprintf(to, static_cast<size_t>(size), "host");
+        return;
+    }
+    snprintf(to, static_cast<size_t>(size), "%.24s %.24s", names.sysname, names.machine);
+}
+
 int key() {
     while (nextKey < eventCount && isDue(events[nextKey])) {
         const int code = events[nextKey++].key;
@@ -453,6 +475,22 @@ bool rewindFile(int file) {
     return true;
 }
 
+int32_t fileBytes(int file) {
+    struct stat facts;
+    if (fstat(file, &facts) != 0) {
+        return failed();
+    }
+    return static_cast<int32_t>(facts.st_size);
+}
+
+bool cutFile(int file, uint32_t bytes) {
+    if (ftruncate(file, bytes) != 0) {
+        failed();
+        return false;
+    }
+    return true;
+}
+
 int listFiles(const char* directory, const char* ending, FileName* to, int room) {
     DIR* open = opendir(directory[0] == '\0' ? "." : directory);
     if (open == nullptr) {
@@ -473,6 +511,75 @@ int listFiles(const char* directory, const char* ending, FileName* to, int room)
     }
     closedir(open);
     return count;
+}
+
+bool removeFile(const char* name) {
+    // What is no plain file is not ours to remove: a device, a link to one.
+    struct stat facts;
+    if (lstat(name, &facts) == 0 && !S_ISREG(facts.st_mode)) {
+        errno = EPERM;
+        failed();
+        return false;
+    }
+    if (unlink(name) != 0) {
+        failed();
+        return false;
+    }
+    return true;
+}
+
+int beginSave(const char* name) {
+    struct stat facts;
+    const bool there = stat(name, &facts) == 0;
+    if (there && !S_ISREG(facts.st_mode)) {
+        // A device or a pipe takes what it is given; nothing can be put in its place.
+        return createFile(name);
+    }
+    if (there && access(name, W_OK) != 0) {
+        return failed();
+    }
+    // Where a symbolic link leads.
+    savedAs = there ? realpath(name, nullptr) : strdup(name);
+    saving = savedAs == nullptr ? nullptr : static_cast<char*>(malloc(strlen(savedAs) + sizeof ".XXXXXX"));
+    if (saving != nullptr) {
+        strcpy(saving, savedAs);
+        strcat(saving, ".XXXXXX");
+        const int file = mkstemp(saving);
+        if (file >= 0) {
+            const mode_t mask = umask(0);
+            umask(mask);
+            fchmod(file, there ? facts.st_mode & 0777 : 0666 & ~mask);
+            return file;
+        }
+    }
+    failed();
+    free(saving);
+    free(savedAs);
+    saving = savedAs = nullptr;
+    return -1;
+}
+
+bool endSave(int file, bool good) {
+    const char* why = trouble;
+    const bool closed = closeFile(file);
+    if (saving == nullptr) {
+        trouble = good ? trouble : why;
+        return good && closed;
+    }
+    if (good && closed && rename(saving, savedAs) != 0) {
+        failed();
+        good = false;
+    } else if (!good) {
+        trouble = why;
+    }
+    good = good && closed;
+    if (!good) {
+        unlink(saving);
+    }
+    free(saving);
+    free(savedAs);
+    saving = savedAs = nullptr;
+    return good;
 }
 
 bool makeDirectory(const char* name) {

@@ -1,6 +1,7 @@
 // Ramps of brightness.
 #include "picture/palette.h"
 
+#include "math/text.h"
 #include "rt.h"
 
 namespace {
@@ -14,18 +15,82 @@ constexpr int HIGHLIGHT = 52;
 // Of Palette::INK, as the DAC takes it.
 constexpr uint8_t INK_COLOUR[3] = {63, 63, 56};
 
-int distance(const Colour& a, const Colour& b)
+bool same(const Colour& a, const Colour& b)
 {
-    const int red = a.red - b.red, green = a.green - b.green, blue = a.blue - b.blue;
-    return red * red + green * green + blue * blue;
+    return a.red == b.red && a.green == b.green && a.blue == b.blue;
 }
 
+// A part of a colour at one step, rounded once.
 uint8_t shade(int full, int step)
 {
-    const int value = full * 63 / 255 * (Palette::AMBIENT + step * (63 - Palette::AMBIENT) / 63) / 63;
-    if (step <= HIGHLIGHT)
-        return static_cast<uint8_t>(value);
-    return static_cast<uint8_t>(value + (63 - value) * (step - HIGHLIGHT) / (2 * (63 - HIGHLIGHT)));
+    constexpr int WHOLE = 255 * 63;
+    // The part times the light, of 63 and of WHOLE.
+    int value = full * (63 * Palette::AMBIENT + step * (63 - Palette::AMBIENT));
+    if (step > HIGHLIGHT)
+        value += (63 * WHOLE - value) * (step - HIGHLIGHT) / (2 * (63 - HIGHLIGHT));
+    return static_cast<uint8_t>((value + WHOLE / 2) / WHOLE);
+}
+
+// What a ramp would have from `step` on, for `steps` steps that the DAC cannot tell apart.
+struct Wish {
+    uint8_t part[3];
+    uint8_t colour;
+    uint8_t step, steps;
+};
+
+// Wishes that one entry fulfils: those from `from` to before `to`. `error` is what it costs: the squared distances from
+// their mean, each counted for its steps.
+struct Box {
+    int from, to;
+    uint32_t weight;
+    uint32_t sum[3];
+    int widest;  // the part that varies most
+    uint32_t error;
+};
+
+Box measured(const Wish* wishes, int from, int to)
+{
+    Box box{from, to, 0, {0, 0, 0}, 0, 0};
+    uint32_t squares[3] = {0, 0, 0};
+    for (int i = from; i < to; ++i) {
+        const uint32_t steps = wishes[i].steps;
+        box.weight += steps;
+        for (int p = 0; p < 3; ++p) {
+            const uint32_t part = wishes[i].part[p];
+            box.sum[p] += steps * part;
+            squares[p] += steps * part * part;
+        }
+    }
+    uint32_t most = 0;
+    for (int p = 0; p < 3; ++p) {
+        uint32_t rest;
+        const uint32_t even =
+            static_cast<uint32_t>(divide64(static_cast<uint64_t>(box.sum[p]) * box.sum[p], box.weight, &rest));
+        const uint32_t error = squares[p] - even;
+        box.error += error;
+        if (error > most) {
+            most = error;
+            box.widest = p;
+        }
+    }
+    return box;
+}
+
+// Divides a box in two where its widest part passes the mean; returns where the second begins. Both have wishes, if any
+// two of the box differ.
+int divide(Wish* wishes, const Box& box)
+{
+    int from = box.from, to = box.to;
+    while (from < to) {
+        if (wishes[from].part[box.widest] * box.weight <= box.sum[box.widest]) {
+            ++from;
+        } else {
+            const Wish wish = wishes[from];
+            wishes[from] = wishes[--to];
+            wishes[to] = wish;
+        }
+    }
+    return from;
 }
 
 // Repeats the ends of a ramp; returns it.
@@ -59,35 +124,91 @@ void Palette::make(Model& model, bool grey)
     dac_[1] = 1;
     dac_[2] = 6;
     Colour colours[RAMPS_MOST];
+    int rampOf[RAMPS_MOST];
     int count = 0;
     for (int i = 0; i < model.count(); ++i) {
-        bool there = false;
-        for (int c = 0; c < count; ++c)
-            there = there || distance(colours[c], model.actor(i).colour) == 0;
-        if (!there && count < RAMPS_MOST)
+        int c = 0;
+        while (c < count && !same(colours[c], model.actor(i).colour))
+            ++c;
+        if (c == count)
             colours[count++] = model.actor(i).colour;
+        rampOf[i] = c;
     }
     if (count == 0)
         return;
-    const int steps = ENTRIES / count < STEPS ? ENTRIES / count : STEPS;
-    for (int c = 0; c < count; ++c) {
-        for (int i = 0; i < STEPS; ++i)
-            ramps_[c][SHADING_MOST + i] = static_cast<uint8_t>(1 + c * steps + i * steps / STEPS);
-        lengthen(ramps_[c] + SHADING_MOST);
-        for (int i = 0; i < steps; ++i) {
-            const int step = i * 63 / (steps - 1);
-            uint8_t* entry = dac_ + 3 * (1 + c * steps + i);
-            entry[0] = shade(colours[c].red, step);
-            entry[1] = shade(colours[c].green, step);
-            entry[2] = shade(colours[c].blue, step);
+    if (count > EVEN_MOST) {
+        share(colours, count);
+    } else {
+        const int steps = ENTRIES / count < STEPS ? ENTRIES / count : STEPS;
+        for (int c = 0; c < count; ++c) {
+            for (int i = 0; i < STEPS; ++i)
+                ramps_[c][SHADING_MOST + i] = static_cast<uint8_t>(1 + c * steps + (i * (steps - 1) + 31) / 63);
+            for (int i = 0; i < steps; ++i) {
+                const int step = (i * 63 + (steps - 1) / 2) / (steps - 1);
+                uint8_t* entry = dac_ + 3 * (1 + c * steps + i);
+                entry[0] = shade(colours[c].red, step);
+                entry[1] = shade(colours[c].green, step);
+                entry[2] = shade(colours[c].blue, step);
+            }
         }
     }
-    for (int i = 0; i < model.count(); ++i) {
-        int best = 0;
-        for (int c = 1; c < count; ++c)
-            if (distance(colours[c], model.actor(i).colour) < distance(colours[best], model.actor(i).colour))
-                best = c;
-        model.actor(i).object->setRamp(ramps_[best] + SHADING_MOST);
+    for (int c = 0; c < count; ++c)
+        lengthen(ramps_[c] + SHADING_MOST);
+    for (int i = 0; i < model.count(); ++i)
+        model.actor(i).object->setRamp(ramps_[rampOf[i]] + SHADING_MOST);
+}
+
+// Divides what all ramps wish for into as many boxes as there are entries, always that box which costs most.
+void Palette::share(const Colour* colours, int count)
+{
+    static Wish wishes[RAMPS_MOST * STEPS];
+    int wished = 0;
+    for (int c = 0; c < count; ++c) {
+        for (int step = 0; step < STEPS; ++step) {
+            const uint8_t part[3] = {shade(colours[c].red, step), shade(colours[c].green, step), shade(colours[c].blue, step)};
+            if (step > 0 && memcmp(wishes[wished - 1].part, part, sizeof part) == 0) {
+                ++wishes[wished - 1].steps;
+                continue;
+            }
+            Wish& wish = wishes[wished++];
+            memcpy(wish.part, part, sizeof part);
+            wish.colour = static_cast<uint8_t>(c);
+            wish.step = static_cast<uint8_t>(step);
+            wish.steps = 1;
+        }
+    }
+    Box boxes[ENTRIES];
+    int used = 1;
+    boxes[0] = measured(wishes, 0, wished);
+    while (used < ENTRIES) {
+        int worst = 0;
+        for (int i = 1; i < used; ++i)
+            if (boxes[i].error > boxes[worst].error)
+                worst = i;
+        if (boxes[worst].error == 0)
+            break;
+        const Box box = boxes[worst];
+        const int middle = divide(wishes, box);
+        boxes[worst] = measured(wishes, box.from, middle);
+        boxes[used++] = measured(wishes, middle, box.to);
+    }
+    for (int i = 0; i < used; ++i) {
+        const Box& box = boxes[i];
+        for (int p = 0; p < 3; ++p)
+            dac_[3 * (1 + i) + p] = static_cast<uint8_t>((box.sum[p] + box.weight / 2) / box.weight);
+        for (int w = box.from; w < box.to; ++w)
+            memset(ramps_[wishes[w].colour] + SHADING_MOST + wishes[w].step, 1 + i, wishes[w].steps);
+    }
+    // What is shared may come out a little darker than the step before; a ramp never does.
+    for (int c = 0; c < count; ++c) {
+        uint8_t* ramp = ramps_[c] + SHADING_MOST;
+        const auto light = [&](int step) {
+            const uint8_t* entry = dac_ + 3 * ramp[step];
+            return entry[0] + entry[1] + entry[2];
+        };
+        for (int step = 1; step < STEPS; ++step)
+            if (light(step) < light(step - 1))
+                ramp[step] = ramp[step - 1];
     }
 }
 

@@ -237,6 +237,22 @@ void testHeap(uint32_t most) {
 
 // ---- files
 
+void testDescription() {
+    char text[64];
+    machine::date(text, sizeof text);
+    print("# %s\n", text);
+    const char* form = "2000-00-00 00:00:00";
+    bool good = strlen(text) == strlen(form);
+    for (int i = 0; good && form[i] != '\0'; ++i) {
+        good = form[i] == '0' ? text[i] >= '0' && text[i] <= '9' : text[i] == form[i];
+    }
+    check("date and time of day", good);
+    machine::describe(text, sizeof text);
+    print("# %s\n", text);
+    check("what machine it is", strncmp(text, "DOS ", 4) == 0 && strchr(text, ',') == nullptr &&
+                                    strncmp(text + strlen(text) - 2, "86", 2) == 0);
+}
+
 void testFiles() {
     constexpr uint32_t BYTES = 150001;
     uint8_t* data = static_cast<uint8_t*>(malloc(BYTES));
@@ -273,6 +289,42 @@ void testFiles() {
     file = machine::appendFile("MTDIR\\NEW.DAT", &fresh);
     check("appendFile makes a file", file >= 0 && fresh && machine::writeFile(file, "x", 1) == 1);
     machine::closeFile(file);
+    file = machine::appendFile("MTDIR\\BIG.DAT", &fresh);
+    check("fileBytes", machine::fileBytes(file) == int32_t(BYTES + 3));
+    check("cutFile, and on from there", machine::writeFile(file, "what does not fit", 17) == 17 &&
+                                            machine::cutFile(file, 100000) && machine::writeFile(file, "END", 3) == 3 &&
+                                            machine::fileBytes(file) == 100003 && machine::closeFile(file));
+    file = machine::openFile("MTDIR\\BIG.DAT");
+    check("what is left of it", machine::readFile(file, back, BYTES) == 100003 && memcmp(data, back, 100000) == 0 &&
+                                    memcmp(back + 100000, "END", 3) == 0);
+    machine::closeFile(file);
+    check("removeFile", machine::removeFile("MTDIR\\NEW.DAT") && machine::openFile("MTDIR\\NEW.DAT") == -1);
+    check("removeFile of no file", !machine::removeFile("MTDIR\\NEW.DAT") &&
+                                       strcmp(machine::fileTrouble(), "no such file or directory") == 0);
+    check("removeFile of a directory", !machine::removeFile("MTDIR"));
+    // Saving: what was there stays until the new is whole.
+    const auto holds = [&](const char* name, const char* text) {
+        const int opened = machine::openFile(name);
+        const int32_t got = machine::readFile(opened, back, 100);
+        machine::closeFile(opened);
+        return got == int32_t(strlen(text)) && memcmp(back, text, strlen(text)) == 0;
+    };
+    static const char* const NAMES[] = {"MTDIR\\SAVED.FB", "mtdir/saved.fb", "SAVED.FB", "C:SAVED.FB",
+                                        "C:\\MTDIR\\OTHER.FB"};
+    for (const char* name : NAMES) {
+        file = machine::beginSave(name);
+        check(name, file >= 0 && machine::writeFile(file, "first", 5) == 5 && machine::endSave(file, true) &&
+                        holds(name, "first"));
+        file = machine::beginSave(name);
+        machine::writeFile(file, "half of the sec", 15);
+        check("while it is saved", holds(name, "first"));
+        check("given up", !machine::endSave(file, false) && holds(name, "first"));
+        file = machine::beginSave(name);
+        machine::writeFile(file, "second", 6);
+        check("saved over it", machine::endSave(file, true) && holds(name, "second"));
+    }
+    check("beginSave in no directory", machine::beginSave("NODIR\\SAVED.FB") == -1);
+    check("beginSave over a directory", machine::beginSave("MTDIR") == -1);
     check("openFile of no file", machine::openFile("NONE.DAT") == -1 &&
                                      strcmp(machine::fileTrouble(), "no such file or directory") == 0);
     static machine::FileName names[8];
@@ -513,6 +565,7 @@ int all(uint32_t mostBlocks) {
     testWide();
     testHeap(mostBlocks);
     testFiles();
+    testDescription();
     testClock();
     testTimeOfDay();
     testBreak();
