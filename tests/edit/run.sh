@@ -589,13 +589,15 @@ ok "and frames without keys bear no words" test "$(ink 0 0 0 320 200)" -eq 0
 # The next scene: those beside the program, in order.
 mkdir beside
 cp "$demo" beside/demo
-echo "sphere a size 11" >beside/A.FB
+printf 'title a ball all alone\nsphere a size 11\n' >beside/A.FB
 echo "sphere b size" >beside/B.FB
 echo "sphere c size 13" >beside/c.fb
 printf '1 key n\n2 key n\n3 key n\n4 key n\n' >script
 rm -rf d
 FB_INPUT=script beside/demo /N:6 /S:8 /D:d >out 2>&1
 ok "the first scene" has 1 "sphere 1 0 0 0 11"
+ok "with its title" test "$(ink 1 50 185 100 15)" -gt 50
+ok "the third has none" test "$(ink 3 50 185 100 15)" -eq 0
 ok "a bad one: it stays" alike 1 2
 ok "and says why" test "$(ink 2 0 180 320 20)" -gt 100
 ok "the one behind it" has 3 "sphere 1 0 0 0 13"
