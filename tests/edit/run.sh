@@ -407,6 +407,16 @@ ok "then one alone" test "$(moved 4 5 1) $(moved 4 5 2)" = "0 2"
 ok "out of it again: it stays where it is" alike 5 6
 ok "undone" alike 5 7
 ok "a third one joins" alike 5 8
+play 9 <<'END'
+1 key TAB
+1 key g
+3 key TAB
+3 key g
+5 key G
+END
+ok "what goes its way stays on it" alike 0 2
+ok "and a third one" alike 0 4
+ok "and out of the group" alike 0 6
 
 # --- Colour, weight, motion, light; undo, redo
 rm -f SAVED*.FB
