@@ -1,9 +1,15 @@
 // Tests of scene files in process: what each statement does to place, turn and size at known times; every complaint in
 // full; every limit, kept and broken by one.
 #include <cmath>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <dirent.h>
 #include <string>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "machine.h"
 #include "surface/profile.h"
@@ -272,7 +278,7 @@ void rows()
     };
     check(with("b1", "p") == 0.5 && with("p", "b5") == 0.5, "each with the other");
     check(with("q1", "b3") == 2 && with("q2", "b5") == 2 && with("q1", "q2") == 1, "two rows, and a row with itself");
-    check(with("b2", "b3") == 3 && with("b1", "b3") == -1 && with("p", "q1") == -1, "and nothing else");
+    check(with("b2", "b3") == 3 && with("b1", "b3") == -1 && with("p", "q1") == -1 && with("q1", "q1") == -1, "and nothing else");
 
     taken("sphere s size 9 repeat 128\nblend s s", "a row of 128");
     refused("sphere s size 9 repeat 129", "T.FB:1: '129': expected a whole number from 2 to 128");
@@ -340,9 +346,86 @@ void saved()
         Anim::move(model, at(t * 0.317));
         Anim::move(again, at(t * 0.317));
         for (int i = 0; i < model.items(); ++i)
-            same = same && model.item(i).pose.place == again.item(i).pose.place && model.item(i).pose.scale == again.item(i).pose.scale;
+            same = same && model.item(i).pose.place == again.item(i).pose.place && model.item(i).pose.scale == again.item(i).pose.scale &&
+                   memcmp(&model.item(i).pose.turn, &again.item(i).pose.turn, sizeof(Matrix)) == 0;
     }
     check(same, "moves the same");
+}
+
+std::string contents(const std::string& name)
+{
+    std::string text;
+    FILE* file = fopen(name.c_str(), "rb");
+    if (file == nullptr)
+        return "none";
+    for (int c = getc(file); c != EOF; c = getc(file))
+        text += static_cast<char>(c);
+    fclose(file);
+    return text;
+}
+
+size_t filesIn(const std::string& directory)
+{
+    size_t count = 0;
+    DIR* d = opendir(directory.c_str());
+    while (d != nullptr && readdir(d) != nullptr)
+        ++count;
+    if (d != nullptr)
+        closedir(d);
+    return count - 2;
+}
+
+// A scene that cannot be saved whole leaves the one that was there.
+void safety()
+{
+    char scratch[] = "/tmp/fbsave.XXXXXX";
+    if (mkdtemp(scratch) == nullptr) {
+        check(false, "a folder to save in");
+        return;
+    }
+    const std::string directory = scratch, name = directory + "/a.fb", link = directory + "/link.fb";
+    Model small, large;
+    read(S, small);
+    read("sphere s size 9 repeat 100\n", large);
+    check(writeScene(name.c_str(), small) == nullptr, "a new file");
+    const std::string before = contents(name);
+    check(before.find("sphere s size 20") != std::string::npos && filesIn(directory) == 1, "the scene, and no other file");
+
+    // Room for half of it.
+    const auto old = signal(SIGXFSZ, SIG_IGN);
+    rlimit limit, was;
+    getrlimit(RLIMIT_FSIZE, &was);
+    limit = was;
+    limit.rlim_cur = 1000;
+    setrlimit(RLIMIT_FSIZE, &limit);
+    const char* wrong = writeScene(name.c_str(), large);
+    setrlimit(RLIMIT_FSIZE, &was);
+    signal(SIGXFSZ, old);
+    check(wrong != nullptr && name + ": disk full" == wrong, "a full disk is told");
+    check(contents(name) == before && filesIn(directory) == 1, "and what was there is there still, alone");
+
+    check(writeScene(name.c_str(), large) == nullptr && contents(name).size() > 2000 && filesIn(directory) == 1, "written over it");
+    // By way of a link, and with the rights that it had.
+    chmod(name.c_str(), 0640);
+    check(symlink("a.fb", link.c_str()) == 0 && writeScene(link.c_str(), small) == nullptr, "saved through a link");
+    struct stat facts;
+    check(contents(name) == before && lstat(link.c_str(), &facts) == 0 && S_ISLNK(facts.st_mode), "the link stays one");
+    check(stat(name.c_str(), &facts) == 0 && (facts.st_mode & 0777) == 0640, "the file keeps its rights");
+    check(writeScene("/dev/null", small) == nullptr && stat("/dev/null", &facts) == 0 && S_ISCHR(facts.st_mode),
+          "a device stays a device");
+    wrong = writeScene((directory + "/none/a.fb").c_str(), small);
+    check(wrong != nullptr && directory + "/none/a.fb: no such file or directory" == wrong, "no such folder");
+
+    // Scenes by names without their ending.
+    Model again;
+    SceneEnd end;
+    check(readScene((directory + "/a").c_str(), again, &end) == nullptr && again.count() == 1, "a.fb by the name a");
+    Model none;
+    wrong = readScene((directory + "/b").c_str(), none, &end);
+    check(wrong != nullptr && end == SCENE_BAD && directory + "/b: no such file or directory" == wrong, "there is no b");
+    unlink(link.c_str());
+    unlink(name.c_str());
+    rmdir(scratch);
 }
 
 void links()
@@ -520,6 +603,7 @@ int main()
     colours();
     rows();
     saved();
+    safety();
     links();
     complaints();
     limits();
