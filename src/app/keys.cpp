@@ -17,6 +17,8 @@ constexpr Real WEIGHT_A_KEY(0.25);
 constexpr Real FASTER_A_KEY(0.8);  // of a period
 constexpr Real SLOWER_A_KEY(1.25);
 
+constexpr int STEPS_A_SECOND = 10;
+
 // How far from the pointer an object may lie that a click means.
 constexpr int PICK_REACH = 4;
 
@@ -56,7 +58,10 @@ void Demo::key(int code)
     case '_': resample(least(spacing_ * Real(1.25), SPACING_MOST)); return;
     case '+':
     case '=': resample(most(spacing_ * Real(0.8), SPACING_LEAST)); return;
-    case machine::KEY_F1: help_ = !help_; return;
+    case machine::KEY_F1:
+        help_ = !help_;
+        greets_ = false;
+        return;
     default: break;
     }
     if (small(code) == 'f') {
@@ -106,9 +111,9 @@ void Demo::playKey(int code)
     if (options_.interactive)
         return;
     if (code == '.') {
-        // The step that a frame makes with /N.
+        // A tenth of a second, or the step that a frame makes with /N.
         pace_.setRunning(false);
-        pace_.step(static_cast<Time>(65536 / options_.rate));
+        pace_.step(static_cast<Time>(65536 / (options_.frames > 0 ? options_.rate : STEPS_A_SECOND)));
         say("a step on; space lets it run");
     } else if (small(code) == 'n') {
         nextScene();

@@ -6,7 +6,6 @@
 
 const char* const HELP =
     "Fast Blobs: soft objects, animated in real time.\n"
-    "\n"
     "  DEMO [switches] [scene]     DEMO WALK.FB plays a scene, DEMO the spheres\n"
     "\n"
     "  /I        interactive: the mouse moves the objects\n"
@@ -25,13 +24,11 @@ const char* const HELP =
     "  /X        draw, but do not copy to the card\n"
     "  /?        this page\n"
     "\n"
-    "Keys:  *  scales or pixels   -  coarser   +  finer   F  frames a second\n"
+    "Keys:  F1  all of them   *  scales or pixels   -  +  coarser, finer   ESC  ends\n"
+    "       F  frames a second   P  picture to a file   N  next scene\n"
     "       Space  stop and go   .  a step   Home  from the start   <  >  speed\n"
-    "       N  next scene   P  picture to a file\n"
-    "       F1  all keys; with /I there are more, to change the model   ESC  ends\n"
     "Mouse (with /I):  left button selects the next object; moving it moves the\n"
-    "object in X and Y, in X and Z while the right button is held. Without a mouse:\n"
-    "Tab, arrows, PgUp and PgDn.\n";
+    "object in X and Y, with the right button X and Z. Or Tab, arrows, PgUp, PgDn.\n";
 
 namespace {
 
