@@ -1,5 +1,6 @@
 // The small parts behind keys and screen: the animation's pace, questions, lines of text.
 #include "app/ask.h"
+#include "app/options.h"
 #include "app/overlay.h"
 #include "app/pace.h"
 
@@ -146,4 +147,26 @@ TEST(ink_is_the_same_in_every_scene)
                     CHECK(model.actor(i).object->ramp()[step] != Palette::INK);
         }
     }
+}
+
+TEST(switches_of_the_benchmark_and_of_films)
+{
+    const auto parse = [](const char* first, const char* second, Options* options) {
+        char name[] = "demo", a[40], b[40];
+        std::strcpy(a, first);
+        std::strcpy(b, second);
+        char* arguments[] = {name, a, b};
+        *options = Options();
+        return parseOptions(3, arguments, options);
+    };
+    Options options;
+    CHECK(parse("/B", "/G", &options) == nullptr && options.benchmark && options.seconds == BENCHMARK_SECONDS);
+    CHECK(parse("/B", "/T:7", &options) == nullptr && options.seconds == 7);
+    CHECK(parse("/b", "/N:7", &options) == nullptr && options.seconds == 0 && options.frames == 7);
+    CHECK(parse("/G", "/V", &options) == nullptr && !options.benchmark && options.seconds == 0);
+    CHECK(parse("/B:1", "/G", &options) != nullptr);
+    CHECK(parse("/F", "/G", &options) != nullptr);
+    CHECK(parse("/F:", "/G", &options) != nullptr);
+    const char* film = "/F:SHOW.FLI";
+    CHECK(parse(film, "/G", &options) == nullptr && options.filmFile != nullptr);
 }
