@@ -158,6 +158,9 @@ ok "a file that is no file of records" ends 2 /N:1 "/O:$dir/ONE.FB"
 ok "is named" says "$dir/err" "$dir/ONE.FB: this is no file of records"
 ok "and stays as it was" cmp "$dir/copy" "$dir/ONE.FB"
 ok "nothing was played" test ! -s "$dir/out"
+sed '1s/iterations/Iterations/' "$dir/runs.csv" >"$dir/other.csv"
+ok "a file of other records" ends 2 /N:1 "/O:$dir/other.csv"
+ok "is no file of ours" says "$dir/err" "other.csv: this is no file of records"
 ok "an empty file takes a record" ends 0 /N:1 /S:8 "/O:$dir/file"
 ok "with the names before it" test "$(wc -l <"$dir/file")" -eq 2
 if [ -c /dev/full ]; then
