@@ -328,16 +328,17 @@ void testFiles() {
     check("openFile of no file", machine::openFile("NONE.DAT") == -1 &&
                                      strcmp(machine::fileTrouble(), "no such file or directory") == 0);
     static machine::FileName names[8];
-    check("no names in a directory that is not there", machine::listFiles("NODIR", ".DAT", names, 8) == 0);
-    check("names, sorted", machine::listFiles("MTDIR", ".dat", names, 8) == 2 && strcmp(names[0].text, "BIG.DAT") == 0 &&
-                               strcmp(names[1].text, "NEW.DAT") == 0);
-    check("no more than there is room for", machine::listFiles("C:\\MTDIR\\", ".DAT", names, 1) == 1);
+    check("no names in a directory that is not there", machine::listFiles("NODIR", ".FB", names, 8) == 0);
+    check("names, sorted", machine::listFiles("MTDIR", ".fb", names, 8) == 2 && strcmp(names[0].text, "OTHER.FB") == 0 &&
+                               strcmp(names[1].text, "SAVED.FB") == 0);
+    check("no more than there is room for", machine::listFiles("C:\\MTDIR\\", ".FB", names, 1) == 1);
     file = machine::createFile("MTDIR\\TWICE.X");
     check("rewindFile", machine::writeFile(file, "abc", 3) == 3 && machine::rewindFile(file) &&
                             machine::writeFile(file, "x", 1) == 1 && machine::closeFile(file));
     file = machine::openFile("MTDIR\\TWICE.X");
     check("the first byte is another, the rest is there", machine::readFile(file, back, 9) == 3 && memcmp(back, "xbc", 3) == 0);
     machine::closeFile(file);
+    machine::removeFile("MTDIR\\TWICE.X");
     // (DOS says "access denied", DOSBox that there is no such file.)
     check("createFile over a directory", machine::createFile("MTDIR") == -1);
     char longName[200];
