@@ -9,7 +9,7 @@ build/mkscene: tools/mkscene.cpp tools/scenes.mk
 # (Not src/math/alloc.cpp: the mutator uses the C++ library, which brings its own operator delete.)
 FUZZ_FLAGS = -std=c++17 -O1 -g -fsanitize=address,undefined -fno-sanitize=shift-base -fno-sanitize-recover=all -Wall -Wextra -Iinclude
 FUZZ_PARTS = $(patsubst %.cpp,build/fuzzo/%.o,\
-	$(filter-out $(MAIN) src/app/demo.cpp src/math/alloc.cpp,$(PROGRAM)) src/host/host.cpp)
+	$(filter-out $(MAIN) src/math/alloc.cpp,$(PROGRAM)) src/host/host.cpp)
 
 build/fuzzo/%.o: %.cpp
 	@mkdir -p $(@D)
@@ -26,7 +26,7 @@ build/fuzzline: build/fuzzo/tests/fuzz/lines.o build/fuzzo/tests/fuzz/scenes.o b
 -include $(wildcard build/fuzzo/*/*.d build/fuzzo/*/*/*.d)
 
 SCNTST_PARTS = $(patsubst %.cpp,build/host/%.o,\
-	$(filter-out $(MAIN) src/app/demo.cpp,$(PROGRAM)) src/host/host.cpp)
+	$(filter-out $(MAIN),$(PROGRAM)) src/host/host.cpp)
 
 build/scntst: tests/scenes/scntst.cpp $(SCNTST_PARTS) tools/scenes.mk
 	$(HOSTCXX) -O1 -std=c++17 -Wall -Wextra -Iinclude -DFB_REAL=FB_$(REAL) -o $@ $< $(SCNTST_PARTS)

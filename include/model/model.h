@@ -62,6 +62,13 @@ public:
     // there stays.
     bool remake(Actor* item);
 
+    // Takes an item's keys away.
+    void removeKeys(Actor* item);
+
+    // Gives an item another parent, by number (0: none). It stays where it is now; it turns and grows with the new parent
+    // from then on. False: the parent is carried by the item itself.
+    bool setParent(Actor* item, int parent);
+
     // Adds a key to an item, whose times must rise. False: no room or no memory.
     bool addKey(Actor* item, const Key& key);
 
@@ -115,12 +122,16 @@ public:
     // nothing was changed.
     bool restore(const Record* record);
 
+    // Changes the light under which seeds were laid out already.
+    void setLight(const Vector& to);
+
     Camera camera;
     Vector light{Real(0.5), Real(0.7), Real(-0.5)};  // from the model to the light, any length but 0
     char title[TITLE_ROOM] = "";                     // what the scene calls itself; may be empty
 
 private:
     void clear();
+    void recalcAll();
     bool layOut(SoftObject* object) const;
 
     Actor* actors_[OBJECTS_MOST];

@@ -6,7 +6,6 @@
 
 const char* const HELP =
     "Fast Blobs: soft objects, animated in real time.\n"
-    "\n"
     "  DEMO [switches] [scene]     DEMO WALK.FB plays a scene, DEMO the spheres\n"
     "\n"
     "  /I        interactive: the mouse moves the objects\n"
@@ -18,20 +17,22 @@ const char* const HELP =
     "  /T:n      stop after n seconds, 1 to 86400\n"
     "  /D:dir    write every frame into dir\n"
     "  /M:file   model and animation from a file\n"
+    "  /A:file   animation: what is played, as one FLI file\n"
+    "  /B        benchmark: one minute, and one line about it\n"
     "  /O:file   append the statistics to file, as one CSV record\n"
     "  /V        wait for the vertical retrace\n"
     "  /X        draw, but do not copy to the card\n"
     "  /?        this page\n"
     "\n"
-    "Keys:  *  scales or pixels   -  coarser   +  finer   F  frames a second\n"
-    "       F1  all keys; with /I there are more, to change the model   ESC  ends\n"
+    "Keys:  F1  all of them   *  scales or pixels   -  +  coarser, finer   ESC  ends\n"
+    "       F  frames a second   P  picture to a file   N  next scene\n"
+    "       Space  stop and go   .  a step   Home  from the start   <  >  speed\n"
     "Mouse (with /I):  left button selects the next object; moving it moves the\n"
-    "object in X and Y, in X and Z while the right button is held. Without a mouse:\n"
-    "Tab, arrows, PgUp and PgDn.\n";
+    "object in X and Y, with the right button X and Z. Or Tab, arrows, PgUp, PgDn.\n";
 
 namespace {
 
-constexpr const char* KNOWN = "unknown switch; known are /I /G /P /S:n /N:n /R:n /T:n /D:dir /M:file /O:file /V /X /?";
+constexpr const char* KNOWN = "unknown switch; known are /I /G /P /S:n /N:n /R:n /T:n /A:file /B /D:dir /M:file /O:file /V /X /?";
 
 char problem[240];
 
@@ -89,10 +90,12 @@ const char* parseSwitches(const char* argument, Options* options)
         case 'P': flag = &options->printed; break;
         case 'V': flag = &options->retrace; break;
         case 'X': flag = &options->noPresent; break;
+        case 'B': flag = &options->benchmark; break;
         case '?': flag = &options->help; break;
         case 'D': name = &options->dumpDirectory; break;
         case 'M': name = &options->modelFile; break;
         case 'O': name = &options->recordFile; break;
+        case 'A': name = &options->filmFile; break;
         case 'S': expected = "a seed spacing from 0.25 to 8 is expected, as in /S:2"; break;
         case 'N': expected = "a number of frames from 1 to 9999999 is expected, as in /N:600"; break;
         case 'R': expected = "frames a second from 1 to 1000 are expected, as in /R:10"; break;
@@ -164,5 +167,7 @@ const char* parseOptions(int count, char** arguments, Options* options)
         return complain(scene, "there is a scene already, by /M; one is expected");
     if (scene != nullptr)
         options->modelFile = scene;
+    if (options->benchmark && options->seconds == 0 && options->frames == 0)
+        options->seconds = BENCHMARK_SECONDS;
     return nullptr;
 }

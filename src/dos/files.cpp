@@ -220,6 +220,57 @@ bool closeFile(int file) {
     return call(&r) >= 0;
 }
 
+bool rewindFile(int file) {
+    dpmi::RealRegs r = pc::regs(0x4200);
+    r.ebx = uint32_t(file);
+    return call(&r) >= 0;
+}
+
+int listFiles(const char* directory, const char* ending, FileName* to, int room) {
+    // DOS writes each file's facts into its disk transfer area, which lies in the buffer for the time of this call; the
+    // pattern stands behind it.
+    constexpr uint32_t PATTERN = 64;
+    constexpr uint32_t NAME = 30;  // in the facts: 13 bytes, the final 0 included
+    const pc::Transfer buffer = pc::transfer();
+    const uint32_t base = uint32_t(buffer.segment) << 4;
+    char joined[LONGEST_NAME + 1];
+    char pattern[LONGEST_NAME + 1];
+    const int length = snprintf(joined, sizeof joined, "%s%s*%s", directory, directory[0] == '\0' ? "" : "/", ending);
+    if (length >= int(sizeof joined) || !tidy(joined, pattern)) {
+        return 0;
+    }
+    dpmi::RealRegs r = pc::regs(0x2f00);
+    dpmi::realInterrupt(0x21, &r);
+    const uint16_t oldSegment = r.es;
+    const uint32_t oldOffset = r.ebx & 0xffff;
+    r = pc::regs(0x1a00);
+    r.ds = buffer.segment;
+    dpmi::realInterrupt(0x21, &r);
+    pc::copyToLow(base + PATTERN, pattern, uint32_t(strlen(pattern)) + 1);
+
+    int count = 0;
+    for (uint32_t function = 0x4e00; count < room; function = 0x4f00) {
+        r = pc::regs(function);
+        r.ds = buffer.segment;
+        r.edx = PATTERN;
+        if (call(&r) < 0) {
+            break;
+        }
+        FileName found = {};
+        pc::copyFromLow(found.text, base + NAME, 13);
+        int at = count++;
+        for (; at > 0 && strcmp(to[at - 1].text, found.text) > 0; --at) {
+            to[at] = to[at - 1];
+        }
+        to[at] = found;
+    }
+    r = pc::regs(0x1a00);
+    r.ds = oldSegment;
+    r.edx = oldOffset;
+    dpmi::realInterrupt(0x21, &r);
+    return count;
+}
+
 int32_t fileBytes(int file) {
     dpmi::RealRegs r = pc::regs(0x4202);
     r.ebx = uint32_t(file);

@@ -291,9 +291,9 @@ at() { # at FRAME OBJECT
 }
 ok "after the last comes the first" test "$(at 01 1)" != "$(at 11 1)"
 ok "and no other" test "$(at 01 2)" = "$(at 11 2)"
-# Once round all four, for the name of the selected one is on the screen.
-moves m '20 mouse 0 0 L\n21 mouse 0 0 -\n22 mouse 0 0 L\n23 mouse 0 0 -\n24 mouse 0 0 L\n25 mouse 0 0 -\n26 mouse 0 0 L\n' /N:40
-ok "nothing moves by itself" cmp "$dir/m/F0000019.PPM" "$dir/m/F0000012.PPM"
+# Once round all four, and once more, for the names of the selected one and the one before are on the screen.
+moves m '0 mouse 0 0 L\n1 mouse 0 0 -\n2 mouse 0 0 L\n3 mouse 0 0 -\n4 mouse 0 0 L\n5 mouse 0 0 -\n6 mouse 0 0 L\n7 mouse 0 0 -\n20 mouse 0 0 L\n21 mouse 0 0 -\n22 mouse 0 0 L\n23 mouse 0 0 -\n24 mouse 0 0 L\n25 mouse 0 0 -\n26 mouse 0 0 L\n' /N:40
+ok "nothing moves by itself" cmp "$dir/m/F0000019.PPM" "$dir/m/F0000016.PPM"
 ok "the selected one pulses" sh -c "! cmp -s '$dir/m/F0000029.PPM' '$dir/m/F0000039.PPM'"
 ok "and is as before again" cmp "$dir/m/F0000019.PPM" "$dir/m/F0000039.PPM"
 for far in '30000 0 -' '-30000 0 -' '0 30000 -' '0 -30000 -' '0 30000 R' '0 -30000 R' '30000 30000 R'; do

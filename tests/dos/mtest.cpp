@@ -327,6 +327,18 @@ void testFiles() {
     check("beginSave over a directory", machine::beginSave("MTDIR") == -1);
     check("openFile of no file", machine::openFile("NONE.DAT") == -1 &&
                                      strcmp(machine::fileTrouble(), "no such file or directory") == 0);
+    static machine::FileName names[8];
+    check("no names in a directory that is not there", machine::listFiles("NODIR", ".FB", names, 8) == 0);
+    check("names, sorted", machine::listFiles("MTDIR", ".fb", names, 8) == 2 && strcmp(names[0].text, "OTHER.FB") == 0 &&
+                               strcmp(names[1].text, "SAVED.FB") == 0);
+    check("no more than there is room for", machine::listFiles("C:\\MTDIR\\", ".FB", names, 1) == 1);
+    file = machine::createFile("MTDIR\\TWICE.X");
+    check("rewindFile", machine::writeFile(file, "abc", 3) == 3 && machine::rewindFile(file) &&
+                            machine::writeFile(file, "x", 1) == 1 && machine::closeFile(file));
+    file = machine::openFile("MTDIR\\TWICE.X");
+    check("the first byte is another, the rest is there", machine::readFile(file, back, 9) == 3 && memcmp(back, "xbc", 3) == 0);
+    machine::closeFile(file);
+    machine::removeFile("MTDIR\\TWICE.X");
     // (DOS says "access denied", DOSBox that there is no such file.)
     check("createFile over a directory", machine::createFile("MTDIR") == -1);
     char longName[200];
@@ -471,6 +483,15 @@ void testKeys() {
     check("ESC, after an empty entry", machine::key() == machine::KEY_ESC);
     check("*", machine::key() == '*');
     check("no key", machine::key() == 0);
+    const uint8_t flags = pc::peek8(0x417);
+    pc::poke8(0x417, uint8_t(flags | 0x40));
+    stuffKey(0x2d58);  // X alone, and x with Shift, as Caps Lock has them
+    stuffKey(0x2d78);
+    stuffKey(0x0231);
+    check("Caps Lock: x", machine::key() == 'x');
+    check("Caps Lock: X", machine::key() == 'X');
+    check("Caps Lock: 1", machine::key() == '1');
+    pc::poke8(0x417, flags);
     const bool mouse = machine::openMouse();
     const machine::Mouse m = machine::mouse();
     print("# mouse: %s, %d %d\n", mouse ? "yes" : "no", m.dx, m.dy);
@@ -624,7 +645,6 @@ int play(uint32_t seconds) {
     int dy = 0;
     int lefts = 0;
     int rights = 0;
-    bool left = false;
     bool right = false;
     bool done = false;
     machine::present(frame, rows);
@@ -638,9 +658,8 @@ int play(uint32_t seconds) {
         const machine::Mouse m = machine::mouse();
         dx += m.dx;
         dy += m.dy;
-        lefts += m.left && !left ? 1 : 0;
+        lefts += m.presses;
         rights += m.right && !right ? 1 : 0;
-        left = m.left;
         right = m.right;
         machine::waitRetrace();
     }

@@ -26,7 +26,7 @@ namespace {
 struct Line {
     std::vector<std::string> words;
     Options wanted;
-    std::string dump, model, record;
+    std::string dump, model, record, film;
     bool good = true;
 };
 
@@ -74,9 +74,9 @@ private:
     bool one(std::string& word)
     {
         word += word.empty() && random_.once(3) ? '-' : '/';
-        const char* const flags = "IGPVX?";
+        const char* const flags = "IGPVXB?";
         const char* const numbers = "SNRT";
-        const char* const names = "DMO";
+        const char* const names = "DMOA";
         const size_t kind = random_.below(9);
         if (slip()) {
             // No switch that there is; more may come to be than there are today.
@@ -85,11 +85,12 @@ private:
             return true;
         }
         if (kind < 4) {
-            const size_t which = random_.below(6);
+            const size_t which = random_.below(7);
             put(word, flags[which]);
             Options& o = line_.wanted;
             (which == 0 ? o.interactive : which == 1 ? o.grey : which == 2 ? o.printed : which == 3 ? o.retrace
-                                                                       : which == 4 ? o.noPresent : o.help) = true;
+                                                                       : which == 4 ? o.noPresent
+                                                                       : which == 5 ? o.benchmark : o.help) = true;
             if (slip()) {
                 word += random_.once(2) ? ":1" : "x";
                 line_.good = false;
@@ -100,16 +101,19 @@ private:
             number(word, numbers[kind - 4]);
             return true;
         }
-        const char which = names[random_.below(scene_ ? 1 : 3)];
+        // One scene is enough.
+        char which = names[random_.below(4)];
+        which = scene_ && which == 'M' ? 'D' : which;
         put(word, which);
         word += random_.once(3) ? '=' : ':';
         if (slip()) {
             line_.good = false;
             return false;
         }
-        const std::string value = name(true);
+        // A film may replace a file; none of the others here.
+        const std::string value = (which == 'A' ? "f" : "") + name(true);
         word += value;
-        (which == 'D' ? line_.dump : which == 'M' ? line_.model : line_.record) = value;
+        (which == 'D' ? line_.dump : which == 'M' ? line_.model : which == 'A' ? line_.film : line_.record) = value;
         scene_ = scene_ || which == 'M';
         return false;
     }
@@ -252,12 +256,14 @@ void parse(bool spoiled, unsigned long* good, unsigned long* refused)
             options.rate > RATE_MOST)
             failed("out of range", said);
         const Options& w = line.wanted;
+        const int32_t seconds = w.benchmark && w.seconds == 0 && w.frames == 0 ? BENCHMARK_SECONDS : w.seconds;
         if (line.good &&
             (options.interactive != w.interactive || options.grey != w.grey || options.printed != w.printed ||
              options.help != w.help || options.retrace != w.retrace || options.noPresent != w.noPresent ||
-             options.spacing != w.spacing || options.frames != w.frames || options.seconds != w.seconds ||
+             options.spacing != w.spacing || options.frames != w.frames || options.seconds != seconds || options.benchmark != w.benchmark ||
              options.rate != w.rate || options.rateGiven != w.rateGiven || !sameName(options.dumpDirectory, line.dump) ||
-             !sameName(options.modelFile, line.model) || !sameName(options.recordFile, line.record)))
+             !sameName(options.modelFile, line.model) || !sameName(options.recordFile, line.record) ||
+             !sameName(options.filmFile, line.film)))
             failed("read as something else", said);
         return;
     }
@@ -314,7 +320,8 @@ void run(const char* program, unsigned long* status)
     ++status[code];
     if (code == 0 && !err.empty() && err != "/R has no effect without /N.\n")
         failed("a good end, with complaints", err.c_str());
-    if (code == 0 && out.find("frames: 1\n") == std::string::npos && !line.wanted.help && line.good)
+    const char* figures = line.wanted.benchmark ? "(1 frames in " : "frames: 1\n";
+    if (code == 0 && out.find(figures) == std::string::npos && !line.wanted.help && line.good)
         failed("no figures", out.c_str());
     if (code != 0 && (err.empty() || err.find('\n') != err.size() - 1 || !plain(err.data(), err.size() - 1)))
         failed("not one line of plain text on standard error", err.c_str());
