@@ -1,10 +1,11 @@
 #!/bin/sh
-# Makes the pictures of the README from the program's own frames, all of them in tests/pics:
+# Makes the pictures of the pages from the program's own frames, all of them in tests/pics:
 #
 #   demo.gif        six seconds of the four spheres, in colour, ten frames a second
 #   worst1.png, worst2.png    the two frames of the whole minute that are farthest from the true surface: ours, the true
 #                   one, and the difference (tools/truth.cpp tells its colours)
 #   NAME.png        a moment of each shipped scene
+#   snail.png       the scene that tools/scenes/README.md makes step by step
 #
 #   sh tools/picture.sh               all of them
 #   sh tools/picture.sh scenes DIR    those of the scenes alone, into DIR, for the page that plays
@@ -49,6 +50,11 @@ for frame in $(sed -n 's/^worst frame: \([0-9]*\) .*/\1/p' "$dir/said"); do
 	number=$((number + 1))
 	build/ppm2png --43 "$dir/worst/W$(printf %07d "$frame").PPM" $to/worst$number.png
 done
+
+# What stands in that page is what is drawn.
+awk '/^```scene snail$/ { inside = 1; next } /^```$/ { inside = 0 } inside' tools/scenes/README.md >"$dir/SNAIL.FB"
+build/demo "/M:$dir/SNAIL.FB" /N:8 /R:1 "/D:$dir/snail" >"$dir/said"
+build/ppm2png --43 "$dir/snail/F0000007.PPM" $to/snail.png
 
 scenes $to
 ls -l $to

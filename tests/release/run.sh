@@ -65,6 +65,14 @@ build/demo '/?' | grep -o '^  /[^ ]*' | while read -r switch; do
 done >"$dir/lacking"
 ok 'README.TXT tells of every switch' test ! -s "$dir/lacking"
 
+# ---- The guide to scenes: each step of it is a scene
+mkdir "$dir/steps"
+awk -v to="$dir/steps/" '/^```scene/ { ++n; inside = 1; next } /^```$/ { inside = 0 } inside { print > (to n ".FB") }' tools/scenes/README.md
+ok 'the guide has its steps' test "$(ls "$dir/steps" | wc -l)" -ge 4
+for step in "$dir"/steps/*.FB; do
+	ok "step $(basename "$step" .FB) plays" sh -c "build/demo '/M:$step' /N:3 | grep -q '^frames: 3'"
+done
+
 # ---- It plays
 
 # The scene that README.TXT prints, to be typed off.
