@@ -221,6 +221,10 @@ async function tryPage(browser, home) {
 	ok("a link names scene, switches and machine", await second.waitForFunction(() => document.getElementById("grey").checked &&
 		document.getElementById("machine-p75").checked && /walking figure/.test(document.getElementById("text").value),
 	{ timeout: SLOW }).then(() => true, () => false));
+	await second.goto("about:blank");
+	await second.goto(home + "#plain=" + encodeURIComponent("sphere two size 44\n"));
+	ok("a link may hold the text as it is", await second.waitForFunction(() => document.getElementById("text").value === "sphere two size 44\n",
+		{ timeout: SLOW }).then(() => true, () => false));
 	await second.close();
 
 	// ---- By hand

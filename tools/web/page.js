@@ -62,6 +62,8 @@ async function updateLink() {
 	const fields = new URLSearchParams();
 	if (state.text === null) {
 		fields.set("scene", state.scene);
+	} else if (typeof CompressionStream === "undefined") {
+		fields.set("plain", state.text);
 	} else {
 		const bytes = await pack(state.text, new CompressionStream("deflate-raw"));
 		let binary = "";
@@ -86,7 +88,7 @@ async function readLink() {
 	$("machine-" + state.machine.id).checked = true;
 	const packed = fields.get("text");
 	const names = sceneButtons().map((button) => button.dataset.scene);
-	state.text = null;
+	state.text = fields.get("plain");
 	if (names.includes(fields.get("scene")))
 		state.scene = fields.get("scene");
 	if (packed !== null) {
