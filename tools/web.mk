@@ -4,7 +4,7 @@
 #
 # To look at it: node tests/web/serve.js build/web 8000, then http://localhost:8000/
 web: build/DEMO.EXE build/demo build/ppm2png build/web/RUN.COM release
-	@sh tools/web.sh
+	+@sh tools/web.sh
 
 build/web/RUN.COM: tools/web/run.S
 	@mkdir -p build/web build/stub
