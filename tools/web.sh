@@ -37,11 +37,13 @@ cp build/DEMO.EXE build/release/FBLOBS.ZIP tools/web/page.css tools/web/page.js 
 cp tools/scenes/*.FB $to/scenes/
 sh tools/picture.sh scenes $to/pics
 
-# A button for each scene, the report's first. Its words are those at the head of the scene, up to the first stop.
+# A button for each scene, the report's first. Its words are the scene's title, or else those at its head up to the first
+# stop.
 list=$to/scenes.tmp
 for file in tools/scenes/FOUR.FB $(ls tools/scenes/*.FB | grep -v /FOUR.FB); do
 	name=$(basename "$file" .FB)
-	words=$(sed -n '1s/^# *\([^.:,]*\).*/\1/p' "$file")
+	words=$(sed -n 's/^title  *//p' "$file" | head -n 1)
+	[ -n "$words" ] || words=$(sed -n '1s/^# *\([^.:,]*\).*/\1/p' "$file")
 	picture=$(echo "$name" | tr '[:upper:]' '[:lower:]').png
 	echo "<button type=\"button\" data-scene=\"$name\"><img src=\"pics/$picture\" alt=\"\" width=\"320\" height=\"240\">$words</button>"
 done >$list
