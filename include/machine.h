@@ -30,6 +30,7 @@ constexpr int KEY_F1 = 0x13b;
 constexpr int KEY_F2 = 0x13c;
 constexpr int KEY_F3 = 0x13d;
 constexpr int KEY_F4 = 0x13e;
+constexpr int KEY_HOME = 0x147;
 constexpr int KEY_UP = 0x148;
 constexpr int KEY_DOWN = 0x150;
 constexpr int KEY_LEFT = 0x14b;
@@ -38,6 +39,9 @@ constexpr int KEY_PGUP = 0x149;
 constexpr int KEY_PGDN = 0x151;
 constexpr int KEY_INS = 0x152;
 constexpr int KEY_DEL = 0x153;
+constexpr int KEY_BACKSPACE = 8;
+constexpr int KEY_TAB = 9;
+constexpr int KEY_ENTER = 13;
 constexpr int KEY_ESC = 27;
 
 // --- Start and end
@@ -85,18 +89,26 @@ uint64_t clock();
 // ignores it.
 void standStill(bool still);
 
+// The date and the time of day, "2026-11-21 22:14:05", and the machine in a few words without a comma ("DOS 5.0 80486").
+// Both take at least 64 bytes.
+void date(char* to, int size);
+void describe(char* to, int size);
+
 // --- Keyboard and mouse
 
-// The next key pressed, or 0: a character, KEY_ESC, or one of the KEY_ codes above. Does not wait.
+// The next key pressed, or 0: a character, or one of the KEY_ codes above. Does not wait. Letters come as they would
+// without Caps Lock: capital with Shift and no other way.
 int key();
 
 // Looks for a mouse. False: there is none, and mouse() says nothing moved.
 bool openMouse();
 
-// What the mouse did since the last call: mickeys (right and down are positive), and the buttons now held.
+// What the mouse did since the last call: mickeys (right and down are positive), how often the left button went down, and
+// the buttons now held.
 struct Mouse {
     int dx;
     int dy;
+    int presses;
     bool left;
     bool right;
 };
@@ -113,6 +125,25 @@ int32_t readFile(int file, void* to, uint32_t bytes);
 int32_t writeFile(int file, const void* from, uint32_t bytes);
 // False when what was written could not be kept.
 bool closeFile(int file);
+// Goes back to the first byte of a file that is being written.
+bool rewindFile(int file);
+// The names of files in a directory ("" is the current one) that end in `ending` (".FB", either case), sorted, as many as
+// there is room for; longer names than fit are left out. Returns how many; 0 too when there is no such directory.
+struct FileName {
+    char text[32];
+};
+int listFiles(const char* directory, const char* ending, FileName* to, int room);
+// How many bytes an open file has; -1 on failure.
+int32_t fileBytes(int file);
+// Cuts a file that is open for writing off behind its first `bytes` bytes.
+bool cutFile(int file, uint32_t bytes);
+// Removes a plain file; false for anything else.
+bool removeFile(const char* name);
+// Saving that never loses what was there: what is written to the handle goes to a file of another name beside `name`,
+// which endSave() closes and puts in the place of `name`; with `good` false, or when that fails, it removes it, and what
+// was there before stays. One file at a time.
+int beginSave(const char* name);
+bool endSave(int file, bool good);
 // Makes a directory; true too when it is there already.
 bool makeDirectory(const char* name);
 const char* fileTrouble();

@@ -1,22 +1,44 @@
 #!/bin/sh
-# Makes the pictures of the README from the program's own frames, all of them in tests/pics:
+# Makes the pictures of the pages from the program's own frames, all of them in tests/pics:
 #
 #   demo.gif        six seconds of the four spheres, in colour, ten frames a second
 #   worst1.png, worst2.png    the two frames of the whole minute that are farthest from the true surface: ours, the true
 #                   one, and the difference (tools/truth.cpp tells its colours)
 #   NAME.png        a moment of each shipped scene
+#   snail.png       the scene that tools/scenes/README.md makes step by step
 #
-#   sh tools/picture.sh
+#   sh tools/picture.sh               all of them
+#   sh tools/picture.sh scenes DIR    those of the scenes alone, into DIR, for the page that plays
 #
 # Pictures are stretched to the shape that they have on a 4:3 screen.
 set -eu
 cd "$(dirname "$0")/.." || exit 1
-make -s build/demo build/truth build/mkgif build/ppm2png
 to=tests/pics
 dir=$(mktemp -d "${TMPDIR:-/tmp}/fbpics.XXXXXX")
 trap 'rm -rf "$dir"' EXIT
 trap 'exit 1' HUP INT TERM
 
+make -s build/demo build/ppm2png
+# Seconds at which a scene is worth a look; where none are told, 2.
+scenes() { # scenes DIR
+	for file in tools/scenes/*.FB; do
+		name=$(basename "$file" .FB)
+		case $name in
+		GULP | APART) at=3 ;;
+		FALL) at=4 ;;
+		FLYPAST) at=5 ;;
+		*) at=2 ;;
+		esac
+		build/demo "/M:$file" /N:$((at + 1)) /R:1 "/D:$dir/$name" >"$dir/said"
+		build/ppm2png --43 "$dir/$name/F$(printf %07d "$at").PPM" "$1/$(echo "$name" | tr '[:upper:]' '[:lower:]').png"
+	done
+}
+if [ "${1:-}" = scenes ]; then
+	scenes "$2"
+	exit 0
+fi
+
+make -s build/truth build/mkgif
 build/demo /N:60 "/D:$dir/demo" >"$dir/said"
 build/mkgif --43 --delay 10 $to/demo.gif "$dir/demo"
 
@@ -29,16 +51,10 @@ for frame in $(sed -n 's/^worst frame: \([0-9]*\) .*/\1/p' "$dir/said"); do
 	build/ppm2png --43 "$dir/worst/W$(printf %07d "$frame").PPM" $to/worst$number.png
 done
 
-# Seconds at which a scene is worth a look.
-while read -r name at; do
-	build/demo "/M:tools/scenes/$name.FB" /N:$((at + 1)) /R:1 "/D:$dir/$name" >"$dir/said"
-	build/ppm2png --43 "$dir/$name/F$(printf %07d "$at").PPM" "$to/$(echo "$name" | tr '[:upper:]' '[:lower:]').png"
-done <<-END
-WALK 2
-GULP 3
-FALL 4
-APART 3
-FLYPAST 5
-WORM 2
-END
+# What stands in that page is what is drawn.
+awk '/^```scene snail$/ { inside = 1; next } /^```$/ { inside = 0 } inside' tools/scenes/README.md >"$dir/SNAIL.FB"
+build/demo "/M:$dir/SNAIL.FB" /N:8 /R:1 "/D:$dir/snail" >"$dir/said"
+build/ppm2png --43 "$dir/snail/F0000007.PPM" $to/snail.png
+
+scenes $to
 ls -l $to

@@ -1,17 +1,19 @@
 #!/bin/sh
-# Plays DEMO.EXE in DOSBox, in a window: `make run`. Where there is no display it plays all the same, FRAMES frames (40)
-# without a window, and leaves them as pictures.
+# Plays DEMO.EXE in DOSBox, in a window: `make run`. Where there is no display that can be opened it plays all the same,
+# FRAMES frames (40) without a window, and leaves them as pictures.
 #
 #   play.sh [SCENE [SWITCHES...]]
 #
-# SCENE is the name of a shipped scene (walk), or a scene file; empty: the four spheres. What the program saves
-# (SAVED.FB) and dumps is left in build/play. CYCLES, from the environment, is the speed of the processor as
-# tools/dosbox.sh has it (max).
+# SCENE is the name of a shipped scene (walk), or a scene file; empty: the four spheres. What the program saves and dumps
+# is left in build/play. CYCLES, from the environment, is the speed of the processor as tools/dosbox.sh has it (max).
+# What the program says is said here; exit status: the program's own, 0, 1 or 2.
 cd "$(dirname "$0")/.." || exit 1
 scene=${1:-}
 [ $# -eq 0 ] || shift
-mkdir -p build/play || exit 1
-cp build/DEMO.EXE build/play/DEMO.EXE || exit 1
+play=build/play
+mkdir -p $play || exit 1
+cp build/DEMO.EXE build/PLAY.COM $play || exit 1
+what="the four spheres"
 if [ -n "$scene" ]; then
 	file=$scene
 	[ -f "$file" ] || file=tools/scenes/$(basename "$scene" | sed "s/\.[Ff][Bb]\$//" | tr '[:lower:]' '[:upper:]').FB
@@ -19,31 +21,62 @@ if [ -n "$scene" ]; then
 		echo "play.sh: no scene '$scene'; there are $(cd tools/scenes && ls ./*.FB | sed 's/^..//; s/\.FB$//' | tr '[:upper:]\n' '[:lower:] ')" >&2
 		exit 2
 	fi
-	cp "$file" build/play/SCENE.FB || exit 1
-	set -- /M:SCENE.FB "$@"
+	# Under its own name, which mistakes in it are told with, where DOS has such names.
+	name=$(basename "$file" | tr '[:lower:]' '[:upper:]')
+	expr "$name" : '[A-Z0-9_-]\{1,8\}\.FB$' >/dev/null || name=SCENE.FB
+	cp "$file" "$play/$name" || exit 1
+	set -- "/M:$name" "$@"
+	what=$file
 fi
+
+# dos OPTION... -- COMMANDLINE: plays. True when DOSBox came as far as DOS.
+dos() {
+	rm -f $play/BEGUN.TXT $play/STATS.TXT $play/ERRORS.TXT $play/E1.TXT $play/E2.TXT
+	options=
+	while [ "$1" != -- ]; do
+		options="$options $1"
+		shift
+	done
+	shift
+	# shellcheck disable=SC2086  # options are words
+	sh tools/dosbox.sh $options -c "${CYCLES:-max}" -d $play -- 'echo x > BEGUN.TXT' "PLAY $* > STATS.TXT" \
+		'if errorlevel 1 echo x > E1.TXT' 'if errorlevel 2 echo x > E2.TXT' >$play/dosbox.log 2>&1 || cat $play/dosbox.log >&2
+	[ -s $play/BEGUN.TXT ]
+}
+
+# What the program said, and its status.
+report() {
+	tr -d '\r' <$play/STATS.TXT
+	[ ! -f $play/ERRORS.TXT ] || tr -d '\r' <$play/ERRORS.TXT >&2
+	[ ! -s $play/E2.TXT ] || exit 2
+	[ ! -s $play/E1.TXT ] || exit 1
+}
+
 if [ -n "${DISPLAY:-}" ]; then
-	sh tools/dosbox.sh -w -t 0 -c "${CYCLES:-max}" -d build/play -- "DEMO $* > STATS.TXT" || exit 1
-	# What the program said: its statistics, or why it did not play.
-	tr -d '\r' <build/play/STATS.TXT
-	exit 0
+	echo "Playing $what in a DOSBox window: F1 shows the keys, ESC ends."
+	if dos -w -t 0 -- "$@"; then
+		report
+		[ -s $play/STATS.TXT ] || echo "The window was closed before the program came to its end: no statistics."
+		exit 0
+	fi
+	echo "The display $DISPLAY cannot be opened."
 fi
 
 frames=${FRAMES:-40}
-rm -rf build/play/FRAMES build/play/PICTURES
-echo "There is no display here: DOSBox plays $frames frames of DEMO.EXE without a window."
-sh tools/dosbox.sh -t 600 -c "${CYCLES:-max}" -d build/play -- "DEMO /N:$frames /D:FRAMES $* > STATS.TXT" || exit 1
-tr -d '\r' <build/play/STATS.TXT
-if [ ! -f build/play/FRAMES/F0000000.PPM ]; then
+rm -rf $play/FRAMES $play/PICTURES
+echo "Playing $frames frames of $what in DOSBox without a window, for there is no display."
+if ! dos -t 600 -- "/N:$frames /D:FRAMES $*"; then
+	echo "play.sh: DOSBox did not start" >&2
+	exit 1
+fi
+report
+if [ ! -f $play/FRAMES/F0000000.PPM ]; then
 	echo "play.sh: DEMO.EXE left no frames" >&2
 	exit 1
 fi
-mkdir -p build/play/PICTURES
-build/mkgif --43 --delay 10 build/play/PICTURES/DEMO.GIF build/play/FRAMES >/dev/null || exit 1
-for frame in build/play/FRAMES/F*0.PPM; do
-	build/ppm2png --43 "$frame" "build/play/PICTURES/$(basename "$frame" .PPM).PNG" >/dev/null || exit 1
+mkdir -p $play/PICTURES
+build/mkgif --43 --delay 10 $play/PICTURES/DEMO.GIF $play/FRAMES >/dev/null || exit 1
+for frame in $play/FRAMES/F*0.PPM; do
+	build/ppm2png --43 "$frame" "$play/PICTURES/$(basename "$frame" .PPM).PNG" >/dev/null || exit 1
 done
-echo "What it showed:"
-echo "  build/play/PICTURES/DEMO.GIF     all frames, animated"
-echo "  build/play/PICTURES/F*.PNG       every tenth frame"
-echo "  build/play/FRAMES                each frame as dumped: picture, depths, scene"
+echo "Look at $play/PICTURES: DEMO.GIF has all frames, F*.PNG every tenth; $play/FRAMES has them as dumped."

@@ -1,13 +1,13 @@
 #!/bin/sh
-# Puts measured figures into README.md: what stands there between "<!-- measured: NAME -->" and "<!-- end -->" is made
-# anew by measuring, so that no figure is typed by hand.
+# Puts measured figures into the pages: what stands in a README.md between "<!-- measured: NAME -->" and "<!-- end -->" is
+# made anew by measuring, so that no figure is typed by hand.
 #
 #   sh tools/readme.sh [NAME...]    stats truth hurt bench pictures; default: all but pictures (ten minutes)
 #
 #   stats     DEMO.EXE's statistics of 600 frames in DOSBox, by default and with /P
 #   truth     the minute of the four spheres held against the true surface
 #   hurt      the same of scenes made to hurt, and of random ones
-#   bench     the benchmark, over the whole minute
+#   bench     the benchmark, over the whole minute; and its frames a second once more, for the first page (speed)
 #   pictures  all pictures (tools/picture.sh)
 set -eu
 cd "$(dirname "$0")/.." || exit 1
@@ -16,9 +16,10 @@ dir=$(mktemp -d "${TMPDIR:-/tmp}/fbreadme.XXXXXX")
 trap 'rm -rf "$dir"' EXIT
 trap 'exit 1' HUP INT TERM
 
-put() { # put NAME FILE: the file becomes the block's contents
-	grep -q "^<!-- measured: $1 -->\$" README.md || {
-		echo "readme.sh: README.md has no place for $1" >&2
+put() { # put NAME FILE: the file becomes the contents of the block, in the page that has it
+	page=$(find . -path ./build -prune -o -name README.md -exec grep -l "^<!-- measured: $1 -->\$" {} +) || :
+	[ -f "$page" ] || {
+		echo "readme.sh: one README.md should have a place for $1; there are: ${page:-none}" >&2
 		return 1
 	}
 	awk -v name="$1" -v file="$2" '
@@ -28,8 +29,8 @@ put() { # put NAME FILE: the file becomes the block's contents
 			inside = 1
 		}
 		$0 == "<!-- end -->" { inside = 0 }
-		!inside { print }' README.md >"$dir/README.md"
-	cp "$dir/README.md" README.md
+		!inside { print }' "$page" >"$dir/README.md"
+	cp "$dir/README.md" "$page"
 }
 value() { # value NAME FILE
 	tr -d '\r' <"$2" | sed -n "s/^$1: //p"
@@ -114,6 +115,18 @@ bench() {
 		echo '```'
 	} >"$dir/bench"
 	put bench "$dir/bench"
+	# The benchmark keeps its figures one a line: table, row, column, value.
+	cat build/figures.csv build/bench.csv 2>/dev/null | awk -F, '$1 == "fps" { value[$2, $3] = $4; if (!seen[$2]++) order[++n] = $2 }
+		END {
+			print "Frames a second of the four spheres in one colour, in DOSBox, which counts instructions, every one alike:\n"
+			print "| machine | instructions a millisecond | the report, 1998 | its methods (`/P`) | ours |"
+			print "|---|---|---|---|---|"
+			for (i = 1; i <= n; ++i) {
+				c = order[i]
+				printf "| %s | %d | %s | %.2f | %.1f |\n", value[c, "class"], c, (c, "report") in value ? value[c, "report"] : "", value[c, "printed"], value[c, "ours"]
+			}
+		}' >"$dir/speed"
+	put speed "$dir/speed"
 }
 
 pictures() {

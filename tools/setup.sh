@@ -4,15 +4,19 @@
 #
 #   sh tools/setup.sh play      to build and play: make, g++, DOSBox
 #   sh tools/setup.sh test      to test as well
+#   sh tools/setup.sh release   to build the zip for DOS: make, g++, zip
+#   sh tools/setup.sh page      to build the page that plays in a browser: make, g++, npm
+#   sh tools/setup.sh web       to test that page as well: a browser, and puppeteer-core (from npm, into build/npm)
 #
 # Exit status 0 when what is needed is there; 1 and a line that names what lacks otherwise.
 set -u
+cd "$(dirname "$0")/.." || exit 1
 
 what=${1:-play}
 case $what in
-play | test) ;;
+play | test | release | page | web) ;;
 *)
-	echo "setup.sh: play or test is expected, not $what" >&2
+	echo "setup.sh: play, test, release, page or web is expected, not $what" >&2
 	exit 2
 	;;
 esac
@@ -32,12 +36,31 @@ int main() { return static_cast<int>(std::vector<int>(3).size()) - 3; }' >"$work
 	return $compiled
 }
 
+# What drives the browser; of the versions that the node of Debian 12 runs.
+PUPPETEER=puppeteer-core@24.43.1
+driver() {
+	[ -f build/npm/node_modules/puppeteer-core/package.json ]
+}
+
 lacking() {
 	has make || echo make
 	{ has g++ && compiles; } || echo g++
 	has ld || echo binutils
-	has dosbox || echo dosbox
+	case $what in
+	play | test) has dosbox || echo dosbox ;;
+	esac
+	case $what in
+	test | release) has zip || echo zip ;;
+	page | web)
+		has node || echo nodejs
+		has npm || echo npm
+		;;
+	esac
+	if [ "$what" = web ]; then
+		has chromium || has google-chrome || echo chromium
+	fi
 	[ "$what" = test ] || return 0
+	has unzip || echo unzip
 	{ has g++ && compiles -m32; } || echo g++-multilib
 	has Xvfb || echo xvfb
 	has xdotool || echo xdotool
@@ -47,8 +70,20 @@ lacking() {
 	has git || echo git
 }
 
+# The driver is for this tree alone.
+finish() {
+	[ "$what" = web ] && ! driver || exit 0
+	echo "setup.sh: fetching $PUPPETEER"
+	mkdir -p build/npm
+	if ! npm install --silent --no-audit --no-fund --no-package-lock --prefix build/npm "$PUPPETEER" || ! driver; then
+		echo "setup.sh: npm cannot fetch $PUPPETEER" >&2
+		exit 1
+	fi
+	exit 0
+}
+
 packages=$(lacking)
-[ -n "$packages" ] || exit 0
+[ -n "$packages" ] || finish
 # One line, for the messages.
 packages=$(echo $packages)
 
@@ -83,3 +118,4 @@ if [ -n "$packages" ]; then
 	echo "setup.sh: still lacking: $packages" >&2
 	exit 1
 fi
+finish

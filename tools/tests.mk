@@ -69,4 +69,9 @@ build/samefrm: tests/frames/samefrm.cpp
 	@mkdir -p build
 	$(TEST_CXX) $(TEST_FLAGS) -O2 -o $@ $<
 
+# Reads films and screenshots, for tests/edit.
+build/filmtst: tests/edit/filmtst.cpp
+	@mkdir -p build
+	$(TEST_CXX) $(TEST_FLAGS) -O2 -o $@ $<
+
 .PHONY: test

@@ -20,7 +20,10 @@ usage() {
 	echo "truth.sh: $1 (sh tools/truth.sh SCENE [2|1|both] [FRAMES])" >&2
 	exit 2
 }
-[ -n "$scene" ] || usage "no scene named"
+case $scene in
+'') usage "no scene named" ;;
+-h | --help) sed -n '2,/^set/s/^# \{0,1\}//p' tools/truth.sh; exit 0 ;;
+esac
 case $spacing in
 2 | 1 | both) ;;
 *) usage "'$spacing': expected a spacing of 2, 1 or both" ;;

@@ -17,6 +17,10 @@ uint8_t eight(int six) { return (uint8_t)((six * 255 + 31) / 63); }
 
 // Colours this far apart (of 255, over all channels) are not the same.
 const double APART = 2;
+// More colours than this share the palette's entries, which then are off by a few steps of the DAC; colours less than
+// APART_SHARED apart may be the same entry.
+const size_t EVEN_MOST = 4;
+const double APART_SHARED = 8;
 // A colour further than this from all of a ramp's is not the ramp's.
 const double OFF = 14;
 
@@ -33,16 +37,21 @@ Ramps::Ramps(const Scene &s) : ambient(s.ambient), ofObject(s.objects.size(), -1
     if (k == colours.size()) colours.push_back(c);
     ofObject[i] = (int)k;
   }
-  // Whole numbers, rounded down, as the program has them for its palette.
+  // Whole numbers, each rounded once, as the program has them for its palette. A highlight goes towards white at a right
+  // angle to the colour.
   const int top = RAMP - 1, dark = (int)std::lround(s.ambient * top), high = (int)std::lround(s.highlight * top);
+  const int whole = 255 * top;
   for (const Colour &c : colours) {
     Steps ramp;
-    const double full[3] = {c.r, c.g, c.b};
+    const int full[3] = {(int)c.r, (int)c.g, (int)c.b};
+    const int sum = full[0] + full[1] + full[2], square = full[0] * full[0] + full[1] * full[1] + full[2] * full[2];
     for (int step = 0; step < RAMP; step++)
       for (int k = 0; k < 3; k++) {
-        int value = (int)full[k] * top / 255 * (dark + step * (top - dark) / top) / top;
-        if (step > high) value += (top - value) * (step - high) / (2 * (top - high));
-        ramp.rgb[step][k] = eight(value);
+        int value = full[k] * (top * dark + step * (top - dark));
+        if (step > high && square > 0)
+          value += (255 - 255 * sum * full[k] / square) * top * top * (step - high) / (2 * (top - high));
+        value = std::min(std::max(value, 0), top * whole);
+        ramp.rgb[step][k] = eight((value + whole / 2) / whole);
       }
     steps.push_back(ramp);
   }
@@ -69,9 +78,9 @@ const Ramps::Reading &Ramps::read(const uint8_t *rgb) const {
   }
   if (r.nearest >= 0 && r.miss[r.nearest] <= OFF * OFF) {
     r.ramp = r.nearest;
-    double least = std::sqrt(r.miss[r.nearest]);
+    double least = std::sqrt(r.miss[r.nearest]), apart = steps.size() > EVEN_MOST ? APART_SHARED : APART;
     for (size_t k = 0; k < r.miss.size(); k++)
-      if ((int)k != r.nearest && std::sqrt(r.miss[k]) <= least + APART) r.ramp = -1;
+      if ((int)k != r.nearest && std::sqrt(r.miss[k]) <= least + apart) r.ramp = -1;
   }
   return known[key] = r;
 }
@@ -82,7 +91,8 @@ double Ramps::step(const uint8_t *rgb, int object) const {
   if (steps.empty()) return std::floor(rgb[0] * (RAMP - 1) / 255.0 + 0.5);
   const Reading &r = read(rgb);
   int k = of(object);
-  if (k < 0 || std::sqrt(r.miss[k]) > std::sqrt(r.miss[r.nearest]) + APART) k = r.nearest;
+  const double apart = steps.size() > EVEN_MOST ? APART_SHARED : APART;
+  if (k < 0 || std::sqrt(r.miss[k]) > std::sqrt(r.miss[r.nearest]) + apart) k = r.nearest;
   return r.step[k];
 }
 

@@ -9,7 +9,7 @@
 
 class Dump {
 public:
-    // Makes the directory and tries whether it can be written to. Null, or one line that says why not.
+    // Makes the directory, tries whether it can be written to, and removes the frames of an older dump. Null, or one line that says why not.
     const char* open(const char* directory);
 
     // Writes F%07d.PPM, .Z and .TXT of one frame. Null, or one line that says why not.

@@ -1,5 +1,5 @@
 // Editor: what a user may do to the model by hand, each with one call, and each undone with another. It knows nothing of
-// keys, mice and screens: src/app/demo.cpp maps those to these calls.
+// keys, mice and screens: src/app/keys.cpp maps those to these calls.
 #ifndef FB_EDIT_H
 #define FB_EDIT_H
 
@@ -22,11 +22,14 @@ public:
     int selected() const { return find(selected_) < 0 ? 0 : find(selected_); }
     int before() const { return find(before_) == selected() ? -1 : find(before_); }
     void selectNext();
+    // Selects an object by its index; the one selected so far is then the one before.
+    void select(int index);
 
     // Every operation below returns true when it changed the model: it must then be moved (Anim::move), and its ramps
     // made anew. message() then says in a few words what was done, or why nothing was. `now` only tells gestures apart.
 
-    // Moves the selected object by a vector of the world; with it goes all that it carries.
+    // Moves the selected object by a vector of the world; with it goes all that it carries. Moves and turns act on its
+    // group instead while wholeGroup() is set.
     bool move(const Vector& by, Time now);
     // Turns it about axis 0, 1 or 2 (x, y, z) by so many degrees.
     bool turn(int axis, Real degrees, Time now);
@@ -40,39 +43,75 @@ public:
     // Links the selected object with the one selected before, or parts them.
     bool link();
     bool unlink();
-    // Back to before the last step.
-    bool undo();
-    int steps() const { return stepCount_; }
+    // Changes the weight of that link.
+    bool weigh(Real by, Time now);
+    // The next colour of a list for the selected object, or the one before (`step` 1 or -1).
+    bool colour(int step, Time now);
+    // Another motion in place of the one it has: none, circle, path, spin, swing, pulse, and round again. And the periods
+    // of what moves it, times a factor.
+    bool motion();
+    bool pace(Real factor, Time now);
+    // Turns the light about axis 0 or 1 (x, y) of the world.
+    bool light(int axis, Real degrees, Time now);
+    // Puts the selected object into the group of the one before, or both into a new one; takes it out of its group.
+    bool join();
+    bool leave();
+    bool wholeGroup() const { return whole_; }
+    void setWholeGroup(bool whole);
 
-    // Writes the scene; reads one, which takes the place of the model with seeds `spacing` apart.
-    void save(const char* name);
-    bool load(const char* name, Real spacing);
+    // Back to before the last step, and forward again as long as nothing else was done. What was selected then is
+    // selected again.
+    bool undo();
+    bool redo();
+    int steps() const { return undo_.count; }
+
+    // Writes the scene; false when that failed. Reads one, which takes the place of the model with seeds `spacing` apart;
+    // where `undoable` is false there is no way back, and what could be undone is forgotten.
+    bool save(const char* name);
+    bool load(const char* name, Real spacing, bool undoable = true);
 
     // Words for the screen, capital letters; never null.
     const char* message() const { return message_; }
-    // The selected object in words: its name, kind, measures, and how many it blends with.
+    // The selected object in words: its name, measures, how many it blends with, its group; and which is the one before.
     void describe(char* to, int size) const;
 
 private:
-    enum Action { NONE, MOVE, TURN, SIZE, MEASURE, OTHER };
+    enum Action { NONE, MOVE, TURN, SIZE, MEASURE, WEIGHT, COLOUR, PACE, LIGHT, OTHER };
+
+    // A model as it was, and what was selected in it.
+    struct Step {
+        Model::Record* record;
+        int selected, before;
+    };
+    struct Steps {
+        Step step[STEPS_MOST];
+        int count = 0;
+
+        void forgetOldest();
+        void clear();
+    };
 
     int find(int number) const;
     Actor& current() { return model_.actor(selected()); }
+    Actor* group();
+    Actor& moved();
     bool begin(Action action, Time now);
     void drop();
+    bool goBack(Steps& from, Steps& to);
     bool changeMeasure(int which, Real by, Action action, Time now);
     bool pairOf(SoftObject** a, SoftObject** b);
     void say(const char* what, const char* name = "", const char* and_ = "", const char* other = "");
+    void sayReal(const char* what, Real value, const char* unit = "");
 
     Model& model_;
     int selected_ = 1;  // numbers: they stay what they are when other objects come and go
     int before_ = 0;
-    Model::Record* step_[STEPS_MOST];
-    int stepCount_ = 0;
+    Steps undo_, redo_;
+    bool whole_ = false;
     Action action_ = NONE;
     int acted_ = 0;
     Time actedAt_ = 0;
-    char message_[96] = "";
+    char message_[320] = "";
 };
 
 #endif

@@ -21,8 +21,10 @@ public:
     // One "name: value" a line, averages over the frames shown, into `to` (at least 1024 bytes).
     void format(char* to, int size) const;
 
-    // The same as a CSV record, and the line of names that goes before the first, both with an end of line.
-    void formatRecord(char* to, int size, const char* settings) const;
+    // The same as a CSV record, and the line of names that goes before the first, both with an end of line. The other
+    // fields are what was played with which switches, when and on what; they hold no comma that is not quoted.
+    void formatRecord(char* to, int size, const char* settings, const char* scene, const char* date,
+                      const char* machine) const;
     static void formatHeader(char* to, int size);
 
 private:

@@ -1,5 +1,5 @@
 // Numbers as text and text as numbers, for the command line, scene files, dumps and statistics. Integers only: no
-// floating point is used to print or to read.
+// floating point is used to print or to read. And names as messages may show them.
 #ifndef FB_TEXT_H
 #define FB_TEXT_H
 
@@ -18,6 +18,11 @@ bool parseReal(const char* text, Real* value);
 
 // Reads a whole number 0..2^31-1 from the whole of `text`.
 bool parseWhole(const char* text, int32_t* value);
+
+// Copies `text` as any screen and terminal can show it: printable ASCII as it is, every other byte as \x and two digits.
+// What does not fit in `size` bytes (at least 16) with the final 0 loses its middle, in place of which "..." stands.
+// Returns `to`.
+char* plainText(char* to, int size, const char* text);
 
 // Quotient and remainder of 64-bit by 32-bit numbers, unsigned; the 386 without libgcc has no other.
 uint64_t divide64(uint64_t top, uint32_t bottom, uint32_t* remainder);

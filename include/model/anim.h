@@ -52,14 +52,27 @@ enum MotionPart : uint8_t {
     MOTION_SWING = 8,
     MOTION_PULSE = 16,
     MOTION_KEYS = 32,
+    MOTION_CIRCLE = 64,  // of a Move alone: a motion's own circle is there when its period is not 0
+};
+
+// One more circle, path, spin, swing or pulse beside the first of its kind.
+struct Move {
+    MotionPart part = MOTION_CIRCLE;
+    Vector a{Real(0), Real(0), Real(0)};  // circle: u; path: the amplitude along its axis; spin, swing: the axis
+    Vector b{Real(0), Real(0), Real(0)};  // circle: v
+    Real amount{0};                       // swing: degrees to each side; pulse: the share
+    Wave wave;
 };
 
 // How an object or a group moves, seen from its parent (or from the world, without one):
 //
-//     place = centre + circle + path + key          turn = swing key spin turn          scale = own pulse key
+//     place = centre + circles + paths + key        turn = swings key spins turn        scale = own pulses key
 //
-// Every part is a function of time and may be left out.
+// Every part is a function of time and may be left out. The first circle, spin, swing and pulse, and the first path along
+// each axis, have places of their own; further ones follow in `more` and come after the first of their kind.
 struct Motion {
+    static constexpr int MORE_MOST = 4;
+
     // The circular paths of the report's automatic mode: u cos(a) + v sin(a). Two perpendicular vectors of equal
     // length give a circle, others an ellipse; both zero: nothing.
     Point centre{Real(0), Real(0), Real(0)};
@@ -93,6 +106,9 @@ struct Motion {
     bool smooth = false;
     int32_t repeat = 0;
     Vector keyAxis{Real(0), Real(0), Real(1)};
+
+    Move more[MORE_MOST];
+    uint8_t moreCount = 0;
 
     Real scale{1};
     int parent = 0;  // number of the object or group that it moves, turns and scales with; 0: none

@@ -2,8 +2,9 @@
 //
 //     g_i = f_i + sum over the links of i of w_ij f_j        F = sum of f_i^2 g_i / sum of f_i^2
 //
-// Where all objects that reach a point are linked with each other at weight 1, F is the plain sum of their fields, the
-// report's implicit function; elsewhere it passes smoothly from one object's sum to another's.
+// A link of weight 0 counts as none: it joins nothing. Where all objects that reach a point are linked with each other at
+// weight 1, F is the plain sum of their fields, the report's implicit function; elsewhere it passes smoothly from one
+// object's sum to another's.
 #ifndef FB_BODY_H
 #define FB_BODY_H
 

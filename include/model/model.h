@@ -16,6 +16,9 @@ struct Colour {
 // Room for a name: 15 characters and the final 0.
 constexpr int NAME_ROOM = 16;
 
+// Room for the title of a scene: 47 characters and the final 0.
+constexpr int TITLE_ROOM = 48;
+
 // An item of the model: an object with its part in the scene, or a group (which has no object).
 struct Actor {
     SoftObject* object = nullptr;
@@ -58,6 +61,13 @@ public:
     // Makes the object of an item anew, after its measures were changed. False: no memory, and the object that was
     // there stays.
     bool remake(Actor* item);
+
+    // Takes an item's keys away.
+    void removeKeys(Actor* item);
+
+    // Gives an item another parent, by number (0: none). It stays where it is now; it turns and grows with the new parent
+    // from then on. False: the parent is carried by the item itself.
+    bool setParent(Actor* item, int parent);
 
     // Adds a key to an item, whose times must rise. False: no room or no memory.
     bool addKey(Actor* item, const Key& key);
@@ -112,11 +122,16 @@ public:
     // nothing was changed.
     bool restore(const Record* record);
 
+    // Changes the light under which seeds were laid out already.
+    void setLight(const Vector& to);
+
     Camera camera;
     Vector light{Real(0.5), Real(0.7), Real(-0.5)};  // from the model to the light, any length but 0
+    char title[TITLE_ROOM] = "";                     // what the scene calls itself; may be empty
 
 private:
     void clear();
+    void recalcAll();
     bool layOut(SoftObject* object) const;
 
     Actor* actors_[OBJECTS_MOST];

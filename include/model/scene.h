@@ -2,8 +2,8 @@
 // way of scripting animations and reading in models from files").
 //
 // One statement a line; words separated by blanks; everything behind a '#' is a comment; upper and lower case are the
-// same. Lines end with LF or CR LF; a Ctrl-Z ends the text, as DOS editors have it. Numbers are decimal. README.md
-// describes the statements.
+// same. Lines end with LF or CR LF; a Ctrl-Z ends the text, as DOS editors have it. Numbers are decimal. The README.md
+// of tools/scenes describes the statements.
 #ifndef FB_SCENE_H
 #define FB_SCENE_H
 
@@ -28,7 +28,8 @@ constexpr int FOCAL_MOST = 500;
 // How reading or writing ended, as the program's exit status has it.
 enum SceneEnd { SCENE_GOOD = 0, SCENE_TROUBLE = 1, SCENE_BAD = 2 };
 
-// Reads a scene file into an empty model. Null, or one line that names the file, the line, what was read and what was
+// Reads a scene file into an empty model; where there is no file of that name, and it has no ending, ".FB" is tried.
+// Null, or one line that names the file, the line, what was read and what was
 // expected; the model is then only good for being destroyed. `*end` tells bad files (and missing ones) from memory that
 // ran out.
 const char* readScene(const char* name, Model& model, SceneEnd* end);

@@ -19,13 +19,13 @@ public:
     // when drawing.
     static constexpr int HIGHLIGHT = 52;
 
-    // Makes ramps for the model's colours and hands each object its own. Colours that do not fit (the ramps share 255
-    // entries, at least 15 each) take the nearest that does.
-    void make(Model& model, bool grey);
+    // The entry of text and marks: the same near-white in every scene, no part of a ramp.
+    static constexpr uint8_t INK = 255;
 
-    // The colour at full light, but for the highlight, of the ramp that shows the model's object i: its own, or the
-    // nearest to it that has a ramp. Not for the grey ramp.
-    const Colour& shown(int i) const { return colours_[rampOf_[i]]; }
+    // Makes ramps for the model's colours and hands each object its own. The ramps of up to four colours have 63 entries
+    // or more each. More colours share the 254 entries by need: those that are nearest to each other in colour and
+    // brightness are one, so that each ramp is as true as its neighbours leave it.
+    void make(Model& model, bool grey);
 
     // Red, green and blue of the 256 colours, 0..63, as the DAC takes them.
     const uint8_t* dac() const { return dac_; }
@@ -35,11 +35,13 @@ public:
     const uint8_t* raised(const uint8_t* ramp, int steps);
 
 private:
-    static constexpr int RAMPS_MOST = 17;
+    static constexpr int ENTRIES = INK - 1;  // for ramps, from 1 on
+    static constexpr int RAMPS_MOST = Model::OBJECTS_MOST;
+    static constexpr int EVEN_MOST = 4;      // colours whose ramps have entries of their own
+
+    void share(const Colour* colours, int count);
 
     uint8_t dac_[768];
-    Colour colours_[RAMPS_MOST];
-    uint8_t rampOf_[Model::OBJECTS_MOST];
     uint8_t ramps_[RAMPS_MOST][RAMP];
     uint8_t raised_[RAMP];
 };

@@ -1,95 +1,33 @@
 // The program: a frame is move, update, draw, show, present; once through the house, no back and forth.
 #include "app/demo.h"
 
+#include "loop.h"
 #include "math/alloc.h"
-#include "app/dump.h"
-#include "app/edit.h"
-#include "machine.h"
-#include "app/options.h"
-#include "app/overlay.h"
-#include "picture/palette.h"
-#include "surface/engine.h"
-#include "model/scene.h"
 #include "math/normal.h"
-#include "app/stats.h"
 #include "math/text.h"
+#include "model/scene.h"
 
 namespace {
-
-// Interactive mode: mickeys to units, and where objects may be moved to.
-constexpr Real UNITS_A_MICKEY(0.25);
-constexpr Real UNITS_A_KEY(2);
-constexpr Real DEPTH_LEAST(-60);
-constexpr Real DEPTH_MOST(120);
-
-// Hands on: what a key does at once, how long a message stays, and where scenes are kept.
-constexpr Real DEGREES_A_KEY(15);
-constexpr Real SIZE_A_KEY(1);
-constexpr Time MESSAGE = 65536 * 3;
-constexpr const char* SCENE_FILE = "SAVED.FB";
-
-constexpr int KEY_BACKSPACE = 8;
 
 // The selected object pulses this long.
 constexpr Time PULSE = 65536 * 3 / 4;
 constexpr int PULSE_STEPS = 20;
 
-class Demo {
-public:
-    explicit Demo(const Options& options) : options_(options), overlay_(view_), editor_(model_) {}
-    ~Demo() { free(voxels_); }
+}  // namespace
 
-    int run();
+Demo::Demo(const Options& options, const char* directory)
+    : options_(options), pace_(!options.interactive), editor_(model_), pointerX_(machine::WIDTH),
+      pointerY_(machine::HEIGHT), overlay_(view_),
+      greets_(options.frames == 0 && options.seconds == 0 && options.dumpDirectory == nullptr)
+{
+    snprintf(directory_, sizeof directory_, "%s", directory);
+    snprintf(scene_, sizeof scene_, "%s", options.modelFile == nullptr ? "" : options.modelFile);
+}
 
-private:
-    SurfaceMaker surfaceMaker() const { return options_.printed ? makeReport98 : makeEngine; }
-    const char* prepare(int* status);
-    void key(int code);
-    void mouse();
-    void push(Real x, Real y, Real z);
-    void select();
-    void resample(Real spacing);
-    bool editKey(int code);
-    void changed();
-    void frame();
-    void drawOverlay();
-    void countFrames();
-    bool finished() const;
-    void findTime();
-    const char* record();
-
-    const Options& options_;
-    Model model_;
-    View view_;
-    Palette palette_;
-    Dump dump_;
-    Stats stats_;
-    VoxelList* voxels_ = nullptr;
-    Counts counts_;
-    Real spacing_{2};
-    uint64_t started_ = 0;
-    Time time_ = 0;
-    int frames_ = 0;
-    bool ended_ = false;
-    bool mousePresent_ = false;
-    bool leftHeld_ = false;
-    Time selectedAt_ = 0;
-
-    // Hands on.
-    Overlay overlay_;
-    Editor editor_;
-    Time shown_ = 0;        // the time the model is shown at; in interactive mode it stands unless the user lets it run
-    Time lastTime_ = 0;
-    bool running_ = false;
-    Time messageAt_ = 0;
-    bool message_ = false;
-    bool help_ = false;
-    bool fps_ = false;
-    uint64_t fpsSince_ = 0;  // ticks
-    int fpsFrames_ = 0;
-    uint32_t fpsTicks_ = 0;  // of the frames counted last
-    int fpsCounted_ = 0;
-};
+Demo::~Demo()
+{
+    free(voxels_);
+}
 
 // Everything that can fail, before the video mode is touched. Null, or one line; `*status` is then the exit status.
 const char* Demo::prepare(int* status)
@@ -109,17 +47,36 @@ const char* Demo::prepare(int* status)
         return "not enough memory for the model";
     }
     Anim::move(model_, 0);
+    const uint64_t before = machine::clock();
     if (!model_.resample(spacing_, surfaceMaker()))
         return "not enough memory for seeds that close; try a larger spacing with /S";
+    layTicks_ = machine::clock() - before;
     voxels_ = allocate<VoxelList>(1);
     if (voxels_ == nullptr || !view_.open())
         return "not enough memory for the picture";
     view_.setCamera(model_.camera);
     palette_.make(model_, options_.grey);
-    overlay_.setPalette(palette_);
+    if (options_.recordFile != nullptr) {
+        const char* problem = csv_.check(options_.recordFile, status);
+        if (problem != nullptr)
+            return problem;
+        *status = 1;
+    }
+    if (options_.filmFile != nullptr) {
+        const char* problem = film_.open(options_.filmFile, options_.frames > 0 ? options_.rate : 0);
+        if (problem != nullptr)
+            return problem;
+    }
     if (options_.dumpDirectory != nullptr)
         return dump_.open(options_.dumpDirectory);
     return nullptr;
+}
+
+// The end for want of something. What was filmed so far is kept.
+void Demo::fail(int status, const char* line)
+{
+    film_.close();
+    machine::fail(status, line);
 }
 
 void Demo::findTime()
@@ -137,130 +94,46 @@ void Demo::findTime()
     time_ = (seconds << 16) + divide64(static_cast<uint64_t>(rest) << 16, machine::CLOCK_HZ, &unused);
 }
 
-void Demo::select()
+// Asked now and then while a frame is drawn: whether there is something that does not wait for its end, Ctrl-C or ESC.
+// Other keys are kept for later.
+bool Demo::interrupted()
 {
-    editor_.selectNext();
-    selectedAt_ = time_;
-}
-
-void Demo::push(Real x, Real y, Real z)
-{
-    // Kept where the viewer sees it: the centre stays on the screen. What is beyond already may come back by itself.
-    const Point from = model_.actor(editor_.selected()).object->centre();
-    const Camera& camera = model_.camera;
-    Point p = from + Vector{x, y, z};
-    p.z = clamp(p.z, least(DEPTH_LEAST, from.z), most(DEPTH_MOST, from.z));
-    const Real away = most(p.z - camera.eye.z, Real(1));
-    const Real right = away * (camera.centreX / camera.focalX), up = away * (camera.centreY / camera.focalY);
-    p.x = clamp(p.x, least(camera.eye.x - right, from.x), most(camera.eye.x + right, from.x));
-    p.y = clamp(p.y, least(camera.eye.y - up, from.y), most(camera.eye.y + up, from.y));
-    if (editor_.move(p - from, time_))
-        Anim::move(model_, shown_);
-}
-
-void Demo::mouse()
-{
-    const machine::Mouse m = machine::mouse();
-    if (m.left && !leftHeld_)
-        select();
-    leftHeld_ = m.left;
-    if (m.dx == 0 && m.dy == 0)
-        return;
-    const Real dx = Real(m.dx) * UNITS_A_MICKEY, dy = Real(m.dy) * UNITS_A_MICKEY;
-    if (m.right)
-        push(dx, Real(0), -dy);
-    else
-        push(dx, -dy, Real(0));
+    while (waiting_ < KEYS_MOST) {
+        const int code = machine::key();
+        if (code == 0)
+            break;
+        keys_[waiting_++] = code;
+        escapeWaits_ = escapeWaits_ || code == machine::KEY_ESC;
+    }
+    return escapeWaits_ || machine::broken();
 }
 
 void Demo::resample(Real spacing)
 {
-    if (spacing < SPACING_LEAST || spacing > SPACING_MOST || !model_.resample(spacing, surfaceMaker()))
-        return;  // at the end of the range, or of memory: it stays as it is
-    spacing_ = spacing;
-    stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
-}
-
-void Demo::key(int code)
-{
-    switch (code) {
-    case machine::KEY_ESC: ended_ = true; return;
-    case '*': view_.setPixels(!view_.pixels()); return;
-    case '-':
-    case '_': resample(least(spacing_ * Real(1.25), SPACING_MOST)); return;
-    case '+':
-    case '=': resample(most(spacing_ * Real(0.8), SPACING_LEAST)); return;
-    default: break;
+    char number[24], text[80];
+    if (spacing != spacing_) {
+        // A few percent more or less are as many seconds.
+        const Real ratio = spacing_ / spacing;
+        const uint64_t ticks = layTicks_ * static_cast<uint32_t>(rawFromReal(ratio * ratio)) >> 16;
+        if (ticks > machine::CLOCK_HZ / 2)
+            busy("one moment: laying out the seeds");
+        const uint64_t before = machine::clock();
+        if (!model_.resample(spacing, surfaceMaker())) {
+            formatReal(number, sizeof number, spacing_);
+            snprintf(text, sizeof text, "spacing stays at %s: no memory for more seeds", number);
+            say(text);
+            return;
+        }
+        layTicks_ = machine::clock() - before;
+        spacing_ = spacing;
+        stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
     }
-    if (code == machine::KEY_F1) {
-        help_ = !help_;
-        return;
-    }
-    if (code == 'f' || code == 'F') {
-        fps_ = !fps_;
-        fpsSince_ = machine::clock();
-        fpsFrames_ = 0;
-        return;
-    }
-    if (!options_.interactive)
-        return;
-    if (editKey(code)) {
-        message_ = true;
-        messageAt_ = time_;
-        return;
-    }
-    const Real step = UNITS_A_KEY, none(0);
-    switch (code) {
-    case '\t': select(); break;
-    case machine::KEY_LEFT: push(-step, none, none); break;
-    case machine::KEY_RIGHT: push(step, none, none); break;
-    case machine::KEY_UP: push(none, step, none); break;
-    case machine::KEY_DOWN: push(none, -step, none); break;
-    case machine::KEY_PGUP: push(none, none, step); break;
-    case machine::KEY_PGDN: push(none, none, -step); break;
-    case ' ': running_ = !running_; break;
-    default: break;
-    }
-}
-
-// The keys that edit the model. False: `code` is none of them.
-bool Demo::editKey(int code)
-{
-    const Real turn = DEGREES_A_KEY, size = SIZE_A_KEY;
-    bool done = false;
-    switch (code) {
-    case 'x': done = editor_.turn(0, turn, time_); break;
-    case 'X': done = editor_.turn(0, -turn, time_); break;
-    case 'y': done = editor_.turn(1, turn, time_); break;
-    case 'Y': done = editor_.turn(1, -turn, time_); break;
-    case 'z': done = editor_.turn(2, turn, time_); break;
-    case 'Z': done = editor_.turn(2, -turn, time_); break;
-    case '1':
-    case '[': done = editor_.size(-size, time_); break;
-    case '2':
-    case ']': done = editor_.size(size, time_); break;
-    case '3':
-    case ',': done = editor_.measure(-size, time_); break;
-    case '4':
-    case '.': done = editor_.measure(size, time_); break;
-    case machine::KEY_INS:
-    case 'a': done = editor_.add("sphere"); break;
-    case 'c': done = editor_.add("cylinder"); break;
-    case 't': done = editor_.add("torus"); break;
-    case 'd': done = editor_.add("disc"); break;
-    case 'n': done = editor_.add("cone"); break;
-    case machine::KEY_DEL: done = editor_.remove(); break;
-    case 'l': done = editor_.link(); break;
-    case 'k': done = editor_.unlink(); break;
-    case 'u':
-    case KEY_BACKSPACE: done = editor_.undo(); break;
-    case machine::KEY_F2: editor_.save(SCENE_FILE); break;
-    case machine::KEY_F3: done = editor_.load(SCENE_FILE, spacing_); break;
-    default: return false;
-    }
-    if (done)
-        changed();
-    return true;
+    formatQuotient(number, sizeof number, static_cast<uint32_t>(rawFromReal(spacing_)), 65536, 2);
+    snprintf(text, sizeof text, "spacing %s, %d seeds%s", number, model_.seeds(),
+             spacing_ == SPACING_LEAST  ? ": the finest there is"
+             : spacing_ == SPACING_MOST ? ": the coarsest there is"
+                                        : "");
+    say(text);
 }
 
 // Brings everything along that depends on which objects there are.
@@ -268,8 +141,7 @@ void Demo::changed()
 {
     Anim::move(model_, shown_);
     palette_.make(model_, options_.grey);
-    machine::setPalette(palette_.dac());
-    overlay_.setPalette(palette_);
+    paletteStale_ = true;
     view_.setCamera(model_.camera);
     stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
 }
@@ -287,75 +159,34 @@ void Demo::countFrames()
     fpsFrames_ = 0;
 }
 
-void Demo::drawOverlay()
+// False: it was interrupted, and there is nothing to show.
+bool Demo::frame()
 {
-    constexpr int EDGE = 3;
-    char text[128];
-    if (options_.interactive) {
-        editor_.describe(text, sizeof text);
-        overlay_.text(EDGE, EDGE, text);
-        // The pointer: where the selected object is, and where a new one would come.
-        const Camera& camera = model_.camera;
-        const Vector v = model_.actor(editor_.selected()).object->centre() - camera.eye;
-        if (v.z > Real(1)) {
-            const Real limit(2);
-            overlay_.cross(floorToInt(camera.centreX + camera.focalX * clamp(v.x / v.z, -limit, limit)),
-                           floorToInt(camera.centreY - camera.focalY * clamp(v.y / v.z, -limit, limit)));
-        }
-        if (message_ && time_ - messageAt_ < MESSAGE)
-            overlay_.text(EDGE, machine::HEIGHT - EDGE - Overlay::LINE_HIGH, editor_.message());
-    }
-    if (fps_) {
-        const int length = formatQuotient(text, sizeof text, static_cast<uint64_t>(fpsCounted_) * machine::CLOCK_HZ,
-                                          fpsTicks_, 1);
-        snprintf(text + length, sizeof text - static_cast<size_t>(length), " fps");
-        overlay_.text(machine::WIDTH - EDGE - Overlay::width(text), machine::HEIGHT - EDGE - Overlay::LINE_HIGH, text);
-    }
-    if (help_) {
-        static const char* const PAGE[] = {
-            "F1     this page       f  frames a second",
-            "*      scales, pixels  - +  coarser, finer",
-            "ESC    ends",
-            "",
-            "with /I:",
-            "Tab or left button     selects the next",
-            "mouse, arrows, PgUp Dn move it",
-            "x y z  turn it (and with Shift)",
-            "1 2    size            3 4  length, ring",
-            "Ins a  adds a sphere   c  a cylinder",
-            "t d n  a torus, a disc, a cone",
-            "Del    deletes it",
-            "l k    links, parts it and the one before",
-            "u      undoes          space  lets it move",
-            "F2 F3  save and load SAVED.FB",
-        };
-        constexpr int LINES = static_cast<int>(sizeof PAGE / sizeof PAGE[0]);
-        constexpr int WIDE = 44 * Overlay::LETTER_WIDE, HIGH = LINES * (Overlay::LINE_HIGH + 2);
-        const int left = (machine::WIDTH - WIDE) / 2, top = (machine::HEIGHT - HIGH) / 2;
-        overlay_.box(left - EDGE, top - EDGE, WIDE + 2 * EDGE, HIGH + 2 * EDGE);
-        for (int i = 0; i < LINES; ++i)
-            overlay_.text(left, top + i * (Overlay::LINE_HIGH + 2), PAGE[i]);
-    }
+    if (options_.interactive)
+        mouse();
+    const Time before = shown_;
+    shown_ = pace_.at(time_);
+    if (!options_.interactive || shown_ != before)
+        Anim::move(model_, shown_);
+    if (!drawModel())
+        return false;
+    drawOverlay();
+    view_.end();
+    return true;
 }
 
-void Demo::frame()
+// False: it was interrupted.
+bool Demo::drawModel()
 {
-    if (options_.interactive) {
-        if (running_) {
-            shown_ += time_ - lastTime_;
-            Anim::move(model_, shown_);
-        }
-        lastTime_ = time_;
-        mouse();
-    } else {
-        Anim::move(model_, time_);
-    }
-
     counts_ = Counts{};
     const FrameContext frame{model_.camera.eye, unit(model_.light), model_.bodies(), &counts_};
+    if (frame.bodies == nullptr)
+        fail(1, "not enough memory");
     int order[Model::OBJECTS_MOST];
     const int count = model_.count();
     for (int i = 0; i < count; ++i) {
+        if (interrupted())
+            return false;
         model_.actor(i).object->update(frame);
         // Near objects first: what they hide is then only compared, not drawn.
         int at = i;
@@ -367,6 +198,8 @@ void Demo::frame()
     view_.begin();
     const int selected = editor_.selected();
     for (int i = 0; i < count; ++i) {
+        if (interrupted())
+            return false;
         SoftObject& object = *model_.actor(order[i]).object;
         const uint8_t* ramp = object.ramp();
         if (options_.interactive && order[i] == selected && time_ - selectedAt_ < PULSE) {
@@ -384,8 +217,7 @@ void Demo::frame()
     }
     if (!options_.printed)
         view_.closeGaps(spacing_);
-    drawOverlay();
-    view_.end();
+    return true;
 }
 
 bool Demo::finished() const
@@ -395,32 +227,36 @@ bool Demo::finished() const
             machine::clock() - started_ >= static_cast<uint64_t>(options_.seconds) * machine::CLOCK_HZ);
 }
 
-// Appends the statistics to the file of /O. Null, or one line.
-const char* Demo::record()
+// Writes the frame that is shown to where it is wanted. Null, or one line.
+const char* Demo::keepFrame()
 {
-    bool fresh;
-    const int file = machine::appendFile(options_.recordFile, &fresh);
-    bool good = file >= 0;
-    char text[1024];
-    if (good && fresh) {
-        Stats::formatHeader(text, sizeof text);
-        good = machine::writeFile(file, text, static_cast<uint32_t>(strlen(text))) >= 0;
-    }
-    char spacing[24], settings[128];
-    formatReal(spacing, sizeof spacing, spacing_);
-    const char* model = options_.modelFile;
-    snprintf(settings, sizeof settings, "S:%s%s%s%s%s%s%s%.60s", spacing, options_.interactive ? " I" : "",
-             options_.grey ? " G" : "", options_.printed ? " P" : "", options_.retrace ? " V" : "",
-             options_.noPresent ? " X" : "", model != nullptr ? " M:" : "", model != nullptr ? model : "");
-    stats_.formatRecord(text, sizeof text, settings);
-    good = good && machine::writeFile(file, text, static_cast<uint32_t>(strlen(text))) >= 0;
-    if (file >= 0)
-        good = machine::closeFile(file) && good;
-    if (good)
-        return nullptr;
-    static char problem[160];
-    snprintf(problem, sizeof problem, "%.100s: %s", options_.recordFile, machine::fileTrouble());
+    const char* problem = nullptr;
+    if (options_.dumpDirectory != nullptr)
+        problem = dump_.frame(frames_, time_, options_.frames > 0 ? options_.rate : 0, model_, view_, palette_,
+                              options_.grey);
+    if (problem == nullptr && film_.isOpen())
+        problem = film_.add(view_.frame(), palette_.dac(), time_);
     return problem;
+}
+
+// What the run came to, on standard output: the statistics, or the one line of /B.
+void Demo::sayResults(uint64_t ticks)
+{
+    char text[1024];
+    if (options_.benchmark) {
+        // A divisor has 32 bits; no benchmark that long would be any use.
+        const uint32_t most = ticks >> 32 != 0 ? 0xffffffffu : static_cast<uint32_t>(ticks);
+        char spacing[24], rate[32], seconds[32];
+        formatReal(spacing, sizeof spacing, spacing_);
+        formatQuotient(rate, sizeof rate, static_cast<uint64_t>(frames_) * machine::CLOCK_HZ, most, 2);
+        formatQuotient(seconds, sizeof seconds, ticks, machine::CLOCK_HZ, 2);
+        snprintf(text, sizeof text, "%.100s, spacing %s%s: %s frames a second (%d frames in %s seconds)\n",
+                 options_.modelFile == nullptr ? "four spheres" : options_.modelFile, spacing,
+                 options_.printed ? ", as printed" : "", rate, frames_, seconds);
+    } else {
+        stats_.format(text, sizeof text);
+    }
+    machine::out(text);
 }
 
 int Demo::run()
@@ -431,58 +267,56 @@ int Demo::run()
     int status;
     problem = prepare(&status);
     if (problem != nullptr)
-        machine::fail(status, problem);
+        fail(status, problem);
     machine::standStill(options_.frames > 0);
-    if (options_.interactive) {
-        mousePresent_ = machine::openMouse();
-        if (!mousePresent_)
-            machine::out("No mouse driver found: use Tab, arrows, PgUp and PgDn.\n");
-    }
+    if (options_.interactive && !machine::openMouse())
+        machine::out("No mouse driver found: use Tab, arrows, PgUp and PgDn.\n");
     problem = machine::openVideo();
     if (problem != nullptr)
-        machine::fail(1, problem);
+        fail(1, problem);
     machine::setPalette(palette_.dac());
     stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
 
     started_ = machine::clock();
     while (!finished()) {
-        for (int code = machine::key(); code != 0; code = machine::key())
-            key(code);
+        takeKeys();
         if (machine::broken())
-            machine::fail(1, "interrupted");
+            fail(1, "interrupted");
         if (ended_)
             break;
         findTime();
-        frame();
+        if (!frame())
+            continue;
         if (options_.retrace)
             machine::waitRetrace();
+        if (paletteStale_)
+            machine::setPalette(palette_.dac());
+        paletteStale_ = false;
         if (!options_.noPresent)
             machine::present(view_.frame(), view_.rows());
-        if (options_.dumpDirectory != nullptr) {
-            problem = dump_.frame(frames_, time_, options_.frames > 0 ? options_.rate : 0, model_, view_, palette_,
-                                  options_.grey);
-            if (problem != nullptr)
-                machine::fail(1, problem);
-        }
+        problem = keepFrame();
+        if (problem != nullptr)
+            fail(1, problem);
+        if (shotWanted_)
+            shoot();
         stats_.addFrame(counts_);
         ++frames_;
         if (fps_)
             countFrames();
     }
-    stats_.setTime(machine::clock() - started_);
+    const uint64_t ticks = machine::clock() - started_;
+    stats_.setTime(ticks);
+    problem = film_.close();
     machine::stop();
-    char text[1024];
-    stats_.format(text, sizeof text);
-    machine::out(text);
-    if (options_.recordFile != nullptr) {
-        problem = record();
-        if (problem != nullptr)
-            machine::fail(1, problem);
-    }
+    if (options_.rateGiven && options_.frames == 0)
+        machine::err("/R has no effect without /N.\n");
+    sayResults(ticks);
+    if (problem == nullptr && options_.recordFile != nullptr)
+        problem = csv_.append(options_, spacing_, stats_);
+    if (problem != nullptr)
+        machine::fail(1, problem);
     return 0;
 }
-
-}  // namespace
 
 int demo(int count, char** arguments)
 {
@@ -495,7 +329,16 @@ int demo(int count, char** arguments)
         machine::out(HELP);
         return 0;
     }
-    Demo* program = make<Demo>(options);
+    // The program's own path without its name.
+    char directory[128] = "";
+    if (count > 0) {
+        const int length = snprintf(directory, sizeof directory, "%s", arguments[0]);
+        int end = length < static_cast<int>(sizeof directory) ? length : 0;
+        while (end > 0 && directory[end - 1] != '/' && directory[end - 1] != '\\' && directory[end - 1] != ':')
+            --end;
+        directory[end] = 0;
+    }
+    Demo* program = make<Demo>(options, directory);
     if (program == nullptr)
         machine::fail(1, "not enough memory");
     const int status = program->run();

@@ -11,11 +11,16 @@ namespace {
 
 constexpr int ROWS_AT_ONCE = 10;
 
+// The files of an older dump are looked for until so many frames in a row are missing.
+constexpr int GAP_MOST = 32;
+constexpr int NUMBER_MOST = 9999999;
+
 }  // namespace
 
 const char* Dump::complain()
 {
-    snprintf(problem_, sizeof problem_, "%s: %s", name_, machine::fileTrouble());
+    char plain[160];
+    snprintf(problem_, sizeof problem_, "%s: %s", plainText(plain, sizeof plain, name_), machine::fileTrouble());
     return problem_;
 }
 
@@ -24,15 +29,26 @@ const char* Dump::open(const char* directory)
     directory_ = directory;
     snprintf(name_, sizeof name_, "%s", directory);
     if (strlen(directory) > 120) {
-        snprintf(problem_, sizeof problem_, "%.60s...: the name is too long", directory);
+        char plain[80];
+        snprintf(problem_, sizeof problem_, "%s: the name is too long", plainText(plain, sizeof plain, directory));
         return problem_;
     }
     if (!machine::makeDirectory(directory))
         return complain();
     const int file = create(0, "TXT");
-    if (file < 0)
+    if (file < 0 || !machine::closeFile(file))
         return complain();
-    return machine::closeFile(file) ? nullptr : complain();
+    // Frames of an older dump would be mixed with the new ones; this takes the empty file along.
+    static const char* const EXTENSIONS[] = {"PPM", "Z", "TXT"};
+    for (int number = 0, missing = 0; missing < GAP_MOST && number <= NUMBER_MOST; ++number) {
+        bool some = false;
+        for (const char* extension : EXTENSIONS) {
+            snprintf(name_, sizeof name_, "%s/F%07d.%s", directory_, number, extension);
+            some = machine::removeFile(name_) || some;
+        }
+        missing = some ? 0 : missing + 1;
+    }
+    return nullptr;
 }
 
 int Dump::create(int number, const char* extension)
@@ -146,7 +162,7 @@ const char* Dump::frame(int number, Time time, int rate, const Model& model, con
         snprintf(text, sizeof text, "highlight %s", a);
         line(text);
         for (int i = 0; i < model.count(); ++i) {
-            const Colour& colour = palette.shown(i);
+            const Colour& colour = model.actor(i).colour;
             snprintf(text, sizeof text, "ramp %d %d %d %d", model.actor(i).object->number(), colour.red, colour.green,
                      colour.blue);
             line(text);

@@ -7,14 +7,93 @@
 
 namespace {
 
-const Colour NEW_COLOURS[] = {{224, 80, 224}, {64, 208, 216}, {255, 136, 40}, {208, 208, 208}, {160, 224, 64}};
+// Of new objects, and what the colour of an object may be changed to.
+const Colour COLOURS[] = {{224, 80, 224}, {64, 208, 216}, {255, 136, 40}, {208, 208, 208}, {160, 224, 64},
+                          {255, 64, 48},  {64, 208, 72},  {72, 112, 255}, {255, 200, 48},  {176, 112, 72},
+                          {255, 144, 176}, {136, 96, 224}};
+constexpr int COLOUR_COUNT = static_cast<int>(sizeof COLOURS / sizeof COLOURS[0]);
+constexpr int NEW_COLOURS = 5;  // new objects take turns with the first of them
+
+// The motions that an object can be given by hand.
+enum Preset { STANDS, CIRCLE, PATH, SPIN, SWING, PULSE, PRESETS };
+const char* const PRESET_NAMES[PRESETS] = {"stands still", "goes round", "goes to and fro", "spins", "swings", "pulses"};
+
+int distance(const Colour& a, const Colour& b)
+{
+    const int red = a.red - b.red, green = a.green - b.green, blue = a.blue - b.blue;
+    return red * red + green * green + blue * blue;
+}
+
+// Which preset a motion is nearest to; motions of several parts count as the last.
+Preset presetOf(const Motion& motion)
+{
+    if (motion.parts & (MOTION_KEYS | MOTION_PULSE))
+        return PULSE;
+    if (motion.parts & MOTION_SWING)
+        return SWING;
+    if (motion.parts & MOTION_SPIN)
+        return SPIN;
+    if (motion.parts & MOTION_PATH)
+        return PATH;
+    return motion.circle.period != Real(0) ? CIRCLE : STANDS;
+}
+
+// Gives a motion that stands still the parts of a preset.
+void giveMotion(Motion& motion, Preset preset)
+{
+    const Real none(0);
+    switch (preset) {
+    case CIRCLE:
+        motion.u = {Real(15), none, none};
+        motion.v = {none, none, Real(15)};
+        motion.circle = makeWave(Real(6), none);
+        break;
+    case PATH:
+        motion.path = {Real(20), Real(8), none};
+        motion.along[0] = makeWave(Real(6), none);
+        motion.along[1] = makeWave(Real(4), none);
+        motion.parts |= MOTION_PATH;
+        break;
+    case SPIN:
+        motion.spinAxis = {none, Real(1), none};
+        motion.spin = makeWave(Real(6), none);
+        motion.parts |= MOTION_SPIN;
+        break;
+    case SWING:
+        motion.swingAxis = {none, none, Real(1)};
+        motion.swingAngle = Real(40);
+        motion.swing = makeWave(Real(4), none);
+        motion.parts |= MOTION_SWING;
+        break;
+    case PULSE:
+        motion.pulse = Real(0.25);
+        motion.pulsing = makeWave(Real(3), none);
+        motion.parts |= MOTION_PULSE;
+        break;
+    default: break;
+    }
+}
 
 }  // namespace
 
+// --- Steps
+
+void Editor::Steps::forgetOldest()
+{
+    free(step[0].record);
+    memmove(step, step + 1, static_cast<size_t>(--count) * sizeof *step);
+}
+
+void Editor::Steps::clear()
+{
+    while (count > 0)
+        free(step[--count].record);
+}
+
 Editor::~Editor()
 {
-    for (int i = 0; i < stepCount_; ++i)
-        free(step_[i]);
+    undo_.clear();
+    redo_.clear();
 }
 
 int Editor::find(int number) const
@@ -30,51 +109,86 @@ void Editor::say(const char* what, const char* name, const char* and_, const cha
     snprintf(message_, sizeof message_, "%s%s%s%s", what, name, and_, other);
 }
 
+void Editor::sayReal(const char* what, Real value, const char* unit)
+{
+    char text[24];
+    formatReal(text, sizeof text, value);
+    say(what, " ", text, unit);
+}
+
 // Records the model, unless this goes on with the gesture that began last. False: no memory even for one record.
 bool Editor::begin(Action action, Time now)
 {
     const int number = current().number;
-    const bool on = action == action_ && action != OTHER && number == acted_ && now - actedAt_ < GESTURE && stepCount_ > 0;
+    const bool on = action == action_ && action != OTHER && number == acted_ && now - actedAt_ < GESTURE && undo_.count > 0;
     action_ = action;
     acted_ = number;
     actedAt_ = now;
+    redo_.clear();
     if (on)
         return true;
     Model::Record* record = model_.record();
-    while (record == nullptr || stepCount_ == STEPS_MOST) {
-        if (stepCount_ == 0) {
+    while (record == nullptr || undo_.count == STEPS_MOST) {
+        if (undo_.count == 0) {
             say("no memory left");
             return false;
         }
-        free(step_[0]);
-        memmove(step_, step_ + 1, static_cast<size_t>(--stepCount_) * sizeof *step_);
+        undo_.forgetOldest();
         if (record == nullptr)
             record = model_.record();
     }
-    step_[stepCount_++] = record;
+    undo_.step[undo_.count++] = {record, selected_, before_};
     return true;
 }
 
 // Forgets the step that begin() recorded: nothing came of it.
 void Editor::drop()
 {
-    free(step_[--stepCount_]);
+    free(undo_.step[--undo_.count].record);
+    action_ = NONE;
+}
+
+void Editor::select(int index)
+{
+    const int was = model_.actor(selected()).number, now = model_.actor(index).number;
+    if (now == was)
+        return;
+    before_ = was;
+    selected_ = now;
     action_ = NONE;
 }
 
 void Editor::selectNext()
 {
-    const int was = selected();
-    before_ = model_.actor(was).number;
-    selected_ = model_.actor((was + 1) % model_.count()).number;
+    select((selected() + 1) % model_.count());
+}
+
+// The group that the selected object is in, directly; null: none.
+Actor* Editor::group()
+{
+    Actor* parent = current().motion.parent == 0 ? nullptr : model_.itemNumbered(current().motion.parent);
+    return parent != nullptr && parent->object == nullptr ? parent : nullptr;
+}
+
+// What moves and turns act on.
+Actor& Editor::moved()
+{
+    Actor* whole = whole_ ? group() : nullptr;
+    return whole != nullptr ? *whole : current();
+}
+
+void Editor::setWholeGroup(bool whole)
+{
+    whole_ = whole;
     action_ = NONE;
+    say(whole ? "moves and turns whole groups" : "moves and turns single objects");
 }
 
 bool Editor::move(const Vector& by, Time now)
 {
     if (by == Vector{Real(0), Real(0), Real(0)} || !begin(MOVE, now))
         return false;
-    Motion& motion = current().motion;
+    Motion& motion = moved().motion;
     const Actor* parent = motion.parent == 0 ? nullptr : model_.itemNumbered(motion.parent);
     const Point to = motion.centre + (parent == nullptr ? by : Model::inverse(parent->pose, by));
     const Real edge(SPACE);
@@ -86,7 +200,7 @@ bool Editor::turn(int axis, Real degrees, Time now)
 {
     if (!begin(TURN, now))
         return false;
-    Motion& motion = current().motion;
+    Motion& motion = moved().motion;
     Real& part = axis == 0 ? motion.turn.x : axis == 1 ? motion.turn.y : motion.turn.z;
     part += degrees;
     if (part > Real(180))
@@ -98,7 +212,7 @@ bool Editor::turn(int axis, Real degrees, Time now)
     formatReal(x, sizeof x, motion.turn.x);
     formatReal(y, sizeof y, motion.turn.y);
     formatReal(z, sizeof z, motion.turn.z);
-    snprintf(message_, sizeof message_, "turn %s %s %s", x, y, z);
+    snprintf(message_, sizeof message_, "%s: turn %s %s %s", moved().name, x, y, z);
     return true;
 }
 
@@ -131,9 +245,7 @@ bool Editor::changeMeasure(int which, Real by, Action action, Time now)
         say("no memory for so many seeds");
         return false;
     }
-    char text[24];
-    formatReal(text, sizeof text, to);
-    say(measure.word, " ", text);
+    sayReal(measure.word, to);
     return true;
 }
 
@@ -155,7 +267,7 @@ bool Editor::add(const char* word)
     described.kind = kindNamed(word);
     for (int i = 0; i < described.kind->measures; ++i)
         described.measure[i] = described.kind->measure[i].usual;
-    described.colour = NEW_COLOURS[model_.count() % static_cast<int>(sizeof NEW_COLOURS / sizeof NEW_COLOURS[0])];
+    described.colour = COLOURS[model_.count() % NEW_COLOURS];
     described.motion.centre = there.pose.place;
     int n = model_.count();
     do
@@ -250,31 +362,249 @@ bool Editor::unlink()
     return true;
 }
 
-bool Editor::undo()
+bool Editor::weigh(Real by, Time now)
 {
-    if (stepCount_ == 0) {
-        say("nothing to undo");
+    SoftObject *a, *b;
+    if (!pairOf(&a, &b))
+        return false;
+    const char *name = current().name, *other = model_.actor(before()).name;
+    Real weight;
+    if (!Model::linked(a, b, &weight)) {
+        say(name, " does not blend with ", other);
         return false;
     }
-    if (!model_.restore(step_[stepCount_ - 1])) {
-        say("no memory to undo");
+    const Real to = clamp(weight + by, Real(0), WEIGHT_MOST);
+    if (to == weight) {
+        sayReal("the weight stays at", weight);
         return false;
     }
-    drop();
-    snprintf(message_, sizeof message_, "undone, %d more", stepCount_);
+    if (!begin(WEIGHT, now))
+        return false;
+    // The link is there: nothing is allocated.
+    model_.link(a, b, to);
+    char text[24];
+    formatReal(text, sizeof text, to);
+    snprintf(message_, sizeof message_, "%s and %s: weight %s", name, other, text);
     return true;
 }
 
-void Editor::save(const char* name)
+bool Editor::colour(int step, Time now)
+{
+    Actor& actor = current();
+    int nearest = 0;
+    for (int i = 1; i < COLOUR_COUNT; ++i)
+        if (distance(COLOURS[i], actor.colour) < distance(COLOURS[nearest], actor.colour))
+            nearest = i;
+    if (!begin(COLOUR, now))
+        return false;
+    actor.colour = COLOURS[(nearest + step + COLOUR_COUNT) % COLOUR_COUNT];
+    snprintf(message_, sizeof message_, "colour %d %d %d", actor.colour.red, actor.colour.green, actor.colour.blue);
+    return true;
+}
+
+bool Editor::motion()
+{
+    if (!begin(OTHER, 0))
+        return false;
+    Actor& actor = current();
+    const Preset next = static_cast<Preset>((presetOf(actor.motion) + 1) % PRESETS);
+    Motion still;
+    still.centre = actor.motion.centre;
+    still.turn = actor.motion.turn;
+    still.scale = actor.motion.scale;
+    still.parent = actor.motion.parent;
+    still.parts = actor.motion.parts & MOTION_TURN;
+    model_.removeKeys(&actor);
+    actor.motion = still;
+    giveMotion(actor.motion, next);
+    say(actor.name, " ", PRESET_NAMES[next]);
+    return true;
+}
+
+bool Editor::pace(Real factor, Time now)
+{
+    Motion& motion = current().motion;
+    constexpr int OWN = 7;
+    Wave* waves[OWN + Motion::MORE_MOST] = {&motion.circle, &motion.along[0], &motion.along[1], &motion.along[2],
+                                            &motion.spin,   &motion.swing,    &motion.pulsing};
+    const int count = OWN + motion.moreCount;
+    for (int i = OWN; i < count; ++i)
+        waves[i] = &motion.more[i - OWN].wave;
+    const Wave* slowest = nullptr;
+    bool fits = true;
+    for (int i = 0; i < count; ++i) {
+        const Wave* wave = waves[i];
+        if (wave->period == Real(0))
+            continue;
+        const Real to = absolute(wave->period) * factor;
+        fits = fits && to >= PERIOD_LEAST && to <= PERIOD_MOST;
+        if (slowest == nullptr || absolute(wave->period) > absolute(slowest->period))
+            slowest = wave;
+    }
+    if (slowest == nullptr) {
+        say(current().name, " stands still: o gives it a motion");
+        return false;
+    }
+    if (!fits) {
+        say("no further");
+        return false;
+    }
+    if (!begin(PACE, now))
+        return false;
+    for (int i = 0; i < count; ++i) {
+        Wave* wave = waves[i];
+        if (wave->period == Real(0))
+            continue;
+        const Angle phase = wave->phase;
+        *wave = makeWave(wave->period * factor, Real(0));
+        wave->phase = phase;
+    }
+    char text[24];
+    formatQuotient(text, sizeof text, static_cast<uint32_t>(rawFromReal(absolute(slowest->period))), 65536, 2);
+    say("period ", text, " seconds");
+    return true;
+}
+
+bool Editor::light(int axis, Real degrees, Time now)
+{
+    if (!begin(LIGHT, now))
+        return false;
+    const Real none(0), one(1);
+    const Vector about{axis == 0 ? one : none, axis == 1 ? one : none, none};
+    model_.setLight(Matrix::rotation(about, fromDegrees(degrees)) * unit(model_.light));
+    char x[24], y[24], z[24];
+    const auto text = [](char* to, Real value) {
+        const int32_t raw = rawFromReal(value);
+        to[0] = '-';
+        formatQuotient(raw < 0 ? to + 1 : to, 20, static_cast<uint32_t>(raw < 0 ? -raw : raw), 65536, 2);
+    };
+    text(x, model_.light.x);
+    text(y, model_.light.y);
+    text(z, model_.light.z);
+    snprintf(message_, sizeof message_, "light %s %s %s", x, y, z);
+    return true;
+}
+
+bool Editor::join()
+{
+    SoftObject *a, *b;
+    if (!pairOf(&a, &b))
+        return false;
+    Actor &actor = current(), &other = model_.actor(before());
+    Actor* with = other.motion.parent == 0 ? nullptr : model_.itemNumbered(other.motion.parent);
+    if (with != nullptr && with->object != nullptr) {
+        say(other.name, " is carried by ", with->name);
+        return false;
+    }
+    if (with != nullptr && actor.motion.parent == with->number) {
+        say(actor.name, " is in ", with->name, " already");
+        return false;
+    }
+    if (!begin(OTHER, 0))
+        return false;
+    if (with == nullptr) {
+        Actor described;
+        int n = 0;
+        do
+            snprintf(described.name, sizeof described.name, "group%d", ++n);
+        while (model_.itemNamed(described.name) != nullptr);
+        with = model_.addItem(described);
+        if (with == nullptr) {
+            drop();
+            say("no room for another group");
+            return false;
+        }
+        model_.setParent(&other, with->number);
+    }
+    if (!model_.setParent(&actor, with->number)) {
+        drop();
+        say(with->name, " is carried by ", actor.name);
+        return false;
+    }
+    say(actor.name, " is in ", with->name);
+    return true;
+}
+
+bool Editor::leave()
+{
+    Actor* from = group();
+    if (from == nullptr) {
+        say(current().name, " is in no group");
+        return false;
+    }
+    if (!begin(OTHER, 0))
+        return false;
+    say(current().name, " has left ", from->name);
+    model_.setParent(&current(), from->motion.parent);
+    // A group that carries nothing is no use.
+    for (int i = 0; i < model_.items(); ++i)
+        if (model_.item(i).motion.parent == from->number)
+            return true;
+    model_.remove(from);
+    return true;
+}
+
+// Goes to the newest step of one list, and keeps the way back in the other.
+bool Editor::goBack(Steps& from, Steps& to)
+{
+    // Without the memory for it there is no way back; going is worth more.
+    Model::Record* now = model_.record();
+    const Step& step = from.step[from.count - 1];
+    if (!model_.restore(step.record)) {
+        free(now);
+        say("no memory left");
+        return false;
+    }
+    if (now != nullptr) {
+        if (to.count == STEPS_MOST)
+            to.forgetOldest();
+        to.step[to.count++] = {now, selected_, before_};
+    } else {
+        to.clear();
+    }
+    selected_ = step.selected;
+    before_ = step.before;
+    free(step.record);
+    --from.count;
+    action_ = NONE;
+    return true;
+}
+
+bool Editor::undo()
+{
+    if (undo_.count == 0) {
+        say("nothing to undo");
+        return false;
+    }
+    if (!goBack(undo_, redo_))
+        return false;
+    snprintf(message_, sizeof message_, "undone, %d more", undo_.count);
+    return true;
+}
+
+bool Editor::redo()
+{
+    if (redo_.count == 0) {
+        say("nothing to do again");
+        return false;
+    }
+    if (!goBack(redo_, undo_))
+        return false;
+    snprintf(message_, sizeof message_, "done again, %d more", redo_.count);
+    return true;
+}
+
+bool Editor::save(const char* name)
 {
     const char* problem = writeScene(name, model_);
     if (problem != nullptr)
         say(problem);
     else
         say("saved as ", name);
+    return problem == nullptr;
 }
 
-bool Editor::load(const char* name, Real spacing)
+bool Editor::load(const char* name, Real spacing, bool undoable)
 {
     Model* fresh = make<Model>();
     if (fresh == nullptr) {
@@ -287,8 +617,12 @@ bool Editor::load(const char* name, Real spacing)
         Anim::move(*fresh, 0);
     if (problem == nullptr && !fresh->resample(spacing, model_.surfaceMaker()))
         problem = "no memory for so many seeds";
-    const bool good = problem == nullptr && begin(OTHER, 0);
+    const bool good = problem == nullptr && (!undoable || begin(OTHER, 0));
     if (good) {
+        if (!undoable) {
+            undo_.clear();
+            redo_.clear();
+        }
         model_.swap(*fresh);
         selected_ = model_.actor(0).number;
         before_ = 0;
@@ -315,5 +649,18 @@ void Editor::describe(char* to, int size) const
                            actor.kind == nullptr ? "size" : actor.kind->measure[i].word, text);
     }
     if (length < size)
-        snprintf(to + length, static_cast<size_t>(size - length), ", blends with %d", links);
+        length += snprintf(to + length, static_cast<size_t>(size - length), ", blends with %d", links);
+    const Actor* carrier = actor.motion.parent == 0 ? nullptr : model_.itemNumbered(actor.motion.parent);
+    if (carrier != nullptr && length < size)
+        length += snprintf(to + length, static_cast<size_t>(size - length), ", in %s", carrier->name);
+    const int other = before();
+    if (other < 0 || length >= size)
+        return;
+    length += snprintf(to + length, static_cast<size_t>(size - length), "; before it %s", model_.actor(other).name);
+    Real weight;
+    if (length < size && Model::linked(actor.object, model_.actor(other).object, &weight)) {
+        char text[24];
+        formatReal(text, sizeof text, weight);
+        snprintf(to + length, static_cast<size_t>(size - length), ", weight %s", text);
+    }
 }

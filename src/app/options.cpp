@@ -6,35 +6,57 @@
 
 const char* const HELP =
     "Fast Blobs: soft objects, animated in real time.\n"
+    "  DEMO [switches] [scene]     DEMO WALK.FB plays a scene, DEMO the spheres\n"
     "\n"
     "  /I        interactive: the mouse moves the objects\n"
     "  /G        monochrome: one 64-step ramp\n"
     "  /P        the 1998 report's own methods, as printed\n"
     "  /S:n      seed spacing in units, 0.25 to 8 (2)\n"
-    "  /N:n      stop after n frames, each 0.1 s of animation\n"
+    "  /N:n      stop after n frames, each a step of 0.1 s (see /R)\n"
     "  /R:n      with /N: n frames for a second of animation, 1 to 1000 (10)\n"
     "  /T:n      stop after n seconds, 1 to 86400\n"
     "  /D:dir    write every frame into dir\n"
     "  /M:file   model and animation from a file\n"
+    "  /A:file   animation: what is played, as one FLI file\n"
+    "  /B        benchmark: one minute, and one line about it\n"
     "  /O:file   append the statistics to file, as one CSV record\n"
     "  /V        wait for the vertical retrace\n"
     "  /X        draw, but do not copy to the card\n"
     "  /?        this page\n"
     "\n"
-    "Keys:  *  scales or pixels   -  coarser   +  finer   F  frames a second\n"
-    "       F1  all keys; with /I there are more, to change the model   ESC  ends\n"
+    "Keys:  F1  all of them   *  scales or pixels   -  +  coarser, finer   ESC  ends\n"
+    "       F  frames a second   P  picture to a file   N  next scene\n"
+    "       Space  stop and go   .  a step   Home  from the start   <  >  speed\n"
     "Mouse (with /I):  left button selects the next object; moving it moves the\n"
-    "object in X and Y, in X and Z while the right button is held. Without a mouse:\n"
-    "Tab, arrows, PgUp and PgDn.\n";
+    "object in X and Y, with the right button X and Z. Or Tab, arrows, PgUp, PgDn.\n";
 
 namespace {
 
-char problem[160];
+constexpr const char* KNOWN = "unknown switch; known are /I /G /P /S:n /N:n /R:n /T:n /A:file /B /D:dir /M:file /O:file /V /X /?";
+
+char problem[240];
 
 const char* complain(const char* argument, const char* what)
 {
-    snprintf(problem, sizeof problem, "%.60s: %s", argument, what);
+    char plain[90];
+    snprintf(problem, sizeof problem, "%s: %s", plainText(plain, sizeof plain, argument), what);
     return problem;
+}
+
+constexpr int NUMBER_ROOM = 24;
+
+// Copies a number's text up to the end of the argument or the next switch. Returns where it ends; null: there is none,
+// or it is longer than any number that is in range.
+const char* takeNumber(const char* value, char* number)
+{
+    int length = 0;
+    for (; *value != 0 && *value != '/'; ++value) {
+        if (length == NUMBER_ROOM - 1)
+            return nullptr;
+        number[length++] = *value;
+    }
+    number[length] = 0;
+    return length > 0 ? value : nullptr;
 }
 
 bool wholeWithin(const char* text, int32_t most, int32_t* value)
@@ -46,61 +68,106 @@ bool wholeWithin(const char* text, int32_t most, int32_t* value)
     return true;
 }
 
-}  // namespace
-
-const char* parseOptions(int count, char** arguments, Options* options)
+// Reads the switches of one argument, which begins with one; /G/I are two. Null, or a complaint.
+const char* parseSwitches(const char* argument, Options* options)
 {
-    static const char KNOWN[] = "unknown switch; known are /I /G /P /S:n /N:n /R:n /T:n /D:dir /M:file /O:file /V /X /?";
-    for (int i = 1; i < count; ++i) {
-        const char* argument = arguments[i];
-        if ((argument[0] != '/' && argument[0] != '-') || argument[1] == 0)
+    const char* at = argument;
+    while (*at != 0) {
+        // After the first, only '/' begins a switch: '-' is part of many a name and number.
+        if (at != argument && *at != '/')
             return complain(argument, KNOWN);
-        const char letter = argument[1] >= 'a' && argument[1] <= 'z' ? static_cast<char>(argument[1] - 32) : argument[1];
-        const char* value = argument[2] == ':' ? argument + 3 : nullptr;
-        if (argument[2] != 0 && value == nullptr)
+        const char letter = at[1] >= 'a' && at[1] <= 'z' ? static_cast<char>(at[1] - 32) : at[1];
+        if (letter == 0)
             return complain(argument, KNOWN);
+        at += 2;
+        const bool marked = *at == ':' || *at == '=';
         bool* flag = nullptr;
         const char** name = nullptr;
+        const char* expected = nullptr;
         switch (letter) {
         case 'I': flag = &options->interactive; break;
         case 'G': flag = &options->grey; break;
         case 'P': flag = &options->printed; break;
         case 'V': flag = &options->retrace; break;
         case 'X': flag = &options->noPresent; break;
+        case 'B': flag = &options->benchmark; break;
         case '?': flag = &options->help; break;
         case 'D': name = &options->dumpDirectory; break;
         case 'M': name = &options->modelFile; break;
         case 'O': name = &options->recordFile; break;
-        case 'S': {
-            Real spacing;
-            if (value == nullptr || !parseReal(value, &spacing) || spacing < SPACING_LEAST || spacing > SPACING_MOST)
-                return complain(argument, "a seed spacing from 0.25 to 8 is expected, as in /S:2");
-            options->spacing = spacing;
-            continue;
-        }
-        case 'N':
-            if (value == nullptr || !wholeWithin(value, FRAMES_MOST, &options->frames))
-                return complain(argument, "a number of frames from 1 to 9999999 is expected, as in /N:600");
-            continue;
-        case 'R':
-            if (value == nullptr || !wholeWithin(value, RATE_MOST, &options->rate))
-                return complain(argument, "frames a second from 1 to 1000 are expected, as in /R:10");
-            continue;
-        case 'T':
-            if (value == nullptr || !wholeWithin(value, SECONDS_MOST, &options->seconds))
-                return complain(argument, "seconds from 1 to 86400 are expected, as in /T:60");
-            continue;
+        case 'A': name = &options->filmFile; break;
+        case 'S': expected = "a seed spacing from 0.25 to 8 is expected, as in /S:2"; break;
+        case 'N': expected = "a number of frames from 1 to 9999999 is expected, as in /N:600"; break;
+        case 'R': expected = "frames a second from 1 to 1000 are expected, as in /R:10"; break;
+        case 'T': expected = "seconds from 1 to 86400 are expected, as in /T:60"; break;
         default: return complain(argument, KNOWN);
         }
         if (flag != nullptr) {
-            if (value != nullptr)
+            if (marked)
                 return complain(argument, "this switch takes no value");
             *flag = true;
-        } else {
-            if (value == nullptr || *value == 0)
+        } else if (name != nullptr) {
+            // A name may have slashes: it goes to the end of the argument.
+            if (*at != 0 && !marked)
+                return complain(argument, KNOWN);
+            if (*at == 0 || at[1] == 0)
                 return complain(argument, "a name is expected after the colon");
-            *name = value;
+            *name = at + 1;
+            return nullptr;
+        } else {
+            // /S2 is as good as /S:2.
+            const bool bare = (*at >= '0' && *at <= '9') || *at == '.';
+            if (*at != 0 && *at != '/' && !marked && !bare)
+                return complain(argument, KNOWN);
+            char number[NUMBER_ROOM];
+            const char* end = takeNumber(marked ? at + 1 : at, number);
+            Real spacing;
+            bool good = end != nullptr;
+            switch (letter) {
+            case 'S':
+                good = good && parseReal(number, &spacing) && spacing >= SPACING_LEAST && spacing <= SPACING_MOST;
+                if (good)
+                    options->spacing = spacing;
+                break;
+            case 'N': good = good && wholeWithin(number, FRAMES_MOST, &options->frames); break;
+            case 'R':
+                good = good && wholeWithin(number, RATE_MOST, &options->rate);
+                options->rateGiven = true;
+                break;
+            default: good = good && wholeWithin(number, SECONDS_MOST, &options->seconds); break;
+            }
+            if (!good)
+                return complain(argument, expected);
+            at = end;
         }
     }
+    return nullptr;
+}
+
+}  // namespace
+
+const char* parseOptions(int count, char** arguments, Options* options)
+{
+    const char* scene = nullptr;
+    for (int i = 1; i < count; ++i) {
+        const char* argument = arguments[i];
+        if (argument[0] == 0)
+            return complain(argument, KNOWN);
+        if (argument[0] == '/' || argument[0] == '-') {
+            const char* trouble = parseSwitches(argument, options);
+            if (trouble != nullptr)
+                return trouble;
+            continue;
+        }
+        if (scene != nullptr)
+            return complain(argument, "there is a scene already; one is expected");
+        scene = argument;
+    }
+    if (scene != nullptr && options->modelFile != nullptr)
+        return complain(scene, "there is a scene already, by /M; one is expected");
+    if (scene != nullptr)
+        options->modelFile = scene;
+    if (options->benchmark && options->seconds == 0 && options->frames == 0)
+        options->seconds = BENCHMARK_SECONDS;
     return nullptr;
 }

@@ -6,20 +6,18 @@
 using machine::HEIGHT;
 using machine::WIDTH;
 
-void Overlay::setPalette(const Palette& palette)
-{
-    int best = -1;
-    for (int i = 0; i < 256; ++i) {
-        const uint8_t* colour = palette.dac() + 3 * i;
-        // Green looks brighter than red, and red than blue.
-        const int bright = 3 * colour[0] + 6 * colour[1] + colour[2];
-        if (bright > best) {
-            best = bright;
-            ink_ = static_cast<uint8_t>(i);
-        }
-    }
-    paper_ = 0;
-}
+namespace {
+
+constexpr uint8_t INK = Palette::INK;
+constexpr uint8_t PAPER = 0;  // the background
+
+// The pointer's rows from its tip down: the columns of its outline and of what it encloses, leftmost highest.
+constexpr int POINTER_WIDE = 7;
+constexpr int POINTER_HIGH = 10;
+constexpr uint8_t POINTER[POINTER_HIGH] = {0b1000000, 0b1100000, 0b1110000, 0b1111000, 0b1111100,
+                                           0b1111110, 0b1111000, 0b1101100, 0b1000110, 0b0000110};
+
+}  // namespace
 
 int Overlay::width(const char* text)
 {
@@ -32,14 +30,15 @@ inline void Overlay::dot(uint8_t* frame, int x, int y, uint8_t colour)
         frame[y * WIDTH + x] = colour;
 }
 
-void Overlay::text(int left, int top, const char* text)
+void Overlay::letters(int left, int top, const char* text, int length)
 {
-    uint8_t* frame = view_.overlay(left - 1, top - 1, width(text) + 1, FONT_HIGH + 2);
+    uint8_t* frame = view_.overlay(left - 1, top - 1, length * LETTER_WIDE + 1, FONT_HIGH + 2);
     // The rim first, for all letters, so that none is drawn over its neighbour.
     for (int pass = 0; pass < 2; ++pass) {
         int x = left;
-        for (const char* c = text; *c != 0 && x < WIDTH; ++c, x += LETTER_WIDE) {
-            const int capital = *c >= 'a' && *c <= 'z' ? *c - 32 : *c;
+        for (int i = 0; i < length && x < WIDTH; ++i, x += LETTER_WIDE) {
+            const char c = text[i];
+            const int capital = c >= 'a' && c <= 'z' ? c - 32 : c;
             const int known = capital >= FONT_FIRST && capital < FONT_FIRST + FONT_LETTERS ? capital : '?';
             const uint8_t* letter = FONT[known - FONT_FIRST];
             for (int row = 0; row < FONT_HIGH; ++row) {
@@ -47,25 +46,61 @@ void Overlay::text(int left, int top, const char* text)
                     if ((letter[row] >> (FONT_WIDE - 1 - column) & 1) == 0)
                         continue;
                     if (pass == 1) {
-                        dot(frame, x + column, top + row, ink_);
+                        dot(frame, x + column, top + row, INK);
                         continue;
                     }
-                    dot(frame, x + column - 1, top + row, paper_);
-                    dot(frame, x + column + 1, top + row, paper_);
-                    dot(frame, x + column, top + row - 1, paper_);
-                    dot(frame, x + column, top + row + 1, paper_);
+                    dot(frame, x + column - 1, top + row, PAPER);
+                    dot(frame, x + column + 1, top + row, PAPER);
+                    dot(frame, x + column, top + row - 1, PAPER);
+                    dot(frame, x + column, top + row + 1, PAPER);
                 }
             }
         }
     }
 }
 
-void Overlay::box(int left, int top, int wide, int high)
+void Overlay::text(int left, int top, const char* text)
 {
-    uint8_t* frame = view_.overlay(left, top, wide, high);
-    for (int y = top; y < top + high; ++y)
-        for (int x = left; x < left + wide; ++x)
-            dot(frame, x, y, paper_);
+    letters(left, top, text, static_cast<int>(strlen(text)));
+}
+
+int Overlay::paragraph(int left, int top, int wide, const char* text, bool draw)
+{
+    const int most = wide / LETTER_WIDE;
+    int lines = 0;
+    while (*text != 0) {
+        // As many words as fit; a word longer than the line is broken where the line ends.
+        int length = 0, end = 0;
+        while (text[length] != 0 && length < most) {
+            if (text[length] == ' ')
+                end = length;
+            ++length;
+        }
+        if (text[length] == 0 || text[length] == ' ' || end == 0)
+            end = length;
+        if (draw)
+            letters(left, top + lines * (LINE_HIGH + 1), text, end);
+        ++lines;
+        text += end;
+        while (*text == ' ')
+            ++text;
+    }
+    return lines;
+}
+
+void Overlay::panel(int left, int top, int wide, int high)
+{
+    uint8_t* frame = view_.overlay(left - 1, top - 1, wide + 2, high + 2);
+    for (int y = top - 1; y < top + high + 1; ++y) {
+        for (int x = left - 1; x < left + wide + 1; ++x) {
+            const bool edge = x < left || x >= left + wide || y < top || y >= top + high;
+            const bool line = x == left || x == left + wide - 1 || y == top || y == top + high - 1;
+            if (edge || line)
+                dot(frame, x, y, edge ? PAPER : INK);
+            else if (((x + y) & 1) == 0)
+                dot(frame, x, y, PAPER);
+        }
+    }
 }
 
 void Overlay::cross(int x, int y)
@@ -73,9 +108,42 @@ void Overlay::cross(int x, int y)
     constexpr int ARM = 3;
     uint8_t* frame = view_.overlay(x - ARM, y - ARM, 2 * ARM + 1, 2 * ARM + 1);
     for (int i = 2; i <= ARM; ++i) {
-        dot(frame, x - i, y, ink_);
-        dot(frame, x + i, y, ink_);
-        dot(frame, x, y - i, ink_);
-        dot(frame, x, y + i, ink_);
+        dot(frame, x - i, y, INK);
+        dot(frame, x + i, y, INK);
+        dot(frame, x, y - i, INK);
+        dot(frame, x, y + i, INK);
+    }
+}
+
+void Overlay::diamond(int x, int y)
+{
+    constexpr int ARM = 4;
+    uint8_t* frame = view_.overlay(x - ARM, y - ARM, 2 * ARM + 1, 2 * ARM + 1);
+    for (int i = 0; i <= ARM; i += 2) {
+        dot(frame, x - i, y - (ARM - i), INK);
+        dot(frame, x + i, y - (ARM - i), INK);
+        dot(frame, x - i, y + (ARM - i), INK);
+        dot(frame, x + i, y + (ARM - i), INK);
+    }
+}
+
+void Overlay::pointer(int x, int y)
+{
+    uint8_t* frame = view_.overlay(x - 1, y - 1, POINTER_WIDE + 2, POINTER_HIGH + 2);
+    for (int pass = 0; pass < 2; ++pass) {
+        for (int row = 0; row < POINTER_HIGH; ++row) {
+            for (int column = 0; column < POINTER_WIDE; ++column) {
+                if ((POINTER[row] >> (POINTER_WIDE - 1 - column) & 1) == 0)
+                    continue;
+                if (pass == 1) {
+                    dot(frame, x + column, y + row, INK);
+                    continue;
+                }
+                dot(frame, x + column - 1, y + row, PAPER);
+                dot(frame, x + column + 1, y + row, PAPER);
+                dot(frame, x + column, y + row - 1, PAPER);
+                dot(frame, x + column, y + row + 1, PAPER);
+            }
+        }
     }
 }

@@ -60,7 +60,8 @@ void Stats::format(char* to, int size) const
     }
 }
 
-void Stats::formatRecord(char* to, int size, const char* settings) const
+void Stats::formatRecord(char* to, int size, const char* settings, const char* scene, const char* date,
+                         const char* machine) const
 {
     Line all[LINES];
     lines(all);
@@ -70,7 +71,7 @@ void Stats::formatRecord(char* to, int size, const char* settings) const
         formatQuotient(value, sizeof value, line.top, line.bottom, line.decimals);
         length += snprintf(to + length, static_cast<size_t>(size - length), ",%s", value);
     }
-    snprintf(to + length, static_cast<size_t>(size - length), "\r\n");
+    snprintf(to + length, static_cast<size_t>(size - length), ",%s,%s,%s\r\n", scene, date, machine);
 }
 
 void Stats::formatHeader(char* to, int size)
@@ -80,5 +81,5 @@ void Stats::formatHeader(char* to, int size)
     int length = snprintf(to, static_cast<size_t>(size), "settings");
     for (const Line& line : all)
         length += snprintf(to + length, static_cast<size_t>(size - length), ",%s", line.name);
-    snprintf(to + length, static_cast<size_t>(size - length), "\r\n");
+    snprintf(to + length, static_cast<size_t>(size - length), ",scene,date,machine\r\n");
 }

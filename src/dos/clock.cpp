@@ -6,6 +6,7 @@
 // thing changed here, at a moment right after an interrupt, so that not even a part of a tick is lost.
 #include "machine.h"
 #include "pc.h"
+#include "rt.h"
 
 namespace {
 
@@ -128,5 +129,26 @@ uint64_t clock() {
 }
 
 void standStill(bool) {}
+
+void date(char* to, int size) {
+    dpmi::RealRegs day = pc::regs(0x2a00);
+    dpmi::RealRegs hour = pc::regs(0x2c00);
+    if (!dpmi::realInterrupt(0x21, &day) || !dpmi::realInterrupt(0x21, &hour)) {
+        to[0] = '\0';
+        return;
+    }
+    snprintf(to, size_t(size), "%04u-%02u-%02u %02u:%02u:%02u", unsigned(day.ecx & 0xffff), unsigned(day.edx >> 8 & 0xff),
+             unsigned(day.edx & 0xff), unsigned(hour.ecx >> 8 & 0xff), unsigned(hour.ecx & 0xff),
+             unsigned(hour.edx >> 8 & 0xff));
+}
+
+void describe(char* to, int size) {
+    dpmi::RealRegs dos = pc::regs(0x3000);
+    if (!dpmi::realInterrupt(0x21, &dos)) {
+        dos.eax = 0;
+    }
+    snprintf(to, size_t(size), "DOS %u.%02u 80%d86", unsigned(dos.eax & 0xff), unsigned(dos.eax >> 8 & 0xff),
+             dpmi::processor());
+}
 
 }  // namespace machine

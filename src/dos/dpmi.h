@@ -163,6 +163,16 @@ inline bool realInterrupt(int number, RealRegs* regs) {
     return !carry;
 }
 
+// 0400h: the processor, 3 for a 386, 4 for a 486 and so on.
+inline int processor() {
+    uint32_t eax = 0x0400;
+    uint32_t ebx = 0;
+    uint32_t ecx = 0;
+    uint32_t edx = 0;
+    __asm__ volatile("int $0x31" : "+a"(eax), "+b"(ebx), "+c"(ecx), "+d"(edx) : : "cc", "memory");
+    return int(ecx & 0xff);
+}
+
 // 0501h: memory by the byte; false when there is not enough.
 inline bool allocateMemory(uint32_t bytes, uint32_t* linear, uint32_t* handle) {
     uint32_t eax = 0x0501;

@@ -16,10 +16,15 @@ constexpr uint32_t DISK_FULL = 39;
 constexpr uint32_t FAILED_CRITICALLY = 83;
 
 constexpr uint32_t LONGEST_NAME = 127;
-constexpr uint16_t DIRECTORY = 0x10;  // attribute
+constexpr uint16_t READ_ONLY = 0x01;  // attributes
+constexpr uint16_t DIRECTORY = 0x10;
 
 const char* trouble = "";
 char otherTrouble[24];
+
+// The file that beginSave() made, and the one whose place it takes.
+char saving[LONGEST_NAME + 1 + 13];
+char savedAs[LONGEST_NAME + 1];
 
 // Notes why something failed; -1 for the caller to return.
 int failed(uint32_t error) {
@@ -99,6 +104,18 @@ int callOnName(uint32_t eax, uint32_t ecx, const char* name, uint16_t* cx = null
         *cx = uint16_t(r.ecx);
     }
     return result;
+}
+
+bool renameFile(const char* from, const char* to) {
+    const pc::Transfer buffer = pc::transfer();
+    const uint32_t low = uint32_t(buffer.segment) << 4, length = uint32_t(strlen(from)) + 1;
+    pc::copyToLow(low, from, length);
+    pc::copyToLow(low + length, to, uint32_t(strlen(to)) + 1);
+    dpmi::RealRegs r = pc::regs(0x5600);
+    r.ds = buffer.segment;
+    r.es = buffer.segment;
+    r.edi = length;
+    return call(&r) >= 0;
 }
 
 // Whether a name is that of a directory which is there without having been made: the current one, or a root. DOS knows
@@ -201,6 +218,146 @@ bool closeFile(int file) {
     dpmi::RealRegs r = pc::regs(0x3e00);
     r.ebx = uint32_t(file);
     return call(&r) >= 0;
+}
+
+bool rewindFile(int file) {
+    dpmi::RealRegs r = pc::regs(0x4200);
+    r.ebx = uint32_t(file);
+    return call(&r) >= 0;
+}
+
+int listFiles(const char* directory, const char* ending, FileName* to, int room) {
+    // DOS writes each file's facts into its disk transfer area, which lies in the buffer for the time of this call; the
+    // pattern stands behind it.
+    constexpr uint32_t PATTERN = 64;
+    constexpr uint32_t NAME = 30;  // in the facts: 13 bytes, the final 0 included
+    const pc::Transfer buffer = pc::transfer();
+    const uint32_t base = uint32_t(buffer.segment) << 4;
+    char joined[LONGEST_NAME + 1];
+    char pattern[LONGEST_NAME + 1];
+    const int length = snprintf(joined, sizeof joined, "%s%s*%s", directory, directory[0] == '\0' ? "" : "/", ending);
+    if (length >= int(sizeof joined) || !tidy(joined, pattern)) {
+        return 0;
+    }
+    dpmi::RealRegs r = pc::regs(0x2f00);
+    dpmi::realInterrupt(0x21, &r);
+    const uint16_t oldSegment = r.es;
+    const uint32_t oldOffset = r.ebx & 0xffff;
+    r = pc::regs(0x1a00);
+    r.ds = buffer.segment;
+    dpmi::realInterrupt(0x21, &r);
+    pc::copyToLow(base + PATTERN, pattern, uint32_t(strlen(pattern)) + 1);
+
+    int count = 0;
+    for (uint32_t function = 0x4e00; count < room; function = 0x4f00) {
+        r = pc::regs(function);
+        r.ds = buffer.segment;
+        r.edx = PATTERN;
+        if (call(&r) < 0) {
+            break;
+        }
+        FileName found = {};
+        pc::copyFromLow(found.text, base + NAME, 13);
+        int at = count++;
+        for (; at > 0 && strcmp(to[at - 1].text, found.text) > 0; --at) {
+            to[at] = to[at - 1];
+        }
+        to[at] = found;
+    }
+    r = pc::regs(0x1a00);
+    r.ds = oldSegment;
+    r.edx = oldOffset;
+    dpmi::realInterrupt(0x21, &r);
+    return count;
+}
+
+int32_t fileBytes(int file) {
+    dpmi::RealRegs r = pc::regs(0x4202);
+    r.ebx = uint32_t(file);
+    if (call(&r) < 0) {
+        return -1;
+    }
+    return int32_t((r.edx & 0xffff) << 16 | (r.eax & 0xffff));
+}
+
+bool cutFile(int file, uint32_t bytes) {
+    dpmi::RealRegs r = pc::regs(0x4200);
+    r.ebx = uint32_t(file);
+    r.ecx = bytes >> 16;
+    r.edx = bytes & 0xffff;
+    if (call(&r) < 0) {
+        return false;
+    }
+    // Nothing written means: the file ends here.
+    r = pc::regs(0x4000);
+    r.ebx = uint32_t(file);
+    r.ds = pc::transfer().segment;
+    return call(&r) >= 0;
+}
+
+bool removeFile(const char* name) {
+    return callOnName(0x4100, 0, name) >= 0;
+}
+
+int beginSave(const char* name) {
+    if (!tidy(name, savedAs)) {
+        return failed(NO_PATH);
+    }
+    uint16_t attributes = 0;
+    const bool there = callOnName(0x4300, 0, savedAs, &attributes) >= 0;
+    if (there && (attributes & (READ_ONLY | DIRECTORY)) != 0) {
+        return failed(DENIED);
+    }
+    // DOS makes up the name of the new file; it wants the folder, with a backslash at its end where it is not the current
+    // one.
+    uint32_t folder = 0;
+    for (uint32_t i = 0; savedAs[i] != '\0'; ++i) {
+        if (savedAs[i] == '\\' || savedAs[i] == ':') {
+            folder = i + 1;
+        }
+    }
+    memcpy(saving, savedAs, folder);
+    if (folder == 0) {
+        saving[folder++] = '.';
+        saving[folder++] = '\\';
+    } else if (saving[folder - 1] == ':') {
+        saving[folder++] = '.';
+        saving[folder++] = '\\';
+    }
+    saving[folder] = '\0';
+    const pc::Transfer buffer = pc::transfer();
+    const uint32_t low = uint32_t(buffer.segment) << 4;
+    pc::copyToLow(low, saving, folder + 1);
+    dpmi::RealRegs r = pc::regs(0x5a00);
+    r.ds = buffer.segment;
+    const int file = call(&r);
+    if (file >= 0) {
+        pc::copyFromLow(saving, low, folder + 13);
+        saving[folder + 13] = '\0';
+    }
+    return file;
+}
+
+bool endSave(int file, bool good) {
+    const char* why = trouble;
+    const bool closed = closeFile(file);
+    if (good && !closed) {
+        why = trouble;
+    }
+    good = good && closed;
+    uint16_t attributes;
+    if (good && callOnName(0x4300, 0, savedAs, &attributes) >= 0 && !removeFile(savedAs)) {
+        why = trouble;
+        good = false;
+    }
+    if (!good) {
+        removeFile(saving);
+        trouble = why;
+        return false;
+    }
+    // DOS renames to no name that is taken. Between the two calls the new file is there whole, under its own name; there it
+    // stays if the second fails.
+    return renameFile(saving, savedAs);
 }
 
 bool makeDirectory(const char* name) {

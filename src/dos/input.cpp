@@ -7,6 +7,8 @@ namespace {
 // The BIOS's ring of keys: offsets of the next to read and the next to write, equal when it is empty.
 constexpr uint32_t KEYS_HEAD = 0x41a;
 constexpr uint32_t KEYS_TAIL = 0x41c;
+constexpr uint32_t KEYBOARD_FLAGS = 0x417;
+constexpr uint8_t CAPS_LOCK = 0x40;
 constexpr uint32_t KEYBOARD_KIND = 0x496;
 constexpr uint8_t ENHANCED = 0x10;
 
@@ -36,7 +38,9 @@ int key() {
                 return 0x100 + scan;
             }
         } else {
-            return character;
+            const int letter = character | 0x20;
+            const bool turned = letter >= 'a' && letter <= 'z' && (pc::peek8(KEYBOARD_FLAGS) & CAPS_LOCK) != 0;
+            return turned ? character ^ 0x20 : character;
         }
     }
     return 0;
@@ -59,7 +63,7 @@ bool openMouse() {
 }
 
 Mouse mouse() {
-    Mouse now = {0, 0, false, false};
+    Mouse now = {0, 0, 0, false, false};
     if (!mouseOpen) {
         return now;
     }
@@ -67,6 +71,11 @@ Mouse mouse() {
     if (dpmi::realInterrupt(MOUSE, &r)) {
         now.left = (r.ebx & 1) != 0;
         now.right = (r.ebx & 2) != 0;
+    }
+    // How often the left button went down: what happens while a frame is drawn counts too.
+    r = pc::regs(0x0005);
+    if (dpmi::realInterrupt(MOUSE, &r)) {
+        now.presses = uint16_t(r.ebx);
     }
     r = pc::regs(0x000b);
     if (dpmi::realInterrupt(MOUSE, &r)) {

@@ -5,21 +5,28 @@
 // Tests play a user by way of a script: the environment variable FB_INPUT names a text file, one event a line,
 //
 //     FRAME key NAME            a key: one character, or ESC, F1..F4, UP, DOWN, LEFT, RIGHT, PGUP, PGDN, INS, DEL,
-//                               SPACE, ENTER, TAB, BREAK (Ctrl-C)
+//                               HOME, SPACE, ENTER, TAB, BACKSPACE, BREAK (Ctrl-C)
 //     FRAME mouse DX DY BUTTONS mickeys moved, and the buttons held from then on: L, R, LR or -
 //
-// where FRAME counts the frames presented so far (0: before the first), in rising order. Lines that begin with '#' and
+// where FRAME counts the frames presented so far (0: before the first), in rising order. FRAME.N (4.3) is later in that
+// frame, while it is drawn: after key() was called N times and had nothing to tell. Lines that begin with '#' and
 // empty lines are skipped. A line that cannot be read makes start() fail, for a test must not pass on half a script.
 // With a script that has mouse lines openMouse() finds a mouse, otherwise it finds none.
+//
+// FB_LOG names a file that is told, line by line, what the program does to the card and when it looks for keys: `palette`,
+// `present` and `key`.
 #include "machine.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
+#include <sys/utsname.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -48,6 +55,7 @@ void onBreak(int) {
 
 struct Event {
     unsigned long frame;
+    unsigned long polls;
     int key;  // 0: a mouse event, -1: a break
     int dx;
     int dy;
@@ -61,6 +69,8 @@ int nextKey = 0;    // index of the next event that key() has to look at
 int nextMouse = 0;  // and mouse()
 bool scriptHasMouse = false;
 unsigned long framesShown = 0;
+unsigned long emptyPolls = 0;  // of key() since then
+FILE* log = nullptr;
 bool leftHeld = false;
 bool rightHeld = false;
 char scriptTrouble[160];
@@ -73,8 +83,8 @@ int keyNamed(const char* name) {
     } names[] = {
         {"ESC", KEY_ESC}, {"F1", KEY_F1},       {"F2", KEY_F2},       {"F3", KEY_F3},     {"F4", KEY_F4},
         {"UP", KEY_UP},   {"DOWN", KEY_DOWN},   {"LEFT", KEY_LEFT},   {"RIGHT", KEY_RIGHT}, {"PGUP", KEY_PGUP},
-        {"PGDN", KEY_PGDN}, {"INS", KEY_INS},   {"DEL", KEY_DEL},     {"SPACE", ' '},     {"ENTER", 13},
-        {"TAB", 9},       {"BREAK", -1},
+        {"PGDN", KEY_PGDN}, {"INS", KEY_INS},   {"DEL", KEY_DEL},     {"SPACE", ' '},     {"ENTER", KEY_ENTER},
+        {"TAB", KEY_TAB}, {"HOME", KEY_HOME},   {"BACKSPACE", KEY_BACKSPACE}, {"BREAK", -1},
     };
     if (name[0] != '\0' && name[1] == '\0') {
         return static_cast<unsigned char>(name[0]);
@@ -92,10 +102,17 @@ bool parseEvent(const char* line, Event* event) {
     *event = Event{};
     char word[16];
     int used = 0;
-    if (sscanf(line, "%lu %15s%n", &event->frame, word, &used) != 2) {
+    if (sscanf(line, "%lu%n", &event->frame, &used) != 1) {
         return false;
     }
     const char* rest = line + used;
+    if (*rest == '.' && sscanf(rest, ".%lu%n", &event->polls, &used) == 1) {
+        rest += used;
+    }
+    if (sscanf(rest, "%15s%n", word, &used) != 1) {
+        return false;
+    }
+    rest += used;
     if (strcmp(word, "key") == 0) {
         char name[16];
         if (sscanf(rest, "%15s", name) != 1) {
@@ -115,6 +132,21 @@ bool parseEvent(const char* line, Event* event) {
         return true;
     }
     return false;
+}
+
+// Whether the time of an event has come.
+bool isDue(const Event& event) {
+    return event.frame < framesShown || (event.frame == framesShown && event.polls <= emptyPolls);
+}
+
+bool comesBefore(const Event& a, const Event& b) {
+    return a.frame != b.frame ? a.frame < b.frame : a.polls < b.polls;
+}
+
+void note(const char* what) {
+    if (log != nullptr) {
+        fprintf(log, "%s\n", what);
+    }
 }
 
 // Null, or what is wrong with the script.
@@ -142,7 +174,7 @@ const char* readScript(const char* name) {
             events = more;
         }
         Event* event = &events[eventCount];
-        if (!parseEvent(line, event) || (eventCount > 0 && event->frame < events[eventCount - 1].frame)) {
+        if (!parseEvent(line, event) || (eventCount > 0 && comesBefore(*event, events[eventCount - 1]))) {
             fclose(file);
             snprintf(scriptTrouble, sizeof scriptTrouble, "FB_INPUT: %.100s line %d: not an event", name, number);
             return scriptTrouble;
@@ -182,6 +214,10 @@ int failed() {
     return -1;
 }
 
+// The file that beginSave() made, and the one whose place it takes; both empty while nothing is being saved.
+char* savedAs = nullptr;
+char* saving = nullptr;
+
 void put(int stream, const char* text) {
     size_t left = strlen(text);
     while (left > 0) {
@@ -208,6 +244,13 @@ const char* start() {
             return wrong;
         }
     }
+    const char* told = getenv("FB_LOG");
+    if (told != nullptr && told[0] != '\0' && log == nullptr) {
+        log = fopen(told, "w");
+        if (log == nullptr) {
+            return "FB_LOG: cannot be written";
+        }
+    }
     struct sigaction action;
     memset(&action, 0, sizeof action);
     action.sa_handler = onBreak;
@@ -225,6 +268,10 @@ void stop() {
         catching = false;
         sigaction(SIGINT, &oldInterrupt, nullptr);
         sigaction(SIGTERM, &oldTerminate, nullptr);
+    }
+    if (log != nullptr) {
+        fclose(log);
+        log = nullptr;
     }
     free(events);
     events = nullptr;
@@ -259,6 +306,7 @@ void closeVideo() {}
 
 void setPalette(const uint8_t rgb[768]) {
     memcpy(palette, rgb, sizeof palette);
+    note("palette");
 }
 
 void present(const uint8_t* frame, const Span rows[HEIGHT]) {
@@ -269,6 +317,8 @@ void present(const uint8_t* frame, const Span rows[HEIGHT]) {
         }
     }
     ++framesShown;
+    emptyPolls = 0;
+    note("present");
 }
 
 void waitRetrace() {}
@@ -292,8 +342,25 @@ void standStill(bool wish) {
     still = wish;
 }
 
+void date(char* to, int size) {
+    const time_t now = time(nullptr);
+    tm local;
+    if (localtime_r(&now, &local) == nullptr || strftime(to, static_cast<size_t>(size), "%Y-%m-%d %H:%M:%S", &local) == 0) {
+        to[0] = '\0';
+    }
+}
+
+void describe(char* to, int size) {
+    utsname names;
+    if (uname(&names) != 0) {
+        snprintf(to, static_cast<size_t>(size), "host");
+        return;
+    }
+    snprintf(to, static_cast<size_t>(size), "%.24s %.24s", names.sysname, names.machine);
+}
+
 int key() {
-    while (nextKey < eventCount && events[nextKey].frame <= framesShown) {
+    while (nextKey < eventCount && isDue(events[nextKey])) {
         const int code = events[nextKey++].key;
         if (code > 0) {
             return code;
@@ -302,6 +369,8 @@ int key() {
             breakSeen = 1;
         }
     }
+    ++emptyPolls;
+    note("key");
     return 0;
 }
 
@@ -310,21 +379,17 @@ bool openMouse() {
 }
 
 Mouse mouse() {
-    Mouse now = {0, 0, false, false};
-    while (nextMouse < eventCount && events[nextMouse].frame <= framesShown) {
+    Mouse now = {0, 0, 0, false, false};
+    while (nextMouse < eventCount && isDue(events[nextMouse])) {
         const Event& event = events[nextMouse++];
         if (event.key != 0) {
             continue;
         }
-        const bool changed = event.left != leftHeld || event.right != rightHeld;
+        now.presses += event.left && !leftHeld;
         now.dx += event.dx;
         now.dy += event.dy;
         leftHeld = event.left;
         rightHeld = event.right;
-        if (changed) {
-            // A press and its release may stand at the same frame: each has to be seen by the caller.
-            break;
-        }
     }
     now.left = leftHeld;
     now.right = rightHeld;
@@ -400,6 +465,121 @@ bool closeFile(int file) {
         return false;
     }
     return true;
+}
+
+bool rewindFile(int file) {
+    if (lseek(file, 0, SEEK_SET) < 0) {
+        failed();
+        return false;
+    }
+    return true;
+}
+
+int32_t fileBytes(int file) {
+    struct stat facts;
+    if (fstat(file, &facts) != 0) {
+        return failed();
+    }
+    return static_cast<int32_t>(facts.st_size);
+}
+
+bool cutFile(int file, uint32_t bytes) {
+    if (ftruncate(file, bytes) != 0) {
+        failed();
+        return false;
+    }
+    return true;
+}
+
+int listFiles(const char* directory, const char* ending, FileName* to, int room) {
+    DIR* open = opendir(directory[0] == '\0' ? "." : directory);
+    if (open == nullptr) {
+        return 0;
+    }
+    int count = 0;
+    const size_t behind = strlen(ending);
+    for (const dirent* entry = readdir(open); entry != nullptr && count < room; entry = readdir(open)) {
+        const size_t length = strlen(entry->d_name);
+        if (length <= behind || length >= sizeof to->text || strcasecmp(entry->d_name + length - behind, ending) != 0) {
+            continue;
+        }
+        int at = count++;
+        for (; at > 0 && strcmp(to[at - 1].text, entry->d_name) > 0; --at) {
+            to[at] = to[at - 1];
+        }
+        strcpy(to[at].text, entry->d_name);
+    }
+    closedir(open);
+    return count;
+}
+
+bool removeFile(const char* name) {
+    // What is no plain file is not ours to remove: a device, a link to one.
+    struct stat facts;
+    if (lstat(name, &facts) == 0 && !S_ISREG(facts.st_mode)) {
+        errno = EPERM;
+        failed();
+        return false;
+    }
+    if (unlink(name) != 0) {
+        failed();
+        return false;
+    }
+    return true;
+}
+
+int beginSave(const char* name) {
+    struct stat facts;
+    const bool there = stat(name, &facts) == 0;
+    if (there && !S_ISREG(facts.st_mode)) {
+        // A device or a pipe takes what it is given; nothing can be put in its place.
+        return createFile(name);
+    }
+    if (there && access(name, W_OK) != 0) {
+        return failed();
+    }
+    // Where a symbolic link leads.
+    savedAs = there ? realpath(name, nullptr) : strdup(name);
+    saving = savedAs == nullptr ? nullptr : static_cast<char*>(malloc(strlen(savedAs) + sizeof ".XXXXXX"));
+    if (saving != nullptr) {
+        strcpy(saving, savedAs);
+        strcat(saving, ".XXXXXX");
+        const int file = mkstemp(saving);
+        if (file >= 0) {
+            const mode_t mask = umask(0);
+            umask(mask);
+            fchmod(file, there ? facts.st_mode & 0777 : 0666 & ~mask);
+            return file;
+        }
+    }
+    failed();
+    free(saving);
+    free(savedAs);
+    saving = savedAs = nullptr;
+    return -1;
+}
+
+bool endSave(int file, bool good) {
+    const char* why = trouble;
+    const bool closed = closeFile(file);
+    if (saving == nullptr) {
+        trouble = good ? trouble : why;
+        return good && closed;
+    }
+    if (good && closed && rename(saving, savedAs) != 0) {
+        failed();
+        good = false;
+    } else if (!good) {
+        trouble = why;
+    }
+    good = good && closed;
+    if (!good) {
+        unlink(saving);
+    }
+    free(saving);
+    free(savedAs);
+    saving = savedAs = nullptr;
+    return good;
 }
 
 bool makeDirectory(const char* name) {

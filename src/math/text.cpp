@@ -134,3 +134,53 @@ bool parseWhole(const char* text, int32_t* value)
     *value = static_cast<int32_t>(whole);
     return true;
 }
+
+namespace {
+
+// One byte as any screen can show it, without a final 0; returns its length, 1 or 4.
+int plainByte(char* to, char c)
+{
+    static const char DIGITS[] = "0123456789ABCDEF";
+    if (c >= ' ' && c <= '~') {
+        to[0] = c;
+        return 1;
+    }
+    const unsigned byte = static_cast<unsigned char>(c);
+    to[0] = '\\';
+    to[1] = 'x';
+    to[2] = DIGITS[byte >> 4];
+    to[3] = DIGITS[byte & 15];
+    return 4;
+}
+
+}  // namespace
+
+char* plainText(char* to, int size, const char* text)
+{
+    char byte[4];
+    int whole = 0, count = 0;
+    for (; text[count] != 0; ++count)
+        whole += plainByte(byte, text[count]);
+    // Without room for all: a third of it is the beginning, the rest the end, where a file's own name stands.
+    const bool cut = whole >= size;
+    const int front = cut ? size / 3 : whole, back = cut ? size - 1 - 3 - front : 0;
+    int length = 0, at = 0;
+    for (; at < count; ++at) {
+        const int more = plainByte(byte, text[at]);
+        if (length + more > front)
+            break;
+        memcpy(to + length, byte, static_cast<size_t>(more));
+        length += more;
+    }
+    if (cut) {
+        memcpy(to + length, "...", 3);
+        length += 3;
+        int from = count, room = back;
+        while (from > at && (room -= plainByte(byte, text[from - 1])) >= 0)
+            --from;
+        for (; from < count; ++from)
+            length += plainByte(to + length, text[from]);
+    }
+    to[length] = 0;
+    return to;
+}

@@ -86,18 +86,28 @@ Pose poseAt(const Model& model, const Motion& motion, Time time)
     Pose pose;
     pose.place = placeAt(motion, time);
     pose.scale = motion.scale;
-    if (motion.parts == 0)
+    if (motion.parts == 0 && motion.moreCount == 0)
         return pose;
+    // Calls `with` for each further move of a part.
+    const auto further = [&](MotionPart part, auto with) {
+        for (int i = 0; i < motion.moreCount; ++i)
+            if (motion.more[i].part == part)
+                with(motion.more[i], angleAt(motion.more[i].wave, time));
+    };
+    further(MOTION_CIRCLE, [&](const Move& m, Angle angle) { pose.place = pose.place + m.a * cosine(angle) + m.b * sine(angle); });
     if (motion.parts & MOTION_TURN)
         pose.turn = turnFrom(motion.turn);
     if (motion.parts & MOTION_PATH) {
         const auto part = [&](Real amplitude, int i) { return amplitude * sine(angleAt(motion.along[i], time)); };
         pose.place = pose.place + Vector{part(motion.path.x, 0), part(motion.path.y, 1), part(motion.path.z, 2)};
     }
+    further(MOTION_PATH, [&](const Move& m, Angle angle) { pose.place = pose.place + m.a * sine(angle); });
     if (motion.parts & MOTION_SPIN)
         pose.turn = Matrix::rotation(motion.spinAxis, angleAt(motion.spin, time)) * pose.turn;
+    further(MOTION_SPIN, [&](const Move& m, Angle angle) { pose.turn = Matrix::rotation(m.a, angle) * pose.turn; });
     if (motion.parts & MOTION_PULSE)
         pose.scale = pose.scale * (Real(1) + motion.pulse * sine(angleAt(motion.pulsing, time)));
+    further(MOTION_PULSE, [&](const Move& m, Angle angle) { pose.scale = pose.scale * (Real(1) + m.amount * sine(angle)); });
     if ((motion.parts & MOTION_KEYS) && motion.keyCount > 0) {
         const Keyed now = keyed(model.keys() + motion.firstKey, motion, time);
         pose.place = pose.place + Vector{now.value[0], now.value[1], now.value[2]};
@@ -109,6 +119,9 @@ Pose poseAt(const Model& model, const Motion& motion, Time time)
         const Real angle = motion.swingAngle * sine(angleAt(motion.swing, time));
         pose.turn = Matrix::rotation(motion.swingAxis, fromDegrees(angle)) * pose.turn;
     }
+    further(MOTION_SWING, [&](const Move& m, Angle angle) {
+        pose.turn = Matrix::rotation(m.a, fromDegrees(m.amount * sine(angle))) * pose.turn;
+    });
     pose.scale = clamp(pose.scale, SCALE_LEAST, SCALE_MOST);
     return pose;
 }

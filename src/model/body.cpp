@@ -63,7 +63,7 @@ bool Bodies::find(SoftObject* const* objects, int count)
         for (int at = begin; at < filled; ++at) {
             for (const List<Link>::Node* node = members_[at]->skel().first(); node != nullptr; node = node->next) {
                 SoftObject* other = node->item.object;
-                if (first_[other->slot()] >= 0)
+                if (first_[other->slot()] >= 0 || node->item.weight == Real(0))
                     continue;
                 first_[other->slot()] = static_cast<int16_t>(begin);
                 members_[filled++] = other;

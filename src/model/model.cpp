@@ -42,6 +42,7 @@ struct alignas(Actor) Model::Record {
     int items, keys, pairs;
     Camera camera;
     Vector light;
+    char title[TITLE_ROOM];
 
     Actor* item() { return reinterpret_cast<Actor*>(this + 1); }
     const Actor* item() const { return reinterpret_cast<const Actor*>(this + 1); }
@@ -149,14 +150,7 @@ void Model::remove(Actor* item)
     }
     --itemCount_;
 
-    const int first = item->motion.firstKey, keys = item->motion.keyCount;
-    if (keys > 0) {
-        memmove(keys_ + first, keys_ + first + keys, static_cast<size_t>(keyCount_ - first - keys) * sizeof(Key));
-        keyCount_ -= keys;
-        for (int i = 0; i < itemCount_; ++i)
-            if (items_[i]->motion.firstKey > first)
-                items_[i]->motion.firstKey = static_cast<int16_t>(items_[i]->motion.firstKey - keys);
-    }
+    removeKeys(item);
 
     if (item->object != nullptr) {
         int after = 0;
@@ -171,6 +165,67 @@ void Model::remove(Actor* item)
     }
     destroy(item->object);
     destroy(item);
+}
+
+void Model::removeKeys(Actor* item)
+{
+    const int first = item->motion.firstKey, keys = item->motion.keyCount;
+    item->motion.keyCount = 0;
+    item->motion.parts &= static_cast<uint8_t>(~MOTION_KEYS);
+    if (keys == 0)
+        return;
+    memmove(keys_ + first, keys_ + first + keys, static_cast<size_t>(keyCount_ - first - keys) * sizeof(Key));
+    keyCount_ -= keys;
+    for (int i = 0; i < itemCount_; ++i)
+        if (items_[i]->motion.firstKey > first)
+            items_[i]->motion.firstKey = static_cast<int16_t>(items_[i]->motion.firstKey - keys);
+}
+
+bool Model::setParent(Actor* item, int parent)
+{
+    for (const Actor* above = itemNumbered(parent); above != nullptr; above = itemNumbered(above->motion.parent))
+        if (above == item)
+            return false;
+    Motion& motion = item->motion;
+    // What its own motion adds to its centre, as seen from the parent it had; then the centre that brings it to the same
+    // place with the new one.
+    const Actor* before = itemNumbered(motion.parent);
+    const Actor* carrier = itemNumbered(parent);
+    const Point origin{Real(0), Real(0), Real(0)};
+    const auto within = [&](const Actor* in) {
+        const Vector v = item->pose.place - (in == nullptr ? origin : in->pose.place);
+        return in == nullptr ? v : inverse(in->pose, v);
+    };
+    const Vector added = within(before) - toVector(motion.centre);
+    const Vector centre = within(carrier) - added;
+    motion.centre = {clamp(centre.x, Real(-SPACE), Real(SPACE)), clamp(centre.y, Real(-SPACE), Real(SPACE)),
+                     clamp(centre.z, Real(-SPACE), Real(SPACE))};
+    motion.parent = carrier == nullptr ? 0 : parent;
+
+    // Parents stand before their children: each item in its turn, whatever carries it before it.
+    Actor* ordered[OBJECTS_MOST + GROUPS_MOST];
+    int count = 0;
+    const auto placed = [&](const Actor* what) {
+        for (int i = 0; i < count; ++i)
+            if (ordered[i] == what)
+                return true;
+        return false;
+    };
+    for (int i = 0; i < itemCount_; ++i) {
+        while (!placed(items_[i])) {
+            Actor* next = items_[i];
+            for (Actor* above = next; above != nullptr && !placed(above); above = itemNumbered(above->motion.parent))
+                next = above;
+            ordered[count++] = next;
+        }
+    }
+    memcpy(items_, ordered, static_cast<size_t>(itemCount_) * sizeof *items_);
+    count_ = 0;
+    for (int i = 0; i < itemCount_; ++i)
+        if (items_[i]->object != nullptr)
+            actors_[count_++] = items_[i];
+    bodiesKnown_ = false;
+    return true;
 }
 
 bool Model::remake(Actor* item)
@@ -282,6 +337,18 @@ bool Model::linkAll(Real weight)
     return true;
 }
 
+void Model::setLight(const Vector& to)
+{
+    light = to;
+    recalcAll();
+}
+
+void Model::recalcAll()
+{
+    for (int i = 0; i < count_; ++i)
+        actors_[i]->object->setRecalc();
+}
+
 bool Model::resample(Real spacing, SurfaceMaker makeSurface)
 {
     for (int i = 0; i < count_; ++i) {
@@ -358,6 +425,8 @@ void Model::swap(Model& other)
     bodiesKnown_ = other.bodiesKnown_ = false;
     exchange(camera, other.camera);
     exchange(light, other.light);
+    for (int i = 0; i < TITLE_ROOM; ++i)
+        exchange(title[i], other.title[i]);
 }
 
 Model::Record* Model::record() const
@@ -376,6 +445,7 @@ Model::Record* Model::record() const
     record->pairs = pairs;
     record->camera = camera;
     record->light = light;
+    memcpy(record->title, title, sizeof title);
     for (int i = 0; i < itemCount_; ++i)
         record->item()[i] = *items_[i];
     if (keyCount_ > 0)
@@ -444,7 +514,13 @@ bool Model::restore(const Record* record)
     }
     before.camera = record->camera;
     before.light = record->light;
+    memcpy(before.title, record->title, sizeof title);
+    const Point& eye = record->camera.eye;
+    const bool seenAnew = !(light == record->light) || !(camera.eye == eye);
     swap(before);
+    // What was taken over is lit, and seen, as it was.
+    if (seenAnew)
+        recalcAll();
     const Record::Pair* pair = record->pair();
     for (int i = 0; i < record->pairs; ++i)
         good = link(itemNumbered(pair[i].a)->object, itemNumbered(pair[i].b)->object, pair[i].weight) && good;

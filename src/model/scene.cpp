@@ -11,10 +11,43 @@ namespace {
 constexpr char END_OF_TEXT = 26;  // Ctrl-Z
 constexpr int WORD_ROOM = 32;
 
-// "blend all" goes through every pair; no scene needs it often.
+// "blend all" goes through every pair; no scene needs it often. What lines with rows link is limited in the same way.
 constexpr int ALL_MOST = 8;
+constexpr int ROW_PAIRS_MOST = 65024;
 
-char problem[320];
+// Colours by name.
+struct ColourName {
+    const char* name;
+    Colour colour;
+};
+const ColourName COLOUR_NAMES[] = {
+    {"white", {255, 255, 255}},  {"silver", {208, 208, 208}}, {"grey", {136, 136, 136}},  {"gray", {136, 136, 136}},
+    {"black", {8, 8, 8}},        {"red", {255, 64, 48}},      {"orange", {255, 136, 40}}, {"yellow", {255, 200, 48}},
+    {"lime", {160, 224, 64}},    {"green", {64, 208, 72}},    {"cyan", {64, 208, 216}},   {"blue", {72, 112, 255}},
+    {"violet", {144, 96, 255}},  {"magenta", {224, 80, 224}}, {"pink", {255, 144, 176}},  {"brown", {160, 96, 48}},
+};
+
+// Items that one line made: `count` items of the model from `first` on. A row has a name of its own; a single item, as
+// the reader finds it, is a row of one.
+struct Row {
+    char name[NAME_ROOM];
+    int first = 0;
+    int count = 0;
+};
+constexpr int ROW_LEAST = 2;
+constexpr int ROWS_MOST = (Model::OBJECTS_MOST + Model::GROUPS_MOST) / ROW_LEAST;  // no more can be made
+
+char problem[640];
+
+// Names in messages: whole, as long as no path is longer than this.
+constexpr int PLAIN_ROOM = 260;
+
+const char* troubleWith(const char* name, const char* what)
+{
+    char plain[PLAIN_ROOM];
+    snprintf(problem, sizeof problem, "%s: %s", plainText(plain, sizeof plain, name), what);
+    return problem;
+}
 
 bool isLetter(char c)
 {
@@ -64,22 +97,32 @@ public:
 
 private:
     bool nextLine(bool* there);
-    bool nextWord();
+    bool nextWord(bool hash = false);
     bool expected(const char* what);
     bool trouble(const char* what);
     bool is(const char* word) const { return strcmp(word_, word) == 0; }
 
     bool readReal(const char* what, Real least, Real most, Real* value);
+    bool realIs(const char* what, Real least, Real most, Real* value);
+    bool readColour(Colour* colour);
     bool readVector(const char* what, int most, Vector* value);
     bool readDirection(const char* what, Vector* value);
     bool readName(const char* what);
     bool readKnown(const char* what, Actor** item);
+    bool readMoving(Row* row);
+    Actor& in(const Row& row, int i) { return model_.item(row.first + i); }
+    const Row* rowNamed(const char* name) const;
+    bool find(const char* name, Row* row) const;
     bool readPeriod(Real* seconds);
     bool readPhase(Real* phase);
+    bool readLag(const Row& row, Real* lag);
     bool readEnd();
+    Move* further(Actor& item, MotionPart part);
 
     bool statement();
     bool object(const Kind* kind);
+    bool addRow(Actor& actor, int count, const Vector& step, bool coloured);
+    bool title();
     bool camera();
     bool circle();
     bool path();
@@ -88,7 +131,6 @@ private:
     bool keys();
     bool key();
     bool blend();
-    bool wave(bool given, Real period, Real phase, Wave* wave);
 
     const char* name_;
     Source& source_;
@@ -97,6 +139,9 @@ private:
     int line_ = 0;
     bool over_ = false;
     int allBlended_ = 0;
+    int rowPairs_ = 0;
+    Row row_[ROWS_MOST];
+    int rows_ = 0;
     char text_[LINE_MOST + 1];
     const char* at_ = nullptr;
     const char* word_ = "";
@@ -105,11 +150,11 @@ private:
 
 // --- Lines and words
 
-// The next line, in lower case and without its comment, into text_.
+// The next line, as it stands but for blanks, into text_.
 bool Reader::nextLine(bool* there)
 {
     int length = 0;
-    bool comment = false, some = false;
+    bool some = false;
     *there = false;
     text_[0] = 0;
     at_ = text_;
@@ -126,7 +171,7 @@ bool Reader::nextLine(bool* there)
     for (int characters = 0;; ++characters) {
         const int c = source_.next();
         if (c == -2) {
-            snprintf(problem, sizeof problem, "%.100s: %s", name_, machine::fileTrouble());
+            troubleWith(name_, machine::fileTrouble());
             end_ = SCENE_BAD;
             return false;
         }
@@ -143,30 +188,32 @@ bool Reader::nextLine(bool* there)
             continue;
         if (characters >= LINE_MOST) {
             text_[length < 20 ? length : 20] = 0;
+            char* comment = strchr(text_, '#');
+            if (comment != nullptr)
+                *comment = 0;
             snprintf(room_, sizeof room_, "%.20s...", text_);
             word_ = room_;
             char most[60];
             snprintf(most, sizeof most, "a line of at most %d characters", LINE_MOST);
             return expected(most);
         }
-        comment = comment || c == '#';
-        if (!comment)
-            text_[length++] = static_cast<char>(c == '\t' ? ' ' : c == 0 ? '?' : c >= 'A' && c <= 'Z' ? c + 32 : c);
+        text_[length++] = static_cast<char>(c == '\t' ? ' ' : c == 0 ? '?' : c);
     }
     text_[length] = 0;
     *there = true;
     return true;
 }
 
-// The next word of the line into word_; false, and word_ is empty, at its end.
-bool Reader::nextWord()
+// The next word of the line into word_, in lower case; false, and word_ is empty, at its end or a comment. With `hash` a
+// word may begin with '#'.
+bool Reader::nextWord(bool hash)
 {
     while (*at_ == ' ')
         ++at_;
     int length = 0;
-    while (*at_ != ' ' && *at_ != 0) {
+    while (*at_ != ' ' && *at_ != 0 && (*at_ != '#' || (hash && length == 0))) {
         if (length < WORD_ROOM - 1)
-            room_[length++] = *at_;
+            room_[length++] = *at_ >= 'A' && *at_ <= 'Z' ? static_cast<char>(*at_ + 32) : *at_;
         ++at_;
     }
     room_[length] = 0;
@@ -182,17 +229,20 @@ bool Reader::expected(const char* what)
     for (; word_[length] != 0 && length < WORD_ROOM - 1; ++length)
         read[length] = word_[length] >= ' ' && word_[length] <= '~' ? word_[length] : '?';
     read[length] = 0;
+    char name[PLAIN_ROOM];
+    plainText(name, sizeof name, name_);
     if (length == 0)
-        snprintf(problem, sizeof problem, "%.100s:%d: end of line: expected %s", name_, line_, what);
+        snprintf(problem, sizeof problem, "%s:%d: end of line: expected %s", name, line_, what);
     else
-        snprintf(problem, sizeof problem, "%.100s:%d: '%s': expected %s", name_, line_, read, what);
+        snprintf(problem, sizeof problem, "%s:%d: '%s': expected %s", name, line_, read, what);
     end_ = SCENE_BAD;
     return false;
 }
 
 bool Reader::trouble(const char* what)
 {
-    snprintf(problem, sizeof problem, "%.100s:%d: %s", name_, line_, what);
+    char name[PLAIN_ROOM];
+    snprintf(problem, sizeof problem, "%s:%d: %s", plainText(name, sizeof name, name_), line_, what);
     end_ = SCENE_TROUBLE;
     return false;
 }
@@ -202,13 +252,57 @@ bool Reader::trouble(const char* what)
 bool Reader::readReal(const char* what, Real low, Real high, Real* value)
 {
     nextWord();
+    return realIs(what, low, high, value);
+}
+
+// The word read last as a number.
+bool Reader::realIs(const char* what, Real low, Real high, Real* value)
+{
     if (parseReal(word_, value) && *value >= low && *value <= high)
         return true;
-    char from[24], to[24], text[100];
+    char from[24], to[24], text[300];
     formatReal(from, sizeof from, low);
     formatReal(to, sizeof to, high);
-    snprintf(text, sizeof text, "%.40s from %s to %s", what, from, to);
+    snprintf(text, sizeof text, "%s from %s to %s", what, from, to);
     return expected(text);
+}
+
+// A colour: a name, #rrggbb, or three numbers.
+bool Reader::readColour(Colour* colour)
+{
+    nextWord(true);
+    for (const ColourName& known : COLOUR_NAMES) {
+        if (is(known.name)) {
+            *colour = known.colour;
+            return true;
+        }
+    }
+    if (word_[0] == '#') {
+        uint32_t value = 0;
+        int digits = 1;
+        for (; (word_[digits] >= '0' && word_[digits] <= '9') || (word_[digits] >= 'a' && word_[digits] <= 'f'); ++digits)
+            value = value << 4 | static_cast<uint32_t>(isDigit(word_[digits]) ? word_[digits] - '0' : word_[digits] - 'a' + 10);
+        if (digits != 7 || word_[digits] != 0)
+            return expected("a colour as #rrggbb, two digits from 00 to ff each for red, green and blue");
+        *colour = {static_cast<uint8_t>(value >> 16), static_cast<uint8_t>(value >> 8), static_cast<uint8_t>(value)};
+        return true;
+    }
+    if (word_[0] == 0 || isLetter(word_[0])) {
+        char text[200];
+        int length = 0;
+        for (const ColourName& known : COLOUR_NAMES)
+            length += snprintf(text + length, sizeof text - static_cast<size_t>(length), "%s, ", known.name);
+        snprintf(text + length, sizeof text - static_cast<size_t>(length), "#rrggbb, or red, green and blue from 0 to 255");
+        return expected(text);
+    }
+    const Real most(255);
+    Real part[3];
+    if (!realIs("red, green and blue", Real(0), most, &part[0]) || !readReal("red, green and blue", Real(0), most, &part[1]) ||
+        !readReal("red, green and blue", Real(0), most, &part[2]))
+        return false;
+    *colour = {static_cast<uint8_t>(floorToInt(part[0])), static_cast<uint8_t>(floorToInt(part[1])),
+               static_cast<uint8_t>(floorToInt(part[2]))};
+    return true;
 }
 
 bool Reader::readVector(const char* what, int limit, Vector* value)
@@ -248,6 +342,53 @@ bool Reader::readKnown(const char* what, Actor** item)
     return *item != nullptr ? true : expected(what);
 }
 
+const Row* Reader::rowNamed(const char* name) const
+{
+    for (int i = 0; i < rows_; ++i)
+        if (strcmp(row_[i].name, name) == 0)
+            return &row_[i];
+    return nullptr;
+}
+
+// The items that a name stands for. False, without a complaint: none.
+bool Reader::find(const char* name, Row* row) const
+{
+    const Row* known = rowNamed(name);
+    if (known != nullptr) {
+        *row = *known;
+        return true;
+    }
+    for (int i = 0; i < model_.items(); ++i) {
+        if (strcmp(model_.item(i).name, name) != 0)
+            continue;
+        row->first = i;
+        row->count = 1;
+        return true;
+    }
+    return false;
+}
+
+// What a line of motion moves.
+bool Reader::readMoving(Row* row)
+{
+    nextWord();
+    return word_[0] != 0 && find(word_, row) ? true : expected("the name of an object or a group");
+}
+
+// A place for one more motion of a part that the item has already; null, and a complaint, when there is none.
+Move* Reader::further(Actor& item, MotionPart part)
+{
+    Motion& motion = item.motion;
+    if (motion.moreCount == Motion::MORE_MOST) {
+        word_ = item.name;
+        expected("at most 4 motions of one name beside the first of each kind");
+        return nullptr;
+    }
+    Move& move = motion.more[motion.moreCount++];
+    move.part = part;
+    return &move;
+}
+
 bool Reader::readEnd()
 {
     return nextWord() ? expected("the end of the line") : true;
@@ -277,6 +418,8 @@ bool Reader::statement()
         return object(kind);
     if (is("eye") || is("focal") || is("light"))
         return camera();
+    if (is("title"))
+        return title();
     if (is("circle"))
         return circle();
     if (is("path"))
@@ -296,22 +439,28 @@ bool Reader::statement()
     for (int i = 0; i < KIND_COUNT; ++i)
         length += snprintf(text + length, sizeof text - static_cast<size_t>(length), "%s, ", KINDS[i].word);
     snprintf(text + length, sizeof text - static_cast<size_t>(length),
-             "group, blend, circle, path, spin, swing, pulse, keys, key, eye, focal or light");
+             "group, blend, circle, path, spin, swing, pulse, keys, key, eye, focal, light or title");
     return expected(text);
+}
+
+// The colour of an object that is given none, by how many there are before it.
+Colour usualColour(int before)
+{
+    static const Colour COLOURS[] = {{255, 64, 48},  {64, 208, 72},  {72, 112, 255}, {255, 200, 48},
+                                     {224, 80, 224}, {64, 208, 216}, {255, 136, 40}, {208, 208, 208}};
+    return COLOURS[before % 8];
 }
 
 bool Reader::object(const Kind* kind)
 {
-    static const Colour COLOURS[] = {{255, 64, 48},  {64, 208, 72},  {72, 112, 255}, {255, 200, 48},
-                                     {224, 80, 224}, {64, 208, 216}, {255, 136, 40}, {208, 208, 208}};
     Actor actor;
     actor.kind = kind;
-    actor.colour = COLOURS[model_.count() % 8];
+    actor.colour = usualColour(model_.count());
     if (!readName("a name of 1 to 15 letters, digits, - or _, a letter first"))
         return false;
     if (is("all"))
         return expected("another name; all stands for every object");
-    if (model_.itemNamed(word_) != nullptr)
+    if (model_.itemNamed(word_) != nullptr || rowNamed(word_) != nullptr)
         return expected("a name that is not taken yet");
     strcpy(actor.name, word_);
     int groups = model_.items() - model_.count();
@@ -320,6 +469,9 @@ bool Reader::object(const Kind* kind)
 
     const int measures = kind == nullptr ? 0 : kind->measures;
     int given = 0;  // one bit a measure
+    Real count(1);
+    Vector step{Real(0), Real(0), Real(0)};
+    bool stepped = false, coloured = false;
     while (nextWord()) {
         bool measured = false;
         for (int i = 0; i < measures && !measured; ++i) {
@@ -350,13 +502,20 @@ bool Reader::object(const Kind* kind)
             if (!readKnown("a group or an object of a line above", &parent))
                 return false;
             actor.motion.parent = parent->number;
-        } else if (kind != nullptr && is("colour")) {
-            Real part[3];
-            for (int i = 0; i < 3; ++i)
-                if (!readReal("red, green and blue", Real(0), Real(255), &part[i]))
-                    return false;
-            actor.colour = {static_cast<uint8_t>(floorToInt(part[0])), static_cast<uint8_t>(floorToInt(part[1])),
-                            static_cast<uint8_t>(floorToInt(part[2]))};
+        } else if (is("repeat")) {
+            const Real most(kind != nullptr ? Model::OBJECTS_MOST : Model::GROUPS_MOST);
+            if (!readReal("a whole number", Real(ROW_LEAST), most, &count))
+                return false;
+            if (count != Real(floorToInt(count)))
+                return expected("a whole number");
+        } else if (is("step")) {
+            if (!readVector("a step", SPACE, &step))
+                return false;
+            stepped = true;
+        } else if (kind != nullptr && (is("colour") || is("color"))) {
+            if (!readColour(&actor.colour))
+                return false;
+            coloured = true;
         } else if (kind == nullptr && is("scale")) {
             if (!readReal("a scale", SCALE_LEAST, SCALE_MOST, &actor.motion.scale))
                 return false;
@@ -365,7 +524,7 @@ bool Reader::object(const Kind* kind)
             int length = 0;
             for (int i = 0; i < measures; ++i)
                 length += snprintf(text + length, sizeof text - static_cast<size_t>(length), "%s, ", kind->measure[i].word);
-            snprintf(text + length, sizeof text - static_cast<size_t>(length), "at, turn, %s or in",
+            snprintf(text + length, sizeof text - static_cast<size_t>(length), "at, turn, %s, repeat, step or in",
                      kind != nullptr ? "colour" : "scale");
             return expected(text);
         }
@@ -380,7 +539,81 @@ bool Reader::object(const Kind* kind)
             return expected(fits);
         }
     }
+    if (count > Real(1))
+        return addRow(actor, floorToInt(count), step, coloured);
+    if (stepped) {
+        word_ = "step";
+        return expected("repeat as well, for step to count");
+    }
     return model_.addItem(actor) != nullptr ? true : trouble("not enough memory for the model");
+}
+
+// Adds `count` items like one, each a step from the one before: NAME1, NAME2 and so on.
+bool Reader::addRow(Actor& actor, int count, const Vector& step, bool coloured)
+{
+    const bool group = actor.kind == nullptr;
+    Row row;
+    strcpy(row.name, actor.name);
+    row.first = model_.items();
+    row.count = count;
+    word_ = row.name;
+    const int taken = group ? model_.items() - model_.count() : model_.count();
+    if (taken + count > (group ? Model::GROUPS_MOST : Model::OBJECTS_MOST))
+        return expected(group ? "at most 64 groups" : "at most 128 objects");
+    const size_t digits = count > 99 ? 3 : count > 9 ? 2 : 1;
+    if (strlen(row.name) + digits >= NAME_ROOM) {
+        char text[60];
+        snprintf(text, sizeof text, "at most %d characters in the name of such a row", NAME_ROOM - 1 - static_cast<int>(digits));
+        return expected(text);
+    }
+    const Real edge(SPACE);
+    for (int i = 0; i < count; ++i) {
+        char name[NAME_ROOM + 12];
+        snprintf(name, sizeof name, "%s%d", row.name, i + 1);
+        memcpy(actor.name, name, NAME_ROOM);  // it fits, as was found above
+        if (model_.itemNamed(actor.name) != nullptr || rowNamed(actor.name) != nullptr) {
+            word_ = actor.name;
+            return expected("a name that is not taken yet");
+        }
+        if (i > 0) {
+            Point& centre = actor.motion.centre;
+            centre = centre + step;
+            if (absolute(centre.x) > edge || absolute(centre.y) > edge || absolute(centre.z) > edge) {
+                word_ = actor.name;
+                return expected("steps that stay between -250 and 250");
+            }
+        }
+        if (!group && !coloured)
+            actor.colour = usualColour(model_.count());
+        if (model_.addItem(actor) == nullptr)
+            return trouble("not enough memory for the model");
+    }
+    row_[rows_++] = row;
+    return true;
+}
+
+// All that is left of the line, in its own letters.
+bool Reader::title()
+{
+    word_ = "title";
+    if (model_.title[0] != 0)
+        return expected("one title only");
+    while (*at_ == ' ')
+        ++at_;
+    int length = 0;
+    bool plain = true;
+    for (; at_[length] != 0 && at_[length] != '#'; ++length)
+        plain = plain && at_[length] >= ' ' && at_[length] <= '~';
+    while (length > 0 && at_[length - 1] == ' ')
+        --length;
+    if (length == 0 || length >= TITLE_ROOM || !plain) {
+        snprintf(room_, sizeof room_, "%.*s%s", length > 20 ? 20 : length, at_, length > 20 ? "..." : "");
+        word_ = room_;
+        return expected("a title of 1 to 47 plain letters, digits and signs");
+    }
+    memcpy(model_.title, at_, static_cast<size_t>(length));
+    model_.title[length] = 0;
+    return true;
 }
 
 bool Reader::camera()
@@ -410,14 +643,6 @@ bool Reader::camera()
     return readEnd();
 }
 
-bool Reader::wave(bool given, Real period, Real phase, Wave* wave)
-{
-    if (!given)
-        return expected("period");
-    *wave = makeWave(period, phase);
-    return true;
-}
-
 // What follows the word `period`: a time whose sign says which way round.
 bool Reader::readPeriod(Real* seconds)
 {
@@ -431,13 +656,27 @@ bool Reader::readPhase(Real* phase)
     return readReal("a phase in turns", Real(-1), Real(1), phase);
 }
 
+// What follows the word `lag`: how many turns each of a row is behind the one before.
+bool Reader::readLag(const Row& row, Real* lag)
+{
+    if (row.count == 1)
+        return expected("no lag, for this name is no row's");
+    return readReal("a lag in turns", Real(-1), Real(1), lag);
+}
+
+// The wave of item `i` of a row.
+Wave waveOf(int i, Real period, Real phase, Real lag)
+{
+    return makeWave(period, phase - lag * Real(i));
+}
+
 bool Reader::circle()
 {
-    Actor* item;
-    if (!readKnown("the name of an object or a group", &item))
+    Row row;
+    if (!readMoving(&row))
         return false;
     Vector u{Real(0), Real(0), Real(0)}, v = u;
-    Real radius(0), period(0), phase(0);
+    Real radius(0), period(0), phase(0), lag(0);
     char first = 'x', second = 'y';
     bool round = false, across = false, down = false, timed = false;
     while (nextWord()) {
@@ -466,8 +705,11 @@ bool Reader::circle()
         } else if (is("phase")) {
             if (!readPhase(&phase))
                 return false;
+        } else if (is("lag")) {
+            if (!readLag(row, &lag))
+                return false;
         } else {
-            return expected("radius, plane, u, v, period or phase");
+            return expected(row.count > 1 ? "radius, plane, u, v, period, phase or lag" : "radius, plane, u, v, period or phase");
         }
     }
     if (round == (across && down) || across != down)
@@ -476,40 +718,79 @@ bool Reader::circle()
         (first == 'x' ? u.x : first == 'y' ? u.y : u.z) = radius;
         (second == 'x' ? v.x : second == 'y' ? v.y : v.z) = radius;
     }
-    item->motion.u = u;
-    item->motion.v = v;
-    return wave(timed, period, phase, &item->motion.circle);
+    if (!timed)
+        return expected("period");
+    for (int i = 0; i < row.count; ++i) {
+        Motion& motion = in(row, i).motion;
+        const Wave wave = waveOf(i, period, phase, lag);
+        if (motion.circle.period == Real(0)) {
+            motion.u = u;
+            motion.v = v;
+            motion.circle = wave;
+            continue;
+        }
+        Move* move = further(in(row, i), MOTION_CIRCLE);
+        if (move == nullptr)
+            return false;
+        move->a = u;
+        move->b = v;
+        move->wave = wave;
+    }
+    return true;
 }
 
 bool Reader::path()
 {
-    Actor* item;
-    if (!readKnown("the name of an object or a group", &item))
+    Row row;
+    if (!readMoving(&row))
         return false;
-    Motion& motion = item->motion;
+    // `lag` may stand behind what it holds for: the line is read twice.
+    const char* const start = at_;
+    Real lag(0);
     bool some = false;
-    while (nextWord()) {
-        const int axis = is("x") ? 0 : is("y") ? 1 : is("z") ? 2 : -1;
-        if (axis < 0)
-            return expected("x, y or z, each with amplitude, period and phase");
-        Real* amplitude = axis == 0 ? &motion.path.x : axis == 1 ? &motion.path.y : &motion.path.z;
-        Real period, phase;
-        if (!readReal("an amplitude", Real(0), Real(SPACE), amplitude) || !readPeriod(&period) || !readPhase(&phase))
-            return false;
-        motion.along[axis] = makeWave(period, phase);
-        motion.parts |= MOTION_PATH;
-        some = true;
+    for (int pass = 0; pass < 2; ++pass) {
+        at_ = start;
+        while (nextWord()) {
+            if (row.count > 1 && is("lag")) {
+                if (!readLag(row, &lag))
+                    return false;
+                continue;
+            }
+            const int axis = is("x") ? 0 : is("y") ? 1 : is("z") ? 2 : -1;
+            if (axis < 0)
+                return expected(row.count > 1 ? "x, y or z, each with amplitude, period and phase, or lag"
+                                              : "x, y or z, each with amplitude, period and phase");
+            Real amplitude, period, phase;
+            if (!readReal("an amplitude", Real(-SPACE), Real(SPACE), &amplitude) || !readPeriod(&period) || !readPhase(&phase))
+                return false;
+            some = true;
+            for (int i = 0; pass == 1 && i < row.count; ++i) {
+                Motion& motion = in(row, i).motion;
+                Vector* to = &motion.path;
+                Wave* wave = &motion.along[axis];
+                if (wave->period != Real(0)) {
+                    Move* move = further(in(row, i), MOTION_PATH);
+                    if (move == nullptr)
+                        return false;
+                    to = &move->a;
+                    wave = &move->wave;
+                }
+                (axis == 0 ? to->x : axis == 1 ? to->y : to->z) = amplitude;
+                *wave = waveOf(i, period, phase, lag);
+                motion.parts |= MOTION_PATH;
+            }
+        }
     }
     return some ? true : expected("x, y or z, each with amplitude, period and phase");
 }
 
 bool Reader::turning(bool swings)
 {
-    Actor* item;
-    if (!readKnown("the name of an object or a group", &item))
+    Row row;
+    if (!readMoving(&row))
         return false;
     Vector axis{Real(0), Real(1), Real(0)};
-    Real angle(0), period(0), phase(0);
+    Real angle(0), period(0), phase(0), lag(0);
     bool pointed = false, wide = !swings, timed = false;
     while (nextWord()) {
         if (is("axis")) {
@@ -527,32 +808,49 @@ bool Reader::turning(bool swings)
         } else if (is("phase")) {
             if (!readPhase(&phase))
                 return false;
+        } else if (is("lag")) {
+            if (!readLag(row, &lag))
+                return false;
         } else {
-            return expected(swings ? "axis, angle, period or phase" : "axis, period or phase");
+            char text[60];
+            snprintf(text, sizeof text, "axis, %speriod%s", swings ? "angle, " : "", row.count > 1 ? ", phase or lag" : " or phase");
+            return expected(text);
         }
     }
     if (!pointed)
         return expected("axis");
     if (!wide)
         return expected("angle");
-    Motion& motion = item->motion;
-    if (swings) {
-        motion.swingAxis = axis;
-        motion.swingAngle = angle;
-        motion.parts |= MOTION_SWING;
-        return wave(timed, period, phase, &motion.swing);
+    if (!timed)
+        return expected("period");
+    for (int i = 0; i < row.count; ++i) {
+        Motion& motion = in(row, i).motion;
+        const MotionPart part = swings ? MOTION_SWING : MOTION_SPIN;
+        const Wave wave = waveOf(i, period, phase, lag);
+        if ((motion.parts & part) != 0) {
+            Move* move = further(in(row, i), part);
+            if (move == nullptr)
+                return false;
+            move->a = axis;
+            move->amount = angle;
+            move->wave = wave;
+            continue;
+        }
+        motion.parts |= part;
+        (swings ? motion.swingAxis : motion.spinAxis) = axis;
+        (swings ? motion.swing : motion.spin) = wave;
+        if (swings)
+            motion.swingAngle = angle;
     }
-    motion.spinAxis = axis;
-    motion.parts |= MOTION_SPIN;
-    return wave(timed, period, phase, &motion.spin);
+    return true;
 }
 
 bool Reader::pulse()
 {
-    Actor* item;
-    if (!readKnown("the name of an object or a group", &item))
+    Row row;
+    if (!readMoving(&row))
         return false;
-    Real by(0), period(0), phase(0);
+    Real by(0), period(0), phase(0), lag(0);
     bool given = false, timed = false;
     while (nextWord()) {
         if (is("by")) {
@@ -566,40 +864,65 @@ bool Reader::pulse()
         } else if (is("phase")) {
             if (!readPhase(&phase))
                 return false;
+        } else if (is("lag")) {
+            if (!readLag(row, &lag))
+                return false;
         } else {
-            return expected("by, period or phase");
+            return expected(row.count > 1 ? "by, period, phase or lag" : "by, period or phase");
         }
     }
     if (!given)
         return expected("by");
-    item->motion.pulse = by;
-    item->motion.parts |= MOTION_PULSE;
-    return wave(timed, period, phase, &item->motion.pulsing);
+    if (!timed)
+        return expected("period");
+    for (int i = 0; i < row.count; ++i) {
+        Motion& motion = in(row, i).motion;
+        const Wave wave = waveOf(i, period, phase, lag);
+        if ((motion.parts & MOTION_PULSE) != 0) {
+            Move* move = further(in(row, i), MOTION_PULSE);
+            if (move == nullptr)
+                return false;
+            move->amount = by;
+            move->wave = wave;
+            continue;
+        }
+        motion.parts |= MOTION_PULSE;
+        motion.pulse = by;
+        motion.pulsing = wave;
+    }
+    return true;
 }
 
 bool Reader::keys()
 {
-    Actor* item;
-    if (!readKnown("the name of an object or a group", &item))
+    Row row;
+    if (!readMoving(&row))
         return false;
-    Motion& motion = item->motion;
-    if (motion.keyCount > 0) {
-        word_ = item->name;
-        return expected("keys before the first key");
+    for (int i = 0; i < row.count; ++i) {
+        if (in(row, i).motion.keyCount > 0) {
+            word_ = in(row, i).name;
+            return expected("keys before the first key");
+        }
     }
-    while (nextWord()) {
-        if (is("linear") || is("smooth")) {
-            motion.smooth = is("smooth");
-        } else if (is("repeat")) {
-            Real repeat;
-            if (!readReal("seconds", PERIOD_LEAST, KEY_TIME_MOST, &repeat))
-                return false;
-            motion.repeat = rawFromReal(repeat);
-        } else if (is("axis")) {
-            if (!readDirection("an axis", &motion.keyAxis))
-                return false;
-        } else {
-            return expected("linear, smooth, repeat or axis");
+    // All of a row have the same; what the line does not say stays as it was.
+    const char* const start = at_;
+    for (int i = 0; i < row.count; ++i) {
+        Motion& motion = in(row, i).motion;
+        at_ = start;
+        while (nextWord()) {
+            if (is("linear") || is("smooth")) {
+                motion.smooth = is("smooth");
+            } else if (is("repeat")) {
+                Real repeat;
+                if (!readReal("seconds", PERIOD_LEAST, KEY_TIME_MOST, &repeat))
+                    return false;
+                motion.repeat = rawFromReal(repeat);
+            } else if (is("axis")) {
+                if (!readDirection("an axis", &motion.keyAxis))
+                    return false;
+            } else {
+                return expected("linear, smooth, repeat or axis");
+            }
         }
     }
     return true;
@@ -607,18 +930,20 @@ bool Reader::keys()
 
 bool Reader::key()
 {
-    Actor* item;
-    if (!readKnown("the name of an object or a group", &item))
+    Row row;
+    if (!readMoving(&row))
         return false;
-    const Motion& motion = item->motion;
     Real time;
     if (!readReal("seconds", Real(0), KEY_TIME_MOST, &time))
         return false;
     Key key{rawFromReal(time), {Real(0), Real(0), Real(0), Real(0), Real(1)}};
-    if (motion.keyCount > 0 && key.time <= model_.keys()[motion.firstKey + motion.keyCount - 1].time)
-        return expected("a time after that of the key before");
-    if (motion.repeat > 0 && key.time >= motion.repeat)
-        return expected("a time before that of repeat");
+    for (int i = 0; i < row.count; ++i) {
+        const Motion& motion = in(row, i).motion;
+        if (motion.keyCount > 0 && key.time <= model_.keys()[motion.firstKey + motion.keyCount - 1].time)
+            return expected("a time after that of the key before");
+        if (motion.repeat > 0 && key.time >= motion.repeat)
+            return expected("a time before that of repeat");
+    }
     Vector v;
     if (!readVector("a place", SPACE, &v))
         return false;
@@ -636,26 +961,32 @@ bool Reader::key()
             return expected("angle or scale");
         }
     }
-    if (model_.keyCount() == Model::KEYS_MOST) {
+    if (model_.keyCount() + row.count > Model::KEYS_MOST) {
         word_ = "key";
         return expected("at most 1024 keys");
     }
-    return model_.addKey(item, key) ? true : trouble("not enough memory for the keys");
+    for (int i = 0; i < row.count; ++i)
+        if (!model_.addKey(&in(row, i), key))
+            return trouble("not enough memory for the keys");
+    return true;
 }
 
 bool Reader::blend()
 {
     nextWord();
     const bool all = is("all");
-    Actor *a = nullptr, *b = nullptr;
+    Row a, b;
     if (!all) {
-        a = model_.itemNamed(word_);
-        if (word_[0] == 0 || a == nullptr || a->object == nullptr)
+        if (word_[0] == 0 || !find(word_, &a) || in(a, 0).object == nullptr)
             return expected("all, or the name of an object");
-        if (!readKnown("the name of a second object", &b))
-            return false;
-        if (b->object == nullptr || a == b)
+        nextWord();
+        if (word_[0] == 0 || !find(word_, &b) || in(b, 0).object == nullptr ||
+            (a.first == b.first && a.count == 1 && b.count == 1))
             return expected("the name of a second object");
+        if (a.count > 1 || b.count > 1)
+            rowPairs_ += a.count * b.count;
+        if (rowPairs_ > ROW_PAIRS_MOST)
+            return expected("at most 65024 pairs in all lines that blend rows");
     }
     if (all && ++allBlended_ > ALL_MOST)
         return expected("blend all in at most 8 lines");
@@ -666,7 +997,11 @@ bool Reader::blend()
         if (!readReal("a weight", Real(0), WEIGHT_MOST, &weight) || !readEnd())
             return false;
     }
-    const bool good = all ? model_.linkAll(weight) : model_.link(a->object, b->object, weight);
+    bool good = all ? model_.linkAll(weight) : true;
+    for (int i = 0; !all && i < a.count; ++i)
+        for (int j = 0; j < b.count; ++j)
+            if (a.first + i != b.first + j)
+                good = good && model_.link(in(a, i).object, in(b, j).object, weight);
     return good ? true : trouble("not enough memory for the links");
 }
 
@@ -694,6 +1029,7 @@ private:
     Writer& period(const Wave& wave);
     void end();
     void item(const Model& model, const Actor& actor);
+    void further(const Actor& actor, MotionPart part);
 
     bool (*put_)(void*, const char*);
     void* to_;
@@ -704,9 +1040,10 @@ private:
 
 Writer& Writer::word(const char* text)
 {
-    length_ += snprintf(line_ + length_, sizeof line_ - static_cast<size_t>(length_), "%s%s", length_ > 0 ? " " : "", text);
-    if (length_ > LINE_MOST)
-        length_ = LINE_MOST;
+    if (length_ > 0 && length_ < LINE_MOST)
+        line_[length_++] = ' ';
+    while (*text != 0 && length_ < LINE_MOST)
+        line_[length_++] = *text++;
     return *this;
 }
 
@@ -742,6 +1079,38 @@ void Writer::end()
     length_ = 0;
 }
 
+// The motions of a part beyond the first, a line each.
+void Writer::further(const Actor& actor, MotionPart part)
+{
+    for (int i = 0; i < actor.motion.moreCount; ++i) {
+        const Move& move = actor.motion.more[i];
+        if (move.part != part)
+            continue;
+        const Real none(0);
+        switch (part) {
+        case MOTION_CIRCLE:
+            word("circle").word(actor.name).word("u").vector(move.a).word("v").vector(move.b).period(move.wave);
+            break;
+        case MOTION_PATH: {
+            // Without an amplitude it may be along any axis that has a path already.
+            const Motion& m = actor.motion;
+            const Real amplitude = move.a.x + move.a.y + move.a.z;
+            const bool still = amplitude == none, notX = still ? m.along[0].period == none : move.a.x == none;
+            const bool y = notX && (still ? m.along[1].period != none : move.a.y != none);
+            word("path").word(actor.name).word(y ? "y" : notX ? "z" : "x").number(amplitude);
+            number(move.wave.period).number(realFromRaw(static_cast<int32_t>(move.wave.phase >> 16)));
+            break;
+        }
+        case MOTION_SPIN: word("spin").word(actor.name).word("axis").vector(move.a).period(move.wave); break;
+        case MOTION_SWING:
+            word("swing").word(actor.name).word("axis").vector(move.a).word("angle").number(move.amount).period(move.wave);
+            break;
+        default: word("pulse").word(actor.name).word("by").number(move.amount).period(move.wave); break;
+        }
+        end();
+    }
+}
+
 void Writer::item(const Model& model, const Actor& actor)
 {
     const Motion& m = actor.motion;
@@ -767,6 +1136,7 @@ void Writer::item(const Model& model, const Actor& actor)
         word("circle").word(actor.name).word("u").vector(m.u).word("v").vector(m.v).period(m.circle);
         end();
     }
+    further(actor, MOTION_CIRCLE);
     if (m.parts & MOTION_PATH) {
         word("path").word(actor.name);
         const Real amplitude[3] = {m.path.x, m.path.y, m.path.z};
@@ -778,19 +1148,23 @@ void Writer::item(const Model& model, const Actor& actor)
         }
         end();
     }
+    further(actor, MOTION_PATH);
     if (m.parts & MOTION_SPIN) {
         word("spin").word(actor.name).word("axis").vector(m.spinAxis).period(m.spin);
         end();
     }
+    further(actor, MOTION_SPIN);
     if (m.parts & MOTION_SWING) {
         word("swing").word(actor.name).word("axis").vector(m.swingAxis).word("angle").number(m.swingAngle);
         period(m.swing);
         end();
     }
+    further(actor, MOTION_SWING);
     if (m.parts & MOTION_PULSE) {
         word("pulse").word(actor.name).word("by").number(m.pulse).period(m.pulsing);
         end();
     }
+    further(actor, MOTION_PULSE);
     if (m.keyCount > 0 || m.smooth || m.repeat > 0) {
         word("keys").word(actor.name).word(m.smooth ? "smooth" : "linear");
         if (m.repeat > 0)
@@ -812,6 +1186,10 @@ void Writer::item(const Model& model, const Actor& actor)
 
 bool Writer::write(const Model& model)
 {
+    if (model.title[0] != 0) {
+        word("title").word(model.title);
+        end();
+    }
     const Camera& camera = model.camera;
     word("eye").vector(toVector(camera.eye));
     end();
@@ -862,11 +1240,29 @@ bool putToFile(void* to, const char* line)
 
 const char* readScene(const char* name, Model& model, SceneEnd* end)
 {
-    const int file = machine::openFile(name);
+    // WALK is as good as WALK.FB; what is there under the name as it was given comes first.
+    static const char* const ENDINGS[] = {".FB", ".fb"};
+    int file = machine::openFile(name);
+    const char* trouble = machine::fileTrouble();
+    char longer[PLAIN_ROOM];
+    const size_t length = strlen(name);
+    if (file < 0 && length > 0 && length + 4 <= sizeof longer) {
+        bool dot = false;
+        for (const char* c = name; *c != 0; ++c)
+            dot = *c == '.' || (dot && *c != '/' && *c != '\\');
+        for (const char* ending : ENDINGS) {
+            if (dot || file >= 0)
+                break;
+            strcpy(longer, name);
+            strcpy(longer + length, ending);
+            file = machine::openFile(longer);
+            if (file >= 0)
+                name = longer;
+        }
+    }
     if (file < 0) {
         *end = SCENE_BAD;
-        snprintf(problem, sizeof problem, "%.100s: %s", name, machine::fileTrouble());
-        return problem;
+        return troubleWith(name, trouble);
     }
     Source source(file);
     const char* wrong = readFrom(name, source, model, end);
@@ -887,12 +1283,11 @@ bool writeSceneText(bool (*put)(void* to, const char* line), void* to, const Mod
 
 const char* writeScene(const char* name, const Model& model)
 {
-    int file = machine::createFile(name);
-    bool good = file >= 0 && writeSceneText(putToFile, &file, model);
-    if (file >= 0)
-        good = machine::closeFile(file) && good;
-    if (good)
-        return nullptr;
-    snprintf(problem, sizeof problem, "%.100s: %s", name, machine::fileTrouble());
-    return problem;
+    int file = machine::beginSave(name);
+    bool good = file >= 0;
+    if (good) {
+        good = writeSceneText(putToFile, &file, model);
+        good = machine::endSave(file, good);
+    }
+    return good ? nullptr : troubleWith(name, machine::fileTrouble());
 }

@@ -1,6 +1,7 @@
 // Ramps of brightness.
 #include "picture/palette.h"
 
+#include "math/text.h"
 #include "rt.h"
 
 namespace {
@@ -8,19 +9,94 @@ namespace {
 // Brightness that the grey ramp never undercuts, of 64 steps: what no light reaches still stands out from the background.
 constexpr int DARKEST = 2;
 
-int distance(const Colour& a, const Colour& b)
+// Of Palette::INK, as the DAC takes it.
+constexpr uint8_t INK_COLOUR[3] = {63, 63, 56};
+
+bool same(const Colour& a, const Colour& b)
 {
-    const int red = a.red - b.red, green = a.green - b.green, blue = a.blue - b.blue;
-    return red * red + green * green + blue * blue;
+    return a.red == b.red && a.green == b.green && a.blue == b.blue;
 }
 
-uint8_t shade(int full, int step)
+// A colour at one step, as the DAC takes it, each part rounded once. A highlight goes towards white at a right angle to the
+// colour: what it has of the colour itself stays the light's share, so that a dump's `ramp` line holds for it too.
+void shade(const Colour& colour, int step, uint8_t* to)
 {
-    const int value = full * 63 / 255 * (Palette::AMBIENT + step * (63 - Palette::AMBIENT) / 63) / 63;
-    const int over = step - Palette::HIGHLIGHT;
-    if (over <= 0)
-        return static_cast<uint8_t>(value);
-    return static_cast<uint8_t>(value + (63 - value) * over / (2 * (63 - Palette::HIGHLIGHT)));
+    constexpr int WHOLE = 255 * 63;
+    const int parts[3] = {colour.red, colour.green, colour.blue};
+    const int sum = parts[0] + parts[1] + parts[2];
+    const int square = parts[0] * parts[0] + parts[1] * parts[1] + parts[2] * parts[2];
+    for (int p = 0; p < 3; ++p) {
+        // The part times the light, of 63 and of WHOLE.
+        int value = parts[p] * (63 * Palette::AMBIENT + step * (63 - Palette::AMBIENT));
+        if (step > Palette::HIGHLIGHT && square > 0) {
+            const int white = 255 - 255 * sum * parts[p] / square;
+            value += white * 63 * 63 * (step - Palette::HIGHLIGHT) / (2 * (63 - Palette::HIGHLIGHT));
+        }
+        value = value < 0 ? 0 : value > 63 * WHOLE ? 63 * WHOLE : value;
+        to[p] = static_cast<uint8_t>((value + WHOLE / 2) / WHOLE);
+    }
+}
+
+// What a ramp would have from `step` on, for `steps` steps that the DAC cannot tell apart.
+struct Wish {
+    uint8_t part[3];
+    uint8_t colour;
+    uint8_t step, steps;
+};
+
+// Wishes that one entry fulfils: those from `from` to before `to`. `error` is what it costs: the squared distances from
+// their mean, each counted for its steps.
+struct Box {
+    int from, to;
+    uint32_t weight;
+    uint32_t sum[3];
+    int widest;  // the part that varies most
+    uint32_t error;
+};
+
+Box measured(const Wish* wishes, int from, int to)
+{
+    Box box{from, to, 0, {0, 0, 0}, 0, 0};
+    uint32_t squares[3] = {0, 0, 0};
+    for (int i = from; i < to; ++i) {
+        const uint32_t steps = wishes[i].steps;
+        box.weight += steps;
+        for (int p = 0; p < 3; ++p) {
+            const uint32_t part = wishes[i].part[p];
+            box.sum[p] += steps * part;
+            squares[p] += steps * part * part;
+        }
+    }
+    uint32_t most = 0;
+    for (int p = 0; p < 3; ++p) {
+        uint32_t rest;
+        const uint32_t even =
+            static_cast<uint32_t>(divide64(static_cast<uint64_t>(box.sum[p]) * box.sum[p], box.weight, &rest));
+        const uint32_t error = squares[p] - even;
+        box.error += error;
+        if (error > most) {
+            most = error;
+            box.widest = p;
+        }
+    }
+    return box;
+}
+
+// Divides a box in two where its widest part passes the mean; returns where the second begins. Both have wishes, if any
+// two of the box differ.
+int divide(Wish* wishes, const Box& box)
+{
+    int from = box.from, to = box.to;
+    while (from < to) {
+        if (wishes[from].part[box.widest] * box.weight <= box.sum[box.widest]) {
+            ++from;
+        } else {
+            const Wish wish = wishes[from];
+            wishes[from] = wishes[--to];
+            wishes[to] = wish;
+        }
+    }
+    return from;
 }
 
 // Repeats the ends of a ramp; returns it.
@@ -38,6 +114,7 @@ const uint8_t* lengthen(uint8_t* ramp)
 void Palette::make(Model& model, bool grey)
 {
     memset(dac_, 0, sizeof dac_);
+    memcpy(dac_ + 3 * INK, INK_COLOUR, sizeof INK_COLOUR);
     if (grey) {
         for (int i = 0; i < STEPS; ++i) {
             const uint8_t value = static_cast<uint8_t>(i < DARKEST ? DARKEST : i);
@@ -52,36 +129,90 @@ void Palette::make(Model& model, bool grey)
     dac_[0] = 1;
     dac_[1] = 1;
     dac_[2] = 6;
+    Colour colours[RAMPS_MOST];
+    int rampOf[RAMPS_MOST];
     int count = 0;
     for (int i = 0; i < model.count(); ++i) {
-        bool there = false;
-        for (int c = 0; c < count; ++c)
-            there = there || distance(colours_[c], model.actor(i).colour) == 0;
-        if (!there && count < RAMPS_MOST)
-            colours_[count++] = model.actor(i).colour;
+        int c = 0;
+        while (c < count && !same(colours[c], model.actor(i).colour))
+            ++c;
+        if (c == count)
+            colours[count++] = model.actor(i).colour;
+        rampOf[i] = c;
     }
     if (count == 0)
         return;
-    const int steps = 255 / count < STEPS ? 255 / count : STEPS;
-    for (int c = 0; c < count; ++c) {
-        for (int i = 0; i < STEPS; ++i)
-            ramps_[c][SHADING_MOST + i] = static_cast<uint8_t>(1 + c * steps + i * steps / STEPS);
-        lengthen(ramps_[c] + SHADING_MOST);
-        for (int i = 0; i < steps; ++i) {
-            const int step = i * 63 / (steps - 1);
-            uint8_t* entry = dac_ + 3 * (1 + c * steps + i);
-            entry[0] = shade(colours_[c].red, step);
-            entry[1] = shade(colours_[c].green, step);
-            entry[2] = shade(colours_[c].blue, step);
+    if (count > EVEN_MOST) {
+        share(colours, count);
+    } else {
+        const int steps = ENTRIES / count < STEPS ? ENTRIES / count : STEPS;
+        for (int c = 0; c < count; ++c) {
+            for (int i = 0; i < STEPS; ++i)
+                ramps_[c][SHADING_MOST + i] = static_cast<uint8_t>(1 + c * steps + (i * (steps - 1) + 31) / 63);
+            for (int i = 0; i < steps; ++i) {
+                const int step = (i * 63 + (steps - 1) / 2) / (steps - 1);
+                shade(colours[c], step, dac_ + 3 * (1 + c * steps + i));
+            }
         }
     }
-    for (int i = 0; i < model.count(); ++i) {
-        int best = 0;
-        for (int c = 1; c < count; ++c)
-            if (distance(colours_[c], model.actor(i).colour) < distance(colours_[best], model.actor(i).colour))
-                best = c;
-        rampOf_[i] = static_cast<uint8_t>(best);
-        model.actor(i).object->setRamp(ramps_[best] + SHADING_MOST);
+    for (int c = 0; c < count; ++c)
+        lengthen(ramps_[c] + SHADING_MOST);
+    for (int i = 0; i < model.count(); ++i)
+        model.actor(i).object->setRamp(ramps_[rampOf[i]] + SHADING_MOST);
+}
+
+// Divides what all ramps wish for into as many boxes as there are entries, always that box which costs most.
+void Palette::share(const Colour* colours, int count)
+{
+    static Wish wishes[RAMPS_MOST * STEPS];
+    int wished = 0;
+    for (int c = 0; c < count; ++c) {
+        for (int step = 0; step < STEPS; ++step) {
+            uint8_t part[3];
+            shade(colours[c], step, part);
+            if (step > 0 && memcmp(wishes[wished - 1].part, part, sizeof part) == 0) {
+                ++wishes[wished - 1].steps;
+                continue;
+            }
+            Wish& wish = wishes[wished++];
+            memcpy(wish.part, part, sizeof part);
+            wish.colour = static_cast<uint8_t>(c);
+            wish.step = static_cast<uint8_t>(step);
+            wish.steps = 1;
+        }
+    }
+    Box boxes[ENTRIES];
+    int used = 1;
+    boxes[0] = measured(wishes, 0, wished);
+    while (used < ENTRIES) {
+        int worst = 0;
+        for (int i = 1; i < used; ++i)
+            if (boxes[i].error > boxes[worst].error)
+                worst = i;
+        if (boxes[worst].error == 0)
+            break;
+        const Box box = boxes[worst];
+        const int middle = divide(wishes, box);
+        boxes[worst] = measured(wishes, box.from, middle);
+        boxes[used++] = measured(wishes, middle, box.to);
+    }
+    for (int i = 0; i < used; ++i) {
+        const Box& box = boxes[i];
+        for (int p = 0; p < 3; ++p)
+            dac_[3 * (1 + i) + p] = static_cast<uint8_t>((box.sum[p] + box.weight / 2) / box.weight);
+        for (int w = box.from; w < box.to; ++w)
+            memset(ramps_[wishes[w].colour] + SHADING_MOST + wishes[w].step, 1 + i, wishes[w].steps);
+    }
+    // What is shared may come out a little darker than the step before; a ramp never does.
+    for (int c = 0; c < count; ++c) {
+        uint8_t* ramp = ramps_[c] + SHADING_MOST;
+        const auto light = [&](int step) {
+            const uint8_t* entry = dac_ + 3 * ramp[step];
+            return entry[0] + entry[1] + entry[2];
+        };
+        for (int step = 1; step < STEPS; ++step)
+            if (light(step) < light(step - 1))
+                ramp[step] = ramp[step - 1];
     }
 }
 

@@ -37,14 +37,14 @@ ok "lines end as DOS has them" dos_lines "$dir/REC.CSV"
 for n in 1 2; do
 	tr -d '\r' <"$dir/REC.CSV" | awk -F , -v row=$((n + 1)) '
 		NR == 1 { fields = split($0, name, ",") }
-		NR == row { for (i = 2; i <= fields; ++i) print name[i] ": " $i }' >"$dir/across"
+		NR == row { for (i = 2; i <= fields - 3; ++i) print name[i] ": " $i }' >"$dir/across"
 	ok "record $n: names and values of the statistics" cmp "$dir/across" "$dir/OUT$n.TXT"
 done
 ok "record 1: its switches" sh -c "sed -n 2p '$dir/REC.CSV' | grep -q '^S:4 G,3,'"
 ok "record 2: its switches" sh -c "sed -n 3p '$dir/REC.CSV' | grep -q '^S:2 P V X,2,'"
 ok "no place for a record: status 1" status 1 sh -c "'$host' /N:1 /O:'$dir/none/REC.CSV' >'$dir/out' 2>'$dir/err'"
 ok "no place for a record: the file is named" grep -q 'none/REC.CSV: ' "$dir/err"
-ok "no place for a record: statistics all the same" grep -q '^frames: 1$' "$dir/out"
+ok "no place for a record: found out before the run" test ! -s "$dir/out"
 ok "/O without a name: status 2" status 2 "$host" /N:1 /O:
 
 # /X leaves the picture as it is.
@@ -57,12 +57,13 @@ dos -c 30000 -- 'CALL BENCH.BAT REC.CSV 1 > OUT.TXT'
 ok "BENCH.BAT: a header, eight records, and one of a scene that is there" lines 10 "$c/REC.CSV"
 ok "BENCH.BAT: lines end as DOS has them" dos_lines "$c/REC.CSV"
 ok "BENCH.BAT: its runs" test "$(sed -n '2,$s/,.*//p' "$c/REC.CSV" | tr '\n' ';')" = \
-	"S:2;S:2 G;S:2 G P;S:2 G X;S:2 G V;S:4 G;S:1 G;S:0.5 G;S:2 G M:GULP.FB;"
+	"S:2;S:2 G;S:2 G P;S:2 G X;S:2 G V;S:4 G;S:1 G;S:0.5 G;S:2 G;"
+ok "BENCH.BAT: the last names its scene" sh -c "tail -n 1 '$c/REC.CSV' | grep -q ',GULP.FB,'"
 ok "BENCH.BAT: every shipped scene but the built-in one" sh -c "cd tools/scenes && for f in *.FB; do
 	[ \$f = FOUR.FB ] || grep -q \"^IF EXIST \$f DEMO .*/M:\$f\" ../bench.bat || exit 1; done"
 ok "BENCH.BAT: a second each" sh -c "tr -d '\r' <'$c/REC.CSV' | awk -F , 'NR > 1 && (\$3 < 1 || \$2 < 1) { bad = 1 } END { exit bad }'"
-fps() { # fps SWITCHES: of the record
-	tr -d '\r' <"$c/REC.CSV" | awk -F , -v switches="$1" '$1 == switches { print $4 }'
+fps() { # fps SWITCHES: of the first such record
+	tr -d '\r' <"$c/REC.CSV" | awk -F , -v switches="$1" '$1 == switches { print $4; exit }'
 }
 # (Not by how much, for that is the program's business: the copy is a few per cent of a frame.)
 ok "/X: without the copy it is faster" awk -v a="$(fps 'S:2 G X')" -v b="$(fps 'S:2 G')" 'BEGIN { exit !(a > b) }'

@@ -66,6 +66,41 @@ ok "nothing was played" test ! -s "$dir/out"
 ok "a file that is not there" ends 2 "/M:$dir/none.txt"
 ok "and it is named" says "$dir/err" "$dir/none.txt"
 
+# A word that is no switch is a scene: as a file that is there, or with .FB behind its name.
+printf 'sphere a size 30\n' >"$dir/ONE.FB"
+top=$PWD
+cd "$dir" || exit 1
+for word in ONE.FB ONE ./ONE "/M:$dir/ONE" "/M=$dir/ONE.FB"; do
+	ok "plays $(basename "$word")" ends 0 "$word" /N2/S4/G
+	ok "that scene" test "$(figure seeds)" -lt 300
+	ok "and two frames of it" is 2 frames
+done
+ok "refuses two scenes" ends 2 ONE ONE
+cd "$top" || exit 1
+ok "a scene that is not there, without its ending" ends 2 "/M:$dir/TWO"
+ok "and it is named as it was given" says "$dir/err" "$dir/TWO: no such file"
+# What is said about bytes that are no text is text, and one line.
+odd=$(printf '/Qone\ntwo\033[31m\377')
+ok "odd bytes in a switch" ends 2 "$odd"
+ok "are shown as numbers" says "$dir/err" '/Qone\x0Atwo\x1B[31m\xFF: unknown switch'
+ok "in one line" test "$(wc -l <"$dir/err")" -eq 1
+odd=$(printf '%s/no\nfile\033' "$dir")
+for switch in "/M:$odd" "/O:$odd/x" "/D:$odd/x"; do
+	ok "odd bytes in a name" sh -c "! '$demo' /N:1 '$switch' 2>'$dir/err' >'$dir/out'"
+	ok "are shown as numbers" says "$dir/err" '/no\x0Afile\x1B'
+	ok "in one line" test "$(wc -l <"$dir/err")" -eq 1
+done
+long=$dir/$(printf '%0200d' 0)/scene.fb
+ok "a long name" ends 2 "/M:$long"
+ok "is told to its end" says "$dir/err" 'scene.fb: no such file'
+printf 'sphere a size 300\n' >"$dir/$(printf '%0130d' 0).fb"
+ok "a mistake in a file with a long name" ends 2 "/M:$dir/$(printf '%0130d' 0).fb"
+ok "is told to its end, with its line" says "$dir/err" "0.fb:1: '300': expected size from 1 to 100"
+ok "/R without /N" ends 0 /R:35 /T:1 /S:8
+ok "says that it has no effect" says "$dir/err" "/R has no effect without /N"
+ok "/R with /N" ends 0 /R:35 /N:1
+ok "says nothing" test ! -s "$dir/err"
+
 for word in '/?' '-?'; do
 	ok "help by $word" ends 0 "$word"
 	ok "on standard output" says "$dir/out" "/S:n"
@@ -108,10 +143,51 @@ ok "the same fields" test "$(awk -F , '{ print NF }' "$dir/runs.csv" | sort -u |
 ok "one header" test "$(grep -c frames "$dir/runs.csv")" -eq 1
 ok "the settings of the second" sh -c "sed -n 3p '$dir/runs.csv' | grep -q '^S:4 G P'"
 ok "the frames of the second" test "$(sed -n 3p "$dir/runs.csv" | cut -d , -f 2)" = 2
+ok "with the scene" ends 0 /N:1 /S:8 "/M:$dir/ONE" "/O:$dir/runs.csv"
+ok "in its own field" sh -c "sed -n 4p '$dir/runs.csv' | cut -d , -f 14 | grep -qF '\"$dir/ONE\"'"
+ok "and day and hour" sh -c "sed -n 4p '$dir/runs.csv' | cut -d , -f 15 | grep -q '^20[0-9][0-9]-[01][0-9]-[0-3][0-9] [0-2][0-9]:[0-5][0-9]:[0-5][0-9]\$'"
+ok "and the machine" sh -c "sed -n 4p '$dir/runs.csv' | tr -d '\r' | cut -d , -f 16 | grep -q '^$(uname -s) '"
+ok "named in the header" sh -c "sed -n 1p '$dir/runs.csv' | tr -d '\r' | grep -q ',scene,date,machine\$'"
+# Found out before the run: what cannot be opened, and what is another file.
 : >"$dir/file"
 ok "a record that cannot be kept" ends 1 /N:1 "/O:$dir/file/runs.csv"
 ok "is named" says "$dir/err" "$dir/file/runs.csv"
-ok "the statistics are told all the same" is 1 frames
+ok "before anything was played" test ! -s "$dir/out"
+cp "$dir/ONE.FB" "$dir/copy"
+ok "a file that is no file of records" ends 2 /N:1 "/O:$dir/ONE.FB"
+ok "is named" says "$dir/err" "$dir/ONE.FB: this is no file of records"
+ok "and stays as it was" cmp "$dir/copy" "$dir/ONE.FB"
+ok "nothing was played" test ! -s "$dir/out"
+sed '1s/iterations/Iterations/' "$dir/runs.csv" >"$dir/other.csv"
+ok "a file of other records" ends 2 /N:1 "/O:$dir/other.csv"
+ok "is no file of ours" says "$dir/err" "other.csv: this is no file of records"
+ok "an empty file takes a record" ends 0 /N:1 /S:8 "/O:$dir/file"
+ok "with the names before it" test "$(wc -l <"$dir/file")" -eq 2
+if [ -c /dev/full ]; then
+	# Room for twenty bytes more.
+	{
+		cat "$dir/runs.csv"
+		printf '%0*d\n' $((2048 - 21 - $(wc -c <"$dir/runs.csv"))) 0
+	} >"$dir/small.csv"
+	cp "$dir/small.csv" "$dir/copy"
+	(
+		trap '' XFSZ
+		ulimit -f 4
+		"$demo" /N:1 /S:8 "/O:$dir/small.csv" 2>"$dir/err"
+		echo "status $?"
+	) | cat >"$dir/out"
+	ok "a disk that fills up" says "$dir/out" "status 1"
+	ok "is told" says "$dir/err" "small.csv: disk full"
+	ok "the statistics are told all the same" is 1 frames
+	ok "and the records stay whole" cmp "$dir/copy" "$dir/small.csv"
+	(
+		trap '' XFSZ
+		ulimit -f 0
+		"$demo" /N:1 /S:8 "/O:$dir/none.csv" 2>&1
+	) | cat >"$dir/out"
+	ok "a full disk" says "$dir/out" "none.csv: disk full"
+	ok "leaves no empty file" test ! -e "$dir/none.csv"
+fi
 
 # Dumps: three files a frame, the same every time, the picture changed by what should change it alone.
 dump() { # dump NAME ARGUMENT...
@@ -127,6 +203,12 @@ ok "again" dump b -n:3
 ok "the same bytes" diff -r "$dir/a" "$dir/b"
 ok "into a directory that is there" dump b /N:3
 ok "the same bytes again" diff -r "$dir/a" "$dir/b"
+# An older dump of more frames does not show through.
+ok "a longer dump" dump older /N:6 /S:8
+ok "and a shorter one over it" dump older /N:3
+ok "leaves nothing of the first" diff -r "$dir/a" "$dir/older"
+ok "no frame at all" sh -c "echo '0 key ESC' >'$dir/script' && FB_INPUT='$dir/script' '$demo' /N:3 '/D:$dir/older' >'$dir/out'"
+ok "leaves no file" test -z "$(ls "$dir/older")"
 ok "time of the third" says "$dir/a/F0000002.TXT" "time 0.200"
 ok "frames differ" sh -c "! cmp -s '$dir/a/F0000000.PPM' '$dir/a/F0000001.PPM'"
 ok "grey" dump g /N:3 /G
@@ -209,9 +291,9 @@ at() { # at FRAME OBJECT
 }
 ok "after the last comes the first" test "$(at 01 1)" != "$(at 11 1)"
 ok "and no other" test "$(at 01 2)" = "$(at 11 2)"
-# Once round all four, for the name of the selected one is on the screen.
-moves m '20 mouse 0 0 L\n21 mouse 0 0 -\n22 mouse 0 0 L\n23 mouse 0 0 -\n24 mouse 0 0 L\n25 mouse 0 0 -\n26 mouse 0 0 L\n' /N:40
-ok "nothing moves by itself" cmp "$dir/m/F0000019.PPM" "$dir/m/F0000012.PPM"
+# Once round all four, and once more, for the names of the selected one and the one before are on the screen.
+moves m '0 mouse 0 0 L\n1 mouse 0 0 -\n2 mouse 0 0 L\n3 mouse 0 0 -\n4 mouse 0 0 L\n5 mouse 0 0 -\n6 mouse 0 0 L\n7 mouse 0 0 -\n20 mouse 0 0 L\n21 mouse 0 0 -\n22 mouse 0 0 L\n23 mouse 0 0 -\n24 mouse 0 0 L\n25 mouse 0 0 -\n26 mouse 0 0 L\n' /N:40
+ok "nothing moves by itself" cmp "$dir/m/F0000019.PPM" "$dir/m/F0000016.PPM"
 ok "the selected one pulses" sh -c "! cmp -s '$dir/m/F0000029.PPM' '$dir/m/F0000039.PPM'"
 ok "and is as before again" cmp "$dir/m/F0000019.PPM" "$dir/m/F0000039.PPM"
 for far in '30000 0 -' '-30000 0 -' '0 30000 -' '0 -30000 -' '0 30000 R' '0 -30000 R' '30000 30000 R'; do

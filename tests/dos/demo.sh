@@ -97,6 +97,28 @@ rm -f "$c"/*.TXT
 dos -m 2 -- cls 'DEMO /N:5 > OUT.TXT' "$E1" "$E2" 'MTEST SCREEN > SCREEN.TXT'
 trouble 'too little memory' 'not enough memory'
 
+rm -f "$c"/*.TXT
+dos -- cls 'DEMO /N:5 /O:NODIR\R.CSV > OUT.TXT' "$E1" "$E2" 'MTEST SCREEN > SCREEN.TXT'
+trouble 'a record that cannot be kept' 'NODIR'
+ok 'a record that cannot be kept: nothing was played' test ! -s "$c/OUT.TXT"
+
+# ---- Scenes by name, records, dumps
+
+printf 'sphere a size 30\r\n' > "$c/ONE.FB"
+cp "$c/ONE.FB" "$scratch/one.fb"
+rm -rf "$c"/*.TXT "$c/F"
+dos -- cls 'DEMO ONE /G/S4/N=6 /D:F /O:R.CSV > OUT.TXT' "$E1" 'DEMO -n:2 one.fb /d:f /o:r.csv > OUT2.TXT' \
+    'DEMO /N:1 /O:ONE.FB > OUT3.TXT' "$E2" "$E3" 'MTEST SCREEN > SCREEN.TXT'
+ok 'a scene by its name alone' grep -q '^frames: 6' "$c/OUT.TXT"
+ok 'and again with its ending' grep -q '^frames: 2' "$c/OUT2.TXT"
+ok 'a header and two records' test "$(wc -l < "$c/R.CSV")" -eq 3
+ok 'with scene, date and machine' grep -q '"ONE",20..-..-.. ..:..:..,DOS [0-9.]* 80[3-6]86' "$c/R.CSV"
+ok 'nothing left of the older dump' test "$(ls "$c/F" | wc -l)" -eq 6
+ok 'a file that is no file of records: status 2' status 2 "$c"
+ok 'a file that is no file of records: named' has "$c/SCREEN.TXT" 'ONE.FB: this is no file of records'
+ok 'a file that is no file of records: as it was' cmp "$scratch/one.fb" "$c/ONE.FB"
+rm -rf "$c/F"
+
 # ---- Frames, byte for byte those of the host (a few; tests/frames compares many)
 
 frames() {

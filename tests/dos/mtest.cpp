@@ -237,6 +237,22 @@ void testHeap(uint32_t most) {
 
 // ---- files
 
+void testDescription() {
+    char text[64];
+    machine::date(text, sizeof text);
+    print("# %s\n", text);
+    const char* form = "2000-00-00 00:00:00";
+    bool good = strlen(text) == strlen(form);
+    for (int i = 0; good && form[i] != '\0'; ++i) {
+        good = form[i] == '0' ? text[i] >= '0' && text[i] <= '9' : text[i] == form[i];
+    }
+    check("date and time of day", good);
+    machine::describe(text, sizeof text);
+    print("# %s\n", text);
+    check("what machine it is", strncmp(text, "DOS ", 4) == 0 && strchr(text, ',') == nullptr &&
+                                    strncmp(text + strlen(text) - 2, "86", 2) == 0);
+}
+
 void testFiles() {
     constexpr uint32_t BYTES = 150001;
     uint8_t* data = static_cast<uint8_t*>(malloc(BYTES));
@@ -273,8 +289,56 @@ void testFiles() {
     file = machine::appendFile("MTDIR\\NEW.DAT", &fresh);
     check("appendFile makes a file", file >= 0 && fresh && machine::writeFile(file, "x", 1) == 1);
     machine::closeFile(file);
+    file = machine::appendFile("MTDIR\\BIG.DAT", &fresh);
+    check("fileBytes", machine::fileBytes(file) == int32_t(BYTES + 3));
+    check("cutFile, and on from there", machine::writeFile(file, "what does not fit", 17) == 17 &&
+                                            machine::cutFile(file, 100000) && machine::writeFile(file, "END", 3) == 3 &&
+                                            machine::fileBytes(file) == 100003 && machine::closeFile(file));
+    file = machine::openFile("MTDIR\\BIG.DAT");
+    check("what is left of it", machine::readFile(file, back, BYTES) == 100003 && memcmp(data, back, 100000) == 0 &&
+                                    memcmp(back + 100000, "END", 3) == 0);
+    machine::closeFile(file);
+    check("removeFile", machine::removeFile("MTDIR\\NEW.DAT") && machine::openFile("MTDIR\\NEW.DAT") == -1);
+    check("removeFile of no file", !machine::removeFile("MTDIR\\NEW.DAT") &&
+                                       strcmp(machine::fileTrouble(), "no such file or directory") == 0);
+    check("removeFile of a directory", !machine::removeFile("MTDIR"));
+    // Saving: what was there stays until the new is whole.
+    const auto holds = [&](const char* name, const char* text) {
+        const int opened = machine::openFile(name);
+        const int32_t got = machine::readFile(opened, back, 100);
+        machine::closeFile(opened);
+        return got == int32_t(strlen(text)) && memcmp(back, text, strlen(text)) == 0;
+    };
+    static const char* const NAMES[] = {"MTDIR\\SAVED.FB", "mtdir/saved.fb", "SAVED.FB", "C:SAVED.FB",
+                                        "C:\\MTDIR\\OTHER.FB"};
+    for (const char* name : NAMES) {
+        file = machine::beginSave(name);
+        check(name, file >= 0 && machine::writeFile(file, "first", 5) == 5 && machine::endSave(file, true) &&
+                        holds(name, "first"));
+        file = machine::beginSave(name);
+        machine::writeFile(file, "half of the sec", 15);
+        check("while it is saved", holds(name, "first"));
+        check("given up", !machine::endSave(file, false) && holds(name, "first"));
+        file = machine::beginSave(name);
+        machine::writeFile(file, "second", 6);
+        check("saved over it", machine::endSave(file, true) && holds(name, "second"));
+    }
+    check("beginSave in no directory", machine::beginSave("NODIR\\SAVED.FB") == -1);
+    check("beginSave over a directory", machine::beginSave("MTDIR") == -1);
     check("openFile of no file", machine::openFile("NONE.DAT") == -1 &&
                                      strcmp(machine::fileTrouble(), "no such file or directory") == 0);
+    static machine::FileName names[8];
+    check("no names in a directory that is not there", machine::listFiles("NODIR", ".FB", names, 8) == 0);
+    check("names, sorted", machine::listFiles("MTDIR", ".fb", names, 8) == 2 && strcmp(names[0].text, "OTHER.FB") == 0 &&
+                               strcmp(names[1].text, "SAVED.FB") == 0);
+    check("no more than there is room for", machine::listFiles("C:\\MTDIR\\", ".FB", names, 1) == 1);
+    file = machine::createFile("MTDIR\\TWICE.X");
+    check("rewindFile", machine::writeFile(file, "abc", 3) == 3 && machine::rewindFile(file) &&
+                            machine::writeFile(file, "x", 1) == 1 && machine::closeFile(file));
+    file = machine::openFile("MTDIR\\TWICE.X");
+    check("the first byte is another, the rest is there", machine::readFile(file, back, 9) == 3 && memcmp(back, "xbc", 3) == 0);
+    machine::closeFile(file);
+    machine::removeFile("MTDIR\\TWICE.X");
     // (DOS says "access denied", DOSBox that there is no such file.)
     check("createFile over a directory", machine::createFile("MTDIR") == -1);
     char longName[200];
@@ -419,6 +483,15 @@ void testKeys() {
     check("ESC, after an empty entry", machine::key() == machine::KEY_ESC);
     check("*", machine::key() == '*');
     check("no key", machine::key() == 0);
+    const uint8_t flags = pc::peek8(0x417);
+    pc::poke8(0x417, uint8_t(flags | 0x40));
+    stuffKey(0x2d58);  // X alone, and x with Shift, as Caps Lock has them
+    stuffKey(0x2d78);
+    stuffKey(0x0231);
+    check("Caps Lock: x", machine::key() == 'x');
+    check("Caps Lock: X", machine::key() == 'X');
+    check("Caps Lock: 1", machine::key() == '1');
+    pc::poke8(0x417, flags);
     const bool mouse = machine::openMouse();
     const machine::Mouse m = machine::mouse();
     print("# mouse: %s, %d %d\n", mouse ? "yes" : "no", m.dx, m.dy);
@@ -493,6 +566,7 @@ int all(uint32_t mostBlocks) {
     testWide();
     testHeap(mostBlocks);
     testFiles();
+    testDescription();
     testClock();
     testTimeOfDay();
     testBreak();
@@ -571,7 +645,6 @@ int play(uint32_t seconds) {
     int dy = 0;
     int lefts = 0;
     int rights = 0;
-    bool left = false;
     bool right = false;
     bool done = false;
     machine::present(frame, rows);
@@ -585,9 +658,8 @@ int play(uint32_t seconds) {
         const machine::Mouse m = machine::mouse();
         dx += m.dx;
         dy += m.dy;
-        lefts += m.left && !left ? 1 : 0;
+        lefts += m.presses;
         rights += m.right && !right ? 1 : 0;
-        left = m.left;
         right = m.right;
         machine::waitRetrace();
     }

@@ -1,8 +1,11 @@
 #!/bin/sh
 # The DPMI host on FreeDOS in an emulated PC. FreeDOS is in no Debian package, so this is not part of `make test`: it takes a
-# bootable floppy image of 1.44 MB with KERNEL.SYS and COMMAND.COM and some 200 KB free, and uses a copy of it.
+# bootable floppy image with KERNEL.SYS and COMMAND.COM and some 350 KB free (720 KB or 1.44 MB), and uses a copy of it.
 #
 #   tests/dpmi/freedos.sh FLOPPY.IMG [FILE.EXE...]
+#
+# A boot may take FB_BOOT_SECONDS of the processor's time (180) and ten times that by the clock. One that takes more, or that
+# the emulator ends, is one failure that says so, and at which command; what it leaves undone is not judged.
 #
 # A FILE may be a driver (HIMEMX, JEMM386, JEMMEX: loaded by CONFIG.SYS, one at a time, JEMM386 behind HIMEMX) or another
 # DPMI host that stays resident with -p (CWSDPMI). Needs qemu-system-x86 and mtools.
@@ -30,12 +33,17 @@ printf '\260\000\272\364\000\356\364' > "$scratch/QUIT.COM"
 drivers=
 files=
 
-# run CPU MB COMMAND...: boots, runs, leaves the output files in $scratch. The clock counts instructions, so that no timer
-# interrupt is late because the machine under the emulator is busy.
+seconds=${FB_BOOT_SECONDS:-180}
+
+# run NAME CPU MB COMMAND...: boots, runs, leaves the output files in $scratch. The clock counts instructions, so that no timer
+# interrupt is late because the machine under the emulator is busy. False, with a line that says what happened, when the
+# commands did not all come to their end.
 run() {
-    cpu=$1
-    memory=$2
-    shift 2
+    boot=$1
+    cpu=$2
+    memory=$3
+    shift 3
+    rm -f "$scratch"/*.TXT
     cp "$floppy" "$a"
     chmod u+w "$a"
     mdel -i "$a" ::README.TXT > /dev/null 2>&1
@@ -47,26 +55,55 @@ run() {
     } > "$scratch/CONFIG.SYS"
     {
         printf '@ECHO OFF\r\n'
+        step=0
         for line in "$@"; do
-            printf '%s\r\n' "$line"
+            step=$((step + 1))
+            printf 'ECHO %d > AT.TXT\r\n%s\r\n' "$step" "$line"
         done
         printf 'QUIT\r\n'
     } > "$scratch/AUTOEXEC.BAT"
     # shellcheck disable=SC2086
     mcopy -o -i "$a" "$scratch/CONFIG.SYS" "$scratch/AUTOEXEC.BAT" "$scratch/QUIT.COM" build/DTEST.EXE build/DEMO.EXE \
-        $files ::/ || return 1
-    timeout 180 nice qemu-system-i386 -cpu "$cpu" -m "$memory" -icount shift=4 -display none -serial none -monitor none \
-        -no-reboot -drive "file=$a,format=raw,if=floppy" -boot a -device isa-debug-exit,iobase=0xf4,iosize=1
-    rm -f "$scratch"/*.TXT
+        $files ::/ > "$scratch/said" 2>&1 || {
+        echo "FAIL $boot: the floppy cannot take the programs"
+        sed 's/^/  /' "$scratch/said"
+        failed=$((failed + 1))
+        return 1
+    }
+    (
+        ulimit -t "$seconds"
+        exec timeout "$((10 * seconds))" nice qemu-system-i386 -cpu "$cpu" -m "$memory" -icount shift=4 -display none \
+            -serial none -monitor none -no-reboot -drive "file=$a,format=raw,if=floppy" -boot a \
+            -device isa-debug-exit,iobase=0xf4,iosize=1
+    ) > "$scratch/said" 2>&1
+    status=$?
     mcopy -n -i "$a" '::/*.TXT' "$scratch" > /dev/null 2>&1
+    [ $status -ne 1 ] || return 0 # what QUIT asks for
+    at=$(tr -cd '0-9' < "$scratch/AT.TXT" 2> /dev/null)
+    if [ -n "$at" ] && [ "$at" -gt 0 ] && [ "$at" -le $# ]; then
+        shift $((at - 1))
+        at="at: $1"
+    else
+        at='DOS had not started'
+    fi
+    case $status in
+        124) why="no end in $((10 * seconds)) s by the clock" ;;
+        137 | 152) why="no end in $seconds s of the processor's time" ;;
+        *) why="the emulator ended with status $status" ;;
+    esac
+    echo "FAIL $boot: $why; $at"
+    sed 's/^/  /' "$scratch/said"
+    failed=$((failed + 1))
+    return 1
 }
 
-# all NAME CPU MB: every service, a page fault, Ctrl-C, timer interrupts, the demo
+# all NAME CPU MB: every service, a page fault, stack overflows, Ctrl-C, timer interrupts, the demo
 all() {
     label=$1
-    run "$2" "$3" 'DTEST FREE > BEFORE.TXT' CLS 'DTEST CRASH 14' 'DTEST SCREEN > CRASH.TXT' CLS 'DTEST CRASH S' \
-        'DTEST SCREEN > OVER.TXT' CLS 'DTEST BREAK' 'DTEST SCREEN > BREAK.TXT' 'DTEST TICKS 10000 400 > TICKS.TXT' \
-        'DTEST ALL > ALL.TXT' 'DEMO /N:5 > DEMO.TXT' 'DTEST FREE > AFTER.TXT'
+    run "$label" "$2" "$3" 'DTEST FREE > BEFORE.TXT' CLS 'DTEST CRASH 14' 'DTEST SCREEN > CRASH.TXT' CLS 'DTEST CRASH S' \
+        'DTEST SCREEN > OVER.TXT' CLS 'DTEST CRASH L' 'DTEST SCREEN > FRAMES.TXT' CLS 'DTEST CRASH R' \
+        'DTEST SCREEN > RETURNS.TXT' CLS 'DTEST BREAK' 'DTEST SCREEN > BREAK.TXT' 'DTEST CATCH > CATCH.TXT' \
+        'DTEST TICKS 10000 400 > TICKS.TXT' 'DTEST ALL > ALL.TXT' 'DEMO /N:5 > DEMO.TXT' 'DTEST FREE > AFTER.TXT' || return
     tr -d '\r' < "$scratch/ALL.TXT" > "$scratch/all"
     grep '^FAIL ' "$scratch/all"
     good=$(grep -c '^ok ' "$scratch/all")
@@ -75,7 +112,10 @@ all() {
     ok "$label: $good checks, to the end" has "$scratch/all" '# all well'
     ok "$label: wild pointer" has "$scratch/CRASH.TXT" 'Page fault at eip='
     ok "$label: stack overflow" has "$scratch/OVER.TXT" ' at eip='
+    ok "$label: stack overflow with large frames" has "$scratch/FRAMES.TXT" ' at eip='
+    ok "$label: an exception handler that returns" has "$scratch/RETURNS.TXT" 'Page fault at eip='
     ok "$label: Ctrl-C" has "$scratch/BREAK.TXT" 'Control-C Pressed at eip='
+    ok "$label: Ctrl-C at a program that has the keyboard" has "$scratch/CATCH.TXT" 'ok 0205 given back'
     ok "$label: timer interrupts" has "$scratch/TICKS.TXT" 'ok 10000 timer'
     ok "$label: the demo" has "$scratch/DEMO.TXT" 'seeds: 2496'
     ok "$label: free memory as before" cmp "$scratch/BEFORE.TXT" "$scratch/AFTER.TXT"
@@ -103,7 +143,7 @@ for file in "$@"; do
             drivers=
             ;;
         *)
-            run pentium 16 "$exe -p" 'DTEST GOOD > ALL.TXT' 'DEMO /N:5 > DEMO.TXT'
+            run "$exe" pentium 16 "$exe -p" 'DTEST GOOD > ALL.TXT' 'DEMO /N:5 > DEMO.TXT' || continue
             tr -d '\r' < "$scratch/ALL.TXT" > "$scratch/all"
             grep '^FAIL ' "$scratch/all"
             ok "$exe: $(grep -c '^ok ' "$scratch/all") checks, to the end" has "$scratch/all" '# all well'

@@ -9,7 +9,7 @@ if ! startDisplay; then
 	echo "0 passed, 0 failed"
 	exit 0
 fi
-make -s build/DEMO.EXE build/demo || exit 1
+make -s build/DEMO.EXE build/demo build/filmtst || exit 1
 c=$scratch/c
 mkdir "$c"
 cp build/DEMO.EXE "$c/DEMO.EXE" || exit 1
@@ -34,7 +34,7 @@ for i in 1 2 3 4 5; do
 done
 sleep 0.5
 # A sphere too many, taken back; then saved.
-type Insert u F2 Escape
+type Insert u F2 Return Escape
 wait $running
 
 ok 'the program ended well' has "$c/OUT.TXT" 'frames: '
@@ -49,4 +49,65 @@ set -- $(sed -n 's/^cylinder .* at \([-0-9]*\)[.0-9]* \([-0-9]*\).*/\1 \2/p' "$s
 echo "# the mouse brought the cylinder from 20 0 to ${1:-?} ${2:-?}"
 ok 'the mouse moved it right and up' test "${1:-0}" -gt 22 -a "${2:-0}" -gt 2
 ok "the host's program plays it" build/demo /X /N:2 "/M:$scratch/saved"
+
+# Caps Lock changes nothing; a pointer picks what it is clicked on: from the middle of the screen, two mickeys a pixel.
+rm -f "$c"/*.TXT "$c/SAVED.FB"
+dos -w -c 60000 -- cls 'DEMO /I /G /S:4 /M:HAND.FB /A:HAND.FLI > OUT.TXT' "$E1" &
+running=$!
+awaitTitle DEMO
+xdotool mousemove --window "$dosWindow" 300 200 sleep 0.5 click 1 sleep 1 2>/dev/null
+type Caps_Lock Tab z Caps_Lock m
+for i in 1 2 3 4 5 6 7 8; do
+	xdotool mousemove_relative -- -10 0 sleep 0.1 2>/dev/null
+done
+xdotool mousedown 1 sleep 0.05 mouseup 1 sleep 0.5 2>/dev/null
+# A click of a moment between two frames of a slow machine is not lost: see tests/edit/run.sh.
+type bracketright F2 Return F1
+sleep 0.5
+type Escape
+wait $running
+ok 'a second run ended well' has "$c/OUT.TXT" 'frames: '
+tr -d '\r' <"$c/SAVED.FB" >"$scratch/saved" 2>/dev/null
+grep '^sphere' "$scratch/saved" | sed 's/^/# /'
+ok 'x y z turn the same way with Caps Lock' sh -c "grep -c 'turn 0 0 15' '$scratch/saved' | grep -qx 1"
+ok 'the click picked the sphere on the left' grep -q '^sphere one size 25 ' "$scratch/saved"
+ok 'the other is as large as it was' grep -q '^sphere two size 20 ' "$scratch/saved"
+ok 'a film of it' build/filmtst frames "$c/HAND.FLI"
+build/filmtst frames "$c/HAND.FLI" | sed 's/^/# /'
+
+# The same bytes as the host's: a film; a screenshot, when the pulse of the selected one is over.
+build/demo /N:30 /S:4 "/A:$scratch/host.fli" >/dev/null
+printf '20 key p\n21 key ESC\n' >"$scratch/script"
+host=$PWD/build/demo
+(cd "$scratch" && FB_INPUT=script "$host" /I /S:4 /N:40 /M:c/HAND.FB >/dev/null)
+rm -f "$c"/*.TXT
+dos -w -c 60000 -- 'DEMO /N:30 /S:4 /A:DOS.FLI > FILM.TXT' 'DEMO /I /S:4 /M:HAND.FB /T:60 > OUT.TXT' &
+running=$!
+tries=0
+while [ ! -s "$c/FILM.TXT" ] && [ $tries -lt 100 ]; do
+	sleep 0.2
+	tries=$((tries + 1))
+done
+awaitTitle DEMO
+sleep 2
+type p
+sleep 1
+type Escape
+wait $running
+ok 'a film: the bytes of the host' cmp "$scratch/host.fli" "$c/DOS.FLI"
+ok 'a screenshot: the bytes of the host' cmp "$scratch/SHOT0001.PCX" "$c/SHOT0001.PCX"
+
+# The next scene beside the program.
+rm -f "$c"/*.FB "$c"/*.TXT
+printf 'sphere a size 11\r\n' >"$c/A.FB"
+printf 'sphere b size 12\r\n' >"$c/B.FB"
+dos -w -c 60000 -- 'DEMO /S:8 /D:F > OUT.TXT' &
+running=$!
+awaitTitle DEMO
+type n n
+sleep 1
+type Escape
+wait $running
+ok 'n: the first scene' grep -q '^sphere 1 0 0 0 11' "$c/F/"*.TXT
+ok 'n: the second scene' grep -q '^sphere 1 0 0 0 12' "$c/F/"*.TXT
 summary

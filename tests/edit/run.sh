@@ -10,6 +10,7 @@ if [ -z "${DEMO:-}" ]; then
 	make -s build/demo build/demo32 || { echo "0 passed, 1 failed"; exit 1; }
 	DEMO=build/demo
 fi
+make -s build/filmtst || { echo "0 passed, 1 failed"; exit 1; }
 demo=$top/$DEMO
 dir=$(mktemp -d "${TMPDIR:-/tmp}/fbedit.XXXXXX") || exit 1
 trap 'rm -rf "$dir"' EXIT
@@ -70,6 +71,60 @@ play 5 /M:one.fb <<'END'
 END
 ok "left button selects the next" has 3 "sphere 2 31 0 0 20"
 ok "the mouse cannot lose it" has 4 "sphere 2 -76.79993 -57.59949 0 20"
+
+# Presses while one frame was drawn are all there; and so are those of a fast hand.
+play 4 /M:one.fb <<'END'
+1 mouse 0 0 L
+1 mouse 0 0 -
+1 mouse 0 0 L
+1 mouse 0 0 -
+2 key RIGHT
+END
+ok "two clicks in a frame select the next but one" has 2 "cylinder 3 -28 -10 0 -28 10 0 12"
+
+# --- The pointer: from the middle of the screen, two mickeys a pixel
+play 9 /M:one.fb <<'END'
+1 key m
+1 mouse 125 0 -
+2 mouse 0 0 L
+3 mouse 48 -24 L
+4 mouse 0 0 -
+5 mouse 60 60 -
+6 key RIGHT
+7 mouse 0 100 L
+8 key RIGHT
+END
+ok "a pointer moves no object" alike 0 1
+ok "a click on it selects and moves nothing" alike 0 2
+ok "held, it goes with the pointer" has 3 "sphere 2 41.51917 6.91132 0 20"
+ok "let go, it stays" alike 3 5
+ok "it is the selected one" has 6 "sphere 2 43.51917 6.91132 0 20"
+ok "a click on nothing" alike 6 7
+ok "leaves it selected" has 8 "sphere 2 45.51917 6.91132 0 20"
+ok "the others stay" has 8 "sphere 1 0 0 0 20"
+
+# --- What does not wait for the end of a frame
+ends() { # SCRIPT SWITCHES...
+	printf "$1" >script
+	shift
+	FB_INPUT=script "$demo" "$@" >out 2>err
+	echo $? >status
+}
+ends '4.3 key ESC\n' /N:50
+ok "ESC in the middle of a frame" grep -qx "frames: 4" out
+ends '4.100 key ESC\n' /N:50
+ok "ESC at its end" grep -qx "frames: 5" out
+rm -rf d
+ends '4.3 key BREAK\n' /N:50 /D:d
+ok "Ctrl-C in the middle of a frame" test "$(cat status) $(ls d/*.PPM | wc -l)" = "1 4"
+rm -rf a b
+ends '' /N:9 /D:a
+ends '4.3 key f\n4.5 key f\n' /N:9 /D:b
+ok "other keys wait, and nothing is lost of the frame" diff -r a b
+printf '2 key INS\n4 key h\n6 key u\n8 key DEL\n' >script
+FB_LOG=log1 FB_INPUT=script "$demo" /I /N:12 >out 2>err
+ok "another palette: four times, and the first" test "$(grep -c palette log1)" -ge 5
+ok "each with its frame" test "$(sed 1d log1 | awk 'last == "palette" && $1 != "present" { ++bad } { last = $1 } END { print bad + 0 }')" = 0
 
 # --- Turning, sizes
 play 9 /M:one.fb <<'END'
@@ -144,6 +199,34 @@ ok "three deleted" count 3 sphere 1
 ok "the last one stays" count 4 sphere 1
 ok "all back" alike 0 5
 ok "nothing more to undo" alike 0 6
+play 6 /M:one.fb <<'END'
+1 key TAB
+2 key DEL
+3 key u
+4 key RIGHT
+END
+ok "what comes back is selected" has 4 "sphere 2 32 0 0 20"
+play 9 /M:one.fb <<'END'
+1 key RIGHT
+2 key UP
+3 key u
+4 key TAB
+4 key ]
+5 key r
+END
+ok "after something else nothing is done again" alike 4 5
+cat >keyed.fb <<'END'
+sphere k size 20
+key k 0 5 0 0
+key k 1 9 0 0
+END
+play 9 /M:keyed.fb <<'END'
+1 key o
+2 key F2
+2 key ENTER
+END
+ok "another motion takes the place of keys" sh -c '! grep -q "^key" SAVED.FB && grep -q "^sphere k" SAVED.FB'
+rm -f SAVED.FB
 
 # --- Undo: forty steps, and back one by one
 (
@@ -177,7 +260,7 @@ ok "moved" has 29 "sphere 1 16 0 0 20"
 ok "the second gesture undone" has 30 "sphere 1 10 0 0 20"
 ok "the first gesture undone" has 31 "sphere 1 0 0 0 20"
 
-# --- Saving and loading
+# --- Saving and loading: F2 asks for a name, F3 for one of a list
 rm -f SAVED.FB
 play 8 /M:one.fb <<'END'
 1 key TAB
@@ -185,50 +268,104 @@ play 8 /M:one.fb <<'END'
 1 key y
 1 mouse 13 -7 -
 2 key F2
+2 key ENTER
 3 key DEL
 3 key TAB
 3 key DEL
 4 key F3
+4 key ENTER
 5 key u
+6 key r
 END
 ok "saved" test -s SAVED.FB
 ok "changed after that" count 3 sphere 1
 ok "loaded: as it was saved" alike 2 4
 ok "loading can be undone" alike 3 5
+ok "and done again" alike 4 6
 cp SAVED.FB first.fb
 play 2 /M:first.fb <<'END'
 0 key F2
+0 key ENTER
 END
-ok "saved again: the same text" cmp first.fb SAVED.FB
+ok "a file that is there is not proposed" cmp first.fb SAVED2.FB
 ok "and the same scene" count 1 blend 1
+play 4 /M:first.fb <<'END'
+0 key F2
+0 key BACKSPACE
+0 key BACKSPACE
+0 key BACKSPACE
+0 key BACKSPACE
+0 key 9
+0 key ENTER
+1 key DEL
+2 key F2
+2 key ENTER
+END
+ok "a name typed, without its end" test -s SAVED9.FB
+ok "saved under it again, without a question" sh -c '! cmp -s first.fb SAVED9.FB'
+cp SAVED.FB kept
+save_over() { # one more event
+	play 3 /M:one.fb <<END
+0 key F2
+0 key BACKSPACE
+0 key BACKSPACE
+0 key BACKSPACE
+0 key BACKSPACE
+0 key ENTER
+$1
+END
+}
+rm -f SAVED3.FB SAVED2.FB SAVED9.FB
+save_over ""
+ok "a file that is there is not replaced at once" cmp kept SAVED.FB
+save_over "1 key ESC"
+ok "nor after ESC" cmp kept SAVED.FB
+save_over "1 key ENTER"
+ok "but after a second Enter" sh -c '! cmp -s kept SAVED.FB'
+cp kept SAVED.FB
+play 4 /M:one.fb <<'END'
+0 key F2
+1 key ESC
+2 key RIGHT
+END
+ok "ESC leaves the question, not the program" has 3 "sphere 1 2 0 0 20"
 rm -f SAVED.FB
 play 4 <<'END'
 1 key F2
+1 key ENTER
 END
 "$demo" /N:20 /S:4 /D:a >out 2>&1
 "$demo" /N:20 /S:4 /D:b /M:SAVED.FB >out 2>&1
 ok "the model built in, saved: the same frames" diff -r a b
-rm -f SAVED.FB
-play 4 /M:one.fb <<'END'
+mkdir none
+rm -rf d
+cp one.fb none/one.scene
+(cd none && play 4 /M:one.scene <<'END'
 1 key F3
+1 key ENTER
 END
+	mv d ..)
 ok "nothing to load: it stays" alike 0 2
 echo "sphere a size 20
 sphere b size" >SAVED.FB
 play 4 /M:one.fb <<'END'
 1 key F3
+1 key HOME
+1 key ENTER
 2 key RIGHT
 END
 ok "a bad file: it stays" alike 0 1
 ok "and goes on" has 2 "sphere 1 2 0 0 20"
 rm -f SAVED.FB
-mkdir SAVED.FB
 play 4 /M:one.fb <<'END'
 1 key F2
+1 key BACKSPACE
+1 key /
+1 key x
+1 key ENTER
 2 key RIGHT
 END
 ok "nowhere to save: it goes on" has 2 "sphere 1 2 0 0 20"
-rmdir SAVED.FB
 
 # --- Groups: moved in the world's directions, whatever the group is turned and scaled to
 cat >group.fb <<'END'
@@ -246,6 +383,104 @@ ok "moved in the world" has 1 "sphere 1 12 10 0 20"
 ok "with what it carries" has 1 "sphere 2 12 20 0 16"
 ok "what it carried stays" has 2 "sphere 2 12 20 0 16"
 ok "and back" alike 1 3
+
+play 12 /M:one.fb <<'END'
+1 key TAB
+1 key g
+2 key s
+3 key RIGHT
+4 key s
+5 key RIGHT
+6 key G
+7 key u
+8 key TAB
+8 key g
+9 key G
+END
+ok "into a group: all stay where they are" alike 0 1
+ok "the whole group moves" sh -c '! cmp -s d/F0000002.TXT d/F0000003.TXT'
+moved() { # FRAME FRAME SPHERE: how far it goes along x
+	echo "$(scene "$1" | grep "^sphere $3 ") $(scene "$2" | grep "^sphere $3 ")" | awk '{ print $9 - $3 }'
+}
+ok "both of it" test "$(moved 2 3 1) $(moved 2 3 2) $(moved 2 3 3)" = "2 2 0"
+ok "then one alone" test "$(moved 4 5 1) $(moved 4 5 2)" = "0 2"
+ok "out of it again: it stays where it is" alike 5 6
+ok "undone" alike 5 7
+ok "a third one joins" alike 5 8
+play 9 <<'END'
+1 key TAB
+1 key g
+3 key TAB
+3 key g
+5 key G
+END
+ok "what goes its way stays on it" alike 0 2
+ok "and a third one" alike 0 4
+ok "and out of the group" alike 0 6
+
+# --- Colour, weight, motion, light; undo, redo
+rm -f SAVED*.FB
+play 16 /M:one.fb <<'END'
+1 key h
+2 key h
+3 key H
+4 key TAB
+4 key l
+5 key w
+6 key W
+7 key W
+7 key W
+7 key W
+8 key q
+9 key e
+10 key Q
+10 key E
+11 key u
+12 key r
+END
+ok "another colour" lacks 1 "ramp 1 255 64 48"
+ok "and another" sh -c '! grep -qxF "$(grep "^ramp 1 " d/F0000001.TXT)" d/F0000002.TXT'
+ok "and back" alike 1 3
+ok "linked" has 4 "blend 1 2"
+ok "a greater weight" has 5 "blend 1 2 1.25"
+ok "and less" has 6 "blend 1 2"
+ok "and less" has 7 "blend 1 2 0.25"
+ok "the light comes from elsewhere" lacks 8 "light 0.5 0.7 -0.5"
+ok "and still elsewhere" sh -c '! grep -qxF "$(grep "^light " d/F0000008.TXT)" d/F0000009.TXT'
+ok "undone" sh -c '! cmp -s d/F0000010.TXT d/F0000011.TXT'
+ok "done again" alike 10 12
+# The picture under another light is that of a scene which has it from the start.
+play 40 /M:one.fb <<'END'
+1 key e
+1 key F2
+1 key ENTER
+39 key p
+END
+cp SAVED.FB lit.fb
+mv d d1
+play 40 /M:lit.fb </dev/null
+ok "seen in the new light" cmp d1/F0000002.Z d/F0000002.Z
+"$top/build/filmtst" pcx SHOT0001.PCX shot.ppm
+ok "a screenshot is what is shown" cmp shot.ppm d1/F0000039.PPM
+ok "as bright as from the start" cmp d1/F0000038.PPM d/F0000038.PPM
+rm -f SAVED*.FB SHOT*.PCX
+# Each motion moves it when time runs, and the last one lets it stand.
+play 80 /M:one.fb <<'END'
+0 key SPACE
+1 key o
+10 key o
+20 key o
+30 key o
+40 key o
+50 key o
+60 key o
+61 key v
+END
+for from in 2 12 42 62; do
+	# (A ball that spins or swings looks the same.)
+	ok "it moves: frame $from" sh -c "! cmp -s \"$(printf 'd/F%07d.Z' $from)\" \"$(printf 'd/F%07d.Z' $((from + 4)))\""
+done
+ok "then it stands" alike 52 56
 
 # --- Running, and nothing else moves by itself
 play 12 <<'END'
@@ -290,6 +525,130 @@ END
 rm -rf b
 FB_INPUT=script "$demo" /N:10 /S:4 /D:b >out 2>&1
 ok "automatic: no key edits" diff -r a b
+
+# Long names take a second line; long messages make way for the frame rate.
+ink() { "$top/build/filmtst" ink "$(printf 'd/F%07d.PPM' "$1")" "$2" "$3" "$4" "$5"; } # frame x y wide high
+cat >long.fb <<'END'
+sphere averyveryverylo size 20.125
+cone theotherlongone size 20.125 tip 12.25 length 30.375 at 10 0 0
+END
+play 60 /M:long.fb <<'END'
+20 key f
+30 key TAB
+32 key l
+40 key F2
+40 key /
+40 key x
+40 key y
+40 key ENTER
+END
+ok "one line at the top" test "$(ink 10 0 12 320 9)" -eq 0
+ok "two where there is more to say" test "$(ink 34 0 12 320 9)" -gt 50
+ok "the frame rate" test "$(ink 25 240 189 80 11)" -gt 50
+ok "is not written over" test "$(ink 25 240 150 80 50)" -eq "$(ink 42 240 150 80 50)"
+ok "a long message beside it" test "$(ink 42 0 180 240 20)" -gt 200
+
+# --- Automatic mode: time held, stepped, begun again, slower and faster
+auto() { # FRAMES SWITCHES...: the script on standard input, frames into d/
+	frames=$1
+	shift
+	cat >script
+	rm -rf d
+	FB_INPUT=script "$demo" "/N:$frames" /R:8 /S:8 /D:d "$@" >out 2>&1 || bad "the program ended with $?: $(tail -n 1 out)"
+}
+auto 40 </dev/null
+rm -rf plain
+mv d plain
+was() { # FRAME PLAIN: the scene is that of a frame of the run without keys
+	scene "$1" >one
+	sed 1d "$(printf 'plain/F%07d.TXT' "$2")" | diff one -
+}
+auto 30 <<'END'
+10 key SPACE
+12 key .
+13 key .
+15 key SPACE
+18 key HOME
+20 key .
+END
+ok "space holds it" was 11 9
+ok "a step" was 12 10
+ok "another" was 14 11
+ok "space lets it go" was 17 14
+ok "from the start" was 19 2
+ok "a step holds it too" was 29 3
+auto 20 <<'END'
+0 key >
+5 key <
+10 key <
+END
+ok "faster" was 4 8
+ok "slower again" was 9 13
+ok "and half as fast" was 19 18
+(i=0; while [ $i -lt 9 ]; do echo "0 key >"; i=$((i + 1)); done) | auto 4
+ok "at most eight times" was 3 24
+(i=0; while [ $i -lt 9 ]; do echo "0 key <"; i=$((i + 1)); done; echo "1 key SPACE") | auto 12
+ok "a message tells so" test "$(ink 2 0 185 200 15)" -gt 50
+auto 6 <<'END'
+1 key +
+2 key -
+END
+ok "the spacing is told" test "$(ink 1 0 185 200 15)" -gt 50
+ok "and frames without keys bear no words" test "$(ink 0 0 0 320 200)" -eq 0
+
+# The next scene: those beside the program, in order.
+mkdir beside
+cp "$demo" beside/demo
+printf 'title a ball all alone\nsphere a size 11\n' >beside/A.FB
+echo "sphere b size" >beside/B.FB
+echo "sphere c size 13" >beside/c.fb
+printf '1 key n\n2 key n\n3 key n\n4 key n\n' >script
+rm -rf d
+FB_INPUT=script beside/demo /N:6 /S:8 /D:d >out 2>&1
+ok "the first scene" has 1 "sphere 1 0 0 0 11"
+ok "with its title" test "$(ink 1 50 185 100 15)" -gt 50
+ok "the third has none" test "$(ink 3 50 185 100 15)" -eq 0
+ok "a bad one: it stays" alike 1 2
+ok "and says why" test "$(ink 2 0 180 320 20)" -gt 100
+ok "the one behind it" has 3 "sphere 1 0 0 0 13"
+ok "then the first again" alike 4 1
+rm -rf d
+FB_INPUT=script beside/demo /N:6 /S:8 /D:d /M:beside/B.FB >out 2>&1
+ok "a bad scene from the start ends it" test ! -e d
+FB_INPUT=script beside/demo /N:6 /S:8 /D:d /M:beside/A.FB >out 2>&1
+ok "on from the one that was loaded" has 2 "sphere 1 0 0 0 13"
+rm -rf none
+mkdir none
+cp "$demo" none/demo
+FB_INPUT=script none/demo /N:6 /S:8 /D:none/d >out 2>&1
+ok "no scenes: it goes on" test -s none/d/F0000005.PPM
+
+# Films: what was dumped, on 64 and 32 bits, in colour and grey; the first words of a run in real time.
+film() { "$top/build/filmtst" "$@"; }
+rm -rf d
+printf '5 key h\n7 key INS\n9 key F1\n11 key F1\n' >script
+FB_INPUT=script "$demo" /I /N:30 /D:d /A:f.fli >out 2>&1
+ok "a film is what was shown, colours that change too" film same f.fli 0 d
+rm -rf d
+"$demo" /N:20 /R:35 /G /D:d /A:f.fli >out 2>&1
+ok "in grey" film same f.fli 0 d
+ok "at its pace" sh -c "'$top/build/filmtst' frames f.fli | grep -q '^20 frames of 2/70 s'"
+if [ -c /dev/full ]; then
+	ok "a full disk" sh -c "! '$demo' /N:2 /A:/dev/full 2>err && grep -q 'disk full' err"
+fi
+ok "a film that cannot be" sh -c "! '$demo' /N:2 /A:none/none/x.fli 2>err && grep -q 'none/none/x.fli: no such file' err"
+timeout -s INT 4.5 "$demo" /S:8 /A:f.fli >out 2>&1
+ok "broken off, it is whole" film frames f.fli
+mkdir -p d
+film frame f.fli 30 d/F0000000.PPM
+film frame f.fli 120 d/F0000001.PPM
+ok "F1 help, ESC ends" test "$(ink 0 0 185 200 15)" -gt 50
+ok "after three seconds no more" test "$(ink 1 0 185 200 15)" -eq 0
+"$demo" /T:1 /S:8 /A:f.fli >out 2>&1
+film frame f.fli 20 d/F0000000.PPM
+ok "not in a run of so many seconds" test "$(ink 0 0 0 320 200)" -eq 0
+"$demo" /B /T:1 /S:8 >out 2>&1
+ok "a benchmark says one line" sh -c 'test $(wc -l <out) -eq 1 && grep -q "^four spheres, spacing 8: [0-9.]* frames a second ([0-9]* frames in 1.0[0-9] seconds)$" out'
 
 # --- The same on 32 bits
 if [ -x "$top/build/demo32" ] && [ "$DEMO" = build/demo ]; then

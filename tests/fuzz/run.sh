@@ -1,18 +1,31 @@
 #!/bin/sh
-# The reader of scene files under a sanitizer build, fed with mutated files.
+# Random scenes to the reader and random command lines to the program, all under the sanitizers.
 #
-#   sh tests/fuzz/run.sh [COUNT [SEED]]      COUNT files, 60000 by default; a million is the full test
+#   sh tests/fuzz/run.sh [SCENES [LINES [RUNS [SEED]]]]
 #
-# The last line is "N passed, N failed"; one test for each run of the mutator.
+# SCENES scenes are read (20000 by default; the full test is 100000), and a hundredth as many drawn; LINES command lines are
+# read (20000; 200000), and RUNS given to the program (100; 2000). The last line is "N passed, N failed".
 set -u
 cd "$(dirname "$0")/../.." || exit 1
-count=${1:-60000} seed=${2:-1}
-make -s build/fuzz || { echo "0 passed, 1 failed"; exit 1; }
-passed=0 failed=0
+. tests/lib.sh
+scenes=${1:-20000} lines=${2:-20000} runs=${3:-100} seed=${4:-1}
+
+build build/fuzz build/fuzzline build/san/demo
+ASAN_OPTIONS=detect_leaks=1:alloc_dealloc_mismatch=0
+export ASAN_OPTIONS
 corpus="tests/fuzz/corpus/*.FB tools/scenes/*.FB tests/scenes/hurt/*.FB"
+mkdir "$dir/runs"
+printf 'title One\nsphere a size 30 colour pink\ncircle a radius 10 period 5\n' >"$dir/runs/ONE.FB"
+
+# fuzz NAME COMMAND...: one check; what it counted is shown.
+fuzz() {
+	ok "$@"
+	sed 's/^/# /' "$dir/said"
+}
+# shellcheck disable=SC2086  # the files are words
+fuzz "scenes" nice build/fuzz "$scenes" "$seed" $corpus
 # shellcheck disable=SC2086
-if nice build/fuzz "$count" "$seed" $corpus; then passed=1; else failed=1; fi
-# shellcheck disable=SC2086
-if nice build/fuzz --draw $((count / 100)) "$((seed + 1))" $corpus; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+fuzz "scenes, drawn" nice build/fuzz --draw $((scenes / 100)) $((seed + 1)) $corpus
+fuzz "command lines" nice build/fuzzline "$lines" "$seed"
+fuzz "command lines for the program" nice build/fuzzline --run build/san/demo "$dir/runs" "$runs" "$seed"
+summary

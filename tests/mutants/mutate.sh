@@ -16,10 +16,12 @@ mkdir "$copy"
 tar cf - --exclude=./build --exclude=./.git . | (cd "$copy" && tar xf -)
 grep -v '^#' tests/mutants/faults.txt | grep -F -- "${1:-}" >"$dir/faults"
 UNIT_KINDS=fixed
-export UNIT_KINDS
+# The script of hands alone, without sanitizers and DOSBox.
+DEMO=build/demo
+export UNIT_KINDS DEMO
 
 cd "$copy" || exit 1
-suites="twins unit cli"
+suites="twins unit cli edit"
 [ ! -f tests/golden/sums.txt ] || suites="$suites golden"
 for suite in $suites; do
 	sh "tests/$suite/run.sh" >"$dir/log" 2>&1 || {

@@ -41,13 +41,7 @@ ok "interactive" env FB_INPUT="$dir/script" build/san/demo /I /N:30
 ok "every scene there is" sh -c 'for f in tools/scenes/*.FB; do
 	build/san/demo /N:30 "/M:$f" || exit 1
 done'
-# In a folder of its own: some keys save files.
-demo=$PWD/build/san/demo
-mkdir "$dir/monkey"
-for seed in 1 2 3 4 5 6 7 8; do
-	awk -v seed=$seed -f tests/san/monkey.awk >"$dir/script"
-	ok "any keys and moves, $seed" sh -c "cd '$dir/monkey' && FB_INPUT='$dir/script' timeout 100 '$demo' /I /N:26 /S:4 $([ $((seed % 3)) -ne 0 ] || echo /P)"
-done
+ok "any keys and moves" sh tests/san/monkey.sh 1 12
 sh tests/cli/run.sh build/san/demo >"$dir/cli" 2>&1
 count "$dir/cli" >"$dir/counted"
 grep -v '^ok' "$dir/counted"

@@ -1,9 +1,15 @@
 // Tests of scene files in process: what each statement does to place, turn and size at known times; every complaint in
 // full; every limit, kept and broken by one.
 #include <cmath>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <dirent.h>
 #include <string>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "machine.h"
 #include "math/normal.h"
@@ -148,6 +154,281 @@ void motion()
     place("sphere s size 20 at 1 2 3", "s", 0, 1, 2, 3);
 }
 
+std::string repeated(int count, const char* form)
+{
+    std::string all;
+    for (int i = 1; i <= count; ++i) {
+        char line[200];
+        snprintf(line, sizeof line, form, i, i);
+        all += line;
+    }
+    return all;
+}
+
+// A second motion of a kind adds to the first.
+void sums()
+{
+    place(S + "circle s radius 10 period 4\ncircle s radius 3 period 2", "s", 1, -3, 10, 0);
+    place(S + "circle s radius 10 period 4\ncircle s radius 3 period 2\ncircle s u 0 0 5 v 0 0 0 period 4", "s", 0, 13, 0, 5);
+    place(S + "path s x 10 4 0\npath s x 3 8 0.25 z 1 4 0\npath s x 2 4 0", "s", 1, 12 + 3 * std::cos(M_PI / 4), 0, 1);
+    place(S + "path s x 10 4 0 x 3 4 0.5", "s", 1, 7, 0, 0);
+    place(S + "path s x -1 2 0 y -250 4 0", "s", 1, 0, -250, 0);
+    place(S + "path s x -1 2 0", "s", 0.5, -1, 0, 0);
+    place(S + "pulse s by 0.5 period 4\npulse s by 0.25 period 4 phase 0.5", "s", 1, 0, 0, 0, 1.5 * 0.75);
+    const std::string in = "sphere s size 20 at 10 0 0 in g";
+    place("group g\nspin g axis 0 1 0 period 4\nspin g axis 0 0 1 period 2\n" + in, "s", 1, 0, 0, -10);
+    place("group g\nspin g axis 0 0 1 period 8\nspin g axis 0 0 1 period 8\n" + in, "s", 1, 0, 10, 0);
+    // The later turns what the earlier has turned: x to y to z, not x to x to y.
+    place("group g\nspin g axis 0 0 1 period 4\nspin g axis 1 0 0 period 4\n" + in, "s", 1, 0, 0, 10);
+    place("group g\nspin g axis 1 0 0 period 4\nspin g axis 0 0 1 period 4\n" + in, "s", 1, 0, 10, 0);
+    place("group g\nswing g axis 0 0 1 angle 60 period 4\nswing g axis 0 0 1 angle 30 period 4\n" + in, "s", 1, 0, 10, 0);
+    place("group g\nswing g axis 0 0 1 angle 90 period 4\nswing g axis 1 0 0 angle 90 period 4\n" + in, "s", 1, 0, 0, 10);
+    taken(S + "spin s axis 0 0 1 period 4\n" + repeated(4, "swing s axis 1 0 0 angle %d period 1\n") + "pulse s by 0.1 period 1\n"
+          "path s x 1 1 0\nspin s axis 1 0 0 period 1", "one of each and four more");
+    refused(S + repeated(6, "swing s axis 1 0 0 angle %d period 1\n"),
+            "T.FB:7: 's': expected at most 4 motions of one name beside the first of each kind");
+}
+
+void titles()
+{
+    Model model;
+    check(read("# first\ntitle   A Ball, 20 UNITS\twide!   # it is\n" + S, model) == nullptr &&
+              std::string(model.title) == "A Ball, 20 UNITS wide!", "a title keeps its letters");
+    Model none;
+    check(read(S, none) == nullptr && none.title[0] == 0, "no title");
+    taken("title " + std::string(47, 'm') + "\n" + S, "a title of 47");
+    const std::string most = "expected a title of 1 to 47 plain letters, digits and signs";
+    refused("title " + std::string(48, 'm') + "\n" + S, "T.FB:1: 'mmmmmmmmmmmmmmmmmmmm...': " + most);
+    refused("title\n" + S, "T.FB:1: end of line: " + most);
+    refused("title # none\n" + S, "T.FB:1: end of line: " + most);
+    refused("title K\xc3\xa4se\n" + S, "T.FB:1: 'K?" "?se': " + most);
+    refused("title a\nTITLE a\n" + S, "T.FB:2: 'title': expected one title only");
+    Model::Record* record = model.record();
+    Model other;
+    read("title other\n" + S, other);
+    model.swap(other);
+    check(std::string(model.title) == "other" && std::string(other.title) == "A Ball, 20 UNITS wide!", "titles change places");
+    check(model.restore(record) && std::string(model.title) == "A Ball, 20 UNITS wide!", "and come back with a record");
+    free(record);
+}
+
+void colour(const std::string& words, int red, int green, int blue)
+{
+    Model model;
+    const char* wrong = read("sphere a size 9 " + words + " at 1 2 3", model);
+    check(wrong == nullptr && model.actor(0).colour.red == red && model.actor(0).colour.green == green &&
+              model.actor(0).colour.blue == blue && model.actor(0).motion.centre.z == Real(3), "colour: " + words);
+}
+
+void colours()
+{
+    colour("colour 1 2 3", 1, 2, 3);
+    colour("color 1 2.9 255", 1, 2, 255);
+    colour("colour #12aBfF", 0x12, 0xab, 0xff);
+    colour("COLOR #000001", 0, 0, 1);
+    colour("colour red", 255, 64, 48);
+    colour("color Gray", 136, 136, 136);
+    colour("colour brown", 160, 96, 48);
+    const std::string names = "white, silver, grey, gray, black, red, orange, yellow, lime, green, cyan, blue, violet, magenta, "
+                              "pink, brown, #rrggbb, or red, green and blue from 0 to 255";
+    refused("sphere a size 9 colour", "T.FB:1: end of line: expected " + names);
+    refused("sphere a size 9 colour reddish", "T.FB:1: 'reddish': expected " + names);
+    for (const char* bad : {"#", "#12345", "#1234567", "#12345g", "#-12345"})
+        refused(std::string("sphere a size 9 colour ") + bad, std::string("T.FB:1: '") + bad +
+                "': expected a colour as #rrggbb, two digits from 00 to ff each for red, green and blue");
+    refused("sphere a size 9 colour 1 red 3", "T.FB:1: 'red': expected red, green and blue from 0 to 255");
+    refused("sphere a size 9 colour -1 2 3", "T.FB:1: '-1': expected red, green and blue from 0 to 255");
+    refused("group g color red", "T.FB:1: 'color': expected at, turn, scale, repeat, step or in");
+    // Elsewhere it is a comment, close to a word too.
+    place("sphere s size 20#ff0000\ncircle s radius 10 period 4 #rrggbb", "s", 1, 0, 10, 0);
+}
+
+void rows()
+{
+    const std::string five = "sphere b size 9 at 1 2 3 repeat 5 step 10 -1 0.5\n";
+    place(five, "b1", 0, 1, 2, 3);
+    place(five, "b5", 0, 41, -2, 5);
+    Model model;
+    check(read("group g repeat 2 step 0 5 0\n" + five + "cylinder c size 9 length 4 repeat 12 colour lime in g2\n", model) ==
+              nullptr && model.count() == 17 && model.items() == 19, "rows of objects and of groups");
+    check(model.itemNamed("c12") != nullptr && model.itemNamed("c12")->colour.red == 160 &&
+              model.itemNamed("c12")->motion.parent == model.itemNamed("g2")->number && model.itemNamed("c") == nullptr,
+          "each like one written by itself");
+    check(model.itemNamed("b1")->colour.red == 255 && model.itemNamed("b2")->colour.red == 64, "with the colours of single ones");
+    place("group g repeat 2 step 0 5 0\nsphere s size 9 in g2", "s", 0, 0, 5, 0);
+    // The row's name stands for each of it.
+    place(five + "path b y 10 4 0.25", "b3", 0, 21, 10, 4);
+    place(five + "path b4 y 10 4 0.25", "b3", 0, 21, 0, 4);
+    place(five + "circle b radius 10 period 8 lag 0.25\n", "b1", 0, 11, 2, 3);
+    place(five + "circle b radius 10 period 8 lag 0.25\n", "b2", 0, 11, -9, 3.5);
+    place(five + "circle b lag -0.25 radius 10 period 8\n", "b2", 0, 11, 11, 3.5);
+    place(five + "circle b radius 10 period 8 lag 0.25\n", "b2", 2, 21, 1, 3.5);
+    place(five + "path b lag 0.25 x 10 4 0 z 6 4 0.5", "b2", 2, 21, 1, -2.5);
+    place(five + "path b x 10 4 0 z 6 4 0.5 lag 0.25", "b2", 2, 21, 1, -2.5);
+    place(five + "pulse b by 0.5 period 4 lag 0.5", "b2", 1, 11, 1, 3.5, 0.5);
+    place(five + "keys b smooth\nkey b 0 0 0 0\nkey b 2 10 0 0", "b2", 1, 16, 1, 3.5);
+    place(five + "group g at 100 0 0\nspin g axis 0 0 1 period 4\nsphere s size 9 at 1 0 0 repeat 3 step 1 0 0 in g", "s3", 1, 100, 3, 0);
+    place("group g repeat 3\nswing g axis 0 0 1 angle 90 period 4 lag -0.25\nsphere s size 9 at 7 0 0 in g2", "s", 0, 0, 7, 0);
+    place("group g repeat 3\nspin g axis 0 0 1 period 4 lag 0.25\nsphere s size 9 at 7 0 0 in g3", "s", 0, -7, 0, 0);
+    Real weight;
+    Model linked;
+    check(read(five + "sphere p size 9\nsphere q size 9 repeat 2\nblend b p 0.5\nblend q b 2\nblend q q\nblend b b2 3", linked) == nullptr,
+          "rows that blend");
+    const auto with = [&](const char* a, const char* b) {
+        return Model::linked(linked.itemNamed(a)->object, linked.itemNamed(b)->object, &weight) ? number(weight) : -1;
+    };
+    check(with("b1", "p") == 0.5 && with("p", "b5") == 0.5, "each with the other");
+    check(with("q1", "b3") == 2 && with("q2", "b5") == 2 && with("q1", "q2") == 1, "two rows, and a row with itself");
+    check(with("b2", "b3") == 3 && with("b1", "b3") == -1 && with("p", "q1") == -1 && with("q1", "q1") == -1, "and nothing else");
+
+    taken("sphere s size 9 repeat 128\nblend s s", "a row of 128");
+    refused("sphere s size 9 repeat 129", "T.FB:1: '129': expected a whole number from 2 to 128");
+    refused("group s repeat 65", "T.FB:1: '65': expected a whole number from 2 to 64");
+    refused("sphere s size 9 repeat 1", "T.FB:1: '1': expected a whole number from 2 to 128");
+    refused("sphere s size 9 repeat 2.5", "T.FB:1: '2.5': expected a whole number");
+    refused("sphere s size 9 repeat many", "T.FB:1: 'many': expected a whole number from 2 to 128");
+    refused("sphere s size 9 repeat", "T.FB:1: end of line: expected a whole number from 2 to 128");
+    refused(S + "sphere t size 9 repeat 128", "T.FB:2: 't': expected at most 128 objects");
+    refused("group h\ngroup g repeat 64", "T.FB:2: 'g': expected at most 64 groups");
+    refused("sphere s size 9 step 1 2 3", "T.FB:1: 'step': expected repeat as well, for step to count");
+    refused("sphere s size 9 repeat 3 step 1 2", "T.FB:1: end of line: expected a step, z from -250 to 250");
+    refused("sphere s size 9 repeat 3 step 1 2 251", "T.FB:1: '251': expected a step, z from -250 to 250");
+    taken("sphere s size 9 at -250 0 0 repeat 3 step 250 0 0", "a row from edge to edge");
+    refused("sphere s size 9 at -249 0 0 repeat 3 step 250 0 0", "T.FB:1: 's3': expected steps that stay between -250 and 250");
+    taken("sphere abcdefghijklmn size 9 repeat 9", "a row's name of 14 characters");
+    refused("sphere abcdefghijklmn size 9 repeat 10", "T.FB:1: 'abcdefghijklmn': expected at most 13 characters in the name of such a row");
+    refused("sphere abcdefghijklmno size 9 repeat 2", "T.FB:1: 'abcdefghijklmno': expected at most 14 characters in the name of such a row");
+    refused("sphere s size 9 repeat 2\nsphere s size 9", "T.FB:2: 's': expected a name that is not taken yet");
+    refused("sphere s size 9 repeat 2\ngroup s2", "T.FB:2: 's2': expected a name that is not taken yet");
+    refused("sphere s2 size 9\nsphere s size 9 repeat 3", "T.FB:2: 's2': expected a name that is not taken yet");
+    refused("sphere s1 size 9 repeat 2\nsphere s size 9 repeat 2", "T.FB:2: 's1': expected a name that is not taken yet");
+    refused("sphere s size 9 repeat 2\nsphere t size 9 in s", "T.FB:2: 's': expected a group or an object of a line above");
+    refused(S + "circle s radius 1 period 1 lag 1", "T.FB:2: 'lag': expected no lag, for this name is no row's");
+    refused(S + "path s x 1 1 0 lag 1", "T.FB:2: 'lag': expected x, y or z, each with amplitude, period and phase");
+    refused("sphere s size 9 repeat 2\ncircle s radius 1 period 1 lag 2", "T.FB:2: '2': expected a lag in turns from -1 to 1");
+    refused("sphere s size 9 repeat 2\ncircle s radius 1 period 1 log 2", "T.FB:2: 'log': expected radius, plane, u, v, period, phase or lag");
+    refused("sphere s size 9 repeat 2\nspin s axis 0 0 1 log 2", "T.FB:2: 'log': expected axis, period, phase or lag");
+    refused("sphere s size 9 repeat 2\nkey s2 1 0 0 0\nkeys s smooth", "T.FB:3: 's2': expected keys before the first key");
+    refused("sphere s size 9 repeat 2\nkey s2 1 0 0 0\nkey s 1 0 0 0", "T.FB:3: '1': expected a time after that of the key before");
+    refused("sphere s size 9 repeat 100\n" + repeated(11, "key s %d 0 0 0\n"), "T.FB:12: 'key': expected at most 1024 keys");
+    refused("group g repeat 2\nsphere s size 9\nblend g s", "T.FB:3: 'g': expected all, or the name of an object");
+    refused("group g repeat 2\nsphere s size 9\nblend s g", "T.FB:3: 'g': expected the name of a second object");
+    refused("sphere s size 9 repeat 128\n" + repeated(4, "blend s s # %d\n"),
+            "T.FB:5: 's': expected at most 65024 pairs in all lines that blend rows");
+}
+
+bool append(void* to, const char* line)
+{
+    static_cast<std::string*>(to)->append(line);
+    return true;
+}
+
+// What the editor saves: the objects that rows made, all motions, the title; and it reads back as the same.
+void saved()
+{
+    const std::string text = "title A row, saved\ngroup g repeat 2 step 0 9 0\nsphere b size 9 repeat 3 step 10 0 0 color pink in g2\n"
+                             "circle b radius 10 period 4 lag 0.125\ncircle b1 u 1 2 3 v 4 5 6 period 3 phase 0.5\n"
+                             "path b x -3 2 0 x 4 3 0\npath b z 1 2 0 z -2 2 0.25\nspin g axis 0 1 0 period 3\nspin g axis 1 0 0 period -5\n"
+                             "swing b2 axis 0 0 1 angle 20 period 2\nswing b2 axis 0 0 1 angle -20 period 5\n"
+                             "pulse b3 by 0.5 period 2\npulse b3 by 0.25 period 3\nblend b b 0.5\n";
+    Model model, again;
+    check(read(text, model) == nullptr, "to be saved");
+    std::string first, second;
+    check(writeSceneText(append, &first, model), "saved");
+    check(first.find("title A row, saved\n") == 0 && first.find("sphere b3 ") != std::string::npos &&
+              first.find("repeat") == std::string::npos, "as the objects that it made");
+    const char* wrong = read(first, again);
+    if (wrong != nullptr)
+        puts(wrong);
+    writeSceneText(append, &second, again);
+    check(wrong == nullptr && first == second, "saved twice the same");
+    bool same = wrong == nullptr && model.items() == again.items();
+    for (int t = 0; same && t < 200; ++t) {
+        Anim::move(model, at(t * 0.317));
+        Anim::move(again, at(t * 0.317));
+        for (int i = 0; i < model.items(); ++i)
+            same = same && model.item(i).pose.place == again.item(i).pose.place && model.item(i).pose.scale == again.item(i).pose.scale &&
+                   memcmp(&model.item(i).pose.turn, &again.item(i).pose.turn, sizeof(Matrix)) == 0;
+    }
+    check(same, "moves the same");
+}
+
+std::string contents(const std::string& name)
+{
+    std::string text;
+    FILE* file = fopen(name.c_str(), "rb");
+    if (file == nullptr)
+        return "none";
+    for (int c = getc(file); c != EOF; c = getc(file))
+        text += static_cast<char>(c);
+    fclose(file);
+    return text;
+}
+
+size_t filesIn(const std::string& directory)
+{
+    size_t count = 0;
+    DIR* d = opendir(directory.c_str());
+    while (d != nullptr && readdir(d) != nullptr)
+        ++count;
+    if (d != nullptr)
+        closedir(d);
+    return count - 2;
+}
+
+// A scene that cannot be saved whole leaves the one that was there.
+void safety()
+{
+    char scratch[] = "/tmp/fbsave.XXXXXX";
+    if (mkdtemp(scratch) == nullptr) {
+        check(false, "a folder to save in");
+        return;
+    }
+    const std::string directory = scratch, name = directory + "/a.fb", link = directory + "/link.fb";
+    Model small, large;
+    read(S, small);
+    read("sphere s size 9 repeat 100\n", large);
+    check(writeScene(name.c_str(), small) == nullptr, "a new file");
+    const std::string before = contents(name);
+    check(before.find("sphere s size 20") != std::string::npos && filesIn(directory) == 1, "the scene, and no other file");
+
+    // Room for half of it.
+    const auto old = signal(SIGXFSZ, SIG_IGN);
+    rlimit limit, was;
+    getrlimit(RLIMIT_FSIZE, &was);
+    limit = was;
+    limit.rlim_cur = 1000;
+    setrlimit(RLIMIT_FSIZE, &limit);
+    const char* wrong = writeScene(name.c_str(), large);
+    setrlimit(RLIMIT_FSIZE, &was);
+    signal(SIGXFSZ, old);
+    check(wrong != nullptr && name + ": disk full" == wrong, "a full disk is told");
+    check(contents(name) == before && filesIn(directory) == 1, "and what was there is there still, alone");
+
+    check(writeScene(name.c_str(), large) == nullptr && contents(name).size() > 2000 && filesIn(directory) == 1, "written over it");
+    // By way of a link, and with the rights that it had.
+    chmod(name.c_str(), 0640);
+    check(symlink("a.fb", link.c_str()) == 0 && writeScene(link.c_str(), small) == nullptr, "saved through a link");
+    struct stat facts;
+    check(contents(name) == before && lstat(link.c_str(), &facts) == 0 && S_ISLNK(facts.st_mode), "the link stays one");
+    check(stat(name.c_str(), &facts) == 0 && (facts.st_mode & 0777) == 0640, "the file keeps its rights");
+    check(writeScene("/dev/null", small) == nullptr && stat("/dev/null", &facts) == 0 && S_ISCHR(facts.st_mode),
+          "a device stays a device");
+    wrong = writeScene((directory + "/none/a.fb").c_str(), small);
+    check(wrong != nullptr && directory + "/none/a.fb: no such file or directory" == wrong, "no such folder");
+
+    // Scenes by names without their ending.
+    Model again;
+    SceneEnd end;
+    check(readScene((directory + "/a").c_str(), again, &end) == nullptr && again.count() == 1, "a.fb by the name a");
+    Model none;
+    wrong = readScene((directory + "/b").c_str(), none, &end);
+    check(wrong != nullptr && end == SCENE_BAD && directory + "/b: no such file or directory" == wrong, "there is no b");
+    unlink(link.c_str());
+    unlink(name.c_str());
+    rmdir(scratch);
+}
+
 void links()
 {
     Model model;
@@ -177,7 +458,7 @@ void links()
 void complaints()
 {
     const char* const statements =
-        "sphere, cylinder, torus, disc, cone, group, blend, circle, path, spin, swing, pulse, keys, key, eye, focal or light";
+        "sphere, cylinder, torus, disc, cone, group, blend, circle, path, spin, swing, pulse, keys, key, eye, focal, light or title";
     refused("spere a size 3", std::string("T.FB:1: 'spere': expected ") + statements);
     refused(S + "\n# x\n7\n", std::string("T.FB:4: '7': expected ") + statements);
     refused("", "T.FB:1: 'end of file': expected at least one object");
@@ -190,13 +471,13 @@ void complaints()
     refused("sphere a size", "T.FB:1: end of line: expected size from 1 to 100");
     refused("sphere a size 0.9", "T.FB:1: '0.9': expected size from 1 to 100");
     refused("sphere a size ten", "T.FB:1: 'ten': expected size from 1 to 100");
-    refused("sphere a size 9 length 4", "T.FB:1: 'length': expected size, at, turn, colour or in");
+    refused("sphere a size 9 length 4", "T.FB:1: 'length': expected size, at, turn, colour, repeat, step or in");
     refused("cylinder a size 9", "T.FB:1: end of line: expected length");
     refused("cylinder a size 9 length 101", "T.FB:1: '101': expected length from 0 to 100");
     refused("torus a size 20 ring 12", "T.FB:1: 'a': expected a ring of at least five eighths of the size");
     refused("cone a size 50 tip 10 length 19",
             "T.FB:1: 'a': expected a length of at least half the difference of size and tip");
-    refused("group g colour 1 2 3", "T.FB:1: 'colour': expected at, turn, scale or in");
+    refused("group g colour 1 2 3", "T.FB:1: 'colour': expected at, turn, scale, repeat, step or in");
     refused("sphere a size 9 at 1 2", "T.FB:1: end of line: expected a place, z from -250 to 250");
     refused("sphere a size 9 at 1 251 2", "T.FB:1: '251': expected a place, y from -250 to 250");
     refused("sphere a size 9 turn 1 2 361", "T.FB:1: '361': expected degrees about z from -360 to 360");
@@ -237,17 +518,6 @@ void complaints()
     refused(S + "\xff\x01\n", std::string("T.FB:2: '?\?': expected ") + statements);
     refused(std::string("sphere s\0 size 20", 17),
             "T.FB:1: 's?': expected a name of 1 to 15 letters, digits, - or _, a letter first");
-}
-
-std::string repeated(int count, const char* form)
-{
-    std::string all;
-    for (int i = 1; i <= count; ++i) {
-        char line[200];
-        snprintf(line, sizeof line, form, i, i);
-        all += line;
-    }
-    return all;
 }
 
 void limits()
@@ -329,6 +599,12 @@ int main()
     makeFieldSteps();
     makeNormalTable();
     motion();
+    sums();
+    titles();
+    colours();
+    rows();
+    saved();
+    safety();
     links();
     complaints();
     limits();

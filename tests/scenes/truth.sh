@@ -7,8 +7,9 @@
 #   sh tests/scenes/truth.sh full      many of them, 24 random scenes (half an hour)
 #   sh tests/scenes/truth.sh quick     a few, 1 random scene, for a look
 #
-# SCENES names other scenes instead, as tools/truth.sh takes them; DEMO, SWITCHES, LIMITS and LIST are as there. Ends with 1
-# when a bar is broken or a run failed; with LIMITS, when a figure is beyond both its bar and its limit.
+# SCENES names other scenes instead, as tools/truth.sh takes them; SPACING is 2 or 1 for one spacing only; DEMO, SWITCHES,
+# LIMITS and LIST are as there. Ends with 1 when a bar is broken or a run failed; with LIMITS, when a figure is beyond both
+# its bar and its limit.
 set -u
 cd "$(dirname "$0")/../.." || exit 2
 mode=${1:-some}
@@ -29,10 +30,10 @@ mark=!
 build/truth --head
 # judge SCENE FRAMES
 judge() {
-	said=$(QUIET=1 sh tools/truth.sh "$1" both "$2" 2>&1)
+	said=$(QUIET=1 sh tools/truth.sh "$1" "${SPACING:-both}" "$2" 2>&1)
 	echo "$said"
 	beyond=$((beyond + $(echo "$said" | grep -c -e "$mark" -e failed: -e truth)))
-	rows=$((rows + 2))
+	rows=$((rows + $(echo "$said" | wc -l)))
 }
 if [ -n "${SCENES:-}" ]; then
 	for scene in $SCENES; do judge "$scene" $frames; done

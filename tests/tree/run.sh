@@ -27,7 +27,7 @@ ok "there are files" test "$(wc -l <"$dir/files")" -gt 50
 ok "the top level" none sh -c "sed 's|/.*||' '$dir/files' | sort -u |
 	grep -v -x -e '\..*' -e src -e include -e asm -e tests -e tools -e Makefile -e Makefile.djgpp -e README.md -e LICENSE"
 ok "8.3 names in lower case" none sh -c "grep -E '^(src|include|asm)/' '$dir/files' | tr / '\n' | sort -u |
-	grep -v -x -E '[a-z0-9_]{1,8}(\.([a-z0-9]{1,3}|S))?'"
+	grep -v -x -E '[a-z0-9_]{1,8}(\.([a-z0-9]{1,3}|S))?|README\.md'"
 ok "no two names that DOS takes for one" none sh -c "tr A-Z a-z <'$dir/files' | sort | uniq -d"
 ok "no places of one machine" none sh -c "grep -E '\.(cpp|h|S|sh|mk|md|ld|yml|djgpp)\$|Makefile' '$dir/files' |
 	xargs grep -n -E '(^|[^[:alnum:]_.])[/](work|opt|home|root)[/]'"
@@ -51,6 +51,61 @@ ok "no exceptions, no RTTI" none sh -c "grep -E '^(src|include)/.*\.(cpp|h)\$' '
 # Only src/dos and src/rt know DOS.
 ok "no DOS outside its place" none sh -c "grep -E '^(src/(math|model|surface|picture|app|host)/.*|include/.*)\$' '$dir/files' |
 	xargs grep -n -i -E 'int +[\$]0x|go32|__dpmi|dpmi\.h|<dos\.h>'"
+
+# ---- The rooms
+
+# A room includes its own headers and those of the rooms before it; dos, host and rt include none, but machine.h and rt.h.
+rooms='math model surface picture app'
+below() {
+	grep -E '^(src|include)/[a-z]+/.*\.(cpp|h)$|^include/(machine|rt)\.h$' "$dir/files" | while read -r file; do
+		room=${file#*/}
+		room=${room%%/*}
+		# The rooms that this one may not use: all for the machine, all behind it otherwise.
+		case " $rooms " in
+		*" $room "*) barred=${rooms##*"$room"} ;;
+		*) barred=$rooms ;;
+		esac
+		for other in $barred; do
+			sed -n "s|^#include \"\($other/[^\"]*\)\".*|$file includes \1|p" "$file"
+		done
+	done
+}
+below >"$dir/below"
+ok "no room includes from a room behind it" none cat "$dir/below"
+ok "every room is in the order" none sh -c "sed -n 's|^src/\([a-z]*\)/.*|\1|p' '$dir/files' | sort -u |
+	grep -v -x -E '$(echo $rooms dos host rt | tr ' ' '|')'"
+
+# ---- The pages
+
+# A page in each folder: what comes in, what goes out, where to begin. The others are guides.
+for folder in $(sed -n 's|^\(src/[a-z]*\)/.*|\1|p' "$dir/files" | sort -u) asm asm/start include tests tools; do
+	ok "$folder/README.md" test -s "$folder/README.md"
+	ok "$folder/README.md: at most twenty lines" test "$(wc -l <"$folder/README.md")" -le 20
+	ok "$folder/README.md: what to read first" grep -q '^Read first: ' "$folder/README.md"
+done
+for guide in README.md src/README.md asm/stub/README.md tools/scenes/README.md tests/truth/README.md tests/bench/README.md; do
+	ok "$guide" test -s "$guide"
+done
+ok "README.md: at most 150 lines" test "$(wc -l <README.md)" -le 150
+# Whatever a page links to is there.
+links() {
+	grep 'README\.md$' "$dir/files" | while read -r page; do
+		grep -o ']([^)]*)' "$page" | sed 's/^](//; s/)$//; s/#.*//' | grep -v -E '^$|^https?:' | while read -r link; do
+			[ -e "$(dirname "$page")/$link" ] || echo "$page: $link"
+		done
+	done
+}
+ok "links of the pages" none links
+# Whatever file a page names in backquotes by its path is there.
+named() {
+	grep 'README\.md$' "$dir/files" | while read -r page; do
+		grep -o '`\(src\|include\|asm\|tests\|tools\)/[A-Za-z0-9_./-]*`' "$page" | tr -d '`' | grep -v NAME | sort -u | while read -r file; do
+			[ -e "$file" ] || echo "$page: $file"
+		done
+	done
+}
+ok "files that the pages name" none named
+
 # An assembly routine that the twins do not try is not finished.
 routines=$(sed -n -e 's/^[[:space:]]*\.globl[[:space:]]*SYM(\(.*\))/\1/p' -e 's/^[[:space:]]*FUNC(\(.*\))/\1/p' asm/*.S)
 ok "assembly routines found" test "$(echo $routines | wc -w)" -ge 3

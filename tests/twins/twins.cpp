@@ -521,6 +521,10 @@ void voxelLists(int rounds)
         fill(&list, sizeof list);
         for (int i = 0; i < count; ++i) {
             voxels[i] = anyVoxel(c.lens);
+            if (i > 0 && below(4) == 0) {  // the same depths in another colour
+                voxels[i] = voxels[below(i)];
+                voxels[i].brightness ^= 1;
+            }
             list.data[i] = voxels + below(i + 1);  // some more than once, in no order
         }
         memcpy(kept, voxels, sizeof kept);

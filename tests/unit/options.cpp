@@ -129,16 +129,18 @@ TEST(several_together)
 
 TEST(bad_switches)
 {
-    for (const char* word : {"/", "-", "x", "G", "I", "/Q", "--help", "/GG", "/G:", "/G:1", "/I:yes", "/P1", "/IG", "", "//G", "/ G"})
+    for (const char* word : {"/", "-", "/Q", "--help", "/GG", "/G:", "/G:1", "/I:yes", "/P1", "/IG", "", "//G", "/ G", "/G/",
+                             "/G/Q", "/G-I", "/G=1", "-G-I", "/S:2/", "/S2/Q", "/N5x/G", "/GWALK"})
         bad(word);
-    for (const char* word : {"/S", "/S:", "/S2", "/S:0", "/S:0.2", "/S:0.2499", "/S:8.01", "/S:9", "/S:-2", "/S:x", "/S:2x", "/S:1e1",
+    for (const char* word : {"/S", "/S:", "/S=", "/S-2", "/S9", "/Sx", "/S=2=", "/S:0", "/S:0.2", "/S:0.2499", "/S:8.01", "/S:9", "/S:-2", "/S:x", "/S:2x", "/S:1e1",
                              "/S:99999999999", "/S:2,5", "/S: 2"})
         bad(word);
-    for (const char* word : {"/N", "/N:", "/N:0", "/N:-1", "/N:10000000", "/N:99999999999999", "/N:1.5", "/N:x", "/N:1x", "/N600"})
+    for (const char* word : {"/N", "/N:", "/N:0", "/N:-1", "/N:10000000", "/N:99999999999999", "/N:1.5", "/N:x", "/N:1x", "/Nx", "/N=", "/N/5",
+                             "/N0"})
         bad(word);
-    for (const char* word : {"/T", "/T:", "/T:0", "/T:-1", "/T:86401", "/T:0.5", "/T:x", "/T60"})
+    for (const char* word : {"/T", "/T:", "/T:0", "/T:-1", "/T:86401", "/T:0.5", "/T:x", "/Tx"})
         bad(word);
-    for (const char* word : {"/D", "/D:", "/M", "/M:", "/Dout"})
+    for (const char* word : {"/D", "/D:", "/M", "/M:", "/M=", "/Dout", "/MWALK", "/O1"})
         bad(word);
     // A very long one is cut, not overrun.
     Options options;
@@ -147,6 +149,43 @@ TEST(bad_switches)
     // A good one before or behind does not help.
     CHECK(parse({"/G", "/Q"}, &options) != nullptr);
     CHECK(parse({"/Q", "/G"}, &options) != nullptr);
+}
+
+TEST(habits)
+{
+    // Switches in one word, '=' for ':', a number behind its letter.
+    Options o = good({"/G/I/s2/N=5/r35"});
+    CHECK(o.grey && o.interactive && !o.printed && o.rateGiven);
+    NEAR(number(o.spacing), 2, 0);
+    SAME(o.frames, 5);
+    SAME(o.rate, 35);
+    o = good({"-S.5/x", "/T=60"});
+    NEAR(number(o.spacing), 0.5, 0);
+    CHECK(o.noPresent && !o.rateGiven);
+    SAME(o.seconds, 60);
+    // A name goes to the end of its word, slashes and all.
+    o = good({"/G/M:scenes/walk.fb", "/D=out/G"});
+    TEXT(o.modelFile, "scenes/walk.fb");
+    TEXT(o.dumpDirectory, "out/G");
+    CHECK(o.grey);
+    // A word that is no switch is the scene.
+    TEXT(good({"WALK.FB"}).modelFile, "WALK.FB");
+    TEXT(good({"/G", "walk", "/N5"}).modelFile, "walk");
+    for (const char* twice : {"other", "/M:other"}) {
+        const char* problem = parse({"walk", twice}, &o);
+        CHECK(problem != nullptr && std::strstr(problem, "there is a scene already") != nullptr);
+    }
+}
+
+TEST(complaints_are_plain_text)
+{
+    Options options;
+    const char* problem = parse({"/Q\n\x1b[2J\xff"}, &options);
+    CHECK(problem != nullptr && std::strncmp(problem, "/Q\\x0A\\x1B[2J\\xFF: ", 19) == 0);
+    // What is too long keeps its beginning and its end.
+    problem = parse({"/N:1" + std::string(300, '0') + "end"}, &options);
+    CHECK(problem != nullptr && std::strncmp(problem, "/N:1000", 7) == 0 && std::strstr(problem, "...") != nullptr);
+    CHECK(problem != nullptr && std::strstr(problem, "000end: ") != nullptr);
 }
 
 TEST(accepted_ranges_are_told)
@@ -174,5 +213,6 @@ TEST(help_names_every_switch_and_key)
         }
     }
     CHECK(longest < 80);
+    CHECK(lines < 25);
     note("%d lines, the longest %d characters", lines, longest);
 }

@@ -1,6 +1,9 @@
 // Palettes: ramps that rise, colours shared out among many objects.
 #include "picture/palette.h"
 
+#include <cmath>
+#include <vector>
+
 #include "help.h"
 #include "test.h"
 
@@ -40,6 +43,8 @@ TEST(grey_ramp)
         CHECK(c[0] == c[1] && c[1] == c[2]);
         CHECK(ramp[i] != 0);
     }
+    // Text has its own entry.
+    CHECK(light(palette, Palette::INK) > 3 * 58);
     for (int i = 1; i < 4; ++i)
         for (int step = 0; step < 64; ++step)
             SAME(model.actor(i).object->ramp()[step], ramp[step]);
@@ -74,6 +79,61 @@ TEST(a_ramp_for_each_colour)
     }
 }
 
+TEST(ramps_are_true_to_their_colours)
+{
+    // What the dump's `ramp` and `ambient` lines say: at each step the colour times ambient + (1 - ambient) step / 63, up to
+    // where the highlights begin. Distances in steps of the DAC.
+    struct Bar {
+        int colours;
+        double rms, worst;
+    };
+    for (const Bar& bar : {Bar{1, 0.7, 1.8}, Bar{4, 0.7, 1.8}, Bar{5, 0.8, 2.5}, Bar{12, 1.6, 5}, Bar{17, 2.2, 7}, Bar{24, 2.8, 8},
+                           Bar{64, 3.3, 11}, Bar{128, 3.3, 11}}) {
+        Model model;
+        std::vector<Colour> colours;
+        for (int i = 0; i < bar.colours; ++i) {
+            // Round the wheel, bright and dark.
+            const auto part = [&](double turn) { return 0.5 + 0.5 * std::cos(2 * M_PI * (turn + double(i) / bar.colours)); };
+            const double full = i % 3 == 0 ? 120 : 255;
+            colours.push_back({static_cast<uint8_t>(full * part(0)), static_cast<uint8_t>(full * part(1 / 3.0)),
+                               static_cast<uint8_t>(full * part(2 / 3.0))});
+            CHECK(model.add(make<Sphere>(i + 1, Real(10)), colours.back(), Motion{}));
+        }
+        Palette palette;
+        palette.make(model, false);
+        inRange(palette);
+        double sum = 0, worst = 0;
+        for (int o = 0; o < bar.colours; ++o) {
+            const uint8_t* ramp = model.actor(o).object->ramp();
+            for (int step = 0; step <= 52; ++step) {
+                CHECK(ramp[step] != 0 && ramp[step] != Palette::INK);
+                const double share = (9 + 54 * step / 63.0) / 63 * 63 / 255;
+                const uint8_t* c = palette.dac() + 3 * ramp[step];
+                const double red = c[0] - colours[o].red * share, green = c[1] - colours[o].green * share,
+                             blue = c[2] - colours[o].blue * share;
+                const double square = red * red + green * green + blue * blue;
+                sum += square;
+                worst = square > worst ? square : worst;
+            }
+        }
+        // Highlights: their share of the colour itself is that too, where each colour has its own shades.
+        for (int o = 0; bar.colours <= 4 && o < bar.colours; ++o) {
+            const Colour& full = colours[o];
+            const uint8_t* ramp = model.actor(o).object->ramp();
+            const double square = full.red * full.red + full.green * full.green + full.blue * full.blue;
+            for (int step = 53; step < 64; ++step) {
+                const uint8_t* c = palette.dac() + 3 * ramp[step];
+                const double share = (c[0] * full.red + c[1] * full.green + c[2] * full.blue) / square * 255 / 63;
+                CHECK(std::fabs(share - (9 + 54 * step / 63.0) / 63) < 0.025);
+            }
+        }
+        const double rms = std::sqrt(sum / (53 * bar.colours));
+        worst = std::sqrt(worst);
+        note("%d colours: off by %.2f of 63, at most %.2f", bar.colours, rms, worst);
+        CHECK(rms < bar.rms && worst < bar.worst);
+    }
+}
+
 TEST(more_colours_than_fit)
 {
     Model model;
@@ -92,7 +152,16 @@ TEST(more_colours_than_fit)
             CHECK(light(palette, ramp[i]) >= light(palette, ramp[i - 1]));
             steps += ramp[i] != ramp[i - 1];
         }
-        CHECK(steps >= 15);
+        CHECK(steps >= 14);
+    }
+    // Colours so dark that all their shades fit have them all.
+    Model dark;
+    for (int i = 0; i < 20; ++i)
+        CHECK(dark.add(make<Sphere>(i + 1, Real(10)), {static_cast<uint8_t>(30 + i), 0, 40}, Motion{}));
+    palette.make(dark, false);
+    for (int o = 0; o < 20; ++o) {
+        const uint8_t* c = palette.dac() + 3 * dark.actor(o).object->ramp()[52];
+        SAME(c[0], static_cast<int>((30 + o) * (9 + 54 * 52 / 63.0) / 255 + 0.5));
     }
     // Equal colours share one ramp.
     Model same;

@@ -151,3 +151,26 @@ TEST(long_division)
         SAME(rest, top % bottom);
     }
 }
+
+TEST(plain_text)
+{
+    char to[64];
+    TEXT(plainText(to, sizeof to, "WALK.FB"), "WALK.FB");
+    TEXT(plainText(to, sizeof to, ""), "");
+    TEXT(plainText(to, sizeof to, "a\nb\x7f\x80 ~"), "a\\x0Ab\\x7F\\x80 ~");
+    // To the last byte of the room, and one beyond: a third, three points, the end.
+    char small[17];
+    TEXT(plainText(small, sizeof small, "0123456789abcdef"), "0123456789abcdef");
+    TEXT(plainText(small, sizeof small, "0123456789abcdefg"), "01234...9abcdefg");
+    // An escape is never cut in two.
+    TEXT(plainText(small, sizeof small, "0123\x01" "56789abcde\x02"), "0123...bcde\\x02");
+    for (int size = 16; size < 64; ++size) {
+        std::string text;
+        for (int i = 0; i < 100; ++i)
+            text += static_cast<char>(1 + (i * 37 + size) % 255);
+        plainText(to, size, text.c_str());
+        CHECK(std::strlen(to) < static_cast<size_t>(size) && std::strlen(to) + 9 > static_cast<size_t>(size));
+        for (const char* c = to; *c != 0; ++c)
+            CHECK(*c >= ' ' && *c <= '~');
+    }
+}

@@ -1,0 +1,118 @@
+// Records of runs in a file, one a line, fields separated by commas.
+#include "app/csv.h"
+
+#include "machine.h"
+#include "math/text.h"
+#include "rt.h"
+
+namespace {
+
+constexpr int RECORD_ROOM = 1400;
+
+// Whether a file is empty, or begins with our line of names. (A file that cannot be read is none of ours.)
+bool isOurs(const char* name, bool* empty)
+{
+    char header[RECORD_ROOM], there[RECORD_ROOM];
+    Stats::formatHeader(header, sizeof header);
+    const uint32_t length = static_cast<uint32_t>(strlen(header));
+    const int file = machine::openFile(name);
+    if (file < 0)
+        return false;
+    const int32_t got = machine::readFile(file, there, length);
+    machine::closeFile(file);
+    *empty = got == 0;
+    return got == 0 || (got == static_cast<int32_t>(length) && memcmp(there, header, length) == 0);
+}
+
+bool write(int file, const char* text)
+{
+    return machine::writeFile(file, text, static_cast<uint32_t>(strlen(text))) >= 0;
+}
+
+// A field in quotation marks, in plain text, its own marks doubled; the text ends where there is no more room.
+void quote(char* to, int size, const char* text)
+{
+    char plain[128];
+    plainText(plain, sizeof plain, text);
+    int length = 0;
+    to[length++] = '"';
+    for (const char* c = plain; *c != 0 && length + 4 < size; ++c) {
+        if (*c == '"')
+            to[length++] = '"';
+        to[length++] = *c;
+    }
+    to[length++] = '"';
+    to[length] = 0;
+}
+
+}  // namespace
+
+const char* Csv::complain(const char* why)
+{
+    char plain[160];
+    snprintf(problem_, sizeof problem_, "%s: %s", plainText(plain, sizeof plain, name_), why);
+    return problem_;
+}
+
+const char* Csv::check(const char* name, int* status)
+{
+    name_ = name;
+    *status = 1;
+    bool fresh, empty;
+    const int file = machine::appendFile(name, &fresh);
+    if (file < 0)
+        return complain(machine::fileTrouble());
+    if (!fresh) {
+        machine::closeFile(file);
+        if (isOurs(name, &empty))
+            return nullptr;
+        *status = 2;
+        return complain("this is no file of records; /O appends to its own files only, or makes a new one");
+    }
+    // A disk that is full takes a name, but not a line.
+    char header[RECORD_ROOM];
+    Stats::formatHeader(header, sizeof header);
+    bool good = write(file, header);
+    const char* why = machine::fileTrouble();
+    if (!machine::closeFile(file) && good) {
+        good = false;
+        why = machine::fileTrouble();
+    }
+    machine::removeFile(name);
+    return good ? nullptr : complain(why);
+}
+
+const char* Csv::append(const Options& options, Real spacing, const Stats& stats)
+{
+    char text[RECORD_ROOM], number[24], settings[64], scene[160], date[64], computer[64];
+    formatReal(number, sizeof number, spacing);
+    snprintf(settings, sizeof settings, "S:%s%s%s%s%s%s", number, options.interactive ? " I" : "", options.grey ? " G" : "",
+             options.printed ? " P" : "", options.retrace ? " V" : "", options.noPresent ? " X" : "");
+    quote(scene, sizeof scene, options.modelFile == nullptr ? "" : options.modelFile);
+    machine::date(date, sizeof date);
+    machine::describe(computer, sizeof computer);
+
+    bool fresh;
+    const int file = machine::appendFile(name_, &fresh);
+    if (file < 0)
+        return complain(machine::fileTrouble());
+    const int32_t before = machine::fileBytes(file);
+    bool good = before >= 0;
+    if (good && before == 0) {
+        Stats::formatHeader(text, sizeof text);
+        good = write(file, text);
+    }
+    stats.formatRecord(text, sizeof text, settings, scene, date, computer);
+    good = good && write(file, text);
+    const char* why = machine::fileTrouble();
+    // No half record, and no empty file.
+    if (!good && before > 0)
+        machine::cutFile(file, static_cast<uint32_t>(before));
+    if (!machine::closeFile(file) && good) {
+        good = false;
+        why = machine::fileTrouble();
+    }
+    if (!good && fresh)
+        machine::removeFile(name_);
+    return good ? nullptr : complain(why);
+}

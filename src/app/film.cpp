@@ -1,0 +1,285 @@
+// The chunks of an FLI file: the first picture row by row, the others as changes; little-endian throughout.
+#include "app/film.h"
+
+#include "machine.h"
+#include "math/alloc.h"
+#include "math/text.h"
+
+using machine::HEIGHT;
+using machine::WIDTH;
+
+namespace {
+
+constexpr uint32_t HEADER_BYTES = 128;
+constexpr uint32_t FRAME_HEADER_BYTES = 16;
+constexpr int FILE_MARK = 0xaf11;
+constexpr int FRAME_MARK = 0xf1fa;
+constexpr int COLOURS = 11;  // kinds of chunks
+constexpr int CHANGES = 12;
+constexpr int WHOLE = 15;
+
+// The most that a packet of pixels holds, and how many equal ones are worth a packet of their own. What has not changed is
+// skipped where it is as long as that, too.
+constexpr int PACKET_MOST = 127;
+constexpr int SKIP_MOST = 255;
+constexpr int RUN_LEAST = 4;
+
+// A frame cannot be larger: each pixel on its own, a packet for each RUN_LEAST of them, and the colours.
+constexpr uint32_t ROOM = static_cast<uint32_t>(WIDTH * HEIGHT) * 2 + 2048;
+
+// No file is longer, for DOS counts its bytes with a sign.
+constexpr uint32_t FILE_MOST = 0x7fffffffu - ROOM;
+
+// How many of the pixels from `at` to before `end` are alike.
+int runLength(const uint8_t* row, int at, int end)
+{
+    int length = 1;
+    while (at + length < end && length < PACKET_MOST && row[at + length] == row[at])
+        ++length;
+    return length;
+}
+
+// How many pixels from `at` on are best stored one by one.
+int plainLength(const uint8_t* row, int at, int end)
+{
+    int length = 0;
+    while (at + length < end && length < PACKET_MOST && runLength(row, at + length, end) < RUN_LEAST)
+        ++length;
+    return length;
+}
+
+}  // namespace
+
+Film::~Film()
+{
+    free(before_);
+    free(first_);
+    free(room_);
+}
+
+const char* Film::complain()
+{
+    snprintf(problem_, sizeof problem_, "%s: %s", name_, machine::fileTrouble());
+    return problem_;
+}
+
+void Film::put16(uint32_t value)
+{
+    put8(static_cast<int>(value & 0xff));
+    put8(static_cast<int>(value >> 8 & 0xff));
+}
+
+void Film::put32(uint32_t value)
+{
+    put16(value & 0xffff);
+    put16(value >> 16);
+}
+
+bool Film::write(const uint8_t* from, uint32_t bytes)
+{
+    if (machine::writeFile(file_, from, bytes) != static_cast<int32_t>(bytes))
+        return false;
+    bytes_ += bytes;
+    return true;
+}
+
+const char* Film::open(const char* name, int rate)
+{
+    snprintf(name_, sizeof name_, "%.99s", name);
+    before_ = allocate<uint8_t>(WIDTH * HEIGHT);
+    first_ = allocate<uint8_t>(WIDTH * HEIGHT);
+    room_ = allocate<uint8_t>(ROOM);
+    if (before_ == nullptr || first_ == nullptr || room_ == nullptr)
+        return "not enough memory for the film";
+    realTime_ = rate == 0;
+    jiffies_ = realTime_ ? REAL_TIME_JIFFIES : (JIFFIES + rate / 2) / rate;
+    if (jiffies_ == 0)
+        jiffies_ = 1;
+    file_ = machine::createFile(name);
+    // The header is written again at the end, when the numbers are known.
+    return file_ >= 0 && writeHeader() ? nullptr : complain();
+}
+
+bool Film::writeHeader()
+{
+    memset(room_, 0, HEADER_BYTES);
+    at_ = room_;
+    put32(bytes_);
+    put16(FILE_MARK);
+    put16(static_cast<uint32_t>(frames_));
+    put16(WIDTH);
+    put16(HEIGHT);
+    put16(8);  // bits a pixel
+    put16(0);
+    put16(static_cast<uint32_t>(jiffies_));
+    return write(room_, HEADER_BYTES);
+}
+
+// A row of the first picture. Counts above 0 repeat a pixel, those below are of pixels that follow one by one.
+void Film::putRow(const uint8_t* row)
+{
+    uint8_t* const packets = at_;
+    put8(0);
+    for (int x = 0; x < WIDTH;) {
+        const int plain = plainLength(row, x, WIDTH);
+        const int length = plain > 0 ? plain : runLength(row, x, WIDTH);
+        put8(plain > 0 ? -plain : length);
+        memcpy(at_, row + x, static_cast<size_t>(plain > 0 ? plain : 1));
+        at_ += plain > 0 ? plain : 1;
+        x += length;
+        ++*packets;
+    }
+}
+
+// What differs from the row before. Counts have the other sign here. Returns the number of packets.
+int Film::putChanges(const uint8_t* row, const uint8_t* before)
+{
+    uint8_t* const packets = at_;
+    put8(0);
+    int done = 0;  // pixels that the packets so far have brought
+    for (int x = 0; x < WIDTH;) {
+        if (row[x] == before[x]) {
+            ++x;
+            continue;
+        }
+        // To the last difference before a stretch without any that is worth skipping.
+        int end = x + 1;
+        for (int i = end; i < WIDTH && i - end < RUN_LEAST; ++i)
+            if (row[i] != before[i])
+                end = i + 1;
+        int skip = x - done;
+        if (skip > SKIP_MOST) {
+            // One pixel as it is, for a packet must bring something.
+            put8(SKIP_MOST);
+            put8(1);
+            put8(row[done + SKIP_MOST]);
+            skip -= SKIP_MOST + 1;
+            ++*packets;
+        }
+        while (x < end) {
+            const int plain = plainLength(row, x, end);
+            const int length = plain > 0 ? plain : runLength(row, x, end);
+            put8(skip);
+            put8(plain > 0 ? plain : -length);
+            memcpy(at_, row + x, static_cast<size_t>(plain > 0 ? plain : 1));
+            at_ += plain > 0 ? plain : 1;
+            x += length;
+            skip = 0;
+            ++*packets;
+        }
+        done = x;
+    }
+    return *packets;
+}
+
+// Fills in the size and kind of a chunk that begins at `start`; its length is made even.
+void Film::endChunk(uint8_t* start, int kind)
+{
+    if ((at_ - start) % 2 != 0)
+        put8(0);
+    uint8_t* const end = at_;
+    at_ = start;
+    put32(static_cast<uint32_t>(end - start));
+    put16(static_cast<uint32_t>(kind));
+    at_ = end;
+}
+
+bool Film::writeFrame(const uint8_t* picture, const uint8_t* dac)
+{
+    const bool first = frames_ == 0;
+    int chunks = 0;
+    at_ = room_ + FRAME_HEADER_BYTES;
+    if (first || memcmp(dac, dac_, sizeof dac_) != 0) {
+        uint8_t* const start = at_;
+        at_ += 6;
+        put16(1);  // one packet,
+        put8(0);   // from the first colour on,
+        put8(0);   // of all 256
+        memcpy(at_, dac, sizeof dac_);
+        at_ += sizeof dac_;
+        memcpy(dac_, dac, sizeof dac_);
+        endChunk(start, COLOURS);
+        ++chunks;
+    }
+    uint8_t* const start = at_;
+    at_ += 6;
+    if (first) {
+        for (int y = 0; y < HEIGHT; ++y)
+            putRow(picture + y * WIDTH);
+        endChunk(start, WHOLE);
+        ++chunks;
+    } else {
+        int top = 0, bottom = HEIGHT;
+        while (top < HEIGHT && memcmp(picture + top * WIDTH, before_ + top * WIDTH, WIDTH) == 0)
+            ++top;
+        while (bottom > top && memcmp(picture + (bottom - 1) * WIDTH, before_ + (bottom - 1) * WIDTH, WIDTH) == 0)
+            --bottom;
+        at_ = start;
+        if (top < bottom) {
+            at_ += 6;
+            put16(static_cast<uint32_t>(top));
+            put16(static_cast<uint32_t>(bottom - top));
+            for (int y = top; y < bottom; ++y)
+                putChanges(picture + y * WIDTH, before_ + y * WIDTH);
+            endChunk(start, CHANGES);
+            ++chunks;
+        }
+    }
+    if (first) {
+        memcpy(first_, picture, WIDTH * HEIGHT);
+        memcpy(firstDac_, dac, sizeof firstDac_);
+    }
+    if (picture != before_)
+        memcpy(before_, picture, WIDTH * HEIGHT);
+
+    uint8_t* const end = at_;
+    memset(room_, 0, FRAME_HEADER_BYTES);
+    at_ = room_;
+    put32(static_cast<uint32_t>(end - room_));
+    put16(FRAME_MARK);
+    put16(static_cast<uint32_t>(chunks));
+    ++frames_;
+    return write(room_, static_cast<uint32_t>(end - room_));
+}
+
+// A frame that shows what the one before did.
+bool Film::writeSame()
+{
+    return writeFrame(before_, dac_);
+}
+
+const char* Film::add(const uint8_t* picture, const uint8_t* dac, Time now)
+{
+    // The number of frames that begin up to now.
+    uint32_t due = static_cast<uint32_t>(frames_) + 1;
+    if (realTime_) {
+        uint32_t rest;
+        due = static_cast<uint32_t>(divide64(now * JIFFIES, static_cast<uint32_t>(jiffies_) << 16, &rest)) + 1;
+    }
+    if (due > static_cast<uint32_t>(FRAMES_MOST) || bytes_ > FILE_MOST) {
+        snprintf(problem_, sizeof problem_, "%s: the film is full", name_);
+        return problem_;
+    }
+    bool good = true;
+    while (good && frames_ > 0 && static_cast<uint32_t>(frames_) + 1 < due)
+        good = writeSame();
+    if (good && static_cast<uint32_t>(frames_) < due)
+        good = writeFrame(picture, dac);
+    return good ? nullptr : complain();
+}
+
+const char* Film::close()
+{
+    if (file_ < 0)
+        return nullptr;
+    // Behind the last frame, and not counted, stands the way from it to the first, for those that play it round and round.
+    const int frames = frames_;
+    bool good = frames == 0 || writeFrame(first_, firstDac_);
+    frames_ = frames;
+    const uint32_t bytes = bytes_;
+    good = good && machine::rewindFile(file_) && writeHeader();
+    bytes_ = bytes;
+    good = machine::closeFile(file_) && good;
+    file_ = -1;
+    return good ? nullptr : complain();
+}

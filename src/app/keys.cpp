@@ -1,0 +1,318 @@
+// What keys and mouse do. Nothing here waits: a key changes what the next frame shows.
+#include "loop.h"
+#include "math/text.h"
+
+namespace {
+
+// Interactive mode: mickeys to units, and where objects may be moved to.
+constexpr Real UNITS_A_MICKEY(0.25);
+constexpr Real UNITS_A_KEY(2);
+constexpr Real DEPTH_LEAST(-60);
+constexpr Real DEPTH_MOST(120);
+
+// Hands on: what a key does at once.
+constexpr Real DEGREES_A_KEY(15);
+constexpr Real SIZE_A_KEY(1);
+constexpr Real WEIGHT_A_KEY(0.25);
+constexpr Real FASTER_A_KEY(0.8);  // of a period
+constexpr Real SLOWER_A_KEY(1.25);
+
+constexpr int STEPS_A_SECOND = 10;
+
+// How far from the pointer an object may lie that a click means.
+constexpr int PICK_REACH = 4;
+
+// Small letters for capital ones.
+int small(int code)
+{
+    return code >= 'A' && code <= 'Z' ? code + ('a' - 'A') : code;
+}
+
+}  // namespace
+
+// Those that came while the last frame was drawn, then what came since.
+void Demo::takeKeys()
+{
+    for (int i = 0; i < waiting_ && !ended_; ++i)
+        key(keys_[i]);
+    waiting_ = 0;
+    escapeWaits_ = false;
+    while (!ended_) {
+        const int code = machine::key();
+        if (code == 0)
+            break;
+        key(code);
+    }
+}
+
+void Demo::key(int code)
+{
+    if (ask_.state() != Ask::CLOSED) {
+        answer(code);
+        return;
+    }
+    switch (code) {
+    case machine::KEY_ESC: ended_ = true; return;
+    case '*': view_.setPixels(!view_.pixels()); return;
+    case '-':
+    case '_': resample(least(spacing_ * Real(1.25), SPACING_MOST)); return;
+    case '+':
+    case '=': resample(most(spacing_ * Real(0.8), SPACING_LEAST)); return;
+    case machine::KEY_F1:
+        help_ = !help_;
+        greets_ = false;
+        return;
+    default: break;
+    }
+    if (small(code) == 'f') {
+        fps_ = !fps_;
+        fpsSince_ = machine::clock();
+        fpsFrames_ = 0;
+        fpsTicks_ = 0;
+        fpsCounted_ = 0;
+        return;
+    }
+    if (small(code) == 'p') {
+        shotWanted_ = true;
+        messageEnd_ = 0;
+        return;
+    }
+    playKey(code);
+    if (options_.interactive)
+        handKey(code);
+}
+
+// The keys that hold the animation, let it go and change its speed.
+void Demo::playKey(int code)
+{
+    switch (code) {
+    case ' ':
+        pace_.setRunning(!pace_.running());
+        say(pace_.running() ? "it runs" : "it stands");
+        return;
+    case machine::KEY_HOME:
+        pace_.restart();
+        say("from the start");
+        return;
+    case '<':
+    case '>': {
+        if (!pace_.change(code == '>' ? 1 : -1)) {
+            say(code == '>' ? "no faster" : "no slower");
+            return;
+        }
+        char text[40];
+        const int speed = pace_.speed();
+        snprintf(text, sizeof text, speed < 0 ? "speed 1/%d" : "speed %d", 1 << (speed < 0 ? -speed : speed));
+        say(text);
+        return;
+    }
+    default: break;
+    }
+    if (options_.interactive)
+        return;
+    if (code == '.') {
+        // A tenth of a second, or the step that a frame makes with /N.
+        pace_.setRunning(false);
+        pace_.step(static_cast<Time>(65536 / (options_.frames > 0 ? options_.rate : STEPS_A_SECOND)));
+        say("a step on; space lets it run");
+    } else if (small(code) == 'n') {
+        nextScene();
+    }
+}
+
+void Demo::handKey(int code)
+{
+    if (editKey(code)) {
+        say(editor_.message());
+        return;
+    }
+    const Real step = UNITS_A_KEY, none(0);
+    switch (code) {
+    case machine::KEY_TAB:
+        editor_.selectNext();
+        selected();
+        return;
+    case machine::KEY_LEFT: push(-step, none, none); return;
+    case machine::KEY_RIGHT: push(step, none, none); return;
+    case machine::KEY_UP: push(none, step, none); return;
+    case machine::KEY_DOWN: push(none, -step, none); return;
+    case machine::KEY_PGUP: push(none, none, step); return;
+    case machine::KEY_PGDN: push(none, none, -step); return;
+    case machine::KEY_F2: askSave(); return;
+    case machine::KEY_F3: askLoad(); return;
+    default: break;
+    }
+    if (small(code) == 'm') {
+        pointing_ = !pointing_;
+        dragging_ = false;
+        say(pointing_ ? "the mouse points: a click picks, holding it moves" : "the mouse moves the object");
+    }
+}
+
+// The keys that edit the model. False: `code` is none of them.
+bool Demo::editKey(int code)
+{
+    const Real turn = DEGREES_A_KEY, size = SIZE_A_KEY, weight = WEIGHT_A_KEY;
+    bool done = false;
+    // With Shift the other way; for other letters it makes no difference.
+    switch (code) {
+    case 'X': done = editor_.turn(0, -turn, time_); break;
+    case 'Y': done = editor_.turn(1, -turn, time_); break;
+    case 'Z': done = editor_.turn(2, -turn, time_); break;
+    case 'W': done = editor_.weigh(-weight, time_); break;
+    case 'H': done = editor_.colour(-1, time_); break;
+    case 'V': done = editor_.pace(SLOWER_A_KEY, time_); break;
+    case 'Q': done = editor_.light(1, -turn, time_); break;
+    case 'E': done = editor_.light(0, -turn, time_); break;
+    case 'G': done = editor_.leave(); break;
+    default:
+        switch (small(code)) {
+        case 'x': done = editor_.turn(0, turn, time_); break;
+        case 'y': done = editor_.turn(1, turn, time_); break;
+        case 'z': done = editor_.turn(2, turn, time_); break;
+        case '1':
+        case '[': done = editor_.size(-size, time_); break;
+        case '2':
+        case ']': done = editor_.size(size, time_); break;
+        case '3':
+        case ',': done = editor_.measure(-size, time_); break;
+        case '4':
+        case '.': done = editor_.measure(size, time_); break;
+        case machine::KEY_INS:
+        case 'a': done = editor_.add("sphere"); break;
+        case 'c': done = editor_.add("cylinder"); break;
+        case 't': done = editor_.add("torus"); break;
+        case 'd': done = editor_.add("disc"); break;
+        case 'n': done = editor_.add("cone"); break;
+        case machine::KEY_DEL: done = editor_.remove(); break;
+        case 'l': done = editor_.link(); break;
+        case 'k': done = editor_.unlink(); break;
+        case 'w': done = editor_.weigh(weight, time_); break;
+        case 'h': done = editor_.colour(1, time_); break;
+        case 'o': done = editor_.motion(); break;
+        case 'v': done = editor_.pace(FASTER_A_KEY, time_); break;
+        case 'q': done = editor_.light(1, turn, time_); break;
+        case 'e': done = editor_.light(0, turn, time_); break;
+        case 'g': done = editor_.join(); break;
+        case 's': editor_.setWholeGroup(!editor_.wholeGroup()); break;
+        case 'u':
+        case machine::KEY_BACKSPACE: done = editor_.undo(); break;
+        case 'r': done = editor_.redo(); break;
+        default: return false;
+        }
+    }
+    if (done)
+        changed();
+    return true;
+}
+
+// Another object is selected.
+void Demo::selected()
+{
+    selectedAt_ = time_;
+}
+
+void Demo::push(Real x, Real y, Real z)
+{
+    // Kept where the viewer sees it: the centre stays on the screen. What is beyond already may come back by itself.
+    const Point from = model_.actor(editor_.selected()).object->centre();
+    const Camera& camera = model_.camera;
+    Point p = from + Vector{x, y, z};
+    p.z = clamp(p.z, least(DEPTH_LEAST, from.z), most(DEPTH_MOST, from.z));
+    const Real away = most(p.z - camera.eye.z, Real(1));
+    const Real right = away * (camera.centreX / camera.focalX), up = away * (camera.centreY / camera.focalY);
+    p.x = clamp(p.x, least(camera.eye.x - right, from.x), most(camera.eye.x + right, from.x));
+    p.y = clamp(p.y, least(camera.eye.y - up, from.y), most(camera.eye.y + up, from.y));
+    if (editor_.move(p - from, time_))
+        Anim::move(model_, shown_);
+}
+
+void Demo::mouse()
+{
+    const machine::Mouse m = machine::mouse();
+    if (ask_.state() != Ask::CLOSED)
+        return;
+    if (pointing_) {
+        pointAt(m);
+        return;
+    }
+    for (int i = 0; i < m.presses; ++i) {
+        editor_.selectNext();
+        selected();
+    }
+    if (m.dx == 0 && m.dy == 0)
+        return;
+    const Real dx = Real(m.dx) * UNITS_A_MICKEY, dy = Real(m.dy) * UNITS_A_MICKEY;
+    if (m.right)
+        push(dx, Real(0), -dy);
+    else
+        push(dx, -dy, Real(0));
+}
+
+// The mouse with a pointer: two mickeys are a pixel.
+void Demo::pointAt(const machine::Mouse& m)
+{
+    const auto within = [](int at, int end) { return at < 0 ? 0 : at > end - 1 ? end - 1 : at; };
+    const int fromX = pointerX_, fromY = pointerY_;
+    pointerX_ = within(pointerX_ + m.dx, 2 * machine::WIDTH);
+    pointerY_ = within(pointerY_ + m.dy, 2 * machine::HEIGHT);
+    if (m.presses > 0) {
+        const int index = objectAt(pointerX_ / 2, pointerY_ / 2);
+        dragging_ = index >= 0;
+        if (index >= 0) {
+            editor_.select(index);
+            selected();
+        } else {
+            say("nothing there");
+        }
+        return;
+    }
+    dragging_ = dragging_ && m.left;
+    const int dx = pointerX_ - fromX, dy = pointerY_ - fromY;
+    if ((!dragging_ && !m.right) || (dx == 0 && dy == 0))
+        return;
+    // As far as the pointer goes on the screen, at the object's distance.
+    const Camera& camera = model_.camera;
+    const Real away = most(model_.actor(editor_.selected()).object->centre().z - camera.eye.z, Real(1));
+    const Real x = Real(dx) / camera.focalX * away * Real(0.5);
+    if (m.right)
+        push(x, Real(0), Real(-dy) * UNITS_A_MICKEY);
+    else
+        push(x, Real(-dy) / camera.focalY * away * Real(0.5), Real(0));
+}
+
+// The object that the last frame shows at a pixel, or a little beside it: the one whose own field is the strongest there.
+// -1: none.
+int Demo::objectAt(int x, int y) const
+{
+    const uint16_t* zbuffer = view_.zbuffer();
+    int atX = 0, atY = 0, nearest = PICK_REACH * PICK_REACH + 1;
+    for (int row = y - PICK_REACH; row <= y + PICK_REACH; ++row) {
+        for (int column = x - PICK_REACH; column <= x + PICK_REACH; ++column) {
+            const int distance = (row - y) * (row - y) + (column - x) * (column - x);
+            if (row < 0 || row >= machine::HEIGHT || column < 0 || column >= machine::WIDTH || distance >= nearest ||
+                zbuffer[row * machine::WIDTH + column] == Z_EMPTY)
+                continue;
+            nearest = distance;
+            atX = column;
+            atY = row;
+        }
+    }
+    if (nearest > PICK_REACH * PICK_REACH)
+        return -1;
+    const Camera& camera = view_.camera();
+    const Real half(0.5);
+    const Real z = realFromRaw(static_cast<int32_t>(zbuffer[atY * machine::WIDTH + atX]) << 9);
+    const Point p = camera.eye + Vector{(Real(atX) + half - camera.centreX) / camera.focalX * z,
+                                        (camera.centreY - Real(atY) - half) / camera.focalY * z, z};
+    int best = -1;
+    Real strongest(0);
+    for (int i = 0; i < model_.count(); ++i) {
+        const Real field = model_.actor(i).object->fieldFunc(p);
+        if (field > strongest) {
+            strongest = field;
+            best = i;
+        }
+    }
+    return best;
+}
