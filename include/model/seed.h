@@ -15,8 +15,8 @@
 //                 position 1 with the normal of the
 //                 unblended surface
 //   SEED_BORDER   a neighbour is about as strong there     none is
-//   SEED_ASLEEP   its patch is drawn as one scale, and     all of its patch are
-//                 it is not settled
+//   SEED_ASLEEP   its patch lies inside a neighbour or     the patch does not any more
+//                 faces away: it is not settled
 //   SEED_FRONT    /P only: its path does not point away    it does
 //                 from the viewer
 //   SEED_KEPT     /P only: normal and brightness hold for  the seed moved

@@ -53,7 +53,6 @@ void setPatch(const SoftObject& object, Patch& patch)
     patch.radius = static_cast<int16_t>(steps16(radius + shiftDown(object.spacing(), 1)) + 2);
     patch.path = static_cast<int16_t>(steps16(path) + 1);
     patch.state = PATCH_REST;
-    patch.coarse = false;
 }
 
 struct Step {
@@ -107,13 +106,13 @@ Step toEyeFrom(const Step& place, const OwnFrame& own)
 
 // The rings from `ring` on that one band of patches has, the most seeds of one of them, and how many patches that takes.
 struct Band {
-    int rings, runs, most;
+    int rings, runs;
 
     Band(const SoftObject& object, int ring)
     {
         const int left = object.rings() - ring;
         rings = left < PATCH_RINGS ? left : PATCH_RINGS;
-        most = 0;
+        int most = 0;
         for (int k = ring; k < ring + rings; ++k) {
             const int count = object.ringStart(k + 1) - object.ringStart(k);
             most = count > most ? count : most;
@@ -130,49 +129,23 @@ int patchesOf(const SoftObject& object)
     return patches;
 }
 
-// Whether the rings of a band are near enough to equal in length that one cell may stand for seeds of all of them.
-static bool evenBand(const SoftObject& object, int ring, const Band& band)
-{
-    int least = 0, most = 0;
-    for (int k = ring; k < ring + band.rings; ++k) {
-        const int count = object.ringStart(k + 1) - object.ringStart(k);
-        least = k == ring || count < least ? count : least;
-        most = count > most ? count : most;
-    }
-    return band.rings == PATCH_RINGS && band.runs >= PATCH_RINGS && most <= 2 * least;
-}
-
 void makePatches(const SoftObject& object, Patch* patches)
 {
-    int first = 0, firstBefore = -1, runsBefore = 0;
     for (int ring = 0; ring < object.rings(); ring += PATCH_RINGS) {
         const Band band(object, ring);
-        const bool even = evenBand(object, ring, band);
-        for (int run = 0; run < band.runs; ++run) {
-            Patch& patch = patches[first + run];
+        for (int run = 0; run < band.runs; ++run, ++patches) {
             for (int k = 0; k < PATCH_RINGS; ++k) {
-                patch.first[k] = patch.count[k] = 0;
+                patches->first[k] = patches->count[k] = 0;
                 if (k >= band.rings)
                     continue;
                 const int start = object.ringStart(ring + k), inRing = object.ringStart(ring + k + 1) - start;
-                patch.first[k] = start + inRing * run / band.runs;
-                patch.count[k] = static_cast<uint8_t>(start + inRing * (run + 1) / band.runs - patch.first[k]);
+                patches->first[k] = start + inRing * run / band.runs;
+                patches->count[k] = static_cast<uint8_t>(start + inRing * (run + 1) / band.runs - patches->first[k]);
             }
-            const int k = patch.count[band.rings / 2] > 0 ? band.rings / 2 : 0;
-            patch.centre = 2 * (patch.first[k] + patch.count[k] / 2);
-            patch.even = even;
-            patch.width16 = static_cast<int16_t>(band.most * 16 / band.runs);
-            patch.before = first + (run > 0 ? run : band.runs) - 1;
-            patch.next = first + (run + 1 < band.runs ? run + 1 : 0);
-            patch.above = firstBefore < 0 ? -1 : firstBefore + run * runsBefore / band.runs;
-            patch.below = -1;
-            setPatch(object, patch);
+            const int k = patches->count[band.rings / 2] > 0 ? band.rings / 2 : 0;
+            patches->centre = 2 * (patches->first[k] + patches->count[k] / 2);
+            setPatch(object, *patches);
         }
-        for (int run = 0; run < runsBefore; ++run)
-            patches[firstBefore + run].below = first + run * band.runs / runsBefore;
-        firstBefore = first;
-        runsBefore = band.runs;
-        first += band.runs;
     }
 }
 
@@ -207,36 +180,4 @@ int32_t facing(const SoftObject& object, const Seed& s, const OwnFrame& own)
                              s.normal.y * (own.eye32[1] - (rawFromReal(place.y) >> 11)) +
                              s.normal.z * (own.eye32[2] - (rawFromReal(place.z) >> 11))) >> 14;
     return (product << 12) / (own.distance32 >> 2);
-}
-
-namespace {
-
-// Cosine of a surface to the viewer from which on one scale may do.
-constexpr int32_t COARSE_FACING = 7400;
-// Squared length of the difference of two normals, 1.0 = 2^14, and difference of two positions as a length in spacings, up
-// to which patches lie alike.
-constexpr int32_t ALIKE_NORMALS = (1 << 14) / 2;
-constexpr Real ALIKE_POSITIONS(1.0);
-
-bool alike(const SoftObject& object, const Patch* patches, const Seed& s, int beside)
-{
-    if (beside < 0)
-        return true;
-    const Patch& patch = patches[beside];
-    const Seed& other = object.seed(patch.centre);
-    if ((patch.state != PATCH_REST && patch.state != PATCH_MIXED) || !(other.flags & SEED_VALID))
-        return false;
-    const int32_t x = s.normal.x - other.normal.x, y = s.normal.y - other.normal.y, z = s.normal.z - other.normal.z;
-    return ((x * x + y * y + z * z) >> 14) <= ALIKE_NORMALS &&
-           absolute(s.position - other.position) * object.radius() <= object.spacing() * ALIKE_POSITIONS;
-}
-
-}  // namespace
-
-bool mayBeCoarse(const SoftObject& object, const Patch* patches, const Patch& patch, const OwnFrame& own)
-{
-    const Seed& s = object.seed(patch.centre);
-    return patch.even && (s.flags & SEED_VALID) && !(s.flags & SEED_BORDER) && facing(object, s, own) > COARSE_FACING &&
-           alike(object, patches, s, patch.before) && alike(object, patches, s, patch.next) &&
-           alike(object, patches, s, patch.above) && alike(object, patches, s, patch.below);
 }

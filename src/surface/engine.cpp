@@ -63,38 +63,22 @@ void Engine::update(const FrameContext& frame)
         if (!classify(*patch, neighbours, count)) {
             if (patch->state != PATCH_REST)
                 rest(object_, *patch, own);
+            else if (lightTurned)
+                light(object_, *patch, own);
             patch->state = PATCH_REST;
             continue;
         }
         displaced = true;
         settler.setPatch(*patch);
         patch->state = settler.probe(*patch);
-        if (patch->state != PATCH_MIXED)
-            sleep(object_, *patch);
-    }
-    for (Patch* patch = patches_; patch < end; ++patch) {
-        if (patch->state == PATCH_REST) {
-            if (lightTurned)
-                light(object_, *patch, own);
-            if (restsAway(*patch, own))
-                continue;
-        }
-        if (patch->state == PATCH_REST || patch->state == PATCH_MIXED)
-            patch->coarse = mayBeCoarse(object_, patches_, *patch, own);
-        if (patch->state != PATCH_MIXED)
-            continue;
-        if (patch->coarse) {
-            sleep(object_, *patch);
-        } else {
-            settler.setPatch(*patch);
+        if (patch->state == PATCH_MIXED)
             settler.settleRest(*patch);
-        }
+        else
+            sleep(object_, *patch);
     }
-    for (Patch* patch = patches_; patch < end; ++patch) {
-        if (patch->state != PATCH_MIXED || patch->coarse)
-            continue;
-        settler.oversample(*patch);
-    }
+    for (Patch* patch = patches_; patch < end; ++patch)
+        if (patch->state == PATCH_MIXED)
+            settler.oversample(*patch);
     object_.setDisplaced(displaced);
 }
 

@@ -1,5 +1,5 @@
 // Patch: neighbouring seeds of three rings, judged as one by the seed in their midst. Most seeds of a frame need no look of
-// their own: their patch rests, lies inside a neighbour, faces away, or is so even that one scale does for all of it.
+// their own: their patch rests, lies inside a neighbour or faces away.
 #ifndef FB_PATCH_H
 #define FB_PATCH_H
 
@@ -24,13 +24,9 @@ struct Patch {
     int32_t first[PATCH_RINGS];  // of each ring, the number of its first regular seed in the patch
     uint8_t count[PATCH_RINGS];  // and how many there are
     PatchState state;
-    bool coarse;        // one scale, that of the seed in the middle, stands for all; the other seeds are not settled
     uint8_t blocker;    // slot of the neighbour that was the strongest where a seed was not on the surface
-    bool even;          // its rings have about as many seeds each
-    int16_t width16;    // of its longest ring, in seeds: 1/16
     int32_t facing;     // of a settled patch: cosine of the surface in the middle and the direction to the viewer
     int32_t centre;     // slot of the seed in the middle
-    int32_t before, next, above, below;  // number of the patches beside it, and of one of the bands beside it; -1: none
     int16_t middle[3];  // of where its seeds rest
     int16_t radius;     // of a ball round it that holds all of those, and half a cell more
     int16_t axis[3];    // the mean of their normals
@@ -62,9 +58,5 @@ bool restsAway(const Patch& patch, const OwnFrame& own);
 
 // Cosine of the surface at a seed and the direction to the viewer, 1.0 = 2^14, about.
 int32_t facing(const SoftObject& object, const Seed& s, const OwnFrame& own);
-
-// Whether a patch whose own seed has settled may be drawn as one scale: it faces the viewer, no other object is near to
-// being the strongest, and the patches beside it lie much as it does.
-bool mayBeCoarse(const SoftObject& object, const Patch* patches, const Patch& patch, const OwnFrame& own);
 
 #endif

@@ -92,9 +92,6 @@ public:
     template <bool RESTING>
     void shadeSeeds(const Patch& patch, VoxelList& list) const;
 
-    // Fills in the one voxel of a coarse patch. False: it faces away.
-    bool shadePatch(const Patch& patch, const Patch* patches, Voxel* voxel) const;
-
 private:
     template <bool RESTING>
     bool shade(const Seed& s, bool oversampled, Voxel* voxel) const;
@@ -109,7 +106,6 @@ private:
     Way onPicture(const Part axis[3]) const;
     void end(const Scale& scale, Voxel* voxel) const;
     void changes(const Seed& s, Cell& c) const;
-    Way wayTo(const Vector& from, const Vector& to, int32_t change) const;
     void roundSlopes(const Scale& scale, Voxel* voxel) const;
     bool cut(const Seed& s, const Scale& scale, Voxel* voxel) const;
 
@@ -476,52 +472,6 @@ inline void Shader<TURNED>::shadeSeeds(const Patch& patch, VoxelList& list) cons
 }
 
 template <bool TURNED>
-inline Way Shader<TURNED>::wayTo(const Vector& from, const Vector& to, int32_t change) const
-{
-    const Vector v = to - from;
-    const int32_t x = rawFromReal(v.x) >> 8, y = rawFromReal(v.y) >> 8, z = rawFromReal(v.z) >> 8;
-    return {(x * column_[0] + y * column_[1] + z * column_[2]) >> 15, (x * row_[0] + y * row_[1] + z * row_[2]) >> 15,
-            change >> 1};
-}
-
-template <bool TURNED>
-inline bool Shader<TURNED>::shadePatch(const Patch& patch, const Patch* patches, Voxel* voxel) const
-{
-    const Seed& s = seeds_[patch.centre];
-    Scale scale;
-    if (!place<false>(s, scale, voxel))
-        return false;
-    Cell c;
-    cell<false>(s, c);
-    const int32_t along16 = patch.width16 + 4;
-    c.along.x = c.along.x * along16 >> 4;
-    c.along.y = c.along.y * along16 >> 4;
-    c.across.x *= PATCH_RINGS;
-    c.across.y *= PATCH_RINGS;
-    c.area = c.along.x * c.across.y - c.along.y * c.across.x;
-    extents(c, true, scale, voxel);
-    end(scale, voxel);
-    voxel->slopeX = voxel->slopeY = 0;
-    if (!TURNED && (s.flags & SEED_RESTING) && s.brightness8 > 0) {
-        roundSlopes(scale, voxel);
-        return true;
-    }
-    const auto rests = [&](int beside) {
-        const Seed& seed = seeds_[patches[beside].centre];
-        return roots_[seed.root] + seed.path * seed.position;
-    };
-    const auto way = [&](int from, int to) {
-        return wayTo(rests(from), rests(to), seeds_[patches[to].centre].brightness8 - seeds_[patches[from].centre].brightness8);
-    };
-    const int here = static_cast<int>(&patch - patches);
-    c.along = way(patch.before, patch.next);
-    c.across = way(patch.above < 0 ? here : patch.above, patch.below < 0 ? here : patch.below);
-    c.area = c.along.x * c.across.y - c.along.y * c.across.x;
-    slopes(c, scale, voxel);
-    return true;
-}
-
-template <bool TURNED>
 int shadeAs(const SoftObject& object, const OwnFrame& own, const FrameContext& frame, const Patch* patches, int count, int first,
             VoxelList& list, int room)
 {
@@ -532,10 +482,7 @@ int shadeAs(const SoftObject& object, const OwnFrame& own, const FrameContext& f
         if (patch.state != PATCH_MIXED && (patch.state != PATCH_REST || restsAway(patch, own)))
             continue;
         shader.setPatch(patch);
-        if (patch.coarse) {
-            if (shader.shadePatch(patch, patches, list.room()))
-                list.take();
-        } else if (patch.state == PATCH_REST) {
+        if (patch.state == PATCH_REST) {
             shader.template shadeSeeds<true>(patch, list);
         } else {
             shader.template shadeSeeds<false>(patch, list);
