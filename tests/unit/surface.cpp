@@ -233,6 +233,28 @@ TEST(every_kind_with_every_kind)
     }
 }
 
+TEST(a_ball_along_a_long_one_close_to_the_viewer)
+{
+    for (double spacing : {2.0, 1.0}) {
+        Errors errors;
+        Missing missing;
+        Scene scene;
+        const std::vector<const Kind*> kinds{kindNamed("cylinder"), kindNamed("sphere")};
+        const Real measures[] = {Real(14), Real(90)};
+        scene.add(kinds[0]->make(1, measures), 0, 4, -60, spacing);
+        scene.add(makeOf(*kinds[1], 2), -44, 12, -55, spacing);
+        scene.linkAll();
+        scene.objects[0]->rotate(scene.objects[0]->centre(), vector(0, 0, 1), 0x40000000u);
+        for (int frame = 0; frame < 12; ++frame) {
+            if (frame > 0)
+                scene.objects[0]->rotate(scene.objects[0]->centre(), vector(0, 1, 0.2), 0x0a000000u);
+            scene.objects[1]->moveTo(point(-44 + 8 * frame, 12, -55));
+            look(scene, errors, missing, kinds);
+        }
+        judge(spacing == 2 ? "two units" : "one unit", errors, missing);
+    }
+}
+
 TEST(chains)
 {
     // Each linked with the one before alone; those two apart reach each other too.
