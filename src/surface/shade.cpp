@@ -483,13 +483,15 @@ int shadeAs(const SoftObject& object, const OwnFrame& own, const FrameContext& f
             VoxelList& list, int room)
 {
     Shader<TURNED> shader(object, own, frame);
+    // A scale as large as a patch would stick out where the side of a cone meets its ends, and shade both alike.
+    const bool creased = TURNED && object.tapers();
     int at = first;
     for (; at < count && list.count + 2 * PATCH_RINGS * PATCH_SEEDS <= room; ++at) {
         const Patch& patch = patches[at];
         if (patch.state != PATCH_MIXED && (patch.state != PATCH_REST || restsAway(patch, own)))
             continue;
         shader.setPatch(patch);
-        if (patch.coarse) {
+        if (patch.coarse && !(creased && patch.state == PATCH_REST)) {
             if (shader.shadePatch(patch, patches, list.room()))
                 list.take();
         } else if (patch.state == PATCH_REST) {
