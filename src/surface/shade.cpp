@@ -256,7 +256,7 @@ inline bool Shader<TURNED>::atEnd(const Seed& s) const
 
 // How a patch at rest bends. All that is no ball is turned about its y axis: round that it bends by n.r / r, with r the way from
 // the axis; in the plane of the axis as a ball does where its core ends, else not at all. Returned is the radius of curvature
-// along the view, 1/32 unit, the greatest where it is flat or hollow. Sets the gradient of the brightness, too.
+// along the view and a quarter, 1/32 unit, the greatest where it is flat or hollow. Sets the gradient of the brightness, too.
 template <bool TURNED>
 inline int32_t Shader<TURNED>::curvature(const Patch& patch, const int32_t middle[3])
 {
@@ -297,7 +297,8 @@ inline int32_t Shader<TURNED>::curvature(const Patch& patch, const int32_t middl
     gradient_[0] = (product(change, own_.right) >> 14) * scale >> 8;
     gradient_[1] = (product(change, own_.up) >> 14) * scale >> 8;
     gradient_[2] = (product(change, own_.ahead) >> 14) * scale >> 8;
-    return bend * (flattest_ >> 4) <= radius << 10 ? flattest_ : (radius << 14) / bend;
+    // A quarter more, for what its scales differ from their cells: next to the limb there may be no other that covers it.
+    return bend * (flattest_ >> 4) <= radius << 10 ? flattest_ : (radius * 5 << 12) / bend;
 }
 
 // A half axis of a cell, as the seeds have it, or as short a vector: both sums of products are one, each 16 bits wide.
