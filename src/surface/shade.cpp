@@ -322,7 +322,8 @@ inline void Shader<TURNED>::cell(const Seed& s, Cell& c) const
     c.uneven = false;
     if (!RESTING && !(s.flags & SEED_RESTING)) {
         // The path over the radius, 1.0 = 2^14, and its cosine to the normal.
-        const int32_t u[] = {mulShift16(rawFromReal(s.path.x), inverseRadius_) >> 4, mulShift16(rawFromReal(s.path.y), inverseRadius_) >> 4,
+        const int32_t u[] = {mulShift16(rawFromReal(s.path.x), inverseRadius_) >> 4,
+                             mulShift16(rawFromReal(s.path.y), inverseRadius_) >> 4,
                              mulShift16(rawFromReal(s.path.z), inverseRadius_) >> 4};
         int32_t cosine = product(s.normal, u) >> 14;
         if (cosine < LEAST_COSINE)
@@ -334,7 +335,7 @@ inline void Shader<TURNED>::cell(const Seed& s, Cell& c) const
         const int32_t n[] = {s.normal.x, s.normal.y, s.normal.z};
         const int32_t offAlong = (product(s.along, n) >> 8) * inverse >> 10;
         const int32_t offAcross = (product(s.across, n) >> 8) * inverse >> 10;
-        const int32_t short7[] = {u[0] >> 7, u[1] >> 7, u[2] >> 7};
+        const int32_t short7[] = {(u[0] + 64) >> 7, (u[1] + 64) >> 7, (u[2] + 64) >> 7};
         const Way path = onPicture(short7);
         c.along.x = (c.along.x - (offAlong * path.x >> 15)) * position >> 8;
         c.along.y = (c.along.y - (offAlong * path.y >> 15)) * position >> 8;
@@ -402,8 +403,8 @@ inline void slopes(const Cell& c, const Scale& scale, Voxel* voxel)
 template <bool TURNED>
 inline void Shader<TURNED>::roundSlopes(const Scale& scale, Voxel* voxel) const
 {
-    setSlopes((gradient_[0] + (scale.tiltX * gradientAhead_ >> 4)) >> 8, (gradient_[1] + (scale.tiltY * gradientAhead_ >> 4)) >> 8, scale,
-              voxel);
+    setSlopes((gradient_[0] + (scale.tiltX * gradientAhead_ >> 4)) >> 8, (gradient_[1] + (scale.tiltY * gradientAhead_ >> 4)) >> 8,
+              scale, voxel);
 }
 
 // How the brightness changes along the half axes of a cell. Along the ring: to the next seed of it, or at its end from the
@@ -536,8 +537,8 @@ int shadeAs(const SoftObject& object, const OwnFrame& own, const FrameContext& f
 
 }  // namespace
 
-int shadePatches(const SoftObject& object, const OwnFrame& own, const FrameContext& frame, const Patch* patches, int count, int first,
-                 VoxelList& list, int room)
+int shadePatches(const SoftObject& object, const OwnFrame& own, const FrameContext& frame, const Patch* patches, int count,
+                 int first, VoxelList& list, int room)
 {
     return object.isBall() ? shadeAs<false>(object, own, frame, patches, count, first, list, room)
                            : shadeAs<true>(object, own, frame, patches, count, first, list, room);
