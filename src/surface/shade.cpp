@@ -101,7 +101,8 @@ private:
     void cell(const Seed& s, Cell& c) const;
     // A length of own space in the world.
     int32_t grown(int32_t length) const { return grown_ ? mulShift16(length, rawFromReal(own_.growth)) : length; }
-    int32_t horizonOf(const Patch& patch, const int32_t middle[3]) const;
+    bool atEnd(const Seed& s) const;
+    int32_t curvature(const Patch& patch, const int32_t middle[3]);
     template <class Part>
     Way onPicture(const Part axis[3]) const;
     void end(const Scale& scale, Voxel* voxel) const;
@@ -123,7 +124,8 @@ private:
     int32_t depth_;           // of the object's centre along the viewing axis, 1/32 unit
     int32_t away_[2];         // the centre from the eye, across the view, 1/32 unit
     int32_t inverseRadius_;   // 2^24 / radius in 1/64 unit
-    int32_t gradient_[3];     // of the brightness over a ball, 1/8 step a unit with 8 bits of fraction
+    bool round_ = false;      // the patch bends alike everywhere
+    int32_t gradient_[3];     // of the brightness over what is round, 1/8 step a unit with 8 bits of fraction
     // Of the patch: the axes of the picture plane, sheared along the ray through its middle, so that a part of a vector along
     // the view shows sideways; 1.0 = 2^14.
     int32_t column_[3], row_[3];
@@ -133,7 +135,7 @@ private:
     uint32_t cellBoth_[3];
     int cellShift_;
     int32_t horizonShare_;    // of the horizon: half of it over the distance of the eye, 16 bits of fraction
-    int32_t gradientAhead_;   // how the brightness of a ball changes with the depth, 1/8 step a unit with 4 bits of fraction
+    int32_t gradientAhead_;   // how that brightness changes with the depth, 1/8 step a unit with 4 bits of fraction
 };
 
 template <bool TURNED>
@@ -185,13 +187,13 @@ inline void Shader<TURNED>::setPatch(const Patch& patch)
         cellBoth_[i] = (static_cast<uint32_t>(column) << 16) + static_cast<uint32_t>(row);
     }
     cellShift_ = 28 - bits;
-    gradientAhead_ = (gradient_[2] + (gradient_[0] * (shearX >> 4) >> 8) + (gradient_[1] * (shearY >> 4) >> 8)) >> 4;
     int32_t horizon = generalHorizon_;
     if (TURNED && patch.state == PATCH_REST)
-        horizon = horizonOf(patch, middle);
+        horizon = curvature(patch, middle);
     else if (TURNED)
         horizon = rawFromReal(object_.horizonAt(roots_[seeds_[patch.centre].root], realFromRaw(generalHorizon_ << 11))) >> 11;
     horizonShare_ = (smaller(horizon, 8000) << 15) / own_.distance32;
+    gradientAhead_ = (gradient_[2] + (gradient_[0] * (shearX >> 4) >> 8) + (gradient_[1] * (shearY >> 4) >> 8)) >> 4;
 }
 
 // Place, tilt and brightness. False: it faces away.
@@ -246,31 +248,60 @@ inline bool Shader<TURNED>::place(const Seed& s, Scale& scale, Voxel* voxel) con
     return true;
 }
 
-// Radius of curvature of the unblended surface along the view, 1/32 unit; the greatest where it is flat or hollow. All that is no ball
-// is turned about its y axis: round that it bends by n.r / r with r the way from the axis, and in the plane of the axis as a
-// ball does where its core ends, else not at all.
+// Whether the root of a seed lies where the core ends.
 template <bool TURNED>
-inline int32_t Shader<TURNED>::horizonOf(const Patch& patch, const int32_t middle[3]) const
+inline bool Shader<TURNED>::atEnd(const Seed& s) const
 {
-    const Vector& root = roots_[seeds_[patch.centre].root];
+    const Vector& root = roots_[s.root];
     const int32_t root16[] = {rawFromReal(root.x) >> 12, rawFromReal(root.y) >> 12, rawFromReal(root.z) >> 12};
-    const bool end = product(root16, root16) >= core2_;
+    return product(root16, root16) >= core2_;
+}
+
+// How a patch at rest bends. All that is no ball is turned about its y axis: round that it bends by n.r / r, with r the way from
+// the axis; in the plane of the axis as a ball does where its core ends, else not at all. Returned is the radius of curvature
+// along the view and a quarter, 1/32 unit, the greatest where it is flat or hollow. Sets the gradient of the brightness, too.
+template <bool TURNED>
+inline int32_t Shader<TURNED>::curvature(const Patch& patch, const int32_t middle[3])
+{
+    const bool end = atEnd(seeds_[patch.centre]);
+    const int last = PATCH_RINGS - 1;
+    round_ = end == atEnd(seeds_[2 * patch.first[0]]) && (patch.count[last] == 0 || end == atEnd(seeds_[2 * patch.first[last]]));
     const int32_t radius = grown(patch.path * 2);
     const int32_t x = middle[0], y = middle[1], z = middle[2];
     const Normal out = normalise({realFromRaw(x << 8), Real(0), realFromRaw(z << 8)});
     const Normal view = normalise({realFromRaw((x - own_.eye32[0]) << 8), realFromRaw((y - own_.eye32[1]) << 8),
                                    realFromRaw((z - own_.eye32[2]) << 8)});
     const int32_t away = (x * out.x + z * out.z) >> 14;
+    const int32_t* const light = own_.light;
+    int32_t change[] = {light[0], light[1], light[2]};
     // Radius over radius of curvature, 1.0 = 2^14.
     int32_t bend = 1 << 14;
     if (!end || away > radius >> 1) {
         const int32_t round = (view.z * out.x - view.x * out.z) >> 14;
         const int32_t share = round * round >> 14;
-        const int32_t facing = (patch.axis[0] * out.x + patch.axis[2] * out.z) >> 14;
-        const int32_t hoop = away > 0 ? limited(facing * radius / away, 1 << 15) : 0;
+        const int32_t outward = (patch.axis[0] * out.x + patch.axis[2] * out.z) >> 14;
+        const int32_t hoop = away > 0 ? limited(outward * radius / away, 1 << 15) : 0;
         bend = (end ? bend - share : 0) + (share * hoop >> 14);
+        if (end) {
+            const int32_t part = ((hoop - (1 << 14)) * ((light[2] * out.x - light[0] * out.z) >> 14)) >> 14;
+            change[0] -= part * out.z >> 14;
+            change[2] += part * out.x >> 14;
+        } else {
+            // Without what points along the straight lines of the surface, which lie in the plane of the axis.
+            const int32_t upward = patch.axis[1];
+            const int32_t along = (outward * light[1] - upward * ((light[0] * out.x + light[2] * out.z) >> 14)) >> 14;
+            const int32_t inward = upward * along >> 14;
+            change[0] = hoop * (light[0] + (inward * out.x >> 14)) >> 14;
+            change[1] = hoop * (light[1] - (outward * along >> 14)) >> 14;
+            change[2] = hoop * (light[2] + (inward * out.z >> 14)) >> 14;
+        }
     }
-    return bend * (flattest_ >> 4) <= radius << 10 ? flattest_ : (radius << 14) / bend;
+    const int32_t scale = (BRIGHTEST << 10) / (radius + 1);
+    gradient_[0] = (product(change, own_.right) >> 14) * scale >> 8;
+    gradient_[1] = (product(change, own_.up) >> 14) * scale >> 8;
+    gradient_[2] = (product(change, own_.ahead) >> 14) * scale >> 8;
+    // A quarter more, for what its scales differ from their cells: next to the limb there may be no other that covers it.
+    return bend * (flattest_ >> 4) <= radius << 10 ? flattest_ : (radius * 5 << 12) / bend;
 }
 
 // A half axis of a cell, as the seeds have it, or as short a vector: both sums of products are one, each 16 bits wide.
@@ -294,7 +325,8 @@ inline void Shader<TURNED>::cell(const Seed& s, Cell& c) const
     c.uneven = false;
     if (!RESTING && !(s.flags & SEED_RESTING)) {
         // The path over the radius, 1.0 = 2^14, and its cosine to the normal.
-        const int32_t u[] = {mulShift16(rawFromReal(s.path.x), inverseRadius_) >> 4, mulShift16(rawFromReal(s.path.y), inverseRadius_) >> 4,
+        const int32_t u[] = {mulShift16(rawFromReal(s.path.x), inverseRadius_) >> 4,
+                             mulShift16(rawFromReal(s.path.y), inverseRadius_) >> 4,
                              mulShift16(rawFromReal(s.path.z), inverseRadius_) >> 4};
         int32_t cosine = product(s.normal, u) >> 14;
         if (cosine < LEAST_COSINE)
@@ -306,7 +338,7 @@ inline void Shader<TURNED>::cell(const Seed& s, Cell& c) const
         const int32_t n[] = {s.normal.x, s.normal.y, s.normal.z};
         const int32_t offAlong = (product(s.along, n) >> 8) * inverse >> 10;
         const int32_t offAcross = (product(s.across, n) >> 8) * inverse >> 10;
-        const int32_t short7[] = {u[0] >> 7, u[1] >> 7, u[2] >> 7};
+        const int32_t short7[] = {(u[0] + 64) >> 7, (u[1] + 64) >> 7, (u[2] + 64) >> 7};
         const Way path = onPicture(short7);
         c.along.x = (c.along.x - (offAlong * path.x >> 15)) * position >> 8;
         c.along.y = (c.along.y - (offAlong * path.y >> 15)) * position >> 8;
@@ -370,12 +402,12 @@ inline void slopes(const Cell& c, const Scale& scale, Voxel* voxel)
               mulHigh(c.along.x * c.across.change - c.across.x * c.along.change, inverse), scale, voxel);
 }
 
-// The same of a ball where nothing blends with it, by its curvature.
+// The same where nothing blends with it, by its curvature.
 template <bool TURNED>
 inline void Shader<TURNED>::roundSlopes(const Scale& scale, Voxel* voxel) const
 {
-    setSlopes((gradient_[0] + (scale.tiltX * gradientAhead_ >> 4)) >> 8, (gradient_[1] + (scale.tiltY * gradientAhead_ >> 4)) >> 8, scale,
-              voxel);
+    setSlopes((gradient_[0] + (scale.tiltX * gradientAhead_ >> 4)) >> 8, (gradient_[1] + (scale.tiltY * gradientAhead_ >> 4)) >> 8,
+              scale, voxel);
 }
 
 // Where another object is the strongest the scale ends: a straight line, for the difference of two fields is nearly linear
@@ -441,7 +473,7 @@ inline bool Shader<TURNED>::shade(const Seed& s, bool oversampled, Voxel* voxel)
     if (!RESTING && (s.flags & SEED_BORDER) && !cut(s, scale, voxel))
         return false;
     voxel->slopeX = voxel->slopeY = 0;
-    if (!TURNED && (RESTING || (s.flags & SEED_RESTING)) && s.brightness8 > 0) {
+    if ((TURNED ? RESTING && round_ : RESTING || (s.flags & SEED_RESTING)) && s.brightness8 > 0) {
         roundSlopes(scale, voxel);
     } else if (!oversampled && s.neighbour >= 0) {
         changes(s, c);
@@ -493,8 +525,8 @@ int shadeAs(const SoftObject& object, const OwnFrame& own, const FrameContext& f
 
 }  // namespace
 
-int shadePatches(const SoftObject& object, const OwnFrame& own, const FrameContext& frame, const Patch* patches, int count, int first,
-                 VoxelList& list, int room)
+int shadePatches(const SoftObject& object, const OwnFrame& own, const FrameContext& frame, const Patch* patches, int count,
+                 int first, VoxelList& list, int room)
 {
     return object.isBall() ? shadeAs<false>(object, own, frame, patches, count, first, list, room)
                            : shadeAs<true>(object, own, frame, patches, count, first, list, room);

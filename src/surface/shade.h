@@ -7,7 +7,7 @@
 
 // Lists what the viewer sees of the patches of one object, from patch `first` on, while the list holds fewer than `room` voxels
 // with another patch. Returns the patch that is to come next, or `count`.
-int shadePatches(const SoftObject& object, const OwnFrame& own, const FrameContext& frame, const Patch* patches, int count, int first,
-                 VoxelList& list, int room);
+int shadePatches(const SoftObject& object, const OwnFrame& own, const FrameContext& frame, const Patch* patches, int count,
+                 int first, VoxelList& list, int room);
 
 #endif
