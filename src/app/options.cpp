@@ -24,7 +24,7 @@ const char* const HELP =
     "  /X        draw, but do not copy to the card\n"
     "  /?        this page\n"
     "\n"
-    "Keys:  F1  all of them   *  scales or pixels   -  +  coarser, finer   ESC  ends\n"
+    "Keys:  F1  all of them   *  scales, pixels   - +  coarser, finer   ESC  ends\n"
     "       F  frames a second   P  picture to a file   N  next scene\n"
     "       Space  stop and go   .  a step   Home  from the start   <  >  speed\n"
     "Mouse (with /I):  left button selects the next object; moving it moves the\n"
