@@ -35,7 +35,9 @@ public:
 
     // Starts a frame: finds out how far the objects have gone since the last.
     void beginFrame();
-    // Whether some object went so far, or turned so, that nothing that was known of its surroundings is worth much.
+    // Whether some object went so far, or turned so, that what was known of its surroundings a few frames ago is wrong by more
+    // than is seen; and whether it went so far that nothing is worth much that was known a frame ago.
+    bool hurried() const { return hurried_; }
     bool leapt() const { return leapt_; }
 
 private:
@@ -54,7 +56,7 @@ private:
     int16_t* first_ = nullptr;        // by slot: where its body begins in members_
     int16_t* size_ = nullptr;         // by slot: how many it has
     Stand* stands_ = nullptr;         // by slot
-    bool leapt_ = false;
+    bool fresh_ = false, hurried_ = false, leapt_ = false;  // fresh_: nothing is known of a frame before
     bool* complete_ = nullptr;        // by slot: all of its body are linked with all
 };
 

@@ -42,6 +42,7 @@ bool Bodies::find(SoftObject* const* objects, int count)
         return false;
     }
     count_ = count;
+    fresh_ = true;
     for (int i = 0; i < count; ++i) {
         objects[i]->setSlot(i);
         stands_[i] = standOf(*objects[i]);
@@ -88,19 +89,22 @@ Bodies::Stand Bodies::standOf(const SoftObject& object)
 
 void Bodies::beginFrame()
 {
-    // A way of a few units in one frame.
-    constexpr Real LEAP(9);
-    leapt_ = false;
+    // Ways of one frame, units.
+    constexpr Real HURRY(2), LEAP(9);
+    Real farthest(0);
     for (int i = 0; i < count_; ++i) {
         const SoftObject& object = *members_[i];
         Stand& before = stands_[object.slot()];
         const Stand now = standOf(object);
         const Vector way = now.centre - before.centre, turn = now.turn - before.turn;
-        const Real reach = object.coreReach() + object.size();
-        leapt_ = leapt_ || absolute(way.x) + absolute(way.y) + absolute(way.z) + absolute(now.size - before.size) > LEAP ||
-                 (!object.isBall() && (absolute(turn.x) + absolute(turn.y) + absolute(turn.z)) * reach > LEAP);
+        farthest = most(farthest, absolute(way.x) + absolute(way.y) + absolute(way.z) + absolute(now.size - before.size));
+        if (!object.isBall())
+            farthest = most(farthest, (absolute(turn.x) + absolute(turn.y) + absolute(turn.z)) * (object.coreReach() + object.size()));
         before = now;
     }
+    hurried_ = fresh_ || farthest > HURRY;
+    leapt_ = fresh_ || farthest > LEAP;
+    fresh_ = false;
     spreadRecalc();
 }
 

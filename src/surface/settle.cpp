@@ -10,7 +10,7 @@ namespace {
 // Of the field: a seed that is this near the isovalue is on the surface.
 constexpr Real TOLERANCE(0.004);
 // Of the field: a seed that was this near the isovalue has not moved enough to be seen.
-constexpr Real STILL(0.008);
+constexpr Real STILL(0.004);
 // Of the position: after a step as short as this another look would change nothing that is seen.
 constexpr Real SHORT_STEP(0.05);
 constexpr Real LONGEST_STEP(0.25);
@@ -499,7 +499,7 @@ void Settler::settleRest(Patch& patch)
 // moved twice; so is one that faces away a little or well.
 bool Settler::waits(const Seed& s, bool someAway) const
 {
-    if ((s.flags & (SEED_VALID | SEED_RESTING)) != SEED_VALID || bodies_.leapt())
+    if ((s.flags & (SEED_VALID | SEED_RESTING)) != SEED_VALID || bodies_.hurried())
         return false;
     uint32_t mask = s.still;
     if (someAway) {

@@ -126,6 +126,7 @@ struct Scene {
     std::vector<std::unique_ptr<SoftObject>> objects;
     std::unique_ptr<Bodies> bodies = std::make_unique<Bodies>();
     Counts counts{};
+    bool found = false;  // the bodies are those of the links as they are
     bool printed = false;
     Point eye{Real(0), Real(0), Real(-120)};
     Vector light = unit(vector(0.5, 0.7, -0.5));
@@ -152,6 +153,7 @@ struct Scene {
         if (!object->resample(real(spacing), printed ? makeReport98 : makeEngine))
             std::abort();
         object->setRamp(ramp.data() + SHADING_MOST);
+        found = false;
         return *object;
     }
     SoftObject& ball(double size, double x, double y, double z, double spacing = 2)
@@ -162,6 +164,7 @@ struct Scene {
     {
         objects[a]->link(objects[b].get(), real(weight));
         objects[b]->link(objects[a].get(), real(weight));
+        found = false;
     }
     void linkAll()
     {
@@ -177,11 +180,13 @@ struct Scene {
             all.push_back(object.get());
         if (!bodies->find(all.data(), static_cast<int>(all.size())))
             std::abort();
+        found = true;
     }
     void update()
     {
-        findBodies();
-        bodies->spreadRecalc();
+        if (!found)
+            findBodies();
+        bodies->beginFrame();
         for (auto& object : objects)
             object->update(frame());
     }

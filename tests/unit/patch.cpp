@@ -54,7 +54,6 @@ TEST(patches_hold_every_seed_once)
             Scene scene;
             const SoftObject& object = scene.add(makeUsual(kind, 1), 0, 0, 0, spacing);
             const std::vector<Patch> patches = patchesIn(object);
-            const int count = static_cast<int>(patches.size());
             std::vector<int> held(static_cast<size_t>(object.seeds()), 0);
             for (const Patch& patch : patches) {
                 bool middle = false;
@@ -68,14 +67,9 @@ TEST(patches_hold_every_seed_once)
                 });
                 CHECK(middle);
                 CHECK(seeds >= 1 && seeds <= PATCH_RINGS * PATCH_SEEDS);
-                for (int beside : {patch.before, patch.next, patch.above, patch.below})
-                    CHECK(beside >= -1 && beside < count);
-                CHECK(patch.before >= 0 && patch.next >= 0);
             }
             for (int times : held)
                 SAME(times, 1);
-            for (int i = 0; i < count; ++i)
-                SAME(patches[static_cast<size_t>(patches[static_cast<size_t>(i)].next)].before, i);
         }
     }
 }
