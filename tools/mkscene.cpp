@@ -150,7 +150,13 @@ int main(int count, char **arguments) {
     } else if (kind == 6) {
       printf("torus %s size %d ring %d", name.c_str(), size, std::max(between(8, 28), (size * 5 + 7) / 8));
     } else if (kind == 7) {
-      printf("disc %s size %d disc %d", name.c_str(), size, between(4, 24));
+      // One in three flat ones is a box.
+      if (once(3)) {
+        const int x = between(2, 30), y = between(2, 30);
+        printf("box %s size %d x %d y %d z %d", name.c_str(), size, x, y, between(2, 30));
+      } else {
+        printf("disc %s size %d disc %d", name.c_str(), size, between(4, 24));
+      }
     } else {
       const int tip = between(3, 24);
       printf("cone %s size %d tip %d length %d", name.c_str(), size, tip, std::max(between(8, 40), (abs(size - tip) + 1) / 2));

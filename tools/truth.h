@@ -72,6 +72,7 @@ struct Object {
   double len;         // length of a segment, radius of a circle or disc
   double size;        // R: the field is zero at this distance from the core
   double size2;       // R at the core's far end, where it tapers
+  Vec axis[3], half;  // a box: its unit axes, half its edges along them
 };
 
 struct Colour {

@@ -252,12 +252,89 @@ void coneBreaks(const Object &o, const Ray &ray, std::vector<double> &t) {
   whereAlong(o, ray, o.len, t);
 }
 
+// ---- box: cx cy cz ax ay az bx by bz A B C R --------------------------------
+//
+// The core is a solid box about c, A, B and C long along its x axis a, its y
+// axis b and its z axis a x b. Beyond the core q is the sum of the squares of
+// what each of its coordinates lies beyond a pair of planes.
+
+const char *boxSet(Object &o, const double *v) {
+  o.a = o.middle = {v[0], v[1], v[2]};
+  Vec x{v[3], v[4], v[5]}, y{v[6], v[7], v[8]};
+  if (!(length(x) > 0)) return "the x axis has no direction";
+  x = x * (1 / length(x));
+  // Square to the first, which a turn of whole numbers leaves it but for the last places.
+  y = y - x * dot(x, y);
+  if (!(length(y) > 0)) return "the y axis has no direction of its own";
+  y = y * (1 / length(y));
+  o.axis[0] = x;
+  o.axis[1] = y;
+  o.axis[2] = {x.y * y.z - x.z * y.y, x.z * y.x - x.x * y.z, x.x * y.y - x.y * y.x};
+  if (v[9] < 0 || v[10] < 0 || v[11] < 0) return "an edge must not be negative";
+  o.half = {v[9] / 2, v[10] / 2, v[11] / 2};
+  o.size = v[12];
+  o.reach = length(o.half) + o.size;
+  return badSize(o.size) ? "the size must be above 0" : nullptr;
+}
+
+// How far along an axis m lies beyond the two planes at +-half.
+double beyond(double m, double half) { return m - std::min(std::max(m, -half), half); }
+
+double boxQ(const Object &o, Vec p, Vec *g) {
+  Vec m = p - o.a;
+  double x = beyond(dot(m, o.axis[0]), o.half.x), y = beyond(dot(m, o.axis[1]), o.half.y);
+  double z = beyond(dot(m, o.axis[2]), o.half.z), k = 1 / (o.size * o.size);
+  if (g) *g = (o.axis[0] * x + o.axis[1] * y + o.axis[2] * z) * (2 * k);
+  return (x * x + y * y + z * z) * k;
+}
+
+// Where a ray passes the six planes, ascending.
+std::vector<double> boxPlanes(const Object &o, const Ray &ray) {
+  const double half[] = {o.half.x, o.half.y, o.half.z};
+  std::vector<double> t;
+  for (int i = 0; i < 3; i++) {
+    double d = dot(ray.dir, o.axis[i]), m = dot(ray.eye - o.a, o.axis[i]);
+    if (d == 0) continue;
+    t.push_back((half[i] - m) / d);
+    t.push_back((-half[i] - m) / d);
+  }
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
+void boxQuadratic(const Object &o, const Ray &ray, double t, double c[3]) {
+  const double half[] = {o.half.x, o.half.y, o.half.z};
+  double k = 1 / (o.size * o.size);
+  c[0] = c[1] = c[2] = 0;
+  for (int i = 0; i < 3; i++) {
+    double d = dot(ray.dir, o.axis[i]), m = dot(ray.eye - o.a, o.axis[i]), at = m + d * t;
+    if (std::fabs(at) <= half[i]) continue;
+    m -= at > 0 ? half[i] : -half[i];
+    c[0] += m * m * k;
+    c[1] += 2 * m * d * k;
+    c[2] += d * d * k;
+  }
+}
+
+void boxBreaks(const Object &o, const Ray &ray, std::vector<double> &t) {
+  const std::vector<double> plane = boxPlanes(o, ray);
+  t.insert(t.end(), plane.begin(), plane.end());
+  // q = 1 on each stretch between two planes, and before and behind them all.
+  for (size_t i = 0; i <= plane.size(); i++) {
+    double middle = plane.empty() ? 0 : i == 0 ? plane[0] - 1 : i == plane.size() ? plane[i - 1] + 1 : (plane[i - 1] + plane[i]) / 2;
+    double c[3];
+    boxQuadratic(o, ray, middle, c);
+    whereOne(c, t);
+  }
+}
+
 const Kind kinds[] = {
     {"sphere", 4, sphereSet, sphereQ, sphereBreaks, sphereQuadratic, nullptr},
     {"cylinder", 7, cylinderSet, cylinderQ, cylinderBreaks, cylinderQuadratic, nullptr},
     {"torus", 8, setRound, torusQ, torusBreaks, nullptr, distanceBounds},
     {"disc", 8, setRound, discQ, discBreaks, nullptr, distanceBounds},
     {"cone", 8, coneSet, coneQ, coneBreaks, nullptr, coneBounds},
+    {"box", 13, boxSet, boxQ, boxBreaks, boxQuadratic, nullptr},
 };
 
 // ---- Bernstein form ----------------------------------------------------------

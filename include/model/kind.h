@@ -5,7 +5,7 @@
 
 #include "model/softobj.h"
 
-constexpr int MEASURES_MOST = 3;
+constexpr int MEASURES_MOST = 4;
 
 // A measure of a primitive: its word in a scene file, the range it may have, and what a new object has, units.
 struct Measure {

@@ -27,7 +27,7 @@ struct Actor {
     int number = 0;                // objects count from 1, groups from -1 downwards
     char name[NAME_ROOM] = "";
     const Kind* kind = nullptr;    // null: a group, or an object that was made elsewhere
-    Real measure[MEASURES_MOST] = {Real(0), Real(0), Real(0)};  // as the kind has them, before any scaling
+    Real measure[MEASURES_MOST] = {Real(0), Real(0), Real(0), Real(0)};  // as the kind has them, before any scaling
     Pose pose;                     // as Anim::move() left it
     Real made{0};                  // size() of the object before any scaling
 };

@@ -2,6 +2,7 @@
 #include "model/kind.h"
 
 #include "math/alloc.h"
+#include "model/box.h"
 #include "model/cone.h"
 #include "model/cylinder.h"
 #include "model/disc.h"
@@ -37,6 +38,11 @@ SoftObject* makeCone(int number, const Real* m)
     return make<Cone>(number, m[0], m[1], m[2]);
 }
 
+SoftObject* makeBox(int number, const Real* m)
+{
+    return make<Box>(number, m[0], m[1], m[2], m[3]);
+}
+
 // The tube must not reach its own other side.
 const char* torusExpects(const Real* m)
 {
@@ -60,6 +66,11 @@ const Kind KINDS[] = {
      {SIZE, {"tip", Real(MIN_SIZE), Real(MAX_SIZE), Real(8)}, {"length", Real(0), Real(100), Real(24)}},
      makeCone,
      coneExpects},
+    {"box",
+     4,
+     {SIZE, {"x", Real(0), Real(100), Real(24)}, {"y", Real(0), Real(100), Real(16)}, {"z", Real(0), Real(100), Real(12)}},
+     makeBox,
+     nullptr},
 };
 
 const int KIND_COUNT = static_cast<int>(sizeof KINDS / sizeof KINDS[0]);

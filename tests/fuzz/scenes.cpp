@@ -178,8 +178,8 @@ private:
             word("group");
             word(name);
         } else {
-            static const char* const KINDS[] = {"sphere", "cylinder", "torus", "disc", "cone"};
-            const size_t kind = random_.below(5);
+            static const char* const KINDS[] = {"sphere", "cylinder", "torus", "disc", "cone", "box"};
+            const size_t kind = random_.below(6);
             word(KINDS[kind]);
             word(name);
             word("size");
@@ -196,6 +196,11 @@ private:
                 word("disc");
                 number(0, 100);
             }
+            for (const char* edge : {"x", "y", "z"})
+                if (kind == 5) {
+                    word(edge);
+                    number(0, 100);
+                }
             if (kind == 4) {
                 word("tip");
                 number(1, 100);
@@ -417,7 +422,7 @@ private:
 
 // Words of the language, for changes.
 const char* const WORDS[] = {
-    "sphere", "cylinder", "torus", "disc", "cone", "group", "blend", "circle", "path", "spin", "swing", "pulse", "keys", "key",
+    "sphere", "cylinder", "torus", "disc", "cone", "box", "group", "blend", "circle", "path", "spin", "swing", "pulse", "keys", "key",
     "eye", "focal", "light", "title", "all", "size", "length", "ring", "tip", "at", "turn", "in", "colour", "color", "red",
     "#12abEF", "scale", "repeat", "step", "lag", "radius", "plane", "xy", "u", "v", "period", "phase", "x", "y", "z", "axis",
     "angle", "by", "linear", "smooth", "0", "1", "2", "-1", "0.1", "128", "250", "-250", "250.00002", "3600", "0.5",

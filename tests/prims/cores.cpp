@@ -145,6 +145,8 @@ void testSeeds(const Sample& sample, bool posed)
     if (kind == "cylinder" || kind == "cone")
         check(roots.size() <= static_cast<size_t>(sample.measure * (posed ? 1.7 : 1) * 0.8 + 4), "%s: %zu roots", name.c_str(),
               roots.size());
+    if (kind == "box" && sample.reach() == 0)
+        check(roots.size() == 1, "%s: %zu roots", name.c_str(), roots.size());
     // Halves that mirror each other share theirs.
     if (kind == "torus" || (kind == "disc" && sample.measure > 0))
         check(roots.size() <= static_cast<size_t>(object->seeds() * 6 / 10 + 4), "%s: %zu roots, %d seeds", name.c_str(),
@@ -193,7 +195,8 @@ void testCores()
                            : kind == "cylinder" ? "cylinder 3 16.5 -2 30 -13.5 -2 30 16"
                            : kind == "torus"    ? "torus 3 1.5 -2 30 -1 0 0 18 16"
                            : kind == "disc"     ? "disc 3 1.5 -2 30 -1 0 0 15 14"
-                                                : "cone 3 13.5 -2 30 22 -10.5 -2 30 10");
+                           : kind == "cone"     ? "cone 3 13.5 -2 30 22 -10.5 -2 30 10"
+                                                : "box 3 1.5 -2 30 0 1 0 -1 0 0 24 16 12 14");
     }
 
     // Measures out of range.
@@ -202,8 +205,9 @@ void testCores()
     describes(*Object(make<Disc>(1, Real(10), Real(-1))), "disc 1 0 0 0 0 1 0 0 10");
     describes(*Object(make<Cone>(1, Real(30), Real(10), Real(2))), "cone 1 0 -5 0 30 0 5 0 10");
     describes(*Object(make<Cone>(1, Real(10), Real(10), Real(0))), "cone 1 0 0 0 10 0 0 0 10");
+    describes(*Object(make<Box>(1, Real(10), Real(-1), Real(5), Real(-3))), "box 1 0 0 0 1 0 0 0 1 0 0 5 0 10");
     for (const Real size : {Real(MIN_SIZE), Real(MAX_SIZE)})
-        for (const char* kind : {"sphere", "cylinder", "torus", "disc", "cone"}) {
+        for (const char* kind : {"sphere", "cylinder", "torus", "disc", "cone", "box"}) {
             Object object = Sample{kind, number(size), number(size), 0}.make();
             check(object->resample(Real(4), makeEngine) && object->seeds() >= 4, "%s of size %d: no seeds", kind, floorToInt(size));
         }

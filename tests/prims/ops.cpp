@@ -95,7 +95,6 @@ void testMoves(const Sample& sample)
 void testScaling(const Sample& sample)
 {
     const char* name = sample.kind;
-    const bool tapers = std::string(name) == "cone";
     Object object = sample.make();
     object->resample(Real(2), makeEngine);
     object->moveTo(toReal({5, 6, 7}));
@@ -130,9 +129,7 @@ void testScaling(const Sample& sample)
     for (int i = 0; i < 20000; ++i)
         object->scale(real(i % 2 ? 1.2 : 1 / 1.2));
     object->scale(real(whole / number(object->size())));
-    const double measure = std::string(name) == "sphere" ? 0 : sample.measure;
-    const double reach = std::string(name) == "cylinder" || tapers ? measure / 2 : measure;
-    check(std::fabs(number(object->coreReach()) - reach * number(object->size()) / whole) < 0.005,
+    check(std::fabs(number(object->coreReach()) - sample.reach() * number(object->size()) / whole) < 0.005,
           "%s: the core is %g long", name, number(object->coreReach()));
     check(offPaths(*object) < 0.002, "%s, scaled often: paths off by %g", name, offPaths(*object));
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "math/alloc.h"
+#include "model/box.h"
 #include "model/cone.h"
 #include "model/cylinder.h"
 #include "model/disc.h"
@@ -48,10 +49,13 @@ typedef std::unique_ptr<SoftObject, Destroy> Object;
 // object's own space, for an object as made.
 struct Sample {
     const char* kind;
-    double size, size2, measure;  // size2: cones only; measure: length, ring or radius of the disc
+    double size, size2, measure;  // size2: cones only; measure: length, ring, radius of the disc, or the first edge of a box
+    double y = 0, z = 0;          // a box's other edges
 
     Object make(int number = 1) const;
     double param(Vec p) const;
+    // How far the core reaches.
+    double reach() const;
     std::string name() const;
 };
 

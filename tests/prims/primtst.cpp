@@ -41,6 +41,8 @@ Object Sample::make(int number) const
         return Object(::make<Torus>(number, real(size), real(measure)));
     if (k == "disc")
         return Object(::make<Disc>(number, real(size), real(measure)));
+    if (k == "box")
+        return Object(::make<Box>(number, real(size), real(measure), real(y), real(z)));
     return Object(::make<Cone>(number, real(size), real(size2), real(measure)));
 }
 
@@ -59,8 +61,19 @@ double Sample::param(Vec p) const
     } else if (k == "disc") {
         const double beyond = std::fmax(across - measure, 0);
         square = p.y * p.y + beyond * beyond;
+    } else if (k == "box") {
+        const Vec beyond{std::fmax(std::fabs(p.x) - measure / 2, 0), std::fmax(std::fabs(p.y) - y / 2, 0), std::fmax(std::fabs(p.z) - z / 2, 0)};
+        square = dot(beyond, beyond);
     }
     return square / (local * local);
+}
+
+double Sample::reach() const
+{
+    const std::string k = kind;
+    if (k == "box")
+        return ::size(Vec{measure, y, z}) / 2;
+    return k == "sphere" ? 0 : k == "cylinder" || k == "cone" ? measure / 2 : measure;
 }
 
 std::string Sample::name() const
@@ -70,6 +83,8 @@ std::string Sample::name() const
         std::snprintf(text, sizeof text, "sphere %g", size);
     else if (std::string(kind) == "cone")
         std::snprintf(text, sizeof text, "cone %g %g %g", size, size2, measure);
+    else if (std::string(kind) == "box")
+        std::snprintf(text, sizeof text, "box %g %g %g %g", size, measure, y, z);
     else
         std::snprintf(text, sizeof text, "%s %g %g", kind, size, measure);
     return text;
@@ -77,6 +92,7 @@ std::string Sample::name() const
 
 const std::vector<Sample> FEW = {
     {"sphere", 20, 0, 0}, {"cylinder", 16, 0, 30}, {"torus", 16, 0, 18}, {"disc", 14, 0, 15}, {"cone", 22, 10, 24},
+    {"box", 14, 0, 24, 16, 12},
 };
 
 const std::vector<Sample> MANY = {
@@ -85,6 +101,9 @@ const std::vector<Sample> MANY = {
     {"torus", 16, 0, 18},    {"torus", 20, 0, 12.5},  {"torus", 12, 0, 40},
     {"disc", 14, 0, 15},     {"disc", 20, 0, 0},      {"disc", 10, 0, 30},      {"disc", 30, 0, 4},
     {"cone", 22, 10, 24},    {"cone", 12, 30, 20},    {"cone", 20, 20, 20},     {"cone", 30, 12, 9},
+    {"box", 14, 0, 24, 16, 12},  {"box", 8, 0, 30, 30, 30}, {"box", 24, 0, 40, 5, 9},   {"box", 20, 0, 0, 0, 0},
+    {"box", 16, 0, 0, 30, 20},   {"box", 16, 0, 30, 0, 20}, {"box", 16, 0, 0, 0, 40},   {"box", 12, 0, 100, 3, 1},
+    {"box", 10, 0, 7, 60, 11},
 };
 
 int main(int count, char** arguments)

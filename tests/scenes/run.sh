@@ -93,7 +93,7 @@ for seed in $(seq 30); do
 	if build/demo /X /N:1 "/M:$dir/r.fb" >"$dir/out" 2>&1; then good; else bad "random scene $seed: $(head -n 1 "$dir/out")"; fi
 done
 # All that scene makers write is among them: every kind and every motion, groups, weights below and above 1.
-for word in '^sphere' '^cylinder' '^torus' '^disc' '^cone' '^group' ' in g' '^circle' '^path' '^spin' '^swing' '^pulse' \
+for word in '^sphere' '^cylinder' '^torus' '^disc' '^cone' '^box' '^group' ' in g' '^circle' '^path' '^spin' '^swing' '^pulse' \
 	'^key .* angle' '^key .* scale' '^blend all$' '^blend o[0-9]* o[0-9]*$' '^blend o.* 0\.[1-9]$' '^blend o.* [1-4]\.[0-9]$'; do
 	if grep -q -- "$word" "$dir/all.fb"; then good; else bad "mkscene: thirty scenes without $word"; fi
 done
@@ -116,7 +116,7 @@ refused() {
 refused "missing file" "$dir/none.fb: no such file or directory" "/M:$dir/none.fb"
 refused "directory" "$dir: access denied" "/M:$dir"
 printf 'sphere a size 20\nsphere b size 20\nspere c size 20\n' >"$dir/bad.fb"
-refused "bad line" "$dir/bad.fb:3: 'spere': expected sphere, cylinder, torus, disc, cone, group, blend, circle, path, spin, swing, pulse, keys, key, eye, focal, light or title" "/M:$dir/bad.fb"
+refused "bad line" "$dir/bad.fb:3: 'spere': expected sphere, cylinder, torus, disc, cone, box, group, blend, circle, path, spin, swing, pulse, keys, key, eye, focal, light or title" "/M:$dir/bad.fb"
 : >"$dir/empty.fb"
 refused "empty file" "$dir/empty.fb:1: 'end of file': expected at least one object" "/M:$dir/empty.fb"
 head -c 3000 build/demo >"$dir/binary.fb"

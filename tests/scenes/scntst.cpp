@@ -458,7 +458,7 @@ void links()
 void complaints()
 {
     const char* const statements =
-        "sphere, cylinder, torus, disc, cone, group, blend, circle, path, spin, swing, pulse, keys, key, eye, focal, light or title";
+        "sphere, cylinder, torus, disc, cone, box, group, blend, circle, path, spin, swing, pulse, keys, key, eye, focal, light or title";
     refused("spere a size 3", std::string("T.FB:1: 'spere': expected ") + statements);
     refused(S + "\n# x\n7\n", std::string("T.FB:4: '7': expected ") + statements);
     refused("", "T.FB:1: 'end of file': expected at least one object");
@@ -477,6 +477,9 @@ void complaints()
     refused("torus a size 20 ring 12", "T.FB:1: 'a': expected a ring of at least five eighths of the size");
     refused("cone a size 50 tip 10 length 19",
             "T.FB:1: 'a': expected a length of at least half the difference of size and tip");
+    refused("box a size 9 x 4 y 5", "T.FB:1: end of line: expected z");
+    refused("box a size 9 x 4 y 101 z 3", "T.FB:1: '101': expected y from 0 to 100");
+    refused("box a size 9 x 4 length 5", "T.FB:1: 'length': expected size, x, y, z, at, turn, colour, repeat, step or in");
     refused("group g colour 1 2 3", "T.FB:1: 'colour': expected at, turn, scale, repeat, step or in");
     refused("sphere a size 9 at 1 2", "T.FB:1: end of line: expected a place, z from -250 to 250");
     refused("sphere a size 9 at 1 251 2", "T.FB:1: '251': expected a place, y from -250 to 250");

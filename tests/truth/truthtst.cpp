@@ -328,6 +328,8 @@ static void others() {
   } rows[] = {
       {"cone 1 -9 2 3 18 14 5 -7 18\n", "cylinder 1 -9 2 3 14 5 -7 18\n", "cone of even size"},
       {"disc 1 3 2 -4 0 1 0 0 30\n", "sphere 1 3 2 -4 30\n", "disc of no radius"},
+      {"box 1 3 2 -4 1 0 0 0 1 0 0 0 0 30\n", "sphere 1 3 2 -4 30\n", "box of no edges"},
+      {"box 1 2.5 3.5 -2 23 3 -10 0 1 0 25.2586619 0 0 18\n", "cylinder 1 -9 2 3 14 5 -7 18\n", "box of one edge"},
       {"torus 1 3 2 -4 1 1 0 0 30\n", "sphere 1 3 2 -4 30\n", "torus of no radius"},
   };
   for (auto &row : rows) {
@@ -515,6 +517,8 @@ static void walks() {
   againstWalk(scene("torus 1 0 0 0 0 0.2 1 18 10\ncone 2 -18 0 0 14 22 9 -9 5\nsphere 3 18 0 0 18\nblend 1 2 2\n"
                     "blend 1 3 0.7\n"), "torus, cone and ball in a chain", 9);
   againstWalk(scene("torus 1 0 0 0 0.3 0.5 1 18 14\nsphere 2 10 5 -3 22\nblend 1 2\n"), "torus and ball", 9);
+  againstWalk(scene("box 1 -8 2 0 3 1 2 -1 4 0 22 9 14 12\nsphere 2 10 4 -6 22\nbox 3 -14 -16 4 1 0 0 0 1 1 12 0 18 14\n"
+                    "blend 1 2\nblend 1 3 0.6\n"), "boxes and ball", 9);
   againstWalk(scene("disc 1 0 -8 0 0 1 0.2 18 12\ncone 2 0 -8 0 16 4 22 -5 8\nblend 1 2\n"), "disc and cone", 9);
 }
 

@@ -4,6 +4,7 @@
 #define FB_TEST_TRUTH_H
 
 #include "help.h"
+#include "model/box.h"
 #include "model/cone.h"
 #include "model/cylinder.h"
 #include "model/disc.h"
@@ -14,6 +15,8 @@
 struct Core {
     Vec centre, axis;  // the core lies along or about the axis
     double size, half = 0, ring = 0, disc = -1, tip = -1;
+    bool box = false;
+    Vec side{0, 0, 0}, edges{0, 0, 0};  // a box: its x axis, and half its edges
 
     double param(const Vec& p) const
     {
@@ -25,7 +28,12 @@ struct Core {
             return (away * away + (y - on) * (y - on)) / (local * local);
         }
         double d2;
-        if (ring > 0) {
+        if (box) {
+            const Vec ahead{side.y * axis.z - side.z * axis.y, side.z * axis.x - side.x * axis.z, side.x * axis.y - side.y * axis.x};
+            const double x = dot(v, side), z = dot(v, ahead);
+            const Vec over{x - std::clamp(x, -edges.x, edges.x), y - std::clamp(y, -edges.y, edges.y), z - std::clamp(z, -edges.z, edges.z)};
+            d2 = dot(over, over);
+        } else if (ring > 0) {
             d2 = (away - ring) * (away - ring) + y * y;
         } else if (disc >= 0) {
             const double over = std::fmax(0, away - disc);
@@ -57,6 +65,10 @@ inline Core coreOf(const SoftObject& object, const Kind* kind)
         core.half = reach;
         core.size = number(cone.size1());
         core.tip = number(cone.size2());
+    } else if (kind == kindNamed("box")) {
+        core.box = true;
+        core.side = vec(Vector{m.m[0][0], m.m[1][0], m.m[2][0]});
+        core.edges = vec(static_cast<const Box&>(object).half());
     }
     return core;
 }

@@ -1,0 +1,28 @@
+// The soft box: its core is a solid box, so its surface is a box with round edges and corners (the "offset surfaces from
+// polygons" of the report's Appendix C, for a polyhedron).
+#ifndef FB_BOX_H
+#define FB_BOX_H
+
+#include "model/softobj.h"
+
+class Box : public SoftObject {
+public:
+    // The core's edges are `x`, `y` and `z` units long, along the object's own axes, its middle in the centre (0 and more;
+    // less is taken as 0: a plate, a segment or a point is a core too). The surface lies size / 2 beyond it.
+    Box(int number, Real size, Real x, Real y, Real z);
+
+    Vector fromCore(const Vector& q) const override;
+    void layOutSeeds(SeedMaker& maker, Real spacing) const override;
+    Real horizonRadius(const Vector& toEye) const override;
+    Real horizonAt(const Vector& root, Real general) const override;
+    void describe(char* to, int size) const override;
+
+    // Half the lengths of the core's edges.
+    Vector half() const { return {grown(halfMade_.x), grown(halfMade_.y), grown(halfMade_.z)}; }
+
+private:
+    Vector halfMade_;  // as made: scaling never adds up errors
+    Vector half16_;    // in core space
+};
+
+#endif
