@@ -9,10 +9,8 @@
 
 // Depth steps (1/128 unit) from pixel to pixel; a surface seen more edge-on than this is taken as this steep.
 constexpr int32_t STEEPEST = 400;
-// Width and height of a scale, together, up to which no corner leaves the 16 bits of a depth while its middle is in the
-// table's range; and the widest that there is a loop for.
-constexpr int SLOPED_MOST = 24;
-constexpr int WIDEST = 16;
+// The widest and highest scale that there is a loop for.
+constexpr int LARGEST = 40;
 
 // Modulo 2^32, as the processor does it: no place or tilt whatever does harm.
 constexpr int32_t wrappedSum(int32_t a, int32_t b)
@@ -47,6 +45,15 @@ inline int32_t endOf(const Voxel& v, int32_t z)
 inline int32_t shadeStep(int slope, int32_t factor)
 {
     return wrappedProduct(slope, factor) >> 10;
+}
+
+// Whether all depths of a scale fit the Z-buffer: from its first pixel on, which lies `z` away, they change by `across` up to
+// the last column and by `down` up to the last row.
+inline bool depthsFit(int32_t z, int32_t across, int32_t down)
+{
+    const uint32_t end = Z_EMPTY;
+    return static_cast<uint32_t>(z) < end && static_cast<uint32_t>(z + across) < end && static_cast<uint32_t>(z + down) < end &&
+           static_cast<uint32_t>(z + across + down) < end;
 }
 
 // What a depth makes of lengths.
@@ -92,7 +99,8 @@ inline void limitTilts(Lens* lens)
 extern "C" {
 
 // Draws up to `count` voxels, in their order, and returns how many were dealt with. It stops at a voxel that is not its
-// business: one out of the table's depths, not wholly on the screen, larger than SLOPED_MOST or WIDEST there, or cut.
+// business: one out of the table's depths, not wholly on the screen, larger than LARGEST there, or so large and so tilted that
+// a depth would leave its 16 bits.
 int drawScalesC(Lens* lens, const Voxel* const* voxels, int count);
 #if FB_ASM
 int drawScalesA(Lens* lens, const Voxel* const* voxels, int count);
