@@ -37,6 +37,8 @@
 #define FACTOR_SIZE 16
 #define LENS_NEAR  76
 #define LENS_FAR   432
+#define LENS_NEXT  1
+#define FACTOR_MOST 0xffff
 #define LENS_STEPS ((LENS_FAR - LENS_NEAR) * 8)
 #define STEEPEST   400
 #define LARGEST    40
@@ -51,7 +53,7 @@
 #define KIND_WIDE  16
 #define KIND_ROWS  24
 #define KIND_SHIFT 6
-// Behind the kinds of the table: what is cut, or is larger.
+// Behind the kinds of the table: what is cut, larger, or nearer.
 #define LARGE_KIND (2*KIND_ROWS)
 
 // A copy of the lens on the stack, and what else has no register.
@@ -71,24 +73,27 @@
 #define EMPTY      52
 #define TILT_ADD   56
 #define TILT_BITS  60
-#define LENS_WORDS 16
-#define LIST       64                   /* the voxel's place in the list, counted in bytes from the end: below 0 */
-#define END        68
-#define DEPTH      72                   /* 1/128 unit beyond the nearest of the table */
-#define NOT_LEFT   76                   /* ~left: it is what shortens the arithmetic */
-#define BOTTOM     80
-#define KIND       84                   /* rows - 1, and the first row of the kind in the table */
-#define ZMOST      88
-#define FROM_COLUMN 92                  /* the way from the first pixel's middle to the scale's, to the left and down */
-#define FROM_ROW   96
-#define ROW        100
-#define WIDE       104                  /* of what is cut or large: columns - 1, rows - 1 (and then those to go), */
-#define HIGH       108
-#define ENTRY      112                  /* where in the code a row begins, */
-#define CUT        116                  /* and the function that cuts: at the first pixel, from pixel to pixel and row to row */
-#define CUT_STEP   120
-#define CUT_ROW    124
-#define LOCALS     128
+#define FOCALX     64
+#define FOCALY     68
+#define LENS_WORDS 18
+#define LIST       72                   /* the voxel's place in the list, counted in bytes from the end: below 0 */
+#define END        76
+#define DEPTH      80                   /* 1/128 unit beyond the nearest of the table */
+#define NOT_LEFT   84                   /* ~left: it is what shortens the arithmetic */
+#define BOTTOM     88
+#define KIND       92                   /* rows - 1, and the first row of the kind in the table */
+#define ZMOST      96
+#define FROM_COLUMN 100                 /* the way from the first pixel's middle to the scale's, to the left and down */
+#define FROM_ROW   104
+#define ROW        108
+#define WIDE       112                  /* of what is cut or large: columns - 1, rows - 1 (and then those to go), */
+#define HIGH       116
+#define ENTRY      120                  /* where in the code a row begins, */
+#define CUT        124                  /* and the function that cuts: at the first pixel, from pixel to pixel and row to row */
+#define CUT_STEP   128
+#define CUT_ROW    132
+#define NEAR       136                  /* struct Factors of what is nearer than the table */
+#define LOCALS     152
 
         .text
 
@@ -111,7 +116,7 @@
 // columns a row costs one addition more and nothing is counted: the table has an entry into the code for each width and
 // height, from which on as many rows follow as are to be drawn. Larger scales go row by row.
 //
-// Those that are cut, or larger than the table, enter each row at as many columns before its end as they are wide. Of the
+// Those that are cut, larger or nearer than the tables enter each row at as many columns before its end as they are wide. Of the
 // first edx has what cuts, which costs 2 instructions a pixel more; 3 are all for a pixel that is cut off.
 
         .balign 16
@@ -135,6 +140,46 @@
         jns     leave_at
         shll    $2, %edx
         movl    %edx, LIST(%esp)
+
+        .macro  COVER_COLUMNS near
+        // column = centreX + ((lens->x + v.x) * f.x >> 8);  halfWide = wide * f.x >> 8
+        imull   FACTOR_X(%ebp), %ebx
+        jo      leave
+        sarl    $8, %ebx
+        imull   FACTOR_X(%ebp), %edi
+        addl    CENTREX(%esp), %ebx
+        sarl    $8, %edi
+        movl    %ebx, %ecx
+        // left = (column - halfWide) >> 12;  right = (column + halfWide) >> 12
+        subl    %edi, %ecx
+        addl    %ebx, %edi
+        sarl    $12, %ecx
+        sarl    $12, %edi
+        // if (left < lens->left) ..;  if (right > lens->right) ..
+        cmpl    BOX_LEFT(%esp), %ecx
+        jl      grow_left\near
+left_grown\near:
+        cmpl    BOX_RIGHT(%esp), %edi
+        jg      grow_right\near
+right_grown\near:
+        notl    %ecx
+        addl    %ecx, %edi              // wide - 1 = right + ~left
+        movl    %ecx, NOT_LEFT(%esp)
+        .endm
+
+        // The rectangle lies on the screen, so what is not on it is found here.
+        .macro  GROW_COLUMNS near
+grow_left\near:
+        testl   %ecx, %ecx
+        js      leave
+        movl    %ecx, BOX_LEFT(%esp)
+        jmp     left_grown\near
+grow_right\near:
+        cmpl    $SCREEN_WIDTH, %edi
+        jg      leave
+        movl    %edi, BOX_RIGHT(%esp)
+        jmp     right_grown\near
+        .endm
 
         .macro  COVER_ROWS large
         // row = centreY - ((lens->y + v.y) * f.y >> 8);  halfHigh = high * f.y >> 8
@@ -169,7 +214,6 @@ bottom_grown\large:
         shll    $12, %edx
         .endm
 
-        // The rectangle lies on the screen, so what is not on it is found here.
         .macro  GROW_ROWS large
 grow_top\large:
         testl   %edx, %edx
@@ -188,7 +232,7 @@ voxel_loop:
         movl    END(%esp), %eax
         movl    LIST(%esp), %edx
         movl    (%eax,%edx), %esi
-        // depth = lens->z + v.z;  step = (depth >> 5) - LENS_NEAR * 8;  if (step >= LENS_STEPS) break
+        // depth = lens->z + v.z;  f = factorsOf(lens, depth):  step = (depth >> 5) - LENS_NEAR * 8;  if (step < LENS_STEPS) ..
         movl    VOXEL_Z(%esi), %ebp
         movl    VOXEL_X(%esi), %ebx
         addl    LENS_Z(%esp), %ebp
@@ -196,34 +240,12 @@ voxel_loop:
         shrl    $1, %ebp
         movswl  VOXEL_WIDE(%esi), %edi
         cmpl    $LENS_STEPS*FACTOR_SIZE, %ebp
-        jae     leave
+        jae     near
         movl    %ebp, DEPTH(%esp)
         andl    $-FACTOR_SIZE, %ebp
         addl    FACTORS(%esp), %ebp
-        // column = centreX + ((lens->x + v.x) * f.x >> 8);  halfWide = wide * f.x >> 8
-        imull   FACTOR_X(%ebp), %ebx
-        jo      leave
-        sarl    $8, %ebx
-        imull   FACTOR_X(%ebp), %edi
-        addl    CENTREX(%esp), %ebx
-        sarl    $8, %edi
-        movl    %ebx, %ecx
-        // left = (column - halfWide) >> 12;  right = (column + halfWide) >> 12
-        subl    %edi, %ecx
-        addl    %ebx, %edi
-        sarl    $12, %ecx
-        sarl    $12, %edi
-        // if (left < lens->left) ..;  if (right > lens->right) ..
-        cmpl    BOX_LEFT(%esp), %ecx
-        jl      grow_left
-left_grown:
-        cmpl    BOX_RIGHT(%esp), %edi
-        jg      grow_right
-right_grown:
-        // if (wide == 0) ..;  if (wide < 0 || wide > LARGEST) break;   wide - 1 = right + ~left
-        notl    %ecx
-        addl    %ecx, %edi
-        movl    %ecx, NOT_LEFT(%esp)
+        COVER_COLUMNS
+        // if (wide == 0) ..;  if (wide < 0 || wide > LARGEST) break
         cmpl    $KIND_WIDE, %edi
         jae     odd_width
         COVER_ROWS
@@ -542,6 +564,45 @@ special:
         movl    %eax, ZMOST(%esp)
         jmp     not_special
 
+        // if (depth < LENS_NEXT * 256 || depth >= LENS_NEAR * 256) break
+        .balign 4
+near:
+        movl    VOXEL_Z(%esi), %ecx
+        addl    LENS_Z(%esp), %ecx
+        movl    %ecx, %eax
+        addl    $LENS_NEAR*256, %ecx
+        sarl    $1, %eax
+        cmpl    $LENS_NEXT*256, %ecx
+        jl      leave
+        cmpl    $LENS_NEAR*256, %ecx
+        jge     leave
+        movl    %eax, DEPTH(%esp)
+        // near.x = focalX * 256 / depth;  near.y = focalY * 256 / depth;  if (near.x > FACTOR_MOST || ..) break
+        movl    FOCALX(%esp), %eax
+        xorl    %edx, %edx
+        shll    $8, %eax
+        divl    %ecx
+        cmpl    $FACTOR_MOST, %eax
+        ja      leave
+        movl    %eax, NEAR+FACTOR_X(%esp)
+        movl    FOCALY(%esp), %eax
+        xorl    %edx, %edx
+        shll    $8, %eax
+        divl    %ecx
+        cmpl    $FACTOR_MOST, %eax
+        ja      leave
+        movl    %eax, NEAR+FACTOR_Y(%esp)
+        // near.zx = (depth << 19) / focalX;  near.zy = (depth << 19) / focalY
+        movl    $1<<19, %eax
+        mull    %ecx
+        divl    FOCALX(%esp)
+        movl    %eax, NEAR+FACTOR_ZX(%esp)
+        movl    $1<<19, %eax
+        mull    %ecx
+        divl    FOCALY(%esp)
+        movl    %eax, NEAR+FACTOR_ZY(%esp)
+        leal    NEAR(%esp), %ebp
+        COVER_COLUMNS _near
         // if (wide == 0) ..;  if (wide < 0 || wide > LARGEST) break
 odd_width:
         cmpl    $LARGEST, %edi
@@ -612,16 +673,8 @@ no_height:
         testl   %eax, %eax
         js      empty
         jmp     leave
-grow_left:
-        testl   %ecx, %ecx
-        js      leave
-        movl    %ecx, BOX_LEFT(%esp)
-        jmp     left_grown
-grow_right:
-        cmpl    $SCREEN_WIDTH, %edi
-        jg      leave
-        movl    %edi, BOX_RIGHT(%esp)
-        jmp     right_grown
+        GROW_COLUMNS
+        GROW_COLUMNS _near
         GROW_ROWS
         GROW_ROWS _large
 steep:

@@ -19,10 +19,11 @@ int drawScalesC(Lens* lens, const Voxel* const* voxels, int count)
     for (; i < count; ++i) {
         const Voxel& v = *voxels[i];
         const int32_t depth = wrappedSum(lens->z, v.z);
-        const uint32_t step = static_cast<uint32_t>((depth >> 5) - LENS_NEAR * 8);
-        if (step >= static_cast<uint32_t>(LENS_STEPS))
+        Factors near;
+        const Factors* factors = factorsOf(*lens, depth, &near);
+        if (factors == nullptr)
             break;
-        const Factors& f = lens->factors[step];
+        const Factors& f = *factors;
         // The pixels whose centres lie in the rectangle: columns, then rows.
         int32_t column, row;
         if (__builtin_mul_overflow(wrappedSum(lens->x, v.x), f.x, &column))

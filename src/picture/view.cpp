@@ -57,6 +57,8 @@ void View::setCamera(const Camera& camera)
     lens_.factors = factors_;
     lens_.frame = frame_;
     lens_.zbuffer = zbuffer_;
+    lens_.focalX = focalX_;
+    lens_.focalY = focalY_;
     lens_.centreX = centreX_ + HALF;
     lens_.centreY = centreY_ + HALF;
     for (int i = 0; i < LENS_STEPS; ++i) {

@@ -346,9 +346,10 @@ static_assert(inasm::LENS_X == offsetof(Lens, x) && inasm::LENS_Y == offsetof(Le
               inasm::BOX_LEFT == offsetof(Lens, left) && inasm::BOX_TOP == offsetof(Lens, top) &&
               inasm::BOX_RIGHT == offsetof(Lens, right) && inasm::BOX_BOTTOM == offsetof(Lens, bottom) &&
               inasm::EMPTY == offsetof(Lens, empty) && inasm::TILT_ADD == offsetof(Lens, tiltAdd) &&
-              inasm::TILT_BITS == offsetof(Lens, tiltBits) && inasm::LENS_WORDS * 4 == sizeof(Lens), "Lens");
+              inasm::TILT_BITS == offsetof(Lens, tiltBits) && inasm::FOCALX == offsetof(Lens, focalX) &&
+              inasm::FOCALY == offsetof(Lens, focalY) && inasm::LENS_WORDS * 4 == sizeof(Lens), "Lens");
 static_assert(inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FAR == LENS_FAR &&
-              inasm::LENS_STEPS == LENS_STEPS && inasm::STEEPEST == STEEPEST && inasm::LARGEST == LARGEST &&
+              inasm::LENS_STEPS == LENS_STEPS && inasm::STEEPEST == STEEPEST && inasm::LARGEST == LARGEST && inasm::LENS_NEXT == LENS_NEXT && inasm::FACTOR_MOST == FACTOR_MOST &&
               inasm::Z_EMPTY == Z_EMPTY && inasm::SCREEN_WIDTH == WIDE && inasm::SCREEN_HEIGHT == HIGH, "constants");
 
 // No depth of a scale of its table leaves 16 bits: a pixel's middle lies in the rectangle, so no farther from the scale's
@@ -399,6 +400,9 @@ void anyOptics()
         f.zx = static_cast<int32_t>(any() >> below(32));
         f.zy = static_cast<int32_t>(any() >> below(32));
     }
+    // No smaller than those that are nearer.
+    optics.factors[0].zx = static_cast<int32_t>(LENS_NEAR * 32768 / optics.focalX) + 1;
+    optics.factors[0].zy = static_cast<int32_t>(LENS_NEAR * 32768 / optics.focalY) + 1;
 }
 
 // Any number, small ones as often as large ones.
@@ -414,6 +418,8 @@ Voxel anyVoxel(const Lens& lens)
     int32_t z = LENS_NEAR * 256 + below((LENS_FAR - LENS_NEAR) * 256);
     if (below(16) == 0)
         z = near((below(2) ? LENS_NEAR : LENS_FAR) * 256, 40);
+    if (below(8) == 0)
+        z = below(8) ? 10 * 256 + below((LENS_NEAR - 10) * 256) : below(LENS_NEAR * 256);
     double column = below(WIDE * 16) / 16.0, row = below(HIGH * 16) / 16.0;
     double wide = below(18 * 16) / 16.0, high = below(18 * 16) / 16.0;
     switch (below(8)) {
@@ -504,6 +510,8 @@ void makeLens(Fenced& c, Fenced& a, int shift)
     lens.z = below(20) ? below(65536) : anything();
     lens.ramp = optics.ramp();
     lens.factors = optics.factors;
+    lens.focalX = static_cast<int32_t>(optics.focalX * 4096);
+    lens.focalY = static_cast<int32_t>(optics.focalY * 4096);
     lens.centreX = static_cast<int32_t>(optics.centreX * 4096) + 2048;
     lens.centreY = static_cast<int32_t>(optics.centreY * 4096) + 2048;
     lens.left = below(2) ? WIDE : below(WIDE);
@@ -583,7 +591,7 @@ void voxelByVoxel(int rounds)
     prepare(0, true);
     Screen& screen = roomA.at(0);
     memset(screen.frame.data, 0, sizeof screen.frame.data);
-    long wrongPixels = 0, wrongEnds = 0, wrongShades = 0, shaded = 0, wrongDepths = 0, wrongStops = 0, wrongBoxes = 0, wrongEmpties = 0, wrongCuts = 0, cutOff = 0, cutKept = 0, deep = 0, drawn = 0, stopped = 0, empty = 0;
+    long wrongPixels = 0, wrongEnds = 0, wrongShades = 0, shaded = 0, wrongDepths = 0, wrongStops = 0, wrongBoxes = 0, wrongEmpties = 0, wrongCuts = 0, cutOff = 0, cutKept = 0, deep = 0, nearOnes = 0, drawn = 0, stopped = 0, empty = 0;
     for (int round = 0; round < rounds; ++round) {
         if (round % 16 == 0) {
             const double focal = 100 + below(300);
@@ -604,8 +612,10 @@ void voxelByVoxel(int rounds)
         const double x = wrappedSum(a.lens.x, v.x) / 256.0, y = wrappedSum(a.lens.y, v.y) / 256.0;
         const int32_t depth = wrappedSum(a.lens.z, v.z);
         const double z = depth / 256.0;
-        const bool inTable = depth >= LENS_NEAR * 256 && depth < LENS_FAR * 256;
-        if (!inTable) {
+        const double largest = z > 0 ? (optics.focalX > optics.focalY ? optics.focalX : optics.focalY) * 4096 / z : 1e9;
+        const bool inRange = depth >= LENS_NEXT * 256 && depth < LENS_FAR * 256 && (depth >= LENS_NEAR * 256 || largest < FACTOR_MOST + 1);
+        nearOnes += done != 0 && depth < LENS_NEAR * 256;
+        if (!inRange) {
             wrongStops += done != 0;
             ++stopped;
         } else {
@@ -703,7 +713,7 @@ void voxelByVoxel(int rounds)
     verdict(wrongDepths == 0, "voxels: depths as in double precision", wrongDepths);
     verdict(wrongBoxes == 0, "voxels: the rectangle holds what is drawn", wrongBoxes);
     verdict(wrongEmpties == 0, "voxels: those without a pixel are counted", wrongEmpties);
-    verdict(drawn > rounds / 3 && deep > rounds / 200 && stopped > rounds / 20 && empty > rounds / 100, "voxels: there were some of each kind", drawn);
+    verdict(drawn > rounds / 3 && deep > rounds / 200 && nearOnes > rounds / 50 && stopped > rounds / 20 && empty > rounds / 100, "voxels: there were some of each kind", drawn);
 }
 
 // Spans of any kind: none, everything, short ones at the ends.
