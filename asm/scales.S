@@ -27,6 +27,7 @@
 #define VOXEL_CUTY   23
 #define VOXEL_SLOPEX 24                 /* one word with: */
 #define VOXEL_SLOPEY 25
+#define VOXEL_CUTAT  26
 
 // struct Factors, struct Lens and the constants (include/picture/scales.h)
 #define FACTOR_X   0
@@ -36,18 +37,24 @@
 #define FACTOR_SIZE 16
 #define LENS_NEAR  76
 #define LENS_FAR   432
+#define LENS_NEXT  1
+#define FACTOR_MOST 0xffff
 #define LENS_STEPS ((LENS_FAR - LENS_NEAR) * 8)
 #define STEEPEST   400
-#define SLOPED_MOST 24
-#define WIDEST     16
+#define LARGEST    40
+#define Z_EMPTY    0xffff
 #define SCREEN_WIDTH 320
 #define SCREEN_HEIGHT 200
 
 // Rows and columns up to which a scale's pixels stand in the code one by one.
 #define UNROLLED   8
-// Of the table of ways to draw: rows of a kind of scale, and how many bits a row of the table is wide.
+// Of the table of ways to draw: columns, rows of a kind of scale, and how many bits a row of the table is wide. No scale
+// of the table has a corner so far from its middle that a depth could leave 16 bits.
+#define KIND_WIDE  16
 #define KIND_ROWS  24
 #define KIND_SHIFT 6
+// Behind the kinds of the table: what is cut, larger, or nearer.
+#define LARGE_KIND (2*KIND_ROWS)
 
 // A copy of the lens on the stack, and what else has no register.
 #define LENS_X     0
@@ -66,18 +73,27 @@
 #define EMPTY      52
 #define TILT_ADD   56
 #define TILT_BITS  60
-#define LENS_WORDS 16
-#define LIST       64                   /* the voxel's place in the list, counted in bytes from the end: below 0 */
-#define END        68
-#define DEPTH      72                   /* 1/128 unit beyond the nearest of the table */
-#define NOT_LEFT   76                   /* ~left: it is what shortens the arithmetic */
-#define BOTTOM     80
-#define KIND       84                   /* rows - 1, and the first row of the kind in the table */
-#define ZMOST      88
-#define FROM_COLUMN 92                  /* the way from the first pixel's middle to the scale's, to the left and down */
-#define FROM_ROW   96
-#define ROW        100
-#define LOCALS     104
+#define FOCALX     64
+#define FOCALY     68
+#define LENS_WORDS 18
+#define LIST       72                   /* the voxel's place in the list, counted in bytes from the end: below 0 */
+#define END        76
+#define DEPTH      80                   /* 1/128 unit beyond the nearest of the table */
+#define NOT_LEFT   84                   /* ~left: it is what shortens the arithmetic */
+#define BOTTOM     88
+#define KIND       92                   /* rows - 1, and the first row of the kind in the table */
+#define ZMOST      96
+#define FROM_COLUMN 100                 /* the way from the first pixel's middle to the scale's, to the left and down */
+#define FROM_ROW   104
+#define ROW        108
+#define WIDE       112                  /* of what is cut or large: columns - 1, rows - 1 (and then those to go), */
+#define HIGH       116
+#define ENTRY      120                  /* where in the code a row begins, */
+#define CUT        124                  /* and the function that cuts: at the first pixel, from pixel to pixel and row to row */
+#define CUT_STEP   128
+#define CUT_ROW    132
+#define NEAR       136                  /* struct Factors of what is nearer than the table */
+#define LOCALS     152
 
         .text
 
@@ -99,6 +115,9 @@
 // store), of one brightness 5. A scale that ends compares once more where it would be taken. Up to UNROLLED rows and
 // columns a row costs one addition more and nothing is counted: the table has an entry into the code for each width and
 // height, from which on as many rows follow as are to be drawn. Larger scales go row by row.
+//
+// Those that are cut, larger or nearer than the tables enter each row at as many columns before its end as they are wide. Of the
+// first edx has what cuts, which costs 2 instructions a pixel more; 3 are all for a pixel that is cut off.
 
         .balign 16
         FUNC(drawScalesA)
@@ -122,23 +141,7 @@
         shll    $2, %edx
         movl    %edx, LIST(%esp)
 
-        .balign 16
-voxel_loop:
-        movl    END(%esp), %eax
-        movl    LIST(%esp), %edx
-        movl    (%eax,%edx), %esi
-        // depth = lens->z + v.z;  step = (depth >> 5) - LENS_NEAR * 8;  if (step >= LENS_STEPS) break
-        movl    VOXEL_Z(%esi), %ebp
-        movl    VOXEL_X(%esi), %ebx
-        addl    LENS_Z(%esp), %ebp
-        addl    LENS_X(%esp), %ebx
-        shrl    $1, %ebp
-        movswl  VOXEL_WIDE(%esi), %edi
-        cmpl    $LENS_STEPS*FACTOR_SIZE, %ebp
-        jae     leave
-        movl    %ebp, DEPTH(%esp)
-        andl    $-FACTOR_SIZE, %ebp
-        addl    FACTORS(%esp), %ebp
+        .macro  COVER_COLUMNS near
         // column = centreX + ((lens->x + v.x) * f.x >> 8);  halfWide = wide * f.x >> 8
         imull   FACTOR_X(%ebp), %ebx
         jo      leave
@@ -154,17 +157,31 @@ voxel_loop:
         sarl    $12, %edi
         // if (left < lens->left) ..;  if (right > lens->right) ..
         cmpl    BOX_LEFT(%esp), %ecx
-        jl      grow_left
-left_grown:
+        jl      grow_left\near
+left_grown\near:
         cmpl    BOX_RIGHT(%esp), %edi
-        jg      grow_right
-right_grown:
-        // if (wide == 0) ..;  if (wide < 0 || wide > WIDEST) break;   wide - 1 = right + ~left
+        jg      grow_right\near
+right_grown\near:
         notl    %ecx
-        addl    %ecx, %edi
+        addl    %ecx, %edi              // wide - 1 = right + ~left
         movl    %ecx, NOT_LEFT(%esp)
-        cmpl    $WIDEST, %edi
-        jae     odd_width
+        .endm
+
+        // The rectangle lies on the screen, so what is not on it is found here.
+        .macro  GROW_COLUMNS near
+grow_left\near:
+        testl   %ecx, %ecx
+        js      leave
+        movl    %ecx, BOX_LEFT(%esp)
+        jmp     left_grown\near
+grow_right\near:
+        cmpl    $SCREEN_WIDTH, %edi
+        jg      leave
+        movl    %edi, BOX_RIGHT(%esp)
+        jmp     right_grown\near
+        .endm
+
+        .macro  COVER_ROWS large
         // row = centreY - ((lens->y + v.y) * f.y >> 8);  halfHigh = high * f.y >> 8
         movl    VOXEL_Y(%esi), %edx
         shll    $12, %ecx
@@ -186,21 +203,58 @@ right_grown:
         sarl    $12, %eax
         // if (top < lens->top) ..;  if (bottom > lens->bottom) ..
         cmpl    BOX_TOP(%esp), %edx
-        jl      grow_top
-top_grown:
+        jl      grow_top\large
+top_grown\large:
         cmpl    BOX_BOTTOM(%esp), %eax
-        jg      grow_bottom
-bottom_grown:
-        // if (high <= 0) ..;  if (wide + high > SLOPED_MOST) break;   the table does the rest of this
+        jg      grow_bottom\large
+bottom_grown\large:
         notl    %edx
         movl    %eax, BOTTOM(%esp)
         addl    %edx, %eax              // high - 1
         shll    $12, %edx
+        .endm
+
+        .macro  GROW_ROWS large
+grow_top\large:
+        testl   %edx, %edx
+        js      leave
+        movl    %edx, BOX_TOP(%esp)
+        jmp     top_grown\large
+grow_bottom\large:
+        cmpl    $SCREEN_HEIGHT, %eax
+        jg      leave
+        movl    %eax, BOX_BOTTOM(%esp)
+        jmp     bottom_grown\large
+        .endm
+
+        .balign 16
+voxel_loop:
+        movl    END(%esp), %eax
+        movl    LIST(%esp), %edx
+        movl    (%eax,%edx), %esi
+        // depth = lens->z + v.z;  f = factorsOf(lens, depth):  step = (depth >> 5) - LENS_NEAR * 8;  if (step < LENS_STEPS) ..
+        movl    VOXEL_Z(%esi), %ebp
+        movl    VOXEL_X(%esi), %ebx
+        addl    LENS_Z(%esp), %ebp
+        addl    LENS_X(%esp), %ebx
+        shrl    $1, %ebp
+        movswl  VOXEL_WIDE(%esi), %edi
+        cmpl    $LENS_STEPS*FACTOR_SIZE, %ebp
+        jae     near
+        movl    %ebp, DEPTH(%esp)
+        andl    $-FACTOR_SIZE, %ebp
+        addl    FACTORS(%esp), %ebp
+        COVER_COLUMNS
+        // if (wide == 0) ..;  if (wide < 0 || wide > LARGEST) break
+        cmpl    $KIND_WIDE, %edi
+        jae     odd_width
+        COVER_ROWS
+        // if (high <= 0) ..;  if (high > LARGEST) break
         cmpl    $KIND_ROWS, %eax
         jae     odd_height
         addl    %ebx, %edx              // -toRow = row - ((top + 1) << 12)
         movl    %eax, KIND(%esp)
-        // if ((v.cutX | v.cutY) != 0) break;  zMost = endOf(v, depth >> 1)
+        // zMost = endOf(v, depth >> 1);  if (isCut(v)) ..
         cmpl    $255, VOXEL_BRIGHT(%esi)
         ja      special
 not_special:
@@ -340,6 +394,13 @@ even:
 1:
         .endm
 
+        // if (z < depths[x] && z <= zMost && cut >= 0) ..;   the flags are those of `cut`
+        .macro  PIXEL_cut at
+        js      2f
+        PIXEL_ending \at
+2:
+        .endm
+
         // for (x = 0; x < wide; ++x, z += zStep) ..;   `at`: the pixel from edi. Behind the last one nothing is added.
         .macro  PIXELS kind wide at
         .set    at, \at
@@ -409,6 +470,69 @@ even:
         ALL_ROWS ending, ROW(%esp), \wide
         .endr
 
+        // for (x = 0; x < wide; ++x, z += zStep, cut += cutStep) ..;   edi is the pixel behind the last one of the row
+        .macro  ENTERED kind
+        .set    at, -LARGEST
+        .irp    wide, 40, 39, 38, 37, 36, 35, 34, 33, 32, 31, 30, 29, 28, 27, 26, 25, 24, 23, 22, 21, 20, 19, 18, 17, 16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1
+entered_\kind\()_\wide:
+        PIXEL_\kind at
+        .if     \wide > 1
+        addl    %ebx, %eax
+        .ifc    \kind, cut
+        addl    CUT_STEP(%esp), %edx
+        .endif
+        .endif
+        .set    at, at + 1
+        .endr
+        .endm
+
+        // if (!depthsFit(z, across * (wide - 1), down * (high - 1))) break
+        .balign 4
+large:
+        movl    %edx, ROW(%esp)
+        movswl  %bx, %ecx               // across
+        movswl  %dx, %edx               // down - across * (wide - 1)
+        imull   WIDE(%esp), %ecx
+        addl    $LENS_NEAR*128, DEPTH(%esp)
+        addl    %ecx, %edx
+        imull   HIGH(%esp), %edx
+        cmpl    $Z_EMPTY, DEPTH(%esp)
+        jae     leave
+        addl    %ecx, DEPTH(%esp)
+        cmpl    $Z_EMPTY, DEPTH(%esp)
+        jae     leave
+        addl    %edx, DEPTH(%esp)
+        cmpl    $Z_EMPTY, DEPTH(%esp)
+        jae     leave
+        subl    %ecx, DEPTH(%esp)
+        cmpl    $Z_EMPTY, DEPTH(%esp)
+        jae     leave
+        // pixels -= high * WIDTH;  depths -= high * WIDTH;   and to the end of the row
+        movl    HIGH(%esp), %ecx
+        movl    CUT(%esp), %edx
+        notl    %ecx
+        imull   $SCREEN_WIDTH, %ecx, %ecx
+        addl    WIDE(%esp), %ecx
+        addl    %ecx, %edi
+        leal    (%esi,%ecx,2), %esi
+        // for (y = high; y > 0; --y, z += zRow, cut += cutRow)
+large_row:
+        testl   %edx, %edx
+        jmp     *ENTRY(%esp)
+        .balign 4
+        ENTERED cut
+large_row_done:
+        addl    ROW(%esp), %eax
+        addl    CUT_ROW(%esp), %edx
+        addl    $2*SCREEN_WIDTH, %esi
+        addl    $SCREEN_WIDTH, %edi
+        decl    HIGH(%esp)
+        jns     large_row
+        NEXT_VOXEL
+        .balign 4
+        ENTERED ending
+        jmp     large_row_done
+
 leave:
         movl    END(%esp), %eax
         addl    LIST(%esp), %eax
@@ -432,7 +556,7 @@ leave_at:
         .balign 4
 special:
         cmpl    $0xffff, VOXEL_BRIGHT(%esi)
-        ja      leave
+        ja      cut_or_large
         movzbl  VOXEL_REACH(%esi), %eax
         movl    DEPTH(%esp), %ebx
         leal    LENS_NEAR*128(%ebx,%eax,4), %eax
@@ -440,38 +564,119 @@ special:
         movl    %eax, ZMOST(%esp)
         jmp     not_special
 
-        // Seldom
+        // if (depth < LENS_NEXT * 256 || depth >= LENS_NEAR * 256) break
+        .balign 4
+near:
+        movl    VOXEL_Z(%esi), %ecx
+        addl    LENS_Z(%esp), %ecx
+        movl    %ecx, %eax
+        addl    $LENS_NEAR*256, %ecx
+        sarl    $1, %eax
+        cmpl    $LENS_NEXT*256, %ecx
+        jl      leave
+        cmpl    $LENS_NEAR*256, %ecx
+        jge     leave
+        movl    %eax, DEPTH(%esp)
+        // near.x = focalX * 256 / depth;  near.y = focalY * 256 / depth;  if (near.x > FACTOR_MOST || ..) break
+        movl    FOCALX(%esp), %eax
+        xorl    %edx, %edx
+        shll    $8, %eax
+        divl    %ecx
+        cmpl    $FACTOR_MOST, %eax
+        ja      leave
+        movl    %eax, NEAR+FACTOR_X(%esp)
+        movl    FOCALY(%esp), %eax
+        xorl    %edx, %edx
+        shll    $8, %eax
+        divl    %ecx
+        cmpl    $FACTOR_MOST, %eax
+        ja      leave
+        movl    %eax, NEAR+FACTOR_Y(%esp)
+        // near.zx = (depth << 19) / focalX;  near.zy = (depth << 19) / focalY
+        movl    $1<<19, %eax
+        mull    %ecx
+        divl    FOCALX(%esp)
+        movl    %eax, NEAR+FACTOR_ZX(%esp)
+        movl    $1<<19, %eax
+        mull    %ecx
+        divl    FOCALY(%esp)
+        movl    %eax, NEAR+FACTOR_ZY(%esp)
+        leal    NEAR(%esp), %ebp
+        COVER_COLUMNS _near
+        // if (wide == 0) ..;  if (wide < 0 || wide > LARGEST) break
 odd_width:
+        cmpl    $LARGEST, %edi
+        jae     no_width
+        COVER_ROWS _large
+        // if (high <= 0) ..;  if (high > LARGEST) break
+odd_height:
+        cmpl    $LARGEST, %eax
+        jae     no_height
+        addl    %ebx, %edx              // -toRow = row - ((top + 1) << 12)
+        movl    %eax, KIND(%esp)
+        // zMost = endOf(v, depth >> 1)
+cut_or_large:
+        movzbl  VOXEL_REACH(%esi), %ebx
+        movl    $Z_EMPTY, ZMOST(%esp)
+        testl   %ebx, %ebx
+        jz      1f
+        shll    $2, %ebx
+        addl    DEPTH(%esp), %ebx
+        addl    $LENS_NEAR*128, %ebx
+        movl    %ebx, ZMOST(%esp)
+1:
+        movl    KIND(%esp), %eax
+        movl    %edi, WIDE(%esp)
+        movl    %eax, HIGH(%esp)
+        movl    $LARGE_KIND, KIND(%esp)
+        // if (isCut(v)) ..;   otherwise the code that the row is entered at has nothing to do with what cuts
+        movl    entered_ending(,%edi,4), %eax
+        cmpw    $0, VOXEL_CUTX(%esi)    // both
+        je      2f
+        // cutAcross = cutX * f.zx >> 10;  cutDown = -(cutY * f.zy >> 10);   ebx has -cutDown
+        movsbl  VOXEL_CUTX(%esi), %eax
+        movsbl  VOXEL_CUTY(%esi), %ebx
+        imull   FACTOR_ZX(%ebp), %eax
+        imull   FACTOR_ZY(%ebp), %ebx
+        sarl    $10, %eax
+        sarl    $10, %ebx
+        movl    %eax, CUT_STEP(%esp)
+        movl    %ebx, CUT_ROW(%esp)
+        // cut = cutAt * 32 + ((cutAcross * toColumn + cutDown * toRow) >> 12)
+        imull   %ecx, %eax
+        imull   %edx, %ebx
+        subl    %eax, %ebx
+        movswl  VOXEL_CUTAT(%esi), %eax
+        sarl    $12, %ebx
+        shll    $5, %eax
+        addl    %eax, %ebx
+        movl    %ebx, CUT(%esp)
+        // cutRow = cutDown - cutAcross * (wide - 1)
+        movl    CUT_STEP(%esp), %eax
+        imull   %edi, %eax
+        addl    CUT_ROW(%esp), %eax
+        negl    %eax
+        movl    %eax, CUT_ROW(%esp)
+        movl    entered_cut(,%edi,4), %eax
+2:
+        movl    %eax, ENTRY(%esp)
+        jmp     not_special
+
+        // Seldom
+no_width:
         cmpl    $-1, %edi
         jne     leave
 empty:
         incl    EMPTY(%esp)
         NEXT_VOXEL
-odd_height:
+no_height:
         testl   %eax, %eax
         js      empty
         jmp     leave
-        // The rectangle lies on the screen, so what is not on it is found here.
-grow_left:
-        testl   %ecx, %ecx
-        js      leave
-        movl    %ecx, BOX_LEFT(%esp)
-        jmp     left_grown
-grow_right:
-        cmpl    $SCREEN_WIDTH, %edi
-        jg      leave
-        movl    %edi, BOX_RIGHT(%esp)
-        jmp     right_grown
-grow_top:
-        testl   %edx, %edx
-        js      leave
-        movl    %edx, BOX_TOP(%esp)
-        jmp     top_grown
-grow_bottom:
-        cmpl    $SCREEN_HEIGHT, %eax
-        jg      leave
-        movl    %eax, BOX_BOTTOM(%esp)
-        jmp     bottom_grown
+        GROW_COLUMNS
+        GROW_COLUMNS _near
+        GROW_ROWS
+        GROW_ROWS _large
 steep:
         imull   FACTOR_ZY(%ebp), %eax
         .irp    step, %ebx, %eax
@@ -488,11 +693,10 @@ steep:
         jmp     steps_limited
         ENDFUNC(drawScalesA)
 
-        // Where the code for each kind, height and width begins. The kind that ends comes behind the shaded one (KIND).
+        // Where the code for each kind, height and width begins. The kind that ends comes behind the shaded one, what
+        // is cut or large behind that (KIND).
         .macro  WAY kind high wide
-        .if     \wide + \high > SLOPED_MOST
-        .long   leave
-        .elseif \wide > UNROLLED || \high > UNROLLED
+        .if     \wide > UNROLLED || \high > UNROLLED
         .long   \kind\()_\wide
         .else
         .long   \kind\()_\wide\()_\high
@@ -514,5 +718,20 @@ even_ways:
 shaded_ways:
         WAYS    shaded
         WAYS    ending
+        .rept   LARGEST
+        .long   large
+        .endr
+
+        // Where in the code a row of each width begins.
+        .macro  ENTRIES kind
+        .irp    wide, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40
+        .long   entered_\kind\()_\wide
+        .endr
+        .endm
+
+entered_cut:
+        ENTRIES cut
+entered_ending:
+        ENTRIES ending
 
 ASM_END

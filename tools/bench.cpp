@@ -42,7 +42,8 @@ void tell()
 int benchPixels(const Lens& lens, const Voxel& v)
 {
     const int32_t depth = lens.z + v.z;
-    const Factors& f = lens.factors[(depth >> 5) - LENS_NEAR * 8];
+    Factors near;
+    const Factors& f = *factorsOf(lens, depth, &near);
     const int32_t column = lens.centreX + ((lens.x + v.x) * f.x >> 8), row = lens.centreY - ((lens.y + v.y) * f.y >> 8);
     const int32_t halfWide = v.wide * f.x >> 8, halfHigh = v.high * f.y >> 8;
     const int wide = ((column + halfWide) >> 12) - ((column - halfWide) >> 12);

@@ -4,15 +4,14 @@
 #ifndef FB_SCALES_H
 #define FB_SCALES_H
 
+#include "math/wide.h"
 #include "picture/blit.h"
 #include "surface/voxel.h"
 
 // Depth steps (1/128 unit) from pixel to pixel; a surface seen more edge-on than this is taken as this steep.
 constexpr int32_t STEEPEST = 400;
-// Width and height of a scale, together, up to which no corner leaves the 16 bits of a depth while its middle is in the
-// table's range; and the widest that there is a loop for.
-constexpr int SLOPED_MOST = 24;
-constexpr int WIDEST = 16;
+// The widest and highest scale that there is a loop for.
+constexpr int LARGEST = 40;
 
 // Modulo 2^32, as the processor does it: no place or tilt whatever does harm.
 constexpr int32_t wrappedSum(int32_t a, int32_t b)
@@ -49,6 +48,15 @@ inline int32_t shadeStep(int slope, int32_t factor)
     return wrappedProduct(slope, factor) >> 10;
 }
 
+// Whether all depths of a scale fit the Z-buffer: from its first pixel on, which lies `z` away, they change by `across` up to
+// the last column and by `down` up to the last row.
+inline bool depthsFit(int32_t z, int32_t across, int32_t down)
+{
+    const uint32_t end = Z_EMPTY;
+    return static_cast<uint32_t>(z) < end && static_cast<uint32_t>(z + across) < end && static_cast<uint32_t>(z + down) < end &&
+           static_cast<uint32_t>(z + across + down) < end;
+}
+
 // What a depth makes of lengths.
 struct Factors {
     int32_t x, y;    // focal 2^12 / z: 1/256 unit to 1/2^20 pixel
@@ -69,7 +77,26 @@ struct Lens {
                                        // the screen, so what does not make it larger needs no test for the screen's edges
     int32_t empty;                     // in and out: counts voxels that cover no pixel's centre, and so are not drawn
     uint32_t tiltAdd, tiltBits;        // limitTilts()
+    int32_t focalX, focalY;            // pixels with 12 bits of fraction, 64 to 500 pixels
 };
+
+// The factors of a depth nearer than the table, computed: such scales are few, and large. False: they are too large for the
+// products of the loop. A table's zx and zy are larger than these, so limitTilts() holds for them too.
+constexpr int LENS_NEXT = 1;
+constexpr int32_t FACTOR_MOST = 0xffff;
+inline bool nearFactors(const Lens& lens, int32_t depth, Factors* near)
+{
+    if (depth < LENS_NEXT * 256 || depth >= LENS_NEAR * 256)
+        return false;
+    near->x = lens.focalX * 256 / depth;
+    near->y = lens.focalY * 256 / depth;
+    if (near->x > FACTOR_MOST || near->y > FACTOR_MOST)
+        return false;
+    const uint32_t z = static_cast<uint32_t>(depth);
+    near->zx = static_cast<int32_t>(wide::mulDiv(z, 1 << 19, static_cast<uint32_t>(lens.focalX)));
+    near->zy = static_cast<int32_t>(wide::mulDiv(z, 1 << 19, static_cast<uint32_t>(lens.focalY)));
+    return true;
+}
 
 // Finds out, once for a table, which tilts need no test for STEEPEST: where tiltX and tiltY as one double word, plus
 // tiltAdd, have none of tiltBits, both lie in -TILT - 1 .. TILT, and no factor of the table makes more of that.
@@ -89,10 +116,20 @@ inline void limitTilts(Lens* lens)
     lens->tiltBits = tilt == 0 ? 0xffffffff : ~((2 * tilt - 1) * 0x10001);
 }
 
+// The factors for a depth, `near` for those that are computed. Null: there are none.
+inline const Factors* factorsOf(const Lens& lens, int32_t depth, Factors* near)
+{
+    const uint32_t step = static_cast<uint32_t>((depth >> 5) - LENS_NEAR * 8);
+    if (step < static_cast<uint32_t>(LENS_STEPS))
+        return lens.factors + step;
+    return nearFactors(lens, depth, near) ? near : nullptr;
+}
+
 extern "C" {
 
 // Draws up to `count` voxels, in their order, and returns how many were dealt with. It stops at a voxel that is not its
-// business: one out of the table's depths, not wholly on the screen, larger than SLOPED_MOST or WIDEST there, or cut.
+// business: one behind the table's depths or all too near, not wholly on the screen, larger than LARGEST there, or so large and so tilted that
+// a depth would leave its 16 bits.
 int drawScalesC(Lens* lens, const Voxel* const* voxels, int count);
 #if FB_ASM
 int drawScalesA(Lens* lens, const Voxel* const* voxels, int count);

@@ -28,26 +28,51 @@ void blitScalesC(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int cou
     }
 }
 
+namespace {
+
+// A row of a scale from column -wide to before 0: `both` has the depth, and above it the brightness with 8 bits of fraction.
+template <bool CUT>
+inline void fineRow(const FineScale& scale, uint8_t* pixels, uint16_t* depths, uint32_t both, uint32_t step, uint32_t most,
+                    uint32_t cut)
+{
+    for (int x = -scale.wide; x != 0; ++x) {
+        const uint32_t z = static_cast<uint16_t>(both);
+        if (z < depths[x] && z <= most && (!CUT || static_cast<int32_t>(cut) >= 0)) {
+            depths[x] = static_cast<uint16_t>(z);
+            pixels[x] = scale.ramp[static_cast<int32_t>(both) >> 24];
+        }
+        both += step;
+        if (CUT)
+            cut += static_cast<uint32_t>(scale.cutStep);
+    }
+}
+
+// Depths stay within their 16 bits at each pixel, so one addition changes both.
+inline uint32_t together(int32_t z, int32_t shade)
+{
+    return static_cast<uint32_t>(z) + (static_cast<uint32_t>(shade) << 16);
+}
+
+}  // namespace
+
 void blitFine(uint8_t* frame, uint16_t* zbuffer, const FineScale& scale)
 {
-    const int start = scale.top * WIDTH + scale.left;
-    uint8_t* pixels = frame + start;
-    uint16_t* depths = zbuffer + start;
-    uint32_t z = static_cast<uint32_t>(scale.z), shade = static_cast<uint32_t>(scale.shade);
-    uint32_t cut = static_cast<uint32_t>(scale.cut);
+    const int end = scale.top * WIDTH + scale.left + scale.wide;
+    uint8_t* pixels = frame + end;
+    uint16_t* depths = zbuffer + end;
+    const uint32_t wide = static_cast<uint32_t>(scale.wide);
+    const uint32_t step = together(scale.zStep, scale.shadeStep), down = together(scale.zRow, scale.shadeRow) + step * wide;
+    const uint32_t cutDown = static_cast<uint32_t>(scale.cutRow) + static_cast<uint32_t>(scale.cutStep) * wide;
+    const uint32_t most = scale.zMost > Z_EMPTY ? Z_EMPTY : static_cast<uint32_t>(scale.zMost);
+    const bool isCut = (scale.cut | scale.cutStep | scale.cutRow) != 0;
+    uint32_t both = together(scale.z, scale.shade), cut = static_cast<uint32_t>(scale.cut);
     for (int y = scale.high; y > 0; --y) {
-        for (int x = 0; x < scale.wide; ++x) {
-            if (static_cast<uint16_t>(z) < depths[x] && static_cast<int32_t>(z) <= scale.zMost && static_cast<int32_t>(cut) >= 0) {
-                depths[x] = static_cast<uint16_t>(z);
-                pixels[x] = scale.ramp[static_cast<int8_t>(shade >> 8)];
-            }
-            z += static_cast<uint32_t>(scale.zStep);
-            shade += static_cast<uint32_t>(scale.shadeStep);
-            cut += static_cast<uint32_t>(scale.cutStep);
-        }
-        z += static_cast<uint32_t>(scale.zRow);
-        shade += static_cast<uint32_t>(scale.shadeRow);
-        cut += static_cast<uint32_t>(scale.cutRow);
+        if (isCut)
+            fineRow<true>(scale, pixels, depths, both, step, most, cut);
+        else
+            fineRow<false>(scale, pixels, depths, both, step, most, 0);
+        both += down;
+        cut += cutDown;
         pixels += WIDTH;
         depths += WIDTH;
     }

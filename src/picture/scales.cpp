@@ -19,10 +19,11 @@ int drawScalesC(Lens* lens, const Voxel* const* voxels, int count)
     for (; i < count; ++i) {
         const Voxel& v = *voxels[i];
         const int32_t depth = wrappedSum(lens->z, v.z);
-        const uint32_t step = static_cast<uint32_t>((depth >> 5) - LENS_NEAR * 8);
-        if (step >= static_cast<uint32_t>(LENS_STEPS))
+        Factors near;
+        const Factors* factors = factorsOf(*lens, depth, &near);
+        if (factors == nullptr)
             break;
-        const Factors& f = lens->factors[step];
+        const Factors& f = *factors;
         // The pixels whose centres lie in the rectangle: columns, then rows.
         int32_t column, row;
         if (__builtin_mul_overflow(wrappedSum(lens->x, v.x), f.x, &column))
@@ -44,7 +45,7 @@ int drawScalesC(Lens* lens, const Voxel* const* voxels, int count)
             ++lens->empty;
             continue;
         }
-        if (wide < 0 || wide > WIDEST || __builtin_mul_overflow(wrappedSum(lens->y, v.y), f.y, &row))
+        if (wide < 0 || wide > LARGEST || __builtin_mul_overflow(wrappedSum(lens->y, v.y), f.y, &row))
             break;
         row = lens->centreY - (row >> 8);
         const int32_t halfHigh = v.high * f.y >> 8;
@@ -63,7 +64,7 @@ int drawScalesC(Lens* lens, const Voxel* const* voxels, int count)
             ++lens->empty;
             continue;
         }
-        if (wide + high > SLOPED_MOST || isCut(v))
+        if (high > LARGEST)
             break;
         // The plane of the surface: from the scale's middle to the middle of its first pixel, and on from there.
         const int32_t across = limited(wrappedProduct(v.tiltX, f.zx) >> 16);
@@ -77,6 +78,8 @@ int drawScalesC(Lens* lens, const Voxel* const* voxels, int count)
         scale.z = (depth >> 1) + ((across * toColumn + down * toRow) >> 12);
         scale.zStep = across;
         scale.zRow = down - across * wide;
+        if (!depthsFit(scale.z, across * (wide - 1), down * (high - 1)))
+            break;
         if (!isFine(v)) {
             scale.colour = lens->ramp[v.brightness];
             blitScalesC(lens->frame, lens->zbuffer, &scale, 1);
@@ -89,7 +92,11 @@ int drawScalesC(Lens* lens, const Voxel* const* voxels, int count)
         scale.shade = v.brightness * 256 + 128 + (toFirst >> 12);
         scale.shadeStep = shadeAcross;
         scale.shadeRow = wrappedSum(shadeDown, -wrappedProduct(shadeAcross, wide));
-        scale.cut = scale.cutStep = scale.cutRow = 0;
+        const int32_t cutAcross = shadeStep(v.cutX, f.zx), cutDown = -shadeStep(v.cutY, f.zy);
+        const int32_t cutToFirst = wrappedSum(wrappedProduct(cutAcross, toColumn), wrappedProduct(cutDown, toRow));
+        scale.cut = isCut(v) ? v.cutAt * 32 + (cutToFirst >> 12) : 0;
+        scale.cutStep = cutAcross;
+        scale.cutRow = wrappedSum(cutDown, -wrappedProduct(cutAcross, wide));
         blitFine(lens->frame, lens->zbuffer, scale);
     }
     return i;

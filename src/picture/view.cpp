@@ -21,9 +21,6 @@ constexpr int32_t HALF = 1 << (FRACTION - 1);
 constexpr int32_t NEAREST = 1 << 8;            // 1 unit
 constexpr int32_t FARTHEST = 511 << 8;         // z in 1/128 unit ends at 512
 
-// A sloped scale of the loop stays within 16 bits: its corners lie less than SLOPED_MOST steps from its middle.
-static_assert(LENS_NEAR * 128 >= SLOPED_MOST * STEEPEST && LENS_FAR * 128 + SLOPED_MOST * STEEPEST < Z_EMPTY, "depths");
-
 }  // namespace
 
 View::~View()
@@ -60,6 +57,8 @@ void View::setCamera(const Camera& camera)
     lens_.factors = factors_;
     lens_.frame = frame_;
     lens_.zbuffer = zbuffer_;
+    lens_.focalX = focalX_;
+    lens_.focalY = focalY_;
     lens_.centreX = centreX_ + HALF;
     lens_.centreY = centreY_ + HALF;
     for (int i = 0; i < LENS_STEPS; ++i) {

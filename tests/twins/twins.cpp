@@ -335,7 +335,7 @@ static_assert(inasm::VOXEL_X == offsetof(Voxel, x) && inasm::VOXEL_Y == offsetof
               inasm::VOXEL_CUTX == offsetof(Voxel, cutX) && inasm::VOXEL_CUTX == inasm::VOXEL_BRIGHT + 2 &&
               inasm::VOXEL_CUTY == offsetof(Voxel, cutY) && inasm::VOXEL_CUTY == inasm::VOXEL_BRIGHT + 3 &&
               inasm::VOXEL_SLOPEX == offsetof(Voxel, slopeX) && inasm::VOXEL_SLOPEY == inasm::VOXEL_SLOPEX + 1 &&
-              inasm::VOXEL_SLOPEY == offsetof(Voxel, slopeY), "Voxel");
+              inasm::VOXEL_SLOPEY == offsetof(Voxel, slopeY) && inasm::VOXEL_CUTAT == offsetof(Voxel, cutAt), "Voxel");
 static_assert(inasm::FACTOR_X == offsetof(Factors, x) && inasm::FACTOR_Y == offsetof(Factors, y) &&
               inasm::FACTOR_ZX == offsetof(Factors, zx) && inasm::FACTOR_ZY == offsetof(Factors, zy) &&
               inasm::FACTOR_SIZE == sizeof(Factors), "Factors");
@@ -346,10 +346,16 @@ static_assert(inasm::LENS_X == offsetof(Lens, x) && inasm::LENS_Y == offsetof(Le
               inasm::BOX_LEFT == offsetof(Lens, left) && inasm::BOX_TOP == offsetof(Lens, top) &&
               inasm::BOX_RIGHT == offsetof(Lens, right) && inasm::BOX_BOTTOM == offsetof(Lens, bottom) &&
               inasm::EMPTY == offsetof(Lens, empty) && inasm::TILT_ADD == offsetof(Lens, tiltAdd) &&
-              inasm::TILT_BITS == offsetof(Lens, tiltBits) && inasm::LENS_WORDS * 4 == sizeof(Lens), "Lens");
+              inasm::TILT_BITS == offsetof(Lens, tiltBits) && inasm::FOCALX == offsetof(Lens, focalX) &&
+              inasm::FOCALY == offsetof(Lens, focalY) && inasm::LENS_WORDS * 4 == sizeof(Lens), "Lens");
 static_assert(inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FAR == LENS_FAR &&
-              inasm::LENS_STEPS == LENS_STEPS && inasm::STEEPEST == STEEPEST && inasm::SLOPED_MOST == SLOPED_MOST &&
-              inasm::WIDEST == WIDEST && inasm::SCREEN_WIDTH == WIDE && inasm::SCREEN_HEIGHT == HIGH, "constants");
+              inasm::LENS_STEPS == LENS_STEPS && inasm::STEEPEST == STEEPEST && inasm::LARGEST == LARGEST && inasm::LENS_NEXT == LENS_NEXT && inasm::FACTOR_MOST == FACTOR_MOST &&
+              inasm::Z_EMPTY == Z_EMPTY && inasm::SCREEN_WIDTH == WIDE && inasm::SCREEN_HEIGHT == HIGH, "constants");
+
+// No depth of a scale of its table leaves 16 bits: a pixel's middle lies in the rectangle, so no farther from the scale's
+// than half a pixel more than half the pixels; and one step for what is rounded.
+constexpr int STEPS_MOST = (inasm::KIND_WIDE + 1 + inasm::KIND_ROWS + 1) / 2 * STEEPEST + 1;
+static_assert(LENS_NEAR * 128 >= STEPS_MOST && LENS_FAR * 128 + STEPS_MOST < Z_EMPTY, "depths");
 
 long voxelsTried = 0, voxelsDrawn = 0;
 
@@ -394,6 +400,9 @@ void anyOptics()
         f.zx = static_cast<int32_t>(any() >> below(32));
         f.zy = static_cast<int32_t>(any() >> below(32));
     }
+    // No smaller than those that are nearer.
+    optics.factors[0].zx = static_cast<int32_t>(LENS_NEAR * 32768 / optics.focalX) + 1;
+    optics.factors[0].zy = static_cast<int32_t>(LENS_NEAR * 32768 / optics.focalY) + 1;
 }
 
 // Any number, small ones as often as large ones.
@@ -409,15 +418,26 @@ Voxel anyVoxel(const Lens& lens)
     int32_t z = LENS_NEAR * 256 + below((LENS_FAR - LENS_NEAR) * 256);
     if (below(16) == 0)
         z = near((below(2) ? LENS_NEAR : LENS_FAR) * 256, 40);
+    if (below(8) == 0)
+        z = below(8) ? 10 * 256 + below((LENS_NEAR - 10) * 256) : below(LENS_NEAR * 256);
     double column = below(WIDE * 16) / 16.0, row = below(HIGH * 16) / 16.0;
     double wide = below(18 * 16) / 16.0, high = below(18 * 16) / 16.0;
     switch (below(8)) {
     case 0: wide = below(32) / 16.0; break;
     case 1: high = below(32) / 16.0; break;
-    case 2: wide = WIDEST + (below(33) - 16) / 8.0, high = below(12); break;
-    case 3: high = SLOPED_MOST - wide + (below(33) - 16) / 8.0; break;
+    case 2: wide = inasm::KIND_WIDE + (below(33) - 16) / 8.0, high = below(12); break;
+    case 3: high = inasm::KIND_ROWS + (below(33) - 16) / 8.0; break;
+    case 5: wide = below((LARGEST + 2) * 16) / 16.0, high = below((LARGEST + 2) * 16) / 16.0; break;
+    case 6: (below(2) ? wide : high) = LARGEST + (below(33) - 16) / 8.0; break;
     case 4: wide = below(8), high = below(3) ? below(8) : below(30); break;
     default: break;
+    }
+    // So large and so steep, at an end of the table, that a corner may leave 16 bits.
+    const bool steep = below(10) == 0;
+    if (steep) {
+        z = (below(2) ? LENS_NEAR * 256 + below(24 * 256) : LENS_FAR * 256 - 1 - below(24 * 256));
+        wide = 20 + below(20 * 16) / 16.0, high = 20 + below(20 * 16) / 16.0;
+        column = LARGEST + below(WIDE - 2 * LARGEST), row = LARGEST + below(HIGH - 2 * LARGEST);
     }
     if (below(8) == 0)
         column = (below(2) ? wide / 2 : WIDE - wide / 2) + (below(33) - 16) / 8.0;
@@ -433,6 +453,10 @@ Voxel anyVoxel(const Lens& lens)
     v.high = extent(high / 2 * z / optics.focalY);
     v.tiltX = static_cast<int16_t>(below(3) == 0 ? anything() : below(1201) - 600);
     v.tiltY = static_cast<int16_t>(below(3) == 0 ? anything() : below(1201) - 600);
+    if (steep) {
+        v.tiltX = static_cast<int16_t>((below(2) ? 1 : -1) * below(4000));
+        v.tiltY = static_cast<int16_t>((below(2) ? 1 : -1) * below(4000));
+    }
     v.brightness = static_cast<uint8_t>(below(64));
     v.reach = static_cast<uint8_t>(below(2) ? 0 : any() >> (24 + below(6)));
     v.slopeX = v.slopeY = 0;
@@ -441,9 +465,14 @@ Voxel anyVoxel(const Lens& lens)
         v.slopeY = static_cast<int8_t>(any());
     }
     v.cutX = v.cutY = 0;
-    if (below(50) == 0) {
-        v.cutX = static_cast<int8_t>(any() >> below(32));
-        v.cutY = static_cast<int8_t>(any() >> below(32));
+    v.cutAt = static_cast<int16_t>(anything());
+    if (below(4) == 0) {
+        v.cutX = static_cast<int8_t>(anything());
+        v.cutY = static_cast<int8_t>(anything());
+        // Often so that the line lies within the scale.
+        const int corner = (v.cutX < 0 ? -v.cutX : v.cutX) * v.wide / 256 + (v.cutY < 0 ? -v.cutY : v.cutY) * v.high / 256;
+        if (below(8) && corner < 16000)
+            v.cutAt = static_cast<int16_t>(below(2 * corner + 1) - corner);
     }
     switch (below(50)) {
     case 0: v.x = anything(); break;
@@ -453,7 +482,7 @@ Voxel anyVoxel(const Lens& lens)
     case 4: v.high = static_cast<int16_t>(anything()); break;
     case 5: v.wide = 0; break;
     case 6: v.high = 0; break;
-    case 7: v.brightness = static_cast<uint8_t>(any() & (isFine(v) ? 127 : 255)); break;
+    case 7: v.brightness = static_cast<uint8_t>(any() & 127); break;
     case 8: v.tiltX = static_cast<int16_t>(32767 * (below(2) ? 1 : -1)); break;
     case 9: v.tiltY = static_cast<int16_t>(32767 * (below(2) ? 1 : -1)); break;
     default: break;
@@ -481,6 +510,8 @@ void makeLens(Fenced& c, Fenced& a, int shift)
     lens.z = below(20) ? below(65536) : anything();
     lens.ramp = optics.ramp();
     lens.factors = optics.factors;
+    lens.focalX = static_cast<int32_t>(optics.focalX * 4096);
+    lens.focalY = static_cast<int32_t>(optics.focalY * 4096);
     lens.centreX = static_cast<int32_t>(optics.centreX * 4096) + 2048;
     lens.centreY = static_cast<int32_t>(optics.centreY * 4096) + 2048;
     lens.left = below(2) ? WIDE : below(WIDE);
@@ -560,7 +591,7 @@ void voxelByVoxel(int rounds)
     prepare(0, true);
     Screen& screen = roomA.at(0);
     memset(screen.frame.data, 0, sizeof screen.frame.data);
-    long wrongPixels = 0, wrongEnds = 0, wrongShades = 0, shaded = 0, wrongDepths = 0, wrongStops = 0, wrongBoxes = 0, wrongEmpties = 0, drawn = 0, stopped = 0, empty = 0;
+    long wrongPixels = 0, wrongEnds = 0, wrongShades = 0, shaded = 0, wrongDepths = 0, wrongStops = 0, wrongBoxes = 0, wrongEmpties = 0, wrongCuts = 0, cutOff = 0, cutKept = 0, deep = 0, nearOnes = 0, drawn = 0, stopped = 0, empty = 0;
     for (int round = 0; round < rounds; ++round) {
         if (round % 16 == 0) {
             const double focal = 100 + below(300);
@@ -581,8 +612,10 @@ void voxelByVoxel(int rounds)
         const double x = wrappedSum(a.lens.x, v.x) / 256.0, y = wrappedSum(a.lens.y, v.y) / 256.0;
         const int32_t depth = wrappedSum(a.lens.z, v.z);
         const double z = depth / 256.0;
-        const bool inTable = depth >= LENS_NEAR * 256 && depth < LENS_FAR * 256;
-        if (!inTable) {
+        const double largest = z > 0 ? (optics.focalX > optics.focalY ? optics.focalX : optics.focalY) * 4096 / z : 1e9;
+        const bool inRange = depth >= LENS_NEXT * 256 && depth < LENS_FAR * 256 && (depth >= LENS_NEAR * 256 || largest < FACTOR_MOST + 1);
+        nearOnes += done != 0 && depth < LENS_NEAR * 256;
+        if (!inRange) {
             wrongStops += done != 0;
             ++stopped;
         } else {
@@ -601,12 +634,23 @@ void voxelByVoxel(int rounds)
             const bool surelyOff = mostLeft < 0 || leastRight > WIDE || mostTop < 0 || leastBottom > HIGH;
             const long mostWide = mostRight - leastLeft, mostHigh = mostBottom - leastTop;
             const long leastWide = leastRight - mostLeft, leastHigh = leastBottom - mostTop;
-            const bool surelySmall = mostWide <= WIDEST && mostWide + mostHigh <= SLOPED_MOST;
-            const bool surelyLarge = leastWide > WIDEST || (leastWide > 0 && leastHigh > 0 && leastWide + leastHigh > SLOPED_MOST);
-            const bool sound = v.wide >= 0 && v.high >= 0;
+            // Steps are whole 1/128 units, and no more than STEEPEST.
+            const auto limited = [](double s) { return s > STEEPEST ? STEEPEST : s < -STEEPEST ? -STEEPEST : s; };
+            const double across = limited(v.tiltX / 256.0 * z * 128 / optics.focalX),
+                         down = limited(v.tiltY / 256.0 * z * 128 / optics.focalY);
+            // How far the depth swings from the middle to a corner's pixel, at most; tilts beyond 16 may not fit the product.
             const bool tilted = most(v.tiltX, v.tiltY) <= 16 * 256;
-            wrongStops += sound && (done == 0 ? surelyOn && surelySmall && !isCut(v) : (surelyOff && a.lens.empty == 0) || surelyLarge);
-            wrongStops += done != 0 && a.lens.empty == 0 && isCut(v);
+            const double stepX = tilted ? most(across, 0) * 1.001 + 1 : STEEPEST, stepY = tilted ? most(down, 0) * 1.001 + 1 : STEEPEST;
+            const double swing = stepX * halfWide + stepY * halfHigh + doubtX * stepX + doubtY * stepY + 2;
+            const bool surelyDeep = z * 128 - swing >= 0 && z * 128 + swing < Z_EMPTY;
+            const double leastSwing = most(across, 0) * 0.998 * (halfWide - 1 - doubtX) + most(down, 0) * 0.998 * (halfHigh - 1 - doubtY) -
+                                      leastWide - leastHigh - 2;
+            const bool surelyNotDeep = tilted && leastWide > 0 && leastHigh > 0 && (z * 128 - leastSwing < 0 || z * 128 + leastSwing > Z_EMPTY);
+            const bool surelySmall = mostWide <= LARGEST && mostHigh <= LARGEST && surelyDeep;
+            const bool surelyLarge = leastWide > LARGEST || (leastWide > 0 && leastHigh > LARGEST) || surelyNotDeep;
+            deep += surelyOn && mostWide <= LARGEST && mostHigh <= LARGEST && surelyNotDeep;
+            const bool sound = v.wide >= 0 && v.high >= 0;
+            wrongStops += sound && (done == 0 ? surelyOn && surelySmall : (surelyOff && a.lens.empty == 0) || surelyLarge);
             stopped += done == 0;
             empty += a.lens.empty;
             wrongEmpties += sound && a.lens.empty != 0 && (done == 0 || a.lens.empty != 1 || (leastWide > 0 && leastHigh > 0));
@@ -617,16 +661,23 @@ void voxelByVoxel(int rounds)
                     const bool taken = screen.depth.data[at] != Z_EMPTY;
                     const bool sure = px >= mostLeft && px < leastRight && py >= mostTop && py < leastBottom;
                     const bool may = px >= leastLeft && px < mostRight && py >= leastTop && py < mostBottom;
-                    // Steps are whole 1/128 units, and no more than STEEPEST.
-                    const auto limited = [](double s) { return s > STEEPEST ? STEEPEST : s < -STEEPEST ? -STEEPEST : s; };
-                    const double across = limited(v.tiltX / 256.0 * z * 128 / optics.focalX),
-                                 down = limited(v.tiltY / 256.0 * z * 128 / optics.focalY);
                     const double dx = px + 0.5 - column, dy = py + 0.5 - row;
                     const double expected = z * 128 + across * dx - down * dy;
                     const double doubt = 2 + most(dx, 0) * (1 + 0.001 * most(across, 0)) + most(dy, 0) * (1 + 0.001 * most(down, 0)) +
                                          (mostWide + mostHigh) + doubtX * most(across, 0) + doubtY * most(down, 0);
                     // Tilts are within 16; more may not fit the product.
                     const double end = v.reach != 0 && tilted ? z * 128 + v.reach * 4 : 1e9;
+                    // What cuts, and how sure it is: its steps are as those of the brightness.
+                    const double cut = isCut(v) ? v.cutAt / 8.0 + (v.cutX * dx / optics.focalX - v.cutY * dy / optics.focalY) * z / 8 : 0;
+                    const double cutDoubt = isCut(v) ? 0.01 + (most(dx, 0) + most(dy, 0)) / 256 + 0.0021 * (most(v.cutX, 0) + most(v.cutY, 0)) / 8 *
+                                                          (most(dx, dy) + 8 * (doubtX + doubtY) / 0.01) * z / optics.focalX : 0;
+                    cutOff += !taken && sure && done == 1 && cut < -cutDoubt;
+                    cutKept += taken && isCut(v);
+                    if (!taken && cut < cutDoubt && isCut(v)) {
+                        wrongPixels += screen.frame.data[at] != 0;
+                        continue;
+                    }
+                    wrongCuts += taken && cut < -cutDoubt;
                     if (!taken) {
                         wrongPixels += screen.frame.data[at] != 0 || (sure && done == 1 && expected + doubt < end && (tilted || v.reach == 0));
                         continue;
@@ -650,18 +701,19 @@ void voxelByVoxel(int rounds)
                     screen.frame.data[at] = 0;
                 }
             drawn += pixels > 0;
-            wrongEmpties += sound && done == 1 && v.reach == 0 && (pixels == 0) != (a.lens.empty == 1);
+            wrongEmpties += sound && done == 1 && v.reach == 0 && !isCut(v) && (pixels == 0) != (a.lens.empty == 1);
         }
         ++voxelsTried;
     }
     verdict(wrongStops == 0, "voxels: ordinary ones are drawn, others are left", wrongStops);
     verdict(wrongPixels == 0, "voxels: pixels as in double precision", wrongPixels);
     verdict(wrongEnds == 0, "voxels: nothing behind where they end", wrongEnds);
+    verdict(wrongCuts == 0 && cutOff > rounds && cutKept > rounds, "voxels: cut as in double precision", wrongCuts);
     verdict(wrongShades == 0 && shaded > rounds, "voxels: brightness as in double precision", wrongShades);
     verdict(wrongDepths == 0, "voxels: depths as in double precision", wrongDepths);
     verdict(wrongBoxes == 0, "voxels: the rectangle holds what is drawn", wrongBoxes);
     verdict(wrongEmpties == 0, "voxels: those without a pixel are counted", wrongEmpties);
-    verdict(drawn > rounds / 3 && stopped > rounds / 20 && empty > rounds / 100, "voxels: there were some of each kind", drawn);
+    verdict(drawn > rounds / 3 && deep > rounds / 200 && nearOnes > rounds / 50 && stopped > rounds / 20 && empty > rounds / 100, "voxels: there were some of each kind", drawn);
 }
 
 // Spans of any kind: none, everything, short ones at the ends.
