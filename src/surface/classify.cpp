@@ -151,7 +151,11 @@ void makePatches(const SoftObject& object, Patch* patches)
 
 bool restsAway(const Patch& patch, const OwnFrame& own)
 {
-    const int32_t doubt = ((own.distance32 >> 1) * patch.spread >> 14) + patch.radius;
+    // The eye is no farther from the patch than this.
+    const int32_t aside = (patch.middle[0] < 0 ? -patch.middle[0] : patch.middle[0]) +
+                          (patch.middle[1] < 0 ? -patch.middle[1] : patch.middle[1]) +
+                          (patch.middle[2] < 0 ? -patch.middle[2] : patch.middle[2]);
+    const int32_t doubt = (((own.distance32 >> 1) + aside) * patch.spread >> 14) + patch.radius;
     return facing(patch, toEyeFrom(above(patch, 0), own)) < -doubt;
 }
 

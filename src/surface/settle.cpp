@@ -409,7 +409,7 @@ Real Settler::settle(Seed& s)
     const Normal n = normalise(outward(position));
     s.normal = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
     s.brightness8 = brightness8(s.normal, own_.light);
-    s.still = static_cast<uint8_t>(!still ? 0 : s.still == 0 ? 1 : 3);
+    s.still = still;
     s.flags |= SEED_VALID;
     if (sample.dominance > -BORDER) {
         s.flags |= SEED_BORDER;
@@ -487,16 +487,20 @@ void Settler::settleRest(Patch& patch)
             // It has slept: it is likely to be where the one in the middle is.
             s.position = centre.position;
             s.flags = SEED_VALID;
-        } else if (waits(s, someAway) || (!(s.flags & SEED_VALID) && blocked(patch, s, DEEP)))
+        } else if (waits(s, someAway)) {
+            s.brightness8 = brightness8(s.normal, own_.light);
             return;
+        } else if (!(s.flags & SEED_VALID) && blocked(patch, s, DEEP)) {
+            return;
+        }
         settle(s);
         if (!(s.flags & SEED_VALID))
             patch.blocker = static_cast<uint8_t>(strongest());
     });
 }
 
-// Coherence over time: a seed that has not moved is looked at in every second frame only, and in every fourth when it has not
-// moved twice; so is one that faces away a little or well.
+// Coherence over time: a seed that did not move when it was looked at waits for a frame, and so does one that faces away a
+// little; one that faces well away waits for three.
 bool Settler::waits(const Seed& s, bool someAway) const
 {
     if ((s.flags & (SEED_VALID | SEED_RESTING)) != SEED_VALID || bodies_.hurried())
@@ -556,10 +560,10 @@ void rest(SoftObject& object, const Patch& patch, const OwnFrame& own)
     forSeeds(patch, [&](int i) {
         Seed& s = object.seed(i);
         object.seed(i + 1).flags = 0;
-        if (s.flags == (SEED_VALID | SEED_RESTING))
-            return;
-        s.position = Real(1);
-        s.normal = object.restNormal(s);
+        if (s.flags != (SEED_VALID | SEED_RESTING)) {
+            s.position = Real(1);
+            s.normal = object.restNormal(s);
+        }
         s.brightness8 = brightness8(s.normal, own.light);
         s.flags = SEED_VALID | SEED_RESTING;
     });
