@@ -22,6 +22,8 @@ constexpr Real FIRST(0.7), LAST(1.98), SEARCH_STEP(0.16);
 // Of the field: a seed that is this far inside where it was nearest to the surface is still inside a frame later; and
 // a valley this shallow above the isovalue is looked into.
 constexpr Real DEEP(0.06), VALLEY(0.12);
+// Position at which two objects that part are seen to do so first.
+constexpr Real OPENING(1.15);
 // Of the field: a neighbour that is weaker than the own by less is near.
 constexpr Real BORDER(0.25);
 // What a field changes by at most over its size.
@@ -392,7 +394,11 @@ Real Settler::settle(Seed& s)
     s.flags &= SEED_ACTIVE;
     Real position = s.position;
     if (!wasValid && !bodies_.leapt()) {
-        const Real margin = most(sample.excess, sample.dominance - OVERSHOOT);
+        Real margin = most(sample.excess, sample.dominance - OVERSHOOT);
+        if (margin > DEEP) {
+            const Sample opening = look(OPENING);
+            margin = least(margin, most(opening.excess, opening.dominance - OVERSHOOT));
+        }
         if (margin > DEEP)
             return margin;
     }
@@ -434,13 +440,16 @@ bool Settler::blocked(const Patch& patch, const Seed& s, Real margin)
     FromRoot& from = from_[i];
     if (from.root != s.root)
         setRoot(neighbours_[i], s, from);
-    const Real p = s.position, b = shiftDown(dot(s.path, from.twice16), 4);
-    const Real param = from.a + p * (b + p * from.c);
-    if (param >= Real(0.6))
-        return false;
-    const Real own = geoffQuick(least(shiftDown(p * p, 2), Real(0.999))).value;
-    const Real field = geoffQuick(most(param, Real(0))).value;
-    return field - own > OVERSHOOT + margin || (complete_ && own + field > ISOVALUE + margin);
+    const Real b = shiftDown(dot(s.path, from.twice16), 4);
+    const auto insideAt = [&](Real p) {
+        const Real param = from.a + p * (b + p * from.c);
+        if (param >= Real(0.6))
+            return false;
+        const Real own = geoffQuick(least(shiftDown(p * p, 2), Real(0.999))).value;
+        const Real field = geoffQuick(most(param, Real(0))).value;
+        return field - own > OVERSHOOT + margin || (complete_ && own + field > ISOVALUE + margin);
+    };
+    return insideAt(s.position) && insideAt(OPENING);
 }
 
 bool Settler::stillInside(const Patch& patch)
