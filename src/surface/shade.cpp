@@ -52,6 +52,9 @@ constexpr int32_t UNEVEN = 4329;
 // By how much scales of two objects overlap at their border, 1/256 unit.
 constexpr int32_t BORDER_MARGIN = 40;
 
+// Depth, 1/32 unit, before which the whole of a cell is covered: so near the viewer a ring is no straight band in the picture.
+constexpr int32_t WHOLE_BEFORE = 64 * 32;
+
 // No depth changes more than this across a scale, 8 bits of fraction.
 constexpr int32_t STEEPEST_TILT = 20000;
 
@@ -74,6 +77,7 @@ struct Cell {
 // What a scale is besides its place.
 struct Scale {
     int32_t facing;        // the seed's normal times the vector to the eye, 1/32 unit
+    int32_t depth;         // of the seed along the viewing axis, 1/32 unit
     int32_t tiltX, tiltY;  // as those of its voxel
     int32_t wide, high;
 };
@@ -243,6 +247,7 @@ inline bool Shader<TURNED>::place(const Seed& s, Scale& scale, Voxel* voxel) con
     voxel->cutAt = 0;
     voxel->brightness = static_cast<uint8_t>((s.brightness8 + 128) >> 8);
     scale.facing = facing;
+    scale.depth = depth;
     scale.tiltX = tiltX;
     scale.tiltY = tiltY;
     return true;
@@ -468,7 +473,7 @@ inline bool Shader<TURNED>::shade(const Seed& s, bool oversampled, Voxel* voxel)
         return false;
     Cell c;
     cell<RESTING>(s, c);
-    extents(c, oversampled || c.uneven, scale, voxel);
+    extents(c, oversampled || c.uneven || scale.depth < WHOLE_BEFORE, scale, voxel);
     end(scale, voxel);
     if (!RESTING && (s.flags & SEED_BORDER) && !cut(s, scale, voxel))
         return false;
