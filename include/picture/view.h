@@ -30,6 +30,10 @@ public:
     void setPixels(bool pixels) { pixels_ = pixels; }
     bool pixels() const { return pixels_; }
 
+    // Whether large scales are placed by their exact depth, and not by the table of the loop: the report's method is compared
+    // byte for byte from version to version.
+    void setExact(bool exact) { exact_ = exact; }
+
     // Starts a frame: clears what the last one touched.
     void begin();
 
@@ -83,12 +87,14 @@ private:
         frame_[at] = frame_[from];
         zbuffer_[at] = zbuffer_[from];
     }
+    bool ordinary(const Voxel& voxel) const;
     bool project(const Voxel& voxel, FineScale* scale) const;
 
     Camera camera_;
     int32_t focalX_ = 0, focalY_ = 0, centreX_ = 0, centreY_ = 0;  // pixels, 12 bits of fraction
     Lens lens_{};
     bool pixels_ = false;
+    bool exact_ = false;
     Rectangle shown_{machine::WIDTH, machine::HEIGHT, 0, 0};
     uint8_t* frame_ = nullptr;
     uint16_t* zbuffer_ = nullptr;

@@ -55,6 +55,7 @@ const char* Demo::prepare(int* status)
     if (voxels_ == nullptr || !view_.open())
         return "not enough memory for the picture";
     view_.setCamera(model_.camera);
+    view_.setExact(options_.printed);
     palette_.make(model_, options_.grey);
     if (options_.recordFile != nullptr) {
         const char* problem = csv_.check(options_.recordFile, status);

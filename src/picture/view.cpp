@@ -184,6 +184,26 @@ bool View::project(const Voxel& voxel, FineScale* scale) const
     return true;
 }
 
+// Whether a voxel is small and neither near nor far: for these alone an exact view leaves the depth to the loop's table.
+bool View::ordinary(const Voxel& voxel) const
+{
+    constexpr int FAR = 256, WIDEST = 16, LARGEST_SUM = 24;
+    const int32_t depth = wrappedSum(lens_.z, voxel.z);
+    if (depth < LENS_NEAR * 256 || depth >= FAR * 256)
+        return false;
+    const Factors& f = factors_[(depth >> 5) - LENS_NEAR * 8];
+    int32_t column, row;
+    if (__builtin_mul_overflow(wrappedSum(lens_.x, voxel.x), f.x, &column) ||
+        __builtin_mul_overflow(wrappedSum(lens_.y, voxel.y), f.y, &row))
+        return false;
+    column = lens_.centreX + (column >> 8);
+    row = lens_.centreY - (row >> 8);
+    const int32_t halfWide = voxel.wide * f.x >> 8, halfHigh = voxel.high * f.y >> 8;
+    const int wide = ((column + halfWide) >> FRACTION) - ((column - halfWide) >> FRACTION);
+    const int high = ((row + halfHigh) >> FRACTION) - ((row - halfHigh) >> FRACTION);
+    return wide <= WIDEST && wide + high <= LARGEST_SUM;
+}
+
 int View::show(const VoxelList& list)
 {
     lens_.x = list.x;
@@ -196,8 +216,12 @@ int View::show(const VoxelList& list)
     lens_.empty = 0;
     int left = 0;  // voxels not drawn
     for (int i = 0; i < list.count; ++i) {
-        if (!pixels_)
+        if (exact_) {
+            if (!pixels_ && ordinary(*list.voxels[i]) && drawScales(&lens_, list.voxels + i, 1) == 1)
+                continue;
+        } else if (!pixels_) {
             i += drawScales(&lens_, list.voxels + i, list.count - i);
+        }
         if (i == list.count)
             break;
         const Voxel& voxel = *list.voxels[i];
