@@ -22,8 +22,9 @@ constexpr Real FIRST(0.7), LAST(1.98), SEARCH_STEP(0.16);
 // Of the field: a seed that is this far inside where it was nearest to the surface is still inside a frame later; and
 // a valley this shallow above the isovalue is looked into.
 constexpr Real DEEP(0.06), VALLEY(0.12);
-// Position at which two objects that part are seen to do so first.
-constexpr Real OPENING(1.15);
+// Positions where a path that was inside comes out first: where objects part, where one sinks into another, in a neck.
+constexpr int EXITS = 2;
+constexpr Real EXIT[EXITS] = {Real(1.15), Real(1.5)};
 // Of the field: a neighbour that is weaker than the own by less is near.
 constexpr Real BORDER(0.25);
 // What a field changes by at most over its size.
@@ -395,9 +396,9 @@ Real Settler::settle(Seed& s)
     Real position = s.position;
     if (!wasValid && !bodies_.leapt()) {
         Real margin = most(sample.excess, sample.dominance - OVERSHOOT);
-        if (margin > DEEP) {
-            const Sample opening = look(OPENING);
-            margin = least(margin, most(opening.excess, opening.dominance - OVERSHOOT));
+        for (int i = 0; margin > DEEP && i < EXITS; ++i) {
+            const Sample there = look(EXIT[i]);
+            margin = least(margin, most(there.excess, there.dominance - OVERSHOOT));
         }
         if (margin > DEEP)
             return margin;
@@ -449,7 +450,10 @@ bool Settler::blocked(const Patch& patch, const Seed& s, Real margin)
         const Real field = geoffQuick(most(param, Real(0))).value;
         return field - own > OVERSHOOT + margin || (complete_ && own + field > ISOVALUE + margin);
     };
-    return insideAt(s.position) && insideAt(OPENING);
+    bool inside = insideAt(s.position);
+    for (int i = 0; inside && i < EXITS; ++i)
+        inside = insideAt(EXIT[i]);
+    return inside;
 }
 
 bool Settler::stillInside(const Patch& patch)
