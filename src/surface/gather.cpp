@@ -5,7 +5,7 @@
 
 namespace {
 
-// The object's rotation transposed, times a vector, is what toOwnAxes() does; this is the same for a unit axis of the world.
+// A unit vector of the world in the object's own axes, 1.0 = 2^14.
 void axisInOwn(const SoftObject& object, const Vector& axis, int32_t* to)
 {
     const Vector v = object.toOwnAxes(axis);
@@ -26,10 +26,7 @@ void aim(const SoftObject& object, Neighbour& near)
     const Matrix& turn = other.turn();
     for (int i = 0; i < 3; ++i)
         near.toCore[i] = object.toOwnAxes({turn.m[0][i], turn.m[1][i], turn.m[2][i]}) * near.inverse16;
-    const Vector axis = object.toOwnAxes({turn.m[0][1], turn.m[1][1], turn.m[2][1]});
-    near.axis[0] = rawFromReal(axis.x) >> 2;
-    near.axis[1] = rawFromReal(axis.y) >> 2;
-    near.axis[2] = rawFromReal(axis.z) >> 2;
+    axisInOwn(object, {turn.m[0][1], turn.m[1][1], turn.m[2][1]}, near.axis);
     near.offset = other.toOwnAxes(object.centre() - other.centre()) * (Real(CORE_SIZE) / other.size());
 }
 
@@ -37,8 +34,6 @@ void aim(const SoftObject& object, Neighbour& near)
 
 Vector Neighbour::fromCore16(const Vector& q) const
 {
-    if (kind == POINT)
-        return (q - centre) * Real(16);
     const Vector v = object->fromCore(inCore(q) + offset);
     return v * size;  // core space has CORE_SIZE = 16 to a size
 }

@@ -46,7 +46,7 @@ struct Neighbour {
         return shiftDown(dot(v, v), 8);
     }
 
-    // The vector from its core to a place of own space, in 1/16 unit.
+    // The vector from its core to a place of own space, in 1/16 unit; no point.
     Vector fromCore16(const Vector& q) const;
 };
 

@@ -9,8 +9,6 @@ namespace {
 
 // Of the field: a seed that is this near the isovalue is on the surface.
 constexpr Real TOLERANCE(0.004);
-// Of the field: a seed that was this near the isovalue has not moved enough to be seen.
-constexpr Real STILL(0.004);
 // Of the position: after a step as short as this another look would change nothing that is seen.
 constexpr Real SHORT_STEP(0.05);
 constexpr Real LONGEST_STEP(0.25);
@@ -403,7 +401,7 @@ Real Settler::settle(Seed& s)
         if (margin > DEEP)
             return margin;
     }
-    const bool still = absolute(sample.excess) <= STILL;
+    const bool still = absolute(sample.excess) <= TOLERANCE;
     if ((!wasValid && bodies_.leapt()) || !follow(&position, &sample)) {
         const bool found = search(&position, &sample);
         s.position = position;

@@ -65,7 +65,8 @@ public:
     // Settles the other regular seeds of a patch.
     void settleRest(Patch& patch);
 
-    // Calls setPatch() by itself. Settles those oversampled seeds of a patch that are needed, when all regular ones have been; the others end.
+    // Settles those oversampled seeds of a patch that are needed, when all regular ones have been; the others end. It calls
+    // setPatch() by itself.
     void oversample(const Patch& patch);
 
 private:
