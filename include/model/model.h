@@ -30,6 +30,7 @@ struct Actor {
     Real measure[MEASURES_MOST] = {Real(0), Real(0), Real(0), Real(0)};  // as the kind has them, before any scaling
     Pose pose;                     // as Anim::move() left it
     Real made{0};                  // size() of the object before any scaling
+    Real strength{1};              // of the object
 };
 
 class Model {
@@ -50,16 +51,16 @@ public:
     // Takes over an object made with make<>(). False (and the object destroyed): no room.
     bool add(SoftObject* object, const Colour& colour, const Motion& motion);
 
-    // Adds an item as described, making its object; name, kind, measures, colour and motion are taken, the number is
-    // given here. A parent must be there already. Null: no room or no memory.
+    // Adds an item as described, making its object; name, kind, measures, strength, colour and motion are taken, the number
+    // is given here. A parent must be there already. Null: no room or no memory.
     Actor* addItem(const Actor& described);
 
     // Takes an item out of the model, and its keys. What it carried is carried by its own parent from then on: the
     // centre stays where it is now, but what the item added to its motion and its turn is gone.
     void remove(Actor* item);
 
-    // Makes the object of an item anew, after its measures were changed. False: no memory, and the object that was
-    // there stays.
+    // Makes the object of an item anew, after its measures or its strength were changed. False: no memory, and the object
+    // that was there stays.
     bool remake(Actor* item);
 
     // Takes an item's keys away.
@@ -79,6 +80,11 @@ public:
     bool linkAll(Real weight);
     // Whether `a` blends with `b`, and with which weight.
     static bool linked(const SoftObject* a, const SoftObject* b, Real* weight);
+    // Lets `b` dig into `a` with a weight. False: no memory; then it does not.
+    bool dent(SoftObject* a, SoftObject* b, Real weight);
+    void undent(SoftObject* a, SoftObject* b);
+    // Whether `b` digs into `a`, and with which weight.
+    static bool dented(const SoftObject* a, const SoftObject* b, Real* weight);
 
     // Lays out the seeds of all objects, `spacing` units apart. False: no memory; objects already done are put back to
     // the spacing they had where that is possible.
@@ -132,7 +138,7 @@ public:
 private:
     void clear();
     void recalcAll();
-    bool layOut(SoftObject* object) const;
+    SoftObject* makeObject(const Actor& item) const;
 
     Actor* actors_[OBJECTS_MOST];
     Actor* items_[OBJECTS_MOST + GROUPS_MOST];  // owned

@@ -223,7 +223,7 @@ bool SoftObject::oversample(Layout& layout, int s, int n, int rootRoom) const
         // The mean of two lengths is near: to where the field is that of the surface.
         Vector unused;
         const Real t = param((layout.roots[extra.root] + extra.path) * inverse_, &unused);
-        extra.path = extra.path * (Real(0.5) / squareRoot(t));
+        extra.path = extra.path * (restRoot_ / squareRoot(t));
     }
     for (int part = 0; part < 3; ++part) {
         extra.along[part] = static_cast<int8_t>(one.along[part] * EXTRA_CELL / 8);

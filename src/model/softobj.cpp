@@ -3,11 +3,15 @@
 
 #include "math/alloc.h"
 #include "math/text.h"
+#include "model/body.h"
 
 namespace {
 
 // Of the spacing asked for: seeds that scaling has moved farther apart or together are laid out anew.
 constexpr Real DRIFT_MAX(0.25);
+
+// Seeds rest no nearer to the core than at this param(): where an object so weak blends, its surface lies farther out.
+constexpr Real REST_LEAST(0.140625);
 
 int64_t squaredDistance(const Point& a, const Point& b)
 {
@@ -52,7 +56,8 @@ Vector withSquare(const Vector& v, const Vector& like)
 SoftObject::SoftObject(int number, Real size, Real coreReach, bool tapers)
     : number_(number), centre_{Real(0), Real(0), Real(0)}, turn_(Matrix::identity()), size_(size),
       radius_(shiftDown(size, 1)), inverse_(Real(CORE_SIZE) / size), coreReach_(coreReach),
-      sizeMade_(size), coreReachMade_(coreReach), coreReach16_(coreReach * (Real(CORE_SIZE) / size)), slot_(0), recalc_(true), tapers_(tapers),
+      sizeMade_(size), coreReachMade_(coreReach), coreReach16_(coreReach * (Real(CORE_SIZE) / size)), strength_(1),
+      restParam_(0.25), restRoot_(0.5), rests_(true), slot_(0), recalc_(true), tapers_(tapers),
       displaced_(false), spacing_(2), laidSize_(size), ramp_(nullptr), seeds_(nullptr), roots_(nullptr),
       ringStarts_(nullptr), regular_(0), extra_(0), rootCount_(0), rings_(0), surface_(nullptr), makeSurface_(nullptr)
 {
@@ -62,6 +67,10 @@ SoftObject::~SoftObject()
 {
     for (const List<Link>::Node* node = skel_.first(); node != nullptr; node = node->next)
         node->item.object->unlink(this);
+    for (const List<Link>::Node* node = dents_.first(); node != nullptr; node = node->next)
+        node->item.object->digs_.remove({this, Real(0)});
+    for (const List<Link>::Node* node = digs_.first(); node != nullptr; node = node->next)
+        node->item.object->dents_.remove({this, Real(0)});
     destroy(surface_);
     free(seeds_);
     free(roots_);
@@ -139,7 +148,7 @@ void SoftObject::setSize(Real wanted)
         return;
     tellNeighbours();
     size_ = size;
-    radius_ = shiftDown(size, 1);
+    radius_ = size * restRoot_;
     inverse_ = Real(CORE_SIZE) / size;
     coreReach_ = grown(coreReachMade_);
     if (seeds_ != nullptr) {
@@ -151,6 +160,21 @@ void SoftObject::setSize(Real wanted)
     tellNeighbours();
 }
 
+void SoftObject::setStrength(Real wanted)
+{
+    strength_ = clamp(wanted, STRENGTH_LEAST, STRENGTH_MOST);
+    // Where strength * geoff() is the isovalue: at 1/4 for 1, farther out the stronger.
+    Real inside(0), outside(1);
+    for (int i = 0; i < 20; ++i) {
+        const Real middle = shiftDown(inside + outside, 1);
+        (strength_ * geoff(middle) > ISOVALUE ? inside : outside) = middle;
+    }
+    restParam_ = strength_ == Real(1) ? Real(0.25) : most(inside, REST_LEAST);
+    restRoot_ = squareRoot(restParam_);
+    rests_ = inside >= REST_LEAST;
+    radius_ = size_ * restRoot_;
+}
+
 // "If the object is transformed, this flag is set and it will tell all its neighbors to set their recalc flags", but
 // "if an object has no displaced seeds [...] it will not tell its neighbors". Our addition: it does when it is near
 // enough to matter, so that huge jumps are safe.
@@ -160,6 +184,9 @@ void SoftObject::tellNeighbours()
         if (!node->item.object->recalc_ && (displaced_ || inRange(*node->item.object)))
             node->item.object->recalc_ = true;
     }
+    for (const List<Link>::Node* node = digs_.first(); node != nullptr; node = node->next)
+        if (inRange(*node->item.object))
+            node->item.object->recalc_ = true;
 }
 
 bool SoftObject::inRange(const SoftObject& other) const
@@ -186,6 +213,32 @@ void SoftObject::unlink(SoftObject* other)
         recalc_ = true;
 }
 
+bool SoftObject::dent(SoftObject* other, Real weight)
+{
+    recalc_ = true;
+    Link* there = dents_.find({other, Real(0)});
+    if (there != nullptr) {
+        there->weight = weight;
+        other->digs_.find({this, Real(0)})->weight = weight;
+        return true;
+    }
+    if (!dents_.append({other, weight}))
+        return false;
+    if (other->digs_.append({this, weight}))
+        return true;
+    dents_.remove({other, Real(0)});
+    return false;
+}
+
+void SoftObject::undent(SoftObject* other)
+{
+    if (!dents_.remove({other, Real(0)}))
+        return;
+    other->digs_.remove({this, Real(0)});
+    // The other may have a surface again.
+    recalc_ = other->recalc_ = true;
+}
+
 // --- The field
 
 Real SoftObject::param(const Vector& q, Vector* slope) const
@@ -207,7 +260,7 @@ Real SoftObject::fieldFunc(const Point& p) const
     const Real reach = size_ + coreReach_;
     if (absolute(v.x) >= reach || absolute(v.y) >= reach || absolute(v.z) >= reach)
         return Real(0);
-    return geoff(param(toOwnAxes(v) * inverse_, &slope));
+    return strength_ * geoff(param(toOwnAxes(v) * inverse_, &slope));
 }
 
 void SoftObject::describeAs(const char* kind, const Real* numbers, int count, char* to, int size) const
@@ -226,7 +279,8 @@ void SoftObject::update(const FrameContext& frame)
 {
     if (!recalc_)
         return;
-    surface_->update(frame);
+    if (frame.bodies->hasSurface(*this))
+        surface_->update(frame);
     recalc_ = false;
 }
 
