@@ -1,8 +1,8 @@
 // mkscene: random scenes for tests, the same one for the same seed on every machine.
 //
-//   mkscene SEED [OBJECTS]      writes a scene file to standard output
+//   mkscene SEED [OBJECTS] [dents]      writes a scene file to standard output
 //
-// Three to nine objects (or as many as asked for) of all kinds, within what the default camera sees; some in groups, most
+// With the word dents one to three objects more dig into others, and some have another strength than 1. Three to nine objects (or as many as asked for) of all kinds, within what the default camera sees; some in groups, most
 // of them moving, some turning, swinging or pulsing; linked in one of several graphs, with weights up to 4. This file
 // exists so that the picture is tried on scenes nobody chose.
 #include <algorithm>
@@ -102,10 +102,12 @@ void printLink(int i, int j) {
 }  // namespace
 
 int main(int count, char **arguments) {
+  const bool dents = count > 2 && std::string(arguments[count - 1]) == "dents";
+  if (dents) count--;
   char *end = nullptr;
   const unsigned long long seed = count > 1 ? strtoull(arguments[1], &end, 10) : 0;
   if (count < 2 || count > 3 || end == arguments[1] || *end != 0) {
-    fputs("usage: mkscene SEED [OBJECTS, 1 to 128]\n", stderr);
+    fputs("usage: mkscene SEED [OBJECTS, 1 to 128] [dents]\n", stderr);
     return 2;
   }
   state = seed;
@@ -201,6 +203,28 @@ int main(int count, char **arguments) {
         for (int j = 1; j < i; j++)
           if (once(2)) printLink(i, j);
       break;
+  }
+  if (!dents) return 0;
+  // Behind the links: `blend all` leaves out what digs. Each is near the middle of one of the others.
+  for (int i = 1; i <= objects; i++)
+    if (once(3)) printf("strength o%d %.2f\n", i, once(2) ? between(25, 95) / 100.0 : between(11, 40) / 10.0);
+  const int diggers = objects < 126 ? between(1, 3) : 0;
+  for (int d = 1; d <= diggers; d++) {
+    const int into = between(1, objects), size = between(5, 24);
+    const double x = tenths(-8, 8), y = tenths(-8, 8), z = tenths(-14, 0);
+    if (once(3)) {
+      printf("cylinder d%d size %d length %d", d, size, between(5, 30));
+    } else {
+      printf("sphere d%d size %d", d, size);
+    }
+    printf(" at %.1f %.1f %.1f in o%d\n", x, y, z, into);
+    if (once(2)) printTurning(("d" + std::to_string(d)).c_str());
+    for (int i = 1; i <= objects; i++) {
+      if (i != into && !once(3)) continue;
+      printf("dent o%d d%d", i, d);
+      if (once(2)) printf(" %.1f", between(3, 25) / 10.0);
+      printf("\n");
+    }
   }
   return 0;
 }

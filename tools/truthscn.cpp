@@ -45,6 +45,7 @@ struct Fact {
 const Fact facts[] = {
     {"time", 1, 1, true},   {"eye", 3, 3, true},       {"focal", 2, 2, true},
     {"centre", 2, 2, true}, {"light", 3, 3, true},     {"isovalue", 1, 1, false},
+    {"strength", 2, 2, false}, {"dent", 2, 3, false},
     {"blend", 2, 3, false}, {"ambient", 1, 1, false}, {"highlight", 1, 1, false},  {"ramp", 4, 4, false},
 };
 
@@ -56,7 +57,7 @@ bool parseScene(const std::string &text, const std::string &name, Scene &s, std:
     int line;
     double a, b, weight;
   };
-  std::vector<Link> links;
+  std::vector<Link> links, dents, strengths;
   std::map<int, int> index;   // object number -> index
   std::map<std::string, bool> seen;
   int lineNumber = 0;
@@ -126,15 +127,38 @@ bool parseScene(const std::string &text, const std::string &name, Scene &s, std:
     }
     if (word == "blend" && v.size() > 2 && v[2] < 0) return fail("a link's weight must not be negative");
     if (word == "blend") links.push_back({lineNumber, v[0], v[1], v.size() > 2 ? v[2] : 1});
+    if (word == "dent" && v.size() > 2 && v[2] < 0) return fail("a dent's weight must not be negative");
+    if (word == "dent") dents.push_back({lineNumber, v[0], v[1], v.size() > 2 ? v[2] : 1});
+    if (word == "strength" && v[1] <= 0) return fail("a strength must be above 0");
+    if (word == "strength") strengths.push_back({lineNumber, v[0], v[0], v[1]});
   }
   size_t n = s.objects.size();
-  s.weight.assign(n, std::vector<double>(n, 0));
+  s.link.assign(n, std::vector<double>(n, 0));
   for (const Link &l : links) {
     lineNumber = l.line;
     auto a = index.find((int)l.a), b = index.find((int)l.b);
     if (a == index.end() || b == index.end()) return fail("blend names an object that is not there");
     if (a == b) return fail("blend of an object with itself");
-    s.weight[a->second][b->second] = s.weight[b->second][a->second] = l.weight;
+    s.link[a->second][b->second] = s.link[b->second][a->second] = l.weight;
+  }
+  s.weight = s.link;
+  for (const Link &l : dents) {
+    lineNumber = l.line;
+    auto a = index.find((int)l.a), b = index.find((int)l.b);
+    if (a == index.end() || b == index.end()) return fail("dent names an object that is not there");
+    if (a == b) return fail("dent of an object by itself");
+    s.weight[a->second][b->second] -= l.weight;
+    Object &digger = s.objects[b->second];
+    digger.ghost = digger.ghost || l.weight != 0;
+  }
+  for (size_t i = 0; i < n; i++)
+    for (size_t j = 0; j < n; j++)
+      if (s.link[i][j] != 0) s.objects[i].ghost = false;
+  for (const Link &l : strengths) {
+    lineNumber = l.line;
+    auto a = index.find((int)l.a);
+    if (a == index.end()) return fail("strength names an object that is not there");
+    s.objects[a->second].strength = l.weight;
   }
   for (const Fact &f : facts)
     if (f.needed && !seen[f.word]) {

@@ -33,9 +33,6 @@ public:
     SoftObject* const* diggers(const SoftObject& object) const;
     int diggerCount(const SoftObject& object) const;
 
-    // Whether an object has a surface: it blends with another, or digs into none.
-    bool hasSurface(const SoftObject& object) const;
-
     // By what the field of B counts in the sum of A, by their slots: the weight of their link, less that by which B digs into
     // A; 0 where there is neither.
     Real weight(int slotA, int slotB) const { return weights_[slotA * count_ + slotB]; }
@@ -70,7 +67,6 @@ private:
     SoftObject** diggers_ = nullptr;  // body after body
     int16_t* firstDigger_ = nullptr;  // by slot: where those of its body begin in diggers_
     int16_t* diggerCount_ = nullptr;  // by slot: how many there are
-    bool* surface_ = nullptr;         // by slot: it has one
     Stand* stands_ = nullptr;         // by slot
     bool fresh_ = false, hurried_ = false, leapt_ = false;  // fresh_: nothing is known of a frame before
     bool* complete_ = nullptr;        // by slot: all of its body are linked with all, and nothing else digs into it

@@ -162,6 +162,8 @@ public:
     // What digs into this object; and what this one digs into.
     const List<Link>& dents() const { return dents_; }
     const List<Link>& digs() const { return digs_; }
+    // Whether it has a surface of its own: it blends with another, or digs into none. Weights of 0 count as none.
+    bool hasSurface() const;
     // Where Bodies keeps it.
     int slot() const { return slot_; }
     void setSlot(int slot) { slot_ = slot; }

@@ -37,7 +37,7 @@ public:
 
     // Lists the voxels of the settled seeds, as many as fit `room` (DRAW_ROOM..VOXELS_AT_ONCE). `*next` is 0 for the first
     // call of a frame; the call changes it, and as long as it is not 0 there are more. An object without a surface
-    // (Bodies::hasSurface) has none.
+    // (SoftObject::hasSurface) has none.
     virtual void draw(const FrameContext& frame, VoxelList& list, int room, int* next) = 0;
 };
 

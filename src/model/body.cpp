@@ -18,7 +18,6 @@ void Bodies::release()
     free(diggers_);
     free(firstDigger_);
     free(diggerCount_);
-    free(surface_);
     free(complete_);
     free(stands_);
     weights_ = nullptr;
@@ -28,7 +27,6 @@ void Bodies::release()
     diggers_ = nullptr;
     firstDigger_ = nullptr;
     diggerCount_ = nullptr;
-    surface_ = nullptr;
     complete_ = nullptr;
     stands_ = nullptr;
     count_ = 0;
@@ -49,11 +47,10 @@ bool Bodies::find(SoftObject* const* objects, int count)
     diggers_ = allocate<SoftObject*>(dents + 1);
     firstDigger_ = allocate<int16_t>(n);
     diggerCount_ = allocate<int16_t>(n);
-    surface_ = allocate<bool>(n);
     complete_ = allocate<bool>(n);
     stands_ = allocate<Stand>(n);
     if (weights_ == nullptr || members_ == nullptr || first_ == nullptr || size_ == nullptr ||
-        diggers_ == nullptr || firstDigger_ == nullptr || diggerCount_ == nullptr || surface_ == nullptr || complete_ == nullptr || stands_ == nullptr) {
+        diggers_ == nullptr || firstDigger_ == nullptr || diggerCount_ == nullptr || complete_ == nullptr || stands_ == nullptr) {
         release();
         return false;
     }
@@ -67,16 +64,10 @@ bool Bodies::find(SoftObject* const* objects, int count)
             weights_[i * count + j] = Real(0);
     }
     for (int i = 0; i < count; ++i) {
-        bool digs = false, linked = false;
-        for (const List<Link>::Node* node = objects[i]->skel().first(); node != nullptr; node = node->next) {
+        for (const List<Link>::Node* node = objects[i]->skel().first(); node != nullptr; node = node->next)
             weights_[i * count + node->item.object->slot()] = node->item.weight;
-            linked = linked || node->item.weight != Real(0);
-        }
         for (const List<Link>::Node* node = objects[i]->dents().first(); node != nullptr; node = node->next)
             weights_[i * count + node->item.object->slot()] -= node->item.weight;
-        for (const List<Link>::Node* node = objects[i]->digs().first(); node != nullptr; node = node->next)
-            digs = digs || node->item.weight != Real(0);
-        surface_[i] = linked || !digs;
     }
     // Each body is filled from its first object on, breadth first.
     int filled = 0, diggers = 0;
@@ -99,8 +90,8 @@ bool Bodies::find(SoftObject* const* objects, int count)
         findDiggers(begin, filled, &diggers);
         bool complete = diggers == firstDigger;
         for (int a = begin; a < filled; ++a)
-            for (int b = begin; b < a; ++b)
-                complete = complete && weight(members_[a]->slot(), members_[b]->slot()) != Real(0);
+            for (int b = begin; b < filled; ++b)
+                complete = complete && (a == b || weight(members_[a]->slot(), members_[b]->slot()) != Real(0));
         for (int at = begin; at < filled; ++at) {
             size_[members_[at]->slot()] = static_cast<int16_t>(filled - begin);
             complete_[members_[at]->slot()] = complete;
@@ -119,7 +110,7 @@ void Bodies::findDiggers(int begin, int end, int* filled)
                 return true;
         return first_[object->slot()] == begin;
     };
-    for (int at = begin; at < end && surface_[members_[begin]->slot()]; ++at)
+    for (int at = begin; at < end && members_[begin]->hasSurface(); ++at)
         for (const List<Link>::Node* node = members_[at]->dents().first(); node != nullptr; node = node->next)
             if (node->item.weight != Real(0) && !known(node->item.object))
                 diggers_[(*filled)++] = node->item.object;
@@ -169,7 +160,8 @@ void Bodies::spreadRecalc() const
             continue;
         for (int i = first_[slot]; i < first_[slot] + size_[slot]; ++i) {
             SoftObject& other = *members_[i];
-            if (!other.recalc() && weight(slot, other.slot()) == Real(0) && moved.inRange(other))
+            const bool known = weight(slot, other.slot()) != Real(0) && weight(other.slot(), slot) != Real(0);
+            if (!other.recalc() && !known && moved.inRange(other))
                 other.setRecalc();
         }
     }
@@ -195,7 +187,3 @@ int Bodies::diggerCount(const SoftObject& object) const
     return diggerCount_[object.slot()];
 }
 
-bool Bodies::hasSurface(const SoftObject& object) const
-{
-    return surface_[object.slot()];
-}

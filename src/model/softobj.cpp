@@ -3,7 +3,6 @@
 
 #include "math/alloc.h"
 #include "math/text.h"
-#include "model/body.h"
 
 namespace {
 
@@ -239,6 +238,17 @@ void SoftObject::undent(SoftObject* other)
     recalc_ = other->recalc_ = true;
 }
 
+bool SoftObject::hasSurface() const
+{
+    const auto some = [](const List<Link>& list) {
+        for (const List<Link>::Node* node = list.first(); node != nullptr; node = node->next)
+            if (node->item.weight != Real(0))
+                return true;
+        return false;
+    };
+    return !some(digs_) || some(skel_);
+}
+
 // --- The field
 
 Real SoftObject::param(const Vector& q, Vector* slope) const
@@ -279,7 +289,7 @@ void SoftObject::update(const FrameContext& frame)
 {
     if (!recalc_)
         return;
-    if (frame.bodies->hasSurface(*this))
+    if (hasSurface())
         surface_->update(frame);
     recalc_ = false;
 }

@@ -87,7 +87,7 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
 {
     const OwnFrame own = ownFrame(object_, frame);
     list.begin(object_.centre() - frame.eye, object_.ramp());
-    *next = frame.bodies->hasSurface(object_) ? *next : count_;
+    *next = object_.hasSurface() ? *next : count_;
     const int at = shadePatches(object_, own, frame, patches_, count_, *next, list, room);
     *next = at < count_ ? at : 0;
 }

@@ -2,7 +2,6 @@
 // the whole field sum for every guess, normals from three samples. Kept for comparison (/P); the engine finds the same
 // surface with less work.
 #include "math/alloc.h"
-#include "model/body.h"
 #include "model/softobj.h"
 #include "surface/engine.h"
 #include "surface/voxel.h"
@@ -193,7 +192,7 @@ void Report98::draw(const FrameContext& frame, VoxelList& list, int room, int* n
             field += near[n].object->fieldFunc(p) * near[n].weight;
         return field;
     };
-    int i = frame.bodies->hasSurface(object_) ? *next : object_.seedSlots();
+    int i = object_.hasSurface() ? *next : object_.seedSlots();
     for (; i < object_.seedSlots() && list.count < room; ++i) {
         Seed& s = object_.seed(i);
         if ((i & 1) != 0 && !(s.flags & SEED_ACTIVE))

@@ -203,6 +203,8 @@ int main(int count, char** arguments)
             Anim::move(model, time);
             Anim::move(again, time);
             for (int i = 0; i < model.items(); ++i) {
+                if (model.item(i).strength != again.item(i).strength)
+                    failed("another strength when read again");
                 const Pose &a = model.item(i).pose, &b = again.item(i).pose;
                 if (!(a.place == b.place) || a.scale != b.scale || memcmp(&a.turn, &b.turn, sizeof a.turn) != 0)
                     failed("moves in another way when read again");
