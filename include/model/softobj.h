@@ -142,6 +142,8 @@ public:
     // How much larger the object is than when its seeds were laid out: own space to the world.
     Real growth() const { return size_ / laidSize_; }
     Real laidSize() const { return laidSize_; }
+    // How long paths were then.
+    Real laidRadius() const { return laidSize_ * restRoot_; }
 
     // A point of the object's own space in the world; a vector of the world in the object's own axes, unscaled.
     Point toWorld(const Vector& v) const;
@@ -164,6 +166,10 @@ public:
     const List<Link>& digs() const { return digs_; }
     // Whether it has a surface of its own: it blends with another, or digs into none. Weights of 0 count as none.
     bool hasSurface() const;
+    // The object whose hollow its seeds sample: the first that it digs into, when it has no surface of its own. Else null.
+    const SoftObject* hollowed() const { return hollowLink() == nullptr ? nullptr : hollowLink()->object; }
+    // Whether its seeds were laid out for a hollow and are for a surface now, or the other way round.
+    bool laidInVain() const { return seeds_ != nullptr && (hollowed() != nullptr) != laidHollow_; }
     // Where Bodies keeps it.
     int slot() const { return slot_; }
     void setSlot(int slot) { slot_ = slot; }
@@ -209,6 +215,8 @@ protected:
 private:
     struct Layout;
 
+    const Link* hollowLink() const;
+    void findRest();
     void tellNeighbours();
     void addOversampled(Layout& layout, int rootRoom) const;
     Real restLength(const Seed& a, const Seed& b) const;
@@ -224,7 +232,7 @@ private:
     Real sizeMade_, coreReachMade_, coreReach16_;  // as made, so that scaling never adds up errors
     List<Link> skel_, dents_, digs_;
     Real strength_, restParam_, restRoot_;
-    bool rests_;
+    bool rests_, laidHollow_;
     int slot_;
     bool recalc_;
     bool tapers_;

@@ -156,6 +156,11 @@ void Bodies::spreadRecalc() const
             if (digger.recalc() && digger.inRange(moved))
                 members_[at]->setRecalc();
         }
+        for (int i = 0; i < diggerCount_[slot] && moved.recalc(); ++i) {
+            SoftObject& digger = *diggers_[firstDigger_[slot] + i];
+            if (moved.inRange(digger))
+                digger.setRecalc();
+        }
         if (complete_[slot] || !moved.recalc())
             continue;
         for (int i = first_[slot]; i < first_[slot] + size_[slot]; ++i) {

@@ -243,6 +243,7 @@ Direction14 SoftObject::restNormal(const Seed& s) const
 
 bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface)
 {
+    findRest();
     Counter counter;
     layOutSeeds(counter, spacing);
     counter.endRing();

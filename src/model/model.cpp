@@ -409,6 +409,9 @@ const Bodies* Model::bodies()
         for (int i = 0; i < count_; ++i)
             objects[i] = actors_[i]->object;
         bodiesKnown_ = bodies_.find(objects, count_);
+        for (int i = 0; i < count_; ++i)
+            if (objects[i]->laidInVain())
+                bodiesKnown_ = objects[i]->resample(spacing_, makeSurface_) && bodiesKnown_;
     }
     if (!bodiesKnown_)
         return nullptr;

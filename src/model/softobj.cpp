@@ -56,7 +56,7 @@ SoftObject::SoftObject(int number, Real size, Real coreReach, bool tapers)
     : number_(number), centre_{Real(0), Real(0), Real(0)}, turn_(Matrix::identity()), size_(size),
       radius_(shiftDown(size, 1)), inverse_(Real(CORE_SIZE) / size), coreReach_(coreReach),
       sizeMade_(size), coreReachMade_(coreReach), coreReach16_(coreReach * (Real(CORE_SIZE) / size)), strength_(1),
-      restParam_(0.25), restRoot_(0.5), rests_(true), slot_(0), recalc_(true), tapers_(tapers),
+      restParam_(0.25), restRoot_(0.5), rests_(true), laidHollow_(false), slot_(0), recalc_(true), tapers_(tapers),
       displaced_(false), spacing_(2), laidSize_(size), ramp_(nullptr), seeds_(nullptr), roots_(nullptr),
       ringStarts_(nullptr), regular_(0), extra_(0), rootCount_(0), rings_(0), surface_(nullptr), makeSurface_(nullptr)
 {
@@ -162,15 +162,28 @@ void SoftObject::setSize(Real wanted)
 void SoftObject::setStrength(Real wanted)
 {
     strength_ = clamp(wanted, STRENGTH_LEAST, STRENGTH_MOST);
-    // Where strength * geoff() is the isovalue: at 1/4 for 1, farther out the stronger.
+    findRest();
+}
+
+void SoftObject::findRest()
+{
+    // Where the field is the isovalue: at 1/4 for a strength of 1, farther out for more. In a hollow the field of what is
+    // dented is anything between that and 1, and what digs takes away the difference: where it is half of that.
+    const SoftObject* const dented = hollowed();
+    Real strength = strength_, level = ISOVALUE;
+    if (dented != nullptr) {
+        strength = strength * hollowLink()->weight;
+        level = shiftDown(ISOVALUE, 1);
+    }
     Real inside(0), outside(1);
     for (int i = 0; i < 20; ++i) {
         const Real middle = shiftDown(inside + outside, 1);
-        (strength_ * geoff(middle) > ISOVALUE ? inside : outside) = middle;
+        (strength * geoff(middle) > level ? inside : outside) = middle;
     }
-    restParam_ = strength_ == Real(1) ? Real(0.25) : most(inside, REST_LEAST);
+    laidHollow_ = dented != nullptr;
+    restParam_ = strength_ == Real(1) && !laidHollow_ ? Real(0.25) : most(inside, REST_LEAST);
     restRoot_ = squareRoot(restParam_);
-    rests_ = inside >= REST_LEAST;
+    rests_ = inside >= REST_LEAST && !laidHollow_;
     radius_ = size_ * restRoot_;
 }
 
@@ -183,9 +196,10 @@ void SoftObject::tellNeighbours()
         if (!node->item.object->recalc_ && (displaced_ || inRange(*node->item.object)))
             node->item.object->recalc_ = true;
     }
-    for (const List<Link>::Node* node = digs_.first(); node != nullptr; node = node->next)
-        if (inRange(*node->item.object))
-            node->item.object->recalc_ = true;
+    for (int i = 0; i < 2; ++i)
+        for (const List<Link>::Node* node = (i == 0 ? digs_ : dents_).first(); node != nullptr; node = node->next)
+            if (inRange(*node->item.object))
+                node->item.object->recalc_ = true;
 }
 
 bool SoftObject::inRange(const SoftObject& other) const
@@ -249,6 +263,16 @@ bool SoftObject::hasSurface() const
     return !some(digs_) || some(skel_);
 }
 
+const Link* SoftObject::hollowLink() const
+{
+    if (digs_.empty() || hasSurface())
+        return nullptr;
+    const List<Link>::Node* node = digs_.first();
+    while (node->item.weight == Real(0))
+        node = node->next;
+    return node->item.object->hasSurface() ? &node->item : nullptr;
+}
+
 // --- The field
 
 Real SoftObject::param(const Vector& q, Vector* slope) const
@@ -289,8 +313,7 @@ void SoftObject::update(const FrameContext& frame)
 {
     if (!recalc_)
         return;
-    if (hasSurface())
-        surface_->update(frame);
+    surface_->update(frame);
     recalc_ = false;
 }
 

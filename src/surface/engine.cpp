@@ -48,6 +48,8 @@ bool Engine::turned(const int32_t* light)
 // Gather what reaches the object, classify its patches, settle those that need it.
 void Engine::update(const FrameContext& frame)
 {
+    if (!object_.hasSurface())
+        return;
     Neighbour neighbours[NEIGHBOURS_MAX];
     const OwnFrame own = ownFrame(object_, frame);
     const int count = gather(object_, frame, neighbours);

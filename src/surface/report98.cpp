@@ -97,6 +97,8 @@ int Report98::findNear(Link* near) const
 
 void Report98::update(const FrameContext& frame)
 {
+    if (!object_.hasSurface())
+        return;
     pose();
     Link near[NEAR_MAX];
     const int nearCount = findNear(near);

@@ -161,7 +161,7 @@ inline Shader<TURNED>::Shader(const SoftObject& object, const OwnFrame& own, con
     const int32_t radius = (rawFromReal(object.radius()) >> 8) + 1;
     for (int i = 0; i < 3; ++i)
         gradient_[i] = own.light[i] * (BRIGHTEST * 32) / radius;
-    inverseRadius_ = (1 << 24) / ((rawFromReal(shiftDown(object.laidSize(), 1)) >> 10) + 1);
+    inverseRadius_ = (1 << 24) / ((rawFromReal(object.laidRadius()) >> 10) + 1);
 }
 
 template <bool TURNED>

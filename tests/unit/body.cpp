@@ -140,6 +140,12 @@ TEST(what_digs_into_bodies)
     CHECK((members(scene, 6) == std::vector<int>{7}));
     for (size_t i = 0; i < 7; ++i)
         CHECK(scene.objects[i]->hasSurface() == (i != 2 && i != 5));
+    // Seeds of what only digs are those of a hollow: they lie farther out.
+    CHECK(scene.objects[2]->hollowed() == scene.objects[1].get() && scene.objects[3]->hollowed() == nullptr);
+    CHECK(scene.objects[5]->hollowed() == nullptr && scene.objects[6]->hollowed() == nullptr);
+    CHECK(scene.objects[2]->laidInVain() && !scene.objects[3]->laidInVain());
+    CHECK(scene.objects[2]->resample(Real(8), makeEngine) && !scene.objects[2]->laidInVain());
+    CHECK(number(scene.objects[2]->radius()) > 13 && number(scene.objects[3]->radius()) == 10);
     const auto weight = [&](size_t a, size_t b) {
         return number(scene.bodies->weight(scene.objects[a]->slot(), scene.objects[b]->slot()));
     };
@@ -147,12 +153,12 @@ TEST(what_digs_into_bodies)
     NEAR(weight(2, 1), 0, 0);
     NEAR(weight(4, 3), -1.5, 0);  // the link's less the dent's
     NEAR(weight(3, 4), 0.5, 0);
-    // All of a body are told of what digs into one of it; nobody else is.
+    // All of a body are told of what digs into one of it, and so is what else digs there; nobody else is.
     scene.update();
     scene.objects[2]->translate(vector(0, 1, 0));
     scene.bodies->spreadRecalc();
     for (size_t i = 0; i < 7; ++i)
-        CHECK(scene.objects[i]->recalc() == (i < 3));
+        CHECK(scene.objects[i]->recalc() == (i < 4 || i == 5));
     scene.update();
     // An object that goes takes its dents with it; one that digs no more is seen.
     scene.objects[1]->undent(scene.objects[2].get());
