@@ -186,7 +186,7 @@ struct Scene {
     {
         if (!found)
             findBodies();
-        bodies->beginFrame();
+        bodies->spreadRecalc();
         for (auto& object : objects)
             object->update(frame());
     }
