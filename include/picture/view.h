@@ -87,6 +87,7 @@ private:
         frame_[at] = frame_[from];
         zbuffer_[at] = zbuffer_[from];
     }
+    bool prepareLoop(const VoxelList& list);
     bool ordinary(const Voxel& voxel) const;
     bool project(const Voxel& voxel, FineScale* scale) const;
 
