@@ -108,8 +108,8 @@
 // and then, from row to row:
 //
 //   eax  z (ax), and above it the brightness with 8 bits of fraction     ebx  change of both from pixel to pixel
-//   edx  change of both from row to row, its sign turned (of one brightness: ebp)     ebp  the ramp     ecx  to look it up (the colour: cl)
-//   esi  depths + row    edi  pixels + row
+//   edx  what is subtracted from both from row to row (of one brightness: ebp)
+//   ebp  the ramp     ecx  to look it up (the colour: cl)     esi  depths + row     edi  pixels + row
 //
 // z never leaves its 16 bits on a scale, so one addition changes both and the brightness takes no harm. A pixel behind what
 // is there costs 3 instructions (486: 2 + 3 + 1, Pentium: 3 when the branch is foreseen, the addition pairs), one that is

@@ -1,6 +1,6 @@
 // The innermost loops: scales into the frame buffer under the Z-buffer, clears, and the copy to video memory. (Most
-// scales are drawn as soon as they are projected, by the loop of scales.h; what that leaves, large or clipped, is drawn
-// here.)
+// scales are drawn as soon as they are projected, by the loop of scales.h; what that leaves, very large or far aside, is
+// drawn here.)
 //
 // Each routine stands twice: in C++ (src/picture/blit.cpp, the ...C names), which says what it does, and in assembly
 // (asm/blit.S), which the DOS program and the 32-bit host build use. Both do the same, byte for byte.
