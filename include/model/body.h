@@ -36,26 +36,21 @@ public:
     // By what the field of B counts in the sum of A, by their slots: the weight of their link, less that by which B digs into
     // A; 0 where there is neither.
     Real weight(int slotA, int slotB) const { return weights_[slotA * count_ + slotB]; }
+    // Those of one object, by the other's slot.
+    const Real* weights(int slot) const { return weights_ + slot * count_; }
 
     // An object whose recalc flag is set tells those that it is linked to or digs into; this tells the rest of their body that
     // it can reach.
     void spreadRecalc() const;
 
-    // Starts a frame: finds out how far the objects have gone since the last.
-    void beginFrame();
-    // Whether some object went so far, or turned so, that what was known of its surroundings a few frames ago is wrong by more
-    // than is seen; and whether it went so far that nothing is worth much that was known a frame ago.
-    bool hurried() const { return hurried_; }
-    bool leapt() const { return leapt_; }
+    // Those that an object is linked with at weight 1, a bit for each slot; LINK_WORDS words.
+    const uint32_t* plainLinks(int slot) const { return plain_ + slot * LINK_WORDS; }
+    static constexpr int LINK_WORDS = 4;
+
+    // Grows by one whenever the bodies have been found anew.
+    uint32_t version() const { return version_; }
 
 private:
-    // How an object stood in the last frame.
-    struct Stand {
-        Point centre;
-        Vector turn;  // three elements of the rotation, any of which changes with it
-        Real size;
-    };
-    static Stand standOf(const SoftObject& object);
     void release();
     void findDiggers(int begin, int end, int* filled);
 
@@ -67,9 +62,9 @@ private:
     SoftObject** diggers_ = nullptr;  // body after body
     int16_t* firstDigger_ = nullptr;  // by slot: where those of its body begin in diggers_
     int16_t* diggerCount_ = nullptr;  // by slot: how many there are
-    Stand* stands_ = nullptr;         // by slot
-    bool fresh_ = false, hurried_ = false, leapt_ = false;  // fresh_: nothing is known of a frame before
     bool* complete_ = nullptr;        // by slot: all of its body are linked with all, and nothing else digs into it
+    uint32_t* plain_ = nullptr;       // by slot, as plainLinks() has them
+    uint32_t version_ = 0;
 };
 
 #endif

@@ -30,8 +30,8 @@ public:
     void setPixels(bool pixels) { pixels_ = pixels; }
     bool pixels() const { return pixels_; }
 
-    // Whether large scales are placed by their exact depth, and not by the table of the loop: the report's method is compared
-    // byte for byte from version to version.
+    // Whether large and clipped scales are placed by their exact depth, and not by the table of the loop: the report's method is
+    // compared byte for byte from version to version.
     void setExact(bool exact) { exact_ = exact; }
 
     // Starts a frame: clears what the last one touched.
@@ -87,6 +87,7 @@ private:
         frame_[at] = frame_[from];
         zbuffer_[at] = zbuffer_[from];
     }
+    bool prepareLoop(const VoxelList& list);
     bool ordinary(const Voxel& voxel) const;
     bool project(const Voxel& voxel, FineScale* scale) const;
 
