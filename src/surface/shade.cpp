@@ -119,6 +119,8 @@ private:
     const Seed* seeds_;
     const Seed* lastSeed_;    // the last regular one
     const Vector* roots_;
+    const bool hollow_;       // the seeds sample a hollow
+    int32_t leastPosition_;   // below which cells do not shrink, 8 bits of fraction
     bool grown_;
     int32_t spacing_;         // 1/256 unit of the world
     int32_t limb_;            // a seed that faces the viewer less than this is not drawn, 1/32 unit
@@ -145,8 +147,9 @@ private:
 template <bool TURNED>
 inline Shader<TURNED>::Shader(const SoftObject& object, const OwnFrame& own, const FrameContext& frame)
     : object_(object), own_(own), seeds_(&object.seed(0)), lastSeed_(&object.seed(object.seedSlots() - 2)), roots_(&object.root(0)),
-      grown_(object.size() != object.laidSize()), spacing_(rawFromReal(object.spacing() * own.growth) >> 8)
+      hollow_(!object.hasSurface()), grown_(object.size() != object.laidSize()), spacing_(rawFromReal(object.spacing() * own.growth) >> 8)
 {
+    leastPosition_ = TURNED && hollow_ ? 256 : 0;
     const Vector place = object.centre() - frame.eye;
     depth_ = rawFromReal(place.z) >> 11;
     away_[0] = rawFromReal(place.x) >> 11;
@@ -196,6 +199,8 @@ inline void Shader<TURNED>::setPatch(const Patch& patch)
         horizon = curvature(patch, middle);
     else if (TURNED)
         horizon = rawFromReal(object_.horizonAt(roots_[seeds_[patch.centre].root], realFromRaw(generalHorizon_ << 11))) >> 11;
+    if (hollow_)
+        horizon = 8000;
     horizonShare_ = (smaller(horizon, 8000) << 15) / own_.distance32;
     gradientAhead_ = (gradient_[2] + (gradient_[0] * (shearX >> 4) >> 8) + (gradient_[1] * (shearY >> 4) >> 8)) >> 4;
 }
@@ -334,13 +339,16 @@ inline void Shader<TURNED>::cell(const Seed& s, Cell& c) const
                              mulShift16(rawFromReal(s.path.y), inverseRadius_) >> 4,
                              mulShift16(rawFromReal(s.path.z), inverseRadius_) >> 4};
         int32_t cosine = product(s.normal, u) >> 14;
+        const int32_t side = hollow_ && cosine < 0 ? -1 : 1;  // a hollow faces its root
+        cosine *= side;
         if (cosine < LEAST_COSINE)
             cosine = LEAST_COSINE;
         const int32_t inverse = (1 << 26) / cosine;  // 12 bits of fraction
         c.uneven = inverse > UNEVEN;
-        const int32_t position = rawFromReal(s.position) >> 8;
+        // Nearer to a long or flat core than where they rest, seeds are no nearer to each other along it.
+        const int32_t position = larger(rawFromReal(s.position) >> 8, leastPosition_);
         // (e.n) / (u.n), 1/64 spacing with 8 bits of fraction.
-        const int32_t n[] = {s.normal.x, s.normal.y, s.normal.z};
+        const int32_t n[] = {s.normal.x * side, s.normal.y * side, s.normal.z * side};
         const int32_t offAlong = (product(s.along, n) >> 8) * inverse >> 10;
         const int32_t offAcross = (product(s.across, n) >> 8) * inverse >> 10;
         const int32_t short7[] = {(u[0] + 64) >> 7, (u[1] + 64) >> 7, (u[2] + 64) >> 7};
@@ -458,7 +466,7 @@ inline void Shader<TURNED>::changes(const Seed& s, Cell& c) const
     c.along.change = c.across.change = 0;
     if (&next <= lastSeed_ && (next.flags & SEED_VALID) && next.neighbour >= s.neighbour)
         c.along.change = (next.brightness8 - s.brightness8) >> 1;
-    else if (last.flags & SEED_VALID)
+    else if (&last >= seeds_ && (last.flags & SEED_VALID))
         c.along.change = (s.brightness8 - last.brightness8) >> 1;
     if (n.flags & SEED_VALID)
         c.across.change = (s.brightness8 - n.brightness8 + (c.along.change * s.aside >> 5)) >> 1;
