@@ -185,7 +185,8 @@ inline Real Along::param(Real p)
 {
     if (near->kind == Neighbour::OTHER) {
         const Real t = near->object->param(from->apart + step * p, &out);
-        change = shiftDown(dot(out, step), 7);
+        // Where the field has ended the product might leave 16.16, and nobody asks for it.
+        change = t < Real(1) ? shiftDown(dot(out, step), 7) : Real(0);
         return t;
     }
     const Real outer = p * from->c, inner = b + outer;
