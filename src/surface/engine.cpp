@@ -86,7 +86,7 @@ void Engine::update(const FrameContext& frame)
 void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* next)
 {
     const OwnFrame own = ownFrame(object_, frame);
-    list.begin(object_.centre() - frame.eye, object_.ramp());
+    list.begin(frame.inView(object_.centre()), object_.ramp());
     const int at = shadePatches(object_, own, frame, patches_, count_, *next, list, room);
     *next = at < count_ ? at : 0;
 }

@@ -50,9 +50,9 @@ OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
     own.eye32[2] = rawFromReal(own.eye.z) >> 11;
     own.distance32 = (rawFromReal(nearLength(own.eye)) >> 11) + 1;
     axisInOwn(object, frame.light, own.light);
-    axisInOwn(object, {Real(1), Real(0), Real(0)}, own.right);
-    axisInOwn(object, {Real(0), Real(1), Real(0)}, own.up);
-    axisInOwn(object, {Real(0), Real(0), Real(1)}, own.ahead);
+    axisInOwn(object, frame.axes.right, own.right);
+    axisInOwn(object, frame.axes.up, own.up);
+    axisInOwn(object, frame.axes.ahead, own.ahead);
     return own;
 }
 
