@@ -25,7 +25,7 @@ struct FrameContext {
     Vector light;          // unit vector from the model towards the light
     const Bodies* bodies;  // of the model as it is now
     Counts* counts;
-    ViewAxes axes;         // which way he looks
+    ViewAxes axes{};       // which way he looks
 
     // A point of the world from the eye, in the axes of the view.
     Vector inView(const Point& p) const { return axes.fromWorld(p - eye); }

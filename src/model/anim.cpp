@@ -144,6 +144,9 @@ Vector column(const Matrix& m, int i)
 void moveEye(Model& model)
 {
     Camera& camera = model.camera;
+    camera.axes = ViewAxes();
+    if (camera.carrier == 0 && camera.looks == Camera::AHEAD && camera.roll == Real(0))
+        return;
     const Actor* carrier = camera.carrier == 0 ? nullptr : model.itemNumbered(camera.carrier);
     Vector right = X_AXIS, up = Y_AXIS, ahead = Z_AXIS;
     if (carrier != nullptr) {

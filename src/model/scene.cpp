@@ -672,7 +672,7 @@ bool Reader::eye()
             if (!readKnown("a group or an object of a line above", &known))
                 return false;
             // Parents stand before their children.
-            for (int i = model_.items() - 1; i >= 0 && &model_.item(i) != known; --i)
+            for (int i = 0; &model_.item(i) != known; ++i)
                 if (model_.item(i).number == model_.camera.carrier)
                     return expected("a group or an object above the first line that moves the eye");
             parent = known;

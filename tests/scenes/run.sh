@@ -116,7 +116,7 @@ refused() {
 refused "missing file" "$dir/none.fb: no such file or directory" "/M:$dir/none.fb"
 refused "directory" "$dir: access denied" "/M:$dir"
 printf 'sphere a size 20\nsphere b size 20\nspere c size 20\n' >"$dir/bad.fb"
-refused "bad line" "$dir/bad.fb:3: 'spere': expected sphere, cylinder, torus, disc, cone, box, group, blend, circle, path, spin, swing, pulse, keys, key, eye, focal, light or title" "/M:$dir/bad.fb"
+refused "bad line" "$dir/bad.fb:3: 'spere': expected sphere, cylinder, torus, disc, cone, box, group, blend, circle, path, spin, swing, pulse, keys, key, eye, look, roll, focal, light or title" "/M:$dir/bad.fb"
 : >"$dir/empty.fb"
 refused "empty file" "$dir/empty.fb:1: 'end of file': expected at least one object" "/M:$dir/empty.fb"
 head -c 3000 build/demo >"$dir/binary.fb"
