@@ -46,9 +46,11 @@ if [ "$upper" = MINUTE ]; then
 	name=MINUTE file= minute=600
 elif [ -f "$scene" ]; then
 	name=$(basename "$scene" .FB) file=$scene
-elif [ -z "$(echo "$scene" | tr -d 0-9)" ]; then
+elif [ -z "$(echo "${scene%eye}" | tr -d 0-9)" ]; then
 	name=RANDOM-$scene file=$dir/R$scene.FB
-	build/mkscene "$scene" >"$file" || exit 2
+	# A number and `eye`: seen by an eye that goes about it.
+	# shellcheck disable=SC2086
+	build/mkscene ${scene%eye} ${scene#"${scene%eye}"} >"$file" || exit 2
 else
 	name=$upper file=
 	for there in "tools/scenes/$upper.FB" tests/scenes/*/"$upper.FB"; do
