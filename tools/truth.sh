@@ -6,7 +6,7 @@
 #   sh tools/truth.sh SCENE [SPACING] [FRAMES]
 #
 #   SCENE     a scene by name (WALK, chain: tools/scenes, tests/scenes/*), a scene file, a number (that random scene of
-#             build/mkscene), or MINUTE (the minute of the four spheres)
+#             build/mkscene; 7eye: seen by an eye that goes about it), or MINUTE (the minute of the four spheres)
 #   SPACING   2, 1 or both (both)
 #   FRAMES    how many are judged at each of the two rates, spread over up to 24 s and 3 s (24; at most 240)
 #

@@ -48,7 +48,10 @@ OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
     own.eye32[0] = rawFromReal(own.eye.x) >> 11;
     own.eye32[1] = rawFromReal(own.eye.y) >> 11;
     own.eye32[2] = rawFromReal(own.eye.z) >> 11;
+    // An eye in the very centre is taken for one beside it.
     own.distance32 = (rawFromReal(nearLength(own.eye)) >> 11) + 1;
+    if (own.distance32 < 4)
+        own.distance32 = 4;
     axisInOwn(object, frame.light, own.light);
     axisInOwn(object, frame.axes.right, own.right);
     axisInOwn(object, frame.axes.up, own.up);
