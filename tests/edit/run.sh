@@ -396,6 +396,13 @@ for f in 1 3 5 6 8; do ok "nor any other: $f" objectsAlike 0 $f; done
 ok "to the right of the view" has 2 "sphere 1 -20 0 2 30"
 ok "away from it" has 3 "sphere 1 -22 0 2 30"
 ok "the nearer one is in the middle" has 7 "sphere 2 20 2 0 20"
+# What faced away is looked at anew: a body that is alike from behind covers as many pixels there, at once.
+printf 'sphere a size 30 at -9 0 0\nsphere b size 30 at 9 0 0\nblend a b\n' >alike.fb
+(i=0; while [ $i -lt 36 ]; do echo "1 key 6"; i=$((i + 1)); done) | play 2 /M:alike.fb
+covered() { od -An -v -tx4 -w4 "$(printf 'd/F%07d.Z' "$1")" | grep -vc 7fffffff; }
+ok "from behind" eyeAt 1 0 0 120
+ok "all of it is there" awk -v front="$(covered 0)" -v back="$(covered 1)" \
+	'BEGIN { print front, back; exit !(front > 2000 && back > front * 0.99 && back < front * 1.01) }'
 # While it plays the arrows do it too.
 cat >script <<'END'
 2 key RIGHT
