@@ -16,6 +16,9 @@ struct Colour {
 // Room for a name: 15 characters and the final 0.
 constexpr int NAME_ROOM = 16;
 
+// What the group is called that the eye moves with.
+extern const char EYE_NAME[];
+
 // Room for the title of a scene: 47 characters and the final 0.
 constexpr int TITLE_ROOM = 48;
 
@@ -125,13 +128,18 @@ public:
     // Changes the light under which seeds were laid out already.
     void setLight(const Vector& to);
 
+    // The viewer has moved or turned: every object is looked at anew.
+    void recalcAll();
+
+    // The group that the eye moves with, made when it stood so far. Its name is `eye`. Null: no room or no memory.
+    Actor* eyeCarrier();
+
     Camera camera;
     Vector light{Real(0.5), Real(0.7), Real(-0.5)};  // from the model to the light, any length but 0
     char title[TITLE_ROOM] = "";                     // what the scene calls itself; may be empty
 
 private:
     void clear();
-    void recalcAll();
     bool layOut(SoftObject* object) const;
 
     Actor* actors_[OBJECTS_MOST];

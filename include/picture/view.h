@@ -1,7 +1,7 @@
 // View: the camera, the frame buffer and the Z-buffer (report, The Rendering Technique and Appendix A). show() makes
 // scales of voxels by a perspective transformation and draws them: most by the loop of scales.h, the rest one by one.
 //
-// The viewer looks along +z, y up. A point p from the eye falls on column centreX + focalX p.x / p.z and row
+// A point p from the eye, in the axes of the view, falls on column centreX + focalX p.x / p.z and row
 // centreY - focalY p.y / p.z; pixel i covers [i, i + 1). Mode 13h shows 320x200 pixels on a 4:3 screen, so a pixel is
 // 5 wide to 6 high and focalX = 1.2 focalY.
 #ifndef FB_VIEW_H
@@ -22,7 +22,7 @@ public:
     // Makes the buffers. False: no memory.
     bool open();
 
-    // Takes on a camera. 64 <= focal <= 500 pixels.
+    // Takes on a camera. 64 <= focal <= 500 pixels. One that has only moved or turned costs nothing.
     void setCamera(const Camera& camera);
     const Camera& camera() const { return camera_; }
 
@@ -74,6 +74,7 @@ public:
     const Span* rows() const { return present_; }
 
 private:
+    void makeLens();
     void touchPixel(int at);
     void mark(int left, int top, int right, int bottom);
     void closeRun(int y, int from, int to, int spacing);

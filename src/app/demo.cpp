@@ -54,7 +54,7 @@ const char* Demo::prepare(int* status)
     voxels_ = allocate<VoxelList>(1);
     if (voxels_ == nullptr || !view_.open())
         return "not enough memory for the picture";
-    view_.setCamera(model_.camera);
+    placeEye();
     view_.setExact(options_.printed);
     palette_.make(model_, options_.grey);
     if (options_.recordFile != nullptr) {
@@ -143,7 +143,6 @@ void Demo::changed()
     Anim::move(model_, shown_);
     palette_.make(model_, options_.grey);
     paletteStale_ = true;
-    view_.setCamera(model_.camera);
     stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
 }
 
@@ -169,6 +168,7 @@ bool Demo::frame()
     shown_ = pace_.at(time_);
     if (!options_.interactive || shown_ != before)
         Anim::move(model_, shown_);
+    placeEye();
     if (!drawModel())
         return false;
     drawOverlay();
@@ -176,24 +176,36 @@ bool Demo::frame()
     return true;
 }
 
+// The view is the scene's, as far as the user has not gone about it. What is seen from elsewhere is looked at anew.
+void Demo::placeEye()
+{
+    const Camera camera = orbit_.from(model_.camera, model_);
+    const Camera& before = view_.camera();
+    if (!(camera.eye == before.eye) || !(camera.axes == before.axes))
+        model_.recalcAll();
+    view_.setCamera(camera);
+}
+
 // False: it was interrupted.
 bool Demo::drawModel()
 {
     counts_ = Counts{};
-    const Camera& camera = model_.camera;
-    const FrameContext frame{camera.eye, unit(model_.light), model_.bodies(), &counts_, camera.centreX / camera.focalX,
-                             camera.centreY / camera.focalY};
+    const Camera& camera = view_.camera();
+    const FrameContext frame{camera.eye, unit(model_.light), model_.bodies(), &counts_, camera.axes,
+                             camera.centreX / camera.focalX, camera.centreY / camera.focalY};
     if (frame.bodies == nullptr)
         fail(1, "not enough memory");
     int order[Model::OBJECTS_MOST];
+    Real depth[Model::OBJECTS_MOST];
     const int count = model_.count();
     for (int i = 0; i < count; ++i) {
         if (interrupted())
             return false;
         model_.actor(i).object->update(frame);
         // Near objects first: what they hide is then only compared, not drawn.
+        depth[i] = frame.inView(model_.actor(i).object->centre()).z;
         int at = i;
-        for (; at > 0 && model_.actor(order[at - 1]).object->centre().z > model_.actor(i).object->centre().z; --at)
+        for (; at > 0 && depth[order[at - 1]] > depth[i]; --at)
             order[at] = order[at - 1];
         order[at] = i;
     }

@@ -536,7 +536,9 @@ bool Editor::leave()
         return false;
     say(current().name, " has left ", from->name);
     model_.setParent(&current(), from->motion.parent);
-    // A group that carries nothing is no use.
+    // A group that carries nothing is no use, unless it carries the eye.
+    if (from->number == model_.camera.carrier)
+        return true;
     for (int i = 0; i < model_.items(); ++i)
         if (model_.item(i).motion.parent == from->number)
             return true;

@@ -9,6 +9,7 @@
 #include "app/edit.h"
 #include "app/film.h"
 #include "app/options.h"
+#include "app/orbit.h"
 #include "app/overlay.h"
 #include "app/pace.h"
 #include "app/stats.h"
@@ -33,6 +34,7 @@ private:
     void findTime();
     bool interrupted();
     bool frame();
+    void placeEye();
     bool drawModel();
     const char* keepFrame();
     void countFrames();
@@ -43,6 +45,7 @@ private:
     // --- Keys and mouse (keys.cpp)
     void takeKeys();
     void key(int code);
+    bool eyeKey(int code);
     void playKey(int code);
     void handKey(int code);
     bool editKey(int code);
@@ -94,6 +97,8 @@ private:
     int keys_[KEYS_MOST];
     int waiting_ = 0;
     bool escapeWaits_ = false;
+
+    Orbit orbit_;
 
     // Hands on.
     Editor editor_;

@@ -7,7 +7,6 @@
 const char* const HELP =
     "Fast Blobs: soft objects, animated in real time.\n"
     "  DEMO [switches] [scene]     DEMO WALK.FB plays a scene, DEMO the spheres\n"
-    "\n"
     "  /I        interactive: the mouse moves the objects\n"
     "  /G        monochrome: one 64-step ramp\n"
     "  /P        the 1998 report's own methods, as printed\n"
@@ -26,6 +25,7 @@ const char* const HELP =
     "\n"
     "Keys:  F1  all of them   *  scales, pixels   - +  coarser, finer   ESC  ends\n"
     "       F  frames a second   P  picture to a file   N  next scene\n"
+    "       5 6 7 8  round the scene, over it   9 0  nearer, farther   End  back\n"
     "       Space  stop and go   .  a step   Home  from the start   <  >  speed\n"
     "Mouse (with /I):  left button selects the next object; moving it moves the\n"
     "object in X and Y, with the right button X and Z. Or Tab, arrows, PgUp, PgDn.\n";

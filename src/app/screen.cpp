@@ -23,6 +23,9 @@ const char* const PAGE[] = {
     "Home    from the start  < >     slower, faster",
     "n       the next scene  f       frames a second",
     "p       picture to a file (PCX)",
+    "",
+    "arrows  round the scene End     its own view",
+    "PgUp    nearer          PgDn    farther",
 };
 
 const char* const HANDS_PAGE[] = {
@@ -30,7 +33,8 @@ const char* const HANDS_PAGE[] = {
     "*       scales, pixels  - +     coarser, finer",
     "space   stop and go     < >     slower, faster",
     "Home    from the start  p f     picture, rate",
-    "",
+    "5 6     round the scene 7 8     over, under it",
+    "9 0     nearer, farther End     its own view",
     "Tab     the next object, as the left button",
     "m       pointer: a click picks, held moves",
     "arrows  move it; PgUp PgDn or right button",
@@ -89,8 +93,8 @@ void Demo::busy(const char* text)
 // Draws a mark where an object is on the screen.
 void Demo::mark(int index, void (Overlay::*shape)(int, int))
 {
-    const Camera& camera = model_.camera;
-    const Vector v = model_.actor(index).object->centre() - camera.eye;
+    const Camera& camera = view_.camera();
+    const Vector v = camera.axes.fromWorld(model_.actor(index).object->centre() - camera.eye);
     if (v.z <= Real(1))
         return;
     const Real limit(2);

@@ -33,6 +33,8 @@ void exchange(T& a, T& b)
 
 }  // namespace
 
+const char EYE_NAME[] = "eye";
+
 // One block of memory: this, then the items, the keys and the links.
 struct alignas(Actor) Model::Record {
     struct Pair {
@@ -149,6 +151,14 @@ void Model::remove(Actor* item)
         items_[i - 1] = items_[i];
     }
     --itemCount_;
+
+    // An eye without its group stands, and one that looked at what is gone still looks that way.
+    if (item->number == camera.carrier)
+        camera.carrier = 0;
+    if (camera.looks == Camera::AT_ITEM && item->number == camera.item) {
+        camera.looks = Camera::AT_POINT;
+        camera.target = item->pose.place;
+    }
 
     removeKeys(item);
 
@@ -347,6 +357,21 @@ void Model::recalcAll()
 {
     for (int i = 0; i < count_; ++i)
         actors_[i]->object->setRecalc();
+}
+
+Actor* Model::eyeCarrier()
+{
+    if (camera.carrier != 0)
+        return itemNumbered(camera.carrier);
+    Actor described;
+    strcpy(described.name, EYE_NAME);
+    described.motion.centre = camera.eye;
+    // It is saved with its turn, so that it is read as a group again.
+    described.motion.parts = MOTION_TURN;
+    Actor* carrier = addItem(described);
+    if (carrier != nullptr)
+        camera.carrier = carrier->number;
+    return carrier;
 }
 
 bool Model::resample(Real spacing, SurfaceMaker makeSurface)

@@ -43,13 +43,22 @@ bool View::open()
         touched_[y] = {0, 0};
         last_[y] = {0, WIDTH};  // the screen may hold anything before the first frame
     }
-    setCamera(camera_);
+    makeLens();
     return true;
 }
 
 void View::setCamera(const Camera& camera)
 {
+    const bool same = camera.focalX == camera_.focalX && camera.focalY == camera_.focalY &&
+                      camera.centreX == camera_.centreX && camera.centreY == camera_.centreY;
     camera_ = camera;
+    if (!same)
+        makeLens();
+}
+
+void View::makeLens()
+{
+    const Camera& camera = camera_;
     focalX_ = rawFromReal(camera.focalX) >> (16 - FRACTION);
     focalY_ = rawFromReal(camera.focalY) >> (16 - FRACTION);
     centreX_ = rawFromReal(camera.centreX) >> (16 - FRACTION);

@@ -109,7 +109,7 @@ void Engine::update(const FrameContext& frame)
 void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* next)
 {
     const OwnFrame own = ownFrame(object_, frame);
-    list.begin(object_.centre() - frame.eye, object_.coreReach() + object_.size(), object_.ramp());
+    list.begin(frame.inView(object_.centre()), object_.coreReach() + object_.size(), object_.ramp());
     if (own.outOfSight) {
         *next = 0;
         return;

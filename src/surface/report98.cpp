@@ -167,7 +167,7 @@ void Report98::settle(int i, const FrameContext& frame, const Vector& toEye, con
 
 void Report98::draw(const FrameContext& frame, VoxelList& list, int room, int* next)
 {
-    list.begin(object_.centre() - frame.eye, object_.coreReach() + object_.size(), object_.ramp());
+    list.begin(frame.inView(object_.centre()), object_.coreReach() + object_.size(), object_.ramp());
     const Real inverseRadius = Real(1) / object_.radius();
     Link near[NEAR_MAX];
     const int nearCount = findNear(near);
@@ -207,7 +207,7 @@ void Report98::draw(const FrameContext& frame, VoxelList& list, int room, int* n
         const int32_t extent = rawFromReal(half) >> 8;
         Voxel& v = *list.room();
         v.brightness = kept.brightness;
-        const Vector place = kept.point - object_.centre();
+        const Vector place = frame.axes.fromWorld(kept.point - object_.centre());
         v.x = rawFromReal(place.x) >> 8;
         v.y = rawFromReal(place.y) >> 8;
         v.z = rawFromReal(place.z) >> 8;

@@ -83,7 +83,7 @@ struct Scale {
 };
 
 // Turns the seeds of one object into voxels. Made once for an object and a frame, and only here, so that the compiler may keep
-// it on the stack, where it needs no register to be found. TURNED: the own axes are not those of the world.
+// it on the stack, where it needs no register to be found. TURNED: the own axes are not those of the view.
 template <bool TURNED>
 class Shader {
 public:
@@ -147,7 +147,7 @@ inline Shader<TURNED>::Shader(const SoftObject& object, const OwnFrame& own, con
     : object_(object), own_(own), seeds_(&object.seed(0)), lastSeed_(&object.seed(object.seedSlots() - 2)), roots_(&object.root(0)),
       grown_(object.size() != object.laidSize()), spacing_(rawFromReal(object.spacing() * own.growth) >> 8)
 {
-    const Vector place = object.centre() - frame.eye;
+    const Vector place = frame.inView(object.centre());
     depth_ = rawFromReal(place.z) >> 11;
     away_[0] = rawFromReal(place.x) >> 11;
     away_[1] = rawFromReal(place.y) >> 11;
@@ -156,7 +156,8 @@ inline Shader<TURNED>::Shader(const SoftObject& object, const OwnFrame& own, con
     limb_ = object.coreReach() > Real(0) ? own.distance32 >> 7 : own.distance32 * 5 >> 7;
     generalHorizon_ = rawFromReal(object.horizonRadius(own.eye)) >> 11;
     flattest_ = smaller((rawFromReal(object.radius()) >> 11) + (rawFromReal(object.coreReach()) >> 11) * 4, 8000);
-    const int32_t reach16 = (rawFromReal(object.coreReach() / own.growth) >> 12) - 2;
+    // A ball ends all round.
+    const int32_t reach16 = larger((rawFromReal(object.coreReach() / own.growth) >> 12) - 2, 0);
     core2_ = reach16 * reach16;
     const int32_t radius = (rawFromReal(object.radius()) >> 8) + 1;
     for (int i = 0; i < 3; ++i)
@@ -458,7 +459,7 @@ inline void Shader<TURNED>::changes(const Seed& s, Cell& c) const
     c.along.change = c.across.change = 0;
     if (&next <= lastSeed_ && (next.flags & SEED_VALID) && next.neighbour >= s.neighbour)
         c.along.change = (next.brightness8 - s.brightness8) >> 1;
-    else if (last.flags & SEED_VALID)
+    else if (&last >= seeds_ && (last.flags & SEED_VALID))
         c.along.change = (s.brightness8 - last.brightness8) >> 1;
     if (n.flags & SEED_VALID)
         c.across.change = (s.brightness8 - n.brightness8 + (c.along.change * s.aside >> 5)) >> 1;
@@ -533,6 +534,6 @@ int shadeAs(const SoftObject& object, const OwnFrame& own, const FrameContext& f
 int shadePatches(const SoftObject& object, const OwnFrame& own, const FrameContext& frame, const Patch* patches, int count,
                  int first, VoxelList& list, int room)
 {
-    return object.isBall() ? shadeAs<false>(object, own, frame, patches, count, first, list, room)
+    return object.isBall() && !frame.axes.turned ? shadeAs<false>(object, own, frame, patches, count, first, list, room)
                            : shadeAs<true>(object, own, frame, patches, count, first, list, room);
 }
