@@ -37,11 +37,13 @@ void Sphere::layOutSeeds(SeedMaker& maker, Real spacing) const
     for (int k = 0; k < rings; ++k) {
         // -pi/2 + pi (k + 1/2) / rings
         const Angle latitude = static_cast<uint32_t>(2 * k + 1) * latitudeStep - 0x40000000u;
-        const Real sinLatitude = sine(latitude), cosLatitude = cosine(latitude);
         const int count = seedsInRing(radius(), spacing, cosine30(latitude));
+        maker.beginRing();
+        if (maker.countRing(count, false))
+            continue;
+        const Real sinLatitude = sine(latitude), cosLatitude = cosine(latitude);
         const Real along = radius() * cosLatitude * realFromRaw(static_cast<int32_t>(PI_16)) / Real(count);
         const uint32_t step = 0xffffffffu / static_cast<uint32_t>(count);
-        maker.beginRing();
         for (int i = 0; i < count; ++i) {
             const Angle longitude = static_cast<uint32_t>(i) * step;
             const Real s = sine(longitude), c = cosine(longitude);

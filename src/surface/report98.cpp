@@ -62,7 +62,7 @@ bool Report98::open()
 {
     const int slots = object_.seedSlots();
     kept_ = allocate<Kept>(static_cast<uint32_t>(slots));
-    if (kept_ == nullptr)
+    if (kept_ == nullptr || !object_.layOutExtras())
         return false;
     memset(static_cast<void*>(kept_), 0, sizeof(Kept) * static_cast<size_t>(slots));
     for (int i = 0; i < slots; ++i)

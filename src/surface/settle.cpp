@@ -521,7 +521,7 @@ bool Settler::waits(const Seed& s, bool someAway) const
         const int32_t away = -facing(object_, s, own_);
         mask |= away > WELL_AWAY ? 3 : away > LITTLE_AWAY ? 1 : 0;
     }
-    const uint32_t turn = static_cast<uint32_t>(&s - &object_.seed(0)) / 2 + frame_;
+    const uint32_t turn = static_cast<uint32_t>(&s - &object_.seed(0)) + frame_;
     return (turn & mask) != 0;
 }
 
@@ -540,17 +540,24 @@ bool parted(const SoftObject& object, const Seed& s)
     return (s.flags & SEED_VALID) && absolute(s.position - n.position) * object.radius() > object.spacing() * PARTED;
 }
 
+// The oversampled seed of a regular one is not needed.
+void putAway(SoftObject& object, int i)
+{
+    if (Seed* const extra = object.extra(i))
+        extra->flags = 0;
+}
+
 }  // namespace
 
 void Settler::oversample(const Patch& patch)
 {
     bool any = false;
     forSeeds(patch, [&](int i) {
-        Seed& extra = object_.seed(i + 1);
         if (!parted(object_, object_.seed(i))) {
-            extra.flags = 0;
+            putAway(object_, i);
             return;
         }
+        Seed& extra = object_.seed(i + 1);
         any = true;
         if (!(extra.flags & SEED_ACTIVE)) {
             extra.flags = SEED_ACTIVE | SEED_VALID;
@@ -561,8 +568,9 @@ void Settler::oversample(const Patch& patch)
         return;
     setPatch(patch);
     forSeeds(patch, [&](int i) {
-        if (object_.seed(i + 1).flags & SEED_ACTIVE)
-            settle(object_.seed(i + 1));
+        Seed* const extra = object_.extra(i);
+        if (extra != nullptr && (extra->flags & SEED_ACTIVE))
+            settle(*extra);
     });
 }
 
@@ -570,7 +578,7 @@ void rest(SoftObject& object, const Patch& patch, const OwnFrame& own)
 {
     forSeeds(patch, [&](int i) {
         Seed& s = object.seed(i);
-        object.seed(i + 1).flags = 0;
+        putAway(object, i);
         if (s.flags != (SEED_VALID | SEED_RESTING)) {
             s.position = Real(1);
             s.normal = object.restNormal(s);
@@ -591,7 +599,7 @@ void light(SoftObject& object, const Patch& patch, const OwnFrame& own)
 void sleep(SoftObject& object, const Patch& patch)
 {
     forSeeds(patch, [&](int i) {
-        object.seed(i + 1).flags = 0;
+        putAway(object, i);
         if (i != patch.centre)
             object.seed(i).flags = SEED_ASLEEP;
     });
