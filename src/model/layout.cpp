@@ -264,12 +264,17 @@ void SoftObject::layOutExtra(Layout& layout, int number, int ring, Seed& extra) 
     if (one.root == other.root) {
         extra.path = withLength(one.path + other.path, restLength(layout, one, other));
     } else {
-        // A root for each seed, or one for all of the ring.
-        const int room = layout.rootsBetween[ring + 1] - layout.rootsBetween[ring];
-        const int index = layout.rootsBetween[ring] + (room == 1 ? 0 : number - layout.ringStarts[ring]);
-        Vector out;
-        if (index >= ROOTS_MAX || !rootBetween(layout, one, other, &layout.roots[index], &out))
+        // A root for each seed, or one for all of the ring: that of its first.
+        const bool shared = layout.rootsBetween[ring + 1] - layout.rootsBetween[ring] == 1;
+        const int first = layout.ringStarts[ring], index = layout.rootsBetween[ring] + (shared ? 0 : number - first);
+        Vector root, out;
+        if (index >= ROOTS_MAX || !rootBetween(layout, one, other, &root, &out))
             return;
+        const Seed& start = layout.seeds[first];
+        Vector unused;
+        if (shared && !rootBetween(layout, start, layout.seeds[start.neighbour >> 1], &root, &unused))
+            return;
+        layout.roots[index] = root;
         extra.root = static_cast<uint16_t>(index);
         extra.path = withLength(out, restLength(layout, one, other));
     }
