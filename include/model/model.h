@@ -80,14 +80,17 @@ public:
     // Whether `a` blends with `b`, and with which weight.
     static bool linked(const SoftObject* a, const SoftObject* b, Real* weight);
 
-    // Lays out the seeds of all objects, `spacing` units apart. False: no memory; objects already done are put back to
-    // the spacing they had where that is possible.
+    // Lays out the seeds of all objects, `spacing` units apart. False: as SoftObject::resample(); objects already done are
+    // put back to the spacing they had where that is possible.
     bool resample(Real spacing, SurfaceMaker makeSurface);
 
     SurfaceMaker surfaceMaker() const { return makeSurface_; }
 
     // The bodies that the links make, found anew when they have changed. Null: no memory.
     const Bodies* bodies();
+
+    // How many regular seeds a spacing would give.
+    int seedsAt(Real spacing) const;
 
     // Number of seeds of all objects: regular, oversampled.
     int seeds() const;

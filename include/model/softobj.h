@@ -76,10 +76,12 @@ public:
     // --- Seeds
 
     // Lays the seeds out anew, `spacing` units apart, and makes the surface that will settle them. False: the object keeps
-    // what it had, and resampleTrouble() says why.
+    // what it had, and resampleTrouble() says why, unless it was stopped (model/stop.h).
     bool resample(Real spacing, SurfaceMaker makeSurface);
     // Why resample() failed the last time, for any object: one line of words.
     static const char* resampleTrouble();
+    // How many regular seeds there would be.
+    int seedsAt(Real spacing) const;
     int seeds() const { return laid_.regular; }
     int oversampledSeeds() const { return laid_.oversampled; }
     // As asked for; scaling makes the seeds lie up to a quarter closer or farther.
@@ -216,7 +218,7 @@ private:
 
     void tellNeighbours();
     bool layOutRegular(Layout& layout) const;
-    void findNeighbours(Layout& layout) const;
+    bool findNeighbours(Layout& layout) const;
     Seed& laidExtra(int slot);
     Seed* layOutBlock(int block);
     Seed* blockFromOthers();

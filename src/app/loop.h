@@ -28,6 +28,7 @@ private:
     // --- The loop (demo.cpp)
     SurfaceMaker surfaceMaker() const { return options_.printed ? makeReport98 : makeEngine; }
     const char* prepare(int* status);
+    void tellSeeds();
     [[noreturn]] void fail(int status, const char* line);
     bool finished() const;
     void findTime();

@@ -3,6 +3,7 @@
 #include "math/normal.h"
 #include "math/text.h"
 #include "model/softobj.h"
+#include "model/stop.h"
 
 namespace {
 
@@ -177,7 +178,7 @@ int SoftObject::Layout::nearestIn(int ring, int from, const Vector& target) cons
     return start + n;
 }
 
-// Regular seeds and their roots. False: no room for them.
+// Regular seeds and their roots. False: no room for them, or it was stopped.
 bool SoftObject::layOutRegular(Layout& layout) const
 {
     Counter counter;
@@ -198,12 +199,12 @@ bool SoftObject::layOutRegular(Layout& layout) const
     layOutSeeds(filler, layout.spacing);
     layout.ringStarts[layout.rings] = layout.regular;
     layout.rootsBetween[0] = counter.roots;
-    return true;
+    return !stopAsked();
 }
 
-// For each regular seed S "the seed N on ring K-1 that is closest to S's successor" (Appendix C, Figure 9); and for each ring
+// False: it was stopped. For each regular seed S "the seed N on ring K-1 that is closest to S's successor" (Appendix C, Figure 9); and for each ring
 // which roots its oversampled seeds may have.
-void SoftObject::findNeighbours(Layout& layout) const
+bool SoftObject::findNeighbours(Layout& layout) const
 {
     const int firstRing = ringsClose() ? 0 : 1;
     const Real perSpacing = Real(1) / layout.spacing;
@@ -221,6 +222,8 @@ void SoftObject::findNeighbours(Layout& layout) const
         const bool variousHere = various(k);
         layout.rootsBetween[k + 1] = layout.rootsBetween[k] + (variousHere || variousBefore ? inRing : 1);
         variousBefore = variousHere;
+        if (stopAsked())
+            return false;
         if (k < firstRing)
             continue;
         for (int i = start; i < end; ++i) {
@@ -233,6 +236,7 @@ void SoftObject::findNeighbours(Layout& layout) const
             s.aside = layout.asideOf(s, layout.seeds[n], perSpacing);
         }
     }
+    return true;
 }
 
 // How long the path of a seed between two is.
@@ -365,25 +369,32 @@ Direction14 SoftObject::restNormal(const Seed& s) const
     return {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
 }
 
+int SoftObject::seedsAt(Real spacing) const
+{
+    Counter counter;
+    layOutSeeds(counter, spacing);
+    return counter.seeds;
+}
+
 bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface)
 {
     snprintf(trouble, sizeof trouble, "not enough memory for seeds that close");
     Layout layout;
     layout.spacing = spacing;
     layout.size = size_;
-    if (!layOutRegular(layout)) {
+    if (!layOutRegular(layout) || !findNeighbours(layout)) {
         layout.release();
         return false;
     }
-    findNeighbours(layout);
     layout.oversampled = layout.rings > 0 ? layout.regular - layout.ringStarts[ringsClose() ? 0 : 1] : 0;
 
     // The surface is made for the object as it will be; without memory for it the object goes back.
     Layout before = laid_;
     laid_ = layout;
-    for (int i = 0; i < laid_.regular; ++i)
-        laid_.seeds[i].normal = restNormal(laid_.seeds[i]);
-    Surface* const surface = makeSurface(*this);
+    for (int ring = 0; ring < laid_.rings && !stopAsked(); ++ring)
+        for (int i = laid_.ringStarts[ring]; i < laid_.ringStarts[ring + 1]; ++i)
+            laid_.seeds[i].normal = restNormal(laid_.seeds[i]);
+    Surface* const surface = stopAsked() ? nullptr : makeSurface(*this);
     if (surface == nullptr) {
         laid_.release();
         laid_ = before;

@@ -364,6 +364,14 @@ bool Model::resample(Real spacing, SurfaceMaker makeSurface)
     return true;
 }
 
+int Model::seedsAt(Real spacing) const
+{
+    int seeds = 0;
+    for (int i = 0; i < count_; ++i)
+        seeds += actors_[i]->object->seedsAt(spacing);
+    return seeds;
+}
+
 const Bodies* Model::bodies()
 {
     if (!bodiesKnown_) {

@@ -3,6 +3,7 @@
 
 #include "math/normal.h"
 #include "model/sphere.h"
+#include "model/stop.h"
 
 namespace {
 
@@ -57,7 +58,7 @@ void addSeeds(SeedMaker& maker, const Ring& ring, Real spacing, int root)
 {
     const int count = seedsOf(ring, spacing);
     maker.beginRing();
-    if (maker.countRing(count, ring.core != Real(0)))
+    if (maker.countRing(count, ring.core != Real(0)) || stopAsked())
         return;
     const uint32_t step = 0xffffffffu / static_cast<uint32_t>(count);
     // A seed's part of the surface is widest at its outer edge: in the small rings about a pole that makes a difference.

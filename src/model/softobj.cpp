@@ -3,6 +3,7 @@
 
 #include "math/alloc.h"
 #include "math/text.h"
+#include "model/stop.h"
 
 namespace {
 
@@ -225,7 +226,7 @@ void SoftObject::update(const FrameContext& frame)
     if (!recalc_)
         return;
     surface_->update(frame);
-    recalc_ = false;
+    recalc_ = stopAsked();
 }
 
 void SoftObject::draw(const FrameContext& frame, VoxelList& list, int room, int* next)

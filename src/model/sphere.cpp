@@ -3,6 +3,7 @@
 
 #include "rt.h"
 #include "math/text.h"
+#include "model/stop.h"
 
 namespace {
 constexpr int64_t PI_16 = 205887;       // pi, 16.16
@@ -34,7 +35,7 @@ void Sphere::layOutSeeds(SeedMaker& maker, Real spacing) const
     // Half the distance of two rings: radius * pi / rings / 2.
     const Real across = radius() * realFromRaw(static_cast<int32_t>(PI_16)) / Real(2 * rings);
     const uint32_t latitudeStep = 0x40000000u / static_cast<uint32_t>(rings);
-    for (int k = 0; k < rings; ++k) {
+    for (int k = 0; k < rings && !stopAsked(); ++k) {
         // -pi/2 + pi (k + 1/2) / rings
         const Angle latitude = static_cast<uint32_t>(2 * k + 1) * latitudeStep - 0x40000000u;
         const int count = seedsInRing(radius(), spacing, cosine30(latitude));

@@ -1,5 +1,6 @@
 // Patches: how they are made, and what is known of all seeds of a patch at once.
 #include "math/normal.h"
+#include "model/stop.h"
 #include "patch.h"
 #include "rt.h"
 
@@ -131,7 +132,7 @@ int patchesOf(const SoftObject& object)
 
 void makePatches(const SoftObject& object, Patch* patches)
 {
-    for (int ring = 0; ring < object.rings(); ring += PATCH_RINGS) {
+    for (int ring = 0; ring < object.rings() && !stopAsked(); ring += PATCH_RINGS) {
         const Band band(object, ring);
         for (int run = 0; run < band.runs; ++run, ++patches) {
             for (int k = 0; k < PATCH_RINGS; ++k) {

@@ -3,6 +3,7 @@
 // surface with less work.
 #include "math/alloc.h"
 #include "model/softobj.h"
+#include "model/stop.h"
 #include "surface/engine.h"
 #include "surface/voxel.h"
 
@@ -100,6 +101,8 @@ void Report98::update(const FrameContext& frame)
     for (int i = 0; i < object_.seedSlots(); i += 2) {
         const Seed& s = object_.seed(i);
         Seed& extra = object_.seed(i + 1);
+        if (i % 64 == 62 && stopAsked())
+            return;
         settle(i, frame, toEye, near, nearCount);
         if (s.neighbour >= 0 && absolute(s.position - object_.seed(s.neighbour).position) > OVERSAMPLE) {
             extra.flags |= SEED_ACTIVE;

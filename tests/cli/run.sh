@@ -255,6 +255,24 @@ FB_INPUT=$dir/script dump x /N:3 >"$dir/said" 2>&1
 ok "* and * again: frame 0" cmp "$dir/a/F0000000.PPM" "$dir/x/F0000000.PPM"
 ok "pixels in frame 1" sh -c "! cmp -s '$dir/a/F0000001.PPM' '$dir/x/F0000001.PPM'"
 ok "scales in frame 2" cmp "$dir/a/F0000002.PPM" "$dir/x/F0000002.PPM"
+# While many seeds are laid out: a line of text says so, and neither ESC nor Ctrl-C waits for their end.
+ok "many seeds" ends 0 /N:1 /S:0.25
+ok "are told of" test "$(cat "$dir/err")" = "Laying out 158,388 seeds of 4 objects ..."
+ok "few seeds" ends 0 /N:1
+ok "are not" test ! -s "$dir/err"
+printf 'torus T size 20 ring 40\n' >"$dir/ring.fb"
+ok "a spacing beyond a limit" ends 1 /N:1 /S:0.25 "/M:$dir/ring.fb"
+ok "names the limit" says "$dir/err" "65536 is the limit; try a larger spacing with /S"
+for polls in 10 300 600; do
+	ok "ESC after $polls looks at the keyboard" plays "0.$polls key ESC\n" /N:1 /S:0.25
+	ok "no frame after $polls" is 0 frames
+	printf '0.%d key BREAK\n' $polls >"$dir/script"
+	ok "Ctrl-C after $polls" sh -c "FB_INPUT='$dir/script' '$demo' /N:1 /S:0.25 >'$dir/out' 2>'$dir/err'; test \$? -eq 1"
+	ok "no statistics after $polls" test ! -s "$dir/out"
+done
+# While one object is updated: with a seed every quarter of a unit that is most of the frame.
+ok "ESC in the first update" plays '0.3000 key ESC\n' /N:3 /S:0.25
+ok "no frame of it" is 0 frames
 printf '2 key BREAK\n' >"$dir/script"
 ok "Ctrl-C" sh -c "FB_INPUT='$dir/script' '$demo' /N:50 >'$dir/out' 2>'$dir/err'; test \$? -eq 1"
 ok "says so" says "$dir/err" interrupted
