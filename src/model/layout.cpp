@@ -26,14 +26,6 @@ void setCell(int8_t* to, const Vector& half, Real inverse)
         to[i] = toCell(floorToInt(parts[i] * inverse + Real(0.5)));
 }
 
-int64_t squaredDistance(const Vector& a, const Vector& b)
-{
-    const int64_t x = rawFromReal(a.x) - rawFromReal(b.x);
-    const int64_t y = rawFromReal(a.y) - rawFromReal(b.y);
-    const int64_t z = rawFromReal(a.z) - rawFromReal(b.z);
-    return x * x + y * y + z * z;
-}
-
 // First run of layOutSeeds(): how much of everything there is. Between two rings with different roots lie oversampled
 // seeds with roots between: `between` of them at most.
 class Counter : public SeedMaker {
@@ -164,11 +156,11 @@ int SoftObject::Layout::nearestIn(int ring, int from, const Vector& target) cons
 {
     const int start = ringStarts[ring], count = ringStarts[ring + 1] - start;
     int n = from;
-    int64_t nearest = squaredDistance(target, rest(seeds[start + n]));
+    Square nearest = squareOf(target - rest(seeds[start + n]));
     for (int step = -1; step <= 1; step += 2) {
         for (;;) {
             const int next = n + step < 0 ? count - 1 : n + step == count ? 0 : n + step;
-            const int64_t d = squaredDistance(target, rest(seeds[start + next]));
+            const Square d = squareOf(target - rest(seeds[start + next]));
             if (d >= nearest)
                 break;
             nearest = d;
