@@ -62,18 +62,19 @@ int32_t sine30(Angle a)
         x = 0x40000000u - x;
     // sin(x pi/2) by its Taylor series up to x^13: the next term is below 2^-30 at x = 1.
     // Coefficients (pi/2)^n / n! scaled by 2^30.
-    const int64_t square = (static_cast<int64_t>(x) * x) >> 30;
-    int64_t sum = 61;                                   // +(pi/2)^13/13!
-    sum = -3864 + ((sum * square) >> 30);               // -(pi/2)^11/11!
-    sum = 172272 + ((sum * square) >> 30);              // +(pi/2)^9/9!
-    sum = -5026995 + ((sum * square) >> 30);            // -(pi/2)^7/7!
-    sum = 85569306 + ((sum * square) >> 30);            // +(pi/2)^5/5!
-    sum = -693598668 + ((sum * square) >> 30);          // -(pi/2)^3/3!
-    sum = 1686629713 + ((sum * square) >> 30);          // pi/2
-    int64_t value = (sum * x) >> 30;
+    const auto times = [](int32_t a, int32_t b) { return static_cast<int32_t>((static_cast<int64_t>(a) * b) >> 30); };
+    const int32_t part = static_cast<int32_t>(x), square = times(part, part);
+    int32_t sum = 61;                            // +(pi/2)^13/13!
+    sum = -3864 + times(sum, square);            // -(pi/2)^11/11!
+    sum = 172272 + times(sum, square);           // +(pi/2)^9/9!
+    sum = -5026995 + times(sum, square);         // -(pi/2)^7/7!
+    sum = 85569306 + times(sum, square);         // +(pi/2)^5/5!
+    sum = -693598668 + times(sum, square);       // -(pi/2)^3/3!
+    sum = 1686629713 + times(sum, square);       // pi/2
+    int32_t value = times(sum, part);
     if (value > 0x40000000)
         value = 0x40000000;
-    return static_cast<int32_t>(a & 0x80000000u ? -value : value);
+    return a & 0x80000000u ? -value : value;
 }
 
 Real sine(Angle a)
