@@ -16,6 +16,18 @@ inline uint32_t quotient64(uint64_t a, uint32_t b)
 #endif
 }
 
+// a * b / 2^30, rounded down; it must fit 32 bits.
+inline int32_t times(int32_t a, int32_t b)
+{
+#if FB_I386
+    int32_t low = a, high;
+    asm("imull %2\n\tshrdl $30, %1, %0" : "+a"(low), "=&d"(high) : "rm"(b) : "cc");
+    return low;
+#else
+    return static_cast<int32_t>((static_cast<int64_t>(a) * b) >> 30);
+#endif
+}
+
 }  // namespace
 
 uint32_t squareRoot64(uint64_t a)
@@ -62,7 +74,6 @@ int32_t sine30(Angle a)
         x = 0x40000000u - x;
     // sin(x pi/2) by its Taylor series up to x^13: the next term is below 2^-30 at x = 1.
     // Coefficients (pi/2)^n / n! scaled by 2^30.
-    const auto times = [](int32_t a, int32_t b) { return static_cast<int32_t>((static_cast<int64_t>(a) * b) >> 30); };
     const int32_t part = static_cast<int32_t>(x), square = times(part, part);
     int32_t sum = 61;                            // +(pi/2)^13/13!
     sum = -3864 + times(sum, square);            // -(pi/2)^11/11!
