@@ -92,6 +92,10 @@ public:
     // How many regular seeds a spacing would give.
     int seedsAt(Real spacing) const;
 
+    // The finest and the coarsest spacing of an object.
+    Real finest() const;
+    Real coarsest() const;
+
     // Number of seeds of all objects: regular, oversampled.
     int seeds() const;
     int oversampledSeeds() const;

@@ -57,6 +57,8 @@ const char* Demo::prepare(int* status)
         return "not enough memory for the model";
     }
     Anim::move(model_, 0);
+    if (options_.holds())
+        rate_.hold(options_.hold);
     const uint64_t before = machine::clock();
     tellSeeds();
     // Stopped, it has no seeds, and the loop ends before its first frame.
@@ -191,6 +193,17 @@ void Demo::countFrames()
     fpsFrames_ = 0;
 }
 
+// After a frame that began at `began`: lays objects out anew where the rate to be held wants it.
+void Demo::holdRate(uint64_t began)
+{
+    rate_.add(machine::clock() - began, model_);
+    Real spacing;
+    for (int i; (i = rate_.next(model_, &spacing)) >= 0;)
+        if (!model_.actor(i).object->resample(spacing, surfaceMaker()))
+            rate_.refused();
+    stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
+}
+
 // False: it was interrupted, and there is nothing to show.
 bool Demo::frame()
 {
@@ -250,7 +263,7 @@ bool Demo::drawModel()
         object.setRamp(ramp);
     }
     if (!options_.printed)
-        view_.closeGaps(spacing_);
+        view_.closeGaps(model_.coarsest());
     return true;
 }
 
@@ -320,6 +333,7 @@ int Demo::run()
             fail(1, "interrupted");
         if (ended_)
             break;
+        const uint64_t began = machine::clock();
         findTime();
         if (!frame())
             continue;
@@ -339,6 +353,8 @@ int Demo::run()
         ++frames_;
         if (fps_)
             countFrames();
+        if (rate_.frames() > 0)
+            holdRate(began);
     }
     const uint64_t ticks = machine::clock() - started_;
     stats_.setTime(ticks);
@@ -346,6 +362,8 @@ int Demo::run()
     machine::stop();
     if (options_.rateGiven && options_.frames == 0)
         machine::err("/R has no effect without /N.\n");
+    if (options_.hold > 0 && !options_.holds())
+        machine::err("/F has no effect with /N or /S.\n");
     sayResults(ticks);
     if (problem == nullptr && options_.recordFile != nullptr)
         problem = csv_.append(options_, spacing_, stats_);

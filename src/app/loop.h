@@ -11,6 +11,7 @@
 #include "app/options.h"
 #include "app/overlay.h"
 #include "app/pace.h"
+#include "app/rate.h"
 #include "app/stats.h"
 #include "machine.h"
 #include "picture/palette.h"
@@ -37,6 +38,7 @@ private:
     bool drawModel();
     const char* keepFrame();
     void countFrames();
+    void holdRate(uint64_t began);
     void resample(Real spacing);
     void changed();
     void sayResults(uint64_t ticks);
@@ -44,6 +46,8 @@ private:
     // --- Keys and mouse (keys.cpp)
     void takeKeys();
     void key(int code);
+    void hold();
+    void letGo();
     void playKey(int code);
     void handKey(int code);
     bool editKey(int code);
@@ -83,6 +87,7 @@ private:
     Counts counts_;
     Real spacing_{2};
     uint64_t layTicks_ = 0;      // how long laying out the seeds took the last time
+    Rate rate_;
     uint64_t started_ = 0;
     Time time_ = 0;              // of the run
     Pace pace_;

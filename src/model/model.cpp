@@ -364,6 +364,22 @@ bool Model::resample(Real spacing, SurfaceMaker makeSurface)
     return true;
 }
 
+Real Model::finest() const
+{
+    Real spacing = count_ > 0 ? actors_[0]->object->spacing() : spacing_;
+    for (int i = 1; i < count_; ++i)
+        spacing = least(spacing, actors_[i]->object->spacing());
+    return spacing;
+}
+
+Real Model::coarsest() const
+{
+    Real spacing = count_ > 0 ? actors_[0]->object->spacing() : spacing_;
+    for (int i = 1; i < count_; ++i)
+        spacing = most(spacing, actors_[i]->object->spacing());
+    return spacing;
+}
+
 int Model::seedsAt(Real spacing) const
 {
     int seeds = 0;
