@@ -19,6 +19,7 @@ constexpr int32_t FAR_BELOW = ON_TIME / 2;
 constexpr int32_t FAR_ABOVE = ON_TIME * 3 / 2;
 constexpr int FEW_FRAMES = 2;
 constexpr int OBJECTS_A_CHANGE = 16;
+constexpr int32_t ALL_ABOVE = 8 * ON_TIME;
 
 // Four steps of the spacing are a factor of two; a step changes the number of seeds by 41%, or 29% the other way.
 constexpr int STEPS_IN_TWO = 4;
@@ -105,7 +106,12 @@ void Rate::add(uint64_t ticks, const Model& model)
         return;
     ticks_ = 0;
     counted_ = 0;
-    left_ = far ? 1 + model.count() / OBJECTS_A_CHANGE : 1;
+    // The farther off, the more objects; all of them where a frame takes nine times too long, and is a leap by itself.
+    left_ = 1;
+    if (load_ > FAR_ABOVE)
+        left_ += model.count() * (load_ - FAR_ABOVE) / ALL_ABOVE;
+    else if (far)
+        left_ += model.count() / OBJECTS_A_CHANGE;
 }
 
 int Rate::next(const Model& model, Real* spacing)

@@ -68,8 +68,8 @@ TEST(a_rate_is_held)
             note("%d wanted, %g times the machine: %.1f a second, spacings %.2f to %.2f after %d changes", frames, times, reached,
                  number(run.model.finest()), number(run.model.coarsest()), run.changes);
             CHECK(reached > 0.95 * frames && reached < 1.3 * frames);
-            // One object at a time, by less than a third, and then it stays.
-            CHECK(run.atOnce == 1);
+            // One object at a time, or two while a frame takes four times too long; by less than a third, and then it stays.
+            CHECK(run.atOnce == 1 || (times < 0.5 && run.atOnce == 2));
             CHECK(run.largestStep < 1.35);
             run.changes = 0;
             run.play(300);
