@@ -320,10 +320,13 @@ int Demo::run()
     machine::standStill(options_.frames > 0);
     if (options_.interactive && !machine::openMouse())
         machine::out("No mouse driver found: use Tab, arrows, PgUp and PgDn.\n");
-    problem = machine::openVideo();
-    if (problem != nullptr)
-        fail(1, problem);
-    machine::setPalette(palette_.dac());
+    // With ESC pressed already the loop ends before its first frame.
+    if (!interrupted()) {
+        problem = machine::openVideo();
+        if (problem != nullptr)
+            fail(1, problem);
+        machine::setPalette(palette_.dac());
+    }
     stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
 
     started_ = machine::clock();

@@ -137,9 +137,9 @@ int patchesOf(const SoftObject& object)
 
 void makePatches(const SoftObject& object, Patch* patches)
 {
-    for (int ring = 0; ring < object.rings() && !stopAsked(); ring += PATCH_RINGS) {
+    for (int ring = 0; ring < object.rings(); ring += PATCH_RINGS) {
         const Band band(object, ring);
-        for (int run = 0; run < band.runs; ++run, ++patches) {
+        for (int run = 0; run < band.runs && !stopAsked(); ++run, ++patches) {
             for (int k = 0; k < PATCH_RINGS; ++k) {
                 patches->first[k] = patches->count[k] = 0;
                 if (k >= band.rings)
