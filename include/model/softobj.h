@@ -91,6 +91,8 @@ public:
     // in memory one behind the other; an oversampled one is laid out when it is first asked for.
     Seed& seed(int i) { return i & 1 ? laidExtra(i) : laid_.seeds[i >> 1]; }
     const Seed& seed(int i) const { return const_cast<SoftObject*>(this)->seed(i); }
+    // The same, of an even slot.
+    const Seed& regular(int i) const { return laid_.seeds[i >> 1]; }
     int seedSlots() const { return 2 * laid_.regular; }
     // The oversampled seed that belongs to the regular one in slot i, or is in slot i; null: it is not laid out yet.
     Seed* extra(int i) const

@@ -59,6 +59,7 @@ void setPatch(const SoftObject& object, Patch& patch)
     patch.radius = static_cast<int16_t>(steps16(lengthOf(radius) + shiftDown(object.spacing(), 1)) + 2);
     patch.path = static_cast<int16_t>(steps16(path) + 1);
     patch.state = PATCH_REST;
+    patch.extras = false;
 }
 
 struct Step {

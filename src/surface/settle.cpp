@@ -532,7 +532,7 @@ bool parted(const SoftObject& object, const Seed& s)
 {
     if (s.neighbour < 0)
         return false;
-    const Seed& n = object.seed(s.neighbour);
+    const Seed& n = object.regular(s.neighbour);
     if (n.flags & SEED_ASLEEP)
         return false;
     if ((s.flags ^ n.flags) & SEED_VALID)
@@ -540,30 +540,40 @@ bool parted(const SoftObject& object, const Seed& s)
     return (s.flags & SEED_VALID) && absolute(s.position - n.position) * object.radius() > object.spacing() * PARTED;
 }
 
-// The oversampled seed of a regular one is not needed.
+// The oversampled seed of a regular one is not needed; none of a patch is.
 void putAway(SoftObject& object, int i)
 {
     if (Seed* const extra = object.extra(i))
         extra->flags = 0;
 }
 
+void putAway(SoftObject& object, Patch& patch)
+{
+    if (patch.extras)
+        forSeeds(patch, [&](int i) { putAway(object, i); });
+    patch.extras = false;
+}
+
 }  // namespace
 
-void Settler::oversample(const Patch& patch)
+void Settler::oversample(Patch& patch)
 {
+    const bool had = patch.extras;
     bool any = false;
     forSeeds(patch, [&](int i) {
         if (!parted(object_, object_.seed(i))) {
-            putAway(object_, i);
+            if (had)
+                putAway(object_, i);
             return;
         }
-        Seed& extra = object_.seed(i + 1);
         any = true;
+        Seed& extra = object_.seed(i + 1);
         if (!(extra.flags & SEED_ACTIVE)) {
             extra.flags = SEED_ACTIVE | SEED_VALID;
             extra.position = object_.seed(i).position;
         }
     });
+    patch.extras = any;
     if (!any)
         return;
     setPatch(patch);
@@ -574,11 +584,11 @@ void Settler::oversample(const Patch& patch)
     });
 }
 
-void rest(SoftObject& object, const Patch& patch, const OwnFrame& own)
+void rest(SoftObject& object, Patch& patch, const OwnFrame& own)
 {
+    putAway(object, patch);
     forSeeds(patch, [&](int i) {
         Seed& s = object.seed(i);
-        putAway(object, i);
         if (s.flags != (SEED_VALID | SEED_RESTING)) {
             s.position = Real(1);
             s.normal = object.restNormal(s);
@@ -596,10 +606,10 @@ void light(SoftObject& object, const Patch& patch, const OwnFrame& own)
     });
 }
 
-void sleep(SoftObject& object, const Patch& patch)
+void sleep(SoftObject& object, Patch& patch)
 {
+    putAway(object, patch);
     forSeeds(patch, [&](int i) {
-        putAway(object, i);
         if (i != patch.centre)
             object.seed(i).flags = SEED_ASLEEP;
     });

@@ -67,7 +67,7 @@ public:
 
     // Settles those oversampled seeds of a patch that are needed, when all regular ones have been; the others end. It calls
     // setPatch() by itself.
-    void oversample(const Patch& patch);
+    void oversample(Patch& patch);
 
 private:
     // Sets position, normal and flags of a seed. One that finds no surface of its own object is left without SEED_VALID;
@@ -112,12 +112,12 @@ private:
 };
 
 // Puts the seeds of a patch where no neighbour reaches them.
-void rest(SoftObject& object, const Patch& patch, const OwnFrame& own);
+void rest(SoftObject& object, Patch& patch, const OwnFrame& own);
 
 // Works out the brightness of its seeds anew, when the light comes from another side of the object.
 void light(SoftObject& object, const Patch& patch, const OwnFrame& own);
 
 // Puts all seeds of a patch but the one in the middle to sleep: they are neither settled nor drawn.
-void sleep(SoftObject& object, const Patch& patch);
+void sleep(SoftObject& object, Patch& patch);
 
 #endif

@@ -503,7 +503,7 @@ inline void Shader<TURNED>::shadeSeeds(const Patch& patch, VoxelList& list) cons
             if (RESTING || (seeds_[i].flags & SEED_VALID))
                 add(seeds_[i], false);
             // Of those at rest only the regular ones are there.
-            const Seed* const extra = RESTING ? nullptr : object_.extra(2 * i);
+            const Seed* const extra = RESTING || !patch.extras ? nullptr : object_.extra(2 * i);
             constexpr int NEEDED = SEED_ACTIVE | SEED_VALID;
             if (extra != nullptr && (extra->flags & NEEDED) == NEEDED)
                 add(*extra, true);
