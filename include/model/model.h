@@ -140,6 +140,7 @@ private:
     void clear();
     void recalcAll();
     bool layOut(SoftObject* object) const;
+    const SoftObject* alike(int i) const;
 
     Actor* actors_[OBJECTS_MOST];
     Actor* items_[OBJECTS_MOST + GROUPS_MOST];  // owned

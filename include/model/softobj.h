@@ -77,7 +77,8 @@ public:
 
     // Lays the seeds out anew, `spacing` units apart, and makes the surface that will settle them. False: the object keeps
     // what it had, and resampleTrouble() says why, unless it was stopped (model/stop.h).
-    bool resample(Real spacing, SurfaceMaker makeSurface);
+    // `like` is null, or an object of the same kind, measures and size whose seeds have just been laid out: they are copied.
+    bool resample(Real spacing, SurfaceMaker makeSurface, const SoftObject* like = nullptr);
     // Why resample() failed the last time, for any object: one line of words.
     static const char* resampleTrouble();
     // How many regular seeds there would be.
@@ -206,11 +207,11 @@ private:
         Vector* roots = nullptr;
         int32_t* ringStarts = nullptr;
         int32_t* rootsBetween = nullptr; // of each ring: the first root for oversampled seeds between it and the one before
-        int regular = 0, oversampled = 0, rings = 0;
+        int regular = 0, oversampled = 0, rings = 0, rootRoom = 0;
         Real spacing{2};
         Real size{0};                    // of the object
 
-        bool allocated(int rootRoom);
+        bool allocated();
         void release();
         int blocks() const { return (regular + EXTRA_BLOCK - 1) >> EXTRA_BITS; }
         Vector rest(const Seed& s) const { return roots[s.root] + s.path; }
@@ -221,6 +222,7 @@ private:
     void tellNeighbours();
     bool layOutRegular(Layout& layout) const;
     bool findNeighbours(Layout& layout) const;
+    bool layOutLike(const SoftObject& other, Layout& layout) const;
     Seed& laidExtra(int slot);
     Seed* layOutBlock(int block);
     Seed* blockFromOthers();

@@ -114,7 +114,7 @@ const char* SoftObject::resampleTrouble()
     return trouble;
 }
 
-bool SoftObject::Layout::allocated(int rootRoom)
+bool SoftObject::Layout::allocated()
 {
     seeds = allocate<Seed>(static_cast<uint32_t>(regular));
     extras = allocate<Seed*>(static_cast<uint32_t>(blocks()));
@@ -184,8 +184,8 @@ bool SoftObject::layOutRegular(Layout& layout) const
     }
     layout.rings = counter.rings;
     layout.regular = counter.seeds;
-    const int rootRoom = counter.roots + counter.between > ROOTS_MAX ? ROOTS_MAX : counter.roots + counter.between;
-    if (!layout.allocated(rootRoom))
+    layout.rootRoom = counter.roots + counter.between > ROOTS_MAX ? ROOTS_MAX : counter.roots + counter.between;
+    if (!layout.allocated())
         return false;
     Filler filler(layout.seeds, layout.roots, layout.ringStarts, radius_, layout.spacing);
     layOutSeeds(filler, layout.spacing);
@@ -228,6 +228,22 @@ bool SoftObject::findNeighbours(Layout& layout) const
             s.aside = layout.asideOf(s, layout.seeds[n], perSpacing);
         }
     }
+    return true;
+}
+
+// The regular seeds of another object. False: no memory.
+bool SoftObject::layOutLike(const SoftObject& other, Layout& layout) const
+{
+    const Layout& from = other.laid_;
+    layout.rings = from.rings;
+    layout.regular = from.regular;
+    layout.rootRoom = from.rootRoom;
+    if (!layout.allocated())
+        return false;
+    memcpy(layout.seeds, from.seeds, sizeof(Seed) * static_cast<size_t>(from.regular));
+    memcpy(layout.roots, from.roots, sizeof(Vector) * static_cast<size_t>(from.rootRoom));
+    memcpy(layout.ringStarts, from.ringStarts, sizeof(int32_t) * static_cast<size_t>(from.rings + 1));
+    memcpy(layout.rootsBetween, from.rootsBetween, sizeof(int32_t) * static_cast<size_t>(from.rings + 1));
     return true;
 }
 
@@ -368,13 +384,13 @@ int SoftObject::seedsAt(Real spacing) const
     return counter.seeds;
 }
 
-bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface)
+bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObject* like)
 {
     snprintf(trouble, sizeof trouble, "not enough memory for seeds that close");
     Layout layout;
     layout.spacing = spacing;
     layout.size = size_;
-    if (!layOutRegular(layout) || !findNeighbours(layout)) {
+    if (like != nullptr ? !layOutLike(*like, layout) : !layOutRegular(layout) || !findNeighbours(layout)) {
         layout.release();
         return false;
     }
@@ -383,7 +399,7 @@ bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface)
     // The surface is made for the object as it will be; without memory for it the object goes back.
     Layout before = laid_;
     laid_ = layout;
-    for (int ring = 0; ring < laid_.rings && !stopAsked(); ++ring)
+    for (int ring = 0; like == nullptr && ring < laid_.rings && !stopAsked(); ++ring)
         for (int i = laid_.ringStarts[ring]; i < laid_.ringStarts[ring + 1]; ++i)
             laid_.seeds[i].normal = restNormal(laid_.seeds[i]);
     Surface* const surface = stopAsked() ? nullptr : makeSurface(*this);

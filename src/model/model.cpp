@@ -349,11 +349,26 @@ void Model::recalcAll()
         actors_[i]->object->setRecalc();
 }
 
+// An object before the i-th that has the same seeds; null: none.
+const SoftObject* Model::alike(int i) const
+{
+    const Actor& one = *actors_[i];
+    for (int j = 0; one.kind != nullptr && j < i; ++j) {
+        const Actor& other = *actors_[j];
+        bool same = other.kind == one.kind && other.object->size() == one.object->size();
+        for (int m = 0; same && m < MEASURES_MOST; ++m)
+            same = other.measure[m] == one.measure[m];
+        if (same)
+            return other.object;
+    }
+    return nullptr;
+}
+
 bool Model::resample(Real spacing, SurfaceMaker makeSurface)
 {
     for (int i = 0; i < count_; ++i) {
         const Real before = actors_[i]->object->spacing();
-        if (!actors_[i]->object->resample(spacing, makeSurface)) {
+        if (!actors_[i]->object->resample(spacing, makeSurface, alike(i))) {
             while (--i >= 0)
                 actors_[i]->object->resample(before, makeSurface);
             return false;
