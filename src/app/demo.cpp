@@ -28,7 +28,7 @@ Demo::Demo(const Options& options, const char* directory)
       greets_(options.frames == 0 && options.seconds == 0 && options.dumpDirectory == nullptr)
 {
     running = this;
-    stopSource = [] { return running->interrupted(); };
+    stopSource = [] { return running->stopped(); };
     snprintf(directory_, sizeof directory_, "%s", directory);
     snprintf(scene_, sizeof scene_, "%s", options.modelFile == nullptr ? "" : options.modelFile);
 }
@@ -140,6 +140,15 @@ bool Demo::interrupted()
         escapeWaits_ = escapeWaits_ || code == machine::KEY_ESC;
     }
     return escapeWaits_ || machine::broken();
+}
+
+// What a key started is stopped by ESC only when that is the next key: another one may come first that gives it a meaning.
+bool Demo::stopped()
+{
+    const bool some = interrupted();
+    if (!takingKeys_ || machine::broken())
+        return some;
+    return nextKey_ < waiting_ && keys_[nextKey_] == machine::KEY_ESC && ask_.state() == Ask::CLOSED;
 }
 
 void Demo::resample(Real spacing)

@@ -36,16 +36,22 @@ int small(int code)
 // Those that came while the last frame was drawn, then what came since.
 void Demo::takeKeys()
 {
-    for (int i = 0; i < waiting_ && !ended_; ++i)
-        key(keys_[i]);
-    waiting_ = 0;
-    escapeWaits_ = false;
+    takingKeys_ = true;
+    nextKey_ = 0;
     while (!ended_) {
+        // What a key starts may take long and fetch those that come meanwhile.
+        if (nextKey_ < waiting_) {
+            key(keys_[nextKey_++]);
+            continue;
+        }
+        nextKey_ = waiting_ = 0;
+        escapeWaits_ = false;
         const int code = machine::key();
         if (code == 0)
             break;
         key(code);
     }
+    takingKeys_ = false;
 }
 
 void Demo::key(int code)

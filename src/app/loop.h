@@ -34,6 +34,7 @@ private:
     bool finished() const;
     void findTime();
     bool interrupted();
+    bool stopped();
     bool frame();
     bool drawModel();
     const char* keepFrame();
@@ -100,6 +101,8 @@ private:
     int keys_[KEYS_MOST];
     int waiting_ = 0;
     bool escapeWaits_ = false;
+    int nextKey_ = 0;            // while they are taken: the one to be taken next
+    bool takingKeys_ = false;
 
     // Hands on.
     Editor editor_;
