@@ -83,14 +83,21 @@ public:
     // Whether `a` blends with `b`, and with which weight.
     static bool linked(const SoftObject* a, const SoftObject* b, Real* weight);
 
-    // Lays out the seeds of all objects, `spacing` units apart. False: no memory; objects already done are put back to
-    // the spacing they had where that is possible.
+    // Lays out the seeds of all objects, `spacing` units apart. False: as SoftObject::resample(); objects already done are
+    // put back to the spacing they had where that is possible.
     bool resample(Real spacing, SurfaceMaker makeSurface);
 
     SurfaceMaker surfaceMaker() const { return makeSurface_; }
 
     // The bodies that the links make, found anew when they have changed. Null: no memory.
     const Bodies* bodies();
+
+    // How many regular seeds a spacing would give.
+    int seedsAt(Real spacing) const;
+
+    // The finest and the coarsest spacing of an object.
+    Real finest() const;
+    Real coarsest() const;
 
     // Number of seeds of all objects: regular, oversampled.
     int seeds() const;
@@ -141,6 +148,7 @@ public:
 private:
     void clear();
     bool layOut(SoftObject* object) const;
+    const SoftObject* alike(int i) const;
 
     Actor* actors_[OBJECTS_MOST];
     Actor* items_[OBJECTS_MOST + GROUPS_MOST];  // owned

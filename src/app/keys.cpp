@@ -24,6 +24,9 @@ constexpr Real FARTHER_A_KEY(1.111111);
 
 constexpr int STEPS_A_SECOND = 10;
 
+// The rate that F4 holds where /F names none.
+constexpr int HOLD_FRAMES = 10;
+
 // How far from the pointer an object may lie that a click means.
 constexpr int PICK_REACH = 4;
 
@@ -38,16 +41,22 @@ int small(int code)
 // Those that came while the last frame was drawn, then what came since.
 void Demo::takeKeys()
 {
-    for (int i = 0; i < waiting_ && !ended_; ++i)
-        key(keys_[i]);
-    waiting_ = 0;
-    escapeWaits_ = false;
+    takingKeys_ = true;
+    nextKey_ = 0;
     while (!ended_) {
+        // What a key starts may take long and fetch those that come meanwhile.
+        if (nextKey_ < waiting_) {
+            key(keys_[nextKey_++]);
+            continue;
+        }
+        nextKey_ = waiting_ = 0;
+        escapeWaits_ = false;
         const int code = machine::key();
         if (code == 0)
             break;
         key(code);
     }
+    takingKeys_ = false;
 }
 
 void Demo::key(int code)
@@ -60,9 +69,16 @@ void Demo::key(int code)
     case machine::KEY_ESC: ended_ = true; return;
     case '*': view_.setPixels(!view_.pixels()); return;
     case '-':
-    case '_': resample(least(spacing_ * Real(1.25), SPACING_MOST)); return;
+    case '_':
+        letGo();
+        resample(least(spacing_ * Real(1.25), SPACING_MOST));
+        return;
     case '+':
-    case '=': resample(most(spacing_ * Real(0.8), SPACING_LEAST)); return;
+    case '=':
+        letGo();
+        resample(most(spacing_ * Real(0.8), SPACING_LEAST));
+        return;
+    case machine::KEY_F4: hold(); return;
     case machine::KEY_F1:
         help_ = !help_;
         greets_ = false;
@@ -118,6 +134,31 @@ bool Demo::eyeKey(int code)
         return true;
     default: return false;
     }
+}
+
+// Holds a rate, or lets it go.
+void Demo::hold()
+{
+    char text[40];
+    if (options_.frames > 0) {
+        snprintf(text, sizeof text, "no rate is held with /N");
+    } else if (rate_.frames() > 0) {
+        letGo();
+        snprintf(text, sizeof text, "no rate is held");
+    } else {
+        rate_.hold(options_.hold > 0 ? options_.hold : HOLD_FRAMES);
+        snprintf(text, sizeof text, "holding %d frames a second", rate_.frames());
+    }
+    say(text);
+}
+
+// From now on the user chooses the spacing.
+void Demo::letGo()
+{
+    if (rate_.frames() == 0)
+        return;
+    rate_.hold(0);
+    spacing_ = model_.coarsest();
 }
 
 // The keys that hold the animation, let it go and change its speed.

@@ -374,11 +374,26 @@ Actor* Model::eyeCarrier()
     return carrier;
 }
 
+// An object before the i-th that has the same seeds; null: none.
+const SoftObject* Model::alike(int i) const
+{
+    const Actor& one = *actors_[i];
+    for (int j = 0; one.kind != nullptr && j < i; ++j) {
+        const Actor& other = *actors_[j];
+        bool same = other.kind == one.kind && other.object->size() == one.object->size();
+        for (int m = 0; same && m < MEASURES_MOST; ++m)
+            same = other.measure[m] == one.measure[m];
+        if (same)
+            return other.object;
+    }
+    return nullptr;
+}
+
 bool Model::resample(Real spacing, SurfaceMaker makeSurface)
 {
     for (int i = 0; i < count_; ++i) {
         const Real before = actors_[i]->object->spacing();
-        if (!actors_[i]->object->resample(spacing, makeSurface)) {
+        if (!actors_[i]->object->resample(spacing, makeSurface, alike(i))) {
             while (--i >= 0)
                 actors_[i]->object->resample(before, makeSurface);
             return false;
@@ -387,6 +402,30 @@ bool Model::resample(Real spacing, SurfaceMaker makeSurface)
     spacing_ = spacing;
     makeSurface_ = makeSurface;
     return true;
+}
+
+Real Model::finest() const
+{
+    Real spacing = count_ > 0 ? actors_[0]->object->spacing() : spacing_;
+    for (int i = 1; i < count_; ++i)
+        spacing = least(spacing, actors_[i]->object->spacing());
+    return spacing;
+}
+
+Real Model::coarsest() const
+{
+    Real spacing = count_ > 0 ? actors_[0]->object->spacing() : spacing_;
+    for (int i = 1; i < count_; ++i)
+        spacing = most(spacing, actors_[i]->object->spacing());
+    return spacing;
+}
+
+int Model::seedsAt(Real spacing) const
+{
+    int seeds = 0;
+    for (int i = 0; i < count_; ++i)
+        seeds += actors_[i]->object->seedsAt(spacing);
+    return seeds;
 }
 
 const Bodies* Model::bodies()

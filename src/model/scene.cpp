@@ -310,10 +310,13 @@ bool Reader::readColour(Colour* colour)
 
 bool Reader::readVector(const char* what, int limit, Vector* value)
 {
-    char text[60];
     const auto part = [&](const char* axis, Real* to) {
+        nextWord();
+        if (parseReal(word_, to) && absolute(*to) <= Real(limit))
+            return true;
+        char text[60];
         snprintf(text, sizeof text, "%.40s, %s", what, axis);
-        return readReal(text, Real(-limit), Real(limit), to);
+        return realIs(text, Real(-limit), Real(limit), to);
     };
     return part("x", &value->x) && part("y", &value->y) && part("z", &value->z);
 }

@@ -2,10 +2,14 @@
 #include "surface/engine.h"
 
 #include "math/alloc.h"
+#include "model/stop.h"
 #include "settle.h"
 #include "shade.h"
 
 namespace {
+
+// So many patches are updated before the user is asked whether to go on.
+constexpr int ASKED_EVERY = 32;
 
 class Engine : public Surface {
 public:
@@ -61,6 +65,8 @@ void Engine::update(const FrameContext& frame)
     Patch* const end = patches_ + count_;
     for (Patch* patch = patches_; patch < end; ++patch) {
         patch->settled = false;
+        if ((patch - patches_) % ASKED_EVERY == ASKED_EVERY - 1 && stopAsked())
+            return;
         if (!known || patch->stale || isDue(odometer_.bound(), patch->listDue)) {
             classify(*patch, all);
             patch->listDue = odometer_.bound() + wayOf(LIST_SLACK);

@@ -196,7 +196,7 @@ inline void Shader<TURNED>::setPatch(const Patch& patch)
     if (TURNED && patch.state == PATCH_REST)
         horizon = curvature(patch, middle);
     else if (TURNED)
-        horizon = rawFromReal(object_.horizonAt(roots_[seeds_[patch.centre].root], realFromRaw(generalHorizon_ << 11))) >> 11;
+        horizon = rawFromReal(object_.horizonAt(roots_[object_.seed(patch.centre).root], realFromRaw(generalHorizon_ << 11))) >> 11;
     horizonShare_ = (smaller(horizon, 8000) << 15) / own_.distance32;
     gradientAhead_ = (gradient_[2] + (gradient_[0] * (shearX >> 4) >> 8) + (gradient_[1] * (shearY >> 4) >> 8)) >> 4;
 }
@@ -269,9 +269,9 @@ inline bool Shader<TURNED>::atEnd(const Seed& s) const
 template <bool TURNED>
 inline int32_t Shader<TURNED>::curvature(const Patch& patch, const int32_t middle[3])
 {
-    const bool end = atEnd(seeds_[patch.centre]);
+    const bool end = atEnd(object_.seed(patch.centre));
     const int last = PATCH_RINGS - 1;
-    round_ = end == atEnd(seeds_[2 * patch.first[0]]) && (patch.count[last] == 0 || end == atEnd(seeds_[2 * patch.first[last]]));
+    round_ = end == atEnd(seeds_[patch.first[0]]) && (patch.count[last] == 0 || end == atEnd(seeds_[patch.first[last]]));
     const int32_t radius = grown(patch.path * 2);
     const int32_t x = middle[0], y = middle[1], z = middle[2];
     const Normal out = normalise({realFromRaw(x << 8), Real(0), realFromRaw(z << 8)});
@@ -455,7 +455,7 @@ inline bool Shader<TURNED>::cut(const Seed& s, const Scale& scale, Voxel* voxel)
 template <bool TURNED>
 inline void Shader<TURNED>::changes(const Seed& s, Cell& c) const
 {
-    const Seed &next = (&s)[2], &last = (&s)[-2], &n = seeds_[s.neighbour];
+    const Seed &next = (&s)[1], &last = (&s)[-1], &n = object_.seed(s.neighbour);
     c.along.change = c.across.change = 0;
     if (&next <= lastSeed_ && (next.flags & SEED_VALID) && next.neighbour >= s.neighbour)
         c.along.change = (next.brightness8 - s.brightness8) >> 1;
@@ -493,18 +493,21 @@ template <bool RESTING>
 inline void Shader<TURNED>::shadeSeeds(const Patch& patch, VoxelList& list) const
 {
     Voxel* voxel = list.room();
+    const auto add = [&](const Seed& s, bool oversampled) {
+        if (shade<RESTING>(s, oversampled, voxel)) {
+            list.take();
+            ++voxel;
+        }
+    };
     for (int ring = 0; ring < PATCH_RINGS; ++ring) {
-        const Seed* s = seeds_ + 2 * patch.first[ring];
-        const Seed* const end = s + 2 * patch.count[ring];
-        // Regular seeds and oversampled ones take turns; of those at rest only the regular ones are there.
-        bool oversampled = false;
-        for (; s < end; s += RESTING ? 2 : 1) {
-            const int needed = oversampled ? SEED_ACTIVE | SEED_VALID : SEED_VALID;
-            if ((RESTING || (s->flags & needed) == needed) && shade<RESTING>(*s, oversampled, voxel)) {
-                list.take();
-                ++voxel;
-            }
-            oversampled = !RESTING && !oversampled;
+        for (int i = patch.first[ring], end = i + patch.count[ring]; i < end; ++i) {
+            if (RESTING || (seeds_[i].flags & SEED_VALID))
+                add(seeds_[i], false);
+            // Of those at rest only the regular ones are there.
+            const Seed* const extra = RESTING || !patch.extras ? nullptr : object_.extra(2 * i);
+            constexpr int NEEDED = SEED_ACTIVE | SEED_VALID;
+            if (extra != nullptr && (extra->flags & NEEDED) == NEEDED)
+                add(*extra, true);
         }
     }
 }
