@@ -107,7 +107,8 @@ private:
     Vector root_, path_;
     int touched_;
     Along along_[NEIGHBOURS_MAX];
-    Real ownField_, ownSlope_;             // F and dF/dt of the own field at the last position
+    Real lookedAt_;                        // the last position looked at
+    Real ownField_, ownSlope_;             // F and dF/dt of the own field there
     Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, unless complete_
 };
 
