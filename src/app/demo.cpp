@@ -217,7 +217,7 @@ bool Demo::drawModel()
         object.setRamp(ramp);
     }
     if (!options_.printed)
-        view_.closeGaps(spacing_);
+        view_.closeGaps(spacing_, options_.grey ? nullptr : &model_, &palette_);
     return true;
 }
 
