@@ -132,6 +132,9 @@ public:
     // nothing was changed.
     bool restore(const Record* record);
 
+    // Number of the object whose own field is the strongest at a point: it gives the point its colour. -1: no field reaches it.
+    int strongestAt(const Point& p) const;
+
     // Changes the light under which seeds were laid out already.
     void setLight(const Vector& to);
 

@@ -382,19 +382,5 @@ int Demo::objectAt(int x, int y) const
     }
     if (nearest > PICK_REACH * PICK_REACH)
         return -1;
-    const Camera& camera = view_.camera();
-    const Real half(0.5);
-    const Real z = realFromRaw(static_cast<int32_t>(zbuffer[atY * machine::WIDTH + atX]) << 9);
-    const Point p = camera.eye + camera.axes.toWorld({(Real(atX) + half - camera.centreX) / camera.focalX * z,
-                                                      (camera.centreY - Real(atY) - half) / camera.focalY * z, z});
-    int best = -1;
-    Real strongest(0);
-    for (int i = 0; i < model_.count(); ++i) {
-        const Real field = model_.actor(i).object->fieldFunc(p);
-        if (field > strongest) {
-            strongest = field;
-            best = i;
-        }
-    }
-    return best;
+    return model_.strongestAt(view_.pointAt(atY * machine::WIDTH + atX));
 }

@@ -590,3 +590,17 @@ bool Model::restore(const Record* record)
         good = link(itemNumbered(pair[i].a)->object, itemNumbered(pair[i].b)->object, pair[i].weight) && good;
     return true;
 }
+
+int Model::strongestAt(const Point& p) const
+{
+    int best = -1;
+    Real strongest(0);
+    for (int i = 0; i < count_; ++i) {
+        const Real field = actors_[i]->object->fieldFunc(p);
+        if (field > strongest) {
+            strongest = field;
+            best = i;
+        }
+    }
+    return best;
+}

@@ -198,6 +198,7 @@ struct Settler::Sum {
     {
         const Real t = shiftDown(at * at, 2);
         const FieldStep own = t < Real(1) ? geoffQuick(t) : FieldStep{Real(0), Real(0)};
+        settler.lookedAt_ = at;
         settler.ownField_ = sum = own.value;
         settler.ownSlope_ = own.slope;
         slope = shiftDown(own.slope * at, 1);
@@ -465,6 +466,8 @@ void Settler::findBorder(Seed& s, Real dominance) const
     for (int i = 1; i < touched_; ++i)
         if (along_[i].value > other->value)
             other = along_ + i;
+    // The fields were looked at before the last step.
+    dominance += (other->slope * other->change - shiftDown(ownSlope_ * lookedAt_, 1)) * (s.position - lookedAt_);
     // Gradients, times half the squared size of the object.
     const Vector place = path_ * s.position;
     Vector g = place * ownSlope_;

@@ -121,7 +121,8 @@ private:
     int touched_;
     Along along_[NEIGHBOURS_MAX];
     Real slope_;                      // dF/dp where the seed has settled
-    Real ownField_, ownSlope_;        // F and dF/dt of the own field at the last position
+    Real lookedAt_;                   // the last position looked at
+    Real ownField_, ownSlope_;        // F and dF/dt of the own field there
     Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, unless complete_
 };
 

@@ -430,14 +430,13 @@ inline bool Shader<TURNED>::cut(const Seed& s, const Scale& scale, Voxel* voxel)
     // A step across the view leads along the ray as well, as far as the scale is tilted.
     const int32_t along = z + ((x * shearX_ + y * shearY_) >> 12);
     int32_t cutX = x + (scale.tiltX * (along >> 2) >> 6), cutY = y + (scale.tiltY * (along >> 2) >> 6);
-    int32_t at = (s.apart + BORDER_MARGIN) * 64, unit = 1 << 14;
+    int32_t at = (s.apart + BORDER_MARGIN) * 64;
     while (magnitude(cutX) > 127 || magnitude(cutY) > 127) {
         cutX >>= 1;
         cutY >>= 1;
         at >>= 1;
-        unit >>= 1;
     }
-    if (unit < 16 || (cutX | cutY) == 0)
+    if ((cutX | cutY) == 0)
         return true;
     const int32_t corner = (magnitude(cutX) * scale.wide + magnitude(cutY) * scale.high) >> 8;
     if (at >= corner)

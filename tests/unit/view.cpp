@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "help.h"
+#include "model/anim.h"
 #include "test.h"
 
 using machine::HEIGHT;
@@ -463,6 +464,51 @@ TEST(gaps_closed_all_round)
             } else {
                 SAME(drawnIn(view, left, top, right, bottom), 0);
             }
+        }
+}
+
+// Between two objects the colour changes where the one's field becomes stronger, to two pixels, wherever the gap lies; the brightness goes from
+// the one side's to the other's, and the depth stays the nearer side's.
+TEST(gaps_between_two_objects)
+{
+    Model model;
+    Motion left{}, right{};
+    left.centre = point(-10, 0, 0);
+    right.centre = point(10, 0, 0);
+    CHECK(model.add(make<Sphere>(1, Real(40)), {255, 0, 0}, left));
+    CHECK(model.add(make<Sphere>(2, Real(40)), {0, 0, 255}, right));
+    Anim::move(model, 0);
+    Palette palette;
+    palette.make(model, false);
+    const uint8_t* const ramps[] = {model.actor(0).object->ramp(), model.actor(1).object->ramp()};
+    View view;
+    CHECK(view.open());
+    for (int from = 149; from <= 159; ++from)
+        for (const uint8_t* behind : ramps) {
+            const int to = from + 12;
+            view.begin();
+            const auto block = [&](int x0, int y0, int x1, int y1, int depth, uint8_t colour) {
+                for (int y = y0; y < y1; ++y)
+                    for (int x = x0; x < x1; ++x)
+                        view.setPixel(y * WIDTH + x, depth * 128, colour);
+            };
+            // Their fields are equal at column 160, whatever was drawn beside the gap.
+            block(100, 60, from, 140, 120, ramps[0][10]);
+            block(to, 60, 220, 140, 121, behind[50]);
+            block(from, 60, to, 94, 120, ramps[0][30]);
+            block(from, 104, to, 140, 120, ramps[0][30]);
+            view.closeGaps(SPACING, &model, &palette);
+            view.end();
+            int before = 10;
+            for (int x = from; x < to; ++x) {
+                const int at = 99 * WIDTH + x, step = palette.step(view.frame()[at]);
+                if (x < 158 || x > 161)
+                    SAME(view.frame()[at], ramps[x >= 160][step]);
+                CHECK(step >= before && step <= 50);
+                before = step;
+                SAME(view.zbuffer()[at], view.zbuffer()[99 * WIDTH + (2 * x < from + to ? from - 1 : to)]);
+            }
+            CHECK(before > 40);
         }
 }
 
