@@ -53,6 +53,7 @@ void setPatch(const SoftObject& object, Patch& patch)
     patch.radius = static_cast<int16_t>(steps16(radius + shiftDown(object.spacing(), 1)) + 2);
     patch.path = static_cast<int16_t>(steps16(path) + 1);
     patch.state = PATCH_REST;
+    patch.bend.stale = true;
 }
 
 struct Step {

@@ -32,6 +32,7 @@ private:
 
     uint32_t updates_ = 0;
     int32_t light_[3] = {0, 0, 0};  // at the last update, own axes
+    ViewBefore before_;
     Patch* patches_ = nullptr;
     int count_ = 0;
 };
@@ -87,7 +88,7 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
 {
     const OwnFrame own = ownFrame(object_, frame);
     list.begin(object_.centre() - frame.eye, object_.ramp());
-    const int at = shadePatches(object_, own, frame, patches_, count_, *next, list, room);
+    const int at = shadePatches(object_, own, frame, patches_, count_, *next, before_, list, room);
     *next = at < count_ ? at : 0;
 }
 

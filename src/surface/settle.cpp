@@ -382,10 +382,12 @@ Real Settler::settle(Seed& s)
         touched = begin(s, &sample);
     }
     if (!touched) {
-        if (!(s.flags & SEED_RESTING))
+        if (!(s.flags & SEED_RESTING)) {
             s.normal = object_.restNormal(s);
+            s.flags &= SEED_ACTIVE;
+        }
         s.brightness8 = brightness8(s.normal, own_.light);
-        s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
+        s.flags = static_cast<uint8_t>((s.flags & (SEED_ACTIVE | SEED_MEASURED)) | SEED_VALID | SEED_RESTING);
         return Real(0);
     }
     ++counts_.updated;

@@ -1,0 +1,152 @@
+// From seeds to voxels in C++: what asm/voxels.S does, said plainly.
+#include "voxels.h"
+
+namespace {
+
+inline int32_t magnitude(int32_t a)
+{
+    return a < 0 ? -a : a;
+}
+
+inline int32_t smaller(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+inline int32_t limited(int32_t a, int32_t most)
+{
+    return a > most ? most : a < -most ? -most : a;
+}
+
+inline int32_t product(const int16_t a[3], const int32_t b[3])
+{
+    return (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) >> 14;
+}
+
+inline int32_t product(const Direction14& a, const int32_t b[3])
+{
+    return (a.x * b[0] + a.y * b[1] + a.z * b[2]) >> 14;
+}
+
+// A half axis of a cell on the picture plane; both sums of products are one, each 16 bits wide.
+inline uint32_t onPicture(const int8_t axis[3], const Shading& v)
+{
+    return static_cast<uint32_t>(axis[0]) * v.cell[0] + static_cast<uint32_t>(axis[1]) * v.cell[1] +
+           static_cast<uint32_t>(axis[2]) * v.cell[2];
+}
+
+inline int32_t width(uint32_t both)
+{
+    return magnitude(static_cast<int32_t>(both + 0x8000) >> 16);
+}
+
+inline int32_t height(uint32_t both)
+{
+    return magnitude(static_cast<int16_t>(both));
+}
+
+inline void place(const Shading& v, const Seed& s, Voxel& voxel)
+{
+    voxel.x = v.turned ? product(s.place, v.toRight) : s.place[0];
+    voxel.y = v.turned ? product(s.place, v.toUp) : s.place[1];
+    voxel.z = v.turned ? product(s.place, v.toAhead) : s.place[2];
+    voxel.brightness = static_cast<uint8_t>((s.brightness8 + 128) >> 8);
+}
+
+inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
+{
+    place(v, s, voxel);
+    const int32_t normalX = v.turned ? product(s.normal, v.right) : s.normal.x;
+    const int32_t normalY = v.turned ? product(s.normal, v.up) : s.normal.y;
+    const int32_t depth = v.depth + voxel.z;
+    // The tangent plane: depth changes by n.x depth / (n . to eye) for a unit across the view.
+    const int32_t steep = smaller(static_cast<int32_t>((static_cast<uint32_t>(depth) << 8) / static_cast<uint32_t>(facing)), STEEPEST_TILT);
+    const int32_t tiltX = normalX * steep >> 14, tiltY = normalY * steep >> 14;
+    voxel.tiltX = static_cast<int16_t>(tiltX);
+    voxel.tiltY = static_cast<int16_t>(tiltY);
+    // Half width and height. Beside each other, cells of a ring make a band: rectangles as wide as the way from one to the
+    // next need not cover the whole of their cells, only, together, the band.
+    const uint32_t along = onPicture(s.cellAlong, v);
+    int32_t wide = width(along), high = height(along);
+    if (s.cellArea <= v.wholeMost) {
+        const uint32_t across = onPicture(s.cellAcross, v);
+        wide = (wide + width(across)) >> v.cellShift;
+        high = (high + height(across)) >> v.cellShift;
+    } else {
+        const uint32_t area = static_cast<uint32_t>(mulHigh(s.cellArea * (facing >> 3), v.areaShare));
+        wide >>= v.cellShift;
+        high >>= v.cellShift;
+        if (wide > high)
+            high += static_cast<int32_t>(area / static_cast<uint32_t>(wide));
+        else if (high > 0)
+            wide += static_cast<int32_t>(area / static_cast<uint32_t>(high));
+    }
+    wide = smaller(wide + (wide >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff);
+    high = smaller(high + (high >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff);
+    voxel.wide = static_cast<int16_t>(wide);
+    voxel.high = static_cast<int16_t>(high);
+    voxel.reach = 0;
+    voxel.cutX = voxel.cutY = voxel.slopeX = voxel.slopeY = 0;
+    voxel.cutAt = 0;
+    // Where a round surface bends out of sight its tangent plane goes on: the scale ends there. The limb is cos^2 radius / 2
+    // away across the view, with cos the cosine of normal and viewer; along the plane that is cos radius / 2 deep.
+    const int32_t reach = (v.horizonShare * facing >> 16) + 1;
+    if (reach < 256 && (magnitude(tiltX) * wide + magnitude(tiltY) * high) >> 11 >= reach)
+        voxel.reach = static_cast<uint8_t>(reach);
+    if (voxel.brightness == 0)
+        return;
+    // How the brightness changes across the scale, 1/8 step a unit; not at all when that is next to nothing.
+    int32_t slopeX = (v.gradient[0] + (tiltX * v.gradientAhead >> 4)) >> 8;
+    int32_t slopeY = (v.gradient[1] + (tiltY * v.gradientAhead >> 4)) >> 8;
+    int32_t corner = (magnitude(slopeX) * wide + magnitude(slopeY) * high) >> 8;
+    if (corner < FLAT_SHADING)
+        return;
+    for (; corner > SHADING_MOST * 8; corner >>= 1) {
+        slopeX >>= 1;
+        slopeY >>= 1;
+    }
+    voxel.slopeX = static_cast<int8_t>(limited(slopeX, 127));
+    voxel.slopeY = static_cast<int8_t>(limited(slopeY, 127));
+}
+
+}  // namespace
+
+int findSeedsC(Shading* shading, Seed* seeds, Patch* patch, Seen* seen)
+{
+    Seen* to = seen;
+    uint32_t some = 0, all = 0xff;
+    for (int ring = 0; ring < PATCH_RINGS; ++ring) {
+        Voxel* voxel = patch->voxels + ring * PATCH_SEEDS;
+        Seed* s = seeds + 2 * patch->first[ring];
+        for (Seed* const end = s + 2 * patch->count[ring]; s < end; s += 2, ++voxel) {
+            for (int i = 0; i < 2; ++i) {
+                Seed& one = s[i];
+                if (!(one.flags & SEED_VALID))
+                    continue;
+                int32_t facing = 0;
+                if (one.flags & SEED_MEASURED) {
+                    facing = facingOf(one, *shading);
+                    if (facing <= shading->limb)
+                        continue;
+                }
+                *to++ = {&one, facing, i == 0 ? voxel : nullptr};
+                some |= one.flags;
+                all &= one.flags;
+            }
+        }
+    }
+    shading->flags = some | all << 8;
+    return static_cast<int>(to - seen);
+}
+
+void shadeSeedsC(const Shading* shading, const Seen* seen, int count)
+{
+    for (const Seen* const end = seen + count; seen < end; ++seen)
+        shade(*shading, *seen->seed, seen->facing, *seen->voxel);
+}
+
+void placeSeedsC(const Shading* shading, const Seen* seen, int count)
+{
+    for (const Seen* const end = seen + count; seen < end; ++seen)
+        place(*shading, *seen->seed, *seen->voxel);
+}
