@@ -293,14 +293,14 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
     const int32_t away[] = {view[0] - (n[0] * up >> 14), view[1] - (n[1] * up >> 14), view[2] - (n[2] * up >> 14)};
     const int32_t curvature = (product(bend.turn[0], away) >> 14) * steps(away, 0) + (product(bend.turn[1], away) >> 14) * steps(away, 1);
     const int32_t square = product(away, away);
-    if (patch.state == PATCH_REST && curvature > square >> 11)
-        // A quarter more than the radius, for what its scales differ from their cells: next to the limb there may be no other
-        // that covers it.
-        shading_.horizonShare = mulShift16((square * 5 >> 1) / curvature, horizonScale_);
-    else if (patch.state != PATCH_REST && curvature > square >> 8)
-        shading_.horizonShare = mulShift16(square * 2 / curvature, horizonScale_);
-    else if (patch.state != PATCH_REST)
-        shading_.horizonShare = mulShift16(800, horizonScale_);
+    // A quarter more than the radius at rest, for what scales differ from their cells: next to the limb there may be no other that
+    // covers it. What blends bends no less than a ball half as large again.
+    const bool rests = patch.state == PATCH_REST;
+    if (!rests)
+        shading_.horizonShare = ballHorizon_ * 3 >> 1;
+    if (curvature > square >> 11)
+        shading_.horizonShare = smaller(shading_.horizonShare,
+                                        mulShift16((rests ? square * 5 >> 1 : square * 2) / curvature, horizonScale_));
 }
 
 // To be called before the seeds of a patch that are seen.
