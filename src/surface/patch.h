@@ -38,6 +38,8 @@ struct Patch {
     uint8_t count[PATCH_RINGS];  // and how many there are
     PatchState state;
     uint8_t blocker;    // slot of the neighbour that was the strongest where a seed was not on the surface
+    // The scales of its regular seeds as they were when the patch was shaded last; OUT_OF_SIGHT as their width: there is none.
+    Voxel voxels[PATCH_RINGS * PATCH_SEEDS];
     int32_t facing;     // of a settled patch: cosine of the surface in the middle and the direction to the viewer
     int32_t centre;     // slot of the seed in the middle
     int16_t middle[3];  // of where its seeds rest
@@ -47,9 +49,6 @@ struct Patch {
     int16_t path;       // mean length of their paths
     uint32_t reached[(NEIGHBOURS_MAX + 31) / 32];  // the neighbours that may reach it, by bits
     Bend bend;          // as it was when it was drawn last
-    // The scales of its regular seeds as they were when the patch was shaded last; OUT_OF_SIGHT as their width: there is none,
-    // 0: nothing is left of it.
-    Voxel voxels[PATCH_RINGS * PATCH_SEEDS];
 };
 
 // Calls `each` with the slot of every regular seed of a patch.

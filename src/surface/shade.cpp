@@ -70,6 +70,7 @@ public:
     void shadePatch(Patch& patch, bool turn, VoxelList& list);
 
 private:
+    bool keepPatch(Patch& patch, VoxelList& list) const;
     int measureSeen(Patch& patch, Seen* seen, int count, bool* anew);
     int leaveNear(Seen* seen, int count) const;
     void measurePlace(Seed& s) const;
@@ -361,7 +362,8 @@ bool Shader::cut(const Seed& s, Voxel* voxel) const
     return true;
 }
 
-// Measures those of the seeds found that have settled anew, and leaves out those that the viewer does not see.
+// Measures those of the seeds found that have settled anew, and leaves out those that the viewer does not see. Where two objects
+// meet, `anew` becomes true: the border may have moved.
 int Shader::measureSeen(Patch& patch, Seen* seen, int count, bool* anew)
 {
     int left = 0;
@@ -400,44 +402,69 @@ int Shader::leaveNear(Seen* seen, int count) const
     return left;
 }
 
+// Lists a patch as it was shaded last, with its seeds where they are now. False: one of them has settled or ended since.
+inline bool Shader::keepPatch(Patch& patch, VoxelList& list) const
+{
+    int count = list.count;
+    for (int ring = 0; ring < PATCH_RINGS; ++ring) {
+        const Seed* s = seeds_ + 2 * patch.first[ring];
+        Voxel* voxel = patch.voxels + ring * PATCH_SEEDS;
+        for (const Seed* const end = s + 2 * patch.count[ring]; s < end; s += 2, ++voxel) {
+            // Seeds that were out of sight stay so: the view has turned by less than what a scale at the limb may face away.
+            if (((s->flags & (SEED_VALID | SEED_MEASURED)) == SEED_VALID) | (s[1].flags & SEED_VALID))
+                return false;
+            if (voxel->wide <= 0)
+                continue;
+            if (!(s->flags & SEED_VALID))
+                return false;
+            placeVoxel(shading_, *s, *voxel);
+            list.voxels[count++] = voxel;
+        }
+    }
+    list.count = count;
+    return true;
+}
+
 inline void Shader::shadePatch(Patch& patch, bool turn, VoxelList& list)
 {
+    if (!turn && !near_ && !patch.bend.stale && keepPatch(patch, list))
+        return;
     Seen seen[SEEDS_MOST];
     int count = findSeeds(&shading_, seeds_, &patch, seen);
-    bool anew = turn;
+    bool anew = turn || near_;
     if (!(shading_.flags & SEED_MEASURED << 8))
         count = measureSeen(patch, seen, count, &anew);
     if (near_)
         count = leaveNear(seen, count);
+    anew = anew || patch.bend.stale;
+    for (int i = 0; i < count && !anew; ++i)
+        anew = seen[i].voxel == nullptr || seen[i].voxel->wide == OUT_OF_SIGHT;
+    if (!anew) {
+        // They have hardly moved.
+        for (int i = 0; i < count; ++i) {
+            placeVoxel(shading_, *seen[i].seed, *seen[i].voxel);
+            list.voxels[list.count++] = seen[i].voxel;
+        }
+        return;
+    }
+    for (Voxel& voxel : patch.voxels)
+        voxel.wide = OUT_OF_SIGHT;
     if (count == 0)
         return;
-    anew = anew || patch.bend.stale;
-    Voxel* room = list.store + list.count;
-    for (int i = 0; i < count; ++i) {
-        if (seen[i].voxel == nullptr) {
-            seen[i].voxel = room++;
-            anew = true;
-        } else if (seen[i].voxel->wide == OUT_OF_SIGHT) {
-            anew = true;
-        }
-    }
-    if (anew) {
-        if (patch.bend.stale)
-            measureBend(patch);
-        setPatch(patch, seen[count >> 1]);
-        for (Voxel& voxel : patch.voxels)
-            voxel.wide = OUT_OF_SIGHT;
-        shadeSeeds(&shading_, seen, count);
-        if (shading_.flags & SEED_BORDER)
-            for (int i = 0; i < count; ++i)
-                if ((seen[i].seed->flags & SEED_BORDER) && !cut(*seen[i].seed, seen[i].voxel))
-                    seen[i].voxel->wide = 0;
-    } else {
-        placeSeeds(&shading_, seen, count);
-    }
+    if (patch.bend.stale)
+        measureBend(patch);
+    setPatch(patch, seen[count >> 1]);
+    Voxel* room = list.room();
     for (int i = 0; i < count; ++i)
-        if (seen[i].voxel->wide != 0)
+        if (seen[i].voxel == nullptr)
+            seen[i].voxel = room++;
+    shadeSeeds(&shading_, seen, count);
+    for (int i = 0; i < count; ++i) {
+        if ((seen[i].seed->flags & SEED_BORDER) && !cut(*seen[i].seed, seen[i].voxel))
+            seen[i].voxel->wide = OUT_OF_SIGHT;
+        else
             list.voxels[list.count++] = seen[i].voxel;
+    }
 }
 
 }  // namespace

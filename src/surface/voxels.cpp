@@ -1,4 +1,4 @@
-// From seeds to voxels in C++: what asm/voxels.S does, said plainly.
+// From seeds to voxels: what a seed looks like.
 #include "voxels.h"
 
 namespace {
@@ -16,11 +16,6 @@ inline int32_t smaller(int32_t a, int32_t b)
 inline int32_t limited(int32_t a, int32_t most)
 {
     return a > most ? most : a < -most ? -most : a;
-}
-
-inline int32_t product(const int16_t a[3], const int32_t b[3])
-{
-    return (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) >> 14;
 }
 
 inline int32_t product(const Direction14& a, const int32_t b[3])
@@ -45,25 +40,17 @@ inline int32_t height(uint32_t both)
     return magnitude(static_cast<int16_t>(both));
 }
 
-inline void place(const Shading& v, const Seed& s, Voxel& voxel)
-{
-    voxel.x = v.turned ? product(s.place, v.toRight) : s.place[0];
-    voxel.y = v.turned ? product(s.place, v.toUp) : s.place[1];
-    voxel.z = v.turned ? product(s.place, v.toAhead) : s.place[2];
-    voxel.brightness = static_cast<uint8_t>((s.brightness8 + 128) >> 8);
-}
-
 inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
 {
-    place(v, s, voxel);
+    placeVoxel(v, s, voxel);
     const int32_t normalX = v.turned ? product(s.normal, v.right) : s.normal.x;
     const int32_t normalY = v.turned ? product(s.normal, v.up) : s.normal.y;
     const int32_t depth = v.depth + voxel.z;
     // The tangent plane: depth changes by n.x depth / (n . to eye) for a unit across the view.
     const int32_t steep = smaller(static_cast<int32_t>((static_cast<uint32_t>(depth) << 8) / static_cast<uint32_t>(facing)), STEEPEST_TILT);
-    const int32_t tiltX = normalX * steep >> 14, tiltY = normalY * steep >> 14;
-    voxel.tiltX = static_cast<int16_t>(tiltX);
-    voxel.tiltY = static_cast<int16_t>(tiltY);
+    const int16_t tiltX = static_cast<int16_t>(normalX * steep >> 14), tiltY = static_cast<int16_t>(normalY * steep >> 14);
+    voxel.tiltX = tiltX;
+    voxel.tiltY = tiltY;
     // Half width and height. Beside each other, cells of a ring make a band: rectangles as wide as the way from one to the
     // next need not cover the whole of their cells, only, together, the band.
     const uint32_t along = onPicture(s.cellAlong, v);
@@ -111,7 +98,7 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
 
 }  // namespace
 
-int findSeedsC(Shading* shading, Seed* seeds, Patch* patch, Seen* seen)
+int findSeeds(Shading* shading, Seed* seeds, Patch* patch, Seen* seen)
 {
     Seen* to = seen;
     uint32_t some = 0, all = 0xff;
@@ -143,10 +130,4 @@ void shadeSeedsC(const Shading* shading, const Seen* seen, int count)
 {
     for (const Seen* const end = seen + count; seen < end; ++seen)
         shade(*shading, *seen->seed, seen->facing, *seen->voxel);
-}
-
-void placeSeedsC(const Shading* shading, const Seen* seen, int count)
-{
-    for (const Seen* const end = seen + count; seen < end; ++seen)
-        place(*shading, *seen->seed, *seen->voxel);
 }

@@ -1,5 +1,4 @@
-// Which seeds of a patch the viewer sees, and from those to their voxels: the innermost loops of shading. They stand twice, in C++
-// (voxels.cpp), which says what they do, and in assembly (asm/voxels.S); both do the same, bit for bit.
+// Which seeds of a patch the viewer sees, and from those to their voxels: the innermost loops of shading.
 #ifndef FB_VOXELS_H
 #define FB_VOXELS_H
 
@@ -54,22 +53,37 @@ inline int32_t facingOf(const Seed& s, const Shading& v)
     return ((s.normal.x * v.eye[0] + s.normal.y * v.eye[1] + s.normal.z * v.eye[2]) >> 11) - s.height;
 }
 
+// Finds the valid seeds of a patch that the viewer sees, and all that have not been measured. Returns how many there are.
+int findSeeds(Shading* shading, Seed* seeds, Patch* patch, Seen* seen);
+
 extern "C" {
 
-// Finds the valid seeds of a patch that the viewer sees, and all that have not been measured. Returns how many there are.
-int findSeedsC(Shading* shading, Seed* seeds, Patch* patch, Seen* seen);
-
 // Writes the voxels of `count` measured seeds, uncut. All are NEAREST_DEPTH or more in front of the eye and less than
-// FARTHEST_DEPTH.
+// FARTHEST_DEPTH. It stands twice, in C++ (voxels.cpp), which says what it does, and in assembly (asm/voxels.S); both do the
+// same, bit for bit.
 void shadeSeedsC(const Shading* shading, const Seen* seen, int count);
-
-// Writes only place and brightness.
-void placeSeedsC(const Shading* shading, const Seen* seen, int count);
+#if FB_ASM
+void shadeSeedsA(const Shading* shading, const Seen* seen, int count);
+#endif
 
 }
 
-#define findSeeds findSeedsC
+#if FB_ASM
+#define shadeSeeds shadeSeedsA
+#else
 #define shadeSeeds shadeSeedsC
-#define placeSeeds placeSeedsC
+#endif
+
+// Writes the place and the brightness of one alone.
+inline void placeVoxel(const Shading& v, const Seed& s, Voxel& voxel)
+{
+    const auto along = [&](const int32_t axis[3]) {
+        return (s.place[0] * axis[0] + s.place[1] * axis[1] + s.place[2] * axis[2]) >> 14;
+    };
+    voxel.x = v.turned ? along(v.toRight) : s.place[0];
+    voxel.y = v.turned ? along(v.toUp) : s.place[1];
+    voxel.z = v.turned ? along(v.toAhead) : s.place[2];
+    voxel.brightness = static_cast<uint8_t>((s.brightness8 + 128) >> 8);
+}
 
 #endif
