@@ -206,7 +206,8 @@ SELDOM void Shader::measureCell(Seed& s) const
     if (!even)
         return;
     const int8_t *const a = s.cellAlong, *const b = s.cellAcross;
-    const int32_t area = (a[1] * b[2] - a[2] * b[1]) * n[0] + (a[2] * b[0] - a[0] * b[2]) * n[1] + (a[0] * b[1] - a[1] * b[0]) * n[2];
+    const int32_t area = (a[1] * b[2] - a[2] * b[1]) * n[0] + (a[2] * b[0] - a[0] * b[2]) * n[1] +
+                         (a[0] * b[1] - a[1] * b[0]) * n[2];
     s.cellArea = static_cast<uint16_t>(smaller((magnitude(area) >> 14) + WHOLE_CELL + 1, 16383));
 }
 
@@ -289,10 +290,14 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
         return;
     // The curvature along the view.
     const int16_t* const p = middle.seed->place;
-    const int32_t view[] = {(shading_.eye[0] - (p[0] >> 3)) >> viewShift_, (shading_.eye[1] - (p[1] >> 3)) >> viewShift_, (shading_.eye[2] - (p[2] >> 3)) >> viewShift_};
+    int32_t view[3], away[3];
+    for (int i = 0; i < 3; ++i)
+        view[i] = (shading_.eye[i] - (p[i] >> 3)) >> viewShift_;
     const int32_t up = product(n, view) >> 14;
-    const int32_t away[] = {view[0] - (n[0] * up >> 14), view[1] - (n[1] * up >> 14), view[2] - (n[2] * up >> 14)};
-    const int32_t curvature = (product(bend.turn[0], away) >> 14) * steps(away, 0) + (product(bend.turn[1], away) >> 14) * steps(away, 1);
+    for (int i = 0; i < 3; ++i)
+        away[i] = view[i] - (n[i] * up >> 14);
+    const int32_t curvature = (product(bend.turn[0], away) >> 14) * steps(away, 0) +
+                              (product(bend.turn[1], away) >> 14) * steps(away, 1);
     const int32_t square = product(away, away);
     // A quarter more than the radius at rest, for what scales differ from their cells: next to the limb there may be no other that
     // covers it. What blends bends no less than a ball half as large again.

@@ -47,8 +47,10 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     const int32_t normalY = v.turned ? product(s.normal, v.up) : s.normal.y;
     const int32_t depth = v.depth + voxel.z;
     // The tangent plane: depth changes by n.x depth / (n . to eye) for a unit across the view.
-    const int32_t steep = smaller(static_cast<int32_t>((static_cast<uint32_t>(depth) << 8) / static_cast<uint32_t>(facing)), STEEPEST_TILT);
-    const int16_t tiltX = static_cast<int16_t>(normalX * steep >> 14), tiltY = static_cast<int16_t>(normalY * steep >> 14);
+    const uint32_t rise = (static_cast<uint32_t>(depth) << 8) / static_cast<uint32_t>(facing);
+    const int32_t steep = smaller(static_cast<int32_t>(rise), STEEPEST_TILT);
+    const int16_t tiltX = static_cast<int16_t>(normalX * steep >> 14);
+    const int16_t tiltY = static_cast<int16_t>(normalY * steep >> 14);
     voxel.tiltX = tiltX;
     voxel.tiltY = tiltY;
     // Half width and height. Beside each other, cells of a ring make a band: rectangles as wide as the way from one to the

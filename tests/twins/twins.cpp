@@ -1,6 +1,6 @@
 // Assembly against C++: each routine of asm/blit.S, asm/scales.S and asm/voxels.S and its twin in src/picture/blit.cpp,
-// src/picture/scales.cpp and src/surface/voxels.cpp get the same input, and all they may touch must come out the same, with guard bytes round every
-// buffer. A new assembly routine gets its part here before anything else uses it.
+// src/picture/scales.cpp and src/surface/voxels.cpp get the same input, and all they may touch must come out the same, with guard
+// bytes round every buffer. A new assembly routine gets its part here before anything else uses it.
 //
 //   twins [SEED [ROUNDS]]     rounds of random scales, voxels and spans, after the cases that are always tried
 //
@@ -927,7 +927,8 @@ void shadedSeeds(int rounds)
             s.place[0] = static_cast<int16_t>(number(20000));
             s.place[1] = static_cast<int16_t>(number(20000));
             s.place[2] = static_cast<int16_t>(number(20000));
-            s.normal = {static_cast<int16_t>(number(16384)), static_cast<int16_t>(number(16384)), static_cast<int16_t>(number(16384))};
+            s.normal = {static_cast<int16_t>(number(16384)), static_cast<int16_t>(number(16384)),
+                        static_cast<int16_t>(number(16384))};
             s.brightness8 = static_cast<int16_t>(below(4) == 0 ? below(200) : below(63 * 256 + 1));
             s.cellArea = static_cast<uint16_t>(below(3) == 0 ? WHOLE_CELL : 2 + below(16382));
             const int32_t facing = 1 + below(1 << (4 + below(13)));
