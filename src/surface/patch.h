@@ -25,7 +25,7 @@ enum PatchState : uint8_t {
 // How the surface of a patch bends: along two steps on it the normal turns. Lengths as those of Seed::place.
 struct Bend {
     int32_t inverse;    // 2^30 / area between the steps; 0: it bends as a ball does
-    int32_t mean;       // curvature, 2^24 for 1
+    int32_t most;       // the greatest curvature, 2^24 for 1
     int16_t dual[2][3]; // times inverse: the vector whose product with a vector says how many of a step that has
     int16_t turn[2][3]; // of the normal over a step, 1.0 = 2^14
     Direction14 normal;

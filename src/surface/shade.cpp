@@ -265,8 +265,9 @@ SELDOM void Shader::measureBend(Patch& patch) const
         if (larger(larger(magnitude(bend.turn[k][0]), magnitude(bend.turn[k][1])), magnitude(bend.turn[k][2])) > size[k] << 7)
             return;
     bend.inverse = (1 << 30) / area;
-    const int32_t sum = product(bend.turn[0], bend.dual[0]) + product(bend.turn[1], bend.dual[1]);
-    bend.mean = limited(mulShift16(sum, bend.inverse) >> 5, 1 << 16);
+    // The greater curvature of the two: in its direction the normal of the patch's other seeds differs.
+    const int32_t one = product(bend.turn[0], bend.dual[0]), other = product(bend.turn[1], bend.dual[1]);
+    bend.most = limited(mulShift16(magnitude(one) > magnitude(other) ? one : other, bend.inverse) >> 4, 1 << 16);
 }
 
 // How the brightness changes over a patch, and where it bends out of sight.
@@ -277,7 +278,7 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
         return (product(bend.dual[k], v) >> 14) * bend.inverse >> 12;
     };
     const int32_t n[] = {bend.normal.x, bend.normal.y, bend.normal.z};
-    const int32_t inward = (bend.mean * (product(n, own_.light) >> 14)) >> 20;
+    const int32_t inward = (bend.most * (product(n, own_.light) >> 14)) >> 20;
     const int32_t one = steps(own_.light, 0), other = steps(own_.light, 1);
     int32_t change[3];
     for (int i = 0; i < 3; ++i)
