@@ -31,7 +31,7 @@ enum SeedFlag : uint8_t {
     SEED_KEPT = 16,
     SEED_BORDER = 32,
     SEED_ASLEEP = 64,
-    SEED_MEASURED = 128,
+    SEED_MEASURED = 16,  // the bit of SEED_KEPT, which only /P has
 };
 
 // A unit vector in whole numbers: each component is scaled by 2^14.
