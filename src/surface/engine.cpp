@@ -37,6 +37,7 @@ private:
     Odometer odometer_;
     uint32_t updates_ = 0;
     int32_t light_[3] = {0, 0, 0};  // at the last update, own axes
+    ViewBefore before_;
     Patch* patches_ = nullptr;
     int count_ = 0;
 };
@@ -120,7 +121,7 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
         *next = 0;
         return;
     }
-    const int at = shadePatches(object_, own, frame, patches_, count_, *next, list, room);
+    const int at = shadePatches(object_, own, frame, patches_, count_, *next, before_, list, room);
     *next = at < count_ ? at : 0;
 }
 
