@@ -602,14 +602,14 @@ bool Tracer::inRow(int i, double row) const {
   const Object &o = scene.objects[i];
   double slope = -(row - scene.centreY) / scene.focalY;
   Vec m = o.middle - scene.eye;
-  return std::fabs(m.y - slope * m.z) <= o.reach * std::sqrt(1 + slope * slope);
+  return std::fabs(dot(m, scene.up) - slope * dot(m, scene.ahead)) <= o.reach * std::sqrt(1 + slope * slope);
 }
 
 bool Tracer::inColumn(int i, double column) const {
   const Object &o = scene.objects[i];
   double slope = (column - scene.centreX) / scene.focalX;
   Vec m = o.middle - scene.eye;
-  return std::fabs(m.x - slope * m.z) <= o.reach * std::sqrt(1 + slope * slope);
+  return std::fabs(dot(m, scene.right) - slope * dot(m, scene.ahead)) <= o.reach * std::sqrt(1 + slope * slope);
 }
 
 bool Tracer::eyeInside() const {
@@ -774,7 +774,8 @@ Hit Tracer::trace(double column, double row, const int *which, int count) const 
   static thread_local Work w;
   Hit hit;
   w.ray.eye = scene.eye;
-  w.ray.dir = {(column - scene.centreX) / scene.focalX, -(row - scene.centreY) / scene.focalY, 1};
+  w.ray.dir = scene.right * ((column - scene.centreX) / scene.focalX) +
+              scene.up * (-(row - scene.centreY) / scene.focalY) + scene.ahead;
   w.t.clear();
   for (int n = 0; n < count; n++) {
     const Object &o = scene.objects[which[n]];

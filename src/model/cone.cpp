@@ -38,18 +38,6 @@ Real Cone::param(const Vector& q, Vector* slope) const
     return t;
 }
 
-Real Cone::horizonRadius(const Vector& toEye) const
-{
-    const Real across = Real(1) - squaredCosineY(toEye);
-    const Real flattest = size() + length();
-    return across * flattest <= radius() ? flattest : radius() / across;
-}
-
-Real Cone::horizonAt(const Vector& root, Real general) const
-{
-    return absolute(root.y) < coreReach() - Real(0.01) ? general : sizeAlong(root.y) * restRoot();
-}
-
 void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
     const Real radius1 = size1() * restRoot(), radius2 = size2() * restRoot();

@@ -2,10 +2,14 @@
 #include "surface/engine.h"
 
 #include "math/alloc.h"
+#include "model/stop.h"
 #include "settle.h"
 #include "shade.h"
 
 namespace {
+
+// So many patches are updated before the user is asked whether to go on.
+constexpr int ASKED_EVERY = 32;
 
 class Engine : public Surface {
 public:
@@ -33,6 +37,7 @@ private:
     Odometer odometer_;
     uint32_t updates_ = 0;
     int32_t light_[3] = {0, 0, 0};  // at the last update, own axes
+    ViewBefore before_;
     Patch* patches_ = nullptr;
     int count_ = 0;
 };
@@ -61,6 +66,8 @@ void Engine::update(const FrameContext& frame)
     Patch* const end = patches_ + count_;
     for (Patch* patch = patches_; patch < end; ++patch) {
         patch->settled = false;
+        if ((patch - patches_) % ASKED_EVERY == ASKED_EVERY - 1 && stopAsked())
+            return;
         if (!known || patch->stale || isDue(odometer_.bound(), patch->listDue)) {
             classify(*patch, all);
             patch->listDue = odometer_.bound() + wayOf(LIST_SLACK);
@@ -111,12 +118,13 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
     const OwnFrame own = ownFrame(object_, frame);
     // A hollow has the colour of what it is in.
     const SoftObject* const head = object_.hasSurface() ? &object_ : object_.hollowed();
-    list.begin(object_.centre() - frame.eye, object_.coreReach() + object_.size(), head == nullptr ? object_.ramp() : head->ramp());
+    list.begin(frame.inView(object_.centre()), object_.coreReach() + object_.size(),
+               head == nullptr ? object_.ramp() : head->ramp());
     if (own.outOfSight || head == nullptr) {
         *next = 0;
         return;
     }
-    const int at = shadePatches(object_, own, frame, patches_, count_, *next, list, room);
+    const int at = shadePatches(object_, own, frame, patches_, count_, *next, before_, list, room);
     *next = at < count_ ? at : 0;
 }
 

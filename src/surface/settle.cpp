@@ -224,14 +224,15 @@ struct Settler::Sum {
 
     Sum(Settler& of, Real at) : settler(of), position(at), strongest(0), touched(false)
     {
+        settler.lookedAt_ = at;
         if (!of.ownPlain_) {
             addOwn(of);
             return;
         }
         const Real t = shiftDown(at * at, 2);
         const FieldStep own = t < Real(1) ? geoffQuick(t) : FieldStep{Real(0), Real(0)};
-        of.ownField_ = sum = own.value;
-        of.ownSlope_ = own.slope;
+        settler.ownField_ = sum = own.value;
+        settler.ownSlope_ = own.slope;
         slope = shiftDown(own.slope * at, 1);
     }
     // The own field of an object that is not as strong as most, or of one whose seeds sample a hollow: it digs, and the head is
@@ -674,16 +675,21 @@ void Settler::findBorder(Seed& s, Real dominance) const
 {
     // Gradients, times half the squared size of the object. In a hollow what is dented stands for the object.
     Vector g = path_ * s.position * ownSlope_;
+    Real change = ownSlope_ * lookedAt_ * shiftUp(restParam_, 1);
     const Along* other = nullptr;
     for (int i = 0; i < touched_; ++i) {
         const Along& along = along_[i];
-        if (hollow_ && along.near->object == all_.head)
+        if (hollow_ && along.near->object == all_.head) {
             g = fromCore(along, s.position) * (along.slope * along.near->ratio);
-        else if (!along.near->digs && (other == nullptr || along.value > other->value))
+            change = along.slope * along.change;
+        } else if (!along.near->digs && (other == nullptr || along.value > other->value)) {
             other = &along;
+        }
     }
     if (other == nullptr)
         return;
+    // The fields were looked at before the last step.
+    dominance += (other->slope * other->change - change) * (s.position - lookedAt_);
     g = g - fromCore(*other, s.position) * (other->slope * other->near->ratio);
     const Normal n = normalise(g);
     const Real steep = dot(g, {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)}), size = object_.laidSize();
@@ -714,19 +720,21 @@ Way Settler::until(Real hold, Real push, Real longest)
 // Leaves a seed where nothing blends with it.
 void Settler::restThere(Seed& s)
 {
-    if (!(s.flags & SEED_RESTING))
+    if (!(s.flags & SEED_RESTING)) {
         s.normal = object_.restNormal(s);
+        s.flags &= SEED_ACTIVE;
+    }
     s.position = Real(1);
     s.brightness8 = brightness8(s.normal, own_.light);
     s.still = came_ < shiftDown(smallest_, 3);
-    s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
+    s.flags = static_cast<uint8_t>((s.flags & (SEED_ACTIVE | SEED_MEASURED)) | SEED_VALID | SEED_RESTING);
 }
 
 // Whether one neighbour alone, the strongest where a seed of the patch was not on the surface the last time, keeps a seed off
 // it: it is stronger than the own object where the path left the surface, and a little before.
 bool Settler::isBlocked(const Seed& s, Real margin)
 {
-    if (blocker_ < 0 || dented_ || turnOf(s) % TURNS == 0 || came_ > HURRY)
+    if (blocker_ < 0 || dented_ || turn_ % TURNS == 0 || came_ > HURRY)
         return false;
     const Neighbour& near = all_.neighbours[blocker_];
     Along along;
@@ -870,6 +878,7 @@ static Real enough(const Patch& patch, Real size)
 bool Settler::stillInside(const Patch& patch)
 {
     blocker_ = all_.numberOf[patch.blocker];
+    turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
     return blocker_ >= 0 && isBlocked(object_.seed(patch.centre), enough(patch, all_.neighbours[blocker_].size));
 }
 
@@ -877,6 +886,7 @@ PatchState Settler::probe(Patch& patch)
 {
     Seed& s = object_.seed(patch.centre);
     blocker_ = all_.numberOf[patch.blocker];
+    turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
     patch.due = now_;
     if (!(s.flags & SEED_VALID) && patch.state == PATCH_MIXED && isBlocked(s, BLOCKED))
         return PATCH_MIXED;
@@ -929,6 +939,7 @@ void Settler::settleRest(Patch& patch)
         Seed& s = object_.seed(i);
         if (&s == &centre)
             return;
+        turn_ = static_cast<uint32_t>(i) / 2 + updates_;
         if (s.flags & SEED_ASLEEP) {
             // It has slept: it is likely to be where the one in the middle is.
             s.position = centre.position;
@@ -958,7 +969,7 @@ bool Settler::waits(const Seed& s, bool someAway) const
         const int32_t away = -facing(object_, s, own_);
         mask |= away > WELL_AWAY ? 3 : away > LITTLE_AWAY ? 1 : 0;
     }
-    return (turnOf(s) & mask) != 0;
+    return (turn_ & mask) != 0;
 }
 
 namespace {
@@ -968,7 +979,7 @@ bool parted(const SoftObject& object, const Seed& s)
 {
     if (s.neighbour < 0)
         return false;
-    const Seed& n = object.seed(s.neighbour);
+    const Seed& n = object.regular(s.neighbour);
     if (n.flags & SEED_ASLEEP)
         return false;
     if ((s.flags ^ n.flags) & SEED_VALID)
@@ -976,41 +987,61 @@ bool parted(const SoftObject& object, const Seed& s)
     return (s.flags & SEED_VALID) && absolute(s.position - n.position) * object.radius() > object.spacing() * PARTED;
 }
 
+// The oversampled seed of a regular one is not needed; none of a patch is.
+void putAway(SoftObject& object, int i)
+{
+    if (Seed* const extra = object.extra(i))
+        extra->flags = 0;
+}
+
+void putAway(SoftObject& object, Patch& patch)
+{
+    if (patch.extras)
+        forSeeds(patch, [&](int i) { putAway(object, i); });
+    patch.extras = false;
+}
+
 }  // namespace
 
-void Settler::oversample(const Patch& patch)
+void Settler::oversample(Patch& patch)
 {
+    const bool had = patch.extras;
     bool any = false;
     forSeeds(patch, [&](int i) {
-        Seed& extra = object_.seed(i + 1);
         if (!parted(object_, object_.seed(i))) {
-            extra.flags = 0;
+            if (had)
+                putAway(object_, i);
             return;
         }
         any = true;
+        Seed& extra = object_.seed(i + 1);
         if (!(extra.flags & SEED_ACTIVE)) {
             extra.flags = SEED_ACTIVE | SEED_VALID;
             extra.position = object_.seed(i).position;
             extra.still = 0;
         }
     });
+    patch.extras = any;
     if (!any)
         return;
     setPatch(patch, true);
     blocker_ = all_.numberOf[patch.blocker];
     forSeeds(patch, [&](int i) {
-        Seed& extra = object_.seed(i + 1);
-        if ((extra.flags & SEED_ACTIVE) && !((extra.flags & SEED_VALID) && waits(extra, false)) && ((extra.flags & SEED_VALID) || !(isBlocked(extra, BLOCKED) || stillInside(extra) > Real(0))))
-            settle(extra);
+        Seed* const extra = object_.extra(i);
+        if (extra == nullptr || !(extra->flags & SEED_ACTIVE))
+            return;
+        turn_ = static_cast<uint32_t>(i) / 2 + updates_;
+        if (!(extra->flags & SEED_VALID) ? !isBlocked(*extra, BLOCKED) && stillInside(*extra) == Real(0) : !waits(*extra, false))
+            settle(*extra);
     });
 }
 
 void rest(SoftObject& object, Patch& patch, const OwnFrame& own)
 {
     patch.nearest = patch.farthest = 64;
+    putAway(object, patch);
     forSeeds(patch, [&](int i) {
         Seed& s = object.seed(i);
-        object.seed(i + 1).flags = 0;
         if (s.flags != (SEED_VALID | SEED_RESTING)) {
             s.position = Real(1);
             s.normal = object.restNormal(s);
@@ -1028,10 +1059,10 @@ void light(SoftObject& object, const Patch& patch, const OwnFrame& own)
     });
 }
 
-void sleep(SoftObject& object, const Patch& patch)
+void sleep(SoftObject& object, Patch& patch)
 {
+    putAway(object, patch);
     forSeeds(patch, [&](int i) {
-        object.seed(i + 1).flags = 0;
         if (i != patch.centre)
             object.seed(i).flags = SEED_ASLEEP;
     });
