@@ -6,12 +6,9 @@
 #include "model/anim.h"
 #include "model/body.h"
 #include "model/kind.h"
+#include "model/paint.h"
 #include "model/softobj.h"
 #include "model/camera.h"
-
-struct Colour {
-    uint8_t red, green, blue;  // 0..255
-};
 
 // Room for a name: 15 characters and the final 0.
 constexpr int NAME_ROOM = 16;
@@ -23,6 +20,7 @@ constexpr int TITLE_ROOM = 48;
 struct Actor {
     SoftObject* object = nullptr;
     Colour colour{255, 255, 255};
+    Coat coat;
     Motion motion;
     int number = 0;                // objects count from 1, groups from -1 downwards
     char name[NAME_ROOM] = "";
@@ -128,6 +126,7 @@ public:
     Camera camera;
     Vector light{Real(0.5), Real(0.7), Real(-0.5)};  // from the model to the light, any length but 0
     char title[TITLE_ROOM] = "";                     // what the scene calls itself; may be empty
+    bool mixed = false;  // a place has the mean of the objects' colours by their fields there
 
 private:
     void clear();

@@ -87,6 +87,7 @@ private:
         frame_[at] = frame_[from];
         zbuffer_[at] = zbuffer_[from];
     }
+    int showRun(const uint8_t* ramp, const Voxel* const* voxels, int count);
     bool ordinary(const Voxel& voxel) const;
     bool project(const Voxel& voxel, FineScale* scale) const;
 

@@ -22,14 +22,24 @@ constexpr int SHADING_MOST = 64;
 
 constexpr int VOXELS_AT_ONCE = 1024;
 
+// Voxels of a list that have one ramp: those from where the run before ends to before `end`.
+struct Run {
+    const uint8_t* ramp;
+    int end;
+};
+constexpr int RUNS_MOST = 240;
+
 // The list of scales: voxels of one object.
 struct VoxelList {
     int32_t x, y, z;       // the object's centre from the eye, 1/256 unit
     const uint8_t* ramp;   // palette index of each brightness, and of SHADING_MOST more at both ends like those; 0 is the
                            // background's, and taken for it when gaps are closed
     int count;             // voxels in the list
+    int runs;              // 0: all have `ramp`; else they have those of the runs
+    Run run[RUNS_MOST];
     const Voxel* voxels[VOXELS_AT_ONCE];
     Voxel store[VOXELS_AT_ONCE];
+    uint8_t number[VOXELS_AT_ONCE];  // of a painted object: of each voxel of the store, the number of its colour
 
     // Empties the list for an object, the centre of which is `place` from the eye.
     void begin(const Vector& place, const uint8_t* objectRamp)
@@ -38,7 +48,7 @@ struct VoxelList {
         y = rawFromReal(place.y) >> 8;
         z = rawFromReal(place.z) >> 8;
         ramp = objectRamp;
-        count = 0;
+        count = runs = 0;
     }
     // Where the next voxel may be written, and that it has been.
     Voxel* room() { return store + count; }

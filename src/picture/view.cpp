@@ -209,22 +209,34 @@ int View::show(const VoxelList& list)
     lens_.x = list.x;
     lens_.y = list.y;
     lens_.z = list.z;
-    lens_.ramp = list.ramp;
     lens_.left = WIDTH;
     lens_.top = HEIGHT;
     lens_.right = lens_.bottom = 0;
     lens_.empty = 0;
-    int left = 0;  // voxels not drawn
-    for (int i = 0; i < list.count; ++i) {
+    int left = 0;
+    if (list.runs == 0)
+        left = showRun(list.ramp, list.voxels, list.count);
+    for (int run = 0, from = 0; run < list.runs; from = list.run[run++].end)
+        left += showRun(list.run[run].ramp, list.voxels + from, list.run[run].end - from);
+    mark(lens_.left, lens_.top, lens_.right, lens_.bottom);
+    return list.count - left - lens_.empty;
+}
+
+// Draws voxels of one ramp. Returns how many lie off the screen.
+int View::showRun(const uint8_t* ramp, const Voxel* const* voxels, int count)
+{
+    int left = 0;
+    lens_.ramp = ramp;
+    for (int i = 0; i < count; ++i) {
         if (exact_) {
-            if (!pixels_ && ordinary(*list.voxels[i]) && drawScales(&lens_, list.voxels + i, 1) == 1)
+            if (!pixels_ && ordinary(*voxels[i]) && drawScales(&lens_, voxels + i, 1) == 1)
                 continue;
         } else if (!pixels_) {
-            i += drawScales(&lens_, list.voxels + i, list.count - i);
+            i += drawScales(&lens_, voxels + i, count - i);
         }
-        if (i == list.count)
+        if (i == count)
             break;
-        const Voxel& voxel = *list.voxels[i];
+        const Voxel& voxel = *voxels[i];
         FineScale scale;
         if (!project(voxel, &scale)) {
             ++left;
@@ -236,8 +248,7 @@ int View::show(const VoxelList& list)
             mark(scale.left, scale.top, scale.left + scale.wide, scale.top + scale.high);
         }
     }
-    mark(lens_.left, lens_.top, lens_.right, lens_.bottom);
-    return list.count - left - lens_.empty;
+    return left;
 }
 
 // Whether a pixel is empty and lies right below a drawn one and a little way above another.

@@ -2,6 +2,7 @@
 #include "surface/engine.h"
 
 #include "math/alloc.h"
+#include "paint.h"
 #include "settle.h"
 #include "shade.h"
 
@@ -87,8 +88,14 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
 {
     const OwnFrame own = ownFrame(object_, frame);
     list.begin(object_.centre() - frame.eye, object_.ramp());
+    const Paint* const paint = object_.paint();
+    if (paint != nullptr && *next == 0)
+        polish(object_, own);
     const int at = shadePatches(object_, own, frame, patches_, count_, *next, list, room);
     *next = at < count_ ? at : 0;
+    // With another ramp than its own, the whole object is to be seen in that one.
+    if (paint != nullptr && object_.ramp() == paint->ramp)
+        sortByColour(list, *paint);
 }
 
 }  // namespace

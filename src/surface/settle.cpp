@@ -3,6 +3,7 @@
 #include "settle.h"
 
 #include "math/normal.h"
+#include "model/paint.h"
 #include "rt.h"
 
 namespace {
@@ -373,6 +374,19 @@ void Settler::findBorder(Seed& s, Real dominance) const
     s.border = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
 }
 
+// The mean of the objects' colours, by their fields at the position looked at last.
+void Settler::mix(Seed& s) const
+{
+    const Paint& own = *object_.paint();
+    Vector sum = own.at * ownField_;
+    Real fields = ownField_;
+    for (int i = 0; i < touched_; ++i) {
+        sum = sum + along_[i].near->object->paint()->at * along_[i].value;
+        fields += along_[i].value;
+    }
+    s.mix = own.paints->numberAt(sum * quotient(Real(1), fields), own.shines());
+}
+
 Real Settler::settle(Seed& s)
 {
     Sample sample;
@@ -416,6 +430,8 @@ Real Settler::settle(Seed& s)
     s.brightness8 = brightness8(s.normal, own_.light);
     s.still = still;
     s.flags |= SEED_VALID;
+    if (object_.paint() != nullptr && object_.paint()->mixes)
+        mix(s);
     if (sample.dominance > -BORDER) {
         s.flags |= SEED_BORDER;
         findBorder(s, sample.dominance);

@@ -83,6 +83,7 @@ private:
     bool bisect(Real inside, Real outside, Real* position, Sample* sample);
     Vector outward(Real position) const;
     void findBorder(Seed& s, Real dominance) const;
+    void mix(Seed& s) const;
 
     int strongest() const;
     bool blocked(const Patch& patch, const Seed& s, Real margin);
