@@ -186,17 +186,18 @@ bool rampNear(const Picture &t, const Ramps &ramps, int column, int row, int ram
   return false;
 }
 
-// The pixel's colour is none of those that the true points there, right above, below or beside have.
-bool strange(const Frame &f, const Picture &t, const Ramps &ramps, int column, int row) {
-  const int x[] = {0, 1, -1, 0, 0}, y[] = {0, 0, 0, 1, -1};
-  for (int k = 0; k < 5; k++) {
+// The brightness of a drawn pixel in ramp steps. In a painted scene it is read by the colour of that true point, there or right
+// above, below or beside, which has the nearest; `miss` is how far that is.
+double brightness(const Ramps &ramps, const uint8_t *rgb, const Picture &t, int column, int row, double *miss = nullptr) {
+  double least, step = ramps.step(rgb, t.at(column, row), &least);
+  const int x[] = {1, -1, 0, 0}, y[] = {0, 0, 1, -1};
+  for (int k = 0; ramps.painted() && k < 4; k++) {
     const Hit &h = t.at(column + x[k], row + y[k]);
-    double miss;
-    if (!h.any()) continue;
-    ramps.step(f.pixel(column, row), h, &miss);
-    if (miss <= OFF_PAINTED) return false;
+    double off, there = ramps.step(rgb, h, &off);
+    if (h.any() && off < least) least = off, step = there;
   }
-  return true;
+  if (miss) *miss = least;
+  return step;
 }
 
 // The borders of a pixel with the one to its right (dx = 1) or below it (dy = 1): drawn and true ones.
@@ -274,14 +275,15 @@ Figures compare(const Frame &f, const Picture &t) {
         r.smooth++;
         r.smooth2 += error * error;
       }
+      double miss = 0;
       if (f.shaded()) {
-        double e = (ramps.step(f.pixel(x, y), h) - h.shade) * f.scene.lightSteps();
+        double e = (brightness(ramps, f.pixel(x, y), t, x, y, &miss) - h.shade) * f.scene.lightSteps();
         r.shaded++;
         r.shade2 += e * e;
       }
       if (ramps.painted()) {
         r.coloured++;
-        r.wrongColour += !h.tied && strange(f, t, ramps, x, y);
+        r.wrongColour += !h.tied && miss > OFF_PAINTED;
         continue;
       }
       int shown, truly;
@@ -311,8 +313,8 @@ void compareFlicker(const Frame &before, const Picture &beforeTruth,
       const Hit &h0 = beforeTruth.at(x, y), &h1 = afterTruth.at(x, y);
       r.flickerBase += d1;
       if (!d0 && !d1) continue;
-      double s0 = d0 ? ramps0.step(before.pixel(x, y), h0) : 0;
-      double s1 = d1 ? ramps1.step(after.pixel(x, y), h1) : 0;
+      double s0 = d0 ? brightness(ramps0, before.pixel(x, y), beforeTruth, x, y) : 0;
+      double s1 = d1 ? brightness(ramps1, after.pixel(x, y), afterTruth, x, y) : 0;
       double t0 = h0.any() ? h0.shade : 0, t1 = h1.any() ? h1.shade : 0;
       if (std::fabs(s1 - s0) <= jump || std::fabs(t1 - t0) >= still) continue;
       r.flickerEdge++;
@@ -356,7 +358,8 @@ std::vector<uint8_t> sheet(const Frame &f, const Picture &t) {
       } else if (!drawn) {
         whole(t, x, y, false) ? paint(255, 0, 0) : paint(0, 0, 160);
       } else {
-        double error = f.depth(x, y) - h.depth;
+        double error = f.depth(x, y) - h.depth, miss;
+        const double step = brightness(ramps, f.pixel(x, y), t, x, y, &miss);
         int shown, truly;
         bool stray = false;
         for (int k = 0; !ramps.painted() && k < 2; k++) {
@@ -366,13 +369,13 @@ std::vector<uint8_t> sheet(const Frame &f, const Picture &t) {
         }
         if (error > BEHIND && whole(t, x, y, false)) {
           paint(255, 0, 255);
-        } else if (ramps.painted() ? strange(f, t, ramps, x, y)
+        } else if (ramps.painted() ? miss > OFF_PAINTED
                                    : coloured(f, t, ramps, x, y, shown, truly) && !rampNear(t, ramps, x, y, shown)) {
           paint(0, 255, 255);
         } else if (stray) {
           paint(0, 128, 0);
         } else {
-          double e = f.shaded() ? std::fabs(ramps.step(f.pixel(x, y), h) - h.shade) * 4
+          double e = f.shaded() ? std::fabs(step - h.shade) * 4
                                 : std::fabs(error) * 32;
           int grey = (int)std::min(e, 255.0);
           paint(grey, grey, grey);
