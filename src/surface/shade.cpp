@@ -99,7 +99,7 @@ public:
 
 private:
     template <bool RESTING>
-    bool shade(const Seed& s, bool oversampled, Voxel* voxel) const;
+    __attribute__((always_inline)) bool shade(const Seed& s, bool oversampled, Voxel* voxel) const;
     template <bool RESTING>
     bool place(const Seed& s, Scale& scale, Voxel* voxel) const;
     template <bool RESTING>
@@ -113,7 +113,7 @@ private:
     void end(const Scale& scale, Voxel* voxel) const;
     void changes(const Seed& s, Cell& c) const;
     void roundSlopes(const Scale& scale, Voxel* voxel) const;
-    bool cut(const Direction14& inward, int32_t apart, int32_t wide, int32_t high, Voxel* voxel) const;
+    bool cut(const Direction14& inward, int32_t apart, const Scale& scale, Voxel* voxel) const;
     int paint(const Seed& s, VoxelList& list, const Grain& grain) const;
     int paint(const Seed&, VoxelList&, int) const { return 1; }
 
@@ -423,7 +423,7 @@ inline void Shader<TURNED>::roundSlopes(const Scale& scale, Voxel* voxel) const
 // Where another object is the strongest the scale ends: a straight line, for the difference of two fields is nearly linear
 // across it. False: nothing is left.
 template <bool TURNED>
-inline bool Shader<TURNED>::cut(const Direction14& inward, int32_t apart, int32_t wide, int32_t high, Voxel* voxel) const
+inline bool Shader<TURNED>::cut(const Direction14& inward, int32_t apart, const Scale& scale, Voxel* voxel) const
 {
     int32_t x = inward.x, y = inward.y, z = inward.z;
     if (TURNED) {
@@ -433,7 +433,7 @@ inline bool Shader<TURNED>::cut(const Direction14& inward, int32_t apart, int32_
     }
     // A step across the view leads along the ray as well, as far as the scale is tilted.
     const int32_t along = z + ((x * shearX_ + y * shearY_) >> 12);
-    int32_t cutX = x + (voxel->tiltX * (along >> 2) >> 6), cutY = y + (voxel->tiltY * (along >> 2) >> 6);
+    int32_t cutX = x + (scale.tiltX * (along >> 2) >> 6), cutY = y + (scale.tiltY * (along >> 2) >> 6);
     int32_t at = (apart + BORDER_MARGIN) * 64, unit = 1 << 14;
     while (magnitude(cutX) > 127 || magnitude(cutY) > 127) {
         cutX >>= 1;
@@ -443,7 +443,7 @@ inline bool Shader<TURNED>::cut(const Direction14& inward, int32_t apart, int32_
     }
     if (unit < 16 || (cutX | cutY) == 0)
         return true;
-    const int32_t corner = (magnitude(cutX) * wide + magnitude(cutY) * high) >> 8;
+    const int32_t corner = (magnitude(cutX) * scale.wide + magnitude(cutY) * scale.high) >> 8;
     if (at >= corner)
         return true;
     if (at <= -corner)
@@ -480,7 +480,7 @@ inline bool Shader<TURNED>::shade(const Seed& s, bool oversampled, Voxel* voxel)
     cell<RESTING>(s, c);
     extents(c, oversampled || c.uneven || scale.depth < WHOLE_BEFORE, scale, voxel);
     end(scale, voxel);
-    if (!RESTING && (s.flags & SEED_BORDER) && !cut(s.border, s.apart, scale.wide, scale.high, voxel))
+    if (!RESTING && (s.flags & SEED_BORDER) && !cut(s.border, s.apart, scale, voxel))
         return false;
     voxel->slopeX = voxel->slopeY = 0;
     if ((TURNED ? RESTING && round_ : RESTING || (s.flags & SEED_RESTING)) && s.brightness8 > 0) {
@@ -508,8 +508,9 @@ int Shader<TURNED>::paint(const Seed& s, VoxelList& list, const Grain& grain) co
     Voxel beyond = *voxel;
     const Direction14 outward{static_cast<int16_t>(-spot.inward.x), static_cast<int16_t>(-spot.inward.y),
                               static_cast<int16_t>(-spot.inward.z)};
-    cut(spot.inward, spot.apart, voxel->wide, voxel->high, voxel);
-    if ((voxel->cutX | voxel->cutY) == 0 || !cut(outward, -spot.apart, voxel->wide, voxel->high, &beyond))
+    const Scale scale{0, 0, voxel->tiltX, voxel->tiltY, voxel->wide, voxel->high};
+    cut(spot.inward, spot.apart, scale, voxel);
+    if ((voxel->cutX | voxel->cutY) == 0 || !cut(outward, -spot.apart, scale, &beyond))
         return 1;
     list.number[list.count] = spot.beyond;
     *list.room() = beyond;
