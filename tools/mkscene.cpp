@@ -1,7 +1,8 @@
 // mkscene: random scenes for tests, the same one for the same seed on every machine.
 //
-//   mkscene SEED [OBJECTS]      writes a scene file to standard output
+//   mkscene SEED [OBJECTS] [paint]      writes a scene file to standard output
 //
+// With the word paint half of the objects have a finish or a pattern, and in every other scene the colours mix.
 // Three to nine objects (or as many as asked for) of all kinds, within what the default camera sees; some in groups, most
 // of them moving, some turning, swinging or pulsing; linked in one of several graphs, with weights up to 4. This file
 // exists so that the picture is tried on scenes nobody chose.
@@ -102,10 +103,12 @@ void printLink(int i, int j) {
 }  // namespace
 
 int main(int count, char **arguments) {
+  const bool paint = count > 2 && std::string(arguments[count - 1]) == "paint";
+  if (paint) count--;
   char *end = nullptr;
   const unsigned long long seed = count > 1 ? strtoull(arguments[1], &end, 10) : 0;
   if (count < 2 || count > 3 || end == arguments[1] || *end != 0) {
-    fputs("usage: mkscene SEED [OBJECTS, 1 to 128]\n", stderr);
+    fputs("usage: mkscene SEED [OBJECTS, 1 to 128] [paint]\n", stderr);
     return 2;
   }
   state = seed;
@@ -201,6 +204,16 @@ int main(int count, char **arguments) {
         for (int j = 1; j < i; j++)
           if (once(2)) printLink(i, j);
       break;
+  }
+  if (!paint) return 0;
+  static const char *const finishes[] = {"shiny", "mirror"}, *const patterns[] = {"checks", "stripes", "marble"};
+  if (once(2)) printf("colours mixed\n");
+  for (int i = 1; i <= objects; i++) {
+    if (once(3)) printf("finish o%d %s\n", i, finishes[between(0, 1)]);
+    if (!once(3)) continue;
+    const char *pattern = patterns[between(0, 2)];
+    const double size = tenths(4, 20);
+    printf("pattern o%d %s %.1f #%06x\n", i, pattern, size, between(0, 0xffffff));
   }
   return 0;
 }

@@ -505,13 +505,15 @@ int Shader<TURNED>::paint(const Seed& s, VoxelList& list, const Grain& grain) co
     list.number[list.count - 1] = spot.number;
     if (!spot.edge || (voxel->cutX | voxel->cutY) != 0)
         return 1;
-    Voxel beyond = *voxel;
+    // One too small to be cut in two keeps the colour of its middle.
+    const Scale scale{0, 0, voxel->tiltX, voxel->tiltY, voxel->wide, voxel->high};
     const Direction14 outward{static_cast<int16_t>(-spot.inward.x), static_cast<int16_t>(-spot.inward.y),
                               static_cast<int16_t>(-spot.inward.z)};
-    const Scale scale{0, 0, voxel->tiltX, voxel->tiltY, voxel->wide, voxel->high};
-    cut(spot.inward, spot.apart, scale, voxel);
-    if ((voxel->cutX | voxel->cutY) == 0 || !cut(outward, -spot.apart, scale, &beyond))
+    Voxel within = *voxel, beyond = *voxel;
+    cut(spot.inward, spot.apart, scale, &within);
+    if ((within.cutX | within.cutY) == 0 || !cut(outward, -spot.apart, scale, &beyond) || (beyond.cutX | beyond.cutY) == 0)
         return 1;
+    *voxel = within;
     list.number[list.count] = spot.beyond;
     *list.room() = beyond;
     list.take();

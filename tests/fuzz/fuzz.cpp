@@ -203,6 +203,10 @@ int main(int count, char** arguments)
             Anim::move(model, time);
             Anim::move(again, time);
             for (int i = 0; i < model.items(); ++i) {
+                const Coat &coat = model.item(i).coat, &coatAgain = again.item(i).coat;
+                if (coat.finish != coatAgain.finish || coat.pattern != coatAgain.pattern || coat.grain != coatAgain.grain ||
+                    !(coat.colour == coatAgain.colour))
+                    failed("another paint when read again");
                 const Pose &a = model.item(i).pose, &b = again.item(i).pose;
                 if (!(a.place == b.place) || a.scale != b.scale || memcmp(&a.turn, &b.turn, sizeof a.turn) != 0)
                     failed("moves in another way when read again");
