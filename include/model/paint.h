@@ -96,7 +96,8 @@ private:
     void fill();
 
     int count_ = 0;
-    int own_ = 0, pairs_ = 0;  // those before own_ are asked for by name, those from pairs_ on are mixtures of three
+    // Those before objects_ are objects' own, those before own_ are asked for by name, those from pairs_ on are mixtures of three.
+    int objects_ = 0, own_ = 0, pairs_ = 0;
     Colour colours_[MOST];
     bool shines_[MOST];
     Vector places_[MOST];

@@ -112,7 +112,7 @@ void Paints::markTriangle(const Vector& a, const Vector& b, const Vector& c, boo
 }
 
 // Which of the objects' colours are linked.
-static bool linked[Paints::MOST][Paints::MOST];
+static bool linked[Model::OBJECTS_MOST][Model::OBJECTS_MOST];
 
 static void findLinks(const Model& model)
 {
@@ -128,8 +128,8 @@ static void findLinks(const Model& model)
 // The mixtures of two colours that are linked.
 void Paints::markPairs()
 {
-    for (int a = 0; a < own_; ++a)
-        for (int b = 0; b < own_; ++b)
+    for (int a = 0; a < objects_; ++a)
+        for (int b = 0; b < objects_; ++b)
             if (a != b && linked[a][b])
                 markLine(places_[a], places_[b], shines_[a]);
 }
@@ -137,8 +137,8 @@ void Paints::markPairs()
 // The mixtures of three that are linked with each other.
 void Paints::markTriples()
 {
-    for (int a = 0; own_ <= TRIPLES_MOST && a < own_; ++a)
-        for (int b = 0; b < own_; ++b)
+    for (int a = 0; objects_ <= TRIPLES_MOST && a < objects_; ++a)
+        for (int b = 0; b < objects_; ++b)
             for (int c = 0; c < b; ++c)
                 if (b != a && c != a && linked[a][b] && linked[a][c] && linked[b][c])
                     markTriangle(places_[a], places_[b], places_[c], shines_[a]);
@@ -228,6 +228,7 @@ bool Paints::choose(const Model& model, Paint* paints)
         paint.number = static_cast<uint8_t>(add(actor.colour, paint.shines()));
         actor.object->setPaint(&paint);
     }
+    objects_ = count_;
     for (int i = 0; i < model.count(); ++i)
         if (paints[i].pattern != PATTERN_NONE)
             add(model.actor(i).coat.colour, paints[i].shines());

@@ -40,7 +40,7 @@ struct Wish {
     uint8_t part[3];
     uint8_t colour;
     uint8_t step, steps;
-    uint16_t weight;
+    uint8_t weight;  // of each step
 };
 
 // Wishes that one entry fulfils: those from `from` to before `to`. `error` is what it costs: the squared distances from
@@ -58,7 +58,7 @@ Box measured(const Wish* wishes, int from, int to)
     Box box{from, to, 0, {0, 0, 0}, 0, 0};
     uint32_t squares[3] = {0, 0, 0};
     for (int i = from; i < to; ++i) {
-        const uint32_t weight = wishes[i].weight;
+        const uint32_t weight = static_cast<uint32_t>(wishes[i].steps * wishes[i].weight);
         box.weight += weight;
         for (int p = 0; p < 3; ++p) {
             const uint32_t part = wishes[i].part[p];
@@ -196,13 +196,12 @@ void Palette::share(const Colour* colours, const bool* shines, int count, const 
     static Wish wishes[RAMPS_MOST * STEPS];
     int wished = 0;
     for (int c = 0; c < count; ++c) {
-        const uint16_t weight = static_cast<uint16_t>(weights == nullptr ? 1 : weights->weight(c));
+        const uint8_t weight = static_cast<uint8_t>(weights == nullptr ? 1 : weights->weight(c));
         for (int step = 0; step < STEPS; ++step) {
             uint8_t part[3];
             shade(colours[c], shines[c], step, part);
             if (step > 0 && memcmp(wishes[wished - 1].part, part, sizeof part) == 0) {
                 ++wishes[wished - 1].steps;
-                wishes[wished - 1].weight += weight;
                 continue;
             }
             Wish& wish = wishes[wished++];
