@@ -47,6 +47,15 @@ int32_t highlight(int32_t cosine)
     return cosine;
 }
 
+// Spacings: no scale reaches farther along the surface.
+constexpr Real FARTHEST(2);
+
+// A cosine of 14 bits of fraction.
+inline Real part(int32_t cosine14)
+{
+    return realFromRaw(cosine14 * 4);
+}
+
 // A sine, of turns.
 Real wave(Real turns)
 {
@@ -94,6 +103,8 @@ Grain::Grain(const SoftObject& object) : paint_(*object.paint())
         return;
     edge_ = paint_.grain * (object.size() / paint_.made);
     inverse_ = object.growth() / edge_;
+    const Real reach = clamp(object.spacing() * FARTHEST / edge_, Real(0), Real(10));
+    reach2_ = reach * reach;
 }
 
 Grain::Spot Grain::at(const Vector& place, const Direction14& normal, uint8_t mix) const
@@ -116,26 +127,29 @@ Grain::Spot Grain::at(const Vector& place, const Direction14& normal, uint8_t mi
     // Checks are cubes, stripes are slices along x.
     const int axes = paint_.pattern == PATTERN_CHECKS ? 3 : 1;
     bool odd = false;
-    Real nearest(1000);
+    Real nearest = reach2_;
+    int edge = -1;
     for (int i = 0; i < axes; ++i) {
         const int whole = floorToInt(u[i]);
         odd = odd != ((whole & 1) != 0);
-        // The edge that is the nearest along the surface.
-        const Real part = u[i] - Real(whole), apart = part < Real(0.5) ? part : Real(1) - part;
+        u[i] -= Real(whole);
+        const Real apart = u[i] < Real(0.5) ? u[i] : Real(1) - u[i];
+        if (apart * apart >= nearest)
+            continue;
+        // The way along the surface.
         const Vector& axis = axis_[i];
-        const Real cosine = (axis.x * Real(static_cast<int>(normal.x)) + axis.y * Real(static_cast<int>(normal.y)) +
-                             axis.z * Real(static_cast<int>(normal.z))) *
-                            Real(1.0 / 16384);
+        const Real cosine = axis.x * part(normal.x) + axis.y * part(normal.y) + axis.z * part(normal.z);
         const Real slant = Real(1) - cosine * cosine;
-        if (slant < Real(0.02))
+        if (apart * apart >= nearest * slant)
             continue;
-        const Real way = apart * apart / slant;
-        if (way >= nearest)
-            continue;
-        nearest = way;
+        nearest = quotient(apart * apart, slant);
+        edge = i;
+    }
+    if (edge >= 0) {
+        const bool above = u[edge] < Real(0.5);
+        const Vector inward = above ? axis_[edge] : axis_[edge] * Real(-1);
         spot.edge = true;
-        spot.apart = rawFromReal(apart * edge_) >> 8;
-        const Vector inward = part < Real(0.5) ? axis : axis * Real(-1);
+        spot.apart = rawFromReal((above ? u[edge] : Real(1) - u[edge]) * edge_) >> 8;
         spot.inward = {static_cast<int16_t>(rawFromReal(inward.x) >> 2), static_cast<int16_t>(rawFromReal(inward.y) >> 2),
                        static_cast<int16_t>(rawFromReal(inward.z) >> 2)};
     }

@@ -31,6 +31,7 @@ private:
     const Paint& paint_;
     Vector axis_[3];      // of the pattern, own axes: a ball's seeds do not turn with it, but its pattern does
     Real inverse_, edge_; // own space to grains; a grain in units of the world
+    Real reach2_;         // how far from a seed an edge is near, squared, in grains
 };
 
 // Sorts the voxels of a list by the numbers of their colours into runs.
