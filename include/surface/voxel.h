@@ -39,7 +39,7 @@ struct VoxelList {
     Run run[RUNS_MOST];
     const Voxel* voxels[VOXELS_AT_ONCE];
     Voxel store[VOXELS_AT_ONCE];
-    uint8_t number[VOXELS_AT_ONCE];  // of a painted object: of each voxel of the store, the number of its colour
+    uint8_t number[VOXELS_AT_ONCE];  // of a painted object: of each voxel, the number of its colour
 
     // Empties the list for an object, the centre of which is `place` from the eye.
     void begin(const Vector& place, const uint8_t* objectRamp)

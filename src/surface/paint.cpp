@@ -17,6 +17,16 @@ inline int32_t along(const Direction14& n, const int32_t axis[3])
     return (n.x * axis[0] + n.y * axis[1] + n.z * axis[2]) >> 14;
 }
 
+inline int32_t magnitude(int32_t a)
+{
+    return a < 0 ? -a : a;
+}
+
+inline int32_t limited(int32_t a, int32_t most)
+{
+    return a > most ? most : a < -most ? -most : a;
+}
+
 constexpr int32_t ONE = 1 << 14;
 
 // Of the light that falls on what shines, the share that is scattered.
@@ -47,8 +57,68 @@ int32_t highlight(int32_t cosine)
     return cosine;
 }
 
+// Area between two ways on the picture plane, 1/4096 square unit, below which the surface is seen too much edge-on.
+constexpr int32_t LEAST_AREA = 200;
+
 // Spacings: no scale reaches farther along the surface.
 constexpr Real FARTHEST(2);
+
+// The ray of sight through a voxel: how far it leads aside over a unit of depth, 12 bits of fraction.
+struct Shear {
+    int32_t x, y;
+
+    Shear(const VoxelList& list, const Voxel& voxel)
+    {
+        const int32_t depth = (list.z + voxel.z) >> 4, most = 5 << 12;
+        x = depth <= 0 ? 0 : limited(((list.x + voxel.x) << 8) / depth, most);
+        y = depth <= 0 ? 0 : limited(((list.y + voxel.y) << 8) / depth, most);
+    }
+};
+
+// Change of brightness (1/8 step) from the middle of a scale to its corner below which it has one brightness.
+constexpr int32_t FLAT = 8;
+
+// By how much the two sides of an edge overlap, 1/256 unit.
+constexpr int32_t EDGE_MARGIN = 40;
+
+// Ends a voxel at a straight line: inwards of it leads (x, y, z), axes of the view, 1.0 = 2^14, and the middle is `apart` inwards,
+// 1/256 unit. False: nothing is left.
+bool cutVoxel(int32_t x, int32_t y, int32_t z, int32_t apart, const Shear& shear, Voxel* voxel)
+{
+    // A step across the view leads along the ray as well, as far as the scale is tilted.
+    const int32_t ahead = z + ((x * shear.x + y * shear.y) >> 12);
+    int32_t cutX = x + (voxel->tiltX * (ahead >> 2) >> 6), cutY = y + (voxel->tiltY * (ahead >> 2) >> 6);
+    int32_t at = (apart + EDGE_MARGIN) * 64, unit = ONE;
+    while (magnitude(cutX) > 127 || magnitude(cutY) > 127) {
+        cutX >>= 1;
+        cutY >>= 1;
+        at >>= 1;
+        unit >>= 1;
+    }
+    const int32_t corner = (magnitude(cutX) * voxel->wide + magnitude(cutY) * voxel->high) >> 8;
+    if (unit < 16 || at >= corner)
+        return true;
+    if (at <= -corner)
+        return false;
+    voxel->cutX = static_cast<int8_t>(cutX);
+    voxel->cutY = static_cast<int8_t>(cutY);
+    voxel->cutAt = static_cast<int16_t>(limited(at, 32000));
+    return true;
+}
+
+// Sets how the brightness changes across a voxel, 1/8 step a unit; not at all when that is next to nothing.
+void setSlopes(int32_t x, int32_t y, Voxel* voxel)
+{
+    int32_t corner = (magnitude(x) * voxel->wide + magnitude(y) * voxel->high) >> 8;
+    if (corner < FLAT)
+        return;
+    for (; corner > SHADING_MOST * 8; corner >>= 1) {
+        x /= 2;
+        y /= 2;
+    }
+    voxel->slopeX = static_cast<int8_t>(limited(x, 127));
+    voxel->slopeY = static_cast<int8_t>(limited(y, 127));
+}
 
 // A cosine of 14 bits of fraction.
 inline Real part(int32_t cosine14)
@@ -92,22 +162,100 @@ void polish(SoftObject& object, const OwnFrame& own)
     }
 }
 
-Grain::Grain(const SoftObject& object) : paint_(*object.paint())
+// What the pattern has at a place: the number of the colour there; and if an edge of the pattern is near, the number of the
+// colour beyond, which way leads away from the edge and how far it is.
+struct Painter::Spot {
+    uint8_t number, beyond;
+    bool edge;
+    Direction14 inward;
+    int32_t apart;  // 1/256 unit
+};
+
+Painter::Painter(const SoftObject& object, const OwnFrame& own, VoxelList& list)
+    : object_(object), paint_(*object.paint()), own_(own), list_(list)
 {
-    for (int i = 0; i < 3; ++i) {
-        const Matrix& turn = object.turn();
-        const Vector axis{turn.m[0][i], turn.m[1][i], turn.m[2][i]};
-        axis_[i] = object.toOwnAxes(axis);
-    }
     if (paint_.pattern == PATTERN_NONE)
         return;
+    for (int i = 0; i < 3; ++i) {
+        const Matrix& turn = object.turn();
+        axis_[i] = object.toOwnAxes({turn.m[0][i], turn.m[1][i], turn.m[2][i]});
+    }
     edge_ = paint_.grain * (object.size() / paint_.made);
     inverse_ = object.growth() / edge_;
     const Real reach = clamp(object.spacing() * FARTHEST / edge_, Real(0), Real(10));
     reach2_ = reach * reach;
 }
 
-Grain::Spot Grain::at(const Vector& place, const Direction14& normal, uint8_t mix) const
+void Painter::put(const Voxel& voxel, uint8_t number)
+{
+    list_.number[list_.count] = number;
+    *list_.room() = voxel;
+    list_.take();
+}
+
+void Painter::add(const Seed& s, const Voxel& shaded)
+{
+    Voxel voxel = shaded;
+    if (paint_.shines())
+        slope(s, &voxel);
+    const bool mixed = paint_.mixes && !(s.flags & SEED_RESTING);
+    const Spot spot = spotAt(place(s), s.normal, mixed ? s.mix : paint_.number);
+    if (!spot.edge || (voxel.cutX | voxel.cutY) != 0) {
+        put(voxel, spot.number);
+        return;
+    }
+    // One too small to be cut in two keeps the colour of its middle.
+    const Direction14 outward{static_cast<int16_t>(-spot.inward.x), static_cast<int16_t>(-spot.inward.y),
+                              static_cast<int16_t>(-spot.inward.z)};
+    Voxel within = voxel, beyond = voxel;
+    cut(spot.inward, spot.apart, &within);
+    if ((within.cutX | within.cutY) == 0 || !cut(outward, -spot.apart, &beyond) || (beyond.cutX | beyond.cutY) == 0) {
+        put(voxel, spot.number);
+        return;
+    }
+    put(within, spot.number);
+    put(beyond, spot.beyond);
+}
+
+// How the brightness changes across the voxel, from the next seed of its ring and from N of the ring before.
+void Painter::slope(const Seed& s, Voxel* voxel) const
+{
+    voxel->slopeX = voxel->slopeY = 0;
+    const Seed *next = &s + 2, *last = &object_.seed(object_.seedSlots() - 2);
+    if (s.neighbour < 0 || ((&s - &object_.seed(0)) & 1) != 0)
+        return;
+    if (next > last || !(next->flags & SEED_VALID) || next->neighbour < s.neighbour)
+        next = &s - 2;
+    const Seed& n = object_.seed(s.neighbour);
+    if (!(next->flags & n.flags & SEED_VALID))
+        return;
+    const Vector at = place(s);
+    const Shear shear(list_, *voxel);
+    // A way on the surface as it falls on the picture plane, 1/64 unit.
+    const auto onPicture = [&](const Seed& to, int32_t* x, int32_t* y) {
+        const Vector way = (place(to) - at) * own_.growth;
+        const int32_t d[] = {rawFromReal(way.x) >> 10, rawFromReal(way.y) >> 10, rawFromReal(way.z) >> 10};
+        const int32_t ahead = (d[0] * own_.ahead[0] + d[1] * own_.ahead[1] + d[2] * own_.ahead[2]) >> 14;
+        *x = ((d[0] * own_.right[0] + d[1] * own_.right[1] + d[2] * own_.right[2]) >> 14) - (ahead * shear.x >> 12);
+        *y = ((d[0] * own_.up[0] + d[1] * own_.up[1] + d[2] * own_.up[2]) >> 14) - (ahead * shear.y >> 12);
+    };
+    int32_t ax, ay, bx, by;
+    onPicture(*next, &ax, &ay);
+    onPicture(n, &bx, &by);
+    const int32_t area = ax * by - ay * bx;
+    if (area > -LEAST_AREA && area < LEAST_AREA)
+        return;
+    const int32_t a = next->brightness8 - s.brightness8, b = n.brightness8 - s.brightness8;
+    setSlopes((a * by - b * ay) * 2 / area, (b * ax - a * bx) * 2 / area, voxel);
+}
+
+bool Painter::cut(const Direction14& inward, int32_t apart, Voxel* voxel) const
+{
+    return cutVoxel(along(inward, own_.right), along(inward, own_.up), along(inward, own_.ahead), apart, Shear(list_, *voxel), voxel);
+}
+
+// `place` in own space, `normal` of the surface there; where there is no pattern the colour has the number `mix`.
+Painter::Spot Painter::spotAt(const Vector& place, const Direction14& normal, uint8_t mix) const
 {
     Spot spot{mix, paint_.other, false, {0, 0, 0}, 0};
     if (paint_.pattern == PATTERN_NONE)
@@ -163,6 +311,7 @@ Grain::Spot Grain::at(const Vector& place, const Direction14& normal, uint8_t mi
 void sortByColour(VoxelList& list, const Paint& paint)
 {
     int first[RUNS_MOST + 1] = {};
+    const Voxel* sorted[VOXELS_AT_ONCE];
     for (int i = 0; i < list.count; ++i)
         ++first[list.number[i] + 1];
     list.runs = 0;
@@ -172,5 +321,7 @@ void sortByColour(VoxelList& list, const Paint& paint)
         first[n + 1] += first[n];
     }
     for (int i = 0; i < list.count; ++i)
-        list.voxels[first[list.number[i]]++] = list.store + i;
+        sorted[first[list.number[i]]++] = list.voxels[i];
+    for (int i = 0; i < list.count; ++i)
+        list.voxels[i] = sorted[i];
 }

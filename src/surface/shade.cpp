@@ -93,9 +93,9 @@ public:
     // To be called before the seeds of a patch: from where the viewer sees it.
     void setPatch(const Patch& patch);
 
-    // Lists the voxels of a patch. GRAIN: Grain, of an object with a paint, or int.
-    template <bool RESTING, class GRAIN>
-    void shadeSeeds(const Patch& patch, VoxelList& list, const GRAIN& grain) const;
+    // Lists the voxels of a patch, by way of the painter of objects that have a paint.
+    template <bool RESTING, bool PAINTED>
+    void shadeSeeds(const Patch& patch, VoxelList& list, Painter* painter) const;
 
 private:
     template <bool RESTING>
@@ -113,9 +113,7 @@ private:
     void end(const Scale& scale, Voxel* voxel) const;
     void changes(const Seed& s, Cell& c) const;
     void roundSlopes(const Scale& scale, Voxel* voxel) const;
-    bool cut(const Direction14& inward, int32_t apart, const Scale& scale, Voxel* voxel) const;
-    int paint(const Seed& s, VoxelList& list, const Grain& grain) const;
-    int paint(const Seed&, VoxelList&, int) const { return 1; }
+    bool cut(const Seed& s, const Scale& scale, Voxel* voxel) const;
 
     const SoftObject& object_;
     const OwnFrame own_;      // a copy, for the same reason
@@ -131,7 +129,6 @@ private:
     int32_t depth_;           // of the object's centre along the viewing axis, 1/32 unit
     int32_t away_[2];         // the centre from the eye, across the view, 1/32 unit
     int32_t inverseRadius_;   // 2^24 / radius in 1/64 unit
-    bool polished_;           // its brightness is not Lambert's
     bool round_ = false;      // the patch bends alike everywhere
     int32_t gradient_[3];     // of the brightness over what is round, 1/8 step a unit with 8 bits of fraction
     // Of the patch: the axes of the picture plane, sheared along the ray through its middle, so that a part of a vector along
@@ -160,12 +157,12 @@ inline Shader<TURNED>::Shader(const SoftObject& object, const OwnFrame& own, con
     limb_ = object.coreReach() > Real(0) ? own.distance32 >> 7 : own.distance32 * 5 >> 7;
     generalHorizon_ = rawFromReal(object.horizonRadius(own.eye)) >> 11;
     flattest_ = smaller((rawFromReal(object.radius()) >> 11) + (rawFromReal(object.coreReach()) >> 11) * 4, 8000);
-    const int32_t reach16 = (rawFromReal(object.coreReach() / own.growth) >> 12) - 2;
-    core2_ = reach16 < 0 ? 0 : reach16 * reach16;
+    // A ball ends all round.
+    const int32_t reach16 = larger((rawFromReal(object.coreReach() / own.growth) >> 12) - 2, 0);
+    core2_ = reach16 * reach16;
     const int32_t radius = (rawFromReal(object.radius()) >> 8) + 1;
     for (int i = 0; i < 3; ++i)
         gradient_[i] = own.light[i] * (BRIGHTEST * 32) / radius;
-    polished_ = object.paint() != nullptr && object.paint()->finish != FINISH_MATT;
     inverseRadius_ = (1 << 24) / ((rawFromReal(shiftDown(object.laidSize(), 1)) >> 10) + 1);
 }
 
@@ -275,7 +272,7 @@ inline int32_t Shader<TURNED>::curvature(const Patch& patch, const int32_t middl
 {
     const bool end = atEnd(seeds_[patch.centre]);
     const int last = PATCH_RINGS - 1;
-    round_ = !polished_ && end == atEnd(seeds_[2 * patch.first[0]]) && (patch.count[last] == 0 || end == atEnd(seeds_[2 * patch.first[last]]));
+    round_ = end == atEnd(seeds_[2 * patch.first[0]]) && (patch.count[last] == 0 || end == atEnd(seeds_[2 * patch.first[last]]));
     const int32_t radius = grown(patch.path * 2);
     const int32_t x = middle[0], y = middle[1], z = middle[2];
     const Normal out = normalise({realFromRaw(x << 8), Real(0), realFromRaw(z << 8)});
@@ -423,18 +420,18 @@ inline void Shader<TURNED>::roundSlopes(const Scale& scale, Voxel* voxel) const
 // Where another object is the strongest the scale ends: a straight line, for the difference of two fields is nearly linear
 // across it. False: nothing is left.
 template <bool TURNED>
-inline bool Shader<TURNED>::cut(const Direction14& inward, int32_t apart, const Scale& scale, Voxel* voxel) const
+inline bool Shader<TURNED>::cut(const Seed& s, const Scale& scale, Voxel* voxel) const
 {
-    int32_t x = inward.x, y = inward.y, z = inward.z;
+    int32_t x = s.border.x, y = s.border.y, z = s.border.z;
     if (TURNED) {
-        x = product(inward, own_.right) >> 14;
-        y = product(inward, own_.up) >> 14;
-        z = product(inward, own_.ahead) >> 14;
+        x = product(s.border, own_.right) >> 14;
+        y = product(s.border, own_.up) >> 14;
+        z = product(s.border, own_.ahead) >> 14;
     }
     // A step across the view leads along the ray as well, as far as the scale is tilted.
     const int32_t along = z + ((x * shearX_ + y * shearY_) >> 12);
     int32_t cutX = x + (scale.tiltX * (along >> 2) >> 6), cutY = y + (scale.tiltY * (along >> 2) >> 6);
-    int32_t at = (apart + BORDER_MARGIN) * 64, unit = 1 << 14;
+    int32_t at = (s.apart + BORDER_MARGIN) * 64, unit = 1 << 14;
     while (magnitude(cutX) > 127 || magnitude(cutY) > 127) {
         cutX >>= 1;
         cutY >>= 1;
@@ -480,7 +477,7 @@ inline bool Shader<TURNED>::shade(const Seed& s, bool oversampled, Voxel* voxel)
     cell<RESTING>(s, c);
     extents(c, oversampled || c.uneven || scale.depth < WHOLE_BEFORE, scale, voxel);
     end(scale, voxel);
-    if (!RESTING && (s.flags & SEED_BORDER) && !cut(s.border, s.apart, scale, voxel))
+    if (!RESTING && (s.flags & SEED_BORDER) && !cut(s, scale, voxel))
         return false;
     voxel->slopeX = voxel->slopeY = 0;
     if ((TURNED ? RESTING && round_ : RESTING || (s.flags & SEED_RESTING)) && s.brightness8 > 0) {
@@ -492,39 +489,12 @@ inline bool Shader<TURNED>::shade(const Seed& s, bool oversampled, Voxel* voxel)
     return true;
 }
 
-// The colour of the voxel that was listed last; where an edge of a pattern goes through it, one more for what lies beyond.
-// Returns how many there are.
 template <bool TURNED>
-int Shader<TURNED>::paint(const Seed& s, VoxelList& list, const Grain& grain) const
+template <bool RESTING, bool PAINTED>
+inline void Shader<TURNED>::shadeSeeds(const Patch& patch, VoxelList& list, Painter* painter) const
 {
-    const bool rests = (s.flags & SEED_RESTING) != 0;
-    const Paint& paint = *object_.paint();
-    const Grain::Spot spot = grain.at(roots_[s.root] + s.path * s.position, s.normal,
-                                      paint.mixes && !rests ? s.mix : paint.number);
-    Voxel* const voxel = list.store + list.count - 1;
-    list.number[list.count - 1] = spot.number;
-    if (!spot.edge || (voxel->cutX | voxel->cutY) != 0)
-        return 1;
-    // One too small to be cut in two keeps the colour of its middle.
-    const Scale scale{0, 0, voxel->tiltX, voxel->tiltY, voxel->wide, voxel->high};
-    const Direction14 outward{static_cast<int16_t>(-spot.inward.x), static_cast<int16_t>(-spot.inward.y),
-                              static_cast<int16_t>(-spot.inward.z)};
-    Voxel within = *voxel, beyond = *voxel;
-    cut(spot.inward, spot.apart, scale, &within);
-    if ((within.cutX | within.cutY) == 0 || !cut(outward, -spot.apart, scale, &beyond) || (beyond.cutX | beyond.cutY) == 0)
-        return 1;
-    *voxel = within;
-    list.number[list.count] = spot.beyond;
-    *list.room() = beyond;
-    list.take();
-    return 2;
-}
-
-template <bool TURNED>
-template <bool RESTING, class GRAIN>
-inline void Shader<TURNED>::shadeSeeds(const Patch& patch, VoxelList& list, const GRAIN& grain) const
-{
-    Voxel* voxel = list.room();
+    Voxel bare;
+    Voxel* voxel = PAINTED ? &bare : list.room();
     for (int ring = 0; ring < PATCH_RINGS; ++ring) {
         const Seed* s = seeds_ + 2 * patch.first[ring];
         const Seed* const end = s + 2 * patch.count[ring];
@@ -533,30 +503,35 @@ inline void Shader<TURNED>::shadeSeeds(const Patch& patch, VoxelList& list, cons
         for (; s < end; s += RESTING ? 2 : 1) {
             const int needed = oversampled ? SEED_ACTIVE | SEED_VALID : SEED_VALID;
             if ((RESTING || (s->flags & needed) == needed) && shade<RESTING>(*s, oversampled, voxel)) {
-                list.take();
-                voxel += paint(*s, list, grain);
+                if (PAINTED) {
+                    painter->add(*s, bare);
+                } else {
+                    list.take();
+                    ++voxel;
+                }
             }
             oversampled = !RESTING && !oversampled;
         }
     }
 }
 
-template <bool TURNED, class GRAIN>
+template <bool TURNED, bool PAINTED>
 int shadeAs(const SoftObject& object, const OwnFrame& own, const FrameContext& frame, const Patch* patches, int count, int first,
-            VoxelList& list, int room, const GRAIN& grain)
+            VoxelList& list, int room, Painter* painter)
 {
     Shader<TURNED> shader(object, own, frame);
+    // The painter may make two voxels of one.
+    const int most = (PAINTED ? 4 : 2) * PATCH_RINGS * PATCH_SEEDS;
     int at = first;
-    // A seed has a voxel, or two where a pattern has an edge.
-    for (; at < count && list.count + 4 * PATCH_RINGS * PATCH_SEEDS <= room; ++at) {
+    for (; at < count && list.count + most <= room; ++at) {
         const Patch& patch = patches[at];
         if (patch.state != PATCH_MIXED && (patch.state != PATCH_REST || restsAway(patch, own)))
             continue;
         shader.setPatch(patch);
         if (patch.state == PATCH_REST) {
-            shader.template shadeSeeds<true>(patch, list, grain);
+            shader.template shadeSeeds<true, PAINTED>(patch, list, painter);
         } else {
-            shader.template shadeSeeds<false>(patch, list, grain);
+            shader.template shadeSeeds<false, PAINTED>(patch, list, painter);
         }
     }
     return at;
@@ -567,8 +542,10 @@ int shadeAs(const SoftObject& object, const OwnFrame& own, const FrameContext& f
 int shadePatches(const SoftObject& object, const OwnFrame& own, const FrameContext& frame, const Patch* patches, int count,
                  int first, VoxelList& list, int room)
 {
-    if (object.paint() != nullptr)
-        return shadeAs<true>(object, own, frame, patches, count, first, list, room, Grain(object));
-    return object.isBall() ? shadeAs<false>(object, own, frame, patches, count, first, list, room, 0)
-                           : shadeAs<true>(object, own, frame, patches, count, first, list, room, 0);
+    if (object.paint() != nullptr) {
+        Painter painter(object, own, list);
+        return shadeAs<true, true>(object, own, frame, patches, count, first, list, room, &painter);
+    }
+    return object.isBall() ? shadeAs<false, false>(object, own, frame, patches, count, first, list, room, nullptr)
+                           : shadeAs<true, false>(object, own, frame, patches, count, first, list, room, nullptr);
 }
