@@ -3,8 +3,6 @@
 
 #include <cstdio>
 
-#include "model/paint.h"
-
 namespace {
 
 // What may stand where something else is expected.
@@ -14,6 +12,9 @@ constexpr size_t ODD_COUNT = sizeof ODD / sizeof ODD[0];
 
 const char* const COLOURS[] = {"white", "silver", "grey", "gray", "black", "red", "orange", "yellow",
                                "lime", "green", "cyan", "blue", "violet", "magenta", "pink", "brown"};
+
+const char* const FINISHES[] = {"matt", "shiny", "mirror"};
+const char* const PATTERNS[] = {"checks", "stripes", "marble"};
 
 const char* const PLANES[] = {"xy", "yz", "zx", "yx", "zy", "xz"};
 
@@ -392,14 +393,14 @@ private:
                 return;
             word("finish");
             word(known(item));
-            word(slip() ? "gloss" : FINISH_WORDS[random_.below(FINISHES)]);
+            word(slip() ? "gloss" : FINISHES[random_.below(3)]);
             break;
         case 16:
             if (item.group && !slip())
                 return;
             word("pattern");
             word(known(item));
-            word(PATTERN_WORDS[slip() ? 0 : 1 + random_.below(PATTERNS - 1)]);
+            word(slip() ? "none" : PATTERNS[random_.below(3)]);
             number(1, 100);
             paint();
             break;
