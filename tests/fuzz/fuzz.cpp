@@ -24,6 +24,7 @@
 
 #include "model/field.h"
 #include "model/scene.h"
+#include "picture/palette.h"
 #include "math/normal.h"
 #include "surface/engine.h"
 #include "surface/voxel.h"
@@ -77,9 +78,8 @@ const Time TIMES[] = {0, 65536 / 10, 65536 * 3 + 777, 12345678, 65536ull * 3599,
 void draw(Model& model, bool printed)
 {
     static VoxelList list;
-    static uint8_t ramp[64 + 2 * SHADING_MOST];
-    for (int i = 0; i < model.count(); ++i)
-        model.actor(i).object->setRamp(ramp + SHADING_MOST);
+    static Palette palette;
+    palette.make(model, false, printed);
     if (!model.resample(Real(6), printed ? makeReport98 : makeEngine))
         failed("no memory for seeds");
     Counts counts{};
