@@ -225,7 +225,7 @@ void Painter::slope(const Seed& s, Voxel* voxel) const
     if (s.neighbour < 0 || ((&s - &object_.seed(0)) & 1) != 0)
         return;
     if (next > last || !(next->flags & SEED_VALID) || next->neighbour < s.neighbour)
-        next = &s - 2;
+        next = &s > &object_.seed(0) ? &s - 2 : &s;
     const Seed& n = object_.seed(s.neighbour);
     if (!(next->flags & n.flags & SEED_VALID))
         return;

@@ -460,7 +460,7 @@ inline void Shader<TURNED>::changes(const Seed& s, Cell& c) const
     c.along.change = c.across.change = 0;
     if (&next <= lastSeed_ && (next.flags & SEED_VALID) && next.neighbour >= s.neighbour)
         c.along.change = (next.brightness8 - s.brightness8) >> 1;
-    else if (last.flags & SEED_VALID)
+    else if (&last >= seeds_ && (last.flags & SEED_VALID))
         c.along.change = (s.brightness8 - last.brightness8) >> 1;
     if (n.flags & SEED_VALID)
         c.across.change = (s.brightness8 - n.brightness8 + (c.along.change * s.aside >> 5)) >> 1;
