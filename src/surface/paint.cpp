@@ -311,7 +311,7 @@ Painter::Spot Painter::spotAt(const Vector& place, const Direction14& normal, ui
 void sortByColour(VoxelList& list, const Paint& paint)
 {
     int first[RUNS_MOST + 1] = {};
-    const Voxel* sorted[VOXELS_AT_ONCE];
+    int16_t to[VOXELS_AT_ONCE];
     for (int i = 0; i < list.count; ++i)
         ++first[list.number[i] + 1];
     list.runs = 0;
@@ -321,7 +321,16 @@ void sortByColour(VoxelList& list, const Paint& paint)
         first[n + 1] += first[n];
     }
     for (int i = 0; i < list.count; ++i)
-        sorted[first[list.number[i]]++] = list.voxels[i];
-    for (int i = 0; i < list.count; ++i)
-        list.voxels[i] = sorted[i];
+        to[i] = static_cast<int16_t>(first[list.number[i]]++);
+    // Each exchange brings one to its place.
+    for (int i = 0; i < list.count; ++i) {
+        while (to[i] != i) {
+            const int other = to[i];
+            const auto voxel = list.voxels[i];
+            list.voxels[i] = list.voxels[other];
+            list.voxels[other] = voxel;
+            to[i] = to[other];
+            to[other] = static_cast<int16_t>(other);
+        }
+    }
 }
