@@ -120,6 +120,9 @@ public:
     // nothing was changed.
     bool restore(const Record* record);
 
+    // Has all seeds looked for anew, as if nothing were known of a frame before.
+    void settleAnew();
+
     // Changes the light under which seeds were laid out already.
     void setLight(const Vector& to);
 

@@ -344,6 +344,12 @@ void Model::setLight(const Vector& to)
     recalcAll();
 }
 
+void Model::settleAnew()
+{
+    bodiesKnown_ = false;
+    recalcAll();
+}
+
 void Model::recalcAll()
 {
     for (int i = 0; i < count_; ++i)

@@ -116,6 +116,9 @@ void Palette::make(Model& model, bool grey, bool plain)
     for (int i = 0; i < model.count(); ++i)
         model.actor(i).object->setPaint(nullptr);
     const bool painted = !plain && paints_.choose(model, paint_);
+    // Seeds keep the numbers of their mixtures.
+    if (painted && model.mixed)
+        model.settleAnew();
     memcpy(dac_ + 3 * INK, INK_COLOUR, sizeof INK_COLOUR);
     if (grey) {
         for (int i = 0; i < STEPS; ++i) {

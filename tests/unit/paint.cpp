@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "help.h"
 #include "model/scene.h"
@@ -156,6 +157,28 @@ TEST(colours_mix_by_the_fields)
     note("%d mixtures of %d colours, off by %.1f of 255 at most", mixed, paint.paints->count(), worst);
     CHECK(mixed > 300);
     CHECK(worst < 14);  // a cell of the box is 15 by 4 by 14 large
+    // Colours change while nothing moves: the seeds have the new numbers.
+    std::vector<int> kept;
+    p.object(0).update(p.frame());
+    for (int change = 0; change < 2; ++change) {
+        if (change == 1) {
+            p.model.actor(0).colour = {0, 200, 0};
+            p.palette.make(p.model, false);
+            const FrameContext frame = p.frame();
+            p.object(0).update(frame);
+        }
+        for (int i = 0; i < p.object(0).seedSlots(); i += 2)
+            if ((p.object(0).seed(i).flags & (SEED_VALID | SEED_RESTING | SEED_ASLEEP)) == SEED_VALID) {
+                const Colour& c = paint.paints->colour(p.object(0).seed(i).mix);
+                kept.push_back(c.green > 120);
+            }
+    }
+    CHECK(kept.size() > 100 && kept.size() % 2 == 0);
+    for (size_t i = 0; i < kept.size() / 2; ++i)
+        CHECK(!kept[i]);
+    CHECK(std::count(kept.begin(), kept.end(), 1) > 50);
+    p.model.actor(0).colour = {255, 64, 48};
+    p.palette.make(p.model, false);
     // No band wider than a scale of the report's: of 63 steps of light, 8 from one scale of such a ball to the next.
     Vec before = p.rgb(p.object(0).ramp()[45]);
     double step = 0;
