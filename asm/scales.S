@@ -28,6 +28,7 @@
 #define VOXEL_SLOPEX 24                 /* one word with: */
 #define VOXEL_SLOPEY 25
 #define VOXEL_CUTAT  26
+#define VOXEL_SIZE   28
 
 // struct Factors, struct Lens and the constants (include/picture/scales.h)
 #define FACTOR_X   0
@@ -53,8 +54,9 @@
 #define KIND_WIDE  16
 #define KIND_ROWS  24
 #define KIND_SHIFT 6
-// Behind the kinds of the table: what is cut, larger, or nearer.
+// Behind the kinds of the table: what is larger, nearer or clipped, LARGEST ways; and what is only cut.
 #define LARGE_KIND (2*KIND_ROWS)
+#define CUT_KIND   (2*KIND_ROWS+3)
 
 // A copy of the lens on the stack, and what else has no register.
 #define LENS_X     0
@@ -76,7 +78,7 @@
 #define FOCALX     64
 #define FOCALY     68
 #define LENS_WORDS 18
-#define LIST       72                   /* the voxel's place in the list, counted in bytes from the end: below 0 */
+#define LIST       72                   /* the voxel, counted in bytes from the end: below 0 */
 #define END        76
 #define DEPTH      80                   /* 1/128 unit beyond the nearest of the table */
 #define NOT_LEFT   84                   /* ~left: it is what shortens the arithmetic */
@@ -88,7 +90,7 @@
 #define ROW        108
 #define WIDE       112                  /* of what is cut or large: columns - 1, rows - 1 (and then those to go), */
 #define HIGH       116
-#define ENTRY      120                  /* where in the code a row begins, */
+#define ENTRY      120                  /* where in the code a row of them begins, */
 #define CUT        124                  /* and the function that cuts: at the first pixel, from pixel to pixel and row to row */
 #define CUT_STEP   128
 #define CUT_ROW    132
@@ -98,7 +100,7 @@
         .text
 
 // ---------------------------------------------------------------------------------------------------------------------
-// int drawScalesA(Lens* lens, const Voxel* const* voxels, int count)
+// const Voxel* drawScalesA(Lens* lens, const Voxel* voxels, const Voxel* end)
 //
 //   esi  voxel     ebp  factors of its depth     edi  width - 1
 //   ecx  from the first pixel's middle to the scale's, columns     edx  the same, rows
@@ -106,8 +108,8 @@
 // and then, from row to row:
 //
 //   eax  z (ax), and above it the brightness with 8 bits of fraction     ebx  change of both from pixel to pixel
-//   edx  change of both from row to row (of one brightness: ebp)     ebp  the ramp     ecx  to look it up (the colour: cl)
-//   esi  depths + row    edi  pixels + row
+//   edx  what is subtracted from both from row to row (of one brightness: ebp)
+//   ebp  the ramp     ecx  to look it up (the colour: cl)     esi  depths + row     edi  pixels + row
 //
 // z never leaves its 16 bits on a scale, so one addition changes both and the brightness takes no harm. A pixel behind what
 // is there costs 3 instructions (486: 2 + 3 + 1, Pentium: 3 when the branch is foreseen, the addition pairs), one that is
@@ -116,8 +118,8 @@
 // columns a row costs one addition more and nothing is counted: the table has an entry into the code for each width and
 // height, from which on as many rows follow as are to be drawn. Larger scales go row by row.
 //
-// Those that are cut, larger or nearer than the tables enter each row at as many columns before its end as they are wide. Of the
-// first edx has what cuts, which costs 2 instructions a pixel more; 3 are all for a pixel that is cut off.
+// Those that are cut, clipped, larger or nearer than the tables enter each row at as many columns before its end as they are
+// wide. Of what is cut edx has the function that cuts, which costs 2 instructions a pixel more; 3 are all for a pixel cut off.
 
         .balign 16
         FUNC(drawScalesA)
@@ -127,24 +129,22 @@
         pushl   %edi
         movl    20(%esp), %esi          // lens
         movl    24(%esp), %eax          // voxels
-        movl    28(%esp), %edx          // count
+        movl    28(%esp), %edx          // end
         subl    $LOCALS, %esp
         movl    %esp, %edi
         movl    $LENS_WORDS, %ecx
         cld
         rep movsl
         subl    $LENS_NEAR*256, LENS_Z(%esp)
-        leal    (%eax,%edx,4), %eax
-        movl    %eax, END(%esp)
-        negl    %edx
+        movl    %edx, END(%esp)
+        movl    %eax, %ecx
+        subl    %edx, %ecx
         jns     leave_at
-        shll    $2, %edx
-        movl    %edx, LIST(%esp)
+        movl    %ecx, LIST(%esp)
 
         .macro  COVER_COLUMNS near
         // column = centreX + ((lens->x + v.x) * f.x >> 8);  halfWide = wide * f.x >> 8
         imull   FACTOR_X(%ebp), %ebx
-        jo      leave
         sarl    $8, %ebx
         imull   FACTOR_X(%ebp), %edi
         addl    CENTREX(%esp), %ebx
@@ -167,16 +167,17 @@ right_grown\near:
         movl    %ecx, NOT_LEFT(%esp)
         .endm
 
-        // The rectangle lies on the screen, so what is not on it is found here.
+        // The rectangle lies on the screen, so what is not on it is found here. What is clipped goes on as what is large, for its
+        // middle may be far.
         .macro  GROW_COLUMNS near
 grow_left\near:
         testl   %ecx, %ecx
-        js      leave
+        js      clip_left
         movl    %ecx, BOX_LEFT(%esp)
         jmp     left_grown\near
 grow_right\near:
         cmpl    $SCREEN_WIDTH, %edi
-        jg      leave
+        jg      clip_right
         movl    %edi, BOX_RIGHT(%esp)
         jmp     right_grown\near
         .endm
@@ -188,7 +189,6 @@ grow_right\near:
         addl    LENS_Y(%esp), %edx
         addl    %ebx, %ecx              // -toColumn = column - ((left + 1) << 12)
         imull   FACTOR_Y(%ebp), %edx
-        jo      leave
         movswl  VOXEL_HIGH(%esi), %eax
         sarl    $8, %edx
         movl    CENTREY(%esp), %ebx
@@ -217,21 +217,20 @@ bottom_grown\large:
         .macro  GROW_ROWS large
 grow_top\large:
         testl   %edx, %edx
-        js      leave
+        js      clip_top
         movl    %edx, BOX_TOP(%esp)
         jmp     top_grown\large
 grow_bottom\large:
         cmpl    $SCREEN_HEIGHT, %eax
-        jg      leave
+        jg      clip_bottom
         movl    %eax, BOX_BOTTOM(%esp)
         jmp     bottom_grown\large
         .endm
 
         .balign 16
 voxel_loop:
-        movl    END(%esp), %eax
-        movl    LIST(%esp), %edx
-        movl    (%eax,%edx), %esi
+        movl    END(%esp), %esi
+        addl    LIST(%esp), %esi
         // depth = lens->z + v.z;  f = factorsOf(lens, depth):  step = (depth >> 5) - LENS_NEAR * 8;  if (step < LENS_STEPS) ..
         movl    VOXEL_Z(%esi), %ebp
         movl    VOXEL_X(%esi), %ebx
@@ -245,7 +244,7 @@ voxel_loop:
         andl    $-FACTOR_SIZE, %ebp
         addl    FACTORS(%esp), %ebp
         COVER_COLUMNS
-        // if (wide == 0) ..;  if (wide < 0 || wide > LARGEST) break
+        // if (wide <= 0) ..;  if (wide > LARGEST) break
         cmpl    $KIND_WIDE, %edi
         jae     odd_width
         COVER_ROWS
@@ -307,7 +306,7 @@ shaded:
         shll    $16, %edx
         movl    BOTTOM(%esp), %esi
         movl    shaded_ways(%ecx,%edi,4), %ecx
-        // zRow = down - across * (wide - 1), and shadeRow
+        // -zRow = across * (wide - 1) - down, and -shadeRow
         imull   %ebx, %edi
         leal    (%esi,%esi,4), %esi
         addl    %eax, %edi
@@ -318,7 +317,6 @@ shaded:
         subl    NOT_LEFT(%esp), %esi
         movl    %edi, %edx
         movl    FRAME(%esp), %edi
-        negl    %edx
         addl    %esi, %edi
         addl    %esi, %esi
         movl    RAMP(%esp), %ebp
@@ -330,7 +328,7 @@ shaded:
 even:
         cmpl    $KIND_ROWS, KIND(%esp)
         jae     shaded
-        // z = (depth >> 1) + ((across * toColumn + down * toRow) >> 12);  zRow = down - across * (wide - 1)
+        // z = (depth >> 1) + ((across * toColumn + down * toRow) >> 12);  -zRow = across * (wide - 1) - down
         imull   %ebx, %ecx
         imull   %eax, %edx
         movl    %ebx, %ebp
@@ -339,7 +337,6 @@ even:
         sarl    $12, %edx
         addl    %eax, %ebp
         movl    DEPTH(%esp), %eax
-        negl    %ebp
         leal    LENS_NEAR*128(%eax,%edx), %eax
         // colour = ramp[brightness]
         movl    VOXEL_BRIGHT(%esi), %ecx
@@ -394,8 +391,15 @@ even:
 1:
         .endm
 
-        // if (z < depths[x] && z <= zMost && cut >= 0) ..;   the flags are those of `cut`
+        // if (z < depths[x] && cut >= 0) ..;   the flags are those of `cut`
         .macro  PIXEL_cut at
+        js      2f
+        PIXEL_shaded \at
+2:
+        .endm
+
+        // if (z < depths[x] && z <= zMost && cut >= 0) ..
+        .macro  PIXEL_cutending at
         js      2f
         PIXEL_ending \at
 2:
@@ -413,7 +417,7 @@ even:
         .endm
 
         .macro  NEXT_VOXEL
-        addl    $4, LIST(%esp)
+        addl    $VOXEL_SIZE, LIST(%esp)
         jnz     voxel_loop
         jmp     leave
         .endm
@@ -425,7 +429,7 @@ even:
 \kind\()_\wide\()_\high:
         PIXELS  \kind, \wide, (-\high*SCREEN_WIDTH-1)
         .if     \high > 1
-        addl    \row, %eax
+        subl    \row, %eax
         .endif
         .endr
         NEXT_VOXEL
@@ -450,7 +454,7 @@ even:
         movl    KIND(%esp), %edx
 \kind\()_\wide\()_row:
         PIXELS  \kind, \wide, (-SCREEN_WIDTH-1)
-        addl    \row, %eax
+        subl    \row, %eax
         addl    $2*SCREEN_WIDTH, %esi
         addl    $SCREEN_WIDTH, %edi
         decl    %edx
@@ -470,20 +474,33 @@ even:
         ALL_ROWS ending, ROW(%esp), \wide
         .endr
 
-        // for (x = 0; x < wide; ++x, z += zStep, cut += cutStep) ..;   edi is the pixel behind the last one of the row
-        .macro  ENTERED kind
+        // for (y = high; y > 0; --y, z += zRow, cut += cutRow)
+        //     for (x = 0; x < wide; ++x, z += zStep, cut += cutStep) ..;   edi is the pixel behind the last one of the row
+        .macro  ENTERED kind cuts
+        .balign 4
         .set    at, -LARGEST
         .irp    wide, 40, 39, 38, 37, 36, 35, 34, 33, 32, 31, 30, 29, 28, 27, 26, 25, 24, 23, 22, 21, 20, 19, 18, 17, 16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1
 entered_\kind\()_\wide:
         PIXEL_\kind at
         .if     \wide > 1
         addl    %ebx, %eax
-        .ifc    \kind, cut
+        .if     \cuts
         addl    CUT_STEP(%esp), %edx
         .endif
         .endif
         .set    at, at + 1
         .endr
+        subl    ROW(%esp), %eax
+        addl    $2*SCREEN_WIDTH, %esi
+        addl    $SCREEN_WIDTH, %edi
+        decl    HIGH(%esp)
+        js      entered_\kind\()_done
+        .if     \cuts
+        addl    CUT_ROW(%esp), %edx
+        .endif
+        jmp     *ENTRY(%esp)
+entered_\kind\()_done:
+        NEXT_VOXEL
         .endm
 
         // if (!depthsFit(z, across * (wide - 1), down * (high - 1))) break
@@ -491,6 +508,7 @@ entered_\kind\()_\wide:
 large:
         movl    %edx, ROW(%esp)
         movswl  %bx, %ecx               // across
+        negl    %edx
         movswl  %dx, %edx               // down - across * (wide - 1)
         imull   WIDE(%esp), %ecx
         addl    $LENS_NEAR*128, DEPTH(%esp)
@@ -507,44 +525,34 @@ large:
         subl    %ecx, DEPTH(%esp)
         cmpl    $Z_EMPTY, DEPTH(%esp)
         jae     leave
+        movl    ROW(%esp), %edx
         // pixels -= high * WIDTH;  depths -= high * WIDTH;   and to the end of the row
+small:
         movl    HIGH(%esp), %ecx
-        movl    CUT(%esp), %edx
+        movl    %edx, ROW(%esp)
         notl    %ecx
+        movl    CUT(%esp), %edx
         imull   $SCREEN_WIDTH, %ecx, %ecx
         addl    WIDE(%esp), %ecx
         addl    %ecx, %edi
         leal    (%esi,%ecx,2), %esi
-        // for (y = high; y > 0; --y, z += zRow, cut += cutRow)
-large_row:
         testl   %edx, %edx
         jmp     *ENTRY(%esp)
-        .balign 4
-        ENTERED cut
-large_row_done:
-        addl    ROW(%esp), %eax
-        addl    CUT_ROW(%esp), %edx
-        addl    $2*SCREEN_WIDTH, %esi
-        addl    $SCREEN_WIDTH, %edi
-        decl    HIGH(%esp)
-        jns     large_row
-        NEXT_VOXEL
-        .balign 4
-        ENTERED ending
-        jmp     large_row_done
+        ENTERED shaded, 0
+        ENTERED ending, 0
+        ENTERED cut, 1
+        ENTERED cutending, 1
 
 leave:
         movl    END(%esp), %eax
         addl    LIST(%esp), %eax
 leave_at:
-        // What changed of the lens goes back; the number of voxels done
+        // What changed of the lens goes back; the voxel at hand is returned
         movl    LOCALS+20(%esp), %edx   // lens
         leal    BOX_LEFT(%esp), %esi
         leal    BOX_LEFT(%edx), %edi
         movl    $LENS_WORDS-BOX_LEFT/4, %ecx
         rep movsl
-        subl    LOCALS+24(%esp), %eax   // voxels
-        sarl    $2, %eax
         addl    $LOCALS, %esp
         popl    %edi
         popl    %esi
@@ -556,7 +564,7 @@ leave_at:
         .balign 4
 special:
         cmpl    $0xffff, VOXEL_BRIGHT(%esi)
-        ja      cut_or_large
+        ja      cut
         movzbl  VOXEL_REACH(%esi), %eax
         movl    DEPTH(%esp), %ebx
         leal    LENS_NEAR*128(%ebx,%eax,4), %eax
@@ -603,7 +611,7 @@ near:
         movl    %eax, NEAR+FACTOR_ZY(%esp)
         leal    NEAR(%esp), %ebp
         COVER_COLUMNS _near
-        // if (wide == 0) ..;  if (wide < 0 || wide > LARGEST) break
+        // if (wide <= 0) ..;  if (wide > LARGEST) break
 odd_width:
         cmpl    $LARGEST, %edi
         jae     no_width
@@ -613,26 +621,32 @@ odd_height:
         cmpl    $LARGEST, %eax
         jae     no_height
         addl    %ebx, %edx              // -toRow = row - ((top + 1) << 12)
-        movl    %eax, KIND(%esp)
+        movl    $LARGE_KIND, %ebx
+        jmp     entered
+cut:
+        movl    KIND(%esp), %eax
+        movl    $CUT_KIND, %ebx
+entered:
+        movl    %edi, WIDE(%esp)
+        movl    %eax, HIGH(%esp)
+        movl    %ebx, KIND(%esp)
         // zMost = endOf(v, depth >> 1)
-cut_or_large:
+        leal    entered_ways(,%edi,4), %eax
         movzbl  VOXEL_REACH(%esi), %ebx
-        movl    $Z_EMPTY, ZMOST(%esp)
         testl   %ebx, %ebx
         jz      1f
         shll    $2, %ebx
+        addl    $4*LARGEST, %eax        // to those that end
         addl    DEPTH(%esp), %ebx
         addl    $LENS_NEAR*128, %ebx
         movl    %ebx, ZMOST(%esp)
 1:
-        movl    KIND(%esp), %eax
-        movl    %edi, WIDE(%esp)
-        movl    %eax, HIGH(%esp)
-        movl    $LARGE_KIND, KIND(%esp)
         // if (isCut(v)) ..;   otherwise the code that the row is entered at has nothing to do with what cuts
-        movl    entered_ending(,%edi,4), %eax
         cmpw    $0, VOXEL_CUTX(%esi)    // both
         je      2f
+        addl    $2*4*LARGEST, %eax      // to those that are cut
+        movl    (%eax), %eax
+        movl    %eax, ENTRY(%esp)
         // cutAcross = cutX * f.zx >> 10;  cutDown = -(cutY * f.zy >> 10);   ebx has -cutDown
         movsbl  VOXEL_CUTX(%esi), %eax
         movsbl  VOXEL_CUTY(%esi), %ebx
@@ -657,15 +671,16 @@ cut_or_large:
         addl    CUT_ROW(%esp), %eax
         negl    %eax
         movl    %eax, CUT_ROW(%esp)
-        movl    entered_cut(,%edi,4), %eax
+        jmp     not_special
 2:
+        movl    (%eax), %eax
         movl    %eax, ENTRY(%esp)
         jmp     not_special
 
         // Seldom
 no_width:
-        cmpl    $-1, %edi
-        jne     leave
+        testl   %edi, %edi
+        jns     leave
 empty:
         incl    EMPTY(%esp)
         NEXT_VOXEL
@@ -673,6 +688,22 @@ no_height:
         testl   %eax, %eax
         js      empty
         jmp     leave
+
+        // if (last - first > LARGEST) break;  first or last = the screen's edge
+        .macro  CLIP name first last clipped edge box on
+\name:
+        subl    \first, \last
+        cmpl    $LARGEST, \last
+        jg      leave
+        addl    \first, \last
+        movl    $\edge, \clipped
+        movl    \clipped, \box(%esp)
+        jmp     \on
+        .endm
+        CLIP    clip_left, %ecx, %edi, %ecx, 0, BOX_LEFT, left_grown_near
+        CLIP    clip_right, %ecx, %edi, %edi, SCREEN_WIDTH, BOX_RIGHT, right_grown_near
+        CLIP    clip_top, %edx, %eax, %edx, 0, BOX_TOP, top_grown_large
+        CLIP    clip_bottom, %edx, %eax, %eax, SCREEN_HEIGHT, BOX_BOTTOM, bottom_grown_large
         GROW_COLUMNS
         GROW_COLUMNS _near
         GROW_ROWS
@@ -718,8 +749,11 @@ even_ways:
 shaded_ways:
         WAYS    shaded
         WAYS    ending
-        .rept   LARGEST
+        .rept   (CUT_KIND-LARGE_KIND)*KIND_WIDE
         .long   large
+        .endr
+        .rept   KIND_WIDE
+        .long   small
         .endr
 
         // Where in the code a row of each width begins.
@@ -729,9 +763,10 @@ shaded_ways:
         .endr
         .endm
 
-entered_cut:
-        ENTRIES cut
-entered_ending:
+entered_ways:
+        ENTRIES shaded
         ENTRIES ending
+        ENTRIES cut
+        ENTRIES cutending
 
 ASM_END

@@ -29,25 +29,20 @@ public:
 
     // The weight of the link between two objects, by their slots; 0 where there is none.
     Real weight(int slotA, int slotB) const { return weights_[slotA * count_ + slotB]; }
+    // Those of one object, by the other's slot.
+    const Real* weights(int slot) const { return weights_ + slot * count_; }
 
     // An object whose recalc flag is set tells those that it is linked to; this tells the rest of its body that it can reach.
     void spreadRecalc() const;
 
-    // Starts a frame: finds out how far the objects have gone since the last.
-    void beginFrame();
-    // Whether some object went so far, or turned so, that what was known of its surroundings a few frames ago is wrong by more
-    // than is seen; and whether it went so far that nothing is worth much that was known a frame ago.
-    bool hurried() const { return hurried_; }
-    bool leapt() const { return leapt_; }
+    // Those that an object is linked with at weight 1, a bit for each slot; LINK_WORDS words.
+    const uint32_t* plainLinks(int slot) const { return plain_ + slot * LINK_WORDS; }
+    static constexpr int LINK_WORDS = 4;
+
+    // Grows by one whenever the bodies have been found anew.
+    uint32_t version() const { return version_; }
 
 private:
-    // How an object stood in the last frame.
-    struct Stand {
-        Point centre;
-        Vector turn;  // three elements of the rotation, any of which changes with it
-        Real size;
-    };
-    static Stand standOf(const SoftObject& object);
     void release();
 
     int count_ = 0;
@@ -55,9 +50,9 @@ private:
     SoftObject** members_ = nullptr;  // body after body
     int16_t* first_ = nullptr;        // by slot: where its body begins in members_
     int16_t* size_ = nullptr;         // by slot: how many it has
-    Stand* stands_ = nullptr;         // by slot
-    bool fresh_ = false, hurried_ = false, leapt_ = false;  // fresh_: nothing is known of a frame before
     bool* complete_ = nullptr;        // by slot: all of its body are linked with all
+    uint32_t* plain_ = nullptr;       // by slot, as plainLinks() has them
+    uint32_t version_ = 0;
 };
 
 #endif

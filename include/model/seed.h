@@ -17,6 +17,8 @@
 //   SEED_BORDER   a neighbour is about as strong there     none is
 //   SEED_ASLEEP   its patch lies inside a neighbour or     the patch does not any more
 //                 faces away: it is not settled
+//   SEED_COVERED  the path leaves the surface, where a       the neighbour does not any more, or the path might leave
+//                 neighbour is the strongest               it before
 //   SEED_FRONT    /P only: its path does not point away    it does
 //                 from the viewer
 //   SEED_KEPT     /P only: normal and brightness hold for  the seed moved
@@ -29,6 +31,7 @@ enum SeedFlag : uint8_t {
     SEED_KEPT = 16,
     SEED_BORDER = 32,
     SEED_ASLEEP = 64,
+    SEED_COVERED = 128,
 };
 
 // A unit vector in whole numbers: each component is scaled by 2^14.

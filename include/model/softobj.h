@@ -148,8 +148,8 @@ public:
     // This object's contribution to the implicit function at `p`, 0..1 (the report's fieldFunc).
     Real fieldFunc(const Point& p) const;
 
-    // Whether fields of the two can meet anywhere, from centres and sizes alone.
-    bool inRange(const SoftObject& other) const;
+    // Whether fields of the two can meet anywhere, from centres and sizes alone, or lie no more than `slack` units apart.
+    bool inRange(const SoftObject& other, Real slack = Real(0)) const;
 
     // --- A frame
 

@@ -25,6 +25,8 @@ struct FrameContext {
     Vector light;          // unit vector from the model towards the light
     const Bodies* bodies;  // of the model as it is now
     Counts* counts;
+    // How far one sees to each side, and up and down, at a distance of 1; 0: without end.
+    Real sideways = Real(0), upward = Real(0);
 };
 
 class Surface {

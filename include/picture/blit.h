@@ -1,6 +1,6 @@
 // The innermost loops: scales into the frame buffer under the Z-buffer, clears, and the copy to video memory. (Most
-// scales are drawn as soon as they are projected, by the loop of scales.h; what that leaves, large or clipped, is drawn
-// here.)
+// scales are drawn as soon as they are projected, by the loop of scales.h; what that leaves, very large or far aside, is
+// drawn here.)
 //
 // Each routine stands twice: in C++ (src/picture/blit.cpp, the ...C names), which says what it does, and in assembly
 // (asm/blit.S), which the DOS program and the 32-bit host build use. Both do the same, byte for byte.
@@ -55,11 +55,12 @@ void clearRowsC(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
 void copyRowsC(uint8_t* screen, const uint8_t* frame, const Span* rows, int count);
 
 // Finds the runs of drawn pixels (not 0) in a row of WIDTH: writes where each begins and where it ends, at most WIDTH / 2
-// of them, and returns how many. Looks at the pixels of `within` only; its ends are multiples of 4.
-int drawnRunsC(const uint8_t* row, const Span* within, Span* runs);
+// of them, and returns how many. Looks at the pixels of `within` only; its ends are multiples of 4. `depths` are those of the
+// row: Z_EMPTY where a pixel is empty.
+int drawnRunsC(const uint8_t* row, const uint16_t* depths, const Span* within, Span* runs);
 
 #if FB_ASM
-int drawnRunsA(const uint8_t* row, const Span* within, Span* runs);
+int drawnRunsA(const uint8_t* row, const uint16_t* depths, const Span* within, Span* runs);
 void blitScalesA(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int count);
 void clearRowsA(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
 // The screen is at `offset` in the segment of `selector` (video memory has a selector of its own under DPMI).

@@ -75,7 +75,7 @@ struct Lens {
     uint16_t* zbuffer;
     int32_t left, top, right, bottom;  // in and out: a rectangle that grows to hold at least all that is drawn; each lies on
                                        // the screen, so what does not make it larger needs no test for the screen's edges
-    int32_t empty;                     // in and out: counts voxels that cover no pixel's centre, and so are not drawn
+    int32_t empty;                     // in and out: counts voxels that cover no pixel's centre on the screen
     uint32_t tiltAdd, tiltBits;        // limitTilts()
     int32_t focalX, focalY;            // pixels with 12 bits of fraction, 64 to 500 pixels
 };
@@ -98,17 +98,11 @@ inline bool nearFactors(const Lens& lens, int32_t depth, Factors* near)
     return true;
 }
 
-// Finds out, once for a table, which tilts need no test for STEEPEST: where tiltX and tiltY as one double word, plus
-// tiltAdd, have none of tiltBits, both lie in -TILT - 1 .. TILT, and no factor of the table makes more of that.
-inline void limitTilts(Lens* lens)
+// Finds out which tilts need no test for STEEPEST as long as no zx or zy is more than `most`: where tiltX and tiltY as one double
+// word, plus tiltAdd, have none of tiltBits, both lie in -TILT - 1 .. TILT, and `most` makes no more of that.
+inline void limitTilts(Lens* lens, uint32_t most)
 {
-    uint32_t most = 1;
-    for (int i = 0; i < LENS_STEPS; ++i) {
-        const Factors& f = lens->factors[i];
-        most = static_cast<uint32_t>(f.zx) > most ? static_cast<uint32_t>(f.zx) : most;
-        most = static_cast<uint32_t>(f.zy) > most ? static_cast<uint32_t>(f.zy) : most;
-    }
-    const uint32_t tilts = (static_cast<uint32_t>(STEEPEST) << 16) / most;
+    const uint32_t tilts = (static_cast<uint32_t>(STEEPEST) << 16) / (most | 1);
     uint32_t tilt = 1 << 14;
     while (tilt != 0 && tilt + 1 > tilts)
         tilt >>= 1;
@@ -127,12 +121,12 @@ inline const Factors* factorsOf(const Lens& lens, int32_t depth, Factors* near)
 
 extern "C" {
 
-// Draws up to `count` voxels, in their order, and returns how many were dealt with. It stops at a voxel that is not its
-// business: one behind the table's depths or all too near, not wholly on the screen, larger than LARGEST there, or so large and so tilted that
-// a depth would leave its 16 bits.
-int drawScalesC(Lens* lens, const Voxel* const* voxels, int count);
+// Draws voxels up to before `end`, in their order, and returns the first that was not dealt with. It stops at a voxel that is
+// not its business: one behind the table's depths or all too near, larger than LARGEST, or so large and so tilted that a depth
+// would leave its 16 bits. Places times factors fit 32 bits, for the caller sees to that.
+const Voxel* drawScalesC(Lens* lens, const Voxel* voxels, const Voxel* end);
 #if FB_ASM
-int drawScalesA(Lens* lens, const Voxel* const* voxels, int count);
+const Voxel* drawScalesA(Lens* lens, const Voxel* voxels, const Voxel* end);
 #endif
 
 }

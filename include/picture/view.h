@@ -30,8 +30,8 @@ public:
     void setPixels(bool pixels) { pixels_ = pixels; }
     bool pixels() const { return pixels_; }
 
-    // Whether large scales are placed by their exact depth, and not by the table of the loop: the report's method is compared
-    // byte for byte from version to version.
+    // Whether large and clipped scales are placed by their exact depth, and not by the table of the loop: the report's method is
+    // compared byte for byte from version to version.
     void setExact(bool exact) { exact_ = exact; }
 
     // Starts a frame: clears what the last one touched.
@@ -87,7 +87,8 @@ private:
         frame_[at] = frame_[from];
         zbuffer_[at] = zbuffer_[from];
     }
-    int showRun(const uint8_t* ramp, const Voxel* const* voxels, int count);
+    bool prepareLoop(const VoxelList& list);
+    int showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool loop);
     bool ordinary(const Voxel& voxel) const;
     bool project(const Voxel& voxel, FineScale* scale) const;
 

@@ -34,29 +34,27 @@ struct VoxelList {
     int32_t x, y, z;       // the object's centre from the eye, 1/256 unit
     const uint8_t* ramp;   // palette index of each brightness, and of SHADING_MOST more at both ends like those; 0 is the
                            // background's, and taken for it when gaps are closed
+    int32_t reach;         // no voxel lies farther than this from the centre along any axis, 1/256 unit
     int count;             // voxels in the list
     int runs;              // 0: all have `ramp`; else they have those of the runs
     Run run[RUNS_MOST];
-    const Voxel* voxels[VOXELS_AT_ONCE];
-    Voxel store[VOXELS_AT_ONCE];
+    Voxel voxels[VOXELS_AT_ONCE];
     uint8_t number[VOXELS_AT_ONCE];  // of a painted object: of each voxel, the number of its colour
 
-    // Empties the list for an object, the centre of which is `place` from the eye.
-    void begin(const Vector& place, const uint8_t* objectRamp)
+    // Empties the list for an object, the centre of which is `place` from the eye, and no part of which lies farther from it
+    // than `most`.
+    void begin(const Vector& place, Real most, const uint8_t* objectRamp)
     {
         x = rawFromReal(place.x) >> 8;
         y = rawFromReal(place.y) >> 8;
         z = rawFromReal(place.z) >> 8;
+        reach = rawFromReal(most) >> 8;
         ramp = objectRamp;
         count = runs = 0;
     }
     // Where the next voxel may be written, and that it has been.
-    Voxel* room() { return store + count; }
-    void take()
-    {
-        voxels[count] = store + count;
-        ++count;
-    }
+    Voxel* room() { return voxels + count; }
+    void take() { ++count; }
 };
 
 #endif

@@ -180,7 +180,9 @@ bool Demo::frame()
 bool Demo::drawModel()
 {
     counts_ = Counts{};
-    const FrameContext frame{model_.camera.eye, unit(model_.light), model_.bodies(), &counts_};
+    const Camera& camera = model_.camera;
+    const FrameContext frame{camera.eye, unit(model_.light), model_.bodies(), &counts_, camera.centreX / camera.focalX,
+                             camera.centreY / camera.focalY};
     if (frame.bodies == nullptr)
         fail(1, "not enough memory");
     int order[Model::OBJECTS_MOST];

@@ -12,17 +12,17 @@ Bodies::~Bodies()
 void Bodies::release()
 {
     free(weights_);
+    free(plain_);
     free(members_);
     free(first_);
     free(size_);
     free(complete_);
-    free(stands_);
     weights_ = nullptr;
+    plain_ = nullptr;
     members_ = nullptr;
     first_ = nullptr;
     size_ = nullptr;
     complete_ = nullptr;
-    stands_ = nullptr;
     count_ = 0;
 }
 
@@ -31,21 +31,20 @@ bool Bodies::find(SoftObject* const* objects, int count)
     release();
     const uint32_t n = static_cast<uint32_t>(count);
     weights_ = allocate<Real>(n * n);
+    plain_ = allocate<uint32_t>(n * LINK_WORDS);
     members_ = allocate<SoftObject*>(n);
     first_ = allocate<int16_t>(n);
     size_ = allocate<int16_t>(n);
     complete_ = allocate<bool>(n);
-    stands_ = allocate<Stand>(n);
-    if (weights_ == nullptr || members_ == nullptr || first_ == nullptr || size_ == nullptr ||
-        complete_ == nullptr || stands_ == nullptr) {
+    if (weights_ == nullptr || plain_ == nullptr || members_ == nullptr || first_ == nullptr || size_ == nullptr ||
+        complete_ == nullptr) {
         release();
         return false;
     }
     count_ = count;
-    fresh_ = true;
+    ++version_;
     for (int i = 0; i < count; ++i) {
         objects[i]->setSlot(i);
-        stands_[i] = standOf(*objects[i]);
         first_[i] = -1;
         for (int j = 0; j < count; ++j)
             weights_[i * count + j] = Real(0);
@@ -53,6 +52,12 @@ bool Bodies::find(SoftObject* const* objects, int count)
     for (int i = 0; i < count; ++i)
         for (const List<Link>::Node* node = objects[i]->skel().first(); node != nullptr; node = node->next)
             weights_[i * count + node->item.object->slot()] = node->item.weight;
+    for (int i = 0; i < count * LINK_WORDS; ++i)
+        plain_[i] = 0;
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j < count; ++j)
+            if (weights_[i * count + j] == Real(1))
+                plain_[i * LINK_WORDS + j / 32] |= 1u << j % 32;
     // Each body is filled from its first object on, breadth first.
     int filled = 0;
     for (int i = 0; i < count; ++i) {
@@ -80,32 +85,6 @@ bool Bodies::find(SoftObject* const* objects, int count)
         }
     }
     return true;
-}
-
-Bodies::Stand Bodies::standOf(const SoftObject& object)
-{
-    return {object.centre(), {object.turn().m[1][0], object.turn().m[2][0], object.turn().m[2][1]}, object.size()};
-}
-
-void Bodies::beginFrame()
-{
-    // Ways of one frame, units.
-    constexpr Real HURRY(2), LEAP(9);
-    Real farthest(0);
-    for (int i = 0; i < count_; ++i) {
-        const SoftObject& object = *members_[i];
-        Stand& before = stands_[object.slot()];
-        const Stand now = standOf(object);
-        const Vector way = now.centre - before.centre, turn = now.turn - before.turn;
-        farthest = most(farthest, absolute(way.x) + absolute(way.y) + absolute(way.z) + absolute(now.size - before.size));
-        if (!object.isBall())
-            farthest = most(farthest, (absolute(turn.x) + absolute(turn.y) + absolute(turn.z)) * (object.coreReach() + object.size()));
-        before = now;
-    }
-    hurried_ = fresh_ || farthest > HURRY;
-    leapt_ = fresh_ || farthest > LEAP;
-    fresh_ = false;
-    spreadRecalc();
 }
 
 void Bodies::spreadRecalc() const

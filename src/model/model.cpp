@@ -381,7 +381,7 @@ const Bodies* Model::bodies()
     }
     if (!bodiesKnown_)
         return nullptr;
-    bodies_.beginFrame();
+    bodies_.spreadRecalc();
     return &bodies_;
 }
 

@@ -162,10 +162,10 @@ void SoftObject::tellNeighbours()
     }
 }
 
-bool SoftObject::inRange(const SoftObject& other) const
+bool SoftObject::inRange(const SoftObject& other, Real slack) const
 {
     // Seeds that others pull out lie as far as the field does. Squares are compared: every pair of a model comes by here.
-    const int64_t reach = rawFromReal(coreReach() + other.coreReach() + size_ + other.size_);
+    const int64_t reach = rawFromReal(coreReach() + other.coreReach() + size_ + other.size_ + slack);
     return squaredDistance(centre_, other.centre_) < reach * reach;
 }
 

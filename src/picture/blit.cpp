@@ -89,7 +89,7 @@ void clearRowsC(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count)
     }
 }
 
-int drawnRunsC(const uint8_t* row, const Span* within, Span* runs)
+int drawnRunsC(const uint8_t* row, const uint16_t*, const Span* within, Span* runs)
 {
     int count = 0;
     for (int x = within->from;; ++count) {

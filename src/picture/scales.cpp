@@ -13,11 +13,10 @@ inline int32_t limited(int32_t step)
 
 }  // namespace
 
-int drawScalesC(Lens* lens, const Voxel* const* voxels, int count)
+const Voxel* drawScalesC(Lens* lens, const Voxel* voxels, const Voxel* end)
 {
-    int i = 0;
-    for (; i < count; ++i) {
-        const Voxel& v = *voxels[i];
+    for (; voxels < end; ++voxels) {
+        const Voxel& v = *voxels;
         const int32_t depth = wrappedSum(lens->z, v.z);
         Factors near;
         const Factors* factors = factorsOf(*lens, depth, &near);
@@ -25,41 +24,52 @@ int drawScalesC(Lens* lens, const Voxel* const* voxels, int count)
             break;
         const Factors& f = *factors;
         // The pixels whose centres lie in the rectangle: columns, then rows.
-        int32_t column, row;
-        if (__builtin_mul_overflow(wrappedSum(lens->x, v.x), f.x, &column))
-            break;
-        column = lens->centreX + (column >> 8);
+        const int32_t column = lens->centreX + (wrappedProduct(wrappedSum(lens->x, v.x), f.x) >> 8);
         const int32_t halfWide = v.wide * f.x >> 8;
-        const int left = (column - halfWide) >> 12, right = (column + halfWide) >> 12, wide = right - left;
+        int left = (column - halfWide) >> 12, right = (column + halfWide) >> 12;
         if (left < lens->left) {
-            if (left < 0)
-                break;
+            if (left < 0) {
+                if (right - left > LARGEST)
+                    break;
+                left = 0;
+            }
             lens->left = left;
         }
         if (right > lens->right) {
-            if (right > WIDTH)
-                break;
+            if (right > WIDTH) {
+                if (right - left > LARGEST)
+                    break;
+                right = WIDTH;
+            }
             lens->right = right;
         }
-        if (wide == 0) {
+        const int wide = right - left;
+        if (wide <= 0) {
             ++lens->empty;
             continue;
         }
-        if (wide < 0 || wide > LARGEST || __builtin_mul_overflow(wrappedSum(lens->y, v.y), f.y, &row))
+        if (wide > LARGEST)
             break;
-        row = lens->centreY - (row >> 8);
+        const int32_t row = lens->centreY - (wrappedProduct(wrappedSum(lens->y, v.y), f.y) >> 8);
         const int32_t halfHigh = v.high * f.y >> 8;
-        const int top = (row - halfHigh) >> 12, bottom = (row + halfHigh) >> 12, high = bottom - top;
+        int top = (row - halfHigh) >> 12, bottom = (row + halfHigh) >> 12;
         if (top < lens->top) {
-            if (top < 0)
-                break;
+            if (top < 0) {
+                if (bottom - top > LARGEST)
+                    break;
+                top = 0;
+            }
             lens->top = top;
         }
         if (bottom > lens->bottom) {
-            if (bottom > HEIGHT)
-                break;
+            if (bottom > HEIGHT) {
+                if (bottom - top > LARGEST)
+                    break;
+                bottom = HEIGHT;
+            }
             lens->bottom = bottom;
         }
+        const int high = bottom - top;
         if (high <= 0) {
             ++lens->empty;
             continue;
@@ -99,5 +109,5 @@ int drawScalesC(Lens* lens, const Voxel* const* voxels, int count)
         scale.cutRow = wrappedSum(cutDown, -wrappedProduct(cutAcross, wide));
         blitFine(lens->frame, lens->zbuffer, scale);
     }
-    return i;
+    return voxels;
 }

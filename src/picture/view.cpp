@@ -70,7 +70,6 @@ void View::setCamera(const Camera& camera)
         f.zx = mulDiv(z16, 1 << 23, focalX_);
         f.zy = mulDiv(z16, 1 << 23, focalY_);
     }
-    limitTilts(&lens_);
 }
 
 void View::begin()
@@ -184,7 +183,8 @@ bool View::project(const Voxel& voxel, FineScale* scale) const
     return true;
 }
 
-// Whether a voxel is small and neither near nor far: for these alone an exact view leaves the depth to the loop's table.
+// Whether a voxel is small, neither near nor far, and wholly on the screen: for these alone an exact view leaves the depth to the
+// loop's table.
 bool View::ordinary(const Voxel& voxel) const
 {
     constexpr int FAR = 256, WIDEST = 16, LARGEST_SUM = 24;
@@ -199,9 +199,23 @@ bool View::ordinary(const Voxel& voxel) const
     column = lens_.centreX + (column >> 8);
     row = lens_.centreY - (row >> 8);
     const int32_t halfWide = voxel.wide * f.x >> 8, halfHigh = voxel.high * f.y >> 8;
-    const int wide = ((column + halfWide) >> FRACTION) - ((column - halfWide) >> FRACTION);
-    const int high = ((row + halfHigh) >> FRACTION) - ((row - halfHigh) >> FRACTION);
-    return wide <= WIDEST && wide + high <= LARGEST_SUM;
+    const int left = (column - halfWide) >> FRACTION, right = (column + halfWide) >> FRACTION;
+    const int top = (row - halfHigh) >> FRACTION, bottom = (row + halfHigh) >> FRACTION;
+    return right - left <= WIDEST && right - left + bottom - top <= LARGEST_SUM && left >= 0 && right <= WIDTH && top >= 0 &&
+           bottom <= HEIGHT;
+}
+
+// Finds out what the loop of scales need not ask for each voxel of a list. False: the list is not for it, because products of
+// places and factors might leave 32 bits.
+bool View::prepareLoop(const VoxelList& list)
+{
+    const int32_t nearest = wrappedSum(list.z, -list.reach), farthest = wrappedSum(list.z, list.reach);
+    const int last = (farthest >> 5) - LENS_NEAR * 8;
+    const Factors& far = factors_[last < 0 ? 0 : last < LENS_STEPS ? last : LENS_STEPS - 1];
+    limitTilts(&lens_, static_cast<uint32_t>(far.zx > far.zy ? far.zx : far.zy));
+    const int32_t table = factors_[0].x > factors_[0].y ? factors_[0].x : factors_[0].y;
+    const int32_t most = INT32_MAX / (nearest < LENS_NEAR * 256 ? FACTOR_MOST : table) - list.reach;
+    return list.x < most && list.x > -most && list.y < most && list.y > -most;
 }
 
 int View::show(const VoxelList& list)
@@ -213,30 +227,35 @@ int View::show(const VoxelList& list)
     lens_.top = HEIGHT;
     lens_.right = lens_.bottom = 0;
     lens_.empty = 0;
+    const bool loop = prepareLoop(list) && !pixels_;
+    const Voxel* from = list.voxels;
     int left = 0;
     if (list.runs == 0)
-        left = showRun(list.ramp, list.voxels, list.count);
-    for (int run = 0, from = 0; run < list.runs; from = list.run[run++].end)
-        left += showRun(list.run[run].ramp, list.voxels + from, list.run[run].end - from);
+        left = showRun(list.ramp, from, from + list.count, loop);
+    for (const Run* run = list.run; run < list.run + list.runs; ++run) {
+        const Voxel* const to = list.voxels + run->end;
+        left += showRun(run->ramp, from, to, loop);
+        from = to;
+    }
     mark(lens_.left, lens_.top, lens_.right, lens_.bottom);
     return list.count - left - lens_.empty;
 }
 
-// Draws voxels of one ramp. Returns how many lie off the screen.
-int View::showRun(const uint8_t* ramp, const Voxel* const* voxels, int count)
+// Draws voxels of one ramp; `loop`: the loop of scales may be used. Returns how many lie off the screen.
+int View::showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool loop)
 {
     int left = 0;
     lens_.ramp = ramp;
-    for (int i = 0; i < count; ++i) {
+    for (const Voxel* at = from; at < to; ++at) {
         if (exact_) {
-            if (!pixels_ && ordinary(*voxels[i]) && drawScales(&lens_, voxels + i, 1) == 1)
+            if (loop && ordinary(*at) && drawScales(&lens_, at, at + 1) > at)
                 continue;
-        } else if (!pixels_) {
-            i += drawScales(&lens_, voxels + i, count - i);
+        } else if (loop) {
+            at = drawScales(&lens_, at, to);
         }
-        if (i == count)
+        if (at == to)
             break;
-        const Voxel& voxel = *voxels[i];
+        const Voxel& voxel = *at;
         FineScale scale;
         if (!project(voxel, &scale)) {
             ++left;
@@ -273,7 +292,7 @@ int View::closeGaps(Real spacing)
         const Span& touched = touched_[y];
         if (touched.from >= touched.to)
             continue;
-        const Span* const end = runs + drawnRuns(row, &touched, runs);
+        const Span* const end = runs + drawnRuns(row, zbuffer_ + y * WIDTH, &touched, runs);
         int last = 0;  // behind the run before
         for (const Span* run = runs; run < end; ++run) {
             const int from = run->from;

@@ -51,8 +51,15 @@ void setPatch(const SoftObject& object, Patch& patch)
     patch.middle[1] = static_cast<int16_t>(steps16(middle.y));
     patch.middle[2] = static_cast<int16_t>(steps16(middle.z));
     patch.radius = static_cast<int16_t>(steps16(radius + shiftDown(object.spacing(), 1)) + 2);
+    patch.tight = static_cast<int16_t>(steps16(radius) + 1);
     patch.path = static_cast<int16_t>(steps16(path) + 1);
     patch.state = PATCH_REST;
+    patch.settled = patch.stale = false;
+    patch.blocker = static_cast<uint8_t>(object.slot());
+    patch.nearest = patch.farthest = 64;
+    patch.due = patch.listDue = 0;
+    memset(patch.listed, 0, sizeof patch.listed);
+    memset(patch.near, 0, sizeof patch.near);
 }
 
 struct Step {
@@ -159,22 +166,55 @@ bool restsAway(const Patch& patch, const OwnFrame& own)
     return facing(patch, toEyeFrom(above(patch, 0), own)) < -doubt;
 }
 
-bool classify(Patch& patch, const Neighbour* neighbours, int count)
+Bound boundOf(const Patch& patch, int32_t restRadius)
 {
-    const Step rest = above(patch, 0);
-    // Seeds that a neighbour pulls out may come within reach of another: half way along what is left of their paths.
+    const int32_t position = (patch.nearest + patch.farthest) >> 1, half = (patch.farthest - patch.nearest + 1) >> 1;
+    const Step middle = above(patch, patch.path * (position - 64) >> 6);
+    const int32_t widest = patch.farthest > 64 ? patch.farthest : 64;
+    return {middle.x, middle.y, middle.z, (restRadius * widest + patch.path * half) >> 6};
+}
+
+bool reaches(const Neighbour& near, const Bound& ball)
+{
+    return within(fromCore(near, {ball.x, ball.y, ball.z}), near.size16 + ball.radius);
+}
+
+void classify(Patch& patch, const Neighbourhood& all)
+{
+    // Half way along what is left of the paths when their seeds are at rest, where the own field ends.
     const Step beyond = above(patch, patch.path >> 1);
-    const int32_t beyondRadius = (patch.path >> 1) + patch.radius + (patch.radius >> 1);
-    bool touched = false;
-    memset(patch.reached, 0, sizeof patch.reached);
-    for (int i = 0; i < count; ++i) {
-        const Neighbour& near = neighbours[i];
-        if (!within(fromCore(near, beyond), near.size16 + beyondRadius))
+    const int32_t slack = steps16(LIST_SLACK);
+    const int32_t radius = (patch.path >> 1) + patch.radius + (patch.radius >> 1) + slack;
+    memset(patch.listed, 0, sizeof patch.listed);
+    memset(patch.near, 0, sizeof patch.near);
+    Bound ball = boundOf(patch, patch.radius);
+    ball.radius += slack;
+    for (int i = 0; i < all.count; ++i) {
+        const Neighbour& near = all.neighbours[i];
+        if (!within(fromCore(near, beyond), near.size16 + radius))
             continue;
-        touched = touched || within(fromCore(near, rest), near.size16 + patch.radius);
-        patch.reached[i >> 5] |= 1u << (i & 31);
+        const int slot = near.object->slot();
+        patch.listed[slot >> 5] |= 1u << (slot & 31);
+        if (reaches(near, ball))
+            patch.near[slot >> 5] |= 1u << (slot & 31);
     }
-    return touched;
+}
+
+bool outOfSight(const Patch& patch, const OwnFrame& own)
+{
+    if (own.sideCount == 0)
+        return false;
+    const Bound ball = boundOf(patch, patch.radius);
+    // Scales may be that much larger than their cells.
+    const int32_t radius = ball.radius * 2;
+    const int32_t growth = rawFromReal(own.growth) >> 8;
+    for (int i = 0; i < own.sideCount; ++i) {
+        const OwnFrame::Side& side = own.sides[i];
+        const int32_t inside = (side.inward[0] * ball.x + side.inward[1] * ball.y + side.inward[2] * ball.z) >> 14;
+        if (side.inside + ((inside + radius) * growth >> 8) < 0)
+            return true;
+    }
+    return false;
 }
 
 int32_t facing(const SoftObject& object, const Seed& s, const OwnFrame& own)

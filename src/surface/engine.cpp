@@ -31,6 +31,7 @@ private:
     SoftObject& object_;
     bool turned(const int32_t* light);
 
+    Odometer odometer_;
     uint32_t updates_ = 0;
     int32_t light_[3] = {0, 0, 0};  // at the last update, own axes
     Patch* patches_ = nullptr;
@@ -46,39 +47,61 @@ bool Engine::turned(const int32_t* light)
     return !same;
 }
 
-// Gather what reaches the object, classify its patches, settle those that need it.
+// Gather what reaches the object, classify its patches, settle those that are due.
 void Engine::update(const FrameContext& frame)
 {
-    Neighbour neighbours[NEIGHBOURS_MAX];
+    Neighbourhood all;
     const OwnFrame own = ownFrame(object_, frame);
-    const int count = gather(object_, frame, neighbours);
-    Settler settler(object_, own, neighbours, count, frame, ++updates_);
+    if (own.outOfSight)
+        return;
+    gather(object_, frame, all);
+    const bool known = odometer_.advance(object_, own, all, frame.bodies->version());
+    Settler settler(object_, own, all, frame, odometer_, ++updates_);
     const bool lightTurned = turned(own.light);
     bool displaced = false;
     Patch* const end = patches_ + count_;
     for (Patch* patch = patches_; patch < end; ++patch) {
-        if (patch->state == PATCH_INSIDE && settler.stillInside(*patch)) {
-            displaced = true;
-            continue;
+        patch->settled = false;
+        if (!known || patch->stale || isDue(odometer_.bound(), patch->listDue)) {
+            classify(*patch, all);
+            patch->listDue = odometer_.bound() + wayOf(LIST_SLACK);
+            patch->stale = false;
         }
-        if (!classify(*patch, neighbours, count)) {
-            if (patch->state != PATCH_REST)
+        if (!settler.setPatch(*patch)) {
+            if (patch->state != PATCH_REST) {
+                // Where its seeds are now, others may reach them.
                 rest(object_, *patch, own);
-            else if (lightTurned)
+                classify(*patch, all);
+            } else if (lightTurned) {
                 light(object_, *patch, own);
+            }
             patch->state = PATCH_REST;
-            continue;
+            if (!settler.setPatch(*patch))
+                continue;
         }
         displaced = true;
-        settler.setPatch(*patch);
+        if (outOfSight(*patch, own)) {
+            sleep(object_, *patch);
+            patch->state = PATCH_AWAY;
+            patch->due = odometer_.reading();
+            continue;
+        }
+        if (known && patch->state != PATCH_REST && !isDue(odometer_.reading(), patch->due)) {
+            if (lightTurned && patch->state == PATCH_MIXED)
+                light(object_, *patch, own);
+            continue;
+        }
+        if (patch->state == PATCH_INSIDE && settler.stillInside(*patch))
+            continue;
         patch->state = settler.probe(*patch);
-        if (patch->state == PATCH_MIXED)
+        patch->settled = patch->state == PATCH_MIXED;
+        if (patch->settled)
             settler.settleRest(*patch);
         else
             sleep(object_, *patch);
     }
     for (Patch* patch = patches_; patch < end; ++patch)
-        if (patch->state == PATCH_MIXED)
+        if (patch->settled)
             settler.oversample(*patch);
     object_.setDisplaced(displaced);
 }
@@ -87,7 +110,11 @@ void Engine::update(const FrameContext& frame)
 void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* next)
 {
     const OwnFrame own = ownFrame(object_, frame);
-    list.begin(object_.centre() - frame.eye, object_.ramp());
+    list.begin(object_.centre() - frame.eye, object_.coreReach() + object_.size(), object_.ramp());
+    if (own.outOfSight) {
+        *next = 0;
+        return;
+    }
     const Paint* const paint = object_.paint();
     if (paint != nullptr && *next == 0)
         polish(object_, own);

@@ -2,6 +2,7 @@
 #include "gather.h"
 
 #include "math/normal.h"
+#include "rt.h"
 
 namespace {
 
@@ -18,15 +19,18 @@ void axisInOwn(const SoftObject& object, const Vector& axis, int32_t* to)
 void aim(const SoftObject& object, Neighbour& near)
 {
     const SoftObject& other = *near.object;
-    near.half = other.segmentHalf16();
+    near.half = shiftDown(other.segmentHalf16(), 4);
     near.segment = near.half > Real(0);
     near.kind = near.segment && !other.tapers() ? Neighbour::SEGMENT : Neighbour::OTHER;
-    near.half16 = rawFromReal(near.half * near.size) >> 16;
+    near.half16 = rawFromReal(near.half * near.size) >> 12;
     // Row i: axis i of the neighbour, in own axes.
     const Matrix& turn = other.turn();
     for (int i = 0; i < 3; ++i)
         near.toCore[i] = object.toOwnAxes({turn.m[0][i], turn.m[1][i], turn.m[2][i]}) * near.inverse16;
-    axisInOwn(object, {turn.m[0][1], turn.m[1][1], turn.m[2][1]}, near.axis);
+    near.direction = object.toOwnAxes({turn.m[0][1], turn.m[1][1], turn.m[2][1]});
+    near.axis[0] = rawFromReal(near.direction.x) >> 2;
+    near.axis[1] = rawFromReal(near.direction.y) >> 2;
+    near.axis[2] = rawFromReal(near.direction.z) >> 2;
     near.offset = other.toOwnAxes(object.centre() - other.centre()) * (Real(CORE_SIZE) / other.size());
 }
 
@@ -36,6 +40,31 @@ Vector Neighbour::fromCore16(const Vector& q) const
 {
     const Vector v = object->fromCore(inCore(q) + offset);
     return v * size;  // core space has CORE_SIZE = 16 to a size
+}
+
+// Finds out where the object lies against what bounds the view.
+static void setSides(const SoftObject& object, const FrameContext& frame, OwnFrame& own)
+{
+    own.sideCount = 0;
+    own.outOfSight = false;
+    if (frame.sideways == Real(0))
+        return;
+    // As far as seeds can be pulled out, and a little for the size of scales.
+    const int32_t reach = rawFromReal(object.coreReach() + object.size() + object.spacing() * Real(2)) >> 12;
+    const Vector toCentre = object.centre() - frame.eye;
+    const Vector inwards[] = {{Real(1), Real(0), frame.sideways}, {Real(-1), Real(0), frame.sideways},
+                              {Real(0), Real(1), frame.upward}, {Real(0), Real(-1), frame.upward}};
+    for (const Vector& inward : inwards) {
+        const Normal n = normalise(inward);
+        const Vector u{realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)};
+        const int32_t inside = rawFromReal(dot(u, toCentre)) >> 12;
+        own.outOfSight = own.outOfSight || inside < -reach;
+        if (inside >= reach)
+            continue;
+        OwnFrame::Side& side = own.sides[own.sideCount++];
+        axisInOwn(object, u, side.inward);
+        side.inside = inside;
+    }
 }
 
 OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
@@ -53,20 +82,23 @@ OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
     axisInOwn(object, {Real(1), Real(0), Real(0)}, own.right);
     axisInOwn(object, {Real(0), Real(1), Real(0)}, own.up);
     axisInOwn(object, {Real(0), Real(0), Real(1)}, own.ahead);
+    setSides(object, frame, own);
     return own;
 }
 
-int gather(const SoftObject& object, const FrameContext& frame, Neighbour* neighbours)
+void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& all)
 {
     SoftObject* const* member = frame.bodies->members(object);
     SoftObject* const* const end = member + frame.bodies->memberCount(object);
     const Real growth = object.growth();
-    int count = 0;
-    for (; member < end && count < NEIGHBOURS_MAX; ++member) {
+    all.count = 0;
+    memset(all.numberOf, -1, sizeof all.numberOf);
+    for (; member < end && all.count < NEIGHBOURS_MAX; ++member) {
         const SoftObject& other = **member;
-        if (&other == &object || !object.inRange(other))
+        if (&other == &object || !object.inRange(other, GATHER_SLACK))
             continue;
-        Neighbour& near = neighbours[count++];
+        all.numberOf[other.slot()] = static_cast<int8_t>(all.count);
+        Neighbour& near = all.neighbours[all.count++];
         near.object = &other;
         near.kind = Neighbour::POINT;
         const Vector apart = object.toOwnAxes(other.centre() - object.centre());
@@ -84,5 +116,4 @@ int gather(const SoftObject& object, const FrameContext& frame, Neighbour* neigh
         if (!other.isBall())
             aim(object, near);
     }
-    return count;
 }

@@ -6,8 +6,12 @@
 #include "model/body.h"
 #include "model/softobj.h"
 
-// Most neighbours of an object at a time; further ones are left out.
+// Most neighbours of an object at a time; further ones are left out. And the slots that objects have (model/body.h).
 constexpr int NEIGHBOURS_MAX = 127;
+constexpr int SLOTS_MAX = 128;
+
+// Neighbours are gathered a little before they come into range, units, so that what holds now holds for a while.
+constexpr Real GATHER_SLACK(2);
 
 // A neighbour in the own space of the object that is being updated.
 struct Neighbour {
@@ -19,9 +23,10 @@ struct Neighbour {
     int32_t x16, y16, z16, size16;  // centre and size in 1/16 unit
     bool segment;       // its core is a segment to each side of its centre, half16 long; whether or not it tapers
     int32_t half16, axis[3];        // its direction, 1.0 = 2^14
-    // What kind of core it has: its centre, a segment of `half` units of core space to each side, or what the primitive says.
+    // What kind of core it has: its centre, a segment of `half` sizes to each side, or what the primitive says.
     enum Kind : uint8_t { POINT, SEGMENT, OTHER } kind;
     Real half;
+    Vector direction;   // of the segment, unit length
     Vector toCore[3];   // the rows of the map from own space to its core space; no point
     Vector offset;      // and the own centre there
 
@@ -33,21 +38,15 @@ struct Neighbour {
         const Real scale = size * size * Real(1.0 / (CORE_SIZE * CORE_SIZE));
         return (toCore[0] * v.x + toCore[1] * v.y + toCore[2] * v.z) * scale;
     }
-    // SoftObject::param() of it.
-    Real param(const Vector& q, Vector* slope) const
-    {
-        if (kind != SEGMENT)
-            return object->param(q, slope);
-        const Vector v{q.x, q.y - clamp(q.y, -half, half), q.z};
-        *slope = v;
-        const Real end(CORE_SIZE);
-        if (absolute(v.x) >= end || absolute(v.y) >= end || absolute(v.z) >= end)
-            return Real(1);
-        return shiftDown(dot(v, v), 8);
-    }
-
     // The vector from its core to a place of own space, in 1/16 unit; no point.
     Vector fromCore16(const Vector& q) const;
+};
+
+// All neighbours of an object, and by slot which of them is which; -1: out of range.
+struct Neighbourhood {
+    int count;
+    Neighbour neighbours[NEIGHBOURS_MAX];
+    int8_t numberOf[SLOTS_MAX];
 };
 
 // The frame as one object sees it: own axes, counted from its centre, in units of the world.
@@ -58,6 +57,13 @@ struct OwnFrame {
     int32_t light[3];             // unit vector towards the light, 1.0 = 2^14
     int32_t right[3], up[3], ahead[3];  // axes of the view, 1.0 = 2^14
     Real growth;                  // units of the world in a unit of own space
+    // What bounds the view, where it cuts through the object: unit vectors inwards (1.0 = 2^14) and how far inside the centre is
+    // (1/16 unit of the world). And whether the object lies beyond one of the bounds.
+    struct Side {
+        int32_t inward[3], inside;
+    } sides[4];
+    int sideCount;
+    bool outOfSight;
 };
 
 // Steps of brightness: 0..63, the 64-step ramp.
@@ -73,7 +79,7 @@ inline int16_t brightness8(const Direction14& normal, const int32_t light[3])
 
 OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame);
 
-// Writes the neighbours in range, at most NEIGHBOURS_MAX, and returns how many there are.
-int gather(const SoftObject& object, const FrameContext& frame, Neighbour* neighbours);
+// Fills in the neighbours in range, and those that nearly are.
+void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& all);
 
 #endif

@@ -25,14 +25,21 @@ struct Patch {
     uint8_t count[PATCH_RINGS];  // and how many there are
     PatchState state;
     uint8_t blocker;    // slot of the neighbour that was the strongest where a seed was not on the surface
+    bool stale;         // its lists have to be made anew
+    bool settled;       // its seeds were looked at in this frame
     int32_t facing;     // of a settled patch: cosine of the surface in the middle and the direction to the viewer
     int32_t centre;     // slot of the seed in the middle
     int16_t middle[3];  // of where its seeds rest
-    int16_t radius;     // of a ball round it that holds all of those, and half a cell more
+    int16_t radius;     // of a ball round it that holds all of those, and half a cell more; and of one that just holds them
+    int16_t tight;
     int16_t axis[3];    // the mean of their normals
     int16_t spread;     // greatest length of the difference of a normal to the axis
     int16_t path;       // mean length of their paths
-    uint32_t reached[(NEIGHBOURS_MAX + 31) / 32];  // the neighbours that may reach it, by bits
+    uint8_t nearest, farthest;          // between which positions its seeds are, 1/64
+    uint32_t due, listDue;              // readings of the odometer (odometer.h) when it, and when its lists are due
+    // Its lists, a bit for the slot of each neighbour: those that may reach some place on its paths, and those that may reach
+    // its seeds where they are.
+    uint32_t listed[SLOTS_MAX / 32], near[SLOTS_MAX / 32];
 };
 
 // Calls `each` with the slot of every regular seed of a patch.
@@ -44,14 +51,44 @@ inline void forSeeds(const Patch& patch, Each each)
             each(2 * i);
 }
 
+// Calls `each` with the slot of every neighbour on a list.
+template <class Each>
+inline void forNeighbours(const uint32_t list[SLOTS_MAX / 32], Each each)
+{
+    for (int word = 0; word < SLOTS_MAX / 32; ++word)
+        for (uint32_t bits = list[word]; bits != 0; bits &= bits - 1)
+            each(32 * word + __builtin_ctz(bits));
+}
+
+inline bool isListed(const uint32_t list[SLOTS_MAX / 32])
+{
+    uint32_t any = 0;
+    for (int word = 0; word < SLOTS_MAX / 32; ++word)
+        any |= list[word];
+    return any != 0;
+}
+
 // How many patches the seeds of an object make.
 int patchesOf(const SoftObject& object);
 
 // Fills them in.
 void makePatches(const SoftObject& object, Patch* patches);
 
-// Finds out which neighbours may reach a patch. False: none, it rests.
-bool classify(Patch& patch, const Neighbour* neighbours, int count);
+// Makes the lists of a patch anew. They hold until a neighbour has come nearer by LIST_SLACK.
+void classify(Patch& patch, const Neighbourhood& all);
+constexpr Real LIST_SLACK = GATHER_SLACK;
+
+// A ball round the seeds of a patch where they are, 1/16 unit, from one round where they rest.
+struct Bound {
+    int32_t x, y, z, radius;
+};
+Bound boundOf(const Patch& patch, int32_t restRadius);
+
+// Whether a neighbour's field reaches into a ball.
+bool reaches(const Neighbour& near, const Bound& ball);
+
+// Whether a patch lies beside the view, where its seeds are.
+bool outOfSight(const Patch& patch, const OwnFrame& own);
 
 // Whether a patch at rest faces away from the viewer.
 bool restsAway(const Patch& patch, const OwnFrame& own);

@@ -167,7 +167,7 @@ void Report98::settle(int i, const FrameContext& frame, const Vector& toEye, con
 
 void Report98::draw(const FrameContext& frame, VoxelList& list, int room, int* next)
 {
-    list.begin(object_.centre() - frame.eye, object_.ramp());
+    list.begin(object_.centre() - frame.eye, object_.coreReach() + object_.size(), object_.ramp());
     const Real inverseRadius = Real(1) / object_.radius();
     Link near[NEAR_MAX];
     const int nearCount = findNear(near);

@@ -17,13 +17,16 @@ constexpr Real LONGEST_STEP(0.25);
 constexpr Real FLAT(-0.06);
 constexpr int NEWTON_STEPS = 5;
 // Positions: where paths begin and end to be searched, and in which steps. The own field ends at 2.
-constexpr Real FIRST(0.7), LAST(1.98), SEARCH_STEP(0.16);
-// Of the field: a seed that is this far inside where it was nearest to the surface is still inside a frame later; and
-// a valley this shallow above the isovalue is looked into.
-constexpr Real DEEP(0.06), VALLEY(0.12);
-// Positions where a path that was inside comes out first: where objects part, where one sinks into another, in a neck.
-constexpr int EXITS = 2;
-constexpr Real EXIT[EXITS] = {Real(1.15), Real(1.5)};
+constexpr Real FIRST(0.7), LAST(1.98), SEARCH_STEP(0.16), MIDDLE(1.34), REST_OF_PATH(0.66);
+// Of the field: a seed that is this far inside where it was nearest to the surface is still inside.
+constexpr Real DEEP(0.06);
+// Positions: how far before that place one neighbour must be stronger, too; and how many updates go by until all are asked.
+constexpr Real BLOCKED(0.03), BEFORE(0.08);
+constexpr uint32_t TURNS = 8;
+// Units: neighbours that come so far in a frame are asked all, each time.
+constexpr Real HURRY(4);
+// Of the field: a valley this shallow above the isovalue is looked into.
+constexpr Real VALLEY(0.12);
 // Of the field: a neighbour that is weaker than the own by less is near.
 constexpr Real BORDER(0.25);
 // What a field changes by at most over its size.
@@ -34,35 +37,86 @@ constexpr int32_t TURNED = 2000;
 constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000;
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
 constexpr Real PARTED(1.5);
+// Units: how far neighbours may come at most before a patch that lies inside is looked at again.
+constexpr Real LONGEST_WAIT(6);
+// Positions: by how much a seed may leave the range that those of its patch were found in before all neighbours are asked.
+constexpr Real RANGE(0.05);
 
 }  // namespace
 
-Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbour* neighbours, int count, const FrameContext& frame,
-                 uint32_t updates)
-    : object_(object), own_(own), neighbours_(neighbours), bodies_(*frame.bodies), counts_(*frame.counts), frame_(updates)
+Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& all, const FrameContext& frame,
+                 const Odometer& odometer, uint32_t updates)
+    : object_(object), own_(own), all_(all), bodies_(*frame.bodies), counts_(*frame.counts), now_(odometer.reading()),
+      came_(realFromRaw(static_cast<int32_t>(odometer.came() << 6))), updates_(updates), ownWeights_(bodies_.weights(object.slot()))
 {
-    complete_ = true;
-    memset(numberOf_, -1, sizeof numberOf_);
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < all.count; ++i) {
         from_[i].root = -1;
-        const int slot = neighbours[i].object->slot();
-        numberOf_[slot] = static_cast<int8_t>(i);
-        complete_ = complete_ && bodies_.weight(object_.slot(), slot) == Real(1);
-        for (int j = 0; j < i && complete_; ++j)
-            complete_ = bodies_.weight(neighbours[j].object->slot(), slot) == Real(1);
+        const Real reach = Real(1) + object.laidSize() * REST_OF_PATH * shiftDown(all.neighbours[i].inverse16, 5);
+        reachT_[i] = reach < Real(100) ? reach * reach : Real(10000);
     }
+    listed_.count = 0;
+    for (int i = 0; i < all.count; ++i)
+        listed_.number[listed_.count++] = static_cast<uint8_t>(i);
+    allComplete_ = false;
+    setComplete(listed_);
+    allComplete_ = listed_.complete;
 }
 
-void Settler::setPatch(const Patch& patch)
+void Settler::setComplete(Few& few) const
 {
-    reached_ = 0;
+    few.complete = allComplete_;
+    if (few.complete)
+        return;
+    uint32_t members[Bodies::LINK_WORDS] = {};
+    const auto add = [&](int slot) { members[slot / 32] |= 1u << slot % 32; };
+    const auto linked = [&](int slot) {
+        const uint32_t* const plain = bodies_.plainLinks(slot);
+        uint32_t missing = 0;
+        for (int word = 0; word < Bodies::LINK_WORDS; ++word)
+            missing |= members[word] & ~(plain[word] | (word == slot / 32 ? 1u << slot % 32 : 0));
+        return missing == 0;
+    };
+    add(object_.slot());
+    for (int i = 0; i < few.count; ++i)
+        add(all_.neighbours[few.number[i]].object->slot());
+    few.complete = linked(object_.slot());
+    for (int i = 0; i < few.count && few.complete; ++i)
+        few.complete = linked(all_.neighbours[few.number[i]].object->slot());
+}
+
+bool Settler::setPatch(const Patch& patch, bool oversampled)
+{
+    nearest_ = realFromRaw(patch.nearest << 10);
+    farthest_ = realFromRaw(patch.farthest << 10);
+    patch_ = &patch;
+    near_.count = 0;
+    listed_.count = -1;
     smallest_ = object_.laidSize();
-    for (int word = 0; word < static_cast<int>(sizeof patch.reached / sizeof patch.reached[0]); ++word)
-        for (uint32_t bits = patch.reached[word]; bits != 0; bits &= bits - 1) {
-            const int i = 32 * word + __builtin_ctz(bits);
-            reachedBy_[reached_++] = static_cast<uint8_t>(i);
-            smallest_ = least(smallest_, neighbours_[i].size);
-        }
+    // Oversampled seeds lie between those of the patch and those beside it.
+    const Bound ball = boundOf(patch, oversampled ? patch.radius : patch.tight);
+    forNeighbours(patch.near, [&](int slot) {
+        const int i = all_.numberOf[slot];
+        if (i < 0 || !reaches(all_.neighbours[i], ball))
+            return;
+        near_.number[near_.count++] = static_cast<uint8_t>(i);
+        smallest_ = least(smallest_, all_.neighbours[i].size);
+    });
+    setComplete(near_);
+    return near_.count > 0;
+}
+
+// All neighbours that may reach the patch, when they are needed.
+const Settler::Few& Settler::listed()
+{
+    if (listed_.count < 0) {
+        listed_.count = 0;
+        forNeighbours(patch_->listed, [&](int slot) {
+            if (all_.numberOf[slot] >= 0)
+                listed_.number[listed_.count++] = static_cast<uint8_t>(all_.numberOf[slot]);
+        });
+        setComplete(listed_);
+    }
+    return listed_;
 }
 
 // What is the same for all seeds of a root.
@@ -70,24 +124,78 @@ void Settler::setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const
 {
     to.root = s.root;
     const Vector& root = object_.root(s.root);
-    if (near.kind == Neighbour::POINT) {
-        const Vector e = (root - near.centre) * near.inverse16;
-        const Vector d = s.path * near.inverse16;
-        to.a = shiftDown(dot(e, e), 8);
-        to.c = shiftDown(dot(d, d), 8);
-        to.twice16 = e * shiftDown(near.inverse16, 3);
-        to.apart = root - near.centre;
-    } else {
+    if (near.kind == Neighbour::OTHER) {
         to.apart = near.inCore(root) + near.offset;
+        return;
     }
+    const auto inSizes = [&](const Vector& v) {
+        return Vector{shiftDown(v.x * near.inverse16, 4), shiftDown(v.y * near.inverse16, 4), shiftDown(v.z * near.inverse16, 4)};
+    };
+    to.apart = root - near.centre;
+    const Vector e = inSizes(to.apart), d = inSizes(s.path);
+    to.a = dot(e, e);
+    to.c = dot(d, d);
+    to.twice16 = e * shiftUp(near.inverse16, 1);
+    to.y = near.kind == Neighbour::SEGMENT ? shiftDown(dot(to.apart, near.toCore[1]), 4) : Real(0);
+}
+
+// What is known of a neighbour's field along the path of a seed before any position is looked at.
+inline void Settler::aim(const Neighbour& near, FromRoot& from, const Seed& s, Along& along) const
+{
+    if (from.root != s.root)
+        setRoot(near, s, from);
+    along.near = &near;
+    along.from = &from;
+    if (near.kind == Neighbour::OTHER) {
+        along.step = near.inCore(s.path);
+    } else {
+        along.b = shiftDown(dot(s.path, from.twice16), 4);
+        if (near.kind == Neighbour::SEGMENT)
+            along.stepY = shiftDown(dot(s.path, near.toCore[1]), 4);
+    }
+}
+
+inline Real Along::param(Real p)
+{
+    if (near->kind == Neighbour::OTHER) {
+        const Real t = near->object->param(from->apart + step * p, &out);
+        change = shiftDown(dot(out, step), 7);
+        return t;
+    }
+    const Real outer = p * from->c, inner = b + outer;
+    change = inner + outer;
+    const Real t = from->a + p * inner;
+    if (near->kind == Neighbour::POINT)
+        return t;
+    const Real y = from->y + p * stepY;
+    k = clamp(y, -near->half, near->half);
+    change -= k * (stepY + stepY);
+    return t - k * (y + y - k);
+}
+
+// Takes up the path of a seed that is searched: as those see it that reach some of it.
+void Settler::beginSearch(const Seed& s)
+{
+    Sample sample;
+    begin(listed(), s, MIDDLE, &sample);
+    Few few;
+    few.count = 0;
+    for (int i = 0; i < listed_.count; ++i)
+        if (along_[i].t < reachT_[listed_.number[i]])
+            few.number[few.count++] = listed_.number[i];
+    few.complete = true;
+    if (!listed_.complete)
+        setComplete(few);
+    begin(few, s, FIRST, &sample);
 }
 
 // Adds up the fields at one position of the path at hand.
 struct Settler::Sum {
     Settler& settler;
     Real position, sum, slope, strongest;
+    bool touched;
 
-    Sum(Settler& of, Real at) : settler(of), position(at), strongest(0)
+    Sum(Settler& of, Real at) : settler(of), position(at), strongest(0), touched(false)
     {
         const Real t = shiftDown(at * at, 2);
         const FieldStep own = t < Real(1) ? geoffQuick(t) : FieldStep{Real(0), Real(0)};
@@ -95,9 +203,14 @@ struct Settler::Sum {
         settler.ownSlope_ = own.slope;
         slope = shiftDown(own.slope * at, 1);
     }
-    // A neighbour's, from its t < 1.
-    void add(Along& along, Real param)
+    void add(Along& along)
     {
+        const Real param = along.t = along.param(position);
+        if (param >= Real(1)) {
+            along.value = along.slope = Real(0);
+            return;
+        }
+        touched = true;
         const FieldStep field = geoffQuick(param < Real(0) ? Real(0) : param);
         along.value = field.value;
         along.slope = field.slope;
@@ -115,68 +228,30 @@ struct Settler::Sum {
     }
 };
 
-// Takes up the path of a seed: finds out which neighbours may reach it, and looks at the position where the seed is. Those that
-// do not reach it there are kept if they might elsewhere on the path. False: none reaches it there.
-bool Settler::begin(const Seed& s, Sample* sample)
+// Takes up the path of a seed as a few neighbours see it, and looks at a position. False: none of them reaches that.
+bool Settler::begin(const Few& few, const Seed& s, Real position, Sample* sample)
 {
     root_ = object_.root(s.root);
     path_ = s.path;
-    const Real position = s.position;
+    complete_ = few.complete;
+    touched_ = few.count;
     Sum sum(*this, position);
     Along* along = along_;
-    bool touched = false;
-    for (int i = 0; i < reached_; ++i) {
-        const Neighbour& near = neighbours_[reachedBy_[i]];
-        FromRoot& from = from_[reachedBy_[i]];
-        if (from.root != s.root)
-            setRoot(near, s, from);
-        along->near = &near;
-        along->from = &from;
-        Real param;
-        if (near.kind == Neighbour::POINT) {
-            along->b = shiftDown(dot(path_, from.twice16), 4);
-            param = along->pointChange(position);
-            if (param >= Real(1)) {
-                // Farther out the path leads away from it, or does not come near enough.
-                if (along->change >= Real(0) ? position <= Real(1) || along->pointParam(Real(1)) >= Real(1)
-                                      : along->pointParam(Real(1.5)) >= Real(1) && along->pointParam(Real(1.9)) >= Real(1))
-                    continue;
-                along->value = along->slope = Real(0);
-                ++along;
-                continue;
-            }
-        } else {
-            along->step = near.inCore(path_);
-            param = along->coreChange(position);
-            if (param >= Real(1)) {
-                if (along->coreParam(Real(1.3)) >= Real(1))
-                    continue;
-                along->value = along->slope = Real(0);
-                ++along;
-                continue;
-            }
-        }
-        touched = true;
-        sum.add(*along, param);
-        ++along;
+    for (int i = 0; i < few.count; ++i, ++along) {
+        aim(all_.neighbours[few.number[i]], from_[few.number[i]], s, *along);
+        sum.add(*along);
     }
-    touched_ = static_cast<int>(along - along_);
     ++counts_.iterations;
     *sample = sum.sample();
-    return touched;
+    return sum.touched;
 }
 
 Sample Settler::look(Real position)
 {
     ++counts_.iterations;
     Sum sum(*this, position);
-    for (Along *along = along_, *const end = along_ + touched_; along < end; ++along) {
-        const Real param = along->near->kind == Neighbour::POINT ? along->pointChange(position) : along->coreChange(position);
-        if (param >= Real(1))
-            along->value = along->slope = Real(0);
-        else
-            sum.add(*along, param);
-    }
+    for (Along *along = along_, *const end = along_ + touched_; along < end; ++along)
+        sum.add(*along);
     return sum.sample();
 }
 
@@ -186,59 +261,75 @@ void Settler::blend(Real position, Sample& sample)
 {
     // Those that have a field here, the own first.
     struct Part {
-        Real f, slope, change;  // F, dF/dt, dt/dp
+        Real f, rate;       // F, dF/dp
         Real x, x2, g, linked;  // linked: sum of w_ik x_i^2
+        const Real* weights;
         int slot, at;
     };
     Part parts[NEIGHBOURS_MAX + 1];
-    int count = 0;
+    Part* end = parts;
     Real strongest(0);
-    const auto add = [&](Real f, Real slope, Real change, int slot, int at) {
-        share_[at] = Real(1);
-        if (f <= Real(0))
-            return;
-        strongest = most(strongest, f);
-        parts[count++] = {f, slope, change, Real(0), Real(0), f, Real(0), slot, at};
-    };
-    add(ownField_, ownSlope_, shiftDown(position, 1), object_.slot(), 0);
-    for (int i = 0; i < touched_; ++i)
-        add(along_[i].value, along_[i].slope, along_[i].change, along_[i].near->object->slot(), i + 1);
-    if (count < 2 || strongest <= Real(0.0005))
+    share_[0] = Real(1);
+    if (ownField_ > Real(0)) {
+        strongest = ownField_;
+        end->f = end->g = ownField_;
+        end->rate = shiftDown(ownSlope_ * position, 1);
+        end->linked = Real(0);
+        end->weights = ownWeights_;
+        end->slot = object_.slot();
+        end->at = 0;
+        ++end;
+    }
+    for (int i = 0; i < touched_; ++i) {
+        const Along& along = along_[i];
+        share_[i + 1] = Real(1);
+        if (along.value <= Real(0))
+            continue;
+        strongest = most(strongest, along.value);
+        end->f = end->g = along.value;
+        end->rate = along.slope * along.change;
+        end->linked = Real(0);
+        end->slot = along.near->object->slot();
+        end->weights = bodies_.weights(end->slot);
+        end->at = i + 1;
+        ++end;
+    }
+    if (end - parts < 2 || strongest <= Real(0.0005))
         return;
-    const Real inverse = quotient(Real(1), strongest);
-    for (int i = 0; i < count; ++i) {
-        parts[i].x = parts[i].f * inverse;
-        parts[i].x2 = parts[i].x * parts[i].x;
-    }
     bool plain = true;
-    Real below(0), above(0);
-    for (int i = 0; i < count; ++i) {
-        Part& a = parts[i];
-        for (int j = i + 1; j < count; ++j) {
-            Part& b = parts[j];
-            const Real w = bodies_.weight(a.slot, b.slot);
-            plain = plain && w == Real(1);
-            if (w == Real(0))
-                continue;
-            a.g += w * b.f;
-            b.g += w * a.f;
-            a.linked += w * b.x2;
-            b.linked += w * a.x2;
-        }
-        below += a.x2;
-        above += a.x2 * a.g;
-    }
+    for (const Part* a = parts + 1; a < end && plain; ++a)
+        for (const Part* b = parts; b < a && plain; ++b)
+            plain = a->weights[b->slot] == Real(1);
     if (plain)
         return;
+    const Real inverse = quotient(Real(1), strongest);
+    Real below(0), above(0);
+    for (Part* a = parts; a < end; ++a) {
+        a->x = a->f * inverse;
+        a->x2 = a->x * a->x;
+        below += a->x2;
+        for (Part* b = parts; b < a; ++b) {
+            const Real w = a->weights[b->slot];
+            if (w == Real(0))
+                continue;
+            const bool one = w == Real(1);
+            a->g += one ? b->f : w * b->f;
+            b->g += one ? a->f : w * a->f;
+            a->linked += one ? b->x2 : w * b->x2;
+            b->linked += one ? a->x2 : w * a->x2;
+        }
+    }
+    for (const Part* a = parts; a < end; ++a)
+        above += a->x2 * a->g;
     const Real share = quotient(Real(1), below), field = above * share, twice = inverse + inverse;
     sample.excess = field - ISOVALUE;
-    sample.slope = Real(0);
-    for (int i = 0; i < count; ++i) {
-        const Part& a = parts[i];
-        const Real part = (a.x * (a.g - field) * twice + a.x2 + a.linked) * share;
-        share_[a.at] = part;
-        sample.slope += part * a.slope * a.change;
+    Real slope(0);
+    for (const Part* a = parts; a < end; ++a) {
+        const Real part = (a->x * (a->g - field) * twice + a->x2 + a->linked) * share;
+        share_[a->at] = part;
+        slope += part * a->rate;
     }
+    sample.slope = slope;
 }
 
 // Newton's method from a sample already taken. True: `*position` is on the surface, and `*sample` was taken there or a
@@ -262,19 +353,19 @@ bool Settler::follow(Real* position, Sample* sample)
 }
 
 // Between a position inside and one outside.
-bool Settler::bisect(Real inside, Real outside, Real* position, Sample* sample)
+void Settler::bisect(Real inside, Real outside, Real* position, Sample* sample)
 {
     for (int i = 0; i < 12; ++i) {
         *position = shiftDown(inside + outside, 1);
         *sample = look(*position);
         if (absolute(sample->excess) <= TOLERANCE)
-            return true;
+            return;
         if (sample->slope <= FLAT) {
             const Real step = quotient(-sample->excess, sample->slope);
             const Real to = *position + step;
             if (to > inside && to < outside && absolute(step) <= SHORT_STEP) {
                 *position = to;
-                return true;
+                return;
             }
         }
         if (sample->excess > Real(0))
@@ -282,45 +373,59 @@ bool Settler::bisect(Real inside, Real outside, Real* position, Sample* sample)
         else
             outside = *position;
     }
-    return true;
 }
 
-// Looks for the first place where the path leaves the surface. False: there is none, and `*position` is where the field was
-// lowest.
-bool Settler::search(Real* position, Sample* sample)
+// Looks for the first place where the path leaves the surface, and returns by how much the field exceeds the isovalue at least
+// where it had a valley before. When the path leaves it nowhere, `*sample` exceeds it as well.
+Real Settler::search(Real* position, Sample* sample)
 {
-    Real before = FIRST, lowest = FIRST;
+    Real before = FIRST;
     Sample there = look(before);
+    Real lowest(9);
+    *position = before;
+    *sample = there;
     if (there.excess < Real(0)) {
+        // The path does not even begin inside: its own field is not half of what the surface takes.
+        sample->excess = Real(1);
         *position = Real(1);
-        return false;
+        return Real(0);
     }
-    Real least = there.excess;
     while (before < LAST) {
-        const Real at = ::least(before + SEARCH_STEP, LAST);
-        Sample now = look(at);
-        if (now.excess > Real(0) && there.slope < Real(0) && now.slope > Real(0) && now.excess < VALLEY) {
-            // A valley between the two: its floor is about where straight slopes cross 0.
-            const Real floor = before + (at - before) * (there.slope / (there.slope - now.slope));
-            const Sample deepest = look(floor);
-            if (deepest.excess < Real(0))
-                return bisect(before, floor, position, sample);
-            if (deepest.excess < least) {
-                least = deepest.excess;
-                lowest = floor;
-            }
+        const Real at = least(before + SEARCH_STEP, LAST);
+        const Sample now = look(at);
+        if (now.excess <= Real(0)) {
+            bisect(before, at, position, sample);
+            sample->excess = Real(0);
+            return lowest;
         }
-        if (now.excess <= Real(0))
-            return bisect(before, at, position, sample);
-        if (now.excess < least) {
-            least = now.excess;
-            lowest = at;
+        if (there.slope < Real(0) && now.slope > Real(0)) {
+            // A valley between the two: its floor is about where straight slopes cross 0.
+            Real floor = there.excess < now.excess ? before : at;
+            Sample deepest = there.excess < now.excess ? there : now;
+            if (deepest.excess < VALLEY) {
+                floor = before + (at - before) * (there.slope / (there.slope - now.slope));
+                deepest = look(floor);
+                if (deepest.excess < Real(0)) {
+                    bisect(before, floor, position, sample);
+                    sample->excess = Real(0);
+                    return lowest;
+                }
+            }
+            if (deepest.excess < lowest) {
+                lowest = deepest.excess;
+                *position = floor;
+                *sample = deepest;
+            }
         }
         before = at;
         there = now;
     }
-    *position = lowest;
-    return false;
+    if (there.excess < lowest) {
+        lowest = there.excess;
+        *position = LAST;
+        *sample = there;
+    }
+    return lowest;
 }
 
 // The direction in which the field falls at a position that has just been looked at, any length, own axes: each field pushes
@@ -336,12 +441,14 @@ Vector Settler::outward(Real position) const
         if (to.slope == Real(0))
             continue;
         const Real push = -((complete_ ? to.slope : to.slope * share_[i + 1]) * to.near->ratio);
-        if (to.near->kind == Neighbour::POINT) {
-            along += push;
-            g = g + to.from->apart * push;
-        } else {
+        if (to.near->kind == Neighbour::OTHER) {
             g = g + to.near->fromCoreSpace(to.out) * push;
+            continue;
         }
+        along += push;
+        g = g + to.from->apart * push;
+        if (to.near->kind == Neighbour::SEGMENT)
+            g = g - to.near->direction * (to.k * to.near->size * push);
     }
     g = g + path_ * (along * position);
     if (object_.tapers()) {
@@ -363,14 +470,16 @@ void Settler::findBorder(Seed& s, Real dominance) const
     const Vector place = path_ * s.position;
     Vector g = place * ownSlope_;
     const Real push = other->slope * other->near->ratio;
-    if (other->near->kind == Neighbour::POINT)
-        g = g - (other->from->apart + place) * push;
-    else
+    if (other->near->kind == Neighbour::OTHER)
         g = g - other->near->fromCoreSpace(other->out) * push;
-    const Real steep = nearLength(g), size = object_.laidSize();
+    else
+        g = g - (other->from->apart + place) * push;
+    if (other->near->kind == Neighbour::SEGMENT)
+        g = g + other->near->direction * (other->k * other->near->size * push);
+    const Normal n = normalise(g);
+    const Real steep = dot(g, {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)}), size = object_.laidSize();
     const Real distance = clamp(-dominance * size, Real(-100), Real(100)) * size * Real(0.5);
     s.apart = static_cast<int16_t>(rawFromReal(clamp(absolute(distance) < steep * Real(30) ? distance / steep : Real(30), Real(-30), Real(30))) >> 8);
-    const Normal n = normalise(g);
     s.border = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
 }
 
@@ -387,48 +496,137 @@ void Settler::mix(Seed& s) const
     s.mix = own.paints->numberAt(sum * quotient(Real(1), fields), own.shines());
 }
 
+// What the fields along the path at hand may change by, all together, when the neighbours come by a unit.
+Real Settler::pushes() const
+{
+    // The gradient of a field is 2 f' r / R^2, and r / R no more than r^2 / R^2 + 1/4; a little more for what that changes.
+    Real sum(0);
+    for (int i = 0; i < touched_; ++i)
+        sum += (Real(0.1) - along_[i].slope * (along_[i].t + Real(0.25))) * along_[i].near->inverse16;
+    return shiftDown(sum, 3);
+}
+
+// How far neighbours may come that change a field by `push` in a unit until it has changed by `hold`, at most `longest`.
+Way Settler::until(Real hold, Real push, Real longest)
+{
+    if (hold <= Real(0))
+        return 0;
+    return wayOf(hold < push * longest ? hold / push : longest);
+}
+
+// Leaves a seed where nothing blends with it.
+void Settler::restThere(Seed& s)
+{
+    if (!(s.flags & SEED_RESTING))
+        s.normal = object_.restNormal(s);
+    s.position = Real(1);
+    s.brightness8 = brightness8(s.normal, own_.light);
+    s.still = came_ < shiftDown(smallest_, 3);
+    s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
+}
+
+// Whether one neighbour alone, the strongest where a seed of the patch was not on the surface the last time, keeps a seed off
+// it: it is stronger than the own object where the path left the surface, and a little before.
+bool Settler::isBlocked(const Seed& s, Real margin)
+{
+    if (blocker_ < 0 || turnOf(s) % TURNS == 0 || came_ > HURRY)
+        return false;
+    const Neighbour& near = all_.neighbours[blocker_];
+    Along along;
+    aim(near, from_[blocker_], s, along);
+    const Real position = most(s.position - BEFORE, FIRST);
+    const Real t = along.param(position);
+    if (t >= Real(0.7))
+        return false;
+    const Real own = geoffQuick(least(shiftDown(position * position, 2), Real(0.999))).value;
+    const Real field = geoffQuick(most(t, Real(0))).value;
+    return field - own > OVERSHOOT + margin || (!(s.flags & SEED_COVERED) && allComplete_ && own + field > ISOVALUE + margin);
+}
+
+// By how much of the field a seed that lay inside still does, from a look at the place where it was nearest to the surface: what
+// leads out of a body opens there first. 0: that cannot be
+// told.
+Real Settler::stillInside(Seed& s)
+{
+    Sample sample;
+    begin(near_, s, s.position, &sample);
+    const bool covered = (s.flags & SEED_COVERED) != 0;
+    Real margin, push = pushes();
+    if (covered) {
+        // Where the path leaves the surface moves with the neighbours.
+        if (absolute(sample.excess) > DEEP && sample.slope <= FLAT) {
+            const Real step = clamp(quotient(-sample.excess, sample.slope), -LONGEST_STEP, LONGEST_STEP);
+            s.position = clamp(s.position + step, FIRST, LAST);
+            sample = look(s.position);
+        }
+        margin = sample.dominance - OVERSHOOT;
+        push += push;
+        if (margin < DEEP || absolute(sample.excess) > DEEP)
+            return Real(0);
+    } else {
+        margin = sample.excess - shiftDown(sample.slope * sample.slope, 2);
+        if (margin < DEEP + shiftDown(push * came_, 2))
+            return Real(0);
+    }
+    return margin;
+}
+
+// Sets position, normal and flags of a seed. One that finds no surface of its own object is left
+// without SEED_VALID; returned is then by how much of the field it lies inside.
 Real Settler::settle(Seed& s)
 {
     Sample sample;
-    bool touched = begin(s, &sample);
-    if (!touched && s.position != Real(1)) {
-        s.position = Real(1);
-        touched = begin(s, &sample);
-    }
-    if (!touched) {
-        if (!(s.flags & SEED_RESTING))
-            s.normal = object_.restNormal(s);
-        s.brightness8 = brightness8(s.normal, own_.light);
-        s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
-        return Real(0);
+    Real position = s.position;
+    bool found = false, still = false;
+    Real margin(9);
+    if (s.flags & (SEED_VALID | SEED_COVERED)) {
+        bool touched = begin(near_, s, position, &sample);
+        if (!touched && position != Real(1)) {
+            position = Real(1);
+            touched = begin(listed(), s, position, &sample);
+        }
+        slope_ = sample.slope;
+        if (!touched) {
+            restThere(s);
+            return Real(0);
+        }
+        still = position == s.position && absolute(sample.excess) <= TOLERANCE;
+        found = follow(&position, &sample);
+        if (found && (position < nearest_ || position > farthest_)) {
+            // Where it is now, others may reach it.
+            begin(listed(), s, position, &sample);
+            found = follow(&position, &sample);
+        }
     }
     ++counts_.updated;
-    const bool wasValid = (s.flags & SEED_VALID) != 0;
-    s.flags &= SEED_ACTIVE;
-    Real position = s.position;
-    if (!wasValid && !bodies_.leapt()) {
-        Real margin = most(sample.excess, sample.dominance - OVERSHOOT);
-        for (int i = 0; margin > DEEP && i < EXITS; ++i) {
-            const Sample there = look(EXIT[i]);
-            margin = least(margin, most(there.excess, there.dominance - OVERSHOOT));
-        }
-        if (margin > DEEP)
-            return margin;
+    if (still && found && (s.flags & SEED_VALID) && !(s.flags & SEED_RESTING) && sample.dominance <= OVERSHOOT) {
+        // It has not moved: what is known of it holds.
+        slope_ = sample.slope;
+        s.still = s.still == 0 || came_ * Real(3) > shiftDown(smallest_, 3) ? 1 : 3;
+        s.brightness8 = brightness8(s.normal, own_.light);
+        if (object_.paint() != nullptr && object_.paint()->mixes)
+            mix(s);
+        return Real(0);
     }
-    const bool still = absolute(sample.excess) <= TOLERANCE;
-    if ((!wasValid && bodies_.leapt()) || !follow(&position, &sample)) {
-        const bool found = search(&position, &sample);
-        s.position = position;
-        if (!found)
-            return sample.excess;
+    s.still = 0;
+    s.flags &= SEED_ACTIVE;
+    if (!found) {
+        beginSearch(s);
+        margin = search(&position, &sample);
+        found = sample.excess <= Real(0);
     }
     s.position = position;
-    if (sample.dominance > OVERSHOOT)
-        return sample.dominance - OVERSHOOT;
+    if (!found || sample.dominance > OVERSHOOT) {
+        if (found && margin > sample.dominance) {
+            margin = sample.dominance - OVERSHOOT;
+            s.flags |= SEED_COVERED;
+        }
+        return margin;
+    }
+    slope_ = sample.slope;
     const Normal n = normalise(outward(position));
     s.normal = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
     s.brightness8 = brightness8(s.normal, own_.light);
-    s.still = still;
     s.flags |= SEED_VALID;
     if (object_.paint() != nullptr && object_.paint()->mixes)
         mix(s);
@@ -440,46 +638,10 @@ Real Settler::settle(Seed& s)
     return Real(0);
 }
 
-// By how much of the field the seed in the middle of a patch must lie inside, for all of the patch to do so: the other seeds
-// are no farther than the patch reaches, and a field changes by about its size at most over that of its object.
-static Real enough(const Patch& patch, Real size)
-{
-    return clamp(realFromRaw(patch.radius << 12) / size * STEEPEST, Real(0.1), Real(0.6));
-}
-
-bool Settler::blocked(const Patch& patch, const Seed& s, Real margin)
-{
-    const int i = numberOf_[patch.blocker];
-    if (i < 0 || bodies_.leapt() || neighbours_[i].kind != Neighbour::POINT)
-        return false;
-    FromRoot& from = from_[i];
-    if (from.root != s.root)
-        setRoot(neighbours_[i], s, from);
-    const Real b = shiftDown(dot(s.path, from.twice16), 4);
-    const auto insideAt = [&](Real p) {
-        const Real param = from.a + p * (b + p * from.c);
-        if (param >= Real(0.6))
-            return false;
-        const Real own = geoffQuick(least(shiftDown(p * p, 2), Real(0.999))).value;
-        const Real field = geoffQuick(most(param, Real(0))).value;
-        return field - own > OVERSHOOT + margin || (complete_ && own + field > ISOVALUE + margin);
-    };
-    bool inside = insideAt(s.position);
-    for (int i = 0; inside && i < EXITS; ++i)
-        inside = insideAt(EXIT[i]);
-    return inside;
-}
-
-bool Settler::stillInside(const Patch& patch)
-{
-    const int i = numberOf_[patch.blocker];
-    return i >= 0 && blocked(patch, object_.seed(patch.centre), enough(patch, neighbours_[i].size));
-}
-
-// Of those that touch the seed that was settled last, the one with the strongest field.
+// Of those that see the path at hand, the slot of the one whose field is the strongest where it was looked at last.
 int Settler::strongest() const
 {
-    int slot = 0;
+    int slot = object_.slot();
     Real most(0);
     for (int i = 0; i < touched_; ++i) {
         if (along_[i].value > most) {
@@ -490,22 +652,71 @@ int Settler::strongest() const
     return slot;
 }
 
+// By how much of the field the seed in the middle of a patch must lie inside, for all of the patch to do so: the other seeds
+// are no farther than the patch reaches, and a field changes by about its size at most over that of its object.
+static Real enough(const Patch& patch, Real size)
+{
+    return clamp(realFromRaw(patch.radius << 12) / size * STEEPEST, Real(0.1), Real(0.6));
+}
+
+bool Settler::stillInside(const Patch& patch)
+{
+    blocker_ = all_.numberOf[patch.blocker];
+    return blocker_ >= 0 && isBlocked(object_.seed(patch.centre), enough(patch, all_.neighbours[blocker_].size));
+}
+
 PatchState Settler::probe(Patch& patch)
 {
     Seed& s = object_.seed(patch.centre);
-    const Real margin = settle(s);
+    blocker_ = all_.numberOf[patch.blocker];
+    patch.due = now_;
+    if (!(s.flags & SEED_VALID) && patch.state == PATCH_MIXED && isBlocked(s, BLOCKED))
+        return PATCH_MIXED;
+    const Real least = enough(patch, smallest_);
+    Real margin = s.flags & SEED_VALID ? Real(0) : stillInside(s);
+    if (margin == Real(0))
+        margin = settle(s);
+    const Real push = pushes();
     if (!(s.flags & SEED_VALID)) {
         patch.blocker = static_cast<uint8_t>(strongest());
-        return margin > enough(patch, smallest_) ? PATCH_INSIDE : PATCH_MIXED;
+        if (margin <= least)
+            return PATCH_MIXED;
+        // The own field, with which the strongest is compared, changes as well.
+        patch.due += until(margin - least, push + push, LONGEST_WAIT);
+        return PATCH_INSIDE;
     }
     patch.facing = facing(object_, s, own_);
-    return patch.facing < -(patch.spread + TURNED) ? PATCH_AWAY : PATCH_MIXED;
+    const int32_t away = -patch.facing - patch.spread - TURNED;
+    if (away > 0) {
+        patch.due += wayOf(realFromRaw(away * 4) * shiftDown(object_.laidSize(), 2));
+        return PATCH_AWAY;
+    }
+    return PATCH_MIXED;
+}
+
+// Between which positions the seeds of a patch are.
+void Settler::setRange(Patch& patch) const
+{
+    Real nearest(9), farthest(0);
+    forSeeds(patch, [&](int i) {
+        const Real position = object_.seed(i).position;
+        nearest = least(nearest, position);
+        farthest = most(farthest, position);
+    });
+    patch.nearest = static_cast<uint8_t>(rawFromReal(nearest - RANGE) >> 10);
+    patch.farthest = static_cast<uint8_t>(rawFromReal(farthest + RANGE) >> 10);
+    if (nearest < nearest_ || farthest > farthest_) {
+        // The list of those near them is made anew in the next frame.
+        memcpy(patch.near, patch.listed, sizeof patch.near);
+        patch.stale = true;
+    }
 }
 
 void Settler::settleRest(Patch& patch)
 {
     const Seed& centre = object_.seed(patch.centre);
     const bool someAway = !(centre.flags & SEED_VALID) || patch.facing < patch.spread;
+    blocker_ = all_.numberOf[patch.blocker];
     forSeeds(patch, [&](int i) {
         Seed& s = object_.seed(i);
         if (&s == &centre)
@@ -514,31 +725,32 @@ void Settler::settleRest(Patch& patch)
             // It has slept: it is likely to be where the one in the middle is.
             s.position = centre.position;
             s.flags = SEED_VALID;
+            s.still = 0;
         } else if (waits(s, someAway)) {
             s.brightness8 = brightness8(s.normal, own_.light);
             return;
-        } else if (!(s.flags & SEED_VALID) && blocked(patch, s, DEEP)) {
+        } else if (!(s.flags & SEED_VALID) && (isBlocked(s, BLOCKED) || stillInside(s) > Real(0))) {
             return;
         }
         settle(s);
         if (!(s.flags & SEED_VALID))
             patch.blocker = static_cast<uint8_t>(strongest());
     });
+    setRange(patch);
 }
 
 // Coherence over time: a seed that did not move when it was looked at waits for a frame, and so does one that faces away a
-// little; one that faces well away waits for three.
+// little; one that did not move twice, or faces well away, waits for three.
 bool Settler::waits(const Seed& s, bool someAway) const
 {
-    if ((s.flags & (SEED_VALID | SEED_RESTING)) != SEED_VALID || bodies_.hurried())
+    if (!(s.flags & SEED_VALID) || came_ > least(HURRY, shiftDown(smallest_, 2)))
         return false;
     uint32_t mask = s.still;
     if (someAway) {
         const int32_t away = -facing(object_, s, own_);
         mask |= away > WELL_AWAY ? 3 : away > LITTLE_AWAY ? 1 : 0;
     }
-    const uint32_t turn = static_cast<uint32_t>(&s - &object_.seed(0)) / 2 + frame_;
-    return (turn & mask) != 0;
+    return (turnOf(s) & mask) != 0;
 }
 
 namespace {
@@ -571,19 +783,23 @@ void Settler::oversample(const Patch& patch)
         if (!(extra.flags & SEED_ACTIVE)) {
             extra.flags = SEED_ACTIVE | SEED_VALID;
             extra.position = object_.seed(i).position;
+            extra.still = 0;
         }
     });
     if (!any)
         return;
-    setPatch(patch);
+    setPatch(patch, true);
+    blocker_ = all_.numberOf[patch.blocker];
     forSeeds(patch, [&](int i) {
-        if (object_.seed(i + 1).flags & SEED_ACTIVE)
-            settle(object_.seed(i + 1));
+        Seed& extra = object_.seed(i + 1);
+        if ((extra.flags & SEED_ACTIVE) && !((extra.flags & SEED_VALID) && waits(extra, false)) && ((extra.flags & SEED_VALID) || !(isBlocked(extra, BLOCKED) || stillInside(extra) > Real(0))))
+            settle(extra);
     });
 }
 
-void rest(SoftObject& object, const Patch& patch, const OwnFrame& own)
+void rest(SoftObject& object, Patch& patch, const OwnFrame& own)
 {
+    patch.nearest = patch.farthest = 64;
     forSeeds(patch, [&](int i) {
         Seed& s = object.seed(i);
         object.seed(i + 1).flags = 0;

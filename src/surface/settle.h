@@ -2,42 +2,32 @@
 #ifndef FB_SETTLE_H
 #define FB_SETTLE_H
 
-#include "patch.h"
+#include "odometer.h"
 
-// A neighbour as the seeds of one root see it: what is the same for all of them.
+// A neighbour as the seeds of one root see it: what is the same for all of them. Lengths in its sizes, if not said otherwise.
 struct FromRoot {
     int root;        // index of the root; -1: none yet
-    Real a, c;       // a point: squared distance of the root and squared length of the paths, over squared size
-    Vector twice16;  // and 32 (root - centre) / size^2
-    Vector apart;    // a point: from its centre to the root; else the root in its core space
+    Real a, c;       // squared distance of the root from the centre, squared length of the paths
+    Vector twice16;  // 32 (root - centre) / size^2, units
+    Vector apart;    // from the centre to the root, units; neither point nor segment: the root in core space
+    Real y;          // a segment: where the root lies along it
 };
 
-// A neighbour's field along the path at hand.
+// A neighbour's field along the path at hand. Its t (model/field.h) is a + p (b + p c), less k (2 y - k) for a segment.
 struct Along {
     const Neighbour* near;
     const FromRoot* from;
-    Real b;             // a point: t = a + p (b + p c)
-    Vector step;        // else: the path in its core space
+    Real b;
+    Real stepY;         // a segment: what the path leads along it
+    Vector step;        // neither point nor segment: the path in its core space
     // At the last position looked at.
     Real value, slope;  // F and dF/dt
-    Real change;        // dt/dp
-    Vector out;         // half the gradient of t in its core space, times CORE_SIZE^2; no point
+    Real t, change;     // and dt/dp
+    Real k;             // where the nearest point of the segment lies along it
+    Vector out;         // neither point nor segment: half the gradient of t in its core space, times CORE_SIZE^2
 
-    // t at a position; the second two also set what else there is to know there.
-    Real pointParam(Real p) const { return from->a + p * (b + p * from->c); }
-    Real pointChange(Real p)
-    {
-        const Real outer = p * from->c, inner = b + outer;
-        change = inner + outer;
-        return from->a + p * inner;
-    }
-    Real coreParam(Real p) { return near->param(from->apart + step * p, &out); }
-    Real coreChange(Real p)
-    {
-        const Real t = coreParam(p);
-        change = shiftDown(dot(out, step), 7);
-        return t;
-    }
+    // t at a position; sets what else there is to know there but F.
+    Real param(Real p);
 };
 
 // The body's field at a position: its excess over the isovalue, its slope along the path, how much stronger than the own
@@ -50,17 +40,18 @@ struct Sample {
 // of the object.
 class Settler {
 public:
-    Settler(SoftObject& object, const OwnFrame& own, const Neighbour* neighbours, int count, const FrameContext& frame,
-            uint32_t updates);
+    Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& all, const FrameContext& frame,
+            const Odometer& odometer, uint32_t updates);
 
-    // To be called before anything else about the seeds of a patch.
-    void setPatch(const Patch& patch);
-
-    // Settles the seed in the middle of a patch that neighbours reach, and says from it what becomes of the patch.
-    PatchState probe(Patch& patch);
+    // To be called before anything else about the seeds of a patch. False: no neighbour reaches them where they are.
+    bool setPatch(const Patch& patch, bool oversampled = false);
 
     // Whether a patch that lay inside still does, by the field of the neighbour alone that was the strongest then.
     bool stillInside(const Patch& patch);
+
+    // Settles the seed in the middle of a patch that neighbours reach, says from it what becomes of the patch, and sets when
+    // the patch is due again.
+    PatchState probe(Patch& patch);
 
     // Settles the other regular seeds of a patch.
     void settleRest(Patch& patch);
@@ -70,50 +61,73 @@ public:
     void oversample(const Patch& patch);
 
 private:
-    // Sets position, normal and flags of a seed. One that finds no surface of its own object is left without SEED_VALID;
-    // returned is then by how much of the field it lies inside.
-    Real settle(Seed& s);
-    void setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const;
+    // The neighbours to look at, by their numbers, and whether they and the object are all linked with each other at weight 1:
+    // then the sum of the fields is F.
+    struct Few {
+        int count;
+        bool complete;
+        uint8_t number[NEIGHBOURS_MAX];
+    };
     struct Sum;
-    bool begin(const Seed& s, Sample* sample);
+
+    void setComplete(Few& few) const;
+    const Few& listed();
+    Real settle(Seed& s);
+    void restThere(Seed& s);
+    void setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const;
+    bool begin(const Few& few, const Seed& s, Real position, Sample* sample);
     Sample look(Real position);
     void blend(Real position, Sample& sample);
     bool follow(Real* position, Sample* sample);
-    bool search(Real* position, Sample* sample);
-    bool bisect(Real inside, Real outside, Real* position, Sample* sample);
+    Real search(Real* position, Sample* sample);
+    void bisect(Real inside, Real outside, Real* position, Sample* sample);
     Vector outward(Real position) const;
     void findBorder(Seed& s, Real dominance) const;
     void mix(Seed& s) const;
-
+    Real pushes() const;
+    static Way until(Real hold, Real push, Real longest);
+    Real stillInside(Seed& s);
+    bool isBlocked(const Seed& s, Real margin);
+    uint32_t turnOf(const Seed& s) const { return static_cast<uint32_t>(&s - &object_.seed(0)) / 2 + updates_; }
     int strongest() const;
-    bool blocked(const Patch& patch, const Seed& s, Real margin);
+    void aim(const Neighbour& near, FromRoot& from, const Seed& s, Along& along) const;
+    void beginSearch(const Seed& s);
     bool waits(const Seed& s, bool someAway) const;
+    void setRange(Patch& patch) const;
 
     SoftObject& object_;
     const OwnFrame& own_;
-    const Neighbour* neighbours_;
+    const Neighbourhood& all_;
     const Bodies& bodies_;
     Counts& counts_;
-    uint32_t frame_;      // number of the update
-    bool complete_;       // all neighbours are linked with each other, and with the object, at weight 1: the sum is F
+    const Way now_;   // reading of the odometer
+    const Real came_; // how far neighbours came in this frame, units
+    uint32_t updates_;
+    const Real* ownWeights_;  // of its links, by slots
+    bool allComplete_;
     FromRoot from_[NEIGHBOURS_MAX];
-    int8_t numberOf_[NEIGHBOURS_MAX + 1];  // by slot: number of the neighbour; -1: out of range
+    Real reachT_[NEIGHBOURS_MAX];  // t in the middle of a path, beyond which no place on it is reached
 
-    // Of the patch: those that reach it, and the size of the smallest, or of the object.
-    int reached_ = 0;
-    uint8_t reachedBy_[NEIGHBOURS_MAX];
+    // Of the patch: the neighbours that reach its seeds where they are, and all that might; the size of the smallest of those,
+    // or of the object.
+    const Patch* patch_;
+    Few near_, listed_;
     Real smallest_;
+    int blocker_;              // number of the neighbour that was the strongest where a seed was not on the surface; -1: none
+    Real nearest_, farthest_;  // between which positions its seeds are, and a little more
 
     // Of the path at hand.
     Vector root_, path_;
+    bool complete_;
     int touched_;
     Along along_[NEIGHBOURS_MAX];
-    Real ownField_, ownSlope_;             // F and dF/dt of the own field at the last position
+    Real slope_;                      // dF/dp where the seed has settled
+    Real ownField_, ownSlope_;        // F and dF/dt of the own field at the last position
     Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, unless complete_
 };
 
 // Puts the seeds of a patch where no neighbour reaches them.
-void rest(SoftObject& object, const Patch& patch, const OwnFrame& own);
+void rest(SoftObject& object, Patch& patch, const OwnFrame& own);
 
 // Works out the brightness of its seeds anew, when the light comes from another side of the object.
 void light(SoftObject& object, const Patch& patch, const OwnFrame& own);

@@ -44,7 +44,7 @@ struct Scene {
     {
         static VoxelList list;
         check(bodies.find(objects.data(), static_cast<int>(objects.size())), "no memory for bodies");
-        bodies.beginFrame();
+        bodies.spreadRecalc();
         const FrameContext context{{Real(0), Real(0), Real(-120)}, {Real(0), Real(1), Real(0)}, &bodies, &counts};
         for (SoftObject* object : objects)
             object->update(context);

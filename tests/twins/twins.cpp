@@ -265,15 +265,21 @@ void edges()
 void runs()
 {
     static uint8_t row[WIDE + 8 + SHIFTS];
+    static uint16_t deep[WIDE + 8 + SHIFTS];
     Span c[WIDE / 2], a[WIDE / 2];
     for (int i = 0; i < 20000; ++i) {
-        uint8_t* const pixels = row + 4 + below(SHIFTS);
+        const int shift = 4 + below(SHIFTS);
+        uint8_t* const pixels = row + shift;
+        uint16_t* const depths = deep + shift;
+        const int farthest = below(3) ? 0x8000 : Z_EMPTY;
         const bool fine = below(4) == 0;
         const int share = below(8);
         for (int x = -4; x < WIDE + 4;) {
             const uint8_t colour = below(8) < share ? static_cast<uint8_t>(1 + below(255)) : 0;
-            for (int n = 1 + below(fine ? 3 : 60); n > 0 && x < WIDE + 4; --n)
+            for (int n = 1 + below(fine ? 3 : below(2) ? 60 : 300); n > 0 && x < WIDE + 4; --n) {
+                depths[x] = static_cast<uint16_t>(colour == 0 ? Z_EMPTY : below(farthest));
                 pixels[x++] = colour;
+            }
         }
         int from = 4 * below(WIDE / 4 + 1), to = 4 * below(WIDE / 4 + 1);
         if (from > to || i % 8 == 0)
@@ -281,8 +287,8 @@ void runs()
         const Span within = {static_cast<int16_t>(from), static_cast<int16_t>(to)};
         memset(c, 0x55, sizeof c);
         memset(a, 0x55, sizeof a);
-        const int count = drawnRunsC(pixels, &within, c);
-        verdict(drawnRunsA(pixels, &within, a) == count && memcmp(c, a, sizeof c) == 0, "runs of drawn pixels", i);
+        const int count = drawnRunsC(pixels, depths, &within, c);
+        verdict(drawnRunsA(pixels, depths, &within, a) == count && memcmp(c, a, sizeof c) == 0, "runs of drawn pixels", i);
         // And what they are.
         long wrong = 0;
         int x = from;
@@ -335,7 +341,8 @@ static_assert(inasm::VOXEL_X == offsetof(Voxel, x) && inasm::VOXEL_Y == offsetof
               inasm::VOXEL_CUTX == offsetof(Voxel, cutX) && inasm::VOXEL_CUTX == inasm::VOXEL_BRIGHT + 2 &&
               inasm::VOXEL_CUTY == offsetof(Voxel, cutY) && inasm::VOXEL_CUTY == inasm::VOXEL_BRIGHT + 3 &&
               inasm::VOXEL_SLOPEX == offsetof(Voxel, slopeX) && inasm::VOXEL_SLOPEY == inasm::VOXEL_SLOPEX + 1 &&
-              inasm::VOXEL_SLOPEY == offsetof(Voxel, slopeY) && inasm::VOXEL_CUTAT == offsetof(Voxel, cutAt), "Voxel");
+              inasm::VOXEL_SLOPEY == offsetof(Voxel, slopeY) && inasm::VOXEL_CUTAT == offsetof(Voxel, cutAt) &&
+              inasm::VOXEL_SIZE == sizeof(Voxel), "Voxel");
 static_assert(inasm::FACTOR_X == offsetof(Factors, x) && inasm::FACTOR_Y == offsetof(Factors, y) &&
               inasm::FACTOR_ZX == offsetof(Factors, zx) && inasm::FACTOR_ZY == offsetof(Factors, zy) &&
               inasm::FACTOR_SIZE == sizeof(Factors), "Factors");
@@ -519,7 +526,12 @@ void makeLens(Fenced& c, Fenced& a, int shift)
     lens.right = below(2) ? 0 : below(WIDE);
     lens.bottom = below(2) ? 0 : below(HIGH);
     lens.empty = below(1000);
-    limitTilts(&lens);
+    uint32_t most = 0;
+    for (const Factors& f : optics.factors) {
+        most = static_cast<uint32_t>(f.zx) > most ? static_cast<uint32_t>(f.zx) : most;
+        most = static_cast<uint32_t>(f.zy) > most ? static_cast<uint32_t>(f.zy) : most;
+    }
+    limitTilts(&lens, most);
     memcpy(&a, &c, sizeof c);
     c.lens.frame = roomC.at(shift).frame.data;
     c.lens.zbuffer = roomC.at(shift).depth.data;
@@ -539,8 +551,7 @@ bool sameLens(const Fenced& c, const Fenced& a, int shift)
 void voxelLists(int rounds)
 {
     constexpr int MOST = 600;
-    static Voxel voxels[MOST], kept[MOST];
-    static Guarded<const Voxel*, MOST> list, before;
+    static Guarded<Voxel, MOST> list, before;
     static Optics opticsBefore;
     static Fenced c, a;
     for (int round = 0; round < rounds; ++round) {
@@ -551,33 +562,32 @@ void voxelLists(int rounds)
         const int count = below(8) == 0 ? below(3) : below(below(4) == 0 ? MOST : 60);
         fill(&list, sizeof list);
         for (int i = 0; i < count; ++i) {
-            voxels[i] = anyVoxel(c.lens);
+            list.data[i] = anyVoxel(c.lens);
             if (i > 0 && below(4) == 0) {  // the same depths in another colour
-                voxels[i] = voxels[below(i)];
-                voxels[i].brightness ^= 1;
+                list.data[i] = list.data[below(i)];
+                list.data[i].brightness ^= 1;
             }
-            list.data[i] = voxels + below(i + 1);  // some more than once, in no order
         }
-        memcpy(kept, voxels, sizeof kept);
         memcpy(&before, &list, sizeof list);
         memcpy(&opticsBefore, &optics, sizeof optics);
         // As the view does: what is left is skipped.
         bool agree = true;
-        for (int i = 0; i <= count; ++i) {
-            const int doneC = drawScalesC(&c.lens, list.data + i, count - i);
-            const int doneA = drawScalesA(&a.lens, list.data + i, count - i);
-            agree = agree && doneC == doneA && doneA >= 0 && doneA <= count - i;
+        const Voxel* const end = list.data + count;
+        for (const Voxel* at = list.data; at <= end; ++at) {
+            const Voxel* const nextC = drawScalesC(&c.lens, at, end);
+            const Voxel* const nextA = drawScalesA(&a.lens, at, end);
+            agree = agree && nextC == nextA && nextA >= at && nextA <= end;
             if (!agree)
                 break;
-            voxelsDrawn += doneC;
-            i += doneC;
+            voxelsDrawn += nextC - at;
+            at = nextC;
         }
         verdict(agree, "voxels: both stop at the same one, round", round);
         verdict(same(shift), "voxels: frame and Z-buffer, round", round);
         verdict(sameLens(c, a, shift), "voxels: the lens, round", round);
-        verdict(memcmp(&before, &list, sizeof list) == 0 && memcmp(kept, voxels, sizeof kept) == 0 &&
+        verdict(memcmp(&before, &list, sizeof list) == 0 &&
                     memcmp(&opticsBefore, &optics, sizeof optics) == 0,
-                "voxels: list, voxels and table are left alone, round", round);
+                "voxels: list and table are left alone, round", round);
         voxelsTried += count;
     }
 }
@@ -591,7 +601,7 @@ void voxelByVoxel(int rounds)
     prepare(0, true);
     Screen& screen = roomA.at(0);
     memset(screen.frame.data, 0, sizeof screen.frame.data);
-    long wrongPixels = 0, wrongEnds = 0, wrongShades = 0, shaded = 0, wrongDepths = 0, wrongStops = 0, wrongBoxes = 0, wrongEmpties = 0, wrongCuts = 0, cutOff = 0, cutKept = 0, deep = 0, nearOnes = 0, drawn = 0, stopped = 0, empty = 0;
+    long wrongPixels = 0, wrongEnds = 0, wrongShades = 0, shaded = 0, wrongDepths = 0, wrongStops = 0, wrongBoxes = 0, wrongEmpties = 0, wrongCuts = 0, cutOff = 0, cutKept = 0, deep = 0, nearOnes = 0, clipped = 0, drawn = 0, stopped = 0, empty = 0;
     for (int round = 0; round < rounds; ++round) {
         if (round % 16 == 0) {
             const double focal = 100 + below(300);
@@ -607,8 +617,13 @@ void voxelByVoxel(int rounds)
         a.lens.top = HIGH;
         a.lens.right = a.lens.bottom = a.lens.empty = 0;
         const Voxel v = anyVoxel(a.lens);
-        const Voxel* list = &v;
-        const int done = drawScalesA(&a.lens, &list, 1);
+        // The loop's callers see to it that the products of places fit.
+        Factors computed;
+        const Factors* const f = factorsOf(a.lens, wrappedSum(a.lens.z, v.z), &computed);
+        const auto fits = [](int32_t place, int32_t factor) { return static_cast<int32_t>(1LL * place * factor) == 1LL * place * factor; };
+        if (f != nullptr && (!fits(wrappedSum(a.lens.x, v.x), f->x) || !fits(wrappedSum(a.lens.y, v.y), f->y)))
+            continue;
+        const int done = static_cast<int>(drawScalesA(&a.lens, &v, &v + 1) - &v);
         const double x = wrappedSum(a.lens.x, v.x) / 256.0, y = wrappedSum(a.lens.y, v.y) / 256.0;
         const int32_t depth = wrappedSum(a.lens.z, v.z);
         const double z = depth / 256.0;
@@ -631,7 +646,10 @@ void voxelByVoxel(int rounds)
                        mostRight = first(right + doubtX), leastTop = first(top - doubtY), mostTop = first(top + doubtY),
                        leastBottom = first(bottom - doubtY), mostBottom = first(bottom + doubtY);
             const bool surelyOn = leastLeft >= 0 && mostRight <= WIDE && leastTop >= 0 && mostBottom <= HIGH;
-            const bool surelyOff = mostLeft < 0 || leastRight > WIDE || mostTop < 0 || leastBottom > HIGH;
+            // What is sure to be on the screen of it.
+            const auto within = [](long from, long to, long end) { return (to < end ? to : end) - (from > 0 ? from : 0); };
+            const long wideOn = within(mostLeft, leastRight, WIDE), highOn = within(mostTop, leastBottom, HIGH);
+            clipped += !surelyOn && wideOn > 0 && highOn > 0 && done == 1;
             const long mostWide = mostRight - leastLeft, mostHigh = mostBottom - leastTop;
             const long leastWide = leastRight - mostLeft, leastHigh = leastBottom - mostTop;
             // Steps are whole 1/128 units, and no more than STEEPEST.
@@ -647,13 +665,13 @@ void voxelByVoxel(int rounds)
                                       leastWide - leastHigh - 2;
             const bool surelyNotDeep = tilted && leastWide > 0 && leastHigh > 0 && (z * 128 - leastSwing < 0 || z * 128 + leastSwing > Z_EMPTY);
             const bool surelySmall = mostWide <= LARGEST && mostHigh <= LARGEST && surelyDeep;
-            const bool surelyLarge = leastWide > LARGEST || (leastWide > 0 && leastHigh > LARGEST) || surelyNotDeep;
+            const bool surelyLarge = leastWide > LARGEST || (wideOn > 0 && leastHigh > LARGEST) || (surelyOn && surelyNotDeep);
             deep += surelyOn && mostWide <= LARGEST && mostHigh <= LARGEST && surelyNotDeep;
             const bool sound = v.wide >= 0 && v.high >= 0;
-            wrongStops += sound && (done == 0 ? surelyOn && surelySmall : (surelyOff && a.lens.empty == 0) || surelyLarge);
+            wrongStops += sound && (done == 0 ? surelySmall : surelyLarge);
             stopped += done == 0;
             empty += a.lens.empty;
-            wrongEmpties += sound && a.lens.empty != 0 && (done == 0 || a.lens.empty != 1 || (leastWide > 0 && leastHigh > 0));
+            wrongEmpties += sound && a.lens.empty != 0 && (done == 0 || a.lens.empty != 1 || (wideOn > 0 && highOn > 0));
             long pixels = 0;
             for (int py = 0; py < HIGH; ++py)
                 for (int px = 0; px < WIDE; ++px) {
@@ -713,7 +731,7 @@ void voxelByVoxel(int rounds)
     verdict(wrongDepths == 0, "voxels: depths as in double precision", wrongDepths);
     verdict(wrongBoxes == 0, "voxels: the rectangle holds what is drawn", wrongBoxes);
     verdict(wrongEmpties == 0, "voxels: those without a pixel are counted", wrongEmpties);
-    verdict(drawn > rounds / 3 && deep > rounds / 200 && nearOnes > rounds / 50 && stopped > rounds / 20 && empty > rounds / 100, "voxels: there were some of each kind", drawn);
+    verdict(drawn > rounds / 3 && deep > rounds / 200 && nearOnes > rounds / 50 && clipped > rounds / 50 && stopped > rounds / 20 && empty > rounds / 100, "voxels: there were some of each kind", drawn);
 }
 
 // Spans of any kind: none, everything, short ones at the ends.
@@ -778,11 +796,8 @@ void registers()
     anyOptics();
     makeLens(c, f, 0);
     static Voxel voxels[40];
-    static const Voxel* voxelList[40];
-    for (int i = 0; i < 40; ++i) {
-        voxels[i] = anyVoxel(f.lens);
-        voxelList[i] = voxels + i;
-    }
+    for (Voxel& v : voxels)
+        v = anyVoxel(f.lens);
     static Span rows[HIGH];
     spans(rows);
     static Span runs[WIDE / 2];
@@ -792,7 +807,7 @@ void registers()
         verdict(damage(reinterpret_cast<const void*>(blitScalesA), blit) == 0, "registers are kept: blitScalesA", count);
         for (uint32_t i = 0; i < 40; ++i) {
             // From each: some stop at once, some go on.
-            const uint32_t draw[5] = {word(&f.lens), word(voxelList + i), count < 40 - i ? count : 40 - i, 0, 0};
+            const uint32_t draw[5] = {word(&f.lens), word(voxels + i), word(voxels + (i + count < 40 ? i + count : 40)), 0, 0};
             verdict(damage(reinterpret_cast<const void*>(drawScalesA), draw) == 0, "registers are kept: drawScalesA", count);
         }
         const uint32_t clear[5] = {word(a.frame.data), word(a.depth.data), word(rows), count * 5, 0};
@@ -800,7 +815,7 @@ void registers()
         const uint32_t present[5] = {dataSelector(), word(roomC.at(0).frame.data), word(a.frame.data), word(rows), count * 5};
         verdict(damage(reinterpret_cast<const void*>(presentRows), present) == 0, "registers are kept: presentRows", count);
         const Span within = {0, static_cast<int16_t>(8 * count)};
-        const uint32_t find[5] = {word(a.frame.data), word(&within), word(runs), 0, 0};
+        const uint32_t find[5] = {word(a.frame.data), word(a.depth.data), word(&within), word(runs), 0};
         verdict(damage(reinterpret_cast<const void*>(drawnRunsA), find) == 0, "registers are kept: drawnRunsA", count);
     }
 }

@@ -112,8 +112,12 @@ inline int show(View& view, const Voxel* voxels, size_t count, int32_t x = 0, in
     int drawn = 0;
     for (size_t from = 0; from < count; from += VOXELS_AT_ONCE) {
         list.count = static_cast<int>(std::min<size_t>(count - from, VOXELS_AT_ONCE));
+        std::copy_n(voxels + from, list.count, list.voxels);
+        int64_t reach = 0;
         for (int i = 0; i < list.count; ++i)
-            list.voxels[i] = voxels + from + i;
+            for (const int64_t way : {list.voxels[i].x, list.voxels[i].y, list.voxels[i].z})
+                reach = std::max(reach, way < 0 ? -way : way);
+        list.reach = static_cast<int32_t>(std::min<int64_t>(reach, INT32_MAX));
         drawn += view.show(list);
     }
     return drawn;
@@ -186,7 +190,7 @@ struct Scene {
     {
         if (!found)
             findBodies();
-        bodies->beginFrame();
+        bodies->spreadRecalc();
         for (auto& object : objects)
             object->update(frame());
     }
@@ -201,7 +205,7 @@ struct Scene {
             if (list->count > room)
                 std::abort();
             for (int k = 0; k < list->count; ++k) {
-                all.push_back(*list->voxels[k]);
+                all.push_back(list->voxels[k]);
                 all.back().x += list->x;
                 all.back().y += list->y;
                 all.back().z += list->z;

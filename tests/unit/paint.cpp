@@ -47,8 +47,8 @@ struct Painted {
             int at = 0;
             for (int run = 0; run < list->runs; ++run)
                 for (CHECK(list->run[run].end > at); at < list->run[run].end; ++at)
-                    each(*list->voxels[at], list->run[run].ramp, Vec{list->voxels[at]->x / 256.0, list->voxels[at]->y / 256.0,
-                                                                     list->voxels[at]->z / 256.0});
+                    each(list->voxels[at], list->run[run].ramp, Vec{list->voxels[at].x / 256.0, list->voxels[at].y / 256.0,
+                                                                     list->voxels[at].z / 256.0});
             SAME(at, list->runs == 0 ? 0 : list->count);
         } while (next != 0);
     }

@@ -105,10 +105,11 @@ TEST(patches_at_rest_are_out_of_reach)
         const FrameContext frame = scene.frame();
         for (size_t o = 0; o < scene.objects.size(); ++o) {
             const SoftObject& object = *scene.objects[o];
-            Neighbour neighbours[NEIGHBOURS_MAX];
-            const int count = gather(object, frame, neighbours);
+            Neighbourhood all;
+            gather(object, frame, all);
             for (Patch& patch : patchesIn(object)) {
-                const bool touched = classify(patch, neighbours, count);
+                classify(patch, all);
+                const bool touched = isListed(patch.near);
                 bool any = false;
                 forSeeds(patch, [&](int i) {
                     const Vec p = restOf(object, object.seed(i));
@@ -118,9 +119,12 @@ TEST(patches_at_rest_are_out_of_reach)
                         any = true;
                         // And the patch knows by whom it is reached.
                         bool listed = false;
-                        for (int n = 0; n < count; ++n)
-                            listed = listed || (neighbours[n].object == scene.objects[other].get() &&
-                                                (patch.reached[n >> 5] >> (n & 31) & 1) != 0);
+                        for (int n = 0; n < all.count; ++n) {
+                            const int slot = all.neighbours[n].object->slot();
+                            listed = listed || (all.neighbours[n].object == scene.objects[other].get() &&
+                                                (patch.near[slot >> 5] >> (slot & 31) & 1) != 0 &&
+                                                (patch.listed[slot >> 5] >> (slot & 31) & 1) != 0);
+                        }
                         CHECK(listed);
                     }
                 });

@@ -115,9 +115,10 @@ void judge(const char* what, const Errors& errors, const Missing& missing)
     CHECK(missing.count > 0);
     // Single ones may be off where two parts of the surface meet in a fold, or a patch lies half behind the edge.
     CHECK(errors.astray <= errors.count / 5000);
-    CHECK(errors.worst < 1.5 * ASTRAY);
+    // Or a frame late, for a seed waits that had not moved.
+    CHECK(errors.worst < 2 * ASTRAY);
     CHECK(errors.foreign <= 1 + errors.count / 5000);
-    CHECK(errors.away <= errors.count / 10000);
+    CHECK(errors.away <= 1 + errors.count / 10000);
     CHECK(missing.missing <= missing.count / 500);
     CHECK(errors.sumLight <= 0.5 * errors.count);
     CHECK(errors.dim <= errors.count / 200);

@@ -311,12 +311,13 @@ TEST(colours_are_the_lists_own)
     uint8_t ramp[64];
     for (int i = 0; i < 64; ++i)
         ramp[i] = static_cast<uint8_t>(255 - 2 * i);
-    Voxel voxels[3] = {voxel(-19.9, -0.1, 100, 1, 1, 0), voxel(10.1, -0.1, 100, 8, 8, 63), voxel(0.1, 20, 100, 1, 1, 7)};
     VoxelList list{};
     list.ramp = ramp;
+    list.reach = 100 * 256;
     list.count = 3;
-    for (int i = 0; i < 3; ++i)
-        list.voxels[i] = voxels + i;
+    list.voxels[0] = voxel(-19.9, -0.1, 100, 1, 1, 0);
+    list.voxels[1] = voxel(10.1, -0.1, 100, 8, 8, 63);
+    list.voxels[2] = voxel(0.1, 20, 100, 1, 1, 7);
     for (bool pixels : {false, true}) {
         view.setPixels(pixels);
         view.begin();
@@ -329,14 +330,29 @@ TEST(colours_are_the_lists_own)
     }
     view.setPixels(false);
     // What covers no pixel's centre is not counted: halfway between two columns there is none for a narrow one.
-    voxels[0] = voxel(0, 0, 125, 0.1, 0.1, 5);
-    voxels[1] = voxel(0.25, 0.3, 125, 0.1, 0.1, 5);
+    list.voxels[0] = voxel(0, 0, 125, 0.1, 0.1, 5);
+    list.voxels[1] = voxel(0.25, 0.3, 125, 0.1, 0.1, 5);
+    list.reach = 125 * 256;
     list.count = 2;
     view.begin();
     SAME(view.show(list), 1);
     view.end();
     list.count = 0;
     SAME(view.show(list), 0);
+}
+
+TEST(far_aside_is_not_seen)
+{
+    // So far to a side or up that places times factors would come round to the middle of the screen again.
+    View view;
+    CHECK(view.open());
+    for (const double z : {40.0, 76.1, 120.0, 300.0})
+        for (const double turns : {-1.0, 1.0}) {
+            view.begin();
+            const double factor = 250 * 4096 / z, aside = turns * 4294967296.0 / factor / 256;
+            const Voxel voxels[] = {voxel(aside, 0, z, 2, 2, 9), voxel(0, aside * 1.2, z, 2, 2, 9)};
+            SAME(show(view, voxels, 2), 0);
+        }
 }
 
 TEST(nearest_is_seen)

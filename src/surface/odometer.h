@@ -1,0 +1,56 @@
+// Odometer: how far the neighbours of an object have come, in its own space, and how far the viewer has come round it. What was
+// found out about a patch holds until they have come so far that it might be different: whoever finds it out says how far that
+// is, and when the odometer has got there the patch is due. Were everything always due, nothing but the speed would change.
+#ifndef FB_ODOMETER_H
+#define FB_ODOMETER_H
+
+#include "patch.h"
+
+// A way, and the reading of an odometer: 1/1024 unit of own space. Readings go round, so isDue() compares them.
+typedef uint32_t Way;
+
+inline Way wayOf(Real units)
+{
+    return static_cast<Way>(rawFromReal(units) >> 6);
+}
+
+inline bool isDue(Way reading, Way due)
+{
+    return static_cast<int32_t>(reading - due) >= 0;
+}
+
+class Odometer {
+public:
+    Odometer() = default;
+    ~Odometer();
+    Odometer(const Odometer&) = delete;
+    Odometer& operator=(const Odometer&) = delete;
+
+    // Finds out how far any neighbour, or the viewer, has come since the last call. False: nothing that was found out before
+    // holds, because it is the first call, links have changed, an object has leapt into range, or there is no memory.
+    bool advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion);
+
+    Way reading() const { return reading_; }
+    // The same for the farthest places of neighbours that the object could meet.
+    Way bound() const { return bound_; }
+    // How far they came since the call before, where the object has its centre.
+    Way came() const { return came_; }
+
+private:
+    // Where a neighbour stood: its centre for a point, else the map into its core space.
+    struct Stand {
+        Vector place, toCore[3];
+        Real size;
+    };
+    static Way wayBetween(const Neighbour& near, const Stand& now, const Stand& before, Real reach);
+
+    Way reading_ = 0, bound_ = 0, came_ = 0;
+    uint32_t linksVersion_ = 0;
+    bool fresh_ = true;  // nothing is known of a frame before
+    int32_t eye_[3];     // direction to the viewer, own axes, 1.0 = 2^14
+    int room_ = 0;
+    Stand* stands_ = nullptr;
+    int8_t standBySlot_[SLOTS_MAX];  // -1: none
+};
+
+#endif
