@@ -31,6 +31,7 @@ constexpr int KEY_F2 = 0x13c;
 constexpr int KEY_F3 = 0x13d;
 constexpr int KEY_F4 = 0x13e;
 constexpr int KEY_HOME = 0x147;
+constexpr int KEY_END = 0x14f;
 constexpr int KEY_UP = 0x148;
 constexpr int KEY_DOWN = 0x150;
 constexpr int KEY_LEFT = 0x14b;

@@ -1,10 +1,11 @@
 // mkscene: random scenes for tests, the same one for the same seed on every machine.
 //
-//   mkscene SEED [OBJECTS] [paint]      writes a scene file to standard output
+//   mkscene SEED [OBJECTS] [eye] [paint]   writes a scene file to standard output
 //
 // With the word paint half of the objects have a finish or a pattern, and in every other scene the colours mix.
 // Three to nine objects (or as many as asked for) of all kinds, within what the default camera sees; some in groups, most
-// of them moving, some turning, swinging or pulsing; linked in one of several graphs, with weights up to 4. This file
+// of them moving, some turning, swinging or pulsing; linked in one of several graphs, with weights up to 4. With
+// `eye` the same scene is seen by an eye that goes about it. This file
 // exists so that the picture is tried on scenes nobody chose.
 #include <algorithm>
 #include <cstdint>
@@ -100,6 +101,39 @@ void printLink(int i, int j) {
   printf("\n");
 }
 
+// An eye at some distance from the scene, on one of several ways about it; it looks at its middle, at an object, or ahead.
+void printEye(int objects) {
+  printf("eye 0 0 0\n");
+  switch (between(0, 3)) {
+    case 0:
+    case 1: {
+      const int radius = between(100, 125);
+      const double period = tenths(6, 20);
+      printf("circle eye radius %d plane zx period %s%.1f phase 0.%d\n", radius, once(2) ? "-" : "", period, between(0, 9));
+      const double swell = tenths(0, 40);
+      printf("path eye y %.1f %.1f 0\n", swell, tenths(4, 12));
+      break;
+    }
+    case 2: {
+      const int radius = between(100, 125), lift = between(20, 90);
+      printf("circle eye u %d 0 0 v 0 %d %d period %.1f\n", radius, lift, radius, tenths(6, 20));
+      break;
+    }
+    default:
+      // Ahead of it lies the scene all the same: it rides on an arm that turns about the middle.
+      printf("group arm\nspin arm axis 0 1 0 period %.1f\nswing arm axis 1 0 0 angle %d period %.1f\n", tenths(8, 20),
+             between(10, 40), tenths(5, 12));
+      printf("eye 0 0 -%d in arm\n", between(100, 125));
+      if (once(2)) printf("roll %d\n", between(-180, 180));
+      return;
+  }
+  if (once(3))
+    printf("look o%d\n", between(1, objects));
+  else
+    printf("look %d %d %d\n", between(-8, 8), between(-6, 6), between(0, 14));
+  if (once(4)) printf("roll %d\n", between(-180, 180));
+}
+
 }  // namespace
 
 int main(int count, char **arguments) {
@@ -107,8 +141,10 @@ int main(int count, char **arguments) {
   if (paint) count--;
   char *end = nullptr;
   const unsigned long long seed = count > 1 ? strtoull(arguments[1], &end, 10) : 0;
+  const bool eye = count > 2 && std::string(arguments[count - 1]) == "eye";
+  if (eye) count--;
   if (count < 2 || count > 3 || end == arguments[1] || *end != 0) {
-    fputs("usage: mkscene SEED [OBJECTS, 1 to 128] [paint]\n", stderr);
+    fputs("usage: mkscene SEED [OBJECTS, 1 to 128] [eye] [paint]\n", stderr);
     return 2;
   }
   state = seed;
@@ -205,6 +241,7 @@ int main(int count, char **arguments) {
           if (once(2)) printLink(i, j);
       break;
   }
+  if (eye) printEye(objects);
   if (!paint) return 0;
   static const char *const finishes[] = {"shiny", "mirror"}, *const patterns[] = {"checks", "stripes", "marble"};
   if (once(2)) printf("colours mixed\n");

@@ -27,6 +27,7 @@ scenes() { # scenes DIR
 		GULP | APART) at=3 ;;
 		FALL) at=4 ;;
 		FLYPAST) at=5 ;;
+		TOUR) at=10 ;;
 		*) at=2 ;;
 		esac
 		build/demo "/M:$file" /N:$((at + 1)) /R:1 "/D:$dir/$name" >"$dir/said"

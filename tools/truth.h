@@ -32,8 +32,8 @@ inline Vec operator*(Vec a, double s) { return {a.x * s, a.y * s, a.z * s}; }
 inline double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 double length(Vec a);
 
-// A viewing ray. The direction's z is 1, so that the parameter t is the depth
-// that .Z files hold: the distance along the viewing axis.
+// A viewing ray. Along the viewing axis the direction is 1 long, so that the
+// parameter t is the depth that .Z files hold: the distance along that axis.
 struct Ray {
   Vec eye, dir;
 };
@@ -91,6 +91,7 @@ struct Coat {
 struct Scene {
   double time = 0;                       // seconds
   Vec eye{0, 0, 0};
+  Vec right{1, 0, 0}, up{0, 1, 0}, ahead{0, 0, 1};  // how the eye stands
   double focalX = 0, focalY = 0;         // pixels
   double centreX = 0, centreY = 0;       // pixels
   Vec light{0, 0, 0};                    // unit vector towards the light

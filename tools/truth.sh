@@ -6,7 +6,7 @@
 #   sh tools/truth.sh SCENE [SPACING] [FRAMES]
 #
 #   SCENE     a scene by name (WALK, chain: tools/scenes, tests/scenes/*), a scene file, a number (that random scene of
-#             build/mkscene), or MINUTE (the minute of the four spheres)
+#             build/mkscene; 7eye: seen by an eye that goes about it), or MINUTE (the minute of the four spheres)
 #   SPACING   2, 1 or both (both)
 #   FRAMES    how many are judged at each of the two rates, spread over up to 24 s and 3 s (24; at most 240)
 #
@@ -46,9 +46,11 @@ if [ "$upper" = MINUTE ]; then
 	name=MINUTE file= minute=600
 elif [ -f "$scene" ]; then
 	name=$(basename "$scene" .FB) file=$scene
-elif [ -z "$(echo "$scene" | tr -d 0-9)" ]; then
+elif [ -z "$(echo "${scene%eye}" | tr -d 0-9)" ]; then
 	name=RANDOM-$scene file=$dir/R$scene.FB
-	build/mkscene "$scene" >"$file" || exit 2
+	# A number and `eye`: seen by an eye that goes about it.
+	# shellcheck disable=SC2086
+	build/mkscene ${scene%eye} ${scene#"${scene%eye}"} >"$file" || exit 2
 else
 	name=$upper file=
 	for there in "tools/scenes/$upper.FB" tests/scenes/*/"$upper.FB"; do

@@ -580,14 +580,14 @@ bool Tracer::inRow(int i, double row) const {
   const Object &o = scene.objects[i];
   double slope = -(row - scene.centreY) / scene.focalY;
   Vec m = o.middle - scene.eye;
-  return std::fabs(m.y - slope * m.z) <= o.reach * std::sqrt(1 + slope * slope);
+  return std::fabs(dot(m, scene.up) - slope * dot(m, scene.ahead)) <= o.reach * std::sqrt(1 + slope * slope);
 }
 
 bool Tracer::inColumn(int i, double column) const {
   const Object &o = scene.objects[i];
   double slope = (column - scene.centreX) / scene.focalX;
   Vec m = o.middle - scene.eye;
-  return std::fabs(m.x - slope * m.z) <= o.reach * std::sqrt(1 + slope * slope);
+  return std::fabs(dot(m, scene.right) - slope * dot(m, scene.ahead)) <= o.reach * std::sqrt(1 + slope * slope);
 }
 
 bool Tracer::eyeInside() const {
@@ -751,7 +751,8 @@ Hit Tracer::trace(double column, double row, const int *which, int count) const 
   static thread_local Work w;
   Hit hit;
   w.ray.eye = scene.eye;
-  w.ray.dir = {(column - scene.centreX) / scene.focalX, -(row - scene.centreY) / scene.focalY, 1};
+  w.ray.dir = scene.right * ((column - scene.centreX) / scene.focalX) +
+              scene.up * (-(row - scene.centreY) / scene.focalY) + scene.ahead;
   w.t.clear();
   for (int n = 0; n < count; n++) {
     const Object &o = scene.objects[which[n]];
@@ -829,7 +830,7 @@ Hit Tracer::trace(double column, double row, const int *which, int count) const 
 double Tracer::brightness(const Coat &coat, Vec normal) const {
   double cosine = std::max(0.0, dot(normal, scene.light));
   if (coat.finish == Coat::MATT) return cosine;
-  const Vec ahead{0, 0, 1};
+  const Vec ahead = scene.ahead;
   double light = 0.75 * cosine;
   if (coat.finish == Coat::MIRROR) {
     Vec looks = ahead - normal * (2 * dot(normal, ahead));

@@ -42,9 +42,12 @@ struct Fact {
   size_t least, most;
   bool needed;
 };
+// How far three axes may be from unit vectors square to each other.
+const double SKEW = 0.001;
 const Fact facts[] = {
     {"time", 1, 1, true},   {"eye", 3, 3, true},       {"focal", 2, 2, true},
     {"centre", 2, 2, true}, {"light", 3, 3, true},     {"isovalue", 1, 1, false},
+    {"right", 3, 3, false}, {"up", 3, 3, false},       {"ahead", 3, 3, false},
     {"blend", 2, 3, false}, {"ambient", 1, 1, false}, {"highlight", 1, 1, false},  {"ramp", 4, 4, false},
     {"mixed", 0, 0, false}, {"shiny", 1, 1, false},    {"mirror", 1, 1, false},
     {"checks", 14, 14, false}, {"stripes", 14, 14, false}, {"marble", 14, 14, false},
@@ -105,6 +108,9 @@ bool parseScene(const std::string &text, const std::string &name, Scene &s, std:
     seen[word] = true;
     if (word == "time") s.time = v[0];
     if (word == "eye") s.eye = {v[0], v[1], v[2]};
+    if (word == "right") s.right = {v[0], v[1], v[2]};
+    if (word == "up") s.up = {v[0], v[1], v[2]};
+    if (word == "ahead") s.ahead = {v[0], v[1], v[2]};
     if (word == "focal") {
       if (v[0] <= 0 || v[1] <= 0) return fail("focal lengths must be above 0");
       s.focalX = v[0], s.focalY = v[1];
@@ -166,6 +172,14 @@ bool parseScene(const std::string &text, const std::string &name, Scene &s, std:
       return fail("the axes of a pattern must be of unit length and square to each other");
     c.axis[0] = x, c.axis[1] = y;
     c.axis[2] = {x.y * y.z - x.z * y.y, x.z * y.x - x.x * y.z, x.x * y.y - x.y * y.x};
+  }
+  // A turned eye has three axes, to its right, up and ahead, as x, y and z are.
+  Vec side = {s.up.y * s.ahead.z - s.up.z * s.ahead.y, s.up.z * s.ahead.x - s.up.x * s.ahead.z,
+              s.up.x * s.ahead.y - s.up.y * s.ahead.x};
+  if (length(s.right - side) > SKEW || std::fabs(length(s.up) - 1) > SKEW || std::fabs(length(s.ahead) - 1) > SKEW ||
+      std::fabs(dot(s.up, s.ahead)) > SKEW) {
+    why = name + ": right, up and ahead are no axes of a view";
+    return false;
   }
   for (const Fact &f : facts)
     if (f.needed && !seen[f.word]) {

@@ -13,6 +13,8 @@ struct Options {
     bool noPresent = false;         // /X: draw, but do not copy to the card
     bool benchmark = false;         // /B: BENCHMARK_SECONDS, unless /T or /N say otherwise, and one line at the end
     Real spacing{2};                // /S:n, SPACING_LEAST..SPACING_MOST units
+    bool spacingGiven = false;      // /S was there
+    int32_t hold = 0;               // /F:n, frames a second to be held; 0: off, as with /N and /S
     int32_t frames = 0;             // /N:n; 0: off
     int32_t seconds = 0;            // /T:n; 0: off
     int32_t rate = 10;              // /R:n, frames for a second of animation with /N
@@ -21,6 +23,9 @@ struct Options {
     const char* modelFile = nullptr;      // /M:file, or a word that is no switch
     const char* recordFile = nullptr;     // /O:file, one CSV record is appended
     const char* filmFile = nullptr;       // /A:file, what is played as an FLI file
+
+    // What is counted or given stays as it is.
+    bool holds() const { return hold > 0 && frames == 0 && !spacingGiven; }
 };
 
 constexpr Real SPACING_LEAST(0.25);
@@ -28,6 +33,7 @@ constexpr Real SPACING_MOST(8);
 constexpr int32_t FRAMES_MOST = 9999999;  // dumped frames have seven digits
 constexpr int32_t SECONDS_MOST = 86400;
 constexpr int32_t RATE_MOST = 1000;
+constexpr int32_t HOLD_MOST = 100;
 constexpr int32_t BENCHMARK_SECONDS = 60;
 
 // Reads the command line; null, or one line of plain text that names the switch and the range it accepts. Switches may

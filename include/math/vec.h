@@ -37,8 +37,24 @@ constexpr Vector cross(const Vector& a, const Vector& b)
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// Euclidean length, for components of any size in range (computed on 64 bits in 16.16).
-Real length(const Vector& v);
+// The square of a length, for components of any size in range: to compare lengths without their roots.
+#if FB_REAL == FB_FIXED
+typedef uint64_t Square;
+
+inline Square squareOf(const Vector& v)
+{
+    const int64_t x = v.x.raw, y = v.y.raw, z = v.z.raw;
+    return static_cast<uint64_t>(x * x) + static_cast<uint64_t>(y * y) + static_cast<uint64_t>(z * z);
+}
+#else
+typedef Real Square;
+
+inline Square squareOf(const Vector& v) { return dot(v, v); }
+#endif
+Real lengthOf(Square square);
+
+// Euclidean length.
+inline Real length(const Vector& v) { return lengthOf(squareOf(v)); }
 
 // The vector of the same direction with the given length; the zero vector has no direction and stays zero.
 Vector withLength(const Vector& v, Real newLength);

@@ -132,7 +132,7 @@ Angle fromDegrees(Real degrees);
 
 class Anim {
 public:
-    // Moves every object of the model to its place at `time`, and turns and scales it.
+    // Moves every object of the model to its place at `time`, and turns and scales it; and the eye.
     static void move(Model& model, Time time);
 };
 

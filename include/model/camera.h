@@ -1,18 +1,58 @@
-// Camera: where the viewer is and how he projects. He looks along +z, y up: a point p from the eye falls on column
-// centreX + focalX p.x / p.z and row centreY - focalY p.y / p.z. Mode 13h shows 320x200 pixels on a 4:3 screen, so a pixel
-// is 5 wide to 6 high and focalX = 1.2 focalY.
+// Camera: where the viewer is, which way he looks and how he projects. A point whose way from the eye is p, in the axes of the
+// view, falls on column centreX + focalX p.x / p.z and row centreY - focalY p.y / p.z. Mode 13h shows 320x200 pixels on a 4:3
+// screen, so a pixel is 5 wide to 6 high and focalX = 1.2 focalY.
 #ifndef FB_CAMERA_H
 #define FB_CAMERA_H
 
 #include "math/vec.h"
 
+// The axes of a view: to its right, upwards and ahead, in the world. Unit vectors, each square to the others.
+struct ViewAxes {
+    Vector right{Real(1), Real(0), Real(0)};
+    Vector up{Real(0), Real(1), Real(0)};
+    Vector ahead{Real(0), Real(0), Real(1)};
+    bool turned = false;  // false: they are those of the world, and nothing needs to be turned
+
+    // A vector of the world in these axes, and back.
+    Vector fromWorld(const Vector& v) const
+    {
+        return turned ? Vector{dot(right, v), dot(up, v), dot(ahead, v)} : v;
+    }
+    Vector toWorld(const Vector& v) const { return turned ? right * v.x + up * v.y + ahead * v.z : v; }
+
+    bool operator==(const ViewAxes& other) const
+    {
+        return right == other.right && up == other.up && ahead == other.ahead;
+    }
+};
+
+// The axes of a view that looks along `ahead` with its upper edge towards `up`; neither needs unit length. Where the two are in
+// line, `right` says what lies to the right. A zero `ahead` gives the axes of the world.
+ViewAxes viewAlong(const Vector& ahead, const Vector& up, const Vector& right);
+
+// The same axes leaned over to the right.
+ViewAxes leaned(const ViewAxes& axes, Angle angle);
+
+// The same axes turned in the world. `by` is a pure rotation.
+ViewAxes turnedBy(const Matrix& by, const ViewAxes& axes);
+
 // Focal lengths and the centre in pixels; 64 <= focal <= 500.
 struct Camera {
+    // Where it is and which way it looks, as Anim::move() left it.
     Point eye{Real(0), Real(0), Real(-120)};
+    ViewAxes axes;
+    Point target{Real(0), Real(0), Real(0)};  // what it looks at, unless `looks` is AHEAD
+
     Real focalX{250};
     Real focalY{208.333333};
     Real centreX{160};
     Real centreY{100};
+
+    // What the scene says. An eye that moves is a group, whose motion it has.
+    int carrier = 0;             // number of that group; 0: it stands
+    enum Looks : uint8_t { AHEAD, AT_POINT, AT_ITEM } looks = AHEAD;
+    int item = 0;                // number of the object or group it looks at
+    Real roll{0};                // degrees that it leans to the right
 };
 
 #endif

@@ -13,6 +13,9 @@
 // Room for a name: 15 characters and the final 0.
 constexpr int NAME_ROOM = 16;
 
+// What the group is called that the eye moves with.
+extern const char EYE_NAME[];
+
 // Room for the title of a scene: 47 characters and the final 0.
 constexpr int TITLE_ROOM = 48;
 
@@ -78,14 +81,21 @@ public:
     // Whether `a` blends with `b`, and with which weight.
     static bool linked(const SoftObject* a, const SoftObject* b, Real* weight);
 
-    // Lays out the seeds of all objects, `spacing` units apart. False: no memory; objects already done are put back to
-    // the spacing they had where that is possible.
+    // Lays out the seeds of all objects, `spacing` units apart. False: as SoftObject::resample(); objects already done are
+    // put back to the spacing they had where that is possible.
     bool resample(Real spacing, SurfaceMaker makeSurface);
 
     SurfaceMaker surfaceMaker() const { return makeSurface_; }
 
     // The bodies that the links make, found anew when they have changed. Null: no memory.
     const Bodies* bodies();
+
+    // How many regular seeds a spacing would give.
+    int seedsAt(Real spacing) const;
+
+    // The finest and the coarsest spacing of an object.
+    Real finest() const;
+    Real coarsest() const;
 
     // Number of seeds of all objects: regular, oversampled.
     int seeds() const;
@@ -123,8 +133,17 @@ public:
     // Has all seeds looked for anew, as if nothing were known of a frame before.
     void settleAnew();
 
+    // Number of the object whose own field is the strongest at a point: it gives the point its colour. -1: no field reaches it.
+    int strongestAt(const Point& p) const;
+
     // Changes the light under which seeds were laid out already.
     void setLight(const Vector& to);
+
+    // The viewer has moved or turned: every object is looked at anew.
+    void recalcAll();
+
+    // The group that the eye moves with, made when it stood so far. Its name is `eye`. Null: no room or no memory.
+    Actor* eyeCarrier();
 
     Camera camera;
     Vector light{Real(0.5), Real(0.7), Real(-0.5)};  // from the model to the light, any length but 0
@@ -133,8 +152,8 @@ public:
 
 private:
     void clear();
-    void recalcAll();
     bool layOut(SoftObject* object) const;
+    const SoftObject* alike(int i) const;
 
     Actor* actors_[OBJECTS_MOST];
     Actor* items_[OBJECTS_MOST + GROUPS_MOST];  // owned

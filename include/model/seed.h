@@ -44,7 +44,7 @@ struct Direction14 {
 struct Seed {
     Vector path;         // from root to the unblended surface
     Real position;       // along the path; 1.0 on the unblended surface
-    int32_t neighbour;   // index of the seed N of the ring before (Appendix C, Oversampling); -1 in the first ring
+    int32_t neighbour;   // slot of the seed N of the ring before (Appendix C, Oversampling); -1 in the first ring
     Direction14 normal;  // of the surface at the seed
     Direction14 border;  // of a SEED_BORDER one: in which the own field gains most on the strongest neighbour's,
     int16_t apart;       // and how far the seed is on its own side of where the two are equal, 1/256 unit
@@ -69,6 +69,10 @@ public:
 
     // Starts the next ring: seeds that follow each other around the primitive, beside the ring before.
     virtual void beginRing() = 0;
+
+    // Whether the number of seeds in the ring is all that is asked for: `seeds` of them count as added, above one root or
+    // above `various`.
+    virtual bool countRing(int /* seeds */, bool /* various */) { return false; }
 
     // Seeds added from now on rest this far from their roots, units, and not the object's radius: for objects that
     // taper.

@@ -76,25 +76,40 @@ public:
 
     // --- Seeds
 
-    // Lays the seeds out anew, `spacing` units apart, and makes the surface that will settle them. False when memory or an
-    // index does not suffice; the object then keeps what it had.
-    bool resample(Real spacing, SurfaceMaker makeSurface);
-    int seeds() const { return regular_; }
-    int oversampledSeeds() const { return extra_; }
+    // Lays the seeds out anew, `spacing` units apart, and makes the surface that will settle them. False: the object keeps
+    // what it had, and resampleTrouble() says why, unless it was stopped (model/stop.h).
+    // `like` is null, or an object of the same kind, measures and size whose seeds have just been laid out: they are copied.
+    bool resample(Real spacing, SurfaceMaker makeSurface, const SoftObject* like = nullptr);
+    // Why resample() failed the last time, for any object: one line of words.
+    static const char* resampleTrouble();
+    // How many regular seeds there would be.
+    int seedsAt(Real spacing) const;
+    int seeds() const { return laid_.regular; }
+    int oversampledSeeds() const { return laid_.oversampled; }
     // As asked for; scaling makes the seeds lie up to a quarter closer or farther.
-    Real spacing() const { return spacing_; }
+    Real spacing() const { return laid_.spacing; }
 
-    // Seed i of the order in which they lie in memory: regular ones even, the oversampled one of each behind it.
-    Seed& seed(int i) { return seeds_[i]; }
-    const Seed& seed(int i) const { return seeds_[i]; }
-    int seedSlots() const { return 2 * regular_; }
-    const Vector& root(int i) const { return roots_[i]; }
-    int roots() const { return rootCount_; }
+    // The seed in slot i: regular ones in even slots, the oversampled one of each in the slot behind it. Regular seeds lie
+    // in memory one behind the other; an oversampled one is laid out when it is first asked for.
+    Seed& seed(int i) { return i & 1 ? laidExtra(i) : laid_.seeds[i >> 1]; }
+    const Seed& seed(int i) const { return const_cast<SoftObject*>(this)->seed(i); }
+    // The same, of an even slot.
+    const Seed& regular(int i) const { return laid_.seeds[i >> 1]; }
+    int seedSlots() const { return 2 * laid_.regular; }
+    // The oversampled seed that belongs to the regular one in slot i, or is in slot i; null: it is not laid out yet.
+    Seed* extra(int i) const
+    {
+        Seed* const block = laid_.extras[i >> (EXTRA_BITS + 1)];
+        return block == nullptr ? nullptr : block + (i >> 1 & (EXTRA_BLOCK - 1));
+    }
+    // Lays out all oversampled seeds. False: no memory.
+    bool layOutExtras();
+    const Vector& root(int i) const { return laid_.roots[i]; }
     // Regular seeds are numbered from 0: ring k has those from ringStart(k) to before ringStart(k + 1).
-    int rings() const { return rings_; }
-    int ringStart(int k) const { return ringStarts_[k]; }
+    int rings() const { return laid_.rings; }
+    int ringStart(int k) const { return laid_.ringStarts[k]; }
     // A seed's place in the world, as it has settled.
-    Point seedPoint(const Seed& s) const { return toWorld(roots_[s.root] + s.path * s.position); }
+    Point seedPoint(const Seed& s) const { return toWorld(root(s.root) + s.path * s.position); }
     // The outward direction of the unblended surface where a seed rests.
     Direction14 restNormal(const Seed& s) const;
 
@@ -125,8 +140,8 @@ public:
     bool isBall() const { return !tapers_ && coreReach_ == Real(0); }
     bool tapers() const { return tapers_; }
     // How much larger the object is than when its seeds were laid out: own space to the world.
-    Real growth() const { return size_ / laidSize_; }
-    Real laidSize() const { return laidSize_; }
+    Real growth() const { return size_ / laid_.size; }
+    Real laidSize() const { return laid_.size; }
 
     // A point of the object's own space in the world; a vector of the world in the object's own axes, unscaled.
     Point toWorld(const Vector& v) const;
@@ -185,12 +200,39 @@ protected:
     Vector axis() const { return {turn_.m[0][1], turn_.m[1][1], turn_.m[2][1]}; }
 
 private:
-    struct Layout;
+    // Oversampled seeds are laid out this many at a time.
+    static constexpr int EXTRA_BITS = 3;
+    static constexpr int EXTRA_BLOCK = 1 << EXTRA_BITS;
+
+    // The seeds of an object and what was known when they were laid out.
+    struct Layout {
+        Seed* seeds = nullptr;           // the regular ones
+        Seed** extras = nullptr;         // blocks of oversampled ones; null where none was needed yet
+        Vector* roots = nullptr;
+        int32_t* ringStarts = nullptr;
+        int32_t* rootsBetween = nullptr; // of each ring: the first root for oversampled seeds between it and the one before
+        int regular = 0, oversampled = 0, rings = 0, rootRoom = 0;
+        Real spacing{2};
+        Real size{0};                    // of the object
+
+        bool allocated();
+        void release();
+        int blocks() const { return (regular + EXTRA_BLOCK - 1) >> EXTRA_BITS; }
+        Vector rest(const Seed& s) const { return roots[s.root] + s.path; }
+        int nearestIn(int ring, int from, const Vector& target) const;
+        int8_t asideOf(const Seed& s, const Seed& n, Real perSpacing) const;
+    };
 
     void tellNeighbours();
-    void addOversampled(Layout& layout, int rootRoom) const;
-    Real restLength(const Seed& a, const Seed& b) const;
-    bool oversample(Layout& layout, int s, int n, int rootRoom) const;
+    bool layOutRegular(Layout& layout) const;
+    bool findNeighbours(Layout& layout) const;
+    bool layOutLike(const SoftObject& other, Layout& layout) const;
+    Seed& laidExtra(int slot);
+    Seed* layOutBlock(int block);
+    Seed* blockFromOthers();
+    void layOutExtra(Layout& layout, int number, int ring, Seed& extra) const;
+    bool rootBetween(const Layout& layout, const Seed& one, const Seed& other, Vector* root, Vector* out) const;
+    Real restLength(const Layout& layout, const Seed& a, const Seed& b) const;
 
     int number_;
     Point centre_;
@@ -205,15 +247,10 @@ private:
     bool recalc_;
     bool tapers_;
     bool displaced_;
-    Real spacing_;
-    Real laidSize_;   // size when the seeds were laid out
     const uint8_t* ramp_;
     const Paint* paint_ = nullptr;
 
-    Seed* seeds_;
-    Vector* roots_;
-    int32_t* ringStarts_;
-    int regular_, extra_, rootCount_, rings_;
+    Layout laid_;
     Surface* surface_;
     SurfaceMaker makeSurface_;
 };

@@ -3,7 +3,7 @@
 #ifndef FB_SURFACE_H
 #define FB_SURFACE_H
 
-#include "math/vec.h"
+#include "model/camera.h"
 
 class Bodies;
 class SoftObject;
@@ -21,10 +21,14 @@ struct Counts {
 
 // What a frame means for every object: the viewer, the light and the bodies that links make.
 struct FrameContext {
-    Point eye;             // where the viewer is; he looks along +z
+    Point eye;             // where the viewer is
     Vector light;          // unit vector from the model towards the light
     const Bodies* bodies;  // of the model as it is now
     Counts* counts;
+    ViewAxes axes{};       // which way he looks
+
+    // A point of the world from the eye, in the axes of the view.
+    Vector inView(const Point& p) const { return axes.fromWorld(p - eye); }
     // How far one sees to each side, and up and down, at a distance of 1; 0: without end.
     Real sideways = Real(0), upward = Real(0);
 };

@@ -34,6 +34,9 @@ public:
     // Red, green and blue of the 256 colours, 0..63, as the DAC takes them.
     const uint8_t* dac() const { return dac_; }
 
+    // The brightness of an entry, 0..63, in a ramp that has it.
+    int step(uint8_t entry) const { return steps_[entry]; }
+
     // A ramp like the object's own with its brightness raised by `steps`, for the selected one; valid until the next
     // call.
     const uint8_t* raised(const uint8_t* ramp, int steps);
@@ -51,6 +54,7 @@ private:
     Paints paints_;
     Paint paint_[Model::OBJECTS_MOST];
     uint8_t dac_[768];
+    uint8_t steps_[256] = {};
     uint8_t ramps_[RAMPS_MOST][RAMP];
     uint8_t raised_[RAMP];
 };

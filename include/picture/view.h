@@ -1,14 +1,14 @@
 // View: the camera, the frame buffer and the Z-buffer (report, The Rendering Technique and Appendix A). show() makes
 // scales of voxels by a perspective transformation and draws them: most by the loop of scales.h, the rest one by one.
 //
-// The viewer looks along +z, y up. A point p from the eye falls on column centreX + focalX p.x / p.z and row
+// A point p from the eye, in the axes of the view, falls on column centreX + focalX p.x / p.z and row
 // centreY - focalY p.y / p.z; pixel i covers [i, i + 1). Mode 13h shows 320x200 pixels on a 4:3 screen, so a pixel is
 // 5 wide to 6 high and focalX = 1.2 focalY.
 #ifndef FB_VIEW_H
 #define FB_VIEW_H
 
+#include "picture/palette.h"
 #include "picture/scales.h"
-#include "model/camera.h"
 
 // Pixels: columns left to before right, rows top to before bottom.
 struct Rectangle {
@@ -22,7 +22,7 @@ public:
     // Makes the buffers. False: no memory.
     bool open();
 
-    // Takes on a camera. 64 <= focal <= 500 pixels.
+    // Takes on a camera. 64 <= focal <= 500 pixels. One that has only moved or turned costs nothing.
     void setCamera(const Camera& camera);
     const Camera& camera() const { return camera_; }
 
@@ -49,9 +49,13 @@ public:
 
     // Closes the gaps between scales: empty pixels take over colour and depth of the drawn ones beside them, where an
     // opening is small (the limits stand in view.cpp) or ends between drawn pixels. `spacing` of the seeds, units. For when
-    // all objects are drawn, before anything is written over them; single pixels are left alone.
+    // all objects are drawn, before anything is written over them; single pixels are left alone. With a model and its
+    // colours, what is filled between two objects has the colour of the one whose field is the stronger there.
     // Returns the number of pixels that were drawn before.
-    int closeGaps(Real spacing);
+    int closeGaps(Real spacing, const Model* model = nullptr, const Palette* palette = nullptr);
+
+    // The place in the world of a pixel (row * WIDTH + column) that was drawn.
+    Point pointAt(int at) const;
 
     // Of the frame as it is so far: a pixel (row * WIDTH + column) is given a depth (1/128 unit) and a colour, or what
     // another one has; and between which columns of a row anything may be drawn.
@@ -74,13 +78,21 @@ public:
     const Span* rows() const { return present_; }
 
 private:
+    void makeLens();
     void touchPixel(int at);
     void mark(int left, int top, int right, int bottom);
     void closeRun(int y, int from, int to, int spacing);
     void closeCorner(int y, int x, int step);
     void closeAbove(int y, int x, int widest, int narrowest);
     void closeFrom(int y, int from, int to, int step, int widest, int narrowest);
-    void fillRow(int y, const Span& empty);
+    // Numbers of objects; both -1: none are named.
+    struct Ends {
+        int first, last;
+    };
+    static constexpr Ends NO_ENDS{-1, -1};
+    Ends endsOf(int first, int last) const;
+    int divide(const Ends& ends, int first, int last, int step) const;
+    void fill(const Ends& ends, int first, int last, int step);
     void closeSlit(int y, int x, int end, int step);
     void takeOver(int at, int from)
     {
@@ -97,6 +109,8 @@ private:
     Lens lens_{};
     bool pixels_ = false;
     bool exact_ = false;
+    const Model* model_ = nullptr;      // of the picture whose gaps are closed
+    const Palette* palette_ = nullptr;  // and its colours
     Rectangle shown_{machine::WIDTH, machine::HEIGHT, 0, 0};
     uint8_t* frame_ = nullptr;
     uint16_t* zbuffer_ = nullptr;

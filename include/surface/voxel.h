@@ -7,7 +7,7 @@
 
 // A scale in space. A seed keeps its own as long as nothing about it changes, wherever the object goes.
 struct Voxel {
-    int32_t x, y, z;     // from the object's centre, axes of the world, 1/256 unit
+    int32_t x, y, z;     // from the object's centre, axes of the view, 1/256 unit
     int16_t wide, high;  // half extents along X and Y, 1/256 unit, 0 or more
     int16_t tiltX, tiltY;    // slopes of the depth across the scale, 8 bits of fraction
     uint8_t brightness;      // 0..63

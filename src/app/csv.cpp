@@ -84,9 +84,11 @@ const char* Csv::check(const char* name, int* status)
 
 const char* Csv::append(const Options& options, Real spacing, const Stats& stats)
 {
-    char text[RECORD_ROOM], number[24], settings[64], scene[160], date[64], computer[64];
+    char text[RECORD_ROOM], number[24], settings[64], held[16] = "", scene[160], date[64], computer[64];
     formatReal(number, sizeof number, spacing);
-    snprintf(settings, sizeof settings, "S:%s%s%s%s%s%s", number, options.interactive ? " I" : "", options.grey ? " G" : "",
+    if (options.holds())
+        snprintf(held, sizeof held, " F:%d", options.hold);
+    snprintf(settings, sizeof settings, "S:%s%s%s%s%s%s%s", number, held, options.interactive ? " I" : "", options.grey ? " G" : "",
              options.printed ? " P" : "", options.retrace ? " V" : "", options.noPresent ? " X" : "");
     quote(scene, sizeof scene, options.modelFile == nullptr ? "" : options.modelFile);
     machine::date(date, sizeof date);

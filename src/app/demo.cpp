@@ -6,8 +6,15 @@
 #include "math/normal.h"
 #include "math/text.h"
 #include "model/scene.h"
+#include "model/stop.h"
 
 namespace {
+
+// So many seeds take a 386 about three seconds.
+constexpr int SEEDS_TOLD = 16000;
+
+// Whom what takes long asks whether to go on.
+Demo* running;
 
 // The selected object pulses this long.
 constexpr Time PULSE = 65536 * 3 / 4;
@@ -20,12 +27,15 @@ Demo::Demo(const Options& options, const char* directory)
       pointerY_(machine::HEIGHT), overlay_(view_),
       greets_(options.frames == 0 && options.seconds == 0 && options.dumpDirectory == nullptr)
 {
+    running = this;
+    stopSource = [] { return running->stopped(); };
     snprintf(directory_, sizeof directory_, "%s", directory);
     snprintf(scene_, sizeof scene_, "%s", options.modelFile == nullptr ? "" : options.modelFile);
 }
 
 Demo::~Demo()
 {
+    stopSource = nullptr;
     free(voxels_);
 }
 
@@ -47,14 +57,21 @@ const char* Demo::prepare(int* status)
         return "not enough memory for the model";
     }
     Anim::move(model_, 0);
+    if (options_.holds())
+        rate_.hold(options_.hold);
     const uint64_t before = machine::clock();
-    if (!model_.resample(spacing_, surfaceMaker()))
-        return "not enough memory for seeds that close; try a larger spacing with /S";
+    tellSeeds();
+    // Stopped, it has no seeds, and the loop ends before its first frame.
+    if (!model_.resample(spacing_, surfaceMaker()) && !interrupted()) {
+        static char text[160];
+        snprintf(text, sizeof text, "%s; try a larger spacing with /S", SoftObject::resampleTrouble());
+        return text;
+    }
     layTicks_ = machine::clock() - before;
     voxels_ = allocate<VoxelList>(1);
     if (voxels_ == nullptr || !view_.open())
         return "not enough memory for the picture";
-    view_.setCamera(model_.camera);
+    placeEye();
     view_.setExact(options_.printed);
     palette_.make(model_, options_.grey, options_.printed);
     if (options_.recordFile != nullptr) {
@@ -71,6 +88,22 @@ const char* Demo::prepare(int* status)
     if (options_.dumpDirectory != nullptr)
         return dump_.open(options_.dumpDirectory);
     return nullptr;
+}
+
+// Before the video mode is there: what the user waits for, when it takes a slow processor more than a second or so.
+void Demo::tellSeeds()
+{
+    const int seeds = model_.seedsAt(spacing_);
+    if (seeds < SEEDS_TOLD || stopAsked())
+        return;
+    char text[96];
+    const int length = seeds < 1000000 ? 0 : snprintf(text, sizeof text, "%d,", seeds / 1000000);
+    snprintf(text + length, sizeof text - static_cast<size_t>(length), length > 0 ? "%03d,%03d" : "%d,%03d",
+             seeds / 1000 % 1000, seeds % 1000);
+    machine::err("Laying out ");
+    machine::err(text);
+    snprintf(text, sizeof text, " seeds of %d object%s ...\n", model_.count(), model_.count() == 1 ? "" : "s");
+    machine::err(text);
 }
 
 // The end for want of something. What was filmed so far is kept.
@@ -109,9 +142,18 @@ bool Demo::interrupted()
     return escapeWaits_ || machine::broken();
 }
 
+// What a key started is stopped by ESC only when that is the next key: another one may come first that gives it a meaning.
+bool Demo::stopped()
+{
+    const bool some = interrupted();
+    if (!takingKeys_ || machine::broken())
+        return some;
+    return nextKey_ < waiting_ && keys_[nextKey_] == machine::KEY_ESC && ask_.state() == Ask::CLOSED;
+}
+
 void Demo::resample(Real spacing)
 {
-    char number[24], text[80];
+    char number[24], text[192];
     if (spacing != spacing_) {
         // A few percent more or less are as many seconds.
         const Real ratio = spacing_ / spacing;
@@ -120,8 +162,8 @@ void Demo::resample(Real spacing)
             busy("one moment: laying out the seeds");
         const uint64_t before = machine::clock();
         if (!model_.resample(spacing, surfaceMaker())) {
-            formatReal(number, sizeof number, spacing_);
-            snprintf(text, sizeof text, "spacing stays at %s: no memory for more seeds", number);
+            formatQuotient(number, sizeof number, static_cast<uint32_t>(rawFromReal(spacing_)), 65536, 2);
+            snprintf(text, sizeof text, "spacing stays at %s: %s", number, SoftObject::resampleTrouble());
             say(text);
             return;
         }
@@ -143,7 +185,6 @@ void Demo::changed()
     Anim::move(model_, shown_);
     palette_.make(model_, options_.grey, options_.printed);
     paletteStale_ = true;
-    view_.setCamera(model_.camera);
     stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
 }
 
@@ -160,6 +201,17 @@ void Demo::countFrames()
     fpsFrames_ = 0;
 }
 
+// After a frame that began at `began`: lays objects out anew where the rate to be held wants it.
+void Demo::holdRate(uint64_t began)
+{
+    rate_.add(machine::clock() - began, model_);
+    Real spacing;
+    for (int i; (i = rate_.next(model_, &spacing)) >= 0;)
+        if (!model_.actor(i).object->resample(spacing, surfaceMaker()))
+            rate_.refused();
+    stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
+}
+
 // False: it was interrupted, and there is nothing to show.
 bool Demo::frame()
 {
@@ -169,6 +221,7 @@ bool Demo::frame()
     shown_ = pace_.at(time_);
     if (!options_.interactive || shown_ != before)
         Anim::move(model_, shown_);
+    placeEye();
     if (!drawModel())
         return false;
     drawOverlay();
@@ -176,24 +229,36 @@ bool Demo::frame()
     return true;
 }
 
+// The view is the scene's, as far as the user has not gone about it. What is seen from elsewhere is looked at anew.
+void Demo::placeEye()
+{
+    const Camera camera = orbit_.from(model_.camera, model_);
+    const Camera& before = view_.camera();
+    if (!(camera.eye == before.eye) || !(camera.axes == before.axes))
+        model_.recalcAll();
+    view_.setCamera(camera);
+}
+
 // False: it was interrupted.
 bool Demo::drawModel()
 {
     counts_ = Counts{};
-    const Camera& camera = model_.camera;
-    const FrameContext frame{camera.eye, unit(model_.light), model_.bodies(), &counts_, camera.centreX / camera.focalX,
-                             camera.centreY / camera.focalY};
+    const Camera& camera = view_.camera();
+    const FrameContext frame{camera.eye, unit(model_.light), model_.bodies(), &counts_, camera.axes,
+                             camera.centreX / camera.focalX, camera.centreY / camera.focalY};
     if (frame.bodies == nullptr)
         fail(1, "not enough memory");
     int order[Model::OBJECTS_MOST];
+    Real depth[Model::OBJECTS_MOST];
     const int count = model_.count();
     for (int i = 0; i < count; ++i) {
         if (interrupted())
             return false;
         model_.actor(i).object->update(frame);
         // Near objects first: what they hide is then only compared, not drawn.
+        depth[i] = frame.inView(model_.actor(i).object->centre()).z;
         int at = i;
-        for (; at > 0 && model_.actor(order[at - 1]).object->centre().z > model_.actor(i).object->centre().z; --at)
+        for (; at > 0 && depth[order[at - 1]] > depth[i]; --at)
             order[at] = order[at - 1];
         order[at] = i;
     }
@@ -201,8 +266,6 @@ bool Demo::drawModel()
     view_.begin();
     const int selected = editor_.selected();
     for (int i = 0; i < count; ++i) {
-        if (interrupted())
-            return false;
         SoftObject& object = *model_.actor(order[i]).object;
         const uint8_t* ramp = object.ramp();
         if (options_.interactive && order[i] == selected && time_ - selectedAt_ < PULSE) {
@@ -213,13 +276,17 @@ bool Demo::drawModel()
         }
         int next = 0;
         do {
+            if (interrupted()) {
+                object.setRamp(ramp);
+                return false;
+            }
             object.draw(frame, *voxels_, VOXELS_AT_ONCE, &next);
             counts_.drawn += static_cast<uint32_t>(view_.show(*voxels_));
         } while (next != 0);
         object.setRamp(ramp);
     }
     if (!options_.printed)
-        view_.closeGaps(spacing_);
+        view_.closeGaps(model_.coarsest(), options_.grey ? nullptr : &model_, &palette_);
     return true;
 }
 
@@ -269,15 +336,20 @@ int Demo::run()
         machine::fail(1, problem);
     int status;
     problem = prepare(&status);
+    if (machine::broken())
+        fail(1, "interrupted");
     if (problem != nullptr)
         fail(status, problem);
     machine::standStill(options_.frames > 0);
     if (options_.interactive && !machine::openMouse())
         machine::out("No mouse driver found: use Tab, arrows, PgUp and PgDn.\n");
-    problem = machine::openVideo();
-    if (problem != nullptr)
-        fail(1, problem);
-    machine::setPalette(palette_.dac());
+    // With ESC pressed already the loop ends before its first frame.
+    if (!interrupted()) {
+        problem = machine::openVideo();
+        if (problem != nullptr)
+            fail(1, problem);
+        machine::setPalette(palette_.dac());
+    }
     stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
 
     started_ = machine::clock();
@@ -287,6 +359,7 @@ int Demo::run()
             fail(1, "interrupted");
         if (ended_)
             break;
+        const uint64_t began = machine::clock();
         findTime();
         if (!frame())
             continue;
@@ -306,6 +379,8 @@ int Demo::run()
         ++frames_;
         if (fps_)
             countFrames();
+        if (rate_.frames() > 0)
+            holdRate(began);
     }
     const uint64_t ticks = machine::clock() - started_;
     stats_.setTime(ticks);
@@ -313,6 +388,8 @@ int Demo::run()
     machine::stop();
     if (options_.rateGiven && options_.frames == 0)
         machine::err("/R has no effect without /N.\n");
+    if (options_.hold > 0 && !options_.holds())
+        machine::err("/F has no effect with /N or /S.\n");
     sayResults(ticks);
     if (problem == nullptr && options_.recordFile != nullptr)
         problem = csv_.append(options_, spacing_, stats_);

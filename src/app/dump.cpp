@@ -130,6 +130,12 @@ const char* Dump::frame(int number, Time time, int rate, const Model& model, con
     line(text);
     const Camera& camera = view.camera();
     three("eye", camera.eye.x, camera.eye.y, camera.eye.z);
+    if (camera.axes.turned) {
+        const ViewAxes& axes = camera.axes;
+        three("right", axes.right.x, axes.right.y, axes.right.z);
+        three("up", axes.up.x, axes.up.y, axes.up.z);
+        three("ahead", axes.ahead.x, axes.ahead.y, axes.ahead.z);
+    }
     two("focal", camera.focalX, camera.focalY);
     two("centre", camera.centreX, camera.centreY);
     three("light", model.light.x, model.light.y, model.light.z);

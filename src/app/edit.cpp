@@ -242,7 +242,7 @@ bool Editor::changeMeasure(int which, Real by, Action action, Time now)
     actor.measure[which] = to;
     if (!model_.remake(&actor)) {
         actor.measure[which] = was;
-        say("no memory for so many seeds");
+        say(SoftObject::resampleTrouble());
         return false;
     }
     sayReal(measure.word, to);
@@ -536,7 +536,9 @@ bool Editor::leave()
         return false;
     say(current().name, " has left ", from->name);
     model_.setParent(&current(), from->motion.parent);
-    // A group that carries nothing is no use.
+    // A group that carries nothing is no use, unless it carries the eye.
+    if (from->number == model_.camera.carrier)
+        return true;
     for (int i = 0; i < model_.items(); ++i)
         if (model_.item(i).motion.parent == from->number)
             return true;
@@ -616,7 +618,7 @@ bool Editor::load(const char* name, Real spacing, bool undoable)
     if (problem == nullptr)
         Anim::move(*fresh, 0);
     if (problem == nullptr && !fresh->resample(spacing, model_.surfaceMaker()))
-        problem = "no memory for so many seeds";
+        problem = SoftObject::resampleTrouble();
     const bool good = problem == nullptr && (!undoable || begin(OTHER, 0));
     if (good) {
         if (!undoable) {

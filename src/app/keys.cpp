@@ -17,7 +17,15 @@ constexpr Real WEIGHT_A_KEY(0.25);
 constexpr Real FASTER_A_KEY(0.8);  // of a period
 constexpr Real SLOWER_A_KEY(1.25);
 
+// About the scene: degrees, and of the distance.
+constexpr Real DEGREES_A_VIEW(5);
+constexpr Real NEARER_A_KEY(0.9);
+constexpr Real FARTHER_A_KEY(1.111111);
+
 constexpr int STEPS_A_SECOND = 10;
+
+// The rate that F4 holds where /F names none.
+constexpr int HOLD_FRAMES = 10;
 
 // How far from the pointer an object may lie that a click means.
 constexpr int PICK_REACH = 4;
@@ -33,16 +41,22 @@ int small(int code)
 // Those that came while the last frame was drawn, then what came since.
 void Demo::takeKeys()
 {
-    for (int i = 0; i < waiting_ && !ended_; ++i)
-        key(keys_[i]);
-    waiting_ = 0;
-    escapeWaits_ = false;
+    takingKeys_ = true;
+    nextKey_ = 0;
     while (!ended_) {
+        // What a key starts may take long and fetch those that come meanwhile.
+        if (nextKey_ < waiting_) {
+            key(keys_[nextKey_++]);
+            continue;
+        }
+        nextKey_ = waiting_ = 0;
+        escapeWaits_ = false;
         const int code = machine::key();
         if (code == 0)
             break;
         key(code);
     }
+    takingKeys_ = false;
 }
 
 void Demo::key(int code)
@@ -55,9 +69,16 @@ void Demo::key(int code)
     case machine::KEY_ESC: ended_ = true; return;
     case '*': view_.setPixels(!view_.pixels()); return;
     case '-':
-    case '_': resample(least(spacing_ * Real(1.25), SPACING_MOST)); return;
+    case '_':
+        letGo();
+        resample(least(spacing_ * Real(1.25), SPACING_MOST));
+        return;
     case '+':
-    case '=': resample(most(spacing_ * Real(0.8), SPACING_LEAST)); return;
+    case '=':
+        letGo();
+        resample(most(spacing_ * Real(0.8), SPACING_LEAST));
+        return;
+    case machine::KEY_F4: hold(); return;
     case machine::KEY_F1:
         help_ = !help_;
         greets_ = false;
@@ -77,9 +98,67 @@ void Demo::key(int code)
         messageEnd_ = 0;
         return;
     }
+    if (eyeKey(code))
+        return;
     playKey(code);
     if (options_.interactive)
         handKey(code);
+}
+
+// The keys that move the eye about the scene. False: `code` is none of them.
+bool Demo::eyeKey(int code)
+{
+    const Real turn = DEGREES_A_VIEW, none(0);
+    if (!options_.interactive) {
+        // There they move nothing else.
+        switch (code) {
+        case machine::KEY_LEFT: code = '5'; break;
+        case machine::KEY_RIGHT: code = '6'; break;
+        case machine::KEY_UP: code = '7'; break;
+        case machine::KEY_DOWN: code = '8'; break;
+        case machine::KEY_PGUP: code = '9'; break;
+        case machine::KEY_PGDN: code = '0'; break;
+        default: break;
+        }
+    }
+    switch (code) {
+    case '5': orbit_.turn(-turn, none); return true;
+    case '6': orbit_.turn(turn, none); return true;
+    case '7': orbit_.turn(none, turn); return true;
+    case '8': orbit_.turn(none, -turn); return true;
+    case '9': orbit_.approach(NEARER_A_KEY); return true;
+    case '0': orbit_.approach(FARTHER_A_KEY); return true;
+    case machine::KEY_END:
+        orbit_.reset();
+        say("the scene's own view");
+        return true;
+    default: return false;
+    }
+}
+
+// Holds a rate, or lets it go.
+void Demo::hold()
+{
+    char text[40];
+    if (options_.frames > 0) {
+        snprintf(text, sizeof text, "no rate is held with /N");
+    } else if (rate_.frames() > 0) {
+        letGo();
+        snprintf(text, sizeof text, "no rate is held");
+    } else {
+        rate_.hold(options_.hold > 0 ? options_.hold : HOLD_FRAMES);
+        snprintf(text, sizeof text, "holding %d frames a second", rate_.frames());
+    }
+    say(text);
+}
+
+// From now on the user chooses the spacing.
+void Demo::letGo()
+{
+    if (rate_.frames() == 0)
+        return;
+    rate_.hold(0);
+    spacing_ = model_.coarsest();
 }
 
 // The keys that hold the animation, let it go and change its speed.
@@ -216,14 +295,16 @@ void Demo::push(Real x, Real y, Real z)
 {
     // Kept where the viewer sees it: the centre stays on the screen. What is beyond already may come back by itself.
     const Point from = model_.actor(editor_.selected()).object->centre();
-    const Camera& camera = model_.camera;
-    Point p = from + Vector{x, y, z};
-    p.z = clamp(p.z, least(DEPTH_LEAST, from.z), most(DEPTH_MOST, from.z));
-    const Real away = most(p.z - camera.eye.z, Real(1));
+    const Camera& camera = view_.camera();
+    const ViewAxes& axes = camera.axes;
+    const Vector was = axes.fromWorld(toVector(from)), eye = axes.fromWorld(toVector(camera.eye));
+    Vector p = was + Vector{x, y, z};
+    p.z = clamp(p.z, least(DEPTH_LEAST, was.z), most(DEPTH_MOST, was.z));
+    const Real away = most(p.z - eye.z, Real(1));
     const Real right = away * (camera.centreX / camera.focalX), up = away * (camera.centreY / camera.focalY);
-    p.x = clamp(p.x, least(camera.eye.x - right, from.x), most(camera.eye.x + right, from.x));
-    p.y = clamp(p.y, least(camera.eye.y - up, from.y), most(camera.eye.y + up, from.y));
-    if (editor_.move(p - from, time_))
+    p.x = clamp(p.x, least(eye.x - right, was.x), most(eye.x + right, was.x));
+    p.y = clamp(p.y, least(eye.y - up, was.y), most(eye.y + up, was.y));
+    if (editor_.move(axes.toWorld(p - was), time_))
         Anim::move(model_, shown_);
 }
 
@@ -272,8 +353,9 @@ void Demo::pointAt(const machine::Mouse& m)
     if ((!dragging_ && !m.right) || (dx == 0 && dy == 0))
         return;
     // As far as the pointer goes on the screen, at the object's distance.
-    const Camera& camera = model_.camera;
-    const Real away = most(model_.actor(editor_.selected()).object->centre().z - camera.eye.z, Real(1));
+    const Camera& camera = view_.camera();
+    const Point& centre = model_.actor(editor_.selected()).object->centre();
+    const Real away = most(camera.axes.fromWorld(centre - camera.eye).z, Real(1));
     const Real x = Real(dx) / camera.focalX * away * Real(0.5);
     if (m.right)
         push(x, Real(0), Real(-dy) * UNITS_A_MICKEY);
@@ -300,19 +382,5 @@ int Demo::objectAt(int x, int y) const
     }
     if (nearest > PICK_REACH * PICK_REACH)
         return -1;
-    const Camera& camera = view_.camera();
-    const Real half(0.5);
-    const Real z = realFromRaw(static_cast<int32_t>(zbuffer[atY * machine::WIDTH + atX]) << 9);
-    const Point p = camera.eye + Vector{(Real(atX) + half - camera.centreX) / camera.focalX * z,
-                                        (camera.centreY - Real(atY) - half) / camera.focalY * z, z};
-    int best = -1;
-    Real strongest(0);
-    for (int i = 0; i < model_.count(); ++i) {
-        const Real field = model_.actor(i).object->fieldFunc(p);
-        if (field > strongest) {
-            strongest = field;
-            best = i;
-        }
-    }
-    return best;
+    return model_.strongestAt(view_.pointAt(atY * machine::WIDTH + atX));
 }

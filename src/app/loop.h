@@ -9,8 +9,10 @@
 #include "app/edit.h"
 #include "app/film.h"
 #include "app/options.h"
+#include "app/orbit.h"
 #include "app/overlay.h"
 #include "app/pace.h"
+#include "app/rate.h"
 #include "app/stats.h"
 #include "machine.h"
 #include "picture/palette.h"
@@ -28,14 +30,18 @@ private:
     // --- The loop (demo.cpp)
     SurfaceMaker surfaceMaker() const { return options_.printed ? makeReport98 : makeEngine; }
     const char* prepare(int* status);
+    void tellSeeds();
     [[noreturn]] void fail(int status, const char* line);
     bool finished() const;
     void findTime();
     bool interrupted();
+    bool stopped();
     bool frame();
+    void placeEye();
     bool drawModel();
     const char* keepFrame();
     void countFrames();
+    void holdRate(uint64_t began);
     void resample(Real spacing);
     void changed();
     void sayResults(uint64_t ticks);
@@ -43,6 +49,9 @@ private:
     // --- Keys and mouse (keys.cpp)
     void takeKeys();
     void key(int code);
+    bool eyeKey(int code);
+    void hold();
+    void letGo();
     void playKey(int code);
     void handKey(int code);
     bool editKey(int code);
@@ -82,6 +91,7 @@ private:
     Counts counts_;
     Real spacing_{2};
     uint64_t layTicks_ = 0;      // how long laying out the seeds took the last time
+    Rate rate_;
     uint64_t started_ = 0;
     Time time_ = 0;              // of the run
     Pace pace_;
@@ -94,6 +104,10 @@ private:
     int keys_[KEYS_MOST];
     int waiting_ = 0;
     bool escapeWaits_ = false;
+    int nextKey_ = 0;            // while they are taken: the one to be taken next
+    bool takingKeys_ = false;
+
+    Orbit orbit_;
 
     // Hands on.
     Editor editor_;

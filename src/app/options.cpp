@@ -7,11 +7,11 @@
 const char* const HELP =
     "Fast Blobs: soft objects, animated in real time.\n"
     "  DEMO [switches] [scene]     DEMO WALK.FB plays a scene, DEMO the spheres\n"
-    "\n"
     "  /I        interactive: the mouse moves the objects\n"
     "  /G        monochrome: one 64-step ramp\n"
     "  /P        the 1998 report's own methods, as printed\n"
     "  /S:n      seed spacing in units, 0.25 to 8 (2)\n"
+    "  /F:n      hold n frames a second, 1 to 100, by the spacing of each object\n"
     "  /N:n      stop after n frames, each a step of 0.1 s (see /R)\n"
     "  /R:n      with /N: n frames for a second of animation, 1 to 1000 (10)\n"
     "  /T:n      stop after n seconds, 1 to 86400\n"
@@ -25,14 +25,15 @@ const char* const HELP =
     "  /?        this page\n"
     "\n"
     "Keys:  F1  all of them   *  scales, pixels   - +  coarser, finer   ESC  ends\n"
-    "       F  frames a second   P  picture to a file   N  next scene\n"
+    "       F  frames a second   F4  hold them   P  picture file   N  next scene\n"
+    "       5 6 7 8  round the scene, over it   9 0  nearer, farther   End  back\n"
     "       Space  stop and go   .  a step   Home  from the start   <  >  speed\n"
     "Mouse (with /I):  left button selects the next object; moving it moves the\n"
     "object in X and Y, with the right button X and Z. Or Tab, arrows, PgUp, PgDn.\n";
 
 namespace {
 
-constexpr const char* KNOWN = "unknown switch; known are /I /G /P /S:n /N:n /R:n /T:n /A:file /B /D:dir /M:file /O:file /V /X /?";
+constexpr const char* KNOWN = "unknown switch; known are /I /G /P /S:n /F:n /N:n /R:n /T:n /A:file /B /D:dir /M:file /O:file /V /X /?";
 
 char problem[240];
 
@@ -97,6 +98,7 @@ const char* parseSwitches(const char* argument, Options* options)
         case 'O': name = &options->recordFile; break;
         case 'A': name = &options->filmFile; break;
         case 'S': expected = "a seed spacing from 0.25 to 8 is expected, as in /S:2"; break;
+        case 'F': expected = "frames a second from 1 to 100 are expected, as in /F:10"; break;
         case 'N': expected = "a number of frames from 1 to 9999999 is expected, as in /N:600"; break;
         case 'R': expected = "frames a second from 1 to 1000 are expected, as in /R:10"; break;
         case 'T': expected = "seconds from 1 to 86400 are expected, as in /T:60"; break;
@@ -128,7 +130,9 @@ const char* parseSwitches(const char* argument, Options* options)
                 good = good && parseReal(number, &spacing) && spacing >= SPACING_LEAST && spacing <= SPACING_MOST;
                 if (good)
                     options->spacing = spacing;
+                options->spacingGiven = true;
                 break;
+            case 'F': good = good && wholeWithin(number, HOLD_MOST, &options->hold); break;
             case 'N': good = good && wholeWithin(number, FRAMES_MOST, &options->frames); break;
             case 'R':
                 good = good && wholeWithin(number, RATE_MOST, &options->rate);

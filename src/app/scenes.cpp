@@ -114,6 +114,7 @@ void Demo::load(const char* name, bool undoable)
     snprintf(scene_, sizeof scene_, "%s", name);
     if (editor_.load(name, spacing_, undoable)) {
         pace_.restart();
+        orbit_.reset();
         shown_ = 0;
         changed();
     }

@@ -22,15 +22,19 @@ const char* const PAGE[] = {
     "space   stop and go     .       a step on",
     "Home    from the start  < >     slower, faster",
     "n       the next scene  f       frames a second",
-    "p       picture to a file (PCX)",
+    "p       picture (PCX)   F4      holds the rate",
+    "",
+    "arrows  round the scene End     its own view",
+    "PgUp    nearer          PgDn    farther",
 };
 
 const char* const HANDS_PAGE[] = {
     "F1      this page       ESC     ends",
     "*       scales, pixels  - +     coarser, finer",
     "space   stop and go     < >     slower, faster",
-    "Home    from the start  p f     picture, rate",
-    "",
+    "Home    from the start  p f F4  picture, rate, held",
+    "5 6     round the scene 7 8     over, under it",
+    "9 0     nearer, farther End     its own view",
     "Tab     the next object, as the left button",
     "m       pointer: a click picks, held moves",
     "arrows  move it; PgUp PgDn or right button",
@@ -89,8 +93,8 @@ void Demo::busy(const char* text)
 // Draws a mark where an object is on the screen.
 void Demo::mark(int index, void (Overlay::*shape)(int, int))
 {
-    const Camera& camera = model_.camera;
-    const Vector v = model_.actor(index).object->centre() - camera.eye;
+    const Camera& camera = view_.camera();
+    const Vector v = camera.axes.fromWorld(model_.actor(index).object->centre() - camera.eye);
     if (v.z <= Real(1))
         return;
     const Real limit(2);
@@ -121,8 +125,18 @@ void Demo::drawOverlay()
         const int length = formatQuotient(text, sizeof text, static_cast<uint64_t>(fpsCounted_) * machine::CLOCK_HZ,
                                           fpsTicks_, 1);
         snprintf(text + length, sizeof text - static_cast<size_t>(length), " fps");
+        int letters = RATE_LETTERS;
+        if (rate_.frames() > 0) {
+            // And the spacings, finest and coarsest, that hold it.
+            char held[32];
+            const int used = formatQuotient(held, sizeof held, static_cast<uint32_t>(rawFromReal(model_.finest())), 65536, 1);
+            held[used] = '-';
+            formatQuotient(held + used + 1, static_cast<int>(sizeof held) - used - 1,
+                           static_cast<uint32_t>(rawFromReal(model_.coarsest())), 65536, 1);
+            letters += snprintf(text + strlen(text), sizeof text - strlen(text), " at %s", held);
+        }
         overlay_.text(machine::WIDTH - EDGE - Overlay::width(text), machine::HEIGHT - EDGE - Overlay::LINE_HIGH, text);
-        wide -= (RATE_LETTERS + 1) * LETTER;
+        wide -= (letters + 1) * LETTER;
     }
     const char* words = time_ < messageEnd_ ? message_ : greets_ && time_ < GREETING ? "F1 help  ESC ends" : nullptr;
     if (words != nullptr) {

@@ -84,7 +84,7 @@ int keyNamed(const char* name) {
         {"ESC", KEY_ESC}, {"F1", KEY_F1},       {"F2", KEY_F2},       {"F3", KEY_F3},     {"F4", KEY_F4},
         {"UP", KEY_UP},   {"DOWN", KEY_DOWN},   {"LEFT", KEY_LEFT},   {"RIGHT", KEY_RIGHT}, {"PGUP", KEY_PGUP},
         {"PGDN", KEY_PGDN}, {"INS", KEY_INS},   {"DEL", KEY_DEL},     {"SPACE", ' '},     {"ENTER", KEY_ENTER},
-        {"TAB", KEY_TAB}, {"HOME", KEY_HOME},   {"BACKSPACE", KEY_BACKSPACE}, {"BREAK", -1},
+        {"TAB", KEY_TAB}, {"HOME", KEY_HOME}, {"END", KEY_END},   {"BACKSPACE", KEY_BACKSPACE}, {"BREAK", -1},
     };
     if (name[0] != '\0' && name[1] == '\0') {
         return static_cast<unsigned char>(name[0]);

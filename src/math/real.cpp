@@ -2,23 +2,55 @@
 // made with these, so they must come out the same on every machine.
 #include "math/real.h"
 
+namespace {
+
+// a / b, rounded down; the quotient must fit 32 bits.
+inline uint32_t quotient64(uint64_t a, uint32_t b)
+{
+#if FB_I386
+    uint32_t low = static_cast<uint32_t>(a), high = static_cast<uint32_t>(a >> 32);
+    asm("divl %2" : "+a"(low), "+d"(high) : "rm"(b) : "cc");
+    return low;
+#else
+    return static_cast<uint32_t>(a / b);
+#endif
+}
+
+// a * b / 2^30, rounded down; it must fit 32 bits.
+inline int32_t times(int32_t a, int32_t b)
+{
+#if FB_I386
+    int32_t low = a, high;
+    asm("imull %2\n\tshrdl $30, %1, %0" : "+a"(low), "=&d"(high) : "rm"(b) : "cc");
+    return low;
+#else
+    return static_cast<int32_t>((static_cast<int64_t>(a) * b) >> 30);
+#endif
+}
+
+}  // namespace
+
 uint32_t squareRoot64(uint64_t a)
 {
-    // Digit by digit, two bits of the radicand for one of the root; no division.
-    uint64_t root = 0;
-    uint64_t bit = 1ull << 62;
-    while (bit > a)
-        bit >>= 2;
-    while (bit != 0) {
-        if (a >= root + bit) {
-            a -= root + bit;
-            root = (root >> 1) + bit;
-        } else {
-            root >>= 1;
-        }
-        bit >>= 2;
-    }
-    return static_cast<uint32_t>(root);
+    if (a == 0)
+        return 0;
+    // The radicand shifted so that its top word has 29 or 30 bits: no quotient below leaves 32 bits.
+    const int up = (__builtin_clzll(a) & ~1) - 2;
+    const uint64_t wide = up < 0 ? a >> 2 : a << up;
+    const uint32_t top = static_cast<uint32_t>(wide >> 32);
+    // A line that is no more than 4% off the root, and three steps of Newton's method: 16 bits of the root, then all of them.
+    uint32_t root = top / 49152 + 11469;
+    root = (root + top / root) << 15;
+    root = (root >> 1) + (quotient64(wide, root) >> 1);
+    root = (root >> 1) + (quotient64(wide, root) >> 1);
+    root = up < 0 ? root << 1 : root >> (up >> 1);
+    // What was rounded on the way.
+    const auto square = [](uint32_t r) { return static_cast<uint64_t>(r) * r; };
+    while (square(root) > a)
+        --root;
+    while (root != UINT32_MAX && square(root + 1) <= a)
+        ++root;
+    return root;
 }
 
 Real squareRoot(Real a)
@@ -42,18 +74,18 @@ int32_t sine30(Angle a)
         x = 0x40000000u - x;
     // sin(x pi/2) by its Taylor series up to x^13: the next term is below 2^-30 at x = 1.
     // Coefficients (pi/2)^n / n! scaled by 2^30.
-    const int64_t square = (static_cast<int64_t>(x) * x) >> 30;
-    int64_t sum = 61;                                   // +(pi/2)^13/13!
-    sum = -3864 + ((sum * square) >> 30);               // -(pi/2)^11/11!
-    sum = 172272 + ((sum * square) >> 30);              // +(pi/2)^9/9!
-    sum = -5026995 + ((sum * square) >> 30);            // -(pi/2)^7/7!
-    sum = 85569306 + ((sum * square) >> 30);            // +(pi/2)^5/5!
-    sum = -693598668 + ((sum * square) >> 30);          // -(pi/2)^3/3!
-    sum = 1686629713 + ((sum * square) >> 30);          // pi/2
-    int64_t value = (sum * x) >> 30;
+    const int32_t part = static_cast<int32_t>(x), square = times(part, part);
+    int32_t sum = 61;                            // +(pi/2)^13/13!
+    sum = -3864 + times(sum, square);            // -(pi/2)^11/11!
+    sum = 172272 + times(sum, square);           // +(pi/2)^9/9!
+    sum = -5026995 + times(sum, square);         // -(pi/2)^7/7!
+    sum = 85569306 + times(sum, square);         // +(pi/2)^5/5!
+    sum = -693598668 + times(sum, square);       // -(pi/2)^3/3!
+    sum = 1686629713 + times(sum, square);       // pi/2
+    int32_t value = times(sum, part);
     if (value > 0x40000000)
         value = 0x40000000;
-    return static_cast<int32_t>(a & 0x80000000u ? -value : value);
+    return a & 0x80000000u ? -value : value;
 }
 
 Real sine(Angle a)

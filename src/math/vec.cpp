@@ -1,16 +1,13 @@
 // The operations of Point, Vector and Matrix that are more than a line.
 #include "math/vec.h"
 
-Real length(const Vector& v)
+Real lengthOf(Square square)
 {
 #if FB_REAL == FB_FIXED
-    // Squares as 32.32; halving twice keeps their sum in 64 bits for every input.
-    const int64_t x = v.x.raw, y = v.y.raw, z = v.z.raw;
-    const uint64_t sum = static_cast<uint64_t>(x * x) + static_cast<uint64_t>(y * y) + static_cast<uint64_t>(z * z);
-    const uint32_t root = squareRoot64(sum);
+    const uint32_t root = squareRoot64(square);
     return Real::fromRaw(root > INT32_MAX ? INT32_MAX : static_cast<int32_t>(root));
 #else
-    return squareRoot(dot(v, v));
+    return squareRoot(square);
 #endif
 }
 

@@ -135,6 +135,36 @@ bool sameTurn(const Matrix& a, const Matrix& b)
     return true;
 }
 
+Vector column(const Matrix& m, int i)
+{
+    return {m.m[0][i], m.m[1][i], m.m[2][i]};
+}
+
+// Where the eye is and which way it looks, when everything else is in its place.
+void moveEye(Model& model)
+{
+    Camera& camera = model.camera;
+    camera.axes = ViewAxes();
+    if (camera.carrier == 0 && camera.looks == Camera::AHEAD && camera.roll == Real(0))
+        return;
+    const Actor* carrier = camera.carrier == 0 ? nullptr : model.itemNumbered(camera.carrier);
+    Vector right = X_AXIS, up = Y_AXIS, ahead = Z_AXIS;
+    if (carrier != nullptr) {
+        camera.eye = carrier->pose.place;
+        right = column(carrier->pose.turn, 0);
+        up = column(carrier->pose.turn, 1);
+        ahead = column(carrier->pose.turn, 2);
+    }
+    const Actor* item = camera.looks == Camera::AT_ITEM ? model.itemNumbered(camera.item) : nullptr;
+    if (item != nullptr)
+        camera.target = item->pose.place;
+    if (camera.looks != Camera::AHEAD && !(camera.target == camera.eye))
+        ahead = camera.target - camera.eye;
+    camera.axes = viewAlong(ahead, up, right);
+    if (camera.roll != Real(0))
+        camera.axes = leaned(camera.axes, fromDegrees(camera.roll));
+}
+
 }  // namespace
 
 Wave makeWave(Real seconds, Real phase)
@@ -206,4 +236,5 @@ void Anim::move(Model& model, Time time)
             object.setTurn(pose.turn);
         object.moveTo(pose.place);
     }
+    moveEye(model);
 }

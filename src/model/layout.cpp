@@ -1,7 +1,9 @@
 // Laying out seeds: regular ones ring by ring as the primitive says, and an oversampled one beside each (report, Appendix C).
 #include "math/alloc.h"
 #include "math/normal.h"
+#include "math/text.h"
 #include "model/softobj.h"
+#include "model/stop.h"
 
 namespace {
 
@@ -24,14 +26,6 @@ void setCell(int8_t* to, const Vector& half, Real inverse)
         to[i] = toCell(floorToInt(parts[i] * inverse + Real(0.5)));
 }
 
-int64_t squaredDistance(const Vector& a, const Vector& b)
-{
-    const int64_t x = rawFromReal(a.x) - rawFromReal(b.x);
-    const int64_t y = rawFromReal(a.y) - rawFromReal(b.y);
-    const int64_t z = rawFromReal(a.z) - rawFromReal(b.z);
-    return x * x + y * y + z * z;
-}
-
 // First run of layOutSeeds(): how much of everything there is. Between two rings with different roots lie oversampled
 // seeds with roots between: `between` of them at most.
 class Counter : public SeedMaker {
@@ -43,6 +37,13 @@ public:
     {
         endRing();
         ++rings;
+    }
+    bool countRing(int count, bool various) override
+    {
+        seeds += count;
+        inRing_ = count;
+        various_ = various;
+        return true;
     }
     void addSeed(int root, const Vector&, const Vector&, const Vector&) override
     {
@@ -81,7 +82,7 @@ public:
     void restAt(Real radius) override { radius_ = radius; }
     void addSeed(int root, const Vector& direction, const Vector& along, const Vector& across) override
     {
-        Seed& s = seeds_[2 * count_++];
+        Seed& s = seeds_[count_++];
         s.path = direction * radius_;
         s.position = Real(1);
         s.neighbour = -1;
@@ -103,132 +104,267 @@ private:
     int rootCount_ = 0, rings_ = 0, count_ = 0;
 };
 
+// Why resample() failed the last time.
+char trouble[128];
+
 }  // namespace
 
-// The arrays while they are made.
-struct SoftObject::Layout {
-    Seed* seeds = nullptr;
-    Vector* roots = nullptr;
-    int32_t* ringStarts = nullptr;
-    int rootCount = 0, rings = 0;
-    // The last pair of roots that a root between was made for.
-    int pairS = -1, pairN = -1, pairRoot = 0;
+const char* SoftObject::resampleTrouble()
+{
+    return trouble;
+}
 
-    bool allocated(int regular, int rootRoom)
-    {
-        seeds = allocate<Seed>(static_cast<uint32_t>(2 * regular));
-        roots = allocate<Vector>(static_cast<uint32_t>(rootRoom));
-        ringStarts = allocate<int32_t>(static_cast<uint32_t>(rings + 1));
-        return seeds != nullptr && roots != nullptr && ringStarts != nullptr;
-    }
-    void release()
-    {
-        free(seeds);
-        free(roots);
-        free(ringStarts);
-    }
-    Vector rest(const Seed& s) const { return roots[s.root] + s.path; }
-    // How far N lies from S along S's ring, in 1/64 of the way from S to its successor.
-    int8_t asideOf(const Seed& s, const Seed& n) const
-    {
-        const Vector way = rest(n) - rest(s);
-        int32_t square = 0, part = 0;
-        for (int i = 0; i < 3; ++i)
-            square += s.along[i] * s.along[i];
-        const Real ways[] = {way.x, way.y, way.z};
-        for (int i = 0; i < 3; ++i)
-            part += (rawFromReal(ways[i]) >> 8) * s.along[i];
-        // `along` is half of the way, in 1/64 spacing; `part` has 256 steps a unit.
-        return square == 0 ? static_cast<int8_t>(0) : toCell(mulDiv(part, rawFromReal(perSpacing), square * 8192));
-    }
-    Real perSpacing{1};  // 1 / spacing
+bool SoftObject::Layout::allocated()
+{
+    seeds = allocate<Seed>(static_cast<uint32_t>(regular));
+    extras = allocate<Seed*>(static_cast<uint32_t>(blocks()));
+    roots = allocate<Vector>(static_cast<uint32_t>(rootRoom));
+    ringStarts = allocate<int32_t>(static_cast<uint32_t>(rings + 1));
+    rootsBetween = allocate<int32_t>(static_cast<uint32_t>(rings + 1));
+    if (extras != nullptr)
+        memset(extras, 0, sizeof(Seed*) * static_cast<size_t>(blocks()));
+    return seeds != nullptr && extras != nullptr && roots != nullptr && ringStarts != nullptr && rootsBetween != nullptr;
+}
 
-    // Of ring `before`, the seed nearest to `target`; found by walking from number `from` of that ring.
-    int nearestIn(int ring, int from, const Vector& target) const
-    {
-        const int start = ringStarts[ring], count = ringStarts[ring + 1] - start;
-        int n = from;
-        int64_t nearest = squaredDistance(target, rest(seeds[2 * (start + n)]));
-        for (int step = -1; step <= 1; step += 2) {
-            for (;;) {
-                const int next = (n + step + count) % count;
-                const int64_t d = squaredDistance(target, rest(seeds[2 * (start + next)]));
-                if (d >= nearest)
-                    break;
-                nearest = d;
-                n = next;
-            }
+void SoftObject::Layout::release()
+{
+    for (int i = 0; extras != nullptr && i < blocks(); ++i)
+        free(extras[i]);
+    free(extras);
+    free(seeds);
+    free(roots);
+    free(ringStarts);
+    free(rootsBetween);
+}
+
+// How far N lies from S along S's ring, in 1/64 of the way from S to its successor.
+int8_t SoftObject::Layout::asideOf(const Seed& s, const Seed& n, Real perSpacing) const
+{
+    const Vector way = rest(n) - rest(s);
+    int32_t square = 0, part = 0;
+    for (int i = 0; i < 3; ++i)
+        square += s.along[i] * s.along[i];
+    const Real ways[] = {way.x, way.y, way.z};
+    for (int i = 0; i < 3; ++i)
+        part += (rawFromReal(ways[i]) >> 8) * s.along[i];
+    // `along` is half of the way, in 1/64 spacing; `part` has 256 steps a unit.
+    return square == 0 ? static_cast<int8_t>(0) : toCell(mulDiv(part, rawFromReal(perSpacing), square * 8192));
+}
+
+// Of a ring, the number of the seed nearest to `target`; found by walking from the seed `from` of that ring.
+int SoftObject::Layout::nearestIn(int ring, int from, const Vector& target) const
+{
+    const int start = ringStarts[ring], count = ringStarts[ring + 1] - start;
+    int n = from;
+    Square nearest = squareOf(target - rest(seeds[start + n]));
+    for (int step = -1; step <= 1; step += 2) {
+        for (;;) {
+            const int next = n + step < 0 ? count - 1 : n + step == count ? 0 : n + step;
+            const Square d = squareOf(target - rest(seeds[start + next]));
+            if (d >= nearest)
+                break;
+            nearest = d;
+            n = next;
         }
-        return start + n;
     }
-};
+    return start + n;
+}
 
-// The oversampled seed of S: half way to its neighbour N, "the seed N on ring K-1 that is closest to S's successor"
-// (Appendix C, Figure 9). It lies in memory behind S.
-void SoftObject::addOversampled(Layout& layout, int rootRoom) const
+// Regular seeds and their roots. False: no room for them, or it was stopped.
+bool SoftObject::layOutRegular(Layout& layout) const
+{
+    Counter counter;
+    layOutSeeds(counter, layout.spacing);
+    counter.endRing();
+    // A seed's root has 16 bits. When roots between rings are too many for them, some oversampled seeds do without.
+    if (counter.roots > ROOTS_MAX) {
+        snprintf(trouble, sizeof trouble, "object %d would need %d roots of seeds, and %d is the limit", number_, counter.roots,
+                 ROOTS_MAX);
+        return false;
+    }
+    layout.rings = counter.rings;
+    layout.regular = counter.seeds;
+    layout.rootRoom = counter.roots + counter.between > ROOTS_MAX ? ROOTS_MAX : counter.roots + counter.between;
+    if (!layout.allocated())
+        return false;
+    Filler filler(layout.seeds, layout.roots, layout.ringStarts, radius_, layout.spacing);
+    layOutSeeds(filler, layout.spacing);
+    layout.ringStarts[layout.rings] = layout.regular;
+    layout.rootsBetween[0] = counter.roots;
+    return !stopAsked();
+}
+
+// False: it was stopped. For each regular seed S "the seed N on ring K-1 that is closest to S's successor" (Appendix C, Figure 9); and for each ring
+// which roots its oversampled seeds may have.
+bool SoftObject::findNeighbours(Layout& layout) const
 {
     const int firstRing = ringsClose() ? 0 : 1;
+    const Real perSpacing = Real(1) / layout.spacing;
+    const auto various = [&](int k) {
+        for (int i = layout.ringStarts[k] + 1; i < layout.ringStarts[k + 1]; ++i)
+            if (layout.seeds[i].root != layout.seeds[i - 1].root)
+                return true;
+        return false;
+    };
+    bool variousBefore = layout.rings > 0 && various(layout.rings - 1);
     for (int k = 0; k < layout.rings; ++k) {
         const int ringBefore = (k > 0 ? k : layout.rings) - 1;
         const int start = layout.ringStarts[k], end = layout.ringStarts[k + 1], inRing = end - start;
         const int inBefore = layout.ringStarts[ringBefore + 1] - layout.ringStarts[ringBefore];
+        const bool variousHere = various(k);
+        layout.rootsBetween[k + 1] = layout.rootsBetween[k] + (variousHere || variousBefore ? inRing : 1);
+        variousBefore = variousHere;
+        if (stopAsked())
+            return false;
+        if (k < firstRing)
+            continue;
         for (int i = start; i < end; ++i) {
-            Seed& s = layout.seeds[2 * i];
-            Seed& extra = layout.seeds[2 * i + 1];
-            extra = s;
-            extra.flags = 0;
-            if (k < firstRing)
-                continue;
+            Seed& s = layout.seeds[i];
             const int successor = i + 1 == end ? start : i + 1;
             const int about = static_cast<int>(static_cast<uint32_t>(successor - start) * static_cast<uint32_t>(inBefore) /
                                                static_cast<uint32_t>(inRing));
-            const int n = layout.nearestIn(ringBefore, about, layout.rest(layout.seeds[2 * successor]));
-            s.neighbour = extra.neighbour = 2 * n;
-            s.aside = extra.aside = layout.asideOf(s, layout.seeds[2 * n]);
-            oversample(layout, 2 * i, 2 * n, rootRoom);
+            const int n = layout.nearestIn(ringBefore, about, layout.rest(layout.seeds[successor]));
+            s.neighbour = 2 * n;
+            s.aside = layout.asideOf(s, layout.seeds[n], perSpacing);
         }
     }
+    return true;
+}
+
+// The regular seeds of another object. False: no memory.
+bool SoftObject::layOutLike(const SoftObject& other, Layout& layout) const
+{
+    const Layout& from = other.laid_;
+    layout.rings = from.rings;
+    layout.regular = from.regular;
+    layout.rootRoom = from.rootRoom;
+    if (!layout.allocated())
+        return false;
+    memcpy(layout.seeds, from.seeds, sizeof(Seed) * static_cast<size_t>(from.regular));
+    memcpy(layout.roots, from.roots, sizeof(Vector) * static_cast<size_t>(from.rootRoom));
+    memcpy(layout.ringStarts, from.ringStarts, sizeof(int32_t) * static_cast<size_t>(from.rings + 1));
+    memcpy(layout.rootsBetween, from.rootsBetween, sizeof(int32_t) * static_cast<size_t>(from.rings + 1));
+    return true;
 }
 
 // How long the path of a seed between two is.
-Real SoftObject::restLength(const Seed& a, const Seed& b) const
+Real SoftObject::restLength(const Layout& layout, const Seed& a, const Seed& b) const
 {
-    return tapers_ ? shiftDown(length(a.path) + length(b.path), 1) : radius_;
+    return tapers_ ? shiftDown(length(a.path) + length(b.path), 1) : shiftDown(layout.size, 1);
 }
 
-// Places the seed between seeds s and n, behind s. False: it stays a copy of s, for lack of a root or of a direction.
-bool SoftObject::oversample(Layout& layout, int s, int n, int rootRoom) const
+// The point of the core that is nearest to the middle of two seeds, and the way from there to the middle. False: the middle
+// is about on the core.
+bool SoftObject::rootBetween(const Layout& layout, const Seed& one, const Seed& other, Vector* root, Vector* out) const
 {
-    const Seed &one = layout.seeds[s], &other = layout.seeds[n];
-    Seed& extra = layout.seeds[s + 1];
+    const Vector middle = (layout.rest(one) + layout.rest(other)) * Real(0.5);
+    *out = fromCore(middle * (Real(CORE_SIZE) / layout.size)) * shiftDown(layout.size, 4);
+    *root = middle - *out;
+    return length(*out) >= shiftDown(layout.size, 4);
+}
+
+// The oversampled seed of regular seed `number` of a ring: half way to its neighbour N. Where there is none, for lack of a
+// root or of a direction, it is a copy.
+void SoftObject::layOutExtra(Layout& layout, int number, int ring, Seed& extra) const
+{
+    const Seed& one = layout.seeds[number];
+    extra = one;
+    extra.flags = 0;
+    if (one.neighbour < 0)
+        return;
+    const Seed& other = layout.seeds[one.neighbour >> 1];
     if (one.root == other.root) {
-        extra.path = withLength(one.path + other.path, restLength(one, other));
+        extra.path = withLength(one.path + other.path, restLength(layout, one, other));
     } else {
-        // Above the point of the core that is nearest to the middle of the two.
-        const Vector middle = (layout.rest(one) + layout.rest(other)) * Real(0.5);
-        const Vector out = fromCore(middle * inverse_) * shiftDown(size_, 4);
-        const bool known = layout.pairS == one.root && layout.pairN == other.root;
-        if (length(out) < shiftDown(radius_, 3) || (!known && layout.rootCount == rootRoom))
-            return false;
-        if (!known) {
-            layout.pairS = one.root;
-            layout.pairN = other.root;
-            layout.pairRoot = layout.rootCount++;
-            layout.roots[layout.pairRoot] = middle - out;
-        }
-        extra.root = static_cast<uint16_t>(layout.pairRoot);
-        extra.path = withLength(out, restLength(one, other));
+        // A root for each seed, or one for all of the ring: that of its first.
+        const bool shared = layout.rootsBetween[ring + 1] - layout.rootsBetween[ring] == 1;
+        const int first = layout.ringStarts[ring], index = layout.rootsBetween[ring] + (shared ? 0 : number - first);
+        Vector root, out;
+        if (index >= ROOTS_MAX || !rootBetween(layout, one, other, &root, &out))
+            return;
+        const Seed& start = layout.seeds[first];
+        Vector unused;
+        if (shared && !rootBetween(layout, start, layout.seeds[start.neighbour >> 1], &root, &unused))
+            return;
+        layout.roots[index] = root;
+        extra.root = static_cast<uint16_t>(index);
+        extra.path = withLength(out, restLength(layout, one, other));
     }
     if (tapers_) {
         // The mean of two lengths is near: to where the field is that of the surface.
         Vector unused;
-        const Real t = param((layout.roots[extra.root] + extra.path) * inverse_, &unused);
+        const Real t = param((layout.roots[extra.root] + extra.path) * (Real(CORE_SIZE) / layout.size), &unused);
         extra.path = extra.path * (Real(0.5) / squareRoot(t));
     }
     for (int part = 0; part < 3; ++part) {
         extra.along[part] = static_cast<int8_t>(one.along[part] * EXTRA_CELL / 8);
         extra.across[part] = static_cast<int8_t>(one.across[part] * EXTRA_CELL / 8);
     }
+}
+
+// Room for a block of oversampled seeds that was in use and is not any more. Null: all are in use.
+Seed* SoftObject::blockFromOthers()
+{
+    for (int i = 0; i < laid_.blocks(); ++i) {
+        Seed* const block = laid_.extras[i];
+        bool used = block == nullptr;
+        for (int j = 0; !used && j < EXTRA_BLOCK; ++j)
+            used = block[j].flags != 0;
+        if (!used) {
+            laid_.extras[i] = nullptr;
+            return block;
+        }
+    }
+    return nullptr;
+}
+
+// Null: no memory.
+Seed* SoftObject::layOutBlock(int at)
+{
+    Seed* block = allocate<Seed>(EXTRA_BLOCK);
+    if (block == nullptr)
+        block = blockFromOthers();
+    if (block == nullptr)
+        return nullptr;
+    const int first = at << EXTRA_BITS;
+    int ring = 0;
+    for (int after = laid_.rings; after - ring > 1;) {
+        const int middle = (ring + after) >> 1;
+        (laid_.ringStarts[middle] <= first ? ring : after) = middle;
+    }
+    for (int i = 0; i < EXTRA_BLOCK; ++i) {
+        const int number = first + i;
+        if (number >= laid_.regular) {
+            block[i] = Seed();
+            continue;
+        }
+        while (laid_.ringStarts[ring + 1] <= number)
+            ++ring;
+        layOutExtra(laid_, number, ring, block[i]);
+        block[i].normal = restNormal(block[i]);
+    }
+    laid_.extras[at] = block;
+    return block;
+}
+
+Seed& SoftObject::laidExtra(int slot)
+{
+    // Without memory it is a seed that nobody sees.
+    static Seed unseen;
+    const int at = slot >> (EXTRA_BITS + 1);
+    if (laid_.extras[at] == nullptr && layOutBlock(at) == nullptr) {
+        unseen = seed(slot - 1);
+        unseen.flags = 0;
+        return unseen;
+    }
+    return *extra(slot);
+}
+
+bool SoftObject::layOutExtras()
+{
+    for (int i = 0; i < laid_.blocks(); ++i)
+        if (laid_.extras[i] == nullptr && layOutBlock(i) == nullptr)
+            return false;
     return true;
 }
 
@@ -236,70 +372,43 @@ Direction14 SoftObject::restNormal(const Seed& s) const
 {
     Vector slope = s.path;
     if (tapers_)
-        param((roots_[s.root] + s.path) * (Real(CORE_SIZE) / laidSize_), &slope);
+        param((root(s.root) + s.path) * (Real(CORE_SIZE) / laid_.size), &slope);
     const Normal n = normalise(slope);
     return {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
 }
 
-bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface)
+int SoftObject::seedsAt(Real spacing) const
 {
     Counter counter;
     layOutSeeds(counter, spacing);
-    counter.endRing();
-    // A seed's root has 16 bits. When roots between rings are too many for them, some oversampled seeds do without.
-    if (counter.roots > ROOTS_MAX)
-        return false;
-    const int rootRoom = counter.roots + counter.between > ROOTS_MAX ? ROOTS_MAX : counter.roots + counter.between;
+    return counter.seeds;
+}
+
+bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObject* like)
+{
+    snprintf(trouble, sizeof trouble, "not enough memory for seeds that close");
     Layout layout;
-    layout.rings = counter.rings;
-    layout.rootCount = counter.roots;
-    layout.perSpacing = Real(1) / spacing;
-    if (!layout.allocated(counter.seeds, rootRoom)) {
+    layout.spacing = spacing;
+    layout.size = size_;
+    if (like != nullptr ? !layOutLike(*like, layout) : !layOutRegular(layout) || !findNeighbours(layout)) {
         layout.release();
         return false;
     }
-    Filler filler(layout.seeds, layout.roots, layout.ringStarts, radius_, spacing);
-    layOutSeeds(filler, spacing);
-    layout.ringStarts[layout.rings] = counter.seeds;
-    addOversampled(layout, rootRoom);
+    layout.oversampled = layout.rings > 0 ? layout.regular - layout.ringStarts[ringsClose() ? 0 : 1] : 0;
 
     // The surface is made for the object as it will be; without memory for it the object goes back.
-    struct Kept {
-        Seed* seeds;
-        Vector* roots;
-        int32_t* ringStarts;
-        int regular, extra, rootCount, rings;
-        Real spacing, laidSize;
-    };
-    const Kept before{seeds_, roots_, ringStarts_, regular_, extra_, rootCount_, rings_, spacing_, laidSize_};
-    seeds_ = layout.seeds;
-    roots_ = layout.roots;
-    ringStarts_ = layout.ringStarts;
-    regular_ = counter.seeds;
-    extra_ = counter.rings > 0 ? counter.seeds - layout.ringStarts[ringsClose() ? 0 : 1] : 0;
-    rootCount_ = layout.rootCount;
-    rings_ = layout.rings;
-    spacing_ = spacing;
-    laidSize_ = size_;
-    for (int i = 0; i < 2 * regular_; ++i)
-        seeds_[i].normal = restNormal(seeds_[i]);
-    Surface* const surface = makeSurface(*this);
+    Layout before = laid_;
+    laid_ = layout;
+    for (int ring = 0; like == nullptr && ring < laid_.rings && !stopAsked(); ++ring)
+        for (int i = laid_.ringStarts[ring]; i < laid_.ringStarts[ring + 1]; ++i)
+            laid_.seeds[i].normal = restNormal(laid_.seeds[i]);
+    Surface* const surface = stopAsked() ? nullptr : makeSurface(*this);
     if (surface == nullptr) {
-        layout.release();
-        seeds_ = before.seeds;
-        roots_ = before.roots;
-        ringStarts_ = before.ringStarts;
-        regular_ = before.regular;
-        extra_ = before.extra;
-        rootCount_ = before.rootCount;
-        rings_ = before.rings;
-        spacing_ = before.spacing;
-        laidSize_ = before.laidSize;
+        laid_.release();
+        laid_ = before;
         return false;
     }
-    free(before.seeds);
-    free(before.roots);
-    free(before.ringStarts);
+    before.release();
     destroy(surface_);
     surface_ = surface;
     makeSurface_ = makeSurface;

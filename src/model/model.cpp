@@ -33,6 +33,8 @@ void exchange(T& a, T& b)
 
 }  // namespace
 
+const char EYE_NAME[] = "eye";
+
 // One block of memory: this, then the items, the keys and the links.
 struct alignas(Actor) Model::Record {
     struct Pair {
@@ -150,6 +152,14 @@ void Model::remove(Actor* item)
         items_[i - 1] = items_[i];
     }
     --itemCount_;
+
+    // An eye without its group stands, and one that looked at what is gone still looks that way.
+    if (item->number == camera.carrier)
+        camera.carrier = 0;
+    if (camera.looks == Camera::AT_ITEM && item->number == camera.item) {
+        camera.looks = Camera::AT_POINT;
+        camera.target = item->pose.place;
+    }
 
     removeKeys(item);
 
@@ -356,11 +366,41 @@ void Model::recalcAll()
         actors_[i]->object->setRecalc();
 }
 
+Actor* Model::eyeCarrier()
+{
+    if (camera.carrier != 0)
+        return itemNumbered(camera.carrier);
+    Actor described;
+    strcpy(described.name, EYE_NAME);
+    described.motion.centre = camera.eye;
+    // It is saved with its turn, so that it is read as a group again.
+    described.motion.parts = MOTION_TURN;
+    Actor* carrier = addItem(described);
+    if (carrier != nullptr)
+        camera.carrier = carrier->number;
+    return carrier;
+}
+
+// An object before the i-th that has the same seeds; null: none.
+const SoftObject* Model::alike(int i) const
+{
+    const Actor& one = *actors_[i];
+    for (int j = 0; one.kind != nullptr && j < i; ++j) {
+        const Actor& other = *actors_[j];
+        bool same = other.kind == one.kind && other.object->size() == one.object->size();
+        for (int m = 0; same && m < MEASURES_MOST; ++m)
+            same = other.measure[m] == one.measure[m];
+        if (same)
+            return other.object;
+    }
+    return nullptr;
+}
+
 bool Model::resample(Real spacing, SurfaceMaker makeSurface)
 {
     for (int i = 0; i < count_; ++i) {
         const Real before = actors_[i]->object->spacing();
-        if (!actors_[i]->object->resample(spacing, makeSurface)) {
+        if (!actors_[i]->object->resample(spacing, makeSurface, alike(i))) {
             while (--i >= 0)
                 actors_[i]->object->resample(before, makeSurface);
             return false;
@@ -369,6 +409,30 @@ bool Model::resample(Real spacing, SurfaceMaker makeSurface)
     spacing_ = spacing;
     makeSurface_ = makeSurface;
     return true;
+}
+
+Real Model::finest() const
+{
+    Real spacing = count_ > 0 ? actors_[0]->object->spacing() : spacing_;
+    for (int i = 1; i < count_; ++i)
+        spacing = least(spacing, actors_[i]->object->spacing());
+    return spacing;
+}
+
+Real Model::coarsest() const
+{
+    Real spacing = count_ > 0 ? actors_[0]->object->spacing() : spacing_;
+    for (int i = 1; i < count_; ++i)
+        spacing = most(spacing, actors_[i]->object->spacing());
+    return spacing;
+}
+
+int Model::seedsAt(Real spacing) const
+{
+    int seeds = 0;
+    for (int i = 0; i < count_; ++i)
+        seeds += actors_[i]->object->seedsAt(spacing);
+    return seeds;
 }
 
 const Bodies* Model::bodies()
@@ -535,4 +599,18 @@ bool Model::restore(const Record* record)
     for (int i = 0; i < record->pairs; ++i)
         good = link(itemNumbered(pair[i].a)->object, itemNumbered(pair[i].b)->object, pair[i].weight) && good;
     return true;
+}
+
+int Model::strongestAt(const Point& p) const
+{
+    int best = -1;
+    Real strongest(0);
+    for (int i = 0; i < count_; ++i) {
+        const Real field = actors_[i]->object->fieldFunc(p);
+        if (field > strongest) {
+            strongest = field;
+            best = i;
+        }
+    }
+    return best;
 }

@@ -3,6 +3,7 @@
 
 #include "math/normal.h"
 #include "model/sphere.h"
+#include "model/stop.h"
 
 namespace {
 
@@ -56,6 +57,9 @@ int addRoots(SeedMaker& maker, const Ring& ring, Real spacing)
 void addSeeds(SeedMaker& maker, const Ring& ring, Real spacing, int root)
 {
     const int count = seedsOf(ring, spacing);
+    maker.beginRing();
+    if (maker.countRing(count, ring.core != Real(0)) || stopAsked())
+        return;
     const uint32_t step = 0xffffffffu / static_cast<uint32_t>(count);
     // A seed's part of the surface is widest at its outer edge: in the small rings about a pole that makes a difference.
     Real around = ring.core + ring.radius * ring.pathCosine;
@@ -63,7 +67,6 @@ void addSeeds(SeedMaker& maker, const Ring& ring, Real spacing, int root)
         around += ring.across * absolute(ring.normalSine);
     const Real along = around * sine(step / 2) * CELL_SPARE, across = ring.across * CELL_SPARE;
     const int nextRoot = ring.core == Real(0) ? 0 : 1;
-    maker.beginRing();
     for (int i = 0; i < count; ++i, root += nextRoot) {
         const Angle longitude = static_cast<uint32_t>(i) * step;
         const Real s = sine(longitude), c = cosine(longitude);

@@ -110,6 +110,7 @@ private:
     bool readName(const char* what);
     bool readKnown(const char* what, Actor** item);
     bool readMoving(Row* row);
+    Actor* eyeCarrier();
     Actor& in(const Row& row, int i) { return model_.item(row.first + i); }
     const Row* rowNamed(const char* name) const;
     bool find(const char* name, Row* row) const;
@@ -124,6 +125,8 @@ private:
     bool addRow(Actor& actor, int count, const Vector& step, bool coloured);
     bool title();
     bool camera();
+    bool eye();
+    bool look();
     bool circle();
     bool path();
     bool turning(bool swings);
@@ -311,10 +314,13 @@ bool Reader::readColour(Colour* colour)
 
 bool Reader::readVector(const char* what, int limit, Vector* value)
 {
-    char text[60];
     const auto part = [&](const char* axis, Real* to) {
+        nextWord();
+        if (parseReal(word_, to) && absolute(*to) <= Real(limit))
+            return true;
+        char text[60];
         snprintf(text, sizeof text, "%.40s, %s", what, axis);
-        return readReal(text, Real(-limit), Real(limit), to);
+        return realIs(text, Real(-limit), Real(limit), to);
     };
     return part("x", &value->x) && part("y", &value->y) && part("z", &value->z);
 }
@@ -343,6 +349,10 @@ bool Reader::readKnown(const char* what, Actor** item)
 {
     nextWord();
     *item = word_[0] == 0 ? nullptr : model_.itemNamed(word_);
+    if (*item == nullptr && is(EYE_NAME)) {
+        *item = eyeCarrier();
+        return *item != nullptr;
+    }
     return *item != nullptr ? true : expected(what);
 }
 
@@ -376,7 +386,32 @@ bool Reader::find(const char* name, Row* row) const
 bool Reader::readMoving(Row* row)
 {
     nextWord();
-    return word_[0] != 0 && find(word_, row) ? true : expected("the name of an object or a group");
+    if (word_[0] != 0 && find(word_, row))
+        return true;
+    if (!is(EYE_NAME))
+        return expected("the name of an object or a group");
+    const Actor* carrier = eyeCarrier();
+    return carrier != nullptr && find(carrier->name, row);
+}
+
+// The group that the eye moves with. Null, and a complaint: there cannot be one.
+Actor* Reader::eyeCarrier()
+{
+    if (model_.camera.carrier == 0) {
+        word_ = EYE_NAME;
+        if (model_.itemNamed(EYE_NAME) != nullptr || rowNamed(EYE_NAME) != nullptr) {
+            expected("another name for the object or group of that name, for the eye moves");
+            return nullptr;
+        }
+        if (model_.items() - model_.count() == Model::GROUPS_MOST) {
+            expected("at most 64 groups, the eye that moves among them");
+            return nullptr;
+        }
+    }
+    Actor* carrier = model_.eyeCarrier();
+    if (carrier == nullptr)
+        trouble("not enough memory for the model");
+    return carrier;
 }
 
 // A place for one more motion of a part that the item has already; null, and a complaint, when there is none.
@@ -420,7 +455,11 @@ bool Reader::statement()
     const Kind* kind = kindNamed(word_);
     if (kind != nullptr || is("group"))
         return object(kind);
-    if (is("eye") || is("focal") || is("light"))
+    if (is("eye"))
+        return eye();
+    if (is("look"))
+        return look();
+    if (is("focal") || is("light") || is("roll"))
         return camera();
     if (is("title"))
         return title();
@@ -449,7 +488,7 @@ bool Reader::statement()
     for (int i = 0; i < KIND_COUNT; ++i)
         length += snprintf(text + length, sizeof text - static_cast<size_t>(length), "%s, ", KINDS[i].word);
     snprintf(text + length, sizeof text - static_cast<size_t>(length),
-             "group, blend, circle, path, spin, swing, pulse, keys, key, colours, finish, pattern, eye, focal, light or title");
+             "group, blend, circle, path, spin, swing, pulse, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title");
     return expected(text);
 }
 
@@ -626,13 +665,78 @@ bool Reader::title()
     return true;
 }
 
+// Where the eye stands; with `turn` or `in` it is a group.
+bool Reader::eye()
+{
+    Vector v, turn{Real(0), Real(0), Real(0)};
+    if (!readVector("the eye's place", SPACE, &v))
+        return false;
+    const Real most = DEGREES_MOST;
+    const Actor* parent = nullptr;
+    bool turned = false;
+    while (nextWord()) {
+        if (is("turn")) {
+            if (!readReal("degrees about x", -most, most, &turn.x) || !readReal("degrees about y", -most, most, &turn.y) ||
+                !readReal("degrees about z", -most, most, &turn.z))
+                return false;
+            turned = true;
+        } else if (is("in")) {
+            Actor* known;
+            if (!readKnown("a group or an object of a line above", &known))
+                return false;
+            // Parents stand before their children.
+            for (int i = 0; &model_.item(i) != known; ++i)
+                if (model_.item(i).number == model_.camera.carrier)
+                    return expected("a group or an object above the first line that moves the eye");
+            parent = known;
+        } else {
+            return expected("turn, in or the end of the line");
+        }
+    }
+    if (parent != nullptr && parent->number == model_.camera.carrier) {
+        word_ = parent->name;
+        return expected("another group than the eye's own");
+    }
+    model_.camera.eye = toPoint(v);
+    if (!turned && parent == nullptr && model_.camera.carrier == 0)
+        return true;
+    Actor* carrier = eyeCarrier();
+    if (carrier == nullptr)
+        return false;
+    carrier->motion.centre = toPoint(v);
+    carrier->motion.turn = turn;
+    carrier->motion.parent = parent == nullptr ? 0 : parent->number;
+    return true;
+}
+
+// What the eye looks at: a place, or an object or a group.
+bool Reader::look()
+{
+    Camera& camera = model_.camera;
+    nextWord();
+    if (isLetter(word_[0]) || word_[0] == 0) {
+        const Actor* item = word_[0] == 0 ? nullptr : model_.itemNamed(word_);
+        if (item == nullptr || item->number == camera.carrier)
+            return expected(word_[0] == 0 ? "a place, or the name of an object or a group"
+                                          : "the name of an object or a group of a line above");
+        camera.looks = Camera::AT_ITEM;
+        camera.item = item->number;
+        return readEnd();
+    }
+    const Real edge(SPACE);
+    Point& p = camera.target;
+    if (!realIs("the place looked at, x", -edge, edge, &p.x) || !readReal("the place looked at, y", -edge, edge, &p.y) ||
+        !readReal("the place looked at, z", -edge, edge, &p.z))
+        return false;
+    camera.looks = Camera::AT_POINT;
+    return readEnd();
+}
+
 bool Reader::camera()
 {
-    if (is("eye")) {
-        Vector v;
-        if (!readVector("the eye's place", SPACE, &v))
+    if (is("roll")) {
+        if (!readReal("degrees", -DEGREES_MOST, DEGREES_MOST, &model_.camera.roll))
             return false;
-        model_.camera.eye = toPoint(v);
     } else if (is("light")) {
         if (!readDirection("the direction to the light", &model_.light))
             return false;
@@ -1177,13 +1281,17 @@ void Writer::further(const Actor& actor, MotionPart part)
 void Writer::item(const Model& model, const Actor& actor)
 {
     const Motion& m = actor.motion;
-    word(actor.object == nullptr ? "group" : actor.kind == nullptr ? "sphere" : actor.kind->word).word(actor.name);
+    const bool eye = actor.number == model.camera.carrier;
+    if (eye)
+        word("eye").vector(toVector(m.centre));
+    else
+        word(actor.object == nullptr ? "group" : actor.kind == nullptr ? "sphere" : actor.kind->word).word(actor.name);
     if (actor.object != nullptr) {
         const int measures = actor.kind == nullptr ? 1 : actor.kind->measures;
         for (int i = 0; i < measures; ++i)
             word(actor.kind == nullptr ? "size" : actor.kind->measure[i].word).number(actor.measure[i]);
     }
-    if (!(m.centre == Point{Real(0), Real(0), Real(0)}))
+    if (!eye && !(m.centre == Point{Real(0), Real(0), Real(0)}))
         word("at").vector(toVector(m.centre));
     if (m.parts & MOTION_TURN)
         word("turn").vector(m.turn);
@@ -1264,8 +1372,18 @@ bool Writer::write(const Model& model)
         end();
     }
     const Camera& camera = model.camera;
-    word("eye").vector(toVector(camera.eye));
-    end();
+    if (camera.carrier == 0) {
+        word("eye").vector(toVector(camera.eye));
+        end();
+    }
+    if (camera.looks == Camera::AT_POINT) {
+        word("look").vector(toVector(camera.target));
+        end();
+    }
+    if (camera.roll != Real(0)) {
+        word("roll").number(camera.roll);
+        end();
+    }
     word("focal").number(camera.focalX).number(camera.focalY);
     end();
     word("light").vector(model.light);
@@ -1276,6 +1394,11 @@ bool Writer::write(const Model& model)
     }
     for (int i = 0; i < model.items(); ++i)
         item(model, model.item(i));
+    const Actor* seen = camera.looks == Camera::AT_ITEM ? model.itemNumbered(camera.item) : nullptr;
+    if (seen != nullptr) {
+        word("look").word(seen->name);
+        end();
+    }
 
     // Links: one line where all are alike, else one for each.
     Real common(1), weight;

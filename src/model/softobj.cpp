@@ -3,6 +3,7 @@
 
 #include "math/alloc.h"
 #include "math/text.h"
+#include "model/stop.h"
 
 namespace {
 
@@ -53,9 +54,9 @@ SoftObject::SoftObject(int number, Real size, Real coreReach, bool tapers)
     : number_(number), centre_{Real(0), Real(0), Real(0)}, turn_(Matrix::identity()), size_(size),
       radius_(shiftDown(size, 1)), inverse_(Real(CORE_SIZE) / size), coreReach_(coreReach),
       sizeMade_(size), coreReachMade_(coreReach), coreReach16_(coreReach * (Real(CORE_SIZE) / size)), slot_(0), recalc_(true), tapers_(tapers),
-      displaced_(false), spacing_(2), laidSize_(size), ramp_(nullptr), seeds_(nullptr), roots_(nullptr),
-      ringStarts_(nullptr), regular_(0), extra_(0), rootCount_(0), rings_(0), surface_(nullptr), makeSurface_(nullptr)
+      displaced_(false), ramp_(nullptr), surface_(nullptr), makeSurface_(nullptr)
 {
+    laid_.size = size;
 }
 
 SoftObject::~SoftObject()
@@ -63,16 +64,14 @@ SoftObject::~SoftObject()
     for (const List<Link>::Node* node = skel_.first(); node != nullptr; node = node->next)
         node->item.object->unlink(this);
     destroy(surface_);
-    free(seeds_);
-    free(roots_);
-    free(ringStarts_);
+    laid_.release();
 }
 
 // --- Operations
 
 Point SoftObject::toWorld(const Vector& v) const
 {
-    const Vector grown = size_ == laidSize_ ? v : v * growth();
+    const Vector grown = size_ == laid_.size ? v : v * growth();
     return centre_ + (isBall() ? grown : turn_ * grown);
 }
 
@@ -142,10 +141,10 @@ void SoftObject::setSize(Real wanted)
     radius_ = shiftDown(size, 1);
     inverse_ = Real(CORE_SIZE) / size;
     coreReach_ = grown(coreReachMade_);
-    if (seeds_ != nullptr) {
+    if (laid_.seeds != nullptr) {
         const Real drift = growth();
         if (drift > Real(1) + DRIFT_MAX || drift < Real(1) - DRIFT_MAX)
-            resample(spacing_, makeSurface_);
+            resample(laid_.spacing, makeSurface_);
     }
     recalc_ = true;
     tellNeighbours();
@@ -227,7 +226,7 @@ void SoftObject::update(const FrameContext& frame)
     if (!recalc_)
         return;
     surface_->update(frame);
-    recalc_ = false;
+    recalc_ = stopAsked();
 }
 
 void SoftObject::draw(const FrameContext& frame, VoxelList& list, int room, int* next)

@@ -3,6 +3,7 @@
 
 #include "rt.h"
 #include "math/text.h"
+#include "model/stop.h"
 
 namespace {
 constexpr int64_t PI_16 = 205887;       // pi, 16.16
@@ -34,14 +35,16 @@ void Sphere::layOutSeeds(SeedMaker& maker, Real spacing) const
     // Half the distance of two rings: radius * pi / rings / 2.
     const Real across = radius() * realFromRaw(static_cast<int32_t>(PI_16)) / Real(2 * rings);
     const uint32_t latitudeStep = 0x40000000u / static_cast<uint32_t>(rings);
-    for (int k = 0; k < rings; ++k) {
+    for (int k = 0; k < rings && !stopAsked(); ++k) {
         // -pi/2 + pi (k + 1/2) / rings
         const Angle latitude = static_cast<uint32_t>(2 * k + 1) * latitudeStep - 0x40000000u;
-        const Real sinLatitude = sine(latitude), cosLatitude = cosine(latitude);
         const int count = seedsInRing(radius(), spacing, cosine30(latitude));
+        maker.beginRing();
+        if (maker.countRing(count, false))
+            continue;
+        const Real sinLatitude = sine(latitude), cosLatitude = cosine(latitude);
         const Real along = radius() * cosLatitude * realFromRaw(static_cast<int32_t>(PI_16)) / Real(count);
         const uint32_t step = 0xffffffffu / static_cast<uint32_t>(count);
-        maker.beginRing();
         for (int i = 0; i < count; ++i) {
             const Angle longitude = static_cast<uint32_t>(i) * step;
             const Real s = sine(longitude), c = cosine(longitude);

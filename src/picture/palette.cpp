@@ -175,8 +175,11 @@ void Palette::make(Model& model, bool grey, bool plain)
             }
         }
     }
-    for (int c = 0; c < count; ++c)
-        lengthen(ramps_[c] + SHADING_MOST);
+    for (int c = 0; c < count; ++c) {
+        const uint8_t* const ramp = lengthen(ramps_[c] + SHADING_MOST);
+        for (int i = 0; i < STEPS; ++i)
+            steps_[ramp[i]] = static_cast<uint8_t>(i);
+    }
     for (int i = 0; i < model.count(); ++i) {
         if (painted) {
             rampOf[i] = paint_[i].number;

@@ -16,6 +16,7 @@ constexpr int GAP_NARROW = 8;
 constexpr int GAP_LOW = 6;
 constexpr int GAP_THIN = 2;
 constexpr int GAP_MOST = 32;  // however near the viewer
+constexpr int DIVIDED = 2;    // as near as this its ends stand when the place is found where a gap changes its colour
 constexpr int FRACTION = 12;
 constexpr int32_t HALF = 1 << (FRACTION - 1);
 constexpr int32_t NEAREST = 1 << 8;            // 1 unit
@@ -43,13 +44,22 @@ bool View::open()
         touched_[y] = {0, 0};
         last_[y] = {0, WIDTH};  // the screen may hold anything before the first frame
     }
-    setCamera(camera_);
+    makeLens();
     return true;
 }
 
 void View::setCamera(const Camera& camera)
 {
+    const bool same = camera.focalX == camera_.focalX && camera.focalY == camera_.focalY &&
+                      camera.centreX == camera_.centreX && camera.centreY == camera_.centreY;
     camera_ = camera;
+    if (!same)
+        makeLens();
+}
+
+void View::makeLens()
+{
+    const Camera& camera = camera_;
     focalX_ = rawFromReal(camera.focalX) >> (16 - FRACTION);
     focalY_ = rawFromReal(camera.focalY) >> (16 - FRACTION);
     centreX_ = rawFromReal(camera.centreX) >> (16 - FRACTION);
@@ -279,8 +289,10 @@ static inline bool inSlit(const uint8_t* pixel)
 }
 
 // Looks at each row once, and at more only where a run of empty pixels between drawn ones is short.
-int View::closeGaps(Real spacing)
+int View::closeGaps(Real spacing, const Model* model, const Palette* palette)
 {
+    model_ = model;
+    palette_ = palette;
     if (pixels_)
         return 0;
     int drawn = 0;
@@ -322,8 +334,7 @@ void View::closeRun(int y, int from, int to, int spacing)
     if (to - from > widest)
         return;
     if (to - from <= GAP_THIN) {
-        const Span thin = {static_cast<int16_t>(from), static_cast<int16_t>(to)};
-        fillRow(y, thin);
+        fill(NO_ENDS, y * WIDTH + from - 1, y * WIDTH + to, 1);
         // What lies above may have been open to it.
         closeAbove(y, from, widest, GAP_NARROW + spacing);
         closeAbove(y, to - 1, widest, GAP_NARROW + spacing);
@@ -388,8 +399,12 @@ void View::closeFrom(int y, int from, int to, int step, int widest, int narrowes
         if (to - from > widest || from == 0 || to == WIDTH || high == widest)
             break;
     }
-    for (int i = 0; i < narrow; ++i)
-        fillRow(y + i * step, rows[i]);
+    if (narrow > 0) {
+        const int middle = narrow / 2, row = (y + middle * step) * WIDTH;
+        const Ends ends = endsOf(row + rows[middle].from - 1, row + rows[middle].to);
+        for (int i = 0; i < narrow; ++i)
+            fill(ends, (y + i * step) * WIDTH + rows[i].from - 1, (y + i * step) * WIDTH + rows[i].to, 1);
+    }
     if (narrow < high) {
         closeCorner(y + narrow * step, rows[narrow].from, 1);
         closeCorner(y + narrow * step, rows[narrow].to - 1, -1);
@@ -406,13 +421,70 @@ void View::closeCorner(int y, int x, int step)
         takeOver(y * WIDTH + x, y * WIDTH + x - step);
 }
 
-// Empty pixels take over what the nearer end has: `empty` lies between drawn ones.
-void View::fillRow(int y, const Span& empty)
+Point View::pointAt(int at) const
 {
-    const int at = y * WIDTH;
-    for (int x = empty.from; x < empty.to; ++x)
-        if (frame_[at + x] == 0)
-            takeOver(at + x, at + (2 * x < empty.from + empty.to ? empty.from - 1 : empty.to));
+    const int row = at / WIDTH, column = at - row * WIDTH;
+    const Real half(0.5), z = realFromRaw(static_cast<int32_t>(zbuffer_[at]) << 9);
+    return camera_.eye + camera_.axes.toWorld({(Real(column) + half - camera_.centreX) / camera_.focalX * z,
+                                               (camera_.centreY - Real(row) - half) / camera_.focalY * z, z});
+}
+
+// Whose the drawn pixels on both sides of a gap are. None are named where their colour is the same, where their fields do not
+// meet, or without a model.
+View::Ends View::endsOf(int first, int last) const
+{
+    if (model_ == nullptr || frame_[first] == frame_[last])
+        return NO_ENDS;
+    const Ends ends{model_->strongestAt(pointAt(first)), model_->strongestAt(pointAt(last))};
+    if (ends.first < 0 || ends.last < 0 || !model_->actor(ends.first).object->inRange(*model_->actor(ends.last).object))
+        return NO_ENDS;
+    return ends;
+}
+
+// Between two drawn pixels, `step` the way from each to the next: the first that is the last one's.
+int View::divide(const Ends& ends, int first, int last, int step) const
+{
+    const SoftObject &one = *model_->actor(ends.first).object, &other = *model_->actor(ends.last).object;
+    Point here = pointAt(first), there = pointAt(last);
+    // The surface between them is taken for flat.
+    while (last - first > DIVIDED * step) {
+        const int at = first + (last - first) / step / 2 * step;
+        const Vector way = there - here;
+        const Point p = here + Vector{shiftDown(way.x, 1), shiftDown(way.y, 1), shiftDown(way.z, 1)};
+        if (one.fieldFunc(p) < other.fieldFunc(p)) {
+            last = at;
+            there = p;
+        } else {
+            first = at;
+            here = p;
+        }
+    }
+    return last;
+}
+
+// Empty pixels between two drawn ones, `step` the way from each to the next, take over what the nearer one has. Where the two
+// are of two objects, each gets the colour of the one that is the stronger there, and is as bright as lies between them.
+void View::fill(const Ends& ends, int first, int last, int step)
+{
+    const int count = (last - first) / step;
+    const bool named = ends.first >= 0 && count > GAP_THIN + 1;
+    int second = last, light = 0, lighter = 0;
+    const uint8_t *one = nullptr, *other = nullptr;
+    if (named) {
+        second = ends.first == ends.last ? last : divide(ends, first, last, step);
+        one = model_->actor(ends.first).object->ramp();
+        other = model_->actor(ends.last).object->ramp();
+        light = palette_->step(frame_[first]) << 8;
+        lighter = ((palette_->step(frame_[last]) << 8) - light) / count;
+    }
+    for (int i = 1; i < count; ++i) {
+        const int at = first + i * step;
+        if (frame_[at] != 0)
+            continue;
+        takeOver(at, 2 * i <= count ? first : last);
+        if (named)
+            frame_[at] = (at < second ? one : other)[(light + i * lighter + 128) >> 8];
+    }
 }
 
 // From column x in steps until `end`: closes a slit column by column, with what lies below in it.
@@ -423,8 +495,8 @@ void View::closeSlit(int y, int x, int end, int step)
         int high = 1;
         while (frame_[at + high * WIDTH] == 0)
             ++high;
-        for (int i = 0; i < high; ++i)
-            takeOver(at + i * WIDTH, 2 * i < high ? at - WIDTH : at + high * WIDTH);
+        const int above = at - WIDTH, below = at + high * WIDTH;
+        fill(high > GAP_THIN ? endsOf(above, below) : NO_ENDS, above, below, WIDTH);
         mark(x, y, x + 1, y + high);
     }
 }

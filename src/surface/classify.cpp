@@ -1,5 +1,6 @@
 // Patches: how they are made, and what is known of all seeds of a patch at once.
 #include "math/normal.h"
+#include "model/stop.h"
 #include "patch.h"
 #include "rt.h"
 
@@ -20,7 +21,8 @@ void setPatch(const SoftObject& object, Patch& patch)
 {
     const Real part(1.0 / 16384);
     Vector middle{Real(0), Real(0), Real(0)}, axis = middle;
-    Real path(0), radius(0), spread(0);
+    Real path(0);
+    Square radius(0), spread(0);
     const auto rest = [&](const Seed& s) { return object.root(s.root) + s.path; };
     const auto normal = [&](const Seed& s) {
         return Vector{part * Real(static_cast<int>(s.normal.x)), part * Real(static_cast<int>(s.normal.y)),
@@ -34,27 +36,31 @@ void setPatch(const SoftObject& object, Patch& patch)
         const Seed& s = object.seed(i);
         middle = middle + rest(s) * share;
         axis = axis + normal(s) * share;
-        path += length(s.path) * share;
+        if (object.tapers())
+            path += length(s.path) * share;
     });
+    if (!object.tapers())
+        path = object.radius();
     axis = unit(axis);
     forSeeds(patch, [&](int i) {
         const Seed& s = object.seed(i);
-        radius = most(radius, length(rest(s) - middle));
-        spread = most(spread, length(normal(s) - axis));
+        const Square away = squareOf(rest(s) - middle), aside = squareOf(normal(s) - axis);
+        radius = radius < away ? away : radius;
+        spread = spread < aside ? aside : spread;
     });
     const Direction14 d = direction(axis);
     patch.axis[0] = d.x;
     patch.axis[1] = d.y;
     patch.axis[2] = d.z;
-    patch.spread = static_cast<int16_t>(rawFromReal(least(spread, Real(1.9))) >> 2);
+    patch.spread = static_cast<int16_t>(rawFromReal(least(lengthOf(spread), Real(1.9))) >> 2);
     patch.middle[0] = static_cast<int16_t>(steps16(middle.x));
     patch.middle[1] = static_cast<int16_t>(steps16(middle.y));
     patch.middle[2] = static_cast<int16_t>(steps16(middle.z));
-    patch.radius = static_cast<int16_t>(steps16(radius + shiftDown(object.spacing(), 1)) + 2);
-    patch.tight = static_cast<int16_t>(steps16(radius) + 1);
+    patch.radius = static_cast<int16_t>(steps16(lengthOf(radius) + shiftDown(object.spacing(), 1)) + 2);
+    patch.tight = static_cast<int16_t>(steps16(lengthOf(radius)) + 1);
     patch.path = static_cast<int16_t>(steps16(path) + 1);
     patch.state = PATCH_REST;
-    patch.settled = patch.stale = false;
+    patch.extras = patch.settled = patch.stale = false;
     patch.blocker = static_cast<uint8_t>(object.slot());
     patch.nearest = patch.farthest = 64;
     patch.due = patch.listDue = 0;
@@ -140,7 +146,7 @@ void makePatches(const SoftObject& object, Patch* patches)
 {
     for (int ring = 0; ring < object.rings(); ring += PATCH_RINGS) {
         const Band band(object, ring);
-        for (int run = 0; run < band.runs; ++run, ++patches) {
+        for (int run = 0; run < band.runs && !stopAsked(); ++run, ++patches) {
             for (int k = 0; k < PATCH_RINGS; ++k) {
                 patches->first[k] = patches->count[k] = 0;
                 if (k >= band.rings)

@@ -2,11 +2,15 @@
 #include "surface/engine.h"
 
 #include "math/alloc.h"
+#include "model/stop.h"
 #include "paint.h"
 #include "settle.h"
 #include "shade.h"
 
 namespace {
+
+// So many patches are updated before the user is asked whether to go on.
+constexpr int ASKED_EVERY = 32;
 
 class Engine : public Surface {
 public:
@@ -62,6 +66,8 @@ void Engine::update(const FrameContext& frame)
     Patch* const end = patches_ + count_;
     for (Patch* patch = patches_; patch < end; ++patch) {
         patch->settled = false;
+        if ((patch - patches_) % ASKED_EVERY == ASKED_EVERY - 1 && stopAsked())
+            return;
         if (!known || patch->stale || isDue(odometer_.bound(), patch->listDue)) {
             classify(*patch, all);
             patch->listDue = odometer_.bound() + wayOf(LIST_SLACK);
@@ -110,7 +116,7 @@ void Engine::update(const FrameContext& frame)
 void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* next)
 {
     const OwnFrame own = ownFrame(object_, frame);
-    list.begin(object_.centre() - frame.eye, object_.coreReach() + object_.size(), object_.ramp());
+    list.begin(frame.inView(object_.centre()), object_.coreReach() + object_.size(), object_.ramp());
     if (own.outOfSight) {
         *next = 0;
         return;

@@ -51,7 +51,7 @@ static void setSides(const SoftObject& object, const FrameContext& frame, OwnFra
         return;
     // As far as seeds can be pulled out, and a little for the size of scales.
     const int32_t reach = rawFromReal(object.coreReach() + object.size() + object.spacing() * Real(2)) >> 12;
-    const Vector toCentre = object.centre() - frame.eye;
+    const Vector toCentre = frame.inView(object.centre());
     const Vector inwards[] = {{Real(1), Real(0), frame.sideways}, {Real(-1), Real(0), frame.sideways},
                               {Real(0), Real(1), frame.upward}, {Real(0), Real(-1), frame.upward}};
     for (const Vector& inward : inwards) {
@@ -62,7 +62,7 @@ static void setSides(const SoftObject& object, const FrameContext& frame, OwnFra
         if (inside >= reach)
             continue;
         OwnFrame::Side& side = own.sides[own.sideCount++];
-        axisInOwn(object, u, side.inward);
+        axisInOwn(object, frame.axes.toWorld(u), side.inward);
         side.inside = inside;
     }
 }
@@ -77,11 +77,14 @@ OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
     own.eye32[0] = rawFromReal(own.eye.x) >> 11;
     own.eye32[1] = rawFromReal(own.eye.y) >> 11;
     own.eye32[2] = rawFromReal(own.eye.z) >> 11;
+    // An eye in the very centre is taken for one beside it.
     own.distance32 = (rawFromReal(nearLength(own.eye)) >> 11) + 1;
+    if (own.distance32 < 4)
+        own.distance32 = 4;
     axisInOwn(object, frame.light, own.light);
-    axisInOwn(object, {Real(1), Real(0), Real(0)}, own.right);
-    axisInOwn(object, {Real(0), Real(1), Real(0)}, own.up);
-    axisInOwn(object, {Real(0), Real(0), Real(1)}, own.ahead);
+    axisInOwn(object, frame.axes.right, own.right);
+    axisInOwn(object, frame.axes.up, own.up);
+    axisInOwn(object, frame.axes.ahead, own.ahead);
     setSides(object, frame, own);
     return own;
 }

@@ -55,12 +55,10 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
     }
     fresh_ = false;
     // A quarter of the size is about how far a neighbour has to come to turn the surface as the viewer's way does.
-    const Normal toEye = normalise(own.eye);
-    const Vector turned{realFromRaw((toEye.x - eye_[0]) * 4), realFromRaw((toEye.y - eye_[1]) * 4), realFromRaw((toEye.z - eye_[2]) * 4)};
-    eye_[0] = toEye.x;
-    eye_[1] = toEye.y;
-    eye_[2] = toEye.z;
-    const Way eyeWay = wayOf(about(turned) * shiftDown(object.laidSize(), 2));
+    const Real eyeAway = most(nearLength(own.eye), Real(1));
+    const Real turned = least(about(own.eye - eye_), eyeAway) / eyeAway;
+    eye_ = own.eye;
+    const Way eyeWay = wayOf(turned * shiftDown(object.laidSize(), 2));
 
     const Real reach = object.coreReach() + object.size();
     Stand stands[NEIGHBOURS_MAX];

@@ -146,9 +146,10 @@ void polish(SoftObject& object, const OwnFrame& own)
     const int32_t half14[] = {half.x, half.y, half.z};
     const int32_t upAhead = (up14[0] * own.ahead[0] + up14[1] * own.ahead[1] + up14[2] * own.ahead[2]) >> 14;
     for (int i = 0; i < object.seedSlots(); ++i) {
-        Seed& s = object.seed(i);
-        if (!(s.flags & SEED_VALID))
+        Seed* const seed = i & 1 ? object.extra(i - 1) : &object.seed(i);
+        if (seed == nullptr || !(seed->flags & SEED_VALID))
             continue;
+        Seed& s = *seed;
         int32_t light;
         if (finish == FINISH_SHINY) {
             const int32_t cosine = along(s.normal, own.light);
@@ -221,11 +222,12 @@ void Painter::add(const Seed& s, const Voxel& shaded)
 void Painter::slope(const Seed& s, Voxel* voxel) const
 {
     voxel->slopeX = voxel->slopeY = 0;
-    const Seed *next = &s + 2, *last = &object_.seed(object_.seedSlots() - 2);
-    if (s.neighbour < 0 || ((&s - &object_.seed(0)) & 1) != 0)
+    // Oversampled ones do not lie among the regular.
+    const Seed *const first = &object_.seed(0), *const last = &object_.seed(object_.seedSlots() - 2), *next = &s + 1;
+    if (s.neighbour < 0 || &s < first || &s > last)
         return;
     if (next > last || !(next->flags & SEED_VALID) || next->neighbour < s.neighbour)
-        next = &s > &object_.seed(0) ? &s - 2 : &s;
+        next = &s > first ? &s - 1 : &s;
     const Seed& n = object_.seed(s.neighbour);
     if (!(next->flags & n.flags & SEED_VALID))
         return;

@@ -3,6 +3,7 @@
 // surface with less work.
 #include "math/alloc.h"
 #include "model/softobj.h"
+#include "model/stop.h"
 #include "surface/engine.h"
 #include "surface/voxel.h"
 
@@ -62,7 +63,7 @@ bool Report98::open()
 {
     const int slots = object_.seedSlots();
     kept_ = allocate<Kept>(static_cast<uint32_t>(slots));
-    if (kept_ == nullptr)
+    if (kept_ == nullptr || !object_.layOutExtras())
         return false;
     memset(static_cast<void*>(kept_), 0, sizeof(Kept) * static_cast<size_t>(slots));
     for (int i = 0; i < slots; ++i)
@@ -100,6 +101,8 @@ void Report98::update(const FrameContext& frame)
     for (int i = 0; i < object_.seedSlots(); i += 2) {
         const Seed& s = object_.seed(i);
         Seed& extra = object_.seed(i + 1);
+        if (i % 64 == 62 && stopAsked())
+            return;
         settle(i, frame, toEye, near, nearCount);
         if (s.neighbour >= 0 && absolute(s.position - object_.seed(s.neighbour).position) > OVERSAMPLE) {
             extra.flags |= SEED_ACTIVE;
@@ -167,7 +170,7 @@ void Report98::settle(int i, const FrameContext& frame, const Vector& toEye, con
 
 void Report98::draw(const FrameContext& frame, VoxelList& list, int room, int* next)
 {
-    list.begin(object_.centre() - frame.eye, object_.coreReach() + object_.size(), object_.ramp());
+    list.begin(frame.inView(object_.centre()), object_.coreReach() + object_.size(), object_.ramp());
     const Real inverseRadius = Real(1) / object_.radius();
     Link near[NEAR_MAX];
     const int nearCount = findNear(near);
@@ -207,7 +210,7 @@ void Report98::draw(const FrameContext& frame, VoxelList& list, int room, int* n
         const int32_t extent = rawFromReal(half) >> 8;
         Voxel& v = *list.room();
         v.brightness = kept.brightness;
-        const Vector place = kept.point - object_.centre();
+        const Vector place = frame.axes.fromWorld(kept.point - object_.centre());
         v.x = rawFromReal(place.x) >> 8;
         v.y = rawFromReal(place.y) >> 8;
         v.z = rawFromReal(place.z) >> 8;

@@ -199,6 +199,7 @@ struct Settler::Sum {
     {
         const Real t = shiftDown(at * at, 2);
         const FieldStep own = t < Real(1) ? geoffQuick(t) : FieldStep{Real(0), Real(0)};
+        settler.lookedAt_ = at;
         settler.ownField_ = sum = own.value;
         settler.ownSlope_ = own.slope;
         slope = shiftDown(own.slope * at, 1);
@@ -466,6 +467,8 @@ void Settler::findBorder(Seed& s, Real dominance) const
     for (int i = 1; i < touched_; ++i)
         if (along_[i].value > other->value)
             other = along_ + i;
+    // The fields were looked at before the last step.
+    dominance += (other->slope * other->change - shiftDown(ownSlope_ * lookedAt_, 1)) * (s.position - lookedAt_);
     // Gradients, times half the squared size of the object.
     const Vector place = path_ * s.position;
     Vector g = place * ownSlope_;
@@ -529,7 +532,7 @@ void Settler::restThere(Seed& s)
 // it: it is stronger than the own object where the path left the surface, and a little before.
 bool Settler::isBlocked(const Seed& s, Real margin)
 {
-    if (blocker_ < 0 || turnOf(s) % TURNS == 0 || came_ > HURRY)
+    if (blocker_ < 0 || turn_ % TURNS == 0 || came_ > HURRY)
         return false;
     const Neighbour& near = all_.neighbours[blocker_];
     Along along;
@@ -662,6 +665,7 @@ static Real enough(const Patch& patch, Real size)
 bool Settler::stillInside(const Patch& patch)
 {
     blocker_ = all_.numberOf[patch.blocker];
+    turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
     return blocker_ >= 0 && isBlocked(object_.seed(patch.centre), enough(patch, all_.neighbours[blocker_].size));
 }
 
@@ -669,6 +673,7 @@ PatchState Settler::probe(Patch& patch)
 {
     Seed& s = object_.seed(patch.centre);
     blocker_ = all_.numberOf[patch.blocker];
+    turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
     patch.due = now_;
     if (!(s.flags & SEED_VALID) && patch.state == PATCH_MIXED && isBlocked(s, BLOCKED))
         return PATCH_MIXED;
@@ -721,6 +726,7 @@ void Settler::settleRest(Patch& patch)
         Seed& s = object_.seed(i);
         if (&s == &centre)
             return;
+        turn_ = static_cast<uint32_t>(i) / 2 + updates_;
         if (s.flags & SEED_ASLEEP) {
             // It has slept: it is likely to be where the one in the middle is.
             s.position = centre.position;
@@ -750,7 +756,7 @@ bool Settler::waits(const Seed& s, bool someAway) const
         const int32_t away = -facing(object_, s, own_);
         mask |= away > WELL_AWAY ? 3 : away > LITTLE_AWAY ? 1 : 0;
     }
-    return (turnOf(s) & mask) != 0;
+    return (turn_ & mask) != 0;
 }
 
 namespace {
@@ -760,7 +766,7 @@ bool parted(const SoftObject& object, const Seed& s)
 {
     if (s.neighbour < 0)
         return false;
-    const Seed& n = object.seed(s.neighbour);
+    const Seed& n = object.regular(s.neighbour);
     if (n.flags & SEED_ASLEEP)
         return false;
     if ((s.flags ^ n.flags) & SEED_VALID)
@@ -768,41 +774,61 @@ bool parted(const SoftObject& object, const Seed& s)
     return (s.flags & SEED_VALID) && absolute(s.position - n.position) * object.radius() > object.spacing() * PARTED;
 }
 
+// The oversampled seed of a regular one is not needed; none of a patch is.
+void putAway(SoftObject& object, int i)
+{
+    if (Seed* const extra = object.extra(i))
+        extra->flags = 0;
+}
+
+void putAway(SoftObject& object, Patch& patch)
+{
+    if (patch.extras)
+        forSeeds(patch, [&](int i) { putAway(object, i); });
+    patch.extras = false;
+}
+
 }  // namespace
 
-void Settler::oversample(const Patch& patch)
+void Settler::oversample(Patch& patch)
 {
+    const bool had = patch.extras;
     bool any = false;
     forSeeds(patch, [&](int i) {
-        Seed& extra = object_.seed(i + 1);
         if (!parted(object_, object_.seed(i))) {
-            extra.flags = 0;
+            if (had)
+                putAway(object_, i);
             return;
         }
         any = true;
+        Seed& extra = object_.seed(i + 1);
         if (!(extra.flags & SEED_ACTIVE)) {
             extra.flags = SEED_ACTIVE | SEED_VALID;
             extra.position = object_.seed(i).position;
             extra.still = 0;
         }
     });
+    patch.extras = any;
     if (!any)
         return;
     setPatch(patch, true);
     blocker_ = all_.numberOf[patch.blocker];
     forSeeds(patch, [&](int i) {
-        Seed& extra = object_.seed(i + 1);
-        if ((extra.flags & SEED_ACTIVE) && !((extra.flags & SEED_VALID) && waits(extra, false)) && ((extra.flags & SEED_VALID) || !(isBlocked(extra, BLOCKED) || stillInside(extra) > Real(0))))
-            settle(extra);
+        Seed* const extra = object_.extra(i);
+        if (extra == nullptr || !(extra->flags & SEED_ACTIVE))
+            return;
+        turn_ = static_cast<uint32_t>(i) / 2 + updates_;
+        if (!(extra->flags & SEED_VALID) ? !isBlocked(*extra, BLOCKED) && stillInside(*extra) == Real(0) : !waits(*extra, false))
+            settle(*extra);
     });
 }
 
 void rest(SoftObject& object, Patch& patch, const OwnFrame& own)
 {
     patch.nearest = patch.farthest = 64;
+    putAway(object, patch);
     forSeeds(patch, [&](int i) {
         Seed& s = object.seed(i);
-        object.seed(i + 1).flags = 0;
         if (s.flags != (SEED_VALID | SEED_RESTING)) {
             s.position = Real(1);
             s.normal = object.restNormal(s);
@@ -820,10 +846,10 @@ void light(SoftObject& object, const Patch& patch, const OwnFrame& own)
     });
 }
 
-void sleep(SoftObject& object, const Patch& patch)
+void sleep(SoftObject& object, Patch& patch)
 {
+    putAway(object, patch);
     forSeeds(patch, [&](int i) {
-        object.seed(i + 1).flags = 0;
         if (i != patch.centre)
             object.seed(i).flags = SEED_ASLEEP;
     });

@@ -58,7 +58,7 @@ public:
 
     // Settles those oversampled seeds of a patch that are needed, when all regular ones have been; the others end. It calls
     // setPatch() by itself.
-    void oversample(const Patch& patch);
+    void oversample(Patch& patch);
 
 private:
     // The neighbours to look at, by their numbers, and whether they and the object are all linked with each other at weight 1:
@@ -88,7 +88,6 @@ private:
     static Way until(Real hold, Real push, Real longest);
     Real stillInside(Seed& s);
     bool isBlocked(const Seed& s, Real margin);
-    uint32_t turnOf(const Seed& s) const { return static_cast<uint32_t>(&s - &object_.seed(0)) / 2 + updates_; }
     int strongest() const;
     void aim(const Neighbour& near, FromRoot& from, const Seed& s, Along& along) const;
     void beginSearch(const Seed& s);
@@ -102,7 +101,8 @@ private:
     Counts& counts_;
     const Way now_;   // reading of the odometer
     const Real came_; // how far neighbours came in this frame, units
-    uint32_t updates_;
+    const uint32_t updates_;
+    uint32_t turn_ = 0;  // of the seed at hand: seeds that wait take turns
     const Real* ownWeights_;  // of its links, by slots
     bool allComplete_;
     FromRoot from_[NEIGHBOURS_MAX];
@@ -122,7 +122,8 @@ private:
     int touched_;
     Along along_[NEIGHBOURS_MAX];
     Real slope_;                      // dF/dp where the seed has settled
-    Real ownField_, ownSlope_;        // F and dF/dt of the own field at the last position
+    Real lookedAt_;                   // the last position looked at
+    Real ownField_, ownSlope_;        // F and dF/dt of the own field there
     Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, unless complete_
 };
 
@@ -133,6 +134,6 @@ void rest(SoftObject& object, Patch& patch, const OwnFrame& own);
 void light(SoftObject& object, const Patch& patch, const OwnFrame& own);
 
 // Puts all seeds of a patch but the one in the middle to sleep: they are neither settled nor drawn.
-void sleep(SoftObject& object, const Patch& patch);
+void sleep(SoftObject& object, Patch& patch);
 
 #endif

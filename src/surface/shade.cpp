@@ -84,7 +84,7 @@ struct Scale {
 };
 
 // Turns the seeds of one object into voxels. Made once for an object and a frame, and only here, so that the compiler may keep
-// it on the stack, where it needs no register to be found. TURNED: the own axes are not those of the world.
+// it on the stack, where it needs no register to be found. TURNED: the own axes are not those of the view.
 template <bool TURNED>
 class Shader {
 public:
@@ -148,7 +148,7 @@ inline Shader<TURNED>::Shader(const SoftObject& object, const OwnFrame& own, con
     : object_(object), own_(own), seeds_(&object.seed(0)), lastSeed_(&object.seed(object.seedSlots() - 2)), roots_(&object.root(0)),
       grown_(object.size() != object.laidSize()), spacing_(rawFromReal(object.spacing() * own.growth) >> 8)
 {
-    const Vector place = object.centre() - frame.eye;
+    const Vector place = frame.inView(object.centre());
     depth_ = rawFromReal(place.z) >> 11;
     away_[0] = rawFromReal(place.x) >> 11;
     away_[1] = rawFromReal(place.y) >> 11;
@@ -197,7 +197,7 @@ inline void Shader<TURNED>::setPatch(const Patch& patch)
     if (TURNED && patch.state == PATCH_REST)
         horizon = curvature(patch, middle);
     else if (TURNED)
-        horizon = rawFromReal(object_.horizonAt(roots_[seeds_[patch.centre].root], realFromRaw(generalHorizon_ << 11))) >> 11;
+        horizon = rawFromReal(object_.horizonAt(roots_[object_.seed(patch.centre).root], realFromRaw(generalHorizon_ << 11))) >> 11;
     horizonShare_ = (smaller(horizon, 8000) << 15) / own_.distance32;
     gradientAhead_ = (gradient_[2] + (gradient_[0] * (shearX >> 4) >> 8) + (gradient_[1] * (shearY >> 4) >> 8)) >> 4;
 }
@@ -270,9 +270,9 @@ inline bool Shader<TURNED>::atEnd(const Seed& s) const
 template <bool TURNED>
 inline int32_t Shader<TURNED>::curvature(const Patch& patch, const int32_t middle[3])
 {
-    const bool end = atEnd(seeds_[patch.centre]);
+    const bool end = atEnd(object_.seed(patch.centre));
     const int last = PATCH_RINGS - 1;
-    round_ = end == atEnd(seeds_[2 * patch.first[0]]) && (patch.count[last] == 0 || end == atEnd(seeds_[2 * patch.first[last]]));
+    round_ = end == atEnd(seeds_[patch.first[0]]) && (patch.count[last] == 0 || end == atEnd(seeds_[patch.first[last]]));
     const int32_t radius = grown(patch.path * 2);
     const int32_t x = middle[0], y = middle[1], z = middle[2];
     const Normal out = normalise({realFromRaw(x << 8), Real(0), realFromRaw(z << 8)});
@@ -431,14 +431,13 @@ inline bool Shader<TURNED>::cut(const Seed& s, const Scale& scale, Voxel* voxel)
     // A step across the view leads along the ray as well, as far as the scale is tilted.
     const int32_t along = z + ((x * shearX_ + y * shearY_) >> 12);
     int32_t cutX = x + (scale.tiltX * (along >> 2) >> 6), cutY = y + (scale.tiltY * (along >> 2) >> 6);
-    int32_t at = (s.apart + BORDER_MARGIN) * 64, unit = 1 << 14;
+    int32_t at = (s.apart + BORDER_MARGIN) * 64;
     while (magnitude(cutX) > 127 || magnitude(cutY) > 127) {
         cutX >>= 1;
         cutY >>= 1;
         at >>= 1;
-        unit >>= 1;
     }
-    if (unit < 16 || (cutX | cutY) == 0)
+    if ((cutX | cutY) == 0)
         return true;
     const int32_t corner = (magnitude(cutX) * scale.wide + magnitude(cutY) * scale.high) >> 8;
     if (at >= corner)
@@ -456,7 +455,7 @@ inline bool Shader<TURNED>::cut(const Seed& s, const Scale& scale, Voxel* voxel)
 template <bool TURNED>
 inline void Shader<TURNED>::changes(const Seed& s, Cell& c) const
 {
-    const Seed &next = (&s)[2], &last = (&s)[-2], &n = seeds_[s.neighbour];
+    const Seed &next = (&s)[1], &last = (&s)[-1], &n = object_.seed(s.neighbour);
     c.along.change = c.across.change = 0;
     if (&next <= lastSeed_ && (next.flags & SEED_VALID) && next.neighbour >= s.neighbour)
         c.along.change = (next.brightness8 - s.brightness8) >> 1;
@@ -495,22 +494,25 @@ inline void Shader<TURNED>::shadeSeeds(const Patch& patch, VoxelList& list, Pain
 {
     Voxel bare;
     Voxel* voxel = PAINTED ? &bare : list.room();
-    for (int ring = 0; ring < PATCH_RINGS; ++ring) {
-        const Seed* s = seeds_ + 2 * patch.first[ring];
-        const Seed* const end = s + 2 * patch.count[ring];
-        // Regular seeds and oversampled ones take turns; of those at rest only the regular ones are there.
-        bool oversampled = false;
-        for (; s < end; s += RESTING ? 2 : 1) {
-            const int needed = oversampled ? SEED_ACTIVE | SEED_VALID : SEED_VALID;
-            if ((RESTING || (s->flags & needed) == needed) && shade<RESTING>(*s, oversampled, voxel)) {
-                if (PAINTED) {
-                    painter->add(*s, bare);
-                } else {
-                    list.take();
-                    ++voxel;
-                }
+    const auto add = [&](const Seed& s, bool oversampled) {
+        if (shade<RESTING>(s, oversampled, voxel)) {
+            if (PAINTED) {
+                painter->add(s, bare);
+            } else {
+                list.take();
+                ++voxel;
             }
-            oversampled = !RESTING && !oversampled;
+        }
+    };
+    for (int ring = 0; ring < PATCH_RINGS; ++ring) {
+        for (int i = patch.first[ring], end = i + patch.count[ring]; i < end; ++i) {
+            if (RESTING || (seeds_[i].flags & SEED_VALID))
+                add(seeds_[i], false);
+            // Of those at rest only the regular ones are there.
+            const Seed* const extra = RESTING || !patch.extras ? nullptr : object_.extra(2 * i);
+            constexpr int NEEDED = SEED_ACTIVE | SEED_VALID;
+            if (extra != nullptr && (extra->flags & NEEDED) == NEEDED)
+                add(*extra, true);
         }
     }
 }
@@ -546,6 +548,6 @@ int shadePatches(const SoftObject& object, const OwnFrame& own, const FrameConte
         Painter painter(object, own, list);
         return shadeAs<true, true>(object, own, frame, patches, count, first, list, room, &painter);
     }
-    return object.isBall() ? shadeAs<false, false>(object, own, frame, patches, count, first, list, room, nullptr)
+    return object.isBall() && !frame.axes.turned ? shadeAs<false, false>(object, own, frame, patches, count, first, list, room, nullptr)
                            : shadeAs<true, false>(object, own, frame, patches, count, first, list, room, nullptr);
 }

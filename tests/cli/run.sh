@@ -58,7 +58,7 @@ plays() {
 	FB_INPUT=$dir/script ends 0 "$@"
 }
 
-for word in /Q /S:9 /S:0.2 /S:x /S /N:0 /N:x /N:10000000 /T:0 /T:x /D: /M: /G:1 x -q -s:-1 /IG; do
+for word in /Q /F:0 /F:101 /F:x /F: /S:9 /S:0.2 /S:x /S /N:0 /N:x /N:10000000 /T:0 /T:x /D: /M: /G:1 x -q -s:-1 /IG; do
 	ok "refuses $word" refuses "$word"
 done
 ok "one bad switch among good ones" ends 2 /G /N:5 /Q
@@ -96,6 +96,24 @@ ok "is told to its end" says "$dir/err" 'scene.fb: no such file'
 printf 'sphere a size 300\n' >"$dir/$(printf '%0130d' 0).fb"
 ok "a mistake in a file with a long name" ends 2 "/M:$dir/$(printf '%0130d' 0).fb"
 ok "is told to its end, with its line" says "$dir/err" "0.fb:1: '300': expected size from 1 to 100"
+ok "/F with /N" ends 0 /F:20 /N:3 "/O:$dir/held.csv"
+ok "says that it has no effect" says "$dir/err" "/F has no effect with /N or /S"
+ok "and the seeds are those of the spacing" is 2496 seeds
+ok "/F with /S" ends 0 /F:20 /S:4 /T:1
+ok "says so too" says "$dir/err" "/F has no effect with /N or /S"
+# A host draws hundreds of frames a second: to hold one it takes more seeds, up to one for a pixel.
+ok "/F" ends 0 /F:1 /T:1 "/O:$dir/held.csv"
+ok "says nothing" test ! -s "$dir/err"
+ok "more seeds" test "$(figure seeds)" -gt 4000
+ok "a record of it" says "$dir/held.csv" "S:2 F:1,"
+ok "F4 holds a rate" plays '3 key F4\n' /T:1
+ok "more seeds with F4" test "$(figure seeds)" -gt 4000
+ok "F4 with /N does not" plays '1 key F4\n' /N:200
+ok "nor changes anything" is 2496 seeds
+ok "F4 twice lets go" plays '3 key F4\n3 key F4\n' /T:1
+ok "before any change" is 2496 seeds
+ok "+ lets go" plays '3 key F4\n3 key -\n' /T:1
+ok "for the user's spacing" test "$(figure seeds)" -lt 2000
 ok "/R without /N" ends 0 /R:35 /T:1 /S:8
 ok "says that it has no effect" says "$dir/err" "/R has no effect without /N"
 ok "/R with /N" ends 0 /R:35 /N:1
@@ -255,6 +273,24 @@ FB_INPUT=$dir/script dump x /N:3 >"$dir/said" 2>&1
 ok "* and * again: frame 0" cmp "$dir/a/F0000000.PPM" "$dir/x/F0000000.PPM"
 ok "pixels in frame 1" sh -c "! cmp -s '$dir/a/F0000001.PPM' '$dir/x/F0000001.PPM'"
 ok "scales in frame 2" cmp "$dir/a/F0000002.PPM" "$dir/x/F0000002.PPM"
+# While many seeds are laid out: a line of text says so, and neither ESC nor Ctrl-C waits for their end.
+ok "many seeds" ends 0 /N:1 /S:0.25
+ok "are told of" test "$(cat "$dir/err")" = "Laying out 158,388 seeds of 4 objects ..."
+ok "few seeds" ends 0 /N:1
+ok "are not" test ! -s "$dir/err"
+printf 'torus T size 20 ring 40\n' >"$dir/ring.fb"
+ok "a spacing beyond a limit" ends 1 /N:1 /S:0.25 "/M:$dir/ring.fb"
+ok "names the limit" says "$dir/err" "65536 is the limit; try a larger spacing with /S"
+for polls in 10 300 600; do
+	ok "ESC after $polls looks at the keyboard" plays "0.$polls key ESC\n" /N:1 /S:0.25
+	ok "no frame after $polls" is 0 frames
+	printf '0.%d key BREAK\n' $polls >"$dir/script"
+	ok "Ctrl-C after $polls" sh -c "FB_INPUT='$dir/script' '$demo' /N:1 /S:0.25 >'$dir/out' 2>'$dir/err'; test \$? -eq 1"
+	ok "no statistics after $polls" test ! -s "$dir/out"
+done
+# While one object is updated: with a seed every quarter of a unit that is most of the frame.
+ok "ESC in the first update" plays '0.3000 key ESC\n' /N:3 /S:0.25
+ok "no frame of it" is 0 frames
 printf '2 key BREAK\n' >"$dir/script"
 ok "Ctrl-C" sh -c "FB_INPUT='$dir/script' '$demo' /N:50 >'$dir/out' 2>'$dir/err'; test \$? -eq 1"
 ok "says so" says "$dir/err" interrupted

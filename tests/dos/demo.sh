@@ -144,6 +144,27 @@ dos -m 4 -o cpu.cputype=386 -- 'DEMO /N:5 > OUT.TXT' "$E1"
 ok 'a 386 with 4 MB' has "$c/OUT.TXT" 'frames: 5'
 ok 'a 386 with 4 MB: status 0' status 0 "$c"
 
+# Every shipped scene, and the finest sampling of the four spheres in 16 MB.
+cp tools/scenes/*.FB "$c"
+for scene in tools/scenes/*.FB; do
+    name=$(basename "$scene" .FB)
+    rm -f "$c"/*.TXT
+    dos -m 4 -- "DEMO /N:3 $name.FB > OUT.TXT"
+    ok "$name in 4 MB" has "$c/OUT.TXT" 'frames: 3'
+done
+rm -f "$c"/*.TXT
+dos -m 16 -- cls 'DEMO /N:2 /R:1 /S:0.25 > OUT.TXT' 'MTEST SCREEN > SCREEN.TXT'
+ok '/S:0.25 in 16 MB' has "$c/OUT.TXT" 'frames: 2'
+ok '/S:0.25: statistics alone on standard output' lacks "$c/OUT.TXT" Laying
+
+# ---- A rate that is held, on a 386
+
+rm -f "$c"/*.TXT
+dos -c 8000 -m 4 -- 'DEMO /G /F:10 /T:20 > OUT.TXT'
+fps=$(tr -d '\r' < "$c/OUT.TXT" | sed -n 's/^fps: //p')
+echo "# /F:10 at 8,000 instructions a millisecond: $fps frames a second"
+ok '/F:10 reaches about ten, and soon' awk -v fps="$fps" 'BEGIN { exit !(fps > 8 && fps < 13) }'
+
 # ---- Keys and mouse, in a window
 
 # far N: how many pixels of the first (N 1) or last (N $) frame dumped have nothing drawn on them: 0x7fffffff.
@@ -185,6 +206,27 @@ if startDisplay; then
     wait $running
     ok 'ESC ends' test "$(names "$c/OUT.TXT")" = "$NAMES"
     ok 'ESC: status 0' status 0 "$c"
+
+    # While seeds are laid out, which takes a 386 twenty seconds.
+    slow() {
+        rm -f "$c"/*.TXT
+        dos -w -c 8000 -- cls 'DEMO /S:0.25 > OUT.TXT' "$E1" "$E2" 'MTEST SCREEN > SCREEN.TXT' &
+        running=$!
+        awaitTitle DEMO
+        started=$(date +%s%N)
+        xdotool key "$1" 2> /dev/null
+        wait $running
+        ended=$((($(date +%s%N) - started) / 1000000))
+        echo "# $1 while seeds are laid out: all over after $ended ms"
+    }
+    slow Escape
+    ok 'ESC while seeds are laid out' has "$c/OUT.TXT" 'frames: 0'
+    ok 'ESC while seeds are laid out: told what it was' has "$c/SCREEN.TXT" 'Laying out 158,388 seeds of 4 objects'
+    ok 'ESC while seeds are laid out: status 0' status 0 "$c"
+    ok 'ESC while seeds are laid out: at once' test $ended -lt 4000
+    slow ctrl+c
+    trouble 'Ctrl-C while seeds are laid out' interrupted
+    ok 'Ctrl-C while seeds are laid out: at once' test $ended -lt 4000
 
     window
     type minus minus Escape

@@ -97,6 +97,24 @@ wait $running
 ok 'a film: the bytes of the host' cmp "$scratch/host.fli" "$c/DOS.FLI"
 ok 'a screenshot: the bytes of the host' cmp "$scratch/SHOT0001.PCX" "$c/SHOT0001.PCX"
 
+# About the scene with the keys of a PC: the same view as the host's, and back.
+printf '2 key RIGHT\n2 key RIGHT\n2 key UP\n2 key PGUP\n3 key p\n4 key ESC\n' >"$scratch/script"
+rm -f "$c"/*.PCX "$scratch"/*.PCX
+(cd "$scratch" && FB_INPUT=script "$host" /S:4 /N:40 /M:c/HAND.FB >/dev/null)
+dos -w -c 60000 -- cls 'DEMO /S:4 /M:HAND.FB /T:60 > OUT.TXT' &
+running=$!
+awaitTitle DEMO
+sleep 3
+type p Right Right Up Prior p End
+sleep 5
+type p
+sleep 1
+type Escape
+wait $running
+ok 'about the scene: the bytes of the host' cmp "$scratch/SHOT0001.PCX" "$c/SHOT0002.PCX"
+ok 'it is another view' sh -c "! cmp -s '$c/SHOT0001.PCX' '$c/SHOT0002.PCX'"
+ok 'End: its own view' cmp "$c/SHOT0001.PCX" "$c/SHOT0003.PCX"
+
 # The next scene beside the program.
 rm -f "$c"/*.FB "$c"/*.TXT
 printf 'sphere a size 11\r\n' >"$c/A.FB"

@@ -85,7 +85,7 @@ void draw(Model& model, bool printed)
     Counts counts{};
     for (Time time : TIMES) {
         Anim::move(model, time);
-        const FrameContext frame{model.camera.eye, unit(model.light), model.bodies(), &counts};
+        const FrameContext frame{model.camera.eye, unit(model.light), model.bodies(), &counts, model.camera.axes};
         if (frame.bodies == nullptr)
             failed("no memory for bodies");
         for (int i = 0; i < model.count(); ++i)
@@ -202,6 +202,16 @@ int main(int count, char** arguments)
         for (Time time : TIMES) {
             Anim::move(model, time);
             Anim::move(again, time);
+            const Camera &eye = model.camera, &other = again.camera;
+            if (!(eye.eye == other.eye) || !(eye.axes == other.axes))
+                failed("seen from elsewhere when read again");
+            if (absolute(eye.eye.x) > Real(SPACE) || absolute(eye.eye.y) > Real(SPACE) || absolute(eye.eye.z) > Real(SPACE))
+                failed("the eye left the space of the model");
+            const ViewAxes& axes = eye.axes;
+            const Real slack(0.001);
+            if (absolute(length(axes.right) - Real(1)) > slack || absolute(length(axes.ahead) - Real(1)) > slack ||
+                length(cross(axes.ahead, axes.right) - axes.up) > slack || absolute(dot(axes.ahead, axes.right)) > slack)
+                failed("the axes of the view are none");
             for (int i = 0; i < model.items(); ++i) {
                 const Coat &coat = model.item(i).coat, &coatAgain = again.item(i).coat;
                 if (coat.finish != coatAgain.finish || coat.pattern != coatAgain.pattern || coat.grain != coatAgain.grain ||

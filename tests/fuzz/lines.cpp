@@ -75,9 +75,9 @@ private:
     {
         word += word.empty() && random_.once(3) ? '-' : '/';
         const char* const flags = "IGPVXB?";
-        const char* const numbers = "SNRT";
+        const char* const numbers = "SNRTF";
         const char* const names = "DMOA";
-        const size_t kind = random_.below(9);
+        const size_t kind = random_.below(10);
         if (slip()) {
             // No switch that there is; more may come to be than there are today.
             word += "QWZ!0~\x80"[random_.below(7)];
@@ -97,7 +97,7 @@ private:
             }
             return true;
         }
-        if (kind < 8) {
+        if (kind < 9) {
             number(word, numbers[kind - 4]);
             return true;
         }
@@ -154,9 +154,10 @@ private:
             o.rate = limited(RATE_MOST);
             o.rateGiven = true;
             break;
+        case 'F': o.hold = limited(HOLD_MOST); break;
         default: o.seconds = limited(SECONDS_MOST); break;
         }
-        snprintf(text, sizeof text, random_.once(6) ? "%03d" : "%d", letter == 'N' ? o.frames : letter == 'R' ? o.rate : o.seconds);
+        snprintf(text, sizeof text, random_.once(6) ? "%03d" : "%d", letter == 'N' ? o.frames : letter == 'R' ? o.rate : letter == 'F' ? o.hold : o.seconds);
         word += text;
     }
 
@@ -253,7 +254,7 @@ void parse(bool spoiled, unsigned long* good, unsigned long* refused)
             failed("a bad line was taken", said);
         if (options.spacing < SPACING_LEAST || options.spacing > SPACING_MOST || options.frames < 0 ||
             options.frames > FRAMES_MOST || options.seconds < 0 || options.seconds > SECONDS_MOST || options.rate < 1 ||
-            options.rate > RATE_MOST)
+            options.rate > RATE_MOST || options.hold < 0 || options.hold > HOLD_MOST)
             failed("out of range", said);
         const Options& w = line.wanted;
         const int32_t seconds = w.benchmark && w.seconds == 0 && w.frames == 0 ? BENCHMARK_SECONDS : w.seconds;
@@ -261,7 +262,7 @@ void parse(bool spoiled, unsigned long* good, unsigned long* refused)
             (options.interactive != w.interactive || options.grey != w.grey || options.printed != w.printed ||
              options.help != w.help || options.retrace != w.retrace || options.noPresent != w.noPresent ||
              options.spacing != w.spacing || options.frames != w.frames || options.seconds != seconds || options.benchmark != w.benchmark ||
-             options.rate != w.rate || options.rateGiven != w.rateGiven || !sameName(options.dumpDirectory, line.dump) ||
+             options.rate != w.rate || options.hold != w.hold || options.rateGiven != w.rateGiven || !sameName(options.dumpDirectory, line.dump) ||
              !sameName(options.modelFile, line.model) || !sameName(options.recordFile, line.record) ||
              !sameName(options.filmFile, line.film)))
             failed("read as something else", said);

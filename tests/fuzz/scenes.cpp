@@ -46,6 +46,8 @@ private:
     const size_t slips_;
     std::string text_, line_;
     std::vector<Item> items_;
+    bool eyeIsItem_ = false;
+    size_t beforeEye_ = 0;
 
     bool slip() { return slips_ > 0 && random_.once(slips_); }
 
@@ -236,6 +238,12 @@ private:
                 break;
             case 3: {
                 // A parent that is no row.
+                if (random_.once(20)) {
+                    word("in");
+                    word("eye");
+                    eyeMoves();
+                    break;
+                }
                 for (const Item& item : items_) {
                     if (item.count == 1 && random_.once(3)) {
                         word("in");
@@ -262,6 +270,35 @@ private:
         }
         end();
         items_.push_back({name, group, count});
+    }
+
+    // From the first line on that moves the eye it is an item, and its parents are those before it.
+    void eyeMoves()
+    {
+        if (!eyeIsItem_)
+            beforeEye_ = items_.size();
+        eyeIsItem_ = true;
+    }
+
+    void eye()
+    {
+        word("eye");
+        vector(250);
+        if (random_.once(3)) {
+            word("turn");
+            vector(360);
+            eyeMoves();
+        }
+        const size_t known = eyeIsItem_ ? beforeEye_ : items_.size();
+        const size_t parent = random_.below(known + 1);
+        if (parent < known && items_[parent].count == 1) {
+            word("in");
+            word(this->known(items_[parent]));
+            eyeMoves();
+        } else if (slip()) {
+            word("in");
+            word("eye");
+        }
     }
 
     void title()
@@ -422,12 +459,50 @@ private:
             break;
         }
         case 13:
-            switch (random_.below(3)) {
+            switch (random_.below(6)) {
             case 0:
-                word("eye");
-                vector(250);
+                eye();
                 break;
             case 1:
+                word("look");
+                if (random_.once(2) || (item.count > 1 && !slip()))
+                    vector(250);
+                else
+                    word(known(item));
+                break;
+            case 2:
+                word("roll");
+                number(-360, 360);
+                break;
+            case 3:
+                // The eye moves as objects do.
+                eyeMoves();
+                switch (random_.below(4)) {
+                case 0:
+                    word("circle");
+                    word("eye");
+                    word("radius");
+                    number(0, 250);
+                    period();
+                    break;
+                case 1:
+                    word("path");
+                    word("eye");
+                    word("z");
+                    number(-250, 250);
+                    seconds();
+                    number(-1, 1);
+                    break;
+                default:
+                    word("spin");
+                    word("eye");
+                    word("axis");
+                    direction();
+                    period();
+                    break;
+                }
+                break;
+            case 4:
                 word("focal");
                 number(1, 500);
                 if (random_.once(2))
@@ -453,7 +528,7 @@ private:
 const char* const WORDS[] = {
     "sphere", "cylinder", "torus", "disc", "cone", "box", "group", "blend", "circle", "path", "spin", "swing", "pulse", "keys", "key",
     "colours", "mixed", "finish", "shiny", "mirror", "pattern", "checks", "stripes", "marble",
-    "eye", "focal", "light", "title", "all", "size", "length", "ring", "tip", "at", "turn", "in", "colour", "color", "red",
+    "eye", "look", "roll", "focal", "light", "title", "all", "size", "length", "ring", "tip", "at", "turn", "in", "colour", "color", "red",
     "#12abEF", "scale", "repeat", "step", "lag", "radius", "plane", "xy", "u", "v", "period", "phase", "x", "y", "z", "axis",
     "angle", "by", "linear", "smooth", "0", "1", "2", "-1", "0.1", "128", "250", "-250", "250.00002", "3600", "0.5",
     "32767.999999", "a", "n0x", "n0x1", "\n", "\r\n", "\x1a", "#", "\t",

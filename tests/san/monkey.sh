@@ -13,7 +13,7 @@ trap 'exit 130' HUP INT TERM
 # A folder of its own, for some keys save files; with scenes beside the program.
 mkdir "$dir/play"
 ln -s "$demo" "$dir/play/demo"
-cp tools/scenes/FOUR.FB tools/scenes/GULP.FB "$dir/play"
+cp tools/scenes/FOUR.FB tools/scenes/GULP.FB tools/scenes/TOUR.FB "$dir/play"
 echo "sphere bad size" >"$dir/play/HALF.FB"
 cd "$dir/play" || exit 1
 seed=$1

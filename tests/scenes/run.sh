@@ -105,6 +105,18 @@ done
 for word in '^colours mixed$' '^finish o.* shiny$' '^finish o.* mirror$' '^pattern o.* checks' '^pattern o.* stripes' '^pattern o.* marble'; do
 	if grep -q -- "$word" "$dir/paint.fb"; then good; else bad "mkscene: ten scenes without $word"; fi
 done
+# The same scenes, seen by an eye that goes about them.
+: >"$dir/all.fb"
+for seed in $(seq 30); do
+	build/mkscene $seed >"$dir/r.fb"
+	build/mkscene $seed eye >"$dir/e.fb"
+	cat "$dir/e.fb" >>"$dir/all.fb"
+	if head -n "$(wc -l <"$dir/r.fb")" "$dir/e.fb" | cmp -s - "$dir/r.fb"; then good; else bad "mkscene: another scene for an eye, $seed"; fi
+	if build/demo /X /N:1 "/M:$dir/e.fb" >"$dir/out" 2>&1; then good; else bad "random scene $seed, eye: $(head -n 1 "$dir/out")"; fi
+done
+for word in '^circle eye radius' '^circle eye u' '^path eye' '^eye .* in arm' '^look o' '^look [-0-9]' '^roll'; do
+	if grep -q -- "$word" "$dir/all.fb"; then good; else bad "mkscene: thirty eyes without $word"; fi
+done
 build/mkscene 1 128 >"$dir/r.fb"
 if build/demo /X /N:1 /S:8 "/M:$dir/r.fb" >"$dir/out" 2>&1; then good; else bad "a random scene of 128"; fi
 
@@ -124,7 +136,7 @@ refused() {
 refused "missing file" "$dir/none.fb: no such file or directory" "/M:$dir/none.fb"
 refused "directory" "$dir: access denied" "/M:$dir"
 printf 'sphere a size 20\nsphere b size 20\nspere c size 20\n' >"$dir/bad.fb"
-refused "bad line" "$dir/bad.fb:3: 'spere': expected sphere, cylinder, torus, disc, cone, box, group, blend, circle, path, spin, swing, pulse, keys, key, colours, finish, pattern, eye, focal, light or title" "/M:$dir/bad.fb"
+refused "bad line" "$dir/bad.fb:3: 'spere': expected sphere, cylinder, torus, disc, cone, box, group, blend, circle, path, spin, swing, pulse, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title" "/M:$dir/bad.fb"
 : >"$dir/empty.fb"
 refused "empty file" "$dir/empty.fb:1: 'end of file': expected at least one object" "/M:$dir/empty.fb"
 head -c 3000 build/demo >"$dir/binary.fb"

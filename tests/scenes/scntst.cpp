@@ -500,11 +500,144 @@ void links()
     check(two.camera.focalY == Real(100), "focal, both");
 }
 
+// The text is read; at a time the eye is there and looks along these axes.
+void stands(const std::string& text, double seconds, const Vector& eye, const Vector& right, const Vector& up, const Vector& ahead)
+{
+    Model model;
+    const char* wrong = read(text, model);
+    if (wrong != nullptr) {
+        check(false, std::string(wrong) + " in: " + text);
+        return;
+    }
+    Anim::move(model, at(seconds));
+    const Camera& camera = model.camera;
+    const auto near = [](const Vector& a, const Vector& b) { return number(length(a - b)) < 0.01; };
+    const bool good = near(toVector(camera.eye), eye) && near(camera.axes.right, right) && near(camera.axes.up, up) &&
+                      near(camera.axes.ahead, ahead);
+    if (!good) {
+        for (const Vector& v : {toVector(camera.eye), camera.axes.right, camera.axes.up, camera.axes.ahead})
+            printf("  %.3f %.3f %.3f\n", number(v.x), number(v.y), number(v.z));
+    }
+    check(good, std::to_string(seconds) + " s of: " + text);
+}
+
+Vector v(double x, double y, double z) { return {Real(x), Real(y), Real(z)}; }
+
+bool putText(void* to, const char* line)
+{
+    *static_cast<std::string*>(to) += line;
+    return true;
+}
+
+std::string textOf(const Model& model)
+{
+    std::string text;
+    check(writeSceneText(putText, &text, model), "written");
+    return text;
+}
+
+// An eye that moves, turns and looks at something.
+void eyes()
+{
+    const Vector x = v(1, 0, 0), y = v(0, 1, 0), z = v(0, 0, 1);
+    const double h = std::sqrt(0.5);
+    stands(S, 0, v(0, 0, -120), x, y, z);
+    stands(S + "eye 1 2 3", 5, v(1, 2, 3), x, y, z);
+    stands(S + "path eye x 10 4 0", 1, v(10, 0, -120), x, y, z);
+    stands("eye 0 5 -100\n" + S + "path eye x 10 4 0\nkey eye 1 0 0 7\ncircle eye radius 3 plane yz period 4", 1,
+           v(10, 5, -90), x, y, z);
+    stands(S + "path eye x 10 4 0\neye 1 2 3", 1, v(11, 2, 3), x, y, z);
+    stands(S + "eye 0 0 0 turn 0 90 0", 0, v(0, 0, 0), v(0, 0, -1), y, x);
+    stands(S + "eye 0 0 0 turn 90 0 0", 0, v(0, 0, 0), x, z, v(0, -1, 0));
+    stands(S + "spin eye axis 0 1 0 period 4", 1, v(0, 0, -120), v(0, 0, -1), y, x);
+    stands("group g at 5 0 0\nspin g axis 0 1 0 period 4\neye 0 0 -100 in g\n" + S, 1, v(-95, 0, 0), v(0, 0, -1), y, x);
+    // Later lines say it anew: out of the group again.
+    stands("group g at 5 0 0\neye 0 0 -100 in g\n" + S + "eye 0 0 -90 turn 0 0 0", 1, v(0, 0, -90), x, y, z);
+    // Looking.
+    stands(S + "eye 0 0 -100\nlook 100 0 0", 0, v(0, 0, -100), v(h, 0, -h), y, v(h, 0, h));
+    stands(S + "look 0 0 -250", 0, v(0, 0, -120), -x, y, -z);
+    stands(S + "look 0 100 -120\neye 0 0 -120", 0, v(0, 0, -120), x, -z, y);
+    stands(S + "look 0 0 -120", 0, v(0, 0, -120), x, y, z);
+    stands("sphere s size 20\npath s x 100 4 0\neye 0 0 -100\nlook s", 0, v(0, 0, -100), x, y, z);
+    stands("sphere s size 20\npath s x 100 4 0\neye 0 0 -100\nlook s", 1, v(0, 0, -100), v(h, 0, -h), y, v(h, 0, h));
+    stands(S + "eye 0 0 0\ncircle eye radius 100 plane zx period 4\nlook s", 1, v(100, 0, 0), z, y, -x);
+    stands(S + "look 5 5 5\nlook s", 0, v(0, 0, -120), x, y, z);
+    stands("group g at 0 0 9\n" + S + "look g\nlook 0 0 -250", 0, v(0, 0, -120), -x, y, -z);
+    // What it rides on leans it, looking or not.
+    stands(S + "eye 0 0 -120 turn 0 0 90\nlook s", 0, v(0, 0, -120), y, -x, z);
+    stands(S + "roll 90", 0, v(0, 0, -120), -y, x, z);
+    stands(S + "look 0 0 -250\nroll -90", 0, v(0, 0, -120), y, x, -z);
+    // A light on the eye goes with it.
+    place(S + "sphere lamp size 9 at 0 5 0 in eye\npath eye x 10 4 0", "lamp", 1, 10, 5, -120);
+    // Something of that name is what its name says.
+    place("sphere eye size 20\npath eye x 10 4 0", "eye", 1, 10, 0, 0);
+    stands("sphere eye size 20\npath eye x 10 4 0", 1, v(0, 0, -120), x, y, z);
+    stands("sphere eye size 20\npath eye x 120 4 0\nlook eye", 1, v(0, 0, -120), v(h, 0, -h), y, v(h, 0, h));
+
+    refused(S + "eye 0 0 -120 turn 0 0", "T.FB:2: end of line: expected degrees about z from -360 to 360");
+    refused(S + "eye 0 0 -120 in h", "T.FB:2: 'h': expected a group or an object of a line above");
+    refused(S + "path eye x 1 4 0\ngroup g\neye 0 0 0 in g",
+            "T.FB:4: 'g': expected a group or an object above the first line that moves the eye");
+    refused(S + "sphere t size 9 in eye\neye 0 0 0 in t",
+            "T.FB:3: 't': expected a group or an object above the first line that moves the eye");
+    refused(S + "eye 0 0 0 in eye", "T.FB:2: 'eye': expected another group than the eye's own");
+    refused("sphere eye size 20\neye 0 0 0 turn 0 9 0",
+            "T.FB:2: 'eye': expected another name for the object or group of that name, for the eye moves");
+    refused(S + "path eye x 1 4 0\nsphere eye size 9", "T.FB:3: 'eye': expected a name that is not taken yet");
+    refused(repeated(64, "group g%d\n") + S + "spin eye axis 0 1 0 period 4",
+            "T.FB:66: 'eye': expected at most 64 groups, the eye that moves among them");
+    refused(S + "blend s eye", "T.FB:2: 'eye': expected the name of a second object");
+    refused(S + "look", "T.FB:2: end of line: expected a place, or the name of an object or a group");
+    refused(S + "look t", "T.FB:2: 't': expected the name of an object or a group of a line above");
+    refused(S + "path eye x 1 4 0\nlook eye", "T.FB:3: 'eye': expected the name of an object or a group of a line above");
+    refused(S + "look 0 300 0", "T.FB:2: '300': expected the place looked at, y from -250 to 250");
+    refused(S + "look 0 0", "T.FB:2: end of line: expected the place looked at, z from -250 to 250");
+    refused(S + "look s s", "T.FB:2: 's': expected the end of the line");
+    refused(S + "roll 361", "T.FB:2: '361': expected degrees from -360 to 360");
+    refused(S + "roll", "T.FB:2: end of line: expected degrees from -360 to 360");
+
+    // Saved, and read again: the same scene, and the same text from then on.
+    const std::string texts[] = {
+        S + "eye 1 2 -100\nlook 3 4 5\nroll 10",
+        "group g at 5 0 0\nspin g axis 0 1 0 period 4\neye 0 0 -100 turn 1 2 3 in g\n" + S +
+            "path eye x 1 4 0 y 2 3 0.5\nkeys eye smooth\nkey eye 1 2 3 4 angle 30\nsphere t size 9 at 0 5 0 in eye\nlook s",
+        S + "sphere t size 9\nsphere u size 8 in eye\nlook u",
+        "sphere eye size 9\nlook eye",
+    };
+    for (const std::string& text : texts) {
+        Model model, again;
+        check(read(text, model) == nullptr, "read: " + text);
+        const std::string saved = textOf(model);
+        check(read(saved, again) == nullptr, "read again: " + saved);
+        check(textOf(again) == saved, "and the same: " + saved);
+        Anim::move(model, at(1.25));
+        Anim::move(again, at(1.25));
+        check(model.camera.eye == again.camera.eye && model.camera.axes == again.camera.axes, "its eye stands alike: " + saved);
+    }
+
+    // What is looked at goes: the eye looks where it was. And its group goes: it stands.
+    Model model;
+    read("sphere s size 20 at 120 0 0\nsphere t size 9\npath eye x 10 4 0.25\nlook s", model);
+    model.resample(Real(4), makeEngine);
+    Anim::move(model, 0);
+    Model::Record* record = model.record();
+    const ViewAxes axes = model.camera.axes;
+    model.remove(model.itemNamed("s"));
+    Anim::move(model, 0);
+    check(model.camera.axes == axes && axes.turned, "it looks where something was");
+    model.remove(model.itemNamed("eye"));
+    Anim::move(model, at(1));
+    check(model.camera.eye == Point{Real(10), Real(0), Real(-120)}, "an eye that has lost its group stands where it was");
+    check(model.restore(record), "gone back");
+    Anim::move(model, at(1));
+    check(number(absolute(model.camera.eye.x)) < 0.01 && model.camera.looks == Camera::AT_ITEM, "it moves and looks as before");
+    free(record);
+}
+
 void complaints()
 {
     const char* const statements =
-        "sphere, cylinder, torus, disc, cone, box, group, blend, circle, path, spin, swing, pulse, keys, key, colours, finish, pattern, "
-        "eye, focal, light or title";
+        "sphere, cylinder, torus, disc, cone, box, group, blend, circle, path, spin, swing, pulse, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title";
     refused("spere a size 3", std::string("T.FB:1: 'spere': expected ") + statements);
     refused(S + "\n# x\n7\n", std::string("T.FB:4: '7': expected ") + statements);
     refused("", "T.FB:1: 'end of file': expected at least one object");
@@ -563,7 +696,7 @@ void complaints()
     refused(S + "sphere t size 9\nblend s t 1 2", "T.FB:3: '2': expected the end of the line");
     refused(S + "light 0 0 0", "T.FB:2: '0': expected a direction, not 0 0 0");
     refused(S + "focal 501", "T.FB:2: '501': expected pixels across from 1 to 500");
-    refused(S + "eye 0 0 -120 9", "T.FB:2: '9': expected the end of the line");
+    refused(S + "eye 0 0 -120 9", "T.FB:2: '9': expected turn, in or the end of the line");
     refused(S + "\xff\x01\n", std::string("T.FB:2: '?\?': expected ") + statements);
     refused(std::string("sphere s\0 size 20", 17),
             "T.FB:1: 's?': expected a name of 1 to 15 letters, digits, - or _, a letter first");
@@ -656,6 +789,7 @@ int main()
     saved();
     safety();
     links();
+    eyes();
     complaints();
     limits();
     changes();

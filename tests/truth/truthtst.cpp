@@ -996,6 +996,8 @@ static void texts() {
       {"sphere 1 0 0 0 9\nchecks 1 0 1 2 3 0 0 0 1 0 0 0 1 0\n", "above 0"},
       {"sphere 1 0 0 0 9\nmarble 1 5 1 2 3 0 0 0 1 0 0 0.6 0.8 0\n", "square"},
       {"sphere 1 0 0 0 9\nstripes 1 5 1 2 3 0 0 0 2 0 0 0 1 0\n", "unit length"},
+      {"right 0 0 1\n", "no axes"},           {"ahead 0 0 -1\n", "no axes"},
+      {"right 0 0 1\nahead 1 0 0\n", "no axes"}, {"up 0 1\n", "with 2 numbers"},
       {"focal 0 200\n", "above 0"},           {"torus 1 0 0 0 0 0 0 5 5\n", "no direction"},
   };
   for (auto &row : bad) {
@@ -1016,8 +1018,51 @@ static void texts() {
   check(s.time == 1.2 && s.objects[1].number == 5 && s.objects[1].size == 12, "what it says is kept");
 }
 
+// An eye that stands otherwise: every ray as one of its axes has it, and a picture the same as that of the scene turned the
+// other way before an eye that looks along z.
+static void turnedEyes() {
+  Scene s = scene("eye 40 30 -60\nright 0.8 0 0.6\nup -0.36 0.8 0.48\nahead -0.48 -0.6 0.64\nsphere 1 -10 -20 5 40\n");
+  Vec c{-10, -20, 5};
+  int met = 0, wrong = 0;
+  for (int r = 0; r < HEIGHT; r += 7)
+    for (int k = 0; k < WIDTH; k += 7) {
+      Vec d = direction(s, k + 0.5, r + 0.5);
+      Vec way = s.right * d.x + s.up * d.y + s.ahead * d.z;
+      double t = enterBall(s.eye, way, c, 20);
+      Hit got = Tracer(s).trace(k + 0.5, r + 0.5);
+      met += t >= 0;
+      wrong += std::fabs(got.depth - t) > 1e-7;
+    }
+  check(met > 100 && wrong == 0, "a turned eye: depths of a ball");
+
+  auto turn = [&](Vec v) { return Vec{dot(v, s.right), dot(v, s.up), dot(v, s.ahead)}; };
+  auto three = [](Vec v) { return std::to_string(v.x) + " " + std::to_string(v.y) + " " + std::to_string(v.z) + " "; };
+  const Vec eye{40, 30, -60}, ends[] = {{-30, -20, 15}, {10, 0, -10}}, middle{-5, -30, 20}, axis{0.6, 0, 0.8}, light{0, 1, -1};
+  const std::string links = "blend 1 2\nblend 2 3 0.5\n";
+  Scene world = scene("eye " + three(eye) + "\nright 0.8 0 0.6\nup -0.36 0.8 0.48\nahead -0.48 -0.6 0.64\nlight " + three(light) +
+                      "\nsphere 1 " + three(middle) + "36\ncylinder 2 " + three(ends[0]) + three(ends[1]) + "20\ntorus 3 " +
+                      three(middle) + three(axis) + "30 16\n" + links);
+  Scene view = scene("eye " + three(turn(eye)) + "\nlight " + three(turn(light)) + "\nsphere 1 " + three(turn(middle)) +
+                     "36\ncylinder 2 " + three(turn(ends[0])) + three(turn(ends[1])) + "20\ntorus 3 " + three(turn(middle)) +
+                     three(turn(axis)) + "30 16\n" + links);
+  Picture a, b;
+  a.trace(world, 1);
+  b.trace(view, 1);
+  int seen = 0, other = 0;
+  for (int r = 0; r < HEIGHT; r++)
+    for (int k = 0; k < WIDTH; k++) {
+      const Hit &x = a.at(k, r), &y = b.at(k, r);
+      seen += x.any();
+      // The text has six decimals: on the outline a ray may pass.
+      other += x.any() != y.any() || (x.any() && (std::fabs(x.depth - y.depth) > 0.01 || std::fabs(x.shade - y.shade) > 0.1 ||
+                                                  x.object != y.object));
+    }
+  check(seen > 5000 && other < seen / 500, "a turned eye: the picture of the turned scene");
+}
+
 int main() {
   spheres();
+  turnedEyes();
   pairs();
   tangents();
   cylinders();

@@ -144,8 +144,18 @@ TEST(a_dumped_frame)
         pairs[a][b] = pairs[b][a] = true;
     }
     SAME(blends, 6);
-    // A directory that is there already will do.
+    // A directory that is there already will do. How the eye stands is told where it is turned, and only there.
     CHECK(dump.open(directory.c_str()) == nullptr);
+    Camera camera = model.camera;
+    camera.axes = viewAlong(vector(1, 0, 0), vector(0, 1, 0), vector(1, 0, 0));
+    view.setCamera(camera);
+    CHECK(dump.frame(13, 78643, 10, model, view, palette, false) == nullptr);
+    std::string turned = contents(directory + "/F0000013.TXT");
+    const std::string words = "right 0 0 -1\nup 0 1 0\nahead 1 0 0\n", eye = "eye 0 0 -120\n";
+    const size_t at = turned.find(words);
+    CHECK(at == turned.find(eye) + eye.size());
+    CHECK(turned.find("time 1.300\n") == 0);
+    CHECK(at != std::string::npos && turned.erase(at, words.size()).substr(11) == text.str().substr(11));
     discard(directory);
     discard(top);
 }

@@ -133,6 +133,7 @@ struct Scene {
     bool found = false;  // the bodies are those of the links as they are
     bool printed = false;
     Point eye{Real(0), Real(0), Real(-120)};
+    ViewAxes axes;
     Vector light = unit(vector(0.5, 0.7, -0.5));
     std::vector<uint8_t> ramp;
 
@@ -176,7 +177,7 @@ struct Scene {
             for (size_t j = 0; j < i; ++j)
                 link(i, j);
     }
-    FrameContext frame() { return {eye, light, bodies.get(), &counts}; }
+    FrameContext frame() { return {eye, light, bodies.get(), &counts, axes}; }
     void findBodies()
     {
         std::vector<SoftObject*> all;
@@ -194,7 +195,7 @@ struct Scene {
         for (auto& object : objects)
             object->update(frame());
     }
-    // All voxels of an object, drawn in batches of `room`; their places from the eye.
+    // All voxels of an object, drawn in batches of `room`; their places from the eye, in the axes of the view.
     std::vector<Voxel> draw(size_t i, int room = 256)
     {
         std::vector<Voxel> all;

@@ -102,6 +102,14 @@ TEST(further_switches)
     SAME(good({}).rate, 10);
     SAME(good({"/R:1"}).rate, 1);
     SAME(good({"/R:1000"}).rate, 1000);
+    for (const std::string& s : spellings('F', ":12"))
+        SAME(good({s}).hold, 12);
+    SAME(good({}).hold, 0);
+    SAME(good({"/F1"}).hold, 1);
+    SAME(good({"/F:100/G"}).hold, 100);
+    CHECK(good({"/F:10"}).holds() && !good({"/F:10", "/N:5"}).holds() && !good({"/S:2", "/F:10"}).holds() && !good({"/G"}).holds());
+    for (const char* word : {"/F", "/F:", "/F:0", "/F:101", "/F:x", "/F:2.5", "/F:-1"})
+        bad(word);
     for (const char* word : {"/R", "/R:", "/R:0", "/R:1001", "/R:x", "/O", "/O:", "/V:1", "/X:", "/VX"})
         bad(word);
 }
@@ -192,13 +200,14 @@ TEST(accepted_ranges_are_told)
 {
     Options options;
     CHECK(std::strstr(parse({"/S:9"}, &options), "0.25 to 8") != nullptr);
+    CHECK(std::strstr(parse({"/F:0"}, &options), "1 to 100") != nullptr);
     CHECK(std::strstr(parse({"/N:0"}, &options), "1 to 9999999") != nullptr);
     CHECK(std::strstr(parse({"/T:0"}, &options), "1 to 86400") != nullptr);
 }
 
 TEST(help_names_every_switch_and_key)
 {
-    for (const char* word : {"/I", "/G", "/P", "/S:", "/N:", "/T:", "/D:", "/M:", "/?", "*", "-", "+", "ESC", "left button", "right button"})
+    for (const char* word : {"/I", "/G", "/P", "/S:", "/F:", "/N:", "/T:", "/D:", "/M:", "/?", "*", "-", "+", "ESC", "left button", "right button"})
         if (!CHECK(std::strstr(HELP, word) != nullptr))
             note("not in the help: %s", word);
     // It fits a text screen.

@@ -225,3 +225,57 @@ TEST(resampling_keeps_the_place)
     SAME(ball.seeds(), 316);
     NEAR(number(ball.spacing()), 2, 0);
 }
+
+TEST(equal_objects_have_equal_seeds)
+{
+    // Seeds are copied where an object of the same kind, measures and size has some; that must not show.
+    for (const char* kind : {"sphere", "torus", "cone", "box"}) {
+        Model model;
+        Actor described;
+        described.kind = kindNamed(kind);
+        const double measures[] = {20, 30, 12, 8};
+        for (int i = 0; i < MEASURES_MOST; ++i)
+            described.measure[i] = real(measures[i]);
+        CHECK(model.addItem(described) != nullptr && model.addItem(described) != nullptr);
+        // The third differs.
+        described.measure[0] = Real(24);
+        CHECK(model.addItem(described) != nullptr);
+        for (double spacing : {2.0, 1.5}) {
+            CHECK(model.resample(real(spacing), makeEngine));
+            SoftObject& copy = *model.actor(1).object;
+            SoftObject* const alone = described.kind->make(9, model.actor(1).measure);
+            CHECK(alone != nullptr && alone->resample(real(spacing), makeEngine));
+            SAME(copy.seeds(), alone->seeds());
+            SAME(copy.oversampledSeeds(), alone->oversampledSeeds());
+            SAME(copy.rings(), alone->rings());
+            int unlike = 0;
+            for (int i = 0; i < copy.seedSlots(); ++i) {
+                const Seed &a = copy.seed(i), &b = alone->seed(i);
+                unlike += !(a.path == b.path) || !(copy.root(a.root) == alone->root(b.root)) || a.neighbour != b.neighbour ||
+                          a.normal.x != b.normal.x || a.normal.y != b.normal.y || a.flags != b.flags || a.aside != b.aside;
+            }
+            SAME(unlike, 0);
+            CHECK(model.actor(2).object->seeds() != copy.seeds());
+            destroy(alone);
+        }
+    }
+}
+
+TEST(oversampled_seeds_need_no_memory_until_they_are_needed)
+{
+    Scene scene;
+    SoftObject& ball = scene.ball(20, 0, 0, 0, 2);
+    int laid = 0;
+    for (int i = 0; i < ball.seedSlots(); i += 2)
+        laid += ball.extra(i) != nullptr;
+    SAME(laid, 0);
+    // One of them, and those beside it.
+    const int slot = ball.seedSlots() / 2 | 1;
+    CHECK(&ball.seed(slot) == ball.extra(slot) && ball.extra(slot) == ball.extra(slot - 1));
+    for (int i = 0; i < ball.seedSlots(); i += 2)
+        laid += ball.extra(i) != nullptr;
+    CHECK(laid >= 1 && laid <= 8);
+    CHECK(ball.layOutExtras());
+    for (int i = 0; i < ball.seedSlots(); i += 2)
+        CHECK(ball.extra(i) != nullptr);
+}

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "help.h"
+#include "model/anim.h"
 #include "test.h"
 
 using machine::HEIGHT;
@@ -466,6 +467,51 @@ TEST(gaps_closed_all_round)
         }
 }
 
+// Between two objects the colour changes where the one's field becomes stronger, to two pixels, wherever the gap lies; the brightness goes from
+// the one side's to the other's, and the depth stays the nearer side's.
+TEST(gaps_between_two_objects)
+{
+    Model model;
+    Motion left{}, right{};
+    left.centre = point(-10, 0, 0);
+    right.centre = point(10, 0, 0);
+    CHECK(model.add(make<Sphere>(1, Real(40)), {255, 0, 0}, left));
+    CHECK(model.add(make<Sphere>(2, Real(40)), {0, 0, 255}, right));
+    Anim::move(model, 0);
+    Palette palette;
+    palette.make(model, false);
+    const uint8_t* const ramps[] = {model.actor(0).object->ramp(), model.actor(1).object->ramp()};
+    View view;
+    CHECK(view.open());
+    for (int from = 149; from <= 159; ++from)
+        for (const uint8_t* behind : ramps) {
+            const int to = from + 12;
+            view.begin();
+            const auto block = [&](int x0, int y0, int x1, int y1, int depth, uint8_t colour) {
+                for (int y = y0; y < y1; ++y)
+                    for (int x = x0; x < x1; ++x)
+                        view.setPixel(y * WIDTH + x, depth * 128, colour);
+            };
+            // Their fields are equal at column 160, whatever was drawn beside the gap.
+            block(100, 60, from, 140, 120, ramps[0][10]);
+            block(to, 60, 220, 140, 121, behind[50]);
+            block(from, 60, to, 94, 120, ramps[0][30]);
+            block(from, 104, to, 140, 120, ramps[0][30]);
+            view.closeGaps(SPACING, &model, &palette);
+            view.end();
+            int before = 10;
+            for (int x = from; x < to; ++x) {
+                const int at = 99 * WIDTH + x, step = palette.step(view.frame()[at]);
+                if (x < 158 || x > 161)
+                    SAME(view.frame()[at], ramps[x >= 160][step]);
+                CHECK(step >= before && step <= 50);
+                before = step;
+                SAME(view.zbuffer()[at], view.zbuffer()[99 * WIDTH + (2 * x < from + to ? from - 1 : to)]);
+            }
+            CHECK(before > 40);
+        }
+}
+
 TEST(gaps_grow_with_spacing_and_nearness)
 {
     View view;
@@ -624,4 +670,72 @@ TEST(spans_are_enough)
     note("%.0f%% of the screen presented on average", share * 100);
     // And it does limit something.
     CHECK(share < 0.9);
+}
+
+namespace {
+
+// Unit vectors, each square to the others, in the order of x, y and z.
+bool areAxes(const ViewAxes& axes)
+{
+    const Vec right = vec(axes.right), up = vec(axes.up), ahead = vec(axes.ahead);
+    const Vec side{up.y * ahead.z - up.z * ahead.y, up.z * ahead.x - up.x * ahead.z, up.x * ahead.y - up.y * ahead.x};
+    return size(side - right) < 2e-4 && std::fabs(dot(up, ahead)) < 2e-4 && std::fabs(size(up) - 1) < 2e-4 &&
+           std::fabs(size(ahead) - 1) < 2e-4;
+}
+
+}  // namespace
+
+TEST(the_axes_of_a_view)
+{
+    const Vector x = vector(1, 0, 0), y = vector(0, 1, 0), z = vector(0, 0, 1);
+    CHECK(!ViewAxes().turned && viewAlong(vector(0, 0, 77), vector(0, 3, 0), x) == ViewAxes());
+    CHECK(!viewAlong(vector(0, 0, 77), vector(0, 3, 0), x).turned);
+    CHECK(!viewAlong(vector(0, 0, 0), y, x).turned);
+    CHECK(!leaned(ViewAxes(), 0).turned && !turnedBy(Matrix::identity(), ViewAxes()).turned);
+    // Straight up or down, what lay to the right still does.
+    for (double d : {1.0, -1.0}) {
+        const ViewAxes axes = viewAlong(vector(0, d, 0), y, x);
+        CHECK(axes.turned && axes.right == x && areAxes(axes));
+        NEAR(number(axes.ahead.y), d, 1e-4);
+    }
+    Random random;
+    for (int i = 0; i < 2000; ++i) {
+        const Vector ahead = vector(random.between(-250, 250), random.between(-250, 250), random.between(-250, 250));
+        ViewAxes axes = viewAlong(ahead, y, x);
+        CHECK(areAxes(axes));
+        CHECK(dot(vec(axes.up), Vec{0, 1, 0}) >= -1e-4);
+        NEAR(number(axes.right.y), 0, 1e-4);
+        axes = turnedBy(Matrix::rotation(ahead + x, random.bits()), leaned(axes, random.bits()));
+        CHECK(areAxes(axes));
+        const Vector v = vector(random.between(-400, 400), random.between(-400, 400), random.between(-400, 400));
+        CHECK(size(vec(axes.toWorld(axes.fromWorld(v))) - vec(v)) < 1e-4 * 700);
+    }
+    // A quarter to the right: what was above the eye lies to its left.
+    const ViewAxes quarter = leaned(ViewAxes(), 0x40000000u);
+    NEAR(number(quarter.fromWorld(y).x), -1, 1e-4);
+    NEAR(number(quarter.fromWorld(x).y), 1, 1e-4);
+    NEAR(number(quarter.fromWorld(z).z), 1, 1e-4);
+}
+
+TEST(a_camera_that_only_moves_keeps_its_table)
+{
+    View view;
+    CHECK(view.open());
+    Camera camera;
+    camera.eye = point(3, 4, 5);
+    camera.axes = viewAlong(vector(1, 0, 0), vector(0, 1, 0), vector(1, 0, 0));
+    view.setCamera(camera);
+    CHECK(view.camera().eye == camera.eye && view.camera().axes == camera.axes);
+    // A voxel ahead is seen, in the axes of the view, wherever the eye is; with another focal length elsewhere.
+    const Voxel voxel{10 * 256, 0, 100 * 256, 256, 256, 0, 0, 40, 0, 0, 0, 0, 0, 0};
+    view.begin();
+    SAME(show(view, voxel), 1);
+    const int before = 160 + 25, after = 160 + 50;
+    SAME(view.frame()[100 * WIDTH + before], 40);
+    camera.focalX = Real(500);
+    view.setCamera(camera);
+    view.begin();
+    SAME(show(view, voxel), 1);
+    SAME(view.frame()[100 * WIDTH + before], 0);
+    SAME(view.frame()[100 * WIDTH + after], 40);
 }
