@@ -13,8 +13,6 @@ public:
 
     Vector fromCore(const Vector& q) const override;
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
-    Real horizonRadius(const Vector& toEye) const override;
-    Real horizonAt(const Vector& root, Real general) const override;
     void describe(char* to, int size) const override;
 
     // Half the lengths of the core's edges.

@@ -18,8 +18,6 @@ public:
     Real segmentHalf16() const override { return coreReach16(); }
     Real param(const Vector& q, Vector* slope) const override;
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
-    Real horizonRadius(const Vector& toEye) const override;
-    Real horizonAt(const Vector& root, Real general) const override;
     void describe(char* to, int size) const override;
 
     Real size1() const { return grown(size1Made_); }

@@ -14,8 +14,6 @@ public:
     Vector fromCore(const Vector& q) const override;
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
     Real segmentHalf16() const override { return coreReach16(); }
-    Real horizonRadius(const Vector& toEye) const override;
-    Real horizonAt(const Vector& root, Real general) const override;
     void describe(char* to, int size) const override;
 
     Real length() const { return shiftUp(coreReach(), 1); }

@@ -13,7 +13,6 @@ public:
 
     Vector fromCore(const Vector& q) const override;
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
-    Real horizonRadius(const Vector& toEye) const override;
     void describe(char* to, int size) const override;
 
     Real discRadius() const { return coreReach(); }

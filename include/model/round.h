@@ -41,9 +41,6 @@ inline Angle quarterTurn(Real part, Real of)
     return static_cast<Angle>(mulDiv(rawFromReal(part), 1 << 30, rawFromReal(of)));
 }
 
-// The square of the cosine of the angle between `v`, of any length, and the y axis.
-Real squaredCosineY(const Vector& v);
-
 constexpr Real PI(3.14159265);
 constexpr Real HALF_PI(1.57079633);
 

@@ -65,12 +65,6 @@ public:
     // True for points, segments and plates, false for circles.
     virtual bool coreConvex() const { return true; }
 
-    // About the radius of curvature (units) of the unblended surface, towards the viewer, where it bends away from him;
-    // larger for flat parts. `toEye` points at the viewer, own axes, any length.
-    virtual Real horizonRadius(const Vector& /* toEye */) const { return radius_; }
-    // The same for the seeds of one root (own space), given what horizonRadius() said: round ends bend more.
-    virtual Real horizonAt(const Vector& /* root */, Real general) const { return general; }
-
     // The object in the words of a dumped frame ("sphere 1 3.25 -4 0 20"), at most `size` bytes with the final 0.
     virtual void describe(char* to, int size) const = 0;
 
@@ -95,6 +89,7 @@ public:
     const Seed& seed(int i) const { return const_cast<SoftObject*>(this)->seed(i); }
     // The same, of an even slot.
     const Seed& regular(int i) const { return laid_.seeds[i >> 1]; }
+    Seed& regular(int i) { return laid_.seeds[i >> 1]; }
     int seedSlots() const { return 2 * laid_.regular; }
     // The oversampled seed that belongs to the regular one in slot i, or is in slot i; null: it is not laid out yet.
     Seed* extra(int i) const

@@ -16,7 +16,6 @@ public:
     Vector fromCore(const Vector& q) const override;
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
     bool ringsClose() const override { return true; }
-    Real horizonRadius(const Vector& toEye) const override;
     void describe(char* to, int size) const override;
 
     bool coreConvex() const override { return false; }

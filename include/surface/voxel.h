@@ -23,7 +23,7 @@ constexpr int SHADING_MOST = 64;
 constexpr int VOXELS_AT_ONCE = 1024;
 
 // Voxels of a list that have one ramp: those from where the run before ends to before `end`.
-struct Run {
+struct RampRun {
     const uint8_t* ramp;
     int end;
 };
@@ -37,7 +37,7 @@ struct VoxelList {
     int32_t reach;         // no voxel lies farther than this from the centre along any axis, 1/256 unit
     int count;             // voxels in the list
     int runs;              // 0: all have `ramp`; else they have those of the runs
-    Run run[RUNS_MOST];
+    RampRun run[RUNS_MOST];
     Voxel voxels[VOXELS_AT_ONCE];
     uint8_t number[VOXELS_AT_ONCE];  // of a painted object: of each voxel, the number of its colour
 

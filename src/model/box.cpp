@@ -144,32 +144,6 @@ Vector Box::fromCore(const Vector& q) const
             q.z - clamp(q.z, -half16_.z, half16_.z)};
 }
 
-Real Box::horizonRadius(const Vector& toEye) const
-{
-    // An edge seen along its length does not bend, nor does a face seen edge-on.
-    const Vector d = unit(toEye), h = half();
-    const Real squares[] = {d.x * d.x, d.y * d.y, d.z * d.z};
-    const bool wide[] = {h.x > Real(0), h.y > Real(0), h.z > Real(0)};
-    Real bend(1);
-    for (int i = 0; i < 3; ++i) {
-        if (wide[i])
-            bend = least(bend, Real(1) - squares[i]);
-        if (wide[(i + 1) % 3] && wide[(i + 2) % 3])
-            bend = least(bend, squares[i]);
-    }
-    const Real flattest = radius() + shiftUp(coreReach(), 1);
-    return bend * flattest <= radius() ? flattest : radius() / bend;
-}
-
-Real Box::horizonAt(const Vector& root, Real general) const
-{
-    // At a corner it bends as a ball.
-    const Vector h = half();
-    const Real near(0.01);
-    const bool corner = absolute(root.x) > h.x - near && absolute(root.y) > h.y - near && absolute(root.z) > h.z - near;
-    return corner ? radius() : general;
-}
-
 void Box::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
     // The outline: half of the lower face's narrower way, a quarter circle, the side, and back. The rings lie in the middles

@@ -43,18 +43,6 @@ Real Cone::param(const Vector& q, Vector* slope) const
     return t;
 }
 
-Real Cone::horizonRadius(const Vector& toEye) const
-{
-    const Real across = Real(1) - squaredCosineY(toEye);
-    const Real flattest = size() + length();
-    return across * flattest <= radius() ? flattest : radius() / across;
-}
-
-Real Cone::horizonAt(const Vector& root, Real general) const
-{
-    return absolute(root.y) < coreReach() - Real(0.01) ? general : shiftDown(sizeAlong(root.y), 1);
-}
-
 void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
     const Real radius1 = shiftDown(size1(), 1), radius2 = shiftDown(size2(), 1);

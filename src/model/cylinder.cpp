@@ -12,19 +12,6 @@ Vector Cylinder::fromCore(const Vector& q) const
     return {q.x, q.y - clamp(q.y, -coreReach16(), coreReach16()), q.z};
 }
 
-Real Cylinder::horizonRadius(const Vector& toEye) const
-{
-    // Seen across it bends as its radius says, along it not at all.
-    const Real across = Real(1) - squaredCosineY(toEye);
-    const Real flattest = radius() + shiftUp(length(), 1);
-    return across * flattest <= radius() ? flattest : radius() / across;
-}
-
-Real Cylinder::horizonAt(const Vector& root, Real general) const
-{
-    return absolute(root.y) < coreReach() - Real(0.01) ? general : radius();
-}
-
 void Cylinder::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
     // The outline: a quarter circle, the side, a quarter circle. The rings lie in the middles of equal parts of it.

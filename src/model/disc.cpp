@@ -16,14 +16,6 @@ Vector Disc::fromCore(const Vector& q) const
     return {q.x * share, q.y, q.z * share};
 }
 
-Real Disc::horizonRadius(const Vector& toEye) const
-{
-    // Seen from above the edge is the rim; from the side the faces are, and they do not bend at all.
-    const Real above = squaredCosineY(toEye);
-    const Real flattest = radius() + shiftUp(discRadius(), 1);
-    return above * flattest <= radius() ? flattest : radius() / above;
-}
-
 void Disc::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
     // The lower half of the outline: the face, and a quarter circle of the rim.

@@ -91,6 +91,7 @@ public:
         s.flags = SEED_VALID | SEED_RESTING;
         s.aside = 0;
         s.still = 0;
+        s.cellArea = 0;
         setCell(s.along, along, inverseSpacing_);
         setCell(s.across, across, inverseSpacing_);
     }

@@ -76,12 +76,6 @@ void addSeeds(SeedMaker& maker, const Ring& ring, Real spacing, int root)
     }
 }
 
-Real squaredCosineY(const Vector& v)
-{
-    const Real cosine = unit(v).y;
-    return cosine * cosine;
-}
-
 Real lengthQuick(const Vector& v)
 {
 #if FB_REAL == FB_FIXED

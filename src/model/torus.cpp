@@ -17,12 +17,6 @@ Vector Torus::fromCore(const Vector& q) const
     return {q.x * share, q.y, q.z * share};
 }
 
-Real Torus::horizonRadius(const Vector& toEye) const
-{
-    // Seen from above the edge is that of the tube; from the side it is partly the top, which bends as the ring does.
-    return radius() + ring() * (Real(1) - squaredCosineY(toEye));
-}
-
 void Torus::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
     const int rings = stepsIn(radius() * PI, shiftDown(spacing, 1));

@@ -242,7 +242,7 @@ int View::show(const VoxelList& list)
     int left = 0;
     if (list.runs == 0)
         left = showRun(list.ramp, from, from + list.count, loop);
-    for (const Run* run = list.run; run < list.run + list.runs; ++run) {
+    for (const RampRun* run = list.run; run < list.run + list.runs; ++run) {
         const Voxel* const to = list.voxels + run->end;
         left += showRun(run->ramp, from, to, loop);
         from = to;

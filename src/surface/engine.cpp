@@ -38,6 +38,7 @@ private:
     Odometer odometer_;
     uint32_t updates_ = 0;
     int32_t light_[3] = {0, 0, 0};  // at the last update, own axes
+    ViewBefore before_;
     Patch* patches_ = nullptr;
     int count_ = 0;
 };
@@ -124,7 +125,7 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
     const Paint* const paint = object_.paint();
     if (paint != nullptr && *next == 0)
         polish(object_, own);
-    const int at = shadePatches(object_, own, frame, patches_, count_, *next, list, room);
+    const int at = shadePatches(object_, own, frame, patches_, count_, *next, before_, list, room);
     *next = at < count_ ? at : 0;
     // With another ramp than its own, the whole object is to be seen in that one.
     if (paint != nullptr && object_.ramp() == paint->ramp)

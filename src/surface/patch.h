@@ -4,6 +4,7 @@
 #define FB_PATCH_H
 
 #include "gather.h"
+#include "surface/voxel.h"
 
 // The report's overshoot tolerance: by how much a neighbour's field may be stronger than that of a seed's own object.
 constexpr Real OVERSHOOT(0.05);
@@ -12,11 +13,23 @@ constexpr Real OVERSHOOT(0.05);
 constexpr int PATCH_RINGS = 3;
 constexpr int PATCH_SEEDS = 3;
 
+constexpr int16_t OUT_OF_SIGHT = -1;
+
 enum PatchState : uint8_t {
     PATCH_REST,    // no neighbour reaches it
     PATCH_INSIDE,  // it lies inside a neighbour, or where that is stronger
     PATCH_AWAY,    // a neighbour reaches it, and it faces away from the viewer
     PATCH_MIXED,   // its seeds are settled
+};
+
+// How the surface of a patch bends: along two steps on it the normal turns. Lengths as those of Seed::place.
+struct Bend {
+    int32_t inverse;    // 2^30 / area between the steps; 0: it bends as a ball does
+    int32_t most;       // the greatest curvature, 2^24 for 1
+    int16_t dual[2][3]; // times inverse: the vector whose product with a vector says how many of a step that has
+    int16_t turn[2][3]; // of the normal over a step, 1.0 = 2^14
+    Direction14 normal;
+    bool stale;         // seeds have settled since
 };
 
 // Lengths in 1/16 unit of own space, directions with 1.0 = 2^14.
@@ -28,6 +41,8 @@ struct Patch {
     bool stale;         // its lists have to be made anew
     bool settled;       // its seeds were looked at in this frame
     bool extras;        // oversampled seeds of it take part
+    // The scales of its regular seeds as they were when the patch was shaded last; OUT_OF_SIGHT as their width: there is none.
+    Voxel voxels[PATCH_RINGS * PATCH_SEEDS];
     int32_t facing;     // of a settled patch: cosine of the surface in the middle and the direction to the viewer
     int32_t centre;     // slot of the seed in the middle
     int16_t middle[3];  // of where its seeds rest
@@ -41,6 +56,7 @@ struct Patch {
     // Its lists, a bit for the slot of each neighbour: those that may reach some place on its paths, and those that may reach
     // its seeds where they are.
     uint32_t listed[SLOTS_MAX / 32], near[SLOTS_MAX / 32];
+    Bend bend;          // as it was when it was drawn last
 };
 
 // Calls `each` with the slot of every regular seed of a patch.

@@ -520,12 +520,14 @@ Way Settler::until(Real hold, Real push, Real longest)
 // Leaves a seed where nothing blends with it.
 void Settler::restThere(Seed& s)
 {
-    if (!(s.flags & SEED_RESTING))
+    if (!(s.flags & SEED_RESTING)) {
         s.normal = object_.restNormal(s);
+        s.flags &= SEED_ACTIVE;
+    }
     s.position = Real(1);
     s.brightness8 = brightness8(s.normal, own_.light);
     s.still = came_ < shiftDown(smallest_, 3);
-    s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
+    s.flags = static_cast<uint8_t>((s.flags & (SEED_ACTIVE | SEED_MEASURED)) | SEED_VALID | SEED_RESTING);
 }
 
 // Whether one neighbour alone, the strongest where a seed of the patch was not on the surface the last time, keeps a seed off

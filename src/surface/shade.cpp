@@ -1,18 +1,21 @@
-// From settled seeds to voxels, in whole numbers, because it is done for every seed that is seen.
+// From settled seeds to voxels, in whole numbers, because it is done for every seed that is seen. What does not change as long as
+// a seed stays where it is gets measured once and kept in it; what neighbours share is worked out once for their patch.
 #include "shade.h"
 
 #include "math/normal.h"
 #include "paint.h"
+#include "voxels.h"
 
 namespace {
 
-template <class Part>
-inline int32_t product(const Part a[3], const int32_t b[3])
+template <class Part, class Other>
+inline int32_t product(const Part a[3], const Other b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-inline int32_t product(const Direction14& a, const int32_t b[3])
+template <class Part>
+inline int32_t product(const Direction14& a, const Part b[3])
 {
     return a.x * b[0] + a.y * b[1] + a.z * b[2];
 }
@@ -37,409 +40,329 @@ inline int32_t smaller(int32_t a, int32_t b)
     return a < b ? a : b;
 }
 
-// Nearer than this (1/32 unit) nothing is drawn.
-constexpr int32_t NEAREST = 32;
-
 // No scale is stretched to more than two and a half times its cell by blending: cosine of path and normal.
 constexpr int32_t LEAST_COSINE = 6500;
 
-// What a scale is larger than its cell to each side: a part of the cell (1/32), and what places are uncertain by (1/256 unit).
-constexpr int32_t MARGIN = 1;
-constexpr int32_t MARGIN_UNITS = 14;
-
-// Beyond this cosine of path and normal a cell lies in no even band of its ring; inverse, 12 bits of fraction.
-constexpr int32_t UNEVEN = 4329;
+// Below this cosine of path and normal a cell lies in no even band of its ring.
+constexpr int32_t UNEVEN = 15500;
 
 // By how much scales of two objects overlap at their border, 1/256 unit.
 constexpr int32_t BORDER_MARGIN = 40;
 
-// Depth, 1/32 unit, before which the whole of a cell is covered: so near the viewer a ring is no straight band in the picture.
-constexpr int32_t WHOLE_BEFORE = 64 * 32;
+// Depth before which the whole of a cell is covered: so near the viewer a ring is no straight band in the picture; 1/256 unit.
+constexpr int32_t WHOLE_BEFORE = 64 * 256;
 
-// No depth changes more than this across a scale, 8 bits of fraction.
-constexpr int32_t STEEPEST_TILT = 20000;
+// The greatest radius of curvature, 1/32 unit, and the cosine of normal and viewer from which on it does not matter.
+constexpr int32_t FLATTEST = 8000;
+constexpr int32_t FACES_VIEWER = 16000;
 
-// Change of brightness (1/8 step) from the middle of a scale to its corner below which it has one brightness.
-constexpr int32_t FLAT = 8;
+// Seeds of a patch, oversampled ones included.
+constexpr int SEEDS_MOST = 2 * PATCH_RINGS * PATCH_SEEDS;
 
-// Half of a way along the surface as it falls on the picture, 1/256 unit, and what the brightness changes by over it, 8 bits
-// of fraction.
-struct Way {
-    int32_t x, y, change;
-};
+// By how much the view of a patch may turn, and it may grow, after it was shaded; 1.0 = 2^14.
+constexpr int32_t MOST_TURN = 400;
 
-// Two ways, the half axes of a cell, and the area between them.
-struct Cell {
-    Way along, across;
-    int32_t area;
-    bool uneven;  // blending has torn its ring out of line
-};
-
-// What a scale is besides its place.
-struct Scale {
-    int32_t facing;        // the seed's normal times the vector to the eye, 1/32 unit
-    int32_t depth;         // of the seed along the viewing axis, 1/32 unit
-    int32_t tiltX, tiltY;  // as those of its voxel
-    int32_t wide, high;
-};
-
-// Turns the seeds of one object into voxels. Made once for an object and a frame, and only here, so that the compiler may keep
-// it on the stack, where it needs no register to be found. TURNED: the own axes are not those of the view.
-template <bool TURNED>
+// Turns the seeds of one object into voxels. Made once for an object and a frame.
 class Shader {
 public:
-    Shader(const SoftObject& object, const OwnFrame& own, const FrameContext& frame);
+    Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame);
 
-    // To be called before the seeds of a patch: from where the viewer sees it.
-    void setPatch(const Patch& patch);
+    // Lists the voxels of a patch.
+    void shadePatch(Patch& patch, bool turn, VoxelList& list);
 
-    // Lists the voxels of a patch, by way of the painter of objects that have a paint.
-    template <bool RESTING, bool PAINTED>
-    void shadeSeeds(const Patch& patch, VoxelList& list, Painter* painter) const;
+    // The same by way of a painter, which makes voxels of its own from them.
+    void paintPatch(Patch& patch, Painter& painter);
 
 private:
-    template <bool RESTING>
-    __attribute__((always_inline)) bool shade(const Seed& s, bool oversampled, Voxel* voxel) const;
-    template <bool RESTING>
-    bool place(const Seed& s, Scale& scale, Voxel* voxel) const;
-    template <bool RESTING>
-    void cell(const Seed& s, Cell& c) const;
-    // A length of own space in the world.
-    int32_t grown(int32_t length) const { return grown_ ? mulShift16(length, rawFromReal(own_.growth)) : length; }
-    bool atEnd(const Seed& s) const;
-    int32_t curvature(const Patch& patch, const int32_t middle[3]);
+    bool keepPatch(Patch& patch, VoxelList& list) const;
+    int measureSeen(Patch& patch, Seen* seen, int count, bool* anew);
+    int leaveNear(Seen* seen, int count) const;
+    void measurePlace(Seed& s) const;
+    void measureCell(Seed& s) const;
+    void measureBend(Patch& patch) const;
+    void setPatch(const Patch& patch, const Seen& middle);
+    void setBend(const Patch& patch, const Seen& middle);
+    bool cut(const Seed& s, Voxel* voxel) const;
+    // What of a vector of own space lies along axis i of the view.
     template <class Part>
-    Way onPicture(const Part axis[3]) const;
-    void end(const Scale& scale, Voxel* voxel) const;
-    void changes(const Seed& s, Cell& c) const;
-    void roundSlopes(const Scale& scale, Voxel* voxel) const;
-    bool cut(const Seed& s, const Scale& scale, Voxel* voxel) const;
+    int32_t along(const Part v[3], const int32_t axis[3], int i) const
+    {
+        return shading_.turned ? product(v, axis) >> 14 : v[i];
+    }
 
-    const SoftObject& object_;
-    const OwnFrame own_;      // a copy, for the same reason
-    const Seed* seeds_;
-    const Seed* lastSeed_;    // the last regular one
-    const Vector* roots_;
-    bool grown_;
-    int32_t spacing_;         // 1/256 unit of the world
-    int32_t limb_;            // a seed that faces the viewer less than this is not drawn, 1/32 unit
-    int32_t generalHorizon_;  // radius of curvature of a ball, 1/32 unit
-    int32_t flattest_;        // the greatest, 1/32 unit
-    int32_t core2_;           // squared distance from which on a root lies at the end of the core, 1/16 unit of own space
-    int32_t depth_;           // of the object's centre along the viewing axis, 1/32 unit
-    int32_t away_[2];         // the centre from the eye, across the view, 1/32 unit
-    int32_t inverseRadius_;   // 2^24 / radius in 1/64 unit
-    bool round_ = false;      // the patch bends alike everywhere
-    int32_t gradient_[3];     // of the brightness over what is round, 1/8 step a unit with 8 bits of fraction
-    // Of the patch: the axes of the picture plane, sheared along the ray through its middle, so that a part of a vector along
-    // the view shows sideways; 1.0 = 2^14.
-    int32_t column_[3], row_[3];
-    int32_t shearX_, shearY_;  // 12 bits of fraction
-    // Both times the spacing, column in the upper half, row in the lower, rounded so that a cell has 16 bits; and by what to
-    // shift what comes of them.
-    uint32_t cellBoth_[3];
-    int cellShift_;
-    int32_t horizonShare_;    // of the horizon: half of it over the distance of the eye, 16 bits of fraction
-    int32_t gradientAhead_;   // how that brightness changes with the depth, 1/8 step a unit with 4 bits of fraction
+    SoftObject& object_;
+    const Seed* const seeds_;  // the regular ones
+    const Vector* const roots_;
+    const OwnFrame own_;
+    Shading shading_;
+    int32_t centre_[3];       // of the object from the eye, 1/256 unit
+    bool ball_, near_;        // near: some seeds may be nearer than NEAREST_DEPTH
+    int placeShift_;          // bits of Real below those of places
+    int32_t facesViewer_;     // FACES_VIEWER times the distance of the eye, steps of places
+    int viewShift_;           // brings the way to the eye to 14 bits
+    int pathShift_;           // brings the length of a path to 2^11 .. 2^12
+    int32_t leastCosine_, uneven_;  // LEAST_COSINE and UNEVEN times that
+    int32_t ballGradient_[3]; // of the brightness over a ball, axes of the view, 1/8 step a unit with 8 bits of fraction
+    int32_t ballHorizon_;     // Shading::horizonShare of what bends like a ball
+    int32_t horizonScale_;    // of a radius of curvature in steps of places / 8
+    int32_t gradientScale_;   // brings gradients of patches to 1/8 step a unit with 8 bits of fraction
+    int32_t cellScale_;       // the spacing, 1/256 unit, times a power of 2 that leaves cells 16 bits: 3072 to 6143
+    uint32_t areaScale_;      // squared spacing
+    // Of the patch.
+    int32_t shearX_, shearY_; // of the ray through it, 10 bits of fraction
 };
 
-template <bool TURNED>
-inline Shader<TURNED>::Shader(const SoftObject& object, const OwnFrame& own, const FrameContext& frame)
-    : object_(object), own_(own), seeds_(&object.seed(0)), lastSeed_(&object.seed(object.seedSlots() - 2)), roots_(&object.root(0)),
-      grown_(object.size() != object.laidSize()), spacing_(rawFromReal(object.spacing() * own.growth) >> 8)
+Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame)
+    : object_(object), seeds_(&object.regular(0)), roots_(&object.root(0)), own_(own)
 {
     const Vector place = frame.inView(object.centre());
-    depth_ = rawFromReal(place.z) >> 11;
-    away_[0] = rawFromReal(place.x) >> 11;
-    away_[1] = rawFromReal(place.y) >> 11;
+    centre_[0] = rawFromReal(place.x) >> 8;
+    centre_[1] = rawFromReal(place.y) >> 8;
+    centre_[2] = rawFromReal(place.z) >> 8;
+    ball_ = object.isBall();
+    // No seed leaves the reach of its object. Places have 16 bits.
+    const int32_t reach = rawFromReal(object.size() + object.coreReach()) >> 8;
+    near_ = centre_[2] - reach < NEAREST_DEPTH || centre_[2] + reach >= FARTHEST_DEPTH;
+    placeShift_ = 8;
+    for (int32_t most = rawFromReal(object.laidSize() + object.coreReach() / own.growth) >> 8; most > 32000; most >>= 1)
+        ++placeShift_;
+    // A step of places in 1/256 unit of the world, 16 bits of fraction.
+    const int32_t step = rawFromReal(own.growth) << (placeShift_ - 8);
+    shading_.turned = !ball_ || object.size() != object.laidSize() || frame.axes.turned;
+    shading_.depth = centre_[2];
+    const int32_t* const axes[] = {own.right, own.up, own.ahead};
+    const int32_t radius = rawFromReal(object.radius());
+    for (int i = 0; i < 3; ++i) {
+        shading_.eye[i] = mulDiv(own.eye32[i], 1 << 16, step);
+        shading_.right[i] = mulDiv(own.right[i], 1 << 16, step);
+        shading_.up[i] = mulDiv(own.up[i], 1 << 16, step);
+        shading_.toRight[i] = mulShift16(own.right[i], step);
+        shading_.toUp[i] = mulShift16(own.up[i], step);
+        shading_.toAhead[i] = mulShift16(own.ahead[i], step);
+        ballGradient_[i] = (product(own.light, axes[i]) >> 14) * (BRIGHTEST * 32) / ((radius >> 8) + 1);
+    }
     // On a ball a scale that is seen nearly edge-on adds next to nothing to those before it; on flat parts it may be all
     // there is.
-    limb_ = object.coreReach() > Real(0) ? own.distance32 >> 7 : own.distance32 * 5 >> 7;
-    generalHorizon_ = rawFromReal(object.horizonRadius(own.eye)) >> 11;
-    flattest_ = smaller((rawFromReal(object.radius()) >> 11) + (rawFromReal(object.coreReach()) >> 11) * 4, 8000);
-    // A ball ends all round.
-    const int32_t reach16 = larger((rawFromReal(object.coreReach() / own.growth) >> 12) - 2, 0);
-    core2_ = reach16 * reach16;
-    const int32_t radius = (rawFromReal(object.radius()) >> 8) + 1;
-    for (int i = 0; i < 3; ++i)
-        gradient_[i] = own.light[i] * (BRIGHTEST * 32) / radius;
-    inverseRadius_ = (1 << 24) / ((rawFromReal(shiftDown(object.laidSize(), 1)) >> 10) + 1);
+    const int32_t distance = mulDiv(own.distance32, 1 << 16, step);
+    shading_.limb = ball_ ? distance * 5 >> 4 : distance >> 4;
+    facesViewer_ = (distance * (FACES_VIEWER >> 6)) >> 5;
+    viewShift_ = larger(0, 18 - __builtin_clz(static_cast<uint32_t>(distance + 4096)));
+    ballHorizon_ = mulShift16((smaller(radius >> 11, FLATTEST) << 12) / own.distance32, step);
+    horizonScale_ = mulShift16(mulDiv(step, 1 << 12, own.distance32), step);
+    gradientScale_ = mulDiv(BRIGHTEST, 1 << (24 - placeShift_), rawFromReal(own.growth));
+    const int32_t spacing = smaller(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
+    areaScale_ = static_cast<uint32_t>(mulShift16(spacing * spacing << 7, step));
+    shading_.cellShift = __builtin_clz(static_cast<uint32_t>(spacing)) - 19;
+    if (spacing << shading_.cellShift > 6143)
+        --shading_.cellShift;
+    cellScale_ = spacing << shading_.cellShift;
+    const int32_t path = rawFromReal(object.laidSize()) >> 1;
+    pathShift_ = 20 - __builtin_clz(static_cast<uint32_t>(path));
+    leastCosine_ = (path >> pathShift_) * LEAST_COSINE >> 14;
+    uneven_ = (path >> pathShift_) * UNEVEN >> 14;
 }
 
-template <bool TURNED>
-inline void Shader<TURNED>::setPatch(const Patch& patch)
+// Where the seed is, and how high above the origin the plane lies that touches the surface there. Its cell stays as long as the
+// seed has moved little.
+inline void Shader::measurePlace(Seed& s) const
 {
-    // The middle of the patch in the view, 1/32 unit.
-    int32_t view[3];
-    const int32_t middle[] = {grown(patch.middle[0] * 2), grown(patch.middle[1] * 2), grown(patch.middle[2] * 2)};
-    const int32_t* const axes[] = {own_.right, own_.up, own_.ahead};
-    for (int i = 0; i < 3; ++i)
-        view[i] = TURNED ? product(middle, axes[i]) >> 14 : middle[i];
-    const int32_t depth = depth_ + view[2] < NEAREST ? NEAREST : depth_ + view[2];
-    const int32_t shearX = limited(((away_[0] + view[0]) << 12) / depth, 5 << 12);
-    const int32_t shearY = limited(((away_[1] + view[1]) << 12) / depth, 5 << 12);
-    shearX_ = shearX;
-    shearY_ = shearY;
-    for (int i = 0; i < 3; ++i) {
-        column_[i] = own_.right[i] - (own_.ahead[i] * shearX >> 12);
-        row_[i] = own_.up[i] - (own_.ahead[i] * shearY >> 12);
+    const Vector place = roots_[s.root] + (s.flags & SEED_RESTING ? s.path : s.path * s.position);
+    s.place[0] = static_cast<int16_t>(rawFromReal(place.x) >> placeShift_);
+    s.place[1] = static_cast<int16_t>(rawFromReal(place.y) >> placeShift_);
+    s.place[2] = static_cast<int16_t>(rawFromReal(place.z) >> placeShift_);
+    s.height = static_cast<int16_t>(product(s.normal, s.place) >> 14);
+    const uint8_t position = static_cast<uint8_t>(rawFromReal(s.position) >> 9);
+    if (s.cellPosition != position) {
+        s.cellPosition = position;
+        s.cellArea = 0;
     }
-    // No axis of the picture plane is longer than this, and no half axis of a cell longer than 128: a sum of products has 16 bits.
-    const int32_t longest = ((1 << 14) + (larger(magnitude(shearX), magnitude(shearY)) << 2)) * spacing_ >> 8;
-    const int bits = 24 - __builtin_clz(static_cast<uint32_t>(longest) | 0xff);
-    const int32_t half = 128 << bits;
-    for (int i = 0; i < 3; ++i) {
-        const int32_t column = (column_[i] * spacing_ + half) >> (bits + 8), row = (row_[i] * spacing_ + half) >> (bits + 8);
-        cellBoth_[i] = (static_cast<uint32_t>(column) << 16) + static_cast<uint32_t>(row);
-    }
-    cellShift_ = 28 - bits;
-    int32_t horizon = generalHorizon_;
-    if (TURNED && patch.state == PATCH_REST)
-        horizon = curvature(patch, middle);
-    else if (TURNED)
-        horizon = rawFromReal(object_.horizonAt(roots_[object_.seed(patch.centre).root], realFromRaw(generalHorizon_ << 11))) >> 11;
-    horizonShare_ = (smaller(horizon, 8000) << 15) / own_.distance32;
-    gradientAhead_ = (gradient_[2] + (gradient_[0] * (shearX >> 4) >> 8) + (gradient_[1] * (shearY >> 4) >> 8)) >> 4;
-}
-
-// Place, tilt and brightness. False: it faces away.
-template <bool TURNED>
-template <bool RESTING>
-inline bool Shader<TURNED>::place(const Seed& s, Scale& scale, Voxel* voxel) const
-{
-    Vector place = RESTING || (s.flags & SEED_RESTING) ? s.path : s.path * s.position;
-    if (TURNED)
-        place = place + roots_[s.root];
-    if (grown_)
-        place = place * own_.growth;
-    const int32_t x = rawFromReal(place.x) >> 8, y = rawFromReal(place.y) >> 8, z = rawFromReal(place.z) >> 8;
-    const Direction14 n = s.normal;
-    const int32_t facing =
-        (n.x * (own_.eye32[0] - (x >> 3)) + n.y * (own_.eye32[1] - (y >> 3)) + n.z * (own_.eye32[2] - (z >> 3))) >> 14;
-    if (facing <= limb_)
-        return false;
-    int32_t ahead = z;
-    if (TURNED)
-        ahead = (x * own_.ahead[0] + y * own_.ahead[1] + z * own_.ahead[2]) >> 14;
-    const int32_t depth = depth_ + (ahead >> 3);
-    if (depth < NEAREST)
-        return false;
-    voxel->z = ahead;
-    // The tangent plane: depth changes by n.x depth / (n . to eye) for a unit across the view.
-    const int32_t steep = (depth << 8) / facing;
-    int32_t tiltX, tiltY;
-    if (TURNED) {
-        voxel->x = (x * own_.right[0] + y * own_.right[1] + z * own_.right[2]) >> 14;
-        voxel->y = (x * own_.up[0] + y * own_.up[1] + z * own_.up[2]) >> 14;
-        tiltX = (product(n, own_.right) >> 14) * steep >> 14;
-        tiltY = (product(n, own_.up) >> 14) * steep >> 14;
-    } else {
-        voxel->x = x;
-        voxel->y = y;
-        tiltX = n.x * steep >> 14;
-        tiltY = n.y * steep >> 14;
-    }
-    if (steep > STEEPEST_TILT) {
-        tiltX = limited(tiltX, STEEPEST_TILT);
-        tiltY = limited(tiltY, STEEPEST_TILT);
-    }
-    voxel->tiltX = static_cast<int16_t>(tiltX);
-    voxel->tiltY = static_cast<int16_t>(tiltY);
-    voxel->cutX = voxel->cutY = 0;
-    voxel->cutAt = 0;
-    voxel->brightness = static_cast<uint8_t>((s.brightness8 + 128) >> 8);
-    scale.facing = facing;
-    scale.depth = depth;
-    scale.tiltX = tiltX;
-    scale.tiltY = tiltY;
-    return true;
-}
-
-// Whether the root of a seed lies where the core ends.
-template <bool TURNED>
-inline bool Shader<TURNED>::atEnd(const Seed& s) const
-{
-    const Vector& root = roots_[s.root];
-    const int32_t root16[] = {rawFromReal(root.x) >> 12, rawFromReal(root.y) >> 12, rawFromReal(root.z) >> 12};
-    return product(root16, root16) >= core2_;
-}
-
-// How a patch at rest bends. All that is no ball is turned about its y axis: round that it bends by n.r / r, with r the way from
-// the axis; in the plane of the axis as a ball does where its core ends, else not at all. Returned is the radius of curvature
-// along the view and a quarter, 1/32 unit, the greatest where it is flat or hollow. Sets the gradient of the brightness, too.
-template <bool TURNED>
-inline int32_t Shader<TURNED>::curvature(const Patch& patch, const int32_t middle[3])
-{
-    const bool end = atEnd(object_.seed(patch.centre));
-    const int last = PATCH_RINGS - 1;
-    round_ = end == atEnd(seeds_[patch.first[0]]) && (patch.count[last] == 0 || end == atEnd(seeds_[patch.first[last]]));
-    const int32_t radius = grown(patch.path * 2);
-    const int32_t x = middle[0], y = middle[1], z = middle[2];
-    const Normal out = normalise({realFromRaw(x << 8), Real(0), realFromRaw(z << 8)});
-    const Normal view = normalise({realFromRaw((x - own_.eye32[0]) << 8), realFromRaw((y - own_.eye32[1]) << 8),
-                                   realFromRaw((z - own_.eye32[2]) << 8)});
-    const int32_t away = (x * out.x + z * out.z) >> 14;
-    const int32_t* const light = own_.light;
-    int32_t change[] = {light[0], light[1], light[2]};
-    // Radius over radius of curvature, 1.0 = 2^14.
-    int32_t bend = 1 << 14;
-    if (!end || away > radius >> 1) {
-        const int32_t round = (view.z * out.x - view.x * out.z) >> 14;
-        const int32_t share = round * round >> 14;
-        const int32_t outward = (patch.axis[0] * out.x + patch.axis[2] * out.z) >> 14;
-        const int32_t hoop = away > 0 ? limited(outward * radius / away, 1 << 15) : 0;
-        bend = (end ? bend - share : 0) + (share * hoop >> 14);
-        if (end) {
-            const int32_t part = ((hoop - (1 << 14)) * ((light[2] * out.x - light[0] * out.z) >> 14)) >> 14;
-            change[0] -= part * out.z >> 14;
-            change[2] += part * out.x >> 14;
-        } else {
-            // Without what points along the straight lines of the surface, which lie in the plane of the axis.
-            const int32_t upward = patch.axis[1];
-            const int32_t along = (outward * light[1] - upward * ((light[0] * out.x + light[2] * out.z) >> 14)) >> 14;
-            const int32_t inward = upward * along >> 14;
-            change[0] = hoop * (light[0] + (inward * out.x >> 14)) >> 14;
-            change[1] = hoop * (light[1] - (outward * along >> 14)) >> 14;
-            change[2] = hoop * (light[2] + (inward * out.z >> 14)) >> 14;
-        }
-    }
-    const int32_t scale = (BRIGHTEST << 10) / (radius + 1);
-    gradient_[0] = (product(change, own_.right) >> 14) * scale >> 8;
-    gradient_[1] = (product(change, own_.up) >> 14) * scale >> 8;
-    gradient_[2] = (product(change, own_.ahead) >> 14) * scale >> 8;
-    // A quarter more, for what its scales differ from their cells: next to the limb there may be no other that covers it.
-    return bend * (flattest_ >> 4) <= radius << 10 ? flattest_ : (radius * 5 << 12) / bend;
-}
-
-// A half axis of a cell, as the seeds have it, or as short a vector: both sums of products are one, each 16 bits wide.
-template <bool TURNED>
-template <class Part>
-inline Way Shader<TURNED>::onPicture(const Part axis[3]) const
-{
-    const uint32_t sum = static_cast<uint32_t>(axis[0]) * cellBoth_[0] + static_cast<uint32_t>(axis[1]) * cellBoth_[1] +
-                         static_cast<uint32_t>(axis[2]) * cellBoth_[2];
-    return {static_cast<int32_t>(sum + 0x8000) >> cellShift_, static_cast<int32_t>(sum << 16) >> cellShift_, 0};
 }
 
 // The cell of the unblended surface that is the seed's own, grown with the position, as it falls along the path onto the
 // tangent plane. A half axis e becomes e - u (e.n) / (u.n) with u the path.
-template <bool TURNED>
-template <bool RESTING>
-inline void Shader<TURNED>::cell(const Seed& s, Cell& c) const
+SELDOM void Shader::measureCell(Seed& s) const
 {
-    c.along = onPicture(s.along);
-    c.across = onPicture(s.across);
-    c.uneven = false;
-    if (!RESTING && !(s.flags & SEED_RESTING)) {
-        // The path over the radius, 1.0 = 2^14, and its cosine to the normal.
-        const int32_t u[] = {mulShift16(rawFromReal(s.path.x), inverseRadius_) >> 4,
-                             mulShift16(rawFromReal(s.path.y), inverseRadius_) >> 4,
-                             mulShift16(rawFromReal(s.path.z), inverseRadius_) >> 4};
-        int32_t cosine = product(s.normal, u) >> 14;
-        if (cosine < LEAST_COSINE)
-            cosine = LEAST_COSINE;
-        const int32_t inverse = (1 << 26) / cosine;  // 12 bits of fraction
-        c.uneven = inverse > UNEVEN;
-        const int32_t position = rawFromReal(s.position) >> 8;
-        // (e.n) / (u.n), 1/64 spacing with 8 bits of fraction.
-        const int32_t n[] = {s.normal.x, s.normal.y, s.normal.z};
-        const int32_t offAlong = (product(s.along, n) >> 8) * inverse >> 10;
-        const int32_t offAcross = (product(s.across, n) >> 8) * inverse >> 10;
-        const int32_t short7[] = {(u[0] + 64) >> 7, (u[1] + 64) >> 7, (u[2] + 64) >> 7};
-        const Way path = onPicture(short7);
-        c.along.x = (c.along.x - (offAlong * path.x >> 15)) * position >> 8;
-        c.along.y = (c.along.y - (offAlong * path.y >> 15)) * position >> 8;
-        c.across.x = (c.across.x - (offAcross * path.x >> 15)) * position >> 8;
-        c.across.y = (c.across.y - (offAcross * path.y >> 15)) * position >> 8;
+    const int32_t n[] = {s.normal.x, s.normal.y, s.normal.z};
+    // Oversampled seeds lie between those of rings, and make no band.
+    bool even = !(s.flags & SEED_ACTIVE);
+    if (s.flags & SEED_RESTING) {
+        for (int i = 0; i < 3; ++i) {
+            s.cellAlong[i] = s.along[i];
+            s.cellAcross[i] = s.across[i];
+        }
+    } else {
+        const int32_t u[] = {rawFromReal(s.path.x) >> pathShift_, rawFromReal(s.path.y) >> pathShift_,
+                             rawFromReal(s.path.z) >> pathShift_};
+        const int32_t cosine = product(u, n) >> 14, position = rawFromReal(s.position) >> 4;
+        const int32_t share = (position << 14) / larger(cosine, leastCosine_);
+        const int32_t along = mulShift16(product(s.along, n), share) >> 5, across = mulShift16(product(s.across, n), share) >> 5;
+        const bool torn = cosine < uneven_;
+        const auto part = [&](int32_t axis, int32_t path, int32_t off) {
+            const int32_t sum = (axis * position - (path * off >> 7) + 2048) >> 12;
+            return static_cast<int8_t>(torn ? limited(sum, 127) : sum);
+        };
+        for (int i = 0; i < 3; ++i) {
+            s.cellAlong[i] = part(s.along[i], u[i], along);
+            s.cellAcross[i] = part(s.across[i], u[i], across);
+        }
+        even = even && !torn;
     }
-    c.area = c.along.x * c.across.y - c.along.y * c.across.x;
-}
-
-// Half width and height of the scale. Beside each other, cells of a ring make a band: rectangles as wide as the way from one
-// to the next need not cover the whole of their cells, only, together, the band.
-inline void extents(const Cell& c, bool whole, Scale& scale, Voxel* voxel)
-{
-    int32_t width = magnitude(c.along.x), height = magnitude(c.along.y);
-    if (whole) {
-        width += magnitude(c.across.x);
-        height += magnitude(c.across.y);
-    } else if (width > height) {
-        height += magnitude(c.area) / width;
-    } else if (height > 0) {
-        width += magnitude(c.area) / height;
-    }
-    scale.wide = smaller(width + (width >> 5) * MARGIN + MARGIN_UNITS, 32000);
-    scale.high = smaller(height + (height >> 5) * MARGIN + MARGIN_UNITS, 32000);
-    voxel->wide = static_cast<int16_t>(scale.wide);
-    voxel->high = static_cast<int16_t>(scale.high);
-}
-
-// Where a round surface bends out of sight its tangent plane goes on: the scale ends there. The limb is cos^2 radius / 2
-// away across the view, with cos the cosine of normal and viewer; along the plane that is cos radius / 2 deep.
-template <bool TURNED>
-inline void Shader<TURNED>::end(const Scale& scale, Voxel* voxel) const
-{
-    const int32_t reach = mulShift16(horizonShare_, scale.facing) + 1;
-    voxel->reach = 0;
-    if (reach < 256 && (magnitude(scale.tiltX) * scale.wide + magnitude(scale.tiltY) * scale.high) >> 11 >= reach)
-        voxel->reach = static_cast<uint8_t>(reach);
-}
-
-// How the brightness changes across the scale, 1/8 step a unit; not at all when that is next to nothing.
-inline void setSlopes(int32_t x, int32_t y, const Scale& scale, Voxel* voxel)
-{
-    int32_t corner = (magnitude(x) * scale.wide + magnitude(y) * scale.high) >> 8;
-    if (corner < FLAT)
+    s.cellArea = WHOLE_CELL;
+    if (!even)
         return;
-    for (; corner > SHADING_MOST * 8; corner >>= 1) {
-        x /= 2;
-        y /= 2;
-    }
-    voxel->slopeX = static_cast<int8_t>(limited(x, 127));
-    voxel->slopeY = static_cast<int8_t>(limited(y, 127));
+    const int8_t *const a = s.cellAlong, *const b = s.cellAcross;
+    const int32_t area = (a[1] * b[2] - a[2] * b[1]) * n[0] + (a[2] * b[0] - a[0] * b[2]) * n[1] +
+                         (a[0] * b[1] - a[1] * b[0]) * n[2];
+    s.cellArea = static_cast<uint16_t>(smaller((magnitude(area) >> 14) + WHOLE_CELL + 1, 16383));
 }
 
-// The same from its change along two ways.
-inline void slopes(const Cell& c, const Scale& scale, Voxel* voxel)
+// How the surface bends, from the normals of its valid seeds: along the middle ring, and from the first ring to the last.
+SELDOM void Shader::measureBend(Patch& patch) const
 {
-    if ((c.along.change | c.across.change) == 0 || magnitude(c.area) < 512)
+    Bend& bend = patch.bend;
+    bend.stale = false;
+    bend.inverse = 0;
+    if (ball_ && patch.state == PATCH_REST)
         return;
-    const int32_t inverse = ((1 << 28) / c.area) * 128;
-    setSlopes(mulHigh(c.along.change * c.across.y - c.across.change * c.along.y, inverse),
-              mulHigh(c.along.x * c.across.change - c.across.x * c.along.change, inverse), scale, voxel);
+    const Seed *from[2] = {nullptr, nullptr}, *to[2] = {nullptr, nullptr};
+    for (int ring = 0; ring < PATCH_RINGS; ++ring) {
+        const Seed *first = seeds_ + patch.first[ring], *last = first + patch.count[ring] - 1;
+        while (first <= last && !(first->flags & SEED_VALID))
+            ++first;
+        while (first <= last && !(last->flags & SEED_VALID))
+            --last;
+        if (first > last)
+            continue;
+        if (from[0] == to[0] || (ring == PATCH_RINGS / 2 && first != last)) {
+            from[0] = first;
+            to[0] = last;
+        }
+        if (from[1] == nullptr)
+            from[1] = first;
+        to[1] = first;
+    }
+    if (from[0] == to[0] || from[1] == to[1])
+        return;
+    const Seed& centre = object_.regular(patch.centre);
+    const Direction14 n = centre.flags & SEED_VALID ? centre.normal : from[0]->normal;
+    bend.normal = n;
+    int32_t step[2][3], size[2];
+    for (int k = 0; k < 2; ++k) {
+        const Seed &a = *from[k], &b = *to[k];
+        int32_t* const d = step[k];
+        for (int i = 0; i < 3; ++i)
+            d[i] = b.place[i] - a.place[i];
+        size[k] = larger(larger(magnitude(d[0]), magnitude(d[1])), magnitude(d[2]));
+        bend.turn[k][0] = static_cast<int16_t>(b.normal.x - a.normal.x);
+        bend.turn[k][1] = static_cast<int16_t>(b.normal.y - a.normal.y);
+        bend.turn[k][2] = static_cast<int16_t>(b.normal.z - a.normal.z);
+        // This step times the normal, or for the second the normal times this step.
+        int16_t* const dual = bend.dual[1 - k];
+        dual[0] = static_cast<int16_t>((k == 0 ? n.y * d[2] - n.z * d[1] : d[1] * n.z - d[2] * n.y) >> 14);
+        dual[1] = static_cast<int16_t>((k == 0 ? n.z * d[0] - n.x * d[2] : d[2] * n.x - d[0] * n.z) >> 14);
+        dual[2] = static_cast<int16_t>((k == 0 ? n.x * d[1] - n.y * d[0] : d[0] * n.y - d[1] * n.x) >> 14);
+    }
+    const int32_t area = product(bend.dual[0], step[0]);
+    if (smaller(size[0], size[1]) < 64 || magnitude(area) <= size[0] * size[1] >> 2)
+        return;
+    // Nothing bends more than a ball of half a unit.
+    for (int k = 0; k < 2; ++k)
+        if (larger(larger(magnitude(bend.turn[k][0]), magnitude(bend.turn[k][1])), magnitude(bend.turn[k][2])) > size[k] << 7)
+            return;
+    bend.inverse = (1 << 30) / area;
+    // The greater curvature of the two: in its direction the normal of the patch's other seeds differs.
+    const int32_t one = product(bend.turn[0], bend.dual[0]), other = product(bend.turn[1], bend.dual[1]);
+    bend.most = limited(mulShift16(magnitude(one) > magnitude(other) ? one : other, bend.inverse) >> 4, 1 << 16);
 }
 
-// The same where nothing blends with it, by its curvature.
-template <bool TURNED>
-inline void Shader<TURNED>::roundSlopes(const Scale& scale, Voxel* voxel) const
+// How the brightness changes over a patch, and where it bends out of sight.
+inline void Shader::setBend(const Patch& patch, const Seen& middle)
 {
-    setSlopes((gradient_[0] + (scale.tiltX * gradientAhead_ >> 4)) >> 8, (gradient_[1] + (scale.tiltY * gradientAhead_ >> 4)) >> 8,
-              scale, voxel);
+    const Bend& bend = patch.bend;
+    const auto steps = [&](const int32_t v[3], int k) {
+        return (product(bend.dual[k], v) >> 14) * bend.inverse >> 12;
+    };
+    const int32_t n[] = {bend.normal.x, bend.normal.y, bend.normal.z};
+    const int32_t inward = (bend.most * (product(n, own_.light) >> 14)) >> 20;
+    const int32_t one = steps(own_.light, 0), other = steps(own_.light, 1);
+    int32_t change[3];
+    for (int i = 0; i < 3; ++i)
+        change[i] = mulShift16(bend.turn[0][i] * one + bend.turn[1][i] * other + n[i] * inward, gradientScale_);
+    shading_.gradient[0] = along(change, own_.right, 0) << 3;
+    shading_.gradient[1] = along(change, own_.up, 1) << 3;
+    shading_.gradientAhead = along(change, own_.ahead, 2) << 3;
+    shading_.horizonShare = mulShift16(FLATTEST, horizonScale_);
+    if (middle.facing >= facesViewer_)
+        return;
+    // The curvature along the view.
+    const int16_t* const p = middle.seed->place;
+    int32_t view[3], away[3];
+    for (int i = 0; i < 3; ++i)
+        view[i] = (shading_.eye[i] - (p[i] >> 3)) >> viewShift_;
+    const int32_t up = product(n, view) >> 14;
+    for (int i = 0; i < 3; ++i)
+        away[i] = view[i] - (n[i] * up >> 14);
+    const int32_t curvature = (product(bend.turn[0], away) >> 14) * steps(away, 0) +
+                              (product(bend.turn[1], away) >> 14) * steps(away, 1);
+    const int32_t square = product(away, away);
+    // A quarter more than the radius at rest, for what scales differ from their cells: next to the limb there may be no other that
+    // covers it. What blends bends no less than a ball half as large again.
+    const bool rests = patch.state == PATCH_REST;
+    if (!rests)
+        shading_.horizonShare = ballHorizon_ * 3 >> 1;
+    if (curvature > square >> 11)
+        shading_.horizonShare = smaller(shading_.horizonShare,
+                                        mulShift16((rests ? square * 5 >> 1 : square * 2) / curvature, horizonScale_));
+}
+
+// To be called before the seeds of a patch that are seen.
+inline void Shader::setPatch(const Patch& patch, const Seen& middle)
+{
+    const int16_t* const p = middle.seed->place;
+    const int32_t depth = larger(centre_[2] + along(p, shading_.toAhead, 2), NEAREST_DEPTH);
+    const int32_t depth16 = depth >> 4, most = depth16 + (depth16 >> 1);
+    shearX_ = (limited((centre_[0] + along(p, shading_.toRight, 0)) >> 4, most) << 10) / depth16;
+    shearY_ = (limited((centre_[1] + along(p, shading_.toUp, 1)) >> 4, most) << 10) / depth16;
+    for (int i = 0; i < 3; ++i) {
+        const int32_t ahead = own_.ahead[i] * cellScale_ >> 16;
+        const int32_t column = ((own_.right[i] * cellScale_ >> 6) - ahead * shearX_ + 8192) >> 14;
+        const int32_t row = ((own_.up[i] * cellScale_ >> 6) - ahead * shearY_ + 8192) >> 14;
+        shading_.cell[i] = (static_cast<uint32_t>(column) << 16) + static_cast<uint32_t>(row);
+    }
+    shading_.wholeMost = depth < WHOLE_BEFORE ? 0xffff : WHOLE_CELL;
+    const uint32_t share = areaScale_ / static_cast<uint32_t>(depth >> 3);
+    shading_.areaShare = static_cast<int32_t>((share < 0x3ffff ? share : 0x3ffff) << 13);
+    if (patch.bend.inverse == 0) {
+        shading_.gradient[0] = ballGradient_[0];
+        shading_.gradient[1] = ballGradient_[1];
+        shading_.gradientAhead = ballGradient_[2];
+        shading_.horizonShare = ballHorizon_;
+    } else {
+        setBend(patch, middle);
+    }
+    shading_.gradientAhead = (shading_.gradientAhead + (shading_.gradient[0] * (shearX_ >> 2) >> 8) +
+                              (shading_.gradient[1] * (shearY_ >> 2) >> 8)) >> 4;
 }
 
 // Where another object is the strongest the scale ends: a straight line, for the difference of two fields is nearly linear
 // across it. False: nothing is left.
-template <bool TURNED>
-inline bool Shader<TURNED>::cut(const Seed& s, const Scale& scale, Voxel* voxel) const
+bool Shader::cut(const Seed& s, Voxel* voxel) const
 {
-    int32_t x = s.border.x, y = s.border.y, z = s.border.z;
-    if (TURNED) {
-        x = product(s.border, own_.right) >> 14;
-        y = product(s.border, own_.up) >> 14;
-        z = product(s.border, own_.ahead) >> 14;
-    }
+    const int32_t border[] = {s.border.x, s.border.y, s.border.z};
+    const int32_t x = along(border, own_.right, 0), y = along(border, own_.up, 1), z = along(border, own_.ahead, 2);
     // A step across the view leads along the ray as well, as far as the scale is tilted.
-    const int32_t along = z + ((x * shearX_ + y * shearY_) >> 12);
-    int32_t cutX = x + (scale.tiltX * (along >> 2) >> 6), cutY = y + (scale.tiltY * (along >> 2) >> 6);
-    int32_t at = (s.apart + BORDER_MARGIN) * 64;
+    const int32_t ahead = z + ((x * shearX_ + y * shearY_) >> 10);
+    int32_t cutX = x + (voxel->tiltX * (ahead >> 2) >> 6), cutY = y + (voxel->tiltY * (ahead >> 2) >> 6);
+    int32_t at = (s.apart + BORDER_MARGIN) * 64, unit = 1 << 14;
     while (magnitude(cutX) > 127 || magnitude(cutY) > 127) {
         cutX >>= 1;
         cutY >>= 1;
         at >>= 1;
+        unit >>= 1;
     }
-    if ((cutX | cutY) == 0)
+    if (unit < 16 || (cutX | cutY) == 0)
         return true;
-    const int32_t corner = (magnitude(cutX) * scale.wide + magnitude(cutY) * scale.high) >> 8;
+    const int32_t corner = (magnitude(cutX) * voxel->wide + magnitude(cutY) * voxel->high) >> 8;
     if (at >= corner)
         return true;
     if (at <= -corner)
@@ -450,104 +373,178 @@ inline bool Shader<TURNED>::cut(const Seed& s, const Scale& scale, Voxel* voxel)
     return true;
 }
 
-// How the brightness changes along the half axes of a cell. Along the ring: to the next seed of it, or at its end from the
-// one before. Across: from N.
-template <bool TURNED>
-inline void Shader<TURNED>::changes(const Seed& s, Cell& c) const
+// Measures those of the seeds found that have settled anew, and leaves out those that the viewer does not see. Where two objects
+// meet, `anew` becomes true: the border may have moved.
+int Shader::measureSeen(Patch& patch, Seen* seen, int count, bool* anew)
 {
-    const Seed &next = (&s)[1], &last = (&s)[-1], &n = object_.seed(s.neighbour);
-    c.along.change = c.across.change = 0;
-    if (&next <= lastSeed_ && (next.flags & SEED_VALID) && next.neighbour >= s.neighbour)
-        c.along.change = (next.brightness8 - s.brightness8) >> 1;
-    else if (&last >= seeds_ && (last.flags & SEED_VALID))
-        c.along.change = (s.brightness8 - last.brightness8) >> 1;
-    if (n.flags & SEED_VALID)
-        c.across.change = (s.brightness8 - n.brightness8 + (c.along.change * s.aside >> 5)) >> 1;
+    int left = 0;
+    for (int i = 0; i < count; ++i) {
+        Seed& s = *seen[i].seed;
+        int32_t facing = seen[i].facing;
+        if (facing == 0) {
+            measurePlace(s);
+            facing = facingOf(s, shading_);
+            // What faces away is likely to have moved when it comes into view.
+            if (facing > shading_.limb || (s.flags & SEED_RESTING)) {
+                if (s.cellArea == 0) {
+                    measureCell(s);
+                    patch.bend.stale = true;
+                }
+                s.flags |= SEED_MEASURED;
+            }
+            if (facing <= shading_.limb)
+                continue;
+            *anew = *anew || (s.flags & SEED_BORDER);
+        }
+        seen[left++] = {&s, facing, seen[i].voxel};
+    }
+    return left;
 }
 
-template <bool TURNED>
-template <bool RESTING>
-inline bool Shader<TURNED>::shade(const Seed& s, bool oversampled, Voxel* voxel) const
+// Leaves out those that are too near or too far.
+int Shader::leaveNear(Seen* seen, int count) const
 {
-    Scale scale;
-    if (!place<RESTING>(s, scale, voxel))
-        return false;
-    Cell c;
-    cell<RESTING>(s, c);
-    extents(c, oversampled || c.uneven || scale.depth < WHOLE_BEFORE, scale, voxel);
-    end(scale, voxel);
-    if (!RESTING && (s.flags & SEED_BORDER) && !cut(s, scale, voxel))
-        return false;
-    voxel->slopeX = voxel->slopeY = 0;
-    if ((TURNED ? RESTING && round_ : RESTING || (s.flags & SEED_RESTING)) && s.brightness8 > 0) {
-        roundSlopes(scale, voxel);
-    } else if (!oversampled && s.neighbour >= 0) {
-        changes(s, c);
-        slopes(c, scale, voxel);
+    int left = 0;
+    for (int i = 0; i < count; ++i) {
+        const int32_t depth = centre_[2] + along(seen[i].seed->place, shading_.toAhead, 2);
+        if (depth >= NEAREST_DEPTH && depth < FARTHEST_DEPTH)
+            seen[left++] = seen[i];
     }
+    return left;
+}
+
+// Lists a patch as it was shaded last, with its seeds where they are now. False: one of them has settled or ended since.
+inline bool Shader::keepPatch(Patch& patch, VoxelList& list) const
+{
+    if (patch.extras)
+        return false;
+    int count = list.count;
+    for (int ring = 0; ring < PATCH_RINGS; ++ring) {
+        const Seed* s = seeds_ + patch.first[ring];
+        Voxel* voxel = patch.voxels + ring * PATCH_SEEDS;
+        for (const Seed* const end = s + patch.count[ring]; s < end; ++s, ++voxel) {
+            // Seeds that were out of sight stay so: the view has turned by less than what a scale at the limb may face away.
+            if ((s->flags & (SEED_VALID | SEED_MEASURED)) == SEED_VALID)
+                return false;
+            if (voxel->wide <= 0)
+                continue;
+            if (!(s->flags & SEED_VALID))
+                return false;
+            placeVoxel(shading_, *s, *voxel);
+            list.voxels[count++] = *voxel;
+        }
+    }
+    list.count = count;
     return true;
 }
 
-template <bool TURNED>
-template <bool RESTING, bool PAINTED>
-inline void Shader<TURNED>::shadeSeeds(const Patch& patch, VoxelList& list, Painter* painter) const
+inline void Shader::shadePatch(Patch& patch, bool turn, VoxelList& list)
 {
-    Voxel bare;
-    Voxel* voxel = PAINTED ? &bare : list.room();
-    const auto add = [&](const Seed& s, bool oversampled) {
-        if (shade<RESTING>(s, oversampled, voxel)) {
-            if (PAINTED) {
-                painter->add(s, bare);
-            } else {
-                list.take();
-                ++voxel;
-            }
+    if (!turn && !near_ && !patch.bend.stale && keepPatch(patch, list))
+        return;
+    Seen seen[SEEDS_MOST];
+    int count = findSeeds(&shading_, object_, &patch, seen);
+    bool anew = turn || near_;
+    if (!(shading_.flags & SEED_MEASURED << 8))
+        count = measureSeen(patch, seen, count, &anew);
+    if (near_)
+        count = leaveNear(seen, count);
+    anew = anew || patch.bend.stale;
+    for (int i = 0; i < count && !anew; ++i)
+        anew = seen[i].voxel == nullptr || seen[i].voxel->wide == OUT_OF_SIGHT;
+    if (!anew) {
+        // They have hardly moved.
+        for (int i = 0; i < count; ++i) {
+            placeVoxel(shading_, *seen[i].seed, *seen[i].voxel);
+            list.voxels[list.count++] = *seen[i].voxel;
         }
-    };
-    for (int ring = 0; ring < PATCH_RINGS; ++ring) {
-        for (int i = patch.first[ring], end = i + patch.count[ring]; i < end; ++i) {
-            if (RESTING || (seeds_[i].flags & SEED_VALID))
-                add(seeds_[i], false);
-            // Of those at rest only the regular ones are there.
-            const Seed* const extra = RESTING || !patch.extras ? nullptr : object_.extra(2 * i);
-            constexpr int NEEDED = SEED_ACTIVE | SEED_VALID;
-            if (extra != nullptr && (extra->flags & NEEDED) == NEEDED)
-                add(*extra, true);
-        }
+        return;
+    }
+    for (Voxel& voxel : patch.voxels)
+        voxel.wide = OUT_OF_SIGHT;
+    if (count == 0)
+        return;
+    if (patch.bend.stale)
+        measureBend(patch);
+    setPatch(patch, seen[count >> 1]);
+    Voxel extras[SEEDS_MOST];
+    Voxel* room = extras;
+    for (int i = 0; i < count; ++i)
+        if (seen[i].voxel == nullptr)
+            seen[i].voxel = room++;
+    shadeSeeds(&shading_, seen, count);
+    for (int i = 0; i < count; ++i) {
+        if ((seen[i].seed->flags & SEED_BORDER) && !cut(*seen[i].seed, seen[i].voxel))
+            seen[i].voxel->wide = OUT_OF_SIGHT;
+        else
+            list.voxels[list.count++] = *seen[i].voxel;
     }
 }
 
-template <bool TURNED, bool PAINTED>
-int shadeAs(const SoftObject& object, const OwnFrame& own, const FrameContext& frame, const Patch* patches, int count, int first,
-            VoxelList& list, int room, Painter* painter)
+void Shader::paintPatch(Patch& patch, Painter& painter)
 {
-    Shader<TURNED> shader(object, own, frame);
-    // The painter may make two voxels of one.
-    const int most = (PAINTED ? 4 : 2) * PATCH_RINGS * PATCH_SEEDS;
-    int at = first;
-    for (; at < count && list.count + most <= room; ++at) {
-        const Patch& patch = patches[at];
-        if (patch.state != PATCH_MIXED && (patch.state != PATCH_REST || restsAway(patch, own)))
-            continue;
-        shader.setPatch(patch);
-        if (patch.state == PATCH_REST) {
-            shader.template shadeSeeds<true, PAINTED>(patch, list, painter);
-        } else {
-            shader.template shadeSeeds<false, PAINTED>(patch, list, painter);
-        }
-    }
-    return at;
+    Seen seen[SEEDS_MOST];
+    Voxel voxels[SEEDS_MOST];
+    bool anew = true;
+    int count = measureSeen(patch, seen, findSeeds(&shading_, object_, &patch, seen), &anew);
+    if (near_)
+        count = leaveNear(seen, count);
+    if (count == 0)
+        return;
+    if (patch.bend.stale)
+        measureBend(patch);
+    setPatch(patch, seen[count >> 1]);
+    for (int i = 0; i < count; ++i)
+        seen[i].voxel = voxels + i;
+    shadeSeeds(&shading_, seen, count);
+    for (int i = 0; i < count; ++i)
+        if (!(seen[i].seed->flags & SEED_BORDER) || cut(*seen[i].seed, voxels + i))
+            painter.add(*seen[i].seed, voxels[i]);
 }
 
 }  // namespace
 
-int shadePatches(const SoftObject& object, const OwnFrame& own, const FrameContext& frame, const Patch* patches, int count,
-                 int first, VoxelList& list, int room)
+void ViewBefore::turn(const OwnFrame& own)
 {
+    int32_t now[10];
+    for (int i = 0; i < 3; ++i) {
+        now[i] = mulDiv(own.eye32[i], 1 << 14, own.distance32);
+        now[i + 3] = own.right[i];
+        now[i + 6] = own.ahead[i];
+    }
+    now[9] = rawFromReal(own.growth) >> 2;
+    int32_t most = 0;
+    for (int i = 0; i < 10; ++i) {
+        most = larger(most, magnitude(now[i] - seen[i]));
+        seen[i] = now[i];
+    }
+    ++frames;
+    mask = 0;
+    while (mask < 7 && most * static_cast<int32_t>(2 * mask + 1) <= MOST_TURN)
+        mask = 2 * mask + 1;
+}
+
+int shadePatches(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
+                 ViewBefore& before, VoxelList& list, int room)
+{
+    if (first == 0)
+        before.turn(own);
+    Shader shader(object, own, frame);
+    int at = first;
     if (object.paint() != nullptr) {
         Painter painter(object, own, list);
-        return shadeAs<true, true>(object, own, frame, patches, count, first, list, room, &painter);
+        // It may make two voxels of one.
+        for (; at < count && list.count + 2 * SEEDS_MOST <= room; ++at) {
+            Patch& patch = patches[at];
+            if (patch.state == PATCH_MIXED || (patch.state == PATCH_REST && !restsAway(patch, own)))
+                shader.paintPatch(patch, painter);
+        }
+        return at;
     }
-    return object.isBall() && !frame.axes.turned ? shadeAs<false, false>(object, own, frame, patches, count, first, list, room, nullptr)
-                           : shadeAs<true, false>(object, own, frame, patches, count, first, list, room, nullptr);
+    for (; at < count && list.count + SEEDS_MOST <= room; ++at) {
+        Patch& patch = patches[at];
+        if (patch.state == PATCH_MIXED || (patch.state == PATCH_REST && !restsAway(patch, own)))
+            shader.shadePatch(patch, ((static_cast<uint32_t>(at) + before.frames) & before.mask) == 0, list);
+    }
+    return at;
 }

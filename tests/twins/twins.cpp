@@ -1,6 +1,6 @@
-// Assembly against C++: each routine of asm/blit.S and asm/scales.S and its twin in src/picture/blit.cpp and
-// src/picture/scales.cpp get the same input, and all they may touch must come out the same, with guard bytes round every
-// buffer. A new assembly routine gets its part here before anything else uses it.
+// Assembly against C++: each routine of asm/blit.S, asm/scales.S and asm/voxels.S and its twin in src/picture/blit.cpp,
+// src/picture/scales.cpp and src/surface/voxels.cpp get the same input, and all they may touch must come out the same, with guard
+// bytes round every buffer. A new assembly routine gets its part here before anything else uses it.
 //
 //   twins [SEED [ROUNDS]]     rounds of random scales, voxels and spans, after the cases that are always tried
 //
@@ -11,10 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../src/surface/voxels.h"
 #include "picture/scales.h"
 
 namespace inasm {
 #include "../../build/scalesdef.h"
+}
+namespace inasm2 {
+#include "../../build/voxelsdef.h"
 }
 namespace {
 
@@ -801,6 +805,15 @@ void registers()
     static Span rows[HIGH];
     spans(rows);
     static Span runs[WIDE / 2];
+    static Shading shading;
+    static Seed seeds[40];
+    static Seen seen[40];
+    for (int i = 0; i < 40; ++i) {
+        fill(seeds + i, sizeof seeds[i]);
+        seen[i] = {seeds + i, 1000 + below(30000), voxels + i};
+    }
+    shading.depth = 30000 << 8;
+    shading.turned = 1;
     static const uint32_t COUNTS[] = {0, 1, 40};
     for (uint32_t count : COUNTS) {
         const uint32_t blit[5] = {word(a.frame.data), word(a.depth.data), word(list), count, 0};
@@ -814,6 +827,8 @@ void registers()
         verdict(damage(reinterpret_cast<const void*>(clearRowsA), clear) == 0, "registers are kept: clearRowsA", count);
         const uint32_t present[5] = {dataSelector(), word(roomC.at(0).frame.data), word(a.frame.data), word(rows), count * 5};
         verdict(damage(reinterpret_cast<const void*>(presentRows), present) == 0, "registers are kept: presentRows", count);
+        const uint32_t shade[5] = {word(&shading), word(seen), count, 0, 0};
+        verdict(damage(reinterpret_cast<const void*>(shadeSeedsA), shade) == 0, "registers are kept: shadeSeedsA", count);
         const Span within = {0, static_cast<int16_t>(8 * count)};
         const uint32_t find[5] = {word(a.frame.data), word(a.depth.data), word(&within), word(runs), 0};
         verdict(damage(reinterpret_cast<const void*>(drawnRunsA), find) == 0, "registers are kept: drawnRunsA", count);
@@ -868,6 +883,93 @@ void clearsAndCopies(int rounds)
 
 }  // namespace
 
+// What asm/voxels.S counts on.
+static_assert(inasm2::SEED_NORMAL == offsetof(Seed, normal) && inasm2::SEED_LIGHT == offsetof(Seed, brightness8) &&
+              inasm2::SEED_ALONG == offsetof(Seed, cellAlong) && inasm2::SEED_ACROSS == offsetof(Seed, cellAcross) &&
+              inasm2::SEED_AREA == offsetof(Seed, cellArea) && inasm2::SEED_PLACE == offsetof(Seed, place), "Seed");
+static_assert(inasm2::VOXEL_X == offsetof(Voxel, x) && inasm2::VOXEL_Y == offsetof(Voxel, y) &&
+              inasm2::VOXEL_Z == offsetof(Voxel, z) && inasm2::VOXEL_WIDE == offsetof(Voxel, wide) &&
+              inasm2::VOXEL_HIGH == offsetof(Voxel, high) && inasm2::VOXEL_TILTX == offsetof(Voxel, tiltX) &&
+              inasm2::VOXEL_TILTY == offsetof(Voxel, tiltY) && inasm2::VOXEL_BRIGHT == offsetof(Voxel, brightness) &&
+              inasm2::VOXEL_REACH == offsetof(Voxel, reach) && inasm2::VOXEL_SLOPEX == offsetof(Voxel, slopeX) &&
+              inasm2::VOXEL_SLOPEY == offsetof(Voxel, slopeY), "Voxel");
+static_assert(inasm2::SEEN_SEED == offsetof(Seen, seed) && inasm2::SEEN_FACING == offsetof(Seen, facing) &&
+              inasm2::SEEN_VOXEL == offsetof(Seen, voxel) && inasm2::SEEN_SIZE == sizeof(Seen), "Seen");
+static_assert(inasm2::TURNED == offsetof(Shading, turned) && inasm2::RIGHT == offsetof(Shading, right) &&
+              inasm2::UP == offsetof(Shading, up) && inasm2::TO_RIGHT == offsetof(Shading, toRight) &&
+              inasm2::TO_UP == offsetof(Shading, toUp) && inasm2::TO_AHEAD == offsetof(Shading, toAhead) &&
+              inasm2::DEPTH == offsetof(Shading, depth) && inasm2::CELL == offsetof(Shading, cell) &&
+              inasm2::CELL_SHIFT == offsetof(Shading, cellShift) && inasm2::AREA_SHARE == offsetof(Shading, areaShare) &&
+              inasm2::WHOLE_MOST == offsetof(Shading, wholeMost) && inasm2::HORIZON == offsetof(Shading, horizonShare) &&
+              inasm2::GRADIENT == offsetof(Shading, gradient) && inasm2::AHEAD == offsetof(Shading, gradientAhead), "Shading");
+static_assert(inasm2::STEEPEST_TILT == STEEPEST_TILT && inasm2::MARGIN_SHIFT == MARGIN_SHIFT &&
+              inasm2::MARGIN_UNITS == MARGIN_UNITS && inasm2::FLAT_SHADING == FLAT_SHADING &&
+              inasm2::SHADING_MOST == SHADING_MOST, "constants of shading");
+
+// Seeds at random before viewers at random. That there were some of each kind is checked, too.
+void shadedSeeds(int rounds)
+{
+    constexpr int MOST = 18;
+    static Seed seeds[MOST], kept[MOST];
+    static Voxel c[MOST + 2], a[MOST + 2];
+    int ended = 0, sloped = 0, steep = 0, whole = 0, plain = 0;
+    const auto number = [](int most) { return below(2 * most + 1) - most; };
+    for (int round = 0; round < rounds; ++round) {
+        Shading v;
+        fill(&v, sizeof v);
+        v.turned = below(2);
+        for (int i = 0; i < 3; ++i) {
+            v.right[i] = number(16384);
+            v.up[i] = number(16384);
+            v.toRight[i] = number(16384);
+            v.toUp[i] = number(16384);
+            v.toAhead[i] = number(16384);
+            v.cell[i] = (static_cast<uint32_t>(number(100)) << 16) + static_cast<uint32_t>(number(100));
+        }
+        v.depth = 65536 + below(1 << 18);
+        v.cellShift = below(8);
+        v.areaShare = below(0x40000000);
+        v.wholeMost = below(3) == 0 ? 0xffff : WHOLE_CELL;
+        v.horizonShare = below(1 << (4 + below(8)));
+        v.gradient[0] = number(1 << (8 + below(8)));
+        v.gradient[1] = number(1 << (8 + below(8)));
+        v.gradientAhead = number(1 << below(12));
+        fill(seeds, sizeof seeds);
+        Seen seen[MOST], seenA[MOST];
+        const int count = below(MOST + 1);
+        for (int i = 0; i < count; ++i) {
+            Seed& s = seeds[i];
+            s.place[0] = static_cast<int16_t>(number(20000));
+            s.place[1] = static_cast<int16_t>(number(20000));
+            s.place[2] = static_cast<int16_t>(number(20000));
+            s.normal = {static_cast<int16_t>(number(16384)), static_cast<int16_t>(number(16384)),
+                        static_cast<int16_t>(number(16384))};
+            s.brightness8 = static_cast<int16_t>(below(4) == 0 ? below(200) : below(63 * 256 + 1));
+            s.cellArea = static_cast<uint16_t>(below(3) == 0 ? WHOLE_CELL : 2 + below(16382));
+            const int32_t facing = 1 + below(1 << (4 + below(13)));
+            seen[i] = {&s, facing, c + 1 + i};
+            seenA[i] = {&s, facing, a + 1 + i};
+        }
+        memcpy(kept, seeds, sizeof seeds);
+        fill(c, sizeof c);
+        memcpy(a, c, sizeof c);
+        shadeSeedsC(&v, seen, count);
+        shadeSeedsA(&v, seenA, count);
+        verdict(memcmp(a, c, sizeof c) == 0, "seeds: the same voxels", round);
+        verdict(memcmp(kept, seeds, sizeof seeds) == 0, "seeds: are left alone", round);
+        for (int i = 0; i < count; ++i) {
+            const Voxel& voxel = c[1 + i];
+            ended += voxel.reach != 0;
+            sloped += voxel.slopeX != 0;
+            steep += voxel.tiltX > 5000;
+            whole += seeds[i].cellArea <= v.wholeMost;
+            plain += voxel.reach == 0 && voxel.slopeX == 0;
+        }
+    }
+    verdict(ended > rounds / 4 && sloped > rounds / 2 && steep > rounds / 4 && whole > rounds && plain > rounds / 40,
+            "seeds: there were some of each kind", plain);
+}
+
 int main(int count, char** arguments)
 {
     const uint32_t seed = count > 1 ? static_cast<uint32_t>(strtoul(arguments[1], nullptr, 10)) : 1;
@@ -883,6 +985,7 @@ int main(int count, char** arguments)
     randomLists(rounds);
     voxelLists(rounds);
     voxelByVoxel(10 * rounds);
+    shadedSeeds(10 * rounds);
     clearsAndCopies(rounds);
     registers();
     printf("# seed %u: %ld scales, %ld pixels, %ld voxels (%ld drawn in lists), %ld spans tried\n", static_cast<unsigned>(seed),
