@@ -1,7 +1,8 @@
 // mkscene: random scenes for tests, the same one for the same seed on every machine.
 //
-//   mkscene SEED [OBJECTS] [eye]   writes a scene file to standard output
+//   mkscene SEED [OBJECTS] [eye] [paint]   writes a scene file to standard output
 //
+// With the word paint half of the objects have a finish or a pattern, and in every other scene the colours mix.
 // Three to nine objects (or as many as asked for) of all kinds, within what the default camera sees; some in groups, most
 // of them moving, some turning, swinging or pulsing; linked in one of several graphs, with weights up to 4. With
 // `eye` the same scene is seen by an eye that goes about it. This file
@@ -136,12 +137,14 @@ void printEye(int objects) {
 }  // namespace
 
 int main(int count, char **arguments) {
+  const bool paint = count > 2 && std::string(arguments[count - 1]) == "paint";
+  if (paint) count--;
   char *end = nullptr;
   const unsigned long long seed = count > 1 ? strtoull(arguments[1], &end, 10) : 0;
   const bool eye = count > 2 && std::string(arguments[count - 1]) == "eye";
   if (eye) count--;
   if (count < 2 || count > 3 || end == arguments[1] || *end != 0) {
-    fputs("usage: mkscene SEED [OBJECTS, 1 to 128] [eye]\n", stderr);
+    fputs("usage: mkscene SEED [OBJECTS, 1 to 128] [eye] [paint]\n", stderr);
     return 2;
   }
   state = seed;
@@ -239,5 +242,15 @@ int main(int count, char **arguments) {
       break;
   }
   if (eye) printEye(objects);
+  if (!paint) return 0;
+  static const char *const finishes[] = {"shiny", "mirror"}, *const patterns[] = {"checks", "stripes", "marble"};
+  if (once(2)) printf("colours mixed\n");
+  for (int i = 1; i <= objects; i++) {
+    if (once(3)) printf("finish o%d %s\n", i, finishes[between(0, 1)]);
+    if (!once(3)) continue;
+    const char *pattern = patterns[between(0, 2)];
+    const double size = tenths(4, 20);
+    printf("pattern o%d %s %.1f #%06x\n", i, pattern, size, between(0, 0xffffff));
+  }
   return 0;
 }

@@ -11,6 +11,7 @@
 #include "model/surface.h"
 
 class SoftObject;
+struct Paint;
 
 // The sizes an object may have (the distance from its core where its field ends), units.
 constexpr int MIN_SIZE = 1;
@@ -177,6 +178,9 @@ public:
     // The palette indices of brightness 0..63, and of SHADING_MOST more before and behind (see VoxelList). Not owned.
     void setRamp(const uint8_t* ramp) { ramp_ = ramp; }
     const uint8_t* ramp() const { return ramp_; }
+    // What it shows besides a colour of its own, matt; null: nothing. Not owned.
+    void setPaint(const Paint* paint) { paint_ = paint; }
+    const Paint* paint() const { return paint_; }
 
 protected:
     // "kind number numbers...", for describe().
@@ -239,6 +243,7 @@ private:
     bool tapers_;
     bool displaced_;
     const uint8_t* ramp_;
+    const Paint* paint_ = nullptr;
 
     Layout laid_;
     Surface* surface_;

@@ -3,6 +3,7 @@
 
 #include "math/alloc.h"
 #include "model/stop.h"
+#include "paint.h"
 #include "settle.h"
 #include "shade.h"
 
@@ -121,8 +122,14 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
         *next = 0;
         return;
     }
+    const Paint* const paint = object_.paint();
+    if (paint != nullptr && *next == 0)
+        polish(object_, own);
     const int at = shadePatches(object_, own, frame, patches_, count_, *next, before_, list, room);
     *next = at < count_ ? at : 0;
+    // With another ramp than its own, the whole object is to be seen in that one.
+    if (paint != nullptr && object_.ramp() == paint->ramp)
+        sortByColour(list, *paint);
 }
 
 }  // namespace

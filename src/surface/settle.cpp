@@ -3,6 +3,7 @@
 #include "settle.h"
 
 #include "math/normal.h"
+#include "model/paint.h"
 #include "rt.h"
 
 namespace {
@@ -485,6 +486,19 @@ void Settler::findBorder(Seed& s, Real dominance) const
     s.border = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
 }
 
+// The mean of the objects' colours, by their fields at the position looked at last.
+void Settler::mix(Seed& s) const
+{
+    const Paint& own = *object_.paint();
+    Vector sum = own.at * ownField_;
+    Real fields = ownField_;
+    for (int i = 0; i < touched_; ++i) {
+        sum = sum + along_[i].near->object->paint()->at * along_[i].value;
+        fields += along_[i].value;
+    }
+    s.mix = own.paints->numberAt(sum * quotient(Real(1), fields), own.shines());
+}
+
 // What the fields along the path at hand may change by, all together, when the neighbours come by a unit.
 Real Settler::pushes() const
 {
@@ -595,6 +609,8 @@ Real Settler::settle(Seed& s)
         slope_ = sample.slope;
         s.still = s.still == 0 || came_ * Real(3) > shiftDown(smallest_, 3) ? 1 : 3;
         s.brightness8 = brightness8(s.normal, own_.light);
+        if (object_.paint() != nullptr && object_.paint()->mixes)
+            mix(s);
         return Real(0);
     }
     s.still = 0;
@@ -617,6 +633,8 @@ Real Settler::settle(Seed& s)
     s.normal = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
     s.brightness8 = brightness8(s.normal, own_.light);
     s.flags |= SEED_VALID;
+    if (object_.paint() != nullptr && object_.paint()->mixes)
+        mix(s);
     if (sample.dominance > -BORDER) {
         s.flags |= SEED_BORDER;
         findBorder(s, sample.dominance);

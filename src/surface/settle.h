@@ -83,6 +83,7 @@ private:
     void bisect(Real inside, Real outside, Real* position, Sample* sample);
     Vector outward(Real position) const;
     void findBorder(Seed& s, Real dominance) const;
+    void mix(Seed& s) const;
     Real pushes() const;
     static Way until(Real hold, Real push, Real longest);
     Real stillInside(Seed& s);
