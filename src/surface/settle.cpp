@@ -300,7 +300,7 @@ void Settler::blend(Real position, Sample& sample)
     bool plain = true;
     for (const Part* a = parts + 1; a < end && plain; ++a)
         for (const Part* b = parts; b < a && plain; ++b)
-            plain = a->weights[b->slot] == Real(1);
+            plain = b->weights[a->slot] == Real(1);
     if (plain)
         return;
     const Real inverse = quotient(Real(1), strongest);
@@ -310,7 +310,7 @@ void Settler::blend(Real position, Sample& sample)
         a->x2 = a->x * a->x;
         below += a->x2;
         for (Part* b = parts; b < a; ++b) {
-            const Real w = a->weights[b->slot];
+            const Real w = b->weights[a->slot];
             if (w == Real(0))
                 continue;
             const bool one = w == Real(1);
