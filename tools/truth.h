@@ -81,6 +81,15 @@ struct Colour {
   double r, g, b;     // 0 to 255
 };
 
+// What an object has besides its colour.
+struct Coat {
+  enum Finish { MATT, SHINY, MIRROR } finish = MATT;
+  enum Pattern { NONE, CHECKS, STRIPES, MARBLE } pattern = NONE;
+  double grain = 0;                      // size of the pattern
+  Colour colour{0, 0, 0};                // its other colour
+  Vec middle{0, 0, 0}, axis[3];          // where it lies
+};
+
 struct Scene {
   double time = 0;                       // seconds
   Vec eye{0, 0, 0};
@@ -99,6 +108,14 @@ struct Scene {
   std::vector<std::vector<double>> link;    // [i][j]: the weight of their link alone, the same both ways
   double highlight = 1;                  // light above which a colour turns towards white
   std::map<int, Colour> ramps;           // object number -> colour at full light, but for the highlight
+  std::vector<Coat> coats;               // of each object
+  bool mixed = false;                    // a point has the mean of the colours by their objects' fields
+  // A point's colour is more than that of its object.
+  bool painted() const {
+    bool any = mixed;
+    for (const Coat &c : coats) any = any || c.finish != Coat::MATT || c.pattern != Coat::NONE;
+    return any;
+  }
 };
 
 // The Geoff function of q = r^2/R^2 and its derivative by q; 0 beyond q = 1.
@@ -121,6 +138,9 @@ struct Hit {
   // One of another colour is as strong, as where cores coincide: the point's
   // colour is either's, and is not judged.
   bool tied = false;
+  // Of a painted scene: its colour at full light, and whether it turns into white above that.
+  Colour colour{0, 0, 0};
+  bool shines = false;
   bool any() const { return depth >= 0; }
 };
 
@@ -144,6 +164,10 @@ public:
   // The body of an object: objects that links join, directly or through
   // others, have the same. -1: it has no surface.
   int bodyOf(int object) const { return body[object]; }
+  // The brightness that a finish gives a point, 0 to 1, from its outward normal.
+  double brightness(const Coat &, Vec normal) const;
+  // The colour of a point of a body, the strongest object of which is known.
+  Colour colour(int object, Vec p) const;
   // For tests: do not use that a sum is enough where all are linked alike.
   void forgetPlain();
 private:
@@ -208,6 +232,12 @@ public:
   double step(const uint8_t *rgb, int object) const;
   // The colour for an object's brightness in ramp steps.
   void paint(int object, double step, uint8_t *rgb) const;
+  // Both where the true point is known, of a painted scene too. `miss` is how far
+  // the pixel's colour is from all that this point has under any light.
+  double step(const uint8_t *rgb, const Hit &, double *miss = nullptr) const;
+  void paint(const Hit &, uint8_t *rgb) const;
+  // The scene is painted, and its frame has colours.
+  bool painted() const { return paints && !steps.empty(); }
 private:
   struct Reading {
     int ramp;                  // as shown() has it
@@ -219,7 +249,11 @@ private:
   struct Steps {
     uint8_t rgb[RAMP][3];
   };
-  double ambient;
+  Steps stepsOf(const Colour &, bool shines) const;
+  const Steps &stepsAt(const Hit &) const;
+  double ambient, highlight;
+  bool paints;
+  mutable std::unordered_map<uint32_t, Steps> pointSteps;
   std::vector<int> ofObject;
   std::vector<Steps> steps;
   mutable std::unordered_map<uint32_t, Reading> known;

@@ -23,10 +23,14 @@ const size_t EVEN_MOST = 4;
 const double APART_SHARED = 8;
 // A colour further than this from all of a ramp's is not the ramp's.
 const double OFF = 14;
+// Of a painted scene, all mixtures and patterns of which share the palette: a colour further than this from all that a point
+// has is not the point's.
+const double OFF_PAINTED = 40;
 
 }  // namespace
 
-Ramps::Ramps(const Scene &s) : ambient(s.ambient), ofObject(s.objects.size(), -1) {
+Ramps::Ramps(const Scene &s)
+    : ambient(s.ambient), highlight(s.highlight), paints(s.painted()), ofObject(s.objects.size(), -1) {
   std::vector<Colour> colours;
   for (size_t i = 0; i < s.objects.size(); i++) {
     auto ramp = s.ramps.find(s.objects[i].number);
@@ -37,24 +41,59 @@ Ramps::Ramps(const Scene &s) : ambient(s.ambient), ofObject(s.objects.size(), -1
     if (k == colours.size()) colours.push_back(c);
     ofObject[i] = (int)k;
   }
-  // Whole numbers, each rounded once, as the program has them for its palette. A highlight goes towards white at a right
-  // angle to the colour.
-  const int top = RAMP - 1, dark = (int)std::lround(s.ambient * top), high = (int)std::lround(s.highlight * top);
-  const int whole = 255 * top;
-  for (const Colour &c : colours) {
-    Steps ramp;
-    const int full[3] = {(int)c.r, (int)c.g, (int)c.b};
-    const int sum = full[0] + full[1] + full[2], square = full[0] * full[0] + full[1] * full[1] + full[2] * full[2];
-    for (int step = 0; step < RAMP; step++)
-      for (int k = 0; k < 3; k++) {
-        int value = full[k] * (top * dark + step * (top - dark));
-        if (step > high && square > 0)
-          value += (255 - 255 * sum * full[k] / square) * top * top * (step - high) / (2 * (top - high));
-        value = std::min(std::max(value, 0), top * whole);
-        ramp.rgb[step][k] = eight((value + whole / 2) / whole);
-      }
-    steps.push_back(ramp);
+  for (const Colour &c : colours) steps.push_back(stepsOf(c, false));
+}
+
+// Whole numbers, each rounded once, as the program has them for its palette. A highlight goes towards white at a right
+// angle to the colour. What shines turns into white itself, in the last quarter of the light.
+Ramps::Steps Ramps::stepsOf(const Colour &c, bool shines) const {
+  const int top = RAMP - 1, dark = (int)std::lround(ambient * top), high = (int)std::lround(highlight * top);
+  const int whole = 255 * top, gloss = 47;
+  Steps ramp;
+  const int full[3] = {(int)std::lround(c.r), (int)std::lround(c.g), (int)std::lround(c.b)};
+  const int sum = full[0] + full[1] + full[2], square = full[0] * full[0] + full[1] * full[1] + full[2] * full[2];
+  for (int step = 0; step < RAMP; step++)
+    for (int k = 0; k < 3; k++) {
+      int value = full[k] * (top * dark + step * (top - dark));
+      if (shines && step > gloss)
+        value += (int)((double)(top * whole - value) * (step - gloss) / (top - gloss));
+      if (!shines && step > high && square > 0)
+        value += (255 - 255 * sum * full[k] / square) * top * top * (step - high) / (2 * (top - high));
+      value = std::min(std::max(value, 0), top * whole);
+      ramp.rgb[step][k] = eight((value + whole / 2) / whole);
+    }
+  return ramp;
+}
+
+const Ramps::Steps &Ramps::stepsAt(const Hit &h) const {
+  // Colours are told apart to half a step of the DAC.
+  auto half = [](double part) { return (uint32_t)std::lround(part / 2); };
+  uint32_t key = half(h.colour.r) << 17 | half(h.colour.g) << 9 | half(h.colour.b) << 1 | (h.shines ? 1 : 0);
+  auto there = pointSteps.find(key);
+  if (there != pointSteps.end()) return there->second;
+  return pointSteps[key] = stepsOf(h.colour, h.shines);
+}
+
+double Ramps::step(const uint8_t *rgb, const Hit &h, double *miss) const {
+  if (miss) *miss = 0;
+  if (!painted() || !h.any()) return step(rgb, h.object);
+  const Steps &ramp = stepsAt(h);
+  double least = 1e300, sum = 0;
+  int count = 0;
+  for (int step = 0; step < RAMP; step++) {
+    double d = 0;
+    for (int k = 0; k < 3; k++) d += (rgb[k] - ramp.rgb[step][k]) * (rgb[k] - ramp.rgb[step][k]);
+    if (d < least) least = d, sum = 0, count = 0;
+    if (d == least) sum += step, count++;
   }
+  if (miss) *miss = std::sqrt(least);
+  return (RAMP - 1) * ambient + (1 - ambient) * sum / count;
+}
+
+void Ramps::paint(const Hit &h, uint8_t *rgb) const {
+  if (!painted()) return paint(h.object, h.shade, rgb);
+  double light = ambient < 1 ? (h.shade - ambient * (RAMP - 1)) / (1 - ambient) : RAMP - 1;
+  std::copy_n(stepsAt(h).rgb[std::min(std::max((int)std::floor(light + 0.5), 0), RAMP - 1)], 3, rgb);
 }
 
 const Ramps::Reading &Ramps::read(const uint8_t *rgb) const {
@@ -147,6 +186,20 @@ bool rampNear(const Picture &t, const Ramps &ramps, int column, int row, int ram
   return false;
 }
 
+// The brightness of a drawn pixel in ramp steps. In a painted scene it is read by the colour of that true point, there or right
+// above, below or beside, which has the nearest; `miss` is how far that is.
+double brightness(const Ramps &ramps, const uint8_t *rgb, const Picture &t, int column, int row, double *miss = nullptr) {
+  double least, step = ramps.step(rgb, t.at(column, row), &least);
+  const int x[] = {1, -1, 0, 0}, y[] = {0, 0, 1, -1};
+  for (int k = 0; ramps.painted() && k < 4; k++) {
+    const Hit &h = t.at(column + x[k], row + y[k]);
+    double off, there = ramps.step(rgb, h, &off);
+    if (h.any() && off < least) least = off, step = there;
+  }
+  if (miss) *miss = least;
+  return step;
+}
+
 // The borders of a pixel with the one to its right (dx = 1) or below it (dy = 1): drawn and true ones.
 void borders(const Frame &f, const Picture &t, const Ramps &ramps, int column, int row, int dx, int dy, bool &drawn,
              bool &truly) {
@@ -222,10 +275,16 @@ Figures compare(const Frame &f, const Picture &t) {
         r.smooth++;
         r.smooth2 += error * error;
       }
+      double miss = 0;
       if (f.shaded()) {
-        double e = (ramps.step(f.pixel(x, y), h.object) - h.shade) * f.scene.lightSteps();
+        double e = (brightness(ramps, f.pixel(x, y), t, x, y, &miss) - h.shade) * f.scene.lightSteps();
         r.shaded++;
         r.shade2 += e * e;
+      }
+      if (ramps.painted()) {
+        r.coloured++;
+        r.wrongColour += !h.tied && miss > OFF_PAINTED;
+        continue;
       }
       int shown, truly;
       if (!coloured(f, t, ramps, x, y, shown, truly)) continue;
@@ -254,8 +313,8 @@ void compareFlicker(const Frame &before, const Picture &beforeTruth,
       const Hit &h0 = beforeTruth.at(x, y), &h1 = afterTruth.at(x, y);
       r.flickerBase += d1;
       if (!d0 && !d1) continue;
-      double s0 = d0 ? ramps0.step(before.pixel(x, y), h0.object) : 0;
-      double s1 = d1 ? ramps1.step(after.pixel(x, y), h1.object) : 0;
+      double s0 = d0 ? brightness(ramps0, before.pixel(x, y), beforeTruth, x, y) : 0;
+      double s1 = d1 ? brightness(ramps1, after.pixel(x, y), afterTruth, x, y) : 0;
       double t0 = h0.any() ? h0.shade : 0, t1 = h1.any() ? h1.shade : 0;
       if (std::fabs(s1 - s0) <= jump || std::fabs(t1 - t0) >= still) continue;
       r.flickerEdge++;
@@ -274,7 +333,7 @@ void drawTruth(const Scene &s, const Picture &t, Frame &f) {
       const Hit &h = t.at(x, y);
       if (!h.any()) continue;
       f.z[y * WIDTH + x] = (int32_t)std::floor(std::min(h.depth, 32767.0) * 65536 + 0.5);
-      ramps.paint(h.object, h.shade, &f.rgb[3 * (y * WIDTH + x)]);
+      ramps.paint(h, &f.rgb[3 * (y * WIDTH + x)]);
     }
 }
 
@@ -289,7 +348,7 @@ std::vector<uint8_t> sheet(const Frame &f, const Picture &t) {
       bool drawn = f.drawn(x, y);
       std::copy_n(&f.rgb[3 * (y * WIDTH + x)], 3, ours);
       std::fill_n(ideal, 3, 0);
-      if (h.any()) ramps.paint(h.object, h.shade, ideal);
+      if (h.any()) ramps.paint(h, ideal);
       auto paint = [&](int r, int g, int b) {
         gap[0] = (uint8_t)r, gap[1] = (uint8_t)g, gap[2] = (uint8_t)b;
       };
@@ -299,22 +358,24 @@ std::vector<uint8_t> sheet(const Frame &f, const Picture &t) {
       } else if (!drawn) {
         whole(t, x, y, false) ? paint(255, 0, 0) : paint(0, 0, 160);
       } else {
-        double error = f.depth(x, y) - h.depth;
+        double error = f.depth(x, y) - h.depth, miss;
+        const double step = brightness(ramps, f.pixel(x, y), t, x, y, &miss);
         int shown, truly;
         bool stray = false;
-        for (int k = 0; k < 2; k++) {
+        for (int k = 0; !ramps.painted() && k < 2; k++) {
           bool mine, real;
           borders(f, t, ramps, x, y, k == 0, k == 1, mine, real);
           stray = stray || (mine && !real);
         }
         if (error > BEHIND && whole(t, x, y, false)) {
           paint(255, 0, 255);
-        } else if (coloured(f, t, ramps, x, y, shown, truly) && !rampNear(t, ramps, x, y, shown)) {
+        } else if (ramps.painted() ? miss > OFF_PAINTED
+                                   : coloured(f, t, ramps, x, y, shown, truly) && !rampNear(t, ramps, x, y, shown)) {
           paint(0, 255, 255);
         } else if (stray) {
           paint(0, 128, 0);
         } else {
-          double e = f.shaded() ? std::fabs(ramps.step(f.pixel(x, y), h.object) - h.shade) * 4
+          double e = f.shaded() ? std::fabs(step - h.shade) * 4
                                 : std::fabs(error) * 32;
           int grey = (int)std::min(e, 255.0);
           paint(grey, grey, grey);

@@ -853,12 +853,76 @@ Hit Tracer::trace(double column, double row, const int *which, int count) const 
 
   Vec gradient;
   field(owner, point(w.ray, found), &gradient, &hit.object);
-  hit.tied = tie(hit.object, point(w.ray, found));
+  hit.tied = !scene.mixed && tie(hit.object, point(w.ray, found));
   hit.depth = found;
   double len = length(gradient);
-  double cosine = len > 0 ? std::max(0.0, -dot(gradient, scene.light) / len) : 0;
-  hit.shade = (float)((RAMP - 1) * (scene.ambient + (1 - scene.ambient) * cosine));
+  const Coat &coat = scene.coats[hit.object];
+  double light = len > 0 ? brightness(coat, gradient * (-1 / len)) : 0;
+  hit.shade = (float)((RAMP - 1) * (scene.ambient + (1 - scene.ambient) * light));
+  hit.colour = colour(hit.object, point(w.ray, found));
+  hit.shines = coat.finish != Coat::MATT;
   return hit;
+}
+
+// A matt surface scatters light by the cosine of its normal. A shiny one
+// scatters three quarters of that, and reflects the light itself: the cosine of
+// its normal and what is half way between light and viewer, to the 16th, of
+// what is missing to full brightness. A mirror has the same highlight on what it
+// reflects of its surroundings, by the height of where it looks: a ground, a
+// horizon, a sky. The viewer is taken to be far away along his axis.
+double Tracer::brightness(const Coat &coat, Vec normal) const {
+  double cosine = std::max(0.0, dot(normal, scene.light));
+  if (coat.finish == Coat::MATT) return cosine;
+  const Vec ahead = scene.ahead;
+  double light = 0.75 * cosine;
+  if (coat.finish == Coat::MIRROR) {
+    Vec looks = ahead - normal * (2 * dot(normal, ahead));
+    const double height[] = {-1, -0.3, 0.3, 1}, bright[] = {1 / 2.0, 1 / 12.0, 1, 1 / 2.0};
+    int k = looks.y < height[1] ? 0 : looks.y < height[2] ? 1 : 2;
+    light = bright[k] + (looks.y - height[k]) / (height[k + 1] - height[k]) * (bright[k + 1] - bright[k]);
+  }
+  Vec half = scene.light - ahead;
+  double len = length(half), mirrored = len > 0 ? std::max(0.0, dot(normal, half) / len) : 0;
+  return std::min(1.0, light + (1 - light) * std::pow(mirrored, 16));
+}
+
+namespace {
+
+// How much of its other colour a pattern has at p.
+double other(const Coat &c, Vec p) {
+  const double turn = 2 * 3.14159265358979323846;
+  Vec m = p - c.middle;
+  double u[3];
+  for (int i = 0; i < 3; i++) u[i] = dot(m, c.axis[i]) / c.grain;
+  switch (c.pattern) {
+    case Coat::CHECKS: return (long)(std::floor(u[0]) + std::floor(u[1]) + std::floor(u[2])) & 1;
+    case Coat::STRIPES: return (long)std::floor(u[0]) & 1;
+    case Coat::MARBLE:
+      return 0.5 + 0.5 * std::sin(turn * (u[0] / 2 + 0.3 * std::sin(turn * (0.35 * u[1] + 0.2)) +
+                                          0.2 * std::sin(turn * (0.55 * u[2] + 0.2 * u[1]))));
+    default: return 0;
+  }
+}
+
+}  // namespace
+
+Colour Tracer::colour(int object, Vec p) const {
+  double sum = 0, parts[3] = {0, 0, 0};
+  auto add = [&](int i, double f) {
+    auto ramp = scene.ramps.find(scene.objects[i].number);
+    if (ramp == scene.ramps.end()) return;
+    sum += f, parts[0] += f * ramp->second.r, parts[1] += f * ramp->second.g, parts[2] += f * ramp->second.b;
+  };
+  if (!scene.mixed) add(object, 1);
+  for (int i = 0; scene.mixed && i < (int)scene.objects.size(); i++) {
+    const Object &o = scene.objects[i];
+    if (body[i] == body[object]) add(i, geoff(o.kind->q(o, p, nullptr)));
+  }
+  if (!(sum > 0)) return {0, 0, 0};
+  const Coat &coat = scene.coats[object];
+  double share = other(coat, p);
+  auto mean = [&](double part, double pattern) { return part / sum * (1 - share) + pattern * share; };
+  return {mean(parts[0], coat.colour.r), mean(parts[1], coat.colour.g), mean(parts[2], coat.colour.b)};
 }
 
 void Picture::trace(const Scene &scene, int threads) {

@@ -50,6 +50,8 @@ const Fact facts[] = {
     {"strength", 2, 2, false}, {"dent", 2, 3, false},
     {"right", 3, 3, false}, {"up", 3, 3, false},       {"ahead", 3, 3, false},
     {"blend", 2, 3, false}, {"ambient", 1, 1, false}, {"highlight", 1, 1, false},  {"ramp", 4, 4, false},
+    {"mixed", 0, 0, false}, {"shiny", 1, 1, false},    {"mirror", 1, 1, false},
+    {"checks", 14, 14, false}, {"stripes", 14, 14, false}, {"marble", 14, 14, false},
 };
 
 }  // namespace
@@ -61,6 +63,12 @@ bool parseScene(const std::string &text, const std::string &name, Scene &s, std:
     double a, b, weight;
   };
   std::vector<Link> links, dents, strengths;
+  struct Word {
+    int line;
+    std::string word;
+    std::vector<double> v;
+  };
+  std::vector<Word> coats;
   std::map<int, int> index;   // object number -> index
   std::map<std::string, bool> seen;
   int lineNumber = 0;
@@ -131,6 +139,9 @@ bool parseScene(const std::string &text, const std::string &name, Scene &s, std:
         return fail("a ramp wants a colour that is not black");
       s.ramps[(int)v[0]] = {v[1], v[2], v[3]};
     }
+    if (word == "mixed") s.mixed = true;
+    for (const char *coat : {"shiny", "mirror", "checks", "stripes", "marble"})
+      if (word == coat) coats.push_back({lineNumber, word, v});
     if (word == "blend" && v.size() > 2 && v[2] < 0) return fail("a link's weight must not be negative");
     if (word == "blend") links.push_back({lineNumber, v[0], v[1], v.size() > 2 ? v[2] : 1});
     if (word == "dent" && v.size() > 2 && v[2] < 0) return fail("a dent's weight must not be negative");
@@ -165,6 +176,26 @@ bool parseScene(const std::string &text, const std::string &name, Scene &s, std:
     auto a = index.find((int)l.a);
     if (a == index.end()) return fail("strength names an object that is not there");
     s.objects[a->second].strength = l.weight;
+  }
+  s.coats.assign(n, Coat());
+  for (const Word &w : coats) {
+    lineNumber = w.line;
+    auto o = index.find((int)w.v[0]);
+    if (o == index.end()) return fail(w.word + " names an object that is not there");
+    Coat &c = s.coats[o->second];
+    if (w.word == "shiny") c.finish = Coat::SHINY;
+    if (w.word == "mirror") c.finish = Coat::MIRROR;
+    if (w.v.size() == 1) continue;
+    c.pattern = w.word == "checks" ? Coat::CHECKS : w.word == "stripes" ? Coat::STRIPES : Coat::MARBLE;
+    c.grain = w.v[1];
+    c.colour = {w.v[2], w.v[3], w.v[4]};
+    c.middle = {w.v[5], w.v[6], w.v[7]};
+    Vec x{w.v[8], w.v[9], w.v[10]}, y{w.v[11], w.v[12], w.v[13]};
+    if (!(c.grain > 0)) return fail("the size of a pattern must be above 0");
+    if (std::fabs(length(x) - 1) > 0.01 || std::fabs(length(y) - 1) > 0.01 || std::fabs(dot(x, y)) > 0.01)
+      return fail("the axes of a pattern must be of unit length and square to each other");
+    c.axis[0] = x, c.axis[1] = y;
+    c.axis[2] = {x.y * y.z - x.z * y.y, x.z * y.x - x.x * y.z, x.x * y.y - x.y * y.x};
   }
   // A turned eye has three axes, to its right, up and ahead, as x, y and z are.
   Vec side = {s.up.y * s.ahead.z - s.up.z * s.ahead.y, s.up.z * s.ahead.x - s.up.x * s.ahead.z,

@@ -6,12 +6,9 @@
 #include "model/anim.h"
 #include "model/body.h"
 #include "model/kind.h"
+#include "model/paint.h"
 #include "model/softobj.h"
 #include "model/camera.h"
-
-struct Colour {
-    uint8_t red, green, blue;  // 0..255
-};
 
 // Room for a name: 15 characters and the final 0.
 constexpr int NAME_ROOM = 16;
@@ -26,6 +23,7 @@ constexpr int TITLE_ROOM = 48;
 struct Actor {
     SoftObject* object = nullptr;
     Colour colour{255, 255, 255};
+    Coat coat;
     Motion motion;
     int number = 0;                // objects count from 1, groups from -1 downwards
     char name[NAME_ROOM] = "";
@@ -138,6 +136,9 @@ public:
     // nothing was changed.
     bool restore(const Record* record);
 
+    // Has all seeds looked for anew, as if nothing were known of a frame before.
+    void settleAnew();
+
     // Number of the object whose own field is the strongest at a point, of those that have a surface: it gives the point its
     // colour. -1: no field reaches it.
     int strongestAt(const Point& p) const;
@@ -154,6 +155,7 @@ public:
     Camera camera;
     Vector light{Real(0.5), Real(0.7), Real(-0.5)};  // from the model to the light, any length but 0
     char title[TITLE_ROOM] = "";                     // what the scene calls itself; may be empty
+    bool mixed = false;  // a place has the mean of the objects' colours by their fields there
 
 private:
     void clear();

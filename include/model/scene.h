@@ -23,6 +23,8 @@ constexpr Real DEGREES_MOST(360);
 constexpr Real KEY_DEGREES_MOST(3600);
 constexpr Real PULSE_MOST(0.75);
 constexpr Real WEIGHT_MOST(4);  // of a link and of a dent
+constexpr Real GRAIN_LEAST(1);
+constexpr Real GRAIN_MOST(100);
 constexpr int FOCAL_LEAST = 1;
 constexpr int FOCAL_MOST = 500;
 

@@ -11,6 +11,7 @@
 #include "model/surface.h"
 
 class SoftObject;
+struct Paint;
 
 // The sizes an object may have (the distance from its core where its field ends), units.
 constexpr int MIN_SIZE = 1;
@@ -178,6 +179,8 @@ public:
     bool hasSurface() const;
     // The object whose hollow its seeds sample: the first that it digs into, when it has no surface of its own. Else null.
     const SoftObject* hollowed() const { return hollowLink() == nullptr ? nullptr : hollowLink()->object; }
+    // The object whose colour and paint its surface shows: its own, or what its hollow is in. Null: it has no surface.
+    const SoftObject* shown() const { return hasSurface() ? this : hollowed(); }
     // Whether its seeds were laid out for a hollow and are for a surface now, or the other way round.
     bool laidInVain() const { return laid_.seeds != nullptr && (hollowed() != nullptr) != laidHollow_; }
     // Where Bodies keeps it.
@@ -209,6 +212,9 @@ public:
     // The palette indices of brightness 0..63, and of SHADING_MOST more before and behind (see VoxelList). Not owned.
     void setRamp(const uint8_t* ramp) { ramp_ = ramp; }
     const uint8_t* ramp() const { return ramp_; }
+    // What it shows besides a colour of its own, matt; null: nothing. Not owned.
+    void setPaint(const Paint* paint) { paint_ = paint; }
+    const Paint* paint() const { return paint_; }
 
 protected:
     // "kind number numbers...", for describe().
@@ -275,6 +281,7 @@ private:
     bool tapers_;
     bool displaced_;
     const uint8_t* ramp_;
+    const Paint* paint_ = nullptr;
 
     Layout laid_;
     Surface* surface_;

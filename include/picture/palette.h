@@ -19,13 +19,17 @@ public:
     // when drawing.
     static constexpr int HIGHLIGHT = 52;
 
+    // Of 63: the same for what shines (model/paint.h), which is white at full light.
+    static constexpr int GLOSS = 47;
+
     // The entry of text and marks: the same near-white in every scene, no part of a ramp.
     static constexpr uint8_t INK = 255;
 
     // Makes ramps for the model's colours and hands each object its own. The ramps of up to four colours have 63 entries
     // or more each. More colours share the 254 entries by need: those that are nearest to each other in colour and
-    // brightness are one, so that each ramp is as true as its neighbours leave it.
-    void make(Model& model, bool grey);
+    // brightness are one, so that each ramp is as true as its neighbours leave it. Finishes, patterns and colours that mix
+    // take ramps like colours do, and the objects are handed their paint, unless `plain`; of these, grey has finishes only.
+    void make(Model& model, bool grey, bool plain = false);
 
     // Red, green and blue of the 256 colours, 0..63, as the DAC takes them.
     const uint8_t* dac() const { return dac_; }
@@ -39,11 +43,16 @@ public:
 
 private:
     static constexpr int ENTRIES = INK - 1;  // for ramps, from 1 on
-    static constexpr int RAMPS_MOST = Model::OBJECTS_MOST;
+    static constexpr int RAMPS_MOST = 240;
     static constexpr int EVEN_MOST = 4;      // colours whose ramps have entries of their own
 
-    void share(const Colour* colours, int count);
+    static_assert(Paints::MOST <= RAMPS_MOST, "each colour has a ramp");
 
+    void share(const Colour* colours, const bool* shines, int count, const Paints* weights);
+    void handRamps(Paint& paint) const;
+
+    Paints paints_;
+    Paint paint_[Model::OBJECTS_MOST];
     uint8_t dac_[768];
     uint8_t steps_[256] = {};
     uint8_t ramps_[RAMPS_MOST][RAMP];

@@ -100,6 +100,7 @@ private:
         zbuffer_[at] = zbuffer_[from];
     }
     bool prepareLoop(const VoxelList& list);
+    int showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool loop);
     bool ordinary(const Voxel& voxel) const;
     bool project(const Voxel& voxel, FineScale* scale) const;
 

@@ -22,6 +22,13 @@ constexpr int SHADING_MOST = 64;
 
 constexpr int VOXELS_AT_ONCE = 1024;
 
+// Voxels of a list that have one ramp: those from where the run before ends to before `end`.
+struct RampRun {
+    const uint8_t* ramp;
+    int end;
+};
+constexpr int RUNS_MOST = 240;
+
 // The list of scales: voxels of one object.
 struct VoxelList {
     int32_t x, y, z;       // the object's centre from the eye, 1/256 unit
@@ -29,7 +36,10 @@ struct VoxelList {
                            // background's, and taken for it when gaps are closed
     int32_t reach;         // no voxel lies farther than this from the centre along any axis, 1/256 unit
     int count;             // voxels in the list
+    int runs;              // 0: all have `ramp`; else they have those of the runs
+    RampRun run[RUNS_MOST];
     Voxel voxels[VOXELS_AT_ONCE];
+    uint8_t number[VOXELS_AT_ONCE];  // of a painted object: of each voxel, the number of its colour
 
     // Empties the list for an object, the centre of which is `place` from the eye, and no part of which lies farther from it
     // than `most`.
@@ -40,7 +50,7 @@ struct VoxelList {
         z = rawFromReal(place.z) >> 8;
         reach = rawFromReal(most) >> 8;
         ramp = objectRamp;
-        count = 0;
+        count = runs = 0;
     }
     // Where the next voxel may be written, and that it has been.
     Voxel* room() { return voxels + count; }

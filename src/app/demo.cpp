@@ -73,7 +73,7 @@ const char* Demo::prepare(int* status)
         return "not enough memory for the picture";
     placeEye();
     view_.setExact(options_.printed);
-    palette_.make(model_, options_.grey);
+    palette_.make(model_, options_.grey, options_.printed);
     if (options_.recordFile != nullptr) {
         const char* problem = csv_.check(options_.recordFile, status);
         if (problem != nullptr)
@@ -183,7 +183,7 @@ void Demo::resample(Real spacing)
 void Demo::changed()
 {
     Anim::move(model_, shown_);
-    palette_.make(model_, options_.grey);
+    palette_.make(model_, options_.grey, options_.printed);
     paletteStale_ = true;
     stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
 }

@@ -187,6 +187,39 @@ const char* Dump::frame(int number, Time time, int rate, const Model& model, con
             line(text);
         }
     }
+    bool mixed = false;
+    for (int i = 0; i < model.count(); ++i) {
+        const SoftObject& object = *model.actor(i).object;
+        const Paint* const paint = object.paint();
+        if (paint == nullptr)
+            continue;
+        if (paint->mixes && !mixed)
+            line("mixed");
+        mixed = mixed || paint->mixes;
+        if (paint->shines()) {
+            snprintf(text, sizeof text, "%s %d", FINISH_WORDS[paint->finish], object.number());
+            line(text);
+        }
+        if (paint->pattern == PATTERN_NONE)
+            continue;
+        // Where the pattern lies in the world: its size, its middle, and the axes x and y.
+        const Colour& colour = model.actor(i).coat.colour;
+        int length = snprintf(text, sizeof text, "%s %d", PATTERN_WORDS[paint->pattern], object.number());
+        const auto add = [&](Real value) {
+            formatReal(a, sizeof a, value);
+            length += snprintf(text + length, sizeof text - static_cast<size_t>(length), " %s", a);
+        };
+        add(paint->grain * (object.size() / paint->made));
+        length += snprintf(text + length, sizeof text - static_cast<size_t>(length), " %d %d %d", colour.red, colour.green,
+                           colour.blue);
+        add(object.centre().x);
+        add(object.centre().y);
+        add(object.centre().z);
+        for (int axis = 0; axis < 2; ++axis)
+            for (int part = 0; part < 3; ++part)
+                add(object.turn().m[part][axis]);
+        line(text);
+    }
     good = good && machine::closeFile(file);
     return good ? nullptr : complain();
 }

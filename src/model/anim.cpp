@@ -232,7 +232,7 @@ void Anim::move(Model& model, Time time)
             continue;
         SoftObject& object = *actor.object;
         object.setSize(actor.made * pose.scale);
-        if (turned && object.coreReach() > Real(0))
+        if (turned && (object.coreReach() > Real(0) || actor.coat.pattern != PATTERN_NONE))
             object.setTurn(pose.turn);
         object.moveTo(pose.place);
     }

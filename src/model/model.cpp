@@ -45,6 +45,7 @@ struct alignas(Actor) Model::Record {
     int items, keys, pairs;
     Camera camera;
     Vector light;
+    bool mixed;
     char title[TITLE_ROOM];
 
     Actor* item() { return reinterpret_cast<Actor*>(this + 1); }
@@ -391,6 +392,12 @@ void Model::setLight(const Vector& to)
     recalcAll();
 }
 
+void Model::settleAnew()
+{
+    bodiesKnown_ = false;
+    recalcAll();
+}
+
 void Model::recalcAll()
 {
     for (int i = 0; i < count_; ++i)
@@ -531,6 +538,7 @@ void Model::swap(Model& other)
     bodiesKnown_ = other.bodiesKnown_ = false;
     exchange(camera, other.camera);
     exchange(light, other.light);
+    exchange(mixed, other.mixed);
     for (int i = 0; i < TITLE_ROOM; ++i)
         exchange(title[i], other.title[i]);
 }
@@ -554,6 +562,7 @@ Model::Record* Model::record() const
     record->pairs = pairs;
     record->camera = camera;
     record->light = light;
+    record->mixed = mixed;
     memcpy(record->title, title, sizeof title);
     for (int i = 0; i < itemCount_; ++i)
         record->item()[i] = *items_[i];
@@ -628,6 +637,7 @@ bool Model::restore(const Record* record)
     }
     before.camera = record->camera;
     before.light = record->light;
+    before.mixed = record->mixed;
     memcpy(before.title, record->title, sizeof title);
     const Point& eye = record->camera.eye;
     const bool seenAnew = !(light == record->light) || !(camera.eye == eye);

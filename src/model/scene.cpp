@@ -138,6 +138,10 @@ private:
     bool strength();
     bool readPair(const char* what, Row* a, Row* b);
     bool readWeight(Real* weight);
+    bool colours();
+    bool readPainted(Row* row);
+    bool finish();
+    bool pattern();
 
     const char* name_;
     Source& source_;
@@ -481,12 +485,18 @@ bool Reader::statement()
         return dent();
     if (is("strength"))
         return strength();
+    if (is("colours") || is("colors"))
+        return colours();
+    if (is("finish"))
+        return finish();
+    if (is("pattern"))
+        return pattern();
     char text[240];
     int length = 0;
     for (int i = 0; i < KIND_COUNT; ++i)
         length += snprintf(text + length, sizeof text - static_cast<size_t>(length), "%s, ", KINDS[i].word);
     snprintf(text + length, sizeof text - static_cast<size_t>(length),
-             "group, blend, dent, strength, circle, path, spin, swing, pulse, keys, key, eye, look, roll, focal, light or title");
+             "group, blend, dent, strength, circle, path, spin, swing, pulse, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title");
     return expected(text);
 }
 
@@ -1159,6 +1169,59 @@ bool Reader::blend()
     return good ? true : trouble("not enough memory for the links");
 }
 
+bool Reader::colours()
+{
+    nextWord();
+    if (!is("mixed") && !is("apart"))
+        return expected("mixed or apart");
+    model_.mixed = is("mixed");
+    return readEnd();
+}
+
+// What a line of paint is for.
+bool Reader::readPainted(Row* row)
+{
+    nextWord();
+    return word_[0] != 0 && find(word_, row) && in(*row, 0).object != nullptr ? true : expected("the name of an object");
+}
+
+bool Reader::finish()
+{
+    Row row;
+    if (!readPainted(&row))
+        return false;
+    nextWord();
+    for (int f = 0; f < FINISHES; ++f) {
+        if (!is(FINISH_WORDS[f]))
+            continue;
+        for (int i = 0; i < row.count; ++i)
+            in(row, i).coat.finish = static_cast<Finish>(f);
+        return readEnd();
+    }
+    return expected("matt, shiny or mirror");
+}
+
+bool Reader::pattern()
+{
+    Row row;
+    if (!readPainted(&row))
+        return false;
+    nextWord();
+    Coat coat;
+    for (int p = PATTERN_NONE + 1; p < PATTERNS; ++p)
+        if (is(PATTERN_WORDS[p]))
+            coat.pattern = static_cast<Pattern>(p);
+    if (coat.pattern == PATTERN_NONE)
+        return expected("checks, stripes or marble");
+    if (!readReal("the size of a pattern", GRAIN_LEAST, GRAIN_MOST, &coat.grain) || !readColour(&coat.colour))
+        return false;
+    for (int i = 0; i < row.count; ++i) {
+        coat.finish = in(row, i).coat.finish;
+        in(row, i).coat = coat;
+    }
+    return readEnd();
+}
+
 const char* readFrom(const char* name, Source& source, Model& model, SceneEnd* end)
 {
     Reader reader(name, source, model);
@@ -1294,6 +1357,16 @@ void Writer::item(const Model& model, const Actor& actor)
         word("strength").word(actor.name).number(actor.strength);
         end();
     }
+    const Coat& coat = actor.coat;
+    if (coat.finish != FINISH_MATT) {
+        word("finish").word(actor.name).word(FINISH_WORDS[coat.finish]);
+        end();
+    }
+    if (coat.pattern != PATTERN_NONE) {
+        word("pattern").word(actor.name).word(PATTERN_WORDS[coat.pattern]).number(coat.grain);
+        vector({Real(coat.colour.red), Real(coat.colour.green), Real(coat.colour.blue)});
+        end();
+    }
     if (m.circle.period != Real(0)) {
         word("circle").word(actor.name).word("u").vector(m.u).word("v").vector(m.v).period(m.circle);
         end();
@@ -1369,6 +1442,10 @@ bool Writer::write(const Model& model)
     end();
     word("light").vector(model.light);
     end();
+    if (model.mixed) {
+        word("colours").word("mixed");
+        end();
+    }
     for (int i = 0; i < model.items(); ++i)
         item(model, model.item(i));
     const Actor* seen = camera.looks == Camera::AT_ITEM ? model.itemNumbered(camera.item) : nullptr;

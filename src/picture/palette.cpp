@@ -12,14 +12,10 @@ constexpr int DARKEST = 2;
 // Of Palette::INK, as the DAC takes it.
 constexpr uint8_t INK_COLOUR[3] = {63, 63, 56};
 
-bool same(const Colour& a, const Colour& b)
-{
-    return a.red == b.red && a.green == b.green && a.blue == b.blue;
-}
-
 // A colour at one step, as the DAC takes it, each part rounded once. A highlight goes towards white at a right angle to the
-// colour: what it has of the colour itself stays the light's share, so that a dump's `ramp` line holds for it too.
-void shade(const Colour& colour, int step, uint8_t* to)
+// colour: what it has of the colour itself stays the light's share, so that a dump's `ramp` line holds for it too. What
+// shines turns into white itself.
+void shade(const Colour& colour, bool shines, int step, uint8_t* to)
 {
     constexpr int WHOLE = 255 * 63;
     const int parts[3] = {colour.red, colour.green, colour.blue};
@@ -28,7 +24,9 @@ void shade(const Colour& colour, int step, uint8_t* to)
     for (int p = 0; p < 3; ++p) {
         // The part times the light, of 63 and of WHOLE.
         int value = parts[p] * (63 * Palette::AMBIENT + step * (63 - Palette::AMBIENT));
-        if (step > Palette::HIGHLIGHT && square > 0) {
+        if (shines && step > Palette::GLOSS) {
+            value += (63 * WHOLE - value) / (63 - Palette::GLOSS) * (step - Palette::GLOSS);
+        } else if (!shines && step > Palette::HIGHLIGHT && square > 0) {
             const int white = 255 - 255 * sum * parts[p] / square;
             value += white * 63 * 63 * (step - Palette::HIGHLIGHT) / (2 * (63 - Palette::HIGHLIGHT));
         }
@@ -37,15 +35,16 @@ void shade(const Colour& colour, int step, uint8_t* to)
     }
 }
 
-// What a ramp would have from `step` on, for `steps` steps that the DAC cannot tell apart.
+// What a ramp would have from `step` on, for `steps` steps that the DAC cannot tell apart, and how much that counts.
 struct Wish {
     uint8_t part[3];
     uint8_t colour;
     uint8_t step, steps;
+    uint8_t weight;  // of each step
 };
 
 // Wishes that one entry fulfils: those from `from` to before `to`. `error` is what it costs: the squared distances from
-// their mean, each counted for its steps.
+// their mean, each counted by its weight.
 struct Box {
     int from, to;
     uint32_t weight;
@@ -59,12 +58,12 @@ Box measured(const Wish* wishes, int from, int to)
     Box box{from, to, 0, {0, 0, 0}, 0, 0};
     uint32_t squares[3] = {0, 0, 0};
     for (int i = from; i < to; ++i) {
-        const uint32_t steps = wishes[i].steps;
-        box.weight += steps;
+        const uint32_t weight = static_cast<uint32_t>(wishes[i].steps * wishes[i].weight);
+        box.weight += weight;
         for (int p = 0; p < 3; ++p) {
             const uint32_t part = wishes[i].part[p];
-            box.sum[p] += steps * part;
-            squares[p] += steps * part * part;
+            box.sum[p] += weight * part;
+            squares[p] += weight * part * part;
         }
     }
     uint32_t most = 0;
@@ -111,9 +110,15 @@ const uint8_t* lengthen(uint8_t* ramp)
 
 }  // namespace
 
-void Palette::make(Model& model, bool grey)
+void Palette::make(Model& model, bool grey, bool plain)
 {
     memset(dac_, 0, sizeof dac_);
+    for (int i = 0; i < model.count(); ++i)
+        model.actor(i).object->setPaint(nullptr);
+    const bool painted = !plain && paints_.choose(model, paint_);
+    // Seeds keep the numbers of their mixtures.
+    if (painted && model.mixed)
+        model.settleAnew();
     memcpy(dac_ + 3 * INK, INK_COLOUR, sizeof INK_COLOUR);
     if (grey) {
         for (int i = 0; i < STEPS; ++i) {
@@ -122,28 +127,43 @@ void Palette::make(Model& model, bool grey)
             ramps_[0][SHADING_MOST + i] = static_cast<uint8_t>(1 + i);
         }
         const uint8_t* ramp = lengthen(ramps_[0] + SHADING_MOST);
-        for (int i = 0; i < model.count(); ++i)
+        for (int i = 0; i < model.count(); ++i) {
             model.actor(i).object->setRamp(ramp);
+            if (!painted)
+                continue;
+            // Of paint, a finish alone shows.
+            if (paint_[i].finish == FINISH_MATT)
+                model.actor(i).object->setPaint(nullptr);
+            paint_[i].pattern = PATTERN_NONE;
+            paint_[i].mixes = false;
+            paint_[i].number = 0;
+            handRamps(paint_[i]);
+        }
         return;
     }
     dac_[0] = 1;
     dac_[1] = 1;
     dac_[2] = 6;
     Colour colours[RAMPS_MOST];
+    bool shines[RAMPS_MOST] = {};
     int rampOf[RAMPS_MOST];
     int count = 0;
-    for (int i = 0; i < model.count(); ++i) {
+    for (int i = 0; !painted && i < model.count(); ++i) {
         int c = 0;
-        while (c < count && !same(colours[c], model.actor(i).colour))
+        while (c < count && !(colours[c] == model.actor(i).colour))
             ++c;
         if (c == count)
             colours[count++] = model.actor(i).colour;
         rampOf[i] = c;
     }
+    for (int c = 0; painted && c < paints_.count(); ++c) {
+        colours[count] = paints_.colour(c);
+        shines[count++] = paints_.shines(c);
+    }
     if (count == 0)
         return;
     if (count > EVEN_MOST) {
-        share(colours, count);
+        share(colours, shines, count, painted ? &paints_ : nullptr);
     } else {
         const int steps = ENTRIES / count < STEPS ? ENTRIES / count : STEPS;
         for (int c = 0; c < count; ++c) {
@@ -151,7 +171,7 @@ void Palette::make(Model& model, bool grey)
                 ramps_[c][SHADING_MOST + i] = static_cast<uint8_t>(1 + c * steps + (i * (steps - 1) + 31) / 63);
             for (int i = 0; i < steps; ++i) {
                 const int step = (i * 63 + (steps - 1) / 2) / (steps - 1);
-                shade(colours[c], step, dac_ + 3 * (1 + c * steps + i));
+                shade(colours[c], shines[c], step, dac_ + 3 * (1 + c * steps + i));
             }
         }
     }
@@ -160,19 +180,32 @@ void Palette::make(Model& model, bool grey)
         for (int i = 0; i < STEPS; ++i)
             steps_[ramp[i]] = static_cast<uint8_t>(i);
     }
-    for (int i = 0; i < model.count(); ++i)
+    for (int i = 0; i < model.count(); ++i) {
+        if (painted) {
+            rampOf[i] = paint_[i].number;
+            handRamps(paint_[i]);
+        }
         model.actor(i).object->setRamp(ramps_[rampOf[i]] + SHADING_MOST);
+    }
+}
+
+void Palette::handRamps(Paint& paint) const
+{
+    paint.ramps = ramps_[0] + SHADING_MOST;
+    paint.rampRoom = RAMP;
+    paint.ramp = paint.ramps + paint.number * RAMP;
 }
 
 // Divides what all ramps wish for into as many boxes as there are entries, always that box which costs most.
-void Palette::share(const Colour* colours, int count)
+void Palette::share(const Colour* colours, const bool* shines, int count, const Paints* weights)
 {
     static Wish wishes[RAMPS_MOST * STEPS];
     int wished = 0;
     for (int c = 0; c < count; ++c) {
+        const uint8_t weight = static_cast<uint8_t>(weights == nullptr ? 1 : weights->weight(c));
         for (int step = 0; step < STEPS; ++step) {
             uint8_t part[3];
-            shade(colours[c], step, part);
+            shade(colours[c], shines[c], step, part);
             if (step > 0 && memcmp(wishes[wished - 1].part, part, sizeof part) == 0) {
                 ++wishes[wished - 1].steps;
                 continue;
@@ -182,6 +215,7 @@ void Palette::share(const Colour* colours, int count)
             wish.colour = static_cast<uint8_t>(c);
             wish.step = static_cast<uint8_t>(step);
             wish.steps = 1;
+            wish.weight = weight;
         }
     }
     Box boxes[ENTRIES];

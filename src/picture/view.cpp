@@ -233,22 +233,37 @@ int View::show(const VoxelList& list)
     lens_.x = list.x;
     lens_.y = list.y;
     lens_.z = list.z;
-    lens_.ramp = list.ramp;
     lens_.left = WIDTH;
     lens_.top = HEIGHT;
     lens_.right = lens_.bottom = 0;
     lens_.empty = 0;
     const bool loop = prepareLoop(list) && !pixels_;
-    int left = 0;  // voxels not drawn
-    const Voxel* const end = list.voxels + list.count;
-    for (const Voxel* at = list.voxels; at < end; ++at) {
+    const Voxel* from = list.voxels;
+    int left = 0;
+    if (list.runs == 0)
+        left = showRun(list.ramp, from, from + list.count, loop);
+    for (const RampRun* run = list.run; run < list.run + list.runs; ++run) {
+        const Voxel* const to = list.voxels + run->end;
+        left += showRun(run->ramp, from, to, loop);
+        from = to;
+    }
+    mark(lens_.left, lens_.top, lens_.right, lens_.bottom);
+    return list.count - left - lens_.empty;
+}
+
+// Draws voxels of one ramp; `loop`: the loop of scales may be used. Returns how many lie off the screen.
+int View::showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool loop)
+{
+    int left = 0;
+    lens_.ramp = ramp;
+    for (const Voxel* at = from; at < to; ++at) {
         if (exact_) {
             if (loop && ordinary(*at) && drawScales(&lens_, at, at + 1) > at)
                 continue;
         } else if (loop) {
-            at = drawScales(&lens_, at, end);
+            at = drawScales(&lens_, at, to);
         }
-        if (at == end)
+        if (at == to)
             break;
         const Voxel& voxel = *at;
         FineScale scale;
@@ -262,8 +277,7 @@ int View::show(const VoxelList& list)
             mark(scale.left, scale.top, scale.left + scale.wide, scale.top + scale.high);
         }
     }
-    mark(lens_.left, lens_.top, lens_.right, lens_.bottom);
-    return list.count - left - lens_.empty;
+    return left;
 }
 
 // Whether a pixel is empty and lies right below a drawn one and a little way above another.

@@ -3,6 +3,7 @@
 
 #include "math/alloc.h"
 #include "model/stop.h"
+#include "paint.h"
 #include "settle.h"
 #include "shade.h"
 
@@ -116,16 +117,21 @@ void Engine::update(const FrameContext& frame)
 void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* next)
 {
     const OwnFrame own = ownFrame(object_, frame);
-    // A hollow has the colour of what it is in.
-    const SoftObject* const head = object_.hasSurface() ? &object_ : object_.hollowed();
+    const SoftObject* const shown = object_.shown();
     list.begin(frame.inView(object_.centre()), object_.coreReach() + object_.size(),
-               head == nullptr ? object_.ramp() : head->ramp());
-    if (own.outOfSight || head == nullptr) {
+               shown == nullptr ? object_.ramp() : shown->ramp());
+    if (own.outOfSight || shown == nullptr) {
         *next = 0;
         return;
     }
+    const Paint* const paint = shown->paint();
+    if (paint != nullptr && *next == 0)
+        polish(object_, own);
     const int at = shadePatches(object_, own, frame, patches_, count_, *next, before_, list, room);
     *next = at < count_ ? at : 0;
+    // With another ramp than its own, the whole object is to be seen in that one.
+    if (paint != nullptr && shown->ramp() == paint->ramp)
+        sortByColour(list, *paint);
 }
 
 }  // namespace

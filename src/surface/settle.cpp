@@ -3,6 +3,7 @@
 #include "settle.h"
 
 #include "math/normal.h"
+#include "model/paint.h"
 #include "rt.h"
 
 namespace {
@@ -367,7 +368,7 @@ void Settler::blend(Real position, Sample& sample)
         return;
     for (const Part* a = parts + 1; a < end && plain; ++a)
         for (const Part* b = parts; b < a && plain; ++b)
-            plain = a->weights[b->slot] == Real(1);
+            plain = b->weights[a->slot] == Real(1);
     if (plain)
         return;
     const Real inverse = quotient(Real(1), strongest);
@@ -377,8 +378,8 @@ void Settler::blend(Real position, Sample& sample)
         a->x2 = a->x * a->x;
         below += a->x2;
         for (Part* b = parts; b < a; ++b) {
-            const Real w = a->weights[b->slot];
-            if (w == Real(0) && !all_.inner)
+            const Real w = b->weights[a->slot];
+            if (w == Real(0))
                 continue;
             const bool one = w == Real(1);
             a->g += one ? b->f : w * b->f;
@@ -390,8 +391,8 @@ void Settler::blend(Real position, Sample& sample)
             for (Part* b = parts; b < a; ++b) {
                 // What B digs into A by more than A into B.
                 const Real w = a->weights[b->slot] - b->weights[a->slot];
-                b->g -= w * a->f;
-                a->linked -= w * b->x2;
+                a->g += w * b->f;
+                b->linked += w * a->x2;
             }
     }
     Real digging(0);
@@ -698,6 +699,22 @@ void Settler::findBorder(Seed& s, Real dominance) const
     s.border = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
 }
 
+// The mean of the objects' colours, by their fields at the position looked at last.
+void Settler::mix(Seed& s) const
+{
+    const Paint& own = *all_.head->paint();
+    // What digs has no say.
+    Real fields = hollow_ ? Real(0) : ownField_;
+    Vector sum = own.at * fields;
+    for (int i = 0; i < touched_; ++i) {
+        if (along_[i].near->digs)
+            continue;
+        sum = sum + along_[i].near->object->paint()->at * along_[i].value;
+        fields += along_[i].value;
+    }
+    s.mix = fields > Real(0) ? own.paints->numberAt(sum * quotient(Real(1), fields), own.shines()) : own.number;
+}
+
 // What the fields along the path at hand may change by, all together, when the neighbours come by a unit.
 Real Settler::pushes() const
 {
@@ -810,6 +827,8 @@ Real Settler::settle(Seed& s)
         slope_ = sample.slope;
         s.still = s.still == 0 || came_ * Real(3) > shiftDown(smallest_, 3) ? 1 : 3;
         s.brightness8 = brightness8(s.normal, own_.light);
+        if (object_.paint() != nullptr && object_.paint()->mixes)
+            mix(s);
         return Real(0);
     }
     s.still = 0;
@@ -842,6 +861,8 @@ Real Settler::settle(Seed& s)
     s.normal = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
     s.brightness8 = brightness8(s.normal, own_.light);
     s.flags |= SEED_VALID;
+    if (object_.paint() != nullptr && object_.paint()->mixes)
+        mix(s);
     if (sample.dominance > -border_) {
         const Seed shared = s;
         findBorder(s, sample.dominance);

@@ -86,6 +86,7 @@ private:
     Vector fromCore(const Along& along, Real position) const;
     Real findShare(Seed& s, Vector* g);
     void findBorder(Seed& s, Real dominance) const;
+    void mix(Seed& s) const;
     Real pushes() const;
     static Way until(Real hold, Real push, Real longest);
     Real stillInside(Seed& s);

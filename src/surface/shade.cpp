@@ -3,6 +3,7 @@
 #include "shade.h"
 
 #include "math/normal.h"
+#include "paint.h"
 #include "voxels.h"
 
 namespace {
@@ -68,6 +69,9 @@ public:
 
     // Lists the voxels of a patch.
     void shadePatch(Patch& patch, bool turn, VoxelList& list);
+
+    // The same by way of a painter, which makes voxels of its own from them.
+    void paintPatch(Patch& patch, Painter& painter);
 
 private:
     bool keepPatch(Patch& patch, VoxelList& list) const;
@@ -488,6 +492,27 @@ inline void Shader::shadePatch(Patch& patch, bool turn, VoxelList& list)
     }
 }
 
+void Shader::paintPatch(Patch& patch, Painter& painter)
+{
+    Seen seen[SEEDS_MOST];
+    Voxel voxels[SEEDS_MOST];
+    bool anew = true;
+    int count = measureSeen(patch, seen, findSeeds(&shading_, object_, &patch, seen), &anew);
+    if (near_)
+        count = leaveNear(seen, count);
+    if (count == 0)
+        return;
+    if (patch.bend.stale)
+        measureBend(patch);
+    setPatch(patch, seen[count >> 1]);
+    for (int i = 0; i < count; ++i)
+        seen[i].voxel = voxels + i;
+    shadeSeeds(&shading_, seen, count);
+    for (int i = 0; i < count; ++i)
+        if (!(seen[i].seed->flags & SEED_BORDER) || cut(*seen[i].seed, voxels + i))
+            painter.add(*seen[i].seed, voxels[i]);
+}
+
 }  // namespace
 
 void ViewBefore::turn(const OwnFrame& own)
@@ -517,6 +542,16 @@ int shadePatches(SoftObject& object, const OwnFrame& own, const FrameContext& fr
         before.turn(own);
     Shader shader(object, own, frame);
     int at = first;
+    if (object.paint() != nullptr) {
+        Painter painter(object, own, list);
+        // It may make two voxels of one.
+        for (; at < count && list.count + 2 * SEEDS_MOST <= room; ++at) {
+            Patch& patch = patches[at];
+            if (patch.state == PATCH_MIXED || (patch.state == PATCH_REST && !restsAway(patch, own)))
+                shader.paintPatch(patch, painter);
+        }
+        return at;
+    }
     for (; at < count && list.count + SEEDS_MOST <= room; ++at) {
         Patch& patch = patches[at];
         if (patch.state == PATCH_MIXED || (patch.state == PATCH_REST && !restsAway(patch, own)))

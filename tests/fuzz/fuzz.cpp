@@ -24,6 +24,7 @@
 
 #include "model/field.h"
 #include "model/scene.h"
+#include "picture/palette.h"
 #include "math/normal.h"
 #include "surface/engine.h"
 #include "surface/voxel.h"
@@ -77,9 +78,8 @@ const Time TIMES[] = {0, 65536 / 10, 65536 * 3 + 777, 12345678, 65536ull * 3599,
 void draw(Model& model, bool printed)
 {
     static VoxelList list;
-    static uint8_t ramp[64 + 2 * SHADING_MOST];
-    for (int i = 0; i < model.count(); ++i)
-        model.actor(i).object->setRamp(ramp + SHADING_MOST);
+    static Palette palette;
+    palette.make(model, false, printed);
     if (!model.resample(Real(6), printed ? makeReport98 : makeEngine))
         failed("no memory for seeds");
     Counts counts{};
@@ -215,6 +215,10 @@ int main(int count, char** arguments)
             for (int i = 0; i < model.items(); ++i) {
                 if (model.item(i).strength != again.item(i).strength)
                     failed("another strength when read again");
+                const Coat &coat = model.item(i).coat, &coatAgain = again.item(i).coat;
+                if (coat.finish != coatAgain.finish || coat.pattern != coatAgain.pattern || coat.grain != coatAgain.grain ||
+                    !(coat.colour == coatAgain.colour))
+                    failed("another paint when read again");
                 const Pose &a = model.item(i).pose, &b = again.item(i).pose;
                 if (!(a.place == b.place) || a.scale != b.scale || memcmp(&a.turn, &b.turn, sizeof a.turn) != 0)
                     failed("moves in another way when read again");

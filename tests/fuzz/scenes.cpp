@@ -13,6 +13,9 @@ constexpr size_t ODD_COUNT = sizeof ODD / sizeof ODD[0];
 const char* const COLOURS[] = {"white", "silver", "grey", "gray", "black", "red", "orange", "yellow",
                                "lime", "green", "cyan", "blue", "violet", "magenta", "pink", "brown"};
 
+const char* const FINISHES[] = {"matt", "shiny", "mirror"};
+const char* const PATTERNS[] = {"checks", "stripes", "marble"};
+
 const char* const PLANES[] = {"xy", "yz", "zx", "yx", "zy", "xz"};
 
 class Maker {
@@ -157,6 +160,11 @@ private:
     void colour()
     {
         word(random_.once(2) ? "colour" : "color");
+        paint();
+    }
+
+    void paint()
+    {
         switch (random_.below(3)) {
         case 0: word(slip() ? "reddish" : COLOURS[random_.below(sizeof COLOURS / sizeof COLOURS[0])]); break;
         case 1: {
@@ -311,7 +319,7 @@ private:
     void statement()
     {
         Item& item = items_[random_.below(items_.size())];
-        switch (random_.below(17)) {
+        switch (random_.below(19)) {
         case 0:
         case 1:
         case 2: object(false); return;
@@ -413,6 +421,27 @@ private:
             }
             return;
         case 15:
+            if (random_.once(3)) {
+                word(random_.once(4) ? "colors" : "colours");
+                word(random_.once(3) ? "apart" : slip() ? "mixt" : "mixed");
+                break;
+            }
+            if (item.group && !slip())
+                return;
+            word("finish");
+            word(known(item));
+            word(slip() ? "gloss" : FINISHES[random_.below(3)]);
+            break;
+        case 16:
+            if (item.group && !slip())
+                return;
+            word("pattern");
+            word(known(item));
+            word(slip() ? "none" : PATTERNS[random_.below(3)]);
+            number(1, 100);
+            paint();
+            break;
+        case 17:
             if (item.group && !slip())
                 return;
             word("strength");
@@ -420,7 +449,7 @@ private:
             number(0.25, 4);
             break;
         case 12:
-        case 16: {
+        case 18: {
             const bool dents = random_.once(2);
             word(dents ? "dent" : "blend");
             if (!dents && random_.once(4)) {
@@ -507,6 +536,7 @@ private:
 // Words of the language, for changes.
 const char* const WORDS[] = {
     "sphere", "cylinder", "torus", "disc", "cone", "box", "group", "blend", "dent", "strength", "circle", "path", "spin", "swing", "pulse", "keys", "key",
+    "colours", "mixed", "finish", "shiny", "mirror", "pattern", "checks", "stripes", "marble",
     "eye", "look", "roll", "focal", "light", "title", "all", "size", "length", "ring", "tip", "at", "turn", "in", "colour", "color", "red",
     "#12abEF", "scale", "repeat", "step", "lag", "radius", "plane", "xy", "u", "v", "period", "phase", "x", "y", "z", "axis",
     "angle", "by", "linear", "smooth", "0", "1", "2", "-1", "0.1", "128", "250", "-250", "250.00002", "3600", "0.5",

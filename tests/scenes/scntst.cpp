@@ -243,6 +243,47 @@ void colours()
     place("sphere s size 20#ff0000\ncircle s radius 10 period 4 #rrggbb", "s", 1, 0, 10, 0);
 }
 
+void paints()
+{
+    Model model;
+    check(read(S + "sphere b size 9 repeat 3\nfinish b shiny\npattern b2 marble 12.5 #010203\nfinish b2 mirror\n"
+                   "pattern s checks 8 lime # big\nfinish s matt\ncolours mixed\n", model) == nullptr, "paints");
+    const Coat &s = model.itemNamed("s")->coat, &b1 = model.itemNamed("b1")->coat, &b2 = model.itemNamed("b2")->coat;
+    check(model.mixed, "colours mixed");
+    check(s.finish == FINISH_MATT && s.pattern == PATTERN_CHECKS && s.grain == Real(8) && s.colour == Colour{160, 224, 64},
+          "a pattern");
+    check(b1.finish == FINISH_SHINY && b1.pattern == PATTERN_NONE, "a row's finish");
+    check(b2.finish == FINISH_MIRROR && b2.pattern == PATTERN_MARBLE && b2.grain == Real(12.5) && b2.colour == Colour{1, 2, 3},
+          "both, of one of it");
+    Model::Record* record = model.record();
+    Model other;
+    check(read(S + "colors mixed\ncolours apart", other) == nullptr && !other.mixed, "colours apart again");
+    model.swap(other);
+    check(!model.mixed && other.mixed, "mixtures change places");
+    check(model.restore(record) && model.mixed && model.itemNamed("b2")->coat.finish == FINISH_MIRROR, "and come back with a record");
+    free(record);
+    taken(S + "finish s shiny\nfinish s mirror\npattern s stripes 1 red\npattern s checks 100 1 2 3", "the last one counts");
+
+    refused(S + "colours", "T.FB:2: end of line: expected mixed or apart");
+    refused(S + "colours red", "T.FB:2: 'red': expected mixed or apart");
+    refused(S + "colours mixed 2", "T.FB:2: '2': expected the end of the line");
+    for (const char* word : {"finish", "pattern"}) {
+        refused(S + word, "T.FB:2: end of line: expected the name of an object");
+        refused(S + word + " t", "T.FB:2: 't': expected the name of an object");
+        refused(S + "group g\n" + word + " g", "T.FB:3: 'g': expected the name of an object");
+    }
+    refused(S + "finish s", "T.FB:2: end of line: expected matt, shiny or mirror");
+    refused(S + "finish s dull", "T.FB:2: 'dull': expected matt, shiny or mirror");
+    refused(S + "finish s matt 3", "T.FB:2: '3': expected the end of the line");
+    refused(S + "pattern s", "T.FB:2: end of line: expected checks, stripes or marble");
+    refused(S + "pattern s none", "T.FB:2: 'none': expected checks, stripes or marble");
+    refused(S + "pattern s checks", "T.FB:2: end of line: expected the size of a pattern from 1 to 100");
+    refused(S + "pattern s checks 0.9 red", "T.FB:2: '0.9': expected the size of a pattern from 1 to 100");
+    refused(S + "pattern s stripes 101 red", "T.FB:2: '101': expected the size of a pattern from 1 to 100");
+    refused(S + "pattern s marble 5 1 2 300", "T.FB:2: '300': expected red, green and blue from 0 to 255");
+    refused(S + "pattern s marble 5 red red", "T.FB:2: 'red': expected the end of the line");
+}
+
 void rows()
 {
     const std::string five = "sphere b size 9 at 1 2 3 repeat 5 step 10 -1 0.5\n";
@@ -386,13 +427,17 @@ void saved()
                              "circle b radius 10 period 4 lag 0.125\ncircle b1 u 1 2 3 v 4 5 6 period 3 phase 0.5\n"
                              "path b x -3 2 0 x 4 3 0\npath b z 1 2 0 z -2 2 0.25\nspin g axis 0 1 0 period 3\nspin g axis 1 0 0 period -5\n"
                              "swing b2 axis 0 0 1 angle 20 period 2\nswing b2 axis 0 0 1 angle -20 period 5\n"
-                             "pulse b3 by 0.5 period 2\npulse b3 by 0.25 period 3\nblend b b 0.5\n";
+                             "pulse b3 by 0.5 period 2\npulse b3 by 0.25 period 3\nblend b b 0.5\ncolours mixed\n"
+                             "finish b1 mirror\npattern b2 stripes 6.5 cyan\npattern b3 checks 3 1 2 3\nfinish b3 shiny\n";
     Model model, again;
     check(read(text, model) == nullptr, "to be saved");
     std::string first, second;
     check(writeSceneText(append, &first, model), "saved");
     check(first.find("title A row, saved\n") == 0 && first.find("sphere b3 ") != std::string::npos &&
               first.find("repeat") == std::string::npos, "as the objects that it made");
+    for (const char* line : {"\ncolours mixed\n", "\nfinish b1 mirror\n", "\npattern b2 stripes 6.5 64 208 216\n",
+                             "\nfinish b3 shiny\npattern b3 checks 3 1 2 3\n"})
+        check(first.find(line) != std::string::npos, std::string("saved:") + line);
     const char* wrong = read(first, again);
     if (wrong != nullptr)
         puts(wrong);
@@ -648,7 +693,7 @@ void eyes()
 void complaints()
 {
     const char* const statements =
-        "sphere, cylinder, torus, disc, cone, box, group, blend, dent, strength, circle, path, spin, swing, pulse, keys, key, eye, look, roll, focal, light or title";
+        "sphere, cylinder, torus, disc, cone, box, group, blend, dent, strength, circle, path, spin, swing, pulse, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title";
     refused("spere a size 3", std::string("T.FB:1: 'spere': expected ") + statements);
     refused(S + "\n# x\n7\n", std::string("T.FB:4: '7': expected ") + statements);
     refused("", "T.FB:1: 'end of file': expected at least one object");
@@ -795,6 +840,7 @@ int main()
     sums();
     titles();
     colours();
+    paints();
     rows();
     saved();
     dents();

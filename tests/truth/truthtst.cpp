@@ -973,6 +973,87 @@ static void flickers() {
   check(g.pairs == 1 && g.flicker == 0, "a true change is no flicker");
 }
 
+static void paints() {
+  // Finishes, from a normal: what is scattered, what is mirrored of the light, what of the surroundings.
+  Scene plain = scene("light 0 0 -1\nsphere 1 0 0 0 60\n");
+  Tracer t(plain);
+  Coat matt, shiny, mirror;
+  shiny.finish = Coat::SHINY, mirror.finish = Coat::MIRROR;
+  const double h = std::sqrt(0.5), c8 = std::cos(3.14159265358979 / 8);
+  checkNear(t.brightness(matt, {0, h, -h}), h, 1e-12, "matt: the cosine");
+  checkNear(t.brightness(shiny, {0, 0, -1}), 1, 1e-12, "shiny: full where it mirrors the light");
+  checkNear(t.brightness(shiny, {0, h, -h}), 0.75 * h + (1 - 0.75 * h) / 256, 1e-12, "shiny: aside of it");
+  checkNear(t.brightness(shiny, {0, 1, 0}), 0, 1e-12, "shiny: edge-on");
+  checkNear(t.brightness(mirror, {0, h, -h}), 0.5 + 0.5 / 256, 1e-12, "a mirror that looks up");
+  checkNear(t.brightness(mirror, {0, -h, -h}), 0.5 + 0.5 / 256, 1e-12, "down");
+  checkNear(t.brightness(mirror, {1, 0, 0}), 13 / 24.0, 1e-12, "at the horizon");
+  checkNear(t.brightness(mirror, {0, std::sqrt(1 - c8 * c8), -c8}), 1 - 0.5 * (h - 0.3) / 0.7 + 0.5 * (h - 0.3) / 0.7 * std::pow(c8, 16),
+            1e-12, "at the sky");
+
+  // Colours that mix.
+  const std::string lit = "ambient 0.142857\nhighlight 0.825397\n";
+  const std::string balls = lit + "ramp 1 200 0 100\nramp 2 0 100 50\nsphere 1 -12 0 0 50\nsphere 2 12 0 0 50\n";
+  Scene apart = scene(balls + "mixed\n"), one = scene(balls + "blend 1 2\n"), both = scene(balls + "blend 1 2\nmixed\n");
+  auto is = [&](Colour c, double r, double g, double b, const std::string &name) {
+    check(std::fabs(c.r - r) + std::fabs(c.g - g) + std::fabs(c.b - b) < 1e-9, name);
+  };
+  const Vec mid{0, 0, -15};
+  is(Tracer(both).colour(0, mid), 100, 50, 75, "half way between two");
+  is(Tracer(one).colour(0, mid), 200, 0, 100, "not where colours do not mix");
+  is(Tracer(apart).colour(0, mid), 200, 0, 100, "nor between bodies");
+  is(Tracer(both).colour(0, {-40, 0, 0}), 200, 0, 100, "nor where the other does not reach");
+  const double a = geoff(4 / 2500.0), b = geoff(484 / 2500.0);
+  is(Tracer(both).colour(0, {-10, 0, 0}), 200 * a / (a + b), 100 * b / (a + b), (100 * a + 50 * b) / (a + b), "by the fields");
+
+  // Patterns, in their own axes: x along z, y along x, so z along y.
+  const std::string at = " 2 0 0 5 0 0 1 1 0 0\n";
+  auto pattern = [&](const std::string &word, Vec p) {
+    Scene s = scene("ramp 1 200 0 100\nsphere 1 0 0 0 60\n" + word + " 1 4 80 160" + at);
+    return Tracer(s).colour(0, p);
+  };
+  is(pattern("checks", {1, 1, 6}), 200, 0, 100, "the first check");
+  is(pattern("checks", {1, 1, 10}), 80, 160, 2, "one on");
+  is(pattern("checks", {1, -1, 10}), 200, 0, 100, "and down");
+  is(pattern("checks", {-1, -1, 10}), 80, 160, 2, "and to the left");
+  is(pattern("stripes", {1, -1, 10}), 80, 160, 2, "a stripe");
+  is(pattern("stripes", {-9, -7, 10}), 80, 160, 2, "all along");
+  is(pattern("stripes", {1, 1, 4}), 80, 160, 2, "on both sides");
+  is(pattern("stripes", {1, 1, 6}), 200, 0, 100, "between");
+  const double turn = 2 * 3.14159265358979, vein =
+      0.5 + 0.5 * std::sin(turn * (0.5 * 0.25 + 0.3 * std::sin(turn * (0.35 * 0.5 + 0.2)) + 0.2 * std::sin(turn * (0.55 * 0.75 + 0.2 * 0.5))));
+  is(pattern("marble", {2, 3, 6}), 200 + vein * (80 - 200), vein * 160, 100 + vein * (2 - 100), "marble");
+
+  // True frames, judged; and damaged.
+  const std::string all = balls + "blend 1 2\nmixed\nshiny 2\nchecks 1 12 250 250 250 -12 0 0 0.8 0.6 0 -0.6 0.8 0\n";
+  Made m = made(all);
+  Figures f = compare(m.frame, m.picture);
+  check(f.shaded == f.both && f.shadeRms() < 0.6 && f.coloured == f.both && f.wrongColour == 0, "the truth itself, painted");
+  check(f.border == 0 && f.borderTrue == 0, "its borders are not judged");
+  Ramps ramps(m.frame.scene);
+  for (int x = 0; x < WIDTH; x++)
+    for (int y = 0; y < HEIGHT; y++) {
+      Hit hit = m.picture.at(x, y);
+      if (!hit.any()) continue;
+      hit.shade += hit.shade >= 30 ? -10 : 10;
+      ramps.paint(hit, &m.frame.rgb[3 * place(x, y)]);
+    }
+  checkNear(compare(m.frame, m.picture).shadeRms(), 10 * 63 / 54.0, 1, "ten steps of the ramp off, painted");
+  m = made(all);
+  int spoilt = 0;
+  for (int y = 90; y < 96; y++)
+    for (int x = 140; x < 146; x++) {
+      check(m.picture.at(x, y).any(), "a pixel to spoil");
+      const uint8_t alien[3] = {0, 230, 0};
+      std::copy(alien, alien + 3, &m.frame.rgb[3 * place(x, y)]);
+      spoilt++;
+    }
+  check(compare(m.frame, m.picture).wrongColour == spoilt, "strange colours are counted");
+  // In grey a finish is judged, colours are not.
+  Made grey = made("shiny 1\nsphere 1 0 0 0 60\n");
+  f = compare(grey.frame, grey.picture);
+  check(f.shaded == f.both && f.shadeRms() < 0.32 && f.coloured == 0, "a finish in grey");
+}
+
 static void texts() {
   struct {
     const char *text, *word;
@@ -985,6 +1066,11 @@ static void texts() {
       {"dent 1 2\n", "not there"},            {"strength 1 2\n", "not there"},
       {"sphere 1 0 0 0 9\ndent 1 1\n", "itself"}, {"sphere 1 0 0 0 9\nstrength 1 0\n", "above 0"},
       {"sphere 1 0 0 0 9\nsphere 2 0 0 0 9\ndent 1 2 -1\n", "negative"}, {"strength 1\n", "1 numbers"},
+      {"shiny 1\n", "not there"},             {"mixed 1\n", "with 1 numbers"},
+      {"sphere 1 0 0 0 9\nchecks 1 5 1 2 3 0 0 0 1 0 0\n", "with 11 numbers"},
+      {"sphere 1 0 0 0 9\nchecks 1 0 1 2 3 0 0 0 1 0 0 0 1 0\n", "above 0"},
+      {"sphere 1 0 0 0 9\nmarble 1 5 1 2 3 0 0 0 1 0 0 0.6 0.8 0\n", "square"},
+      {"sphere 1 0 0 0 9\nstripes 1 5 1 2 3 0 0 0 2 0 0 0 1 0\n", "unit length"},
       {"right 0 0 1\n", "no axes"},           {"ahead 0 0 -1\n", "no axes"},
       {"right 0 0 1\nahead 1 0 0\n", "no axes"}, {"up 0 1\n", "with 2 numbers"},
       {"focal 0 200\n", "above 0"},           {"torus 1 0 0 0 0 0 0 5 5\n", "no direction"},
@@ -1065,6 +1151,7 @@ int main() {
   brightness();
   colours();
   flickers();
+  paints();
   texts();
   std::printf("%d passed, %d failed\n", passed, failed);
   return failed != 0;

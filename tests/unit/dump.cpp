@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "help.h"
+#include "model/scene.h"
 #include "test.h"
 
 namespace {
@@ -164,6 +165,57 @@ TEST(a_dumped_frame)
     CHECK(at != std::string::npos && turned.erase(at, words.size()).substr(11) == text.str().substr(11));
     discard(directory);
     discard(top);
+}
+
+// The lines of a dump's text from the blends on.
+static std::vector<std::string> paintLines(bool grey, bool printed)
+{
+    const std::string directory = scratch();
+    Model model;
+    const std::string scene = "group g scale 2\nsphere a size 20 at 5 0 0 turn 0 0 90 in g colour red\nsphere b size 30\nblend a b\n"
+                              "colours mixed\nfinish a mirror\nfinish b shiny\npattern a checks 8.5 1 2 3\n";
+    SceneEnd end;
+    CHECK(readSceneText("T.FB", scene.data(), static_cast<uint32_t>(scene.size()), model, &end) == nullptr);
+    Anim::move(model, 0);
+    View view;
+    CHECK(view.open());
+    Palette palette;
+    palette.make(model, grey, printed);
+    Dump dump;
+    CHECK(dump.open(directory.c_str()) == nullptr);
+    CHECK(dump.frame(0, 0, 10, model, view, palette, grey) == nullptr);
+    std::istringstream text(contents(directory + "/F0000000.TXT"));
+    std::vector<std::string> lines;
+    bool on = false;
+    for (std::string line; std::getline(text, line); on = on || line.find("blend") == 0)
+        if (on)
+            lines.push_back(line);
+    discard(directory);
+    return lines;
+}
+
+TEST(paint_in_a_dump)
+{
+    const std::vector<std::string> lines = paintLines(false, false);
+    SAME(lines.size(), 8u);
+    if (lines.size() != 8)
+        return;
+    TEXT(lines[2], "ramp 1 255 64 48");
+    TEXT(lines[4], "mixed");
+    TEXT(lines[5], "mirror 1");
+    double n[14];
+    SAME(std::sscanf(lines[6].c_str(), "checks %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf", n, n + 1, n + 2, n + 3, n + 4,
+                     n + 5, n + 6, n + 7, n + 8, n + 9, n + 10, n + 11, n + 12, n + 13), 14);
+    // Twice as large as in the scene, turned from x to y.
+    const double wanted[14] = {1, 17, 1, 2, 3, 10, 0, 0, 0, 1, 0, -1, 0, 0};
+    for (int i = 0; i < 14; ++i)
+        NEAR(n[i], wanted[i], 2e-4);
+    TEXT(lines[7], "shiny 2");
+    const std::vector<std::string> grey = paintLines(true, false);
+    SAME(grey.size(), 2u);
+    TEXT(grey[0] + ", " + grey[1], "mirror 1, shiny 2");
+    SAME(paintLines(false, true).size(), 4u);
+    SAME(paintLines(true, true).size(), 0u);
 }
 
 TEST(places_that_cannot_be_written)

@@ -1,0 +1,342 @@
+// Finishes, patterns and the colours of voxels.
+#include "paint.h"
+
+#include "math/normal.h"
+#include "rt.h"
+
+namespace {
+
+// A product of cosines, 1.0 = 2^14.
+inline int32_t times(int32_t a, int32_t b)
+{
+    return a * b >> 14;
+}
+
+inline int32_t along(const Direction14& n, const int32_t axis[3])
+{
+    return (n.x * axis[0] + n.y * axis[1] + n.z * axis[2]) >> 14;
+}
+
+inline int32_t magnitude(int32_t a)
+{
+    return a < 0 ? -a : a;
+}
+
+inline int32_t limited(int32_t a, int32_t most)
+{
+    return a > most ? most : a < -most ? -most : a;
+}
+
+constexpr int32_t ONE = 1 << 14;
+
+// Of the light that falls on what shines, the share that is scattered.
+constexpr int32_t SCATTERED = ONE * 3 / 4;
+
+// What a mirror shows of its surroundings by the height of where it looks, -1 straight down, 1 straight up: a dark ground,
+// a horizon, a sky that is bright above it. Straight lines between.
+struct Corner {
+    int32_t height, light;
+};
+constexpr Corner SURROUNDINGS[] = {{-ONE, ONE / 2}, {-ONE * 3 / 10, ONE / 12}, {ONE * 3 / 10, ONE}, {ONE, ONE / 2}};
+
+int32_t surroundings(int32_t height)
+{
+    const Corner* c = SURROUNDINGS;
+    while (c < SURROUNDINGS + 2 && height > c[1].height)
+        ++c;
+    return c->light + (height - c->height) * (c[1].light - c->light) / (c[1].height - c->height);
+}
+
+// The cosine of the normal and what is half way between light and viewer, to the 16th.
+int32_t highlight(int32_t cosine)
+{
+    if (cosine <= 0)
+        return 0;
+    for (int i = 0; i < 4; ++i)
+        cosine = times(cosine, cosine);
+    return cosine;
+}
+
+// Area between two ways on the picture plane, 1/4096 square unit, below which the surface is seen too much edge-on.
+constexpr int32_t LEAST_AREA = 200;
+
+// Spacings: no scale reaches farther along the surface.
+constexpr Real FARTHEST(2);
+
+// The ray of sight through a voxel: how far it leads aside over a unit of depth, 12 bits of fraction.
+struct Shear {
+    int32_t x, y;
+
+    Shear(const VoxelList& list, const Voxel& voxel)
+    {
+        const int32_t depth = (list.z + voxel.z) >> 4, most = 5 << 12;
+        x = depth <= 0 ? 0 : limited(((list.x + voxel.x) << 8) / depth, most);
+        y = depth <= 0 ? 0 : limited(((list.y + voxel.y) << 8) / depth, most);
+    }
+};
+
+// Change of brightness (1/8 step) from the middle of a scale to its corner below which it has one brightness.
+constexpr int32_t FLAT = 8;
+
+// By how much the two sides of an edge overlap, 1/256 unit.
+constexpr int32_t EDGE_MARGIN = 40;
+
+// Ends a voxel at a straight line: inwards of it leads (x, y, z), axes of the view, 1.0 = 2^14, and the middle is `apart` inwards,
+// 1/256 unit. False: nothing is left.
+bool cutVoxel(int32_t x, int32_t y, int32_t z, int32_t apart, const Shear& shear, Voxel* voxel)
+{
+    // A step across the view leads along the ray as well, as far as the scale is tilted.
+    const int32_t ahead = z + ((x * shear.x + y * shear.y) >> 12);
+    int32_t cutX = x + (voxel->tiltX * (ahead >> 2) >> 6), cutY = y + (voxel->tiltY * (ahead >> 2) >> 6);
+    int32_t at = (apart + EDGE_MARGIN) * 64, unit = ONE;
+    while (magnitude(cutX) > 127 || magnitude(cutY) > 127) {
+        cutX >>= 1;
+        cutY >>= 1;
+        at >>= 1;
+        unit >>= 1;
+    }
+    const int32_t corner = (magnitude(cutX) * voxel->wide + magnitude(cutY) * voxel->high) >> 8;
+    if (unit < 16 || at >= corner)
+        return true;
+    if (at <= -corner)
+        return false;
+    voxel->cutX = static_cast<int8_t>(cutX);
+    voxel->cutY = static_cast<int8_t>(cutY);
+    voxel->cutAt = static_cast<int16_t>(limited(at, 32000));
+    return true;
+}
+
+// Sets how the brightness changes across a voxel, 1/8 step a unit; not at all when that is next to nothing.
+void setSlopes(int32_t x, int32_t y, Voxel* voxel)
+{
+    int32_t corner = (magnitude(x) * voxel->wide + magnitude(y) * voxel->high) >> 8;
+    if (corner < FLAT)
+        return;
+    for (; corner > SHADING_MOST * 8; corner >>= 1) {
+        x /= 2;
+        y /= 2;
+    }
+    voxel->slopeX = static_cast<int8_t>(limited(x, 127));
+    voxel->slopeY = static_cast<int8_t>(limited(y, 127));
+}
+
+// A cosine of 14 bits of fraction.
+inline Real part(int32_t cosine14)
+{
+    return realFromRaw(cosine14 * 4);
+}
+
+// A sine, of turns.
+Real wave(Real turns)
+{
+    return sine(static_cast<Angle>(rawFromReal(turns)) << 16);
+}
+
+}  // namespace
+
+void polish(SoftObject& object, const OwnFrame& own)
+{
+    const Finish finish = object.shown()->paint()->finish;
+    if (finish == FINISH_MATT)
+        return;
+    const Vector up = object.toOwnAxes({Real(0), Real(1), Real(0)});
+    const int32_t up14[] = {rawFromReal(up.x) >> 2, rawFromReal(up.y) >> 2, rawFromReal(up.z) >> 2};
+    const Normal half = normalise({realFromRaw((own.light[0] - own.ahead[0]) * 4), realFromRaw((own.light[1] - own.ahead[1]) * 4),
+                                   realFromRaw((own.light[2] - own.ahead[2]) * 4)});
+    const int32_t half14[] = {half.x, half.y, half.z};
+    const int32_t upAhead = (up14[0] * own.ahead[0] + up14[1] * own.ahead[1] + up14[2] * own.ahead[2]) >> 14;
+    for (int i = 0; i < object.seedSlots(); ++i) {
+        Seed* const seed = i & 1 ? object.extra(i - 1) : &object.seed(i);
+        if (seed == nullptr || !(seed->flags & SEED_VALID))
+            continue;
+        Seed& s = *seed;
+        int32_t light;
+        if (finish == FINISH_SHINY) {
+            const int32_t cosine = along(s.normal, own.light);
+            light = cosine <= 0 ? 0 : times(cosine, SCATTERED);
+        } else {
+            light = surroundings(upAhead - 2 * times(along(s.normal, own.ahead), along(s.normal, up14)));
+        }
+        light += times(ONE - light, highlight(along(s.normal, half14)));
+        light = light > ONE ? ONE : light < 0 ? 0 : light;
+        s.brightness8 = static_cast<int16_t>(light * BRIGHTEST >> 6);
+    }
+}
+
+// What the pattern has at a place: the number of the colour there; and if an edge of the pattern is near, the number of the
+// colour beyond, which way leads away from the edge and how far it is.
+struct Painter::Spot {
+    uint8_t number, beyond;
+    bool edge;
+    Direction14 inward;
+    int32_t apart;  // 1/256 unit
+};
+
+Painter::Painter(const SoftObject& object, const OwnFrame& own, VoxelList& list)
+    : object_(object), paint_(*object.shown()->paint()), own_(own), list_(list), from_{Real(0), Real(0), Real(0)}
+{
+    if (paint_.pattern == PATTERN_NONE)
+        return;
+    // A hollow has the pattern of what it is in.
+    const SoftObject& shown = *object.shown();
+    if (&shown != &object)
+        from_ = object.toOwnAxes(object.centre() - shown.centre()) * quotient(Real(1), object.growth());
+    for (int i = 0; i < 3; ++i) {
+        const Matrix& turn = shown.turn();
+        axis_[i] = object.toOwnAxes({turn.m[0][i], turn.m[1][i], turn.m[2][i]});
+    }
+    edge_ = paint_.grain * (shown.size() / paint_.made);
+    inverse_ = object.growth() / edge_;
+    const Real reach = clamp(object.spacing() * FARTHEST / edge_, Real(0), Real(10));
+    reach2_ = reach * reach;
+}
+
+void Painter::put(const Voxel& voxel, uint8_t number)
+{
+    list_.number[list_.count] = number;
+    *list_.room() = voxel;
+    list_.take();
+}
+
+void Painter::add(const Seed& s, const Voxel& shaded)
+{
+    Voxel voxel = shaded;
+    if (paint_.shines())
+        slope(s, &voxel);
+    const bool mixed = paint_.mixes && !(s.flags & SEED_RESTING);
+    const Spot spot = spotAt(place(s), s.normal, mixed ? s.mix : paint_.number);
+    if (!spot.edge || (voxel.cutX | voxel.cutY) != 0) {
+        put(voxel, spot.number);
+        return;
+    }
+    // One too small to be cut in two keeps the colour of its middle.
+    const Direction14 outward{static_cast<int16_t>(-spot.inward.x), static_cast<int16_t>(-spot.inward.y),
+                              static_cast<int16_t>(-spot.inward.z)};
+    Voxel within = voxel, beyond = voxel;
+    cut(spot.inward, spot.apart, &within);
+    if ((within.cutX | within.cutY) == 0 || !cut(outward, -spot.apart, &beyond) || (beyond.cutX | beyond.cutY) == 0) {
+        put(voxel, spot.number);
+        return;
+    }
+    put(within, spot.number);
+    put(beyond, spot.beyond);
+}
+
+// How the brightness changes across the voxel, from the next seed of its ring and from N of the ring before.
+void Painter::slope(const Seed& s, Voxel* voxel) const
+{
+    voxel->slopeX = voxel->slopeY = 0;
+    // Oversampled ones do not lie among the regular.
+    const Seed *const first = &object_.seed(0), *const last = &object_.seed(object_.seedSlots() - 2), *next = &s + 1;
+    if (s.neighbour < 0 || &s < first || &s > last)
+        return;
+    if (next > last || !(next->flags & SEED_VALID) || next->neighbour < s.neighbour)
+        next = &s > first ? &s - 1 : &s;
+    const Seed& n = object_.seed(s.neighbour);
+    if (!(next->flags & n.flags & SEED_VALID))
+        return;
+    const Vector at = place(s);
+    const Shear shear(list_, *voxel);
+    // A way on the surface as it falls on the picture plane, 1/64 unit.
+    const auto onPicture = [&](const Seed& to, int32_t* x, int32_t* y) {
+        const Vector way = (place(to) - at) * own_.growth;
+        const int32_t d[] = {rawFromReal(way.x) >> 10, rawFromReal(way.y) >> 10, rawFromReal(way.z) >> 10};
+        const int32_t ahead = (d[0] * own_.ahead[0] + d[1] * own_.ahead[1] + d[2] * own_.ahead[2]) >> 14;
+        *x = ((d[0] * own_.right[0] + d[1] * own_.right[1] + d[2] * own_.right[2]) >> 14) - (ahead * shear.x >> 12);
+        *y = ((d[0] * own_.up[0] + d[1] * own_.up[1] + d[2] * own_.up[2]) >> 14) - (ahead * shear.y >> 12);
+    };
+    int32_t ax, ay, bx, by;
+    onPicture(*next, &ax, &ay);
+    onPicture(n, &bx, &by);
+    const int32_t area = ax * by - ay * bx;
+    if (area > -LEAST_AREA && area < LEAST_AREA)
+        return;
+    const int32_t a = next->brightness8 - s.brightness8, b = n.brightness8 - s.brightness8;
+    setSlopes((a * by - b * ay) * 2 / area, (b * ax - a * bx) * 2 / area, voxel);
+}
+
+bool Painter::cut(const Direction14& inward, int32_t apart, Voxel* voxel) const
+{
+    return cutVoxel(along(inward, own_.right), along(inward, own_.up), along(inward, own_.ahead), apart, Shear(list_, *voxel), voxel);
+}
+
+// `place` in own space, `normal` of the surface there; where there is no pattern the colour has the number `mix`.
+Painter::Spot Painter::spotAt(const Vector& place, const Direction14& normal, uint8_t mix) const
+{
+    Spot spot{mix, paint_.other, false, {0, 0, 0}, 0};
+    if (paint_.pattern == PATTERN_NONE)
+        return spot;
+    Real u[3];
+    for (int i = 0; i < 3; ++i)
+        u[i] = dot(place + from_, axis_[i]) * inverse_;
+    if (paint_.pattern == PATTERN_MARBLE) {
+        // A light and a dark vein in two grains.
+        const Real bent = u[0] * Real(0.5) + Real(0.3) * wave(u[1] * Real(0.35) + Real(0.2)) +
+                          Real(0.2) * wave(u[2] * Real(0.55) + u[1] * Real(0.2));
+        const Real share = Real(0.5) + Real(0.5) * wave(bent);
+        const Vector& from = paint_.paints->placeOf(mix);
+        spot.number = paint_.paints->numberAt(from + (paint_.otherAt - from) * share, paint_.shines());
+        return spot;
+    }
+    // Checks are cubes, stripes are slices along x.
+    const int axes = paint_.pattern == PATTERN_CHECKS ? 3 : 1;
+    bool odd = false;
+    Real nearest = reach2_;
+    int edge = -1;
+    for (int i = 0; i < axes; ++i) {
+        const int whole = floorToInt(u[i]);
+        odd = odd != ((whole & 1) != 0);
+        u[i] -= Real(whole);
+        const Real apart = u[i] < Real(0.5) ? u[i] : Real(1) - u[i];
+        if (apart * apart >= nearest)
+            continue;
+        // The way along the surface.
+        const Vector& axis = axis_[i];
+        const Real cosine = axis.x * part(normal.x) + axis.y * part(normal.y) + axis.z * part(normal.z);
+        const Real slant = Real(1) - cosine * cosine;
+        if (apart * apart >= nearest * slant)
+            continue;
+        nearest = quotient(apart * apart, slant);
+        edge = i;
+    }
+    if (edge >= 0) {
+        const bool above = u[edge] < Real(0.5);
+        const Vector inward = above ? axis_[edge] : axis_[edge] * Real(-1);
+        spot.edge = true;
+        spot.apart = rawFromReal((above ? u[edge] : Real(1) - u[edge]) * edge_) >> 8;
+        spot.inward = {static_cast<int16_t>(rawFromReal(inward.x) >> 2), static_cast<int16_t>(rawFromReal(inward.y) >> 2),
+                       static_cast<int16_t>(rawFromReal(inward.z) >> 2)};
+    }
+    if (odd) {
+        spot.number = paint_.other;
+        spot.beyond = mix;
+    }
+    return spot;
+}
+
+void sortByColour(VoxelList& list, const Paint& paint)
+{
+    int first[RUNS_MOST + 1] = {};
+    int16_t to[VOXELS_AT_ONCE];
+    for (int i = 0; i < list.count; ++i)
+        ++first[list.number[i] + 1];
+    list.runs = 0;
+    for (int n = 0; n < RUNS_MOST; ++n) {
+        if (first[n + 1] > 0)
+            list.run[list.runs++] = {paint.ramps + n * paint.rampRoom, first[n] + first[n + 1]};
+        first[n + 1] += first[n];
+    }
+    for (int i = 0; i < list.count; ++i)
+        to[i] = static_cast<int16_t>(first[list.number[i]]++);
+    // Each exchange brings one to its place.
+    for (int i = 0; i < list.count; ++i) {
+        while (to[i] != i) {
+            const int other = to[i];
+            const auto voxel = list.voxels[i];
+            list.voxels[i] = list.voxels[other];
+            list.voxels[other] = voxel;
+            to[i] = to[other];
+            to[other] = static_cast<int16_t>(other);
+        }
+    }
+}

@@ -1,0 +1,42 @@
+// Paint: what a finish makes of the brightness of an object's seeds, and the colours of its voxels. Only for objects that have
+// a paint (model/paint.h).
+#ifndef FB_SURFPAINT_H
+#define FB_SURFPAINT_H
+
+#include "gather.h"
+#include "model/paint.h"
+#include "surface/voxel.h"
+
+// Sets the brightness of the object's seeds as its finish has it, from their normals.
+void polish(SoftObject& object, const OwnFrame& own);
+
+// Lists the voxels of one object in their colours. Made once for a frame.
+class Painter {
+public:
+    Painter(const SoftObject& object, const OwnFrame& own, VoxelList& list);
+
+    // Lists what the shader has made of a seed; in two voxels where an edge of a pattern goes through it.
+    void add(const Seed& s, const Voxel& voxel);
+
+private:
+    struct Spot;
+    Vector place(const Seed& s) const { return object_.root(s.root) + s.path * s.position; }
+    void put(const Voxel& voxel, uint8_t number);
+    void slope(const Seed& s, Voxel* voxel) const;
+    bool cut(const Direction14& inward, int32_t apart, Voxel* voxel) const;
+    Spot spotAt(const Vector& place, const Direction14& normal, uint8_t mix) const;
+
+    const SoftObject& object_;
+    const Paint& paint_;
+    const OwnFrame& own_;
+    VoxelList& list_;
+    Vector axis_[3];      // of the pattern, own axes: a ball's seeds do not turn with it, but its pattern does
+    Vector from_;         // own space: from the middle of the pattern to the object's centre
+    Real inverse_, edge_; // own space to grains; a grain in units of the world
+    Real reach2_;         // how far from a seed an edge is near, squared, in grains
+};
+
+// Sorts the voxels of a list by the numbers of their colours into runs.
+void sortByColour(VoxelList& list, const Paint& paint);
+
+#endif
