@@ -54,7 +54,6 @@ struct Seed {
     int16_t brightness8; // of the surface there, 0..63 with 8 bits of fraction
     uint16_t root;       // index of the root point: seeds share them
     uint8_t flags;       // SeedFlag
-    int8_t aside;        // how far N lies along the ring, in 1/64 of the way to the successor
     uint8_t mix;         // number of the colour there, where colours mix (model/paint.h)
     uint8_t still;       // 1: it did not move when it was looked at last; 0: it did
     // Half axes of the part of the unblended surface that is the seed's own, 1/64 of the spacing.

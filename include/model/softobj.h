@@ -249,7 +249,6 @@ private:
         int blocks() const { return (regular + EXTRA_BLOCK - 1) >> EXTRA_BITS; }
         Vector rest(const Seed& s) const { return roots[s.root] + s.path; }
         int nearestIn(int ring, int from, const Vector& target) const;
-        int8_t asideOf(const Seed& s, const Seed& n, Real perSpacing) const;
     };
 
     const Link* hollowLink() const;

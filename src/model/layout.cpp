@@ -89,7 +89,6 @@ public:
         s.normal = {0, 0, 0};
         s.root = static_cast<uint16_t>(root);
         s.flags = SEED_VALID | SEED_RESTING;
-        s.aside = 0;
         s.still = 0;
         s.cellArea = 0;
         setCell(s.along, along, inverseSpacing_);
@@ -136,20 +135,6 @@ void SoftObject::Layout::release()
     free(roots);
     free(ringStarts);
     free(rootsBetween);
-}
-
-// How far N lies from S along S's ring, in 1/64 of the way from S to its successor.
-int8_t SoftObject::Layout::asideOf(const Seed& s, const Seed& n, Real perSpacing) const
-{
-    const Vector way = rest(n) - rest(s);
-    int32_t square = 0, part = 0;
-    for (int i = 0; i < 3; ++i)
-        square += s.along[i] * s.along[i];
-    const Real ways[] = {way.x, way.y, way.z};
-    for (int i = 0; i < 3; ++i)
-        part += (rawFromReal(ways[i]) >> 8) * s.along[i];
-    // `along` is half of the way, in 1/64 spacing; `part` has 256 steps a unit.
-    return square == 0 ? static_cast<int8_t>(0) : toCell(mulDiv(part, rawFromReal(perSpacing), square * 8192));
 }
 
 // Of a ring, the number of the seed nearest to `target`; found by walking from the seed `from` of that ring.
@@ -200,7 +185,6 @@ bool SoftObject::layOutRegular(Layout& layout) const
 bool SoftObject::findNeighbours(Layout& layout) const
 {
     const int firstRing = ringsClose() ? 0 : 1;
-    const Real perSpacing = Real(1) / layout.spacing;
     const auto various = [&](int k) {
         for (int i = layout.ringStarts[k] + 1; i < layout.ringStarts[k + 1]; ++i)
             if (layout.seeds[i].root != layout.seeds[i - 1].root)
@@ -226,7 +210,6 @@ bool SoftObject::findNeighbours(Layout& layout) const
                                                static_cast<uint32_t>(inRing));
             const int n = layout.nearestIn(ringBefore, about, layout.rest(layout.seeds[successor]));
             s.neighbour = 2 * n;
-            s.aside = layout.asideOf(s, layout.seeds[n], perSpacing);
         }
     }
     return true;

@@ -252,7 +252,7 @@ TEST(equal_objects_have_equal_seeds)
             for (int i = 0; i < copy.seedSlots(); ++i) {
                 const Seed &a = copy.seed(i), &b = alone->seed(i);
                 unlike += !(a.path == b.path) || !(copy.root(a.root) == alone->root(b.root)) || a.neighbour != b.neighbour ||
-                          a.normal.x != b.normal.x || a.normal.y != b.normal.y || a.flags != b.flags || a.aside != b.aside;
+                          a.normal.x != b.normal.x || a.normal.y != b.normal.y || a.flags != b.flags;
             }
             SAME(unlike, 0);
             CHECK(model.actor(2).object->seeds() != copy.seeds());
