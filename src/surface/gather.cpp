@@ -125,6 +125,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         all.inner = all.inner || (!digs && dentedFromWithin(other, bodies));
         all.dented = all.dented || digs;
         all.deep = all.deep || digs || all.inner;
+        all.common = all.common && near.plain && !all.inner;
         near.x16 = rawFromReal(near.centre.x) >> 12;
         near.y16 = rawFromReal(near.centre.y) >> 12;
         near.z16 = rawFromReal(near.centre.z) >> 12;
@@ -147,6 +148,7 @@ void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& 
     all.rests = object.rests() && !all.hollow;
     all.dented = false;
     all.deep = all.inner || !all.rests;
+    all.common = object.strength() == Real(1) && !all.hollow && !all.inner;
     all.last = object.restRoot() == Real(0.5) ? Real(1.98) : Real(0.99) / object.restRoot();
     memset(all.numberOf, -1, sizeof all.numberOf);
     gatherFrom(bodies.diggers(*all.head), bodies.diggerCount(*all.head), true, object, bodies, all);

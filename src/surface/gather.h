@@ -55,6 +55,7 @@ struct Neighbourhood {
     bool hollow;        // they do
     Real weight;        // and by this weight the object digs into that
     bool inner;         // some of the body dig into others of it
+    bool common;        // nothing digs, and all strengths are 1
     bool rests;         // the surface lies at position 1 where no neighbour reaches
     bool dented;        // some neighbours dig
     bool deep;          // paths are searched from near their roots

@@ -52,7 +52,8 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& a
                  const Odometer& odometer, uint32_t updates)
     : object_(object), own_(own), all_(all), bodies_(*frame.bodies), counts_(*frame.counts), now_(odometer.reading()),
       came_(realFromRaw(static_cast<int32_t>(odometer.came() << 6))), updates_(updates), ownWeights_(bodies_.weights(object.slot())),
-      hollow_(all.hollow), ownPlain_(object.strength() == Real(1) && !all.hollow), restParam_(object.restParam()), first_(all.deep ? FIRST_DEEP : FIRST),
+      hollow_(all.hollow), common_(all.common), ownPlain_(object.strength() == Real(1) && !all.hollow),
+      restParam_(object.restParam()), first_(all.deep ? FIRST_DEEP : FIRST),
       last_(all.last), border_(BORDER * most(object.strength(), Real(1)))
 {
     const Real restOfPath = (shiftDown(last_ - first_, 1) + Real(0.02)) * object.laidRadius();
@@ -70,11 +71,8 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& a
     allComplete_ = listed_.complete;
 }
 
-void Settler::setComplete(Few& few) const
+void Settler::findComplete(Few& few) const
 {
-    few.complete = allComplete_;
-    if (few.complete)
-        return;
     uint32_t members[Bodies::LINK_WORDS] = {};
     const auto add = [&](int slot) { members[slot / 32] |= 1u << slot % 32; };
     const auto linked = [&](int slot) {
@@ -84,6 +82,15 @@ void Settler::setComplete(Few& few) const
             missing |= members[word] & ~(plain[word] | (word == slot / 32 ? 1u << slot % 32 : 0));
         return missing == 0;
     };
+    if (common_) {
+        add(object_.slot());
+        for (int i = 0; i < few.count; ++i)
+            add(all_.neighbours[few.number[i]].object->slot());
+        few.complete = linked(object_.slot());
+        for (int i = 0; i < few.count && few.complete; ++i)
+            few.complete = linked(all_.neighbours[few.number[i]].object->slot());
+        return;
+    }
     if (!hollow_)
         add(object_.slot());
     for (int i = 0; i < few.count; ++i)
@@ -218,6 +225,7 @@ void Settler::beginSearch(const Seed& s)
 }
 
 // Adds up the fields at one position of the path at hand.
+template <bool COMMON>
 struct Settler::Sum {
     Settler& settler;
     Real position, sum, slope, strongest;
@@ -226,7 +234,7 @@ struct Settler::Sum {
     Sum(Settler& of, Real at) : settler(of), position(at), strongest(0), touched(false)
     {
         settler.lookedAt_ = at;
-        if (!of.ownPlain_) {
+        if (!COMMON && !of.ownPlain_) {
             addOwn(of);
             return;
         }
@@ -276,7 +284,7 @@ struct Settler::Sum {
         const FieldStep field = geoffQuick(param < Real(0) ? Real(0) : param);
         along.value = field.value;
         along.slope = field.slope;
-        if (!along.near->plain) {
+        if (!COMMON && !along.near->plain) {
             addOdd(along);
             return;
         }
@@ -289,21 +297,22 @@ struct Settler::Sum {
     {
         Sample all{sum - ISOVALUE, slope, strongest - settler.ownField_};
         if (!settler.complete_)
-            settler.blend(position, all);
-        if (settler.hollow_)
+            settler.template blend<COMMON>(position, all);
+        if (!COMMON && settler.hollow_)
             all = {-all.excess, -all.slope, strongest - settler.headField_};
         return all;
     }
 };
 
 // Takes up the path of a seed as a few neighbours see it, and looks at a position. False: none of them reaches that.
-bool Settler::begin(const Few& few, const Seed& s, Real position, Sample* sample)
+template <bool COMMON>
+inline bool Settler::beginAs(const Few& few, const Seed& s, Real position, Sample* sample)
 {
     root_ = object_.root(s.root);
     path_ = s.path;
     complete_ = few.complete;
     touched_ = few.count;
-    Sum sum(*this, position);
+    Sum<COMMON> sum(*this, position);
     Along* along = along_;
     for (int i = 0; i < few.count; ++i, ++along) {
         aim(all_.neighbours[few.number[i]], from_[few.number[i]], s, *along);
@@ -314,19 +323,41 @@ bool Settler::begin(const Few& few, const Seed& s, Real position, Sample* sample
     return sum.touched;
 }
 
-Sample Settler::look(Real position)
+template <bool COMMON>
+inline Sample Settler::lookAs(Real position)
 {
     ++counts_.iterations;
-    Sum sum(*this, position);
+    Sum<COMMON> sum(*this, position);
     for (Along *along = along_, *const end = along_ + touched_; along < end; ++along)
         sum.add(*along);
     return sum.sample();
 }
 
+bool Settler::beginOdd(const Few& few, const Seed& s, Real position, Sample* sample)
+{
+    return beginAs<false>(few, s, position, sample);
+}
+
+Sample Settler::lookOdd(Real position)
+{
+    return lookAs<false>(position);
+}
+
+bool Settler::begin(const Few& few, const Seed& s, Real position, Sample* sample)
+{
+    return common_ ? beginAs<true>(few, s, position, sample) : beginOdd(few, s, position, sample);
+}
+
+Sample Settler::look(Real position)
+{
+    return common_ ? lookAs<true>(position) : lookOdd(position);
+}
+
 // The body's field where not all are linked with all at weight 1 (model/body.h), from the fields that were found. With
 // x_i = f_i / the strongest, dF/df_k = (2 x_k (g_k - F) / strongest + x_k^2 + sum of w_ik x_i^2) / sum of x_i^2; of what digs
 // only the last sum, in which its weights are below 0.
-void Settler::blend(Real position, Sample& sample)
+template <bool COMMON>
+SELDOM void Settler::blend(Real position, Sample& sample)
 {
     // Those that have a field here, the own first.
     struct Part {
@@ -339,10 +370,10 @@ void Settler::blend(Real position, Sample& sample)
     Part* end = parts;
     Real strongest(0);
     share_[0] = Real(1);
-    if (ownField_ > Real(0) && !hollow_) {
+    if (ownField_ > Real(0) && (COMMON || !hollow_)) {
         strongest = ownField_;
         end->f = end->g = ownField_;
-        end->rate = ownSlope_ * position * shiftUp(restParam_, 1);
+        end->rate = COMMON ? shiftDown(ownSlope_ * position, 1) : ownSlope_ * position * shiftUp(restParam_, 1);
         end->linked = Real(0);
         end->weights = ownWeights_;
         end->slot = object_.slot();
@@ -352,7 +383,7 @@ void Settler::blend(Real position, Sample& sample)
     for (int i = 0; i < touched_; ++i) {
         const Along& along = along_[i];
         share_[i + 1] = Real(1);
-        if (along.value <= Real(0) || along.near->digs)
+        if (along.value <= Real(0) || (!COMMON && along.near->digs))
             continue;
         strongest = most(strongest, along.value);
         end->f = end->g = along.value;
@@ -363,7 +394,7 @@ void Settler::blend(Real position, Sample& sample)
         end->at = i + 1;
         ++end;
     }
-    bool plain = !all_.inner && !dented_;
+    bool plain = COMMON || (!all_.inner && !dented_);
     if ((plain && end - parts < 2) || strongest <= Real(0.0005))
         return;
     for (const Part* a = parts + 1; a < end && plain; ++a)
@@ -387,7 +418,7 @@ void Settler::blend(Real position, Sample& sample)
             a->linked += one ? b->x2 : w * b->x2;
             b->linked += one ? a->x2 : w * a->x2;
         }
-        if (all_.inner)
+        if (!COMMON && all_.inner)
             for (Part* b = parts; b < a; ++b) {
                 // What B digs into A by more than A into B.
                 const Real w = a->weights[b->slot] - b->weights[a->slot];
@@ -406,9 +437,9 @@ void Settler::blend(Real position, Sample& sample)
         share_[at] = linked;
         digging += linked * rate;
     };
-    if (hollow_)
+    if (!COMMON && hollow_)
         dig(ownField_, ownSlope_ * position * shiftUp(restParam_, 1), object_.slot(), 0);
-    for (int i = 0; i < touched_ && all_.dented; ++i)
+    for (int i = 0; i < touched_ && !COMMON && all_.dented; ++i)
         if (along_[i].near->digs)
             dig(along_[i].value, along_[i].slope * along_[i].change, along_[i].near->object->slot(), i + 1);
     for (const Part* a = parts; a < end; ++a)
@@ -421,7 +452,10 @@ void Settler::blend(Real position, Sample& sample)
         share_[a->at] = part;
         slope += part * a->rate;
     }
-    sample.slope = slope + digging * share;
+    sample.slope = slope;
+    if (COMMON)
+        return;
+    sample.slope += digging * share;
     if (hollow_)
         share_[0] = share_[0] * share;
     for (int i = 0; i < touched_ && all_.dented; ++i)
@@ -609,7 +643,7 @@ Vector Settler::outward(Real position) const
 }
 
 // From the core of a neighbour to the place at hand.
-Vector Settler::fromCore(const Along& along, Real position) const
+inline Vector Settler::fromCore(const Along& along, Real position) const
 {
     if (along.near->kind == Neighbour::OTHER)
         return along.near->fromCoreSpace(along.out);
@@ -671,6 +705,19 @@ Real Settler::findShare(Seed& s, Vector* g)
     return apart;
 }
 
+// The same for a seed that has found the surface. False: the surface there is the others' to sample.
+bool Settler::findDented(Seed& s, Vector* g)
+{
+    const Real apart = findShare(s, g), shared = object_.spacing() * SHARED;
+    if (apart < -shared) {
+        s.flags |= SEED_COVERED;
+        return false;
+    }
+    if (apart < shared)
+        s.flags |= SEED_BORDER;
+    return true;
+}
+
 // Which way and how far it is to where the strongest neighbour's field is as strong as the own, to first order.
 void Settler::findBorder(Seed& s, Real dominance) const
 {
@@ -720,9 +767,11 @@ Real Settler::pushes() const
 {
     // The gradient of a field is 2 f' r / R^2, and r / R no more than r^2 / R^2 + 1/4; a little more for what that changes.
     Real sum(0);
-    for (int i = 0; i < touched_; ++i)
-        sum += (Real(0.1) - along_[i].slope * (along_[i].t + Real(0.25))) * along_[i].near->inverse16 *
-               most(along_[i].near->weight, Real(1));
+    for (int i = 0; i < touched_; ++i) {
+        const Along& along = along_[i];
+        const Real push = (Real(0.1) - along.slope * (along.t + Real(0.25))) * along.near->inverse16;
+        sum += along.near->weight <= Real(1) ? push : push * along.near->weight;
+    }
     return shiftDown(sum, 3);
 }
 
@@ -760,8 +809,12 @@ bool Settler::isBlocked(const Seed& s, Real margin)
     const Real t = along.param(position);
     if (t >= Real(0.7))
         return false;
-    const Real own = geoffQuick(least(position * position * restParam_, Real(0.999))).value * object_.strength();
-    const Real field = geoffQuick(most(t, Real(0))).value * near.strength;
+    const Real param = common_ ? shiftDown(position * position, 2) : position * position * restParam_;
+    Real own = geoffQuick(least(param, Real(0.999))).value, field = geoffQuick(most(t, Real(0))).value;
+    if (!common_) {
+        own = own * object_.strength();
+        field = field * near.strength;
+    }
     return field - own > OVERSHOOT + margin || (!(s.flags & SEED_COVERED) && allComplete_ && own + field > ISOVALUE + margin);
 }
 
@@ -848,15 +901,8 @@ Real Settler::settle(Seed& s)
     }
     slope_ = sample.slope;
     Vector out = outward(position);
-    if (dented_) {
-        const Real apart = findShare(s, &out), shared = object_.spacing() * SHARED;
-        if (apart < -shared) {
-            s.flags |= SEED_COVERED;
-            return Real(0);
-        }
-        if (apart < shared)
-            s.flags |= SEED_BORDER;
-    }
+    if (dented_ && !findDented(s, &out))
+        return Real(0);
     const Normal n = normalise(out);
     s.normal = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
     s.brightness8 = brightness8(s.normal, own_.light);
@@ -864,11 +910,14 @@ Real Settler::settle(Seed& s)
     if (object_.paint() != nullptr && object_.paint()->mixes)
         mix(s);
     if (sample.dominance > -border_) {
-        const Seed shared = s;
-        findBorder(s, sample.dominance);
         // The nearer one of two borders.
-        if ((s.flags & SEED_BORDER) && shared.apart < s.apart)
-            s = shared;
+        const auto border = s.border;
+        const auto apart = s.apart;
+        findBorder(s, sample.dominance);
+        if ((s.flags & SEED_BORDER) && apart < s.apart) {
+            s.border = border;
+            s.apart = apart;
+        }
         s.flags |= SEED_BORDER;
     }
     ++counts_.normals;

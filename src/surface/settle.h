@@ -68,16 +68,27 @@ private:
         bool complete;
         uint8_t number[NEIGHBOURS_MAX];
     };
-    struct Sum;
+    template <bool COMMON> struct Sum;
 
-    void setComplete(Few& few) const;
+    void setComplete(Few& few) const
+    {
+        few.complete = allComplete_;
+        if (!few.complete)
+            findComplete(few);
+    }
+    void findComplete(Few& few) const;
     const Few& listed();
     Real settle(Seed& s);
     void restThere(Seed& s);
     void setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const;
     bool begin(const Few& few, const Seed& s, Real position, Sample* sample);
     Sample look(Real position);
-    void blend(Real position, Sample& sample);
+    // The same; whether all is common (Neighbourhood::common) is known at compile time.
+    template <bool COMMON> bool beginAs(const Few& few, const Seed& s, Real position, Sample* sample);
+    template <bool COMMON> Sample lookAs(Real position);
+    SELDOM bool beginOdd(const Few& few, const Seed& s, Real position, Sample* sample);
+    SELDOM Sample lookOdd(Real position);
+    template <bool COMMON> void blend(Real position, Sample& sample);
     bool follow(Real* position, Sample* sample);
     Real search(Real* position, Sample* sample);
     Real searchDeep(Real* position, Sample* sample);
@@ -85,6 +96,7 @@ private:
     Vector outward(Real position) const;
     Vector fromCore(const Along& along, Real position) const;
     Real findShare(Seed& s, Vector* g);
+    SELDOM bool findDented(Seed& s, Vector* g);
     void findBorder(Seed& s, Real dominance) const;
     void mix(Seed& s) const;
     Real pushes() const;
@@ -108,6 +120,7 @@ private:
     uint32_t turn_ = 0;  // of the seed at hand: seeds that wait take turns
     const Real* ownWeights_;  // of its links, by slots
     const bool hollow_;              // the seeds sample a hollow: inside and outside change places
+    const bool common_;              // nothing digs, and all strengths are 1
     const bool ownPlain_;            // the object's strength is 1
     const Real restParam_;           // t of the own field at position 1
     const Real first_, last_;        // positions: where paths are searched
