@@ -120,6 +120,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         near.digs = digs;
         near.plain = !digs && near.strength == Real(1) && !(all.hollow && &other == all.head);
         near.weight = digs ? -bodies.weight(all.head->slot(), other.slot()) : Real(0);
+        near.push16 = near.weight <= Real(1) ? near.inverse16 : near.inverse16 * near.weight;
         near.samples = digs && other.hollowed() == all.head;
         near.grain = near.plain ? near.size : near.size / (most(near.strength, Real(1)) * most(near.weight, Real(1)));
         all.inner = all.inner || (!digs && dentedFromWithin(other, bodies));

@@ -19,18 +19,19 @@ struct Neighbour {
     Vector centre;      // units of own space, as all that follows
     Real size;          // where its field ends, from its core
     Real inverse16;     // CORE_SIZE / size
+    Real push16;        // the same, times the weight of what digs where that is above 1
     Real ratio;         // squared proportion of the own size to `size`: its share of the gradient
     Real strength;      // what its field is multiplied by
-    bool plain;         // it is one of the body, its strength is 1, and it is not the head of a hollow
-    bool digs;          // it is none of the body, and digs into some of it
-    Real weight;        // and by this weight into the head; 0: not
-    bool samples;       // and its seeds sample that hollow
-    Real grain;         // its size, less where its field changes more over that
-    int32_t x16, y16, z16, size16;  // centre and size in 1/16 unit
+    bool plain : 1;     // it is one of the body, its strength is 1, and it is not the head of a hollow
+    bool digs : 1;      // it is none of the body, and digs into some of it
+    bool samples : 1;   // and its seeds sample the hollow in the head
     bool segment;       // its core is a segment to each side of its centre, half16 long; whether or not it tapers
-    int32_t half16, axis[3];        // its direction, 1.0 = 2^14
     // What kind of core it has: its centre, a segment of `half` sizes to each side, or what the primitive says.
     enum Kind : uint8_t { POINT, SEGMENT, OTHER } kind;
+    Real weight;        // by which it digs into the head; 0: not
+    Real grain;         // its size, less where its field changes more over that
+    int32_t x16, y16, z16, size16;  // centre and size in 1/16 unit
+    int32_t half16, axis[3];        // its direction, 1.0 = 2^14
     Real half;
     Vector direction;   // of the segment, unit length
     Vector toCore[3];   // the rows of the map from own space to its core space; no point

@@ -109,14 +109,10 @@ void Settler::findComplete(Few& few) const
     }
 }
 
-bool Settler::setPatch(const Patch& patch, bool oversampled)
+// What a patch has besides where not all is common.
+void Settler::setOdd(const Patch& patch)
 {
-    nearest_ = realFromRaw(patch.nearest << 10);
-    farthest_ = realFromRaw(patch.farthest << 10);
-    patch_ = &patch;
-    near_.count = 0;
-    listed_.count = -1;
-    smallest_ = ownPlain_ ? object_.laidSize() : object_.laidSize() / most(object_.strength(), Real(1));
+    smallest_ = smallest_ / most(object_.strength(), Real(1));
     dented_ = all_.inner || hollow_;
     if (all_.dented || hollow_)
         forNeighbours(patch.listed, [&](int slot) {
@@ -126,6 +122,19 @@ bool Settler::setPatch(const Patch& patch, bool oversampled)
             dented_ = dented_ || all_.neighbours[i].digs;
             smallest_ = least(smallest_, all_.neighbours[i].grain);
         });
+}
+
+bool Settler::setPatch(const Patch& patch, bool oversampled)
+{
+    nearest_ = realFromRaw(patch.nearest << 10);
+    farthest_ = realFromRaw(patch.farthest << 10);
+    patch_ = &patch;
+    near_.count = 0;
+    listed_.count = -1;
+    smallest_ = object_.laidSize();
+    dented_ = false;
+    if (!common_)
+        setOdd(patch);
     // Oversampled seeds lie between those of the patch and those beside it.
     const Bound ball = boundOf(patch, oversampled ? patch.radius : patch.tight);
     forNeighbours(patch.near, [&](int slot) {
@@ -643,7 +652,7 @@ Vector Settler::outward(Real position) const
 }
 
 // From the core of a neighbour to the place at hand.
-inline Vector Settler::fromCore(const Along& along, Real position) const
+inline __attribute__((always_inline)) Vector Settler::fromCore(const Along& along, Real position) const
 {
     if (along.near->kind == Neighbour::OTHER)
         return along.near->fromCoreSpace(along.out);
@@ -762,16 +771,22 @@ void Settler::mix(Seed& s) const
     s.mix = fields > Real(0) ? own.paints->numberAt(sum * quotient(Real(1), fields), own.shines()) : own.number;
 }
 
+// The same where the seed has a border already: the nearer one of the two.
+void Settler::findNearer(Seed& s, Real dominance) const
+{
+    const Seed before = s;
+    findBorder(s, dominance);
+    if (before.apart < s.apart)
+        s = before;
+}
+
 // What the fields along the path at hand may change by, all together, when the neighbours come by a unit.
 Real Settler::pushes() const
 {
     // The gradient of a field is 2 f' r / R^2, and r / R no more than r^2 / R^2 + 1/4; a little more for what that changes.
     Real sum(0);
-    for (int i = 0; i < touched_; ++i) {
-        const Along& along = along_[i];
-        const Real push = (Real(0.1) - along.slope * (along.t + Real(0.25))) * along.near->inverse16;
-        sum += along.near->weight <= Real(1) ? push : push * along.near->weight;
-    }
+    for (int i = 0; i < touched_; ++i)
+        sum += (Real(0.1) - along_[i].slope * (along_[i].t + Real(0.25))) * along_[i].near->push16;
     return shiftDown(sum, 3);
 }
 
@@ -809,10 +824,11 @@ bool Settler::isBlocked(const Seed& s, Real margin)
     const Real t = along.param(position);
     if (t >= Real(0.7))
         return false;
-    const Real param = common_ ? shiftDown(position * position, 2) : position * position * restParam_;
-    Real own = geoffQuick(least(param, Real(0.999))).value, field = geoffQuick(most(t, Real(0))).value;
-    if (!common_) {
-        own = own * object_.strength();
+    Real own, field = geoffQuick(most(t, Real(0))).value;
+    if (common_) {
+        own = geoffQuick(least(shiftDown(position * position, 2), Real(0.999))).value;
+    } else {
+        own = geoffQuick(least(position * position * restParam_, Real(0.999))).value * object_.strength();
         field = field * near.strength;
     }
     return field - own > OVERSHOOT + margin || (!(s.flags & SEED_COVERED) && allComplete_ && own + field > ISOVALUE + margin);
@@ -910,14 +926,10 @@ Real Settler::settle(Seed& s)
     if (object_.paint() != nullptr && object_.paint()->mixes)
         mix(s);
     if (sample.dominance > -border_) {
-        // The nearer one of two borders.
-        const auto border = s.border;
-        const auto apart = s.apart;
-        findBorder(s, sample.dominance);
-        if ((s.flags & SEED_BORDER) && apart < s.apart) {
-            s.border = border;
-            s.apart = apart;
-        }
+        if (s.flags & SEED_BORDER)
+            findNearer(s, sample.dominance);
+        else
+            findBorder(s, sample.dominance);
         s.flags |= SEED_BORDER;
     }
     ++counts_.normals;

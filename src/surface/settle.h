@@ -96,6 +96,8 @@ private:
     Vector outward(Real position) const;
     Vector fromCore(const Along& along, Real position) const;
     Real findShare(Seed& s, Vector* g);
+    SELDOM void setOdd(const Patch& patch);
+    SELDOM void findNearer(Seed& s, Real dominance) const;
     SELDOM bool findDented(Seed& s, Vector* g);
     void findBorder(Seed& s, Real dominance) const;
     void mix(Seed& s) const;
