@@ -727,24 +727,40 @@ bool Settler::findDented(Seed& s, Vector* g)
     return true;
 }
 
-// Which way and how far it is to where the strongest neighbour's field is as strong as the own, to first order.
-void Settler::findBorder(Seed& s, Real dominance) const
+// The strongest neighbour but for those that dig; null: there is none. `*g` and `*change` become gradient and change of the own
+// field; in a hollow what is dented stands for the object.
+const Along* Settler::strongestOther(const Seed& s, Vector* g, Real* change) const
 {
-    // Gradients, times half the squared size of the object. In a hollow what is dented stands for the object.
-    Vector g = path_ * s.position * ownSlope_;
-    Real change = ownSlope_ * lookedAt_ * shiftUp(restParam_, 1);
+    *change = ownSlope_ * lookedAt_ * shiftUp(restParam_, 1);
     const Along* other = nullptr;
     for (int i = 0; i < touched_; ++i) {
         const Along& along = along_[i];
         if (hollow_ && along.near->object == all_.head) {
-            g = fromCore(along, s.position) * (along.slope * along.near->ratio);
-            change = along.slope * along.change;
+            *g = fromCore(along, s.position) * (along.slope * along.near->ratio);
+            *change = along.slope * along.change;
         } else if (!along.near->digs && (other == nullptr || along.value > other->value)) {
             other = &along;
         }
     }
-    if (other == nullptr)
-        return;
+    return other;
+}
+
+// Which way and how far it is to where the strongest neighbour's field is as strong as the own, to first order.
+void Settler::findBorder(Seed& s, Real dominance) const
+{
+    // Gradients, times half the squared size of the object.
+    Vector g = path_ * s.position * ownSlope_;
+    Real change = shiftDown(ownSlope_ * lookedAt_, 1);
+    const Along* other = along_;
+    if (common_) {
+        for (int i = 1; i < touched_; ++i)
+            if (along_[i].value > other->value)
+                other = along_ + i;
+    } else {
+        other = strongestOther(s, &g, &change);
+        if (other == nullptr)
+            return;
+    }
     // The fields were looked at before the last step.
     dominance += (other->slope * other->change - change) * (s.position - lookedAt_);
     g = g - fromCore(*other, s.position) * (other->slope * other->near->ratio);

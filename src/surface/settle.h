@@ -97,6 +97,7 @@ private:
     Vector fromCore(const Along& along, Real position) const;
     Real findShare(Seed& s, Vector* g);
     SELDOM void setOdd(const Patch& patch);
+    SELDOM const Along* strongestOther(const Seed& s, Vector* g, Real* change) const;
     SELDOM void findNearer(Seed& s, Real dominance) const;
     SELDOM bool findDented(Seed& s, Vector* g);
     void findBorder(Seed& s, Real dominance) const;
