@@ -52,7 +52,7 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& a
                  const Odometer& odometer, uint32_t updates)
     : object_(object), own_(own), all_(all), bodies_(*frame.bodies), counts_(*frame.counts), now_(odometer.reading()),
       came_(realFromRaw(static_cast<int32_t>(odometer.came() << 6))), updates_(updates), ownWeights_(bodies_.weights(object.slot())),
-      hollow_(all.hollow), ownPlain_(object.strength() == Real(1) && !all.hollow), restParam_(object.restParam()), first_(all.deep ? FIRST_DEEP : FIRST),
+      hollow_(all.hollow), dug_(all.dented || all.inner || all.hollow), ownPlain_(object.strength() == Real(1) && !all.hollow), restParam_(object.restParam()), first_(all.deep ? FIRST_DEEP : FIRST),
       last_(all.last), border_(BORDER * most(object.strength(), Real(1)))
 {
     const Real restOfPath = (shiftDown(last_ - first_, 1) + Real(0.02)) * object.laidRadius();
@@ -227,7 +227,9 @@ struct Settler::Sum {
     {
         settler.lookedAt_ = at;
         if (!of.ownPlain_) {
-            addOwn(of);
+            const FieldStep own = oddOwn(of, at);
+            sum = own.value;
+            slope = own.slope;
             return;
         }
         const Real t = shiftDown(at * at, 2);
@@ -237,33 +239,27 @@ struct Settler::Sum {
         slope = shiftDown(own.slope * at, 1);
     }
     // The own field of an object that is not as strong as most, or of one whose seeds sample a hollow: it digs, and the head is
-    // among its neighbours.
-    SELDOM void addOwn(Settler& of)
+    // among its neighbours. Returns what it adds to the sum, and to its slope along the path.
+    SELDOM static FieldStep oddOwn(Settler& of, Real position)
     {
         const Real t = position * position * of.restParam_, strength = of.object_.strength();
         const FieldStep own = t < Real(1) ? geoffQuick(t) : FieldStep{Real(0), Real(0)};
-        of.ownField_ = sum = own.value * strength;
+        of.ownField_ = own.value * strength;
         of.ownSlope_ = own.slope * strength;
-        slope = of.ownSlope_ * position * shiftUp(of.restParam_, 1);
         of.headField_ = Real(0);
-        if (of.hollow_) {
-            sum = -(sum * of.all_.weight);
-            slope = -(slope * of.all_.weight);
-        }
+        const Real slope = of.ownSlope_ * position * shiftUp(of.restParam_, 1);
+        return of.hollow_ ? FieldStep{-(of.ownField_ * of.all_.weight), -(slope * of.all_.weight)} : FieldStep{of.ownField_, slope};
     }
     // The same of a neighbour that is not as strong as most, or digs, or has a hollow.
-    SELDOM void addOdd(Along& along)
+    SELDOM static FieldStep odd(Settler& of, Along& along)
     {
         const Neighbour& near = *along.near;
         along.value = along.value * near.strength;
         along.slope = along.slope * near.strength;
+        if (of.hollow_ && near.object == of.all_.head)
+            of.headField_ = along.value;
         const Real weight = near.digs ? -near.weight : Real(1);
-        sum += along.value * weight;
-        slope += along.slope * weight * along.change;
-        if (settler.hollow_ && near.object == settler.all_.head)
-            settler.headField_ = along.value;
-        else if (!near.digs && along.value > strongest)
-            strongest = along.value;
+        return {along.value * weight, along.slope * weight * along.change};
     }
     void add(Along& along)
     {
@@ -277,7 +273,12 @@ struct Settler::Sum {
         along.value = field.value;
         along.slope = field.slope;
         if (!along.near->plain) {
-            addOdd(along);
+            const FieldStep odd = Sum::odd(settler, along);
+            sum += odd.value;
+            slope += odd.slope;
+            // What digs is nobody's territory, and in a hollow what is dented is no neighbour.
+            if (odd.value > strongest && !(settler.hollow_ && along.near->object == settler.all_.head))
+                strongest = odd.value;
             return;
         }
         sum += field.value;
@@ -289,7 +290,7 @@ struct Settler::Sum {
     {
         Sample all{sum - ISOVALUE, slope, strongest - settler.ownField_};
         if (!settler.complete_)
-            settler.blend(position, all);
+            settler.dug_ ? settler.blend<true>(position, all) : settler.blend<false>(position, all);
         if (settler.hollow_)
             all = {-all.excess, -all.slope, strongest - settler.headField_};
         return all;
@@ -326,6 +327,7 @@ Sample Settler::look(Real position)
 // The body's field where not all are linked with all at weight 1 (model/body.h), from the fields that were found. With
 // x_i = f_i / the strongest, dF/df_k = (2 x_k (g_k - F) / strongest + x_k^2 + sum of w_ik x_i^2) / sum of x_i^2; of what digs
 // only the last sum, in which its weights are below 0.
+template <bool DUG>
 void Settler::blend(Real position, Sample& sample)
 {
     // Those that have a field here, the own first.
@@ -339,10 +341,10 @@ void Settler::blend(Real position, Sample& sample)
     Part* end = parts;
     Real strongest(0);
     share_[0] = Real(1);
-    if (ownField_ > Real(0) && !hollow_) {
+    if (ownField_ > Real(0) && !(DUG && hollow_)) {
         strongest = ownField_;
         end->f = end->g = ownField_;
-        end->rate = ownSlope_ * position * shiftUp(restParam_, 1);
+        end->rate = ownPlain_ ? shiftDown(ownSlope_ * position, 1) : ownSlope_ * position * shiftUp(restParam_, 1);
         end->linked = Real(0);
         end->weights = ownWeights_;
         end->slot = object_.slot();
@@ -352,7 +354,7 @@ void Settler::blend(Real position, Sample& sample)
     for (int i = 0; i < touched_; ++i) {
         const Along& along = along_[i];
         share_[i + 1] = Real(1);
-        if (along.value <= Real(0) || along.near->digs)
+        if (along.value <= Real(0) || (DUG && along.near->digs))
             continue;
         strongest = most(strongest, along.value);
         end->f = end->g = along.value;
@@ -363,7 +365,7 @@ void Settler::blend(Real position, Sample& sample)
         end->at = i + 1;
         ++end;
     }
-    bool plain = !all_.inner && !dented_;
+    bool plain = !DUG || (!all_.inner && !dented_);
     if ((plain && end - parts < 2) || strongest <= Real(0.0005))
         return;
     for (const Part* a = parts + 1; a < end && plain; ++a)
@@ -387,7 +389,7 @@ void Settler::blend(Real position, Sample& sample)
             a->linked += one ? b->x2 : w * b->x2;
             b->linked += one ? a->x2 : w * a->x2;
         }
-        if (all_.inner)
+        if (DUG && all_.inner)
             for (Part* b = parts; b < a; ++b) {
                 // What B digs into A by more than A into B.
                 const Real w = b->weights[a->slot] - a->weights[b->slot];
@@ -406,9 +408,9 @@ void Settler::blend(Real position, Sample& sample)
         share_[at] = linked;
         digging += linked * rate;
     };
-    if (hollow_)
+    if (DUG && hollow_)
         dig(ownField_, ownSlope_ * position * shiftUp(restParam_, 1), object_.slot(), 0);
-    for (int i = 0; i < touched_ && all_.dented; ++i)
+    for (int i = 0; DUG && i < touched_; ++i)
         if (along_[i].near->digs)
             dig(along_[i].value, along_[i].slope * along_[i].change, along_[i].near->object->slot(), i + 1);
     for (const Part* a = parts; a < end; ++a)
@@ -421,10 +423,10 @@ void Settler::blend(Real position, Sample& sample)
         share_[a->at] = part;
         slope += part * a->rate;
     }
-    sample.slope = slope + digging * share;
-    if (hollow_)
+    sample.slope = DUG ? slope + digging * share : slope;
+    if (DUG && hollow_)
         share_[0] = share_[0] * share;
-    for (int i = 0; i < touched_ && all_.dented; ++i)
+    for (int i = 0; DUG && i < touched_; ++i)
         if (along_[i].near->digs)
             share_[i + 1] = share_[i + 1] * share;
 }
@@ -717,9 +719,10 @@ Real Settler::pushes() const
 {
     // The gradient of a field is 2 f' r / R^2, and r / R no more than r^2 / R^2 + 1/4; a little more for what that changes.
     Real sum(0);
-    for (int i = 0; i < touched_; ++i)
-        sum += (Real(0.1) - along_[i].slope * (along_[i].t + Real(0.25))) * along_[i].near->inverse16 *
-               most(along_[i].near->weight, Real(1));
+    for (int i = 0; i < touched_; ++i) {
+        const Real push = (Real(0.1) - along_[i].slope * (along_[i].t + Real(0.25))) * along_[i].near->inverse16;
+        sum += along_[i].near->plain ? push : push * most(along_[i].near->weight, Real(1));
+    }
     return shiftDown(sum, 3);
 }
 
@@ -757,8 +760,12 @@ bool Settler::isBlocked(const Seed& s, Real margin)
     const Real t = along.param(position);
     if (t >= Real(0.7))
         return false;
-    const Real own = geoffQuick(least(position * position * restParam_, Real(0.999))).value * object_.strength();
-    const Real field = geoffQuick(most(t, Real(0))).value * near.strength;
+    Real own = geoffQuick(least(position * position * restParam_, Real(0.999))).value;
+    Real field = geoffQuick(most(t, Real(0))).value;
+    if (!ownPlain_ || !near.plain) {
+        own = own * object_.strength();
+        field = field * near.strength;
+    }
     return field - own > OVERSHOOT + margin || (!(s.flags & SEED_COVERED) && allComplete_ && own + field > ISOVALUE + margin);
 }
 

@@ -77,6 +77,7 @@ private:
     void setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const;
     bool begin(const Few& few, const Seed& s, Real position, Sample* sample);
     Sample look(Real position);
+    template <bool DUG>
     void blend(Real position, Sample& sample);
     bool follow(Real* position, Sample* sample);
     Real search(Real* position, Sample* sample);
@@ -108,6 +109,7 @@ private:
     uint32_t turn_ = 0;  // of the seed at hand: seeds that wait take turns
     const Real* ownWeights_;  // of its links, by slots
     const bool hollow_;              // the seeds sample a hollow: inside and outside change places
+    const bool dug_;                 // something digs into the object or its body, or it is a hollow
     const bool ownPlain_;            // the object's strength is 1
     const Real restParam_;           // t of the own field at position 1
     const Real first_, last_;        // positions: where paths are searched
