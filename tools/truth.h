@@ -73,6 +73,8 @@ struct Object {
   double size;        // R: the field is zero at this distance from the core
   double size2;       // R at the core's far end, where it tapers
   Vec axis[3], half;  // a box: its unit axes, half its edges along them
+  double strength = 1;  // what its field is multiplied by wherever it counts
+  bool ghost = false;   // it digs into others and is linked with none: it has no surface
 };
 
 struct Colour {
@@ -102,7 +104,8 @@ struct Scene {
   // colour is judged as strictly as one in grey, which has no ambient share.
   double lightSteps() const { return ambient < 1 ? 1 / (1 - ambient) : 1; }
   std::vector<Object> objects;
-  std::vector<std::vector<double>> weight;  // [i][j]: scale of what j adds to i; 0: not linked
+  std::vector<std::vector<double>> weight;  // [i][j]: scale of what j adds to i: their link's less what j digs into i; 0: neither
+  std::vector<std::vector<double>> link;    // [i][j]: the weight of their link alone, the same both ways
   double highlight = 1;                  // light above which a colour turns towards white
   std::map<int, Colour> ramps;           // object number -> colour at full light, but for the highlight
   std::vector<Coat> coats;               // of each object
@@ -159,7 +162,7 @@ public:
   // field is the strongest; unchanged where nothing reaches.
   double field(int number, Vec p, Vec *gradient, int *strongest) const;
   // The body of an object: objects that links join, directly or through
-  // others, have the same.
+  // others, have the same. -1: it has no surface.
   int bodyOf(int object) const { return body[object]; }
   // The brightness that a finish gives a point, 0 to 1, from its outward normal.
   double brightness(const Coat &, Vec normal) const;
@@ -169,8 +172,10 @@ public:
   void forgetPlain();
 private:
   struct Work;
-  double first(const Work &, const int *which, int n, const double *form, const char *known, bool sum,
+  double first(const Work &, const int *which, int n, int members, const double *form, const char *known, bool sum,
                double a, double b) const;
+  double strengthened(int object, Vec p) const;
+  bool digs(int object, const int *members, int n) const;
   bool tie(int object, Vec p) const;
   bool follow(const Work &, int object, double a, double b, double *form) const;
   const Scene &scene;

@@ -16,7 +16,9 @@
 // the isovalue, however small the f_i are. Elsewhere the sign is that of
 // sum f_i^2 (g_i - isovalue), a polynomial of degree eighteen. Where all
 // objects of the body that reach a stretch are linked with weight 1, F is
-// their plain sum, of degree six. A stretch is halved until the enclosures
+// their plain sum, of degree six. f_i is a field times its object's strength.
+// An object that digs into i has a weight below 0 in g_i; one that only digs
+// is no member of the sums over i. It is carried along behind the members. A stretch is halved until the enclosures
 // exclude the surface or the first crossing is pinned down. Bodies do not know
 // of each other: the nearest surface is seen.
 #include "truth.h"
@@ -504,22 +506,25 @@ struct Tracer::Work {
   std::vector<int> live;          // objects whose field reaches the stretch
   std::vector<double> form;       // their Bernstein coefficients, N each
   std::vector<char> known;        // whether they are there
+  std::vector<int> with;          // of live, what digs into the body at hand
 };
 
 Tracer::Tracer(const Scene &s) : scene(s), body(s.objects.size(), -1) {
   int n = (int)s.objects.size();
   std::vector<int> reached;
   for (int i = 0; i < n; i++) {
-    if (body[i] >= 0) continue;
+    if (body[i] >= 0 || s.objects[i].ghost) continue;
     int number = bodies++;
     body[i] = number;
     reached.assign(1, i);
     for (size_t k = 0; k < reached.size(); k++)
       for (int j = 0; j < n; j++)
-        if (body[j] < 0 && s.weight[reached[k]][j] != 0) body[j] = number, reached.push_back(j);
+        if (body[j] < 0 && s.link[reached[k]][j] != 0) body[j] = number, reached.push_back(j);
     bool alike = true;
-    for (int j : reached)
+    for (int j : reached) {
       for (int k : reached) alike = alike && (j == k || s.weight[j][k] == 1);
+      for (int k = 0; k < n; k++) alike = alike && (body[k] == number || s.weight[j][k] == 0);
+    }
     plain.push_back(alike);
   }
 }
@@ -529,6 +534,19 @@ void Tracer::forgetPlain() {
   std::fill(plain.begin(), plain.end(), 0);
 }
 
+// An object's field at a point, as it counts in sums.
+double Tracer::strengthened(int i, Vec p) const {
+  const Object &o = scene.objects[i];
+  return o.strength * geoff(o.kind->q(o, p, nullptr));
+}
+
+// Whether an object that is none of the n members digs into one of them.
+bool Tracer::digs(int object, const int *members, int n) const {
+  for (int k = 0; k < n; k++)
+    if (scene.weight[members[k]][object] != 0) return true;
+  return false;
+}
+
 double Tracer::field(int number, Vec p, Vec *gradient, int *strongest) const {
   int n = (int)scene.objects.size();
   static thread_local std::vector<double> f;
@@ -536,25 +554,29 @@ double Tracer::field(int number, Vec p, Vec *gradient, int *strongest) const {
   static thread_local std::vector<int> here;
   f.clear(), df.clear(), here.clear();
   double most = 0;
-  for (int i = 0; i < n; i++) {
-    if (body[i] != number) continue;
+  auto add = [&](int i) {
     const Object &o = scene.objects[i];
     Vec g{0, 0, 0};
     double q = o.kind->q(o, p, gradient ? &g : nullptr);
-    if (q >= 1) continue;
-    double v = geoff(q);
-    if (v > most) {
-      most = v;
-      if (strongest) *strongest = i;
-    }
-    here.push_back(i), f.push_back(v), df.push_back(g * geoffSlope(q));
+    if (q >= 1) return;
+    here.push_back(i), f.push_back(o.strength * geoff(q)), df.push_back(g * (o.strength * geoffSlope(q)));
+  };
+  for (int i = 0; i < n; i++) {
+    if (body[i] != number) continue;
+    add(i);
+    if (here.empty() || here.back() != i || f.back() <= most) continue;
+    most = f.back();
+    if (strongest) *strongest = i;
   }
   if (!(most > 0)) return 0;
+  size_t members = here.size();
+  for (int i = 0; i < n; i++)
+    if (body[i] != number && digs(i, here.data(), (int)members)) add(i);
   // All fields by the strongest, so that the squares of small ones are kept.
   double above = 0, below = 0;
   size_t m = here.size();
-  std::vector<double> sum(m);
-  for (size_t i = 0; i < m; i++) {
+  std::vector<double> sum(members);
+  for (size_t i = 0; i < members; i++) {
     sum[i] = f[i];
     for (size_t j = 0; j < m; j++)
       if (i != j) sum[i] += scene.weight[here[i]][here[j]] * f[j];
@@ -564,7 +586,7 @@ double Tracer::field(int number, Vec p, Vec *gradient, int *strongest) const {
   double F = above / below;
   if (gradient) {
     *gradient = {0, 0, 0};
-    for (size_t i = 0; i < m; i++) {
+    for (size_t i = 0; i < members; i++) {
       double share = f[i] / most;
       *gradient = *gradient + df[i] * (2 * share / most * (sum[i] - F) + share * share);
       for (size_t j = 0; j < m; j++)
@@ -640,12 +662,10 @@ bool Tracer::tie(int object, Vec p) const {
     auto ramp = scene.ramps.find(scene.objects[i].number);
     return ramp == scene.ramps.end() ? Colour{-1, -1, -1} : ramp->second;
   };
-  const Object &o = scene.objects[object];
-  double most = geoff(o.kind->q(o, p, nullptr));
+  double most = strengthened(object, p);
   for (int i = 0; i < (int)scene.objects.size(); i++) {
     if (i == object || body[i] != body[object]) continue;
-    const Object &other = scene.objects[i];
-    if (geoff(other.kind->q(other, p, nullptr)) < most * (1 - TIE)) continue;
+    if (strengthened(i, p) < most * (1 - TIE)) continue;
     Colour a = colour(object), b = colour(i);
     if (a.r != b.r || a.g != b.g || a.b != b.b) return true;
   }
@@ -658,7 +678,7 @@ bool Tracer::follow(const Work &w, int i, double a, double b, double *form) cons
   // A longer stretch could hold what none of the places looked at shows.
   double least = o.size2 > 0 ? std::min(o.size, o.size2) : o.size;
   if ((b - a) * length(w.ray.dir) > least / 2) return false;
-  auto at = [&](double x) { return geoff(o.kind->q(o, point(w.ray, a + (b - a) * x), nullptr)); };
+  auto at = [&](double x) { return strengthened(i, point(w.ray, a + (b - a) * x)); };
   double v[N];
   for (int k = 0; k < N; k++) v[k] = at(k / double(N - 1));
   for (int k = 0; k < N; k++) {
@@ -671,9 +691,10 @@ bool Tracer::follow(const Work &w, int i, double a, double b, double *form) cons
 }
 
 // The least depth in [a, b] at which the body's field is at or above the
-// isovalue; below 0 if there is none. `which` are its n objects that reach the
-// stretch, `form` their fields where `known`; `sum` says that F is their sum.
-double Tracer::first(const Work &w, const int *which, int n, const double *form, const char *known, bool sum,
+// isovalue; below 0 if there is none. `which` are the n objects that reach the
+// stretch, the body's members first and behind them what digs into it; `form`
+// are their fields where `known`; `sum` says that F is their sum.
+double Tracer::first(const Work &w, const int *which, int n, int members, const double *form, const char *known, bool sum,
                      double a, double b) const {
   std::vector<double> now(form, form + n * N);
   std::vector<char> have(known, known + n);
@@ -690,7 +711,7 @@ double Tracer::first(const Work &w, const int *which, int n, const double *form,
         const Object &o = scene.objects[which[k]];
         double lowQ, highQ;
         o.kind->bounds(o, w.ray, a, b, lowQ, highQ);
-        low[k] = geoff(highQ), high[k] = geoff(lowQ);
+        low[k] = o.strength * geoff(highQ), high[k] = o.strength * geoff(lowQ);
       }
     }
     double excess = 0, most = -1;
@@ -698,10 +719,12 @@ double Tracer::first(const Work &w, const int *which, int n, const double *form,
       for (int k = 0; k < n; k++) excess += high[k];
       most = excess -= scene.isovalue;
     } else {
-      for (int k = 0; k < n; k++) {
+      for (int k = 0; k < members; k++) {
         double g = high[k] - scene.isovalue;
-        for (int j = 0; j < n; j++)
-          if (j != k) g += scene.weight[which[k]][which[j]] * high[j];
+        for (int j = 0; j < n; j++) {
+          double weight = j == k ? 0 : scene.weight[which[k]][which[j]];
+          g += weight * (weight > 0 ? high[j] : low[j]);
+        }
         most = std::max(most, g);
         excess += g * (g > 0 ? high[k] * high[k] : low[k] * low[k]);
       }
@@ -717,8 +740,8 @@ double Tracer::first(const Work &w, const int *which, int n, const double *form,
     std::vector<double> left(n * N), right(n * N);
     for (int k = 0; k < n; k++)
       if (have[k]) halve<N>(&now[k * N], &left[k * N], &right[k * N]);
-    double mid = (a + b) / 2, t = first(w, which, n, left.data(), have.data(), sum, a, mid);
-    return t >= 0 ? t : first(w, which, n, right.data(), have.data(), sum, mid, b);
+    double mid = (a + b) / 2, t = first(w, which, n, members, left.data(), have.data(), sum, a, mid);
+    return t >= 0 ? t : first(w, which, n, members, right.data(), have.data(), sum, mid, b);
   }
   if (sum) {
     double c[N];
@@ -726,10 +749,10 @@ double Tracer::first(const Work &w, const int *which, int n, const double *form,
     for (int k = 0; k < n * N; k++) c[k % N] += now[k];
     return firstOf(c, a, b);
   }
-  std::vector<double> sums(n * N);
-  for (int k = 0; k < n; k++)
+  std::vector<double> sums(members * N);
+  for (int k = 0; k < members; k++)
     for (int c = 0; c < N; c++) sums[k * N + c] = now[k * N + c] - scene.isovalue;
-  for (int k = 0; k < n; k++)
+  for (int k = 0; k < members; k++)
     for (int j = 0; j < n; j++) {
       double weight = j == k ? 0 : scene.weight[which[k]][which[j]];
       if (weight != 0)
@@ -737,8 +760,8 @@ double Tracer::first(const Work &w, const int *which, int n, const double *form,
     }
   if (*std::max_element(sums.begin(), sums.end()) < 0) return -1;
   double c[BODY] = {};
-  for (int k = 0; k < n; k++) addSquareTimes(&now[k * N], &sums[k * N], c);
-  return firstOfBody(c, sums.data(), n, a, b);
+  for (int k = 0; k < members; k++) addSquareTimes(&now[k * N], &sums[k * N], c);
+  return firstOfBody(c, sums.data(), members, a, b);
 }
 
 Hit Tracer::trace(double column, double row) const {
@@ -791,18 +814,38 @@ Hit Tracer::trace(double column, double row, const int *which, int count) const 
       double quad[3];
       o.kind->quadratic(o, w.ray, (a + b) / 2, quad);
       fieldForm(quad, a, b, &w.form[n * N]);
+      for (int k = 0; k < N; k++) w.form[n * N + k] *= o.strength;
       w.known[n] = 1;
     }
     for (int n = 0, end; n < lives; n = end) {
       int number = body[w.live[n]];
       for (end = n; end < lives && body[w.live[end]] == number;) end++;
+      if (number < 0) continue;
+      // What digs into them, behind copies of the members.
+      w.with.clear();
+      for (int i = 0; i < lives; i++)
+        if ((i < n || i >= end) && digs(w.live[i], &w.live[n], end - n)) w.with.push_back(i);
+      if (!w.with.empty()) {
+        int members = end - n, count = members + (int)w.with.size();
+        std::vector<int> which(w.live.begin() + n, w.live.begin() + end);
+        std::vector<double> form(w.form.begin() + n * N, w.form.begin() + end * N);
+        std::vector<char> known(w.known.begin() + n, w.known.begin() + end);
+        for (int i : w.with) {
+          which.push_back(w.live[i]);
+          form.insert(form.end(), w.form.begin() + i * N, w.form.begin() + (i + 1) * N);
+          known.push_back(w.known[i]);
+        }
+        double t = first(w, which.data(), count, members, form.data(), known.data(), false, a, b);
+        if (t >= 0 && (found < 0 || t < found)) found = t, owner = number;
+        continue;
+      }
       bool sum = plain[number];
       if (!sum && usePlain) {
         sum = true;
         for (int i = n; sum && i < end; i++)
-          for (int j = n; sum && j < i; j++) sum = scene.weight[w.live[i]][w.live[j]] == 1;
+          for (int j = n; sum && j < end; j++) sum = i == j || scene.weight[w.live[i]][w.live[j]] == 1;
       }
-      double t = first(w, &w.live[n], end - n, &w.form[n * N], &w.known[n], sum, a, b);
+      double t = first(w, &w.live[n], end - n, end - n, &w.form[n * N], &w.known[n], sum, a, b);
       if (t >= 0 && (found < 0 || t < found)) found = t, owner = number;
     }
   }

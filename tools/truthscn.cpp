@@ -47,6 +47,7 @@ const double SKEW = 0.001;
 const Fact facts[] = {
     {"time", 1, 1, true},   {"eye", 3, 3, true},       {"focal", 2, 2, true},
     {"centre", 2, 2, true}, {"light", 3, 3, true},     {"isovalue", 1, 1, false},
+    {"strength", 2, 2, false}, {"dent", 2, 3, false},
     {"right", 3, 3, false}, {"up", 3, 3, false},       {"ahead", 3, 3, false},
     {"blend", 2, 3, false}, {"ambient", 1, 1, false}, {"highlight", 1, 1, false},  {"ramp", 4, 4, false},
     {"mixed", 0, 0, false}, {"shiny", 1, 1, false},    {"mirror", 1, 1, false},
@@ -61,13 +62,13 @@ bool parseScene(const std::string &text, const std::string &name, Scene &s, std:
     int line;
     double a, b, weight;
   };
-  std::vector<Link> links;
   struct Word {
     int line;
     std::string word;
     std::vector<double> v;
   };
   std::vector<Word> coats;
+  std::vector<Link> links, dents, strengths;
   std::map<int, int> index;   // object number -> index
   std::map<std::string, bool> seen;
   int lineNumber = 0;
@@ -143,15 +144,38 @@ bool parseScene(const std::string &text, const std::string &name, Scene &s, std:
       if (word == coat) coats.push_back({lineNumber, word, v});
     if (word == "blend" && v.size() > 2 && v[2] < 0) return fail("a link's weight must not be negative");
     if (word == "blend") links.push_back({lineNumber, v[0], v[1], v.size() > 2 ? v[2] : 1});
+    if (word == "dent" && v.size() > 2 && v[2] < 0) return fail("a dent's weight must not be negative");
+    if (word == "dent") dents.push_back({lineNumber, v[0], v[1], v.size() > 2 ? v[2] : 1});
+    if (word == "strength" && v[1] <= 0) return fail("a strength must be above 0");
+    if (word == "strength") strengths.push_back({lineNumber, v[0], v[0], v[1]});
   }
   size_t n = s.objects.size();
-  s.weight.assign(n, std::vector<double>(n, 0));
+  s.link.assign(n, std::vector<double>(n, 0));
   for (const Link &l : links) {
     lineNumber = l.line;
     auto a = index.find((int)l.a), b = index.find((int)l.b);
     if (a == index.end() || b == index.end()) return fail("blend names an object that is not there");
     if (a == b) return fail("blend of an object with itself");
-    s.weight[a->second][b->second] = s.weight[b->second][a->second] = l.weight;
+    s.link[a->second][b->second] = s.link[b->second][a->second] = l.weight;
+  }
+  s.weight = s.link;
+  for (const Link &l : dents) {
+    lineNumber = l.line;
+    auto a = index.find((int)l.a), b = index.find((int)l.b);
+    if (a == index.end() || b == index.end()) return fail("dent names an object that is not there");
+    if (a == b) return fail("dent of an object by itself");
+    s.weight[a->second][b->second] -= l.weight;
+    Object &digger = s.objects[b->second];
+    digger.ghost = digger.ghost || l.weight != 0;
+  }
+  for (size_t i = 0; i < n; i++)
+    for (size_t j = 0; j < n; j++)
+      if (s.link[i][j] != 0) s.objects[i].ghost = false;
+  for (const Link &l : strengths) {
+    lineNumber = l.line;
+    auto a = index.find((int)l.a);
+    if (a == index.end()) return fail("strength names an object that is not there");
+    s.objects[a->second].strength = l.weight;
   }
   s.coats.assign(n, Coat());
   for (const Word &w : coats) {

@@ -43,8 +43,12 @@ public:
     // Links the selected object with the one selected before, or parts them.
     bool link();
     bool unlink();
-    // Changes the weight of that link.
+    // Changes the weight of that link, or of the dent where there is no link.
     bool weigh(Real by, Time now);
+    // Lets the selected object dig into the one selected before, and parts them; or fills the hollow.
+    bool dent();
+    // Changes what its field is multiplied by.
+    bool strengthen(Real by, Time now);
     // The next colour of a list for the selected object, or the one before (`step` 1 or -1).
     bool colour(int step, Time now);
     // Another motion in place of the one it has: none, circle, path, spin, swing, pulse, and round again. And the periods
@@ -76,7 +80,7 @@ public:
     void describe(char* to, int size) const;
 
 private:
-    enum Action { NONE, MOVE, TURN, SIZE, MEASURE, WEIGHT, COLOUR, PACE, LIGHT, OTHER };
+    enum Action { NONE, MOVE, TURN, SIZE, MEASURE, WEIGHT, STRENGTH, COLOUR, PACE, LIGHT, OTHER };
 
     // A model as it was, and what was selected in it.
     struct Step {

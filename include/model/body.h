@@ -2,7 +2,9 @@
 //
 //     g_i = f_i + sum over the links of i of w_ij f_j        F = sum of f_i^2 g_i / sum of f_i^2
 //
-// A link of weight 0 counts as none: it joins nothing. Where all objects that reach a point are linked with each other at
+// f_i is the field as the object's strength has it. What digs into i counts in g_i with minus its weight. A link of weight 0
+// counts as none: it joins nothing; so does a dent of weight 0. An object that digs and is linked with nothing has no surface,
+// and no term in the sums over i. Where all objects that reach a point are linked with each other at
 // weight 1, F is the plain sum of their fields, the report's implicit function; elsewhere it passes smoothly from one
 // object's sum to another's.
 #ifndef FB_BODY_H
@@ -27,12 +29,18 @@ public:
     SoftObject* const* members(const SoftObject& object) const;
     int memberCount(const SoftObject& object) const;
 
-    // The weight of the link between two objects, by their slots; 0 where there is none.
+    // What digs into objects of that body and is none of it.
+    SoftObject* const* diggers(const SoftObject& object) const;
+    int diggerCount(const SoftObject& object) const;
+
+    // By what the field of B counts in the sum of A, by their slots: the weight of their link, less that by which B digs into
+    // A; 0 where there is neither.
     Real weight(int slotA, int slotB) const { return weights_[slotA * count_ + slotB]; }
     // Those of one object, by the other's slot.
     const Real* weights(int slot) const { return weights_ + slot * count_; }
 
-    // An object whose recalc flag is set tells those that it is linked to; this tells the rest of its body that it can reach.
+    // An object whose recalc flag is set tells those that it is linked to or digs into; this tells the rest of their body that
+    // it can reach.
     void spreadRecalc() const;
 
     // Those that an object is linked with at weight 1, a bit for each slot; LINK_WORDS words.
@@ -44,13 +52,17 @@ public:
 
 private:
     void release();
+    void findDiggers(int begin, int end, int* filled);
 
     int count_ = 0;
     Real* weights_ = nullptr;         // count_ rows of count_
     SoftObject** members_ = nullptr;  // body after body
     int16_t* first_ = nullptr;        // by slot: where its body begins in members_
     int16_t* size_ = nullptr;         // by slot: how many it has
-    bool* complete_ = nullptr;        // by slot: all of its body are linked with all
+    SoftObject** diggers_ = nullptr;  // body after body
+    int16_t* firstDigger_ = nullptr;  // by slot: where those of its body begin in diggers_
+    int16_t* diggerCount_ = nullptr;  // by slot: how many there are
+    bool* complete_ = nullptr;        // by slot: all of its body are linked with all, and nothing else digs into it
     uint32_t* plain_ = nullptr;       // by slot, as plainLinks() has them
     uint32_t version_ = 0;
 };

@@ -29,9 +29,8 @@ private:
     Real sizeAlong(Real y) const { return shiftDown(size1() + size2(), 1) + y * taper_; }
     Real size16Along(Real y) const { return mean16_ + y * taper_; }
 
-    Real size1Made_, size2Made_;     // as made: scaling never adds up errors
-    Real mean16_, taper_;            // size at distance y from the middle: mean + y taper
-    Real normalSine_, normalCosine_; // latitude of the side's normal
+    Real size1Made_, size2Made_, lengthMade_;  // as made: scaling never adds up errors
+    Real mean16_, taper_;                      // size at distance y from the middle: mean + y taper
 };
 
 #endif

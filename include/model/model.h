@@ -31,6 +31,7 @@ struct Actor {
     Real measure[MEASURES_MOST] = {Real(0), Real(0), Real(0), Real(0)};  // as the kind has them, before any scaling
     Pose pose;                     // as Anim::move() left it
     Real made{0};                  // size() of the object before any scaling
+    Real strength{1};              // of the object
 };
 
 class Model {
@@ -51,16 +52,16 @@ public:
     // Takes over an object made with make<>(). False (and the object destroyed): no room.
     bool add(SoftObject* object, const Colour& colour, const Motion& motion);
 
-    // Adds an item as described, making its object; name, kind, measures, colour and motion are taken, the number is
-    // given here. A parent must be there already. Null: no room or no memory.
+    // Adds an item as described, making its object; name, kind, measures, strength, colour and motion are taken, the number
+    // is given here. A parent must be there already. Null: no room or no memory.
     Actor* addItem(const Actor& described);
 
     // Takes an item out of the model, and its keys. What it carried is carried by its own parent from then on: the
     // centre stays where it is now, but what the item added to its motion and its turn is gone.
     void remove(Actor* item);
 
-    // Makes the object of an item anew, after its measures were changed. False: no memory, and the object that was
-    // there stays.
+    // Makes the object of an item anew, after its measures or its strength were changed. False: no memory, and the object
+    // that was there stays.
     bool remake(Actor* item);
 
     // Takes an item's keys away.
@@ -80,6 +81,11 @@ public:
     bool linkAll(Real weight);
     // Whether `a` blends with `b`, and with which weight.
     static bool linked(const SoftObject* a, const SoftObject* b, Real* weight);
+    // Lets `b` dig into `a` with a weight. False: no memory; then it does not.
+    bool dent(SoftObject* a, SoftObject* b, Real weight);
+    void undent(SoftObject* a, SoftObject* b);
+    // Whether `b` digs into `a`, and with which weight.
+    static bool dented(const SoftObject* a, const SoftObject* b, Real* weight);
 
     // Lays out the seeds of all objects, `spacing` units apart. False: as SoftObject::resample(); objects already done are
     // put back to the spacing they had where that is possible.
@@ -133,7 +139,8 @@ public:
     // Has all seeds looked for anew, as if nothing were known of a frame before.
     void settleAnew();
 
-    // Number of the object whose own field is the strongest at a point: it gives the point its colour. -1: no field reaches it.
+    // Number of the object whose own field is the strongest at a point, of those that have a surface: it gives the point its
+    // colour. -1: no field reaches it.
     int strongestAt(const Point& p) const;
 
     // Changes the light under which seeds were laid out already.
@@ -152,7 +159,7 @@ public:
 
 private:
     void clear();
-    bool layOut(SoftObject* object) const;
+    SoftObject* makeObject(const Actor& item) const;
     const SoftObject* alike(int i) const;
 
     Actor* actors_[OBJECTS_MOST];

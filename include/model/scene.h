@@ -9,7 +9,8 @@
 
 #include "model/model.h"
 
-// Limits, beside those of Model (128 objects, 64 groups, 1,024 keys; every pair of objects may be linked). A line may
+// Limits, beside those of Model (128 objects, 64 groups, 1,024 keys; every pair of objects may be linked, and each may dig
+// into each other). A line may
 // be LINE_MOST characters long, without its end; a text SCENE_LINES_MOST lines.
 constexpr int LINE_MOST = 250;
 constexpr int SCENE_LINES_MOST = 32000;
@@ -21,7 +22,7 @@ constexpr Real KEY_TIME_MOST(3600);
 constexpr Real DEGREES_MOST(360);
 constexpr Real KEY_DEGREES_MOST(3600);
 constexpr Real PULSE_MOST(0.75);
-constexpr Real WEIGHT_MOST(4);
+constexpr Real WEIGHT_MOST(4);  // of a link and of a dent
 constexpr Real GRAIN_LEAST(1);
 constexpr Real GRAIN_MOST(100);
 constexpr int FOCAL_LEAST = 1;

@@ -21,8 +21,13 @@ constexpr int MAX_SIZE = 100;
 // moves, turns or is scaled is always the same there. 16 keeps four more bits of 16.16 than a size of 1 would.
 constexpr int CORE_SIZE = 16;
 
+// What an object's field is multiplied by where it stands in any sum.
+constexpr Real STRENGTH_LEAST(0.25);
+constexpr Real STRENGTH_MOST(4);
+
 // An edge of the model's graph, as one of its two ends sees it: the neighbour, and what its field is multiplied by
-// before it is added here (the report's "weighted graph"; 1 is plain blending, 0..4).
+// before it is added here (the report's "weighted graph"; 1 is plain blending, 0..4). Of a dent: what it is multiplied by
+// before it is taken away.
 struct Link {
     SoftObject* object;
     Real weight;
@@ -72,7 +77,7 @@ public:
 
     // Lays the seeds out anew, `spacing` units apart, and makes the surface that will settle them. False: the object keeps
     // what it had, and resampleTrouble() says why, unless it was stopped (model/stop.h).
-    // `like` is null, or an object of the same kind, measures and size whose seeds have just been laid out: they are copied.
+    // `like` is null, or an object of the same kind, measures, size and strength whose seeds have just been laid out: they are copied.
     bool resample(Real spacing, SurfaceMaker makeSurface, const SoftObject* like = nullptr);
     // Why resample() failed the last time, for any object: one line of words.
     static const char* resampleTrouble();
@@ -124,6 +129,17 @@ public:
     // The same, by the size to be reached, for what moves by the time and must not depend on the frame before.
     void setSize(Real size);
 
+    // What the field is multiplied by, STRENGTH_LEAST..STRENGTH_MOST. It decides where seeds rest, so it is given before they
+    // are laid out.
+    void setStrength(Real strength);
+    Real strength() const { return strength_; }
+    // param() of the core where seeds rest, a quarter of its squared proportion to the size when that is 1, and its root.
+    Real restParam() const { return restParam_; }
+    Real restRoot() const { return restRoot_; }
+    // Whether the surface lies where seeds rest as long as no neighbour reaches them. Weak objects have none there, or none
+    // at all.
+    bool rests() const { return rests_; }
+
     const Point& centre() const { return centre_; }
     Real size() const { return size_; }
     Real radius() const { return radius_; }
@@ -137,6 +153,8 @@ public:
     // How much larger the object is than when its seeds were laid out: own space to the world.
     Real growth() const { return size_ / laid_.size; }
     Real laidSize() const { return laid_.size; }
+    // How long paths were then.
+    Real laidRadius() const { return laid_.size * restRoot_; }
 
     // A point of the object's own space in the world; a vector of the world in the object's own axes, unscaled.
     Point toWorld(const Vector& v) const;
@@ -149,13 +167,27 @@ public:
     // Takes the link out of this object's skel only. Harmless when there is none.
     void unlink(SoftObject* other);
     const List<Link>& skel() const { return skel_; }
+    // Lets `other` dig into this object: its field, times a weight of 0 or more, is taken away from this one's sum. Both know
+    // of it. False: no memory.
+    bool dent(SoftObject* other, Real weight);
+    // Fills it again. Harmless when there is none.
+    void undent(SoftObject* other);
+    // What digs into this object; and what this one digs into.
+    const List<Link>& dents() const { return dents_; }
+    const List<Link>& digs() const { return digs_; }
+    // Whether it has a surface of its own: it blends with another, or digs into none. Weights of 0 count as none.
+    bool hasSurface() const;
+    // The object whose hollow its seeds sample: the first that it digs into, when it has no surface of its own. Else null.
+    const SoftObject* hollowed() const { return hollowLink() == nullptr ? nullptr : hollowLink()->object; }
+    // Whether its seeds were laid out for a hollow and are for a surface now, or the other way round.
+    bool laidInVain() const { return laid_.seeds != nullptr && (hollowed() != nullptr) != laidHollow_; }
     // Where Bodies keeps it.
     int slot() const { return slot_; }
     void setSlot(int slot) { slot_ = slot; }
 
     // --- The field
 
-    // This object's contribution to the implicit function at `p`, 0..1 (the report's fieldFunc).
+    // This object's contribution to the implicit function at `p`, 0..strength() (the report's fieldFunc).
     Real fieldFunc(const Point& p) const;
 
     // Whether fields of the two can meet anywhere, from centres and sizes alone, or lie no more than `slack` units apart.
@@ -217,6 +249,8 @@ private:
         int nearestIn(int ring, int from, const Vector& target) const;
     };
 
+    const Link* hollowLink() const;
+    void findRest();
     void tellNeighbours();
     bool layOutRegular(Layout& layout) const;
     bool findNeighbours(Layout& layout) const;
@@ -232,11 +266,13 @@ private:
     Point centre_;
     Matrix turn_;
     Real size_;       // R: where the field ends
-    Real radius_;     // R/2: "the distance each seed would be from the center if no blending were taking place"
+    Real radius_;     // R/2: "the distance each seed would be from the center if no blending were taking place"; R restRoot_
     Real inverse_;    // CORE_SIZE / size
     Real coreReach_;
     Real sizeMade_, coreReachMade_, coreReach16_;  // as made, so that scaling never adds up errors
-    List<Link> skel_;
+    List<Link> skel_, dents_, digs_;
+    Real strength_, restParam_, restRoot_;
+    bool rests_, laidHollow_;
     int slot_;
     bool recalc_;
     bool tapers_;

@@ -41,7 +41,8 @@ public:
     virtual void update(const FrameContext& frame) = 0;
 
     // Lists the voxels of the settled seeds, as many as fit `room` (DRAW_ROOM..VOXELS_AT_ONCE). `*next` is 0 for the first
-    // call of a frame; the call changes it, and as long as it is not 0 there are more.
+    // call of a frame; the call changes it, and as long as it is not 0 there are more. An object without a surface
+    // (SoftObject::hasSurface) has none of its own.
     virtual void draw(const FrameContext& frame, VoxelList& list, int room, int* next) = 0;
 };
 

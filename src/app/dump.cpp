@@ -160,6 +160,19 @@ const char* Dump::frame(int number, Time time, int rate, const Model& model, con
             line(text);
         }
     }
+    for (int i = 0; i < model.count(); ++i) {
+        const SoftObject* object = model.actor(i).object;
+        if (object->strength() != Real(1)) {
+            formatReal(a, sizeof a, object->strength());
+            snprintf(text, sizeof text, "strength %d %s", object->number(), a);
+            line(text);
+        }
+        for (const List<Link>::Node* node = object->dents().first(); node != nullptr; node = node->next) {
+            formatReal(a, sizeof a, node->item.weight);
+            snprintf(text, sizeof text, "dent %d %d %s", object->number(), node->item.object->number(), a);
+            line(text);
+        }
+    }
     if (!grey) {
         formatQuotient(a, sizeof a, Palette::AMBIENT, 63, 6);
         snprintf(text, sizeof text, "ambient %s", a);

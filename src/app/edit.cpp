@@ -369,7 +369,8 @@ bool Editor::weigh(Real by, Time now)
         return false;
     const char *name = current().name, *other = model_.actor(before()).name;
     Real weight;
-    if (!Model::linked(a, b, &weight)) {
+    const bool dents = !Model::linked(a, b, &weight) && Model::dented(b, a, &weight);
+    if (!dents && !Model::linked(a, b, &weight)) {
         say(name, " does not blend with ", other);
         return false;
     }
@@ -381,10 +382,57 @@ bool Editor::weigh(Real by, Time now)
     if (!begin(WEIGHT, now))
         return false;
     // The link is there: nothing is allocated.
-    model_.link(a, b, to);
+    if (dents)
+        model_.dent(b, a, to);
+    else
+        model_.link(a, b, to);
     char text[24];
     formatReal(text, sizeof text, to);
     snprintf(message_, sizeof message_, "%s and %s: weight %s", name, other, text);
+    return true;
+}
+
+bool Editor::dent()
+{
+    SoftObject *a, *b;
+    if (!pairOf(&a, &b))
+        return false;
+    const char *name = current().name, *other = model_.actor(before()).name;
+    Real weight;
+    if (!begin(OTHER, 0))
+        return false;
+    if (Model::dented(b, a, &weight)) {
+        model_.undent(b, a);
+        say(name, " digs no more into ", other);
+        return true;
+    }
+    if (!model_.dent(b, a, Real(1))) {
+        drop();
+        say("no memory for a dent");
+        return false;
+    }
+    model_.unlink(a, b);
+    say(name, " digs into ", other);
+    return true;
+}
+
+bool Editor::strengthen(Real by, Time now)
+{
+    Actor& actor = current();
+    const Real was = actor.strength, to = clamp(was + by, STRENGTH_LEAST, STRENGTH_MOST);
+    if (to == was) {
+        sayReal("the strength stays at", was);
+        return false;
+    }
+    if (!begin(STRENGTH, now))
+        return false;
+    actor.strength = to;
+    if (!model_.remake(&actor)) {
+        actor.strength = was;
+        say("no memory for so many seeds");
+        return false;
+    }
+    sayReal("strength", to);
     return true;
 }
 
@@ -650,6 +698,11 @@ void Editor::describe(char* to, int size) const
         length += snprintf(to + length, static_cast<size_t>(size - length), " %s %s",
                            actor.kind == nullptr ? "size" : actor.kind->measure[i].word, text);
     }
+    if (actor.strength != Real(1) && length < size) {
+        char text[24];
+        formatReal(text, sizeof text, actor.strength);
+        length += snprintf(to + length, static_cast<size_t>(size - length), ", strength %s", text);
+    }
     if (length < size)
         length += snprintf(to + length, static_cast<size_t>(size - length), ", blends with %d", links);
     const Actor* carrier = actor.motion.parent == 0 ? nullptr : model_.itemNumbered(actor.motion.parent);
@@ -663,6 +716,11 @@ void Editor::describe(char* to, int size) const
     if (length < size && Model::linked(actor.object, model_.actor(other).object, &weight)) {
         char text[24];
         formatReal(text, sizeof text, weight);
-        snprintf(to + length, static_cast<size_t>(size - length), ", weight %s", text);
+        length += snprintf(to + length, static_cast<size_t>(size - length), ", weight %s", text);
+    }
+    if (length < size && Model::dented(model_.actor(other).object, actor.object, &weight)) {
+        char text[24];
+        formatReal(text, sizeof text, weight);
+        snprintf(to + length, static_cast<size_t>(size - length), ", dents it by %s", text);
     }
 }

@@ -239,6 +239,7 @@ bool Demo::editKey(int code)
     case 'Y': done = editor_.turn(1, -turn, time_); break;
     case 'Z': done = editor_.turn(2, -turn, time_); break;
     case 'W': done = editor_.weigh(-weight, time_); break;
+    case 'I': done = editor_.strengthen(-weight, time_); break;
     case 'H': done = editor_.colour(-1, time_); break;
     case 'V': done = editor_.pace(SLOWER_A_KEY, time_); break;
     case 'Q': done = editor_.light(1, -turn, time_); break;
@@ -267,6 +268,8 @@ bool Demo::editKey(int code)
         case 'l': done = editor_.link(); break;
         case 'k': done = editor_.unlink(); break;
         case 'w': done = editor_.weigh(weight, time_); break;
+        case 'b': done = editor_.dent(); break;
+        case 'i': done = editor_.strengthen(weight, time_); break;
         case 'h': done = editor_.colour(1, time_); break;
         case 'o': done = editor_.motion(); break;
         case 'v': done = editor_.pace(FASTER_A_KEY, time_); break;

@@ -46,9 +46,9 @@ const char* const HANDS_PAGE[] = {
     "w       link's weight   h       colour",
     "o       motion          v       its period",
     "q e     the light       g s     group, whole",
+    "i       strength        b       dig in, fill",
     "u r     undo, redo      F2 F3   save, load",
-    "",
-    "Shift with x y z w h v q e g: the other way",
+    "Shift with x y z w i h v q e g: the other way",
 };
 
 // A page of lines in a panel in the middle of the screen.

@@ -8,15 +8,10 @@
 
 Cone::Cone(int number, Real size1, Real size2, Real length)
     : SoftObject(number, most(size1, size2), shiftDown(most(length, leastLength(size1, size2)), 1), true),
-      size1Made_(size1), size2Made_(size2), mean16_(0), taper_(0), normalSine_(0), normalCosine_(1)
+      size1Made_(size1), size2Made_(size2), lengthMade_(this->length()), mean16_(0), taper_(0)
 {
     mean16_ = shiftDown(size1 + size2, 1) * (Real(CORE_SIZE) / size());
     taper_ = coreReach() > Real(0) ? shiftDown(size2 - size1, 1) / coreReach() : Real(0);
-    const Vector side = unit({shiftDown(size1 - size2, 1), this->length(), Real(0)});
-    if (side.y > Real(0)) {
-        normalSine_ = side.x;
-        normalCosine_ = side.y;
-    }
 }
 
 Vector Cone::fromCore(const Vector& q) const
@@ -45,7 +40,8 @@ Real Cone::param(const Vector& q, Vector* slope) const
 
 void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
-    const Real radius1 = shiftDown(size1(), 1), radius2 = shiftDown(size2(), 1);
+    const Real radius1 = size1() * restRoot(), radius2 = size2() * restRoot();
+    const Vector normal = unit({(size1Made_ - size2Made_) * restRoot(), lengthMade_, Real(0)});
     const Real cap1 = radius1 * HALF_PI, cap2 = radius2 * HALF_PI;
     const Real side = ::length({radius1 - radius2, length(), Real(0)});
     const Real outline = cap1 + side + cap2;
@@ -65,7 +61,7 @@ void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
         } else if (at < cap1 + side) {
             const Real share = (at - cap1) / side;
             ring.height = length() * share - coreReach();
-            ring.radius = shiftDown(sizeAlong(ring.height), 1);
+            ring.radius = sizeAlong(ring.height) * restRoot();
         } else {
             latitude = quarterTurn(least(at - cap1 - side, cap2), cap2);
             ring.height = coreReach();
@@ -75,8 +71,8 @@ void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
         ring.pathSine = ring.normalSine = sine(latitude);
         ring.pathCosine = ring.normalCosine = cosine(latitude);
         if (shared == nullptr) {
-            ring.normalSine = normalSine_;
-            ring.normalCosine = normalCosine_;
+            ring.normalSine = normal.x;
+            ring.normalCosine = normal.y;
         }
         int root = shared == nullptr ? -1 : *shared;
         if (root < 0)

@@ -234,7 +234,7 @@ bool SoftObject::layOutLike(const SoftObject& other, Layout& layout) const
 // How long the path of a seed between two is.
 Real SoftObject::restLength(const Layout& layout, const Seed& a, const Seed& b) const
 {
-    return tapers_ ? shiftDown(length(a.path) + length(b.path), 1) : shiftDown(layout.size, 1);
+    return tapers_ ? shiftDown(length(a.path) + length(b.path), 1) : layout.size * restRoot_;
 }
 
 // The point of the core that is nearest to the middle of two seeds, and the way from there to the middle. False: the middle
@@ -278,7 +278,7 @@ void SoftObject::layOutExtra(Layout& layout, int number, int ring, Seed& extra) 
         // The mean of two lengths is near: to where the field is that of the surface.
         Vector unused;
         const Real t = param((layout.roots[extra.root] + extra.path) * (Real(CORE_SIZE) / layout.size), &unused);
-        extra.path = extra.path * (Real(0.5) / squareRoot(t));
+        extra.path = extra.path * (restRoot_ / squareRoot(t));
     }
     for (int part = 0; part < 3; ++part) {
         extra.along[part] = static_cast<int8_t>(one.along[part] * EXTRA_CELL / 8);
@@ -371,6 +371,7 @@ int SoftObject::seedsAt(Real spacing) const
 bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObject* like)
 {
     snprintf(trouble, sizeof trouble, "not enough memory for seeds that close");
+    findRest();
     Layout layout;
     layout.spacing = spacing;
     layout.size = size_;

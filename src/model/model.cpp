@@ -40,6 +40,7 @@ struct alignas(Actor) Model::Record {
     struct Pair {
         int16_t a, b;  // numbers
         Real weight;
+        bool dent;     // b digs into a; else they are linked
     };
     int items, keys, pairs;
     Camera camera;
@@ -67,11 +68,18 @@ void Model::clear()
     keyCount_ = 0;
 }
 
-bool Model::layOut(SoftObject* object) const
+// The object of an item, its seeds laid out where the others' are. Null: no memory.
+SoftObject* Model::makeObject(const Actor& item) const
 {
-    if (spacing_ == Real(0))
-        return true;
-    return object->resample(spacing_, makeSurface_);
+    SoftObject* object = item.kind == nullptr ? nullptr : item.kind->make(item.number, item.measure);
+    if (object == nullptr)
+        return nullptr;
+    object->setStrength(item.strength);
+    if (spacing_ != Real(0) && !object->resample(spacing_, makeSurface_)) {
+        destroy(object);
+        return nullptr;
+    }
+    return object;
 }
 
 bool Model::add(SoftObject* object, const Colour& colour, const Motion& motion)
@@ -88,6 +96,7 @@ bool Model::add(SoftObject* object, const Colour& colour, const Motion& motion)
     actor->number = object->number();
     snprintf(actor->name, sizeof actor->name, "object%d", actor->number);
     actor->measure[0] = actor->made = object->size();
+    actor->strength = object->strength();
     bodiesKnown_ = false;
     actors_[count_++] = actor;
     items_[itemCount_++] = actor;
@@ -114,9 +123,8 @@ Actor* Model::addItem(const Actor& described)
     item->pose = Pose();
     item->object = nullptr;
     if (!group) {
-        item->object = described.kind->make(number, described.measure);
-        if (item->object == nullptr || !layOut(item->object)) {
-            destroy(item->object);
+        item->object = makeObject(*item);
+        if (item->object == nullptr) {
             destroy(item);
             return nullptr;
         }
@@ -241,16 +249,20 @@ bool Model::setParent(Actor* item, int parent)
 
 bool Model::remake(Actor* item)
 {
-    SoftObject* fresh = item->kind->make(item->number, item->measure);
-    if (fresh == nullptr || !layOut(fresh)) {
-        destroy(fresh);
+    SoftObject* fresh = makeObject(*item);
+    if (fresh == nullptr)
         return false;
-    }
-    // The links, at both ends; where memory fails the link is lost, never half of it.
+    // The links and dents, at both ends; where memory fails one is lost, never half of it.
     for (int i = 0; i < count_; ++i) {
         SoftObject* other = actors_[i]->object;
         Real weight;
-        if (other == item->object || !linked(other, item->object, &weight))
+        if (other == item->object)
+            continue;
+        if (dented(other, item->object, &weight))
+            dent(other, fresh, weight);
+        if (dented(item->object, other, &weight))
+            dent(fresh, other, weight);
+        if (!linked(other, item->object, &weight))
             continue;
         other->unlink(item->object);
         link(fresh, other, weight);
@@ -304,15 +316,41 @@ void Model::unlink(SoftObject* a, SoftObject* b)
     b->unlink(a);
 }
 
-bool Model::linked(const SoftObject* a, const SoftObject* b, Real* weight)
+bool Model::dent(SoftObject* a, SoftObject* b, Real weight)
 {
-    for (const List<Link>::Node* node = a->skel().first(); node != nullptr; node = node->next) {
-        if (node->item.object == b) {
+    bodiesKnown_ = false;
+    return a->dent(b, weight);
+}
+
+void Model::undent(SoftObject* a, SoftObject* b)
+{
+    bodiesKnown_ = false;
+    a->undent(b);
+}
+
+namespace {
+
+bool weightIn(const List<Link>& list, const SoftObject* object, Real* weight)
+{
+    for (const List<Link>::Node* node = list.first(); node != nullptr; node = node->next) {
+        if (node->item.object == object) {
             *weight = node->item.weight;
             return true;
         }
     }
     return false;
+}
+
+}  // namespace
+
+bool Model::linked(const SoftObject* a, const SoftObject* b, Real* weight)
+{
+    return weightIn(a->skel(), b, weight);
+}
+
+bool Model::dented(const SoftObject* a, const SoftObject* b, Real* weight)
+{
+    return weightIn(a->dents(), b, weight);
 }
 
 Vector Model::inverse(const Pose& pose, const Vector& v)
@@ -385,12 +423,13 @@ Actor* Model::eyeCarrier()
 const SoftObject* Model::alike(int i) const
 {
     const Actor& one = *actors_[i];
-    for (int j = 0; one.kind != nullptr && j < i; ++j) {
+    for (int j = 0; one.kind != nullptr && one.object->hollowed() == nullptr && j < i; ++j) {
         const Actor& other = *actors_[j];
-        bool same = other.kind == one.kind && other.object->size() == one.object->size();
+        bool same = other.kind == one.kind && other.object->size() == one.object->size() && other.strength == one.strength;
         for (int m = 0; same && m < MEASURES_MOST; ++m)
             same = other.measure[m] == one.measure[m];
-        if (same)
+        // What only digs lays its seeds out for what it digs into.
+        if (same && other.object->hollowed() == nullptr)
             return other.object;
     }
     return nullptr;
@@ -442,6 +481,9 @@ const Bodies* Model::bodies()
         for (int i = 0; i < count_; ++i)
             objects[i] = actors_[i]->object;
         bodiesKnown_ = bodies_.find(objects, count_);
+        for (int i = 0; i < count_; ++i)
+            if (objects[i]->laidInVain())
+                bodiesKnown_ = objects[i]->resample(spacing_, makeSurface_) && bodiesKnown_;
     }
     if (!bodiesKnown_)
         return nullptr;
@@ -504,9 +546,12 @@ void Model::swap(Model& other)
 Model::Record* Model::record() const
 {
     int pairs = 0;
-    for (int i = 0; i < count_; ++i)
+    for (int i = 0; i < count_; ++i) {
         for (const List<Link>::Node* node = actors_[i]->object->skel().first(); node != nullptr; node = node->next)
             pairs += node->item.object->number() > actors_[i]->number;
+        for (const List<Link>::Node* node = actors_[i]->object->dents().first(); node != nullptr; node = node->next)
+            ++pairs;
+    }
     const size_t bytes = sizeof(Record) + static_cast<size_t>(itemCount_) * sizeof(Actor) +
                          static_cast<size_t>(keyCount_) * sizeof(Key) + static_cast<size_t>(pairs) * sizeof(Record::Pair);
     Record* record = static_cast<Record*>(malloc(bytes));
@@ -524,11 +569,14 @@ Model::Record* Model::record() const
     if (keyCount_ > 0)
         memcpy(record->key(), keys_, static_cast<size_t>(keyCount_) * sizeof(Key));
     Record::Pair* pair = record->pair();
-    for (int i = 0; i < count_; ++i)
+    for (int i = 0; i < count_; ++i) {
+        const int16_t number = static_cast<int16_t>(actors_[i]->number);
         for (const List<Link>::Node* node = actors_[i]->object->skel().first(); node != nullptr; node = node->next)
-            if (node->item.object->number() > actors_[i]->number)
-                *pair++ = {static_cast<int16_t>(actors_[i]->number), static_cast<int16_t>(node->item.object->number()),
-                           node->item.weight};
+            if (node->item.object->number() > number)
+                *pair++ = {number, static_cast<int16_t>(node->item.object->number()), node->item.weight, false};
+        for (const List<Link>::Node* node = actors_[i]->object->dents().first(); node != nullptr; node = node->next)
+            *pair++ = {number, static_cast<int16_t>(node->item.object->number()), node->item.weight, true};
+    }
     return record;
 }
 
@@ -552,14 +600,14 @@ bool Model::restore(const Record* record)
             continue;
         before.actors_[before.count_++] = item;
         const Actor* now = itemNumbered(item->number);
-        bool same = now != nullptr && now->kind == item->kind;
+        bool same = now != nullptr && now->kind == item->kind && now->strength == item->strength;
         for (int m = 0; same && m < MEASURES_MOST; ++m)
             same = now->measure[m] == item->measure[m];
         if (same)
             continue;  // its object is taken over below
         item->pose = Pose();
-        item->object = item->kind == nullptr ? nullptr : item->kind->make(item->number, item->measure);
-        good = item->object != nullptr && layOut(item->object);
+        item->object = makeObject(*item);
+        good = item->object != nullptr;
         item->made = good ? item->object->size() : Real(0);
     }
     if (good && record->keys > 0) {
@@ -573,8 +621,10 @@ bool Model::restore(const Record* record)
         return false;
 
     for (int i = 0; i < count_; ++i)
-        for (int j = 0; j < i; ++j)
+        for (int j = 0; j < count_; ++j) {
             unlink(actors_[i]->object, actors_[j]->object);
+            undent(actors_[i]->object, actors_[j]->object);
+        }
     for (int i = 0; i < before.count_; ++i) {
         Actor* item = before.actors_[i];
         if (item->object != nullptr)
@@ -597,7 +647,7 @@ bool Model::restore(const Record* record)
         recalcAll();
     const Record::Pair* pair = record->pair();
     for (int i = 0; i < record->pairs; ++i)
-        good = link(itemNumbered(pair[i].a)->object, itemNumbered(pair[i].b)->object, pair[i].weight) && good;
+        good = (this->*(pair[i].dent ? &Model::dent : &Model::link))(itemNumbered(pair[i].a)->object, itemNumbered(pair[i].b)->object, pair[i].weight) && good;
     return true;
 }
 
@@ -606,7 +656,8 @@ int Model::strongestAt(const Point& p) const
     int best = -1;
     Real strongest(0);
     for (int i = 0; i < count_; ++i) {
-        const Real field = actors_[i]->object->fieldFunc(p);
+        const SoftObject& object = *actors_[i]->object;
+        const Real field = object.hasSurface() ? object.fieldFunc(p) : Real(0);
         if (field > strongest) {
             strongest = field;
             best = i;

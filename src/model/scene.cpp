@@ -11,7 +11,7 @@ namespace {
 constexpr char END_OF_TEXT = 26;  // Ctrl-Z
 constexpr int WORD_ROOM = 32;
 
-// "blend all" goes through every pair; no scene needs it often. What lines with rows link is limited in the same way.
+// "blend all" goes through every pair; no scene needs it often. What lines with rows link or dent is limited in the same way.
 constexpr int ALL_MOST = 8;
 constexpr int ROW_PAIRS_MOST = 65024;
 
@@ -138,6 +138,10 @@ private:
     bool readPainted(Row* row);
     bool finish();
     bool pattern();
+    bool dent();
+    bool strength();
+    bool readPair(const char* what, Row* a, Row* b);
+    bool readWeight(Real* weight);
 
     const char* name_;
     Source& source_;
@@ -483,12 +487,16 @@ bool Reader::statement()
         return finish();
     if (is("pattern"))
         return pattern();
+    if (is("dent"))
+        return dent();
+    if (is("strength"))
+        return strength();
     char text[240];
     int length = 0;
     for (int i = 0; i < KIND_COUNT; ++i)
         length += snprintf(text + length, sizeof text - static_cast<size_t>(length), "%s, ", KINDS[i].word);
     snprintf(text + length, sizeof text - static_cast<size_t>(length),
-             "group, blend, circle, path, spin, swing, pulse, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title");
+             "group, blend, dent, strength, circle, path, spin, swing, pulse, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title");
     return expected(text);
 }
 
@@ -1085,32 +1093,74 @@ bool Reader::key()
     return true;
 }
 
+// Two objects or rows, the first by the word read last.
+bool Reader::readPair(const char* what, Row* a, Row* b)
+{
+    if (word_[0] == 0 || !find(word_, a) || in(*a, 0).object == nullptr)
+        return expected(what);
+    nextWord();
+    if (word_[0] == 0 || !find(word_, b) || in(*b, 0).object == nullptr ||
+        (a->first == b->first && a->count == 1 && b->count == 1))
+        return expected("the name of a second object");
+    if (a->count > 1 || b->count > 1)
+        rowPairs_ += a->count * b->count;
+    return rowPairs_ <= ROW_PAIRS_MOST ? true : expected("at most 65024 pairs in all lines that blend or dent rows");
+}
+
+// A weight and the end of the line; the weight may be missing.
+bool Reader::readWeight(Real* weight)
+{
+    *weight = Real(1);
+    const char* behind = at_;
+    if (!nextWord())
+        return true;
+    at_ = behind;
+    return readReal("a weight", Real(0), WEIGHT_MOST, weight) && readEnd();
+}
+
+bool Reader::dent()
+{
+    nextWord();
+    Row a, b;
+    Real weight;
+    if (!readPair("the name of an object", &a, &b) || !readWeight(&weight))
+        return false;
+    bool good = true;
+    for (int i = 0; i < a.count; ++i)
+        for (int j = 0; j < b.count; ++j)
+            if (a.first + i != b.first + j)
+                good = good && model_.dent(in(a, i).object, in(b, j).object, weight);
+    return good ? true : trouble("not enough memory for the dents");
+}
+
+bool Reader::strength()
+{
+    nextWord();
+    Row row;
+    if (word_[0] == 0 || !find(word_, &row) || in(row, 0).object == nullptr)
+        return expected("the name of an object");
+    Real strength;
+    if (!readReal("a strength", STRENGTH_LEAST, STRENGTH_MOST, &strength) || !readEnd())
+        return false;
+    for (int i = 0; i < row.count; ++i) {
+        in(row, i).strength = strength;
+        in(row, i).object->setStrength(strength);
+    }
+    return true;
+}
+
 bool Reader::blend()
 {
     nextWord();
     const bool all = is("all");
     Row a, b;
-    if (!all) {
-        if (word_[0] == 0 || !find(word_, &a) || in(a, 0).object == nullptr)
-            return expected("all, or the name of an object");
-        nextWord();
-        if (word_[0] == 0 || !find(word_, &b) || in(b, 0).object == nullptr ||
-            (a.first == b.first && a.count == 1 && b.count == 1))
-            return expected("the name of a second object");
-        if (a.count > 1 || b.count > 1)
-            rowPairs_ += a.count * b.count;
-        if (rowPairs_ > ROW_PAIRS_MOST)
-            return expected("at most 65024 pairs in all lines that blend rows");
-    }
+    if (!all && !readPair("all, or the name of an object", &a, &b))
+        return false;
     if (all && ++allBlended_ > ALL_MOST)
         return expected("blend all in at most 8 lines");
-    Real weight(1);
-    const char* behind = at_;
-    if (nextWord()) {
-        at_ = behind;
-        if (!readReal("a weight", Real(0), WEIGHT_MOST, &weight) || !readEnd())
-            return false;
-    }
+    Real weight;
+    if (!readWeight(&weight))
+        return false;
     bool good = all ? model_.linkAll(weight) : true;
     for (int i = 0; !all && i < a.count; ++i)
         for (int j = 0; j < b.count; ++j)
@@ -1313,6 +1363,10 @@ void Writer::item(const Model& model, const Actor& actor)
         vector({Real(coat.colour.red), Real(coat.colour.green), Real(coat.colour.blue)});
         end();
     }
+    if (actor.strength != Real(1)) {
+        word("strength").word(actor.name).number(actor.strength);
+        end();
+    }
     if (m.circle.period != Real(0)) {
         word("circle").word(actor.name).word("u").vector(m.u).word("v").vector(m.v).period(m.circle);
         end();
@@ -1398,6 +1452,16 @@ bool Writer::write(const Model& model)
     if (seen != nullptr) {
         word("look").word(seen->name);
         end();
+    }
+
+    for (int i = 0; i < model.count(); ++i) {
+        const Actor& dug = model.actor(i);
+        for (const List<Link>::Node* node = dug.object->dents().first(); node != nullptr; node = node->next) {
+            word("dent").word(dug.name).word(model.itemNumbered(node->item.object->number())->name);
+            if (node->item.weight != Real(1))
+                number(node->item.weight);
+            end();
+        }
     }
 
     // Links: one line where all are alike, else one for each.

@@ -10,6 +10,9 @@ namespace {
 // Of the spacing asked for: seeds that scaling has moved farther apart or together are laid out anew.
 constexpr Real DRIFT_MAX(0.25);
 
+// Seeds rest no nearer to the core than at this param(): where an object so weak blends, its surface lies farther out.
+constexpr Real REST_LEAST(0.140625);
+
 int64_t squaredDistance(const Point& a, const Point& b)
 {
     const int64_t x = rawFromReal(a.x) - rawFromReal(b.x);
@@ -53,7 +56,8 @@ Vector withSquare(const Vector& v, const Vector& like)
 SoftObject::SoftObject(int number, Real size, Real coreReach, bool tapers)
     : number_(number), centre_{Real(0), Real(0), Real(0)}, turn_(Matrix::identity()), size_(size),
       radius_(shiftDown(size, 1)), inverse_(Real(CORE_SIZE) / size), coreReach_(coreReach),
-      sizeMade_(size), coreReachMade_(coreReach), coreReach16_(coreReach * (Real(CORE_SIZE) / size)), slot_(0), recalc_(true), tapers_(tapers),
+      sizeMade_(size), coreReachMade_(coreReach), coreReach16_(coreReach * (Real(CORE_SIZE) / size)), strength_(1),
+      restParam_(0.25), restRoot_(0.5), rests_(true), laidHollow_(false), slot_(0), recalc_(true), tapers_(tapers),
       displaced_(false), ramp_(nullptr), surface_(nullptr), makeSurface_(nullptr)
 {
     laid_.size = size;
@@ -63,6 +67,10 @@ SoftObject::~SoftObject()
 {
     for (const List<Link>::Node* node = skel_.first(); node != nullptr; node = node->next)
         node->item.object->unlink(this);
+    for (const List<Link>::Node* node = dents_.first(); node != nullptr; node = node->next)
+        node->item.object->digs_.remove({this, Real(0)});
+    for (const List<Link>::Node* node = digs_.first(); node != nullptr; node = node->next)
+        node->item.object->dents_.remove({this, Real(0)});
     destroy(surface_);
     laid_.release();
 }
@@ -138,7 +146,7 @@ void SoftObject::setSize(Real wanted)
         return;
     tellNeighbours();
     size_ = size;
-    radius_ = shiftDown(size, 1);
+    radius_ = size * restRoot_;
     inverse_ = Real(CORE_SIZE) / size;
     coreReach_ = grown(coreReachMade_);
     if (laid_.seeds != nullptr) {
@@ -150,6 +158,34 @@ void SoftObject::setSize(Real wanted)
     tellNeighbours();
 }
 
+void SoftObject::setStrength(Real wanted)
+{
+    strength_ = clamp(wanted, STRENGTH_LEAST, STRENGTH_MOST);
+    findRest();
+}
+
+void SoftObject::findRest()
+{
+    // Where the field is the isovalue: at 1/4 for a strength of 1, farther out for more. In a hollow the field of what is
+    // dented is anything between that and 1, and what digs takes away the difference: where it is half of that.
+    const SoftObject* const dented = hollowed();
+    Real strength = strength_, level = ISOVALUE;
+    if (dented != nullptr) {
+        strength = strength * hollowLink()->weight;
+        level = shiftDown(ISOVALUE, 1);
+    }
+    Real inside(0), outside(1);
+    for (int i = 0; i < 20; ++i) {
+        const Real middle = shiftDown(inside + outside, 1);
+        (strength * geoff(middle) > level ? inside : outside) = middle;
+    }
+    laidHollow_ = dented != nullptr;
+    restParam_ = strength_ == Real(1) && !laidHollow_ ? Real(0.25) : most(inside, REST_LEAST);
+    restRoot_ = squareRoot(restParam_);
+    rests_ = inside >= REST_LEAST && !laidHollow_;
+    radius_ = size_ * restRoot_;
+}
+
 // "If the object is transformed, this flag is set and it will tell all its neighbors to set their recalc flags", but
 // "if an object has no displaced seeds [...] it will not tell its neighbors". Our addition: it does when it is near
 // enough to matter, so that huge jumps are safe.
@@ -159,6 +195,10 @@ void SoftObject::tellNeighbours()
         if (!node->item.object->recalc_ && (displaced_ || inRange(*node->item.object)))
             node->item.object->recalc_ = true;
     }
+    for (int i = 0; i < 2; ++i)
+        for (const List<Link>::Node* node = (i == 0 ? digs_ : dents_).first(); node != nullptr; node = node->next)
+            if (inRange(*node->item.object))
+                node->item.object->recalc_ = true;
 }
 
 bool SoftObject::inRange(const SoftObject& other, Real slack) const
@@ -185,6 +225,53 @@ void SoftObject::unlink(SoftObject* other)
         recalc_ = true;
 }
 
+bool SoftObject::dent(SoftObject* other, Real weight)
+{
+    recalc_ = true;
+    Link* there = dents_.find({other, Real(0)});
+    if (there != nullptr) {
+        there->weight = weight;
+        other->digs_.find({this, Real(0)})->weight = weight;
+        return true;
+    }
+    if (!dents_.append({other, weight}))
+        return false;
+    if (other->digs_.append({this, weight}))
+        return true;
+    dents_.remove({other, Real(0)});
+    return false;
+}
+
+void SoftObject::undent(SoftObject* other)
+{
+    if (!dents_.remove({other, Real(0)}))
+        return;
+    other->digs_.remove({this, Real(0)});
+    // The other may have a surface again.
+    recalc_ = other->recalc_ = true;
+}
+
+bool SoftObject::hasSurface() const
+{
+    const auto some = [](const List<Link>& list) {
+        for (const List<Link>::Node* node = list.first(); node != nullptr; node = node->next)
+            if (node->item.weight != Real(0))
+                return true;
+        return false;
+    };
+    return !some(digs_) || some(skel_);
+}
+
+const Link* SoftObject::hollowLink() const
+{
+    if (digs_.empty() || hasSurface())
+        return nullptr;
+    const List<Link>::Node* node = digs_.first();
+    while (node->item.weight == Real(0))
+        node = node->next;
+    return node->item.object->hasSurface() ? &node->item : nullptr;
+}
+
 // --- The field
 
 Real SoftObject::param(const Vector& q, Vector* slope) const
@@ -206,7 +293,7 @@ Real SoftObject::fieldFunc(const Point& p) const
     const Real reach = size_ + coreReach_;
     if (absolute(v.x) >= reach || absolute(v.y) >= reach || absolute(v.z) >= reach)
         return Real(0);
-    return geoff(param(toOwnAxes(v) * inverse_, &slope));
+    return strength_ * geoff(param(toOwnAxes(v) * inverse_, &slope));
 }
 
 void SoftObject::describeAs(const char* kind, const Real* numbers, int count, char* to, int size) const

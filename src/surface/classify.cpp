@@ -188,10 +188,11 @@ bool reaches(const Neighbour& near, const Bound& ball)
 
 void classify(Patch& patch, const Neighbourhood& all)
 {
-    // Half way along what is left of the paths when their seeds are at rest, where the own field ends.
-    const Step beyond = above(patch, patch.path >> 1);
+    // Half way along what is left of the paths when their seeds are at rest, where the own field ends; or along all of them.
+    const int32_t half = all.deep ? patch.path * (rawFromReal(all.last) >> 10) >> 7 : patch.path >> 1;
+    const Step beyond = above(patch, all.deep ? half - patch.path : half);
     const int32_t slack = steps16(LIST_SLACK);
-    const int32_t radius = (patch.path >> 1) + patch.radius + (patch.radius >> 1) + slack;
+    const int32_t radius = half + patch.radius + (patch.radius >> 1) + slack;
     memset(patch.listed, 0, sizeof patch.listed);
     memset(patch.near, 0, sizeof patch.near);
     Bound ball = boundOf(patch, patch.radius);

@@ -57,7 +57,7 @@ void Engine::update(const FrameContext& frame)
 {
     Neighbourhood all;
     const OwnFrame own = ownFrame(object_, frame);
-    if (own.outOfSight)
+    if (own.outOfSight || (!object_.hasSurface() && object_.hollowed() == nullptr))
         return;
     gather(object_, frame, all);
     const bool known = odometer_.advance(object_, own, all, frame.bodies->version());
@@ -74,7 +74,7 @@ void Engine::update(const FrameContext& frame)
             patch->listDue = odometer_.bound() + wayOf(LIST_SLACK);
             patch->stale = false;
         }
-        if (!settler.setPatch(*patch)) {
+        if (!settler.setPatch(*patch) && all.rests) {
             if (patch->state != PATCH_REST) {
                 // Where its seeds are now, others may reach them.
                 rest(object_, *patch, own);
@@ -117,8 +117,11 @@ void Engine::update(const FrameContext& frame)
 void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* next)
 {
     const OwnFrame own = ownFrame(object_, frame);
-    list.begin(frame.inView(object_.centre()), object_.coreReach() + object_.size(), object_.ramp());
-    if (own.outOfSight) {
+    // A hollow has the colour of what it is in.
+    const SoftObject* const head = object_.hasSurface() ? &object_ : object_.hollowed();
+    list.begin(frame.inView(object_.centre()), object_.coreReach() + object_.size(),
+               head == nullptr ? object_.ramp() : head->ramp());
+    if (own.outOfSight || head == nullptr) {
         *next = 0;
         return;
     }

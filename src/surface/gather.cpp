@@ -89,15 +89,20 @@ OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
     return own;
 }
 
-void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& all)
+// Whether objects of its own body dig into one.
+static bool dentedFromWithin(const SoftObject& object, const Bodies& bodies)
 {
-    SoftObject* const* member = frame.bodies->members(object);
-    SoftObject* const* const end = member + frame.bodies->memberCount(object);
+    for (const List<Link>::Node* node = object.dents().first(); node != nullptr; node = node->next)
+        if (bodies.members(object) == bodies.members(*node->item.object) && node->item.weight != Real(0))
+            return true;
+    return false;
+}
+
+static void gatherFrom(SoftObject* const* from, int count, bool digs, const SoftObject& object, const Bodies& bodies, Neighbourhood& all)
+{
     const Real growth = object.growth();
-    all.count = 0;
-    memset(all.numberOf, -1, sizeof all.numberOf);
-    for (; member < end && all.count < NEIGHBOURS_MAX; ++member) {
-        const SoftObject& other = **member;
+    for (SoftObject* const* const end = from + count; from < end && all.count < NEIGHBOURS_MAX; ++from) {
+        const SoftObject& other = **from;
         if (&other == &object || !object.inRange(other, GATHER_SLACK))
             continue;
         all.numberOf[other.slot()] = static_cast<int8_t>(all.count);
@@ -111,6 +116,15 @@ void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& 
         near.inverse16 = Real(CORE_SIZE) / near.size;
         const Real proportion = least(object.size() / other.size(), Real(60));
         near.ratio = proportion * proportion;
+        near.strength = other.strength();
+        near.digs = digs;
+        near.plain = !digs && near.strength == Real(1) && !(all.hollow && &other == all.head);
+        near.weight = digs ? -bodies.weight(all.head->slot(), other.slot()) : Real(0);
+        near.samples = digs && other.hollowed() == all.head;
+        near.grain = near.plain ? near.size : near.size / (most(near.strength, Real(1)) * most(near.weight, Real(1)));
+        all.inner = all.inner || (!digs && dentedFromWithin(other, bodies));
+        all.dented = all.dented || digs;
+        all.deep = all.deep || digs || all.inner;
         near.x16 = rawFromReal(near.centre.x) >> 12;
         near.y16 = rawFromReal(near.centre.y) >> 12;
         near.z16 = rawFromReal(near.centre.z) >> 12;
@@ -119,4 +133,22 @@ void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& 
         if (!other.isBall())
             aim(object, near);
     }
+}
+
+void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& all)
+{
+    const Bodies& bodies = *frame.bodies;
+    all.count = 0;
+    const SoftObject* const hollowed = object.hollowed();
+    all.hollow = hollowed != nullptr;
+    all.head = all.hollow ? hollowed : &object;
+    all.weight = all.hollow ? -bodies.weight(all.head->slot(), object.slot()) : Real(0);
+    all.inner = dentedFromWithin(*all.head, bodies);
+    all.rests = object.rests() && !all.hollow;
+    all.dented = false;
+    all.deep = all.inner || !all.rests;
+    all.last = object.restRoot() == Real(0.5) ? Real(1.98) : Real(0.99) / object.restRoot();
+    memset(all.numberOf, -1, sizeof all.numberOf);
+    gatherFrom(bodies.diggers(*all.head), bodies.diggerCount(*all.head), true, object, bodies, all);
+    gatherFrom(bodies.members(*all.head), bodies.memberCount(*all.head), false, object, bodies, all);
 }

@@ -20,6 +20,12 @@ struct Neighbour {
     Real size;          // where its field ends, from its core
     Real inverse16;     // CORE_SIZE / size
     Real ratio;         // squared proportion of the own size to `size`: its share of the gradient
+    Real strength;      // what its field is multiplied by
+    bool plain;         // it is one of the body, its strength is 1, and it is not the head of a hollow
+    bool digs;          // it is none of the body, and digs into some of it
+    Real weight;        // and by this weight into the head; 0: not
+    bool samples;       // and its seeds sample that hollow
+    Real grain;         // its size, less where its field changes more over that
     int32_t x16, y16, z16, size16;  // centre and size in 1/16 unit
     bool segment;       // its core is a segment to each side of its centre, half16 long; whether or not it tapers
     int32_t half16, axis[3];        // its direction, 1.0 = 2^14
@@ -45,6 +51,14 @@ struct Neighbour {
 // All neighbours of an object, and by slot which of them is which; -1: out of range.
 struct Neighbourhood {
     int count;
+    const SoftObject* head;  // the object itself; if its seeds sample a hollow, the one that is hollowed out
+    bool hollow;        // they do
+    Real weight;        // and by this weight the object digs into that
+    bool inner;         // some of the body dig into others of it
+    bool rests;         // the surface lies at position 1 where no neighbour reaches
+    bool dented;        // some neighbours dig
+    bool deep;          // paths are searched from near their roots
+    Real last;          // position where the own field ends
     Neighbour neighbours[NEIGHBOURS_MAX];
     int8_t numberOf[SLOTS_MAX];
 };

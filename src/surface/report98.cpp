@@ -12,6 +12,7 @@ namespace {
 // The report's tolerances. It names them and gives no figure; these are ours.
 constexpr Real LOCATION_TOLERANCE(0.00004);  // of the field: "desired accuracy"
 constexpr int ITERATION_LIMIT = 32;
+constexpr Real NOWHERE(0.05);                // of the field: farther from the isovalue, and a path may have no surface
 constexpr Real BACK_FACE(-0.43);             // cosine of path and direction to the viewer, below which a seed is skipped
 constexpr Real DISPLACEMENT(0.001);          // of the position: less is taken as not moved
 constexpr Real DEFORMITY(0.01);              // of the position: less, and the normal is the path
@@ -50,6 +51,7 @@ private:
     SoftObject& object_;
     Kept* kept_ = nullptr;
     bool displaced_ = false;
+    Real step_{1};
 };
 
 // "Brightness proportional to the angle" of normal and light, 0..63, from the cosine.
@@ -78,7 +80,8 @@ void Report98::pose()
         kept_[i].path = object_.toWorld(object_.seed(i).path) - object_.centre();
 }
 
-// The neighbours close enough to matter, tested once at the start of an update cycle.
+// The neighbours close enough to matter, tested once at the start of an update cycle. What digs into the object has a weight
+// below 0, which the report has not.
 int Report98::findNear(Link* near) const
 {
     int count = 0;
@@ -86,16 +89,27 @@ int Report98::findNear(Link* near) const
         if (object_.inRange(*node->item.object))
             near[count++] = node->item;
     }
+    for (const List<Link>::Node* node = object_.dents().first(); node != nullptr && count < NEAR_MAX; node = node->next) {
+        if (object_.inRange(*node->item.object))
+            near[count++] = {node->item.object, -node->item.weight};
+    }
     return count;
 }
 
 void Report98::update(const FrameContext& frame)
 {
+    if (!object_.hasSurface())
+        return;
     pose();
     Link near[NEAR_MAX];
     const int nearCount = findNear(near);
     const Vector toEye = unit(frame.eye - object_.centre());
     displaced_ = false;
+    // The report's slope is that of its fields. A stronger one is steeper, and what digs adds to it.
+    Real steep = object_.strength();
+    for (int n = 0; n < nearCount; ++n)
+        steep += most(Real(0), -near[n].weight) * near[n].object->strength();
+    step_ = steep > Real(1) ? Real(1) / steep : Real(1);
     // "The regular seeds at even positions in an array, and the corresponding extra samples at the following odd
     // position. The index in the update loop is incremented by one or two depending on the status of the extra seed."
     for (int i = 0; i < object_.seedSlots(); i += 2) {
@@ -146,15 +160,18 @@ void Report98::settle(int i, const FrameContext& frame, const Vector& toEye, con
         ++iterations;
         difference = absolute(field - ISOVALUE);
         if (difference > LOCATION_TOLERANCE) {
-            position -= ISOVALUE - field;  // the slope is taken as -1
+            position -= (ISOVALUE - field) * step_;  // the slope is taken as -1
             point = root + path * position;
         }
     } while (highest && difference > LOCATION_TOLERANCE && iterations < ITERATION_LIMIT);
 
     ++frame.counts->updated;
     frame.counts->iterations += static_cast<uint32_t>(iterations);
-    if (highest && difference > LOCATION_TOLERANCE)
+    if (highest && difference > LOCATION_TOLERANCE) {
         ++frame.counts->unsettled;
+        // A path may have no surface where the object is weak or something digs into it.
+        highest = difference < NOWHERE || (object_.rests() && object_.dents().empty());
+    }
 
     // "If they have not moved by a certain minimum amount between frames, they are assumed not to have moved."
     const bool wasValid = (s.flags & SEED_VALID) != 0;
@@ -180,7 +197,7 @@ void Report98::draw(const FrameContext& frame, VoxelList& list, int room, int* n
             field += near[n].object->fieldFunc(p) * near[n].weight;
         return field;
     };
-    int i = *next;
+    int i = object_.hasSurface() ? *next : object_.seedSlots();
     for (; i < object_.seedSlots() && list.count < room; ++i) {
         Seed& s = object_.seed(i);
         if ((i & 1) != 0 && !(s.flags & SEED_ACTIVE))

@@ -16,8 +16,8 @@ constexpr Real LONGEST_STEP(0.25);
 // Of the field per position: flatter, and Newton's method has no say.
 constexpr Real FLAT(-0.06);
 constexpr int NEWTON_STEPS = 5;
-// Positions: where paths begin and end to be searched, and in which steps. The own field ends at 2.
-constexpr Real FIRST(0.7), LAST(1.98), SEARCH_STEP(0.16), MIDDLE(1.34), REST_OF_PATH(0.66);
+// Positions: where paths begin to be searched, and those that are hollowed out or of weak objects; and in which steps.
+constexpr Real FIRST(0.7), FIRST_DEEP(0.06), SEARCH_STEP(0.16);
 // Of the field: a seed that is this far inside where it was nearest to the surface is still inside.
 constexpr Real DEEP(0.06);
 // Positions: how far before that place one neighbour must be stronger, too; and how many updates go by until all are asked.
@@ -27,7 +27,7 @@ constexpr uint32_t TURNS = 8;
 constexpr Real HURRY(4);
 // Of the field: a valley this shallow above the isovalue is looked into.
 constexpr Real VALLEY(0.12);
-// Of the field: a neighbour that is weaker than the own by less is near.
+// Of the field, times the greatest strength: a neighbour that is weaker than the own by less is near.
 constexpr Real BORDER(0.25);
 // What a field changes by at most over its size.
 constexpr Real STEEPEST(1.3);
@@ -35,6 +35,10 @@ constexpr Real STEEPEST(1.3);
 constexpr int32_t TURNED = 2000;
 // Cosines (1.0 = 2^14) by which a seed faces away that is looked at less often.
 constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000;
+// Position beyond which a path that is hollowed out leaves the surface for good.
+constexpr Real OUTERMOST(0.8);
+// Spacings: how far beyond the border of its part a seed still has a scale that reaches into it.
+constexpr Real SHARED(1.5);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
 constexpr Real PARTED(1.5);
 // Units: how far neighbours may come at most before a patch that lies inside is looked at again.
@@ -47,11 +51,15 @@ constexpr Real RANGE(0.05);
 Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& all, const FrameContext& frame,
                  const Odometer& odometer, uint32_t updates)
     : object_(object), own_(own), all_(all), bodies_(*frame.bodies), counts_(*frame.counts), now_(odometer.reading()),
-      came_(realFromRaw(static_cast<int32_t>(odometer.came() << 6))), updates_(updates), ownWeights_(bodies_.weights(object.slot()))
+      came_(realFromRaw(static_cast<int32_t>(odometer.came() << 6))), updates_(updates), ownWeights_(bodies_.weights(object.slot())),
+      hollow_(all.hollow), ownPlain_(object.strength() == Real(1) && !all.hollow), restParam_(object.restParam()), first_(all.deep ? FIRST_DEEP : FIRST),
+      last_(all.last), border_(BORDER * most(object.strength(), Real(1)))
 {
+    const Real restOfPath = (shiftDown(last_ - first_, 1) + Real(0.02)) * object.laidRadius();
     for (int i = 0; i < all.count; ++i) {
         from_[i].root = -1;
-        const Real reach = Real(1) + object.laidSize() * REST_OF_PATH * shiftDown(all.neighbours[i].inverse16, 5);
+        border_ = most(border_, BORDER * all.neighbours[i].strength);
+        const Real reach = Real(1) + restOfPath * shiftDown(all.neighbours[i].inverse16, 4);
         reachT_[i] = reach < Real(100) ? reach * reach : Real(10000);
     }
     listed_.count = 0;
@@ -76,12 +84,22 @@ void Settler::setComplete(Few& few) const
             missing |= members[word] & ~(plain[word] | (word == slot / 32 ? 1u << slot % 32 : 0));
         return missing == 0;
     };
-    add(object_.slot());
+    if (!hollow_)
+        add(object_.slot());
     for (int i = 0; i < few.count; ++i)
-        add(all_.neighbours[few.number[i]].object->slot());
-    few.complete = linked(object_.slot());
-    for (int i = 0; i < few.count && few.complete; ++i)
-        few.complete = linked(all_.neighbours[few.number[i]].object->slot());
+        if (!all_.neighbours[few.number[i]].digs)
+            add(all_.neighbours[few.number[i]].object->slot());
+    few.complete = !all_.inner && (hollow_ || linked(object_.slot()));
+    for (int i = 0; i < few.count && few.complete; ++i) {
+        const Neighbour& near = all_.neighbours[few.number[i]];
+        const int slot = near.object->slot();
+        if (!near.digs)
+            few.complete = linked(slot) && (!hollow_ || bodies_.weight(slot, object_.slot()) == -all_.weight);
+        for (int j = 0; near.digs && j < few.count && few.complete; ++j) {
+            const Neighbour& member = all_.neighbours[few.number[j]];
+            few.complete = member.digs || bodies_.weight(member.object->slot(), slot) == -near.weight;
+        }
+    }
 }
 
 bool Settler::setPatch(const Patch& patch, bool oversampled)
@@ -91,7 +109,16 @@ bool Settler::setPatch(const Patch& patch, bool oversampled)
     patch_ = &patch;
     near_.count = 0;
     listed_.count = -1;
-    smallest_ = object_.laidSize();
+    smallest_ = ownPlain_ ? object_.laidSize() : object_.laidSize() / most(object_.strength(), Real(1));
+    dented_ = all_.inner || hollow_;
+    if (all_.dented || hollow_)
+        forNeighbours(patch.listed, [&](int slot) {
+            const int i = all_.numberOf[slot];
+            if (i < 0)
+                return;
+            dented_ = dented_ || all_.neighbours[i].digs;
+            smallest_ = least(smallest_, all_.neighbours[i].grain);
+        });
     // Oversampled seeds lie between those of the patch and those beside it.
     const Bound ball = boundOf(patch, oversampled ? patch.radius : patch.tight);
     forNeighbours(patch.near, [&](int slot) {
@@ -99,7 +126,7 @@ bool Settler::setPatch(const Patch& patch, bool oversampled)
         if (i < 0 || !reaches(all_.neighbours[i], ball))
             return;
         near_.number[near_.count++] = static_cast<uint8_t>(i);
-        smallest_ = least(smallest_, all_.neighbours[i].size);
+        smallest_ = least(smallest_, all_.neighbours[i].grain);
     });
     setComplete(near_);
     return near_.count > 0;
@@ -159,7 +186,8 @@ inline Real Along::param(Real p)
 {
     if (near->kind == Neighbour::OTHER) {
         const Real t = near->object->param(from->apart + step * p, &out);
-        change = shiftDown(dot(out, step), 7);
+        // Where the field has ended the product might leave 16.16, and nobody asks for it.
+        change = t < Real(1) ? shiftDown(dot(out, step), 7) : Real(0);
         return t;
     }
     const Real outer = p * from->c, inner = b + outer;
@@ -177,7 +205,7 @@ inline Real Along::param(Real p)
 void Settler::beginSearch(const Seed& s)
 {
     Sample sample;
-    begin(listed(), s, MIDDLE, &sample);
+    begin(listed(), s, shiftDown(first_ + last_, 1), &sample);
     Few few;
     few.count = 0;
     for (int i = 0; i < listed_.count; ++i)
@@ -186,7 +214,7 @@ void Settler::beginSearch(const Seed& s)
     few.complete = true;
     if (!listed_.complete)
         setComplete(few);
-    begin(few, s, FIRST, &sample);
+    begin(few, s, first_, &sample);
 }
 
 // Adds up the fields at one position of the path at hand.
@@ -197,12 +225,45 @@ struct Settler::Sum {
 
     Sum(Settler& of, Real at) : settler(of), position(at), strongest(0), touched(false)
     {
+        settler.lookedAt_ = at;
+        if (!of.ownPlain_) {
+            addOwn(of);
+            return;
+        }
         const Real t = shiftDown(at * at, 2);
         const FieldStep own = t < Real(1) ? geoffQuick(t) : FieldStep{Real(0), Real(0)};
-        settler.lookedAt_ = at;
         settler.ownField_ = sum = own.value;
         settler.ownSlope_ = own.slope;
         slope = shiftDown(own.slope * at, 1);
+    }
+    // The own field of an object that is not as strong as most, or of one whose seeds sample a hollow: it digs, and the head is
+    // among its neighbours.
+    SELDOM void addOwn(Settler& of)
+    {
+        const Real t = position * position * of.restParam_, strength = of.object_.strength();
+        const FieldStep own = t < Real(1) ? geoffQuick(t) : FieldStep{Real(0), Real(0)};
+        of.ownField_ = sum = own.value * strength;
+        of.ownSlope_ = own.slope * strength;
+        slope = of.ownSlope_ * position * shiftUp(of.restParam_, 1);
+        of.headField_ = Real(0);
+        if (of.hollow_) {
+            sum = -(sum * of.all_.weight);
+            slope = -(slope * of.all_.weight);
+        }
+    }
+    // The same of a neighbour that is not as strong as most, or digs, or has a hollow.
+    SELDOM void addOdd(Along& along)
+    {
+        const Neighbour& near = *along.near;
+        along.value = along.value * near.strength;
+        along.slope = along.slope * near.strength;
+        const Real weight = near.digs ? -near.weight : Real(1);
+        sum += along.value * weight;
+        slope += along.slope * weight * along.change;
+        if (settler.hollow_ && near.object == settler.all_.head)
+            settler.headField_ = along.value;
+        else if (!near.digs && along.value > strongest)
+            strongest = along.value;
     }
     void add(Along& along)
     {
@@ -215,6 +276,10 @@ struct Settler::Sum {
         const FieldStep field = geoffQuick(param < Real(0) ? Real(0) : param);
         along.value = field.value;
         along.slope = field.slope;
+        if (!along.near->plain) {
+            addOdd(along);
+            return;
+        }
         sum += field.value;
         slope += field.slope * along.change;
         if (field.value > strongest)
@@ -225,6 +290,8 @@ struct Settler::Sum {
         Sample all{sum - ISOVALUE, slope, strongest - settler.ownField_};
         if (!settler.complete_)
             settler.blend(position, all);
+        if (settler.hollow_)
+            all = {-all.excess, -all.slope, strongest - settler.headField_};
         return all;
     }
 };
@@ -257,7 +324,8 @@ Sample Settler::look(Real position)
 }
 
 // The body's field where not all are linked with all at weight 1 (model/body.h), from the fields that were found. With
-// x_i = f_i / the strongest, dF/df_k = (2 x_k (g_k - F) / strongest + x_k^2 + sum of w_ik x_i^2) / sum of x_i^2.
+// x_i = f_i / the strongest, dF/df_k = (2 x_k (g_k - F) / strongest + x_k^2 + sum of w_ik x_i^2) / sum of x_i^2; of what digs
+// only the last sum, in which its weights are below 0.
 void Settler::blend(Real position, Sample& sample)
 {
     // Those that have a field here, the own first.
@@ -271,10 +339,10 @@ void Settler::blend(Real position, Sample& sample)
     Part* end = parts;
     Real strongest(0);
     share_[0] = Real(1);
-    if (ownField_ > Real(0)) {
+    if (ownField_ > Real(0) && !hollow_) {
         strongest = ownField_;
         end->f = end->g = ownField_;
-        end->rate = shiftDown(ownSlope_ * position, 1);
+        end->rate = ownSlope_ * position * shiftUp(restParam_, 1);
         end->linked = Real(0);
         end->weights = ownWeights_;
         end->slot = object_.slot();
@@ -284,7 +352,7 @@ void Settler::blend(Real position, Sample& sample)
     for (int i = 0; i < touched_; ++i) {
         const Along& along = along_[i];
         share_[i + 1] = Real(1);
-        if (along.value <= Real(0))
+        if (along.value <= Real(0) || along.near->digs)
             continue;
         strongest = most(strongest, along.value);
         end->f = end->g = along.value;
@@ -295,9 +363,9 @@ void Settler::blend(Real position, Sample& sample)
         end->at = i + 1;
         ++end;
     }
-    if (end - parts < 2 || strongest <= Real(0.0005))
+    bool plain = !all_.inner && !dented_;
+    if ((plain && end - parts < 2) || strongest <= Real(0.0005))
         return;
-    bool plain = true;
     for (const Part* a = parts + 1; a < end && plain; ++a)
         for (const Part* b = parts; b < a && plain; ++b)
             plain = b->weights[a->slot] == Real(1);
@@ -319,7 +387,30 @@ void Settler::blend(Real position, Sample& sample)
             a->linked += one ? b->x2 : w * b->x2;
             b->linked += one ? a->x2 : w * a->x2;
         }
+        if (all_.inner)
+            for (Part* b = parts; b < a; ++b) {
+                // What B digs into A by more than A into B.
+                const Real w = b->weights[a->slot] - a->weights[b->slot];
+                a->g -= w * b->f;
+                b->linked -= w * a->x2;
+            }
     }
+    Real digging(0);
+    const auto dig = [&](Real f, Real rate, int slot, int at) {
+        Real linked(0);
+        for (Part* a = parts; a < end; ++a) {
+            const Real w = a->weights[slot];
+            a->g += w * f;
+            linked += w * a->x2;
+        }
+        share_[at] = linked;
+        digging += linked * rate;
+    };
+    if (hollow_)
+        dig(ownField_, ownSlope_ * position * shiftUp(restParam_, 1), object_.slot(), 0);
+    for (int i = 0; i < touched_ && all_.dented; ++i)
+        if (along_[i].near->digs)
+            dig(along_[i].value, along_[i].slope * along_[i].change, along_[i].near->object->slot(), i + 1);
     for (const Part* a = parts; a < end; ++a)
         above += a->x2 * a->g;
     const Real share = quotient(Real(1), below), field = above * share, twice = inverse + inverse;
@@ -330,7 +421,12 @@ void Settler::blend(Real position, Sample& sample)
         share_[a->at] = part;
         slope += part * a->rate;
     }
-    sample.slope = slope;
+    sample.slope = slope + digging * share;
+    if (hollow_)
+        share_[0] = share_[0] * share;
+    for (int i = 0; i < touched_ && all_.dented; ++i)
+        if (along_[i].near->digs)
+            share_[i + 1] = share_[i + 1] * share;
 }
 
 // Newton's method from a sample already taken. True: `*position` is on the surface, and `*sample` was taken there or a
@@ -344,7 +440,7 @@ bool Settler::follow(Real* position, Sample* sample)
             return false;
         const Real step = clamp(quotient(-sample->excess, sample->slope), -LONGEST_STEP, LONGEST_STEP);
         *position += step;
-        if (*position < FIRST || *position > LAST)
+        if (*position < first_ || *position > last_)
             return false;
         if (absolute(step) <= SHORT_STEP)
             return true;
@@ -380,7 +476,7 @@ void Settler::bisect(Real inside, Real outside, Real* position, Sample* sample)
 // where it had a valley before. When the path leaves it nowhere, `*sample` exceeds it as well.
 Real Settler::search(Real* position, Sample* sample)
 {
-    Real before = FIRST;
+    Real before = first_;
     Sample there = look(before);
     Real lowest(9);
     *position = before;
@@ -391,8 +487,8 @@ Real Settler::search(Real* position, Sample* sample)
         *position = Real(1);
         return Real(0);
     }
-    while (before < LAST) {
-        const Real at = least(before + SEARCH_STEP, LAST);
+    while (before < last_) {
+        const Real at = least(before + SEARCH_STEP, last_);
         const Sample now = look(at);
         if (now.excess <= Real(0)) {
             bisect(before, at, position, sample);
@@ -423,8 +519,55 @@ Real Settler::search(Real* position, Sample* sample)
     }
     if (there.excess < lowest) {
         lowest = there.excess;
-        *position = LAST;
+        *position = last_;
         *sample = there;
+    }
+    return lowest;
+}
+
+// The same for a path that is hollowed out, or a weak object's: the last place where the path leaves the surface, for what lies
+// before it is hidden; of those where no neighbour is stronger, if there are any. In a hollow it is the first.
+Real Settler::searchDeep(Real* position, Sample* sample)
+{
+    Real before = first_, lowest(9), from[2], to[2];
+    bool found[2] = {false, false};
+    Sample there = look(before);
+    while (before < last_) {
+        const Real at = least(before + SEARCH_STEP, last_);
+        const Sample now = look(at);
+        Real inside = before;
+        bool leaves = there.excess > Real(0) && now.excess <= Real(0);
+        if (there.excess <= Real(0) && now.excess <= Real(0) && there.slope > Real(0) && now.slope < Real(0)) {
+            // A hill between the two: its top is about where straight slopes cross 0.
+            inside = before + (at - before) * (there.slope / (there.slope - now.slope));
+            leaves = look(inside).excess > Real(0);
+        }
+        if (leaves) {
+            const bool own = least(there.dominance, now.dominance) <= OVERSHOOT;
+            found[own] = true;
+            from[own] = inside;
+            to[own] = at;
+            if (hollow_)
+                break;
+        }
+        if (now.excess < lowest) {
+            lowest = now.excess;
+            *position = at;
+            *sample = now;
+        }
+        before = at;
+        there = now;
+    }
+    if (found[0] || found[1]) {
+        bisect(from[found[1]], to[found[1]], position, sample);
+        sample->excess = Real(0);
+        return Real(9);
+    }
+    if (lowest <= Real(0)) {
+        // All that is there lies outside.
+        sample->excess = Real(1);
+        *position = Real(1);
+        return Real(0);
     }
     return lowest;
 }
@@ -433,7 +576,9 @@ Real Settler::search(Real* position, Sample* sample)
 // away from its core by its slope over its squared size.
 Vector Settler::outward(Real position) const
 {
-    const Real own = -(complete_ ? ownSlope_ : ownSlope_ * share_[0]);
+    Real own = -(complete_ ? ownSlope_ : ownSlope_ * share_[0]);
+    if (complete_ && hollow_)
+        own = -(own * all_.weight);
     Vector g{Real(0), Real(0), Real(0)};
     // Points push along the path, and from where they stand to the root.
     Real along = object_.tapers() ? Real(0) : own;
@@ -441,7 +586,10 @@ Vector Settler::outward(Real position) const
         const Along& to = along_[i];
         if (to.slope == Real(0))
             continue;
-        const Real push = -((complete_ ? to.slope : to.slope * share_[i + 1]) * to.near->ratio);
+        Real slope = complete_ ? to.slope : to.slope * share_[i + 1];
+        if (complete_ && to.near->digs)
+            slope = -(slope * to.near->weight);
+        const Real push = -(slope * to.near->ratio);
         if (to.near->kind == Neighbour::OTHER) {
             g = g + to.near->fromCoreSpace(to.out) * push;
             continue;
@@ -460,25 +608,90 @@ Vector Settler::outward(Real position) const
     return g;
 }
 
+// From the core of a neighbour to the place at hand.
+Vector Settler::fromCore(const Along& along, Real position) const
+{
+    if (along.near->kind == Neighbour::OTHER)
+        return along.near->fromCoreSpace(along.out);
+    const Vector v = along.from->apart + path_ * position;
+    return along.near->kind == Neighbour::SEGMENT ? v - along.near->direction * (along.k * along.near->size) : v;
+}
+
+// A surface that something has dug is sampled twice: by the paths of what is dented, and by those of what digs. Each has the
+// part where its own field is the steeper one, for there its paths are nearer to the normal. Returns how far the seed is on its
+// own side, units, to first order, and sets its border. `*g`, the direction outward, becomes that in the middle of what the
+// border leaves of the seed's cell: rims are sharp.
+Real Settler::findShare(Seed& s, Vector* g)
+{
+    const Real far(30);
+    Vector out = path_ * s.position;
+    if (object_.tapers()) {
+        object_.param((root_ + out) * (Real(CORE_SIZE) / object_.laidSize()), &out);
+        out = out * shiftDown(object_.laidSize(), 4);
+    }
+    // Steepnesses, times half the squared size of the object.
+    Real own = -(ownSlope_ * nearLength(out)), steepest(0);
+    if (hollow_)
+        own = own * all_.weight;
+    const Along* other = nullptr;
+    Vector from = out;
+    for (int i = 0; i < touched_; ++i) {
+        const Along& along = along_[i];
+        const Neighbour& near = *along.near;
+        if (along.slope == Real(0) || !(hollow_ ? near.digs || near.object == all_.head : near.samples))
+            continue;
+        const Vector v = fromCore(along, s.position);
+        const Real steep = -(along.slope * near.ratio * nearLength(v) * (near.digs ? near.weight : Real(1)));
+        if (steep <= steepest)
+            continue;
+        steepest = steep;
+        other = &along;
+        from = v;
+    }
+    if (other == nullptr)
+        return far;
+    // What the digging field's steepness changes by over a unit away from its core: F'' is 34/9 - 24/9 t.
+    Real t = s.position * s.position * restParam_, slope = -ownSlope_, factor = all_.weight, strength = object_.strength();
+    if (!hollow_) {
+        t = other->t;
+        slope = -other->slope;
+        factor = other->near->weight * other->near->ratio;
+        strength = other->near->strength;
+        out = from;
+    }
+    const Real rate = (slope - strength * t * (Real(68.0 / 9) - t * Real(48.0 / 9))) * factor;
+    const Real lead = own - steepest, most = absolute(rate);
+    const Real apart = absolute(lead) < most * far ? lead / most : lead < Real(0) ? -far : far;
+    s.apart = static_cast<int16_t>(rawFromReal(apart) >> 8);
+    const Normal n = normalise((rate < Real(0)) == hollow_ ? -out : out);
+    s.border = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
+    const Real half = shiftDown(object_.spacing() * s.position, 1);
+    const Real change = most * shiftDown(half - clamp(apart, -half, half), 1);
+    *g = *g + withLength(hollow_ ? -out : out, hollow_ ? change : least(change, steepest));
+    return apart;
+}
+
 // Which way and how far it is to where the strongest neighbour's field is as strong as the own, to first order.
 void Settler::findBorder(Seed& s, Real dominance) const
 {
-    const Along* other = along_;
-    for (int i = 1; i < touched_; ++i)
-        if (along_[i].value > other->value)
-            other = along_ + i;
+    // Gradients, times half the squared size of the object. In a hollow what is dented stands for the object.
+    Vector g = path_ * s.position * ownSlope_;
+    Real change = ownSlope_ * lookedAt_ * shiftUp(restParam_, 1);
+    const Along* other = nullptr;
+    for (int i = 0; i < touched_; ++i) {
+        const Along& along = along_[i];
+        if (hollow_ && along.near->object == all_.head) {
+            g = fromCore(along, s.position) * (along.slope * along.near->ratio);
+            change = along.slope * along.change;
+        } else if (!along.near->digs && (other == nullptr || along.value > other->value)) {
+            other = &along;
+        }
+    }
+    if (other == nullptr)
+        return;
     // The fields were looked at before the last step.
-    dominance += (other->slope * other->change - shiftDown(ownSlope_ * lookedAt_, 1)) * (s.position - lookedAt_);
-    // Gradients, times half the squared size of the object.
-    const Vector place = path_ * s.position;
-    Vector g = place * ownSlope_;
-    const Real push = other->slope * other->near->ratio;
-    if (other->near->kind == Neighbour::OTHER)
-        g = g - other->near->fromCoreSpace(other->out) * push;
-    else
-        g = g - (other->from->apart + place) * push;
-    if (other->near->kind == Neighbour::SEGMENT)
-        g = g + other->near->direction * (other->k * other->near->size * push);
+    dominance += (other->slope * other->change - change) * (s.position - lookedAt_);
+    g = g - fromCore(*other, s.position) * (other->slope * other->near->ratio);
     const Normal n = normalise(g);
     const Real steep = dot(g, {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)}), size = object_.laidSize();
     const Real distance = clamp(-dominance * size, Real(-100), Real(100)) * size * Real(0.5);
@@ -505,7 +718,8 @@ Real Settler::pushes() const
     // The gradient of a field is 2 f' r / R^2, and r / R no more than r^2 / R^2 + 1/4; a little more for what that changes.
     Real sum(0);
     for (int i = 0; i < touched_; ++i)
-        sum += (Real(0.1) - along_[i].slope * (along_[i].t + Real(0.25))) * along_[i].near->inverse16;
+        sum += (Real(0.1) - along_[i].slope * (along_[i].t + Real(0.25))) * along_[i].near->inverse16 *
+               most(along_[i].near->weight, Real(1));
     return shiftDown(sum, 3);
 }
 
@@ -534,17 +748,17 @@ void Settler::restThere(Seed& s)
 // it: it is stronger than the own object where the path left the surface, and a little before.
 bool Settler::isBlocked(const Seed& s, Real margin)
 {
-    if (blocker_ < 0 || turn_ % TURNS == 0 || came_ > HURRY)
+    if (blocker_ < 0 || dented_ || turn_ % TURNS == 0 || came_ > HURRY)
         return false;
     const Neighbour& near = all_.neighbours[blocker_];
     Along along;
     aim(near, from_[blocker_], s, along);
-    const Real position = most(s.position - BEFORE, FIRST);
+    const Real position = most(s.position - BEFORE, first_);
     const Real t = along.param(position);
     if (t >= Real(0.7))
         return false;
-    const Real own = geoffQuick(least(shiftDown(position * position, 2), Real(0.999))).value;
-    const Real field = geoffQuick(most(t, Real(0))).value;
+    const Real own = geoffQuick(least(position * position * restParam_, Real(0.999))).value * object_.strength();
+    const Real field = geoffQuick(most(t, Real(0))).value * near.strength;
     return field - own > OVERSHOOT + margin || (!(s.flags & SEED_COVERED) && allComplete_ && own + field > ISOVALUE + margin);
 }
 
@@ -561,7 +775,7 @@ Real Settler::stillInside(Seed& s)
         // Where the path leaves the surface moves with the neighbours.
         if (absolute(sample.excess) > DEEP && sample.slope <= FLAT) {
             const Real step = clamp(quotient(-sample.excess, sample.slope), -LONGEST_STEP, LONGEST_STEP);
-            s.position = clamp(s.position + step, FIRST, LAST);
+            s.position = clamp(s.position + step, first_, last_);
             sample = look(s.position);
         }
         margin = sample.dominance - OVERSHOOT;
@@ -591,12 +805,13 @@ Real Settler::settle(Seed& s)
             touched = begin(listed(), s, position, &sample);
         }
         slope_ = sample.slope;
-        if (!touched) {
+        if (!touched && all_.rests) {
             restThere(s);
             return Real(0);
         }
         still = position == s.position && absolute(sample.excess) <= TOLERANCE;
-        found = follow(&position, &sample);
+        // What is hollowed out may have opened, or closed, before a surface farther out.
+        found = (!dented_ || hollow_ || position > OUTERMOST) && follow(&position, &sample);
         if (found && (position < nearest_ || position > farthest_)) {
             // Where it is now, others may reach it.
             begin(listed(), s, position, &sample);
@@ -617,7 +832,7 @@ Real Settler::settle(Seed& s)
     s.flags &= SEED_ACTIVE;
     if (!found) {
         beginSearch(s);
-        margin = search(&position, &sample);
+        margin = dented_ || !all_.rests ? searchDeep(&position, &sample) : search(&position, &sample);
         found = sample.excess <= Real(0);
     }
     s.position = position;
@@ -629,15 +844,29 @@ Real Settler::settle(Seed& s)
         return margin;
     }
     slope_ = sample.slope;
-    const Normal n = normalise(outward(position));
+    Vector out = outward(position);
+    if (dented_) {
+        const Real apart = findShare(s, &out), shared = object_.spacing() * SHARED;
+        if (apart < -shared) {
+            s.flags |= SEED_COVERED;
+            return Real(0);
+        }
+        if (apart < shared)
+            s.flags |= SEED_BORDER;
+    }
+    const Normal n = normalise(out);
     s.normal = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
     s.brightness8 = brightness8(s.normal, own_.light);
     s.flags |= SEED_VALID;
     if (object_.paint() != nullptr && object_.paint()->mixes)
         mix(s);
-    if (sample.dominance > -BORDER) {
-        s.flags |= SEED_BORDER;
+    if (sample.dominance > -border_) {
+        const Seed shared = s;
         findBorder(s, sample.dominance);
+        // The nearer one of two borders.
+        if ((s.flags & SEED_BORDER) && shared.apart < s.apart)
+            s = shared;
+        s.flags |= SEED_BORDER;
     }
     ++counts_.normals;
     return Real(0);
@@ -649,7 +878,7 @@ int Settler::strongest() const
     int slot = object_.slot();
     Real most(0);
     for (int i = 0; i < touched_; ++i) {
-        if (along_[i].value > most) {
+        if (along_[i].value > most && !along_[i].near->digs) {
             most = along_[i].value;
             slot = along_[i].near->object->slot();
         }
@@ -686,7 +915,7 @@ PatchState Settler::probe(Patch& patch)
     const Real push = pushes();
     if (!(s.flags & SEED_VALID)) {
         patch.blocker = static_cast<uint8_t>(strongest());
-        if (margin <= least)
+        if (margin <= least || dented_)
             return PATCH_MIXED;
         // The own field, with which the strongest is compared, changes as well.
         patch.due += until(margin - least, push + push, LONGEST_WAIT);
@@ -751,7 +980,7 @@ void Settler::settleRest(Patch& patch)
 // little; one that did not move twice, or faces well away, waits for three.
 bool Settler::waits(const Seed& s, bool someAway) const
 {
-    if (!(s.flags & SEED_VALID) || came_ > least(HURRY, shiftDown(smallest_, 2)))
+    if (dented_ || !(s.flags & SEED_VALID) || came_ > least(HURRY, shiftDown(smallest_, 2)))
         return false;
     uint32_t mask = s.still;
     if (someAway) {

@@ -61,8 +61,8 @@ public:
     void oversample(Patch& patch);
 
 private:
-    // The neighbours to look at, by their numbers, and whether they and the object are all linked with each other at weight 1:
-    // then the sum of the fields is F.
+    // The neighbours to look at, by their numbers, and whether they and the object are all linked with each other at weight 1,
+    // and what digs does it with one weight into all of them: then the sum of the fields, less what digs, is F.
     struct Few {
         int count;
         bool complete;
@@ -80,8 +80,11 @@ private:
     void blend(Real position, Sample& sample);
     bool follow(Real* position, Sample* sample);
     Real search(Real* position, Sample* sample);
+    Real searchDeep(Real* position, Sample* sample);
     void bisect(Real inside, Real outside, Real* position, Sample* sample);
     Vector outward(Real position) const;
+    Vector fromCore(const Along& along, Real position) const;
+    Real findShare(Seed& s, Vector* g);
     void findBorder(Seed& s, Real dominance) const;
     void mix(Seed& s) const;
     Real pushes() const;
@@ -104,6 +107,11 @@ private:
     const uint32_t updates_;
     uint32_t turn_ = 0;  // of the seed at hand: seeds that wait take turns
     const Real* ownWeights_;  // of its links, by slots
+    const bool hollow_;              // the seeds sample a hollow: inside and outside change places
+    const bool ownPlain_;            // the object's strength is 1
+    const Real restParam_;           // t of the own field at position 1
+    const Real first_, last_;        // positions: where paths are searched
+    Real border_;                    // of the field: a neighbour that is weaker than the own by less is near
     bool allComplete_;
     FromRoot from_[NEIGHBOURS_MAX];
     Real reachT_[NEIGHBOURS_MAX];  // t in the middle of a path, beyond which no place on it is reached
@@ -113,6 +121,7 @@ private:
     const Patch* patch_;
     Few near_, listed_;
     Real smallest_;
+    bool dented_;              // something digs where its paths are, or it is a hollow
     int blocker_;              // number of the neighbour that was the strongest where a seed was not on the surface; -1: none
     Real nearest_, farthest_;  // between which positions its seeds are, and a little more
 
@@ -122,6 +131,7 @@ private:
     int touched_;
     Along along_[NEIGHBOURS_MAX];
     Real slope_;                      // dF/dp where the seed has settled
+    Real headField_;                  // of a hollow: the field of what is hollowed out
     Real lookedAt_;                   // the last position looked at
     Real ownField_, ownSlope_;        // F and dF/dt of the own field there
     Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, unless complete_

@@ -100,6 +100,7 @@ private:
     int viewShift_;           // brings the way to the eye to 14 bits
     int pathShift_;           // brings the length of a path to 2^11 .. 2^12
     int32_t leastCosine_, uneven_;  // LEAST_COSINE and UNEVEN times that
+    const bool hollow_;       // the seeds sample a hollow
     int32_t ballGradient_[3]; // of the brightness over a ball, axes of the view, 1/8 step a unit with 8 bits of fraction
     int32_t ballHorizon_;     // Shading::horizonShare of what bends like a ball
     int32_t horizonScale_;    // of a radius of curvature in steps of places / 8
@@ -111,7 +112,7 @@ private:
 };
 
 Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame)
-    : object_(object), seeds_(&object.regular(0)), roots_(&object.root(0)), own_(own)
+    : object_(object), seeds_(&object.regular(0)), roots_(&object.root(0)), own_(own), hollow_(!object.hasSurface())
 {
     const Vector place = frame.inView(object.centre());
     centre_[0] = rawFromReal(place.x) >> 8;
@@ -154,7 +155,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     if (spacing << shading_.cellShift > 6143)
         --shading_.cellShift;
     cellScale_ = spacing << shading_.cellShift;
-    const int32_t path = rawFromReal(object.laidSize()) >> 1;
+    const int32_t path = rawFromReal(object.laidRadius());
     pathShift_ = 20 - __builtin_clz(static_cast<uint32_t>(path));
     leastCosine_ = (path >> pathShift_) * LEAST_COSINE >> 14;
     uneven_ = (path >> pathShift_) * UNEVEN >> 14;
@@ -180,7 +181,7 @@ inline void Shader::measurePlace(Seed& s) const
 // tangent plane. A half axis e becomes e - u (e.n) / (u.n) with u the path.
 SELDOM void Shader::measureCell(Seed& s) const
 {
-    const int32_t n[] = {s.normal.x, s.normal.y, s.normal.z};
+    int32_t n[] = {s.normal.x, s.normal.y, s.normal.z};
     // Oversampled seeds lie between those of rings, and make no band.
     bool even = !(s.flags & SEED_ACTIVE);
     if (s.flags & SEED_RESTING) {
@@ -191,7 +192,15 @@ SELDOM void Shader::measureCell(Seed& s) const
     } else {
         const int32_t u[] = {rawFromReal(s.path.x) >> pathShift_, rawFromReal(s.path.y) >> pathShift_,
                              rawFromReal(s.path.z) >> pathShift_};
-        const int32_t cosine = product(u, n) >> 14, position = rawFromReal(s.position) >> 4;
+        int32_t cosine = product(u, n) >> 14, position = rawFromReal(s.position) >> 4;
+        if (hollow_) {
+            // A hollow faces its roots. Nearer to a long or flat core than where they rest, seeds are no nearer to each other
+            // along it.
+            for (int i = 0; i < 3 && cosine < 0; ++i)
+                n[i] = -n[i];
+            cosine = magnitude(cosine);
+            position = ball_ ? position : larger(position, 1 << 12);
+        }
         const int32_t share = (position << 14) / larger(cosine, leastCosine_);
         const int32_t along = mulShift16(product(s.along, n), share) >> 5, across = mulShift16(product(s.across, n), share) >> 5;
         const bool torn = cosine < uneven_;
@@ -338,6 +347,8 @@ inline void Shader::setPatch(const Patch& patch, const Seen& middle)
     } else {
         setBend(patch, middle);
     }
+    if (hollow_)
+        shading_.horizonShare = mulShift16(FLATTEST, horizonScale_);
     shading_.gradientAhead = (shading_.gradientAhead + (shading_.gradient[0] * (shearX_ >> 2) >> 8) +
                               (shading_.gradient[1] * (shearY_ >> 2) >> 8)) >> 4;
 }

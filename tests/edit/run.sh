@@ -501,6 +501,40 @@ ok "the light comes from elsewhere" lacks 8 "light 0.5 0.7 -0.5"
 ok "and still elsewhere" sh -c '! grep -qxF "$(grep "^light " d/F0000008.TXT)" d/F0000009.TXT'
 ok "undone" sh -c '! cmp -s d/F0000010.TXT d/F0000011.TXT'
 ok "done again" alike 10 12
+# Strengths and dents
+play 16 /M:one.fb <<'END'
+1 key i
+2 key I
+2 key I
+3 key u
+4 key TAB
+4 key l
+5 key b
+6 key w
+7 key W
+7 key W
+8 key F2
+8 key ENTER
+9 key b
+10 key u
+10 key u
+10 key u
+11 key DEL
+12 key u
+END
+ok "stronger" has 1 "strength 1 1.25"
+ok "weaker" has 2 "strength 1 0.75"
+ok "undone" count 3 strength 0
+ok "linked" has 4 "blend 1 2"
+ok "it digs in" has 5 "dent 1 2 1"
+ok "and is parted" lacks 5 "blend 1 2"
+ok "by more" has 6 "dent 1 2 1.25"
+ok "and less" has 7 "dent 1 2 0.75"
+ok "saved" grep -qxF "dent $(awk 'NR == 4 { print $2 }' SAVED.FB) $(awk 'NR == 5 { print $2 }' SAVED.FB) 0.75" SAVED.FB
+ok "filled" count 9 dent 0
+ok "undone step by step" has 10 "blend 1 2"
+ok "deleted and back" alike 10 12
+rm -f SAVED.FB
 # The picture under another light is that of a scene which has it from the start.
 play 40 /M:one.fb <<'END'
 1 key e

@@ -217,6 +217,8 @@ int main(int count, char** arguments)
                 if (coat.finish != coatAgain.finish || coat.pattern != coatAgain.pattern || coat.grain != coatAgain.grain ||
                     !(coat.colour == coatAgain.colour))
                     failed("another paint when read again");
+                if (model.item(i).strength != again.item(i).strength)
+                    failed("another strength when read again");
                 const Pose &a = model.item(i).pose, &b = again.item(i).pose;
                 if (!(a.place == b.place) || a.scale != b.scale || memcmp(&a.turn, &b.turn, sizeof a.turn) != 0)
                     failed("moves in another way when read again");

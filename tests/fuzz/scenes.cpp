@@ -319,7 +319,7 @@ private:
     void statement()
     {
         Item& item = items_[random_.below(items_.size())];
-        switch (random_.below(17)) {
+        switch (random_.below(19)) {
         case 0:
         case 1:
         case 2: object(false); return;
@@ -441,9 +441,18 @@ private:
             number(1, 100);
             paint();
             break;
-        case 12: {
-            word("blend");
-            if (random_.once(4)) {
+        case 17:
+            if (item.group && !slip())
+                return;
+            word("strength");
+            word(known(item));
+            number(0.25, 4);
+            break;
+        case 12:
+        case 18: {
+            const bool dents = random_.once(2);
+            word(dents ? "dent" : "blend");
+            if (!dents && random_.once(4)) {
                 word("all");
             } else {
                 const Item& other = items_[random_.below(items_.size())];
@@ -526,8 +535,8 @@ private:
 
 // Words of the language, for changes.
 const char* const WORDS[] = {
-    "sphere", "cylinder", "torus", "disc", "cone", "box", "group", "blend", "circle", "path", "spin", "swing", "pulse", "keys", "key",
     "colours", "mixed", "finish", "shiny", "mirror", "pattern", "checks", "stripes", "marble",
+    "sphere", "cylinder", "torus", "disc", "cone", "box", "group", "blend", "dent", "strength", "circle", "path", "spin", "swing", "pulse", "keys", "key",
     "eye", "look", "roll", "focal", "light", "title", "all", "size", "length", "ring", "tip", "at", "turn", "in", "colour", "color", "red",
     "#12abEF", "scale", "repeat", "step", "lag", "radius", "plane", "xy", "u", "v", "period", "phase", "x", "y", "z", "axis",
     "angle", "by", "linear", "smooth", "0", "1", "2", "-1", "0.1", "128", "250", "-250", "250.00002", "3600", "0.5",

@@ -174,10 +174,34 @@ void describes(const SoftObject& object, const char* expected)
     check(same && *a == *b, "described as '%s', not '%s'", text, expected);
 }
 
+// Seeds of an object of any strength rest where its surface is; or where weak ones have them.
+void testStrength(const Sample& sample, double strength)
+{
+    Object object = sample.make();
+    object->setStrength(real(strength));
+    check(object->resample(Real(2), makeEngine), "%s, strength %g: no seeds", sample.kind, strength);
+    double off = 0;
+    for (int i = 0; i < object->seedSlots(); ++i) {
+        if ((i & 1) != 0 && object->seed(i - 1).neighbour < 0)
+            continue;
+        const double t = sample.param(inOwn(*object, sample, vec(object->seedPoint(object->seed(i)))));
+        const double field = strength * (1 - t * (22 - t * (17 - t * 4)) / 9);
+        off = std::fmax(off, object->rests() ? std::fabs(field - 0.5) : std::fabs(t - number(object->restParam())));
+    }
+    check(off < 0.008, "%s, strength %g: seeds off by %g", sample.kind, strength, off);
+    check(object->rests() == (strength > 0.7), "%s, strength %g: whether it rests", sample.kind, strength);
+    const Point core = object->toWorld(object->root(0));
+    check(std::fabs(number(object->fieldFunc(core)) - strength) < 0.001, "%s: strength %g at the core", sample.kind, strength);
+}
+
 }  // namespace
 
 void testCores()
 {
+    for (const Sample& sample : FEW)
+        for (const double strength : {0.25, 0.5, 0.6, 0.8, 1.0, 1.5, 4.0})
+            testStrength(sample, strength);
+
     for (const Sample& sample : MANY) {
         testField(sample);
         testSeeds(sample, false);

@@ -21,6 +21,9 @@ struct Play {
     std::vector<Object> objects;
     std::vector<std::pair<int, int>> links;
     std::function<void(std::vector<SoftObject*>&, int frame)> move;
+    std::vector<std::pair<int, int>> dents = {};  // the second digs into the first
+    double dentWeight = 1;
+    std::vector<double> strengths = {};
 };
 
 bool run(Play& play, const std::string& directory, bool printed)
@@ -36,6 +39,11 @@ bool run(Play& play, const std::string& directory, bool printed)
     for (const auto& link : play.links)
         if (!model.link(objects[static_cast<size_t>(link.first)], objects[static_cast<size_t>(link.second)], Real(1)))
             return false;
+    for (const auto& dent : play.dents)
+        if (!model.dent(objects[static_cast<size_t>(dent.first)], objects[static_cast<size_t>(dent.second)], real(play.dentWeight)))
+            return false;
+    for (size_t i = 0; i < play.strengths.size(); ++i)
+        objects[i]->setStrength(real(play.strengths[i]));
     if (!model.resample(real(play.spacing), printed ? makeReport98 : makeEngine))
         return false;
     View view;
@@ -138,6 +146,53 @@ int drawScenes(const char* directory)
             o[1]->moveTo(point(-44 + 8 * frame, 12, -55));
         };
         plays.push_back(std::move(near));
+    }
+
+    // Each kind with a ball that digs into it and passes by, and a large ball that each kind digs into.
+    for (const double spacing : {2.0, 1.0})
+        for (const Sample& sample : FEW) {
+            const std::string end = spacing == 2 ? "" : "_1";
+            Play dented{sample.kind + ("_dented" + end), spacing, {}, {}, nullptr, {{0, 1}}};
+            dented.objects.push_back(sample.make(1));
+            dented.objects.push_back(Sample{"sphere", 20, 0, 0}.make(2));
+            dented.move = [](std::vector<SoftObject*>& o, int frame) {
+                tumble(o[0], frame);
+                o[1]->moveTo(point(-15 + 3 * frame, 9 - frame, -12));
+            };
+            plays.push_back(std::move(dented));
+
+            Play digs{sample.kind + ("_digs" + end), spacing, {}, {}, nullptr, {{0, 1}}};
+            digs.objects.push_back(Sample{"sphere", 60, 0, 0}.make(1));
+            digs.objects.push_back(sample.make(2));
+            digs.move = [](std::vector<SoftObject*>& o, int frame) {
+                tumble(o[1], frame);
+                o[1]->moveTo(point(4, -3, -46 + 2 * frame));
+            };
+            plays.push_back(std::move(digs));
+        }
+
+    // A hollow across two that blend, one of them strong; and a weak ball, a strong one and one that is nothing alone in a row.
+    for (const double spacing : {2.0, 1.0}) {
+        const std::string end = spacing == 2 ? "" : "_1";
+        Play across{"across" + end, spacing, {}, {{0, 1}}, nullptr, {{0, 2}, {1, 2}}, 0.8, {1, 1.5, 1}};
+        for (int i = 0; i < 3; ++i)
+            across.objects.push_back(Sample{"sphere", i == 2 ? 24.0 : 40.0, 0, 0}.make(i + 1));
+        across.move = [](std::vector<SoftObject*>& o, int frame) {
+            o[0]->moveTo(point(-12, 0, 0));
+            o[1]->moveTo(point(12, 2, 4));
+            o[2]->moveTo(point(-12 + 2 * frame, 6 - frame, -16));
+        };
+        plays.push_back(std::move(across));
+
+        Play strengths{"strengths" + end, spacing, {}, {{0, 1}, {1, 2}}, nullptr, {}, 1, {0.6, 2.5, 0.45}};
+        for (int i = 0; i < 3; ++i)
+            strengths.objects.push_back(Sample{"sphere", 36, 0, 0}.make(i + 1));
+        strengths.move = [](std::vector<SoftObject*>& o, int frame) {
+            o[0]->moveTo(point(-28 + 2 * frame, 2, 0));
+            o[1]->moveTo(point(0, 0, 4));
+            o[2]->moveTo(point(24 - frame, 8, -2));
+        };
+        plays.push_back(std::move(strengths));
     }
 
     // All kinds in one heap.

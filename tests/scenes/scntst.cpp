@@ -323,6 +323,7 @@ void rows()
     check(with("b2", "b3") == 3 && with("b1", "b3") == -1 && with("p", "q1") == -1 && with("q1", "q1") == -1, "and nothing else");
 
     taken("sphere s size 9 repeat 128\nblend s s", "a row of 128");
+    taken("sphere s size 9 repeat 128\ndent s s 4", "a row of 128, each digs into each");
     refused("sphere s size 9 repeat 129", "T.FB:1: '129': expected a whole number from 2 to 128");
     refused("group s repeat 65", "T.FB:1: '65': expected a whole number from 2 to 64");
     refused("sphere s size 9 repeat 1", "T.FB:1: '1': expected a whole number from 2 to 128");
@@ -355,13 +356,68 @@ void rows()
     refused("group g repeat 2\nsphere s size 9\nblend g s", "T.FB:3: 'g': expected all, or the name of an object");
     refused("group g repeat 2\nsphere s size 9\nblend s g", "T.FB:3: 'g': expected the name of a second object");
     refused("sphere s size 9 repeat 128\n" + repeated(4, "blend s s # %d\n"),
-            "T.FB:5: 's': expected at most 65024 pairs in all lines that blend rows");
+            "T.FB:5: 's': expected at most 65024 pairs in all lines that blend or dent rows");
 }
 
 bool append(void* to, const char* line)
 {
     static_cast<std::string*>(to)->append(line);
     return true;
+}
+
+// Strengths, and objects that dig into others.
+void dents()
+{
+    Model model;
+    const char* wrong = read("sphere a size 20\nsphere b size 9\nsphere r size 9 repeat 3\ndent a b\ndent a r 0.5\ndent r a 2\n"
+                             "dent r r 3\ndent a r2 4\nstrength a 0.25\nstrength r 4\nstrength r3 1.5\nblend a r1 0.25\ndent b a 0", model);
+    check(wrong == nullptr, "dents and strengths");
+    Real weight;
+    const auto digs = [&](const char* into, const char* what) {
+        return Model::dented(model.itemNamed(into)->object, model.itemNamed(what)->object, &weight) ? number(weight) : -1;
+    };
+    check(digs("a", "b") == 1 && digs("b", "a") == 0, "one way");
+    check(digs("a", "r1") == 0.5 && digs("a", "r2") == 4 && digs("r3", "a") == 2, "rows, and the last counts");
+    check(digs("r1", "r3") == 3 && digs("r3", "r1") == 3 && digs("r1", "r1") == -1 && digs("r1", "b") == -1, "and nothing else");
+    check(Model::linked(model.itemNamed("a")->object, model.itemNamed("r1")->object, &weight) && weight == Real(0.25) &&
+              !Model::linked(model.itemNamed("a")->object, model.itemNamed("b")->object, &weight), "links beside them");
+    const auto strength = [&](const char* name) { return number(model.itemNamed(name)->object->strength()); };
+    check(strength("a") == 0.25 && strength("b") == 1 && strength("r1") == 4 && strength("r3") == 1.5, "strengths");
+    const auto seen = [&](const char* name) { return model.itemNamed(name)->object->hasSurface(); };
+    check(seen("a") && seen("r1") && !seen("b") && !seen("r2"), "what only digs has no surface");
+    const Bodies* bodies = model.bodies();
+    const SoftObject &a = *model.itemNamed("a")->object, &r2 = *model.itemNamed("r2")->object;
+    check(bodies->memberCount(a) == 2 && bodies->diggerCount(a) == 3 && bodies->memberCount(r2) == 1 && bodies->diggerCount(r2) == 0,
+          "a body and what digs into it");
+    check(bodies->weight(a.slot(), r2.slot()) == Real(-4) && bodies->weight(r2.slot(), a.slot()) == Real(-2), "one way each");
+
+    std::string first, second;
+    check(writeSceneText(append, &first, model), "saved with dents");
+    check(first.find("\ndent a b\n") != std::string::npos && first.find("\ndent b a 0\n") != std::string::npos &&
+              first.find("\nstrength a 0.25\n") != std::string::npos && first.find("strength b") == std::string::npos, "in their words");
+    Model again;
+    wrong = read(first, again);
+    if (wrong != nullptr)
+        puts(wrong);
+    writeSceneText(append, &second, again);
+    check(wrong == nullptr && first == second, "and read back as the same");
+
+    refused(S + "dent s", "T.FB:2: end of line: expected the name of a second object");
+    refused(S + "dent", "T.FB:2: end of line: expected the name of an object");
+    refused(S + "dent all s", "T.FB:2: 'all': expected the name of an object");
+    refused(S + "dent s s", "T.FB:2: 's': expected the name of a second object");
+    refused(S + "group g\ndent g s", "T.FB:3: 'g': expected the name of an object");
+    refused(S + "sphere t size 9\ndent s t 4.1", "T.FB:3: '4.1': expected a weight from 0 to 4");
+    refused(S + "sphere t size 9\ndent s t -1", "T.FB:3: '-1': expected a weight from 0 to 4");
+    refused(S + "sphere t size 9\ndent s t 1 2", "T.FB:3: '2': expected the end of the line");
+    refused("sphere s size 9 repeat 128\n" + repeated(4, "dent s s # %d\n"),
+            "T.FB:5: 's': expected at most 65024 pairs in all lines that blend or dent rows");
+    refused(S + "strength", "T.FB:2: end of line: expected the name of an object");
+    refused(S + "group g\nstrength g 2", "T.FB:3: 'g': expected the name of an object");
+    refused(S + "strength s", "T.FB:2: end of line: expected a strength from 0.25 to 4");
+    refused(S + "strength s 0.2", "T.FB:2: '0.2': expected a strength from 0.25 to 4");
+    refused(S + "strength s 4.1", "T.FB:2: '4.1': expected a strength from 0.25 to 4");
+    refused(S + "strength s 1 1", "T.FB:2: '1': expected the end of the line");
 }
 
 // What the editor saves: the objects that rows made, all motions, the title; and it reads back as the same.
@@ -637,7 +693,7 @@ void eyes()
 void complaints()
 {
     const char* const statements =
-        "sphere, cylinder, torus, disc, cone, box, group, blend, circle, path, spin, swing, pulse, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title";
+        "sphere, cylinder, torus, disc, cone, box, group, blend, dent, strength, circle, path, spin, swing, pulse, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title";
     refused("spere a size 3", std::string("T.FB:1: 'spere': expected ") + statements);
     refused(S + "\n# x\n7\n", std::string("T.FB:4: '7': expected ") + statements);
     refused("", "T.FB:1: 'end of file': expected at least one object");
@@ -787,6 +843,7 @@ int main()
     paints();
     rows();
     saved();
+    dents();
     safety();
     links();
     eyes();

@@ -82,15 +82,15 @@ static double solid(const Scene &s, Vec p) {
     more = false;
     for (size_t i = 0; i < n; i++)
       for (size_t j = 0; j < n; j++)
-        if (s.weight[i][j] != 0 && body[j] < body[i]) body[i] = body[j], more = true;
+        if (s.link[i][j] != 0 && body[j] < body[i]) body[i] = body[j], more = true;
   }
   std::vector<double> f(n);
-  for (size_t i = 0; i < n; i++) f[i] = geoff(s.objects[i].kind->q(s.objects[i], p, nullptr));
+  for (size_t i = 0; i < n; i++) f[i] = s.objects[i].strength * geoff(s.objects[i].kind->q(s.objects[i], p, nullptr));
   double best = -s.isovalue;
   for (size_t k = 0; k < n; k++) {
     double above = 0, below = 0;
     for (size_t i = 0; i < n; i++) {
-      if (body[i] != k) continue;
+      if (body[i] != k || s.objects[i].ghost) continue;
       double g = f[i];
       for (size_t j = 0; j < n; j++) g += s.weight[i][j] * f[j];
       above += f[i] * f[i] * g, below += f[i] * f[i];
@@ -479,6 +479,78 @@ static void bodies() {
   check(near > 200 && worst < 1e-4, "gradient of a body");
   check(worstField < 1e-12, "field of a body");
   check(wrong == 0, "the strongest object");
+}
+
+// Strengths, and objects that dig into others.
+static void strengths() {
+  // Alone an object's surface lies where its strength times its field is the isovalue; a weak one has none.
+  for (double strength : {0.25, 0.5, 0.51, 0.75, 1.0, 2.0, 4.0}) {
+    Scene s = scene("sphere 1 0 0 0 20\nstrength 1 " + std::to_string(strength) + "\n");
+    Hit h = Tracer(s).trace(160, 100);
+    double r = outermost(20, [&](double x) { return strength * geoff(x * x / 400) >= 0.5; });
+    check(h.any() == (strength > 0.5), "strength " + std::to_string(strength) + ": there or not");
+    if (h.any()) checkNear(h.depth, 120 - r, 1e-6, "strength " + std::to_string(strength) + ": depth");
+  }
+  // Two in one place, linked: their strengths add.
+  Scene two = scene("sphere 1 0 0 0 20\nsphere 2 0 0 0 20\nstrength 1 0.4\nstrength 2 0.35\nblend 1 2\n");
+  double r = outermost(20, [](double x) { return 0.75 * geoff(x * x / 400) >= 0.5; });
+  checkNear(Tracer(two).trace(160, 100).depth, 120 - r, 1e-6, "two weak balls in one place");
+  check(Tracer(two).trace(160, 100).object == 0, "the stronger gives the colour");
+  // A dent on the line through both centres: one dimension.
+  Scene dented = scene("sphere 1 0 0 0 60\nsphere 2 0 0 -30 30\ndent 1 2 1.5\n");
+  double a = 60, b = 120;
+  for (int i = 0; i < 80; i++) {
+    double m = (a + b) / 2, z = m - 120;
+    (geoff(z * z / 3600) - 1.5 * geoff((z + 30) * (z + 30) / 900) >= 0.5 ? b : a) = m;
+  }
+  Hit h = Tracer(dented).trace(160, 100);
+  checkNear(h.depth, a, 1e-9, "dent: centre ray");
+  check(h.depth > 100 && h.object == 0, "dent: hollow, and of the dented one's colour");
+  check(Tracer(dented).bodyOf(1) == -1, "what only digs is no body");
+  // Linked otherwise it has a surface; and what is dented into nothing has none.
+  Scene both = scene("sphere 1 0 0 0 30\nsphere 2 0 0 -16 30\nsphere 3 0 30 -16 30\ndent 1 2\nblend 2 3\n");
+  check(Tracer(both).trace(160, 100).object == 1 && Tracer(both).bodyOf(1) == Tracer(both).bodyOf(2), "linked, it is seen");
+  check(!Tracer(scene("sphere 1 0 0 0 20\nsphere 2 0 0 0 40\ndent 1 2\n")).trace(160, 100).any(), "dug away");
+  check(Tracer(scene("sphere 1 0 0 0 20\nsphere 2 0 0 0 40\ndent 1 2 0\n")).trace(160, 100).object == 1,
+        "a dent of weight 0 is none");
+
+  // The field, its gradient and its strongest object at points.
+  Scene mixed = scene("sphere 1 1 2 3 20\ncylinder 2 0 0 0 9 5 2 20\ntorus 3 1 0 0 1 1 1 9 20\ndisc 4 0 1 0 1 2 0 9 20\n"
+                      "cone 5 0 0 0 20 9 4 4 8\nblend 1 2 2\nblend 2 3 0.5\nblend 1 3\ndent 1 4\ndent 2 4 0.4\ndent 3 5 3\n"
+                      "dent 1 3 0.5\nstrength 1 3\nstrength 2 0.3\nstrength 4 1.5\n");
+  Tracer tracer(mixed);
+  double worst = 0, worstField = 0;
+  int near = 0, wrong = 0;
+  for (int i = 0; i < 400; i++) {
+    Vec p{random(-15, 15), random(-15, 15), random(-15, 15)}, g;
+    int strongest = -1;
+    double F = tracer.field(0, p, &g, &strongest);
+    if (strongest < 0) continue;
+    near++;
+    // solid() is 0.5 below 0 at least.
+    worstField = std::max(worstField, std::fabs(std::max(F, 0.0) - std::max(solid(mixed, p) + 0.5, 0.0)));
+    const double e = 1e-5;
+    auto slope = [&](Vec d) {
+      return (tracer.field(0, p + d * e, nullptr, nullptr) - tracer.field(0, p - d * e, nullptr, nullptr)) / (2 * e);
+    };
+    Vec n{slope({1, 0, 0}), slope({0, 1, 0}), slope({0, 0, 1})};
+    worst = std::max(worst, length(g - n) / (1 + length(g)));
+    wrong += mixed.objects[strongest].ghost;
+  }
+  check(near > 200 && worst < 1e-4, "gradient with strengths and dents");
+  check(worstField < 1e-12, "field with strengths and dents");
+  check(wrong == 0, "what only digs gives no colour");
+
+  againstWalk(mixed, "all of it", 9);
+  againstWalk(dented, "dented ball", 6);
+  againstWalk(scene("cylinder 1 -24 0 0 24 4 -8 26\nsphere 2 4 4 -12 18\ndent 1 2\n"), "dented cylinder", 6);
+  againstWalk(scene("sphere 1 -9 0 0 24\nsphere 2 9 0 0 24\nsphere 3 0 4 -9 20\nblend 1 2\ndent 1 3 2\n"), "one of two dented", 6);
+  againstWalk(scene("sphere 1 -9 0 0 34\nsphere 2 9 0 4 34\ntorus 3 0 0 -12 0 0.3 1 12 10\ndent 1 3\ndent 2 3\n"),
+              "a ring digs into two bodies", 9);
+  againstWalk(scene("sphere 1 -8 0 0 24\nsphere 2 8 0 0 24\nstrength 1 0.4\nstrength 2 3\nblend 1 2\n"), "weak and strong", 6);
+  againstWalk(scene("sphere 1 -6 0 0 24\nsphere 2 6 0 0 24\nsphere 3 6 10 0 24\nstrength 1 0.45\nstrength 2 0.45\n"
+                    "strength 3 2\nblend 1 2 1.5\nblend 2 3 0.3\n"), "weak ones in a chain", 6);
+  againstWalk(scene("cone 1 -20 0 0 30 20 6 0 12\ndisc 2 0 8 -10 0 1 0.4 6 12\nstrength 1 1.6\ndent 1 2 0.7\n"), "dented cone", 9);
 }
 
 static void walks() {
@@ -996,6 +1068,9 @@ static void texts() {
       {"sphere 1 0 0 0 9\nchecks 1 0 1 2 3 0 0 0 1 0 0 0 1 0\n", "above 0"},
       {"sphere 1 0 0 0 9\nmarble 1 5 1 2 3 0 0 0 1 0 0 0.6 0.8 0\n", "square"},
       {"sphere 1 0 0 0 9\nstripes 1 5 1 2 3 0 0 0 2 0 0 0 1 0\n", "unit length"},
+      {"dent 1 2\n", "not there"},            {"strength 1 2\n", "not there"},
+      {"sphere 1 0 0 0 9\ndent 1 1\n", "itself"}, {"sphere 1 0 0 0 9\nstrength 1 0\n", "above 0"},
+      {"sphere 1 0 0 0 9\nsphere 2 0 0 0 9\ndent 1 2 -1\n", "negative"}, {"strength 1\n", "1 numbers"},
       {"right 0 0 1\n", "no axes"},           {"ahead 0 0 -1\n", "no axes"},
       {"right 0 0 1\nahead 1 0 0\n", "no axes"}, {"up 0 1\n", "with 2 numbers"},
       {"focal 0 200\n", "above 0"},           {"torus 1 0 0 0 0 0 0 5 5\n", "no direction"},
@@ -1069,6 +1144,7 @@ int main() {
   unlinked();
   others();
   bodies();
+  strengths();
   walks();
   counts();
   definitions();

@@ -111,3 +111,62 @@ TEST(bodies_are_told_of_movement)
     for (auto& object : scene.objects)
         CHECK(!object->recalc());
 }
+
+TEST(what_digs_into_bodies)
+{
+    // 1 and 2 blend, 3 digs into 2 alone, 4 blends with 5 and digs into 1 and 5, 6 digs into 3, 7 digs with a weight of 0.
+    Scene scene;
+    for (int i = 0; i < 7; ++i)
+        scene.ball(20, 8.0 * i, 0, 0, 8);
+    scene.link(0, 1);
+    scene.link(3, 4, 0.5);
+    scene.dent(1, 2, 1.5);
+    scene.dent(0, 3);
+    scene.dent(4, 3, 2);
+    scene.dent(2, 5);
+    scene.dent(0, 6, 0);
+    scene.findBodies();
+    const auto diggers = [&](size_t i) {
+        std::vector<int> numbers;
+        for (int k = 0; k < scene.bodies->diggerCount(*scene.objects[i]); ++k)
+            numbers.push_back(scene.bodies->diggers(*scene.objects[i])[k]->number());
+        std::sort(numbers.begin(), numbers.end());
+        return numbers;
+    };
+    const std::vector<int> none;
+    CHECK((members(scene, 0) == std::vector<int>{1, 2}) && (diggers(0) == std::vector<int>{3, 4}) && diggers(1) == diggers(0));
+    CHECK((members(scene, 3) == std::vector<int>{4, 5}) && diggers(3) == none && diggers(4) == none);
+    CHECK((members(scene, 2) == std::vector<int>{3}) && diggers(2) == none);
+    CHECK((members(scene, 6) == std::vector<int>{7}));
+    for (size_t i = 0; i < 7; ++i)
+        CHECK(scene.objects[i]->hasSurface() == (i != 2 && i != 5));
+    // Seeds of what only digs are those of a hollow: they lie farther out.
+    CHECK(scene.objects[2]->hollowed() == scene.objects[1].get() && scene.objects[3]->hollowed() == nullptr);
+    CHECK(scene.objects[5]->hollowed() == nullptr && scene.objects[6]->hollowed() == nullptr);
+    CHECK(scene.objects[2]->laidInVain() && !scene.objects[3]->laidInVain());
+    CHECK(scene.objects[2]->resample(Real(8), makeEngine) && !scene.objects[2]->laidInVain());
+    CHECK(number(scene.objects[2]->radius()) > 13 && number(scene.objects[3]->radius()) == 10);
+    const auto weight = [&](size_t a, size_t b) {
+        return number(scene.bodies->weight(scene.objects[a]->slot(), scene.objects[b]->slot()));
+    };
+    NEAR(weight(1, 2), -1.5, 0);
+    NEAR(weight(2, 1), 0, 0);
+    NEAR(weight(4, 3), -1.5, 0);  // the link's less the dent's
+    NEAR(weight(3, 4), 0.5, 0);
+    // All of a body are told of what digs into one of it, and so is what else digs there; nobody else is.
+    scene.update();
+    scene.objects[2]->translate(vector(0, 1, 0));
+    scene.bodies->spreadRecalc();
+    for (size_t i = 0; i < 7; ++i)
+        CHECK(scene.objects[i]->recalc() == (i < 4 || i == 5));
+    scene.update();
+    // An object that goes takes its dents with it; one that digs no more is seen.
+    scene.objects[1]->undent(scene.objects[2].get());
+    CHECK(scene.objects[2]->hasSurface() && scene.objects[2]->recalc() && scene.objects[1]->recalc());
+    scene.objects.erase(scene.objects.begin() + 5);
+    CHECK(scene.objects[2]->dents().empty());
+    scene.objects.erase(scene.objects.begin());
+    CHECK(!scene.objects[2]->digs().empty() && scene.objects[2]->digs().first()->next == nullptr);
+    scene.findBodies();
+    CHECK(diggers(0) == none);
+}

@@ -50,6 +50,8 @@ TEST(a_dumped_frame)
     Model model;
     CHECK(model.makeFourSpheres());
     Anim::move(model, 78643);  // 1.2 s
+    CHECK(model.dent(model.actor(2).object, model.actor(0).object, Real(1.5)));
+    model.actor(1).object->setStrength(Real(2));
     CHECK(model.resample(Real(4), makeEngine));
     View view;
     CHECK(view.open());
@@ -144,6 +146,11 @@ TEST(a_dumped_frame)
         pairs[a][b] = pairs[b][a] = true;
     }
     SAME(blends, 6);
+    SAME(std::count(lines.begin(), lines.end(), "dent 3 1 1.5"), 1);
+    SAME(std::count(lines.begin(), lines.end(), "strength 2 2"), 1);
+    SAME(std::count_if(lines.begin(), lines.end(), [](const std::string& line) {
+        return line.compare(0, 4, "dent") == 0 || line.compare(0, 8, "strength") == 0;
+    }), 2);
     // A directory that is there already will do. How the eye stands is told where it is turned, and only there.
     CHECK(dump.open(directory.c_str()) == nullptr);
     Camera camera = model.camera;

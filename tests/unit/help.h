@@ -171,6 +171,11 @@ struct Scene {
         objects[b]->link(objects[a].get(), real(weight));
         found = false;
     }
+    void dent(size_t a, size_t b, double weight = 1)
+    {
+        objects[a]->dent(objects[b].get(), real(weight));
+        found = false;
+    }
     void linkAll()
     {
         for (size_t i = 0; i < objects.size(); ++i)
