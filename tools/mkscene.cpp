@@ -5,9 +5,8 @@
 // With the word paint half of the objects have a finish or a pattern, and in every other scene the colours mix.
 // Three to nine objects (or as many as asked for) of all kinds, within what the default camera sees; some in groups, most
 // of them moving, some turning, swinging or pulsing; linked in one of several graphs, with weights up to 4. With `dents`
-// one to three objects more dig into others, and some have another strength than 1. With
-// `eye` the same scene is seen by an eye that goes about it. This file
-// exists so that the picture is tried on scenes nobody chose.
+// one to three objects more dig into others, and some have another strength than 1. With `eye` the same scene is seen by an eye
+// that goes about it. This file exists so that the picture is tried on scenes nobody chose.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -135,6 +134,42 @@ void printEye(int objects) {
   if (once(4)) printf("roll %d\n", between(-180, 180));
 }
 
+void printDents(int objects) {
+  // Behind the links: `blend all` leaves out what digs. Each is near the middle of one of the others.
+  for (int i = 1; i <= objects; i++)
+    if (once(3)) printf("strength o%d %.2f\n", i, once(2) ? between(25, 95) / 100.0 : between(11, 40) / 10.0);
+  const int diggers = objects < 126 ? between(1, 3) : 0;
+  for (int d = 1; d <= diggers; d++) {
+    const int into = between(1, objects), size = between(5, 24);
+    const double x = tenths(-8, 8), y = tenths(-8, 8), z = tenths(-14, 0);
+    if (once(3)) {
+      printf("cylinder d%d size %d length %d", d, size, between(5, 30));
+    } else {
+      printf("sphere d%d size %d", d, size);
+    }
+    printf(" at %.1f %.1f %.1f in o%d\n", x, y, z, into);
+    if (once(2)) printTurning(("d" + std::to_string(d)).c_str());
+    for (int i = 1; i <= objects; i++) {
+      if (i != into && !once(3)) continue;
+      printf("dent o%d d%d", i, d);
+      if (once(2)) printf(" %.1f", between(3, 25) / 10.0);
+      printf("\n");
+    }
+  }
+}
+
+void printPaint(int objects) {
+  static const char *const finishes[] = {"shiny", "mirror"}, *const patterns[] = {"checks", "stripes", "marble"};
+  if (once(2)) printf("colours mixed\n");
+  for (int i = 1; i <= objects; i++) {
+    if (once(3)) printf("finish o%d %s\n", i, finishes[between(0, 1)]);
+    if (!once(3)) continue;
+    const char *pattern = patterns[between(0, 2)];
+    const double size = tenths(4, 20);
+    printf("pattern o%d %s %.1f #%06x\n", i, pattern, size, between(0, 0xffffff));
+  }
+}
+
 }  // namespace
 
 int main(int count, char **arguments) {
@@ -245,38 +280,7 @@ int main(int count, char **arguments) {
       break;
   }
   if (eye) printEye(objects);
-  if (dents) {
-    // Behind the links: `blend all` leaves out what digs. Each is near the middle of one of the others.
-    for (int i = 1; i <= objects; i++)
-      if (once(3)) printf("strength o%d %.2f\n", i, once(2) ? between(25, 95) / 100.0 : between(11, 40) / 10.0);
-    const int diggers = objects < 126 ? between(1, 3) : 0;
-    for (int d = 1; d <= diggers; d++) {
-      const int into = between(1, objects), size = between(5, 24);
-      const double x = tenths(-8, 8), y = tenths(-8, 8), z = tenths(-14, 0);
-      if (once(3)) {
-        printf("cylinder d%d size %d length %d", d, size, between(5, 30));
-      } else {
-        printf("sphere d%d size %d", d, size);
-      }
-      printf(" at %.1f %.1f %.1f in o%d\n", x, y, z, into);
-      if (once(2)) printTurning(("d" + std::to_string(d)).c_str());
-      for (int i = 1; i <= objects; i++) {
-        if (i != into && !once(3)) continue;
-        printf("dent o%d d%d", i, d);
-        if (once(2)) printf(" %.1f", between(3, 25) / 10.0);
-        printf("\n");
-      }
-    }
-  }
-  if (!paint) return 0;
-  static const char *const finishes[] = {"shiny", "mirror"}, *const patterns[] = {"checks", "stripes", "marble"};
-  if (once(2)) printf("colours mixed\n");
-  for (int i = 1; i <= objects; i++) {
-    if (once(3)) printf("finish o%d %s\n", i, finishes[between(0, 1)]);
-    if (!once(3)) continue;
-    const char *pattern = patterns[between(0, 2)];
-    const double size = tenths(4, 20);
-    printf("pattern o%d %s %.1f #%06x\n", i, pattern, size, between(0, 0xffffff));
-  }
+  if (dents) printDents(objects);
+  if (paint) printPaint(objects);
   return 0;
 }

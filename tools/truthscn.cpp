@@ -62,13 +62,13 @@ bool parseScene(const std::string &text, const std::string &name, Scene &s, std:
     int line;
     double a, b, weight;
   };
-  std::vector<Link> links, dents, strengths;
   struct Word {
     int line;
     std::string word;
     std::vector<double> v;
   };
   std::vector<Word> coats;
+  std::vector<Link> links, dents, strengths;
   std::map<int, int> index;   // object number -> index
   std::map<std::string, bool> seen;
   int lineNumber = 0;

@@ -134,14 +134,14 @@ private:
     bool keys();
     bool key();
     bool blend();
-    bool dent();
-    bool strength();
-    bool readPair(const char* what, Row* a, Row* b);
-    bool readWeight(Real* weight);
     bool colours();
     bool readPainted(Row* row);
     bool finish();
     bool pattern();
+    bool dent();
+    bool strength();
+    bool readPair(const char* what, Row* a, Row* b);
+    bool readWeight(Real* weight);
 
     const char* name_;
     Source& source_;
@@ -481,16 +481,16 @@ bool Reader::statement()
         return key();
     if (is("blend"))
         return blend();
-    if (is("dent"))
-        return dent();
-    if (is("strength"))
-        return strength();
     if (is("colours") || is("colors"))
         return colours();
     if (is("finish"))
         return finish();
     if (is("pattern"))
         return pattern();
+    if (is("dent"))
+        return dent();
+    if (is("strength"))
+        return strength();
     char text[240];
     int length = 0;
     for (int i = 0; i < KIND_COUNT; ++i)
@@ -1353,10 +1353,6 @@ void Writer::item(const Model& model, const Actor& actor)
     if (parent != nullptr)
         word("in").word(parent->name);
     end();
-    if (actor.strength != Real(1)) {
-        word("strength").word(actor.name).number(actor.strength);
-        end();
-    }
     const Coat& coat = actor.coat;
     if (coat.finish != FINISH_MATT) {
         word("finish").word(actor.name).word(FINISH_WORDS[coat.finish]);
@@ -1365,6 +1361,10 @@ void Writer::item(const Model& model, const Actor& actor)
     if (coat.pattern != PATTERN_NONE) {
         word("pattern").word(actor.name).word(PATTERN_WORDS[coat.pattern]).number(coat.grain);
         vector({Real(coat.colour.red), Real(coat.colour.green), Real(coat.colour.blue)});
+        end();
+    }
+    if (actor.strength != Real(1)) {
+        word("strength").word(actor.name).number(actor.strength);
         end();
     }
     if (m.circle.period != Real(0)) {

@@ -67,11 +67,9 @@ class Shader {
 public:
     Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame);
 
-    // Lists the voxels of a patch.
-    void shadePatch(Patch& patch, bool turn, VoxelList& list);
-
-    // The same by way of a painter, which makes voxels of its own from them.
-    void paintPatch(Patch& patch, Painter& painter);
+    // Lists the voxels of a patch, by way of the painter of objects that have a paint.
+    template <bool PAINTED>
+    void shadePatch(Patch& patch, bool turn, VoxelList& list, Painter* painter);
 
 private:
     bool keepPatch(Patch& patch, VoxelList& list) const;
@@ -449,10 +447,18 @@ inline bool Shader::keepPatch(Patch& patch, VoxelList& list) const
     return true;
 }
 
-inline void Shader::shadePatch(Patch& patch, bool turn, VoxelList& list)
+template <bool PAINTED>
+inline void Shader::shadePatch(Patch& patch, bool turn, VoxelList& list, Painter* painter)
 {
-    if (!turn && !near_ && !patch.bend.stale && keepPatch(patch, list))
+    if (!PAINTED && !turn && !near_ && !patch.bend.stale && keepPatch(patch, list))
         return;
+    // The painter lists copies: what is kept has no paint, and gets the one that it has in this frame.
+    const auto put = [&](const Seen& seen) {
+        if (PAINTED)
+            painter->add(*seen.seed, *seen.voxel);
+        else
+            list.voxels[list.count++] = *seen.voxel;
+    };
     Seen seen[SEEDS_MOST];
     int count = findSeeds(&shading_, object_, &patch, seen);
     bool anew = turn || near_;
@@ -467,7 +473,7 @@ inline void Shader::shadePatch(Patch& patch, bool turn, VoxelList& list)
         // They have hardly moved.
         for (int i = 0; i < count; ++i) {
             placeVoxel(shading_, *seen[i].seed, *seen[i].voxel);
-            list.voxels[list.count++] = *seen[i].voxel;
+            put(seen[i]);
         }
         return;
     }
@@ -488,29 +494,24 @@ inline void Shader::shadePatch(Patch& patch, bool turn, VoxelList& list)
         if ((seen[i].seed->flags & SEED_BORDER) && !cut(*seen[i].seed, seen[i].voxel))
             seen[i].voxel->wide = OUT_OF_SIGHT;
         else
-            list.voxels[list.count++] = *seen[i].voxel;
+            put(seen[i]);
     }
 }
 
-void Shader::paintPatch(Patch& patch, Painter& painter)
+template <bool PAINTED>
+int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
+            const ViewBefore& before, VoxelList& list, int room, Painter* painter)
 {
-    Seen seen[SEEDS_MOST];
-    Voxel voxels[SEEDS_MOST];
-    bool anew = true;
-    int count = measureSeen(patch, seen, findSeeds(&shading_, object_, &patch, seen), &anew);
-    if (near_)
-        count = leaveNear(seen, count);
-    if (count == 0)
-        return;
-    if (patch.bend.stale)
-        measureBend(patch);
-    setPatch(patch, seen[count >> 1]);
-    for (int i = 0; i < count; ++i)
-        seen[i].voxel = voxels + i;
-    shadeSeeds(&shading_, seen, count);
-    for (int i = 0; i < count; ++i)
-        if (!(seen[i].seed->flags & SEED_BORDER) || cut(*seen[i].seed, voxels + i))
-            painter.add(*seen[i].seed, voxels[i]);
+    Shader shader(object, own, frame);
+    // The painter may make two voxels of one.
+    const int most = (PAINTED ? 2 : 1) * SEEDS_MOST;
+    int at = first;
+    for (; at < count && list.count + most <= room; ++at) {
+        Patch& patch = patches[at];
+        if (patch.state == PATCH_MIXED || (patch.state == PATCH_REST && !restsAway(patch, own)))
+            shader.shadePatch<PAINTED>(patch, ((static_cast<uint32_t>(at) + before.frames) & before.mask) == 0, list, painter);
+    }
+    return at;
 }
 
 }  // namespace
@@ -540,22 +541,8 @@ int shadePatches(SoftObject& object, const OwnFrame& own, const FrameContext& fr
 {
     if (first == 0)
         before.turn(own);
-    Shader shader(object, own, frame);
-    int at = first;
-    if (object.paint() != nullptr) {
-        Painter painter(object, own, list);
-        // It may make two voxels of one.
-        for (; at < count && list.count + 2 * SEEDS_MOST <= room; ++at) {
-            Patch& patch = patches[at];
-            if (patch.state == PATCH_MIXED || (patch.state == PATCH_REST && !restsAway(patch, own)))
-                shader.paintPatch(patch, painter);
-        }
-        return at;
-    }
-    for (; at < count && list.count + SEEDS_MOST <= room; ++at) {
-        Patch& patch = patches[at];
-        if (patch.state == PATCH_MIXED || (patch.state == PATCH_REST && !restsAway(patch, own)))
-            shader.shadePatch(patch, ((static_cast<uint32_t>(at) + before.frames) & before.mask) == 0, list);
-    }
-    return at;
+    if (object.paint() == nullptr)
+        return shadeAs<false>(object, own, frame, patches, count, first, before, list, room, nullptr);
+    Painter painter(object, own, list);
+    return shadeAs<true>(object, own, frame, patches, count, first, before, list, room, &painter);
 }

@@ -213,12 +213,12 @@ int main(int count, char** arguments)
                 length(cross(axes.ahead, axes.right) - axes.up) > slack || absolute(dot(axes.ahead, axes.right)) > slack)
                 failed("the axes of the view are none");
             for (int i = 0; i < model.items(); ++i) {
-                if (model.item(i).strength != again.item(i).strength)
-                    failed("another strength when read again");
                 const Coat &coat = model.item(i).coat, &coatAgain = again.item(i).coat;
                 if (coat.finish != coatAgain.finish || coat.pattern != coatAgain.pattern || coat.grain != coatAgain.grain ||
                     !(coat.colour == coatAgain.colour))
                     failed("another paint when read again");
+                if (model.item(i).strength != again.item(i).strength)
+                    failed("another strength when read again");
                 const Pose &a = model.item(i).pose, &b = again.item(i).pose;
                 if (!(a.place == b.place) || a.scale != b.scale || memcmp(&a.turn, &b.turn, sizeof a.turn) != 0)
                     failed("moves in another way when read again");

@@ -43,8 +43,9 @@ for scene in "$dir"/frames/*; do
 	case $scene in
 	*_turned*) holes=0 ;;
 	torus_digs*) holes=2 through=0.06 ;; # what a ring leaves standing in its middle lies steep to all paths
-	near) holes=3 known=1.35 ;;
-	near_1) holes=20 known=0.85 ;;
+	near) holes=6 known=1.35 ;;
+	near_1) holes=25 known=0.85 ;;
+	cylinder_dented) holes=3 ;; # at the rim of a hollow
 	*) holes=2 ;;
 	esac
 	if fair "$scene" $holes "$known" "$through"; then
