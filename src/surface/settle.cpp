@@ -162,6 +162,12 @@ const Settler::Few& Settler::listed()
     return listed_;
 }
 
+// Those that may reach a position on its paths.
+const Settler::Few& Settler::those(Real position)
+{
+    return position < nearest_ || position > farthest_ ? listed() : near_;
+}
+
 // What is the same for all seeds of a root.
 void Settler::setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const
 {
@@ -827,11 +833,17 @@ void Settler::restThere(Seed& s)
     s.flags = static_cast<uint8_t>((s.flags & (SEED_ACTIVE | SEED_MEASURED)) | SEED_VALID | SEED_RESTING);
 }
 
+// One less than the number of updates after which all neighbours are asked, the fewer the farther they come.
+uint32_t Settler::turns() const
+{
+    return came_ < Real(0.5) ? 7 : came_ < Real(1.5) ? 3 : came_ < Real(3) ? 1 : 0;
+}
+
 // Whether one neighbour alone, the strongest where a seed of the patch was not on the surface the last time, keeps a seed off
 // it: it is stronger than the own object where the path left the surface, and a little before.
 bool Settler::isBlocked(const Seed& s, Real margin)
 {
-    if (blocker_ < 0 || dented_ || turn_ % TURNS == 0 || came_ > HURRY)
+    if (blocker_ < 0 || dented_ || (turn_ & turns()) == 0)
         return false;
     const Neighbour& near = all_.neighbours[blocker_];
     Along along;
@@ -856,7 +868,7 @@ bool Settler::isBlocked(const Seed& s, Real margin)
 Real Settler::stillInside(Seed& s)
 {
     Sample sample;
-    begin(near_, s, s.position, &sample);
+    begin(those(s.position), s, s.position, &sample);
     const bool covered = (s.flags & SEED_COVERED) != 0;
     Real margin, push = pushes();
     if (covered) {
@@ -887,7 +899,7 @@ Real Settler::settle(Seed& s)
     bool found = false, still = false;
     Real margin(9);
     if (s.flags & (SEED_VALID | SEED_COVERED)) {
-        bool touched = begin(near_, s, position, &sample);
+        bool touched = begin(those(position), s, position, &sample);
         if (!touched && position != Real(1)) {
             position = Real(1);
             touched = begin(listed(), s, position, &sample);

@@ -78,6 +78,7 @@ private:
     }
     void findComplete(Few& few) const;
     const Few& listed();
+    const Few& those(Real position);
     Real settle(Seed& s);
     void restThere(Seed& s);
     void setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const;
@@ -103,6 +104,7 @@ private:
     void findBorder(Seed& s, Real dominance) const;
     void mix(Seed& s) const;
     Real pushes() const;
+    uint32_t turns() const;
     static Way until(Real hold, Real push, Real longest);
     Real stillInside(Seed& s);
     bool isBlocked(const Seed& s, Real margin);
