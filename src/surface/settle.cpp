@@ -17,7 +17,7 @@ constexpr Real LONGEST_STEP(0.25);
 constexpr Real FLAT(-0.06);
 constexpr int NEWTON_STEPS = 5;
 // Positions: where paths begin to be searched, and those that are hollowed out or of weak objects; and in which steps.
-constexpr Real FIRST(0.7), FIRST_DEEP(0.06), SEARCH_STEP(0.16);
+constexpr Real FIRST(0.7), FIRST_DEEP(0.06), SEARCH_FIRST(0.88), SEARCH_STEP(0.2);
 // Of the field: a seed that is this far inside where it was nearest to the surface is still inside.
 constexpr Real DEEP(0.06);
 // Positions: how far before that place one neighbour must be stronger, too; and how many updates go by until all are asked.
@@ -226,17 +226,23 @@ inline Real Along::param(Real p)
 // Takes up the path of a seed that is searched: as those see it that reach some of it.
 void Settler::beginSearch(const Seed& s)
 {
-    Sample sample;
-    begin(listed(), s, shiftDown(first_ + last_, 1), &sample);
+    root_ = object_.root(s.root);
+    path_ = s.path;
+    const Real middle = shiftDown(first_ + last_, 1);
     Few few;
     few.count = 0;
-    for (int i = 0; i < listed_.count; ++i)
-        if (along_[i].t < reachT_[listed_.number[i]])
-            few.number[few.count++] = listed_.number[i];
+    for (int i = 0; i < listed().count; ++i) {
+        const int number = listed_.number[i];
+        Along& along = along_[few.count];
+        aim(all_.neighbours[number], from_[number], s, along);
+        if (along.param(middle) < reachT_[number])
+            few.number[few.count++] = static_cast<uint8_t>(number);
+    }
     few.complete = true;
     if (!listed_.complete)
         setComplete(few);
-    begin(few, s, first_, &sample);
+    complete_ = few.complete;
+    touched_ = few.count;
 }
 
 // Adds up the fields at one position of the path at hand.
@@ -525,7 +531,7 @@ void Settler::bisect(Real inside, Real outside, Real* position, Sample* sample)
 // where it had a valley before. When the path leaves it nowhere, `*sample` exceeds it as well.
 Real Settler::search(Real* position, Sample* sample)
 {
-    Real before = first_;
+    Real before = SEARCH_FIRST;
     Sample there = look(before);
     Real lowest(9);
     *position = before;
@@ -884,7 +890,7 @@ Real Settler::stillInside(Seed& s)
             return Real(0);
     } else {
         margin = sample.excess - shiftDown(sample.slope * sample.slope, 2);
-        if (margin < DEEP + shiftDown(push * came_, 2))
+        if (margin < DEEP + push * came_)
             return Real(0);
     }
     return margin;
@@ -979,10 +985,11 @@ int Settler::strongest() const
 }
 
 // By how much of the field the seed in the middle of a patch must lie inside, for all of the patch to do so: the other seeds
-// are no farther than the patch reaches, and a field changes by about its size at most over that of its object.
+// are no farther than the patch reaches, and a field changes by about its size at most over that of its object; two change, the
+// strongest and what it is compared with.
 static Real enough(const Patch& patch, Real size)
 {
-    return clamp(realFromRaw(patch.radius << 12) / size * STEEPEST, Real(0.1), Real(0.6));
+    return clamp(realFromRaw(patch.radius << 12) / size * (STEEPEST + STEEPEST), Real(0.2), Real(0.9));
 }
 
 bool Settler::stillInside(const Patch& patch)
