@@ -24,7 +24,7 @@ constexpr Real DEEP(0.06);
 constexpr Real BLOCKED(0.03), BEFORE(0.08);
 constexpr uint32_t TURNS = 8;
 // Units: neighbours that come so far in a frame are asked all, each time.
-constexpr Real HURRY(4);
+constexpr Real HURRY(2);
 // Of the field: a valley this shallow above the isovalue is looked into.
 constexpr Real VALLEY(0.12);
 // Of the field, times the greatest strength: a neighbour that is weaker than the own by less is near.
