@@ -47,7 +47,7 @@ private:
     Way reading_ = 0, bound_ = 0, came_ = 0;
     uint32_t linksVersion_ = 0;
     bool fresh_ = true;  // nothing is known of a frame before
-    Vector eye_;         // where the viewer was, own axes
+    Vector eye_{Real(0), Real(0), Real(0)};  // where the viewer was, own axes
     int room_ = 0;
     Stand* stands_ = nullptr;
     int8_t standBySlot_[SLOTS_MAX];  // -1: none
