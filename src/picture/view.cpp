@@ -482,8 +482,11 @@ void View::fill(const Ends& ends, int first, int last, int step)
         if (frame_[at] != 0)
             continue;
         takeOver(at, 2 * i <= count ? first : last);
-        if (named)
-            frame_[at] = (at < second ? one : other)[(light + i * lighter + 128) >> 8];
+        if (!named)
+            continue;
+        const uint8_t* const ramp = at < second ? one : other;
+        const int brightness = (light + i * lighter + 128) >> 8;
+        frame_[at] = ramp[brightness];
     }
 }
 

@@ -85,7 +85,8 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
         came_ = atCentre > came_ ? atCentre : came_;
         came_ = way / 2 > came_ ? way / 2 : came_;
     }
-    memcpy(stands_, stands, static_cast<size_t>(all.count) * sizeof stands[0]);
+    if (all.count > 0)
+        memcpy(stands_, stands, static_cast<size_t>(all.count) * sizeof stands[0]);
     memcpy(standBySlot_, standBySlot, sizeof standBySlot);
     if (!holds)
         came_ = EVERYWHERE;
