@@ -68,7 +68,7 @@ bool benchDiffers(const uint8_t* frame, const uint16_t* zbuffer)
 extern "C" {
 
 void __real_blitScalesA(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int count);
-int __real_drawScalesA(Lens* lens, const Voxel* const* voxels, int count);
+const Voxel* __real_drawScalesA(Lens* lens, const Voxel* voxels, const Voxel* end);
 void __real_clearRowsA(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
 
 // A frame begins, for the twin too: what the program leaves in its buffers is there for both. (Nothing should be.)
@@ -116,23 +116,23 @@ void __wrap_blitFine(uint8_t* frame, uint16_t* zbuffer, const FineScale& scale)
     differing += benchDiffers(frame, zbuffer);
 }
 
-int __wrap_drawScalesA(Lens* lens, const Voxel* const* voxels, int count)
+const Voxel* __wrap_drawScalesA(Lens* lens, const Voxel* voxels, const Voxel* end)
 {
     static Lens twin;
     twin = *lens;
     twin.frame = twinFrame;
     twin.zbuffer = twinDepths;
     const int32_t emptyBefore = lens->empty;
-    const int done = __real_drawScalesA(lens, voxels, count);
-    const int twinDone = drawScalesC(&twin, voxels, count);
+    const Voxel* const done = __real_drawScalesA(lens, voxels, end);
+    const Voxel* const twinDone = drawScalesC(&twin, voxels, end);
     int drawn = 0;
-    for (int i = 0; i < done; ++i) {
-        const int pixels = benchPixels(*lens, *voxels[i]);
+    for (const Voxel* voxel = voxels; voxel < done; ++voxel) {
+        const int pixels = benchPixels(*lens, *voxel);
         drawn += pixels > 0;
         pixelsCovered += static_cast<unsigned>(pixels);
     }
     scalesDrawn += static_cast<unsigned>(drawn);
-    differing += done != twinDone || drawn != done - (lens->empty - emptyBefore) || twin.empty != lens->empty ||
+    differing += done != twinDone || drawn != done - voxels - (lens->empty - emptyBefore) || twin.empty != lens->empty ||
                  twin.left != lens->left || twin.top != lens->top || twin.right != lens->right ||
                  twin.bottom != lens->bottom || benchDiffers(lens->frame, lens->zbuffer);
     return done;

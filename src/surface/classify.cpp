@@ -67,6 +67,7 @@ void setPatch(const SoftObject& object, Patch& patch)
     memset(patch.listed, 0, sizeof patch.listed);
     memset(patch.near, 0, sizeof patch.near);
     patch.bend.stale = true;
+    patch.voxels = nullptr;
 }
 
 struct Step {

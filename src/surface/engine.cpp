@@ -12,10 +12,17 @@ namespace {
 // So many patches are updated before the user is asked whether to go on.
 constexpr int ASKED_EVERY = 32;
 
+// Spacing from which on patches keep their voxels, units.
+constexpr Real KEPT_FROM(1);
+
 class Engine : public Surface {
 public:
     explicit Engine(SoftObject& object) : object_(object) {}
-    ~Engine() override { free(patches_); }
+    ~Engine() override
+    {
+        free(patches_);
+        free(voxels_);
+    }
 
     // False: no memory.
     bool open()
@@ -25,6 +32,14 @@ public:
         if (patches_ == nullptr)
             return false;
         makePatches(object_, patches_);
+        // Of the finest seeds there are too many for their voxels to be kept.
+        if (object_.spacing() < KEPT_FROM)
+            return true;
+        voxels_ = allocate<Voxel>(static_cast<uint32_t>(count_ * PATCH_VOXELS));
+        if (voxels_ == nullptr)
+            return false;
+        for (int i = 0; i < count_; ++i)
+            patches_[i].voxels = voxels_ + i * PATCH_VOXELS;
         return true;
     }
 
@@ -40,6 +55,7 @@ private:
     int32_t light_[3] = {0, 0, 0};  // at the last update, own axes
     ViewBefore before_;
     Patch* patches_ = nullptr;
+    Voxel* voxels_ = nullptr;  // of the patches
     int count_ = 0;
 };
 

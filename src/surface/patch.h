@@ -12,6 +12,7 @@ constexpr Real OVERSHOOT(0.05);
 // A patch has seeds of this many rings beside each other, and at most so many of each.
 constexpr int PATCH_RINGS = 3;
 constexpr int PATCH_SEEDS = 3;
+constexpr int PATCH_VOXELS = PATCH_RINGS * PATCH_SEEDS;
 
 constexpr int16_t OUT_OF_SIGHT = -1;
 
@@ -42,7 +43,8 @@ struct Patch {
     bool settled;       // its seeds were looked at in this frame
     bool extras;        // oversampled seeds of it take part
     // The scales of its regular seeds as they were when the patch was shaded last; OUT_OF_SIGHT as their width: there is none.
-    Voxel voxels[PATCH_RINGS * PATCH_SEEDS];
+    // Null: they are not kept.
+    Voxel* voxels;
     int32_t facing;     // of a settled patch: cosine of the surface in the middle and the direction to the viewer
     int32_t centre;     // slot of the seed in the middle
     int16_t middle[3];  // of where its seeds rest

@@ -425,7 +425,7 @@ int Shader::leaveNear(Seen* seen, int count) const
 // Lists a patch as it was shaded last, with its seeds where they are now. False: one of them has settled or ended since.
 inline bool Shader::keepPatch(Patch& patch, VoxelList& list) const
 {
-    if (patch.extras)
+    if (patch.extras || patch.voxels == nullptr)
         return false;
     int count = list.count;
     for (int ring = 0; ring < PATCH_RINGS; ++ring) {
@@ -477,8 +477,8 @@ inline void Shader::shadePatch(Patch& patch, bool turn, VoxelList& list, Painter
         }
         return;
     }
-    for (Voxel& voxel : patch.voxels)
-        voxel.wide = OUT_OF_SIGHT;
+    for (int i = 0; patch.voxels != nullptr && i < PATCH_VOXELS; ++i)
+        patch.voxels[i].wide = OUT_OF_SIGHT;
     if (count == 0)
         return;
     if (patch.bend.stale)

@@ -118,9 +118,11 @@ int findSeeds(Shading* shading, SoftObject& object, Patch* patch, Seen* seen)
         all &= s.flags;
     };
     for (int ring = 0; ring < PATCH_RINGS; ++ring) {
-        Voxel* voxel = patch->voxels + ring * PATCH_SEEDS;
+        Voxel* voxel = patch->voxels == nullptr ? nullptr : patch->voxels + ring * PATCH_SEEDS;
         for (int i = patch->first[ring], end = i + patch->count[ring]; i < end; ++i) {
-            find(object.regular(2 * i), voxel++);
+            find(object.regular(2 * i), voxel);
+            if (voxel != nullptr)
+                ++voxel;
             Seed* const extra = patch->extras ? object.extra(2 * i) : nullptr;
             if (extra != nullptr && (extra->flags & SEED_ACTIVE))
                 find(*extra, nullptr);
