@@ -17,13 +17,11 @@ constexpr Real LONGEST_STEP(0.25);
 constexpr Real FLAT(-0.06);
 constexpr int NEWTON_STEPS = 5;
 // Positions: where paths begin to be searched, and those that are hollowed out or of weak objects; and in which steps.
-constexpr Real FIRST(0.7), FIRST_DEEP(0.06), SEARCH_FIRST(0.88), SEARCH_STEP(0.2);
-// Of the field: a seed that is this far inside where it was nearest to the surface is still inside.
-constexpr Real DEEP(0.06);
-// Positions: how far before that place one neighbour must be stronger, too; and how many updates go by until all are asked.
+constexpr Real FIRST(0.7), FIRST_DEEP(0.06), SEARCH_FIRST(0.86), SEARCH_STEP(0.16);
+// Of the field: by how much one neighbour alone must keep a seed off the surface; and how far, in positions, before the place where
+// the path left it.
 constexpr Real BLOCKED(0.03), BEFORE(0.08);
-constexpr uint32_t TURNS = 8;
-// Units: neighbours that come so far in a frame are asked all, each time.
+// Units: no seed waits while neighbours come so far in a frame.
 constexpr Real HURRY(2);
 // Of the field: a valley this shallow above the isovalue is looked into.
 constexpr Real VALLEY(0.12);
@@ -868,36 +866,8 @@ bool Settler::isBlocked(const Seed& s, Real margin)
     return field - own > OVERSHOOT + margin || (!(s.flags & SEED_COVERED) && allComplete_ && own + field > ISOVALUE + margin);
 }
 
-// By how much of the field a seed that lay inside still does, from a look at the place where it was nearest to the surface: what
-// leads out of a body opens there first. 0: that cannot be
-// told.
-Real Settler::stillInside(Seed& s)
-{
-    Sample sample;
-    begin(those(s.position), s, s.position, &sample);
-    const bool covered = (s.flags & SEED_COVERED) != 0;
-    Real margin, push = pushes();
-    if (covered) {
-        // Where the path leaves the surface moves with the neighbours.
-        if (absolute(sample.excess) > DEEP && sample.slope <= FLAT) {
-            const Real step = clamp(quotient(-sample.excess, sample.slope), -LONGEST_STEP, LONGEST_STEP);
-            s.position = clamp(s.position + step, first_, last_);
-            sample = look(s.position);
-        }
-        margin = sample.dominance - OVERSHOOT;
-        push += push;
-        if (margin < DEEP || absolute(sample.excess) > DEEP)
-            return Real(0);
-    } else {
-        margin = sample.excess - shiftDown(sample.slope * sample.slope, 2);
-        if (margin < DEEP + push * came_)
-            return Real(0);
-    }
-    return margin;
-}
-
-// Sets position, normal and flags of a seed. One that finds no surface of its own object is left
-// without SEED_VALID; returned is then by how much of the field it lies inside.
+// Sets position, normal and flags of a seed. One that finds no surface of its own object is left without SEED_VALID; returned is
+// then by how much of the field it lies inside.
 Real Settler::settle(Seed& s)
 {
     Sample sample;
@@ -910,7 +880,6 @@ Real Settler::settle(Seed& s)
             position = Real(1);
             touched = begin(listed(), s, position, &sample);
         }
-        slope_ = sample.slope;
         if (!touched && all_.rests) {
             restThere(s);
             return Real(0);
@@ -927,7 +896,6 @@ Real Settler::settle(Seed& s)
     ++counts_.updated;
     if (still && found && (s.flags & SEED_VALID) && !(s.flags & SEED_RESTING) && sample.dominance <= OVERSHOOT) {
         // It has not moved: what is known of it holds.
-        slope_ = sample.slope;
         s.still = s.still == 0 || came_ * Real(3) > shiftDown(smallest_, 3) ? 1 : 3;
         s.brightness8 = brightness8(s.normal, own_.light);
         if (object_.paint() != nullptr && object_.paint()->mixes)
@@ -949,7 +917,6 @@ Real Settler::settle(Seed& s)
         }
         return margin;
     }
-    slope_ = sample.slope;
     Vector out = outward(position);
     if (dented_ && !findDented(s, &out))
         return Real(0);
@@ -1008,9 +975,7 @@ PatchState Settler::probe(Patch& patch)
     if (!(s.flags & SEED_VALID) && patch.state == PATCH_MIXED && isBlocked(s, BLOCKED))
         return PATCH_MIXED;
     const Real least = enough(patch, smallest_);
-    Real margin = s.flags & SEED_VALID ? Real(0) : stillInside(s);
-    if (margin == Real(0))
-        margin = settle(s);
+    const Real margin = settle(s);
     const Real push = pushes();
     if (!(s.flags & SEED_VALID)) {
         patch.blocker = static_cast<uint8_t>(strongest());
@@ -1065,7 +1030,7 @@ void Settler::settleRest(Patch& patch)
         } else if (waits(s, someAway)) {
             s.brightness8 = brightness8(s.normal, own_.light);
             return;
-        } else if (!(s.flags & SEED_VALID) && (isBlocked(s, BLOCKED) || stillInside(s) > Real(0))) {
+        } else if (!(s.flags & SEED_VALID) && isBlocked(s, BLOCKED)) {
             return;
         }
         settle(s);
@@ -1148,7 +1113,7 @@ void Settler::oversample(Patch& patch)
         if (extra == nullptr || !(extra->flags & SEED_ACTIVE))
             return;
         turn_ = static_cast<uint32_t>(i) / 2 + updates_;
-        if (!(extra->flags & SEED_VALID) ? !isBlocked(*extra, BLOCKED) && stillInside(*extra) == Real(0) : !waits(*extra, false))
+        if (!(extra->flags & SEED_VALID) ? !isBlocked(*extra, BLOCKED) : !waits(*extra, false))
             settle(*extra);
     });
 }

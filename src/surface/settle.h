@@ -106,7 +106,6 @@ private:
     Real pushes() const;
     uint32_t turns() const;
     static Way until(Real hold, Real push, Real longest);
-    Real stillInside(Seed& s);
     bool isBlocked(const Seed& s, Real margin);
     int strongest() const;
     void aim(const Neighbour& near, FromRoot& from, const Seed& s, Along& along) const;
@@ -148,7 +147,6 @@ private:
     bool complete_;
     int touched_;
     Along along_[NEIGHBOURS_MAX];
-    Real slope_;                      // dF/dp where the seed has settled
     Real headField_;                  // of a hollow: the field of what is hollowed out
     Real lookedAt_;                   // the last position looked at
     Real ownField_, ownSlope_;        // F and dF/dt of the own field there
