@@ -17,10 +17,15 @@ constexpr Real LONGEST_STEP(0.25);
 constexpr Real FLAT(-0.06);
 constexpr int NEWTON_STEPS = 5;
 // Positions: where paths begin to be searched, and those that are hollowed out or of weak objects; and in which steps.
-constexpr Real FIRST(0.7), FIRST_DEEP(0.06), SEARCH_FIRST(0.86), SEARCH_STEP(0.16);
-// Of the field: by how much one neighbour alone must keep a seed off the surface; and how far, in positions, before the place where
-// the path left it.
-constexpr Real BLOCKED(0.03), BEFORE(0.08);
+constexpr Real FIRST(0.7), FIRST_DEEP(0.06), SEARCH_FIRST(0.88), SEARCH_STEP(0.16);
+// At position COVERED_AT the own field is .23. A neighbour whose t is less than `there` at it is stronger by more than the overshoot
+// tolerance; and if its t is less than `atRest` at position 1, then between the two the body's field is above the isovalue. That
+// depends on whether neighbour and object are linked, and on whether what else is near is linked with one of them. The roots of both.
+constexpr Real COVERED_AT(1.36);
+constexpr Cover COVER_LINKED{Real(0.4), Real(0.7), Real(0.632), Real(0.836)}, COVER_APART{Real(0.3), Real(0.5), Real(0.547), Real(0.707)},
+    COVER_UNLINKED{Real(0.18), Real(0.18), Real(0.424), Real(0.424)};
+// Of the field: what is not linked with the object must be so much stronger to keep its seeds off the surface as well.
+constexpr Real UNLINKED(0.3);
 // Units: no seed waits while neighbours come so far in a frame.
 constexpr Real HURRY(2);
 // Of the field: a valley this shallow above the isovalue is looked into.
@@ -567,6 +572,11 @@ Real Settler::search(Real* position, Sample* sample)
                 *sample = deepest;
             }
         }
+        if (at >= COVERED_AT && now.dominance > OVERSHOOT) {
+            *position = at;
+            *sample = now;
+            return least(least(lowest, now.excess), now.dominance - OVERSHOOT);
+        }
         before = at;
         there = now;
     }
@@ -837,33 +847,40 @@ void Settler::restThere(Seed& s)
     s.flags = static_cast<uint8_t>((s.flags & (SEED_ACTIVE | SEED_MEASURED)) | SEED_VALID | SEED_RESTING);
 }
 
-// One less than the number of updates after which all neighbours are asked, the fewer the farther they come.
-uint32_t Settler::turns() const
+// Whether one neighbour alone keeps a seed off the surface, wherever it was before: from position 1, before which no path can leave
+// the surface, to COVERED_AT the two fields together are above the isovalue, for the neighbour's t is convex and lies below the
+// straight line between those it has there; and beyond the neighbour is the stronger of the two.
+bool Settler::isCovered(const Seed& s)
 {
-    return came_ < Real(0.5) ? 7 : came_ < Real(1.5) ? 3 : came_ < Real(3) ? 1 : 0;
+    if (cover_ == nullptr)
+        return false;
+    Along along;
+    aim(all_.neighbours[blocker_], from_[blocker_], s, along);
+    return along.param(COVERED_AT) < cover_->there && along.param(Real(1)) < cover_->atRest;
 }
 
-// Whether one neighbour alone, the strongest where a seed of the patch was not on the surface the last time, keeps a seed off
-// it: it is stronger than the own object where the path left the surface, and a little before.
-bool Settler::isBlocked(const Seed& s, Real margin)
+// Takes up the neighbour that was the strongest where a seed of the patch was not on the surface the last time. Alone it may keep
+// seeds off if it and the object are linked, and what else is near is linked with one of the two.
+void Settler::setBlocker(const Patch& patch)
 {
-    if (blocker_ < 0 || dented_ || (turn_ & turns()) == 0)
-        return false;
-    const Neighbour& near = all_.neighbours[blocker_];
-    Along along;
-    aim(near, from_[blocker_], s, along);
-    const Real position = most(s.position - BEFORE, first_);
-    const Real t = along.param(position);
-    if (t >= Real(0.7))
-        return false;
-    Real own, field = geoffQuick(most(t, Real(0))).value;
-    if (common_) {
-        own = geoffQuick(least(shiftDown(position * position, 2), Real(0.999))).value;
-    } else {
-        own = geoffQuick(least(position * position * restParam_, Real(0.999))).value * object_.strength();
-        field = field * near.strength;
-    }
-    return field - own > OVERSHOOT + margin || (!(s.flags & SEED_COVERED) && allComplete_ && own + field > ISOVALUE + margin);
+    blocker_ = all_.numberOf[patch.blocker];
+    cover_ = blocker_ >= 0 && common_ ? &COVER_LINKED : nullptr;
+    if (cover_ == nullptr || allComplete_)
+        return;
+    const uint32_t *const one = bodies_.plainLinks(object_.slot()), *const other = bodies_.plainLinks(patch.blocker);
+    uint32_t neither = 0;
+    for (int word = 0; word < Bodies::LINK_WORDS; ++word)
+        neither |= patch.listed[word] & ~(one[word] | other[word]);
+    if (!isLinked(patch.blocker))
+        cover_ = &COVER_UNLINKED;
+    else if (neither != 0)
+        cover_ = &COVER_APART;
+}
+
+// Whether the object is linked with another at weight 1.
+bool Settler::isLinked(int slot) const
+{
+    return (bodies_.plainLinks(object_.slot())[slot / 32] >> slot % 32 & 1) != 0;
 }
 
 // Sets position, normal and flags of a seed. One that finds no surface of its own object is left without SEED_VALID; returned is
@@ -941,11 +958,13 @@ Real Settler::settle(Seed& s)
 int Settler::strongest() const
 {
     int slot = object_.slot();
-    Real most(0);
+    Real most(-1);
     for (int i = 0; i < touched_; ++i) {
-        if (along_[i].value > most && !along_[i].near->digs) {
-            most = along_[i].value;
-            slot = along_[i].near->object->slot();
+        const int candidate = along_[i].near->object->slot();
+        const Real value = isLinked(candidate) ? along_[i].value : along_[i].value - UNLINKED;
+        if (value > most && !along_[i].near->digs) {
+            most = value;
+            slot = candidate;
         }
     }
     return slot;
@@ -959,20 +978,21 @@ static Real enough(const Patch& patch, Real size)
     return clamp(realFromRaw(patch.radius << 12) / size * (STEEPEST + STEEPEST), Real(0.2), Real(0.9));
 }
 
-bool Settler::stillInside(const Patch& patch)
+bool Settler::isCovered(const Patch& patch)
 {
-    blocker_ = all_.numberOf[patch.blocker];
-    turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
-    return blocker_ >= 0 && isBlocked(object_.seed(patch.centre), enough(patch, all_.neighbours[blocker_].size));
+    setBlocker(patch);
+    if (cover_ == nullptr || object_.tapers())
+        return false;
+    const Neighbour& near = all_.neighbours[blocker_];
+    return !near.object->tapers() && isWithin(patch, near, COVERED_AT, cover_->rootThere) && isWithin(patch, near, Real(1), cover_->rootAtRest);
 }
 
 PatchState Settler::probe(Patch& patch)
 {
     Seed& s = object_.seed(patch.centre);
-    blocker_ = all_.numberOf[patch.blocker];
     turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
     patch.due = now_;
-    if (!(s.flags & SEED_VALID) && patch.state == PATCH_MIXED && isBlocked(s, BLOCKED))
+    if (!(s.flags & SEED_VALID) && patch.state == PATCH_MIXED && isCovered(s))
         return PATCH_MIXED;
     const Real least = enough(patch, smallest_);
     const Real margin = settle(s);
@@ -1016,21 +1036,22 @@ void Settler::settleRest(Patch& patch)
 {
     const Seed& centre = object_.seed(patch.centre);
     const bool someAway = !(centre.flags & SEED_VALID) || patch.facing < patch.spread;
-    blocker_ = all_.numberOf[patch.blocker];
     forSeeds(patch, [&](int i) {
         Seed& s = object_.seed(i);
         if (&s == &centre)
             return;
         turn_ = static_cast<uint32_t>(i) / 2 + updates_;
+        if (isCovered(s)) {
+            s.flags = 0;
+            return;
+        }
         if (s.flags & SEED_ASLEEP) {
             // It has slept: it is likely to be where the one in the middle is.
             s.position = centre.position;
-            s.flags = SEED_VALID;
+            s.flags = SEED_COVERED;
             s.still = 0;
         } else if (waits(s, someAway)) {
             s.brightness8 = brightness8(s.normal, own_.light);
-            return;
-        } else if (!(s.flags & SEED_VALID) && isBlocked(s, BLOCKED)) {
             return;
         }
         settle(s);
@@ -1098,7 +1119,7 @@ void Settler::oversample(Patch& patch)
         any = true;
         Seed& extra = object_.seed(i + 1);
         if (!(extra.flags & SEED_ACTIVE)) {
-            extra.flags = SEED_ACTIVE | SEED_VALID;
+            extra.flags = SEED_ACTIVE | SEED_COVERED;
             extra.position = object_.seed(i).position;
             extra.still = 0;
         }
@@ -1107,13 +1128,15 @@ void Settler::oversample(Patch& patch)
     if (!any)
         return;
     setPatch(patch, true);
-    blocker_ = all_.numberOf[patch.blocker];
+    setBlocker(patch);
     forSeeds(patch, [&](int i) {
         Seed* const extra = object_.extra(i);
         if (extra == nullptr || !(extra->flags & SEED_ACTIVE))
             return;
         turn_ = static_cast<uint32_t>(i) / 2 + updates_;
-        if (!(extra->flags & SEED_VALID) ? !isBlocked(*extra, BLOCKED) : !waits(*extra, false))
+        if (isCovered(*extra))
+            extra->flags = SEED_ACTIVE;
+        else if (!waits(*extra, false))
             settle(*extra);
     });
 }
@@ -1148,4 +1171,11 @@ void sleep(SoftObject& object, Patch& patch)
         if (i != patch.centre)
             object.seed(i).flags = SEED_ASLEEP;
     });
+}
+
+void cover(SoftObject& object, Patch& patch)
+{
+    sleep(object, patch);
+    object.seed(patch.centre).flags = 0;
+    patch.state = PATCH_INSIDE;
 }

@@ -36,6 +36,12 @@ struct Sample {
     Real excess, slope, dominance;
 };
 
+// When a neighbour alone keeps an object's seeds off the surface: its t (model/field.h) is less than these at two positions of their
+// paths. And the roots of the two.
+struct Cover {
+    Real there, atRest, rootThere, rootAtRest;
+};
+
 // Settles the seeds of one object, one settler for every scene. Made once for an object and a frame; `updates` counts those
 // of the object.
 class Settler {
@@ -46,8 +52,8 @@ public:
     // To be called before anything else about the seeds of a patch. False: no neighbour reaches them where they are.
     bool setPatch(const Patch& patch, bool oversampled = false);
 
-    // Whether a patch that lay inside still does, by the field of the neighbour alone that was the strongest then.
-    bool stillInside(const Patch& patch);
+    // Whether all paths of a patch are sure to lie inside the one neighbour that was the strongest there the last time.
+    bool isCovered(const Patch& patch);
 
     // Settles the seed in the middle of a patch that neighbours reach, says from it what becomes of the patch, and sets when
     // the patch is due again.
@@ -104,9 +110,10 @@ private:
     void findBorder(Seed& s, Real dominance) const;
     void mix(Seed& s) const;
     Real pushes() const;
-    uint32_t turns() const;
     static Way until(Real hold, Real push, Real longest);
-    bool isBlocked(const Seed& s, Real margin);
+    void setBlocker(const Patch& patch);
+    bool isCovered(const Seed& s);
+    bool isLinked(int slot) const;
     int strongest() const;
     void aim(const Neighbour& near, FromRoot& from, const Seed& s, Along& along) const;
     void beginSearch(const Seed& s);
@@ -140,6 +147,7 @@ private:
     Real smallest_;
     bool dented_;              // something digs where its paths are, or it is a hollow
     int blocker_;              // number of the neighbour that was the strongest where a seed was not on the surface; -1: none
+    const Cover* cover_;       // and when it alone keeps them off it; null: that is not known
     Real nearest_, farthest_;  // between which positions its seeds are, and a little more
 
     // Of the path at hand.
@@ -161,5 +169,8 @@ void light(SoftObject& object, const Patch& patch, const OwnFrame& own);
 
 // Puts all seeds of a patch but the one in the middle to sleep: they are neither settled nor drawn.
 void sleep(SoftObject& object, Patch& patch);
+
+// The same to a patch that lies inside as a whole.
+void cover(SoftObject& object, Patch& patch);
 
 #endif
