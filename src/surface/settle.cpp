@@ -12,7 +12,7 @@ namespace {
 constexpr Real TOLERANCE(0.004);
 // Of the position: after a step as short as this another look would change nothing that is seen.
 constexpr Real SHORT_STEP(0.05);
-constexpr Real LONGEST_STEP(0.25);
+constexpr Real LONGEST_STEP(0.15);
 // Of the field per position: flatter, and Newton's method has no say.
 constexpr Real FLAT(-0.06);
 constexpr int NEWTON_STEPS = 5;
@@ -927,13 +927,9 @@ Real Settler::settle(Seed& s)
         found = sample.excess <= Real(0);
     }
     s.position = position;
-    if (!found || sample.dominance > OVERSHOOT) {
-        if (found && margin > sample.dominance) {
-            margin = sample.dominance - OVERSHOOT;
-            s.flags |= SEED_COVERED;
-        }
-        return margin;
-    }
+    // Where another object is the stronger, the path may leave the surface before that in the next frame: it is searched again.
+    if (!found || sample.dominance > OVERSHOOT)
+        return found ? least(margin, sample.dominance - OVERSHOOT) : margin;
     Vector out = outward(position);
     if (dented_ && !findDented(s, &out))
         return Real(0);
