@@ -21,11 +21,13 @@ constexpr Real FIRST(0.7), FIRST_DEEP(0.06), SEARCH_FIRST(0.88), SEARCH_STEP(0.1
 // At position COVERED_AT the own field is .23. A neighbour whose t is less than `there` at it is stronger by more than the overshoot
 // tolerance; and if its t is less than `atRest` at position 1, then between the two the body's field is above the isovalue. That
 // depends on whether neighbour and object are linked, and on whether what else is near is linked with one of them. The roots of both.
-constexpr Real COVERED_AT(1.36);
+constexpr Real COVERED_AT(1.36), BETWEEN(1.18);
 constexpr Cover COVER_LINKED{Real(0.4), Real(0.7), Real(0.632), Real(0.836)}, COVER_APART{Real(0.3), Real(0.5), Real(0.547), Real(0.707)},
     COVER_UNLINKED{Real(0.18), Real(0.18), Real(0.424), Real(0.424)};
 // Of the field: what is not linked with the object must be so much stronger to keep its seeds off the surface as well.
 constexpr Real UNLINKED(0.3);
+// Of the field: what missing links take at least to be counted.
+constexpr Real NEGLIGIBLE(0.002);
 // Units: no seed waits while neighbours come so far in a frame.
 constexpr Real HURRY(2);
 // Of the field: a valley this shallow above the isovalue is looked into.
@@ -76,6 +78,16 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& a
 
 void Settler::findComplete(Few& few) const
 {
+    if (common_) {
+        few.complete = true;
+        for (int i = 0; i < few.count && few.complete; ++i) {
+            const int slot = all_.neighbours[few.number[i]].object->slot();
+            few.complete = ownWeights_[slot] == Real(1);
+            for (int j = 0; j < i && few.complete; ++j)
+                few.complete = bodies_.weight(all_.neighbours[few.number[j]].object->slot(), slot) == Real(1);
+        }
+        return;
+    }
     uint32_t members[Bodies::LINK_WORDS] = {};
     const auto add = [&](int slot) { members[slot / 32] |= 1u << slot % 32; };
     const auto linked = [&](int slot) {
@@ -85,15 +97,6 @@ void Settler::findComplete(Few& few) const
             missing |= members[word] & ~(plain[word] | (word == slot / 32 ? 1u << slot % 32 : 0));
         return missing == 0;
     };
-    if (common_) {
-        add(object_.slot());
-        for (int i = 0; i < few.count; ++i)
-            add(all_.neighbours[few.number[i]].object->slot());
-        few.complete = linked(object_.slot());
-        for (int i = 0; i < few.count && few.complete; ++i)
-            few.complete = linked(all_.neighbours[few.number[i]].object->slot());
-        return;
-    }
     if (!hollow_)
         add(object_.slot());
     for (int i = 0; i < few.count; ++i)
@@ -320,8 +323,9 @@ struct Settler::Sum {
     Sample sample()
     {
         Sample all{sum - ISOVALUE, slope, strongest - settler.ownField_};
+        settler.shared_ = false;
         if (!settler.complete_)
-            settler.template blend<COMMON>(position, all);
+            COMMON ? settler.blend(position, all) : settler.blendOdd(position, all);
         if (!COMMON && settler.hollow_)
             all = {-all.excess, -all.slope, strongest - settler.headField_};
         return all;
@@ -377,12 +381,67 @@ Sample Settler::look(Real position)
     return common_ ? lookAs<true>(position) : lookOdd(position);
 }
 
-// The body's field where not all are linked with all at weight 1 (model/body.h), from the fields that were found. With
+// The body's field where not all are linked with all at weight 1 (model/body.h), from the fields that were found: their sum, less
+// D / Q, with D = sum of (1 - w_ik) f_i f_k (f_i + f_k) over all pairs and Q = sum of f_i^2. Its derivative with respect to f_i is
+// 1 - (sum of (1 - w_ik) f_k (2 f_i + f_k) - 2 f_i D / Q) / Q.
+void Settler::blend(Real position, Sample& sample)
+{
+    // Those that have a field here, the own first.
+    struct Part {
+        Real f, lack;  // F; the sum in its derivative
+        const Real* weights;
+        int slot, at;  // at: its number in along_; -1: the object
+    };
+    Part parts[NEIGHBOURS_MAX + 1];
+    Part* end = parts;
+    Real strongest(0);
+    const auto add = [&](Real f, int slot, int at) {
+        *end++ = {f, Real(0), bodies_.weights(slot), slot, at};
+        strongest = most(strongest, f);
+    };
+    if (ownField_ > Real(0))
+        add(ownField_, object_.slot(), -1);
+    for (int i = 0; i < touched_; ++i)
+        if (along_[i].value > Real(0))
+            add(along_[i].value, along_[i].near->object->slot(), i);
+    // In a crowd all fields are small, and their squares need the digits.
+    const bool faint = strongest < Real(0.125) && strongest > Real(0);
+    for (Part* a = parts; a < end && faint; ++a)
+        a->f = quotient(a->f, strongest);
+    Real lacks(0), squares(0);
+    for (Part* a = parts; a < end; ++a) {
+        squares += a->f * a->f;
+        for (Part* b = parts; b < a; ++b) {
+            const Real w = b->weights[a->slot];
+            if (w == Real(1))
+                continue;
+            const Real one = w == Real(0) ? a->f : a->f - w * a->f, sum = a->f + b->f, product = one * b->f;
+            lacks += product * sum;
+            a->lack += product + (w == Real(0) ? b->f : b->f - w * b->f) * sum;
+            b->lack += product + one * sum;
+        }
+    }
+    if (absolute(lacks) <= squares * NEGLIGIBLE)
+        return;
+    const Real inverse = quotient(Real(1), squares), lack = lacks * inverse, twice = lack + lack;
+    sample.excess -= faint ? lack * strongest : lack;
+    shared_ = true;
+    for (int i = 0; i <= touched_; ++i)
+        share_[i] = Real(1);
+    for (const Part* a = parts; a < end; ++a) {
+        const Real lost = (a->lack - a->f * twice) * inverse;
+        const Real rate = a->at < 0 ? shiftDown(ownSlope_ * position, 1) : along_[a->at].slope * along_[a->at].change;
+        share_[a->at + 1] = Real(1) - lost;
+        sample.slope -= lost * rate;
+    }
+}
+
+// The same where something digs, or strengths differ (model/body.h). With
 // x_i = f_i / the strongest, dF/df_k = (2 x_k (g_k - F) / strongest + x_k^2 + sum of w_ik x_i^2) / sum of x_i^2; of what digs
 // only the last sum, in which its weights are below 0.
-template <bool COMMON>
-SELDOM void Settler::blend(Real position, Sample& sample)
+void Settler::blendOdd(Real position, Sample& sample)
 {
+    shared_ = true;
     // Those that have a field here, the own first.
     struct Part {
         Real f, rate;       // F, dF/dp
@@ -394,10 +453,10 @@ SELDOM void Settler::blend(Real position, Sample& sample)
     Part* end = parts;
     Real strongest(0);
     share_[0] = Real(1);
-    if (ownField_ > Real(0) && (COMMON || !hollow_)) {
+    if (ownField_ > Real(0) && !hollow_) {
         strongest = ownField_;
         end->f = end->g = ownField_;
-        end->rate = COMMON ? shiftDown(ownSlope_ * position, 1) : ownSlope_ * position * shiftUp(restParam_, 1);
+        end->rate = ownSlope_ * position * shiftUp(restParam_, 1);
         end->linked = Real(0);
         end->weights = ownWeights_;
         end->slot = object_.slot();
@@ -407,7 +466,7 @@ SELDOM void Settler::blend(Real position, Sample& sample)
     for (int i = 0; i < touched_; ++i) {
         const Along& along = along_[i];
         share_[i + 1] = Real(1);
-        if (along.value <= Real(0) || (!COMMON && along.near->digs))
+        if (along.value <= Real(0) || along.near->digs)
             continue;
         strongest = most(strongest, along.value);
         end->f = end->g = along.value;
@@ -418,7 +477,7 @@ SELDOM void Settler::blend(Real position, Sample& sample)
         end->at = i + 1;
         ++end;
     }
-    bool plain = COMMON || (!all_.inner && !dented_);
+    bool plain = !all_.inner && !dented_;
     if ((plain && end - parts < 2) || strongest <= Real(0.0005))
         return;
     for (const Part* a = parts + 1; a < end && plain; ++a)
@@ -442,7 +501,7 @@ SELDOM void Settler::blend(Real position, Sample& sample)
             a->linked += one ? b->x2 : w * b->x2;
             b->linked += one ? a->x2 : w * a->x2;
         }
-        if (!COMMON && all_.inner)
+        if (all_.inner)
             for (Part* b = parts; b < a; ++b) {
                 // What B digs into A by more than A into B.
                 const Real w = a->weights[b->slot] - b->weights[a->slot];
@@ -461,9 +520,9 @@ SELDOM void Settler::blend(Real position, Sample& sample)
         share_[at] = linked;
         digging += linked * rate;
     };
-    if (!COMMON && hollow_)
+    if (hollow_)
         dig(ownField_, ownSlope_ * position * shiftUp(restParam_, 1), object_.slot(), 0);
-    for (int i = 0; i < touched_ && !COMMON && all_.dented; ++i)
+    for (int i = 0; i < touched_ && all_.dented; ++i)
         if (along_[i].near->digs)
             dig(along_[i].value, along_[i].slope * along_[i].change, along_[i].near->object->slot(), i + 1);
     for (const Part* a = parts; a < end; ++a)
@@ -477,8 +536,6 @@ SELDOM void Settler::blend(Real position, Sample& sample)
         slope += part * a->rate;
     }
     sample.slope = slope;
-    if (COMMON)
-        return;
     sample.slope += digging * share;
     if (hollow_)
         share_[0] = share_[0] * share;
@@ -534,6 +591,16 @@ void Settler::bisect(Real inside, Real outside, Real* position, Sample* sample)
 // where it had a valley before. When the path leaves it nowhere, `*sample` exceeds it as well.
 Real Settler::search(Real* position, Sample* sample)
 {
+    *position = COVERED_AT;
+    *sample = look(COVERED_AT);
+    if (sample->excess > Real(0) && sample->dominance > OVERSHOOT) {
+        // Another object is the stronger for good. Has the path left the surface before?
+        Real lowest = least(sample->excess, look(Real(1)).excess);
+        if (lowest < VALLEY)
+            lowest = least(lowest, look(BETWEEN).excess);
+        if (lowest > Real(0))
+            return least(lowest, sample->dominance - OVERSHOOT);
+    }
     Real before = SEARCH_FIRST;
     Sample there = look(before);
     Real lowest(9);
@@ -571,11 +638,6 @@ Real Settler::search(Real* position, Sample* sample)
                 *position = floor;
                 *sample = deepest;
             }
-        }
-        if (at >= COVERED_AT && now.dominance > OVERSHOOT) {
-            *position = at;
-            *sample = now;
-            return least(least(lowest, now.excess), now.dominance - OVERSHOOT);
         }
         before = at;
         there = now;
@@ -639,8 +701,8 @@ Real Settler::searchDeep(Real* position, Sample* sample)
 // away from its core by its slope over its squared size.
 Vector Settler::outward(Real position) const
 {
-    Real own = -(complete_ ? ownSlope_ : ownSlope_ * share_[0]);
-    if (complete_ && hollow_)
+    Real own = -(shared_ ? ownSlope_ * share_[0] : ownSlope_);
+    if (!shared_ && hollow_)
         own = -(own * all_.weight);
     Vector g{Real(0), Real(0), Real(0)};
     // Points push along the path, and from where they stand to the root.
@@ -649,8 +711,8 @@ Vector Settler::outward(Real position) const
         const Along& to = along_[i];
         if (to.slope == Real(0))
             continue;
-        Real slope = complete_ ? to.slope : to.slope * share_[i + 1];
-        if (complete_ && to.near->digs)
+        Real slope = shared_ ? to.slope * share_[i + 1] : to.slope;
+        if (!shared_ && to.near->digs)
             slope = -(slope * to.near->weight);
         const Real push = -(slope * to.near->ratio);
         if (to.near->kind == Neighbour::OTHER) {
@@ -1037,7 +1099,7 @@ void Settler::settleRest(Patch& patch)
         if (&s == &centre)
             return;
         turn_ = static_cast<uint32_t>(i) / 2 + updates_;
-        if (isCovered(s)) {
+        if (!(s.flags & SEED_VALID) && isCovered(s)) {
             s.flags = 0;
             return;
         }
@@ -1130,7 +1192,7 @@ void Settler::oversample(Patch& patch)
         if (extra == nullptr || !(extra->flags & SEED_ACTIVE))
             return;
         turn_ = static_cast<uint32_t>(i) / 2 + updates_;
-        if (isCovered(*extra))
+        if (!(extra->flags & SEED_VALID) && isCovered(*extra))
             extra->flags = SEED_ACTIVE;
         else if (!waits(*extra, false))
             settle(*extra);

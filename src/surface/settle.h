@@ -95,7 +95,8 @@ private:
     template <bool COMMON> Sample lookAs(Real position);
     SELDOM bool beginOdd(const Few& few, const Seed& s, Real position, Sample* sample);
     SELDOM Sample lookOdd(Real position);
-    template <bool COMMON> void blend(Real position, Sample& sample);
+    SELDOM void blend(Real position, Sample& sample);
+    SELDOM void blendOdd(Real position, Sample& sample);
     bool follow(Real* position, Sample* sample);
     Real search(Real* position, Sample* sample);
     Real searchDeep(Real* position, Sample* sample);
@@ -153,12 +154,13 @@ private:
     // Of the path at hand.
     Vector root_, path_;
     bool complete_;
+    bool shared_;             // share_ holds at the position looked at last; else all are 1
     int touched_;
     Along along_[NEIGHBOURS_MAX];
     Real headField_;                  // of a hollow: the field of what is hollowed out
     Real lookedAt_;                   // the last position looked at
     Real ownField_, ownSlope_;        // F and dF/dt of the own field there
-    Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, unless complete_
+    Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, if shared_
 };
 
 // Puts the seeds of a patch where no neighbour reaches them.
