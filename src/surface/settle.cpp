@@ -19,13 +19,13 @@ constexpr int NEWTON_STEPS = 5;
 // Positions: where paths begin to be searched, and those that are hollowed out or of weak objects; and in which steps.
 constexpr Real FIRST(0.7), FIRST_DEEP(0.06), SEARCH_FIRST(0.88), SEARCH_STEP(0.16);
 // At position COVERED_AT the own field is .23. A neighbour whose t is less than `there` at it is stronger by more than the overshoot
-// tolerance; and if its t is less than `atRest` at position 1, then between the two the body's field is above the isovalue. That
-// depends on whether neighbour and object are linked, and on whether what else is near is linked with one of them. The roots of both.
+// tolerance; and if its t is less than `atRest` at position 1, then between the two the body's field is above the isovalue. What is
+// not linked with the object must have that field alone. The roots of both.
 constexpr Real COVERED_AT(1.36), BETWEEN(1.18);
-constexpr Cover COVER_LINKED{Real(0.4), Real(0.7), Real(0.632), Real(0.836)}, COVER_APART{Real(0.3), Real(0.5), Real(0.547), Real(0.707)},
-    COVER_UNLINKED{Real(0.18), Real(0.18), Real(0.424), Real(0.424)};
-// Of the field: what is not linked with the object must be so much stronger to keep its seeds off the surface as well.
-constexpr Real UNLINKED(0.3);
+constexpr Cover COVER_LINKED{Real(0.4), Real(0.7), Real(0.632), Real(0.836)};
+constexpr Cover COVER_UNLINKED{Real(0.18), Real(0.18), Real(0.424), Real(0.424)};
+// Of the field: what is linked with the object and this strong is the one that keeps its seeds off the surface.
+constexpr Real COVERING(0.28);
 // Of the field: what missing links take at least to be counted.
 constexpr Real NEGLIGIBLE(0.002);
 // Units: no seed waits while neighbours come so far in a frame.
@@ -135,6 +135,7 @@ bool Settler::setPatch(const Patch& patch, bool oversampled)
     nearest_ = realFromRaw(patch.nearest << 10);
     farthest_ = realFromRaw(patch.farthest << 10);
     patch_ = &patch;
+    turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
     near_.count = 0;
     listed_.count = -1;
     smallest_ = object_.laidSize();
@@ -921,22 +922,12 @@ bool Settler::isCovered(const Seed& s)
     return along.param(COVERED_AT) < cover_->there && along.param(Real(1)) < cover_->atRest;
 }
 
-// Takes up the neighbour that was the strongest where a seed of the patch was not on the surface the last time. Alone it may keep
-// seeds off if it and the object are linked, and what else is near is linked with one of the two.
+// Takes up the neighbour that was the strongest where a seed of the patch was not on the surface the last time, and what it takes
+// for it alone to keep seeds off.
 void Settler::setBlocker(const Patch& patch)
 {
     blocker_ = all_.numberOf[patch.blocker];
-    cover_ = blocker_ >= 0 && common_ ? &COVER_LINKED : nullptr;
-    if (cover_ == nullptr || allComplete_)
-        return;
-    const uint32_t *const one = bodies_.plainLinks(object_.slot()), *const other = bodies_.plainLinks(patch.blocker);
-    uint32_t neither = 0;
-    for (int word = 0; word < Bodies::LINK_WORDS; ++word)
-        neither |= patch.listed[word] & ~(one[word] | other[word]);
-    if (!isLinked(patch.blocker))
-        cover_ = &COVER_UNLINKED;
-    else if (neither != 0)
-        cover_ = &COVER_APART;
+    cover_ = blocker_ < 0 || !common_ ? nullptr : allComplete_ || isLinked(patch.blocker) ? &COVER_LINKED : &COVER_UNLINKED;
 }
 
 // Whether the object is linked with another at weight 1.
@@ -1019,7 +1010,7 @@ int Settler::strongest() const
     Real most(-1);
     for (int i = 0; i < touched_; ++i) {
         const int candidate = along_[i].near->object->slot();
-        const Real value = isLinked(candidate) ? along_[i].value : along_[i].value - UNLINKED;
+        const Real value = along_[i].value > COVERING && isLinked(candidate) ? along_[i].value + Real(1) : along_[i].value;
         if (value > most && !along_[i].near->digs) {
             most = value;
             slot = candidate;
@@ -1048,7 +1039,6 @@ bool Settler::isCovered(const Patch& patch)
 PatchState Settler::probe(Patch& patch)
 {
     Seed& s = object_.seed(patch.centre);
-    turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
     patch.due = now_;
     if (!(s.flags & SEED_VALID) && patch.state == PATCH_MIXED && isCovered(s))
         return PATCH_MIXED;
@@ -1098,7 +1088,6 @@ void Settler::settleRest(Patch& patch)
         Seed& s = object_.seed(i);
         if (&s == &centre)
             return;
-        turn_ = static_cast<uint32_t>(i) / 2 + updates_;
         if (!(s.flags & SEED_VALID) && isCovered(s)) {
             s.flags = 0;
             return;
@@ -1113,8 +1102,10 @@ void Settler::settleRest(Patch& patch)
             return;
         }
         settle(s);
-        if (!(s.flags & SEED_VALID))
+        if (!(s.flags & SEED_VALID)) {
             patch.blocker = static_cast<uint8_t>(strongest());
+            setBlocker(patch);
+        }
     });
     setRange(patch);
 }
@@ -1191,7 +1182,6 @@ void Settler::oversample(Patch& patch)
         Seed* const extra = object_.extra(i);
         if (extra == nullptr || !(extra->flags & SEED_ACTIVE))
             return;
-        turn_ = static_cast<uint32_t>(i) / 2 + updates_;
         if (!(extra->flags & SEED_VALID) && isCovered(*extra))
             extra->flags = SEED_ACTIVE;
         else if (!waits(*extra, false))

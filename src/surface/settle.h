@@ -129,7 +129,7 @@ private:
     const Way now_;   // reading of the odometer
     const Real came_; // how far neighbours came in this frame, units
     const uint32_t updates_;
-    uint32_t turn_ = 0;  // of the seed at hand: seeds that wait take turns
+    uint32_t turn_ = 0;  // of the patch at hand: what waits takes turns
     const Real* ownWeights_;  // of its links, by slots
     const bool hollow_;              // the seeds sample a hollow: inside and outside change places
     const bool common_;              // nothing digs, and all strengths are 1
