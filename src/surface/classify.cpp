@@ -66,8 +66,7 @@ void setPatch(const SoftObject& object, Patch& patch)
     patch.due = patch.listDue = 0;
     memset(patch.listed, 0, sizeof patch.listed);
     memset(patch.near, 0, sizeof patch.near);
-    patch.bend.stale = true;
-    patch.voxels = nullptr;
+    patch.bend.known = false;
 }
 
 struct Step {

@@ -12,17 +12,10 @@ namespace {
 // So many patches are updated before the user is asked whether to go on.
 constexpr int ASKED_EVERY = 32;
 
-// Spacing from which on patches keep their voxels, units.
-constexpr Real KEPT_FROM(1);
-
 class Engine : public Surface {
 public:
     explicit Engine(SoftObject& object) : object_(object) {}
-    ~Engine() override
-    {
-        free(patches_);
-        free(voxels_);
-    }
+    ~Engine() override { free(patches_); }
 
     // False: no memory.
     bool open()
@@ -32,14 +25,6 @@ public:
         if (patches_ == nullptr)
             return false;
         makePatches(object_, patches_);
-        // Of the finest seeds there are too many for their voxels to be kept.
-        if (object_.spacing() < KEPT_FROM)
-            return true;
-        voxels_ = allocate<Voxel>(static_cast<uint32_t>(count_ * PATCH_VOXELS));
-        if (voxels_ == nullptr)
-            return false;
-        for (int i = 0; i < count_; ++i)
-            patches_[i].voxels = voxels_ + i * PATCH_VOXELS;
         return true;
     }
 
@@ -53,9 +38,7 @@ private:
     Odometer odometer_;
     uint32_t updates_ = 0;
     int32_t light_[3] = {0, 0, 0};  // at the last update, own axes
-    ViewBefore before_;
     Patch* patches_ = nullptr;
-    Voxel* voxels_ = nullptr;  // of the patches
     int count_ = 0;
 };
 
@@ -118,10 +101,12 @@ void Engine::update(const FrameContext& frame)
             continue;
         patch->state = settler.probe(*patch);
         patch->settled = patch->state == PATCH_MIXED;
-        if (patch->settled)
+        if (patch->settled) {
             settler.settleRest(*patch);
-        else
+            patch->bend.stale = true;
+        } else {
             sleep(object_, *patch);
+        }
     }
     for (Patch* patch = patches_; patch < end; ++patch)
         if (patch->settled)
@@ -143,7 +128,7 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
     const Paint* const paint = shown->paint();
     if (paint != nullptr && *next == 0)
         polish(object_, own);
-    const int at = shadePatches(object_, own, frame, patches_, count_, *next, before_, list, room);
+    const int at = shadePatches(object_, own, frame, patches_, count_, *next, static_cast<int>(updates_ & 0xffff), list, room);
     *next = at < count_ ? at : 0;
     // With another ramp than its own, the whole object is to be seen in that one.
     if (paint != nullptr && shown->ramp() == paint->ramp)

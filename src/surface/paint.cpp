@@ -3,6 +3,7 @@
 
 #include "math/normal.h"
 #include "rt.h"
+#include "voxels.h"
 
 namespace {
 
@@ -63,13 +64,13 @@ constexpr int32_t LEAST_AREA = 200;
 // Spacings: no scale reaches farther along the surface.
 constexpr Real FARTHEST(2);
 
-// The ray of sight through a voxel: how far it leads aside over a unit of depth, 12 bits of fraction.
+// The ray of sight through a voxel: how far it leads aside over a unit of depth, 10 bits of fraction.
 struct Shear {
     int32_t x, y;
 
     Shear(const VoxelList& list, const Voxel& voxel)
     {
-        const int32_t depth = (list.z + voxel.z) >> 4, most = 5 << 12;
+        const int32_t depth = (list.z + voxel.z) >> 2, most = 5 << 10;
         x = depth <= 0 ? 0 : limited(((list.x + voxel.x) << 8) / depth, most);
         y = depth <= 0 ? 0 : limited(((list.y + voxel.y) << 8) / depth, most);
     }
@@ -77,34 +78,6 @@ struct Shear {
 
 // Change of brightness (1/8 step) from the middle of a scale to its corner below which it has one brightness.
 constexpr int32_t FLAT = 8;
-
-// By how much the two sides of an edge overlap, 1/256 unit.
-constexpr int32_t EDGE_MARGIN = 40;
-
-// Ends a voxel at a straight line: inwards of it leads (x, y, z), axes of the view, 1.0 = 2^14, and the middle is `apart` inwards,
-// 1/256 unit. False: nothing is left.
-bool cutVoxel(int32_t x, int32_t y, int32_t z, int32_t apart, const Shear& shear, Voxel* voxel)
-{
-    // A step across the view leads along the ray as well, as far as the scale is tilted.
-    const int32_t ahead = z + ((x * shear.x + y * shear.y) >> 12);
-    int32_t cutX = x + (voxel->tiltX * (ahead >> 2) >> 6), cutY = y + (voxel->tiltY * (ahead >> 2) >> 6);
-    int32_t at = (apart + EDGE_MARGIN) * 64, unit = ONE;
-    while (magnitude(cutX) > 127 || magnitude(cutY) > 127) {
-        cutX >>= 1;
-        cutY >>= 1;
-        at >>= 1;
-        unit >>= 1;
-    }
-    const int32_t corner = (magnitude(cutX) * voxel->wide + magnitude(cutY) * voxel->high) >> 8;
-    if (unit < 16 || at >= corner)
-        return true;
-    if (at <= -corner)
-        return false;
-    voxel->cutX = static_cast<int8_t>(cutX);
-    voxel->cutY = static_cast<int8_t>(cutY);
-    voxel->cutAt = static_cast<int16_t>(limited(at, 32000));
-    return true;
-}
 
 // Sets how the brightness changes across a voxel, 1/8 step a unit; not at all when that is next to nothing.
 void setSlopes(int32_t x, int32_t y, Voxel* voxel)
@@ -242,8 +215,8 @@ void Painter::slope(const Seed& s, Voxel* voxel) const
         const Vector way = (place(to) - at) * own_.growth;
         const int32_t d[] = {rawFromReal(way.x) >> 10, rawFromReal(way.y) >> 10, rawFromReal(way.z) >> 10};
         const int32_t ahead = (d[0] * own_.ahead[0] + d[1] * own_.ahead[1] + d[2] * own_.ahead[2]) >> 14;
-        *x = ((d[0] * own_.right[0] + d[1] * own_.right[1] + d[2] * own_.right[2]) >> 14) - (ahead * shear.x >> 12);
-        *y = ((d[0] * own_.up[0] + d[1] * own_.up[1] + d[2] * own_.up[2]) >> 14) - (ahead * shear.y >> 12);
+        *x = ((d[0] * own_.right[0] + d[1] * own_.right[1] + d[2] * own_.right[2]) >> 14) - (ahead * shear.x >> 10);
+        *y = ((d[0] * own_.up[0] + d[1] * own_.up[1] + d[2] * own_.up[2]) >> 14) - (ahead * shear.y >> 10);
     };
     int32_t ax, ay, bx, by;
     onPicture(*next, &ax, &ay);
@@ -257,7 +230,8 @@ void Painter::slope(const Seed& s, Voxel* voxel) const
 
 bool Painter::cut(const Direction14& inward, int32_t apart, Voxel* voxel) const
 {
-    return cutVoxel(along(inward, own_.right), along(inward, own_.up), along(inward, own_.ahead), apart, Shear(list_, *voxel), voxel);
+    const Shear shear(list_, *voxel);
+    return cutVoxel(along(inward, own_.right), along(inward, own_.up), along(inward, own_.ahead), apart, shear.x, shear.y, voxel);
 }
 
 // `place` in own space, `normal` of the surface there; where there is no pattern the colour has the number `mix`.

@@ -834,7 +834,7 @@ void Settler::restThere(Seed& s)
     s.position = Real(1);
     s.brightness8 = brightness8(s.normal, own_.light);
     s.still = came_ < shiftDown(smallest_, 3);
-    s.flags = static_cast<uint8_t>((s.flags & (SEED_ACTIVE | SEED_MEASURED)) | SEED_VALID | SEED_RESTING);
+    s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
 }
 
 // One less than the number of updates after which all neighbours are asked, the fewer the farther they come.
@@ -1121,6 +1121,7 @@ void Settler::oversample(Patch& patch)
 void rest(SoftObject& object, Patch& patch, const OwnFrame& own)
 {
     patch.nearest = patch.farthest = 64;
+    patch.bend.known = false;
     putAway(object, patch);
     forSeeds(patch, [&](int i) {
         Seed& s = object.seed(i);
