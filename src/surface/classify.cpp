@@ -170,7 +170,7 @@ bool restsAway(const Patch& patch, const OwnFrame& own)
                           (patch.middle[1] < 0 ? -patch.middle[1] : patch.middle[1]) +
                           (patch.middle[2] < 0 ? -patch.middle[2] : patch.middle[2]);
     const int32_t doubt = (((own.distance32 >> 1) + aside) * patch.spread >> 14) + patch.radius;
-    return facing(patch, toEyeFrom(above(patch, 0), own)) < -doubt;
+    return facing(patch, toEyeFrom(above(patch, 0), own)) < ((own.distance32 >> 1) * own.limb >> 14) - doubt;
 }
 
 Bound boundOf(const Patch& patch, int32_t restRadius)

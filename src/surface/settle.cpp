@@ -30,7 +30,7 @@ constexpr Real BORDER(0.25);
 // What a field changes by at most over its size.
 constexpr Real STEEPEST(1.3);
 // Cosine (1.0 = 2^14) by which the middle of a patch must face away, more than its seeds differ, to be out of sight as a whole.
-constexpr int32_t TURNED = 2000;
+constexpr int32_t TURNED = 500;
 // Cosines (1.0 = 2^14) by which a seed faces away that is looked at less often.
 constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000;
 // Position beyond which a path that is hollowed out leaves the surface for good.
@@ -986,7 +986,7 @@ PatchState Settler::probe(Patch& patch)
         return PATCH_INSIDE;
     }
     patch.facing = facing(object_, s, own_);
-    const int32_t away = -patch.facing - patch.spread - TURNED;
+    const int32_t away = own_.limb - patch.facing - patch.spread - TURNED;
     if (away > 0) {
         patch.due += wayOf(realFromRaw(away * 4) * shiftDown(object_.laidSize(), 2));
         return PATCH_AWAY;

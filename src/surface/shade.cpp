@@ -117,7 +117,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     const int32_t* const axes[] = {own.right, own.up, own.ahead};
     const int32_t radius = rawFromReal(object.radius());
     for (int i = 0; i < 3; ++i) {
-        shading_.eye[i] = mulDiv(own.eye32[i], 1 << 16, step);
+        shading_.eye[i] = own.eye32[i] >> (shading_.placeShift - 8);
         shading_.right[i] = mulDiv(own.right[i], 1 << 16, step);
         shading_.up[i] = mulDiv(own.up[i], 1 << 16, step);
         shading_.toRight[i] = mulShift16(own.right[i], step);
@@ -125,14 +125,14 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
         shading_.toAhead[i] = mulShift16(own.ahead[i], step);
         ballGradient_[i] = (product(own.light, axes[i]) >> 14) * (BRIGHTEST * 32) / ((radius >> 8) + 1);
     }
-    // On a ball a scale that is seen nearly edge-on adds next to nothing to those before it; on flat parts it may be all
-    // there is.
-    const int32_t distance = mulDiv(own.distance32, 1 << 16, step);
-    shading_.limb = ball_ ? distance * 5 >> 4 : distance >> 4;
+    const int32_t distance = own.distance32 >> (shading_.placeShift - 8);
+    shading_.limb = distance * own.limb >> 11;
     facesViewer_ = (distance * (FACES_VIEWER >> 6)) >> 5;
     viewShift_ = larger(0, 18 - __builtin_clz(static_cast<uint32_t>(distance + 4096)));
-    ballHorizon_ = mulShift16((smaller(radius >> 11, FLATTEST) << 12) / own.distance32, step);
-    horizonScale_ = mulShift16(mulDiv(step, 1 << 12, own.distance32), step);
+    // Both per 1/32 unit of the world.
+    const int32_t distance32 = larger(mulShift16(own.distance32, rawFromReal(own.growth)), 1);
+    ballHorizon_ = mulShift16((smaller(radius >> 11, FLATTEST) << 12) / distance32, step);
+    horizonScale_ = mulShift16(mulDiv(step, 1 << 12, distance32), step);
     flatHorizon_ = mulShift16(FLATTEST, horizonScale_);
     gradientScale_ = mulDiv(BRIGHTEST << 16, 1 << (22 - shading_.placeShift), rawFromReal(own.growth));
     const int32_t spacing = smaller(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
