@@ -8,13 +8,12 @@
 #define SEED_PATH    0
 #define SEED_POSITION 12
 #define SEED_NORMAL  20
-#define SEED_LIGHT   34
-#define SEED_ROOT    36
-#define SEED_FLAGS   38
-#define SEED_ALONG   41
-#define SEED_ACROSS  44
-#define SEED_WAY     47
-#define SEED_AREA    50
+#define SEED_ROOT    34
+#define SEED_FLAGS   36
+#define SEED_ALONG   39
+#define SEED_ACROSS  42
+#define SEED_WAY     45
+#define SEED_AREA    48
 #define SEED_SIZE    52
 #define SEED_VALID   1
 #define SEED_RESTING 4
@@ -46,27 +45,29 @@
 #define ROOTS        4
 #define PLACE_SHIFT  8
 #define EYE          12
-#define LIMB         24
-#define TURNED       28
-#define RIGHT        32
-#define UP           44
-#define TO_RIGHT     56
-#define TO_UP        68
-#define TO_AHEAD     80
-#define DEPTH        92
-#define LEAST_POSITION 96
-#define CELL         100
-#define CELL_SHIFT   112
-#define AREA_SHARE   116
-#define WHOLE_MOST   120
-#define HORIZON      124
-#define GRADIENT     128
-#define AHEAD        136
+#define LIGHT        24
+#define LIMB         36
+#define TURNED       40
+#define RIGHT        44
+#define UP           56
+#define TO_RIGHT     68
+#define TO_UP        80
+#define TO_AHEAD     92
+#define DEPTH        104
+#define LEAST_POSITION 108
+#define CELL         112
+#define CELL_SHIFT   124
+#define AREA_SHARE   128
+#define WHOLE_MOST   132
+#define HORIZON      136
+#define GRADIENT     140
+#define AHEAD        148
 #define STEEPEST_TILT 20000
 #define MARGIN_SHIFT 5
 #define MARGIN_UNITS 14
 #define FLAT_SHADING 8
 #define SHADING_MOST 64
+#define BRIGHTEST    63
 #define LEAST_COSINE 6500
 #define UNEVEN       15500
 #define AREA_MOST    16383
@@ -417,11 +418,18 @@ shade_extended:
         movw        %cx, VOXEL_WIDE(%edi)
         movw        %ax, VOXEL_HIGH(%edi)
 
-        // voxel.brightness = (s.brightness8 + 128) >> 8, all behind it 0
+        // cosine = s.normal * v.light >> 14; voxel.brightness = cosine <= 0 ? 0 : (cosine * BRIGHTEST + 8192) >> 14
         movl        SEEN_SEED(%ebx), %esi
-        movswl        SEED_LIGHT(%esi), %edx
-        addl        $128, %edx
-        shrl        $8, %edx
+        movl        %ecx, SHADE_AREA(%esp)
+        product        SEED_NORMAL, LIGHT, %edx, %ecx
+        movl        SHADE_AREA(%esp), %ecx
+        sarl        $14, %edx
+        jle        shade_dark
+        imull        $BRIGHTEST, %edx, %edx
+        addl        $8192, %edx
+        shrl        $14, %edx
+shade_lit:
+        // all behind it 0
         movl        %edx, VOXEL_BRIGHT(%edi)
         movl        $0, VOXEL_SLOPEX(%edi)
 
@@ -619,6 +627,9 @@ shade_area_most:
 shade_steepest:
         movl        $STEEPEST_TILT, %eax
         jmp        shade_steep
+shade_dark:
+        xorl        %edx, %edx
+        jmp        shade_lit
 shade_too_wide:
         movl        $0x7fff, %ecx
         jmp        shade_wide

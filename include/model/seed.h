@@ -48,7 +48,6 @@ struct Seed {
     Direction14 normal;  // of the surface at the seed
     Direction14 border;  // of a SEED_BORDER one: in which the own field gains most on the strongest neighbour's,
     int16_t apart;       // and how far the seed is on its own side of where the two are equal, 1/256 unit
-    int16_t brightness8; // of the surface there, 0..63 with 8 bits of fraction
     uint16_t root;       // index of the root point: seeds share them
     uint8_t flags;       // SeedFlag
     uint8_t mix;         // number of the colour there, where colours mix (model/paint.h)

@@ -33,23 +33,12 @@ public:
 
 private:
     SoftObject& object_;
-    bool turned(const int32_t* light);
 
     Odometer odometer_;
     uint32_t updates_ = 0;
-    int32_t light_[3] = {0, 0, 0};  // at the last update, own axes
     Patch* patches_ = nullptr;
     int count_ = 0;
 };
-
-// Whether the light comes from another side of the object than at the last update.
-bool Engine::turned(const int32_t* light)
-{
-    const bool same = light[0] == light_[0] && light[1] == light_[1] && light[2] == light_[2];
-    for (int i = 0; i < 3; ++i)
-        light_[i] = light[i];
-    return !same;
-}
 
 // Gather what reaches the object, classify its patches, settle those that are due.
 void Engine::update(const FrameContext& frame)
@@ -61,7 +50,6 @@ void Engine::update(const FrameContext& frame)
     gather(object_, frame, all);
     const bool known = odometer_.advance(object_, own, all, frame.bodies->version());
     Settler settler(object_, own, all, frame, odometer_, ++updates_);
-    const bool lightTurned = turned(own.light);
     bool displaced = false;
     Patch* const end = patches_ + count_;
     for (Patch* patch = patches_; patch < end; ++patch) {
@@ -76,10 +64,8 @@ void Engine::update(const FrameContext& frame)
         if (!settler.setPatch(*patch) && all.rests) {
             if (patch->state != PATCH_REST) {
                 // Where its seeds are now, others may reach them.
-                rest(object_, *patch, own);
+                rest(object_, *patch);
                 classify(*patch, all);
-            } else if (lightTurned) {
-                light(object_, *patch, own);
             }
             patch->state = PATCH_REST;
             if (!settler.setPatch(*patch))
@@ -92,11 +78,8 @@ void Engine::update(const FrameContext& frame)
             patch->due = odometer_.reading();
             continue;
         }
-        if (known && patch->state != PATCH_REST && !isDue(odometer_.reading(), patch->due)) {
-            if (lightTurned && patch->state == PATCH_MIXED)
-                light(object_, *patch, own);
+        if (known && patch->state != PATCH_REST && !isDue(odometer_.reading(), patch->due))
             continue;
-        }
         if (patch->state == PATCH_INSIDE && settler.stillInside(*patch))
             continue;
         patch->state = settler.probe(*patch);
@@ -126,8 +109,6 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
         return;
     }
     const Paint* const paint = shown->paint();
-    if (paint != nullptr && *next == 0)
-        polish(object_, own);
     const int at = shadePatches(object_, own, frame, patches_, count_, *next, static_cast<int>(updates_ & 0xffff), list, room);
     *next = at < count_ ? at : 0;
     // With another ramp than its own, the whole object is to be seen in that one.

@@ -86,14 +86,6 @@ struct OwnFrame {
 // Steps of brightness: 0..63, the 64-step ramp.
 constexpr int BRIGHTEST = 63;
 
-// Brightness of a surface that faces along `normal` under a light from `light` (both 1.0 = 2^14): Lambert's cosine, 8 bits of
-// fraction, 0..63 * 256 (report, The Rendering Technique).
-inline int16_t brightness8(const Direction14& normal, const int32_t light[3])
-{
-    const int32_t cosine = (normal.x * light[0] + normal.y * light[1] + normal.z * light[2]) >> 14;
-    return static_cast<int16_t>(cosine <= 0 ? 0 : cosine * BRIGHTEST >> 6);
-}
-
 // On a ball a scale that is seen nearly edge-on adds next to nothing to those before it; on flat parts it may be all there is.
 constexpr int32_t LIMB_OF_BALL = 1300, LIMB = 1 << 7;
 

@@ -107,33 +107,31 @@ Real wave(Real turns)
 
 }  // namespace
 
-void polish(SoftObject& object, const OwnFrame& own)
+Polish::Polish(const SoftObject& object, const OwnFrame& own) : own_(own), mirror_(object.shown()->paint()->finish == FINISH_MIRROR)
 {
-    const Finish finish = object.shown()->paint()->finish;
-    if (finish == FINISH_MATT)
-        return;
     const Vector up = object.toOwnAxes({Real(0), Real(1), Real(0)});
-    const int32_t up14[] = {rawFromReal(up.x) >> 2, rawFromReal(up.y) >> 2, rawFromReal(up.z) >> 2};
     const Normal half = normalise({realFromRaw((own.light[0] - own.ahead[0]) * 4), realFromRaw((own.light[1] - own.ahead[1]) * 4),
                                    realFromRaw((own.light[2] - own.ahead[2]) * 4)});
-    const int32_t half14[] = {half.x, half.y, half.z};
-    const int32_t upAhead = (up14[0] * own.ahead[0] + up14[1] * own.ahead[1] + up14[2] * own.ahead[2]) >> 14;
-    for (int i = 0; i < object.seedSlots(); ++i) {
-        Seed* const seed = i & 1 ? object.extra(i - 1) : &object.seed(i);
-        if (seed == nullptr || !(seed->flags & SEED_VALID))
-            continue;
-        Seed& s = *seed;
-        int32_t light;
-        if (finish == FINISH_SHINY) {
-            const int32_t cosine = along(s.normal, own.light);
-            light = cosine <= 0 ? 0 : times(cosine, SCATTERED);
-        } else {
-            light = surroundings(upAhead - 2 * times(along(s.normal, own.ahead), along(s.normal, up14)));
-        }
-        light += times(ONE - light, highlight(along(s.normal, half14)));
-        light = light > ONE ? ONE : light < 0 ? 0 : light;
-        s.brightness8 = static_cast<int16_t>(light * BRIGHTEST >> 6);
+    up_[0] = rawFromReal(up.x) >> 2;
+    up_[1] = rawFromReal(up.y) >> 2;
+    up_[2] = rawFromReal(up.z) >> 2;
+    half_[0] = half.x;
+    half_[1] = half.y;
+    half_[2] = half.z;
+    upAhead_ = (up_[0] * own.ahead[0] + up_[1] * own.ahead[1] + up_[2] * own.ahead[2]) >> 14;
+}
+
+int32_t Polish::brightness8(const Direction14& normal) const
+{
+    int32_t light;
+    if (mirror_) {
+        light = surroundings(upAhead_ - 2 * times(along(normal, own_.ahead), along(normal, up_)));
+    } else {
+        const int32_t cosine = along(normal, own_.light);
+        light = cosine <= 0 ? 0 : times(cosine, SCATTERED);
     }
+    light += times(ONE - light, highlight(along(normal, half_)));
+    return (light > ONE ? ONE : light < 0 ? 0 : light) * BRIGHTEST >> 6;
 }
 
 // What the pattern has at a place: the number of the colour there; and if an edge of the pattern is near, the number of the
@@ -146,7 +144,8 @@ struct Painter::Spot {
 };
 
 Painter::Painter(const SoftObject& object, const OwnFrame& own, VoxelList& list)
-    : object_(object), paint_(*object.shown()->paint()), own_(own), list_(list), from_{Real(0), Real(0), Real(0)}
+    : object_(object), paint_(*object.shown()->paint()), own_(own), polish_(object, own), list_(list),
+      from_{Real(0), Real(0), Real(0)}
 {
     if (paint_.pattern == PATTERN_NONE)
         return;
@@ -174,8 +173,10 @@ void Painter::put(const Voxel& voxel, uint8_t number)
 void Painter::add(const Seed& s, const Voxel& shaded)
 {
     Voxel voxel = shaded;
-    if (paint_.shines())
+    if (paint_.shines()) {
+        voxel.brightness = static_cast<uint8_t>((polish_.brightness8(s.normal) + 128) >> 8);
         slope(s, &voxel);
+    }
     const bool mixed = paint_.mixes && !(s.flags & SEED_RESTING);
     const Spot spot = spotAt(place(s), s.normal, mixed ? s.mix : paint_.number);
     if (!spot.edge || (voxel.cutX | voxel.cutY) != 0) {
@@ -224,7 +225,8 @@ void Painter::slope(const Seed& s, Voxel* voxel) const
     const int32_t area = ax * by - ay * bx;
     if (area > -LEAST_AREA && area < LEAST_AREA)
         return;
-    const int32_t a = next->brightness8 - s.brightness8, b = n.brightness8 - s.brightness8;
+    const int32_t here = polish_.brightness8(s.normal);
+    const int32_t a = polish_.brightness8(next->normal) - here, b = polish_.brightness8(n.normal) - here;
     setSlopes((a * by - b * ay) * 2 / area, (b * ax - a * bx) * 2 / area, voxel);
 }
 

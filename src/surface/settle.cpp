@@ -832,7 +832,6 @@ void Settler::restThere(Seed& s)
         s.flags &= SEED_ACTIVE;
     }
     s.position = Real(1);
-    s.brightness8 = brightness8(s.normal, own_.light);
     s.still = came_ < shiftDown(smallest_, 3);
     s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
 }
@@ -897,7 +896,6 @@ Real Settler::settle(Seed& s)
     if (still && found && (s.flags & SEED_VALID) && !(s.flags & SEED_RESTING) && sample.dominance <= OVERSHOOT) {
         // It has not moved: what is known of it holds.
         s.still = s.still == 0 || came_ * Real(3) > shiftDown(smallest_, 3) ? 1 : 3;
-        s.brightness8 = brightness8(s.normal, own_.light);
         if (object_.paint() != nullptr && object_.paint()->mixes)
             mix(s);
         return Real(0);
@@ -922,7 +920,6 @@ Real Settler::settle(Seed& s)
         return Real(0);
     const Normal n = normalise(out);
     s.normal = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
-    s.brightness8 = brightness8(s.normal, own_.light);
     s.flags |= SEED_VALID;
     if (object_.paint() != nullptr && object_.paint()->mixes)
         mix(s);
@@ -1027,10 +1024,7 @@ void Settler::settleRest(Patch& patch)
             s.position = centre.position;
             s.flags = SEED_VALID;
             s.still = 0;
-        } else if (waits(s, someAway)) {
-            s.brightness8 = brightness8(s.normal, own_.light);
-            return;
-        } else if (!(s.flags & SEED_VALID) && isBlocked(s, BLOCKED)) {
+        } else if (waits(s, someAway) || (!(s.flags & SEED_VALID) && isBlocked(s, BLOCKED))) {
             return;
         }
         settle(s);
@@ -1118,7 +1112,7 @@ void Settler::oversample(Patch& patch)
     });
 }
 
-void rest(SoftObject& object, Patch& patch, const OwnFrame& own)
+void rest(SoftObject& object, Patch& patch)
 {
     patch.nearest = patch.farthest = 64;
     patch.bend.known = false;
@@ -1129,16 +1123,7 @@ void rest(SoftObject& object, Patch& patch, const OwnFrame& own)
             s.position = Real(1);
             s.normal = object.restNormal(s);
         }
-        s.brightness8 = brightness8(s.normal, own.light);
         s.flags = SEED_VALID | SEED_RESTING;
-    });
-}
-
-void light(SoftObject& object, const Patch& patch, const OwnFrame& own)
-{
-    forSeeds(patch, [&](int i) {
-        Seed& s = object.seed(i);
-        s.brightness8 = brightness8(s.normal, own.light);
     });
 }
 

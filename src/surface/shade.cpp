@@ -118,6 +118,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     const int32_t radius = rawFromReal(object.radius());
     for (int i = 0; i < 3; ++i) {
         shading_.eye[i] = own.eye32[i] >> (shading_.placeShift - 8);
+        shading_.light[i] = own.light[i];
         shading_.right[i] = mulDiv(own.right[i], 1 << 16, step);
         shading_.up[i] = mulDiv(own.up[i], 1 << 16, step);
         shading_.toRight[i] = mulShift16(own.right[i], step);

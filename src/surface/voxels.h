@@ -18,6 +18,7 @@ struct Shading {
     const Vector* roots;
     int32_t placeShift;     // bits of Real below those of places
     int32_t eye[3];         // own space: 8 steps of places
+    int32_t light[3];       // unit vector towards the light, own axes
     int32_t limb;           // a seed that faces the viewer no more than this is not drawn, steps of places
     int32_t turned;         // 0: own space is that of the view, and the next fields are not used
     int32_t right[3], up[3];  // axes of the view in own axes, over what a step of places is

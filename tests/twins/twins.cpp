@@ -895,7 +895,7 @@ void clearsAndCopies(int rounds)
 
 // What asm/voxels.S counts on.
 static_assert(inasm2::SEED_PATH == offsetof(Seed, path) && inasm2::SEED_POSITION == offsetof(Seed, position) &&
-              inasm2::SEED_NORMAL == offsetof(Seed, normal) && inasm2::SEED_LIGHT == offsetof(Seed, brightness8) &&
+              inasm2::SEED_NORMAL == offsetof(Seed, normal) &&
               inasm2::SEED_ROOT == offsetof(Seed, root) && inasm2::SEED_FLAGS == offsetof(Seed, flags) &&
               inasm2::SEED_ALONG == offsetof(Seed, along) && inasm2::SEED_ACROSS == offsetof(Seed, across) &&
               inasm2::SEED_WAY == offsetof(Seed, way) && inasm2::SEED_AREA == offsetof(Seed, area) &&
@@ -913,6 +913,7 @@ static_assert(inasm2::SEEN_SEED == offsetof(Seen, seed) && inasm2::SEEN_FACING =
               inasm2::SEEN_SIZE == sizeof(Seen), "Seen");
 static_assert(inasm2::SEEDS == offsetof(Shading, seeds) && inasm2::ROOTS == offsetof(Shading, roots) &&
               inasm2::PLACE_SHIFT == offsetof(Shading, placeShift) && inasm2::EYE == offsetof(Shading, eye) &&
+              inasm2::LIGHT == offsetof(Shading, light) &&
               inasm2::LIMB == offsetof(Shading, limb) && inasm2::TURNED == offsetof(Shading, turned) &&
               inasm2::RIGHT == offsetof(Shading, right) && inasm2::UP == offsetof(Shading, up) &&
               inasm2::TO_RIGHT == offsetof(Shading, toRight) && inasm2::TO_UP == offsetof(Shading, toUp) &&
@@ -924,7 +925,7 @@ static_assert(inasm2::SEEDS == offsetof(Shading, seeds) && inasm2::ROOTS == offs
 static_assert(inasm2::STEEPEST_TILT == STEEPEST_TILT && inasm2::MARGIN_SHIFT == MARGIN_SHIFT &&
               inasm2::MARGIN_UNITS == MARGIN_UNITS && inasm2::FLAT_SHADING == FLAT_SHADING &&
               inasm2::SHADING_MOST == SHADING_MOST && inasm2::LEAST_COSINE == LEAST_COSINE && inasm2::UNEVEN == UNEVEN &&
-              inasm2::AREA_MOST == AREA_MOST, "constants of shading");
+              inasm2::AREA_MOST == AREA_MOST && inasm2::BRIGHTEST == BRIGHTEST, "constants of shading");
 
 // Seeds at random before viewers at random. That there were some of each kind is checked, too.
 void shadedSeeds(int rounds)
@@ -951,6 +952,7 @@ void shadedSeeds(int rounds)
         v.turned = below(2);
         for (int i = 0; i < 3; ++i) {
             v.eye[i] = number(120 * 32);
+            v.light[i] = number(9459);
             v.right[i] = number(16384);
             v.up[i] = number(16384);
             v.toRight[i] = number(16384);
@@ -980,7 +982,6 @@ void shadedSeeds(int rounds)
             s.normal = below(3) == 0 ? direction() : way;
             s.root = static_cast<uint16_t>(below(ROOTS));
             s.flags = static_cast<uint8_t>((below(8) == 0 ? 0 : ::SEED_VALID) | (below(2) == 0 ? 0 : ::SEED_RESTING));
-            s.brightness8 = static_cast<int16_t>(below(4) == 0 ? below(200) : below(63 * 256 + 1));
             s.area = static_cast<uint16_t>(below(4) == 0 ? 0 : below(AREA_MOST + 1));
         }
         // At most so many of a ring, that a patch has room for.
