@@ -87,7 +87,7 @@ private:
     int32_t ballGradient_[3]; // of the brightness over a ball, axes of the view, 1/8 step a unit with 8 bits of fraction
     int32_t ballHorizon_, flatHorizon_;  // Shading::horizonShare of what bends like a ball, and of what is flat
     int32_t horizonScale_;    // of a radius of curvature in steps of places / 8
-    int32_t gradientScale_;   // brings gradients of patches to 1/8 step a unit with 8 bits of fraction
+    int32_t gradientScale_;   // brings gradients of patches to 1/8 step a unit with 5 bits of fraction
     int32_t columns_[3], rows_[3], aheads_[3];  // axes of the view for cells, 14 bits of fraction more; aheads_ 4 bits more
     uint32_t areaScale_;      // squared spacing
     // Of the patch.
@@ -135,7 +135,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     ballHorizon_ = mulShift16((smaller(radius >> 11, FLATTEST) << 12) / distance32, step);
     horizonScale_ = mulShift16(mulDiv(step, 1 << 12, distance32), step);
     flatHorizon_ = mulShift16(FLATTEST, horizonScale_);
-    gradientScale_ = mulDiv(BRIGHTEST << 16, 1 << (22 - shading_.placeShift), rawFromReal(own.growth));
+    gradientScale_ = mulDiv(BRIGHTEST << 16, 1 << (19 - shading_.placeShift), rawFromReal(own.growth));
     const int32_t spacing = smaller(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
     areaScale_ = static_cast<uint32_t>(mulShift16(spacing * spacing << 7, step));
     shading_.cellShift = __builtin_clz(static_cast<uint32_t>(spacing)) - 19;
@@ -209,7 +209,7 @@ SELDOM void Shader::measureBend(Patch& patch) const
     if (smaller(size[0], size[1]) < 64 || magnitude(area) <= size[0] * size[1] >> 2)
         return;
     bend.ball = false;
-    const auto overArea = [&](int32_t sum) { return limited(mulDiv(sum, 128, area), 32000); };
+    const auto overArea = [&](int32_t sum) { return limited(mulDiv(sum, 128, area), 16000); };
     // The greater curvature of the two: in its direction the normal of the patch's other seeds differs.
     const int32_t one = product(turn[0], dual[0]), other = product(turn[1], dual[1]);
     const int32_t most = overArea(magnitude(one) > magnitude(other) ? one : other);
@@ -217,7 +217,7 @@ SELDOM void Shader::measureBend(Patch& patch) const
         const int32_t inward = most * n[i] >> 14;
         for (int j = i; j < 3; ++j)
             bend.turn[i][j] = bend.turn[j][i] =
-                static_cast<int16_t>(limited(overArea(turn[0][i] * dual[0][j] + turn[1][i] * dual[1][j]) + (inward * n[j] >> 14), 32000));
+                static_cast<int16_t>(limited(overArea(turn[0][i] * dual[0][j] + turn[1][i] * dual[1][j]) + (inward * n[j] >> 14), 16000));
     }
 }
 
@@ -228,9 +228,9 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
     int32_t change[3];
     for (int i = 0; i < 3; ++i)
         change[i] = mulShift16(product(bend.turn[i], own_.light) >> 14, gradientScale_);
-    shading_.gradient[0] = along(change, own_.right, 0);
-    shading_.gradient[1] = along(change, own_.up, 1);
-    shading_.gradientAhead = along(change, own_.ahead, 2);
+    shading_.gradient[0] = along(change, own_.right, 0) * 8;
+    shading_.gradient[1] = along(change, own_.up, 1) * 8;
+    shading_.gradientAhead = along(change, own_.ahead, 2) * 8;
     shading_.horizonShare = flatHorizon_;
     if (middle.facing >= facesViewer_)
         return;
