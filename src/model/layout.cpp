@@ -18,12 +18,30 @@ int8_t toCell(int32_t steps)
     return static_cast<int8_t>(steps > 127 ? 127 : steps < -127 ? -127 : steps);
 }
 
-// Half axes of a seed's cell in 1/64 spacing; `inverse` is 64 / spacing.
-void setCell(int8_t* to, const Vector& half, Real inverse)
+// A half axis of a seed's cell in 1/64 spacing; `inverse` is 64 / spacing.
+void setAxis(int8_t* to, const Vector& half, Real inverse)
 {
     const Real parts[] = {half.x, half.y, half.z};
     for (int i = 0; i < 3; ++i)
         to[i] = toCell(floorToInt(parts[i] * inverse + Real(0.5)));
+}
+
+// Which way the path leads.
+void setWay(Seed& s)
+{
+    const Normal n = normalise(s.path);
+    s.way[0] = toCell((n.x * 127 + 8192) >> 14);
+    s.way[1] = toCell((n.y * 127 + 8192) >> 14);
+    s.way[2] = toCell((n.z * 127 + 8192) >> 14);
+}
+
+// The area of the cell of a seed that has its normal.
+void setArea(Seed& s)
+{
+    const int8_t *const a = s.along, *const b = s.across;
+    const int32_t area = ((a[1] * b[2] - a[2] * b[1]) * s.normal.x + (a[2] * b[0] - a[0] * b[2]) * s.normal.y +
+                          (a[0] * b[1] - a[1] * b[0]) * s.normal.z) >> 14;
+    s.area = static_cast<uint16_t>((area < 0 ? -area : area) + 1);
 }
 
 // First run of layOutSeeds(): how much of everything there is. Between two rings with different roots lie oversampled
@@ -90,9 +108,8 @@ public:
         s.root = static_cast<uint16_t>(root);
         s.flags = SEED_VALID | SEED_RESTING;
         s.still = 0;
-        s.cellArea = 0;
-        setCell(s.along, along, inverseSpacing_);
-        setCell(s.across, across, inverseSpacing_);
+        setAxis(s.along, along, inverseSpacing_);
+        setAxis(s.across, across, inverseSpacing_);
     }
 
 private:
@@ -326,6 +343,8 @@ Seed* SoftObject::layOutBlock(int at)
             ++ring;
         layOutExtra(laid_, number, ring, block[i]);
         block[i].normal = restNormal(block[i]);
+        block[i].area = 0;
+        setWay(block[i]);
     }
     laid_.extras[at] = block;
     return block;
@@ -385,8 +404,12 @@ bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObje
     Layout before = laid_;
     laid_ = layout;
     for (int ring = 0; like == nullptr && ring < laid_.rings && !stopAsked(); ++ring)
-        for (int i = laid_.ringStarts[ring]; i < laid_.ringStarts[ring + 1]; ++i)
-            laid_.seeds[i].normal = restNormal(laid_.seeds[i]);
+        for (int i = laid_.ringStarts[ring]; i < laid_.ringStarts[ring + 1]; ++i) {
+            Seed& s = laid_.seeds[i];
+            s.normal = restNormal(s);
+            setWay(s);
+            setArea(s);
+        }
     Surface* const surface = stopAsked() ? nullptr : makeSurface(*this);
     if (surface == nullptr) {
         laid_.release();

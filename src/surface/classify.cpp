@@ -66,8 +66,7 @@ void setPatch(const SoftObject& object, Patch& patch)
     patch.due = patch.listDue = 0;
     memset(patch.listed, 0, sizeof patch.listed);
     memset(patch.near, 0, sizeof patch.near);
-    patch.bend.stale = true;
-    patch.voxels = nullptr;
+    patch.bend.known = false;
 }
 
 struct Step {
@@ -171,7 +170,7 @@ bool restsAway(const Patch& patch, const OwnFrame& own)
                           (patch.middle[1] < 0 ? -patch.middle[1] : patch.middle[1]) +
                           (patch.middle[2] < 0 ? -patch.middle[2] : patch.middle[2]);
     const int32_t doubt = (((own.distance32 >> 1) + aside) * patch.spread >> 14) + patch.radius;
-    return facing(patch, toEyeFrom(above(patch, 0), own)) < -doubt;
+    return facing(patch, toEyeFrom(above(patch, 0), own)) < ((own.distance32 >> 1) * own.limb >> 14) - doubt;
 }
 
 Bound boundOf(const Patch& patch, int32_t restRadius)

@@ -37,7 +37,7 @@ constexpr Real BORDER(0.25);
 // What a field changes by at most over its size.
 constexpr Real STEEPEST(1.3);
 // Cosine (1.0 = 2^14) by which the middle of a patch must face away, more than its seeds differ, to be out of sight as a whole.
-constexpr int32_t TURNED = 2000;
+constexpr int32_t TURNED = 500;
 // Cosines (1.0 = 2^14) by which a seed faces away that is looked at less often.
 constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000;
 // Position beyond which a path that is hollowed out leaves the surface for good.
@@ -905,9 +905,8 @@ void Settler::restThere(Seed& s)
         s.flags &= SEED_ACTIVE;
     }
     s.position = Real(1);
-    s.brightness8 = brightness8(s.normal, own_.light);
     s.still = came_ < shiftDown(smallest_, 3);
-    s.flags = static_cast<uint8_t>((s.flags & (SEED_ACTIVE | SEED_MEASURED)) | SEED_VALID | SEED_RESTING);
+    s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
 }
 
 // Whether one neighbour alone keeps a seed off the surface, wherever it was before: from position 1, before which no path can leave
@@ -967,7 +966,6 @@ Real Settler::settle(Seed& s)
     if (still && found && (s.flags & SEED_VALID) && !(s.flags & SEED_RESTING) && sample.dominance <= OVERSHOOT) {
         // It has not moved: what is known of it holds.
         s.still = s.still == 0 || came_ * Real(3) > shiftDown(smallest_, 3) ? 1 : 3;
-        s.brightness8 = brightness8(s.normal, own_.light);
         if (object_.paint() != nullptr && object_.paint()->mixes)
             mix(s);
         return Real(0);
@@ -988,7 +986,6 @@ Real Settler::settle(Seed& s)
         return Real(0);
     const Normal n = normalise(out);
     s.normal = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
-    s.brightness8 = brightness8(s.normal, own_.light);
     s.flags |= SEED_VALID;
     if (object_.paint() != nullptr && object_.paint()->mixes)
         mix(s);
@@ -1054,7 +1051,7 @@ PatchState Settler::probe(Patch& patch)
         return PATCH_INSIDE;
     }
     patch.facing = facing(object_, s, own_);
-    const int32_t away = -patch.facing - patch.spread - TURNED;
+    const int32_t away = own_.limb - patch.facing - patch.spread - TURNED;
     if (away > 0) {
         patch.due += wayOf(realFromRaw(away * 4) * shiftDown(object_.laidSize(), 2));
         return PATCH_AWAY;
@@ -1098,7 +1095,6 @@ void Settler::settleRest(Patch& patch)
             s.flags = SEED_COVERED;
             s.still = 0;
         } else if (waits(s, someAway)) {
-            s.brightness8 = brightness8(s.normal, own_.light);
             return;
         }
         settle(s);
@@ -1189,9 +1185,10 @@ void Settler::oversample(Patch& patch)
     });
 }
 
-void rest(SoftObject& object, Patch& patch, const OwnFrame& own)
+void rest(SoftObject& object, Patch& patch)
 {
     patch.nearest = patch.farthest = 64;
+    patch.bend.known = false;
     putAway(object, patch);
     forSeeds(patch, [&](int i) {
         Seed& s = object.seed(i);
@@ -1199,16 +1196,7 @@ void rest(SoftObject& object, Patch& patch, const OwnFrame& own)
             s.position = Real(1);
             s.normal = object.restNormal(s);
         }
-        s.brightness8 = brightness8(s.normal, own.light);
         s.flags = SEED_VALID | SEED_RESTING;
-    });
-}
-
-void light(SoftObject& object, const Patch& patch, const OwnFrame& own)
-{
-    forSeeds(patch, [&](int i) {
-        Seed& s = object.seed(i);
-        s.brightness8 = brightness8(s.normal, own.light);
     });
 }
 

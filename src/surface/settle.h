@@ -164,10 +164,7 @@ private:
 };
 
 // Puts the seeds of a patch where no neighbour reaches them.
-void rest(SoftObject& object, Patch& patch, const OwnFrame& own);
-
-// Works out the brightness of its seeds anew, when the light comes from another side of the object.
-void light(SoftObject& object, const Patch& patch, const OwnFrame& own);
+void rest(SoftObject& object, Patch& patch);
 
 // Puts all seeds of a patch but the one in the middle to sleep: they are neither settled nor drawn.
 void sleep(SoftObject& object, Patch& patch);
