@@ -968,6 +968,11 @@ Real Settler::settle(Seed& s)
         s.still = s.still == 0 || came_ * Real(3) > shiftDown(smallest_, 3) ? 1 : 3;
         if (object_.paint() != nullptr && object_.paint()->mixes)
             mix(s);
+        // But the border may have.
+        if (sample.dominance > -shiftDown(border_, 1) && !dented_) {
+            findBorder(s, sample.dominance);
+            s.flags |= SEED_BORDER;
+        }
         return Real(0);
     }
     s.still = 0;

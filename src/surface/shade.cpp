@@ -40,6 +40,9 @@ inline int32_t smaller(int32_t a, int32_t b)
     return a < b ? a : b;
 }
 
+// In another's territory a scale is one for want of a better, and lies so much deeper; 1/256 unit.
+constexpr int32_t BEHIND = 64;
+
 // Depth before which the whole of a cell is covered: so near the viewer a ring is no straight band in the picture; 1/256 unit.
 constexpr int32_t WHOLE_BEFORE = 64 * 256;
 
@@ -340,8 +343,12 @@ inline void Shader::shadePatch(Patch& patch, bool turn, VoxelList& list, Painter
     shadeSeeds(&shading_, seen, voxels, count);
     for (int i = 0; i < count; ++i) {
         const Seed& s = *seen[i].seed;
-        if ((s.flags & SEED_BORDER) && !cut(s, voxels + i))
-            continue;
+        if (s.flags & SEED_BORDER) {
+            if (!cut(s, voxels + i))
+                continue;
+            if (s.apart < 0)
+                voxels[i].z += BEHIND;
+        }
         if (PAINTED)
             painter->add(s, voxels[i]);
         else if (to++ != voxels + i)

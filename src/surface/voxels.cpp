@@ -4,10 +4,8 @@
 namespace {
 
 // By how much the two sides of a cut overlap, 1/256 unit.
-constexpr int32_t CUT_MARGIN = 40;
+constexpr int32_t CUT_MARGIN = 16;
 
-// By how many bits the slopes of a cut may be too large.
-constexpr int MOST_CUT_SHIFT = 10;
 
 inline int32_t magnitude(int32_t a)
 {
@@ -198,10 +196,8 @@ bool cutVoxel(int32_t x, int32_t y, int32_t z, int32_t apart, int32_t shearX, in
     const int32_t most = magnitude(cutX) | magnitude(cutY);
     if (most == 0)
         return true;
-    // To 7 bits and a sign; what is so large is too much tilted for a line.
+    // To 7 bits and a sign.
     const int shift = most < 128 ? 0 : 25 - __builtin_clz(static_cast<uint32_t>(most));
-    if (shift > MOST_CUT_SHIFT)
-        return true;
     cutX >>= shift;
     cutY >>= shift;
     const int32_t at = (apart + CUT_MARGIN) * 64 >> shift;
