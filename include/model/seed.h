@@ -19,6 +19,8 @@
 //                 faces away: it is not settled
 //   SEED_COVERED  the path leaves the surface, where a       the neighbour does not any more, or the path might leave
 //                 neighbour is the strongest               it before
+//   SEED_OFF      of what is dented, or a hollow: it will  it settles anew
+//                 not be on the surface before `due`
 //   SEED_MEASURED its place and cell are those of its      it settles anew
 //                 present position
 //   SEED_FRONT    /P only: its path does not point away    it does
@@ -30,6 +32,7 @@ enum SeedFlag : uint8_t {
     SEED_ACTIVE = 2,
     SEED_RESTING = 4,
     SEED_FRONT = 8,
+    SEED_OFF = 8,        // the bit of SEED_FRONT, which only /P has
     SEED_KEPT = 16,
     SEED_BORDER = 32,
     SEED_ASLEEP = 64,
@@ -50,7 +53,10 @@ struct Seed {
     int32_t neighbour;   // slot of the seed N of the ring before (Appendix C, Oversampling); -1 in the first ring
     Direction14 normal;  // of the surface at the seed
     Direction14 border;  // of a SEED_BORDER one: in which the own field gains most on the strongest neighbour's,
-    int16_t apart;       // and how far the seed is on its own side of where the two are equal, 1/256 unit
+    union {
+        int16_t apart;   // and how far the seed is on its own side of where the two are equal, 1/256 unit
+        uint16_t due;    // of a SEED_OFF one: the lower half of the reading of its object's odometer when it is looked at again
+    };
     int16_t brightness8; // of the surface there, 0..63 with 8 bits of fraction
     uint16_t root;       // index of the root point: seeds share them
     uint8_t flags;       // SeedFlag

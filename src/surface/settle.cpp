@@ -33,8 +33,13 @@ constexpr Real STEEPEST(1.3);
 constexpr int32_t TURNED = 2000;
 // Cosines (1.0 = 2^14) by which a seed faces away that is looked at less often.
 constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000;
-// Position beyond which a path that is hollowed out leaves the surface for good.
-constexpr Real OUTERMOST(0.8);
+// Position beyond which a path that is hollowed out leaves the surface for good; and the one where what closes again over a hollow
+// is found.
+constexpr Real OUTERMOST(0.8), CLOSING(0.95);
+// Of the field, over the size: no field changes by more.
+constexpr Real STEEPEST_OF_ALL(1.6);
+// Of the field: by what a neighbour that is not known yet may change it meanwhile.
+constexpr Real UNKNOWN(0.03);
 // Spacings: how far beyond the border of its part a seed still has a scale that reaches into it.
 constexpr Real SHARED(1.5);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
@@ -578,51 +583,106 @@ Real Settler::search(Real* position, Sample* sample)
     return lowest;
 }
 
+// What the fields along the path at hand change by at most, all together, when the neighbours come by a unit.
+Real Settler::pushMost() const
+{
+    Real sum(0);
+    for (int i = 0; i < touched_; ++i)
+        sum += along_[i].near->push16 * along_[i].near->strength;
+    return shiftDown(sum * STEEPEST_OF_ALL, complete_ ? 4 : 3);
+}
+
 // The same for a path that is hollowed out, or a weak object's: the last place where the path leaves the surface, for what lies
-// before it is hidden; of those where no neighbour is stronger, if there are any. In a hollow it is the first.
+// before it is hidden; of those where no neighbour is stronger, if there are any. In a hollow it is the first. What is far from
+// the surface is taken in long steps. Where nothing is found `off_` says by how much of the field.
 Real Settler::searchDeep(Real* position, Sample* sample)
 {
-    Real before = first_, lowest(9), from[2], to[2];
-    bool found[2] = {false, false};
-    Sample there = look(before);
-    while (before < last_) {
-        const Real at = least(before + SEARCH_STEP, last_);
-        const Sample now = look(at);
-        Real inside = before;
-        bool leaves = there.excess > Real(0) && now.excess <= Real(0);
-        if (there.excess <= Real(0) && now.excess <= Real(0) && there.slope > Real(0) && now.slope < Real(0)) {
-            // A hill between the two: its top is about where straight slopes cross 0.
-            inside = before + (at - before) * (there.slope / (there.slope - now.slope));
-            leaves = look(inside).excess > Real(0);
-        }
-        if (leaves) {
-            const bool own = least(there.dominance, now.dominance) <= OVERSHOOT;
-            found[own] = true;
-            from[own] = inside;
-            to[own] = at;
-            if (hollow_)
-                break;
-        }
-        if (now.excess < lowest) {
-            lowest = now.excess;
+    // What the sum of the fields changes by at most over a position.
+    const Real own = shiftDown(object_.strength() * (hollow_ ? most(all_.weight, Real(1)) : Real(1)), 1) * STEEPEST_OF_ALL;
+    const Real half = quotient(Real(0.5), own + pushMost() * object_.laidRadius()), end = hollow_ ? last_ : first_;
+    Real at = hollow_ ? first_ : last_, deepest(9), highest(-9), inside(0), outside(0);
+    bool found = false;
+    Sample now = look(at);
+    while (true) {
+        if (now.excess < deepest) {
+            deepest = now.excess;
             *position = at;
             *sample = now;
         }
-        before = at;
-        there = now;
+        highest = most(highest, now.excess);
+        if (at == end)
+            break;
+        const Real before = at, hold = absolute(now.excess);
+        const Sample there = now;
+        Real step = hold * half;
+        if (step > SEARCH_STEP) {
+            deepest = least(deepest, now.excess - shiftDown(hold, 1));
+            highest = most(highest, now.excess + shiftDown(hold, 1));
+        } else {
+            step = SEARCH_STEP;
+        }
+        at = hollow_ ? least(at + step, end) : most(at - step, end);
+        now = look(at);
+        const Sample &inner = hollow_ ? there : now, &outer = hollow_ ? now : there;
+        const Real in = hollow_ ? before : at, out = hollow_ ? at : before;
+        if (outer.excess > Real(0))
+            continue;
+        Real from = in;
+        if (inner.excess <= Real(0)) {
+            if (inner.slope <= Real(0) || outer.slope >= Real(0))
+                continue;
+            // A hill between the two: its top is about where straight slopes cross 0.
+            from = in + (out - in) * (inner.slope / (inner.slope - outer.slope));
+            const Real top = look(from).excess;
+            highest = most(highest, top);
+            if (top <= Real(0))
+                continue;
+        }
+        const bool ours = least(inner.dominance, outer.dominance) <= OVERSHOOT;
+        if (ours || !found) {
+            inside = from;
+            outside = out;
+        }
+        found = true;
+        if (ours || hollow_)
+            break;
     }
-    if (found[0] || found[1]) {
-        bisect(from[found[1]], to[found[1]], position, sample);
+    if (found) {
+        bisect(inside, outside, position, sample);
         sample->excess = Real(0);
         return Real(9);
     }
-    if (lowest <= Real(0)) {
+    if (highest <= Real(0)) {
         // All that is there lies outside.
+        off_ = -highest;
         sample->excess = Real(1);
         *position = Real(1);
         return Real(0);
     }
-    return lowest;
+    off_ = deepest;
+    sample->excess = Real(1);
+    return most(deepest, Real(0));
+}
+
+// Whether a path that led into a hollow may leave the surface farther out again.
+bool Settler::hasClosed(const Seed& s)
+{
+    Sample sample;
+    begin(listed(), s, CLOSING, &sample);
+    return sample.excess > Real(0);
+}
+
+// A seed of what is dented, or of a hollow, that is not on the surface, or not in its own part of it, by `hold` of the field
+// that changes by `push` when the neighbours come by a unit: until when it need not be looked at.
+void Settler::putOff(Seed& s, Real hold, Real push) const
+{
+    s.flags |= SEED_OFF;
+    s.due = static_cast<uint16_t>(now_ + until(hold, push, LONGEST_WAIT));
+}
+
+bool Settler::isOff(const Seed& s) const
+{
+    return (s.flags & SEED_OFF) && came_ < LONGEST_WAIT && static_cast<int16_t>(static_cast<uint16_t>(now_) - s.due) < 0;
 }
 
 // The direction in which the field falls at a position that has just been looked at, any length, own axes: each field pushes
@@ -730,6 +790,7 @@ bool Settler::findDented(Seed& s, Vector* g)
     const Real apart = findShare(s, g), shared = object_.spacing() * SHARED;
     if (apart < -shared) {
         s.flags |= SEED_COVERED;
+        putOff(s, -apart - shared, Real(8));
         return false;
     }
     if (apart < shared)
@@ -847,7 +908,9 @@ uint32_t Settler::turns() const
 // it: it is stronger than the own object where the path left the surface, and a little before.
 bool Settler::isBlocked(const Seed& s, Real margin)
 {
-    if (blocker_ < 0 || dented_ || (turn_ & turns()) == 0)
+    if (dented_)
+        return isOff(s);
+    if (blocker_ < 0 || (turn_ & turns()) == 0)
         return false;
     const Neighbour& near = all_.neighbours[blocker_];
     Along along;
@@ -875,6 +938,8 @@ Real Settler::settle(Seed& s)
     bool found = false, still = false;
     Real margin(9);
     if (s.flags & (SEED_VALID | SEED_COVERED)) {
+        // What is hollowed out may have closed before that.
+        const bool closed = dented_ && !hollow_ && position <= OUTERMOST && hasClosed(s);
         bool touched = begin(those(position), s, position, &sample);
         if (!touched && position != Real(1)) {
             position = Real(1);
@@ -885,8 +950,7 @@ Real Settler::settle(Seed& s)
             return Real(0);
         }
         still = position == s.position && absolute(sample.excess) <= TOLERANCE;
-        // What is hollowed out may have opened, or closed, before a surface farther out.
-        found = (!dented_ || hollow_ || position > OUTERMOST) && follow(&position, &sample);
+        found = !closed && follow(&position, &sample);
         if (found && (position < nearest_ || position > farthest_)) {
             // Where it is now, others may reach it.
             begin(listed(), s, position, &sample);
@@ -915,6 +979,8 @@ Real Settler::settle(Seed& s)
             margin = sample.dominance - OVERSHOOT;
             s.flags |= SEED_COVERED;
         }
+        if (dented_)
+            putOff(s, (found ? sample.dominance - OVERSHOOT : off_) - UNKNOWN, pushMost() * Real(found ? 2 : 1));
         return margin;
     }
     Vector out = outward(position);
@@ -1044,7 +1110,7 @@ void Settler::settleRest(Patch& patch)
 // little; one that did not move twice, or faces well away, waits for three.
 bool Settler::waits(const Seed& s, bool someAway) const
 {
-    if (dented_ || !(s.flags & SEED_VALID) || came_ > least(HURRY, shiftDown(smallest_, 2)))
+    if (!(s.flags & SEED_VALID) || came_ > least(HURRY, shiftDown(smallest_, 2)))
         return false;
     uint32_t mask = s.still;
     if (someAway) {

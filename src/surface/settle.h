@@ -92,7 +92,11 @@ private:
     template <bool COMMON> void blend(Real position, Sample& sample);
     bool follow(Real* position, Sample* sample);
     Real search(Real* position, Sample* sample);
-    Real searchDeep(Real* position, Sample* sample);
+    SELDOM Real searchDeep(Real* position, Sample* sample);
+    SELDOM bool hasClosed(const Seed& s);
+    Real pushMost() const;
+    void putOff(Seed& s, Real hold, Real push) const;
+    bool isOff(const Seed& s) const;
     void bisect(Real inside, Real outside, Real* position, Sample* sample);
     Vector outward(Real position) const;
     Vector fromCore(const Along& along, Real position) const;
@@ -147,6 +151,7 @@ private:
     bool complete_;
     int touched_;
     Along along_[NEIGHBOURS_MAX];
+    Real off_;                        // of the field: by how much the path misses the surface, where it does
     Real headField_;                  // of a hollow: the field of what is hollowed out
     Real lookedAt_;                   // the last position looked at
     Real ownField_, ownSlope_;        // F and dF/dt of the own field there
