@@ -38,8 +38,6 @@ constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000;
 constexpr Real OUTERMOST(0.8), CLOSING(0.95);
 // Of the field, over the size: no field changes by more.
 constexpr Real STEEPEST_OF_ALL(1.6);
-// Of the field: by what a neighbour that is not known yet may change it meanwhile.
-constexpr Real UNKNOWN(0.03);
 // Spacings: how far beyond the border of its part a seed still has a scale that reaches into it.
 constexpr Real SHARED(1.5);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
@@ -115,7 +113,8 @@ void Settler::findComplete(Few& few) const
 // What a patch has besides where not all is common.
 void Settler::setOdd(const Patch& patch)
 {
-    smallest_ = smallest_ / most(object_.strength(), Real(1));
+    if (object_.strength() > Real(1))
+        smallest_ = smallest_ / object_.strength();
     dented_ = all_.inner || hollow_;
     if (all_.dented || hollow_)
         forNeighbours(patch.listed, [&](int slot) {
@@ -612,17 +611,16 @@ Real Settler::searchDeep(Real* position, Sample* sample)
         highest = most(highest, now.excess);
         if (at == end)
             break;
-        const Real before = at, hold = absolute(now.excess);
+        const Real before = at, step = absolute(now.excess) * half;
         const Sample there = now;
-        Real step = hold * half;
-        if (step > SEARCH_STEP) {
-            deepest = least(deepest, now.excess - shiftDown(hold, 1));
-            highest = most(highest, now.excess + shiftDown(hold, 1));
-        } else {
-            step = SEARCH_STEP;
-        }
-        at = hollow_ ? least(at + step, end) : most(at - step, end);
+        at = hollow_ ? least(at + most(step, SEARCH_STEP), end) : most(at - most(step, SEARCH_STEP), end);
         now = look(at);
+        if (step > SEARCH_STEP) {
+            // Between the two it is no nearer to the surface than this.
+            const Real between = shiftDown(shiftDown(there.excess, 1) + now.excess, 1);
+            deepest = least(deepest, between);
+            highest = most(highest, between);
+        }
         const Sample &inner = hollow_ ? there : now, &outer = hollow_ ? now : there;
         const Real in = hollow_ ? before : at, out = hollow_ ? at : before;
         if (outer.excess > Real(0))
@@ -672,12 +670,30 @@ bool Settler::hasClosed(const Seed& s)
     return sample.excess > Real(0);
 }
 
+// For how long at most; the fields of those that do not reach the path yet begin gently.
+Real Settler::longestOff() const
+{
+    return touched_ == all_.count ? LONGEST_WAIT : LIST_SLACK;
+}
+
 // A seed of what is dented, or of a hollow, that is not on the surface, or not in its own part of it, by `hold` of the field
 // that changes by `push` when the neighbours come by a unit: until when it need not be looked at.
 void Settler::putOff(Seed& s, Real hold, Real push) const
 {
     s.flags |= SEED_OFF;
-    s.due = static_cast<uint16_t>(now_ + until(hold, push, LONGEST_WAIT));
+    s.due = static_cast<uint16_t>(now_ + until(hold, push, longestOff()));
+}
+
+// For how long that is so of all seeds of a patch.
+Way Settler::offFor(const Patch& patch) const
+{
+    Way way = wayOf(LONGEST_WAIT);
+    forSeeds(patch, [&](int i) {
+        const Seed& s = object_.seed(i);
+        const Way seeds = s.flags & SEED_OFF ? static_cast<uint16_t>(s.due - now_) : 0;
+        way = seeds < way ? seeds : way;
+    });
+    return way;
 }
 
 bool Settler::isOff(const Seed& s) const
@@ -732,9 +748,9 @@ inline __attribute__((always_inline)) Vector Settler::fromCore(const Along& alon
 
 // A surface that something has dug is sampled twice: by the paths of what is dented, and by those of what digs. Each has the
 // part where its own field is the steeper one, for there its paths are nearer to the normal. Returns how far the seed is on its
-// own side, units, to first order, and sets its border. `*g`, the direction outward, becomes that in the middle of what the
+// own side, units, to first order, and where that is no more than `shared` to either side sets its border. `*g`, the direction outward, becomes that in the middle of what the
 // border leaves of the seed's cell: rims are sharp.
-Real Settler::findShare(Seed& s, Vector* g)
+Real Settler::findShare(Seed& s, Real shared, Vector* g)
 {
     const Real far(30);
     Vector out = path_ * s.position;
@@ -775,11 +791,15 @@ Real Settler::findShare(Seed& s, Vector* g)
     const Real rate = (slope - strength * t * (Real(68.0 / 9) - t * Real(48.0 / 9))) * factor;
     const Real lead = own - steepest, most = absolute(rate);
     const Real apart = absolute(lead) < most * far ? lead / most : lead < Real(0) ? -far : far;
+    if (absolute(apart) > shared)
+        return apart;
     s.apart = static_cast<int16_t>(rawFromReal(apart) >> 8);
     const Normal n = normalise((rate < Real(0)) == hollow_ ? -out : out);
     s.border = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
     const Real half = shiftDown(object_.spacing() * s.position, 1);
-    const Real change = most * shiftDown(half - clamp(apart, -half, half), 1);
+    if (apart >= half)
+        return apart;
+    const Real change = most * shiftDown(half - (apart < -half ? -half : apart), 1);
     *g = *g + withLength(hollow_ ? -out : out, hollow_ ? change : least(change, steepest));
     return apart;
 }
@@ -787,7 +807,7 @@ Real Settler::findShare(Seed& s, Vector* g)
 // The same for a seed that has found the surface. False: the surface there is the others' to sample.
 bool Settler::findDented(Seed& s, Vector* g)
 {
-    const Real apart = findShare(s, g), shared = object_.spacing() * SHARED;
+    const Real shared = object_.spacing() * SHARED, apart = findShare(s, shared, g);
     if (apart < -shared) {
         s.flags |= SEED_COVERED;
         putOff(s, -apart - shared, Real(8));
@@ -980,7 +1000,7 @@ Real Settler::settle(Seed& s)
             s.flags |= SEED_COVERED;
         }
         if (dented_)
-            putOff(s, (found ? sample.dominance - OVERSHOOT : off_) - UNKNOWN, pushMost() * Real(found ? 2 : 1));
+            putOff(s, found ? sample.dominance - OVERSHOOT : off_, pushMost() * Real(found ? 2 : 1));
         return margin;
     }
     Vector out = outward(position);
@@ -1029,7 +1049,20 @@ bool Settler::stillInside(const Patch& patch)
 {
     blocker_ = all_.numberOf[patch.blocker];
     turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
-    return blocker_ >= 0 && isBlocked(object_.seed(patch.centre), enough(patch, all_.neighbours[blocker_].size));
+    return blocker_ >= 0 && !dented_ && isBlocked(object_.seed(patch.centre), enough(patch, all_.neighbours[blocker_].size));
+}
+
+// The same for a patch that is dented, or of a hollow, the middle of which has been found off the surface: whether all of it is.
+// The own field is the same at one position of all its paths; they are no farther from each other there than twice where they rest.
+PatchState Settler::probeOff(Patch& patch, const Seed& s) const
+{
+    if ((s.flags & SEED_COVERED))
+        return PATCH_MIXED;
+    const Real push = pushMost(), hold = off_ - push * realFromRaw(patch.radius << 13);
+    if (hold <= Real(0))
+        return PATCH_MIXED;
+    patch.due += until(hold, push, longestOff());
+    return PATCH_INSIDE;
 }
 
 PatchState Settler::probe(Patch& patch)
@@ -1045,7 +1078,9 @@ PatchState Settler::probe(Patch& patch)
     const Real push = pushes();
     if (!(s.flags & SEED_VALID)) {
         patch.blocker = static_cast<uint8_t>(strongest());
-        if (margin <= least || dented_)
+        if (dented_)
+            return probeOff(patch, s);
+        if (margin <= least)
             return PATCH_MIXED;
         // The own field, with which the strongest is compared, changes as well.
         patch.due += until(margin - least, push + push, LONGEST_WAIT);
@@ -1103,6 +1138,8 @@ void Settler::settleRest(Patch& patch)
         if (!(s.flags & SEED_VALID))
             patch.blocker = static_cast<uint8_t>(strongest());
     });
+    if (dented_ && !patch.extras)
+        patch.due += offFor(patch);
     setRange(patch);
 }
 
@@ -1172,6 +1209,7 @@ void Settler::oversample(Patch& patch)
     patch.extras = any;
     if (!any)
         return;
+    patch.due = now_;
     setPatch(patch, true);
     blocker_ = all_.numberOf[patch.blocker];
     forSeeds(patch, [&](int i) {

@@ -97,10 +97,13 @@ private:
     Real pushMost() const;
     void putOff(Seed& s, Real hold, Real push) const;
     bool isOff(const Seed& s) const;
+    Real longestOff() const;
+    SELDOM Way offFor(const Patch& patch) const;
+    SELDOM PatchState probeOff(Patch& patch, const Seed& s) const;
     void bisect(Real inside, Real outside, Real* position, Sample* sample);
     Vector outward(Real position) const;
     Vector fromCore(const Along& along, Real position) const;
-    Real findShare(Seed& s, Vector* g);
+    Real findShare(Seed& s, Real shared, Vector* g);
     SELDOM void setOdd(const Patch& patch);
     SELDOM const Along* strongestOther(const Seed& s, Vector* g, Real* change) const;
     SELDOM void findNearer(Seed& s, Real dominance) const;
