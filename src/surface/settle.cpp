@@ -746,8 +746,17 @@ inline __attribute__((always_inline)) Vector Settler::fromCore(const Along& alon
     return along.near->kind == Neighbour::SEGMENT ? v - along.near->direction * (along.k * along.near->size) : v;
 }
 
+// What all other fields make of the lead that one whose paths lead `out` has on one whose paths lead `from`: they are `own` and
+// `steepest` steep, all together push along `g`. With a and b as unit vectors along the paths, (g.a + g.b) / (1 + a.b) is the lead.
+Real Settler::leadOf(const Vector& g, const Vector& out, Real own, const Vector& from, Real steepest) const
+{
+    const Vector a = unit(out), b = unit(from);
+    const Vector rest = (hollow_ ? -g : g) - a * own + b * steepest;
+    return dot(rest, a + b) / most(Real(1) + dot(a, b), Real(0.05));
+}
+
 // A surface that something has dug is sampled twice: by the paths of what is dented, and by those of what digs. Each has the
-// part where its own field is the steeper one, for there its paths are nearer to the normal. Returns how far the seed is on its
+// part where its paths are nearer to the normal: where its own field is the steeper one, if there are no others. Returns how far the seed is on its
 // own side, units, to first order, and where that is no more than `shared` to either side sets its border. `*g`, the direction outward, becomes that in the middle of what the
 // border leaves of the seed's cell: rims are sharp.
 Real Settler::findShare(Seed& s, Real shared, Vector* g)
@@ -779,6 +788,9 @@ Real Settler::findShare(Seed& s, Real shared, Vector* g)
     }
     if (other == nullptr)
         return far;
+    Real lead = own - steepest;
+    if (touched_ > 1)
+        lead += leadOf(*g, out, own, from, steepest);
     // What the digging field's steepness changes by over a unit away from its core: F'' is 34/9 - 24/9 t.
     Real t = s.position * s.position * restParam_, slope = -ownSlope_, factor = all_.weight, strength = object_.strength();
     if (!hollow_) {
@@ -789,7 +801,7 @@ Real Settler::findShare(Seed& s, Real shared, Vector* g)
         out = from;
     }
     const Real rate = (slope - strength * t * (Real(68.0 / 9) - t * Real(48.0 / 9))) * factor;
-    const Real lead = own - steepest, most = absolute(rate);
+    const Real most = absolute(rate);
     const Real apart = absolute(lead) < most * far ? lead / most : lead < Real(0) ? -far : far;
     if (absolute(apart) > shared)
         return apart;

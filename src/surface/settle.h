@@ -103,6 +103,7 @@ private:
     void bisect(Real inside, Real outside, Real* position, Sample* sample);
     Vector outward(Real position) const;
     Vector fromCore(const Along& along, Real position) const;
+    SELDOM Real leadOf(const Vector& g, const Vector& out, Real own, const Vector& from, Real steepest) const;
     Real findShare(Seed& s, Real shared, Vector* g);
     SELDOM void setOdd(const Patch& patch);
     SELDOM const Along* strongestOther(const Seed& s, Vector* g, Real* change) const;
