@@ -54,6 +54,7 @@ private:
     uint32_t updates_ = 0;
     int32_t light_[3] = {0, 0, 0};  // at the last update, own axes
     ViewBefore before_;
+    Polished polished_ = {};
     Patch* patches_ = nullptr;
     Voxel* voxels_ = nullptr;  // of the patches
     int count_ = 0;
@@ -142,7 +143,7 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
     }
     const Paint* const paint = shown->paint();
     if (paint != nullptr && *next == 0)
-        polish(object_, own);
+        polish(object_, own, updates_, &polished_);
     const int at = shadePatches(object_, own, frame, patches_, count_, *next, before_, list, room);
     *next = at < count_ ? at : 0;
     // With another ramp than its own, the whole object is to be seen in that one.

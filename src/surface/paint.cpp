@@ -78,6 +78,12 @@ struct Shear {
 // Change of brightness (1/8 step) from the middle of a scale to its corner below which it has one brightness.
 constexpr int32_t FLAT = 8;
 
+// Differences of brightness (1/256 step) between seeds beside each other that make less than that on the scale of one of them.
+constexpr int32_t EVEN = 256;
+
+// Cosine of the normal and the way the viewer looks beyond which a seed faces away wherever in the picture it lies.
+constexpr int32_t FACES_AWAY = 11000;
+
 // By how much the two sides of an edge overlap, 1/256 unit.
 constexpr int32_t EDGE_MARGIN = 40;
 
@@ -134,13 +140,22 @@ Real wave(Real turns)
 
 }  // namespace
 
-void polish(SoftObject& object, const OwnFrame& own)
+void polish(SoftObject& object, const OwnFrame& own, uint32_t updates, Polished* before)
 {
     const Finish finish = object.shown()->paint()->finish;
     if (finish == FINISH_MATT)
         return;
     const Vector up = object.toOwnAxes({Real(0), Real(1), Real(0)});
     const int32_t up14[] = {rawFromReal(up.x) >> 2, rawFromReal(up.y) >> 2, rawFromReal(up.z) >> 2};
+    Polished now{updates, static_cast<int32_t>(finish), {}};
+    for (int i = 0; i < 3; ++i) {
+        now.axes[i] = own.light[i];
+        now.axes[3 + i] = own.ahead[i];
+        now.axes[6 + i] = up14[i];
+    }
+    if (memcmp(&now, before, sizeof now) == 0)
+        return;
+    *before = now;
     const Normal half = normalise({realFromRaw((own.light[0] - own.ahead[0]) * 4), realFromRaw((own.light[1] - own.ahead[1]) * 4),
                                    realFromRaw((own.light[2] - own.ahead[2]) * 4)});
     const int32_t half14[] = {half.x, half.y, half.z};
@@ -150,12 +165,15 @@ void polish(SoftObject& object, const OwnFrame& own)
         if (seed == nullptr || !(seed->flags & SEED_VALID))
             continue;
         Seed& s = *seed;
+        const int32_t ahead = along(s.normal, own.ahead);
+        if (ahead > FACES_AWAY)
+            continue;
         int32_t light;
         if (finish == FINISH_SHINY) {
             const int32_t cosine = along(s.normal, own.light);
             light = cosine <= 0 ? 0 : times(cosine, SCATTERED);
         } else {
-            light = surroundings(upAhead - 2 * times(along(s.normal, own.ahead), along(s.normal, up14)));
+            light = surroundings(upAhead - 2 * times(ahead, along(s.normal, up14)));
         }
         light += times(ONE - light, highlight(along(s.normal, half14)));
         light = light > ONE ? ONE : light < 0 ? 0 : light;
@@ -235,6 +253,9 @@ void Painter::slope(const Seed& s, Voxel* voxel) const
     const Seed& n = object_.seed(s.neighbour);
     if (!(next->flags & n.flags & SEED_VALID))
         return;
+    const int32_t a = next->brightness8 - s.brightness8, b = n.brightness8 - s.brightness8;
+    if (magnitude(a) + magnitude(b) < EVEN)
+        return;
     const Vector at = place(s);
     const Shear shear(list_, *voxel);
     // A way on the surface as it falls on the picture plane, 1/64 unit.
@@ -251,7 +272,6 @@ void Painter::slope(const Seed& s, Voxel* voxel) const
     const int32_t area = ax * by - ay * bx;
     if (area > -LEAST_AREA && area < LEAST_AREA)
         return;
-    const int32_t a = next->brightness8 - s.brightness8, b = n.brightness8 - s.brightness8;
     setSlopes((a * by - b * ay) * 2 / area, (b * ax - a * bx) * 2 / area, voxel);
 }
 

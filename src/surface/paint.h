@@ -7,8 +7,16 @@
 #include "model/paint.h"
 #include "surface/voxel.h"
 
-// Sets the brightness of the object's seeds as its finish has it, from their normals.
-void polish(SoftObject& object, const OwnFrame& own);
+// What the brightness that a finish makes hangs on, besides the normals.
+struct Polished {
+    uint32_t updates;
+    int32_t finish;
+    int32_t axes[9];  // towards the light, ahead and up, own axes
+};
+
+// Sets the brightness of the object's seeds as its finish has it, from their normals; not where that has been done before: since
+// `updates` of the object, and seen like this.
+void polish(SoftObject& object, const OwnFrame& own, uint32_t updates, Polished* before);
 
 // Lists the voxels of one object in their colours. Made once for a frame.
 class Painter {
