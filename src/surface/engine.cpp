@@ -4,6 +4,7 @@
 #include "math/alloc.h"
 #include "model/stop.h"
 #include "paint.h"
+#include "rt.h"
 #include "settle.h"
 #include "shade.h"
 
@@ -14,6 +15,9 @@ constexpr int ASKED_EVERY = 32;
 
 // Spacing from which on patches keep their voxels, units.
 constexpr Real KEPT_FROM(1);
+
+// After so many updates every seed has been looked at (Settler::turns()).
+constexpr int CALM = 8;
 
 class Engine : public Surface {
 public:
@@ -48,11 +52,13 @@ public:
 
 private:
     SoftObject& object_;
-    bool turned(const int32_t* light);
+    static bool turned(const int32_t* now, int32_t* before);
 
     Odometer odometer_;
     uint32_t updates_ = 0;
-    int32_t light_[3] = {0, 0, 0};  // at the last update, own axes
+    int calm_ = 0;  // updates in a row before which nothing had come
+    uint32_t changes_ = 0;  // updates in which seeds may have been settled
+    int32_t light_[3] = {}, ahead_[3] = {}, right_[3] = {};  // at the last update, own axes
     ViewBefore before_;
     Polished polished_ = {};
     Patch* patches_ = nullptr;
@@ -60,12 +66,12 @@ private:
     int count_ = 0;
 };
 
-// Whether the light comes from another side of the object than at the last update.
-bool Engine::turned(const int32_t* light)
+// Whether a direction is another than at the last update, `before`, which becomes this one.
+bool Engine::turned(const int32_t* now, int32_t* before)
 {
-    const bool same = light[0] == light_[0] && light[1] == light_[1] && light[2] == light_[2];
+    const bool same = memcmp(now, before, 3 * sizeof *now) == 0;
     for (int i = 0; i < 3; ++i)
-        light_[i] = light[i];
+        before[i] = now[i];
     return !same;
 }
 
@@ -77,9 +83,16 @@ void Engine::update(const FrameContext& frame)
     if (own.outOfSight || (!object_.hasSurface() && object_.hollowed() == nullptr))
         return;
     gather(object_, frame, all);
+    const Way reading = odometer_.reading(), bound = odometer_.bound();
     const bool known = odometer_.advance(object_, own, all, frame.bodies->version());
     Settler settler(object_, own, all, frame, odometer_, ++updates_);
-    const bool lightTurned = turned(own.light);
+    const bool lightTurned = turned(own.light, light_), viewTurned = turned(own.ahead, ahead_) || turned(own.right, right_);
+    // Where nothing has come, nothing changes, once what waits for a few updates has been looked at as well.
+    const bool calm = known && !lightTurned && !viewTurned && reading == odometer_.reading() && bound == odometer_.bound();
+    calm_ = calm ? calm_ + 1 : 0;
+    if (calm_ > CALM)
+        return;
+    ++changes_;
     bool displaced = false;
     Patch* const end = patches_ + count_;
     for (Patch* patch = patches_; patch < end; ++patch) {
@@ -143,7 +156,7 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
     }
     const Paint* const paint = shown->paint();
     if (paint != nullptr && *next == 0)
-        polish(object_, own, updates_, &polished_);
+        polish(object_, own, changes_, &polished_);
     const int at = shadePatches(object_, own, frame, patches_, count_, *next, before_, list, room);
     *next = at < count_ ? at : 0;
     // With another ramp than its own, the whole object is to be seen in that one.

@@ -140,14 +140,14 @@ Real wave(Real turns)
 
 }  // namespace
 
-void polish(SoftObject& object, const OwnFrame& own, uint32_t updates, Polished* before)
+void polish(SoftObject& object, const OwnFrame& own, uint32_t changes, Polished* before)
 {
     const Finish finish = object.shown()->paint()->finish;
     if (finish == FINISH_MATT)
         return;
     const Vector up = object.toOwnAxes({Real(0), Real(1), Real(0)});
     const int32_t up14[] = {rawFromReal(up.x) >> 2, rawFromReal(up.y) >> 2, rawFromReal(up.z) >> 2};
-    Polished now{updates, static_cast<int32_t>(finish), {}};
+    Polished now{changes, static_cast<int32_t>(finish), {}};
     for (int i = 0; i < 3; ++i) {
         now.axes[i] = own.light[i];
         now.axes[3 + i] = own.ahead[i];

@@ -9,14 +9,14 @@
 
 // What the brightness that a finish makes hangs on, besides the normals.
 struct Polished {
-    uint32_t updates;
+    uint32_t changes;
     int32_t finish;
     int32_t axes[9];  // towards the light, ahead and up, own axes
 };
 
-// Sets the brightness of the object's seeds as its finish has it, from their normals; not where that has been done before: since
-// `updates` of the object, and seen like this.
-void polish(SoftObject& object, const OwnFrame& own, uint32_t updates, Polished* before);
+// Sets the brightness of the object's seeds as its finish has it, from their normals; not where that was done after the last of
+// so many `changes` of the seeds, and the object is seen like then.
+void polish(SoftObject& object, const OwnFrame& own, uint32_t changes, Polished* before);
 
 // Lists the voxels of one object in their colours. Made once for a frame.
 class Painter {
