@@ -42,6 +42,8 @@ constexpr Real STEEPEST_OF_ALL(1.6);
 constexpr Real SHARED(1.5);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
 constexpr Real PARTED(1.5);
+// How far the border of two parts of a hollow's wall goes at most when what digs comes by a unit.
+constexpr Real BORDER_SPEED(16);
 // Units: how far neighbours may come at most before a patch that lies inside is looked at again.
 constexpr Real LONGEST_WAIT(6);
 // Positions: by how much a seed may leave the range that those of its patch were found in before all neighbours are asked.
@@ -822,7 +824,7 @@ bool Settler::findDented(Seed& s, Vector* g)
     const Real shared = object_.spacing() * SHARED, apart = findShare(s, shared, g);
     if (apart < -shared) {
         s.flags |= SEED_COVERED;
-        putOff(s, -apart - shared, Real(8));
+        putOff(s, -apart - shared, BORDER_SPEED);
         return false;
     }
     if (apart < shared)
@@ -1159,7 +1161,7 @@ void Settler::settleRest(Patch& patch)
 // little; one that did not move twice, or faces well away, waits for three.
 bool Settler::waits(const Seed& s, bool someAway) const
 {
-    if (!(s.flags & SEED_VALID) || came_ > least(HURRY, shiftDown(smallest_, 2)))
+    if (dented_ || !(s.flags & SEED_VALID) || came_ > least(HURRY, shiftDown(smallest_, 2)))
         return false;
     uint32_t mask = s.still;
     if (someAway) {
