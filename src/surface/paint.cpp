@@ -81,9 +81,6 @@ constexpr int32_t FLAT = 8;
 // Differences of brightness (1/256 step) between seeds beside each other that make less than that on the scale of one of them.
 constexpr int32_t EVEN = 256;
 
-// Cosine of the normal and the way the viewer looks beyond which a seed faces away wherever in the picture it lies.
-constexpr int32_t FACES_AWAY = 11000;
-
 // By how much the two sides of an edge overlap, 1/256 unit.
 constexpr int32_t EDGE_MARGIN = 40;
 
@@ -165,15 +162,12 @@ void polish(SoftObject& object, const OwnFrame& own, uint32_t changes, Polished*
         if (seed == nullptr || !(seed->flags & SEED_VALID))
             continue;
         Seed& s = *seed;
-        const int32_t ahead = along(s.normal, own.ahead);
-        if (ahead > FACES_AWAY)
-            continue;
         int32_t light;
         if (finish == FINISH_SHINY) {
             const int32_t cosine = along(s.normal, own.light);
             light = cosine <= 0 ? 0 : times(cosine, SCATTERED);
         } else {
-            light = surroundings(upAhead - 2 * times(ahead, along(s.normal, up14)));
+            light = surroundings(upAhead - 2 * times(along(s.normal, own.ahead), along(s.normal, up14)));
         }
         light += times(ONE - light, highlight(along(s.normal, half14)));
         light = light > ONE ? ONE : light < 0 ? 0 : light;
