@@ -17,8 +17,9 @@
 //   SEED_BORDER   a neighbour is about as strong there     none is
 //   SEED_ASLEEP   its patch lies inside a neighbour or     the patch does not any more
 //                 faces away: it is not settled
-//   SEED_COVERED  the path leaves the surface, where a       the neighbour does not any more, or the path might leave
-//                 neighbour is the strongest               it before
+//   SEED_COVERED  its path is likely to leave the surface    it settles
+//                 near its position: it wakes up, or what
+//                 digs has its part of a dent
 //   SEED_OFF      of what is dented, or a hollow: it will  it settles anew
 //                 not be on the surface before `due`
 //   SEED_MEASURED its place and cell are those of its      it settles anew

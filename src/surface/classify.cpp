@@ -187,6 +187,13 @@ bool reaches(const Neighbour& near, const Bound& ball)
     return within(fromCore(near, {ball.x, ball.y, ball.z}), near.size16 + ball.radius);
 }
 
+bool isWithin(const Patch& patch, const Neighbour& near, Real position, Real part)
+{
+    const int32_t at = rawFromReal(position) >> 10, size = near.size16 * (rawFromReal(part) >> 8) >> 8;
+    const int32_t left = size - (patch.tight * (at > 64 ? at : 64) >> 6);
+    return left > 0 && within(fromCore(near, above(patch, patch.path * (at - 64) >> 6)), left);
+}
+
 void classify(Patch& patch, const Neighbourhood& all)
 {
     // Half way along what is left of the paths when their seeds are at rest, where the own field ends; or along all of them.

@@ -128,8 +128,10 @@ void Engine::update(const FrameContext& frame)
                 light(object_, *patch, own);
             continue;
         }
-        if (patch->state == PATCH_INSIDE && settler.stillInside(*patch))
+        if (settler.isCovered(*patch)) {
+            cover(object_, *patch);
             continue;
+        }
         patch->state = settler.probe(*patch);
         patch->settled = patch->state == PATCH_MIXED;
         if (patch->settled)

@@ -106,6 +106,9 @@ Bound boundOf(const Patch& patch, int32_t restRadius);
 // Whether a neighbour's field reaches into a ball.
 bool reaches(const Neighbour& near, const Bound& ball);
 
+// Whether all seeds of a patch, if they were at one position, would lie nearer to a neighbour's core than a part of its size.
+bool isWithin(const Patch& patch, const Neighbour& near, Real position, Real part);
+
 // Whether a patch lies beside the view, where its seeds are.
 bool outOfSight(const Patch& patch, const OwnFrame& own);
 

@@ -12,15 +12,22 @@ namespace {
 constexpr Real TOLERANCE(0.004);
 // Of the position: after a step as short as this another look would change nothing that is seen.
 constexpr Real SHORT_STEP(0.05);
-constexpr Real LONGEST_STEP(0.25);
+constexpr Real LONGEST_STEP(0.15);
 // Of the field per position: flatter, and Newton's method has no say.
 constexpr Real FLAT(-0.06);
 constexpr int NEWTON_STEPS = 5;
 // Positions: where paths begin to be searched, and those that are hollowed out or of weak objects; and in which steps.
-constexpr Real FIRST(0.7), FIRST_DEEP(0.06), SEARCH_FIRST(0.86), SEARCH_STEP(0.16);
-// Of the field: by how much one neighbour alone must keep a seed off the surface; and how far, in positions, before the place where
-// the path left it.
-constexpr Real BLOCKED(0.03), BEFORE(0.08);
+constexpr Real FIRST(0.7), FIRST_DEEP(0.06), SEARCH_FIRST(0.88), SEARCH_STEP(0.16);
+// At position COVERED_AT the own field is .23. A neighbour whose t is less than `there` at it is stronger by more than the overshoot
+// tolerance; and if its t is less than `atRest` at position 1, then between the two the body's field is above the isovalue. What is
+// not linked with the object must have that field alone. The roots of both.
+constexpr Real COVERED_AT(1.36), BETWEEN(1.18);
+constexpr Cover COVER_LINKED{Real(0.4), Real(0.7), Real(0.632), Real(0.836)};
+constexpr Cover COVER_UNLINKED{Real(0.18), Real(0.18), Real(0.424), Real(0.424)};
+// Of the field: what is linked with the object and this strong is the one that keeps its seeds off the surface.
+constexpr Real COVERING(0.28);
+// Of the field: what missing links take at least to be counted.
+constexpr Real NEGLIGIBLE(0.002);
 // Units: no seed waits while neighbours come so far in a frame.
 constexpr Real HURRY(2);
 // Of the field: a valley this shallow above the isovalue is looked into.
@@ -76,6 +83,16 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& a
 
 void Settler::findComplete(Few& few) const
 {
+    if (common_) {
+        few.complete = true;
+        for (int i = 0; i < few.count && few.complete; ++i) {
+            const int slot = all_.neighbours[few.number[i]].object->slot();
+            few.complete = ownWeights_[slot] == Real(1);
+            for (int j = 0; j < i && few.complete; ++j)
+                few.complete = bodies_.weight(all_.neighbours[few.number[j]].object->slot(), slot) == Real(1);
+        }
+        return;
+    }
     uint32_t members[Bodies::LINK_WORDS] = {};
     const auto add = [&](int slot) { members[slot / 32] |= 1u << slot % 32; };
     const auto linked = [&](int slot) {
@@ -85,15 +102,6 @@ void Settler::findComplete(Few& few) const
             missing |= members[word] & ~(plain[word] | (word == slot / 32 ? 1u << slot % 32 : 0));
         return missing == 0;
     };
-    if (common_) {
-        add(object_.slot());
-        for (int i = 0; i < few.count; ++i)
-            add(all_.neighbours[few.number[i]].object->slot());
-        few.complete = linked(object_.slot());
-        for (int i = 0; i < few.count && few.complete; ++i)
-            few.complete = linked(all_.neighbours[few.number[i]].object->slot());
-        return;
-    }
     if (!hollow_)
         add(object_.slot());
     for (int i = 0; i < few.count; ++i)
@@ -133,6 +141,7 @@ bool Settler::setPatch(const Patch& patch, bool oversampled)
     nearest_ = realFromRaw(patch.nearest << 10);
     farthest_ = realFromRaw(patch.farthest << 10);
     patch_ = &patch;
+    turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
     near_.count = 0;
     listed_.count = -1;
     smallest_ = object_.laidSize();
@@ -321,8 +330,9 @@ struct Settler::Sum {
     Sample sample()
     {
         Sample all{sum - ISOVALUE, slope, strongest - settler.ownField_};
+        settler.shared_ = false;
         if (!settler.complete_)
-            settler.template blend<COMMON>(position, all);
+            COMMON ? settler.blend(position, all) : settler.blendOdd(position, all);
         if (!COMMON && settler.hollow_)
             all = {-all.excess, -all.slope, strongest - settler.headField_};
         return all;
@@ -378,12 +388,67 @@ Sample Settler::look(Real position)
     return common_ ? lookAs<true>(position) : lookOdd(position);
 }
 
-// The body's field where not all are linked with all at weight 1 (model/body.h), from the fields that were found. With
+// The body's field where not all are linked with all at weight 1 (model/body.h), from the fields that were found: their sum, less
+// D / Q, with D = sum of (1 - w_ik) f_i f_k (f_i + f_k) over all pairs and Q = sum of f_i^2. Its derivative with respect to f_i is
+// 1 - (sum of (1 - w_ik) f_k (2 f_i + f_k) - 2 f_i D / Q) / Q.
+void Settler::blend(Real position, Sample& sample)
+{
+    // Those that have a field here, the own first.
+    struct Part {
+        Real f, lack;  // F; the sum in its derivative
+        const Real* weights;
+        int slot, at;  // at: its number in along_; -1: the object
+    };
+    Part parts[NEIGHBOURS_MAX + 1];
+    Part* end = parts;
+    Real strongest(0);
+    const auto add = [&](Real f, int slot, int at) {
+        *end++ = {f, Real(0), bodies_.weights(slot), slot, at};
+        strongest = most(strongest, f);
+    };
+    if (ownField_ > Real(0))
+        add(ownField_, object_.slot(), -1);
+    for (int i = 0; i < touched_; ++i)
+        if (along_[i].value > Real(0))
+            add(along_[i].value, along_[i].near->object->slot(), i);
+    // In a crowd all fields are small, and their squares need the digits.
+    const bool faint = strongest < Real(0.125) && strongest > Real(0);
+    for (Part* a = parts; a < end && faint; ++a)
+        a->f = quotient(a->f, strongest);
+    Real lacks(0), squares(0);
+    for (Part* a = parts; a < end; ++a) {
+        squares += a->f * a->f;
+        for (Part* b = parts; b < a; ++b) {
+            const Real w = b->weights[a->slot];
+            if (w == Real(1))
+                continue;
+            const Real one = w == Real(0) ? a->f : a->f - w * a->f, sum = a->f + b->f, product = one * b->f;
+            lacks += product * sum;
+            a->lack += product + (w == Real(0) ? b->f : b->f - w * b->f) * sum;
+            b->lack += product + one * sum;
+        }
+    }
+    if (absolute(lacks) <= squares * NEGLIGIBLE)
+        return;
+    const Real inverse = quotient(Real(1), squares), lack = lacks * inverse, twice = lack + lack;
+    sample.excess -= faint ? lack * strongest : lack;
+    shared_ = true;
+    for (int i = 0; i <= touched_; ++i)
+        share_[i] = Real(1);
+    for (const Part* a = parts; a < end; ++a) {
+        const Real lost = (a->lack - a->f * twice) * inverse;
+        const Real rate = a->at < 0 ? shiftDown(ownSlope_ * position, 1) : along_[a->at].slope * along_[a->at].change;
+        share_[a->at + 1] = Real(1) - lost;
+        sample.slope -= lost * rate;
+    }
+}
+
+// The same where something digs, or strengths differ (model/body.h). With
 // x_i = f_i / the strongest, dF/df_k = (2 x_k (g_k - F) / strongest + x_k^2 + sum of w_ik x_i^2) / sum of x_i^2; of what digs
 // only the last sum, in which its weights are below 0.
-template <bool COMMON>
-SELDOM void Settler::blend(Real position, Sample& sample)
+void Settler::blendOdd(Real position, Sample& sample)
 {
+    shared_ = true;
     // Those that have a field here, the own first.
     struct Part {
         Real f, rate;       // F, dF/dp
@@ -395,10 +460,10 @@ SELDOM void Settler::blend(Real position, Sample& sample)
     Part* end = parts;
     Real strongest(0);
     share_[0] = Real(1);
-    if (ownField_ > Real(0) && (COMMON || !hollow_)) {
+    if (ownField_ > Real(0) && !hollow_) {
         strongest = ownField_;
         end->f = end->g = ownField_;
-        end->rate = COMMON ? shiftDown(ownSlope_ * position, 1) : ownSlope_ * position * shiftUp(restParam_, 1);
+        end->rate = ownSlope_ * position * shiftUp(restParam_, 1);
         end->linked = Real(0);
         end->weights = ownWeights_;
         end->slot = object_.slot();
@@ -408,7 +473,7 @@ SELDOM void Settler::blend(Real position, Sample& sample)
     for (int i = 0; i < touched_; ++i) {
         const Along& along = along_[i];
         share_[i + 1] = Real(1);
-        if (along.value <= Real(0) || (!COMMON && along.near->digs))
+        if (along.value <= Real(0) || along.near->digs)
             continue;
         strongest = most(strongest, along.value);
         end->f = end->g = along.value;
@@ -419,7 +484,7 @@ SELDOM void Settler::blend(Real position, Sample& sample)
         end->at = i + 1;
         ++end;
     }
-    bool plain = COMMON || (!all_.inner && !dented_);
+    bool plain = !all_.inner && !dented_;
     if ((plain && end - parts < 2) || strongest <= Real(0.0005))
         return;
     for (const Part* a = parts + 1; a < end && plain; ++a)
@@ -443,7 +508,7 @@ SELDOM void Settler::blend(Real position, Sample& sample)
             a->linked += one ? b->x2 : w * b->x2;
             b->linked += one ? a->x2 : w * a->x2;
         }
-        if (!COMMON && all_.inner)
+        if (all_.inner)
             for (Part* b = parts; b < a; ++b) {
                 // What B digs into A by more than A into B.
                 const Real w = a->weights[b->slot] - b->weights[a->slot];
@@ -462,9 +527,9 @@ SELDOM void Settler::blend(Real position, Sample& sample)
         share_[at] = linked;
         digging += linked * rate;
     };
-    if (!COMMON && hollow_)
+    if (hollow_)
         dig(ownField_, ownSlope_ * position * shiftUp(restParam_, 1), object_.slot(), 0);
-    for (int i = 0; i < touched_ && !COMMON && all_.dented; ++i)
+    for (int i = 0; i < touched_ && all_.dented; ++i)
         if (along_[i].near->digs)
             dig(along_[i].value, along_[i].slope * along_[i].change, along_[i].near->object->slot(), i + 1);
     for (const Part* a = parts; a < end; ++a)
@@ -478,8 +543,6 @@ SELDOM void Settler::blend(Real position, Sample& sample)
         slope += part * a->rate;
     }
     sample.slope = slope;
-    if (COMMON)
-        return;
     sample.slope += digging * share;
     if (hollow_)
         share_[0] = share_[0] * share;
@@ -535,6 +598,16 @@ void Settler::bisect(Real inside, Real outside, Real* position, Sample* sample)
 // where it had a valley before. When the path leaves it nowhere, `*sample` exceeds it as well.
 Real Settler::search(Real* position, Sample* sample)
 {
+    *position = COVERED_AT;
+    *sample = look(COVERED_AT);
+    if (sample->excess > Real(0) && sample->dominance > OVERSHOOT) {
+        // Another object is the stronger for good. Has the path left the surface before?
+        Real lowest = least(sample->excess, look(Real(1)).excess);
+        if (lowest < VALLEY)
+            lowest = least(lowest, look(BETWEEN).excess);
+        if (lowest > Real(0))
+            return least(lowest, sample->dominance - OVERSHOOT);
+    }
     Real before = SEARCH_FIRST;
     Sample there = look(before);
     Real lowest(9);
@@ -707,8 +780,8 @@ bool Settler::isOff(const Seed& s) const
 // away from its core by its slope over its squared size.
 Vector Settler::outward(Real position) const
 {
-    Real own = -(complete_ ? ownSlope_ : ownSlope_ * share_[0]);
-    if (complete_ && hollow_)
+    Real own = -(shared_ ? ownSlope_ * share_[0] : ownSlope_);
+    if (!shared_ && hollow_)
         own = -(own * all_.weight);
     Vector g{Real(0), Real(0), Real(0)};
     // Points push along the path, and from where they stand to the root.
@@ -717,8 +790,8 @@ Vector Settler::outward(Real position) const
         const Along& to = along_[i];
         if (to.slope == Real(0))
             continue;
-        Real slope = complete_ ? to.slope : to.slope * share_[i + 1];
-        if (complete_ && to.near->digs)
+        Real slope = shared_ ? to.slope * share_[i + 1] : to.slope;
+        if (!shared_ && to.near->digs)
             slope = -(slope * to.near->weight);
         const Real push = -(slope * to.near->ratio);
         if (to.near->kind == Neighbour::OTHER) {
@@ -932,35 +1005,32 @@ void Settler::restThere(Seed& s)
     s.flags = static_cast<uint8_t>((s.flags & (SEED_ACTIVE | SEED_MEASURED)) | SEED_VALID | SEED_RESTING);
 }
 
-// One less than the number of updates after which all neighbours are asked, the fewer the farther they come.
-uint32_t Settler::turns() const
-{
-    return came_ < Real(0.5) ? 7 : came_ < Real(1.5) ? 3 : came_ < Real(3) ? 1 : 0;
-}
-
-// Whether one neighbour alone, the strongest where a seed of the patch was not on the surface the last time, keeps a seed off
-// it: it is stronger than the own object where the path left the surface, and a little before.
-bool Settler::isBlocked(const Seed& s, Real margin)
+// Whether one neighbour alone keeps a seed off the surface, wherever it was before: from position 1, before which no path can leave
+// the surface, to COVERED_AT the two fields together are above the isovalue, for the neighbour's t is convex and lies below the
+// straight line between those it has there; and beyond the neighbour is the stronger of the two.
+bool Settler::isCovered(const Seed& s)
 {
     if (dented_)
         return isOff(s);
-    if (blocker_ < 0 || (turn_ & turns()) == 0)
+    if (cover_ == nullptr)
         return false;
-    const Neighbour& near = all_.neighbours[blocker_];
     Along along;
-    aim(near, from_[blocker_], s, along);
-    const Real position = most(s.position - BEFORE, first_);
-    const Real t = along.param(position);
-    if (t >= Real(0.7))
-        return false;
-    Real own, field = geoffQuick(most(t, Real(0))).value;
-    if (common_) {
-        own = geoffQuick(least(shiftDown(position * position, 2), Real(0.999))).value;
-    } else {
-        own = geoffQuick(least(position * position * restParam_, Real(0.999))).value * object_.strength();
-        field = field * near.strength;
-    }
-    return field - own > OVERSHOOT + margin || (!(s.flags & SEED_COVERED) && allComplete_ && own + field > ISOVALUE + margin);
+    aim(all_.neighbours[blocker_], from_[blocker_], s, along);
+    return along.param(COVERED_AT) < cover_->there && along.param(Real(1)) < cover_->atRest;
+}
+
+// Takes up the neighbour that was the strongest where a seed of the patch was not on the surface the last time, and what it takes
+// for it alone to keep seeds off.
+void Settler::setBlocker(const Patch& patch)
+{
+    blocker_ = all_.numberOf[patch.blocker];
+    cover_ = blocker_ < 0 || !common_ ? nullptr : allComplete_ || isLinked(patch.blocker) ? &COVER_LINKED : &COVER_UNLINKED;
+}
+
+// Whether the object is linked with another at weight 1.
+bool Settler::isLinked(int slot) const
+{
+    return (bodies_.plainLinks(object_.slot())[slot / 32] >> slot % 32 & 1) != 0;
 }
 
 // Sets position, normal and flags of a seed. One that finds no surface of its own object is left without SEED_VALID; returned is
@@ -1008,14 +1078,13 @@ Real Settler::settle(Seed& s)
         found = sample.excess <= Real(0);
     }
     s.position = position;
+    // Where another object is the stronger, the path may leave the surface before that in the next frame: it is searched again.
     if (!found || sample.dominance > OVERSHOOT) {
-        if (found && margin > sample.dominance) {
-            margin = sample.dominance - OVERSHOOT;
-            s.flags |= SEED_COVERED;
-        }
-        if (dented_)
+        if (dented_) {
+            off_ = found ? Real(0) : off_;
             putOff(s, found ? sample.dominance - OVERSHOOT : off_, pushMost() * Real(found ? 2 : 1));
-        return margin;
+        }
+        return found ? least(margin, sample.dominance - OVERSHOOT) : margin;
     }
     Vector out = outward(position);
     if (dented_ && !findDented(s, &out))
@@ -1041,11 +1110,13 @@ Real Settler::settle(Seed& s)
 int Settler::strongest() const
 {
     int slot = object_.slot();
-    Real most(0);
+    Real most(-1);
     for (int i = 0; i < touched_; ++i) {
-        if (along_[i].value > most && !along_[i].near->digs) {
-            most = along_[i].value;
-            slot = along_[i].near->object->slot();
+        const int candidate = along_[i].near->object->slot();
+        const Real value = along_[i].value > COVERING && isLinked(candidate) ? along_[i].value + Real(1) : along_[i].value;
+        if (value > most && !along_[i].near->digs) {
+            most = value;
+            slot = candidate;
         }
     }
     return slot;
@@ -1059,11 +1130,15 @@ static Real enough(const Patch& patch, Real size)
     return clamp(realFromRaw(patch.radius << 12) / size * (STEEPEST + STEEPEST), Real(0.2), Real(0.9));
 }
 
-bool Settler::stillInside(const Patch& patch)
+bool Settler::isCovered(const Patch& patch)
 {
-    blocker_ = all_.numberOf[patch.blocker];
-    turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
-    return blocker_ >= 0 && !dented_ && isBlocked(object_.seed(patch.centre), enough(patch, all_.neighbours[blocker_].size));
+    setBlocker(patch);
+    if (dented_)
+        return false;
+    if (cover_ == nullptr || object_.tapers())
+        return false;
+    const Neighbour& near = all_.neighbours[blocker_];
+    return !near.object->tapers() && isWithin(patch, near, COVERED_AT, cover_->rootThere) && isWithin(patch, near, Real(1), cover_->rootAtRest);
 }
 
 // The same for a patch that is dented, or of a hollow, the middle of which has been found off the surface: whether all of it is.
@@ -1082,10 +1157,8 @@ PatchState Settler::probeOff(Patch& patch, const Seed& s) const
 PatchState Settler::probe(Patch& patch)
 {
     Seed& s = object_.seed(patch.centre);
-    blocker_ = all_.numberOf[patch.blocker];
-    turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
     patch.due = now_;
-    if (!(s.flags & SEED_VALID) && patch.state == PATCH_MIXED && isBlocked(s, BLOCKED))
+    if (!(s.flags & SEED_VALID) && patch.state == PATCH_MIXED && isCovered(s))
         return PATCH_MIXED;
     const Real least = enough(patch, smallest_);
     const Real margin = settle(s);
@@ -1131,26 +1204,28 @@ void Settler::settleRest(Patch& patch)
 {
     const Seed& centre = object_.seed(patch.centre);
     const bool someAway = !(centre.flags & SEED_VALID) || patch.facing < patch.spread;
-    blocker_ = all_.numberOf[patch.blocker];
     forSeeds(patch, [&](int i) {
         Seed& s = object_.seed(i);
         if (&s == &centre)
             return;
-        turn_ = static_cast<uint32_t>(i) / 2 + updates_;
+        if (!(s.flags & SEED_VALID) && isCovered(s)) {
+            s.flags &= SEED_OFF;
+            return;
+        }
         if (s.flags & SEED_ASLEEP) {
             // It has slept: it is likely to be where the one in the middle is.
             s.position = centre.position;
-            s.flags = SEED_VALID;
+            s.flags = SEED_COVERED;
             s.still = 0;
         } else if (waits(s, someAway)) {
             s.brightness8 = brightness8(s.normal, own_.light);
             return;
-        } else if (!(s.flags & SEED_VALID) && isBlocked(s, BLOCKED)) {
-            return;
         }
         settle(s);
-        if (!(s.flags & SEED_VALID))
+        if (!(s.flags & SEED_VALID)) {
             patch.blocker = static_cast<uint8_t>(strongest());
+            setBlocker(patch);
+        }
     });
     if (dented_ && !patch.extras)
         patch.due += offFor(patch);
@@ -1215,7 +1290,7 @@ void Settler::oversample(Patch& patch)
         any = true;
         Seed& extra = object_.seed(i + 1);
         if (!(extra.flags & SEED_ACTIVE)) {
-            extra.flags = SEED_ACTIVE | SEED_VALID;
+            extra.flags = SEED_ACTIVE | SEED_COVERED;
             extra.position = object_.seed(i).position;
             extra.still = 0;
         }
@@ -1225,13 +1300,14 @@ void Settler::oversample(Patch& patch)
         return;
     patch.due = now_;
     setPatch(patch, true);
-    blocker_ = all_.numberOf[patch.blocker];
+    setBlocker(patch);
     forSeeds(patch, [&](int i) {
         Seed* const extra = object_.extra(i);
         if (extra == nullptr || !(extra->flags & SEED_ACTIVE))
             return;
-        turn_ = static_cast<uint32_t>(i) / 2 + updates_;
-        if (!(extra->flags & SEED_VALID) ? !isBlocked(*extra, BLOCKED) : !waits(*extra, false))
+        if (!(extra->flags & SEED_VALID) && isCovered(*extra))
+            extra->flags &= SEED_ACTIVE | SEED_OFF;
+        else if (!waits(*extra, false))
             settle(*extra);
     });
 }
@@ -1266,4 +1342,11 @@ void sleep(SoftObject& object, Patch& patch)
         if (i != patch.centre)
             object.seed(i).flags = SEED_ASLEEP;
     });
+}
+
+void cover(SoftObject& object, Patch& patch)
+{
+    sleep(object, patch);
+    object.seed(patch.centre).flags = 0;
+    patch.state = PATCH_INSIDE;
 }
