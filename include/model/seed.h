@@ -20,6 +20,8 @@
 //   SEED_COVERED  its path is likely to leave the surface    it settles
 //                 near its position: it wakes up, or what
 //                 digs has its part of a dent
+//   SEED_OFF      of what is dented, or a hollow: it will  it settles anew
+//                 not be on the surface before `due`
 //   SEED_FRONT    /P only: its path does not point away    it does
 //                 from the viewer
 //   SEED_KEPT     /P only: normal and brightness hold for  the seed moved
@@ -29,6 +31,7 @@ enum SeedFlag : uint8_t {
     SEED_ACTIVE = 2,
     SEED_RESTING = 4,
     SEED_FRONT = 8,
+    SEED_OFF = 8,        // the bit of SEED_FRONT, which only /P has
     SEED_KEPT = 16,
     SEED_BORDER = 32,
     SEED_ASLEEP = 64,
@@ -48,7 +51,10 @@ struct Seed {
     int32_t neighbour;   // slot of the seed N of the ring before (Appendix C, Oversampling); -1 in the first ring
     Direction14 normal;  // of the surface at the seed
     Direction14 border;  // of a SEED_BORDER one: in which the own field gains most on the strongest neighbour's,
-    int16_t apart;       // and how far the seed is on its own side of where the two are equal, 1/256 unit
+    union {
+        int16_t apart;   // and how far the seed is on its own side of where the two are equal, 1/256 unit
+        uint16_t due;    // of a SEED_OFF one: the lower half of the reading of its object's odometer when it is looked at again
+    };
     uint16_t root;       // index of the root point: seeds share them
     uint8_t flags;       // SeedFlag
     uint8_t mix;         // number of the colour there, where colours mix (model/paint.h)

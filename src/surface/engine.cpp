@@ -4,6 +4,7 @@
 #include "math/alloc.h"
 #include "model/stop.h"
 #include "paint.h"
+#include "rt.h"
 #include "settle.h"
 #include "shade.h"
 

@@ -79,6 +79,9 @@ struct Shear {
 // Change of brightness (1/8 step) from the middle of a scale to its corner below which it has one brightness.
 constexpr int32_t FLAT = 8;
 
+// Differences of brightness (1/256 step) between seeds beside each other that make less than that on the scale of one of them.
+constexpr int32_t EVEN = 256;
+
 // Sets how the brightness changes across a voxel, 1/8 step a unit; not at all when that is next to nothing.
 void setSlopes(int32_t x, int32_t y, Voxel* voxel)
 {
@@ -209,6 +212,10 @@ void Painter::slope(const Seed& s, Voxel* voxel) const
     const Seed& n = object_.seed(s.neighbour);
     if (!(next->flags & n.flags & SEED_VALID))
         return;
+    const int32_t here = polish_.brightness8(s.normal);
+    const int32_t a = polish_.brightness8(next->normal) - here, b = polish_.brightness8(n.normal) - here;
+    if (magnitude(a) + magnitude(b) < EVEN)
+        return;
     const Vector at = place(s);
     const Shear shear(list_, *voxel);
     // A way on the surface as it falls on the picture plane, 1/64 unit.
@@ -225,8 +232,6 @@ void Painter::slope(const Seed& s, Voxel* voxel) const
     const int32_t area = ax * by - ay * bx;
     if (area > -LEAST_AREA && area < LEAST_AREA)
         return;
-    const int32_t here = polish_.brightness8(s.normal);
-    const int32_t a = polish_.brightness8(next->normal) - here, b = polish_.brightness8(n.normal) - here;
     setSlopes((a * by - b * ay) * 2 / area, (b * ax - a * bx) * 2 / area, voxel);
 }
 

@@ -40,12 +40,17 @@ constexpr Real STEEPEST(1.3);
 constexpr int32_t TURNED = 500;
 // Cosines (1.0 = 2^14) by which a seed faces away that is looked at less often.
 constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000;
-// Position beyond which a path that is hollowed out leaves the surface for good.
-constexpr Real OUTERMOST(0.8);
+// Position beyond which a path that is hollowed out leaves the surface for good; and the one where what closes again over a hollow
+// is found.
+constexpr Real OUTERMOST(0.8), CLOSING(0.95);
+// Of the field, over the size: no field changes by more.
+constexpr Real STEEPEST_OF_ALL(1.6);
 // Spacings: how far beyond the border of its part a seed still has a scale that reaches into it.
 constexpr Real SHARED(1.5);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
 constexpr Real PARTED(1.5);
+// How far the border of two parts of a hollow's wall goes at most when what digs comes by a unit.
+constexpr Real BORDER_SPEED(16);
 // Units: how far neighbours may come at most before a patch that lies inside is looked at again.
 constexpr Real LONGEST_WAIT(6);
 // Positions: by how much a seed may leave the range that those of its patch were found in before all neighbours are asked.
@@ -118,7 +123,8 @@ void Settler::findComplete(Few& few) const
 // What a patch has besides where not all is common.
 void Settler::setOdd(const Patch& patch)
 {
-    smallest_ = smallest_ / most(object_.strength(), Real(1));
+    if (object_.strength() > Real(1))
+        smallest_ = smallest_ / object_.strength();
     dented_ = all_.inner || hollow_;
     if (all_.dented || hollow_)
         forNeighbours(patch.listed, [&](int slot) {
@@ -651,51 +657,123 @@ Real Settler::search(Real* position, Sample* sample)
     return lowest;
 }
 
+// What the fields along the path at hand change by at most, all together, when the neighbours come by a unit.
+Real Settler::pushMost() const
+{
+    Real sum(0);
+    for (int i = 0; i < touched_; ++i)
+        sum += along_[i].near->push16 * along_[i].near->strength;
+    return shiftDown(sum * STEEPEST_OF_ALL, complete_ ? 4 : 3);
+}
+
 // The same for a path that is hollowed out, or a weak object's: the last place where the path leaves the surface, for what lies
-// before it is hidden; of those where no neighbour is stronger, if there are any. In a hollow it is the first.
+// before it is hidden; of those where no neighbour is stronger, if there are any. In a hollow it is the first. What is far from
+// the surface is taken in long steps. Where nothing is found `off_` says by how much of the field.
 Real Settler::searchDeep(Real* position, Sample* sample)
 {
-    Real before = first_, lowest(9), from[2], to[2];
-    bool found[2] = {false, false};
-    Sample there = look(before);
-    while (before < last_) {
-        const Real at = least(before + SEARCH_STEP, last_);
-        const Sample now = look(at);
-        Real inside = before;
-        bool leaves = there.excess > Real(0) && now.excess <= Real(0);
-        if (there.excess <= Real(0) && now.excess <= Real(0) && there.slope > Real(0) && now.slope < Real(0)) {
-            // A hill between the two: its top is about where straight slopes cross 0.
-            inside = before + (at - before) * (there.slope / (there.slope - now.slope));
-            leaves = look(inside).excess > Real(0);
-        }
-        if (leaves) {
-            const bool own = least(there.dominance, now.dominance) <= OVERSHOOT;
-            found[own] = true;
-            from[own] = inside;
-            to[own] = at;
-            if (hollow_)
-                break;
-        }
-        if (now.excess < lowest) {
-            lowest = now.excess;
+    // What the sum of the fields changes by at most over a position.
+    const Real own = shiftDown(object_.strength() * (hollow_ ? most(all_.weight, Real(1)) : Real(1)), 1) * STEEPEST_OF_ALL;
+    const Real half = quotient(Real(0.5), own + pushMost() * object_.laidRadius()), end = hollow_ ? last_ : first_;
+    Real at = hollow_ ? first_ : last_, deepest(9), highest(-9), inside(0), outside(0);
+    bool found = false;
+    Sample now = look(at);
+    while (true) {
+        if (now.excess < deepest) {
+            deepest = now.excess;
             *position = at;
             *sample = now;
         }
-        before = at;
-        there = now;
+        highest = most(highest, now.excess);
+        if (at == end)
+            break;
+        const Real before = at, step = absolute(now.excess) * half;
+        const Sample there = now;
+        at = hollow_ ? least(at + most(step, SEARCH_STEP), end) : most(at - most(step, SEARCH_STEP), end);
+        now = look(at);
+        if (step > SEARCH_STEP) {
+            // Between the two it is no nearer to the surface than this.
+            const Real between = shiftDown(shiftDown(there.excess, 1) + now.excess, 1);
+            deepest = least(deepest, between);
+            highest = most(highest, between);
+        }
+        const Sample &inner = hollow_ ? there : now, &outer = hollow_ ? now : there;
+        const Real in = hollow_ ? before : at, out = hollow_ ? at : before;
+        if (outer.excess > Real(0))
+            continue;
+        Real from = in;
+        if (inner.excess <= Real(0)) {
+            if (inner.slope <= Real(0) || outer.slope >= Real(0))
+                continue;
+            // A hill between the two: its top is about where straight slopes cross 0.
+            from = in + (out - in) * (inner.slope / (inner.slope - outer.slope));
+            const Real top = look(from).excess;
+            highest = most(highest, top);
+            if (top <= Real(0))
+                continue;
+        }
+        const bool ours = least(inner.dominance, outer.dominance) <= OVERSHOOT;
+        if (ours || !found) {
+            inside = from;
+            outside = out;
+        }
+        found = true;
+        if (ours || hollow_)
+            break;
     }
-    if (found[0] || found[1]) {
-        bisect(from[found[1]], to[found[1]], position, sample);
+    if (found) {
+        bisect(inside, outside, position, sample);
         sample->excess = Real(0);
         return Real(9);
     }
-    if (lowest <= Real(0)) {
+    if (highest <= Real(0)) {
         // All that is there lies outside.
+        off_ = -highest;
         sample->excess = Real(1);
         *position = Real(1);
         return Real(0);
     }
-    return lowest;
+    off_ = deepest;
+    sample->excess = Real(1);
+    return most(deepest, Real(0));
+}
+
+// Whether a path that led into a hollow may leave the surface farther out again.
+bool Settler::hasClosed(const Seed& s)
+{
+    Sample sample;
+    begin(listed(), s, CLOSING, &sample);
+    return sample.excess > Real(0);
+}
+
+// For how long at most; the fields of those that do not reach the path yet begin gently.
+Real Settler::longestOff() const
+{
+    return touched_ == all_.count ? LONGEST_WAIT : LIST_SLACK;
+}
+
+// A seed of what is dented, or of a hollow, that is not on the surface, or not in its own part of it, by `hold` of the field
+// that changes by `push` when the neighbours come by a unit: until when it need not be looked at.
+void Settler::putOff(Seed& s, Real hold, Real push) const
+{
+    s.flags |= SEED_OFF;
+    s.due = static_cast<uint16_t>(now_ + until(hold, push, longestOff()));
+}
+
+// For how long that is so of all seeds of a patch.
+Way Settler::offFor(const Patch& patch) const
+{
+    Way way = wayOf(LONGEST_WAIT);
+    forSeeds(patch, [&](int i) {
+        const Seed& s = object_.seed(i);
+        const Way seeds = s.flags & SEED_OFF ? static_cast<uint16_t>(s.due - now_) : 0;
+        way = seeds < way ? seeds : way;
+    });
+    return way;
+}
+
+bool Settler::isOff(const Seed& s) const
+{
+    return (s.flags & SEED_OFF) && came_ < LONGEST_WAIT && static_cast<int16_t>(static_cast<uint16_t>(now_) - s.due) < 0;
 }
 
 // The direction in which the field falls at a position that has just been looked at, any length, own axes: each field pushes
@@ -743,11 +821,20 @@ inline __attribute__((always_inline)) Vector Settler::fromCore(const Along& alon
     return along.near->kind == Neighbour::SEGMENT ? v - along.near->direction * (along.k * along.near->size) : v;
 }
 
+// What all other fields make of the lead that one whose paths lead `out` has on one whose paths lead `from`: they are `own` and
+// `steepest` steep, all together push along `g`. With a and b as unit vectors along the paths, (g.a + g.b) / (1 + a.b) is the lead.
+Real Settler::leadOf(const Vector& g, const Vector& out, Real own, const Vector& from, Real steepest) const
+{
+    const Vector a = unit(out), b = unit(from);
+    const Vector rest = (hollow_ ? -g : g) - a * own + b * steepest;
+    return dot(rest, a + b) / most(Real(1) + dot(a, b), Real(0.05));
+}
+
 // A surface that something has dug is sampled twice: by the paths of what is dented, and by those of what digs. Each has the
-// part where its own field is the steeper one, for there its paths are nearer to the normal. Returns how far the seed is on its
-// own side, units, to first order, and sets its border. `*g`, the direction outward, becomes that in the middle of what the
+// part where its paths are nearer to the normal: where its own field is the steeper one, if there are no others. Returns how far the seed is on its
+// own side, units, to first order, and where that is no more than `shared` to either side sets its border. `*g`, the direction outward, becomes that in the middle of what the
 // border leaves of the seed's cell: rims are sharp.
-Real Settler::findShare(Seed& s, Vector* g)
+Real Settler::findShare(Seed& s, Real shared, Vector* g)
 {
     const Real far(30);
     Vector out = path_ * s.position;
@@ -776,6 +863,9 @@ Real Settler::findShare(Seed& s, Vector* g)
     }
     if (other == nullptr)
         return far;
+    Real lead = own - steepest;
+    if (touched_ > 1)
+        lead += leadOf(*g, out, own, from, steepest);
     // What the digging field's steepness changes by over a unit away from its core: F'' is 34/9 - 24/9 t.
     Real t = s.position * s.position * restParam_, slope = -ownSlope_, factor = all_.weight, strength = object_.strength();
     if (!hollow_) {
@@ -786,13 +876,17 @@ Real Settler::findShare(Seed& s, Vector* g)
         out = from;
     }
     const Real rate = (slope - strength * t * (Real(68.0 / 9) - t * Real(48.0 / 9))) * factor;
-    const Real lead = own - steepest, most = absolute(rate);
+    const Real most = absolute(rate);
     const Real apart = absolute(lead) < most * far ? lead / most : lead < Real(0) ? -far : far;
+    if (absolute(apart) > shared)
+        return apart;
     s.apart = static_cast<int16_t>(rawFromReal(apart) >> 8);
     const Normal n = normalise((rate < Real(0)) == hollow_ ? -out : out);
     s.border = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
     const Real half = shiftDown(object_.spacing() * s.position, 1);
-    const Real change = most * shiftDown(half - clamp(apart, -half, half), 1);
+    if (apart >= half)
+        return apart;
+    const Real change = most * shiftDown(half - (apart < -half ? -half : apart), 1);
     *g = *g + withLength(hollow_ ? -out : out, hollow_ ? change : least(change, steepest));
     return apart;
 }
@@ -800,9 +894,10 @@ Real Settler::findShare(Seed& s, Vector* g)
 // The same for a seed that has found the surface. False: the surface there is the others' to sample.
 bool Settler::findDented(Seed& s, Vector* g)
 {
-    const Real apart = findShare(s, g), shared = object_.spacing() * SHARED;
+    const Real shared = object_.spacing() * SHARED, apart = findShare(s, shared, g);
     if (apart < -shared) {
         s.flags |= SEED_COVERED;
+        putOff(s, -apart - shared, BORDER_SPEED);
         return false;
     }
     if (apart < shared)
@@ -914,6 +1009,8 @@ void Settler::restThere(Seed& s)
 // straight line between those it has there; and beyond the neighbour is the stronger of the two.
 bool Settler::isCovered(const Seed& s)
 {
+    if (dented_)
+        return isOff(s);
     if (cover_ == nullptr)
         return false;
     Along along;
@@ -944,6 +1041,8 @@ Real Settler::settle(Seed& s)
     bool found = false, still = false;
     Real margin(9);
     if (s.flags & (SEED_VALID | SEED_COVERED)) {
+        // What is hollowed out may have closed before that.
+        const bool closed = dented_ && !hollow_ && position <= OUTERMOST && hasClosed(s);
         bool touched = begin(those(position), s, position, &sample);
         if (!touched && position != Real(1)) {
             position = Real(1);
@@ -954,8 +1053,7 @@ Real Settler::settle(Seed& s)
             return Real(0);
         }
         still = position == s.position && absolute(sample.excess) <= TOLERANCE;
-        // What is hollowed out may have opened, or closed, before a surface farther out.
-        found = (!dented_ || hollow_ || position > OUTERMOST) && follow(&position, &sample);
+        found = !closed && follow(&position, &sample);
         if (found && (position < nearest_ || position > farthest_)) {
             // Where it is now, others may reach it.
             begin(listed(), s, position, &sample);
@@ -984,8 +1082,13 @@ Real Settler::settle(Seed& s)
     }
     s.position = position;
     // Where another object is the stronger, the path may leave the surface before that in the next frame: it is searched again.
-    if (!found || sample.dominance > OVERSHOOT)
+    if (!found || sample.dominance > OVERSHOOT) {
+        if (dented_) {
+            off_ = found ? Real(0) : off_;
+            putOff(s, found ? sample.dominance - OVERSHOOT : off_, pushMost() * Real(found ? 2 : 1));
+        }
         return found ? least(margin, sample.dominance - OVERSHOOT) : margin;
+    }
     Vector out = outward(position);
     if (dented_ && !findDented(s, &out))
         return Real(0);
@@ -1032,10 +1135,25 @@ static Real enough(const Patch& patch, Real size)
 bool Settler::isCovered(const Patch& patch)
 {
     setBlocker(patch);
+    if (dented_)
+        return false;
     if (cover_ == nullptr || object_.tapers())
         return false;
     const Neighbour& near = all_.neighbours[blocker_];
     return !near.object->tapers() && isWithin(patch, near, COVERED_AT, cover_->rootThere) && isWithin(patch, near, Real(1), cover_->rootAtRest);
+}
+
+// The same for a patch that is dented, or of a hollow, the middle of which has been found off the surface: whether all of it is.
+// The own field is the same at one position of all its paths; they are no farther from each other there than twice where they rest.
+PatchState Settler::probeOff(Patch& patch, const Seed& s) const
+{
+    if ((s.flags & SEED_COVERED))
+        return PATCH_MIXED;
+    const Real push = pushMost(), hold = off_ - push * realFromRaw(patch.radius << 13);
+    if (hold <= Real(0))
+        return PATCH_MIXED;
+    patch.due += until(hold, push, longestOff());
+    return PATCH_INSIDE;
 }
 
 PatchState Settler::probe(Patch& patch)
@@ -1049,7 +1167,9 @@ PatchState Settler::probe(Patch& patch)
     const Real push = pushes();
     if (!(s.flags & SEED_VALID)) {
         patch.blocker = static_cast<uint8_t>(strongest());
-        if (margin <= least || dented_)
+        if (dented_)
+            return probeOff(patch, s);
+        if (margin <= least)
             return PATCH_MIXED;
         // The own field, with which the strongest is compared, changes as well.
         patch.due += until(margin - least, push + push, LONGEST_WAIT);
@@ -1091,7 +1211,7 @@ void Settler::settleRest(Patch& patch)
         if (&s == &centre)
             return;
         if (!(s.flags & SEED_VALID) && isCovered(s)) {
-            s.flags = 0;
+            s.flags &= SEED_OFF;
             return;
         }
         if (s.flags & SEED_ASLEEP) {
@@ -1108,6 +1228,8 @@ void Settler::settleRest(Patch& patch)
             setBlocker(patch);
         }
     });
+    if (dented_ && !patch.extras)
+        patch.due += offFor(patch);
     setRange(patch);
 }
 
@@ -1177,6 +1299,7 @@ void Settler::oversample(Patch& patch)
     patch.extras = any;
     if (!any)
         return;
+    patch.due = now_;
     setPatch(patch, true);
     setBlocker(patch);
     forSeeds(patch, [&](int i) {
@@ -1184,7 +1307,7 @@ void Settler::oversample(Patch& patch)
         if (extra == nullptr || !(extra->flags & SEED_ACTIVE))
             return;
         if (!(extra->flags & SEED_VALID) && isCovered(*extra))
-            extra->flags = SEED_ACTIVE;
+            extra->flags &= SEED_ACTIVE | SEED_OFF;
         else if (!waits(*extra, false))
             settle(*extra);
     });

@@ -99,11 +99,19 @@ private:
     SELDOM void blendOdd(Real position, Sample& sample);
     bool follow(Real* position, Sample* sample);
     Real search(Real* position, Sample* sample);
-    Real searchDeep(Real* position, Sample* sample);
+    SELDOM Real searchDeep(Real* position, Sample* sample);
+    SELDOM bool hasClosed(const Seed& s);
+    Real pushMost() const;
+    void putOff(Seed& s, Real hold, Real push) const;
+    bool isOff(const Seed& s) const;
+    Real longestOff() const;
+    SELDOM Way offFor(const Patch& patch) const;
+    SELDOM PatchState probeOff(Patch& patch, const Seed& s) const;
     void bisect(Real inside, Real outside, Real* position, Sample* sample);
     Vector outward(Real position) const;
     Vector fromCore(const Along& along, Real position) const;
-    Real findShare(Seed& s, Vector* g);
+    SELDOM Real leadOf(const Vector& g, const Vector& out, Real own, const Vector& from, Real steepest) const;
+    Real findShare(Seed& s, Real shared, Vector* g);
     SELDOM void setOdd(const Patch& patch);
     SELDOM const Along* strongestOther(const Seed& s, Vector* g, Real* change) const;
     SELDOM void findNearer(Seed& s, Real dominance) const;
@@ -157,6 +165,7 @@ private:
     bool shared_;             // share_ holds at the position looked at last; else all are 1
     int touched_;
     Along along_[NEIGHBOURS_MAX];
+    Real off_;                        // of the field: by how much the path misses the surface, where it does
     Real headField_;                  // of a hollow: the field of what is hollowed out
     Real lookedAt_;                   // the last position looked at
     Real ownField_, ownSlope_;        // F and dF/dt of the own field there
