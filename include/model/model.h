@@ -143,6 +143,9 @@ public:
     // colour. -1: no field reaches it.
     int strongestAt(const Point& p) const;
 
+    // That object's implicit function there: its own field and, by their weights, those of what it is linked with.
+    Real implicitAt(const Point& p) const;
+
     // Changes the light under which seeds were laid out already.
     void setLight(const Vector& to);
 

@@ -286,7 +286,7 @@ bool Demo::drawModel()
         object.setRamp(ramp);
     }
     if (!options_.printed)
-        view_.closeGaps(model_.coarsest(), options_.grey ? nullptr : &model_, &palette_);
+        view_.closeGaps(model_.coarsest(), &model_, options_.grey ? nullptr : &palette_);
     return true;
 }
 

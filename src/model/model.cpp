@@ -665,3 +665,15 @@ int Model::strongestAt(const Point& p) const
     }
     return best;
 }
+
+Real Model::implicitAt(const Point& p) const
+{
+    const int strongest = strongestAt(p);
+    if (strongest < 0)
+        return Real(0);
+    const SoftObject& object = *actors_[strongest]->object;
+    Real sum = object.fieldFunc(p);
+    for (const List<Link>::Node* node = object.skel().first(); node != nullptr; node = node->next)
+        sum += node->item.object->fieldFunc(p) * node->item.weight;
+    return sum;
+}

@@ -15,6 +15,7 @@ constexpr int GAP_WIDE = 10;
 constexpr int GAP_NARROW = 8;
 constexpr int GAP_LOW = 6;
 constexpr int GAP_THIN = 2;
+constexpr Real OUTSIDE(0.42);  // of the field: with less half way across, what is open stays so
 constexpr int GAP_MOST = 32;  // however near the viewer
 constexpr int DIVIDED = 2;    // as near as this its ends stand when the place is found where a gap changes its colour
 constexpr int FRACTION = 12;
@@ -373,6 +374,7 @@ void View::closeFrom(int y, int from, int to, int step, int widest, int narrowes
 {
     Span rows[GAP_MOST];
     int high = 0, narrow = 0;
+    bool closed = false;
     for (;;) {
         // All below a neck goes with it.
         if (to - from <= narrowest)
@@ -387,7 +389,8 @@ void View::closeFrom(int y, int from, int to, int step, int widest, int narrowes
         while (from < right && row[from] != 0)
             ++from;
         if (from == right) {
-            narrow = high;  // closed all round
+            narrow = high;
+            closed = true;
             break;
         }
         while (row[to - 1] != 0)
@@ -401,6 +404,8 @@ void View::closeFrom(int y, int from, int to, int step, int widest, int narrowes
     }
     if (narrow > 0) {
         const int middle = narrow / 2, row = (y + middle * step) * WIDTH;
+        if (!closed && isOpen(row + rows[middle].from - 1, row + rows[middle].to))
+            return;
         const Ends ends = endsOf(row + rows[middle].from - 1, row + rows[middle].to);
         for (int i = 0; i < narrow; ++i)
             fill(ends, (y + i * step) * WIDTH + rows[i].from - 1, (y + i * step) * WIDTH + rows[i].to, 1);
@@ -429,11 +434,21 @@ Point View::pointAt(int at) const
                                                (camera_.centreY - Real(row) - half) / camera_.focalY * z, z});
 }
 
+// Whether between two drawn pixels there is none of the surface: the way from one to the other leads well outside.
+bool View::isOpen(int first, int last) const
+{
+    if (model_ == nullptr || last - first <= GAP_THIN + 1)
+        return false;
+    const Point here = pointAt(first);
+    const Vector way = pointAt(last) - here;
+    return model_->implicitAt(here + Vector{shiftDown(way.x, 1), shiftDown(way.y, 1), shiftDown(way.z, 1)}) < OUTSIDE;
+}
+
 // Whose the drawn pixels on both sides of a gap are. None are named where their colour is the same, where their fields do not
 // meet, or without a model.
 View::Ends View::endsOf(int first, int last) const
 {
-    if (model_ == nullptr || frame_[first] == frame_[last])
+    if (model_ == nullptr || palette_ == nullptr || frame_[first] == frame_[last])
         return NO_ENDS;
     const Ends ends{model_->strongestAt(pointAt(first)), model_->strongestAt(pointAt(last))};
     if (ends.first < 0 || ends.last < 0 || !model_->actor(ends.first).object->inRange(*model_->actor(ends.last).object))

@@ -512,6 +512,35 @@ TEST(gaps_between_two_objects)
         }
 }
 
+// What is open stays so: between two objects that do not touch, at whatever distance, and in the middle of a ring.
+TEST(gaps_where_there_is_no_surface)
+{
+    Model model;
+    Motion left{}, right{};
+    left.centre = point(-25, 0, 0);
+    right.centre = point(25, 0, 0);
+    CHECK(model.add(make<Sphere>(1, Real(40)), {255, 0, 0}, left));
+    CHECK(model.add(make<Sphere>(2, Real(40)), {255, 0, 0}, right));
+    Anim::move(model, 0);
+    View view;
+    CHECK(view.open());
+    for (int size = 4; size <= 10; size += 2)
+        for (double z : {-15.0, 0.0, 15.0}) {
+            const auto between = [&](const Model* with) {
+                view.begin();
+                const double depth = 75 + z;
+                block(view, 100, 90, 160 - size / 2, 110, 7, depth);
+                block(view, 160 + size / 2, 90, 220, 110, 7, depth);
+                block(view, 100, 70, 220, 90, 7, depth);
+                view.closeGaps(SPACING, with);
+                view.end();
+                return drawnIn(view, 160 - size / 2, 90, 160 + size / 2, 110);
+            };
+            CHECK(between(nullptr) > 0);
+            SAME(between(&model), 0);
+        }
+}
+
 TEST(gaps_grow_with_spacing_and_nearness)
 {
     View view;
