@@ -50,15 +50,15 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& a
                  const Odometer& odometer, uint32_t updates)
     : object_(object), own_(own), all_(all), bodies_(*frame.bodies), counts_(*frame.counts), now_(odometer.reading()),
       came_(realFromRaw(static_cast<int32_t>(odometer.came() << 6))), updates_(updates), ownWeights_(bodies_.weights(object.slot())),
-      hollow_(all.hollow), common_(all.common), ownPlain_(object.strength() == Real(1) && !all.hollow),
-      restParam_(object.restParam()), first_(all.deep ? FIRST_DEEP : FIRST),
+      hollow_(all.hollow), common_(all.common), ownPlain_(object.strength() == Real(1) && !all.hollow && !object.warped()),
+      restParam_(object.restParam()), warped_(object.warped()), first_(all.deep ? FIRST_DEEP : FIRST),
       last_(all.last), border_(BORDER * most(object.strength(), Real(1)))
 {
-    const Real restOfPath = (shiftDown(last_ - first_, 1) + Real(0.02)) * object.laidRadius();
+    const Real restOfPath = (shiftDown(last_ - first_, 1) + Real(0.02)) * object.longestPath();
     for (int i = 0; i < all.count; ++i) {
         from_[i].root = -1;
         border_ = most(border_, BORDER * all.neighbours[i].strength);
-        const Real reach = Real(1) + restOfPath * shiftDown(all.neighbours[i].inverse16, 4);
+        const Real reach = Real(1) + restOfPath * shiftDown(all.neighbours[i].steep16, 4);
         reachT_[i] = reach < Real(100) ? reach * reach : Real(10000);
     }
     listed_.count = 0;
@@ -110,6 +110,8 @@ void Settler::findComplete(Few& few) const
 // What a patch has besides where not all is common.
 void Settler::setOdd(const Patch& patch)
 {
+    if (object_.shaped())
+        smallest_ = smallest_ * object_.narrowing();
     smallest_ = smallest_ / most(object_.strength(), Real(1));
     dented_ = all_.inner || hollow_;
     if (all_.dented || hollow_)
@@ -169,7 +171,8 @@ const Settler::Few& Settler::those(Real position)
 // What is the same for all seeds of a root.
 void Settler::setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const
 {
-    to.root = s.root;
+    // Of a shaped object each path has a length of its own.
+    to.root = object_.shaped() ? -1 : s.root;
     const Vector& root = object_.root(s.root);
     if (near.kind == Neighbour::OTHER) {
         to.apart = near.inCore(root) + near.offset;
@@ -267,11 +270,11 @@ struct Settler::Sum {
     // among its neighbours.
     SELDOM void addOwn(Settler& of)
     {
-        const Real t = position * position * of.restParam_, strength = of.object_.strength();
-        const FieldStep own = t < Real(1) ? geoffQuick(t) : FieldStep{Real(0), Real(0)};
+        const Real t = of.ownParam(position), strength = of.object_.strength();
+        const FieldStep own = t < Real(1) ? geoffQuick(most(t, Real(0))) : FieldStep{Real(0), Real(0)};
         of.ownField_ = sum = own.value * strength;
         of.ownSlope_ = own.slope * strength;
-        slope = of.ownSlope_ * position * shiftUp(of.restParam_, 1);
+        slope = of.ownRate(position);
         of.headField_ = Real(0);
         if (of.hollow_) {
             sum = -(sum * of.all_.weight);
@@ -322,6 +325,17 @@ struct Settler::Sum {
         return all;
     }
 };
+
+// The own t at a position of the path of a warped object; sets ownChange_.
+Real Settler::warpedParam(Real position)
+{
+    const Real inward = Real(CORE_SIZE) / object_.laidSize();
+    const Vector step = path_ * inward;
+    Vector out;
+    const Real t = object_.param(root_ * inward + step * position, &out);
+    ownChange_ = t < Real(1) ? shiftDown(dot(out, step), 7) : Real(0);
+    return t;
+}
 
 // Takes up the path of a seed as a few neighbours see it, and looks at a position. False: none of them reaches that.
 template <bool COMMON>
@@ -392,7 +406,7 @@ SELDOM void Settler::blend(Real position, Sample& sample)
     if (ownField_ > Real(0) && (COMMON || !hollow_)) {
         strongest = ownField_;
         end->f = end->g = ownField_;
-        end->rate = COMMON ? shiftDown(ownSlope_ * position, 1) : ownSlope_ * position * shiftUp(restParam_, 1);
+        end->rate = COMMON ? shiftDown(ownSlope_ * position, 1) : ownRate(position);
         end->linked = Real(0);
         end->weights = ownWeights_;
         end->slot = object_.slot();
@@ -457,7 +471,7 @@ SELDOM void Settler::blend(Real position, Sample& sample)
         digging += linked * rate;
     };
     if (!COMMON && hollow_)
-        dig(ownField_, ownSlope_ * position * shiftUp(restParam_, 1), object_.slot(), 0);
+        dig(ownField_, ownRate(position), object_.slot(), 0);
     for (int i = 0; i < touched_ && !COMMON && all_.dented; ++i)
         if (along_[i].near->digs)
             dig(along_[i].value, along_[i].slope * along_[i].change, along_[i].near->object->slot(), i + 1);
@@ -625,6 +639,12 @@ Real Settler::searchDeep(Real* position, Sample* sample)
     return lowest;
 }
 
+// Adds half the gradient of the own t at a position, times its squared size and a share: of an object whose paths slant.
+void Settler::addSlanting(Vector& to, Real share, Real position) const
+{
+    to = to + object_.slopeAt(root_ + path_ * position) * shiftDown(share * object_.laidSize(), 4);
+}
+
 // The direction in which the field falls at a position that has just been looked at, any length, own axes: each field pushes
 // away from its core by its slope over its squared size.
 Vector Settler::outward(Real position) const
@@ -634,7 +654,7 @@ Vector Settler::outward(Real position) const
         own = -(own * all_.weight);
     Vector g{Real(0), Real(0), Real(0)};
     // Points push along the path, and from where they stand to the root.
-    Real along = object_.tapers() ? Real(0) : own;
+    Real along = object_.slants() ? Real(0) : own;
     for (int i = 0; i < touched_; ++i) {
         const Along& to = along_[i];
         if (to.slope == Real(0))
@@ -653,11 +673,8 @@ Vector Settler::outward(Real position) const
             g = g - to.near->direction * (to.k * to.near->size * push);
     }
     g = g + path_ * (along * position);
-    if (object_.tapers()) {
-        Vector slope;
-        object_.param((root_ + path_ * position) * (Real(CORE_SIZE) / object_.laidSize()), &slope);
-        g = g + slope * shiftDown(own * object_.laidSize(), 4);
-    }
+    if (object_.slants())
+        addSlanting(g, own, position);
     return g;
 }
 
@@ -678,10 +695,8 @@ Real Settler::findShare(Seed& s, Vector* g)
 {
     const Real far(30);
     Vector out = path_ * s.position;
-    if (object_.tapers()) {
-        object_.param((root_ + out) * (Real(CORE_SIZE) / object_.laidSize()), &out);
-        out = out * shiftDown(object_.laidSize(), 4);
-    }
+    if (object_.slants())
+        out = object_.slopeAt(root_ + out) * shiftDown(object_.laidSize(), 4);
     // Steepnesses, times half the squared size of the object.
     Real own = -(ownSlope_ * nearLength(out)), steepest(0);
     if (hollow_)
@@ -704,7 +719,7 @@ Real Settler::findShare(Seed& s, Vector* g)
     if (other == nullptr)
         return far;
     // What the digging field's steepness changes by over a unit away from its core: F'' is 34/9 - 24/9 t.
-    Real t = s.position * s.position * restParam_, slope = -ownSlope_, factor = all_.weight, strength = object_.strength();
+    Real t = ownParam(s.position), slope = -ownSlope_, factor = all_.weight, strength = object_.strength();
     if (!hollow_) {
         t = other->t;
         slope = -other->slope;
@@ -741,7 +756,9 @@ bool Settler::findDented(Seed& s, Vector* g)
 // field; in a hollow what is dented stands for the object.
 const Along* Settler::strongestOther(const Seed& s, Vector* g, Real* change) const
 {
-    *change = ownSlope_ * lookedAt_ * shiftUp(restParam_, 1);
+    *change = ownRate(lookedAt_);
+    if (object_.shaped())
+        *g = object_.slopeAt(root_ + path_ * s.position) * shiftDown(ownSlope_ * object_.laidSize(), 4);
     const Along* other = nullptr;
     for (int i = 0; i < touched_; ++i) {
         const Along& along = along_[i];
@@ -860,7 +877,9 @@ bool Settler::isBlocked(const Seed& s, Real margin)
     if (common_) {
         own = geoffQuick(least(shiftDown(position * position, 2), Real(0.999))).value;
     } else {
-        own = geoffQuick(least(position * position * restParam_, Real(0.999))).value * object_.strength();
+        root_ = object_.root(s.root);
+        path_ = s.path;
+        own = geoffQuick(clamp(ownParam(position), Real(0), Real(0.999))).value * object_.strength();
         field = field * near.strength;
     }
     return field - own > OVERSHOOT + margin || (!(s.flags & SEED_COVERED) && allComplete_ && own + field > ISOVALUE + margin);
@@ -963,7 +982,11 @@ bool Settler::stillInside(const Patch& patch)
 {
     blocker_ = all_.numberOf[patch.blocker];
     turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
-    return blocker_ >= 0 && isBlocked(object_.seed(patch.centre), enough(patch, all_.neighbours[blocker_].size));
+    if (blocker_ < 0)
+        return false;
+    const Neighbour& near = all_.neighbours[blocker_];
+    const Real size = near.object->shaped() ? near.size * near.object->narrowing() : near.size;
+    return isBlocked(object_.seed(patch.centre), enough(patch, size));
 }
 
 PatchState Settler::probe(Patch& patch)

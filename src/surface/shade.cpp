@@ -77,6 +77,7 @@ private:
     int leaveNear(Seen* seen, int count) const;
     void measurePlace(Seed& s) const;
     void measureCell(Seed& s) const;
+    void setLength(const Vector& path, int32_t u[3]) const;
     void measureBend(Patch& patch) const;
     void setPatch(const Patch& patch, const Seen& middle);
     void setBend(const Patch& patch, const Seen& middle);
@@ -120,10 +121,10 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     centre_[2] = rawFromReal(place.z) >> 8;
     ball_ = object.isBall();
     // No seed leaves the reach of its object. Places have 16 bits.
-    const int32_t reach = rawFromReal(object.size() + object.coreReach()) >> 8;
+    const int32_t reach = rawFromReal(object.reach()) >> 8;
     near_ = centre_[2] - reach < NEAREST_DEPTH || centre_[2] + reach >= FARTHEST_DEPTH;
     placeShift_ = 8;
-    for (int32_t most = rawFromReal(object.laidSize() + object.coreReach() / own.growth) >> 8; most > 32000; most >>= 1)
+    for (int32_t most = rawFromReal(object.laidReach()) >> 8; most > 32000; most >>= 1)
         ++placeShift_;
     // A step of places in 1/256 unit of the world, 16 bits of fraction.
     const int32_t step = rawFromReal(own.growth) << (placeShift_ - 8);
@@ -177,6 +178,16 @@ inline void Shader::measurePlace(Seed& s) const
     }
 }
 
+// The path of a shaped object's seed, as long as if it were not shaped.
+SELDOM void Shader::setLength(const Vector& path, int32_t u[3]) const
+{
+    const Normal n = normalise(path);
+    const int32_t length = rawFromReal(object_.laidRadius()) >> pathShift_;
+    u[0] = n.x * length >> 14;
+    u[1] = n.y * length >> 14;
+    u[2] = n.z * length >> 14;
+}
+
 // The cell of the unblended surface that is the seed's own, grown with the position, as it falls along the path onto the
 // tangent plane. A half axis e becomes e - u (e.n) / (u.n) with u the path.
 SELDOM void Shader::measureCell(Seed& s) const
@@ -190,8 +201,10 @@ SELDOM void Shader::measureCell(Seed& s) const
             s.cellAcross[i] = s.across[i];
         }
     } else {
-        const int32_t u[] = {rawFromReal(s.path.x) >> pathShift_, rawFromReal(s.path.y) >> pathShift_,
-                             rawFromReal(s.path.z) >> pathShift_};
+        int32_t u[] = {rawFromReal(s.path.x) >> pathShift_, rawFromReal(s.path.y) >> pathShift_,
+                       rawFromReal(s.path.z) >> pathShift_};
+        if (object_.shaped())
+            setLength(s.path, u);
         int32_t cosine = product(u, n) >> 14, position = rawFromReal(s.position) >> 4;
         if (hollow_) {
             // A hollow faces its roots. Nearer to a long or flat core than where they rest, seeds are no nearer to each other
