@@ -5,12 +5,23 @@
 #include "asm.h"
 
 // struct Seed (include/model/seed.h)
+#define SEED_PATH    0
+#define SEED_POSITION 12
 #define SEED_NORMAL  20
-#define SEED_LIGHT 34
-#define SEED_ALONG   47
-#define SEED_ACROSS  50
-#define SEED_AREA    54
-#define SEED_PLACE   56
+#define SEED_ROOT    34
+#define SEED_FLAGS   36
+#define SEED_ALONG   39
+#define SEED_ACROSS  42
+#define SEED_WAY     45
+#define SEED_AREA    48
+#define SEED_SIZE    52
+#define SEED_VALID   1
+#define SEED_RESTING 4
+
+// struct Patch (src/surface/patch.h)
+#define PATCH_FIRST  0
+#define PATCH_COUNT  12
+#define PATCH_RINGS  3
 
 // struct Voxel (include/surface/voxel.h)
 #define VOXEL_X      0
@@ -24,31 +35,42 @@
 #define VOXEL_REACH  21
 #define VOXEL_SLOPEX 24                 /* and behind it, one double word with it: the other slope and cutAt */
 #define VOXEL_SLOPEY 25
+#define VOXEL_SIZE   28
 
 // struct Seen and struct Shading (src/surface/voxels.h)
 #define SEEN_SEED    0
 #define SEEN_FACING  4
-#define SEEN_VOXEL   8
-#define SEEN_SIZE    12
-#define TURNED       20
-#define RIGHT        24
-#define UP           36
-#define TO_RIGHT     48
-#define TO_UP        60
-#define TO_AHEAD     72
-#define DEPTH        84
-#define CELL         88
-#define CELL_SHIFT   100
-#define AREA_SHARE   104
-#define WHOLE_MOST   108
-#define HORIZON      112
-#define GRADIENT     116
-#define AHEAD        124
+#define SEEN_SIZE    8
+#define SEEDS        0
+#define ROOTS        4
+#define PLACE_SHIFT  8
+#define EYE          12
+#define LIGHT        24
+#define LIMB         36
+#define TURNED       40
+#define RIGHT        44
+#define UP           56
+#define TO_RIGHT     68
+#define TO_UP        80
+#define TO_AHEAD     92
+#define DEPTH        104
+#define LEAST_POSITION 108
+#define CELL         112
+#define CELL_SHIFT   124
+#define AREA_SHARE   128
+#define WHOLE_MOST   132
+#define HORIZON      136
+#define GRADIENT     140
+#define AHEAD        148
 #define STEEPEST_TILT 20000
 #define MARGIN_SHIFT 5
 #define MARGIN_UNITS 14
 #define FLAT_SHADING 8
 #define SHADING_MOST 64
+#define BRIGHTEST    63
+#define LEAST_COSINE 6500
+#define UNEVEN       15500
+#define AREA_MOST    16383
 
         .text
 
@@ -64,8 +86,168 @@
         addl        \spare, \to
 .endm
 
-// A half axis of the cell on the picture plane: edx its width, eax its height, with their signs; ecx is spare.
-.macro on_picture axis
+// The same of the place that the voxel (edi) has in own space, which is shifted to 14 bits of fraction less.
+.macro along axis, to, spare
+        movl        VOXEL_X(%edi), \to
+        imull        \axis(%ebp), \to
+        movl        VOXEL_Y(%edi), \spare
+        imull        \axis+4(%ebp), \spare
+        addl        \spare, \to
+        movl        VOXEL_Z(%edi), \spare
+        imull        \axis+8(%ebp), \spare
+        addl        \spare, \to
+        sarl        $14, \to
+.endm
+
+// Part k of the place of a seed (esi) above the root at ebx, in steps of places (cl).
+.macro place part
+        movl        SEED_PATH+\part(%esi), %eax
+        imull        SEED_POSITION(%esi)
+        shrdl        $16, %edx, %eax
+        addl        \part(%ebx), %eax
+        sarl        %cl, %eax
+        movl        %eax, VOXEL_X+\part(%edi)
+.endm
+.macro place_resting part
+        movl        SEED_PATH+\part(%esi), %eax
+        addl        \part(%ebx), %eax
+        sarl        %cl, %eax
+        movl        %eax, VOXEL_X+\part(%edi)
+.endm
+
+// eax = part k of the normal, at `normal` of the seed, times that of the vector from the place (edi) to the eye
+.macro to_eye part, normal
+        movl        VOXEL_X+\part(%edi), %edx
+        sarl        $3, %edx
+        movl        EYE+\part(%ebp), %eax
+        subl        %edx, %eax
+        movswl        SEED_NORMAL+\normal(%esi), %edx
+        imull        %edx, %eax
+.endm
+
+// int findSeedsA(const Shading* shading, const Patch* patch, Seen* seen, Voxel* voxels). esi is the seed, edi the next voxel, ebp
+// the shading, cl the shift of places.
+#define FIND_END     0                  /* behind the last seed of the ring */
+#define FIND_RING    4
+#define FIND_TURNED  8
+#define FIND_FIRST   12
+#define FIND_FRAME   16
+#define FIND_SHADING (FIND_FRAME+20)
+#define FIND_PATCH   (FIND_FRAME+24)
+#define FIND_SEEN    (FIND_FRAME+28)
+#define FIND_VOXELS  (FIND_FRAME+32)
+FUNC(findSeedsA)
+        pushl        %ebp
+        pushl        %ebx
+        pushl        %esi
+        pushl        %edi
+        subl        $FIND_FRAME, %esp
+        movl        FIND_SHADING(%esp), %ebp
+        movl        FIND_VOXELS(%esp), %edi
+        movl        PLACE_SHIFT(%ebp), %ecx
+        movl        FIND_SEEN(%esp), %eax
+        movl        %eax, FIND_FIRST(%esp)
+        xorl        %edx, %edx
+        // for (ring = 0; ring < PATCH_RINGS; ++ring) for (s = seeds + first[ring], end = s + count[ring]; s < end; ++s)
+find_ring:
+        movl        %edx, FIND_RING(%esp)
+        movl        FIND_PATCH(%esp), %ebx
+        imull        $SEED_SIZE, PATCH_FIRST(%ebx,%edx,4), %esi
+        movzbl        PATCH_COUNT(%ebx,%edx), %eax
+        addl        SEEDS(%ebp), %esi
+        imull        $SEED_SIZE, %eax, %eax
+        addl        %esi, %eax
+        movl        %eax, FIND_END(%esp)
+        jmp        find_next
+
+find_one:
+        // if (!(s.flags & SEED_VALID)) continue
+        movb        SEED_FLAGS(%esi), %dl
+        testb        $SEED_VALID, %dl
+        jz        find_not
+        // findPlace(v, s, place)
+        movzwl        SEED_ROOT(%esi), %ebx
+        movl        ROOTS(%ebp), %eax
+        leal        (%ebx,%ebx,2), %ebx
+        leal        (%eax,%ebx,4), %ebx
+        testb        $SEED_RESTING, %dl
+        jnz        find_resting
+        place        0
+        place        4
+        place        8
+find_placed:
+        // facing = (normal * (eye - (place >> 3))) >> 11; if (facing <= v.limb) continue
+        to_eye        0, 0
+        movl        %eax, %ebx
+        to_eye        4, 2
+        addl        %eax, %ebx
+        to_eye        8, 4
+        addl        %eax, %ebx
+        sarl        $11, %ebx
+        cmpl        LIMB(%ebp), %ebx
+        jle        find_not
+        // *seen++ = {&s, facing}
+        movl        FIND_SEEN(%esp), %eax
+        movl        %esi, SEEN_SEED(%eax)
+        movl        %ebx, SEEN_FACING(%eax)
+        addl        $SEEN_SIZE, FIND_SEEN(%esp)
+        cmpl        $0, TURNED(%ebp)
+        jne        find_turned
+find_found:
+        addl        $VOXEL_SIZE, %edi
+find_not:
+        addl        $SEED_SIZE, %esi
+find_next:
+        cmpl        FIND_END(%esp), %esi
+        jb        find_one
+        movl        FIND_RING(%esp), %edx
+        incl        %edx
+        cmpl        $PATCH_RINGS, %edx
+        jb        find_ring
+        // return seen - those given, of SEEN_SIZE bytes
+        movl        FIND_SEEN(%esp), %eax
+        subl        FIND_FIRST(%esp), %eax
+        sarl        $3, %eax
+        addl        $FIND_FRAME, %esp
+        popl        %edi
+        popl        %esi
+        popl        %ebx
+        popl        %ebp
+        ret
+
+find_resting:
+        place_resting 0
+        place_resting 4
+        place_resting 8
+        jmp        find_placed
+find_turned:
+        along        TO_RIGHT, %eax, %edx
+        movl        %eax, FIND_TURNED(%esp)
+        along        TO_UP, %ebx, %edx
+        along        TO_AHEAD, %eax, %edx
+        movl        %eax, VOXEL_Z(%edi)
+        movl        %ebx, VOXEL_Y(%edi)
+        movl        FIND_TURNED(%esp), %eax
+        movl        %eax, VOXEL_X(%edi)
+        jmp        find_found
+ENDFUNC(findSeedsA)
+
+// The frame of shadeSeedsA, which the macros use.
+#define SHADE_AREA   0
+#define SHADE_END    4
+#define SHADE_POSITION 8
+#define SHADE_SHARE  12
+#define SHADE_WAY_X  16
+#define SHADE_WAY_Y  20
+#define SHADE_OFF    24
+#define SHADE_FRAME  28
+#define SHADE_SHADING (SHADE_FRAME+20)
+#define SHADE_SEEN   (SHADE_FRAME+24)
+#define SHADE_VOXELS (SHADE_FRAME+28)
+#define SHADE_COUNT  (SHADE_FRAME+32)
+
+// eax = the packed sum of three 8-bit parts at `axis` of the seed times the axes of the picture plane; ecx is spare.
+.macro packed axis
         movsbl        \axis(%esi), %eax
         imull        CELL(%ebp), %eax
         movsbl        \axis+1(%esi), %ecx
@@ -74,24 +256,71 @@
         movsbl        \axis+2(%esi), %ecx
         imull        CELL+8(%ebp), %ecx
         addl        %ecx, %eax
+.endm
+
+// edx = the column, eax = the row of a packed sum in eax
+.macro unpack
         leal        0x8000(%eax), %edx
         sarl        $16, %edx
+        cwtl
+.endm
+
+// reg = |reg|
+.macro magnitude reg
+        testl        \reg, \reg
         jns        1f
-        negl        %edx
-1:        cwtl
-        testl        %eax, %eax
-        jns        1f
-        negl        %eax
+        negl        \reg
 1:
 .endm
 
-// void shadeSeedsA(const Shading* shading, const Seen* seen, int count). ebx is the seen seed, edi its voxel.
-#define SHADE_AREA     0
-#define SHADE_END 4
-#define SHADE_FRAME    8
-#define SHADE_SHADING  (SHADE_FRAME+20)
-#define SHADE_SEEN     (SHADE_FRAME+24)
-#define SHADE_COUNT    (SHADE_FRAME+28)
+// A half axis of the cell on the picture plane: edx its width, eax its height; ecx is spare.
+.macro on_picture axis
+        packed        \axis
+        unpack
+        magnitude        %edx
+        magnitude        %eax
+.endm
+
+// eax = the sum of three 8-bit parts at `axis` of the seed times its normal; ecx and edx are spare.
+.macro times_normal axis
+        movsbl        \axis(%esi), %eax
+        movswl        SEED_NORMAL(%esi), %edx
+        imull        %edx, %eax
+        movsbl        \axis+1(%esi), %ecx
+        movswl        SEED_NORMAL+2(%esi), %edx
+        imull        %edx, %ecx
+        addl        %ecx, %eax
+        movsbl        \axis+2(%esi), %ecx
+        movswl        SEED_NORMAL+4(%esi), %edx
+        imull        %edx, %ecx
+        addl        %ecx, %eax
+.endm
+
+// The same as on_picture where the cell has fallen: (e * position - way * off) >> 8, off = ((e * normal) >> 7) * share >> 14
+.macro fallen axis
+        times_normal \axis
+        sarl        $7, %eax
+        imull        SHADE_SHARE(%esp), %eax
+        sarl        $14, %eax
+        movl        %eax, SHADE_OFF(%esp)
+        packed        \axis
+        unpack
+        movl        SHADE_OFF(%esp), %ecx
+        imull        SHADE_POSITION(%esp), %edx
+        imull        SHADE_WAY_X(%esp), %ecx
+        subl        %ecx, %edx
+        movl        SHADE_OFF(%esp), %ecx
+        imull        SHADE_POSITION(%esp), %eax
+        imull        SHADE_WAY_Y(%esp), %ecx
+        subl        %ecx, %eax
+        sarl        $8, %edx
+        sarl        $8, %eax
+        magnitude        %edx
+        magnitude        %eax
+.endm
+
+// void shadeSeedsA(const Shading* shading, const Seen* seen, Voxel* voxels, int count). ebx is the seen seed, edi its voxel, ebp
+// the shading.
 FUNC(shadeSeedsA)
         pushl        %ebp
         pushl        %ebx
@@ -100,26 +329,16 @@ FUNC(shadeSeedsA)
         subl        $SHADE_FRAME, %esp
         movl        SHADE_SHADING(%esp), %ebp
         movl        SHADE_SEEN(%esp), %ebx
+        movl        SHADE_VOXELS(%esp), %edi
         movl        SHADE_COUNT(%esp), %eax
-        leal        (%eax,%eax,2), %eax
-        leal        (%ebx,%eax,4), %eax
+        leal        (%ebx,%eax,8), %eax
         movl        %eax, SHADE_END(%esp)
         jmp        shade_next
 
 shade_one:
         movl        SEEN_SEED(%ebx), %esi
-        movl        SEEN_VOXEL(%ebx), %edi
-        // placeVoxel(v, s, voxel); eax = voxel.z
-        cmpl        $0, TURNED(%ebp)
-        jne        shade_place_turned
-        movswl        SEED_PLACE(%esi), %eax
-        movl        %eax, VOXEL_X(%edi)
-        movswl        SEED_PLACE+2(%esi), %eax
-        movl        %eax, VOXEL_Y(%edi)
-        movswl        SEED_PLACE+4(%esi), %eax
-shade_placed:
-        movl        %eax, VOXEL_Z(%edi)
         // steep = smaller(((v.depth + voxel.z) << 8) / facing, STEEPEST_TILT)
+        movl        VOXEL_Z(%edi), %eax
         addl        DEPTH(%ebp), %eax
         shll        $8, %eax
         xorl        %edx, %edx
@@ -140,17 +359,20 @@ shade_tilts:
         movw        %cx, VOXEL_TILTX(%edi)
         movw        %dx, VOXEL_TILTY(%edi)
 
-        // along = onPicture(s.cellAlong); if (s.cellArea <= v.wholeMost)
+        testb        $SEED_RESTING, SEED_FLAGS(%esi)
+        jz        shade_fallen
+        // if (s.area <= v.wholeMost)
         movzwl        SEED_AREA(%esi), %ecx
         cmpl        WHOLE_MOST(%ebp), %ecx
-        jbe        shade_whole
-        // area = mulHigh(s.cellArea * (facing >> 3), v.areaShare)
+        jle        shade_whole
+        // area = mulHigh(s.area * (facing >> 3), v.areaShare)
         movl        SEEN_FACING(%ebx), %eax
         sarl        $3, %eax
         imull        %ecx, %eax
         imull        AREA_SHARE(%ebp)
         movl        %edx, SHADE_AREA(%esp)
         on_picture SEED_ALONG
+shade_band:
         // wide >>= v.cellShift; high >>= v.cellShift
         movl        CELL_SHIFT(%ebp), %ecx
         sarl        %cl, %edx
@@ -196,11 +418,18 @@ shade_extended:
         movw        %cx, VOXEL_WIDE(%edi)
         movw        %ax, VOXEL_HIGH(%edi)
 
-        // voxel.brightness = (s.brightness8 + 128) >> 8, all behind it 0
+        // cosine = s.normal * v.light >> 14; voxel.brightness = cosine <= 0 ? 0 : (cosine * BRIGHTEST + 8192) >> 14
         movl        SEEN_SEED(%ebx), %esi
-        movswl        SEED_LIGHT(%esi), %edx
-        addl        $128, %edx
-        shrl        $8, %edx
+        movl        %ecx, SHADE_AREA(%esp)
+        product        SEED_NORMAL, LIGHT, %edx, %ecx
+        movl        SHADE_AREA(%esp), %ecx
+        sarl        $14, %edx
+        jle        shade_dark
+        imull        $BRIGHTEST, %edx, %edx
+        addl        $8192, %edx
+        shrl        $14, %edx
+shade_lit:
+        // all behind it 0
         movl        %edx, VOXEL_BRIGHT(%edi)
         movl        $0, VOXEL_SLOPEX(%edi)
 
@@ -280,6 +509,7 @@ shade_slope_y:
 
 shade_done:
         addl        $SEEN_SIZE, %ebx
+        addl        $VOXEL_SIZE, %edi
 shade_next:
         cmpl        SHADE_END(%esp), %ebx
         jb        shade_one
@@ -289,17 +519,6 @@ shade_next:
         popl        %ebx
         popl        %ebp
         ret
-
-shade_place_turned:
-        product        SEED_PLACE, TO_RIGHT, %eax, %ecx
-        sarl        $14, %eax
-        movl        %eax, VOXEL_X(%edi)
-        product        SEED_PLACE, TO_UP, %eax, %ecx
-        sarl        $14, %eax
-        movl        %eax, VOXEL_Y(%edi)
-        product        SEED_PLACE, TO_AHEAD, %eax, %ecx
-        sarl        $14, %eax
-        jmp        shade_placed
 
         // normalX = product(s.normal, v.right), and the other
 shade_turned:
@@ -313,23 +532,104 @@ shade_turned:
         imull        %eax, %edx
         jmp        shade_tilts
 
-        // wide = (wide + width(across)) >> v.cellShift, and high likewise
+        // wide = (wide + |across.x|) >> v.cellShift, and high likewise
 shade_whole:
         on_picture SEED_ACROSS
         movl        %edx, SHADE_AREA(%esp)
-        movl        %eax, VOXEL_SLOPEX(%edi)
+        movl        %eax, SHADE_OFF(%esp)
         on_picture SEED_ALONG
+        addl        SHADE_OFF(%esp), %eax
+shade_add:
         addl        SHADE_AREA(%esp), %edx
-        addl        VOXEL_SLOPEX(%edi), %eax
         movl        CELL_SHIFT(%ebp), %ecx
         sarl        %cl, %edx
         sarl        %cl, %eax
         movl        %edx, %ecx
         jmp        shade_extents
 
+        // Fall fall(s, v): position = larger(s.position >> 8, v.leastPosition)
+shade_fallen:
+        movl        SEED_POSITION(%esi), %eax
+        sarl        $8, %eax
+        cmpl        LEAST_POSITION(%ebp), %eax
+        jl        shade_least_position
+shade_position:
+        movl        %eax, SHADE_POSITION(%esp)
+        // cosine = product(s.way, s.normal) >> 7; area = 0 where it is torn
+        times_normal SEED_WAY
+        sarl        $7, %eax
+        cltd
+        xorl        %edx, %eax
+        subl        %edx, %eax
+        movzwl        SEED_AREA(%esi), %ecx
+        cmpl        $UNEVEN, %eax
+        jl        shade_torn
+shade_even:
+        // share = |position << 14 / cosine|; area = smaller((area * share >> 8) * position >> 8, AREA_MOST)
+        movl        %edx, SHADE_OFF(%esp)
+        movl        %eax, SHADE_AREA(%esp)
+        movl        SHADE_POSITION(%esp), %eax
+        shll        $14, %eax
+        xorl        %edx, %edx
+        divl        SHADE_AREA(%esp)
+        imull        %eax, %ecx
+        sarl        $8, %ecx
+        imull        SHADE_POSITION(%esp), %ecx
+        sarl        $8, %ecx
+        cmpl        $AREA_MOST, %ecx
+        jg        shade_area_most
+shade_area:
+        movl        %ecx, SHADE_AREA(%esp)
+        // share has the sign of the cosine
+        movl        SHADE_OFF(%esp), %edx
+        xorl        %edx, %eax
+        subl        %edx, %eax
+        movl        %eax, SHADE_SHARE(%esp)
+        // way(s.way, v)
+        packed        SEED_WAY
+        unpack
+        movl        %edx, SHADE_WAY_X(%esp)
+        movl        %eax, SHADE_WAY_Y(%esp)
+        // if (area <= v.wholeMost)
+        movl        SHADE_AREA(%esp), %ecx
+        cmpl        WHOLE_MOST(%ebp), %ecx
+        jle        shade_fallen_whole
+        // area = mulHigh(area * (facing >> 3), v.areaShare)
+        movl        SEEN_FACING(%ebx), %eax
+        sarl        $3, %eax
+        imull        %ecx, %eax
+        imull        AREA_SHARE(%ebp)
+        movl        %edx, SHADE_AREA(%esp)
+        fallen        SEED_ALONG
+        jmp        shade_band
+
+shade_fallen_whole:
+        fallen        SEED_ACROSS
+        movl        %edx, SHADE_AREA(%esp)
+        movl        %eax, SHADE_COUNT(%esp)
+        fallen        SEED_ALONG
+        addl        SHADE_COUNT(%esp), %eax
+        jmp        shade_add
+
+shade_least_position:
+        movl        LEAST_POSITION(%ebp), %eax
+        jmp        shade_position
+shade_torn:
+        xorl        %ecx, %ecx
+        cmpl        $LEAST_COSINE, %eax
+        jge        shade_even
+        movl        $LEAST_COSINE, %eax
+        jmp        shade_even
+shade_area_most:
+        movl        $AREA_MOST, %ecx
+        jmp        shade_area
+
 shade_steepest:
         movl        $STEEPEST_TILT, %eax
         jmp        shade_steep
+shade_dark:
+        xorl        %edx, %edx
+        jmp        shade_lit
 shade_too_wide:
         movl        $0x7fff, %ecx
         jmp        shade_wide

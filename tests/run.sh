@@ -1,8 +1,9 @@
 #!/bin/sh
-# Runs every test suite, one after the other, and adds up what they say.
+# Runs every test suite, two at a time where there are two processors, and adds up what they say.
 #
 #   sh tests/run.sh [SUITE...]      the folders of tests/ with a run.sh; default: all of them
 #
+# LANES says how many run at a time. They build in the same place, so while there are two a `make` waits for the other one's.
 # A suite is a script tests/SUITE/run.sh, run from the top of the tree. It builds what it needs, prints a line for each
 # failure ("FAIL ..." or "FAILED: ...") and closes with "N passed, N failed". One that ends without that line, or with a
 # status that does not go with it, counts as a failure of its own. The last line here is the sum, alone.
@@ -28,14 +29,27 @@ else
 	done
 fi
 
-mkdir -p build/log
-passed=0
-failed=0
+mkdir -p build/log build/lanes
+rm -rf build/lanes/*
 begun=$(date +%s)
-for suite in $suites; do
+lanes=${LANES:-$(nproc 2>/dev/null || echo 1)}
+command -v flock >/dev/null && [ "$lanes" -ge 2 ] && lanes=2 || lanes=1
+if [ $lanes -eq 2 ]; then
+	cat >build/lanes/make <<-END
+		#!/bin/sh
+		[ -z "\${FB_MAKING:-}" ] || exec $(command -v make) "\$@"
+		FB_MAKING=1 exec flock '$PWD/build/lanes/lock' $(command -v make) "\$@"
+	END
+	chmod +x build/lanes/make
+	PATH=$PWD/build/lanes:$PATH
+	export PATH
+fi
+
+# one SUITE: runs it, and leaves what is to be shown in build/lanes/SUITE.said and its two counts in SUITE.done.
+one() {
+	suite=$1
 	log=build/log/$suite.txt
 	start=$(date +%s)
-	echo "== $suite"
 	sh "tests/$suite/run.sh" >"$log" 2>&1
 	status=$?
 	took=$(($(date +%s) - start))
@@ -65,9 +79,35 @@ for suite in $suites; do
 		bad=1
 	fi
 	echo "-- $suite: $good passed, $bad failed ($took s)"
+	echo "$good $bad" >"build/lanes/$suite.count"
+}
+
+# Every lane takes the next suite that nobody has taken yet.
+lane() {
+	for suite in $suites; do
+		mkdir "build/lanes/$suite.taken" 2>/dev/null || continue
+		one "$suite" >"build/lanes/$suite.said" 2>&1
+		mv "build/lanes/$suite.count" "build/lanes/$suite.done"
+	done
+}
+
+trap 'trap - TERM; kill 0; exit 130' HUP INT TERM
+for number in $(seq $lanes); do
+	lane &
+done
+passed=0
+failed=0
+for suite in $suites; do
+	echo "== $suite"
+	while [ ! -f "build/lanes/$suite.done" ]; do
+		sleep 0.2
+	done
+	cat "build/lanes/$suite.said"
+	read -r good bad <"build/lanes/$suite.done"
 	passed=$((passed + good))
 	failed=$((failed + bad))
 done
+wait
 echo "== all suites: $(($(date +%s) - begun)) s"
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

@@ -24,8 +24,8 @@ scenes() { # scenes DIR
 	for file in tools/scenes/*.FB; do
 		name=$(basename "$file" .FB)
 		case $name in
-		GULP | APART) at=3 ;;
-		FALL) at=4 ;;
+		GULP | APART | FACE) at=3 ;;
+		FALL | DROP) at=4 ;;
 		FLYPAST) at=5 ;;
 		TOUR) at=10 ;;
 		*) at=2 ;;

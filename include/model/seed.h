@@ -17,10 +17,11 @@
 //   SEED_BORDER   a neighbour is about as strong there     none is
 //   SEED_ASLEEP   its patch lies inside a neighbour or     the patch does not any more
 //                 faces away: it is not settled
-//   SEED_COVERED  the path leaves the surface, where a       the neighbour does not any more, or the path might leave
-//                 neighbour is the strongest               it before
-//   SEED_MEASURED its place and cell are those of its      it settles anew
-//                 present position
+//   SEED_COVERED  its path is likely to leave the surface    it settles
+//                 near its position: it wakes up, or what
+//                 digs has its part of a dent
+//   SEED_OFF      of what is dented, or a hollow: it will  it settles anew
+//                 not be on the surface before `due`
 //   SEED_FRONT    /P only: its path does not point away    it does
 //                 from the viewer
 //   SEED_KEPT     /P only: normal and brightness hold for  the seed moved
@@ -30,11 +31,11 @@ enum SeedFlag : uint8_t {
     SEED_ACTIVE = 2,
     SEED_RESTING = 4,
     SEED_FRONT = 8,
+    SEED_OFF = 8,        // the bit of SEED_FRONT, which only /P has
     SEED_KEPT = 16,
     SEED_BORDER = 32,
     SEED_ASLEEP = 64,
     SEED_COVERED = 128,
-    SEED_MEASURED = 16,  // the bit of SEED_KEPT, which only /P has
 };
 
 // A unit vector in whole numbers: each component is scaled by 2^14.
@@ -50,20 +51,19 @@ struct Seed {
     int32_t neighbour;   // slot of the seed N of the ring before (Appendix C, Oversampling); -1 in the first ring
     Direction14 normal;  // of the surface at the seed
     Direction14 border;  // of a SEED_BORDER one: in which the own field gains most on the strongest neighbour's,
-    int16_t apart;       // and how far the seed is on its own side of where the two are equal, 1/256 unit
-    int16_t brightness8; // of the surface there, 0..63 with 8 bits of fraction
+    union {
+        int16_t apart;   // and how far the seed is on its own side of where the two are equal, 1/256 unit
+        uint16_t due;    // of a SEED_OFF one: the lower half of the reading of its object's odometer when it is looked at again
+    };
     uint16_t root;       // index of the root point: seeds share them
     uint8_t flags;       // SeedFlag
     uint8_t mix;         // number of the colour there, where colours mix (model/paint.h)
     uint8_t still;       // 1: it did not move when it was looked at last; 0: it did
-    // Half axes of the part of the unblended surface that is the seed's own, 1/64 of the spacing.
+    // The part of the unblended surface that is the seed's own: its half axes, 1/64 of the spacing, and the area between them,
+    // that squared; 0, of an oversampled seed: it lies in no band of its ring.
     int8_t along[3], across[3];
-    // Of a SEED_MEASURED one, what its scale is made of wherever the viewer is (surface/shade.cpp): those axes on the surface as
-    // it is, their area, the place and how high above the origin its tangent plane lies.
-    int8_t cellAlong[3], cellAcross[3];
-    uint8_t cellPosition;  // where the cell was measured
-    uint16_t cellArea;
-    int16_t place[3], height;
+    int8_t way[3];       // along the path, 1.0 = 127
+    uint16_t area;
 };
 
 // Receives the seeds of a primitive, ring by ring, in the object's own space (Appendix C: "canonical" space). It is run

@@ -18,12 +18,30 @@ int8_t toCell(int32_t steps)
     return static_cast<int8_t>(steps > 127 ? 127 : steps < -127 ? -127 : steps);
 }
 
-// Half axes of a seed's cell in 1/64 spacing; `inverse` is 64 / spacing.
-void setCell(int8_t* to, const Vector& half, Real inverse)
+// A half axis of a seed's cell in 1/64 spacing; `inverse` is 64 / spacing.
+void setAxis(int8_t* to, const Vector& half, Real inverse)
 {
     const Real parts[] = {half.x, half.y, half.z};
     for (int i = 0; i < 3; ++i)
         to[i] = toCell(floorToInt(parts[i] * inverse + Real(0.5)));
+}
+
+// Which way the path leads.
+void setWay(Seed& s)
+{
+    const Normal n = normalise(s.path);
+    s.way[0] = toCell((n.x * 127 + 8192) >> 14);
+    s.way[1] = toCell((n.y * 127 + 8192) >> 14);
+    s.way[2] = toCell((n.z * 127 + 8192) >> 14);
+}
+
+// The area of the cell of a seed that rests, with its normal there.
+void setArea(Seed& s, const Direction14& n)
+{
+    const int8_t *const a = s.along, *const b = s.across;
+    const int32_t area = ((a[1] * b[2] - a[2] * b[1]) * n.x + (a[2] * b[0] - a[0] * b[2]) * n.y +
+                          (a[0] * b[1] - a[1] * b[0]) * n.z) >> 14;
+    s.area = static_cast<uint16_t>((area < 0 ? -area : area) + 1);
 }
 
 // First run of layOutSeeds(): how much of everything there is. Between two rings with different roots lie oversampled
@@ -93,9 +111,8 @@ public:
         s.root = static_cast<uint16_t>(root);
         s.flags = SEED_VALID | SEED_RESTING;
         s.still = 0;
-        s.cellArea = 0;
-        setCell(s.along, object_.stretchedOut(along), inverseSpacing_);
-        setCell(s.across, object_.stretchedOut(across), inverseSpacing_);
+        setAxis(s.along, object_.stretchedOut(along), inverseSpacing_);
+        setAxis(s.across, object_.stretchedOut(across), inverseSpacing_);
     }
 
 private:
@@ -218,8 +235,8 @@ void SoftObject::Layout::closeGap(Seed& s, Seed& n) const
     const Real gap = absolute(dot(apart, a * (Real(1) / half)));
     if (gap <= both)
         return;
-    setCell(s.across, a, gap / both);
-    setCell(n.across, b, gap / both);
+    setAxis(s.across, a, gap / both);
+    setAxis(n.across, b, gap / both);
 }
 
 // Regular seeds and their roots. False: no room for them, or it was stopped.
@@ -413,6 +430,8 @@ Seed* SoftObject::layOutBlock(int at)
         if (warped_)
             warpExtra(plain, block[i]);
         block[i].normal = restNormal(block[i]);
+        block[i].area = 0;
+        setWay(block[i]);
     }
     laid_.extras[at] = block;
     return block;
@@ -465,16 +484,16 @@ Direction14 SoftObject::warpSeed(const Seed& plain, const Vector& plainRoot, See
     const Real part(1.0 / 16384);
     to.path = warp_.out((plainRoot + plain.path) * (Real(CORE_SIZE) / laid_.size), way) * shiftDown(laid_.size, 4) - root(to.root);
     const auto cell = [&](const int8_t from[3], int8_t into[3]) {
-        setCell(into, warp_.stepOut(way, {Real(static_cast<int>(from[0])), Real(static_cast<int>(from[1])), Real(static_cast<int>(from[2]))}),
+        setAxis(into, warp_.stepOut(way, {Real(static_cast<int>(from[0])), Real(static_cast<int>(from[1])), Real(static_cast<int>(from[2]))}),
                 Real(1));
     };
     cell(plain.along, to.along);
     cell(plain.across, to.across);
-    to.cellArea = 0;
-    to.flags &= static_cast<uint8_t>(~SEED_MEASURED);
+    setWay(to);
     const Direction14& square = plain.normal;
     const Direction14 normal = direction(warp_.slopeOut(way, {part * Real(static_cast<int>(square.x)), part * Real(static_cast<int>(square.y)),
                                                part * Real(static_cast<int>(square.z))}));
+    setArea(to, normal);
     if (to.flags & SEED_RESTING)
         to.normal = normal;
     return normal;
@@ -521,8 +540,7 @@ void SoftObject::reshape()
             s.path = fresh.path;
             memcpy(s.along, fresh.along, sizeof s.along);
             memcpy(s.across, fresh.across, sizeof s.across);
-            s.cellArea = 0;
-            s.flags &= static_cast<uint8_t>(~SEED_MEASURED);
+            setWay(s);
             if (s.flags & SEED_RESTING)
                 s.normal = restNormal(s);
         }
@@ -571,8 +589,12 @@ bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObje
     Layout before = laid_;
     laid_ = layout;
     for (int ring = 0; like == nullptr && ring < laid_.rings && !stopAsked(); ++ring)
-        for (int i = laid_.ringStarts[ring]; i < laid_.ringStarts[ring + 1]; ++i)
-            laid_.seeds[i].normal = plainNormal(laid_.rest(laid_.seeds[i]), laid_.seeds[i].path);
+        for (int i = laid_.ringStarts[ring]; i < laid_.ringStarts[ring + 1]; ++i) {
+            Seed& s = laid_.seeds[i];
+            s.normal = plainNormal(laid_.rest(s), s.path);
+            setWay(s);
+            setArea(s, s.normal);
+        }
     const bool warps = !warped_ || keepPlain(laid_);
     if (warped_ && warps)
         reshape();

@@ -72,7 +72,6 @@ void setPatch(const SoftObject& object, Patch& patch)
     patch.radius = static_cast<int16_t>(steps16(lengthOf(radius) + shiftDown(object.spacing(), 1)) + 2);
     patch.tight = static_cast<int16_t>(steps16(lengthOf(radius)) + 1);
     patch.path = static_cast<int16_t>(steps16(path) + 1);
-    patch.bend.stale = true;
 }
 
 void beginPatch(const SoftObject& object, Patch& patch)
@@ -84,7 +83,7 @@ void beginPatch(const SoftObject& object, Patch& patch)
     patch.due = patch.listDue = 0;
     memset(patch.listed, 0, sizeof patch.listed);
     memset(patch.near, 0, sizeof patch.near);
-    patch.voxels = nullptr;
+    patch.bend.known = false;
 }
 
 struct Step {
@@ -300,11 +299,13 @@ void makePatches(const SoftObject& object, Patch* patches)
     });
 }
 
-void reshapePatches(const SoftObject& object, Patch* patches, int count)
+void reshapePatches(const SoftObject& object, Patch* patches, int count, uint32_t reading)
 {
     for (int i = 0; i < count; ++i) {
         setPatch(object, patches[i]);
-        patches[i].due = patches[i].listDue = 0;
+        patches[i].due = reading;
+        patches[i].stale = true;
+        patches[i].bend.known = false;
     }
 }
 
@@ -315,7 +316,7 @@ bool restsAway(const Patch& patch, const OwnFrame& own)
                           (patch.middle[1] < 0 ? -patch.middle[1] : patch.middle[1]) +
                           (patch.middle[2] < 0 ? -patch.middle[2] : patch.middle[2]);
     const int32_t doubt = (((own.distance32 >> 1) + aside) * patch.spread >> 14) + patch.radius;
-    return facing(patch, toEyeFrom(above(patch, 0), own)) < -doubt;
+    return facing(patch, toEyeFrom(above(patch, 0), own)) < ((own.distance32 >> 1) * own.limb >> 14) - doubt;
 }
 
 Bound boundOf(const Patch& patch, int32_t restRadius)
@@ -332,6 +333,13 @@ Bound boundOf(const Patch& patch, int32_t restRadius)
 bool reaches(const Neighbour& near, const Bound& ball)
 {
     return within(fromCore(near, {ball.x, ball.y, ball.z}), near.size16 + ball.radius);
+}
+
+bool isWithin(const Patch& patch, const Neighbour& near, Real position, Real part)
+{
+    const int32_t at = rawFromReal(position) >> 10, size = near.size16 * (rawFromReal(part) >> 8) >> 8;
+    const int32_t left = size - (patch.tight * (at > 64 ? at : 64) >> 6);
+    return left > 0 && within(fromCore(near, above(patch, patch.path * (at - 64) >> 6)), left);
 }
 
 void classify(Patch& patch, const Neighbourhood& all)

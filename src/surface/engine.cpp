@@ -4,6 +4,7 @@
 #include "math/alloc.h"
 #include "model/stop.h"
 #include "paint.h"
+#include "rt.h"
 #include "settle.h"
 #include "shade.h"
 
@@ -12,17 +13,10 @@ namespace {
 // So many patches are updated before the user is asked whether to go on.
 constexpr int ASKED_EVERY = 32;
 
-// Spacing from which on patches keep their voxels, units.
-constexpr Real KEPT_FROM(1);
-
 class Engine : public Surface {
 public:
     explicit Engine(SoftObject& object) : object_(object) {}
-    ~Engine() override
-    {
-        free(patches_);
-        free(voxels_);
-    }
+    ~Engine() override { free(patches_); }
 
     // False: no memory.
     bool open()
@@ -32,14 +26,6 @@ public:
         if (patches_ == nullptr)
             return false;
         makePatches(object_, patches_);
-        // Of the finest seeds there are too many for their voxels to be kept.
-        if (object_.spacing() < KEPT_FROM)
-            return true;
-        voxels_ = allocate<Voxel>(static_cast<uint32_t>(count_ * PATCH_VOXELS));
-        if (voxels_ == nullptr)
-            return false;
-        for (int i = 0; i < count_; ++i)
-            patches_[i].voxels = voxels_ + i * PATCH_VOXELS;
         return true;
     }
 
@@ -49,25 +35,12 @@ public:
 
 private:
     SoftObject& object_;
-    bool turned(const int32_t* light);
 
     Odometer odometer_;
     uint32_t updates_ = 0;
-    int32_t light_[3] = {0, 0, 0};  // at the last update, own axes
-    ViewBefore before_;
     Patch* patches_ = nullptr;
-    Voxel* voxels_ = nullptr;  // of the patches
     int count_ = 0;
 };
-
-// Whether the light comes from another side of the object than at the last update.
-bool Engine::turned(const int32_t* light)
-{
-    const bool same = light[0] == light_[0] && light[1] == light_[1] && light[2] == light_[2];
-    for (int i = 0; i < 3; ++i)
-        light_[i] = light[i];
-    return !same;
-}
 
 // The patches keep their states, but all of them are looked at. Seeds are searched from where they are: the paths of those that
 // were found lead elsewhere now, so that nothing of what is known of them holds.
@@ -76,14 +49,14 @@ void Engine::reshape()
     const auto forget = [](Seed& s) {
         if ((s.flags & (SEED_VALID | SEED_RESTING)) == SEED_VALID)
             s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_COVERED);
+        s.flags &= static_cast<uint8_t>(~SEED_OFF);
     };
     for (int i = 0; i < object_.seedSlots(); i += 2) {
         forget(object_.regular(i));
         if (object_.extra(i) != nullptr)
             forget(*object_.extra(i));
     }
-    reshapePatches(object_, patches_, count_);
-    light_[0] = INT32_MAX;  // what rests is lit anew
+    reshapePatches(object_, patches_, count_, odometer_.reading());
 }
 
 // Gather what reaches the object, classify its patches, settle those that are due.
@@ -96,7 +69,6 @@ void Engine::update(const FrameContext& frame)
     gather(object_, frame, all);
     const bool known = odometer_.advance(object_, own, all, frame.bodies->version());
     Settler settler(object_, own, all, frame, odometer_, ++updates_);
-    const bool lightTurned = turned(own.light);
     bool displaced = false;
     Patch* const end = patches_ + count_;
     for (Patch* patch = patches_; patch < end; ++patch) {
@@ -111,10 +83,8 @@ void Engine::update(const FrameContext& frame)
         if (!settler.setPatch(*patch) && all.rests) {
             if (patch->state != PATCH_REST) {
                 // Where its seeds are now, others may reach them.
-                rest(object_, *patch, own);
+                rest(object_, *patch);
                 classify(*patch, all);
-            } else if (lightTurned) {
-                light(object_, *patch, own);
             }
             patch->state = PATCH_REST;
             if (!settler.setPatch(*patch))
@@ -127,19 +97,20 @@ void Engine::update(const FrameContext& frame)
             patch->due = odometer_.reading();
             continue;
         }
-        if (known && patch->state != PATCH_REST && !isDue(odometer_.reading(), patch->due)) {
-            if (lightTurned && patch->state == PATCH_MIXED)
-                light(object_, *patch, own);
+        if (known && patch->state != PATCH_REST && !isDue(odometer_.reading(), patch->due))
+            continue;
+        if (settler.isCovered(*patch)) {
+            cover(object_, *patch);
             continue;
         }
-        if (patch->state == PATCH_INSIDE && settler.stillInside(*patch))
-            continue;
         patch->state = settler.probe(*patch);
         patch->settled = patch->state == PATCH_MIXED;
-        if (patch->settled)
+        if (patch->settled) {
             settler.settleRest(*patch);
-        else
+            patch->bend.stale = true;
+        } else {
             sleep(object_, *patch);
+        }
     }
     for (Patch* patch = patches_; patch < end; ++patch)
         if (patch->settled)
@@ -159,9 +130,7 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
         return;
     }
     const Paint* const paint = shown->paint();
-    if (paint != nullptr && *next == 0)
-        polish(object_, own);
-    const int at = shadePatches(object_, own, frame, patches_, count_, *next, before_, list, room);
+    const int at = shadePatches(object_, own, frame, patches_, count_, *next, static_cast<int>(updates_ & 0xffff), list, room);
     *next = at < count_ ? at : 0;
     // With another ramp than its own, the whole object is to be seen in that one.
     if (paint != nullptr && shown->ramp() == paint->ramp)

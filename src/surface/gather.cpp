@@ -91,13 +91,19 @@ OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
     const Real most(1000);
     const Vector toEye = frame.eye - object.centre();
     own.eye = object.toOwnAxes({clamp(toEye.x, -most, most), clamp(toEye.y, -most, most), clamp(toEye.z, -most, most)});
-    own.eye32[0] = rawFromReal(own.eye.x) >> 11;
-    own.eye32[1] = rawFromReal(own.eye.y) >> 11;
-    own.eye32[2] = rawFromReal(own.eye.z) >> 11;
+    const Vector eye = object.size() == object.laidSize() ? own.eye : own.eye * quotient(Real(1), own.growth);
+    own.eye32[0] = rawFromReal(eye.x) >> 11;
+    own.eye32[1] = rawFromReal(eye.y) >> 11;
+    own.eye32[2] = rawFromReal(eye.z) >> 11;
     // An eye in the very centre is taken for one beside it.
-    own.distance32 = (rawFromReal(nearLength(own.eye)) >> 11) + 1;
+    own.distance32 = (rawFromReal(nearLength(eye)) >> 11) + 1;
     if (own.distance32 < 4)
         own.distance32 = 4;
+    // Of what is near the eye the parts are nearer than the centre, and face it by as much less of that distance.
+    const Real extent = object.shaped() ? object.laidReach() : object.coreReach() / own.growth + object.laidRadius();
+    const int32_t extent32 = rawFromReal(extent) >> 11;
+    const int32_t limb = object.isBall() ? LIMB_OF_BALL : LIMB;
+    own.limb = own.distance32 > extent32 ? mulDiv(limb, own.distance32 - extent32, own.distance32) : 0;
     axisInOwn(object, frame.light, own.light);
     axisInOwn(object, frame.axes.right, own.right);
     axisInOwn(object, frame.axes.up, own.up);

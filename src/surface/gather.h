@@ -66,11 +66,12 @@ struct Neighbourhood {
     int8_t numberOf[SLOTS_MAX];
 };
 
-// The frame as one object sees it: own axes, counted from its centre, in units of the world.
+// The frame as one object sees it: own axes, counted from its centre.
 struct OwnFrame {
-    Vector eye;
-    int32_t eye32[3];             // the same, 1/32 unit
-    int32_t distance32;           // of the eye, 1/32 unit
+    Vector eye;                   // units of the world
+    int32_t eye32[3];             // the same, 1/32 unit of own space
+    int32_t distance32;           // of the eye, 1/32 unit of own space
+    int32_t limb;                 // what faces the eye by no more than this cosine is not drawn, 1.0 = 2^14
     int32_t light[3];             // unit vector towards the light, 1.0 = 2^14
     int32_t right[3], up[3], ahead[3];  // axes of the view, 1.0 = 2^14
     Real growth;                  // units of the world in a unit of own space
@@ -86,13 +87,8 @@ struct OwnFrame {
 // Steps of brightness: 0..63, the 64-step ramp.
 constexpr int BRIGHTEST = 63;
 
-// Brightness of a surface that faces along `normal` under a light from `light` (both 1.0 = 2^14): Lambert's cosine, 8 bits of
-// fraction, 0..63 * 256 (report, The Rendering Technique).
-inline int16_t brightness8(const Direction14& normal, const int32_t light[3])
-{
-    const int32_t cosine = (normal.x * light[0] + normal.y * light[1] + normal.z * light[2]) >> 14;
-    return static_cast<int16_t>(cosine <= 0 ? 0 : cosine * BRIGHTEST >> 6);
-}
+// On a ball a scale that is seen nearly edge-on adds next to nothing to those before it; on flat parts it may be all there is.
+constexpr int32_t LIMB_OF_BALL = 1300, LIMB = 1 << 7;
 
 OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame);
 

@@ -3,6 +3,7 @@
 
 #include "math/normal.h"
 #include "rt.h"
+#include "voxels.h"
 
 namespace {
 
@@ -63,13 +64,13 @@ constexpr int32_t LEAST_AREA = 200;
 // Spacings: no scale reaches farther along the surface.
 constexpr Real FARTHEST(2);
 
-// The ray of sight through a voxel: how far it leads aside over a unit of depth, 12 bits of fraction.
+// The ray of sight through a voxel: how far it leads aside over a unit of depth, 10 bits of fraction.
 struct Shear {
     int32_t x, y;
 
     Shear(const VoxelList& list, const Voxel& voxel)
     {
-        const int32_t depth = (list.z + voxel.z) >> 4, most = 5 << 12;
+        const int32_t depth = (list.z + voxel.z) >> 2, most = 5 << 10;
         x = depth <= 0 ? 0 : limited(((list.x + voxel.x) << 8) / depth, most);
         y = depth <= 0 ? 0 : limited(((list.y + voxel.y) << 8) / depth, most);
     }
@@ -78,33 +79,8 @@ struct Shear {
 // Change of brightness (1/8 step) from the middle of a scale to its corner below which it has one brightness.
 constexpr int32_t FLAT = 8;
 
-// By how much the two sides of an edge overlap, 1/256 unit.
-constexpr int32_t EDGE_MARGIN = 40;
-
-// Ends a voxel at a straight line: inwards of it leads (x, y, z), axes of the view, 1.0 = 2^14, and the middle is `apart` inwards,
-// 1/256 unit. False: nothing is left.
-bool cutVoxel(int32_t x, int32_t y, int32_t z, int32_t apart, const Shear& shear, Voxel* voxel)
-{
-    // A step across the view leads along the ray as well, as far as the scale is tilted.
-    const int32_t ahead = z + ((x * shear.x + y * shear.y) >> 12);
-    int32_t cutX = x + (voxel->tiltX * (ahead >> 2) >> 6), cutY = y + (voxel->tiltY * (ahead >> 2) >> 6);
-    int32_t at = (apart + EDGE_MARGIN) * 64, unit = ONE;
-    while (magnitude(cutX) > 127 || magnitude(cutY) > 127) {
-        cutX >>= 1;
-        cutY >>= 1;
-        at >>= 1;
-        unit >>= 1;
-    }
-    const int32_t corner = (magnitude(cutX) * voxel->wide + magnitude(cutY) * voxel->high) >> 8;
-    if (unit < 16 || at >= corner)
-        return true;
-    if (at <= -corner)
-        return false;
-    voxel->cutX = static_cast<int8_t>(cutX);
-    voxel->cutY = static_cast<int8_t>(cutY);
-    voxel->cutAt = static_cast<int16_t>(limited(at, 32000));
-    return true;
-}
+// Differences of brightness (1/256 step) between seeds beside each other that make less than that on the scale of one of them.
+constexpr int32_t EVEN = 256;
 
 // Sets how the brightness changes across a voxel, 1/8 step a unit; not at all when that is next to nothing.
 void setSlopes(int32_t x, int32_t y, Voxel* voxel)
@@ -134,33 +110,31 @@ Real wave(Real turns)
 
 }  // namespace
 
-void polish(SoftObject& object, const OwnFrame& own)
+Polish::Polish(const SoftObject& object, const OwnFrame& own) : own_(own), mirror_(object.shown()->paint()->finish == FINISH_MIRROR)
 {
-    const Finish finish = object.shown()->paint()->finish;
-    if (finish == FINISH_MATT)
-        return;
     const Vector up = object.toOwnAxes({Real(0), Real(1), Real(0)});
-    const int32_t up14[] = {rawFromReal(up.x) >> 2, rawFromReal(up.y) >> 2, rawFromReal(up.z) >> 2};
     const Normal half = normalise({realFromRaw((own.light[0] - own.ahead[0]) * 4), realFromRaw((own.light[1] - own.ahead[1]) * 4),
                                    realFromRaw((own.light[2] - own.ahead[2]) * 4)});
-    const int32_t half14[] = {half.x, half.y, half.z};
-    const int32_t upAhead = (up14[0] * own.ahead[0] + up14[1] * own.ahead[1] + up14[2] * own.ahead[2]) >> 14;
-    for (int i = 0; i < object.seedSlots(); ++i) {
-        Seed* const seed = i & 1 ? object.extra(i - 1) : &object.seed(i);
-        if (seed == nullptr || !(seed->flags & SEED_VALID))
-            continue;
-        Seed& s = *seed;
-        int32_t light;
-        if (finish == FINISH_SHINY) {
-            const int32_t cosine = along(s.normal, own.light);
-            light = cosine <= 0 ? 0 : times(cosine, SCATTERED);
-        } else {
-            light = surroundings(upAhead - 2 * times(along(s.normal, own.ahead), along(s.normal, up14)));
-        }
-        light += times(ONE - light, highlight(along(s.normal, half14)));
-        light = light > ONE ? ONE : light < 0 ? 0 : light;
-        s.brightness8 = static_cast<int16_t>(light * BRIGHTEST >> 6);
+    up_[0] = rawFromReal(up.x) >> 2;
+    up_[1] = rawFromReal(up.y) >> 2;
+    up_[2] = rawFromReal(up.z) >> 2;
+    half_[0] = half.x;
+    half_[1] = half.y;
+    half_[2] = half.z;
+    upAhead_ = (up_[0] * own.ahead[0] + up_[1] * own.ahead[1] + up_[2] * own.ahead[2]) >> 14;
+}
+
+int32_t Polish::brightness8(const Direction14& normal) const
+{
+    int32_t light;
+    if (mirror_) {
+        light = surroundings(upAhead_ - 2 * times(along(normal, own_.ahead), along(normal, up_)));
+    } else {
+        const int32_t cosine = along(normal, own_.light);
+        light = cosine <= 0 ? 0 : times(cosine, SCATTERED);
     }
+    light += times(ONE - light, highlight(along(normal, half_)));
+    return (light > ONE ? ONE : light < 0 ? 0 : light) * BRIGHTEST >> 6;
 }
 
 // What the pattern has at a place: the number of the colour there; and if an edge of the pattern is near, the number of the
@@ -173,7 +147,8 @@ struct Painter::Spot {
 };
 
 Painter::Painter(const SoftObject& object, const OwnFrame& own, VoxelList& list)
-    : object_(object), paint_(*object.shown()->paint()), own_(own), list_(list), from_{Real(0), Real(0), Real(0)}
+    : object_(object), paint_(*object.shown()->paint()), own_(own), polish_(object, own), list_(list),
+      from_{Real(0), Real(0), Real(0)}
 {
     if (paint_.pattern == PATTERN_NONE)
         return;
@@ -201,8 +176,10 @@ void Painter::put(const Voxel& voxel, uint8_t number)
 void Painter::add(const Seed& s, const Voxel& shaded)
 {
     Voxel voxel = shaded;
-    if (paint_.shines())
+    if (paint_.shines()) {
+        voxel.brightness = static_cast<uint8_t>((polish_.brightness8(s.normal) + 128) >> 8);
         slope(s, &voxel);
+    }
     const bool mixed = paint_.mixes && !(s.flags & SEED_RESTING);
     const Spot spot = spotAt(place(s), s.normal, mixed ? s.mix : paint_.number);
     if (!spot.edge || (voxel.cutX | voxel.cutY) != 0) {
@@ -235,6 +212,10 @@ void Painter::slope(const Seed& s, Voxel* voxel) const
     const Seed& n = object_.seed(s.neighbour);
     if (!(next->flags & n.flags & SEED_VALID))
         return;
+    const int32_t here = polish_.brightness8(s.normal);
+    const int32_t a = polish_.brightness8(next->normal) - here, b = polish_.brightness8(n.normal) - here;
+    if (magnitude(a) + magnitude(b) < EVEN)
+        return;
     const Vector at = place(s);
     const Shear shear(list_, *voxel);
     // A way on the surface as it falls on the picture plane, 1/64 unit.
@@ -242,8 +223,8 @@ void Painter::slope(const Seed& s, Voxel* voxel) const
         const Vector way = (place(to) - at) * own_.growth;
         const int32_t d[] = {rawFromReal(way.x) >> 10, rawFromReal(way.y) >> 10, rawFromReal(way.z) >> 10};
         const int32_t ahead = (d[0] * own_.ahead[0] + d[1] * own_.ahead[1] + d[2] * own_.ahead[2]) >> 14;
-        *x = ((d[0] * own_.right[0] + d[1] * own_.right[1] + d[2] * own_.right[2]) >> 14) - (ahead * shear.x >> 12);
-        *y = ((d[0] * own_.up[0] + d[1] * own_.up[1] + d[2] * own_.up[2]) >> 14) - (ahead * shear.y >> 12);
+        *x = ((d[0] * own_.right[0] + d[1] * own_.right[1] + d[2] * own_.right[2]) >> 14) - (ahead * shear.x >> 10);
+        *y = ((d[0] * own_.up[0] + d[1] * own_.up[1] + d[2] * own_.up[2]) >> 14) - (ahead * shear.y >> 10);
     };
     int32_t ax, ay, bx, by;
     onPicture(*next, &ax, &ay);
@@ -251,13 +232,13 @@ void Painter::slope(const Seed& s, Voxel* voxel) const
     const int32_t area = ax * by - ay * bx;
     if (area > -LEAST_AREA && area < LEAST_AREA)
         return;
-    const int32_t a = next->brightness8 - s.brightness8, b = n.brightness8 - s.brightness8;
     setSlopes((a * by - b * ay) * 2 / area, (b * ax - a * bx) * 2 / area, voxel);
 }
 
 bool Painter::cut(const Direction14& inward, int32_t apart, Voxel* voxel) const
 {
-    return cutVoxel(along(inward, own_.right), along(inward, own_.up), along(inward, own_.ahead), apart, Shear(list_, *voxel), voxel);
+    const Shear shear(list_, *voxel);
+    return cutVoxel(along(inward, own_.right), along(inward, own_.up), along(inward, own_.ahead), apart, shear.x, shear.y, voxel);
 }
 
 // `place` in own space, `normal` of the surface there; where there is no pattern the colour has the number `mix`.

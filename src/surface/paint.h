@@ -7,8 +7,20 @@
 #include "model/paint.h"
 #include "surface/voxel.h"
 
-// Sets the brightness of the object's seeds as its finish has it, from their normals.
-void polish(SoftObject& object, const OwnFrame& own);
+// What a finish that shines makes of an object's brightness. Made once for a frame.
+class Polish {
+public:
+    Polish(const SoftObject& object, const OwnFrame& own);
+
+    // Brightness of a surface that faces along `normal`, 0..63 with 8 bits of fraction.
+    int32_t brightness8(const Direction14& normal) const;
+
+private:
+    const OwnFrame& own_;
+    const bool mirror_;
+    int32_t up_[3], half_[3];  // own axes: the height of the world, and what is half way between light and viewer
+    int32_t upAhead_;          // the height of where the viewer looks
+};
 
 // Lists the voxels of one object in their colours. Made once for a frame.
 class Painter {
@@ -29,6 +41,7 @@ private:
     const SoftObject& object_;
     const Paint& paint_;
     const OwnFrame& own_;
+    const Polish polish_;
     VoxelList& list_;
     Vector axis_[3];      // of the pattern, own axes: a ball's seeds do not turn with it, but its pattern does
     Vector from_;         // own space: from the middle of the pattern to the object's centre

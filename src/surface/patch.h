@@ -4,7 +4,6 @@
 #define FB_PATCH_H
 
 #include "gather.h"
-#include "surface/voxel.h"
 
 // The report's overshoot tolerance: by how much a neighbour's field may be stronger than that of a seed's own object.
 constexpr Real OVERSHOOT(0.05);
@@ -12,9 +11,6 @@ constexpr Real OVERSHOOT(0.05);
 // A patch has seeds of this many rings beside each other, and at most so many of each.
 constexpr int PATCH_RINGS = 3;
 constexpr int PATCH_SEEDS = 3;
-constexpr int PATCH_VOXELS = PATCH_RINGS * PATCH_SEEDS;
-
-constexpr int16_t OUT_OF_SIGHT = -1;
 
 enum PatchState : uint8_t {
     PATCH_REST,    // no neighbour reaches it
@@ -23,14 +19,14 @@ enum PatchState : uint8_t {
     PATCH_MIXED,   // its seeds are settled
 };
 
-// How the surface of a patch bends: along two steps on it the normal turns. Lengths as those of Seed::place.
+// How the surface of a patch bends, from the normals of its seeds.
 struct Bend {
-    int32_t inverse;    // 2^30 / area between the steps; 0: it bends as a ball does
-    int32_t most;       // the greatest curvature, 2^24 for 1
-    int16_t dual[2][3]; // times inverse: the vector whose product with a vector says how many of a step that has
-    int16_t turn[2][3]; // of the normal over a step, 1.0 = 2^14
+    int16_t turn[3][3]; // by how much the normal turns along axis i on a way along axis j, 1.0 = 2^13 over 256 steps of places
+                        // (voxels.h); along the normal as much as along the way on which it turns most
     Direction14 normal;
-    bool stale;         // seeds have settled since
+    bool ball;          // it bends as a ball does; nothing else is known
+    bool known;         // it has been measured since the patch rests, or does not any more
+    bool stale;         // seeds have settled since it was measured
 };
 
 // Lengths in 1/16 unit of own space, directions with 1.0 = 2^14.
@@ -42,9 +38,6 @@ struct Patch {
     bool stale;         // its lists have to be made anew
     bool settled;       // its seeds were looked at in this frame
     bool extras;        // oversampled seeds of it take part
-    // The scales of its regular seeds as they were when the patch was shaded last; OUT_OF_SIGHT as their width: there is none.
-    // Null: they are not kept.
-    Voxel* voxels;
     int32_t facing;     // of a settled patch: cosine of the surface in the middle and the direction to the viewer
     int32_t centre;     // slot of the seed in the middle
     int16_t middle[3];  // of where its seeds rest
@@ -59,7 +52,7 @@ struct Patch {
     // Its lists, a bit for the slot of each neighbour: those that may reach some place on its paths, and those that may reach
     // its seeds where they are.
     uint32_t listed[SLOTS_MAX / 32], near[SLOTS_MAX / 32];
-    Bend bend;          // as it was when it was drawn last
+    Bend bend;
 };
 
 // Calls `each` with the slot of every regular seed of a patch.
@@ -94,8 +87,8 @@ int patchesOf(const SoftObject& object);
 // Fills them in.
 void makePatches(const SoftObject& object, Patch* patches);
 
-// Measures them anew, when the seeds rest elsewhere.
-void reshapePatches(const SoftObject& object, Patch* patches, int count);
+// Measures them anew, when the seeds rest elsewhere. They are due at once, by the reading of the odometer.
+void reshapePatches(const SoftObject& object, Patch* patches, int count, uint32_t reading);
 
 // Makes the lists of a patch anew. They hold until a neighbour has come nearer by LIST_SLACK.
 void classify(Patch& patch, const Neighbourhood& all);
@@ -109,6 +102,9 @@ Bound boundOf(const Patch& patch, int32_t restRadius);
 
 // Whether a neighbour's field reaches into a ball.
 bool reaches(const Neighbour& near, const Bound& ball);
+
+// Whether all seeds of a patch, if they were at one position, would lie nearer to a neighbour's core than a part of its size.
+bool isWithin(const Patch& patch, const Neighbour& near, Real position, Real part);
 
 // Whether a patch lies beside the view, where its seeds are.
 bool outOfSight(const Patch& patch, const OwnFrame& own);

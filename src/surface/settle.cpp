@@ -12,15 +12,22 @@ namespace {
 constexpr Real TOLERANCE(0.004);
 // Of the position: after a step as short as this another look would change nothing that is seen.
 constexpr Real SHORT_STEP(0.05);
-constexpr Real LONGEST_STEP(0.25);
+constexpr Real LONGEST_STEP(0.15);
 // Of the field per position: flatter, and Newton's method has no say.
 constexpr Real FLAT(-0.06);
 constexpr int NEWTON_STEPS = 5;
 // Positions: where paths begin to be searched, and those that are hollowed out or of weak objects; and in which steps.
-constexpr Real FIRST(0.7), FIRST_DEEP(0.06), SEARCH_FIRST(0.86), SEARCH_STEP(0.16);
-// Of the field: by how much one neighbour alone must keep a seed off the surface; and how far, in positions, before the place where
-// the path left it.
-constexpr Real BLOCKED(0.03), BEFORE(0.08);
+constexpr Real FIRST(0.7), FIRST_DEEP(0.06), SEARCH_FIRST(0.88), SEARCH_STEP(0.16);
+// At position COVERED_AT the own field is .23. A neighbour whose t is less than `there` at it is stronger by more than the overshoot
+// tolerance; and if its t is less than `atRest` at position 1, then between the two the body's field is above the isovalue. What is
+// not linked with the object must have that field alone. The roots of both.
+constexpr Real COVERED_AT(1.36), BETWEEN(1.18);
+constexpr Cover COVER_LINKED{Real(0.4), Real(0.7), Real(0.632), Real(0.836)};
+constexpr Cover COVER_UNLINKED{Real(0.18), Real(0.18), Real(0.424), Real(0.424)};
+// Of the field: what is linked with the object and this strong is the one that keeps its seeds off the surface.
+constexpr Real COVERING(0.28);
+// Of the field: what missing links take at least to be counted.
+constexpr Real NEGLIGIBLE(0.002);
 // Units: no seed waits while neighbours come so far in a frame.
 constexpr Real HURRY(2);
 // Of the field: a valley this shallow above the isovalue is looked into.
@@ -30,15 +37,20 @@ constexpr Real BORDER(0.25);
 // What a field changes by at most over its size.
 constexpr Real STEEPEST(1.3);
 // Cosine (1.0 = 2^14) by which the middle of a patch must face away, more than its seeds differ, to be out of sight as a whole.
-constexpr int32_t TURNED = 2000;
+constexpr int32_t TURNED = 500;
 // Cosines (1.0 = 2^14) by which a seed faces away that is looked at less often.
 constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000;
-// Position beyond which a path that is hollowed out leaves the surface for good.
-constexpr Real OUTERMOST(0.8);
+// Position beyond which a path that is hollowed out leaves the surface for good; and the one where what closes again over a hollow
+// is found.
+constexpr Real OUTERMOST(0.8), CLOSING(0.95);
+// Of the field, over the size: no field changes by more.
+constexpr Real STEEPEST_OF_ALL(1.6);
 // Spacings: how far beyond the border of its part a seed still has a scale that reaches into it.
 constexpr Real SHARED(1.5);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
 constexpr Real PARTED(1.5);
+// How far the border of two parts of a hollow's wall goes at most when what digs comes by a unit.
+constexpr Real BORDER_SPEED(16);
 // Units: how far neighbours may come at most before a patch that lies inside is looked at again.
 constexpr Real LONGEST_WAIT(6);
 // Positions: by how much a seed may leave the range that those of its patch were found in before all neighbours are asked.
@@ -71,6 +83,16 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& a
 
 void Settler::findComplete(Few& few) const
 {
+    if (common_) {
+        few.complete = true;
+        for (int i = 0; i < few.count && few.complete; ++i) {
+            const int slot = all_.neighbours[few.number[i]].object->slot();
+            few.complete = ownWeights_[slot] == Real(1);
+            for (int j = 0; j < i && few.complete; ++j)
+                few.complete = bodies_.weight(all_.neighbours[few.number[j]].object->slot(), slot) == Real(1);
+        }
+        return;
+    }
     uint32_t members[Bodies::LINK_WORDS] = {};
     const auto add = [&](int slot) { members[slot / 32] |= 1u << slot % 32; };
     const auto linked = [&](int slot) {
@@ -80,15 +102,6 @@ void Settler::findComplete(Few& few) const
             missing |= members[word] & ~(plain[word] | (word == slot / 32 ? 1u << slot % 32 : 0));
         return missing == 0;
     };
-    if (common_) {
-        add(object_.slot());
-        for (int i = 0; i < few.count; ++i)
-            add(all_.neighbours[few.number[i]].object->slot());
-        few.complete = linked(object_.slot());
-        for (int i = 0; i < few.count && few.complete; ++i)
-            few.complete = linked(all_.neighbours[few.number[i]].object->slot());
-        return;
-    }
     if (!hollow_)
         add(object_.slot());
     for (int i = 0; i < few.count; ++i)
@@ -112,7 +125,8 @@ void Settler::setOdd(const Patch& patch)
 {
     if (object_.shaped())
         smallest_ = smallest_ * object_.narrowing();
-    smallest_ = smallest_ / most(object_.strength(), Real(1));
+    if (object_.strength() > Real(1))
+        smallest_ = smallest_ / object_.strength();
     dented_ = all_.inner || hollow_;
     if (all_.dented || hollow_)
         forNeighbours(patch.listed, [&](int slot) {
@@ -129,6 +143,7 @@ bool Settler::setPatch(const Patch& patch, bool oversampled)
     nearest_ = realFromRaw(patch.nearest << 10);
     farthest_ = realFromRaw(patch.farthest << 10);
     patch_ = &patch;
+    turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
     near_.count = 0;
     listed_.count = -1;
     smallest_ = object_.laidSize();
@@ -318,8 +333,9 @@ struct Settler::Sum {
     Sample sample()
     {
         Sample all{sum - ISOVALUE, slope, strongest - settler.ownField_};
+        settler.shared_ = false;
         if (!settler.complete_)
-            settler.template blend<COMMON>(position, all);
+            COMMON ? settler.blend(position, all) : settler.blendOdd(position, all);
         if (!COMMON && settler.hollow_)
             all = {-all.excess, -all.slope, strongest - settler.headField_};
         return all;
@@ -386,12 +402,67 @@ Sample Settler::look(Real position)
     return common_ ? lookAs<true>(position) : lookOdd(position);
 }
 
-// The body's field where not all are linked with all at weight 1 (model/body.h), from the fields that were found. With
+// The body's field where not all are linked with all at weight 1 (model/body.h), from the fields that were found: their sum, less
+// D / Q, with D = sum of (1 - w_ik) f_i f_k (f_i + f_k) over all pairs and Q = sum of f_i^2. Its derivative with respect to f_i is
+// 1 - (sum of (1 - w_ik) f_k (2 f_i + f_k) - 2 f_i D / Q) / Q.
+void Settler::blend(Real position, Sample& sample)
+{
+    // Those that have a field here, the own first.
+    struct Part {
+        Real f, lack;  // F; the sum in its derivative
+        const Real* weights;
+        int slot, at;  // at: its number in along_; -1: the object
+    };
+    Part parts[NEIGHBOURS_MAX + 1];
+    Part* end = parts;
+    Real strongest(0);
+    const auto add = [&](Real f, int slot, int at) {
+        *end++ = {f, Real(0), bodies_.weights(slot), slot, at};
+        strongest = most(strongest, f);
+    };
+    if (ownField_ > Real(0))
+        add(ownField_, object_.slot(), -1);
+    for (int i = 0; i < touched_; ++i)
+        if (along_[i].value > Real(0))
+            add(along_[i].value, along_[i].near->object->slot(), i);
+    // In a crowd all fields are small, and their squares need the digits.
+    const bool faint = strongest < Real(0.125) && strongest > Real(0);
+    for (Part* a = parts; a < end && faint; ++a)
+        a->f = quotient(a->f, strongest);
+    Real lacks(0), squares(0);
+    for (Part* a = parts; a < end; ++a) {
+        squares += a->f * a->f;
+        for (Part* b = parts; b < a; ++b) {
+            const Real w = b->weights[a->slot];
+            if (w == Real(1))
+                continue;
+            const Real one = w == Real(0) ? a->f : a->f - w * a->f, sum = a->f + b->f, product = one * b->f;
+            lacks += product * sum;
+            a->lack += product + (w == Real(0) ? b->f : b->f - w * b->f) * sum;
+            b->lack += product + one * sum;
+        }
+    }
+    if (absolute(lacks) <= squares * NEGLIGIBLE)
+        return;
+    const Real inverse = quotient(Real(1), squares), lack = lacks * inverse, twice = lack + lack;
+    sample.excess -= faint ? lack * strongest : lack;
+    shared_ = true;
+    for (int i = 0; i <= touched_; ++i)
+        share_[i] = Real(1);
+    for (const Part* a = parts; a < end; ++a) {
+        const Real lost = (a->lack - a->f * twice) * inverse;
+        const Real rate = a->at < 0 ? shiftDown(ownSlope_ * position, 1) : along_[a->at].slope * along_[a->at].change;
+        share_[a->at + 1] = Real(1) - lost;
+        sample.slope -= lost * rate;
+    }
+}
+
+// The same where something digs, or strengths differ (model/body.h). With
 // x_i = f_i / the strongest, dF/df_k = (2 x_k (g_k - F) / strongest + x_k^2 + sum of w_ik x_i^2) / sum of x_i^2; of what digs
 // only the last sum, in which its weights are below 0.
-template <bool COMMON>
-SELDOM void Settler::blend(Real position, Sample& sample)
+void Settler::blendOdd(Real position, Sample& sample)
 {
+    shared_ = true;
     // Those that have a field here, the own first.
     struct Part {
         Real f, rate;       // F, dF/dp
@@ -403,10 +474,10 @@ SELDOM void Settler::blend(Real position, Sample& sample)
     Part* end = parts;
     Real strongest(0);
     share_[0] = Real(1);
-    if (ownField_ > Real(0) && (COMMON || !hollow_)) {
+    if (ownField_ > Real(0) && !hollow_) {
         strongest = ownField_;
         end->f = end->g = ownField_;
-        end->rate = COMMON ? shiftDown(ownSlope_ * position, 1) : ownRate(position);
+        end->rate = ownRate(position);
         end->linked = Real(0);
         end->weights = ownWeights_;
         end->slot = object_.slot();
@@ -416,7 +487,7 @@ SELDOM void Settler::blend(Real position, Sample& sample)
     for (int i = 0; i < touched_; ++i) {
         const Along& along = along_[i];
         share_[i + 1] = Real(1);
-        if (along.value <= Real(0) || (!COMMON && along.near->digs))
+        if (along.value <= Real(0) || along.near->digs)
             continue;
         strongest = most(strongest, along.value);
         end->f = end->g = along.value;
@@ -427,7 +498,7 @@ SELDOM void Settler::blend(Real position, Sample& sample)
         end->at = i + 1;
         ++end;
     }
-    bool plain = COMMON || (!all_.inner && !dented_);
+    bool plain = !all_.inner && !dented_;
     if ((plain && end - parts < 2) || strongest <= Real(0.0005))
         return;
     for (const Part* a = parts + 1; a < end && plain; ++a)
@@ -451,7 +522,7 @@ SELDOM void Settler::blend(Real position, Sample& sample)
             a->linked += one ? b->x2 : w * b->x2;
             b->linked += one ? a->x2 : w * a->x2;
         }
-        if (!COMMON && all_.inner)
+        if (all_.inner)
             for (Part* b = parts; b < a; ++b) {
                 // What B digs into A by more than A into B.
                 const Real w = a->weights[b->slot] - b->weights[a->slot];
@@ -470,9 +541,9 @@ SELDOM void Settler::blend(Real position, Sample& sample)
         share_[at] = linked;
         digging += linked * rate;
     };
-    if (!COMMON && hollow_)
+    if (hollow_)
         dig(ownField_, ownRate(position), object_.slot(), 0);
-    for (int i = 0; i < touched_ && !COMMON && all_.dented; ++i)
+    for (int i = 0; i < touched_ && all_.dented; ++i)
         if (along_[i].near->digs)
             dig(along_[i].value, along_[i].slope * along_[i].change, along_[i].near->object->slot(), i + 1);
     for (const Part* a = parts; a < end; ++a)
@@ -486,8 +557,6 @@ SELDOM void Settler::blend(Real position, Sample& sample)
         slope += part * a->rate;
     }
     sample.slope = slope;
-    if (COMMON)
-        return;
     sample.slope += digging * share;
     if (hollow_)
         share_[0] = share_[0] * share;
@@ -543,6 +612,16 @@ void Settler::bisect(Real inside, Real outside, Real* position, Sample* sample)
 // where it had a valley before. When the path leaves it nowhere, `*sample` exceeds it as well.
 Real Settler::search(Real* position, Sample* sample)
 {
+    *position = COVERED_AT;
+    *sample = look(COVERED_AT);
+    if (sample->excess > Real(0) && sample->dominance > OVERSHOOT) {
+        // Another object is the stronger for good. Has the path left the surface before?
+        Real lowest = least(sample->excess, look(Real(1)).excess);
+        if (lowest < VALLEY)
+            lowest = least(lowest, look(BETWEEN).excess);
+        if (lowest > Real(0))
+            return least(lowest, sample->dominance - OVERSHOOT);
+    }
     Real before = SEARCH_FIRST;
     Sample there = look(before);
     Real lowest(9);
@@ -592,51 +671,125 @@ Real Settler::search(Real* position, Sample* sample)
     return lowest;
 }
 
+// What the fields along the path at hand change by at most, all together, when the neighbours come by a unit.
+Real Settler::pushMost() const
+{
+    Real sum(0);
+    for (int i = 0; i < touched_; ++i)
+        sum += along_[i].near->push16 * along_[i].near->strength;
+    return shiftDown(sum * STEEPEST_OF_ALL, complete_ ? 4 : 3);
+}
+
 // The same for a path that is hollowed out, or a weak object's: the last place where the path leaves the surface, for what lies
-// before it is hidden; of those where no neighbour is stronger, if there are any. In a hollow it is the first.
+// before it is hidden; of those where no neighbour is stronger, if there are any. In a hollow it is the first. What is far from
+// the surface is taken in long steps. Where nothing is found `off_` says by how much of the field.
 Real Settler::searchDeep(Real* position, Sample* sample)
 {
-    Real before = first_, lowest(9), from[2], to[2];
-    bool found[2] = {false, false};
-    Sample there = look(before);
-    while (before < last_) {
-        const Real at = least(before + SEARCH_STEP, last_);
-        const Sample now = look(at);
-        Real inside = before;
-        bool leaves = there.excess > Real(0) && now.excess <= Real(0);
-        if (there.excess <= Real(0) && now.excess <= Real(0) && there.slope > Real(0) && now.slope < Real(0)) {
-            // A hill between the two: its top is about where straight slopes cross 0.
-            inside = before + (at - before) * (there.slope / (there.slope - now.slope));
-            leaves = look(inside).excess > Real(0);
-        }
-        if (leaves) {
-            const bool own = least(there.dominance, now.dominance) <= OVERSHOOT;
-            found[own] = true;
-            from[own] = inside;
-            to[own] = at;
-            if (hollow_)
-                break;
-        }
-        if (now.excess < lowest) {
-            lowest = now.excess;
+    // What the sum of the fields changes by at most over a position.
+    Real own = shiftDown(object_.strength() * (hollow_ ? most(all_.weight, Real(1)) : Real(1)), 1) * STEEPEST_OF_ALL;
+    if (warped_)
+        own = own * (object_.longestPath() / (object_.laidRadius() * object_.narrowing()));
+    const Real half = quotient(Real(0.5), own + pushMost() * object_.longestPath()), end = hollow_ ? last_ : first_;
+    Real at = hollow_ ? first_ : last_, deepest(9), highest(-9), inside(0), outside(0);
+    bool found = false;
+    Sample now = look(at);
+    while (true) {
+        if (now.excess < deepest) {
+            deepest = now.excess;
             *position = at;
             *sample = now;
         }
-        before = at;
-        there = now;
+        highest = most(highest, now.excess);
+        if (at == end)
+            break;
+        const Real before = at, step = absolute(now.excess) * half;
+        const Sample there = now;
+        at = hollow_ ? least(at + most(step, SEARCH_STEP), end) : most(at - most(step, SEARCH_STEP), end);
+        now = look(at);
+        if (step > SEARCH_STEP) {
+            // Between the two it is no nearer to the surface than this.
+            const Real between = shiftDown(shiftDown(there.excess, 1) + now.excess, 1);
+            deepest = least(deepest, between);
+            highest = most(highest, between);
+        }
+        const Sample &inner = hollow_ ? there : now, &outer = hollow_ ? now : there;
+        const Real in = hollow_ ? before : at, out = hollow_ ? at : before;
+        if (outer.excess > Real(0))
+            continue;
+        Real from = in;
+        if (inner.excess <= Real(0)) {
+            if (inner.slope <= Real(0) || outer.slope >= Real(0))
+                continue;
+            // A hill between the two: its top is about where straight slopes cross 0.
+            from = in + (out - in) * (inner.slope / (inner.slope - outer.slope));
+            const Real top = look(from).excess;
+            highest = most(highest, top);
+            if (top <= Real(0))
+                continue;
+        }
+        const bool ours = least(inner.dominance, outer.dominance) <= OVERSHOOT;
+        if (ours || !found) {
+            inside = from;
+            outside = out;
+        }
+        found = true;
+        if (ours || hollow_)
+            break;
     }
-    if (found[0] || found[1]) {
-        bisect(from[found[1]], to[found[1]], position, sample);
+    if (found) {
+        bisect(inside, outside, position, sample);
         sample->excess = Real(0);
         return Real(9);
     }
-    if (lowest <= Real(0)) {
+    if (highest <= Real(0)) {
         // All that is there lies outside.
+        off_ = -highest;
         sample->excess = Real(1);
         *position = Real(1);
         return Real(0);
     }
-    return lowest;
+    off_ = deepest;
+    sample->excess = Real(1);
+    return most(deepest, Real(0));
+}
+
+// Whether a path that led into a hollow may leave the surface farther out again.
+bool Settler::hasClosed(const Seed& s)
+{
+    Sample sample;
+    begin(listed(), s, CLOSING, &sample);
+    return sample.excess > Real(0);
+}
+
+// For how long at most; the fields of those that do not reach the path yet begin gently.
+Real Settler::longestOff() const
+{
+    return touched_ == all_.count ? LONGEST_WAIT : LIST_SLACK;
+}
+
+// A seed of what is dented, or of a hollow, that is not on the surface, or not in its own part of it, by `hold` of the field
+// that changes by `push` when the neighbours come by a unit: until when it need not be looked at.
+void Settler::putOff(Seed& s, Real hold, Real push) const
+{
+    s.flags |= SEED_OFF;
+    s.due = static_cast<uint16_t>(now_ + until(hold, push, longestOff()));
+}
+
+// For how long that is so of all seeds of a patch.
+Way Settler::offFor(const Patch& patch) const
+{
+    Way way = wayOf(LONGEST_WAIT);
+    forSeeds(patch, [&](int i) {
+        const Seed& s = object_.seed(i);
+        const Way seeds = s.flags & SEED_OFF ? static_cast<uint16_t>(s.due - now_) : 0;
+        way = seeds < way ? seeds : way;
+    });
+    return way;
+}
+
+bool Settler::isOff(const Seed& s) const
+{
+    return (s.flags & SEED_OFF) && came_ < LONGEST_WAIT && static_cast<int16_t>(static_cast<uint16_t>(now_) - s.due) < 0;
 }
 
 // Adds half the gradient of the own t at a position, times its squared size and a share: of an object whose paths slant.
@@ -649,8 +802,8 @@ void Settler::addSlanting(Vector& to, Real share, Real position) const
 // away from its core by its slope over its squared size.
 Vector Settler::outward(Real position) const
 {
-    Real own = -(complete_ ? ownSlope_ : ownSlope_ * share_[0]);
-    if (complete_ && hollow_)
+    Real own = -(shared_ ? ownSlope_ * share_[0] : ownSlope_);
+    if (!shared_ && hollow_)
         own = -(own * all_.weight);
     Vector g{Real(0), Real(0), Real(0)};
     // Points push along the path, and from where they stand to the root.
@@ -659,8 +812,8 @@ Vector Settler::outward(Real position) const
         const Along& to = along_[i];
         if (to.slope == Real(0))
             continue;
-        Real slope = complete_ ? to.slope : to.slope * share_[i + 1];
-        if (complete_ && to.near->digs)
+        Real slope = shared_ ? to.slope * share_[i + 1] : to.slope;
+        if (!shared_ && to.near->digs)
             slope = -(slope * to.near->weight);
         const Real push = -(slope * to.near->ratio);
         if (to.near->kind == Neighbour::OTHER) {
@@ -687,11 +840,20 @@ inline __attribute__((always_inline)) Vector Settler::fromCore(const Along& alon
     return along.near->kind == Neighbour::SEGMENT ? v - along.near->direction * (along.k * along.near->size) : v;
 }
 
+// What all other fields make of the lead that one whose paths lead `out` has on one whose paths lead `from`: they are `own` and
+// `steepest` steep, all together push along `g`. With a and b as unit vectors along the paths, (g.a + g.b) / (1 + a.b) is the lead.
+Real Settler::leadOf(const Vector& g, const Vector& out, Real own, const Vector& from, Real steepest) const
+{
+    const Vector a = unit(out), b = unit(from);
+    const Vector rest = (hollow_ ? -g : g) - a * own + b * steepest;
+    return dot(rest, a + b) / most(Real(1) + dot(a, b), Real(0.05));
+}
+
 // A surface that something has dug is sampled twice: by the paths of what is dented, and by those of what digs. Each has the
-// part where its own field is the steeper one, for there its paths are nearer to the normal. Returns how far the seed is on its
-// own side, units, to first order, and sets its border. `*g`, the direction outward, becomes that in the middle of what the
+// part where its paths are nearer to the normal: where its own field is the steeper one, if there are no others. Returns how far the seed is on its
+// own side, units, to first order, and where that is no more than `shared` to either side sets its border. `*g`, the direction outward, becomes that in the middle of what the
 // border leaves of the seed's cell: rims are sharp.
-Real Settler::findShare(Seed& s, Vector* g)
+Real Settler::findShare(Seed& s, Real shared, Vector* g)
 {
     const Real far(30);
     Vector out = path_ * s.position;
@@ -718,6 +880,9 @@ Real Settler::findShare(Seed& s, Vector* g)
     }
     if (other == nullptr)
         return far;
+    Real lead = own - steepest;
+    if (touched_ > 1)
+        lead += leadOf(*g, out, own, from, steepest);
     // What the digging field's steepness changes by over a unit away from its core: F'' is 34/9 - 24/9 t.
     Real t = ownParam(s.position), slope = -ownSlope_, factor = all_.weight, strength = object_.strength();
     if (!hollow_) {
@@ -728,13 +893,17 @@ Real Settler::findShare(Seed& s, Vector* g)
         out = from;
     }
     const Real rate = (slope - strength * t * (Real(68.0 / 9) - t * Real(48.0 / 9))) * factor;
-    const Real lead = own - steepest, most = absolute(rate);
+    const Real most = absolute(rate);
     const Real apart = absolute(lead) < most * far ? lead / most : lead < Real(0) ? -far : far;
+    if (absolute(apart) > shared)
+        return apart;
     s.apart = static_cast<int16_t>(rawFromReal(apart) >> 8);
     const Normal n = normalise((rate < Real(0)) == hollow_ ? -out : out);
     s.border = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
     const Real half = shiftDown(object_.spacing() * s.position, 1);
-    const Real change = most * shiftDown(half - clamp(apart, -half, half), 1);
+    if (apart >= half)
+        return apart;
+    const Real change = most * shiftDown(half - (apart < -half ? -half : apart), 1);
     *g = *g + withLength(hollow_ ? -out : out, hollow_ ? change : least(change, steepest));
     return apart;
 }
@@ -742,9 +911,10 @@ Real Settler::findShare(Seed& s, Vector* g)
 // The same for a seed that has found the surface. False: the surface there is the others' to sample.
 bool Settler::findDented(Seed& s, Vector* g)
 {
-    const Real apart = findShare(s, g), shared = object_.spacing() * SHARED;
+    const Real shared = object_.spacing() * SHARED, apart = findShare(s, shared, g);
     if (apart < -shared) {
         s.flags |= SEED_COVERED;
+        putOff(s, -apart - shared, BORDER_SPEED);
         return false;
     }
     if (apart < shared)
@@ -849,40 +1019,38 @@ void Settler::restThere(Seed& s)
         s.flags &= SEED_ACTIVE;
     }
     s.position = Real(1);
-    s.brightness8 = brightness8(s.normal, own_.light);
     s.still = came_ < shiftDown(smallest_, 3);
-    s.flags = static_cast<uint8_t>((s.flags & (SEED_ACTIVE | SEED_MEASURED)) | SEED_VALID | SEED_RESTING);
+    s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
 }
 
-// One less than the number of updates after which all neighbours are asked, the fewer the farther they come.
-uint32_t Settler::turns() const
+// Whether one neighbour alone keeps a seed off the surface, wherever it was before: from position 1, before which no path can leave
+// the surface, to COVERED_AT the two fields together are above the isovalue, for the neighbour's t is convex and lies below the
+// straight line between those it has there; and beyond the neighbour is the stronger of the two.
+bool Settler::isCovered(const Seed& s)
 {
-    return came_ < Real(0.5) ? 7 : came_ < Real(1.5) ? 3 : came_ < Real(3) ? 1 : 0;
-}
-
-// Whether one neighbour alone, the strongest where a seed of the patch was not on the surface the last time, keeps a seed off
-// it: it is stronger than the own object where the path left the surface, and a little before.
-bool Settler::isBlocked(const Seed& s, Real margin)
-{
-    if (blocker_ < 0 || dented_ || (turn_ & turns()) == 0)
+    if (dented_)
+        return isOff(s);
+    if (cover_ == nullptr)
         return false;
-    const Neighbour& near = all_.neighbours[blocker_];
     Along along;
-    aim(near, from_[blocker_], s, along);
-    const Real position = most(s.position - BEFORE, first_);
-    const Real t = along.param(position);
-    if (t >= Real(0.7))
-        return false;
-    Real own, field = geoffQuick(most(t, Real(0))).value;
-    if (common_) {
-        own = geoffQuick(least(shiftDown(position * position, 2), Real(0.999))).value;
-    } else {
-        root_ = object_.root(s.root);
-        path_ = s.path;
-        own = geoffQuick(clamp(ownParam(position), Real(0), Real(0.999))).value * object_.strength();
-        field = field * near.strength;
-    }
-    return field - own > OVERSHOOT + margin || (!(s.flags & SEED_COVERED) && allComplete_ && own + field > ISOVALUE + margin);
+    aim(all_.neighbours[blocker_], from_[blocker_], s, along);
+    return along.param(COVERED_AT) < cover_->there && along.param(Real(1)) < cover_->atRest;
+}
+
+// Takes up the neighbour that was the strongest where a seed of the patch was not on the surface the last time, and what it takes
+// for it alone to keep seeds off.
+void Settler::setBlocker(const Patch& patch)
+{
+    blocker_ = all_.numberOf[patch.blocker];
+    // The t of what is warped need not be convex.
+    const bool judged = blocker_ >= 0 && common_ && !all_.neighbours[blocker_].object->warped();
+    cover_ = !judged ? nullptr : allComplete_ || isLinked(patch.blocker) ? &COVER_LINKED : &COVER_UNLINKED;
+}
+
+// Whether the object is linked with another at weight 1.
+bool Settler::isLinked(int slot) const
+{
+    return (bodies_.plainLinks(object_.slot())[slot / 32] >> slot % 32 & 1) != 0;
 }
 
 // Sets position, normal and flags of a seed. One that finds no surface of its own object is left without SEED_VALID; returned is
@@ -894,6 +1062,8 @@ Real Settler::settle(Seed& s)
     bool found = false, still = false;
     Real margin(9);
     if (s.flags & (SEED_VALID | SEED_COVERED)) {
+        // What is hollowed out may have closed before that.
+        const bool closed = dented_ && !hollow_ && position <= OUTERMOST && hasClosed(s);
         bool touched = begin(those(position), s, position, &sample);
         if (!touched && position != Real(1)) {
             position = Real(1);
@@ -904,8 +1074,7 @@ Real Settler::settle(Seed& s)
             return Real(0);
         }
         still = position == s.position && absolute(sample.excess) <= TOLERANCE;
-        // What is hollowed out may have opened, or closed, before a surface farther out.
-        found = (!dented_ || hollow_ || position > OUTERMOST) && follow(&position, &sample);
+        found = !closed && follow(&position, &sample);
         if (found && (position < nearest_ || position > farthest_)) {
             // Where it is now, others may reach it.
             begin(listed(), s, position, &sample);
@@ -916,9 +1085,13 @@ Real Settler::settle(Seed& s)
     if (still && found && (s.flags & SEED_VALID) && !(s.flags & SEED_RESTING) && sample.dominance <= OVERSHOOT) {
         // It has not moved: what is known of it holds.
         s.still = s.still == 0 || came_ * Real(3) > shiftDown(smallest_, 3) ? 1 : 3;
-        s.brightness8 = brightness8(s.normal, own_.light);
         if (object_.paint() != nullptr && object_.paint()->mixes)
             mix(s);
+        // But the border may have.
+        if (sample.dominance > -shiftDown(border_, 1) && !dented_) {
+            findBorder(s, sample.dominance);
+            s.flags |= SEED_BORDER;
+        }
         return Real(0);
     }
     s.still = 0;
@@ -929,19 +1102,19 @@ Real Settler::settle(Seed& s)
         found = sample.excess <= Real(0);
     }
     s.position = position;
+    // Where another object is the stronger, the path may leave the surface before that in the next frame: it is searched again.
     if (!found || sample.dominance > OVERSHOOT) {
-        if (found && margin > sample.dominance) {
-            margin = sample.dominance - OVERSHOOT;
-            s.flags |= SEED_COVERED;
+        if (dented_) {
+            off_ = found ? Real(0) : off_;
+            putOff(s, found ? sample.dominance - OVERSHOOT : off_, pushMost() * Real(found ? 2 : 1));
         }
-        return margin;
+        return found ? least(margin, sample.dominance - OVERSHOOT) : margin;
     }
     Vector out = outward(position);
     if (dented_ && !findDented(s, &out))
         return Real(0);
     const Normal n = normalise(out);
     s.normal = {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
-    s.brightness8 = brightness8(s.normal, own_.light);
     s.flags |= SEED_VALID;
     if (object_.paint() != nullptr && object_.paint()->mixes)
         mix(s);
@@ -960,11 +1133,13 @@ Real Settler::settle(Seed& s)
 int Settler::strongest() const
 {
     int slot = object_.slot();
-    Real most(0);
+    Real most(-1);
     for (int i = 0; i < touched_; ++i) {
-        if (along_[i].value > most && !along_[i].near->digs) {
-            most = along_[i].value;
-            slot = along_[i].near->object->slot();
+        const int candidate = along_[i].near->object->slot();
+        const Real value = along_[i].value > COVERING && isLinked(candidate) ? along_[i].value + Real(1) : along_[i].value;
+        if (value > most && !along_[i].near->digs) {
+            most = value;
+            slot = candidate;
         }
     }
     return slot;
@@ -978,38 +1153,51 @@ static Real enough(const Patch& patch, Real size)
     return clamp(realFromRaw(patch.radius << 12) / size * (STEEPEST + STEEPEST), Real(0.2), Real(0.9));
 }
 
-bool Settler::stillInside(const Patch& patch)
+bool Settler::isCovered(const Patch& patch)
 {
-    blocker_ = all_.numberOf[patch.blocker];
-    turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
-    if (blocker_ < 0)
+    setBlocker(patch);
+    if (dented_)
+        return false;
+    if (cover_ == nullptr || object_.tapers())
         return false;
     const Neighbour& near = all_.neighbours[blocker_];
-    const Real size = near.object->shaped() ? near.size * near.object->narrowing() : near.size;
-    return isBlocked(object_.seed(patch.centre), enough(patch, size));
+    return !near.object->slants() && isWithin(patch, near, COVERED_AT, cover_->rootThere) && isWithin(patch, near, Real(1), cover_->rootAtRest);
+}
+
+// The same for a patch that is dented, or of a hollow, the middle of which has been found off the surface: whether all of it is.
+// The own field is the same at one position of all its paths, unless it is warped; they are no farther from each other there than twice where they rest.
+PatchState Settler::probeOff(Patch& patch, const Seed& s) const
+{
+    if ((s.flags & SEED_COVERED) || warped_)
+        return PATCH_MIXED;
+    const Real push = pushMost(), hold = off_ - push * realFromRaw(patch.radius << 13);
+    if (hold <= Real(0))
+        return PATCH_MIXED;
+    patch.due += until(hold, push, longestOff());
+    return PATCH_INSIDE;
 }
 
 PatchState Settler::probe(Patch& patch)
 {
     Seed& s = object_.seed(patch.centre);
-    blocker_ = all_.numberOf[patch.blocker];
-    turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
     patch.due = now_;
-    if (!(s.flags & SEED_VALID) && patch.state == PATCH_MIXED && isBlocked(s, BLOCKED))
+    if (!(s.flags & SEED_VALID) && patch.state == PATCH_MIXED && isCovered(s))
         return PATCH_MIXED;
     const Real least = enough(patch, smallest_);
     const Real margin = settle(s);
     const Real push = pushes();
     if (!(s.flags & SEED_VALID)) {
         patch.blocker = static_cast<uint8_t>(strongest());
-        if (margin <= least || dented_)
+        if (dented_)
+            return probeOff(patch, s);
+        if (margin <= least)
             return PATCH_MIXED;
         // The own field, with which the strongest is compared, changes as well.
         patch.due += until(margin - least, push + push, LONGEST_WAIT);
         return PATCH_INSIDE;
     }
     patch.facing = facing(object_, s, own_);
-    const int32_t away = -patch.facing - patch.spread - TURNED;
+    const int32_t away = own_.limb - patch.facing - patch.spread - TURNED;
     if (away > 0) {
         patch.due += wayOf(realFromRaw(away * 4) * shiftDown(object_.laidSize(), 2));
         return PATCH_AWAY;
@@ -1039,27 +1227,30 @@ void Settler::settleRest(Patch& patch)
 {
     const Seed& centre = object_.seed(patch.centre);
     const bool someAway = !(centre.flags & SEED_VALID) || patch.facing < patch.spread;
-    blocker_ = all_.numberOf[patch.blocker];
     forSeeds(patch, [&](int i) {
         Seed& s = object_.seed(i);
         if (&s == &centre)
             return;
-        turn_ = static_cast<uint32_t>(i) / 2 + updates_;
+        if (!(s.flags & SEED_VALID) && isCovered(s)) {
+            s.flags &= SEED_OFF;
+            return;
+        }
         if (s.flags & SEED_ASLEEP) {
             // It has slept: it is likely to be where the one in the middle is.
             s.position = centre.position;
-            s.flags = SEED_VALID;
+            s.flags = SEED_COVERED;
             s.still = 0;
         } else if (waits(s, someAway)) {
-            s.brightness8 = brightness8(s.normal, own_.light);
-            return;
-        } else if (!(s.flags & SEED_VALID) && isBlocked(s, BLOCKED)) {
             return;
         }
         settle(s);
-        if (!(s.flags & SEED_VALID))
+        if (!(s.flags & SEED_VALID)) {
             patch.blocker = static_cast<uint8_t>(strongest());
+            setBlocker(patch);
+        }
     });
+    if (dented_ && !patch.extras)
+        patch.due += offFor(patch);
     setRange(patch);
 }
 
@@ -1121,7 +1312,7 @@ void Settler::oversample(Patch& patch)
         any = true;
         Seed& extra = object_.seed(i + 1);
         if (!(extra.flags & SEED_ACTIVE)) {
-            extra.flags = SEED_ACTIVE | SEED_VALID;
+            extra.flags = SEED_ACTIVE | SEED_COVERED;
             extra.position = object_.seed(i).position;
             extra.still = 0;
         }
@@ -1129,21 +1320,24 @@ void Settler::oversample(Patch& patch)
     patch.extras = any;
     if (!any)
         return;
+    patch.due = now_;
     setPatch(patch, true);
-    blocker_ = all_.numberOf[patch.blocker];
+    setBlocker(patch);
     forSeeds(patch, [&](int i) {
         Seed* const extra = object_.extra(i);
         if (extra == nullptr || !(extra->flags & SEED_ACTIVE))
             return;
-        turn_ = static_cast<uint32_t>(i) / 2 + updates_;
-        if (!(extra->flags & SEED_VALID) ? !isBlocked(*extra, BLOCKED) : !waits(*extra, false))
+        if (!(extra->flags & SEED_VALID) && isCovered(*extra))
+            extra->flags &= SEED_ACTIVE | SEED_OFF;
+        else if (!waits(*extra, false))
             settle(*extra);
     });
 }
 
-void rest(SoftObject& object, Patch& patch, const OwnFrame& own)
+void rest(SoftObject& object, Patch& patch)
 {
     patch.nearest = patch.farthest = 64;
+    patch.bend.known = false;
     putAway(object, patch);
     forSeeds(patch, [&](int i) {
         Seed& s = object.seed(i);
@@ -1151,16 +1345,7 @@ void rest(SoftObject& object, Patch& patch, const OwnFrame& own)
             s.position = Real(1);
             s.normal = object.restNormal(s);
         }
-        s.brightness8 = brightness8(s.normal, own.light);
         s.flags = SEED_VALID | SEED_RESTING;
-    });
-}
-
-void light(SoftObject& object, const Patch& patch, const OwnFrame& own)
-{
-    forSeeds(patch, [&](int i) {
-        Seed& s = object.seed(i);
-        s.brightness8 = brightness8(s.normal, own.light);
     });
 }
 
@@ -1171,4 +1356,11 @@ void sleep(SoftObject& object, Patch& patch)
         if (i != patch.centre)
             object.seed(i).flags = SEED_ASLEEP;
     });
+}
+
+void cover(SoftObject& object, Patch& patch)
+{
+    sleep(object, patch);
+    object.seed(patch.centre).flags = 0;
+    patch.state = PATCH_INSIDE;
 }

@@ -36,6 +36,12 @@ struct Sample {
     Real excess, slope, dominance;
 };
 
+// When a neighbour alone keeps an object's seeds off the surface: its t (model/field.h) is less than these at two positions of their
+// paths. And the roots of the two.
+struct Cover {
+    Real there, atRest, rootThere, rootAtRest;
+};
+
 // Settles the seeds of one object, one settler for every scene. Made once for an object and a frame; `updates` counts those
 // of the object.
 class Settler {
@@ -46,8 +52,8 @@ public:
     // To be called before anything else about the seeds of a patch. False: no neighbour reaches them where they are.
     bool setPatch(const Patch& patch, bool oversampled = false);
 
-    // Whether a patch that lay inside still does, by the field of the neighbour alone that was the strongest then.
-    bool stillInside(const Patch& patch);
+    // Whether all paths of a patch are sure to lie inside the one neighbour that was the strongest there the last time.
+    bool isCovered(const Patch& patch);
 
     // Settles the seed in the middle of a patch that neighbours reach, says from it what becomes of the patch, and sets when
     // the patch is due again.
@@ -89,7 +95,8 @@ private:
     template <bool COMMON> Sample lookAs(Real position);
     SELDOM bool beginOdd(const Few& few, const Seed& s, Real position, Sample* sample);
     SELDOM Sample lookOdd(Real position);
-    template <bool COMMON> void blend(Real position, Sample& sample);
+    SELDOM void blend(Real position, Sample& sample);
+    SELDOM void blendOdd(Real position, Sample& sample);
     bool follow(Real* position, Sample* sample);
     SELDOM Real warpedParam(Real position);
     // The own t at a position of the path at hand; and dF/dp, when that has been looked at.
@@ -99,12 +106,20 @@ private:
         return warped_ ? ownSlope_ * ownChange_ : ownSlope_ * position * shiftUp(restParam_, 1);
     }
     Real search(Real* position, Sample* sample);
-    Real searchDeep(Real* position, Sample* sample);
+    SELDOM Real searchDeep(Real* position, Sample* sample);
+    SELDOM bool hasClosed(const Seed& s);
+    Real pushMost() const;
+    void putOff(Seed& s, Real hold, Real push) const;
+    bool isOff(const Seed& s) const;
+    Real longestOff() const;
+    SELDOM Way offFor(const Patch& patch) const;
+    SELDOM PatchState probeOff(Patch& patch, const Seed& s) const;
     void bisect(Real inside, Real outside, Real* position, Sample* sample);
     Vector outward(Real position) const;
     SELDOM void addSlanting(Vector& to, Real share, Real position) const;
     Vector fromCore(const Along& along, Real position) const;
-    Real findShare(Seed& s, Vector* g);
+    SELDOM Real leadOf(const Vector& g, const Vector& out, Real own, const Vector& from, Real steepest) const;
+    Real findShare(Seed& s, Real shared, Vector* g);
     SELDOM void setOdd(const Patch& patch);
     SELDOM const Along* strongestOther(const Seed& s, Vector* g, Real* change) const;
     SELDOM void findNearer(Seed& s, Real dominance) const;
@@ -112,9 +127,10 @@ private:
     void findBorder(Seed& s, Real dominance) const;
     void mix(Seed& s) const;
     Real pushes() const;
-    uint32_t turns() const;
     static Way until(Real hold, Real push, Real longest);
-    bool isBlocked(const Seed& s, Real margin);
+    void setBlocker(const Patch& patch);
+    bool isCovered(const Seed& s);
+    bool isLinked(int slot) const;
     int strongest() const;
     void aim(const Neighbour& near, FromRoot& from, const Seed& s, Along& along) const;
     void beginSearch(const Seed& s);
@@ -129,7 +145,7 @@ private:
     const Way now_;   // reading of the odometer
     const Real came_; // how far neighbours came in this frame, units
     const uint32_t updates_;
-    uint32_t turn_ = 0;  // of the seed at hand: seeds that wait take turns
+    uint32_t turn_ = 0;  // of the patch at hand: what waits takes turns
     const Real* ownWeights_;  // of its links, by slots
     const bool hollow_;              // the seeds sample a hollow: inside and outside change places
     const bool common_;              // nothing digs, all strengths are 1, and the object is not shaped
@@ -149,27 +165,30 @@ private:
     Real smallest_;
     bool dented_;              // something digs where its paths are, or it is a hollow
     int blocker_;              // number of the neighbour that was the strongest where a seed was not on the surface; -1: none
+    const Cover* cover_;       // and when it alone keeps them off it; null: that is not known
     Real nearest_, farthest_;  // between which positions its seeds are, and a little more
 
     // Of the path at hand.
     Vector root_, path_;
     bool complete_;
+    bool shared_;             // share_ holds at the position looked at last; else all are 1
     int touched_;
     Along along_[NEIGHBOURS_MAX];
+    Real off_;                        // of the field: by how much the path misses the surface, where it does
     Real headField_;                  // of a hollow: the field of what is hollowed out
     Real lookedAt_;                   // the last position looked at
     Real ownField_, ownSlope_;        // F and dF/dt of the own field there
     Real ownChange_;                  // and dt/dp, of a warped object
-    Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, unless complete_
+    Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, if shared_
 };
 
 // Puts the seeds of a patch where no neighbour reaches them.
-void rest(SoftObject& object, Patch& patch, const OwnFrame& own);
-
-// Works out the brightness of its seeds anew, when the light comes from another side of the object.
-void light(SoftObject& object, const Patch& patch, const OwnFrame& own);
+void rest(SoftObject& object, Patch& patch);
 
 // Puts all seeds of a patch but the one in the middle to sleep: they are neither settled nor drawn.
 void sleep(SoftObject& object, Patch& patch);
+
+// The same to a patch that lies inside as a whole.
+void cover(SoftObject& object, Patch& patch);
 
 #endif

@@ -3,6 +3,10 @@
 
 namespace {
 
+// By how much the two sides of a cut overlap, 1/256 unit.
+constexpr int32_t CUT_MARGIN = 16;
+
+
 inline int32_t magnitude(int32_t a)
 {
     return a < 0 ? -a : a;
@@ -23,26 +27,59 @@ inline int32_t product(const Direction14& a, const int32_t b[3])
     return (a.x * b[0] + a.y * b[1] + a.z * b[2]) >> 14;
 }
 
-// A half axis of a cell on the picture plane; both sums of products are one, each 16 bits wide.
-inline uint32_t onPicture(const int8_t axis[3], const Shading& v)
+// A vector of own space on the picture plane, sheared along the ray.
+struct OnPicture {
+    int32_t x, y;
+
+    // Both sums of products are one, each 16 bits wide.
+    OnPicture(const int8_t axis[3], const Shading& v)
+    {
+        const uint32_t both = static_cast<uint32_t>(axis[0]) * v.cell[0] + static_cast<uint32_t>(axis[1]) * v.cell[1] +
+                              static_cast<uint32_t>(axis[2]) * v.cell[2];
+        x = static_cast<int32_t>(both + 0x8000) >> 16;
+        y = static_cast<int16_t>(both);
+    }
+};
+
+inline int32_t product(const int8_t axis[3], const Direction14& n)
 {
-    return static_cast<uint32_t>(axis[0]) * v.cell[0] + static_cast<uint32_t>(axis[1]) * v.cell[1] +
-           static_cast<uint32_t>(axis[2]) * v.cell[2];
+    return axis[0] * n.x + axis[1] * n.y + axis[2] * n.z;
 }
 
-inline int32_t width(uint32_t both)
-{
-    return magnitude(static_cast<int32_t>(both + 0x8000) >> 16);
-}
+// What a seed's cell becomes on the surface as it is: it grows with the position, and falls along the path onto the tangent plane.
+// A half axis e becomes p (e - u (e.n) / (u.n)), with p the position and u the path.
+struct Fall {
+    int32_t position;  // 8 bits of fraction
+    int32_t share;     // position / (u.n), 8 bits of fraction
+    OnPicture way;     // u
+    bool torn;         // it is no part of an even band any more
 
-inline int32_t height(uint32_t both)
-{
-    return magnitude(static_cast<int16_t>(both));
-}
+    Fall(const Seed& s, const Shading& v) : position(rawFromReal(s.position) >> 8), way(s.way, v)
+    {
+        if (position < v.leastPosition)
+            position = v.leastPosition;
+        int32_t cosine = product(s.way, s.normal) >> 7;
+        torn = magnitude(cosine) < UNEVEN;
+        if (magnitude(cosine) < LEAST_COSINE)
+            cosine = cosine < 0 ? -LEAST_COSINE : LEAST_COSINE;
+        share = (position << 14) / cosine;
+    }
+    OnPicture of(const int8_t axis[3], const Seed& s, const Shading& v) const
+    {
+        OnPicture e(axis, v);
+        const int32_t off = ((product(axis, s.normal) >> 7) * share) >> 14;
+        e.x = (e.x * position - way.x * off) >> 8;
+        e.y = (e.y * position - way.y * off) >> 8;
+        return e;
+    }
+    int32_t area(int32_t rest) const
+    {
+        return smaller((rest * magnitude(share) >> 8) * position >> 8, AREA_MOST);
+    }
+};
 
 inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
 {
-    placeVoxel(v, s, voxel);
     const int32_t normalX = v.turned ? product(s.normal, v.right) : s.normal.x;
     const int32_t normalY = v.turned ? product(s.normal, v.up) : s.normal.y;
     const int32_t depth = v.depth + voxel.z;
@@ -51,24 +88,37 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     const int32_t steep = smaller(static_cast<int32_t>(rise), STEEPEST_TILT);
     const int16_t tiltX = static_cast<int16_t>(normalX * steep >> 14);
     const int16_t tiltY = static_cast<int16_t>(normalY * steep >> 14);
+    // Lambert's cosine (report, The Rendering Technique).
+    const int32_t cosine = product(s.normal, v.light);
+    voxel.brightness = static_cast<uint8_t>(cosine <= 0 ? 0 : (cosine * BRIGHTEST + 8192) >> 14);
     voxel.tiltX = tiltX;
     voxel.tiltY = tiltY;
     // Half width and height. Beside each other, cells of a ring make a band: rectangles as wide as the way from one to the
     // next need not cover the whole of their cells, only, together, the band.
-    const uint32_t along = onPicture(s.cellAlong, v);
-    int32_t wide = width(along), high = height(along);
-    if (s.cellArea <= v.wholeMost) {
-        const uint32_t across = onPicture(s.cellAcross, v);
-        wide = (wide + width(across)) >> v.cellShift;
-        high = (high + height(across)) >> v.cellShift;
-    } else {
-        const uint32_t area = static_cast<uint32_t>(mulHigh(s.cellArea * (facing >> 3), v.areaShare));
+    int32_t wide, high;
+    const auto measure = [&](int32_t cell, const auto& onPicture) {
+        const OnPicture along = onPicture(s.along);
+        wide = magnitude(along.x);
+        high = magnitude(along.y);
+        if (cell <= v.wholeMost) {
+            const OnPicture across = onPicture(s.across);
+            wide = (wide + magnitude(across.x)) >> v.cellShift;
+            high = (high + magnitude(across.y)) >> v.cellShift;
+            return;
+        }
+        const uint32_t area = static_cast<uint32_t>(mulHigh(cell * (facing >> 3), v.areaShare));
         wide >>= v.cellShift;
         high >>= v.cellShift;
         if (wide > high)
             high += static_cast<int32_t>(area / static_cast<uint32_t>(wide));
         else if (high > 0)
             wide += static_cast<int32_t>(area / static_cast<uint32_t>(high));
+    };
+    if (s.flags & SEED_RESTING) {
+        measure(s.area, [&](const int8_t axis[3]) { return OnPicture(axis, v); });
+    } else {
+        const Fall fall(s, v);
+        measure(fall.torn ? 0 : fall.area(s.area), [&](const int8_t axis[3]) { return fall.of(axis, s, v); });
     }
     wide = smaller(wide + (wide >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff);
     high = smaller(high + (high >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff);
@@ -100,40 +150,64 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
 
 }  // namespace
 
-int findSeeds(Shading* shading, SoftObject& object, Patch* patch, Seen* seen)
+bool findSeed(const Shading& v, const Seed& s, Seen* seen, Voxel* voxel)
 {
-    Seen* to = seen;
-    uint32_t some = 0, all = 0xff;
-    const auto find = [&](Seed& s, Voxel* voxel) {
-        if (!(s.flags & SEED_VALID))
-            return;
-        int32_t facing = 0;
-        if (s.flags & SEED_MEASURED) {
-            facing = facingOf(s, *shading);
-            if (facing <= shading->limb)
-                return;
-        }
-        *to++ = {&s, facing, voxel};
-        some |= s.flags;
-        all &= s.flags;
+    if (!(s.flags & SEED_VALID))
+        return false;
+    int32_t place[3];
+    findPlace(v, s, place);
+    const int32_t facing = (s.normal.x * (v.eye[0] - (place[0] >> 3)) + s.normal.y * (v.eye[1] - (place[1] >> 3)) +
+                            s.normal.z * (v.eye[2] - (place[2] >> 3))) >> 11;
+    if (facing <= v.limb)
+        return false;
+    const auto along = [&](const int32_t axis[3]) {
+        return (place[0] * axis[0] + place[1] * axis[1] + place[2] * axis[2]) >> 14;
     };
-    for (int ring = 0; ring < PATCH_RINGS; ++ring) {
-        Voxel* voxel = patch->voxels == nullptr ? nullptr : patch->voxels + ring * PATCH_SEEDS;
-        for (int i = patch->first[ring], end = i + patch->count[ring]; i < end; ++i) {
-            find(object.regular(2 * i), voxel);
-            if (voxel != nullptr)
-                ++voxel;
-            Seed* const extra = patch->extras ? object.extra(2 * i) : nullptr;
-            if (extra != nullptr && (extra->flags & SEED_ACTIVE))
-                find(*extra, nullptr);
-        }
-    }
-    shading->flags = some | all << 8;
-    return static_cast<int>(to - seen);
+    voxel->x = v.turned ? along(v.toRight) : place[0];
+    voxel->y = v.turned ? along(v.toUp) : place[1];
+    voxel->z = v.turned ? along(v.toAhead) : place[2];
+    *seen = {&s, facing};
+    return true;
 }
 
-void shadeSeedsC(const Shading* shading, const Seen* seen, int count)
+int findSeedsC(const Shading* shading, const Patch* patch, Seen* seen, Voxel* voxels)
 {
-    for (const Seen* const end = seen + count; seen < end; ++seen)
-        shade(*shading, *seen->seed, seen->facing, *seen->voxel);
+    int count = 0;
+    for (int ring = 0; ring < PATCH_RINGS; ++ring) {
+        const Seed* s = shading->seeds + patch->first[ring];
+        for (const Seed* const end = s + patch->count[ring]; s < end; ++s)
+            if (findSeed(*shading, *s, seen + count, voxels + count))
+                ++count;
+    }
+    return count;
+}
+
+void shadeSeedsC(const Shading* shading, const Seen* seen, Voxel* voxels, int count)
+{
+    for (int i = 0; i < count; ++i)
+        shade(*shading, *seen[i].seed, seen[i].facing, voxels[i]);
+}
+
+bool cutVoxel(int32_t x, int32_t y, int32_t z, int32_t apart, int32_t shearX, int32_t shearY, Voxel* voxel)
+{
+    // A step across the view leads along the ray as well, as far as the scale is tilted.
+    const int32_t ahead = (z + ((x * shearX + y * shearY) >> 10)) >> 2;
+    int32_t cutX = x + (voxel->tiltX * ahead >> 6), cutY = y + (voxel->tiltY * ahead >> 6);
+    const int32_t most = magnitude(cutX) | magnitude(cutY);
+    if (most == 0)
+        return true;
+    // To 7 bits and a sign.
+    const int shift = most < 128 ? 0 : 25 - __builtin_clz(static_cast<uint32_t>(most));
+    cutX >>= shift;
+    cutY >>= shift;
+    const int32_t at = (apart + CUT_MARGIN) * 64 >> shift;
+    const int32_t corner = (magnitude(cutX) * voxel->wide + magnitude(cutY) * voxel->high) >> 8;
+    if (at >= corner)
+        return true;
+    if (at <= -corner)
+        return false;
+    voxel->cutX = static_cast<int8_t>(cutX);
+    voxel->cutY = static_cast<int8_t>(cutY);
+    voxel->cutAt = static_cast<int16_t>(limited(at, 32000));
+    return true;
 }

@@ -5,6 +5,7 @@
 //   twins [SEED [ROUNDS]]     rounds of random scales, voxels and spans, after the cases that are always tried
 //
 // Prints what differs, how much was tried, and "N passed, N failed".
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -810,10 +811,15 @@ void registers()
     static Seen seen[40];
     for (int i = 0; i < 40; ++i) {
         fill(seeds + i, sizeof seeds[i]);
-        seen[i] = {seeds + i, 1000 + below(30000), voxels + i};
+        seeds[i].root = 0;
+        seen[i] = {seeds + i, 1000 + below(30000)};
     }
+    static Vector root;
+    shading.seeds = seeds;
+    shading.roots = &root;
     shading.depth = 30000 << 8;
     shading.turned = 1;
+    shading.limb = -0x7fffffff;
     static const uint32_t COUNTS[] = {0, 1, 40};
     for (uint32_t count : COUNTS) {
         const uint32_t blit[5] = {word(a.frame.data), word(a.depth.data), word(list), count, 0};
@@ -827,7 +833,11 @@ void registers()
         verdict(damage(reinterpret_cast<const void*>(clearRowsA), clear) == 0, "registers are kept: clearRowsA", count);
         const uint32_t present[5] = {dataSelector(), word(roomC.at(0).frame.data), word(a.frame.data), word(rows), count * 5};
         verdict(damage(reinterpret_cast<const void*>(presentRows), present) == 0, "registers are kept: presentRows", count);
-        const uint32_t shade[5] = {word(&shading), word(seen), count, 0, 0};
+        static Patch patch;
+        patch.count[0] = patch.count[2] = static_cast<uint8_t>(count / 2);
+        const uint32_t look[5] = {word(&shading), word(&patch), word(seen), word(voxels), 0};
+        verdict(damage(reinterpret_cast<const void*>(findSeedsA), look) == 0, "registers are kept: findSeedsA", count);
+        const uint32_t shade[5] = {word(&shading), word(seen), word(voxels), count, 0};
         verdict(damage(reinterpret_cast<const void*>(shadeSeedsA), shade) == 0, "registers are kept: shadeSeedsA", count);
         const Span within = {0, static_cast<int16_t>(8 * count)};
         const uint32_t find[5] = {word(a.frame.data), word(a.depth.data), word(&within), word(runs), 0};
@@ -884,41 +894,65 @@ void clearsAndCopies(int rounds)
 }  // namespace
 
 // What asm/voxels.S counts on.
-static_assert(inasm2::SEED_NORMAL == offsetof(Seed, normal) && inasm2::SEED_LIGHT == offsetof(Seed, brightness8) &&
-              inasm2::SEED_ALONG == offsetof(Seed, cellAlong) && inasm2::SEED_ACROSS == offsetof(Seed, cellAcross) &&
-              inasm2::SEED_AREA == offsetof(Seed, cellArea) && inasm2::SEED_PLACE == offsetof(Seed, place), "Seed");
+static_assert(inasm2::SEED_PATH == offsetof(Seed, path) && inasm2::SEED_POSITION == offsetof(Seed, position) &&
+              inasm2::SEED_NORMAL == offsetof(Seed, normal) &&
+              inasm2::SEED_ROOT == offsetof(Seed, root) && inasm2::SEED_FLAGS == offsetof(Seed, flags) &&
+              inasm2::SEED_ALONG == offsetof(Seed, along) && inasm2::SEED_ACROSS == offsetof(Seed, across) &&
+              inasm2::SEED_WAY == offsetof(Seed, way) && inasm2::SEED_AREA == offsetof(Seed, area) &&
+              inasm2::SEED_SIZE == sizeof(Seed), "Seed");
+static_assert(inasm2::SEED_VALID == ::SEED_VALID && inasm2::SEED_RESTING == ::SEED_RESTING, "states of seeds");
+static_assert(inasm2::PATCH_FIRST == offsetof(Patch, first) && inasm2::PATCH_COUNT == offsetof(Patch, count) &&
+              inasm2::PATCH_RINGS == ::PATCH_RINGS, "Patch");
 static_assert(inasm2::VOXEL_X == offsetof(Voxel, x) && inasm2::VOXEL_Y == offsetof(Voxel, y) &&
               inasm2::VOXEL_Z == offsetof(Voxel, z) && inasm2::VOXEL_WIDE == offsetof(Voxel, wide) &&
               inasm2::VOXEL_HIGH == offsetof(Voxel, high) && inasm2::VOXEL_TILTX == offsetof(Voxel, tiltX) &&
               inasm2::VOXEL_TILTY == offsetof(Voxel, tiltY) && inasm2::VOXEL_BRIGHT == offsetof(Voxel, brightness) &&
               inasm2::VOXEL_REACH == offsetof(Voxel, reach) && inasm2::VOXEL_SLOPEX == offsetof(Voxel, slopeX) &&
-              inasm2::VOXEL_SLOPEY == offsetof(Voxel, slopeY), "Voxel");
+              inasm2::VOXEL_SLOPEY == offsetof(Voxel, slopeY) && inasm2::VOXEL_SIZE == sizeof(Voxel), "Voxel");
 static_assert(inasm2::SEEN_SEED == offsetof(Seen, seed) && inasm2::SEEN_FACING == offsetof(Seen, facing) &&
-              inasm2::SEEN_VOXEL == offsetof(Seen, voxel) && inasm2::SEEN_SIZE == sizeof(Seen), "Seen");
-static_assert(inasm2::TURNED == offsetof(Shading, turned) && inasm2::RIGHT == offsetof(Shading, right) &&
-              inasm2::UP == offsetof(Shading, up) && inasm2::TO_RIGHT == offsetof(Shading, toRight) &&
-              inasm2::TO_UP == offsetof(Shading, toUp) && inasm2::TO_AHEAD == offsetof(Shading, toAhead) &&
-              inasm2::DEPTH == offsetof(Shading, depth) && inasm2::CELL == offsetof(Shading, cell) &&
+              inasm2::SEEN_SIZE == sizeof(Seen), "Seen");
+static_assert(inasm2::SEEDS == offsetof(Shading, seeds) && inasm2::ROOTS == offsetof(Shading, roots) &&
+              inasm2::PLACE_SHIFT == offsetof(Shading, placeShift) && inasm2::EYE == offsetof(Shading, eye) &&
+              inasm2::LIGHT == offsetof(Shading, light) &&
+              inasm2::LIMB == offsetof(Shading, limb) && inasm2::TURNED == offsetof(Shading, turned) &&
+              inasm2::RIGHT == offsetof(Shading, right) && inasm2::UP == offsetof(Shading, up) &&
+              inasm2::TO_RIGHT == offsetof(Shading, toRight) && inasm2::TO_UP == offsetof(Shading, toUp) &&
+              inasm2::TO_AHEAD == offsetof(Shading, toAhead) && inasm2::DEPTH == offsetof(Shading, depth) &&
+              inasm2::LEAST_POSITION == offsetof(Shading, leastPosition) && inasm2::CELL == offsetof(Shading, cell) &&
               inasm2::CELL_SHIFT == offsetof(Shading, cellShift) && inasm2::AREA_SHARE == offsetof(Shading, areaShare) &&
               inasm2::WHOLE_MOST == offsetof(Shading, wholeMost) && inasm2::HORIZON == offsetof(Shading, horizonShare) &&
               inasm2::GRADIENT == offsetof(Shading, gradient) && inasm2::AHEAD == offsetof(Shading, gradientAhead), "Shading");
 static_assert(inasm2::STEEPEST_TILT == STEEPEST_TILT && inasm2::MARGIN_SHIFT == MARGIN_SHIFT &&
               inasm2::MARGIN_UNITS == MARGIN_UNITS && inasm2::FLAT_SHADING == FLAT_SHADING &&
-              inasm2::SHADING_MOST == SHADING_MOST, "constants of shading");
+              inasm2::SHADING_MOST == SHADING_MOST && inasm2::LEAST_COSINE == LEAST_COSINE && inasm2::UNEVEN == UNEVEN &&
+              inasm2::AREA_MOST == AREA_MOST && inasm2::BRIGHTEST == BRIGHTEST, "constants of shading");
 
 // Seeds at random before viewers at random. That there were some of each kind is checked, too.
 void shadedSeeds(int rounds)
 {
-    constexpr int MOST = 18;
+    constexpr int MOST = 18, ROOTS = 5;
     static Seed seeds[MOST], kept[MOST];
+    static Vector roots[ROOTS];
     static Voxel c[MOST + 2], a[MOST + 2];
-    int ended = 0, sloped = 0, steep = 0, whole = 0, plain = 0;
+    static Seen seenC[MOST + 2], seenA[MOST + 2];
+    int ended = 0, sloped = 0, steep = 0, whole = 0, plain = 0, torn = 0, hidden = 0, found = 0;
     const auto number = [](int most) { return below(2 * most + 1) - most; };
+    const auto length = [&](int most) { return realFromRaw(number(most << 16)); };
+    const auto direction = [&] {
+        const double x = number(1000), y = number(1000), z = number(1000) + 0.5, one = 16384 / sqrt(x * x + y * y + z * z);
+        return Direction14{static_cast<int16_t>(x * one), static_cast<int16_t>(y * one), static_cast<int16_t>(z * one)};
+    };
     for (int round = 0; round < rounds; ++round) {
         Shading v;
         fill(&v, sizeof v);
+        v.seeds = seeds;
+        v.roots = roots;
+        v.placeShift = 8 + below(2);
+        v.limb = number(3000);
         v.turned = below(2);
         for (int i = 0; i < 3; ++i) {
+            v.eye[i] = number(120 * 32);
+            v.light[i] = number(9459);
             v.right[i] = number(16384);
             v.up[i] = number(16384);
             v.toRight[i] = number(16384);
@@ -927,46 +961,71 @@ void shadedSeeds(int rounds)
             v.cell[i] = (static_cast<uint32_t>(number(100)) << 16) + static_cast<uint32_t>(number(100));
         }
         v.depth = 65536 + below(1 << 18);
+        v.leastPosition = below(2) << 8;
         v.cellShift = below(8);
         v.areaShare = below(0x40000000);
-        v.wholeMost = below(3) == 0 ? 0xffff : WHOLE_CELL;
+        v.wholeMost = below(3) == 0 ? AREA_MOST : 0;
         v.horizonShare = below(1 << (4 + below(8)));
         v.gradient[0] = number(1 << (8 + below(8)));
         v.gradient[1] = number(1 << (8 + below(8)));
         v.gradientAhead = number(1 << below(12));
+        for (Vector& root : roots)
+            root = {length(20), length(20), length(20)};
         fill(seeds, sizeof seeds);
-        Seen seen[MOST], seenA[MOST];
-        const int count = below(MOST + 1);
-        for (int i = 0; i < count; ++i) {
-            Seed& s = seeds[i];
-            s.place[0] = static_cast<int16_t>(number(20000));
-            s.place[1] = static_cast<int16_t>(number(20000));
-            s.place[2] = static_cast<int16_t>(number(20000));
-            s.normal = {static_cast<int16_t>(number(16384)), static_cast<int16_t>(number(16384)),
-                        static_cast<int16_t>(number(16384))};
-            s.brightness8 = static_cast<int16_t>(below(4) == 0 ? below(200) : below(63 * 256 + 1));
-            s.cellArea = static_cast<uint16_t>(below(3) == 0 ? WHOLE_CELL : 2 + below(16382));
-            const int32_t facing = 1 + below(1 << (4 + below(13)));
-            seen[i] = {&s, facing, c + 1 + i};
-            seenA[i] = {&s, facing, a + 1 + i};
+        for (Seed& s : seeds) {
+            const Direction14 way = direction();
+            s.way[0] = static_cast<int8_t>(way.x / 130);
+            s.way[1] = static_cast<int8_t>(way.y / 130);
+            s.way[2] = static_cast<int8_t>(way.z / 130);
+            s.path = {length(20), length(20), length(20)};
+            s.position = realFromRaw(below(3 << 16));
+            s.normal = below(3) == 0 ? direction() : way;
+            s.root = static_cast<uint16_t>(below(ROOTS));
+            s.flags = static_cast<uint8_t>((below(8) == 0 ? 0 : ::SEED_VALID) | (below(2) == 0 ? 0 : ::SEED_RESTING));
+            s.area = static_cast<uint16_t>(below(4) == 0 ? 0 : below(AREA_MOST + 1));
+        }
+        // At most so many of a ring, that a patch has room for.
+        Patch patch;
+        fill(&patch, sizeof patch);
+        for (int ring = 0; ring < ::PATCH_RINGS; ++ring) {
+            patch.count[ring] = static_cast<uint8_t>(below(MOST / ::PATCH_RINGS + 1));
+            patch.first[ring] = below(MOST - patch.count[ring] + 1);
         }
         memcpy(kept, seeds, sizeof seeds);
         fill(c, sizeof c);
+        fill(seenC, sizeof seenC);
         memcpy(a, c, sizeof c);
-        shadeSeedsC(&v, seen, count);
-        shadeSeedsA(&v, seenA, count);
+        memcpy(seenA, seenC, sizeof seenC);
+        const int count = findSeedsC(&v, &patch, seenC + 1, c + 1);
+        verdict(findSeedsA(&v, &patch, seenA + 1, a + 1) == count, "seeds: as many are seen", round);
+        // What leads to a seed that is not seen may have been written behind the last one that is.
+        verdict(memcmp(a, c, sizeof(Voxel) * static_cast<size_t>(count + 1)) == 0, "seeds: at the same places", round);
+        verdict(memcmp(seenA, seenC, sizeof seenC) == 0, "seeds: the same ones", round);
+        memcpy(a, c, sizeof c);
+        for (int i = 1; i <= count; ++i) {
+            seenC[i].facing = 1 + below(1 << (4 + below(13)));
+            c[i].z = number(20000);
+            a[i].z = c[i].z;
+        }
+        shadeSeedsC(&v, seenC + 1, c + 1, count);
+        shadeSeedsA(&v, seenC + 1, a + 1, count);
         verdict(memcmp(a, c, sizeof c) == 0, "seeds: the same voxels", round);
         verdict(memcmp(kept, seeds, sizeof seeds) == 0, "seeds: are left alone", round);
+        found += count;
+        hidden += patch.count[0] + patch.count[1] + patch.count[2] - count;
         for (int i = 0; i < count; ++i) {
             const Voxel& voxel = c[1 + i];
+            const Seed& s = *seenC[1 + i].seed;
             ended += voxel.reach != 0;
             sloped += voxel.slopeX != 0;
             steep += voxel.tiltX > 5000;
-            whole += seeds[i].cellArea <= v.wholeMost;
+            whole += s.area <= v.wholeMost;
+            torn += !(s.flags & ::SEED_RESTING) && s.area > v.wholeMost && s.normal.x / 130 != s.way[0];
             plain += voxel.reach == 0 && voxel.slopeX == 0;
         }
     }
-    verdict(ended > rounds / 4 && sloped > rounds / 2 && steep > rounds / 4 && whole > rounds && plain > rounds / 40,
+    verdict(ended > rounds / 4 && sloped > rounds / 2 && steep > rounds / 4 && whole > rounds && plain > rounds / 40 &&
+                torn > rounds / 4 && hidden > rounds && found > rounds,
             "seeds: there were some of each kind", plain);
 }
 

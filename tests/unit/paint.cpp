@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "../../src/surface/paint.h"
 #include "help.h"
 #include "model/scene.h"
 #include "picture/palette.h"
@@ -212,6 +213,8 @@ TEST(finishes_by_the_normal)
             p.draw(k, [](const Voxel&, const uint8_t*, const Vec&) {});
             double worst = 0;
             int seen = 0;
+            const OwnFrame own = ownFrame(p.object(k), p.frame());
+            const Polish polish(p.object(k), own);
             for (int i = 0; i < p.object(k).seedSlots(); i += 2) {
                 const Seed& s = p.object(k).seed(i);
                 Vec n{s.normal.x / 16384.0, s.normal.y / 16384.0, s.normal.z / 16384.0};
@@ -224,7 +227,7 @@ TEST(finishes_by_the_normal)
                                            : 1 - (height - 0.3) / 0.7 * 0.5;
                 }
                 shade += (1 - shade) * std::pow(std::max(0.0, dot(n, half)), 16);
-                worst = std::max(worst, std::fabs(s.brightness8 / 256.0 - 63 * shade));
+                worst = std::max(worst, std::fabs(polish.brightness8(s.normal) / 256.0 - 63 * shade));
                 ++seen;
             }
             note("%s: off by %.2f steps at most", finish, worst);

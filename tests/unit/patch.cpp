@@ -153,11 +153,13 @@ TEST(patches_that_face_away_are_out_of_sight)
         const Body body(scene, kinds);
         const SoftObject& object = *scene.objects[0];
         const OwnFrame own = ownFrame(object, scene.frame());
+        // What is seen more edge-on is not drawn.
+        const double limb = own.limb / 16384.0 * own.distance32 / 32;
         for (const Patch& patch : patchesIn(object)) {
             bool seen = false;
             forSeeds(patch, [&](int i) {
-                const Vec p = restOf(object, object.seed(i));
-                seen = seen || dot(body.fall({0}, p), vec(scene.eye) - p) > 0;
+                const Vec p = restOf(object, object.seed(i)), fall = body.fall({0}, p);
+                seen = seen || dot(fall, vec(scene.eye) - p) > limb * std::sqrt(dot(fall, fall));
             });
             const bool said = restsAway(patch, own);
             CHECK(!said || !seen);
