@@ -1,8 +1,9 @@
 // mkscene: random scenes for tests, the same one for the same seed on every machine.
 //
-//   mkscene SEED [OBJECTS] [eye] [dents] [paint]   writes a scene file to standard output
+//   mkscene SEED [OBJECTS] [eye] [dents] [paint] [shapes]   writes a scene file to standard output
 //
-// With the word paint half of the objects have a finish or a pattern, and in every other scene the colours mix.
+// With the word paint half of the objects have a finish or a pattern, and in every other scene the colours mix. With `shapes`
+// objects are stretched, tapered, twisted and bent, too.
 // Three to nine objects (or as many as asked for) of all kinds, within what the default camera sees; some in groups, most
 // of them moving, some turning, swinging or pulsing; linked in one of several graphs, with weights up to 4. With `dents`
 // one to three objects more dig into others, and some have another strength than 1. With `eye` the same scene is seen by an eye
@@ -173,6 +174,8 @@ void printPaint(int objects) {
 }  // namespace
 
 int main(int count, char **arguments) {
+  const bool shapes = count > 2 && std::string(arguments[count - 1]) == "shapes";
+  if (shapes) count--;
   const bool paint = count > 2 && std::string(arguments[count - 1]) == "paint";
   if (paint) count--;
   const bool dents = count > 2 && std::string(arguments[count - 1]) == "dents";
@@ -182,7 +185,7 @@ int main(int count, char **arguments) {
   const bool eye = count > 2 && std::string(arguments[count - 1]) == "eye";
   if (eye) count--;
   if (count < 2 || count > 3 || end == arguments[1] || *end != 0) {
-    fputs("usage: mkscene SEED [OBJECTS, 1 to 128] [eye] [dents] [paint]\n", stderr);
+    fputs("usage: mkscene SEED [OBJECTS, 1 to 128] [eye] [dents] [paint] [shapes]\n", stderr);
     return 2;
   }
   state = seed;
@@ -240,14 +243,31 @@ int main(int count, char **arguments) {
     }
     const double x = tenths(-20, 20), y = tenths(-14, 14), z = tenths(-16, 30);
     printf(" at %.1f %.1f %.1f", x, y, z);
-    if (kind >= 4) {
+    const bool stretched = shapes && !once(3);
+    // Half as large to twice as large, but for the longest, which become no longer.
+    if (stretched) {
+      const double x = between(25, 100) / 50.0, y = between(25, 100) / (kind < 4 ? 50.0 : 100.0);
+      printf(" stretch %.2f %.2f %.2f", kind == 6 || kind == 7 ? x / 2 : x, y, between(25, 100) / 100.0);
+    }
+    if (kind >= 4 || stretched) {
       const int a = between(-180, 180), b = between(-180, 180);
       printf(" turn %d %d %d", a, b, between(-180, 180));
     }
     if (groups > 0 && !once(3)) printf(" in g%d", between(1, groups));
     printf("\n");
     printMoving(name.c_str());
-    if (kind >= 4 && once(2)) printTurning(name.c_str());
+    if ((kind >= 4 || stretched) && once(2)) printTurning(name.c_str());
+    static const struct {
+      const char *word;
+      double most;
+    } warps[] = {{"taper", 0.7}, {"twist", 180}, {"bend", 120}};
+    for (const auto &warp : warps) {
+      if (!shapes || !once(4)) continue;
+      const double amount = warp.most * between(-100, 100) / 100.0, swing = warp.most * between(0, 100) / 100.0;
+      printf("%s %s %.2f", warp.word, name.c_str(), amount);
+      if (once(2)) printf(" swing %.2f period %.1f phase 0.%d", swing, tenths(3, 9), between(0, 9));
+      printf("\n");
+    }
     if (once(5)) {
       const int by = between(5, 40);
       printf("pulse %s by 0.%02d period %.1f\n", name.c_str(), by, tenths(2, 8));

@@ -75,6 +75,26 @@ struct Object {
   Vec axis[3], half;  // a box: its unit axes, half its edges along them
   double strength = 1;  // what its field is multiplied by wherever it counts
   bool ghost = false;   // it digs into others and is linked with none: it has no surface
+  // Its own space, where that is no plain one: about `centre`, along unit axes
+  // of its own, stretched by these factors, then tapered, twisted and bent by
+  // these amounts (a share; radians) from height -h to h along the y axis.
+  // setShape() has them from a scene text, and says what is wrong, or null.
+  bool plain = true;
+  Vec centre, own[3], stretch{1, 1, 1};
+  double taper = 0, twist = 0, bend = 0, h = 1;
+  bool warped() const { return taper != 0 || twist != 0 || bend != 0; }
+  // A point, or a ray, where they would be if the space were plain; what the
+  // kind says of it there. A ray's t stays, and its lines stay straight.
+  const char *setShape(const std::string &word, const double *numbers);
+  // What a distance of so much at a point may be at most there, times this.
+  double steepest(Vec p, double distance) const;
+  Vec plainPoint(Vec p) const;
+  Ray plainRay(const Ray &) const;
+  double q(Vec p, Vec *gradient) const;
+  void breaks(const Ray &, std::vector<double> &) const;
+  bool quadratic() const { return kind->quadratic && !warped(); }
+  void quadratic(const Ray &, double t, double c[3]) const;
+  void bounds(const Ray &, double a, double b, double &low, double &high) const;
 };
 
 struct Colour {

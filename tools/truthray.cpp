@@ -260,18 +260,24 @@ void coneBreaks(const Object &o, const Ray &ray, std::vector<double> &t) {
 // axis b and its z axis a x b. Beyond the core q is the sum of the squares of
 // what each of its coordinates lies beyond a pair of planes.
 
-const char *boxSet(Object &o, const double *v) {
-  o.a = o.middle = {v[0], v[1], v[2]};
-  Vec x{v[3], v[4], v[5]}, y{v[6], v[7], v[8]};
+// Unit axes from the first two and a third.
+const char *setAxes(const double *v, Vec axis[3]) {
+  Vec x{v[0], v[1], v[2]}, y{v[3], v[4], v[5]};
   if (!(length(x) > 0)) return "the x axis has no direction";
   x = x * (1 / length(x));
   // Square to the first, which a turn of whole numbers leaves it but for the last places.
   y = y - x * dot(x, y);
   if (!(length(y) > 0)) return "the y axis has no direction of its own";
   y = y * (1 / length(y));
-  o.axis[0] = x;
-  o.axis[1] = y;
-  o.axis[2] = {x.y * y.z - x.z * y.y, x.z * y.x - x.x * y.z, x.x * y.y - x.y * y.x};
+  axis[0] = x;
+  axis[1] = y;
+  axis[2] = {x.y * y.z - x.z * y.y, x.z * y.x - x.x * y.z, x.x * y.y - x.y * y.x};
+  return nullptr;
+}
+
+const char *boxSet(Object &o, const double *v) {
+  o.a = o.middle = {v[0], v[1], v[2]};
+  if (const char *wrong = setAxes(v + 3, o.axis)) return wrong;
   if (v[9] < 0 || v[10] < 0 || v[11] < 0) return "an edge must not be negative";
   o.half = {v[9] / 2, v[10] / 2, v[11] / 2};
   o.size = v[12];
@@ -490,6 +496,8 @@ const double FINEST = 1e-7;
 const double TIE = 1e-4;
 // How far a form may be from the field it follows.
 const double FOLLOWS = 1e-11;
+// Where space is warped a field has kinks in its curvature that no break tells.
+const double FOLLOWS_WARPED = 1e-8;
 
 }  // namespace
 
@@ -497,6 +505,144 @@ const Kind *findKind(const std::string &word) {
   for (const Kind &k : kinds)
     if (word == k.word) return &k;
   return nullptr;
+}
+
+// ---- own space ---------------------------------------------------------------
+//
+// stretch n cx cy cz ax ay az bx by bz X Y Z
+// taper, twist, bend n cx cy cz ax ay az bx by bz A H
+//
+// Object n has its own space about c, with the x axis a, the y axis b and a
+// third square to both. What its own line says of it holds in plain space; that
+// is stretched by X, Y and Z. Then, with y from -H to H and as at the ends
+// beyond, x and z become 1 + A y / H as wide; all is turned about the y axis by
+// A y / 2H degrees (beyond, too), from z to x; and the y axis becomes part of a
+// circle towards x, of A degrees, straight on beyond its ends.
+
+const char *Object::setShape(const std::string &word, const double *v) {
+  if (plain) {
+    plain = false;
+    centre = {v[0], v[1], v[2]};
+    // A ball about the centre that holds the field.
+    reach += length(middle - centre);
+    middle = centre;
+    if (const char *wrong = setAxes(v + 3, own)) return wrong;
+  }
+  if (word == "stretch") {
+    stretch = {v[9], v[10], v[11]};
+    if (!(std::min(stretch.x, std::min(stretch.y, stretch.z)) > 0)) return "a factor must be above 0";
+    reach *= std::max(stretch.x, std::max(stretch.y, stretch.z));
+    return nullptr;
+  }
+  h = v[10];
+  if (!(h > 0)) return "the height must be above 0";
+  const double amount = v[9] * M_PI / 180;
+  if (word == "taper") {
+    taper = v[9];
+    if (std::fabs(taper) >= 1) return "a taper must lie between -1 and 1";
+    reach *= 1 + std::fabs(taper);
+  }
+  if (word == "twist") twist = amount;
+  if (word == "bend") {
+    bend = amount;
+    reach *= 1.5;
+  }
+  return nullptr;
+}
+
+namespace {
+
+// Where a point of a bent plane was: the axis is part of a circle about (1/k, 0), k = bend / 2h.
+void unbend(double bend, double h, double &x, double &y) {
+  if (bend < 0) {
+    x = -x;
+    unbend(-bend, h, x, y);
+    x = -x;
+    return;
+  }
+  const double radius = 2 * h / bend, dx = x - radius, end = bend / 2;
+  const double angle = std::atan2(y, -dx), on = std::min(std::max(angle, -end), end);
+  if (on == angle) {
+    x = radius - std::hypot(dx, y);
+    y = angle * radius;
+    return;
+  }
+  // From the end of the circle, along its tangent.
+  const double fromX = x - radius * (1 - std::cos(on)), fromY = y - radius * std::sin(on);
+  x = fromX * std::cos(on) - fromY * std::sin(on);
+  y = on * radius + fromX * std::sin(on) + fromY * std::cos(on);
+}
+
+}  // namespace
+
+Vec Object::plainPoint(Vec p) const {
+  if (plain) return p;
+  const Vec m = p - centre;
+  double x = dot(m, own[0]), y = dot(m, own[1]), z = dot(m, own[2]);
+  if (bend != 0) unbend(bend, h, x, y);
+  if (twist != 0) {
+    const double angle = twist * y / (2 * h), s = std::sin(angle), c = std::cos(angle), turned = x * c - z * s;
+    z = x * s + z * c;
+    x = turned;
+  }
+  const double wide = 1 + taper * std::min(std::max(y / h, -1.0), 1.0);
+  return centre + own[0] * (x / wide / stretch.x) + own[1] * (y / stretch.y) + own[2] * (z / wide / stretch.z);
+}
+
+// Of a space that is not warped: lines stay straight.
+Ray Object::plainRay(const Ray &ray) const {
+  if (plain) return ray;
+  return {plainPoint(ray.eye), plainPoint(centre + ray.dir) - centre};
+}
+
+double Object::steepest(Vec p, double distance) const {
+  // As wide as three times the field, so that it holds a little beyond it.
+  const double wide = 3 * reach, narrow = 1 - std::fabs(taper);
+  double most = (1 + wide * std::fabs(taper) / h) / narrow * (1 + wide * std::fabs(twist) / (2 * h));
+  if (bend != 0) {
+    const double radius = 2 * h / std::fabs(bend);
+    const Vec m = p - centre;
+    const double x = dot(m, own[0]) * (bend < 0 ? -1 : 1) - radius, y = dot(m, own[1]), away = std::hypot(x, y) - distance;
+    // About the middle of the circle, and beyond it, where its two ends meet, anything may be.
+    if (away <= 0 || (x > -distance && std::fabs(y) <= distance)) return 1e30;
+    most *= std::max(1.0, radius / away);
+  }
+  return most / std::min(stretch.x, std::min(stretch.y, stretch.z));
+}
+
+double Object::q(Vec p, Vec *g) const {
+  double value = kind->q(*this, plainPoint(p), g);
+  if (!g || plain) return value;
+  const Vec steps[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const double small = 1e-5;
+  double out[3];
+  for (int k = 0; k < 3; k++)
+    out[k] = dot(*g, plainPoint(p + steps[k] * small) - plainPoint(p - steps[k] * small)) / (2 * small);
+  *g = {out[0], out[1], out[2]};
+  return value;
+}
+
+void Object::breaks(const Ray &ray, std::vector<double> &t) const {
+  if (!warped()) kind->breaks(*this, plainRay(ray), t);
+}
+
+void Object::quadratic(const Ray &ray, double t, double c[3]) const { kind->quadratic(*this, plainRay(ray), t, c); }
+
+void Object::bounds(const Ray &ray, double a, double b, double &low, double &high) const {
+  if (!warped()) {
+    kind->bounds(*this, plainRay(ray), a, b, low, high);
+    return;
+  }
+  const Vec middle = point(ray, (a + b) / 2);
+  const double distance = (b - a) / 2 * length(ray.dir), least = size2 > 0 ? std::min(size, size2) : size;
+  const double drift = size2 > 0 && len > 0 ? (size2 - size) / len : 0;
+  const double h = distance * steepest(middle, distance) / least * std::sqrt(1 + 9 * drift * drift);
+  const double d = std::sqrt(q(middle, nullptr));
+  // A long stretch may hold anything.
+  low = 0, high = 1e30;
+  if (h > 0.5) return;
+  low = d > h ? (d - h) * (d - h) : 0;
+  high = (d + h) * (d + h);
 }
 
 // What one call of trace() works with.
@@ -537,7 +683,7 @@ void Tracer::forgetPlain() {
 // An object's field at a point, as it counts in sums.
 double Tracer::strengthened(int i, Vec p) const {
   const Object &o = scene.objects[i];
-  return o.strength * geoff(o.kind->q(o, p, nullptr));
+  return o.strength * geoff(o.q(p, nullptr));
 }
 
 // Whether an object that is none of the n members digs into one of them.
@@ -557,7 +703,7 @@ double Tracer::field(int number, Vec p, Vec *gradient, int *strongest) const {
   auto add = [&](int i) {
     const Object &o = scene.objects[i];
     Vec g{0, 0, 0};
-    double q = o.kind->q(o, p, gradient ? &g : nullptr);
+    double q = o.q(p, gradient ? &g : nullptr);
     if (q >= 1) return;
     here.push_back(i), f.push_back(o.strength * geoff(q)), df.push_back(g * (o.strength * geoffSlope(q)));
   };
@@ -677,7 +823,10 @@ bool Tracer::follow(const Work &w, int i, double a, double b, double *form) cons
   const Object &o = scene.objects[i];
   // A longer stretch could hold what none of the places looked at shows.
   double least = o.size2 > 0 ? std::min(o.size, o.size2) : o.size;
-  if ((b - a) * length(w.ray.dir) > least / 2) return false;
+  const double whole = (b - a) * length(w.ray.dir);
+  if (o.warped() ? whole * o.steepest(point(w.ray, (a + b) / 2), whole) > least / 2
+                 : (b - a) * length(o.plainRay(w.ray).dir) > least / 2)
+    return false;
   auto at = [&](double x) { return strengthened(i, point(w.ray, a + (b - a) * x)); };
   double v[N];
   for (int k = 0; k < N; k++) v[k] = at(k / double(N - 1));
@@ -686,7 +835,7 @@ bool Tracer::follow(const Work &w, int i, double a, double b, double *form) cons
     for (int j = 0; j < N; j++) form[k] += through.m[k][j] * v[j];
   }
   for (double x : {1 / 12.0, 5 / 12.0, 7 / 12.0, 11 / 12.0})
-    if (std::fabs(value<N>(form, x) - at(x)) > FOLLOWS) return false;
+    if (std::fabs(value<N>(form, x) - at(x)) > (o.warped() ? FOLLOWS_WARPED : FOLLOWS)) return false;
   return true;
 }
 
@@ -710,7 +859,7 @@ double Tracer::first(const Work &w, const int *which, int n, int members, const 
       } else {
         const Object &o = scene.objects[which[k]];
         double lowQ, highQ;
-        o.kind->bounds(o, w.ray, a, b, lowQ, highQ);
+        o.bounds(w.ray, a, b, lowQ, highQ);
         low[k] = o.strength * geoff(highQ), high[k] = o.strength * geoff(lowQ);
       }
     }
@@ -779,8 +928,8 @@ Hit Tracer::trace(double column, double row, const int *which, int count) const 
   w.t.clear();
   for (int n = 0; n < count; n++) {
     const Object &o = scene.objects[which[n]];
-    o.kind->breaks(o, w.ray, w.t);
-    if (!o.kind->quadratic) {
+    o.breaks(w.ray, w.t);
+    if (!o.quadratic()) {
       double c[3];
       pointQuadratic(w.ray, o.middle, o.reach, c);
       whereOne(c, w.t);
@@ -798,7 +947,7 @@ Hit Tracer::trace(double column, double row, const int *which, int count) const 
     Vec m = point(w.ray, (a + b) / 2);
     for (int n = 0; n < count; n++) {
       const Object &o = scene.objects[which[n]];
-      bool on = o.kind->quadratic ? o.kind->q(o, m, nullptr) < 1
+      bool on = o.quadratic() ? o.q(m, nullptr) < 1
                                   : dot(m - o.middle, m - o.middle) < o.reach * o.reach;
       if (on) w.live.push_back(which[n]);
     }
@@ -810,9 +959,9 @@ Hit Tracer::trace(double column, double row, const int *which, int count) const 
     w.known.assign(lives, 0);
     for (int n = 0; n < lives; n++) {
       const Object &o = scene.objects[w.live[n]];
-      if (!o.kind->quadratic) continue;
+      if (!o.quadratic()) continue;
       double quad[3];
-      o.kind->quadratic(o, w.ray, (a + b) / 2, quad);
+      o.quadratic(w.ray, (a + b) / 2, quad);
       fieldForm(quad, a, b, &w.form[n * N]);
       for (int k = 0; k < N; k++) w.form[n * N + k] *= o.strength;
       w.known[n] = 1;
@@ -916,7 +1065,7 @@ Colour Tracer::colour(int object, Vec p) const {
   if (!scene.mixed) add(object, 1);
   for (int i = 0; scene.mixed && i < (int)scene.objects.size(); i++) {
     const Object &o = scene.objects[i];
-    if (body[i] == body[object]) add(i, geoff(o.kind->q(o, p, nullptr)));
+    if (body[i] == body[object]) add(i, geoff(o.q(p, nullptr)));
   }
   if (!(sum > 0)) return {0, 0, 0};
   const Coat &coat = scene.coats[object];

@@ -52,6 +52,7 @@ const Fact facts[] = {
     {"blend", 2, 3, false}, {"ambient", 1, 1, false}, {"highlight", 1, 1, false},  {"ramp", 4, 4, false},
     {"mixed", 0, 0, false}, {"shiny", 1, 1, false},    {"mirror", 1, 1, false},
     {"checks", 14, 14, false}, {"stripes", 14, 14, false}, {"marble", 14, 14, false},
+    {"stretch", 13, 13, false}, {"taper", 12, 12, false}, {"twist", 12, 12, false}, {"bend", 12, 12, false},
 };
 
 }  // namespace
@@ -142,6 +143,11 @@ bool parseScene(const std::string &text, const std::string &name, Scene &s, std:
     if (word == "mixed") s.mixed = true;
     for (const char *coat : {"shiny", "mirror", "checks", "stripes", "marble"})
       if (word == coat) coats.push_back({lineNumber, word, v});
+    if (word == "stretch" || word == "taper" || word == "twist" || word == "bend") {
+      auto o = index.find((int)v[0]);
+      if (o == index.end()) return fail(word + " names an object that is not there");
+      if (const char *wrong = s.objects[o->second].setShape(word, v.data() + 1)) return fail(wrong);
+    }
     if (word == "blend" && v.size() > 2 && v[2] < 0) return fail("a link's weight must not be negative");
     if (word == "blend") links.push_back({lineNumber, v[0], v[1], v.size() > 2 ? v[2] : 1});
     if (word == "dent" && v.size() > 2 && v[2] < 0) return fail("a dent's weight must not be negative");

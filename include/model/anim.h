@@ -5,6 +5,7 @@
 #define FB_ANIM_H
 
 #include "math/vec.h"
+#include "model/warp.h"
 
 class Model;
 
@@ -53,6 +54,13 @@ enum MotionPart : uint8_t {
     MOTION_PULSE = 16,
     MOTION_KEYS = 32,
     MOTION_CIRCLE = 64,  // of a Move alone: a motion's own circle is there when its period is not 0
+    MOTION_WARP = 128,   // objects only
+};
+
+// An amount that may go to and fro: amount + swing sin(a).
+struct Swaying {
+    Real amount{0}, swing{0};
+    Wave wave;
 };
 
 // One more circle, path, spin, swing or pulse beside the first of its kind.
@@ -97,6 +105,9 @@ struct Motion {
     // Size times 1 + pulse sin(a), 0 <= pulse <= 0.75.
     Real pulse{0};
     Wave pulsing;
+
+    // Taper, twist and bend.
+    Swaying warp[WARP_PARTS];
 
     // Keyframes firstKey .. firstKey + keyCount - 1 of the model, in rising order of time. Before the first and behind
     // the last it rests; with `repeat` (1/65536 s, above the last key's time) they go round and round. Smooth: the

@@ -12,6 +12,7 @@ public:
     Box(int number, Real size, Real x, Real y, Real z);
 
     Vector fromCore(const Vector& q) const override;
+    Vector coreExtent16() const override { return half16_; }
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
     void describe(char* to, int size) const override;
 

@@ -16,7 +16,8 @@ public:
 
     Vector fromCore(const Vector& q) const override;
     Real segmentHalf16() const override { return coreReach16(); }
-    Real param(const Vector& q, Vector* slope) const override;
+    Real plainParam(const Vector& q, Vector* slope) const override;
+    Vector coreExtent16() const override { return {Real(0), coreReach16(), Real(0)}; }
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
     void describe(char* to, int size) const override;
 

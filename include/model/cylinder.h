@@ -14,6 +14,7 @@ public:
     Vector fromCore(const Vector& q) const override;
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
     Real segmentHalf16() const override { return coreReach16(); }
+    Vector coreExtent16() const override { return {Real(0), coreReach16(), Real(0)}; }
     void describe(char* to, int size) const override;
 
     Real length() const { return shiftUp(coreReach(), 1); }

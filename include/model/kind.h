@@ -25,6 +25,9 @@ struct Kind {
 
     // Null, or what is expected where measures that are in range each do not fit each other. May be null itself.
     const char* (*expects)(const Real* measures);
+
+    // How far its surface reaches from its centre at most, units.
+    Real (*reach)(const Real* measures);
 };
 
 extern const Kind KINDS[];

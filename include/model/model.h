@@ -29,6 +29,7 @@ struct Actor {
     char name[NAME_ROOM] = "";
     const Kind* kind = nullptr;    // null: a group, or an object that was made elsewhere
     Real measure[MEASURES_MOST] = {Real(0), Real(0), Real(0), Real(0)};  // as the kind has them, before any scaling
+    Vector stretch{Real(1), Real(1), Real(1)};  // along its own axes; objects only
     Pose pose;                     // as Anim::move() left it
     Real made{0};                  // size() of the object before any scaling
     Real strength{1};              // of the object
@@ -59,6 +60,9 @@ public:
     // Takes an item out of the model, and its keys. What it carried is carried by its own parent from then on: the
     // centre stays where it is now, but what the item added to its motion and its turn is gone.
     void remove(Actor* item);
+
+    // Null, or what is expected where the measures and the stretch of an item do not fit each other.
+    static const char* expects(const Actor& item);
 
     // Makes the object of an item anew, after its measures or its strength were changed. False: no memory, and the object
     // that was there stays.

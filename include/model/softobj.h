@@ -9,9 +9,16 @@
 #include "model/field.h"
 #include "model/seed.h"
 #include "model/surface.h"
+#include "model/warp.h"
 
 class SoftObject;
 struct Paint;
+
+// By how much an object may be stretched along each of its own axes, and how far from its centre what is stretched may reach
+// (units, before any scaling).
+constexpr Real STRETCH_LEAST(0.25);
+constexpr Real STRETCH_MOST(4);
+constexpr int STRETCHED_REACH = 100;
 
 // The sizes an object may have (the distance from its core where its field ends), units.
 constexpr int MIN_SIZE = 1;
@@ -53,8 +60,11 @@ public:
 
     // Squared distance to the core over squared size at `q` (core space): 0 at the core, 1 where the field ends, 1 or more
     // beyond. `*slope` receives half its gradient times CORE_SIZE squared: the vector from the core, unless the object
-    // tapers.
-    virtual Real param(const Vector& q, Vector* slope) const;
+    // tapers. Of the object as if it were neither stretched nor warped.
+    virtual Real plainParam(const Vector& q, Vector* slope) const;
+
+    // How far the core extends along each axis to either side, in core space.
+    virtual Vector coreExtent16() const { return {Real(0), Real(0), Real(0)}; }
 
     // Where the core is a segment along the y axis: half its length in core space. Else 0. It is only a hint: fromCore()
     // would say the same, slower.
@@ -72,6 +82,11 @@ public:
 
     // The object in the words of a dumped frame ("sphere 1 3.25 -4 0 20"), at most `size` bytes with the final 0.
     virtual void describe(char* to, int size) const = 0;
+
+    // What its own space has been made of, where that is no plain one ("stretch 1 ..."): SHAPES lines, those for which there
+    // is nothing to be said empty.
+    static constexpr int SHAPES = 1 + WARP_PARTS;
+    void describeShape(int which, char* to, int size) const;
 
     // --- Seeds
 
@@ -128,6 +143,12 @@ public:
     void scale(Real by) { setSize(size_ * by); }
     // The same, by the size to be reached, for what moves by the time and must not depend on the frame before.
     void setSize(Real size);
+    // Stretches core and field along the object's own axes, each factor STRETCH_LEAST..STRETCH_MOST. To be called before
+    // seeds are laid out.
+    void setStretch(const Vector& factors);
+    // Warps it, as stretched. It counts as warped from then on, whatever the amounts. Without the memory for it the object
+    // stays as it was.
+    void setWarp(const WarpAmounts& amounts);
 
     // What the field is multiplied by, STRENGTH_LEAST..STRENGTH_MOST. It decides where seeds rest, so it is given before they
     // are laid out.
@@ -148,13 +169,49 @@ public:
     const Matrix& turn() const { return turn_; }
     int number() const { return number_; }
     // It looks the same from everywhere.
-    bool isBall() const { return !tapers_ && coreReach_ == Real(0); }
+    bool isBall() const { return ball_; }
     bool tapers() const { return tapers_; }
+    const Vector& stretch() const { return stretch_; }
+    bool stretched() const { return stretched_; }
+    bool warped() const { return warped_; }
+    const Warp& warp() const { return warp_; }
+    // Stretched or warped: paths from one root differ in length.
+    bool shaped() const { return shaped_; }
+    // Where no path leads square out of the unblended surface.
+    bool slants() const { return tapers_ || shaped(); }
+    // No distance from the core is less than this share of what it would be in an object that is not shaped.
+    Real narrowing() const { return least(stretch_.x, least(stretch_.y, stretch_.z)) * warp_.least(); }
+    // The greatest distance from the centre at which there may be any field.
+    Real reach() const { return reach_; }
     // How much larger the object is than when its seeds were laid out: own space to the world.
     Real growth() const { return size_ / laid_.size; }
     Real laidSize() const { return laid_.size; }
     // How long paths were then.
     Real laidRadius() const { return laid_.size * restRoot_; }
+    // And reach().
+    Real laidReach() const { return shaped() ? reach() / growth() : laid_.size + coreReach_ / growth(); }
+    // No path was longer.
+    Real longestPath() const { return shaped() ? laidRadius() * mostStretch_ * warp_.most() : laidRadius(); }
+
+    // A place of own space, or one of the world in own axes, as if the object were not stretched; and back. What is square to
+    // a surface goes the same way as a place in unstretched(), from there to own space.
+    Vector unstretched(const Vector& v) const
+    {
+        return stretched_ ? Vector{v.x * unstretch_.x, v.y * unstretch_.y, v.z * unstretch_.z} : v;
+    }
+    Vector stretchedOut(const Vector& v) const
+    {
+        return stretched_ ? Vector{v.x * stretch_.x, v.y * stretch_.y, v.z * stretch_.z} : v;
+    }
+    // The same, as far as core space is concerned: what is warped is stretched behind the warp, in param().
+    Vector toCoreAxes(const Vector& v) const { return warped_ ? v : unstretched(v); }
+
+    // plainParam() at a place of core space, and half its gradient there times CORE_SIZE squared.
+    Real param(const Vector& q, Vector* slope) const { return warped_ ? warpedParam(q, slope) : plainParam(q, slope); }
+    // fromCore() at a place of core space.
+    Vector awayFromCore(const Vector& q) const;
+    // Half the gradient of param() at a place of own space, in own space, times CORE_SIZE and laidSize().
+    Vector slopeAt(const Vector& place) const;
 
     // A point of the object's own space in the world; a vector of the world in the object's own axes, unscaled.
     Point toWorld(const Vector& v) const;
@@ -243,12 +300,20 @@ private:
         int regular = 0, oversampled = 0, rings = 0, rootRoom = 0;
         Real spacing{2};
         Real size{0};                    // of the object
+        // Of a warped object: the regular seeds and the roots as they are without the warp, and as the `border` of those seeds the
+        // direction outward where they rest now. Else null.
+        Seed* plainSeeds = nullptr;
+        Vector* plainRoots = nullptr;
 
         bool allocated();
         void release();
         int blocks() const { return (regular + EXTRA_BLOCK - 1) >> EXTRA_BITS; }
         Vector rest(const Seed& s) const { return roots[s.root] + s.path; }
         int nearestIn(int ring, int from, const Vector& target) const;
+        int nearestBefore(int ring, int seed, int successor, bool closed) const;
+        void closeGap(Seed& s, Seed& n) const;
+        // The layout as it is without the warp. It shares all that it points at.
+        Layout plain() const;
     };
 
     const Link* hollowLink() const;
@@ -259,10 +324,20 @@ private:
     bool layOutLike(const SoftObject& other, Layout& layout) const;
     Seed& laidExtra(int slot);
     Seed* layOutBlock(int block);
+    int ringOf(int number) const;
+    bool manyRoots() const { return stretched_ && coreReach_ > Real(0); }
     Seed* blockFromOthers();
+    static bool isUsed(const Seed* block);
     void layOutExtra(Layout& layout, int number, int ring, Seed& extra) const;
     bool rootBetween(const Layout& layout, const Seed& one, const Seed& other, Vector* root, Vector* out) const;
     Real restLength(const Layout& layout, const Seed& a, const Seed& b) const;
+    void measureReach();
+    Real warpedParam(const Vector& q, Vector* slope) const;
+    bool keepPlain(Layout& layout) const;
+    void reshape();
+    Direction14 warpSeed(const Seed& plain, const Vector& plainRoot, Seed& to, Warp::Way& way) const;
+    void warpExtra(const Layout& plain, Seed& s) const;
+    Direction14 plainNormal(const Vector& rest, const Vector& path) const;
 
     int number_;
     Point centre_;
@@ -271,6 +346,11 @@ private:
     Real radius_;     // R/2: "the distance each seed would be from the center if no blending were taking place"; R restRoot_
     Real inverse_;    // CORE_SIZE / size
     Real coreReach_;
+    Vector stretch_, unstretch_;  // factors along the own axes, and one over each
+    Real mostStretch_;
+    bool stretched_, warped_, shaped_, ball_;
+    Real reach_;
+    Warp warp_;                   // of core space
     Real sizeMade_, coreReachMade_, coreReach16_;  // as made, so that scaling never adds up errors
     List<Link> skel_, dents_, digs_;
     Real strength_, restParam_, restRoot_;

@@ -40,6 +40,9 @@ public:
     // Settles the object's seeds on the surface (report, Section III, update()). Called when something changed.
     virtual void update(const FrameContext& frame) = 0;
 
+    // Takes note that the seeds' roots and paths, and where they rest, have changed.
+    virtual void reshape() {}
+
     // Lists the voxels of the settled seeds, as many as fit `room` (DRAW_ROOM..VOXELS_AT_ONCE). `*next` is 0 for the first
     // call of a frame; the call changes it, and as long as it is not 0 there are more. An object without a surface
     // (SoftObject::hasSurface) has none of its own.

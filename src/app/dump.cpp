@@ -147,6 +147,13 @@ const char* Dump::frame(int number, Time time, int rate, const Model& model, con
         line(text);
     }
     for (int i = 0; i < model.count(); ++i) {
+        for (int which = 0; which < SoftObject::SHAPES; ++which) {
+            model.actor(i).object->describeShape(which, text, sizeof text);
+            if (text[0] != 0)
+                line(text);
+        }
+    }
+    for (int i = 0; i < model.count(); ++i) {
         const SoftObject* object = model.actor(i).object;
         for (const List<Link>::Node* node = object->skel().first(); node != nullptr; node = node->next) {
             if (node->item.object->number() <= object->number())

@@ -231,7 +231,7 @@ bool Editor::changeMeasure(int which, Real by, Action action, Time now)
         return false;
     }
     actor.measure[which] = to;
-    const char* expects = actor.kind->expects == nullptr ? nullptr : actor.kind->expects(actor.measure);
+    const char* expects = Model::expects(actor);
     actor.measure[which] = was;
     if (expects != nullptr) {
         say("expected ", expects);

@@ -126,6 +126,17 @@ Pose poseAt(const Model& model, const Motion& motion, Time time)
     return pose;
 }
 
+WarpAmounts warpAt(const Motion& motion, Time time)
+{
+    WarpAmounts amounts;
+    for (int i = 0; i < WARP_PARTS; ++i) {
+        const Swaying& part = motion.warp[i];
+        const Real swung = part.swing == Real(0) ? part.amount : part.amount + part.swing * sine(angleAt(part.wave, time));
+        amounts.part[i] = clamp(swung, -WARP_MOST[i], WARP_MOST[i]);
+    }
+    return amounts;
+}
+
 bool sameTurn(const Matrix& a, const Matrix& b)
 {
     for (int i = 0; i < 3; ++i)
@@ -232,7 +243,9 @@ void Anim::move(Model& model, Time time)
             continue;
         SoftObject& object = *actor.object;
         object.setSize(actor.made * pose.scale);
-        if (turned && (object.coreReach() > Real(0) || actor.coat.pattern != PATTERN_NONE))
+        if ((actor.motion.parts & MOTION_WARP) != 0 || object.warped())
+            object.setWarp(warpAt(actor.motion, time));
+        if (turned && (!object.isBall() || actor.coat.pattern != PATTERN_NONE))
             object.setTurn(pose.turn);
         object.moveTo(pose.place);
     }

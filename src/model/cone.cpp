@@ -21,7 +21,7 @@ Vector Cone::fromCore(const Vector& q) const
 
 // t = d^2 / R^2 with the size R at the nearest point of the core: half its gradient is d / R^2 - axis d^2 taper / R^3,
 // the second part on the side only.
-Real Cone::param(const Vector& q, Vector* slope) const
+Real Cone::plainParam(const Vector& q, Vector* slope) const
 {
     const Real on = clamp(q.y, -coreReach16(), coreReach16());
     const Vector d{q.x, q.y - on, q.z};
@@ -44,13 +44,16 @@ void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
     const Vector normal = unit({(size1Made_ - size2Made_) * restRoot(), lengthMade_, Real(0)});
     const Real cap1 = radius1 * HALF_PI, cap2 = radius2 * HALF_PI;
     const Real side = ::length({radius1 - radius2, length(), Real(0)});
-    const Real outline = cap1 + side + cap2;
-    const int rings = stepsIn(outline, spacing);
+    Outline outline(stretch());
+    outline.arc(cap1, 0xc0000000u, 0);
+    outline.line(side, normal.x, normal.y);
+    outline.arc(cap2, 0, 0x40000000u);
+    const int rings = stepsIn(outline.length(), spacing);
+    RingMaker ringMaker(maker, stretch(), spacing);
     Ring ring{};
-    ring.across = portion(outline, 1, 2 * rings);
     int root1 = -1, root2 = -1;
     for (int k = 0; k < rings; ++k) {
-        const Real at = portion(outline, 2 * k + 1, 2 * rings);
+        const Real at = outline.at(2 * k + 1, 2 * rings, &ring.across);
         Angle latitude = 0;
         int* shared = nullptr;
         if (at < cap1) {
@@ -76,11 +79,11 @@ void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
         }
         int root = shared == nullptr ? -1 : *shared;
         if (root < 0)
-            root = addRoots(maker, ring, spacing);
+            root = ringMaker.addRoots(ring);
         if (shared != nullptr)
             *shared = root;
         maker.restAt(ring.radius);
-        addSeeds(maker, ring, spacing, root);
+        ringMaker.addSeeds(ring, k, root);
     }
 }
 

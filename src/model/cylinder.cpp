@@ -14,39 +14,7 @@ Vector Cylinder::fromCore(const Vector& q) const
 
 void Cylinder::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
-    // The outline: a quarter circle, the side, a quarter circle. The rings lie in the middles of equal parts of it.
-    const Real cap = radius() * HALF_PI, body = length();
-    const Real outline = shiftUp(cap, 1) + body;
-    const int rings = stepsIn(outline, spacing);
-    Ring ring{};
-    ring.radius = radius();
-    ring.across = portion(outline, 1, 2 * rings);
-    int bottom = -1, top = -1;
-    for (int k = 0; k < rings; ++k) {
-        const Real at = portion(outline, 2 * k + 1, 2 * rings);
-        Angle latitude = 0;
-        int* shared = nullptr;
-        if (at < cap) {
-            latitude = quarterTurn(at, cap) - 0x40000000u;
-            ring.height = -coreReach();
-            shared = &bottom;
-        } else if (at < cap + body) {
-            ring.height = at - cap - coreReach();
-        } else {
-            latitude = quarterTurn(least(at - cap - body, cap), cap);
-            ring.height = coreReach();
-            shared = &top;
-        }
-        ring.pathSine = ring.normalSine = sine(latitude);
-        ring.pathCosine = ring.normalCosine = cosine(latitude);
-        // "In the case of cylinders, all seeds in each end cap have a common root."
-        int root = shared == nullptr ? -1 : *shared;
-        if (root < 0)
-            root = addRoots(maker, ring, spacing);
-        if (shared != nullptr)
-            *shared = root;
-        addSeeds(maker, ring, spacing, root);
-    }
+    layOutCapsule(maker, stretch(), radius(), coreReach(), spacing);
 }
 
 void Cylinder::describe(char* to, int size) const

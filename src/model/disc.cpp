@@ -20,17 +20,19 @@ void Disc::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
     // The lower half of the outline: the face, and a quarter circle of the rim.
     const Real rim = radius() * HALF_PI;
-    const Real half = discRadius() + rim;
-    const int rings = stepsIn(half, shiftDown(spacing, 1));
+    Outline outline(stretch());
+    outline.line(discRadius(), Real(1), Real(0));
+    outline.arc(rim, 0xc0000000u, 0);
+    const int rings = stepsIn(outline.length(), shiftDown(spacing, 1));
+    RingMaker ringMaker(maker, stretch(), spacing);
     Ring ring{};
     ring.radius = radius();
-    ring.across = portion(half, 1, rings);
     int root = 0;
     // Ring k and the one as far from the end mirror each other in the plane of the core, and share their roots.
     for (int k = 0; k < rings; ++k) {
         const int mirrored = rings - 1 - k;
         const int below = k < mirrored ? k : mirrored;
-        const Real at = portion(half, 2 * below + 1, rings);
+        const Real at = outline.at(2 * below + 1, rings, &ring.across);
         Angle latitude = 0xc0000000u;
         ring.core = discRadius();
         if (at < discRadius())
@@ -43,13 +45,13 @@ void Disc::layOutSeeds(SeedMaker& maker, Real spacing) const
             latitude = 0u - latitude;
         ring.pathSine = ring.normalSine = sine(latitude);
         ring.pathCosine = ring.normalCosine = cosine(latitude);
-        const int roots = ring.core == Real(0) ? 1 : seedsOf(ring, spacing);
+        const int roots = ring.core == Real(0) ? 1 : ringMaker.seedsOf(ring);
         if (k > mirrored) {
             root -= roots;
-            addSeeds(maker, ring, spacing, root);
+            ringMaker.addSeeds(ring, k, root);
         } else {
-            addRoots(maker, ring, spacing);
-            addSeeds(maker, ring, spacing, root);
+            ringMaker.addRoots(ring);
+            ringMaker.addSeeds(ring, k, root);
             if (k < mirrored)
                 root += roots;
         }

@@ -54,23 +54,50 @@ const char* coneExpects(const Real* m)
     return m[2] >= Cone::leastLength(m[0], m[1]) ? nullptr : "a length of at least half the difference of size and tip";
 }
 
+Real sphereReach(const Real* m)
+{
+    return shiftDown(m[0], 1);
+}
+
+Real segmentReach(const Real* m)
+{
+    return shiftDown(m[0] + m[1], 1);
+}
+
+Real circleReach(const Real* m)
+{
+    return m[1] + shiftDown(m[0], 1);
+}
+
+Real coneReach(const Real* m)
+{
+    return shiftDown(most(m[0], m[1]) + m[2], 1);
+}
+
+Real boxReach(const Real* m)
+{
+    return shiftDown(m[0] + length({m[1], m[2], m[3]}), 1);
+}
+
 }  // namespace
 
 const Kind KINDS[] = {
-    {"sphere", 1, {SIZE}, makeSphere, nullptr},
-    {"cylinder", 2, {SIZE, {"length", Real(0), Real(100), Real(24)}}, makeCylinder, nullptr},
-    {"torus", 2, {SIZE, {"ring", Real(1), Real(100), Real(24)}}, makeTorus, torusExpects},
-    {"disc", 2, {SIZE, {"disc", Real(0), Real(100), Real(16)}}, makeDisc, nullptr},
+    {"sphere", 1, {SIZE}, makeSphere, nullptr, sphereReach},
+    {"cylinder", 2, {SIZE, {"length", Real(0), Real(100), Real(24)}}, makeCylinder, nullptr, segmentReach},
+    {"torus", 2, {SIZE, {"ring", Real(1), Real(100), Real(24)}}, makeTorus, torusExpects, circleReach},
+    {"disc", 2, {SIZE, {"disc", Real(0), Real(100), Real(16)}}, makeDisc, nullptr, circleReach},
     {"cone",
      3,
      {SIZE, {"tip", Real(MIN_SIZE), Real(MAX_SIZE), Real(8)}, {"length", Real(0), Real(100), Real(24)}},
      makeCone,
-     coneExpects},
+     coneExpects,
+     coneReach},
     {"box",
      4,
      {SIZE, {"x", Real(0), Real(100), Real(24)}, {"y", Real(0), Real(100), Real(16)}, {"z", Real(0), Real(100), Real(12)}},
      makeBox,
-     nullptr},
+     nullptr,
+     boxReach},
 };
 
 const int KIND_COUNT = static_cast<int>(sizeof KINDS / sizeof KINDS[0]);

@@ -35,19 +35,20 @@ void setWay(Seed& s)
     s.way[2] = toCell((n.z * 127 + 8192) >> 14);
 }
 
-// The area of the cell of a seed that has its normal.
-void setArea(Seed& s)
+// The area of the cell of a seed that rests, with its normal there.
+void setArea(Seed& s, const Direction14& n)
 {
     const int8_t *const a = s.along, *const b = s.across;
-    const int32_t area = ((a[1] * b[2] - a[2] * b[1]) * s.normal.x + (a[2] * b[0] - a[0] * b[2]) * s.normal.y +
-                          (a[0] * b[1] - a[1] * b[0]) * s.normal.z) >> 14;
+    const int32_t area = ((a[1] * b[2] - a[2] * b[1]) * n.x + (a[2] * b[0] - a[0] * b[2]) * n.y +
+                          (a[0] * b[1] - a[1] * b[0]) * n.z) >> 14;
     s.area = static_cast<uint16_t>((area < 0 ? -area : area) + 1);
 }
 
 // First run of layOutSeeds(): how much of everything there is. Between two rings with different roots lie oversampled
-// seeds with roots between: `between` of them at most.
+// seeds with roots between: `between` of them at most. `many`: any two seeds may have one of their own between.
 class Counter : public SeedMaker {
 public:
+    explicit Counter(bool many) : many_(many) {}
     int roots = 0, rings = 0, seeds = 0, between = 0;
 
     int addRoot(const Vector&) override { return roots++; }
@@ -72,13 +73,14 @@ public:
     }
     void endRing()
     {
-        between += various_ || variousBefore_ ? inRing_ : 1;
+        between += many_ || various_ || variousBefore_ ? inRing_ : 1;
         inRing_ = 0;
         variousBefore_ = various_;
         various_ = false;
     }
 
 private:
+    const bool many_;
     int inRing_ = 0, root_ = -1;
     bool various_ = false, variousBefore_ = false;  // this ring's seeds have different roots; those of the one before
 };
@@ -86,14 +88,15 @@ private:
 // Second run: writes roots and regular seeds, and where each ring starts.
 class Filler : public SeedMaker {
 public:
-    Filler(Seed* seeds, Vector* roots, int32_t* ringStarts, Real radius, Real spacing)
-        : seeds_(seeds), roots_(roots), ringStarts_(ringStarts), radius_(radius), inverseSpacing_(Real(64) / spacing)
+    Filler(const SoftObject& object, Seed* seeds, Vector* roots, int32_t* ringStarts, Real spacing)
+        : object_(object), seeds_(seeds), roots_(roots), ringStarts_(ringStarts), radius_(object.radius()),
+          inverseSpacing_(Real(64) / spacing)
     {
     }
 
     int addRoot(const Vector& fromCentre) override
     {
-        roots_[rootCount_] = fromCentre;
+        roots_[rootCount_] = object_.stretchedOut(fromCentre);
         return rootCount_++;
     }
     void beginRing() override { ringStarts_[rings_++] = count_; }
@@ -101,18 +104,19 @@ public:
     void addSeed(int root, const Vector& direction, const Vector& along, const Vector& across) override
     {
         Seed& s = seeds_[count_++];
-        s.path = direction * radius_;
+        s.path = object_.stretchedOut(direction * radius_);
         s.position = Real(1);
         s.neighbour = -1;
         s.normal = {0, 0, 0};
         s.root = static_cast<uint16_t>(root);
         s.flags = SEED_VALID | SEED_RESTING;
         s.still = 0;
-        setAxis(s.along, along, inverseSpacing_);
-        setAxis(s.across, across, inverseSpacing_);
+        setAxis(s.along, object_.stretchedOut(along), inverseSpacing_);
+        setAxis(s.across, object_.stretchedOut(across), inverseSpacing_);
     }
 
 private:
+    const SoftObject& object_;
     Seed* seeds_;
     Vector* roots_;
     int32_t* ringStarts_;
@@ -120,6 +124,13 @@ private:
     Real inverseSpacing_;
     int rootCount_ = 0, rings_ = 0, count_ = 0;
 };
+
+// Of a vector of any length.
+Direction14 direction(const Vector& v)
+{
+    const Normal n = normalise(v);
+    return {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
+}
 
 // Why resample() failed the last time.
 char trouble[128];
@@ -152,6 +163,18 @@ void SoftObject::Layout::release()
     free(roots);
     free(ringStarts);
     free(rootsBetween);
+    free(plainSeeds);
+    free(plainRoots);
+}
+
+SoftObject::Layout SoftObject::Layout::plain() const
+{
+    Layout layout = *this;
+    if (plainSeeds != nullptr) {
+        layout.seeds = plainSeeds;
+        layout.roots = plainRoots;
+    }
+    return layout;
 }
 
 // Of a ring, the number of the seed nearest to `target`; found by walking from the seed `from` of that ring.
@@ -173,10 +196,53 @@ int SoftObject::Layout::nearestIn(int ring, int from, const Vector& target) cons
     return start + n;
 }
 
+// The same where rings leave out seeds (thinning() in round.h), for a seed of a ring and its successor: the nearest in any of
+// the rings before, as long as all of them lie together; else -1.
+int SoftObject::Layout::nearestBefore(int ring, int seed, int successor, bool closed) const
+{
+    constexpr int BACK = 16;
+    const Vector place = rest(seeds[seed]), target = rest(seeds[successor]);
+    const Square far = squareOf({shiftUp(spacing, 1), Real(0), Real(0)});
+    if (squareOf(place - target) > far)
+        return -1;
+    Square nearest = far;
+    int n = -1;
+    for (int back = 1; back <= BACK && back < rings && n < 0; ++back) {
+        if (back > ring && !closed)
+            break;
+        const int before = (ring + rings - back) % rings;
+        for (int j = ringStarts[before]; j < ringStarts[before + 1]; ++j) {
+            const Square d = squareOf(target - rest(seeds[j]));
+            if (d < nearest && squareOf(place - rest(seeds[j])) < far) {
+                nearest = d;
+                n = j;
+            }
+        }
+    }
+    return n;
+}
+
+// Makes the parts of the surface of a seed and of its neighbour meet, where rings between them leave out seeds.
+void SoftObject::Layout::closeGap(Seed& s, Seed& n) const
+{
+    const auto halfAxis = [](const Seed& of) {
+        return Vector{Real(static_cast<int>(of.across[0])), Real(static_cast<int>(of.across[1])), Real(static_cast<int>(of.across[2]))};
+    };
+    const Vector a = halfAxis(s), b = halfAxis(n), apart = (rest(n) - rest(s)) * (Real(64) / spacing);
+    const Real half = length(a), both = half + length(b);
+    if (half < Real(1))
+        return;
+    const Real gap = absolute(dot(apart, a * (Real(1) / half)));
+    if (gap <= both)
+        return;
+    setAxis(s.across, a, gap / both);
+    setAxis(n.across, b, gap / both);
+}
+
 // Regular seeds and their roots. False: no room for them, or it was stopped.
 bool SoftObject::layOutRegular(Layout& layout) const
 {
-    Counter counter;
+    Counter counter(manyRoots());
     layOutSeeds(counter, layout.spacing);
     counter.endRing();
     // A seed's root has 16 bits. When roots between rings are too many for them, some oversampled seeds do without.
@@ -190,7 +256,7 @@ bool SoftObject::layOutRegular(Layout& layout) const
     layout.rootRoom = counter.roots + counter.between > ROOTS_MAX ? ROOTS_MAX : counter.roots + counter.between;
     if (!layout.allocated())
         return false;
-    Filler filler(layout.seeds, layout.roots, layout.ringStarts, radius_, layout.spacing);
+    Filler filler(*this, layout.seeds, layout.roots, layout.ringStarts, layout.spacing);
     layOutSeeds(filler, layout.spacing);
     layout.ringStarts[layout.rings] = layout.regular;
     layout.rootsBetween[0] = counter.roots;
@@ -214,7 +280,7 @@ bool SoftObject::findNeighbours(Layout& layout) const
         const int start = layout.ringStarts[k], end = layout.ringStarts[k + 1], inRing = end - start;
         const int inBefore = layout.ringStarts[ringBefore + 1] - layout.ringStarts[ringBefore];
         const bool variousHere = various(k);
-        layout.rootsBetween[k + 1] = layout.rootsBetween[k] + (variousHere || variousBefore ? inRing : 1);
+        layout.rootsBetween[k + 1] = layout.rootsBetween[k] + (manyRoots() || variousHere || variousBefore ? inRing : 1);
         variousBefore = variousHere;
         if (stopAsked())
             return false;
@@ -225,8 +291,11 @@ bool SoftObject::findNeighbours(Layout& layout) const
             const int successor = i + 1 == end ? start : i + 1;
             const int about = static_cast<int>(static_cast<uint32_t>(successor - start) * static_cast<uint32_t>(inBefore) /
                                                static_cast<uint32_t>(inRing));
-            const int n = layout.nearestIn(ringBefore, about, layout.rest(layout.seeds[successor]));
-            s.neighbour = 2 * n;
+            const int n = stretched_ ? layout.nearestBefore(k, i, successor, ringsClose())
+                                     : layout.nearestIn(ringBefore, about, layout.rest(layout.seeds[successor]));
+            s.neighbour = n < 0 ? -1 : 2 * n;
+            if (stretched_ && n >= 0)
+                layout.closeGap(s, layout.seeds[n]);
         }
     }
     return true;
@@ -235,7 +304,7 @@ bool SoftObject::findNeighbours(Layout& layout) const
 // The regular seeds of another object. False: no memory.
 bool SoftObject::layOutLike(const SoftObject& other, Layout& layout) const
 {
-    const Layout& from = other.laid_;
+    const Layout from = other.laid_.plain();
     layout.rings = from.rings;
     layout.regular = from.regular;
     layout.rootRoom = from.rootRoom;
@@ -248,17 +317,17 @@ bool SoftObject::layOutLike(const SoftObject& other, Layout& layout) const
     return true;
 }
 
-// How long the path of a seed between two is.
+// How long the path of a seed between two is, as if the object were not stretched.
 Real SoftObject::restLength(const Layout& layout, const Seed& a, const Seed& b) const
 {
-    return tapers_ ? shiftDown(length(a.path) + length(b.path), 1) : layout.size * restRoot_;
+    return tapers_ ? shiftDown(length(unstretched(a.path)) + length(unstretched(b.path)), 1) : layout.size * restRoot_;
 }
 
-// The point of the core that is nearest to the middle of two seeds, and the way from there to the middle. False: the middle
-// is about on the core.
+// The point of the core that is nearest to the middle of two seeds, and the way from there to the middle, as if the object were
+// not stretched. False: the middle is about on the core.
 bool SoftObject::rootBetween(const Layout& layout, const Seed& one, const Seed& other, Vector* root, Vector* out) const
 {
-    const Vector middle = (layout.rest(one) + layout.rest(other)) * Real(0.5);
+    const Vector middle = unstretched(layout.rest(one) + layout.rest(other)) * Real(0.5);
     *out = fromCore(middle * (Real(CORE_SIZE) / layout.size)) * shiftDown(layout.size, 4);
     *root = middle - *out;
     return length(*out) >= shiftDown(layout.size, 4);
@@ -275,7 +344,7 @@ void SoftObject::layOutExtra(Layout& layout, int number, int ring, Seed& extra) 
         return;
     const Seed& other = layout.seeds[one.neighbour >> 1];
     if (one.root == other.root) {
-        extra.path = withLength(one.path + other.path, restLength(layout, one, other));
+        extra.path = withLength(unstretched(one.path + other.path), restLength(layout, one, other));
     } else {
         // A root for each seed, or one for all of the ring: that of its first.
         const bool shared = layout.rootsBetween[ring + 1] - layout.rootsBetween[ring] == 1;
@@ -287,20 +356,31 @@ void SoftObject::layOutExtra(Layout& layout, int number, int ring, Seed& extra) 
         Vector unused;
         if (shared && !rootBetween(layout, start, layout.seeds[start.neighbour >> 1], &root, &unused))
             return;
-        layout.roots[index] = root;
+        layout.roots[index] = stretchedOut(root);
         extra.root = static_cast<uint16_t>(index);
         extra.path = withLength(out, restLength(layout, one, other));
     }
     if (tapers_) {
         // The mean of two lengths is near: to where the field is that of the surface.
         Vector unused;
-        const Real t = param((layout.roots[extra.root] + extra.path) * (Real(CORE_SIZE) / layout.size), &unused);
+        const Vector rest = unstretched(layout.roots[extra.root]) + extra.path;
+        const Real t = plainParam(rest * (Real(CORE_SIZE) / layout.size), &unused);
         extra.path = extra.path * (restRoot_ / squareRoot(t));
     }
+    extra.path = stretchedOut(extra.path);
     for (int part = 0; part < 3; ++part) {
         extra.along[part] = static_cast<int8_t>(one.along[part] * EXTRA_CELL / 8);
         extra.across[part] = static_cast<int8_t>(one.across[part] * EXTRA_CELL / 8);
     }
+}
+
+// Whether a block holds oversampled seeds that are in use.
+bool SoftObject::isUsed(const Seed* block)
+{
+    bool used = false;
+    for (int i = 0; !used && i < EXTRA_BLOCK; ++i)
+        used = block[i].flags != 0;
+    return used;
 }
 
 // Room for a block of oversampled seeds that was in use and is not any more. Null: all are in use.
@@ -308,15 +388,23 @@ Seed* SoftObject::blockFromOthers()
 {
     for (int i = 0; i < laid_.blocks(); ++i) {
         Seed* const block = laid_.extras[i];
-        bool used = block == nullptr;
-        for (int j = 0; !used && j < EXTRA_BLOCK; ++j)
-            used = block[j].flags != 0;
-        if (!used) {
+        if (block != nullptr && !isUsed(block)) {
             laid_.extras[i] = nullptr;
             return block;
         }
     }
     return nullptr;
+}
+
+// The ring of a regular seed.
+int SoftObject::ringOf(int number) const
+{
+    int ring = 0;
+    for (int after = laid_.rings; after - ring > 1;) {
+        const int middle = (ring + after) >> 1;
+        (laid_.ringStarts[middle] <= number ? ring : after) = middle;
+    }
+    return ring;
 }
 
 // Null: no memory.
@@ -328,11 +416,8 @@ Seed* SoftObject::layOutBlock(int at)
     if (block == nullptr)
         return nullptr;
     const int first = at << EXTRA_BITS;
-    int ring = 0;
-    for (int after = laid_.rings; after - ring > 1;) {
-        const int middle = (ring + after) >> 1;
-        (laid_.ringStarts[middle] <= first ? ring : after) = middle;
-    }
+    int ring = ringOf(first);
+    Layout plain = laid_.plain();
     for (int i = 0; i < EXTRA_BLOCK; ++i) {
         const int number = first + i;
         if (number >= laid_.regular) {
@@ -341,7 +426,9 @@ Seed* SoftObject::layOutBlock(int at)
         }
         while (laid_.ringStarts[ring + 1] <= number)
             ++ring;
-        layOutExtra(laid_, number, ring, block[i]);
+        layOutExtra(plain, number, ring, block[i]);
+        if (warped_)
+            warpExtra(plain, block[i]);
         block[i].normal = restNormal(block[i]);
         block[i].area = 0;
         setWay(block[i]);
@@ -371,18 +458,115 @@ bool SoftObject::layOutExtras()
     return true;
 }
 
+// Keeps seeds and roots of a layout as the warp will find them. False: no memory.
+bool SoftObject::keepPlain(Layout& layout) const
+{
+    layout.plainSeeds = allocate<Seed>(static_cast<uint32_t>(layout.regular));
+    layout.plainRoots = allocate<Vector>(static_cast<uint32_t>(layout.rootRoom));
+    if (layout.plainSeeds == nullptr || layout.plainRoots == nullptr) {
+        free(layout.plainSeeds);
+        free(layout.plainRoots);
+        layout.plainSeeds = nullptr;
+        layout.plainRoots = nullptr;
+        return false;
+    }
+    memcpy(layout.plainSeeds, layout.seeds, sizeof(Seed) * static_cast<size_t>(layout.regular));
+    memcpy(layout.plainRoots, layout.roots, sizeof(Vector) * static_cast<size_t>(layout.rootRoom));
+    for (int i = 0; i < layout.regular; ++i)
+        layout.plainSeeds[i].normal = plainNormal(layout.rest(layout.seeds[i]), layout.seeds[i].path);
+    return true;
+}
+
+// What a warp makes of a seed whose root has been warped: where it rests, its cell, and its normal if it is at rest. Returns the
+// normal of that place.
+Direction14 SoftObject::warpSeed(const Seed& plain, const Vector& plainRoot, Seed& to, Warp::Way& way) const
+{
+    const Real part(1.0 / 16384);
+    to.path = warp_.out((plainRoot + plain.path) * (Real(CORE_SIZE) / laid_.size), way) * shiftDown(laid_.size, 4) - root(to.root);
+    const auto cell = [&](const int8_t from[3], int8_t into[3]) {
+        setAxis(into, warp_.stepOut(way, {Real(static_cast<int>(from[0])), Real(static_cast<int>(from[1])), Real(static_cast<int>(from[2]))}),
+                Real(1));
+    };
+    cell(plain.along, to.along);
+    cell(plain.across, to.across);
+    setWay(to);
+    const Direction14& square = plain.normal;
+    const Direction14 normal = direction(warp_.slopeOut(way, {part * Real(static_cast<int>(square.x)), part * Real(static_cast<int>(square.y)),
+                                               part * Real(static_cast<int>(square.z))}));
+    setArea(to, normal);
+    if (to.flags & SEED_RESTING)
+        to.normal = normal;
+    return normal;
+}
+
+// The same of an oversampled seed, as layOutExtra() left it, and of its root.
+void SoftObject::warpExtra(const Layout& plain, Seed& s) const
+{
+    const Seed before = s;
+    Warp::Way way;
+    const Vector& plainRoot = plain.roots[s.root];
+    laid_.roots[s.root] = warp_.out(plainRoot * (Real(CORE_SIZE) / laid_.size), way) * shiftDown(laid_.size, 4);
+    warpSeed(before, plainRoot, s, way);
+}
+
+// Warps roots and the places where seeds rest; paths lead straight from one to the other. Seeds keep their positions.
+void SoftObject::reshape()
+{
+    const Real inward = Real(CORE_SIZE) / laid_.size, outward = shiftDown(laid_.size, 4);
+    Warp::Way way;
+    for (int i = 0; i < laid_.rootsBetween[0]; ++i)
+        laid_.roots[i] = warp_.out(laid_.plainRoots[i] * inward, way) * outward;
+    for (int i = 0; i < laid_.regular; ++i) {
+        Seed& plain = laid_.plainSeeds[i];
+        plain.border = warpSeed(plain, laid_.plainRoots[plain.root], laid_.seeds[i], way);
+    }
+    // Those of the oversampled seeds that take part; the others are laid out when they do.
+    Layout plain = laid_.plain();
+    for (int at = 0; at < laid_.blocks(); ++at) {
+        Seed* const block = laid_.extras[at];
+        if (block != nullptr && !isUsed(block)) {
+            free(block);
+            laid_.extras[at] = nullptr;
+            continue;
+        }
+        for (int i = 0; block != nullptr && i < EXTRA_BLOCK; ++i) {
+            const int number = (at << EXTRA_BITS) + i;
+            Seed& s = block[i];
+            if (number >= laid_.regular)
+                continue;
+            Seed fresh;
+            layOutExtra(plain, number, ringOf(number), fresh);
+            warpExtra(plain, fresh);
+            s.path = fresh.path;
+            memcpy(s.along, fresh.along, sizeof s.along);
+            memcpy(s.across, fresh.across, sizeof s.across);
+            setWay(s);
+            if (s.flags & SEED_RESTING)
+                s.normal = restNormal(s);
+        }
+    }
+}
+
+// The outward direction of the unblended surface without a warp, from where a seed rests and its path.
+Direction14 SoftObject::plainNormal(const Vector& rest, const Vector& path) const
+{
+    Vector slope = path;
+    if (tapers_ || stretched_)
+        plainParam(unstretched(rest) * (Real(CORE_SIZE) / laid_.size), &slope);
+    return direction(unstretched(slope));
+}
+
 Direction14 SoftObject::restNormal(const Seed& s) const
 {
-    Vector slope = s.path;
-    if (tapers_)
-        param((root(s.root) + s.path) * (Real(CORE_SIZE) / laid_.size), &slope);
-    const Normal n = normalise(slope);
-    return {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
+    if (warped_ && &s >= laid_.seeds && &s < laid_.seeds + laid_.regular)
+        return laid_.plainSeeds[&s - laid_.seeds].border;
+    const Vector rest = root(s.root) + s.path;
+    return warped_ ? direction(slopeAt(rest)) : plainNormal(rest, s.path);
 }
 
 int SoftObject::seedsAt(Real spacing) const
 {
-    Counter counter;
+    Counter counter(false);
     layOutSeeds(counter, spacing);
     return counter.seeds;
 }
@@ -398,7 +582,8 @@ bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObje
         layout.release();
         return false;
     }
-    layout.oversampled = layout.rings > 0 ? layout.regular - layout.ringStarts[ringsClose() ? 0 : 1] : 0;
+    for (int i = 0; i < layout.regular; ++i)
+        layout.oversampled += layout.seeds[i].neighbour >= 0;
 
     // The surface is made for the object as it will be; without memory for it the object goes back.
     Layout before = laid_;
@@ -406,11 +591,14 @@ bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObje
     for (int ring = 0; like == nullptr && ring < laid_.rings && !stopAsked(); ++ring)
         for (int i = laid_.ringStarts[ring]; i < laid_.ringStarts[ring + 1]; ++i) {
             Seed& s = laid_.seeds[i];
-            s.normal = restNormal(s);
+            s.normal = plainNormal(laid_.rest(s), s.path);
             setWay(s);
-            setArea(s);
+            setArea(s, s.normal);
         }
-    Surface* const surface = stopAsked() ? nullptr : makeSurface(*this);
+    const bool warps = !warped_ || keepPlain(laid_);
+    if (warped_ && warps)
+        reshape();
+    Surface* const surface = !warps || stopAsked() ? nullptr : makeSurface(*this);
     if (surface == nullptr) {
         laid_.release();
         laid_ = before;

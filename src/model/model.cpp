@@ -75,6 +75,7 @@ SoftObject* Model::makeObject(const Actor& item) const
     if (object == nullptr)
         return nullptr;
     object->setStrength(item.strength);
+    object->setStretch(item.stretch);
     if (spacing_ != Real(0) && !object->resample(spacing_, makeSurface_)) {
         destroy(object);
         return nullptr;
@@ -134,6 +135,18 @@ Actor* Model::addItem(const Actor& described)
     }
     items_[itemCount_++] = item;
     return item;
+}
+
+const char* Model::expects(const Actor& item)
+{
+    if (item.kind == nullptr)
+        return nullptr;
+    const char* const measures = item.kind->expects == nullptr ? nullptr : item.kind->expects(item.measure);
+    const Vector& v = item.stretch;
+    if (measures != nullptr || v == Vector{Real(1), Real(1), Real(1)})
+        return measures;
+    const bool near = item.kind->reach(item.measure) * most(v.x, most(v.y, v.z)) <= Real(STRETCHED_REACH);
+    return near ? nullptr : "a stretch that leaves all of it within 100 units of its centre";
 }
 
 void Model::remove(Actor* item)
@@ -425,7 +438,8 @@ const SoftObject* Model::alike(int i) const
     const Actor& one = *actors_[i];
     for (int j = 0; one.kind != nullptr && one.object->hollowed() == nullptr && j < i; ++j) {
         const Actor& other = *actors_[j];
-        bool same = other.kind == one.kind && other.object->size() == one.object->size() && other.strength == one.strength;
+        bool same = other.kind == one.kind && other.object->size() == one.object->size() && other.strength == one.strength &&
+                    other.stretch == one.stretch;
         for (int m = 0; same && m < MEASURES_MOST; ++m)
             same = other.measure[m] == one.measure[m];
         // What only digs lays its seeds out for what it digs into.
@@ -600,7 +614,7 @@ bool Model::restore(const Record* record)
             continue;
         before.actors_[before.count_++] = item;
         const Actor* now = itemNumbered(item->number);
-        bool same = now != nullptr && now->kind == item->kind && now->strength == item->strength;
+        bool same = now != nullptr && now->kind == item->kind && now->strength == item->strength && now->stretch == item->stretch;
         for (int m = 0; same && m < MEASURES_MOST; ++m)
             same = now->measure[m] == item->measure[m];
         if (same)

@@ -27,38 +27,112 @@ inline uint32_t quotient(uint64_t top, uint32_t bottom)
 
 }  // namespace
 
-int seedsOf(const Ring& ring, Real spacing)
-{
-    return seedsInRing(ring.core + ring.radius * ring.pathCosine, spacing, 1 << 30);
-}
-
 int stepsIn(Real length, Real spacing)
 {
     const int32_t steps = (rawFromReal(length) + rawFromReal(spacing) - 1) / rawFromReal(spacing);
     return steps < 1 ? 1 : steps;
 }
 
-int addRoots(SeedMaker& maker, const Ring& ring, Real spacing)
+namespace {
+
+constexpr Angle QUARTER = 0x40000000u;
+
+bool isStretched(const Vector& stretch)
+{
+    return !(stretch == Vector{Real(1), Real(1), Real(1)});
+}
+
+}  // namespace
+
+Quarter::Quarter(const Vector& stretch)
+{
+    way_[0] = way_[STEPS] = Real(0);
+    if (!isStretched(stretch))
+        return;
+    for (int i = 0; i < STEPS; ++i) {
+        const Angle from = static_cast<Angle>(i) * (QUARTER / STEPS), to = from + QUARTER / STEPS;
+        way_[i + 1] = way_[i] + ::length({stretch.x * (sine(to) - sine(from)), Real(0), stretch.z * (cosine(to) - cosine(from))});
+    }
+}
+
+Angle Quarter::longitude(Real way) const
+{
+    int i = 0;
+    while (i < STEPS - 1 && way_[i + 1] <= way)
+        ++i;
+    const Real step = way_[i + 1] - way_[i], rest = least(way - way_[i], step);
+    const Angle inStep = static_cast<Angle>(mulDiv(rawFromReal(rest), QUARTER / STEPS, rawFromReal(step)));
+    return static_cast<Angle>(i) * (QUARTER / STEPS) + inStep;
+}
+
+Real Quarter::wayTo(Angle longitude) const
+{
+    const Angle step = longitude / (QUARTER / STEPS);
+    const int i = step < STEPS ? static_cast<int>(step) : STEPS - 1;
+    const Angle rest = longitude - static_cast<Angle>(i) * (QUARTER / STEPS);
+    return way_[i] + portion(way_[i + 1] - way_[i], static_cast<int32_t>(rest), QUARTER / STEPS);
+}
+
+// The area between a step up the surface and one along the ring, over the latter.
+Real stretchedStep(Real step, const Vector& stretch, Real normalSine, Real normalCosine, Real sine, Real cosine)
+{
+    const Real area = ::length({stretch.y * stretch.z * normalCosine * sine, stretch.x * stretch.z * normalSine,
+                                stretch.x * stretch.y * normalCosine * cosine});
+    return step * (area / ::length({stretch.x * cosine, Real(0), stretch.z * sine}));
+}
+
+int thinning(Real step, Real spacing)
+{
+    constexpr Real TOO_CLOSE(0.70710678);
+    int level = 0;
+    for (; step < spacing * TOO_CLOSE && level < 4; ++level)
+        step = shiftUp(step, 1);
+    return level;
+}
+
+RingMaker::RingMaker(SeedMaker& maker, const Vector& stretch, Real spacing)
+    : maker_(maker), stretch_(stretch), spacing_(spacing), stretched_(isStretched(stretch)),
+      round_(stretch.x == stretch.z), flat_(most(stretch.x, stretch.z) > shiftUp(least(stretch.x, stretch.z), 1)), quarter_(stretch)
+{
+}
+
+int RingMaker::seedsOf(const Ring& ring) const
+{
+    const Real around = ring.core + ring.radius * ring.pathCosine;
+    if (!stretched_)
+        return seedsInRing(around, spacing_, 1 << 30);
+    const int count = floorToInt(shiftUp(around * quarter_.length(), 2) / spacing_);
+    const int fewest = flat_ ? 2 : 4;
+    return count < fewest ? fewest : count;
+}
+
+int RingMaker::addRoots(const Ring& ring)
 {
     if (ring.core == Real(0))
-        return maker.addRoot({Real(0), ring.height, Real(0)});
-    const int count = seedsOf(ring, spacing);
+        return maker_.addRoot({Real(0), ring.height, Real(0)});
+    if (!round_)
+        return 0;
+    const int count = seedsOf(ring);
     const uint32_t step = 0xffffffffu / static_cast<uint32_t>(count);
     int first = 0;
     for (int i = 0; i < count; ++i) {
         const Angle longitude = static_cast<uint32_t>(i) * step;
-        const int root = maker.addRoot({ring.core * sine(longitude), ring.height, ring.core * cosine(longitude)});
+        const int root = maker_.addRoot({ring.core * sine(longitude), ring.height, ring.core * cosine(longitude)});
         if (i == 0)
             first = root;
     }
     return first;
 }
 
-void addSeeds(SeedMaker& maker, const Ring& ring, Real spacing, int root)
+void RingMaker::addSeeds(const Ring& ring, int k, int root)
 {
-    const int count = seedsOf(ring, spacing);
-    maker.beginRing();
-    if (maker.countRing(count, ring.core != Real(0)) || stopAsked())
+    if (stretched_) {
+        addStretched(ring, k, root);
+        return;
+    }
+    const int count = seedsOf(ring);
+    maker_.beginRing();
+    if (maker_.countRing(count, ring.core != Real(0)) || stopAsked())
         return;
     const uint32_t step = 0xffffffffu / static_cast<uint32_t>(count);
     // A seed's part of the surface is widest at its outer edge: in the small rings about a pole that makes a difference.
@@ -71,8 +145,139 @@ void addSeeds(SeedMaker& maker, const Ring& ring, Real spacing, int root)
         const Angle longitude = static_cast<uint32_t>(i) * step;
         const Real s = sine(longitude), c = cosine(longitude);
         const Real inward = -(across * ring.normalSine);
-        maker.addSeed(root, {ring.pathCosine * s, ring.pathSine, ring.pathCosine * c}, {along * c, Real(0), -(along * s)},
-                      {inward * s, across * ring.normalCosine, inward * c});
+        maker_.addSeed(root, {ring.pathCosine * s, ring.pathSine, ring.pathCosine * c}, {along * c, Real(0), -(along * s)},
+                       {inward * s, across * ring.normalCosine, inward * c});
+    }
+}
+
+// Evenly by the way round the ellipse, from its sharper end on.
+void RingMaker::addStretched(const Ring& ring, int k, int root)
+{
+    const int count = seedsOf(ring);
+    const Real around = ring.core + ring.radius * ring.pathCosine, whole = shiftUp(quarter_.length(), 2);
+    const bool sideways = stretch_.x > stretch_.z;
+    if (stopAsked())
+        return;
+    // Half the way to the next seed, of a circle of radius 1.
+    Real half = portion(whole, 1, 2 * count) * CELL_SPARE;
+    half = count <= POLAR_SEEDS ? half * (around + ring.across * absolute(ring.normalSine)) : half * around;
+    const uint32_t step = 0xffffffffu / static_cast<uint32_t>(count);
+    bool begun = false;
+    for (int i = 0; i < count; ++i) {
+        Real way = portion(whole, i, count);
+        if (sideways)
+            way += quarter_.length();
+        int turns = 0;
+        for (; way >= quarter_.length() && turns < 4; ++turns)
+            way -= quarter_.length();
+        const Angle within = (turns & 1) == 0 ? quarter_.longitude(way) : QUARTER - quarter_.longitude(quarter_.length() - way);
+        const Angle longitude = round_ ? static_cast<Angle>(i) * step : static_cast<Angle>(turns) * QUARTER + within;
+        const Real s = sine(longitude), c = cosine(longitude);
+        const int level = thinning(stretchedStep(shiftUp(ring.across, 1), stretch_, ring.normalSine, ring.normalCosine, s, c), spacing_);
+        if (thinned(k, level))
+            continue;
+        if (!begun)
+            maker_.beginRing();
+        begun = true;
+        const Real along = half / ::length({stretch_.x * c, Real(0), stretch_.z * s});
+        const Real across = shiftUp(ring.across * CELL_SPARE, level), inward = -(across * ring.normalSine);
+        const int own = ring.core == Real(0) ? root : round_ ? root + i : maker_.addRoot({ring.core * s, ring.height, ring.core * c});
+        maker_.addSeed(own, {ring.pathCosine * s, ring.pathSine, ring.pathCosine * c}, {along * c, Real(0), -(along * s)},
+                       {inward * s, across * ring.normalCosine, inward * c});
+    }
+}
+
+Outline::Outline(const Vector& stretch)
+    : stretch_(stretch), across_(most(stretch.x, stretch.z)), stretched_(isStretched(stretch))
+{
+    before_[0] = after_[0] = Real(0);
+}
+
+void Outline::add(Real length, Real factor)
+{
+    before_[parts_ + 1] = before_[parts_] + length;
+    after_[parts_ + 1] = after_[parts_] + length * factor;
+    ++parts_;
+}
+
+void Outline::plain(Real length)
+{
+    add(length, Real(1));
+}
+
+void Outline::line(Real length, Real normalSine, Real normalCosine)
+{
+    add(length, ::length({across_ * normalSine, stretch_.y * normalCosine, Real(0)}));
+}
+
+void Outline::arc(Real length, Angle from, Angle to)
+{
+    if (!stretched_) {
+        add(length, Real(1));
+        return;
+    }
+    const int32_t turn = static_cast<int32_t>(to - from) / (2 * ARC_PARTS);
+    const Real before = before_[parts_];
+    for (int i = 0; i < ARC_PARTS; ++i) {
+        const Angle latitude = from + static_cast<Angle>(turn * (2 * i + 1));
+        line(before + portion(length, i + 1, ARC_PARTS) - before_[parts_], sine(latitude), cosine(latitude));
+    }
+}
+
+Real Outline::at(int32_t part, int32_t of, Real* across) const
+{
+    const Real way = portion(length(), part, of), step = portion(length(), 1, of);
+    *across = step;
+    if (!stretched_)
+        return way;
+    int i = 0;
+    while (i < parts_ - 1 && after_[i + 1] <= way)
+        ++i;
+    const Real before = before_[i + 1] - before_[i], after = after_[i + 1] - after_[i];
+    if (after == Real(0))
+        return before_[i];
+    const Real share = before / after;
+    *across = step * share;
+    return before_[i] + least((way - after_[i]) * share, before);
+}
+
+void layOutCapsule(SeedMaker& maker, const Vector& stretch, Real radius, Real half, Real spacing)
+{
+    // The outline: a quarter circle, the side, a quarter circle. The rings lie in the middles of equal parts of it.
+    const Real cap = radius * HALF_PI, body = shiftUp(half, 1);
+    Outline outline(stretch);
+    outline.arc(cap, 0u - QUARTER, 0);
+    outline.line(body, Real(0), Real(1));
+    outline.arc(cap, 0, QUARTER);
+    const int rings = stepsIn(outline.length(), spacing);
+    RingMaker ringMaker(maker, stretch, spacing);
+    Ring ring{};
+    ring.radius = radius;
+    int bottom = -1, top = -1;
+    for (int k = 0; k < rings; ++k) {
+        const Real at = outline.at(2 * k + 1, 2 * rings, &ring.across);
+        Angle latitude = 0;
+        int* shared = nullptr;
+        if (at < cap) {
+            latitude = quarterTurn(at, cap) - QUARTER;
+            ring.height = -half;
+            shared = &bottom;
+        } else if (at < cap + body) {
+            ring.height = at - cap - half;
+        } else {
+            latitude = quarterTurn(least(at - cap - body, cap), cap);
+            ring.height = half;
+            shared = &top;
+        }
+        ring.pathSine = ring.normalSine = sine(latitude);
+        ring.pathCosine = ring.normalCosine = cosine(latitude);
+        // "In the case of cylinders, all seeds in each end cap have a common root."
+        int root = shared == nullptr ? -1 : *shared;
+        if (root < 0)
+            root = ringMaker.addRoots(ring);
+        if (shared != nullptr)
+            *shared = root;
+        ringMaker.addSeeds(ring, k, root);
     }
 }
 

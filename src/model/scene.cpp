@@ -37,6 +37,13 @@ struct Row {
 constexpr int ROW_LEAST = 2;
 constexpr int ROWS_MOST = (Model::OBJECTS_MOST + Model::GROUPS_MOST) / ROW_LEAST;  // no more can be made
 
+// Warps by name, and what their amounts are.
+struct WarpWord {
+    const char* word;
+    const char* amount;
+};
+const WarpWord WARPS[WARP_PARTS] = {{"taper", "a share of the width"}, {"twist", "degrees"}, {"bend", "degrees"}};
+
 char problem[640];
 
 // Names in messages: whole, as long as no path is longer than this.
@@ -131,6 +138,7 @@ private:
     bool path();
     bool turning(bool swings);
     bool pulse();
+    bool warp(WarpPart part);
     bool keys();
     bool key();
     bool blend();
@@ -475,6 +483,9 @@ bool Reader::statement()
         return turning(is("swing"));
     if (is("pulse"))
         return pulse();
+    for (int part = 0; part < WARP_PARTS; ++part)
+        if (is(WARPS[part].word))
+            return warp(static_cast<WarpPart>(part));
     if (is("keys"))
         return keys();
     if (is("key"))
@@ -491,12 +502,12 @@ bool Reader::statement()
         return dent();
     if (is("strength"))
         return strength();
-    char text[240];
+    char text[270];
     int length = 0;
     for (int i = 0; i < KIND_COUNT; ++i)
         length += snprintf(text + length, sizeof text - static_cast<size_t>(length), "%s, ", KINDS[i].word);
     snprintf(text + length, sizeof text - static_cast<size_t>(length),
-             "group, blend, dent, strength, circle, path, spin, swing, pulse, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title");
+             "group, blend, dent, strength, circle, path, spin, swing, pulse, taper, twist, bend, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title");
     return expected(text);
 }
 
@@ -573,6 +584,12 @@ bool Reader::object(const Kind* kind)
             if (!readColour(&actor.colour))
                 return false;
             coloured = true;
+        } else if (kind != nullptr && is("stretch")) {
+            Vector& v = actor.stretch;
+            if (!readReal("a factor along x", STRETCH_LEAST, STRETCH_MOST, &v.x) ||
+                !readReal("a factor along y", STRETCH_LEAST, STRETCH_MOST, &v.y) ||
+                !readReal("a factor along z", STRETCH_LEAST, STRETCH_MOST, &v.z))
+                return false;
         } else if (kind == nullptr && is("scale")) {
             if (!readReal("a scale", SCALE_LEAST, SCALE_MOST, &actor.motion.scale))
                 return false;
@@ -582,19 +599,17 @@ bool Reader::object(const Kind* kind)
             for (int i = 0; i < measures; ++i)
                 length += snprintf(text + length, sizeof text - static_cast<size_t>(length), "%s, ", kind->measure[i].word);
             snprintf(text + length, sizeof text - static_cast<size_t>(length), "at, turn, %s, repeat, step or in",
-                     kind != nullptr ? "colour" : "scale");
+                     kind != nullptr ? "colour, stretch" : "scale");
             return expected(text);
         }
     }
     for (int i = 0; i < measures; ++i)
         if ((given & 1 << i) == 0)
             return expected(kind->measure[i].word);
-    if (kind != nullptr && kind->expects != nullptr) {
-        const char* fits = kind->expects(actor.measure);
-        if (fits != nullptr) {
-            word_ = actor.name;
-            return expected(fits);
-        }
+    const char* fits = Model::expects(actor);
+    if (fits != nullptr) {
+        word_ = actor.name;
+        return expected(fits);
     }
     if (count > Real(1))
         return addRow(actor, floorToInt(count), step, coloured);
@@ -1015,6 +1030,49 @@ bool Reader::pulse()
     return true;
 }
 
+bool Reader::warp(WarpPart part)
+{
+    Row row;
+    if (!readMoving(&row))
+        return false;
+    if (in(row, 0).object == nullptr)
+        return expected("the name of an object");
+    const Real most = WARP_MOST[part];
+    Real amount, swing(0), period(0), phase(0), lag(0);
+    if (!readReal(WARPS[part].amount, -most, most, &amount))
+        return false;
+    bool swings = false, timed = false;
+    while (nextWord()) {
+        if (is("swing")) {
+            if (!readReal(WARPS[part].amount, -most, most, &swing))
+                return false;
+            swings = true;
+        } else if (is("period")) {
+            if (!readPeriod(&period))
+                return false;
+            timed = true;
+        } else if (is("phase")) {
+            if (!readPhase(&phase))
+                return false;
+        } else if (is("lag")) {
+            if (!readLag(row, &lag))
+                return false;
+        } else {
+            return expected(row.count > 1 ? "swing, period, phase or lag" : "swing, period or phase");
+        }
+    }
+    if (swings != timed)
+        return expected(swings ? "period" : "swing");
+    for (int i = 0; i < row.count; ++i) {
+        Motion& motion = in(row, i).motion;
+        motion.parts |= MOTION_WARP;
+        motion.warp[part].amount = amount;
+        motion.warp[part].swing = swing;
+        motion.warp[part].wave = swings ? waveOf(i, period, phase, lag) : Wave();
+    }
+    return true;
+}
+
 bool Reader::keys()
 {
     Row row;
@@ -1345,6 +1403,8 @@ void Writer::item(const Model& model, const Actor& actor)
         word("at").vector(toVector(m.centre));
     if (m.parts & MOTION_TURN)
         word("turn").vector(m.turn);
+    if (!(actor.stretch == Vector{Real(1), Real(1), Real(1)}))
+        word("stretch").vector(actor.stretch);
     if (m.scale != Real(1))
         word("scale").number(m.scale);
     if (actor.object != nullptr)
@@ -1400,6 +1460,16 @@ void Writer::item(const Model& model, const Actor& actor)
         end();
     }
     further(actor, MOTION_PULSE);
+    for (int i = 0; i < WARP_PARTS; ++i) {
+        const Swaying& part = m.warp[i];
+        const bool swings = part.wave.period != Real(0);
+        if (part.amount == Real(0) && !swings)
+            continue;
+        word(WARPS[i].word).word(actor.name).number(part.amount);
+        if (swings)
+            word("swing").number(part.swing).period(part.wave);
+        end();
+    }
     if (m.keyCount > 0 || m.smooth || m.repeat > 0) {
         word("keys").word(actor.name).word(m.smooth ? "smooth" : "linear");
         if (m.repeat > 0)

@@ -56,6 +56,8 @@ Vector withSquare(const Vector& v, const Vector& like)
 SoftObject::SoftObject(int number, Real size, Real coreReach, bool tapers)
     : number_(number), centre_{Real(0), Real(0), Real(0)}, turn_(Matrix::identity()), size_(size),
       radius_(shiftDown(size, 1)), inverse_(Real(CORE_SIZE) / size), coreReach_(coreReach),
+      stretch_{Real(1), Real(1), Real(1)}, unstretch_{Real(1), Real(1), Real(1)}, mostStretch_(1), stretched_(false), warped_(false), shaped_(false),
+      ball_(!tapers && coreReach == Real(0)), reach_(coreReach + size),
       sizeMade_(size), coreReachMade_(coreReach), coreReach16_(coreReach * (Real(CORE_SIZE) / size)), strength_(1),
       restParam_(0.25), restRoot_(0.5), rests_(true), laidHollow_(false), slot_(0), recalc_(true), tapers_(tapers),
       displaced_(false), ramp_(nullptr), surface_(nullptr), makeSurface_(nullptr)
@@ -149,6 +151,7 @@ void SoftObject::setSize(Real wanted)
     radius_ = size * restRoot_;
     inverse_ = Real(CORE_SIZE) / size;
     coreReach_ = grown(coreReachMade_);
+    measureReach();
     if (laid_.seeds != nullptr) {
         const Real drift = growth();
         if (drift > Real(1) + DRIFT_MAX || drift < Real(1) - DRIFT_MAX)
@@ -186,6 +189,47 @@ void SoftObject::findRest()
     radius_ = size_ * restRoot_;
 }
 
+void SoftObject::measureReach()
+{
+    shaped_ = stretched_ || warped_;
+    ball_ = !tapers_ && !shaped_ && coreReachMade_ == Real(0);
+    reach_ = coreReach_ + size_;
+    if (shaped_)
+        reach_ = reach_ * mostStretch_ * warp_.most();
+}
+
+void SoftObject::setStretch(const Vector& factors)
+{
+    stretch_ = factors;
+    unstretch_ = {Real(1) / factors.x, Real(1) / factors.y, Real(1) / factors.z};
+    mostStretch_ = most(factors.x, most(factors.y, factors.z));
+    stretched_ = !(factors == Vector{Real(1), Real(1), Real(1)});
+    measureReach();
+    recalc_ = true;
+}
+
+void SoftObject::setWarp(const WarpAmounts& amounts)
+{
+    if ((warped_ || amounts == NO_WARP) && amounts == warp_.asked())
+        return;
+    const bool laid = laid_.seeds != nullptr;
+    if (laid && laid_.plainSeeds == nullptr && !keepPlain(laid_))
+        return;
+    tellNeighbours();
+    warped_ = true;
+    const Real radius = Real(CORE_SIZE) * restRoot_;
+    const Vector core = coreExtent16(), surface = stretchedOut(core + Vector{radius, radius, radius});
+    const Vector field = stretchedOut(core + Vector{Real(CORE_SIZE), Real(CORE_SIZE), Real(CORE_SIZE)});
+    warp_.set(amounts, surface.y, most(surface.x, surface.z), most(field.x, field.z));
+    measureReach();
+    if (laid) {
+        reshape();
+        surface_->reshape();
+    }
+    recalc_ = true;
+    tellNeighbours();
+}
+
 // "If the object is transformed, this flag is set and it will tell all its neighbors to set their recalc flags", but
 // "if an object has no displaced seeds [...] it will not tell its neighbors". Our addition: it does when it is near
 // enough to matter, so that huge jumps are safe.
@@ -204,7 +248,7 @@ void SoftObject::tellNeighbours()
 bool SoftObject::inRange(const SoftObject& other, Real slack) const
 {
     // Seeds that others pull out lie as far as the field does. Squares are compared: every pair of a model comes by here.
-    const int64_t reach = rawFromReal(coreReach() + other.coreReach() + size_ + other.size_ + slack);
+    const int64_t reach = rawFromReal(this->reach() + other.reach() + slack);
     return squaredDistance(centre_, other.centre_) < reach * reach;
 }
 
@@ -274,7 +318,7 @@ const Link* SoftObject::hollowLink() const
 
 // --- The field
 
-Real SoftObject::param(const Vector& q, Vector* slope) const
+Real SoftObject::plainParam(const Vector& q, Vector* slope) const
 {
     const Vector v = fromCore(q);
     *slope = v;
@@ -285,15 +329,49 @@ Real SoftObject::param(const Vector& q, Vector* slope) const
     return shiftDown(dot(v, v), 8);
 }
 
+Real SoftObject::warpedParam(const Vector& q, Vector* slope) const
+{
+    *slope = q;
+    const Real far = (coreReach16_ + Real(CORE_SIZE)) * mostStretch_ * warp_.most();
+    if (absolute(q.x) >= far || absolute(q.y) >= far || absolute(q.z) >= far)
+        return Real(1);
+    Warp::Way way;
+    warp_.back(q, way);
+    const Real t = plainParam(unstretched(way.plain), slope);
+    if (t < Real(1))
+        *slope = warp_.slopeOut(way, unstretched(*slope));
+    return t;
+}
+
+Vector SoftObject::awayFromCore(const Vector& q) const
+{
+    if (!warped_)
+        return fromCore(q);
+    Warp::Way way;
+    const Real far(8000);
+    warp_.back({clamp(q.x, -far, far), clamp(q.y, -far, far), clamp(q.z, -far, far)}, way);
+    return fromCore(unstretched(way.plain));
+}
+
+Vector SoftObject::slopeAt(const Vector& place) const
+{
+    Vector slope;
+    param(toCoreAxes(place) * (Real(CORE_SIZE) / laid_.size), &slope);
+    return toCoreAxes(slope);
+}
+
 Real SoftObject::fieldFunc(const Point& p) const
 {
     Vector slope;
     const Vector v = p - centre_;
     // Before it is scaled: what is far from a small object would leave 16.16.
-    const Real reach = size_ + coreReach_;
-    if (absolute(v.x) >= reach || absolute(v.y) >= reach || absolute(v.z) >= reach)
+    const Real far = reach(), end = size_ + coreReach_;
+    if (absolute(v.x) >= far || absolute(v.y) >= far || absolute(v.z) >= far)
         return Real(0);
-    return strength_ * geoff(param(toOwnAxes(v) * inverse_, &slope));
+    const Vector q = toCoreAxes(toOwnAxes(v));
+    if (stretched_ && !warped_ && (absolute(q.x) >= end || absolute(q.y) >= end || absolute(q.z) >= end))
+        return Real(0);
+    return strength_ * geoff(param(q * inverse_, &slope));
 }
 
 void SoftObject::describeAs(const char* kind, const Real* numbers, int count, char* to, int size) const
@@ -304,6 +382,21 @@ void SoftObject::describeAs(const char* kind, const Real* numbers, int count, ch
         formatReal(text, sizeof text, numbers[i]);
         used += snprintf(to + used, static_cast<size_t>(size - used), " %s", text);
     }
+}
+
+void SoftObject::describeShape(int which, char* to, int size) const
+{
+    static const char* const WORDS[SHAPES] = {"stretch", "taper", "twist", "bend"};
+    to[0] = 0;
+    const Matrix& m = turn_;
+    Real numbers[12] = {centre_.x,   centre_.y,   centre_.z,   m.m[0][0], m.m[1][0], m.m[2][0],
+                        m.m[0][1], m.m[1][1], m.m[2][1], stretch_.x,  stretch_.y,  stretch_.z};
+    if (which > 0) {
+        numbers[9] = warp_.amounts().part[which - 1];
+        numbers[10] = warp_.height() * shiftDown(size_, 4);
+    }
+    if (which == 0 ? stretched_ : warped_ && numbers[9] != Real(0))
+        describeAs(WORDS[which], numbers, which == 0 ? 12 : 11, to, size);
 }
 
 // --- A frame

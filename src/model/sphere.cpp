@@ -4,6 +4,7 @@
 #include "rt.h"
 #include "math/text.h"
 #include "model/stop.h"
+#include "model/round.h"
 
 namespace {
 constexpr int64_t PI_16 = 205887;       // pi, 16.16
@@ -28,8 +29,55 @@ int seedsInRing(Real radius, Real spacing, int32_t cosine30)
     return count < FEWEST_IN_RING ? FEWEST_IN_RING : count;
 }
 
+namespace {
+
+// Passes seeds on with their axes changed round: what comes along y is that of another axis.
+class Tilted : public SeedMaker {
+public:
+    Tilted(SeedMaker& maker, int turns) : maker_(maker), turns_(turns) {}
+
+    static Vector tilt(const Vector& v, int turns)
+    {
+        return turns == 0 ? v : turns == 1 ? Vector{v.z, v.x, v.y} : Vector{v.y, v.z, v.x};
+    }
+    int addRoot(const Vector& fromCentre) override { return maker_.addRoot(tilt(fromCentre, turns_)); }
+    void beginRing() override { maker_.beginRing(); }
+    void addSeed(int root, const Vector& direction, const Vector& along, const Vector& across) override
+    {
+        maker_.addSeed(root, tilt(direction, turns_), tilt(along, turns_), tilt(across, turns_));
+    }
+
+private:
+    SeedMaker& maker_;
+    int turns_;
+};
+
+}  // namespace
+
+// An ellipsoid: rings about the axis round which it is most nearly round.
+static void layOutEllipsoid(SeedMaker& maker, const Vector& stretch, Real radius, Real spacing)
+{
+    int best = 0;
+    Real least(1000);
+    for (int turns = 0; turns < 3; ++turns) {
+        // As the rings will see it: turned back.
+        const Vector v = Tilted::tilt(stretch, (3 - turns) % 3);
+        const Real uneven = most(v.x, v.z) / ::least(v.x, v.z);
+        if (uneven < least) {
+            least = uneven;
+            best = turns;
+        }
+    }
+    Tilted tilted(maker, best);
+    layOutCapsule(tilted, Tilted::tilt(stretch, (3 - best) % 3), radius, Real(0), spacing);
+}
+
 void Sphere::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
+    if (stretched()) {
+        layOutEllipsoid(maker, stretch(), radius(), spacing);
+        return;
+    }
     const int root = maker.addRoot({Real(0), Real(0), Real(0)});
     const int rings = ringCount(radius(), spacing);
     // Half the distance of two rings: radius * pi / rings / 2.

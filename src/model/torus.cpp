@@ -19,11 +19,14 @@ Vector Torus::fromCore(const Vector& q) const
 
 void Torus::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
-    const int rings = stepsIn(radius() * PI, shiftDown(spacing, 1));
+    // From the inside of the hole below to the outside.
+    Outline outline(stretch());
+    outline.arc(radius() * PI, 0x80000000u, 0xffffffffu);
+    const int rings = stepsIn(outline.length(), shiftDown(spacing, 1));
+    RingMaker ringMaker(maker, stretch(), spacing);
     Ring ring{};
     ring.core = this->ring();
     ring.radius = radius();
-    ring.across = portion(radius() * PI, 1, rings);
     // From the inside of the hole, below, out and up and in again. Ring k and the one as far from the end mirror each
     // other in the plane of the core, and share their roots.
     const uint32_t step = 0x80000000u / static_cast<uint32_t>(rings);
@@ -31,7 +34,10 @@ void Torus::layOutSeeds(SeedMaker& maker, Real spacing) const
     for (int k = 0; k < rings; ++k) {
         const int mirrored = rings - 1 - k;
         const int below = k < mirrored ? k : mirrored;
+        const Real at = outline.at(2 * below + 1, rings, &ring.across);
         Angle latitude = 0x80000000u + static_cast<uint32_t>(2 * below + 1) * step;
+        if (stretched())
+            latitude = 0x80000000u + 2 * quarterTurn(at, radius() * PI);
         if (k == mirrored)
             latitude = 0;
         else if (k > mirrored)
@@ -39,13 +45,13 @@ void Torus::layOutSeeds(SeedMaker& maker, Real spacing) const
         ring.pathSine = ring.normalSine = sine(latitude);
         ring.pathCosine = ring.normalCosine = cosine(latitude);
         if (k > mirrored) {
-            root -= seedsOf(ring, spacing);
-            addSeeds(maker, ring, spacing, root);
+            root -= ringMaker.seedsOf(ring);
+            ringMaker.addSeeds(ring, k, root);
         } else {
-            addRoots(maker, ring, spacing);
-            addSeeds(maker, ring, spacing, root);
+            ringMaker.addRoots(ring);
+            ringMaker.addSeeds(ring, k, root);
             if (k < mirrored)
-                root += seedsOf(ring, spacing);
+                root += ringMaker.seedsOf(ring);
         }
     }
 }

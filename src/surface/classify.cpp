@@ -17,6 +17,17 @@ Direction14 direction(const Vector& unitVector)
             static_cast<int16_t>(rawFromReal(unitVector.z) >> 2)};
 }
 
+// Of a shaped object, whose paths lead aside: how far along its axis they lead a patch, units, and how far from there one of them
+// does at most, 1/16 unit.
+SELDOM int16_t leanOf(const SoftObject& object, const Patch& patch, const Vector& axis, Real share, Real* path)
+{
+    Real up(0), most(0);
+    forSeeds(patch, [&](int i) { up += dot(object.seed(i).path, axis) * share; });
+    forSeeds(patch, [&](int i) { most = ::most(most, length(object.seed(i).path - axis * up)); });
+    *path = up;
+    return static_cast<int16_t>(steps16(most) + 1);
+}
+
 void setPatch(const SoftObject& object, Patch& patch)
 {
     const Real part(1.0 / 16384);
@@ -25,8 +36,9 @@ void setPatch(const SoftObject& object, Patch& patch)
     Square radius(0), spread(0);
     const auto rest = [&](const Seed& s) { return object.root(s.root) + s.path; };
     const auto normal = [&](const Seed& s) {
-        return Vector{part * Real(static_cast<int>(s.normal.x)), part * Real(static_cast<int>(s.normal.y)),
-                      part * Real(static_cast<int>(s.normal.z))};
+        // When an object is warped anew, its seeds have long left their rest.
+        const Direction14 n = s.flags & SEED_RESTING ? s.normal : object.restNormal(s);
+        return Vector{part * Real(static_cast<int>(n.x)), part * Real(static_cast<int>(n.y)), part * Real(static_cast<int>(n.z))};
     };
     int count = 0;
     for (int ring = 0; ring < PATCH_RINGS; ++ring)
@@ -36,12 +48,13 @@ void setPatch(const SoftObject& object, Patch& patch)
         const Seed& s = object.seed(i);
         middle = middle + rest(s) * share;
         axis = axis + normal(s) * share;
-        if (object.tapers())
+        if (object.tapers() && !object.shaped())
             path += length(s.path) * share;
     });
-    if (!object.tapers())
+    if (!object.tapers() && !object.shaped())
         path = object.radius();
     axis = unit(axis);
+    patch.lean = object.shaped() ? leanOf(object, patch, axis, share, &path) : 0;
     forSeeds(patch, [&](int i) {
         const Seed& s = object.seed(i);
         const Square away = squareOf(rest(s) - middle), aside = squareOf(normal(s) - axis);
@@ -59,6 +72,10 @@ void setPatch(const SoftObject& object, Patch& patch)
     patch.radius = static_cast<int16_t>(steps16(lengthOf(radius) + shiftDown(object.spacing(), 1)) + 2);
     patch.tight = static_cast<int16_t>(steps16(lengthOf(radius)) + 1);
     patch.path = static_cast<int16_t>(steps16(path) + 1);
+}
+
+void beginPatch(const SoftObject& object, Patch& patch)
+{
     patch.state = PATCH_REST;
     patch.extras = patch.settled = patch.stale = false;
     patch.blocker = static_cast<uint8_t>(object.slot());
@@ -135,31 +152,160 @@ struct Band {
     }
 };
 
+// The seeds of a patch: of each of its rings so many, one behind the other.
+struct Run {
+    int first[PATCH_RINGS], count[PATCH_RINGS];
+};
+
+// The rings of a stretched object leave out seeds, each at other places (thinning() in model/round.h). The patches of a band
+// follow the fullest of its rings, and the seeds of the others come to those of that one that they lie nearest to.
+class Follower {
+public:
+    Follower(const SoftObject& object, int ring, int rings) : object_(object), rings_(rings), fullest_(0)
+    {
+        for (int k = 0; k < rings; ++k) {
+            start_[k] = at_[k] = object.ringStart(ring + k);
+            end_[k] = object.ringStart(ring + k + 1);
+            near_[k] = -1;
+            if (end_[k] - at_[k] > end_[fullest_] - at_[fullest_])
+                fullest_ = k;
+        }
+        last_ = at_[fullest_];
+    }
+
+    // The next patch. False: there are no more.
+    bool next(Run& run)
+    {
+        bool late = false;
+        int left = 0;
+        for (int k = 0; k < rings_; ++k) {
+            left += end_[k] - at_[k];
+            // The patch before had no room for all of its seeds.
+            late = late || (isWithin(k, at_[k]) && isWithin(k, at_[k] + PATCH_SEEDS - 1));
+        }
+        if (left == 0)
+            return false;
+        if (!late)
+            last_ = last_ + PATCH_SEEDS < end_[fullest_] ? last_ + PATCH_SEEDS : end_[fullest_];
+        int count = 0;
+        for (int k = 0; k < PATCH_RINGS; ++k) {
+            run.first[k] = k < rings_ ? at_[k] : 0;
+            run.count[k] = 0;
+            while (k < rings_ && run.count[k] < PATCH_SEEDS && isWithin(k, at_[k])) {
+                near_[k] = nearest(k, at_[k]);
+                ++at_[k];
+                ++run.count[k];
+            }
+            count += run.count[k];
+        }
+        return count > 0 || next(run);
+    }
+
+private:
+    const SoftObject& object_;
+    int rings_, fullest_;
+    int start_[PATCH_RINGS], end_[PATCH_RINGS], at_[PATCH_RINGS];  // of each ring: its first seed, the end, the first of the next patch
+    int near_[PATCH_RINGS];  // what is nearest to the seed before that one; -1: there is none
+    int last_;               // of the fullest: the end of the patches so far
+
+    // Whether a seed of a ring belongs to the patches so far.
+    bool isWithin(int k, int i) const
+    {
+        return i < end_[k] && (last_ == end_[fullest_] || (k == fullest_ ? i : nearest(k, i)) < last_);
+    }
+
+    Square between(int i, int n) const
+    {
+        const auto rest = [&](int number) {
+            const Seed& s = object_.regular(2 * number);
+            return object_.root(s.root) + s.path;
+        };
+        return squareOf(rest(i) - rest(n));
+    }
+
+    // The seed of the fullest ring that is nearest to one: some way on from that of the seed before, or anywhere.
+    int nearest(int k, int i) const
+    {
+        const int start = start_[fullest_], end = end_[fullest_];
+        const Square far = squareOf({object_.spacing() * Real(2.5), Real(0), Real(0)});
+        int n = near_[k];
+        if (n >= 0)
+            while (n + 1 < end && between(i, n + 1) <= between(i, n))
+                ++n;
+        if (n >= 0 && between(i, n) < far)
+            return n;
+        n = start;
+        for (int j = start + 1; j < end; ++j)
+            if (between(i, j) < between(i, n))
+                n = j;
+        // What lies just before the first of them is first.
+        return i == start_[k] && 2 * n > start + end ? start : n;
+    }
+};
+
+// Calls `each` with the seeds of every patch of an object.
+template <class Each>
+void forPatches(const SoftObject& object, Each each)
+{
+    for (int ring = 0; ring < object.rings(); ring += PATCH_RINGS) {
+        const Band band(object, ring);
+        Run run;
+        if (object.stretched()) {
+            Follower follower(object, ring, band.rings);
+            while (follower.next(run))
+                each(run);
+            continue;
+        }
+        for (int i = 0; i < band.runs; ++i) {
+            for (int k = 0; k < PATCH_RINGS; ++k) {
+                run.first[k] = run.count[k] = 0;
+                if (k >= band.rings)
+                    continue;
+                const int start = object.ringStart(ring + k), inRing = object.ringStart(ring + k + 1) - start;
+                run.first[k] = start + inRing * i / band.runs;
+                run.count[k] = start + inRing * (i + 1) / band.runs - run.first[k];
+            }
+            each(run);
+        }
+    }
+}
+
 int patchesOf(const SoftObject& object)
 {
     int patches = 0;
-    for (int ring = 0; ring < object.rings(); ring += PATCH_RINGS)
-        patches += Band(object, ring).runs;
+    forPatches(object, [&](const Run&) { ++patches; });
     return patches;
 }
 
 void makePatches(const SoftObject& object, Patch* patches)
 {
-    for (int ring = 0; ring < object.rings(); ring += PATCH_RINGS) {
-        const Band band(object, ring);
-        for (int run = 0; run < band.runs && !stopAsked(); ++run, ++patches) {
-            for (int k = 0; k < PATCH_RINGS; ++k) {
-                patches->first[k] = patches->count[k] = 0;
-                if (k >= band.rings)
-                    continue;
-                const int start = object.ringStart(ring + k), inRing = object.ringStart(ring + k + 1) - start;
-                patches->first[k] = start + inRing * run / band.runs;
-                patches->count[k] = static_cast<uint8_t>(start + inRing * (run + 1) / band.runs - patches->first[k]);
-            }
-            const int k = patches->count[band.rings / 2] > 0 ? band.rings / 2 : 0;
-            patches->centre = 2 * (patches->first[k] + patches->count[k] / 2);
-            setPatch(object, *patches);
+    forPatches(object, [&](const Run& run) {
+        if (stopAsked())
+            return;
+        Patch& patch = *patches++;
+        int middle = 0, rings = 0;
+        for (int k = 0; k < PATCH_RINGS; ++k) {
+            patch.first[k] = run.first[k];
+            patch.count[k] = static_cast<uint8_t>(run.count[k]);
+            if (run.count[k] > 0)
+                rings = k + 1;
         }
+        for (int k = 0; k < PATCH_RINGS; ++k)
+            if (run.count[k] > 0 && (run.count[middle] == 0 || k == rings / 2))
+                middle = k;
+        patch.centre = 2 * (run.first[middle] + run.count[middle] / 2);
+        setPatch(object, patch);
+        beginPatch(object, patch);
+    });
+}
+
+void reshapePatches(const SoftObject& object, Patch* patches, int count, uint32_t reading)
+{
+    for (int i = 0; i < count; ++i) {
+        setPatch(object, patches[i]);
+        patches[i].due = reading;
+        patches[i].stale = true;
+        patches[i].bend.known = false;
     }
 }
 
@@ -178,7 +324,10 @@ Bound boundOf(const Patch& patch, int32_t restRadius)
     const int32_t position = (patch.nearest + patch.farthest) >> 1, half = (patch.farthest - patch.nearest + 1) >> 1;
     const Step middle = above(patch, patch.path * (position - 64) >> 6);
     const int32_t widest = patch.farthest > 64 ? patch.farthest : 64;
-    return {middle.x, middle.y, middle.z, (restRadius * widest + patch.path * half) >> 6};
+    int32_t radius = restRadius * widest + patch.path * half;
+    if (patch.lean != 0)
+        radius += patch.lean * (position < 64 ? 64 - patch.nearest : widest - 64);
+    return {middle.x, middle.y, middle.z, radius >> 6};
 }
 
 bool reaches(const Neighbour& near, const Bound& ball)
@@ -199,7 +348,7 @@ void classify(Patch& patch, const Neighbourhood& all)
     const int32_t half = all.deep ? patch.path * (rawFromReal(all.last) >> 10) >> 7 : patch.path >> 1;
     const Step beyond = above(patch, all.deep ? half - patch.path : half);
     const int32_t slack = steps16(LIST_SLACK);
-    const int32_t radius = half + patch.radius + (patch.radius >> 1) + slack;
+    const int32_t radius = half + patch.radius + (patch.radius >> 1) + patch.lean + slack;
     memset(patch.listed, 0, sizeof patch.listed);
     memset(patch.near, 0, sizeof patch.near);
     Bound ball = boundOf(patch, patch.radius);

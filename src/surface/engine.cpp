@@ -30,6 +30,7 @@ public:
     }
 
     void update(const FrameContext& frame) override;
+    void reshape() override;
     void draw(const FrameContext& frame, VoxelList& list, int room, int* next) override;
 
 private:
@@ -40,6 +41,23 @@ private:
     Patch* patches_ = nullptr;
     int count_ = 0;
 };
+
+// The patches keep their states, but all of them are looked at. Seeds are searched from where they are: the paths of those that
+// were found lead elsewhere now, so that nothing of what is known of them holds.
+void Engine::reshape()
+{
+    const auto forget = [](Seed& s) {
+        if ((s.flags & (SEED_VALID | SEED_RESTING)) == SEED_VALID)
+            s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_COVERED);
+        s.flags &= static_cast<uint8_t>(~SEED_OFF);
+    };
+    for (int i = 0; i < object_.seedSlots(); i += 2) {
+        forget(object_.regular(i));
+        if (object_.extra(i) != nullptr)
+            forget(*object_.extra(i));
+    }
+    reshapePatches(object_, patches_, count_, odometer_.reading());
+}
 
 // Gather what reaches the object, classify its patches, settle those that are due.
 void Engine::update(const FrameContext& frame)
@@ -105,7 +123,7 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
 {
     const OwnFrame own = ownFrame(object_, frame);
     const SoftObject* const shown = object_.shown();
-    list.begin(frame.inView(object_.centre()), object_.coreReach() + object_.size(),
+    list.begin(frame.inView(object_.centre()), object_.reach(),
                shown == nullptr ? object_.ramp() : shown->ramp());
     if (own.outOfSight || shown == nullptr) {
         *next = 0;

@@ -15,31 +15,48 @@ void axisInOwn(const SoftObject& object, const Vector& axis, int32_t* to)
     to[2] = rawFromReal(v.z) >> 2;
 }
 
+// What else is known of one that is stretched or warped. Distances to it are judged by what they are at least.
+SELDOM void aimShaped(Neighbour& near)
+{
+    const SoftObject& other = *near.object;
+    const Vector by = other.toCoreAxes({Real(1), Real(1), Real(1)});
+    near.toCore[0] = near.toCore[0] * by.x;
+    near.toCore[1] = near.toCore[1] * by.y;
+    near.toCore[2] = near.toCore[2] * by.z;
+    const Real narrowing = other.narrowing();
+    near.steep16 = near.inverse16 / narrowing;
+    near.push16 = near.push16 / narrowing;
+    near.grain = near.grain * narrowing;
+    near.size16 = (rawFromReal(near.size * narrowing) >> 12) + 1;
+}
+
 // Own space to the core space of a neighbour that is no point.
 void aim(const SoftObject& object, Neighbour& near)
 {
     const SoftObject& other = *near.object;
     near.half = shiftDown(other.segmentHalf16(), 4);
-    near.segment = near.half > Real(0);
+    near.segment = near.half > Real(0) && !other.shaped();
     near.kind = near.segment && !other.tapers() ? Neighbour::SEGMENT : Neighbour::OTHER;
     near.half16 = rawFromReal(near.half * near.size) >> 12;
     // Row i: axis i of the neighbour, in own axes.
     const Matrix& turn = other.turn();
     for (int i = 0; i < 3; ++i)
         near.toCore[i] = object.toOwnAxes({turn.m[0][i], turn.m[1][i], turn.m[2][i]}) * near.inverse16;
+    if (other.shaped())
+        aimShaped(near);
     near.direction = object.toOwnAxes({turn.m[0][1], turn.m[1][1], turn.m[2][1]});
     near.axis[0] = rawFromReal(near.direction.x) >> 2;
     near.axis[1] = rawFromReal(near.direction.y) >> 2;
     near.axis[2] = rawFromReal(near.direction.z) >> 2;
-    near.offset = other.toOwnAxes(object.centre() - other.centre()) * (Real(CORE_SIZE) / other.size());
+    near.offset = other.toCoreAxes(other.toOwnAxes(object.centre() - other.centre())) * (Real(CORE_SIZE) / other.size());
 }
 
 }  // namespace
 
 Vector Neighbour::fromCore16(const Vector& q) const
 {
-    const Vector v = object->fromCore(inCore(q) + offset);
-    return v * size;  // core space has CORE_SIZE = 16 to a size
+    const Vector v = object->awayFromCore(inCore(q) + offset);
+    return v * (size * object->narrowing());  // core space has CORE_SIZE = 16 to a size
 }
 
 // Finds out where the object lies against what bounds the view.
@@ -50,7 +67,7 @@ static void setSides(const SoftObject& object, const FrameContext& frame, OwnFra
     if (frame.sideways == Real(0))
         return;
     // As far as seeds can be pulled out, and a little for the size of scales.
-    const int32_t reach = rawFromReal(object.coreReach() + object.size() + object.spacing() * Real(2)) >> 12;
+    const int32_t reach = rawFromReal(object.reach() + object.spacing() * Real(2)) >> 12;
     const Vector toCentre = frame.inView(object.centre());
     const Vector inwards[] = {{Real(1), Real(0), frame.sideways}, {Real(-1), Real(0), frame.sideways},
                               {Real(0), Real(1), frame.upward}, {Real(0), Real(-1), frame.upward}};
@@ -83,7 +100,8 @@ OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
     if (own.distance32 < 4)
         own.distance32 = 4;
     // Of what is near the eye the parts are nearer than the centre, and face it by as much less of that distance.
-    const int32_t extent32 = rawFromReal(object.coreReach() / own.growth + object.laidRadius()) >> 11;
+    const Real extent = object.shaped() ? object.laidReach() : object.coreReach() / own.growth + object.laidRadius();
+    const int32_t extent32 = rawFromReal(extent) >> 11;
     const int32_t limb = object.isBall() ? LIMB_OF_BALL : LIMB;
     own.limb = own.distance32 > extent32 ? mulDiv(limb, own.distance32 - extent32, own.distance32) : 0;
     axisInOwn(object, frame.light, own.light);
@@ -118,7 +136,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         const bool grown = object.size() != object.laidSize();
         near.centre = grown ? Vector{apart.x / growth, apart.y / growth, apart.z / growth} : apart;
         near.size = grown ? other.size() / growth : other.size();
-        near.inverse16 = Real(CORE_SIZE) / near.size;
+        near.inverse16 = near.steep16 = Real(CORE_SIZE) / near.size;
         const Real proportion = least(object.size() / other.size(), Real(60));
         near.ratio = proportion * proportion;
         near.strength = other.strength();
@@ -154,7 +172,7 @@ void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& 
     all.rests = object.rests() && !all.hollow;
     all.dented = false;
     all.deep = all.inner || !all.rests;
-    all.common = object.strength() == Real(1) && !all.hollow && !all.inner;
+    all.common = object.strength() == Real(1) && !all.hollow && !all.inner && !object.shaped();
     all.last = object.restRoot() == Real(0.5) ? Real(1.98) : Real(0.99) / object.restRoot();
     memset(all.numberOf, -1, sizeof all.numberOf);
     gatherFrom(bodies.diggers(*all.head), bodies.diggerCount(*all.head), true, object, bodies, all);

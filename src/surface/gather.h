@@ -19,6 +19,7 @@ struct Neighbour {
     Vector centre;      // units of own space, as all that follows
     Real size;          // where its field ends, from its core
     Real inverse16;     // CORE_SIZE / size
+    Real steep16;       // what a unit of own space is in its core space at most: the same, unless its shape narrows that
     Real push16;        // the same, times the weight of what digs where that is above 1
     Real ratio;         // squared proportion of the own size to `size`: its share of the gradient
     Real strength;      // what its field is multiplied by
@@ -45,7 +46,7 @@ struct Neighbour {
         const Real scale = size * size * Real(1.0 / (CORE_SIZE * CORE_SIZE));
         return (toCore[0] * v.x + toCore[1] * v.y + toCore[2] * v.z) * scale;
     }
-    // The vector from its core to a place of own space, in 1/16 unit; no point.
+    // The vector from its core to a place of own space, in 1/16 unit; no point. Of one that is shaped: no longer than that.
     Vector fromCore16(const Vector& q) const;
 };
 
@@ -56,7 +57,7 @@ struct Neighbourhood {
     bool hollow;        // they do
     Real weight;        // and by this weight the object digs into that
     bool inner;         // some of the body dig into others of it
-    bool common;        // nothing digs, and all strengths are 1
+    bool common;        // nothing digs, all strengths are 1, and the object is not shaped
     bool rests;         // the surface lies at position 1 where no neighbour reaches
     bool dented;        // some neighbours dig
     bool deep;          // paths are searched from near their roots

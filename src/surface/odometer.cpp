@@ -34,7 +34,13 @@ Way Odometer::wayBetween(const Neighbour& near, const Stand& now, const Stand& b
     const Vector most{absolute(by.x) + about(now.toCore[0] - before.toCore[0]) * reach,
                       absolute(by.y) + about(now.toCore[1] - before.toCore[1]) * reach,
                       absolute(by.z) + about(now.toCore[2] - before.toCore[2]) * reach};
-    return wayOf(least(about(most), longest) * near.size * Real(1.0 / CORE_SIZE));
+    Real way = least(about(most), longest) * near.size * Real(1.0 / CORE_SIZE);
+    if (near.object->warped()) {
+        // A share of the width, and degrees.
+        const auto change = [&](int part) { return absolute(now.warp.part[part] - before.warp.part[part]); };
+        way += (change(WARP_TAPER) + (change(WARP_TWIST) + change(WARP_BEND)) * Real(0.0174533)) * near.object->reach();
+    }
+    return wayOf(way);
 }
 
 bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion)
@@ -60,7 +66,7 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
     eye_ = own.eye;
     const Way eyeWay = wayOf(turned * shiftDown(object.laidSize(), 2));
 
-    const Real reach = object.coreReach() + object.size();
+    const Real reach = object.reach();
     Stand stands[NEIGHBOURS_MAX];
     int8_t standBySlot[SLOTS_MAX];
     memset(standBySlot, -1, sizeof standBySlot);
@@ -70,7 +76,7 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
         const Neighbour& near = all.neighbours[i];
         const int slot = near.object->slot(), before = standBySlot_[slot];
         standBySlot[slot] = static_cast<int8_t>(i);
-        stands[i] = {near.kind == Neighbour::POINT ? near.centre : near.offset, {near.toCore[0], near.toCore[1], near.toCore[2]}, near.size};
+        stands[i] = {near.kind == Neighbour::POINT ? near.centre : near.offset, {near.toCore[0], near.toCore[1], near.toCore[2]}, near.size, near.object->warp().amounts()};
         if (!holds)
             continue;
         if (before < 0) {

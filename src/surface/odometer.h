@@ -41,6 +41,7 @@ private:
     struct Stand {
         Vector place, toCore[3];
         Real size;
+        WarpAmounts warp;
     };
     static Way wayBetween(const Neighbour& near, const Stand& now, const Stand& before, Real reach);
 

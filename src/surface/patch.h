@@ -45,7 +45,8 @@ struct Patch {
     int16_t tight;
     int16_t axis[3];    // the mean of their normals
     int16_t spread;     // greatest length of the difference of a normal to the axis
-    int16_t path;       // mean length of their paths
+    int16_t path;       // mean length of their paths; of a shaped object, along the axis
+    int16_t lean;       // and how far from there one of them leads at most; 0: they lead along their normals
     uint8_t nearest, farthest;          // between which positions its seeds are, 1/64
     uint32_t due, listDue;              // readings of the odometer (odometer.h) when it, and when its lists are due
     // Its lists, a bit for the slot of each neighbour: those that may reach some place on its paths, and those that may reach
@@ -85,6 +86,9 @@ int patchesOf(const SoftObject& object);
 
 // Fills them in.
 void makePatches(const SoftObject& object, Patch* patches);
+
+// Measures them anew, when the seeds rest elsewhere. They are due at once, by the reading of the odometer.
+void reshapePatches(const SoftObject& object, Patch* patches, int count, uint32_t reading);
 
 // Makes the lists of a patch anew. They hold until a neighbour has come nearer by LIST_SLACK.
 void classify(Patch& patch, const Neighbourhood& all);

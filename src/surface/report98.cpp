@@ -38,6 +38,7 @@ private:
     // What is kept of a seed from frame to frame: "all seed position values, spatial locations and surface normals".
     struct Kept {
         Vector path;  // turned as the object is
+        Vector out;   // square to the unblended surface there, the radius long: the path, unless the object is shaped
         Point point;
         Vector normal;
         uint8_t brightness;
@@ -76,8 +77,12 @@ bool Report98::open()
 // "Rotate all seed roots about the center of rotation, apply the same rotation to all path vectors."
 void Report98::pose()
 {
-    for (int i = 0; i < object_.seedSlots(); ++i)
-        kept_[i].path = object_.toWorld(object_.seed(i).path) - object_.centre();
+    for (int i = 0; i < object_.seedSlots(); ++i) {
+        const Seed& s = object_.seed(i);
+        kept_[i].path = kept_[i].out = object_.toWorld(s.path) - object_.centre();
+        if (object_.shaped())
+            kept_[i].out = withLength(object_.toWorld(object_.slopeAt(object_.root(s.root) + s.path)) - object_.centre(), object_.radius());
+    }
 }
 
 // The neighbours close enough to matter, tested once at the start of an update cycle. What digs into the object has a weight
@@ -136,7 +141,7 @@ void Report98::settle(int i, const FrameContext& frame, const Vector& toEye, con
     const Vector path = kept_[i].path;
 
     // "Seeds whose paths point nearly away from the viewer [...] are assumed to be invisible."
-    const bool front = dot(path, toEye) >= BACK_FACE * object_.radius();
+    const bool front = dot(kept_[i].out, toEye) >= BACK_FACE * object_.radius();
     s.flags = static_cast<uint8_t>(front ? s.flags | SEED_FRONT : s.flags & ~SEED_FRONT);
     if (!front)
         return;
@@ -187,7 +192,7 @@ void Report98::settle(int i, const FrameContext& frame, const Vector& toEye, con
 
 void Report98::draw(const FrameContext& frame, VoxelList& list, int room, int* next)
 {
-    list.begin(frame.inView(object_.centre()), object_.coreReach() + object_.size(), object_.ramp());
+    list.begin(frame.inView(object_.centre()), object_.reach(), object_.ramp());
     const Real inverseRadius = Real(1) / object_.radius();
     Link near[NEAR_MAX];
     const int nearCount = findNear(near);
@@ -209,7 +214,7 @@ void Report98::draw(const FrameContext& frame, VoxelList& list, int room, int* n
         if (deformity < DEFORMITY) {
             // "If the surface deformity is below a certain tolerance then the surface normal for a seed has the same
             // direction as that seed's path and need not be calculated."
-            kept.brightness = brightness(dot(kept.path, frame.light) * inverseRadius);
+            kept.brightness = brightness(dot(kept.out, frame.light) * inverseRadius);
             s.flags = static_cast<uint8_t>(s.flags & ~SEED_KEPT);
         } else if (!(s.flags & SEED_KEPT)) {
             // "Three additional samples, each displaced from the seed by a fixed distance along the X, Y and Z axes."

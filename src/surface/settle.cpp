@@ -62,15 +62,15 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& a
                  const Odometer& odometer, uint32_t updates)
     : object_(object), own_(own), all_(all), bodies_(*frame.bodies), counts_(*frame.counts), now_(odometer.reading()),
       came_(realFromRaw(static_cast<int32_t>(odometer.came() << 6))), updates_(updates), ownWeights_(bodies_.weights(object.slot())),
-      hollow_(all.hollow), common_(all.common), ownPlain_(object.strength() == Real(1) && !all.hollow),
-      restParam_(object.restParam()), first_(all.deep ? FIRST_DEEP : FIRST),
+      hollow_(all.hollow), common_(all.common), ownPlain_(object.strength() == Real(1) && !all.hollow && !object.warped()),
+      restParam_(object.restParam()), warped_(object.warped()), first_(all.deep ? FIRST_DEEP : FIRST),
       last_(all.last), border_(BORDER * most(object.strength(), Real(1)))
 {
-    const Real restOfPath = (shiftDown(last_ - first_, 1) + Real(0.02)) * object.laidRadius();
+    const Real restOfPath = (shiftDown(last_ - first_, 1) + Real(0.02)) * object.longestPath();
     for (int i = 0; i < all.count; ++i) {
         from_[i].root = -1;
         border_ = most(border_, BORDER * all.neighbours[i].strength);
-        const Real reach = Real(1) + restOfPath * shiftDown(all.neighbours[i].inverse16, 4);
+        const Real reach = Real(1) + restOfPath * shiftDown(all.neighbours[i].steep16, 4);
         reachT_[i] = reach < Real(100) ? reach * reach : Real(10000);
     }
     listed_.count = 0;
@@ -123,6 +123,8 @@ void Settler::findComplete(Few& few) const
 // What a patch has besides where not all is common.
 void Settler::setOdd(const Patch& patch)
 {
+    if (object_.shaped())
+        smallest_ = smallest_ * object_.narrowing();
     if (object_.strength() > Real(1))
         smallest_ = smallest_ / object_.strength();
     dented_ = all_.inner || hollow_;
@@ -184,7 +186,8 @@ const Settler::Few& Settler::those(Real position)
 // What is the same for all seeds of a root.
 void Settler::setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const
 {
-    to.root = s.root;
+    // Of a shaped object each path has a length of its own.
+    to.root = object_.shaped() ? -1 : s.root;
     const Vector& root = object_.root(s.root);
     if (near.kind == Neighbour::OTHER) {
         to.apart = near.inCore(root) + near.offset;
@@ -282,11 +285,11 @@ struct Settler::Sum {
     // among its neighbours.
     SELDOM void addOwn(Settler& of)
     {
-        const Real t = position * position * of.restParam_, strength = of.object_.strength();
-        const FieldStep own = t < Real(1) ? geoffQuick(t) : FieldStep{Real(0), Real(0)};
+        const Real t = of.ownParam(position), strength = of.object_.strength();
+        const FieldStep own = t < Real(1) ? geoffQuick(most(t, Real(0))) : FieldStep{Real(0), Real(0)};
         of.ownField_ = sum = own.value * strength;
         of.ownSlope_ = own.slope * strength;
-        slope = of.ownSlope_ * position * shiftUp(of.restParam_, 1);
+        slope = of.ownRate(position);
         of.headField_ = Real(0);
         if (of.hollow_) {
             sum = -(sum * of.all_.weight);
@@ -338,6 +341,17 @@ struct Settler::Sum {
         return all;
     }
 };
+
+// The own t at a position of the path of a warped object; sets ownChange_.
+Real Settler::warpedParam(Real position)
+{
+    const Real inward = Real(CORE_SIZE) / object_.laidSize();
+    const Vector step = path_ * inward;
+    Vector out;
+    const Real t = object_.param(root_ * inward + step * position, &out);
+    ownChange_ = t < Real(1) ? shiftDown(dot(out, step), 7) : Real(0);
+    return t;
+}
 
 // Takes up the path of a seed as a few neighbours see it, and looks at a position. False: none of them reaches that.
 template <bool COMMON>
@@ -463,7 +477,7 @@ void Settler::blendOdd(Real position, Sample& sample)
     if (ownField_ > Real(0) && !hollow_) {
         strongest = ownField_;
         end->f = end->g = ownField_;
-        end->rate = ownSlope_ * position * shiftUp(restParam_, 1);
+        end->rate = ownRate(position);
         end->linked = Real(0);
         end->weights = ownWeights_;
         end->slot = object_.slot();
@@ -528,7 +542,7 @@ void Settler::blendOdd(Real position, Sample& sample)
         digging += linked * rate;
     };
     if (hollow_)
-        dig(ownField_, ownSlope_ * position * shiftUp(restParam_, 1), object_.slot(), 0);
+        dig(ownField_, ownRate(position), object_.slot(), 0);
     for (int i = 0; i < touched_ && all_.dented; ++i)
         if (along_[i].near->digs)
             dig(along_[i].value, along_[i].slope * along_[i].change, along_[i].near->object->slot(), i + 1);
@@ -672,8 +686,10 @@ Real Settler::pushMost() const
 Real Settler::searchDeep(Real* position, Sample* sample)
 {
     // What the sum of the fields changes by at most over a position.
-    const Real own = shiftDown(object_.strength() * (hollow_ ? most(all_.weight, Real(1)) : Real(1)), 1) * STEEPEST_OF_ALL;
-    const Real half = quotient(Real(0.5), own + pushMost() * object_.laidRadius()), end = hollow_ ? last_ : first_;
+    Real own = shiftDown(object_.strength() * (hollow_ ? most(all_.weight, Real(1)) : Real(1)), 1) * STEEPEST_OF_ALL;
+    if (warped_)
+        own = own * (object_.longestPath() / (object_.laidRadius() * object_.narrowing()));
+    const Real half = quotient(Real(0.5), own + pushMost() * object_.longestPath()), end = hollow_ ? last_ : first_;
     Real at = hollow_ ? first_ : last_, deepest(9), highest(-9), inside(0), outside(0);
     bool found = false;
     Sample now = look(at);
@@ -776,6 +792,12 @@ bool Settler::isOff(const Seed& s) const
     return (s.flags & SEED_OFF) && came_ < LONGEST_WAIT && static_cast<int16_t>(static_cast<uint16_t>(now_) - s.due) < 0;
 }
 
+// Adds half the gradient of the own t at a position, times its squared size and a share: of an object whose paths slant.
+void Settler::addSlanting(Vector& to, Real share, Real position) const
+{
+    to = to + object_.slopeAt(root_ + path_ * position) * shiftDown(share * object_.laidSize(), 4);
+}
+
 // The direction in which the field falls at a position that has just been looked at, any length, own axes: each field pushes
 // away from its core by its slope over its squared size.
 Vector Settler::outward(Real position) const
@@ -785,7 +807,7 @@ Vector Settler::outward(Real position) const
         own = -(own * all_.weight);
     Vector g{Real(0), Real(0), Real(0)};
     // Points push along the path, and from where they stand to the root.
-    Real along = object_.tapers() ? Real(0) : own;
+    Real along = object_.slants() ? Real(0) : own;
     for (int i = 0; i < touched_; ++i) {
         const Along& to = along_[i];
         if (to.slope == Real(0))
@@ -804,11 +826,8 @@ Vector Settler::outward(Real position) const
             g = g - to.near->direction * (to.k * to.near->size * push);
     }
     g = g + path_ * (along * position);
-    if (object_.tapers()) {
-        Vector slope;
-        object_.param((root_ + path_ * position) * (Real(CORE_SIZE) / object_.laidSize()), &slope);
-        g = g + slope * shiftDown(own * object_.laidSize(), 4);
-    }
+    if (object_.slants())
+        addSlanting(g, own, position);
     return g;
 }
 
@@ -838,10 +857,8 @@ Real Settler::findShare(Seed& s, Real shared, Vector* g)
 {
     const Real far(30);
     Vector out = path_ * s.position;
-    if (object_.tapers()) {
-        object_.param((root_ + out) * (Real(CORE_SIZE) / object_.laidSize()), &out);
-        out = out * shiftDown(object_.laidSize(), 4);
-    }
+    if (object_.slants())
+        out = object_.slopeAt(root_ + out) * shiftDown(object_.laidSize(), 4);
     // Steepnesses, times half the squared size of the object.
     Real own = -(ownSlope_ * nearLength(out)), steepest(0);
     if (hollow_)
@@ -867,7 +884,7 @@ Real Settler::findShare(Seed& s, Real shared, Vector* g)
     if (touched_ > 1)
         lead += leadOf(*g, out, own, from, steepest);
     // What the digging field's steepness changes by over a unit away from its core: F'' is 34/9 - 24/9 t.
-    Real t = s.position * s.position * restParam_, slope = -ownSlope_, factor = all_.weight, strength = object_.strength();
+    Real t = ownParam(s.position), slope = -ownSlope_, factor = all_.weight, strength = object_.strength();
     if (!hollow_) {
         t = other->t;
         slope = -other->slope;
@@ -909,7 +926,9 @@ bool Settler::findDented(Seed& s, Vector* g)
 // field; in a hollow what is dented stands for the object.
 const Along* Settler::strongestOther(const Seed& s, Vector* g, Real* change) const
 {
-    *change = ownSlope_ * lookedAt_ * shiftUp(restParam_, 1);
+    *change = ownRate(lookedAt_);
+    if (object_.shaped())
+        *g = object_.slopeAt(root_ + path_ * s.position) * shiftDown(ownSlope_ * object_.laidSize(), 4);
     const Along* other = nullptr;
     for (int i = 0; i < touched_; ++i) {
         const Along& along = along_[i];
@@ -1023,7 +1042,9 @@ bool Settler::isCovered(const Seed& s)
 void Settler::setBlocker(const Patch& patch)
 {
     blocker_ = all_.numberOf[patch.blocker];
-    cover_ = blocker_ < 0 || !common_ ? nullptr : allComplete_ || isLinked(patch.blocker) ? &COVER_LINKED : &COVER_UNLINKED;
+    // The t of what is warped need not be convex.
+    const bool judged = blocker_ >= 0 && common_ && !all_.neighbours[blocker_].object->warped();
+    cover_ = !judged ? nullptr : allComplete_ || isLinked(patch.blocker) ? &COVER_LINKED : &COVER_UNLINKED;
 }
 
 // Whether the object is linked with another at weight 1.
@@ -1140,14 +1161,14 @@ bool Settler::isCovered(const Patch& patch)
     if (cover_ == nullptr || object_.tapers())
         return false;
     const Neighbour& near = all_.neighbours[blocker_];
-    return !near.object->tapers() && isWithin(patch, near, COVERED_AT, cover_->rootThere) && isWithin(patch, near, Real(1), cover_->rootAtRest);
+    return !near.object->slants() && isWithin(patch, near, COVERED_AT, cover_->rootThere) && isWithin(patch, near, Real(1), cover_->rootAtRest);
 }
 
 // The same for a patch that is dented, or of a hollow, the middle of which has been found off the surface: whether all of it is.
-// The own field is the same at one position of all its paths; they are no farther from each other there than twice where they rest.
+// The own field is the same at one position of all its paths, unless it is warped; they are no farther from each other there than twice where they rest.
 PatchState Settler::probeOff(Patch& patch, const Seed& s) const
 {
-    if ((s.flags & SEED_COVERED))
+    if ((s.flags & SEED_COVERED) || warped_)
         return PATCH_MIXED;
     const Real push = pushMost(), hold = off_ - push * realFromRaw(patch.radius << 13);
     if (hold <= Real(0))

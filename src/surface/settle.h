@@ -98,6 +98,13 @@ private:
     SELDOM void blend(Real position, Sample& sample);
     SELDOM void blendOdd(Real position, Sample& sample);
     bool follow(Real* position, Sample* sample);
+    SELDOM Real warpedParam(Real position);
+    // The own t at a position of the path at hand; and dF/dp, when that has been looked at.
+    Real ownParam(Real position) { return warped_ ? warpedParam(position) : position * position * restParam_; }
+    Real ownRate(Real position) const
+    {
+        return warped_ ? ownSlope_ * ownChange_ : ownSlope_ * position * shiftUp(restParam_, 1);
+    }
     Real search(Real* position, Sample* sample);
     SELDOM Real searchDeep(Real* position, Sample* sample);
     SELDOM bool hasClosed(const Seed& s);
@@ -109,6 +116,7 @@ private:
     SELDOM PatchState probeOff(Patch& patch, const Seed& s) const;
     void bisect(Real inside, Real outside, Real* position, Sample* sample);
     Vector outward(Real position) const;
+    SELDOM void addSlanting(Vector& to, Real share, Real position) const;
     Vector fromCore(const Along& along, Real position) const;
     SELDOM Real leadOf(const Vector& g, const Vector& out, Real own, const Vector& from, Real steepest) const;
     Real findShare(Seed& s, Real shared, Vector* g);
@@ -140,9 +148,10 @@ private:
     uint32_t turn_ = 0;  // of the patch at hand: what waits takes turns
     const Real* ownWeights_;  // of its links, by slots
     const bool hollow_;              // the seeds sample a hollow: inside and outside change places
-    const bool common_;              // nothing digs, and all strengths are 1
-    const bool ownPlain_;            // the object's strength is 1
-    const Real restParam_;           // t of the own field at position 1
+    const bool common_;              // nothing digs, all strengths are 1, and the object is not shaped
+    const bool ownPlain_;            // the object's strength is 1, and it is neither a hollow nor warped
+    const Real restParam_;           // t of the own field at position 1, unless it is warped
+    const bool warped_;              // the object is
     const Real first_, last_;        // positions: where paths are searched
     Real border_;                    // of the field: a neighbour that is weaker than the own by less is near
     bool allComplete_;
@@ -169,6 +178,7 @@ private:
     Real headField_;                  // of a hollow: the field of what is hollowed out
     Real lookedAt_;                   // the last position looked at
     Real ownField_, ownSlope_;        // F and dF/dt of the own field there
+    Real ownChange_;                  // and dt/dp, of a warped object
     Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, if shared_
 };
 

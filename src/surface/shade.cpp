@@ -108,10 +108,10 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     centre_[2] = rawFromReal(place.z) >> 8;
     ball_ = object.isBall();
     // No seed leaves the reach of its object. Places have 16 bits.
-    const int32_t reach = rawFromReal(object.size() + object.coreReach()) >> 8;
+    const int32_t reach = rawFromReal(object.reach()) >> 8;
     near_ = centre_[2] - reach < NEAREST_DEPTH || centre_[2] + reach >= FARTHEST_DEPTH;
     shading_.placeShift = 8;
-    for (int32_t most = rawFromReal(object.laidSize() + object.coreReach() / own.growth) >> 8; most > 32000; most >>= 1)
+    for (int32_t most = rawFromReal(object.laidReach()) >> 8; most > 32000; most >>= 1)
         ++shading_.placeShift;
     // A step of places in 1/256 unit of the world, 16 bits of fraction.
     const int32_t step = rawFromReal(own.growth) << (shading_.placeShift - 8);

@@ -184,12 +184,13 @@ private:
     {
         const size_t count = random_.once(5) ? 2 + random_.below(random_.once(12) ? (group ? 62 : 110) : 8) : 1;
         const std::string name = freshName(count);
+        size_t kind = 0;
         if (group) {
             word("group");
             word(name);
         } else {
             static const char* const KINDS[] = {"sphere", "cylinder", "torus", "disc", "cone", "box"};
-            const size_t kind = random_.below(6);
+            kind = random_.below(6);
             word(KINDS[kind]);
             word(name);
             word("size");
@@ -218,7 +219,15 @@ private:
         }
         bool placed = false;
         for (size_t i = random_.below(4); i > 0; --i) {
-            switch (random_.below(5)) {
+            switch (random_.below(6)) {
+            case 5:
+                // What keeps the largest of its kind within 100 units.
+                if (!group) {
+                    word("stretch");
+                    for (int part = 0; part < 3; ++part)
+                        number(0.25, kind == 0 ? 2 : 0.66);
+                }
+                break;
             case 0:
                 word("at");
                 vector(count > 1 ? 20 : 250);
@@ -319,7 +328,27 @@ private:
     void statement()
     {
         Item& item = items_[random_.below(items_.size())];
-        switch (random_.below(19)) {
+        switch (random_.below(20)) {
+        case 19: {
+            if (item.group && !slip()) {
+                object(false);
+                return;
+            }
+            const size_t part = random_.below(3);
+            static const char* const WARPS[] = {"taper", "twist", "bend"};
+            const double most = part == 0 ? 0.75 : part == 1 ? 360 : 180;
+            word(WARPS[part]);
+            word(known(item));
+            number(-most, most);
+            if (random_.once(2)) {
+                word("swing");
+                number(-most, most);
+                lag(item);
+                period();
+                phase();
+            }
+            break;
+        }
         case 0:
         case 1:
         case 2: object(false); return;

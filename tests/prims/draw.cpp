@@ -133,6 +133,35 @@ int drawScenes(const char* directory)
             plays.push_back(std::move(pair));
         }
 
+    // Stretched and warped ones: alone, and in one heap with a ball.
+    const std::vector<Sample> shapes = {{"sphere", 30, 0, 0, 0, 0, {1.8, 1, 0.6}}, {"cylinder", 14, 0, 36}, {"box", 12, 0, 16, 36, 8}};
+    const auto sway = [](std::vector<SoftObject*>& o, int frame) {
+        const double swing = std::sin(frame * 0.15);
+        o[1]->setWarp({{real(0.4 * swing), Real(0), real(100 * swing)}});
+        o[2]->setWarp({{Real(0), real(150 * swing), Real(0)}});
+        for (int i = 0; i < 3 && frame > 0; ++i)
+            o[static_cast<size_t>(i)]->rotate(o[static_cast<size_t>(i)]->centre(), {Real(3), Real(1), Real(2)}, 0xffffffffu / 60);
+    };
+    for (const double spacing : {2.0, 1.0}) {
+        const std::string end = spacing == 2 ? "" : "_1";
+        Play alone{"shapes_turned" + end, spacing, {}, {}, nullptr};
+        Play heap{"shapes" + end, spacing, {}, {{0, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}, {2, 3}}, nullptr};
+        for (size_t i = 0; i < shapes.size(); ++i) {
+            alone.objects.push_back(shapes[i].make(static_cast<int>(i + 1)));
+            alone.objects.back()->moveTo(point(-36 + 36 * static_cast<double>(i), 3, 4));
+            heap.objects.push_back(shapes[i].make(static_cast<int>(i + 1)));
+            heap.objects.back()->moveTo(point(-20 + 18 * static_cast<double>(i), 6 - 5 * static_cast<double>(i), 4));
+        }
+        heap.objects.push_back(FEW[0].make(4));
+        alone.move = sway;
+        heap.move = [sway](std::vector<SoftObject*>& o, int frame) {
+            sway(o, frame);
+            o[3]->moveTo(point(-40 + 7 * frame, -10 + frame, -4 + frame));
+        };
+        plays.push_back(std::move(alone));
+        plays.push_back(std::move(heap));
+    }
+
     // A long one close to the viewer, who sees its ends from quite different sides, and a ball along it.
     for (const double spacing : {2.0, 1.0}) {
         Play near{spacing == 2 ? "near" : "near_1", spacing, {}, {{0, 1}}, nullptr};

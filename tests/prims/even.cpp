@@ -41,30 +41,41 @@ std::vector<double> nearest(const std::vector<Vec>& points, double cell)
 void testEvenness(bool table)
 {
     if (table)
-        std::printf("%-20s %7s %8s %12s %8s %8s %8s %8s\n", "object", "spacing", "seeds", "oversampled", "nearest", "mean",
+        std::printf("%-40s %7s %8s %12s %8s %8s %8s %8s\n", "object", "spacing", "seeds", "oversampled", "nearest", "mean",
                     "farthest", "within");
-    for (const Sample& sample : MANY)
+    std::vector<Sample> all = MANY;
+    all.insert(all.end(), STRETCHED.begin(), STRETCHED.end());
+    for (const Sample& sample : all) {
+        const double most = sample.stretched() ? 0.5 : 0.35;
         for (const double spacing : {0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0}) {
+            // What is thinner than the spacing has seeds of both its sides near each other.
+            const double thinnest = std::fmin(sample.size, sample.size2 > 0 ? sample.size2 : sample.size) / 2 *
+                                    std::fmin(sample.stretch.x, std::fmin(sample.stretch.y, sample.stretch.z));
+            if (sample.stretched() && thinnest < 1.5 * spacing)
+                continue;
             Object object = sample.make();
             if (!check(object->resample(real(spacing), makeEngine), "%s: no seeds at %g", sample.name().c_str(), spacing))
                 continue;
             std::vector<Vec> points;
             for (int i = 0; i < object->seedSlots(); i += 2)
                 points.push_back(vec(object->seedPoint(object->seed(i))));
-            const std::vector<double> all = nearest(points, spacing);
+            const std::vector<double> distances = nearest(points, spacing);
             size_t good = 0;
             double sum = 0;
-            for (double d : all) {
-                good += std::fabs(d / spacing - 1) <= 0.35;
+            for (double d : distances) {
+                good += std::fabs(d / spacing - 1) <= most;
                 sum += d;
             }
-            const double share = 100.0 * static_cast<double>(good) / static_cast<double>(all.size());
+            const double share = 100.0 * static_cast<double>(good) / static_cast<double>(distances.size());
             if (table)
-                std::printf("%-20s %7g %8zu %12d %7.0f%% %7.0f%% %7.0f%% %7.2f%%\n", sample.name().c_str(), spacing, all.size(),
-                            object->oversampledSeeds(), 100 * *std::min_element(all.begin(), all.end()) / spacing,
-                            100 * sum / static_cast<double>(all.size()) / spacing,
-                            100 * *std::max_element(all.begin(), all.end()) / spacing, share);
-            check(share >= 99, "%s, spacing %g: nearest neighbours of %.2f%% of seeds lie within 35%% of it",
-                  sample.name().c_str(), spacing, share);
+                std::printf("%-40s %7g %8zu %12d %7.0f%% %7.0f%% %7.0f%% %7.2f%%\n", sample.name().c_str(), spacing, distances.size(),
+                            object->oversampledSeeds(), 100 * *std::min_element(distances.begin(), distances.end()) / spacing,
+                            100 * sum / static_cast<double>(distances.size()) / spacing,
+                            100 * *std::max_element(distances.begin(), distances.end()) / spacing, share);
+            // Where rings about a pole are flat, a handful lie nearer.
+            const bool even = share >= 99 || (sample.stretched() && (share >= 98 || distances.size() - good <= 8));
+            check(even, "%s, spacing %g: nearest neighbours of %.2f%% of seeds lie within %g%% of it", sample.name().c_str(), spacing,
+                  share, 100 * most);
         }
+    }
 }

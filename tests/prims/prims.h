@@ -51,16 +51,18 @@ struct Sample {
     const char* kind;
     double size, size2, measure;  // size2: cones only; measure: length, ring, radius of the disc, or the first edge of a box
     double y = 0, z = 0;          // a box's other edges
+    Vec stretch{1, 1, 1};
 
     Object make(int number = 1) const;
     double param(Vec p) const;
-    // How far the core reaches.
+    bool stretched() const { return stretch.x != 1 || stretch.y != 1 || stretch.z != 1; }
+    // How far the core reaches, unstretched.
     double reach() const;
     std::string name() const;
 };
 
 // One of each kind, and the table of all that are tried.
-extern const std::vector<Sample> FEW, MANY;
+extern const std::vector<Sample> FEW, MANY, STRETCHED;
 
 // The yardsticks of a test: counts and complains.
 bool check(bool good, const char* format, ...) __attribute__((format(printf, 2, 3)));
@@ -69,6 +71,7 @@ extern int passed, failed;
 // The tests, by file.
 void testEvenness(bool table);
 void testCores();
+void testWarps();
 void testOperations();
 void testGraph();
 int drawScenes(const char* directory);

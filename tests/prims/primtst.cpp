@@ -30,24 +30,33 @@ bool check(bool good, const char* format, ...)
     return false;
 }
 
+static Object makeKind(const Sample& of, int number)
+{
+    const std::string k = of.kind;
+    if (k == "sphere")
+        return Object(::make<Sphere>(number, real(of.size)));
+    if (k == "cylinder")
+        return Object(::make<Cylinder>(number, real(of.size), real(of.measure)));
+    if (k == "torus")
+        return Object(::make<Torus>(number, real(of.size), real(of.measure)));
+    if (k == "disc")
+        return Object(::make<Disc>(number, real(of.size), real(of.measure)));
+    if (k == "box")
+        return Object(::make<Box>(number, real(of.size), real(of.measure), real(of.y), real(of.z)));
+    return Object(::make<Cone>(number, real(of.size), real(of.size2), real(of.measure)));
+}
+
 Object Sample::make(int number) const
 {
-    const std::string k = kind;
-    if (k == "sphere")
-        return Object(::make<Sphere>(number, real(size)));
-    if (k == "cylinder")
-        return Object(::make<Cylinder>(number, real(size), real(measure)));
-    if (k == "torus")
-        return Object(::make<Torus>(number, real(size), real(measure)));
-    if (k == "disc")
-        return Object(::make<Disc>(number, real(size), real(measure)));
-    if (k == "box")
-        return Object(::make<Box>(number, real(size), real(measure), real(y), real(z)));
-    return Object(::make<Cone>(number, real(size), real(size2), real(measure)));
+    Object object = makeKind(*this, number);
+    if (stretched())
+        object->setStretch({real(stretch.x), real(stretch.y), real(stretch.z)});
+    return object;
 }
 
 double Sample::param(Vec p) const
 {
+    p = {p.x / stretch.x, p.y / stretch.y, p.z / stretch.z};
     const std::string k = kind;
     const double across = std::sqrt(p.x * p.x + p.z * p.z);
     const double on = std::fmin(std::fmax(p.y, -measure / 2), measure / 2);
@@ -87,7 +96,12 @@ std::string Sample::name() const
         std::snprintf(text, sizeof text, "box %g %g %g %g", size, measure, y, z);
     else
         std::snprintf(text, sizeof text, "%s %g %g", kind, size, measure);
-    return text;
+    std::string all = text;
+    if (stretched()) {
+        std::snprintf(text, sizeof text, " stretched %g %g %g", stretch.x, stretch.y, stretch.z);
+        all += text;
+    }
+    return all;
 }
 
 const std::vector<Sample> FEW = {
@@ -106,6 +120,20 @@ const std::vector<Sample> MANY = {
     {"box", 10, 0, 7, 60, 11},
 };
 
+const std::vector<Sample> STRETCHED = [] {
+    std::vector<Sample> all;
+    for (const Sample& sample : std::vector<Sample>{{"sphere", 20, 0, 0}, {"cylinder", 12, 0, 20}, {"torus", 10, 0, 14}, {"disc", 12, 0, 10},
+                                                    {"cone", 16, 8, 16}, {"box", 10, 0, 14, 10, 12}})
+        for (const Vec by : {Vec{2, 1, 1}, Vec{1, 3, 1}, Vec{1, 0.5, 1}, Vec{1.4, 1, 0.7}, Vec{0.25, 1, 1}, Vec{2, 0.25, 1}, Vec{0.5, 1, 2},
+                             Vec{3, 3, 3}}) {
+            all.push_back(sample);
+            all.back().stretch = by;
+        }
+    all.push_back({"sphere", 30, 0, 0, 0, 0, {4, 1, 0.25}});
+    all.push_back({"sphere", 30, 0, 0, 0, 0, {0.25, 4, 4}});
+    return all;
+}();
+
 int main(int count, char** arguments)
 {
     makeFieldSteps();
@@ -118,6 +146,7 @@ int main(int count, char** arguments)
         return drawScenes(arguments[2]);
     testEvenness(false);
     testCores();
+    testWarps();
     testOperations();
     testGraph();
     std::printf("%d passed, %d failed\n", passed, failed);

@@ -113,6 +113,14 @@ done
 for word in '^dent o[0-9]* d[0-9]*$' '^dent o.* 0\.[1-9]$' '^dent o.* [12]\.[0-9]$' '^strength o.* 0' '^strength o.* [1-4]'; do
 	if grep -q -- "$word" "$dir/dents.fb"; then good; else bad "mkscene: ten scenes without $word"; fi
 done
+for seed in $(seq 20); do
+	build/mkscene $seed 6 shapes >"$dir/r.fb"
+	cat "$dir/r.fb" >>"$dir/shapes.fb"
+	if build/demo /X /N:2 "/M:$dir/r.fb" >"$dir/out" 2>&1; then good; else bad "random scene $seed of shapes: $(head -n 1 "$dir/out")"; fi
+done
+for word in 'stretch' '^taper' '^twist' '^bend' 'swing'; do
+	if grep -q -- "$word" "$dir/shapes.fb"; then good; else bad "mkscene: twenty scenes without $word"; fi
+done
 # The same scenes, seen by an eye that goes about them.
 : >"$dir/all.fb"
 for seed in $(seq 30); do
@@ -144,7 +152,7 @@ refused() {
 refused "missing file" "$dir/none.fb: no such file or directory" "/M:$dir/none.fb"
 refused "directory" "$dir: access denied" "/M:$dir"
 printf 'sphere a size 20\nsphere b size 20\nspere c size 20\n' >"$dir/bad.fb"
-refused "bad line" "$dir/bad.fb:3: 'spere': expected sphere, cylinder, torus, disc, cone, box, group, blend, dent, strength, circle, path, spin, swing, pulse, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title" "/M:$dir/bad.fb"
+refused "bad line" "$dir/bad.fb:3: 'spere': expected sphere, cylinder, torus, disc, cone, box, group, blend, dent, strength, circle, path, spin, swing, pulse, taper, twist, bend, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title" "/M:$dir/bad.fb"
 : >"$dir/empty.fb"
 refused "empty file" "$dir/empty.fb:1: 'end of file': expected at least one object" "/M:$dir/empty.fb"
 head -c 3000 build/demo >"$dir/binary.fb"

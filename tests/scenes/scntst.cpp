@@ -428,7 +428,9 @@ void saved()
                              "path b x -3 2 0 x 4 3 0\npath b z 1 2 0 z -2 2 0.25\nspin g axis 0 1 0 period 3\nspin g axis 1 0 0 period -5\n"
                              "swing b2 axis 0 0 1 angle 20 period 2\nswing b2 axis 0 0 1 angle -20 period 5\n"
                              "pulse b3 by 0.5 period 2\npulse b3 by 0.25 period 3\nblend b b 0.5\ncolours mixed\n"
-                             "finish b1 mirror\npattern b2 stripes 6.5 cyan\npattern b3 checks 3 1 2 3\nfinish b3 shiny\n";
+                             "finish b1 mirror\npattern b2 stripes 6.5 cyan\npattern b3 checks 3 1 2 3\nfinish b3 shiny\n"
+                             "box x size 9 x 4 y 20 z 2 stretch 1.5 1 0.25\ntaper x -0.5\ntwist b2 0 swing 90 period 3\n"
+                             "bend b 10 swing 30 period -4 phase 0.5 lag 0.25\n";
     Model model, again;
     check(read(text, model) == nullptr, "to be saved");
     std::string first, second;
@@ -449,7 +451,10 @@ void saved()
         Anim::move(again, at(t * 0.317));
         for (int i = 0; i < model.items(); ++i)
             same = same && model.item(i).pose.place == again.item(i).pose.place && model.item(i).pose.scale == again.item(i).pose.scale &&
-                   memcmp(&model.item(i).pose.turn, &again.item(i).pose.turn, sizeof(Matrix)) == 0;
+                   memcmp(&model.item(i).pose.turn, &again.item(i).pose.turn, sizeof(Matrix)) == 0 &&
+                   model.item(i).stretch == again.item(i).stretch;
+        for (int i = 0; i < model.count(); ++i)
+            same = same && model.actor(i).object->warped() && model.actor(i).object->warp().amounts() == again.actor(i).object->warp().amounts();
     }
     check(same, "moves the same");
 }
@@ -693,7 +698,7 @@ void eyes()
 void complaints()
 {
     const char* const statements =
-        "sphere, cylinder, torus, disc, cone, box, group, blend, dent, strength, circle, path, spin, swing, pulse, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title";
+        "sphere, cylinder, torus, disc, cone, box, group, blend, dent, strength, circle, path, spin, swing, pulse, taper, twist, bend, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title";
     refused("spere a size 3", std::string("T.FB:1: 'spere': expected ") + statements);
     refused(S + "\n# x\n7\n", std::string("T.FB:4: '7': expected ") + statements);
     refused("", "T.FB:1: 'end of file': expected at least one object");
@@ -706,7 +711,7 @@ void complaints()
     refused("sphere a size", "T.FB:1: end of line: expected size from 1 to 100");
     refused("sphere a size 0.9", "T.FB:1: '0.9': expected size from 1 to 100");
     refused("sphere a size ten", "T.FB:1: 'ten': expected size from 1 to 100");
-    refused("sphere a size 9 length 4", "T.FB:1: 'length': expected size, at, turn, colour, repeat, step or in");
+    refused("sphere a size 9 length 4", "T.FB:1: 'length': expected size, at, turn, colour, stretch, repeat, step or in");
     refused("cylinder a size 9", "T.FB:1: end of line: expected length");
     refused("cylinder a size 9 length 101", "T.FB:1: '101': expected length from 0 to 100");
     refused("torus a size 20 ring 12", "T.FB:1: 'a': expected a ring of at least five eighths of the size");
@@ -714,7 +719,24 @@ void complaints()
             "T.FB:1: 'a': expected a length of at least half the difference of size and tip");
     refused("box a size 9 x 4 y 5", "T.FB:1: end of line: expected z");
     refused("box a size 9 x 4 y 101 z 3", "T.FB:1: '101': expected y from 0 to 100");
-    refused("box a size 9 x 4 length 5", "T.FB:1: 'length': expected size, x, y, z, at, turn, colour, repeat, step or in");
+    refused("box a size 9 x 4 length 5", "T.FB:1: 'length': expected size, x, y, z, at, turn, colour, stretch, repeat, step or in");
+    refused("sphere a size 9 stretch 1 2", "T.FB:1: end of line: expected a factor along z from 0.25 to 4");
+    refused("sphere a size 9 stretch 5 1 1", "T.FB:1: '5': expected a factor along x from 0.25 to 4");
+    refused("sphere a size 9 stretch 1 0.2 1", "T.FB:1: '0.2': expected a factor along y from 0.25 to 4");
+    refused("sphere a size 60 stretch 4 1 1",
+            "T.FB:1: 'a': expected a stretch that leaves all of it within 100 units of its centre");
+    refused(S + "taper t 0.5", "T.FB:2: 't': expected the name of an object or a group");
+    refused(S + "group g\ntaper g 0.5", "T.FB:3: 'g': expected the name of an object");
+    refused(S + "taper s", "T.FB:2: end of line: expected a share of the width from -0.75 to 0.75");
+    refused(S + "taper s 0.8", "T.FB:2: '0.8': expected a share of the width from -0.75 to 0.75");
+    refused(S + "twist s 361", "T.FB:2: '361': expected degrees from -360 to 360");
+    refused(S + "bend s -181", "T.FB:2: '-181': expected degrees from -180 to 180");
+    refused(S + "bend s 20 swing 200 period 4", "T.FB:2: '200': expected degrees from -180 to 180");
+    refused(S + "bend s 20 swing 30", "T.FB:2: end of line: expected period");
+    refused(S + "bend s 20 period 4", "T.FB:2: end of line: expected swing");
+    refused(S + "bend s 20 angle 4", "T.FB:2: 'angle': expected swing, period or phase");
+    refused(S + "bend s 20 swing 3 period 4 lag 0.1", "T.FB:2: 'lag': expected no lag, for this name is no row's");
+    refused("group g stretch 1 1 2", "T.FB:1: 'stretch': expected at, turn, scale, repeat, step or in");
     refused("group g colour 1 2 3", "T.FB:1: 'colour': expected at, turn, scale, repeat, step or in");
     refused("sphere a size 9 at 1 2", "T.FB:1: end of line: expected a place, z from -250 to 250");
     refused("sphere a size 9 at 1 251 2", "T.FB:1: '251': expected a place, y from -250 to 250");

@@ -85,7 +85,7 @@ static double solid(const Scene &s, Vec p) {
         if (s.link[i][j] != 0 && body[j] < body[i]) body[i] = body[j], more = true;
   }
   std::vector<double> f(n);
-  for (size_t i = 0; i < n; i++) f[i] = s.objects[i].strength * geoff(s.objects[i].kind->q(s.objects[i], p, nullptr));
+  for (size_t i = 0; i < n; i++) f[i] = s.objects[i].strength * geoff(s.objects[i].q(p, nullptr));
   double best = -s.isovalue;
   for (size_t k = 0; k < n; k++) {
     double above = 0, below = 0;
@@ -358,11 +358,11 @@ static void others() {
     double worst = 0;
     for (int i = 0; i < 200; i++) {
       Vec p{random(-15, 15), random(-15, 15), random(-15, 15)}, g;
-      o.kind->q(o, p, &g);
+      o.q(p, &g);
       const double e = 1e-5;
-      Vec n{(o.kind->q(o, {p.x + e, p.y, p.z}, nullptr) - o.kind->q(o, {p.x - e, p.y, p.z}, nullptr)) / (2 * e),
-            (o.kind->q(o, {p.x, p.y + e, p.z}, nullptr) - o.kind->q(o, {p.x, p.y - e, p.z}, nullptr)) / (2 * e),
-            (o.kind->q(o, {p.x, p.y, p.z + e}, nullptr) - o.kind->q(o, {p.x, p.y, p.z - e}, nullptr)) / (2 * e)};
+      Vec n{(o.q({p.x + e, p.y, p.z}, nullptr) - o.q({p.x - e, p.y, p.z}, nullptr)) / (2 * e),
+            (o.q({p.x, p.y + e, p.z}, nullptr) - o.q({p.x, p.y - e, p.z}, nullptr)) / (2 * e),
+            (o.q({p.x, p.y, p.z + e}, nullptr) - o.q({p.x, p.y, p.z - e}, nullptr)) / (2 * e)};
       worst = std::max(worst, length(g - n) / (1 + length(g)));
     }
     check(worst < 1e-4, std::string("gradient of ") + o.kind->word);
@@ -473,8 +473,8 @@ static void bodies() {
     };
     Vec n{slope({1, 0, 0}), slope({0, 1, 0}), slope({0, 0, 1})};
     worst = std::max(worst, length(g - n) / (1 + length(g)));
-    double own = geoff(mixed.objects[strongest].kind->q(mixed.objects[strongest], p, nullptr));
-    for (const Object &o : mixed.objects) wrong += geoff(o.kind->q(o, p, nullptr)) > own;
+    double own = geoff(mixed.objects[strongest].q(p, nullptr));
+    for (const Object &o : mixed.objects) wrong += geoff(o.q(p, nullptr)) > own;
   }
   check(near > 200 && worst < 1e-4, "gradient of a body");
   check(worstField < 1e-12, "field of a body");
@@ -1054,6 +1054,86 @@ static void paints() {
   check(f.shaded == f.both && f.shadeRms() < 0.32 && f.coloured == 0, "a finish in grey");
 }
 
+// Where a place of plain space goes, as the words of a dump say; angles in degrees, axes those of the world.
+static Vec shaped(Vec p, Vec by, double taper, double twist, double bend, double h) {
+  p = {p.x * by.x, p.y * by.y, p.z * by.z};
+  double on = std::min(std::max(p.y, -h), h), wide = 1 + taper * on / h, a = twist * M_PI / 180 * p.y / (2 * h);
+  Vec v{wide * (p.x * std::cos(a) + p.z * std::sin(a)), p.y, wide * (p.z * std::cos(a) - p.x * std::sin(a))};
+  if (bend == 0) return v;
+  double radius = 2 * h / (bend * M_PI / 180), t = on / radius, beyond = p.y - on;
+  return {radius + (v.x - radius) * std::cos(t) + beyond * std::sin(t), beyond * std::cos(t) - (v.x - radius) * std::sin(t), v.z};
+}
+
+static void spaces() {
+  // A stretched sphere is an ellipsoid: a ball for rays that are stretched back.
+  Scene e = scene("sphere 1 3 2 -4 30\nstretch 1 3 2 -4 0.6 0.8 0 -0.8 0.6 0 2 0.5 1.5\n");
+  Tracer te(e);
+  int wrong = 0, hits = 0;
+  auto back = [](Vec v) {
+    return Vec{(0.6 * v.x + 0.8 * v.y) / 2, (-0.8 * v.x + 0.6 * v.y) / 0.5, v.z / 1.5};
+  };
+  for (int r = 0; r < HEIGHT; r += 3)
+    for (int c = 0; c < WIDTH; c += 3) {
+      double want = enterBall(back(e.eye - Vec{3, 2, -4}), back(direction(e, c, r)), {0, 0, 0}, 15), got = te.trace(c, r).depth;
+      wrong += std::fabs(got - want) > 1e-6;
+      hits += want >= 0;
+    }
+  check(wrong == 0 && hits > 100, "ellipsoid: " + std::to_string(wrong) + " rays wrong");
+
+  // What comes down to a plain object.
+  const std::string axes = " 1 0 0 0 1 0 ";
+  struct {
+    std::string one, other, name;
+  } rows[] = {
+      {"sphere 1 3 2 -4 15\nstretch 1 3 2 -4" + axes + "2 2 2\n", "sphere 1 3 2 -4 30\n", "a sphere stretched alike"},
+      {"cylinder 1 5 -14 0 5 14 0 20\ntwist 1 5 0 0" + axes + "200 24\n", "cylinder 1 5 -14 0 5 14 0 20\n", "a round twist"},
+      {"box 1 5 0 0" + axes + "8 30 8 16\ntaper 1 5 0 0" + axes + "0 23\n", "box 1 5 0 0" + axes + "8 30 8 16\n", "no taper"},
+      {"cylinder 1 5 -14 0 5 14 0 20\nbend 1 5 0 0" + axes + "0.001 24\n", "cylinder 1 5 -14 0 5 14 0 20\n", "next to no bend"},
+  };
+  for (auto &row : rows) {
+    Scene a = scene(row.one), b = scene(row.other);
+    Tracer ta(a), tb(b);
+    int different = 0, met = 0;
+    for (int r = 0; r < HEIGHT; r += 5)
+      for (int c = 0; c < WIDTH; c += 5) {
+        Hit ha = ta.trace(c, r), hb = tb.trace(c, r);
+        different += std::fabs(ha.depth - hb.depth) > 2e-3 || std::fabs(ha.shade - hb.shade) > 0.1;
+        met += hb.any();
+      }
+    check(different == 0 && met > 20, row.name + ": " + std::to_string(different) + " rays differ");
+  }
+
+  // The field at a place is the plain one where it came from, and its gradient that of the field.
+  const Vec by{1.5, 0.8, 0.6};
+  Scene s = scene("box 1 0 0 0" + axes + "10 40 6 16\nstretch 1 0 0 0" + axes + "1.5 0.8 0.6\ntaper 1 0 0 0" + axes +
+                  "0.4 22.4\ntwist 1 0 0 0" + axes + "100 22.4\nbend 1 0 0 0" + axes + "-70 22.4\n");
+  Object plain = s.objects[0];
+  plain.plain = true;
+  double off = 0, slope = 0;
+  for (int i = 0; i < 2000; i++) {
+    Vec p{random(-9, 9), random(-27, 27), random(-9, 9)}, there = shaped(p, by, 0.4, 100, -70, 22.4);
+    off = std::max(off, std::fabs(s.objects[0].q(there, nullptr) - plain.kind->q(plain, p, nullptr)));
+    Vec g, step{random(-1, 1), random(-1, 1), random(-1, 1)};
+    s.objects[0].q(there, &g);
+    const double small = 1e-6;
+    slope = std::max(slope, std::fabs((s.objects[0].q(there + step * small, nullptr) - s.objects[0].q(there - step * small, nullptr)) /
+                                          (2 * small) - dot(g, step)));
+  }
+  check(off < 1e-9, "a field in warped space is off by " + std::to_string(off));
+  check(slope < 1e-3, "its gradient is off by " + std::to_string(slope));
+  againstWalk(s, "a warped box", 11);
+  againstWalk(scene("cylinder 1 0 -20 0 0 20 0 20\nbend 1 0 0 0" + axes + "120 30\nsphere 2 10 -16 -8 26\nstretch 2 10 -16 -8" + axes +
+                    "0.5 1.5 2\nblend 1 2\n"), "a bent cylinder and an ellipsoid", 11);
+
+  for (const char *bad : {"stretch 2 0 0 0 1 0 0 0 1 0 1 1 1\n", "stretch 1 0 0 0 1 0 0 0 1 0 1 0 1\n", "taper 1 0 0 0 1 0 0 0 1 0 1 9\n",
+                          "twist 1 0 0 0 1 0 0 0 1 0 9 0\n", "bend 1 0 0 0 0 0 0 0 1 0 9 9\n", "bend 1 0 0 0 1 0 0 2 0 0 9 9\n",
+                          "bend 1 0 0 0 1 0 0 0 1 0 9\n"}) {
+    Scene none;
+    std::string why;
+    check(!parseScene(camera + "sphere 1 0 0 0 9\n" + bad, "X.TXT", none, why) && why.find("X.TXT:8") == 0, std::string("refused: ") + bad + why);
+  }
+}
+
 static void texts() {
   struct {
     const char *text, *word;
@@ -1152,6 +1232,7 @@ int main() {
   colours();
   flickers();
   paints();
+  spaces();
   texts();
   std::printf("%d passed, %d failed\n", passed, failed);
   return failed != 0;

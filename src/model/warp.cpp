@@ -1,0 +1,199 @@
+// Space that is tapered, twisted and bent.
+#include "model/warp.h"
+
+#include "model/round.h"
+
+namespace {
+
+constexpr Real RADIAN(57.2957795);  // degrees
+constexpr Real TURN_PER_RADIAN(0.15915494);
+
+// The middle of a bend is this much farther from the axis than the surface.
+constexpr Real CLEAR(1.2);
+
+// Less of a bend, radians, or a greater circle, is none.
+constexpr Real LEAST_END(0.005);
+constexpr Real LARGEST(8000);
+
+Angle fromRadians(Real a)
+{
+    return turns(a * TURN_PER_RADIAN);
+}
+
+// Arc tangent over its tangent, from the square of that, 0..1: good to 1/8000 (Abramowitz and Stegun, 4.4.49).
+Real arcOverTangent(Real square)
+{
+    const Real& s = square;
+    return Real(0.999866) + s * (Real(-0.3302995) + s * (Real(0.180141) + s * (Real(-0.085133) + s * Real(0.0208351))));
+}
+
+// Arc tangent of y / x for a vector of any length but 0, radians, -pi..pi.
+Real arcTangent(Real y, Real x)
+{
+    const Real across = absolute(x), up = absolute(y);
+    const bool steep = up > across;
+    const Real t = steep ? across / up : across == Real(0) ? Real(0) : up / across;
+    Real a = t * arcOverTangent(t * t);
+    if (steep)
+        a = HALF_PI - a;
+    if (x < Real(0))
+        a = PI - a;
+    return y < Real(0) ? -a : a;
+}
+
+// sin a / a and (1 - cos a) / a for angles of up to a quarter turn: also where next to nothing is left of a.
+Real sineOverAngle(Real a)
+{
+    const Real s = a * a;
+    return Real(1) - s * (Real(1.0 / 6) - s * (Real(1.0 / 120) - s * (Real(1.0 / 5040) - s * Real(1.0 / 362880))));
+}
+
+Real cosineLackOverAngle(Real a)
+{
+    const Real s = a * a;
+    return a * (Real(0.5) - s * (Real(1.0 / 24) - s * (Real(1.0 / 720) - s * Real(1.0 / 40320))));
+}
+
+}  // namespace
+
+void Warp::set(const WarpAmounts& amounts, Real height, Real wide, Real fieldWide)
+{
+    asked_ = amounts_ = amounts;
+    height_ = height;
+    slope_ = amounts.part[WARP_TAPER] / height;
+    twist_ = amounts.part[WARP_TWIST] / RADIAN / shiftUp(height, 1);
+    const Real narrow = Real(1) - absolute(amounts.part[WARP_TAPER]);
+    most_ = Real(1) + absolute(amounts.part[WARP_TAPER]);
+    const Real degrees = ::least(absolute(amounts.part[WARP_BEND]), shiftUp(height, 1) / (wide * most_ * CLEAR) * RADIAN);
+    flipped_ = amounts.part[WARP_BEND] < Real(0);
+    amounts_.part[WARP_BEND] = flipped_ ? -degrees : degrees;
+    end_ = shiftDown(degrees / RADIAN, 1);
+    if (end_ < LEAST_END || end_ * LARGEST < height)
+        end_ = amounts_.part[WARP_BEND] = Real(0);
+    bend_ = end_ / height;
+    radius_ = end_ == Real(0) ? Real(0) : height / end_;
+
+    // A distance along the axis may become a slanting one, a step across it a longer one.
+    Real spread = Real(1) / narrow + fieldWide * absolute(slope_) / narrow + fieldWide * absolute(twist_);
+    if (end_ > Real(0)) {
+        most_ = most_ * Real(1.5);
+        // What lies towards the middle of the circle is pressed together.
+        spread = spread / (Real(1) - ::least(fieldWide * bend_, Real(0.75)));
+    }
+    least_ = Real(1) / ::least(spread, Real(200));
+}
+
+// What taper and twist do at a height.
+void Warp::turnAt(Real y, Way& way) const
+{
+    way.y = y;
+    way.wide = Real(1) + slope_ * clamp(y, -height_, height_);
+    way.turnSine = Real(0);
+    way.turnCosine = Real(1);
+    if (twist_ != Real(0)) {
+        const Angle angle = fromRadians(twist_ * y);
+        way.turnSine = sine(angle);
+        way.turnCosine = cosine(angle);
+    }
+}
+
+Vector Warp::out(const Vector& place, Way& way) const
+{
+    if (way.y != place.y) {
+        turnAt(place.y, way);
+        way.sine = Real(0);
+        way.cosine = Real(1);
+        if (end_ != Real(0)) {
+            const Real on = clamp(place.y, -height_, height_), turn = on / radius_;
+            const Angle angle = fromRadians(turn);
+            way.sine = sine(angle);
+            way.cosine = cosine(angle);
+            way.beyond = place.y - on;
+            way.middle[0] = on * cosineLackOverAngle(turn);
+            way.middle[1] = on * sineOverAngle(turn);
+        }
+    }
+    way.plain = place;
+    way.squeeze = Real(1);
+    const Vector wide{place.x * way.wide, place.y, place.z * way.wide};
+    Vector& v = way.twisted;
+    v = {wide.x * way.turnCosine + wide.z * way.turnSine, wide.y, wide.z * way.turnCosine - wide.x * way.turnSine};
+    if (end_ == Real(0))
+        return v;
+    const Real x = flipped_ ? -v.x : v.x;
+    if (within(place.y))
+        way.squeeze = ::most(Real(1) - x * bend_, Real(0.0625));
+    const Real across = way.middle[0] + x * way.cosine + way.beyond * way.sine;
+    return {flipped_ ? -across : across, way.middle[1] + way.beyond * way.cosine - x * way.sine, v.z};
+}
+
+void Warp::back(const Vector& place, Way& way) const
+{
+    Vector v = place;
+    way.sine = Real(0);
+    way.cosine = way.squeeze = Real(1);
+    if (end_ != Real(0)) {
+        const Real across = flipped_ ? -v.x : v.x;
+        const Vector d{across - radius_, v.y, Real(0)};
+        const Real to = d.x == Real(0) && d.y == Real(0) ? Real(0) : arcTangent(d.y, -d.x);
+        const Real within = clamp(to, -end_, end_);
+        const Angle angle = fromRadians(within);
+        way.sine = sine(angle);
+        way.cosine = cosine(angle);
+        Real x, y;
+        if (to == within) {
+            // Without the difference of two large numbers.
+            const Real share = lengthQuick(d) / radius_;
+            x = (across * (Real(2) - across / radius_) - v.y * (v.y / radius_)) / (Real(1) + share);
+            const Real tangent = d.x < Real(0) ? v.y / -d.x : Real(2);
+            y = absolute(tangent) <= Real(1) ? v.y * (radius_ / -d.x) * arcOverTangent(tangent * tangent) : to * radius_;
+            way.squeeze = ::most(share, Real(0.0625));
+        } else {
+            // From the end of the circle on, along its tangent.
+            const Real end = within < Real(0) ? -height_ : height_;
+            const Real fromX = across - end * cosineLackOverAngle(within), fromY = v.y - end * sineOverAngle(within);
+            x = fromX * way.cosine - fromY * way.sine;
+            y = end + fromX * way.sine + fromY * way.cosine;
+        }
+        v = {flipped_ ? -x : x, y, v.z};
+    }
+    way.twisted = v;
+    turnAt(v.y, way);
+    v = {v.x * way.turnCosine - v.z * way.turnSine, v.y, v.z * way.turnCosine + v.x * way.turnSine};
+    way.plain = slope_ == Real(0) ? v : Vector{v.x / way.wide, v.y, v.z / way.wide};
+}
+
+Vector Warp::stepOut(const Way& way, const Vector& step) const
+{
+    const Real y = way.plain.y, widening = within(y) ? slope_ * step.y : Real(0);
+    const Real x = step.x * way.wide + way.plain.x * widening, z = step.z * way.wide + way.plain.z * widening;
+    const Real turn = twist_ * step.y;
+    const Vector v{x * way.turnCosine + z * way.turnSine + way.twisted.z * turn, step.y,
+                   z * way.turnCosine - x * way.turnSine - way.twisted.x * turn};
+    if (end_ == Real(0))
+        return v;
+    const Real across = flipped_ ? -v.x : v.x, along = v.y * way.squeeze, out = across * way.cosine + along * way.sine;
+    return {flipped_ ? -out : out, along * way.cosine - across * way.sine, v.z};
+}
+
+Vector Warp::slopeOut(const Way& way, const Vector& slope) const
+{
+    Vector g = slope;
+    const Vector& plain = way.plain;
+    const Real y = plain.y, s = way.turnSine, c = way.turnCosine;
+    if (slope_ != Real(0)) {
+        const Real inverse = Real(1) / way.wide;
+        const Real along = within(y) ? (g.x * plain.x + g.z * plain.z) * slope_ * inverse : Real(0);
+        g = {g.x * inverse, g.y - along, g.z * inverse};
+    }
+    if (twist_ != Real(0)) {
+        // What a step up the axis turns it by.
+        const Real x = plain.x * way.wide, z = plain.z * way.wide;
+        g = {g.x * c + g.z * s, g.y + twist_ * (g.z * x - g.x * z), g.z * c - g.x * s};
+    }
+    if (end_ == Real(0))
+        return g;
+    const Real across = flipped_ ? -g.x : g.x, along = g.y / way.squeeze;
+    const Real x = across * way.cosine + along * way.sine;
+    return {flipped_ ? -x : x, along * way.cosine - across * way.sine, g.z};
+}
