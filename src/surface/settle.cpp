@@ -150,6 +150,10 @@ bool Settler::setPatch(const Patch& patch, bool oversampled)
     dented_ = false;
     if (!common_)
         setOdd(patch);
+    if (!isListed(patch.near)) {
+        near_.complete = true;
+        return false;
+    }
     // Oversampled seeds lie between those of the patch and those beside it.
     const Bound ball = boundOf(patch, oversampled ? patch.radius : patch.tight);
     forNeighbours(patch.near, [&](int slot) {
