@@ -367,7 +367,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
     int at = first;
     for (; at < count && list.count + most <= room; ++at) {
         Patch& patch = patches[at];
-        if (patch.state == PATCH_MIXED || (patch.state == PATCH_REST && !restsAway(patch, own)))
+        if (patch.state == PATCH_MIXED || (patch.state == PATCH_REST && !restsAway(patch, own) && !outOfSight(patch, own)))
             shader.shadePatch<PAINTED>(patch, ((at + turn) & BEND_TURNS) == 0, list, painter);
     }
     return at;
