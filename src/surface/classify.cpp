@@ -30,7 +30,6 @@ SELDOM int16_t leanOf(const SoftObject& object, const Patch& patch, const Vector
 
 void setPatch(const SoftObject& object, Patch& patch)
 {
-    const Real part(1.0 / 16384);
     Vector middle{Real(0), Real(0), Real(0)}, axis = middle;
     Real path(0);
     Square radius(0), spread(0);
@@ -38,7 +37,7 @@ void setPatch(const SoftObject& object, Patch& patch)
     const auto normal = [&](const Seed& s) {
         // When an object is warped anew, its seeds have long left their rest.
         const Direction14 n = s.flags & SEED_RESTING ? s.normal : object.restNormal(s);
-        return Vector{part * Real(static_cast<int>(n.x)), part * Real(static_cast<int>(n.y)), part * Real(static_cast<int>(n.z))};
+        return Vector{realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)};
     };
     int count = 0;
     for (int ring = 0; ring < PATCH_RINGS; ++ring)
@@ -46,14 +45,15 @@ void setPatch(const SoftObject& object, Patch& patch)
     const Real share = Real(1) / Real(count);
     forSeeds(patch, [&](int i) {
         const Seed& s = object.seed(i);
-        middle = middle + rest(s) * share;
-        axis = axis + normal(s) * share;
+        middle = middle + rest(s);
+        axis = axis + normal(s);
         if (object.tapers() && !object.shaped())
             path += length(s.path) * share;
     });
     if (!object.tapers() && !object.shaped())
         path = object.radius();
-    axis = unit(axis);
+    middle = middle * share;
+    axis = unit(axis * share);
     patch.lean = object.shaped() ? leanOf(object, patch, axis, share, &path) : 0;
     forSeeds(patch, [&](int i) {
         const Seed& s = object.seed(i);
