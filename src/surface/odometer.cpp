@@ -19,6 +19,13 @@ Real about(const Vector& v)
 
 }  // namespace
 
+Way wayUntil(Real hold, Real push, Real longest)
+{
+    if (hold <= Real(0))
+        return 0;
+    return wayOf(hold < push * longest ? hold / push : longest);
+}
+
 Odometer::~Odometer()
 {
     free(stands_);
@@ -76,7 +83,10 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
         const Neighbour& near = all.neighbours[i];
         const int slot = near.object->slot(), before = standBySlot_[slot];
         standBySlot[slot] = static_cast<int8_t>(i);
-        stands[i] = {near.kind == Neighbour::POINT ? near.centre : near.offset, {near.toCore[0], near.toCore[1], near.toCore[2]}, near.size, near.object->warp().amounts()};
+        stands[i] = {near.kind == Neighbour::POINT ? near.centre : near.offset,
+                     {near.toCore[0], near.toCore[1], near.toCore[2]},
+                     near.size,
+                     near.object->warp().amounts()};
         if (!holds)
             continue;
         if (before < 0) {
