@@ -204,7 +204,8 @@ public:
 private:
     const SoftObject& object_;
     int rings_, fullest_;
-    int start_[PATCH_RINGS], end_[PATCH_RINGS], at_[PATCH_RINGS];  // of each ring: its first seed, the end, the first of the next patch
+    // Of each ring: its first seed, the end, the first of the next patch.
+    int start_[PATCH_RINGS], end_[PATCH_RINGS], at_[PATCH_RINGS];
     int near_[PATCH_RINGS];  // what is nearest to the seed before that one; -1: there is none
     int last_;               // of the fullest: the end of the patches so far
 

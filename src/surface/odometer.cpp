@@ -19,6 +19,13 @@ Real about(const Vector& v)
 
 }  // namespace
 
+Way wayUntil(Real hold, Real push, Real longest)
+{
+    if (hold <= Real(0))
+        return 0;
+    return wayOf(hold < push * longest ? hold / push : longest);
+}
+
 Odometer::~Odometer()
 {
     free(stands_);

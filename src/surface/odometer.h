@@ -19,6 +19,9 @@ inline bool isDue(Way reading, Way due)
     return static_cast<int32_t>(reading - due) >= 0;
 }
 
+// How far neighbours may come that change a field by `push` in a unit, until it has changed by `hold`; at most `longest` units.
+Way wayUntil(Real hold, Real push, Real longest);
+
 class Odometer {
 public:
     Odometer() = default;

@@ -220,7 +220,8 @@ SELDOM void Shader::measureBend(Patch& patch) const
         const int32_t inward = most * n[i] >> 14;
         for (int j = i; j < 3; ++j)
             bend.turn[i][j] = bend.turn[j][i] =
-                static_cast<int16_t>(limited(overArea(turn[0][i] * dual[0][j] + turn[1][i] * dual[1][j]) + (inward * n[j] >> 14), 16000));
+                static_cast<int16_t>(limited(overArea(turn[0][i] * dual[0][j] + turn[1][i] * dual[1][j]) +
+                                             (inward * n[j] >> 14), 16000));
     }
 }
 
