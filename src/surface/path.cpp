@@ -13,14 +13,13 @@ constexpr Real STEEPEST_OF_ALL(1.6);
 
 Path::Path(const SoftObject& object, const Neighbourhood& all, const Bodies& bodies, Nearby& nearby, Counts& counts)
     : object_(object), all_(all), bodies_(bodies), nearby_(nearby), counts_(counts),
-      ownPlain_(object.strength() == Real(1) && !all.hollow && !object.warped()), common_(all.common), warped_(object.warped()),
-      restParam_(object.restParam()), first_(all.deep ? FIRST_DEEP : FIRST), last_(all.last)
+      common_(all.common), warped_(object.warped()), restParam_(object.restParam()), first_(all.deep ? FIRST_DEEP : FIRST), last_(all.last)
 {
     const Real restOfPath = (shiftDown(last_ - first_, 1) + Real(0.02)) * object.longestPath();
     for (int i = 0; i < all.count; ++i) {
         from_[i].root = -1;
         const Real reach = Real(1) + restOfPath * shiftDown(all.neighbours[i].steep16, 4);
-        reachT_[i] = reach < Real(100) ? reach * reach : Real(10000);
+        from_[i].reachT = reach < Real(100) ? reach * reach : Real(10000);
     }
 }
 
@@ -42,176 +41,166 @@ void Path::setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const
     to.a = dot(e, e);
     to.c = dot(d, d);
     to.twice16 = e * shiftUp(near.inverse16, 1);
-    to.y = near.kind == Neighbour::SEGMENT ? shiftDown(dot(to.apart, near.toCore[1]), 4) : Real(0);
+    if (near.kind == Neighbour::SEGMENT) {
+        to.along16 = near.toCore[1];
+        to.y = shiftDown(dot(to.apart, to.along16), 4);
+    }
 }
 
 // ---- A look at one position
 
-// Adds up the fields at one position of the path at hand.
-template <bool COMMON>
-struct Path::Sum {
-    Path& path;
-    Real position, sum, slope, strongest;
-    bool touched;
-
-    // Begins with the own field.
-    Sum(Path& of, Real at) : path(of), position(at), strongest(0), touched(false)
-    {
-        path.lookedAt_ = at;
-        if (!COMMON && !of.ownPlain_) {
-            addOwn(of);
-            return;
-        }
-        const Real t = shiftDown(at * at, 2);
-        const FieldStep own = t < Real(1) ? geoffQuick(t) : FieldStep{Real(0), Real(0)};
-        path.ownField_ = sum = own.value;
-        path.ownSlope_ = own.slope;
-        slope = shiftDown(own.slope * at, 1);
-    }
-
-    // The own field of an object that is not as strong as most, or of one whose seeds sample a hollow: it digs, and the head is
-    // among its neighbours.
-    SELDOM void addOwn(Path& of)
-    {
-        const Real t = of.ownParam(position), strength = of.object_.strength();
-        const FieldStep own = t < Real(1) ? geoffQuick(most(t, Real(0))) : FieldStep{Real(0), Real(0)};
-        of.ownField_ = sum = own.value * strength;
-        of.ownSlope_ = own.slope * strength;
-        slope = of.ownRate(position);
-        of.headField_ = Real(0);
-        if (of.all_.hollow) {
-            sum = -(sum * of.all_.weight);
-            slope = -(slope * of.all_.weight);
-        }
-    }
-
-    // The field of a neighbour.
-    void add(Along& along)
-    {
-        const Real param = along.t = along.param(position);
-        if (param >= Real(1)) {
-            along.value = along.slope = Real(0);
-            return;
-        }
-        touched = true;
-        const FieldStep field = geoffQuick(param < Real(0) ? Real(0) : param);
-        along.value = field.value;
-        along.slope = field.slope;
-        if (!COMMON && !along.near->plain) {
-            addOdd(along);
-            return;
-        }
-        sum += field.value;
-        slope += field.slope * along.change;
-        if (field.value > strongest)
-            strongest = field.value;
-    }
-
-    // The same of a neighbour that is not as strong as most, or digs, or has a hollow.
-    SELDOM void addOdd(Along& along)
-    {
-        const Neighbour& near = *along.near;
-        along.value = along.value * near.strength;
-        along.slope = along.slope * near.strength;
-        const Real weight = near.digs ? -near.weight : Real(1);
-        sum += along.value * weight;
-        slope += along.slope * weight * along.change;
-        if (path.all_.hollow && near.object == path.all_.head)
-            path.headField_ = along.value;
-        else if (!near.digs && along.value > strongest)
-            strongest = along.value;
-    }
-
-    // What that makes of the body's field.
-    Sample sample()
-    {
-        Sample all{sum - ISOVALUE, slope, strongest - path.ownField_};
-        path.shared_ = false;
-        if (!path.complete_)
-            COMMON ? path.blend(position, all) : path.blendOdd(position, all);
-        if (!COMMON && path.all_.hollow)
-            all = {-all.excess, -all.slope, strongest - path.headField_};
-        return all;
-    }
-};
-
-template <bool COMMON>
-inline bool Path::beginAs(const Few& few, const Seed& s, Real position, Sample* sample)
+// Takes up those that look at the paths from now on, as they see the root of a seed.
+void Path::take(const Few& few, const Seed& s)
 {
-    root_ = object_.root(s.root);
-    path_ = s.path;
+    others_ = false;
+    for (int i = 0; i < few.count; ++i) {
+        find(few.number[i], s, along_[i]);
+        others_ = others_ || along_[i].kind == Neighbour::OTHER;
+    }
     complete_ = few.complete;
     touched_ = few.count;
-    Sum<COMMON> sum(*this, position);
-    Along* along = along_;
-    for (int i = 0; i < few.count; ++i, ++along) {
-        aim(few.number[i], s, *along);
-        sum.add(*along);
+    end_ = along_ + few.count;
+    few_ = &few;
+    // Of a shaped object each path has a length of its own.
+    rootOfFew_ = object_.shaped() ? -1 : s.root;
+}
+
+// The own field, of an object that is as strong as most.
+inline Fields Path::own(Real position)
+{
+    const Real t = shiftDown(position * position, 2);
+    const FieldStep field = t < Real(1) ? geoffQuick(t) : FieldStep{Real(0), Real(0)};
+    ownField_ = field.value;
+    ownSlope_ = field.slope;
+    return {field.value, shiftDown(field.slope * position, 1), Real(0), 0};
+}
+
+// Looks at a position where all is common and the neighbours are points and segments. `path`: of a seed that is taken up now;
+// null: it has been. False: none of them reaches that position.
+inline bool Path::lookPlain(Real position, const Vector* path, Sample* sample)
+{
+    ++counts_.iterations;
+    lookedAt_ = position;
+    shared_ = false;
+    Fields fields = own(position);
+    addFields(along_, end_, position, path, &fields);
+    *sample = {fields.sum - ISOVALUE, fields.slope, fields.strongest - ownField_};
+    if (!complete_)
+        blend(position, *sample);
+    return fields.touched != 0;
+}
+
+// The same anywhere.
+bool Path::lookOdd(Real position, const Vector* path, Sample* sample)
+{
+    ++counts_.iterations;
+    lookedAt_ = position;
+    shared_ = false;
+    for (Along* along = along_; along < end_ && others_; ++along)
+        if (along->kind == Neighbour::OTHER) {
+            if (path != nullptr)
+                along->aim(*path);
+            along->param(position);
+        }
+    Fields fields = common_ ? own(position) : ownOdd(position);
+    Fields odd = fields;
+    addFields(along_, end_, position, path, &fields);
+    const int32_t touched = fields.touched;
+    if (!common_) {
+        addOdd(&odd);
+        fields = odd;
     }
-    ++counts_.iterations;
-    *sample = sum.sample();
-    return sum.touched;
+    *sample = {fields.sum - ISOVALUE, fields.slope, fields.strongest - ownField_};
+    if (!complete_)
+        common_ ? blend(position, *sample) : blendOdd(position, *sample);
+    if (all_.hollow)
+        *sample = {-sample->excess, -sample->slope, fields.strongest - headField_};
+    return touched != 0;
 }
 
-template <bool COMMON>
-inline Sample Path::lookAs(Real position)
+// The own field of an object that is not as strong as most, or of one whose seeds sample a hollow: it digs, and the head is
+// among its neighbours.
+Fields Path::ownOdd(Real position)
 {
-    ++counts_.iterations;
-    Sum<COMMON> sum(*this, position);
-    for (Along *along = along_, *const end = along_ + touched_; along < end; ++along)
-        sum.add(*along);
-    return sum.sample();
+    const Real t = ownParam(position), strength = object_.strength();
+    const FieldStep own = t < Real(1) ? geoffQuick(most(t, Real(0))) : FieldStep{Real(0), Real(0)};
+    ownField_ = own.value * strength;
+    ownSlope_ = own.slope * strength;
+    const Real rate = ownRate(position);
+    headField_ = Real(0);
+    return all_.hollow ? Fields{-(ownField_ * all_.weight), -(rate * all_.weight), Real(0), 0} : Fields{ownField_, rate, Real(0), 0};
 }
 
-bool Path::beginOdd(const Few& few, const Seed& s, Real position, Sample* sample)
+// Adds the fields that were just looked at where something digs, or strengths differ.
+void Path::addOdd(Fields* fields)
 {
-    return beginAs<false>(few, s, position, sample);
-}
-
-Sample Path::lookOdd(Real position)
-{
-    return lookAs<false>(position);
-}
-
-bool Path::begin(const Few& few, const Seed& s, Real position, Sample* sample)
-{
-    return common_ ? beginAs<true>(few, s, position, sample) : beginOdd(few, s, position, sample);
+    for (Along* along = along_; along < end_; ++along) {
+        const Neighbour& near = *along->near;
+        along->value = along->value * near.strength;
+        along->slope = along->slope * near.strength;
+        const Real weight = near.digs ? -near.weight : Real(1);
+        fields->sum += along->value * weight;
+        fields->slope += along->slope * weight * along->change;
+        if (all_.hollow && near.object == all_.head)
+            headField_ = along->value;
+        else if (!near.digs)
+            fields->strongest = most(fields->strongest, along->value);
+    }
 }
 
 Sample Path::look(Real position)
 {
-    return common_ ? lookAs<true>(position) : lookOdd(position);
+    Sample sample;
+    if (common_ && !others_)
+        lookPlain(position, nullptr, &sample);
+    else
+        lookOdd(position, nullptr, &sample);
+    return sample;
+}
+
+bool Path::begin(const Few& few, const Seed& s, Real position, Sample* sample)
+{
+    seed_ = &s;
+    if (few_ != &few || rootOfFew_ != s.root)
+        take(few, s);
+    return common_ && !others_ ? lookPlain(position, &s.path, sample) : lookOdd(position, &s.path, sample);
 }
 
 void Path::beginSearch(const Seed& s)
 {
-    root_ = object_.root(s.root);
-    path_ = s.path;
+    seed_ = &s;
     const Few& listed = nearby_.listed();
     const Real middle = shiftDown(first_ + last_, 1);
+    if (few_ != &listed || rootOfFew_ != s.root)
+        take(listed, s);
     Few few;
     few.count = 0;
     for (int i = 0; i < listed.count; ++i) {
-        const int number = listed.number[i];
-        Along& along = along_[few.count];
-        aim(number, s, along);
-        if (along.param(middle) < reachT_[number])
-            few.number[few.count++] = static_cast<uint8_t>(number);
+        along_[i].aim(s.path);
+        if (along_[i].param(middle) >= along_[i].from->reachT)
+            continue;
+        if (few.count != i)
+            along_[few.count] = along_[i];
+        few.number[few.count++] = listed.number[i];
     }
+    if (few.count == listed.count)
+        return;
     few.complete = true;
     if (!listed.complete)
         nearby_.setComplete(few);
     complete_ = few.complete;
     touched_ = few.count;
+    end_ = along_ + few.count;
+    few_ = nullptr;
 }
 
 // The own t at a position of the path of a warped object; sets ownChange_.
 Real Path::warpedParam(Real position)
 {
     const Real inward = Real(CORE_SIZE) / object_.laidSize();
-    const Vector step = path_ * inward;
+    const Vector step = seed_->path * inward;
     Vector out;
-    const Real t = object_.param(root_ * inward + step * position, &out);
+    const Real t = object_.param(root() * inward + step * position, &out);
     ownChange_ = t < Real(1) ? shiftDown(dot(out, step), 7) : Real(0);
     return t;
 }
@@ -244,13 +233,13 @@ Vector Path::outward(Real position) const
         if (to.near->kind == Neighbour::SEGMENT)
             g = g - to.near->direction * (to.k * to.near->size * push);
     }
-    g = g + path_ * (along * position);
+    g = g + seed_->path * (along * position);
     return object_.slants() ? g + ownGradient(position, own) : g;
 }
 
 Vector Path::ownGradient(Real position, Real share) const
 {
-    return object_.slopeAt(root_ + path_ * position) * shiftDown(share * object_.laidSize(), 4);
+    return object_.slopeAt(root() + from(position)) * shiftDown(share * object_.laidSize(), 4);
 }
 
 Real Path::pushes() const

@@ -3,33 +3,8 @@
 #ifndef FB_PATH_H
 #define FB_PATH_H
 
+#include "fields.h"
 #include "nearby.h"
-
-// A neighbour as the seeds of one root see it: what is the same for all of them. Lengths in its sizes, if not said otherwise.
-struct FromRoot {
-    int root;        // index of the root; -1: none yet
-    Real a, c;       // squared distance of the root from the centre, squared length of the paths
-    Vector twice16;  // 32 (root - centre) / size^2, units
-    Vector apart;    // from the centre to the root, units; neither point nor segment: the root in core space
-    Real y;          // a segment: where the root lies along it
-};
-
-// A neighbour's field along the path at hand. Its t (model/field.h) is a + p (b + p c), less k (2 y - k) for a segment.
-struct Along {
-    const Neighbour* near;
-    const FromRoot* from;
-    Real b;
-    Real stepY;         // a segment: what the path leads along it
-    Vector step;        // neither point nor segment: the path in its core space
-    // At the last position looked at.
-    Real value, slope;  // F and dF/dt
-    Real t, change;     // and dt/dp
-    Real k;             // where the nearest point of the segment lies along it
-    Vector out;         // neither point nor segment: half the gradient of t in its core space, times CORE_SIZE^2
-
-    // t at a position; sets what else there is to know there but F.
-    Real param(Real p);
-};
 
 // The body's field at a position: its excess over the isovalue, its slope along the path, how much stronger than the own
 // field the strongest neighbour's is.
@@ -55,6 +30,9 @@ public:
     // The direction in which the field falls at a position that has just been looked at, any length, own axes.
     Vector outward(Real position) const;
 
+    // To be called when the lists of `nearby` change.
+    void leave() { few_ = nullptr; }
+
     // What is known of a neighbour's field along the path of a seed, which need not be taken up, before any position is looked at.
     void aim(int number, const Seed& s, Along& along);
 
@@ -75,7 +53,7 @@ public:
     int touched() const { return touched_; }
     const Along& along(int i) const { return along_[i]; }
     // What leads to a place on it, from the root and from the core of a neighbour.
-    Vector from(Real position) const { return path_ * position; }
+    Vector from(Real position) const { return seed_->path * position; }
     Vector fromCore(const Along& along, Real position) const;
 
     // The last position looked at, and F and dF/dt of the own field there.
@@ -92,15 +70,17 @@ public:
     SELDOM Vector ownGradient(Real position, Real share) const;
 
 private:
-    template <bool COMMON> struct Sum;
     struct Part;
 
     void setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const;
-    // The same as begin() and look(); whether all is common (Neighbourhood::common) is known at compile time.
-    template <bool COMMON> bool beginAs(const Few& few, const Seed& s, Real position, Sample* sample);
-    template <bool COMMON> Sample lookAs(Real position);
-    SELDOM bool beginOdd(const Few& few, const Seed& s, Real position, Sample* sample);
-    SELDOM Sample lookOdd(Real position);
+    void find(int number, const Seed& s, Along& along);
+    void take(const Few& few, const Seed& s);
+    const Vector& root() const { return object_.root(seed_->root); }
+    Fields own(Real position);
+    SELDOM Fields ownOdd(Real position);
+    SELDOM void addOdd(Fields* fields);
+    bool lookPlain(Real position, const Vector* path, Sample* sample);
+    SELDOM bool lookOdd(Real position, const Vector* path, Sample* sample);
     SELDOM Real warpedParam(Real position);
     // The body's field from those that were found (blend.cpp).
     SELDOM void blend(Real position, Sample& sample);
@@ -113,16 +93,18 @@ private:
     const Bodies& bodies_;
     Nearby& nearby_;
     Counts& counts_;
-    const bool ownPlain_;           // the object's strength is 1, and it is neither a hollow nor warped
     const bool common_;             // Neighbourhood::common
     const bool warped_;             // the object is
     const Real restParam_;          // t of the own field at position 1, unless it is warped
     const Real first_, last_;
     FromRoot from_[NEIGHBOURS_MAX];
-    Real reachT_[NEIGHBOURS_MAX];   // t in the middle of a path, beyond which no place on it is reached
 
     // Of the path at hand.
-    Vector root_, path_;
+    const Few* few_ = nullptr;      // those that see it, if they are all of a list, as the root with that number does
+    int rootOfFew_ = -1;
+    bool others_;                   // some of them are neither points nor segments
+    const Seed* seed_;
+    Along* end_ = along_;
     bool complete_;
     bool shared_;                   // share_ holds at the position looked at last; else all are 1
     int touched_;
@@ -134,7 +116,8 @@ private:
     Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, if shared_
 };
 
-inline void Path::aim(int number, const Seed& s, Along& along)
+// What does not depend on the path.
+inline void Path::find(int number, const Seed& s, Along& along)
 {
     const Neighbour& near = all_.neighbours[number];
     FromRoot& from = from_[number];
@@ -142,39 +125,21 @@ inline void Path::aim(int number, const Seed& s, Along& along)
         setRoot(near, s, from);
     along.near = &near;
     along.from = &from;
-    if (near.kind == Neighbour::OTHER) {
-        along.step = near.inCore(s.path);
-    } else {
-        along.b = shiftDown(dot(s.path, from.twice16), 4);
-        if (near.kind == Neighbour::SEGMENT)
-            along.stepY = shiftDown(dot(s.path, near.toCore[1]), 4);
-    }
+    along.kind = near.kind;
+    along.half = near.half;
 }
 
-inline Real Along::param(Real p)
+inline void Path::aim(int number, const Seed& s, Along& along)
 {
-    if (near->kind == Neighbour::OTHER) {
-        const Real t = near->object->param(from->apart + step * p, &out);
-        // Where the field has ended the product might leave 16.16, and nobody asks for it.
-        change = t < Real(1) ? shiftDown(dot(out, step), 7) : Real(0);
-        return t;
-    }
-    const Real outer = p * from->c, inner = b + outer;
-    change = inner + outer;
-    const Real t = from->a + p * inner;
-    if (near->kind == Neighbour::POINT)
-        return t;
-    const Real y = from->y + p * stepY;
-    k = clamp(y, -near->half, near->half);
-    change -= k * (stepY + stepY);
-    return t - k * (y + y - k);
+    find(number, s, along);
+    along.aim(s.path);
 }
 
 inline __attribute__((always_inline)) Vector Path::fromCore(const Along& along, Real position) const
 {
     if (along.near->kind == Neighbour::OTHER)
         return along.near->fromCoreSpace(along.out);
-    const Vector v = along.from->apart + path_ * position;
+    const Vector v = along.from->apart + from(position);
     return along.near->kind == Neighbour::SEGMENT ? v - along.near->direction * (along.k * along.near->size) : v;
 }
 

@@ -21,6 +21,7 @@ public:
     bool setPatch(const Patch& patch, bool oversampled = false)
     {
         turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
+        path_.leave();
         return nearby_.setPatch(patch, oversampled);
     }
 
