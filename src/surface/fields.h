@@ -18,7 +18,7 @@ struct FromRoot {
 
 // A neighbour's field along the path at hand. Its t (model/field.h) is a + p (b + p c), less k (2 y - k) for a segment.
 struct Along {
-    const FromRoot* from;
+    FromRoot* from;
     int32_t kind;       // Neighbour::Kind
     Real half;          // of a segment, as Neighbour::half
     Real b;

@@ -26,7 +26,8 @@ Path::Path(const SoftObject& object, const Neighbourhood& all, const Bodies& bod
 // What is the same for all seeds of a root.
 void Path::setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const
 {
-    // Of a shaped object each path has a length of its own.
+    // Of a shaped object each path has a length of its own, of a tapering one those of a root have.
+    const bool known = to.root >= 0 && !object_.tapers();
     to.root = object_.shaped() ? -1 : s.root;
     const Vector& root = object_.root(s.root);
     if (near.kind == Neighbour::OTHER) {
@@ -37,9 +38,12 @@ void Path::setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const
         return Vector{shiftDown(v.x * near.inverse16, 4), shiftDown(v.y * near.inverse16, 4), shiftDown(v.z * near.inverse16, 4)};
     };
     to.apart = root - near.centre;
-    const Vector e = inSizes(to.apart), d = inSizes(s.path);
+    const Vector e = inSizes(to.apart);
     to.a = dot(e, e);
-    to.c = dot(d, d);
+    if (!known) {
+        const Vector d = inSizes(s.path);
+        to.c = dot(d, d);
+    }
     to.twice16 = e * shiftUp(near.inverse16, 1);
     if (near.kind == Neighbour::SEGMENT) {
         to.along16 = near.toCore[1];
@@ -52,16 +56,20 @@ void Path::setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const
 // Takes up those that look at the paths from now on, as they see the root of a seed.
 void Path::take(const Few& few, const Seed& s)
 {
-    others_ = false;
-    for (int i = 0; i < few.count; ++i) {
-        find(few.number[i], s, along_[i]);
-        others_ = others_ || along_[i].kind == Neighbour::OTHER;
+    if (few_ != &few) {
+        few_ = &few;
+        complete_ = few.complete;
+        touched_ = few.count;
+        end_ = along_ + few.count;
+        others_ = false;
+        for (int i = 0; i < few.count; ++i) {
+            find(few.number[i], along_[i]);
+            others_ = others_ || along_[i].kind == Neighbour::OTHER;
+        }
     }
-    complete_ = few.complete;
-    touched_ = few.count;
-    end_ = along_ + few.count;
-    few_ = &few;
-    // Of a shaped object each path has a length of its own.
+    for (Along* along = along_; along < end_; ++along)
+        if (along->from->root != s.root)
+            setRoot(*along->near, s, *along->from);
     rootOfFew_ = object_.shaped() ? -1 : s.root;
 }
 
@@ -90,21 +98,27 @@ inline bool Path::lookPlain(Real position, const Vector* path, Sample* sample)
     return fields.touched != 0;
 }
 
-// The same anywhere.
-bool Path::lookOdd(Real position, const Vector* path, Sample* sample)
+// The fields of all neighbours, as if there were nothing odd about them.
+inline void Path::addAll(Real position, const Vector* path, Fields* fields)
 {
-    ++counts_.iterations;
-    lookedAt_ = position;
-    shared_ = false;
     for (Along* along = along_; along < end_ && others_; ++along)
         if (along->kind == Neighbour::OTHER) {
             if (path != nullptr)
                 along->aim(*path);
             along->param(position);
         }
+    addFields(along_, end_, position, path, fields);
+}
+
+// The same anywhere.
+bool Path::lookOdd(Real position, const Vector* path, Sample* sample)
+{
+    ++counts_.iterations;
+    lookedAt_ = position;
+    shared_ = false;
     Fields fields = common_ ? own(position) : ownOdd(position);
     Fields odd = fields;
-    addFields(along_, end_, position, path, &fields);
+    addAll(position, path, &fields);
     const int32_t touched = fields.touched;
     if (!common_) {
         addOdd(&odd);
@@ -173,11 +187,12 @@ void Path::beginSearch(const Seed& s)
     const Real middle = shiftDown(first_ + last_, 1);
     if (few_ != &listed || rootOfFew_ != s.root)
         take(listed, s);
+    Fields unused{};
+    addAll(middle, &s.path, &unused);
     Few few;
     few.count = 0;
     for (int i = 0; i < listed.count; ++i) {
-        along_[i].aim(s.path);
-        if (along_[i].param(middle) >= along_[i].from->reachT)
+        if (along_[i].t >= along_[i].from->reachT)
             continue;
         if (few.count != i)
             along_[few.count] = along_[i];

@@ -73,12 +73,13 @@ private:
     struct Part;
 
     void setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const;
-    void find(int number, const Seed& s, Along& along);
+    void find(int number, Along& along);
     void take(const Few& few, const Seed& s);
     const Vector& root() const { return object_.root(seed_->root); }
     Fields own(Real position);
     SELDOM Fields ownOdd(Real position);
     SELDOM void addOdd(Fields* fields);
+    void addAll(Real position, const Vector* path, Fields* fields);
     bool lookPlain(Real position, const Vector* path, Sample* sample);
     SELDOM bool lookOdd(Real position, const Vector* path, Sample* sample);
     SELDOM Real warpedParam(Real position);
@@ -117,21 +118,20 @@ private:
 };
 
 // What does not depend on the path.
-inline void Path::find(int number, const Seed& s, Along& along)
+inline void Path::find(int number, Along& along)
 {
     const Neighbour& near = all_.neighbours[number];
-    FromRoot& from = from_[number];
-    if (from.root != s.root)
-        setRoot(near, s, from);
     along.near = &near;
-    along.from = &from;
+    along.from = from_ + number;
     along.kind = near.kind;
     along.half = near.half;
 }
 
 inline void Path::aim(int number, const Seed& s, Along& along)
 {
-    find(number, s, along);
+    find(number, along);
+    if (along.from->root != s.root)
+        setRoot(*along.near, s, *along.from);
     along.aim(s.path);
 }
 
