@@ -7,6 +7,8 @@ namespace {
 
 // Spacings: how far beyond the border of its part a seed still has a scale that reaches into it.
 constexpr Real SHARED(1.5);
+// Units: by how much more than others the two sides of that border overlap, which is found to first order.
+constexpr Real OVERLAP(0.16);
 // How far the border of two parts of a hollow's wall goes at most when what digs comes by a unit.
 constexpr Real BORDER_SPEED(16);
 // The position where what closes again over a hollow is found.
@@ -83,7 +85,7 @@ Real findShare(Path& path, Seed& s, Real shared, Vector* g)
     const Real apart = absolute(lead) < change * BORDER_FAR ? lead / change : lead < Real(0) ? -BORDER_FAR : BORDER_FAR;
     if (absolute(apart) > shared)
         return apart;
-    s.apart = static_cast<int16_t>(rawFromReal(apart) >> 8);
+    s.apart = static_cast<int16_t>(rawFromReal(apart + OVERLAP) >> 8);
     s.border = directionOf(normalise((rate < Real(0)) == hollow ? -wall : wall));
     const Real half = shiftDown(object.spacing() * s.position, 1);
     if (apart < half) {
