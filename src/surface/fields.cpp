@@ -7,7 +7,7 @@ void addFieldsC(Along* first, Along* end, Real position, const Vector* path, Fie
         if (along->kind != Neighbour::OTHER) {
             if (path != nullptr)
                 along->aim(*path);
-            along->param(position);
+            along->nearParam(position);
         }
         const Real t = along->t;
         if (t >= Real(1)) {

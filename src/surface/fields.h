@@ -36,6 +36,9 @@ struct Along {
 
     // t at a position; sets what else there is to know there but F.
     Real param(Real p);
+    // The same of a point or a segment, and of anything else.
+    Real nearParam(Real p);
+    Real otherParam(Real p);
 };
 
 // What fields add up to at a position: their sum and what that changes by over a position, the strongest of them, and whether any
@@ -77,12 +80,11 @@ inline void Along::aim(const Vector& path)
 
 inline Real Along::param(Real p)
 {
-    if (kind == Neighbour::OTHER) {
-        t = near->object->param(from->apart + step * p, &out);
-        // Where the field has ended the product might leave 16.16, and nobody asks for it.
-        change = t < Real(1) ? shiftDown(dot(out, step), 7) : Real(0);
-        return t;
-    }
+    return kind == Neighbour::OTHER ? otherParam(p) : nearParam(p);
+}
+
+inline Real Along::nearParam(Real p)
+{
     const Real outer = p * from->c, inner = b + outer;
     change = inner + outer;
     t = from->a + p * inner;

@@ -51,6 +51,14 @@ void Path::setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const
     }
 }
 
+Real Along::otherParam(Real p)
+{
+    t = near->object->param(from->apart + step * p, &out);
+    // Where the field has ended the product might leave 16.16, and nobody asks for it.
+    change = t < Real(1) ? shiftDown(dot(out, step), 7) : Real(0);
+    return t;
+}
+
 // ---- A look at one position
 
 // Takes up those that look at the paths from now on, as they see the root of a seed.
@@ -105,7 +113,7 @@ inline void Path::addAll(Real position, const Vector* path, Fields* fields)
         if (along->kind == Neighbour::OTHER) {
             if (path != nullptr)
                 along->aim(*path);
-            along->param(position);
+            along->otherParam(position);
         }
     addFields(along_, end_, position, path, fields);
 }
