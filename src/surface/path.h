@@ -130,8 +130,10 @@ inline void Path::find(int number, Along& along)
 inline void Path::aim(int number, const Seed& s, Along& along)
 {
     find(number, along);
-    if (along.from->root != s.root)
+    if (along.from->root != s.root) {
         setRoot(*along.near, s, *along.from);
+        rootOfFew_ = -1;
+    }
     along.aim(s.path);
 }
 
