@@ -13,9 +13,10 @@ constexpr Real STEEPEST_OF_ALL(1.6);
 
 Path::Path(const SoftObject& object, const Neighbourhood& all, const Bodies& bodies, Nearby& nearby, Counts& counts)
     : object_(object), all_(all), bodies_(bodies), nearby_(nearby), counts_(counts),
-      common_(all.common), warped_(object.warped()), restParam_(object.restParam()), first_(all.deep ? FIRST_DEEP : FIRST), last_(all.last)
+      common_(all.common), warped_(object.warped()), restParam_(object.restParam()), first_(all.deep ? FIRST_DEEP : FIRST), last_(all.last),
+      middle_(all.deep ? shiftDown(first_ + last_, 1) : COVERED_AT)
 {
-    const Real restOfPath = (shiftDown(last_ - first_, 1) + Real(0.02)) * object.longestPath();
+    const Real restOfPath = (most(last_ - middle_, middle_ - first_) + Real(0.02)) * object.longestPath();
     for (int i = 0; i < all.count; ++i) {
         from_[i].root = -1;
         const Real reach = Real(1) + restOfPath * shiftDown(all.neighbours[i].steep16, 4);
@@ -188,15 +189,11 @@ bool Path::begin(const Few& few, const Seed& s, Real position, Sample* sample)
     return common_ && !others_ ? lookPlain(position, &s.path, sample) : lookOdd(position, &s.path, sample);
 }
 
-void Path::beginSearch(const Seed& s)
+Sample Path::beginSearch(const Seed& s)
 {
-    seed_ = &s;
+    Sample sample;
     const Few& listed = nearby_.listed();
-    const Real middle = shiftDown(first_ + last_, 1);
-    if (few_ != &listed || rootOfFew_ != s.root)
-        take(listed, s);
-    Fields unused{};
-    addAll(middle, &s.path, &unused);
+    begin(listed, s, middle_, &sample);
     Few few;
     few.count = 0;
     for (int i = 0; i < listed.count; ++i) {
@@ -207,7 +204,7 @@ void Path::beginSearch(const Seed& s)
         few.number[few.count++] = listed.number[i];
     }
     if (few.count == listed.count)
-        return;
+        return sample;
     few.complete = true;
     if (!listed.complete)
         nearby_.setComplete(few);
@@ -215,6 +212,7 @@ void Path::beginSearch(const Seed& s)
     touched_ = few.count;
     end_ = along_ + few.count;
     few_ = nullptr;
+    return sample;
 }
 
 // The own t at a position of the path of a warped object; sets ownChange_.

@@ -6,6 +6,9 @@
 #include "fields.h"
 #include "nearby.h"
 
+// The position at which the own field is .23; a neighbour that is stronger there is so for good (cover.h).
+constexpr Real COVERED_AT(1.36);
+
 // The body's field at a position: its excess over the isovalue, its slope along the path, how much stronger than the own
 // field the strongest neighbour's is.
 struct Sample {
@@ -21,8 +24,8 @@ public:
     // Takes up the path of a seed as a few neighbours see it, and looks at a position. False: none of them reaches that.
     bool begin(const Few& few, const Seed& s, Real position, Sample* sample);
 
-    // Takes up the path of a seed that is searched: as those see it that reach some of it.
-    void beginSearch(const Seed& s);
+    // Takes up the path of a seed that is searched, as those see it that reach some of it, and looks at middle().
+    Sample beginSearch(const Seed& s);
 
     // Looks at a position of the path at hand.
     Sample look(Real position);
@@ -46,6 +49,8 @@ public:
     // Positions: where paths are searched.
     Real first() const { return first_; }
     Real last() const { return last_; }
+    // The position in between that is looked at first.
+    Real middle() const { return middle_; }
 
     const SoftObject& object() const { return object_; }
     const Neighbourhood& all() const { return all_; }
@@ -97,7 +102,7 @@ private:
     const bool common_;             // Neighbourhood::common
     const bool warped_;             // the object is
     const Real restParam_;          // t of the own field at position 1, unless it is warped
-    const Real first_, last_;
+    const Real first_, last_, middle_;
     FromRoot from_[NEIGHBOURS_MAX];
 
     // Of the path at hand.

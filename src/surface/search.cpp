@@ -12,7 +12,7 @@ constexpr Real FLAT(-0.06);
 constexpr int NEWTON_STEPS = 5;
 constexpr int BISECTIONS = 12;
 // Positions: where a search begins, in which steps, and between COVERED_AT and 1.
-constexpr Real SEARCH_FIRST(0.88), SEARCH_STEP(0.16), BETWEEN(1.18);
+constexpr Real SEARCH_FIRST(0.88), SEARCH_STEP(0.16), BETWEEN(1.18), COVERED_LATE(1.62), BETWEEN_LATE(1.49);
 // Of the field: a valley this shallow above the isovalue is looked into.
 constexpr Real VALLEY(0.12);
 
@@ -73,17 +73,30 @@ inline Look lookAt(Path& path, Real position)
     return {position, path.look(position)};
 }
 
-// Whether another object is the stronger from COVERED_AT on, and the path has not left the surface before; `*margin` is by how much
-// of the field.
-bool isInside(Path& path, const Sample& sample, Real* margin)
+// Whether another object is the stronger from one of two positions on, and the path has not left the surface before; `*margin` is
+// by how much of the field. Position and sample become those of the last look there.
+bool isInside(Path& path, Real* position, Sample* sample, Real* margin)
 {
-    if (sample.excess <= Real(0) || sample.dominance <= OVERSHOOT)
-        return false;
-    Real lowest = least(sample.excess, path.look(Real(1)).excess);
-    if (lowest < VALLEY)
-        lowest = least(lowest, path.look(BETWEEN).excess);
-    *margin = least(lowest, sample.dominance - OVERSHOOT);
-    return lowest > Real(0);
+    Real lowest(9);
+    static constexpr Real PLACES[] = {COVERED_AT, COVERED_LATE};
+    for (const Real at : PLACES) {
+        if (*position != at)
+            *sample = path.look(at);
+        *position = at;
+        if (sample->excess <= Real(0))
+            return false;
+        lowest = least(lowest, sample->excess);
+        if (sample->dominance <= OVERSHOOT)
+            continue;
+        lowest = least(lowest, path.look(Real(1)).excess);
+        if (lowest < VALLEY)
+            lowest = least(lowest, path.look(BETWEEN).excess);
+        if (lowest < VALLEY && at == COVERED_LATE)
+            lowest = least(lowest, path.look(BETWEEN_LATE).excess);
+        *margin = least(lowest, sample->dominance - OVERSHOOT);
+        return lowest > Real(0);
+    }
+    return false;
 }
 
 // The deepest place that is known of a valley between two looks: its floor is about where straight slopes cross 0.
@@ -100,9 +113,7 @@ Look floorBetween(Path& path, const Look& a, const Look& b)
 Real search(Path& path, Real* position, Sample* sample)
 {
     Real margin;
-    *position = COVERED_AT;
-    *sample = path.look(COVERED_AT);
-    if (isInside(path, *sample, &margin))
+    if (isInside(path, position, sample, &margin))
         return margin;
     Look before = lookAt(path, SEARCH_FIRST), lowest{SEARCH_FIRST, {Real(9), Real(0), Real(0)}};
     if (before.sample.excess < Real(0)) {
@@ -128,6 +139,9 @@ Real search(Path& path, Real* position, Sample* sample)
             return lowest.sample.excess;
         }
         before = now;
+        // From there on it is so for good.
+        if (before.position >= COVERED_AT && before.sample.dominance > OVERSHOOT)
+            break;
     }
     if (before.sample.excess < lowest.sample.excess)
         lowest = before;

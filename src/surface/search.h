@@ -7,15 +7,12 @@
 // Of the field: a seed that is this near the isovalue is on the surface.
 constexpr Real TOLERANCE(0.004);
 
-// The position at which the own field is .23; a neighbour that is stronger there is so for good (cover.h).
-constexpr Real COVERED_AT(1.36);
-
 // Newton's method from a sample already taken. True: `*position` is on the surface, and `*sample` was taken there or a short step
 // before.
 bool follow(Path& path, Real* position, Sample* sample);
 
 // Looks for the first place where the path leaves the surface, and returns by how much the field exceeds the isovalue at least
-// where it had a valley before. When the path leaves it nowhere, `*sample` exceeds it as well.
+// where it had a valley before. When the path leaves it nowhere, `*sample` exceeds it as well. `*sample` was taken at `*position`.
 Real search(Path& path, Real* position, Sample* sample);
 
 // The same for a path that is hollowed out, or a weak object's: the last place where the path leaves the surface, for what lies

@@ -131,7 +131,8 @@ inline void Settler::keep(Seed& s, Real dominance)
 // Along its whole path, as those neighbours see it that reach some of it.
 inline Real Settler::search(const Seed& s, Real* position, Sample* sample)
 {
-    path_.beginSearch(s);
+    *sample = path_.beginSearch(s);
+    *position = path_.middle();
     return nearby_.dented() || !all_.rests ? searchDeep(path_, position, sample, &off_) : ::search(path_, position, sample);
 }
 
