@@ -13,7 +13,7 @@ constexpr Real STEEPEST_OF_ALL(1.6);
 
 Path::Path(const SoftObject& object, const Neighbourhood& all, const Bodies& bodies, Nearby& nearby, Counts& counts)
     : object_(object), all_(all), bodies_(bodies), nearby_(nearby), counts_(counts),
-      common_(all.common), warped_(object.warped()), restParam_(object.restParam()), first_(all.deep ? FIRST_DEEP : FIRST), last_(all.last),
+      ownPlain_(object.strength() == Real(1) && !all.hollow && !all.inner && !object.warped()), warped_(object.warped()), restParam_(object.restParam()), first_(all.deep ? FIRST_DEEP : FIRST), last_(all.last),
       middle_(all.deep ? shiftDown(first_ + last_, 1) : COVERED_AT)
 {
     const Real restOfPath = (most(last_ - middle_, middle_ - first_) + Real(0.02)) * object.longestPath();
@@ -70,9 +70,11 @@ void Path::take(const Few& few, const Seed& s)
         complete_ = few.complete;
         touched_ = few.count;
         end_ = along_ + few.count;
+        odd_ = !ownPlain_;
         others_ = false;
         for (int i = 0; i < few.count; ++i) {
             find(few.number[i], along_[i]);
+            odd_ = odd_ || !along_[i].near->plain;
             others_ = others_ || along_[i].kind == Neighbour::OTHER;
         }
     }
@@ -92,8 +94,8 @@ inline Fields Path::own(Real position)
     return {field.value, shiftDown(field.slope * position, 1), Real(0), 0};
 }
 
-// Looks at a position where all is common and the neighbours are points and segments. `path`: of a seed that is taken up now;
-// null: it has been. False: none of them reaches that position.
+// Looks at a position where there is nothing odd about the object and the neighbours, and those are points and segments. `path`: of
+// a seed that is taken up now; null: it has been. False: none of them reaches that position.
 inline bool Path::lookPlain(Real position, const Vector* path, Sample* sample)
 {
     ++counts_.iterations;
@@ -125,20 +127,16 @@ bool Path::lookOdd(Real position, const Vector* path, Sample* sample)
     ++counts_.iterations;
     lookedAt_ = position;
     shared_ = false;
-    Fields fields = common_ ? own(position) : ownOdd(position);
-    Fields odd = fields;
+    Fields fields = ownPlain_ ? own(position) : ownOdd(position);
     addAll(position, path, &fields);
-    const int32_t touched = fields.touched;
-    if (!common_) {
-        addOdd(&odd);
-        fields = odd;
-    }
+    if (odd_)
+        addOdd(&fields);
     *sample = {fields.sum - ISOVALUE, fields.slope, fields.strongest - ownField_};
     if (!complete_)
-        common_ ? blend(position, *sample) : blendOdd(position, *sample);
+        odd_ ? blendOdd(position, *sample) : blend(position, *sample);
     if (all_.hollow)
         *sample = {-sample->excess, -sample->slope, fields.strongest - headField_};
-    return touched != 0;
+    return fields.touched != 0;
 }
 
 // The own field of an object that is not as strong as most, or of one whose seeds sample a hollow: it digs, and the head is
@@ -154,16 +152,21 @@ Fields Path::ownOdd(Real position)
     return all_.hollow ? Fields{-(ownField_ * all_.weight), -(rate * all_.weight), Real(0), 0} : Fields{ownField_, rate, Real(0), 0};
 }
 
-// Adds the fields that were just looked at where something digs, or strengths differ.
+// Corrects the fields that were just added where something digs, or strengths differ.
 void Path::addOdd(Fields* fields)
 {
+    fields->strongest = Real(0);
     for (Along* along = along_; along < end_; ++along) {
         const Neighbour& near = *along->near;
-        along->value = along->value * near.strength;
-        along->slope = along->slope * near.strength;
-        const Real weight = near.digs ? -near.weight : Real(1);
-        fields->sum += along->value * weight;
-        fields->slope += along->slope * weight * along->change;
+        if (!near.plain && along->slope != Real(0)) {
+            const Real weight = near.digs ? -near.weight : Real(1);
+            fields->sum -= along->value;
+            fields->slope -= along->slope * along->change;
+            along->value = along->value * near.strength;
+            along->slope = along->slope * near.strength;
+            fields->sum += along->value * weight;
+            fields->slope += along->slope * weight * along->change;
+        }
         if (all_.hollow && near.object == all_.head)
             headField_ = along->value;
         else if (!near.digs)
@@ -174,7 +177,7 @@ void Path::addOdd(Fields* fields)
 Sample Path::look(Real position)
 {
     Sample sample;
-    if (common_ && !others_)
+    if (!odd_ && !others_)
         lookPlain(position, nullptr, &sample);
     else
         lookOdd(position, nullptr, &sample);
@@ -186,7 +189,7 @@ bool Path::begin(const Few& few, const Seed& s, Real position, Sample* sample)
     seed_ = &s;
     if (few_ != &few || rootOfFew_ != s.root)
         take(few, s);
-    return common_ && !others_ ? lookPlain(position, &s.path, sample) : lookOdd(position, &s.path, sample);
+    return !odd_ && !others_ ? lookPlain(position, &s.path, sample) : lookOdd(position, &s.path, sample);
 }
 
 Sample Path::beginSearch(const Seed& s)

@@ -99,7 +99,7 @@ private:
     const Bodies& bodies_;
     Nearby& nearby_;
     Counts& counts_;
-    const bool common_;             // Neighbourhood::common
+    const bool ownPlain_;           // the object's strength is 1, nothing digs within its body, and it is neither a hollow nor warped
     const bool warped_;             // the object is
     const Real restParam_;          // t of the own field at position 1, unless it is warped
     const Real first_, last_, middle_;
@@ -108,6 +108,7 @@ private:
     // Of the path at hand.
     const Few* few_ = nullptr;      // those that see it, if they are all of a list, as the root with that number does
     int rootOfFew_ = -1;
+    bool odd_;                      // not ownPlain_, or some of them are not Neighbour::plain
     bool others_;                   // some of them are neither points nor segments
     const Seed* seed_;
     Along* end_ = along_;
