@@ -29,6 +29,12 @@ struct Bend {
     bool stale;         // seeds have settled since it was measured
 };
 
+// Units as 1/16 units.
+inline int32_t steps16(Real units)
+{
+    return rawFromReal(units) >> 12;
+}
+
 // Lengths in 1/16 unit of own space, directions with 1.0 = 2^14.
 struct Patch {
     int32_t first[PATCH_RINGS];  // of each ring, the number of its first regular seed in the patch
