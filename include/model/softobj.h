@@ -96,6 +96,8 @@ public:
     bool resample(Real spacing, SurfaceMaker makeSurface, const SoftObject* like = nullptr);
     // Why resample() failed the last time, for any object: one line of words.
     static const char* resampleTrouble();
+    // The spacing that its seeds get where `asked` is that of the model: on thin objects they lie closer.
+    Real ownSpacing(Real asked) const;
     // How many regular seeds there would be.
     int seedsAt(Real spacing) const;
     int seeds() const { return laid_.regular; }

@@ -10,6 +10,9 @@ namespace {
 // The cell of an oversampled seed, which lies between seeds that have cells of their own: in eighths of theirs.
 constexpr int EXTRA_CELL = 5;
 
+// An object of less than this radius is thin: as many seeds go round it as round one of this radius. Units.
+constexpr Real THIN(4.5);
+
 // Roots that a seed's 16 bits can tell apart.
 constexpr int ROOTS_MAX = UINT16_MAX + 1;
 
@@ -562,6 +565,11 @@ Direction14 SoftObject::restNormal(const Seed& s) const
         return laid_.plainSeeds[&s - laid_.seeds].border;
     const Vector rest = root(s.root) + s.path;
     return warped_ ? direction(slopeAt(rest)) : plainNormal(rest, s.path);
+}
+
+Real SoftObject::ownSpacing(Real asked) const
+{
+    return asked * clamp(radius_ * (Real(1) / THIN), Real(0.5), Real(1));
 }
 
 int SoftObject::seedsAt(Real spacing) const
