@@ -13,6 +13,9 @@ constexpr int NEWTON_STEPS = 5;
 constexpr int BISECTIONS = 12;
 // Positions: where a search begins, in which steps, and between COVERED_AT and 1.
 constexpr Real SEARCH_FIRST(0.88), SEARCH_STEP(0.16), BETWEEN(1.18), COVERED_LATE(1.62), BETWEEN_LATE(1.49);
+// And in which steps a path is followed on that has left the surface.
+constexpr Real RETURN_STEP(0.08);
+constexpr int RETURN_STEPS = 5;
 // Of the field: a valley this shallow above the isovalue is looked into.
 constexpr Real VALLEY(0.12);
 
@@ -148,6 +151,21 @@ Real search(Path& path, Real* position, Sample* sample)
     *position = lowest.position;
     *sample = lowest.sample;
     return lowest.sample.excess;
+}
+
+bool comesBack(Path& path, Real from, Real* position, Sample* sample)
+{
+    const Real left = from;
+    for (int i = 0; i < RETURN_STEPS; ++i) {
+        const Real outside = from, excess = path.look(from += RETURN_STEP).excess;
+        if (excess < -VALLEY || (excess > Real(0) && outside == left))
+            break;
+        if (excess > Real(0)) {
+            bisect(path, from, outside, position, sample);
+            return true;
+        }
+    }
+    return false;
 }
 
 namespace {

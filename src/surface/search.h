@@ -20,4 +20,7 @@ Real search(Path& path, Real* position, Sample* sample);
 // found `*off` says by how much of the field.
 SELDOM Real searchDeep(Path& path, Real* position, Sample* sample, Real* off);
 
+// Where a path that has left the surface at `from` is inside again. False: nowhere, or too near to tell.
+bool comesBack(Path& path, Real from, Real* position, Sample* sample);
+
 #endif

@@ -25,6 +25,8 @@ constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000;
 constexpr Real RANGE(0.05);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
 constexpr Real PARTED(1.5);
+// Spacings: how far the surface may go on from a seed to a border without another beside it.
+constexpr Real LEFT_OPEN(1.5);
 
 }  // namespace
 
@@ -275,18 +277,38 @@ bool parted(const SoftObject& object, const Seed& s)
     return (s.flags & SEED_VALID) && absolute(s.position - n.position) * object.radius() > object.spacing() * PARTED;
 }
 
-// The oversampled seed of a regular one is not needed; none of a patch is.
+// Whether so much of the surface lies between a seed and the oversampled one beside it that their scales may leave a gap. Where
+// only one is on the surface, it goes on to the border at least.
+bool gapes(const SoftObject& object, const Seed& s, const Seed& n)
+{
+    if ((s.flags & n.flags & SEED_VALID) != 0)
+        return absolute(s.position - n.position) * object.radius() > object.spacing() * PARTED;
+    const Seed& valid = s.flags & SEED_VALID ? s : n;
+    if (!(valid.flags & SEED_VALID))
+        return false;
+    return !(valid.flags & SEED_BORDER) || realFromRaw(valid.apart << 8) > object.spacing() * LEFT_OPEN;
+}
+
+// The fine seeds of a regular one are not needed; nor is its oversampled one; none of a patch is.
+void putAwayFine(SoftObject& object, int i)
+{
+    Seed* const fine = object.fine(i);
+    for (int which = 0; which < SoftObject::FINE_SEEDS && fine != nullptr; ++which)
+        fine[which].flags = 0;
+}
+
 void putAway(SoftObject& object, int i)
 {
     if (Seed* const extra = object.extra(i))
         extra->flags = 0;
+    putAwayFine(object, i);
 }
 
 void putAway(SoftObject& object, Patch& patch)
 {
     if (patch.extras)
         forSeeds(patch, [&](int i) { putAway(object, i); });
-    patch.extras = false;
+    patch.extras = patch.fine = false;
 }
 
 }  // namespace
@@ -310,6 +332,8 @@ void Settler::oversample(Patch& patch)
         }
     });
     patch.extras = any;
+    const bool hadFine = patch.fine;
+    patch.fine = false;
     if (!any)
         return;
     patch.due = now_;
@@ -323,7 +347,55 @@ void Settler::oversample(Patch& patch)
             extra->flags &= SEED_ACTIVE | SEED_OFF;
         else if (!waits(*extra, false))
             settle(*extra);
+        if (settleFine(i))
+            patch.fine = true;
+        else if (hadFine)
+            putAwayFine(object_, i);
     });
+}
+
+// Settles those fine seeds of a regular one that are needed. False: none is.
+bool Settler::settleFine(int i)
+{
+    const Seed& extra = *object_.extra(i);
+    const Seed* const ends[] = {&object_.regular(i), &object_.regular(extra.neighbour)};
+    const bool needed[] = {gapes(object_, *ends[0], extra), gapes(object_, *ends[1], extra)};
+    Seed* const fine = needed[0] || needed[1] ? object_.madeFine(i) : nullptr;
+    if (fine == nullptr)
+        return false;
+    fine[2].flags = 0;
+    for (int which = 0; which < 2; ++which) {
+        Seed& s = fine[which];
+        if (!needed[which]) {
+            s.flags = 0;
+            continue;
+        }
+        if (!(s.flags & SEED_ACTIVE)) {
+            object_.layOutFine(i, which);
+            s.flags = SEED_ACTIVE | SEED_COVERED;
+            s.position = ends[which]->position;
+            s.still = 0;
+        }
+        if (!waits(s, false))
+            settle(s);
+        if (((ends[which]->flags ^ extra.flags) & SEED_VALID) && !nearby_.dented())
+            settleBehind(s.flags & SEED_VALID ? s : extra.flags & SEED_VALID ? extra : *ends[which], fine[2]);
+    }
+    return true;
+}
+
+// Where necks are thin their surface hangs over: the path of a valid seed beside the border leaves the surface, and may come back
+// behind that, where another seed stands for it.
+void Settler::settleBehind(const Seed& valid, Seed& s)
+{
+    Sample sample;
+    s = valid;
+    s.flags = 0;
+    path_.beginSearch(s);
+    if (!comesBack(path_, valid.position, &s.position, &sample) || sample.dominance > OVERSHOOT)
+        return;
+    s.flags = SEED_ACTIVE;
+    place(s, sample.dominance);
 }
 
 void rest(SoftObject& object, Patch& patch)

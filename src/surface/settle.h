@@ -60,6 +60,8 @@ private:
     void place(Seed& s, Real dominance);
     bool isCovered(const Seed& s) { return nearby_.dented() ? isOff(s) : cover_.hides(s); }
     void setRange(Patch& patch) const;
+    SELDOM bool settleFine(int i);
+    void settleBehind(const Seed& valid, Seed& s);
     bool waits(const Seed& s, bool someAway) const;
     bool mixes() const;
 

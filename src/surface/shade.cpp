@@ -53,8 +53,8 @@ constexpr int32_t FACES_VIEWER = 16000;
 // One less than the number of frames in which the bends of patches are measured that settle in each.
 constexpr int BEND_TURNS = 1;
 
-// Seeds of a patch, oversampled ones included.
-constexpr int SEEDS_MOST = 2 * PATCH_RINGS * PATCH_SEEDS;
+// Seeds of a patch, oversampled and fine ones included.
+constexpr int SEEDS_MOST = (2 + SoftObject::FINE_SEEDS) * PATCH_RINGS * PATCH_SEEDS;
 
 // Turns the seeds of one object into voxels. Made once for an object and a frame.
 class Shader {
@@ -306,6 +306,10 @@ SELDOM int Shader::findExtras(const Patch& patch, Seen* seen, Voxel* voxels) con
         const Seed* const extra = object_.extra(i);
         if (extra != nullptr && (extra->flags & SEED_ACTIVE) && findSeed(shading_, *extra, seen + count, voxels + count))
             ++count;
+        const Seed* const fine = patch.fine ? object_.fine(i) : nullptr;
+        for (int which = 0; which < SoftObject::FINE_SEEDS && fine != nullptr; ++which)
+            if ((fine[which].flags & SEED_ACTIVE) && findSeed(shading_, fine[which], seen + count, voxels + count))
+                ++count;
     });
     return count;
 }
