@@ -87,34 +87,26 @@ bool isWithin(const Patch& patch, const Neighbour& near, Real position, Real par
     return left > 0 && within(fromCore(near, above(patch, patch.path * (at - 64) >> 6)), left);
 }
 
-Real classify(Patch& patch, const Neighbourhood& all)
+void classify(Patch& patch, const Neighbourhood& all)
 {
     // Half way along what is left of the paths when their seeds are at rest, where the own field ends; or along all of them.
     const int32_t half = all.deep ? patch.path * (rawFromReal(all.last) >> 10) >> 7 : patch.path >> 1;
     const Step beyond = above(patch, all.deep ? half - patch.path : half);
-    const int32_t slack = steps16(LIST_SLACK), more = steps16(LONG_SLACK - LIST_SLACK);
+    const int32_t slack = steps16(LIST_SLACK);
     const int32_t radius = half + patch.radius + (patch.radius >> 1) + patch.lean + slack;
     memset(patch.listed, 0, sizeof patch.listed);
     memset(patch.near, 0, sizeof patch.near);
     Bound ball = boundOf(patch, patch.radius);
     ball.radius += slack;
-    bool close = false;
     for (int i = 0; i < all.count; ++i) {
         const Neighbour& near = all.neighbours[i];
-        const int32_t away = square(fromCore(near, beyond)), reach = near.size16 + radius;
-        if (away >= reach * reach) {
-            close = close || away < (reach + more) * (reach + more);
+        if (!within(fromCore(near, beyond), near.size16 + radius))
             continue;
-        }
         const int slot = near.object->slot();
         patch.listed[slot >> 5] |= 1u << (slot & 31);
-        const int32_t there = square(fromCore(near, {ball.x, ball.y, ball.z})), meets = near.size16 + ball.radius;
-        if (there < meets * meets)
+        if (reaches(near, ball))
             patch.near[slot >> 5] |= 1u << (slot & 31);
-        else
-            close = close || there < (meets + more) * (meets + more);
     }
-    return close ? LIST_SLACK : LONG_SLACK;
 }
 
 bool outOfSight(const Patch& patch, const OwnFrame& own)

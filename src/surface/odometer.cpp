@@ -90,7 +90,6 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
     memset(standBySlot, -1, sizeof standBySlot);
     Way farthest = 0;
     came_ = 0;
-    joined_ = false;
     for (int i = 0; i < all.count; ++i) {
         const Neighbour& near = all.neighbours[i];
         const int slot = near.object->slot(), before = standBySlot_[slot];
@@ -103,7 +102,6 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
             continue;
         if (before < 0) {
             // It was out of range by GATHER_SLACK.
-            joined_ = true;
             holds = !object.inRange(*near.object);
             continue;
         }

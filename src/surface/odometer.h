@@ -36,8 +36,6 @@ public:
     Way reading() const { return reading_; }
     // The same for the farthest places of neighbours that the object could meet.
     Way bound() const { return bound_; }
-    // Whether a neighbour has come near that was not there in the call before.
-    bool joined() const { return joined_; }
     // How far they came since the call before, where the object has its centre.
     Way came() const { return came_; }
 
@@ -53,7 +51,6 @@ private:
 
     Way reading_ = 0, bound_ = 0, came_ = 0;
     uint32_t linksVersion_ = 0;
-    bool joined_ = false;
     bool fresh_ = true;  // nothing is known of a frame before
     Vector eye_{Real(0), Real(0), Real(0)};  // where the viewer was, own axes
     int room_ = 0;

@@ -97,10 +97,9 @@ void makePatches(const SoftObject& object, Patch* patches);
 // Measures them anew, when the seeds rest elsewhere. They are due at once, by the reading of the odometer.
 void reshapePatches(const SoftObject& object, Patch* patches, int count, uint32_t reading);
 
-// Makes the lists of a patch anew, and returns how much nearer a neighbour may come until they hold no more: LIST_SLACK, or
-// LONG_SLACK where none that is not listed is near.
-Real classify(Patch& patch, const Neighbourhood& all);
-constexpr Real LIST_SLACK = GATHER_SLACK, LONG_SLACK(12);
+// Makes the lists of a patch anew. They hold until a neighbour has come nearer by LIST_SLACK.
+void classify(Patch& patch, const Neighbourhood& all);
+constexpr Real LIST_SLACK = GATHER_SLACK;
 
 // A ball round the seeds of a patch where they are, 1/16 unit, from one round where they rest.
 struct Bound {
