@@ -221,16 +221,19 @@ void Settler::settleRest(Patch& patch)
 {
     const Seed& centre = object_.seed(patch.centre);
     const bool someAway = !(centre.flags & SEED_VALID) || patch.facing < patch.spread;
+    if (!(centre.flags & SEED_VALID))
+        cover_.setPatch(patch);
     forSeeds(patch, [&](int i) {
         Seed& s = object_.seed(i);
         if (&s == &centre)
             return;
-        if (!(s.flags & SEED_VALID) && isCovered(s)) {
+        // What has slept or rested is likely to be where the one in the middle is.
+        const bool woken = (s.flags & SEED_ASLEEP) || ((s.flags & SEED_RESTING) && !(centre.flags & SEED_RESTING));
+        if ((!(s.flags & SEED_VALID) || (woken && !(centre.flags & SEED_VALID))) && isCovered(s)) {
             s.flags &= SEED_OFF;
             return;
         }
-        if (s.flags & SEED_ASLEEP) {
-            // It has slept: it is likely to be where the one in the middle is.
+        if (woken) {
             s.position = centre.position;
             s.flags = SEED_COVERED;
             s.still = 0;
