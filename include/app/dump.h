@@ -9,7 +9,8 @@
 
 class Dump {
 public:
-    // Makes the directory, tries whether it can be written to, and removes the frames of an older dump. Null, or one line that says why not.
+    // Makes the directory, tries whether it can be written to, and removes the frames of an older dump. Null, or one line that
+    // says why not.
     const char* open(const char* directory);
 
     // Writes F%07d.PPM, .Z and .TXT of one frame. Null, or one line that says why not.
@@ -17,6 +18,9 @@ public:
                       bool grey);
 
 private:
+    bool picture(int number, const View& view, const Palette& palette);
+    bool distances(int number, const View& view);
+    bool scene(int number, Time time, int rate, const Model& model, const Camera& camera, bool grey);
     int create(int number, const char* extension);
     const char* complain();
 

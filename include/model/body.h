@@ -52,7 +52,12 @@ public:
 
 private:
     void release();
+    bool reserve(SoftObject* const* objects, uint32_t count);
+    void setWeights(SoftObject* const* objects);
+    void findMembers(SoftObject* object, int* filled);
     void findDiggers(int begin, int end, int* filled);
+    bool allLinked(int begin, int end) const;
+    void spreadByDiggers(SoftObject& member) const;
 
     int count_ = 0;
     Real* weights_ = nullptr;         // count_ rows of count_

@@ -167,7 +167,13 @@ public:
 private:
     void clear();
     SoftObject* makeObject(const Actor& item) const;
+    // Whether two items have the same object, before any scaling.
+    static bool isLike(const Actor& a, const Actor& b);
     const SoftObject* alike(int i) const;
+    bool makeItems(const Record* record, Model& then) const;
+    bool copyKeys(const Record* record);
+    void unlinkAll();
+    void takeObjects(Model& then);
 
     Actor* actors_[OBJECTS_MOST];
     Actor* items_[OBJECTS_MOST + GROUPS_MOST];  // owned

@@ -48,7 +48,11 @@ private:
 
     static_assert(Paints::MOST <= RAMPS_MOST, "each colour has a ramp");
 
+    void makeGrey(Model& model, bool painted);
+    void makeColours(Model& model, bool painted);
+    void shareEvenly(const Colour* colours, const bool* shines, int count);
     void share(const Colour* colours, const bool* shines, int count, const Paints* weights);
+    void neverDarken(uint8_t* ramp) const;
     void handRamps(Paint& paint) const;
 
     Paints paints_;

@@ -48,7 +48,7 @@ public:
     uint8_t* overlay(int left, int top, int wide, int high);
 
     // Closes the gaps between scales: empty pixels take over colour and depth of the drawn ones beside them, where an
-    // opening is small (the limits stand in view.cpp) or ends between drawn pixels. `spacing` of the seeds, units. For when
+    // opening is small (the limits stand in gaps.cpp) or ends between drawn pixels. `spacing` of the seeds, units. For when
     // all objects are drawn, before anything is written over them; single pixels are left alone. With a model, what is open
     // stays so: a gap half way across which the way from one side to the other leaves the surface. With the model's colours
     // too, what is filled between two objects has the colour of the one whose field is the stronger there.
@@ -68,7 +68,11 @@ public:
         zbuffer_[at] = static_cast<uint16_t>(depth);
         frame_[at] = colour;
     }
-    void copyPixel(int at, int from) { takeOver(at, from); }
+    void copyPixel(int at, int from)
+    {
+        frame_[at] = frame_[from];
+        zbuffer_[at] = zbuffer_[from];
+    }
     const Span& touched(int row) const { return touched_[row]; }
 
     // Ends a frame; rows() then tells what differs from the frame before.
@@ -82,25 +86,6 @@ private:
     void makeLens();
     void touchPixel(int at);
     void mark(int left, int top, int right, int bottom);
-    void closeRun(int y, int from, int to, int spacing);
-    void closeCorner(int y, int x, int step);
-    void closeAbove(int y, int x, int widest, int narrowest);
-    void closeFrom(int y, int from, int to, int step, int widest, int narrowest);
-    // Numbers of objects; both -1: none are named.
-    struct Ends {
-        int first, last;
-    };
-    static constexpr Ends NO_ENDS{-1, -1};
-    bool isOpen(int first, int last) const;
-    Ends endsOf(int first, int last) const;
-    int divide(const Ends& ends, int first, int last, int step) const;
-    void fill(const Ends& ends, int first, int last, int step);
-    void closeSlit(int y, int x, int end, int step);
-    void takeOver(int at, int from)
-    {
-        frame_[at] = frame_[from];
-        zbuffer_[at] = zbuffer_[from];
-    }
     bool prepareLoop(const VoxelList& list);
     int showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool loop);
     bool ordinary(const Voxel& voxel) const;
@@ -111,8 +96,6 @@ private:
     Lens lens_{};
     bool pixels_ = false;
     bool exact_ = false;
-    const Model* model_ = nullptr;      // of the picture whose gaps are closed
-    const Palette* palette_ = nullptr;  // and its colours
     Rectangle shown_{machine::WIDTH, machine::HEIGHT, 0, 0};
     uint8_t* frame_ = nullptr;
     uint16_t* zbuffer_ = nullptr;

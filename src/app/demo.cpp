@@ -250,8 +250,7 @@ bool Demo::drawModel()
         fail(1, "not enough memory");
     int order[Model::OBJECTS_MOST];
     Real depth[Model::OBJECTS_MOST];
-    const int count = model_.count();
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < model_.count(); ++i) {
         if (interrupted())
             return false;
         model_.actor(i).object->update(frame);
@@ -264,30 +263,40 @@ bool Demo::drawModel()
     }
 
     view_.begin();
-    const int selected = editor_.selected();
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < model_.count(); ++i) {
         SoftObject& object = *model_.actor(order[i]).object;
-        const uint8_t* ramp = object.ramp();
-        if (options_.interactive && order[i] == selected && time_ - selectedAt_ < PULSE) {
-            // A short pulse of brightness shows which object is selected.
-            const Time phase = (time_ - selectedAt_) * 2;
-            const Time height = phase < PULSE ? phase : 2 * PULSE - phase;
-            object.setRamp(palette_.raised(ramp, static_cast<int>(static_cast<uint32_t>(height) * PULSE_STEPS / PULSE)));
-        }
-        int next = 0;
-        do {
-            if (interrupted()) {
-                object.setRamp(ramp);
-                return false;
-            }
-            object.draw(frame, *voxels_, VOXELS_AT_ONCE, &next);
-            counts_.drawn += static_cast<uint32_t>(view_.show(*voxels_));
-        } while (next != 0);
+        const uint8_t* const ramp = object.ramp();
+        if (options_.interactive && order[i] == editor_.selected() && time_ - selectedAt_ < PULSE)
+            object.setRamp(pulseRamp(ramp));
+        const bool drawn = drawObject(object, frame);
         object.setRamp(ramp);
+        if (!drawn)
+            return false;
     }
     if (!options_.printed)
         view_.closeGaps(model_.coarsest(), &model_, options_.grey ? nullptr : &palette_);
     return true;
+}
+
+// False: it was interrupted.
+bool Demo::drawObject(SoftObject& object, const FrameContext& frame)
+{
+    int next = 0;
+    do {
+        if (interrupted())
+            return false;
+        object.draw(frame, *voxels_, VOXELS_AT_ONCE, &next);
+        counts_.drawn += static_cast<uint32_t>(view_.show(*voxels_));
+    } while (next != 0);
+    return true;
+}
+
+// A short pulse of brightness shows which object is selected.
+const uint8_t* Demo::pulseRamp(const uint8_t* ramp)
+{
+    const Time phase = (time_ - selectedAt_) * 2;
+    const Time height = phase < PULSE ? phase : 2 * PULSE - phase;
+    return palette_.raised(ramp, static_cast<int>(static_cast<uint32_t>(height) * PULSE_STEPS / PULSE));
 }
 
 bool Demo::finished() const
@@ -329,7 +338,8 @@ void Demo::sayResults(uint64_t ticks)
     machine::out(text);
 }
 
-int Demo::run()
+// The machine, the program and the video mode. In trouble the program ends.
+void Demo::begin()
 {
     const char* problem = machine::start();
     if (problem != nullptr)
@@ -351,7 +361,28 @@ int Demo::run()
         machine::setPalette(palette_.dac());
     }
     stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
+}
 
+// A frame that has been drawn comes onto the screen, and to wherever else it is wanted.
+void Demo::showFrame()
+{
+    if (options_.retrace)
+        machine::waitRetrace();
+    if (paletteStale_)
+        machine::setPalette(palette_.dac());
+    paletteStale_ = false;
+    if (!options_.noPresent)
+        machine::present(view_.frame(), view_.rows());
+    const char* problem = keepFrame();
+    if (problem != nullptr)
+        fail(1, problem);
+    if (shotWanted_)
+        shoot();
+}
+
+int Demo::run()
+{
+    begin();
     started_ = machine::clock();
     while (!finished()) {
         takeKeys();
@@ -363,18 +394,7 @@ int Demo::run()
         findTime();
         if (!frame())
             continue;
-        if (options_.retrace)
-            machine::waitRetrace();
-        if (paletteStale_)
-            machine::setPalette(palette_.dac());
-        paletteStale_ = false;
-        if (!options_.noPresent)
-            machine::present(view_.frame(), view_.rows());
-        problem = keepFrame();
-        if (problem != nullptr)
-            fail(1, problem);
-        if (shotWanted_)
-            shoot();
+        showFrame();
         stats_.addFrame(counts_);
         ++frames_;
         if (fps_)
@@ -384,7 +404,7 @@ int Demo::run()
     }
     const uint64_t ticks = machine::clock() - started_;
     stats_.setTime(ticks);
-    problem = film_.close();
+    const char* problem = film_.close();
     machine::stop();
     if (options_.rateGiven && options_.frames == 0)
         machine::err("/R has no effect without /N.\n");

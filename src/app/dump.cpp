@@ -15,6 +15,168 @@ constexpr int ROWS_AT_ONCE = 10;
 constexpr int GAP_MOST = 32;
 constexpr int NUMBER_MOST = 9999999;
 
+uint8_t rows[ROWS_AT_ONCE * WIDTH * 4];
+
+// Writes what stands at each place of the screen, `size` bytes from what `put` makes of it, a few rows at once.
+template <class Put>
+bool writeRows(int file, int size, Put put)
+{
+    const int32_t bytes = ROWS_AT_ONCE * WIDTH * size;
+    for (int start = 0; start < WIDTH * HEIGHT; start += ROWS_AT_ONCE * WIDTH) {
+        for (int i = 0; i < ROWS_AT_ONCE * WIDTH; ++i)
+            put(start + i, rows + i * size);
+        if (machine::writeFile(file, rows, static_cast<uint32_t>(bytes)) != bytes)
+            return false;
+    }
+    return true;
+}
+
+// The lines of a scene's text: what stands in one is gathered until end().
+class Lines {
+public:
+    explicit Lines(int file) : file_(file) {}
+
+    // The first word of a line; the rest follows it.
+    Lines& begin(const char* word)
+    {
+        length_ = snprintf(text_, sizeof text_, "%s", word);
+        return *this;
+    }
+    Lines& whole(int value)
+    {
+        length_ += snprintf(text_ + length_, sizeof text_ - static_cast<size_t>(length_), " %d", value);
+        return *this;
+    }
+    Lines& real(Real value)
+    {
+        char number[24];
+        formatReal(number, sizeof number, value);
+        return word(number);
+    }
+    Lines& quotient(uint64_t top, uint32_t bottom, int decimals)
+    {
+        char number[24];
+        formatQuotient(number, sizeof number, top, bottom, decimals);
+        return word(number);
+    }
+    Lines& vector(const Vector& v) { return real(v.x).real(v.y).real(v.z); }
+    Lines& colour(const Colour& c) { return whole(c.red).whole(c.green).whole(c.blue); }
+    void end() { line(text_); }
+
+    // A line that is there already.
+    void line(const char* text)
+    {
+        good_ = good_ && machine::writeFile(file_, text, static_cast<uint32_t>(strlen(text))) >= 0 &&
+                machine::writeFile(file_, "\n", 1) == 1;
+    }
+    bool good() const { return good_; }
+
+private:
+    Lines& word(const char* text)
+    {
+        length_ += snprintf(text_ + length_, sizeof text_ - static_cast<size_t>(length_), " %s", text);
+        return *this;
+    }
+
+    int file_;
+    bool good_ = true;
+    int length_ = 0;
+    char text_[200];
+};
+
+// Eye, axes of the view where they are not the world's, projection and light.
+void viewLines(Lines& lines, const Camera& camera, const Vector& light)
+{
+    lines.begin("eye").vector(toVector(camera.eye)).end();
+    if (camera.axes.turned) {
+        lines.begin("right").vector(camera.axes.right).end();
+        lines.begin("up").vector(camera.axes.up).end();
+        lines.begin("ahead").vector(camera.axes.ahead).end();
+    }
+    lines.begin("focal").real(camera.focalX).real(camera.focalY).end();
+    lines.begin("centre").real(camera.centreX).real(camera.centreY).end();
+    lines.begin("light").vector(light).end();
+    lines.begin("isovalue").real(ISOVALUE).end();
+}
+
+// The objects, then their shapes.
+void objectLines(Lines& lines, const Model& model)
+{
+    char text[200];
+    for (int i = 0; i < model.count(); ++i) {
+        model.actor(i).object->describe(text, sizeof text);
+        lines.line(text);
+    }
+    for (int i = 0; i < model.count(); ++i) {
+        for (int which = 0; which < SoftObject::SHAPES; ++which) {
+            model.actor(i).object->describeShape(which, text, sizeof text);
+            if (text[0] != 0)
+                lines.line(text);
+        }
+    }
+}
+
+// Links, each once, then strengths and dents.
+void blendLines(Lines& lines, const Model& model)
+{
+    for (int i = 0; i < model.count(); ++i) {
+        const SoftObject* object = model.actor(i).object;
+        for (const List<Link>::Node* node = object->skel().first(); node != nullptr; node = node->next) {
+            if (node->item.object->number() <= object->number())
+                continue;
+            lines.begin("blend").whole(object->number()).whole(node->item.object->number());
+            if (node->item.weight != Real(1))
+                lines.real(node->item.weight);
+            lines.end();
+        }
+    }
+    for (int i = 0; i < model.count(); ++i) {
+        const SoftObject* object = model.actor(i).object;
+        if (object->strength() != Real(1))
+            lines.begin("strength").whole(object->number()).real(object->strength()).end();
+        for (const List<Link>::Node* node = object->dents().first(); node != nullptr; node = node->next)
+            lines.begin("dent").whole(object->number()).whole(node->item.object->number()).real(node->item.weight).end();
+    }
+}
+
+// How bright a colour is at least and where white begins to mix in, and the objects' colours.
+void rampLines(Lines& lines, const Model& model)
+{
+    lines.begin("ambient").quotient(Palette::AMBIENT, 63, 6).end();
+    lines.begin("highlight").quotient(Palette::HIGHLIGHT, 63, 6).end();
+    for (int i = 0; i < model.count(); ++i)
+        lines.begin("ramp").whole(model.actor(i).object->number()).colour(model.actor(i).colour).end();
+}
+
+// Where a pattern lies in the world: its size, its other colour, its middle, and the axes x and y.
+void patternLine(Lines& lines, const SoftObject& object, const Paint& paint, const Colour& other)
+{
+    lines.begin(PATTERN_WORDS[paint.pattern]).whole(object.number()).real(paint.grain * (object.size() / paint.made));
+    lines.colour(other).vector(toVector(object.centre()));
+    for (int axis = 0; axis < 2; ++axis)
+        for (int part = 0; part < 3; ++part)
+            lines.real(object.turn().m[part][axis]);
+    lines.end();
+}
+
+void paintLines(Lines& lines, const Model& model)
+{
+    bool mixed = false;
+    for (int i = 0; i < model.count(); ++i) {
+        const SoftObject& object = *model.actor(i).object;
+        const Paint* const paint = object.paint();
+        if (paint == nullptr)
+            continue;
+        if (paint->mixes && !mixed)
+            lines.line("mixed");
+        mixed = mixed || paint->mixes;
+        if (paint->shines())
+            lines.begin(FINISH_WORDS[paint->finish]).whole(object.number()).end();
+        if (paint->pattern != PATTERN_NONE)
+            patternLine(lines, object, *paint, model.actor(i).coat.colour);
+    }
+}
+
 }  // namespace
 
 const char* Dump::complain()
@@ -60,173 +222,57 @@ int Dump::create(int number, const char* extension)
 const char* Dump::frame(int number, Time time, int rate, const Model& model, const View& view, const Palette& palette,
                         bool grey)
 {
-    // The picture, as the palette shows it.
-    int file = create(number, "PPM");
-    if (file < 0)
-        return complain();
-    static uint8_t buffer[ROWS_AT_ONCE * WIDTH * 4];
-    static const char HEADER[] = "P6\n320 200\n255\n";
-    bool good = machine::writeFile(file, HEADER, sizeof HEADER - 1) == sizeof HEADER - 1;
-    for (int y = 0; good && y < HEIGHT; y += ROWS_AT_ONCE) {
-        uint8_t* to = buffer;
-        const uint8_t* from = view.frame() + y * WIDTH;
-        for (int i = 0; i < ROWS_AT_ONCE * WIDTH; ++i) {
-            const uint8_t* colour = palette.dac() + 3 * from[i];
-            for (int part = 0; part < 3; ++part)
-                *to++ = static_cast<uint8_t>((colour[part] * 255 + 31) / 63);
-        }
-        good = machine::writeFile(file, buffer, ROWS_AT_ONCE * WIDTH * 3) == ROWS_AT_ONCE * WIDTH * 3;
-    }
-    good = good && machine::closeFile(file);
-    if (!good)
-        return complain();
+    const bool good = picture(number, view, palette) && distances(number, view) &&
+                      scene(number, time, rate, model, view.camera(), grey);
+    return good ? nullptr : complain();
+}
 
-    // The distances, 16.16.
-    file = create(number, "Z");
+// The picture, as the palette shows it.
+bool Dump::picture(int number, const View& view, const Palette& palette)
+{
+    const int file = create(number, "PPM");
     if (file < 0)
-        return complain();
-    for (int y = 0; good && y < HEIGHT; y += ROWS_AT_ONCE) {
-        uint8_t* to = buffer;
-        const uint16_t* from = view.zbuffer() + y * WIDTH;
-        for (int i = 0; i < ROWS_AT_ONCE * WIDTH; ++i) {
-            const uint32_t z = from[i] == Z_EMPTY ? 0x7fffffffu : static_cast<uint32_t>(from[i]) << 9;
-            for (int part = 0; part < 32; part += 8)
-                *to++ = static_cast<uint8_t>(z >> part);
-        }
-        good = machine::writeFile(file, buffer, ROWS_AT_ONCE * WIDTH * 4) == ROWS_AT_ONCE * WIDTH * 4;
-    }
-    good = good && machine::closeFile(file);
-    if (!good)
-        return complain();
+        return false;
+    char header[24];
+    const int length = snprintf(header, sizeof header, "P6\n%d %d\n255\n", WIDTH, HEIGHT);
+    return machine::writeFile(file, header, static_cast<uint32_t>(length)) == length &&
+           writeRows(file, 3, [&](int at, uint8_t* to) {
+               const uint8_t* colour = palette.dac() + 3 * view.frame()[at];
+               for (int part = 0; part < 3; ++part)
+                   to[part] = static_cast<uint8_t>((colour[part] * 255 + 31) / 63);
+           }) &&
+           machine::closeFile(file);
+}
 
-    // The scene.
-    file = create(number, "TXT");
+// The distances, 16.16.
+bool Dump::distances(int number, const View& view)
+{
+    const int file = create(number, "Z");
+    return file >= 0 && writeRows(file, 4, [&](int at, uint8_t* to) {
+               const uint16_t depth = view.zbuffer()[at];
+               const uint32_t z = depth == Z_EMPTY ? 0x7fffffffu : static_cast<uint32_t>(depth) << 9;
+               for (int part = 0; part < 32; part += 8)
+                   *to++ = static_cast<uint8_t>(z >> part);
+           }) &&
+           machine::closeFile(file);
+}
+
+bool Dump::scene(int number, Time time, int rate, const Model& model, const Camera& camera, bool grey)
+{
+    const int file = create(number, "TXT");
     if (file < 0)
-        return complain();
-    const auto line = [&](const char* text) {
-        good = good && machine::writeFile(file, text, static_cast<uint32_t>(strlen(text))) >= 0 &&
-               machine::writeFile(file, "\n", 1) == 1;
-    };
-    char text[200], a[24], b[24], c[24];
-    const auto three = [&](const char* name, Real x, Real y, Real z) {
-        formatReal(a, sizeof a, x);
-        formatReal(b, sizeof b, y);
-        formatReal(c, sizeof c, z);
-        snprintf(text, sizeof text, "%s %s %s %s", name, a, b, c);
-        line(text);
-    };
-    const auto two = [&](const char* name, Real x, Real y) {
-        formatReal(a, sizeof a, x);
-        formatReal(b, sizeof b, y);
-        snprintf(text, sizeof text, "%s %s %s", name, a, b);
-        line(text);
-    };
+        return false;
+    Lines lines(file);
     // With /N a frame's time is number / rate exactly.
     if (rate > 0)
-        formatQuotient(a, sizeof a, static_cast<uint64_t>(number), static_cast<uint32_t>(rate), 1000 % rate == 0 ? 3 : 6);
+        lines.begin("time").quotient(static_cast<uint64_t>(number), static_cast<uint32_t>(rate), 1000 % rate == 0 ? 3 : 6).end();
     else
-        formatQuotient(a, sizeof a, time, 65536, 6);
-    snprintf(text, sizeof text, "time %s", a);
-    line(text);
-    const Camera& camera = view.camera();
-    three("eye", camera.eye.x, camera.eye.y, camera.eye.z);
-    if (camera.axes.turned) {
-        const ViewAxes& axes = camera.axes;
-        three("right", axes.right.x, axes.right.y, axes.right.z);
-        three("up", axes.up.x, axes.up.y, axes.up.z);
-        three("ahead", axes.ahead.x, axes.ahead.y, axes.ahead.z);
-    }
-    two("focal", camera.focalX, camera.focalY);
-    two("centre", camera.centreX, camera.centreY);
-    three("light", model.light.x, model.light.y, model.light.z);
-    formatReal(a, sizeof a, ISOVALUE);
-    snprintf(text, sizeof text, "isovalue %s", a);
-    line(text);
-    for (int i = 0; i < model.count(); ++i) {
-        model.actor(i).object->describe(text, sizeof text);
-        line(text);
-    }
-    for (int i = 0; i < model.count(); ++i) {
-        for (int which = 0; which < SoftObject::SHAPES; ++which) {
-            model.actor(i).object->describeShape(which, text, sizeof text);
-            if (text[0] != 0)
-                line(text);
-        }
-    }
-    for (int i = 0; i < model.count(); ++i) {
-        const SoftObject* object = model.actor(i).object;
-        for (const List<Link>::Node* node = object->skel().first(); node != nullptr; node = node->next) {
-            if (node->item.object->number() <= object->number())
-                continue;
-            if (node->item.weight == Real(1)) {
-                snprintf(text, sizeof text, "blend %d %d", object->number(), node->item.object->number());
-            } else {
-                formatReal(a, sizeof a, node->item.weight);
-                snprintf(text, sizeof text, "blend %d %d %s", object->number(), node->item.object->number(), a);
-            }
-            line(text);
-        }
-    }
-    for (int i = 0; i < model.count(); ++i) {
-        const SoftObject* object = model.actor(i).object;
-        if (object->strength() != Real(1)) {
-            formatReal(a, sizeof a, object->strength());
-            snprintf(text, sizeof text, "strength %d %s", object->number(), a);
-            line(text);
-        }
-        for (const List<Link>::Node* node = object->dents().first(); node != nullptr; node = node->next) {
-            formatReal(a, sizeof a, node->item.weight);
-            snprintf(text, sizeof text, "dent %d %d %s", object->number(), node->item.object->number(), a);
-            line(text);
-        }
-    }
-    if (!grey) {
-        formatQuotient(a, sizeof a, Palette::AMBIENT, 63, 6);
-        snprintf(text, sizeof text, "ambient %s", a);
-        line(text);
-        formatQuotient(a, sizeof a, Palette::HIGHLIGHT, 63, 6);
-        snprintf(text, sizeof text, "highlight %s", a);
-        line(text);
-        for (int i = 0; i < model.count(); ++i) {
-            const Colour& colour = model.actor(i).colour;
-            snprintf(text, sizeof text, "ramp %d %d %d %d", model.actor(i).object->number(), colour.red, colour.green,
-                     colour.blue);
-            line(text);
-        }
-    }
-    bool mixed = false;
-    for (int i = 0; i < model.count(); ++i) {
-        const SoftObject& object = *model.actor(i).object;
-        const Paint* const paint = object.paint();
-        if (paint == nullptr)
-            continue;
-        if (paint->mixes && !mixed)
-            line("mixed");
-        mixed = mixed || paint->mixes;
-        if (paint->shines()) {
-            snprintf(text, sizeof text, "%s %d", FINISH_WORDS[paint->finish], object.number());
-            line(text);
-        }
-        if (paint->pattern == PATTERN_NONE)
-            continue;
-        // Where the pattern lies in the world: its size, its middle, and the axes x and y.
-        const Colour& colour = model.actor(i).coat.colour;
-        int length = snprintf(text, sizeof text, "%s %d", PATTERN_WORDS[paint->pattern], object.number());
-        const auto add = [&](Real value) {
-            formatReal(a, sizeof a, value);
-            length += snprintf(text + length, sizeof text - static_cast<size_t>(length), " %s", a);
-        };
-        add(paint->grain * (object.size() / paint->made));
-        length += snprintf(text + length, sizeof text - static_cast<size_t>(length), " %d %d %d", colour.red, colour.green,
-                           colour.blue);
-        add(object.centre().x);
-        add(object.centre().y);
-        add(object.centre().z);
-        for (int axis = 0; axis < 2; ++axis)
-            for (int part = 0; part < 3; ++part)
-                add(object.turn().m[part][axis]);
-        line(text);
-    }
-    good = good && machine::closeFile(file);
-    return good ? nullptr : complain();
+        lines.begin("time").quotient(time, 65536, 6).end();
+    viewLines(lines, camera, model.light);
+    objectLines(lines, model);
+    blendLines(lines, model);
+    if (!grey)
+        rampLines(lines, model);
+    paintLines(lines, model);
+    return lines.good() && machine::closeFile(file);
 }

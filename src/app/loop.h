@@ -29,6 +29,7 @@ public:
 private:
     // --- The loop (demo.cpp)
     SurfaceMaker surfaceMaker() const { return options_.printed ? makeReport98 : makeEngine; }
+    void begin();
     const char* prepare(int* status);
     void tellSeeds();
     [[noreturn]] void fail(int status, const char* line);
@@ -39,6 +40,9 @@ private:
     bool frame();
     void placeEye();
     bool drawModel();
+    bool drawObject(SoftObject& object, const FrameContext& frame);
+    const uint8_t* pulseRamp(const uint8_t* ramp);
+    void showFrame();
     const char* keepFrame();
     void countFrames();
     void holdRate(uint64_t began);

@@ -32,7 +32,8 @@ const char* const HELP =
 
 namespace {
 
-constexpr const char* KNOWN = "unknown switch; known are /I /G /P /S:n /F:n /N:n /R:n /T:n /A:file /B /D:dir /M:file /O:file /V /X /?";
+constexpr const char* KNOWN = "unknown switch; known are /I /G /P /S:n /F:n /N:n /R:n /T:n /A:file /B /D:dir /M:file /O:file "
+                              "/V /X /?";
 
 char problem[240];
 
@@ -68,6 +69,86 @@ bool wholeWithin(const char* text, int32_t most, int32_t* value)
     return true;
 }
 
+// The switches by what follows their letter: nothing, a name or a number.
+struct Flag {
+    char letter;
+    bool Options::*value;
+};
+const Flag FLAGS[] = {
+    {'I', &Options::interactive}, {'G', &Options::grey},      {'P', &Options::printed}, {'V', &Options::retrace},
+    {'X', &Options::noPresent},   {'B', &Options::benchmark}, {'?', &Options::help},
+};
+struct Name {
+    char letter;
+    const char* Options::*value;
+};
+const Name NAMES[] = {
+    {'D', &Options::dumpDirectory}, {'M', &Options::modelFile}, {'O', &Options::recordFile}, {'A', &Options::filmFile},
+};
+struct Number {
+    char letter;
+    const char* expected;
+    int32_t most;              // 1 is the least
+    int32_t Options::*value;   // null: the spacing, which is no whole number
+    bool Options::*given;      // may be null
+};
+const Number NUMBERS[] = {
+    {'S', "a seed spacing from 0.25 to 8 is expected, as in /S:2", 0, nullptr, &Options::spacingGiven},
+    {'F', "frames a second from 1 to 100 are expected, as in /F:10", HOLD_MOST, &Options::hold, nullptr},
+    {'N', "a number of frames from 1 to 9999999 is expected, as in /N:600", FRAMES_MOST, &Options::frames, nullptr},
+    {'R', "frames a second from 1 to 1000 are expected, as in /R:10", RATE_MOST, &Options::rate, &Options::rateGiven},
+    {'T', "seconds from 1 to 86400 are expected, as in /T:60", SECONDS_MOST, &Options::seconds, nullptr},
+};
+
+// The switch of a letter in one of these tables; null: it has none.
+template <class Switch, int COUNT>
+const Switch* find(const Switch (&table)[COUNT], char letter)
+{
+    for (const Switch& each : table)
+        if (each.letter == letter)
+            return &each;
+    return nullptr;
+}
+
+bool spacingWithin(const char* text, Real* value)
+{
+    Real spacing;
+    if (!parseReal(text, &spacing) || !(spacing >= SPACING_LEAST && spacing <= SPACING_MOST))
+        return false;
+    *value = spacing;
+    return true;
+}
+
+// Reads the number that follows a switch. /S2 is as good as /S:2. Null, or a complaint; `*at` is then behind the number.
+const char* parseNumber(const char* argument, const Number& number, const char** at, Options* options)
+{
+    const char* value = *at;
+    const bool marked = *value == ':' || *value == '=';
+    const bool bare = (*value >= '0' && *value <= '9') || *value == '.';
+    if (*value != 0 && *value != '/' && !marked && !bare)
+        return complain(argument, KNOWN);
+    char text[NUMBER_ROOM];
+    *at = takeNumber(marked ? value + 1 : value, text);
+    if (*at == nullptr)
+        return complain(argument, number.expected);
+    if (number.given != nullptr)
+        options->*number.given = true;
+    const bool good = number.value == nullptr ? spacingWithin(text, &options->spacing)
+                                              : wholeWithin(text, number.most, &(options->*number.value));
+    return good ? nullptr : complain(argument, number.expected);
+}
+
+// Reads the name that follows a switch. It may have slashes: it goes to the end of the argument. Null, or a complaint.
+const char* parseName(const char* argument, const char* at, const char** name)
+{
+    if (*at != 0 && *at != ':' && *at != '=')
+        return complain(argument, KNOWN);
+    if (*at == 0 || at[1] == 0)
+        return complain(argument, "a name is expected after the colon");
+    *name = at + 1;
+    return nullptr;
+}
+
 // Reads the switches of one argument, which begins with one; /G/I are two. Null, or a complaint.
 const char* parseSwitches(const char* argument, Options* options)
 {
@@ -80,69 +161,20 @@ const char* parseSwitches(const char* argument, Options* options)
         if (letter == 0)
             return complain(argument, KNOWN);
         at += 2;
-        const bool marked = *at == ':' || *at == '=';
-        bool* flag = nullptr;
-        const char** name = nullptr;
-        const char* expected = nullptr;
-        switch (letter) {
-        case 'I': flag = &options->interactive; break;
-        case 'G': flag = &options->grey; break;
-        case 'P': flag = &options->printed; break;
-        case 'V': flag = &options->retrace; break;
-        case 'X': flag = &options->noPresent; break;
-        case 'B': flag = &options->benchmark; break;
-        case '?': flag = &options->help; break;
-        case 'D': name = &options->dumpDirectory; break;
-        case 'M': name = &options->modelFile; break;
-        case 'O': name = &options->recordFile; break;
-        case 'A': name = &options->filmFile; break;
-        case 'S': expected = "a seed spacing from 0.25 to 8 is expected, as in /S:2"; break;
-        case 'F': expected = "frames a second from 1 to 100 are expected, as in /F:10"; break;
-        case 'N': expected = "a number of frames from 1 to 9999999 is expected, as in /N:600"; break;
-        case 'R': expected = "frames a second from 1 to 1000 are expected, as in /R:10"; break;
-        case 'T': expected = "seconds from 1 to 86400 are expected, as in /T:60"; break;
-        default: return complain(argument, KNOWN);
+        if (const Name* name = find(NAMES, letter))
+            return parseName(argument, at, &(options->*name->value));
+        if (const Number* number = find(NUMBERS, letter)) {
+            const char* trouble = parseNumber(argument, *number, &at, options);
+            if (trouble != nullptr)
+                return trouble;
+            continue;
         }
-        if (flag != nullptr) {
-            if (marked)
-                return complain(argument, "this switch takes no value");
-            *flag = true;
-        } else if (name != nullptr) {
-            // A name may have slashes: it goes to the end of the argument.
-            if (*at != 0 && !marked)
-                return complain(argument, KNOWN);
-            if (*at == 0 || at[1] == 0)
-                return complain(argument, "a name is expected after the colon");
-            *name = at + 1;
-            return nullptr;
-        } else {
-            // /S2 is as good as /S:2.
-            const bool bare = (*at >= '0' && *at <= '9') || *at == '.';
-            if (*at != 0 && *at != '/' && !marked && !bare)
-                return complain(argument, KNOWN);
-            char number[NUMBER_ROOM];
-            const char* end = takeNumber(marked ? at + 1 : at, number);
-            Real spacing;
-            bool good = end != nullptr;
-            switch (letter) {
-            case 'S':
-                good = good && parseReal(number, &spacing) && spacing >= SPACING_LEAST && spacing <= SPACING_MOST;
-                if (good)
-                    options->spacing = spacing;
-                options->spacingGiven = true;
-                break;
-            case 'F': good = good && wholeWithin(number, HOLD_MOST, &options->hold); break;
-            case 'N': good = good && wholeWithin(number, FRAMES_MOST, &options->frames); break;
-            case 'R':
-                good = good && wholeWithin(number, RATE_MOST, &options->rate);
-                options->rateGiven = true;
-                break;
-            default: good = good && wholeWithin(number, SECONDS_MOST, &options->seconds); break;
-            }
-            if (!good)
-                return complain(argument, expected);
-            at = end;
-        }
+        const Flag* flag = find(FLAGS, letter);
+        if (flag == nullptr)
+            return complain(argument, KNOWN);
+        if (*at == ':' || *at == '=')
+            return complain(argument, "this switch takes no value");
+        options->*flag->value = true;
     }
     return nullptr;
 }

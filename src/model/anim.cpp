@@ -19,53 +19,63 @@ Real share(Real a, int32_t top, int32_t bottom)
     return realFromRaw(mulDiv(rawFromReal(a), top, bottom));
 }
 
-// Between keys: linear, or a cubic through the keys (Hermite) whose slope at a key is that of the line between the keys
-// on either side of it; at the ends of a run that does not repeat the slope is 0.
-Keyed keyed(const Key* keys, const Motion& motion, Time time)
+// The time of the keys at a time of the animation.
+int32_t keyTime(const Key* keys, const Motion& motion, Time time)
 {
-    const int count = motion.keyCount;
-    Keyed now;
-    int32_t t;
     if (motion.repeat > 0) {
         uint32_t rest;
         divide64(time, static_cast<uint32_t>(motion.repeat), &rest);
-        t = static_cast<int32_t>(rest);
-    } else {
-        const int32_t last = keys[count - 1].time;
-        t = time > static_cast<Time>(last) ? last : static_cast<int32_t>(time);
+        return static_cast<int32_t>(rest);
     }
-    // The last key not after t; -1 before the first.
-    int at = -1;
-    while (at + 1 < count && keys[at + 1].time <= t)
-        ++at;
-    const bool round = motion.repeat > 0;
-    if (!round && (at < 0 || at == count - 1)) {
-        for (int i = 0; i < Key::VALUES; ++i)
-            now.value[i] = keys[at < 0 ? 0 : at].value[i];
-        return now;
+    const int32_t last = keys[motion.keyCount - 1].time;
+    return time > static_cast<Time>(last) ? last : static_cast<int32_t>(time);
+}
+
+// The keys of a motion as a row without ends, if they repeat: key -1 is the last of the round before.
+class KeyRow {
+public:
+    KeyRow(const Key* keys, const Motion& motion) : keys_(keys), count_(motion.keyCount), repeat_(motion.repeat) {}
+
+    const Key& key(int i) const { return keys_[index(i)]; }
+    // Counted from the start of this round.
+    int64_t timeOf(int i) const
+    {
+        return static_cast<int64_t>(key(i).time) + (i < 0 ? -repeat_ : i >= count_ ? repeat_ : 0);
     }
-    // Key i of an endless row, and its time counted from that of this round.
-    const auto index = [&](int i) { return (i + 2 * count) % count; };
-    const auto timeOf = [&](int i) {
-        return static_cast<int64_t>(keys[index(i)].time) + (i < 0 ? -motion.repeat : i >= count ? motion.repeat : 0);
-    };
-    const Key &from = keys[index(at)], &to = keys[index(at + 1)];
-    const int64_t start = timeOf(at), end = timeOf(at + 1);
+    bool has(int i) const { return repeat_ > 0 || (i >= 0 && i < count_); }
+    // The last key not after a time; -1 before the first.
+    int before(int32_t time) const
+    {
+        int at = -1;
+        while (at + 1 < count_ && keys_[at + 1].time <= time)
+            ++at;
+        return at;
+    }
+
+private:
+    int index(int i) const { return (i + 2 * count_) % count_; }
+
+    const Key* keys_;
+    int count_;
+    int32_t repeat_;
+};
+
+// A cubic through the keys (Hermite), `s` of the way from key `at` to the next. Its slope at a key is that of the line between
+// the keys on either side of it; at the ends of a run that does not repeat the slope is 0.
+Keyed smoothly(const KeyRow& row, int at, Real s)
+{
+    const Key &from = row.key(at), &to = row.key(at + 1);
+    const int64_t start = row.timeOf(at), end = row.timeOf(at + 1);
     const int32_t wide = static_cast<int32_t>(end - start);
-    const Real s = realFromRaw(wide == 0 ? 0 : mulDiv(static_cast<int32_t>(t - start), 65536, wide));
-    if (!motion.smooth || wide == 0) {
-        for (int i = 0; i < Key::VALUES; ++i)
-            now.value[i] = from.value[i] + (to.value[i] - from.value[i]) * s;
-        return now;
-    }
     const Real s2 = s * s, s3 = s2 * s;
     const Real onto = s2 * Real(3) - s3 * Real(2);
     const Real outSlope = s3 - s2 * Real(2) + s, inSlope = s3 - s2;
-    const bool before = round || at > 0, after = round || at + 2 < count;
-    const Key& previous = keys[before ? index(at - 1) : 0];
-    const Key& next = keys[after ? index(at + 2) : 0];
-    const int32_t aroundFrom = before ? static_cast<int32_t>(end - timeOf(at - 1)) : 1;
-    const int32_t aroundTo = after ? static_cast<int32_t>(timeOf(at + 2) - start) : 1;
+    const bool before = row.has(at - 1), after = row.has(at + 2);
+    const Key& previous = before ? row.key(at - 1) : from;
+    const Key& next = after ? row.key(at + 2) : to;
+    const int32_t aroundFrom = before ? static_cast<int32_t>(end - row.timeOf(at - 1)) : 1;
+    const int32_t aroundTo = after ? static_cast<int32_t>(row.timeOf(at + 2) - start) : 1;
+    Keyed now;
     for (int i = 0; i < Key::VALUES; ++i) {
         const Real a = from.value[i], b = to.value[i];
         const Real slopeFrom = before ? share(b - previous.value[i], wide, aroundFrom) : Real(0);
@@ -73,6 +83,32 @@ Keyed keyed(const Key* keys, const Motion& motion, Time time)
         now.value[i] = a + (b - a) * onto + slopeFrom * outSlope + slopeTo * inSlope;
     }
     return now;
+}
+
+// Straight from one key to the next.
+Keyed linearly(const Key& from, const Key& to, Real s)
+{
+    Keyed now;
+    for (int i = 0; i < Key::VALUES; ++i)
+        now.value[i] = from.value[i] + (to.value[i] - from.value[i]) * s;
+    return now;
+}
+
+Keyed keyed(const Key* keys, const Motion& motion, Time time)
+{
+    const KeyRow row(keys, motion);
+    const int32_t t = keyTime(keys, motion, time);
+    const int at = row.before(t);
+    if (!row.has(at) || !row.has(at + 1)) {
+        const Key& only = row.has(at) ? row.key(at) : row.key(0);
+        return linearly(only, only, Real(0));
+    }
+    const int64_t start = row.timeOf(at);
+    const int32_t wide = static_cast<int32_t>(row.timeOf(at + 1) - start);
+    if (wide == 0)
+        return linearly(row.key(at), row.key(at + 1), Real(0));
+    const Real s = realFromRaw(mulDiv(static_cast<int32_t>(t - start), 65536, wide));
+    return motion.smooth ? smoothly(row, at, s) : linearly(row.key(at), row.key(at + 1), s);
 }
 
 Real limited(Real a)

@@ -23,38 +23,9 @@ Actor circlingSphere(const char* name, int size, const Colour& colour, const Vec
     return actor;
 }
 
-template <class T>
-void exchange(T& a, T& b)
-{
-    const T t = a;
-    a = b;
-    b = t;
-}
-
 }  // namespace
 
 const char EYE_NAME[] = "eye";
-
-// One block of memory: this, then the items, the keys and the links.
-struct alignas(Actor) Model::Record {
-    struct Pair {
-        int16_t a, b;  // numbers
-        Real weight;
-        bool dent;     // b digs into a; else they are linked
-    };
-    int items, keys, pairs;
-    Camera camera;
-    Vector light;
-    bool mixed;
-    char title[TITLE_ROOM];
-
-    Actor* item() { return reinterpret_cast<Actor*>(this + 1); }
-    const Actor* item() const { return reinterpret_cast<const Actor*>(this + 1); }
-    Key* key() { return reinterpret_cast<Key*>(item() + items); }
-    const Key* key() const { return reinterpret_cast<const Key*>(item() + items); }
-    Pair* pair() { return reinterpret_cast<Pair*>(key() + keys); }
-    const Pair* pair() const { return reinterpret_cast<const Pair*>(key() + keys); }
-};
 
 void Model::clear()
 {
@@ -432,18 +403,22 @@ Actor* Model::eyeCarrier()
     return carrier;
 }
 
+bool Model::isLike(const Actor& a, const Actor& b)
+{
+    bool same = a.kind == b.kind && a.strength == b.strength && a.stretch == b.stretch;
+    for (int m = 0; same && m < MEASURES_MOST; ++m)
+        same = a.measure[m] == b.measure[m];
+    return same;
+}
+
 // An object before the i-th that has the same seeds; null: none.
 const SoftObject* Model::alike(int i) const
 {
     const Actor& one = *actors_[i];
     for (int j = 0; one.kind != nullptr && one.object->hollowed() == nullptr && j < i; ++j) {
         const Actor& other = *actors_[j];
-        bool same = other.kind == one.kind && other.object->size() == one.object->size() && other.strength == one.strength &&
-                    other.stretch == one.stretch;
-        for (int m = 0; same && m < MEASURES_MOST; ++m)
-            same = other.measure[m] == one.measure[m];
         // What only digs lays its seeds out for what it digs into.
-        if (same && other.object->hollowed() == nullptr)
+        if (isLike(one, other) && other.object->size() == one.object->size() && other.object->hollowed() == nullptr)
             return other.object;
     }
     return nullptr;
@@ -537,134 +512,6 @@ Actor* Model::itemNamed(const char* name) const
         if (strcmp(items_[i]->name, name) == 0)
             return items_[i];
     return nullptr;
-}
-
-void Model::swap(Model& other)
-{
-    for (int i = 0; i < OBJECTS_MOST; ++i)
-        exchange(actors_[i], other.actors_[i]);
-    for (int i = 0; i < OBJECTS_MOST + GROUPS_MOST; ++i)
-        exchange(items_[i], other.items_[i]);
-    exchange(count_, other.count_);
-    exchange(itemCount_, other.itemCount_);
-    exchange(keys_, other.keys_);
-    exchange(keyCount_, other.keyCount_);
-    exchange(spacing_, other.spacing_);
-    exchange(makeSurface_, other.makeSurface_);
-    bodiesKnown_ = other.bodiesKnown_ = false;
-    exchange(camera, other.camera);
-    exchange(light, other.light);
-    exchange(mixed, other.mixed);
-    for (int i = 0; i < TITLE_ROOM; ++i)
-        exchange(title[i], other.title[i]);
-}
-
-Model::Record* Model::record() const
-{
-    int pairs = 0;
-    for (int i = 0; i < count_; ++i) {
-        for (const List<Link>::Node* node = actors_[i]->object->skel().first(); node != nullptr; node = node->next)
-            pairs += node->item.object->number() > actors_[i]->number;
-        for (const List<Link>::Node* node = actors_[i]->object->dents().first(); node != nullptr; node = node->next)
-            ++pairs;
-    }
-    const size_t bytes = sizeof(Record) + static_cast<size_t>(itemCount_) * sizeof(Actor) +
-                         static_cast<size_t>(keyCount_) * sizeof(Key) + static_cast<size_t>(pairs) * sizeof(Record::Pair);
-    Record* record = static_cast<Record*>(malloc(bytes));
-    if (record == nullptr)
-        return nullptr;
-    record->items = itemCount_;
-    record->keys = keyCount_;
-    record->pairs = pairs;
-    record->camera = camera;
-    record->light = light;
-    record->mixed = mixed;
-    memcpy(record->title, title, sizeof title);
-    for (int i = 0; i < itemCount_; ++i)
-        record->item()[i] = *items_[i];
-    if (keyCount_ > 0)
-        memcpy(record->key(), keys_, static_cast<size_t>(keyCount_) * sizeof(Key));
-    Record::Pair* pair = record->pair();
-    for (int i = 0; i < count_; ++i) {
-        const int16_t number = static_cast<int16_t>(actors_[i]->number);
-        for (const List<Link>::Node* node = actors_[i]->object->skel().first(); node != nullptr; node = node->next)
-            if (node->item.object->number() > number)
-                *pair++ = {number, static_cast<int16_t>(node->item.object->number()), node->item.weight, false};
-        for (const List<Link>::Node* node = actors_[i]->object->dents().first(); node != nullptr; node = node->next)
-            *pair++ = {number, static_cast<int16_t>(node->item.object->number()), node->item.weight, true};
-    }
-    return record;
-}
-
-bool Model::restore(const Record* record)
-{
-    // What can fail comes first, beside what is there.
-    Model before;
-    bool good = true;
-    before.spacing_ = spacing_;
-    before.makeSurface_ = makeSurface_;
-    for (int i = 0; good && i < record->items; ++i) {
-        Actor* item = make<Actor>(record->item()[i]);
-        if (item == nullptr) {
-            good = false;
-            break;
-        }
-        const bool group = item->object == nullptr;
-        item->object = nullptr;
-        before.items_[before.itemCount_++] = item;
-        if (group)
-            continue;
-        before.actors_[before.count_++] = item;
-        const Actor* now = itemNumbered(item->number);
-        bool same = now != nullptr && now->kind == item->kind && now->strength == item->strength && now->stretch == item->stretch;
-        for (int m = 0; same && m < MEASURES_MOST; ++m)
-            same = now->measure[m] == item->measure[m];
-        if (same)
-            continue;  // its object is taken over below
-        item->pose = Pose();
-        item->object = makeObject(*item);
-        good = item->object != nullptr;
-        item->made = good ? item->object->size() : Real(0);
-    }
-    if (good && record->keys > 0) {
-        before.keys_ = allocate<Key>(KEYS_MOST);
-        good = before.keys_ != nullptr;
-        if (good)
-            memcpy(before.keys_, record->key(), static_cast<size_t>(record->keys) * sizeof(Key));
-        before.keyCount_ = record->keys;
-    }
-    if (!good)
-        return false;
-
-    for (int i = 0; i < count_; ++i)
-        for (int j = 0; j < count_; ++j) {
-            unlink(actors_[i]->object, actors_[j]->object);
-            undent(actors_[i]->object, actors_[j]->object);
-        }
-    for (int i = 0; i < before.count_; ++i) {
-        Actor* item = before.actors_[i];
-        if (item->object != nullptr)
-            continue;
-        Actor* now = itemNumbered(item->number);
-        item->object = now->object;
-        item->pose = now->pose;
-        item->made = now->made;
-        now->object = nullptr;
-    }
-    before.camera = record->camera;
-    before.light = record->light;
-    before.mixed = record->mixed;
-    memcpy(before.title, record->title, sizeof title);
-    const Point& eye = record->camera.eye;
-    const bool seenAnew = !(light == record->light) || !(camera.eye == eye);
-    swap(before);
-    // What was taken over is lit, and seen, as it was.
-    if (seenAnew)
-        recalcAll();
-    const Record::Pair* pair = record->pair();
-    for (int i = 0; i < record->pairs; ++i)
-        good = (this->*(pair[i].dent ? &Model::dent : &Model::link))(itemNumbered(pair[i].a)->object, itemNumbered(pair[i].b)->object, pair[i].weight) && good;
-    return true;
 }
 
 int Model::strongestAt(const Point& p) const

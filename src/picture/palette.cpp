@@ -9,8 +9,9 @@ namespace {
 // Brightness that the grey ramp never undercuts, of 64 steps: what no light reaches still stands out from the background.
 constexpr int DARKEST = 2;
 
-// Of Palette::INK, as the DAC takes it.
+// As the DAC takes them: of Palette::INK, and of what nothing is drawn on.
 constexpr uint8_t INK_COLOUR[3] = {63, 63, 56};
+constexpr uint8_t BACKGROUND_COLOUR[3] = {1, 1, 6};
 
 inline int larger(int a, int b)
 {
@@ -104,6 +105,62 @@ int divide(Wish* wishes, const Box& box)
     return from;
 }
 
+// Divides all wishes into boxes, at most so many, always that one which costs most. Returns how many there are.
+int divideAll(Wish* wishes, int wished, Box* boxes, int most)
+{
+    int used = 1;
+    boxes[0] = measured(wishes, 0, wished);
+    while (used < most) {
+        int worst = 0;
+        for (int i = 1; i < used; ++i)
+            if (boxes[i].error > boxes[worst].error)
+                worst = i;
+        if (boxes[worst].error == 0)
+            break;
+        const Box box = boxes[worst];
+        const int middle = divide(wishes, box);
+        boxes[worst] = measured(wishes, box.from, middle);
+        boxes[used++] = measured(wishes, middle, box.to);
+    }
+    return used;
+}
+
+// What the ramp of a colour wishes for; returns how many wishes that are.
+int wishesOf(const Colour& colour, bool shines, int number, int weight, Wish* wishes)
+{
+    int wished = 0;
+    for (int step = 0; step < Palette::STEPS; ++step) {
+        uint8_t part[3];
+        shade(colour, shines, step, part);
+        if (step > 0 && memcmp(wishes[wished - 1].part, part, sizeof part) == 0) {
+            ++wishes[wished - 1].steps;
+            continue;
+        }
+        Wish& wish = wishes[wished++];
+        memcpy(wish.part, part, sizeof part);
+        wish.colour = static_cast<uint8_t>(number);
+        wish.step = static_cast<uint8_t>(step);
+        wish.steps = 1;
+        wish.weight = static_cast<uint8_t>(weight);
+    }
+    return wished;
+}
+
+// The different colours of the objects, and which one each object has; returns how many there are.
+int coloursOf(const Model& model, Colour* colours, int* colourOf)
+{
+    int count = 0;
+    for (int i = 0; i < model.count(); ++i) {
+        int c = 0;
+        while (c < count && !(colours[c] == model.actor(i).colour))
+            ++c;
+        if (c == count)
+            colours[count++] = model.actor(i).colour;
+        colourOf[i] = c;
+    }
+    return count;
+}
+
 // Repeats the ends of a ramp; returns it.
 const uint8_t* lengthen(uint8_t* ramp)
 {
@@ -126,61 +183,56 @@ void Palette::make(Model& model, bool grey, bool plain)
     if (painted && model.mixed)
         model.settleAnew();
     memcpy(dac_ + 3 * INK, INK_COLOUR, sizeof INK_COLOUR);
-    if (grey) {
-        for (int i = 0; i < STEPS; ++i) {
-            const uint8_t value = static_cast<uint8_t>(i < DARKEST ? DARKEST : i);
-            memset(dac_ + 3 * (1 + i), value, 3);
-            ramps_[0][SHADING_MOST + i] = static_cast<uint8_t>(1 + i);
-        }
-        const uint8_t* ramp = lengthen(ramps_[0] + SHADING_MOST);
-        for (int i = 0; i < model.count(); ++i) {
-            model.actor(i).object->setRamp(ramp);
-            if (!painted)
-                continue;
-            // Of paint, a finish alone shows.
-            if (paint_[i].finish == FINISH_MATT)
-                model.actor(i).object->setPaint(nullptr);
-            paint_[i].pattern = PATTERN_NONE;
-            paint_[i].mixes = false;
-            paint_[i].number = 0;
-            handRamps(paint_[i]);
-        }
-        return;
+    if (grey)
+        makeGrey(model, painted);
+    else
+        makeColours(model, painted);
+}
+
+// One ramp for all. Of paint, a finish alone shows.
+void Palette::makeGrey(Model& model, bool painted)
+{
+    for (int i = 0; i < STEPS; ++i) {
+        const uint8_t value = static_cast<uint8_t>(i < DARKEST ? DARKEST : i);
+        memset(dac_ + 3 * (1 + i), value, 3);
+        ramps_[0][SHADING_MOST + i] = static_cast<uint8_t>(1 + i);
     }
-    dac_[0] = 1;
-    dac_[1] = 1;
-    dac_[2] = 6;
+    const uint8_t* ramp = lengthen(ramps_[0] + SHADING_MOST);
+    for (int i = 0; i < model.count(); ++i) {
+        model.actor(i).object->setRamp(ramp);
+        if (!painted)
+            continue;
+        if (paint_[i].finish == FINISH_MATT)
+            model.actor(i).object->setPaint(nullptr);
+        paint_[i].pattern = PATTERN_NONE;
+        paint_[i].mixes = false;
+        paint_[i].number = 0;
+        handRamps(paint_[i]);
+    }
+}
+
+// A ramp for each colour: those that the paints have chosen, or those of the objects.
+void Palette::makeColours(Model& model, bool painted)
+{
+    memcpy(dac_, BACKGROUND_COLOUR, sizeof BACKGROUND_COLOUR);
     Colour colours[RAMPS_MOST];
     bool shines[RAMPS_MOST] = {};
-    int rampOf[RAMPS_MOST];
+    int rampOf[Model::OBJECTS_MOST];
     int count = 0;
-    for (int i = 0; !painted && i < model.count(); ++i) {
-        int c = 0;
-        while (c < count && !(colours[c] == model.actor(i).colour))
-            ++c;
-        if (c == count)
-            colours[count++] = model.actor(i).colour;
-        rampOf[i] = c;
-    }
-    for (int c = 0; painted && c < paints_.count(); ++c) {
-        colours[count] = paints_.colour(c);
-        shines[count++] = paints_.shines(c);
+    if (painted) {
+        for (; count < paints_.count(); ++count) {
+            colours[count] = paints_.colour(count);
+            shines[count] = paints_.shines(count);
+        }
+    } else {
+        count = coloursOf(model, colours, rampOf);
     }
     if (count == 0)
         return;
-    if (count > EVEN_MOST) {
+    if (count > EVEN_MOST)
         share(colours, shines, count, painted ? &paints_ : nullptr);
-    } else {
-        const int steps = ENTRIES / count < STEPS ? ENTRIES / count : STEPS;
-        for (int c = 0; c < count; ++c) {
-            for (int i = 0; i < STEPS; ++i)
-                ramps_[c][SHADING_MOST + i] = static_cast<uint8_t>(1 + c * steps + (i * (steps - 1) + 31) / 63);
-            for (int i = 0; i < steps; ++i) {
-                const int step = (i * 63 + (steps - 1) / 2) / (steps - 1);
-                shade(colours[c], shines[c], step, dac_ + 3 * (1 + c * steps + i));
-            }
-        }
-    }
+    else
+        shareEvenly(colours, shines, count);
     for (int c = 0; c < count; ++c) {
         const uint8_t* const ramp = lengthen(ramps_[c] + SHADING_MOST);
         for (int i = 0; i < STEPS; ++i)
@@ -202,43 +254,29 @@ void Palette::handRamps(Paint& paint) const
     paint.ramp = paint.ramps + paint.number * RAMP;
 }
 
-// Divides what all ramps wish for into as many boxes as there are entries, always that box which costs most.
+// Each ramp has as many entries of its own.
+void Palette::shareEvenly(const Colour* colours, const bool* shines, int count)
+{
+    const int steps = ENTRIES / count < STEPS ? ENTRIES / count : STEPS;
+    for (int c = 0; c < count; ++c) {
+        for (int i = 0; i < STEPS; ++i)
+            ramps_[c][SHADING_MOST + i] = static_cast<uint8_t>(1 + c * steps + (i * (steps - 1) + 31) / 63);
+        for (int i = 0; i < steps; ++i) {
+            const int step = (i * 63 + (steps - 1) / 2) / (steps - 1);
+            shade(colours[c], shines[c], step, dac_ + 3 * (1 + c * steps + i));
+        }
+    }
+}
+
+// Divides what all ramps wish for into as many boxes as there are entries.
 void Palette::share(const Colour* colours, const bool* shines, int count, const Paints* weights)
 {
     static Wish wishes[RAMPS_MOST * STEPS];
     int wished = 0;
-    for (int c = 0; c < count; ++c) {
-        const uint8_t weight = static_cast<uint8_t>(weights == nullptr ? 1 : weights->weight(c));
-        for (int step = 0; step < STEPS; ++step) {
-            uint8_t part[3];
-            shade(colours[c], shines[c], step, part);
-            if (step > 0 && memcmp(wishes[wished - 1].part, part, sizeof part) == 0) {
-                ++wishes[wished - 1].steps;
-                continue;
-            }
-            Wish& wish = wishes[wished++];
-            memcpy(wish.part, part, sizeof part);
-            wish.colour = static_cast<uint8_t>(c);
-            wish.step = static_cast<uint8_t>(step);
-            wish.steps = 1;
-            wish.weight = weight;
-        }
-    }
+    for (int c = 0; c < count; ++c)
+        wished += wishesOf(colours[c], shines[c], c, weights == nullptr ? 1 : weights->weight(c), wishes + wished);
     Box boxes[ENTRIES];
-    int used = 1;
-    boxes[0] = measured(wishes, 0, wished);
-    while (used < ENTRIES) {
-        int worst = 0;
-        for (int i = 1; i < used; ++i)
-            if (boxes[i].error > boxes[worst].error)
-                worst = i;
-        if (boxes[worst].error == 0)
-            break;
-        const Box box = boxes[worst];
-        const int middle = divide(wishes, box);
-        boxes[worst] = measured(wishes, box.from, middle);
-        boxes[used++] = measured(wishes, middle, box.to);
-    }
+    const int used = divideAll(wishes, wished, boxes, ENTRIES);
     for (int i = 0; i < used; ++i) {
         const Box& box = boxes[i];
         for (int p = 0; p < 3; ++p)
@@ -246,17 +284,20 @@ void Palette::share(const Colour* colours, const bool* shines, int count, const 
         for (int w = box.from; w < box.to; ++w)
             memset(ramps_[wishes[w].colour] + SHADING_MOST + wishes[w].step, 1 + i, wishes[w].steps);
     }
-    // What is shared may come out a little darker than the step before; a ramp never does.
-    for (int c = 0; c < count; ++c) {
-        uint8_t* ramp = ramps_[c] + SHADING_MOST;
-        const auto light = [&](int step) {
-            const uint8_t* entry = dac_ + 3 * ramp[step];
-            return entry[0] + entry[1] + entry[2];
-        };
-        for (int step = 1; step < STEPS; ++step)
-            if (light(step) < light(step - 1))
-                ramp[step] = ramp[step - 1];
-    }
+    for (int c = 0; c < count; ++c)
+        neverDarken(ramps_[c] + SHADING_MOST);
+}
+
+// What is shared may come out a little darker than the step before; a ramp never does.
+void Palette::neverDarken(uint8_t* ramp) const
+{
+    const auto light = [&](int step) {
+        const uint8_t* entry = dac_ + 3 * ramp[step];
+        return entry[0] + entry[1] + entry[2];
+    };
+    for (int step = 1; step < STEPS; ++step)
+        if (light(step) < light(step - 1))
+            ramp[step] = ramp[step - 1];
 }
 
 const uint8_t* Palette::raised(const uint8_t* ramp, int steps)

@@ -34,6 +34,10 @@ public:
     void draw(const FrameContext& frame, VoxelList& list, int room, int* next) override;
 
 private:
+    void renewLists(Patch& patch, const Neighbourhood& all);
+    bool isAtRest(Settler& settler, Patch& patch, const Neighbourhood& all);
+    void settle(Settler& settler, Patch& patch);
+
     SoftObject& object_;
 
     Odometer odometer_;
@@ -75,47 +79,58 @@ void Engine::update(const FrameContext& frame)
         patch->settled = false;
         if ((patch - patches_) % ASKED_EVERY == ASKED_EVERY - 1 && stopAsked())
             return;
-        if (!known || patch->stale || isDue(odometer_.bound(), patch->listDue)) {
-            classify(*patch, all);
-            patch->listDue = odometer_.bound() + wayOf(LIST_SLACK);
-            patch->stale = false;
-        }
-        if (!settler.setPatch(*patch) && all.rests) {
-            if (patch->state == PATCH_REST)
-                continue;
-            // Where its seeds are now, others may reach them.
-            rest(object_, *patch);
-            patch->state = PATCH_REST;
-            classify(*patch, all);
-            if (!settler.setPatch(*patch))
-                continue;
-        }
+        if (!known || patch->stale || isDue(odometer_.bound(), patch->listDue))
+            renewLists(*patch, all);
+        if (!settler.setPatch(*patch) && all.rests && isAtRest(settler, *patch, all))
+            continue;
         displaced = true;
         if (outOfSight(*patch, own)) {
             sleep(object_, *patch);
             patch->state = PATCH_AWAY;
             patch->due = odometer_.reading();
-            continue;
-        }
-        if (known && patch->state != PATCH_REST && !isDue(odometer_.reading(), patch->due))
-            continue;
-        if (settler.isCovered(*patch)) {
-            cover(object_, *patch);
-            continue;
-        }
-        patch->state = settler.probe(*patch);
-        patch->settled = patch->state == PATCH_MIXED;
-        if (patch->settled) {
-            settler.settleRest(*patch);
-            patch->bend.stale = true;
-        } else {
-            sleep(object_, *patch);
+        } else if (!known || patch->state == PATCH_REST || isDue(odometer_.reading(), patch->due)) {
+            settle(settler, *patch);
         }
     }
     for (Patch* patch = patches_; patch < end; ++patch)
         if (patch->settled)
             settler.oversample(*patch);
     object_.setDisplaced(displaced);
+}
+
+inline void Engine::renewLists(Patch& patch, const Neighbourhood& all)
+{
+    classify(patch, all);
+    patch.listDue = odometer_.bound() + wayOf(LIST_SLACK);
+    patch.stale = false;
+}
+
+// No neighbour reaches the seeds of a patch where they were. Whether that holds where they rest, too: others may be there.
+inline bool Engine::isAtRest(Settler& settler, Patch& patch, const Neighbourhood& all)
+{
+    if (patch.state == PATCH_REST)
+        return true;
+    rest(object_, patch);
+    patch.state = PATCH_REST;
+    classify(patch, all);
+    return !settler.setPatch(patch);
+}
+
+// Judges a patch as a whole, and where it takes more than that, finds each of its seeds.
+inline void Engine::settle(Settler& settler, Patch& patch)
+{
+    if (settler.isCovered(patch)) {
+        cover(object_, patch);
+        return;
+    }
+    patch.state = settler.probe(patch);
+    patch.settled = patch.state == PATCH_MIXED;
+    if (patch.settled) {
+        settler.settleRest(patch);
+        patch.bend.stale = true;
+    } else {
+        sleep(object_, patch);
+    }
 }
 
 // Shade and list what the viewer sees of the object.

@@ -121,10 +121,41 @@ static bool dentedFromWithin(const SoftObject& object, const Bodies& bodies)
     return false;
 }
 
+// Where a neighbour is and how large, in own space.
+static void place(const SoftObject& object, Neighbour& near)
+{
+    const SoftObject& other = *near.object;
+    const Real growth = object.growth();
+    const bool grown = object.size() != object.laidSize();
+    const Vector apart = object.toOwnAxes(other.centre() - object.centre());
+    near.kind = Neighbour::POINT;
+    near.segment = false;
+    near.centre = grown ? Vector{apart.x / growth, apart.y / growth, apart.z / growth} : apart;
+    near.size = grown ? other.size() / growth : other.size();
+    near.inverse16 = near.steep16 = Real(CORE_SIZE) / near.size;
+    const Real proportion = least(object.size() / other.size(), Real(60));
+    near.ratio = proportion * proportion;
+    near.x16 = rawFromReal(near.centre.x) >> 12;
+    near.y16 = rawFromReal(near.centre.y) >> 12;
+    near.z16 = rawFromReal(near.centre.z) >> 12;
+    near.size16 = (rawFromReal(near.size) >> 12) + 1;
+}
+
+// By what a neighbour's field counts.
+static void weigh(const Bodies& bodies, const Neighbourhood& all, Neighbour& near)
+{
+    const SoftObject& other = *near.object;
+    near.strength = other.strength();
+    near.plain = !near.digs && near.strength == Real(1) && !(all.hollow && &other == all.head);
+    near.weight = near.digs ? -bodies.weight(all.head->slot(), other.slot()) : Real(0);
+    near.push16 = near.weight <= Real(1) ? near.inverse16 : near.inverse16 * near.weight;
+    near.samples = near.digs && other.hollowed() == all.head;
+    near.grain = near.plain ? near.size : near.size / (most(near.strength, Real(1)) * most(near.weight, Real(1)));
+}
+
 static void gatherFrom(SoftObject* const* from, int count, bool digs, const SoftObject& object, const Bodies& bodies,
                        Neighbourhood& all)
 {
-    const Real growth = object.growth();
     for (SoftObject* const* const end = from + count; from < end && all.count < NEIGHBOURS_MAX; ++from) {
         const SoftObject& other = **from;
         if (&other == &object || !object.inRange(other, GATHER_SLACK))
@@ -132,32 +163,15 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         all.numberOf[other.slot()] = static_cast<int8_t>(all.count);
         Neighbour& near = all.neighbours[all.count++];
         near.object = &other;
-        near.kind = Neighbour::POINT;
-        const Vector apart = object.toOwnAxes(other.centre() - object.centre());
-        const bool grown = object.size() != object.laidSize();
-        near.centre = grown ? Vector{apart.x / growth, apart.y / growth, apart.z / growth} : apart;
-        near.size = grown ? other.size() / growth : other.size();
-        near.inverse16 = near.steep16 = Real(CORE_SIZE) / near.size;
-        const Real proportion = least(object.size() / other.size(), Real(60));
-        near.ratio = proportion * proportion;
-        near.strength = other.strength();
         near.digs = digs;
-        near.plain = !digs && near.strength == Real(1) && !(all.hollow && &other == all.head);
-        near.weight = digs ? -bodies.weight(all.head->slot(), other.slot()) : Real(0);
-        near.push16 = near.weight <= Real(1) ? near.inverse16 : near.inverse16 * near.weight;
-        near.samples = digs && other.hollowed() == all.head;
-        near.grain = near.plain ? near.size : near.size / (most(near.strength, Real(1)) * most(near.weight, Real(1)));
+        place(object, near);
+        weigh(bodies, all, near);
+        if (!other.isBall())
+            aim(object, near);
         all.inner = all.inner || (!digs && dentedFromWithin(other, bodies));
         all.dented = all.dented || digs;
         all.deep = all.deep || digs || all.inner;
         all.common = all.common && near.plain && !all.inner;
-        near.x16 = rawFromReal(near.centre.x) >> 12;
-        near.y16 = rawFromReal(near.centre.y) >> 12;
-        near.z16 = rawFromReal(near.centre.z) >> 12;
-        near.size16 = (rawFromReal(near.size) >> 12) + 1;
-        near.segment = false;
-        if (!other.isBall())
-            aim(object, near);
     }
 }
 

@@ -1,0 +1,42 @@
+// Gaps between scales, when all objects of a frame are drawn (View::closeGaps()).
+#ifndef FB_GAPS_H
+#define FB_GAPS_H
+
+#include "picture/view.h"
+
+class Gaps {
+public:
+    // Model and palette may be null.
+    Gaps(View& view, const Model* model, const Palette* palette)
+        : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model), palette_(palette)
+    {
+    }
+
+    // Closes them, where seeds lie `spacing` units apart. Returns how many pixels were drawn before.
+    int close(Real spacing);
+
+private:
+    // Numbers of objects; both -1: none are named.
+    struct Ends {
+        int first, last;
+    };
+    static constexpr Ends NO_ENDS{-1, -1};
+
+    void closeRun(int y, int from, int to, int spacing);
+    void closeCorner(int y, int x, int step);
+    void closeAbove(int y, int x, int widest, int narrowest);
+    void closeFrom(int y, int from, int to, int step, int widest, int narrowest);
+    void closeSlit(int y, int x, int end, int step);
+    bool isOpen(int first, int last) const;
+    Ends endsOf(int first, int last) const;
+    int divide(const Ends& ends, int first, int last, int step) const;
+    void fill(const Ends& ends, int first, int last, int step);
+
+    View& view_;
+    const uint8_t* frame_;
+    const uint16_t* zbuffer_;
+    const Model* model_;
+    const Palette* palette_;
+};
+
+#endif
