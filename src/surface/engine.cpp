@@ -34,6 +34,7 @@ public:
     void draw(const FrameContext& frame, VoxelList& list, int room, int* next) override;
 
 private:
+    bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all, bool known);
     void renewLists(Patch& patch, const Neighbourhood& all);
     bool isAtRest(Settler& settler, Patch& patch, const Neighbourhood& all);
     void settle(Settler& settler, Patch& patch);
@@ -79,6 +80,10 @@ void Engine::update(const FrameContext& frame)
         patch->settled = false;
         if ((patch - patches_) % ASKED_EVERY == ASKED_EVERY - 1 && stopAsked())
             return;
+        if (keeps(settler, *patch, all, known)) {
+            displaced = true;
+            continue;
+        }
         if (!known || patch->stale || isDue(odometer_.bound(), patch->listDue))
             renewLists(*patch, all);
         if (!settler.setPatch(*patch) && all.rests && isAtRest(settler, *patch, all))
@@ -96,6 +101,17 @@ void Engine::update(const FrameContext& frame)
         if (patch->settled)
             settler.oversample(*patch);
     object_.setDisplaced(displaced);
+}
+
+// Whether a patch keeps its state, whoever reaches it now: it is not due, or still lies inside one neighbour.
+inline bool Engine::keeps(Settler& settler, Patch& patch, const Neighbourhood& all, bool known)
+{
+    if (known && all.common && patch.state != PATCH_REST && !isDue(odometer_.reading(), patch.due))
+        return true;
+    if (patch.state != PATCH_INSIDE || !settler.isStillCovered(patch))
+        return false;
+    patch.stale = patch.stale || !known;
+    return true;
 }
 
 inline void Engine::renewLists(Patch& patch, const Neighbourhood& all)

@@ -90,6 +90,7 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
     memset(standBySlot, -1, sizeof standBySlot);
     Way farthest = 0;
     came_ = 0;
+    int stayed = 0, within = 0;
     for (int i = 0; i < all.count; ++i) {
         const Neighbour& near = all.neighbours[i];
         const int slot = near.object->slot(), before = standBySlot_[slot];
@@ -97,14 +98,17 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
         const bool shaped = near.object->shaped();
         const Real unit = shaped ? Real(1) : near.size * Real(1.0 / CORE_SIZE);
         stands[i] = {shaped ? near.offset : near.centre, {near.toCore[0] * unit, near.toCore[1] * unit, near.toCore[2] * unit},
-                     near.size, near.object->warp().amounts()};
+                     near.size, near.object->warp().amounts(), false};
+        stands[i].inRange = object.inRange(*near.object);
+        within += stands[i].inRange;
         if (!holds)
             continue;
         if (before < 0) {
             // It was out of range by GATHER_SLACK.
-            holds = !object.inRange(*near.object);
+            holds = !stands[i].inRange;
             continue;
         }
+        stayed += stands_[before].inRange;
         const Way way = shaped ? wayBetween(near, stands[i], stands_[before], reach) : wayOfCore(near, stands[i], stands_[before]);
         farthest = way > farthest ? way : farthest;
         // What is shaped comes farther in some places than in most.
@@ -115,6 +119,9 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
     if (all.count > 0)
         memcpy(stands_, stands, static_cast<size_t>(all.count) * sizeof stands[0]);
     memcpy(standBySlot_, standBySlot, sizeof standBySlot);
+    // One that was in range and is not even near any more has leapt.
+    holds = holds && stayed == within_;
+    within_ = within;
     if (!holds)
         came_ = EVERYWHERE;
     bound_ += farthest;

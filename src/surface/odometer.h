@@ -30,7 +30,7 @@ public:
     Odometer& operator=(const Odometer&) = delete;
 
     // Finds out how far any neighbour, or the viewer, has come since the last call. False: nothing that was found out before
-    // holds, because it is the first call, links have changed, an object has leapt into range, or there is no memory.
+    // holds, because it is the first call, links have changed, an object has leapt into range or out of it, or there is no memory.
     bool advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion);
 
     Way reading() const { return reading_; }
@@ -45,6 +45,7 @@ private:
         Vector place, axes[3];
         Real size;
         WarpAmounts warp;
+        bool inRange;
     };
     static Way wayOfCore(const Neighbour& near, const Stand& now, const Stand& before);
     static Way wayBetween(const Neighbour& near, const Stand& now, const Stand& before, Real reach);
@@ -54,6 +55,7 @@ private:
     bool fresh_ = true;  // nothing is known of a frame before
     Vector eye_{Real(0), Real(0), Real(0)};  // where the viewer was, own axes
     int room_ = 0;
+    int within_ = 0;  // how many neighbours were in range in the call before
     Stand* stands_ = nullptr;
     int8_t standBySlot_[SLOTS_MAX];  // -1: none
 };

@@ -32,6 +32,13 @@ public:
         return !nearby_.dented() && cover_.hidesAll(patch);
     }
 
+    // The same of one that lay inside, before setPatch().
+    bool isStillCovered(const Patch& patch)
+    {
+        cover_.setPatch(patch);
+        return all_.common && cover_.hidesAll(patch);
+    }
+
     // Settles the seed in the middle of a patch that neighbours reach, says from it what becomes of the patch, and sets when
     // the patch is due again.
     PatchState probe(Patch& patch);
