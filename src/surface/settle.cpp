@@ -25,8 +25,9 @@ constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000;
 constexpr Real RANGE(0.05);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
 constexpr Real PARTED(1.5);
-// Spacings: how far the surface may go on from a seed to a border without an oversampled one, and without a fine one beside it.
-constexpr Real LEFT_OPEN(0.5), LEFT_OPEN_FINE(1.5);
+// Spacings: how far the surface may go on from a seed to a border without an oversampled one towards the neighbour N, without one
+// towards the next of its ring, and without a fine one.
+constexpr Real LEFT_OPEN(0.5), LEFT_OPEN_NEXT(1), LEFT_OPEN_FINE(1.5);
 
 }  // namespace
 
@@ -275,13 +276,20 @@ bool gapes(const SoftObject& object, const Seed& s, const Seed& n, Real open)
     return !(valid.flags & SEED_BORDER) || realFromRaw(valid.apart << 8) > object.spacing() * open;
 }
 
-// Whether the seed between a seed and its neighbour N is needed.
-bool parted(const SoftObject& object, const Seed& s)
+// The slot of the seed from which one has parted, so that the one between is needed: its neighbour N, or else the next of its ring,
+// when the border passes between the two and not between the seed and N. -1: none.
+int parted(const SoftObject& object, int i)
 {
-    if (s.neighbour < 0)
-        return false;
-    const Seed& n = object.regular(s.neighbour);
-    return !(n.flags & SEED_ASLEEP) && gapes(object, s, n, LEFT_OPEN);
+    const Seed& s = object.regular(i);
+    const auto from = [&](int other, Real open) {
+        const Seed& n = object.regular(other);
+        return !(n.flags & SEED_ASLEEP) && gapes(object, s, n, open);
+    };
+    if (s.neighbour >= 0 && from(s.neighbour, LEFT_OPEN))
+        return s.neighbour;
+    const int next = i + 2;
+    return next < object.seedSlots() && ((s.flags ^ object.regular(next).flags) & SEED_VALID) != 0 && !object.shaped() &&
+           object.regular(next).root == s.root && from(next, LEFT_OPEN_NEXT) ? next : -1;
 }
 
 // The fine seeds of a regular one are not needed; nor is its oversampled one; none of a patch is.
@@ -313,13 +321,16 @@ void Settler::oversample(Patch& patch)
     const bool had = patch.extras;
     bool any = false;
     forSeeds(patch, [&](int i) {
-        if (!parted(object_, object_.seed(i))) {
+        const int other = parted(object_, i);
+        if (other < 0) {
             if (had)
                 putAway(object_, i);
             return;
         }
         any = true;
         Seed& extra = object_.seed(i + 1);
+        if (object_.layOutBetween(i, other))
+            putAway(object_, i);
         if (!(extra.flags & SEED_ACTIVE)) {
             extra.flags = SEED_ACTIVE | SEED_COVERED;
             extra.position = object_.seed(i).position;
