@@ -48,7 +48,8 @@ struct Direction14 {
 struct Seed {
     Vector path;         // from root to the unblended surface
     Real position;       // along the path; 1.0 on the unblended surface
-    int32_t neighbour;   // slot of the seed N of the ring before (Appendix C, Oversampling); -1 in the first ring
+    int32_t neighbour;   // slot of the seed N of the ring before (Appendix C, Oversampling); -1 in the first ring. Of an
+                         // oversampled one: of the seed on its other side
     Direction14 normal;  // of the surface at the seed
     Direction14 border;  // of a SEED_BORDER one: in which the own field gains most on the strongest neighbour's,
     union {

@@ -454,10 +454,28 @@ Seed& SoftObject::laidExtra(int slot)
     return *extra(slot);
 }
 
-Seed* SoftObject::madeFine(int i)
+bool SoftObject::layOutBetween(int i, int other)
 {
     const Seed& one = regular(i);
-    if (shaped_ || one.neighbour < 0 || one.root != regular(one.neighbour).root)
+    Seed& extra = seed(i + 1);
+    if (extra.neighbour == other)
+        return false;
+    layOutExtra(laid_, i >> 1, ringOf(i >> 1), extra);
+    if (other != one.neighbour) {
+        extra.neighbour = other;
+        extra.root = one.root;
+        extra.path = withLength(one.path + regular(other).path, length(one.path));
+    }
+    extra.normal = restNormal(extra);
+    extra.area = 0;
+    setWay(extra);
+    return true;
+}
+
+Seed* SoftObject::madeFine(int i)
+{
+    const int other = seed(i + 1).neighbour;
+    if (shaped_ || other < 0 || regular(i).root != regular(other).root)
         return nullptr;
     Seed*& block = laid_.fine[i >> (EXTRA_BITS + 1)];
     if (block == nullptr) {

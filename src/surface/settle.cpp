@@ -25,8 +25,9 @@ constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000;
 constexpr Real RANGE(0.05);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
 constexpr Real PARTED(1.5);
-// Spacings: how far the surface may go on from a seed to a border without another beside it.
-constexpr Real LEFT_OPEN(1.5);
+// Spacings: how far the surface may go on from a seed to a border without an oversampled one towards the neighbour N, without one
+// towards the next of its ring, and without a fine one.
+constexpr Real LEFT_OPEN(0.5), LEFT_OPEN_NEXT(1), LEFT_OPEN_FINE(1.5);
 
 }  // namespace
 
@@ -267,29 +268,32 @@ bool Settler::waits(const Seed& s, bool someAway) const
 
 namespace {
 
-// Whether the seed between a seed and its neighbour N is needed: only one of the two is on the surface, or they have parted.
-bool parted(const SoftObject& object, const Seed& s)
-{
-    if (s.neighbour < 0)
-        return false;
-    const Seed& n = object.regular(s.neighbour);
-    if (n.flags & SEED_ASLEEP)
-        return false;
-    if ((s.flags ^ n.flags) & SEED_VALID)
-        return true;
-    return (s.flags & SEED_VALID) && absolute(s.position - n.position) * object.radius() > object.spacing() * PARTED;
-}
-
-// Whether so much of the surface lies between a seed and the oversampled one beside it that their scales may leave a gap. Where
-// only one is on the surface, it goes on to the border at least.
-bool gapes(const SoftObject& object, const Seed& s, const Seed& n)
+// Whether so much of the surface lies between two seeds beside each other that their scales may leave a gap. Where only one is on
+// the surface, it goes on to the border at least; `open` says how far it may do so, spacings.
+bool gapes(const SoftObject& object, const Seed& s, const Seed& n, Real open)
 {
     if ((s.flags & n.flags & SEED_VALID) != 0)
         return absolute(s.position - n.position) * object.radius() > object.spacing() * PARTED;
-    const Seed& valid = s.flags & SEED_VALID ? s : n;
-    if (!(valid.flags & SEED_VALID))
+    if (!((s.flags ^ n.flags) & SEED_VALID))
         return false;
-    return !(valid.flags & SEED_BORDER) || realFromRaw(valid.apart << 8) > object.spacing() * LEFT_OPEN;
+    const Seed& valid = s.flags & SEED_VALID ? s : n;
+    return !(valid.flags & SEED_BORDER) || realFromRaw(valid.apart << 8) > object.spacing() * open;
+}
+
+// The slot of the seed from which one has parted, so that the one between is needed: its neighbour N, or else the next of its ring,
+// when the border passes between the two and not between the seed and N. -1: none.
+int parted(const SoftObject& object, int i)
+{
+    const Seed& s = object.regular(i);
+    const auto from = [&](int other, Real open) {
+        const Seed& n = object.regular(other);
+        return !(n.flags & SEED_ASLEEP) && gapes(object, s, n, open);
+    };
+    if (s.neighbour >= 0 && from(s.neighbour, LEFT_OPEN))
+        return s.neighbour;
+    const int next = i + 2;
+    return next < object.seedSlots() && ((s.flags ^ object.regular(next).flags) & SEED_VALID) != 0 && !object.shaped() &&
+           object.regular(next).root == s.root && from(next, LEFT_OPEN_NEXT) ? next : -1;
 }
 
 // The fine seeds of a regular one are not needed; nor is its oversampled one; none of a patch is.
@@ -321,13 +325,16 @@ void Settler::oversample(Patch& patch)
     const bool had = patch.extras;
     bool any = false;
     forSeeds(patch, [&](int i) {
-        if (!parted(object_, object_.seed(i))) {
+        const int other = parted(object_, i);
+        if (other < 0) {
             if (had)
                 putAway(object_, i);
             return;
         }
         any = true;
         Seed& extra = object_.seed(i + 1);
+        if (object_.layOutBetween(i, other))
+            putAway(object_, i);
         if (!(extra.flags & SEED_ACTIVE)) {
             extra.flags = SEED_ACTIVE | SEED_COVERED;
             extra.position = object_.seed(i).position;
@@ -362,7 +369,8 @@ bool Settler::settleFine(int i)
 {
     const Seed& extra = *object_.extra(i);
     const Seed* const ends[] = {&object_.regular(i), &object_.regular(extra.neighbour)};
-    const bool needed[] = {gapes(object_, *ends[0], extra), gapes(object_, *ends[1], extra)};
+    const auto gape = [&](const Seed& end) { return gapes(object_, end, extra, LEFT_OPEN_FINE); };
+    const bool needed[] = {gape(*ends[0]), gape(*ends[1])};
     Seed* const fine = needed[0] || needed[1] ? object_.madeFine(i) : nullptr;
     if (fine == nullptr)
         return false;
