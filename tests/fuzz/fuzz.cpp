@@ -97,7 +97,7 @@ bool sameShape(const Actor& a, const Actor& b)
             return false;
     }
     if (a.object != nullptr && (a.object->warped() != b.object->warped() ||
-                                (a.object->warped() && !(a.object->warp().amounts() == b.object->warp().amounts()))))
+                                (a.object->warped() && !(a.object->warp().asked() == b.object->warp().asked()))))
         return false;
     return a.stretch == b.stretch;
 }
