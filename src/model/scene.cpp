@@ -531,9 +531,6 @@ bool Reader::object(const Kind* kind)
     if (model_.itemNamed(word_) != nullptr || rowNamed(word_) != nullptr)
         return expected("a name that is not taken yet");
     strcpy(actor.name, word_);
-    int groups = model_.items() - model_.count();
-    if (kind != nullptr ? model_.count() == Model::OBJECTS_MOST : groups == Model::GROUPS_MOST)
-        return expected(kind != nullptr ? "at most 128 objects" : "at most 64 groups");
 
     const int measures = kind == nullptr ? 0 : kind->measures;
     int given = 0;  // one bit a measure
@@ -617,6 +614,10 @@ bool Reader::object(const Kind* kind)
         word_ = "step";
         return expected("repeat as well, for step to count");
     }
+    // With `in eye` on this line the eye may have become the last group.
+    word_ = actor.name;
+    if (kind != nullptr ? model_.count() == Model::OBJECTS_MOST : model_.items() - model_.count() == Model::GROUPS_MOST)
+        return expected(kind != nullptr ? "at most 128 objects" : "at most 64 groups");
     return model_.addItem(actor) != nullptr ? true : trouble("not enough memory for the model");
 }
 

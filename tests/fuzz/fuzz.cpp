@@ -196,8 +196,10 @@ int main(int count, char** arguments)
         const char* wrong = readSceneText("FUZZ.FB", current.data(), static_cast<uint32_t>(current.size()), model, &end);
         if (wrong != nullptr) {
             ++refused;
-            if (end != SCENE_BAD)
+            if (end != SCENE_BAD) {
+                puts(wrong);
                 failed("refused for another reason than the text");
+            }
             if (strncmp(wrong, "FUZZ.FB:", 8) != 0 || strstr(wrong, ": expected ") == nullptr)
                 failed("the complaint does not say where and what");
             for (const char* c = wrong; *c != 0; ++c)
