@@ -8,4 +8,4 @@ ROOMS = math model surface picture app
 PROGRAM = $(wildcard $(ROOMS:%=src/%/*.cpp))
 KERNELS = $(wildcard asm/*.S)
 MAIN = src/app/main.cpp
-QUICK = src/surface/settle src/surface/classify src/surface/shade src/surface/voxels src/picture/view
+QUICK = $(addprefix src/surface/,settle nearby path fields blend search cover border hollow classify shade voxels) src/picture/view

@@ -91,8 +91,8 @@ public:
     // Whether `b` digs into `a`, and with which weight.
     static bool dented(const SoftObject* a, const SoftObject* b, Real* weight);
 
-    // Lays out the seeds of all objects, `spacing` units apart. False: as SoftObject::resample(); objects already done are
-    // put back to the spacing they had where that is possible.
+    // Lays out the seeds of all objects, `spacing` units apart, closer on thin ones. False: as SoftObject::resample(); objects
+    // already done are put back to the spacing they had where that is possible.
     bool resample(Real spacing, SurfaceMaker makeSurface);
 
     SurfaceMaker surfaceMaker() const { return makeSurface_; }

@@ -96,6 +96,8 @@ public:
     bool resample(Real spacing, SurfaceMaker makeSurface, const SoftObject* like = nullptr);
     // Why resample() failed the last time, for any object: one line of words.
     static const char* resampleTrouble();
+    // The spacing that its seeds get where `asked` is that of the model: on thin objects they lie closer.
+    Real ownSpacing(Real asked) const;
     // How many regular seeds there would be.
     int seedsAt(Real spacing) const;
     int seeds() const { return laid_.regular; }
@@ -117,6 +119,18 @@ public:
         Seed* const block = laid_.extras[i >> (EXTRA_BITS + 1)];
         return block == nullptr ? nullptr : block + (i >> 1 & (EXTRA_BLOCK - 1));
     }
+    // The fine seeds of the regular one in slot i: one half way from there to its oversampled seed, one from that to its
+    // neighbour N, and one whose path the surface decides. They lie in memory one behind the other. Null: there are none yet.
+    static constexpr int FINE_SEEDS = 3;
+    Seed* fine(int i) const
+    {
+        Seed* const block = laid_.fine[i >> (EXTRA_BITS + 1)];
+        return block == nullptr ? nullptr : block + (i >> 1 & (EXTRA_BLOCK - 1)) * FINE_SEEDS;
+    }
+    // Makes them, without paths. Null: seed and neighbour have two roots, or there is no memory.
+    Seed* madeFine(int i);
+    // Gives the first or second of them its path.
+    void layOutFine(int i, int which);
     // Lays out all oversampled seeds. False: no memory.
     bool layOutExtras();
     const Vector& root(int i) const { return laid_.roots[i]; }
@@ -294,6 +308,7 @@ private:
     struct Layout {
         Seed* seeds = nullptr;           // the regular ones
         Seed** extras = nullptr;         // blocks of oversampled ones; null where none was needed yet
+        Seed** fine = nullptr;           // the same of fine ones
         Vector* roots = nullptr;
         int32_t* ringStarts = nullptr;
         int32_t* rootsBetween = nullptr; // of each ring: the first root for oversampled seeds between it and the one before

@@ -10,6 +10,9 @@ namespace {
 // The cell of an oversampled seed, which lies between seeds that have cells of their own: in eighths of theirs.
 constexpr int EXTRA_CELL = 5;
 
+// An object of less than this radius is thin: as many seeds go round it as round one of this radius. Units.
+constexpr Real THIN(4.5);
+
 // Roots that a seed's 16 bits can tell apart.
 constexpr int ROOTS_MAX = UINT16_MAX + 1;
 
@@ -145,18 +148,19 @@ const char* SoftObject::resampleTrouble()
 bool SoftObject::Layout::allocated()
 {
     seeds = allocate<Seed>(static_cast<uint32_t>(regular));
-    extras = allocate<Seed*>(static_cast<uint32_t>(blocks()));
+    extras = allocate<Seed*>(static_cast<uint32_t>(2 * blocks()));
     roots = allocate<Vector>(static_cast<uint32_t>(rootRoom));
     ringStarts = allocate<int32_t>(static_cast<uint32_t>(rings + 1));
     rootsBetween = allocate<int32_t>(static_cast<uint32_t>(rings + 1));
     if (extras != nullptr)
-        memset(extras, 0, sizeof(Seed*) * static_cast<size_t>(blocks()));
+        memset(extras, 0, sizeof(Seed*) * static_cast<size_t>(2 * blocks()));
+    fine = extras == nullptr ? nullptr : extras + blocks();
     return seeds != nullptr && extras != nullptr && roots != nullptr && ringStarts != nullptr && rootsBetween != nullptr;
 }
 
 void SoftObject::Layout::release()
 {
-    for (int i = 0; extras != nullptr && i < blocks(); ++i)
+    for (int i = 0; extras != nullptr && i < 2 * blocks(); ++i)
         free(extras[i]);
     free(extras);
     free(seeds);
@@ -450,6 +454,30 @@ Seed& SoftObject::laidExtra(int slot)
     return *extra(slot);
 }
 
+Seed* SoftObject::madeFine(int i)
+{
+    const Seed& one = regular(i);
+    if (shaped_ || one.neighbour < 0 || one.root != regular(one.neighbour).root)
+        return nullptr;
+    Seed*& block = laid_.fine[i >> (EXTRA_BITS + 1)];
+    if (block == nullptr) {
+        block = allocate<Seed>(FINE_SEEDS * EXTRA_BLOCK);
+        for (int j = 0; block != nullptr && j < FINE_SEEDS * EXTRA_BLOCK; ++j)
+            block[j].flags = 0;
+    }
+    return fine(i);
+}
+
+void SoftObject::layOutFine(int i, int which)
+{
+    const Seed &middle = seed(i + 1), &end = which == 0 ? regular(i) : regular(middle.neighbour);
+    Seed& s = fine(i)[which];
+    s = middle;
+    s.path = withLength(middle.path + end.path, length(middle.path));
+    s.normal = restNormal(s);
+    setWay(s);
+}
+
 bool SoftObject::layOutExtras()
 {
     for (int i = 0; i < laid_.blocks(); ++i)
@@ -521,6 +549,10 @@ void SoftObject::reshape()
         plain.border = warpSeed(plain, laid_.plainRoots[plain.root], laid_.seeds[i], way);
     }
     // Those of the oversampled seeds that take part; the others are laid out when they do.
+    for (int at = 0; at < laid_.blocks(); ++at) {
+        free(laid_.fine[at]);
+        laid_.fine[at] = nullptr;
+    }
     Layout plain = laid_.plain();
     for (int at = 0; at < laid_.blocks(); ++at) {
         Seed* const block = laid_.extras[at];
@@ -562,6 +594,11 @@ Direction14 SoftObject::restNormal(const Seed& s) const
         return laid_.plainSeeds[&s - laid_.seeds].border;
     const Vector rest = root(s.root) + s.path;
     return warped_ ? direction(slopeAt(rest)) : plainNormal(rest, s.path);
+}
+
+Real SoftObject::ownSpacing(Real asked) const
+{
+    return asked * clamp(radius_ * (Real(1) / THIN), Real(0.5), Real(1));
 }
 
 int SoftObject::seedsAt(Real spacing) const

@@ -76,7 +76,7 @@ SoftObject* Model::makeObject(const Actor& item) const
         return nullptr;
     object->setStrength(item.strength);
     object->setStretch(item.stretch);
-    if (spacing_ != Real(0) && !object->resample(spacing_, makeSurface_)) {
+    if (spacing_ != Real(0) && !object->resample(object->ownSpacing(spacing_), makeSurface_)) {
         destroy(object);
         return nullptr;
     }
@@ -451,11 +451,13 @@ const SoftObject* Model::alike(int i) const
 
 bool Model::resample(Real spacing, SurfaceMaker makeSurface)
 {
+    Real before[OBJECTS_MOST];
     for (int i = 0; i < count_; ++i) {
-        const Real before = actors_[i]->object->spacing();
-        if (!actors_[i]->object->resample(spacing, makeSurface, alike(i))) {
+        SoftObject& object = *actors_[i]->object;
+        before[i] = object.spacing();
+        if (!object.resample(object.ownSpacing(spacing), makeSurface, alike(i))) {
             while (--i >= 0)
-                actors_[i]->object->resample(before, makeSurface);
+                actors_[i]->object->resample(before[i], makeSurface);
             return false;
         }
     }
@@ -484,7 +486,7 @@ int Model::seedsAt(Real spacing) const
 {
     int seeds = 0;
     for (int i = 0; i < count_; ++i)
-        seeds += actors_[i]->object->seedsAt(spacing);
+        seeds += actors_[i]->object->seedsAt(actors_[i]->object->ownSpacing(spacing));
     return seeds;
 }
 
@@ -497,7 +499,7 @@ const Bodies* Model::bodies()
         bodiesKnown_ = bodies_.find(objects, count_);
         for (int i = 0; i < count_; ++i)
             if (objects[i]->laidInVain())
-                bodiesKnown_ = objects[i]->resample(spacing_, makeSurface_) && bodiesKnown_;
+                bodiesKnown_ = objects[i]->resample(objects[i]->ownSpacing(spacing_), makeSurface_) && bodiesKnown_;
     }
     if (!bodiesKnown_)
         return nullptr;

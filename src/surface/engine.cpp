@@ -81,12 +81,12 @@ void Engine::update(const FrameContext& frame)
             patch->stale = false;
         }
         if (!settler.setPatch(*patch) && all.rests) {
-            if (patch->state != PATCH_REST) {
-                // Where its seeds are now, others may reach them.
-                rest(object_, *patch);
-                classify(*patch, all);
-            }
+            if (patch->state == PATCH_REST)
+                continue;
+            // Where its seeds are now, others may reach them.
+            rest(object_, *patch);
             patch->state = PATCH_REST;
+            classify(*patch, all);
             if (!settler.setPatch(*patch))
                 continue;
         }

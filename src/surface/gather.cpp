@@ -121,7 +121,8 @@ static bool dentedFromWithin(const SoftObject& object, const Bodies& bodies)
     return false;
 }
 
-static void gatherFrom(SoftObject* const* from, int count, bool digs, const SoftObject& object, const Bodies& bodies, Neighbourhood& all)
+static void gatherFrom(SoftObject* const* from, int count, bool digs, const SoftObject& object, const Bodies& bodies,
+                       Neighbourhood& all)
 {
     const Real growth = object.growth();
     for (SoftObject* const* const end = from + count; from < end && all.count < NEIGHBOURS_MAX; ++from) {

@@ -11,7 +11,7 @@ constexpr int NEIGHBOURS_MAX = 127;
 constexpr int SLOTS_MAX = 128;
 
 // Neighbours are gathered a little before they come into range, units, so that what holds now holds for a while.
-constexpr Real GATHER_SLACK(2);
+constexpr Real GATHER_SLACK(3);
 
 // A neighbour in the own space of the object that is being updated.
 struct Neighbour {

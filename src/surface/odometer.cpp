@@ -19,21 +19,39 @@ Real about(const Vector& v)
 
 }  // namespace
 
+Way wayUntil(Real hold, Real push, Real longest)
+{
+    if (hold <= Real(0))
+        return 0;
+    return wayOf(hold < push * longest ? hold / push : longest);
+}
+
 Odometer::~Odometer()
 {
     free(stands_);
 }
 
-// `reach`: how far from the own centre seeds may be. No place of a neighbour's field in that ball has come farther.
+// No place of a neighbour's field comes farther than the farthest place of its core, and what its size changes by.
+Way Odometer::wayOfCore(const Neighbour& near, const Stand& now, const Stand& before)
+{
+    Real way = about(now.place - before.place) + absolute(now.size - before.size);
+    if (near.kind != Neighbour::POINT) {
+        const Vector extent = near.object->coreExtent16() * (near.size * Real(1.0 / CORE_SIZE));
+        way += about(now.axes[0] - before.axes[0]) * extent.x + about(now.axes[1] - before.axes[1]) * extent.y +
+               about(now.axes[2] - before.axes[2]) * extent.z;
+    }
+    return wayOf(way);
+}
+
+// The same of what is shaped: by its map into core space. `reach`: how far from the own centre seeds may be. No place of a
+// neighbour's field in that ball has come farther.
 Way Odometer::wayBetween(const Neighbour& near, const Stand& now, const Stand& before, Real reach)
 {
     const Vector by = now.place - before.place;
-    if (near.kind == Neighbour::POINT)
-        return wayOf(about(by) + absolute(now.size - before.size));
     const Real longest(100);
-    const Vector most{absolute(by.x) + about(now.toCore[0] - before.toCore[0]) * reach,
-                      absolute(by.y) + about(now.toCore[1] - before.toCore[1]) * reach,
-                      absolute(by.z) + about(now.toCore[2] - before.toCore[2]) * reach};
+    const Vector most{absolute(by.x) + about(now.axes[0] - before.axes[0]) * reach,
+                      absolute(by.y) + about(now.axes[1] - before.axes[1]) * reach,
+                      absolute(by.z) + about(now.axes[2] - before.axes[2]) * reach};
     Real way = least(about(most), longest) * near.size * Real(1.0 / CORE_SIZE);
     if (near.object->warped()) {
         // A share of the width, and degrees.
@@ -76,7 +94,10 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
         const Neighbour& near = all.neighbours[i];
         const int slot = near.object->slot(), before = standBySlot_[slot];
         standBySlot[slot] = static_cast<int8_t>(i);
-        stands[i] = {near.kind == Neighbour::POINT ? near.centre : near.offset, {near.toCore[0], near.toCore[1], near.toCore[2]}, near.size, near.object->warp().amounts()};
+        const bool shaped = near.object->shaped();
+        const Real unit = shaped ? Real(1) : near.size * Real(1.0 / CORE_SIZE);
+        stands[i] = {shaped ? near.offset : near.centre, {near.toCore[0] * unit, near.toCore[1] * unit, near.toCore[2] * unit},
+                     near.size, near.object->warp().amounts()};
         if (!holds)
             continue;
         if (before < 0) {
@@ -84,11 +105,11 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
             holds = !object.inRange(*near.object);
             continue;
         }
-        const Way way = wayBetween(near, stands[i], stands_[before], reach);
+        const Way way = shaped ? wayBetween(near, stands[i], stands_[before], reach) : wayOfCore(near, stands[i], stands_[before]);
         farthest = way > farthest ? way : farthest;
-        const Way atCentre = wayBetween(near, stands[i], stands_[before], Real(0));
-        // What turns comes farther than that elsewhere.
-        came_ = atCentre > came_ ? atCentre : came_;
+        // What is shaped comes farther in some places than in most.
+        const Way came = shaped ? wayBetween(near, stands[i], stands_[before], Real(0)) : way;
+        came_ = came > came_ ? came : came_;
         came_ = way / 2 > came_ ? way / 2 : came_;
     }
     if (all.count > 0)

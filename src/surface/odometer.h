@@ -19,6 +19,9 @@ inline bool isDue(Way reading, Way due)
     return static_cast<int32_t>(reading - due) >= 0;
 }
 
+// How far neighbours may come that change a field by `push` in a unit, until it has changed by `hold`; at most `longest` units.
+Way wayUntil(Real hold, Real push, Real longest);
+
 class Odometer {
 public:
     Odometer() = default;
@@ -37,12 +40,13 @@ public:
     Way came() const { return came_; }
 
 private:
-    // Where a neighbour stood: its centre for a point, else the map into its core space.
+    // Where a neighbour stood: its centre and its axes; of what is shaped, the map into its core space.
     struct Stand {
-        Vector place, toCore[3];
+        Vector place, axes[3];
         Real size;
         WarpAmounts warp;
     };
+    static Way wayOfCore(const Neighbour& near, const Stand& now, const Stand& before);
     static Way wayBetween(const Neighbour& near, const Stand& now, const Stand& before, Real reach);
 
     Way reading_ = 0, bound_ = 0, came_ = 0;

@@ -29,6 +29,12 @@ struct Bend {
     bool stale;         // seeds have settled since it was measured
 };
 
+// Units as 1/16 units.
+inline int32_t steps16(Real units)
+{
+    return rawFromReal(units) >> 12;
+}
+
 // Lengths in 1/16 unit of own space, directions with 1.0 = 2^14.
 struct Patch {
     int32_t first[PATCH_RINGS];  // of each ring, the number of its first regular seed in the patch
@@ -38,6 +44,7 @@ struct Patch {
     bool stale;         // its lists have to be made anew
     bool settled;       // its seeds were looked at in this frame
     bool extras;        // oversampled seeds of it take part
+    bool fine;          // and fine ones
     int32_t facing;     // of a settled patch: cosine of the surface in the middle and the direction to the viewer
     int32_t centre;     // slot of the seed in the middle
     int16_t middle[3];  // of where its seeds rest

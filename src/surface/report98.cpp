@@ -81,7 +81,8 @@ void Report98::pose()
         const Seed& s = object_.seed(i);
         kept_[i].path = kept_[i].out = object_.toWorld(s.path) - object_.centre();
         if (object_.shaped())
-            kept_[i].out = withLength(object_.toWorld(object_.slopeAt(object_.root(s.root) + s.path)) - object_.centre(), object_.radius());
+            kept_[i].out = withLength(object_.toWorld(object_.slopeAt(object_.root(s.root) + s.path)) - object_.centre(),
+                                      object_.radius());
     }
 }
 

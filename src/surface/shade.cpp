@@ -53,8 +53,8 @@ constexpr int32_t FACES_VIEWER = 16000;
 // One less than the number of frames in which the bends of patches are measured that settle in each.
 constexpr int BEND_TURNS = 1;
 
-// Seeds of a patch, oversampled ones included.
-constexpr int SEEDS_MOST = 2 * PATCH_RINGS * PATCH_SEEDS;
+// Seeds of a patch, oversampled and fine ones included.
+constexpr int SEEDS_MOST = (2 + SoftObject::FINE_SEEDS) * PATCH_RINGS * PATCH_SEEDS;
 
 // Turns the seeds of one object into voxels. Made once for an object and a frame.
 class Shader {
@@ -220,7 +220,8 @@ SELDOM void Shader::measureBend(Patch& patch) const
         const int32_t inward = most * n[i] >> 14;
         for (int j = i; j < 3; ++j)
             bend.turn[i][j] = bend.turn[j][i] =
-                static_cast<int16_t>(limited(overArea(turn[0][i] * dual[0][j] + turn[1][i] * dual[1][j]) + (inward * n[j] >> 14), 16000));
+                static_cast<int16_t>(limited(overArea(turn[0][i] * dual[0][j] + turn[1][i] * dual[1][j]) +
+                                             (inward * n[j] >> 14), 16000));
     }
 }
 
@@ -305,6 +306,10 @@ SELDOM int Shader::findExtras(const Patch& patch, Seen* seen, Voxel* voxels) con
         const Seed* const extra = object_.extra(i);
         if (extra != nullptr && (extra->flags & SEED_ACTIVE) && findSeed(shading_, *extra, seen + count, voxels + count))
             ++count;
+        const Seed* const fine = patch.fine ? object_.fine(i) : nullptr;
+        for (int which = 0; which < SoftObject::FINE_SEEDS && fine != nullptr; ++which)
+            if ((fine[which].flags & SEED_ACTIVE) && findSeed(shading_, fine[which], seen + count, voxels + count))
+                ++count;
     });
     return count;
 }
@@ -367,7 +372,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
     int at = first;
     for (; at < count && list.count + most <= room; ++at) {
         Patch& patch = patches[at];
-        if (patch.state == PATCH_MIXED || (patch.state == PATCH_REST && !restsAway(patch, own)))
+        if (patch.state == PATCH_MIXED || (patch.state == PATCH_REST && !restsAway(patch, own) && !outOfSight(patch, own)))
             shader.shadePatch<PAINTED>(patch, ((at + turn) & BEND_TURNS) == 0, list, painter);
     }
     return at;

@@ -1,5 +1,5 @@
-// Assembly against C++: each routine of asm/blit.S, asm/scales.S and asm/voxels.S and its twin in src/picture/blit.cpp,
-// src/picture/scales.cpp and src/surface/voxels.cpp get the same input, and all they may touch must come out the same, with guard
+// Assembly against C++: each routine of asm/blit.S, asm/scales.S, asm/voxels.S and asm/fields.S and its twin in
+// src/picture/blit.cpp and scales.cpp, src/surface/voxels.cpp and fields.cpp get the same input, and all they may touch must come out the same, with guard
 // bytes round every buffer. A new assembly routine gets its part here before anything else uses it.
 //
 //   twins [SEED [ROUNDS]]     rounds of random scales, voxels and spans, after the cases that are always tried
@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../src/surface/fields.h"
 #include "../../src/surface/voxels.h"
 #include "picture/scales.h"
 
@@ -20,6 +21,9 @@ namespace inasm {
 }
 namespace inasm2 {
 #include "../../build/voxelsdef.h"
+}
+namespace inasm3 {
+#include "../../build/fieldsdef.h"
 }
 namespace {
 
@@ -839,6 +843,15 @@ void registers()
         verdict(damage(reinterpret_cast<const void*>(findSeedsA), look) == 0, "registers are kept: findSeedsA", count);
         const uint32_t shade[5] = {word(&shading), word(seen), word(voxels), count, 0};
         verdict(damage(reinterpret_cast<const void*>(shadeSeedsA), shade) == 0, "registers are kept: shadeSeedsA", count);
+        static FromRoot from;
+        static Along alongs[40];
+        for (Along& along : alongs) {
+            along.from = &from;
+            along.kind = static_cast<int32_t>(count % 2);
+        }
+        static Fields sums;
+        const uint32_t add[5] = {word(alongs), word(alongs + count), 65536, word(&root), word(&sums)};
+        verdict(damage(reinterpret_cast<const void*>(addFieldsA), add) == 0, "registers are kept: addFieldsA", count);
         const Span within = {0, static_cast<int16_t>(8 * count)};
         const uint32_t find[5] = {word(a.frame.data), word(a.depth.data), word(&within), word(runs), 0};
         verdict(damage(reinterpret_cast<const void*>(drawnRunsA), find) == 0, "registers are kept: drawnRunsA", count);
@@ -1029,6 +1042,78 @@ void shadedSeeds(int rounds)
             "seeds: there were some of each kind", plain);
 }
 
+// What asm/fields.S counts on.
+static_assert(inasm3::FROM_A == offsetof(FromRoot, a) && inasm3::FROM_C == offsetof(FromRoot, c) &&
+              inasm3::FROM_TWICE == offsetof(FromRoot, twice16) && inasm3::FROM_Y == offsetof(FromRoot, y) &&
+              inasm3::FROM_ALONG == offsetof(FromRoot, along16), "FromRoot");
+static_assert(inasm3::ALONG_FROM == offsetof(Along, from) && inasm3::ALONG_KIND == offsetof(Along, kind) &&
+              inasm3::ALONG_HALF == offsetof(Along, half) && inasm3::ALONG_B == offsetof(Along, b) &&
+              inasm3::ALONG_STEPY == offsetof(Along, stepY) && inasm3::ALONG_VALUE == offsetof(Along, value) &&
+              inasm3::ALONG_SLOPE == offsetof(Along, slope) && inasm3::ALONG_T == offsetof(Along, t) &&
+              inasm3::ALONG_CHANGE == offsetof(Along, change) && inasm3::ALONG_K == offsetof(Along, k) &&
+              inasm3::ALONG_SIZE == sizeof(Along), "Along");
+static_assert(inasm3::KIND_SEGMENT == Neighbour::SEGMENT && Neighbour::POINT < Neighbour::SEGMENT &&
+              Neighbour::SEGMENT < Neighbour::OTHER, "Neighbour::Kind");
+static_assert(inasm3::FIELDS_SUM == offsetof(Fields, sum) && inasm3::FIELDS_SLOPE == offsetof(Fields, slope) &&
+              inasm3::FIELDS_STRONGEST == offsetof(Fields, strongest) && inasm3::FIELDS_TOUCHED == offsetof(Fields, touched),
+              "Fields");
+static_assert(inasm3::STEP_VALUE == offsetof(FieldStep, value) && inasm3::STEP_SLOPE == offsetof(FieldStep, slope) &&
+              sizeof(FieldStep) == 8, "FieldStep");
+
+// Paths at random in the fields of neighbours at random, each looked at as it is taken up and then twice more. That there were
+// some of each kind is checked, too.
+void fieldsAlong(int rounds)
+{
+    constexpr int MOST = 8;
+    static FromRoot from[MOST], kept[MOST];
+    static Along c[MOST + 2], a[MOST + 2];
+    int inside = 0, outside = 0, below0 = 0, beyond = 0, beside = 0, others = 0, none = 0;
+    const auto real = [](double most) { return realFromRaw(below(static_cast<int>(2 * most * 65536) + 1) - static_cast<int>(most * 65536)); };
+    for (int round = 0; round < rounds; ++round) {
+        const int count = below(MOST + 1);
+        fill(from, sizeof from);
+        fill(c, sizeof c);
+        for (int i = 0; i < MOST; ++i) {
+            from[i].a = absolute(real(below(4) == 0 ? 4 : 1));
+            from[i].c = absolute(real(below(4) == 0 ? 4 : 0.5));
+            from[i].twice16 = {real(1), real(1), real(1)};
+            from[i].y = real(1.5);
+            from[i].along16 = {real(1), real(1), real(1)};
+            c[1 + i].from = from + i;
+            c[1 + i].kind = below(3);
+            c[1 + i].half = absolute(real(1));
+            c[1 + i].t = absolute(real(2));
+            c[1 + i].change = real(2);
+            // What is aimed already.
+            c[1 + i].b = real(1);
+            c[1 + i].stepY = real(1);
+        }
+        memcpy(kept, from, sizeof from);
+        memcpy(a, c, sizeof c);
+        const Vector path = {real(12), real(12), real(12)};
+        for (int look = 0; look < 3; ++look) {
+            const Real position = absolute(real(2));
+            Fields sumC{absolute(real(1)), real(2), Real(0), 0}, sumA = sumC;
+            const Vector* const taken = look == 0 && below(4) != 0 ? &path : nullptr;
+            addFieldsC(c + 1, c + 1 + count, position, taken, &sumC);
+            addFieldsA(a + 1, a + 1 + count, position, taken, &sumA);
+            verdict(memcmp(&sumC, &sumA, sizeof sumC) == 0, "fields: the same sums", round);
+            verdict(memcmp(c, a, sizeof c) == 0, "fields: each the same", round);
+            verdict(memcmp(kept, from, sizeof from) == 0, "fields: roots are left alone", round);
+            none += sumC.touched == 0;
+            for (const Along* along = c + 1; along < c + 1 + count; ++along) {
+                (along->t >= Real(1) ? outside : along->t < Real(0) ? below0 : inside) += 1;
+                if (along->kind == Neighbour::SEGMENT)
+                    (absolute(along->k) == along->half ? beyond : beside) += 1;
+                others += along->kind == Neighbour::OTHER;
+            }
+        }
+    }
+    verdict(inside > rounds && outside > rounds && below0 > rounds / 20 && beyond > rounds && beside > rounds / 4 &&
+                others > rounds && none > rounds / 20,
+            "fields: there were some of each kind", below0);
+}
+
 int main(int count, char** arguments)
 {
     const uint32_t seed = count > 1 ? static_cast<uint32_t>(strtoul(arguments[1], nullptr, 10)) : 1;
@@ -1045,6 +1130,8 @@ int main(int count, char** arguments)
     voxelLists(rounds);
     voxelByVoxel(10 * rounds);
     shadedSeeds(10 * rounds);
+    makeFieldSteps();
+    fieldsAlong(20 * rounds);
     clearsAndCopies(rounds);
     registers();
     printf("# seed %u: %ld scales, %ld pixels, %ld voxels (%ld drawn in lists), %ld spans tried\n", static_cast<unsigned>(seed),

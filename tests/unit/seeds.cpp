@@ -226,6 +226,35 @@ TEST(resampling_keeps_the_place)
     NEAR(number(ball.spacing()), 2, 0);
 }
 
+TEST(thin_objects_have_closer_seeds)
+{
+    Model model;
+    Actor described;
+    described.kind = kindNamed("sphere");
+    const double sizes[] = {20, 9, 6, 3};
+    for (double size : sizes) {
+        described.measure[0] = real(size);
+        CHECK(model.addItem(described) != nullptr);
+    }
+    for (double spacing : {2.0, 1.0, 4.0}) {
+        CHECK(model.resample(real(spacing), makeEngine));
+        // As many seeds go round what is 6 thick as round what is 9 thick; nothing has seeds less than half as far apart.
+        const double expected[] = {1, 1, 6 / 9.0, 0.5};
+        int seeds = 0;
+        for (int i = 0; i < 4; ++i) {
+            NEAR(number(model.actor(i).object->spacing()), spacing * expected[i], 1e-3);
+            seeds += model.actor(i).object->seeds();
+        }
+        SAME(model.seedsAt(real(spacing)), seeds);
+        NEAR(model.actor(1).object->seeds(), model.actor(2).object->seeds(), 1);
+        NEAR(number(model.coarsest()), spacing, 0);
+    }
+    // One that comes later.
+    described.measure[0] = real(6);
+    CHECK(model.addItem(described) != nullptr);
+    NEAR(number(model.actor(4).object->spacing()), 4 * 6 / 9.0, 1e-3);
+}
+
 TEST(equal_objects_have_equal_seeds)
 {
     // Seeds are copied where an object of the same kind, measures and size has some; that must not show.

@@ -168,6 +168,23 @@ SoftObject* makeOf(const Kind& kind, int number)
 
 }  // namespace
 
+TEST(overhanging_necks_have_scales)
+{
+    // Seen from the centre of the large one the neck to the small one hangs over: paths leave the surface and come back behind.
+    Scene scene;
+    scene.ball(20, -21.826, 2.757, 0);
+    scene.ball(25, 0, -20.923, 6.798);
+    scene.ball(30, -1.535, 0, 21.946);
+    scene.ball(35, 4.983, -15.152, -15.152);
+    scene.linkAll();
+    scene.update();
+    double nearest = 1e9;
+    for (const Voxel& voxel : scene.draw(3))
+        nearest = std::fmin(nearest, size(placeOf(scene, voxel) - Vec{-11.87, -4.03, -8.02}));
+    note("%.2f units from the neck", nearest);
+    CHECK(nearest < 2);
+}
+
 TEST(an_object_alone)
 {
     for (int k = 0; k < KIND_COUNT; ++k) {

@@ -1,0 +1,83 @@
+// Where another object of the body takes over from a seed's own, to first order from the gradients of the two fields, and how their
+// colours mix there.
+#include "border.h"
+
+#include "model/paint.h"
+
+namespace {
+
+// The strongest neighbour.
+const Along* strongestOf(const Path& path)
+{
+    const Along* other = &path.along(0);
+    for (int i = 1; i < path.touched(); ++i)
+        if (path.along(i).value > other->value)
+            other = &path.along(i);
+    return other;
+}
+
+// The same where not all is common: the strongest but for those that dig; null: there is none. `*g` and `*change`, gradient and
+// change of the own field, become what they are there; in a hollow what is dented stands for the object.
+SELDOM const Along* strongestOdd(const Path& path, const Seed& s, Vector* g, Real* change)
+{
+    *change = path.ownRate(path.lookedAt());
+    if (path.object().shaped())
+        *g = path.ownGradient(s.position, path.ownSlope());
+    const Along* other = nullptr;
+    for (int i = 0; i < path.touched(); ++i) {
+        const Along& along = path.along(i);
+        if (path.all().hollow && along.near->object == path.all().head) {
+            *g = path.fromCore(along, s.position) * (along.slope * along.near->ratio);
+            *change = along.slope * along.change;
+        } else if (!along.near->digs && (other == nullptr || along.value > other->value)) {
+            other = &along;
+        }
+    }
+    return other;
+}
+
+}  // namespace
+
+void findBorder(const Path& path, Seed& s, Real dominance)
+{
+    // Gradients, times half the squared size of the object.
+    Vector g = path.from(s.position) * path.ownSlope();
+    Real change = shiftDown(path.ownSlope() * path.lookedAt(), 1);
+    const Along* const other = path.all().common ? strongestOf(path) : strongestOdd(path, s, &g, &change);
+    if (other == nullptr)
+        return;
+    // The fields were looked at before the last step.
+    dominance += (other->slope * other->change - change) * (s.position - path.lookedAt());
+    g = g - path.fromCore(*other, s.position) * (other->slope * other->near->ratio);
+    const Normal n = normalise(g);
+    const Real steep = dot(g, {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)});
+    const Real size = path.object().laidSize();
+    const Real distance = clamp(-dominance * size, Real(-100), Real(100)) * size * Real(0.5);
+    const Real apart = clamp(absolute(distance) < steep * BORDER_FAR ? distance / steep : BORDER_FAR, -BORDER_FAR, BORDER_FAR);
+    s.apart = static_cast<int16_t>(rawFromReal(apart) >> 8);
+    s.border = directionOf(n);
+}
+
+void findNearer(const Path& path, Seed& s, Real dominance)
+{
+    const Seed before = s;
+    findBorder(path, s, dominance);
+    if (before.apart < s.apart)
+        s = before;
+}
+
+void mix(const Path& path, Seed& s)
+{
+    const Paint& own = *path.all().head->paint();
+    // What digs has no say.
+    Real fields = path.all().hollow ? Real(0) : path.ownField();
+    Vector sum = own.at * fields;
+    for (int i = 0; i < path.touched(); ++i) {
+        const Along& along = path.along(i);
+        if (along.near->digs)
+            continue;
+        sum = sum + along.near->object->paint()->at * along.value;
+        fields += along.value;
+    }
+    s.mix = fields > Real(0) ? own.paints->numberAt(sum * quotient(Real(1), fields), own.shines()) : own.number;
+}

@@ -1,0 +1,166 @@
+// What only dents and hollows need: who samples the wall, and how long a seed waits that is not on it, or not in its own part
+// of it.
+#include "border.h"
+#include "settle.h"
+
+namespace {
+
+// Spacings: how far beyond the border of its part a seed still has a scale that reaches into it.
+constexpr Real SHARED(1.5);
+// Units: by how much more than others the two sides of that border overlap, which is found to first order.
+constexpr Real OVERLAP(0.16);
+// How far the border of two parts of a hollow's wall goes at most when what digs comes by a unit.
+constexpr Real BORDER_SPEED(16);
+// The position where what closes again over a hollow is found.
+constexpr Real CLOSING(0.95);
+
+// ---- Who samples the wall
+
+// The one that a seed shares the wall with; null: there is none. What leads from its core to the seed, and how steep its field is
+// there, times half the squared size of the seed's object.
+struct Rival {
+    const Along* along;
+    Vector from;
+    Real steepest;
+};
+
+// The steepest of those that dig; in a hollow what is dented is one of them.
+Rival rivalOf(const Path& path, Real position)
+{
+    const Neighbourhood& all = path.all();
+    Rival rival{nullptr, {Real(0), Real(0), Real(0)}, Real(0)};
+    for (int i = 0; i < path.touched(); ++i) {
+        const Along& along = path.along(i);
+        const Neighbour& near = *along.near;
+        if (along.slope == Real(0) || !(all.hollow ? near.digs || near.object == all.head : near.samples))
+            continue;
+        const Vector v = path.fromCore(along, position);
+        const Real steep = -(along.slope * near.ratio * nearLength(v) * (near.digs ? near.weight : Real(1)));
+        if (steep > rival.steepest)
+            rival = {&along, v, steep};
+    }
+    return rival;
+}
+
+// What all other fields make of the lead that the seed's object, whose paths lead `out` and whose field is `own` steep, has on the
+// rival; all together push along `g`. With a and b as unit vectors along the paths, (g.a + g.b) / (1 + a.b) is the lead.
+SELDOM Real leadOf(const Vector& g, const Vector& out, Real own, const Rival& rival)
+{
+    const Vector a = unit(out), b = unit(rival.from);
+    const Vector rest = g - a * own + b * rival.steepest;
+    return dot(rest, a + b) / most(Real(1) + dot(a, b), Real(0.05));
+}
+
+// What the steepness of a digging field changes by over a unit away from its core: F'' is 34/9 - 24/9 t.
+Real changeOf(Real slope, Real t, Real strength, Real factor)
+{
+    return (slope - strength * t * (Real(68.0 / 9) - t * Real(48.0 / 9))) * factor;
+}
+
+// A surface that something has dug is sampled twice: by the paths of what is dented, and by those of what digs. Each has the part
+// where its paths are nearer to the normal: where its own field is the steeper one, if there are no others. Returned is how far a
+// seed that has just settled is on its own side of the border of the two parts, units, to first order; where that is no more than
+// `shared` to either side it sets the seed's border. `*g`, the direction outward, becomes that in the middle of what the border
+// leaves of the seed's cell: rims are sharp.
+Real findShare(Path& path, Seed& s, Real shared, Vector* g)
+{
+    const SoftObject& object = path.object();
+    const bool hollow = path.all().hollow;
+    const Vector out = object.slants() ? path.ownGradient(s.position, Real(1)) : path.from(s.position);
+    const Rival rival = rivalOf(path, s.position);
+    if (rival.along == nullptr)
+        return BORDER_FAR;
+    Real own = -(path.ownSlope() * nearLength(out));
+    if (hollow)
+        own = own * path.all().weight;
+    Real lead = own - rival.steepest;
+    if (path.touched() > 1)
+        lead += leadOf(hollow ? -*g : *g, out, own, rival);
+    // Away from the core of what digs.
+    const Along& other = *rival.along;
+    const Vector wall = hollow ? out : rival.from;
+    const Real rate = hollow ? changeOf(-path.ownSlope(), path.ownParam(s.position), object.strength(), path.all().weight)
+                             : changeOf(-other.slope, other.t, other.near->strength, other.near->weight * other.near->ratio);
+    const Real change = absolute(rate);
+    const Real apart = absolute(lead) < change * BORDER_FAR ? lead / change : lead < Real(0) ? -BORDER_FAR : BORDER_FAR;
+    if (absolute(apart) > shared)
+        return apart;
+    s.apart = static_cast<int16_t>(rawFromReal(apart + OVERLAP) >> 8);
+    s.border = directionOf(normalise((rate < Real(0)) == hollow ? -wall : wall));
+    const Real half = shiftDown(object.spacing() * s.position, 1);
+    if (apart < half) {
+        const Real turn = change * shiftDown(half - most(apart, -half), 1);
+        *g = *g + withLength(hollow ? -wall : wall, hollow ? turn : least(turn, rival.steepest));
+    }
+    return apart;
+}
+
+}  // namespace
+
+// Shares the wall with others, for a seed that has found the surface. False: the surface there is the others' to sample.
+bool Settler::findDented(Seed& s, Vector* g)
+{
+    const Real shared = object_.spacing() * SHARED, apart = findShare(path_, s, shared, g);
+    if (apart < -shared) {
+        s.flags |= SEED_COVERED;
+        putOff(s, -apart - shared, BORDER_SPEED);
+        return false;
+    }
+    if (apart < shared)
+        s.flags |= SEED_BORDER;
+    return true;
+}
+
+// Whether a path that led into a hollow may leave the surface farther out again.
+bool Settler::hasClosed(const Seed& s)
+{
+    Sample sample;
+    path_.begin(nearby_.listed(), s, CLOSING, &sample);
+    return sample.excess > Real(0);
+}
+
+// ---- What is off the surface waits
+
+// For how long at most; the fields of those that do not reach the path yet begin gently.
+Real Settler::longestOff() const
+{
+    return path_.touched() == all_.count ? LONGEST_WAIT : LIST_SLACK;
+}
+
+// A seed that is not on the surface, or not in its own part of it, by `hold` of the field that changes by `push` when the
+// neighbours come by a unit: until when it need not be looked at.
+void Settler::putOff(Seed& s, Real hold, Real push) const
+{
+    s.flags |= SEED_OFF;
+    s.due = static_cast<uint16_t>(now_ + wayUntil(hold, push, longestOff()));
+}
+
+bool Settler::isOff(const Seed& s) const
+{
+    return (s.flags & SEED_OFF) && came_ < LONGEST_WAIT && static_cast<int16_t>(static_cast<uint16_t>(now_) - s.due) < 0;
+}
+
+// For how long that is so of all seeds of a patch.
+Way Settler::offFor(const Patch& patch) const
+{
+    Way way = wayOf(LONGEST_WAIT);
+    forSeeds(patch, [&](int i) {
+        const Seed& s = object_.seed(i);
+        const Way seeds = s.flags & SEED_OFF ? static_cast<uint16_t>(s.due - now_) : 0;
+        way = seeds < way ? seeds : way;
+    });
+    return way;
+}
+
+// What becomes of a patch the middle of which has just been found off the surface: whether all of it is. The own field is the same
+// at one position of all its paths, unless it is warped; they are no farther from each other there than twice where they rest.
+PatchState Settler::probeOff(Patch& patch, const Seed& s) const
+{
+    if ((s.flags & SEED_COVERED) || object_.warped())
+        return PATCH_MIXED;
+    const Real push = path_.pushMost(), hold = off_ - push * realFromRaw(patch.radius << 13);
+    if (hold <= Real(0))
+        return PATCH_MIXED;
+    patch.due += wayUntil(hold, push, longestOff());
+    return PATCH_INSIDE;
+}

@@ -1,0 +1,140 @@
+// Which neighbours the paths of a patch may meet, from the patch's lists (classify.cpp) and from where its seeds are.
+#include "nearby.h"
+
+#include "model/body.h"
+
+Nearby::Nearby(const SoftObject& object, const Neighbourhood& all, const Bodies& bodies)
+    : object_(object), all_(all), bodies_(bodies), ownWeights_(bodies.weights(object.slot()))
+{
+    listed_.count = 0;
+    for (int i = 0; i < all.count; ++i)
+        listed_.number[listed_.count++] = static_cast<uint8_t>(i);
+    findComplete(listed_);
+    allComplete_ = listed_.complete;
+}
+
+bool Nearby::setPatch(const Patch& patch, bool oversampled)
+{
+    nearest_ = realFromRaw(patch.nearest << 10);
+    farthest_ = realFromRaw(patch.farthest << 10);
+    patch_ = &patch;
+    near_.count = 0;
+    listed_.count = -1;
+    smallest_ = object_.laidSize();
+    dented_ = false;
+    if (!all_.common)
+        setOdd(patch);
+    if (!isListed(patch.near)) {
+        near_.complete = true;
+        return false;
+    }
+    // Oversampled seeds lie between those of the patch and those beside it.
+    const Bound ball = boundOf(patch, oversampled ? patch.radius : patch.tight);
+    forNeighbours(patch.near, [&](int slot) {
+        const int i = all_.numberOf[slot];
+        if (i < 0 || !reaches(all_.neighbours[i], ball))
+            return;
+        near_.number[near_.count++] = static_cast<uint8_t>(i);
+        smallest_ = least(smallest_, all_.neighbours[i].grain);
+    });
+    setComplete(near_);
+    return near_.count > 0;
+}
+
+// What a patch has besides where not all is common.
+void Nearby::setOdd(const Patch& patch)
+{
+    if (object_.shaped())
+        smallest_ = smallest_ * object_.narrowing();
+    if (object_.strength() > Real(1))
+        smallest_ = smallest_ / object_.strength();
+    dented_ = all_.inner || all_.hollow;
+    if (all_.dented || all_.hollow)
+        forNeighbours(patch.listed, [&](int slot) {
+            const int i = all_.numberOf[slot];
+            if (i < 0)
+                return;
+            dented_ = dented_ || all_.neighbours[i].digs;
+            smallest_ = least(smallest_, all_.neighbours[i].grain);
+        });
+}
+
+// Made when it is needed for the first time.
+const Few& Nearby::findListed()
+{
+    listed_.count = 0;
+    forNeighbours(patch_->listed, [&](int slot) {
+        if (all_.numberOf[slot] >= 0)
+            listed_.number[listed_.count++] = static_cast<uint8_t>(all_.numberOf[slot]);
+    });
+    setComplete(listed_);
+    return listed_;
+}
+
+void Nearby::findComplete(Few& few) const
+{
+    if (all_.common) {
+        few.complete = areAllOne(few);
+        return;
+    }
+    few.complete = areLinked(few);
+    for (int i = 0; i < few.count && few.complete; ++i) {
+        const Neighbour& near = all_.neighbours[few.number[i]];
+        if (near.digs)
+            few.complete = digAlike(few, near);
+        else if (all_.hollow)
+            few.complete = bodies_.weight(near.object->slot(), object_.slot()) == -all_.weight;
+    }
+}
+
+// Where all is common: whether all of them and the object have links of weight 1.
+bool Nearby::areAllOne(const Few& few) const
+{
+    for (int i = 0; i < few.count; ++i) {
+        const int slot = all_.neighbours[few.number[i]].object->slot();
+        if (ownWeights_[slot] != Real(1))
+            return false;
+        for (int j = 0; j < i; ++j)
+            if (bodies_.weight(all_.neighbours[few.number[j]].object->slot(), slot) != Real(1))
+                return false;
+    }
+    return true;
+}
+
+// The same where some of them, or the object, dig: of all that do not.
+bool Nearby::areLinked(const Few& few) const
+{
+    if (all_.inner)
+        return false;
+    uint32_t members[Bodies::LINK_WORDS] = {};
+    const auto add = [&](int slot) { members[slot / 32] |= 1u << slot % 32; };
+    const auto isLinkedWithAll = [&](int slot) {
+        const uint32_t* const plain = bodies_.plainLinks(slot);
+        uint32_t missing = 0;
+        for (int word = 0; word < Bodies::LINK_WORDS; ++word)
+            missing |= members[word] & ~(plain[word] | (word == slot / 32 ? 1u << slot % 32 : 0));
+        return missing == 0;
+    };
+    const auto ofBody = [&](int i) { return !all_.neighbours[few.number[i]].digs; };
+    const auto slotOf = [&](int i) { return all_.neighbours[few.number[i]].object->slot(); };
+    if (!all_.hollow)
+        add(object_.slot());
+    for (int i = 0; i < few.count; ++i)
+        if (ofBody(i))
+            add(slotOf(i));
+    for (int i = 0; i < few.count; ++i)
+        if (ofBody(i) && !isLinkedWithAll(slotOf(i)))
+            return false;
+    return all_.hollow || isLinkedWithAll(object_.slot());
+}
+
+// Whether one of them that digs does it with one weight into all the others that do not.
+bool Nearby::digAlike(const Few& few, const Neighbour& digging) const
+{
+    for (int j = 0; j < few.count; ++j) {
+        const Neighbour& member = all_.neighbours[few.number[j]];
+        if (!member.digs && bodies_.weight(member.object->slot(), digging.object->slot()) != -digging.weight)
+            return false;
+    }
+    return true;
+}

@@ -1,0 +1,69 @@
+// Nearby: which neighbours the paths of a patch may meet, so that a seed asks no others; and whether all of these are linked
+// with each other, so that their fields need only be added up.
+#ifndef FB_NEARBY_H
+#define FB_NEARBY_H
+
+#include "patch.h"
+
+// The neighbours to look at, by their numbers, and whether they and the object are all linked with each other at weight 1,
+// and what digs does it with one weight into all of them: then the sum of the fields, less what digs, is F.
+struct Few {
+    int count;
+    bool complete;
+    uint8_t number[NEIGHBOURS_MAX];
+};
+
+// Those of one object in a frame, for one patch after the other.
+class Nearby {
+public:
+    Nearby(const SoftObject& object, const Neighbourhood& all, const Bodies& bodies);
+
+    // Takes up a patch. False: no neighbour reaches its seeds where they are.
+    bool setPatch(const Patch& patch, bool oversampled);
+
+    // Those that may reach some place on the paths of the patch; those that reach its seeds where they are; and those that may
+    // reach a position.
+    const Few& listed() { return listed_.count < 0 ? findListed() : listed_; }
+    const Few& at(Real position) { return isBeyond(position) ? listed() : near_; }
+    // Whether a position is not one where the seeds of the patch are, so that others may reach it.
+    bool isBeyond(Real position) const { return position < nearest_ || position > farthest_; }
+
+    // The size of the smallest of them, or of the object.
+    Real smallest() const { return smallest_; }
+    // Whether something digs where the paths are, or the seeds sample a hollow.
+    bool dented() const { return dented_; }
+
+    // Whether all neighbours of the object, whatever patch they reach, and it are linked at weight 1.
+    bool allComplete() const { return allComplete_; }
+    void setComplete(Few& few) const
+    {
+        few.complete = allComplete_;
+        if (!few.complete)
+            findComplete(few);
+    }
+    // Whether the object is linked with another at weight 1.
+    bool isLinked(int slot) const { return (bodies_.plainLinks(object_.slot())[slot / 32] >> slot % 32 & 1) != 0; }
+
+private:
+    void findComplete(Few& few) const;
+    bool areAllOne(const Few& few) const;
+    bool areLinked(const Few& few) const;
+    bool digAlike(const Few& few, const Neighbour& digging) const;
+    SELDOM void setOdd(const Patch& patch);
+    const Few& findListed();
+
+    const SoftObject& object_;
+    const Neighbourhood& all_;
+    const Bodies& bodies_;
+    const Real* const ownWeights_;  // of the object's links, by slots
+    bool allComplete_;
+
+    // Of the patch.
+    const Patch* patch_;
+    Few near_, listed_;  // listed_.count -1: not needed yet
+    Real smallest_;
+    bool dented_;
+    Real nearest_, farthest_;  // between which positions its seeds are, and a little more
+};
+
+#endif

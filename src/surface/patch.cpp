@@ -1,0 +1,277 @@
+// Patches: which seeds make one, and what is measured of it where its seeds rest.
+#include "patch.h"
+
+#include "math/normal.h"
+#include "model/stop.h"
+#include "rt.h"
+
+namespace {
+
+// --- What is measured of a patch
+
+Direction14 direction(const Vector& unitVector)
+{
+    return {static_cast<int16_t>(rawFromReal(unitVector.x) >> 2), static_cast<int16_t>(rawFromReal(unitVector.y) >> 2),
+            static_cast<int16_t>(rawFromReal(unitVector.z) >> 2)};
+}
+
+Vector restOf(const SoftObject& object, const Seed& s)
+{
+    return object.root(s.root) + s.path;
+}
+
+Vector restNormalOf(const SoftObject& object, const Seed& s)
+{
+    // When an object is warped anew, its seeds have long left their rest.
+    const Direction14 n = s.flags & SEED_RESTING ? s.normal : object.restNormal(s);
+    return {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)};
+}
+
+// How long the paths of a patch are; of a shaped object, whose paths lead aside, how far along its axis they lead.
+Real pathOf(const SoftObject& object, const Patch& patch, const Vector& axis, Real share)
+{
+    Real path(0);
+    if (object.shaped())
+        forSeeds(patch, [&](int i) { path += dot(object.seed(i).path, axis) * share; });
+    else if (object.tapers())
+        forSeeds(patch, [&](int i) { path += length(object.seed(i).path) * share; });
+    else
+        path = object.radius();
+    return path;
+}
+
+// How far at most the paths of a shaped object lead from where the patch's path does, 1/16 unit.
+SELDOM int16_t leanOf(const SoftObject& object, const Patch& patch, const Vector& axis, Real path)
+{
+    Real most(0);
+    forSeeds(patch, [&](int i) { most = ::most(most, length(object.seed(i).path - axis * path)); });
+    return static_cast<int16_t>(steps16(most) + 1);
+}
+
+void setPatch(const SoftObject& object, Patch& patch)
+{
+    int count = 0;
+    for (int ring = 0; ring < PATCH_RINGS; ++ring)
+        count += patch.count[ring];
+    const Real share = Real(1) / Real(count);
+
+    Vector middle{Real(0), Real(0), Real(0)}, axis = middle;
+    forSeeds(patch, [&](int i) {
+        middle = middle + restOf(object, object.seed(i));
+        axis = axis + restNormalOf(object, object.seed(i));
+    });
+    middle = middle * share;
+    axis = unit(axis * share);
+    Square radius(0), spread(0);
+    forSeeds(patch, [&](int i) {
+        const Square away = squareOf(restOf(object, object.seed(i)) - middle);
+        const Square aside = squareOf(restNormalOf(object, object.seed(i)) - axis);
+        radius = radius < away ? away : radius;
+        spread = spread < aside ? aside : spread;
+    });
+    const Real path = pathOf(object, patch, axis, share);
+
+    const Direction14 d = direction(axis);
+    patch.axis[0] = d.x;
+    patch.axis[1] = d.y;
+    patch.axis[2] = d.z;
+    patch.spread = static_cast<int16_t>(rawFromReal(least(lengthOf(spread), Real(1.9))) >> 2);
+    patch.middle[0] = static_cast<int16_t>(steps16(middle.x));
+    patch.middle[1] = static_cast<int16_t>(steps16(middle.y));
+    patch.middle[2] = static_cast<int16_t>(steps16(middle.z));
+    patch.radius = static_cast<int16_t>(steps16(lengthOf(radius) + shiftDown(object.spacing(), 1)) + 2);
+    patch.tight = static_cast<int16_t>(steps16(lengthOf(radius)) + 1);
+    patch.path = static_cast<int16_t>(steps16(path) + 1);
+    patch.lean = object.shaped() ? leanOf(object, patch, axis, path) : 0;
+}
+
+void beginPatch(const SoftObject& object, Patch& patch)
+{
+    patch.state = PATCH_REST;
+    patch.extras = patch.fine = patch.settled = patch.stale = false;
+    patch.blocker = static_cast<uint8_t>(object.slot());
+    patch.nearest = patch.farthest = 64;
+    patch.due = patch.listDue = 0;
+    memset(patch.listed, 0, sizeof patch.listed);
+    memset(patch.near, 0, sizeof patch.near);
+    patch.bend.known = false;
+}
+
+// --- Which seeds make a patch
+
+// The rings from `ring` on that one band of patches has, the most seeds of one of them, and how many patches that takes.
+struct Band {
+    int rings, runs;
+
+    Band(const SoftObject& object, int ring)
+    {
+        const int left = object.rings() - ring;
+        rings = left < PATCH_RINGS ? left : PATCH_RINGS;
+        int most = 0;
+        for (int k = ring; k < ring + rings; ++k) {
+            const int count = object.ringStart(k + 1) - object.ringStart(k);
+            most = count > most ? count : most;
+        }
+        runs = (most + PATCH_SEEDS - 1) / PATCH_SEEDS;
+    }
+};
+
+// The seeds of a patch: of each of its rings so many, one behind the other.
+struct Run {
+    int first[PATCH_RINGS], count[PATCH_RINGS];
+};
+
+// The rings of a stretched object leave out seeds, each at other places (thinning() in model/round.h). The patches of a band
+// follow the fullest of its rings, and the seeds of the others come to those of that one that they lie nearest to.
+class Follower {
+public:
+    Follower(const SoftObject& object, int ring, int rings) : object_(object), rings_(rings), fullest_(0)
+    {
+        for (int k = 0; k < rings; ++k) {
+            start_[k] = at_[k] = object.ringStart(ring + k);
+            end_[k] = object.ringStart(ring + k + 1);
+            near_[k] = -1;
+            if (end_[k] - at_[k] > end_[fullest_] - at_[fullest_])
+                fullest_ = k;
+        }
+        last_ = at_[fullest_];
+    }
+
+    // The next patch. False: there are no more.
+    bool next(Run& run)
+    {
+        bool late = false;
+        int left = 0;
+        for (int k = 0; k < rings_; ++k) {
+            left += end_[k] - at_[k];
+            // The patch before had no room for all of its seeds.
+            late = late || (isWithin(k, at_[k]) && isWithin(k, at_[k] + PATCH_SEEDS - 1));
+        }
+        if (left == 0)
+            return false;
+        if (!late)
+            last_ = last_ + PATCH_SEEDS < end_[fullest_] ? last_ + PATCH_SEEDS : end_[fullest_];
+        int count = 0;
+        for (int k = 0; k < PATCH_RINGS; ++k) {
+            run.first[k] = k < rings_ ? at_[k] : 0;
+            run.count[k] = 0;
+            while (k < rings_ && run.count[k] < PATCH_SEEDS && isWithin(k, at_[k])) {
+                near_[k] = nearest(k, at_[k]);
+                ++at_[k];
+                ++run.count[k];
+            }
+            count += run.count[k];
+        }
+        return count > 0 || next(run);
+    }
+
+private:
+    const SoftObject& object_;
+    int rings_, fullest_;
+    // Of each ring: its first seed, the end, the first of the next patch.
+    int start_[PATCH_RINGS], end_[PATCH_RINGS], at_[PATCH_RINGS];
+    int near_[PATCH_RINGS];  // what is nearest to the seed before that one; -1: there is none
+    int last_;               // of the fullest: the end of the patches so far
+
+    // Whether a seed of a ring belongs to the patches so far.
+    bool isWithin(int k, int i) const
+    {
+        return i < end_[k] && (last_ == end_[fullest_] || (k == fullest_ ? i : nearest(k, i)) < last_);
+    }
+
+    Square between(int i, int n) const
+    {
+        const auto rest = [&](int number) {
+            const Seed& s = object_.regular(2 * number);
+            return object_.root(s.root) + s.path;
+        };
+        return squareOf(rest(i) - rest(n));
+    }
+
+    // The seed of the fullest ring that is nearest to one: some way on from that of the seed before, or anywhere.
+    int nearest(int k, int i) const
+    {
+        const int start = start_[fullest_], end = end_[fullest_];
+        const Square far = squareOf({object_.spacing() * Real(2.5), Real(0), Real(0)});
+        int n = near_[k];
+        if (n >= 0)
+            while (n + 1 < end && between(i, n + 1) <= between(i, n))
+                ++n;
+        if (n >= 0 && between(i, n) < far)
+            return n;
+        n = start;
+        for (int j = start + 1; j < end; ++j)
+            if (between(i, j) < between(i, n))
+                n = j;
+        // What lies just before the first of them is first.
+        return i == start_[k] && 2 * n > start + end ? start : n;
+    }
+};
+
+// Calls `each` with the seeds of every patch of an object.
+template <class Each>
+void forPatches(const SoftObject& object, Each each)
+{
+    for (int ring = 0; ring < object.rings(); ring += PATCH_RINGS) {
+        const Band band(object, ring);
+        Run run;
+        if (object.stretched()) {
+            Follower follower(object, ring, band.rings);
+            while (follower.next(run))
+                each(run);
+            continue;
+        }
+        for (int i = 0; i < band.runs; ++i) {
+            for (int k = 0; k < PATCH_RINGS; ++k) {
+                run.first[k] = run.count[k] = 0;
+                if (k >= band.rings)
+                    continue;
+                const int start = object.ringStart(ring + k), inRing = object.ringStart(ring + k + 1) - start;
+                run.first[k] = start + inRing * i / band.runs;
+                run.count[k] = start + inRing * (i + 1) / band.runs - run.first[k];
+            }
+            each(run);
+        }
+    }
+}
+
+}  // namespace
+
+int patchesOf(const SoftObject& object)
+{
+    int patches = 0;
+    forPatches(object, [&](const Run&) { ++patches; });
+    return patches;
+}
+
+void makePatches(const SoftObject& object, Patch* patches)
+{
+    forPatches(object, [&](const Run& run) {
+        if (stopAsked())
+            return;
+        Patch& patch = *patches++;
+        int middle = 0, rings = 0;
+        for (int k = 0; k < PATCH_RINGS; ++k) {
+            patch.first[k] = run.first[k];
+            patch.count[k] = static_cast<uint8_t>(run.count[k]);
+            if (run.count[k] > 0)
+                rings = k + 1;
+        }
+        for (int k = 0; k < PATCH_RINGS; ++k)
+            if (run.count[k] > 0 && (run.count[middle] == 0 || k == rings / 2))
+                middle = k;
+        patch.centre = 2 * (run.first[middle] + run.count[middle] / 2);
+        setPatch(object, patch);
+        beginPatch(object, patch);
+    });
+}
+
+void reshapePatches(const SoftObject& object, Patch* patches, int count, uint32_t reading)
+{
+    for (int i = 0; i < count; ++i) {
+        setPatch(object, patches[i]);
+        patches[i].due = reading;
+        patches[i].stale = true;
+        patches[i].bend.known = false;
+    }
+}

@@ -1,0 +1,292 @@
+// The fields of the object and of its neighbours along one path: their sum at a position, with its slope, and the direction in
+// which it falls. What becomes of the sum where not all are linked with all stands in blend.cpp.
+#include "path.h"
+
+namespace {
+
+// Positions: where paths begin to be searched, and those that are hollowed out or of weak objects.
+constexpr Real FIRST(0.7), FIRST_DEEP(0.06);
+// Of the field, over the size: no field changes by more.
+constexpr Real STEEPEST_OF_ALL(1.6);
+
+}  // namespace
+
+Path::Path(const SoftObject& object, const Neighbourhood& all, const Bodies& bodies, Nearby& nearby, Counts& counts)
+    : object_(object), all_(all), bodies_(bodies), nearby_(nearby), counts_(counts),
+      ownPlain_(object.strength() == Real(1) && !all.hollow && !all.inner && !object.warped()), warped_(object.warped()), restParam_(object.restParam()), first_(all.deep ? FIRST_DEEP : FIRST), last_(all.last),
+      middle_(all.deep ? shiftDown(first_ + last_, 1) : COVERED_AT)
+{
+    const Real restOfPath = (most(last_ - middle_, middle_ - first_) + Real(0.02)) * object.longestPath();
+    for (int i = 0; i < all.count; ++i) {
+        from_[i].root = -1;
+        const Real reach = Real(1) + restOfPath * shiftDown(all.neighbours[i].steep16, 4);
+        from_[i].reachT = reach < Real(100) ? reach * reach : Real(10000);
+    }
+}
+
+// What is the same for all seeds of a root.
+void Path::setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const
+{
+    // Of a shaped object each path has a length of its own, of a tapering one those of a root have.
+    const bool known = to.root >= 0 && !object_.tapers();
+    to.root = object_.shaped() ? -1 : s.root;
+    const Vector& root = object_.root(s.root);
+    if (near.kind == Neighbour::OTHER) {
+        to.apart = near.inCore(root) + near.offset;
+        return;
+    }
+    const auto inSizes = [&](const Vector& v) {
+        return Vector{shiftDown(v.x * near.inverse16, 4), shiftDown(v.y * near.inverse16, 4), shiftDown(v.z * near.inverse16, 4)};
+    };
+    to.apart = root - near.centre;
+    const Vector e = inSizes(to.apart);
+    to.a = dot(e, e);
+    if (!known) {
+        const Vector d = inSizes(s.path);
+        to.c = dot(d, d);
+    }
+    to.twice16 = e * shiftUp(near.inverse16, 1);
+    if (near.kind == Neighbour::SEGMENT) {
+        to.along16 = near.toCore[1];
+        to.y = shiftDown(dot(to.apart, to.along16), 4);
+    }
+}
+
+Real Along::otherParam(Real p)
+{
+    t = near->object->param(from->apart + step * p, &out);
+    // Where the field has ended the product might leave 16.16, and nobody asks for it.
+    change = t < Real(1) ? shiftDown(dot(out, step), 7) : Real(0);
+    return t;
+}
+
+// ---- A look at one position
+
+// Takes up those that look at the paths from now on, as they see the root of a seed.
+void Path::take(const Few& few, const Seed& s)
+{
+    if (few_ != &few) {
+        few_ = &few;
+        complete_ = few.complete;
+        touched_ = few.count;
+        end_ = along_ + few.count;
+        odd_ = !ownPlain_;
+        others_ = false;
+        for (int i = 0; i < few.count; ++i) {
+            find(few.number[i], along_[i]);
+            odd_ = odd_ || !along_[i].near->plain;
+            others_ = others_ || along_[i].kind == Neighbour::OTHER;
+        }
+    }
+    for (Along* along = along_; along < end_; ++along)
+        if (along->from->root != s.root)
+            setRoot(*along->near, s, *along->from);
+    rootOfFew_ = object_.shaped() ? -1 : s.root;
+}
+
+// The own field, of an object that is as strong as most.
+inline Fields Path::own(Real position)
+{
+    const Real t = shiftDown(position * position, 2);
+    const FieldStep field = t < Real(1) ? geoffQuick(t) : FieldStep{Real(0), Real(0)};
+    ownField_ = field.value;
+    ownSlope_ = field.slope;
+    return {field.value, shiftDown(field.slope * position, 1), Real(0), 0};
+}
+
+// Looks at a position where there is nothing odd about the object and the neighbours, and those are points and segments. `path`: of
+// a seed that is taken up now; null: it has been. False: none of them reaches that position.
+inline bool Path::lookPlain(Real position, const Vector* path, Sample* sample)
+{
+    ++counts_.iterations;
+    lookedAt_ = position;
+    shared_ = false;
+    Fields fields = own(position);
+    addFields(along_, end_, position, path, &fields);
+    *sample = {fields.sum - ISOVALUE, fields.slope, fields.strongest - ownField_};
+    if (!complete_)
+        blend(position, *sample);
+    return fields.touched != 0;
+}
+
+// The fields of all neighbours, as if there were nothing odd about them.
+inline void Path::addAll(Real position, const Vector* path, Fields* fields)
+{
+    for (Along* along = along_; along < end_ && others_; ++along)
+        if (along->kind == Neighbour::OTHER) {
+            if (path != nullptr)
+                along->aim(*path);
+            along->otherParam(position);
+        }
+    addFields(along_, end_, position, path, fields);
+}
+
+// The same anywhere.
+bool Path::lookOdd(Real position, const Vector* path, Sample* sample)
+{
+    ++counts_.iterations;
+    lookedAt_ = position;
+    shared_ = false;
+    Fields fields = ownPlain_ ? own(position) : ownOdd(position);
+    addAll(position, path, &fields);
+    if (odd_)
+        addOdd(&fields);
+    *sample = {fields.sum - ISOVALUE, fields.slope, fields.strongest - ownField_};
+    if (!complete_)
+        odd_ ? blendOdd(position, *sample) : blend(position, *sample);
+    if (all_.hollow)
+        *sample = {-sample->excess, -sample->slope, fields.strongest - headField_};
+    return fields.touched != 0;
+}
+
+// The own field of an object that is not as strong as most, or of one whose seeds sample a hollow: it digs, and the head is
+// among its neighbours.
+Fields Path::ownOdd(Real position)
+{
+    const Real t = ownParam(position), strength = object_.strength();
+    const FieldStep own = t < Real(1) ? geoffQuick(most(t, Real(0))) : FieldStep{Real(0), Real(0)};
+    ownField_ = own.value * strength;
+    ownSlope_ = own.slope * strength;
+    const Real rate = ownRate(position);
+    headField_ = Real(0);
+    return all_.hollow ? Fields{-(ownField_ * all_.weight), -(rate * all_.weight), Real(0), 0} : Fields{ownField_, rate, Real(0), 0};
+}
+
+// Corrects the fields that were just added where something digs, or strengths differ.
+void Path::addOdd(Fields* fields)
+{
+    fields->strongest = Real(0);
+    for (Along* along = along_; along < end_; ++along) {
+        const Neighbour& near = *along->near;
+        if (!near.plain && along->slope != Real(0)) {
+            const Real weight = near.digs ? -near.weight : Real(1);
+            fields->sum -= along->value;
+            fields->slope -= along->slope * along->change;
+            along->value = along->value * near.strength;
+            along->slope = along->slope * near.strength;
+            fields->sum += along->value * weight;
+            fields->slope += along->slope * weight * along->change;
+        }
+        if (all_.hollow && near.object == all_.head)
+            headField_ = along->value;
+        else if (!near.digs)
+            fields->strongest = most(fields->strongest, along->value);
+    }
+}
+
+Sample Path::look(Real position)
+{
+    Sample sample;
+    if (!odd_ && !others_)
+        lookPlain(position, nullptr, &sample);
+    else
+        lookOdd(position, nullptr, &sample);
+    return sample;
+}
+
+bool Path::begin(const Few& few, const Seed& s, Real position, Sample* sample)
+{
+    seed_ = &s;
+    if (few_ != &few || rootOfFew_ != s.root)
+        take(few, s);
+    return !odd_ && !others_ ? lookPlain(position, &s.path, sample) : lookOdd(position, &s.path, sample);
+}
+
+Sample Path::beginSearch(const Seed& s)
+{
+    Sample sample;
+    const Few& listed = nearby_.listed();
+    begin(listed, s, middle_, &sample);
+    Few few;
+    few.count = 0;
+    for (int i = 0; i < listed.count; ++i) {
+        if (along_[i].t >= along_[i].from->reachT)
+            continue;
+        if (few.count != i)
+            along_[few.count] = along_[i];
+        few.number[few.count++] = listed.number[i];
+    }
+    if (few.count == listed.count)
+        return sample;
+    few.complete = true;
+    if (!listed.complete)
+        nearby_.setComplete(few);
+    complete_ = few.complete;
+    touched_ = few.count;
+    end_ = along_ + few.count;
+    few_ = nullptr;
+    return sample;
+}
+
+// The own t at a position of the path of a warped object; sets ownChange_.
+Real Path::warpedParam(Real position)
+{
+    const Real inward = Real(CORE_SIZE) / object_.laidSize();
+    const Vector step = seed_->path * inward;
+    Vector out;
+    const Real t = object_.param(root() * inward + step * position, &out);
+    ownChange_ = t < Real(1) ? shiftDown(dot(out, step), 7) : Real(0);
+    return t;
+}
+
+// ---- What is asked after a look
+
+// Each field pushes away from its core by its slope over its squared size.
+Vector Path::outward(Real position) const
+{
+    Real own = -(shared_ ? ownSlope_ * share_[0] : ownSlope_);
+    if (!shared_ && all_.hollow)
+        own = -(own * all_.weight);
+    Vector g{Real(0), Real(0), Real(0)};
+    // Points push along the path, and from where they stand to the root.
+    Real along = object_.slants() ? Real(0) : own;
+    for (int i = 0; i < touched_; ++i) {
+        const Along& to = along_[i];
+        if (to.slope == Real(0))
+            continue;
+        Real slope = shared_ ? to.slope * share_[i + 1] : to.slope;
+        if (!shared_ && to.near->digs)
+            slope = -(slope * to.near->weight);
+        const Real push = -(slope * to.near->ratio);
+        if (to.near->kind == Neighbour::OTHER) {
+            g = g + to.near->fromCoreSpace(to.out) * push;
+            continue;
+        }
+        along += push;
+        g = g + to.from->apart * push;
+        if (to.near->kind == Neighbour::SEGMENT)
+            g = g - to.near->direction * (to.k * to.near->size * push);
+    }
+    g = g + seed_->path * (along * position);
+    return object_.slants() ? g + ownGradient(position, own) : g;
+}
+
+Vector Path::ownGradient(Real position, Real share) const
+{
+    return object_.slopeAt(root() + from(position)) * shiftDown(share * object_.laidSize(), 4);
+}
+
+Real Path::pushes() const
+{
+    // The gradient of a field is 2 f' r / R^2, and r / R no more than r^2 / R^2 + 1/4; a little more for what that changes.
+    Real sum(0);
+    for (int i = 0; i < touched_; ++i)
+        sum += (Real(0.1) - along_[i].slope * (along_[i].t + Real(0.25))) * along_[i].near->push16;
+    return shiftDown(sum, 3);
+}
+
+Real Path::pushMost() const
+{
+    Real sum(0);
+    for (int i = 0; i < touched_; ++i)
+        sum += along_[i].near->push16 * along_[i].near->strength;
+    return shiftDown(sum * STEEPEST_OF_ALL, complete_ ? 4 : 3);
+}
+
+Real Path::steepest() const
+{
+    Real own = shiftDown(object_.strength() * (all_.hollow ? most(all_.weight, Real(1)) : Real(1)), 1) * STEEPEST_OF_ALL;
+    if (warped_)
+        own = own * (object_.longestPath() / (object_.laidRadius() * object_.narrowing()));
+    return own + pushMost() * object_.longestPath();
+}

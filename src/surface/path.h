@@ -1,0 +1,154 @@
+// Path: the field of the body along the path of one seed. Along a path the field of every neighbour is a function of the
+// position; this adds them up at one position after the other, and knows what each of them was at the last.
+#ifndef FB_PATH_H
+#define FB_PATH_H
+
+#include "fields.h"
+#include "nearby.h"
+
+// The position at which the own field is .23; a neighbour that is stronger there is so for good (cover.h).
+constexpr Real COVERED_AT(1.36);
+
+// The body's field at a position: its excess over the isovalue, its slope along the path, how much stronger than the own
+// field the strongest neighbour's is.
+struct Sample {
+    Real excess, slope, dominance;
+};
+
+// The field along the paths of one object's seeds in a frame, one after the other: the path at hand is the one that was taken
+// up last. In a hollow inside and outside change places.
+class Path {
+public:
+    Path(const SoftObject& object, const Neighbourhood& all, const Bodies& bodies, Nearby& nearby, Counts& counts);
+
+    // Takes up the path of a seed as a few neighbours see it, and looks at a position. False: none of them reaches that.
+    bool begin(const Few& few, const Seed& s, Real position, Sample* sample);
+
+    // Takes up the path of a seed that is searched, as those see it that reach some of it, and looks at middle().
+    Sample beginSearch(const Seed& s);
+
+    // Looks at a position of the path at hand.
+    Sample look(Real position);
+
+    // The direction in which the field falls at a position that has just been looked at, any length, own axes.
+    Vector outward(Real position) const;
+
+    // To be called when the lists of `nearby` change.
+    void leave() { few_ = nullptr; }
+
+    // What is known of a neighbour's field along the path of a seed, which need not be taken up, before any position is looked at.
+    void aim(int number, const Seed& s, Along& along);
+
+    // What the fields may change by, all together, when the neighbours come by a unit: where they were looked at last, and
+    // anywhere on the path.
+    Real pushes() const;
+    Real pushMost() const;
+    // What they change by at most, all together and the own one, over a position.
+    Real steepest() const;
+
+    // Positions: where paths are searched.
+    Real first() const { return first_; }
+    Real last() const { return last_; }
+    // The position in between that is looked at first.
+    Real middle() const { return middle_; }
+
+    const SoftObject& object() const { return object_; }
+    const Neighbourhood& all() const { return all_; }
+    // How many neighbours see the path at hand, and what each of them makes of it.
+    int touched() const { return touched_; }
+    const Along& along(int i) const { return along_[i]; }
+    // What leads to a place on it, from the root and from the core of a neighbour.
+    Vector from(Real position) const { return seed_->path * position; }
+    Vector fromCore(const Along& along, Real position) const;
+
+    // The last position looked at, and F and dF/dt of the own field there.
+    Real lookedAt() const { return lookedAt_; }
+    Real ownField() const { return ownField_; }
+    Real ownSlope() const { return ownSlope_; }
+    // The own t at a position; and dF/dp, when that has been looked at.
+    Real ownParam(Real position) { return warped_ ? warpedParam(position) : position * position * restParam_; }
+    Real ownRate(Real position) const
+    {
+        return warped_ ? ownSlope_ * ownChange_ : ownSlope_ * position * shiftUp(restParam_, 1);
+    }
+    // Half the gradient of the own t at a position, times its squared size and a share: of an object whose paths slant.
+    SELDOM Vector ownGradient(Real position, Real share) const;
+
+private:
+    struct Part;
+
+    void setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const;
+    void find(int number, Along& along);
+    void take(const Few& few, const Seed& s);
+    const Vector& root() const { return object_.root(seed_->root); }
+    Fields own(Real position);
+    SELDOM Fields ownOdd(Real position);
+    SELDOM void addOdd(Fields* fields);
+    void addAll(Real position, const Vector* path, Fields* fields);
+    bool lookPlain(Real position, const Vector* path, Sample* sample);
+    SELDOM bool lookOdd(Real position, const Vector* path, Sample* sample);
+    SELDOM Real warpedParam(Real position);
+    // The body's field from those that were found (blend.cpp).
+    SELDOM void blend(Real position, Sample& sample);
+    SELDOM void blendOdd(Real position, Sample& sample);
+    int findParts(Real position, Part* parts, Real* strongest);
+    Real addDents(Real position, Part* parts, int count);
+
+    const SoftObject& object_;
+    const Neighbourhood& all_;
+    const Bodies& bodies_;
+    Nearby& nearby_;
+    Counts& counts_;
+    const bool ownPlain_;           // the object's strength is 1, nothing digs within its body, and it is neither a hollow nor warped
+    const bool warped_;             // the object is
+    const Real restParam_;          // t of the own field at position 1, unless it is warped
+    const Real first_, last_, middle_;
+    FromRoot from_[NEIGHBOURS_MAX];
+
+    // Of the path at hand.
+    const Few* few_ = nullptr;      // those that see it, if they are all of a list, as the root with that number does
+    int rootOfFew_ = -1;
+    bool odd_;                      // not ownPlain_, or some of them are not Neighbour::plain
+    bool others_;                   // some of them are neither points nor segments
+    const Seed* seed_;
+    Along* end_ = along_;
+    bool complete_;
+    bool shared_;                   // share_ holds at the position looked at last; else all are 1
+    int touched_;
+    Along along_[NEIGHBOURS_MAX];
+    Real headField_;                // of a hollow: the field of what is hollowed out
+    Real lookedAt_;
+    Real ownField_, ownSlope_;
+    Real ownChange_;                // and dt/dp, of a warped object
+    Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, if shared_
+};
+
+// What does not depend on the path.
+inline void Path::find(int number, Along& along)
+{
+    const Neighbour& near = all_.neighbours[number];
+    along.near = &near;
+    along.from = from_ + number;
+    along.kind = near.kind;
+    along.half = near.half;
+}
+
+inline void Path::aim(int number, const Seed& s, Along& along)
+{
+    find(number, along);
+    if (along.from->root != s.root) {
+        setRoot(*along.near, s, *along.from);
+        rootOfFew_ = -1;
+    }
+    along.aim(s.path);
+}
+
+inline __attribute__((always_inline)) Vector Path::fromCore(const Along& along, Real position) const
+{
+    if (along.near->kind == Neighbour::OTHER)
+        return along.near->fromCoreSpace(along.out);
+    const Vector v = along.from->apart + from(position);
+    return along.near->kind == Neighbour::SEGMENT ? v - along.near->direction * (along.k * along.near->size) : v;
+}
+
+#endif
