@@ -28,6 +28,7 @@ scenes() { # scenes DIR
 		FALL | DROP) at=4 ;;
 		FLYPAST) at=5 ;;
 		TOUR) at=10 ;;
+		LAMP) at=15 ;;
 		*) at=2 ;;
 		esac
 		build/demo "/M:$file" /N:$((at + 1)) /R:1 "/D:$dir/$name" >"$dir/said"

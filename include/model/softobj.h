@@ -336,6 +336,7 @@ private:
 
     const Link* hollowLink() const;
     void findRest();
+    void makeWarp(const WarpAmounts& amounts);
     void tellNeighbours();
     bool layOutRegular(Layout& layout) const;
     bool findNeighbours(Layout& layout) const;

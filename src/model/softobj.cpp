@@ -187,6 +187,8 @@ void SoftObject::findRest()
     restRoot_ = squareRoot(restParam_);
     rests_ = inside >= REST_LEAST && !laidHollow_;
     radius_ = size_ * restRoot_;
+    if (warped_)
+        makeWarp(warp_.asked());
 }
 
 void SoftObject::measureReach()
@@ -208,6 +210,16 @@ void SoftObject::setStretch(const Vector& factors)
     recalc_ = true;
 }
 
+// The warp goes from where the surface rests at the bottom to where it does at the top.
+void SoftObject::makeWarp(const WarpAmounts& amounts)
+{
+    const Real radius = Real(CORE_SIZE) * restRoot_;
+    const Vector core = coreExtent16(), surface = stretchedOut(core + Vector{radius, radius, radius});
+    const Vector field = stretchedOut(core + Vector{Real(CORE_SIZE), Real(CORE_SIZE), Real(CORE_SIZE)});
+    warp_.set(amounts, surface.y, most(surface.x, surface.z), most(field.x, field.z));
+    measureReach();
+}
+
 void SoftObject::setWarp(const WarpAmounts& amounts)
 {
     if ((warped_ || amounts == NO_WARP) && amounts == warp_.asked())
@@ -217,11 +229,7 @@ void SoftObject::setWarp(const WarpAmounts& amounts)
         return;
     tellNeighbours();
     warped_ = true;
-    const Real radius = Real(CORE_SIZE) * restRoot_;
-    const Vector core = coreExtent16(), surface = stretchedOut(core + Vector{radius, radius, radius});
-    const Vector field = stretchedOut(core + Vector{Real(CORE_SIZE), Real(CORE_SIZE), Real(CORE_SIZE)});
-    warp_.set(amounts, surface.y, most(surface.x, surface.z), most(field.x, field.z));
-    measureReach();
+    makeWarp(amounts);
     if (laid) {
         reshape();
         surface_->reshape();

@@ -177,11 +177,15 @@ void Painter::add(const Seed& s, const Voxel& shaded)
 {
     Voxel voxel = shaded;
     if (paint_.shines()) {
-        voxel.brightness = static_cast<uint8_t>((polish_.brightness8(s.normal) + 128) >> 8);
+        voxel.brightness = static_cast<uint8_t>((brightness8(s) + 128) >> 8);
         slope(s, &voxel);
     }
-    const bool mixed = paint_.mixes && !(s.flags & SEED_RESTING);
-    const Spot spot = spotAt(place(s), s.normal, mixed ? s.mix : paint_.number);
+    const uint8_t mix = paint_.mixes && !(s.flags & SEED_RESTING) ? s.mix : paint_.number;
+    if (paint_.pattern == PATTERN_NONE) {
+        put(voxel, mix);
+        return;
+    }
+    const Spot spot = spotAt(place(s), s.normal, mix);
     if (!spot.edge || (voxel.cutX | voxel.cutY) != 0) {
         put(voxel, spot.number);
         return;
@@ -199,8 +203,17 @@ void Painter::add(const Seed& s, const Voxel& shaded)
     put(beyond, spot.beyond);
 }
 
+// Neighbours ask for the same seeds: a ring later at most, which is seldom longer than there is room.
+int32_t Painter::brightness8(const Seed& s)
+{
+    Known& known = known_[reinterpret_cast<uintptr_t>(&s) / sizeof(Seed) % KNOWN];
+    if (known.seed != &s)
+        known = {&s, polish_.brightness8(s.normal)};
+    return known.brightness8;
+}
+
 // How the brightness changes across the voxel, from the next seed of its ring and from N of the ring before.
-void Painter::slope(const Seed& s, Voxel* voxel) const
+void Painter::slope(const Seed& s, Voxel* voxel)
 {
     voxel->slopeX = voxel->slopeY = 0;
     // Oversampled ones do not lie among the regular.
@@ -212,8 +225,7 @@ void Painter::slope(const Seed& s, Voxel* voxel) const
     const Seed& n = object_.seed(s.neighbour);
     if (!(next->flags & n.flags & SEED_VALID))
         return;
-    const int32_t here = polish_.brightness8(s.normal);
-    const int32_t a = polish_.brightness8(next->normal) - here, b = polish_.brightness8(n.normal) - here;
+    const int32_t here = brightness8(s), a = brightness8(*next) - here, b = brightness8(n) - here;
     if (magnitude(a) + magnitude(b) < EVEN)
         return;
     const Vector at = place(s);
@@ -241,12 +253,10 @@ bool Painter::cut(const Direction14& inward, int32_t apart, Voxel* voxel) const
     return cutVoxel(along(inward, own_.right), along(inward, own_.up), along(inward, own_.ahead), apart, shear.x, shear.y, voxel);
 }
 
-// `place` in own space, `normal` of the surface there; where there is no pattern the colour has the number `mix`.
+// `place` in own space, `normal` of the surface there; without the pattern the colour would have the number `mix`.
 Painter::Spot Painter::spotAt(const Vector& place, const Direction14& normal, uint8_t mix) const
 {
     Spot spot{mix, paint_.other, false, {0, 0, 0}, 0};
-    if (paint_.pattern == PATTERN_NONE)
-        return spot;
     Real u[3];
     for (int i = 0; i < 3; ++i)
         u[i] = dot(place + from_, axis_[i]) * inverse_;

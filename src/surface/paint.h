@@ -34,7 +34,8 @@ private:
     struct Spot;
     Vector place(const Seed& s) const { return object_.root(s.root) + s.path * s.position; }
     void put(const Voxel& voxel, uint8_t number);
-    void slope(const Seed& s, Voxel* voxel) const;
+    int32_t brightness8(const Seed& s);
+    void slope(const Seed& s, Voxel* voxel);
     bool cut(const Direction14& inward, int32_t apart, Voxel* voxel) const;
     Spot spotAt(const Vector& place, const Direction14& normal, uint8_t mix) const;
 
@@ -47,6 +48,14 @@ private:
     Vector from_;         // own space: from the middle of the pattern to the object's centre
     Real inverse_, edge_; // own space to grains; a grain in units of the world
     Real reach2_;         // how far from a seed an edge is near, squared, in grains
+
+    // The brightness of seeds asked for lately.
+    struct Known {
+        const Seed* seed;
+        int32_t brightness8;
+    };
+    static constexpr int KNOWN = 128;
+    Known known_[KNOWN] = {};
 };
 
 // Sorts the voxels of a list by the numbers of their colours into runs.

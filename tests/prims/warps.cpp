@@ -171,4 +171,12 @@ void testWarps()
         object->describeShape(i, text, sizeof text);
         check(std::string(text) == lines[i], "described as '%s', not '%s'", text, lines[i]);
     }
+
+    // A strength that is given after the warp counts as one given before it.
+    Object other = Sample{"cylinder", 16, 0, 30, 0, 0, {2, 1, 0.5}}.make(4);
+    other->setStrength(real(3));
+    other->setWarp(object->warp().asked());
+    object->setStrength(real(3));
+    check(object->warp().height() == other->warp().height() && number(other->warp().height()) > 25,
+          "a strong object is warped over %g units", number(object->warp().height()));
 }

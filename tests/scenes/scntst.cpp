@@ -332,6 +332,9 @@ void rows()
     refused("sphere s size 9 repeat", "T.FB:1: end of line: expected a whole number from 2 to 128");
     refused(S + "sphere t size 9 repeat 128", "T.FB:2: 't': expected at most 128 objects");
     refused("group h\ngroup g repeat 64", "T.FB:2: 'g': expected at most 64 groups");
+    refused("group g repeat 63\ngroup h in eye", "T.FB:2: 'h': expected at most 64 groups");
+    refused("group g repeat 64\ngroup h", "T.FB:2: 'h': expected at most 64 groups");
+    refused("sphere s size 9 repeat 128\nsphere t size 9", "T.FB:2: 't': expected at most 128 objects");
     refused("sphere s size 9 step 1 2 3", "T.FB:1: 'step': expected repeat as well, for step to count");
     refused("sphere s size 9 repeat 3 step 1 2", "T.FB:1: end of line: expected a step, z from -250 to 250");
     refused("sphere s size 9 repeat 3 step 1 2 251", "T.FB:1: '251': expected a step, z from -250 to 250");
