@@ -99,8 +99,7 @@ void Rate::add(uint64_t ticks, const Model& model)
         top >>= 1;
         bottom >>= 1;
     }
-    uint32_t rest;
-    load_ = static_cast<int32_t>(divide64(top, static_cast<uint32_t>(bottom), &rest));
+    load_ = static_cast<int32_t>(divide64(top, static_cast<uint32_t>(bottom)));
     const bool far = load_ > FAR_ABOVE || load_ < FAR_BELOW;
     if (ticks_ < machine::CLOCK_HZ / 4 && !(far && counted_ >= FEW_FRAMES))
         return;

@@ -40,9 +40,7 @@ Vector withSquare(const Vector& v, const Vector& like)
         return r;
     const int64_t lack = square(like) - square(r);
     const uint32_t twice = 2 * static_cast<uint32_t>(rawFromReal(absolute(*largest)));
-    uint32_t rest;
-    const int32_t change = static_cast<int32_t>(
-        divide64(static_cast<uint64_t>(lack < 0 ? -lack : lack) + twice / 2, twice, &rest));
+    const int32_t change = static_cast<int32_t>(divide64(static_cast<uint64_t>(lack < 0 ? -lack : lack) + twice / 2, twice));
     const bool outwards = (lack > 0) == (*largest > Real(0));
     *largest += Real::fromRaw(outwards ? change : -change);
     return r;
