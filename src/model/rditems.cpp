@@ -66,6 +66,10 @@ bool Reader::object(const Kind* kind)
         word_ = "step";
         return expected("repeat as well, for step to count");
     }
+    // With `in eye` on this line the eye may have become the last group.
+    word_ = line.actor.name;
+    if (!roomFor(kind == nullptr, 1))
+        return false;
     return model_.addItem(line.actor) != nullptr ? true : trouble("not enough memory for the model");
 }
 
@@ -78,7 +82,7 @@ bool Reader::itemName(ItemLine& line)
     if (isTaken(word_))
         return expected("a name that is not taken yet");
     strcpy(line.actor.name, word_);
-    return roomFor(line.actor.kind == nullptr, 1);
+    return true;
 }
 
 // Whether so many more groups or objects may be made.
