@@ -54,7 +54,8 @@ Vector withSquare(const Vector& v, const Vector& like)
 SoftObject::SoftObject(int number, Real size, Real coreReach, bool tapers)
     : number_(number), centre_{Real(0), Real(0), Real(0)}, turn_(Matrix::identity()), size_(size),
       radius_(shiftDown(size, 1)), inverse_(Real(CORE_SIZE) / size), coreReach_(coreReach),
-      stretch_{Real(1), Real(1), Real(1)}, unstretch_{Real(1), Real(1), Real(1)}, mostStretch_(1), stretched_(false), warped_(false), shaped_(false),
+      stretch_{Real(1), Real(1), Real(1)}, unstretch_{Real(1), Real(1), Real(1)}, mostStretch_(1), stretched_(false),
+      warped_(false), shaped_(false),
       ball_(!tapers && coreReach == Real(0)), reach_(coreReach + size),
       sizeMade_(size), coreReachMade_(coreReach), coreReach16_(coreReach * (Real(CORE_SIZE) / size)), strength_(1),
       restParam_(0.25), restRoot_(0.5), rests_(true), laidHollow_(false), slot_(0), recalc_(true), tapers_(tapers),
