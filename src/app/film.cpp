@@ -3,7 +3,6 @@
 
 #include "machine.h"
 #include "math/alloc.h"
-#include "math/text.h"
 
 using machine::HEIGHT;
 using machine::WIDTH;

@@ -34,12 +34,6 @@ inline uint16_t allocateDescriptor() {
     return carry ? 0 : uint16_t(eax);
 }
 
-// 0001h
-inline void freeDescriptor(uint16_t selector) {
-    uint32_t eax = 0x0001;
-    __asm__ volatile("int $0x31" : "+a"(eax) : "b"(uint32_t(selector)) : "cc", "memory");
-}
-
 // 0002h: a permanent descriptor for 64 KB at a real-mode segment; 0 on failure.
 inline uint16_t segmentDescriptor(uint16_t segment) {
     uint32_t eax = 0x0002;
@@ -191,18 +185,6 @@ inline bool allocateMemory(uint32_t bytes, uint32_t* linear, uint32_t* handle) {
 inline void freeMemory(uint32_t handle) {
     uint32_t eax = 0x0502;
     __asm__ volatile("int $0x31" : "+a"(eax) : "S"(handle >> 16), "D"(handle & 0xffff) : "cc", "memory");
-}
-
-// 0900h, 0901h: interrupts off and on; both say whether they were on.
-inline bool interruptsOff() {
-    uint32_t eax = 0x0900;
-    __asm__ volatile("int $0x31" : "+a"(eax) : : "cc", "memory");
-    return (eax & 0xff) != 0;
-}
-inline bool interruptsOn() {
-    uint32_t eax = 0x0901;
-    __asm__ volatile("int $0x31" : "+a"(eax) : : "cc", "memory");
-    return (eax & 0xff) != 0;
 }
 
 // The program's own selectors.
