@@ -58,7 +58,7 @@ bool Reader::object(const Kind* kind)
         word_ = "step";
         return expected("repeat as well, for step to count");
     }
-    // With `in eye` on this line the eye may have become the last group.
+    // Behind all clauses: with `in eye` the eye may have become the last group.
     word_ = line.actor.name;
     if (!roomFor(kind == nullptr, 1))
         return false;
