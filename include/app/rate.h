@@ -22,6 +22,13 @@ public:
     void refused() { finest_ = true; }
 
 private:
+    // Numbers of objects, -1 where there is none, and how coarse they are.
+    struct Extremes {
+        int fine, coarse;
+        Real least, most;
+    };
+    Extremes findExtremes(const Model& model) const;
+
     int frames_ = 0;
     uint64_t ticks_ = 0;    // of the frames since the last decision
     uint32_t counted_ = 0;

@@ -69,6 +69,34 @@ inline int32_t mulDiv(int32_t a, int32_t b, int32_t c)
 #endif
 }
 
+// a / b, rounded down; the quotient must fit 32 bits.
+inline uint32_t quotient64(uint64_t a, uint32_t b, uint32_t* rest)
+{
+#if FB_I386
+    uint32_t low = static_cast<uint32_t>(a), high = static_cast<uint32_t>(a >> 32);
+    asm("divl %2" : "+a"(low), "+d"(high) : "rm"(b) : "cc");
+    *rest = high;
+    return low;
+#else
+    *rest = static_cast<uint32_t>(a % b);
+    return static_cast<uint32_t>(a / b);
+#endif
+}
+
+// a / b, rounded down, any 64-bit number by any 32-bit one but 0; `*rest` is what is left over.
+inline uint64_t divide64(uint64_t a, uint32_t b, uint32_t* rest)
+{
+    // Long division in two digits of 32 bits: the rest of the first, below b, goes into the second.
+    const uint32_t high = quotient64(a >> 32, b, rest);
+    const uint32_t low = quotient64(static_cast<uint64_t>(*rest) << 32 | static_cast<uint32_t>(a), b, rest);
+    return static_cast<uint64_t>(high) << 32 | low;
+}
+inline uint64_t divide64(uint64_t a, uint32_t b)
+{
+    uint32_t rest;
+    return divide64(a, b, &rest);
+}
+
 #if FB_REAL == FB_FIXED
 
 struct Real {

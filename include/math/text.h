@@ -24,7 +24,4 @@ bool parseWhole(const char* text, int32_t* value);
 // Returns `to`.
 char* plainText(char* to, int size, const char* text);
 
-// Quotient and remainder of 64-bit by 32-bit numbers, unsigned; the 386 without libgcc has no other.
-uint64_t divide64(uint64_t top, uint32_t bottom, uint32_t* remainder);
-
 #endif

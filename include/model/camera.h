@@ -4,6 +4,7 @@
 #ifndef FB_CAMERA_H
 #define FB_CAMERA_H
 
+#include "machine.h"
 #include "math/vec.h"
 
 // The axes of a view: to its right, upwards and ahead, in the world. Unit vectors, each square to the others.
@@ -45,8 +46,8 @@ struct Camera {
 
     Real focalX{250};
     Real focalY{208.333333};
-    Real centreX{160};
-    Real centreY{100};
+    Real centreX{machine::WIDTH / 2};
+    Real centreY{machine::HEIGHT / 2};
 
     // What the scene says. An eye that moves is a group, whose motion it has.
     int carrier = 0;             // number of that group; 0: it stands

@@ -50,7 +50,8 @@ public:
     // circular paths round the origin. False: no memory.
     bool makeFourSpheres();
 
-    // Takes over an object made with make<>(). False (and the object destroyed): no room.
+    // Takes over an object made with make<>(), for a model that is built in code: the program itself names kinds (addItem()).
+    // False (and the object destroyed): no room.
     bool add(SoftObject* object, const Colour& colour, const Motion& motion);
 
     // Adds an item as described, making its object; name, kind, measures, strength, colour and motion are taken, the number

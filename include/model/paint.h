@@ -14,6 +14,9 @@ struct Colour {
     bool operator==(const Colour& c) const { return red == c.red && green == c.green && blue == c.blue; }
 };
 
+// The colour of an object that is given none, by how many there are before it.
+Colour usualColour(int before);
+
 // What a scene's lines `finish` and `pattern` say, in the order of their words.
 enum Finish : uint8_t { FINISH_MATT, FINISH_SHINY, FINISH_MIRROR };
 enum Pattern : uint8_t { PATTERN_NONE, PATTERN_CHECKS, PATTERN_STRIPES, PATTERN_MARBLE };
@@ -92,6 +95,8 @@ private:
     void markTriangle(const Vector& a, const Vector& b, const Vector& c, bool shines);
     Colour inCell(int x, int y, int z) const;
     int blocks(int side, bool shines, bool make);
+    void takeCoats(const Model& model, Paint* paints);
+    void chooseMixtures(const Model& model, const Paint* paints);
     void chooseWanted();
     void fill();
 

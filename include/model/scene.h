@@ -37,7 +37,7 @@ enum SceneEnd { SCENE_GOOD = 0, SCENE_TROUBLE = 1, SCENE_BAD = 2 };
 // ran out.
 const char* readScene(const char* name, Model& model, SceneEnd* end);
 
-// The same from memory; `name` is what a complaint calls it.
+// The same from memory, for texts that never were files, as tests make them; `name` is what a complaint calls it.
 const char* readSceneText(const char* name, const char* text, uint32_t length, Model& model, SceneEnd* end);
 
 // Writes the model as a scene file that reads back as the same model. Null, or one line that says why not.

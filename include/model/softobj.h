@@ -92,7 +92,8 @@ public:
 
     // Lays the seeds out anew, `spacing` units apart, and makes the surface that will settle them. False: the object keeps
     // what it had, and resampleTrouble() says why, unless it was stopped (model/stop.h).
-    // `like` is null, or an object of the same kind, measures, size and strength whose seeds have just been laid out: they are copied.
+    // `like` is null, or an object of the same kind, measures, size and strength whose seeds have just been laid out: they are
+    // copied.
     bool resample(Real spacing, SurfaceMaker makeSurface, const SoftObject* like = nullptr);
     // Why resample() failed the last time, for any object: one line of words.
     static const char* resampleTrouble();

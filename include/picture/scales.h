@@ -4,7 +4,7 @@
 #ifndef FB_SCALES_H
 #define FB_SCALES_H
 
-#include "math/wide.h"
+#include "math/real.h"
 #include "picture/blit.h"
 #include "surface/voxel.h"
 
@@ -92,9 +92,8 @@ inline bool nearFactors(const Lens& lens, int32_t depth, Factors* near)
     near->y = lens.focalY * 256 / depth;
     if (near->x > FACTOR_MOST || near->y > FACTOR_MOST)
         return false;
-    const uint32_t z = static_cast<uint32_t>(depth);
-    near->zx = static_cast<int32_t>(wide::mulDiv(z, 1 << 19, static_cast<uint32_t>(lens.focalX)));
-    near->zy = static_cast<int32_t>(wide::mulDiv(z, 1 << 19, static_cast<uint32_t>(lens.focalY)));
+    near->zx = mulDiv(depth, 1 << 19, lens.focalX);
+    near->zy = mulDiv(depth, 1 << 19, lens.focalY);
     return true;
 }
 

@@ -10,11 +10,6 @@
 #include "picture/palette.h"
 #include "picture/scales.h"
 
-// Pixels: columns left to before right, rows top to before bottom.
-struct Rectangle {
-    int left, top, right, bottom;
-};
-
 class View {
 public:
     ~View();
@@ -40,9 +35,6 @@ public:
     // Draws the voxels of an object; those before the near plane (1 unit), behind 511 units or off the screen are left
     // out. Returns the number of scales drawn.
     int show(const VoxelList& list);
-
-    // The smallest rectangle known to hold all that has been shown since the last call or begin().
-    Rectangle takeShown();
 
     // Text and lines on top of the picture: marks a rectangle of pixels as touched and gives the frame to draw into.
     uint8_t* overlay(int left, int top, int wide, int high);
@@ -96,7 +88,6 @@ private:
     Lens lens_{};
     bool pixels_ = false;
     bool exact_ = false;
-    Rectangle shown_{machine::WIDTH, machine::HEIGHT, 0, 0};
     uint8_t* frame_ = nullptr;
     uint16_t* zbuffer_ = nullptr;
     Factors* factors_ = nullptr;

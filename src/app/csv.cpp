@@ -10,7 +10,7 @@ namespace {
 constexpr int RECORD_ROOM = 1400;
 
 // Whether a file is empty, or begins with our line of names. (A file that cannot be read is none of ours.)
-bool isOurs(const char* name, bool* empty)
+bool isOurs(const char* name)
 {
     char header[RECORD_ROOM], there[RECORD_ROOM];
     Stats::formatHeader(header, sizeof header);
@@ -20,13 +20,30 @@ bool isOurs(const char* name, bool* empty)
         return false;
     const int32_t got = machine::readFile(file, there, length);
     machine::closeFile(file);
-    *empty = got == 0;
     return got == 0 || (got == static_cast<int32_t>(length) && memcmp(there, header, length) == 0);
 }
 
 bool write(int file, const char* text)
 {
     return machine::writeFile(file, text, static_cast<uint32_t>(strlen(text))) >= 0;
+}
+
+bool writeHeader(int file)
+{
+    char text[RECORD_ROOM];
+    Stats::formatHeader(text, sizeof text);
+    return write(file, text);
+}
+
+// The switches of a run that bear on its figures.
+void formatSettings(char* to, size_t size, const Options& options, Real spacing)
+{
+    char number[24], held[16] = "";
+    formatReal(number, sizeof number, spacing);
+    if (options.holds())
+        snprintf(held, sizeof held, " F:%d", options.hold);
+    snprintf(to, size, "S:%s%s%s%s%s%s%s", number, held, options.interactive ? " I" : "", options.grey ? " G" : "",
+             options.printed ? " P" : "", options.retrace ? " V" : "", options.noPresent ? " X" : "");
 }
 
 // A field in quotation marks, in plain text, its own marks doubled; the text ends where there is no more room.
@@ -58,21 +75,19 @@ const char* Csv::check(const char* name, int* status)
 {
     name_ = name;
     *status = 1;
-    bool fresh, empty;
+    bool fresh;
     const int file = machine::appendFile(name, &fresh);
     if (file < 0)
         return complain(machine::fileTrouble());
     if (!fresh) {
         machine::closeFile(file);
-        if (isOurs(name, &empty))
+        if (isOurs(name))
             return nullptr;
         *status = 2;
         return complain("this is no file of records; /O appends to its own files only, or makes a new one");
     }
     // A disk that is full takes a name, but not a line.
-    char header[RECORD_ROOM];
-    Stats::formatHeader(header, sizeof header);
-    bool good = write(file, header);
+    bool good = writeHeader(file);
     const char* why = machine::fileTrouble();
     if (!machine::closeFile(file) && good) {
         good = false;
@@ -84,28 +99,19 @@ const char* Csv::check(const char* name, int* status)
 
 const char* Csv::append(const Options& options, Real spacing, const Stats& stats)
 {
-    char text[RECORD_ROOM], number[24], settings[64], held[16] = "", scene[160], date[64], computer[64];
-    formatReal(number, sizeof number, spacing);
-    if (options.holds())
-        snprintf(held, sizeof held, " F:%d", options.hold);
-    snprintf(settings, sizeof settings, "S:%s%s%s%s%s%s%s", number, held, options.interactive ? " I" : "", options.grey ? " G" : "",
-             options.printed ? " P" : "", options.retrace ? " V" : "", options.noPresent ? " X" : "");
+    char text[RECORD_ROOM], settings[64], scene[160], date[64], computer[64];
+    formatSettings(settings, sizeof settings, options, spacing);
     quote(scene, sizeof scene, options.modelFile == nullptr ? "" : options.modelFile);
     machine::date(date, sizeof date);
     machine::describe(computer, sizeof computer);
+    stats.formatRecord(text, sizeof text, settings, scene, date, computer);
 
     bool fresh;
     const int file = machine::appendFile(name_, &fresh);
     if (file < 0)
         return complain(machine::fileTrouble());
     const int32_t before = machine::fileBytes(file);
-    bool good = before >= 0;
-    if (good && before == 0) {
-        Stats::formatHeader(text, sizeof text);
-        good = write(file, text);
-    }
-    stats.formatRecord(text, sizeof text, settings, scene, date, computer);
-    good = good && write(file, text);
+    bool good = before >= 0 && (before > 0 || writeHeader(file)) && write(file, text);
     const char* why = machine::fileTrouble();
     // No half record, and no empty file.
     if (!good && before > 0)

@@ -117,15 +117,13 @@ void Demo::findTime()
 {
     if (options_.frames > 0) {
         // Each frame advances the animation by the same step, whatever the clock says.
-        uint32_t rest;
-        time_ = divide64(static_cast<uint64_t>(frames_) << 16, static_cast<uint32_t>(options_.rate), &rest);
+        time_ = divide64(static_cast<uint64_t>(frames_) << 16, static_cast<uint32_t>(options_.rate));
         return;
     }
     uint64_t ticks = machine::clock() - started_;
     uint32_t rest;
     const uint64_t seconds = divide64(ticks, machine::CLOCK_HZ, &rest);
-    uint32_t unused;
-    time_ = (seconds << 16) + divide64(static_cast<uint64_t>(rest) << 16, machine::CLOCK_HZ, &unused);
+    time_ = (seconds << 16) + divide64(static_cast<uint64_t>(rest) << 16, machine::CLOCK_HZ);
 }
 
 // Asked now and then while a frame is drawn: whether there is something that does not wait for its end, Ctrl-C or ESC.

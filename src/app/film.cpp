@@ -3,7 +3,6 @@
 
 #include "machine.h"
 #include "math/alloc.h"
-#include "math/text.h"
 
 using machine::HEIGHT;
 using machine::WIDTH;
@@ -253,8 +252,7 @@ const char* Film::add(const uint8_t* picture, const uint8_t* dac, Time now)
     // The number of frames that begin up to now.
     uint32_t due = static_cast<uint32_t>(frames_) + 1;
     if (realTime_) {
-        uint32_t rest;
-        due = static_cast<uint32_t>(divide64(now * JIFFIES, static_cast<uint32_t>(jiffies_) << 16, &rest)) + 1;
+        due = static_cast<uint32_t>(divide64(now * JIFFIES, static_cast<uint32_t>(jiffies_) << 16)) + 1;
     }
     if (due > static_cast<uint32_t>(FRAMES_MOST) || bytes_ > FILE_MOST) {
         snprintf(problem_, sizeof problem_, "%s: the film is full", name_);

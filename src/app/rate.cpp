@@ -4,7 +4,6 @@
 
 #include "app/options.h"
 #include "machine.h"
-#include "math/text.h"
 
 namespace {
 
@@ -99,8 +98,7 @@ void Rate::add(uint64_t ticks, const Model& model)
         top >>= 1;
         bottom >>= 1;
     }
-    uint32_t rest;
-    load_ = static_cast<int32_t>(divide64(top, static_cast<uint32_t>(bottom), &rest));
+    load_ = static_cast<int32_t>(divide64(top, static_cast<uint32_t>(bottom)));
     const bool far = load_ > FAR_ABOVE || load_ < FAR_BELOW;
     if (ticks_ < machine::CLOCK_HZ / 4 && !(far && counted_ >= FEW_FRAMES))
         return;
@@ -119,21 +117,8 @@ int Rate::next(const Model& model, Real* spacing)
     if (left_ == 0)
         return -1;
     --left_;
-    // The object that is the finest for what it is, of those that can be coarser, and the other way round.
-    int fine = -1, coarse = -1;
-    Real least(0), most(0);
-    for (int i = 0; i < model.count(); ++i) {
-        const SoftObject& object = *model.actor(i).object;
-        const Real here = coarseness(object, model.camera);
-        if (canBeCoarser(object) && (fine < 0 || here < least)) {
-            fine = i;
-            least = here;
-        }
-        if (!finest_ && canBeFiner(object, model.camera) && (coarse < 0 || here > most)) {
-            coarse = i;
-            most = here;
-        }
-    }
+    const Extremes found = findExtremes(model);
+    const int fine = found.fine, coarse = found.coarse;
     const auto share = [&](int i, int32_t percent) {
         return mulDiv(load_ * percent, model.actor(i).object->seeds(), 100 * (model.seeds() + 1));
     };
@@ -147,10 +132,29 @@ int Rate::next(const Model& model, Real* spacing)
     if (coarse < 0)
         return -1;
     const int32_t then = load_ + share(coarse, SEEDS_FINER);
-    const bool unfair = fine >= 0 && fine != coarse && most > least * UNFAIR;
+    const bool unfair = fine >= 0 && fine != coarse && found.most > found.least * UNFAIR;
     if (then > FINER && !unfair)
         return -1;
     load_ = then;
     *spacing = spacingOf(finerStep(model.actor(coarse).object->spacing()));
     return coarse;
+}
+
+// The object that is the finest for what it is, of those that can be coarser, and the other way round.
+Rate::Extremes Rate::findExtremes(const Model& model) const
+{
+    Extremes found{-1, -1, Real(0), Real(0)};
+    for (int i = 0; i < model.count(); ++i) {
+        const SoftObject& object = *model.actor(i).object;
+        const Real here = coarseness(object, model.camera);
+        if (canBeCoarser(object) && (found.fine < 0 || here < found.least)) {
+            found.fine = i;
+            found.least = here;
+        }
+        if (!finest_ && canBeFiner(object, model.camera) && (found.coarse < 0 || here > found.most)) {
+            found.coarse = i;
+            found.most = here;
+        }
+    }
+    return found;
 }

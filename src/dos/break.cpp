@@ -39,12 +39,14 @@ dpmi::RealAddress oldCriticalError;
 uint8_t oldChecking;
 
 // int 21h, AH=33h: whether DOS looks for Ctrl-C in every call. Off while the program runs: files need no watching.
-uint8_t breakChecking() {
+uint8_t breakChecking()
+{
     dpmi::RealRegs r = pc::regs(0x3300);
     dpmi::realInterrupt(0x21, &r);
     return uint8_t(r.edx);
 }
-void setBreakChecking(uint8_t on) {
+void setBreakChecking(uint8_t on)
+{
     dpmi::RealRegs r = pc::regs(0x3301);
     r.edx = on;
     dpmi::realInterrupt(0x21, &r);
@@ -54,10 +56,10 @@ void setBreakChecking(uint8_t on) {
 
 namespace pc {
 
-const char* openBreak() {
-    if (!dpmi::allocateDos(PARAGRAPHS, &segment, &selector)) {
+const char* openBreak()
+{
+    if (!dpmi::allocateDos(PARAGRAPHS, &segment, &selector))
         return "out of DOS memory";
-    }
     copyToLow(uint32_t(segment) << 4, realModeCode, sizeof realModeCode);
     oldBiosBreak = dpmi::realVector(BIOS_BREAK);
     oldDosBreak = dpmi::realVector(DOS_BREAK);
@@ -72,15 +74,14 @@ const char* openBreak() {
     return nullptr;
 }
 
-void closeBreak() {
-    if (!open) {
+void closeBreak()
+{
+    if (!open)
         return;
-    }
     // A break that was seen has been answered. What is left of it would make DOS (FreeDOS looks at the BIOS's flag) end the
     // program a second time, in its next call.
-    if (breakSeen()) {
+    if (breakSeen())
         poke16(KEYS_HEAD, peek16(KEYS_TAIL));
-    }
     poke8(BIOS_BREAK_FLAG, uint8_t(peek8(BIOS_BREAK_FLAG) & 0x7f));
     open = false;
     setBreakChecking(oldChecking);
@@ -90,14 +91,15 @@ void closeBreak() {
     dpmi::freeDos(selector);
 }
 
-bool breakSeen() {
-    if (open && peek8((uint32_t(segment) << 4) + FLAG) != 0) {
+bool breakSeen()
+{
+    if (open && peek8((uint32_t(segment) << 4) + FLAG) != 0)
         seen = true;
-    }
     return seen;
 }
 
-void noteBreak() {
+void noteBreak()
+{
     seen = true;
 }
 

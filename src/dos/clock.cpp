@@ -30,13 +30,15 @@ uint32_t daysTicks;   // of the days gone by
 uint64_t origin;
 uint64_t last;
 
-uint32_t readCounter() {
+uint32_t readCounter()
+{
     pc::outPort(COMMAND, LATCH);
     const uint32_t low = pc::inPort(COUNTER);
     return low | uint32_t(pc::inPort(COUNTER)) << 8;
 }
 
-void setMode(uint8_t mode) {
+void setMode(uint8_t mode)
+{
     // A divisor of 0 counts as 65,536.
     pc::outPort(COMMAND, mode);
     pc::outPort(COUNTER, 0);
@@ -44,21 +46,22 @@ void setMode(uint8_t mode) {
 }
 
 // Returns right after a timer interrupt; gives up after some time on a machine where none come.
-void awaitTick() {
+void awaitTick()
+{
     const uint32_t ticks = pc::peek32(BIOS_TICKS);
     uint32_t before = readCounter();
     for (int wraps = 0; wraps < 8 && pc::peek32(BIOS_TICKS) == ticks;) {
         const uint32_t now = readCounter();
-        if (now > before) {
+        if (now > before)
             ++wraps;
-        }
         before = now;
     }
 }
 
 // Timer ticks since some midnight. (Counter and BIOS do not change at the same instant: between the two stands an
 // interrupt that has been requested and not yet served.)
-uint64_t readClock() {
+uint64_t readClock()
+{
     uint32_t ticks;
     uint32_t count;
     uint8_t requests;
@@ -70,15 +73,13 @@ uint64_t readClock() {
         requests = pc::inPort(PIC);
         again = pc::peek32(BIOS_TICKS);
     } while (again != ticks);
-    if (ticks < lastTicks) {
+    if (ticks < lastTicks)
         daysTicks += TICKS_A_DAY;
-    }
     lastTicks = ticks;
     const uint32_t phase = (0x10000 - count) & 0xffff;
     uint64_t now = uint64_t(ticks + daysTicks) << 16 | phase;
-    if ((requests & TIMER_REQUEST) != 0 && phase < 0x8000) {
+    if ((requests & TIMER_REQUEST) != 0 && phase < 0x8000)
         now += 0x10000;
-    }
     return now;
 }
 
@@ -86,7 +87,8 @@ uint64_t readClock() {
 
 namespace pc {
 
-void openClock() {
+void openClock()
+{
     outPort(COMMAND, READ_STATUS);
     changed = (inPort(COUNTER) >> 1 & 3) != 2;
     if (changed) {
@@ -102,10 +104,10 @@ void openClock() {
     open = true;
 }
 
-void closeClock() {
-    if (!open) {
+void closeClock()
+{
+    if (!open)
         return;
-    }
     open = false;
     if (changed) {
         awaitTick();
@@ -117,20 +119,21 @@ void closeClock() {
 
 namespace machine {
 
-uint64_t clock() {
+uint64_t clock()
+{
     if (open) {
         const uint64_t now = readClock() - origin;
         // Never back, whatever the hardware (or an emulation of it) says; a negative difference is a huge one.
-        if (int64_t(now - last) > 0) {
+        if (int64_t(now - last) > 0)
             last = now;
-        }
     }
     return last;
 }
 
 void standStill(bool) {}
 
-void date(char* to, int size) {
+void date(char* to, int size)
+{
     dpmi::RealRegs day = pc::regs(0x2a00);
     dpmi::RealRegs hour = pc::regs(0x2c00);
     if (!dpmi::realInterrupt(0x21, &day) || !dpmi::realInterrupt(0x21, &hour)) {
@@ -142,11 +145,11 @@ void date(char* to, int size) {
              unsigned(hour.edx >> 8 & 0xff));
 }
 
-void describe(char* to, int size) {
+void describe(char* to, int size)
+{
     dpmi::RealRegs dos = pc::regs(0x3000);
-    if (!dpmi::realInterrupt(0x21, &dos)) {
+    if (!dpmi::realInterrupt(0x21, &dos))
         dos.eax = 0;
-    }
     snprintf(to, size_t(size), "DOS %u.%02u 80%d86", unsigned(dos.eax & 0xff), unsigned(dos.eax >> 8 & 0xff),
              dpmi::processor());
 }

@@ -39,7 +39,8 @@ bool crashing = false;
 dpmi::FarAddress old[TRAPS];
 bool taken[TRAPS];
 
-const char* nameOf(uint32_t number) {
+const char* nameOf(uint32_t number)
+{
     switch (number) {
         case 0:
             return "division by zero";
@@ -72,7 +73,8 @@ const char* nameOf(uint32_t number) {
 
 namespace pc {
 
-void openTraps() {
+void openTraps()
+{
 #ifndef FB_RT
     // DJGPP's libc has taken the exceptions, int 75h, and the keyboard, from which it makes a Ctrl-C an exception. All of
     // it is put away until closeTraps(): here Ctrl-C is a key like others.
@@ -80,23 +82,20 @@ void openTraps() {
 #endif
     trapData = dpmi::dataSelector();
     const uint16_t code = dpmi::codeSelector();
-    for (int i = 0; i < TRAPS; ++i) {
+    for (int i = 0; i < TRAPS; ++i)
         taken[i] = (TAKEN >> i & 1) != 0 && dpmi::exceptionHandler(i, &old[i]) &&
                    dpmi::setExceptionHandler(i, {uint32_t(uintptr_t(trapEntries)) + uint32_t(i) * ENTRY_BYTES, code});
-    }
     open = true;
 }
 
-void closeTraps() {
-    if (!open) {
+void closeTraps()
+{
+    if (!open)
         return;
-    }
     open = false;
-    for (int i = 0; i < TRAPS; ++i) {
-        if (taken[i]) {
+    for (int i = 0; i < TRAPS; ++i)
+        if (taken[i])
             dpmi::setExceptionHandler(i, old[i]);
-        }
-    }
 #ifndef FB_RT
     __djgpp_exception_toggle();
 #endif
@@ -105,19 +104,18 @@ void closeTraps() {
 }  // namespace pc
 
 // Reached from trap.S, with the program's segments and a fresh stack.
-void crashed() {
-    if (crashing) {
+void crashed()
+{
+    if (crashing)
         exit(1);
-    }
     crashing = true;
     machine::stop();
     const TrapState& s = trapState;
     char text[160];
     // Exceptions 10 to 14 come with a code, which mostly is the selector that was wrong.
     char code[16] = "";
-    if (s.number >= 10) {
+    if (s.number >= 10)
         snprintf(code, sizeof code, ", code %04x", unsigned(s.error & 0xffff));
-    }
     snprintf(text, sizeof text, "DEMO: exception %02xh (%s) at %04x:%08x%s\n", unsigned(s.number), nameOf(s.number),
              unsigned(s.cs & 0xffff), unsigned(s.eip), code);
     machine::err(text);

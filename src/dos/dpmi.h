@@ -27,21 +27,17 @@ struct FarAddress {
 };
 
 // 0000h: one new descriptor; 0 when there is none left.
-inline uint16_t allocateDescriptor() {
+inline uint16_t allocateDescriptor()
+{
     uint32_t eax = 0x0000;
     bool carry;
     __asm__ volatile("int $0x31" : "+a"(eax), "=@ccc"(carry) : "c"(1) : "memory");
     return carry ? 0 : uint16_t(eax);
 }
 
-// 0001h
-inline void freeDescriptor(uint16_t selector) {
-    uint32_t eax = 0x0001;
-    __asm__ volatile("int $0x31" : "+a"(eax) : "b"(uint32_t(selector)) : "cc", "memory");
-}
-
 // 0002h: a permanent descriptor for 64 KB at a real-mode segment; 0 on failure.
-inline uint16_t segmentDescriptor(uint16_t segment) {
+inline uint16_t segmentDescriptor(uint16_t segment)
+{
     uint32_t eax = 0x0002;
     bool carry;
     __asm__ volatile("int $0x31" : "+a"(eax), "=@ccc"(carry) : "b"(uint32_t(segment)) : "memory");
@@ -49,7 +45,8 @@ inline uint16_t segmentDescriptor(uint16_t segment) {
 }
 
 // 0006h: the linear address where a segment begins.
-inline uint32_t segmentBase(uint16_t selector) {
+inline uint32_t segmentBase(uint16_t selector)
+{
     uint32_t eax = 0x0006;
     uint32_t ecx = 0;
     uint32_t edx = 0;
@@ -58,7 +55,8 @@ inline uint32_t segmentBase(uint16_t selector) {
 }
 
 // 0007h
-inline bool setSegmentBase(uint16_t selector, uint32_t base) {
+inline bool setSegmentBase(uint16_t selector, uint32_t base)
+{
     uint32_t eax = 0x0007;
     bool carry;
     __asm__ volatile("int $0x31"
@@ -70,7 +68,8 @@ inline bool setSegmentBase(uint16_t selector, uint32_t base) {
 
 // 0008h: the last offset; from 1 MB on its low twelve bits must be set. A segment register that holds the selector keeps
 // the old limit until it is loaded again.
-inline bool setSegmentLimit(uint16_t selector, uint32_t limit) {
+inline bool setSegmentLimit(uint16_t selector, uint32_t limit)
+{
     uint32_t eax = 0x0008;
     bool carry;
     __asm__ volatile("int $0x31"
@@ -81,7 +80,8 @@ inline bool setSegmentLimit(uint16_t selector, uint32_t limit) {
 }
 
 // The last offset of a segment, as the processor sees it (lsl); 0 for a selector that is none.
-inline uint32_t segmentLimit(uint16_t selector) {
+inline uint32_t segmentLimit(uint16_t selector)
+{
     uint32_t limit = 0;
     // volatile: the same selector may have another limit the next time.
     __asm__ volatile("lsll %1, %0" : "+r"(limit) : "r"(uint32_t(selector)) : "cc");
@@ -89,7 +89,8 @@ inline uint32_t segmentLimit(uint16_t selector) {
 }
 
 // 0100h: DOS memory, in paragraphs of 16 bytes; false when there is not enough.
-inline bool allocateDos(uint16_t paragraphs, uint16_t* segment, uint16_t* selector) {
+inline bool allocateDos(uint16_t paragraphs, uint16_t* segment, uint16_t* selector)
+{
     uint32_t eax = 0x0100;
     uint32_t ebx = paragraphs;
     uint32_t edx = 0;
@@ -101,20 +102,23 @@ inline bool allocateDos(uint16_t paragraphs, uint16_t* segment, uint16_t* select
 }
 
 // 0101h
-inline void freeDos(uint16_t selector) {
+inline void freeDos(uint16_t selector)
+{
     uint32_t eax = 0x0101;
     __asm__ volatile("int $0x31" : "+a"(eax) : "d"(uint32_t(selector)) : "cc", "memory");
 }
 
 // 0200h, 0201h: a vector of the real-mode interrupt table.
-inline RealAddress realVector(int number) {
+inline RealAddress realVector(int number)
+{
     uint32_t eax = 0x0200;
     uint32_t ecx = 0;
     uint32_t edx = 0;
     __asm__ volatile("int $0x31" : "+a"(eax), "+c"(ecx), "+d"(edx) : "b"(number) : "cc", "memory");
     return {uint16_t(ecx), uint16_t(edx)};
 }
-inline void setRealVector(int number, RealAddress to) {
+inline void setRealVector(int number, RealAddress to)
+{
     uint32_t eax = 0x0201;
     __asm__ volatile("int $0x31"
                      : "+a"(eax)
@@ -123,7 +127,8 @@ inline void setRealVector(int number, RealAddress to) {
 }
 
 // 0202h, 0203h: the handler of a processor exception 0..31.
-inline bool exceptionHandler(int number, FarAddress* is) {
+inline bool exceptionHandler(int number, FarAddress* is)
+{
     uint32_t eax = 0x0202;
     uint32_t ecx = 0;
     uint32_t edx = 0;
@@ -132,7 +137,8 @@ inline bool exceptionHandler(int number, FarAddress* is) {
     *is = {edx, uint16_t(ecx)};
     return !carry;
 }
-inline bool setExceptionHandler(int number, FarAddress to) {
+inline bool setExceptionHandler(int number, FarAddress to)
+{
     uint32_t eax = 0x0203;
     bool carry;
     __asm__ volatile("int $0x31"
@@ -144,7 +150,8 @@ inline bool setExceptionHandler(int number, FarAddress to) {
 
 // 0300h: a real-mode interrupt with these registers; they hold its results. `ss:sp` 0: the host supplies the stack.
 // False when the host could not do it.
-inline bool realInterrupt(int number, RealRegs* regs) {
+inline bool realInterrupt(int number, RealRegs* regs)
+{
     uint32_t eax = 0x0300;
     bool carry;
     regs->ss = 0;
@@ -164,7 +171,8 @@ inline bool realInterrupt(int number, RealRegs* regs) {
 }
 
 // 0400h: the processor, 3 for a 386, 4 for a 486 and so on.
-inline int processor() {
+inline int processor()
+{
     uint32_t eax = 0x0400;
     uint32_t ebx = 0;
     uint32_t ecx = 0;
@@ -174,7 +182,8 @@ inline int processor() {
 }
 
 // 0501h: memory by the byte; false when there is not enough.
-inline bool allocateMemory(uint32_t bytes, uint32_t* linear, uint32_t* handle) {
+inline bool allocateMemory(uint32_t bytes, uint32_t* linear, uint32_t* handle)
+{
     uint32_t eax = 0x0501;
     uint32_t ebx = bytes >> 16;
     uint32_t ecx = bytes & 0xffff;
@@ -188,30 +197,21 @@ inline bool allocateMemory(uint32_t bytes, uint32_t* linear, uint32_t* handle) {
 }
 
 // 0502h
-inline void freeMemory(uint32_t handle) {
+inline void freeMemory(uint32_t handle)
+{
     uint32_t eax = 0x0502;
     __asm__ volatile("int $0x31" : "+a"(eax) : "S"(handle >> 16), "D"(handle & 0xffff) : "cc", "memory");
 }
 
-// 0900h, 0901h: interrupts off and on; both say whether they were on.
-inline bool interruptsOff() {
-    uint32_t eax = 0x0900;
-    __asm__ volatile("int $0x31" : "+a"(eax) : : "cc", "memory");
-    return (eax & 0xff) != 0;
-}
-inline bool interruptsOn() {
-    uint32_t eax = 0x0901;
-    __asm__ volatile("int $0x31" : "+a"(eax) : : "cc", "memory");
-    return (eax & 0xff) != 0;
-}
-
 // The program's own selectors.
-inline uint16_t codeSelector() {
+inline uint16_t codeSelector()
+{
     uint16_t selector;
     __asm__("movw %%cs, %0" : "=r"(selector));
     return selector;
 }
-inline uint16_t dataSelector() {
+inline uint16_t dataSelector()
+{
     uint16_t selector;
     __asm__("movw %%ds, %0" : "=r"(selector));
     return selector;

@@ -27,7 +27,8 @@ char saving[LONGEST_NAME + 1 + 13];
 char savedAs[LONGEST_NAME + 1];
 
 // Notes why something failed; -1 for the caller to return.
-int failed(uint32_t error) {
+int failed(uint32_t error)
+{
     switch (error) {
         case NO_FILE:
         case NO_PATH:
@@ -59,54 +60,52 @@ int failed(uint32_t error) {
 
 // A DOS call that returns with carry set or not; what it returned, or -1 with the trouble noted. Results of all DOS calls
 // made here are at most 16 bits.
-int call(dpmi::RealRegs* r) {
-    if (!dpmi::realInterrupt(0x21, r)) {
+int call(dpmi::RealRegs* r)
+{
+    if (!dpmi::realInterrupt(0x21, r))
         return failed(0xffff);
-    }
     const uint32_t ax = r->eax & 0xffff;
     return pc::carry(*r) ? failed(ax) : int(ax);
 }
 
 // A name as every DOS takes it: backslashes, none doubled (a directory "A:\" and a name make "A:\/NAME") and none at the
 // end but a root's. False when it is too long.
-bool tidy(const char* name, char to[LONGEST_NAME + 1]) {
+bool tidy(const char* name, char to[LONGEST_NAME + 1])
+{
     uint32_t length = 0;
     for (; *name != '\0'; ++name) {
         const char c = *name == '/' ? '\\' : *name;
-        if (c == '\\' && length > 0 && to[length - 1] == '\\') {
+        if (c == '\\' && length > 0 && to[length - 1] == '\\')
             continue;
-        }
-        if (length == LONGEST_NAME) {
+        if (length == LONGEST_NAME)
             return false;
-        }
         to[length++] = c;
     }
-    if (length > 1 && to[length - 1] == '\\' && to[length - 2] != ':') {
+    if (length > 1 && to[length - 1] == '\\' && to[length - 2] != ':')
         --length;
-    }
     to[length] = '\0';
     return true;
 }
 
 // A DOS call on a file's name, which goes to ds:dx.
-int callOnName(uint32_t eax, uint32_t ecx, const char* name, uint16_t* cx = nullptr) {
+int callOnName(uint32_t eax, uint32_t ecx, const char* name, uint16_t* cx = nullptr)
+{
     const pc::Transfer buffer = pc::transfer();
     char copy[LONGEST_NAME + 1];
-    if (!tidy(name, copy)) {
+    if (!tidy(name, copy))
         return failed(NO_PATH);
-    }
     pc::copyToLow(uint32_t(buffer.segment) << 4, copy, uint32_t(strlen(copy)) + 1);
     dpmi::RealRegs r = pc::regs(eax);
     r.ecx = ecx;
     r.ds = buffer.segment;
     const int result = call(&r);
-    if (cx != nullptr) {
+    if (cx != nullptr)
         *cx = uint16_t(r.ecx);
-    }
     return result;
 }
 
-bool renameFile(const char* from, const char* to) {
+bool renameFile(const char* from, const char* to)
+{
     const pc::Transfer buffer = pc::transfer();
     const uint32_t low = uint32_t(buffer.segment) << 4, length = uint32_t(strlen(from)) + 1;
     pc::copyToLow(low, from, length);
@@ -120,17 +119,15 @@ bool renameFile(const char* from, const char* to) {
 
 // Whether a name is that of a directory which is there without having been made: the current one, or a root. DOS knows
 // no attributes for these. A drive must be there for its root to be.
-bool isRoot(const char* name) {
+bool isRoot(const char* name)
+{
     char copy[LONGEST_NAME + 1];
-    if (!tidy(name, copy)) {
+    if (!tidy(name, copy))
         return false;
-    }
-    if (strcmp(copy, ".") == 0 || strcmp(copy, "\\") == 0) {
+    if (strcmp(copy, ".") == 0 || strcmp(copy, "\\") == 0)
         return true;
-    }
-    if (copy[0] == '\0' || copy[1] != ':' || (copy[2] != '\0' && strcmp(copy + 2, "\\") != 0)) {
+    if (copy[0] == '\0' || copy[1] != ':' || (copy[2] != '\0' && strcmp(copy + 2, "\\") != 0))
         return false;
-    }
     dpmi::RealRegs r = pc::regs(0x3600);  // free space of a drive, 1 for A:
     r.edx = uint32_t(copy[0] & 0x1f);
     return dpmi::realInterrupt(0x21, &r) && uint16_t(r.eax) != 0xffff;
@@ -140,15 +137,18 @@ bool isRoot(const char* name) {
 
 namespace machine {
 
-int createFile(const char* name) {
+int createFile(const char* name)
+{
     return callOnName(0x3c00, 0, name);
 }
 
-int openFile(const char* name) {
+int openFile(const char* name)
+{
     return callOnName(0x3d00, 0, name);
 }
 
-int appendFile(const char* name, bool* fresh) {
+int appendFile(const char* name, bool* fresh)
+{
     *fresh = false;
     uint16_t attributes;
     if (callOnName(0x4300, 0, name, &attributes) < 0) {
@@ -156,9 +156,8 @@ int appendFile(const char* name, bool* fresh) {
         return createFile(name);
     }
     const int file = callOnName(0x3d02, 0, name);
-    if (file < 0) {
+    if (file < 0)
         return file;
-    }
     dpmi::RealRegs r = pc::regs(0x4202);
     r.ebx = uint32_t(file);
     if (call(&r) < 0) {
@@ -170,7 +169,8 @@ int appendFile(const char* name, bool* fresh) {
     return file;
 }
 
-int32_t readFile(int file, void* to, uint32_t bytes) {
+int32_t readFile(int file, void* to, uint32_t bytes)
+{
     const pc::Transfer buffer = pc::transfer();
     uint32_t done = 0;
     while (done < bytes) {
@@ -179,19 +179,18 @@ int32_t readFile(int file, void* to, uint32_t bytes) {
         r.ecx = bytes - done < buffer.bytes ? bytes - done : buffer.bytes;
         r.ds = buffer.segment;
         const int got = call(&r);
-        if (got < 0) {
+        if (got < 0)
             return -1;
-        }
-        if (got == 0) {
+        if (got == 0)
             break;
-        }
         pc::copyFromLow(static_cast<uint8_t*>(to) + done, uint32_t(buffer.segment) << 4, uint32_t(got));
         done += uint32_t(got);
     }
     return int32_t(done);
 }
 
-int32_t writeFile(int file, const void* from, uint32_t bytes) {
+int32_t writeFile(int file, const void* from, uint32_t bytes)
+{
     const pc::Transfer buffer = pc::transfer();
     uint32_t done = 0;
     while (done < bytes) {
@@ -203,30 +202,31 @@ int32_t writeFile(int file, const void* from, uint32_t bytes) {
         r.ecx = piece;
         r.ds = buffer.segment;
         const int put = call(&r);
-        if (put < 0) {
+        if (put < 0)
             return -1;
-        }
-        if (uint32_t(put) < piece) {
+        if (uint32_t(put) < piece)
             return failed(DISK_FULL);
-        }
         done += piece;
     }
     return int32_t(done);
 }
 
-bool closeFile(int file) {
+bool closeFile(int file)
+{
     dpmi::RealRegs r = pc::regs(0x3e00);
     r.ebx = uint32_t(file);
     return call(&r) >= 0;
 }
 
-bool rewindFile(int file) {
+bool rewindFile(int file)
+{
     dpmi::RealRegs r = pc::regs(0x4200);
     r.ebx = uint32_t(file);
     return call(&r) >= 0;
 }
 
-int listFiles(const char* directory, const char* ending, FileName* to, int room) {
+int listFiles(const char* directory, const char* ending, FileName* to, int room)
+{
     // DOS writes each file's facts into its disk transfer area, which lies in the buffer for the time of this call; the
     // pattern stands behind it.
     constexpr uint32_t PATTERN = 64;
@@ -236,9 +236,8 @@ int listFiles(const char* directory, const char* ending, FileName* to, int room)
     char joined[LONGEST_NAME + 1];
     char pattern[LONGEST_NAME + 1];
     const int length = snprintf(joined, sizeof joined, "%s%s*%s", directory, directory[0] == '\0' ? "" : "/", ending);
-    if (length >= int(sizeof joined) || !tidy(joined, pattern)) {
+    if (length >= int(sizeof joined) || !tidy(joined, pattern))
         return 0;
-    }
     dpmi::RealRegs r = pc::regs(0x2f00);
     dpmi::realInterrupt(0x21, &r);
     const uint16_t oldSegment = r.es;
@@ -253,15 +252,13 @@ int listFiles(const char* directory, const char* ending, FileName* to, int room)
         r = pc::regs(function);
         r.ds = buffer.segment;
         r.edx = PATTERN;
-        if (call(&r) < 0) {
+        if (call(&r) < 0)
             break;
-        }
         FileName found = {};
         pc::copyFromLow(found.text, base + NAME, 13);
         int at = count++;
-        for (; at > 0 && strcmp(to[at - 1].text, found.text) > 0; --at) {
+        for (; at > 0 && strcmp(to[at - 1].text, found.text) > 0; --at)
             to[at] = to[at - 1];
-        }
         to[at] = found;
     }
     r = pc::regs(0x1a00);
@@ -271,23 +268,23 @@ int listFiles(const char* directory, const char* ending, FileName* to, int room)
     return count;
 }
 
-int32_t fileBytes(int file) {
+int32_t fileBytes(int file)
+{
     dpmi::RealRegs r = pc::regs(0x4202);
     r.ebx = uint32_t(file);
-    if (call(&r) < 0) {
+    if (call(&r) < 0)
         return -1;
-    }
     return int32_t((r.edx & 0xffff) << 16 | (r.eax & 0xffff));
 }
 
-bool cutFile(int file, uint32_t bytes) {
+bool cutFile(int file, uint32_t bytes)
+{
     dpmi::RealRegs r = pc::regs(0x4200);
     r.ebx = uint32_t(file);
     r.ecx = bytes >> 16;
     r.edx = bytes & 0xffff;
-    if (call(&r) < 0) {
+    if (call(&r) < 0)
         return false;
-    }
     // Nothing written means: the file ends here.
     r = pc::regs(0x4000);
     r.ebx = uint32_t(file);
@@ -295,27 +292,25 @@ bool cutFile(int file, uint32_t bytes) {
     return call(&r) >= 0;
 }
 
-bool removeFile(const char* name) {
+bool removeFile(const char* name)
+{
     return callOnName(0x4100, 0, name) >= 0;
 }
 
-int beginSave(const char* name) {
-    if (!tidy(name, savedAs)) {
+int beginSave(const char* name)
+{
+    if (!tidy(name, savedAs))
         return failed(NO_PATH);
-    }
     uint16_t attributes = 0;
     const bool there = callOnName(0x4300, 0, savedAs, &attributes) >= 0;
-    if (there && (attributes & (READ_ONLY | DIRECTORY)) != 0) {
+    if (there && (attributes & (READ_ONLY | DIRECTORY)) != 0)
         return failed(DENIED);
-    }
     // DOS makes up the name of the new file; it wants the folder, with a backslash at its end where it is not the current
     // one.
     uint32_t folder = 0;
-    for (uint32_t i = 0; savedAs[i] != '\0'; ++i) {
-        if (savedAs[i] == '\\' || savedAs[i] == ':') {
+    for (uint32_t i = 0; savedAs[i] != '\0'; ++i)
+        if (savedAs[i] == '\\' || savedAs[i] == ':')
             folder = i + 1;
-        }
-    }
     memcpy(saving, savedAs, folder);
     if (folder == 0) {
         saving[folder++] = '.';
@@ -338,12 +333,12 @@ int beginSave(const char* name) {
     return file;
 }
 
-bool endSave(int file, bool good) {
+bool endSave(int file, bool good)
+{
     const char* why = trouble;
     const bool closed = closeFile(file);
-    if (good && !closed) {
+    if (good && !closed)
         why = trouble;
-    }
     good = good && closed;
     uint16_t attributes;
     if (good && callOnName(0x4300, 0, savedAs, &attributes) >= 0 && !removeFile(savedAs)) {
@@ -360,20 +355,20 @@ bool endSave(int file, bool good) {
     return renameFile(saving, savedAs);
 }
 
-bool makeDirectory(const char* name) {
-    if (isRoot(name) || callOnName(0x3900, 0, name) >= 0) {
+bool makeDirectory(const char* name)
+{
+    if (isRoot(name) || callOnName(0x3900, 0, name) >= 0)
         return true;
-    }
     const char* why = trouble;
     uint16_t attributes = 0;
-    if (callOnName(0x4300, 0, name, &attributes) >= 0 && (attributes & DIRECTORY) != 0) {
+    if (callOnName(0x4300, 0, name, &attributes) >= 0 && (attributes & DIRECTORY) != 0)
         return true;
-    }
     trouble = why;
     return false;
 }
 
-const char* fileTrouble() {
+const char* fileTrouble()
+{
     return trouble;
 }
 

@@ -21,22 +21,21 @@ bool mouseOpen = false;
 
 namespace machine {
 
-int key() {
+int key()
+{
     while (pc::peek16(KEYS_HEAD) != pc::peek16(KEYS_TAIL)) {
         // AH=10h gives the keys that only an enhanced keyboard has; AH=00h would wait for another one instead.
         dpmi::RealRegs r = pc::regs((pc::peek8(KEYBOARD_KIND) & ENHANCED) != 0 ? 0x1000 : 0x0000);
-        if (!dpmi::realInterrupt(0x16, &r)) {
+        if (!dpmi::realInterrupt(0x16, &r))
             return 0;
-        }
         const int character = int(r.eax & 0xff);
         const int scan = int(r.eax >> 8 & 0xff);
         if (character == 3) {
             pc::noteBreak();
         } else if (character == 0 || (character == 0xe0 && scan != 0)) {
             // Both zero is what Ctrl-Break leaves behind: no key.
-            if (scan != 0) {
+            if (scan != 0)
                 return 0x100 + scan;
-            }
         } else {
             const int letter = character | 0x20;
             const bool turned = letter >= 'a' && letter <= 'z' && (pc::peek8(KEYBOARD_FLAGS) & CAPS_LOCK) != 0;
@@ -46,27 +45,26 @@ int key() {
     return 0;
 }
 
-bool openMouse() {
+bool openMouse()
+{
     // Without a driver the vector is null, or points to an iret.
     const dpmi::RealAddress driver = dpmi::realVector(MOUSE);
     const uint32_t at = (uint32_t(driver.segment) << 4) + driver.offset;
-    if (at == 0 || pc::peek8(at) == IRET) {
+    if (at == 0 || pc::peek8(at) == IRET)
         return false;
-    }
     dpmi::RealRegs r = pc::regs(0x0000);
-    if (!dpmi::realInterrupt(MOUSE, &r) || uint16_t(r.eax) != 0xffff) {
+    if (!dpmi::realInterrupt(MOUSE, &r) || uint16_t(r.eax) != 0xffff)
         return false;
-    }
     mouseOpen = true;
     mouse();  // what was moved before does not count
     return true;
 }
 
-Mouse mouse() {
+Mouse mouse()
+{
     Mouse now = {0, 0, 0, false, false};
-    if (!mouseOpen) {
+    if (!mouseOpen)
         return now;
-    }
     dpmi::RealRegs r = pc::regs(0x0003);
     if (dpmi::realInterrupt(MOUSE, &r)) {
         now.left = (r.ebx & 1) != 0;
@@ -74,9 +72,8 @@ Mouse mouse() {
     }
     // How often the left button went down: what happens while a frame is drawn counts too.
     r = pc::regs(0x0005);
-    if (dpmi::realInterrupt(MOUSE, &r)) {
+    if (dpmi::realInterrupt(MOUSE, &r))
         now.presses = uint16_t(r.ebx);
-    }
     r = pc::regs(0x000b);
     if (dpmi::realInterrupt(MOUSE, &r)) {
         now.dx = int16_t(r.ecx);
@@ -89,7 +86,8 @@ Mouse mouse() {
 
 namespace pc {
 
-void closeMouse() {
+void closeMouse()
+{
     if (mouseOpen) {
         mouseOpen = false;
         dpmi::RealRegs r = regs(0x0000);

@@ -12,7 +12,8 @@
 // DJGPP's start-up would expand `/?` as a pattern of file names, take `@name` for a file of arguments and read
 // DJGPP.ENV; here a command line is what it says.
 int _crt0_startup_flags = _CRT0_DISABLE_SBRK_ADDRESS_WRAP | _CRT0_FLAG_DISALLOW_RESPONSE_FILES;
-char** __crt0_glob_function(char*) {
+char** __crt0_glob_function(char*)
+{
     return nullptr;
 }
 void __crt0_load_environment_file(char*) {}
@@ -26,15 +27,15 @@ constexpr int STDERR = 2;
 bool started = false;
 
 // Writes text by DOS, with the line ends of DOS. What cannot be written is lost: there is nobody to tell.
-void put(int handle, const char* text) {
+void put(int handle, const char* text)
+{
     const pc::Transfer buffer = pc::transfer();
     char piece[256];
     while (*text != '\0') {
         uint32_t length = 0;
         while (*text != '\0' && length + 2 <= sizeof piece) {
-            if (*text == '\n') {
+            if (*text == '\n')
                 piece[length++] = '\r';
-            }
             piece[length++] = *text++;
         }
         pc::copyToLow(uint32_t(buffer.segment) << 4, piece, length);
@@ -42,9 +43,8 @@ void put(int handle, const char* text) {
         r.ebx = uint32_t(handle);
         r.ecx = length;
         r.ds = buffer.segment;
-        if (!dpmi::realInterrupt(0x21, &r) || pc::carry(r)) {
+        if (!dpmi::realInterrupt(0x21, &r) || pc::carry(r))
             return;
-        }
     }
 }
 
@@ -52,19 +52,20 @@ void put(int handle, const char* text) {
 
 namespace pc {
 
-uint16_t lowMemory() {
+uint16_t lowMemory()
+{
     static uint16_t selector = 0;
     if (selector == 0) {
         selector = dpmi::allocateDescriptor();
         // Without it nothing can be said either.
-        if (selector == 0 || !dpmi::setSegmentBase(selector, 0) || !dpmi::setSegmentLimit(selector, 0x10ffff)) {
+        if (selector == 0 || !dpmi::setSegmentBase(selector, 0) || !dpmi::setSegmentLimit(selector, 0x10ffff))
             exit(1);
-        }
     }
     return selector;
 }
 
-void copyToLow(uint32_t to, const void* from, uint32_t bytes) {
+void copyToLow(uint32_t to, const void* from, uint32_t bytes)
+{
     __asm__ volatile(
         "pushl %%es\n\t"
         "movw %w3, %%es\n\t"
@@ -75,7 +76,8 @@ void copyToLow(uint32_t to, const void* from, uint32_t bytes) {
         : "memory");
 }
 
-void copyFromLow(void* to, uint32_t from, uint32_t bytes) {
+void copyFromLow(void* to, uint32_t from, uint32_t bytes)
+{
     __asm__ volatile(
         "movw %w3, %%fs\n\t"
         "rep movsb %%fs:(%%esi), %%es:(%%edi)"
@@ -84,7 +86,8 @@ void copyFromLow(void* to, uint32_t from, uint32_t bytes) {
         : "memory");
 }
 
-Transfer transfer() {
+Transfer transfer()
+{
 #ifdef FB_RT
     const uint32_t bytes = stubInfo.minkeep;
     const uint16_t segment = stubInfo.dsSegment;
@@ -99,10 +102,10 @@ Transfer transfer() {
 
 namespace machine {
 
-const char* start() {
-    if (started) {
+const char* start()
+{
+    if (started)
         return nullptr;
-    }
     started = true;
     pc::openTraps();
     const char* trouble = pc::openBreak();
@@ -114,10 +117,10 @@ const char* start() {
     return nullptr;
 }
 
-void stop() {
-    if (!started) {
+void stop()
+{
+    if (!started)
         return;
-    }
     started = false;
     closeVideo();
     pc::closeMouse();
@@ -126,22 +129,26 @@ void stop() {
     pc::closeTraps();
 }
 
-void fail(int status, const char* line) {
+void fail(int status, const char* line)
+{
     stop();
     err(line);
     err("\n");
     exit(status);
 }
 
-bool broken() {
+bool broken()
+{
     return pc::breakSeen();
 }
 
-void out(const char* text) {
+void out(const char* text)
+{
     put(STDOUT, text);
 }
 
-void err(const char* text) {
+void err(const char* text)
+{
     put(STDERR, text);
 }
 

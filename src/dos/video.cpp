@@ -21,23 +21,25 @@ uint16_t screen = 0;  // selector
 uint8_t oldMode;
 uint8_t oldLastRow;
 
-void setMode(uint8_t mode) {
+void setMode(uint8_t mode)
+{
     dpmi::RealRegs r = pc::regs(mode);
     dpmi::realInterrupt(0x10, &r);
 }
 
-uint8_t currentMode() {
+uint8_t currentMode()
+{
     dpmi::RealRegs r = pc::regs(0x0f00);
     dpmi::realInterrupt(0x10, &r);
     return uint8_t(r.eax & 0x7f);
 }
 
 // int 10h, AX=1A00h, is there on a VGA and an MCGA, which both have mode 13h, and on nothing older.
-bool haveVga() {
+bool haveVga()
+{
     dpmi::RealRegs r = pc::regs(0x1a00);
-    if (!dpmi::realInterrupt(0x10, &r) || uint8_t(r.eax) != 0x1a) {
+    if (!dpmi::realInterrupt(0x10, &r) || uint8_t(r.eax) != 0x1a)
         return false;
-    }
     const uint8_t card = uint8_t(r.ebx);
     return card >= 0x07 && card <= 0x0c && card != 0x09;
 }
@@ -46,18 +48,16 @@ bool haveVga() {
 
 namespace machine {
 
-const char* openVideo() {
-    if (open) {
+const char* openVideo()
+{
+    if (open)
         return nullptr;
-    }
-    if (!haveVga()) {
+    if (!haveVga())
         return "no VGA found";
-    }
     if (screen == 0) {
         screen = dpmi::segmentDescriptor(SCREEN_SEGMENT);
-        if (screen == 0) {
+        if (screen == 0)
             return "no selector for the screen";
-        }
     }
     oldMode = currentMode();
     oldLastRow = pc::peek8(BIOS_LAST_ROW);
@@ -70,10 +70,10 @@ const char* openVideo() {
     return nullptr;
 }
 
-void closeVideo() {
-    if (!open) {
+void closeVideo()
+{
+    if (!open)
         return;
-    }
     open = false;
     setMode(oldMode);
     // A text screen of 50 (or 28) lines is 25 lines with a smaller font.
@@ -83,25 +83,25 @@ void closeVideo() {
     }
 }
 
-void setPalette(const uint8_t rgb[768]) {
-    if (!open) {
+void setPalette(const uint8_t rgb[768])
+{
+    if (!open)
         return;
-    }
     pc::outPort(DAC_INDEX, 0);
     uint32_t bytes = 768;
     __asm__ volatile("rep outsb" : "+S"(rgb), "+c"(bytes) : "d"(DAC_DATA) : "memory");
 }
 
-void present(const uint8_t* frame, const Span rows[HEIGHT]) {
-    if (open) {
+void present(const uint8_t* frame, const Span rows[HEIGHT])
+{
+    if (open)
         presentRows(screen, 0, frame, rows, HEIGHT);
-    }
 }
 
-void waitRetrace() {
-    if (!open) {
+void waitRetrace()
+{
+    if (!open)
         return;
-    }
     const uint64_t end = clock() + CLOCK_HZ / 20;
     while ((pc::inPort(STATUS) & IN_RETRACE) != 0 && clock() < end) {
     }

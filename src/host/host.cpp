@@ -47,7 +47,8 @@ struct sigaction oldTerminate;
 
 const char* trouble = "";
 
-void onBreak(int) {
+void onBreak(int)
+{
     breakSeen = 1;
 }
 
@@ -76,7 +77,8 @@ bool rightHeld = false;
 char scriptTrouble[160];
 
 // The code key() returns for a key's name in a script; 0 for an unknown one, -1 for BREAK.
-int keyNamed(const char* name) {
+int keyNamed(const char* name)
+{
     static const struct {
         const char* name;
         int code;
@@ -86,46 +88,39 @@ int keyNamed(const char* name) {
         {"PGDN", KEY_PGDN}, {"INS", KEY_INS},   {"DEL", KEY_DEL},     {"SPACE", ' '},     {"ENTER", KEY_ENTER},
         {"TAB", KEY_TAB}, {"HOME", KEY_HOME}, {"END", KEY_END},   {"BACKSPACE", KEY_BACKSPACE}, {"BREAK", -1},
     };
-    if (name[0] != '\0' && name[1] == '\0') {
+    if (name[0] != '\0' && name[1] == '\0')
         return static_cast<unsigned char>(name[0]);
-    }
-    for (const auto& known : names) {
-        if (strcmp(name, known.name) == 0) {
+    for (const auto& known : names)
+        if (strcmp(name, known.name) == 0)
             return known.code;
-        }
-    }
     return 0;
 }
 
 // Reads one line of the script into `event`; false when it cannot be understood.
-bool parseEvent(const char* line, Event* event) {
+bool parseEvent(const char* line, Event* event)
+{
     *event = Event{};
     char word[16];
     int used = 0;
-    if (sscanf(line, "%lu%n", &event->frame, &used) != 1) {
+    if (sscanf(line, "%lu%n", &event->frame, &used) != 1)
         return false;
-    }
     const char* rest = line + used;
-    if (*rest == '.' && sscanf(rest, ".%lu%n", &event->polls, &used) == 1) {
+    if (*rest == '.' && sscanf(rest, ".%lu%n", &event->polls, &used) == 1)
         rest += used;
-    }
-    if (sscanf(rest, "%15s%n", word, &used) != 1) {
+    if (sscanf(rest, "%15s%n", word, &used) != 1)
         return false;
-    }
     rest += used;
     if (strcmp(word, "key") == 0) {
         char name[16];
-        if (sscanf(rest, "%15s", name) != 1) {
+        if (sscanf(rest, "%15s", name) != 1)
             return false;
-        }
         event->key = keyNamed(name);
         return event->key != 0;
     }
     if (strcmp(word, "mouse") == 0) {
         char held[16];
-        if (sscanf(rest, "%d %d %15s", &event->dx, &event->dy, held) != 3) {
+        if (sscanf(rest, "%d %d %15s", &event->dx, &event->dy, held) != 3)
             return false;
-        }
         event->left = strchr(held, 'L') != nullptr;
         event->right = strchr(held, 'R') != nullptr;
         scriptHasMouse = true;
@@ -135,22 +130,25 @@ bool parseEvent(const char* line, Event* event) {
 }
 
 // Whether the time of an event has come.
-bool isDue(const Event& event) {
+bool isDue(const Event& event)
+{
     return event.frame < framesShown || (event.frame == framesShown && event.polls <= emptyPolls);
 }
 
-bool comesBefore(const Event& a, const Event& b) {
+bool comesBefore(const Event& a, const Event& b)
+{
     return a.frame != b.frame ? a.frame < b.frame : a.polls < b.polls;
 }
 
-void note(const char* what) {
-    if (log != nullptr) {
+void note(const char* what)
+{
+    if (log != nullptr)
         fprintf(log, "%s\n", what);
-    }
 }
 
 // Null, or what is wrong with the script.
-const char* readScript(const char* name) {
+const char* readScript(const char* name)
+{
     FILE* file = fopen(name, "r");
     if (file == nullptr) {
         snprintf(scriptTrouble, sizeof scriptTrouble, "FB_INPUT: cannot open %.100s", name);
@@ -161,9 +159,8 @@ const char* readScript(const char* name) {
     int room = 0;
     while (fgets(line, sizeof line, file) != nullptr) {
         ++number;
-        if (line[0] == '#' || line[strspn(line, " \t\r\n")] == '\0') {
+        if (line[0] == '#' || line[strspn(line, " \t\r\n")] == '\0')
             continue;
-        }
         if (eventCount == room) {
             room = room * 2 + 16;
             Event* more = static_cast<Event*>(realloc(events, room * sizeof(Event)));
@@ -186,7 +183,8 @@ const char* readScript(const char* name) {
 }
 
 // The words for errno, the same as on DOS for what both know.
-const char* words(int error) {
+const char* words(int error)
+{
     switch (error) {
         case ENOENT:
             return "no such file or directory";
@@ -209,7 +207,8 @@ const char* words(int error) {
     }
 }
 
-int failed() {
+int failed()
+{
     trouble = words(errno);
     return -1;
 }
@@ -218,16 +217,15 @@ int failed() {
 char* savedAs = nullptr;
 char* saving = nullptr;
 
-void put(int stream, const char* text) {
+void put(int stream, const char* text)
+{
     size_t left = strlen(text);
     while (left > 0) {
         ssize_t done = write(stream, text, left);
-        if (done < 0 && errno == EINTR) {
+        if (done < 0 && errno == EINTR)
             continue;
-        }
-        if (done <= 0) {
+        if (done <= 0)
             return;
-        }
         text += done;
         left -= static_cast<size_t>(done);
     }
@@ -235,21 +233,20 @@ void put(int stream, const char* text) {
 
 }  // namespace
 
-const char* start() {
+const char* start()
+{
     clock_gettime(CLOCK_MONOTONIC, &started);
     const char* script = getenv("FB_INPUT");
     if (script != nullptr && script[0] != '\0' && events == nullptr) {
         const char* wrong = readScript(script);
-        if (wrong != nullptr) {
+        if (wrong != nullptr)
             return wrong;
-        }
     }
     const char* told = getenv("FB_LOG");
     if (told != nullptr && told[0] != '\0' && log == nullptr) {
         log = fopen(told, "w");
-        if (log == nullptr) {
+        if (log == nullptr)
             return "FB_LOG: cannot be written";
-        }
     }
     struct sigaction action;
     memset(&action, 0, sizeof action);
@@ -262,7 +259,8 @@ const char* start() {
     return nullptr;
 }
 
-void stop() {
+void stop()
+{
     closeVideo();
     if (catching) {
         catching = false;
@@ -278,38 +276,45 @@ void stop() {
     eventCount = 0;
 }
 
-void fail(int status, const char* line) {
+void fail(int status, const char* line)
+{
     stop();
     err(line);
     err("\n");
     exit(status);
 }
 
-bool broken() {
+bool broken()
+{
     return breakSeen != 0;
 }
 
-void out(const char* text) {
+void out(const char* text)
+{
     put(1, text);
 }
 
-void err(const char* text) {
+void err(const char* text)
+{
     put(2, text);
 }
 
-const char* openVideo() {
+const char* openVideo()
+{
     memset(screen, 0, sizeof screen);
     return nullptr;
 }
 
 void closeVideo() {}
 
-void setPalette(const uint8_t rgb[768]) {
+void setPalette(const uint8_t rgb[768])
+{
     memcpy(palette, rgb, sizeof palette);
     note("palette");
 }
 
-void present(const uint8_t* frame, const Span rows[HEIGHT]) {
+void present(const uint8_t* frame, const Span rows[HEIGHT])
+{
     for (int y = 0; y < HEIGHT; ++y) {
         if (rows[y].from < rows[y].to) {
             const int at = y * WIDTH + rows[y].from;
@@ -323,10 +328,10 @@ void present(const uint8_t* frame, const Span rows[HEIGHT]) {
 
 void waitRetrace() {}
 
-uint64_t clock() {
-    if (still) {
+uint64_t clock()
+{
+    if (still)
         return 0;
-    }
     timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     int64_t seconds = static_cast<int64_t>(now.tv_sec) - started.tv_sec;
@@ -338,19 +343,21 @@ uint64_t clock() {
     return static_cast<uint64_t>(seconds) * CLOCK_HZ + static_cast<uint64_t>(nanoseconds) * CLOCK_HZ / 1000000000u;
 }
 
-void standStill(bool wish) {
+void standStill(bool wish)
+{
     still = wish;
 }
 
-void date(char* to, int size) {
+void date(char* to, int size)
+{
     const time_t now = time(nullptr);
     tm local;
-    if (localtime_r(&now, &local) == nullptr || strftime(to, static_cast<size_t>(size), "%Y-%m-%d %H:%M:%S", &local) == 0) {
+    if (localtime_r(&now, &local) == nullptr || strftime(to, static_cast<size_t>(size), "%Y-%m-%d %H:%M:%S", &local) == 0)
         to[0] = '\0';
-    }
 }
 
-void describe(char* to, int size) {
+void describe(char* to, int size)
+{
     utsname names;
     if (uname(&names) != 0) {
         snprintf(to, static_cast<size_t>(size), "host");
@@ -359,32 +366,32 @@ void describe(char* to, int size) {
     snprintf(to, static_cast<size_t>(size), "%.24s %.24s", names.sysname, names.machine);
 }
 
-int key() {
+int key()
+{
     while (nextKey < eventCount && isDue(events[nextKey])) {
         const int code = events[nextKey++].key;
-        if (code > 0) {
+        if (code > 0)
             return code;
-        }
-        if (code < 0) {
+        if (code < 0)
             breakSeen = 1;
-        }
     }
     ++emptyPolls;
     note("key");
     return 0;
 }
 
-bool openMouse() {
+bool openMouse()
+{
     return scriptHasMouse;
 }
 
-Mouse mouse() {
+Mouse mouse()
+{
     Mouse now = {0, 0, 0, false, false};
     while (nextMouse < eventCount && isDue(events[nextMouse])) {
         const Event& event = events[nextMouse++];
-        if (event.key != 0) {
+        if (event.key != 0)
             continue;
-        }
         now.presses += event.left && !leftHeld;
         now.dx += event.dx;
         now.dy += event.dy;
@@ -396,16 +403,17 @@ Mouse mouse() {
     return now;
 }
 
-int createFile(const char* name) {
+int createFile(const char* name)
+{
     const int file = open(name, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     return file < 0 ? failed() : file;
 }
 
-int openFile(const char* name) {
+int openFile(const char* name)
+{
     const int file = open(name, O_RDONLY | O_CLOEXEC);
-    if (file < 0) {
+    if (file < 0)
         return failed();
-    }
     // A directory can be opened here but not on DOS; it must not look like an empty file.
     struct stat facts;
     if (fstat(file, &facts) == 0 && S_ISDIR(facts.st_mode)) {
@@ -416,7 +424,8 @@ int openFile(const char* name) {
     return file;
 }
 
-int appendFile(const char* name, bool* fresh) {
+int appendFile(const char* name, bool* fresh)
+{
     *fresh = true;
     int file = open(name, O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666);
     if (file < 0 && errno == EEXIST) {
@@ -426,40 +435,38 @@ int appendFile(const char* name, bool* fresh) {
     return file < 0 ? failed() : file;
 }
 
-int32_t readFile(int file, void* to, uint32_t bytes) {
+int32_t readFile(int file, void* to, uint32_t bytes)
+{
     uint32_t done = 0;
     while (done < bytes) {
         const ssize_t got = read(file, static_cast<char*>(to) + done, bytes - done);
-        if (got < 0 && errno == EINTR) {
+        if (got < 0 && errno == EINTR)
             continue;
-        }
-        if (got < 0) {
+        if (got < 0)
             return failed();
-        }
-        if (got == 0) {
+        if (got == 0)
             break;
-        }
         done += static_cast<uint32_t>(got);
     }
     return static_cast<int32_t>(done);
 }
 
-int32_t writeFile(int file, const void* from, uint32_t bytes) {
+int32_t writeFile(int file, const void* from, uint32_t bytes)
+{
     uint32_t done = 0;
     while (done < bytes) {
         const ssize_t put = write(file, static_cast<const char*>(from) + done, bytes - done);
-        if (put < 0 && errno == EINTR) {
+        if (put < 0 && errno == EINTR)
             continue;
-        }
-        if (put <= 0) {
+        if (put <= 0)
             return failed();
-        }
         done += static_cast<uint32_t>(put);
     }
     return static_cast<int32_t>(done);
 }
 
-bool closeFile(int file) {
+bool closeFile(int file)
+{
     if (close(file) != 0) {
         failed();
         return false;
@@ -467,7 +474,8 @@ bool closeFile(int file) {
     return true;
 }
 
-bool rewindFile(int file) {
+bool rewindFile(int file)
+{
     if (lseek(file, 0, SEEK_SET) < 0) {
         failed();
         return false;
@@ -475,15 +483,16 @@ bool rewindFile(int file) {
     return true;
 }
 
-int32_t fileBytes(int file) {
+int32_t fileBytes(int file)
+{
     struct stat facts;
-    if (fstat(file, &facts) != 0) {
+    if (fstat(file, &facts) != 0)
         return failed();
-    }
     return static_cast<int32_t>(facts.st_size);
 }
 
-bool cutFile(int file, uint32_t bytes) {
+bool cutFile(int file, uint32_t bytes)
+{
     if (ftruncate(file, bytes) != 0) {
         failed();
         return false;
@@ -491,29 +500,28 @@ bool cutFile(int file, uint32_t bytes) {
     return true;
 }
 
-int listFiles(const char* directory, const char* ending, FileName* to, int room) {
+int listFiles(const char* directory, const char* ending, FileName* to, int room)
+{
     DIR* open = opendir(directory[0] == '\0' ? "." : directory);
-    if (open == nullptr) {
+    if (open == nullptr)
         return 0;
-    }
     int count = 0;
     const size_t behind = strlen(ending);
     for (const dirent* entry = readdir(open); entry != nullptr && count < room; entry = readdir(open)) {
         const size_t length = strlen(entry->d_name);
-        if (length <= behind || length >= sizeof to->text || strcasecmp(entry->d_name + length - behind, ending) != 0) {
+        if (length <= behind || length >= sizeof to->text || strcasecmp(entry->d_name + length - behind, ending) != 0)
             continue;
-        }
         int at = count++;
-        for (; at > 0 && strcmp(to[at - 1].text, entry->d_name) > 0; --at) {
+        for (; at > 0 && strcmp(to[at - 1].text, entry->d_name) > 0; --at)
             to[at] = to[at - 1];
-        }
         strcpy(to[at].text, entry->d_name);
     }
     closedir(open);
     return count;
 }
 
-bool removeFile(const char* name) {
+bool removeFile(const char* name)
+{
     // What is no plain file is not ours to remove: a device, a link to one.
     struct stat facts;
     if (lstat(name, &facts) == 0 && !S_ISREG(facts.st_mode)) {
@@ -528,16 +536,16 @@ bool removeFile(const char* name) {
     return true;
 }
 
-int beginSave(const char* name) {
+int beginSave(const char* name)
+{
     struct stat facts;
     const bool there = stat(name, &facts) == 0;
     if (there && !S_ISREG(facts.st_mode)) {
         // A device or a pipe takes what it is given; nothing can be put in its place.
         return createFile(name);
     }
-    if (there && access(name, W_OK) != 0) {
+    if (there && access(name, W_OK) != 0)
         return failed();
-    }
     // Where a symbolic link leads.
     savedAs = there ? realpath(name, nullptr) : strdup(name);
     saving = savedAs == nullptr ? nullptr : static_cast<char*>(malloc(strlen(savedAs) + sizeof ".XXXXXX"));
@@ -559,7 +567,8 @@ int beginSave(const char* name) {
     return -1;
 }
 
-bool endSave(int file, bool good) {
+bool endSave(int file, bool good)
+{
     const char* why = trouble;
     const bool closed = closeFile(file);
     if (saving == nullptr) {
@@ -573,30 +582,29 @@ bool endSave(int file, bool good) {
         trouble = why;
     }
     good = good && closed;
-    if (!good) {
+    if (!good)
         unlink(saving);
-    }
     free(saving);
     free(savedAs);
     saving = savedAs = nullptr;
     return good;
 }
 
-bool makeDirectory(const char* name) {
-    if (mkdir(name, 0777) == 0) {
+bool makeDirectory(const char* name)
+{
+    if (mkdir(name, 0777) == 0)
         return true;
-    }
     const int error = errno;
     struct stat facts;
-    if (stat(name, &facts) == 0 && S_ISDIR(facts.st_mode)) {
+    if (stat(name, &facts) == 0 && S_ISDIR(facts.st_mode))
         return true;
-    }
     errno = error;
     failed();
     return false;
 }
 
-const char* fileTrouble() {
+const char* fileTrouble()
+{
     return trouble;
 }
 

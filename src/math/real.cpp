@@ -4,18 +4,6 @@
 
 namespace {
 
-// a / b, rounded down; the quotient must fit 32 bits.
-inline uint32_t quotient64(uint64_t a, uint32_t b)
-{
-#if FB_I386
-    uint32_t low = static_cast<uint32_t>(a), high = static_cast<uint32_t>(a >> 32);
-    asm("divl %2" : "+a"(low), "+d"(high) : "rm"(b) : "cc");
-    return low;
-#else
-    return static_cast<uint32_t>(a / b);
-#endif
-}
-
 // a * b / 2^30, rounded down; it must fit 32 bits.
 inline int32_t times(int32_t a, int32_t b)
 {
@@ -41,8 +29,9 @@ uint32_t squareRoot64(uint64_t a)
     // A line that is no more than 4% off the root, and three steps of Newton's method: 16 bits of the root, then all of them.
     uint32_t root = top / 49152 + 11469;
     root = (root + top / root) << 15;
-    root = (root >> 1) + (quotient64(wide, root) >> 1);
-    root = (root >> 1) + (quotient64(wide, root) >> 1);
+    uint32_t rest;
+    root = (root >> 1) + (quotient64(wide, root, &rest) >> 1);
+    root = (root >> 1) + (quotient64(wide, root, &rest) >> 1);
     root = up < 0 ? root << 1 : root >> (up >> 1);
     // What was rounded on the way.
     const auto square = [](uint32_t r) { return static_cast<uint64_t>(r) * r; };

@@ -3,20 +3,6 @@
 
 #include "rt.h"
 
-uint64_t divide64(uint64_t top, uint32_t bottom, uint32_t* remainder)
-{
-#if FB_I386
-    uint32_t high = static_cast<uint32_t>(top >> 32), low = static_cast<uint32_t>(top), rest = 0;
-    asm("divl %4" : "=a"(high), "=d"(rest) : "0"(high), "1"(rest), "rm"(bottom) : "cc");
-    asm("divl %4" : "=a"(low), "=d"(rest) : "0"(low), "1"(rest), "rm"(bottom) : "cc");
-    *remainder = rest;
-    return static_cast<uint64_t>(high) << 32 | low;
-#else
-    *remainder = static_cast<uint32_t>(top % bottom);
-    return top / bottom;
-#endif
-}
-
 namespace {
 
 const uint32_t POWERS[] = {1, 10, 100, 1000, 10000, 100000, 1000000};
@@ -57,11 +43,9 @@ int formatReal(char* to, int size, Real value)
     uint32_t whole = 0, part = 0;
     for (; decimals <= 6; ++decimals) {
         const uint32_t power = POWERS[decimals];
-        uint32_t unused;
         const uint64_t scaled = (static_cast<uint64_t>(bits) * power + 0x8000) >> 16;
         whole = static_cast<uint32_t>(divide64(scaled, power, &part));
-        const uint32_t fraction =
-            static_cast<uint32_t>(divide64((static_cast<uint64_t>(part) << 16) + power / 2, power, &unused));
+        const uint32_t fraction = static_cast<uint32_t>(divide64((static_cast<uint64_t>(part) << 16) + power / 2, power));
         if ((whole << 16) + fraction == bits)
             break;
     }
@@ -76,8 +60,7 @@ int formatQuotient(char* to, int size, uint64_t top, uint32_t bottom, int decima
     }
     uint32_t rest;
     uint64_t whole = divide64(top, bottom, &rest);
-    uint32_t after;
-    uint32_t part = static_cast<uint32_t>(divide64(static_cast<uint64_t>(rest) * POWERS[decimals] + bottom / 2, bottom, &after));
+    uint32_t part = static_cast<uint32_t>(divide64(static_cast<uint64_t>(rest) * POWERS[decimals] + bottom / 2, bottom));
     if (part == POWERS[decimals]) {
         part = 0;
         ++whole;
@@ -107,9 +90,8 @@ bool parseReal(const char* text, Real* value)
     }
     if (digits == 0 || *text != 0)
         return false;
-    uint32_t rest;
-    const uint32_t fraction = static_cast<uint32_t>(
-        divide64((static_cast<uint64_t>(part) << 16) + POWERS[decimals] / 2, POWERS[decimals], &rest));
+    const uint32_t fraction =
+        static_cast<uint32_t>(divide64((static_cast<uint64_t>(part) << 16) + POWERS[decimals] / 2, POWERS[decimals]));
     const uint32_t bits = (whole << 16) + fraction;
     if (bits > INT32_MAX)
         return false;

@@ -2,7 +2,6 @@
 #include "model/anim.h"
 
 #include "model/model.h"
-#include "math/text.h"
 
 namespace {
 
@@ -223,8 +222,7 @@ Wave makeWave(Real seconds, Real phase)
     if (raw == 0)
         return wave;
     // Turns a second: rounded down, so that no period shorter than the one asked for comes out.
-    uint32_t rest;
-    const uint64_t rate = divide64(0xffffffffull << 16, static_cast<uint32_t>(raw < 0 ? -raw : raw), &rest);
+    const uint64_t rate = divide64(0xffffffffull << 16, static_cast<uint32_t>(raw < 0 ? -raw : raw));
     wave.rate = raw < 0 ? 0 - rate : rate;
     return wave;
 }

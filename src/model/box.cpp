@@ -157,7 +157,8 @@ private:
     void addStretched(int side, const Vector& towards, const Vector& from, Real half)
     {
         const Vector root = onSide(side, from), out = onSide(side, towards), round = onSide(side, {towards.z, Real(0), -towards.x});
-        Vector across{-(out.x * loop_.across * loop_.pathSine), loop_.across * loop_.pathCosine, -(out.z * loop_.across * loop_.pathSine)};
+        Vector across{-(out.x * loop_.across * loop_.pathSine), loop_.across * loop_.pathCosine,
+                      -(out.z * loop_.across * loop_.pathSine)};
         if (loop_.face) {
             across.x = across.x / stretch_.x;
             across.z = across.z / stretch_.z;
@@ -264,7 +265,7 @@ void Box::describe(char* to, int size) const
 {
     const Matrix& m = turn();
     const Vector h = half();
-    const Real numbers[] = {centre().x,      centre().y,      centre().z,      m.m[0][0], m.m[1][0], m.m[2][0],   axis().x, axis().y,
-                            axis().z,        shiftUp(h.x, 1), shiftUp(h.y, 1), shiftUp(h.z, 1),      this->size()};
+    const Real numbers[] = {centre().x, centre().y, centre().z,      m.m[0][0],       m.m[1][0],       m.m[2][0],   axis().x,
+                            axis().y,   axis().z,   shiftUp(h.x, 1), shiftUp(h.y, 1), shiftUp(h.z, 1), this->size()};
     describeAs("box", numbers, 13, to, size);
 }

@@ -354,10 +354,10 @@ bool Model::makeFourSpheres()
     const Vector x{Real(1), Real(0), Real(0)}, y{Real(0), Real(1), Real(0)}, z{Real(0), Real(0), Real(1)};
     const Vector slant{Real(0), h, h};
     const bool done =
-        addItem(circlingSphere("red", 20, {255, 64, 48}, x, y, Real(0), 5)) != nullptr &&
-        addItem(circlingSphere("green", 25, {64, 208, 72}, y, z, Real(0.25), 7)) != nullptr &&
-        addItem(circlingSphere("blue", 30, {72, 112, 255}, z, x, Real(0.5), 9)) != nullptr &&
-        addItem(circlingSphere("yellow", 35, {255, 200, 48}, x, slant, Real(0.75), 11)) != nullptr;
+        addItem(circlingSphere("red", 20, usualColour(0), x, y, Real(0), 5)) != nullptr &&
+        addItem(circlingSphere("green", 25, usualColour(1), y, z, Real(0.25), 7)) != nullptr &&
+        addItem(circlingSphere("blue", 30, usualColour(2), z, x, Real(0.5), 9)) != nullptr &&
+        addItem(circlingSphere("yellow", 35, usualColour(3), x, slant, Real(0.75), 11)) != nullptr;
     return done && linkAll(Real(1));
 }
 

@@ -7,6 +7,13 @@
 const char* const FINISH_WORDS[] = {"matt", "shiny", "mirror"};
 const char* const PATTERN_WORDS[] = {"none", "checks", "stripes", "marble"};
 
+Colour usualColour(int before)
+{
+    static const Colour COLOURS[] = {{255, 64, 48},  {64, 208, 72},  {72, 112, 255}, {255, 200, 48},
+                                     {224, 80, 224}, {64, 208, 216}, {255, 136, 40}, {208, 208, 208}};
+    return COLOURS[before % 8];
+}
+
 namespace {
 
 // What a cell has that holds no colour; and one that will.
@@ -216,6 +223,16 @@ bool Paints::choose(const Model& model, Paint* paints)
     }
     if (!any)
         return false;
+    takeCoats(model, paints);
+    own_ = pairs_ = count_;
+    if (boxed)
+        chooseMixtures(model, paints);
+    return true;
+}
+
+// The colours that are asked for by name.
+void Paints::takeCoats(const Model& model, Paint* paints)
+{
     for (int i = 0; i < model.count(); ++i) {
         const Actor& actor = model.actor(i);
         Paint& paint = paints[i];
@@ -240,9 +257,11 @@ bool Paints::choose(const Model& model, Paint* paints)
         paint.at = places_[paint.number];
         paint.otherAt = places_[paint.other];
     }
-    own_ = pairs_ = count_;
-    if (!boxed)
-        return true;
+}
+
+// Those that lie between the two of a marble, and where objects mix, between two or three objects.
+void Paints::chooseMixtures(const Model& model, const Paint* paints)
+{
     memset(cells_, EMPTY, sizeof cells_);
     for (int i = count_ - 1; i >= 0; --i)
         cells_[shines_[i]][cellOf(places_[i])] = static_cast<uint8_t>(i);
@@ -260,5 +279,4 @@ bool Paints::choose(const Model& model, Paint* paints)
         chooseWanted();
     }
     fill();
-    return true;
 }

@@ -7,14 +7,6 @@ namespace {
 constexpr int ALL_MOST = 8;
 constexpr int ROW_PAIRS_MOST = 65024;
 
-// The colour of an object that is given none, by how many there are before it.
-Colour usualColour(int before)
-{
-    static const Colour COLOURS[] = {{255, 64, 48},  {64, 208, 72},  {72, 112, 255}, {255, 200, 48},
-                                     {224, 80, 224}, {64, 208, 216}, {255, 136, 40}, {208, 208, 208}};
-    return COLOURS[before % 8];
-}
-
 // Gives an item of a row the name of the row and its number, which fit.
 void nameInRow(Actor& actor, const Row& row, int i)
 {

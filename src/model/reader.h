@@ -61,7 +61,6 @@ private:
     bool group() { return object(nullptr); }
     bool itemName(ItemLine& line);
     bool itemClause(ItemLine& line);
-    bool itemMeasure(ItemLine& line, bool* known);
     bool itemPlace(ItemLine& line);
     bool itemTurn(ItemLine& line);
     bool itemParent(ItemLine& line);

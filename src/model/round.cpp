@@ -173,7 +173,8 @@ void RingMaker::addStretched(const Ring& ring, int k, int root)
         const Angle within = (turns & 1) == 0 ? quarter_.longitude(way) : QUARTER - quarter_.longitude(quarter_.length() - way);
         const Angle longitude = round_ ? static_cast<Angle>(i) * step : static_cast<Angle>(turns) * QUARTER + within;
         const Real s = sine(longitude), c = cosine(longitude);
-        const int level = thinning(stretchedStep(shiftUp(ring.across, 1), stretch_, ring.normalSine, ring.normalCosine, s, c), spacing_);
+        const Real stretched = stretchedStep(shiftUp(ring.across, 1), stretch_, ring.normalSine, ring.normalCosine, s, c);
+        const int level = thinning(stretched, spacing_);
         if (thinned(k, level))
             continue;
         if (!begun)
@@ -181,7 +182,9 @@ void RingMaker::addStretched(const Ring& ring, int k, int root)
         begun = true;
         const Real along = half / ::length({stretch_.x * c, Real(0), stretch_.z * s});
         const Real across = shiftUp(ring.across * CELL_SPARE, level), inward = -(across * ring.normalSine);
-        const int own = ring.core == Real(0) ? root : round_ ? root + i : maker_.addRoot({ring.core * s, ring.height, ring.core * c});
+        const int own = ring.core == Real(0) ? root
+                        : round_             ? root + i
+                                             : maker_.addRoot({ring.core * s, ring.height, ring.core * c});
         maker_.addSeed(own, {ring.pathCosine * s, ring.pathSine, ring.pathCosine * c}, {along * c, Real(0), -(along * s)},
                        {inward * s, across * ring.normalCosine, inward * c});
     }

@@ -40,9 +40,7 @@ Vector withSquare(const Vector& v, const Vector& like)
         return r;
     const int64_t lack = square(like) - square(r);
     const uint32_t twice = 2 * static_cast<uint32_t>(rawFromReal(absolute(*largest)));
-    uint32_t rest;
-    const int32_t change = static_cast<int32_t>(
-        divide64(static_cast<uint64_t>(lack < 0 ? -lack : lack) + twice / 2, twice, &rest));
+    const int32_t change = static_cast<int32_t>(divide64(static_cast<uint64_t>(lack < 0 ? -lack : lack) + twice / 2, twice));
     const bool outwards = (lack > 0) == (*largest > Real(0));
     *largest += Real::fromRaw(outwards ? change : -change);
     return r;
@@ -56,7 +54,8 @@ Vector withSquare(const Vector& v, const Vector& like)
 SoftObject::SoftObject(int number, Real size, Real coreReach, bool tapers)
     : number_(number), centre_{Real(0), Real(0), Real(0)}, turn_(Matrix::identity()), size_(size),
       radius_(shiftDown(size, 1)), inverse_(Real(CORE_SIZE) / size), coreReach_(coreReach),
-      stretch_{Real(1), Real(1), Real(1)}, unstretch_{Real(1), Real(1), Real(1)}, mostStretch_(1), stretched_(false), warped_(false), shaped_(false),
+      stretch_{Real(1), Real(1), Real(1)}, unstretch_{Real(1), Real(1), Real(1)}, mostStretch_(1), stretched_(false),
+      warped_(false), shaped_(false),
       ball_(!tapers && coreReach == Real(0)), reach_(coreReach + size),
       sizeMade_(size), coreReachMade_(coreReach), coreReach16_(coreReach * (Real(CORE_SIZE) / size)), strength_(1),
       restParam_(0.25), restRoot_(0.5), rests_(true), laidHollow_(false), slot_(0), recalc_(true), tapers_(tapers),

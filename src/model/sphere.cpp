@@ -16,16 +16,14 @@ int ringCount(Real radius, Real spacing)
 {
     const uint64_t half = static_cast<uint64_t>((rawFromReal(radius) * PI_16) >> 16);
     const uint32_t gap = static_cast<uint32_t>(rawFromReal(spacing));
-    uint32_t rest;
-    return static_cast<int>(divide64(half + gap - 1, gap, &rest));
+    return static_cast<int>(divide64(half + gap - 1, gap));
 }
 
 int seedsInRing(Real radius, Real spacing, int32_t cosine30)
 {
     const int64_t ring = (static_cast<int64_t>(rawFromReal(radius)) * cosine30) >> 30;
     const uint64_t around = static_cast<uint64_t>((ring * TWO_PI_16) >> 16);
-    uint32_t rest;
-    const int count = static_cast<int>(divide64(around, static_cast<uint32_t>(rawFromReal(spacing)), &rest));
+    const int count = static_cast<int>(divide64(around, static_cast<uint32_t>(rawFromReal(spacing))));
     return count < FEWEST_IN_RING ? FEWEST_IN_RING : count;
 }
 

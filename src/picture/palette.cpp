@@ -1,7 +1,6 @@
 // Ramps of brightness.
 #include "picture/palette.h"
 
-#include "math/text.h"
 #include "rt.h"
 
 namespace {
@@ -75,9 +74,7 @@ Box measured(const Wish* wishes, int from, int to)
     }
     uint32_t most = 0;
     for (int p = 0; p < 3; ++p) {
-        uint32_t rest;
-        const uint32_t even =
-            static_cast<uint32_t>(divide64(static_cast<uint64_t>(box.sum[p]) * box.sum[p], box.weight, &rest));
+        const uint32_t even = static_cast<uint32_t>(divide64(static_cast<uint64_t>(box.sum[p]) * box.sum[p], box.weight));
         const uint32_t error = squares[p] - even;
         box.error += error;
         if (error > most) {

@@ -11,6 +11,57 @@ inline int32_t limited(int32_t step)
     return step > STEEPEST ? STEEPEST : step < -STEEPEST ? -STEEPEST : step;
 }
 
+// The pixels of a scale along one axis whose centres lie in its rectangle, from `from` to before `to`.
+struct Extent {
+    enum Kind { DRAWN, EMPTY, LEFT } kind;  // left to the view: it is too large
+    int from, to;
+
+    int length() const { return to - from; }
+};
+
+// `middle` and `half`: of the rectangle, pixels with 12 bits of fraction. `least` and `most` grow to hold it.
+inline Extent extentOf(int32_t middle, int32_t half, int screen, int32_t* least, int32_t* most)
+{
+    int from = (middle - half) >> 12, to = (middle + half) >> 12;
+    if (from < *least) {
+        if (from < 0) {
+            if (to - from > LARGEST)
+                return {Extent::LEFT, from, to};
+            from = 0;
+        }
+        *least = from;
+    }
+    if (to > *most) {
+        if (to > screen) {
+            if (to - from > LARGEST)
+                return {Extent::LEFT, from, to};
+            to = screen;
+        }
+        *most = to;
+    }
+    const int length = to - from;
+    return {length <= 0 ? Extent::EMPTY : length > LARGEST ? Extent::LEFT : Extent::DRAWN, from, to};
+}
+
+// Brightness and end of a scale that has them change across it; it has its place and its depths.
+inline void addShading(const Lens& lens, const Voxel& v, const Factors& f, int32_t depth, int32_t toColumn, int32_t toRow,
+                       FineScale* scale)
+{
+    const int wide = scale->wide;
+    scale->zMost = endOf(v, depth >> 1);
+    scale->ramp = lens.ramp;
+    const int32_t shadeAcross = shadeStep(v.slopeX, f.zx), shadeDown = -shadeStep(v.slopeY, f.zy);
+    const int32_t toFirst = wrappedSum(wrappedProduct(shadeAcross, toColumn), wrappedProduct(shadeDown, toRow));
+    scale->shade = v.brightness * 256 + 128 + (toFirst >> 12);
+    scale->shadeStep = shadeAcross;
+    scale->shadeRow = wrappedSum(shadeDown, -wrappedProduct(shadeAcross, wide));
+    const int32_t cutAcross = shadeStep(v.cutX, f.zx), cutDown = -shadeStep(v.cutY, f.zy);
+    const int32_t cutToFirst = wrappedSum(wrappedProduct(cutAcross, toColumn), wrappedProduct(cutDown, toRow));
+    scale->cut = isCut(v) ? v.cutAt * 32 + (cutToFirst >> 12) : 0;
+    scale->cutStep = cutAcross;
+    scale->cutRow = wrappedSum(cutDown, -wrappedProduct(cutAcross, wide));
+}
+
 }  // namespace
 
 const Voxel* drawScalesC(Lens* lens, const Voxel* voxels, const Voxel* end)
@@ -23,90 +74,40 @@ const Voxel* drawScalesC(Lens* lens, const Voxel* voxels, const Voxel* end)
         if (factors == nullptr)
             break;
         const Factors& f = *factors;
-        // The pixels whose centres lie in the rectangle: columns, then rows.
         const int32_t column = lens->centreX + (wrappedProduct(wrappedSum(lens->x, v.x), f.x) >> 8);
-        const int32_t halfWide = v.wide * f.x >> 8;
-        int left = (column - halfWide) >> 12, right = (column + halfWide) >> 12;
-        if (left < lens->left) {
-            if (left < 0) {
-                if (right - left > LARGEST)
-                    break;
-                left = 0;
-            }
-            lens->left = left;
-        }
-        if (right > lens->right) {
-            if (right > WIDTH) {
-                if (right - left > LARGEST)
-                    break;
-                right = WIDTH;
-            }
-            lens->right = right;
-        }
-        const int wide = right - left;
-        if (wide <= 0) {
-            ++lens->empty;
-            continue;
-        }
-        if (wide > LARGEST)
+        const Extent columns = extentOf(column, v.wide * f.x >> 8, WIDTH, &lens->left, &lens->right);
+        if (columns.kind == Extent::LEFT)
             break;
         const int32_t row = lens->centreY - (wrappedProduct(wrappedSum(lens->y, v.y), f.y) >> 8);
-        const int32_t halfHigh = v.high * f.y >> 8;
-        int top = (row - halfHigh) >> 12, bottom = (row + halfHigh) >> 12;
-        if (top < lens->top) {
-            if (top < 0) {
-                if (bottom - top > LARGEST)
-                    break;
-                top = 0;
-            }
-            lens->top = top;
-        }
-        if (bottom > lens->bottom) {
-            if (bottom > HEIGHT) {
-                if (bottom - top > LARGEST)
-                    break;
-                bottom = HEIGHT;
-            }
-            lens->bottom = bottom;
-        }
-        const int high = bottom - top;
-        if (high <= 0) {
+        Extent rows{Extent::EMPTY, 0, 0};
+        if (columns.kind == Extent::DRAWN)
+            rows = extentOf(row, v.high * f.y >> 8, HEIGHT, &lens->top, &lens->bottom);
+        if (rows.kind == Extent::LEFT)
+            break;
+        if (rows.kind == Extent::EMPTY) {
             ++lens->empty;
             continue;
         }
-        if (high > LARGEST)
-            break;
         // The plane of the surface: from the scale's middle to the middle of its first pixel, and on from there.
         const int32_t across = limited(wrappedProduct(v.tiltX, f.zx) >> 16);
         const int32_t down = -limited(wrappedProduct(v.tiltY, f.zy) >> 16);
-        const int32_t toColumn = ((left + 1) << 12) - column, toRow = ((top + 1) << 12) - row;
+        const int32_t toColumn = ((columns.from + 1) << 12) - column, toRow = ((rows.from + 1) << 12) - row;
         FineScale scale;
-        scale.left = static_cast<int16_t>(left);
-        scale.top = static_cast<int16_t>(top);
-        scale.wide = static_cast<int16_t>(wide);
-        scale.high = static_cast<int16_t>(high);
+        scale.left = static_cast<int16_t>(columns.from);
+        scale.top = static_cast<int16_t>(rows.from);
+        scale.wide = static_cast<int16_t>(columns.length());
+        scale.high = static_cast<int16_t>(rows.length());
         scale.z = (depth >> 1) + ((across * toColumn + down * toRow) >> 12);
         scale.zStep = across;
-        scale.zRow = down - across * wide;
-        if (!depthsFit(scale.z, across * (wide - 1), down * (high - 1)))
+        scale.zRow = down - across * scale.wide;
+        if (!depthsFit(scale.z, across * (scale.wide - 1), down * (scale.high - 1)))
             break;
         if (!isFine(v)) {
             scale.colour = lens->ramp[v.brightness];
             blitScalesC(lens->frame, lens->zbuffer, &scale, 1);
             continue;
         }
-        scale.zMost = endOf(v, depth >> 1);
-        const int32_t shadeAcross = shadeStep(v.slopeX, f.zx), shadeDown = -shadeStep(v.slopeY, f.zy);
-        scale.ramp = lens->ramp;
-        const int32_t toFirst = wrappedSum(wrappedProduct(shadeAcross, toColumn), wrappedProduct(shadeDown, toRow));
-        scale.shade = v.brightness * 256 + 128 + (toFirst >> 12);
-        scale.shadeStep = shadeAcross;
-        scale.shadeRow = wrappedSum(shadeDown, -wrappedProduct(shadeAcross, wide));
-        const int32_t cutAcross = shadeStep(v.cutX, f.zx), cutDown = -shadeStep(v.cutY, f.zy);
-        const int32_t cutToFirst = wrappedSum(wrappedProduct(cutAcross, toColumn), wrappedProduct(cutDown, toRow));
-        scale.cut = isCut(v) ? v.cutAt * 32 + (cutToFirst >> 12) : 0;
-        scale.cutStep = cutAcross;
-        scale.cutRow = wrappedSum(cutDown, -wrappedProduct(cutAcross, wide));
+        addShading(*lens, v, f, depth, toColumn, toRow, &scale);
         blitFine(lens->frame, lens->zbuffer, scale);
     }
     return voxels;

@@ -77,7 +77,6 @@ void View::makeLens()
 void View::begin()
 {
     clearRows(frame_, zbuffer_, touched_, HEIGHT);
-    shown_ = {WIDTH, HEIGHT, 0, 0};
     for (int y = 0; y < HEIGHT; ++y)
         touched_[y] = {WIDTH, 0};
 }
@@ -90,10 +89,6 @@ void View::mark(int left, int top, int right, int bottom)
     bottom = bottom > HEIGHT ? HEIGHT : bottom;
     if (left >= right)
         return;
-    shown_.left = left < shown_.left ? left : shown_.left;
-    shown_.right = right > shown_.right ? right : shown_.right;
-    shown_.top = top < shown_.top ? top : shown_.top;
-    shown_.bottom = bottom > shown_.bottom ? bottom : shown_.bottom;
     for (int y = top; y < bottom; ++y) {
         if (touched_[y].from > left)
             touched_[y].from = static_cast<int16_t>(left);
@@ -107,13 +102,6 @@ void View::touchPixel(int at)
     const int row = at / WIDTH, column = at - row * WIDTH;
     if (column < touched_[row].from || column >= touched_[row].to)
         mark(column, row, column + 1, row + 1);
-}
-
-Rectangle View::takeShown()
-{
-    const Rectangle box = shown_;
-    shown_ = {WIDTH, HEIGHT, 0, 0};
-    return box;
 }
 
 // A voxel that drawScales() left: any size and place. False: not on the screen.

@@ -22,7 +22,8 @@ constexpr uint32_t STEP = 4096;
 Block* firstFree = nullptr;
 
 // Puts a block back into the list and joins it with its neighbours.
-void insert(Block* block) {
+void insert(Block* block)
+{
     Block* before = nullptr;
     Block* after = firstFree;
     while (after != nullptr && uintptr_t(after) < uintptr_t(block)) {
@@ -45,7 +46,8 @@ void insert(Block* block) {
 }
 
 // The processor keeps a limit until the segment register is loaded again.
-void reloadSegments() {
+void reloadSegments()
+{
     __asm__ volatile(
         "movw %%ds, %%ax\n\t"
         "movw %%ax, %%ds\n\t"
@@ -57,12 +59,12 @@ void reloadSegments() {
 }
 
 // Gets a block of `bytes` from the host and within reach of ds; false when there is none.
-bool grow(uint32_t bytes) {
+bool grow(uint32_t bytes)
+{
     uint32_t linear;
     uint32_t handle;
-    if (!dpmi::allocateMemory(bytes, &linear, &handle)) {
+    if (!dpmi::allocateMemory(bytes, &linear, &handle))
         return false;
-    }
     const uint16_t ds = dpmi::dataSelector();
     // Memory below the segment's base is reached too: the offset wraps, with a limit of 4 GB.
     uint32_t offset = linear - dpmi::segmentBase(ds);
@@ -84,12 +86,12 @@ bool grow(uint32_t bytes) {
     return true;
 }
 
-void* take(uint32_t bytes) {
+void* take(uint32_t bytes)
+{
     Block* before = nullptr;
     for (Block* block = firstFree; block != nullptr; before = block, block = block->next) {
-        if (block->bytes < bytes) {
+        if (block->bytes < bytes)
             continue;
-        }
         Block* rest = block->next;
         if (block->bytes - bytes >= SMALLEST) {
             rest = reinterpret_cast<Block*>(uintptr_t(block) + bytes);
@@ -97,11 +99,10 @@ void* take(uint32_t bytes) {
             rest->next = block->next;
             block->bytes = bytes;
         }
-        if (before == nullptr) {
+        if (before == nullptr)
             firstFree = rest;
-        } else {
+        else
             before->next = rest;
-        }
         block->next = nullptr;
         return block + 1;
     }
@@ -112,30 +113,27 @@ void* take(uint32_t bytes) {
 
 extern "C" {
 
-void* malloc(size_t wanted) {
-    if (wanted > 0x7fff0000u) {
+void* malloc(size_t wanted)
+{
+    if (wanted > 0x7fff0000u)
         return nullptr;
-    }
     uint32_t bytes = (uint32_t(wanted) + HEADER + 7) & ~uint32_t(7);
-    if (bytes < SMALLEST) {
+    if (bytes < SMALLEST)
         bytes = SMALLEST;
-    }
     void* block = take(bytes);
-    if (block != nullptr) {
+    if (block != nullptr)
         return block;
-    }
     // Room for what grow() may have to skip at the start.
     const uint32_t need = (bytes + 8 + STEP - 1) & ~(STEP - 1);
-    if ((need < CHUNK && grow(CHUNK)) || grow(need)) {
+    if ((need < CHUNK && grow(CHUNK)) || grow(need))
         return take(bytes);
-    }
     return nullptr;
 }
 
-void free(void* what) {
-    if (what != nullptr) {
+void free(void* what)
+{
+    if (what != nullptr)
         insert(static_cast<Block*>(what) - 1);
-    }
 }
 
 }  // extern "C"

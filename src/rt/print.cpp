@@ -9,22 +9,19 @@ public:
     Sink(char* to, size_t size) : to_(to), size_(size) {}
 
     void put(char c) {
-        if (length_ + 1 < size_) {
+        if (length_ + 1 < size_)
             to_[length_] = c;
-        }
         ++length_;
     }
 
     void fill(char c, int count) {
-        for (; count > 0; --count) {
+        for (; count > 0; --count)
             put(c);
-        }
     }
 
     int finish() {
-        if (size_ > 0) {
+        if (size_ > 0)
             to_[length_ < size_ ? length_ : size_ - 1] = '\0';
-        }
         return int(length_);
     }
 
@@ -42,19 +39,18 @@ struct Form {
     int precision = -1;
 };
 
-void putField(Sink* sink, const Form& form, const char* text, int length) {
-    if (!form.left) {
+void putField(Sink* sink, const Form& form, const char* text, int length)
+{
+    if (!form.left)
         sink->fill(' ', form.width - length);
-    }
-    for (int i = 0; i < length; ++i) {
+    for (int i = 0; i < length; ++i)
         sink->put(text[i]);
-    }
-    if (form.left) {
+    if (form.left)
         sink->fill(' ', form.width - length);
-    }
 }
 
-void putNumber(Sink* sink, const Form& form, uint32_t value, uint32_t base, bool minus) {
+void putNumber(Sink* sink, const Form& form, uint32_t value, uint32_t base, bool minus)
+{
     char digits[12];
     int at = sizeof digits;
     do {
@@ -72,9 +68,8 @@ void putNumber(Sink* sink, const Form& form, uint32_t value, uint32_t base, bool
         putField(sink, Form(), digits + at, int(sizeof digits) - at);
         return;
     }
-    if (minus) {
+    if (minus)
         digits[--at] = '-';
-    }
     putField(sink, form, digits + at, length);
 }
 
@@ -82,7 +77,8 @@ void putNumber(Sink* sink, const Form& form, uint32_t value, uint32_t base, bool
 
 extern "C" {
 
-int vsnprintf(char* to, size_t size, const char* format, va_list args) {
+int vsnprintf(char* to, size_t size, const char* format, va_list args)
+{
     Sink sink(to, size);
     for (; *format != '\0'; ++format) {
         if (*format != '%') {
@@ -92,13 +88,12 @@ int vsnprintf(char* to, size_t size, const char* format, va_list args) {
         ++format;
         Form form;
         for (;; ++format) {
-            if (*format == '-') {
+            if (*format == '-')
                 form.left = true;
-            } else if (*format == '0') {
+            else if (*format == '0')
                 form.zero = true;
-            } else {
+            else
                 break;
-            }
         }
         if (*format == '*') {
             form.width = va_arg(args, int);
@@ -108,9 +103,8 @@ int vsnprintf(char* to, size_t size, const char* format, va_list args) {
             }
             ++format;
         }
-        for (; *format >= '0' && *format <= '9'; ++format) {
+        for (; *format >= '0' && *format <= '9'; ++format)
             form.width = form.width * 10 + (*format - '0');
-        }
         if (*format == '.') {
             ++format;
             form.precision = 0;
@@ -118,9 +112,8 @@ int vsnprintf(char* to, size_t size, const char* format, va_list args) {
                 form.precision = va_arg(args, int);
                 ++format;
             }
-            for (; *format >= '0' && *format <= '9'; ++format) {
+            for (; *format >= '0' && *format <= '9'; ++format)
                 form.precision = form.precision * 10 + (*format - '0');
-            }
         }
         while (*format == 'l') {  // long is int here
             ++format;
@@ -146,9 +139,8 @@ int vsnprintf(char* to, size_t size, const char* format, va_list args) {
             case 's': {
                 const char* text = va_arg(args, const char*);
                 int length = 0;
-                while (length != form.precision && text[length] != '\0') {
+                while (length != form.precision && text[length] != '\0')
                     ++length;
-                }
                 putField(&sink, form, text, length);
                 break;
             }
@@ -165,7 +157,8 @@ int vsnprintf(char* to, size_t size, const char* format, va_list args) {
     return sink.finish();
 }
 
-int snprintf(char* to, size_t size, const char* format, ...) {
+int snprintf(char* to, size_t size, const char* format, ...)
+{
     va_list args;
     va_start(args, format);
     const int length = vsnprintf(to, size, format, args);

@@ -23,42 +23,42 @@ char name[MOST_NAME];
 constexpr uint32_t PSP_ENVIRONMENT = 0x2c;  // selector of the environment, as the DPMI host left it there
 constexpr uint32_t PSP_TAIL = 0x80;         // length of the command line, then the line
 
-uint8_t peek(uint16_t selector, uint32_t offset) {
+uint8_t peek(uint16_t selector, uint32_t offset)
+{
     uint8_t byte;
     __asm__ volatile("movw %w1, %%fs\n\tmovb %%fs:(%2), %0" : "=q"(byte) : "r"(uint32_t(selector)), "r"(offset));
     return byte;
 }
 
 // The program's own path: behind the environment, after two zero bytes and a word. Empty when it cannot be found.
-void findName() {
+void findName()
+{
     const uint16_t environment =
         uint16_t(peek(stubInfo.pspSelector, PSP_ENVIRONMENT) | peek(stubInfo.pspSelector, PSP_ENVIRONMENT + 1) << 8);
     const uint32_t limit = environment == 0 ? 0 : dpmi::segmentLimit(environment);
     uint32_t at = 0;
-    while (at + 3 < limit && (peek(environment, at) != 0 || peek(environment, at + 1) != 0)) {
+    while (at + 3 < limit && (peek(environment, at) != 0 || peek(environment, at + 1) != 0))
         ++at;
-    }
     at += 4;
     int length = 0;
     while (at <= limit && length < MOST_NAME - 1) {
         const char c = char(peek(environment, at++));
-        if (c == '\0') {
+        if (c == '\0')
             break;
-        }
         name[length++] = c;
     }
     name[length] = '\0';
 }
 
 // Cuts the command line into arguments, in place: blanks and tabs separate, double quotes keep them together.
-int splitTail() {
+int splitTail()
+{
     const int length = peek(stubInfo.pspSelector, PSP_TAIL);
     int used = 0;
     while (used < length && used < MOST_TAIL) {
         const char c = char(peek(stubInfo.pspSelector, PSP_TAIL + 1 + uint32_t(used)));
-        if (c == '\r' || c == '\0') {
+        if (c == '\r' || c == '\0')
             break;
-        }
         tail[used++] = c;
     }
     tail[used] = '\0';
@@ -67,31 +67,26 @@ int splitTail() {
     const char* from = tail;
     char* to = tail;
     for (;;) {
-        while (*from == ' ' || *from == '\t') {
+        while (*from == ' ' || *from == '\t')
             ++from;
-        }
-        if (*from == '\0' || count == MOST_ARGUMENTS) {
+        if (*from == '\0' || count == MOST_ARGUMENTS)
             return count;
-        }
         arguments[count++] = to;
         bool quoted = false;
         while (*from != '\0' && (quoted || (*from != ' ' && *from != '\t'))) {
-            if (*from == '"') {
+            if (*from == '"')
                 quoted = !quoted;
-            } else {
+            else
                 *to++ = *from;
-            }
             ++from;
         }
         // The separator was read before its place is overwritten: `to` never passes `from`.
         const bool more = *from != '\0';
-        if (more) {
+        if (more)
             ++from;
-        }
         *to++ = '\0';
-        if (!more) {
+        if (!more)
             return count;
-        }
     }
 }
 
@@ -104,21 +99,21 @@ typedef void (*Constructor)();
 extern Constructor __init_array_start[];
 extern Constructor __init_array_end[];
 
-[[noreturn]] void rtStart() {
-    for (Constructor* constructor = __init_array_start; constructor != __init_array_end; ++constructor) {
+[[noreturn]] void rtStart()
+{
+    for (Constructor* constructor = __init_array_start; constructor != __init_array_end; ++constructor)
         (*constructor)();
-    }
     findName();
     const int count = splitTail();
     arguments[0] = name;
     exit(main(count, arguments));
 }
 
-void exit(int status) {
+void exit(int status)
+{
     // int 21h, AH=4Ch: the DPMI host gives back memory and descriptors.
-    for (;;) {
+    for (;;)
         __asm__ volatile("int $0x21" : : "a"(0x4c00 | (status & 0xff)) : "memory");
-    }
 }
 
 }  // extern "C"

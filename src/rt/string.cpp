@@ -5,7 +5,8 @@
 
 extern "C" {
 
-void* memcpy(void* to, const void* from, size_t bytes) {
+void* memcpy(void* to, const void* from, size_t bytes)
+{
     void* at = to;
     size_t words = bytes >> 2;
     __asm__ volatile("rep movsl" : "+D"(at), "+S"(from), "+c"(words) : : "memory");
@@ -14,11 +15,11 @@ void* memcpy(void* to, const void* from, size_t bytes) {
     return to;
 }
 
-void* memmove(void* to, const void* from, size_t bytes) {
+void* memmove(void* to, const void* from, size_t bytes)
+{
     // Only a copy to a higher address within `bytes` of its source has to start at the end.
-    if (uintptr_t(to) - uintptr_t(from) >= bytes) {
+    if (uintptr_t(to) - uintptr_t(from) >= bytes)
         return memcpy(to, from, bytes);
-    }
     char* last = static_cast<char*>(to) + bytes - 1;
     const char* lastFrom = static_cast<const char*>(from) + bytes - 1;
     size_t left = bytes;
@@ -26,7 +27,8 @@ void* memmove(void* to, const void* from, size_t bytes) {
     return to;
 }
 
-void* memset(void* to, int byte, size_t bytes) {
+void* memset(void* to, int byte, size_t bytes)
+{
     void* at = to;
     const uint32_t four = (uint32_t(byte) & 0xff) * 0x01010101u;
     size_t words = bytes >> 2;
@@ -36,18 +38,18 @@ void* memset(void* to, int byte, size_t bytes) {
     return to;
 }
 
-int memcmp(const void* a, const void* b, size_t bytes) {
+int memcmp(const void* a, const void* b, size_t bytes)
+{
     const unsigned char* left = static_cast<const unsigned char*>(a);
     const unsigned char* right = static_cast<const unsigned char*>(b);
-    for (; bytes > 0; --bytes, ++left, ++right) {
-        if (*left != *right) {
+    for (; bytes > 0; --bytes, ++left, ++right)
+        if (*left != *right)
             return *left < *right ? -1 : 1;
-        }
-    }
     return 0;
 }
 
-size_t strlen(const char* text) {
+size_t strlen(const char* text)
+{
     const char* end = text;
     while (*end != '\0') {
         ++end;
@@ -57,36 +59,36 @@ size_t strlen(const char* text) {
     return size_t(end - text);
 }
 
-int strcmp(const char* a, const char* b) {
+int strcmp(const char* a, const char* b)
+{
     return strncmp(a, b, ~size_t(0));
 }
 
-int strncmp(const char* a, const char* b, size_t most) {
+int strncmp(const char* a, const char* b, size_t most)
+{
     for (; most > 0; --most, ++a, ++b) {
         const unsigned char left = static_cast<unsigned char>(*a);
         const unsigned char right = static_cast<unsigned char>(*b);
-        if (left != right) {
+        if (left != right)
             return left < right ? -1 : 1;
-        }
-        if (left == '\0') {
+        if (left == '\0')
             break;
-        }
     }
     return 0;
 }
 
-char* strchr(const char* text, int c) {
+char* strchr(const char* text, int c)
+{
     for (;; ++text) {
-        if (*text == char(c)) {
+        if (*text == char(c))
             return const_cast<char*>(text);
-        }
-        if (*text == '\0') {
+        if (*text == '\0')
             return nullptr;
-        }
     }
 }
 
-char* strcpy(char* to, const char* from) {
+char* strcpy(char* to, const char* from)
+{
     memcpy(to, from, strlen(from) + 1);
     return to;
 }

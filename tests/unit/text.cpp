@@ -137,21 +137,6 @@ TEST(quotients)
     }
 }
 
-TEST(long_division)
-{
-    Random random;
-    for (int i = 0; i < 20000; ++i) {
-        const uint64_t top = (static_cast<uint64_t>(random.bits()) << 32 | random.bits()) >> random.below(63);
-        const uint32_t bottom = random.bits() >> random.below(31);
-        if (bottom == 0)
-            continue;
-        uint32_t rest;
-        const uint64_t got = divide64(top, bottom, &rest);
-        CHECK(got == top / bottom);
-        SAME(rest, top % bottom);
-    }
-}
-
 TEST(plain_text)
 {
     char to[64];
