@@ -27,9 +27,9 @@ constexpr Real RANGE(0.05);
 constexpr Real PARTED(1.5);
 // Of a link: beyond this weight islands are left when objects part.
 constexpr Real HEAVY(2);
-// Spacings: how far the surface may go on from a seed to a border without an oversampled one towards the neighbour N, without one
-// towards the next of its ring, and without a fine one.
-constexpr Real LEFT_OPEN(0.5), LEFT_OPEN_NEXT(1), LEFT_OPEN_FINE(1.5);
+// Spacings: how far the surface may go on from a seed to a border without an oversampled one towards the neighbour N (not at all on
+// shaped objects), without one towards the next of its ring, and without a fine one.
+constexpr Real LEFT_OPEN(0.5), LEFT_OPEN_SHAPED(-100), LEFT_OPEN_NEXT(1), LEFT_OPEN_FINE(1.5);
 
 }  // namespace
 
@@ -292,7 +292,7 @@ int parted(const SoftObject& object, int i)
         const Seed& n = object.regular(other);
         return !(n.flags & SEED_ASLEEP) && gapes(object, s, n, open);
     };
-    if (s.neighbour >= 0 && from(s.neighbour, LEFT_OPEN))
+    if (s.neighbour >= 0 && from(s.neighbour, object.shaped() ? LEFT_OPEN_SHAPED : LEFT_OPEN))
         return s.neighbour;
     const int next = i + 2;
     return next < object.seedSlots() && ((s.flags ^ object.regular(next).flags) & SEED_VALID) != 0 && !object.shaped() &&
