@@ -66,7 +66,7 @@
 #define MARGIN_SHIFT 5
 #define MARGIN_UNITS 14
 #define FLAT_SHADING 8
-#define SHADING_MOST 64
+#define STEEPEST_SHADING 240
 #define BRIGHTEST    63
 #define LEAST_COSINE 6500
 #define UNEVEN       15500
@@ -487,12 +487,12 @@ shade_no_end:
         // if (corner < FLAT_SHADING) return
         cmpl        $FLAT_SHADING, %eax
         jl        shade_done
-        // for (; corner > SHADING_MOST * 8; corner >>= 1) slopeX >>= 1, slopeY >>= 1
+        // for (; corner > STEEPEST_SHADING; corner >>= 1) slopeX >>= 1, slopeY >>= 1
         jmp        2f
 1:        sarl        $1, %edx
         sarl        $1, %esi
         sarl        $1, %eax
-2:        cmpl        $SHADING_MOST*8, %eax
+2:        cmpl        $STEEPEST_SHADING, %eax
         jg        1b
         // voxel.slopeX = limited(slopeX, 127), and the other
         leal        127(%edx), %eax

@@ -124,16 +124,16 @@ public:
     // same root; its own neighbour says which. True: it was elsewhere.
     bool layOutBetween(int i, int other);
     // The fine seeds of the regular one in slot i: one half way from there to its oversampled seed, one from that to its
-    // neighbour, and one whose path the surface decides. They lie in memory one behind the other. Null: there are none yet.
-    static constexpr int FINE_SEEDS = 3;
+    // neighbour, and two on the paths of others. They lie in memory one behind the other. Null: there are none yet.
+    static constexpr int FINE_SEEDS = 4;
     Seed* fine(int i) const
     {
         Seed* const block = laid_.fine[i >> (EXTRA_BITS + 1)];
         return block == nullptr ? nullptr : block + (i >> 1 & (EXTRA_BLOCK - 1)) * FINE_SEEDS;
     }
-    // Makes them, without paths. Null: the two have two roots, or there is no memory.
+    // Makes them, without paths. Null: there is no memory.
     Seed* madeFine(int i);
-    // Gives the first or second of them its path.
+    // Gives the first or second of them its path, if the two that it lies between have one root.
     void layOutFine(int i, int which);
     // Lays out all oversampled seeds. False: no memory.
     bool layOutExtras();

@@ -474,9 +474,6 @@ bool SoftObject::layOutBetween(int i, int other)
 
 Seed* SoftObject::madeFine(int i)
 {
-    const int other = seed(i + 1).neighbour;
-    if (shaped_ || other < 0 || regular(i).root != regular(other).root)
-        return nullptr;
     Seed*& block = laid_.fine[i >> (EXTRA_BITS + 1)];
     if (block == nullptr) {
         block = allocate<Seed>(FINE_SEEDS * EXTRA_BLOCK);

@@ -20,7 +20,8 @@ Real search(Path& path, Real* position, Sample* sample);
 // found `*off` says by how much of the field.
 SELDOM Real searchDeep(Path& path, Real* position, Sample* sample, Real* off);
 
-// Where a path that has left the surface at `from` is inside again. False: nowhere, or too near to tell.
-bool comesBack(Path& path, Real from, Real* position, Sample* sample);
+// Where a path that has left the surface at `from` is inside again; `far` says that it may go far and deep between. False: nowhere,
+// or too near to tell.
+bool comesBack(Path& path, Real from, bool far, Real* position, Sample* sample);
 
 #endif

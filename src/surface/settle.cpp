@@ -25,9 +25,11 @@ constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000;
 constexpr Real RANGE(0.05);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
 constexpr Real PARTED(1.5);
-// Spacings: how far the surface may go on from a seed to a border without an oversampled one towards the neighbour N, without one
-// towards the next of its ring, and without a fine one.
-constexpr Real LEFT_OPEN(0.5), LEFT_OPEN_NEXT(1), LEFT_OPEN_FINE(1.5);
+// Of a link: beyond this weight islands are left when objects part.
+constexpr Real HEAVY(2);
+// Spacings: how far the surface may go on from a seed to a border without an oversampled one towards the neighbour N (not at all on
+// shaped objects), without one towards the next of its ring, and without a fine one.
+constexpr Real LEFT_OPEN(0.5), LEFT_OPEN_SHAPED(-100), LEFT_OPEN_NEXT(1), LEFT_OPEN_FINE(1.5);
 
 }  // namespace
 
@@ -41,6 +43,9 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& a
     for (int i = 0; i < all.count; ++i)
         strongest = most(strongest, all.neighbours[i].strength);
     border_ = BORDER * strongest;
+    heavy_ = false;
+    for (const List<Link>::Node* node = object.skel().first(); node != nullptr; node = node->next)
+        heavy_ = heavy_ || node->item.weight > HEAVY;
 }
 
 // ---- One seed
@@ -250,6 +255,8 @@ void Settler::settleRest(Patch& patch)
     if (nearby_.dented() && !patch.extras)
         patch.due += offFor(patch);
     setRange(patch);
+    if (heavy_ && !nearby_.dented())
+        forSeeds(patch, [&](int i) { patch.behind |= settleIsland(patch, i); });
 }
 
 // Coherence over time: a seed that did not move when it was looked at waits for a frame, and so does one that faces away a
@@ -289,7 +296,7 @@ int parted(const SoftObject& object, int i)
         const Seed& n = object.regular(other);
         return !(n.flags & SEED_ASLEEP) && gapes(object, s, n, open);
     };
-    if (s.neighbour >= 0 && from(s.neighbour, LEFT_OPEN))
+    if (s.neighbour >= 0 && from(s.neighbour, object.shaped() ? LEFT_OPEN_SHAPED : LEFT_OPEN))
         return s.neighbour;
     const int next = i + 2;
     return next < object.seedSlots() && ((s.flags ^ object.regular(next).flags) & SEED_VALID) != 0 && !object.shaped() &&
@@ -297,10 +304,10 @@ int parted(const SoftObject& object, int i)
 }
 
 // The fine seeds of a regular one are not needed; nor is its oversampled one; none of a patch is.
-void putAwayFine(SoftObject& object, int i)
+void putAwayFine(SoftObject& object, int i, int count = 3)
 {
     Seed* const fine = object.fine(i);
-    for (int which = 0; which < SoftObject::FINE_SEEDS && fine != nullptr; ++which)
+    for (int which = 0; which < count && fine != nullptr; ++which)
         fine[which].flags = 0;
 }
 
@@ -313,9 +320,12 @@ void putAway(SoftObject& object, int i)
 
 void putAway(SoftObject& object, Patch& patch)
 {
-    if (patch.extras)
-        forSeeds(patch, [&](int i) { putAway(object, i); });
-    patch.extras = patch.fine = false;
+    if (patch.extras || patch.behind)
+        forSeeds(patch, [&](int i) {
+            putAway(object, i);
+            putAwayFine(object, i, SoftObject::FINE_SEEDS);
+        });
+    patch.extras = patch.fine = patch.behind = false;
 }
 
 }  // namespace
@@ -371,7 +381,8 @@ bool Settler::settleFine(int i)
     const Seed* const ends[] = {&object_.regular(i), &object_.regular(extra.neighbour)};
     const auto gape = [&](const Seed& end) { return gapes(object_, end, extra, LEFT_OPEN_FINE); };
     const bool needed[] = {gape(*ends[0]), gape(*ends[1])};
-    Seed* const fine = needed[0] || needed[1] ? object_.madeFine(i) : nullptr;
+    const bool oneRoot = !object_.shaped() && ends[0]->root == ends[1]->root;
+    Seed* const fine = (needed[0] || needed[1]) && oneRoot ? object_.madeFine(i) : nullptr;
     if (fine == nullptr)
         return false;
     fine[2].flags = 0;
@@ -390,23 +401,37 @@ bool Settler::settleFine(int i)
         if (!waits(s, false))
             settle(s);
         if (((ends[which]->flags ^ extra.flags) & SEED_VALID) && !nearby_.dented())
-            settleBehind(s.flags & SEED_VALID ? s : extra.flags & SEED_VALID ? extra : *ends[which], fine[2]);
+            settleBehind(s.flags & SEED_VALID ? s : extra.flags & SEED_VALID ? extra : *ends[which], false, fine[2]);
     }
     return true;
 }
 
 // Where necks are thin their surface hangs over: the path of a valid seed beside the border leaves the surface, and may come back
 // behind that, where another seed stands for it.
-void Settler::settleBehind(const Seed& valid, Seed& s)
+void Settler::settleBehind(const Seed& valid, bool far, Seed& s)
 {
     Sample sample;
     s = valid;
     s.flags = 0;
     path_.beginSearch(s);
-    if (!comesBack(path_, valid.position, &s.position, &sample) || sample.dominance > OVERSHOOT)
+    if (!comesBack(path_, valid.position, far, &s.position, &sample) || sample.dominance > OVERSHOOT)
         return;
     s.flags = SEED_ACTIVE;
     place(s, sample.dominance);
+}
+
+// Where links are heavy islands are left between objects, and the paths of any seeds come back. False: that of this one does not.
+bool Settler::settleIsland(const Patch& patch, int i)
+{
+    Seed island;
+    island.flags = 0;
+    if (object_.regular(i).flags & SEED_VALID)
+        settleBehind(object_.regular(i), true, island);
+    const bool there = (island.flags & SEED_VALID) != 0;
+    Seed* const fine = there ? object_.madeFine(i) : patch.behind ? object_.fine(i) : nullptr;
+    if (fine != nullptr)
+        fine[3] = island;
+    return there;
 }
 
 void rest(SoftObject& object, Patch& patch)

@@ -68,7 +68,8 @@ private:
     bool isCovered(const Seed& s) { return nearby_.dented() ? isOff(s) : cover_.hides(s); }
     void setRange(Patch& patch) const;
     SELDOM bool settleFine(int i);
-    void settleBehind(const Seed& valid, Seed& s);
+    void settleBehind(const Seed& valid, bool far, Seed& s);
+    SELDOM bool settleIsland(const Patch& patch, int i);
     bool waits(const Seed& s, bool someAway) const;
     bool mixes() const;
 
@@ -93,6 +94,7 @@ private:
     const uint32_t updates_;
     uint32_t turn_ = 0;  // of the patch at hand: what waits takes turns
     Real border_;      // of the field: a neighbour that is weaker than the own by less is near
+    bool heavy_;       // it has a link of more than HEAVY
     Real off_;         // of the field: by how much the path at hand misses the surface, where it does
 };
 

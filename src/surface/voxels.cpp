@@ -140,7 +140,7 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     int32_t corner = (magnitude(slopeX) * wide + magnitude(slopeY) * high) >> 8;
     if (corner < FLAT_SHADING)
         return;
-    for (; corner > SHADING_MOST * 8; corner >>= 1) {
+    for (; corner > STEEPEST_SHADING; corner >>= 1) {
         slopeX >>= 1;
         slopeY >>= 1;
     }

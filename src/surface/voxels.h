@@ -47,6 +47,9 @@ constexpr int32_t MARGIN_UNITS = 14;
 // Change of brightness (1/8 step) from the middle of a scale to its corner below which it has one brightness.
 constexpr int32_t FLAT_SHADING = 8;
 
+// And the most that it is let to be: half of what says more, for there the brightness does not go on as it does in the middle.
+constexpr int32_t STEEPEST_SHADING = 240;
+
 // No scale is stretched to more than two and a half times its cell by blending: cosine of path and normal. Below the other cosine
 // a cell lies in no even band of its ring.
 constexpr int32_t LEAST_COSINE = 6500, UNEVEN = 15500;

@@ -168,6 +168,28 @@ SoftObject* makeOf(const Kind& kind, int number)
 
 }  // namespace
 
+TEST(islands_between_heavily_linked_objects_are_found)
+{
+    // Two balls have parted; half way there is an island, one half of which is each one's.
+    Scene scene;
+    scene.ball(24, -14, 4, 0);
+    scene.ball(18, 17, 4, 0);
+    scene.link(0, 1, 4);
+    scene.update();
+    const Body body(scene);
+    int there = 0, off = 0;
+    for (const Voxel& voxel : scene.draw(0)) {
+        const Vec p = placeOf(scene, voxel);
+        if (p.x < 0)
+            continue;
+        ++there;
+        off += std::fabs(body.field(body.joined(0), p) - 0.5) > 0.03;
+    }
+    note("%d scales of the first ball on the island, %d of them not on its surface", there, off);
+    CHECK(there >= 2);
+    SAME(off, 0);
+}
+
 TEST(overhanging_necks_have_scales)
 {
     // Seen from the centre of the large one the neck to the small one hangs over: paths leave the surface and come back behind.
