@@ -18,7 +18,7 @@ inline int larger(int a, int b)
 }
 
 // A colour at one step, as the DAC takes it, each part rounded once. A highlight goes towards white at a right angle to the
-// colour, a third of the way and only as far as the colour is bright: what it has of the colour itself stays the light's share,
+// colour, a third of the way, and less far where the colour is dark: what it has of the colour itself stays the light's share,
 // so that a dump's `ramp` line holds for it too. What shines turns into white itself.
 void shade(const Colour& colour, bool shines, int step, uint8_t* to)
 {
@@ -26,14 +26,14 @@ void shade(const Colour& colour, bool shines, int step, uint8_t* to)
     const int parts[3] = {colour.red, colour.green, colour.blue};
     const int sum = parts[0] + parts[1] + parts[2];
     const int square = parts[0] * parts[0] + parts[1] * parts[1] + parts[2] * parts[2];
-    const int peak = larger(larger(parts[0], parts[1]), parts[2]);
+    const int tone = (255 + larger(larger(parts[0], parts[1]), parts[2])) / 2;
     for (int p = 0; p < 3; ++p) {
         // The part times the light, of 63 and of WHOLE.
         int value = parts[p] * (63 * Palette::AMBIENT + step * (63 - Palette::AMBIENT));
         if (shines && step > Palette::GLOSS) {
             value += (63 * WHOLE - value) / (63 - Palette::GLOSS) * (step - Palette::GLOSS);
         } else if (!shines && step > Palette::HIGHLIGHT && square > 0) {
-            const int white = peak - peak * sum * parts[p] / square;
+            const int white = tone - tone * sum * parts[p] / square;
             value += white * 63 * 63 * (step - Palette::HIGHLIGHT) / (3 * (63 - Palette::HIGHLIGHT));
         }
         value = value < 0 ? 0 : value > 63 * WHOLE ? 63 * WHOLE : value;
