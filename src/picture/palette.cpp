@@ -12,29 +12,23 @@ constexpr int DARKEST = 2;
 constexpr uint8_t INK_COLOUR[3] = {63, 63, 56};
 constexpr uint8_t BACKGROUND_COLOUR[3] = {1, 1, 6};
 
-inline int larger(int a, int b)
-{
-    return a < b ? b : a;
-}
-
 // A colour at one step, as the DAC takes it, each part rounded once. A highlight goes towards white at a right angle to the
-// colour, a third of the way, and less far where the colour is dark: what it has of the colour itself stays the light's share,
-// so that a dump's `ramp` line holds for it too. What shines turns into white itself.
+// colour: what it has of the colour itself stays the light's share, so that a dump's `ramp` line holds for it too. What
+// shines turns into white itself.
 void shade(const Colour& colour, bool shines, int step, uint8_t* to)
 {
     constexpr int WHOLE = 255 * 63;
     const int parts[3] = {colour.red, colour.green, colour.blue};
     const int sum = parts[0] + parts[1] + parts[2];
     const int square = parts[0] * parts[0] + parts[1] * parts[1] + parts[2] * parts[2];
-    const int tone = (255 + larger(larger(parts[0], parts[1]), parts[2])) / 2;
     for (int p = 0; p < 3; ++p) {
         // The part times the light, of 63 and of WHOLE.
         int value = parts[p] * (63 * Palette::AMBIENT + step * (63 - Palette::AMBIENT));
         if (shines && step > Palette::GLOSS) {
             value += (63 * WHOLE - value) / (63 - Palette::GLOSS) * (step - Palette::GLOSS);
         } else if (!shines && step > Palette::HIGHLIGHT && square > 0) {
-            const int white = tone - tone * sum * parts[p] / square;
-            value += white * 63 * 63 * (step - Palette::HIGHLIGHT) / (3 * (63 - Palette::HIGHLIGHT));
+            const int white = 255 - 255 * sum * parts[p] / square;
+            value += white * 63 * 63 * (step - Palette::HIGHLIGHT) / (2 * (63 - Palette::HIGHLIGHT));
         }
         value = value < 0 ? 0 : value > 63 * WHOLE ? 63 * WHOLE : value;
         to[p] = static_cast<uint8_t>((value + WHOLE / 2) / WHOLE);
