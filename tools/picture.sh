@@ -4,6 +4,7 @@
 #   demo.gif        six seconds of the four spheres, in colour, ten frames a second
 #   worst1.png, worst2.png    the two frames of the whole minute that are farthest from the true surface: ours, the true
 #                   one, and the difference (tools/truth.cpp tells its colours)
+#   true1.png to true3.png    the four spheres, the walk and a scene of all kinds: ours, the true surface, the difference
 #   NAME.png        a moment of each shipped scene
 #   snail.png       the scene that tools/scenes/README.md makes step by step
 #
@@ -51,6 +52,16 @@ number=0
 for frame in $(sed -n 's/^worst frame: \([0-9]*\) .*/\1/p' "$dir/said"); do
 	number=$((number + 1))
 	build/ppm2png --43 "$dir/worst/W$(printf %07d "$frame").PPM" $to/worst$number.png
+done
+
+number=0
+for file in tools/scenes/FOUR.FB tools/scenes/WALK.FB tests/scenes/speed/MIX.FB; do
+	number=$((number + 1))
+	build/demo "/M:$file" /N:21 "/D:$dir/true$number" >"$dir/said"
+	mkdir "$dir/true$number/one" "$dir/true$number/out"
+	mv "$dir/true$number"/F0000020.* "$dir/true$number/one"
+	build/truth --worst 1 --out "$dir/true$number/out" "$dir/true$number/one" >"$dir/said"
+	build/ppm2png --43 "$dir/true$number/out/W0000020.PPM" $to/true$number.png
 done
 
 # What stands in that page is what is drawn.
