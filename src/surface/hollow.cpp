@@ -8,7 +8,7 @@ namespace {
 // Spacings: how far beyond the border of its part a seed still has a scale that reaches into it.
 constexpr Real SHARED(1.5);
 // Units: by how much more than others the two sides of that border overlap, which is found to first order.
-constexpr Real OVERLAP(0.16);
+constexpr Real OVERLAP(0.18);
 // How far the border of two parts of a hollow's wall goes at most when what digs comes by a unit.
 constexpr Real BORDER_SPEED(16);
 // The position where what closes again over a hollow is found.
