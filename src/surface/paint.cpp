@@ -4,6 +4,7 @@
 #include "math/normal.h"
 #include "rt.h"
 #include "voxels.h"
+#include "whole.h"
 
 namespace {
 
@@ -16,16 +17,6 @@ inline int32_t times(int32_t a, int32_t b)
 inline int32_t along(const Direction14& n, const int32_t axis[3])
 {
     return (n.x * axis[0] + n.y * axis[1] + n.z * axis[2]) >> 14;
-}
-
-inline int32_t magnitude(int32_t a)
-{
-    return a < 0 ? -a : a;
-}
-
-inline int32_t limited(int32_t a, int32_t most)
-{
-    return a > most ? most : a < -most ? -most : a;
 }
 
 constexpr int32_t ONE = 1 << 14;

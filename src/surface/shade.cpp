@@ -5,6 +5,7 @@
 #include "math/normal.h"
 #include "paint.h"
 #include "voxels.h"
+#include "whole.h"
 
 namespace {
 
@@ -18,26 +19,6 @@ template <class Part>
 inline int32_t product(const Direction14& a, const Part b[3])
 {
     return a.x * b[0] + a.y * b[1] + a.z * b[2];
-}
-
-inline int32_t magnitude(int32_t a)
-{
-    return a < 0 ? -a : a;
-}
-
-inline int32_t limited(int32_t a, int32_t most)
-{
-    return a > most ? most : a < -most ? -most : a;
-}
-
-inline int32_t larger(int32_t a, int32_t b)
-{
-    return a < b ? b : a;
-}
-
-inline int32_t smaller(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
 }
 
 // In another's territory a scale is one for want of a better, and lies so much deeper; 1/256 unit.

@@ -1,26 +1,12 @@
 // From seeds to voxels: what a seed looks like.
 #include "voxels.h"
 
+#include "whole.h"
+
 namespace {
 
 // By how much the two sides of a cut overlap, 1/256 unit.
 constexpr int32_t CUT_MARGIN = 16;
-
-
-inline int32_t magnitude(int32_t a)
-{
-    return a < 0 ? -a : a;
-}
-
-inline int32_t smaller(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
-}
-
-inline int32_t limited(int32_t a, int32_t most)
-{
-    return a > most ? most : a < -most ? -most : a;
-}
 
 inline int32_t product(const Direction14& a, const int32_t b[3])
 {

@@ -1,0 +1,28 @@
+// Whole numbers in fixed point: what shading asks of them.
+#ifndef FB_WHOLE_H
+#define FB_WHOLE_H
+
+#include <stdint.h>
+
+inline int32_t magnitude(int32_t a)
+{
+    return a < 0 ? -a : a;
+}
+
+inline int32_t smaller(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+inline int32_t larger(int32_t a, int32_t b)
+{
+    return a < b ? b : a;
+}
+
+// `a`, from -most to most.
+inline int32_t limited(int32_t a, int32_t most)
+{
+    return a > most ? most : a < -most ? -most : a;
+}
+
+#endif
