@@ -15,8 +15,8 @@
 //                 position 1 with the normal of the
 //                 unblended surface
 //   SEED_BORDER   a neighbour is about as strong there     none is
-//   SEED_ASLEEP   its patch lies inside a neighbour or     the patch does not any more
-//                 faces away: it is not settled
+//   SEED_ASLEEP   its patch lies inside a neighbour,       the patch does not any more
+//                 faces away or is hidden: it is not settled
 //   SEED_COVERED  its path is likely to leave the surface    it settles
 //                 near its position: it wakes up, or what
 //                 digs has its part of a dent

@@ -19,6 +19,16 @@ struct Counts {
     uint32_t unsettled;    // seeds that reached the iteration limit
 };
 
+// What stands in front of an object: the picture of all that is nearer.
+class Hider {
+public:
+    // Whether nothing of a ball would be seen in the picture. `place` is from the eye, axes of the view, 1/256 unit, as `radius`.
+    virtual bool hides(const int32_t place[3], int32_t radius) const = 0;
+
+protected:
+    ~Hider() {}
+};
+
 // What a frame means for every object: the viewer, the light and the bodies that links make.
 struct FrameContext {
     Point eye;             // where the viewer is
@@ -31,14 +41,17 @@ struct FrameContext {
     Vector inView(const Point& p) const { return axes.fromWorld(p - eye); }
     // How far one sees to each side, and up and down, at a distance of 1; 0: without end.
     Real sideways = Real(0), upward = Real(0);
+    // What hides parts of the objects, which are taken the nearest first; null: nothing.
+    const Hider* hider = nullptr;
 };
 
 class Surface {
 public:
     virtual ~Surface() {}
 
-    // Settles the object's seeds on the surface (report, Section III, update()). Called when something changed.
-    virtual void update(const FrameContext& frame) = 0;
+    // Settles the object's seeds on the surface (report, Section III, update()). Called when something changed, and when the last
+    // call returned true: some seeds were left that would have been hidden.
+    virtual bool update(const FrameContext& frame) = 0;
 
     // Takes note that the seeds' roots and paths, and where they rest, have changed.
     virtual void reshape() {}

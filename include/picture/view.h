@@ -7,10 +7,11 @@
 #ifndef FB_VIEW_H
 #define FB_VIEW_H
 
+#include "model/surface.h"
 #include "picture/palette.h"
 #include "picture/scales.h"
 
-class View {
+class View : public Hider {
 public:
     ~View();
 
@@ -38,6 +39,9 @@ public:
 
     // Text and lines on top of the picture: marks a rectangle of pixels as touched and gives the frame to draw into.
     uint8_t* overlay(int left, int top, int wide, int high);
+
+    // True also for what lies beside the screen. What is nearer than 76 units is never hidden.
+    bool hides(const int32_t place[3], int32_t radius) const override;
 
     // Closes the gaps between scales: empty pixels take over colour and depth of the drawn ones beside them, where an
     // opening is small (the limits stand in gaps.cpp) or ends between drawn pixels. `spacing` of the seeds, units. For when

@@ -242,17 +242,14 @@ bool Demo::drawModel()
 {
     counts_ = Counts{};
     const Camera& camera = view_.camera();
-    const FrameContext frame{camera.eye, unit(model_.light), model_.bodies(), &counts_, camera.axes,
-                             camera.centreX / camera.focalX, camera.centreY / camera.focalY};
+    FrameContext frame{camera.eye, unit(model_.light), model_.bodies(), &counts_, camera.axes,
+                       camera.centreX / camera.focalX, camera.centreY / camera.focalY};
     if (frame.bodies == nullptr)
         fail(1, "not enough memory");
     int order[Model::OBJECTS_MOST];
     Real depth[Model::OBJECTS_MOST];
     for (int i = 0; i < model_.count(); ++i) {
-        if (interrupted())
-            return false;
-        model_.actor(i).object->update(frame);
-        // Near objects first: what they hide is then only compared, not drawn.
+        // Near objects first: what they hide of others need not be settled or drawn.
         depth[i] = frame.inView(model_.actor(i).object->centre()).z;
         int at = i;
         for (; at > 0 && depth[order[at - 1]] > depth[i]; --at)
@@ -262,11 +259,15 @@ bool Demo::drawModel()
 
     view_.begin();
     for (int i = 0; i < model_.count(); ++i) {
+        if (interrupted())
+            return false;
         SoftObject& object = *model_.actor(order[i]).object;
+        object.update(frame);
         const uint8_t* const ramp = object.ramp();
         if (options_.interactive && order[i] == editor_.selected() && time_ - selectedAt_ < PULSE)
             object.setRamp(pulseRamp(ramp));
         const bool drawn = drawObject(object, frame);
+        frame.hider = &view_;
         object.setRamp(ramp);
         if (!drawn)
             return false;

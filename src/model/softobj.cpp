@@ -412,8 +412,7 @@ void SoftObject::update(const FrameContext& frame)
 {
     if (!recalc_)
         return;
-    surface_->update(frame);
-    recalc_ = stopAsked();
+    recalc_ = surface_->update(frame) || stopAsked();
 }
 
 void SoftObject::draw(const FrameContext& frame, VoxelList& list, int room, int* next)

@@ -3,6 +3,7 @@
 
 #include "gaps.h"
 #include "math/alloc.h"
+#include "math/whole.h"
 
 using machine::HEIGHT;
 using machine::WIDTH;
@@ -12,6 +13,8 @@ namespace {
 constexpr int FRACTION = 12;
 constexpr int32_t HALF = 1 << (FRACTION - 1);
 constexpr int32_t NEAREST = 1 << 8;            // 1 unit
+// What hides is asked for at every third pixel of every third row: what may show between them is narrower than a scale.
+constexpr int HIDING_STEP = 3;
 constexpr int32_t FARTHEST = 511 << 8;         // z in 1/128 unit ends at 512
 
 }  // namespace
@@ -102,6 +105,38 @@ void View::touchPixel(int at)
     const int row = at / WIDTH, column = at - row * WIDTH;
     if (column < touched_[row].from || column >= touched_[row].to)
         mark(column, row, column + 1, row + 1);
+}
+
+// All that a square round the ball covers is nearer than the nearest of the ball.
+bool View::hides(const int32_t place[3], int32_t radius) const
+{
+    const int32_t z = place[2], nearest = (z - radius) >> 1;
+    // Too near for the table of factors, or far beside the view.
+    if (nearest < LENS_NEAR * 128 || magnitude(place[0]) > 2 * z || magnitude(place[1]) > 2 * z)
+        return false;
+    Factors unused;
+    const Factors* const f = factorsOf(lens_, z, &unused);
+    if (f == nullptr)
+        return false;
+    const int32_t column = lens_.centreX + (place[0] * f->x >> 8), row = lens_.centreY - (place[1] * f->y >> 8);
+    const int32_t halfWide = radius * f->x >> 8, halfHigh = radius * f->y >> 8;
+    int left = (column - halfWide) >> FRACTION, right = (column + halfWide) >> FRACTION;
+    int top = (row - halfHigh) >> FRACTION, bottom = (row + halfHigh) >> FRACTION;
+    if (right < 0 || left >= WIDTH || bottom < 0 || top >= HEIGHT)
+        return true;
+    left = larger(left, 0);
+    right = smaller(right, WIDTH - 1);
+    top = larger(top, 0);
+    bottom = smaller(bottom, HEIGHT - 1);
+    // Most of what is seen is so in the middle.
+    const auto seen = [&](int x, int y) { return zbuffer_[y * WIDTH + x] > nearest; };
+    if (seen((left + right) >> 1, (top + bottom) >> 1))
+        return false;
+    for (int y = top; y <= bottom; y += HIDING_STEP)
+        for (int x = left; x <= right; x += HIDING_STEP)
+            if (seen(x, y))
+                return false;
+    return true;
 }
 
 // A voxel that drawScales() left: any size and place. False: not on the screen.

@@ -126,6 +126,32 @@ bool outOfSight(const Patch& patch, const OwnFrame& own)
     return false;
 }
 
+// Whether a ball of own space is hidden.
+static bool isHidden(const Bound& ball, const OwnFrame& own)
+{
+    const int32_t growth = rawFromReal(own.growth) >> 8;
+    const auto along = [&](const int32_t axis[3], int i) {
+        const int32_t way = (axis[0] * ball.x + axis[1] * ball.y + axis[2] * ball.z) >> 14;
+        return own.centre[i] + (way * growth >> 4);
+    };
+    const int32_t place[] = {along(own.right, 0), along(own.up, 1), along(own.ahead, 2)};
+    return own.hider->hides(place, ball.radius * growth >> 4);
+}
+
+bool isHidden(const Patch& patch, const OwnFrame& own)
+{
+    return own.hider != nullptr && isHidden(boundOf(patch, patch.radius), own);
+}
+
+bool isHidden(const Patch& patch, Real position, const OwnFrame& own)
+{
+    if (own.hider == nullptr)
+        return false;
+    const int32_t at = rawFromReal(position) >> 10, widest = at > 64 ? at : 64;
+    const Step middle = above(patch, patch.path * (at - 64) >> 6);
+    return isHidden(Bound{middle.x, middle.y, middle.z, (patch.radius + patch.lean) * widest >> 6}, own);
+}
+
 int32_t facing(const SoftObject& object, const Seed& s, const OwnFrame& own)
 {
     const Vector place = object.root(s.root) + s.path * s.position;

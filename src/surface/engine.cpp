@@ -29,7 +29,7 @@ public:
         return true;
     }
 
-    void update(const FrameContext& frame) override;
+    bool update(const FrameContext& frame) override;
     void reshape() override;
     void draw(const FrameContext& frame, VoxelList& list, int room, int* next) override;
 
@@ -65,12 +65,12 @@ void Engine::reshape()
 }
 
 // Gather what reaches the object, classify its patches, settle those that are due.
-void Engine::update(const FrameContext& frame)
+bool Engine::update(const FrameContext& frame)
 {
     Neighbourhood all;
     const OwnFrame own = ownFrame(object_, frame);
     if (own.outOfSight || (!object_.hasSurface() && object_.hollowed() == nullptr))
-        return;
+        return false;
     gather(object_, frame, all);
     const bool known = odometer_.advance(object_, own, all, frame.bodies->version());
     Settler settler(object_, own, all, frame, odometer_, ++updates_);
@@ -79,7 +79,7 @@ void Engine::update(const FrameContext& frame)
     for (Patch* patch = patches_; patch < end; ++patch) {
         patch->settled = false;
         if ((patch - patches_) % ASKED_EVERY == ASKED_EVERY - 1 && stopAsked())
-            return;
+            return true;
         if (keeps(settler, *patch, all, known)) {
             displaced = true;
             continue;
@@ -101,6 +101,7 @@ void Engine::update(const FrameContext& frame)
         if (patch->settled)
             settler.oversample(*patch);
     object_.setDisplaced(displaced);
+    return settler.hidden();
 }
 
 // Whether a patch keeps its state, whoever reaches it now: it is not due, or still lies inside one neighbour.

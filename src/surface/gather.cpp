@@ -109,6 +109,11 @@ OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
     axisInOwn(object, frame.axes.up, own.up);
     axisInOwn(object, frame.axes.ahead, own.ahead);
     setSides(object, frame, own);
+    own.hider = frame.hider;
+    const Vector place = frame.inView(object.centre());
+    own.centre[0] = rawFromReal(place.x) >> 8;
+    own.centre[1] = rawFromReal(place.y) >> 8;
+    own.centre[2] = rawFromReal(place.z) >> 8;
     return own;
 }
 

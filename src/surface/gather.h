@@ -82,6 +82,8 @@ struct OwnFrame {
     } sides[4];
     int sideCount;
     bool outOfSight;
+    const Hider* hider;           // FrameContext::hider
+    int32_t centre[3];            // of the object from the eye, axes of the view, 1/256 unit of the world
 };
 
 // Steps of brightness: 0..63, the 64-step ramp.

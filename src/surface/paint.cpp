@@ -4,7 +4,7 @@
 #include "math/normal.h"
 #include "rt.h"
 #include "voxels.h"
-#include "whole.h"
+#include "math/whole.h"
 
 namespace {
 

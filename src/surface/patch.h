@@ -15,7 +15,7 @@ constexpr int PATCH_SEEDS = 3;
 enum PatchState : uint8_t {
     PATCH_REST,    // no neighbour reaches it
     PATCH_INSIDE,  // it lies inside a neighbour, or where that is stronger
-    PATCH_AWAY,    // a neighbour reaches it, and it faces away from the viewer
+    PATCH_AWAY,    // a neighbour reaches it, and it faces away from the viewer, or is hidden
     PATCH_MIXED,   // its seeds are settled
 };
 
@@ -116,6 +116,10 @@ bool isWithin(const Patch& patch, const Neighbour& near, Real position, Real par
 
 // Whether a patch lies beside the view, where its seeds are.
 bool outOfSight(const Patch& patch, const OwnFrame& own);
+
+// Whether a patch is hidden behind what is nearer: where its seeds are, or if they all were at one position.
+bool isHidden(const Patch& patch, const OwnFrame& own);
+bool isHidden(const Patch& patch, Real position, const OwnFrame& own);
 
 // Whether a patch at rest faces away from the viewer.
 bool restsAway(const Patch& patch, const OwnFrame& own);

@@ -31,7 +31,7 @@ public:
     ~Report98() override { free(kept_); }
     bool open();
 
-    void update(const FrameContext& frame) override;
+    bool update(const FrameContext& frame) override;
     void draw(const FrameContext& frame, VoxelList& list, int room, int* next) override;
 
 private:
@@ -102,10 +102,10 @@ int Report98::findNear(Link* near) const
     return count;
 }
 
-void Report98::update(const FrameContext& frame)
+bool Report98::update(const FrameContext& frame)
 {
     if (!object_.hasSurface())
-        return;
+        return false;
     pose();
     Link near[NEAR_MAX];
     const int nearCount = findNear(near);
@@ -122,7 +122,7 @@ void Report98::update(const FrameContext& frame)
         const Seed& s = object_.seed(i);
         Seed& extra = object_.seed(i + 1);
         if (i % 64 == 62 && stopAsked())
-            return;
+            return true;
         settle(i, frame, toEye, near, nearCount);
         if (s.neighbour >= 0 && absolute(s.position - object_.seed(s.neighbour).position) > OVERSAMPLE) {
             extra.flags |= SEED_ACTIVE;
@@ -133,6 +133,7 @@ void Report98::update(const FrameContext& frame)
         }
     }
     object_.setDisplaced(displaced_);
+    return false;
 }
 
 void Report98::settle(int i, const FrameContext& frame, const Vector& toEye, const Link* near, int nearCount)

@@ -43,7 +43,7 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& a
     for (int i = 0; i < all.count; ++i)
         strongest = most(strongest, all.neighbours[i].strength);
     border_ = BORDER * strongest;
-    heavy_ = false;
+    hidden_ = heavy_ = false;
     for (const List<Link>::Node* node = object.skel().first(); node != nullptr; node = node->next)
         heavy_ = heavy_ || node->item.weight > HEAVY;
 }
@@ -200,6 +200,10 @@ PatchState Settler::probe(Patch& patch)
     const int32_t away = own_.limb - patch.facing - patch.spread - TURNED;
     if (away > 0) {
         patch.due += wayOf(realFromRaw(away * 4) * shiftDown(object_.laidSize(), 2));
+        return PATCH_AWAY;
+    }
+    if (isHidden(patch, s.position, own_)) {
+        hidden_ = true;
         return PATCH_AWAY;
     }
     return PATCH_MIXED;

@@ -43,6 +43,9 @@ public:
     // the patch is due again.
     PatchState probe(Patch& patch);
 
+    // Whether some patch was left because it is hidden.
+    bool hidden() const { return hidden_; }
+
     // Settles the other regular seeds of a patch.
     void settleRest(Patch& patch);
 
@@ -95,6 +98,7 @@ private:
     uint32_t turn_ = 0;  // of the patch at hand: what waits takes turns
     Real border_;      // of the field: a neighbour that is weaker than the own by less is near
     bool heavy_;       // it has a link of more than HEAVY
+    bool hidden_;
     Real off_;         // of the field: by how much the path at hand misses the surface, where it does
 };
 

@@ -5,7 +5,7 @@
 #include "math/normal.h"
 #include "paint.h"
 #include "voxels.h"
-#include "whole.h"
+#include "math/whole.h"
 
 namespace {
 
@@ -63,7 +63,6 @@ private:
     SoftObject& object_;
     const OwnFrame own_;
     Shading shading_;
-    int32_t centre_[3];       // of the object from the eye, 1/256 unit
     bool ball_, near_;        // near: some seeds may be nearer than NEAREST_DEPTH
     int32_t facesViewer_;     // FACES_VIEWER times the distance of the eye, steps of places
     int viewShift_;           // brings the way to the eye to 14 bits
@@ -83,21 +82,17 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
 {
     shading_.seeds = &object.regular(0);
     shading_.roots = &object.root(0);
-    const Vector place = frame.inView(object.centre());
-    centre_[0] = rawFromReal(place.x) >> 8;
-    centre_[1] = rawFromReal(place.y) >> 8;
-    centre_[2] = rawFromReal(place.z) >> 8;
     ball_ = object.isBall();
     // No seed leaves the reach of its object. Places have 16 bits.
     const int32_t reach = rawFromReal(object.reach()) >> 8;
-    near_ = centre_[2] - reach < NEAREST_DEPTH || centre_[2] + reach >= FARTHEST_DEPTH;
+    near_ = own_.centre[2] - reach < NEAREST_DEPTH || own_.centre[2] + reach >= FARTHEST_DEPTH;
     shading_.placeShift = 8;
     for (int32_t most = rawFromReal(object.laidReach()) >> 8; most > 32000; most >>= 1)
         ++shading_.placeShift;
     // A step of places in 1/256 unit of the world, 16 bits of fraction.
     const int32_t step = rawFromReal(own.growth) << (shading_.placeShift - 8);
     shading_.turned = !ball_ || object.size() != object.laidSize() || frame.axes.turned;
-    shading_.depth = centre_[2];
+    shading_.depth = own_.centre[2];
     const int32_t* const axes[] = {own.right, own.up, own.ahead};
     const int32_t radius = rawFromReal(object.radius());
     for (int i = 0; i < 3; ++i) {
@@ -245,10 +240,10 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
 // To be called before the seeds of a patch that are seen.
 inline void Shader::setPatch(const Patch& patch, const Seen& middle, const Voxel& at)
 {
-    const int32_t depth = centre_[2] + at.z;
+    const int32_t depth = own_.centre[2] + at.z;
     const int32_t depth16 = depth >> 4, most = depth16 + (depth16 >> 1);
-    shearX_ = (limited((centre_[0] + at.x) >> 4, most) << 10) / depth16;
-    shearY_ = (limited((centre_[1] + at.y) >> 4, most) << 10) / depth16;
+    shearX_ = (limited((own_.centre[0] + at.x) >> 4, most) << 10) / depth16;
+    shearY_ = (limited((own_.centre[1] + at.y) >> 4, most) << 10) / depth16;
     for (int i = 0; i < 3; ++i) {
         const int32_t column = (columns_[i] - aheads_[i] * shearX_) >> 14, row = (rows_[i] - aheads_[i] * shearY_) >> 14;
         shading_.cell[i] = (static_cast<uint32_t>(column) << 16) + static_cast<uint32_t>(row);
@@ -300,7 +295,7 @@ SELDOM int Shader::leaveNear(Seen* seen, Voxel* voxels, int count) const
 {
     int left = 0;
     for (int i = 0; i < count; ++i) {
-        const int32_t depth = centre_[2] + voxels[i].z;
+        const int32_t depth = own_.centre[2] + voxels[i].z;
         if (depth >= NEAREST_DEPTH && depth < FARTHEST_DEPTH) {
             seen[left] = seen[i];
             voxels[left++] = voxels[i];
@@ -343,6 +338,14 @@ inline void Shader::shadePatch(Patch& patch, bool turn, VoxelList& list, Painter
     list.count += static_cast<int>(to - voxels);
 }
 
+// Whether some of a patch may be seen. What has settled in this frame was not hidden before it did.
+bool isSeen(const Patch& patch, const OwnFrame& own)
+{
+    if (patch.state == PATCH_REST)
+        return !restsAway(patch, own) && !outOfSight(patch, own) && !isHidden(patch, own);
+    return patch.state == PATCH_MIXED && (patch.settled || !isHidden(patch, own));
+}
+
 template <bool PAINTED>
 int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
             int turn, VoxelList& list, int room, Painter* painter)
@@ -353,7 +356,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
     int at = first;
     for (; at < count && list.count + most <= room; ++at) {
         Patch& patch = patches[at];
-        if (patch.state == PATCH_MIXED || (patch.state == PATCH_REST && !restsAway(patch, own) && !outOfSight(patch, own)))
+        if (isSeen(patch, own))
             shader.shadePatch<PAINTED>(patch, ((at + turn) & BEND_TURNS) == 0, list, painter);
     }
     return at;

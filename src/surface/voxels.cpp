@@ -1,7 +1,7 @@
 // From seeds to voxels: what a seed looks like.
 #include "voxels.h"
 
-#include "whole.h"
+#include "math/whole.h"
 
 namespace {
 

@@ -134,6 +134,7 @@ struct Scene {
     bool printed = false;
     Point eye{Real(0), Real(0), Real(-120)};
     ViewAxes axes;
+    const Hider* hider = nullptr;
     Vector light = unit(vector(0.5, 0.7, -0.5));
     std::vector<uint8_t> ramp;
 
@@ -182,7 +183,7 @@ struct Scene {
             for (size_t j = 0; j < i; ++j)
                 link(i, j);
     }
-    FrameContext frame() { return {eye, light, bodies.get(), &counts, axes}; }
+    FrameContext frame() { return {eye, light, bodies.get(), &counts, axes, Real(0), Real(0), hider}; }
     void findBodies()
     {
         std::vector<SoftObject*> all;

@@ -1,4 +1,4 @@
-// Whole numbers in fixed point: what shading asks of them.
+// Whole numbers: the smaller and the larger of two, magnitudes, limits.
 #ifndef FB_WHOLE_H
 #define FB_WHOLE_H
 
