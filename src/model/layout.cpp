@@ -485,7 +485,7 @@ Seed* SoftObject::madeFine(int i)
 
 void SoftObject::layOutFine(int i, int which)
 {
-    const Seed &middle = seed(i + 1), &end = which == 0 ? regular(i) : regular(middle.neighbour);
+    const Seed &middle = seed(i + 1), &end = which == FINE_NEAR ? regular(i) : regular(middle.neighbour);
     Seed& s = fine(i)[which];
     s = middle;
     s.path = withLength(middle.path + end.path, length(middle.path));

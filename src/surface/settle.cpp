@@ -256,7 +256,7 @@ void Settler::settleRest(Patch& patch)
         patch.due += offFor(patch);
     setRange(patch);
     if (heavy_ && !nearby_.dented())
-        forSeeds(patch, [&](int i) { patch.behind |= settleIsland(patch, i); });
+        forSeeds(patch, [&](int i) { patch.islands |= settleIsland(patch, i); });
 }
 
 // Coherence over time: a seed that did not move when it was looked at waits for a frame, and so does one that faces away a
@@ -303,11 +303,11 @@ int parted(const SoftObject& object, int i)
            object.regular(next).root == s.root && from(next, LEFT_OPEN_NEXT) ? next : -1;
 }
 
-// The fine seeds of a regular one are not needed; nor is its oversampled one; none of a patch is.
-void putAwayFine(SoftObject& object, int i, int count = 3)
+// The fine seeds of a regular one are not needed, but for the one on an island; nor is its oversampled one; none of a patch is.
+void putAwayFine(SoftObject& object, int i, int end = SoftObject::FINE_ISLAND)
 {
     Seed* const fine = object.fine(i);
-    for (int which = 0; which < count && fine != nullptr; ++which)
+    for (int which = 0; which < end && fine != nullptr; ++which)
         fine[which].flags = 0;
 }
 
@@ -320,12 +320,12 @@ void putAway(SoftObject& object, int i)
 
 void putAway(SoftObject& object, Patch& patch)
 {
-    if (patch.extras || patch.behind)
+    if (patch.extras || patch.islands)
         forSeeds(patch, [&](int i) {
             putAway(object, i);
             putAwayFine(object, i, SoftObject::FINE_SEEDS);
         });
-    patch.extras = patch.fine = patch.behind = false;
+    patch.extras = patch.fine = patch.islands = false;
 }
 
 }  // namespace
@@ -385,8 +385,8 @@ bool Settler::settleFine(int i)
     Seed* const fine = (needed[0] || needed[1]) && oneRoot ? object_.madeFine(i) : nullptr;
     if (fine == nullptr)
         return false;
-    fine[2].flags = 0;
-    for (int which = 0; which < 2; ++which) {
+    fine[SoftObject::FINE_BEHIND].flags = 0;
+    for (int which = SoftObject::FINE_NEAR; which <= SoftObject::FINE_FAR; ++which) {
         Seed& s = fine[which];
         if (!needed[which]) {
             s.flags = 0;
@@ -401,7 +401,8 @@ bool Settler::settleFine(int i)
         if (!waits(s, false))
             settle(s);
         if (((ends[which]->flags ^ extra.flags) & SEED_VALID) && !nearby_.dented())
-            settleBehind(s.flags & SEED_VALID ? s : extra.flags & SEED_VALID ? extra : *ends[which], false, fine[2]);
+            settleBehind(s.flags & SEED_VALID ? s : extra.flags & SEED_VALID ? extra : *ends[which], false,
+                         fine[SoftObject::FINE_BEHIND]);
     }
     return true;
 }
@@ -428,9 +429,9 @@ bool Settler::settleIsland(const Patch& patch, int i)
     if (object_.regular(i).flags & SEED_VALID)
         settleBehind(object_.regular(i), true, island);
     const bool there = (island.flags & SEED_VALID) != 0;
-    Seed* const fine = there ? object_.madeFine(i) : patch.behind ? object_.fine(i) : nullptr;
+    Seed* const fine = there ? object_.madeFine(i) : patch.islands ? object_.fine(i) : nullptr;
     if (fine != nullptr)
-        fine[3] = island;
+        fine[SoftObject::FINE_ISLAND] = island;
     return there;
 }
 
