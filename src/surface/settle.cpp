@@ -37,15 +37,13 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& a
                  const Odometer& odometer, uint32_t updates)
     : path_(object, all, *frame.bodies, nearby_, *frame.counts), nearby_(object, all, *frame.bodies),
       cover_(object, all, nearby_, path_), object_(object), own_(own), all_(all), counts_(*frame.counts), now_(odometer.reading()),
-      came_(realFromRaw(static_cast<int32_t>(odometer.came() << 6))), updates_(updates)
+      came_(realFromRaw(static_cast<int32_t>(odometer.came() << 6))), updates_(updates),
+      heavy_(frame.bodies->heaviest(object.slot()) > HEAVY)
 {
     Real strongest = most(object.strength(), Real(1));
     for (int i = 0; i < all.count; ++i)
         strongest = most(strongest, all.neighbours[i].strength);
     border_ = BORDER * strongest;
-    heavy_ = false;
-    for (const List<Link>::Node* node = object.skel().first(); node != nullptr; node = node->next)
-        heavy_ = heavy_ || node->item.weight > HEAVY;
 }
 
 // ---- One seed

@@ -89,13 +89,13 @@ private:
     const OwnFrame& own_;
     const Neighbourhood& all_;
     Counts& counts_;
-    const Way now_;    // reading of the odometer
-    const Real came_;  // how far neighbours came in this frame, units
+    const Way now_;     // reading of the odometer
+    const Real came_;   // how far neighbours came in this frame, units
     const uint32_t updates_;
-    uint32_t turn_ = 0;  // of the patch at hand: what waits takes turns
-    Real border_;      // of the field: a neighbour that is weaker than the own by less is near
-    bool heavy_;       // it has a link of more than HEAVY
-    Real off_;         // of the field: by how much the path at hand misses the surface, where it does
+    const bool heavy_;  // the object has a link of more than HEAVY
+    uint32_t turn_ = 0; // of the patch at hand: what waits takes turns
+    Real border_;       // of the field: a neighbour that is weaker than the own by less is near
+    Real off_;          // of the field: by how much the path at hand misses the surface, where it does
 };
 
 // Puts the seeds of a patch where no neighbour reaches them.
