@@ -29,6 +29,12 @@ void setAxis(int8_t* to, const Vector& half, Real inverse)
         to[i] = toCell(floorToInt(parts[i] * inverse + Real(0.5)));
 }
 
+// Such an axis, as it stands in a seed.
+Vector vectorOf(const int8_t steps[3])
+{
+    return {Real(static_cast<int>(steps[0])), Real(static_cast<int>(steps[1])), Real(static_cast<int>(steps[2]))};
+}
+
 // Which way the path leads.
 void setWay(Seed& s)
 {
@@ -229,10 +235,7 @@ int SoftObject::Layout::nearestBefore(int ring, int seed, int successor, bool cl
 // Makes the parts of the surface of a seed and of its neighbour meet, where rings between them leave out seeds.
 void SoftObject::Layout::closeGap(Seed& s, Seed& n) const
 {
-    const auto halfAxis = [](const Seed& of) {
-        return Vector{Real(static_cast<int>(of.across[0])), Real(static_cast<int>(of.across[1])), Real(static_cast<int>(of.across[2]))};
-    };
-    const Vector a = halfAxis(s), b = halfAxis(n), apart = (rest(n) - rest(s)) * (Real(64) / spacing);
+    const Vector a = vectorOf(s.across), b = vectorOf(n.across), apart = (rest(n) - rest(s)) * (Real(64) / spacing);
     const Real half = length(a), both = half + length(b);
     if (half < Real(1))
         return;
@@ -267,8 +270,8 @@ bool SoftObject::layOutRegular(Layout& layout) const
     return !stopAsked();
 }
 
-// False: it was stopped. For each regular seed S "the seed N on ring K-1 that is closest to S's successor" (Appendix C, Figure 9); and for each ring
-// which roots its oversampled seeds may have.
+// For each regular seed S "the seed N on ring K-1 that is closest to S's successor" (Appendix C, Figure 9); and for each ring
+// which roots its oversampled seeds may have. False: it was stopped.
 bool SoftObject::findNeighbours(Layout& layout) const
 {
     const int firstRing = ringsClose() ? 0 : 1;
@@ -527,15 +530,15 @@ Direction14 SoftObject::warpSeed(const Seed& plain, const Vector& plainRoot, See
     const Real part(1.0 / 16384);
     to.path = warp_.out((plainRoot + plain.path) * (Real(CORE_SIZE) / laid_.size), way) * shiftDown(laid_.size, 4) - root(to.root);
     const auto cell = [&](const int8_t from[3], int8_t into[3]) {
-        setAxis(into, warp_.stepOut(way, {Real(static_cast<int>(from[0])), Real(static_cast<int>(from[1])), Real(static_cast<int>(from[2]))}),
-                Real(1));
+        setAxis(into, warp_.stepOut(way, vectorOf(from)), Real(1));
     };
     cell(plain.along, to.along);
     cell(plain.across, to.across);
     setWay(to);
     const Direction14& square = plain.normal;
-    const Direction14 normal = direction(warp_.slopeOut(way, {part * Real(static_cast<int>(square.x)), part * Real(static_cast<int>(square.y)),
-                                               part * Real(static_cast<int>(square.z))}));
+    const Vector slope{part * Real(static_cast<int>(square.x)), part * Real(static_cast<int>(square.y)),
+                       part * Real(static_cast<int>(square.z))};
+    const Direction14 normal = direction(warp_.slopeOut(way, slope));
     setArea(to, normal);
     if (to.flags & SEED_RESTING)
         to.normal = normal;

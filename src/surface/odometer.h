@@ -36,7 +36,8 @@ public:
     Way reading() const { return reading_; }
     // The same for the farthest places of neighbours that the object could meet.
     Way bound() const { return bound_; }
-    // How far they came since the call before, where the object has its centre.
+    // How far they came since the call before: what is neither stretched nor warped, as far as the farthest place of its core;
+    // what is, as far as it came where the object has its centre, and half as far as its farthest place at least.
     Way came() const { return came_; }
 
 private:

@@ -99,8 +99,8 @@ private:
     const Bodies& bodies_;
     Nearby& nearby_;
     Counts& counts_;
-    const bool ownPlain_;           // the object's strength is 1, nothing digs within its body, and it is neither a hollow nor warped
     const bool warped_;             // the object is
+    const bool ownPlain_;           // it is not, its strength is 1, nothing digs within its body, and it samples no hollow
     const Real restParam_;          // t of the own field at position 1, unless it is warped
     const Real first_, last_, middle_;
     FromRoot from_[NEIGHBOURS_MAX];

@@ -226,7 +226,8 @@ TEST(cut_scales_end_at_a_line)
     long within = 0, left = 0, doubtful = 0;
     for (int round = 0; round < 3000; ++round) {
         const double z = random.between(40, 480);
-        Voxel v = voxel(random.between(-0.4 * z, 0.4 * z), random.between(-0.3 * z, 0.3 * z), z, random.between(0, z / 20), random.between(0, z / 20), 1 + round % 63);
+        Voxel v = voxel(random.between(-0.4 * z, 0.4 * z), random.between(-0.3 * z, 0.3 * z), z, random.between(0, z / 20),
+                        random.between(0, z / 20), 1 + round % 63);
         if (round % 3 == 0) {
             v.slopeX = static_cast<int8_t>(random.below(13) - 6);
             v.slopeY = static_cast<int8_t>(random.below(13) - 6);
@@ -241,7 +242,8 @@ TEST(cut_scales_end_at_a_line)
         v.cutAt = static_cast<int16_t>(random.between(-1.2, 1.2) * most);
         view.begin();
         show(view, {v});
-        const double column = 160 + 250 * (v.x / 256.0) / (v.z / 256.0), row = 100 - number(view.camera().focalY) * (v.y / 256.0) / (v.z / 256.0);
+        const double column = 160 + 250 * (v.x / 256.0) / (v.z / 256.0),
+                     row = 100 - number(view.camera().focalY) * (v.y / 256.0) / (v.z / 256.0);
         // What is not within the box is cleared or was never drawn: other tests hold the view to that.
         const Box around = box(v, view.camera());
         const int from = std::max(0, static_cast<int>(around.top) - 2), to = std::min(HEIGHT, static_cast<int>(around.bottom) + 2);
@@ -282,9 +284,11 @@ TEST(places_count_from_the_lists_own)
     Random random;
     for (int round = 0; round < 20; ++round) {
         std::vector<Voxel> list, moved;
-        const int32_t x = steps(random.between(-3000, 3000)), y = steps(random.between(-3000, 3000)), z = steps(random.between(-3000, 3000));
+        const int32_t x = steps(random.between(-3000, 3000)), y = steps(random.between(-3000, 3000)),
+                      z = steps(random.between(-3000, 3000));
         for (int i = 0; i < 200; ++i) {
-            Voxel v = voxel(random.between(-60, 60), random.between(-50, 50), random.between(20, 300), random.between(0, 6), random.between(0, 6), 1 + i % 63);
+            Voxel v = voxel(random.between(-60, 60), random.between(-50, 50), random.between(20, 300), random.between(0, 6),
+                            random.between(0, 6), 1 + i % 63);
             v.tiltX = static_cast<int16_t>(random.below(1000) - 500);
             v.tiltY = static_cast<int16_t>(random.below(1000) - 500);
             list.push_back(v);
@@ -467,8 +471,8 @@ TEST(gaps_closed_all_round)
         }
 }
 
-// Between two objects the colour changes where the one's field becomes stronger, to two pixels, wherever the gap lies; the brightness goes from
-// the one side's to the other's, and the depth stays the nearer side's.
+// Between two objects the colour changes where the one's field becomes stronger, to two pixels, wherever the gap lies; the
+// brightness goes from the one side's to the other's, and the depth stays the nearer side's.
 TEST(gaps_between_two_objects)
 {
     Model model;
@@ -630,7 +634,8 @@ TEST(gaps_anywhere)
                 bool like = false;
                 for (int k = 1; k <= 32 && !like; ++k)
                     for (const int from : {i - k, i + k, i - k * WIDTH, i + k * WIDTH})
-                        like = like || (from >= 0 && from < WIDTH * HEIGHT && view.zbuffer()[from] == depth && view.frame()[from] == colour);
+                        like = like || (from >= 0 && from < WIDTH * HEIGHT && view.zbuffer()[from] == depth &&
+                                        view.frame()[from] == colour);
                 wrong += !like;
             }
         }
