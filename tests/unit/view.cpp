@@ -471,17 +471,23 @@ TEST(gaps_closed_all_round)
         }
 }
 
+// Two balls of size 40 as far as that to the left and to the right of the middle.
+static void addPair(Model& model, double away)
+{
+    Motion left{}, right{};
+    left.centre = point(-away, 0, 0);
+    right.centre = point(away, 0, 0);
+    CHECK(model.add(make<Sphere>(1, Real(40)), {255, 0, 0}, left));
+    CHECK(model.add(make<Sphere>(2, Real(40)), {0, 0, 255}, right));
+    Anim::move(model, 0);
+}
+
 // Between two objects the colour changes where the one's field becomes stronger, to two pixels, wherever the gap lies; the
 // brightness goes from the one side's to the other's, and the depth stays the nearer side's.
 TEST(gaps_between_two_objects)
 {
     Model model;
-    Motion left{}, right{};
-    left.centre = point(-10, 0, 0);
-    right.centre = point(10, 0, 0);
-    CHECK(model.add(make<Sphere>(1, Real(40)), {255, 0, 0}, left));
-    CHECK(model.add(make<Sphere>(2, Real(40)), {0, 0, 255}, right));
-    Anim::move(model, 0);
+    addPair(model, 10);
     Palette palette;
     palette.make(model, false);
     const uint8_t* const ramps[] = {model.actor(0).object->ramp(), model.actor(1).object->ramp()};
@@ -516,32 +522,31 @@ TEST(gaps_between_two_objects)
         }
 }
 
-// What is open stays so: between two objects that do not touch, at whatever distance, and in the middle of a ring.
+// What is open on a side stays so between two objects that do not touch, at whatever distance. What is drawn all round is closed.
 TEST(gaps_where_there_is_no_surface)
 {
     Model model;
-    Motion left{}, right{};
-    left.centre = point(-25, 0, 0);
-    right.centre = point(25, 0, 0);
-    CHECK(model.add(make<Sphere>(1, Real(40)), {255, 0, 0}, left));
-    CHECK(model.add(make<Sphere>(2, Real(40)), {255, 0, 0}, right));
-    Anim::move(model, 0);
+    addPair(model, 25);
     View view;
     CHECK(view.open());
     for (int size = 4; size <= 10; size += 2)
         for (double z : {-15.0, 0.0, 15.0}) {
-            const auto between = [&](const Model* with) {
+            const auto between = [&](const Model* with, bool round) {
                 view.begin();
                 const double depth = 75 + z;
                 block(view, 100, 90, 160 - size / 2, 110, 7, depth);
                 block(view, 160 + size / 2, 90, 220, 110, 7, depth);
                 block(view, 100, 70, 220, 90, 7, depth);
+                const int bottom = round ? 100 : 110;
+                if (round)
+                    block(view, 100, bottom, 220, 130, 7, depth);
                 view.closeGaps(SPACING, with);
                 view.end();
-                return drawnIn(view, 160 - size / 2, 90, 160 + size / 2, 110);
+                return drawnIn(view, 160 - size / 2, 90, 160 + size / 2, bottom);
             };
-            CHECK(between(nullptr) > 0);
-            SAME(between(&model), 0);
+            CHECK(between(nullptr, false) > 0);
+            SAME(between(&model, false), 0);
+            SAME(between(&model, true), size * 10);
         }
 }
 
