@@ -336,6 +336,7 @@ private:
         Vector rest(const Seed& s) const { return roots[s.root] + s.path; }
         int nearestIn(int ring, int from, const Vector& target) const;
         int nearestBefore(int ring, int seed, int successor, bool closed) const;
+        bool rootsDiffer(int ring) const;
         void closeGap(Seed& s, Seed& n) const;
         // The layout as it is without the warp. It shares all that it points at.
         Layout plain() const;
@@ -347,6 +348,7 @@ private:
     void tellNeighbours();
     bool layOutRegular(Layout& layout) const;
     bool findNeighbours(Layout& layout) const;
+    void findNeighbours(Layout& layout, int ring) const;
     bool layOutLike(const SoftObject& other, Layout& layout) const;
     Seed& laidExtra(int slot);
     Seed* layOutBlock(int block);

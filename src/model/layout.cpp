@@ -270,40 +270,48 @@ bool SoftObject::layOutRegular(Layout& layout) const
     return !stopAsked();
 }
 
-// For each regular seed S "the seed N on ring K-1 that is closest to S's successor" (Appendix C, Figure 9); and for each ring
-// which roots its oversampled seeds may have. False: it was stopped.
+// Whether seeds of a ring have different roots.
+bool SoftObject::Layout::rootsDiffer(int ring) const
+{
+    for (int i = ringStarts[ring] + 1; i < ringStarts[ring + 1]; ++i)
+        if (seeds[i].root != seeds[i - 1].root)
+            return true;
+    return false;
+}
+
+// Finds for each regular seed S of ring K "the seed N on ring K-1 that is closest to S's successor" (Appendix C, Figure 9).
+void SoftObject::findNeighbours(Layout& layout, int ring) const
+{
+    const int ringBefore = (ring > 0 ? ring : layout.rings) - 1;
+    const int start = layout.ringStarts[ring], end = layout.ringStarts[ring + 1];
+    const int inBefore = layout.ringStarts[ringBefore + 1] - layout.ringStarts[ringBefore];
+    for (int i = start; i < end; ++i) {
+        Seed& s = layout.seeds[i];
+        const int successor = i + 1 == end ? start : i + 1;
+        const int about = static_cast<int>(static_cast<uint32_t>(successor - start) * static_cast<uint32_t>(inBefore) /
+                                           static_cast<uint32_t>(end - start));
+        const int n = stretched_ ? layout.nearestBefore(ring, i, successor, ringsClose())
+                                 : layout.nearestIn(ringBefore, about, layout.rest(layout.seeds[successor]));
+        s.neighbour = n < 0 ? -1 : 2 * n;
+        if (stretched_ && n >= 0)
+            layout.closeGap(s, layout.seeds[n]);
+    }
+}
+
+// Finds the neighbours of all seeds, and for each ring which roots its oversampled seeds may have. False: it was stopped.
 bool SoftObject::findNeighbours(Layout& layout) const
 {
     const int firstRing = ringsClose() ? 0 : 1;
-    const auto various = [&](int k) {
-        for (int i = layout.ringStarts[k] + 1; i < layout.ringStarts[k + 1]; ++i)
-            if (layout.seeds[i].root != layout.seeds[i - 1].root)
-                return true;
-        return false;
-    };
-    bool variousBefore = layout.rings > 0 && various(layout.rings - 1);
+    bool differBefore = layout.rings > 0 && layout.rootsDiffer(layout.rings - 1);
     for (int k = 0; k < layout.rings; ++k) {
-        const int ringBefore = (k > 0 ? k : layout.rings) - 1;
-        const int start = layout.ringStarts[k], end = layout.ringStarts[k + 1], inRing = end - start;
-        const int inBefore = layout.ringStarts[ringBefore + 1] - layout.ringStarts[ringBefore];
-        const bool variousHere = various(k);
-        layout.rootsBetween[k + 1] = layout.rootsBetween[k] + (manyRoots() || variousHere || variousBefore ? inRing : 1);
-        variousBefore = variousHere;
+        const bool differ = layout.rootsDiffer(k);
+        const bool many = manyRoots() || differ || differBefore;
+        layout.rootsBetween[k + 1] = layout.rootsBetween[k] + (many ? layout.ringStarts[k + 1] - layout.ringStarts[k] : 1);
+        differBefore = differ;
         if (stopAsked())
             return false;
-        if (k < firstRing)
-            continue;
-        for (int i = start; i < end; ++i) {
-            Seed& s = layout.seeds[i];
-            const int successor = i + 1 == end ? start : i + 1;
-            const int about = static_cast<int>(static_cast<uint32_t>(successor - start) * static_cast<uint32_t>(inBefore) /
-                                               static_cast<uint32_t>(inRing));
-            const int n = stretched_ ? layout.nearestBefore(k, i, successor, ringsClose())
-                                     : layout.nearestIn(ringBefore, about, layout.rest(layout.seeds[successor]));
-            s.neighbour = n < 0 ? -1 : 2 * n;
-            if (stretched_ && n >= 0)
-                layout.closeGap(s, layout.seeds[n]);
-        }
+        if (k >= firstRing)
+            findNeighbours(layout, k);
     }
     return true;
 }
