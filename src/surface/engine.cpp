@@ -54,7 +54,7 @@ void Engine::reshape()
 {
     const auto forget = [](Seed& s) {
         if ((s.flags & (SEED_VALID | SEED_RESTING)) == SEED_VALID)
-            s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_COVERED);
+            s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_FOLLOW);
         s.flags &= static_cast<uint8_t>(~SEED_OFF);
     };
     for (int i = 0; i < object_.seedSlots(); i += 2) {
@@ -147,7 +147,7 @@ inline void Engine::settle(Settler& settler, Patch& patch)
     patch.state = settler.probe(patch);
     patch.settled = patch.state == PATCH_MIXED;
     if (patch.settled) {
-        settler.settleRest(patch);
+        settler.settleOthers(patch);
         patch.bend.stale = true;
     } else {
         sleep(object_, patch);

@@ -62,7 +62,7 @@ Real Along::otherParam(Real p)
 
 // ---- A look at one position
 
-// Takes up those that look at the paths from now on, as they see the root of a seed.
+// Takes up the neighbours whose fields are looked at from now on, and what the root of a seed is to each.
 void Path::take(const Few& few, const Seed& s)
 {
     if (few_ != &few) {

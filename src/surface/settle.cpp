@@ -54,7 +54,7 @@ Real Settler::settle(Seed& s)
 {
     Sample sample;
     Real position = s.position;
-    const Followed followed = s.flags & (SEED_VALID | SEED_COVERED) ? followOn(s, &position, &sample) : LOST;
+    const Followed followed = s.flags & (SEED_VALID | SEED_FOLLOW) ? followOn(s, &position, &sample) : LOST;
     if (followed == ALONE) {
         restThere(s);
         return Real(0);
@@ -221,7 +221,7 @@ void Settler::setRange(Patch& patch) const
     }
 }
 
-void Settler::settleRest(Patch& patch)
+void Settler::settleOthers(Patch& patch)
 {
     const Seed& centre = object_.seed(patch.centre);
     const bool someAway = !(centre.flags & SEED_VALID) || patch.facing < patch.spread;
@@ -239,7 +239,7 @@ void Settler::settleRest(Patch& patch)
         }
         if (woken) {
             s.position = centre.position;
-            s.flags = SEED_COVERED;
+            s.flags = SEED_FOLLOW;
             s.still = 0;
         } else if (waits(s, someAway)) {
             return;
@@ -344,7 +344,7 @@ void Settler::oversample(Patch& patch)
         if (object_.layOutBetween(i, other))
             putAway(object_, i);
         if (!(extra.flags & SEED_ACTIVE)) {
-            extra.flags = SEED_ACTIVE | SEED_COVERED;
+            extra.flags = SEED_ACTIVE | SEED_FOLLOW;
             extra.position = object_.seed(i).position;
             extra.still = 0;
         }
@@ -392,7 +392,7 @@ bool Settler::settleFine(int i)
         }
         if (!(s.flags & SEED_ACTIVE)) {
             object_.layOutFine(i, which);
-            s.flags = SEED_ACTIVE | SEED_COVERED;
+            s.flags = SEED_ACTIVE | SEED_FOLLOW;
             s.position = ends[which]->position;
             s.still = 0;
         }

@@ -44,7 +44,7 @@ public:
     PatchState probe(Patch& patch);
 
     // Settles the other regular seeds of a patch.
-    void settleRest(Patch& patch);
+    void settleOthers(Patch& patch);
 
     // Settles those oversampled seeds of a patch that are needed, when all regular ones have been; the others end. It calls
     // setPatch() by itself.
