@@ -37,7 +37,8 @@ build/host32/%.o: %.S
 build/demo32: $(patsubst %.cpp,build/host32/%.o,$(HOST_SOURCES)) $(KERNELS:%.S=build/host32/%.o)
 	$(HOST_CXX) -m32 -no-pie -static -Wl,-Map=$@.map -o $@ $^
 
-build/DEMO.EXE: $(patsubst %.cpp,build/dos/%.o,$(PROGRAM)) $(KERNELS:%.S=build/dos/%.o) $(DOS_BASE) build/STUB.EXE build/mkexe tools/dos.ld
+build/DEMO.EXE: $(patsubst %.cpp,build/dos/%.o,$(PROGRAM)) $(KERNELS:%.S=build/dos/%.o) $(DOS_BASE) \
+		build/STUB.EXE build/mkexe tools/dos.ld
 	$(DOS_LINK)
 
 # Where a frame's time goes: larger code, 7% fewer instructions a frame.

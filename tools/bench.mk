@@ -15,13 +15,16 @@ build/BENCH.BAT: tools/bench.bat
 	@mkdir -p build
 	awk '{ sub(/\r$$/, ""); printf "%s\r\n", $$0 }' tools/bench.bat > $@
 
-BENCH_WRAP = -Wl,--wrap=drawScalesA -Wl,--wrap=blitScalesA -Wl,--wrap=blitFine -Wl,--wrap=clearRowsA -Wl,--wrap=_ZN7machine7presentEPKhPK4Span
+BENCH_WRAP = -Wl,--wrap=drawScalesA -Wl,--wrap=blitScalesA -Wl,--wrap=blitFine -Wl,--wrap=clearRowsA \
+	-Wl,--wrap=_ZN7machine7presentEPKhPK4Span
 BENCH_TWINS = build/bench/blit486.o build/bench/scales486.o
-BENCH_PARTS = $(filter-out build/host32/src/picture/blit.o build/host32/src/picture/scales.o,$(patsubst %.cpp,build/host32/%.o,$(HOST_SOURCES))) \
+BENCH_PARTS = $(filter-out build/host32/src/picture/blit.o build/host32/src/picture/scales.o,\
+	$(patsubst %.cpp,build/host32/%.o,$(HOST_SOURCES))) \
 	$(KERNELS:%.S=build/host32/%.o) build/host32/tools/bench.o
 
 # The twins as a compiler for the 486 makes them.
-build/bench/%486.o: src/picture/%.cpp include/picture/blit.h include/picture/scales.h include/surface/voxel.h include/machine.h include/rt.h
+build/bench/%486.o: src/picture/%.cpp include/picture/blit.h include/picture/scales.h include/surface/voxel.h \
+		include/machine.h include/rt.h
 	@mkdir -p $(@D)
 	$(HOST_CXX) $(HOST_FLAGS) -m32 -march=i486 -fno-pic -fno-pie -DFB_ASM=1 -c $< -o $@
 

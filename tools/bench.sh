@@ -162,7 +162,8 @@ page_scenes() {
 	echo "  scene       fps  start     all   bar    aim    math   model surface picture    app   rest  clocks   fps"
 	awk -F , -v start="$(bar start)" 'NR > 1 {
 		if ($2 == "" && !told) { told = 1; print ""; print "  Scenes made for speed (tests/scenes/speed):"; print "" }
-		printf "  %-8s %6s %6s %7.3f%s %5.2f %5s %7.3f %7.3f %7.3f %7.3f %6.3f %6.3f %7.2f %5.1f\n", $1, $2 == "" ? "" : sprintf("%.1f", $2),
+		printf "  %-8s %6s %6s %7.3f%s %5.2f %5s %7.3f %7.3f %7.3f %7.3f %6.3f %6.3f %7.2f %5.1f\n",
+			$1, $2 == "" ? "" : sprintf("%.1f", $2),
 			$3 == "" ? "" : sprintf("%.2f", $3) ($3 > start + 0 ? "!" : " "), $4 / 1e6, ($4 > $5) ? "!" : " ", $5 / 1e6,
 			($6 > 0) ? sprintf("%.2f", $6 / 1e6) : "-", $7 / 1e6, $8 / 1e6, $9 / 1e6, $10 / 1e6, $11 / 1e6, $12 / 1e6, $13 / 1e6, 66e6 / $13
 	}' $csv

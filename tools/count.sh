@@ -21,4 +21,5 @@ for run in short long; do
 		exit 1
 	}
 done
-build/cost -t "$functions" "$dir/demo32.map" "$dir/demo32.asm" "$dir/$name.short" "$dir/$name.long" $((long - short)) >"$dir/$name.cost"
+build/cost -t "$functions" "$dir/demo32.map" "$dir/demo32.asm" "$dir/$name.short" "$dir/$name.long" \
+	$((long - short)) >"$dir/$name.cost"

@@ -40,7 +40,8 @@ DOS_LINK = $(DOS_LD) $(DOS_LDFLAGS) -T tools/dos.ld -o build/dos/$(@F).elf $(fil
 	build/mkexe build/STUB.EXE build/dos/$(@F).elf $@
 
 # Tests of the machine and the run-time on the machine itself.
-build/MTEST.EXE: build/dos/tests/dos/mtest.o build/dos/asm/blit.o build/dos/asm/scales.o $(DOS_BASE) build/STUB.EXE build/mkexe tools/dos.ld
+build/MTEST.EXE: build/dos/tests/dos/mtest.o build/dos/asm/blit.o build/dos/asm/scales.o $(DOS_BASE) \
+		build/STUB.EXE build/mkexe tools/dos.ld
 	$(DOS_LINK)
 
 -include $(wildcard build/dos/*/*.d build/dos/*/*/*.d)

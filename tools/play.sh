@@ -18,7 +18,8 @@ if [ -n "$scene" ]; then
 	file=$scene
 	[ -f "$file" ] || file=tools/scenes/$(basename "$scene" | sed "s/\.[Ff][Bb]\$//" | tr '[:lower:]' '[:upper:]').FB
 	if [ ! -f "$file" ]; then
-		echo "play.sh: no scene '$scene'; there are $(cd tools/scenes && ls ./*.FB | sed 's/^..//; s/\.FB$//' | tr '[:upper:]\n' '[:lower:] ')" >&2
+		known=$(cd tools/scenes && ls ./*.FB | sed 's/^..//; s/\.FB$//' | tr '[:upper:]\n' '[:lower:] ')
+		echo "play.sh: no scene '$scene'; there are $known" >&2
 		exit 2
 	fi
 	# Under its own name, which mistakes in it are told with, where DOS has such names.

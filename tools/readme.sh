@@ -123,7 +123,8 @@ bench() {
 			print "|---|---|---|---|---|"
 			for (i = 1; i <= n; ++i) {
 				c = order[i]
-				printf "| %s | %d | %s | %.2f | %.1f |\n", value[c, "class"], c, (c, "report") in value ? value[c, "report"] : "", value[c, "printed"], value[c, "ours"]
+				printf "| %s | %d | %s | %.2f | %.1f |\n", value[c, "class"], c,
+					(c, "report") in value ? value[c, "report"] : "", value[c, "printed"], value[c, "ours"]
 			}
 		}' >"$dir/speed"
 	put speed "$dir/speed"

@@ -6,7 +6,8 @@
 # and bear the time of the commit. SOURCE_DATE_EPOCH, from the environment, names another time.
 release: build/release/FBLOBS.ZIP
 
-build/release/FBLOBS.ZIP: build/DEMO.EXE build/demo tools/release.sh tools/bench.bat LICENSE $(wildcard tools/scenes/*.FB tools/release/*)
+build/release/FBLOBS.ZIP: build/DEMO.EXE build/demo tools/release.sh tools/bench.bat LICENSE \
+		$(wildcard tools/scenes/*.FB tools/release/*)
 	sh tools/release.sh
 
 # The commit's time is in it, so it is made anew each time that it is asked for.

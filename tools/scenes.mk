@@ -7,7 +7,8 @@ build/mkscene: tools/mkscene.cpp tools/scenes.mk
 
 # The reader of scene files with everything it uses, under the sanitizers, and what feeds it.
 # (Not src/math/alloc.cpp: the mutator uses the C++ library, which brings its own operator delete.)
-FUZZ_FLAGS = -std=c++17 -O1 -g -fsanitize=address,undefined -fno-sanitize=shift-base -fno-sanitize-recover=all -Wall -Wextra -Iinclude
+FUZZ_FLAGS = -std=c++17 -O1 -g -fsanitize=address,undefined -fno-sanitize=shift-base -fno-sanitize-recover=all \
+	-Wall -Wextra -Iinclude
 FUZZ_PARTS = $(patsubst %.cpp,build/fuzzo/%.o,\
 	$(filter-out $(MAIN) src/math/alloc.cpp,$(PROGRAM)) src/host/host.cpp)
 

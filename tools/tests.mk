@@ -53,7 +53,8 @@ build/san/unit: $(UNIT_PARTS:%.cpp=build/san/%.o)
 build/san/demo: $(patsubst %.cpp,build/san/%.o,$(TEST_PARTS) $(MAIN))
 	$(TEST_CXX) $(SANITIZE) -o $@ $^
 
-build/twins: build/host32/tests/twins/twins.o $(patsubst %,build/host32/%.o,src/picture/blit src/picture/scales src/surface/voxels src/surface/fields src/model/field $(KERNELS:%.S=%))
+build/twins: build/host32/tests/twins/twins.o $(patsubst %,build/host32/%.o,src/picture/blit src/picture/scales \
+		src/surface/voxels src/surface/fields src/model/field $(KERNELS:%.S=%))
 	$(TEST_CXX) -m32 -no-pie -static -o $@ $^
 
 # The numbers in the assembly, for the compiler to compare with what they stand for.

@@ -329,7 +329,9 @@ void boxBreaks(const Object &o, const Ray &ray, std::vector<double> &t) {
   t.insert(t.end(), plane.begin(), plane.end());
   // q = 1 on each stretch between two planes, and before and behind them all.
   for (size_t i = 0; i <= plane.size(); i++) {
-    double middle = plane.empty() ? 0 : i == 0 ? plane[0] - 1 : i == plane.size() ? plane[i - 1] + 1 : (plane[i - 1] + plane[i]) / 2;
+    double middle = 0;
+    if (!plane.empty())
+        middle = i == 0 ? plane[0] - 1 : i == plane.size() ? plane[i - 1] + 1 : (plane[i - 1] + plane[i]) / 2;
     double c[3];
     boxQuadratic(o, ray, middle, c);
     whereOne(c, t);

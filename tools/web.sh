@@ -20,7 +20,8 @@ if [ ! -f "$fetch/package.json" ]; then
 		echo "web.sh: npm cannot fetch js-dos $version" >&2
 		exit 1
 	}
-	is=sha512-$(node -p 'require("crypto").createHash("sha512").update(require("fs").readFileSync(process.argv[1])).digest("base64")' "$package")
+	is=sha512-$(node -p '
+		require("crypto").createHash("sha512").update(require("fs").readFileSync(process.argv[1])).digest("base64")' "$package")
 	[ "$is" = "$sum" ] || {
 		echo "web.sh: js-dos $version is not the package that was tried: $is" >&2
 		exit 1
@@ -45,7 +46,8 @@ for file in tools/scenes/FOUR.FB $(ls tools/scenes/*.FB | grep -v /FOUR.FB); do
 	words=$(sed -n 's/^title  *//p' "$file" | head -n 1)
 	[ -n "$words" ] || words=$(sed -n '1s/^# *\([^.:,]*\).*/\1/p' "$file")
 	picture=$(echo "$name" | tr '[:upper:]' '[:lower:]').png
-	echo "<button type=\"button\" data-scene=\"$name\"><img src=\"pics/$picture\" alt=\"\" width=\"320\" height=\"240\">$words</button>"
+	echo "<button type=\"button\" data-scene=\"$name\">" \
+		"<img src=\"pics/$picture\" alt=\"\" width=\"320\" height=\"240\">$words</button>"
 done >$list
 licence=$(sed -n 's/.*"license": *"\([^"]*\)".*/\1/p' "$fetch/package.json")
 sed -e "/@SCENES@/{s/@SCENES@.*//;r $list" -e 'a </div>' -e '}' \

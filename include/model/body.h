@@ -44,13 +44,24 @@ public:
     void spreadRecalc() const;
 
     // Those that an object is linked with at weight 1, a bit for each slot; LINK_WORDS words.
-    const uint32_t* plainLinks(int slot) const { return plain_ + slot * LINK_WORDS; }
+    const uint32_t* plainLinks(int slot) const { return bySlot_[slot].plain; }
     static constexpr int LINK_WORDS = 4;
+    // The greatest weight of its links; 0: it has none.
+    Real heaviest(int slot) const { return bySlot_[slot].heaviest; }
 
     // Grows by one whenever the bodies have been found anew.
     uint32_t version() const { return version_; }
 
 private:
+    // What is known of an object.
+    struct Entry {
+        int16_t first, size;               // where its body begins in members_, and how many it has
+        int16_t firstDigger, diggerCount;  // the same of what digs into the body, in diggers_
+        bool complete;                     // all of its body are linked with all, and nothing else digs into it
+        Real heaviest;
+        uint32_t plain[LINK_WORDS];        // as plainLinks() has them
+    };
+
     void release();
     bool reserve(SoftObject* const* objects, uint32_t count);
     void setWeights(SoftObject* const* objects);
@@ -61,14 +72,9 @@ private:
 
     int count_ = 0;
     Real* weights_ = nullptr;         // count_ rows of count_
+    Entry* bySlot_ = nullptr;
     SoftObject** members_ = nullptr;  // body after body
-    int16_t* first_ = nullptr;        // by slot: where its body begins in members_
-    int16_t* size_ = nullptr;         // by slot: how many it has
     SoftObject** diggers_ = nullptr;  // body after body
-    int16_t* firstDigger_ = nullptr;  // by slot: where those of its body begin in diggers_
-    int16_t* diggerCount_ = nullptr;  // by slot: how many there are
-    bool* complete_ = nullptr;        // by slot: all of its body are linked with all, and nothing else digs into it
-    uint32_t* plain_ = nullptr;       // by slot, as plainLinks() has them
     uint32_t version_ = 0;
 };
 

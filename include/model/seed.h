@@ -17,11 +17,12 @@
 //   SEED_BORDER   a neighbour is about as strong there     none is
 //   SEED_ASLEEP   its patch lies inside a neighbour,       the patch does not any more
 //                 faces away or is hidden: it is not settled
-//   SEED_COVERED  its path is likely to leave the surface    it settles
-//                 near its position: it wakes up, or what
-//                 digs has its part of a dent
-//   SEED_OFF      of what is dented, or a hollow: it will  it settles anew
-//                 not be on the surface before `due`
+//   SEED_FOLLOW   it is not on the surface, but its path   it settles
+//                 is likely to leave the surface near its
+//                 position: it wakes up, or the part of a
+//                 hollow's wall where it is is another's
+//   SEED_OFF      something digs near it, and it will not  it settles anew
+//                 be on the surface before `due`
 //   SEED_FRONT    /P only: its path does not point away    it does
 //                 from the viewer
 //   SEED_KEPT     /P only: normal and brightness hold for  the seed moved
@@ -35,7 +36,7 @@ enum SeedFlag : uint8_t {
     SEED_KEPT = 16,
     SEED_BORDER = 32,
     SEED_ASLEEP = 64,
-    SEED_COVERED = 128,
+    SEED_FOLLOW = 128,
 };
 
 // A unit vector in whole numbers: each component is scaled by 2^14.
@@ -59,7 +60,7 @@ struct Seed {
     uint16_t root;       // index of the root point: seeds share them
     uint8_t flags;       // SeedFlag
     uint8_t mix;         // number of the colour there, where colours mix (model/paint.h)
-    uint8_t still;       // 1: it did not move when it was looked at last; 0: it did
+    uint8_t still;       // 0: it moved when it was looked at last; 1: it did not; 3: nor the time before
     // The part of the unblended surface that is the seed's own: its half axes, 1/64 of the spacing, and the area between them,
     // that squared; 0, of an oversampled seed: it lies in no band of its ring.
     int8_t along[3], across[3];

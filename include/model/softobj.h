@@ -123,9 +123,15 @@ public:
     // Lays the oversampled seed of the regular one in slot i half way between that and another, its neighbour N or one of the
     // same root; its own neighbour says which. True: it was elsewhere.
     bool layOutBetween(int i, int other);
-    // The fine seeds of the regular one in slot i: one half way from there to its oversampled seed, one from that to its
-    // neighbour, and two on the paths of others. They lie in memory one behind the other. Null: there are none yet.
-    static constexpr int FINE_SEEDS = 4;
+    // The fine seeds that belong to a regular one. Two lie between others, two on the paths of others where these come back.
+    enum FineSeed {
+        FINE_NEAR,    // half way from the regular seed to its oversampled one
+        FINE_FAR,     // half way from that to the neighbour
+        FINE_BEHIND,  // behind an overhanging neck, on the path of one of all these
+        FINE_ISLAND,  // on an island, on the path of the regular one
+        FINE_SEEDS    // how many there are
+    };
+    // Those of the regular one in slot i. They lie in memory one behind the other, in that order. Null: there are none yet.
     Seed* fine(int i) const
     {
         Seed* const block = laid_.fine[i >> (EXTRA_BITS + 1)];
@@ -133,7 +139,7 @@ public:
     }
     // Makes them, without paths. Null: there is no memory.
     Seed* madeFine(int i);
-    // Gives the first or second of them its path, if the two that it lies between have one root.
+    // Gives FINE_NEAR or FINE_FAR its path. The two seeds that it lies between have one root.
     void layOutFine(int i, int which);
     // Lays out all oversampled seeds. False: no memory.
     bool layOutExtras();
@@ -330,6 +336,7 @@ private:
         Vector rest(const Seed& s) const { return roots[s.root] + s.path; }
         int nearestIn(int ring, int from, const Vector& target) const;
         int nearestBefore(int ring, int seed, int successor, bool closed) const;
+        bool rootsDiffer(int ring) const;
         void closeGap(Seed& s, Seed& n) const;
         // The layout as it is without the warp. It shares all that it points at.
         Layout plain() const;
@@ -341,6 +348,7 @@ private:
     void tellNeighbours();
     bool layOutRegular(Layout& layout) const;
     bool findNeighbours(Layout& layout) const;
+    void findNeighbours(Layout& layout, int ring) const;
     bool layOutLike(const SoftObject& other, Layout& layout) const;
     Seed& laidExtra(int slot);
     Seed* layOutBlock(int block);

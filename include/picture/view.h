@@ -79,12 +79,21 @@ public:
     const Span* rows() const { return present_; }
 
 private:
+    // Where a scale lies: the depth of its centre, 1/256 unit; the centre on the screen and half its sides, pixels with 12 bits of
+    // fraction.
+    struct Placed {
+        int32_t z, column, row, halfWide, halfHigh;
+    };
+
     void makeLens();
     void touchPixel(int at);
     void mark(int left, int top, int right, int bottom);
     bool prepareLoop(const VoxelList& list);
     int showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool loop);
     bool ordinary(const Voxel& voxel) const;
+    bool place(const Voxel& voxel, Placed* at) const;
+    static bool clip(const Placed& at, FineScale* scale);
+    void tilt(const Voxel& voxel, const Placed& at, int32_t* across, int32_t* down) const;
     bool project(const Voxel& voxel, FineScale* scale) const;
 
     Camera camera_;

@@ -686,41 +686,38 @@ bool Editor::load(const char* name, Real spacing, bool undoable)
 
 void Editor::describe(char* to, int size) const
 {
+    int length = 0;
+    const auto add = [&](const char* format, auto... words) {
+        if (length < size)
+            length += snprintf(to + length, static_cast<size_t>(size - length), format, words...);
+    };
+    const auto addNumber = [&](const char* before, const char* word, Real number) {
+        char text[24];
+        formatReal(text, sizeof text, number);
+        add("%s%s %s", before, word, text);
+    };
     const Actor& actor = model_.actor(selected());
+    add("%s:", actor.name);
+    if (actor.kind == nullptr)
+        addNumber(" ", "size", actor.measure[0]);
+    for (int i = 0; actor.kind != nullptr && i < actor.kind->measures; ++i)
+        addNumber(" ", actor.kind->measure[i].word, actor.measure[i]);
+    if (actor.strength != Real(1))
+        addNumber(", ", "strength", actor.strength);
     int links = 0;
     for (const List<Link>::Node* node = actor.object->skel().first(); node != nullptr; node = node->next)
         ++links;
-    int length = snprintf(to, static_cast<size_t>(size), "%s:", actor.name);
-    const int measures = actor.kind == nullptr ? 1 : actor.kind->measures;
-    for (int i = 0; i < measures && length < size; ++i) {
-        char text[24];
-        formatReal(text, sizeof text, actor.measure[i]);
-        length += snprintf(to + length, static_cast<size_t>(size - length), " %s %s",
-                           actor.kind == nullptr ? "size" : actor.kind->measure[i].word, text);
-    }
-    if (actor.strength != Real(1) && length < size) {
-        char text[24];
-        formatReal(text, sizeof text, actor.strength);
-        length += snprintf(to + length, static_cast<size_t>(size - length), ", strength %s", text);
-    }
-    if (length < size)
-        length += snprintf(to + length, static_cast<size_t>(size - length), ", blends with %d", links);
+    add(", blends with %d", links);
     const Actor* carrier = actor.motion.parent == 0 ? nullptr : model_.itemNumbered(actor.motion.parent);
-    if (carrier != nullptr && length < size)
-        length += snprintf(to + length, static_cast<size_t>(size - length), ", in %s", carrier->name);
-    const int other = before();
-    if (other < 0 || length >= size)
+    if (carrier != nullptr)
+        add(", in %s", carrier->name);
+    if (before() < 0)
         return;
-    length += snprintf(to + length, static_cast<size_t>(size - length), "; before it %s", model_.actor(other).name);
+    const Actor& other = model_.actor(before());
+    add("; before it %s", other.name);
     Real weight;
-    if (length < size && Model::linked(actor.object, model_.actor(other).object, &weight)) {
-        char text[24];
-        formatReal(text, sizeof text, weight);
-        length += snprintf(to + length, static_cast<size_t>(size - length), ", weight %s", text);
-    }
-    if (length < size && Model::dented(model_.actor(other).object, actor.object, &weight)) {
-        char text[24];
-        formatReal(text, sizeof text, weight);
-        snprintf(to + length, static_cast<size_t>(size - length), ", dents it by %s", text);
-    }
+    if (Model::linked(actor.object, other.object, &weight))
+        addNumber(", ", "weight", weight);
+    if (Model::dented(other.object, actor.object, &weight))
+        addNumber(", ", "dents it by", weight);
 }

@@ -12,23 +12,13 @@ Bodies::~Bodies()
 void Bodies::release()
 {
     free(weights_);
-    free(plain_);
+    free(bySlot_);
     free(members_);
-    free(first_);
-    free(size_);
     free(diggers_);
-    free(firstDigger_);
-    free(diggerCount_);
-    free(complete_);
     weights_ = nullptr;
-    plain_ = nullptr;
+    bySlot_ = nullptr;
     members_ = nullptr;
-    first_ = nullptr;
-    size_ = nullptr;
     diggers_ = nullptr;
-    firstDigger_ = nullptr;
-    diggerCount_ = nullptr;
-    complete_ = nullptr;
     count_ = 0;
 }
 
@@ -43,20 +33,20 @@ bool Bodies::find(SoftObject* const* objects, int count)
     ++version_;
     for (int i = 0; i < count; ++i) {
         objects[i]->setSlot(i);
-        first_[i] = -1;
+        bySlot_[i].first = -1;
     }
     setWeights(objects);
     int filled = 0, diggers = 0;
     for (int i = 0; i < count; ++i) {
-        if (first_[i] >= 0)
+        if (bySlot_[i].first >= 0)
             continue;
         const int begin = filled, firstDigger = diggers;
         findMembers(objects[i], &filled);
         findDiggers(begin, filled, &diggers);
         const bool complete = diggers == firstDigger && allLinked(begin, filled);
         for (int at = begin; at < filled; ++at) {
-            size_[members_[at]->slot()] = static_cast<int16_t>(filled - begin);
-            complete_[members_[at]->slot()] = complete;
+            bySlot_[members_[at]->slot()].size = static_cast<int16_t>(filled - begin);
+            bySlot_[members_[at]->slot()].complete = complete;
         }
     }
     return true;
@@ -70,16 +60,10 @@ bool Bodies::reserve(SoftObject* const* objects, uint32_t count)
         for (const List<Link>::Node* node = objects[i]->dents().first(); node != nullptr; node = node->next)
             ++dents;
     weights_ = allocate<Real>(count * count);
-    plain_ = allocate<uint32_t>(count * LINK_WORDS);
+    bySlot_ = allocate<Entry>(count);
     members_ = allocate<SoftObject*>(count);
-    first_ = allocate<int16_t>(count);
-    size_ = allocate<int16_t>(count);
     diggers_ = allocate<SoftObject*>(dents + 1);
-    firstDigger_ = allocate<int16_t>(count);
-    diggerCount_ = allocate<int16_t>(count);
-    complete_ = allocate<bool>(count);
-    return weights_ != nullptr && plain_ != nullptr && members_ != nullptr && first_ != nullptr && size_ != nullptr &&
-           diggers_ != nullptr && firstDigger_ != nullptr && diggerCount_ != nullptr && complete_ != nullptr;
+    return weights_ != nullptr && bySlot_ != nullptr && members_ != nullptr && diggers_ != nullptr;
 }
 
 // Objects have their slots.
@@ -89,17 +73,20 @@ void Bodies::setWeights(SoftObject* const* objects)
         weights_[i] = Real(0);
     for (int i = 0; i < count_; ++i) {
         Real* const row = weights_ + i * count_;
-        for (const List<Link>::Node* node = objects[i]->skel().first(); node != nullptr; node = node->next)
+        Entry& entry = bySlot_[i];
+        entry.heaviest = Real(0);
+        memset(entry.plain, 0, sizeof entry.plain);
+        for (const List<Link>::Node* node = objects[i]->skel().first(); node != nullptr; node = node->next) {
             row[node->item.object->slot()] = node->item.weight;
+            entry.heaviest = most(entry.heaviest, node->item.weight);
+        }
         for (const List<Link>::Node* node = objects[i]->dents().first(); node != nullptr; node = node->next)
             row[node->item.object->slot()] -= node->item.weight;
     }
-    for (int i = 0; i < count_ * LINK_WORDS; ++i)
-        plain_[i] = 0;
     for (int i = 0; i < count_; ++i)
         for (int j = 0; j < count_; ++j)
             if (weight(i, j) == Real(1))
-                plain_[i * LINK_WORDS + j / 32] |= 1u << j % 32;
+                bySlot_[i].plain[j / 32] |= 1u << j % 32;
 }
 
 // Adds an object and all that links join with it, breadth first.
@@ -107,13 +94,13 @@ void Bodies::findMembers(SoftObject* object, int* filled)
 {
     const int begin = *filled;
     members_[(*filled)++] = object;
-    first_[object->slot()] = static_cast<int16_t>(begin);
+    bySlot_[object->slot()].first = static_cast<int16_t>(begin);
     for (int at = begin; at < *filled; ++at) {
         for (const List<Link>::Node* node = members_[at]->skel().first(); node != nullptr; node = node->next) {
             SoftObject* other = node->item.object;
-            if (first_[other->slot()] >= 0 || node->item.weight == Real(0))
+            if (bySlot_[other->slot()].first >= 0 || node->item.weight == Real(0))
                 continue;
-            first_[other->slot()] = static_cast<int16_t>(begin);
+            bySlot_[other->slot()].first = static_cast<int16_t>(begin);
             members_[(*filled)++] = other;
         }
     }
@@ -136,15 +123,15 @@ void Bodies::findDiggers(int begin, int end, int* filled)
         for (int i = first; i < *filled; ++i)
             if (diggers_[i] == object)
                 return true;
-        return first_[object->slot()] == begin;
+        return bySlot_[object->slot()].first == begin;
     };
     for (int at = begin; at < end && members_[begin]->hasSurface(); ++at)
         for (const List<Link>::Node* node = members_[at]->dents().first(); node != nullptr; node = node->next)
             if (node->item.weight != Real(0) && !known(node->item.object))
                 diggers_[(*filled)++] = node->item.object;
     for (int at = begin; at < end; ++at) {
-        firstDigger_[members_[at]->slot()] = static_cast<int16_t>(first);
-        diggerCount_[members_[at]->slot()] = static_cast<int16_t>(*filled - first);
+        bySlot_[members_[at]->slot()].firstDigger = static_cast<int16_t>(first);
+        bySlot_[members_[at]->slot()].diggerCount = static_cast<int16_t>(*filled - first);
     }
 }
 
@@ -153,10 +140,11 @@ void Bodies::spreadRecalc() const
     for (int at = 0; at < count_; ++at) {
         const SoftObject& moved = *members_[at];
         const int slot = moved.slot();
+        const Entry& entry = bySlot_[slot];
         spreadByDiggers(*members_[at]);
-        if (complete_[slot] || !moved.recalc())
+        if (entry.complete || !moved.recalc())
             continue;
-        for (int i = first_[slot]; i < first_[slot] + size_[slot]; ++i) {
+        for (int i = entry.first; i < entry.first + entry.size; ++i) {
             SoftObject& other = *members_[i];
             const bool known = weight(slot, other.slot()) != Real(0) && weight(other.slot(), slot) != Real(0);
             if (!other.recalc() && !known && moved.inRange(other))
@@ -168,8 +156,8 @@ void Bodies::spreadRecalc() const
 // A member of a body hears from those that dig into the body, or they from it.
 void Bodies::spreadByDiggers(SoftObject& member) const
 {
-    SoftObject* const* const from = diggers_ + firstDigger_[member.slot()];
-    SoftObject* const* const end = from + diggerCount_[member.slot()];
+    SoftObject* const* const from = diggers(member);
+    SoftObject* const* const end = from + diggerCount(member);
     for (SoftObject* const* digger = from; digger < end && !member.recalc(); ++digger)
         if ((*digger)->recalc() && (*digger)->inRange(member))
             member.setRecalc();
@@ -182,21 +170,21 @@ void Bodies::spreadByDiggers(SoftObject& member) const
 
 SoftObject* const* Bodies::members(const SoftObject& object) const
 {
-    return members_ + first_[object.slot()];
+    return members_ + bySlot_[object.slot()].first;
 }
 
 int Bodies::memberCount(const SoftObject& object) const
 {
-    return size_[object.slot()];
+    return bySlot_[object.slot()].size;
 }
 
 SoftObject* const* Bodies::diggers(const SoftObject& object) const
 {
-    return diggers_ + firstDigger_[object.slot()];
+    return diggers_ + bySlot_[object.slot()].firstDigger;
 }
 
 int Bodies::diggerCount(const SoftObject& object) const
 {
-    return diggerCount_[object.slot()];
+    return bySlot_[object.slot()].diggerCount;
 }
 

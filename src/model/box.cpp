@@ -108,6 +108,20 @@ private:
         }
     }
 
+    // The number of the root at a place, which the seed that follows gets: that of the seed before, or a new one. With the first
+    // seed the ring begins.
+    int rootFor(const Vector& place)
+    {
+        if (!begun_)
+            maker_.beginRing();
+        begun_ = true;
+        if (rootIndex_ < 0 || !(place == root_)) {
+            root_ = place;
+            rootIndex_ = maker_.addRoot(place);
+        }
+        return rootIndex_;
+    }
+
     // The seed `at` units along a side, with half the way to the next.
     void add(int side, Real at, Real half, bool corner)
     {
@@ -136,18 +150,11 @@ private:
             return;
         }
         const Vector root = onSide(side, {out, loop_.height, along});
-        if (!begun_)
-            maker_.beginRing();
-        begun_ = true;
-        if (rootIndex_ < 0 || !(root == root_)) {
-            root_ = root;
-            rootIndex_ = maker_.addRoot(root);
-        }
         const bool sharp = corner && arc_ < loop_.spacing;
         const Real wide = sharp ? half * CORNER_PART : half;
         const Real high = sharp ? loop_.across * CORNER_PART : loop_.across;
         const Real inward = -(high * loop_.pathSine);
-        maker_.addSeed(rootIndex_, onSide(side, {loop_.pathCosine * c, loop_.pathSine, loop_.pathCosine * s}),
+        maker_.addSeed(rootFor(root), onSide(side, {loop_.pathCosine * c, loop_.pathSine, loop_.pathCosine * s}),
                        onSide(side, {wide * s, Real(0), -(wide * c)}),
                        onSide(side, {inward * c, high * loop_.pathCosine, inward * s}));
     }
@@ -169,15 +176,8 @@ private:
                 return;
             across = {shiftUp(across.x, level), shiftUp(across.y, level), shiftUp(across.z, level)};
         }
-        if (!begun_)
-            maker_.beginRing();
-        begun_ = true;
-        if (rootIndex_ < 0 || !(root == root_)) {
-            root_ = root;
-            rootIndex_ = maker_.addRoot(root);
-        }
         const Real along = half / length({round.x * stretch_.x, Real(0), round.z * stretch_.z});
-        maker_.addSeed(rootIndex_, {out.x * loop_.pathCosine, loop_.pathSine, out.z * loop_.pathCosine}, round * along, across);
+        maker_.addSeed(rootFor(root), {out.x * loop_.pathCosine, loop_.pathSine, out.z * loop_.pathCosine}, round * along, across);
     }
 
     // Sine and cosine of an angle that is `length` units of a round corner beside a side.

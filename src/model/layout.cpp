@@ -29,6 +29,12 @@ void setAxis(int8_t* to, const Vector& half, Real inverse)
         to[i] = toCell(floorToInt(parts[i] * inverse + Real(0.5)));
 }
 
+// Such an axis, as it stands in a seed.
+Vector vectorOf(const int8_t steps[3])
+{
+    return {Real(static_cast<int>(steps[0])), Real(static_cast<int>(steps[1])), Real(static_cast<int>(steps[2]))};
+}
+
 // Which way the path leads.
 void setWay(Seed& s)
 {
@@ -229,10 +235,7 @@ int SoftObject::Layout::nearestBefore(int ring, int seed, int successor, bool cl
 // Makes the parts of the surface of a seed and of its neighbour meet, where rings between them leave out seeds.
 void SoftObject::Layout::closeGap(Seed& s, Seed& n) const
 {
-    const auto halfAxis = [](const Seed& of) {
-        return Vector{Real(static_cast<int>(of.across[0])), Real(static_cast<int>(of.across[1])), Real(static_cast<int>(of.across[2]))};
-    };
-    const Vector a = halfAxis(s), b = halfAxis(n), apart = (rest(n) - rest(s)) * (Real(64) / spacing);
+    const Vector a = vectorOf(s.across), b = vectorOf(n.across), apart = (rest(n) - rest(s)) * (Real(64) / spacing);
     const Real half = length(a), both = half + length(b);
     if (half < Real(1))
         return;
@@ -267,40 +270,48 @@ bool SoftObject::layOutRegular(Layout& layout) const
     return !stopAsked();
 }
 
-// False: it was stopped. For each regular seed S "the seed N on ring K-1 that is closest to S's successor" (Appendix C, Figure 9); and for each ring
-// which roots its oversampled seeds may have.
+// Whether seeds of a ring have different roots.
+bool SoftObject::Layout::rootsDiffer(int ring) const
+{
+    for (int i = ringStarts[ring] + 1; i < ringStarts[ring + 1]; ++i)
+        if (seeds[i].root != seeds[i - 1].root)
+            return true;
+    return false;
+}
+
+// Finds for each regular seed S of ring K "the seed N on ring K-1 that is closest to S's successor" (Appendix C, Figure 9).
+void SoftObject::findNeighbours(Layout& layout, int ring) const
+{
+    const int ringBefore = (ring > 0 ? ring : layout.rings) - 1;
+    const int start = layout.ringStarts[ring], end = layout.ringStarts[ring + 1];
+    const int inBefore = layout.ringStarts[ringBefore + 1] - layout.ringStarts[ringBefore];
+    for (int i = start; i < end; ++i) {
+        Seed& s = layout.seeds[i];
+        const int successor = i + 1 == end ? start : i + 1;
+        const int about = static_cast<int>(static_cast<uint32_t>(successor - start) * static_cast<uint32_t>(inBefore) /
+                                           static_cast<uint32_t>(end - start));
+        const int n = stretched_ ? layout.nearestBefore(ring, i, successor, ringsClose())
+                                 : layout.nearestIn(ringBefore, about, layout.rest(layout.seeds[successor]));
+        s.neighbour = n < 0 ? -1 : 2 * n;
+        if (stretched_ && n >= 0)
+            layout.closeGap(s, layout.seeds[n]);
+    }
+}
+
+// Finds the neighbours of all seeds, and for each ring which roots its oversampled seeds may have. False: it was stopped.
 bool SoftObject::findNeighbours(Layout& layout) const
 {
     const int firstRing = ringsClose() ? 0 : 1;
-    const auto various = [&](int k) {
-        for (int i = layout.ringStarts[k] + 1; i < layout.ringStarts[k + 1]; ++i)
-            if (layout.seeds[i].root != layout.seeds[i - 1].root)
-                return true;
-        return false;
-    };
-    bool variousBefore = layout.rings > 0 && various(layout.rings - 1);
+    bool differBefore = layout.rings > 0 && layout.rootsDiffer(layout.rings - 1);
     for (int k = 0; k < layout.rings; ++k) {
-        const int ringBefore = (k > 0 ? k : layout.rings) - 1;
-        const int start = layout.ringStarts[k], end = layout.ringStarts[k + 1], inRing = end - start;
-        const int inBefore = layout.ringStarts[ringBefore + 1] - layout.ringStarts[ringBefore];
-        const bool variousHere = various(k);
-        layout.rootsBetween[k + 1] = layout.rootsBetween[k] + (manyRoots() || variousHere || variousBefore ? inRing : 1);
-        variousBefore = variousHere;
+        const bool differ = layout.rootsDiffer(k);
+        const bool many = manyRoots() || differ || differBefore;
+        layout.rootsBetween[k + 1] = layout.rootsBetween[k] + (many ? layout.ringStarts[k + 1] - layout.ringStarts[k] : 1);
+        differBefore = differ;
         if (stopAsked())
             return false;
-        if (k < firstRing)
-            continue;
-        for (int i = start; i < end; ++i) {
-            Seed& s = layout.seeds[i];
-            const int successor = i + 1 == end ? start : i + 1;
-            const int about = static_cast<int>(static_cast<uint32_t>(successor - start) * static_cast<uint32_t>(inBefore) /
-                                               static_cast<uint32_t>(inRing));
-            const int n = stretched_ ? layout.nearestBefore(k, i, successor, ringsClose())
-                                     : layout.nearestIn(ringBefore, about, layout.rest(layout.seeds[successor]));
-            s.neighbour = n < 0 ? -1 : 2 * n;
-            if (stretched_ && n >= 0)
-                layout.closeGap(s, layout.seeds[n]);
-        }
+        if (k >= firstRing)
+            findNeighbours(layout, k);
     }
     return true;
 }
@@ -485,7 +496,7 @@ Seed* SoftObject::madeFine(int i)
 
 void SoftObject::layOutFine(int i, int which)
 {
-    const Seed &middle = seed(i + 1), &end = which == 0 ? regular(i) : regular(middle.neighbour);
+    const Seed &middle = seed(i + 1), &end = which == FINE_NEAR ? regular(i) : regular(middle.neighbour);
     Seed& s = fine(i)[which];
     s = middle;
     s.path = withLength(middle.path + end.path, length(middle.path));
@@ -527,15 +538,15 @@ Direction14 SoftObject::warpSeed(const Seed& plain, const Vector& plainRoot, See
     const Real part(1.0 / 16384);
     to.path = warp_.out((plainRoot + plain.path) * (Real(CORE_SIZE) / laid_.size), way) * shiftDown(laid_.size, 4) - root(to.root);
     const auto cell = [&](const int8_t from[3], int8_t into[3]) {
-        setAxis(into, warp_.stepOut(way, {Real(static_cast<int>(from[0])), Real(static_cast<int>(from[1])), Real(static_cast<int>(from[2]))}),
-                Real(1));
+        setAxis(into, warp_.stepOut(way, vectorOf(from)), Real(1));
     };
     cell(plain.along, to.along);
     cell(plain.across, to.across);
     setWay(to);
     const Direction14& square = plain.normal;
-    const Direction14 normal = direction(warp_.slopeOut(way, {part * Real(static_cast<int>(square.x)), part * Real(static_cast<int>(square.y)),
-                                               part * Real(static_cast<int>(square.z))}));
+    const Vector slope{part * Real(static_cast<int>(square.x)), part * Real(static_cast<int>(square.y)),
+                       part * Real(static_cast<int>(square.z))};
+    const Direction14 normal = direction(warp_.slopeOut(way, slope));
     setArea(to, normal);
     if (to.flags & SEED_RESTING)
         to.normal = normal;

@@ -254,9 +254,14 @@ void SoftObject::tellNeighbours()
 
 bool SoftObject::inRange(const SoftObject& other, Real slack) const
 {
-    // Seeds that others pull out lie as far as the field does. Squares are compared: every pair of a model comes by here.
-    const int64_t reach = rawFromReal(this->reach() + other.reach() + slack);
-    return squaredDistance(centre_, other.centre_) < reach * reach;
+    // Seeds that others pull out lie as far as the field does. Every pair of a model comes by here: most are told apart along one
+    // axis, and of the others squares are compared.
+    const Real reach = reach_ + other.reach_ + slack;
+    const Vector apart = centre_ - other.centre_;
+    if (absolute(apart.x) >= reach || absolute(apart.y) >= reach || absolute(apart.z) >= reach)
+        return false;
+    const int64_t square = rawFromReal(reach);
+    return squaredDistance(centre_, other.centre_) < square * square;
 }
 
 bool SoftObject::link(SoftObject* other, Real weight)

@@ -139,8 +139,8 @@ bool View::hides(const int32_t place[3], int32_t radius) const
     return true;
 }
 
-// A voxel that drawScales() left: any size and place. False: not on the screen.
-bool View::project(const Voxel& voxel, FineScale* scale) const
+// Where the rectangle of a voxel falls on the screen. False: nowhere near it.
+bool View::place(const Voxel& voxel, Placed* at) const
 {
     const int32_t x = wrappedSum(lens_.x, voxel.x), y = wrappedSum(lens_.y, voxel.y), z = wrappedSum(lens_.z, voxel.z);
     if (z < NEAREST || z > FARTHEST)
@@ -149,60 +149,76 @@ bool View::project(const Voxel& voxel, FineScale* scale) const
     const int32_t side = z * 16;
     if (x > side || x < -side || y > side || y < -side)
         return false;
-    int32_t halfWide = HALF - 1, halfHigh = HALF - 1;
+    *at = {z, mulDiv(x, focalX_, z) + centreX_, centreY_ - mulDiv(y, focalY_, z), HALF - 1, HALF - 1};
     if (!pixels_) {
-        halfWide = mulDiv(voxel.wide, focalX_, z);
-        halfHigh = mulDiv(voxel.high, focalY_, z);
+        at->halfWide = mulDiv(voxel.wide, focalX_, z);
+        at->halfHigh = mulDiv(voxel.high, focalY_, z);
     }
-    const int32_t column = mulDiv(x, focalX_, z) + centreX_;
-    const int32_t row = centreY_ - mulDiv(y, focalY_, z);
-    // The pixels whose centres lie in the rectangle.
-    int left = (column - halfWide + HALF) >> FRACTION;
-    int right = (column + halfWide + HALF) >> FRACTION;
-    int top = (row - halfHigh + HALF) >> FRACTION;
-    int bottom = (row + halfHigh + HALF) >> FRACTION;
+    return true;
+}
+
+// The pixels of the screen whose centres lie in the rectangle. False: there are none.
+bool View::clip(const Placed& at, FineScale* scale)
+{
+    int left = (at.column - at.halfWide + HALF) >> FRACTION;
+    int right = (at.column + at.halfWide + HALF) >> FRACTION;
+    int top = (at.row - at.halfHigh + HALF) >> FRACTION;
+    int bottom = (at.row + at.halfHigh + HALF) >> FRACTION;
     left = left < 0 ? 0 : left;
     right = right > WIDTH ? WIDTH : right;
     top = top < 0 ? 0 : top;
     bottom = bottom > HEIGHT ? HEIGHT : bottom;
-    if (left >= right || top >= bottom)
-        return false;
-    const int wide = right - left;
     scale->left = static_cast<int16_t>(left);
     scale->top = static_cast<int16_t>(top);
-    scale->wide = static_cast<int16_t>(wide);
+    scale->wide = static_cast<int16_t>(right - left);
     scale->high = static_cast<int16_t>(bottom - top);
-    scale->colour = lens_.ramp[voxel.brightness];
+    return left < right && top < bottom;
+}
 
-    // The plane of the surface: the depth changes by tilt (z / focal) from pixel to pixel.
-    const int32_t depth = z >> 1;
-    int32_t across = mulDiv(voxel.tiltX, z << 3, focalX_), down = -mulDiv(voxel.tiltY, z << 3, focalY_);
-    across = across > STEEPEST ? STEEPEST : across < -STEEPEST ? -STEEPEST : across;
-    down = down > STEEPEST ? STEEPEST : down < -STEEPEST ? -STEEPEST : down;
-    // From the scale's centre to the centre of its first pixel.
-    const int64_t toColumn = (left << FRACTION) + HALF - column, toRow = (top << FRACTION) + HALF - row;
-    int32_t first = depth + static_cast<int32_t>((across * toColumn + down * toRow) >> FRACTION);
-    // Might it leave 16 bits at a corner? Then it faces the viewer.
-    const int32_t columns = (halfWide >> FRACTION) + 2, rows = (halfHigh >> FRACTION) + 2;
-    const int32_t swing = (across < 0 ? -across : across) * (columns < WIDTH ? columns : WIDTH) +
-                          (down < 0 ? -down : down) * (rows < HEIGHT ? rows : HEIGHT);
-    if (depth - swing < 0 || depth + swing >= Z_EMPTY) {
-        across = down = 0;
-        first = depth;
-    }
-    scale->z = first;
+// The plane of the surface: by how much the depth changes from column to column and from row to row, tilt (z / focal).
+void View::tilt(const Voxel& voxel, const Placed& at, int32_t* across, int32_t* down) const
+{
+    const auto limited = [](int32_t step) { return step > STEEPEST ? STEEPEST : step < -STEEPEST ? -STEEPEST : step; };
+    const auto swing = [](int32_t step, int32_t half, int32_t screen) {
+        const int32_t pixels = (half >> FRACTION) + 2;
+        return (step < 0 ? -step : step) * (pixels < screen ? pixels : screen);
+    };
+    *across = limited(mulDiv(voxel.tiltX, at.z << 3, focalX_));
+    *down = limited(-mulDiv(voxel.tiltY, at.z << 3, focalY_));
+    // Might the depth leave 16 bits at a corner? Then the scale faces the viewer.
+    const int32_t depth = at.z >> 1, most = swing(*across, at.halfWide, WIDTH) + swing(*down, at.halfHigh, HEIGHT);
+    if (depth - most < 0 || depth + most >= Z_EMPTY)
+        *across = *down = 0;
+}
+
+// A voxel that drawScales() left: any size and place. False: not on the screen.
+bool View::project(const Voxel& voxel, FineScale* scale) const
+{
+    Placed at;
+    if (!place(voxel, &at) || !clip(at, scale))
+        return false;
+    // Depth, brightness and cut change evenly. From what one is in the scale's centre to what it is in that of the first pixel:
+    const int64_t toColumn = (scale->left << FRACTION) + HALF - at.column, toRow = (scale->top << FRACTION) + HALF - at.row;
+    const auto first = [&](int32_t centre, int32_t across, int32_t down) {
+        return centre + static_cast<int32_t>((across * toColumn + down * toRow) >> FRACTION);
+    };
+    const int32_t depth = at.z >> 1, wide = scale->wide;
+    int32_t across, down;
+    tilt(voxel, at, &across, &down);
+    scale->z = first(depth, across, down);
     scale->zStep = across;
     scale->zRow = down - across * wide;
-
     scale->zMost = endOf(voxel, depth);
-    const int32_t pixelX = mulDiv(z, 1 << 19, focalX_), pixelY = mulDiv(z, 1 << 19, focalY_);
+
+    const int32_t pixelX = mulDiv(at.z, 1 << 19, focalX_), pixelY = mulDiv(at.z, 1 << 19, focalY_);
     const int32_t shadeAcross = shadeStep(voxel.slopeX, pixelX), shadeDown = -shadeStep(voxel.slopeY, pixelY);
+    scale->colour = lens_.ramp[voxel.brightness];
     scale->ramp = lens_.ramp;
-    scale->shade = voxel.brightness * 256 + 128 + static_cast<int32_t>((shadeAcross * toColumn + shadeDown * toRow) >> FRACTION);
+    scale->shade = first(voxel.brightness * 256 + 128, shadeAcross, shadeDown);
     scale->shadeStep = shadeAcross;
     scale->shadeRow = shadeDown - shadeAcross * wide;
     const int32_t cutAcross = shadeStep(voxel.cutX, pixelX), cutDown = -shadeStep(voxel.cutY, pixelY);
-    scale->cut = isCut(voxel) ? voxel.cutAt * 32 + static_cast<int32_t>((cutAcross * toColumn + cutDown * toRow) >> FRACTION) : 0;
+    scale->cut = isCut(voxel) ? first(voxel.cutAt * 32, cutAcross, cutDown) : 0;
     scale->cutStep = cutAcross;
     scale->cutRow = cutDown - cutAcross * wide;
     return true;

@@ -50,8 +50,8 @@ void findName()
     name[length] = '\0';
 }
 
-// Cuts the command line into arguments, in place: blanks and tabs separate, double quotes keep them together.
-int splitTail()
+// Fetches the command line behind the program's name.
+void readTail()
 {
     const int length = peek(stubInfo.pspSelector, PSP_TAIL);
     int used = 0;
@@ -62,7 +62,11 @@ int splitTail()
         tail[used++] = c;
     }
     tail[used] = '\0';
+}
 
+// Cuts it into arguments, in place: blanks and tabs separate, double quotes keep them together.
+int splitTail()
+{
     int count = 1;
     const char* from = tail;
     char* to = tail;
@@ -104,6 +108,7 @@ extern Constructor __init_array_end[];
     for (Constructor* constructor = __init_array_start; constructor != __init_array_end; ++constructor)
         (*constructor)();
     findName();
+    readTail();
     const int count = splitTail();
     arguments[0] = name;
     exit(main(count, arguments));

@@ -19,7 +19,7 @@ public:
     bool hides(const Seed& s) { return limits_ != nullptr && hidesPath(s); }
     bool hidesAll(const Patch& patch) const;
 
-    // Of those that see the path at hand, the slot of the one whose field is the strongest where it was looked at last.
+    // The slot of the neighbour whose field is the strongest where the path at hand was looked at last.
     int strongest() const;
 
 private:

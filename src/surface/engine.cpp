@@ -34,6 +34,7 @@ public:
     void draw(const FrameContext& frame, VoxelList& list, int room, int* next) override;
 
 private:
+    bool updatePatch(Settler& settler, Patch& patch, const OwnFrame& own, const Neighbourhood& all, bool known);
     bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all, bool known);
     void renewLists(Patch& patch, const Neighbourhood& all);
     bool isAtRest(Settler& settler, Patch& patch, const Neighbourhood& all);
@@ -53,7 +54,7 @@ void Engine::reshape()
 {
     const auto forget = [](Seed& s) {
         if ((s.flags & (SEED_VALID | SEED_RESTING)) == SEED_VALID)
-            s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_COVERED);
+            s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_FOLLOW);
         s.flags &= static_cast<uint8_t>(~SEED_OFF);
     };
     for (int i = 0; i < object_.seedSlots(); i += 2) {
@@ -80,28 +81,32 @@ bool Engine::update(const FrameContext& frame)
         patch->settled = false;
         if ((patch - patches_) % ASKED_EVERY == ASKED_EVERY - 1 && stopAsked())
             return true;
-        if (keeps(settler, *patch, all, known)) {
-            displaced = true;
-            continue;
-        }
-        if (!known || patch->stale || isDue(odometer_.bound(), patch->listDue))
-            renewLists(*patch, all);
-        if (!settler.setPatch(*patch) && all.rests && isAtRest(settler, *patch, all))
-            continue;
-        displaced = true;
-        if (outOfSight(*patch, own)) {
-            sleep(object_, *patch);
-            patch->state = PATCH_AWAY;
-            patch->due = odometer_.reading();
-        } else if (!known || patch->state == PATCH_REST || isDue(odometer_.reading(), patch->due)) {
-            settle(settler, *patch);
-        }
+        displaced |= updatePatch(settler, *patch, own, all, known);
     }
     for (Patch* patch = patches_; patch < end; ++patch)
         if (patch->settled)
             settler.oversample(*patch);
     object_.setDisplaced(displaced);
     return settler.hidden();
+}
+
+// Brings a patch up to date. False: all its seeds are where they rest.
+inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& own, const Neighbourhood& all, bool known)
+{
+    if (keeps(settler, patch, all, known))
+        return true;
+    if (!known || patch.stale || isDue(odometer_.bound(), patch.listDue))
+        renewLists(patch, all);
+    if (!settler.setPatch(patch) && all.rests && isAtRest(settler, patch, all))
+        return false;
+    if (outOfSight(patch, own)) {
+        sleep(object_, patch);
+        patch.state = PATCH_AWAY;
+        patch.due = odometer_.reading();
+    } else if (!known || patch.state == PATCH_REST || isDue(odometer_.reading(), patch.due)) {
+        settle(settler, patch);
+    }
+    return true;
 }
 
 // Whether a patch keeps its state, whoever reaches it now: it is not due, or still lies inside one neighbour.
@@ -143,7 +148,7 @@ inline void Engine::settle(Settler& settler, Patch& patch)
     patch.state = settler.probe(patch);
     patch.settled = patch.state == PATCH_MIXED;
     if (patch.settled) {
-        settler.settleRest(patch);
+        settler.settleOthers(patch);
         patch.bend.stale = true;
     } else {
         sleep(object_, patch);

@@ -13,7 +13,7 @@ struct FromRoot {
     Vector along16;  // and its direction, 16 times
     int root;        // index of the root; -1: none yet
     Vector apart;    // from the centre to the root, units; neither point nor segment: the root in core space
-    Real reachT;     // t in the middle of a path, beyond which no place on it is reached
+    Real reachT;     // t at Path::middle() from which on no place of a path is reached
 };
 
 // A neighbour's field along the path at hand. Its t (model/field.h) is a + p (b + p c), less k (2 y - k) for a segment.

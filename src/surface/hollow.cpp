@@ -1,5 +1,6 @@
-// What only dents and hollows need: who samples the wall, and how long a seed waits that is not on it, or not in its own part
-// of it.
+// What only dents and hollows need. Where something digs into an object the surface has a hollow, and two sets of seeds sample its
+// wall: those of the object and those of what digs. Here stands who samples which part of the wall, and how long a seed waits that
+// is not on the wall, or not in its own part of it.
 #include "border.h"
 #include "settle.h"
 
@@ -9,22 +10,22 @@ namespace {
 constexpr Real SHARED(1.5);
 // Units: by how much more than others the two sides of that border overlap, which is found to first order.
 constexpr Real OVERLAP(0.18);
-// How far the border of two parts of a hollow's wall goes at most when what digs comes by a unit.
+// How far the border of two parts of a hollow's wall moves at most when what digs moves by a unit.
 constexpr Real BORDER_SPEED(16);
-// The position where what closes again over a hollow is found.
+// The position that tells whether the surface has closed again over a hollow.
 constexpr Real CLOSING(0.95);
 
 // ---- Who samples the wall
 
-// The one that a seed shares the wall with; null: there is none. What leads from its core to the seed, and how steep its field is
-// there, times half the squared size of the seed's object.
+// The one that a seed shares the wall with.
 struct Rival {
-    const Along* along;
-    Vector from;
-    Real steepest;
+    const Along* along;  // null: there is none
+    Vector from;         // what leads from its core to the seed
+    Real steepest;       // how steep its field is there, times half the squared size of the seed's object
 };
 
-// The steepest of those that dig; in a hollow what is dented is one of them.
+// The rival of a seed is what digs the most steeply where the seed is. To a seed of what digs, the object that is dented is one,
+// too.
 Rival rivalOf(const Path& path, Real position)
 {
     const Neighbourhood& all = path.all();
@@ -42,16 +43,19 @@ Rival rivalOf(const Path& path, Real position)
     return rival;
 }
 
-// What all other fields make of the lead that the seed's object, whose paths lead `out` and whose field is `own` steep, has on the
-// rival; all together push along `g`. With a and b as unit vectors along the paths, (g.a + g.b) / (1 + a.b) is the lead.
+// The lead of a seed's object over its rival is by how much more steeply its field falls. Without other fields that is the
+// difference of the two; returned is what the others add to it. `g` is the way in which all fields fall together, `out` that of the
+// seed's path, `own` how steep the own field is. With a and b as unit vectors along `out` and along the rival's path, the lead is
+// (g.a + g.b) / (1 + a.b).
 SELDOM Real leadOf(const Vector& g, const Vector& out, Real own, const Rival& rival)
 {
     const Vector a = unit(out), b = unit(rival.from);
-    const Vector rest = g - a * own + b * rival.steepest;
-    return dot(rest, a + b) / most(Real(1) + dot(a, b), Real(0.05));
+    const Vector others = g - a * own + b * rival.steepest;
+    return dot(others, a + b) / most(Real(1) + dot(a, b), Real(0.05));
 }
 
-// What the steepness of a digging field changes by over a unit away from its core: F'' is 34/9 - 24/9 t.
+// By how much the steepness of a digging field changes from a place to one that is a unit farther from its core: F'' is
+// 34/9 - 24/9 t.
 Real changeOf(Real slope, Real t, Real strength, Real factor)
 {
     return (slope - strength * t * (Real(68.0 / 9) - t * Real(48.0 / 9))) * factor;
@@ -102,7 +106,7 @@ bool Settler::findDented(Seed& s, Vector* g)
 {
     const Real shared = object_.spacing() * SHARED, apart = findShare(path_, s, shared, g);
     if (apart < -shared) {
-        s.flags |= SEED_COVERED;
+        s.flags |= SEED_FOLLOW;
         putOff(s, -apart - shared, BORDER_SPEED);
         return false;
     }
@@ -121,7 +125,8 @@ bool Settler::hasClosed(const Seed& s)
 
 // ---- What is off the surface waits
 
-// For how long at most; the fields of those that do not reach the path yet begin gently.
+// How far neighbours may move at most before a seed is looked at again. It is farther if all of them reach the path already: the
+// fields of those that do not begin gently.
 Real Settler::longestOff() const
 {
     return path_.touched() == all_.count ? LONGEST_WAIT : LIST_SLACK;
@@ -140,7 +145,7 @@ bool Settler::isOff(const Seed& s) const
     return (s.flags & SEED_OFF) && came_ < LONGEST_WAIT && static_cast<int16_t>(static_cast<uint16_t>(now_) - s.due) < 0;
 }
 
-// For how long that is so of all seeds of a patch.
+// How far neighbours may move while all seeds of a patch wait so.
 Way Settler::offFor(const Patch& patch) const
 {
     Way way = wayOf(LONGEST_WAIT);
@@ -156,7 +161,7 @@ Way Settler::offFor(const Patch& patch) const
 // at one position of all its paths, unless it is warped; they are no farther from each other there than twice where they rest.
 PatchState Settler::probeOff(Patch& patch, const Seed& s) const
 {
-    if ((s.flags & SEED_COVERED) || object_.warped())
+    if ((s.flags & SEED_FOLLOW) || object_.warped())
         return PATCH_MIXED;
     const Real push = path_.pushMost(), hold = off_ - push * realFromRaw(patch.radius << 13);
     if (hold <= Real(0))

@@ -61,29 +61,43 @@ Way Odometer::wayBetween(const Neighbour& near, const Stand& now, const Stand& b
     return wayOf(way);
 }
 
+// Room for the stands of so many neighbours. What stood there is lost. False: no memory.
+bool Odometer::makeRoom(int count)
+{
+    free(stands_);
+    stands_ = allocate<Stand>(static_cast<uint32_t>(count + 4));
+    room_ = stands_ == nullptr ? 0 : count + 4;
+    return stands_ != nullptr;
+}
+
+inline Odometer::Stand Odometer::standOf(const SoftObject& object, const Neighbour& near)
+{
+    const bool shaped = near.object->shaped();
+    const Real unit = shaped ? Real(1) : near.size * Real(1.0 / CORE_SIZE);
+    return {shaped ? near.offset : near.centre, {near.toCore[0] * unit, near.toCore[1] * unit, near.toCore[2] * unit},
+            near.size, near.object->warp().amounts(), object.inRange(*near.object)};
+}
+
+// How far the viewer has come. A quarter of the size is about how far a neighbour has to come to turn the surface as the viewer's
+// way does.
+inline Way Odometer::wayOfEye(const SoftObject& object, const OwnFrame& own)
+{
+    const Real away = most(nearLength(own.eye), Real(1));
+    const Real turned = least(about(own.eye - eye_), away) / away;
+    eye_ = own.eye;
+    return wayOf(turned * shiftDown(object.laidSize(), 2));
+}
+
 bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion)
 {
-    bool holds = !fresh_ && linksVersion == linksVersion_;
+    bool holds = !fresh_ && linksVersion == linksVersion_ && all.count <= room_;
     linksVersion_ = linksVersion;
-    if (all.count > room_) {
-        free(stands_);
-        room_ = all.count + 4;
-        stands_ = allocate<Stand>(static_cast<uint32_t>(room_));
-        holds = false;
-        if (stands_ == nullptr) {
-            room_ = 0;
-            fresh_ = true;
-            came_ = EVERYWHERE;
-            return false;
-        }
+    fresh_ = all.count > room_ && !makeRoom(all.count);
+    if (fresh_) {
+        came_ = EVERYWHERE;
+        return false;
     }
-    fresh_ = false;
-    // A quarter of the size is about how far a neighbour has to come to turn the surface as the viewer's way does.
-    const Real eyeAway = most(nearLength(own.eye), Real(1));
-    const Real turned = least(about(own.eye - eye_), eyeAway) / eyeAway;
-    eye_ = own.eye;
-    const Way eyeWay = wayOf(turned * shiftDown(object.laidSize(), 2));
-
+    const Way eyeWay = wayOfEye(object, own);
     const Real reach = object.reach();
     Stand stands[NEIGHBOURS_MAX];
     int8_t standBySlot[SLOTS_MAX];
@@ -95,11 +109,7 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
         const Neighbour& near = all.neighbours[i];
         const int slot = near.object->slot(), before = standBySlot_[slot];
         standBySlot[slot] = static_cast<int8_t>(i);
-        const bool shaped = near.object->shaped();
-        const Real unit = shaped ? Real(1) : near.size * Real(1.0 / CORE_SIZE);
-        stands[i] = {shaped ? near.offset : near.centre, {near.toCore[0] * unit, near.toCore[1] * unit, near.toCore[2] * unit},
-                     near.size, near.object->warp().amounts(), false};
-        stands[i].inRange = object.inRange(*near.object);
+        stands[i] = standOf(object, near);
         within += stands[i].inRange;
         if (!holds)
             continue;
@@ -109,6 +119,7 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
             continue;
         }
         stayed += stands_[before].inRange;
+        const bool shaped = near.object->shaped();
         const Way way = shaped ? wayBetween(near, stands[i], stands_[before], reach) : wayOfCore(near, stands[i], stands_[before]);
         farthest = way > farthest ? way : farthest;
         // What is shaped comes farther in some places than in most.

@@ -36,7 +36,8 @@ public:
     Way reading() const { return reading_; }
     // The same for the farthest places of neighbours that the object could meet.
     Way bound() const { return bound_; }
-    // How far they came since the call before, where the object has its centre.
+    // How far they came since the call before: what is neither stretched nor warped, as far as the farthest place of its core;
+    // what is, as far as it came where the object has its centre, and half as far as its farthest place at least.
     Way came() const { return came_; }
 
 private:
@@ -47,6 +48,9 @@ private:
         WarpAmounts warp;
         bool inRange;
     };
+    bool makeRoom(int count);
+    static Stand standOf(const SoftObject& object, const Neighbour& near);
+    Way wayOfEye(const SoftObject& object, const OwnFrame& own);
     static Way wayOfCore(const Neighbour& near, const Stand& now, const Stand& before);
     static Way wayBetween(const Neighbour& near, const Stand& now, const Stand& before, Real reach);
 
@@ -54,7 +58,7 @@ private:
     uint32_t linksVersion_ = 0;
     bool fresh_ = true;  // nothing is known of a frame before
     Vector eye_{Real(0), Real(0), Real(0)};  // where the viewer was, own axes
-    int room_ = 0;
+    int room_ = 0;       // for so many stands
     int within_ = 0;  // how many neighbours were in range in the call before
     Stand* stands_ = nullptr;
     int8_t standBySlot_[SLOTS_MAX];  // -1: none

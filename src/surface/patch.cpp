@@ -88,7 +88,7 @@ void setPatch(const SoftObject& object, Patch& patch)
 void beginPatch(const SoftObject& object, Patch& patch)
 {
     patch.state = PATCH_REST;
-    patch.extras = patch.fine = patch.behind = patch.settled = patch.stale = false;
+    patch.extras = patch.fine = patch.islands = patch.settled = patch.stale = false;
     patch.blocker = static_cast<uint8_t>(object.slot());
     patch.nearest = patch.farthest = 64;
     patch.due = patch.listDue = 0;

@@ -45,7 +45,7 @@ struct Patch {
     bool settled;       // its seeds were looked at in this frame
     bool extras;        // oversampled seeds of it take part
     bool fine;          // and fine ones
-    bool behind;        // and seeds where the paths of its regular ones come back
+    bool islands;       // and seeds on islands, where the paths of its regular ones come back
     int32_t facing;     // of a settled patch: cosine of the surface in the middle and the direction to the viewer
     int32_t centre;     // slot of the seed in the middle
     int16_t middle[3];  // of where its seeds rest

@@ -12,9 +12,9 @@ constexpr Real STEEPEST_OF_ALL(1.6);
 }  // namespace
 
 Path::Path(const SoftObject& object, const Neighbourhood& all, const Bodies& bodies, Nearby& nearby, Counts& counts)
-    : object_(object), all_(all), bodies_(bodies), nearby_(nearby), counts_(counts),
-      ownPlain_(object.strength() == Real(1) && !all.hollow && !all.inner && !object.warped()), warped_(object.warped()), restParam_(object.restParam()), first_(all.deep ? FIRST_DEEP : FIRST), last_(all.last),
-      middle_(all.deep ? shiftDown(first_ + last_, 1) : COVERED_AT)
+    : object_(object), all_(all), bodies_(bodies), nearby_(nearby), counts_(counts), warped_(object.warped()),
+      ownPlain_(!warped_ && object.strength() == Real(1) && !all.hollow && !all.inner), restParam_(object.restParam()),
+      first_(all.deep ? FIRST_DEEP : FIRST), last_(all.last), middle_(all.deep ? shiftDown(first_ + last_, 1) : COVERED_AT)
 {
     const Real restOfPath = (most(last_ - middle_, middle_ - first_) + Real(0.02)) * object.longestPath();
     for (int i = 0; i < all.count; ++i) {
@@ -62,7 +62,7 @@ Real Along::otherParam(Real p)
 
 // ---- A look at one position
 
-// Takes up those that look at the paths from now on, as they see the root of a seed.
+// Takes up the neighbours whose fields are looked at from now on, and what the root of a seed is to each.
 void Path::take(const Few& few, const Seed& s)
 {
     if (few_ != &few) {
@@ -149,7 +149,9 @@ Fields Path::ownOdd(Real position)
     ownSlope_ = own.slope * strength;
     const Real rate = ownRate(position);
     headField_ = Real(0);
-    return all_.hollow ? Fields{-(ownField_ * all_.weight), -(rate * all_.weight), Real(0), 0} : Fields{ownField_, rate, Real(0), 0};
+    if (all_.hollow)
+        return {-(ownField_ * all_.weight), -(rate * all_.weight), Real(0), 0};
+    return {ownField_, rate, Real(0), 0};
 }
 
 // Corrects the fields that were just added where something digs, or strengths differ.

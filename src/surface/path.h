@@ -21,10 +21,10 @@ class Path {
 public:
     Path(const SoftObject& object, const Neighbourhood& all, const Bodies& bodies, Nearby& nearby, Counts& counts);
 
-    // Takes up the path of a seed as a few neighbours see it, and looks at a position. False: none of them reaches that.
+    // Takes up the path of a seed in the fields of a few neighbours, and looks at a position. False: none of them reaches that.
     bool begin(const Few& few, const Seed& s, Real position, Sample* sample);
 
-    // Takes up the path of a seed that is searched, as those see it that reach some of it, and looks at middle().
+    // Takes up the path of a seed that is searched, in the fields of those neighbours that reach some of it, and looks at middle().
     Sample beginSearch(const Seed& s);
 
     // Looks at a position of the path at hand.
@@ -36,14 +36,15 @@ public:
     // To be called when the lists of `nearby` change.
     void leave() { few_ = nullptr; }
 
-    // What is known of a neighbour's field along the path of a seed, which need not be taken up, before any position is looked at.
+    // Finds what there is to know of a neighbour's field along the path of a seed before any position is looked at. The path need
+    // not be taken up for it.
     void aim(int number, const Seed& s, Along& along);
 
-    // What the fields may change by, all together, when the neighbours come by a unit: where they were looked at last, and
-    // anywhere on the path.
+    // By how much the neighbours' fields may change, all together, when each neighbour moves by a unit: at the position looked at
+    // last, and anywhere on the path.
     Real pushes() const;
     Real pushMost() const;
-    // What they change by at most, all together and the own one, over a position.
+    // By how much they and the own field change at most, all together, from a position to one that is greater by 1.
     Real steepest() const;
 
     // Positions: where paths are searched.
@@ -54,7 +55,7 @@ public:
 
     const SoftObject& object() const { return object_; }
     const Neighbourhood& all() const { return all_; }
-    // How many neighbours see the path at hand, and what each of them makes of it.
+    // How many neighbours are looked at along the path at hand, and the field of each.
     int touched() const { return touched_; }
     const Along& along(int i) const { return along_[i]; }
     // What leads to a place on it, from the root and from the core of a neighbour.
@@ -99,15 +100,15 @@ private:
     const Bodies& bodies_;
     Nearby& nearby_;
     Counts& counts_;
-    const bool ownPlain_;           // the object's strength is 1, nothing digs within its body, and it is neither a hollow nor warped
     const bool warped_;             // the object is
+    const bool ownPlain_;           // it is not, its strength is 1, nothing digs within its body, and it samples no hollow
     const Real restParam_;          // t of the own field at position 1, unless it is warped
     const Real first_, last_, middle_;
     FromRoot from_[NEIGHBOURS_MAX];
 
     // Of the path at hand.
-    const Few* few_ = nullptr;      // those that see it, if they are all of a list, as the root with that number does
-    int rootOfFew_ = -1;
+    const Few* few_ = nullptr;      // the neighbours whose fields are looked at; null: a part of a list
+    int rootOfFew_ = -1;            // the root for which what FromRoot holds is known of all of them; -1: none
     bool odd_;                      // not ownPlain_, or some of them are not Neighbour::plain
     bool others_;                   // some of them are neither points nor segments
     const Seed* seed_;

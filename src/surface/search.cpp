@@ -4,16 +4,18 @@
 
 namespace {
 
-// Of the position: after a step as short as this another look would change nothing that is seen.
-constexpr Real SHORT_STEP(0.05);
-constexpr Real LONGEST_STEP(0.15);
-// Of the field per position: flatter, and Newton's method has no say.
+// Positions: after a step as short as this another look would change nothing that is seen; and no step is longer than that.
+constexpr Real SHORT_STEP(0.05), LONGEST_STEP(0.15);
+// Of the field per position: where the field falls by less, Newton's method is not trusted.
 constexpr Real FLAT(-0.06);
 constexpr int NEWTON_STEPS = 5;
 constexpr int BISECTIONS = 12;
-// Positions: where a search begins, in which steps, and between COVERED_AT and 1.
-constexpr Real SEARCH_FIRST(0.88), SEARCH_STEP(0.16), BETWEEN(1.18), COVERED_LATE(1.62), BETWEEN_LATE(1.49);
-// And in which steps a path is followed on that has left the surface, and how far.
+// Positions: where a search begins, and its steps.
+constexpr Real SEARCH_FIRST(0.88), SEARCH_STEP(0.16);
+// Positions: where it is asked after COVERED_AT whether a neighbour is the stronger; and what is looked at between 1 and each of
+// the two, in case the path leaves the surface there.
+constexpr Real COVERED_LATE(1.62), BETWEEN(1.18), BETWEEN_LATE(1.49);
+// Positions: the steps in which a path is followed that has left the surface, and how far it is followed.
 constexpr Real RETURN_STEP(0.08), RETURN_FAR(0.4);
 // Of the field: a valley this shallow above the isovalue is looked into.
 constexpr Real VALLEY(0.12);
@@ -40,7 +42,7 @@ bool follow(Path& path, Real* position, Sample* sample)
 
 namespace {
 
-// Between a position inside and one outside.
+// Finds where the path leaves the surface between a position inside and one outside.
 void bisect(Path& path, Real inside, Real outside, Real* position, Sample* sample)
 {
     for (int i = 0; i < BISECTIONS; ++i) {
@@ -75,8 +77,9 @@ inline Look lookAt(Path& path, Real position)
     return {position, path.look(position)};
 }
 
-// Whether another object is the stronger from one of two positions on, and the path has not left the surface before; `*margin` is
-// by how much of the field. Position and sample become those of the last look there.
+// Whether the seed is sure to lie inside a neighbour: from COVERED_AT or COVERED_LATE on that is the stronger one, and the path has
+// not left the surface before. `*margin` becomes by how much of the field both hold. Position and sample are those of the last of
+// the two that was looked at.
 bool isInside(Path& path, Real* position, Sample* sample, Real* margin)
 {
     Real lowest(9);
@@ -101,7 +104,8 @@ bool isInside(Path& path, Real* position, Sample* sample, Real* margin)
     return false;
 }
 
-// The deepest place that is known of a valley between two looks: its floor is about where straight slopes cross 0.
+// The lowest place of a valley between two looks. Unless it is too high to matter, its floor is looked for: it is about where a
+// slope that changes evenly is 0.
 Look floorBetween(Path& path, const Look& a, const Look& b)
 {
     const Look& lower = a.sample.excess < b.sample.excess ? a : b;
@@ -183,7 +187,7 @@ bool leaves(Path& path, const Look& inner, const Look& outer, Real* from, Real* 
         return true;
     if (inner.sample.slope <= Real(0) || outer.sample.slope >= Real(0))
         return false;
-    // A hill between the two: its top is about where straight slopes cross 0.
+    // There is a hill between the two. Its top is about where a slope that changes evenly is 0.
     *from += (outer.position - inner.position) * (inner.sample.slope / (inner.sample.slope - outer.sample.slope));
     const Real top = path.look(*from).excess;
     *highest = most(*highest, top);
@@ -192,7 +196,7 @@ bool leaves(Path& path, const Look& inner, const Look& outer, Real* from, Real* 
 
 }  // namespace
 
-// What is far from the surface is taken in long steps: it cannot be nearer than what fields change by says.
+// Far from the surface the steps are long: no field is steeper than steepest(), so the surface cannot be nearer than that allows.
 Real searchDeep(Path& path, Real* position, Sample* sample, Real* off)
 {
     const bool hollow = path.all().hollow;

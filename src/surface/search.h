@@ -11,17 +11,18 @@ constexpr Real TOLERANCE(0.004);
 // before.
 bool follow(Path& path, Real* position, Sample* sample);
 
-// Looks for the first place where the path leaves the surface, and returns by how much the field exceeds the isovalue at least
-// where it had a valley before. When the path leaves it nowhere, `*sample` exceeds it as well. `*sample` was taken at `*position`.
+// Looks for the first place where the path leaves the surface. `*position` becomes that place and `*sample` what is there; where
+// the path leaves the surface nowhere, `*position` is the lowest place that was seen and the excess of `*sample` is above 0.
+// Returns how far from the isovalue the field stayed before: the least excess of the valleys that were looked into.
 Real search(Path& path, Real* position, Sample* sample);
 
-// The same for a path that is hollowed out, or a weak object's: the last place where the path leaves the surface, for what lies
-// before it is hidden; of those where no neighbour is stronger, if there are any. In a hollow it is the first. Where nothing is
-// found `*off` says by how much of the field.
+// The same for the paths of a weak object, or of one that something digs into: the last place where the path leaves the surface,
+// because it hides those before. Places where a neighbour is the stronger one count only if there are no others. On a path that
+// samples a hollow it is the first place. Where there is none, `*off` becomes by how much of the field the path misses the surface.
 SELDOM Real searchDeep(Path& path, Real* position, Sample* sample, Real* off);
 
-// Where a path that has left the surface at `from` is inside again; `far` says that it may go far and deep between. False: nowhere,
-// or too near to tell.
+// Where a path that has left the surface at `from` comes back to it. `far`: it is followed to its end, however far below the
+// isovalue the field falls between. False: it comes back nowhere, or so near that the two places cannot be told apart.
 bool comesBack(Path& path, Real from, bool far, Real* position, Sample* sample);
 
 #endif

@@ -37,15 +37,13 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& a
                  const Odometer& odometer, uint32_t updates)
     : path_(object, all, *frame.bodies, nearby_, *frame.counts), nearby_(object, all, *frame.bodies),
       cover_(object, all, nearby_, path_), object_(object), own_(own), all_(all), counts_(*frame.counts), now_(odometer.reading()),
-      came_(realFromRaw(static_cast<int32_t>(odometer.came() << 6))), updates_(updates)
+      came_(realFromRaw(static_cast<int32_t>(odometer.came() << 6))), updates_(updates),
+      heavy_(frame.bodies->heaviest(object.slot()) > HEAVY)
 {
     Real strongest = most(object.strength(), Real(1));
     for (int i = 0; i < all.count; ++i)
         strongest = most(strongest, all.neighbours[i].strength);
     border_ = BORDER * strongest;
-    hidden_ = heavy_ = false;
-    for (const List<Link>::Node* node = object.skel().first(); node != nullptr; node = node->next)
-        heavy_ = heavy_ || node->item.weight > HEAVY;
 }
 
 // ---- One seed
@@ -56,7 +54,7 @@ Real Settler::settle(Seed& s)
 {
     Sample sample;
     Real position = s.position;
-    const Followed followed = s.flags & (SEED_VALID | SEED_COVERED) ? followOn(s, &position, &sample) : LOST;
+    const Followed followed = s.flags & (SEED_VALID | SEED_FOLLOW) ? followOn(s, &position, &sample) : LOST;
     if (followed == ALONE) {
         restThere(s);
         return Real(0);
@@ -227,7 +225,7 @@ void Settler::setRange(Patch& patch) const
     }
 }
 
-void Settler::settleRest(Patch& patch)
+void Settler::settleOthers(Patch& patch)
 {
     const Seed& centre = object_.seed(patch.centre);
     const bool someAway = !(centre.flags & SEED_VALID) || patch.facing < patch.spread;
@@ -245,7 +243,7 @@ void Settler::settleRest(Patch& patch)
         }
         if (woken) {
             s.position = centre.position;
-            s.flags = SEED_COVERED;
+            s.flags = SEED_FOLLOW;
             s.still = 0;
         } else if (waits(s, someAway)) {
             return;
@@ -260,7 +258,7 @@ void Settler::settleRest(Patch& patch)
         patch.due += offFor(patch);
     setRange(patch);
     if (heavy_ && !nearby_.dented())
-        forSeeds(patch, [&](int i) { patch.behind |= settleIsland(patch, i); });
+        forSeeds(patch, [&](int i) { patch.islands |= settleIsland(patch, i); });
 }
 
 // Coherence over time: a seed that did not move when it was looked at waits for a frame, and so does one that faces away a
@@ -307,11 +305,11 @@ int parted(const SoftObject& object, int i)
            object.regular(next).root == s.root && from(next, LEFT_OPEN_NEXT) ? next : -1;
 }
 
-// The fine seeds of a regular one are not needed; nor is its oversampled one; none of a patch is.
-void putAwayFine(SoftObject& object, int i, int count = 3)
+// The fine seeds of a regular one are not needed, but for the one on an island; nor is its oversampled one; none of a patch is.
+void putAwayFine(SoftObject& object, int i, int end = SoftObject::FINE_ISLAND)
 {
     Seed* const fine = object.fine(i);
-    for (int which = 0; which < count && fine != nullptr; ++which)
+    for (int which = 0; which < end && fine != nullptr; ++which)
         fine[which].flags = 0;
 }
 
@@ -324,12 +322,12 @@ void putAway(SoftObject& object, int i)
 
 void putAway(SoftObject& object, Patch& patch)
 {
-    if (patch.extras || patch.behind)
+    if (patch.extras || patch.islands)
         forSeeds(patch, [&](int i) {
             putAway(object, i);
             putAwayFine(object, i, SoftObject::FINE_SEEDS);
         });
-    patch.extras = patch.fine = patch.behind = false;
+    patch.extras = patch.fine = patch.islands = false;
 }
 
 }  // namespace
@@ -350,7 +348,7 @@ void Settler::oversample(Patch& patch)
         if (object_.layOutBetween(i, other))
             putAway(object_, i);
         if (!(extra.flags & SEED_ACTIVE)) {
-            extra.flags = SEED_ACTIVE | SEED_COVERED;
+            extra.flags = SEED_ACTIVE | SEED_FOLLOW;
             extra.position = object_.seed(i).position;
             extra.still = 0;
         }
@@ -389,8 +387,8 @@ bool Settler::settleFine(int i)
     Seed* const fine = (needed[0] || needed[1]) && oneRoot ? object_.madeFine(i) : nullptr;
     if (fine == nullptr)
         return false;
-    fine[2].flags = 0;
-    for (int which = 0; which < 2; ++which) {
+    fine[SoftObject::FINE_BEHIND].flags = 0;
+    for (int which = SoftObject::FINE_NEAR; which <= SoftObject::FINE_FAR; ++which) {
         Seed& s = fine[which];
         if (!needed[which]) {
             s.flags = 0;
@@ -398,14 +396,15 @@ bool Settler::settleFine(int i)
         }
         if (!(s.flags & SEED_ACTIVE)) {
             object_.layOutFine(i, which);
-            s.flags = SEED_ACTIVE | SEED_COVERED;
+            s.flags = SEED_ACTIVE | SEED_FOLLOW;
             s.position = ends[which]->position;
             s.still = 0;
         }
         if (!waits(s, false))
             settle(s);
         if (((ends[which]->flags ^ extra.flags) & SEED_VALID) && !nearby_.dented())
-            settleBehind(s.flags & SEED_VALID ? s : extra.flags & SEED_VALID ? extra : *ends[which], false, fine[2]);
+            settleBehind(s.flags & SEED_VALID ? s : extra.flags & SEED_VALID ? extra : *ends[which], false,
+                         fine[SoftObject::FINE_BEHIND]);
     }
     return true;
 }
@@ -432,9 +431,9 @@ bool Settler::settleIsland(const Patch& patch, int i)
     if (object_.regular(i).flags & SEED_VALID)
         settleBehind(object_.regular(i), true, island);
     const bool there = (island.flags & SEED_VALID) != 0;
-    Seed* const fine = there ? object_.madeFine(i) : patch.behind ? object_.fine(i) : nullptr;
+    Seed* const fine = there ? object_.madeFine(i) : patch.islands ? object_.fine(i) : nullptr;
     if (fine != nullptr)
-        fine[3] = island;
+        fine[SoftObject::FINE_ISLAND] = island;
     return there;
 }
 

@@ -47,7 +47,7 @@ public:
     bool hidden() const { return hidden_; }
 
     // Settles the other regular seeds of a patch.
-    void settleRest(Patch& patch);
+    void settleOthers(Patch& patch);
 
     // Settles those oversampled seeds of a patch that are needed, when all regular ones have been; the others end. It calls
     // setPatch() by itself.
@@ -92,14 +92,14 @@ private:
     const OwnFrame& own_;
     const Neighbourhood& all_;
     Counts& counts_;
-    const Way now_;    // reading of the odometer
-    const Real came_;  // how far neighbours came in this frame, units
+    const Way now_;     // reading of the odometer
+    const Real came_;   // how far neighbours came in this frame, units
     const uint32_t updates_;
-    uint32_t turn_ = 0;  // of the patch at hand: what waits takes turns
-    Real border_;      // of the field: a neighbour that is weaker than the own by less is near
-    bool heavy_;       // it has a link of more than HEAVY
-    bool hidden_;
-    Real off_;         // of the field: by how much the path at hand misses the surface, where it does
+    const bool heavy_;  // the object has a link of more than HEAVY
+    uint32_t turn_ = 0; // of the patch at hand: what waits takes turns
+    Real border_;       // of the field: a neighbour that is weaker than the own by less is near
+    Real off_;          // of the field: by how much the path at hand misses the surface, where it does
+    bool hidden_ = false;
 };
 
 // Puts the seeds of a patch where no neighbour reaches them.

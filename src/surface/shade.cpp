@@ -282,7 +282,7 @@ SELDOM int Shader::findExtras(const Patch& patch, Seen* seen, Voxel* voxels) con
         const Seed* const extra = object_.extra(i);
         if (extra != nullptr && (extra->flags & SEED_ACTIVE) && findSeed(shading_, *extra, seen + count, voxels + count))
             ++count;
-        const Seed* const fine = patch.fine || patch.behind ? object_.fine(i) : nullptr;
+        const Seed* const fine = patch.fine || patch.islands ? object_.fine(i) : nullptr;
         for (int which = 0; which < SoftObject::FINE_SEEDS && fine != nullptr; ++which)
             if ((fine[which].flags & SEED_ACTIVE) && findSeed(shading_, fine[which], seen + count, voxels + count))
                 ++count;
@@ -312,7 +312,7 @@ inline void Shader::shadePatch(Patch& patch, bool turn, VoxelList& list, Painter
     Voxel *const voxels = PAINTED ? unpainted : list.voxels + list.count, *to = voxels;
     Seen seen[SEEDS_MOST];
     int count = findSeeds(&shading_, &patch, seen, voxels);
-    if (patch.extras || patch.behind)
+    if (patch.extras || patch.islands)
         count += findExtras(patch, seen + count, voxels + count);
     if (near_)
         count = leaveNear(seen, voxels, count);

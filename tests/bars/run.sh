@@ -38,7 +38,8 @@ told() { # told FRAMES PERCENT
 build/demo /N:1 "/D:$dir/four" >"$dir/out"
 ok "colours of the four spheres" told "$dir/four" 97
 for i in 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19; do
-	echo "sphere s$i size 9 at $(((i % 5 - 2) * 20)) $((i / 5 * 18 - 27)) 0 colour $((60 + i * 10)) $((i * 67 % 200 + 40)) $((i * 131 % 200 + 30))"
+	echo "sphere s$i size 9 at $(((i % 5 - 2) * 20)) $((i / 5 * 18 - 27)) 0" \
+		"colour $((60 + i * 10)) $((i * 67 % 200 + 40)) $((i * 131 % 200 + 30))"
 done >"$dir/TWENTY.FB"
 build/demo "/M:$dir/TWENTY.FB" /N:1 "/D:$dir/twenty" >"$dir/out"
 ok "colours of twenty" told "$dir/twenty" 30

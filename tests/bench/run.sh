@@ -61,7 +61,8 @@ ok "BENCH.BAT: its runs" test "$(sed -n '2,$s/,.*//p' "$c/REC.CSV" | tr '\n' ';'
 ok "BENCH.BAT: the last names its scene" sh -c "tail -n 1 '$c/REC.CSV' | grep -q ',\"GULP.FB\",'"
 ok "BENCH.BAT: every shipped scene but the built-in one" sh -c "cd tools/scenes && for f in *.FB; do
 	[ \$f = FOUR.FB ] || grep -q \"^IF EXIST \$f DEMO .*/M:\$f\" ../bench.bat || exit 1; done"
-ok "BENCH.BAT: a second each" sh -c "tr -d '\r' <'$c/REC.CSV' | awk -F , 'NR > 1 && (\$3 < 1 || \$2 < 1) { bad = 1 } END { exit bad }'"
+ok "BENCH.BAT: a second each" sh -c "tr -d '\r' <'$c/REC.CSV' |
+	awk -F , 'NR > 1 && (\$3 < 1 || \$2 < 1) { bad = 1 } END { exit bad }'"
 fps() { # fps SWITCHES: of the first such record
 	tr -d '\r' <"$c/REC.CSV" | awk -F , -v switches="$1" '$1 == switches { print $4; exit }'
 }
@@ -153,7 +154,8 @@ fi
 # ---- The benchmark, as short as it goes
 
 ok "every bar is a number" awk '!/^#/ && (NF != 3 || $2 + 0 <= 0 || $3 + 0 < 0) { exit 1 }' tools/bars.txt
-ok "every shipped scene has a bar of its own" sh -c "cd tools/scenes && for f in *.FB; do grep -q \"^\${f%.FB} \" ../bars.txt || exit 1; done"
+ok "every shipped scene has a bar of its own" sh -c "cd tools/scenes &&
+	for f in *.FB; do grep -q \"^\${f%.FB} \" ../bars.txt || exit 1; done"
 for scene in tests/scenes/speed/*.FB; do
 	ok "$scene plays" "$host" /S:4 /N:1 "/M:$scene"
 done
@@ -165,9 +167,15 @@ if command -v valgrind >/dev/null; then
 		{ seen[$1] = 1; ++lines }
 		{ sum = 0; for (i = column["math"]; i <= column["rest"]; ++i) { sum += $i; if ($i < 0) bad = 1 } }
 		# Rounded, each room by itself.
-		sum < $column["instructions"] - 7 || sum > $column["instructions"] + 7 { print $1 ": rooms are " sum " of " $column["instructions"]; bad = 1 }
+		sum < $column["instructions"] - 7 || sum > $column["instructions"] + 7 {
+			print $1 ": rooms are " sum " of " $column["instructions"]
+			bad = 1
+		}
 		# The model of a mean instruction of 1 to 10 clocks holds for any program.
-		$column["clocks"] < $column["instructions"] || $column["clocks"] > 10 * $column["instructions"] { print $1 ": " $column["clocks"] " clocks"; bad = 1 }
+		$column["clocks"] < $column["instructions"] || $column["clocks"] > 10 * $column["instructions"] {
+			print $1 ": " $column["clocks"] " clocks"
+			bad = 1
+		}
 		$column["rest"] > $column["instructions"] / 10 { print $1 ": a room has got lost"; bad = 1 }
 		$column["scales"] <= 0 { print $1 ": no scales"; bad = 1 }
 		{ above = $column["instructions"] / $column["bar"] }
@@ -193,7 +201,10 @@ if command -v valgrind >/dev/null; then
 			# Four times the seeds cost more, but less than eight times as much.
 			if (number["spacing", "FOUR", "times"] < 1 || number["spacing", "FOUR", "times"] > 8) { print "growth"; bad = 1 }
 			if (number["loop", "assembly", "instructions"] <= 0) bad = 1
-			if (number["loop", "assembly", "instructions"] >= number["loop", "twin", "instructions"]) { print "the assembly does not pay"; bad = 1 }
+			if (number["loop", "assembly", "instructions"] >= number["loop", "twin", "instructions"]) {
+				print "the assembly does not pay"
+				bad = 1
+			}
 			exit bad
 		}' build/figures.csv >"$dir/figures"
 	ok "figures.csv: complete" test $? -eq 0
@@ -204,7 +215,8 @@ if command -v valgrind >/dev/null; then
 	counted() { awk -F , '$1 == "GULP" { print $4 }' build/bench.csv; }
 	sh tools/instr.sh -n 5 -d "$dir/again" -t 3 gulp >"$dir/instr"
 	again=$(awk '$1 == "all" { print $3 }' "$dir/again/GULP.cost")
-	ok "the same instructions again, to within 1%" awk -v a="$again" -v b="$(counted)" 'BEGIN { exit !(a > 0 && a / b < 1.01 && b / a < 1.01) }'
+	ok "the same instructions again, to within 1%" awk -v a="$again" -v b="$(counted)" \
+		'BEGIN { exit !(a > 0 && a / b < 1.01 && b / a < 1.01) }'
 	ok "instr.sh: a line for the scene" test "$(grep -c '^GULP .*\..*\..*\.' "$dir/instr")" -eq 1
 	ok "instr.sh: three functions" test "$(grep -c '^ *[0-9].*/.*:' "$dir/instr")" -ge 3
 	ok "instr.sh: no such scene: status 2" status 2 sh tools/instr.sh nosuch

@@ -163,7 +163,8 @@ ok "the settings of the second" sh -c "sed -n 3p '$dir/runs.csv' | grep -q '^S:4
 ok "the frames of the second" test "$(sed -n 3p "$dir/runs.csv" | cut -d , -f 2)" = 2
 ok "with the scene" ends 0 /N:1 /S:8 "/M:$dir/ONE" "/O:$dir/runs.csv"
 ok "in its own field" sh -c "sed -n 4p '$dir/runs.csv' | cut -d , -f 14 | grep -qF '\"$dir/ONE\"'"
-ok "and day and hour" sh -c "sed -n 4p '$dir/runs.csv' | cut -d , -f 15 | grep -q '^20[0-9][0-9]-[01][0-9]-[0-3][0-9] [0-2][0-9]:[0-5][0-9]:[0-5][0-9]\$'"
+ok "and day and hour" sh -c "sed -n 4p '$dir/runs.csv' | cut -d , -f 15 |
+	grep -q '^20[0-9][0-9]-[01][0-9]-[0-3][0-9] [0-2][0-9]:[0-5][0-9]:[0-5][0-9]\$'"
 ok "and the machine" sh -c "sed -n 4p '$dir/runs.csv' | tr -d '\r' | cut -d , -f 16 | grep -q '^$(uname -s) '"
 ok "named in the header" sh -c "sed -n 1p '$dir/runs.csv' | tr -d '\r' | grep -q ',scene,date,machine\$'"
 # Found out before the run: what cannot be opened, and what is another file.
@@ -328,13 +329,16 @@ at() { # at FRAME OBJECT
 ok "after the last comes the first" test "$(at 01 1)" != "$(at 11 1)"
 ok "and no other" test "$(at 01 2)" = "$(at 11 2)"
 # Once round all four, and once more, for the names of the selected one and the one before are on the screen.
-moves m '0 mouse 0 0 L\n1 mouse 0 0 -\n2 mouse 0 0 L\n3 mouse 0 0 -\n4 mouse 0 0 L\n5 mouse 0 0 -\n6 mouse 0 0 L\n7 mouse 0 0 -\n20 mouse 0 0 L\n21 mouse 0 0 -\n22 mouse 0 0 L\n23 mouse 0 0 -\n24 mouse 0 0 L\n25 mouse 0 0 -\n26 mouse 0 0 L\n' /N:40
+moves m '0 mouse 0 0 L\n1 mouse 0 0 -\n2 mouse 0 0 L\n3 mouse 0 0 -\n4 mouse 0 0 L\n5 mouse 0 0 -\n6 mouse 0 0 L\n7 mouse 0 0 -\n'\
+'20 mouse 0 0 L\n21 mouse 0 0 -\n22 mouse 0 0 L\n23 mouse 0 0 -\n'\
+'24 mouse 0 0 L\n25 mouse 0 0 -\n26 mouse 0 0 L\n' /N:40
 ok "nothing moves by itself" cmp "$dir/m/F0000019.PPM" "$dir/m/F0000016.PPM"
 ok "the selected one pulses" sh -c "! cmp -s '$dir/m/F0000029.PPM' '$dir/m/F0000039.PPM'"
 ok "and is as before again" cmp "$dir/m/F0000019.PPM" "$dir/m/F0000039.PPM"
 for far in '30000 0 -' '-30000 0 -' '0 30000 -' '0 -30000 -' '0 30000 R' '0 -30000 R' '30000 30000 R'; do
 	moves m "2 mouse $far\n" /N:4
-	ok "kept in view: $far" compare 1 'Z > -110 && Z < 300 && X * X * 62500 <= (Z + 120) * (Z + 120) * 26000 && Y * Y * 43403 <= (Z + 120) * (Z + 120) * 10200'
+	ok "kept in view: $far" compare 1 'Z > -110 && Z < 300 && X * X * 62500 <= (Z + 120) * (Z + 120) * 26000 &&
+		Y * Y * 43403 <= (Z + 120) * (Z + 120) * 10200'
 done
 ok "without a mouse it says so" plays '9 key ESC\n' /I /N:3
 ok "in words" sh -c "grep -qi 'mouse' '$dir/out'"

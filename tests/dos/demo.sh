@@ -84,8 +84,8 @@ trouble 'no VGA' VGA
 
 floppy "$scratch/floppy.img"
 rm -f "$c"/*.TXT
-dos -- "imgmount a \"$scratch/floppy.img\" -t floppy > nul" cls 'MTEST STATE > BEFORE.TXT' 'DEMO /N:5 /D:A:\ > OUT.TXT' "$E1" "$E2" \
-    'MTEST SCREEN > SCREEN.TXT' 'MTEST STATE > AFTER.TXT'
+dos -- "imgmount a \"$scratch/floppy.img\" -t floppy > nul" cls 'MTEST STATE > BEFORE.TXT' 'DEMO /N:5 /D:A:\ > OUT.TXT' \
+    "$E1" "$E2" 'MTEST SCREEN > SCREEN.TXT' 'MTEST STATE > AFTER.TXT'
 trouble 'a full disk' 'disk full'
 ok 'a full disk: all as before' cmp "$c/BEFORE.TXT" "$c/AFTER.TXT"
 

@@ -287,8 +287,10 @@ void testRealMode() {
     regs = {};
     regs.cs = codeSegment;
     regs.ip = 0x20;
-    __asm__ volatile(
-        "pushl $0x77778888\n\tint $0x31\n\tleal 4(%%esp), %%esp" : "=a"(result) : "a"(0x0301), "b"(0), "c"(2), "D"(&regs) : "memory", "cc");
+    __asm__ volatile("pushl $0x77778888\n\tint $0x31\n\tleal 4(%%esp), %%esp"
+                     : "=a"(result)
+                     : "a"(0x0301), "b"(0), "c"(2), "D"(&regs)
+                     : "memory", "cc");
     check("0301 words from the stack", low(regs.eax) == 0x8888);
 
     // a stack of ours in the structure
@@ -318,8 +320,10 @@ void testRealMode() {
     check("0300 enters with interrupts off", (regs.eax & 0x200) == 0);
     call(0x0201, 0x60, codeSegment, 0x30);
     regs = {};
-    __asm__ volatile(
-        "pushl $0x55556666\n\tint $0x31\n\tleal 4(%%esp), %%esp" : "=a"(result) : "a"(0x0300), "b"(0x60), "c"(2), "D"(&regs) : "memory", "cc");
+    __asm__ volatile("pushl $0x55556666\n\tint $0x31\n\tleal 4(%%esp), %%esp"
+                     : "=a"(result)
+                     : "a"(0x0300), "b"(0x60), "c"(2), "D"(&regs)
+                     : "memory", "cc");
     check("0300 words from the stack", low(regs.eax) == 0x5555 || low(regs.eax) == 0x6666);
     call(0x0201, 0x60, codeSegment, 0x10);
     check("int 60h from here reaches real mode", low(int60(7)) == 7);

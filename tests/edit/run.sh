@@ -124,7 +124,8 @@ ok "other keys wait, and nothing is lost of the frame" diff -r a b
 printf '2 key INS\n4 key h\n6 key u\n8 key DEL\n' >script
 FB_LOG=log1 FB_INPUT=script "$demo" /I /N:12 >out 2>err
 ok "another palette: four times, and the first" test "$(grep -c palette log1)" -ge 5
-ok "each with its frame" test "$(sed 1,/palette/d log1 | awk 'last == "palette" && $1 != "present" { ++bad } { last = $1 } END { print bad + 0 }')" = 0
+ok "each with its frame" test "$(sed 1,/palette/d log1 |
+	awk 'last == "palette" && $1 != "present" { ++bad } { last = $1 } END { print bad + 0 }')" = 0
 
 # --- Turning, sizes
 play 9 /M:one.fb <<'END'
@@ -791,7 +792,8 @@ ok "after three seconds no more" test "$(ink 1 0 185 200 15)" -eq 0
 film frame f.fli 20 d/F0000000.PPM
 ok "not in a run of so many seconds" test "$(ink 0 0 0 320 200)" -eq 0
 "$demo" /B /T:1 /S:8 >out 2>&1
-ok "a benchmark says one line" sh -c 'test $(wc -l <out) -eq 1 && grep -q "^four spheres, spacing 8: [0-9.]* frames a second ([0-9]* frames in 1.0[0-9] seconds)$" out'
+ok "a benchmark says one line" sh -c 'test $(wc -l <out) -eq 1 &&
+	grep -q "^four spheres, spacing 8: [0-9.]* frames a second ([0-9]* frames in 1.0[0-9] seconds)$" out'
 
 # --- The same on 32 bits
 if [ -x "$top/build/demo32" ] && [ "$DEMO" = build/demo ]; then

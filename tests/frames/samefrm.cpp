@@ -118,20 +118,25 @@ int near(const std::string& a, const std::string& b)
             }
             int most = 0;
             for (size_t part = 0; part < 3; ++part)
-                most = std::max(most, std::abs(static_cast<uint8_t>(x[15 + 3 * i + part]) - static_cast<uint8_t>(y[15 + 3 * i + part])));
+                most = std::max(most,
+                                std::abs(static_cast<uint8_t>(x[15 + 3 * i + part]) - static_cast<uint8_t>(y[15 + 3 * i + part])));
             unlike += most > BRIGHTNESS || std::abs(p / 65536.0 - q / 65536.0) > DEPTH;
         }
         if (drawn == 0)
             continue;
-        const double u = static_cast<double>(unlike) / static_cast<double>(drawn), o = static_cast<double>(outline) / static_cast<double>(drawn);
+        const double u = static_cast<double>(unlike) / static_cast<double>(drawn),
+                     o = static_cast<double>(outline) / static_cast<double>(drawn);
         worstUnlike = std::max(worstUnlike, u);
         worstOutline = std::max(worstOutline, o);
         sumUnlike += u;
         sumOutline += o;
     }
-    const double meanUnlike = frames > 0 ? sumUnlike / static_cast<double>(frames) : 1, meanOutline = frames > 0 ? sumOutline / static_cast<double>(frames) : 1;
-    std::printf("%ld frames: %.2f%% of the drawn pixels unlike (at most %.1f%%; worst frame %.2f%%), %.2f%% drawn in one only (at most %.1f%%; worst %.2f%%)\n",
-                frames, meanUnlike * 100, UNLIKE_MOST * 100, worstUnlike * 100, meanOutline * 100, OUTLINE_MOST * 100, worstOutline * 100);
+    const double meanUnlike = frames > 0 ? sumUnlike / static_cast<double>(frames) : 1,
+                 meanOutline = frames > 0 ? sumOutline / static_cast<double>(frames) : 1;
+    std::printf("%ld frames: %.2f%% of the drawn pixels unlike (at most %.1f%%; worst frame %.2f%%), %.2f%% drawn in one only (at "
+                "most %.1f%%; worst %.2f%%)\n",
+                frames, meanUnlike * 100, UNLIKE_MOST * 100, worstUnlike * 100, meanOutline * 100, OUTLINE_MOST * 100,
+                worstOutline * 100);
     return frames == 0 || inA.size() != inB.size() || meanUnlike > UNLIKE_MOST || meanOutline > OUTLINE_MOST;
 }
 

@@ -129,8 +129,9 @@ private:
         char text[40];
         if (slip()) {
             line_.good = false;
-            static const char* const BAD[] = {"",    "0",     "-1",   "x",    "1x",       "9999999999", "0.2",     "8.01", "10000000",
-                                              "1e1", "86401", "1001", "0x10", "\xb2\x07", "+",          "1.2.3.4", ":",    "="};
+            static const char* const BAD[] = {"",     "0",        "-1",       "x",       "1x",    "9999999999",
+                                              "0.2",  "8.01",     "10000000", "1e1",     "86401", "1001",
+                                              "0x10", "\xb2\x07", "+",        "1.2.3.4", ":",     "="};
             // What is out of range for one may be in range for another.
             std::string bad = BAD[random_.below(sizeof BAD / sizeof BAD[0])];
             if ((letter == 'S' && bad == "1001") || (letter == 'N' && (bad == "86401" || bad == "1001")) ||
@@ -157,7 +158,11 @@ private:
         case 'F': o.hold = limited(HOLD_MOST); break;
         default: o.seconds = limited(SECONDS_MOST); break;
         }
-        snprintf(text, sizeof text, random_.once(6) ? "%03d" : "%d", letter == 'N' ? o.frames : letter == 'R' ? o.rate : letter == 'F' ? o.hold : o.seconds);
+        snprintf(text, sizeof text, random_.once(6) ? "%03d" : "%d",
+                 letter == 'N'   ? o.frames
+                 : letter == 'R' ? o.rate
+                 : letter == 'F' ? o.hold
+                                 : o.seconds);
         word += text;
     }
 
@@ -258,13 +263,13 @@ void parse(bool spoiled, unsigned long* good, unsigned long* refused)
             failed("out of range", said);
         const Options& w = line.wanted;
         const int32_t seconds = w.benchmark && w.seconds == 0 && w.frames == 0 ? BENCHMARK_SECONDS : w.seconds;
-        if (line.good &&
-            (options.interactive != w.interactive || options.grey != w.grey || options.printed != w.printed ||
-             options.help != w.help || options.retrace != w.retrace || options.noPresent != w.noPresent ||
-             options.spacing != w.spacing || options.frames != w.frames || options.seconds != seconds || options.benchmark != w.benchmark ||
-             options.rate != w.rate || options.hold != w.hold || options.rateGiven != w.rateGiven || !sameName(options.dumpDirectory, line.dump) ||
-             !sameName(options.modelFile, line.model) || !sameName(options.recordFile, line.record) ||
-             !sameName(options.filmFile, line.film)))
+        if (line.good && (options.interactive != w.interactive || options.grey != w.grey || options.printed != w.printed ||
+                          options.help != w.help || options.retrace != w.retrace || options.noPresent != w.noPresent ||
+                          options.spacing != w.spacing || options.frames != w.frames || options.seconds != seconds ||
+                          options.benchmark != w.benchmark || options.rate != w.rate || options.hold != w.hold ||
+                          options.rateGiven != w.rateGiven || !sameName(options.dumpDirectory, line.dump) ||
+                          !sameName(options.modelFile, line.model) || !sameName(options.recordFile, line.record) ||
+                          !sameName(options.filmFile, line.film)))
             failed("read as something else", said);
         return;
     }

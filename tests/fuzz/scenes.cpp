@@ -565,8 +565,9 @@ private:
 // Words of the language, for changes.
 const char* const WORDS[] = {
     "colours", "mixed", "finish", "shiny", "mirror", "pattern", "checks", "stripes", "marble",
-    "sphere", "cylinder", "torus", "disc", "cone", "box", "group", "blend", "dent", "strength", "circle", "path", "spin", "swing", "pulse", "keys", "key",
-    "eye", "look", "roll", "focal", "light", "title", "all", "size", "length", "ring", "tip", "at", "turn", "in", "colour", "color", "red",
+    "sphere", "cylinder", "torus", "disc", "cone", "box", "group", "blend", "dent", "strength", "circle", "path", "spin",
+    "swing", "pulse", "keys", "key", "eye", "look", "roll", "focal", "light", "title", "all", "size", "length", "ring", "tip",
+    "at", "turn", "in", "colour", "color", "red",
     "#12abEF", "scale", "repeat", "step", "lag", "radius", "plane", "xy", "u", "v", "period", "phase", "x", "y", "z", "axis",
     "angle", "by", "linear", "smooth", "0", "1", "2", "-1", "0.1", "128", "250", "-250", "250.00002", "3600", "0.5",
     "32767.999999", "a", "n0x", "n0x1", "\n", "\r\n", "\x1a", "#", "\t",

@@ -53,7 +53,7 @@ while read -r line; do
 		fi
 	done
 	if [ -n "$noticed" ]; then
-		echo "ok $file: $what: $noticed: $(grep -m 1 -e FAIL -e rror "$dir/log" | cut -c 1-100)"
+		echo "ok $file: $what: $noticed: $(grep -m 1 -e FAIL -e 'error: ' "$dir/log" | cut -c 1-100)"
 		passed=$((passed + 1))
 	else
 		echo "FAIL $file: $what: not noticed"

@@ -66,7 +66,8 @@ void testField(const Sample& sample)
             // The place in core space, and as it comes back from there.
             const Real perUnit = Real(CORE_SIZE) / object->size();
             const Vector q = object->unstretched(object->toOwnAxes(toReal(p) - object->centre())) * perUnit;
-            const bool inRange = i % 4 != 0 && std::fmax(std::fabs(number(q.x)), std::fmax(std::fabs(number(q.y)), std::fabs(number(q.z)))) < 200;
+            const bool inRange =
+                i % 4 != 0 && std::fmax(std::fabs(number(q.x)), std::fmax(std::fabs(number(q.y)), std::fabs(number(q.z)))) < 200;
             worst = std::fmax(worst, std::fabs(f - geoffExact(t)));
             beyond += t > 1.001 && f != 0;
             if (inRange && std::string(sample.kind) != "cone" && !sample.stretched()) {
@@ -80,8 +81,9 @@ void testField(const Sample& sample)
                 object->param(q, &s);
                 const double d = 1e-4, half = CORE_SIZE * number(object->size()) / 2;
                 const auto at = [&](Vec v) { return sample.param(inOwn(*object, sample, p + v)); };
-                const Vec exact = Vec{at({d, 0, 0}) - at({-d, 0, 0}), at({0, d, 0}) - at({0, -d, 0}), at({0, 0, d}) - at({0, 0, -d})} *
-                                  (half / (2 * d));
+                const Vec exact =
+                    Vec{at({d, 0, 0}) - at({-d, 0, 0}), at({0, d, 0}) - at({0, -d, 0}), at({0, 0, d}) - at({0, 0, -d})} *
+                    (half / (2 * d));
                 const Vec world = vec(object->isBall() ? s : object->turn() * object->unstretched(s));
                 slopes = std::fmax(slopes, size(world - exact) / size(exact));
             }
@@ -111,7 +113,8 @@ void testSeeds(const Sample& sample, bool posed)
             continue;
         if ((i & 1) == 0) {
             roots.insert(s.root);
-            valid = valid && s.position == Real(1) && s.neighbour < object->seedSlots() && (s.neighbour == -1 || s.neighbour % 2 == 0);
+            valid =
+                valid && s.position == Real(1) && s.neighbour < object->seedSlots() && (s.neighbour == -1 || s.neighbour % 2 == 0);
         }
         const Vec root = vec(object->toWorld(object->root(s.root))), at = vec(object->toWorld(object->root(s.root) + s.path));
         const Vec path = at - root;
@@ -135,7 +138,8 @@ void testSeeds(const Sample& sample, bool posed)
     }
     check(valid, "%s: seeds do not rest", name.c_str());
     check(rest < 0.002, "%s: seeds off the surface by %g of the field's argument", name.c_str(), rest);
-    check(along < (sample.stretched() ? 0.006 : 0.004), "%s: own field along the paths off by %g of its argument", name.c_str(), along);
+    check(along < (sample.stretched() ? 0.006 : 0.004), "%s: own field along the paths off by %g of its argument", name.c_str(),
+          along);
     check(longest < 0.002, "%s: paths off the radius by %g", name.c_str(), longest);
     check(apart < (sample.stretched() ? 4 : 3.2), "%s: an oversampled seed lies %g from its neighbours", name.c_str(), apart);
     const std::string kind = sample.kind;

@@ -134,7 +134,8 @@ int drawScenes(const char* directory)
         }
 
     // Stretched and warped ones: alone, and in one heap with a ball.
-    const std::vector<Sample> shapes = {{"sphere", 30, 0, 0, 0, 0, {1.8, 1, 0.6}}, {"cylinder", 14, 0, 36}, {"box", 12, 0, 16, 36, 8}};
+    const std::vector<Sample> shapes = {
+        {"sphere", 30, 0, 0, 0, 0, {1.8, 1, 0.6}}, {"cylinder", 14, 0, 36}, {"box", 12, 0, 16, 36, 8}};
     const auto sway = [](std::vector<SoftObject*>& o, int frame) {
         const double swing = std::sin(frame * 0.15);
         o[1]->setWarp({{real(0.4 * swing), Real(0), real(100 * swing)}});

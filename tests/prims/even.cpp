@@ -68,14 +68,15 @@ void testEvenness(bool table)
             }
             const double share = 100.0 * static_cast<double>(good) / static_cast<double>(distances.size());
             if (table)
-                std::printf("%-40s %7g %8zu %12d %7.0f%% %7.0f%% %7.0f%% %7.2f%%\n", sample.name().c_str(), spacing, distances.size(),
-                            object->oversampledSeeds(), 100 * *std::min_element(distances.begin(), distances.end()) / spacing,
+                std::printf("%-40s %7g %8zu %12d %7.0f%% %7.0f%% %7.0f%% %7.2f%%\n", sample.name().c_str(), spacing,
+                            distances.size(), object->oversampledSeeds(),
+                            100 * *std::min_element(distances.begin(), distances.end()) / spacing,
                             100 * sum / static_cast<double>(distances.size()) / spacing,
                             100 * *std::max_element(distances.begin(), distances.end()) / spacing, share);
             // Where rings about a pole are flat, a handful lie nearer.
             const bool even = share >= 99 || (sample.stretched() && (share >= 98 || distances.size() - good <= 8));
-            check(even, "%s, spacing %g: nearest neighbours of %.2f%% of seeds lie within %g%% of it", sample.name().c_str(), spacing,
-                  share, 100 * most);
+            check(even, "%s, spacing %g: nearest neighbours of %.2f%% of seeds lie within %g%% of it", sample.name().c_str(),
+                  spacing, share, 100 * most);
         }
     }
 }

@@ -111,7 +111,8 @@ void testScaling(const Sample& sample)
         check(object->seeds() == seeds, "%s scaled by %g: laid out anew", name, factor);
         check(apart(places(*object), expected) < 0.01, "%s scaled by %g: off by %g", name, factor,
               apart(places(*object), expected));
-        check(offPaths(*object) < 0.002 + 0.0001 * number(object->size()), "%s scaled by %g: paths off by %g", name, factor, offPaths(*object));
+        check(offPaths(*object) < 0.002 + 0.0001 * number(object->size()), "%s scaled by %g: paths off by %g", name, factor,
+              offPaths(*object));
         check(object->spacing() == Real(2), "%s scaled by %g: spacing", name, factor);
         check(object->recalc(), "%s: a scaled object wants no update", name);
     }
@@ -121,7 +122,8 @@ void testScaling(const Sample& sample)
         object->scale(real(factor * whole / number(object->size())));
         const double ratio = static_cast<double>(object->seeds()) / seeds / (factor * factor);
         check(ratio > 0.85 && ratio < 1.15, "%s scaled by %g: %d seeds of %d", name, factor, object->seeds(), seeds);
-        check(offPaths(*object) < 0.002 + 0.0001 * number(object->size()), "%s scaled by %g: paths off by %g", name, factor, offPaths(*object));
+        check(offPaths(*object) < 0.002 + 0.0001 * number(object->size()), "%s scaled by %g: paths off by %g", name, factor,
+              offPaths(*object));
         check(object->spacing() == Real(2), "%s scaled by %g: spacing", name, factor);
     }
 
@@ -147,7 +149,8 @@ void testScaling(const Sample& sample)
     other->resample(Real(2), makeEngine);
     other->rotate(toReal({3, 1, 2}), {Real(1), Real(2), Real(3)}, 0x33333333u);
     const std::vector<Vec> before = places(*other);
-    check(other->resample(Real(2), makeEngine) && apart(places(*other), before) < 0.002, "%s: laid out elsewhere when turned", name);
+    check(other->resample(Real(2), makeEngine) && apart(places(*other), before) < 0.002, "%s: laid out elsewhere when turned",
+          name);
 }
 
 // A million turns: path lengths, and the distance from what it turns about.

@@ -71,7 +71,8 @@ double Sample::param(Vec p) const
         const double beyond = std::fmax(across - measure, 0);
         square = p.y * p.y + beyond * beyond;
     } else if (k == "box") {
-        const Vec beyond{std::fmax(std::fabs(p.x) - measure / 2, 0), std::fmax(std::fabs(p.y) - y / 2, 0), std::fmax(std::fabs(p.z) - z / 2, 0)};
+        const Vec beyond{std::fmax(std::fabs(p.x) - measure / 2, 0), std::fmax(std::fabs(p.y) - y / 2, 0),
+                         std::fmax(std::fabs(p.z) - z / 2, 0)};
         square = dot(beyond, beyond);
     }
     return square / (local * local);
@@ -122,10 +123,14 @@ const std::vector<Sample> MANY = {
 
 const std::vector<Sample> STRETCHED = [] {
     std::vector<Sample> all;
-    for (const Sample& sample : std::vector<Sample>{{"sphere", 20, 0, 0}, {"cylinder", 12, 0, 20}, {"torus", 10, 0, 14}, {"disc", 12, 0, 10},
-                                                    {"cone", 16, 8, 16}, {"box", 10, 0, 14, 10, 12}})
-        for (const Vec by : {Vec{2, 1, 1}, Vec{1, 3, 1}, Vec{1, 0.5, 1}, Vec{1.4, 1, 0.7}, Vec{0.25, 1, 1}, Vec{2, 0.25, 1}, Vec{0.5, 1, 2},
-                             Vec{3, 3, 3}}) {
+    for (const Sample& sample : std::vector<Sample>{{"sphere", 20, 0, 0},
+                                                    {"cylinder", 12, 0, 20},
+                                                    {"torus", 10, 0, 14},
+                                                    {"disc", 12, 0, 10},
+                                                    {"cone", 16, 8, 16},
+                                                    {"box", 10, 0, 14, 10, 12}})
+        for (const Vec by : {Vec{2, 1, 1}, Vec{1, 3, 1}, Vec{1, 0.5, 1}, Vec{1.4, 1, 0.7}, Vec{0.25, 1, 1}, Vec{2, 0.25, 1},
+                             Vec{0.5, 1, 2}, Vec{3, 3, 3}}) {
             all.push_back(sample);
             all.back().stretch = by;
         }

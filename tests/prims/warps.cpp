@@ -27,8 +27,8 @@ Vec warped(Vec p, double taper, double twist, double bend, double h)
     if (bend == 0)
         return v;
     const double radius = 2 * h / (bend * M_PI / 180), turn = on / radius, beyond = p.y - on;
-    return {radius + (v.x - radius) * std::cos(turn) + beyond * std::sin(turn), beyond * std::cos(turn) - (v.x - radius) * std::sin(turn),
-            v.z};
+    return {radius + (v.x - radius) * std::cos(turn) + beyond * std::sin(turn),
+            beyond * std::cos(turn) - (v.x - radius) * std::sin(turn), v.z};
 }
 
 const double AMOUNTS[][3] = {{0.5, 0, 0},  {-0.75, 0, 0}, {0, 90, 0},     {0, -360, 0},    {0, 0, 60},
@@ -62,7 +62,8 @@ void testSpace()
             const Vec n{between(-1, 1), between(-1, 1), between(-1, 1)};
             const Vec g = vec(warp.slopeOut(way, toReal(n)));
             for (const Vec step : {Vec{1e-4, 0, 0}, Vec{0, 1e-4, 0}, Vec{0, 0, 1e-4}}) {
-                const Vec way = warped(p + step, amounts[0], amounts[1], amounts[2], h) - warped(p - step, amounts[0], amounts[1], amounts[2], h);
+                const Vec way = warped(p + step, amounts[0], amounts[1], amounts[2], h) -
+                                warped(p - step, amounts[0], amounts[1], amounts[2], h);
                 slopes = std::fmax(slopes, std::fabs(dot(way, g) - 2 * dot(step, n)) / 2e-4);
                 steps = std::fmax(steps, size(vec(warp.stepOut(forth, toReal(step * 1e4))) - way * (0.5 / 1e-4)));
                 slopes = std::fmax(slopes, std::fabs(dot(way, vec(warp.slopeOut(forth, toReal(n)))) - 2 * dot(step, n)) / 2e-4);
@@ -96,8 +97,8 @@ void testSeeds(const Sample& sample)
             object->seed(i).flags = SEED_ACTIVE;
         object->setWarp(amountsOf(amounts));
         object->rotate({Real(1), Real(2), Real(3)}, {Real(1), Real(1), Real(0)}, 0x20000000u);
-        const std::string name = sample.name() + " warped by " + std::to_string(amounts[0]) + " " + std::to_string(amounts[1]) + " " +
-                                 std::to_string(amounts[2]);
+        const std::string name = sample.name() + " warped by " + std::to_string(amounts[0]) + " " + std::to_string(amounts[1]) +
+                                 " " + std::to_string(amounts[2]);
         double off = 0, beyond = 0;
         for (int i = 0; i < object->seedSlots(); ++i) {
             if ((i & 1) != 0 && object->seed(i - 1).neighbour < 0)
@@ -143,7 +144,8 @@ void testSway(const Sample& sample, int part)
         before = now;
     }
     // At most the object's extent times what the angle, or the share, changes by in a step.
-    const double extent = number(object->reach()), most = extent * (part == 0 ? 0.75 : number(WARP_MOST[part]) * M_PI / 180) * M_PI / 64;
+    const double extent = number(object->reach()),
+                 most = extent * (part == 0 ? 0.75 : number(WARP_MOST[part]) * M_PI / 180) * M_PI / 64;
     check(farthest <= most, "%s: a seed leaps %g units", sample.name().c_str(), farthest);
     check(kept, "%s: positions are lost", sample.name().c_str());
 }
@@ -165,7 +167,8 @@ void testWarps()
     Object object = Sample{"cylinder", 16, 0, 30, 0, 0, {2, 1, 0.5}}.make(3);
     object->setWarp({{real(0.25), real(-90), Real(0)}});
     object->moveTo({Real(5), Real(0), Real(0)});
-    const char* const lines[] = {"stretch 3 5 0 0 1 0 0 0 1 0 2 1 0.5", "taper 3 5 0 0 1 0 0 0 1 0 0.25 23", "twist 3 5 0 0 1 0 0 0 1 0 -90 23", ""};
+    const char* const lines[] = {"stretch 3 5 0 0 1 0 0 0 1 0 2 1 0.5", "taper 3 5 0 0 1 0 0 0 1 0 0.25 23",
+                                 "twist 3 5 0 0 1 0 0 0 1 0 -90 23", ""};
     for (int i = 0; i < SoftObject::SHAPES; ++i) {
         char text[200];
         object->describeShape(i, text, sizeof text);

@@ -23,7 +23,8 @@ SOURCE_DATE_EPOCH=$(git log -1 --format=%ct 2>/dev/null || date -d 1998-04-06 +%
 export SOURCE_DATE_EPOCH
 again() {
 	mkdir "$dir/copy" &&
-		{ git ls-files --cached --others --exclude-standard 2>/dev/null || find . -path ./build -prune -o -type f -print; } | tar -cf - -T - | tar -xf - -C "$dir/copy" &&
+		{ git ls-files --cached --others --exclude-standard 2>/dev/null || find . -path ./build -prune -o -type f -print; } |
+			tar -cf - -T - | tar -xf - -C "$dir/copy" &&
 		(cd "$dir/copy" && umask 077 && TZ=Asia/Tokyo make -s -j2 release) && cmp "$zip" "$dir/copy/build/release/FBLOBS.ZIP"
 }
 ok 'another copy of the tree gives the same bytes' again
@@ -52,7 +53,8 @@ for file in $(grep -v EXE "$dir/names"); do
 	esac
 	tr -d '\r' <"$c/$file" >"$dir/lines"
 	# Scenes are not for reading at a prompt.
-	[ "${file##*.}" = FB ] || ok "$file: at most $wide columns" awk -v wide=$wide 'length($0) > wide { print; bad = 1 } END { exit bad }' "$dir/lines"
+	[ "${file##*.}" = FB ] || ok "$file: at most $wide columns" \
+		awk -v wide=$wide 'length($0) > wide { print; bad = 1 } END { exit bad }' "$dir/lines"
 done
 ok 'FILE_ID.DIZ: at most ten lines' test "$(wc -l <"$c/FILE_ID.DIZ")" -le 10
 for scene in tools/scenes/*.FB; do
@@ -67,7 +69,8 @@ ok 'README.TXT tells of every switch' test ! -s "$dir/lacking"
 
 # ---- The guide to scenes: each step of it is a scene
 mkdir "$dir/steps"
-awk -v to="$dir/steps/" '/^```scene/ { ++n; inside = 1; next } /^```$/ { inside = 0 } inside { print > (to n ".FB") }' tools/scenes/README.md
+awk -v to="$dir/steps/" '/^```scene/ { ++n; inside = 1; next } /^```$/ { inside = 0 } inside { print > (to n ".FB") }' \
+	tools/scenes/README.md
 ok 'the guide has its steps' test "$(ls "$dir/steps" | wc -l)" -ge 4
 for step in "$dir"/steps/*.FB; do
 	ok "step $(basename "$step" .FB) plays" sh -c "build/demo '/M:$step' /N:3 | grep -q '^frames: 3'"

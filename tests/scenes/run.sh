@@ -100,15 +100,24 @@ done
 for seed in $(seq 10); do
 	build/mkscene $seed paint >"$dir/r.fb"
 	cat "$dir/r.fb" >>"$dir/paint.fb"
-	if build/demo /X /N:1 "/M:$dir/r.fb" >"$dir/out" 2>&1; then good; else bad "random scene $seed with paint: $(head -n 1 "$dir/out")"; fi
+	if build/demo /X /N:1 "/M:$dir/r.fb" >"$dir/out" 2>&1; then
+		good
+	else
+		bad "random scene $seed with paint: $(head -n 1 "$dir/out")"
+	fi
 done
-for word in '^colours mixed$' '^finish o.* shiny$' '^finish o.* mirror$' '^pattern o.* checks' '^pattern o.* stripes' '^pattern o.* marble'; do
+for word in '^colours mixed$' '^finish o.* shiny$' '^finish o.* mirror$' '^pattern o.* checks' \
+	'^pattern o.* stripes' '^pattern o.* marble'; do
 	if grep -q -- "$word" "$dir/paint.fb"; then good; else bad "mkscene: ten scenes without $word"; fi
 done
 for seed in $(seq 10); do
 	build/mkscene $seed dents >"$dir/r.fb"
 	cat "$dir/r.fb" >>"$dir/dents.fb"
-	if build/demo /X /N:1 "/M:$dir/r.fb" >"$dir/out" 2>&1; then good; else bad "random scene $seed with dents: $(head -n 1 "$dir/out")"; fi
+	if build/demo /X /N:1 "/M:$dir/r.fb" >"$dir/out" 2>&1; then
+		good
+	else
+		bad "random scene $seed with dents: $(head -n 1 "$dir/out")"
+	fi
 done
 for word in '^dent o[0-9]* d[0-9]*$' '^dent o.* 0\.[1-9]$' '^dent o.* [12]\.[0-9]$' '^strength o.* 0' '^strength o.* [1-4]'; do
 	if grep -q -- "$word" "$dir/dents.fb"; then good; else bad "mkscene: ten scenes without $word"; fi
@@ -116,7 +125,11 @@ done
 for seed in $(seq 20); do
 	build/mkscene $seed 6 shapes >"$dir/r.fb"
 	cat "$dir/r.fb" >>"$dir/shapes.fb"
-	if build/demo /X /N:2 "/M:$dir/r.fb" >"$dir/out" 2>&1; then good; else bad "random scene $seed of shapes: $(head -n 1 "$dir/out")"; fi
+	if build/demo /X /N:2 "/M:$dir/r.fb" >"$dir/out" 2>&1; then
+		good
+	else
+		bad "random scene $seed of shapes: $(head -n 1 "$dir/out")"
+	fi
 done
 for word in 'stretch' '^taper' '^twist' '^bend' 'swing'; do
 	if grep -q -- "$word" "$dir/shapes.fb"; then good; else bad "mkscene: twenty scenes without $word"; fi
@@ -127,7 +140,11 @@ for seed in $(seq 30); do
 	build/mkscene $seed >"$dir/r.fb"
 	build/mkscene $seed eye >"$dir/e.fb"
 	cat "$dir/e.fb" >>"$dir/all.fb"
-	if head -n "$(wc -l <"$dir/r.fb")" "$dir/e.fb" | cmp -s - "$dir/r.fb"; then good; else bad "mkscene: another scene for an eye, $seed"; fi
+	if head -n "$(wc -l <"$dir/r.fb")" "$dir/e.fb" | cmp -s - "$dir/r.fb"; then
+		good
+	else
+		bad "mkscene: another scene for an eye, $seed"
+	fi
 	if build/demo /X /N:1 "/M:$dir/e.fb" >"$dir/out" 2>&1; then good; else bad "random scene $seed, eye: $(head -n 1 "$dir/out")"; fi
 done
 for word in '^circle eye radius' '^circle eye u' '^path eye' '^eye .* in arm' '^look o' '^look [-0-9]' '^roll'; do
@@ -152,7 +169,9 @@ refused() {
 refused "missing file" "$dir/none.fb: no such file or directory" "/M:$dir/none.fb"
 refused "directory" "$dir: access denied" "/M:$dir"
 printf 'sphere a size 20\nsphere b size 20\nspere c size 20\n' >"$dir/bad.fb"
-refused "bad line" "$dir/bad.fb:3: 'spere': expected sphere, cylinder, torus, disc, cone, box, group, blend, dent, strength, circle, path, spin, swing, pulse, taper, twist, bend, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title" "/M:$dir/bad.fb"
+statements='sphere, cylinder, torus, disc, cone, box, group, blend, dent, strength, circle, path, spin, swing, pulse, taper, '\
+'twist, bend, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title'
+refused "bad line" "$dir/bad.fb:3: 'spere': expected $statements" "/M:$dir/bad.fb"
 : >"$dir/empty.fb"
 refused "empty file" "$dir/empty.fb:1: 'end of file': expected at least one object" "/M:$dir/empty.fb"
 head -c 3000 build/demo >"$dir/binary.fb"

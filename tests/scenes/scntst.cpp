@@ -260,7 +260,8 @@ void paints()
     check(read(S + "colors mixed\ncolours apart", other) == nullptr && !other.mixed, "colours apart again");
     model.swap(other);
     check(!model.mixed && other.mixed, "mixtures change places");
-    check(model.restore(record) && model.mixed && model.itemNamed("b2")->coat.finish == FINISH_MIRROR, "and come back with a record");
+    check(model.restore(record) && model.mixed && model.itemNamed("b2")->coat.finish == FINISH_MIRROR,
+          "and come back with a record");
     free(record);
     taken(S + "finish s shiny\nfinish s mirror\npattern s stripes 1 red\npattern s checks 100 1 2 3", "the last one counts");
 
@@ -308,12 +309,14 @@ void rows()
     place(five + "path b x 10 4 0 z 6 4 0.5 lag 0.25", "b2", 2, 21, 1, -2.5);
     place(five + "pulse b by 0.5 period 4 lag 0.5", "b2", 1, 11, 1, 3.5, 0.5);
     place(five + "keys b smooth\nkey b 0 0 0 0\nkey b 2 10 0 0", "b2", 1, 16, 1, 3.5);
-    place(five + "group g at 100 0 0\nspin g axis 0 0 1 period 4\nsphere s size 9 at 1 0 0 repeat 3 step 1 0 0 in g", "s3", 1, 100, 3, 0);
+    place(five + "group g at 100 0 0\nspin g axis 0 0 1 period 4\nsphere s size 9 at 1 0 0 repeat 3 step 1 0 0 in g", "s3", 1, 100,
+          3, 0);
     place("group g repeat 3\nswing g axis 0 0 1 angle 90 period 4 lag -0.25\nsphere s size 9 at 7 0 0 in g2", "s", 0, 0, 7, 0);
     place("group g repeat 3\nspin g axis 0 0 1 period 4 lag 0.25\nsphere s size 9 at 7 0 0 in g3", "s", 0, -7, 0, 0);
     Real weight;
     Model linked;
-    check(read(five + "sphere p size 9\nsphere q size 9 repeat 2\nblend b p 0.5\nblend q b 2\nblend q q\nblend b b2 3", linked) == nullptr,
+    check(read(five + "sphere p size 9\nsphere q size 9 repeat 2\nblend b p 0.5\nblend q b 2\nblend q q\nblend b b2 3", linked) ==
+              nullptr,
           "rows that blend");
     const auto with = [&](const char* a, const char* b) {
         return Model::linked(linked.itemNamed(a)->object, linked.itemNamed(b)->object, &weight) ? number(weight) : -1;
@@ -341,8 +344,10 @@ void rows()
     taken("sphere s size 9 at -250 0 0 repeat 3 step 250 0 0", "a row from edge to edge");
     refused("sphere s size 9 at -249 0 0 repeat 3 step 250 0 0", "T.FB:1: 's3': expected steps that stay between -250 and 250");
     taken("sphere abcdefghijklmn size 9 repeat 9", "a row's name of 14 characters");
-    refused("sphere abcdefghijklmn size 9 repeat 10", "T.FB:1: 'abcdefghijklmn': expected at most 13 characters in the name of such a row");
-    refused("sphere abcdefghijklmno size 9 repeat 2", "T.FB:1: 'abcdefghijklmno': expected at most 14 characters in the name of such a row");
+    refused("sphere abcdefghijklmn size 9 repeat 10",
+            "T.FB:1: 'abcdefghijklmn': expected at most 13 characters in the name of such a row");
+    refused("sphere abcdefghijklmno size 9 repeat 2",
+            "T.FB:1: 'abcdefghijklmno': expected at most 14 characters in the name of such a row");
     refused("sphere s size 9 repeat 2\nsphere s size 9", "T.FB:2: 's': expected a name that is not taken yet");
     refused("sphere s size 9 repeat 2\ngroup s2", "T.FB:2: 's2': expected a name that is not taken yet");
     refused("sphere s2 size 9\nsphere s size 9 repeat 3", "T.FB:2: 's2': expected a name that is not taken yet");
@@ -351,7 +356,8 @@ void rows()
     refused(S + "circle s radius 1 period 1 lag 1", "T.FB:2: 'lag': expected no lag, for this name is no row's");
     refused(S + "path s x 1 1 0 lag 1", "T.FB:2: 'lag': expected x, y or z, each with amplitude, period and phase");
     refused("sphere s size 9 repeat 2\ncircle s radius 1 period 1 lag 2", "T.FB:2: '2': expected a lag in turns from -1 to 1");
-    refused("sphere s size 9 repeat 2\ncircle s radius 1 period 1 log 2", "T.FB:2: 'log': expected radius, plane, u, v, period, phase or lag");
+    refused("sphere s size 9 repeat 2\ncircle s radius 1 period 1 log 2",
+            "T.FB:2: 'log': expected radius, plane, u, v, period, phase or lag");
     refused("sphere s size 9 repeat 2\nspin s axis 0 0 1 log 2", "T.FB:2: 'log': expected axis, period, phase or lag");
     refused("sphere s size 9 repeat 2\nkey s2 1 0 0 0\nkeys s smooth", "T.FB:3: 's2': expected keys before the first key");
     refused("sphere s size 9 repeat 2\nkey s2 1 0 0 0\nkey s 1 0 0 0", "T.FB:3: '1': expected a time after that of the key before");
@@ -373,7 +379,8 @@ void dents()
 {
     Model model;
     const char* wrong = read("sphere a size 20\nsphere b size 9\nsphere r size 9 repeat 3\ndent a b\ndent a r 0.5\ndent r a 2\n"
-                             "dent r r 3\ndent a r2 4\nstrength a 0.25\nstrength r 4\nstrength r3 1.5\nblend a r1 0.25\ndent b a 0", model);
+                             "dent r r 3\ndent a r2 4\nstrength a 0.25\nstrength r 4\nstrength r3 1.5\nblend a r1 0.25\ndent b a 0",
+                             model);
     check(wrong == nullptr, "dents and strengths");
     Real weight;
     const auto digs = [&](const char* into, const char* what) {
@@ -390,14 +397,16 @@ void dents()
     check(seen("a") && seen("r1") && !seen("b") && !seen("r2"), "what only digs has no surface");
     const Bodies* bodies = model.bodies();
     const SoftObject &a = *model.itemNamed("a")->object, &r2 = *model.itemNamed("r2")->object;
-    check(bodies->memberCount(a) == 2 && bodies->diggerCount(a) == 3 && bodies->memberCount(r2) == 1 && bodies->diggerCount(r2) == 0,
+    check(bodies->memberCount(a) == 2 && bodies->diggerCount(a) == 3 && bodies->memberCount(r2) == 1 &&
+              bodies->diggerCount(r2) == 0,
           "a body and what digs into it");
     check(bodies->weight(a.slot(), r2.slot()) == Real(-4) && bodies->weight(r2.slot(), a.slot()) == Real(-2), "one way each");
 
     std::string first, second;
     check(writeSceneText(append, &first, model), "saved with dents");
     check(first.find("\ndent a b\n") != std::string::npos && first.find("\ndent b a 0\n") != std::string::npos &&
-              first.find("\nstrength a 0.25\n") != std::string::npos && first.find("strength b") == std::string::npos, "in their words");
+              first.find("\nstrength a 0.25\n") != std::string::npos && first.find("strength b") == std::string::npos,
+          "in their words");
     Model again;
     wrong = read(first, again);
     if (wrong != nullptr)
@@ -426,14 +435,15 @@ void dents()
 // What the editor saves: the objects that rows made, all motions, the title; and it reads back as the same.
 void saved()
 {
-    const std::string text = "title A row, saved\ngroup g repeat 2 step 0 9 0\nsphere b size 9 repeat 3 step 10 0 0 color pink in g2\n"
-                             "circle b radius 10 period 4 lag 0.125\ncircle b1 u 1 2 3 v 4 5 6 period 3 phase 0.5\n"
-                             "path b x -3 2 0 x 4 3 0\npath b z 1 2 0 z -2 2 0.25\nspin g axis 0 1 0 period 3\nspin g axis 1 0 0 period -5\n"
-                             "swing b2 axis 0 0 1 angle 20 period 2\nswing b2 axis 0 0 1 angle -20 period 5\n"
-                             "pulse b3 by 0.5 period 2\npulse b3 by 0.25 period 3\nblend b b 0.5\ncolours mixed\n"
-                             "finish b1 mirror\npattern b2 stripes 6.5 cyan\npattern b3 checks 3 1 2 3\nfinish b3 shiny\n"
-                             "box x size 9 x 4 y 20 z 2 stretch 1.5 1 0.25\ntaper x -0.5\ntwist b2 0 swing 90 period 3\n"
-                             "bend b 10 swing 30 period -4 phase 0.5 lag 0.25\n";
+    const std::string text =
+        "title A row, saved\ngroup g repeat 2 step 0 9 0\nsphere b size 9 repeat 3 step 10 0 0 color pink in g2\n"
+        "circle b radius 10 period 4 lag 0.125\ncircle b1 u 1 2 3 v 4 5 6 period 3 phase 0.5\n"
+        "path b x -3 2 0 x 4 3 0\npath b z 1 2 0 z -2 2 0.25\nspin g axis 0 1 0 period 3\nspin g axis 1 0 0 period -5\n"
+        "swing b2 axis 0 0 1 angle 20 period 2\nswing b2 axis 0 0 1 angle -20 period 5\n"
+        "pulse b3 by 0.5 period 2\npulse b3 by 0.25 period 3\nblend b b 0.5\ncolours mixed\n"
+        "finish b1 mirror\npattern b2 stripes 6.5 cyan\npattern b3 checks 3 1 2 3\nfinish b3 shiny\n"
+        "box x size 9 x 4 y 20 z 2 stretch 1.5 1 0.25\ntaper x -0.5\ntwist b2 0 swing 90 period 3\n"
+        "bend b 10 swing 30 period -4 phase 0.5 lag 0.25\n";
     Model model, again;
     check(read(text, model) == nullptr, "to be saved");
     std::string first, second;
@@ -453,11 +463,13 @@ void saved()
         Anim::move(model, at(t * 0.317));
         Anim::move(again, at(t * 0.317));
         for (int i = 0; i < model.items(); ++i)
-            same = same && model.item(i).pose.place == again.item(i).pose.place && model.item(i).pose.scale == again.item(i).pose.scale &&
+            same = same && model.item(i).pose.place == again.item(i).pose.place &&
+                   model.item(i).pose.scale == again.item(i).pose.scale &&
                    memcmp(&model.item(i).pose.turn, &again.item(i).pose.turn, sizeof(Matrix)) == 0 &&
                    model.item(i).stretch == again.item(i).stretch;
         for (int i = 0; i < model.count(); ++i)
-            same = same && model.actor(i).object->warped() && model.actor(i).object->warp().amounts() == again.actor(i).object->warp().amounts();
+            same = same && model.actor(i).object->warped() &&
+                   model.actor(i).object->warp().amounts() == again.actor(i).object->warp().amounts();
     }
     check(same, "moves the same");
 }
@@ -701,7 +713,8 @@ void eyes()
 void complaints()
 {
     const char* const statements =
-        "sphere, cylinder, torus, disc, cone, box, group, blend, dent, strength, circle, path, spin, swing, pulse, taper, twist, bend, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title";
+        "sphere, cylinder, torus, disc, cone, box, group, blend, dent, strength, circle, path, spin, swing, pulse, taper, twist, "
+        "bend, keys, key, colours, finish, pattern, eye, look, roll, focal, light or title";
     refused("spere a size 3", std::string("T.FB:1: 'spere': expected ") + statements);
     refused(S + "\n# x\n7\n", std::string("T.FB:4: '7': expected ") + statements);
     refused("", "T.FB:1: 'end of file': expected at least one object");

@@ -987,8 +987,8 @@ static void paints() {
   checkNear(t.brightness(mirror, {0, h, -h}), 0.5 + 0.5 / 256, 1e-12, "a mirror that looks up");
   checkNear(t.brightness(mirror, {0, -h, -h}), 0.5 + 0.5 / 256, 1e-12, "down");
   checkNear(t.brightness(mirror, {1, 0, 0}), 13 / 24.0, 1e-12, "at the horizon");
-  checkNear(t.brightness(mirror, {0, std::sqrt(1 - c8 * c8), -c8}), 1 - 0.5 * (h - 0.3) / 0.7 + 0.5 * (h - 0.3) / 0.7 * std::pow(c8, 16),
-            1e-12, "at the sky");
+  checkNear(t.brightness(mirror, {0, std::sqrt(1 - c8 * c8), -c8}),
+            1 - 0.5 * (h - 0.3) / 0.7 + 0.5 * (h - 0.3) / 0.7 * std::pow(c8, 16), 1e-12, "at the sky");
 
   // Colours that mix.
   const std::string lit = "ambient 0.142857\nhighlight 0.825397\n";
@@ -1019,8 +1019,9 @@ static void paints() {
   is(pattern("stripes", {-9, -7, 10}), 80, 160, 2, "all along");
   is(pattern("stripes", {1, 1, 4}), 80, 160, 2, "on both sides");
   is(pattern("stripes", {1, 1, 6}), 200, 0, 100, "between");
-  const double turn = 2 * 3.14159265358979, vein =
-      0.5 + 0.5 * std::sin(turn * (0.5 * 0.25 + 0.3 * std::sin(turn * (0.35 * 0.5 + 0.2)) + 0.2 * std::sin(turn * (0.55 * 0.75 + 0.2 * 0.5))));
+  const double turn = 2 * 3.14159265358979,
+               vein = 0.5 + 0.5 * std::sin(turn * (0.5 * 0.25 + 0.3 * std::sin(turn * (0.35 * 0.5 + 0.2)) +
+                                                   0.2 * std::sin(turn * (0.55 * 0.75 + 0.2 * 0.5))));
   is(pattern("marble", {2, 3, 6}), 200 + vein * (80 - 200), vein * 160, 100 + vein * (2 - 100), "marble");
 
   // True frames, judged; and damaged.
@@ -1116,21 +1117,25 @@ static void spaces() {
     Vec g, step{random(-1, 1), random(-1, 1), random(-1, 1)};
     s.objects[0].q(there, &g);
     const double small = 1e-6;
-    slope = std::max(slope, std::fabs((s.objects[0].q(there + step * small, nullptr) - s.objects[0].q(there - step * small, nullptr)) /
-                                          (2 * small) - dot(g, step)));
+    slope =
+        std::max(slope, std::fabs((s.objects[0].q(there + step * small, nullptr) - s.objects[0].q(there - step * small, nullptr)) /
+                                      (2 * small) -
+                                  dot(g, step)));
   }
   check(off < 1e-9, "a field in warped space is off by " + std::to_string(off));
   check(slope < 1e-3, "its gradient is off by " + std::to_string(slope));
   againstWalk(s, "a warped box", 11);
-  againstWalk(scene("cylinder 1 0 -20 0 0 20 0 20\nbend 1 0 0 0" + axes + "120 30\nsphere 2 10 -16 -8 26\nstretch 2 10 -16 -8" + axes +
-                    "0.5 1.5 2\nblend 1 2\n"), "a bent cylinder and an ellipsoid", 11);
+  againstWalk(scene("cylinder 1 0 -20 0 0 20 0 20\nbend 1 0 0 0" + axes + "120 30\nsphere 2 10 -16 -8 26\nstretch 2 10 -16 -8" +
+                    axes + "0.5 1.5 2\nblend 1 2\n"),
+              "a bent cylinder and an ellipsoid", 11);
 
-  for (const char *bad : {"stretch 2 0 0 0 1 0 0 0 1 0 1 1 1\n", "stretch 1 0 0 0 1 0 0 0 1 0 1 0 1\n", "taper 1 0 0 0 1 0 0 0 1 0 1 9\n",
-                          "twist 1 0 0 0 1 0 0 0 1 0 9 0\n", "bend 1 0 0 0 0 0 0 0 1 0 9 9\n", "bend 1 0 0 0 1 0 0 2 0 0 9 9\n",
-                          "bend 1 0 0 0 1 0 0 0 1 0 9\n"}) {
+  for (const char *bad : {"stretch 2 0 0 0 1 0 0 0 1 0 1 1 1\n", "stretch 1 0 0 0 1 0 0 0 1 0 1 0 1\n",
+                          "taper 1 0 0 0 1 0 0 0 1 0 1 9\n", "twist 1 0 0 0 1 0 0 0 1 0 9 0\n", "bend 1 0 0 0 0 0 0 0 1 0 9 9\n",
+                          "bend 1 0 0 0 1 0 0 2 0 0 9 9\n", "bend 1 0 0 0 1 0 0 0 1 0 9\n"}) {
     Scene none;
     std::string why;
-    check(!parseScene(camera + "sphere 1 0 0 0 9\n" + bad, "X.TXT", none, why) && why.find("X.TXT:8") == 0, std::string("refused: ") + bad + why);
+    check(!parseScene(camera + "sphere 1 0 0 0 9\n" + bad, "X.TXT", none, why) && why.find("X.TXT:8") == 0,
+          std::string("refused: ") + bad + why);
   }
 }
 

@@ -1,6 +1,6 @@
 // Assembly against C++: each routine of asm/blit.S, asm/scales.S, asm/voxels.S and asm/fields.S and its twin in
-// src/picture/blit.cpp and scales.cpp, src/surface/voxels.cpp and fields.cpp get the same input, and all they may touch must come out the same, with guard
-// bytes round every buffer. A new assembly routine gets its part here before anything else uses it.
+// src/picture/blit.cpp and scales.cpp, src/surface/voxels.cpp and fields.cpp get the same input, and all they may touch must come
+// out the same, with guard bytes round every buffer. A new assembly routine gets its part here before anything else uses it.
 //
 //   twins [SEED [ROUNDS]]     rounds of random scales, voxels and spans, after the cases that are always tried
 //
@@ -364,9 +364,11 @@ static_assert(inasm::LENS_X == offsetof(Lens, x) && inasm::LENS_Y == offsetof(Le
               inasm::EMPTY == offsetof(Lens, empty) && inasm::TILT_ADD == offsetof(Lens, tiltAdd) &&
               inasm::TILT_BITS == offsetof(Lens, tiltBits) && inasm::FOCALX == offsetof(Lens, focalX) &&
               inasm::FOCALY == offsetof(Lens, focalY) && inasm::LENS_WORDS * 4 == sizeof(Lens), "Lens");
-static_assert(inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FAR == LENS_FAR &&
-              inasm::LENS_STEPS == LENS_STEPS && inasm::STEEPEST == STEEPEST && inasm::LARGEST == LARGEST && inasm::LENS_NEXT == LENS_NEXT && inasm::FACTOR_MOST == FACTOR_MOST &&
-              inasm::Z_EMPTY == Z_EMPTY && inasm::SCREEN_WIDTH == WIDE && inasm::SCREEN_HEIGHT == HIGH, "constants");
+static_assert(inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FAR == LENS_FAR && inasm::LENS_STEPS == LENS_STEPS &&
+                  inasm::STEEPEST == STEEPEST && inasm::LARGEST == LARGEST && inasm::LENS_NEXT == LENS_NEXT &&
+                  inasm::FACTOR_MOST == FACTOR_MOST && inasm::Z_EMPTY == Z_EMPTY && inasm::SCREEN_WIDTH == WIDE &&
+                  inasm::SCREEN_HEIGHT == HIGH,
+              "constants");
 
 // No depth of a scale of its table leaves 16 bits: a pixel's middle lies in the rectangle, so no farther from the scale's
 // than half a pixel more than half the pixels; and one step for what is rounded.
@@ -610,7 +612,9 @@ void voxelByVoxel(int rounds)
     prepare(0, true);
     Screen& screen = roomA.at(0);
     memset(screen.frame.data, 0, sizeof screen.frame.data);
-    long wrongPixels = 0, wrongEnds = 0, wrongShades = 0, shaded = 0, wrongDepths = 0, wrongStops = 0, wrongBoxes = 0, wrongEmpties = 0, wrongCuts = 0, cutOff = 0, cutKept = 0, deep = 0, nearOnes = 0, clipped = 0, drawn = 0, stopped = 0, empty = 0;
+    long wrongPixels = 0, wrongEnds = 0, wrongShades = 0, shaded = 0, wrongDepths = 0, wrongStops = 0, wrongBoxes = 0,
+         wrongEmpties = 0, wrongCuts = 0, cutOff = 0, cutKept = 0, deep = 0, nearOnes = 0, clipped = 0, drawn = 0, stopped = 0,
+         empty = 0;
     for (int round = 0; round < rounds; ++round) {
         if (round % 16 == 0) {
             const double focal = 100 + below(300);
@@ -629,7 +633,9 @@ void voxelByVoxel(int rounds)
         // The loop's callers see to it that the products of places fit.
         Factors computed;
         const Factors* const f = factorsOf(a.lens, wrappedSum(a.lens.z, v.z), &computed);
-        const auto fits = [](int32_t place, int32_t factor) { return static_cast<int32_t>(1LL * place * factor) == 1LL * place * factor; };
+        const auto fits = [](int32_t place, int32_t factor) {
+            return static_cast<int32_t>(1LL * place * factor) == 1LL * place * factor;
+        };
         if (f != nullptr && (!fits(wrappedSum(a.lens.x, v.x), f->x) || !fits(wrappedSum(a.lens.y, v.y), f->y)))
             continue;
         const int done = static_cast<int>(drawScalesA(&a.lens, &v, &v + 1) - &v);
@@ -637,7 +643,8 @@ void voxelByVoxel(int rounds)
         const int32_t depth = wrappedSum(a.lens.z, v.z);
         const double z = depth / 256.0;
         const double largest = z > 0 ? (optics.focalX > optics.focalY ? optics.focalX : optics.focalY) * 4096 / z : 1e9;
-        const bool inRange = depth >= LENS_NEXT * 256 && depth < LENS_FAR * 256 && (depth >= LENS_NEAR * 256 || largest < FACTOR_MOST + 1);
+        const bool inRange =
+            depth >= LENS_NEXT * 256 && depth < LENS_FAR * 256 && (depth >= LENS_NEAR * 256 || largest < FACTOR_MOST + 1);
         nearOnes += done != 0 && depth < LENS_NEAR * 256;
         if (!inRange) {
             wrongStops += done != 0;
@@ -646,7 +653,9 @@ void voxelByVoxel(int rounds)
             const double column = optics.centreX + x * optics.focalX / z, row = optics.centreY - y * optics.focalY / z;
             const double halfWide = v.wide / 256.0 * optics.focalX / z, halfHigh = v.high / 256.0 * optics.focalY / z;
             const double left = column - halfWide, right = column + halfWide, top = row - halfHigh, bottom = row + halfHigh;
-            const auto most = [](double p, double q) { return (p < 0 ? -p : p) > (q < 0 ? -q : q) ? (p < 0 ? -p : p) : (q < 0 ? -q : q); };
+            const auto most = [](double p, double q) {
+                return (p < 0 ? -p : p) > (q < 0 ? -q : q) ? (p < 0 ? -p : p) : (q < 0 ? -q : q);
+            };
             const double doubtX = 0.01 + 0.0011 * most(left - optics.centreX, right - optics.centreX);
             const double doubtY = 0.01 + 0.0011 * most(top - optics.centreY, bottom - optics.centreY);
             // Pixels whose centres lie within, at least and at most.
@@ -667,12 +676,14 @@ void voxelByVoxel(int rounds)
                          down = limited(v.tiltY / 256.0 * z * 128 / optics.focalY);
             // How far the depth swings from the middle to a corner's pixel, at most; tilts beyond 16 may not fit the product.
             const bool tilted = most(v.tiltX, v.tiltY) <= 16 * 256;
-            const double stepX = tilted ? most(across, 0) * 1.001 + 1 : STEEPEST, stepY = tilted ? most(down, 0) * 1.001 + 1 : STEEPEST;
+            const double stepX = tilted ? most(across, 0) * 1.001 + 1 : STEEPEST,
+                         stepY = tilted ? most(down, 0) * 1.001 + 1 : STEEPEST;
             const double swing = stepX * halfWide + stepY * halfHigh + doubtX * stepX + doubtY * stepY + 2;
             const bool surelyDeep = z * 128 - swing >= 0 && z * 128 + swing < Z_EMPTY;
-            const double leastSwing = most(across, 0) * 0.998 * (halfWide - 1 - doubtX) + most(down, 0) * 0.998 * (halfHigh - 1 - doubtY) -
-                                      leastWide - leastHigh - 2;
-            const bool surelyNotDeep = tilted && leastWide > 0 && leastHigh > 0 && (z * 128 - leastSwing < 0 || z * 128 + leastSwing > Z_EMPTY);
+            const double leastSwing = most(across, 0) * 0.998 * (halfWide - 1 - doubtX) +
+                                      most(down, 0) * 0.998 * (halfHigh - 1 - doubtY) - leastWide - leastHigh - 2;
+            const bool surelyNotDeep =
+                tilted && leastWide > 0 && leastHigh > 0 && (z * 128 - leastSwing < 0 || z * 128 + leastSwing > Z_EMPTY);
             const bool surelySmall = mostWide <= LARGEST && mostHigh <= LARGEST && surelyDeep;
             const bool surelyLarge = leastWide > LARGEST || (wideOn > 0 && leastHigh > LARGEST) || (surelyOn && surelyNotDeep);
             deep += surelyOn && mostWide <= LARGEST && mostHigh <= LARGEST && surelyNotDeep;
@@ -690,14 +701,18 @@ void voxelByVoxel(int rounds)
                     const bool may = px >= leastLeft && px < mostRight && py >= leastTop && py < mostBottom;
                     const double dx = px + 0.5 - column, dy = py + 0.5 - row;
                     const double expected = z * 128 + across * dx - down * dy;
-                    const double doubt = 2 + most(dx, 0) * (1 + 0.001 * most(across, 0)) + most(dy, 0) * (1 + 0.001 * most(down, 0)) +
-                                         (mostWide + mostHigh) + doubtX * most(across, 0) + doubtY * most(down, 0);
+                    const double doubt = 2 + most(dx, 0) * (1 + 0.001 * most(across, 0)) +
+                                         most(dy, 0) * (1 + 0.001 * most(down, 0)) + (mostWide + mostHigh) +
+                                         doubtX * most(across, 0) + doubtY * most(down, 0);
                     // Tilts are within 16; more may not fit the product.
                     const double end = v.reach != 0 && tilted ? z * 128 + v.reach * 4 : 1e9;
                     // What cuts, and how sure it is: its steps are as those of the brightness.
-                    const double cut = isCut(v) ? v.cutAt / 8.0 + (v.cutX * dx / optics.focalX - v.cutY * dy / optics.focalY) * z / 8 : 0;
-                    const double cutDoubt = isCut(v) ? 0.01 + (most(dx, 0) + most(dy, 0)) / 256 + 0.0021 * (most(v.cutX, 0) + most(v.cutY, 0)) / 8 *
-                                                          (most(dx, dy) + 8 * (doubtX + doubtY) / 0.01) * z / optics.focalX : 0;
+                    const double cut =
+                        isCut(v) ? v.cutAt / 8.0 + (v.cutX * dx / optics.focalX - v.cutY * dy / optics.focalY) * z / 8 : 0;
+                    const double cutDoubt = isCut(v) ? 0.01 + (most(dx, 0) + most(dy, 0)) / 256 +
+                                                           0.0021 * (most(v.cutX, 0) + most(v.cutY, 0)) / 8 *
+                                                               (most(dx, dy) + 8 * (doubtX + doubtY) / 0.01) * z / optics.focalX
+                                                     : 0;
                     cutOff += !taken && sure && done == 1 && cut < -cutDoubt;
                     cutKept += taken && isCut(v);
                     if (!taken && cut < cutDoubt && isCut(v)) {
@@ -706,16 +721,19 @@ void voxelByVoxel(int rounds)
                     }
                     wrongCuts += taken && cut < -cutDoubt;
                     if (!taken) {
-                        wrongPixels += screen.frame.data[at] != 0 || (sure && done == 1 && expected + doubt < end && (tilted || v.reach == 0));
+                        wrongPixels +=
+                            screen.frame.data[at] != 0 || (sure && done == 1 && expected + doubt < end && (tilted || v.reach == 0));
                         continue;
                     }
                     ++pixels;
                     wrongPixels += !may || done == 0;
                     wrongEnds += expected - doubt > end;
-                    const double shade = v.brightness + v.slopeX / 8.0 * dx * z / optics.focalX - v.slopeY / 8.0 * dy * z / optics.focalY;
+                    const double shade =
+                        v.brightness + v.slopeX / 8.0 * dx * z / optics.focalX - v.slopeY / 8.0 * dy * z / optics.focalY;
                     // Steps are whole 1/256 from pixel to pixel, and lengths are good to a thousandth.
-                    const double unsure = 0.01 + (most(dx, 0) + most(dy, 0)) / 256 + 0.0021 * (most(v.slopeX, 0) + most(v.slopeY, 0)) / 8 *
-                                          (most(dx, dy) + 8 * (doubtX + doubtY) / 0.01) * z / optics.focalX;
+                    const double unsure = 0.01 + (most(dx, 0) + most(dy, 0)) / 256 +
+                                          0.0021 * (most(v.slopeX, 0) + most(v.slopeY, 0)) / 8 *
+                                              (most(dx, dy) + 8 * (doubtX + doubtY) / 0.01) * z / optics.focalX;
                     const bool plain = (v.slopeX | v.slopeY) == 0;
                     bool right = false;
                     for (double b = __builtin_floor(shade + 0.5 - unsure); b <= __builtin_floor(shade + 0.5 + unsure); ++b)
@@ -740,7 +758,9 @@ void voxelByVoxel(int rounds)
     verdict(wrongDepths == 0, "voxels: depths as in double precision", wrongDepths);
     verdict(wrongBoxes == 0, "voxels: the rectangle holds what is drawn", wrongBoxes);
     verdict(wrongEmpties == 0, "voxels: those without a pixel are counted", wrongEmpties);
-    verdict(drawn > rounds / 3 && deep > rounds / 200 && nearOnes > rounds / 50 && clipped > rounds / 50 && stopped > rounds / 20 && empty > rounds / 100, "voxels: there were some of each kind", drawn);
+    verdict(drawn > rounds / 3 && deep > rounds / 200 && nearOnes > rounds / 50 && clipped > rounds / 50 && stopped > rounds / 20 &&
+                empty > rounds / 100,
+            "voxels: there were some of each kind", drawn);
 }
 
 // Spans of any kind: none, everything, short ones at the ends.
@@ -1068,7 +1088,9 @@ void fieldsAlong(int rounds)
     static FromRoot from[MOST], kept[MOST];
     static Along c[MOST + 2], a[MOST + 2];
     int inside = 0, outside = 0, below0 = 0, beyond = 0, beside = 0, others = 0, none = 0;
-    const auto real = [](double most) { return realFromRaw(below(static_cast<int>(2 * most * 65536) + 1) - static_cast<int>(most * 65536)); };
+    const auto real = [](double most) {
+        return realFromRaw(below(static_cast<int>(2 * most * 65536) + 1) - static_cast<int>(most * 65536));
+    };
     for (int round = 0; round < rounds; ++round) {
         const int count = below(MOST + 1);
         fill(from, sizeof from);

@@ -172,8 +172,9 @@ static std::vector<std::string> paintLines(bool grey, bool printed)
 {
     const std::string directory = scratch();
     Model model;
-    const std::string scene = "group g scale 2\nsphere a size 20 at 5 0 0 turn 0 0 90 in g colour red\nsphere b size 30\nblend a b\n"
-                              "colours mixed\nfinish a mirror\nfinish b shiny\npattern a checks 8.5 1 2 3\n";
+    const std::string scene =
+        "group g scale 2\nsphere a size 20 at 5 0 0 turn 0 0 90 in g colour red\nsphere b size 30\nblend a b\n"
+        "colours mixed\nfinish a mirror\nfinish b shiny\npattern a checks 8.5 1 2 3\n";
     SceneEnd end;
     CHECK(readSceneText("T.FB", scene.data(), static_cast<uint32_t>(scene.size()), model, &end) == nullptr);
     Anim::move(model, 0);
@@ -204,8 +205,9 @@ TEST(paint_in_a_dump)
     TEXT(lines[4], "mixed");
     TEXT(lines[5], "mirror 1");
     double n[14];
-    SAME(std::sscanf(lines[6].c_str(), "checks %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf", n, n + 1, n + 2, n + 3, n + 4,
-                     n + 5, n + 6, n + 7, n + 8, n + 9, n + 10, n + 11, n + 12, n + 13), 14);
+    SAME(std::sscanf(lines[6].c_str(), "checks %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf", n, n + 1, n + 2, n + 3,
+                     n + 4, n + 5, n + 6, n + 7, n + 8, n + 9, n + 10, n + 11, n + 12, n + 13),
+         14);
     // Twice as large as in the scene, turned from x to y.
     const double wanted[14] = {1, 17, 1, 2, 3, 10, 0, 0, 0, 1, 0, -1, 0, 0};
     for (int i = 0; i < 14; ++i)
@@ -223,7 +225,8 @@ TEST(places_that_cannot_be_written)
     const std::string top = scratch();
     const std::string file = top + "/FILE";
     std::ofstream(file) << "x";
-    const std::string bad[] = {file, file + "/SUB", top + "/NONE/SUB", top + "/" + std::string(300, 'L'), top + "/" + std::string(118, 'L')};
+    const std::string bad[] = {file, file + "/SUB", top + "/NONE/SUB", top + "/" + std::string(300, 'L'),
+                               top + "/" + std::string(118, 'L')};
     for (const std::string& name : bad) {
         Dump dump;
         const char* problem = dump.open(name.c_str());

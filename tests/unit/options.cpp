@@ -140,11 +140,11 @@ TEST(bad_switches)
     for (const char* word : {"/", "-", "/Q", "--help", "/GG", "/G:", "/G:1", "/I:yes", "/P1", "/IG", "", "//G", "/ G", "/G/",
                              "/G/Q", "/G-I", "/G=1", "-G-I", "/S:2/", "/S2/Q", "/N5x/G", "/GWALK"})
         bad(word);
-    for (const char* word : {"/S", "/S:", "/S=", "/S-2", "/S9", "/Sx", "/S=2=", "/S:0", "/S:0.2", "/S:0.2499", "/S:8.01", "/S:9", "/S:-2", "/S:x", "/S:2x", "/S:1e1",
-                             "/S:99999999999", "/S:2,5", "/S: 2"})
+    for (const char* word : {"/S", "/S:", "/S=", "/S-2", "/S9", "/Sx", "/S=2=", "/S:0", "/S:0.2", "/S:0.2499", "/S:8.01", "/S:9",
+                             "/S:-2", "/S:x", "/S:2x", "/S:1e1", "/S:99999999999", "/S:2,5", "/S: 2"})
         bad(word);
-    for (const char* word : {"/N", "/N:", "/N:0", "/N:-1", "/N:10000000", "/N:99999999999999", "/N:1.5", "/N:x", "/N:1x", "/Nx", "/N=", "/N/5",
-                             "/N0"})
+    for (const char* word :
+         {"/N", "/N:", "/N:0", "/N:-1", "/N:10000000", "/N:99999999999999", "/N:1.5", "/N:x", "/N:1x", "/Nx", "/N=", "/N/5", "/N0"})
         bad(word);
     for (const char* word : {"/T", "/T:", "/T:0", "/T:-1", "/T:86401", "/T:0.5", "/T:x", "/Tx"})
         bad(word);
@@ -207,7 +207,8 @@ TEST(accepted_ranges_are_told)
 
 TEST(help_names_every_switch_and_key)
 {
-    for (const char* word : {"/I", "/G", "/P", "/S:", "/F:", "/N:", "/T:", "/D:", "/M:", "/?", "*", "-", "+", "ESC", "left button", "right button"})
+    for (const char* word :
+         {"/I", "/G", "/P", "/S:", "/F:", "/N:", "/T:", "/D:", "/M:", "/?", "*", "-", "+", "ESC", "left button", "right button"})
         if (!CHECK(std::strstr(HELP, word) != nullptr))
             note("not in the help: %s", word);
     // It fits a text screen.

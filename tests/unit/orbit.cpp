@@ -84,9 +84,11 @@ TEST(about_what_the_eye_looks_at)
         const double distance = size(vec(camera.eye) - target);
         CHECK(distance < away * factor + 0.1);
         CHECK(size(seen(camera, distance) - target) < 0.3);
-        CHECK(absolute(camera.eye.x) <= Real(SPACE) && absolute(camera.eye.y) <= Real(SPACE) && absolute(camera.eye.z) <= Real(SPACE));
+        CHECK(absolute(camera.eye.x) <= Real(SPACE) && absolute(camera.eye.y) <= Real(SPACE) &&
+              absolute(camera.eye.z) <= Real(SPACE));
         // Only the edge of the space keeps it nearer than it was asked to be.
-        const double most = std::fmax(std::fabs(number(camera.eye.x)), std::fmax(std::fabs(number(camera.eye.y)), std::fabs(number(camera.eye.z))));
+        const double most =
+            std::fmax(std::fabs(number(camera.eye.x)), std::fmax(std::fabs(number(camera.eye.y)), std::fabs(number(camera.eye.z))));
         CHECK(distance > away * factor - 0.5 || most > 200);
     }
 }

@@ -105,8 +105,8 @@ TEST(colours_of_paint_have_ramps)
     std::string text = "colours mixed\n";
     for (int i = 1; i <= 128; ++i) {
         char line[200];
-        snprintf(line, sizeof line, "sphere s%d size 9 colour %d %d %d\npattern s%d %s 5 %d %d 9\nfinish s%d %s\n", i, i * 2 - 1, 255 - i, i % 7 * 40,
-                 i, PATTERN_WORDS[1 + i % 3], i, i * 2 - 2, i, FINISH_WORDS[i % 3]);
+        snprintf(line, sizeof line, "sphere s%d size 9 colour %d %d %d\npattern s%d %s 5 %d %d 9\nfinish s%d %s\n", i, i * 2 - 1,
+                 255 - i, i % 7 * 40, i, PATTERN_WORDS[1 + i % 3], i, i * 2 - 2, i, FINISH_WORDS[i % 3]);
         text += line;
     }
     Painted many(text + "blend all\n", 0, false, false, 4);
@@ -118,7 +118,8 @@ TEST(colours_of_paint_have_ramps)
             std::set<int> numbers{paint.number, paint.other};
             for (double red = 0; red < 16; red += 2.5)
                 for (double green = 0; green < 16; green += 2.5)
-                    numbers.insert(paint.paints->numberAt(vector(std::min(red, 15.0), std::min(green, 15.0), 15 - green / 2), paint.shines()));
+                    numbers.insert(
+                        paint.paints->numberAt(vector(std::min(red, 15.0), std::min(green, 15.0), 15 - green / 2), paint.shines()));
             for (int number : numbers) {
                 CHECK(number < paint.paints->count() && paint.paints->shines(number) == paint.shines());
                 const uint8_t* ramp = paint.ramps + number * paint.rampRoom;
@@ -147,14 +148,16 @@ TEST(colours_mix_by_the_fields)
         for (int k = 0; k < 2; ++k)
             for (int i = 0; i < p.object(k).seedSlots(); ++i) {
                 const Seed& s = p.object(k).seed(i);
-                if ((s.flags & (SEED_VALID | SEED_RESTING)) != SEED_VALID || (s.flags & SEED_ASLEEP) || ((i & 1) && !(s.flags & SEED_ACTIVE)))
+                if ((s.flags & (SEED_VALID | SEED_RESTING)) != SEED_VALID || (s.flags & SEED_ASLEEP) ||
+                    ((i & 1) && !(s.flags & SEED_ACTIVE)))
                     continue;
                 const Vec at = vec(p.object(k).seedPoint(s));
                 const double a = truths[0].field(at), b = truths[1].field(at);
                 if (b < 0.02 || a < 0.02)
                     continue;
                 const Colour& c = paint.paints->colour(s.mix);
-                most = std::max(most, away((first * a + blue * b) * (1 / (a + b)), {double(c.red), double(c.green), double(c.blue)}));
+                most =
+                    std::max(most, away((first * a + blue * b) * (1 / (a + b)), {double(c.red), double(c.green), double(c.blue)}));
                 ++mixed;
             }
         return most;
@@ -195,7 +198,9 @@ TEST(colours_mix_by_the_fields)
     for (int n = 0; n < paint.paints->count(); ++n)
         for (int light = 0; light <= Palette::HIGHLIGHT; light += 4, ++count) {
             const Colour& c = paint.paints->colour(n);
-            sum += std::pow(away(p.rgb((paint.ramps + n * paint.rampRoom)[light]), lit({double(c.red), double(c.green), double(c.blue)}, light)), 2);
+            sum += std::pow(away(p.rgb((paint.ramps + n * paint.rampRoom)[light]),
+                                 lit({double(c.red), double(c.green), double(c.blue)}, light)),
+                            2);
         }
     note("ramps are off by %.1f of 255 (root of the mean square)", std::sqrt(sum / count));
     CHECK(std::sqrt(sum / count) < 10);
@@ -204,8 +209,8 @@ TEST(colours_mix_by_the_fields)
 TEST(finishes_by_the_normal)
 {
     for (const char* finish : {"shiny", "mirror"}) {
-        Painted p(std::string("sphere a size 50 at 5 3 0\ncylinder b size 20 length 30 at -30 0 0 turn 30 20 50\nfinish a ") + finish +
-                  "\nfinish b " + finish);
+        Painted p(std::string("sphere a size 50 at 5 3 0\ncylinder b size 20 length 30 at -30 0 0 turn 30 20 50\nfinish a ") +
+                  finish + "\nfinish b " + finish);
         const Vec light = vec(unit(p.model.light)), ahead{0, 0, 1};
         Vec half = light - ahead;
         half = half * (1 / std::sqrt(dot(half, half)));
@@ -270,7 +275,8 @@ TEST(patterns_turn_with_the_object)
     std::string shown[2];
     for (int t = 0; t < 2; ++t) {
         Painted p("sphere a size 50 colour white\nspin a axis 0 1 0 period 8\npattern a stripes 10 red\n", t);
-        p.draw(0, [&](const Voxel&, const uint8_t* ramp, const Vec&) { shown[t] += ramp == p.object(0).paint()->ramp ? 'w' : 'r'; });
+        p.draw(0,
+               [&](const Voxel&, const uint8_t* ramp, const Vec&) { shown[t] += ramp == p.object(0).paint()->ramp ? 'w' : 'r'; });
     }
     CHECK(shown[0] != shown[1]);
 }

@@ -139,7 +139,8 @@ TEST(more_colours_than_fit)
     Model model;
     for (int i = 0; i < 40; ++i) {
         Motion still{};
-        CHECK(model.add(make<Sphere>(i + 1, Real(10)), {static_cast<uint8_t>(i * 6), static_cast<uint8_t>(255 - i * 5), 128}, still));
+        CHECK(
+            model.add(make<Sphere>(i + 1, Real(10)), {static_cast<uint8_t>(i * 6), static_cast<uint8_t>(255 - i * 5), 128}, still));
     }
     Palette palette;
     palette.make(model, false);

@@ -187,7 +187,8 @@ TEST(printed_oversampled_seeds)
                 const Seed& s = ball->seed(i);
                 const bool is = (ball->seed(i + 1).flags & SEED_ACTIVE) != 0;
                 if (check)
-                    SAME(is, s.neighbour >= 0 && std::fabs(number(s.position) - number(ball->seed(s.neighbour).position)) > OVERSAMPLE);
+                    SAME(is,
+                         s.neighbour >= 0 && std::fabs(number(s.position) - number(ball->seed(s.neighbour).position)) > OVERSAMPLE);
                 count += is;
             }
         return count;

@@ -21,7 +21,8 @@ struct Errors {
     {
         note("%s: %ld voxels, %.3f units off the surface at most, %.4f on average, %ld astray; brightness %.1f, %.2f, %ld; "
              "neighbours stronger by %.3f at most, %ld; %ld face away",
-             what, count, worst, count > 0 ? sum / count : 0, astray, worstLight, count > 0 ? sumLight / count : 0, dim, strongest, foreign, away);
+             what, count, worst, count > 0 ? sum / count : 0, astray, worstLight, count > 0 ? sumLight / count : 0, dim, strongest,
+             foreign, away);
     }
 };
 
@@ -111,8 +112,8 @@ void seek(Scene& scene, const Body& body, Missing& result)
 void judge(const char* what, const Errors& errors, const Missing& missing)
 {
     errors.report(what);
-    note("%s: %ld seeds in sight, %ld without a voxel near, the farthest %.2f spacings from one", what, missing.count, missing.missing,
-         missing.farthest);
+    note("%s: %ld seeds in sight, %ld without a voxel near, the farthest %.2f spacings from one", what, missing.count,
+         missing.missing, missing.farthest);
     CHECK(errors.count > 0);
     CHECK(missing.count > 0);
     // Single ones may be off where two parts of the surface meet in a fold, or a patch lies half behind the edge.
@@ -216,7 +217,8 @@ TEST(an_object_alone)
         for (int round = 0; round < 6; ++round) {
             Scene scene;
             scene.add(makeOf(KINDS[k], 1), random.between(-30, 30), random.between(-20, 20), random.between(-20, 40));
-            scene.objects[0]->rotate(scene.objects[0]->centre(), vector(random.between(-1, 1), random.between(-1, 1), 1), random.bits());
+            scene.objects[0]->rotate(scene.objects[0]->centre(), vector(random.between(-1, 1), random.between(-1, 1), 1),
+                                     random.bits());
             look(scene, errors, missing, {&KINDS[k]});
             SAME(scene.counts.updated, 0);
             SAME(scene.counts.normals, 0);

@@ -59,7 +59,7 @@ inline std::string said(double a)
 
 #define TEXT(a, b)                                                                                                \
     do {                                                                                                          \
-        const std::string a_ = fbtest::said(a), b_ = fbtest::said(b);                                                                     \
+        const std::string a_ = fbtest::said(a), b_ = fbtest::said(b);                                             \
         fbtest::check(a_ == b_, __FILE__, __LINE__, std::string(#a " = \"") + a_ + "\", expected \"" + b_ + "\"");  \
     } while (0)
 

@@ -29,9 +29,11 @@ struct Core {
         }
         double d2;
         if (box) {
-            const Vec ahead{side.y * axis.z - side.z * axis.y, side.z * axis.x - side.x * axis.z, side.x * axis.y - side.y * axis.x};
+            const Vec ahead{side.y * axis.z - side.z * axis.y, side.z * axis.x - side.x * axis.z,
+                            side.x * axis.y - side.y * axis.x};
             const double x = dot(v, side), z = dot(v, ahead);
-            const Vec over{x - std::clamp(x, -edges.x, edges.x), y - std::clamp(y, -edges.y, edges.y), z - std::clamp(z, -edges.z, edges.z)};
+            const Vec over{x - std::clamp(x, -edges.x, edges.x), y - std::clamp(y, -edges.y, edges.y),
+                           z - std::clamp(z, -edges.z, edges.z)};
             d2 = dot(over, over);
         } else if (ring > 0) {
             d2 = (away - ring) * (away - ring) + y * y;
@@ -98,7 +100,8 @@ struct Body {
         std::vector<size_t> list{i};
         for (size_t at = 0; at < list.size(); ++at)
             for (size_t j = 0; j < cores.size(); ++j)
-                if ((weights[list[at]][j] != 0 || weights[j][list[at]] != 0) && std::find(list.begin(), list.end(), j) == list.end())
+                if ((weights[list[at]][j] != 0 || weights[j][list[at]] != 0) &&
+                    std::find(list.begin(), list.end(), j) == list.end())
                     list.push_back(j);
         return list;
     }

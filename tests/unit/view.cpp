@@ -226,7 +226,8 @@ TEST(cut_scales_end_at_a_line)
     long within = 0, left = 0, doubtful = 0;
     for (int round = 0; round < 3000; ++round) {
         const double z = random.between(40, 480);
-        Voxel v = voxel(random.between(-0.4 * z, 0.4 * z), random.between(-0.3 * z, 0.3 * z), z, random.between(0, z / 20), random.between(0, z / 20), 1 + round % 63);
+        Voxel v = voxel(random.between(-0.4 * z, 0.4 * z), random.between(-0.3 * z, 0.3 * z), z, random.between(0, z / 20),
+                        random.between(0, z / 20), 1 + round % 63);
         if (round % 3 == 0) {
             v.slopeX = static_cast<int8_t>(random.below(13) - 6);
             v.slopeY = static_cast<int8_t>(random.below(13) - 6);
@@ -241,7 +242,8 @@ TEST(cut_scales_end_at_a_line)
         v.cutAt = static_cast<int16_t>(random.between(-1.2, 1.2) * most);
         view.begin();
         show(view, {v});
-        const double column = 160 + 250 * (v.x / 256.0) / (v.z / 256.0), row = 100 - number(view.camera().focalY) * (v.y / 256.0) / (v.z / 256.0);
+        const double column = 160 + 250 * (v.x / 256.0) / (v.z / 256.0),
+                     row = 100 - number(view.camera().focalY) * (v.y / 256.0) / (v.z / 256.0);
         // What is not within the box is cleared or was never drawn: other tests hold the view to that.
         const Box around = box(v, view.camera());
         const int from = std::max(0, static_cast<int>(around.top) - 2), to = std::min(HEIGHT, static_cast<int>(around.bottom) + 2);
@@ -282,9 +284,11 @@ TEST(places_count_from_the_lists_own)
     Random random;
     for (int round = 0; round < 20; ++round) {
         std::vector<Voxel> list, moved;
-        const int32_t x = steps(random.between(-3000, 3000)), y = steps(random.between(-3000, 3000)), z = steps(random.between(-3000, 3000));
+        const int32_t x = steps(random.between(-3000, 3000)), y = steps(random.between(-3000, 3000)),
+                      z = steps(random.between(-3000, 3000));
         for (int i = 0; i < 200; ++i) {
-            Voxel v = voxel(random.between(-60, 60), random.between(-50, 50), random.between(20, 300), random.between(0, 6), random.between(0, 6), 1 + i % 63);
+            Voxel v = voxel(random.between(-60, 60), random.between(-50, 50), random.between(20, 300), random.between(0, 6),
+                            random.between(0, 6), 1 + i % 63);
             v.tiltX = static_cast<int16_t>(random.below(1000) - 500);
             v.tiltY = static_cast<int16_t>(random.below(1000) - 500);
             list.push_back(v);
@@ -467,17 +471,23 @@ TEST(gaps_closed_all_round)
         }
 }
 
-// Between two objects the colour changes where the one's field becomes stronger, to two pixels, wherever the gap lies; the brightness goes from
-// the one side's to the other's, and the depth stays the nearer side's.
-TEST(gaps_between_two_objects)
+// Two balls of size 40 as far as that to the left and to the right of the middle.
+static void addPair(Model& model, double away)
 {
-    Model model;
     Motion left{}, right{};
-    left.centre = point(-10, 0, 0);
-    right.centre = point(10, 0, 0);
+    left.centre = point(-away, 0, 0);
+    right.centre = point(away, 0, 0);
     CHECK(model.add(make<Sphere>(1, Real(40)), {255, 0, 0}, left));
     CHECK(model.add(make<Sphere>(2, Real(40)), {0, 0, 255}, right));
     Anim::move(model, 0);
+}
+
+// Between two objects the colour changes where the one's field becomes stronger, to two pixels, wherever the gap lies; the
+// brightness goes from the one side's to the other's, and the depth stays the nearer side's.
+TEST(gaps_between_two_objects)
+{
+    Model model;
+    addPair(model, 10);
     Palette palette;
     palette.make(model, false);
     const uint8_t* const ramps[] = {model.actor(0).object->ramp(), model.actor(1).object->ramp()};
@@ -512,32 +522,31 @@ TEST(gaps_between_two_objects)
         }
 }
 
-// What is open stays so: between two objects that do not touch, at whatever distance, and in the middle of a ring.
+// What is open on a side stays so between two objects that do not touch, at whatever distance. What is drawn all round is closed.
 TEST(gaps_where_there_is_no_surface)
 {
     Model model;
-    Motion left{}, right{};
-    left.centre = point(-25, 0, 0);
-    right.centre = point(25, 0, 0);
-    CHECK(model.add(make<Sphere>(1, Real(40)), {255, 0, 0}, left));
-    CHECK(model.add(make<Sphere>(2, Real(40)), {255, 0, 0}, right));
-    Anim::move(model, 0);
+    addPair(model, 25);
     View view;
     CHECK(view.open());
     for (int size = 4; size <= 10; size += 2)
         for (double z : {-15.0, 0.0, 15.0}) {
-            const auto between = [&](const Model* with) {
+            const auto between = [&](const Model* with, bool round) {
                 view.begin();
                 const double depth = 75 + z;
                 block(view, 100, 90, 160 - size / 2, 110, 7, depth);
                 block(view, 160 + size / 2, 90, 220, 110, 7, depth);
                 block(view, 100, 70, 220, 90, 7, depth);
+                const int bottom = round ? 100 : 110;
+                if (round)
+                    block(view, 100, bottom, 220, 130, 7, depth);
                 view.closeGaps(SPACING, with);
                 view.end();
-                return drawnIn(view, 160 - size / 2, 90, 160 + size / 2, 110);
+                return drawnIn(view, 160 - size / 2, 90, 160 + size / 2, bottom);
             };
-            CHECK(between(nullptr) > 0);
-            SAME(between(&model), 0);
+            CHECK(between(nullptr, false) > 0);
+            SAME(between(&model, false), 0);
+            SAME(between(&model, true), size * 10);
         }
 }
 
@@ -630,7 +639,8 @@ TEST(gaps_anywhere)
                 bool like = false;
                 for (int k = 1; k <= 32 && !like; ++k)
                     for (const int from : {i - k, i + k, i - k * WIDTH, i + k * WIDTH})
-                        like = like || (from >= 0 && from < WIDTH * HEIGHT && view.zbuffer()[from] == depth && view.frame()[from] == colour);
+                        like = like || (from >= 0 && from < WIDTH * HEIGHT && view.zbuffer()[from] == depth &&
+                                        view.frame()[from] == colour);
                 wrong += !like;
             }
         }

@@ -9,7 +9,8 @@ cd "$(dirname "$0")/../.." || exit 1
 # ---- What needs nothing from outside
 page=tools/web/page.js
 # The same machines and figures as in the benchmark.
-sed -n 's/.*name: "\([^"]*\)", cycles: \([0-9]*\), report: \([a-z0-9.]*\) .*/\2 \3 \1/p' $page | sed 's/ null / 0 /' >"$dir/machines"
+sed -n 's/.*name: "\([^"]*\)", cycles: \([0-9]*\), report: \([a-z0-9.]*\) .*/\2 \3 \1/p' $page |
+	sed 's/ null / 0 /' >"$dir/machines"
 ok 'five machines' test "$(wc -l <"$dir/machines")" -eq 5
 while read -r line; do
 	ok "the benchmark has $line" grep -q "^[[:space:]]*$line\$" tools/bench.sh
@@ -33,7 +34,8 @@ if ! timeout 300 make -s web >"$dir/make" 2>&1; then
 	summary
 	exit 1
 fi
-for file in index.html page.css page.js DEMO.EXE RUN.COM FBLOBS.ZIP emulators/emulators.js emulators/wdosbox.js emulators/wdosbox.wasm; do
+for file in index.html page.css page.js DEMO.EXE RUN.COM FBLOBS.ZIP \
+	emulators/emulators.js emulators/wdosbox.js emulators/wdosbox.wasm; do
 	ok "build/web has $file" test -s "build/web/$file"
 done
 ok 'its DEMO.EXE is the one built' cmp build/DEMO.EXE build/web/DEMO.EXE

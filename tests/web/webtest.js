@@ -120,7 +120,8 @@ async function tryPage(browser, home) {
 	await shot("playing");
 	ok("ten seconds later the program's statistics are there", await until(async () => (await rows()).length === 1));
 	const first = (await rows())[0] ?? [];
-	ok("of the four spheres on a 486DX2-66", first[0] === "FOUR" && first[1] === "486DX2-66" && first[3] === "1.15", first.join(" | "));
+	ok("of the four spheres on a 486DX2-66", first[0] === "FOUR" && first[1] === "486DX2-66" && first[3] === "1.15",
+		first.join(" | "));
 	const stats = await statistics();
 	ok("the report's seeds", stats["seeds"] === "2496" && stats["oversampled seeds"] === "2480", JSON.stringify(stats));
 	ok("frames a second are those of the statistics", Number(first[2]) > 1 && Math.abs(Number(first[2]) - Number(stats.fps)) <= 0.05,
@@ -167,7 +168,8 @@ async function tryPage(browser, home) {
 		await until(async () => (await text("status")).startsWith("Playing"));
 		ok(`${name} plays`, await playing() && await moves());
 		ok(`${name}: the text and the link are its own`, page.url().includes("scene=" + name) &&
-			await page.$eval("#text", (area) => area.value) === fs.readFileSync(`build/web/scenes/${name}.FB`, "latin1").replaceAll("\r\n", "\n"));
+			await page.$eval("#text", (area) => area.value) ===
+			fs.readFileSync(`build/web/scenes/${name}.FB`, "latin1").replaceAll("\r\n", "\n"));
 	}
 	await shot("scene");
 
@@ -188,11 +190,13 @@ async function tryPage(browser, home) {
 	await page.click("#playText");
 	ok("a wrong one does not", await ended());
 	ok("and the program says why", /^SCENE\.FB:2: 'spere': expected .*sphere/.test(await text("message")), await text("message"));
-	ok("the line is selected", await page.$eval("#text", (area) => area.value.slice(area.selectionStart, area.selectionEnd)) === "spere two size 20");
+	ok("the line is selected", await page.$eval("#text",
+		(area) => area.value.slice(area.selectionStart, area.selectionEnd)) === "spere two size 20");
 	await shot("wrong");
 	await type("sphere one size 300\n");
 	await page.click("#playText");
-	ok("another: the range", await until(async () => /^SCENE\.FB:1: '300': .*size from 1 to 100/.test(await text("message"))), await text("message"));
+	ok("another: the range", await until(async () => /^SCENE\.FB:1: '300': .*size from 1 to 100/.test(await text("message"))),
+		await text("message"));
 
 	// A file, dropped and chosen.
 	await page.evaluate(() => {
@@ -216,15 +220,16 @@ async function tryPage(browser, home) {
 	const second = await browser.newPage();
 	await second.goto(link);
 	ok("the link brings the scene back", await second.waitForFunction(
-		() => document.getElementById("text").value.startsWith("sphere one size 60 colour 255 0 0\nspin one"), { timeout: SLOW }).then(() => true, () => false));
+		() => document.getElementById("text").value.startsWith("sphere one size 60 colour 255 0 0\nspin one"),
+		{ timeout: SLOW }).then(() => true, () => false));
 	await second.goto(home + "#scene=WALK&grey=1&machine=p75");
 	ok("a link names scene, switches and machine", await second.waitForFunction(() => document.getElementById("grey").checked &&
 		document.getElementById("machine-p75").checked && /walking figure/.test(document.getElementById("text").value),
 	{ timeout: SLOW }).then(() => true, () => false));
 	await second.goto("about:blank");
 	await second.goto(home + "#plain=" + encodeURIComponent("sphere two size 44\n"));
-	ok("a link may hold the text as it is", await second.waitForFunction(() => document.getElementById("text").value === "sphere two size 44\n",
-		{ timeout: SLOW }).then(() => true, () => false));
+	ok("a link may hold the text as it is", await second.waitForFunction(
+		() => document.getElementById("text").value === "sphere two size 44\n", { timeout: SLOW }).then(() => true, () => false));
 	await second.close();
 
 	// ---- By hand
@@ -262,7 +267,8 @@ async function tryPage(browser, home) {
 	await page.mouse.move(...centre);
 	await page.mouse.down();
 	await page.mouse.up();
-	ok("by hand: a click gives the mouse to the picture", await until(() => page.evaluate(() => document.pointerLockElement === document.getElementById("screen")), 5000));
+	ok("by hand: a click gives the mouse to the picture", await until(() => page.evaluate(
+		() => document.pointerLockElement === document.getElementById("screen")), 5000));
 	const start = await redMiddle(page);
 	const slide = async (dx, dy) => {
 		for (let i = 1; i <= 10; ++i) {
@@ -284,8 +290,8 @@ async function tryPage(browser, home) {
 	await page.mouse.move(centre[0] + 100, centre[1] - 40);
 	await until(still, 20000);
 	const third = await redMiddle(page);
-	ok("by hand: the left button selects the other object", near(third.x, right.x) && near(third.y, right.y) && (await picture()).sum !== sum,
-		JSON.stringify([right, third]));
+	ok("by hand: the left button selects the other object", near(third.x, right.x) && near(third.y, right.y) &&
+		(await picture()).sum !== sum, JSON.stringify([right, third]));
 	await page.evaluate(() => document.exitPointerLock());
 
 	// Keys: from the keyboard while the picture has the focus, and from the buttons.
@@ -312,8 +318,8 @@ async function tryPage(browser, home) {
 	await phone.goto(home, { waitUntil: "load" });
 	ok("a phone: nothing is wider than the screen", await phone.evaluate(() => document.documentElement.scrollWidth <= 360),
 		await phone.evaluate(() => document.documentElement.scrollWidth));
-	ok("a phone: buttons are as large as a finger", await phone.evaluate(() => [...document.querySelectorAll("button")].every((button) =>
-		button.hidden || button.getBoundingClientRect().height >= 40)));
+	ok("a phone: buttons are as large as a finger", await phone.evaluate(
+		() => [...document.querySelectorAll("button")].every((button) => button.hidden || button.getBoundingClientRect().height >= 40)));
 	await phone.tap("#interactive");
 	await phone.$eval("#text", (area, value) => area.value = value, twoBalls);
 	await phone.tap("#playText");
@@ -335,7 +341,8 @@ async function tryPage(browser, home) {
 	await phone.touchscreen.touchEnd();
 	await wait(1500);
 	const touched = await redMiddle(phone);
-	ok("a phone: a finger moves the object to the right", touched.x - untouched.x > 20 && near(touched.y, untouched.y), JSON.stringify([untouched, touched]));
+	ok("a phone: a finger moves the object to the right", touched.x - untouched.x > 20 && near(touched.y, untouched.y),
+		JSON.stringify([untouched, touched]));
 	await phone.screenshot({ path: `${SHOTS}/phone.png`, fullPage: true });
 	await phone.close();
 
