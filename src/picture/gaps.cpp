@@ -58,7 +58,7 @@ void follow(const uint8_t* frame, int y, int from, int to, int step, int widest,
             opening.narrow = opening.high + 1;
         opening.rows[opening.high++] = {static_cast<int16_t>(from), static_cast<int16_t>(to)};
         const int next = y + opening.high * step;
-        if (next <= 0 || next >= HEIGHT - 1)
+        if (next < 0 || next >= HEIGHT)
             return;
         if (!goesOn(frame + next * WIDTH, widest, &from, &to)) {
             opening.narrow = opening.high;
@@ -78,11 +78,12 @@ int Gaps::close(Real spacing)
     // A spacing in pixels is this over a depth of the Z-buffer.
     const int32_t near = mulShift16(rawFromReal(view_.camera().focalX) >> 4, rawFromReal(spacing)) >> 5;
     Span runs[WIDTH / 2];
-    const uint8_t* row = frame_ + WIDTH;
-    for (int y = 1; y < HEIGHT - GAP_LOW; ++y, row += WIDTH) {
+    const uint8_t* row = frame_;
+    for (int y = 0; y < HEIGHT; ++y, row += WIDTH) {
         const Span& touched = view_.touched(y);
         if (touched.from >= touched.to)
             continue;
+        const bool slits = y > 0 && y < HEIGHT - GAP_LOW;
         const Span* const end = runs + drawnRuns(row, zbuffer_ + y * WIDTH, &touched, runs);
         int last = 0;  // behind the run before
         for (const Span* run = runs; run < end; ++run) {
@@ -92,13 +93,13 @@ int Gaps::close(Real spacing)
                 const int before = zbuffer_[y * WIDTH + last - 1], behind = zbuffer_[y * WIDTH + from];
                 closeRun(y, last, from, near / ((before > behind ? before : behind) | 1));
             }
-            if (last > 0 && inSlit(row + last))
+            if (slits && last > 0 && inSlit(row + last))
                 closeSlit(y, last, from, 1);
-            if (from > 0 && inSlit(row + from - 1))
+            if (slits && from > 0 && inSlit(row + from - 1))
                 closeSlit(y, from - 1, last - 1, -1);
             last = run->to;
         }
-        if (last > 0 && last < WIDTH && inSlit(row + last))
+        if (slits && last > 0 && last < WIDTH && inSlit(row + last))
             closeSlit(y, last, WIDTH, 1);
     }
     return drawn;
@@ -120,6 +121,8 @@ void Gaps::closeRun(int y, int from, int to, int spacing)
     }
     // Where it begins, and where it ends if it was not closed from there.
     for (int step = 1; step >= -1 && row[from] == 0; step -= 2) {
+        if (y - step < 0 || y - step >= HEIGHT)
+            continue;
         int x = from;
         while (x < to && row[x - step * WIDTH] != 0)
             ++x;
@@ -172,6 +175,8 @@ void Gaps::closeFrom(int y, int from, int to, int step, int widest, int narrowes
 // none of a round outline, it is closed.
 void Gaps::closeCorner(int y, int x, int step)
 {
+    if (y == 0 || y == HEIGHT - 1)
+        return;
     const uint8_t* pixel = frame_ + y * WIDTH + x;
     const int along = pixel[-WIDTH] != 0 ? -WIDTH : WIDTH;
     if (pixel[0] == 0 && pixel[-step] != 0 && pixel[along] != 0 && pixel[along + step] != 0 && pixel[-step - along] != 0)

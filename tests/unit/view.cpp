@@ -602,6 +602,29 @@ TEST(gaps_open_on_a_side)
     }
 }
 
+TEST(gaps_at_the_edges_of_the_screen)
+{
+    View view;
+    CHECK(view.open());
+    for (int high = 1; high <= 14; ++high)
+        for (int size = 1; size <= 12; ++size) {
+            // Closed above and open below, where the screen ends; and the other way round.
+            view.begin();
+            block(view, 20, 150, 40, HEIGHT, 7);
+            block(view, 40 + size, 150, 70, HEIGHT, 7);
+            block(view, 20, 150, 70, HEIGHT - high, 7);
+            block(view, 120, 0, 140, 50, 7);
+            block(view, 140 + size, 0, 170, 50, 7);
+            block(view, 120, high, 170, 50, 7);
+            SAME(drawnIn(view, 40, HEIGHT - high, 40 + size, HEIGHT), 0);
+            SAME(drawnIn(view, 140, 0, 140 + size, high), 0);
+            view.closeGaps(SPACING);
+            view.end();
+            SAME(drawnIn(view, 40, HEIGHT - high, 40 + size, HEIGHT), size * high);
+            SAME(drawnIn(view, 140, 0, 140 + size, high), size * high);
+        }
+}
+
 TEST(gaps_anywhere)
 {
     // Anything on the screen, up to its edges: what was drawn stays, and what is new looks like something beside it.
