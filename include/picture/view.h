@@ -51,8 +51,9 @@ public:
     // Returns the number of pixels that were drawn before.
     int closeGaps(Real spacing, const Model* model = nullptr, const Palette* palette = nullptr);
 
-    // The place in the world of a pixel (row * WIDTH + column) that was drawn.
-    Point pointAt(int at) const;
+    // The place in the world of a pixel (row * WIDTH + column) that was drawn; or of any, were it so far away (1/128 unit).
+    Point pointAt(int at) const { return pointAt(at, zbuffer_[at]); }
+    Point pointAt(int at, int depth) const;
 
     // Of the frame as it is so far: a pixel (row * WIDTH + column) is given a depth (1/128 unit) and a colour, or what
     // another one has; and between which columns of a row anything may be drawn.

@@ -190,7 +190,11 @@ bool Gaps::isOpen(int first, int last) const
         return false;
     const Point here = view_.pointAt(first);
     const Vector way = view_.pointAt(last) - here;
-    return model_->implicitAt(here + Vector{shiftDown(way.x, 1), shiftDown(way.y, 1), shiftDown(way.z, 1)}) < OUTSIDE;
+    if (model_->implicitAt(here + Vector{shiftDown(way.x, 1), shiftDown(way.y, 1), shiftDown(way.z, 1)}) >= OUTSIDE)
+        return false;
+    // The nearer of the two may hide what the gap is in.
+    const int farther = zbuffer_[first] < zbuffer_[last] ? last : first;
+    return model_->implicitAt(view_.pointAt((first + last) >> 1, zbuffer_[farther])) < OUTSIDE;
 }
 
 // Whose the drawn pixels on both sides of a gap are. None are named where their colour is the same, where their fields do not

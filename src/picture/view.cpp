@@ -316,10 +316,10 @@ int View::closeGaps(Real spacing, const Model* model, const Palette* palette)
     return pixels_ ? 0 : Gaps(*this, model, palette).close(spacing);
 }
 
-Point View::pointAt(int at) const
+Point View::pointAt(int at, int depth) const
 {
     const int row = at / WIDTH, column = at - row * WIDTH;
-    const Real half(0.5), z = realFromRaw(static_cast<int32_t>(zbuffer_[at]) << 9);
+    const Real half(0.5), z = realFromRaw(static_cast<int32_t>(depth) << 9);
     return camera_.eye + camera_.axes.toWorld({(Real(column) + half - camera_.centreX) / camera_.focalX * z,
                                                (camera_.centreY - Real(row) - half) / camera_.focalY * z, z});
 }
