@@ -97,7 +97,8 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
         return true;
     if (!known || patch.stale || isDue(odometer_.bound(), patch.listDue))
         renewLists(patch, all);
-    if (!settler.setPatch(patch) && all.rests && isAtRest(settler, patch, all))
+    const bool alone = all.rests && !isListed(patch.near);
+    if ((alone || !settler.setPatch(patch)) && all.rests && isAtRest(settler, patch, all))
         return false;
     if (outOfSight(patch, own)) {
         sleep(object_, patch);
@@ -112,7 +113,9 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
 // Whether a patch keeps its state, whoever reaches it now: it is not due, or still lies inside one neighbour.
 inline bool Engine::keeps(Settler& settler, Patch& patch, const Neighbourhood& all, bool known)
 {
-    if (known && all.common && patch.state != PATCH_REST && !isDue(odometer_.reading(), patch.due))
+    if (patch.state == PATCH_REST)
+        return false;
+    if (known && all.common && !isDue(odometer_.reading(), patch.due))
         return true;
     if (patch.state != PATCH_INSIDE || !settler.isStillCovered(patch))
         return false;
