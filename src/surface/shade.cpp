@@ -64,6 +64,7 @@ private:
     const OwnFrame own_;
     Shading shading_;
     bool ball_, near_;        // near: some seeds may be nearer than NEAREST_DEPTH
+    int32_t limb_, blendedLimb_;  // Shading::limb of what rests, and of what blends
     int32_t facesViewer_;     // FACES_VIEWER times the distance of the eye, steps of places
     int viewShift_;           // brings the way to the eye to 14 bits
     const bool hollow_;       // the seeds sample a hollow
@@ -106,7 +107,8 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
         ballGradient_[i] = (product(own.light, axes[i]) >> 14) * (BRIGHTEST * 32) / ((radius >> 8) + 1);
     }
     const int32_t distance = own.distance32 >> (shading_.placeShift - 8);
-    shading_.limb = distance * own.limb >> 11;
+    limb_ = distance * own.limb >> 11;
+    blendedLimb_ = distance * own.blendedLimb >> 11;
     facesViewer_ = (distance * (FACES_VIEWER >> 6)) >> 5;
     viewShift_ = larger(0, 18 - __builtin_clz(static_cast<uint32_t>(distance + 4096)));
     // Both per 1/32 unit of the world.
@@ -311,6 +313,7 @@ inline void Shader::shadePatch(Patch& patch, bool turn, VoxelList& list, Painter
     Voxel unpainted[PAINTED ? SEEDS_MOST : 1];
     Voxel *const voxels = PAINTED ? unpainted : list.voxels + list.count, *to = voxels;
     Seen seen[SEEDS_MOST];
+    shading_.limb = patch.state == PATCH_REST ? limb_ : blendedLimb_;
     int count = findSeeds(&shading_, &patch, seen, voxels);
     if (patch.extras || patch.islands)
         count += findExtras(patch, seen + count, voxels + count);
