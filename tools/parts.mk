@@ -8,5 +8,5 @@ ROOMS = math model surface picture app
 PROGRAM = $(wildcard $(ROOMS:%=src/%/*.cpp))
 KERNELS = $(wildcard asm/*.S)
 MAIN = src/app/main.cpp
-QUICK = $(addprefix src/surface/,settle nearby path fields blend search cover border hollow classify shade voxels) \
+QUICK = $(addprefix src/surface/,settle nearby path fields blend search cover border hollow classify shade slopes voxels) \
 	$(addprefix src/picture/,view gaps)

@@ -2,9 +2,9 @@
 #include "paint.h"
 
 #include "math/normal.h"
+#include "math/whole.h"
 #include "rt.h"
 #include "voxels.h"
-#include "math/whole.h"
 
 namespace {
 
@@ -49,9 +49,6 @@ int32_t highlight(int32_t cosine)
     return cosine;
 }
 
-// Area between two ways on the picture plane, 1/4096 square unit, below which the surface is seen too much edge-on.
-constexpr int32_t LEAST_AREA = 200;
-
 // Spacings: no scale reaches farther along the surface.
 constexpr Real FARTHEST(2);
 
@@ -66,26 +63,6 @@ struct Shear {
         y = depth <= 0 ? 0 : limited(((list.y + voxel.y) << 8) / depth, most);
     }
 };
-
-// Change of brightness (1/8 step) from the middle of a scale to its corner below which it has one brightness.
-constexpr int32_t FLAT = 8;
-
-// Differences of brightness (1/256 step) between seeds beside each other that make less than that on the scale of one of them.
-constexpr int32_t EVEN = 256;
-
-// Sets how the brightness changes across a voxel, 1/8 step a unit; not at all when that is next to nothing.
-void setSlopes(int32_t x, int32_t y, Voxel* voxel)
-{
-    int32_t corner = (magnitude(x) * voxel->wide + magnitude(y) * voxel->high) >> 8;
-    if (corner < FLAT)
-        return;
-    for (; corner > SHADING_MOST * 8; corner >>= 1) {
-        x /= 2;
-        y /= 2;
-    }
-    voxel->slopeX = static_cast<int8_t>(limited(x, 127));
-    voxel->slopeY = static_cast<int8_t>(limited(y, 127));
-}
 
 // A cosine of 14 bits of fraction.
 inline Real part(int32_t cosine14)
@@ -168,8 +145,8 @@ void Painter::add(const Seed& s, const Voxel& shaded)
 {
     Voxel voxel = shaded;
     if (paint_.shines()) {
-        voxel.brightness = static_cast<uint8_t>((brightness8(s) + 128) >> 8);
-        slope(s, &voxel);
+        voxel.brightness = static_cast<uint8_t>((polish_.brightness8(s.normal) + 128) >> 8);
+        voxel.slopeX = voxel.slopeY = 0;
     }
     const uint8_t mix = paint_.mixes && !(s.flags & SEED_RESTING) ? s.mix : paint_.number;
     if (paint_.pattern == PATTERN_NONE) {
@@ -192,50 +169,6 @@ void Painter::add(const Seed& s, const Voxel& shaded)
     }
     put(within, spot.number);
     put(beyond, spot.beyond);
-}
-
-// Neighbours ask for the same seeds: a ring later at most, which is seldom longer than there is room.
-int32_t Painter::brightness8(const Seed& s)
-{
-    Known& known = known_[reinterpret_cast<uintptr_t>(&s) / sizeof(Seed) % KNOWN];
-    if (known.seed != &s)
-        known = {&s, polish_.brightness8(s.normal)};
-    return known.brightness8;
-}
-
-// How the brightness changes across the voxel, from the next seed of its ring and from N of the ring before.
-void Painter::slope(const Seed& s, Voxel* voxel)
-{
-    voxel->slopeX = voxel->slopeY = 0;
-    // Oversampled ones do not lie among the regular.
-    const Seed *const first = &object_.seed(0), *const last = &object_.seed(object_.seedSlots() - 2), *next = &s + 1;
-    if (s.neighbour < 0 || &s < first || &s > last)
-        return;
-    if (next > last || !(next->flags & SEED_VALID) || next->neighbour < s.neighbour)
-        next = &s > first ? &s - 1 : &s;
-    const Seed& n = object_.seed(s.neighbour);
-    if (!(next->flags & n.flags & SEED_VALID))
-        return;
-    const int32_t here = brightness8(s), a = brightness8(*next) - here, b = brightness8(n) - here;
-    if (magnitude(a) + magnitude(b) < EVEN)
-        return;
-    const Vector at = place(s);
-    const Shear shear(list_, *voxel);
-    // A way on the surface as it falls on the picture plane, 1/64 unit.
-    const auto onPicture = [&](const Seed& to, int32_t* x, int32_t* y) {
-        const Vector way = (place(to) - at) * own_.growth;
-        const int32_t d[] = {rawFromReal(way.x) >> 10, rawFromReal(way.y) >> 10, rawFromReal(way.z) >> 10};
-        const int32_t ahead = (d[0] * own_.ahead[0] + d[1] * own_.ahead[1] + d[2] * own_.ahead[2]) >> 14;
-        *x = ((d[0] * own_.right[0] + d[1] * own_.right[1] + d[2] * own_.right[2]) >> 14) - (ahead * shear.x >> 10);
-        *y = ((d[0] * own_.up[0] + d[1] * own_.up[1] + d[2] * own_.up[2]) >> 14) - (ahead * shear.y >> 10);
-    };
-    int32_t ax, ay, bx, by;
-    onPicture(*next, &ax, &ay);
-    onPicture(n, &bx, &by);
-    const int32_t area = ax * by - ay * bx;
-    if (area > -LEAST_AREA && area < LEAST_AREA)
-        return;
-    setSlopes((a * by - b * ay) * 2 / area, (b * ax - a * bx) * 2 / area, voxel);
 }
 
 bool Painter::cut(const Direction14& inward, int32_t apart, Voxel* voxel) const

@@ -27,15 +27,16 @@ class Painter {
 public:
     Painter(const SoftObject& object, const OwnFrame& own, VoxelList& list);
 
-    // Lists what the shader has made of a seed; in two voxels where an edge of a pattern goes through it.
+    bool shines() const { return paint_.shines(); }
+
+    // Lists what the shader has made of a seed; in two voxels where an edge of a pattern goes through it. What shines has one
+    // brightness there, and its slopes are still to come (slopes.h).
     void add(const Seed& s, const Voxel& voxel);
 
 private:
     struct Spot;
     Vector place(const Seed& s) const { return object_.root(s.root) + s.path * s.position; }
     void put(const Voxel& voxel, uint8_t number);
-    int32_t brightness8(const Seed& s);
-    void slope(const Seed& s, Voxel* voxel);
     bool cut(const Direction14& inward, int32_t apart, Voxel* voxel) const;
     Spot spotAt(const Vector& place, const Direction14& normal, uint8_t mix) const;
 
@@ -48,14 +49,6 @@ private:
     Vector from_;         // own space: from the middle of the pattern to the object's centre
     Real inverse_, edge_; // own space to grains; a grain in units of the world
     Real reach2_;         // how far from a seed an edge is near, squared, in grains
-
-    // The brightness of seeds asked for lately.
-    struct Known {
-        const Seed* seed;
-        int32_t brightness8;
-    };
-    static constexpr int KNOWN = 128;
-    Known known_[KNOWN] = {};
 };
 
 // Sorts the voxels of a list by the numbers of their colours into runs.

@@ -3,11 +3,15 @@
 #include "shade.h"
 
 #include "math/normal.h"
-#include "paint.h"
-#include "voxels.h"
 #include "math/whole.h"
+#include "paint.h"
+#include "slopes.h"
+#include "voxels.h"
 
 namespace {
+
+// Of the object that is being shaded.
+Slopes slopes;
 
 template <class Part, class Other>
 inline int32_t product(const Part a[3], const Other b[3])
@@ -32,7 +36,10 @@ constexpr int32_t FLATTEST = 8000;
 constexpr int32_t FACES_VIEWER = 16000;
 
 // One less than the number of frames in which the bends of patches are measured that settle in each.
-constexpr int BEND_TURNS = 1;
+constexpr int BEND_TURNS = 3;
+
+// A patch bends unevenly when its slope foretells another brightness than some of its seeds have, by more than this, 1/4 step.
+constexpr int32_t UNEVEN_SHADING = 6;
 
 // Seeds of a patch, oversampled and fine ones included.
 constexpr int SEEDS_MOST = (2 + SoftObject::FINE_SEEDS) * PATCH_RINGS * PATCH_SEEDS;
@@ -46,12 +53,16 @@ public:
     template <bool PAINTED>
     void shadePatch(Patch& patch, bool turn, VoxelList& list, Painter* painter);
 
+    // Of its seeds, 1/256 unit.
+    int32_t spacing() const { return spacing_; }
+
 private:
     int findExtras(const Patch& patch, Seen* seen, Voxel* voxels) const;
     int leaveNear(Seen* seen, Voxel* voxels, int count) const;
     void measureBend(Patch& patch) const;
     void setPatch(const Patch& patch, const Seen& middle, const Voxel& at);
     void setBend(const Patch& patch, const Seen& middle);
+    bool bendsUnevenly(const Voxel* voxels, int count) const;
     bool cut(const Seed& s, Voxel* voxel) const;
     // What of a vector of own space lies along axis i of the view.
     template <class Part>
@@ -63,6 +74,7 @@ private:
     SoftObject& object_;
     const OwnFrame own_;
     Shading shading_;
+    int32_t spacing_;         // of the seeds, 1/256 unit
     bool ball_, near_;        // near: some seeds may be nearer than NEAREST_DEPTH
     int32_t limb_, blendedLimb_;  // Shading::limb of what rests, and of what blends
     int32_t facesViewer_;     // FACES_VIEWER times the distance of the eye, steps of places
@@ -75,6 +87,7 @@ private:
     int32_t columns_[3], rows_[3], aheads_[3];  // axes of the view for cells, 14 bits of fraction more; aheads_ 4 bits more
     uint32_t areaScale_;      // squared spacing
     // Of the patch.
+    int32_t ahead_;           // of the brightness along the view, 1/8 step a unit with 8 bits of fraction
     int32_t shearX_, shearY_; // of the ray through it, 10 bits of fraction
 };
 
@@ -117,7 +130,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     horizonScale_ = mulShift16(mulDiv(step, 1 << 12, distance32), step);
     flatHorizon_ = mulShift16(FLATTEST, horizonScale_);
     gradientScale_ = mulDiv(BRIGHTEST << 16, 1 << (19 - shading_.placeShift), rawFromReal(own.growth));
-    const int32_t spacing = smaller(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
+    const int32_t spacing = spacing_ = smaller(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
     areaScale_ = static_cast<uint32_t>(mulShift16(spacing * spacing << 7, step));
     shading_.cellShift = __builtin_clz(static_cast<uint32_t>(spacing)) - 19;
     if (spacing << shading_.cellShift > 6143)
@@ -263,8 +276,25 @@ inline void Shader::setPatch(const Patch& patch, const Seen& middle, const Voxel
     }
     if (hollow_)
         shading_.horizonShare = flatHorizon_;
+    ahead_ = shading_.gradientAhead;
     shading_.gradientAhead = (shading_.gradientAhead + (shading_.gradient[0] * (shearX_ >> 2) >> 8) +
                               (shading_.gradient[1] * (shearY_ >> 2) >> 8)) >> 4;
+}
+
+// Whether the slope of a patch that is set does not foretell the brightness of its seeds.
+inline bool Shader::bendsUnevenly(const Voxel* voxels, int count) const
+{
+    const Voxel& middle = voxels[count >> 1];
+    const int32_t gradientX = shading_.gradient[0] >> 6, gradientY = shading_.gradient[1] >> 6, gradientZ = ahead_ >> 6;
+    const auto errs = [&](const Voxel& v) {
+        const int32_t x = v.x - middle.x, y = v.y - middle.y, z = v.z - middle.z;
+        const int32_t change = (gradientX * x + gradientY * y + gradientZ * z) >> 11;
+        return v.brightness != 0 && magnitude(change - (v.brightness - middle.brightness) * 4) > UNEVEN_SHADING;
+    };
+    for (int i = 0; i < count; i += 2)
+        if (errs(voxels[i]))
+            return true;
+    return false;
 }
 
 // Where another object is the strongest the scale ends: at a straight line, for the difference of two fields is nearly linear
@@ -289,7 +319,7 @@ SELDOM int Shader::findExtras(const Patch& patch, Seen* seen, Voxel* voxels) con
             if ((fine[which].flags & SEED_ACTIVE) && findSeed(shading_, fine[which], seen + count, voxels + count))
                 ++count;
     });
-    return count;
+    return near_ ? leaveNear(seen, voxels, count) : count;
 }
 
 // Leaves out those that are too near or too far.
@@ -311,20 +341,24 @@ inline void Shader::shadePatch(Patch& patch, bool turn, VoxelList& list, Painter
 {
     // The painter makes one or two voxels of each.
     Voxel unpainted[PAINTED ? SEEDS_MOST : 1];
-    Voxel *const voxels = PAINTED ? unpainted : list.voxels + list.count, *to = voxels;
+    Voxel *const voxels = PAINTED ? unpainted : list.room(), *to = voxels;
     Seen seen[SEEDS_MOST];
     shading_.limb = patch.state == PATCH_REST ? limb_ : blendedLimb_;
     int count = findSeeds(&shading_, &patch, seen, voxels);
-    if (patch.extras || patch.islands)
-        count += findExtras(patch, seen + count, voxels + count);
     if (near_)
         count = leaveNear(seen, voxels, count);
+    const int regular = count;
+    if (patch.extras || patch.islands)
+        count += findExtras(patch, seen + count, voxels + count);
     if (count == 0)
         return;
     if (!patch.bend.known || (patch.bend.stale && turn))
         measureBend(patch);
     setPatch(patch, seen[count >> 1], voxels[count >> 1]);
     shadeSeeds(&shading_, seen, voxels, count);
+    const bool shines = PAINTED && painter->shines(), blends = patch.state == PATCH_MIXED;
+    const int32_t sight = shines || (blends && bendsUnevenly(voxels, regular)) ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
+    const int known = shines || blends ? regular : 0;
     for (int i = 0; i < count; ++i) {
         const Seed& s = *seen[i].seed;
         if (s.flags & SEED_BORDER) {
@@ -333,12 +367,21 @@ inline void Shader::shadePatch(Patch& patch, bool turn, VoxelList& list, Painter
             if (s.apart < 0)
                 voxels[i].z += BEHIND;
         }
-        if (PAINTED)
+        if (PAINTED) {
+            to = list.room();
             painter->add(s, voxels[i]);
-        else if (to++ != voxels + i)
-            to[-1] = voxels[i];
+        } else if (to != voxels + i) {
+            *to = voxels[i];
+        }
+        if (i < known) {
+            slopes.add(shading_.seeds, static_cast<int>(&s - shading_.seeds), to, sight);
+            if (PAINTED && list.room() > to + 1)
+                slopes.addCopy(to + 1, to);
+        }
+        ++to;
     }
-    list.count += static_cast<int>(to - voxels);
+    if (!PAINTED)
+        list.count = static_cast<int>(to - list.voxels);
 }
 
 // Whether some of a patch may be seen. What has settled in this frame was not hidden before it did.
@@ -354,6 +397,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
             int turn, VoxelList& list, int room, Painter* painter)
 {
     Shader shader(object, own, frame);
+    slopes.begin();
     // The painter may make two voxels of one.
     const int most = (PAINTED ? 2 : 1) * SEEDS_MOST;
     int at = first;
@@ -362,6 +406,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
         if (isSeen(patch, own))
             shader.shadePatch<PAINTED>(patch, ((at + turn) & BEND_TURNS) == 0, list, painter);
     }
+    slopes.set(shader.spacing());
     return at;
 }
 

@@ -1,7 +1,6 @@
 // From seeds to voxels: what a seed looks like.
 #include "voxels.h"
 
-#include "math/whole.h"
 
 namespace {
 
@@ -120,18 +119,9 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
         voxel.reach = static_cast<uint8_t>(reach);
     if (voxel.brightness == 0)
         return;
-    // How the brightness changes across the scale, 1/8 step a unit; not at all when that is next to nothing.
-    int32_t slopeX = (v.gradient[0] + (tiltX * v.gradientAhead >> 4)) >> 8;
-    int32_t slopeY = (v.gradient[1] + (tiltY * v.gradientAhead >> 4)) >> 8;
-    int32_t corner = (magnitude(slopeX) * wide + magnitude(slopeY) * high) >> 8;
-    if (corner < FLAT_SHADING)
-        return;
-    for (; corner > STEEPEST_SHADING; corner >>= 1) {
-        slopeX >>= 1;
-        slopeY >>= 1;
-    }
-    voxel.slopeX = static_cast<int8_t>(limited(slopeX, 127));
-    voxel.slopeY = static_cast<int8_t>(limited(slopeY, 127));
+    const int32_t slopeX = (v.gradient[0] + (tiltX * v.gradientAhead >> 4)) >> 8;
+    const int32_t slopeY = (v.gradient[1] + (tiltY * v.gradientAhead >> 4)) >> 8;
+    setSlopes(slopeX, slopeY, &voxel);
 }
 
 }  // namespace

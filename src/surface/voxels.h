@@ -2,6 +2,7 @@
 #ifndef FB_VOXELS_H
 #define FB_VOXELS_H
 
+#include "math/whole.h"
 #include "patch.h"
 #include "surface/voxel.h"
 
@@ -49,6 +50,21 @@ constexpr int32_t FLAT_SHADING = 8;
 
 // And the most that it is let to be: half of what says more, for there the brightness does not go on as it does in the middle.
 constexpr int32_t STEEPEST_SHADING = 240;
+
+// Sets how the brightness changes across a voxel that has its extents, 1/8 step a unit: not at all when that is next to nothing.
+inline void setSlopes(int32_t x, int32_t y, Voxel* voxel)
+{
+    voxel->slopeX = voxel->slopeY = 0;
+    int32_t corner = (magnitude(x) * voxel->wide + magnitude(y) * voxel->high) >> 8;
+    if (corner < FLAT_SHADING)
+        return;
+    for (; corner > STEEPEST_SHADING; corner >>= 1) {
+        x >>= 1;
+        y >>= 1;
+    }
+    voxel->slopeX = static_cast<int8_t>(limited(x, 127));
+    voxel->slopeY = static_cast<int8_t>(limited(y, 127));
+}
 
 // No scale is stretched to more than two and a half times its cell by blending: cosine of path and normal. Below the other cosine
 // a cell lies in no even band of its ring.

@@ -1,0 +1,72 @@
+// Slopes of brightness from seed to seed.
+#include "slopes.h"
+
+#include "voxels.h"
+
+namespace {
+
+// Spacings: on the picture plane, seeds on both sides of another lie no farther apart to the right or upwards.
+constexpr int FARTHEST = 6;
+
+// Slopes that are limited anyhow, 1/8 step a unit.
+constexpr int32_t STEEPEST = 8191;
+
+// A way on the picture plane, 1/64 unit, and by how much the brightness changes on it, 1/16 step.
+struct Way {
+    int32_t x, y, change;
+
+    // From one voxel to another, or to or from one between the two when one of them is dark.
+    Way(const Voxel* a, const Voxel* b, const Voxel* between, int32_t sight)
+    {
+        if (a->brightness == 0)
+            a = between;
+        if (b->brightness == 0)
+            b = between;
+        const int32_t z = b->z - a->z;
+        x = (b->x - a->x - (z * (sight >> 16) >> 10)) >> 2;
+        y = (b->y - a->y - (z * static_cast<int16_t>(sight) >> 10)) >> 2;
+        change = (b->brightness - a->brightness) * 16;
+    }
+    Way(int32_t toX, int32_t toY, int32_t by) : x(toX), y(toY), change(by) {}
+    bool isLonger(int32_t most) const
+    {
+        return static_cast<uint32_t>(x + most) > static_cast<uint32_t>(2 * most) ||
+               static_cast<uint32_t>(y + most) > static_cast<uint32_t>(2 * most);
+    }
+};
+
+}  // namespace
+
+void Slopes::set(int32_t spacing)
+{
+    const int32_t most = spacing * FARTHEST >> 2, least = (spacing >> 2) * (spacing >> 2) >> 3;
+    for (Shown *shown = shown_, *const end = shown_ + count_; shown < end; ++shown) {
+        Voxel& v = *shown->voxel;
+        if (shown->sight == STAYS || v.brightness == 0)
+            continue;
+        if (shown->number == COPY) {
+            v.slopeX = shown->before->slopeX;
+            v.slopeY = shown->before->slopeY;
+            continue;
+        }
+        const Shown *const last = find(shown->number - 1), *const next = find(shown->number + 1);
+        Way along(last != nullptr ? last->voxel : &v, next != nullptr ? next->voxel : &v, &v, shown->sight);
+        Way across(shown->before, shown->behind, &v, shown->sight);
+        if (along.isLonger(most))
+            along = {0, 0, 0};
+        if (across.isLonger(most))
+            across = {0, 0, 0};
+        int32_t area = along.x * across.y - along.y * across.x;
+        if (magnitude(area) < least) {
+            // Square to the longer one the slopes stay.
+            if (magnitude(along.x) + magnitude(along.y) < magnitude(across.x) + magnitude(across.y))
+                along = across;
+            across = {-along.y, along.x, (v.slopeY * along.x - v.slopeX * along.y) >> 5};
+            area = along.x * along.x + along.y * along.y;
+            if (area < least)
+                continue;
+        }
+        setSlopes(limited((along.change * across.y - across.change * along.y) * 32 / area, STEEPEST),
+                  limited((across.change * along.x - along.change * across.x) * 32 / area, STEEPEST), &v);
+    }
+}

@@ -1,0 +1,184 @@
+// How the brightness changes across scales: what Slopes makes of voxels beside each other, and how true it is where objects blend.
+#include "../../src/surface/slopes.h"
+
+#include "help.h"
+#include "test.h"
+#include "truth.h"
+
+namespace {
+
+constexpr int32_t SPACING = 512;
+constexpr int RINGS = 5, ROUND = 7;
+
+// A plane of seeds in rings, tilted away from the viewer, and the voxels that show them.
+struct Plane {
+    std::vector<Seed> seeds{static_cast<size_t>(RINGS * ROUND)};
+    std::vector<Voxel> voxels{static_cast<size_t>(RINGS * ROUND)};
+    std::unique_ptr<Slopes> slopes = std::make_unique<Slopes>();
+    double shearX = 0.4, shearY = -0.3;
+
+    static int at(int ring, int i) { return ring * ROUND + i; }
+
+    // Brightness 30 in the middle, and its change for a unit of the picture plane.
+    Plane(double changeX, double changeY)
+    {
+        for (int ring = 0; ring < RINGS; ++ring)
+            for (int i = 0; i < ROUND; ++i) {
+                // N is beside the next seed of the ring (model/seed.h).
+                seeds[at(ring, i)].neighbour = ring == 0 ? -1 : 2 * at(ring - 1, std::min(i + 1, ROUND - 1));
+                Voxel& v = voxels[at(ring, i)];
+                v = {};
+                const double x = (i - ROUND / 2) * 2.0 + 0.3 * ring, y = (ring - RINGS / 2) * 2.0, z = 0.5 * x + 0.8 * y;
+                v.x = static_cast<int32_t>(std::lround(x * 256));
+                v.y = static_cast<int32_t>(std::lround(y * 256));
+                v.z = static_cast<int32_t>(std::lround(z * 256));
+                v.wide = v.high = 256;
+                const double brightness = 30 + changeX * (x - shearX * z) + changeY * (y - shearY * z);
+                v.brightness = static_cast<uint8_t>(std::clamp(std::lround(brightness), 0L, 63L));
+            }
+    }
+    void set(bool wanted = true)
+    {
+        const auto bits10 = [](double shear) { return static_cast<int32_t>(std::lround(shear * 1024)); };
+        slopes->begin();
+        for (int i = 0; i < RINGS * ROUND; ++i)
+            slopes->add(seeds.data(), i, &voxels[i], wanted ? Slopes::sight(bits10(shearX), bits10(shearY)) : Slopes::STAYS);
+        slopes->set(SPACING);
+    }
+    // Whether the slopes of a lit voxel are right, but for what rounding brightness to whole steps makes of them.
+    bool isRight(int i, double changeX, double changeY, double off) const
+    {
+        return std::fabs(voxels[i].slopeX - 8 * changeX) <= off && std::fabs(voxels[i].slopeY - 8 * changeY) <= off;
+    }
+};
+
+}  // namespace
+
+TEST(slopes_are_those_of_the_brightness)
+{
+    Random random;
+    for (int round = 0; round < 200; ++round) {
+        const double x = random.between(-2, 2), y = random.between(-2, 2);
+        Plane plane(x, y);
+        plane.set();
+        for (int ring = 0; ring < RINGS; ++ring)
+            for (int i = 0; i < ROUND; ++i) {
+                const Voxel& v = plane.voxels[Plane::at(ring, i)];
+                // A dark or wholly lit one beside it tells less than there is.
+                bool clear = true;
+                for (int k = std::max(ring - 1, 0); k <= std::min(ring + 1, RINGS - 1); ++k)
+                    for (int j = std::max(i - 1, 0); j <= std::min(i + 1, ROUND - 1); ++j)
+                        clear = clear && plane.voxels[Plane::at(k, j)].brightness % 63 != 0;
+                const bool inside = ring > 0 && ring < RINGS - 1;
+                // Rings close: at their ends seeds of other rings are beside them.
+                if (clear && i > 0 && i < ROUND - 1 && std::fabs(x) + std::fabs(y) > 1.5)
+                    CHECK(plane.isRight(Plane::at(ring, i), x, y, inside ? 4 : 8));
+                if (v.brightness == 0)
+                    CHECK(v.slopeX == 0 && v.slopeY == 0);
+            }
+    }
+}
+
+TEST(slopes_stay_where_nothing_is_known)
+{
+    Plane still(1, 1);
+    for (Voxel& v : still.voxels)
+        v.slopeX = 3, v.slopeY = -2;
+    still.set(false);
+    for (const Voxel& v : still.voxels)
+        CHECK(v.slopeX == 3 && v.slopeY == -2);
+
+    // All others are dark, or far away.
+    const int middle = Plane::at(2, 3);
+    for (int dark = 0; dark < 2; ++dark) {
+        Plane lone(1, 1);
+        for (int i = 0; i < RINGS * ROUND; ++i) {
+            lone.voxels[i].slopeX = 12;
+            lone.voxels[i].slopeY = -9;
+            if (i == middle)
+                continue;
+            if (dark)
+                lone.voxels[i].brightness = 0;
+            else
+                lone.voxels[i].x += i < middle ? -100000 : 100000;
+        }
+        lone.set();
+        CHECK(lone.voxels[middle].slopeX == 12 && lone.voxels[middle].slopeY == -9);
+    }
+
+    // Only the seeds of its ring are lit: along that the slope is theirs, square to it what it was.
+    Plane ring(1.5, 0);
+    ring.shearX = ring.shearY = 0;
+    for (int i = 0; i < RINGS * ROUND; ++i) {
+        Voxel& v = ring.voxels[i];
+        v.slopeX = -20;
+        v.slopeY = 7;
+        v.brightness = i / ROUND == 2 ? static_cast<uint8_t>(30 + 3 * (i % ROUND - 3)) : 0;
+    }
+    ring.set();
+    CHECK(std::abs(ring.voxels[middle].slopeX - 12) <= 1);
+    CHECK(std::abs(ring.voxels[middle].slopeY - 7) <= 1);
+}
+
+TEST(slopes_of_a_voxel_in_two_parts_are_alike)
+{
+    Plane plane(1, -1);
+    Voxel copy{};
+    copy.brightness = 30;
+    plane.slopes->begin();
+    for (int i = 0; i < RINGS * ROUND; ++i) {
+        plane.slopes->add(plane.seeds.data(), i, &plane.voxels[i], Slopes::sight(410, -307));
+        if (i == 17)
+            plane.slopes->addCopy(&copy, &plane.voxels[i]);
+    }
+    plane.slopes->set(SPACING);
+    CHECK(copy.slopeX == plane.voxels[17].slopeX && copy.slopeY == plane.voxels[17].slopeY);
+    CHECK(plane.isRight(17, 1, -1, 4));
+}
+
+// Half a spacing to each side of a seed where balls blend, the brightness of its scale is about that of the surface.
+TEST(slopes_are_true_where_balls_blend)
+{
+    double sum = 0;
+    long count = 0;
+    Random random;
+    for (int round = 0; round < 6; ++round) {
+        Scene scene;
+        scene.ball(32, random.between(-17, -14), random.between(-8, 8), random.between(-6, 6));
+        scene.ball(28, random.between(14, 17), random.between(-8, 8), random.between(-6, 6));
+        scene.ball(20, random.between(-6, 6), random.between(12, 18), random.between(-18, -10));
+        scene.linkAll();
+        for (int frame = 0; frame < 3; ++frame)
+            scene.update();
+        const Body body(scene);
+        for (size_t o = 0; o < scene.objects.size(); ++o) {
+            const std::vector<size_t> joined = body.joined(o);
+            for (const Voxel& voxel : scene.draw(o)) {
+                const Vec p = vec(scene.eye) + Vec{voxel.x / 256.0, voxel.y / 256.0, voxel.z / 256.0};
+                // Cuts are another thing, and so are the limb and the terminator.
+                const Vec fall = body.fall(joined, p), toEye = vec(scene.eye) - p;
+                if (voxel.cutX || voxel.cutY || voxel.brightness < 12 || dot(fall, toEye) < 0.5 * size(fall) * size(toEye))
+                    continue;
+                for (int side = 0; side < 4; ++side) {
+                    const double x = side == 0 ? 1 : side == 1 ? -1 : 0, y = side == 2 ? 1 : side == 3 ? -1 : 0;
+                    Vec q = p + Vec{x, y, 0};
+                    const Vec ray = (q - vec(scene.eye)) * (1 / size(q - vec(scene.eye)));
+                    for (int step = 0; step < 8; ++step)
+                        q = q + ray * ((body.field(joined, q) - 0.5) / dot(body.fall(joined, q), ray));
+                    if (std::fabs(body.field(joined, q) - 0.5) > 0.001 || !(size(q - p) < 3) || body.dominance(o, joined, q) > 0)
+                        continue;
+                    const Vec there = body.fall(joined, q);
+                    const double light = dot(there, vec(scene.light)) / size(there) * 63;
+                    if (light <= 0)
+                        continue;
+                    const double off = voxel.brightness + (voxel.slopeX * x + voxel.slopeY * y) / 8 - light;
+                    sum += off * off;
+                    ++count;
+                }
+            }
+        }
+    }
+    note("brightness a unit beside %ld seeds: %.2f steps off", count / 4, std::sqrt(sum / count));
+    CHECK(count > 4000);
+    CHECK(std::sqrt(sum / count) < 1.5);
+}
