@@ -68,6 +68,7 @@
 #define FLAT_SHADING 8
 #define STEEPEST_SHADING 240
 #define BRIGHTEST    63
+#define DARK_MIDDLE      -30
 #define LEAST_COSINE 6500
 #define UNEVEN       15500
 #define AREA_MOST    16383
@@ -240,7 +241,8 @@ ENDFUNC(findSeedsA)
 #define SHADE_WAY_X  16
 #define SHADE_WAY_Y  20
 #define SHADE_OFF    24
-#define SHADE_FRAME  28
+#define SHADE_LIGHT  28
+#define SHADE_FRAME  32
 #define SHADE_SHADING (SHADE_FRAME+20)
 #define SHADE_SEEN   (SHADE_FRAME+24)
 #define SHADE_VOXELS (SHADE_FRAME+28)
@@ -418,18 +420,19 @@ shade_extended:
         movw        %cx, VOXEL_WIDE(%edi)
         movw        %ax, VOXEL_HIGH(%edi)
 
-        // cosine = s.normal * v.light >> 14; voxel.brightness = cosine <= 0 ? 0 : (cosine * BRIGHTEST + 8192) >> 14
+        // cosine = s.normal * v.light >> 14; light = (cosine * BRIGHTEST + 8192) >> 14
         movl        SEEN_SEED(%ebx), %esi
         movl        %ecx, SHADE_AREA(%esp)
         product        SEED_NORMAL, LIGHT, %edx, %ecx
         movl        SHADE_AREA(%esp), %ecx
         sarl        $14, %edx
-        jle        shade_dark
         imull        $BRIGHTEST, %edx, %edx
         addl        $8192, %edx
-        shrl        $14, %edx
+        sarl        $14, %edx
+        movl        %edx, SHADE_LIGHT(%esp)
+        // voxel.brightness = larger(light, 0), and all behind it 0
+        jle        shade_dark
 shade_lit:
-        // all behind it 0
         movl        %edx, VOXEL_BRIGHT(%edi)
         movl        $0, VOXEL_SLOPEX(%edi)
 
@@ -459,9 +462,9 @@ shade_lit:
         jl        shade_no_end
         movb        %dl, VOXEL_REACH(%edi)
 shade_no_end:
-        // if (voxel.brightness == 0) return
-        cmpb        $0, VOXEL_BRIGHT(%edi)
-        je        shade_done
+        // if (light <= DARK_MIDDLE) return
+        cmpl        $DARK_MIDDLE, SHADE_LIGHT(%esp)
+        jle        shade_done
         // slopeX = (v.gradient[0] + (tiltX * v.gradientAhead >> 4)) >> 8, and the other
         movswl        VOXEL_TILTX(%edi), %edx
         imull        AHEAD(%ebp), %edx
@@ -494,6 +497,12 @@ shade_no_end:
         sarl        $1, %eax
 2:        cmpl        $STEEPEST_SHADING, %eax
         jg        1b
+        // if (corner + light * 8 <= 0) return; voxel.brightness = light
+        movl        SHADE_LIGHT(%esp), %ecx
+        leal        (%eax,%ecx,8), %eax
+        testl        %eax, %eax
+        jle        shade_done
+        movb        %cl, VOXEL_BRIGHT(%edi)
         // voxel.slopeX = limited(slopeX, 127), and the other
         leal        127(%edx), %eax
         cmpl        $254, %eax

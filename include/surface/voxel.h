@@ -10,7 +10,7 @@ struct Voxel {
     int32_t x, y, z;     // from the object's centre, axes of the view, 1/256 unit
     int16_t wide, high;  // half extents along X and Y, 1/256 unit, 0 or more
     int16_t tiltX, tiltY;    // slopes of the depth across the scale, 8 bits of fraction
-    uint8_t brightness;      // 0..63
+    int8_t brightness;       // of the middle, 0..63; below 0, to DARK_MIDDLE, where only a part of the scale is lit: it has a slope
     uint8_t reach;           // what lies farther behind the middle than this, 1/32 unit, is left out: there the surface has bent
                              // out of sight; 0: all is drawn
     int8_t cutX, cutY;       // slopes of a linear function across the scale, 1/8 a unit; both 0: it is not cut
@@ -19,6 +19,7 @@ struct Voxel {
 };
 
 constexpr int SHADING_MOST = 64;
+constexpr int DARK_MIDDLE = -30;
 
 constexpr int VOXELS_AT_ONCE = 1024;
 

@@ -145,7 +145,7 @@ void Painter::add(const Seed& s, const Voxel& shaded)
 {
     Voxel voxel = shaded;
     if (paint_.shines()) {
-        voxel.brightness = static_cast<uint8_t>((polish_.brightness8(s.normal) + 128) >> 8);
+        voxel.brightness = static_cast<int8_t>((polish_.brightness8(s.normal) + 128) >> 8);
         voxel.slopeX = voxel.slopeY = 0;
     }
     const uint8_t mix = paint_.mixes && !(s.flags & SEED_RESTING) ? s.mix : paint_.number;

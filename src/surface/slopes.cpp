@@ -45,6 +45,7 @@ void Slopes::set(int32_t spacing)
         if (shown->sight == STAYS || v.brightness == 0)
             continue;
         if (shown->number == COPY) {
+            v.brightness = shown->before->brightness;
             v.slopeX = shown->before->slopeX;
             v.slopeY = shown->before->slopeY;
             continue;

@@ -75,7 +75,7 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     const int16_t tiltY = static_cast<int16_t>(normalY * steep >> 14);
     // Lambert's cosine (report, The Rendering Technique).
     const int32_t cosine = product(s.normal, v.light);
-    voxel.brightness = static_cast<uint8_t>(cosine <= 0 ? 0 : (cosine * BRIGHTEST + 8192) >> 14);
+    const int32_t light = (cosine * BRIGHTEST + 8192) >> 14;
     voxel.tiltX = tiltX;
     voxel.tiltY = tiltY;
     // Half width and height. Beside each other, cells of a ring make a band: rectangles as wide as the way from one to the
@@ -117,7 +117,8 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     const int32_t reach = (v.horizonShare * facing >> 16) + 1;
     if (reach < 256 && (magnitude(tiltX) * wide + magnitude(tiltY) * high) >> 11 >= reach)
         voxel.reach = static_cast<uint8_t>(reach);
-    if (voxel.brightness == 0)
+    voxel.brightness = static_cast<int8_t>(light <= DARK_MIDDLE ? 0 : light);
+    if (light <= DARK_MIDDLE)
         return;
     const int32_t slopeX = (v.gradient[0] + (tiltX * v.gradientAhead >> 4)) >> 8;
     const int32_t slopeY = (v.gradient[1] + (tiltY * v.gradientAhead >> 4)) >> 8;

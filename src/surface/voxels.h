@@ -54,6 +54,8 @@ constexpr int32_t STEEPEST_SHADING = 240;
 // Sets how the brightness changes across a voxel that has its extents, 1/8 step a unit: not at all when that is next to nothing.
 inline void setSlopes(int32_t x, int32_t y, Voxel* voxel)
 {
+    const int32_t light = voxel->brightness;
+    voxel->brightness = static_cast<int8_t>(larger(light, 0));
     voxel->slopeX = voxel->slopeY = 0;
     int32_t corner = (magnitude(x) * voxel->wide + magnitude(y) * voxel->high) >> 8;
     if (corner < FLAT_SHADING)
@@ -62,6 +64,10 @@ inline void setSlopes(int32_t x, int32_t y, Voxel* voxel)
         x >>= 1;
         y >>= 1;
     }
+    // Not even a corner of it is lit.
+    if (corner + light * 8 <= 0)
+        return;
+    voxel->brightness = static_cast<int8_t>(light);
     voxel->slopeX = static_cast<int8_t>(limited(x, 127));
     voxel->slopeY = static_cast<int8_t>(limited(y, 127));
 }

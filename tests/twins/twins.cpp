@@ -475,12 +475,15 @@ Voxel anyVoxel(const Lens& lens)
         v.tiltX = static_cast<int16_t>((below(2) ? 1 : -1) * below(4000));
         v.tiltY = static_cast<int16_t>((below(2) ? 1 : -1) * below(4000));
     }
-    v.brightness = static_cast<uint8_t>(below(64));
+    v.brightness = static_cast<int8_t>(below(64));
     v.reach = static_cast<uint8_t>(below(2) ? 0 : any() >> (24 + below(6)));
     v.slopeX = v.slopeY = 0;
     if (below(2) == 0) {
         v.slopeX = static_cast<int8_t>(any());
         v.slopeY = static_cast<int8_t>(any());
+        // What has a slope may be dark in the middle.
+        if (below(3) == 0 && (v.slopeX | v.slopeY) != 0)
+            v.brightness = static_cast<int8_t>(DARK_MIDDLE + below(-DARK_MIDDLE));
     }
     v.cutX = v.cutY = 0;
     v.cutAt = static_cast<int16_t>(anything());
@@ -500,7 +503,7 @@ Voxel anyVoxel(const Lens& lens)
     case 4: v.high = static_cast<int16_t>(anything()); break;
     case 5: v.wide = 0; break;
     case 6: v.high = 0; break;
-    case 7: v.brightness = static_cast<uint8_t>(any() & 127); break;
+    case 7: v.brightness = static_cast<int8_t>(any() & 127); break;
     case 8: v.tiltX = static_cast<int16_t>(32767 * (below(2) ? 1 : -1)); break;
     case 9: v.tiltY = static_cast<int16_t>(32767 * (below(2) ? 1 : -1)); break;
     default: break;

@@ -38,9 +38,10 @@ Vec placeOf(const Scene& scene, const Voxel& voxel)
     return vec(scene.eye) + vec(axes.right) * at.x + vec(axes.up) * at.y + vec(axes.ahead) * at.z;
 }
 
+// The brightness of a place from which the field falls that way; below 0 on the side away from the light.
 double lit(const Scene& scene, const Vec& fall)
 {
-    return std::fmax(0, dot(fall, vec(scene.light)) / size(fall) * 63);
+    return dot(fall, vec(scene.light)) / size(fall) * 63;
 }
 
 // Holds all voxels of a frame against the body.
@@ -58,7 +59,8 @@ void measure(Scene& scene, const Body& body, Errors& errors)
             errors.worst = std::fmax(errors.worst, distance);
             errors.sum += distance;
             errors.astray += distance > ASTRAY;
-            const double light = std::fabs(voxel.brightness - lit(scene, fall));
+            const double truly = lit(scene, fall);
+            const double light = std::fabs(voxel.brightness - (voxel.brightness < 0 ? truly : std::fmax(0, truly)));
             errors.worstLight = std::fmax(errors.worstLight, light);
             errors.sumLight += light;
             errors.dim += light > DIM;
