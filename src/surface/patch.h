@@ -54,7 +54,7 @@ struct Patch {
     int16_t axis[3];    // the mean of their normals
     int16_t spread;     // greatest length of the difference of a normal to the axis
     int16_t path;       // mean length of their paths; of a shaped object, along the axis
-    int16_t lean;       // how far a path leads away from the axis at most; 0: all lead along their normals
+    int16_t lean;       // how far from there one of them leads at most; 0: all lead along their normals
     uint8_t nearest, farthest;          // between which positions its seeds are, 1/64
     uint32_t due, listDue;              // readings of the odometer (odometer.h) when it, and when its lists are due
     // Its lists, a bit for the slot of each neighbour: those that may reach some place on its paths, and those that may reach
