@@ -51,6 +51,12 @@ public:
     bool strengthen(Real by, Time now);
     // The next colour of a list for the selected object, or the one before (`step` 1 or -1).
     bool colour(int step, Time now);
+    // Another finish for it in place of its own: matt, shiny, mirror, and round again; and another pattern: none, checks, stripes,
+    // marble.
+    bool finish();
+    bool pattern();
+    // Stretches it along its own y axis, by so much more of its length.
+    bool stretch(Real by, Time now);
     // Another motion in place of the one it has: none, circle, path, spin, swing, pulse, and round again. And the periods
     // of what moves it, times a factor.
     bool motion();
@@ -80,7 +86,7 @@ public:
     void describe(char* to, int size) const;
 
 private:
-    enum Action { NONE, MOVE, TURN, SIZE, MEASURE, WEIGHT, STRENGTH, COLOUR, PACE, LIGHT, OTHER };
+    enum Action { NONE, MOVE, TURN, SIZE, MEASURE, WEIGHT, STRENGTH, COLOUR, STRETCH, PACE, LIGHT, OTHER };
 
     // A model as it was, and what was selected in it.
     struct Step {

@@ -14,6 +14,9 @@ const Colour COLOURS[] = {{224, 80, 224}, {64, 208, 216}, {255, 136, 40}, {208, 
 constexpr int COLOUR_COUNT = static_cast<int>(sizeof COLOURS / sizeof COLOURS[0]);
 constexpr int NEW_COLOURS = 5;  // new objects take turns with the first of them
 
+// Units: the size of a pattern that an object gets by hand.
+constexpr Real GRAIN(6);
+
 // The motions that an object can be given by hand.
 enum Preset { STANDS, CIRCLE, PATH, SPIN, SWING, PULSE, PRESETS };
 const char* const PRESET_NAMES[PRESETS] = {"stands still", "goes round", "goes to and fro", "spins", "swings", "pulses"};
@@ -22,6 +25,16 @@ int distance(const Colour& a, const Colour& b)
 {
     const int red = a.red - b.red, green = a.green - b.green, blue = a.blue - b.blue;
     return red * red + green * green + blue * blue;
+}
+
+// The colour of the list that is the least like another.
+Colour unlike(const Colour& colour)
+{
+    int farthest = 0;
+    for (int i = 1; i < COLOUR_COUNT; ++i)
+        if (distance(COLOURS[i], colour) > distance(COLOURS[farthest], colour))
+            farthest = i;
+    return COLOURS[farthest];
 }
 
 // Which preset a motion is nearest to; motions of several parts count as the last.
@@ -447,6 +460,53 @@ bool Editor::colour(int step, Time now)
         return false;
     actor.colour = COLOURS[(nearest + step + COLOUR_COUNT) % COLOUR_COUNT];
     snprintf(message_, sizeof message_, "colour %d %d %d", actor.colour.red, actor.colour.green, actor.colour.blue);
+    return true;
+}
+
+bool Editor::finish()
+{
+    if (!begin(OTHER, 0))
+        return false;
+    Coat& coat = current().coat;
+    coat.finish = static_cast<Finish>((coat.finish + 1) % FINISHES);
+    say("finish ", FINISH_WORDS[coat.finish]);
+    return true;
+}
+
+bool Editor::pattern()
+{
+    if (!begin(OTHER, 0))
+        return false;
+    Coat& coat = current().coat;
+    if (coat.grain == Real(0)) {
+        coat.grain = GRAIN;
+        coat.colour = unlike(current().colour);
+    }
+    coat.pattern = static_cast<Pattern>((coat.pattern + 1) % PATTERNS);
+    say("pattern ", PATTERN_WORDS[coat.pattern]);
+    return true;
+}
+
+bool Editor::stretch(Real by, Time now)
+{
+    Actor& actor = current();
+    const Real was = actor.stretch.y, to = clamp(was + by, STRETCH_LEAST, STRETCH_MOST);
+    actor.stretch.y = to;
+    const char* const expects = Model::expects(actor);
+    actor.stretch.y = was;
+    if (to == was || expects != nullptr) {
+        sayReal("the stretch stays at", was);
+        return false;
+    }
+    if (!begin(STRETCH, now))
+        return false;
+    actor.stretch.y = to;
+    if (!model_.remake(&actor)) {
+        actor.stretch.y = was;
+        say(SoftObject::resampleTrouble());
+        return false;
+    }
+    sayReal("stretch", to);
     return true;
 }
 

@@ -13,7 +13,7 @@ constexpr Real DEPTH_MOST(120);
 // Hands on: what a key does at once.
 constexpr Real DEGREES_A_KEY(15);
 constexpr Real SIZE_A_KEY(1);
-constexpr Real WEIGHT_A_KEY(0.25);
+constexpr Real WEIGHT_A_KEY(0.25);  // strength and stretch go by as much
 constexpr Real FASTER_A_KEY(0.8);  // of a period
 constexpr Real SLOWER_A_KEY(1.25);
 
@@ -241,6 +241,7 @@ bool Demo::editKey(int code)
     case 'W': done = editor_.weigh(-weight, time_); break;
     case 'I': done = editor_.strengthen(-weight, time_); break;
     case 'H': done = editor_.colour(-1, time_); break;
+    case 'J': done = editor_.stretch(-weight, time_); break;
     case 'V': done = editor_.pace(SLOWER_A_KEY, time_); break;
     case 'Q': done = editor_.light(1, -turn, time_); break;
     case 'E': done = editor_.light(0, -turn, time_); break;
@@ -271,6 +272,9 @@ bool Demo::editKey(int code)
         case 'b': done = editor_.dent(); break;
         case 'i': done = editor_.strengthen(weight, time_); break;
         case 'h': done = editor_.colour(1, time_); break;
+        case ';': done = editor_.finish(); break;
+        case '\'': done = editor_.pattern(); break;
+        case 'j': done = editor_.stretch(weight, time_); break;
         case 'o': done = editor_.motion(); break;
         case 'v': done = editor_.pace(FASTER_A_KEY, time_); break;
         case 'q': done = editor_.light(1, turn, time_); break;

@@ -40,15 +40,15 @@ const char* const HANDS_PAGE[] = {
     "arrows  move it; PgUp PgDn or right button",
     "x y z   turn it         1 2     size",
     "Del     delete it       3 4     length, ring",
-    "a c t   new sphere, cylinder, torus",
-    "d n     new disc, cone",
+    "a c t d n: new sphere, cylinder, torus, disc, cone",
     "l k     link, part it and the one before",
     "w       link's weight   h       colour",
     "o       motion          v       its period",
     "q e     the light       g s     group, whole",
     "i       strength        b       dig in, fill",
+    "; '     finish, pattern j       stretch",
     "u r     undo, redo      F2 F3   save, load",
-    "Shift with x y z w i h v q e g: the other way",
+    "Shift with x y z w i h j v q e g: the other way",
 };
 
 // A page of lines in a panel in the middle of the screen.

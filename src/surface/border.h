@@ -13,8 +13,8 @@ inline Direction14 directionOf(const Normal& n)
     return {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
 }
 
-// Which way and how far it is to where the strongest neighbour's field is as strong as the own, to first order; where that is the
-// stronger by `dominance` at the position looked at last.
+// Sets the border of a seed: which way and how far it is to where the strongest neighbour's field equals the own one, to first
+// order. `dominance`: by how much the neighbour's was stronger at the position looked at last.
 void findBorder(const Path& path, Seed& s, Real dominance);
 
 // The same where the seed has a border already: the nearer one of the two.

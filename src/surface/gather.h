@@ -19,18 +19,18 @@ struct Neighbour {
     Vector centre;      // units of own space, as all that follows
     Real size;          // where its field ends, from its core
     Real inverse16;     // CORE_SIZE / size
-    Real steep16;       // what a unit of own space is in its core space at most: the same, unless its shape narrows that
-    Real push16;        // the same, times the weight of what digs where that is above 1
+    Real steep16;       // how long a unit of own space is in its core space at most: inverse16, or more if it is shaped
+    Real push16;        // the same, times the weight by which it digs if that is above 1
     Real ratio;         // squared proportion of the own size to `size`: its share of the gradient
     Real strength;      // what its field is multiplied by
     bool plain : 1;     // it is one of the body, its strength is 1, and it is not the head of a hollow
     bool digs : 1;      // it is none of the body, and digs into some of it
-    bool samples : 1;   // and its seeds sample the hollow in the head
+    bool samples : 1;   // its seeds sample a hollow in the head
     bool segment;       // its core is a segment to each side of its centre, half16 long; whether or not it tapers
     // What kind of core it has: its centre, a segment of `half` sizes to each side, or what the primitive says.
     enum Kind : uint8_t { POINT, SEGMENT, OTHER } kind;
     Real weight;        // by which it digs into the head; 0: not
-    Real grain;         // its size, less where its field changes more over that
+    Real grain;         // over this length its field changes as a plain one does over its size
     int32_t x16, y16, z16, size16;  // centre and size in 1/16 unit
     int32_t half16, axis[3];        // its direction, 1.0 = 2^14
     Real half;
@@ -46,24 +46,24 @@ struct Neighbour {
         const Real scale = size * size * Real(1.0 / (CORE_SIZE * CORE_SIZE));
         return (toCore[0] * v.x + toCore[1] * v.y + toCore[2] * v.z) * scale;
     }
-    // The vector from its core to a place of own space, in 1/16 unit; no point. Of one that is shaped: no longer than that.
+    // The vector from its core to a place of own space, in 1/16 unit; not for a point. If it is shaped, the vector may be shorter.
     Vector fromCore16(const Vector& q) const;
 };
 
-// All neighbours of an object, and by slot which of them is which; -1: out of range.
+// All neighbours of an object.
 struct Neighbourhood {
     int count;
-    const SoftObject* head;  // the object itself; if its seeds sample a hollow, the one that is hollowed out
-    bool hollow;        // they do
-    Real weight;        // and by this weight the object digs into that
-    bool inner;         // some of the body dig into others of it
+    const SoftObject* head;  // the object itself; if its seeds sample a hollow, the object that has the hollow
+    bool hollow;        // its seeds sample a hollow
+    Real weight;        // in that case, the weight by which the object digs into the head
+    bool inner;         // some objects of the body dig into others of it
     bool common;        // nothing digs, all strengths are 1, and the object is not shaped
     bool rests;         // the surface lies at position 1 where no neighbour reaches
     bool dented;        // some neighbours dig
     bool deep;          // paths are searched from near their roots
     Real last;          // position where the own field ends
     Neighbour neighbours[NEIGHBOURS_MAX];
-    int8_t numberOf[SLOTS_MAX];
+    int8_t numberOf[SLOTS_MAX];  // by slot, the number of a neighbour; -1: out of range
 };
 
 // The frame as one object sees it: own axes, counted from its centre.

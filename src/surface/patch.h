@@ -49,12 +49,12 @@ struct Patch {
     int32_t facing;     // of a settled patch: cosine of the surface in the middle and the direction to the viewer
     int32_t centre;     // slot of the seed in the middle
     int16_t middle[3];  // of where its seeds rest
-    int16_t radius;     // of a ball round it that holds all of those, and half a cell more; and of one that just holds them
-    int16_t tight;
+    int16_t radius;     // of a ball round the middle that holds all of those places and half a cell more
+    int16_t tight;      // of one that just holds them
     int16_t axis[3];    // the mean of their normals
     int16_t spread;     // greatest length of the difference of a normal to the axis
     int16_t path;       // mean length of their paths; of a shaped object, along the axis
-    int16_t lean;       // and how far from there one of them leads at most; 0: they lead along their normals
+    int16_t lean;       // how far from there one of them leads at most; 0: all lead along their normals
     uint8_t nearest, farthest;          // between which positions its seeds are, 1/64
     uint32_t due, listDue;              // readings of the odometer (odometer.h) when it, and when its lists are due
     // Its lists, a bit for the slot of each neighbour: those that may reach some place on its paths, and those that may reach

@@ -13,7 +13,7 @@ namespace {
 constexpr Real BORDER(0.25);
 // Position beyond which a path that is hollowed out leaves the surface for good.
 constexpr Real OUTERMOST(0.8);
-// Of the field: what it changes by at most over the size of its object.
+// By how much of the field an object's own changes at most over a length of the object's size.
 constexpr Real STEEPEST(1.3);
 // Cosine (1.0 = 2^14) by which the middle of a patch must face away, more than its seeds differ, to be out of sight as a whole.
 constexpr int32_t TURNED = 500;
@@ -85,10 +85,10 @@ Real Settler::settle(Seed& s)
     return found ? least(margin, sample.dominance - OVERSHOOT) : margin;
 }
 
-// From where it was, as those neighbours see it that reach it there.
+// Follows a seed from where it was, in the fields of those neighbours that reach it there.
 inline Settler::Followed Settler::followOn(Seed& s, Real* position, Sample* sample)
 {
-    // What is hollowed out may have closed before that.
+    // A path into a hollow may leave the surface farther out now, where that has closed again.
     const bool closed = nearby_.dented() && !all_.hollow && *position <= OUTERMOST && hasClosed(s);
     bool touched = path_.begin(nearby_.at(*position), s, *position, sample);
     if (!touched && *position != Real(1)) {
@@ -134,7 +134,7 @@ inline void Settler::keep(Seed& s, Real dominance)
     }
 }
 
-// Along its whole path, as those neighbours see it that reach some of it.
+// Searches the whole path of a seed, in the fields of those neighbours that reach some of it.
 inline Real Settler::search(const Seed& s, Real* position, Sample* sample)
 {
     *sample = path_.beginSearch(s);
@@ -168,8 +168,8 @@ inline bool Settler::mixes() const
 // ---- A patch of seeds
 
 // By how much of the field the seed in the middle of a patch must lie inside, for all of the patch to do so: the other seeds
-// are no farther than the patch reaches, and a field changes by about its size at most over that of its object; two change, the
-// strongest and what it is compared with.
+// are no farther away than the radius of the patch, over which a field changes as STEEPEST says; and two fields change, the
+// strongest and the one that it is compared with.
 static Real enough(const Patch& patch, Real size)
 {
     return clamp(realFromRaw(patch.radius << 12) / size * (STEEPEST + STEEPEST), Real(0.2), Real(0.9));
@@ -207,7 +207,7 @@ PatchState Settler::probe(Patch& patch)
     return PATCH_MIXED;
 }
 
-// Between which positions the seeds of a patch are.
+// Notes between which positions the seeds of a patch are.
 void Settler::setRange(Patch& patch) const
 {
     Real nearest(9), farthest(0);

@@ -25,7 +25,7 @@ inline int32_t product(const Direction14& a, const Part b[3])
     return a.x * b[0] + a.y * b[1] + a.z * b[2];
 }
 
-// In another's territory a scale is one for want of a better, and lies so much deeper; 1/256 unit.
+// A scale in the territory of another object is to be seen only where that has none, and lies so much deeper; 1/256 unit.
 constexpr int32_t BEHIND = 64;
 
 // Depth before which the whole of a cell is covered: so near the viewer a ring is no straight band in the picture; 1/256 unit.
@@ -35,7 +35,7 @@ constexpr int32_t WHOLE_BEFORE = 64 * 256;
 constexpr int32_t FLATTEST = 8000;
 constexpr int32_t FACES_VIEWER = 16000;
 
-// One less than the number of frames in which the bends of patches are measured that settle in each.
+// A patch that settles in every frame has its bend measured in one of BEND_TURNS + 1 frames; its number says in which.
 constexpr int BEND_TURNS = 3;
 
 // A patch bends unevenly when its slope foretells another brightness than some of its seeds have, by more than this, 1/4 step.

@@ -62,7 +62,7 @@ for i in 1 2 3 4 5 6 7 8; do
 done
 xdotool mousedown 1 sleep 0.05 mouseup 1 sleep 0.5 2>/dev/null
 # A click of a moment between two frames of a slow machine is not lost: see tests/edit/run.sh.
-type bracketright F2 Return F1
+type bracketright semicolon apostrophe j F2 Return F1
 sleep 0.5
 type Escape
 wait $running
@@ -71,6 +71,9 @@ tr -d '\r' <"$c/SAVED.FB" >"$scratch/saved" 2>/dev/null
 grep '^sphere' "$scratch/saved" | sed 's/^/# /'
 ok 'x y z turn the same way with Caps Lock' sh -c "grep -c 'turn 0 0 15' '$scratch/saved' | grep -qx 1"
 ok 'the click picked the sphere on the left' grep -q '^sphere one size 25 ' "$scratch/saved"
+ok 'it is stretched' grep -q '^sphere one .* stretch 1 1.25 1 ' "$scratch/saved"
+ok 'its finish' has "$scratch/saved" 'finish one shiny'
+ok 'its pattern' grep -q '^pattern one checks 6 ' "$scratch/saved"
 ok 'the other is as large as it was' grep -q '^sphere two size 20 ' "$scratch/saved"
 ok 'a film of it' build/filmtst frames "$c/HAND.FLI"
 build/filmtst frames "$c/HAND.FLI" | sed 's/^/# /'

@@ -536,6 +536,44 @@ ok "filled" count 9 dent 0
 ok "undone step by step" has 10 "blend 1 2"
 ok "deleted and back" alike 10 12
 rm -f SAVED.FB
+# Finish, pattern, stretch
+play 17 /M:one.fb <<'END'
+1 key ;
+2 key ;
+3 key ;
+4 key '
+5 key '
+6 key '
+7 key '
+8 key j
+9 key J
+9 key J
+10 key u
+11 key '
+11 key ;
+12 key j
+13 key F2
+13 key ENTER
+14 key u
+14 key u
+14 key u
+END
+ok "shiny" has 1 "shiny 1"
+ok "a mirror" has 2 "mirror 1"
+ok "and matt again" alike 0 3
+ok "checks, as large as they say" sh -c "grep -q '^checks 1 6 ' d/F0000004.TXT"
+ok "stripes" sh -c "grep -q '^stripes 1 6 ' d/F0000005.TXT"
+ok "marble" sh -c "grep -q '^marble 1 6 ' d/F0000006.TXT"
+ok "and none" alike 0 7
+ok "stretched" sh -c "grep -q '^stretch 1 .* 1 1.25 1\$' d/F0000008.TXT"
+ok "and flattened" sh -c "grep -q '^stretch 1 .* 1 0.75 1\$' d/F0000009.TXT"
+ok "undone" alike 0 10
+ok "all three" sh -c "grep -c -e '^shiny 1$' -e '^checks 1 ' -e '^stretch 1 ' d/F0000012.TXT | grep -qx 3"
+ok "are undone" alike 0 14
+"$demo" /M:SAVED.FB /N:1 /S:4 /D:is >out 2>&1
+ok "and saved" sh -c 'sed 1d d/F0000012.TXT >one; sed 1d is/F0000000.TXT | diff one -'
+rm -rf is
+rm -f SAVED.FB
 # All that the format can say is saved, also after a step that was undone: what was saved plays as what was loaded.
 cat >all.fb <<'END'
 title Everything

@@ -4,7 +4,8 @@
 BEGIN {
 	srand(seed)
 	keys = split("* - + F1 F2 F3 F4 UP DOWN LEFT RIGHT PGUP PGDN INS DEL HOME END SPACE ENTER ENTER ENTER BACKSPACE TAB TAB " \
-		"a b c d e f g h i k l l m n o o p q r r s t u u v w x y z A C E G H L N Q S U V W X Y Z [ ] < > , . = _ 1 2 3 4 5 6 7 8 9 0",
+		"a b c d e f g h i j k l l m n o o p q r r s t u u v w x y z A C E G H J L N Q S U V W X Y Z [ ] < > ; ' , . = _ " \
+		"1 2 3 4 5 6 7 8 9 0",
 		key, " ")
 	split("- L R LR", held, " ")
 	for (frame = 0; frame < 25; ++frame) {

@@ -116,6 +116,18 @@ named() {
 }
 ok "files that the pages name" none named
 
+# A fault of tests/mutants that changes nothing any more tries no test.
+stale() {
+	grep -v '^#' tests/mutants/faults.txt | while read -r line; do
+		file=${line%% :: *}
+		rest=${line#* :: }
+		if sed "${rest%% :: *}" "$file" | cmp -s - "$file"; then
+			echo "$line"
+		fi
+	done
+}
+ok "faults that the tests must notice" none stale
+
 # An assembly routine that the twins do not try is not finished.
 routines=$(sed -n -e 's/^[[:space:]]*\.globl[[:space:]]*SYM(\(.*\))/\1/p' -e 's/^[[:space:]]*FUNC(\(.*\))/\1/p' asm/*.S)
 ok "assembly routines found" test "$(echo $routines | wc -w)" -ge 3
