@@ -387,6 +387,7 @@ private:
     bool recalc_;
     bool tapers_;
     bool displaced_;
+    bool unfinished_;  // the surface was not done in the last frame (Surface::update())
     const uint8_t* ramp_;
     const Paint* paint_ = nullptr;
 

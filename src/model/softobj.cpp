@@ -59,7 +59,7 @@ SoftObject::SoftObject(int number, Real size, Real coreReach, bool tapers)
       ball_(!tapers && coreReach == Real(0)), reach_(coreReach + size),
       sizeMade_(size), coreReachMade_(coreReach), coreReach16_(coreReach * (Real(CORE_SIZE) / size)), strength_(1),
       restParam_(0.25), restRoot_(0.5), rests_(true), laidHollow_(false), slot_(0), recalc_(true), tapers_(tapers),
-      displaced_(false), ramp_(nullptr), surface_(nullptr), makeSurface_(nullptr)
+      displaced_(false), unfinished_(false), ramp_(nullptr), surface_(nullptr), makeSurface_(nullptr)
 {
     laid_.size = size;
 }
@@ -415,9 +415,10 @@ void SoftObject::describeShape(int which, char* to, int size) const
 
 void SoftObject::update(const FrameContext& frame)
 {
-    if (!recalc_)
+    if (!recalc_ && !unfinished_)
         return;
-    recalc_ = surface_->update(frame) || stopAsked();
+    unfinished_ = surface_->update(frame);
+    recalc_ = stopAsked();
 }
 
 void SoftObject::draw(const FrameContext& frame, VoxelList& list, int room, int* next)
