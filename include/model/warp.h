@@ -28,10 +28,10 @@ constexpr WarpAmounts NO_WARP{{Real(0), Real(0), Real(0)}};
 
 class Warp {
 public:
-    // For an object whose surface is `height` high above its centre and reaches `wide` from the axis, its field `fieldWide`. All
-    // lengths are in the same units, any that keep products in range. What would bend the surface beyond the middle of the
-    // circle is less.
-    void set(const WarpAmounts& amounts, Real height, Real wide, Real fieldWide);
+    // For an object whose surface is `height` high above its centre and reaches `wide` from the axis, its field `fieldWide`, and
+    // what of that is steep `steepWide`. All lengths are in the same units, any that keep products in range. What would bend the
+    // surface beyond the middle of the circle is less.
+    void set(const WarpAmounts& amounts, Real height, Real wide, Real fieldWide, Real steepWide);
 
     // As asked for, and as they are.
     const WarpAmounts& asked() const { return asked_; }
@@ -62,9 +62,13 @@ public:
     // No distance becomes smaller than this share of itself, and none from the centre larger than that.
     Real least() const { return least_; }
     Real most() const { return most_; }
+    // The same as least() of distances where the field is steep.
+    Real leastSteep() const { return leastSteep_; }
 
 private:
+    Real leastWithin(Real wide) const;
     void turnAt(Real y, Way& way) const;
+    void unbend(Real& across, Real& up, Way& way) const;
     bool within(Real y) const { return y > -height_ && y < height_; }
 
     WarpAmounts asked_ = NO_WARP, amounts_ = NO_WARP;
@@ -74,8 +78,9 @@ private:
     Real bend_{0};     // curvature, one over a length; never below 0
     Real radius_{0};   // of the circle
     Real end_{0};      // half of the bend, radians
+    Real endSine_{0}, endCosine_{1}, endAcross_{0}, endUp_{0};  // and where it brings the ends of the axis
     bool flipped_ = false;  // it bends towards -x
-    Real least_{1}, most_{1};
+    Real least_{1}, leastSteep_{1}, most_{1};
 };
 
 #endif

@@ -81,51 +81,77 @@ void Path::blend(Real position, Sample& sample)
 // A member of the body that has a field F at the position; x is that over the strongest one, g the sum of what it is linked with
 // and what digs into it, `linked` the sum of w_ik x_i^2.
 struct Path::Part {
-    Real f, rate;  // F, dF/dp
+    Real f;
     Real g, linked;
     Real x, x2;
     const Real* weights;
-    int slot, at;  // at: its place in share_
+    int slot, at;  // at: its number on the path; -1: the object
 };
 
-// Lists them, the own first, and returns how many there are.
-int Path::findParts(Real position, Part* parts, Real* strongest)
+// What digs into the body and is none of it, and has a field F there.
+struct Path::Digger {
+    Real f;
+    int slot, at;
+};
+
+// All of them, and the strongest member's field.
+struct Path::Parts {
+    Part members[NEIGHBOURS_MAX + 1];
+    Part* end = members;
+    Digger diggers[NEIGHBOURS_MAX + 1];
+    Digger* lastDigger = diggers;
+    Real strongest{0};
+};
+
+// Lists them, the own first.
+void Path::findParts(Parts& parts) const
 {
-    Part* end = parts;
-    const auto add = [&](Real f, Real rate, int slot, int at) {
-        *strongest = most(*strongest, f);
-        end->f = end->g = f;
-        end->rate = rate;
-        end->linked = Real(0);
-        end->weights = bodies_.weights(slot);
-        end->slot = slot;
-        end->at = at;
-        ++end;
+    const auto add = [&](Real f, int slot, int at, bool digs) {
+        if (f <= Real(0))
+            return;
+        if (digs) {
+            *parts.lastDigger++ = {f, slot, at};
+            return;
+        }
+        parts.strongest = most(parts.strongest, f);
+        Part& part = *parts.end++;
+        part.f = part.g = f;
+        part.weights = bodies_.weights(slot);
+        part.slot = slot;
+        part.at = at;
     };
-    share_[0] = Real(1);
-    if (ownField_ > Real(0) && !all_.hollow)
-        add(ownField_, ownRate(position), object_.slot(), 0);
-    for (int i = 0; i < touched_; ++i) {
-        const Along& along = along_[i];
-        share_[i + 1] = Real(1);
-        if (along.value > Real(0) && !along.near->digs)
-            add(along.value, along.slope * along.change, along.near->object->slot(), i + 1);
+    add(ownField_, object_.slot(), -1, all_.hollow);
+    for (int i = 0; i < touched_; ++i)
+        add(along_[i].value, along_[i].near->object->slot(), i, along_[i].near->digs);
+}
+
+// Whether the members are all linked with each other at weight 1, and whatever digs does it with one weight into all of them:
+// then F is their sum, less what digs.
+bool Path::isSum(const Parts& parts)
+{
+    const Part* const first = parts.members;
+    for (const Part* a = first + 1; a < parts.end; ++a) {
+        for (const Part* b = first; b < a; ++b)
+            if (b->weights[a->slot] != Real(1) || a->weights[b->slot] != Real(1))
+                return false;
+        for (const Digger* digger = parts.diggers; digger < parts.lastDigger; ++digger)
+            if (a->weights[digger->slot] != first->weights[digger->slot])
+                return false;
     }
-    return static_cast<int>(end - parts);
+    return true;
+}
+
+Real Path::sumOf(const Parts& parts)
+{
+    Real sum(0);
+    for (const Part* a = parts.members; a < parts.end; ++a)
+        sum += a->f;
+    for (const Digger* digger = parts.diggers; digger < parts.lastDigger; ++digger)
+        sum += parts.members->weights[digger->slot] * digger->f;
+    return sum;
 }
 
 namespace {
-
-// Whether they are all linked with each other at weight 1.
-template <class Part>
-bool areAllLinked(const Part* parts, const Part* end)
-{
-    for (const Part* a = parts + 1; a < end; ++a)
-        for (const Part* b = parts; b < a; ++b)
-            if (b->weights[a->slot] != Real(1))
-                return false;
-    return true;
-}
 
 // Adds up for each of them what it is linked with, and returns the sum of x_i^2. `inverse`: of the strongest field.
 template <class Part>
@@ -135,6 +161,7 @@ Real addLinks(Part* parts, const Part* end, Real inverse)
     for (Part* a = parts; a < end; ++a) {
         a->x = a->f * inverse;
         a->x2 = a->x * a->x;
+        a->linked = Real(0);
         squares += a->x2;
         for (Part* b = parts; b < a; ++b) {
             const Real w = b->weights[a->slot];
@@ -164,62 +191,62 @@ void addInner(Part* parts, const Part* end)
 
 }  // namespace
 
-// Takes off what digs into them and is none of the body, and returns what that changes by over a position; the shares of what
-// digs still lack the division by the sum of squares.
-Real Path::addDents(Real position, Part* parts, int count)
+// The body's field: the sum of x_k^2 g_k over the sum of x_i^2, with x_i = f_i / the strongest. `*share` becomes one over the
+// latter, `*inverse` one over the strongest.
+Real Path::fieldOf(Parts& parts, Real* share, Real* inverse) const
 {
-    Real digging(0);
-    const auto dig = [&](Real f, Real rate, int slot, int at) {
-        Real linked(0);
-        for (Part *a = parts, *const end = parts + count; a < end; ++a) {
-            const Real w = a->weights[slot];
-            a->g += w * f;
-            linked += w * a->x2;
-        }
-        share_[at] = linked;
-        digging += linked * rate;
-    };
-    if (all_.hollow)
-        dig(ownField_, ownRate(position), object_.slot(), 0);
-    for (int i = 0; i < touched_ && all_.dented; ++i)
-        if (along_[i].near->digs)
-            dig(along_[i].value, along_[i].slope * along_[i].change, along_[i].near->object->slot(), i + 1);
-    return digging;
+    *inverse = quotient(Real(1), parts.strongest);
+    *share = quotient(Real(1), addLinks(parts.members, parts.end, *inverse));
+    if (all_.inner)
+        addInner(parts.members, parts.end);
+    Real above(0);
+    for (Part* a = parts.members; a < parts.end; ++a) {
+        for (const Digger* digger = parts.diggers; digger < parts.lastDigger; ++digger)
+            a->g += a->weights[digger->slot] * digger->f;
+        above += a->x2 * a->g;
+    }
+    return above * *share;
 }
 
-// The field is the sum of x_k^2 g_k over the sum of x_i^2. With x_i = f_i / the strongest,
 // dF/df_k = (2 x_k (g_k - F) / strongest + x_k^2 + sum of w_ik x_i^2) / sum of x_i^2; of what digs only the last sum, in which its
 // weights are below 0.
 void Path::blendOdd(Real position, Sample& sample)
 {
+    Parts parts;
+    findParts(parts);
     shared_ = true;
-    Part parts[NEIGHBOURS_MAX + 1];
-    Real strongest(0);
-    const int count = findParts(position, parts, &strongest);
-    const Part* const end = parts + count;
-    const bool mayBePlain = !all_.inner && !nearby_.dented();
-    if (strongest <= NOTHING || (mayBePlain && areAllLinked(parts, end)))
+    for (int i = 0; i <= touched_; ++i)
+        share_[i] = Real(1);
+    if (parts.strongest <= NOTHING)
         return;
-    const Real inverse = quotient(Real(1), strongest), twice = inverse + inverse;
-    const Real share = quotient(Real(1), addLinks(parts, end, inverse));
-    if (all_.inner)
-        addInner(parts, end);
-    const Real digging = addDents(position, parts, count);
-    Real above(0);
-    for (const Part* a = parts; a < end; ++a)
-        above += a->x2 * a->g;
-    const Real field = above * share;
-    sample.excess = field - ISOVALUE;
+    const auto rateOf = [&](int at) { return at < 0 ? ownRate(position) : along_[at].slope * along_[at].change; };
     Real slope(0);
-    for (const Part* a = parts; a < end; ++a) {
-        const Real part = (a->x * (a->g - field) * twice + a->x2 + a->linked) * share;
-        share_[a->at] = part;
-        slope += part * a->rate;
+    if (isSum(parts)) {
+        sample.excess = sumOf(parts) - ISOVALUE;
+        for (const Part* a = parts.members; a < parts.end; ++a)
+            slope += rateOf(a->at);
+        for (const Digger* digger = parts.diggers; digger < parts.lastDigger; ++digger) {
+            const Real weight = parts.members->weights[digger->slot];
+            share_[digger->at + 1] = weight;
+            slope += weight * rateOf(digger->at);
+        }
+        sample.slope = slope;
+        return;
     }
-    sample.slope = slope + digging * share;
-    if (all_.hollow)
-        share_[0] = share_[0] * share;
-    for (int i = 0; i < touched_ && all_.dented; ++i)
-        if (along_[i].near->digs)
-            share_[i + 1] = share_[i + 1] * share;
+    Real share, inverse;
+    const Real field = fieldOf(parts, &share, &inverse), twice = inverse + inverse;
+    for (const Part* a = parts.members; a < parts.end; ++a) {
+        const Real part = (a->x * (a->g - field) * twice + a->x2 + a->linked) * share;
+        share_[a->at + 1] = part;
+        slope += part * rateOf(a->at);
+    }
+    for (const Digger* digger = parts.diggers; digger < parts.lastDigger; ++digger) {
+        Real linked(0);
+        for (const Part* a = parts.members; a < parts.end; ++a)
+            linked += a->weights[digger->slot] * a->x2;
+        share_[digger->at + 1] = linked * share;
+        slope += linked * share * rateOf(digger->at);
+    }
+    sample.excess = field - ISOVALUE;
+    sample.slope = slope;
 }

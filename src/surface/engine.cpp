@@ -35,6 +35,7 @@ public:
 
 private:
     bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all, bool known);
+    bool stays(const Settler& settler, Patch& patch) const;
     void renewLists(Patch& patch, const Neighbourhood& all);
     bool isAtRest(Settler& settler, Patch& patch, const Neighbourhood& all);
     void settle(Settler& settler, Patch& patch);
@@ -86,6 +87,10 @@ void Engine::update(const FrameContext& frame)
         }
         if (!known || patch->stale || isDue(odometer_.bound(), patch->listDue))
             renewLists(*patch, all);
+        if (!all.common && stays(settler, *patch)) {
+            displaced = true;
+            continue;
+        }
         if (!settler.setPatch(*patch) && all.rests && isAtRest(settler, *patch, all))
             continue;
         displaced = true;
@@ -112,6 +117,16 @@ inline bool Engine::keeps(Settler& settler, Patch& patch, const Neighbourhood& a
         return false;
     patch.stale = patch.stale || !known;
     return true;
+}
+
+// The same where something digs, strengths differ or the object is shaped: whether none that it lists has come, or all of it is
+// still off the surface.
+inline bool Engine::stays(const Settler& settler, Patch& patch) const
+{
+    const bool came = odometer_.count(patch);
+    if (settler.isStillOff(patch))
+        return true;
+    return !came && odometer_.eyeStayed() && (patch.state == PATCH_MIXED || patch.state == PATCH_INSIDE);
 }
 
 inline void Engine::renewLists(Patch& patch, const Neighbourhood& all)

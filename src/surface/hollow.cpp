@@ -10,7 +10,7 @@ constexpr Real SHARED(1.5);
 // Units: by how much more than others the two sides of that border overlap, which is found to first order.
 constexpr Real OVERLAP(0.18);
 // How far the border of two parts of a hollow's wall goes at most when what digs comes by a unit.
-constexpr Real BORDER_SPEED(16);
+constexpr double BORDER_SPEED = 16;
 // The position where what closes again over a hollow is found.
 constexpr Real CLOSING(0.95);
 
@@ -102,8 +102,7 @@ bool Settler::findDented(Seed& s, Vector* g)
 {
     const Real shared = object_.spacing() * SHARED, apart = findShare(path_, s, shared, g);
     if (apart < -shared) {
-        s.flags |= SEED_COVERED;
-        putOff(s, -apart - shared, BORDER_SPEED);
+        leaveToOthers(s, (-apart - shared) * Real(1.0 / BORDER_SPEED));
         return false;
     }
     if (apart < shared)
@@ -121,46 +120,35 @@ bool Settler::hasClosed(const Seed& s)
 
 // ---- What is off the surface waits
 
-// For how long at most; the fields of those that do not reach the path yet begin gently.
-Real Settler::longestOff() const
-{
-    return path_.touched() == all_.count ? LONGEST_WAIT : LIST_SLACK;
-}
-
-// A seed that is not on the surface, or not in its own part of it, by `hold` of the field that changes by `push` when the
-// neighbours come by a unit: until when it need not be looked at.
-void Settler::putOff(Seed& s, Real hold, Real push) const
+// A seed that is not on the surface, by `hold` of the field, is not looked at before the field may have changed by that.
+void Settler::putOff(Seed& s, Real hold) const
 {
     s.flags |= SEED_OFF;
-    s.due = static_cast<uint16_t>(now_ + wayUntil(hold, push, longestOff()));
+    s.due = static_cast<uint16_t>(patch_->changed + (rawFromReal(clamp(hold, Real(0), Real(1))) >> 2));
 }
 
-bool Settler::isOff(const Seed& s) const
+// One that is not in its own part of it waits until neighbours have come `hold` units.
+void Settler::leaveToOthers(Seed& s, Real hold) const
 {
-    return (s.flags & SEED_OFF) && came_ < LONGEST_WAIT && static_cast<int16_t>(static_cast<uint16_t>(now_) - s.due) < 0;
+    s.flags |= SEED_OFF | SEED_COVERED;
+    s.due = static_cast<uint16_t>(patch_->came + wayOf(least(hold, LONGEST_WAIT)));
 }
 
-// For how long that is so of all seeds of a patch.
-Way Settler::offFor(const Patch& patch) const
+bool Settler::isOff(const Patch& patch, const Seed& s)
 {
-    Way way = wayOf(LONGEST_WAIT);
-    forSeeds(patch, [&](int i) {
-        const Seed& s = object_.seed(i);
-        const Way seeds = s.flags & SEED_OFF ? static_cast<uint16_t>(s.due - now_) : 0;
-        way = seeds < way ? seeds : way;
-    });
-    return way;
+    const uint16_t reading = s.flags & SEED_COVERED ? patch.came : patch.changed;
+    return (s.flags & SEED_OFF) && static_cast<int16_t>(reading - s.due) < 0;
 }
 
 // What becomes of a patch the middle of which has just been found off the surface: whether all of it is. The own field is the same
 // at one position of all its paths, unless it is warped; they are no farther from each other there than twice where they rest.
-PatchState Settler::probeOff(Patch& patch, const Seed& s) const
+PatchState Settler::probeOff(const Patch& patch, Seed& s) const
 {
     if ((s.flags & SEED_COVERED) || object_.warped())
         return PATCH_MIXED;
-    const Real push = path_.pushMost(), hold = off_ - push * realFromRaw(patch.radius << 13);
+    const Real hold = off_ - path_.pushMost() * realFromRaw(patch.radius << 13);
     if (hold <= Real(0))
         return PATCH_MIXED;
-    patch.due += wayUntil(hold, push, longestOff());
+    putOff(s, hold);
     return PATCH_INSIDE;
 }

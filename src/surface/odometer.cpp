@@ -10,6 +10,14 @@ namespace {
 // A way as long as any, when it is not known how far things have come.
 constexpr Way EVERYWHERE = 1 << 20;
 
+// As many steps of what goes round as never make it seem to go back: by them all is due.
+constexpr uint16_t ALL_DUE = 1 << 14;
+
+uint16_t limited(uint32_t steps)
+{
+    return static_cast<uint16_t>(steps < ALL_DUE ? steps : ALL_DUE);
+}
+
 // About the length of a vector, never less than nine tenths of it.
 Real about(const Vector& v)
 {
@@ -61,6 +69,14 @@ Way Odometer::wayBetween(const Neighbour& near, const Stand& now, const Stand& b
     return wayOf(way);
 }
 
+// What the field of a body changes by at most, anywhere, when a neighbour comes so far. 1.0 = 2^14.
+uint16_t Odometer::changeBy(const Neighbour& near, Way way)
+{
+    const Real push = near.pushMost(), units = realFromRaw(static_cast<int32_t>(limited(way)) << 6);
+    const Real change = least(units * (near.digs ? push : push + push), Real(1));
+    return limited(static_cast<uint32_t>(rawFromReal(change) >> 2) + 1);
+}
+
 bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion)
 {
     bool holds = !fresh_ && linksVersion == linksVersion_;
@@ -72,7 +88,7 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
         holds = false;
         if (stands_ == nullptr) {
             room_ = 0;
-            fresh_ = true;
+            fresh_ = leapt_ = true;
             came_ = EVERYWHERE;
             return false;
         }
@@ -83,6 +99,7 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
     const Real turned = least(about(own.eye - eye_), eyeAway) / eyeAway;
     eye_ = own.eye;
     const Way eyeWay = wayOf(turned * shiftDown(object.laidSize(), 2));
+    eyeStayed_ = eyeWay == 0;
 
     const Real reach = object.reach();
     Stand stands[NEIGHBOURS_MAX];
@@ -90,6 +107,7 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
     memset(standBySlot, -1, sizeof standBySlot);
     Way farthest = 0;
     came_ = 0;
+    movedCount_ = 0;
     int stayed = 0, within = 0;
     for (int i = 0; i < all.count; ++i) {
         const Neighbour& near = all.neighbours[i];
@@ -112,9 +130,11 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
         const Way way = shaped ? wayBetween(near, stands[i], stands_[before], reach) : wayOfCore(near, stands[i], stands_[before]);
         farthest = way > farthest ? way : farthest;
         // What is shaped comes farther in some places than in most.
-        const Way came = shaped ? wayBetween(near, stands[i], stands_[before], Real(0)) : way;
+        Way came = shaped ? wayBetween(near, stands[i], stands_[before], Real(0)) : way;
+        came = way / 2 > came ? way / 2 : came;
         came_ = came > came_ ? came : came_;
-        came_ = way / 2 > came_ ? way / 2 : came_;
+        if (came > 0)
+            moved_[movedCount_++] = {static_cast<uint8_t>(slot), limited(came), changeBy(near, came)};
     }
     if (all.count > 0)
         memcpy(stands_, stands, static_cast<size_t>(all.count) * sizeof stands[0]);
@@ -122,9 +142,24 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
     // One that was in range and is not even near any more has leapt.
     holds = holds && stayed == within_;
     within_ = within;
+    leapt_ = !holds;
     if (!holds)
         came_ = EVERYWHERE;
     bound_ += farthest;
     reading_ += came_ + eyeWay;
     return holds;
+}
+
+bool Odometer::count(Patch& patch) const
+{
+    uint32_t way = 0, change = 0;
+    for (const Moved *moved = moved_, *const end = moved_ + movedCount_; moved < end; ++moved) {
+        if (!(patch.listed[moved->slot >> 5] >> (moved->slot & 31) & 1))
+            continue;
+        way = moved->way > way ? moved->way : way;
+        change += moved->change;
+    }
+    patch.came = static_cast<uint16_t>(patch.came + (leapt_ ? ALL_DUE : way));
+    patch.changed = static_cast<uint16_t>(patch.changed + (leapt_ ? ALL_DUE : limited(change)));
+    return leapt_ || way > 0;
 }

@@ -1,6 +1,7 @@
 // Odometer: how far the neighbours of an object have come, in its own space, and how far the viewer has come round it. What was
 // found out about a patch holds until they have come so far that it might be different: whoever finds it out says how far that
-// is, and when the odometer has got there the patch is due. Were everything always due, nothing but the speed would change.
+// is, and when the odometer has got there the patch is due. A patch also hears how far those on its list have come, and what
+// that may have changed. Were everything always due, nothing but the speed would change.
 #ifndef FB_ODOMETER_H
 #define FB_ODOMETER_H
 
@@ -38,6 +39,12 @@ public:
     Way bound() const { return bound_; }
     // How far they came since the call before, where the object has its centre.
     Way came() const { return came_; }
+    // Whether the viewer has come round the object since then.
+    bool eyeStayed() const { return eyeStayed_; }
+
+    // Counts on for a patch, whose lists hold: how far those on them came since the call before, and what that changes. False: none
+    // of them came at all.
+    SELDOM bool count(Patch& patch) const;
 
 private:
     // Where a neighbour stood: its centre and its axes; of what is shaped, the map into its core space.
@@ -47,6 +54,7 @@ private:
         WarpAmounts warp;
         bool inRange;
     };
+    static uint16_t changeBy(const Neighbour& near, Way way);
     static Way wayOfCore(const Neighbour& near, const Stand& now, const Stand& before);
     static Way wayBetween(const Neighbour& near, const Stand& now, const Stand& before, Real reach);
 
@@ -54,6 +62,17 @@ private:
     uint32_t linksVersion_ = 0;
     bool fresh_ = true;  // nothing is known of a frame before
     Vector eye_{Real(0), Real(0), Real(0)};  // where the viewer was, own axes
+    bool eyeStayed_ = false;
+
+    // A neighbour that came since the call before, and what the body's field changes by at most for that.
+    struct Moved {
+        uint8_t slot;
+        uint16_t way, change;
+    };
+    int movedCount_ = 0;
+    bool leapt_ = true;  // nothing is known of a frame before, or all may have changed
+    Moved moved_[NEIGHBOURS_MAX];
+
     int room_ = 0;
     int within_ = 0;  // how many neighbours were in range in the call before
     Stand* stands_ = nullptr;

@@ -2,13 +2,14 @@
 // which it falls. What becomes of the sum where not all are linked with all stands in blend.cpp.
 #include "path.h"
 
+#include "math/normal.h"
+
 namespace {
 
 // Positions: where paths begin to be searched, and those that are hollowed out or of weak objects.
 constexpr Real FIRST(0.7), FIRST_DEEP(0.06);
-// Of the field, over the size: no field changes by more.
-constexpr Real STEEPEST_OF_ALL(1.6);
-
+// Sizes of a neighbour, and positions: over which a cubic curve has a field right to .03.
+constexpr Real SMOOTH(0.6), SMOOTH_OWN(0.96);
 }  // namespace
 
 Path::Path(const SoftObject& object, const Neighbourhood& all, const Bodies& bodies, Nearby& nearby, Counts& counts)
@@ -271,22 +272,25 @@ Real Path::pushes() const
     // The gradient of a field is 2 f' r / R^2, and r / R no more than r^2 / R^2 + 1/4; a little more for what that changes.
     Real sum(0);
     for (int i = 0; i < touched_; ++i)
-        sum += (Real(0.1) - along_[i].slope * (along_[i].t + Real(0.25))) * along_[i].near->push16;
+        sum += (Real(0.1) - along_[i].slope * (along_[i].t + Real(0.25))) * along_[i].near->share * along_[i].near->sheer16;
     return shiftDown(sum, 3);
 }
 
 Real Path::pushMost() const
 {
     Real sum(0);
-    for (int i = 0; i < touched_; ++i)
-        sum += along_[i].near->push16 * along_[i].near->strength;
-    return shiftDown(sum * STEEPEST_OF_ALL, complete_ ? 4 : 3);
+    for (int i = 0; i < touched_; ++i) {
+        const Real push = along_[i].near->pushMost();
+        sum += complete_ || along_[i].near->digs ? push : push + push;
+    }
+    return sum;
 }
 
-Real Path::steepest() const
+Real Path::smoothStep() const
 {
-    Real own = shiftDown(object_.strength() * (all_.hollow ? most(all_.weight, Real(1)) : Real(1)), 1) * STEEPEST_OF_ALL;
-    if (warped_)
-        own = own * (object_.longestPath() / (object_.laidRadius() * object_.narrowing()));
-    return own + pushMost() * object_.longestPath();
+    Real sheerest16(0);
+    for (int i = 0; i < touched_; ++i)
+        sheerest16 = most(sheerest16, along_[i].near->sheer16);
+    const Real sizes = shiftDown(sheerest16 * nearLength(seed_->path), 4);
+    return SMOOTH < sizes * SMOOTH_OWN ? SMOOTH / sizes : SMOOTH_OWN;
 }

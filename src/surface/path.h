@@ -43,8 +43,9 @@ public:
     // anywhere on the path.
     Real pushes() const;
     Real pushMost() const;
-    // What they change by at most, all together and the own one, over a position.
-    Real steepest() const;
+
+    // How far two positions may be apart for the field in between to follow from what it is there and changes by, about.
+    Real smoothStep() const;
 
     // Positions: where paths are searched.
     Real first() const { return first_; }
@@ -76,6 +77,8 @@ public:
 
 private:
     struct Part;
+    struct Digger;
+    struct Parts;
 
     void setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const;
     void find(int number, Along& along);
@@ -91,8 +94,10 @@ private:
     // The body's field from those that were found (blend.cpp).
     SELDOM void blend(Real position, Sample& sample);
     SELDOM void blendOdd(Real position, Sample& sample);
-    int findParts(Real position, Part* parts, Real* strongest);
-    Real addDents(Real position, Part* parts, int count);
+    void findParts(Parts& parts) const;
+    static bool isSum(const Parts& parts);
+    static Real sumOf(const Parts& parts);
+    Real fieldOf(Parts& parts, Real* share, Real* inverse) const;
 
     const SoftObject& object_;
     const Neighbourhood& all_;

@@ -82,7 +82,7 @@ Real Settler::settle(Seed& s)
     }
     if (nearby_.dented()) {
         off_ = found ? Real(0) : off_;
-        putOff(s, found ? sample.dominance - OVERSHOOT : off_, path_.pushMost() * Real(found ? 2 : 1));
+        putOff(s, found ? shiftDown(sample.dominance - OVERSHOOT, 1) : off_);
     }
     return found ? least(margin, sample.dominance - OVERSHOOT) : margin;
 }
@@ -236,7 +236,7 @@ void Settler::settleRest(Patch& patch)
         // What has slept or rested is likely to be where the one in the middle is.
         const bool woken = (s.flags & SEED_ASLEEP) || ((s.flags & SEED_RESTING) && !(centre.flags & SEED_RESTING));
         if ((!(s.flags & SEED_VALID) || (woken && !(centre.flags & SEED_VALID))) && isCovered(s)) {
-            s.flags &= SEED_OFF;
+            s.flags &= stillOff();
             return;
         }
         if (woken) {
@@ -252,8 +252,6 @@ void Settler::settleRest(Patch& patch)
             cover_.setPatch(patch);
         }
     });
-    if (nearby_.dented() && !patch.extras)
-        patch.due += offFor(patch);
     setRange(patch);
     if (heavy_ && !nearby_.dented())
         forSeeds(patch, [&](int i) { patch.behind |= settleIsland(patch, i); });
@@ -364,7 +362,7 @@ void Settler::oversample(Patch& patch)
         if (extra == nullptr || !(extra->flags & SEED_ACTIVE))
             return;
         if (!(extra->flags & SEED_VALID) && isCovered(*extra))
-            extra->flags &= SEED_ACTIVE | SEED_OFF;
+            extra->flags &= SEED_ACTIVE | stillOff();
         else if (!waits(*extra, false))
             settle(*extra);
         if (settleFine(i))
