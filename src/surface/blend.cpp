@@ -81,53 +81,113 @@ void Path::blend(Real position, Sample& sample)
 // A member of the body that has a field F at the position; x is that over the strongest one, g the sum of what it is linked with
 // and what digs into it, `linked` the sum of w_ik x_i^2.
 struct Path::Part {
-    Real f;
+    Real f, rate;  // F, dF/dp
     Real g, linked;
     Real x, x2;
     const Real* weights;
-    int slot, at;  // at: its number on the path; -1: the object
+    int slot, at;  // at: its place in share_
 };
 
-// What digs into the body and is none of it, and has a field F there.
+// What digs into the body and is none of it, and has a field F there; by which weight.
 struct Path::Digger {
-    Real f;
+    Real f, rate;
+    Real weight;
     int slot, at;
 };
 
-// All of them, and the strongest member's field.
+// All of them; the strongest member's field, and that of those that take a path from the object.
 struct Path::Parts {
     Part members[NEIGHBOURS_MAX + 1];
     Part* end = members;
     Digger diggers[NEIGHBOURS_MAX + 1];
     Digger* lastDigger = diggers;
-    Real strongest{0};
-};
+    Real strongest{0}, rival{0};
 
-// Lists them, the own first.
-void Path::findParts(Parts& parts) const
-{
-    const auto add = [&](Real f, int slot, int at, bool digs) {
-        if (f <= Real(0))
-            return;
-        if (digs) {
-            *parts.lastDigger++ = {f, slot, at};
-            return;
-        }
-        parts.strongest = most(parts.strongest, f);
-        Part& part = *parts.end++;
+    void add(Real f, Real rate, const Real* weights, int slot, int at)
+    {
+        strongest = most(strongest, f);
+        Part& part = *end++;
         part.f = part.g = f;
-        part.weights = bodies_.weights(slot);
+        part.rate = rate;
+        part.weights = weights;
         part.slot = slot;
         part.at = at;
-    };
-    add(ownField_, object_.slot(), -1, all_.hollow);
-    for (int i = 0; i < touched_; ++i)
-        add(along_[i].value, along_[i].near->object->slot(), i, along_[i].near->digs);
+    }
+    void addDigger(Real f, Real rate, Real weight, int slot, int at) { *lastDigger++ = {f, rate, weight, slot, at}; }
+};
+
+// The own field: it digs, if the seeds sample a hollow.
+void Path::findOwn(Real position, Parts& parts)
+{
+    const Real t = ownParam(position), strength = object_.strength();
+    const FieldStep own = t < Real(1) ? geoffQuick(most(t, Real(0))) : FieldStep{Real(0), Real(0)};
+    ownField_ = own.value * strength;
+    ownSlope_ = own.slope * strength;
+    headField_ = Real(0);
+    if (ownField_ <= Real(0))
+        return;
+    const Real rate = ownRate(position);
+    const int slot = object_.slot();
+    if (all_.hollow)
+        parts.addDigger(ownField_, rate, all_.weight, slot, 0);
+    else
+        parts.add(ownField_, rate, bodies_.weights(slot), slot, 0);
 }
 
-// Whether the members are all linked with each other at weight 1, and whatever digs does it with one weight into all of them:
-// then F is their sum, less what digs.
-bool Path::isSum(const Parts& parts)
+// The field of a neighbour. False: it does not reach the position.
+inline bool Path::findNear(Real position, const Vector* path, int number, Parts& parts)
+{
+    Along& along = along_[number];
+    if (path != nullptr)
+        along.aim(*path);
+    const Real t = along.param(position);
+    along.value = along.slope = Real(0);
+    if (t >= Real(1))
+        return false;
+    const Neighbour& near = *along.near;
+    const FieldStep field = geoffQuick(most(t, Real(0)));
+    const bool plain = near.strength == Real(1);
+    along.value = plain ? field.value : field.value * near.strength;
+    along.slope = plain ? field.slope : field.slope * near.strength;
+    if (along.value <= Real(0))
+        return true;
+    const Real rate = along.slope * along.change;
+    const int slot = near.object->slot();
+    if (near.digs) {
+        parts.addDigger(along.value, rate, near.weight, slot, number + 1);
+        return true;
+    }
+    parts.add(along.value, rate, bodies_.weights(slot), slot, number + 1);
+    if (all_.hollow && near.object == all_.head)
+        headField_ = along.value;
+    else
+        parts.rival = most(parts.rival, along.value);
+    return true;
+}
+
+// Looks at a position where something is odd about the object or the neighbours. False: none of them reaches that position.
+bool Path::lookOdd(Real position, const Vector* path, Sample* sample)
+{
+    Parts parts;
+    findOwn(position, parts);
+    bool touched = false;
+    for (int i = 0; i < touched_; ++i)
+        touched |= findNear(position, path, i, parts);
+    sample->dominance = parts.rival - (all_.hollow ? headField_ : ownField_);
+    if (complete_ || parts.strongest <= NOTHING || isSum(parts))
+        addUp(parts, *sample);
+    else
+        blendOdd(parts, *sample);
+    if (all_.hollow) {
+        sample->excess = -sample->excess;
+        sample->slope = -sample->slope;
+    }
+    return touched;
+}
+
+// Whether the members are all linked with each other at weight 1, and whatever digs does it with one weight into all of them, which
+// is then known.
+bool Path::isSum(Parts& parts)
 {
     const Part* const first = parts.members;
     for (const Part* a = first + 1; a < parts.end; ++a) {
@@ -138,17 +198,28 @@ bool Path::isSum(const Parts& parts)
             if (a->weights[digger->slot] != first->weights[digger->slot])
                 return false;
     }
+    for (Digger* digger = parts.diggers; digger < parts.lastDigger; ++digger)
+        digger->weight = -first->weights[digger->slot];
     return true;
 }
 
-Real Path::sumOf(const Parts& parts)
+// The field is the sum of the members', less what digs.
+void Path::addUp(const Parts& parts, Sample& sample)
 {
-    Real sum(0);
-    for (const Part* a = parts.members; a < parts.end; ++a)
-        sum += a->f;
-    for (const Digger* digger = parts.diggers; digger < parts.lastDigger; ++digger)
-        sum += parts.members->weights[digger->slot] * digger->f;
-    return sum;
+    sample.excess = -ISOVALUE;
+    sample.slope = Real(0);
+    for (const Part* a = parts.members; a < parts.end; ++a) {
+        sample.excess += a->f;
+        sample.slope += a->rate;
+    }
+    shared_ = !complete_;
+    for (int i = 0; i <= touched_ && shared_; ++i)
+        share_[i] = Real(1);
+    for (const Digger* digger = parts.diggers; digger < parts.lastDigger; ++digger) {
+        sample.excess -= digger->f * digger->weight;
+        sample.slope -= digger->rate * digger->weight;
+        share_[digger->at] = -digger->weight;
+    }
 }
 
 namespace {
@@ -191,61 +262,35 @@ void addInner(Part* parts, const Part* end)
 
 }  // namespace
 
-// The body's field: the sum of x_k^2 g_k over the sum of x_i^2, with x_i = f_i / the strongest. `*share` becomes one over the
-// latter, `*inverse` one over the strongest.
-Real Path::fieldOf(Parts& parts, Real* share, Real* inverse) const
-{
-    *inverse = quotient(Real(1), parts.strongest);
-    *share = quotient(Real(1), addLinks(parts.members, parts.end, *inverse));
-    if (all_.inner)
-        addInner(parts.members, parts.end);
-    Real above(0);
-    for (Part* a = parts.members; a < parts.end; ++a) {
-        for (const Digger* digger = parts.diggers; digger < parts.lastDigger; ++digger)
-            a->g += a->weights[digger->slot] * digger->f;
-        above += a->x2 * a->g;
-    }
-    return above * *share;
-}
-
+// The field is the sum of x_k^2 g_k over the sum of x_i^2. With x_i = f_i / the strongest,
 // dF/df_k = (2 x_k (g_k - F) / strongest + x_k^2 + sum of w_ik x_i^2) / sum of x_i^2; of what digs only the last sum, in which its
 // weights are below 0.
-void Path::blendOdd(Real position, Sample& sample)
+void Path::blendOdd(Parts& parts, Sample& sample)
 {
-    Parts parts;
-    findParts(parts);
+    const Real inverse = quotient(Real(1), parts.strongest), twice = inverse + inverse;
+    const Real share = quotient(Real(1), addLinks(parts.members, parts.end, inverse));
+    if (all_.inner)
+        addInner(parts.members, parts.end);
     shared_ = true;
     for (int i = 0; i <= touched_; ++i)
         share_[i] = Real(1);
-    if (parts.strongest <= NOTHING)
-        return;
-    const auto rateOf = [&](int at) { return at < 0 ? ownRate(position) : along_[at].slope * along_[at].change; };
-    Real slope(0);
-    if (isSum(parts)) {
-        sample.excess = sumOf(parts) - ISOVALUE;
-        for (const Part* a = parts.members; a < parts.end; ++a)
-            slope += rateOf(a->at);
-        for (const Digger* digger = parts.diggers; digger < parts.lastDigger; ++digger) {
-            const Real weight = parts.members->weights[digger->slot];
-            share_[digger->at + 1] = weight;
-            slope += weight * rateOf(digger->at);
-        }
-        sample.slope = slope;
-        return;
-    }
-    Real share, inverse;
-    const Real field = fieldOf(parts, &share, &inverse), twice = inverse + inverse;
-    for (const Part* a = parts.members; a < parts.end; ++a) {
-        const Real part = (a->x * (a->g - field) * twice + a->x2 + a->linked) * share;
-        share_[a->at + 1] = part;
-        slope += part * rateOf(a->at);
-    }
+    Real slope(0), above(0);
     for (const Digger* digger = parts.diggers; digger < parts.lastDigger; ++digger) {
         Real linked(0);
-        for (const Part* a = parts.members; a < parts.end; ++a)
-            linked += a->weights[digger->slot] * a->x2;
-        share_[digger->at + 1] = linked * share;
-        slope += linked * share * rateOf(digger->at);
+        for (Part* a = parts.members; a < parts.end; ++a) {
+            const Real w = a->weights[digger->slot];
+            a->g += w * digger->f;
+            linked += w * a->x2;
+        }
+        share_[digger->at] = linked * share;
+        slope += share_[digger->at] * digger->rate;
+    }
+    for (const Part* a = parts.members; a < parts.end; ++a)
+        above += a->x2 * a->g;
+    const Real field = above * share;
+    for (const Part* a = parts.members; a < parts.end; ++a) {
+        share_[a->at] = (a->x * (a->g - field) * twice + a->x2 + a->linked) * share;
+        slope += share_[a->at] * a->rate;
     }
     sample.excess = field - ISOVALUE;
     sample.slope = slope;

@@ -35,7 +35,7 @@ public:
 
 private:
     bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all, bool known);
-    bool stays(const Settler& settler, Patch& patch) const;
+    bool stays(const Settler& settler, Patch& patch, bool stale) const;
     void renewLists(Patch& patch, const Neighbourhood& all);
     bool isAtRest(Settler& settler, Patch& patch, const Neighbourhood& all);
     void settle(Settler& settler, Patch& patch);
@@ -85,9 +85,10 @@ void Engine::update(const FrameContext& frame)
             displaced = true;
             continue;
         }
-        if (!known || patch->stale || isDue(odometer_.bound(), patch->listDue))
+        const bool stale = !known || patch->stale;
+        if (stale || isDue(odometer_.bound(), patch->listDue))
             renewLists(*patch, all);
-        if (!all.common && stays(settler, *patch)) {
+        if (!all.common && stays(settler, *patch, stale)) {
             displaced = true;
             continue;
         }
@@ -121,12 +122,13 @@ inline bool Engine::keeps(Settler& settler, Patch& patch, const Neighbourhood& a
 
 // The same where something digs, strengths differ or the object is shaped: whether none that it lists has come, or all of it is
 // still off the surface.
-inline bool Engine::stays(const Settler& settler, Patch& patch) const
+inline bool Engine::stays(const Settler& settler, Patch& patch, bool stale) const
 {
     const bool came = odometer_.count(patch);
+    patch.stirred = patch.stirred || stale;
     if (settler.isStillOff(patch))
         return true;
-    return !came && odometer_.eyeStayed() && (patch.state == PATCH_MIXED || patch.state == PATCH_INSIDE);
+    return !came && !stale && odometer_.eyeStayed() && (patch.state == PATCH_MIXED || patch.state == PATCH_INSIDE);
 }
 
 inline void Engine::renewLists(Patch& patch, const Neighbourhood& all)

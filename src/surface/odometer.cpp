@@ -72,8 +72,7 @@ Way Odometer::wayBetween(const Neighbour& near, const Stand& now, const Stand& b
 // What the field of a body changes by at most, anywhere, when a neighbour comes so far. 1.0 = 2^14.
 uint16_t Odometer::changeBy(const Neighbour& near, Way way)
 {
-    const Real push = near.pushMost(), units = realFromRaw(static_cast<int32_t>(limited(way)) << 6);
-    const Real change = least(units * (near.digs ? push : push + push), Real(1));
+    const Real change = least(near.pushMost() * realFromRaw(static_cast<int32_t>(limited(way)) << 6), Real(1));
     return limited(static_cast<uint32_t>(rawFromReal(change) >> 2) + 1);
 }
 
@@ -153,11 +152,13 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
 bool Odometer::count(Patch& patch) const
 {
     uint32_t way = 0, change = 0;
+    patch.stirred = leapt_;
     for (const Moved *moved = moved_, *const end = moved_ + movedCount_; moved < end; ++moved) {
-        if (!(patch.listed[moved->slot >> 5] >> (moved->slot & 31) & 1))
+        if (!isListed(patch.listed, moved->slot))
             continue;
         way = moved->way > way ? moved->way : way;
         change += moved->change;
+        patch.stirred = patch.stirred || isListed(patch.near, moved->slot);
     }
     patch.came = static_cast<uint16_t>(patch.came + (leapt_ ? ALL_DUE : way));
     patch.changed = static_cast<uint16_t>(patch.changed + (leapt_ ? ALL_DUE : limited(change)));

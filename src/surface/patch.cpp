@@ -88,6 +88,7 @@ void setPatch(const SoftObject& object, Patch& patch)
 void beginPatch(const SoftObject& object, Patch& patch)
 {
     patch.state = PATCH_REST;
+    patch.stirred = true;
     patch.extras = patch.fine = patch.behind = patch.settled = patch.stale = false;
     patch.blocker = static_cast<uint8_t>(object.slot());
     patch.nearest = patch.farthest = 64;
@@ -272,7 +273,7 @@ void reshapePatches(const SoftObject& object, Patch* patches, int count, uint32_
     for (int i = 0; i < count; ++i) {
         setPatch(object, patches[i]);
         patches[i].due = reading;
-        patches[i].stale = true;
+        patches[i].stale = patches[i].stirred = true;
         patches[i].bend.known = false;
     }
 }

@@ -42,6 +42,7 @@ struct Patch {
     PatchState state;
     uint8_t blocker;    // slot of the neighbour that was the strongest where a seed was not on the surface
     bool stale;         // its lists have to be made anew
+    bool stirred;       // one that reaches its seeds where they are has come since the last frame; known where all is not common
     bool settled;       // its seeds were looked at in this frame
     bool extras;        // oversampled seeds of it take part
     bool fine;          // and fine ones
@@ -89,6 +90,11 @@ inline bool isListed(const uint32_t list[SLOTS_MAX / 32])
     for (int word = 0; word < SLOTS_MAX / 32; ++word)
         any |= list[word];
     return any != 0;
+}
+
+inline bool isListed(const uint32_t list[SLOTS_MAX / 32], int slot)
+{
+    return (list[slot >> 5] >> (slot & 31) & 1) != 0;
 }
 
 // How many patches the seeds of an object make.

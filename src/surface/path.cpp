@@ -123,56 +123,19 @@ inline void Path::addAll(Real position, const Vector* path, Fields* fields)
 }
 
 // The same anywhere.
-bool Path::lookOdd(Real position, const Vector* path, Sample* sample)
+bool Path::lookAnywhere(Real position, const Vector* path, Sample* sample)
 {
     ++counts_.iterations;
     lookedAt_ = position;
     shared_ = false;
-    Fields fields = ownPlain_ ? own(position) : ownOdd(position);
-    addAll(position, path, &fields);
     if (odd_)
-        addOdd(&fields);
+        return lookOdd(position, path, sample);
+    Fields fields = own(position);
+    addAll(position, path, &fields);
     *sample = {fields.sum - ISOVALUE, fields.slope, fields.strongest - ownField_};
     if (!complete_)
-        odd_ ? blendOdd(position, *sample) : blend(position, *sample);
-    if (all_.hollow)
-        *sample = {-sample->excess, -sample->slope, fields.strongest - headField_};
+        blend(position, *sample);
     return fields.touched != 0;
-}
-
-// The own field of an object that is not as strong as most, or of one whose seeds sample a hollow: it digs, and the head is
-// among its neighbours.
-Fields Path::ownOdd(Real position)
-{
-    const Real t = ownParam(position), strength = object_.strength();
-    const FieldStep own = t < Real(1) ? geoffQuick(most(t, Real(0))) : FieldStep{Real(0), Real(0)};
-    ownField_ = own.value * strength;
-    ownSlope_ = own.slope * strength;
-    const Real rate = ownRate(position);
-    headField_ = Real(0);
-    return all_.hollow ? Fields{-(ownField_ * all_.weight), -(rate * all_.weight), Real(0), 0} : Fields{ownField_, rate, Real(0), 0};
-}
-
-// Corrects the fields that were just added where something digs, or strengths differ.
-void Path::addOdd(Fields* fields)
-{
-    fields->strongest = Real(0);
-    for (Along* along = along_; along < end_; ++along) {
-        const Neighbour& near = *along->near;
-        if (!near.plain && along->slope != Real(0)) {
-            const Real weight = near.digs ? -near.weight : Real(1);
-            fields->sum -= along->value;
-            fields->slope -= along->slope * along->change;
-            along->value = along->value * near.strength;
-            along->slope = along->slope * near.strength;
-            fields->sum += along->value * weight;
-            fields->slope += along->slope * weight * along->change;
-        }
-        if (all_.hollow && near.object == all_.head)
-            headField_ = along->value;
-        else if (!near.digs)
-            fields->strongest = most(fields->strongest, along->value);
-    }
 }
 
 Sample Path::look(Real position)
@@ -181,7 +144,7 @@ Sample Path::look(Real position)
     if (!odd_ && !others_)
         lookPlain(position, nullptr, &sample);
     else
-        lookOdd(position, nullptr, &sample);
+        lookAnywhere(position, nullptr, &sample);
     return sample;
 }
 
@@ -190,7 +153,7 @@ bool Path::begin(const Few& few, const Seed& s, Real position, Sample* sample)
     seed_ = &s;
     if (few_ != &few || rootOfFew_ != s.root)
         take(few, s);
-    return !odd_ && !others_ ? lookPlain(position, &s.path, sample) : lookOdd(position, &s.path, sample);
+    return !odd_ && !others_ ? lookPlain(position, &s.path, sample) : lookAnywhere(position, &s.path, sample);
 }
 
 Sample Path::beginSearch(const Seed& s)
@@ -272,17 +235,15 @@ Real Path::pushes() const
     // The gradient of a field is 2 f' r / R^2, and r / R no more than r^2 / R^2 + 1/4; a little more for what that changes.
     Real sum(0);
     for (int i = 0; i < touched_; ++i)
-        sum += (Real(0.1) - along_[i].slope * (along_[i].t + Real(0.25))) * along_[i].near->share * along_[i].near->sheer16;
+        sum += (Real(0.1) - along_[i].slope * (along_[i].t + Real(0.25))) * along_[i].near->sheer16;
     return shiftDown(sum, 3);
 }
 
 Real Path::pushMost() const
 {
     Real sum(0);
-    for (int i = 0; i < touched_; ++i) {
-        const Real push = along_[i].near->pushMost();
-        sum += complete_ || along_[i].near->digs ? push : push + push;
-    }
+    for (int i = 0; i < touched_; ++i)
+        sum += along_[i].near->pushMost();
     return sum;
 }
 

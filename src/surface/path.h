@@ -85,19 +85,18 @@ private:
     void take(const Few& few, const Seed& s);
     const Vector& root() const { return object_.root(seed_->root); }
     Fields own(Real position);
-    SELDOM Fields ownOdd(Real position);
-    SELDOM void addOdd(Fields* fields);
     void addAll(Real position, const Vector* path, Fields* fields);
     bool lookPlain(Real position, const Vector* path, Sample* sample);
-    SELDOM bool lookOdd(Real position, const Vector* path, Sample* sample);
+    SELDOM bool lookAnywhere(Real position, const Vector* path, Sample* sample);
     SELDOM Real warpedParam(Real position);
     // The body's field from those that were found (blend.cpp).
     SELDOM void blend(Real position, Sample& sample);
-    SELDOM void blendOdd(Real position, Sample& sample);
-    void findParts(Parts& parts) const;
-    static bool isSum(const Parts& parts);
-    static Real sumOf(const Parts& parts);
-    Real fieldOf(Parts& parts, Real* share, Real* inverse) const;
+    SELDOM bool lookOdd(Real position, const Vector* path, Sample* sample);
+    SELDOM void findOwn(Real position, Parts& parts);
+    bool findNear(Real position, const Vector* path, int number, Parts& parts);
+    static bool isSum(Parts& parts);
+    void addUp(const Parts& parts, Sample& sample);
+    SELDOM void blendOdd(Parts& parts, Sample& sample);
 
     const SoftObject& object_;
     const Neighbourhood& all_;

@@ -82,7 +82,7 @@ Real Settler::settle(Seed& s)
     }
     if (nearby_.dented()) {
         off_ = found ? Real(0) : off_;
-        putOff(s, found ? shiftDown(sample.dominance - OVERSHOOT, 1) : off_);
+        putOff(s, found ? sample.dominance - OVERSHOOT : off_);
     }
     return found ? least(margin, sample.dominance - OVERSHOOT) : margin;
 }
@@ -261,6 +261,8 @@ void Settler::settleRest(Patch& patch)
 // little; one that did not move twice, or faces well away, waits for three.
 bool Settler::waits(const Seed& s, bool someAway) const
 {
+    if (!patch_->stirred && (s.flags & SEED_VALID))
+        return true;
     if (nearby_.dented() || !(s.flags & SEED_VALID) || came_ > least(HURRY, shiftDown(nearby_.smallest(), 2)))
         return false;
     uint32_t mask = s.still;
