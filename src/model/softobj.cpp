@@ -218,8 +218,7 @@ void SoftObject::makeWarp(const WarpAmounts& amounts)
     const Real radius = Real(CORE_SIZE) * restRoot_;
     const Vector core = coreExtent16(), surface = stretchedOut(core + Vector{radius, radius, radius});
     const Vector field = stretchedOut(core + Vector{Real(CORE_SIZE), Real(CORE_SIZE), Real(CORE_SIZE)});
-    const Vector steep = stretchedOut(core + Vector{STEEP_AT, STEEP_AT, STEEP_AT});
-    warp_.set(amounts, surface.y, most(surface.x, surface.z), most(field.x, field.z), most(steep.x, steep.z));
+    warp_.set(amounts, surface, field, stretchedOut(core + Vector{STEEP_AT, STEEP_AT, STEEP_AT}));
     measureReach();
 }
 
@@ -343,9 +342,9 @@ Real SoftObject::plainParam(const Vector& q, Vector* slope) const
 Real SoftObject::warpedParam(const Vector& q, Vector* slope) const
 {
     *slope = q;
-    const Real far = (coreReach16_ + Real(CORE_SIZE)) * mostStretch_ * warp_.most();
-    if (absolute(q.x) >= far || absolute(q.y) >= far || absolute(q.z) >= far)
-        return Real(1);
+    const Real outside = warp_.outside(q);
+    if (outside >= Real(0))
+        return Real(1) + shiftDown(least(outside * narrowing(), Real(1000)), 3);
     Warp::Way way;
     warp_.back(q, way);
     const Real t = plainParam(unstretched(way.plain), slope);

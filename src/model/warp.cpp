@@ -45,8 +45,9 @@ Real cosineLackOverAngle(Real a)
 
 }  // namespace
 
-void Warp::set(const WarpAmounts& amounts, Real height, Real wide, Real fieldWide, Real steepWide)
+void Warp::set(const WarpAmounts& amounts, const Vector& surface, const Vector& field, const Vector& steep)
 {
+    const Real height = surface.y, wide = ::most(surface.x, surface.z);
     asked_ = amounts_ = amounts;
     height_ = height;
     slope_ = amounts.part[WARP_TAPER] / height;
@@ -67,8 +68,15 @@ void Warp::set(const WarpAmounts& amounts, Real height, Real wide, Real fieldWid
     endUp_ = height * sineOverAngle(end_);
     if (end_ > Real(0))
         most_ = most_ * Real(1.5);
-    least_ = leastWithin(fieldWide);
-    leastSteep_ = leastWithin(steepWide);
+    least_ = leastWithin(::most(field.x, field.z));
+    leastSteep_ = leastWithin(::most(steep.x, steep.z));
+
+    // What is wide when it is tapered and turned; the ends of a bent one come towards the middle of the circle.
+    field_ = field;
+    if (slope_ != Real(0) || twist_ != Real(0))
+        field_.x = field_.z = (field.x + field.z) * (Real(1) + absolute(amounts.part[WARP_TAPER]));
+    inward_ = field_.x + endAcross_ + (field.y - height) * endSine_;
+    field_.y += field_.x * endSine_;
 }
 
 // No distance becomes smaller than this share of itself as far as `wide` from the axis.

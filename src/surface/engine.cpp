@@ -92,7 +92,13 @@ void Engine::update(const FrameContext& frame)
             displaced = true;
             continue;
         }
-        if (!settler.setPatch(*patch) && all.rests && isAtRest(settler, *patch, all))
+        const bool touched = settler.setPatch(*patch);
+        if (!all.common) {
+            const bool reached = stale || odometer_.hasMoved(all, settler.reaching());
+            patch->stirred = reached || patch->reached;
+            patch->reached = reached;
+        }
+        if (!touched && all.rests && isAtRest(settler, *patch, all))
             continue;
         displaced = true;
         if (outOfSight(*patch, own)) {
@@ -125,7 +131,6 @@ inline bool Engine::keeps(Settler& settler, Patch& patch, const Neighbourhood& a
 inline bool Engine::stays(const Settler& settler, Patch& patch, bool stale) const
 {
     const bool came = odometer_.count(patch);
-    patch.stirred = patch.stirred || stale;
     if (settler.isStillOff(patch))
         return true;
     return !came && !stale && odometer_.eyeStayed() && (patch.state == PATCH_MIXED || patch.state == PATCH_INSIDE);

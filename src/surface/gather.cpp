@@ -141,12 +141,11 @@ static void place(const SoftObject& object, Neighbour& near)
     near.size16 = (rawFromReal(near.size) >> 12) + 1;
 }
 
-// What an object's field counts by at most in that of a body, about.
-static Real greatestShare(const SoftObject& object, bool digs)
+// By what an object digs into others at most.
+static Real greatestWeight(const SoftObject& digger)
 {
-    // Where not all are linked with all.
-    Real greatest = digs ? Real(0) : Real(1.25);
-    for (const List<Link>::Node* node = (digs ? object.digs() : object.skel()).first(); node != nullptr; node = node->next)
+    Real greatest(0);
+    for (const List<Link>::Node* node = digger.digs().first(); node != nullptr; node = node->next)
         greatest = most(greatest, node->item.weight);
     return greatest;
 }
@@ -159,7 +158,7 @@ static void weigh(const Bodies& bodies, const Neighbourhood& all, Neighbour& nea
     near.plain = !near.digs && near.strength == Real(1) && !(all.hollow && &other == all.head);
     near.weight = near.digs ? -bodies.weight(all.head->slot(), other.slot()) : Real(0);
     near.sheer16 = near.inverse16;
-    near.share = greatestShare(other, near.digs);
+    near.share = near.digs ? greatestWeight(other) : Real(1);
     near.samples = near.digs && other.hollowed() == all.head;
     near.grain = near.plain ? near.size : near.size / (most(near.strength, Real(1)) * most(near.weight, Real(1)));
 }

@@ -24,7 +24,7 @@ struct Neighbour {
     Real inverse16;     // CORE_SIZE / size
     Real steep16;       // what a unit of own space is in its core space at most: the same, unless its shape narrows that
     Real sheer16;       // the same where its field is steep
-    Real share;         // what its field counts by at most in the body's, about
+    Real share;         // the greatest weight of what digs; of a member 1
     Real ratio;         // squared proportion of the own size to `size`: its share of the gradient
     Real strength;      // what its field is multiplied by
     bool plain : 1;     // it is one of the body, its strength is 1, and it is not the head of a hollow
@@ -42,7 +42,7 @@ struct Neighbour {
     Vector toCore[3];   // the rows of the map from own space to its core space; no point
     Vector offset;      // and the own centre there
 
-    // What its field changes by at most over a unit, as it counts in the body's.
+    // What its field changes by at most over a unit, as it counts in that of a body whose members are linked.
     Real pushMost() const { return shiftDown(sheer16 * strength * share * STEEPEST_OF_ALL, 4); }
 
     // A vector of own space in core space, and half a gradient times CORE_SIZE^2 (see SoftObject::param()) in own space, where

@@ -1,6 +1,7 @@
 // What only dents and hollows need: who samples the wall, and how long a seed waits that is not on it, or not in its own part
 // of it.
 #include "border.h"
+#include "model/round.h"
 #include "settle.h"
 
 namespace {
@@ -10,7 +11,7 @@ constexpr Real SHARED(1.5);
 // Units: by how much more than others the two sides of that border overlap, which is found to first order.
 constexpr Real OVERLAP(0.18);
 // How far the border of two parts of a hollow's wall goes at most when what digs comes by a unit.
-constexpr double BORDER_SPEED = 16;
+constexpr Real BORDER_SPEED(16);
 // The position where what closes again over a hollow is found.
 constexpr Real CLOSING(0.95);
 
@@ -42,11 +43,18 @@ Rival rivalOf(const Path& path, Real position)
     return rival;
 }
 
+// A vector of the same direction and unit length, about.
+Vector quickUnit(const Vector& v)
+{
+    const Real size = lengthQuick(v);
+    return size == Real(0) ? v : Vector{quotient(v.x, size), quotient(v.y, size), quotient(v.z, size)};
+}
+
 // What all other fields make of the lead that the seed's object, whose paths lead `out` and whose field is `own` steep, has on the
 // rival; all together push along `g`. With a and b as unit vectors along the paths, (g.a + g.b) / (1 + a.b) is the lead.
 SELDOM Real leadOf(const Vector& g, const Vector& out, Real own, const Rival& rival)
 {
-    const Vector a = unit(out), b = unit(rival.from);
+    const Vector a = quickUnit(out), b = quickUnit(rival.from);
     const Vector rest = g - a * own + b * rival.steepest;
     return dot(rest, a + b) / most(Real(1) + dot(a, b), Real(0.05));
 }
@@ -102,7 +110,8 @@ bool Settler::findDented(Seed& s, Vector* g)
 {
     const Real shared = object_.spacing() * SHARED, apart = findShare(path_, s, shared, g);
     if (apart < -shared) {
-        leaveToOthers(s, (-apart - shared) * Real(1.0 / BORDER_SPEED));
+        s.flags |= SEED_COVERED;
+        putOff(s, -apart - shared, BORDER_SPEED);
         return false;
     }
     if (apart < shared)
@@ -120,24 +129,18 @@ bool Settler::hasClosed(const Seed& s)
 
 // ---- What is off the surface waits
 
-// A seed that is not on the surface, by `hold` of the field, is not looked at before the field may have changed by that.
-void Settler::putOff(Seed& s, Real hold) const
+// A seed that is not on the surface, or not in its own part of it, by `hold` of what changes by `push` at most when the neighbours
+// come by a unit: until when it need not be looked at. The fields of those that do not reach the path yet begin gently.
+void Settler::putOff(Seed& s, Real hold, Real push) const
 {
     s.flags |= SEED_OFF;
-    s.due = static_cast<uint16_t>(patch_->changed + (rawFromReal(clamp(hold, Real(0), Real(1))) >> 2));
-}
-
-// One that is not in its own part of it waits until neighbours have come `hold` units.
-void Settler::leaveToOthers(Seed& s, Real hold) const
-{
-    s.flags |= SEED_OFF | SEED_COVERED;
-    s.due = static_cast<uint16_t>(patch_->came + wayOf(least(hold, LONGEST_WAIT)));
+    const Real longest = path_.touched() == all_.count ? LONGEST_WAIT : LIST_SLACK;
+    s.due = static_cast<uint16_t>(patch_->came + wayUntil(hold, push, longest));
 }
 
 bool Settler::isOff(const Patch& patch, const Seed& s)
 {
-    const uint16_t reading = s.flags & SEED_COVERED ? patch.came : patch.changed;
-    return (s.flags & SEED_OFF) && static_cast<int16_t>(reading - s.due) < 0;
+    return (s.flags & SEED_OFF) && static_cast<int16_t>(patch.came - s.due) < 0;
 }
 
 // What becomes of a patch the middle of which has just been found off the surface: whether all of it is. The own field is the same
@@ -149,6 +152,6 @@ PatchState Settler::probeOff(const Patch& patch, Seed& s) const
     const Real hold = off_ - path_.pushMost() * realFromRaw(patch.radius << 13);
     if (hold <= Real(0))
         return PATCH_MIXED;
-    putOff(s, hold);
+    putOff(s, hold, push_);
     return PATCH_INSIDE;
 }

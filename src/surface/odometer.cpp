@@ -69,13 +69,6 @@ Way Odometer::wayBetween(const Neighbour& near, const Stand& now, const Stand& b
     return wayOf(way);
 }
 
-// What the field of a body changes by at most, anywhere, when a neighbour comes so far. 1.0 = 2^14.
-uint16_t Odometer::changeBy(const Neighbour& near, Way way)
-{
-    const Real change = least(near.pushMost() * realFromRaw(static_cast<int32_t>(limited(way)) << 6), Real(1));
-    return limited(static_cast<uint32_t>(rawFromReal(change) >> 2) + 1);
-}
-
 bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion)
 {
     bool holds = !fresh_ && linksVersion == linksVersion_;
@@ -133,7 +126,7 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
         came = way / 2 > came ? way / 2 : came;
         came_ = came > came_ ? came : came_;
         if (came > 0)
-            moved_[movedCount_++] = {static_cast<uint8_t>(slot), limited(came), changeBy(near, came)};
+            moved_[movedCount_++] = {static_cast<uint8_t>(slot), limited(came)};
     }
     if (all.count > 0)
         memcpy(stands_, stands, static_cast<size_t>(all.count) * sizeof stands[0]);
@@ -151,16 +144,19 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
 
 bool Odometer::count(Patch& patch) const
 {
-    uint32_t way = 0, change = 0;
-    patch.stirred = leapt_;
-    for (const Moved *moved = moved_, *const end = moved_ + movedCount_; moved < end; ++moved) {
-        if (!isListed(patch.listed, moved->slot))
-            continue;
-        way = moved->way > way ? moved->way : way;
-        change += moved->change;
-        patch.stirred = patch.stirred || isListed(patch.near, moved->slot);
-    }
-    patch.came = static_cast<uint16_t>(patch.came + (leapt_ ? ALL_DUE : way));
-    patch.changed = static_cast<uint16_t>(patch.changed + (leapt_ ? ALL_DUE : limited(change)));
-    return leapt_ || way > 0;
+    uint16_t way = leapt_ ? ALL_DUE : 0;
+    for (const Moved *moved = moved_, *const end = moved_ + movedCount_; moved < end; ++moved)
+        if (isListed(patch.listed, moved->slot))
+            way = moved->way > way ? moved->way : way;
+    patch.came = static_cast<uint16_t>(patch.came + way);
+    return way > 0;
+}
+
+bool Odometer::hasMoved(const Neighbourhood& all, const Few& few) const
+{
+    bool moved = leapt_;
+    for (int i = 0; i < few.count; ++i)
+        for (int j = 0; j < movedCount_ && !moved; ++j)
+            moved = moved_[j].slot == all.neighbours[few.number[i]].object->slot();
+    return moved;
 }

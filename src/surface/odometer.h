@@ -1,11 +1,11 @@
 // Odometer: how far the neighbours of an object have come, in its own space, and how far the viewer has come round it. What was
 // found out about a patch holds until they have come so far that it might be different: whoever finds it out says how far that
-// is, and when the odometer has got there the patch is due. A patch also hears how far those on its list have come, and what
-// that may have changed. Were everything always due, nothing but the speed would change.
+// is, and when the odometer has got there the patch is due. A patch also hears how far those on its own
+// lists have come. Were everything always due, nothing but the speed would change.
 #ifndef FB_ODOMETER_H
 #define FB_ODOMETER_H
 
-#include "patch.h"
+#include "nearby.h"
 
 // A way, and the reading of an odometer: 1/1024 unit of own space. Readings go round, so isDue() compares them.
 typedef uint32_t Way;
@@ -42,9 +42,10 @@ public:
     // Whether the viewer has come round the object since then.
     bool eyeStayed() const { return eyeStayed_; }
 
-    // Counts on for a patch, whose lists hold: how far those on them came since the call before, and what that changes. False: none
-    // of them came at all.
+    // Counts on for a patch, whose lists hold, how far those on them came since the call before. False: none of them came at all.
     SELDOM bool count(Patch& patch) const;
+    // Whether any of a few neighbours came since then.
+    SELDOM bool hasMoved(const Neighbourhood& all, const Few& few) const;
 
 private:
     // Where a neighbour stood: its centre and its axes; of what is shaped, the map into its core space.
@@ -54,7 +55,6 @@ private:
         WarpAmounts warp;
         bool inRange;
     };
-    static uint16_t changeBy(const Neighbour& near, Way way);
     static Way wayOfCore(const Neighbour& near, const Stand& now, const Stand& before);
     static Way wayBetween(const Neighbour& near, const Stand& now, const Stand& before, Real reach);
 
@@ -64,10 +64,10 @@ private:
     Vector eye_{Real(0), Real(0), Real(0)};  // where the viewer was, own axes
     bool eyeStayed_ = false;
 
-    // A neighbour that came since the call before, and what the body's field changes by at most for that.
+    // A neighbour that came since the call before, and how far.
     struct Moved {
         uint8_t slot;
-        uint16_t way, change;
+        uint16_t way;
     };
     int movedCount_ = 0;
     bool leapt_ = true;  // nothing is known of a frame before, or all may have changed

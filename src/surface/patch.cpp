@@ -88,12 +88,12 @@ void setPatch(const SoftObject& object, Patch& patch)
 void beginPatch(const SoftObject& object, Patch& patch)
 {
     patch.state = PATCH_REST;
-    patch.stirred = true;
+    patch.reached = patch.stirred = true;
     patch.extras = patch.fine = patch.behind = patch.settled = patch.stale = false;
     patch.blocker = static_cast<uint8_t>(object.slot());
     patch.nearest = patch.farthest = 64;
     patch.due = patch.listDue = 0;
-    patch.came = patch.changed = 0;
+    patch.came = 0;
     memset(patch.listed, 0, sizeof patch.listed);
     memset(patch.near, 0, sizeof patch.near);
     patch.bend.known = false;
@@ -273,7 +273,7 @@ void reshapePatches(const SoftObject& object, Patch* patches, int count, uint32_
     for (int i = 0; i < count; ++i) {
         setPatch(object, patches[i]);
         patches[i].due = reading;
-        patches[i].stale = patches[i].stirred = true;
+        patches[i].stale = true;
         patches[i].bend.known = false;
     }
 }

@@ -159,8 +159,28 @@ bool Path::begin(const Few& few, const Seed& s, Real position, Sample* sample)
 Sample Path::beginSearch(const Seed& s)
 {
     Sample sample;
+    begin(nearby_.listed(), s, middle_, &sample);
+    leaveOut();
+    return sample;
+}
+
+void Path::beginDeepSearch(const Seed& s)
+{
     const Few& listed = nearby_.listed();
-    begin(listed, s, middle_, &sample);
+    seed_ = &s;
+    if (few_ != &listed || rootOfFew_ != s.root)
+        take(listed, s);
+    for (Along* along = along_; along < end_; ++along) {
+        along->aim(s.path);
+        along->param(middle_);
+    }
+    leaveOut();
+}
+
+// Those that were listed and reach no place on the path, from the t of each in its middle.
+void Path::leaveOut()
+{
+    const Few& listed = *few_;
     Few few;
     few.count = 0;
     for (int i = 0; i < listed.count; ++i) {
@@ -171,7 +191,7 @@ Sample Path::beginSearch(const Seed& s)
         few.number[few.count++] = listed.number[i];
     }
     if (few.count == listed.count)
-        return sample;
+        return;
     few.complete = true;
     if (!listed.complete)
         nearby_.setComplete(few);
@@ -179,7 +199,6 @@ Sample Path::beginSearch(const Seed& s)
     touched_ = few.count;
     end_ = along_ + few.count;
     few_ = nullptr;
-    return sample;
 }
 
 // The own t at a position of the path of a warped object; sets ownChange_.
@@ -187,9 +206,8 @@ Real Path::warpedParam(Real position)
 {
     const Real inward = Real(CORE_SIZE) / object_.laidSize();
     const Vector step = seed_->path * inward;
-    Vector out;
-    const Real t = object_.param(root() * inward + step * position, &out);
-    ownChange_ = t < Real(1) ? shiftDown(dot(out, step), 7) : Real(0);
+    const Real t = object_.param(root() * inward + step * position, &ownOut_);
+    ownChange_ = t < Real(1) ? shiftDown(dot(ownOut_, step), 7) : Real(0);
     return t;
 }
 
@@ -227,7 +245,7 @@ Vector Path::outward(Real position) const
 
 Vector Path::ownGradient(Real position, Real share) const
 {
-    return object_.slopeAt(root() + from(position)) * shiftDown(share * object_.laidSize(), 4);
+    return (warped_ ? ownOut_ : object_.slopeAt(root() + from(position))) * shiftDown(share * object_.laidSize(), 4);
 }
 
 Real Path::pushes() const
@@ -235,7 +253,7 @@ Real Path::pushes() const
     // The gradient of a field is 2 f' r / R^2, and r / R no more than r^2 / R^2 + 1/4; a little more for what that changes.
     Real sum(0);
     for (int i = 0; i < touched_; ++i)
-        sum += (Real(0.1) - along_[i].slope * (along_[i].t + Real(0.25))) * along_[i].near->sheer16;
+        sum += (Real(0.1) - along_[i].slope * (along_[i].t + Real(0.25))) * along_[i].near->sheer16 * along_[i].near->share;
     return shiftDown(sum, 3);
 }
 
@@ -244,7 +262,8 @@ Real Path::pushMost() const
     Real sum(0);
     for (int i = 0; i < touched_; ++i)
         sum += along_[i].near->pushMost();
-    return sum;
+    // Where not all are linked with all, some count for more.
+    return complete_ ? sum : sum + shiftDown(sum, 2);
 }
 
 Real Path::smoothStep() const

@@ -26,6 +26,8 @@ public:
 
     // Takes up the path of a seed that is searched, as those see it that reach some of it, and looks at middle().
     Sample beginSearch(const Seed& s);
+    // The same without a look.
+    SELDOM void beginDeepSearch(const Seed& s);
 
     // Looks at a position of the path at hand.
     Sample look(Real position);
@@ -83,6 +85,7 @@ private:
     void setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const;
     void find(int number, Along& along);
     void take(const Few& few, const Seed& s);
+    void leaveOut();
     const Vector& root() const { return object_.root(seed_->root); }
     Fields own(Real position);
     void addAll(Real position, const Vector* path, Fields* fields);
@@ -123,7 +126,8 @@ private:
     Real headField_;                // of a hollow: the field of what is hollowed out
     Real lookedAt_;
     Real ownField_, ownSlope_;
-    Real ownChange_;                // and dt/dp, of a warped object
+    Real ownChange_;                // of a warped object: dt/dp, and half the gradient of t in core space, times CORE_SIZE^2
+    Vector ownOut_;
     Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, if shared_
 };
 

@@ -187,6 +187,7 @@ public:
     void run(Real from, Real to);
 
     bool found() const { return found_; }
+    Real push() const { return push_; }
     Real inside() const { return inside_; }
     Real outside() const { return outside_; }
     // Of the field: what the isovalue is exceeded by at least and at most; and the place where that is least.
@@ -206,6 +207,7 @@ private:
     const Real smoothStep_;
     bool found_ = false;
     Real inside_{0}, outside_{0};
+    Real push_{0};
     Real deepest_{9}, highest_{-9}, deepestAt_{1};
     Sample deepestSample_{Real(9), Real(0), Real(0)};
 };
@@ -228,6 +230,7 @@ void DeepSearch::run(Real from, Real to)
 void DeepSearch::add(const Look& at)
 {
     highest_ = most(highest_, at.sample.excess);
+    push_ = most(push_, path_.pushes());
     if (at.sample.excess >= deepest_)
         return;
     deepest_ = at.sample.excess;
@@ -301,11 +304,12 @@ bool DeepSearch::scan(const Look& begin, const Look& end)
 
 }  // namespace
 
-Real searchDeep(Path& path, Real* position, Sample* sample, Real* off)
+Real searchDeep(Path& path, Real* position, Sample* sample, Real* off, Real* push)
 {
     const bool hollow = path.all().hollow;
     DeepSearch search(path);
     search.run(hollow ? path.first() : path.last(), hollow ? path.last() : path.first());
+    *push = search.push();
     if (search.found()) {
         bisect(path, search.inside(), search.outside(), position, sample);
         return Real(9);

@@ -82,7 +82,7 @@ Real Settler::settle(Seed& s)
     }
     if (nearby_.dented()) {
         off_ = found ? Real(0) : off_;
-        putOff(s, found ? sample.dominance - OVERSHOOT : off_);
+        putOff(s, found ? sample.dominance - OVERSHOOT : off_, followed == LOST ? push_ : path_.pushMost());
     }
     return found ? least(margin, sample.dominance - OVERSHOOT) : margin;
 }
@@ -139,9 +139,13 @@ inline void Settler::keep(Seed& s, Real dominance)
 // Along its whole path, as those neighbours see it that reach some of it.
 inline Real Settler::search(const Seed& s, Real* position, Sample* sample)
 {
+    if (nearby_.dented() || !all_.rests) {
+        path_.beginDeepSearch(s);
+        return searchDeep(path_, position, sample, &off_, &push_);
+    }
     *sample = path_.beginSearch(s);
     *position = path_.middle();
-    return nearby_.dented() || !all_.rests ? searchDeep(path_, position, sample, &off_) : ::search(path_, position, sample);
+    return ::search(path_, position, sample);
 }
 
 // Gives a seed that is on the surface its normal, and what else there is to know of it there.
@@ -184,8 +188,9 @@ PatchState Settler::probe(Patch& patch)
     if (!(s.flags & SEED_VALID) && patch.state == PATCH_MIXED && isCovered(s))
         return PATCH_MIXED;
     const Real least = enough(patch, nearby_.smallest());
-    const Real margin = settle(s);
-    const Real push = path_.pushes();
+    const bool stays = !patch.stirred && patch.state == PATCH_MIXED && (s.flags & SEED_VALID);
+    const Real margin = stays ? Real(0) : settle(s);
+    const Real push = stays ? Real(0) : path_.pushes();
     if (!(s.flags & SEED_VALID)) {
         patch.blocker = static_cast<uint8_t>(cover_.strongest());
         if (nearby_.dented())

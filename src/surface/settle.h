@@ -26,6 +26,9 @@ public:
         return nearby_.setPatch(patch, oversampled);
     }
 
+    // Those that do, after that.
+    const Few& reaching() const { return nearby_.reaching(); }
+
     // Whether all paths of a patch are sure to lie inside the one neighbour that was the strongest there the last time.
     bool isCovered(const Patch& patch)
     {
@@ -82,8 +85,7 @@ private:
     // What only dents and hollows need (hollow.cpp).
     SELDOM bool findDented(Seed& s, Vector* g);
     SELDOM bool hasClosed(const Seed& s);
-    void putOff(Seed& s, Real hold) const;
-    void leaveToOthers(Seed& s, Real hold) const;
+    void putOff(Seed& s, Real hold, Real push) const;
     static bool isOff(const Patch& patch, const Seed& s);
     SELDOM PatchState probeOff(const Patch& patch, Seed& s) const;
 
@@ -101,6 +103,7 @@ private:
     uint32_t turn_ = 0;  // of it: what waits takes turns
     Real border_;      // of the field: a neighbour that is weaker than the own by less is near
     bool heavy_;       // it has a link of more than HEAVY
+    Real push_;        // what fields may change by along the path at hand when neighbours come by a unit
     Real off_;         // of the field: by how much the path at hand misses the surface, where it does
 };
 

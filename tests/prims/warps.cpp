@@ -44,7 +44,8 @@ void testSpace()
     for (const double* amounts : AMOUNTS) {
         const double h = 30, wide = 8;
         Warp warp;
-        warp.set(amountsOf(amounts), real(h), real(wide), real(2 * wide), real(1.5 * wide));
+        const auto reach = [&](double times) { return toReal({times * wide, h, times * wide}); };
+        warp.set(amountsOf(amounts), reach(1), reach(2), reach(1.5));
         double out = 0, back = 0, slopes = 0, steps = 0, shortest = 1e9, farthest = 0;
         for (int i = 0; i < 3000; ++i) {
             const Vec p{between(-wide, wide), between(-1.3 * h, 1.3 * h), between(-wide, wide)};
@@ -80,7 +81,8 @@ void testSpace()
     }
     // No bend round a middle that lies inside.
     Warp warp;
-    warp.set({{Real(0), Real(0), Real(-180)}}, Real(10), Real(20), Real(40), Real(30));
+    warp.set({{Real(0), Real(0), Real(-180)}}, {Real(20), Real(10), Real(20)}, {Real(40), Real(30), Real(40)},
+             {Real(30), Real(20), Real(30)});
     const double most = 2 * 10 / (20 * 1.2) * 180 / M_PI;
     check(std::fabs(number(warp.amounts().part[WARP_BEND]) + most) < 0.01 && warp.asked().part[WARP_BEND] == Real(-180),
           "a bend of %g, not %g", number(warp.amounts().part[WARP_BEND]), -most);
