@@ -82,42 +82,55 @@ void Path::blend(Real position, Sample& sample)
 // and what digs into it, `linked` the sum of w_ik x_i^2.
 struct Path::Part {
     Real f, rate;  // F, dF/dp
-    Real g, linked;
-    Real x, x2;
     const Real* weights;
     int slot, at;  // at: its place in share_
+    Real g, linked;
+    Real x, x2;
 };
 
-// What digs into the body and is none of it, and has a field F there; by which weight.
+// What digs into the body and is none of it, and has a field F there; the weight is that by which it digs into the head.
 struct Path::Digger {
     Real f, rate;
     Real weight;
     int slot, at;
 };
 
-// All of them; the strongest member's field, and that of those that take a path from the object.
+// The sum of all fields, as if all members were linked with all and dug into like the head, and what that changes by over a
+// position; the strongest member's field, and that of those that take a path from the object. Where not all of that is so, each
+// of them.
 struct Path::Parts {
-    Part members[NEIGHBOURS_MAX + 1];
+    Real sum{0}, slope{0}, strongest{0}, rival{0};
     Part* end = members;
-    Digger diggers[NEIGHBOURS_MAX + 1];
     Digger* lastDigger = diggers;
-    Real strongest{0}, rival{0};
-
-    void add(Real f, Real rate, const Real* weights, int slot, int at)
-    {
-        strongest = most(strongest, f);
-        Part& part = *end++;
-        part.f = part.g = f;
-        part.rate = rate;
-        part.weights = weights;
-        part.slot = slot;
-        part.at = at;
-    }
-    void addDigger(Real f, Real rate, Real weight, int slot, int at) { *lastDigger++ = {f, rate, weight, slot, at}; }
+    Part members[NEIGHBOURS_MAX + 1];
+    Digger diggers[NEIGHBOURS_MAX + 1];
 };
 
+inline void Path::addMember(Parts& parts, Real f, Real rate, const SoftObject& object, int at) const
+{
+    parts.sum += f;
+    parts.slope += rate;
+    parts.strongest = most(parts.strongest, f);
+    if (complete_)
+        return;
+    Part& part = *parts.end++;
+    part.f = f;
+    part.rate = rate;
+    part.slot = object.slot();
+    part.weights = bodies_.weights(part.slot);
+    part.at = at;
+}
+
+inline void Path::addDigger(Parts& parts, Real f, Real rate, Real weight, const SoftObject& object, int at) const
+{
+    parts.sum -= f * weight;
+    parts.slope -= rate * weight;
+    if (!complete_)
+        *parts.lastDigger++ = {f, rate, weight, object.slot(), at};
+}
+
 // The own field: it digs, if the seeds sample a hollow.
-void Path::findOwn(Real position, Parts& parts)
+void Path::addOwn(Real position, Parts& parts)
 {
     const Real t = ownParam(position), strength = object_.strength();
     const FieldStep own = t < Real(1) ? geoffQuick(most(t, Real(0))) : FieldStep{Real(0), Real(0)};
@@ -127,23 +140,23 @@ void Path::findOwn(Real position, Parts& parts)
     if (ownField_ <= Real(0))
         return;
     const Real rate = ownRate(position);
-    const int slot = object_.slot();
     if (all_.hollow)
-        parts.addDigger(ownField_, rate, all_.weight, slot, 0);
+        addDigger(parts, ownField_, rate, all_.weight, object_, 0);
     else
-        parts.add(ownField_, rate, bodies_.weights(slot), slot, 0);
+        addMember(parts, ownField_, rate, object_, 0);
 }
 
 // The field of a neighbour. False: it does not reach the position.
-inline bool Path::findNear(Real position, const Vector* path, int number, Parts& parts)
+inline bool Path::addNear(Real position, const Vector* path, int number, Parts& parts)
 {
     Along& along = along_[number];
     if (path != nullptr)
         along.aim(*path);
     const Real t = along.param(position);
-    along.value = along.slope = Real(0);
-    if (t >= Real(1))
+    if (t >= Real(1)) {
+        along.value = along.slope = Real(0);
         return false;
+    }
     const Neighbour& near = *along.near;
     const FieldStep field = geoffQuick(most(t, Real(0)));
     const bool plain = near.strength == Real(1);
@@ -152,12 +165,11 @@ inline bool Path::findNear(Real position, const Vector* path, int number, Parts&
     if (along.value <= Real(0))
         return true;
     const Real rate = along.slope * along.change;
-    const int slot = near.object->slot();
     if (near.digs) {
-        parts.addDigger(along.value, rate, near.weight, slot, number + 1);
+        addDigger(parts, along.value, rate, near.weight, *near.object, number + 1);
         return true;
     }
-    parts.add(along.value, rate, bodies_.weights(slot), slot, number + 1);
+    addMember(parts, along.value, rate, *near.object, number + 1);
     if (all_.hollow && near.object == all_.head)
         headField_ = along.value;
     else
@@ -169,14 +181,15 @@ inline bool Path::findNear(Real position, const Vector* path, int number, Parts&
 bool Path::lookOdd(Real position, const Vector* path, Sample* sample)
 {
     Parts parts;
-    findOwn(position, parts);
+    addOwn(position, parts);
     bool touched = false;
     for (int i = 0; i < touched_; ++i)
-        touched |= findNear(position, path, i, parts);
+        touched |= addNear(position, path, i, parts);
     sample->dominance = parts.rival - (all_.hollow ? headField_ : ownField_);
-    if (complete_ || parts.strongest <= NOTHING || isSum(parts))
-        addUp(parts, *sample);
-    else
+    sample->excess = parts.sum - ISOVALUE;
+    sample->slope = parts.slope;
+    shared_ = !complete_ && parts.strongest > NOTHING && !isSum(parts);
+    if (shared_)
         blendOdd(parts, *sample);
     if (all_.hollow) {
         sample->excess = -sample->excess;
@@ -185,41 +198,18 @@ bool Path::lookOdd(Real position, const Vector* path, Sample* sample)
     return touched;
 }
 
-// Whether the members are all linked with each other at weight 1, and whatever digs does it with one weight into all of them, which
-// is then known.
-bool Path::isSum(Parts& parts)
+// Whether the members are all linked with each other at weight 1, and whatever digs does it by the same weight as into the head.
+bool Path::isSum(const Parts& parts)
 {
-    const Part* const first = parts.members;
-    for (const Part* a = first + 1; a < parts.end; ++a) {
-        for (const Part* b = first; b < a; ++b)
+    for (const Part* a = parts.members; a < parts.end; ++a) {
+        for (const Part* b = parts.members; b < a; ++b)
             if (b->weights[a->slot] != Real(1) || a->weights[b->slot] != Real(1))
                 return false;
         for (const Digger* digger = parts.diggers; digger < parts.lastDigger; ++digger)
-            if (a->weights[digger->slot] != first->weights[digger->slot])
+            if (a->weights[digger->slot] != -digger->weight)
                 return false;
     }
-    for (Digger* digger = parts.diggers; digger < parts.lastDigger; ++digger)
-        digger->weight = -first->weights[digger->slot];
     return true;
-}
-
-// The field is the sum of the members', less what digs.
-void Path::addUp(const Parts& parts, Sample& sample)
-{
-    sample.excess = -ISOVALUE;
-    sample.slope = Real(0);
-    for (const Part* a = parts.members; a < parts.end; ++a) {
-        sample.excess += a->f;
-        sample.slope += a->rate;
-    }
-    shared_ = !complete_;
-    for (int i = 0; i <= touched_ && shared_; ++i)
-        share_[i] = Real(1);
-    for (const Digger* digger = parts.diggers; digger < parts.lastDigger; ++digger) {
-        sample.excess -= digger->f * digger->weight;
-        sample.slope -= digger->rate * digger->weight;
-        share_[digger->at] = -digger->weight;
-    }
 }
 
 namespace {
@@ -233,6 +223,7 @@ Real addLinks(Part* parts, const Part* end, Real inverse)
         a->x = a->f * inverse;
         a->x2 = a->x * a->x;
         a->linked = Real(0);
+        a->g = a->f;
         squares += a->x2;
         for (Part* b = parts; b < a; ++b) {
             const Real w = b->weights[a->slot];
@@ -271,7 +262,6 @@ void Path::blendOdd(Parts& parts, Sample& sample)
     const Real share = quotient(Real(1), addLinks(parts.members, parts.end, inverse));
     if (all_.inner)
         addInner(parts.members, parts.end);
-    shared_ = true;
     for (int i = 0; i <= touched_; ++i)
         share_[i] = Real(1);
     Real slope(0), above(0);

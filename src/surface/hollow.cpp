@@ -147,9 +147,9 @@ bool Settler::isOff(const Patch& patch, const Seed& s)
 // at one position of all its paths, unless it is warped; they are no farther from each other there than twice where they rest.
 PatchState Settler::probeOff(const Patch& patch, Seed& s) const
 {
-    if ((s.flags & SEED_COVERED) || object_.warped())
+    if ((s.flags & SEED_COVERED))
         return PATCH_MIXED;
-    const Real hold = off_ - path_.pushMost() * realFromRaw(patch.radius << 13);
+    const Real hold = off_ - push_ * realFromRaw(patch.tight * 5 << 10);
     if (hold <= Real(0))
         return PATCH_MIXED;
     putOff(s, hold, push_);

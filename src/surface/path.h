@@ -95,10 +95,11 @@ private:
     // The body's field from those that were found (blend.cpp).
     SELDOM void blend(Real position, Sample& sample);
     SELDOM bool lookOdd(Real position, const Vector* path, Sample* sample);
-    SELDOM void findOwn(Real position, Parts& parts);
-    bool findNear(Real position, const Vector* path, int number, Parts& parts);
-    static bool isSum(Parts& parts);
-    void addUp(const Parts& parts, Sample& sample);
+    void addMember(Parts& parts, Real f, Real rate, const SoftObject& object, int at) const;
+    void addDigger(Parts& parts, Real f, Real rate, Real weight, const SoftObject& object, int at) const;
+    void addOwn(Real position, Parts& parts);
+    bool addNear(Real position, const Vector* path, int number, Parts& parts);
+    static bool isSum(const Parts& parts);
     SELDOM void blendOdd(Parts& parts, Sample& sample);
 
     const SoftObject& object_;
