@@ -24,18 +24,24 @@ int8_t toCell(int32_t steps)
 // A half axis of a seed's cell in 1/64 spacing; `inverse` is 64 / spacing.
 void setAxis(int8_t* to, const Vector& half, Real inverse)
 {
-    const Real parts[] = {half.x, half.y, half.z};
-    for (int i = 0; i < 3; ++i)
-        to[i] = toCell(floorToInt(parts[i] * inverse + Real(0.5)));
+    const auto cell = [&](Real part) { return toCell(floorToInt(part * inverse + Real(0.5))); };
+    to[0] = cell(half.x);
+    to[1] = cell(half.y);
+    to[2] = cell(half.z);
 }
 
 // Which way the path leads.
-void setWay(Seed& s)
+void setWay(Seed& s, const Direction14& n)
 {
-    const Normal n = normalise(s.path);
     s.way[0] = toCell((n.x * 127 + 8192) >> 14);
     s.way[1] = toCell((n.y * 127 + 8192) >> 14);
     s.way[2] = toCell((n.z * 127 + 8192) >> 14);
+}
+
+void setWay(Seed& s)
+{
+    const Normal n = normalise(s.path);
+    setWay(s, {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)});
 }
 
 // The area of the cell of a seed that rests, with its normal there.
@@ -206,7 +212,8 @@ int SoftObject::Layout::nearestBefore(int ring, int seed, int successor, bool cl
 {
     constexpr int BACK = 16;
     const Vector place = rest(seeds[seed]), target = rest(seeds[successor]);
-    const Square far = squareOf({shiftUp(spacing, 1), Real(0), Real(0)});
+    const Real reach = shiftUp(spacing, 1);
+    const Square far = squareOf({reach, Real(0), Real(0)});
     if (squareOf(place - target) > far)
         return -1;
     Square nearest = far;
@@ -216,7 +223,10 @@ int SoftObject::Layout::nearestBefore(int ring, int seed, int successor, bool cl
             break;
         const int before = (ring + rings - back) % rings;
         for (int j = ringStarts[before]; j < ringStarts[before + 1]; ++j) {
-            const Square d = squareOf(target - rest(seeds[j]));
+            const Vector by = target - rest(seeds[j]);
+            if (absolute(by.x) >= reach || absolute(by.y) >= reach)
+                continue;
+            const Square d = squareOf(by);
             if (d < nearest && squareOf(place - rest(seeds[j])) < far) {
                 nearest = d;
                 n = j;
@@ -644,7 +654,11 @@ bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObje
         for (int i = laid_.ringStarts[ring]; i < laid_.ringStarts[ring + 1]; ++i) {
             Seed& s = laid_.seeds[i];
             s.normal = plainNormal(laid_.rest(s), s.path);
-            setWay(s);
+            // Where no path slants it leads along the normal.
+            if (slants())
+                setWay(s);
+            else
+                setWay(s, s.normal);
             setArea(s, s.normal);
         }
     const bool warps = !warped_ || keepPlain(laid_);
