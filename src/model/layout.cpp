@@ -13,6 +13,9 @@ constexpr int EXTRA_CELL = 5;
 // An object of less than this radius is thin: as many seeds go round it as round one of this radius. Units.
 constexpr Real THIN(4.5);
 
+// The neighbour of an oversampled seed that has not been laid out yet.
+constexpr int32_t NOT_LAID = -2;
+
 // Roots that a seed's 16 bits can tell apart.
 constexpr int ROOTS_MAX = UINT16_MAX + 1;
 
@@ -223,10 +226,10 @@ int SoftObject::Layout::nearestBefore(int ring, int seed, int successor, bool cl
             break;
         const int before = (ring + rings - back) % rings;
         for (int j = ringStarts[before]; j < ringStarts[before + 1]; ++j) {
-            const Vector by = target - rest(seeds[j]);
-            if (absolute(by.x) >= reach || absolute(by.y) >= reach)
+            const Vector &root = roots[seeds[j].root], &path = seeds[j].path;
+            if (absolute(target.y - root.y - path.y) >= reach || absolute(target.x - root.x - path.x) >= reach)
                 continue;
-            const Square d = squareOf(by);
+            const Square d = squareOf(target - rest(seeds[j]));
             if (d < nearest && squareOf(place - rest(seeds[j])) < far) {
                 nearest = d;
                 n = j;
@@ -421,7 +424,7 @@ int SoftObject::ringOf(int number) const
     return ring;
 }
 
-// Null: no memory.
+// Seeds that are laid out when they are asked for. Null: no memory.
 Seed* SoftObject::layOutBlock(int at)
 {
     Seed* block = allocate<Seed>(EXTRA_BLOCK);
@@ -429,23 +432,9 @@ Seed* SoftObject::layOutBlock(int at)
         block = blockFromOthers();
     if (block == nullptr)
         return nullptr;
-    const int first = at << EXTRA_BITS;
-    int ring = ringOf(first);
-    Layout plain = laid_.plain();
     for (int i = 0; i < EXTRA_BLOCK; ++i) {
-        const int number = first + i;
-        if (number >= laid_.regular) {
-            block[i] = Seed();
-            continue;
-        }
-        while (laid_.ringStarts[ring + 1] <= number)
-            ++ring;
-        layOutExtra(plain, number, ring, block[i]);
-        if (warped_)
-            warpExtra(plain, block[i]);
-        block[i].normal = restNormal(block[i]);
-        block[i].area = 0;
-        setWay(block[i]);
+        block[i] = Seed();
+        block[i].neighbour = NOT_LAID;
     }
     laid_.extras[at] = block;
     return block;
@@ -455,13 +444,23 @@ Seed& SoftObject::laidExtra(int slot)
 {
     // Without memory it is a seed that nobody sees.
     static Seed unseen;
-    const int at = slot >> (EXTRA_BITS + 1);
+    const int at = slot >> (EXTRA_BITS + 1), number = slot >> 1;
     if (laid_.extras[at] == nullptr && layOutBlock(at) == nullptr) {
         unseen = seed(slot - 1);
         unseen.flags = 0;
         return unseen;
     }
-    return *extra(slot);
+    Seed& s = *extra(slot);
+    if (s.neighbour != NOT_LAID)
+        return s;
+    Layout plain = laid_.plain();
+    layOutExtra(plain, number, ringOf(number), s);
+    if (warped_)
+        warpExtra(plain, s);
+    s.normal = restNormal(s);
+    s.area = 0;
+    setWay(s);
+    return s;
 }
 
 bool SoftObject::layOutBetween(int i, int other)
@@ -508,6 +507,8 @@ bool SoftObject::layOutExtras()
     for (int i = 0; i < laid_.blocks(); ++i)
         if (laid_.extras[i] == nullptr && layOutBlock(i) == nullptr)
             return false;
+    for (int i = 0; i < laid_.regular; ++i)
+        laidExtra(2 * i + 1);
     return true;
 }
 
@@ -589,7 +590,7 @@ void SoftObject::reshape()
         for (int i = 0; block != nullptr && i < EXTRA_BLOCK; ++i) {
             const int number = (at << EXTRA_BITS) + i;
             Seed& s = block[i];
-            if (number >= laid_.regular)
+            if (number >= laid_.regular || s.neighbour == NOT_LAID)
                 continue;
             Seed fresh;
             layOutExtra(plain, number, ringOf(number), fresh);
