@@ -227,7 +227,7 @@ int SoftObject::Layout::nearestBefore(int ring, int seed, int successor, bool cl
         const int before = (ring + rings - back) % rings;
         for (int j = ringStarts[before]; j < ringStarts[before + 1]; ++j) {
             const Vector &root = roots[seeds[j].root], &path = seeds[j].path;
-            if (absolute(target.y - root.y - path.y) >= reach || absolute(target.x - root.x - path.x) >= reach)
+            if (absolute(target.x - root.x - path.x) >= reach || absolute(target.z - root.z - path.z) >= reach)
                 continue;
             const Square d = squareOf(target - rest(seeds[j]));
             if (d < nearest && squareOf(place - rest(seeds[j])) < far) {

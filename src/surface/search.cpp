@@ -267,7 +267,7 @@ int DeepSearch::crossings(const Look& begin, const Look& end)
     const auto off = [&](Real excess) { return outside ? -excess : excess; };
     const Real a = off(begin.sample.excess), b = off(end.sample.excess);
     const Real nearest = least(least(a, b), least(off(one), off(other))) - CUBIC_SPARE;
-    if (nearest > Real(0) && nearest + nearest >= least(a, b)) {
+    if (nearest > Real(0)) {
         deepest_ = least(deepest_, off(nearest));
         highest_ = most(highest_, off(nearest));
         return 0;
