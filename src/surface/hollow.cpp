@@ -12,6 +12,8 @@ constexpr Real SHARED(1.5);
 constexpr Real OVERLAP(0.18);
 // How far the border of two parts of a hollow's wall goes at most when what digs comes by a unit.
 constexpr Real BORDER_SPEED(16);
+// How far apart the paths of a patch are for what all of it is judged by: of where they rest.
+constexpr Real APART(1.25);
 // The position where what closes again over a hollow is found.
 constexpr Real CLOSING(0.95);
 
@@ -143,13 +145,13 @@ bool Settler::isOff(const Patch& patch, const Seed& s)
     return (s.flags & SEED_OFF) && static_cast<int16_t>(patch.came - s.due) < 0;
 }
 
-// What becomes of a patch the middle of which has just been found off the surface: whether all of it is. The own field is the same
-// at one position of all its paths, unless it is warped; they are no farther from each other there than twice where they rest.
+// What becomes of a patch the middle of which has just been found off the surface: whether all of it is. The own field is about the
+// same at one position of all its paths; where they come near the surface they are little farther apart than where they rest.
 PatchState Settler::probeOff(const Patch& patch, Seed& s) const
 {
-    if ((s.flags & SEED_COVERED))
+    if (s.flags & SEED_COVERED)
         return PATCH_MIXED;
-    const Real hold = off_ - push_ * realFromRaw(patch.tight * 5 << 10);
+    const Real hold = off_ - push_ * realFromRaw(patch.tight << 12) * APART;
     if (hold <= Real(0))
         return PATCH_MIXED;
     putOff(s, hold, push_);

@@ -193,7 +193,7 @@ private:
         return squareOf(rest(i) - rest(n));
     }
 
-    // The seed of the fullest ring that is nearest to one. Those of the next seed and the one after the next two are asked for again.
+    // The seed of the fullest ring that is nearest to one. Of the next seed and of the one two farther on it is asked again.
     int nearest(int k, int i)
     {
         Known& known = known_[k][i == at_[k] ? 0 : 1];

@@ -8,8 +8,9 @@ namespace {
 
 // Positions: where paths begin to be searched, and those that are hollowed out or of weak objects.
 constexpr Real FIRST(0.7), FIRST_DEEP(0.06);
-// Sizes of a neighbour, and positions: over which a cubic curve has a field right to .03.
+// Sizes of a neighbour, and positions of the own field: how far it follows a cubic curve, about.
 constexpr Real SMOOTH(0.8), SMOOTH_OWN(0.96);
+
 }  // namespace
 
 Path::Path(const SoftObject& object, const Neighbourhood& all, const Bodies& bodies, Nearby& nearby, Counts& counts)

@@ -17,11 +17,12 @@ constexpr int BISECTIONS = 12;
 constexpr Real SEARCH_FIRST(0.88), SEARCH_STEP(0.16), BETWEEN(1.18), COVERED_LATE(1.62), BETWEEN_LATE(1.49);
 // And in which steps a path is followed on that has left the surface, and how far.
 constexpr Real RETURN_STEP(0.08), RETURN_FAR(0.4);
-// Of the field: by how much it leaves a cubic curve.
-constexpr Real CUBIC_SPARE(0.03);
-constexpr int MORE = 2;
 // Of the field: a valley this shallow above the isovalue is looked into.
 constexpr Real VALLEY(0.12);
+// Of the field: by how much it leaves the cubic curve that it follows.
+constexpr Real CUBIC_SPARE(0.03);
+// What is not known to be crossed no more than once.
+constexpr int MORE = 2;
 
 }  // namespace
 
@@ -272,8 +273,8 @@ int DeepSearch::crossings(const Look& begin, const Look& end)
         highest_ = most(highest_, off(nearest));
         return 0;
     }
-    const bool clear = a > CUBIC_SPARE && b < -CUBIC_SPARE && absolute(off(one)) > CUBIC_SPARE && absolute(off(other)) > CUBIC_SPARE;
-    return clear && (off(one) > Real(0) || off(other) < Real(0)) ? 1 : MORE;
+    const auto clear = [](Real excess) { return absolute(excess) > CUBIC_SPARE; };
+    return a > Real(0) && b < Real(0) && clear(a) && clear(b) && clear(one) && clear(other) && (off(one) > Real(0) || off(other) < Real(0)) ? 1 : MORE;
 }
 
 // Sees to all that lies between two places, first to what the search comes to first. True: what was found will do.

@@ -17,7 +17,7 @@ Real search(Path& path, Real* position, Sample* sample);
 
 // The same for a path that is hollowed out, or a weak object's: the last place where the path leaves the surface, for what lies
 // before it is hidden; of those where no neighbour is stronger, if there are any. In a hollow it is the first. Where nothing is
-// found `*off` says by how much of the field.
+// found `*off` says by how much of the field. `*push` becomes what that may change by when the neighbours come by a unit.
 SELDOM Real searchDeep(Path& path, Real* position, Sample* sample, Real* off, Real* push);
 
 // Where a path that has left the surface at `from` is inside again; `far` says that it may go far and deep between. False: nowhere,

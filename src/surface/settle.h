@@ -43,7 +43,7 @@ public:
         return all_.common && cover_.hidesAll(patch);
     }
 
-    // The same of one that lay off the surface of something dented, before setPatch().
+    // Whether all of one that lay off the surface, where something digs, still does; before setPatch().
     bool isStillOff(const Patch& patch) const { return patch.state == PATCH_INSIDE && isOff(patch, object_.regular(patch.centre)); }
 
     // Settles the seed in the middle of a patch that neighbours reach, says from it what becomes of the patch, and sets when
@@ -103,7 +103,7 @@ private:
     uint32_t turn_ = 0;  // of it: what waits takes turns
     Real border_;      // of the field: a neighbour that is weaker than the own by less is near
     bool heavy_;       // it has a link of more than HEAVY
-    Real push_;        // what fields may change by along the path at hand when neighbours come by a unit
+    Real push_{0};     // what fields may change by along the path at hand when neighbours come by a unit
     Real off_;         // of the field: by how much the path at hand misses the surface, where it does
 };
 
