@@ -41,7 +41,7 @@ struct Paint {
     uint8_t other;         // number of the pattern's colour
     Real grain, made;      // as the coat has it, and the size that the object had when it was made
     Vector at, otherAt;    // the object's own colour and the pattern's, in the box
-    const Paints* paints;
+    Paints* paints;
     const uint8_t* ramp;   // of the own colour; as SoftObject::ramp() while nothing else is wanted of the object
     const uint8_t* ramps;  // of all numbers, one every rampRoom bytes
     int rampRoom;
@@ -75,12 +75,16 @@ public:
     Vector inBox(const Colour& colour) const;
     const Vector& placeOf(int number) const { return places_[number]; }
     // The number of the colour at a place of the box.
-    uint8_t numberAt(const Vector& place, bool shines) const
+    uint8_t numberAt(const Vector& place, bool shines)
     {
-        return cells_[shines][cellOf(place)];
+        const int cell = cellOf(place);
+        return cells_[shines][cell] < WANTED ? cells_[shines][cell] : fill(cell, shines);
     }
 
 private:
+    // What a cell has that holds no colour; and one that will.
+    static constexpr uint8_t EMPTY = 255, WANTED = 254;
+
     static int cellOf(const Vector& place)
     {
         const Real half(0.5);
@@ -98,7 +102,7 @@ private:
     void takeCoats(const Model& model, Paint* paints);
     void chooseMixtures(const Model& model, const Paint* paints);
     void chooseWanted();
-    void fill();
+    uint8_t fill(int cell, bool shines);
 
     int count_ = 0;
     // Those before objects_ are objects' own, those before own_ are asked for by name, those from pairs_ on are mixtures of three.
@@ -108,6 +112,7 @@ private:
     Vector places_[MOST];
     int least_[3] = {0, 0, 0}, most_[3] = {0, 0, 0};  // red, green and blue of the box
     uint8_t cells_[2][SIDE * SIDE * SIDE];  // matt, shining: the number of the colour there
+    int wanted_[2] = {0, 0};                // and how many wait for one
 };
 
 #endif

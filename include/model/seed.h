@@ -55,7 +55,7 @@ struct Seed {
     Direction14 border;  // of a SEED_BORDER one: in which the own field gains most on the strongest neighbour's,
     union {
         int16_t apart;   // and how far the seed is on its own side of where the two are equal, 1/256 unit
-        uint16_t due;    // of a SEED_OFF one: the lower half of the reading of its object's odometer when it is looked at again
+        uint16_t due;    // of a SEED_OFF one: what its patch has counted when it is looked at again
     };
     uint16_t root;       // index of the root point: seeds share them
     uint8_t flags;       // SeedFlag

@@ -28,10 +28,9 @@ constexpr WarpAmounts NO_WARP{{Real(0), Real(0), Real(0)}};
 
 class Warp {
 public:
-    // For an object whose surface is `height` high above its centre and reaches `wide` from the axis, its field `fieldWide`. All
-    // lengths are in the same units, any that keep products in range. What would bend the surface beyond the middle of the
-    // circle is less.
-    void set(const WarpAmounts& amounts, Real height, Real wide, Real fieldWide);
+    // For an object whose surface, whose field and what of that is steep reach so far from the centre along each axis. All lengths
+    // are in the same units, any that keep products in range. What would bend the surface beyond the middle of the circle is less.
+    void set(const WarpAmounts& amounts, const Vector& surface, const Vector& field, const Vector& steep);
 
     // As asked for, and as they are.
     const WarpAmounts& asked() const { return asked_; }
@@ -55,6 +54,13 @@ public:
     // From where the warp brought a place: Way::plain.
     void back(const Vector& place, Way& way) const;
 
+    // How far a place lies outside a box that holds the field, once warped; 0 and less: inside.
+    Real outside(const Vector& place) const
+    {
+        const Real x = flipped_ ? -place.x : place.x;
+        return ::most(::most(-x - field_.x, x - inward_), ::most(absolute(place.y) - field_.y, absolute(place.z) - field_.z));
+    }
+
     // Of the way gone last: what becomes of a small step from Way::plain; and the gradient of a function, from what it is there.
     Vector stepOut(const Way& way, const Vector& step) const;
     Vector slopeOut(const Way& way, const Vector& slope) const;
@@ -62,9 +68,13 @@ public:
     // No distance becomes smaller than this share of itself, and none from the centre larger than that.
     Real least() const { return least_; }
     Real most() const { return most_; }
+    // The same as least() of distances where the field is steep.
+    Real leastSteep() const { return leastSteep_; }
 
 private:
+    Real leastWithin(Real wide) const;
     void turnAt(Real y, Way& way) const;
+    void unbend(Real& across, Real& up, Way& way) const;
     bool within(Real y) const { return y > -height_ && y < height_; }
 
     WarpAmounts asked_ = NO_WARP, amounts_ = NO_WARP;
@@ -74,8 +84,11 @@ private:
     Real bend_{0};     // curvature, one over a length; never below 0
     Real radius_{0};   // of the circle
     Real end_{0};      // half of the bend, radians
+    Real endSine_{0}, endCosine_{1}, endAcross_{0}, endUp_{0};  // and where it brings the ends of the axis
+    Vector field_{Real(0), Real(0), Real(0)};  // how far the field reaches, once warped
+    Real inward_{0};                           // and along x, to where it is bent
     bool flipped_ = false;  // it bends towards -x
-    Real least_{1}, most_{1};
+    Real least_{1}, leastSteep_{1}, most_{1};
 };
 
 #endif

@@ -12,6 +12,7 @@ namespace {
 
 // So many seeds take a 386 about three seconds.
 constexpr int SEEDS_TOLD = 16000;
+constexpr int COARSE = 4;  // times the spacing
 
 // Whom what takes long asks whether to go on.
 Demo* running;
@@ -93,6 +94,9 @@ const char* Demo::prepare(int* status)
 // Before the video mode is there: what the user waits for, when it takes a slow processor more than a second or so.
 void Demo::tellSeeds()
 {
+    // Counted coarsely first, for that is quick.
+    if (model_.seedsAt(spacing_ * Real(COARSE)) * COARSE * COARSE < SEEDS_TOLD / 2)
+        return;
     const int seeds = model_.seedsAt(spacing_);
     if (seeds < SEEDS_TOLD || stopAsked())
         return;

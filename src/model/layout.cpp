@@ -13,6 +13,9 @@ constexpr int EXTRA_CELL = 5;
 // An object of less than this radius is thin: as many seeds go round it as round one of this radius. Units.
 constexpr Real THIN(4.5);
 
+// The neighbour of an oversampled seed that has not been laid out yet.
+constexpr int32_t NOT_LAID = -2;
+
 // Roots that a seed's 16 bits can tell apart.
 constexpr int ROOTS_MAX = UINT16_MAX + 1;
 
@@ -24,9 +27,10 @@ int8_t toCell(int32_t steps)
 // A half axis of a seed's cell in 1/64 spacing; `inverse` is 64 / spacing.
 void setAxis(int8_t* to, const Vector& half, Real inverse)
 {
-    const Real parts[] = {half.x, half.y, half.z};
-    for (int i = 0; i < 3; ++i)
-        to[i] = toCell(floorToInt(parts[i] * inverse + Real(0.5)));
+    const auto cell = [&](Real part) { return toCell(floorToInt(part * inverse + Real(0.5))); };
+    to[0] = cell(half.x);
+    to[1] = cell(half.y);
+    to[2] = cell(half.z);
 }
 
 // Such an axis, as it stands in a seed.
@@ -36,12 +40,17 @@ Vector vectorOf(const int8_t steps[3])
 }
 
 // Which way the path leads.
-void setWay(Seed& s)
+void setWay(Seed& s, const Direction14& n)
 {
-    const Normal n = normalise(s.path);
     s.way[0] = toCell((n.x * 127 + 8192) >> 14);
     s.way[1] = toCell((n.y * 127 + 8192) >> 14);
     s.way[2] = toCell((n.z * 127 + 8192) >> 14);
+}
+
+void setWay(Seed& s)
+{
+    const Normal n = normalise(s.path);
+    setWay(s, {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)});
 }
 
 // The area of the cell of a seed that rests, with its normal there.
@@ -212,7 +221,8 @@ int SoftObject::Layout::nearestBefore(int ring, int seed, int successor, bool cl
 {
     constexpr int BACK = 16;
     const Vector place = rest(seeds[seed]), target = rest(seeds[successor]);
-    const Square far = squareOf({shiftUp(spacing, 1), Real(0), Real(0)});
+    const Real reach = shiftUp(spacing, 1);
+    const Square far = squareOf({reach, Real(0), Real(0)});
     if (squareOf(place - target) > far)
         return -1;
     Square nearest = far;
@@ -222,6 +232,9 @@ int SoftObject::Layout::nearestBefore(int ring, int seed, int successor, bool cl
             break;
         const int before = (ring + rings - back) % rings;
         for (int j = ringStarts[before]; j < ringStarts[before + 1]; ++j) {
+            const Vector &root = roots[seeds[j].root], &path = seeds[j].path;
+            if (absolute(target.x - root.x - path.x) >= reach || absolute(target.z - root.z - path.z) >= reach)
+                continue;
             const Square d = squareOf(target - rest(seeds[j]));
             if (d < nearest && squareOf(place - rest(seeds[j])) < far) {
                 nearest = d;
@@ -422,7 +435,7 @@ int SoftObject::ringOf(int number) const
     return ring;
 }
 
-// Null: no memory.
+// Seeds that are laid out when they are asked for. Null: no memory.
 Seed* SoftObject::layOutBlock(int at)
 {
     Seed* block = allocate<Seed>(EXTRA_BLOCK);
@@ -430,23 +443,9 @@ Seed* SoftObject::layOutBlock(int at)
         block = blockFromOthers();
     if (block == nullptr)
         return nullptr;
-    const int first = at << EXTRA_BITS;
-    int ring = ringOf(first);
-    Layout plain = laid_.plain();
     for (int i = 0; i < EXTRA_BLOCK; ++i) {
-        const int number = first + i;
-        if (number >= laid_.regular) {
-            block[i] = Seed();
-            continue;
-        }
-        while (laid_.ringStarts[ring + 1] <= number)
-            ++ring;
-        layOutExtra(plain, number, ring, block[i]);
-        if (warped_)
-            warpExtra(plain, block[i]);
-        block[i].normal = restNormal(block[i]);
-        block[i].area = 0;
-        setWay(block[i]);
+        block[i] = Seed();
+        block[i].neighbour = NOT_LAID;
     }
     laid_.extras[at] = block;
     return block;
@@ -456,13 +455,23 @@ Seed& SoftObject::laidExtra(int slot)
 {
     // Without memory it is a seed that nobody sees.
     static Seed unseen;
-    const int at = slot >> (EXTRA_BITS + 1);
+    const int at = slot >> (EXTRA_BITS + 1), number = slot >> 1;
     if (laid_.extras[at] == nullptr && layOutBlock(at) == nullptr) {
         unseen = seed(slot - 1);
         unseen.flags = 0;
         return unseen;
     }
-    return *extra(slot);
+    Seed& s = *extra(slot);
+    if (s.neighbour != NOT_LAID)
+        return s;
+    Layout plain = laid_.plain();
+    layOutExtra(plain, number, ringOf(number), s);
+    if (warped_)
+        warpExtra(plain, s);
+    s.normal = restNormal(s);
+    s.area = 0;
+    setWay(s);
+    return s;
 }
 
 bool SoftObject::layOutBetween(int i, int other)
@@ -509,6 +518,8 @@ bool SoftObject::layOutExtras()
     for (int i = 0; i < laid_.blocks(); ++i)
         if (laid_.extras[i] == nullptr && layOutBlock(i) == nullptr)
             return false;
+    for (int i = 0; i < laid_.regular; ++i)
+        laidExtra(2 * i + 1);
     return true;
 }
 
@@ -590,7 +601,7 @@ void SoftObject::reshape()
         for (int i = 0; block != nullptr && i < EXTRA_BLOCK; ++i) {
             const int number = (at << EXTRA_BITS) + i;
             Seed& s = block[i];
-            if (number >= laid_.regular)
+            if (number >= laid_.regular || s.neighbour == NOT_LAID)
                 continue;
             Seed fresh;
             layOutExtra(plain, number, ringOf(number), fresh);
@@ -655,7 +666,11 @@ bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObje
         for (int i = laid_.ringStarts[ring]; i < laid_.ringStarts[ring + 1]; ++i) {
             Seed& s = laid_.seeds[i];
             s.normal = plainNormal(laid_.rest(s), s.path);
-            setWay(s);
+            // Where no path slants it leads along the normal.
+            if (slants())
+                setWay(s);
+            else
+                setWay(s, s.normal);
             setArea(s, s.normal);
         }
     const bool warps = !warped_ || keepPlain(laid_);

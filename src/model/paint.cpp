@@ -16,9 +16,6 @@ Colour usualColour(int before)
 
 namespace {
 
-// What a cell has that holds no colour; and one that will.
-constexpr uint8_t EMPTY = 255, WANTED = 254;
-
 // Places that are looked at along a line, and along a side of a triangle.
 constexpr int LINE_STEPS = 2 * Paints::SIDE, TRIANGLE_STEPS = Paints::SIDE;
 
@@ -99,8 +96,10 @@ Colour Paints::inCell(int x, int y, int z) const
 void Paints::mark(const Vector& place, bool shines)
 {
     uint8_t& cell = cells_[shines][cellOf(place)];
-    if (cell == EMPTY)
-        cell = WANTED;
+    if (cell != EMPTY)
+        return;
+    cell = WANTED;
+    ++wanted_[shines];
 }
 
 void Paints::markLine(const Vector& a, const Vector& b, bool shines)
@@ -155,6 +154,11 @@ void Paints::markTriples()
 int Paints::blocks(int side, bool shines, bool make)
 {
     int count = 0;
+    if (wanted_[shines] == 0)
+        return 0;
+    // Each cell is a block.
+    if (side == 1 && !make)
+        return wanted_[shines];
     for (int block = 0; block < SIDE * SIDE * SIDE / (side * side * side); ++block) {
         const int row = SIDE / side;
         const int x = block / (row * row) * side, y = block / row % row * side, z = block % row * side;
@@ -194,22 +198,16 @@ void Paints::chooseWanted()
             continue;
         blocks(side, false, true);
         blocks(side, true, true);
+        wanted_[0] = wanted_[1] = 0;
         break;
     }
 }
 
-// Cells that have no colour of their own take the nearest.
-void Paints::fill()
+// A cell that has no colour of its own takes the nearest, when it is asked for.
+uint8_t Paints::fill(int cell, bool shines)
 {
-    for (int shines = 0; shines < 2; ++shines) {
-        bool used = false;
-        for (int i = 0; i < count_; ++i)
-            used = used || shines_[i] == (shines != 0);
-        for (int cell = 0; used && cell < SIDE * SIDE * SIDE; ++cell)
-            if (cells_[shines][cell] >= WANTED)
-                cells_[shines][cell] = static_cast<uint8_t>(
-                    numberOf(inCell(cell / (SIDE * SIDE), cell / SIDE % SIDE, cell % SIDE), shines != 0));
-    }
+    const Colour colour = inCell(cell / (SIDE * SIDE), cell / SIDE % SIDE, cell % SIDE);
+    return cells_[shines][cell] = static_cast<uint8_t>(numberOf(colour, shines));
 }
 
 bool Paints::choose(const Model& model, Paint* paints)
@@ -263,6 +261,7 @@ void Paints::takeCoats(const Model& model, Paint* paints)
 void Paints::chooseMixtures(const Model& model, const Paint* paints)
 {
     memset(cells_, EMPTY, sizeof cells_);
+    wanted_[0] = wanted_[1] = 0;
     for (int i = count_ - 1; i >= 0; --i)
         cells_[shines_[i]][cellOf(places_[i])] = static_cast<uint8_t>(i);
     for (int i = 0; i < model.count(); ++i)
@@ -278,5 +277,4 @@ void Paints::chooseMixtures(const Model& model, const Paint* paints)
         markTriples();
         chooseWanted();
     }
-    fill();
 }

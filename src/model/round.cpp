@@ -163,6 +163,7 @@ void RingMaker::addStretched(const Ring& ring, int k, int root)
     half = count <= POLAR_SEEDS ? half * (around + ring.across * absolute(ring.normalSine)) : half * around;
     const uint32_t step = 0xffffffffu / static_cast<uint32_t>(count);
     bool begun = false;
+    int level = 0;
     for (int i = 0; i < count; ++i) {
         Real way = portion(whole, i, count);
         if (sideways)
@@ -170,11 +171,14 @@ void RingMaker::addStretched(const Ring& ring, int k, int root)
         int turns = 0;
         for (; way >= quarter_.length() && turns < 4; ++turns)
             way -= quarter_.length();
-        const Angle within = (turns & 1) == 0 ? quarter_.longitude(way) : QUARTER - quarter_.longitude(quarter_.length() - way);
-        const Angle longitude = round_ ? static_cast<Angle>(i) * step : static_cast<Angle>(turns) * QUARTER + within;
+        Angle longitude = static_cast<Angle>(i) * step;
+        if (!round_)
+            longitude = static_cast<Angle>(turns) * QUARTER +
+                        ((turns & 1) == 0 ? quarter_.longitude(way) : QUARTER - quarter_.longitude(quarter_.length() - way));
         const Real s = sine(longitude), c = cosine(longitude);
-        const Real stretched = stretchedStep(shiftUp(ring.across, 1), stretch_, ring.normalSine, ring.normalCosine, s, c);
-        const int level = thinning(stretched, spacing_);
+        // All round a circle it is the same.
+        if (!round_ || i == 0)
+            level = thinning(stretchedStep(shiftUp(ring.across, 1), stretch_, ring.normalSine, ring.normalCosine, s, c), spacing_);
         if (thinned(k, level))
             continue;
         if (!begun)

@@ -13,6 +13,9 @@ constexpr Real DRIFT_MAX(0.25);
 // Seeds rest no nearer to the core than at this param(): where an object so weak blends, its surface lies farther out.
 constexpr Real REST_LEAST(0.140625);
 
+// Core space: farther from the core than that a field is so much less steep than at most that no warp makes up for it.
+constexpr Real STEEP_AT(0.65 * CORE_SIZE);
+
 int64_t squaredDistance(const Point& a, const Point& b)
 {
     const int64_t x = rawFromReal(a.x) - rawFromReal(b.x);
@@ -215,7 +218,7 @@ void SoftObject::makeWarp(const WarpAmounts& amounts)
     const Real radius = Real(CORE_SIZE) * restRoot_;
     const Vector core = coreExtent16(), surface = stretchedOut(core + Vector{radius, radius, radius});
     const Vector field = stretchedOut(core + Vector{Real(CORE_SIZE), Real(CORE_SIZE), Real(CORE_SIZE)});
-    warp_.set(amounts, surface.y, most(surface.x, surface.z), most(field.x, field.z));
+    warp_.set(amounts, surface, field, stretchedOut(core + Vector{STEEP_AT, STEEP_AT, STEEP_AT}));
     measureReach();
 }
 
@@ -344,9 +347,9 @@ Real SoftObject::plainParam(const Vector& q, Vector* slope) const
 Real SoftObject::warpedParam(const Vector& q, Vector* slope) const
 {
     *slope = q;
-    const Real far = (coreReach16_ + Real(CORE_SIZE)) * mostStretch_ * warp_.most();
-    if (absolute(q.x) >= far || absolute(q.y) >= far || absolute(q.z) >= far)
-        return Real(1);
+    const Real outside = warp_.outside(q);
+    if (outside >= Real(0))
+        return Real(1) + shiftDown(least(outside * narrowing(), Real(1000)), 3);
     Warp::Way way;
     warp_.back(q, way);
     const Real t = plainParam(unstretched(way.plain), slope);

@@ -11,6 +11,9 @@ constexpr Real TURN_PER_RADIAN(0.15915494);
 // The middle of a bend is this much farther from the axis than the surface.
 constexpr Real CLEAR(1.2);
 
+// What lies along the axis is shortened no more than this far.
+constexpr Real LEAST_SQUEEZE(0.0625);
+
 // Less of a bend, radians, or a greater circle, is none.
 constexpr Real LEAST_END(0.005);
 constexpr Real LARGEST(8000);
@@ -25,20 +28,6 @@ Real arcOverTangent(Real square)
 {
     const Real& s = square;
     return Real(0.999866) + s * (Real(-0.3302995) + s * (Real(0.180141) + s * (Real(-0.085133) + s * Real(0.0208351))));
-}
-
-// Arc tangent of y / x for a vector of any length but 0, radians, -pi..pi.
-Real arcTangent(Real y, Real x)
-{
-    const Real across = absolute(x), up = absolute(y);
-    const bool steep = up > across;
-    const Real t = steep ? across / up : across == Real(0) ? Real(0) : up / across;
-    Real a = t * arcOverTangent(t * t);
-    if (steep)
-        a = HALF_PI - a;
-    if (x < Real(0))
-        a = PI - a;
-    return y < Real(0) ? -a : a;
 }
 
 // sin a / a and (1 - cos a) / a for angles of up to a quarter turn: also where next to nothing is left of a.
@@ -56,13 +45,13 @@ Real cosineLackOverAngle(Real a)
 
 }  // namespace
 
-void Warp::set(const WarpAmounts& amounts, Real height, Real wide, Real fieldWide)
+void Warp::set(const WarpAmounts& amounts, const Vector& surface, const Vector& field, const Vector& steep)
 {
+    const Real height = surface.y, wide = ::most(surface.x, surface.z);
     asked_ = amounts_ = amounts;
     height_ = height;
     slope_ = amounts.part[WARP_TAPER] / height;
     twist_ = amounts.part[WARP_TWIST] / RADIAN / shiftUp(height, 1);
-    const Real narrow = Real(1) - absolute(amounts.part[WARP_TAPER]);
     most_ = Real(1) + absolute(amounts.part[WARP_TAPER]);
     const Real degrees = ::least(absolute(amounts.part[WARP_BEND]), shiftUp(height, 1) / (wide * most_ * CLEAR) * RADIAN);
     flipped_ = amounts.part[WARP_BEND] < Real(0);
@@ -73,14 +62,33 @@ void Warp::set(const WarpAmounts& amounts, Real height, Real wide, Real fieldWid
     bend_ = end_ / height;
     radius_ = end_ == Real(0) ? Real(0) : height / end_;
 
-    // A distance along the axis may become a slanting one, a step across it a longer one.
-    Real spread = Real(1) / narrow + fieldWide * absolute(slope_) / narrow + fieldWide * absolute(twist_);
-    if (end_ > Real(0)) {
+    endSine_ = sine(fromRadians(end_));
+    endCosine_ = cosine(fromRadians(end_));
+    endAcross_ = height * cosineLackOverAngle(end_);
+    endUp_ = height * sineOverAngle(end_);
+    if (end_ > Real(0))
         most_ = most_ * Real(1.5);
-        // What lies towards the middle of the circle is pressed together.
-        spread = spread / (Real(1) - ::least(fieldWide * bend_, Real(0.75)));
-    }
-    least_ = Real(1) / ::least(spread, Real(200));
+    least_ = leastWithin(::most(field.x, field.z));
+    leastSteep_ = leastWithin(::most(steep.x, steep.z));
+
+    // What is wide when it is tapered and turned; the ends of a bent one come towards the middle of the circle.
+    field_ = field;
+    if (slope_ != Real(0) || twist_ != Real(0))
+        field_.x = field_.z = (field.x + field.z) * (Real(1) + absolute(amounts.part[WARP_TAPER]));
+    inward_ = field_.x + endAcross_ + (field.y - height) * endSine_;
+    field_.y += field_.x * endSine_;
+}
+
+// No distance becomes smaller than this share of itself as far as `wide` from the axis.
+Real Warp::leastWithin(Real wide) const
+{
+    // A distance along the axis may become a slanting one, a step across it a longer one.
+    const Real narrow = Real(1) - absolute(amounts_.part[WARP_TAPER]);
+    Real spread = Real(1) / narrow + wide * absolute(slope_) / narrow + wide * absolute(twist_);
+    // What lies towards the middle of the circle is pressed together.
+    if (end_ > Real(0))
+        spread = spread / (Real(1) - ::least(wide * bend_, Real(0.75)));
+    return Real(1) / ::least(spread, Real(200));
 }
 
 // What taper and twist do at a height.
@@ -122,9 +130,41 @@ Vector Warp::out(const Vector& place, Way& way) const
         return v;
     const Real x = flipped_ ? -v.x : v.x;
     if (within(place.y))
-        way.squeeze = ::most(Real(1) - x * bend_, Real(0.0625));
+        way.squeeze = ::most(Real(1) - x * bend_, LEAST_SQUEEZE);
     const Real across = way.middle[0] + x * way.cosine + way.beyond * way.sine;
     return {flipped_ ? -across : across, way.middle[1] + way.beyond * way.cosine - x * way.sine, v.z};
+}
+
+// From bent space, `across` towards the middle of the circle and `up` along its tangent in the centre. Sets `across` and `up` to
+// what they were before.
+void Warp::unbend(Real& across, Real& up, Way& way) const
+{
+    const Real inward = radius_ - across;
+    const bool below = up < Real(0);
+    const Real height = absolute(up);
+    if (inward > Real(0) && height * endCosine_ <= inward * endSine_) {
+        const Real away = lengthQuick({inward, up, Real(0)});
+        way.sine = quotient(up, away);
+        way.cosine = quotient(inward, away);
+        if (height <= inward) {
+            // The tangent times the radius, without the tangent's rounding.
+            up = up * (radius_ / inward);
+            const Real tangent = up * bend_;
+            up = up * arcOverTangent(tangent * tangent);
+        } else {
+            const Real tangent = quotient(inward, height), on = (HALF_PI - tangent * arcOverTangent(tangent * tangent)) * radius_;
+            up = below ? -on : on;
+        }
+        across = radius_ - away;
+        way.squeeze = ::most(Real(1) - across * bend_, LEAST_SQUEEZE);
+        return;
+    }
+    // From the end of the circle on, along its tangent.
+    way.sine = below ? -endSine_ : endSine_;
+    way.cosine = endCosine_;
+    const Real fromX = across - endAcross_, fromY = below ? up + endUp_ : up - endUp_;
+    across = fromX * way.cosine - fromY * way.sine;
+    up = (below ? -height_ : height_) + fromX * way.sine + fromY * way.cosine;
 }
 
 void Warp::back(const Vector& place, Way& way) const
@@ -133,31 +173,17 @@ void Warp::back(const Vector& place, Way& way) const
     way.sine = Real(0);
     way.cosine = way.squeeze = Real(1);
     if (end_ != Real(0)) {
-        const Real across = flipped_ ? -v.x : v.x;
-        const Vector d{across - radius_, v.y, Real(0)};
-        const Real to = d.x == Real(0) && d.y == Real(0) ? Real(0) : arcTangent(d.y, -d.x);
-        const Real within = clamp(to, -end_, end_);
-        const Angle angle = fromRadians(within);
-        way.sine = sine(angle);
-        way.cosine = cosine(angle);
-        Real x, y;
-        if (to == within) {
-            // Without the difference of two large numbers.
-            const Real share = lengthQuick(d) / radius_;
-            x = (across * (Real(2) - across / radius_) - v.y * (v.y / radius_)) / (Real(1) + share);
-            const Real tangent = d.x < Real(0) ? v.y / -d.x : Real(2);
-            y = absolute(tangent) <= Real(1) ? v.y * (radius_ / -d.x) * arcOverTangent(tangent * tangent) : to * radius_;
-            way.squeeze = ::most(share, Real(0.0625));
-        } else {
-            // From the end of the circle on, along its tangent.
-            const Real end = within < Real(0) ? -height_ : height_;
-            const Real fromX = across - end * cosineLackOverAngle(within), fromY = v.y - end * sineOverAngle(within);
-            x = fromX * way.cosine - fromY * way.sine;
-            y = end + fromX * way.sine + fromY * way.cosine;
-        }
-        v = {flipped_ ? -x : x, y, v.z};
+        Real across = flipped_ ? -v.x : v.x;
+        unbend(across, v.y, way);
+        v.x = flipped_ ? -across : across;
     }
-    way.twisted = v;
+    way.twisted = way.plain = v;
+    if (slope_ == Real(0) && twist_ == Real(0)) {
+        way.y = v.y;
+        way.wide = way.turnCosine = Real(1);
+        way.turnSine = Real(0);
+        return;
+    }
     turnAt(v.y, way);
     v = {v.x * way.turnCosine - v.z * way.turnSine, v.y, v.z * way.turnCosine + v.x * way.turnSine};
     way.plain = slope_ == Real(0) ? v : Vector{v.x / way.wide, v.y, v.z / way.wide};
@@ -193,7 +219,7 @@ Vector Warp::slopeOut(const Way& way, const Vector& slope) const
     }
     if (end_ == Real(0))
         return g;
-    const Real across = flipped_ ? -g.x : g.x, along = g.y / way.squeeze;
+    const Real across = flipped_ ? -g.x : g.x, along = quotient(g.y, way.squeeze);
     const Real x = across * way.cosine + along * way.sine;
     return {flipped_ ? -x : x, along * way.cosine - across * way.sine, g.z};
 }

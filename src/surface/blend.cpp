@@ -82,50 +82,137 @@ void Path::blend(Real position, Sample& sample)
 // and what digs into it, `linked` the sum of w_ik x_i^2.
 struct Path::Part {
     Real f, rate;  // F, dF/dp
-    Real g, linked;
-    Real x, x2;
     const Real* weights;
     int slot, at;  // at: its place in share_
+    Real g, linked;
+    Real x, x2;
 };
 
-// Lists them, the own first, and returns how many there are.
-int Path::findParts(Real position, Part* parts, Real* strongest)
+// What digs into the body and is none of it, and has a field F there; the weight is that by which it digs into the head.
+struct Path::Digger {
+    Real f, rate;
+    Real weight;
+    int slot, at;
+};
+
+// The sum of all fields, as if all members were linked with all and dug into like the head, and what that changes by over a
+// position; the strongest member's field, and that of those that take a path from the object. Where not all of that is so, each
+// of them.
+struct Path::Parts {
+    Real sum{0}, slope{0}, strongest{0}, rival{0};
+    Part* end = members;
+    Digger* lastDigger = diggers;
+    Part members[NEIGHBOURS_MAX + 1];
+    Digger diggers[NEIGHBOURS_MAX + 1];
+};
+
+inline void Path::addMember(Parts& parts, Real f, Real rate, const SoftObject& object, int at) const
 {
-    Part* end = parts;
-    const auto add = [&](Real f, Real rate, int slot, int at) {
-        *strongest = most(*strongest, f);
-        end->f = end->g = f;
-        end->rate = rate;
-        end->linked = Real(0);
-        end->weights = bodies_.weights(slot);
-        end->slot = slot;
-        end->at = at;
-        ++end;
-    };
-    share_[0] = Real(1);
-    if (ownField_ > Real(0) && !all_.hollow)
-        add(ownField_, ownRate(position), object_.slot(), 0);
-    for (int i = 0; i < touched_; ++i) {
-        const Along& along = along_[i];
-        share_[i + 1] = Real(1);
-        if (along.value > Real(0) && !along.near->digs)
-            add(along.value, along.slope * along.change, along.near->object->slot(), i + 1);
+    parts.sum += f;
+    parts.slope += rate;
+    parts.strongest = most(parts.strongest, f);
+    if (complete_)
+        return;
+    Part& part = *parts.end++;
+    part.f = f;
+    part.rate = rate;
+    part.slot = object.slot();
+    part.weights = bodies_.weights(part.slot);
+    part.at = at;
+}
+
+inline void Path::addDigger(Parts& parts, Real f, Real rate, Real weight, const SoftObject& object, int at) const
+{
+    parts.sum -= f * weight;
+    parts.slope -= rate * weight;
+    if (!complete_)
+        *parts.lastDigger++ = {f, rate, weight, object.slot(), at};
+}
+
+// The own field: it digs, if the seeds sample a hollow.
+void Path::addOwn(Real position, Parts& parts)
+{
+    const Real t = ownParam(position), strength = object_.strength();
+    const FieldStep own = t < Real(1) ? geoffQuick(most(t, Real(0))) : FieldStep{Real(0), Real(0)};
+    ownField_ = own.value * strength;
+    ownSlope_ = own.slope * strength;
+    headField_ = Real(0);
+    if (ownField_ <= Real(0))
+        return;
+    const Real rate = ownRate(position);
+    if (all_.hollow)
+        addDigger(parts, ownField_, rate, all_.weight, object_, 0);
+    else
+        addMember(parts, ownField_, rate, object_, 0);
+}
+
+// The field of a neighbour. False: it does not reach the position.
+inline bool Path::addNear(Real position, const Vector* path, int number, Parts& parts)
+{
+    Along& along = along_[number];
+    if (path != nullptr)
+        along.aim(*path);
+    const Real t = along.param(position);
+    if (t >= Real(1)) {
+        along.value = along.slope = Real(0);
+        return false;
     }
-    return static_cast<int>(end - parts);
+    const Neighbour& near = *along.near;
+    const FieldStep field = geoffQuick(most(t, Real(0)));
+    const bool plain = near.strength == Real(1);
+    along.value = plain ? field.value : field.value * near.strength;
+    along.slope = plain ? field.slope : field.slope * near.strength;
+    if (along.value <= Real(0))
+        return true;
+    const Real rate = along.slope * along.change;
+    if (near.digs) {
+        addDigger(parts, along.value, rate, near.weight, *near.object, number + 1);
+        return true;
+    }
+    addMember(parts, along.value, rate, *near.object, number + 1);
+    if (all_.hollow && near.object == all_.head)
+        headField_ = along.value;
+    else
+        parts.rival = most(parts.rival, along.value);
+    return true;
+}
+
+// Looks at a position where something is odd about the object or the neighbours. False: none of them reaches that position.
+bool Path::lookOdd(Real position, const Vector* path, Sample* sample)
+{
+    Parts parts;
+    addOwn(position, parts);
+    bool touched = false;
+    for (int i = 0; i < touched_; ++i)
+        touched |= addNear(position, path, i, parts);
+    sample->dominance = parts.rival - (all_.hollow ? headField_ : ownField_);
+    sample->excess = parts.sum - ISOVALUE;
+    sample->slope = parts.slope;
+    shared_ = !complete_ && parts.strongest > NOTHING && !isSum(parts);
+    if (shared_)
+        blendOdd(parts, *sample);
+    if (all_.hollow) {
+        sample->excess = -sample->excess;
+        sample->slope = -sample->slope;
+    }
+    return touched;
+}
+
+// Whether the members are all linked with each other at weight 1, and whatever digs does it by the same weight as into the head.
+bool Path::isSum(const Parts& parts)
+{
+    for (const Part* a = parts.members; a < parts.end; ++a) {
+        for (const Part* b = parts.members; b < a; ++b)
+            if (b->weights[a->slot] != Real(1) || a->weights[b->slot] != Real(1))
+                return false;
+        for (const Digger* digger = parts.diggers; digger < parts.lastDigger; ++digger)
+            if (a->weights[digger->slot] != -digger->weight)
+                return false;
+    }
+    return true;
 }
 
 namespace {
-
-// Whether they are all linked with each other at weight 1.
-template <class Part>
-bool areAllLinked(const Part* parts, const Part* end)
-{
-    for (const Part* a = parts + 1; a < end; ++a)
-        for (const Part* b = parts; b < a; ++b)
-            if (b->weights[a->slot] != Real(1))
-                return false;
-    return true;
-}
 
 // Adds up for each of them what it is linked with, and returns the sum of x_i^2. `inverse`: of the strongest field.
 template <class Part>
@@ -135,6 +222,8 @@ Real addLinks(Part* parts, const Part* end, Real inverse)
     for (Part* a = parts; a < end; ++a) {
         a->x = a->f * inverse;
         a->x2 = a->x * a->x;
+        a->linked = Real(0);
+        a->g = a->f;
         squares += a->x2;
         for (Part* b = parts; b < a; ++b) {
             const Real w = b->weights[a->slot];
@@ -164,62 +253,35 @@ void addInner(Part* parts, const Part* end)
 
 }  // namespace
 
-// Takes off what digs into them and is none of the body, and returns what that changes by over a position; the shares of what
-// digs still lack the division by the sum of squares.
-Real Path::addDents(Real position, Part* parts, int count)
-{
-    Real digging(0);
-    const auto dig = [&](Real f, Real rate, int slot, int at) {
-        Real linked(0);
-        for (Part *a = parts, *const end = parts + count; a < end; ++a) {
-            const Real w = a->weights[slot];
-            a->g += w * f;
-            linked += w * a->x2;
-        }
-        share_[at] = linked;
-        digging += linked * rate;
-    };
-    if (all_.hollow)
-        dig(ownField_, ownRate(position), object_.slot(), 0);
-    for (int i = 0; i < touched_ && all_.dented; ++i)
-        if (along_[i].near->digs)
-            dig(along_[i].value, along_[i].slope * along_[i].change, along_[i].near->object->slot(), i + 1);
-    return digging;
-}
-
 // The field is the sum of x_k^2 g_k over the sum of x_i^2. With x_i = f_i / the strongest,
 // dF/df_k = (2 x_k (g_k - F) / strongest + x_k^2 + sum of w_ik x_i^2) / sum of x_i^2; of what digs only the last sum, in which its
 // weights are below 0.
-void Path::blendOdd(Real position, Sample& sample)
+void Path::blendOdd(Parts& parts, Sample& sample)
 {
-    shared_ = true;
-    Part parts[NEIGHBOURS_MAX + 1];
-    Real strongest(0);
-    const int count = findParts(position, parts, &strongest);
-    const Part* const end = parts + count;
-    const bool mayBePlain = !all_.inner && !nearby_.dented();
-    if (strongest <= NOTHING || (mayBePlain && areAllLinked(parts, end)))
-        return;
-    const Real inverse = quotient(Real(1), strongest), twice = inverse + inverse;
-    const Real share = quotient(Real(1), addLinks(parts, end, inverse));
+    const Real inverse = quotient(Real(1), parts.strongest), twice = inverse + inverse;
+    const Real share = quotient(Real(1), addLinks(parts.members, parts.end, inverse));
     if (all_.inner)
-        addInner(parts, end);
-    const Real digging = addDents(position, parts, count);
-    Real above(0);
-    for (const Part* a = parts; a < end; ++a)
+        addInner(parts.members, parts.end);
+    for (int i = 0; i <= touched_; ++i)
+        share_[i] = Real(1);
+    Real slope(0), above(0);
+    for (const Digger* digger = parts.diggers; digger < parts.lastDigger; ++digger) {
+        Real linked(0);
+        for (Part* a = parts.members; a < parts.end; ++a) {
+            const Real w = a->weights[digger->slot];
+            a->g += w * digger->f;
+            linked += w * a->x2;
+        }
+        share_[digger->at] = linked * share;
+        slope += share_[digger->at] * digger->rate;
+    }
+    for (const Part* a = parts.members; a < parts.end; ++a)
         above += a->x2 * a->g;
     const Real field = above * share;
-    sample.excess = field - ISOVALUE;
-    Real slope(0);
-    for (const Part* a = parts; a < end; ++a) {
-        const Real part = (a->x * (a->g - field) * twice + a->x2 + a->linked) * share;
-        share_[a->at] = part;
-        slope += part * a->rate;
+    for (const Part* a = parts.members; a < parts.end; ++a) {
+        share_[a->at] = (a->x * (a->g - field) * twice + a->x2 + a->linked) * share;
+        slope += share_[a->at] * a->rate;
     }
-    sample.slope = slope + digging * share;
-    if (all_.hollow)
-        share_[0] = share_[0] * share;
-    for (int i = 0; i < touched_ && all_.dented; ++i)
-        if (along_[i].near->digs)
-            share_[i + 1] = share_[i + 1] * share;
+    sample.excess = field - ISOVALUE;
+    sample.slope = slope;
 }

@@ -36,6 +36,7 @@ public:
 private:
     bool updatePatch(Settler& settler, Patch& patch, const OwnFrame& own, const Neighbourhood& all, bool known);
     bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all, bool known);
+    bool stays(const Settler& settler, Patch& patch, bool stale) const;
     void renewLists(Patch& patch, const Neighbourhood& all);
     bool isAtRest(Settler& settler, Patch& patch, const Neighbourhood& all);
     void settle(Settler& settler, Patch& patch);
@@ -95,10 +96,19 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
 {
     if (keeps(settler, patch, all, known))
         return true;
-    if (!known || patch.stale || isDue(odometer_.bound(), patch.listDue))
+    const bool stale = !known || patch.stale;
+    if (stale || isDue(odometer_.bound(), patch.listDue))
         renewLists(patch, all);
-    const bool alone = all.rests && !isListed(patch.near);
-    if ((alone || !settler.setPatch(patch)) && all.rests && isAtRest(settler, patch, all))
+    if (!all.common && stays(settler, patch, stale))
+        return true;
+    const bool alone = all.common && all.rests && !isListed(patch.near);
+    const bool touched = !alone && settler.setPatch(patch);
+    if (!all.common) {
+        const bool reached = stale || odometer_.hasMoved(all, settler.reaching());
+        patch.stirred = reached || patch.reached;
+        patch.reached = reached;
+    }
+    if (!touched && all.rests && isAtRest(settler, patch, all))
         return false;
     if (outOfSight(patch, own)) {
         sleep(object_, patch);
@@ -121,6 +131,16 @@ inline bool Engine::keeps(Settler& settler, Patch& patch, const Neighbourhood& a
         return false;
     patch.stale = patch.stale || !known;
     return true;
+}
+
+// The same where something digs, strengths differ or the object is shaped: whether none that it lists has come, or all of it is
+// still off the surface.
+inline bool Engine::stays(const Settler& settler, Patch& patch, bool stale) const
+{
+    const bool came = odometer_.count(patch);
+    if (settler.isStillOff(patch))
+        return true;
+    return !came && !stale && odometer_.eyeStayed() && (patch.state == PATCH_MIXED || patch.state == PATCH_INSIDE);
 }
 
 inline void Engine::renewLists(Patch& patch, const Neighbourhood& all)

@@ -25,7 +25,7 @@ SELDOM void aimShaped(Neighbour& near)
     near.toCore[2] = near.toCore[2] * by.z;
     const Real narrowing = other.narrowing();
     near.steep16 = near.inverse16 / narrowing;
-    near.push16 = near.push16 / narrowing;
+    near.sheer16 = near.inverse16 / other.steepest();
     near.grain = near.grain * narrowing;
     near.size16 = (rawFromReal(near.size * narrowing) >> 12) + 1;
 }
@@ -150,6 +150,15 @@ static void place(const SoftObject& object, Neighbour& near)
     near.size16 = (rawFromReal(near.size) >> 12) + 1;
 }
 
+// By what an object digs into others at most.
+static Real greatestWeight(const SoftObject& digger)
+{
+    Real greatest(0);
+    for (const List<Link>::Node* node = digger.digs().first(); node != nullptr; node = node->next)
+        greatest = most(greatest, node->item.weight);
+    return greatest;
+}
+
 // By what a neighbour's field counts.
 static void weigh(const Bodies& bodies, const Neighbourhood& all, Neighbour& near)
 {
@@ -157,7 +166,8 @@ static void weigh(const Bodies& bodies, const Neighbourhood& all, Neighbour& nea
     near.strength = other.strength();
     near.plain = !near.digs && near.strength == Real(1) && !(all.hollow && &other == all.head);
     near.weight = near.digs ? -bodies.weight(all.head->slot(), other.slot()) : Real(0);
-    near.push16 = near.weight <= Real(1) ? near.inverse16 : near.inverse16 * near.weight;
+    near.sheer16 = near.inverse16;
+    near.share = near.digs ? greatestWeight(other) : Real(1);
     near.samples = near.digs && other.hollowed() == all.head;
     near.grain = near.plain ? near.size : near.size / (most(near.strength, Real(1)) * most(near.weight, Real(1)));
 }

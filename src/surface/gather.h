@@ -13,6 +13,9 @@ constexpr int SLOTS_MAX = 128;
 // Neighbours are gathered a little before they come into range, units, so that what holds now holds for a while.
 constexpr Real GATHER_SLACK(3);
 
+// Of the field, over the size: no field changes by more.
+constexpr Real STEEPEST_OF_ALL(1.6);
+
 // A neighbour in the own space of the object that is being updated.
 struct Neighbour {
     const SoftObject* object;
@@ -20,7 +23,8 @@ struct Neighbour {
     Real size;          // where its field ends, from its core
     Real inverse16;     // CORE_SIZE / size
     Real steep16;       // how long a unit of own space is in its core space at most: inverse16, or more if it is shaped
-    Real push16;        // the same, times the weight by which it digs if that is above 1
+    Real sheer16;       // the same where its field is steep
+    Real share;         // the greatest weight of what digs; of a member 1
     Real ratio;         // squared proportion of the own size to `size`: its share of the gradient
     Real strength;      // what its field is multiplied by
     bool plain : 1;     // it is one of the body, its strength is 1, and it is not the head of a hollow
@@ -37,6 +41,9 @@ struct Neighbour {
     Vector direction;   // of the segment, unit length
     Vector toCore[3];   // the rows of the map from own space to its core space; no point
     Vector offset;      // and the own centre there
+
+    // What its field changes by at most over a unit, as it counts in that of a body whose members are linked.
+    Real pushMost() const { return shiftDown(sheer16 * strength * share * STEEPEST_OF_ALL, 4); }
 
     // A vector of own space in core space, and half a gradient times CORE_SIZE^2 (see SoftObject::param()) in own space, where
     // it is times size^2.

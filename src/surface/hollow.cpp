@@ -2,6 +2,7 @@
 // wall: those of the object and those of what digs. Here stands who samples which part of the wall, and how long a seed waits that
 // is not on the wall, or not in its own part of it.
 #include "border.h"
+#include "model/round.h"
 #include "settle.h"
 
 namespace {
@@ -12,6 +13,8 @@ constexpr Real SHARED(1.5);
 constexpr Real OVERLAP(0.18);
 // How far the border of two parts of a hollow's wall moves at most when what digs moves by a unit.
 constexpr Real BORDER_SPEED(16);
+// How far the paths of a patch are apart where all of it is judged by one: of how far they are where they rest.
+constexpr Real APART(1.25);
 // The position that tells whether the surface has closed again over a hollow.
 constexpr Real CLOSING(0.95);
 
@@ -43,13 +46,20 @@ Rival rivalOf(const Path& path, Real position)
     return rival;
 }
 
+// A vector of the same direction and unit length, about.
+Vector quickUnit(const Vector& v)
+{
+    const Real size = lengthQuick(v);
+    return size == Real(0) ? v : Vector{quotient(v.x, size), quotient(v.y, size), quotient(v.z, size)};
+}
+
 // The lead of a seed's object over its rival is by how much more steeply its field falls. Without other fields that is the
 // difference of the two; returned is what the others add to it. `g` is the way in which all fields fall together, `out` that of the
 // seed's path, `own` how steep the own field is. With a and b as unit vectors along `out` and along the rival's path, the lead is
 // (g.a + g.b) / (1 + a.b).
 SELDOM Real leadOf(const Vector& g, const Vector& out, Real own, const Rival& rival)
 {
-    const Vector a = unit(out), b = unit(rival.from);
+    const Vector a = quickUnit(out), b = quickUnit(rival.from);
     const Vector others = g - a * own + b * rival.steepest;
     return dot(others, a + b) / most(Real(1) + dot(a, b), Real(0.05));
 }
@@ -125,47 +135,30 @@ bool Settler::hasClosed(const Seed& s)
 
 // ---- What is off the surface waits
 
-// How far neighbours may move at most before a seed is looked at again. It is farther if all of them reach the path already: the
+// A seed that is not on the surface, or not in its own part of it, by `hold` of the field that changes by `push` at most when the
+// neighbours come by a unit: until when it need not be looked at. It waits longer if all neighbours reach the path already: the
 // fields of those that do not begin gently.
-Real Settler::longestOff() const
-{
-    return path_.touched() == all_.count ? LONGEST_WAIT : LIST_SLACK;
-}
-
-// A seed that is not on the surface, or not in its own part of it, by `hold` of the field that changes by `push` when the
-// neighbours come by a unit: until when it need not be looked at.
 void Settler::putOff(Seed& s, Real hold, Real push) const
 {
     s.flags |= SEED_OFF;
-    s.due = static_cast<uint16_t>(now_ + wayUntil(hold, push, longestOff()));
+    const Real longest = path_.touched() == all_.count ? LONGEST_WAIT : LIST_SLACK;
+    s.due = static_cast<uint16_t>(patch_->came + wayUntil(hold, push, longest));
 }
 
-bool Settler::isOff(const Seed& s) const
+bool Settler::isOff(const Patch& patch, const Seed& s)
 {
-    return (s.flags & SEED_OFF) && came_ < LONGEST_WAIT && static_cast<int16_t>(static_cast<uint16_t>(now_) - s.due) < 0;
+    return (s.flags & SEED_OFF) && static_cast<int16_t>(patch.came - s.due) < 0;
 }
 
-// How far neighbours may move while all seeds of a patch wait so.
-Way Settler::offFor(const Patch& patch) const
+// What becomes of a patch the middle of which has just been found off the surface: whether all of it is. The own field is about the
+// same at one position of all its paths; where they come near the surface they are little farther apart than where they rest.
+PatchState Settler::probeOff(const Patch& patch, Seed& s) const
 {
-    Way way = wayOf(LONGEST_WAIT);
-    forSeeds(patch, [&](int i) {
-        const Seed& s = object_.seed(i);
-        const Way seeds = s.flags & SEED_OFF ? static_cast<uint16_t>(s.due - now_) : 0;
-        way = seeds < way ? seeds : way;
-    });
-    return way;
-}
-
-// What becomes of a patch the middle of which has just been found off the surface: whether all of it is. The own field is the same
-// at one position of all its paths, unless it is warped; they are no farther from each other there than twice where they rest.
-PatchState Settler::probeOff(Patch& patch, const Seed& s) const
-{
-    if ((s.flags & SEED_FOLLOW) || object_.warped())
+    if (s.flags & SEED_FOLLOW)
         return PATCH_MIXED;
-    const Real push = path_.pushMost(), hold = off_ - push * realFromRaw(patch.radius << 13);
+    const Real hold = off_ - push_ * realFromRaw(patch.tight << 12) * APART;
     if (hold <= Real(0))
         return PATCH_MIXED;
-    patch.due += wayUntil(hold, push, longestOff());
+    putOff(s, hold, push_);
     return PATCH_INSIDE;
 }

@@ -28,6 +28,8 @@ public:
     // Whether a position is not one where the seeds of the patch are, so that others may reach it.
     bool isBeyond(Real position) const { return position < nearest_ || position > farthest_; }
 
+    const Few& reaching() const { return near_; }
+
     // The size of the smallest of them, or of the object.
     Real smallest() const { return smallest_; }
     // Whether something digs where the paths are, or the seeds sample a hollow.

@@ -10,6 +10,14 @@ namespace {
 // A way as long as any, when it is not known how far things have come.
 constexpr Way EVERYWHERE = 1 << 20;
 
+// As many steps of what goes round as never make it seem to go back: by them all is due.
+constexpr uint16_t ALL_DUE = 1 << 14;
+
+uint16_t limited(uint32_t steps)
+{
+    return static_cast<uint16_t>(steps < ALL_DUE ? steps : ALL_DUE);
+}
+
 // About the length of a vector, never less than nine tenths of it.
 Real about(const Vector& v)
 {
@@ -94,16 +102,19 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
     linksVersion_ = linksVersion;
     fresh_ = all.count > room_ && !makeRoom(all.count);
     if (fresh_) {
+        leapt_ = true;
         came_ = EVERYWHERE;
         return false;
     }
     const Way eyeWay = wayOfEye(object, own);
+    eyeStayed_ = eyeWay == 0;
     const Real reach = object.reach();
     Stand stands[NEIGHBOURS_MAX];
     int8_t standBySlot[SLOTS_MAX];
     memset(standBySlot, -1, sizeof standBySlot);
     Way farthest = 0;
     came_ = 0;
+    movedCount_ = 0;
     int stayed = 0, within = 0;
     for (int i = 0; i < all.count; ++i) {
         const Neighbour& near = all.neighbours[i];
@@ -123,9 +134,11 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
         const Way way = shaped ? wayBetween(near, stands[i], stands_[before], reach) : wayOfCore(near, stands[i], stands_[before]);
         farthest = way > farthest ? way : farthest;
         // What is shaped comes farther in some places than in most.
-        const Way came = shaped ? wayBetween(near, stands[i], stands_[before], Real(0)) : way;
+        Way came = shaped ? wayBetween(near, stands[i], stands_[before], Real(0)) : way;
+        came = way / 2 > came ? way / 2 : came;
         came_ = came > came_ ? came : came_;
-        came_ = way / 2 > came_ ? way / 2 : came_;
+        if (came > 0)
+            moved_[movedCount_++] = {static_cast<uint8_t>(slot), limited(came)};
     }
     if (all.count > 0)
         memcpy(stands_, stands, static_cast<size_t>(all.count) * sizeof stands[0]);
@@ -133,9 +146,29 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
     // One that was in range and is not even near any more has leapt.
     holds = holds && stayed == within_;
     within_ = within;
+    leapt_ = !holds;
     if (!holds)
         came_ = EVERYWHERE;
     bound_ += farthest;
     reading_ += came_ + eyeWay;
     return holds;
+}
+
+bool Odometer::count(Patch& patch) const
+{
+    uint16_t way = leapt_ ? ALL_DUE : 0;
+    for (const Moved *moved = moved_, *const end = moved_ + movedCount_; moved < end; ++moved)
+        if (isListed(patch.listed, moved->slot))
+            way = moved->way > way ? moved->way : way;
+    patch.came = static_cast<uint16_t>(patch.came + way);
+    return way > 0;
+}
+
+bool Odometer::hasMoved(const Neighbourhood& all, const Few& few) const
+{
+    bool moved = leapt_;
+    for (int i = 0; i < few.count; ++i)
+        for (int j = 0; j < movedCount_ && !moved; ++j)
+            moved = moved_[j].slot == all.neighbours[few.number[i]].object->slot();
+    return moved;
 }

@@ -1,10 +1,11 @@
 // Odometer: how far the neighbours of an object have come, in its own space, and how far the viewer has come round it. What was
 // found out about a patch holds until they have come so far that it might be different: whoever finds it out says how far that
-// is, and when the odometer has got there the patch is due. Were everything always due, nothing but the speed would change.
+// is, and when the odometer has got there the patch is due. A patch also hears how far those on its own
+// lists have come. Were everything always due, nothing but the speed would change.
 #ifndef FB_ODOMETER_H
 #define FB_ODOMETER_H
 
-#include "patch.h"
+#include "nearby.h"
 
 // A way, and the reading of an odometer: 1/1024 unit of own space. Readings go round, so isDue() compares them.
 typedef uint32_t Way;
@@ -39,6 +40,13 @@ public:
     // How far they came since the call before: what is neither stretched nor warped, as far as the farthest place of its core;
     // what is, as far as it came where the object has its centre, and half as far as its farthest place at least.
     Way came() const { return came_; }
+    // Whether the viewer has come round the object since then.
+    bool eyeStayed() const { return eyeStayed_; }
+
+    // Counts on for a patch, whose lists hold, how far those on them came since the call before. False: none of them came at all.
+    SELDOM bool count(Patch& patch) const;
+    // Whether any of a few neighbours came since then.
+    SELDOM bool hasMoved(const Neighbourhood& all, const Few& few) const;
 
 private:
     // Where a neighbour stood: its centre and its axes; of what is shaped, the map into its core space.
@@ -58,6 +66,17 @@ private:
     uint32_t linksVersion_ = 0;
     bool fresh_ = true;  // nothing is known of a frame before
     Vector eye_{Real(0), Real(0), Real(0)};  // where the viewer was, own axes
+    bool eyeStayed_ = false;
+
+    // A neighbour that came since the call before, and how far.
+    struct Moved {
+        uint8_t slot;
+        uint16_t way;
+    };
+    int movedCount_ = 0;
+    bool leapt_ = true;  // nothing is known of a frame before, or all may have changed
+    Moved moved_[NEIGHBOURS_MAX];
+
     int room_ = 0;       // for so many stands
     int within_ = 0;  // how many neighbours were in range in the call before
     Stand* stands_ = nullptr;

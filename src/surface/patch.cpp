@@ -88,10 +88,12 @@ void setPatch(const SoftObject& object, Patch& patch)
 void beginPatch(const SoftObject& object, Patch& patch)
 {
     patch.state = PATCH_REST;
+    patch.reached = patch.stirred = true;
     patch.extras = patch.fine = patch.islands = patch.settled = patch.stale = false;
     patch.blocker = static_cast<uint8_t>(object.slot());
     patch.nearest = patch.farthest = 64;
     patch.due = patch.listDue = 0;
+    patch.came = 0;
     memset(patch.listed, 0, sizeof patch.listed);
     memset(patch.near, 0, sizeof patch.near);
     patch.bend.known = false;
@@ -130,7 +132,7 @@ public:
         for (int k = 0; k < rings; ++k) {
             start_[k] = at_[k] = object.ringStart(ring + k);
             end_[k] = object.ringStart(ring + k + 1);
-            near_[k] = -1;
+            near_[k] = known_[k][0].i = known_[k][1].i = -1;
             if (end_[k] - at_[k] > end_[fullest_] - at_[fullest_])
                 fullest_ = k;
         }
@@ -171,10 +173,13 @@ private:
     // Of each ring: its first seed, the end, the first of the next patch.
     int start_[PATCH_RINGS], end_[PATCH_RINGS], at_[PATCH_RINGS];
     int near_[PATCH_RINGS];  // what is nearest to the seed before that one; -1: there is none
+    struct Known {
+        int i, from, nearest;  // of a seed, from what is nearest to the one before
+    } known_[PATCH_RINGS][2];
     int last_;               // of the fullest: the end of the patches so far
 
     // Whether a seed of a ring belongs to the patches so far.
-    bool isWithin(int k, int i) const
+    bool isWithin(int k, int i)
     {
         return i < end_[k] && (last_ == end_[fullest_] || (k == fullest_ ? i : nearest(k, i)) < last_);
     }
@@ -188,8 +193,17 @@ private:
         return squareOf(rest(i) - rest(n));
     }
 
-    // The seed of the fullest ring that is nearest to one: some way on from that of the seed before, or anywhere.
-    int nearest(int k, int i) const
+    // The seed of the fullest ring that is nearest to one. Of the next seed and of the one two farther on it is asked again.
+    int nearest(int k, int i)
+    {
+        Known& known = known_[k][i == at_[k] ? 0 : 1];
+        if (known.i != i || known.from != near_[k])
+            known = {i, near_[k], findNearest(k, i)};
+        return known.nearest;
+    }
+
+    // The same, looked for some way on from that of the seed before, or anywhere.
+    int findNearest(int k, int i) const
     {
         const int start = start_[fullest_], end = end_[fullest_];
         const Square far = squareOf({object_.spacing() * Real(2.5), Real(0), Real(0)});

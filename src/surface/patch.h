@@ -42,6 +42,8 @@ struct Patch {
     PatchState state;
     uint8_t blocker;    // slot of the neighbour that was the strongest where a seed was not on the surface
     bool stale;         // its lists have to be made anew
+    bool reached;       // one that has come since the frame before reaches its seeds where they are
+    bool stirred;       // and one did so then, or does so now; both are known where all is not common
     bool settled;       // its seeds were looked at in this frame
     bool extras;        // oversampled seeds of it take part
     bool fine;          // and fine ones
@@ -57,6 +59,7 @@ struct Patch {
     int16_t lean;       // how far from there one of them leads at most; 0: all lead along their normals
     uint8_t nearest, farthest;          // between which positions its seeds are, 1/64
     uint32_t due, listDue;              // readings of the odometer (odometer.h) when it, and when its lists are due
+    uint16_t came;      // how far those on its lists have come in all, 1/1024 unit; it goes round
     // Its lists, a bit for the slot of each neighbour: those that may reach some place on its paths, and those that may reach
     // its seeds where they are.
     uint32_t listed[SLOTS_MAX / 32], near[SLOTS_MAX / 32];
@@ -87,6 +90,11 @@ inline bool isListed(const uint32_t list[SLOTS_MAX / 32])
     for (int word = 0; word < SLOTS_MAX / 32; ++word)
         any |= list[word];
     return any != 0;
+}
+
+inline bool isListed(const uint32_t list[SLOTS_MAX / 32], int slot)
+{
+    return (list[slot >> 5] >> (slot & 31) & 1) != 0;
 }
 
 // How many patches the seeds of an object make.

@@ -2,12 +2,14 @@
 // which it falls. What becomes of the sum where not all are linked with all stands in blend.cpp.
 #include "path.h"
 
+#include "math/normal.h"
+
 namespace {
 
 // Positions: where paths begin to be searched, and those that are hollowed out or of weak objects.
 constexpr Real FIRST(0.7), FIRST_DEEP(0.06);
-// Of the field, over the size: no field changes by more.
-constexpr Real STEEPEST_OF_ALL(1.6);
+// Sizes of a neighbour, and positions of the own field: how far it follows a cubic curve, about.
+constexpr Real SMOOTH(0.8), SMOOTH_OWN(0.96);
 
 }  // namespace
 
@@ -122,58 +124,19 @@ inline void Path::addAll(Real position, const Vector* path, Fields* fields)
 }
 
 // The same anywhere.
-bool Path::lookOdd(Real position, const Vector* path, Sample* sample)
+bool Path::lookAnywhere(Real position, const Vector* path, Sample* sample)
 {
     ++counts_.iterations;
     lookedAt_ = position;
     shared_ = false;
-    Fields fields = ownPlain_ ? own(position) : ownOdd(position);
-    addAll(position, path, &fields);
     if (odd_)
-        addOdd(&fields);
+        return lookOdd(position, path, sample);
+    Fields fields = own(position);
+    addAll(position, path, &fields);
     *sample = {fields.sum - ISOVALUE, fields.slope, fields.strongest - ownField_};
     if (!complete_)
-        odd_ ? blendOdd(position, *sample) : blend(position, *sample);
-    if (all_.hollow)
-        *sample = {-sample->excess, -sample->slope, fields.strongest - headField_};
+        blend(position, *sample);
     return fields.touched != 0;
-}
-
-// The own field of an object that is not as strong as most, or of one whose seeds sample a hollow: it digs, and the head is
-// among its neighbours.
-Fields Path::ownOdd(Real position)
-{
-    const Real t = ownParam(position), strength = object_.strength();
-    const FieldStep own = t < Real(1) ? geoffQuick(most(t, Real(0))) : FieldStep{Real(0), Real(0)};
-    ownField_ = own.value * strength;
-    ownSlope_ = own.slope * strength;
-    const Real rate = ownRate(position);
-    headField_ = Real(0);
-    if (all_.hollow)
-        return {-(ownField_ * all_.weight), -(rate * all_.weight), Real(0), 0};
-    return {ownField_, rate, Real(0), 0};
-}
-
-// Corrects the fields that were just added where something digs, or strengths differ.
-void Path::addOdd(Fields* fields)
-{
-    fields->strongest = Real(0);
-    for (Along* along = along_; along < end_; ++along) {
-        const Neighbour& near = *along->near;
-        if (!near.plain && along->slope != Real(0)) {
-            const Real weight = near.digs ? -near.weight : Real(1);
-            fields->sum -= along->value;
-            fields->slope -= along->slope * along->change;
-            along->value = along->value * near.strength;
-            along->slope = along->slope * near.strength;
-            fields->sum += along->value * weight;
-            fields->slope += along->slope * weight * along->change;
-        }
-        if (all_.hollow && near.object == all_.head)
-            headField_ = along->value;
-        else if (!near.digs)
-            fields->strongest = most(fields->strongest, along->value);
-    }
 }
 
 Sample Path::look(Real position)
@@ -182,7 +145,7 @@ Sample Path::look(Real position)
     if (!odd_ && !others_)
         lookPlain(position, nullptr, &sample);
     else
-        lookOdd(position, nullptr, &sample);
+        lookAnywhere(position, nullptr, &sample);
     return sample;
 }
 
@@ -191,14 +154,34 @@ bool Path::begin(const Few& few, const Seed& s, Real position, Sample* sample)
     seed_ = &s;
     if (few_ != &few || rootOfFew_ != s.root)
         take(few, s);
-    return !odd_ && !others_ ? lookPlain(position, &s.path, sample) : lookOdd(position, &s.path, sample);
+    return !odd_ && !others_ ? lookPlain(position, &s.path, sample) : lookAnywhere(position, &s.path, sample);
 }
 
 Sample Path::beginSearch(const Seed& s)
 {
     Sample sample;
+    begin(nearby_.listed(), s, middle_, &sample);
+    leaveOut();
+    return sample;
+}
+
+void Path::beginDeepSearch(const Seed& s)
+{
     const Few& listed = nearby_.listed();
-    begin(listed, s, middle_, &sample);
+    seed_ = &s;
+    if (few_ != &listed || rootOfFew_ != s.root)
+        take(listed, s);
+    for (Along* along = along_; along < end_; ++along) {
+        along->aim(s.path);
+        along->param(middle_);
+    }
+    leaveOut();
+}
+
+// Those that were listed and reach no place on the path, from the t of each in its middle.
+void Path::leaveOut()
+{
+    const Few& listed = *few_;
     Few few;
     few.count = 0;
     for (int i = 0; i < listed.count; ++i) {
@@ -209,7 +192,7 @@ Sample Path::beginSearch(const Seed& s)
         few.number[few.count++] = listed.number[i];
     }
     if (few.count == listed.count)
-        return sample;
+        return;
     few.complete = true;
     if (!listed.complete)
         nearby_.setComplete(few);
@@ -217,7 +200,6 @@ Sample Path::beginSearch(const Seed& s)
     touched_ = few.count;
     end_ = along_ + few.count;
     few_ = nullptr;
-    return sample;
 }
 
 // The own t at a position of the path of a warped object; sets ownChange_.
@@ -225,9 +207,8 @@ Real Path::warpedParam(Real position)
 {
     const Real inward = Real(CORE_SIZE) / object_.laidSize();
     const Vector step = seed_->path * inward;
-    Vector out;
-    const Real t = object_.param(root() * inward + step * position, &out);
-    ownChange_ = t < Real(1) ? shiftDown(dot(out, step), 7) : Real(0);
+    const Real t = object_.param(root() * inward + step * position, &ownOut_);
+    ownChange_ = t < Real(1) ? shiftDown(dot(ownOut_, step), 7) : Real(0);
     return t;
 }
 
@@ -265,7 +246,7 @@ Vector Path::outward(Real position) const
 
 Vector Path::ownGradient(Real position, Real share) const
 {
-    return object_.slopeAt(root() + from(position)) * shiftDown(share * object_.laidSize(), 4);
+    return (warped_ ? ownOut_ : object_.slopeAt(root() + from(position))) * shiftDown(share * object_.laidSize(), 4);
 }
 
 Real Path::pushes() const
@@ -273,7 +254,7 @@ Real Path::pushes() const
     // The gradient of a field is 2 f' r / R^2, and r / R no more than r^2 / R^2 + 1/4; a little more for what that changes.
     Real sum(0);
     for (int i = 0; i < touched_; ++i)
-        sum += (Real(0.1) - along_[i].slope * (along_[i].t + Real(0.25))) * along_[i].near->push16;
+        sum += (Real(0.1) - along_[i].slope * (along_[i].t + Real(0.25))) * along_[i].near->sheer16 * along_[i].near->share;
     return shiftDown(sum, 3);
 }
 
@@ -281,14 +262,16 @@ Real Path::pushMost() const
 {
     Real sum(0);
     for (int i = 0; i < touched_; ++i)
-        sum += along_[i].near->push16 * along_[i].near->strength;
-    return shiftDown(sum * STEEPEST_OF_ALL, complete_ ? 4 : 3);
+        sum += along_[i].near->pushMost();
+    // Where not all are linked with all, some count for more.
+    return complete_ ? sum : sum + shiftDown(sum, 2);
 }
 
-Real Path::steepest() const
+Real Path::smoothStep() const
 {
-    Real own = shiftDown(object_.strength() * (all_.hollow ? most(all_.weight, Real(1)) : Real(1)), 1) * STEEPEST_OF_ALL;
-    if (warped_)
-        own = own * (object_.longestPath() / (object_.laidRadius() * object_.narrowing()));
-    return own + pushMost() * object_.longestPath();
+    Real sheerest16(0);
+    for (int i = 0; i < touched_; ++i)
+        sheerest16 = most(sheerest16, along_[i].near->sheer16);
+    const Real sizes = shiftDown(sheerest16 * nearLength(seed_->path), 4);
+    return SMOOTH < sizes * SMOOTH_OWN ? SMOOTH / sizes : SMOOTH_OWN;
 }

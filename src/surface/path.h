@@ -26,6 +26,8 @@ public:
 
     // Takes up the path of a seed that is searched, in the fields of those neighbours that reach some of it, and looks at middle().
     Sample beginSearch(const Seed& s);
+    // The same without a look.
+    SELDOM void beginDeepSearch(const Seed& s);
 
     // Looks at a position of the path at hand.
     Sample look(Real position);
@@ -44,8 +46,9 @@ public:
     // last, and anywhere on the path.
     Real pushes() const;
     Real pushMost() const;
-    // By how much they and the own field change at most, all together, from a position to one that is greater by 1.
-    Real steepest() const;
+
+    // How far two positions may be apart for the field in between to follow from what it is there and changes by, about.
+    Real smoothStep() const;
 
     // Positions: where paths are searched.
     Real first() const { return first_; }
@@ -77,23 +80,28 @@ public:
 
 private:
     struct Part;
+    struct Digger;
+    struct Parts;
 
     void setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const;
     void find(int number, Along& along);
     void take(const Few& few, const Seed& s);
+    void leaveOut();
     const Vector& root() const { return object_.root(seed_->root); }
     Fields own(Real position);
-    SELDOM Fields ownOdd(Real position);
-    SELDOM void addOdd(Fields* fields);
     void addAll(Real position, const Vector* path, Fields* fields);
     bool lookPlain(Real position, const Vector* path, Sample* sample);
-    SELDOM bool lookOdd(Real position, const Vector* path, Sample* sample);
+    SELDOM bool lookAnywhere(Real position, const Vector* path, Sample* sample);
     SELDOM Real warpedParam(Real position);
     // The body's field from those that were found (blend.cpp).
     SELDOM void blend(Real position, Sample& sample);
-    SELDOM void blendOdd(Real position, Sample& sample);
-    int findParts(Real position, Part* parts, Real* strongest);
-    Real addDents(Real position, Part* parts, int count);
+    SELDOM bool lookOdd(Real position, const Vector* path, Sample* sample);
+    void addMember(Parts& parts, Real f, Real rate, const SoftObject& object, int at) const;
+    void addDigger(Parts& parts, Real f, Real rate, Real weight, const SoftObject& object, int at) const;
+    void addOwn(Real position, Parts& parts);
+    bool addNear(Real position, const Vector* path, int number, Parts& parts);
+    static bool isSum(const Parts& parts);
+    SELDOM void blendOdd(Parts& parts, Sample& sample);
 
     const SoftObject& object_;
     const Neighbourhood& all_;
@@ -120,7 +128,8 @@ private:
     Real headField_;                // of a hollow: the field of what is hollowed out
     Real lookedAt_;
     Real ownField_, ownSlope_;
-    Real ownChange_;                // and dt/dp, of a warped object
+    Real ownChange_;                // of a warped object: dt/dp, and half the gradient of t in core space, times CORE_SIZE^2
+    Vector ownOut_;
     Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, if shared_
 };
 

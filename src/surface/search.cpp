@@ -2,6 +2,8 @@
 // looked for in steps along the path, and bisected.
 #include "search.h"
 
+#include "model/round.h"
+
 namespace {
 
 // Positions: after a step as short as this another look would change nothing that is seen; and no step is longer than that.
@@ -19,6 +21,10 @@ constexpr Real COVERED_LATE(1.62), BETWEEN(1.18), BETWEEN_LATE(1.49);
 constexpr Real RETURN_STEP(0.08), RETURN_FAR(0.4);
 // Of the field: a valley this shallow above the isovalue is looked into.
 constexpr Real VALLEY(0.12);
+// Of the field: by how much it leaves the cubic curve that it follows.
+constexpr Real CUBIC_SPARE(0.03);
+// What is not known to be crossed no more than once.
+constexpr int MORE = 2;
 
 }  // namespace
 
@@ -176,9 +182,69 @@ bool comesBack(Path& path, Real from, bool far, Real* position, Sample* sample)
 
 namespace {
 
-// Whether the path leaves the surface between a place and one farther out; `*from` becomes where it is inside, and `*highest` the
-// most that the field exceeds the isovalue by where it was looked at.
-bool leaves(Path& path, const Look& inner, const Look& outer, Real* from, Real* highest)
+// A path on which something digs, or of a weak object, looked at as a whole: where it leaves the surface, and how far off the
+// surface all of it is.
+class DeepSearch {
+public:
+    explicit DeepSearch(Path& path) : path_(path), hollow_(path.all().hollow), smoothStep_(path.smoothStep()) {}
+
+    // Looks for it from one position to another.
+    void run(Real from, Real to);
+
+    bool found() const { return found_; }
+    Real push() const { return push_; }
+    Real inside() const { return inside_; }
+    Real outside() const { return outside_; }
+    // Of the field: what the isovalue is exceeded by at least and at most; and the place where that is least.
+    Real deepest() const { return deepest_; }
+    Real highest() const { return highest_; }
+    Real deepestAt() const { return deepestAt_; }
+    const Sample& deepestSample() const { return deepestSample_; }
+
+private:
+    bool scan(const Look& begin, const Look& end);
+    void add(const Look& at);
+    bool leaves(const Look& inner, const Look& outer, Real* from);
+    int crossings(const Look& begin, const Look& end);
+
+    Path& path_;
+    const bool hollow_;
+    const Real smoothStep_;
+    bool found_ = false;
+    Real inside_{0}, outside_{0};
+    Real push_{0};
+    Real deepest_{9}, highest_{-9}, deepestAt_{1};
+    Sample deepestSample_{Real(9), Real(0), Real(0)};
+};
+
+void DeepSearch::run(Real from, Real to)
+{
+    const int steps = stepsIn(absolute(to - from), smoothStep_);
+    Look before = lookAt(path_, from);
+    add(before);
+    for (int i = 1; i <= steps; ++i) {
+        const Look now = lookAt(path_, i < steps ? from + portion(to - from, i, steps) : to);
+        add(now);
+        if (scan(before, now))
+            return;
+        before = now;
+    }
+}
+
+// Takes into account what was seen at a place.
+void DeepSearch::add(const Look& at)
+{
+    highest_ = most(highest_, at.sample.excess);
+    push_ = most(push_, path_.pushes());
+    if (at.sample.excess >= deepest_)
+        return;
+    deepest_ = at.sample.excess;
+    deepestAt_ = at.position;
+    deepestSample_ = at.sample;
+}
+
+// Whether the path leaves the surface between a place and one a step farther out; `*from` becomes where it is inside.
+bool DeepSearch::leaves(const Look& inner, const Look& outer, Real* from)
 {
     if (outer.sample.excess > Real(0))
         return false;
@@ -189,63 +255,80 @@ bool leaves(Path& path, const Look& inner, const Look& outer, Real* from, Real* 
         return false;
     // There is a hill between the two. Its top is about where a slope that changes evenly is 0.
     *from += (outer.position - inner.position) * (inner.sample.slope / (inner.sample.slope - outer.sample.slope));
-    const Real top = path.look(*from).excess;
-    *highest = most(*highest, top);
+    const Real top = path_.look(*from).excess;
+    highest_ = most(highest_, top);
     return top > Real(0);
+}
+
+// Where the field follows a cubic curve between two places, it crosses the isovalue no oftener than its four control points do.
+// Returned is how often that is, 0 or 1, or MORE if it may be oftener; where it is not at all, what lies between is said to be no
+// nearer to the surface than the hull of the points.
+int DeepSearch::crossings(const Look& begin, const Look& end)
+{
+    const Real third = (end.position - begin.position) * Real(1.0 / 3);
+    const Real one = begin.sample.excess + begin.sample.slope * third, other = end.sample.excess - end.sample.slope * third;
+    // Counted from the side where the first place lies.
+    const bool outside = begin.sample.excess <= Real(0);
+    const auto off = [&](Real excess) { return outside ? -excess : excess; };
+    const Real a = off(begin.sample.excess), b = off(end.sample.excess);
+    const Real nearest = least(least(a, b), least(off(one), off(other))) - CUBIC_SPARE;
+    if (nearest > Real(0)) {
+        deepest_ = least(deepest_, off(nearest));
+        highest_ = most(highest_, off(nearest));
+        return 0;
+    }
+    const auto clear = [](Real excess) { return absolute(excess) > CUBIC_SPARE; };
+    const bool allClear = clear(a) && clear(b) && clear(one) && clear(other);
+    return a > Real(0) && b < Real(0) && allClear && (off(one) > Real(0) || off(other) < Real(0)) ? 1 : MORE;
+}
+
+// Sees to all that lies between two places, first to what the search comes to first. True: what was found will do.
+bool DeepSearch::scan(const Look& begin, const Look& end)
+{
+    const Look &inner = hollow_ ? begin : end, &outer = hollow_ ? end : begin;
+    const bool ownInner = inner.sample.dominance <= OVERSHOOT, ownOuter = outer.sample.dominance <= OVERSHOOT;
+    const Real step = absolute(begin.position - end.position);
+    const int count = crossings(begin, end);
+    if (count == 0)
+        return false;
+    if (step > SEARCH_STEP && (count == MORE || ownInner != ownOuter)) {
+        const Look middle = lookAt(path_, shiftDown(begin.position + end.position, 1));
+        add(middle);
+        return scan(begin, middle) || scan(middle, end);
+    }
+    Real from;
+    if (!leaves(inner, outer, &from))
+        return false;
+    const bool ours = ownInner || ownOuter;
+    if (ours || !found_) {
+        inside_ = from;
+        outside_ = outer.position;
+    }
+    found_ = true;
+    return ours || hollow_;
 }
 
 }  // namespace
 
-// Far from the surface the steps are long: no field is steeper than steepest(), so the surface cannot be nearer than that allows.
-Real searchDeep(Path& path, Real* position, Sample* sample, Real* off)
+Real searchDeep(Path& path, Real* position, Sample* sample, Real* off, Real* push)
 {
     const bool hollow = path.all().hollow;
-    const Real half = quotient(Real(0.5), path.steepest()), end = hollow ? path.last() : path.first();
-    Look now = lookAt(path, hollow ? path.first() : path.last());
-    Real deepest = now.sample.excess, highest = deepest, inside(0), outside(0);
-    *position = now.position;
-    *sample = now.sample;
-    bool found = false;
-    while (now.position != end) {
-        const Look before = now;
-        const Real step = absolute(before.sample.excess) * half, longer = most(step, SEARCH_STEP);
-        now = lookAt(path, hollow ? least(before.position + longer, end) : most(before.position - longer, end));
-        if (step > SEARCH_STEP) {
-            // Between the two it is no nearer to the surface than this.
-            const Real between = shiftDown(shiftDown(before.sample.excess, 1) + now.sample.excess, 1);
-            deepest = least(deepest, between);
-            highest = most(highest, between);
-        }
-        const Look &inner = hollow ? before : now, &outer = hollow ? now : before;
-        Real from;
-        if (leaves(path, inner, outer, &from, &highest)) {
-            const bool ours = least(inner.sample.dominance, outer.sample.dominance) <= OVERSHOOT;
-            if (ours || !found) {
-                inside = from;
-                outside = outer.position;
-            }
-            found = true;
-            if (ours || hollow)
-                break;
-        }
-        if (now.sample.excess < deepest) {
-            deepest = now.sample.excess;
-            *position = now.position;
-            *sample = now.sample;
-        }
-        highest = most(highest, now.sample.excess);
-    }
-    if (found) {
-        bisect(path, inside, outside, position, sample);
+    DeepSearch search(path);
+    search.run(hollow ? path.first() : path.last(), hollow ? path.last() : path.first());
+    *push = search.push();
+    if (search.found()) {
+        bisect(path, search.inside(), search.outside(), position, sample);
         return Real(9);
     }
+    *position = search.deepestAt();
+    *sample = search.deepestSample();
     sample->excess = Real(1);
-    if (highest <= Real(0)) {
+    if (search.highest() <= Real(0)) {
         // All that is there lies outside.
-        *off = -highest;
+        *off = -search.highest();
         *position = Real(1);
         return Real(0);
     }
-    *off = deepest;
-    return most(deepest, Real(0));
+    *off = search.deepest();
+    return most(*off, Real(0));
 }

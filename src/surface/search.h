@@ -19,7 +19,8 @@ Real search(Path& path, Real* position, Sample* sample);
 // The same for the paths of a weak object, or of one that something digs into: the last place where the path leaves the surface,
 // because it hides those before. Places where a neighbour is the stronger one count only if there are no others. On a path that
 // samples a hollow it is the first place. Where there is none, `*off` becomes by how much of the field the path misses the surface.
-SELDOM Real searchDeep(Path& path, Real* position, Sample* sample, Real* off);
+// `*push` becomes by how much that may change when the neighbours come by a unit.
+SELDOM Real searchDeep(Path& path, Real* position, Sample* sample, Real* off, Real* push);
 
 // Where a path that has left the surface at `from` comes back to it. `far`: it is followed to its end, however far below the
 // isovalue the field falls between. False: it comes back nowhere, or so near that the two places cannot be told apart.

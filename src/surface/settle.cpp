@@ -80,7 +80,7 @@ Real Settler::settle(Seed& s)
     }
     if (nearby_.dented()) {
         off_ = found ? Real(0) : off_;
-        putOff(s, found ? sample.dominance - OVERSHOOT : off_, path_.pushMost() * Real(found ? 2 : 1));
+        putOff(s, found ? sample.dominance - OVERSHOOT : off_, followed == LOST ? push_ : path_.pushMost());
     }
     return found ? least(margin, sample.dominance - OVERSHOOT) : margin;
 }
@@ -137,9 +137,13 @@ inline void Settler::keep(Seed& s, Real dominance)
 // Searches the whole path of a seed, in the fields of those neighbours that reach some of it.
 inline Real Settler::search(const Seed& s, Real* position, Sample* sample)
 {
+    if (nearby_.dented() || !all_.rests) {
+        path_.beginDeepSearch(s);
+        return searchDeep(path_, position, sample, &off_, &push_);
+    }
     *sample = path_.beginSearch(s);
     *position = path_.middle();
-    return nearby_.dented() || !all_.rests ? searchDeep(path_, position, sample, &off_) : ::search(path_, position, sample);
+    return ::search(path_, position, sample);
 }
 
 // Gives a seed that is on the surface its normal, and what else there is to know of it there.
@@ -182,8 +186,9 @@ PatchState Settler::probe(Patch& patch)
     if (!(s.flags & SEED_VALID) && patch.state == PATCH_MIXED && isCovered(s))
         return PATCH_MIXED;
     const Real least = enough(patch, nearby_.smallest());
-    const Real margin = settle(s);
-    const Real push = path_.pushes();
+    const bool stays = !patch.stirred && patch.state == PATCH_MIXED && (s.flags & SEED_VALID);
+    const Real margin = stays ? Real(0) : settle(s);
+    const Real push = stays ? Real(0) : path_.pushes();
     if (!(s.flags & SEED_VALID)) {
         patch.blocker = static_cast<uint8_t>(cover_.strongest());
         if (nearby_.dented())
@@ -238,7 +243,7 @@ void Settler::settleOthers(Patch& patch)
         // What has slept or rested is likely to be where the one in the middle is.
         const bool woken = (s.flags & SEED_ASLEEP) || ((s.flags & SEED_RESTING) && !(centre.flags & SEED_RESTING));
         if ((!(s.flags & SEED_VALID) || (woken && !(centre.flags & SEED_VALID))) && isCovered(s)) {
-            s.flags &= SEED_OFF;
+            s.flags &= stillOff();
             return;
         }
         if (woken) {
@@ -254,8 +259,6 @@ void Settler::settleOthers(Patch& patch)
             cover_.setPatch(patch);
         }
     });
-    if (nearby_.dented() && !patch.extras)
-        patch.due += offFor(patch);
     setRange(patch);
     if (heavy_ && !nearby_.dented())
         forSeeds(patch, [&](int i) { patch.islands |= settleIsland(patch, i); });
@@ -265,6 +268,8 @@ void Settler::settleOthers(Patch& patch)
 // little; one that did not move twice, or faces well away, waits for three.
 bool Settler::waits(const Seed& s, bool someAway) const
 {
+    if (!patch_->stirred && (s.flags & SEED_VALID))
+        return true;
     if (nearby_.dented() || !(s.flags & SEED_VALID) || came_ > least(HURRY, shiftDown(nearby_.smallest(), 2)))
         return false;
     uint32_t mask = s.still;
@@ -366,7 +371,7 @@ void Settler::oversample(Patch& patch)
         if (extra == nullptr || !(extra->flags & SEED_ACTIVE))
             return;
         if (!(extra->flags & SEED_VALID) && isCovered(*extra))
-            extra->flags &= SEED_ACTIVE | SEED_OFF;
+            extra->flags &= SEED_ACTIVE | stillOff();
         else if (!waits(*extra, false))
             settle(*extra);
         if (settleFine(i))

@@ -21,9 +21,13 @@ public:
     bool setPatch(const Patch& patch, bool oversampled = false)
     {
         turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
+        patch_ = &patch;
         path_.leave();
         return nearby_.setPatch(patch, oversampled);
     }
+
+    // Those that do, after that.
+    const Few& reaching() const { return nearby_.reaching(); }
 
     // Whether all paths of a patch are sure to lie inside the one neighbour that was the strongest there the last time.
     bool isCovered(const Patch& patch)
@@ -38,6 +42,9 @@ public:
         cover_.setPatch(patch);
         return all_.common && cover_.hidesAll(patch);
     }
+
+    // Whether all of one that lay off the surface, where something digs, still does; before setPatch().
+    bool isStillOff(const Patch& patch) const { return patch.state == PATCH_INSIDE && isOff(patch, object_.regular(patch.centre)); }
 
     // Settles the seed in the middle of a patch that neighbours reach, says from it what becomes of the patch, and sets when
     // the patch is due again.
@@ -68,7 +75,9 @@ private:
     void keep(Seed& s, Real dominance);
     Real search(const Seed& s, Real* position, Sample* sample);
     void place(Seed& s, Real dominance);
-    bool isCovered(const Seed& s) { return nearby_.dented() ? isOff(s) : cover_.hides(s); }
+    // What remains of the flags of a seed that is covered.
+    int stillOff() const { return nearby_.dented() ? SEED_OFF | SEED_FOLLOW : 0; }
+    bool isCovered(const Seed& s) { return nearby_.dented() ? isOff(*patch_, s) : cover_.hides(s); }
     void setRange(Patch& patch) const;
     SELDOM bool settleFine(int i);
     void settleBehind(const Seed& valid, bool far, Seed& s);
@@ -79,11 +88,9 @@ private:
     // What only dents and hollows need (hollow.cpp).
     SELDOM bool findDented(Seed& s, Vector* g);
     SELDOM bool hasClosed(const Seed& s);
-    Real longestOff() const;
     void putOff(Seed& s, Real hold, Real push) const;
-    bool isOff(const Seed& s) const;
-    SELDOM Way offFor(const Patch& patch) const;
-    SELDOM PatchState probeOff(Patch& patch, const Seed& s) const;
+    static bool isOff(const Patch& patch, const Seed& s);
+    SELDOM PatchState probeOff(const Patch& patch, Seed& s) const;
 
     Path path_;
     Nearby nearby_;
@@ -96,8 +103,10 @@ private:
     const Real came_;   // how far neighbours came in this frame, units
     const uint32_t updates_;
     const bool heavy_;  // the object has a link of more than HEAVY
-    uint32_t turn_ = 0; // of the patch at hand: what waits takes turns
+    const Patch* patch_ = nullptr;  // that is at hand
+    uint32_t turn_ = 0; // of it: what waits takes turns
     Real border_;       // of the field: a neighbour that is weaker than the own by less is near
+    Real push_{0};      // by how much fields may change along the path at hand when neighbours come by a unit
     Real off_;          // of the field: by how much the path at hand misses the surface, where it does
     bool hidden_ = false;
 };

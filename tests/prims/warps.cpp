@@ -44,8 +44,9 @@ void testSpace()
     for (const double* amounts : AMOUNTS) {
         const double h = 30, wide = 8;
         Warp warp;
-        warp.set(amountsOf(amounts), real(h), real(wide), real(2 * wide));
-        double out = 0, back = 0, slopes = 0, steps = 0, shortest = 1e9, farthest = 0;
+        const auto reach = [&](double times) { return toReal({times * wide, h, times * wide}); };
+        warp.set(amountsOf(amounts), reach(1), reach(2), reach(1.5));
+        double out = 0, back = 0, slopes = 0, steps = 0, shortest = 1e9, farthest = 0, outside = -1e9;
         for (int i = 0; i < 3000; ++i) {
             const Vec p{between(-wide, wide), between(-1.3 * h, 1.3 * h), between(-wide, wide)};
             const Vec there = warped(p, amounts[0], amounts[1], amounts[2], h);
@@ -54,6 +55,8 @@ void testSpace()
             warp.back(toReal(there), way);
             back = std::fmax(back, size(vec(way.plain) - p));
             farthest = std::fmax(farthest, size(there) / std::fmax(size(p), h / 2));
+            const Vec far{between(-2 * wide, 2 * wide), between(-h, h), between(-2 * wide, 2 * wide)};
+            outside = std::fmax(outside, number(warp.outside(toReal(warped(far, amounts[0], amounts[1], amounts[2], h)))));
             const Vec q = p + Vec{between(-1, 1), between(-1, 1), between(-1, 1)};
             shortest = std::fmin(shortest, size(warped(q, amounts[0], amounts[1], amounts[2], h) - there) / size(q - p));
             // The gradient of n . p, from the places that steps lead to: what it says of each step is what the step brings.
@@ -75,13 +78,15 @@ void testSpace()
         say(out < 0.01, "a place is off by", out);
         say(back < 0.02, "and back by", back);
         say(slopes < 0.02, "slopes are off by", slopes);
+        say(outside < 0.01 && outside > -0.75 * h, "a place of the field comes out of its box by", outside);
         say(steps < 0.02, "steps are off by", steps);
         say(shortest >= number(warp.least()), "a distance became so much of itself:", shortest);
         say(farthest <= number(warp.most()) + 0.01, "a place went so much farther from the centre:", farthest);
     }
     // No bend round a middle that lies inside.
     Warp warp;
-    warp.set({{Real(0), Real(0), Real(-180)}}, Real(10), Real(20), Real(40));
+    warp.set({{Real(0), Real(0), Real(-180)}}, {Real(20), Real(10), Real(20)}, {Real(40), Real(30), Real(40)},
+             {Real(30), Real(20), Real(30)});
     const double most = 2 * 10 / (20 * 1.2) * 180 / M_PI;
     check(std::fabs(number(warp.amounts().part[WARP_BEND]) + most) < 0.01 && warp.asked().part[WARP_BEND] == Real(-180),
           "a bend of %g, not %g", number(warp.amounts().part[WARP_BEND]), -most);
