@@ -44,6 +44,7 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& a
     for (int i = 0; i < all.count; ++i)
         strongest = most(strongest, all.neighbours[i].strength);
     border_ = BORDER * strongest;
+    alike_ = least(object.spacing() * PARTED / object.radius(), Real(9));
 }
 
 // ---- One seed
@@ -337,12 +338,22 @@ void putAway(SoftObject& object, Patch& patch)
 
 }  // namespace
 
+// Whether a seed lies as its neighbour N does, and is on the surface if the next of its ring is: nothing is needed between them.
+inline bool Settler::isAlike(int i) const
+{
+    const Seed *const s = &object_.regular(i), *const next = i + 2 < object_.seedSlots() ? s + 1 : s;
+    const Seed* const n = s->neighbour >= 0 ? &object_.regular(s->neighbour) : s;
+    if (((s->flags ^ n->flags) | (s->flags ^ next->flags)) & SEED_VALID)
+        return false;
+    return !(s->flags & SEED_VALID) || absolute(s->position - n->position) <= alike_;
+}
+
 void Settler::oversample(Patch& patch)
 {
     const bool had = patch.extras;
     bool any = false;
     forSeeds(patch, [&](int i) {
-        const int other = parted(object_, i);
+        const int other = isAlike(i) ? -1 : parted(object_, i);
         if (other < 0) {
             if (had)
                 putAway(object_, i);

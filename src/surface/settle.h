@@ -79,6 +79,7 @@ private:
     int stillOff() const { return nearby_.dented() ? SEED_OFF | SEED_FOLLOW : 0; }
     bool isCovered(const Seed& s) { return nearby_.dented() ? isOff(*patch_, s) : cover_.hides(s); }
     void setRange(Patch& patch) const;
+    bool isAlike(int i) const;
     SELDOM bool settleFine(int i);
     void settleBehind(const Seed& valid, bool far, Seed& s);
     SELDOM bool settleIsland(const Patch& patch, int i);
@@ -106,6 +107,7 @@ private:
     const Patch* patch_ = nullptr;  // that is at hand
     uint32_t turn_ = 0; // of it: what waits takes turns
     Real border_;       // of the field: a neighbour that is weaker than the own by less is near
+    Real alike_;        // no more than this is between the positions of seeds that have not parted
     Real push_{0};      // by how much fields may change along the path at hand when neighbours come by a unit
     Real off_;          // of the field: by how much the path at hand misses the surface, where it does
     bool hidden_ = false;
