@@ -41,6 +41,9 @@ constexpr int BEND_TURNS = 3;
 // A patch bends unevenly when its slope foretells another brightness than some of its seeds have, by more than this, 1/4 step.
 constexpr int32_t UNEVEN_SHADING = 6;
 
+// Spacings: from the middle of a scale of what blends to its corner depth changes by no more.
+constexpr int32_t DEEPEST = 6;
+
 // Seeds of a patch, oversampled and fine ones included.
 constexpr int SEEDS_MOST = (2 + SoftObject::FINE_SEEDS) * PATCH_RINGS * PATCH_SEEDS;
 
@@ -63,6 +66,7 @@ private:
     void setPatch(const Patch& patch, const Seen& middle, const Voxel& at);
     void setBend(const Patch& patch, const Seen& middle);
     bool bendsUnevenly(const Voxel* voxels, int count) const;
+    void shorten(Voxel* voxel) const;
     bool cut(const Seed& s, Voxel* voxel) const;
     // What of a vector of own space lies along axis i of the view.
     template <class Part>
@@ -297,6 +301,17 @@ inline bool Shader::bendsUnevenly(const Voxel* voxels, int count) const
     return false;
 }
 
+// Next to the limb, scales whose seeds have parted would come far before the surface.
+inline void Shader::shorten(Voxel* voxel) const
+{
+    const int32_t deep = (magnitude(voxel->tiltX) * voxel->wide + magnitude(voxel->tiltY) * voxel->high) >> 8;
+    const int32_t most = spacing_ * DEEPEST;
+    if (deep > most) {
+        voxel->wide = static_cast<int16_t>(voxel->wide * most / deep);
+        voxel->high = static_cast<int16_t>(voxel->high * most / deep);
+    }
+}
+
 // Where another object is the strongest the scale ends: at a straight line, for the difference of two fields is nearly linear
 // across it. False: nothing is left.
 bool Shader::cut(const Seed& s, Voxel* voxel) const
@@ -367,6 +382,8 @@ inline void Shader::shadePatch(Patch& patch, bool turn, VoxelList& list, Painter
             if (s.apart < 0)
                 voxels[i].z += BEHIND;
         }
+        if (blends && voxels[i].reach != 0)
+            shorten(voxels + i);
         if (PAINTED) {
             to = list.room();
             painter->add(s, voxels[i]);

@@ -52,6 +52,47 @@ struct Plane {
     }
 };
 
+// By how much the brightness of scales is off a unit beside their middles.
+struct Beside {
+    double sum = 0;
+    long count = 0;
+};
+
+// The place of the surface on the ray of sight that goes through one near it.
+Vec onSurface(const Body& body, const std::vector<size_t>& joined, const Vec& eye, Vec p)
+{
+    const Vec ray = (p - eye) * (1 / size(p - eye));
+    for (int step = 0; step < 8; ++step)
+        p = p + ray * ((body.field(joined, p) - 0.5) / dot(body.fall(joined, p), ray));
+    return p;
+}
+
+// Cuts are another thing, and so are the limb and the terminator.
+void lookBeside(Scene& scene, const Body& body, Beside& all)
+{
+    const Vec eye = vec(scene.eye);
+    for (size_t o = 0; o < scene.objects.size(); ++o) {
+        const std::vector<size_t> joined = body.joined(o);
+        for (const Voxel& voxel : scene.draw(o)) {
+            const Vec p = eye + Vec{voxel.x / 256.0, voxel.y / 256.0, voxel.z / 256.0};
+            const Vec fall = body.fall(joined, p), toEye = eye - p;
+            if (voxel.cutX || voxel.cutY || voxel.brightness < 12 || dot(fall, toEye) < 0.5 * size(fall) * size(toEye))
+                continue;
+            for (const auto& way : {Vec{1, 0, 0}, Vec{-1, 0, 0}, Vec{0, 1, 0}, Vec{0, -1, 0}}) {
+                const Vec q = onSurface(body, joined, eye, p + way);
+                const Vec there = body.fall(joined, q);
+                const double light = dot(there, vec(scene.light)) / size(there) * 63;
+                if (std::fabs(body.field(joined, q) - 0.5) > 0.001 || !(size(q - p) < 3) || body.dominance(o, joined, q) > 0 ||
+                    light <= 0)
+                    continue;
+                const double off = voxel.brightness + (voxel.slopeX * way.x + voxel.slopeY * way.y) / 8 - light;
+                all.sum += off * off;
+                ++all.count;
+            }
+        }
+    }
+}
+
 }  // namespace
 
 TEST(slopes_are_those_of_the_brightness)
@@ -139,8 +180,7 @@ TEST(slopes_of_a_voxel_in_two_parts_are_alike)
 // Half a spacing to each side of a seed where balls blend, the brightness of its scale is about that of the surface.
 TEST(slopes_are_true_where_balls_blend)
 {
-    double sum = 0;
-    long count = 0;
+    Beside all;
     Random random;
     for (int round = 0; round < 6; ++round) {
         Scene scene;
@@ -150,35 +190,35 @@ TEST(slopes_are_true_where_balls_blend)
         scene.linkAll();
         for (int frame = 0; frame < 3; ++frame)
             scene.update();
-        const Body body(scene);
-        for (size_t o = 0; o < scene.objects.size(); ++o) {
-            const std::vector<size_t> joined = body.joined(o);
-            for (const Voxel& voxel : scene.draw(o)) {
-                const Vec p = vec(scene.eye) + Vec{voxel.x / 256.0, voxel.y / 256.0, voxel.z / 256.0};
-                // Cuts are another thing, and so are the limb and the terminator.
-                const Vec fall = body.fall(joined, p), toEye = vec(scene.eye) - p;
-                if (voxel.cutX || voxel.cutY || voxel.brightness < 12 || dot(fall, toEye) < 0.5 * size(fall) * size(toEye))
-                    continue;
-                for (int side = 0; side < 4; ++side) {
-                    const double x = side == 0 ? 1 : side == 1 ? -1 : 0, y = side == 2 ? 1 : side == 3 ? -1 : 0;
-                    Vec q = p + Vec{x, y, 0};
-                    const Vec ray = (q - vec(scene.eye)) * (1 / size(q - vec(scene.eye)));
-                    for (int step = 0; step < 8; ++step)
-                        q = q + ray * ((body.field(joined, q) - 0.5) / dot(body.fall(joined, q), ray));
-                    if (std::fabs(body.field(joined, q) - 0.5) > 0.001 || !(size(q - p) < 3) || body.dominance(o, joined, q) > 0)
-                        continue;
-                    const Vec there = body.fall(joined, q);
-                    const double light = dot(there, vec(scene.light)) / size(there) * 63;
-                    if (light <= 0)
-                        continue;
-                    const double off = voxel.brightness + (voxel.slopeX * x + voxel.slopeY * y) / 8 - light;
-                    sum += off * off;
-                    ++count;
-                }
-            }
-        }
+        lookBeside(scene, Body(scene), all);
     }
-    note("brightness a unit beside %ld seeds: %.2f steps off", count / 4, std::sqrt(sum / count));
-    CHECK(count > 4000);
-    CHECK(std::sqrt(sum / count) < 1.5);
+    note("brightness a unit beside %ld seeds: %.2f steps off", all.count / 4, std::sqrt(all.sum / all.count));
+    CHECK(all.count > 4000);
+    CHECK(std::sqrt(all.sum / all.count) < 1.5);
+}
+
+// Next to the limb the scales of seeds that have parted are tilted and wide; none reaches far before the surface.
+TEST(no_scale_comes_far_before_the_surface)
+{
+    Random random;
+    long limb = 0;
+    double deepest = 0;
+    for (int round = 0; round < 20; ++round) {
+        Scene scene;
+        for (int i = 0; i < 6; ++i)
+            scene.ball(random.between(10, 30), random.between(-14, 14), random.between(-14, 14), random.between(-14, 14));
+        scene.linkAll();
+        for (int frame = 0; frame < 2; ++frame)
+            scene.update();
+        for (size_t o = 0; o < scene.objects.size(); ++o)
+            for (const Voxel& v : scene.draw(o)) {
+                if (v.reach == 0)
+                    continue;
+                ++limb;
+                deepest = std::max(deepest, (std::abs(v.tiltX) * v.wide + std::abs(v.tiltY) * v.high) / 65536.0);
+            }
+    }
+    note("%ld scales next to the limb, their corners %.2f units before or behind their middle at most", limb, deepest);
+    CHECK(limb > 1000);
+    CHECK(deepest <= 12.1);
 }
