@@ -35,11 +35,12 @@ constexpr int32_t WHOLE_BEFORE = 64 * 256;
 constexpr int32_t FLATTEST = 8000;
 constexpr int32_t FACES_VIEWER = 16000;
 
-// A patch that settles in every frame has its bend measured in one of BEND_TURNS + 1 frames; its number says in which.
-constexpr int BEND_TURNS = 3;
+// A patch that settles in every frame has its bend measured in one of BEND_TURNS + 1 frames; its number says in which. Next to the
+// limb, where bends tell how far scales are drawn, it is one of BEND_TURNS_LIMB + 1.
+constexpr int BEND_TURNS_LIMB = 1, BEND_TURNS = 3;
 
 // A patch bends unevenly when its slope foretells another brightness than some of its seeds have, by more than this, 1/4 step.
-constexpr int32_t UNEVEN_SHADING = 6;
+constexpr int32_t UNEVEN_SHADING = 8;
 
 // Spacings: from the middle of a scale of what blends to its corner depth changes by no more.
 constexpr int32_t DEEPEST = 6;
@@ -54,7 +55,7 @@ public:
 
     // Lists the voxels of a patch, by way of the painter of objects that have a paint.
     template <bool PAINTED>
-    void shadePatch(Patch& patch, bool turn, VoxelList& list, Painter* painter);
+    void shadePatch(Patch& patch, int turn, VoxelList& list, Painter* painter);
 
     // Of its seeds, 1/256 unit.
     int32_t spacing() const { return spacing_; }
@@ -352,7 +353,7 @@ SELDOM int Shader::leaveNear(Seen* seen, Voxel* voxels, int count) const
 }
 
 template <bool PAINTED>
-inline void Shader::shadePatch(Patch& patch, bool turn, VoxelList& list, Painter* painter)
+inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter* painter)
 {
     // The painter makes one or two voxels of each.
     Voxel unpainted[PAINTED ? SEEDS_MOST : 1];
@@ -367,9 +368,10 @@ inline void Shader::shadePatch(Patch& patch, bool turn, VoxelList& list, Painter
         count += findExtras(patch, seen + count, voxels + count);
     if (count == 0)
         return;
-    if (!patch.bend.known || (patch.bend.stale && turn))
+    const Seen& middle = seen[count >> 1];
+    if (!patch.bend.known || (patch.bend.stale && (turn & (middle.facing < facesViewer_ >> 2 ? BEND_TURNS_LIMB : BEND_TURNS)) == 0))
         measureBend(patch);
-    setPatch(patch, seen[count >> 1], voxels[count >> 1]);
+    setPatch(patch, middle, voxels[count >> 1]);
     shadeSeeds(&shading_, seen, voxels, count);
     const bool shines = PAINTED && painter->shines(), blends = patch.state == PATCH_MIXED;
     const int32_t sight = shines || (blends && bendsUnevenly(voxels, regular)) ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
@@ -391,7 +393,7 @@ inline void Shader::shadePatch(Patch& patch, bool turn, VoxelList& list, Painter
             *to = voxels[i];
         }
         if (i < known) {
-            slopes.add(shading_.seeds, static_cast<int>(&s - shading_.seeds), to, sight);
+            slopes.add(&s, static_cast<int>(&s - shading_.seeds), to, sight);
             if (PAINTED && list.room() > to + 1)
                 slopes.addCopy(to + 1, to);
         }
@@ -421,7 +423,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
     for (; at < count && list.count + most <= room; ++at) {
         Patch& patch = patches[at];
         if (isSeen(patch, own))
-            shader.shadePatch<PAINTED>(patch, ((at + turn) & BEND_TURNS) == 0, list, painter);
+            shader.shadePatch<PAINTED>(patch, at + turn, list, painter);
     }
     slopes.set(shader.spacing());
     return at;

@@ -16,13 +16,13 @@ public:
     // Forgets all voxels.
     void begin() { count_ = 0; }
 
-    // A voxel shows seed `number` of `seeds`. It comes behind those of the rings before.
-    void add(const Seed* seeds, int number, Voxel* voxel, int32_t sight)
+    // A voxel shows seed `number` of its object, `*seed`. It comes behind those of the rings before.
+    void add(const Seed* seed, int number, Voxel* voxel, int32_t sight)
     {
         Shown& shown = shown_[count_];
         shown = {number, sight, voxel, voxel, voxel};
         // A seed is beside N of the one before it in its ring (model/seed.h).
-        const int n = number > 0 ? seeds[number - 1].neighbour : -1;
+        const int n = number > 0 ? seed[-1].neighbour : -1;
         if (Shown* const before = n >= 0 ? find(n >> 1) : nullptr) {
             shown.before = before->voxel;
             before->behind = voxel;

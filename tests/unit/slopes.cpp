@@ -42,7 +42,7 @@ struct Plane {
         const auto bits10 = [](double shear) { return static_cast<int32_t>(std::lround(shear * 1024)); };
         slopes->begin();
         for (int i = 0; i < RINGS * ROUND; ++i)
-            slopes->add(seeds.data(), i, &voxels[i], wanted ? Slopes::sight(bits10(shearX), bits10(shearY)) : Slopes::STAYS);
+            slopes->add(&seeds[i], i, &voxels[i], wanted ? Slopes::sight(bits10(shearX), bits10(shearY)) : Slopes::STAYS);
         slopes->set(SPACING);
     }
     // Whether the slopes of a lit voxel are right, but for what rounding brightness to whole steps makes of them.
@@ -168,7 +168,7 @@ TEST(slopes_of_a_voxel_in_two_parts_are_alike)
     copy.brightness = 30;
     plane.slopes->begin();
     for (int i = 0; i < RINGS * ROUND; ++i) {
-        plane.slopes->add(plane.seeds.data(), i, &plane.voxels[i], Slopes::sight(410, -307));
+        plane.slopes->add(&plane.seeds[i], i, &plane.voxels[i], Slopes::sight(410, -307));
         if (i == 17)
             plane.slopes->addCopy(&copy, &plane.voxels[i]);
     }
