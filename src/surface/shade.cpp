@@ -384,7 +384,7 @@ inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter*
             if (s.apart < 0)
                 voxels[i].z += BEHIND;
         }
-        if (blends && voxels[i].reach != 0)
+        if (voxels[i].reach != 0)
             shorten(voxels + i);
         if (PAINTED) {
             to = list.room();
@@ -393,7 +393,8 @@ inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter*
             *to = voxels[i];
         }
         if (i < known) {
-            slopes.add(&s, static_cast<int>(&s - shading_.seeds), to, sight);
+            // What is dark has its slopes; of a finish that is no end of the light.
+            slopes.add(&s, static_cast<int>(&s - shading_.seeds), to, shines || to->brightness != 0 ? sight : Slopes::STAYS);
             if (PAINTED && list.room() > to + 1)
                 slopes.addCopy(to + 1, to);
         }

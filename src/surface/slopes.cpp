@@ -42,7 +42,7 @@ void Slopes::set(int32_t spacing)
     const int32_t most = spacing * FARTHEST >> 2, least = (spacing >> 2) * (spacing >> 2) >> 3;
     for (Shown *shown = shown_, *const end = shown_ + count_; shown < end; ++shown) {
         Voxel& v = *shown->voxel;
-        if (shown->sight == STAYS || v.brightness == 0)
+        if (shown->sight == STAYS)
             continue;
         if (shown->number == COPY) {
             v.brightness = shown->before->brightness;
