@@ -14,6 +14,7 @@ constexpr int GAP_NARROW = 8;
 constexpr int GAP_LOW = 6;
 constexpr int GAP_THIN = 2;
 constexpr Real OUTSIDE(0.42);  // of the field: with less half way across, what is open stays so
+constexpr Real STEEP(0.65);    // and what it changes by in half a unit at most, times the size of its object
 constexpr int GAP_MOST = 32;  // however near the viewer
 constexpr int DIVIDED = 2;    // as near as this its ends stand when the place is found where a gap changes its colour
 
@@ -192,9 +193,11 @@ bool Gaps::isOpen(int first, int last) const
     const Vector way = view_.pointAt(last) - here;
     if (model_->implicitAt(here + Vector{shiftDown(way.x, 1), shiftDown(way.y, 1), shiftDown(way.z, 1)}) >= OUTSIDE)
         return false;
-    // The nearer of the two may hide what the gap is in.
+    // The nearer of the two may hide what the gap is in, which is then as far away as the other.
     const int farther = zbuffer_[first] < zbuffer_[last] ? last : first;
-    return model_->implicitAt(view_.pointAt((first + last) >> 1, zbuffer_[farther])) < OUTSIDE;
+    const Point there = view_.pointAt((first + last) >> 1, zbuffer_[farther]);
+    const int strongest = model_->strongestAt(there);
+    return strongest < 0 || model_->implicitAt(there) < ISOVALUE - STEEP / model_->actor(strongest).object->size();
 }
 
 // Whose the drawn pixels on both sides of a gap are. None are named where their colour is the same, where their fields do not
