@@ -276,7 +276,13 @@ public:
     Real fieldFunc(const Point& p) const;
 
     // Whether fields of the two can meet anywhere, from centres and sizes alone, or lie no more than `slack` units apart.
-    bool inRange(const SoftObject& other, Real slack = Real(0)) const;
+    bool inRange(const SoftObject& other, Real slack = Real(0)) const
+    {
+        // Every pair of a model comes by here; most are told apart along one axis.
+        const Real reach = reach_ + other.reach_ + slack;
+        const Vector apart = centre_ - other.centre_;
+        return absolute(apart.x) < reach && absolute(apart.y) < reach && absolute(apart.z) < reach && isNearer(other, reach);
+    }
 
     // --- A frame
 
@@ -312,6 +318,9 @@ protected:
     Vector axis() const { return {turn_.m[0][1], turn_.m[1][1], turn_.m[2][1]}; }
 
 private:
+    // Whether the centres are nearer to each other than a distance. Squares are compared.
+    bool isNearer(const SoftObject& other, Real distance) const;
+
     // Oversampled seeds are laid out this many at a time.
     static constexpr int EXTRA_BITS = 3;
     static constexpr int EXTRA_BLOCK = 1 << EXTRA_BITS;

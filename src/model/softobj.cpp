@@ -255,15 +255,9 @@ void SoftObject::tellNeighbours()
                 node->item.object->recalc_ = true;
 }
 
-bool SoftObject::inRange(const SoftObject& other, Real slack) const
+bool SoftObject::isNearer(const SoftObject& other, Real distance) const
 {
-    // Seeds that others pull out lie as far as the field does. Every pair of a model comes by here: most are told apart along one
-    // axis, and of the others squares are compared.
-    const Real reach = reach_ + other.reach_ + slack;
-    const Vector apart = centre_ - other.centre_;
-    if (absolute(apart.x) >= reach || absolute(apart.y) >= reach || absolute(apart.z) >= reach)
-        return false;
-    const int64_t square = rawFromReal(reach);
+    const int64_t square = rawFromReal(distance);
     return squaredDistance(centre_, other.centre_) < square * square;
 }
 

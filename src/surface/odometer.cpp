@@ -18,13 +18,6 @@ uint16_t limited(uint32_t steps)
     return static_cast<uint16_t>(steps < ALL_DUE ? steps : ALL_DUE);
 }
 
-// About the length of a vector, never less than nine tenths of it.
-Real about(const Vector& v)
-{
-    const Real x = absolute(v.x), y = absolute(v.y), z = absolute(v.z), greatest = most(most(x, y), z);
-    return greatest + (x + y + z - greatest) * Real(0.375);
-}
-
 }  // namespace
 
 Way wayUntil(Real hold, Real push, Real longest)
@@ -39,36 +32,6 @@ Odometer::~Odometer()
     free(stands_);
 }
 
-// No place of a neighbour's field comes farther than the farthest place of its core, and what its size changes by.
-Way Odometer::wayOfCore(const Neighbour& near, const Stand& now, const Stand& before)
-{
-    Real way = about(now.place - before.place) + absolute(now.size - before.size);
-    if (near.kind != Neighbour::POINT) {
-        const Vector extent = near.object->coreExtent16() * (near.size * Real(1.0 / CORE_SIZE));
-        way += about(now.axes[0] - before.axes[0]) * extent.x + about(now.axes[1] - before.axes[1]) * extent.y +
-               about(now.axes[2] - before.axes[2]) * extent.z;
-    }
-    return wayOf(way);
-}
-
-// The same of what is shaped: by its map into core space. `reach`: how far from the own centre seeds may be. No place of a
-// neighbour's field in that ball has come farther.
-Way Odometer::wayBetween(const Neighbour& near, const Stand& now, const Stand& before, Real reach)
-{
-    const Vector by = now.place - before.place;
-    const Real longest(100);
-    const Vector most{absolute(by.x) + about(now.axes[0] - before.axes[0]) * reach,
-                      absolute(by.y) + about(now.axes[1] - before.axes[1]) * reach,
-                      absolute(by.z) + about(now.axes[2] - before.axes[2]) * reach};
-    Real way = least(about(most), longest) * near.size * Real(1.0 / CORE_SIZE);
-    if (near.object->warped()) {
-        // A share of the width, and degrees.
-        const auto change = [&](int part) { return absolute(now.warp.part[part] - before.warp.part[part]); };
-        way += (change(WARP_TAPER) + (change(WARP_TWIST) + change(WARP_BEND)) * Real(0.0174533)) * near.object->reach();
-    }
-    return wayOf(way);
-}
-
 // Room for the stands of so many neighbours. What stood there is lost. False: no memory.
 bool Odometer::makeRoom(int count)
 {
@@ -78,20 +41,12 @@ bool Odometer::makeRoom(int count)
     return stands_ != nullptr;
 }
 
-inline Odometer::Stand Odometer::standOf(const SoftObject& object, const Neighbour& near)
-{
-    const bool shaped = near.object->shaped();
-    const Real unit = shaped ? Real(1) : near.size * Real(1.0 / CORE_SIZE);
-    return {shaped ? near.offset : near.centre, {near.toCore[0] * unit, near.toCore[1] * unit, near.toCore[2] * unit},
-            near.size, near.object->warp().amounts(), object.inRange(*near.object)};
-}
-
 // How far the viewer has come. A quarter of the size is about how far a neighbour has to come to turn the surface as the viewer's
 // way does.
 inline Way Odometer::wayOfEye(const SoftObject& object, const OwnFrame& own)
 {
     const Real away = most(nearLength(own.eye), Real(1));
-    const Real turned = least(about(own.eye - eye_), away) / away;
+    const Real turned = least(roundLength(own.eye - eye_), away) / away;
     eye_ = own.eye;
     return wayOf(turned * shiftDown(object.laidSize(), 2));
 }
@@ -130,11 +85,10 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
             continue;
         }
         stayed += stands_[before].inRange;
-        const bool shaped = near.object->shaped();
-        const Way way = shaped ? wayBetween(near, stands[i], stands_[before], reach) : wayOfCore(near, stands[i], stands_[before]);
+        const Way way = wayOf(cameWithin(near, stands[i], stands_[before], reach));
         farthest = way > farthest ? way : farthest;
         // What is shaped comes farther in some places than in most.
-        Way came = shaped ? wayBetween(near, stands[i], stands_[before], Real(0)) : way;
+        Way came = near.object->shaped() ? wayOf(cameWithin(near, stands[i], stands_[before], Real(0))) : way;
         came = way / 2 > came ? way / 2 : came;
         came_ = came > came_ ? came : came_;
         if (came > 0)

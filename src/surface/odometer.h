@@ -6,6 +6,7 @@
 #define FB_ODOMETER_H
 
 #include "nearby.h"
+#include "stand.h"
 
 // A way, and the reading of an odometer: 1/1024 unit of own space. Readings go round, so isDue() compares them.
 typedef uint32_t Way;
@@ -49,18 +50,8 @@ public:
     SELDOM bool hasMoved(const Neighbourhood& all, const Few& few) const;
 
 private:
-    // Where a neighbour stood: its centre and its axes; of what is shaped, the map into its core space.
-    struct Stand {
-        Vector place, axes[3];
-        Real size;
-        WarpAmounts warp;
-        bool inRange;
-    };
     bool makeRoom(int count);
-    static Stand standOf(const SoftObject& object, const Neighbour& near);
     Way wayOfEye(const SoftObject& object, const OwnFrame& own);
-    static Way wayOfCore(const Neighbour& near, const Stand& now, const Stand& before);
-    static Way wayBetween(const Neighbour& near, const Stand& now, const Stand& before, Real reach);
 
     Way reading_ = 0, bound_ = 0, came_ = 0;
     uint32_t linksVersion_ = 0;
