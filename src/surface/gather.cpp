@@ -102,12 +102,8 @@ OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
     // Of what is near the eye the parts are nearer than the centre, and face it by as much less of that distance.
     const Real extent = object.shaped() ? object.laidReach() : object.coreReach() / own.growth + object.laidRadius();
     const int32_t extent32 = rawFromReal(extent) >> 11;
-    const auto limb = [&](int32_t ofBall) {
-        const int32_t cosine = object.isBall() ? ofBall : LIMB;
-        return own.distance32 > extent32 ? mulDiv(cosine, own.distance32 - extent32, own.distance32) : 0;
-    };
-    own.limb = limb(LIMB_OF_BALL);
-    own.blendedLimb = limb(BLENDED_LIMB_OF_BALL);
+    const int32_t limb = object.isBall() ? LIMB_OF_BALL : LIMB;
+    own.limb = own.distance32 > extent32 ? mulDiv(limb, own.distance32 - extent32, own.distance32) : 0;
     axisInOwn(object, frame.light, own.light);
     axisInOwn(object, frame.axes.right, own.right);
     axisInOwn(object, frame.axes.up, own.up);

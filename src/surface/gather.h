@@ -78,8 +78,7 @@ struct OwnFrame {
     Vector eye;                   // units of the world
     int32_t eye32[3];             // the same, 1/32 unit of own space
     int32_t distance32;           // of the eye, 1/32 unit of own space
-    int32_t limb, blendedLimb;    // what faces the eye by no more than this cosine is not drawn, 1.0 = 2^14: what rests, and what
-                                  // blends
+    int32_t limb;                 // what faces the eye by no more than this cosine is not drawn, 1.0 = 2^14
     int32_t light[3];             // unit vector towards the light, 1.0 = 2^14
     int32_t right[3], up[3], ahead[3];  // axes of the view, 1.0 = 2^14
     Real growth;                  // units of the world in a unit of own space
@@ -97,9 +96,8 @@ struct OwnFrame {
 // Steps of brightness: 0..63, the 64-step ramp.
 constexpr int BRIGHTEST = 63;
 
-// On a ball a scale that is seen nearly edge-on adds its outline to those before it, and next to nothing where it blends; on flat
-// parts it may be all there is.
-constexpr int32_t LIMB_OF_BALL = 600, BLENDED_LIMB_OF_BALL = 1300, LIMB = 1 << 7;
+// On a ball a scale that is seen nearly edge-on adds next to nothing to those before it; on flat parts it may be all there is.
+constexpr int32_t LIMB_OF_BALL = 1300, LIMB = 1 << 7;
 
 OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame);
 

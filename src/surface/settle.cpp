@@ -201,7 +201,7 @@ PatchState Settler::probe(Patch& patch)
         return PATCH_INSIDE;
     }
     patch.facing = facing(object_, s, own_);
-    const int32_t away = own_.blendedLimb - patch.facing - patch.spread - TURNED;
+    const int32_t away = own_.limb - patch.facing - patch.spread - TURNED;
     if (away > 0) {
         patch.due += wayOf(realFromRaw(away * 4) * shiftDown(object_.laidSize(), 2));
         return PATCH_AWAY;

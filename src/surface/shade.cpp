@@ -43,7 +43,7 @@ constexpr int BEND_TURNS_LIMB = 1, BEND_TURNS = 3;
 constexpr int32_t UNEVEN_SHADING = 8;
 
 // Spacings: from the middle of a scale of what blends to its corner depth changes by no more.
-constexpr int32_t DEEPEST = 6;
+constexpr int32_t DEEPEST = 8;
 
 // Seeds of a patch, oversampled and fine ones included.
 constexpr int SEEDS_MOST = (2 + SoftObject::FINE_SEEDS) * PATCH_RINGS * PATCH_SEEDS;
@@ -81,7 +81,6 @@ private:
     Shading shading_;
     int32_t spacing_;         // of the seeds, 1/256 unit
     bool ball_, near_;        // near: some seeds may be nearer than NEAREST_DEPTH
-    int32_t limb_, blendedLimb_;  // Shading::limb of what rests, and of what blends
     int32_t facesViewer_;     // FACES_VIEWER times the distance of the eye, steps of places
     int viewShift_;           // brings the way to the eye to 14 bits
     const bool hollow_;       // the seeds sample a hollow
@@ -125,8 +124,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
         ballGradient_[i] = (product(own.light, axes[i]) >> 14) * (BRIGHTEST * 32) / ((radius >> 8) + 1);
     }
     const int32_t distance = own.distance32 >> (shading_.placeShift - 8);
-    limb_ = distance * own.limb >> 11;
-    blendedLimb_ = distance * own.blendedLimb >> 11;
+    shading_.limb = distance * own.limb >> 11;
     facesViewer_ = (distance * (FACES_VIEWER >> 6)) >> 5;
     viewShift_ = larger(0, 18 - __builtin_clz(static_cast<uint32_t>(distance + 4096)));
     // Both per 1/32 unit of the world.
@@ -359,7 +357,6 @@ inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter*
     Voxel unpainted[PAINTED ? SEEDS_MOST : 1];
     Voxel *const voxels = PAINTED ? unpainted : list.room(), *to = voxels;
     Seen seen[SEEDS_MOST];
-    shading_.limb = patch.state == PATCH_REST ? limb_ : blendedLimb_;
     int count = findSeeds(&shading_, &patch, seen, voxels);
     if (near_)
         count = leaveNear(seen, voxels, count);
