@@ -101,7 +101,8 @@ truth() {
 hurt() {
 	{
 		echo '```'
-		sh tests/scenes/truth.sh some
+		# It ends with 1 when a bar is broken, which the table shows.
+		sh tests/scenes/truth.sh some || [ $? -eq 1 ]
 		echo '```'
 	} >"$dir/hurt"
 	put hurt "$dir/hurt"
