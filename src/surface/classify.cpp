@@ -66,6 +66,8 @@ bool restsAway(const Patch& patch, const OwnFrame& own)
 
 Bound boundOf(const Patch& patch, int32_t restRadius)
 {
+    if (patch.nearest == 64 && patch.farthest == 64)
+        return {patch.middle[0], patch.middle[1], patch.middle[2], restRadius};
     const int32_t position = (patch.nearest + patch.farthest) >> 1, half = (patch.farthest - patch.nearest + 1) >> 1;
     const Step middle = above(patch, patch.path * (position - 64) >> 6);
     const int32_t widest = patch.farthest > 64 ? patch.farthest : 64;

@@ -67,11 +67,15 @@ static void setSides(const SoftObject& object, const FrameContext& frame, OwnFra
     if (frame.sideways == Real(0))
         return;
     // As far as seeds can be pulled out, and a little for the size of scales.
-    const int32_t reach = rawFromReal(object.reach() + object.spacing() * Real(2)) >> 12;
+    const Real reached = object.reach() + object.spacing() * Real(2);
+    const int32_t reach = rawFromReal(reached) >> 12;
     const Vector toCentre = frame.inView(object.centre());
     const Vector inwards[] = {{Real(1), Real(0), frame.sideways}, {Real(-1), Real(0), frame.sideways},
                               {Real(0), Real(1), frame.upward}, {Real(0), Real(-1), frame.upward}};
     for (const Vector& inward : inwards) {
+        // Most are well inside: no vector is longer than its parts together.
+        if (dot(inward, toCentre) >= reached * (Real(1) + inward.z))
+            continue;
         const Normal n = normalise(inward);
         const Vector u{realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)};
         const int32_t inside = rawFromReal(dot(u, toCentre)) >> 12;
