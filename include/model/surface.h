@@ -50,7 +50,7 @@ public:
     virtual ~Surface() {}
 
     // Settles the object's seeds on the surface (report, Section III, update()). Called when something changed, and when the last
-    // call returned true: some seeds were left that would have been hidden.
+    // call returned true: it was stopped, or left seeds that would have been hidden.
     virtual bool update(const FrameContext& frame) = 0;
 
     // Takes note that the seeds' roots and paths, and where they rest, have changed.

@@ -1,15 +1,12 @@
 // From voxels to pixels in C++: what asm/scales.S does, said plainly.
 #include "picture/scales.h"
 
+#include "math/whole.h"
+
 using machine::HEIGHT;
 using machine::WIDTH;
 
 namespace {
-
-inline int32_t limited(int32_t step)
-{
-    return step > STEEPEST ? STEEPEST : step < -STEEPEST ? -STEEPEST : step;
-}
 
 // The pixels of a scale along one axis whose centres lie in its rectangle, from `from` to before `to`.
 struct Extent {
@@ -89,8 +86,8 @@ const Voxel* drawScalesC(Lens* lens, const Voxel* voxels, const Voxel* end)
             continue;
         }
         // The plane of the surface: from the scale's middle to the middle of its first pixel, and on from there.
-        const int32_t across = limited(wrappedProduct(v.tiltX, f.zx) >> 16);
-        const int32_t down = -limited(wrappedProduct(v.tiltY, f.zy) >> 16);
+        const int32_t across = limited(wrappedProduct(v.tiltX, f.zx) >> 16, STEEPEST);
+        const int32_t down = -limited(wrappedProduct(v.tiltY, f.zy) >> 16, STEEPEST);
         const int32_t toColumn = ((columns.from + 1) << 12) - column, toRow = ((rows.from + 1) << 12) - row;
         FineScale scale;
         scale.left = static_cast<int16_t>(columns.from);

@@ -178,13 +178,11 @@ bool View::clip(const Placed& at, FineScale* scale)
 // The plane of the surface: by how much the depth changes from column to column and from row to row, tilt (z / focal).
 void View::tilt(const Voxel& voxel, const Placed& at, int32_t* across, int32_t* down) const
 {
-    const auto limited = [](int32_t step) { return step > STEEPEST ? STEEPEST : step < -STEEPEST ? -STEEPEST : step; };
     const auto swing = [](int32_t step, int32_t half, int32_t screen) {
-        const int32_t pixels = (half >> FRACTION) + 2;
-        return (step < 0 ? -step : step) * (pixels < screen ? pixels : screen);
+        return magnitude(step) * smaller((half >> FRACTION) + 2, screen);
     };
-    *across = limited(mulDiv(voxel.tiltX, at.z << 3, focalX_));
-    *down = limited(-mulDiv(voxel.tiltY, at.z << 3, focalY_));
+    *across = limited(mulDiv(voxel.tiltX, at.z << 3, focalX_), STEEPEST);
+    *down = limited(-mulDiv(voxel.tiltY, at.z << 3, focalY_), STEEPEST);
     // Might the depth leave 16 bits at a corner? Then the scale faces the viewer.
     const int32_t depth = at.z >> 1, most = swing(*across, at.halfWide, WIDTH) + swing(*down, at.halfHigh, HEIGHT);
     if (depth - most < 0 || depth + most >= Z_EMPTY)

@@ -1,6 +1,8 @@
 // Patches: what is known of all seeds of a patch at once: which neighbours may reach it, whether it lies within one, faces away
 // or is out of sight.
 #include "patch.h"
+
+#include "math/whole.h"
 #include "rt.h"
 
 namespace {
@@ -57,15 +59,14 @@ Step toEyeFrom(const Step& place, const OwnFrame& own)
 bool restsAway(const Patch& patch, const OwnFrame& own)
 {
     // The eye is no farther from the patch than this.
-    const int32_t aside = (patch.middle[0] < 0 ? -patch.middle[0] : patch.middle[0]) +
-                          (patch.middle[1] < 0 ? -patch.middle[1] : patch.middle[1]) +
-                          (patch.middle[2] < 0 ? -patch.middle[2] : patch.middle[2]);
+    const int32_t aside = magnitude(patch.middle[0]) + magnitude(patch.middle[1]) + magnitude(patch.middle[2]);
     const int32_t doubt = (((own.distance32 >> 1) + aside) * patch.spread >> 14) + patch.radius;
     return facing(patch, toEyeFrom(above(patch, 0), own)) < ((own.distance32 >> 1) * own.limb >> 14) - doubt;
 }
 
 Bound boundOf(const Patch& patch, int32_t restRadius)
 {
+    // At rest.
     if (patch.nearest == 64 && patch.farthest == 64)
         return {patch.middle[0], patch.middle[1], patch.middle[2], restRadius};
     const int32_t position = (patch.nearest + patch.farthest) >> 1, half = (patch.farthest - patch.nearest + 1) >> 1;

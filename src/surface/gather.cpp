@@ -60,7 +60,7 @@ Vector Neighbour::fromCore16(const Vector& q) const
 }
 
 // Finds out where the object lies against what bounds the view.
-static void setSides(const SoftObject& object, const FrameContext& frame, OwnFrame& own)
+static void setSides(const SoftObject& object, const FrameContext& frame, const Vector& toCentre, OwnFrame& own)
 {
     own.sideCount = 0;
     own.outOfSight = false;
@@ -69,7 +69,6 @@ static void setSides(const SoftObject& object, const FrameContext& frame, OwnFra
     // As far as seeds can be pulled out, and a little for the size of scales.
     const Real reached = object.reach() + object.spacing() * Real(2);
     const int32_t reach = rawFromReal(reached) >> 12;
-    const Vector toCentre = frame.inView(object.centre());
     const Vector inwards[] = {{Real(1), Real(0), frame.sideways}, {Real(-1), Real(0), frame.sideways},
                               {Real(0), Real(1), frame.upward}, {Real(0), Real(-1), frame.upward}};
     for (const Vector& inward : inwards) {
@@ -112,12 +111,12 @@ OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
     axisInOwn(object, frame.axes.right, own.right);
     axisInOwn(object, frame.axes.up, own.up);
     axisInOwn(object, frame.axes.ahead, own.ahead);
-    setSides(object, frame, own);
     own.hider = frame.hider;
-    const Vector place = frame.inView(object.centre());
-    own.centre[0] = rawFromReal(place.x) >> 8;
-    own.centre[1] = rawFromReal(place.y) >> 8;
-    own.centre[2] = rawFromReal(place.z) >> 8;
+    const Vector toCentre = frame.inView(object.centre());
+    own.centre[0] = rawFromReal(toCentre.x) >> 8;
+    own.centre[1] = rawFromReal(toCentre.y) >> 8;
+    own.centre[2] = rawFromReal(toCentre.z) >> 8;
+    setSides(object, frame, toCentre, own);
     return own;
 }
 

@@ -13,11 +13,6 @@ constexpr Way EVERYWHERE = 1 << 20;
 // As many steps of what goes round as never make it seem to go back: by them all is due.
 constexpr uint16_t ALL_DUE = 1 << 14;
 
-uint16_t limited(uint32_t steps)
-{
-    return static_cast<uint16_t>(steps < ALL_DUE ? steps : ALL_DUE);
-}
-
 }  // namespace
 
 Way wayUntil(Real hold, Real push, Real longest)
@@ -92,7 +87,7 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
         came = way / 2 > came ? way / 2 : came;
         came_ = came > came_ ? came : came_;
         if (came > 0)
-            moved_[movedCount_++] = {static_cast<uint8_t>(slot), limited(came)};
+            moved_[movedCount_++] = {static_cast<uint8_t>(slot), static_cast<uint16_t>(came < ALL_DUE ? came : ALL_DUE)};
     }
     if (all.count > 0)
         memcpy(stands_, stands, static_cast<size_t>(all.count) * sizeof stands[0]);

@@ -96,8 +96,8 @@ inline Fields Path::own(Real position)
     return {field.value, shiftDown(field.slope * position, 1), Real(0), 0};
 }
 
-// Looks at a position where there is nothing odd about the object and the neighbours, and those are points and segments. `path`: of
-// a seed that is taken up now; null: it has been. False: none of them reaches that position.
+// Looks at a position where there is nothing odd about the object and the neighbours. What is neither point nor segment has been
+// looked at. `path`: of a seed that is taken up now; null: it has been. False: none of them reaches that position.
 inline bool Path::lookPlain(Real position, const Vector* path, Sample* sample)
 {
     ++counts_.iterations;
@@ -111,32 +111,21 @@ inline bool Path::lookPlain(Real position, const Vector* path, Sample* sample)
     return fields.touched != 0;
 }
 
-// The fields of all neighbours, as if there were nothing odd about them.
-inline void Path::addAll(Real position, const Vector* path, Fields* fields)
+// The same anywhere.
+bool Path::lookAnywhere(Real position, const Vector* path, Sample* sample)
 {
-    for (Along* along = along_; along < end_ && others_; ++along)
+    if (odd_) {
+        ++counts_.iterations;
+        lookedAt_ = position;
+        return lookOdd(position, path, sample);
+    }
+    for (Along* along = along_; along < end_; ++along)
         if (along->kind == Neighbour::OTHER) {
             if (path != nullptr)
                 along->aim(*path);
             along->otherParam(position);
         }
-    addFields(along_, end_, position, path, fields);
-}
-
-// The same anywhere.
-bool Path::lookAnywhere(Real position, const Vector* path, Sample* sample)
-{
-    ++counts_.iterations;
-    lookedAt_ = position;
-    shared_ = false;
-    if (odd_)
-        return lookOdd(position, path, sample);
-    Fields fields = own(position);
-    addAll(position, path, &fields);
-    *sample = {fields.sum - ISOVALUE, fields.slope, fields.strongest - ownField_};
-    if (!complete_)
-        blend(position, *sample);
-    return fields.touched != 0;
+    return lookPlain(position, path, sample);
 }
 
 Sample Path::look(Real position)

@@ -89,7 +89,6 @@ private:
     void leaveOut();
     const Vector& root() const { return object_.root(seed_->root); }
     Fields own(Real position);
-    void addAll(Real position, const Vector* path, Fields* fields);
     bool lookPlain(Real position, const Vector* path, Sample* sample);
     SELDOM bool lookAnywhere(Real position, const Vector* path, Sample* sample);
     SELDOM Real warpedParam(Real position);

@@ -10,7 +10,7 @@
 
 namespace {
 
-// Of the object that is being shaded.
+// Of the object that is being shaded. It is too large for the stack, and its table need not be cleared from object to object.
 Slopes slopes;
 
 template <class Part, class Other>
@@ -42,7 +42,7 @@ constexpr int BEND_TURNS_LIMB = 1, BEND_TURNS = 3;
 // A patch bends unevenly when its slope foretells another brightness than some of its seeds have, by more than this, 1/4 step.
 constexpr int32_t UNEVEN_SHADING = 8;
 
-// Spacings: from the middle of a scale of what blends to its corner depth changes by no more.
+// Spacings: from the middle of a scale next to the limb to its corner depth changes by no more.
 constexpr int32_t DEEPEST = 8;
 
 // Seeds of a patch, oversampled and fine ones included.
