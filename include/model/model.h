@@ -148,8 +148,9 @@ public:
     // colour. -1: no field reaches it.
     int strongestAt(const Point& p) const;
 
-    // That object's implicit function there: its own field and, by their weights, those of what it is linked with.
-    Real implicitAt(const Point& p) const;
+    // The field of the body there that has the greatest, as model/body.h has it; 0 where none reaches. By the links that bodies()
+    // was last asked for with. `*strongest` becomes strongestAt().
+    Real implicitAt(const Point& p, int* strongest) const;
 
     // Changes the light under which seeds were laid out already.
     void setLight(const Vector& to);

@@ -46,8 +46,8 @@ public:
     // Closes the gaps between scales: empty pixels take over colour and depth of the drawn ones beside them, where an
     // opening is small (the limits stand in gaps.cpp) or ends between drawn pixels. `spacing` of the seeds, units. For when
     // all objects are drawn, before anything is written over them; single pixels are left alone. With a model, what is open
-    // stays so: a gap half way across which the way from one side to the other leaves the surface. With the model's colours
-    // too, what is filled between two objects has the colour of the one whose field is the stronger there.
+    // stays so: a gap wider than two pixels half way across which there is no surface within about a unit. With the model's
+    // colours too, what is filled between two objects has the colour of the one whose field is the stronger there.
     // Returns the number of pixels that were drawn before.
     int closeGaps(Real spacing, const Model* model = nullptr, const Palette* palette = nullptr);
 

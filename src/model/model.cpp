@@ -516,27 +516,59 @@ Actor* Model::itemNamed(const char* name) const
 
 int Model::strongestAt(const Point& p) const
 {
-    int best = -1;
-    Real strongest(0);
-    for (int i = 0; i < count_; ++i) {
-        const SoftObject& object = *actors_[i]->object;
-        const Real field = object.hasSurface() ? object.fieldFunc(p) : Real(0);
-        if (field > strongest) {
-            strongest = field;
-            best = i;
-        }
-    }
-    return best;
+    int strongest;
+    implicitAt(p, &strongest);
+    return strongest;
 }
 
-Real Model::implicitAt(const Point& p) const
+namespace {
+
+// What reaches a point: its field, that over the strongest there, and the sum of all that counts for it. `body`: null if it has
+// no surface.
+struct Part {
+    int slot;
+    SoftObject* const* body;
+    Real field, share, sum;
+};
+
+// The field of one body, from all that reaches the point (body.h).
+Real fieldOf(SoftObject* const* body, const Part* parts, const Part* end)
 {
-    const int strongest = strongestAt(p);
-    if (strongest < 0)
-        return Real(0);
-    const SoftObject& object = *actors_[strongest]->object;
-    Real sum = object.fieldFunc(p);
-    for (const List<Link>::Node* node = object.skel().first(); node != nullptr; node = node->next)
-        sum += node->item.object->fieldFunc(p) * node->item.weight;
-    return sum;
+    Real above(0), squares(0);
+    for (const Part* part = parts; part < end; ++part)
+        if (part->body == body) {
+            const Real square = part->share * part->share;
+            above += square * part->sum;
+            squares += square;
+        }
+    return squares > Real(0) ? above / squares : Real(0);
+}
+
+}  // namespace
+
+Real Model::implicitAt(const Point& p, int* strongest) const
+{
+    Part parts[OBJECTS_MOST], *end = parts;
+    Real most(0), highest(0);
+    *strongest = -1;
+    for (int i = 0; i < count_; ++i) {
+        const SoftObject& object = *actors_[i]->object;
+        const Real field = object.fieldFunc(p);
+        if (field <= Real(0))
+            continue;
+        *end++ = {i, object.hasSurface() && bodiesKnown_ ? bodies_.members(object) : nullptr, field, Real(0), field};
+        if (object.hasSurface() && field > most) {
+            most = field;
+            *strongest = i;
+        }
+    }
+    for (Part* part = parts; part < end && most > Real(0); ++part) {
+        part->share = quotient(part->field, most);
+        for (const Part* other = parts; other < end && part->body != nullptr; ++other)
+            part->sum += other->field * bodies_.weight(part->slot, other->slot);
+    }
+    for (const Part* part = parts; part < end; ++part)
+        if (part->body != nullptr)
+            highest = ::most(highest, fieldOf(part->body, parts, end));
+    return highest;
 }

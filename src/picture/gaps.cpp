@@ -13,8 +13,7 @@ constexpr int GAP_WIDE = 10;
 constexpr int GAP_NARROW = 8;
 constexpr int GAP_LOW = 6;
 constexpr int GAP_THIN = 2;
-constexpr Real OUTSIDE(0.42);  // of the field: with less half way across, what is open stays so
-constexpr Real STEEP(0.65);    // and what it changes by in half a unit at most, times the size of its object
+constexpr Real STEEP(1.3);  // of the field: by what it changes in a unit at most, times the size of its object
 constexpr int GAP_MOST = 32;  // however near the viewer
 constexpr int DIVIDED = 2;    // as near as this its ends stand when the place is found where a gap changes its colour
 
@@ -30,7 +29,6 @@ inline bool inSlit(const uint8_t* pixel)
 struct Opening {
     Span rows[GAP_MOST];
     int high = 0, narrow = 0;
-    bool closed = false;  // it ends before a drawn row
 };
 
 // What is empty beside an opening in the next row, all that lies between taken for empty. False: nothing is.
@@ -63,7 +61,6 @@ void follow(const uint8_t* frame, int y, int from, int to, int step, int widest,
             return;
         if (!goesOn(frame + next * WIDTH, widest, &from, &to)) {
             opening.narrow = opening.high;
-            opening.closed = true;
             return;
         }
         if (to - from > widest || from == 0 || to == WIDTH || opening.high == widest)
@@ -160,7 +157,7 @@ void Gaps::closeFrom(int y, int from, int to, int step, int widest, int narrowes
     const Span* const rows = opening.rows;
     if (narrow > 0) {
         const int middle = narrow / 2, row = (y + middle * step) * WIDTH;
-        if (!opening.closed && isOpen(row + rows[middle].from - 1, row + rows[middle].to))
+        if (isOpen(row + rows[middle].from - 1, row + rows[middle].to, 1))
             return;
         const Ends ends = endsOf(row + rows[middle].from - 1, row + rows[middle].to);
         for (int i = 0; i < narrow; ++i)
@@ -184,20 +181,26 @@ void Gaps::closeCorner(int y, int x, int step)
         view_.copyPixel(y * WIDTH + x, y * WIDTH + x - step);
 }
 
-// Whether between two drawn pixels there is none of the surface: the way from one to the other leads well outside.
-bool Gaps::isOpen(int first, int last) const
+// Whether between two drawn pixels, `step` the way from each to the next, there is none of the surface.
+bool Gaps::isOpen(int first, int last, int step) const
 {
-    if (model_ == nullptr || last - first <= GAP_THIN + 1)
+    const int count = (last - first) / step;
+    if (model_ == nullptr || count <= GAP_THIN + 1)
         return false;
     const Point here = view_.pointAt(first);
     const Vector way = view_.pointAt(last) - here;
-    if (model_->implicitAt(here + Vector{shiftDown(way.x, 1), shiftDown(way.y, 1), shiftDown(way.z, 1)}) >= OUTSIDE)
-        return false;
     // The nearer of the two may hide what the gap is in, which is then as far away as the other.
     const int farther = zbuffer_[first] < zbuffer_[last] ? last : first;
-    const Point there = view_.pointAt((first + last) >> 1, zbuffer_[farther]);
-    const int strongest = model_->strongestAt(there);
-    return strongest < 0 || model_->implicitAt(there) < ISOVALUE - STEEP / model_->actor(strongest).object->size();
+    return isOff(here + Vector{shiftDown(way.x, 1), shiftDown(way.y, 1), shiftDown(way.z, 1)}) &&
+           isOff(view_.pointAt(first + count / 2 * step, zbuffer_[farther]));
+}
+
+// Whether a point lies well outside of every body.
+bool Gaps::isOff(const Point& p) const
+{
+    int strongest;
+    const Real field = model_->implicitAt(p, &strongest);
+    return strongest < 0 || field < ISOVALUE - STEEP / model_->actor(strongest).object->size();
 }
 
 // Whose the drawn pixels on both sides of a gap are. None are named where their colour is the same, where their fields do not
@@ -270,6 +273,8 @@ void Gaps::closeSlit(int y, int x, int end, int step)
         while (frame_[at + high * WIDTH] == 0)
             ++high;
         const int above = at - WIDTH, below = at + high * WIDTH;
+        if (isOpen(above, below, WIDTH))
+            continue;
         fill(high > GAP_THIN ? endsOf(above, below) : NO_ENDS, above, below, WIDTH);
         view_.overlay(x, y, 1, high);
     }

@@ -1,5 +1,6 @@
 // Bodies: what links join, and whom it tells of movement.
 #include "help.h"
+#include "model/anim.h"
 #include "test.h"
 
 namespace {
@@ -169,4 +170,73 @@ TEST(what_digs_into_bodies)
     CHECK(!scene.objects[2]->digs().empty() && scene.objects[2]->digs().first()->next == nullptr);
     scene.findBodies();
     CHECK(diggers(0) == none);
+}
+
+// The field at a point is that of the body that has the greatest there: by the formula of body.h.
+TEST(field_of_bodies_at_a_point)
+{
+    Random random;
+    int blended = 0;
+    for (int round = 0; round < 40; ++round) {
+        constexpr int BALLS = 6, DIGGER = 5;
+        Model model;
+        Truth truth;
+        double weights[BALLS][BALLS] = {};
+        int body[BALLS];
+        for (int i = 0; i < BALLS; ++i) {
+            Motion motion{};
+            const double size = random.between(15, 30);
+            motion.centre = point(random.between(-20, 20), random.between(-20, 20), random.between(-20, 20));
+            truth.balls.push_back({vec(motion.centre), size});
+            CHECK(model.add(make<Sphere>(i + 1, real(size)), {255, 0, 0}, motion));
+            body[i] = i;
+        }
+        Anim::move(model, 0);
+        for (int i = 0; i < BALLS; ++i)
+            truth.balls[static_cast<size_t>(i)].size = number(model.actor(i).object->size());
+        for (int links = 1 + random.below(6); links > 0; --links) {
+            const int a = random.below(DIGGER), b = random.below(DIGGER);
+            if (a == b)
+                continue;
+            weights[a][b] = weights[b][a] = 0.5 * (1 + random.below(3));
+            CHECK(model.link(model.actor(a).object, model.actor(b).object, real(weights[a][b])));
+            for (int i = 0, from = body[a]; i < BALLS; ++i)
+                if (body[i] == from)
+                    body[i] = body[b];
+        }
+        weights[0][DIGGER] = -1;
+        CHECK(model.dent(model.actor(0).object, model.actor(DIGGER).object, Real(1)));
+        CHECK(model.bodies() != nullptr);
+        for (int sample = 0; sample < 50; ++sample) {
+            const Point at = point(random.between(-20, 20), random.between(-20, 20), random.between(-20, 20));
+            double expected = 0, most = 0;
+            int strongest = -1;
+            for (int one = 0; one < DIGGER; ++one) {
+                double above = 0, below = 0;
+                for (size_t i = 0; i < DIGGER; ++i) {
+                    if (body[i] != body[one])
+                        continue;
+                    const double f = truth.part(i, vec(at));
+                    double g = f;
+                    for (size_t k = 0; k < BALLS; ++k)
+                        g += weights[i][k] * truth.part(k, vec(at));
+                    above += f * f * g;
+                    below += f * f;
+                }
+                if (below > 1e-6)
+                    expected = std::fmax(expected, above / below);
+                const double own = truth.part(static_cast<size_t>(one), vec(at));
+                if (own > most + 0.001)
+                    strongest = one;
+                most = std::fmax(most, own);
+            }
+            int found;
+            NEAR(number(model.implicitAt(at, &found)), expected, 0.01);
+            blended += expected > most + 0.02;
+            if (strongest >= 0 && found != strongest)
+                NEAR(truth.part(static_cast<size_t>(found), vec(at)), most, 0.002);
+        }
+    }
+    note("%d of 2000 points have a field of more than one", blended);
+    CHECK(blended > 200);
 }

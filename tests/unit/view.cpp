@@ -471,15 +471,16 @@ TEST(gaps_closed_all_round)
         }
 }
 
-// Two balls of size 40 as far as that to the left and to the right of the middle.
-static void addPair(Model& model, double away)
+// Two balls of size 40 as far as that to the left and to the right of the middle, or above and below it.
+static void addPair(Model& model, double away, bool upright = false)
 {
     Motion left{}, right{};
-    left.centre = point(-away, 0, 0);
-    right.centre = point(away, 0, 0);
+    left.centre = upright ? point(0, away, 0) : point(-away, 0, 0);
+    right.centre = upright ? point(0, -away, 0) : point(away, 0, 0);
     CHECK(model.add(make<Sphere>(1, Real(40)), {255, 0, 0}, left));
     CHECK(model.add(make<Sphere>(2, Real(40)), {0, 0, 255}, right));
     Anim::move(model, 0);
+    CHECK(model.bodies() != nullptr);
 }
 
 // Between two objects the colour changes where the one's field becomes stronger, to two pixels, wherever the gap lies; the
@@ -502,7 +503,7 @@ TEST(gaps_between_two_objects)
                     for (int x = x0; x < x1; ++x)
                         view.setPixel(y * WIDTH + x, depth * 128, colour);
             };
-            // Their fields are equal at column 160, whatever was drawn beside the gap.
+            // Their fields are equal at column 160, whatever was drawn beside the gap, and there is surface all along it.
             block(100, 60, from, 140, 120, ramps[0][10]);
             block(to, 60, 220, 140, 121, behind[50]);
             block(from, 60, to, 94, 120, ramps[0][30]);
@@ -522,7 +523,7 @@ TEST(gaps_between_two_objects)
         }
 }
 
-// What is open on a side stays so between two objects that do not touch, at whatever distance. What is drawn all round is closed.
+// Between two objects that do not touch, at whatever distance, what is open stays so, on a side or with all drawn round it.
 TEST(gaps_where_there_is_no_surface)
 {
     Model model;
@@ -545,9 +546,32 @@ TEST(gaps_where_there_is_no_surface)
                 return drawnIn(view, 160 - size / 2, 90, 160 + size / 2, bottom);
             };
             CHECK(between(nullptr, false) > 0);
+            SAME(between(nullptr, true), size * 10);
             SAME(between(&model, false), 0);
-            SAME(between(&model, true), size * 10);
+            SAME(between(&model, true), 0);
         }
+}
+
+// The same where one lies above the other, and the gap is open on one side.
+TEST(slits_where_there_is_no_surface)
+{
+    Model model;
+    addPair(model, 25, true);
+    View view;
+    CHECK(view.open());
+    for (int high = 1; high <= 6; ++high) {
+        const auto between = [&](const Model* with) {
+            view.begin();
+            block(view, 120, 80, 140, 120, 7, 120);
+            block(view, 140, 80, 180, 100 - high / 2, 7, 120);
+            block(view, 140, 100 - high / 2 + high, 180, 120, 7, 120);
+            view.closeGaps(SPACING, with);
+            view.end();
+            return drawnIn(view, 140, 100 - high / 2, 180, 100 - high / 2 + high);
+        };
+        SAME(between(nullptr), 40 * high);
+        SAME(between(&model), high <= 2 ? 40 * high : 0);
+    }
 }
 
 TEST(gaps_grow_with_spacing_and_nearness)
