@@ -60,7 +60,10 @@ struct Seed {
     uint16_t root;       // index of the root point: seeds share them
     uint8_t flags;       // SeedFlag
     uint8_t mix;         // number of the colour there, where colours mix (model/paint.h)
-    uint8_t still;       // 0: it moved when it was looked at last; 1: it did not; 3: nor the time before
+    union {
+        uint8_t still;   // 0: it moved when it was looked at last; 1: it did not; 3: nor the time before
+        uint8_t blocker; // of one that is not SEED_VALID: slot of the neighbour that was the strongest there
+    };
     // The part of the unblended surface that is the seed's own: its half axes, 1/64 of the spacing, and the area between them,
     // that squared; 0, of an oversampled seed: it lies in no band of its ring.
     int8_t along[3], across[3];

@@ -14,12 +14,14 @@ constexpr Cover::Limits Cover::UNLINKED{Real(0.18), Real(0.18), Real(0.424), Rea
 // Of the field: what is linked with the object and this strong is the one that keeps its seeds off the surface.
 static constexpr Real COVERING(0.28);
 
-void Cover::setPatch(const Patch& patch)
+// Takes up a neighbour.
+void Cover::find(int blocker)
 {
-    number_ = all_.numberOf[patch.blocker];
+    blocker_ = blocker;
+    number_ = all_.numberOf[blocker];
     // The t of what is warped need not be convex.
     const bool judged = number_ >= 0 && all_.common && !all_.neighbours[number_].object->warped();
-    limits_ = !judged ? nullptr : nearby_.allComplete() || nearby_.isLinked(patch.blocker) ? &LINKED : &UNLINKED;
+    limits_ = !judged ? nullptr : nearby_.allComplete() || nearby_.isLinked(blocker) ? &LINKED : &UNLINKED;
 }
 
 bool Cover::hidesPath(const Seed& s)
@@ -29,8 +31,9 @@ bool Cover::hidesPath(const Seed& s)
     return along.param(COVERED_AT) < limits_->there && along.param(Real(1)) < limits_->atRest;
 }
 
-bool Cover::hidesAll(const Patch& patch) const
+bool Cover::hidesAll(const Patch& patch)
 {
+    take(patch.blocker);
     if (limits_ == nullptr || object_.tapers())
         return false;
     const Neighbour& near = all_.neighbours[number_];

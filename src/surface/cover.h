@@ -12,24 +12,34 @@ public:
     {
     }
 
-    // Takes up the neighbour that was the strongest where a seed of the patch was not on the surface the last time.
-    void setPatch(const Patch& patch);
-
-    // Whether it is sure to keep a seed off the surface, wherever that was before; and all seeds of the patch.
-    bool hides(const Seed& s) { return limits_ != nullptr && hidesPath(s); }
-    bool hidesAll(const Patch& patch) const;
+    // Whether the neighbour that was the strongest where a seed was not on the surface the last time, or another, is sure to
+    // keep it off the surface; and whether the one that was the strongest in the middle of a patch does it to all its seeds.
+    bool hides(const Seed& s) { return hides(s, s.blocker); }
+    bool hides(const Seed& s, int blocker)
+    {
+        take(blocker);
+        return limits_ != nullptr && hidesPath(s);
+    }
+    bool hidesAll(const Patch& patch);
 
     // The slot of the neighbour whose field is the strongest where the path at hand was looked at last.
     int strongest() const;
 
 private:
+    void take(int blocker)
+    {
+        if (blocker != blocker_)
+            find(blocker);
+    }
+    void find(int blocker);
     bool hidesPath(const Seed& s);
 
     const SoftObject& object_;
     const Neighbourhood& all_;
     const Nearby& nearby_;
     Path& path_;
-    int number_ = -1;  // of the neighbour; -1: none
+    int blocker_ = -1;  // slot of the neighbour at hand; -1: none yet
+    int number_;        // of it; -1: it is none
     // What it takes: its t (model/field.h) is less than these at two positions of a path. And the roots of the two. Null: that is
     // not known.
     struct Limits {

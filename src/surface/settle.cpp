@@ -83,6 +83,7 @@ Real Settler::settle(Seed& s)
         off_ = found ? Real(0) : off_;
         putOff(s, found ? sample.dominance - OVERSHOOT : off_, followed == LOST ? push_ : path_.pushMost());
     }
+    s.blocker = static_cast<uint8_t>(cover_.strongest());
     return found ? least(margin, sample.dominance - OVERSHOOT) : margin;
 }
 
@@ -191,7 +192,7 @@ PatchState Settler::probe(Patch& patch)
     const Real margin = stays ? Real(0) : settle(s);
     const Real push = stays ? Real(0) : path_.pushes();
     if (!(s.flags & SEED_VALID)) {
-        patch.blocker = static_cast<uint8_t>(cover_.strongest());
+        patch.blocker = s.blocker;
         if (nearby_.dented())
             return probeOff(patch, s);
         if (margin <= least)
@@ -235,8 +236,6 @@ void Settler::settleOthers(Patch& patch)
 {
     const Seed& centre = object_.seed(patch.centre);
     const bool someAway = !(centre.flags & SEED_VALID) || patch.facing < patch.spread;
-    if (!(centre.flags & SEED_VALID))
-        cover_.setPatch(patch);
     forSeeds(patch, [&](int i) {
         Seed& s = object_.seed(i);
         if (&s == &centre)
@@ -255,10 +254,6 @@ void Settler::settleOthers(Patch& patch)
             return;
         }
         settle(s);
-        if (!(s.flags & SEED_VALID)) {
-            patch.blocker = static_cast<uint8_t>(cover_.strongest());
-            cover_.setPatch(patch);
-        }
     });
     setRange(patch);
     if (heavy_ && !nearby_.dented())
@@ -376,7 +371,6 @@ void Settler::oversample(Patch& patch)
         return;
     patch.due = now_;
     setPatch(patch, true);
-    cover_.setPatch(patch);
     forSeeds(patch, [&](int i) {
         Seed* const extra = object_.extra(i);
         if (extra == nullptr || !(extra->flags & SEED_ACTIVE))

@@ -30,18 +30,10 @@ public:
     const Few& reaching() const { return nearby_.reaching(); }
 
     // Whether all paths of a patch are sure to lie inside the one neighbour that was the strongest there the last time.
-    bool isCovered(const Patch& patch)
-    {
-        cover_.setPatch(patch);
-        return !nearby_.dented() && cover_.hidesAll(patch);
-    }
+    bool isCovered(const Patch& patch) { return !nearby_.dented() && cover_.hidesAll(patch); }
 
     // The same of one that lay inside, before setPatch().
-    bool isStillCovered(const Patch& patch)
-    {
-        cover_.setPatch(patch);
-        return all_.common && cover_.hidesAll(patch);
-    }
+    bool isStillCovered(const Patch& patch) { return all_.common && cover_.hidesAll(patch); }
 
     // Whether all of one that lay off the surface, where something digs, still does; before setPatch().
     bool isStillOff(const Patch& patch) const { return patch.state == PATCH_INSIDE && isOff(patch, object_.regular(patch.centre)); }
