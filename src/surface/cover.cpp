@@ -8,7 +8,7 @@
 // At position COVERED_AT the own field is .23. A neighbour whose t is less than `there` at it is stronger by more than the
 // overshoot tolerance; and if its t is less than `atRest` at position 1, then between the two the body's field is above the
 // isovalue. What is not linked with the object must have that field alone.
-constexpr Cover::Limits Cover::LINKED{Real(0.4), Real(0.7), Real(0.632), Real(0.836)};
+constexpr Cover::Limits Cover::LINKED{Real(0.414), Real(0.69), Real(0.643), Real(0.83)};
 constexpr Cover::Limits Cover::UNLINKED{Real(0.18), Real(0.18), Real(0.424), Real(0.424)};
 
 // Of the field: what is linked with the object and this strong is the one that keeps its seeds off the surface.
