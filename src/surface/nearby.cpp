@@ -9,8 +9,7 @@ Nearby::Nearby(const SoftObject& object, const Neighbourhood& all, const Bodies&
     listed_.count = 0;
     for (int i = 0; i < all.count; ++i)
         listed_.number[listed_.count++] = static_cast<uint8_t>(i);
-    findComplete(listed_);
-    allComplete_ = listed_.complete;
+    allComplete_ = isComplete(listed_);
 }
 
 bool Nearby::setPatch(const Patch& patch, bool oversampled)
@@ -73,21 +72,22 @@ const Few& Nearby::findListed()
 
 void Nearby::findComplete(Few& few) const
 {
-    if (all_.common) {
-        few.complete = areAllOne(few);
-        return;
-    }
-    few.complete = areLinked(few);
-    for (int i = 0; i < few.count && few.complete; ++i) {
-        const Neighbour& near = all_.neighbours[few.number[i]];
-        if (near.digs)
-            few.complete = digAlike(few, near);
-        else if (all_.hollow)
-            few.complete = bodies_.weight(near.object->slot(), object_.slot()) == -all_.weight;
-    }
+    few.complete = all_.common ? areAllOne(few) : isComplete(few);
 }
 
-// Where all is common: whether all of them and the object have links of weight 1.
+bool Nearby::isComplete(const Few& few) const
+{
+    if (!areLinked(few))
+        return false;
+    for (int i = 0; i < few.count; ++i) {
+        const Neighbour& near = all_.neighbours[few.number[i]];
+        if (near.digs ? !digAlike(few, near) : all_.hollow && bodies_.weight(near.object->slot(), object_.slot()) != -all_.weight)
+            return false;
+    }
+    return true;
+}
+
+// The same where all is common and they are few.
 bool Nearby::areAllOne(const Few& few) const
 {
     for (int i = 0; i < few.count; ++i) {
@@ -101,7 +101,7 @@ bool Nearby::areAllOne(const Few& few) const
     return true;
 }
 
-// The same where some of them, or the object, dig: of all that do not.
+// Whether all of those that do not dig, and the object, are linked at weight 1.
 bool Nearby::areLinked(const Few& few) const
 {
     if (all_.inner)

@@ -48,6 +48,7 @@ public:
 
 private:
     void findComplete(Few& few) const;
+    bool isComplete(const Few& few) const;
     bool areAllOne(const Few& few) const;
     bool areLinked(const Few& few) const;
     bool digAlike(const Few& few, const Neighbour& digging) const;
