@@ -7,9 +7,14 @@
 
 // At position COVERED_AT the own field is .23. A neighbour whose t is less than `there` at it is stronger by more than the
 // overshoot tolerance; and if its t is less than `atRest` at position 1, then between the two the body's field is above the
-// isovalue. What is not linked with the object must have that field alone.
-constexpr Cover::Limits Cover::LINKED{Real(0.414), Real(0.69), Real(0.643), Real(0.83)};
-constexpr Cover::Limits Cover::UNLINKED{Real(0.18), Real(0.18), Real(0.424), Real(0.424)};
+// isovalue. The less it is linked with the object, the more it must do alone.
+constexpr Cover::Limits Cover::LIMITS[] = {
+    {Real(1), Real(0.414), Real(0.69), Real(0.643), Real(0.83)},
+    {Real(0.75), Real(0.35), Real(0.6), Real(0.591), Real(0.774)},
+    {Real(0.5), Real(0.28), Real(0.49), Real(0.529), Real(0.7)},
+    {Real(0.25), Real(0.24), Real(0.34), Real(0.489), Real(0.583)},
+    {Real(0), Real(0.2), Real(0.22), Real(0.447), Real(0.469)},
+};
 
 // Of the field: what is linked with the object and this strong is the one that keeps its seeds off the surface.
 static constexpr Real COVERING(0.28);
@@ -21,7 +26,12 @@ void Cover::find(int blocker)
     number_ = all_.numberOf[blocker];
     // The t of what is warped need not be convex.
     const bool judged = number_ >= 0 && all_.common && !all_.neighbours[number_].object->warped();
-    limits_ = !judged ? nullptr : nearby_.allComplete() || nearby_.isLinked(blocker) ? &LINKED : &UNLINKED;
+    limits_ = nullptr;
+    if (!judged)
+        return;
+    limits_ = LIMITS;
+    while (nearby_.weight(blocker) < limits_->weight)
+        ++limits_;
 }
 
 bool Cover::hidesPath(const Seed& s)
@@ -48,7 +58,7 @@ int Cover::strongest() const
     for (int i = 0; i < path_.touched(); ++i) {
         const Along& along = path_.along(i);
         const int candidate = along.near->object->slot();
-        const Real value = along.value > COVERING && nearby_.isLinked(candidate) ? along.value + Real(1) : along.value;
+        const Real value = along.value > COVERING && nearby_.weight(candidate) >= Real(1) ? along.value + Real(1) : along.value;
         if (value > most && !along.near->digs) {
             most = value;
             slot = candidate;

@@ -40,12 +40,12 @@ private:
     Path& path_;
     int blocker_ = -1;  // slot of the neighbour at hand; -1: none yet
     int number_;        // of it; -1: it is none
-    // What it takes: its t (model/field.h) is less than these at two positions of a path. And the roots of the two. Null: that is
-    // not known.
+    // What it takes, if it is linked with the object at some weight or more: its t (model/field.h) is less than these at two
+    // positions of a path. And the roots of the two. Null: that is not known.
     struct Limits {
-        Real there, atRest, rootThere, rootAtRest;
+        Real weight, there, atRest, rootThere, rootAtRest;
     };
-    static const Limits LINKED, UNLINKED;
+    static const Limits LIMITS[];
     const Limits* limits_ = nullptr;
 };
 

@@ -35,16 +35,14 @@ public:
     // Whether something digs where the paths are, or the seeds sample a hollow.
     bool dented() const { return dented_; }
 
-    // Whether all neighbours of the object, whatever patch they reach, and it are linked at weight 1.
-    bool allComplete() const { return allComplete_; }
     void setComplete(Few& few) const
     {
         few.complete = allComplete_;
         if (!few.complete)
             findComplete(few);
     }
-    // Whether the object is linked with another at weight 1.
-    bool isLinked(int slot) const { return (bodies_.plainLinks(object_.slot())[slot / 32] >> slot % 32 & 1) != 0; }
+    // The weight of the object's link with another; 0: there is none.
+    Real weight(int slot) const { return ownWeights_[slot]; }
 
 private:
     void findComplete(Few& few) const;
@@ -59,7 +57,7 @@ private:
     const Neighbourhood& all_;
     const Bodies& bodies_;
     const Real* const ownWeights_;  // of the object's links, by slots
-    bool allComplete_;
+    bool allComplete_;  // all neighbours of the object, whatever patch they reach, and it are linked at weight 1
 
     // Of the patch.
     const Patch* patch_;
