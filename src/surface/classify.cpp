@@ -78,7 +78,7 @@ Bound boundOf(const Patch& patch, int32_t restRadius)
     return {middle.x, middle.y, middle.z, radius >> 6};
 }
 
-bool reaches(const Neighbour& near, const Bound& ball)
+bool reachesFromCore(const Neighbour& near, const Bound& ball)
 {
     return within(fromCore(near, {ball.x, ball.y, ball.z}), near.size16 + ball.radius);
 }

@@ -116,8 +116,15 @@ struct Bound {
 };
 Bound boundOf(const Patch& patch, int32_t restRadius);
 
-// Whether a neighbour's field reaches into a ball.
-bool reaches(const Neighbour& near, const Bound& ball);
+// Whether a neighbour's field reaches into a ball; most neighbours are points.
+bool reachesFromCore(const Neighbour& near, const Bound& ball);
+inline bool reaches(const Neighbour& near, const Bound& ball)
+{
+    if (near.kind != Neighbour::POINT)
+        return reachesFromCore(near, ball);
+    const int32_t x = ball.x - near.x16, y = ball.y - near.y16, z = ball.z - near.z16, reach = near.size16 + ball.radius;
+    return x * x + y * y + z * z < reach * reach;
+}
 
 // Whether all seeds of a patch, if they were at one position, would lie nearer to a neighbour's core than a part of its size.
 bool isWithin(const Patch& patch, const Neighbour& near, Real position, Real part);

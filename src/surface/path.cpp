@@ -72,13 +72,15 @@ void Path::take(const Few& few, const Seed& s)
         complete_ = few.complete;
         touched_ = few.count;
         end_ = along_ + few.count;
-        odd_ = !ownPlain_;
-        others_ = false;
-        for (int i = 0; i < few.count; ++i) {
-            find(few.number[i], along_[i]);
-            odd_ = odd_ || !along_[i].near->plain;
-            others_ = others_ || along_[i].kind == Neighbour::OTHER;
+        const uint8_t* number = few.number;
+        bool plain = ownPlain_, others = false;
+        for (Along* along = along_; along < end_; ++along) {
+            find(*number++, *along);
+            plain &= along->near->plain;
+            others |= along->kind == Neighbour::OTHER;
         }
+        odd_ = !plain;
+        others_ = others;
     }
     for (Along* along = along_; along < end_; ++along)
         if (along->from->root != s.root)
