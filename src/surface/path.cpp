@@ -46,12 +46,11 @@ void Path::setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const
     if (!known) {
         const Vector d = inSizes(s.path);
         to.c = dot(d, d);
+        to.along16 = near.toCore[1];
     }
     to.twice16 = e * shiftUp(near.inverse16, 1);
-    if (near.kind == Neighbour::SEGMENT) {
-        to.along16 = near.toCore[1];
+    if (near.kind == Neighbour::SEGMENT)
         to.y = shiftDown(dot(to.apart, to.along16), 4);
-    }
 }
 
 Real Along::otherParam(Real p)
