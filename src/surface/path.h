@@ -29,8 +29,14 @@ public:
     // The same without a look.
     SELDOM void beginDeepSearch(const Seed& s);
 
-    // Looks at a position of the path at hand.
+    // Looks at a position of the path at hand; and of that of a seed, in the fields of those neighbours that may reach it there.
     Sample look(Real position);
+    Sample lookOn(const Seed& s, Real position)
+    {
+        Sample sample;
+        begin(nearby_.at(position), s, position, &sample);
+        return sample;
+    }
 
     // The direction in which the field falls at a position that has just been looked at, any length, own axes.
     Vector outward(Real position) const;

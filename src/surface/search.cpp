@@ -162,12 +162,14 @@ Real search(Path& path, Real* position, Sample* sample)
     return lowest.sample.excess;
 }
 
-bool comesBack(Path& path, Real from, bool far, Real* position, Sample* sample)
+bool comesBack(Path& path, const Seed& s, bool far, Real* position, Sample* sample)
 {
-    const Real left = from, end = far ? path.last() : from + RETURN_FAR, step = far ? SEARCH_STEP : RETURN_STEP;
+    const Real left = s.position;
+    Real from = left;
+    const Real end = far ? path.last() : from + RETURN_FAR, step = far ? SEARCH_STEP : RETURN_STEP;
     while (from < end) {
         const Real outside = from;
-        const Sample now = path.look(from += step);
+        const Sample now = path.lookOn(s, from += step);
         if (now.excess > Real(0)) {
             if (outside == left)
                 return false;

@@ -22,8 +22,8 @@ Real search(Path& path, Real* position, Sample* sample);
 // `*push` becomes by how much that may change when the neighbours come by a unit.
 SELDOM Real searchDeep(Path& path, Real* position, Sample* sample, Real* off, Real* push);
 
-// Where a path that has left the surface at `from` comes back to it. `far`: it is followed to its end, however far below the
-// isovalue the field falls between. False: it comes back nowhere, or so near that the two places cannot be told apart.
-bool comesBack(Path& path, Real from, bool far, Real* position, Sample* sample);
+// Where the path of a seed comes back to the surface that it left at the seed. `far`: it is followed to its end, however far below
+// the isovalue the field falls between. False: it comes back nowhere, or so near that the two places cannot be told apart.
+bool comesBack(Path& path, const Seed& s, bool far, Real* position, Sample* sample);
 
 #endif

@@ -426,8 +426,7 @@ void Settler::settleBehind(const Seed& valid, bool far, Seed& s)
     Sample sample;
     s = valid;
     s.flags = 0;
-    path_.beginSearch(s);
-    if (!comesBack(path_, valid.position, far, &s.position, &sample) || sample.dominance > OVERSHOOT)
+    if (!comesBack(path_, s, far, &s.position, &sample) || sample.dominance > OVERSHOOT)
         return;
     s.flags = SEED_ACTIVE;
     place(s, sample.dominance);
