@@ -40,10 +40,20 @@ Real roundLength(const Vector& v)
 
 Stand standOf(const SoftObject& object, const Neighbour& near)
 {
+    Stand stand;
+    stand.size = near.size;
+    stand.inRange = object.inRange(*near.object);
+    stand.place = near.centre;
+    if (near.kind == Neighbour::POINT)
+        return stand;
     const bool shaped = near.object->shaped();
     const Real unit = shaped ? Real(1) : near.size * Real(1.0 / CORE_SIZE);
-    return {shaped ? near.offset : near.centre, {near.toCore[0] * unit, near.toCore[1] * unit, near.toCore[2] * unit},
-            near.size, near.object->warp().amounts(), object.inRange(*near.object)};
+    if (shaped)
+        stand.place = near.offset;
+    for (int i = 0; i < 3; ++i)
+        stand.axes[i] = near.toCore[i] * unit;
+    stand.warp = near.object->warp().amounts();
+    return stand;
 }
 
 Real cameWithin(const Neighbour& near, const Stand& now, const Stand& before, Real reach)

@@ -6,8 +6,9 @@
 
 // Its centre and its axes, in the space of an object; of what is shaped, the map into its core space.
 struct Stand {
-    Vector place, axes[3];
+    Vector place;
     Real size;
+    Vector axes[3];    // of a point these are not known
     WarpAmounts warp;
     bool inRange;  // of the object
 };
