@@ -129,11 +129,10 @@ static bool dentedFromWithin(const SoftObject& object, const Bodies& bodies)
     return false;
 }
 
-// Where a neighbour is and how large, in own space.
-static void place(const SoftObject& object, Neighbour& near)
+// Where a neighbour is and how large, in own space; `growth` is the object's.
+static void place(const SoftObject& object, Real growth, Neighbour& near)
 {
     const SoftObject& other = *near.object;
-    const Real growth = object.growth();
     const bool grown = object.size() != object.laidSize();
     const Vector apart = object.toOwnAxes(other.centre() - object.centre());
     near.kind = Neighbour::POINT;
@@ -174,15 +173,17 @@ static void weigh(const Bodies& bodies, const Neighbourhood& all, Neighbour& nea
 static void gatherFrom(SoftObject* const* from, int count, bool digs, const SoftObject& object, const Bodies& bodies,
                        Neighbourhood& all)
 {
+    const Real growth = object.growth();
+    Neighbour* next = all.neighbours + all.count;
     for (SoftObject* const* const end = from + count; from < end && all.count < NEIGHBOURS_MAX; ++from) {
         const SoftObject& other = **from;
         if (&other == &object || !object.inRange(other, GATHER_SLACK))
             continue;
-        all.numberOf[other.slot()] = static_cast<int8_t>(all.count);
-        Neighbour& near = all.neighbours[all.count++];
+        all.numberOf[other.slot()] = static_cast<int8_t>(all.count++);
+        Neighbour& near = *next++;
         near.object = &other;
         near.digs = digs;
-        place(object, near);
+        place(object, growth, near);
         weigh(bodies, all, near);
         if (!other.isBall())
             aim(object, near);
