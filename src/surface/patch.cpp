@@ -32,9 +32,9 @@ Real pathOf(const SoftObject& object, const Patch& patch, const Vector& axis, Re
 {
     Real path(0);
     if (object.shaped())
-        forSeeds(patch, [&](int i) { path += dot(object.seed(i).path, axis) * share; });
+        forSeeds(object, patch, [&](const Seed& s, int) { path += dot(s.path, axis) * share; });
     else if (object.tapers())
-        forSeeds(patch, [&](int i) { path += length(object.seed(i).path) * share; });
+        forSeeds(object, patch, [&](const Seed& s, int) { path += length(s.path) * share; });
     else
         path = object.radius();
     return path;
@@ -44,7 +44,7 @@ Real pathOf(const SoftObject& object, const Patch& patch, const Vector& axis, Re
 SELDOM int16_t leanOf(const SoftObject& object, const Patch& patch, const Vector& axis, Real path)
 {
     Real most(0);
-    forSeeds(patch, [&](int i) { most = ::most(most, length(object.seed(i).path - axis * path)); });
+    forSeeds(object, patch, [&](const Seed& s, int) { most = ::most(most, length(s.path - axis * path)); });
     return static_cast<int16_t>(steps16(most) + 1);
 }
 
@@ -56,16 +56,16 @@ void setPatch(const SoftObject& object, Patch& patch)
     const Real share = Real(1) / Real(count);
 
     Vector middle{Real(0), Real(0), Real(0)}, axis = middle;
-    forSeeds(patch, [&](int i) {
-        middle = middle + restOf(object, object.seed(i));
-        axis = axis + restNormalOf(object, object.seed(i));
+    forSeeds(object, patch, [&](const Seed& s, int) {
+        middle = middle + restOf(object, s);
+        axis = axis + restNormalOf(object, s);
     });
     middle = middle * share;
     axis = unit(axis * share);
     Square radius(0), spread(0);
-    forSeeds(patch, [&](int i) {
-        const Square away = squareOf(restOf(object, object.seed(i)) - middle);
-        const Square aside = squareOf(restNormalOf(object, object.seed(i)) - axis);
+    forSeeds(object, patch, [&](const Seed& s, int) {
+        const Square away = squareOf(restOf(object, s) - middle);
+        const Square aside = squareOf(restNormalOf(object, s) - axis);
         radius = radius < away ? away : radius;
         spread = spread < aside ? aside : spread;
     });

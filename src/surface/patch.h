@@ -66,13 +66,16 @@ struct Patch {
     Bend bend;
 };
 
-// Calls `each` with the slot of every regular seed of a patch.
-template <class Each>
-inline void forSeeds(const Patch& patch, Each each)
+// Calls `each` with every regular seed of an object's patch and its slot.
+template <class Object, class Each>
+inline void forSeeds(Object& object, const Patch& patch, Each each)
 {
-    for (int ring = 0; ring < PATCH_RINGS; ++ring)
-        for (int i = patch.first[ring], end = i + patch.count[ring]; i < end; ++i)
-            each(2 * i);
+    for (int ring = 0; ring < PATCH_RINGS; ++ring) {
+        int i = 2 * patch.first[ring];
+        auto* s = &object.regular(i);
+        for (auto* const end = s + patch.count[ring]; s < end; ++s, i += 2)
+            each(*s, i);
+    }
 }
 
 // Calls `each` with the slot of every neighbour on a list.

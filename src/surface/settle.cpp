@@ -38,7 +38,7 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& a
     : path_(object, all, *frame.bodies, nearby_, *frame.counts), nearby_(object, all, *frame.bodies),
       cover_(object, all, nearby_, path_), object_(object), own_(own), all_(all), counts_(*frame.counts), now_(odometer.reading()),
       came_(realFromRaw(static_cast<int32_t>(odometer.came() << 6))), updates_(updates),
-      heavy_(frame.bodies->heaviest(object.slot()) > HEAVY)
+      heavy_(frame.bodies->heaviest(object.slot()) > HEAVY), last_(&object.regular(object.seedSlots() - 2))
 {
     Real strongest = most(object.strength(), Real(1));
     for (int i = 0; i < all.count; ++i)
@@ -218,10 +218,9 @@ PatchState Settler::probe(Patch& patch)
 void Settler::setRange(Patch& patch) const
 {
     Real nearest(9), farthest(0);
-    forSeeds(patch, [&](int i) {
-        const Real position = object_.seed(i).position;
-        nearest = least(nearest, position);
-        farthest = most(farthest, position);
+    forSeeds(object_, patch, [&](const Seed& s, int) {
+        nearest = least(nearest, s.position);
+        farthest = most(farthest, s.position);
     });
     patch.nearest = static_cast<uint8_t>(rawFromReal(nearest - RANGE) >> 10);
     patch.farthest = static_cast<uint8_t>(rawFromReal(farthest + RANGE) >> 10);
@@ -236,8 +235,7 @@ void Settler::settleOthers(Patch& patch)
 {
     const Seed& centre = object_.seed(patch.centre);
     const bool someAway = !(centre.flags & SEED_VALID) || patch.facing < patch.spread;
-    forSeeds(patch, [&](int i) {
-        Seed& s = object_.seed(i);
+    forSeeds(object_, patch, [&](Seed& s, int) {
         if (&s == &centre)
             return;
         // What has slept or rested is likely to be where the one in the middle is.
@@ -257,7 +255,7 @@ void Settler::settleOthers(Patch& patch)
     });
     setRange(patch);
     if (heavy_ && !nearby_.dented())
-        forSeeds(patch, [&](int i) { patch.islands |= settleIsland(patch, i); });
+        forSeeds(object_, patch, [&](const Seed&, int i) { patch.islands |= settleIsland(patch, i); });
 }
 
 // Coherence over time: a seed that did not move when it was looked at waits for a frame, and so does one that faces away a
@@ -324,7 +322,7 @@ void putAway(SoftObject& object, int i)
 void putAway(SoftObject& object, Patch& patch)
 {
     if (patch.extras || patch.islands)
-        forSeeds(patch, [&](int i) {
+        forSeeds(object, patch, [&](const Seed&, int i) {
             putAway(object, i);
             putAwayFine(object, i, SoftObject::FINE_SEEDS);
         });
@@ -334,21 +332,21 @@ void putAway(SoftObject& object, Patch& patch)
 }  // namespace
 
 // Whether a seed lies as its neighbour N does, and is on the surface if the next of its ring is: nothing is needed between them.
-inline bool Settler::isAlike(int i) const
+inline bool Settler::isAlike(const Seed& s) const
 {
-    const Seed *const s = &object_.regular(i), *const next = i + 2 < object_.seedSlots() ? s + 1 : s;
-    const Seed* const n = s->neighbour >= 0 ? &object_.regular(s->neighbour) : s;
-    if (((s->flags ^ n->flags) | (s->flags ^ next->flags)) & SEED_VALID)
+    const Seed& n = s.neighbour >= 0 ? object_.regular(s.neighbour) : s;
+    const Seed& next = &s < last_ ? *(&s + 1) : s;
+    if (((s.flags ^ n.flags) | (s.flags ^ next.flags)) & SEED_VALID)
         return false;
-    return !(s->flags & SEED_VALID) || absolute(s->position - n->position) <= alike_;
+    return !(s.flags & SEED_VALID) || absolute(s.position - n.position) <= alike_;
 }
 
 void Settler::oversample(Patch& patch)
 {
     const bool had = patch.extras;
     bool any = false;
-    forSeeds(patch, [&](int i) {
-        const int other = isAlike(i) ? -1 : parted(object_, i);
+    forSeeds(object_, patch, [&](const Seed& s, int i) {
+        const int other = isAlike(s) ? -1 : parted(object_, i);
         if (other < 0) {
             if (had)
                 putAway(object_, i);
@@ -360,7 +358,7 @@ void Settler::oversample(Patch& patch)
             putAway(object_, i);
         if (!(extra.flags & SEED_ACTIVE)) {
             extra.flags = SEED_ACTIVE | SEED_FOLLOW;
-            extra.position = object_.seed(i).position;
+            extra.position = s.position;
             extra.still = 0;
         }
     });
@@ -371,7 +369,7 @@ void Settler::oversample(Patch& patch)
         return;
     patch.due = now_;
     setPatch(patch, true);
-    forSeeds(patch, [&](int i) {
+    forSeeds(object_, patch, [&](const Seed&, int i) {
         Seed* const extra = object_.extra(i);
         if (extra == nullptr || !(extra->flags & SEED_ACTIVE))
             return;
@@ -451,8 +449,7 @@ void rest(SoftObject& object, Patch& patch)
     patch.nearest = patch.farthest = 64;
     patch.bend.known = false;
     putAway(object, patch);
-    forSeeds(patch, [&](int i) {
-        Seed& s = object.seed(i);
+    forSeeds(object, patch, [&](Seed& s, int) {
         if (s.flags != (SEED_VALID | SEED_RESTING)) {
             s.position = Real(1);
             s.normal = object.restNormal(s);
@@ -464,9 +461,9 @@ void rest(SoftObject& object, Patch& patch)
 void sleep(SoftObject& object, Patch& patch)
 {
     putAway(object, patch);
-    forSeeds(patch, [&](int i) {
+    forSeeds(object, patch, [&](Seed& s, int i) {
         if (i != patch.centre)
-            object.seed(i).flags = SEED_ASLEEP;
+            s.flags = SEED_ASLEEP;
     });
 }
 

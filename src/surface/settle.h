@@ -71,7 +71,7 @@ private:
     int stillOff() const { return nearby_.dented() ? SEED_OFF | SEED_FOLLOW : 0; }
     bool isCovered(const Seed& s) { return nearby_.dented() ? isOff(*patch_, s) : cover_.hides(s); }
     void setRange(Patch& patch) const;
-    bool isAlike(int i) const;
+    bool isAlike(const Seed& s) const;
     SELDOM bool settleFine(int i);
     void settleBehind(const Seed& valid, bool far, Seed& s);
     SELDOM bool settleIsland(const Patch& patch, int i);
@@ -96,6 +96,7 @@ private:
     const Real came_;   // how far neighbours came in this frame, units
     const uint32_t updates_;
     const bool heavy_;  // the object has a link of more than HEAVY
+    const Seed* const last_;  // of the regular ones
     const Patch* patch_ = nullptr;  // that is at hand
     uint32_t turn_ = 0; // of it: what waits takes turns
     Real border_;       // of the field: a neighbour that is weaker than the own by less is near
