@@ -8,6 +8,8 @@
 #define SEED_PATH    0
 #define SEED_POSITION 12
 #define SEED_NORMAL  20
+#define SEED_PLACE   26
+#define SEED_OUT     32
 #define SEED_ROOT    34
 #define SEED_FLAGS   36
 #define SEED_ALONG   39
@@ -109,12 +111,6 @@
         sarl        %cl, %eax
         movl        %eax, VOXEL_X+\part(%edi)
 .endm
-.macro place_resting part
-        movl        SEED_PATH+\part(%esi), %eax
-        addl        \part(%ebx), %eax
-        sarl        %cl, %eax
-        movl        %eax, VOXEL_X+\part(%edi)
-.endm
 
 // eax = part k of the normal, at `normal` of the seed, times that of the vector from the place (edi) to the eye
 .macro to_eye part, normal
@@ -130,9 +126,9 @@
 // the shading, cl the shift of places.
 #define FIND_END     0                  /* behind the last seed of the ring */
 #define FIND_RING    4
-#define FIND_TURNED  8
-#define FIND_FIRST   12
-#define FIND_FRAME   16
+#define FIND_TURNED  8                  /* two words */
+#define FIND_FIRST   16
+#define FIND_FRAME   20
 #define FIND_SHADING (FIND_FRAME+20)
 #define FIND_PATCH   (FIND_FRAME+24)
 #define FIND_SEEN    (FIND_FRAME+28)
@@ -166,36 +162,31 @@ find_one:
         movb        SEED_FLAGS(%esi), %dl
         testb        $SEED_VALID, %dl
         jz        find_not
-        // findPlace(v, s, place)
-        movzwl        SEED_ROOT(%esi), %ebx
-        movl        ROOTS(%ebp), %eax
-        leal        (%ebx,%ebx,2), %ebx
-        leal        (%eax,%ebx,4), %ebx
         testb        $SEED_RESTING, %dl
-        jnz        find_resting
-        place        0
-        place        4
-        place        8
-find_placed:
-        // facing = (normal * (eye - (place >> 3))) >> 11; if (facing <= v.limb) continue
-        to_eye        0, 0
-        movl        %eax, %ebx
-        to_eye        4, 2
-        addl        %eax, %ebx
-        to_eye        8, 4
-        addl        %eax, %ebx
+        jz        find_moved
+        // facing = (normal * eye >> 11) - s.out; if (facing <= v.limb) continue
+        product        SEED_NORMAL, EYE, %ebx, %eax
+        movswl        SEED_OUT(%esi), %eax
         sarl        $11, %ebx
+        subl        %eax, %ebx
         cmpl        LIMB(%ebp), %ebx
         jle        find_not
+        cmpl        $0, TURNED(%ebp)
+        jne        find_resting_turned
+        movswl        SEED_PLACE(%esi), %eax
+        movl        %eax, VOXEL_X(%edi)
+        movswl        SEED_PLACE+2(%esi), %eax
+        movl        %eax, VOXEL_Y(%edi)
+        movswl        SEED_PLACE+4(%esi), %eax
+        movl        %eax, VOXEL_Z(%edi)
         // *seen++ = {&s, facing}
+find_found:
         movl        FIND_SEEN(%esp), %eax
+        addl        $VOXEL_SIZE, %edi
         movl        %esi, SEEN_SEED(%eax)
         movl        %ebx, SEEN_FACING(%eax)
-        addl        $SEEN_SIZE, FIND_SEEN(%esp)
-        cmpl        $0, TURNED(%ebp)
-        jne        find_turned
-find_found:
-        addl        $VOXEL_SIZE, %edi
+        addl        $SEEN_SIZE, %eax
+        movl        %eax, FIND_SEEN(%esp)
 find_not:
         addl        $SEED_SIZE, %esi
 find_next:
@@ -216,20 +207,50 @@ find_next:
         popl        %ebp
         ret
 
-find_resting:
-        place_resting 0
-        place_resting 4
-        place_resting 8
-        jmp        find_placed
-find_turned:
+        // voxel = place * the axes of the view
+find_resting_turned:
+        product        SEED_PLACE, TO_RIGHT, %eax, %edx
+        sarl        $14, %eax
+        movl        %eax, VOXEL_X(%edi)
+        product        SEED_PLACE, TO_UP, %eax, %edx
+        sarl        $14, %eax
+        movl        %eax, VOXEL_Y(%edi)
+        product        SEED_PLACE, TO_AHEAD, %eax, %edx
+        sarl        $14, %eax
+        movl        %eax, VOXEL_Z(%edi)
+        jmp        find_found
+
+        // findPlace(v, s, place)
+find_moved:
+        movzwl        SEED_ROOT(%esi), %ebx
+        movl        ROOTS(%ebp), %eax
+        leal        (%ebx,%ebx,2), %ebx
+        leal        (%eax,%ebx,4), %ebx
+        place        0
+        place        4
+        place        8
+        // facing = (normal * (eye - (place >> 3))) >> 11; if (facing <= v.limb) continue
+        to_eye        0, 0
+        movl        %eax, %ebx
+        to_eye        4, 2
+        addl        %eax, %ebx
+        to_eye        8, 4
+        addl        %eax, %ebx
+        sarl        $11, %ebx
+        cmpl        LIMB(%ebp), %ebx
+        jle        find_not
+        cmpl        $0, TURNED(%ebp)
+        je        find_found
         along        TO_RIGHT, %eax, %edx
         movl        %eax, FIND_TURNED(%esp)
-        along        TO_UP, %ebx, %edx
+        along        TO_UP, %eax, %edx
+        movl        %eax, FIND_TURNED+4(%esp)
         along        TO_AHEAD, %eax, %edx
         movl        %eax, VOXEL_Z(%edi)
-        movl        %ebx, VOXEL_Y(%edi)
         movl        FIND_TURNED(%esp), %eax
         movl        %eax, VOXEL_X(%edi)
+        movl        FIND_TURNED+4(%esp), %eax
+        movl        %eax, VOXEL_Y(%edi)
         jmp        find_found
 ENDFUNC(findSeedsA)
 

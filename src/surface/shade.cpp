@@ -101,12 +101,9 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     shading_.seeds = &object.regular(0);
     shading_.roots = &object.root(0);
     ball_ = object.isBall();
-    // No seed leaves the reach of its object. Places have 16 bits.
     const int32_t reach = rawFromReal(object.reach()) >> 8;
     near_ = own_.centre[2] - reach < NEAREST_DEPTH || own_.centre[2] + reach >= FARTHEST_DEPTH;
-    shading_.placeShift = 8;
-    for (int32_t most = rawFromReal(object.laidReach()) >> 8; most > 32000; most >>= 1)
-        ++shading_.placeShift;
+    shading_.placeShift = object.placeShift();
     // A step of places in 1/256 unit of the world, 16 bits of fraction.
     const int32_t step = rawFromReal(own.growth) << (shading_.placeShift - 8);
     shading_.turned = !ball_ || object.size() != object.laidSize() || frame.axes.turned;

@@ -131,10 +131,13 @@ bool findSeed(const Shading& v, const Seed& s, Seen* seen, Voxel* voxel)
 {
     if (!(s.flags & SEED_VALID))
         return false;
-    int32_t place[3];
+    int32_t place[3], facing;
     findPlace(v, s, place);
-    const int32_t facing = (s.normal.x * (v.eye[0] - (place[0] >> 3)) + s.normal.y * (v.eye[1] - (place[1] >> 3)) +
-                            s.normal.z * (v.eye[2] - (place[2] >> 3))) >> 11;
+    if (s.flags & SEED_RESTING)
+        facing = ((s.normal.x * v.eye[0] + s.normal.y * v.eye[1] + s.normal.z * v.eye[2]) >> 11) - s.out;
+    else
+        facing = (s.normal.x * (v.eye[0] - (place[0] >> 3)) + s.normal.y * (v.eye[1] - (place[1] >> 3)) +
+                  s.normal.z * (v.eye[2] - (place[2] >> 3))) >> 11;
     if (facing <= v.limb)
         return false;
     const auto along = [&](const int32_t axis[3]) {

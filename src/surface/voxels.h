@@ -82,8 +82,12 @@ constexpr int32_t AREA_MOST = 16383;
 // Where a seed is in own space, in steps of places.
 inline void findPlace(const Shading& v, const Seed& s, int32_t place[3])
 {
-    const Vector& root = v.roots[s.root];
-    const Vector to = s.flags & SEED_RESTING ? root + s.path : root + s.path * s.position;
+    if (s.flags & SEED_RESTING) {
+        for (int i = 0; i < 3; ++i)
+            place[i] = s.place[i];
+        return;
+    }
+    const Vector to = v.roots[s.root] + s.path * s.position;
     place[0] = rawFromReal(to.x) >> v.placeShift;
     place[1] = rawFromReal(to.y) >> v.placeShift;
     place[2] = rawFromReal(to.z) >> v.placeShift;

@@ -931,7 +931,8 @@ void clearsAndCopies(int rounds)
 
 // What asm/voxels.S counts on.
 static_assert(inasm2::SEED_PATH == offsetof(Seed, path) && inasm2::SEED_POSITION == offsetof(Seed, position) &&
-              inasm2::SEED_NORMAL == offsetof(Seed, normal) &&
+              inasm2::SEED_NORMAL == offsetof(Seed, normal) && inasm2::SEED_PLACE == offsetof(Seed, place) &&
+              inasm2::SEED_OUT == offsetof(Seed, out) &&
               inasm2::SEED_ROOT == offsetof(Seed, root) && inasm2::SEED_FLAGS == offsetof(Seed, flags) &&
               inasm2::SEED_ALONG == offsetof(Seed, along) && inasm2::SEED_ACROSS == offsetof(Seed, across) &&
               inasm2::SEED_WAY == offsetof(Seed, way) && inasm2::SEED_AREA == offsetof(Seed, area) &&
