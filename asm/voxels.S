@@ -61,9 +61,10 @@
 #define CELL_SHIFT   124
 #define AREA_SHARE   128
 #define WHOLE_MOST   132
-#define HORIZON      136
-#define GRADIENT     140
-#define AHEAD        148
+#define DEEPEST      136
+#define HORIZON      140
+#define GRADIENT     144
+#define AHEAD        152
 #define STEEPEST_TILT 20000
 #define MARGIN_SHIFT 5
 #define MARGIN_UNITS 14
@@ -376,11 +377,24 @@ shade_steep:
         movswl        SEED_NORMAL+2(%esi), %edx
         imull        %eax, %ecx
         imull        %eax, %edx
-shade_tilts:
         sarl        $14, %ecx
         sarl        $14, %edx
         movw        %cx, VOXEL_TILTX(%edi)
         movw        %dx, VOXEL_TILTY(%edi)
+
+        // cosine = s.normal * v.light >> 14; light = (cosine * BRIGHTEST + 8192) >> 14
+shade_tilted:
+        product        SEED_NORMAL, LIGHT, %edx, %ecx
+        sarl        $14, %edx
+        imull        $BRIGHTEST, %edx, %edx
+        addl        $8192, %edx
+        sarl        $14, %edx
+        movl        %edx, SHADE_LIGHT(%esp)
+        // voxel.brightness = larger(light, 0), and all behind it 0
+        jle        shade_dark
+shade_lit:
+        movl        %edx, VOXEL_BRIGHT(%edi)
+        movl        $0, VOXEL_SLOPEX(%edi)
 
         testb        $SEED_RESTING, SEED_FLAGS(%esi)
         jz        shade_fallen
@@ -437,52 +451,17 @@ shade_extents:
 shade_wide:
         cmpl        $0x7fff, %eax
         jg        shade_too_high
+        // reach = (v.horizonShare * facing >> 16) + 1; if (reach < 256) ..
 shade_extended:
-        movw        %cx, VOXEL_WIDE(%edi)
-        movw        %ax, VOXEL_HIGH(%edi)
-
-        // cosine = s.normal * v.light >> 14; light = (cosine * BRIGHTEST + 8192) >> 14
-        movl        SEEN_SEED(%ebx), %esi
-        movl        %ecx, SHADE_AREA(%esp)
-        product        SEED_NORMAL, LIGHT, %edx, %ecx
-        movl        SHADE_AREA(%esp), %ecx
-        sarl        $14, %edx
-        imull        $BRIGHTEST, %edx, %edx
-        addl        $8192, %edx
-        sarl        $14, %edx
-        movl        %edx, SHADE_LIGHT(%esp)
-        // voxel.brightness = larger(light, 0), and all behind it 0
-        jle        shade_dark
-shade_lit:
-        movl        %edx, VOXEL_BRIGHT(%edi)
-        movl        $0, VOXEL_SLOPEX(%edi)
-
-        // reach = (v.horizonShare * facing >> 16) + 1
         movl        HORIZON(%ebp), %edx
         imull        SEEN_FACING(%ebx), %edx
         sarl        $16, %edx
-        incl        %edx
-        // if (reach < 256 && (|tiltX| * wide + |tiltY| * high) >> 11 >= reach) voxel.reach = reach
-        cmpl        $256, %edx
-        jge        shade_no_end
-        movl        %edx, SHADE_AREA(%esp)
-        movswl        VOXEL_TILTX(%edi), %esi
-        testl        %esi, %esi
-        jns        1f
-        negl        %esi
-1:        imull        %ecx, %esi
-        movswl        VOXEL_TILTY(%edi), %edx
-        testl        %edx, %edx
-        jns        1f
-        negl        %edx
-1:        imull        %eax, %edx
-        addl        %edx, %esi
-        sarl        $11, %esi
-        movl        SHADE_AREA(%esp), %edx
-        cmpl        %edx, %esi
-        jl        shade_no_end
-        movb        %dl, VOXEL_REACH(%edi)
-shade_no_end:
+        cmpl        $255, %edx
+        jl        shade_end
+shade_ended:
+        movw        %cx, VOXEL_WIDE(%edi)
+        movw        %ax, VOXEL_HIGH(%edi)
+
         // if (light <= DARK_MIDDLE) return
         cmpl        $DARK_MIDDLE, SHADE_LIGHT(%esp)
         jle        shade_done
@@ -512,19 +491,14 @@ shade_no_end:
         cmpl        $FLAT_SHADING, %eax
         jl        shade_done
         // for (; corner > STEEPEST_SHADING; corner >>= 1) slopeX >>= 1, slopeY >>= 1
-        jmp        2f
-1:        sarl        $1, %edx
-        sarl        $1, %esi
-        sarl        $1, %eax
-2:        cmpl        $STEEPEST_SHADING, %eax
-        jg        1b
+        cmpl        $STEEPEST_SHADING, %eax
+        jg        shade_steepest_shading
         // if (corner + light * 8 <= 0) return; voxel.brightness = light
-        movl        SHADE_LIGHT(%esp), %ecx
-        leal        (%eax,%ecx,8), %eax
-        testl        %eax, %eax
-        jle        shade_done
-        movb        %cl, VOXEL_BRIGHT(%edi)
+shade_softened:
+        cmpl        $0, SHADE_LIGHT(%esp)
+        jl        shade_dark_middle
         // voxel.slopeX = limited(slopeX, 127), and the other
+shade_slopes:
         leal        127(%edx), %eax
         cmpl        $254, %eax
         ja        shade_limit_x
@@ -555,12 +529,44 @@ shade_turned:
         product        SEED_NORMAL, RIGHT, %ecx, %edx
         sarl        $14, %ecx
         imull        %eax, %ecx
-        movl        %ecx, SHADE_AREA(%esp)
+        sarl        $14, %ecx
+        movw        %cx, VOXEL_TILTX(%edi)
         product        SEED_NORMAL, UP, %edx, %ecx
-        movl        SHADE_AREA(%esp), %ecx
         sarl        $14, %edx
         imull        %eax, %edx
-        jmp        shade_tilts
+        sarl        $14, %edx
+        movw        %dx, VOXEL_TILTY(%edi)
+        jmp        shade_tilted
+
+        // deep = (|tiltX| * wide + |tiltY| * high) >> 8; if (deep >= reach * 8) voxel.reach = reach
+shade_end:
+        movswl        VOXEL_TILTX(%edi), %esi
+        magnitude        %esi
+        imull        %ecx, %esi
+        movswl        VOXEL_TILTY(%edi), %ebp
+        magnitude        %ebp
+        imull        %eax, %ebp
+        addl        %ebp, %esi
+        movl        SHADE_SHADING(%esp), %ebp
+        incl        %edx
+        sarl        $8, %esi
+        leal        (,%edx,8), %edx        // reach * 8
+        cmpl        %edx, %esi
+        jl        shade_ended
+        shrl        $3, %edx
+        movb        %dl, VOXEL_REACH(%edi)
+        // if (deep > v.deepest) wide = wide * v.deepest / deep, and high likewise
+        cmpl        DEEPEST(%ebp), %esi
+        jle        shade_ended
+        imull        DEEPEST(%ebp), %eax
+        xorl        %edx, %edx
+        divl        %esi
+        xchgl        %eax, %ecx
+        imull        DEEPEST(%ebp), %eax
+        xorl        %edx, %edx
+        divl        %esi
+        xchgl        %eax, %ecx
+        jmp        shade_ended
 
         // wide = (wide + |across.x|) >> v.cellShift, and high likewise
 shade_whole:
@@ -666,6 +672,20 @@ shade_too_wide:
 shade_too_high:
         movl        $0x7fff, %eax
         jmp        shade_extended
+shade_steepest_shading:
+        sarl        $1, %edx
+        sarl        $1, %esi
+        sarl        $1, %eax
+        cmpl        $STEEPEST_SHADING, %eax
+        jg        shade_steepest_shading
+        jmp        shade_softened
+shade_dark_middle:
+        movl        SHADE_LIGHT(%esp), %ecx
+        leal        (%eax,%ecx,8), %eax
+        testl        %eax, %eax
+        jle        shade_done
+        movb        %cl, VOXEL_BRIGHT(%edi)
+        jmp        shade_slopes
         // 127 with the sign it has.
 shade_limit_x:
         sarl        $31, %edx

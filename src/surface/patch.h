@@ -55,6 +55,8 @@ struct Patch {
     int16_t tight;      // of one that just holds them
     int16_t axis[3];    // the mean of their normals
     int16_t spread;     // greatest length of the difference of a normal to the axis
+    int16_t behind;     // where one of its seeds at rest faces a viewer, the axis times his place, and `spread` times his distance
+                        // more, is no less than this
     int16_t path;       // mean length of their paths; of a shaped object, along the axis
     int16_t lean;       // how far from there one of them leads at most; 0: all lead along their normals
     uint8_t nearest, farthest;          // between which positions its seeds are, 1/64
@@ -130,7 +132,12 @@ bool isHidden(const Patch& patch, const OwnFrame& own);
 bool isHidden(const Patch& patch, Real position, const OwnFrame& own);
 
 // Whether a patch at rest faces away from the viewer.
-bool restsAway(const Patch& patch, const OwnFrame& own);
+inline bool restsAway(const Patch& patch, const OwnFrame& own)
+{
+    const int32_t toEye = patch.axis[0] * (own.eye32[0] >> 1) + patch.axis[1] * (own.eye32[1] >> 1) +
+                          patch.axis[2] * (own.eye32[2] >> 1) + patch.spread * (own.distance32 >> 1);
+    return toEye >> 14 < ((own.distance32 >> 1) * own.limb >> 14) + patch.behind;
+}
 
 // Cosine of the surface at a seed and the direction to the viewer, 1.0 = 2^14, about.
 int32_t facing(const SoftObject& object, const Seed& s, const OwnFrame& own);

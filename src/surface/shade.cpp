@@ -42,7 +42,8 @@ constexpr int BEND_TURNS_LIMB = 1, BEND_TURNS = 3;
 // A patch bends unevenly when its slope foretells another brightness than some of its seeds have, by more than this, 1/4 step.
 constexpr int32_t UNEVEN_SHADING = 8;
 
-// Spacings: from the middle of a scale next to the limb to its corner depth changes by no more.
+// Spacings: from the middle of a scale that ends to its corner depth changes by no more. Where seeds have parted, scales next to
+// the limb would come far before the surface.
 constexpr int32_t DEEPEST = 8;
 
 // Seeds of a patch, oversampled and fine ones included.
@@ -67,7 +68,6 @@ private:
     void setPatch(const Patch& patch, const Seen& middle, const Voxel& at);
     void setBend(const Patch& patch, const Seen& middle);
     bool bendsUnevenly(const Voxel* voxels, int count) const;
-    void shorten(Voxel* voxel) const;
     bool cut(const Seed& s, Voxel* voxel) const;
     // What of a vector of own space lies along axis i of the view.
     template <class Part>
@@ -131,6 +131,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     flatHorizon_ = mulShift16(FLATTEST, horizonScale_);
     gradientScale_ = mulDiv(BRIGHTEST << 16, 1 << (19 - shading_.placeShift), rawFromReal(own.growth));
     const int32_t spacing = spacing_ = smaller(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
+    shading_.deepest = spacing * DEEPEST;
     areaScale_ = static_cast<uint32_t>(mulShift16(spacing * spacing << 7, step));
     shading_.cellShift = __builtin_clz(static_cast<uint32_t>(spacing)) - 19;
     if (spacing << shading_.cellShift > 6143)
@@ -297,17 +298,6 @@ inline bool Shader::bendsUnevenly(const Voxel* voxels, int count) const
     return false;
 }
 
-// Next to the limb, scales whose seeds have parted would come far before the surface.
-inline void Shader::shorten(Voxel* voxel) const
-{
-    const int32_t deep = (magnitude(voxel->tiltX) * voxel->wide + magnitude(voxel->tiltY) * voxel->high) >> 8;
-    const int32_t most = spacing_ * DEEPEST;
-    if (deep > most) {
-        voxel->wide = static_cast<int16_t>(voxel->wide * most / deep);
-        voxel->high = static_cast<int16_t>(voxel->high * most / deep);
-    }
-}
-
 // Where another object is the strongest the scale ends: at a straight line, for the difference of two fields is nearly linear
 // across it. False: nothing is left.
 bool Shader::cut(const Seed& s, Voxel* voxel) const
@@ -367,6 +357,10 @@ inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter*
         measureBend(patch);
     setPatch(patch, middle, voxels[count >> 1]);
     shadeSeeds(&shading_, seen, voxels, count);
+    if (!PAINTED && patch.state == PATCH_REST) {
+        list.count += count;
+        return;
+    }
     const bool shines = PAINTED && painter->shines(), blends = patch.state == PATCH_MIXED;
     const int32_t sight = shines || (blends && bendsUnevenly(voxels, regular)) ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
     const int known = shines || blends ? regular : 0;
@@ -378,8 +372,6 @@ inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter*
             if (s.apart < 0)
                 voxels[i].z += BEHIND;
         }
-        if (voxels[i].reach != 0)
-            shorten(voxels + i);
         if (PAINTED) {
             to = list.room();
             painter->add(s, voxels[i]);

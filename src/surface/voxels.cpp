@@ -107,16 +107,22 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     }
     wide = smaller(wide + (wide >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff);
     high = smaller(high + (high >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff);
-    voxel.wide = static_cast<int16_t>(wide);
-    voxel.high = static_cast<int16_t>(high);
     voxel.reach = 0;
     voxel.cutX = voxel.cutY = voxel.slopeX = voxel.slopeY = 0;
     voxel.cutAt = 0;
     // Where a round surface bends out of sight its tangent plane goes on: the scale ends there. The limb is cos^2 radius / 2
     // away across the view, with cos the cosine of normal and viewer; along the plane that is cos radius / 2 deep.
     const int32_t reach = (v.horizonShare * facing >> 16) + 1;
-    if (reach < 256 && (magnitude(tiltX) * wide + magnitude(tiltY) * high) >> 11 >= reach)
+    const int32_t deep = (magnitude(tiltX) * wide + magnitude(tiltY) * high) >> 8;
+    if (reach < 256 && deep >= reach * 8) {
         voxel.reach = static_cast<uint8_t>(reach);
+        if (deep > v.deepest) {
+            wide = wide * v.deepest / deep;
+            high = high * v.deepest / deep;
+        }
+    }
+    voxel.wide = static_cast<int16_t>(wide);
+    voxel.high = static_cast<int16_t>(high);
     voxel.brightness = static_cast<int8_t>(light <= DARK_MIDDLE ? 0 : light);
     if (light <= DARK_MIDDLE)
         return;
