@@ -25,6 +25,24 @@ inline int32_t product(const Direction14& a, const Part b[3])
     return a.x * b[0] + a.y * b[1] + a.z * b[2];
 }
 
+// The products of two vectors' parts, in the order of Bend::turn: with what leads along x, y and z in both, and in one and the
+// other. They lose 13 bits.
+inline void findProducts(const int32_t a[3], const int32_t b[3], int32_t to[6])
+{
+    for (int i = 0; i < 3; ++i)
+        to[i] = a[i] * b[i] >> 13;
+    to[3] = (a[0] * b[1] + a[1] * b[0]) >> 13;
+    to[4] = (a[0] * b[2] + a[2] * b[0]) >> 13;
+    to[5] = (a[1] * b[2] + a[2] * b[1]) >> 13;
+}
+
+// By how much the normal turns along one vector on a way along another, from the products of the two.
+inline int32_t turnOf(const Bend& bend, const int32_t both[6])
+{
+    return bend.turn[0] * both[0] + bend.turn[1] * both[1] + bend.turn[2] * both[2] + bend.turn[3] * both[3] +
+           bend.turn[4] * both[4] + bend.turn[5] * both[5];
+}
+
 // A scale in the territory of another object is to be seen only where that has none, and lies so much deeper; 1/256 unit.
 constexpr int32_t BEHIND = 64;
 
@@ -87,7 +105,7 @@ private:
     int32_t ballGradient_[3]; // of the brightness over a ball, axes of the view, 1/8 step a unit with 8 bits of fraction
     int32_t ballHorizon_, flatHorizon_;  // Shading::horizonShare of what bends like a ball, and of what is flat
     int32_t horizonScale_;    // of a radius of curvature in steps of places / 8
-    int32_t gradientScale_;   // brings gradients of patches to 1/8 step a unit with 5 bits of fraction
+    int32_t lights_[3][6];    // products of the light and the axes of the view, times what brings turns to ballGradient_'s units
     int32_t columns_[3], rows_[3], aheads_[3];  // axes of the view for cells, 14 bits of fraction more; aheads_ 4 bits more
     uint32_t areaScale_;      // squared spacing
     // Of the patch.
@@ -110,6 +128,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     shading_.depth = own_.centre[2];
     const int32_t* const axes[] = {own.right, own.up, own.ahead};
     const int32_t radius = rawFromReal(object.radius());
+    const int32_t gradientScale = mulDiv(BRIGHTEST << 15, 1 << (19 - shading_.placeShift), rawFromReal(own.growth));
     for (int i = 0; i < 3; ++i) {
         shading_.eye[i] = own.eye32[i] >> (shading_.placeShift - 8);
         shading_.light[i] = own.light[i];
@@ -118,6 +137,9 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
         shading_.toRight[i] = mulShift16(own.right[i], step);
         shading_.toUp[i] = mulShift16(own.up[i], step);
         shading_.toAhead[i] = mulShift16(own.ahead[i], step);
+        findProducts(own.light, axes[i], lights_[i]);
+        for (int32_t& light : lights_[i])
+            light = mulShift16(light, gradientScale);
         ballGradient_[i] = (product(own.light, axes[i]) >> 14) * (BRIGHTEST * 32) / ((radius >> 8) + 1);
     }
     const int32_t distance = own.distance32 >> (shading_.placeShift - 8);
@@ -129,7 +151,6 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     ballHorizon_ = mulShift16((smaller(radius >> 11, FLATTEST) << 12) / distance32, step);
     horizonScale_ = mulShift16(mulDiv(step, 1 << 12, distance32), step);
     flatHorizon_ = mulShift16(FLATTEST, horizonScale_);
-    gradientScale_ = mulDiv(BRIGHTEST << 16, 1 << (19 - shading_.placeShift), rawFromReal(own.growth));
     const int32_t spacing = spacing_ = smaller(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
     shading_.deepest = spacing * DEEPEST;
     areaScale_ = static_cast<uint32_t>(mulShift16(spacing * spacing << 7, step));
@@ -207,42 +228,38 @@ SELDOM void Shader::measureBend(Patch& patch) const
     const auto overArea = [&](int32_t sum) { return limited(mulDiv(sum, 128, area), 16000); };
     // The greater curvature of the two: in its direction the normal of the patch's other seeds differs.
     const int32_t one = product(turn[0], dual[0]), other = product(turn[1], dual[1]);
-    const int32_t most = overArea(magnitude(one) > magnitude(other) ? one : other);
-    for (int i = 0; i < 3; ++i) {
-        const int32_t inward = most * n[i] >> 14;
-        for (int j = i; j < 3; ++j)
-            bend.turn[i][j] = bend.turn[j][i] =
-                static_cast<int16_t>(limited(overArea(turn[0][i] * dual[0][j] + turn[1][i] * dual[1][j]) +
-                                             (inward * n[j] >> 14), 16000));
-    }
+    bend.inward = static_cast<int16_t>(overArea(magnitude(one) > magnitude(other) ? one : other));
+    const auto turned = [&](int i, int j) {
+        return static_cast<int16_t>(limited(overArea(turn[0][i] * dual[0][j] + turn[1][i] * dual[1][j]) +
+                                            ((bend.inward * n[i] >> 14) * n[j] >> 14), 16000));
+    };
+    bend.turn[0] = turned(0, 0);
+    bend.turn[1] = turned(1, 1);
+    bend.turn[2] = turned(2, 2);
+    bend.turn[3] = turned(0, 1);
+    bend.turn[4] = turned(0, 2);
+    bend.turn[5] = turned(1, 2);
 }
 
 // How the brightness changes over a patch, and where it bends out of sight.
 inline void Shader::setBend(const Patch& patch, const Seen& middle)
 {
     const Bend& bend = patch.bend;
-    int32_t change[3];
-    for (int i = 0; i < 3; ++i)
-        change[i] = mulShift16(product(bend.turn[i], own_.light) >> 14, gradientScale_);
-    shading_.gradient[0] = along(change, own_.right, 0) * 8;
-    shading_.gradient[1] = along(change, own_.up, 1) * 8;
-    shading_.gradientAhead = along(change, own_.ahead, 2) * 8;
+    shading_.gradient[0] = turnOf(bend, lights_[0]) >> 11;
+    shading_.gradient[1] = turnOf(bend, lights_[1]) >> 11;
+    shading_.gradientAhead = turnOf(bend, lights_[2]) >> 11;
     shading_.horizonShare = flatHorizon_;
     if (middle.facing >= facesViewer_)
         return;
-    // The curvature along the view.
-    int32_t p[3], view[3];
+    // The curvature along the view, less what of that leads along the normal.
+    int32_t p[3], view[3], both[6];
     findPlace(shading_, *middle.seed, p);
     for (int i = 0; i < 3; ++i)
         view[i] = (shading_.eye[i] - (p[i] >> 3)) >> viewShift_;
-    const int32_t up = product(bend.normal, view) >> 14, n[] = {bend.normal.x, bend.normal.y, bend.normal.z};
-    for (int i = 0; i < 3; ++i)
-        view[i] -= n[i] * up >> 14;
-    const int32_t square = product(view, view);
-    int32_t curvature = 0;
-    for (int i = 0; i < 3; ++i)
-        curvature += (product(bend.turn[i], view) >> 14) * view[i];
-    curvature >>= 3;
+    findProducts(view, view, both);
+    const int32_t up = product(bend.normal, view) >> 14, up13 = up * up >> 13;
+    const int32_t square = (both[0] + both[1] + both[2] - up13) << 13;
+    const int32_t curvature = (turnOf(bend, both) - bend.inward * up13) >> 4;
     // A quarter more than the radius at rest, for what scales differ from their cells: next to the limb there may be no other that
     // covers it. What blends bends no less than a ball half as large again.
     const bool rests = patch.state == PATCH_REST;
