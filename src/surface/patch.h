@@ -135,9 +135,9 @@ bool isHidden(const Patch& patch, Real position, const OwnFrame& own);
 // Whether a patch at rest faces away from the viewer.
 inline bool restsAway(const Patch& patch, const OwnFrame& own)
 {
-    const int32_t toEye = patch.axis[0] * (own.eye32[0] >> 1) + patch.axis[1] * (own.eye32[1] >> 1) +
-                          patch.axis[2] * (own.eye32[2] >> 1) + patch.spread * (own.distance32 >> 1);
-    return toEye >> 14 < ((own.distance32 >> 1) * own.limb >> 14) + patch.behind;
+    const int32_t most = patch.axis[0] * own.eye16[0] + patch.axis[1] * own.eye16[1] + patch.axis[2] * own.eye16[2] +
+                         patch.spread * own.distance16;
+    return most >> 14 < own.limb16 + patch.behind;
 }
 
 // Cosine of the surface at a seed and the direction to the viewer, 1.0 = 2^14, about.

@@ -407,11 +407,11 @@ inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter*
         list.count = static_cast<int>(to - list.voxels);
 }
 
-// Whether some of a patch may be seen. What has settled in this frame was not hidden before it did.
+// Whether some of a patch that does not rest facing away may be seen. What has settled in this frame was not hidden before it did.
 bool isSeen(const Patch& patch, const OwnFrame& own)
 {
     if (patch.state == PATCH_REST)
-        return !restsAway(patch, own) && !outOfSight(patch, own) && !isHidden(patch, own);
+        return !outOfSight(patch, own) && !isHidden(patch, own);
     return patch.state == PATCH_MIXED && (patch.settled || !isHidden(patch, own));
 }
 
@@ -426,7 +426,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
     int at = first;
     for (; at < count && list.count + most <= room; ++at) {
         Patch& patch = patches[at];
-        if (isSeen(patch, own))
+        if (!(patch.state == PATCH_REST && restsAway(patch, own)) && isSeen(patch, own))
             shader.shadePatch<PAINTED>(patch, at + turn, list, painter);
     }
     slopes.set(shader.spacing());
