@@ -22,8 +22,8 @@ enum PatchState : uint8_t {
 // How the surface of a patch bends, from the normals of its seeds.
 struct Bend {
     int16_t turn[6];    // by how much the normal turns along x, y, z on a way along the same, along y or x on one along the other,
-                        // so for z and x, y and z; 1.0 = 2^13 over 256 steps of places (voxels.h); along the normal `inward`,
-    int16_t inward;     // as much as along the way on which it turns most
+                        // so for z and x, y and z; 1.0 = 2^13 over 256 steps of places (voxels.h); along the normal as much as
+                        // along the way on which it turns most
     Direction14 normal;
     bool ball;          // it bends as a ball does; nothing else is known
     bool known;         // it has been measured since the patch rests, or does not any more

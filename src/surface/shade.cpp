@@ -228,10 +228,10 @@ SELDOM void Shader::measureBend(Patch& patch) const
     const auto overArea = [&](int32_t sum) { return limited(mulDiv(sum, 128, area), 16000); };
     // The greater curvature of the two: in its direction the normal of the patch's other seeds differs.
     const int32_t one = product(turn[0], dual[0]), other = product(turn[1], dual[1]);
-    bend.inward = static_cast<int16_t>(overArea(magnitude(one) > magnitude(other) ? one : other));
+    const int32_t most = overArea(magnitude(one) > magnitude(other) ? one : other);
     const auto turned = [&](int i, int j) {
         return static_cast<int16_t>(limited(overArea(turn[0][i] * dual[0][j] + turn[1][i] * dual[1][j]) +
-                                            ((bend.inward * n[i] >> 14) * n[j] >> 14), 16000));
+                                            ((most * n[i] >> 14) * n[j] >> 14), 16000));
     };
     bend.turn[0] = turned(0, 0);
     bend.turn[1] = turned(1, 1);
@@ -251,15 +251,16 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
     shading_.horizonShare = flatHorizon_;
     if (middle.facing >= facesViewer_)
         return;
-    // The curvature along the view, less what of that leads along the normal.
+    // The curvature along the view.
     int32_t p[3], view[3], both[6];
     findPlace(shading_, *middle.seed, p);
     for (int i = 0; i < 3; ++i)
         view[i] = (shading_.eye[i] - (p[i] >> 3)) >> viewShift_;
+    const int32_t up = product(bend.normal, view) >> 14, n[] = {bend.normal.x, bend.normal.y, bend.normal.z};
+    for (int i = 0; i < 3; ++i)
+        view[i] -= n[i] * up >> 14;
     findProducts(view, view, both);
-    const int32_t up = product(bend.normal, view) >> 14, up13 = up * up >> 13;
-    const int32_t square = (both[0] + both[1] + both[2] - up13) << 13;
-    const int32_t curvature = (turnOf(bend, both) - bend.inward * up13) >> 4;
+    const int32_t square = (both[0] + both[1] + both[2]) << 13, curvature = turnOf(bend, both) >> 4;
     // A quarter more than the radius at rest, for what scales differ from their cells: next to the limb there may be no other that
     // covers it. What blends bends no less than a ball half as large again.
     const bool rests = patch.state == PATCH_REST;
