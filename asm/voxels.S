@@ -8,6 +8,8 @@
 #define SEED_PATH    0
 #define SEED_POSITION 12
 #define SEED_NORMAL  20
+#define SEED_PLACE   26
+#define SEED_OUT     32
 #define SEED_ROOT    34
 #define SEED_FLAGS   36
 #define SEED_ALONG   39
@@ -59,9 +61,10 @@
 #define CELL_SHIFT   124
 #define AREA_SHARE   128
 #define WHOLE_MOST   132
-#define HORIZON      136
-#define GRADIENT     140
-#define AHEAD        148
+#define DEEPEST      136
+#define HORIZON      140
+#define GRADIENT     144
+#define AHEAD        152
 #define STEEPEST_TILT 20000
 #define MARGIN_SHIFT 5
 #define MARGIN_UNITS 14
@@ -109,12 +112,6 @@
         sarl        %cl, %eax
         movl        %eax, VOXEL_X+\part(%edi)
 .endm
-.macro place_resting part
-        movl        SEED_PATH+\part(%esi), %eax
-        addl        \part(%ebx), %eax
-        sarl        %cl, %eax
-        movl        %eax, VOXEL_X+\part(%edi)
-.endm
 
 // eax = part k of the normal, at `normal` of the seed, times that of the vector from the place (edi) to the eye
 .macro to_eye part, normal
@@ -130,9 +127,9 @@
 // the shading, cl the shift of places.
 #define FIND_END     0                  /* behind the last seed of the ring */
 #define FIND_RING    4
-#define FIND_TURNED  8
-#define FIND_FIRST   12
-#define FIND_FRAME   16
+#define FIND_TURNED  8                  /* two words */
+#define FIND_FIRST   16
+#define FIND_FRAME   20
 #define FIND_SHADING (FIND_FRAME+20)
 #define FIND_PATCH   (FIND_FRAME+24)
 #define FIND_SEEN    (FIND_FRAME+28)
@@ -166,36 +163,31 @@ find_one:
         movb        SEED_FLAGS(%esi), %dl
         testb        $SEED_VALID, %dl
         jz        find_not
-        // findPlace(v, s, place)
-        movzwl        SEED_ROOT(%esi), %ebx
-        movl        ROOTS(%ebp), %eax
-        leal        (%ebx,%ebx,2), %ebx
-        leal        (%eax,%ebx,4), %ebx
         testb        $SEED_RESTING, %dl
-        jnz        find_resting
-        place        0
-        place        4
-        place        8
-find_placed:
-        // facing = (normal * (eye - (place >> 3))) >> 11; if (facing <= v.limb) continue
-        to_eye        0, 0
-        movl        %eax, %ebx
-        to_eye        4, 2
-        addl        %eax, %ebx
-        to_eye        8, 4
-        addl        %eax, %ebx
+        jz        find_moved
+        // facing = (normal * eye >> 11) - s.out; if (facing <= v.limb) continue
+        product        SEED_NORMAL, EYE, %ebx, %eax
+        movswl        SEED_OUT(%esi), %eax
         sarl        $11, %ebx
+        subl        %eax, %ebx
         cmpl        LIMB(%ebp), %ebx
         jle        find_not
+        cmpl        $0, TURNED(%ebp)
+        jne        find_resting_turned
+        movswl        SEED_PLACE(%esi), %eax
+        movl        %eax, VOXEL_X(%edi)
+        movswl        SEED_PLACE+2(%esi), %eax
+        movl        %eax, VOXEL_Y(%edi)
+        movswl        SEED_PLACE+4(%esi), %eax
+        movl        %eax, VOXEL_Z(%edi)
         // *seen++ = {&s, facing}
+find_found:
         movl        FIND_SEEN(%esp), %eax
+        addl        $VOXEL_SIZE, %edi
         movl        %esi, SEEN_SEED(%eax)
         movl        %ebx, SEEN_FACING(%eax)
-        addl        $SEEN_SIZE, FIND_SEEN(%esp)
-        cmpl        $0, TURNED(%ebp)
-        jne        find_turned
-find_found:
-        addl        $VOXEL_SIZE, %edi
+        addl        $SEEN_SIZE, %eax
+        movl        %eax, FIND_SEEN(%esp)
 find_not:
         addl        $SEED_SIZE, %esi
 find_next:
@@ -216,20 +208,50 @@ find_next:
         popl        %ebp
         ret
 
-find_resting:
-        place_resting 0
-        place_resting 4
-        place_resting 8
-        jmp        find_placed
-find_turned:
+        // voxel = place * the axes of the view
+find_resting_turned:
+        product        SEED_PLACE, TO_RIGHT, %eax, %edx
+        sarl        $14, %eax
+        movl        %eax, VOXEL_X(%edi)
+        product        SEED_PLACE, TO_UP, %eax, %edx
+        sarl        $14, %eax
+        movl        %eax, VOXEL_Y(%edi)
+        product        SEED_PLACE, TO_AHEAD, %eax, %edx
+        sarl        $14, %eax
+        movl        %eax, VOXEL_Z(%edi)
+        jmp        find_found
+
+        // findPlace(v, s, place)
+find_moved:
+        movzwl        SEED_ROOT(%esi), %ebx
+        movl        ROOTS(%ebp), %eax
+        leal        (%ebx,%ebx,2), %ebx
+        leal        (%eax,%ebx,4), %ebx
+        place        0
+        place        4
+        place        8
+        // facing = (normal * (eye - (place >> 3))) >> 11; if (facing <= v.limb) continue
+        to_eye        0, 0
+        movl        %eax, %ebx
+        to_eye        4, 2
+        addl        %eax, %ebx
+        to_eye        8, 4
+        addl        %eax, %ebx
+        sarl        $11, %ebx
+        cmpl        LIMB(%ebp), %ebx
+        jle        find_not
+        cmpl        $0, TURNED(%ebp)
+        je        find_found
         along        TO_RIGHT, %eax, %edx
         movl        %eax, FIND_TURNED(%esp)
-        along        TO_UP, %ebx, %edx
+        along        TO_UP, %eax, %edx
+        movl        %eax, FIND_TURNED+4(%esp)
         along        TO_AHEAD, %eax, %edx
         movl        %eax, VOXEL_Z(%edi)
-        movl        %ebx, VOXEL_Y(%edi)
         movl        FIND_TURNED(%esp), %eax
         movl        %eax, VOXEL_X(%edi)
+        movl        FIND_TURNED+4(%esp), %eax
+        movl        %eax, VOXEL_Y(%edi)
         jmp        find_found
 ENDFUNC(findSeedsA)
 
@@ -355,11 +377,24 @@ shade_steep:
         movswl        SEED_NORMAL+2(%esi), %edx
         imull        %eax, %ecx
         imull        %eax, %edx
-shade_tilts:
         sarl        $14, %ecx
         sarl        $14, %edx
         movw        %cx, VOXEL_TILTX(%edi)
         movw        %dx, VOXEL_TILTY(%edi)
+
+        // cosine = s.normal * v.light >> 14; light = (cosine * BRIGHTEST + 8192) >> 14
+shade_tilted:
+        product        SEED_NORMAL, LIGHT, %edx, %ecx
+        sarl        $14, %edx
+        imull        $BRIGHTEST, %edx, %edx
+        addl        $8192, %edx
+        sarl        $14, %edx
+        movl        %edx, SHADE_LIGHT(%esp)
+        // voxel.brightness = larger(light, 0), and all behind it 0
+        jle        shade_dark
+shade_lit:
+        movl        %edx, VOXEL_BRIGHT(%edi)
+        movl        $0, VOXEL_SLOPEX(%edi)
 
         testb        $SEED_RESTING, SEED_FLAGS(%esi)
         jz        shade_fallen
@@ -416,52 +451,17 @@ shade_extents:
 shade_wide:
         cmpl        $0x7fff, %eax
         jg        shade_too_high
+        // reach = (v.horizonShare * facing >> 16) + 1; if (reach < 256) ..
 shade_extended:
-        movw        %cx, VOXEL_WIDE(%edi)
-        movw        %ax, VOXEL_HIGH(%edi)
-
-        // cosine = s.normal * v.light >> 14; light = (cosine * BRIGHTEST + 8192) >> 14
-        movl        SEEN_SEED(%ebx), %esi
-        movl        %ecx, SHADE_AREA(%esp)
-        product        SEED_NORMAL, LIGHT, %edx, %ecx
-        movl        SHADE_AREA(%esp), %ecx
-        sarl        $14, %edx
-        imull        $BRIGHTEST, %edx, %edx
-        addl        $8192, %edx
-        sarl        $14, %edx
-        movl        %edx, SHADE_LIGHT(%esp)
-        // voxel.brightness = larger(light, 0), and all behind it 0
-        jle        shade_dark
-shade_lit:
-        movl        %edx, VOXEL_BRIGHT(%edi)
-        movl        $0, VOXEL_SLOPEX(%edi)
-
-        // reach = (v.horizonShare * facing >> 16) + 1
         movl        HORIZON(%ebp), %edx
         imull        SEEN_FACING(%ebx), %edx
         sarl        $16, %edx
-        incl        %edx
-        // if (reach < 256 && (|tiltX| * wide + |tiltY| * high) >> 11 >= reach) voxel.reach = reach
-        cmpl        $256, %edx
-        jge        shade_no_end
-        movl        %edx, SHADE_AREA(%esp)
-        movswl        VOXEL_TILTX(%edi), %esi
-        testl        %esi, %esi
-        jns        1f
-        negl        %esi
-1:        imull        %ecx, %esi
-        movswl        VOXEL_TILTY(%edi), %edx
-        testl        %edx, %edx
-        jns        1f
-        negl        %edx
-1:        imull        %eax, %edx
-        addl        %edx, %esi
-        sarl        $11, %esi
-        movl        SHADE_AREA(%esp), %edx
-        cmpl        %edx, %esi
-        jl        shade_no_end
-        movb        %dl, VOXEL_REACH(%edi)
-shade_no_end:
+        cmpl        $255, %edx
+        jl        shade_end
+shade_ended:
+        movw        %cx, VOXEL_WIDE(%edi)
+        movw        %ax, VOXEL_HIGH(%edi)
+
         // if (light <= DARK_MIDDLE) return
         cmpl        $DARK_MIDDLE, SHADE_LIGHT(%esp)
         jle        shade_done
@@ -491,19 +491,14 @@ shade_no_end:
         cmpl        $FLAT_SHADING, %eax
         jl        shade_done
         // for (; corner > STEEPEST_SHADING; corner >>= 1) slopeX >>= 1, slopeY >>= 1
-        jmp        2f
-1:        sarl        $1, %edx
-        sarl        $1, %esi
-        sarl        $1, %eax
-2:        cmpl        $STEEPEST_SHADING, %eax
-        jg        1b
+        cmpl        $STEEPEST_SHADING, %eax
+        jg        shade_steepest_shading
         // if (corner + light * 8 <= 0) return; voxel.brightness = light
-        movl        SHADE_LIGHT(%esp), %ecx
-        leal        (%eax,%ecx,8), %eax
-        testl        %eax, %eax
-        jle        shade_done
-        movb        %cl, VOXEL_BRIGHT(%edi)
+shade_softened:
+        cmpl        $0, SHADE_LIGHT(%esp)
+        jl        shade_dark_middle
         // voxel.slopeX = limited(slopeX, 127), and the other
+shade_slopes:
         leal        127(%edx), %eax
         cmpl        $254, %eax
         ja        shade_limit_x
@@ -534,12 +529,44 @@ shade_turned:
         product        SEED_NORMAL, RIGHT, %ecx, %edx
         sarl        $14, %ecx
         imull        %eax, %ecx
-        movl        %ecx, SHADE_AREA(%esp)
+        sarl        $14, %ecx
+        movw        %cx, VOXEL_TILTX(%edi)
         product        SEED_NORMAL, UP, %edx, %ecx
-        movl        SHADE_AREA(%esp), %ecx
         sarl        $14, %edx
         imull        %eax, %edx
-        jmp        shade_tilts
+        sarl        $14, %edx
+        movw        %dx, VOXEL_TILTY(%edi)
+        jmp        shade_tilted
+
+        // deep = (|tiltX| * wide + |tiltY| * high) >> 8; if (deep >= reach * 8) voxel.reach = reach
+shade_end:
+        movswl        VOXEL_TILTX(%edi), %esi
+        magnitude        %esi
+        imull        %ecx, %esi
+        movswl        VOXEL_TILTY(%edi), %ebp
+        magnitude        %ebp
+        imull        %eax, %ebp
+        addl        %ebp, %esi
+        movl        SHADE_SHADING(%esp), %ebp
+        incl        %edx
+        sarl        $8, %esi
+        leal        (,%edx,8), %edx        // reach * 8
+        cmpl        %edx, %esi
+        jl        shade_ended
+        shrl        $3, %edx
+        movb        %dl, VOXEL_REACH(%edi)
+        // if (deep > v.deepest) wide = wide * v.deepest / deep, and high likewise
+        cmpl        DEEPEST(%ebp), %esi
+        jle        shade_ended
+        imull        DEEPEST(%ebp), %eax
+        xorl        %edx, %edx
+        divl        %esi
+        xchgl        %eax, %ecx
+        imull        DEEPEST(%ebp), %eax
+        xorl        %edx, %edx
+        divl        %esi
+        xchgl        %eax, %ecx
+        jmp        shade_ended
 
         // wide = (wide + |across.x|) >> v.cellShift, and high likewise
 shade_whole:
@@ -645,6 +672,20 @@ shade_too_wide:
 shade_too_high:
         movl        $0x7fff, %eax
         jmp        shade_extended
+shade_steepest_shading:
+        sarl        $1, %edx
+        sarl        $1, %esi
+        sarl        $1, %eax
+        cmpl        $STEEPEST_SHADING, %eax
+        jg        shade_steepest_shading
+        jmp        shade_softened
+shade_dark_middle:
+        movl        SHADE_LIGHT(%esp), %ecx
+        leal        (%eax,%ecx,8), %eax
+        testl        %eax, %eax
+        jle        shade_done
+        movb        %cl, VOXEL_BRIGHT(%edi)
+        jmp        shade_slopes
         // 127 with the sign it has.
 shade_limit_x:
         sarl        $31, %edx

@@ -52,9 +52,13 @@ struct Seed {
     int32_t neighbour;   // slot of the seed N of the ring before (Appendix C, Oversampling); -1 in the first ring. Of an
                          // oversampled one: of the seed on its other side
     Direction14 normal;  // of the surface at the seed
-    Direction14 border;  // of a SEED_BORDER one: in which the own field gains most on the strongest neighbour's,
+    union {
+        Direction14 border;  // of a SEED_BORDER one: in which the own field gains most on the strongest neighbour's,
+        int16_t place[3];    // of a SEED_RESTING one: where it is, steps of places (SoftObject::placeShift()),
+    };
     union {
         int16_t apart;   // and how far the seed is on its own side of where the two are equal, 1/256 unit
+        int16_t out;     // and its normal times that
         uint16_t due;    // of a SEED_OFF one: what its patch has counted when it is looked at again
     };
     uint16_t root;       // index of the root point: seeds share them

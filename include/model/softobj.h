@@ -216,6 +216,10 @@ public:
     Real laidRadius() const { return laid_.size * restRoot_; }
     // And reach().
     Real laidReach() const { return shaped() ? reach() / growth() : laid_.size + coreReach_ / growth(); }
+    // Where seeds rest is known in whole steps, 16 bits wide: bits of Real below those of a step.
+    int placeShift() const { return laid_.placeShift; }
+    // Tells a seed its normal where it rests, and that place.
+    void layAtRest(Seed& s, const Direction14& normal) const;
     // No path was longer.
     Real longestPath() const { return shaped() ? laidRadius() * mostStretch_ * warp_.most() : laidRadius(); }
 
@@ -336,6 +340,7 @@ private:
         int regular = 0, oversampled = 0, rings = 0, rootRoom = 0;
         Real spacing{2};
         Real size{0};                    // of the object
+        int placeShift = 8;              // of the places where seeds rest
         // Of a warped object: the regular seeds and the roots as they are without the warp, and as the `border` of those seeds the
         // direction outward where they rest now. Else null.
         Seed* plainSeeds = nullptr;
@@ -371,6 +376,7 @@ private:
     bool rootBetween(const Layout& layout, const Seed& one, const Seed& other, Vector* root, Vector* out) const;
     Real restLength(const Layout& layout, const Seed& a, const Seed& b) const;
     void measureReach();
+    void findSteps();
     Real warpedParam(const Vector& q, Vector* slope) const;
     bool keepPlain(Layout& layout) const;
     void reshape();

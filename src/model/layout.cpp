@@ -509,7 +509,7 @@ void SoftObject::layOutFine(int i, int which)
     Seed& s = fine(i)[which];
     s = middle;
     s.path = withLength(middle.path + end.path, length(middle.path));
-    s.normal = restNormal(s);
+    layAtRest(s, restNormal(s));
     setWay(s);
 }
 
@@ -560,7 +560,7 @@ Direction14 SoftObject::warpSeed(const Seed& plain, const Vector& plainRoot, See
     const Direction14 normal = direction(warp_.slopeOut(way, slope));
     setArea(to, normal);
     if (to.flags & SEED_RESTING)
-        to.normal = normal;
+        layAtRest(to, normal);
     return normal;
 }
 
@@ -579,6 +579,7 @@ void SoftObject::reshape()
 {
     const Real inward = Real(CORE_SIZE) / laid_.size, outward = shiftDown(laid_.size, 4);
     Warp::Way way;
+    findSteps();
     for (int i = 0; i < laid_.rootsBetween[0]; ++i)
         laid_.roots[i] = warp_.out(laid_.plainRoots[i] * inward, way) * outward;
     for (int i = 0; i < laid_.regular; ++i) {
@@ -611,7 +612,7 @@ void SoftObject::reshape()
             memcpy(s.across, fresh.across, sizeof s.across);
             setWay(s);
             if (s.flags & SEED_RESTING)
-                s.normal = restNormal(s);
+                layAtRest(s, restNormal(s));
         }
     }
 }
@@ -631,6 +632,24 @@ Direction14 SoftObject::restNormal(const Seed& s) const
         return laid_.plainSeeds[&s - laid_.seeds].border;
     const Vector rest = root(s.root) + s.path;
     return warped_ ? direction(slopeAt(rest)) : plainNormal(rest, s.path);
+}
+
+// No seed leaves the reach of its object.
+void SoftObject::findSteps()
+{
+    laid_.placeShift = 8;
+    for (int32_t most = rawFromReal(laidReach()) >> 8; most > 32000; most >>= 1)
+        ++laid_.placeShift;
+}
+
+void SoftObject::layAtRest(Seed& s, const Direction14& normal) const
+{
+    const Vector rest = root(s.root) + s.path;
+    s.normal = normal;
+    s.place[0] = static_cast<int16_t>(rawFromReal(rest.x) >> laid_.placeShift);
+    s.place[1] = static_cast<int16_t>(rawFromReal(rest.y) >> laid_.placeShift);
+    s.place[2] = static_cast<int16_t>(rawFromReal(rest.z) >> laid_.placeShift);
+    s.out = static_cast<int16_t>((normal.x * s.place[0] + normal.y * s.place[1] + normal.z * s.place[2]) >> 14);
 }
 
 Real SoftObject::ownSpacing(Real asked) const
@@ -662,10 +681,13 @@ bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObje
     // The surface is made for the object as it will be; without memory for it the object goes back.
     Layout before = laid_;
     laid_ = layout;
-    for (int ring = 0; like == nullptr && ring < laid_.rings && !stopAsked(); ++ring)
+    findSteps();
+    for (int ring = 0; ring < laid_.rings && !stopAsked(); ++ring)
         for (int i = laid_.ringStarts[ring]; i < laid_.ringStarts[ring + 1]; ++i) {
             Seed& s = laid_.seeds[i];
-            s.normal = plainNormal(laid_.rest(s), s.path);
+            layAtRest(s, like != nullptr ? s.normal : plainNormal(laid_.rest(s), s.path));
+            if (like != nullptr)
+                continue;
             // Where no path slants it leads along the normal.
             if (slants())
                 setWay(s);

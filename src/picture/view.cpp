@@ -129,7 +129,8 @@ bool View::hides(const int32_t place[3], int32_t radius) const
     top = larger(top, 0);
     bottom = smaller(bottom, HEIGHT - 1);
     // Most of what is seen is so in the middle.
-    const auto seen = [&](int x, int y) { return zbuffer_[y * WIDTH + x] > nearest; };
+    const auto before = static_cast<uint16_t>(nearest);
+    const auto seen = [&](int x, int y) { return zbuffer_[y * WIDTH + x] > before; };
     if (seen((left + right) >> 1, (top + bottom) >> 1))
         return false;
     for (int y = top; y <= bottom; y += HIDING_STEP)

@@ -43,26 +43,7 @@ inline bool within(const Step& away, int32_t distance)
     return square(away) < distance * distance;
 }
 
-// The patch's axis times what leads from a place to the eye, 1/16 unit.
-inline int32_t facing(const Patch& patch, const Step& toEye)
-{
-    return (patch.axis[0] * toEye.x + patch.axis[1] * toEye.y + patch.axis[2] * toEye.z) >> 14;
-}
-
-Step toEyeFrom(const Step& place, const OwnFrame& own)
-{
-    return {(own.eye32[0] >> 1) - place.x, (own.eye32[1] >> 1) - place.y, (own.eye32[2] >> 1) - place.z};
-}
-
 }  // namespace
-
-bool restsAway(const Patch& patch, const OwnFrame& own)
-{
-    // The eye is no farther from the patch than this.
-    const int32_t aside = magnitude(patch.middle[0]) + magnitude(patch.middle[1]) + magnitude(patch.middle[2]);
-    const int32_t doubt = (((own.distance32 >> 1) + aside) * patch.spread >> 14) + patch.radius;
-    return facing(patch, toEyeFrom(above(patch, 0), own)) < ((own.distance32 >> 1) * own.limb >> 14) - doubt;
-}
 
 Bound boundOf(const Patch& patch, int32_t restRadius)
 {

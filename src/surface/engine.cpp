@@ -45,6 +45,7 @@ private:
 
     Odometer odometer_;
     uint32_t updates_ = 0;
+    bool allRests_ = false;  // no patch was settled in the last update, nor had to be
     Patch* patches_ = nullptr;
     int count_ = 0;
 };
@@ -76,6 +77,9 @@ bool Engine::update(const FrameContext& frame)
     gather(object_, frame, all);
     const bool known = odometer_.advance(object_, own, all, frame.bodies->version());
     Settler settler(object_, own, all, frame, odometer_, ++updates_);
+    // All seeds stay at rest.
+    if (allRests_ && known && all.common && all.rests && all.count == 0)
+        return false;
     bool displaced = false;
     Patch* const end = patches_ + count_;
     for (Patch* patch = patches_; patch < end; ++patch) {
@@ -88,6 +92,7 @@ bool Engine::update(const FrameContext& frame)
         if (patch->settled)
             settler.oversample(*patch);
     object_.setDisplaced(displaced);
+    allRests_ = !displaced;
     return settler.hidden();
 }
 

@@ -107,6 +107,10 @@ OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
     const int32_t extent32 = rawFromReal(extent) >> 11;
     const int32_t limb = object.isBall() ? LIMB_OF_BALL : LIMB;
     own.limb = own.distance32 > extent32 ? mulDiv(limb, own.distance32 - extent32, own.distance32) : 0;
+    own.distance16 = own.distance32 >> 1;
+    own.limb16 = own.distance16 * own.limb >> 14;
+    for (int i = 0; i < 3; ++i)
+        own.eye16[i] = own.eye32[i] >> 1;
     axisInOwn(object, frame.light, own.light);
     axisInOwn(object, frame.axes.right, own.right);
     axisInOwn(object, frame.axes.up, own.up);

@@ -79,6 +79,7 @@ struct OwnFrame {
     int32_t eye32[3];             // the same, 1/32 unit of own space
     int32_t distance32;           // of the eye, 1/32 unit of own space
     int32_t limb;                 // what faces the eye by no more than this cosine is not drawn, 1.0 = 2^14
+    int32_t eye16[3], distance16, limb16;  // the same in 1/16 unit; the limb: times the distance
     int32_t light[3];             // unit vector towards the light, 1.0 = 2^14
     int32_t right[3], up[3], ahead[3];  // axes of the view, 1.0 = 2^14
     Real growth;                  // units of the world in a unit of own space

@@ -2,6 +2,7 @@
 #include "patch.h"
 
 #include "math/normal.h"
+#include "math/whole.h"
 #include "model/stop.h"
 #include "rt.h"
 
@@ -81,6 +82,9 @@ void setPatch(const SoftObject& object, Patch& patch)
     patch.middle[2] = static_cast<int16_t>(steps16(middle.z));
     patch.radius = static_cast<int16_t>(steps16(lengthOf(radius) + shiftDown(object.spacing(), 1)) + 2);
     patch.tight = static_cast<int16_t>(steps16(lengthOf(radius)) + 1);
+    const int32_t out = (d.x * patch.middle[0] + d.y * patch.middle[1] + d.z * patch.middle[2]) >> 14;
+    const int32_t aside = magnitude(patch.middle[0]) + magnitude(patch.middle[1]) + magnitude(patch.middle[2]);
+    patch.behind = static_cast<int16_t>(out - (aside * patch.spread >> 14) - patch.radius - 1);
     patch.path = static_cast<int16_t>(steps16(path) + 1);
     patch.lean = object.shaped() ? leanOf(object, patch, axis, path) : 0;
 }

@@ -21,8 +21,9 @@ enum PatchState : uint8_t {
 
 // How the surface of a patch bends, from the normals of its seeds.
 struct Bend {
-    int16_t turn[3][3]; // by how much the normal turns along axis i on a way along axis j, 1.0 = 2^13 over 256 steps of places
-                        // (voxels.h); along the normal as much as along the way on which it turns most
+    int16_t turn[6];    // by how much the normal turns along x, y, z on a way along the same, along y or x on one along the other,
+                        // so for z and x, y and z; 1.0 = 2^13 over 256 steps of places (voxels.h); along the normal as much as
+                        // along the way on which it turns most
     Direction14 normal;
     bool ball;          // it bends as a ball does; nothing else is known
     bool known;         // it has been measured since the patch rests, or does not any more
@@ -55,6 +56,8 @@ struct Patch {
     int16_t tight;      // of one that just holds them
     int16_t axis[3];    // the mean of their normals
     int16_t spread;     // greatest length of the difference of a normal to the axis
+    int16_t behind;     // where one of its seeds at rest faces a viewer, the axis times his place, and `spread` times his distance
+                        // more, is no less than this
     int16_t path;       // mean length of their paths; of a shaped object, along the axis
     int16_t lean;       // how far from there one of them leads at most; 0: all lead along their normals
     uint8_t nearest, farthest;          // between which positions its seeds are, 1/64
@@ -140,7 +143,12 @@ bool isHidden(const Patch& patch, const OwnFrame& own);
 bool isHidden(const Patch& patch, Real position, const OwnFrame& own);
 
 // Whether a patch at rest faces away from the viewer.
-bool restsAway(const Patch& patch, const OwnFrame& own);
+inline bool restsAway(const Patch& patch, const OwnFrame& own)
+{
+    const int32_t most = patch.axis[0] * own.eye16[0] + patch.axis[1] * own.eye16[1] + patch.axis[2] * own.eye16[2] +
+                         patch.spread * own.distance16;
+    return most >> 14 < own.limb16 + patch.behind;
+}
 
 // Cosine of the surface at a seed and the direction to the viewer, 1.0 = 2^14, about.
 int32_t facing(const SoftObject& object, const Seed& s, const OwnFrame& own);

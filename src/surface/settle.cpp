@@ -115,7 +115,7 @@ inline Settler::Followed Settler::followOn(Seed& s, Real* position, Sample* samp
 void Settler::restThere(Seed& s)
 {
     if (!(s.flags & SEED_RESTING)) {
-        s.normal = object_.restNormal(s);
+        object_.layAtRest(s, object_.restNormal(s));
         s.flags &= SEED_ACTIVE;
     }
     s.position = Real(1);
@@ -452,7 +452,7 @@ void rest(SoftObject& object, Patch& patch)
     forSeeds(object, patch, [&](Seed& s, int) {
         if (s.flags != (SEED_VALID | SEED_RESTING)) {
             s.position = Real(1);
-            s.normal = object.restNormal(s);
+            object.layAtRest(s, object.restNormal(s));
         }
         s.flags = SEED_VALID | SEED_RESTING;
     });

@@ -25,6 +25,24 @@ inline int32_t product(const Direction14& a, const Part b[3])
     return a.x * b[0] + a.y * b[1] + a.z * b[2];
 }
 
+// The products of two vectors' parts, in the order of Bend::turn: with what leads along x, y and z in both, and in one and the
+// other. They lose 13 bits.
+inline void findProducts(const int32_t a[3], const int32_t b[3], int32_t to[6])
+{
+    for (int i = 0; i < 3; ++i)
+        to[i] = a[i] * b[i] >> 13;
+    to[3] = (a[0] * b[1] + a[1] * b[0]) >> 13;
+    to[4] = (a[0] * b[2] + a[2] * b[0]) >> 13;
+    to[5] = (a[1] * b[2] + a[2] * b[1]) >> 13;
+}
+
+// By how much the normal turns along one vector on a way along another, from the products of the two.
+inline int32_t turnOf(const Bend& bend, const int32_t both[6])
+{
+    return bend.turn[0] * both[0] + bend.turn[1] * both[1] + bend.turn[2] * both[2] + bend.turn[3] * both[3] +
+           bend.turn[4] * both[4] + bend.turn[5] * both[5];
+}
+
 // A scale in the territory of another object is to be seen only where that has none, and lies so much deeper; 1/256 unit.
 constexpr int32_t BEHIND = 64;
 
@@ -42,7 +60,8 @@ constexpr int BEND_TURNS_LIMB = 1, BEND_TURNS = 3;
 // A patch bends unevenly when its slope foretells another brightness than some of its seeds have, by more than this, 1/4 step.
 constexpr int32_t UNEVEN_SHADING = 8;
 
-// Spacings: from the middle of a scale next to the limb to its corner depth changes by no more.
+// Spacings: from the middle of a scale that ends to its corner depth changes by no more. Where seeds have parted, scales next to
+// the limb would come far before the surface.
 constexpr int32_t DEEPEST = 8;
 
 // Seeds of a patch, oversampled and fine ones included.
@@ -67,7 +86,6 @@ private:
     void setPatch(const Patch& patch, const Seen& middle, const Voxel& at);
     void setBend(const Patch& patch, const Seen& middle);
     bool bendsUnevenly(const Voxel* voxels, int count) const;
-    void shorten(Voxel* voxel) const;
     bool cut(const Seed& s, Voxel* voxel) const;
     // What of a vector of own space lies along axis i of the view.
     template <class Part>
@@ -87,7 +105,7 @@ private:
     int32_t ballGradient_[3]; // of the brightness over a ball, axes of the view, 1/8 step a unit with 8 bits of fraction
     int32_t ballHorizon_, flatHorizon_;  // Shading::horizonShare of what bends like a ball, and of what is flat
     int32_t horizonScale_;    // of a radius of curvature in steps of places / 8
-    int32_t gradientScale_;   // brings gradients of patches to 1/8 step a unit with 5 bits of fraction
+    int32_t lights_[3][6];    // products of the light and the axes of the view, times what brings turns to ballGradient_'s units
     int32_t columns_[3], rows_[3], aheads_[3];  // axes of the view for cells, 14 bits of fraction more; aheads_ 4 bits more
     uint32_t areaScale_;      // squared spacing
     // Of the patch.
@@ -101,18 +119,16 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     shading_.seeds = &object.regular(0);
     shading_.roots = &object.root(0);
     ball_ = object.isBall();
-    // No seed leaves the reach of its object. Places have 16 bits.
     const int32_t reach = rawFromReal(object.reach()) >> 8;
     near_ = own_.centre[2] - reach < NEAREST_DEPTH || own_.centre[2] + reach >= FARTHEST_DEPTH;
-    shading_.placeShift = 8;
-    for (int32_t most = rawFromReal(object.laidReach()) >> 8; most > 32000; most >>= 1)
-        ++shading_.placeShift;
+    shading_.placeShift = object.placeShift();
     // A step of places in 1/256 unit of the world, 16 bits of fraction.
     const int32_t step = rawFromReal(own.growth) << (shading_.placeShift - 8);
     shading_.turned = !ball_ || object.size() != object.laidSize() || frame.axes.turned;
     shading_.depth = own_.centre[2];
     const int32_t* const axes[] = {own.right, own.up, own.ahead};
     const int32_t radius = rawFromReal(object.radius());
+    const int32_t gradientScale = mulDiv(BRIGHTEST << 15, 1 << (19 - shading_.placeShift), rawFromReal(own.growth));
     for (int i = 0; i < 3; ++i) {
         shading_.eye[i] = own.eye32[i] >> (shading_.placeShift - 8);
         shading_.light[i] = own.light[i];
@@ -121,6 +137,9 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
         shading_.toRight[i] = mulShift16(own.right[i], step);
         shading_.toUp[i] = mulShift16(own.up[i], step);
         shading_.toAhead[i] = mulShift16(own.ahead[i], step);
+        findProducts(own.light, axes[i], lights_[i]);
+        for (int32_t& light : lights_[i])
+            light = mulShift16(light, gradientScale);
         ballGradient_[i] = (product(own.light, axes[i]) >> 14) * (BRIGHTEST * 32) / ((radius >> 8) + 1);
     }
     const int32_t distance = own.distance32 >> (shading_.placeShift - 8);
@@ -132,8 +151,8 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     ballHorizon_ = mulShift16((smaller(radius >> 11, FLATTEST) << 12) / distance32, step);
     horizonScale_ = mulShift16(mulDiv(step, 1 << 12, distance32), step);
     flatHorizon_ = mulShift16(FLATTEST, horizonScale_);
-    gradientScale_ = mulDiv(BRIGHTEST << 16, 1 << (19 - shading_.placeShift), rawFromReal(own.growth));
     const int32_t spacing = spacing_ = smaller(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
+    shading_.deepest = spacing * DEEPEST;
     areaScale_ = static_cast<uint32_t>(mulShift16(spacing * spacing << 7, step));
     shading_.cellShift = __builtin_clz(static_cast<uint32_t>(spacing)) - 19;
     if (spacing << shading_.cellShift > 6143)
@@ -210,41 +229,38 @@ SELDOM void Shader::measureBend(Patch& patch) const
     // The greater curvature of the two: in its direction the normal of the patch's other seeds differs.
     const int32_t one = product(turn[0], dual[0]), other = product(turn[1], dual[1]);
     const int32_t most = overArea(magnitude(one) > magnitude(other) ? one : other);
-    for (int i = 0; i < 3; ++i) {
-        const int32_t inward = most * n[i] >> 14;
-        for (int j = i; j < 3; ++j)
-            bend.turn[i][j] = bend.turn[j][i] =
-                static_cast<int16_t>(limited(overArea(turn[0][i] * dual[0][j] + turn[1][i] * dual[1][j]) +
-                                             (inward * n[j] >> 14), 16000));
-    }
+    const auto turned = [&](int i, int j) {
+        return static_cast<int16_t>(limited(overArea(turn[0][i] * dual[0][j] + turn[1][i] * dual[1][j]) +
+                                            ((most * n[i] >> 14) * n[j] >> 14), 16000));
+    };
+    bend.turn[0] = turned(0, 0);
+    bend.turn[1] = turned(1, 1);
+    bend.turn[2] = turned(2, 2);
+    bend.turn[3] = turned(0, 1);
+    bend.turn[4] = turned(0, 2);
+    bend.turn[5] = turned(1, 2);
 }
 
 // How the brightness changes over a patch, and where it bends out of sight.
 inline void Shader::setBend(const Patch& patch, const Seen& middle)
 {
     const Bend& bend = patch.bend;
-    int32_t change[3];
-    for (int i = 0; i < 3; ++i)
-        change[i] = mulShift16(product(bend.turn[i], own_.light) >> 14, gradientScale_);
-    shading_.gradient[0] = along(change, own_.right, 0) * 8;
-    shading_.gradient[1] = along(change, own_.up, 1) * 8;
-    shading_.gradientAhead = along(change, own_.ahead, 2) * 8;
+    shading_.gradient[0] = turnOf(bend, lights_[0]) >> 11;
+    shading_.gradient[1] = turnOf(bend, lights_[1]) >> 11;
+    shading_.gradientAhead = turnOf(bend, lights_[2]) >> 11;
     shading_.horizonShare = flatHorizon_;
     if (middle.facing >= facesViewer_)
         return;
     // The curvature along the view.
-    int32_t p[3], view[3];
+    int32_t p[3], view[3], both[6];
     findPlace(shading_, *middle.seed, p);
     for (int i = 0; i < 3; ++i)
         view[i] = (shading_.eye[i] - (p[i] >> 3)) >> viewShift_;
     const int32_t up = product(bend.normal, view) >> 14, n[] = {bend.normal.x, bend.normal.y, bend.normal.z};
     for (int i = 0; i < 3; ++i)
         view[i] -= n[i] * up >> 14;
-    const int32_t square = product(view, view);
-    int32_t curvature = 0;
-    for (int i = 0; i < 3; ++i)
-        curvature += (product(bend.turn[i], view) >> 14) * view[i];
-    curvature >>= 3;
+    findProducts(view, view, both);
+    const int32_t square = (both[0] + both[1] + both[2]) << 13, curvature = turnOf(bend, both) >> 4;
     // A quarter more than the radius at rest, for what scales differ from their cells: next to the limb there may be no other that
     // covers it. What blends bends no less than a ball half as large again.
     const bool rests = patch.state == PATCH_REST;
@@ -298,17 +314,6 @@ inline bool Shader::bendsUnevenly(const Voxel* voxels, int count) const
         if (errs(voxels[i]))
             return true;
     return false;
-}
-
-// Next to the limb, scales whose seeds have parted would come far before the surface.
-inline void Shader::shorten(Voxel* voxel) const
-{
-    const int32_t deep = (magnitude(voxel->tiltX) * voxel->wide + magnitude(voxel->tiltY) * voxel->high) >> 8;
-    const int32_t most = spacing_ * DEEPEST;
-    if (deep > most) {
-        voxel->wide = static_cast<int16_t>(voxel->wide * most / deep);
-        voxel->high = static_cast<int16_t>(voxel->high * most / deep);
-    }
 }
 
 // Where another object is the strongest the scale ends: at a straight line, for the difference of two fields is nearly linear
@@ -370,6 +375,10 @@ inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter*
         measureBend(patch);
     setPatch(patch, middle, voxels[count >> 1]);
     shadeSeeds(&shading_, seen, voxels, count);
+    if (!PAINTED && patch.state == PATCH_REST) {
+        list.count += count;
+        return;
+    }
     const bool shines = PAINTED && painter->shines(), blends = patch.state == PATCH_MIXED;
     const int32_t sight = shines || (blends && bendsUnevenly(voxels, regular)) ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
     const int known = shines || blends ? regular : 0;
@@ -381,8 +390,6 @@ inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter*
             if (s.apart < 0)
                 voxels[i].z += BEHIND;
         }
-        if (voxels[i].reach != 0)
-            shorten(voxels + i);
         if (PAINTED) {
             to = list.room();
             painter->add(s, voxels[i]);
@@ -401,11 +408,11 @@ inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter*
         list.count = static_cast<int>(to - list.voxels);
 }
 
-// Whether some of a patch may be seen. What has settled in this frame was not hidden before it did.
+// Whether some of a patch that does not rest facing away may be seen. What has settled in this frame was not hidden before it did.
 bool isSeen(const Patch& patch, const OwnFrame& own)
 {
     if (patch.state == PATCH_REST)
-        return !restsAway(patch, own) && !outOfSight(patch, own) && !isHidden(patch, own);
+        return !outOfSight(patch, own) && !isHidden(patch, own);
     return patch.state == PATCH_MIXED && (patch.settled || !isHidden(patch, own));
 }
 
@@ -420,7 +427,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
     int at = first;
     for (; at < count && list.count + most <= room; ++at) {
         Patch& patch = patches[at];
-        if (isSeen(patch, own))
+        if (!(patch.state == PATCH_REST && restsAway(patch, own)) && isSeen(patch, own))
             shader.shadePatch<PAINTED>(patch, at + turn, list, painter);
     }
     slopes.set(shader.spacing());

@@ -107,16 +107,22 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     }
     wide = smaller(wide + (wide >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff);
     high = smaller(high + (high >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff);
-    voxel.wide = static_cast<int16_t>(wide);
-    voxel.high = static_cast<int16_t>(high);
     voxel.reach = 0;
     voxel.cutX = voxel.cutY = voxel.slopeX = voxel.slopeY = 0;
     voxel.cutAt = 0;
     // Where a round surface bends out of sight its tangent plane goes on: the scale ends there. The limb is cos^2 radius / 2
     // away across the view, with cos the cosine of normal and viewer; along the plane that is cos radius / 2 deep.
     const int32_t reach = (v.horizonShare * facing >> 16) + 1;
-    if (reach < 256 && (magnitude(tiltX) * wide + magnitude(tiltY) * high) >> 11 >= reach)
+    const int32_t deep = (magnitude(tiltX) * wide + magnitude(tiltY) * high) >> 8;
+    if (reach < 256 && deep >= reach * 8) {
         voxel.reach = static_cast<uint8_t>(reach);
+        if (deep > v.deepest) {
+            wide = wide * v.deepest / deep;
+            high = high * v.deepest / deep;
+        }
+    }
+    voxel.wide = static_cast<int16_t>(wide);
+    voxel.high = static_cast<int16_t>(high);
     voxel.brightness = static_cast<int8_t>(light <= DARK_MIDDLE ? 0 : light);
     if (light <= DARK_MIDDLE)
         return;
@@ -131,10 +137,13 @@ bool findSeed(const Shading& v, const Seed& s, Seen* seen, Voxel* voxel)
 {
     if (!(s.flags & SEED_VALID))
         return false;
-    int32_t place[3];
+    int32_t place[3], facing;
     findPlace(v, s, place);
-    const int32_t facing = (s.normal.x * (v.eye[0] - (place[0] >> 3)) + s.normal.y * (v.eye[1] - (place[1] >> 3)) +
-                            s.normal.z * (v.eye[2] - (place[2] >> 3))) >> 11;
+    if (s.flags & SEED_RESTING)
+        facing = ((s.normal.x * v.eye[0] + s.normal.y * v.eye[1] + s.normal.z * v.eye[2]) >> 11) - s.out;
+    else
+        facing = (s.normal.x * (v.eye[0] - (place[0] >> 3)) + s.normal.y * (v.eye[1] - (place[1] >> 3)) +
+                  s.normal.z * (v.eye[2] - (place[2] >> 3))) >> 11;
     if (facing <= v.limb)
         return false;
     const auto along = [&](const int32_t axis[3]) {

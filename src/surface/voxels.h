@@ -30,6 +30,7 @@ struct Shading {
     int32_t cellShift;      // takes half axes of cells on the picture plane to 1/256 unit
     int32_t areaShare;      // the area of a cell times facing / 8, times this: 2^32 times that on the picture plane
     int32_t wholeMost;      // a cell of no larger area is covered as a whole
+    int32_t deepest;        // a scale that ends changes its depth to no corner by more than this, 1/256 unit
     int32_t horizonShare;   // of the radius of curvature: half of it over the distance of the eye, 12 bits of fraction
     int32_t gradient[2];    // of the brightness across the view, 1/8 step a unit with 8 bits of fraction
     int32_t gradientAhead;  // the same along it, 4 bits of fraction
@@ -82,8 +83,12 @@ constexpr int32_t AREA_MOST = 16383;
 // Where a seed is in own space, in steps of places.
 inline void findPlace(const Shading& v, const Seed& s, int32_t place[3])
 {
-    const Vector& root = v.roots[s.root];
-    const Vector to = s.flags & SEED_RESTING ? root + s.path : root + s.path * s.position;
+    if (s.flags & SEED_RESTING) {
+        for (int i = 0; i < 3; ++i)
+            place[i] = s.place[i];
+        return;
+    }
+    const Vector to = v.roots[s.root] + s.path * s.position;
     place[0] = rawFromReal(to.x) >> v.placeShift;
     place[1] = rawFromReal(to.y) >> v.placeShift;
     place[2] = rawFromReal(to.z) >> v.placeShift;
