@@ -238,8 +238,10 @@ void Settler::settleOthers(Patch& patch)
     forSeeds(object_, patch, [&](Seed& s, int) {
         if (&s == &centre)
             return;
-        // What has slept or rested is likely to be where the one in the middle is.
+        // What has slept or rested is likely to be where the one in the middle is, and to be kept off by what keeps that off.
         const bool woken = (s.flags & SEED_ASLEEP) || ((s.flags & SEED_RESTING) && !(centre.flags & SEED_RESTING));
+        if (woken && !(centre.flags & SEED_VALID))
+            s.blocker = centre.blocker;
         if ((!(s.flags & SEED_VALID) || (woken && !(centre.flags & SEED_VALID))) && isCovered(s)) {
             s.flags &= stillOff();
             return;
