@@ -19,8 +19,8 @@ constexpr Real STEEPEST(1.3);
 constexpr int32_t TURNED = 500;
 // Units: no seed waits while neighbours come so far in a frame.
 constexpr Real HURRY(2);
-// Cosines (1.0 = 2^14) by which a seed faces away that is looked at less often.
-constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000;
+// Cosines (1.0 = 2^14) by which a seed faces away that is looked at less often, and that needs no other one beside it.
+constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000, FAR_AWAY = 7500;
 // Positions: by how much a seed may leave the range that those of its patch were found in before all neighbours are asked.
 constexpr Real RANGE(0.05);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
@@ -341,13 +341,19 @@ inline bool Settler::isAlike(const Seed& s) const
     return !(s.flags & SEED_VALID) || absolute(s.position - n.position) <= alike_;
 }
 
+// Whether a seed is not on the surface, or faces so far away that what lies beside it is not seen.
+bool Settler::isAway(const Seed& s) const
+{
+    return !(s.flags & SEED_VALID) || facing(object_, s, own_) < -FAR_AWAY;
+}
+
 void Settler::oversample(Patch& patch)
 {
     const bool had = patch.extras;
     bool any = false;
     forSeeds(object_, patch, [&](const Seed& s, int i) {
         const int other = isAlike(s) ? -1 : parted(object_, i);
-        if (other < 0) {
+        if (other < 0 || (isAway(s) && isAway(object_.regular(other)))) {
             if (had)
                 putAway(object_, i);
             return;
