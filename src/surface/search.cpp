@@ -19,8 +19,6 @@ constexpr Real SEARCH_FIRST(0.88), SEARCH_STEP(0.16);
 constexpr Real COVERED_LATE(1.62), BETWEEN(1.18), BETWEEN_LATE(1.49);
 // Positions: the steps in which a path is followed that has left the surface, and how far it is followed.
 constexpr Real RETURN_STEP(0.08), RETURN_FAR(0.4);
-// Of the field: a valley this shallow above the isovalue is looked into.
-constexpr Real VALLEY(0.12);
 // Of the field: by how much it leaves the cubic curve that it follows.
 constexpr Real CUBIC_SPARE(0.03);
 // What is not known to be crossed no more than once.

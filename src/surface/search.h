@@ -6,6 +6,8 @@
 
 // Of the field: a seed that is this near the isovalue is on the surface.
 constexpr Real TOLERANCE(0.004);
+// Of the field: a valley this shallow above the isovalue is looked into.
+constexpr Real VALLEY(0.12);
 
 // Newton's method from a sample already taken. True: `*position` is on the surface, and `*sample` was taken there or a short step
 // before.

@@ -76,6 +76,7 @@ private:
     SELDOM bool settleFine(int i);
     void settleBehind(const Seed& valid, bool far, Seed& s);
     SELDOM bool settleIsland(const Patch& patch, int i);
+    bool hurries() const;
     bool waits(const Seed& s, bool someAway) const;
     bool mixes() const;
 
