@@ -13,6 +13,11 @@ constexpr Real VALLEY(0.12);
 // before.
 bool follow(Path& path, Real* position, Sample* sample);
 
+// Whether the seed is sure to lie inside a neighbour: from COVERED_AT or a place farther out on that is the stronger one, and the path
+// has not left the surface before. `*margin` becomes by how much of the field both hold. Position and sample are those of the last
+// of the two that was looked at.
+bool isInside(Path& path, Real* position, Sample* sample, Real* margin);
+
 // Looks for the first place where the path leaves the surface. `*position` becomes that place and `*sample` what is there; where
 // the path leaves the surface nowhere, `*position` is the lowest place that was seen and the excess of `*sample` is above 0.
 // Returns how far from the isovalue the field stayed before: the least excess of the valleys that were looked into.

@@ -148,6 +148,12 @@ inline Real Settler::search(const Seed& s, Real* position, Sample* sample)
         path_.beginDeepSearch(s);
         return searchDeep(path_, position, sample, &off_, &push_);
     }
+    // Most are sure to lie inside by the fields alone that reach the patch where it is.
+    Real margin;
+    *position = path_.middle();
+    path_.begin(nearby_.reaching(), s, *position, sample);
+    if (isInside(path_, position, sample, &margin))
+        return margin;
     *sample = path_.beginSearch(s);
     *position = path_.middle();
     return ::search(path_, position, sample);
