@@ -13,9 +13,9 @@ constexpr Real VALLEY(0.12);
 // before.
 bool follow(Path& path, Real* position, Sample* sample);
 
-// Whether the seed is sure to lie inside a neighbour: from COVERED_AT or a place farther out on that is the stronger one, and the path
-// has not left the surface before. `*margin` becomes by how much of the field both hold. Position and sample are those of the last
-// of the two that was looked at.
+// Whether the seed is sure to lie inside a neighbour: from COVERED_AT or a place farther out on that is the stronger one, and the
+// path has not left the surface before. `*margin` becomes by how much of the field both hold. Position and sample are those of the
+// last of the two that was looked at.
 bool isInside(Path& path, Real* position, Sample* sample, Real* margin);
 
 // Looks for the first place where the path leaves the surface. `*position` becomes that place and `*sample` what is there; where
