@@ -19,8 +19,9 @@
 //                 faces away or is hidden: it is not settled
 //   SEED_FOLLOW   it is not on the surface, but its path   it settles
 //                 is likely to leave the surface near its
-//                 position: it wakes up, or the part of a
-//                 hollow's wall where it is is another's
+//                 position: it wakes up, or another is the
+//                 stronger there, or it is on a part of a
+//                 hollow's wall that is another's
 //   SEED_OFF      something digs near it, and it will not  it settles anew
 //                 be on the surface before `due`
 //   SEED_FRONT    /P only: its path does not point away    it does

@@ -19,8 +19,6 @@ constexpr Real SEARCH_FIRST(0.88), SEARCH_STEP(0.16);
 constexpr Real COVERED_LATE(1.62), BETWEEN(1.18), BETWEEN_LATE(1.49);
 // Positions: the steps in which a path is followed that has left the surface, and how far it is followed.
 constexpr Real RETURN_STEP(0.08), RETURN_FAR(0.4);
-// Of the field: a valley this shallow above the isovalue is looked into.
-constexpr Real VALLEY(0.12);
 // Of the field: by how much it leaves the cubic curve that it follows.
 constexpr Real CUBIC_SPARE(0.03);
 // What is not known to be crossed no more than once.
@@ -83,9 +81,18 @@ inline Look lookAt(Path& path, Real position)
     return {position, path.look(position)};
 }
 
-// Whether the seed is sure to lie inside a neighbour: from COVERED_AT or COVERED_LATE on that is the stronger one, and the path has
-// not left the surface before. `*margin` becomes by how much of the field both hold. Position and sample are those of the last of
-// the two that was looked at.
+// The lowest place of a valley between two looks. Unless it is too high to matter, its floor is looked for: it is about where a
+// slope that changes evenly is 0.
+Look floorBetween(Path& path, const Look& a, const Look& b)
+{
+    const Look& lower = a.sample.excess < b.sample.excess ? a : b;
+    if (lower.sample.excess >= VALLEY)
+        return lower;
+    return lookAt(path, a.position + (b.position - a.position) * (a.sample.slope / (a.sample.slope - b.sample.slope)));
+}
+
+}  // namespace
+
 bool isInside(Path& path, Real* position, Sample* sample, Real* margin)
 {
     Real lowest(9);
@@ -109,18 +116,6 @@ bool isInside(Path& path, Real* position, Sample* sample, Real* margin)
     }
     return false;
 }
-
-// The lowest place of a valley between two looks. Unless it is too high to matter, its floor is looked for: it is about where a
-// slope that changes evenly is 0.
-Look floorBetween(Path& path, const Look& a, const Look& b)
-{
-    const Look& lower = a.sample.excess < b.sample.excess ? a : b;
-    if (lower.sample.excess >= VALLEY)
-        return lower;
-    return lookAt(path, a.position + (b.position - a.position) * (a.sample.slope / (a.sample.slope - b.sample.slope)));
-}
-
-}  // namespace
 
 Real search(Path& path, Real* position, Sample* sample)
 {

@@ -6,10 +6,17 @@
 
 // Of the field: a seed that is this near the isovalue is on the surface.
 constexpr Real TOLERANCE(0.004);
+// Of the field: a valley this shallow above the isovalue is looked into.
+constexpr Real VALLEY(0.12);
 
 // Newton's method from a sample already taken. True: `*position` is on the surface, and `*sample` was taken there or a short step
 // before.
 bool follow(Path& path, Real* position, Sample* sample);
+
+// Whether the seed is sure to lie inside a neighbour: from COVERED_AT or a place farther out on that is the stronger one, and the
+// path has not left the surface before. `*margin` becomes by how much of the field both hold. Position and sample are those of the
+// last of the two that was looked at.
+bool isInside(Path& path, Real* position, Sample* sample, Real* margin);
 
 // Looks for the first place where the path leaves the surface. `*position` becomes that place and `*sample` what is there; where
 // the path leaves the surface nowhere, `*position` is the lowest place that was seen and the excess of `*sample` is above 0.

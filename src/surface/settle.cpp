@@ -19,8 +19,10 @@ constexpr Real STEEPEST(1.3);
 constexpr int32_t TURNED = 500;
 // Units: no seed waits while neighbours come so far in a frame.
 constexpr Real HURRY(2);
-// Cosines (1.0 = 2^14) by which a seed faces away that is looked at less often.
-constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000;
+// Cosines (1.0 = 2^14) by which a seed faces away that is looked at less often, and that needs no other one beside it.
+constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000, FAR_AWAY = 7500;
+// Of the turns of what waits: one in four.
+constexpr uint32_t SEARCHED_AGAIN = 3;
 // Positions: by how much a seed may leave the range that those of its patch were found in before all neighbours are asked.
 constexpr Real RANGE(0.05);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
@@ -74,11 +76,14 @@ Real Settler::settle(Seed& s)
         found = sample.excess <= Real(0);
     }
     s.position = position;
-    // Where another object is the stronger, the path may leave the surface before that in the next frame: it is searched again.
     if (found && sample.dominance <= OVERSHOOT) {
         place(s, sample.dominance);
         return Real(0);
     }
+    // Where another object is the stronger, the path may leave the surface before that in a later frame: where a valley or haste
+    // tells so it is searched again in the next one, else when its turn comes.
+    if (found && margin > VALLEY && (turn_ & SEARCHED_AGAIN) != 0 && !nearby_.dented() && !hurries())
+        s.flags |= SEED_FOLLOW;
     if (nearby_.dented()) {
         off_ = found ? Real(0) : off_;
         putOff(s, found ? sample.dominance - OVERSHOOT : off_, followed == LOST ? push_ : path_.pushMost());
@@ -143,6 +148,12 @@ inline Real Settler::search(const Seed& s, Real* position, Sample* sample)
         path_.beginDeepSearch(s);
         return searchDeep(path_, position, sample, &off_, &push_);
     }
+    // Most are sure to lie inside by the fields alone that reach the patch where it is.
+    Real margin;
+    *position = path_.middle();
+    path_.begin(nearby_.reaching(), s, *position, sample);
+    if (isInside(path_, position, sample, &margin))
+        return margin;
     *sample = path_.beginSearch(s);
     *position = path_.middle();
     return ::search(path_, position, sample);
@@ -260,13 +271,19 @@ void Settler::settleOthers(Patch& patch)
         forSeeds(object_, patch, [&](const Seed&, int i) { patch.islands |= settleIsland(patch, i); });
 }
 
+// Whether neighbours come so fast that no seed waits.
+inline bool Settler::hurries() const
+{
+    return came_ > least(HURRY, shiftDown(nearby_.smallest(), 2));
+}
+
 // Coherence over time: a seed that did not move when it was looked at waits for a frame, and so does one that faces away a
 // little; one that did not move twice, or faces well away, waits for three.
 bool Settler::waits(const Seed& s, bool someAway) const
 {
     if (!patch_->stirred && (s.flags & SEED_VALID))
         return true;
-    if (nearby_.dented() || !(s.flags & SEED_VALID) || came_ > least(HURRY, shiftDown(nearby_.smallest(), 2)))
+    if (nearby_.dented() || !(s.flags & SEED_VALID) || hurries())
         return false;
     uint32_t mask = s.still;
     if (someAway) {
@@ -343,13 +360,19 @@ inline bool Settler::isAlike(const Seed& s) const
     return !(s.flags & SEED_VALID) || absolute(s.position - n.position) <= alike_;
 }
 
+// Whether a seed is not on the surface, or faces so far away that what lies beside it is not seen.
+bool Settler::isAway(const Seed& s) const
+{
+    return !(s.flags & SEED_VALID) || facing(object_, s, own_) < -FAR_AWAY;
+}
+
 void Settler::oversample(Patch& patch)
 {
     const bool had = patch.extras;
     bool any = false;
     forSeeds(object_, patch, [&](const Seed& s, int i) {
         const int other = isAlike(s) ? -1 : parted(object_, i);
-        if (other < 0) {
+        if (other < 0 || (isAway(s) && isAway(object_.regular(other)))) {
             if (had)
                 putAway(object_, i);
             return;

@@ -71,10 +71,12 @@ private:
     int stillOff() const { return nearby_.dented() ? SEED_OFF | SEED_FOLLOW : 0; }
     bool isCovered(const Seed& s) { return nearby_.dented() ? isOff(*patch_, s) : cover_.hides(s); }
     void setRange(Patch& patch) const;
+    bool isAway(const Seed& s) const;
     bool isAlike(const Seed& s) const;
     SELDOM bool settleFine(int i);
     void settleBehind(const Seed& valid, bool far, Seed& s);
     SELDOM bool settleIsland(const Patch& patch, int i);
+    bool hurries() const;
     bool waits(const Seed& s, bool someAway) const;
     bool mixes() const;
 
