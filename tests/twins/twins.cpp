@@ -737,7 +737,8 @@ void voxelByVoxel(int rounds)
                     // Steps are whole 1/256 from pixel to pixel, and lengths are good to a thousandth.
                     // And the brightness between two pixels may be that of both.
                     const bool paired = mostWide > PAIRED_ABOVE && !isCut(v);
-                    const double unsure = (paired ? most(v.slopeX, 0) / 16 * z / optics.focalX + 0.01 : 0) + 0.01 + (most(dx, 0) + most(dy, 0)) / 256 +
+                    const double between = paired ? 0.01 + most(v.slopeX, 0) / 16 * z / optics.focalX : 0;
+                    const double unsure = between + 0.01 + (most(dx, 0) + most(dy, 0)) / 256 +
                                           0.0021 * (most(v.slopeX, 0) + most(v.slopeY, 0)) / 8 *
                                               (most(dx, dy) + 8 * (doubtX + doubtY) / 0.01) * z / optics.focalX;
                     const bool plain = (v.slopeX | v.slopeY) == 0;
