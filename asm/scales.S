@@ -43,7 +43,6 @@
 #define LENS_STEPS ((LENS_FAR - LENS_NEAR) * 8)
 #define STEEPEST   400
 #define LARGEST    40
-#define PAIRED_ABOVE 16
 #define Z_EMPTY    0xffff
 #define SCREEN_WIDTH 320
 #define SCREEN_HEIGHT 200
@@ -120,8 +119,7 @@
 // height, from which on as many rows follow as are to be drawn. Larger scales go row by row.
 //
 // Those that are cut, clipped, larger or nearer than the tables enter each row at as many columns before its end as they are
-// wide. Where two pixels have one brightness they cost 13 instructions, not 16. Of what is cut edx has the function that cuts,
-// which costs 2 instructions a pixel more; 3 are all for a pixel cut off.
+// wide. Of what is cut edx has the function that cuts, which costs 2 instructions a pixel more; 3 are all for a pixel cut off.
 
         .balign 16
         FUNC(drawScalesA)
@@ -478,19 +476,17 @@ even:
 
         // for (y = high; y > 0; --y, z += zRow, cut += cutRow)
         //     for (x = 0; x < wide; ++x, z += zStep, cut += cutStep) ..;   edi is the pixel behind the last one of the row
-        .macro  ENTERED kind cuts most
+        .macro  ENTERED kind cuts
         .balign 4
         .set    at, -LARGEST
         .irp    wide, 40, 39, 38, 37, 36, 35, 34, 33, 32, 31, 30, 29, 28, 27, 26, 25, 24, 23, 22, 21, 20, \
                       19, 18, 17, 16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1
-        .if     \wide <= \most
 entered_\kind\()_\wide:
         PIXEL_\kind at
         .if     \wide > 1
         addl    %ebx, %eax
         .if     \cuts
         addl    CUT_STEP(%esp), %edx
-        .endif
         .endif
         .endif
         .set    at, at + 1
@@ -506,57 +502,6 @@ entered_\kind\()_\wide:
         jmp     *ENTRY(%esp)
 entered_\kind\()_done:
         NEXT_VOXEL
-        .endm
-
-        // The same of what is wider than PAIRED_ABOVE, where two pixels have one brightness: behind the code for the first, that of
-        // the second finds the colour in cl. What enters a row at a second pixel, or comes from a first that is not drawn, goes by
-        // code of its own.
-        .macro  ENTERED_PAIRS kind ends
-        .balign 4
-        .set    at, -LARGEST
-        .irp    wide, 40, 38, 36, 34, 32, 30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2
-paired_\kind\()_\wide:
-        cmpw    2*at(%esi), %ax
-        jae     second_\kind\()_\wide
-        .if     \ends
-        cmpw    ZMOST(%esp), %ax
-        ja      second_\kind\()_\wide
-        .endif
-        movl    %eax, %ecx
-        movw    %ax, 2*at(%esi)
-        sarl    $24, %ecx
-        movb    (%ebp,%ecx), %cl
-        movb    %cl, at(%edi)
-        addl    %ebx, %eax
-        cmpw    2*(at+1)(%esi), %ax
-        jae     passed_\kind\()_\wide
-        .if     \ends
-        cmpw    ZMOST(%esp), %ax
-        ja      passed_\kind\()_\wide
-        .endif
-        movw    %ax, 2*(at+1)(%esi)
-        movb    %cl, at+1(%edi)
-passed_\kind\()_\wide:
-        .if     \wide > 2
-        addl    %ebx, %eax
-        .endif
-        .set    at, at + 2
-        .endr
-        subl    ROW(%esp), %eax
-        addl    $2*SCREEN_WIDTH, %esi
-        addl    $SCREEN_WIDTH, %edi
-        decl    HIGH(%esp)
-        js      entered_\kind\()_done
-        jmp     *ENTRY(%esp)
-        .set    at, 1-LARGEST
-        .irp    wide, 40, 38, 36, 34, 32, 30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2
-second_\kind\()_\wide:
-        addl    %ebx, %eax
-alone_\kind\()_\wide:
-        PIXEL_\kind at
-        jmp     passed_\kind\()_\wide
-        .set    at, at + 2
-        .endr
         .endm
 
         // if (!depthsFit(z, across * (wide - 1), down * (high - 1))) break
@@ -582,15 +527,6 @@ large:
         cmpl    $Z_EMPTY, DEPTH(%esp)
         jae     leave
         movl    ROW(%esp), %edx
-        // if (!isCut && wide > PAIRED_ABOVE) both += (step >> 17) << 16
-        cmpl    $PAIRED_ABOVE, WIDE(%esp)
-        jl      small
-        cmpl    $entered_cut_40, ENTRY(%esp)
-        jae     small
-        movl    %ebx, %ecx
-        sarl    $17, %ecx
-        shll    $16, %ecx
-        addl    %ecx, %eax
         // pixels -= high * WIDTH;  depths -= high * WIDTH;   and to the end of the row
 small:
         movl    HIGH(%esp), %ecx
@@ -603,12 +539,10 @@ small:
         leal    (%esi,%ecx,2), %esi
         testl   %edx, %edx
         jmp     *ENTRY(%esp)
-        ENTERED shaded, 0, PAIRED_ABOVE
-        ENTERED ending, 0, PAIRED_ABOVE
-        ENTERED_PAIRS shaded, 0
-        ENTERED_PAIRS ending, 1
-        ENTERED cut, 1, LARGEST
-        ENTERED cutending, 1, LARGEST
+        ENTERED shaded, 0
+        ENTERED ending, 0
+        ENTERED cut, 1
+        ENTERED cutending, 1
 
 leave:
         movl    END(%esp), %eax
@@ -831,18 +765,9 @@ shaded_ways:
         .endr
         .endm
 
-        .macro  PAIRED_ENTRIES kind
-        .irp    wide, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16
-        .long   entered_\kind\()_\wide
-        .endr
-        .irp    wide, 18, 20, 22, 24, 26, 28, 30, 32, 34, 36, 38, 40
-        .long   alone_\kind\()_\wide, paired_\kind\()_\wide
-        .endr
-        .endm
-
 entered_ways:
-        PAIRED_ENTRIES shaded
-        PAIRED_ENTRIES ending
+        ENTRIES shaded
+        ENTRIES ending
         ENTRIES cut
         ENTRIES cutending
 

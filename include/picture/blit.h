@@ -29,9 +29,6 @@ struct Scale {
 // One that ends where it gets too far away, that is cut along a line, or whose brightness changes across it. `ramp` has the
 // palette index of each brightness that occurs. The brightnesses, and what cuts, have 8 bits of fraction: what they are at
 // the top left pixel, and how they change like the depth.
-// Of those wider than PAIRED_ABOVE that are not cut two pixels beside each other, counted from the right, have one brightness, that
-// in between, where the left one is drawn.
-constexpr int PAIRED_ABOVE = 16;
 struct FineScale : Scale {
     int32_t zMost;  // of what is drawn
     const uint8_t* ramp;

@@ -35,14 +35,11 @@ template <bool CUT>
 inline void fineRow(const FineScale& scale, uint8_t* pixels, uint16_t* depths, uint32_t both, uint32_t step, uint32_t most,
                     uint32_t cut)
 {
-    bool drawn = false;
     for (int x = -scale.wide; x != 0; ++x) {
         const uint32_t z = static_cast<uint16_t>(both);
-        const bool second = drawn && !CUT && scale.wide > PAIRED_ABOVE && (x & 1) != 0;
-        drawn = z < depths[x] && z <= most && (!CUT || static_cast<int32_t>(cut) >= 0);
-        if (drawn) {
+        if (z < depths[x] && z <= most && (!CUT || static_cast<int32_t>(cut) >= 0)) {
             depths[x] = static_cast<uint16_t>(z);
-            pixels[x] = second ? pixels[x - 1] : scale.ramp[static_cast<int32_t>(both) >> 24];
+            pixels[x] = scale.ramp[static_cast<int32_t>(both) >> 24];
         }
         both += step;
         if (CUT)
@@ -69,8 +66,6 @@ void blitFine(uint8_t* frame, uint16_t* zbuffer, const FineScale& scale)
     const uint32_t most = scale.zMost > Z_EMPTY ? Z_EMPTY : static_cast<uint32_t>(scale.zMost);
     const bool isCut = (scale.cut | scale.cutStep | scale.cutRow) != 0;
     uint32_t both = together(scale.z, scale.shade), cut = static_cast<uint32_t>(scale.cut);
-    if (!isCut && scale.wide > PAIRED_ABOVE)
-        both += static_cast<uint32_t>(static_cast<int32_t>(step) >> 17) << 16;
     for (int y = scale.high; y > 0; --y) {
         if (isCut)
             fineRow<true>(scale, pixels, depths, both, step, most, cut);

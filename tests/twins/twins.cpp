@@ -366,7 +366,6 @@ static_assert(inasm::LENS_X == offsetof(Lens, x) && inasm::LENS_Y == offsetof(Le
               inasm::FOCALY == offsetof(Lens, focalY) && inasm::LENS_WORDS * 4 == sizeof(Lens), "Lens");
 static_assert(inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FAR == LENS_FAR && inasm::LENS_STEPS == LENS_STEPS &&
                   inasm::STEEPEST == STEEPEST && inasm::LARGEST == LARGEST && inasm::LENS_NEXT == LENS_NEXT &&
-                  inasm::PAIRED_ABOVE == PAIRED_ABOVE &&
                   inasm::FACTOR_MOST == FACTOR_MOST && inasm::Z_EMPTY == Z_EMPTY && inasm::SCREEN_WIDTH == WIDE &&
                   inasm::SCREEN_HEIGHT == HIGH,
               "constants");
@@ -735,10 +734,7 @@ void voxelByVoxel(int rounds)
                     const double shade =
                         v.brightness + v.slopeX / 8.0 * dx * z / optics.focalX - v.slopeY / 8.0 * dy * z / optics.focalY;
                     // Steps are whole 1/256 from pixel to pixel, and lengths are good to a thousandth.
-                    // And the brightness between two pixels may be that of both.
-                    const bool paired = mostWide > PAIRED_ABOVE && !isCut(v);
-                    const double between = paired ? 0.01 + most(v.slopeX, 0) / 16 * z / optics.focalX : 0;
-                    const double unsure = between + 0.01 + (most(dx, 0) + most(dy, 0)) / 256 +
+                    const double unsure = 0.01 + (most(dx, 0) + most(dy, 0)) / 256 +
                                           0.0021 * (most(v.slopeX, 0) + most(v.slopeY, 0)) / 8 *
                                               (most(dx, dy) + 8 * (doubtX + doubtY) / 0.01) * z / optics.focalX;
                     const bool plain = (v.slopeX | v.slopeY) == 0;
