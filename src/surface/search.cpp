@@ -46,9 +46,6 @@ bool follow(Path& path, Real* position, Sample* sample)
     return false;
 }
 
-namespace {
-
-// Finds where the path leaves the surface between a position inside and one outside.
 void bisect(Path& path, Real inside, Real outside, Real* position, Sample* sample)
 {
     for (int i = 0; i < BISECTIONS; ++i) {
@@ -72,6 +69,8 @@ void bisect(Path& path, Real inside, Real outside, Real* position, Sample* sampl
     sample->excess = Real(0);
 }
 
+namespace {
+
 // What was seen at a position.
 struct Look {
     Real position;
@@ -81,6 +80,12 @@ struct Look {
 inline Look lookAt(Path& path, Real position)
 {
     return {position, path.look(position)};
+}
+
+// About where a slope that changes evenly is 0 between two looks.
+Real turnBetween(const Look& a, const Look& b)
+{
+    return a.position + (b.position - a.position) * (a.sample.slope / (a.sample.slope - b.sample.slope));
 }
 
 // Whether the seed is sure to lie inside a neighbour: from COVERED_AT or COVERED_LATE on that is the stronger one, and the path has
@@ -117,7 +122,7 @@ Look floorBetween(Path& path, const Look& a, const Look& b)
     const Look& lower = a.sample.excess < b.sample.excess ? a : b;
     if (lower.sample.excess >= VALLEY)
         return lower;
-    return lookAt(path, a.position + (b.position - a.position) * (a.sample.slope / (a.sample.slope - b.sample.slope)));
+    return lookAt(path, turnBetween(a, b));
 }
 
 }  // namespace
@@ -162,22 +167,50 @@ Real search(Path& path, Real* position, Sample* sample)
     return lowest.sample.excess;
 }
 
-bool comesBack(Path& path, Real from, bool far, Real* position, Sample* sample)
+bool comesBack(Path& path, Real from, Real* position, Sample* sample)
 {
-    const Real left = from, end = far ? path.last() : from + RETURN_FAR, step = far ? SEARCH_STEP : RETURN_STEP;
+    const Real left = from, end = from + RETURN_FAR;
     while (from < end) {
         const Real outside = from;
-        const Sample now = path.look(from += step);
+        const Sample now = path.look(from += RETURN_STEP);
         if (now.excess > Real(0)) {
             if (outside == left)
                 return false;
             bisect(path, from, outside, position, sample);
             return true;
         }
-        if (now.dominance > OVERSHOOT || (!far && now.excess < -VALLEY))
+        if (now.dominance > OVERSHOOT || now.excess < -VALLEY)
             return false;
     }
     return false;
+}
+
+bool comesBackFar(Path& path, Real from, Real weakest, Return* back)
+{
+    Look before = lookAt(path, from);
+    bool out = before.sample.excess <= TOLERANCE, found = false;
+    while (before.position < path.last() && path.ownField() > weakest) {
+        const Look now = lookAt(path, least(before.position + RETURN_STEP, path.last()));
+        const bool isOut = now.sample.excess <= Real(0);
+        if (found && isOut) {
+            back->behind = now.position;
+            return true;
+        }
+        if (!found && out) {
+            // Between two places outside there may be a hill.
+            const bool hill = isOut && before.sample.slope > Real(0) && now.sample.slope < Real(0);
+            const Real top = hill ? turnBetween(before, now) : now.position;
+            found = hill ? path.look(top).excess > Real(0) : !isOut;
+            *back = {before.position, top, isOut ? now.position : top};
+            if (found && isOut)
+                return true;
+        }
+        out = isOut;
+        if (now.sample.dominance > OVERSHOOT)
+            break;
+        before = now;
+    }
+    return found;
 }
 
 namespace {

@@ -22,8 +22,21 @@ Real search(Path& path, Real* position, Sample* sample);
 // `*push` becomes by how much that may change when the neighbours come by a unit.
 SELDOM Real searchDeep(Path& path, Real* position, Sample* sample, Real* off, Real* push);
 
-// Where a path that has left the surface at `from` comes back to it. `far`: it is followed to its end, however far below the
-// isovalue the field falls between. False: it comes back nowhere, or so near that the two places cannot be told apart.
-bool comesBack(Path& path, Real from, bool far, Real* position, Sample* sample);
+// Where a path that has left the surface at `from` comes back to it before the field falls far below the isovalue. False: nowhere,
+// or so near that the two places cannot be told apart.
+bool comesBack(Path& path, Real from, Real* position, Sample* sample);
+
+// A path that has left the surface and comes back far from there: it is outside at `before`, inside at `within`, and outside again
+// at `behind`, unless that is `within`: then another object is the stronger one first.
+struct Return {
+    Real before, within, behind;
+};
+
+// Looks for that from a position on, where the own object is the strongest and its field no weaker than `weakest`. False: there is
+// none.
+bool comesBackFar(Path& path, Real from, Real weakest, Return* back);
+
+// Finds where the path crosses the surface between a position inside and one outside.
+void bisect(Path& path, Real inside, Real outside, Real* position, Sample* sample);
 
 #endif

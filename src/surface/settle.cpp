@@ -25,8 +25,8 @@ constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000;
 constexpr Real RANGE(0.05);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
 constexpr Real PARTED(1.5);
-// Of a link: beyond this weight islands are left when objects part.
-constexpr Real HEAVY(2);
+// Of a link: beyond this weight the field rises half way between two objects, and islands are left when they part.
+constexpr Real HEAVY(1);
 // Spacings: how far the surface may go on from a seed to a border without an oversampled one towards the neighbour N (not at all on
 // shaped objects), without one towards the next of its ring, and without a fine one.
 constexpr Real LEFT_OPEN(0.5), LEFT_OPEN_SHAPED(-100), LEFT_OPEN_NEXT(1), LEFT_OPEN_FINE(1.5);
@@ -38,7 +38,8 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& a
     : path_(object, all, *frame.bodies, nearby_, *frame.counts), nearby_(object, all, *frame.bodies),
       cover_(object, all, nearby_, path_), object_(object), own_(own), all_(all), counts_(*frame.counts), now_(odometer.reading()),
       came_(realFromRaw(static_cast<int32_t>(odometer.came() << 6))), updates_(updates),
-      heavy_(frame.bodies->heaviest(object.slot()) > HEAVY)
+      heavy_(frame.bodies->heaviest(object.slot()) > HEAVY),
+      weakest_(ISOVALUE / (Real(1) + shiftUp(frame.bodies->heaviest(object.slot()), 1)))
 {
     Real strongest = most(object.strength(), Real(1));
     for (int i = 0; i < all.count; ++i)
@@ -261,8 +262,6 @@ void Settler::settleOthers(Patch& patch)
         }
     });
     setRange(patch);
-    if (heavy_ && !nearby_.dented())
-        forSeeds(patch, [&](int i) { patch.islands |= settleIsland(patch, i); });
 }
 
 // Coherence over time: a seed that did not move when it was looked at waits for a frame, and so does one that faces away a
@@ -311,12 +310,18 @@ int parted(const SoftObject& object, int i)
            object.regular(next).root == s.root && from(next, LEFT_OPEN_NEXT) ? next : -1;
 }
 
-// The fine seeds of a regular one are not needed, but for the one on an island; nor is its oversampled one; none of a patch is.
+// The fine seeds of a regular one are not needed, but for those on an island; nor is its oversampled one; none of a patch is.
 void putAwayFine(SoftObject& object, int i, int end = SoftObject::FINE_ISLAND)
 {
     Seed* const fine = object.fine(i);
     for (int which = 0; which < end && fine != nullptr; ++which)
         fine[which].flags = 0;
+}
+
+void putAwayIsland(SoftObject& object, int i)
+{
+    if (Seed* const fine = object.fine(i))
+        fine[SoftObject::FINE_ISLAND].flags = fine[SoftObject::FINE_BEYOND].flags = 0;
 }
 
 void putAway(SoftObject& object, int i)
@@ -419,7 +424,7 @@ bool Settler::settleFine(int i)
         if (!waits(s, false))
             settle(s);
         if (((ends[which]->flags ^ extra.flags) & SEED_VALID) && !nearby_.dented())
-            settleBehind(s.flags & SEED_VALID ? s : extra.flags & SEED_VALID ? extra : *ends[which], false,
+            settleBehind(s.flags & SEED_VALID ? s : extra.flags & SEED_VALID ? extra : *ends[which],
                          fine[SoftObject::FINE_BEHIND]);
     }
     return true;
@@ -427,30 +432,69 @@ bool Settler::settleFine(int i)
 
 // Where necks are thin their surface hangs over: the path of a valid seed beside the border leaves the surface, and may come back
 // behind that, where another seed stands for it.
-void Settler::settleBehind(const Seed& valid, bool far, Seed& s)
+void Settler::settleBehind(const Seed& valid, Seed& s)
 {
     Sample sample;
     s = valid;
     s.flags = 0;
     path_.beginSearch(s);
-    if (!comesBack(path_, valid.position, far, &s.position, &sample) || sample.dominance > OVERSHOOT)
+    if (!comesBack(path_, valid.position, &s.position, &sample) || sample.dominance > OVERSHOOT)
         return;
     s.flags = SEED_ACTIVE;
     place(s, sample.dominance);
 }
 
-// Where links are heavy islands are left between objects, and the paths of any seeds come back. False: that of this one does not.
-bool Settler::settleIsland(const Patch& patch, int i)
+// Where links are heavy the field rises again half way to the other object: the paths of any seeds may come back to the surface,
+// whether their patch rests or faces away.
+void Settler::settleIslands(Patch& patch)
 {
-    Seed island;
-    island.flags = 0;
-    if (object_.regular(i).flags & SEED_VALID)
-        settleBehind(object_.regular(i), true, island);
-    const bool there = (island.flags & SEED_VALID) != 0;
-    Seed* const fine = there ? object_.madeFine(i) : patch.islands ? object_.fine(i) : nullptr;
-    if (fine != nullptr)
-        fine[SoftObject::FINE_ISLAND] = island;
-    return there;
+    setPatch(patch);
+    const bool had = patch.islands;
+    patch.islands = false;
+    if (!isListed(patch.listed) || nearby_.dented()) {
+        if (had)
+            forSeeds(patch, [&](int i) { putAwayIsland(object_, i); });
+        return;
+    }
+    forSeeds(patch, [&](int i) {
+        if (had)
+            putAwayIsland(object_, i);
+        patch.islands |= settleIsland(i);
+    });
+}
+
+// False: the path of this regular seed does not come back.
+bool Settler::settleIsland(int i)
+{
+    const Seed& s = object_.regular(i);
+    const bool rests = (s.flags & SEED_VALID) == 0;
+    if (rests && !(s.flags & SEED_ASLEEP))
+        return false;
+    path_.beginSearch(s);
+    Return back;
+    if (path_.touched() == 0 || !comesBackFar(path_, rests ? Real(1) : s.position, weakest_, &back))
+        return false;
+    Seed* const fine = object_.madeFine(i);
+    if (fine == nullptr)
+        return false;
+    const bool near = settleAcross(s, back.within, back.before, fine[SoftObject::FINE_ISLAND]);
+    const bool far = back.behind > back.within && settleAcross(s, back.within, back.behind, fine[SoftObject::FINE_BEYOND]);
+    return near || far;
+}
+
+// Puts a seed where the path of another crosses the surface. False: it is another object's surface.
+bool Settler::settleAcross(const Seed& onPath, Real inside, Real outside, Seed& s)
+{
+    Sample sample;
+    s = onPath;
+    s.flags = 0;
+    path_.beginSearch(s);
+    bisect(path_, inside, outside, &s.position, &sample);
+    if (sample.dominance > OVERSHOOT)
+        return false;
+    s.flags = SEED_ACTIVE;
+    place(s, sample.dominance);
+    return true;
 }
 
 void rest(SoftObject& object, Patch& patch)
