@@ -70,6 +70,30 @@ void follow(const uint8_t* frame, int y, int from, int to, int step, int widest,
 
 }  // namespace
 
+// Notes the empty pixels at both ends of a run that are in corners.
+inline void Gaps::noteCorners(int y, const Span& run)
+{
+    if (Missed::inCorner(frame_, run.from - 1, y, -1))
+        missed_.note(run.from - 1, y);
+    if (Missed::inCorner(frame_, run.to, y, 1))
+        missed_.note(run.to, y);
+}
+
+// The same of what lies beyond an opening that was closed: to both sides of some of its columns.
+void Gaps::noteBeyond(int y, const Span& columns)
+{
+    int from = columns.from, to = columns.to;
+    const uint8_t* row = frame_ + y * WIDTH;
+    if (y < 0 || y >= HEIGHT)
+        return;
+    while (from > 0 && columns.from - from < GAP_MOST && row[from - 1] == 0)
+        --from;
+    while (to < WIDTH && to - columns.to < GAP_MOST && row[to] == 0)
+        ++to;
+    missed_.note(from, y);
+    missed_.note(to - 1, y);
+}
+
 int Gaps::close(Real spacing)
 {
     int drawn = 0;
@@ -96,10 +120,12 @@ int Gaps::close(Real spacing)
             if (slits && from > 0 && inSlit(row + from - 1))
                 closeSlit(y, from - 1, last - 1, -1);
             last = run->to;
+            noteCorners(y, *run);
         }
         if (slits && last > 0 && last < WIDTH && inSlit(row + last))
             closeSlit(y, last, WIDTH, 1);
     }
+    missed_.draw();
     return drawn;
 }
 
@@ -163,6 +189,7 @@ void Gaps::closeFrom(int y, int from, int to, int step, int widest, int narrowes
         for (int i = 0; i < narrow; ++i)
             fill(ends, (y + i * step) * WIDTH + rows[i].from - 1, (y + i * step) * WIDTH + rows[i].to, 1);
     }
+    noteBeyond(y + narrow * step, rows[narrow < opening.high ? narrow : narrow - 1]);
     if (narrow < opening.high) {
         closeCorner(y + narrow * step, rows[narrow].from, 1);
         closeCorner(y + narrow * step, rows[narrow].to - 1, -1);
@@ -278,4 +305,5 @@ void Gaps::closeSlit(int y, int x, int end, int step)
         fill(high > GAP_THIN ? endsOf(above, below) : NO_ENDS, above, below, WIDTH);
         view_.overlay(x, y, 1, high);
     }
+    missed_.note(x, y);
 }
