@@ -73,9 +73,10 @@ void follow(const uint8_t* frame, int y, int from, int to, int step, int widest,
 // Notes the empty pixels at both ends of a run that are in corners.
 inline void Gaps::noteCorners(int y, const Span& run)
 {
-    if (Missed::inCorner(frame_, run.from - 1, y, -1))
+    const uint8_t* const row = frame_ + y * WIDTH;
+    if (Missed::mayBeInCorner(row + run.from - 1, -1))
         missed_.note(run.from - 1, y);
-    if (Missed::inCorner(frame_, run.to, y, 1))
+    if (Missed::mayBeInCorner(row + run.to, 1))
         missed_.note(run.to, y);
 }
 
@@ -120,7 +121,8 @@ int Gaps::close(Real spacing)
             if (slits && from > 0 && inSlit(row + from - 1))
                 closeSlit(y, from - 1, last - 1, -1);
             last = run->to;
-            noteCorners(y, *run);
+            if (y >= Missed::SIDE && y < HEIGHT - Missed::SIDE)
+                noteCorners(y, *run);
         }
         if (slits && last > 0 && last < WIDTH && inSlit(row + last))
             closeSlit(y, last, WIDTH, 1);

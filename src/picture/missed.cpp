@@ -18,6 +18,9 @@ constexpr int STEPS = 3, FARTHEST = 4, THICKEST = 12;
 // Of the field: where it is so far below the isovalue there is no surface near.
 constexpr Real NEAR(0.2);
 
+// Of the field, times the size of the object: by how much it exceeds the isovalue at the edge of what is seen.
+constexpr Real RIM(0.25);
+
 }  // namespace
 
 void Missed::draw()
@@ -25,7 +28,7 @@ void Missed::draw()
     const int corners = count_;
     for (int i = 0; i < corners && model_ != nullptr; ++i) {
         const Place& at = noted_[i];
-        if (!inCorner(frame_, at.column, at.row, 1) && !inCorner(frame_, at.column, at.row, -1))
+        if (!inCorner(at.column, at.row))
             continue;
         drawPixel(at.column, at.row);
         while (count_ > corners && looks_ < LOOKS_MOST) {
@@ -33,6 +36,36 @@ void Missed::draw()
             drawPixel(next.column, next.row);
         }
     }
+}
+
+// How many pixels from one on are drawn, `step` the way from each to the next, and those empty that lie `aside` of them.
+int Missed::sideFrom(int at, int step, int aside) const
+{
+    const auto onScreen = [](int pixel) { return pixel >= 0 && pixel < WIDTH * HEIGHT; };
+    int count = 0;
+    while (count < LONG_SIDE && onScreen(at) && onScreen(at + aside) && frame_[at] != 0 && frame_[at + aside] == 0) {
+        ++count;
+        at += step;
+    }
+    return count;
+}
+
+// Whether a pixel is empty and in a corner of drawn ones.
+bool Missed::inCorner(int column, int row) const
+{
+    const int at = row * WIDTH + column;
+    if (column < 1 || column >= WIDTH - 1 || row < 1 || row >= HEIGHT - 1 || frame_[at] != 0)
+        return false;
+    for (int aside = -1; aside <= 1; aside += 2)
+        for (int down = -WIDTH; down <= WIDTH && frame_[at - aside] != 0; down += 2 * WIDTH) {
+            if (frame_[at + down] == 0)
+                continue;
+            const int upright = sideFrom(at - aside, -down, aside), flat = sideFrom(at + down, aside, -down);
+            const int shorter = smaller(upright, flat), longer = larger(upright, flat);
+            if (shorter >= SIDE || longer == LONG_SIDE)
+                return true;
+        }
+    return false;
 }
 
 // By how much the field at a pixel exceeds the isovalue, were the surface so far away.
@@ -47,6 +80,7 @@ bool Missed::findDepth(int at, int* depth)
 {
     int inside = *depth;
     Real here = excess(at, inside);
+    onEdge_ = here < Real(0);
     // Along the ray to where the field rises, as far as it takes if it goes on rising as it does.
     for (int i = 0, step = STEP; here <= Real(0); ++i) {
         if (i == STEPS || here < -NEAR || inside + step <= 0 || inside + step >= Z_EMPTY)
@@ -71,8 +105,8 @@ bool Missed::findDepth(int at, int* depth)
         outside -= STEP;
         here = excess(at, outside);
     }
+    onEdge_ = onEdge_ && strongest_ >= 0 && within * model_->actor(strongest_).object->size() < RIM;
     *depth = outside + floorToInt(quotient(-here, within - here) * Real(STEP));
-    excess(at, *depth);
     return true;
 }
 
@@ -94,6 +128,9 @@ void Missed::drawPixel(int column, int row)
             return;
     }
     setColour(at, depth, beside);
+    // At the edge of what there is no more is looked for.
+    if (onEdge_)
+        return;
     note(column - 1, row);
     note(column + 1, row);
     note(column, row - 1);

@@ -7,23 +7,25 @@
 
 class Missed {
 public:
+    // So long are the sides of a corner that is none of a round outline: both, or one of them.
+    static constexpr int SIDE = 3, LONG_SIDE = 6;
+
     // Model and palette may be null: nothing is drawn, and all is grey.
     Missed(View& view, const Model* model, const Palette* palette)
         : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model), palette_(palette)
     {
     }
 
-    // Whether a pixel is empty and in a corner of drawn ones, the one beside it, against the way `outwards`, and some above or
-    // below: of sides so long that it is none of a round outline.
-    static bool inCorner(const uint8_t* frame, int column, int row, int outwards)
+    // Whether an empty pixel may be in a corner of drawn ones: of the one beside it, against the way `outwards`, and those above
+    // that or below, and of as many in the row below or above.
+    static bool mayBeInCorner(const uint8_t* pixel, int outwards)
     {
-        if (column < SIDE || column >= machine::WIDTH - SIDE || row < SIDE || row >= machine::HEIGHT - SIDE)
-            return false;
-        const uint8_t* const pixel = frame + row * machine::WIDTH + column;
-        return pixel[0] == 0 && (hasSides(pixel, outwards, machine::WIDTH) || hasSides(pixel, outwards, -machine::WIDTH));
+        constexpr int DOWN = machine::WIDTH, UP = -DOWN, END = SIDE - 1;
+        return (pixel[DOWN + END * outwards] != 0 && pixel[UP * END - outwards] != 0) ||
+               (pixel[UP + END * outwards] != 0 && pixel[DOWN * END - outwards] != 0);
     }
 
-    // Notes a pixel that may be so when all gaps are closed. Of too many the last are left out.
+    // Notes a pixel that may be so when all gaps are closed; it may lie beside the screen. Of too many the last are left out.
     void note(int column, int row)
     {
         if (count_ < NOTED_MOST)
@@ -34,17 +36,10 @@ public:
     void draw();
 
 private:
-    static constexpr int SIDE = 3;
     static constexpr int NOTED_MOST = 512;
 
-    static bool hasSides(const uint8_t* pixel, int outwards, int down)
-    {
-        for (int i = 0; i < SIDE; ++i)
-            if (pixel[-outwards - i * down] == 0 || pixel[down + i * outwards] == 0)
-                return false;
-        return true;
-    }
-
+    int sideFrom(int at, int step, int aside) const;
+    bool inCorner(int column, int row) const;
     void drawPixel(int column, int row);
     Real excess(int at, int depth);
     bool findDepth(int at, int* depth);
@@ -61,6 +56,7 @@ private:
     int count_ = 0;
     int looks_ = 0;  // at fields, so far
     int strongest_ = -1;  // object at the last of them
+    bool onEdge_ = false;  // the ray that was followed last only just meets the surface
 };
 
 #endif
