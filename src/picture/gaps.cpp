@@ -20,7 +20,7 @@ constexpr int DIVIDED = 2;    // as near as this its ends stand when the place i
 // Whether a pixel is empty and lies right below a drawn one and a little way above another.
 inline bool inSlit(const uint8_t* pixel)
 {
-    static_assert(GAP_LOW == 6, "as many rows are looked at");
+    static_assert(GAP_LOW == 6 && GAP_LOW <= View::ROWS_BELOW, "as many rows are looked at");
     return pixel[-WIDTH] != 0 && pixel[0] == 0 &&
            (pixel[WIDTH] | pixel[2 * WIDTH] | pixel[3 * WIDTH] | pixel[4 * WIDTH] | pixel[5 * WIDTH] | pixel[6 * WIDTH]) != 0;
 }
@@ -106,7 +106,7 @@ int Gaps::close(Real spacing)
         const Span& touched = view_.touched(y);
         if (touched.from >= touched.to)
             continue;
-        const bool slits = y > 0 && y < HEIGHT - GAP_LOW;
+        const bool slits = y > 0;
         const Span* const end = runs + drawnRuns(row, zbuffer_ + y * WIDTH, &touched, runs);
         int last = 0;  // behind the run before
         for (const Span* run = runs; run < end; ++run) {

@@ -28,7 +28,7 @@ void Missed::draw()
     const int corners = count_;
     for (int i = 0; i < corners && model_ != nullptr; ++i) {
         const Place& at = noted_[i];
-        if (!inCorner(at.column, at.row))
+        if (!isLong(at.column, at.row))
             continue;
         drawPixel(at.column, at.row);
         while (count_ > corners && looks_ < LOOKS_MOST) {
@@ -43,15 +43,15 @@ int Missed::sideFrom(int at, int step, int aside) const
 {
     const auto onScreen = [](int pixel) { return pixel >= 0 && pixel < WIDTH * HEIGHT; };
     int count = 0;
-    while (count < LONG_SIDE && onScreen(at) && onScreen(at + aside) && frame_[at] != 0 && frame_[at + aside] == 0) {
+    while (count < LONG && onScreen(at) && onScreen(at + aside) && frame_[at] != 0 && frame_[at + aside] == 0) {
         ++count;
         at += step;
     }
     return count;
 }
 
-// Whether a pixel is empty and in a corner of drawn ones.
-bool Missed::inCorner(int column, int row) const
+// Sees to a pixel that has been noted, if it is empty and in a corner of drawn ones. True: the corner is such that there may be more.
+bool Missed::isLong(int column, int row)
 {
     const int at = row * WIDTH + column;
     if (column < 1 || column >= WIDTH - 1 || row < 1 || row >= HEIGHT - 1 || frame_[at] != 0)
@@ -62,8 +62,10 @@ bool Missed::inCorner(int column, int row) const
                 continue;
             const int upright = sideFrom(at - aside, -down, aside), flat = sideFrom(at + down, aside, -down);
             const int shorter = smaller(upright, flat), longer = larger(upright, flat);
-            if (shorter >= SIDE || longer == LONG_SIDE)
+            if (shorter >= LONG_BOTH || longer == LONG)
                 return true;
+            if (shorter >= SIDE)
+                view_.copyPixel(at, at - aside);
         }
     return false;
 }

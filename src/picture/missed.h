@@ -7,8 +7,9 @@
 
 class Missed {
 public:
-    // So long are the sides of a corner that is none of a round outline: both, or one of them.
-    static constexpr int SIDE = 3, LONG_SIDE = 6;
+    // So long are both sides of a corner that is none of a round outline. Where they are longer, both or one of them, there may be
+    // more than a pixel of it.
+    static constexpr int SIDE = 2, LONG_BOTH = 4, LONG = 8;
 
     // Model and palette may be null: nothing is drawn, and all is grey.
     Missed(View& view, const Model* model, const Palette* palette)
@@ -39,7 +40,7 @@ private:
     static constexpr int NOTED_MOST = 512;
 
     int sideFrom(int at, int step, int aside) const;
-    bool inCorner(int column, int row) const;
+    bool isLong(int column, int row);
     void drawPixel(int column, int row);
     Real excess(int at, int depth);
     bool findDepth(int at, int* depth);
