@@ -9,7 +9,7 @@ public:
     // Model and palette may be null.
     Gaps(View& view, const Model* model, const Palette* palette)
         : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model), palette_(palette),
-          missed_(view, model, palette)
+          missed_(view, model)
     {
     }
 

@@ -1,6 +1,7 @@
 // Drawing what was missed: one ray for each pixel, from where the surface beside it is.
 #include "missed.h"
 
+#include "math/normal.h"
 #include "math/whole.h"
 
 using machine::HEIGHT;
@@ -18,6 +19,8 @@ constexpr int STEPS = 3, FARTHEST = 4, THICKEST = 12;
 // Of the field: where it is so far below the isovalue there is no surface near.
 constexpr Real NEAR(0.2);
 
+// Steps of brightness: 0..63.
+constexpr int BRIGHTEST = 63;
 // Of the field, times the size of the object: by how much it exceeds the isovalue at the edge of what is seen.
 constexpr Real RIM(0.25);
 
@@ -139,12 +142,21 @@ void Missed::drawPixel(int column, int row)
     note(column, row + 1);
 }
 
-// A pixel gets the colour of its own object, as bright as the one beside it.
+// A pixel gets the colour of its own object and the brightness that the surface has there; the colour of one beside it where there
+// is more to it than that.
 void Missed::setColour(int at, int depth, int beside)
 {
+    const Point p = view_.pointAt(at, depth);
+    const auto fieldAt = [&](const Vector& away) { return model_->implicitAt(p + away, &strongest_); };
+    const Real half(0.5), none(0);
+    const Vector there{fieldAt({half, none, none}), fieldAt({none, half, none}), fieldAt({none, none, half})};
+    const Real here = fieldAt({none, none, none});
+    const SoftObject* const own = strongest_ < 0 ? nullptr : model_->actor(strongest_).object;
     uint8_t colour = frame_[beside];
-    const int own = strongest_;
-    if (palette_ != nullptr && own >= 0 && own != model_->strongestAt(view_.pointAt(beside)))
-        colour = model_->actor(own).object->ramp()[palette_->step(colour)];
+    if (own != nullptr && own->ramp() != nullptr && own->paint() == nullptr) {
+        const Normal out = normalise({here - there.x, here - there.y, here - there.z}), light = normalise(model_->light);
+        const int32_t cosine = (out.x * light.x + out.y * light.y + out.z * light.z) >> 14;
+        colour = own->ramp()[larger((cosine * BRIGHTEST + 8192) >> 14, 0)];
+    }
     view_.setPixel(at, depth, colour);
 }

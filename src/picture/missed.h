@@ -11,9 +11,8 @@ public:
     // more than a pixel of it.
     static constexpr int SIDE = 2, LONG_BOTH = 4, LONG = 8;
 
-    // Model and palette may be null: nothing is drawn, and all is grey.
-    Missed(View& view, const Model* model, const Palette* palette)
-        : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model), palette_(palette)
+    // The model may be null: nothing is drawn.
+    Missed(View& view, const Model* model) : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model)
     {
     }
 
@@ -50,7 +49,6 @@ private:
     const uint8_t* frame_;
     const uint16_t* zbuffer_;
     const Model* model_;
-    const Palette* palette_;
     struct Place {
         int16_t column, row;
     } noted_[NOTED_MOST];

@@ -185,32 +185,25 @@ bool comesBack(Path& path, Real from, Real* position, Sample* sample)
     return false;
 }
 
-bool comesBackFar(Path& path, Real from, Real weakest, Return* back)
+bool comesBackFar(Path& path, Real from, Real weakest, Real* outside, Real* inside)
 {
     Look before = lookAt(path, from);
-    bool out = before.sample.excess <= TOLERANCE, found = false;
+    bool out = before.sample.excess <= TOLERANCE;
     while (before.position < path.last() && path.ownField() > weakest) {
-        const Look now = lookAt(path, least(before.position + RETURN_STEP, path.last()));
+        const Look now = lookAt(path, least(before.position + SEARCH_STEP, path.last()));
         const bool isOut = now.sample.excess <= Real(0);
-        if (found && isOut) {
-            back->behind = now.position;
+        // Between two places outside there may be a hill.
+        const bool hill = isOut && before.sample.slope > Real(0) && now.sample.slope < Real(0);
+        *outside = before.position;
+        *inside = hill ? turnBetween(before, now) : now.position;
+        if (out && (hill ? path.look(*inside).excess > Real(0) : !isOut))
             return true;
-        }
-        if (!found && out) {
-            // Between two places outside there may be a hill.
-            const bool hill = isOut && before.sample.slope > Real(0) && now.sample.slope < Real(0);
-            const Real top = hill ? turnBetween(before, now) : now.position;
-            found = hill ? path.look(top).excess > Real(0) : !isOut;
-            *back = {before.position, top, isOut ? now.position : top};
-            if (found && isOut)
-                return true;
-        }
-        out = isOut;
         if (now.sample.dominance > OVERSHOOT)
-            break;
+            return false;
+        out = isOut;
         before = now;
     }
-    return found;
+    return false;
 }
 
 namespace {

@@ -26,15 +26,9 @@ SELDOM Real searchDeep(Path& path, Real* position, Sample* sample, Real* off, Re
 // or so near that the two places cannot be told apart.
 bool comesBack(Path& path, Real from, Real* position, Sample* sample);
 
-// A path that has left the surface and comes back far from there: it is outside at `before`, inside at `within`, and outside again
-// at `behind`, unless that is `within`: then another object is the stronger one first.
-struct Return {
-    Real before, within, behind;
-};
-
-// Looks for that from a position on, where the own object is the strongest and its field no weaker than `weakest`. False: there is
-// none.
-bool comesBackFar(Path& path, Real from, Real weakest, Return* back);
+// The same from a position on, however far the field falls before, as long as the own object is the strongest and its field no
+// weaker than `weakest`. The path comes back between the two positions.
+bool comesBackFar(Path& path, Real from, Real weakest, Real* outside, Real* inside);
 
 // Finds where the path crosses the surface between a position inside and one outside.
 void bisect(Path& path, Real inside, Real outside, Real* position, Sample* sample);

@@ -3,6 +3,7 @@
 #include "settle.h"
 
 #include "border.h"
+#include "math/whole.h"
 #include "model/paint.h"
 #include "rt.h"
 #include "search.h"
@@ -27,6 +28,8 @@ constexpr Real RANGE(0.05);
 constexpr Real PARTED(1.5);
 // Of a link: beyond this weight the field rises half way between two objects, and islands are left when they part.
 constexpr Real HEAVY(1);
+// Cosine of path and normal (1.0 = 2^14): what a path only grazes its seed stands badly for.
+constexpr int32_t GRAZING = 4000;
 // Spacings: how far the surface may go on from a seed to a border without an oversampled one towards the neighbour N (not at all on
 // shaped objects), without one towards the next of its ring, and without a fine one.
 constexpr Real LEFT_OPEN(0.5), LEFT_OPEN_SHAPED(-100), LEFT_OPEN_NEXT(1), LEFT_OPEN_FINE(1.5);
@@ -310,7 +313,7 @@ int parted(const SoftObject& object, int i)
            object.regular(next).root == s.root && from(next, LEFT_OPEN_NEXT) ? next : -1;
 }
 
-// The fine seeds of a regular one are not needed, but for those on an island; nor is its oversampled one; none of a patch is.
+// The fine seeds of a regular one are not needed, but for the one on an island; nor is its oversampled one; none of a patch is.
 void putAwayFine(SoftObject& object, int i, int end = SoftObject::FINE_ISLAND)
 {
     Seed* const fine = object.fine(i);
@@ -321,7 +324,7 @@ void putAwayFine(SoftObject& object, int i, int end = SoftObject::FINE_ISLAND)
 void putAwayIsland(SoftObject& object, int i)
 {
     if (Seed* const fine = object.fine(i))
-        fine[SoftObject::FINE_ISLAND].flags = fine[SoftObject::FINE_BEYOND].flags = 0;
+        fine[SoftObject::FINE_ISLAND].flags = 0;
 }
 
 void putAway(SoftObject& object, int i)
@@ -463,38 +466,30 @@ void Settler::settleIslands(Patch& patch)
     });
 }
 
-// False: the path of this regular seed does not come back.
+// False: the path of this regular seed does not come back, or only grazes what it comes back to.
 bool Settler::settleIsland(int i)
 {
-    const Seed& s = object_.regular(i);
-    const bool rests = (s.flags & SEED_VALID) == 0;
-    if (rests && !(s.flags & SEED_ASLEEP))
+    const Seed& onPath = object_.regular(i);
+    const bool valid = (onPath.flags & SEED_VALID) != 0;
+    if (!valid && !(onPath.flags & SEED_ASLEEP))
         return false;
-    path_.beginSearch(s);
-    Return back;
-    if (path_.touched() == 0 || !comesBackFar(path_, rests ? Real(1) : s.position, weakest_, &back))
+    path_.beginSearch(onPath);
+    Real outside, inside;
+    if (path_.touched() == 0 || !comesBackFar(path_, valid ? onPath.position : Real(1), weakest_, &outside, &inside))
         return false;
-    Seed* const fine = object_.madeFine(i);
-    if (fine == nullptr)
-        return false;
-    const bool near = settleAcross(s, back.within, back.before, fine[SoftObject::FINE_ISLAND]);
-    const bool far = back.behind > back.within && settleAcross(s, back.within, back.behind, fine[SoftObject::FINE_BEYOND]);
-    return near || far;
-}
-
-// Puts a seed where the path of another crosses the surface. False: it is another object's surface.
-bool Settler::settleAcross(const Seed& onPath, Real inside, Real outside, Seed& s)
-{
     Sample sample;
-    s = onPath;
+    Seed s = onPath;
     s.flags = 0;
-    path_.beginSearch(s);
     bisect(path_, inside, outside, &s.position, &sample);
     if (sample.dominance > OVERSHOOT)
         return false;
-    s.flags = SEED_ACTIVE;
     place(s, sample.dominance);
-    return true;
+    s.flags |= SEED_ACTIVE;
+    const int32_t cosine = (s.way[0] * s.normal.x + s.way[1] * s.normal.y + s.way[2] * s.normal.z) >> 7;
+    Seed* const fine = magnitude(cosine) < GRAZING ? nullptr : object_.madeFine(i);
+    if (fine != nullptr)
+        fine[SoftObject::FINE_ISLAND] = s;
+    return fine != nullptr;
 }
 
 void rest(SoftObject& object, Patch& patch)

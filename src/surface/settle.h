@@ -87,7 +87,6 @@ private:
     SELDOM bool settleFine(int i);
     void settleBehind(const Seed& valid, Seed& s);
     SELDOM bool settleIsland(int i);
-    bool settleAcross(const Seed& onPath, Real inside, Real outside, Seed& s);
     bool waits(const Seed& s, bool someAway) const;
     bool mixes() const;
 
