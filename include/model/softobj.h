@@ -209,6 +209,12 @@ public:
     Real steepest() const { return least(stretch_.x, least(stretch_.y, stretch_.z)) * warp_.leastSteep(); }
     // The greatest distance from the centre at which there may be any field.
     Real reach() const { return reach_; }
+    // Whether a place of the world is sure to lie beyond that.
+    bool isFar(const Point& p) const
+    {
+        const Vector v = p - centre_;
+        return absolute(v.x) >= reach_ || absolute(v.y) >= reach_ || absolute(v.z) >= reach_;
+    }
     // How much larger the object is than when its seeds were laid out: own space to the world.
     Real growth() const { return size_ / laid_.size; }
     Real laidSize() const { return laid_.size; }

@@ -13,6 +13,9 @@
 
 class View : public Hider {
 public:
+    // Rows of the frame below the screen. They are empty: what looks for something below a pixel need not ask where the screen ends.
+    static constexpr int ROWS_BELOW = 6;
+
     ~View();
 
     // Makes the buffers. False: no memory.

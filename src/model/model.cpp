@@ -553,6 +553,8 @@ Real Model::implicitAt(const Point& p, int* strongest) const
     *strongest = -1;
     for (int i = 0; i < count_; ++i) {
         const SoftObject& object = *actors_[i]->object;
+        if (object.isFar(p))
+            continue;
         const Real field = object.fieldFunc(p);
         if (field <= Real(0))
             continue;
@@ -567,8 +569,11 @@ Real Model::implicitAt(const Point& p, int* strongest) const
         for (const Part* other = parts; other < end && part->body != nullptr; ++other)
             part->sum += other->field * bodies_.weight(part->slot, other->slot);
     }
+    SoftObject* const* last = nullptr;
     for (const Part* part = parts; part < end; ++part)
-        if (part->body != nullptr)
+        if (part->body != nullptr && part->body != last) {
+            last = part->body;
             highest = ::most(highest, fieldOf(part->body, parts, end));
+        }
     return highest;
 }

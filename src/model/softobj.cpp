@@ -374,8 +374,8 @@ Real SoftObject::fieldFunc(const Point& p) const
     Vector slope;
     const Vector v = p - centre_;
     // Before it is scaled: what is far from a small object would leave 16.16.
-    const Real far = reach(), end = size_ + coreReach_;
-    if (absolute(v.x) >= far || absolute(v.y) >= far || absolute(v.z) >= far)
+    const Real end = size_ + coreReach_;
+    if (isFar(p))
         return Real(0);
     const Vector q = toCoreAxes(toOwnAxes(v));
     if (stretched_ && !warped_ && (absolute(q.x) >= end || absolute(q.y) >= end || absolute(q.z) >= end))

@@ -20,7 +20,7 @@ constexpr int DIVIDED = 2;    // as near as this its ends stand when the place i
 // Whether a pixel is empty and lies right below a drawn one and a little way above another.
 inline bool inSlit(const uint8_t* pixel)
 {
-    static_assert(GAP_LOW == 6, "as many rows are looked at");
+    static_assert(GAP_LOW == 6 && GAP_LOW <= View::ROWS_BELOW, "as many rows are looked at");
     return pixel[-WIDTH] != 0 && pixel[0] == 0 &&
            (pixel[WIDTH] | pixel[2 * WIDTH] | pixel[3 * WIDTH] | pixel[4 * WIDTH] | pixel[5 * WIDTH] | pixel[6 * WIDTH]) != 0;
 }
@@ -70,6 +70,31 @@ void follow(const uint8_t* frame, int y, int from, int to, int step, int widest,
 
 }  // namespace
 
+// Notes the empty pixels at both ends of a run that are in corners.
+inline void Gaps::noteCorners(int y, const Span& run)
+{
+    const uint8_t* const row = frame_ + y * WIDTH;
+    if (Missed::mayBeInCorner(row + run.from - 1, -1))
+        missed_.note(run.from - 1, y);
+    if (Missed::mayBeInCorner(row + run.to, 1))
+        missed_.note(run.to, y);
+}
+
+// The same of what lies beyond an opening that was closed: to both sides of some of its columns.
+void Gaps::noteBeyond(int y, const Span& columns)
+{
+    int from = columns.from, to = columns.to;
+    const uint8_t* row = frame_ + y * WIDTH;
+    if (y < 0 || y >= HEIGHT)
+        return;
+    while (from > 0 && columns.from - from < GAP_MOST && row[from - 1] == 0)
+        --from;
+    while (to < WIDTH && to - columns.to < GAP_MOST && row[to] == 0)
+        ++to;
+    missed_.note(from, y);
+    missed_.note(to - 1, y);
+}
+
 int Gaps::close(Real spacing)
 {
     int drawn = 0;
@@ -81,7 +106,7 @@ int Gaps::close(Real spacing)
         const Span& touched = view_.touched(y);
         if (touched.from >= touched.to)
             continue;
-        const bool slits = y > 0 && y < HEIGHT - GAP_LOW;
+        const bool slits = y > 0;
         const Span* const end = runs + drawnRuns(row, zbuffer_ + y * WIDTH, &touched, runs);
         int last = 0;  // behind the run before
         for (const Span* run = runs; run < end; ++run) {
@@ -96,10 +121,13 @@ int Gaps::close(Real spacing)
             if (slits && from > 0 && inSlit(row + from - 1))
                 closeSlit(y, from - 1, last - 1, -1);
             last = run->to;
+            if (y >= Missed::SIDE && y < HEIGHT - Missed::SIDE)
+                noteCorners(y, *run);
         }
         if (slits && last > 0 && last < WIDTH && inSlit(row + last))
             closeSlit(y, last, WIDTH, 1);
     }
+    missed_.draw();
     return drawn;
 }
 
@@ -163,6 +191,7 @@ void Gaps::closeFrom(int y, int from, int to, int step, int widest, int narrowes
         for (int i = 0; i < narrow; ++i)
             fill(ends, (y + i * step) * WIDTH + rows[i].from - 1, (y + i * step) * WIDTH + rows[i].to, 1);
     }
+    noteBeyond(y + narrow * step, rows[narrow < opening.high ? narrow : narrow - 1]);
     if (narrow < opening.high) {
         closeCorner(y + narrow * step, rows[narrow].from, 1);
         closeCorner(y + narrow * step, rows[narrow].to - 1, -1);
@@ -278,4 +307,5 @@ void Gaps::closeSlit(int y, int x, int end, int step)
         fill(high > GAP_THIN ? endsOf(above, below) : NO_ENDS, above, below, WIDTH);
         view_.overlay(x, y, 1, high);
     }
+    missed_.note(x, y);
 }

@@ -2,13 +2,14 @@
 #ifndef FB_GAPS_H
 #define FB_GAPS_H
 
-#include "picture/view.h"
+#include "missed.h"
 
 class Gaps {
 public:
     // Model and palette may be null.
     Gaps(View& view, const Model* model, const Palette* palette)
-        : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model), palette_(palette)
+        : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model), palette_(palette),
+          missed_(view, model)
     {
     }
 
@@ -22,6 +23,8 @@ private:
     };
     static constexpr Ends NO_ENDS{-1, -1};
 
+    void noteCorners(int y, const Span& run);
+    void noteBeyond(int y, const Span& columns);
     void closeRun(int y, int from, int to, int spacing);
     void closeCorner(int y, int x, int step);
     void closeAbove(int y, int x, int widest, int narrowest);
@@ -38,6 +41,7 @@ private:
     const uint16_t* zbuffer_;
     const Model* model_;
     const Palette* palette_;
+    Missed missed_;
 };
 
 #endif

@@ -28,12 +28,12 @@ View::~View()
 
 bool View::open()
 {
-    frame_ = allocate<uint8_t>(WIDTH * HEIGHT);
+    frame_ = allocate<uint8_t>(WIDTH * (HEIGHT + ROWS_BELOW));
     zbuffer_ = allocate<uint16_t>(WIDTH * HEIGHT);
     factors_ = allocate<Factors>(LENS_STEPS);
     if (frame_ == nullptr || zbuffer_ == nullptr || factors_ == nullptr)
         return false;
-    memset(frame_, 0, WIDTH * HEIGHT);
+    memset(frame_, 0, WIDTH * (HEIGHT + ROWS_BELOW));
     memset(zbuffer_, 0xff, WIDTH * HEIGHT * sizeof *zbuffer_);
     for (int y = 0; y < HEIGHT; ++y) {
         touched_[y] = {0, 0};

@@ -38,13 +38,17 @@ bool Cover::hidesPath(const Seed& s)
 {
     Along along;
     path_.aim(number_, s, along);
-    return along.param(COVERED_AT) < limits_->there && along.param(Real(1)) < limits_->atRest;
+    const Real there = along.param(COVERED_AT);
+    if (there >= limits_->there)
+        return false;
+    const Real atRest = along.param(Real(1));
+    return atRest < limits_->atRest && (there <= atRest || !isHeavy());
 }
 
 bool Cover::hidesAll(const Patch& patch)
 {
     take(patch.blocker);
-    if (limits_ == nullptr || object_.tapers())
+    if (limits_ == nullptr || object_.tapers() || isHeavy())
         return false;
     const Neighbour& near = all_.neighbours[number_];
     return !near.object->slants() && isWithin(patch, near, COVERED_AT, limits_->rootThere) &&

@@ -33,6 +33,8 @@ private:
     }
     void find(int blocker);
     bool hidesPath(const Seed& s);
+    // Whether the link with it is so heavy that a path may leave the surface, leading away from it, where the two are alike.
+    bool isHeavy() const { return nearby_.weight(blocker_) > Real(1); }
 
     const SoftObject& object_;
     const Neighbourhood& all_;

@@ -91,6 +91,13 @@ bool Engine::update(const FrameContext& frame)
     for (Patch* patch = patches_; patch < end; ++patch)
         if (patch->settled)
             settler.oversample(*patch);
+    for (Patch* patch = patches_; settler.hasIslands() && patch < end; ++patch) {
+        if (patch->state == PATCH_INSIDE)
+            continue;
+        if (patch->stale || isDue(odometer_.bound(), patch->listDue))
+            renewLists(*patch, all);
+        settler.settleIslands(*patch);
+    }
     object_.setDisplaced(displaced);
     allRests_ = !displaced;
     return settler.hidden();

@@ -44,9 +44,6 @@ bool follow(Path& path, Real* position, Sample* sample)
     return false;
 }
 
-namespace {
-
-// Finds where the path leaves the surface between a position inside and one outside.
 void bisect(Path& path, Real inside, Real outside, Real* position, Sample* sample)
 {
     for (int i = 0; i < BISECTIONS; ++i) {
@@ -70,6 +67,8 @@ void bisect(Path& path, Real inside, Real outside, Real* position, Sample* sampl
     sample->excess = Real(0);
 }
 
+namespace {
+
 // What was seen at a position.
 struct Look {
     Real position;
@@ -81,6 +80,12 @@ inline Look lookAt(Path& path, Real position)
     return {position, path.look(position)};
 }
 
+// About where a slope that changes evenly is 0 between two looks.
+Real turnBetween(const Look& a, const Look& b)
+{
+    return a.position + (b.position - a.position) * (a.sample.slope / (a.sample.slope - b.sample.slope));
+}
+
 // The lowest place of a valley between two looks. Unless it is too high to matter, its floor is looked for: it is about where a
 // slope that changes evenly is 0.
 Look floorBetween(Path& path, const Look& a, const Look& b)
@@ -88,7 +93,7 @@ Look floorBetween(Path& path, const Look& a, const Look& b)
     const Look& lower = a.sample.excess < b.sample.excess ? a : b;
     if (lower.sample.excess >= VALLEY)
         return lower;
-    return lookAt(path, a.position + (b.position - a.position) * (a.sample.slope / (a.sample.slope - b.sample.slope)));
+    return lookAt(path, turnBetween(a, b));
 }
 
 }  // namespace
@@ -157,22 +162,42 @@ Real search(Path& path, Real* position, Sample* sample)
     return lowest.sample.excess;
 }
 
-bool comesBack(Path& path, const Seed& s, bool far, Real* position, Sample* sample)
+bool comesBack(Path& path, const Seed& s, Real* position, Sample* sample)
 {
-    const Real left = s.position;
+    const Real left = s.position, end = left + RETURN_FAR;
     Real from = left;
-    const Real end = far ? path.last() : from + RETURN_FAR, step = far ? SEARCH_STEP : RETURN_STEP;
     while (from < end) {
         const Real outside = from;
-        const Sample now = path.lookOn(s, from += step);
+        const Sample now = path.lookOn(s, from += RETURN_STEP);
         if (now.excess > Real(0)) {
             if (outside == left)
                 return false;
             bisect(path, from, outside, position, sample);
             return true;
         }
-        if (now.dominance > OVERSHOOT || (!far && now.excess < -VALLEY))
+        if (now.dominance > OVERSHOOT || now.excess < -VALLEY)
             return false;
+    }
+    return false;
+}
+
+bool comesBackFar(Path& path, Real from, Real weakest, Real* outside, Real* inside)
+{
+    Look before = lookAt(path, from);
+    bool out = before.sample.excess <= TOLERANCE;
+    while (before.position < path.last() && path.ownField() > weakest) {
+        const Look now = lookAt(path, least(before.position + SEARCH_STEP, path.last()));
+        const bool isOut = now.sample.excess <= Real(0);
+        // Between two places outside there may be a hill.
+        const bool hill = isOut && before.sample.slope > Real(0) && now.sample.slope < Real(0);
+        *outside = before.position;
+        *inside = hill ? turnBetween(before, now) : now.position;
+        if (out && (hill ? path.look(*inside).excess > Real(0) : !isOut))
+            return true;
+        if (now.sample.dominance > OVERSHOOT)
+            return false;
+        out = isOut;
+        before = now;
     }
     return false;
 }

@@ -3,6 +3,7 @@
 #include "settle.h"
 
 #include "border.h"
+#include "math/whole.h"
 #include "model/paint.h"
 #include "rt.h"
 #include "search.h"
@@ -27,8 +28,10 @@ constexpr uint32_t SEARCHED_AGAIN = 3;
 constexpr Real RANGE(0.05);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
 constexpr Real PARTED(1.5);
-// Of a link: beyond this weight islands are left when objects part.
-constexpr Real HEAVY(2);
+// Of a link: beyond this weight the field rises half way between two objects, and islands are left when they part.
+constexpr Real HEAVY(1);
+// Cosine of path and normal (1.0 = 2^14): what a path only grazes its seed stands badly for.
+constexpr int32_t GRAZING = 4000;
 // Spacings: how far the surface may go on from a seed to a border without an oversampled one towards the neighbour N (not at all on
 // shaped objects), without one towards the next of its ring, and without a fine one.
 constexpr Real LEFT_OPEN(0.5), LEFT_OPEN_SHAPED(-100), LEFT_OPEN_NEXT(1), LEFT_OPEN_FINE(1.5);
@@ -40,7 +43,9 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& a
     : path_(object, all, *frame.bodies, nearby_, *frame.counts), nearby_(object, all, *frame.bodies),
       cover_(object, all, nearby_, path_), object_(object), own_(own), all_(all), counts_(*frame.counts), now_(odometer.reading()),
       came_(realFromRaw(static_cast<int32_t>(odometer.came() << 6))), updates_(updates),
-      heavy_(frame.bodies->heaviest(object.slot()) > HEAVY), last_(&object.regular(object.seedSlots() - 2))
+      heavy_(frame.bodies->heaviest(object.slot()) > HEAVY),
+      weakest_(ISOVALUE / (Real(1) + shiftUp(frame.bodies->heaviest(object.slot()), 1))),
+      last_(&object.regular(object.seedSlots() - 2))
 {
     Real strongest = most(object.strength(), Real(1));
     for (int i = 0; i < all.count; ++i)
@@ -267,8 +272,6 @@ void Settler::settleOthers(Patch& patch)
         settle(s);
     });
     setRange(patch);
-    if (heavy_ && !nearby_.dented())
-        forSeeds(object_, patch, [&](const Seed&, int i) { patch.islands |= settleIsland(patch, i); });
 }
 
 // Whether neighbours come so fast that no seed waits.
@@ -329,6 +332,12 @@ void putAwayFine(SoftObject& object, int i, int end = SoftObject::FINE_ISLAND)
     Seed* const fine = object.fine(i);
     for (int which = 0; which < end && fine != nullptr; ++which)
         fine[which].flags = 0;
+}
+
+void putAwayIsland(SoftObject& object, int i)
+{
+    if (Seed* const fine = object.fine(i))
+        fine[SoftObject::FINE_ISLAND].flags = 0;
 }
 
 void putAway(SoftObject& object, int i)
@@ -436,7 +445,7 @@ bool Settler::settleFine(int i)
         if (!waits(s, false))
             settle(s);
         if (((ends[which]->flags ^ extra.flags) & SEED_VALID) && !nearby_.dented())
-            settleBehind(s.flags & SEED_VALID ? s : extra.flags & SEED_VALID ? extra : *ends[which], false,
+            settleBehind(s.flags & SEED_VALID ? s : extra.flags & SEED_VALID ? extra : *ends[which],
                          fine[SoftObject::FINE_BEHIND]);
     }
     return true;
@@ -444,29 +453,60 @@ bool Settler::settleFine(int i)
 
 // Where necks are thin their surface hangs over: the path of a valid seed beside the border leaves the surface, and may come back
 // behind that, where another seed stands for it.
-void Settler::settleBehind(const Seed& valid, bool far, Seed& s)
+void Settler::settleBehind(const Seed& valid, Seed& s)
 {
     Sample sample;
     s = valid;
     s.flags = 0;
-    if (!comesBack(path_, s, far, &s.position, &sample) || sample.dominance > OVERSHOOT)
+    if (!comesBack(path_, s, &s.position, &sample) || sample.dominance > OVERSHOOT)
         return;
     s.flags = SEED_ACTIVE;
     place(s, sample.dominance);
 }
 
-// Where links are heavy islands are left between objects, and the paths of any seeds come back. False: that of this one does not.
-bool Settler::settleIsland(const Patch& patch, int i)
+// Where links are heavy the field rises again half way to the other object: the paths of any seeds may come back to the surface,
+// whether their patch rests or faces away.
+void Settler::settleIslands(Patch& patch)
 {
-    Seed island;
-    island.flags = 0;
-    if (object_.regular(i).flags & SEED_VALID)
-        settleBehind(object_.regular(i), true, island);
-    const bool there = (island.flags & SEED_VALID) != 0;
-    Seed* const fine = there ? object_.madeFine(i) : patch.islands ? object_.fine(i) : nullptr;
+    setPatch(patch);
+    const bool had = patch.islands;
+    patch.islands = false;
+    if (!isListed(patch.listed) || nearby_.dented()) {
+        if (had)
+            forSeeds(object_, patch, [&](const Seed&, int i) { putAwayIsland(object_, i); });
+        return;
+    }
+    forSeeds(object_, patch, [&](const Seed&, int i) {
+        if (had)
+            putAwayIsland(object_, i);
+        patch.islands |= settleIsland(i);
+    });
+}
+
+// False: the path of this regular seed does not come back, or only grazes what it comes back to.
+bool Settler::settleIsland(int i)
+{
+    const Seed& onPath = object_.regular(i);
+    const bool valid = (onPath.flags & SEED_VALID) != 0;
+    if (!valid && !(onPath.flags & SEED_ASLEEP))
+        return false;
+    path_.beginSearch(onPath);
+    Real outside, inside;
+    if (path_.touched() == 0 || !comesBackFar(path_, valid ? onPath.position : Real(1), weakest_, &outside, &inside))
+        return false;
+    Sample sample;
+    Seed s = onPath;
+    s.flags = 0;
+    bisect(path_, inside, outside, &s.position, &sample);
+    if (sample.dominance > OVERSHOOT)
+        return false;
+    place(s, sample.dominance);
+    s.flags |= SEED_ACTIVE;
+    const int32_t cosine = (s.way[0] * s.normal.x + s.way[1] * s.normal.y + s.way[2] * s.normal.z) >> 7;
+    Seed* const fine = magnitude(cosine) < GRAZING ? nullptr : object_.madeFine(i);
     if (fine != nullptr)
-        fine[SoftObject::FINE_ISLAND] = island;
-    return there;
+        fine[SoftObject::FINE_ISLAND] = s;
+    return fine != nullptr;
 }
 
 void rest(SoftObject& object, Patch& patch)

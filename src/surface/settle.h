@@ -52,6 +52,10 @@ public:
     // setPatch() by itself.
     void oversample(Patch& patch);
 
+    // Whether there may be islands, and the seeds on those of a patch, whatever its state but PATCH_INSIDE.
+    bool hasIslands() const { return heavy_; }
+    SELDOM void settleIslands(Patch& patch);
+
 private:
     // What comes of following a seed from where it was.
     enum Followed {
@@ -74,8 +78,8 @@ private:
     bool isAway(const Seed& s) const;
     bool isAlike(const Seed& s) const;
     SELDOM bool settleFine(int i);
-    void settleBehind(const Seed& valid, bool far, Seed& s);
-    SELDOM bool settleIsland(const Patch& patch, int i);
+    void settleBehind(const Seed& valid, Seed& s);
+    SELDOM bool settleIsland(int i);
     bool hurries() const;
     bool waits(const Seed& s, bool someAway) const;
     bool mixes() const;
@@ -98,6 +102,7 @@ private:
     const Real came_;   // how far neighbours came in this frame, units
     const uint32_t updates_;
     const bool heavy_;  // the object has a link of more than HEAVY
+    const Real weakest_;  // the own field is no weaker on its own part of the surface, where it has two neighbours at most
     const Seed* const last_;  // of the regular ones
     const Patch* patch_ = nullptr;  // that is at hand
     uint32_t turn_ = 0; // of it: what waits takes turns

@@ -427,7 +427,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
     int at = first;
     for (; at < count && list.count + most <= room; ++at) {
         Patch& patch = patches[at];
-        if (!(patch.state == PATCH_REST && restsAway(patch, own)) && isSeen(patch, own))
+        if (patch.islands || (!(patch.state == PATCH_REST && restsAway(patch, own)) && isSeen(patch, own)))
             shader.shadePatch<PAINTED>(patch, at + turn, list, painter);
     }
     slopes.set(shader.spacing());

@@ -1,0 +1,162 @@
+// Drawing what was missed: one ray for each pixel, from where the surface beside it is.
+#include "missed.h"
+
+#include "math/normal.h"
+#include "math/whole.h"
+
+using machine::HEIGHT;
+using machine::WIDTH;
+
+namespace {
+
+// Looks at fields in a frame, at most.
+constexpr int LOOKS_MOST = 6000;
+// Depths, 1/128 unit: the first step along the ray; where two drawn pixels are farther apart, both are tried.
+constexpr int STEP = 128, APART = 128;
+// How often the ray is followed to where the field rises, each time no more than FARTHEST times as far; and how far it may lead
+// through what is there, steps.
+constexpr int STEPS = 3, FARTHEST = 4, THICKEST = 12;
+// Of the field: where it is so far below the isovalue there is no surface near.
+constexpr Real NEAR(0.2);
+
+// Steps of brightness: 0..63.
+constexpr int BRIGHTEST = 63;
+// Of the field, times the size of the object: by how much it exceeds the isovalue at the edge of what is seen.
+constexpr Real RIM(0.25);
+
+}  // namespace
+
+void Missed::draw()
+{
+    const int corners = count_;
+    for (int i = 0; i < corners && model_ != nullptr; ++i) {
+        const Place& at = noted_[i];
+        if (!isLong(at.column, at.row))
+            continue;
+        drawPixel(at.column, at.row);
+        while (count_ > corners && looks_ < LOOKS_MOST) {
+            const Place next = noted_[--count_];
+            drawPixel(next.column, next.row);
+        }
+    }
+}
+
+// How many pixels from one on are drawn, `step` the way from each to the next, and those empty that lie `aside` of them.
+int Missed::sideFrom(int at, int step, int aside) const
+{
+    const auto onScreen = [](int pixel) { return pixel >= 0 && pixel < WIDTH * HEIGHT; };
+    int count = 0;
+    while (count < LONG && onScreen(at) && onScreen(at + aside) && frame_[at] != 0 && frame_[at + aside] == 0) {
+        ++count;
+        at += step;
+    }
+    return count;
+}
+
+// Sees to a pixel that has been noted, if it is empty and in a corner of drawn ones. True: the corner is such that there may be more.
+bool Missed::isLong(int column, int row)
+{
+    const int at = row * WIDTH + column;
+    if (column < 1 || column >= WIDTH - 1 || row < 1 || row >= HEIGHT - 1 || frame_[at] != 0)
+        return false;
+    for (int aside = -1; aside <= 1; aside += 2)
+        for (int down = -WIDTH; down <= WIDTH && frame_[at - aside] != 0; down += 2 * WIDTH) {
+            if (frame_[at + down] == 0)
+                continue;
+            const int upright = sideFrom(at - aside, -down, aside), flat = sideFrom(at + down, aside, -down);
+            const int shorter = smaller(upright, flat), longer = larger(upright, flat);
+            if (shorter >= LONG_BOTH || longer == LONG)
+                return true;
+            if (shorter >= SIDE)
+                view_.copyPixel(at, at - aside);
+        }
+    return false;
+}
+
+// By how much the field at a pixel exceeds the isovalue, were the surface so far away.
+Real Missed::excess(int at, int depth)
+{
+    ++looks_;
+    return model_->implicitAt(view_.pointAt(at, depth), &strongest_) - ISOVALUE;
+}
+
+// From a depth near which the surface may be: becomes where the ray meets it. False: it does not.
+bool Missed::findDepth(int at, int* depth)
+{
+    int inside = *depth;
+    Real here = excess(at, inside);
+    onEdge_ = here < Real(0);
+    // Along the ray to where the field rises, as far as it takes if it goes on rising as it does.
+    for (int i = 0, step = STEP; here <= Real(0); ++i) {
+        if (i == STEPS || here < -NEAR || inside + step <= 0 || inside + step >= Z_EMPTY)
+            return false;
+        const Real there = excess(at, inside + step), rise = there - here;
+        const bool rises = rise > Real(0);
+        const Real left = rises ? -there : -here, slope = absolute(rise);
+        if (left > slope * Real(FARTHEST))
+            return false;
+        const int on = left > Real(0) ? floorToInt(quotient(left, slope) * Real(magnitude(step))) + STEP / 4 : 0;
+        inside += rises ? step : 0;
+        here = rises ? there : here;
+        step = (step > 0) == rises ? on : -on;
+    }
+    // And from there to the side where the eye is.
+    int outside = inside;
+    Real within = here;
+    for (int i = 0; here > Real(0); ++i) {
+        if (i == THICKEST || outside <= STEP)
+            return false;
+        within = here;
+        outside -= STEP;
+        here = excess(at, outside);
+    }
+    onEdge_ = onEdge_ && strongest_ >= 0 && within * model_->actor(strongest_).object->size() < RIM;
+    *depth = outside + floorToInt(quotient(-here, within - here) * Real(STEP));
+    return true;
+}
+
+// A pixel beside a drawn one: it is drawn if there is surface, and those beside it are noted.
+void Missed::drawPixel(int column, int row)
+{
+    const int at = row * WIDTH + column;
+    if (column < 1 || column >= WIDTH - 1 || row < 1 || row >= HEIGHT - 1 || frame_[at] != 0)
+        return;
+    int side = frame_[at - 1] != 0 ? at - 1 : at + 1, other = frame_[at - WIDTH] != 0 ? at - WIDTH : at + WIDTH;
+    side = frame_[side] != 0 ? side : other;
+    other = frame_[other] != 0 ? other : side;
+    int depth = zbuffer_[side], beside = side;
+    if (!findDepth(at, &depth)) {
+        if (magnitude(zbuffer_[other] - zbuffer_[side]) < APART)
+            return;
+        depth = zbuffer_[beside = other];
+        if (!findDepth(at, &depth))
+            return;
+    }
+    setColour(at, depth, beside);
+    // At the edge of what there is no more is looked for.
+    if (onEdge_)
+        return;
+    note(column - 1, row);
+    note(column + 1, row);
+    note(column, row - 1);
+    note(column, row + 1);
+}
+
+// A pixel gets the colour of its own object and the brightness that the surface has there; the colour of one beside it where there
+// is more to it than that.
+void Missed::setColour(int at, int depth, int beside)
+{
+    const Point p = view_.pointAt(at, depth);
+    const auto fieldAt = [&](const Vector& away) { return model_->implicitAt(p + away, &strongest_); };
+    const Real half(0.5), none(0);
+    const Vector there{fieldAt({half, none, none}), fieldAt({none, half, none}), fieldAt({none, none, half})};
+    const Real here = fieldAt({none, none, none});
+    const SoftObject* const own = strongest_ < 0 ? nullptr : model_->actor(strongest_).object;
+    uint8_t colour = frame_[beside];
+    if (own != nullptr && own->ramp() != nullptr && own->paint() == nullptr) {
+        const Normal out = normalise({here - there.x, here - there.y, here - there.z}), light = normalise(model_->light);
+        const int32_t cosine = (out.x * light.x + out.y * light.y + out.z * light.z) >> 14;
+        colour = own->ramp()[larger((cosine * BRIGHTEST + 8192) >> 14, 0)];
+    }
+    view_.setPixel(at, depth, colour);
+}
