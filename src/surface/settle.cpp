@@ -246,11 +246,14 @@ void Settler::settleOthers(Patch& patch)
 {
     const Seed& centre = object_.seed(patch.centre);
     const bool someAway = !(centre.flags & SEED_VALID) || patch.facing < patch.spread;
+    uint8_t blocker = patch.blocker;  // of the seed that was not on the surface last
     forSeeds(object_, patch, [&](Seed& s, int) {
         if (&s == &centre)
             return;
         // What has slept or rested is likely to be where the one in the middle is.
         const bool woken = (s.flags & SEED_ASLEEP) || ((s.flags & SEED_RESTING) && !(centre.flags & SEED_RESTING));
+        if (woken)
+            s.blocker = blocker;
         if ((!(s.flags & SEED_VALID) || (woken && !(centre.flags & SEED_VALID))) && isCovered(s)) {
             s.flags &= stillOff();
             return;
@@ -263,6 +266,8 @@ void Settler::settleOthers(Patch& patch)
             return;
         }
         settle(s);
+        if (!(s.flags & SEED_VALID))
+            blocker = s.blocker;
     });
     setRange(patch);
     if (heavy_ && !nearby_.dented())
