@@ -46,6 +46,8 @@ public:
     // Those that an object is linked with at weight 1, a bit for each slot; LINK_WORDS words.
     const uint32_t* plainLinks(int slot) const { return bySlot_[slot].plain; }
     static constexpr int LINK_WORDS = 4;
+    // Whether all of its body are linked with all at weight 1, and nothing else digs into it.
+    bool plainBody(int slot) const { return bySlot_[slot].plainBody; }
     // The greatest weight of its links; 0: it has none.
     Real heaviest(int slot) const { return bySlot_[slot].heaviest; }
 
@@ -58,6 +60,7 @@ private:
         int16_t first, size;               // where its body begins in members_, and how many it has
         int16_t firstDigger, diggerCount;  // the same of what digs into the body, in diggers_
         bool complete;                     // all of its body are linked with all, and nothing else digs into it
+        bool plainBody;                    // and all of that at weight 1
         Real heaviest;
         uint32_t plain[LINK_WORDS];        // as plainLinks() has them
     };
@@ -67,7 +70,7 @@ private:
     void setWeights(SoftObject* const* objects);
     void findMembers(SoftObject* object, int* filled);
     void findDiggers(int begin, int end, int* filled);
-    bool allLinked(int begin, int end) const;
+    bool allLinked(int begin, int end, bool plain) const;
     void spreadByDiggers(SoftObject& member) const;
 
     int count_ = 0;

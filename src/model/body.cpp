@@ -43,10 +43,12 @@ bool Bodies::find(SoftObject* const* objects, int count)
         const int begin = filled, firstDigger = diggers;
         findMembers(objects[i], &filled);
         findDiggers(begin, filled, &diggers);
-        const bool complete = diggers == firstDigger && allLinked(begin, filled);
+        const bool complete = diggers == firstDigger && allLinked(begin, filled, false);
+        const bool plainBody = complete && allLinked(begin, filled, true);
         for (int at = begin; at < filled; ++at) {
             bySlot_[members_[at]->slot()].size = static_cast<int16_t>(filled - begin);
             bySlot_[members_[at]->slot()].complete = complete;
+            bySlot_[members_[at]->slot()].plainBody = plainBody;
         }
     }
     return true;
@@ -106,12 +108,15 @@ void Bodies::findMembers(SoftObject* object, int* filled)
     }
 }
 
-bool Bodies::allLinked(int begin, int end) const
+// `plain`: at weight 1.
+bool Bodies::allLinked(int begin, int end, bool plain) const
 {
     for (int a = begin; a < end; ++a)
-        for (int b = begin; b < end; ++b)
-            if (a != b && weight(members_[a]->slot(), members_[b]->slot()) == Real(0))
+        for (int b = begin; b < end; ++b) {
+            const Real by = a == b ? Real(1) : weight(members_[a]->slot(), members_[b]->slot());
+            if (plain ? by != Real(1) : by == Real(0))
                 return false;
+        }
     return true;
 }
 

@@ -6,6 +6,9 @@
 Nearby::Nearby(const SoftObject& object, const Neighbourhood& all, const Bodies& bodies)
     : object_(object), all_(all), bodies_(bodies), ownWeights_(bodies.weights(object.slot()))
 {
+    allComplete_ = all.common && bodies.plainBody(object.slot());
+    if (allComplete_)
+        return;
     listed_.count = 0;
     for (int i = 0; i < all.count; ++i)
         listed_.number[listed_.count++] = static_cast<uint8_t>(i);

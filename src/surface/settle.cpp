@@ -251,13 +251,14 @@ void Settler::settleOthers(Patch& patch)
 {
     const Seed& centre = object_.seed(patch.centre);
     const bool someAway = !(centre.flags & SEED_VALID) || patch.facing < patch.spread;
+    uint8_t blocker = patch.blocker;  // of the seed that was not on the surface last
     forSeeds(object_, patch, [&](Seed& s, int) {
         if (&s == &centre)
             return;
-        // What has slept or rested is likely to be where the one in the middle is, and to be kept off by what keeps that off.
+        // What has slept or rested is likely to be where the one in the middle is, and to be kept off by what keeps that or the one before off.
         const bool woken = (s.flags & SEED_ASLEEP) || ((s.flags & SEED_RESTING) && !(centre.flags & SEED_RESTING));
-        if (woken && !(centre.flags & SEED_VALID))
-            s.blocker = centre.blocker;
+        if (woken)
+            s.blocker = blocker;
         if ((!(s.flags & SEED_VALID) || (woken && !(centre.flags & SEED_VALID))) && isCovered(s)) {
             s.flags &= stillOff();
             return;
@@ -270,6 +271,8 @@ void Settler::settleOthers(Patch& patch)
             return;
         }
         settle(s);
+        if (!(s.flags & SEED_VALID))
+            blocker = s.blocker;
     });
     setRange(patch);
 }
