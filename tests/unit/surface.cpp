@@ -1,5 +1,7 @@
 // Scenes in, voxels out: whatever objects, links and weights a scene has, every voxel lies on the surface of the body, faces
 // as that does, and none is missing where the viewer sees it. The truth is in double precision throughout.
+#include "model/torus.h"
+
 #include "help.h"
 #include "test.h"
 #include "truth.h"
@@ -560,6 +562,49 @@ TEST(what_grows_takes_its_seeds_along)
         look(scene, errors, missing);
     }
     judge("growing", errors, missing);
+}
+
+// By how many steps the places of an object's seeds at rest are off, and how far out these are along their normals. Counts them.
+double restsOff(const SoftObject& object, long& count)
+{
+    double worst = 0;
+    const auto look = [&](const Seed* s) {
+        if (s == nullptr || (s->flags & (SEED_VALID | SEED_RESTING)) != (SEED_VALID | SEED_RESTING))
+            return;
+        const Vec rest = vec(object.root(s->root) + s->path) * std::pow(2, 16 - object.placeShift());
+        const Vec place{s->place[0] + 0.5, s->place[1] + 0.5, s->place[2] + 0.5};
+        const Vec normal = Vec{s->normal.x + 0.0, s->normal.y + 0.0, s->normal.z + 0.0} * (1.0 / 16384);
+        worst = std::fmax(worst, std::fmax(size(place - rest), std::fabs(dot(normal, rest) - s->out)));
+        ++count;
+    };
+    for (int i = 0; i < object.seedSlots(); i += 2) {
+        look(&object.seed(i));
+        look(object.extra(i));
+    }
+    return worst;
+}
+
+TEST(seeds_at_rest_know_their_places)
+{
+    Scene scene;
+    scene.ball(20, -30, 0, 0);
+    scene.ball(24, 30, 0, 0);
+    scene.add(new Torus(3, real(16), real(130)), 0, 0, 200, 8);
+    SoftObject& warped = scene.add(new Torus(4, real(14), real(24)), 0, 30, 0);
+    scene.linkAll();
+    long count = 0;
+    double worst = 0;
+    for (double x : {-30.0, -14.0, -8.0, 6.0, -20.0, -60.0}) {
+        scene.objects[0]->moveTo(point(x, 4, 0));
+        warped.setWarp({{Real(0), real(x * 2), Real(0)}});
+        scene.update();
+        for (const auto& object : scene.objects)
+            worst = std::fmax(worst, restsOff(*object, count));
+    }
+    note("%ld seeds at rest, %.2f steps off at most", count, worst);
+    CHECK(count > 5000);
+    CHECK(worst < 2.5);
+    CHECK(scene.objects[2]->placeShift() > 8);
 }
 
 TEST(what_has_not_changed_is_left_alone)
