@@ -53,7 +53,8 @@ int Missed::sideFrom(int at, int step, int aside) const
     return count;
 }
 
-// Sees to a pixel that has been noted, if it is empty and in a corner of drawn ones. True: the corner is such that there may be more.
+// Whether a pixel that has been noted is empty and in a corner of drawn ones so long that the model is to be asked. One in a shorter
+// corner takes over what lies beside it.
 bool Missed::isLong(int column, int row)
 {
     const int at = row * WIDTH + column;
@@ -136,10 +137,14 @@ void Missed::drawPixel(int column, int row)
     // At the edge of what there is no more is looked for.
     if (onEdge_)
         return;
-    note(column - 1, row);
-    note(column + 1, row);
-    note(column, row - 1);
-    note(column, row + 1);
+    if (frame_[at - 1] == 0)
+        note(column - 1, row);
+    if (frame_[at + 1] == 0)
+        note(column + 1, row);
+    if (frame_[at - WIDTH] == 0)
+        note(column, row - 1);
+    if (frame_[at + WIDTH] == 0)
+        note(column, row + 1);
 }
 
 // A pixel gets the colour of its own object and the brightness that the surface has there; the colour of one beside it where there

@@ -11,7 +11,7 @@ public:
     // more than a pixel of it.
     static constexpr int SIDE = 2, LONG_BOTH = 4, LONG = 8;
 
-    // The model may be null: nothing is drawn.
+    // The model may be null: nothing is done.
     Missed(View& view, const Model* model) : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model)
     {
     }
@@ -36,7 +36,7 @@ public:
     void draw();
 
 private:
-    static constexpr int NOTED_MOST = 512;
+    static constexpr int NOTED_MOST = 1024;
 
     int sideFrom(int at, int step, int aside) const;
     bool isLong(int column, int row);

@@ -210,6 +210,37 @@ TEST(islands_between_heavily_linked_objects_are_found)
     SAME(off, 0);
 }
 
+TEST(bulges_are_found_where_patches_rest_or_face_away)
+{
+    // The paths of the large ball lead out where nothing reaches its surface, and away from the viewer; the link to the small one
+    // raises the field again where they end.
+    Scene scene;
+    scene.ball(32, 0, 0, 0);
+    scene.ball(14, 31.4, 0, 10.2);
+    scene.link(0, 1, 3.1);
+    for (int frame = 0; frame < 3; ++frame) {
+        scene.update();
+        const Body body(scene);
+        int there = 0, off = 0;
+        for (const Voxel& voxel : scene.draw(0)) {
+            const Vec p = placeOf(scene, voxel);
+            if (size(p) < 20)
+                continue;
+            ++there;
+            off += std::fabs(body.field(body.joined(0), p) - 0.5) > 0.03;
+        }
+        note("%d scales of the large ball far out, %d of them not on its surface", there, off);
+        CHECK(there >= 8);
+        SAME(off, 0);
+        scene.objects[1]->translate(vector(0, 0.25, 0));
+    }
+    // They are gone when the small one is.
+    scene.objects[1]->translate(vector(0, 60, 0));
+    scene.update();
+    for (const Voxel& voxel : scene.draw(0))
+        CHECK(size(placeOf(scene, voxel)) < 17);
+}
+
 TEST(overhanging_necks_have_scales)
 {
     // Seen from the centre of the large one the neck to the small one hangs over: paths leave the surface and come back behind.

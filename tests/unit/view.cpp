@@ -574,6 +574,66 @@ TEST(slits_where_there_is_no_surface)
     }
 }
 
+// A ball with a corner of its picture missing is made whole, as far away and as bright as the true one is; without the model
+// the corner stays open.
+TEST(surface_is_followed_from_corners)
+{
+    Model model;
+    Motion still{};
+    still.centre = point(0, 0, 0);
+    CHECK(model.add(make<Sphere>(1, Real(40)), {255, 0, 0}, still));
+    Anim::move(model, 0);
+    CHECK(model.bodies() != nullptr);
+    Palette palette;
+    palette.make(model, false);
+    const uint8_t* const ramp = model.actor(0).object->ramp();
+    View view;
+    CHECK(view.open());
+    const Vec eye = vec(view.camera().eye), light = vec(model.light) * (1 / size(vec(model.light)));
+    // How bright the ball is at a pixel, and how far away along the viewing axis. Less than 0: it is not there.
+    const auto trueAt = [&](double column, double row, double* depth) {
+        const Camera& camera = view.camera();
+        const Vec way{(column + 0.5 - number(camera.centreX)) / number(camera.focalX),
+                      (number(camera.centreY) - row - 0.5) / number(camera.focalY), 1};
+        const double a = dot(way, way), b = dot(way, eye), root = b * b - a * (dot(eye, eye) - 400);
+        if (root <= 0)
+            return -1.0;
+        *depth = (-b - std::sqrt(root)) / a;
+        return std::max(0.0, 63 * dot(eye + way * *depth, light) / 20);
+    };
+    const auto played = [&](const Model* with, int right, int bottom) {
+        view.begin();
+        int open = 0, wrong = 0, drawn = 0;
+        double depth;
+        for (int y = 0; y < HEIGHT; ++y)
+            for (int x = 0; x < WIDTH; ++x)
+                if (trueAt(x, y, &depth) >= 0 && (x < 150 || x >= right || y >= bottom))
+                    view.setPixel(y * WIDTH + x, static_cast<int>(depth * 128), ramp[30]);
+        view.closeGaps(SPACING, with, &palette);
+        view.end();
+        for (int y = 0; y < bottom; ++y)
+            for (int x = 150; x < right; ++x) {
+                // Well inside the picture of the ball, and next to that.
+                const bool inside = trueAt(x - 1.5, y - 1.5, &depth) >= 0 && trueAt(x + 1.5, y - 1.5, &depth) >= 0;
+                const bool near = trueAt(x, y + 1, &depth) >= 0;
+                const double bright = trueAt(x, y, &depth);
+                const int at = y * WIDTH + x;
+                drawn += view.frame()[at] != 0;
+                open += inside && view.frame()[at] == 0;
+                wrong += view.frame()[at] != 0 && !near;
+                if (inside && view.frame()[at] != 0 && with != nullptr)
+                    wrong += std::fabs(view.zbuffer()[at] / 128.0 - depth) > 0.5 ||
+                             std::fabs(palette.step(view.frame()[at]) - bright) > 2.5;
+            }
+        note("a bite to column %d, row %d: %d pixels drawn, %d left open, %d wrong", right, bottom, drawn, open, wrong);
+        return with == nullptr ? open > 0 : open == 0 && wrong == 0 && drawn > 0;
+    };
+    CHECK(played(nullptr, 175, 88));
+    CHECK(played(&model, 170, 88));
+    CHECK(played(&model, 165, 85));
+    CHECK(played(&model, WIDTH, 70));
+}
+
 TEST(gaps_grow_with_spacing_and_nearness)
 {
     View view;
