@@ -13,7 +13,8 @@
 
 class View : public Hider {
 public:
-    // Rows of the frame below the screen. They are empty: what looks for something below a pixel need not ask where the screen ends.
+    // Rows of the frame below the screen. They are empty: what looks for something below a pixel need not ask where the screen
+    // ends.
     static constexpr int ROWS_BELOW = 6;
 
     ~View();

@@ -53,8 +53,8 @@ int Missed::sideFrom(int at, int step, int aside) const
     return count;
 }
 
-// Whether a pixel that has been noted is empty and in a corner of drawn ones so long that the model is to be asked. One in a shorter
-// corner takes over what lies beside it.
+// Whether a pixel that has been noted is empty and in a corner of drawn ones so long that the model is to be asked. One in a
+// shorter corner takes over what lies beside it.
 bool Missed::isLong(int column, int row)
 {
     const int at = row * WIDTH + column;

@@ -29,12 +29,12 @@ Real search(Path& path, Real* position, Sample* sample);
 // `*push` becomes by how much that may change when the neighbours come by a unit.
 SELDOM Real searchDeep(Path& path, Real* position, Sample* sample, Real* off, Real* push);
 
-// Where the path of a seed comes back to the surface that it left at the seed, before the field falls far below the isovalue. False:
-// nowhere, or so near that the two places cannot be told apart.
+// Where the path of a seed comes back to the surface that it left at the seed, before the field falls far below the isovalue.
+// False: nowhere, or so near that the two places cannot be told apart.
 bool comesBack(Path& path, const Seed& s, Real* position, Sample* sample);
 
-// The same from a position on of the path at hand, however far the field falls before, as long as the own object is the strongest and
-// its field no weaker than `weakest`. The path comes back between the two positions.
+// The same from a position on of the path at hand, however far the field falls before, as long as the own object is the strongest
+// and its field no weaker than `weakest`. The path comes back between the two positions.
 bool comesBackFar(Path& path, Real from, Real weakest, Real* outside, Real* inside);
 
 // Finds where the path crosses the surface between a position inside and one outside.

@@ -22,8 +22,10 @@ constexpr int32_t TURNED = 500;
 constexpr Real HURRY(2);
 // Cosines (1.0 = 2^14) by which a seed faces away that is looked at less often, and that needs no other one beside it.
 constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000, FAR_AWAY = 7500;
+// Of the field: what others have at the first place looked at, at least, where there is an island.
+constexpr Real FELT(0.01);
 // Of the turns of what waits: one in four.
-constexpr uint32_t SEARCHED_AGAIN = 3;
+constexpr uint32_t LOOKED_AGAIN = 3;
 // Positions: by how much a seed may leave the range that those of its patch were found in before all neighbours are asked.
 constexpr Real RANGE(0.05);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
@@ -87,7 +89,7 @@ Real Settler::settle(Seed& s)
     }
     // Where another object is the stronger, the path may leave the surface before that in a later frame: where a valley or haste
     // tells so it is searched again in the next one, else when its turn comes.
-    if (found && margin > VALLEY && (turn_ & SEARCHED_AGAIN) != 0 && !nearby_.dented() && !hurries())
+    if (found && margin > VALLEY && (turn_ & LOOKED_AGAIN) != 0 && !nearby_.dented() && !hurries())
         s.flags |= SEED_FOLLOW;
     if (nearby_.dented()) {
         off_ = found ? Real(0) : off_;
@@ -255,7 +257,7 @@ void Settler::settleOthers(Patch& patch)
     forSeeds(object_, patch, [&](Seed& s, int) {
         if (&s == &centre)
             return;
-        // What has slept or rested is likely to be where the one in the middle is, and to be kept off by what keeps that or the one before off.
+        // What has slept or rested is likely to be where the one in the middle is, or kept off by what kept off the last one.
         const bool woken = (s.flags & SEED_ASLEEP) || ((s.flags & SEED_RESTING) && !(centre.flags & SEED_RESTING));
         if (woken)
             s.blocker = blocker;
@@ -467,22 +469,27 @@ void Settler::settleBehind(const Seed& valid, Seed& s)
     place(s, sample.dominance);
 }
 
+// Whether a neighbour that the object has a heavy link with may reach the paths of a patch.
+bool Settler::mayHaveIslands(const Patch& patch) const
+{
+    bool heavy = false;
+    forNeighbours(patch.listed, [&](int slot) { heavy = heavy || nearby_.weight(slot) > HEAVY; });
+    return heavy && !nearby_.dented();
+}
+
 // Where links are heavy the field rises again half way to the other object: the paths of any seeds may come back to the surface,
-// whether their patch rests or faces away.
+// whether their patch rests or faces away. Where none has, they take turns.
 void Settler::settleIslands(Patch& patch)
 {
     setPatch(patch);
-    const bool had = patch.islands;
-    patch.islands = false;
-    if (!isListed(patch.listed) || nearby_.dented()) {
-        if (had)
-            forSeeds(object_, patch, [&](const Seed&, int i) { putAwayIsland(object_, i); });
+    const bool may = mayHaveIslands(patch), had = patch.islands;
+    if (may && !had && (turn_ & LOOKED_AGAIN) != 0 && !hurries())
         return;
-    }
+    patch.islands = false;
     forSeeds(object_, patch, [&](const Seed&, int i) {
         if (had)
             putAwayIsland(object_, i);
-        patch.islands |= settleIsland(i);
+        patch.islands |= may && settleIsland(i);
     });
 }
 
@@ -493,9 +500,10 @@ bool Settler::settleIsland(int i)
     const bool valid = (onPath.flags & SEED_VALID) != 0;
     if (!valid && !(onPath.flags & SEED_ASLEEP))
         return false;
-    path_.beginSearch(onPath);
+    // Half way to an island the others' fields are felt.
+    const Real field = path_.beginSearch(onPath).excess + ISOVALUE;
     Real outside, inside;
-    if (path_.touched() == 0 || !comesBackFar(path_, valid ? onPath.position : Real(1), weakest_, &outside, &inside))
+    if (field - path_.ownField() < FELT || !comesBackFar(path_, valid ? onPath.position : Real(1), weakest_, &outside, &inside))
         return false;
     Sample sample;
     Seed s = onPath;

@@ -79,6 +79,7 @@ private:
     bool isAlike(const Seed& s) const;
     SELDOM bool settleFine(int i);
     void settleBehind(const Seed& valid, Seed& s);
+    bool mayHaveIslands(const Patch& patch) const;
     SELDOM bool settleIsland(int i);
     bool hurries() const;
     bool waits(const Seed& s, bool someAway) const;
