@@ -1,5 +1,5 @@
-// Cover: the one neighbour that alone keeps the seeds of a patch off the surface, so that none other need be asked. Without it only
-// the speed would change.
+// Cover: a neighbour that alone keeps a seed, or all seeds of a patch, off the surface, so that none other need be asked. Without
+// it only the speed would change.
 #ifndef FB_COVER_H
 #define FB_COVER_H
 
@@ -12,12 +12,11 @@ public:
     {
     }
 
-    // Whether the neighbour that was the strongest where a seed was not on the surface the last time, or another, is sure to
-    // keep it off the surface; and whether the one that was the strongest in the middle of a patch does it to all its seeds.
-    bool hides(const Seed& s) { return hides(s, s.blocker); }
-    bool hides(const Seed& s, int blocker)
+    // Whether the neighbour that was the strongest where a seed was not on the surface the last time is sure to keep it off the
+    // surface; and whether the one that was it in the middle of a patch does so to all its seeds.
+    bool hides(const Seed& s)
     {
-        take(blocker);
+        take(s.blocker);
         return limits_ != nullptr && hidesPath(s);
     }
     bool hidesAll(const Patch& patch);

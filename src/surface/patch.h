@@ -41,7 +41,7 @@ struct Patch {
     int32_t first[PATCH_RINGS];  // of each ring, the number of its first regular seed in the patch
     uint8_t count[PATCH_RINGS];  // and how many there are
     PatchState state;
-    uint8_t blocker;    // slot of the neighbour that was the strongest where a seed was not on the surface
+    uint8_t blocker;    // Seed::blocker, when the one in the middle was not on the surface the last time
     bool stale;         // its lists have to be made anew
     bool reached;       // one that has come since the frame before reaches its seeds where they are
     bool stirred;       // and one did so then, or does so now; both are known where all is not common

@@ -208,7 +208,6 @@ PatchState Settler::probe(Patch& patch)
     const Real least = enough(patch, nearby_.smallest());
     const bool stays = !patch.stirred && patch.state == PATCH_MIXED && (s.flags & SEED_VALID);
     const Real margin = stays ? Real(0) : settle(s);
-    const Real push = stays ? Real(0) : path_.pushes();
     if (!(s.flags & SEED_VALID)) {
         patch.blocker = s.blocker;
         if (nearby_.dented())
@@ -216,7 +215,7 @@ PatchState Settler::probe(Patch& patch)
         if (margin <= least)
             return PATCH_MIXED;
         // The own field, with which the strongest is compared, changes as well.
-        patch.due += wayUntil(margin - least, push + push, LONGEST_WAIT);
+        patch.due += wayUntil(margin - least, shiftUp(path_.pushes(), 1), LONGEST_WAIT);
         return PATCH_INSIDE;
     }
     patch.facing = facing(object_, s, own_);

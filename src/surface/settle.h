@@ -29,8 +29,13 @@ public:
     // Those that do, after that.
     const Few& reaching() const { return nearby_.reaching(); }
 
-    // Whether all paths of a patch are sure to lie inside the one neighbour that was the strongest there the last time.
-    bool isCovered(const Patch& patch) { return !nearby_.dented() && cover_.hidesAll(patch); }
+    // Whether all paths of a patch are sure to lie inside the one neighbour that was the strongest there the last time. It is not
+    // asked where the middle was on the surface.
+    bool isCovered(const Patch& patch)
+    {
+        const bool settled = (object_.regular(patch.centre).flags & (SEED_VALID | SEED_RESTING)) == SEED_VALID;
+        return !settled && !nearby_.dented() && cover_.hidesAll(patch);
+    }
 
     // The same of one that lay inside, before setPatch().
     bool isStillCovered(const Patch& patch) { return all_.common && cover_.hidesAll(patch); }
