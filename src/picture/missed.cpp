@@ -18,7 +18,6 @@ constexpr int STEP = 128, APART = 128;
 constexpr int STEPS = 3, FARTHEST = 4, THICKEST = 12;
 // Of the field: where it is so far below the isovalue there is no surface near.
 constexpr Real NEAR(0.2);
-
 // Steps of brightness: 0..63.
 constexpr int BRIGHTEST = 63;
 // Of the field, times the size of the object: by how much it exceeds the isovalue at the edge of what is seen.
@@ -69,7 +68,7 @@ bool Missed::isLong(int column, int row)
             if (shorter >= LONG_BOTH || longer == LONG)
                 return true;
             if (shorter >= SIDE)
-                view_.copyPixel(at, at - aside);
+                view_.setPixel(at, zbuffer_[at - aside], frame_[at - aside]);
         }
     return false;
 }
