@@ -43,6 +43,15 @@ inline int32_t turnOf(const Bend& bend, const int32_t both[6])
            bend.turn[4] * both[4] + bend.turn[5] * both[5];
 }
 
+// The same of one vector, however long it is, 2^-17.
+inline int32_t curvatureAlong(const Bend& bend, const int32_t v[3])
+{
+    const int16_t(&t)[6] = bend.turn;
+    const int32_t turned[] = {(t[0] * v[0] + t[3] * v[1] + t[4] * v[2]) >> 14, (t[3] * v[0] + t[1] * v[1] + t[5] * v[2]) >> 14,
+                              (t[4] * v[0] + t[5] * v[1] + t[2] * v[2]) >> 14};
+    return product(turned, v) >> 3;
+}
+
 // A scale in the territory of another object is to be seen only where that has none, and lies so much deeper; 1/256 unit.
 constexpr int32_t BEHIND = 64;
 
@@ -252,15 +261,14 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
     if (middle.facing >= facesViewer_)
         return;
     // The curvature along the view.
-    int32_t p[3], view[3], both[6];
+    int32_t p[3], view[3];
     findPlace(shading_, *middle.seed, p);
     for (int i = 0; i < 3; ++i)
         view[i] = (shading_.eye[i] - (p[i] >> 3)) >> viewShift_;
     const int32_t up = product(bend.normal, view) >> 14, n[] = {bend.normal.x, bend.normal.y, bend.normal.z};
     for (int i = 0; i < 3; ++i)
         view[i] -= n[i] * up >> 14;
-    findProducts(view, view, both);
-    const int32_t square = (both[0] + both[1] + both[2]) << 13, curvature = turnOf(bend, both) >> 4;
+    const int32_t square = product(view, view), curvature = curvatureAlong(bend, view);
     // A quarter more than the radius at rest, for what scales differ from their cells: next to the limb there may be no other that
     // covers it. What blends bends no less than a ball half as large again.
     const bool rests = patch.state == PATCH_REST;
