@@ -28,6 +28,9 @@ constexpr Real RANGE(0.05);
 constexpr Real PARTED(1.5);
 // Of a link: beyond this weight the field rises half way between two objects, and islands are left when they part.
 constexpr Real HEAVY(1);
+// Of the field: where it is so far below the isovalue in the middle of a path, hardly any other object raises it; and where another
+// is stronger by as much, the surface is that one's.
+constexpr Real LEFT_ALONE(-0.2);
 // Cosine of path and normal (1.0 = 2^14): what a path only grazes its seed stands badly for.
 constexpr int32_t GRAZING = 4000;
 // Spacings: how far the surface may go on from a seed to a border without an oversampled one towards the neighbour N (not at all on
@@ -473,9 +476,9 @@ bool Settler::settleIsland(int i)
     const bool valid = (onPath.flags & SEED_VALID) != 0;
     if (!valid && !(onPath.flags & SEED_ASLEEP))
         return false;
-    path_.beginSearch(onPath);
+    const Sample middle = path_.beginSearch(onPath);
     Real outside, inside;
-    if (path_.touched() == 0 || !comesBackFar(path_, valid ? onPath.position : Real(1), weakest_, &outside, &inside))
+    if (path_.touched() == 0 || middle.excess < LEFT_ALONE || middle.dominance > -LEFT_ALONE || !comesBackFar(path_, valid ? onPath.position : Real(1), weakest_, &outside, &inside))
         return false;
     Sample sample;
     Seed s = onPath;
