@@ -478,7 +478,9 @@ bool Settler::settleIsland(int i)
         return false;
     const Sample middle = path_.beginSearch(onPath);
     Real outside, inside;
-    if (path_.touched() == 0 || middle.excess < LEFT_ALONE || middle.dominance > -LEFT_ALONE || !comesBackFar(path_, valid ? onPath.position : Real(1), weakest_, &outside, &inside))
+    if (path_.touched() == 0 || middle.excess < LEFT_ALONE || middle.dominance > -LEFT_ALONE)
+        return false;
+    if (!comesBackFar(path_, valid ? onPath.position : Real(1), weakest_, &outside, &inside))
         return false;
     Sample sample;
     Seed s = onPath;
