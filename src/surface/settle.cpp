@@ -22,8 +22,9 @@ constexpr int32_t TURNED = 500;
 constexpr Real HURRY(2);
 // Cosines (1.0 = 2^14) by which a seed faces away that is looked at less often, and that needs no other one beside it.
 constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000, FAR_AWAY = 7500;
-// Of the field: what others have at the first place looked at, at least, where there is an island.
-constexpr Real FELT(0.01);
+// Of the field: where it is so far below the isovalue in the middle of a path, hardly any other object raises it; and where another
+// is stronger by as much, the surface is that one's.
+constexpr Real LEFT_ALONE(-0.2);
 // Of the turns of what waits: one in four.
 constexpr uint32_t LOOKED_AGAIN = 3;
 // Positions: by how much a seed may leave the range that those of its patch were found in before all neighbours are asked.
@@ -482,7 +483,7 @@ void Settler::settleIslands(Patch& patch)
 {
     setPatch(patch);
     const bool may = mayHaveIslands(patch), had = patch.islands;
-    if (may && !had && (turn_ & LOOKED_AGAIN) != 0 && !hurries())
+    if (may && !had && (turn_ & 1) != 0 && !hurries())
         return;
     patch.islands = false;
     forSeeds(object_, patch, [&](const Seed&, int i) {
@@ -499,10 +500,10 @@ bool Settler::settleIsland(int i)
     const bool valid = (onPath.flags & SEED_VALID) != 0;
     if (!valid && !(onPath.flags & SEED_ASLEEP))
         return false;
-    // Half way to an island the others' fields are felt.
-    const Real field = path_.beginSearch(onPath).excess + ISOVALUE;
+    const Sample middle = path_.beginSearch(onPath);
     Real outside, inside;
-    if (field - path_.ownField() < FELT || !comesBackFar(path_, valid ? onPath.position : Real(1), weakest_, &outside, &inside))
+    if (middle.excess < LEFT_ALONE || middle.dominance > -LEFT_ALONE ||
+        !comesBackFar(path_, valid ? onPath.position : Real(1), weakest_, &outside, &inside))
         return false;
     Sample sample;
     Seed s = onPath;
