@@ -10,7 +10,7 @@ using machine::WIDTH;
 namespace {
 
 // Looks at fields in a frame, at most.
-constexpr int LOOKS_MOST = 6000;
+constexpr int LOOKS_MOST = 500;
 // Depths, 1/128 unit: the first step along the ray; where two drawn pixels are farther apart, both are tried.
 constexpr int STEP = 128, APART = 128;
 // How often the ray is followed to where the field rises, each time no more than FARTHEST times as far; and how far it may lead
@@ -30,7 +30,7 @@ void Missed::draw()
     const int corners = count_;
     for (int i = 0; i < corners && model_ != nullptr; ++i) {
         const Place& at = noted_[i];
-        if (!isLong(at.column, at.row))
+        if (!takeCorner(at.column, at.row))
             continue;
         drawPixel(at.column, at.row);
         while (count_ > corners && looks_ < LOOKS_MOST) {
@@ -52,9 +52,9 @@ int Missed::sideFrom(int at, int step, int aside) const
     return count;
 }
 
-// Whether a pixel that has been noted is empty and in a corner of drawn ones so long that the model is to be asked. One in a
-// shorter corner takes over what lies beside it.
-bool Missed::isLong(int column, int row)
+// Takes up a pixel that has been noted: in a short corner of drawn ones it takes over what lies beside it. True: the corner is so
+// long that the model is to be asked.
+bool Missed::takeCorner(int column, int row)
 {
     const int at = row * WIDTH + column;
     if (column < 1 || column >= WIDTH - 1 || row < 1 || row >= HEIGHT - 1 || frame_[at] != 0)

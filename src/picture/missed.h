@@ -39,7 +39,7 @@ private:
     static constexpr int NOTED_MOST = 1024;
 
     int sideFrom(int at, int step, int aside) const;
-    bool isLong(int column, int row);
+    bool takeCorner(int column, int row);
     void drawPixel(int column, int row);
     Real excess(int at, int depth);
     bool findDepth(int at, int* depth);
