@@ -10,7 +10,7 @@ using machine::WIDTH;
 namespace {
 
 // Looks at fields in a frame, at most.
-constexpr int LOOKS_MOST = 500;
+constexpr int LOOKS_MOST = 1500;
 // Depths, 1/128 unit: the first step along the ray; where two drawn pixels are farther apart, both are tried.
 constexpr int STEP = 128, APART = 128;
 // How often the ray is followed to where the field rises, each time no more than FARTHEST times as far; and how far it may lead
