@@ -406,7 +406,7 @@ inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter*
         }
         if (i < known) {
             // What is dark has its slopes; of a finish that is no end of the light.
-            slopes.add(&s, to, shines || to->brightness != 0 ? sight : Slopes::STAYS);
+            slopes.add(&s, static_cast<int>(&s - shading_.seeds), to, shines || to->brightness != 0 ? sight : Slopes::STAYS);
             if (PAINTED && list.room() > to + 1)
                 slopes.addCopy(to + 1, to);
         }
@@ -429,7 +429,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
             int turn, VoxelList& list, int room, Painter* painter)
 {
     Shader shader(object, own, frame);
-    slopes.begin(&object.regular(0));
+    slopes.begin();
     // The painter may make two voxels of one.
     const int most = (PAINTED ? 2 : 1) * SEEDS_MOST;
     int at = first;

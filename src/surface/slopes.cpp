@@ -44,13 +44,13 @@ void Slopes::set(int32_t spacing)
         Voxel& v = *shown->voxel;
         if (shown->sight == STAYS)
             continue;
-        if (shown->seed == nullptr) {
+        if (shown->number == COPY) {
             v.brightness = shown->before->brightness;
             v.slopeX = shown->before->slopeX;
             v.slopeY = shown->before->slopeY;
             continue;
         }
-        const Shown *const last = find(shown->seed - 1), *const next = find(shown->seed + 1);
+        const Shown *const last = find(shown->number - 1), *const next = find(shown->number + 1);
         Way along(last != nullptr ? last->voxel : &v, next != nullptr ? next->voxel : &v, &v, shown->sight);
         Way across(shown->before, shown->behind, &v, shown->sight);
         if (along.isLonger(most))

@@ -13,28 +13,24 @@ public:
     static constexpr int32_t STAYS = INT32_MAX;
     static int32_t sight(int32_t shearX, int32_t shearY) { return shearX * 65536 + (shearY & 0xffff); }
 
-    // Forgets all voxels. Those to come show seeds of an object that has `seeds`.
-    void begin(const Seed* seeds)
-    {
-        seeds_ = seeds;
-        count_ = 0;
-    }
+    // Forgets all voxels.
+    void begin() { count_ = 0; }
 
-    // A voxel shows a seed. It comes behind those of the rings before.
-    void add(const Seed* seed, Voxel* voxel, int32_t sight)
+    // A voxel shows seed `number` of its object, `*seed`. It comes behind those of the rings before.
+    void add(const Seed* seed, int number, Voxel* voxel, int32_t sight)
     {
         Shown& shown = shown_[count_];
-        shown = {seed, sight, voxel, voxel, voxel};
+        shown = {number, sight, voxel, voxel, voxel};
         // A seed is beside N of the one before it in its ring (model/seed.h).
-        const int n = seed > seeds_ ? seed[-1].neighbour : -1;
-        if (Shown* const before = n >= 0 ? find(seeds_ + (n >> 1)) : nullptr) {
+        const int n = number > 0 ? seed[-1].neighbour : -1;
+        if (Shown* const before = n >= 0 ? find(n >> 1) : nullptr) {
             shown.before = before->voxel;
             before->behind = voxel;
         }
-        table_[placeOf(seed)] = static_cast<int16_t>(count_++);
+        table_[number & (TABLE - 1)] = static_cast<int16_t>(count_++);
     }
     // And so does another, the slopes of which are to be the same.
-    void addCopy(Voxel* voxel, Voxel* original) { shown_[count_++] = {nullptr, 0, voxel, original, original}; }
+    void addCopy(Voxel* voxel, Voxel* original) { shown_[count_++] = {COPY, 0, voxel, original, original}; }
 
     // Sets the slopes of the voxels that have a sight: along the ring, and from the ring before to the one behind. In a direction
     // in which no seed beside one is lit they stay. Seeds are `spacing` apart, 1/256 unit.
@@ -42,21 +38,18 @@ public:
 
 private:
     struct Shown {
-        const Seed* seed;  // null: it is a copy
+        int32_t number;  // of the seed, or COPY
         int32_t sight;
         Voxel *voxel, *before, *behind;  // its own, and those of seeds beside it in the rings before and behind, or its own
     };
-    // Seeds are looked up by the last bits of where they are in memory, which tell those of some rings apart: the size of a seed
-    // is an odd number of words.
-    static constexpr int TABLE = 1024;
-    static uint32_t placeOf(const Seed* seed) { return (reinterpret_cast<uintptr_t>(seed) >> 2) & (TABLE - 1); }
-    Shown* find(const Seed* seed)
+    Shown* find(int number)
     {
-        const int i = table_[placeOf(seed)];
-        return i < count_ && shown_[i].seed == seed ? shown_ + i : nullptr;
+        const int i = table_[number & (TABLE - 1)];
+        return i < count_ && shown_[i].number == number ? shown_ + i : nullptr;
     }
 
-    const Seed* seeds_;
+    // Seeds are looked up by the last bits of their numbers, which tell those of some rings apart.
+    static constexpr int TABLE = 1024, COPY = -2;
     int count_;
     Shown shown_[VOXELS_AT_ONCE];
     int16_t table_[TABLE];

@@ -40,9 +40,9 @@ struct Plane {
     void set(bool wanted = true)
     {
         const auto bits10 = [](double shear) { return static_cast<int32_t>(std::lround(shear * 1024)); };
-        slopes->begin(seeds.data());
+        slopes->begin();
         for (int i = 0; i < RINGS * ROUND; ++i)
-            slopes->add(&seeds[i], &voxels[i], wanted ? Slopes::sight(bits10(shearX), bits10(shearY)) : Slopes::STAYS);
+            slopes->add(&seeds[i], i, &voxels[i], wanted ? Slopes::sight(bits10(shearX), bits10(shearY)) : Slopes::STAYS);
         slopes->set(SPACING);
     }
     // Whether the slopes of a lit voxel are right, but for what rounding brightness to whole steps makes of them.
@@ -163,9 +163,9 @@ TEST(slopes_of_a_voxel_in_two_parts_are_alike)
     Plane plane(1, -1);
     Voxel copy{};
     copy.brightness = 30;
-    plane.slopes->begin(plane.seeds.data());
+    plane.slopes->begin();
     for (int i = 0; i < RINGS * ROUND; ++i) {
-        plane.slopes->add(&plane.seeds[i], &plane.voxels[i], Slopes::sight(410, -307));
+        plane.slopes->add(&plane.seeds[i], i, &plane.voxels[i], Slopes::sight(410, -307));
         if (i == 17)
             plane.slopes->addCopy(&copy, &plane.voxels[i]);
     }
