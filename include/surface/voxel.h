@@ -18,6 +18,15 @@ struct Voxel {
     int16_t cutAt;           // that function in the middle, 1/8; where it is negative nothing is drawn
 };
 
+// Steps of brightness: 0..63, the 64-step ramp.
+constexpr int BRIGHTEST = 63;
+
+// Lambert's (report, The Rendering Technique) from the cosine of normal and light, 1.0 = 2^14; below 0 where the side is dark.
+inline int32_t lambert(int32_t cosine)
+{
+    return (cosine * BRIGHTEST + 8192) >> 14;
+}
+
 constexpr int SHADING_MOST = 64;
 constexpr int DARK_MIDDLE = -30;
 

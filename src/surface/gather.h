@@ -94,9 +94,6 @@ struct OwnFrame {
     int32_t centre[3];            // of the object from the eye, axes of the view, 1/256 unit of the world
 };
 
-// Steps of brightness: 0..63, the 64-step ramp.
-constexpr int BRIGHTEST = 63;
-
 // On a ball a scale that is seen nearly edge-on adds next to nothing to those before it; on flat parts it may be all there is.
 constexpr int32_t LIMB_OF_BALL = 1300, LIMB = 1 << 7;
 

@@ -73,9 +73,7 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     const int32_t steep = smaller(static_cast<int32_t>(rise), STEEPEST_TILT);
     const int16_t tiltX = static_cast<int16_t>(normalX * steep >> 14);
     const int16_t tiltY = static_cast<int16_t>(normalY * steep >> 14);
-    // Lambert's cosine (report, The Rendering Technique).
-    const int32_t cosine = product(s.normal, v.light);
-    const int32_t light = (cosine * BRIGHTEST + 8192) >> 14;
+    const int32_t light = lambert(product(s.normal, v.light));
     voxel.tiltX = tiltX;
     voxel.tiltY = tiltY;
     // Half width and height. Beside each other, cells of a ring make a band: rectangles as wide as the way from one to the
