@@ -121,7 +121,7 @@ int Gaps::close(Real spacing)
             if (slits && from > 0 && inSlit(row + from - 1))
                 closeSlit(y, from - 1, last - 1, -1);
             last = run->to;
-            if (model_ != nullptr && y >= Missed::SIDE && y < HEIGHT - Missed::SIDE)
+            if (y >= Missed::SIDE && y < HEIGHT - Missed::SIDE)
                 noteCorners(y, *run);
         }
         if (slits && last > 0 && last < WIDTH && inSlit(row + last))
@@ -192,22 +192,6 @@ void Gaps::closeFrom(int y, int from, int to, int step, int widest, int narrowes
             fill(ends, (y + i * step) * WIDTH + rows[i].from - 1, (y + i * step) * WIDTH + rows[i].to, 1);
     }
     noteBeyond(y + narrow * step, rows[narrow < opening.high ? narrow : narrow - 1]);
-    if (model_ == nullptr && narrow < opening.high) {
-        closeCorner(y + narrow * step, rows[narrow].from, 1);
-        closeCorner(y + narrow * step, rows[narrow].to - 1, -1);
-    }
-}
-
-// An empty pixel beside which, against `step`, a drawn one lies: in a corner with two pixels or more on each side, which is
-// none of a round outline, it is closed. With a model that is left to Missed.
-void Gaps::closeCorner(int y, int x, int step)
-{
-    if (y == 0 || y == HEIGHT - 1)
-        return;
-    const uint8_t* pixel = frame_ + y * WIDTH + x;
-    const int along = pixel[-WIDTH] != 0 ? -WIDTH : WIDTH;
-    if (pixel[0] == 0 && pixel[-step] != 0 && pixel[along] != 0 && pixel[along + step] != 0 && pixel[-step - along] != 0)
-        view_.copyPixel(y * WIDTH + x, y * WIDTH + x - step);
 }
 
 // Whether between two drawn pixels, `step` the way from each to the next, there is none of the surface.

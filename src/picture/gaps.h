@@ -26,7 +26,6 @@ private:
     void noteCorners(int y, const Span& run);
     void noteBeyond(int y, const Span& columns);
     void closeRun(int y, int from, int to, int spacing);
-    void closeCorner(int y, int x, int step);
     void closeAbove(int y, int x, int widest, int narrowest);
     void closeFrom(int y, int from, int to, int step, int widest, int narrowest);
     void closeSlit(int y, int x, int end, int step);

@@ -3,6 +3,7 @@
 
 #include "math/normal.h"
 #include "math/whole.h"
+#include "surface/voxel.h"
 
 using machine::HEIGHT;
 using machine::WIDTH;
@@ -10,7 +11,7 @@ using machine::WIDTH;
 namespace {
 
 // Looks at fields in a frame, at most.
-constexpr int LOOKS_MOST = 1500;
+constexpr int LOOKS_MOST = 3500;
 // Depths, 1/128 unit: the first step along the ray; where two drawn pixels are farther apart, both are tried.
 constexpr int STEP = 128, APART = 128;
 // How often the ray is followed to where the field rises, each time no more than FARTHEST times as far; and how far it may lead
@@ -18,8 +19,6 @@ constexpr int STEP = 128, APART = 128;
 constexpr int STEPS = 3, FARTHEST = 4, THICKEST = 12;
 // Of the field: where it is so far below the isovalue there is no surface near.
 constexpr Real NEAR(0.2);
-// Steps of brightness: 0..63.
-constexpr int BRIGHTEST = 63;
 // Of the field, times the size of the object: by how much it exceeds the isovalue at the edge of what is seen.
 constexpr Real RIM(0.25);
 
@@ -28,9 +27,9 @@ constexpr Real RIM(0.25);
 void Missed::draw()
 {
     const int corners = count_;
-    for (int i = 0; i < corners && model_ != nullptr; ++i) {
+    for (int i = 0; i < corners; ++i) {
         const Place& at = noted_[i];
-        if (!takeCorner(at.column, at.row))
+        if (!takeCorner(at.column, at.row) || model_ == nullptr || looks_ >= LOOKS_MOST)
             continue;
         drawPixel(at.column, at.row);
         while (count_ > corners && looks_ < LOOKS_MOST) {
@@ -151,7 +150,10 @@ void Missed::drawPixel(int column, int row)
 void Missed::setColour(int at, int depth, int beside)
 {
     const Point p = view_.pointAt(at, depth);
-    const auto fieldAt = [&](const Vector& away) { return model_->implicitAt(p + away, &strongest_); };
+    const auto fieldAt = [&](const Vector& away) {
+        ++looks_;
+        return model_->implicitAt(p + away, &strongest_);
+    };
     const Real half(0.5), none(0);
     const Vector there{fieldAt({half, none, none}), fieldAt({none, half, none}), fieldAt({none, none, half})};
     const Real here = fieldAt({none, none, none});
@@ -160,7 +162,7 @@ void Missed::setColour(int at, int depth, int beside)
     if (own != nullptr && own->ramp() != nullptr && own->paint() == nullptr) {
         const Normal out = normalise({here - there.x, here - there.y, here - there.z}), light = normalise(model_->light);
         const int32_t cosine = (out.x * light.x + out.y * light.y + out.z * light.z) >> 14;
-        colour = own->ramp()[larger((cosine * BRIGHTEST + 8192) >> 14, 0)];
+        colour = own->ramp()[larger(lambert(cosine), 0)];
     }
     view_.setPixel(at, depth, colour);
 }

@@ -11,7 +11,7 @@ public:
     // more than a pixel of it.
     static constexpr int SIDE = 2, LONG_BOTH = 4, LONG = 8;
 
-    // The model may be null: nothing is done.
+    // The model may be null: only short corners are closed.
     Missed(View& view, const Model* model) : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model)
     {
     }

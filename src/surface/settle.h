@@ -108,7 +108,7 @@ private:
     const Real came_;   // how far neighbours came in this frame, units
     const uint32_t updates_;
     const bool heavy_;  // the object has a link of more than HEAVY
-    const Real weakest_;  // the own field is no weaker on its own part of the surface, where it has two neighbours at most
+    const Real weakest_;  // own field below which no islands are looked for: those with two neighbours at most have more
     const Seed* const last_;  // of the regular ones
     const Patch* patch_ = nullptr;  // that is at hand
     uint32_t turn_ = 0; // of it: what waits takes turns
