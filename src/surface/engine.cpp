@@ -115,11 +115,9 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
         return true;
     const bool alone = all.common && all.rests && !isListed(patch.near);
     const bool touched = !alone && settler.setPatch(patch);
-    if (!all.common) {
-        const bool reached = stale || odometer_.hasMoved(all, settler.reaching());
-        patch.stirred = reached || patch.reached;
-        patch.reached = reached;
-    }
+    const bool reached = all.common || stale || odometer_.hasMoved(all, settler.reaching());
+    patch.stirred = reached || patch.reached;
+    patch.reached = reached;
     if (!touched && all.rests && isAtRest(settler, patch, all))
         return false;
     if (outOfSight(patch, own)) {

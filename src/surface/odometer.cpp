@@ -48,8 +48,9 @@ inline Way Odometer::wayOfEye(const SoftObject& object, const OwnFrame& own)
 
 bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion)
 {
-    bool holds = !fresh_ && linksVersion == linksVersion_ && all.count <= room_;
+    bool holds = !fresh_ && linksVersion == linksVersion_ && all.common == common_ && all.count <= room_;
     linksVersion_ = linksVersion;
+    common_ = all.common;
     fresh_ = all.count > room_ && !makeRoom(all.count);
     if (fresh_) {
         leapt_ = true;

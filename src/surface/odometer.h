@@ -32,7 +32,8 @@ public:
     Odometer& operator=(const Odometer&) = delete;
 
     // Finds out how far any neighbour, or the viewer, has come since the last call. False: nothing that was found out before
-    // holds, because it is the first call, links have changed, an object has leapt into range or out of it, or there is no memory.
+    // holds, because it is the first call, links have changed, an object has leapt into range or out of it, the first odd one has
+    // come or the last gone, or there is no memory.
     bool advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion);
 
     Way reading() const { return reading_; }
@@ -55,6 +56,7 @@ private:
 
     Way reading_ = 0, bound_ = 0, came_ = 0;
     uint32_t linksVersion_ = 0;
+    bool common_ = true;  // nothing was odd about the neighbours in the call before: what is odd is counted otherwise
     bool fresh_ = true;  // nothing is known of a frame before
     Vector eye_{Real(0), Real(0), Real(0)};  // where the viewer was, own axes
     bool eyeStayed_ = false;

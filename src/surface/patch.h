@@ -44,7 +44,7 @@ struct Patch {
     uint8_t blocker;    // Seed::blocker, when the one in the middle was not on the surface the last time
     bool stale;         // its lists have to be made anew
     bool reached;       // one that has come since the frame before reaches its seeds where they are
-    bool stirred;       // and one did so then, or does so now; both are known where all is not common
+    bool stirred;       // and one did so then, or does so now; where all is common both are taken for granted
     bool settled;       // its seeds were looked at in this frame
     bool extras;        // oversampled seeds of it take part
     bool fine;          // and fine ones

@@ -712,6 +712,33 @@ TEST(the_wall_of_a_hollow_that_moves_is_found)
     CHECK(moved.counts.updated < static_cast<uint32_t>(moved.objects[0]->seedSlots() / 2));
 }
 
+TEST(what_is_odd_leaves_no_trace)
+{
+    // A strong ball goes past another one, and when it is gone a ball that is as strong as most comes to that.
+    Scene scene;
+    scene.ball(40, 0, 0, 0);
+    scene.ball(30, 60, 0, 0);
+    scene.ball(16, -60, 0, 0);
+    scene.objects[2]->setStrength(real(1.6));
+    scene.linkAll();
+    for (int frame = 0; frame < 30; ++frame) {
+        scene.objects[2]->moveTo(point(-60 + 2 * (frame < 15 ? frame : 29 - frame), 0, 0));
+        scene.update();
+    }
+    Errors errors;
+    Missing missing;
+    for (int frame = 0; frame < 60; ++frame) {
+        scene.objects[1]->moveTo(point(60 - frame, 0, 0));
+        scene.update();
+        if (frame % 6 != 5)
+            continue;
+        const Body body(scene);
+        measure(scene, body, errors);
+        seek(scene, body, missing);
+    }
+    judge("something strong has gone past", errors, missing);
+}
+
 TEST(only_what_is_near_is_told)
 {
     for (bool printed : {false, true}) {
