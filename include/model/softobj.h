@@ -128,7 +128,8 @@ public:
         FINE_NEAR,    // half way from the regular seed to its oversampled one
         FINE_FAR,     // half way from that to the neighbour
         FINE_BEHIND,  // behind an overhanging neck, on the path of one of all these
-        FINE_ISLAND,  // on an island, on the path of the regular one
+        FINE_ISLAND,  // where the path of the regular one enters an island,
+        FINE_ISLAND_END,  // and where it leaves that again
         FINE_SEEDS    // how many there are
     };
     // Those of the regular one in slot i. They lie in memory one behind the other, in that order. Null: there are none yet.

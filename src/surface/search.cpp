@@ -202,6 +202,20 @@ bool comesBackFar(Path& path, Real from, Real weakest, Real* outside, Real* insi
     return false;
 }
 
+bool leavesAgain(Path& path, Real* inside, Real* outside)
+{
+    for (Real to = *inside; to < path.last(); *inside = to) {
+        to = least(to + SEARCH_STEP, path.last());
+        const Sample now = path.look(to);
+        *outside = to;
+        if (now.excess <= Real(0))
+            return true;
+        if (now.dominance > OVERSHOOT)
+            return false;
+    }
+    return false;
+}
+
 namespace {
 
 // A path on which something digs, or of a weak object, looked at as a whole: where it leaves the surface, and how far off the

@@ -37,6 +37,10 @@ bool comesBack(Path& path, const Seed& s, Real* position, Sample* sample);
 // and its field no weaker than `weakest`. The path comes back between the two positions.
 bool comesBackFar(Path& path, Real from, Real weakest, Real* outside, Real* inside);
 
+// Where it then leaves the surface for the second time: from `*inside` on, which moves there. False: another object is the stronger
+// before it does.
+bool leavesAgain(Path& path, Real* inside, Real* outside);
+
 // Finds where the path crosses the surface between a position inside and one outside.
 void bisect(Path& path, Real inside, Real outside, Real* position, Sample* sample);
 

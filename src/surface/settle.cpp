@@ -31,10 +31,13 @@ constexpr uint32_t LOOKED_AGAIN = 3;
 constexpr Real RANGE(0.05);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
 constexpr Real PARTED(1.5);
+// Of the field: by so much the own is stronger than any other where a path leaves an island. In a crease beside what belongs to
+// another object a scale would stand for neither side.
+constexpr Real CLEARLY(-0.06);
 // Of a link: beyond this weight the field rises half way between two objects, and islands are left when they part.
 constexpr Real HEAVY(1);
 // Cosine of path and normal (1.0 = 2^14): what a path only grazes its seed stands badly for.
-constexpr int32_t GRAZING = 4000;
+constexpr int32_t GRAZING = 1500;
 // Spacings: how far the surface may go on from a seed to a border without an oversampled one towards the neighbour N (not at all on
 // shaped objects), without one towards the next of its ring, and without a fine one.
 constexpr Real LEFT_OPEN(0.5), LEFT_OPEN_SHAPED(-100), LEFT_OPEN_NEXT(1), LEFT_OPEN_FINE(1.5);
@@ -331,7 +334,7 @@ int parted(const SoftObject& object, int i)
            object.regular(next).root == s.root && from(next, LEFT_OPEN_NEXT) ? next : -1;
 }
 
-// The fine seeds of a regular one are not needed, but for the one on an island; nor is its oversampled one; none of a patch is.
+// The fine seeds of a regular one are not needed, but for those on an island; nor is its oversampled one; none of a patch is.
 void putAwayFine(SoftObject& object, int i, int end = SoftObject::FINE_ISLAND)
 {
     Seed* const fine = object.fine(i);
@@ -342,7 +345,7 @@ void putAwayFine(SoftObject& object, int i, int end = SoftObject::FINE_ISLAND)
 void putAwayIsland(SoftObject& object, int i)
 {
     if (Seed* const fine = object.fine(i))
-        fine[SoftObject::FINE_ISLAND].flags = 0;
+        fine[SoftObject::FINE_ISLAND].flags = fine[SoftObject::FINE_ISLAND_END].flags = 0;
 }
 
 void putAway(SoftObject& object, int i)
@@ -493,7 +496,8 @@ void Settler::settleIslands(Patch& patch)
     });
 }
 
-// False: the path of this regular seed does not come back, or only grazes what it comes back to.
+// The path of a regular seed enters an island and leaves it again. False: it does not come back, or only grazes what it comes back
+// to.
 bool Settler::settleIsland(int i)
 {
     const Seed& onPath = object_.regular(i);
@@ -505,18 +509,25 @@ bool Settler::settleIsland(int i)
     if (middle.excess < LEFT_ALONE || middle.dominance > -LEFT_ALONE ||
         !comesBackFar(path_, valid ? onPath.position : Real(1), weakest_, &outside, &inside))
         return false;
+    const bool enters = placeOnIsland(i, SoftObject::FINE_ISLAND, inside, outside);
+    return (leavesAgain(path_, &inside, &outside) && placeOnIsland(i, SoftObject::FINE_ISLAND_END, inside, outside)) || enters;
+}
+
+// Places a seed on an island, between two positions of the path at hand. False: it would only graze it, or is another object's.
+bool Settler::placeOnIsland(int i, int which, Real inside, Real outside)
+{
     Sample sample;
-    Seed s = onPath;
+    Seed s = object_.regular(i);
     s.flags = 0;
     bisect(path_, inside, outside, &s.position, &sample);
-    if (sample.dominance > OVERSHOOT)
+    if (sample.dominance > (which == SoftObject::FINE_ISLAND_END ? CLEARLY : OVERSHOOT))
         return false;
     place(s, sample.dominance);
     s.flags |= SEED_ACTIVE;
     const int32_t cosine = (s.way[0] * s.normal.x + s.way[1] * s.normal.y + s.way[2] * s.normal.z) >> 7;
     Seed* const fine = magnitude(cosine) < GRAZING ? nullptr : object_.madeFine(i);
     if (fine != nullptr)
-        fine[SoftObject::FINE_ISLAND] = s;
+        fine[which] = s;
     return fine != nullptr;
 }
 

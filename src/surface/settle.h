@@ -86,6 +86,7 @@ private:
     void settleBehind(const Seed& valid, Seed& s);
     bool mayHaveIslands(const Patch& patch) const;
     SELDOM bool settleIsland(int i);
+    bool placeOnIsland(int i, int which, Real inside, Real outside);
     bool hurries() const;
     bool waits(const Seed& s, bool someAway) const;
     bool mixes() const;

@@ -241,6 +241,41 @@ TEST(bulges_are_found_where_patches_rest_or_face_away)
         CHECK(size(placeOf(scene, voxel)) < 17);
 }
 
+TEST(bulges_have_an_outer_side)
+{
+    // Two small ones raise the field beside the large ball: its paths come back to the surface there and leave it for good.
+    for (double away : {33.0, 33.5, 34.0}) {
+        Scene scene;
+        scene.ball(45, 0, 0, 0);
+        scene.ball(15, away, 4, -4);
+        scene.ball(15, away, -4, -4);
+        scene.link(0, 1, 3.9);
+        scene.link(0, 2, 3.9);
+        scene.link(1, 2, 3.9);
+        scene.update();
+        const SoftObject& large = *scene.objects[0];
+        const Body body(scene);
+        int enters = 0, leaves = 0;
+        double worst = 0;
+        for (int i = 0; i < large.seedSlots(); i += 2) {
+            const Seed* const fine = large.fine(i);
+            if (fine == nullptr)
+                continue;
+            enters += (fine[SoftObject::FINE_ISLAND].flags & SEED_VALID) != 0;
+            const Seed& end = fine[SoftObject::FINE_ISLAND_END];
+            if (!(end.flags & SEED_VALID))
+                continue;
+            ++leaves;
+            const Vec p = vec(large.root(end.root)) + vec(end.path) * number(end.position);
+            worst = std::max(worst, std::fabs(body.field(body.joined(0), p) - 0.5));
+            CHECK(dot(body.fall(body.joined(0), p), vec(end.path)) > 0);
+        }
+        note("%.1f away: %d paths come back, %d leave again, off by %.3f at most", away, enters, leaves, worst);
+        CHECK(enters > 0 && leaves > 0);
+        CHECK(worst < 0.03);
+    }
+}
+
 TEST(overhanging_necks_have_scales)
 {
     // Seen from the centre of the large one the neck to the small one hangs over: paths leave the surface and come back behind.
