@@ -73,9 +73,10 @@ struct Patch {
 template <class Object, class Each>
 inline void forSeeds(Object& object, const Patch& patch, Each each)
 {
+    auto* const seeds = &object.regular(0);
     for (int ring = 0; ring < PATCH_RINGS; ++ring) {
         int i = 2 * patch.first[ring];
-        auto* s = &object.regular(i);
+        auto* s = seeds + patch.first[ring];
         for (auto* const end = s + patch.count[ring]; s < end; ++s, i += 2)
             each(*s, i);
     }

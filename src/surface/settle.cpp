@@ -25,8 +25,8 @@ constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000, FAR_AWAY = 7500;
 // Of the field: where it is so far below the isovalue in the middle of a path, hardly any other object raises it; and where another
 // is stronger by as much, the surface is that one's.
 constexpr Real LEFT_ALONE(-0.2);
-// Of the turns of what waits: one in four.
-constexpr uint32_t LOOKED_AGAIN = 3;
+// Every so many frames it is the turn of a patch that all its seeds are looked at.
+constexpr uint32_t TURNS = 4;
 // Positions: by how much a seed may leave the range that those of its patch were found in before all neighbours are asked.
 constexpr Real RANGE(0.05);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
@@ -90,7 +90,7 @@ Real Settler::settle(Seed& s)
     }
     // Where another object is the stronger, the path may leave the surface before that in a later frame: where a valley or haste
     // tells so it is searched again in the next one, else when its turn comes.
-    if (found && margin > VALLEY && (turn_ & LOOKED_AGAIN) != 0 && !nearby_.dented() && !hurries())
+    if (found && margin > VALLEY && turn_ != 0)
         s.flags |= SEED_FOLLOW;
     if (nearby_.dented()) {
         off_ = found ? Real(0) : off_;
@@ -200,6 +200,16 @@ static Real enough(const Patch& patch, Real size)
     return clamp(realFromRaw(patch.radius << 12) / size * (STEEPEST + STEEPEST), Real(0.2), Real(0.9));
 }
 
+bool Settler::setPatch(const Patch& patch, bool oversampled)
+{
+    patch_ = &patch;
+    path_.leave();
+    const bool reached = nearby_.setPatch(patch, oversampled);
+    const bool hurries = came_ > least(HURRY, shiftDown(nearby_.smallest(), 2));
+    turn_ = hurries || nearby_.dented() ? 0 : (static_cast<uint32_t>(patch.centre) / 2 + updates_) % TURNS;
+    return reached;
+}
+
 PatchState Settler::probe(Patch& patch)
 {
     Seed& s = object_.seed(patch.centre);
@@ -233,13 +243,8 @@ PatchState Settler::probe(Patch& patch)
 }
 
 // Notes between which positions the seeds of a patch are.
-void Settler::setRange(Patch& patch) const
+inline void Settler::setRange(Patch& patch, Real nearest, Real farthest) const
 {
-    Real nearest(9), farthest(0);
-    forSeeds(object_, patch, [&](const Seed& s, int) {
-        nearest = least(nearest, s.position);
-        farthest = most(farthest, s.position);
-    });
     patch.nearest = static_cast<uint8_t>(rawFromReal(nearest - RANGE) >> 10);
     patch.farthest = static_cast<uint8_t>(rawFromReal(farthest + RANGE) >> 10);
     if (nearby_.isBeyond(nearest) || nearby_.isBeyond(farthest)) {
@@ -251,54 +256,54 @@ void Settler::setRange(Patch& patch) const
 
 void Settler::settleOthers(Patch& patch)
 {
-    const Seed& centre = object_.seed(patch.centre);
+    const Seed& centre = object_.regular(patch.centre);
     const bool someAway = !(centre.flags & SEED_VALID) || patch.facing < patch.spread;
-    uint8_t blocker = patch.blocker;  // of the seed that was not on the surface last
+    uint8_t blocker = patch.blocker;
+    Real nearest(9), farthest(0);
     forSeeds(object_, patch, [&](Seed& s, int) {
-        if (&s == &centre)
-            return;
-        // What has slept or rested is likely to be where the one in the middle is, or kept off by what kept off the last one.
-        const bool woken = (s.flags & SEED_ASLEEP) || ((s.flags & SEED_RESTING) && !(centre.flags & SEED_RESTING));
-        if (woken)
-            s.blocker = blocker;
-        if ((!(s.flags & SEED_VALID) || (woken && !(centre.flags & SEED_VALID))) && isCovered(s)) {
-            s.flags &= stillOff();
-            return;
-        }
-        if (woken) {
-            s.position = centre.position;
-            s.flags = SEED_FOLLOW;
-            s.still = 0;
-        } else if (waits(s, someAway)) {
-            return;
-        }
-        settle(s);
-        if (!(s.flags & SEED_VALID))
-            blocker = s.blocker;
+        if (&s != &centre)
+            settleBeside(centre, s, someAway, &blocker);
+        nearest = least(nearest, s.position);
+        farthest = most(farthest, s.position);
     });
-    setRange(patch);
+    setRange(patch, nearest, farthest);
 }
 
-// Whether neighbours come so fast that no seed waits.
-inline bool Settler::hurries() const
+// Settles a seed of the patch that `centre` is in the middle of. `*blocker` is that of the seed that was not on the surface last.
+inline void Settler::settleBeside(const Seed& centre, Seed& s, bool someAway, uint8_t* blocker)
 {
-    return came_ > least(HURRY, shiftDown(nearby_.smallest(), 2));
+    // What has slept or rested is likely to be where the one in the middle is, or kept off by what kept off the last one.
+    const bool woken = (s.flags & SEED_ASLEEP) || ((s.flags & SEED_RESTING) && !(centre.flags & SEED_RESTING));
+    if (woken)
+        s.blocker = *blocker;
+    if ((!(s.flags & SEED_VALID) || (woken && !(centre.flags & SEED_VALID))) && isCovered(s)) {
+        s.flags &= stillOff();
+        return;
+    }
+    if (woken) {
+        s.position = centre.position;
+        s.flags = SEED_FOLLOW;
+        s.still = 0;
+    } else if (waits(s, someAway)) {
+        return;
+    }
+    settle(s);
+    if (!(s.flags & SEED_VALID))
+        *blocker = s.blocker;
 }
 
 // Coherence over time: a seed that did not move when it was looked at waits for a frame, and so does one that faces away a
 // little; one that did not move twice, or faces well away, waits for three.
 bool Settler::waits(const Seed& s, bool someAway) const
 {
-    if (!patch_->stirred && (s.flags & SEED_VALID))
-        return true;
-    if (nearby_.dented() || !(s.flags & SEED_VALID) || hurries())
+    if (!(s.flags & SEED_VALID))
         return false;
-    uint32_t mask = s.still;
-    if (someAway) {
-        const int32_t away = -facing(object_, s, own_);
-        mask |= away > WELL_AWAY ? 3 : away > LITTLE_AWAY ? 1 : 0;
-    }
-    return (turn_ & mask) != 0;
+    if (!patch_->stirred || (s.still & turn_) != 0)
+        return true;
+    if (!someAway || turn_ == 0)
+        return false;
+    const int32_t away = -facing(object_, s, own_);
+    return away > WELL_AWAY || (away > LITTLE_AWAY && (turn_ & 1) != 0);
 }
 
 namespace {
@@ -317,9 +322,8 @@ bool gapes(const SoftObject& object, const Seed& s, const Seed& n, Real open)
 
 // The slot of the seed from which one has parted, so that the one between is needed: its neighbour N, or else the next of its ring,
 // when the border passes between the two and not between the seed and N. -1: none.
-int parted(const SoftObject& object, int i)
+int parted(const SoftObject& object, const Seed& s, int i)
 {
-    const Seed& s = object.regular(i);
     const auto from = [&](int other, Real open) {
         const Seed& n = object.regular(other);
         return !(n.flags & SEED_ASLEEP) && gapes(object, s, n, open);
@@ -380,26 +384,32 @@ bool Settler::isAway(const Seed& s) const
     return !(s.flags & SEED_VALID) || facing(object_, s, own_) < -FAR_AWAY;
 }
 
+// Lays out the oversampled seed of a regular one that is not alike. False: it is not needed.
+bool Settler::layOutExtra(const Seed& s, int i)
+{
+    const int other = parted(object_, s, i);
+    if (other < 0 || (isAway(s) && isAway(object_.regular(other))))
+        return false;
+    Seed& extra = object_.seed(i + 1);
+    if (object_.layOutBetween(i, other))
+        putAway(object_, i);
+    if (!(extra.flags & SEED_ACTIVE)) {
+        extra.flags = SEED_ACTIVE | SEED_FOLLOW;
+        extra.position = s.position;
+        extra.still = 0;
+    }
+    return true;
+}
+
 void Settler::oversample(Patch& patch)
 {
     const bool had = patch.extras;
     bool any = false;
     forSeeds(object_, patch, [&](const Seed& s, int i) {
-        const int other = isAlike(s) ? -1 : parted(object_, i);
-        if (other < 0 || (isAway(s) && isAway(object_.regular(other)))) {
-            if (had)
-                putAway(object_, i);
-            return;
-        }
-        any = true;
-        Seed& extra = object_.seed(i + 1);
-        if (object_.layOutBetween(i, other))
+        if (!isAlike(s) && layOutExtra(s, i))
+            any = true;
+        else if (had)
             putAway(object_, i);
-        if (!(extra.flags & SEED_ACTIVE)) {
-            extra.flags = SEED_ACTIVE | SEED_FOLLOW;
-            extra.position = s.position;
-            extra.still = 0;
-        }
     });
     patch.extras = any;
     const bool hadFine = patch.fine;
@@ -483,7 +493,7 @@ void Settler::settleIslands(Patch& patch)
 {
     setPatch(patch);
     const bool may = mayHaveIslands(patch), had = patch.islands;
-    if (may && !had && (turn_ & 1) != 0 && !hurries())
+    if (may && !had && (turn_ & 1) != 0)
         return;
     patch.islands = false;
     forSeeds(object_, patch, [&](const Seed&, int i) {
@@ -537,8 +547,9 @@ void rest(SoftObject& object, Patch& patch)
 void sleep(SoftObject& object, Patch& patch)
 {
     putAway(object, patch);
-    forSeeds(object, patch, [&](Seed& s, int i) {
-        if (i != patch.centre)
+    const Seed& centre = object.regular(patch.centre);
+    forSeeds(object, patch, [&](Seed& s, int) {
+        if (&s != &centre)
             s.flags = SEED_ASLEEP;
     });
 }
