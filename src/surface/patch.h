@@ -77,7 +77,7 @@ inline void forSeeds(Object& object, const Patch& patch, Each each)
     for (int ring = 0; ring < PATCH_RINGS; ++ring) {
         int i = 2 * patch.first[ring];
         auto* s = seeds + patch.first[ring];
-        for (auto* const end = s + patch.count[ring]; s < end; ++s, i += 2)
+        for (int left = patch.count[ring]; left > 0; --left, ++s, i += 2)
             each(*s, i);
     }
 }

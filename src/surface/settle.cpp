@@ -55,6 +55,9 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& a
         strongest = most(strongest, all.neighbours[i].strength);
     border_ = BORDER * strongest;
     alike_ = least(object.spacing() * PARTED / object.radius(), Real(9));
+    open_ = object.spacing() * (object.shaped() ? LEFT_OPEN_SHAPED : LEFT_OPEN);
+    openNext_ = object.spacing() * LEFT_OPEN_NEXT;
+    openFine_ = object.spacing() * LEFT_OPEN_FINE;
 }
 
 // ---- One seed
@@ -306,34 +309,29 @@ bool Settler::waits(const Seed& s, bool someAway) const
     return away > WELL_AWAY || (away > LITTLE_AWAY && (turn_ & 1) != 0);
 }
 
-namespace {
-
 // Whether so much of the surface lies between two seeds beside each other that their scales may leave a gap. Where only one is on
-// the surface, it goes on to the border at least; `open` says how far it may do so, spacings.
-bool gapes(const SoftObject& object, const Seed& s, const Seed& n, Real open)
+// the surface, it goes on to the border at least; `open` says how far it may do so. Of what sleeps nothing is known.
+inline bool Settler::gapes(const Seed& s, const Seed& n, Real open) const
 {
-    if ((s.flags & n.flags & SEED_VALID) != 0)
-        return absolute(s.position - n.position) * object.radius() > object.spacing() * PARTED;
-    if (!((s.flags ^ n.flags) & SEED_VALID))
-        return false;
+    if (s.flags & n.flags & SEED_VALID)
+        return absolute(s.position - n.position) > alike_;
     const Seed& valid = s.flags & SEED_VALID ? s : n;
-    return !(valid.flags & SEED_BORDER) || realFromRaw(valid.apart << 8) > object.spacing() * open;
+    return (valid.flags & SEED_VALID) && !(n.flags & SEED_ASLEEP) &&
+           (!(valid.flags & SEED_BORDER) || realFromRaw(valid.apart << 8) > open);
 }
 
-// The slot of the seed from which one has parted, so that the one between is needed: its neighbour N, or else the next of its ring,
-// when the border passes between the two and not between the seed and N. -1: none.
-int parted(const SoftObject& object, const Seed& s, int i)
+// The slot of the seed from which the one in slot i has parted, so that the one between is needed: its neighbour N, or else the
+// next of its ring, when the border passes between the two and not between the seed and N. -1: none.
+inline const Seed* Settler::parted(const Seed& s) const
 {
-    const auto from = [&](int other, Real open) {
-        const Seed& n = object.regular(other);
-        return !(n.flags & SEED_ASLEEP) && gapes(object, s, n, open);
-    };
-    if (s.neighbour >= 0 && from(s.neighbour, object.shaped() ? LEFT_OPEN_SHAPED : LEFT_OPEN))
-        return s.neighbour;
-    const int next = i + 2;
-    return next < object.seedSlots() && ((s.flags ^ object.regular(next).flags) & SEED_VALID) != 0 && !object.shaped() &&
-           object.regular(next).root == s.root && from(next, LEFT_OPEN_NEXT) ? next : -1;
+    if (s.neighbour >= 0 && gapes(s, object_.regular(s.neighbour), open_))
+        return &object_.regular(s.neighbour);
+    const Seed* const next = &s + 1;
+    return &s < last_ && ((s.flags ^ next->flags) & SEED_VALID) && !object_.shaped() && next->root == s.root &&
+           gapes(s, *next, openNext_) ? next : nullptr;
 }
+
+namespace {
 
 // The fine seeds of a regular one are not needed, but for the one on an island; nor is its oversampled one; none of a patch is.
 void putAwayFine(SoftObject& object, int i, int end = SoftObject::FINE_ISLAND)
@@ -368,30 +366,19 @@ void putAway(SoftObject& object, Patch& patch)
 
 }  // namespace
 
-// Whether a seed lies as its neighbour N does, and is on the surface if the next of its ring is: nothing is needed between them.
-inline bool Settler::isAlike(const Seed& s) const
-{
-    const Seed& n = s.neighbour >= 0 ? object_.regular(s.neighbour) : s;
-    const Seed& next = &s < last_ ? *(&s + 1) : s;
-    if (((s.flags ^ n.flags) | (s.flags ^ next.flags)) & SEED_VALID)
-        return false;
-    return !(s.flags & SEED_VALID) || absolute(s.position - n.position) <= alike_;
-}
-
 // Whether a seed is not on the surface, or faces so far away that what lies beside it is not seen.
 bool Settler::isAway(const Seed& s) const
 {
     return !(s.flags & SEED_VALID) || facing(object_, s, own_) < -FAR_AWAY;
 }
 
-// Lays out the oversampled seed of a regular one that is not alike. False: it is not needed.
-bool Settler::layOutExtra(const Seed& s, int i)
+// Lays out the oversampled seed of a regular one between that and another. False: nobody would see it.
+bool Settler::layOutExtra(const Seed& s, int i, const Seed& other)
 {
-    const int other = parted(object_, s, i);
-    if (other < 0 || (isAway(s) && isAway(object_.regular(other))))
+    if (isAway(s) && isAway(other))
         return false;
     Seed& extra = object_.seed(i + 1);
-    if (object_.layOutBetween(i, other))
+    if (object_.layOutBetween(i, &other == &s + 1 ? i + 2 : s.neighbour))
         putAway(object_, i);
     if (!(extra.flags & SEED_ACTIVE)) {
         extra.flags = SEED_ACTIVE | SEED_FOLLOW;
@@ -406,7 +393,8 @@ void Settler::oversample(Patch& patch)
     const bool had = patch.extras;
     bool any = false;
     forSeeds(object_, patch, [&](const Seed& s, int i) {
-        if (!isAlike(s) && layOutExtra(s, i))
+        const Seed* const other = parted(s);
+        if (other != nullptr && layOutExtra(s, i, *other))
             any = true;
         else if (had)
             putAway(object_, i);
@@ -438,8 +426,7 @@ bool Settler::settleFine(int i)
 {
     const Seed& extra = *object_.extra(i);
     const Seed* const ends[] = {&object_.regular(i), &object_.regular(extra.neighbour)};
-    const auto gape = [&](const Seed& end) { return gapes(object_, end, extra, LEFT_OPEN_FINE); };
-    const bool needed[] = {gape(*ends[0]), gape(*ends[1])};
+    const bool needed[] = {gapes(*ends[0], extra, openFine_), gapes(*ends[1], extra, openFine_)};
     const bool oneRoot = !object_.shaped() && ends[0]->root == ends[1]->root;
     Seed* const fine = (needed[0] || needed[1]) && oneRoot ? object_.madeFine(i) : nullptr;
     if (fine == nullptr)

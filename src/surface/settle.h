@@ -76,8 +76,9 @@ private:
     void settleBeside(const Seed& centre, Seed& s, bool someAway, uint8_t* blocker);
     void setRange(Patch& patch, Real nearest, Real farthest) const;
     bool isAway(const Seed& s) const;
-    bool isAlike(const Seed& s) const;
-    bool layOutExtra(const Seed& s, int i);
+    bool gapes(const Seed& s, const Seed& n, Real open) const;
+    const Seed* parted(const Seed& s) const;
+    SELDOM bool layOutExtra(const Seed& s, int i, const Seed& other);
     SELDOM bool settleFine(int i);
     void settleBehind(const Seed& valid, Seed& s);
     bool mayHaveIslands(const Patch& patch) const;
@@ -109,6 +110,7 @@ private:
     uint32_t turn_ = 0; // of it, 0..3: what waits takes turns. 0: nothing waits
     Real border_;       // of the field: a neighbour that is weaker than the own by less is near
     Real alike_;        // no more than this is between the positions of seeds that have not parted
+    Real open_, openNext_, openFine_;  // LEFT_OPEN..., units
     Real push_{0};      // by how much fields may change along the path at hand when neighbours come by a unit
     Real off_;          // of the field: by how much the path at hand misses the surface, where it does
     bool hidden_ = false;
