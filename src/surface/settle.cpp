@@ -263,7 +263,7 @@ void Settler::settleOthers(Patch& patch)
     const bool someAway = !(centre.flags & SEED_VALID) || patch.facing < patch.spread;
     uint8_t blocker = patch.blocker;
     Real nearest(9), farthest(0);
-    forSeeds(object_, patch, [&](Seed& s, int) {
+    forSeeds(object_, patch, [&](Seed& s) {
         if (&s != &centre)
             settleBeside(centre, s, someAway, &blocker);
         nearest = least(nearest, s.position);
@@ -320,8 +320,8 @@ inline bool Settler::gapes(const Seed& s, const Seed& n, Real open) const
            (!(valid.flags & SEED_BORDER) || realFromRaw(valid.apart << 8) > open);
 }
 
-// The slot of the seed from which the one in slot i has parted, so that the one between is needed: its neighbour N, or else the
-// next of its ring, when the border passes between the two and not between the seed and N. -1: none.
+// The seed from which another has parted, so that the one between is needed: its neighbour N, or else the next of its ring, when
+// the border passes between the two and not between the seed and N. Null: there is none.
 inline const Seed* Settler::parted(const Seed& s) const
 {
     if (s.neighbour >= 0 && gapes(s, object_.regular(s.neighbour), open_))
@@ -357,7 +357,8 @@ void putAway(SoftObject& object, int i)
 void putAway(SoftObject& object, Patch& patch)
 {
     if (patch.extras || patch.islands)
-        forSeeds(object, patch, [&](const Seed&, int i) {
+        forSeeds(object, patch, [&](const Seed& s) {
+            const int i = object.slotOf(s);
             putAway(object, i);
             putAwayFine(object, i, SoftObject::FINE_SEEDS);
         });
@@ -373,12 +374,13 @@ bool Settler::isAway(const Seed& s) const
 }
 
 // Lays out the oversampled seed of a regular one between that and another. False: nobody would see it.
-bool Settler::layOutExtra(const Seed& s, int i, const Seed& other)
+bool Settler::layOutExtra(const Seed& s, const Seed& other)
 {
     if (isAway(s) && isAway(other))
         return false;
+    const int i = object_.slotOf(s);
     Seed& extra = object_.seed(i + 1);
-    if (object_.layOutBetween(i, &other == &s + 1 ? i + 2 : s.neighbour))
+    if (object_.layOutBetween(i, object_.slotOf(other)))
         putAway(object_, i);
     if (!(extra.flags & SEED_ACTIVE)) {
         extra.flags = SEED_ACTIVE | SEED_FOLLOW;
@@ -392,12 +394,12 @@ void Settler::oversample(Patch& patch)
 {
     const bool had = patch.extras;
     bool any = false;
-    forSeeds(object_, patch, [&](const Seed& s, int i) {
+    forSeeds(object_, patch, [&](const Seed& s) {
         const Seed* const other = parted(s);
-        if (other != nullptr && layOutExtra(s, i, *other))
+        if (other != nullptr && layOutExtra(s, *other))
             any = true;
         else if (had)
-            putAway(object_, i);
+            putAway(object_, object_.slotOf(s));
     });
     patch.extras = any;
     const bool hadFine = patch.fine;
@@ -406,7 +408,8 @@ void Settler::oversample(Patch& patch)
         return;
     patch.due = now_;
     setPatch(patch, true);
-    forSeeds(object_, patch, [&](const Seed&, int i) {
+    forSeeds(object_, patch, [&](const Seed& s) {
+        const int i = object_.slotOf(s);
         Seed* const extra = object_.extra(i);
         if (extra == nullptr || !(extra->flags & SEED_ACTIVE))
             return;
@@ -483,7 +486,8 @@ void Settler::settleIslands(Patch& patch)
     if (may && !had && (turn_ & 1) != 0)
         return;
     patch.islands = false;
-    forSeeds(object_, patch, [&](const Seed&, int i) {
+    forSeeds(object_, patch, [&](const Seed& s) {
+        const int i = object_.slotOf(s);
         if (had)
             putAwayIsland(object_, i);
         patch.islands |= may && settleIsland(i);
@@ -522,7 +526,7 @@ void rest(SoftObject& object, Patch& patch)
     patch.nearest = patch.farthest = 64;
     patch.bend.known = false;
     putAway(object, patch);
-    forSeeds(object, patch, [&](Seed& s, int) {
+    forSeeds(object, patch, [&](Seed& s) {
         if (s.flags != (SEED_VALID | SEED_RESTING)) {
             s.position = Real(1);
             object.layAtRest(s, object.restNormal(s));
@@ -535,7 +539,7 @@ void sleep(SoftObject& object, Patch& patch)
 {
     putAway(object, patch);
     const Seed& centre = object.regular(patch.centre);
-    forSeeds(object, patch, [&](Seed& s, int) {
+    forSeeds(object, patch, [&](Seed& s) {
         if (&s != &centre)
             s.flags = SEED_ASLEEP;
     });

@@ -78,7 +78,7 @@ private:
     bool isAway(const Seed& s) const;
     bool gapes(const Seed& s, const Seed& n, Real open) const;
     const Seed* parted(const Seed& s) const;
-    SELDOM bool layOutExtra(const Seed& s, int i, const Seed& other);
+    SELDOM bool layOutExtra(const Seed& s, const Seed& other);
     SELDOM bool settleFine(int i);
     void settleBehind(const Seed& valid, Seed& s);
     bool mayHaveIslands(const Patch& patch) const;
