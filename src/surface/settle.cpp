@@ -279,6 +279,8 @@ inline void Settler::settleBeside(const Seed& centre, Seed& s, bool someAway, ui
     const bool woken = (s.flags & SEED_ASLEEP) || ((s.flags & SEED_RESTING) && !(centre.flags & SEED_RESTING));
     if (woken)
         s.blocker = *blocker;
+    else if (waits(s, someAway))
+        return;
     if ((!(s.flags & SEED_VALID) || (woken && !(centre.flags & SEED_VALID))) && isCovered(s)) {
         s.flags &= stillOff();
         return;
@@ -287,8 +289,6 @@ inline void Settler::settleBeside(const Seed& centre, Seed& s, bool someAway, ui
         s.position = centre.position;
         s.flags = SEED_FOLLOW;
         s.still = 0;
-    } else if (waits(s, someAway)) {
-        return;
     }
     settle(s);
     if (!(s.flags & SEED_VALID))
@@ -296,11 +296,12 @@ inline void Settler::settleBeside(const Seed& centre, Seed& s, bool someAway, ui
 }
 
 // Coherence over time: a seed that did not move when it was looked at waits for a frame, and so does one that faces away a
-// little; one that did not move twice, or faces well away, waits for three.
-bool Settler::waits(const Seed& s, bool someAway) const
+// little; one that did not move twice, or faces well away, waits for three. What is far off the surface waits for a frame, where
+// all scales of the patch meet.
+inline bool Settler::waits(const Seed& s, bool someAway) const
 {
     if (!(s.flags & SEED_VALID))
-        return false;
+        return (turn_ & 1) != 0 && !patch_->extras && !(s.flags & SEED_FOLLOW);
     if (!patch_->stirred || (s.still & turn_) != 0)
         return true;
     if (!someAway || turn_ == 0)
