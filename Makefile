@@ -24,7 +24,7 @@ build/demo: $(patsubst %.cpp,build/host/%.o,$(HOST_SOURCES))
 	$(HOST_CXX) -o $@ $^
 
 # The same with 32 bits and the assembly loops; static, so that valgrind needs no 32-bit libraries.
-HOST32_FLAGS = -m32 -march=i386 -mtune=i486 -fno-pic -fno-pie -DFB_ASM=1
+HOST32_FLAGS = -m32 $(FOR_386) -fno-pic -fno-pie -DFB_ASM=1
 
 build/host32/%.o: %.cpp
 	@mkdir -p $(@D)

@@ -16,7 +16,7 @@
 #define SEED_ACROSS  42
 #define SEED_WAY     45
 #define SEED_AREA    48
-#define SEED_SIZE    52
+#define SEED_SIZE    64
 #define SEED_VALID   1
 #define SEED_RESTING 4
 

@@ -13,7 +13,7 @@ DOS_OPT ?= -O2
 
 # What a program without an operating system below it takes. No exceptions, no RTTI. No x87, for a 386 need not have
 # one; only a build with a floating-point Real uses it (and has square roots in line, there being no library).
-DOS_CXXFLAGS = -std=c++17 -m32 -march=i386 -mtune=i486 $(DOS_OPT) -ffreestanding -fno-builtin-malloc -fno-pic -fno-pie \
+DOS_CXXFLAGS = -std=c++17 -m32 $(FOR_386) $(DOS_OPT) -ffreestanding -fno-builtin-malloc -fno-pic -fno-pie \
 	-fno-exceptions -fno-rtti -fno-asynchronous-unwind-tables -fno-stack-protector -fno-threadsafe-statics \
 	-fomit-frame-pointer $(DOS_FLOAT) -fcf-protection=none -Wall -Wextra -DFB_RT -Iinclude $(DOS_DEFINES)
 DOS_FLOAT = $(if $(filter FLOAT DOUBLE,$(REAL)),-m80387 -fno-math-errno,-mno-80387)

@@ -74,6 +74,7 @@ struct Seed {
     int8_t along[3], across[3];
     int8_t way[3];       // along the path, 1.0 = 127
     uint16_t area;
+    uint8_t spare[14];   // it has 64 bytes: by its number it is found with a shift
 };
 
 // Receives the seeds of a primitive, ring by ring, in the object's own space (Appendix C: "canonical" space). It is run

@@ -114,6 +114,8 @@ public:
     const Seed& regular(int i) const { return laid_.seeds[i >> 1]; }
     Seed& regular(int i) { return laid_.seeds[i >> 1]; }
     int seedSlots() const { return 2 * laid_.regular; }
+    // The slot of a regular seed.
+    int slotOf(const Seed& s) const { return 2 * static_cast<int>(&s - laid_.seeds); }
     // The oversampled seed that belongs to the regular one in slot i, or is in slot i; null: it is not laid out yet.
     Seed* extra(int i) const
     {

@@ -33,9 +33,9 @@ Real pathOf(const SoftObject& object, const Patch& patch, const Vector& axis, Re
 {
     Real path(0);
     if (object.shaped())
-        forSeeds(object, patch, [&](const Seed& s, int) { path += dot(s.path, axis) * share; });
+        forSeeds(object, patch, [&](const Seed& s) { path += dot(s.path, axis) * share; });
     else if (object.tapers())
-        forSeeds(object, patch, [&](const Seed& s, int) { path += length(s.path) * share; });
+        forSeeds(object, patch, [&](const Seed& s) { path += length(s.path) * share; });
     else
         path = object.radius();
     return path;
@@ -45,7 +45,7 @@ Real pathOf(const SoftObject& object, const Patch& patch, const Vector& axis, Re
 SELDOM int16_t leanOf(const SoftObject& object, const Patch& patch, const Vector& axis, Real path)
 {
     Real most(0);
-    forSeeds(object, patch, [&](const Seed& s, int) { most = ::most(most, length(s.path - axis * path)); });
+    forSeeds(object, patch, [&](const Seed& s) { most = ::most(most, length(s.path - axis * path)); });
     return static_cast<int16_t>(steps16(most) + 1);
 }
 
@@ -57,14 +57,14 @@ void setPatch(const SoftObject& object, Patch& patch)
     const Real share = Real(1) / Real(count);
 
     Vector middle{Real(0), Real(0), Real(0)}, axis = middle;
-    forSeeds(object, patch, [&](const Seed& s, int) {
+    forSeeds(object, patch, [&](const Seed& s) {
         middle = middle + restOf(object, s);
         axis = axis + restNormalOf(object, s);
     });
     middle = middle * share;
     axis = unit(axis * share);
     Square radius(0), spread(0);
-    forSeeds(object, patch, [&](const Seed& s, int) {
+    forSeeds(object, patch, [&](const Seed& s) {
         const Square away = squareOf(restOf(object, s) - middle);
         const Square aside = squareOf(restNormalOf(object, s) - axis);
         radius = radius < away ? away : radius;

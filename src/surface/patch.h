@@ -69,15 +69,15 @@ struct Patch {
     Bend bend;
 };
 
-// Calls `each` with every regular seed of an object's patch and its slot.
+// Calls `each` with every regular seed of an object's patch.
 template <class Object, class Each>
 inline void forSeeds(Object& object, const Patch& patch, Each each)
 {
+    auto* const seeds = &object.regular(0);
     for (int ring = 0; ring < PATCH_RINGS; ++ring) {
-        int i = 2 * patch.first[ring];
-        auto* s = &object.regular(i);
-        for (auto* const end = s + patch.count[ring]; s < end; ++s, i += 2)
-            each(*s, i);
+        auto* s = seeds + patch.first[ring];
+        for (int left = patch.count[ring]; left > 0; --left)
+            each(*s++);
     }
 }
 

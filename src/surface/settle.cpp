@@ -25,8 +25,8 @@ constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000, FAR_AWAY = 7500;
 // Of the field: where it is so far below the isovalue in the middle of a path, hardly any other object raises it; and where another
 // is stronger by as much, the surface is that one's.
 constexpr Real LEFT_ALONE(-0.2);
-// Of the turns of what waits: one in four.
-constexpr uint32_t LOOKED_AGAIN = 3;
+// Every so many frames it is the turn of a patch that all its seeds are looked at.
+constexpr uint32_t TURNS = 4;
 // Positions: by how much a seed may leave the range that those of its patch were found in before all neighbours are asked.
 constexpr Real RANGE(0.05);
 // Difference of the positions of two seeds, as a length in spacings, that activates the one between.
@@ -58,6 +58,9 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& a
         strongest = most(strongest, all.neighbours[i].strength);
     border_ = BORDER * strongest;
     alike_ = least(object.spacing() * PARTED / object.radius(), Real(9));
+    open_ = object.spacing() * (object.shaped() ? LEFT_OPEN_SHAPED : LEFT_OPEN);
+    openNext_ = object.spacing() * LEFT_OPEN_NEXT;
+    openFine_ = object.spacing() * LEFT_OPEN_FINE;
 }
 
 // ---- One seed
@@ -93,7 +96,7 @@ Real Settler::settle(Seed& s)
     }
     // Where another object is the stronger, the path may leave the surface before that in a later frame: where a valley or haste
     // tells so it is searched again in the next one, else when its turn comes.
-    if (found && margin > VALLEY && (turn_ & LOOKED_AGAIN) != 0 && !nearby_.dented() && !hurries())
+    if (found && margin > VALLEY && turn_ != 0)
         s.flags |= SEED_FOLLOW;
     if (nearby_.dented()) {
         off_ = found ? Real(0) : off_;
@@ -203,6 +206,16 @@ static Real enough(const Patch& patch, Real size)
     return clamp(realFromRaw(patch.radius << 12) / size * (STEEPEST + STEEPEST), Real(0.2), Real(0.9));
 }
 
+bool Settler::setPatch(const Patch& patch, bool oversampled)
+{
+    patch_ = &patch;
+    path_.leave();
+    const bool reached = nearby_.setPatch(patch, oversampled);
+    const bool hurries = came_ > least(HURRY, shiftDown(nearby_.smallest(), 2));
+    turn_ = hurries || nearby_.dented() ? 0 : (static_cast<uint32_t>(patch.centre) / 2 + updates_) % TURNS;
+    return reached;
+}
+
 PatchState Settler::probe(Patch& patch)
 {
     Seed& s = object_.seed(patch.centre);
@@ -236,13 +249,8 @@ PatchState Settler::probe(Patch& patch)
 }
 
 // Notes between which positions the seeds of a patch are.
-void Settler::setRange(Patch& patch) const
+inline void Settler::setRange(Patch& patch, Real nearest, Real farthest) const
 {
-    Real nearest(9), farthest(0);
-    forSeeds(object_, patch, [&](const Seed& s, int) {
-        nearest = least(nearest, s.position);
-        farthest = most(farthest, s.position);
-    });
     patch.nearest = static_cast<uint8_t>(rawFromReal(nearest - RANGE) >> 10);
     patch.farthest = static_cast<uint8_t>(rawFromReal(farthest + RANGE) >> 10);
     if (nearby_.isBeyond(nearest) || nearby_.isBeyond(farthest)) {
@@ -254,85 +262,80 @@ void Settler::setRange(Patch& patch) const
 
 void Settler::settleOthers(Patch& patch)
 {
-    const Seed& centre = object_.seed(patch.centre);
+    const Seed& centre = object_.regular(patch.centre);
     const bool someAway = !(centre.flags & SEED_VALID) || patch.facing < patch.spread;
-    uint8_t blocker = patch.blocker;  // of the seed that was not on the surface last
-    forSeeds(object_, patch, [&](Seed& s, int) {
-        if (&s == &centre)
-            return;
-        // What has slept or rested is likely to be where the one in the middle is, or kept off by what kept off the last one.
-        const bool woken = (s.flags & SEED_ASLEEP) || ((s.flags & SEED_RESTING) && !(centre.flags & SEED_RESTING));
-        if (woken)
-            s.blocker = blocker;
-        if ((!(s.flags & SEED_VALID) || (woken && !(centre.flags & SEED_VALID))) && isCovered(s)) {
-            s.flags &= stillOff();
-            return;
-        }
-        if (woken) {
-            s.position = centre.position;
-            s.flags = SEED_FOLLOW;
-            s.still = 0;
-        } else if (waits(s, someAway)) {
-            return;
-        }
-        settle(s);
-        if (!(s.flags & SEED_VALID))
-            blocker = s.blocker;
+    uint8_t blocker = patch.blocker;
+    Real nearest(9), farthest(0);
+    forSeeds(object_, patch, [&](Seed& s) {
+        if (&s != &centre)
+            settleBeside(centre, s, someAway, &blocker);
+        nearest = least(nearest, s.position);
+        farthest = most(farthest, s.position);
     });
-    setRange(patch);
+    setRange(patch, nearest, farthest);
 }
 
-// Whether neighbours come so fast that no seed waits.
-inline bool Settler::hurries() const
+// Settles a seed of the patch that `centre` is in the middle of. `*blocker` is that of the seed that was not on the surface last.
+inline void Settler::settleBeside(const Seed& centre, Seed& s, bool someAway, uint8_t* blocker)
 {
-    return came_ > least(HURRY, shiftDown(nearby_.smallest(), 2));
+    // What has slept or rested is likely to be where the one in the middle is, or kept off by what kept off the last one.
+    const bool woken = (s.flags & SEED_ASLEEP) || ((s.flags & SEED_RESTING) && !(centre.flags & SEED_RESTING));
+    if (woken)
+        s.blocker = *blocker;
+    else if (waits(s, someAway))
+        return;
+    if ((!(s.flags & SEED_VALID) || (woken && !(centre.flags & SEED_VALID))) && isCovered(s)) {
+        s.flags &= stillOff();
+        return;
+    }
+    if (woken) {
+        s.position = centre.position;
+        s.flags = SEED_FOLLOW;
+        s.still = 0;
+    }
+    settle(s);
+    if (!(s.flags & SEED_VALID))
+        *blocker = s.blocker;
 }
 
 // Coherence over time: a seed that did not move when it was looked at waits for a frame, and so does one that faces away a
-// little; one that did not move twice, or faces well away, waits for three.
-bool Settler::waits(const Seed& s, bool someAway) const
+// little; one that did not move twice, or faces well away, waits for three. What is far off the surface waits for a frame, where
+// all scales of the patch meet.
+inline bool Settler::waits(const Seed& s, bool someAway) const
 {
-    if (!patch_->stirred && (s.flags & SEED_VALID))
+    if (!(s.flags & SEED_VALID))
+        return (turn_ & 1) != 0 && !patch_->extras && !(s.flags & SEED_FOLLOW);
+    if (!patch_->stirred || (s.still & turn_) != 0)
         return true;
-    if (nearby_.dented() || !(s.flags & SEED_VALID) || hurries())
+    if (!someAway || turn_ == 0)
         return false;
-    uint32_t mask = s.still;
-    if (someAway) {
-        const int32_t away = -facing(object_, s, own_);
-        mask |= away > WELL_AWAY ? 3 : away > LITTLE_AWAY ? 1 : 0;
-    }
-    return (turn_ & mask) != 0;
+    const int32_t away = -facing(object_, s, own_);
+    return away > WELL_AWAY || (away > LITTLE_AWAY && (turn_ & 1) != 0);
+}
+
+// Whether so much of the surface lies between two seeds beside each other that their scales may leave a gap. Where only one is on
+// the surface, it goes on to the border at least; `open` says how far it may do so. Of what sleeps nothing is known.
+inline bool Settler::gapes(const Seed& s, const Seed& n, Real open) const
+{
+    if (s.flags & n.flags & SEED_VALID)
+        return absolute(s.position - n.position) > alike_;
+    const Seed& valid = s.flags & SEED_VALID ? s : n;
+    return (valid.flags & SEED_VALID) && !(n.flags & SEED_ASLEEP) &&
+           (!(valid.flags & SEED_BORDER) || realFromRaw(valid.apart << 8) > open);
+}
+
+// The seed from which another has parted, so that the one between is needed: its neighbour N, or else the next of its ring, when
+// the border passes between the two and not between the seed and N. Null: there is none.
+inline const Seed* Settler::parted(const Seed& s) const
+{
+    if (s.neighbour >= 0 && gapes(s, object_.regular(s.neighbour), open_))
+        return &object_.regular(s.neighbour);
+    const Seed* const next = &s + 1;
+    return &s < last_ && ((s.flags ^ next->flags) & SEED_VALID) && !object_.shaped() && next->root == s.root &&
+           gapes(s, *next, openNext_) ? next : nullptr;
 }
 
 namespace {
-
-// Whether so much of the surface lies between two seeds beside each other that their scales may leave a gap. Where only one is on
-// the surface, it goes on to the border at least; `open` says how far it may do so, spacings.
-bool gapes(const SoftObject& object, const Seed& s, const Seed& n, Real open)
-{
-    if ((s.flags & n.flags & SEED_VALID) != 0)
-        return absolute(s.position - n.position) * object.radius() > object.spacing() * PARTED;
-    if (!((s.flags ^ n.flags) & SEED_VALID))
-        return false;
-    const Seed& valid = s.flags & SEED_VALID ? s : n;
-    return !(valid.flags & SEED_BORDER) || realFromRaw(valid.apart << 8) > object.spacing() * open;
-}
-
-// The slot of the seed from which one has parted, so that the one between is needed: its neighbour N, or else the next of its ring,
-// when the border passes between the two and not between the seed and N. -1: none.
-int parted(const SoftObject& object, int i)
-{
-    const Seed& s = object.regular(i);
-    const auto from = [&](int other, Real open) {
-        const Seed& n = object.regular(other);
-        return !(n.flags & SEED_ASLEEP) && gapes(object, s, n, open);
-    };
-    if (s.neighbour >= 0 && from(s.neighbour, object.shaped() ? LEFT_OPEN_SHAPED : LEFT_OPEN))
-        return s.neighbour;
-    const int next = i + 2;
-    return next < object.seedSlots() && ((s.flags ^ object.regular(next).flags) & SEED_VALID) != 0 && !object.shaped() &&
-           object.regular(next).root == s.root && from(next, LEFT_OPEN_NEXT) ? next : -1;
-}
 
 // The fine seeds of a regular one are not needed, but for those on an island; nor is its oversampled one; none of a patch is.
 void putAwayFine(SoftObject& object, int i, int end = SoftObject::FINE_ISLAND)
@@ -358,7 +361,8 @@ void putAway(SoftObject& object, int i)
 void putAway(SoftObject& object, Patch& patch)
 {
     if (patch.extras || patch.islands)
-        forSeeds(object, patch, [&](const Seed&, int i) {
+        forSeeds(object, patch, [&](const Seed& s) {
+            const int i = object.slotOf(s);
             putAway(object, i);
             putAwayFine(object, i, SoftObject::FINE_SEEDS);
         });
@@ -367,42 +371,39 @@ void putAway(SoftObject& object, Patch& patch)
 
 }  // namespace
 
-// Whether a seed lies as its neighbour N does, and is on the surface if the next of its ring is: nothing is needed between them.
-inline bool Settler::isAlike(const Seed& s) const
-{
-    const Seed& n = s.neighbour >= 0 ? object_.regular(s.neighbour) : s;
-    const Seed& next = &s < last_ ? *(&s + 1) : s;
-    if (((s.flags ^ n.flags) | (s.flags ^ next.flags)) & SEED_VALID)
-        return false;
-    return !(s.flags & SEED_VALID) || absolute(s.position - n.position) <= alike_;
-}
-
 // Whether a seed is not on the surface, or faces so far away that what lies beside it is not seen.
 bool Settler::isAway(const Seed& s) const
 {
     return !(s.flags & SEED_VALID) || facing(object_, s, own_) < -FAR_AWAY;
 }
 
+// Lays out the oversampled seed of a regular one between that and another. False: nobody would see it.
+bool Settler::layOutExtra(const Seed& s, const Seed& other)
+{
+    if (isAway(s) && isAway(other))
+        return false;
+    const int i = object_.slotOf(s);
+    Seed& extra = object_.seed(i + 1);
+    if (object_.layOutBetween(i, object_.slotOf(other)))
+        putAway(object_, i);
+    if (!(extra.flags & SEED_ACTIVE)) {
+        extra.flags = SEED_ACTIVE | SEED_FOLLOW;
+        extra.position = s.position;
+        extra.still = 0;
+    }
+    return true;
+}
+
 void Settler::oversample(Patch& patch)
 {
     const bool had = patch.extras;
     bool any = false;
-    forSeeds(object_, patch, [&](const Seed& s, int i) {
-        const int other = isAlike(s) ? -1 : parted(object_, i);
-        if (other < 0 || (isAway(s) && isAway(object_.regular(other)))) {
-            if (had)
-                putAway(object_, i);
-            return;
-        }
-        any = true;
-        Seed& extra = object_.seed(i + 1);
-        if (object_.layOutBetween(i, other))
-            putAway(object_, i);
-        if (!(extra.flags & SEED_ACTIVE)) {
-            extra.flags = SEED_ACTIVE | SEED_FOLLOW;
-            extra.position = s.position;
-            extra.still = 0;
-        }
+    forSeeds(object_, patch, [&](const Seed& s) {
+        const Seed* const other = parted(s);
+        if (other != nullptr && layOutExtra(s, *other))
+            any = true;
+        else if (had)
+            putAway(object_, object_.slotOf(s));
     });
     patch.extras = any;
     const bool hadFine = patch.fine;
@@ -411,7 +412,8 @@ void Settler::oversample(Patch& patch)
         return;
     patch.due = now_;
     setPatch(patch, true);
-    forSeeds(object_, patch, [&](const Seed&, int i) {
+    forSeeds(object_, patch, [&](const Seed& s) {
+        const int i = object_.slotOf(s);
         Seed* const extra = object_.extra(i);
         if (extra == nullptr || !(extra->flags & SEED_ACTIVE))
             return;
@@ -431,8 +433,7 @@ bool Settler::settleFine(int i)
 {
     const Seed& extra = *object_.extra(i);
     const Seed* const ends[] = {&object_.regular(i), &object_.regular(extra.neighbour)};
-    const auto gape = [&](const Seed& end) { return gapes(object_, end, extra, LEFT_OPEN_FINE); };
-    const bool needed[] = {gape(*ends[0]), gape(*ends[1])};
+    const bool needed[] = {gapes(*ends[0], extra, openFine_), gapes(*ends[1], extra, openFine_)};
     const bool oneRoot = !object_.shaped() && ends[0]->root == ends[1]->root;
     Seed* const fine = (needed[0] || needed[1]) && oneRoot ? object_.madeFine(i) : nullptr;
     if (fine == nullptr)
@@ -486,10 +487,11 @@ void Settler::settleIslands(Patch& patch)
 {
     setPatch(patch);
     const bool may = mayHaveIslands(patch), had = patch.islands;
-    if (may && !had && (turn_ & 1) != 0 && !hurries())
+    if (may && !had && (turn_ & 1) != 0)
         return;
     patch.islands = false;
-    forSeeds(object_, patch, [&](const Seed&, int i) {
+    forSeeds(object_, patch, [&](const Seed& s) {
+        const int i = object_.slotOf(s);
         if (had)
             putAwayIsland(object_, i);
         patch.islands |= may && settleIsland(i);
@@ -536,7 +538,7 @@ void rest(SoftObject& object, Patch& patch)
     patch.nearest = patch.farthest = 64;
     patch.bend.known = false;
     putAway(object, patch);
-    forSeeds(object, patch, [&](Seed& s, int) {
+    forSeeds(object, patch, [&](Seed& s) {
         if (s.flags != (SEED_VALID | SEED_RESTING)) {
             s.position = Real(1);
             object.layAtRest(s, object.restNormal(s));
@@ -548,8 +550,9 @@ void rest(SoftObject& object, Patch& patch)
 void sleep(SoftObject& object, Patch& patch)
 {
     putAway(object, patch);
-    forSeeds(object, patch, [&](Seed& s, int i) {
-        if (i != patch.centre)
+    const Seed& centre = object.regular(patch.centre);
+    forSeeds(object, patch, [&](Seed& s) {
+        if (&s != &centre)
             s.flags = SEED_ASLEEP;
     });
 }

@@ -18,13 +18,7 @@ public:
             const Odometer& odometer, uint32_t updates);
 
     // To be called before anything else about the seeds of a patch. False: no neighbour reaches them where they are.
-    bool setPatch(const Patch& patch, bool oversampled = false)
-    {
-        turn_ = static_cast<uint32_t>(patch.centre) / 2 + updates_;
-        patch_ = &patch;
-        path_.leave();
-        return nearby_.setPatch(patch, oversampled);
-    }
+    bool setPatch(const Patch& patch, bool oversampled = false);
 
     // Those that do, after that.
     const Few& reaching() const { return nearby_.reaching(); }
@@ -79,15 +73,17 @@ private:
     // What remains of the flags of a seed that is covered.
     int stillOff() const { return nearby_.dented() ? SEED_OFF | SEED_FOLLOW : 0; }
     bool isCovered(const Seed& s) { return nearby_.dented() ? isOff(*patch_, s) : cover_.hides(s); }
-    void setRange(Patch& patch) const;
+    void settleBeside(const Seed& centre, Seed& s, bool someAway, uint8_t* blocker);
+    void setRange(Patch& patch, Real nearest, Real farthest) const;
     bool isAway(const Seed& s) const;
-    bool isAlike(const Seed& s) const;
+    bool gapes(const Seed& s, const Seed& n, Real open) const;
+    const Seed* parted(const Seed& s) const;
+    SELDOM bool layOutExtra(const Seed& s, const Seed& other);
     SELDOM bool settleFine(int i);
     void settleBehind(const Seed& valid, Seed& s);
     bool mayHaveIslands(const Patch& patch) const;
     SELDOM bool settleIsland(int i);
     bool placeOnIsland(int i, int which, Real inside, Real outside);
-    bool hurries() const;
     bool waits(const Seed& s, bool someAway) const;
     bool mixes() const;
 
@@ -112,9 +108,10 @@ private:
     const Real weakest_;  // own field below which no islands are looked for: those with two neighbours at most have more
     const Seed* const last_;  // of the regular ones
     const Patch* patch_ = nullptr;  // that is at hand
-    uint32_t turn_ = 0; // of it: what waits takes turns
+    uint32_t turn_ = 0; // of it, 0..3: what waits takes turns. 0: nothing waits
     Real border_;       // of the field: a neighbour that is weaker than the own by less is near
     Real alike_;        // no more than this is between the positions of seeds that have not parted
+    Real open_, openNext_, openFine_;  // LEFT_OPEN..., units
     Real push_{0};      // by how much fields may change along the path at hand when neighbours come by a unit
     Real off_;          // of the field: by how much the path at hand misses the surface, where it does
     bool hidden_ = false;

@@ -337,7 +337,8 @@ bool Shader::cut(const Seed& s, Voxel* voxel) const
 SELDOM int Shader::findExtras(const Patch& patch, Seen* seen, Voxel* voxels) const
 {
     int count = 0;
-    forSeeds(object_, patch, [&](const Seed&, int i) {
+    forSeeds(object_, patch, [&](const Seed& s) {
+        const int i = object_.slotOf(s);
         const Seed* const extra = object_.extra(i);
         if (extra != nullptr && (extra->flags & SEED_ACTIVE) && findSeed(shading_, *extra, seen + count, voxels + count))
             ++count;

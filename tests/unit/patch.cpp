@@ -58,7 +58,8 @@ TEST(patches_hold_every_seed_once)
             for (const Patch& patch : patches) {
                 bool middle = false;
                 int seeds = 0;
-                forSeeds(object, patch, [&](const Seed& s, int i) {
+                forSeeds(object, patch, [&](const Seed& s) {
+                    const int i = object.slotOf(s);
                     SAME(i % 2, 0);
                     CHECK(&s == &object.regular(i));
                     CHECK(i >= 0 && i < object.seedSlots());
@@ -84,7 +85,7 @@ TEST(patches_are_as_large_as_they_say)
             const Vec middle{patch.middle[0] / 16.0, patch.middle[1] / 16.0, patch.middle[2] / 16.0};
             const Vec axis{patch.axis[0] / 16384.0, patch.axis[1] / 16384.0, patch.axis[2] / 16384.0};
             NEAR(size(axis), 1, 0.001);
-            forSeeds(object, patch, [&](const Seed& s, int) {
+            forSeeds(object, patch, [&](const Seed& s) {
                 CHECK(size(restOf(object, s) - middle) <= patch.radius / 16.0 + 0.05);
                 const Vec normal{s.normal.x / 16384.0, s.normal.y / 16384.0, s.normal.z / 16384.0};
                 CHECK(size(normal - axis) <= patch.spread / 16384.0 + 0.01);
@@ -111,7 +112,7 @@ TEST(patches_at_rest_are_out_of_reach)
                 classify(patch, all);
                 const bool touched = isListed(patch.near);
                 bool any = false;
-                forSeeds(object, patch, [&](const Seed& s, int) {
+                forSeeds(object, patch, [&](const Seed& s) {
                     const Vec p = restOf(object, s);
                     for (size_t other = 0; other < scene.objects.size(); ++other) {
                         if (other == o || body.cores[other].param(p) >= 0.999)
@@ -157,7 +158,7 @@ TEST(patches_that_face_away_are_out_of_sight)
         const double limb = own.limb / 16384.0 * own.distance32 / 32;
         for (const Patch& patch : patchesIn(object)) {
             bool seen = false;
-            forSeeds(object, patch, [&](const Seed& s, int) {
+            forSeeds(object, patch, [&](const Seed& s) {
                 const Vec p = restOf(object, s), fall = body.fall({0}, p);
                 seen = seen || dot(fall, vec(scene.eye) - p) > limb * std::sqrt(dot(fall, fall));
             });
