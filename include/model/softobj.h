@@ -285,14 +285,8 @@ public:
     // This object's contribution to the implicit function at `p`, 0..strength() (the report's fieldFunc).
     Real fieldFunc(const Point& p) const;
 
-    // Whether fields of the two can meet anywhere, from centres and sizes alone, or lie no more than `slack` units apart.
-    bool inRange(const SoftObject& other, Real slack = Real(0)) const
-    {
-        // Every pair of a model comes by here; most are told apart along one axis.
-        const Real reach = reach_ + other.reach_ + slack;
-        const Vector apart = centre_ - other.centre_;
-        return absolute(apart.x) < reach && absolute(apart.y) < reach && absolute(apart.z) < reach && isNearer(other, reach);
-    }
+    // Whether fields of the two can meet anywhere, from centres and sizes alone.
+    bool inRange(const SoftObject& other) const { return isShorter(centre_ - other.centre_, reach_ + other.reach_); }
 
     // --- A frame
 
@@ -328,9 +322,6 @@ protected:
     Vector axis() const { return {turn_.m[0][1], turn_.m[1][1], turn_.m[2][1]}; }
 
 private:
-    // Whether the centres are nearer to each other than a distance. Squares are compared.
-    bool isNearer(const SoftObject& other, Real distance) const;
-
     // Oversampled seeds are laid out this many at a time.
     static constexpr int EXTRA_BITS = 3;
     static constexpr int EXTRA_BLOCK = 1 << EXTRA_BITS;

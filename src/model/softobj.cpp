@@ -16,14 +16,6 @@ constexpr Real REST_LEAST(0.140625);
 // Core space: farther from the core than that a field is so much less steep than at most that no warp makes up for it.
 constexpr Real STEEP_AT(0.65 * CORE_SIZE);
 
-int64_t squaredDistance(const Point& a, const Point& b)
-{
-    const int64_t x = rawFromReal(a.x) - rawFromReal(b.x);
-    const int64_t y = rawFromReal(a.y) - rawFromReal(b.y);
-    const int64_t z = rawFromReal(a.z) - rawFromReal(b.z);
-    return x * x + y * y + z * z;
-}
-
 // A vector of nearly the same length as `like`, made to have it: its largest component takes up the difference. Exact
 // to half a last bit each time, and never to one side, so that a million turns keep a distance.
 Vector withSquare(const Vector& v, const Vector& like)
@@ -253,12 +245,6 @@ void SoftObject::tellNeighbours()
         for (const List<Link>::Node* node = (i == 0 ? digs_ : dents_).first(); node != nullptr; node = node->next)
             if (inRange(*node->item.object))
                 node->item.object->recalc_ = true;
-}
-
-bool SoftObject::isNearer(const SoftObject& other, Real distance) const
-{
-    const int64_t square = rawFromReal(distance);
-    return squaredDistance(centre_, other.centre_) < square * square;
 }
 
 bool SoftObject::link(SoftObject* other, Real weight)

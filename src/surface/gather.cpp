@@ -133,12 +133,12 @@ static bool dentedFromWithin(const SoftObject& object, const Bodies& bodies)
     return false;
 }
 
-// Where a neighbour is and how large, in own space; `growth` is the object's.
-static void place(const SoftObject& object, Real growth, Neighbour& near)
+// Where a neighbour is and how large, in own space; `growth` is the object's, and `away` leads there in the world.
+static void place(const SoftObject& object, Real growth, const Vector& away, Neighbour& near)
 {
     const SoftObject& other = *near.object;
     const bool grown = object.size() != object.laidSize();
-    const Vector apart = object.toOwnAxes(other.centre() - object.centre());
+    const Vector apart = object.toOwnAxes(away);
     near.kind = Neighbour::POINT;
     near.segment = false;
     near.centre = grown ? Vector{apart.x / growth, apart.y / growth, apart.z / growth} : apart;
@@ -181,13 +181,16 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
     Neighbour* next = all.neighbours + all.count;
     for (SoftObject* const* const end = from + count; from < end && all.count < NEIGHBOURS_MAX; ++from) {
         const SoftObject& other = **from;
-        if (&other == &object || !object.inRange(other, GATHER_SLACK))
+        const Vector apart = other.centre() - object.centre();
+        const Real reach = object.reach() + other.reach();
+        if (&other == &object || !isShorter(apart, reach + GATHER_SLACK))
             continue;
         all.numberOf[other.slot()] = static_cast<int8_t>(all.count++);
         Neighbour& near = *next++;
         near.object = &other;
         near.digs = digs;
-        place(object, growth, near);
+        near.inRange = isShorter(apart, reach);
+        place(object, growth, apart, near);
         weigh(bodies, all, near);
         if (!other.isBall())
             aim(object, near);

@@ -30,6 +30,7 @@ struct Neighbour {
     bool plain : 1;     // it is one of the body, its strength is 1, and it is not the head of a hollow
     bool digs : 1;      // it is none of the body, and digs into some of it
     bool samples : 1;   // its seeds sample a hollow in the head
+    bool inRange;       // of the object; else within GATHER_SLACK of that
     bool segment;       // its core is a segment to each side of its centre, half16 long; whether or not it tapers
     // What kind of core it has: its centre, a segment of `half` sizes to each side, or what the primitive says.
     enum Kind : uint8_t { POINT, SEGMENT, OTHER } kind;
