@@ -188,6 +188,8 @@ public:
     const Point& centre() const { return centre_; }
     Real size() const { return size_; }
     Real radius() const { return radius_; }
+    // CORE_SIZE / size.
+    Real inverse16() const { return inverse_; }
     // It grows with the size, in the proportion that the object was made with.
     Real coreReach() const { return coreReach_; }
     const Matrix& turn() const { return turn_; }
@@ -251,7 +253,7 @@ public:
 
     // A point of the object's own space in the world; a vector of the world in the object's own axes, unscaled.
     Point toWorld(const Vector& v) const;
-    Vector toOwnAxes(const Vector& v) const;
+    Vector toOwnAxes(const Vector& v) const { return isBall() ? v : turnedBack(v); }
 
     // --- The graph
 
@@ -355,6 +357,7 @@ private:
         Layout plain() const;
     };
 
+    Vector turnedBack(const Vector& v) const;
     const Link* hollowLink() const;
     void findRest();
     void makeWarp(const WarpAmounts& amounts);

@@ -79,10 +79,8 @@ Point SoftObject::toWorld(const Vector& v) const
     return centre_ + (isBall() ? grown : turn_ * grown);
 }
 
-Vector SoftObject::toOwnAxes(const Vector& v) const
+Vector SoftObject::turnedBack(const Vector& v) const
 {
-    if (isBall())
-        return v;
     // The inverse of a rotation is its transpose.
     const Real(&m)[4][4] = turn_.m;
     return {m[0][0] * v.x + m[1][0] * v.y + m[2][0] * v.z, m[0][1] * v.x + m[1][1] * v.y + m[2][1] * v.z,

@@ -133,18 +133,18 @@ static bool dentedFromWithin(const SoftObject& object, const Bodies& bodies)
     return false;
 }
 
-// Where a neighbour is and how large, in own space; `growth` is the object's, and `away` leads there in the world.
+// Where a neighbour is and how large, in own space; `away` leads there in the world, and `growth` is the object's.
 static void place(const SoftObject& object, Real growth, const Vector& away, Neighbour& near)
 {
     const SoftObject& other = *near.object;
-    const bool grown = object.size() != object.laidSize();
     const Vector apart = object.toOwnAxes(away);
     near.kind = Neighbour::POINT;
     near.segment = false;
-    near.centre = grown ? Vector{apart.x / growth, apart.y / growth, apart.z / growth} : apart;
-    near.size = grown ? other.size() / growth : other.size();
-    near.inverse16 = near.steep16 = Real(CORE_SIZE) / near.size;
-    const Real proportion = least(object.size() / other.size(), Real(60));
+    const bool grown = growth != Real(1);
+    near.centre = grown ? Vector{quotient(apart.x, growth), quotient(apart.y, growth), quotient(apart.z, growth)} : apart;
+    near.size = grown ? quotient(other.size(), growth) : other.size();
+    near.inverse16 = near.steep16 = near.sheer16 = grown ? quotient(Real(CORE_SIZE), near.size) : other.inverse16();
+    const Real proportion = least(quotient(object.size(), other.size()), Real(60));
     near.ratio = proportion * proportion;
     near.x16 = rawFromReal(near.centre.x) >> 12;
     near.y16 = rawFromReal(near.centre.y) >> 12;
@@ -168,7 +168,6 @@ static void weigh(const Bodies& bodies, const Neighbourhood& all, Neighbour& nea
     near.strength = other.strength();
     near.plain = !near.digs && near.strength == Real(1) && !(all.hollow && &other == all.head);
     near.weight = near.digs ? -bodies.weight(all.head->slot(), other.slot()) : Real(0);
-    near.sheer16 = near.inverse16;
     near.share = near.digs ? greatestWeight(other) : Real(1);
     near.samples = near.digs && other.hollowed() == all.head;
     near.grain = near.plain ? near.size : near.size / (most(near.strength, Real(1)) * most(near.weight, Real(1)));
@@ -196,8 +195,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
             aim(object, near);
         all.inner = all.inner || (!digs && dentedFromWithin(other, bodies));
         all.dented = all.dented || digs;
-        all.deep = all.deep || digs || all.inner;
-        all.common = all.common && near.plain && !all.inner;
+        all.common = all.common && near.plain;
     }
 }
 
@@ -212,10 +210,11 @@ void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& 
     all.inner = dentedFromWithin(*all.head, bodies);
     all.rests = object.rests() && !all.hollow;
     all.dented = false;
-    all.deep = all.inner || !all.rests;
-    all.common = object.strength() == Real(1) && !all.hollow && !all.inner && !object.shaped();
+    all.common = object.strength() == Real(1) && !all.hollow && !object.shaped();
     all.last = object.restRoot() == Real(0.5) ? Real(1.98) : Real(0.99) / object.restRoot();
     memset(all.numberOf, -1, sizeof all.numberOf);
     gatherFrom(bodies.diggers(*all.head), bodies.diggerCount(*all.head), true, object, bodies, all);
     gatherFrom(bodies.members(*all.head), bodies.memberCount(*all.head), false, object, bodies, all);
+    all.deep = all.inner || all.dented || !all.rests;
+    all.common = all.common && !all.inner;
 }

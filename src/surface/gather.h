@@ -27,9 +27,9 @@ struct Neighbour {
     Real share;         // the greatest weight of what digs; of a member 1
     Real ratio;         // squared proportion of the own size to `size`: its share of the gradient
     Real strength;      // what its field is multiplied by
-    bool plain : 1;     // it is one of the body, its strength is 1, and it is not the head of a hollow
-    bool digs : 1;      // it is none of the body, and digs into some of it
-    bool samples : 1;   // its seeds sample a hollow in the head
+    bool plain;         // it is one of the body, its strength is 1, and it is not the head of a hollow
+    bool digs;          // it is none of the body, and digs into some of it
+    bool samples;       // its seeds sample a hollow in the head
     bool inRange;       // of the object; else within GATHER_SLACK of that
     bool segment;       // its core is a segment to each side of its centre, half16 long; whether or not it tapers
     // What kind of core it has: its centre, a segment of `half` sizes to each side, or what the primitive says.
