@@ -116,7 +116,7 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
     const bool alone = all.common && all.rests && !isListed(patch.near);
     const bool touched = !alone && settler.setPatch(patch);
     if (!all.common) {
-        const bool reached = stale || odometer_.hasMoved(settler.reaching());
+        const bool reached = stale || odometer_.hasMoved(all, settler.reaching());
         patch.stirred = reached || patch.reached;
         patch.reached = reached;
     }

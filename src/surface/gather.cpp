@@ -139,6 +139,7 @@ static void place(const SoftObject& object, Real growth, const Vector& away, Nei
     const SoftObject& other = *near.object;
     const Vector apart = object.toOwnAxes(away);
     near.kind = Neighbour::POINT;
+    near.root = -1;
     near.segment = false;
     const bool grown = growth != Real(1);
     near.centre = grown ? Vector{quotient(apart.x, growth), quotient(apart.y, growth), quotient(apart.z, growth)} : apart;
@@ -184,8 +185,9 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         const Real reach = object.reach() + other.reach();
         if (&other == &object || !isShorter(apart, reach + GATHER_SLACK))
             continue;
-        all.numberOf[other.slot()] = static_cast<int8_t>(all.count++);
+        ++all.count;
         Neighbour& near = *next++;
+        all.bySlot[other.slot()] = &near;
         near.object = &other;
         near.digs = digs;
         near.inRange = isShorter(apart, reach);
@@ -196,6 +198,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         all.inner = all.inner || (!digs && dentedFromWithin(other, bodies));
         all.dented = all.dented || digs;
         all.common = all.common && near.plain;
+        all.simple = all.simple && near.kind != Neighbour::OTHER;
     }
 }
 
@@ -212,9 +215,11 @@ void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& 
     all.dented = false;
     all.common = object.strength() == Real(1) && !all.hollow && !object.shaped();
     all.last = object.restRoot() == Real(0.5) ? Real(1.98) : Real(0.99) / object.restRoot();
-    memset(all.numberOf, -1, sizeof all.numberOf);
+    all.simple = true;
+    memset(all.bySlot, 0, sizeof all.bySlot);
     gatherFrom(bodies.diggers(*all.head), bodies.diggerCount(*all.head), true, object, bodies, all);
     gatherFrom(bodies.members(*all.head), bodies.memberCount(*all.head), false, object, bodies, all);
     all.deep = all.inner || all.dented || !all.rests;
     all.common = all.common && !all.inner;
+    all.simple = all.simple && all.common;
 }

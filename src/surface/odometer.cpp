@@ -108,7 +108,7 @@ void Odometer::forgetFar(const Neighbourhood& all)
 {
     Known* to = known_;
     for (const Known *from = known_, *const end = known_ + count_; from < end; ++from)
-        if (all.numberOf[from->slot] >= 0)
+        if (all.bySlot[from->slot] != nullptr)
             *to++ = *from;
         else
             leapt_ |= from->inRange;
@@ -125,10 +125,10 @@ bool Odometer::count(Patch& patch) const
     return way > 0;
 }
 
-bool Odometer::hasMoved(const Few& few) const
+bool Odometer::hasMoved(const Neighbourhood& all, const Few& few) const
 {
     bool moved = leapt_;
     for (int i = 0; i < few.count && !moved; ++i)
-        moved = known_[few.number[i]].came > 0;
+        moved = known_[few.near[i] - all.neighbours].came > 0;
     return moved;
 }

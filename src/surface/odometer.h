@@ -47,7 +47,7 @@ public:
     // Counts on for a patch, whose lists hold, how far those on them came since the call before. False: none of them came at all.
     SELDOM bool count(Patch& patch) const;
     // Whether any of a few neighbours came since then.
-    SELDOM bool hasMoved(const Few& few) const;
+    SELDOM bool hasMoved(const Neighbourhood& all, const Few& few) const;
 
 private:
     bool makeRoom(int count);

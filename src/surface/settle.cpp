@@ -41,7 +41,7 @@ constexpr Real LEFT_OPEN(0.5), LEFT_OPEN_SHAPED(-100), LEFT_OPEN_NEXT(1), LEFT_O
 
 }  // namespace
 
-Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& all, const FrameContext& frame,
+Settler::Settler(SoftObject& object, const OwnFrame& own, Neighbourhood& all, const FrameContext& frame,
                  const Odometer& odometer, uint32_t updates)
     : path_(object, all, *frame.bodies, nearby_, *frame.counts), nearby_(object, all, *frame.bodies),
       cover_(object, all, nearby_, path_), object_(object), own_(own), all_(all), counts_(*frame.counts), now_(odometer.reading()),
