@@ -53,7 +53,9 @@ Bound boundOf(const Patch& patch, int32_t restRadius)
     const int32_t position = (patch.nearest + patch.farthest) >> 1, half = (patch.farthest - patch.nearest + 1) >> 1;
     const Step middle = above(patch, patch.path * (position - 64) >> 6);
     const int32_t widest = patch.farthest > 64 ? patch.farthest : 64;
-    int32_t radius = restRadius * widest + patch.path * half;
+    // One way leads across the paths, the other along them: the shorter makes the longer no longer than by half of it.
+    const int32_t across = restRadius * widest, along = patch.path * half;
+    int32_t radius = across > along ? across + (along >> 1) : along + (across >> 1);
     if (patch.lean != 0)
         radius += patch.lean * (position < 64 ? 64 - patch.nearest : widest - 64);
     return {middle.x, middle.y, middle.z, radius >> 6};
