@@ -80,6 +80,7 @@ private:
     int stillOff() const { return nearby_.dented() ? SEED_OFF | SEED_FOLLOW : 0; }
     bool isCovered(const Seed& s) { return nearby_.dented() ? isOff(*patch_, s) : cover_.hides(s); }
     void setRange(Patch& patch) const;
+    void setRange(Patch& patch, Real nearest, Real farthest) const;
     bool isAway(const Seed& s) const;
     bool isAlike(const Seed& s) const;
     SELDOM bool settleFine(int i);
