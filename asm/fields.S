@@ -105,9 +105,12 @@ add_aimed:
 add_param:
         movl        %eax, ALONG_T(%edi)
 add_known:
-        // if (t >= 1) value = slope = 0; and what is below 0 is 0
-        cmpl        $0xffff, %eax
-        ja        add_outside
+        // if (t >= 1) value = slope = 0
+        cmpl        $0x10000, %eax
+        jge        add_outside
+        // t = most(t, 0)
+        testl        %eax, %eax
+        js        add_below
 add_inside:
         // step = fieldSteps[t >> 8]; value = step.value + (step.slope * ((t & 255) - 128) >> 16); slope = step.slope
         movzbl        %al, %ecx
@@ -175,10 +178,11 @@ add_beside:
 add_other:
         movl        ALONG_T(%edi), %eax
         jmp        add_known
+add_below:
+        xorl        %eax, %eax
+        jmp        add_inside
 add_outside:
-        testl        %eax, %eax
-        movl        $0, %eax
-        js        add_inside
+        xorl        %eax, %eax
         movl        %eax, ALONG_VALUE(%edi)
         movl        %eax, ALONG_SLOPE(%edi)
         jmp        add_done

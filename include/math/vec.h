@@ -77,7 +77,13 @@ Vector projection(const Vector& v, const Vector& onto);
 struct Matrix {
     Real m[4][4];
 
-    static Matrix identity();
+    static constexpr Matrix identity()
+    {
+        return {{{Real(1), Real(0), Real(0), Real(0)},
+                 {Real(0), Real(1), Real(0), Real(0)},
+                 {Real(0), Real(0), Real(1), Real(0)},
+                 {Real(0), Real(0), Real(0), Real(1)}}};
+    }
     static Matrix translation(const Vector& by);
     static Matrix scaling(Real by);
     // Turn by `angle` about an axis through the origin, anticlockwise when the axis points at the reader in a
