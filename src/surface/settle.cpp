@@ -282,6 +282,7 @@ void Settler::settleOthers(Patch& patch)
         if (!(s.flags & SEED_VALID))
             blocker = s.blocker;
     });
+    patch.asleep = false;
     setRange(patch);
 }
 
@@ -529,7 +530,7 @@ bool Settler::settleIsland(int i)
 void rest(SoftObject& object, Patch& patch)
 {
     patch.nearest = patch.farthest = 64;
-    patch.bend.known = false;
+    patch.bend.known = patch.asleep = false;
     putAway(object, patch);
     forSeeds(object, patch, [&](Seed& s, int) {
         if (s.flags != (SEED_VALID | SEED_RESTING)) {
@@ -543,6 +544,9 @@ void rest(SoftObject& object, Patch& patch)
 void sleep(SoftObject& object, Patch& patch)
 {
     putAway(object, patch);
+    if (patch.asleep)
+        return;
+    patch.asleep = true;
     forSeeds(object, patch, [&](Seed& s, int i) {
         if (i != patch.centre)
             s.flags = SEED_ASLEEP;
