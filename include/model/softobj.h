@@ -155,8 +155,8 @@ public:
     // --- Operations (report, Section III: Translation, Rotation, Scaling). Each sets `recalc` here and, where the
     // field of this object reaches them before or after, in its neighbours.
 
-    void translate(const Vector& by);
-    void moveTo(const Point& centre) { translate(centre - centre_); }
+    void translate(const Vector& by) { moveTo(centre_ + by); }
+    void moveTo(const Point& centre) { place(centre, size_); }
     // Turns by `angle` about an axis through `about`, which keeps its distance; a zero axis turns nothing.
     void rotate(const Point& about, const Vector& axis, Angle angle);
     // Takes on an orientation, counted from the object's own axes. `turn` is a pure rotation.
@@ -166,7 +166,9 @@ public:
     // The size is limited to MIN_SIZE..MAX_SIZE.
     void scale(Real by) { setSize(size_ * by); }
     // The same, by the size to be reached, for what moves by the time and must not depend on the frame before.
-    void setSize(Real size);
+    void setSize(Real size) { place(centre_, size); }
+    // Moves and scales it at once: its neighbours hear of it once.
+    void place(const Point& centre, Real size);
     // Stretches core and field along the object's own axes, each factor STRETCH_LEAST..STRETCH_MOST. To be called before
     // seeds are laid out.
     void setStretch(const Vector& factors);
@@ -361,6 +363,7 @@ private:
     const Link* hollowLink() const;
     void findRest();
     void makeWarp(const WarpAmounts& amounts);
+    void setGrown(Real size);
     void tellNeighbours();
     bool layOutRegular(Layout& layout) const;
     bool findNeighbours(Layout& layout) const;

@@ -278,12 +278,11 @@ void Anim::move(Model& model, Time time)
         if (actor.object == nullptr)
             continue;
         SoftObject& object = *actor.object;
-        object.setSize(actor.made * pose.scale);
+        object.place(pose.place, actor.made * pose.scale);
         if ((actor.motion.parts & MOTION_WARP) != 0 || object.warped())
             object.setWarp(warpAt(actor.motion, time));
         if (turned && (!object.isBall() || actor.coat.pattern != PATTERN_NONE))
             object.setTurn(pose.turn);
-        object.moveTo(pose.place);
     }
     moveEye(model);
 }

@@ -87,14 +87,32 @@ Vector SoftObject::turnedBack(const Vector& v) const
             m[0][2] * v.x + m[1][2] * v.y + m[2][2] * v.z};
 }
 
-void SoftObject::translate(const Vector& by)
+void SoftObject::place(const Point& centre, Real wanted)
 {
-    if (by == Vector{Real(0), Real(0), Real(0)})
+    const Real size = clamp(wanted, Real(MIN_SIZE), Real(MAX_SIZE));
+    if (centre == centre_ && size == size_)
         return;
     tellNeighbours();
-    centre_ = centre_ + by;
+    centre_ = centre;
+    if (size != size_)
+        setGrown(size);
     recalc_ = true;
     tellNeighbours();
+}
+
+// What follows from the size.
+void SoftObject::setGrown(Real size)
+{
+    size_ = size;
+    radius_ = size * restRoot_;
+    inverse_ = Real(CORE_SIZE) / size;
+    coreReach_ = grown(coreReachMade_);
+    measureReach();
+    if (laid_.seeds != nullptr) {
+        const Real drift = growth();
+        if (drift > Real(1) + DRIFT_MAX || drift < Real(1) - DRIFT_MAX)
+            resample(laid_.spacing, makeSurface_);
+    }
 }
 
 void SoftObject::rotate(const Point& about, const Vector& axis, Angle angle)
@@ -129,26 +147,6 @@ void SoftObject::setTurn(const Matrix& turn)
     // A ball looks the same from everywhere.
     if (isBall())
         return;
-    recalc_ = true;
-    tellNeighbours();
-}
-
-void SoftObject::setSize(Real wanted)
-{
-    const Real size = clamp(wanted, Real(MIN_SIZE), Real(MAX_SIZE));
-    if (size == size_)
-        return;
-    tellNeighbours();
-    size_ = size;
-    radius_ = size * restRoot_;
-    inverse_ = Real(CORE_SIZE) / size;
-    coreReach_ = grown(coreReachMade_);
-    measureReach();
-    if (laid_.seeds != nullptr) {
-        const Real drift = growth();
-        if (drift > Real(1) + DRIFT_MAX || drift < Real(1) - DRIFT_MAX)
-            resample(laid_.spacing, makeSurface_);
-    }
     recalc_ = true;
     tellNeighbours();
 }
