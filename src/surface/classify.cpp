@@ -84,14 +84,13 @@ void classify(Patch& patch, const Neighbourhood& all)
     memset(patch.near, 0, sizeof patch.near);
     Bound ball = boundOf(patch, patch.radius);
     ball.radius += slack;
-    for (int i = 0; i < all.count; ++i) {
-        const Neighbour& near = all.neighbours[i];
-        if (!within(fromCore(near, beyond), near.size16 + radius))
+    for (const Neighbour *near = all.neighbours, *const end = near + all.count; near < end; ++near) {
+        if (!within(fromCore(*near, beyond), near->size16 + radius))
             continue;
-        const int slot = near.object->slot();
-        patch.listed[slot >> 5] |= 1u << (slot & 31);
-        if (reaches(near, ball))
-            patch.near[slot >> 5] |= 1u << (slot & 31);
+        const uint32_t slot = static_cast<uint32_t>(near->object->slot()), bit = 1u << slot % 32;
+        patch.listed[slot / 32] |= bit;
+        if (reaches(*near, ball))
+            patch.near[slot / 32] |= bit;
     }
 }
 
