@@ -87,9 +87,10 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
 // has leapt.
 bool Odometer::isKnown(const Neighbourhood& all, int number)
 {
-    forgetFar(all);
     const Neighbour& near = all.neighbours[number];
     Known& known = known_[number];
+    if (count_ == room_ || (number < count_ && all.bySlot[known.slot] == nullptr))
+        forgetFar(all);
     const uint8_t slot = static_cast<uint8_t>(near.object->slot());
     if (number < count_ && known.slot == slot)
         return true;
