@@ -11,11 +11,11 @@
 // struct Along (src/surface/fields.h), with which a neighbour begins
 #define ALONG_KIND   0
 #define ALONG_HALF   4
-#define ALONG_A      8
-#define ALONG_C      12
-#define ALONG_TWICE  16
-#define ALONG_Y      28
-#define ALONG_WAY    32
+#define ALONG_WAY    8
+#define ALONG_A      20
+#define ALONG_C      24
+#define ALONG_TWICE  28
+#define ALONG_Y      40
 #define ALONG_B      44
 #define ALONG_STEPY  48
 #define ALONG_VALUE  52

@@ -13,11 +13,11 @@ struct Along {
     // What kind of core it has: its centre, a segment of `half` sizes to each side, or what the primitive says.
     enum Kind : int32_t { POINT, SEGMENT, OTHER } kind;
     Real half;
+    Vector along16;  // a segment: its direction, 16 times
     // The same for all seeds of a root:
     Real a, c;       // squared distance of the root from the centre, squared length of the paths
     Vector twice16;  // 32 (root - centre) / size^2, units
     Real y;          // a segment: where the root lies along it
-    Vector along16;  // and its direction, 16 times
     // Of the path at hand:
     Real b;
     Real stepY;         // a segment: what the path leads along it

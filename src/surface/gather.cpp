@@ -42,6 +42,7 @@ void aim(const SoftObject& object, Neighbour& near)
     const Matrix& turn = other.turn();
     for (int i = 0; i < 3; ++i)
         near.toCore[i] = object.toOwnAxes({turn.m[0][i], turn.m[1][i], turn.m[2][i]}) * near.inverse16;
+    near.along16 = near.toCore[1];
     if (other.shaped())
         aimShaped(near);
     near.direction = object.toOwnAxes({turn.m[0][1], turn.m[1][1], turn.m[2][1]});

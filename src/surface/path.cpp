@@ -43,10 +43,8 @@ void Path::setRoot(Neighbour& near, const Seed& s) const
         near.c = dot(d, d);
     }
     near.twice16 = e * shiftUp(near.inverse16, 1);
-    if (near.kind == Neighbour::SEGMENT) {
-        near.along16 = near.toCore[1];
+    if (near.kind == Neighbour::SEGMENT)
         near.y = shiftDown(dot(near.apart, near.along16), 4);
-    }
 }
 
 Real Neighbour::otherParam(Real p)
