@@ -91,6 +91,10 @@ static void setSides(const SoftObject& object, const FrameContext& frame, const 
 OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
 {
     OwnFrame own;
+    const Vector toCentre = frame.inView(object.centre());
+    setSides(object, frame, toCentre, own);
+    if (own.outOfSight)
+        return own;
     own.growth = object.growth();
     const Real most(1000);
     const Vector toEye = frame.eye - object.centre();
@@ -117,11 +121,9 @@ OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
     axisInOwn(object, frame.axes.up, own.up);
     axisInOwn(object, frame.axes.ahead, own.ahead);
     own.hider = frame.hider;
-    const Vector toCentre = frame.inView(object.centre());
     own.centre[0] = rawFromReal(toCentre.x) >> 8;
     own.centre[1] = rawFromReal(toCentre.y) >> 8;
     own.centre[2] = rawFromReal(toCentre.z) >> 8;
-    setSides(object, frame, toCentre, own);
     return own;
 }
 
