@@ -13,7 +13,7 @@ public:
     }
 
     // Whether the neighbour that was the strongest where a seed was not on the surface the last time is sure to keep it off the
-    // surface (there is no path at hand then); and whether the one that was it in the middle of a patch does so to all its seeds.
+    // surface (no path is at hand afterwards); and whether the one that was it in the middle of a patch does so to all its seeds.
     bool hides(const Seed& s)
     {
         take(s.blocker);

@@ -5,8 +5,8 @@
 
 #include "patch.h"
 
-// The neighbours to look at, and whether they and the object are all linked with each other at weight 1,
-// and what digs does it with one weight into all of them: then the sum of the fields, less what digs, is F.
+// The neighbours to look at, and whether they and the object are all linked with each other at weight 1, and what digs does it with
+// one weight into all of them: then the sum of the fields, less what digs, is F.
 struct Few {
     int count;
     bool complete;

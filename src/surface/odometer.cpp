@@ -94,8 +94,9 @@ bool Odometer::isKnown(const Neighbourhood& all, int number)
     const uint8_t slot = static_cast<uint8_t>(near.object->slot());
     if (number < count_ && known.slot == slot)
         return true;
-    memmove(&known + 1, &known, static_cast<size_t>(count_ - number) * sizeof known);
-    ++count_;
+    // The others move up.
+    count_ = count_ < room_ ? count_ + 1 : room_;
+    memmove(&known + 1, &known, static_cast<size_t>(count_ - 1 - number) * sizeof known);
     known.slot = slot;
     known.inRange = near.inRange;
     known.came = 0;

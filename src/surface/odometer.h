@@ -62,7 +62,7 @@ private:
     bool eyeStayed_ = false;
     bool leapt_ = true;  // nothing is known of a frame before, or all may have changed
 
-    // What is known of the neighbours since the last call, in the order in which they are gathered.
+    // What the last call has found out of each neighbour, in the order in which they are gathered.
     struct Known {
         uint8_t slot;
         bool inRange;   // of the object

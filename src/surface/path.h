@@ -43,8 +43,8 @@ public:
     // To be called when the lists of `nearby` change.
     void leave() { few_ = nullptr; }
 
-    // Finds what there is to know of a neighbour's field along the path of a seed before any position is looked at. The path at
-    // hand is none any more.
+    // Finds what there is to know of a neighbour's field along the path of a seed before any position is looked at. No path is at
+    // hand afterwards.
     void aim(Neighbour& near, const Seed& s);
 
     // By how much the neighbours' fields may change, all together, when each neighbour moves by a unit: at the position looked at
