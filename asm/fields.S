@@ -8,23 +8,21 @@
 
 #include "asm.h"
 
-// struct FromRoot and struct Along (src/surface/fields.h)
-#define FROM_A       0
-#define FROM_C       4
-#define FROM_TWICE   8
-#define FROM_Y       20
-#define FROM_ALONG   24
-#define ALONG_FROM   0
-#define ALONG_KIND   4
-#define ALONG_HALF   8
-#define ALONG_B      12
-#define ALONG_STEPY  16
-#define ALONG_VALUE  20
-#define ALONG_SLOPE  24
-#define ALONG_T      28
-#define ALONG_CHANGE 32
-#define ALONG_K      36
-#define ALONG_SIZE   68
+// struct Along (src/surface/fields.h), with which a neighbour begins
+#define ALONG_KIND   0
+#define ALONG_HALF   4
+#define ALONG_WAY    8
+#define ALONG_A      20
+#define ALONG_C      24
+#define ALONG_TWICE  28
+#define ALONG_Y      40
+#define ALONG_B      44
+#define ALONG_STEPY  48
+#define ALONG_VALUE  52
+#define ALONG_SLOPE  56
+#define ALONG_T      60
+#define ALONG_CHANGE 64
+#define ALONG_K      68
 #define KIND_SEGMENT 1
 
 // struct Fields
@@ -45,23 +43,23 @@
         shrdl        $16, %edx, %eax
 .endm
 
-// to = the vector at ebx times the one at `vector` of what esi points to, over 16; ecx, eax and edx are spare
+// to = the vector at ebx times the one at `vector` of what edi points to, over 16; ecx, eax and edx are spare
 .macro product16 vector, to
         movl        (%ebx), %eax
-        times        \vector(%esi)
+        times        \vector(%edi)
         movl        %eax, %ecx
         movl        4(%ebx), %eax
-        times        \vector+4(%esi)
+        times        \vector+4(%edi)
         addl        %eax, %ecx
         movl        8(%ebx), %eax
-        times        \vector+8(%esi)
+        times        \vector+8(%edi)
         addl        %eax, %ecx
         sarl        $4, %ecx
         movl        %ecx, \to
 .endm
 
-// void addFieldsA(Along* first, Along* end, Real position, const Vector* path, Fields* fields). edi is the field at hand, ebp the
-// position.
+// void addFieldsA(Neighbour* const* first, Neighbour* const* end, Real position, const Vector* path, Fields* fields). esi is the
+// place on the list, edi the neighbour at hand, ebp the position.
 #define ADD_FRAME    16
 #define ADD_FIRST    (ADD_FRAME+4)
 #define ADD_END      (ADD_FRAME+8)
@@ -73,43 +71,46 @@ FUNC(addFieldsA)
         pushl        %ebx
         pushl        %esi
         pushl        %edi
-        movl        ADD_FIRST(%esp), %edi
+        movl        ADD_FIRST(%esp), %esi
         movl        ADD_POSITION(%esp), %ebp
         jmp        add_next
 
 add_one:
         // if (kind != OTHER)
+        movl        (%esi), %edi
         cmpl        $KIND_SEGMENT, ALONG_KIND(%edi)
         ja        add_other
-        movl        ALONG_FROM(%edi), %esi
-        // if (path != nullptr) b = dot(path, from->twice16) >> 4; of a segment stepY = dot(path, from->along16) >> 4
+        // if (path != nullptr) b = dot(path, twice16) >> 4; of a segment stepY = dot(path, along16) >> 4
         movl        ADD_PATH(%esp), %ebx
         testl        %ebx, %ebx
         jz        add_aimed
-        product16 FROM_TWICE, ALONG_B(%edi)
+        product16 ALONG_TWICE, ALONG_B(%edi)
         cmpl        $KIND_SEGMENT, ALONG_KIND(%edi)
         jne        add_aimed
-        product16 FROM_ALONG, ALONG_STEPY(%edi)
+        product16 ALONG_WAY, ALONG_STEPY(%edi)
 add_aimed:
-        // outer = p * from->c; inner = b + outer; change = inner + outer
-        movl        FROM_C(%esi), %eax
+        // outer = p * c; inner = b + outer; change = inner + outer
+        movl        ALONG_C(%edi), %eax
         times        %ebp
         movl        ALONG_B(%edi), %ecx
         addl        %eax, %ecx
         addl        %ecx, %eax
         movl        %eax, ALONG_CHANGE(%edi)
-        // t = from->a + p * inner
+        // t = a + p * inner
         movl        %ecx, %eax
         times        %ebp
-        addl        FROM_A(%esi), %eax
+        addl        ALONG_A(%edi), %eax
         cmpl        $KIND_SEGMENT, ALONG_KIND(%edi)
         je        add_segment
 add_param:
         movl        %eax, ALONG_T(%edi)
 add_known:
-        // if (t >= 1) value = slope = 0; and what is below 0 is 0
-        cmpl        $0xffff, %eax
-        ja        add_outside
+        // if (t >= 1) value = slope = 0
+        cmpl        $0x10000, %eax
+        jge        add_outside
+        // t = most(t, 0)
+        testl        %eax, %eax
+        js        add_below
 add_inside:
         // step = fieldSteps[t >> 8]; value = step.value + (step.slope * ((t & 255) - 128) >> 16); slope = step.slope
         movzbl        %al, %ecx
@@ -123,19 +124,19 @@ add_inside:
         movl        %ecx, ALONG_VALUE(%edi)
         // fields->sum += value; fields->slope += slope * change
         movl        ALONG_CHANGE(%edi), %eax
-        movl        ADD_FIELDS(%esp), %esi
         times        %ebx
-        addl        %ecx, FIELDS_SUM(%esi)
-        addl        %eax, FIELDS_SLOPE(%esi)
-        movl        $1, FIELDS_TOUCHED(%esi)
+        movl        ADD_FIELDS(%esp), %ebx
+        addl        %ecx, FIELDS_SUM(%ebx)
+        addl        %eax, FIELDS_SLOPE(%ebx)
+        movl        $1, FIELDS_TOUCHED(%ebx)
         // fields->strongest = most(fields->strongest, value)
-        cmpl        FIELDS_STRONGEST(%esi), %ecx
+        cmpl        FIELDS_STRONGEST(%ebx), %ecx
         jle        add_done
-        movl        %ecx, FIELDS_STRONGEST(%esi)
+        movl        %ecx, FIELDS_STRONGEST(%ebx)
 add_done:
-        addl        $ALONG_SIZE, %edi
+        addl        $4, %esi
 add_next:
-        cmpl        ADD_END(%esp), %edi
+        cmpl        ADD_END(%esp), %esi
         jb        add_one
         popl        %edi
         popl        %esi
@@ -144,12 +145,12 @@ add_next:
         ret
 
 add_segment:
-        // y = from->y + p * stepY
+        // at = y + p * stepY
         movl        %eax, %ecx
         movl        ALONG_STEPY(%edi), %eax
         times        %ebp
-        addl        FROM_Y(%esi), %eax
-        // k = clamp(y, -half, half)
+        addl        ALONG_Y(%edi), %eax
+        // k = clamp(at, -half, half)
         movl        ALONG_HALF(%edi), %edx
         movl        %eax, %ebx
         cmpl        %edx, %eax
@@ -161,7 +162,7 @@ add_beyond:
         movl        %edx, %ebx
 add_beside:
         movl        %ebx, ALONG_K(%edi)
-        // t -= k * (y + y - k)
+        // t -= k * (at + at - k)
         addl        %eax, %eax
         subl        %ebx, %eax
         times        %ebx
@@ -177,10 +178,11 @@ add_beside:
 add_other:
         movl        ALONG_T(%edi), %eax
         jmp        add_known
+add_below:
+        xorl        %eax, %eax
+        jmp        add_inside
 add_outside:
-        testl        %eax, %eax
-        movl        $0, %eax
-        js        add_inside
+        xorl        %eax, %eax
         movl        %eax, ALONG_VALUE(%edi)
         movl        %eax, ALONG_SLOPE(%edi)
         jmp        add_done

@@ -46,12 +46,20 @@ inline Square squareOf(const Vector& v)
     const int64_t x = v.x.raw, y = v.y.raw, z = v.z.raw;
     return static_cast<uint64_t>(x * x) + static_cast<uint64_t>(y * y) + static_cast<uint64_t>(z * z);
 }
+inline Square squareOf(Real a) { return static_cast<uint64_t>(static_cast<int64_t>(a.raw) * a.raw); }
 #else
 typedef Real Square;
 
 inline Square squareOf(const Vector& v) { return dot(v, v); }
+inline Square squareOf(Real a) { return a * a; }
 #endif
 Real lengthOf(Square square);
+
+// Whether a vector is shorter than a length; most that are not are too long along one axis.
+inline bool isShorter(const Vector& v, Real than)
+{
+    return absolute(v.x) < than && absolute(v.y) < than && absolute(v.z) < than && squareOf(v) < squareOf(than);
+}
 
 // Euclidean length.
 inline Real length(const Vector& v) { return lengthOf(squareOf(v)); }
@@ -69,7 +77,13 @@ Vector projection(const Vector& v, const Vector& onto);
 struct Matrix {
     Real m[4][4];
 
-    static Matrix identity();
+    static constexpr Matrix identity()
+    {
+        return {{{Real(1), Real(0), Real(0), Real(0)},
+                 {Real(0), Real(1), Real(0), Real(0)},
+                 {Real(0), Real(0), Real(1), Real(0)},
+                 {Real(0), Real(0), Real(0), Real(1)}}};
+    }
     static Matrix translation(const Vector& by);
     static Matrix scaling(Real by);
     // Turn by `angle` about an axis through the origin, anticlockwise when the axis points at the reader in a

@@ -158,8 +158,8 @@ public:
     // --- Operations (report, Section III: Translation, Rotation, Scaling). Each sets `recalc` here and, where the
     // field of this object reaches them before or after, in its neighbours.
 
-    void translate(const Vector& by);
-    void moveTo(const Point& centre) { translate(centre - centre_); }
+    void translate(const Vector& by) { moveTo(centre_ + by); }
+    void moveTo(const Point& centre) { place(centre, size_); }
     // Turns by `angle` about an axis through `about`, which keeps its distance; a zero axis turns nothing.
     void rotate(const Point& about, const Vector& axis, Angle angle);
     // Takes on an orientation, counted from the object's own axes. `turn` is a pure rotation.
@@ -169,7 +169,9 @@ public:
     // The size is limited to MIN_SIZE..MAX_SIZE.
     void scale(Real by) { setSize(size_ * by); }
     // The same, by the size to be reached, for what moves by the time and must not depend on the frame before.
-    void setSize(Real size);
+    void setSize(Real size) { place(centre_, size); }
+    // Moves and scales it at once: its neighbours hear of it once.
+    void place(const Point& centre, Real size);
     // Stretches core and field along the object's own axes, each factor STRETCH_LEAST..STRETCH_MOST. To be called before
     // seeds are laid out.
     void setStretch(const Vector& factors);
@@ -191,6 +193,8 @@ public:
     const Point& centre() const { return centre_; }
     Real size() const { return size_; }
     Real radius() const { return radius_; }
+    // CORE_SIZE / size.
+    Real inverse16() const { return inverse_; }
     // It grows with the size, in the proportion that the object was made with.
     Real coreReach() const { return coreReach_; }
     const Matrix& turn() const { return turn_; }
@@ -254,7 +258,7 @@ public:
 
     // A point of the object's own space in the world; a vector of the world in the object's own axes, unscaled.
     Point toWorld(const Vector& v) const;
-    Vector toOwnAxes(const Vector& v) const;
+    Vector toOwnAxes(const Vector& v) const { return isBall() ? v : turnedBack(v); }
 
     // --- The graph
 
@@ -288,14 +292,8 @@ public:
     // This object's contribution to the implicit function at `p`, 0..strength() (the report's fieldFunc).
     Real fieldFunc(const Point& p) const;
 
-    // Whether fields of the two can meet anywhere, from centres and sizes alone, or lie no more than `slack` units apart.
-    bool inRange(const SoftObject& other, Real slack = Real(0)) const
-    {
-        // Every pair of a model comes by here; most are told apart along one axis.
-        const Real reach = reach_ + other.reach_ + slack;
-        const Vector apart = centre_ - other.centre_;
-        return absolute(apart.x) < reach && absolute(apart.y) < reach && absolute(apart.z) < reach && isNearer(other, reach);
-    }
+    // Whether fields of the two can meet anywhere, from centres and sizes alone.
+    bool inRange(const SoftObject& other) const { return isShorter(centre_ - other.centre_, reach_ + other.reach_); }
 
     // --- A frame
 
@@ -331,9 +329,6 @@ protected:
     Vector axis() const { return {turn_.m[0][1], turn_.m[1][1], turn_.m[2][1]}; }
 
 private:
-    // Whether the centres are nearer to each other than a distance. Squares are compared.
-    bool isNearer(const SoftObject& other, Real distance) const;
-
     // Oversampled seeds are laid out this many at a time.
     static constexpr int EXTRA_BITS = 3;
     static constexpr int EXTRA_BLOCK = 1 << EXTRA_BITS;
@@ -367,9 +362,11 @@ private:
         Layout plain() const;
     };
 
+    Vector turnedBack(const Vector& v) const;
     const Link* hollowLink() const;
     void findRest();
     void makeWarp(const WarpAmounts& amounts);
+    void setGrown(Real size);
     void tellNeighbours();
     bool layOutRegular(Layout& layout) const;
     bool findNeighbours(Layout& layout) const;

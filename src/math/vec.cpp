@@ -47,15 +47,6 @@ Vector projection(const Vector& v, const Vector& onto)
     return direction * dot(v, direction);
 }
 
-Matrix Matrix::identity()
-{
-    Matrix r;
-    for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < 4; ++j)
-            r.m[i][j] = Real(i == j ? 1 : 0);
-    return r;
-}
-
 Matrix Matrix::translation(const Vector& by)
 {
     Matrix r = identity();

@@ -266,7 +266,9 @@ void Anim::move(Model& model, Time time)
                 // Limited before it is turned and scaled, so that no product leaves 16.16.
                 const Vector arm{limited(pose.place.x), limited(pose.place.y), limited(pose.place.z)};
                 pose.place = parent->pose.place + parent->pose.turn * (arm * parent->pose.scale);
-                pose.turn = parent->pose.turn * pose.turn;
+                // Most turn with their parent and no further.
+                const bool turns = !sameTurn(pose.turn, Matrix::identity());
+                pose.turn = turns ? parent->pose.turn * pose.turn : parent->pose.turn;
                 pose.scale = clamp(pose.scale * parent->pose.scale, SCALE_LEAST, SCALE_MOST);
             }
         }
@@ -276,12 +278,11 @@ void Anim::move(Model& model, Time time)
         if (actor.object == nullptr)
             continue;
         SoftObject& object = *actor.object;
-        object.setSize(actor.made * pose.scale);
+        object.place(pose.place, actor.made * pose.scale);
         if ((actor.motion.parts & MOTION_WARP) != 0 || object.warped())
             object.setWarp(warpAt(actor.motion, time));
         if (turned && (!object.isBall() || actor.coat.pattern != PATTERN_NONE))
             object.setTurn(pose.turn);
-        object.moveTo(pose.place);
     }
     moveEye(model);
 }

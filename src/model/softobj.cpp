@@ -16,14 +16,6 @@ constexpr Real REST_LEAST(0.140625);
 // Core space: farther from the core than that a field is so much less steep than at most that no warp makes up for it.
 constexpr Real STEEP_AT(0.65 * CORE_SIZE);
 
-int64_t squaredDistance(const Point& a, const Point& b)
-{
-    const int64_t x = rawFromReal(a.x) - rawFromReal(b.x);
-    const int64_t y = rawFromReal(a.y) - rawFromReal(b.y);
-    const int64_t z = rawFromReal(a.z) - rawFromReal(b.z);
-    return x * x + y * y + z * z;
-}
-
 // A vector of nearly the same length as `like`, made to have it: its largest component takes up the difference. Exact
 // to half a last bit each time, and never to one side, so that a million turns keep a distance.
 Vector withSquare(const Vector& v, const Vector& like)
@@ -87,24 +79,40 @@ Point SoftObject::toWorld(const Vector& v) const
     return centre_ + (isBall() ? grown : turn_ * grown);
 }
 
-Vector SoftObject::toOwnAxes(const Vector& v) const
+Vector SoftObject::turnedBack(const Vector& v) const
 {
-    if (isBall())
-        return v;
     // The inverse of a rotation is its transpose.
     const Real(&m)[4][4] = turn_.m;
     return {m[0][0] * v.x + m[1][0] * v.y + m[2][0] * v.z, m[0][1] * v.x + m[1][1] * v.y + m[2][1] * v.z,
             m[0][2] * v.x + m[1][2] * v.y + m[2][2] * v.z};
 }
 
-void SoftObject::translate(const Vector& by)
+void SoftObject::place(const Point& centre, Real wanted)
 {
-    if (by == Vector{Real(0), Real(0), Real(0)})
+    const Real size = clamp(wanted, Real(MIN_SIZE), Real(MAX_SIZE));
+    if (centre == centre_ && size == size_)
         return;
     tellNeighbours();
-    centre_ = centre_ + by;
+    centre_ = centre;
+    if (size != size_)
+        setGrown(size);
     recalc_ = true;
     tellNeighbours();
+}
+
+// What follows from the size.
+void SoftObject::setGrown(Real size)
+{
+    size_ = size;
+    radius_ = size * restRoot_;
+    inverse_ = Real(CORE_SIZE) / size;
+    coreReach_ = grown(coreReachMade_);
+    measureReach();
+    if (laid_.seeds != nullptr) {
+        const Real drift = growth();
+        if (drift > Real(1) + DRIFT_MAX || drift < Real(1) - DRIFT_MAX)
+            resample(laid_.spacing, makeSurface_);
+    }
 }
 
 void SoftObject::rotate(const Point& about, const Vector& axis, Angle angle)
@@ -139,26 +147,6 @@ void SoftObject::setTurn(const Matrix& turn)
     // A ball looks the same from everywhere.
     if (isBall())
         return;
-    recalc_ = true;
-    tellNeighbours();
-}
-
-void SoftObject::setSize(Real wanted)
-{
-    const Real size = clamp(wanted, Real(MIN_SIZE), Real(MAX_SIZE));
-    if (size == size_)
-        return;
-    tellNeighbours();
-    size_ = size;
-    radius_ = size * restRoot_;
-    inverse_ = Real(CORE_SIZE) / size;
-    coreReach_ = grown(coreReachMade_);
-    measureReach();
-    if (laid_.seeds != nullptr) {
-        const Real drift = growth();
-        if (drift > Real(1) + DRIFT_MAX || drift < Real(1) - DRIFT_MAX)
-            resample(laid_.spacing, makeSurface_);
-    }
     recalc_ = true;
     tellNeighbours();
 }
@@ -253,12 +241,6 @@ void SoftObject::tellNeighbours()
         for (const List<Link>::Node* node = (i == 0 ? digs_ : dents_).first(); node != nullptr; node = node->next)
             if (inRange(*node->item.object))
                 node->item.object->recalc_ = true;
-}
-
-bool SoftObject::isNearer(const SoftObject& other, Real distance) const
-{
-    const int64_t square = rawFromReal(distance);
-    return squaredDistance(centre_, other.centre_) < square * square;
 }
 
 bool SoftObject::link(SoftObject* other, Real weight)

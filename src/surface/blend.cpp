@@ -12,7 +12,7 @@ constexpr Real NEGLIGIBLE(0.002), NOTHING(0.0005);
 struct Linked {
     Real f, lack;
     const Real* weights;
-    int slot, at;  // at: its number on the path; -1: the object
+    int slot, at;  // at: its place on the list; -1: the object
 };
 
 // D = sum of (1 - w_ik) f_i f_k (f_i + f_k) over all pairs, and for each member that sum in the derivative; `*squares` becomes Q,
@@ -53,8 +53,8 @@ void Path::blend(Real position, Sample& sample)
     if (ownField_ > Real(0))
         add(ownField_, object_.slot(), -1);
     for (int i = 0; i < touched_; ++i)
-        if (along_[i].value > Real(0))
-            add(along_[i].value, along_[i].near->object->slot(), i);
+        if (near_[i]->value > Real(0))
+            add(near_[i]->value, near_[i]->object->slot(), i);
     // In a crowd all fields are small, and their squares need the digits.
     const bool faint = strongest < Real(0.125) && strongest > Real(0);
     for (Linked* a = parts; a < end && faint; ++a)
@@ -70,7 +70,7 @@ void Path::blend(Real position, Sample& sample)
         share_[i] = Real(1);
     for (const Linked* a = parts; a < end; ++a) {
         const Real lost = (a->lack - a->f * twice) * inverse;
-        const Real rate = a->at < 0 ? shiftDown(ownSlope_ * position, 1) : along_[a->at].slope * along_[a->at].change;
+        const Real rate = a->at < 0 ? shiftDown(ownSlope_ * position, 1) : near_[a->at]->slope * near_[a->at]->change;
         share_[a->at + 1] = Real(1) - lost;
         sample.slope -= lost * rate;
     }
@@ -147,33 +147,32 @@ void Path::addOwn(Real position, Parts& parts)
 }
 
 // The field of a neighbour. False: it does not reach the position.
-inline bool Path::addNear(Real position, const Vector* path, int number, Parts& parts)
+inline bool Path::addNear(Real position, const Vector* path, int at, Parts& parts)
 {
-    Along& along = along_[number];
+    Neighbour& near = *near_[at];
     if (path != nullptr)
-        along.aim(*path);
-    const Real t = along.param(position);
+        near.aim(*path);
+    const Real t = near.param(position);
     if (t >= Real(1)) {
-        along.value = along.slope = Real(0);
+        near.value = near.slope = Real(0);
         return false;
     }
-    const Neighbour& near = *along.near;
     const FieldStep field = geoffQuick(most(t, Real(0)));
     const bool plain = near.strength == Real(1);
-    along.value = plain ? field.value : field.value * near.strength;
-    along.slope = plain ? field.slope : field.slope * near.strength;
-    if (along.value <= Real(0))
+    near.value = plain ? field.value : field.value * near.strength;
+    near.slope = plain ? field.slope : field.slope * near.strength;
+    if (near.value <= Real(0))
         return true;
-    const Real rate = along.slope * along.change;
+    const Real rate = near.slope * near.change;
     if (near.digs) {
-        addDigger(parts, along.value, rate, near.weight, *near.object, number + 1);
+        addDigger(parts, near.value, rate, near.weight, *near.object, at + 1);
         return true;
     }
-    addMember(parts, along.value, rate, *near.object, number + 1);
+    addMember(parts, near.value, rate, *near.object, at + 1);
     if (all_.hollow && near.object == all_.head)
-        headField_ = along.value;
+        headField_ = near.value;
     else
-        parts.rival = most(parts.rival, along.value);
+        parts.rival = most(parts.rival, near.value);
     return true;
 }
 

@@ -7,30 +7,30 @@
 namespace {
 
 // The strongest neighbour.
-const Along* strongestOf(const Path& path)
+const Neighbour* strongestOf(const Path& path)
 {
-    const Along* other = &path.along(0);
+    const Neighbour* other = &path.near(0);
     for (int i = 1; i < path.touched(); ++i)
-        if (path.along(i).value > other->value)
-            other = &path.along(i);
+        if (path.near(i).value > other->value)
+            other = &path.near(i);
     return other;
 }
 
 // The same where not all is common: the strongest but for those that dig; null: there is none. `*g` and `*change`, gradient and
 // change of the own field, become what they are there; in a hollow what is dented stands for the object.
-SELDOM const Along* strongestOdd(const Path& path, const Seed& s, Vector* g, Real* change)
+SELDOM const Neighbour* strongestOdd(const Path& path, const Seed& s, Vector* g, Real* change)
 {
     *change = path.ownRate(path.lookedAt());
     if (path.object().shaped())
         *g = path.ownGradient(s.position, path.ownSlope());
-    const Along* other = nullptr;
+    const Neighbour* other = nullptr;
     for (int i = 0; i < path.touched(); ++i) {
-        const Along& along = path.along(i);
-        if (path.all().hollow && along.near->object == path.all().head) {
-            *g = path.fromCore(along, s.position) * (along.slope * along.near->ratio);
-            *change = along.slope * along.change;
-        } else if (!along.near->digs && (other == nullptr || along.value > other->value)) {
-            other = &along;
+        const Neighbour& near = path.near(i);
+        if (path.all().hollow && near.object == path.all().head) {
+            *g = path.fromCore(near, s.position) * (near.slope * near.ratio);
+            *change = near.slope * near.change;
+        } else if (!near.digs && (other == nullptr || near.value > other->value)) {
+            other = &near;
         }
     }
     return other;
@@ -43,12 +43,12 @@ void findBorder(const Path& path, Seed& s, Real dominance)
     // Gradients, times half the squared size of the object.
     Vector g = path.from(s.position) * path.ownSlope();
     Real change = shiftDown(path.ownSlope() * path.lookedAt(), 1);
-    const Along* const other = path.all().common ? strongestOf(path) : strongestOdd(path, s, &g, &change);
+    const Neighbour* const other = path.all().common ? strongestOf(path) : strongestOdd(path, s, &g, &change);
     if (other == nullptr)
         return;
     // The fields were looked at before the last step.
     dominance += (other->slope * other->change - change) * (s.position - path.lookedAt());
-    g = g - path.fromCore(*other, s.position) * (other->slope * other->near->ratio);
+    g = g - path.fromCore(*other, s.position) * (other->slope * other->ratio);
     const Normal n = normalise(g);
     const Real steep = dot(g, {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)});
     const Real size = path.object().laidSize();
@@ -73,11 +73,11 @@ void mix(const Path& path, Seed& s)
     Real fields = path.all().hollow ? Real(0) : path.ownField();
     Vector sum = own.at * fields;
     for (int i = 0; i < path.touched(); ++i) {
-        const Along& along = path.along(i);
-        if (along.near->digs)
+        const Neighbour& near = path.near(i);
+        if (near.digs)
             continue;
-        sum = sum + along.near->object->paint()->at * along.value;
-        fields += along.value;
+        sum = sum + near.object->paint()->at * near.value;
+        fields += near.value;
     }
     s.mix = fields > Real(0) ? own.paints->numberAt(sum * quotient(Real(1), fields), own.shines()) : own.number;
 }

@@ -53,7 +53,9 @@ Bound boundOf(const Patch& patch, int32_t restRadius)
     const int32_t position = (patch.nearest + patch.farthest) >> 1, half = (patch.farthest - patch.nearest + 1) >> 1;
     const Step middle = above(patch, patch.path * (position - 64) >> 6);
     const int32_t widest = patch.farthest > 64 ? patch.farthest : 64;
-    int32_t radius = restRadius * widest + patch.path * half;
+    // One way leads across the paths, the other along them: the shorter makes the longer no longer than by half of it.
+    const int32_t across = restRadius * widest, along = patch.path * half;
+    int32_t radius = across > along ? across + (along >> 1) : along + (across >> 1);
     if (patch.lean != 0)
         radius += patch.lean * (position < 64 ? 64 - patch.nearest : widest - 64);
     return {middle.x, middle.y, middle.z, radius >> 6};
@@ -82,14 +84,13 @@ void classify(Patch& patch, const Neighbourhood& all)
     memset(patch.near, 0, sizeof patch.near);
     Bound ball = boundOf(patch, patch.radius);
     ball.radius += slack;
-    for (int i = 0; i < all.count; ++i) {
-        const Neighbour& near = all.neighbours[i];
-        if (!within(fromCore(near, beyond), near.size16 + radius))
+    for (const Neighbour *near = all.neighbours, *const end = near + all.count; near < end; ++near) {
+        if (!within(fromCore(*near, beyond), near->size16 + radius))
             continue;
-        const int slot = near.object->slot();
-        patch.listed[slot >> 5] |= 1u << (slot & 31);
-        if (reaches(near, ball))
-            patch.near[slot >> 5] |= 1u << (slot & 31);
+        const uint32_t slot = static_cast<uint32_t>(near->object->slot()), bit = 1u << slot % 32;
+        patch.listed[slot / 32] |= bit;
+        if (reaches(*near, ball))
+            patch.near[slot / 32] |= bit;
     }
 }
 

@@ -23,9 +23,9 @@ static constexpr Real COVERING(0.28);
 void Cover::find(int blocker)
 {
     blocker_ = blocker;
-    number_ = all_.numberOf[blocker];
+    near_ = all_.bySlot[blocker];
     // The t of what is warped need not be convex.
-    const bool judged = number_ >= 0 && all_.common && !all_.neighbours[number_].object->warped();
+    const bool judged = near_ != nullptr && all_.common && !near_->object->warped();
     limits_ = nullptr;
     if (!judged)
         return;
@@ -36,12 +36,11 @@ void Cover::find(int blocker)
 
 bool Cover::hidesPath(const Seed& s)
 {
-    Along along;
-    path_.aim(number_, s, along);
-    const Real there = along.param(COVERED_AT);
+    path_.aim(*near_, s);
+    const Real there = near_->param(COVERED_AT);
     if (there >= limits_->there)
         return false;
-    const Real atRest = along.param(Real(1));
+    const Real atRest = near_->param(Real(1));
     return atRest < limits_->atRest && (there <= atRest || !isHeavy());
 }
 
@@ -50,9 +49,8 @@ bool Cover::hidesAll(const Patch& patch)
     take(patch.blocker);
     if (limits_ == nullptr || object_.tapers() || isHeavy())
         return false;
-    const Neighbour& near = all_.neighbours[number_];
-    return !near.object->slants() && isWithin(patch, near, COVERED_AT, limits_->rootThere) &&
-           isWithin(patch, near, Real(1), limits_->rootAtRest);
+    return !near_->object->slants() && isWithin(patch, *near_, COVERED_AT, limits_->rootThere) &&
+           isWithin(patch, *near_, Real(1), limits_->rootAtRest);
 }
 
 int Cover::strongest() const
@@ -60,10 +58,10 @@ int Cover::strongest() const
     int slot = object_.slot();
     Real most(-1);
     for (int i = 0; i < path_.touched(); ++i) {
-        const Along& along = path_.along(i);
-        const int candidate = along.near->object->slot();
-        const Real value = along.value > COVERING && nearby_.weight(candidate) >= Real(1) ? along.value + Real(1) : along.value;
-        if (value > most && !along.near->digs) {
+        const Neighbour& near = path_.near(i);
+        const int candidate = near.object->slot();
+        const Real value = near.value > COVERING && nearby_.weight(candidate) >= Real(1) ? near.value + Real(1) : near.value;
+        if (value > most && !near.digs) {
             most = value;
             slot = candidate;
         }

@@ -7,13 +7,13 @@
 
 class Cover {
 public:
-    Cover(const SoftObject& object, const Neighbourhood& all, const Nearby& nearby, Path& path)
+    Cover(const SoftObject& object, Neighbourhood& all, const Nearby& nearby, Path& path)
         : object_(object), all_(all), nearby_(nearby), path_(path)
     {
     }
 
     // Whether the neighbour that was the strongest where a seed was not on the surface the last time is sure to keep it off the
-    // surface; and whether the one that was it in the middle of a patch does so to all its seeds.
+    // surface (no path is at hand afterwards); and whether the one that was it in the middle of a patch does so to all its seeds.
     bool hides(const Seed& s)
     {
         take(s.blocker);
@@ -36,11 +36,11 @@ private:
     bool isHeavy() const { return nearby_.weight(blocker_) > Real(1); }
 
     const SoftObject& object_;
-    const Neighbourhood& all_;
+    Neighbourhood& all_;
     const Nearby& nearby_;
     Path& path_;
     int blocker_ = -1;  // slot of the neighbour at hand; -1: none yet
-    int number_;        // of it; -1: it is none
+    Neighbour* near_;   // the same; null: it is none
     // What it takes, if it is linked with the object at some weight or more: its t (model/field.h) is less than these at two
     // positions of a path. And the roots of the two. Null: that is not known.
     struct Limits {

@@ -1,24 +1,25 @@
 // The fields of neighbours along a path, in C++.
-#include "fields.h"
+#include "gather.h"
 
-void addFieldsC(Along* first, Along* end, Real position, const Vector* path, Fields* fields)
+void addFieldsC(Neighbour* const* first, Neighbour* const* end, Real position, const Vector* path, Fields* fields)
 {
-    for (Along* along = first; along < end; ++along) {
-        if (along->kind != Neighbour::OTHER) {
+    for (Neighbour* const* at = first; at < end; ++at) {
+        Along& along = **at;
+        if (along.kind != Along::OTHER) {
             if (path != nullptr)
-                along->aim(*path);
-            along->nearParam(position);
+                along.aimNear(*path);
+            along.nearParam(position);
         }
-        const Real t = along->t;
+        const Real t = along.t;
         if (t >= Real(1)) {
-            along->value = along->slope = Real(0);
+            along.value = along.slope = Real(0);
             continue;
         }
         const FieldStep field = geoffQuick(most(t, Real(0)));
-        along->value = field.value;
-        along->slope = field.slope;
+        along.value = field.value;
+        along.slope = field.slope;
         fields->sum += field.value;
-        fields->slope += field.slope * along->change;
+        fields->slope += field.slope * along.change;
         fields->strongest = most(fields->strongest, field.value);
         fields->touched = 1;
     }

@@ -42,6 +42,7 @@ void aim(const SoftObject& object, Neighbour& near)
     const Matrix& turn = other.turn();
     for (int i = 0; i < 3; ++i)
         near.toCore[i] = object.toOwnAxes({turn.m[0][i], turn.m[1][i], turn.m[2][i]}) * near.inverse16;
+    near.along16 = near.toCore[1];
     if (other.shaped())
         aimShaped(near);
     near.direction = object.toOwnAxes({turn.m[0][1], turn.m[1][1], turn.m[2][1]});
@@ -90,6 +91,10 @@ static void setSides(const SoftObject& object, const FrameContext& frame, const 
 OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
 {
     OwnFrame own;
+    const Vector toCentre = frame.inView(object.centre());
+    setSides(object, frame, toCentre, own);
+    if (own.outOfSight)
+        return own;
     own.growth = object.growth();
     const Real most(1000);
     const Vector toEye = frame.eye - object.centre();
@@ -116,11 +121,9 @@ OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
     axisInOwn(object, frame.axes.up, own.up);
     axisInOwn(object, frame.axes.ahead, own.ahead);
     own.hider = frame.hider;
-    const Vector toCentre = frame.inView(object.centre());
     own.centre[0] = rawFromReal(toCentre.x) >> 8;
     own.centre[1] = rawFromReal(toCentre.y) >> 8;
     own.centre[2] = rawFromReal(toCentre.z) >> 8;
-    setSides(object, frame, toCentre, own);
     return own;
 }
 
@@ -133,18 +136,19 @@ static bool dentedFromWithin(const SoftObject& object, const Bodies& bodies)
     return false;
 }
 
-// Where a neighbour is and how large, in own space; `growth` is the object's.
-static void place(const SoftObject& object, Real growth, Neighbour& near)
+// Where a neighbour is and how large, in own space; `away` leads there in the world, and `growth` is the object's.
+static void place(const SoftObject& object, Real growth, const Vector& away, Neighbour& near)
 {
     const SoftObject& other = *near.object;
-    const bool grown = object.size() != object.laidSize();
-    const Vector apart = object.toOwnAxes(other.centre() - object.centre());
+    const Vector apart = object.toOwnAxes(away);
     near.kind = Neighbour::POINT;
+    near.root = -1;
     near.segment = false;
-    near.centre = grown ? Vector{apart.x / growth, apart.y / growth, apart.z / growth} : apart;
-    near.size = grown ? other.size() / growth : other.size();
-    near.inverse16 = near.steep16 = Real(CORE_SIZE) / near.size;
-    const Real proportion = least(object.size() / other.size(), Real(60));
+    const bool grown = growth != Real(1);
+    near.centre = grown ? Vector{quotient(apart.x, growth), quotient(apart.y, growth), quotient(apart.z, growth)} : apart;
+    near.size = grown ? quotient(other.size(), growth) : other.size();
+    near.inverse16 = near.steep16 = near.sheer16 = grown ? quotient(Real(CORE_SIZE), near.size) : other.inverse16();
+    const Real proportion = least(quotient(object.size(), other.size()), Real(60));
     near.ratio = proportion * proportion;
     near.x16 = rawFromReal(near.centre.x) >> 12;
     near.y16 = rawFromReal(near.centre.y) >> 12;
@@ -168,7 +172,6 @@ static void weigh(const Bodies& bodies, const Neighbourhood& all, Neighbour& nea
     near.strength = other.strength();
     near.plain = !near.digs && near.strength == Real(1) && !(all.hollow && &other == all.head);
     near.weight = near.digs ? -bodies.weight(all.head->slot(), other.slot()) : Real(0);
-    near.sheer16 = near.inverse16;
     near.share = near.digs ? greatestWeight(other) : Real(1);
     near.samples = near.digs && other.hollowed() == all.head;
     near.grain = near.plain ? near.size : near.size / (most(near.strength, Real(1)) * most(near.weight, Real(1)));
@@ -181,20 +184,24 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
     Neighbour* next = all.neighbours + all.count;
     for (SoftObject* const* const end = from + count; from < end && all.count < NEIGHBOURS_MAX; ++from) {
         const SoftObject& other = **from;
-        if (&other == &object || !object.inRange(other, GATHER_SLACK))
+        const Vector apart = other.centre() - object.centre();
+        const Real reach = object.reach() + other.reach();
+        if (&other == &object || !isShorter(apart, reach + GATHER_SLACK))
             continue;
-        all.numberOf[other.slot()] = static_cast<int8_t>(all.count++);
+        ++all.count;
         Neighbour& near = *next++;
+        all.bySlot[other.slot()] = &near;
         near.object = &other;
         near.digs = digs;
-        place(object, growth, near);
+        near.inRange = isShorter(apart, reach);
+        place(object, growth, apart, near);
         weigh(bodies, all, near);
         if (!other.isBall())
             aim(object, near);
         all.inner = all.inner || (!digs && dentedFromWithin(other, bodies));
         all.dented = all.dented || digs;
-        all.deep = all.deep || digs || all.inner;
-        all.common = all.common && near.plain && !all.inner;
+        all.common = all.common && near.plain;
+        all.simple = all.simple && near.kind != Neighbour::OTHER;
     }
 }
 
@@ -209,10 +216,13 @@ void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& 
     all.inner = dentedFromWithin(*all.head, bodies);
     all.rests = object.rests() && !all.hollow;
     all.dented = false;
-    all.deep = all.inner || !all.rests;
-    all.common = object.strength() == Real(1) && !all.hollow && !all.inner && !object.shaped();
+    all.common = object.strength() == Real(1) && !all.hollow && !object.shaped();
     all.last = object.restRoot() == Real(0.5) ? Real(1.98) : Real(0.99) / object.restRoot();
-    memset(all.numberOf, -1, sizeof all.numberOf);
+    all.simple = true;
+    memset(all.bySlot, 0, sizeof all.bySlot);
     gatherFrom(bodies.diggers(*all.head), bodies.diggerCount(*all.head), true, object, bodies, all);
     gatherFrom(bodies.members(*all.head), bodies.memberCount(*all.head), false, object, bodies, all);
+    all.deep = all.inner || all.dented || !all.rests;
+    all.common = all.common && !all.inner;
+    all.simple = all.simple && all.common;
 }

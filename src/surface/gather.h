@@ -3,6 +3,7 @@
 #ifndef FB_GATHER_H
 #define FB_GATHER_H
 
+#include "fields.h"
 #include "model/body.h"
 #include "model/softobj.h"
 
@@ -16,8 +17,8 @@ constexpr Real GATHER_SLACK(3);
 // Of the field, over the size: no field changes by more.
 constexpr Real STEEPEST_OF_ALL(1.6);
 
-// A neighbour in the own space of the object that is being updated.
-struct Neighbour {
+// A neighbour in the own space of the object that is being updated, and what is known of its field along the path at hand.
+struct Neighbour : Along {
     const SoftObject* object;
     Vector centre;      // units of own space, as all that follows
     Real size;          // where its field ends, from its core
@@ -27,20 +28,28 @@ struct Neighbour {
     Real share;         // the greatest weight of what digs; of a member 1
     Real ratio;         // squared proportion of the own size to `size`: its share of the gradient
     Real strength;      // what its field is multiplied by
-    bool plain : 1;     // it is one of the body, its strength is 1, and it is not the head of a hollow
-    bool digs : 1;      // it is none of the body, and digs into some of it
-    bool samples : 1;   // its seeds sample a hollow in the head
+    bool plain;         // it is one of the body, its strength is 1, and it is not the head of a hollow
+    bool digs;          // it is none of the body, and digs into some of it
+    bool samples;       // its seeds sample a hollow in the head
+    bool inRange;       // of the object; else within GATHER_SLACK of that
     bool segment;       // its core is a segment to each side of its centre, half16 long; whether or not it tapers
-    // What kind of core it has: its centre, a segment of `half` sizes to each side, or what the primitive says.
-    enum Kind : uint8_t { POINT, SEGMENT, OTHER } kind;
     Real weight;        // by which it digs into the head; 0: not
     Real grain;         // over this length its field changes as a plain one does over its size
     int32_t x16, y16, z16, size16;  // centre and size in 1/16 unit
     int32_t half16, axis[3];        // its direction, 1.0 = 2^14
-    Real half;
     Vector direction;   // of the segment, unit length
     Vector toCore[3];   // the rows of the map from own space to its core space; no point
     Vector offset;      // and the own centre there
+    // Of what leads along its paths:
+    int root;           // index of the root for which it is known; -1: none yet
+    Vector apart;       // from the centre to the root; neither point nor segment: the root in core space
+    Vector step, out;   // neither point nor segment: the path at hand in core space, and half the gradient of t there, times
+                        // CORE_SIZE^2
+
+    // It takes up a path, and is looked at; what stands in Along is set, but F.
+    void aim(const Vector& path);
+    Real param(Real p) { return kind == OTHER ? otherParam(p) : nearParam(p); }
+    Real otherParam(Real p);
 
     // What its field changes by at most over a unit, as it counts in that of a body whose members are linked.
     Real pushMost() const { return shiftDown(sheer16 * strength * share * STEEPEST_OF_ALL, 4); }
@@ -57,6 +66,14 @@ struct Neighbour {
     Vector fromCore16(const Vector& q) const;
 };
 
+inline void Neighbour::aim(const Vector& path)
+{
+    if (kind == OTHER)
+        step = inCore(path);
+    else
+        aimNear(path);
+}
+
 // All neighbours of an object.
 struct Neighbourhood {
     int count;
@@ -65,12 +82,13 @@ struct Neighbourhood {
     Real weight;        // in that case, the weight by which the object digs into the head
     bool inner;         // some objects of the body dig into others of it
     bool common;        // nothing digs, all strengths are 1, and the object is not shaped
+    bool simple;        // all is common, and all neighbours are points or segments
     bool rests;         // the surface lies at position 1 where no neighbour reaches
     bool dented;        // some neighbours dig
     bool deep;          // paths are searched from near their roots
     Real last;          // position where the own field ends
     Neighbour neighbours[NEIGHBOURS_MAX];
-    int8_t numberOf[SLOTS_MAX];  // by slot, the number of a neighbour; -1: out of range
+    Neighbour* bySlot[SLOTS_MAX];  // null: out of range
 };
 
 // The frame as one object sees it: own axes, counted from its centre.
@@ -97,6 +115,7 @@ struct OwnFrame {
 // On a ball a scale that is seen nearly edge-on adds next to nothing to those before it; on flat parts it may be all there is.
 constexpr int32_t LIMB_OF_BALL = 1300, LIMB = 1 << 7;
 
+// Of an object that is out of sight nothing else is known.
 OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame);
 
 // Fills in the neighbours in range, and those that nearly are.

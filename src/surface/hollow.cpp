@@ -22,9 +22,9 @@ constexpr Real CLOSING(0.95);
 
 // The one that a seed shares the wall with.
 struct Rival {
-    const Along* along;  // null: there is none
-    Vector from;         // what leads from its core to the seed
-    Real steepest;       // how steep its field is there, times half the squared size of the seed's object
+    const Neighbour* near;  // null: there is none
+    Vector from;            // what leads from its core to the seed
+    Real steepest;          // how steep its field is there, times half the squared size of the seed's object
 };
 
 // The rival of a seed is what digs the most steeply where the seed is. To a seed of what digs, the object that is dented is one,
@@ -34,14 +34,13 @@ Rival rivalOf(const Path& path, Real position)
     const Neighbourhood& all = path.all();
     Rival rival{nullptr, {Real(0), Real(0), Real(0)}, Real(0)};
     for (int i = 0; i < path.touched(); ++i) {
-        const Along& along = path.along(i);
-        const Neighbour& near = *along.near;
-        if (along.slope == Real(0) || !(all.hollow ? near.digs || near.object == all.head : near.samples))
+        const Neighbour& near = path.near(i);
+        if (near.slope == Real(0) || !(all.hollow ? near.digs || near.object == all.head : near.samples))
             continue;
-        const Vector v = path.fromCore(along, position);
-        const Real steep = -(along.slope * near.ratio * nearLength(v) * (near.digs ? near.weight : Real(1)));
+        const Vector v = path.fromCore(near, position);
+        const Real steep = -(near.slope * near.ratio * nearLength(v) * (near.digs ? near.weight : Real(1)));
         if (steep > rival.steepest)
-            rival = {&along, v, steep};
+            rival = {&near, v, steep};
     }
     return rival;
 }
@@ -82,7 +81,7 @@ Real findShare(Path& path, Seed& s, Real shared, Vector* g)
     const bool hollow = path.all().hollow;
     const Vector out = object.slants() ? path.ownGradient(s.position, Real(1)) : path.from(s.position);
     const Rival rival = rivalOf(path, s.position);
-    if (rival.along == nullptr)
+    if (rival.near == nullptr)
         return BORDER_FAR;
     Real own = -(path.ownSlope() * nearLength(out));
     if (hollow)
@@ -91,10 +90,10 @@ Real findShare(Path& path, Seed& s, Real shared, Vector* g)
     if (path.touched() > 1)
         lead += leadOf(hollow ? -*g : *g, out, own, rival);
     // Away from the core of what digs.
-    const Along& other = *rival.along;
+    const Neighbour& other = *rival.near;
     const Vector wall = hollow ? out : rival.from;
     const Real rate = hollow ? changeOf(-path.ownSlope(), path.ownParam(s.position), object.strength(), path.all().weight)
-                             : changeOf(-other.slope, other.t, other.near->strength, other.near->weight * other.near->ratio);
+                             : changeOf(-other.slope, other.t, other.strength, other.weight * other.ratio);
     const Real change = absolute(rate);
     const Real apart = absolute(lead) < change * BORDER_FAR ? lead / change : lead < Real(0) ? -BORDER_FAR : BORDER_FAR;
     if (absolute(apart) > shared)

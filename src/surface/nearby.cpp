@@ -3,7 +3,7 @@
 
 #include "model/body.h"
 
-Nearby::Nearby(const SoftObject& object, const Neighbourhood& all, const Bodies& bodies)
+Nearby::Nearby(const SoftObject& object, Neighbourhood& all, const Bodies& bodies)
     : object_(object), all_(all), bodies_(bodies), ownWeights_(bodies.weights(object.slot()))
 {
     allComplete_ = all.common && bodies.plainBody(object.slot());
@@ -11,7 +11,7 @@ Nearby::Nearby(const SoftObject& object, const Neighbourhood& all, const Bodies&
         return;
     listed_.count = 0;
     for (int i = 0; i < all.count; ++i)
-        listed_.number[listed_.count++] = static_cast<uint8_t>(i);
+        listed_.add(all.neighbours[i]);
     allComplete_ = isComplete(listed_);
 }
 
@@ -33,11 +33,11 @@ bool Nearby::setPatch(const Patch& patch, bool oversampled)
     // Oversampled seeds lie between those of the patch and those beside it.
     const Bound ball = boundOf(patch, oversampled ? patch.radius : patch.tight);
     forNeighbours(patch.near, [&](int slot) {
-        const int i = all_.numberOf[slot];
-        if (i < 0 || !reaches(all_.neighbours[i], ball))
+        Neighbour* const near = all_.bySlot[slot];
+        if (near == nullptr || !reaches(*near, ball))
             return;
-        near_.number[near_.count++] = static_cast<uint8_t>(i);
-        smallest_ = least(smallest_, all_.neighbours[i].grain);
+        near_.add(*near);
+        smallest_ = least(smallest_, near->grain);
     });
     setComplete(near_);
     return near_.count > 0;
@@ -53,11 +53,11 @@ void Nearby::setOdd(const Patch& patch)
     dented_ = all_.inner || all_.hollow;
     if (all_.dented || all_.hollow)
         forNeighbours(patch.listed, [&](int slot) {
-            const int i = all_.numberOf[slot];
-            if (i < 0)
+            const Neighbour* const near = all_.bySlot[slot];
+            if (near == nullptr)
                 return;
-            dented_ = dented_ || all_.neighbours[i].digs;
-            smallest_ = least(smallest_, all_.neighbours[i].grain);
+            dented_ = dented_ || near->digs;
+            smallest_ = least(smallest_, near->grain);
         });
 }
 
@@ -66,8 +66,8 @@ const Few& Nearby::findListed()
 {
     listed_.count = 0;
     forNeighbours(patch_->listed, [&](int slot) {
-        if (all_.numberOf[slot] >= 0)
-            listed_.number[listed_.count++] = static_cast<uint8_t>(all_.numberOf[slot]);
+        if (all_.bySlot[slot] != nullptr)
+            listed_.add(*all_.bySlot[slot]);
     });
     setComplete(listed_);
     return listed_;
@@ -83,7 +83,7 @@ bool Nearby::isComplete(const Few& few) const
     if (!areLinked(few))
         return false;
     for (int i = 0; i < few.count; ++i) {
-        const Neighbour& near = all_.neighbours[few.number[i]];
+        const Neighbour& near = *few.near[i];
         if (near.digs ? !digAlike(few, near) : all_.hollow && bodies_.weight(near.object->slot(), object_.slot()) != -all_.weight)
             return false;
     }
@@ -94,11 +94,11 @@ bool Nearby::isComplete(const Few& few) const
 bool Nearby::areAllOne(const Few& few) const
 {
     for (int i = 0; i < few.count; ++i) {
-        const int slot = all_.neighbours[few.number[i]].object->slot();
+        const int slot = few.near[i]->object->slot();
         if (ownWeights_[slot] != Real(1))
             return false;
         for (int j = 0; j < i; ++j)
-            if (bodies_.weight(all_.neighbours[few.number[j]].object->slot(), slot) != Real(1))
+            if (bodies_.weight(few.near[j]->object->slot(), slot) != Real(1))
                 return false;
     }
     return true;
@@ -118,8 +118,8 @@ bool Nearby::areLinked(const Few& few) const
             missing |= members[word] & ~(plain[word] | (word == slot / 32 ? 1u << slot % 32 : 0));
         return missing == 0;
     };
-    const auto ofBody = [&](int i) { return !all_.neighbours[few.number[i]].digs; };
-    const auto slotOf = [&](int i) { return all_.neighbours[few.number[i]].object->slot(); };
+    const auto ofBody = [&](int i) { return !few.near[i]->digs; };
+    const auto slotOf = [&](int i) { return few.near[i]->object->slot(); };
     if (!all_.hollow)
         add(object_.slot());
     for (int i = 0; i < few.count; ++i)
@@ -135,7 +135,7 @@ bool Nearby::areLinked(const Few& few) const
 bool Nearby::digAlike(const Few& few, const Neighbour& digging) const
 {
     for (int j = 0; j < few.count; ++j) {
-        const Neighbour& member = all_.neighbours[few.number[j]];
+        const Neighbour& member = *few.near[j];
         if (!member.digs && bodies_.weight(member.object->slot(), digging.object->slot()) != -digging.weight)
             return false;
     }

@@ -5,18 +5,20 @@
 
 #include "patch.h"
 
-// The neighbours to look at, by their numbers, and whether they and the object are all linked with each other at weight 1,
-// and what digs does it with one weight into all of them: then the sum of the fields, less what digs, is F.
+// The neighbours to look at, and whether they and the object are all linked with each other at weight 1, and what digs does it with
+// one weight into all of them: then the sum of the fields, less what digs, is F.
 struct Few {
     int count;
     bool complete;
-    uint8_t number[NEIGHBOURS_MAX];
+    Neighbour* near[NEIGHBOURS_MAX];
+
+    void add(Neighbour& neighbour) { near[count++] = &neighbour; }
 };
 
 // Those of one object in a frame, for one patch after the other.
 class Nearby {
 public:
-    Nearby(const SoftObject& object, const Neighbourhood& all, const Bodies& bodies);
+    Nearby(const SoftObject& object, Neighbourhood& all, const Bodies& bodies);
 
     // Takes up a patch. False: no neighbour reaches its seeds where they are.
     bool setPatch(const Patch& patch, bool oversampled);
@@ -54,7 +56,7 @@ private:
     const Few& findListed();
 
     const SoftObject& object_;
-    const Neighbourhood& all_;
+    Neighbourhood& all_;
     const Bodies& bodies_;
     const Real* const ownWeights_;  // of the object's links, by slots
     bool allComplete_;  // all neighbours of the object, whatever patch they reach, and it are linked at weight 1

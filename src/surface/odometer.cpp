@@ -24,16 +24,17 @@ Way wayUntil(Real hold, Real push, Real longest)
 
 Odometer::~Odometer()
 {
-    free(stands_);
+    free(known_);
 }
 
-// Room for the stands of so many neighbours. What stood there is lost. False: no memory.
+// Room for so many neighbours. What was known of them is lost. False: no memory.
 bool Odometer::makeRoom(int count)
 {
-    free(stands_);
-    stands_ = allocate<Stand>(static_cast<uint32_t>(count + 4));
-    room_ = stands_ == nullptr ? 0 : count + 4;
-    return stands_ != nullptr;
+    free(known_);
+    count_ = 0;
+    known_ = allocate<Known>(static_cast<uint32_t>(count + 4));
+    room_ = known_ == nullptr ? 0 : count + 4;
+    return known_ != nullptr;
 }
 
 // How far the viewer has come. A quarter of the size is about how far a neighbour has to come to turn the surface as the viewer's
@@ -48,68 +49,81 @@ inline Way Odometer::wayOfEye(const SoftObject& object, const OwnFrame& own)
 
 bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion)
 {
-    bool holds = !fresh_ && linksVersion == linksVersion_ && all.common == common_ && all.count <= room_;
+    leapt_ = fresh_ || linksVersion != linksVersion_ || all.common != common_ || all.count > room_;
     linksVersion_ = linksVersion;
     common_ = all.common;
     fresh_ = all.count > room_ && !makeRoom(all.count);
-    if (fresh_) {
-        leapt_ = true;
-        came_ = EVERYWHERE;
+    came_ = EVERYWHERE;
+    if (fresh_)
         return false;
-    }
+    if (leapt_)
+        count_ = 0;
     const Way eyeWay = wayOfEye(object, own);
     eyeStayed_ = eyeWay == 0;
     const Real reach = object.reach();
-    Stand stands[NEIGHBOURS_MAX];
-    int8_t standBySlot[SLOTS_MAX];
-    memset(standBySlot, -1, sizeof standBySlot);
-    Way farthest = 0;
-    came_ = 0;
-    movedCount_ = 0;
-    int stayed = 0, within = 0;
+    Way farthest = 0, longest = 0;
     for (int i = 0; i < all.count; ++i) {
         const Neighbour& near = all.neighbours[i];
-        const int slot = near.object->slot(), before = standBySlot_[slot];
-        standBySlot[slot] = static_cast<int8_t>(i);
-        stands[i] = standOf(object, near);
-        within += stands[i].inRange;
-        if (!holds)
+        Known& known = known_[i];
+        if ((i >= count_ || known.slot != near.object->slot()) && !isKnown(all, i))
             continue;
-        if (before < 0) {
-            // It was out of range by GATHER_SLACK.
-            holds = !stands[i].inRange;
-            continue;
-        }
-        stayed += stands_[before].inRange;
-        const Way way = wayOf(cameWithin(near, stands[i], stands_[before], reach));
-        farthest = way > farthest ? way : farthest;
+        known.inRange = near.inRange;
         // What is shaped comes farther in some places than in most.
-        Way came = near.object->shaped() ? wayOf(cameWithin(near, stands[i], stands_[before], Real(0))) : way;
-        came = way / 2 > came ? way / 2 : came;
-        came_ = came > came_ ? came : came_;
-        if (came > 0)
-            moved_[movedCount_++] = {static_cast<uint8_t>(slot), static_cast<uint16_t>(came < ALL_DUE ? came : ALL_DUE)};
+        const Came units = known.stand.follow(near, reach);
+        const Way way = wayOf(units.farthest), middle = wayOf(units.middle), came = way / 2 > middle ? way / 2 : middle;
+        farthest = way > farthest ? way : farthest;
+        longest = came > longest ? came : longest;
+        known.came = static_cast<uint16_t>(came < ALL_DUE ? came : ALL_DUE);
     }
-    if (all.count > 0)
-        memcpy(stands_, stands, static_cast<size_t>(all.count) * sizeof stands[0]);
-    memcpy(standBySlot_, standBySlot, sizeof standBySlot);
-    // One that was in range and is not even near any more has leapt.
-    holds = holds && stayed == within_;
-    within_ = within;
-    leapt_ = !holds;
-    if (!holds)
-        came_ = EVERYWHERE;
+    if (count_ > all.count)
+        forgetFar(all);
+    if (!leapt_)
+        came_ = longest;
     bound_ += farthest;
     reading_ += came_ + eyeWay;
-    return holds;
+    return !leapt_;
+}
+
+// Whether a neighbour was gathered in the last call, too; if not, it is from now on. It was out of range by GATHER_SLACK then, or
+// has leapt.
+bool Odometer::isKnown(const Neighbourhood& all, int number)
+{
+    const Neighbour& near = all.neighbours[number];
+    Known& known = known_[number];
+    if (count_ == room_ || (number < count_ && all.bySlot[known.slot] == nullptr))
+        forgetFar(all);
+    const uint8_t slot = static_cast<uint8_t>(near.object->slot());
+    if (number < count_ && known.slot == slot)
+        return true;
+    // The others move up.
+    count_ = count_ < room_ ? count_ + 1 : room_;
+    memmove(&known + 1, &known, static_cast<size_t>(count_ - 1 - number) * sizeof known);
+    known.slot = slot;
+    known.inRange = near.inRange;
+    known.came = 0;
+    known.stand.take(near);
+    leapt_ |= near.inRange;
+    return false;
+}
+
+// Forgets those that are not even near any more. One that was in range has leapt.
+void Odometer::forgetFar(const Neighbourhood& all)
+{
+    Known* to = known_;
+    for (const Known *from = known_, *const end = known_ + count_; from < end; ++from)
+        if (all.bySlot[from->slot] != nullptr)
+            *to++ = *from;
+        else
+            leapt_ |= from->inRange;
+    count_ = static_cast<int>(to - known_);
 }
 
 bool Odometer::count(Patch& patch) const
 {
     uint16_t way = leapt_ ? ALL_DUE : 0;
-    for (const Moved *moved = moved_, *const end = moved_ + movedCount_; moved < end; ++moved)
-        if (isListed(patch.listed, moved->slot))
-            way = moved->way > way ? moved->way : way;
+    for (const Known *known = known_, *const end = known_ + count_; known < end; ++known)
+        if (known->came > way && isListed(patch.listed, known->slot))
+            way = known->came;
     patch.came = static_cast<uint16_t>(patch.came + way);
     return way > 0;
 }
@@ -117,8 +131,7 @@ bool Odometer::count(Patch& patch) const
 bool Odometer::hasMoved(const Neighbourhood& all, const Few& few) const
 {
     bool moved = leapt_;
-    for (int i = 0; i < few.count; ++i)
-        for (int j = 0; j < movedCount_ && !moved; ++j)
-            moved = moved_[j].slot == all.neighbours[few.number[i]].object->slot();
+    for (int i = 0; i < few.count && !moved; ++i)
+        moved = known_[few.near[i] - all.neighbours].came > 0;
     return moved;
 }

@@ -53,6 +53,8 @@ public:
 private:
     bool makeRoom(int count);
     Way wayOfEye(const SoftObject& object, const OwnFrame& own);
+    SELDOM bool isKnown(const Neighbourhood& all, int number);
+    void forgetFar(const Neighbourhood& all);
 
     Way reading_ = 0, bound_ = 0, came_ = 0;
     uint32_t linksVersion_ = 0;
@@ -60,20 +62,17 @@ private:
     bool fresh_ = true;  // nothing is known of a frame before
     Vector eye_{Real(0), Real(0), Real(0)};  // where the viewer was, own axes
     bool eyeStayed_ = false;
-
-    // A neighbour that came since the call before, and how far.
-    struct Moved {
-        uint8_t slot;
-        uint16_t way;
-    };
-    int movedCount_ = 0;
     bool leapt_ = true;  // nothing is known of a frame before, or all may have changed
-    Moved moved_[NEIGHBOURS_MAX];
 
-    int room_ = 0;       // for so many stands
-    int within_ = 0;  // how many neighbours were in range in the call before
-    Stand* stands_ = nullptr;
-    int8_t standBySlot_[SLOTS_MAX];  // -1: none
+    // What the last call has found out of each neighbour, in the order in which they are gathered.
+    struct Known {
+        uint8_t slot;
+        bool inRange;   // of the object
+        uint16_t came;  // how far it came in that call, as a Way; at most ALL_DUE
+        Stand stand;
+    };
+    int room_ = 0, count_ = 0;
+    Known* known_ = nullptr;
 };
 
 #endif

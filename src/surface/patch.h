@@ -46,6 +46,7 @@ struct Patch {
     bool reached;       // one that has come since the frame before reaches its seeds where they are
     bool stirred;       // and one did so then, or does so now; where all is common both are taken for granted
     bool settled;       // its seeds were looked at in this frame
+    bool asleep;        // all but the one in the middle sleep
     bool extras;        // oversampled seeds of it take part
     bool fine;          // and fine ones
     bool islands;       // and seeds on islands, where the paths of its regular ones come back

@@ -13,49 +13,43 @@ constexpr Real SMOOTH(0.8), SMOOTH_OWN(0.96);
 
 }  // namespace
 
-Path::Path(const SoftObject& object, const Neighbourhood& all, const Bodies& bodies, Nearby& nearby, Counts& counts)
+Path::Path(const SoftObject& object, Neighbourhood& all, const Bodies& bodies, Nearby& nearby, Counts& counts)
     : object_(object), all_(all), bodies_(bodies), nearby_(nearby), counts_(counts), warped_(object.warped()),
       ownPlain_(!warped_ && object.strength() == Real(1) && !all.hollow && !all.inner), restParam_(object.restParam()),
-      first_(all.deep ? FIRST_DEEP : FIRST), last_(all.last), middle_(all.deep ? shiftDown(first_ + last_, 1) : COVERED_AT)
+      first_(all.deep ? FIRST_DEEP : FIRST), last_(all.last), middle_(all.deep ? shiftDown(first_ + last_, 1) : COVERED_AT),
+      restOfPath_((most(last_ - middle_, middle_ - first_) + Real(0.02)) * object.longestPath())
 {
-    const Real restOfPath = (most(last_ - middle_, middle_ - first_) + Real(0.02)) * object.longestPath();
-    for (int i = 0; i < all.count; ++i) {
-        from_[i].root = -1;
-        const Real reach = Real(1) + restOfPath * shiftDown(all.neighbours[i].steep16, 4);
-        from_[i].reachT = reach < Real(100) ? reach * reach : Real(10000);
-    }
 }
 
 // What is the same for all seeds of a root.
-void Path::setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const
+void Path::setRoot(Neighbour& near, const Seed& s) const
 {
     // Of a shaped object each path has a length of its own, of a tapering one those of a root have.
-    const bool known = to.root >= 0 && !object_.tapers();
-    to.root = object_.shaped() ? -1 : s.root;
+    const bool known = near.root >= 0 && !object_.tapers();
+    near.root = object_.shaped() ? -1 : s.root;
     const Vector& root = object_.root(s.root);
     if (near.kind == Neighbour::OTHER) {
-        to.apart = near.inCore(root) + near.offset;
+        near.apart = near.inCore(root) + near.offset;
         return;
     }
     const auto inSizes = [&](const Vector& v) {
         return Vector{shiftDown(v.x * near.inverse16, 4), shiftDown(v.y * near.inverse16, 4), shiftDown(v.z * near.inverse16, 4)};
     };
-    to.apart = root - near.centre;
-    const Vector e = inSizes(to.apart);
-    to.a = dot(e, e);
+    near.apart = root - near.centre;
+    const Vector e = inSizes(near.apart);
+    near.a = dot(e, e);
     if (!known) {
         const Vector d = inSizes(s.path);
-        to.c = dot(d, d);
-        to.along16 = near.toCore[1];
+        near.c = dot(d, d);
     }
-    to.twice16 = e * shiftUp(near.inverse16, 1);
+    near.twice16 = e * shiftUp(near.inverse16, 1);
     if (near.kind == Neighbour::SEGMENT)
-        to.y = shiftDown(dot(to.apart, to.along16), 4);
+        near.y = shiftDown(dot(near.apart, near.along16), 4);
 }
 
-Real Along::otherParam(Real p)
+Real Neighbour::otherParam(Real p)
 {
-    t = near->object->param(from->apart + step * p, &out);
+    t = object->param(apart + step * p, &out);
     // Where the field has ended the product might leave 16.16, and nobody asks for it.
     change = t < Real(1) ? shiftDown(dot(out, step), 7) : Real(0);
     return t;
@@ -68,23 +62,32 @@ void Path::take(const Few& few, const Seed& s)
 {
     if (few_ != &few) {
         few_ = &few;
-        complete_ = few.complete;
-        touched_ = few.count;
-        end_ = along_ + few.count;
-        const uint8_t* number = few.number;
-        bool plain = ownPlain_, others = false;
-        for (Along* along = along_; along < end_; ++along) {
-            find(*number++, *along);
-            plain &= along->near->plain;
-            others |= along->kind == Neighbour::OTHER;
-        }
-        odd_ = !plain;
-        others_ = others;
+        setNear(few);
+        odd_ = others_ = false;
+        if (!all_.simple)
+            findOdd();
     }
-    for (Along* along = along_; along < end_; ++along)
-        if (along->from->root != s.root)
-            setRoot(*along->near, s, *along->from);
+    for (int i = 0; i < touched_; ++i)
+        if (near_[i]->root != s.root)
+            setRoot(*near_[i], s);
     rootOfFew_ = object_.shaped() ? -1 : s.root;
+}
+
+inline void Path::setNear(const Few& few)
+{
+    near_ = few.near;
+    touched_ = few.count;
+    complete_ = few.complete;
+}
+
+// Whether something is odd about the object or its neighbours.
+void Path::findOdd()
+{
+    odd_ = !ownPlain_;
+    for (int i = 0; i < touched_; ++i) {
+        odd_ |= !near_[i]->plain;
+        others_ |= near_[i]->kind == Neighbour::OTHER;
+    }
 }
 
 // The own field, of an object that is as strong as most.
@@ -105,7 +108,7 @@ inline bool Path::lookPlain(Real position, const Vector* path, Sample* sample)
     lookedAt_ = position;
     shared_ = false;
     Fields fields = own(position);
-    addFields(along_, end_, position, path, &fields);
+    addFields(near_, near_ + touched_, position, path, &fields);
     *sample = {fields.sum - ISOVALUE, fields.slope, fields.strongest - ownField_};
     if (!complete_)
         blend(position, *sample);
@@ -120,12 +123,14 @@ bool Path::lookAnywhere(Real position, const Vector* path, Sample* sample)
         lookedAt_ = position;
         return lookOdd(position, path, sample);
     }
-    for (Along* along = along_; along < end_; ++along)
-        if (along->kind == Neighbour::OTHER) {
-            if (path != nullptr)
-                along->aim(*path);
-            along->otherParam(position);
-        }
+    for (int i = 0; i < touched_; ++i) {
+        Neighbour& near = *near_[i];
+        if (near.kind != Neighbour::OTHER)
+            continue;
+        if (path != nullptr)
+            near.aim(*path);
+        near.otherParam(position);
+    }
     return lookPlain(position, path, sample);
 }
 
@@ -161,34 +166,35 @@ void Path::beginDeepSearch(const Seed& s)
     seed_ = &s;
     if (few_ != &listed || rootOfFew_ != s.root)
         take(listed, s);
-    for (Along* along = along_; along < end_; ++along) {
-        along->aim(s.path);
-        along->param(middle_);
+    for (int i = 0; i < touched_; ++i) {
+        near_[i]->aim(s.path);
+        near_[i]->param(middle_);
     }
     leaveOut();
 }
 
-// Those that were listed and reach no place on the path, from the t of each in its middle.
+// Whether a neighbour may reach some place on the path, from its t in the middle.
+inline bool Path::mayReach(const Neighbour& near) const
+{
+    if (near.t < Real(1))
+        return true;
+    const Real reach = Real(1) + restOfPath_ * shiftDown(near.steep16, 4);
+    return near.t < (reach < Real(100) ? reach * reach : Real(10000));
+}
+
+// Leaves out those that were listed and reach no place on the path, from what they are in its middle.
 void Path::leaveOut()
 {
-    const Few& listed = *few_;
-    Few few;
-    few.count = 0;
-    for (int i = 0; i < listed.count; ++i) {
-        if (along_[i].t >= along_[i].from->reachT)
-            continue;
-        if (few.count != i)
-            along_[few.count] = along_[i];
-        few.number[few.count++] = listed.number[i];
-    }
-    if (few.count == listed.count)
+    part_.count = 0;
+    for (int i = 0; i < touched_; ++i)
+        if (mayReach(*near_[i]))
+            part_.add(*near_[i]);
+    if (part_.count == touched_)
         return;
-    few.complete = true;
-    if (!listed.complete)
-        nearby_.setComplete(few);
-    complete_ = few.complete;
-    touched_ = few.count;
-    end_ = along_ + few.count;
+    part_.complete = true;
+    if (!complete_)
+        nearby_.setComplete(part_);
+    setNear(part_);
     few_ = nullptr;
 }
 
@@ -214,21 +220,21 @@ Vector Path::outward(Real position) const
     // Points push along the path, and from where they stand to the root.
     Real along = object_.slants() ? Real(0) : own;
     for (int i = 0; i < touched_; ++i) {
-        const Along& to = along_[i];
-        if (to.slope == Real(0))
+        const Neighbour& near = *near_[i];
+        if (near.slope == Real(0))
             continue;
-        Real slope = shared_ ? to.slope * share_[i + 1] : to.slope;
-        if (!shared_ && to.near->digs)
-            slope = -(slope * to.near->weight);
-        const Real push = -(slope * to.near->ratio);
-        if (to.near->kind == Neighbour::OTHER) {
-            g = g + to.near->fromCoreSpace(to.out) * push;
+        Real slope = shared_ ? near.slope * share_[i + 1] : near.slope;
+        if (!shared_ && near.digs)
+            slope = -(slope * near.weight);
+        const Real push = -(slope * near.ratio);
+        if (near.kind == Neighbour::OTHER) {
+            g = g + near.fromCoreSpace(near.out) * push;
             continue;
         }
         along += push;
-        g = g + to.from->apart * push;
-        if (to.near->kind == Neighbour::SEGMENT)
-            g = g - to.near->direction * (to.k * to.near->size * push);
+        g = g + near.apart * push;
+        if (near.kind == Neighbour::SEGMENT)
+            g = g - near.direction * (near.k * near.size * push);
     }
     g = g + seed_->path * (along * position);
     return object_.slants() ? g + ownGradient(position, own) : g;
@@ -244,7 +250,7 @@ Real Path::pushes() const
     // The gradient of a field is 2 f' r / R^2, and r / R no more than r^2 / R^2 + 1/4; a little more for what that changes.
     Real sum(0);
     for (int i = 0; i < touched_; ++i)
-        sum += (Real(0.1) - along_[i].slope * (along_[i].t + Real(0.25))) * along_[i].near->sheer16 * along_[i].near->share;
+        sum += (Real(0.1) - near_[i]->slope * (near_[i]->t + Real(0.25))) * near_[i]->sheer16 * near_[i]->share;
     return shiftDown(sum, 3);
 }
 
@@ -252,7 +258,7 @@ Real Path::pushMost() const
 {
     Real sum(0);
     for (int i = 0; i < touched_; ++i)
-        sum += along_[i].near->pushMost();
+        sum += near_[i]->pushMost();
     // Where not all are linked with all, some count for more.
     return complete_ ? sum : sum + shiftDown(sum, 2);
 }
@@ -261,7 +267,7 @@ Real Path::smoothStep() const
 {
     Real sheerest16(0);
     for (int i = 0; i < touched_; ++i)
-        sheerest16 = most(sheerest16, along_[i].near->sheer16);
+        sheerest16 = most(sheerest16, near_[i]->sheer16);
     const Real sizes = shiftDown(sheerest16 * nearLength(seed_->path), 4);
     return SMOOTH < sizes * SMOOTH_OWN ? SMOOTH / sizes : SMOOTH_OWN;
 }

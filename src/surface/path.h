@@ -3,7 +3,6 @@
 #ifndef FB_PATH_H
 #define FB_PATH_H
 
-#include "fields.h"
 #include "nearby.h"
 
 // The position at which the own field is .23; a neighbour that is stronger there is so for good (cover.h).
@@ -19,7 +18,7 @@ struct Sample {
 // up last. In a hollow inside and outside change places.
 class Path {
 public:
-    Path(const SoftObject& object, const Neighbourhood& all, const Bodies& bodies, Nearby& nearby, Counts& counts);
+    Path(const SoftObject& object, Neighbourhood& all, const Bodies& bodies, Nearby& nearby, Counts& counts);
 
     // Takes up the path of a seed in the fields of a few neighbours, and looks at a position. False: none of them reaches that.
     bool begin(const Few& few, const Seed& s, Real position, Sample* sample);
@@ -44,9 +43,9 @@ public:
     // To be called when the lists of `nearby` change.
     void leave() { few_ = nullptr; }
 
-    // Finds what there is to know of a neighbour's field along the path of a seed before any position is looked at. The path need
-    // not be taken up for it.
-    void aim(int number, const Seed& s, Along& along);
+    // Finds what there is to know of a neighbour's field along the path of a seed before any position is looked at. No path is at
+    // hand afterwards.
+    void aim(Neighbour& near, const Seed& s);
 
     // By how much the neighbours' fields may change, all together, when each neighbour moves by a unit: at the position looked at
     // last, and anywhere on the path.
@@ -64,12 +63,12 @@ public:
 
     const SoftObject& object() const { return object_; }
     const Neighbourhood& all() const { return all_; }
-    // How many neighbours are looked at along the path at hand, and the field of each.
+    // How many neighbours are looked at along the path at hand, and each of them.
     int touched() const { return touched_; }
-    const Along& along(int i) const { return along_[i]; }
+    const Neighbour& near(int i) const { return *near_[i]; }
     // What leads to a place on it, from the root and from the core of a neighbour.
     Vector from(Real position) const { return seed_->path * position; }
-    Vector fromCore(const Along& along, Real position) const;
+    Vector fromCore(const Neighbour& near, Real position) const;
 
     // The last position looked at, and F and dF/dt of the own field there.
     Real lookedAt() const { return lookedAt_; }
@@ -89,9 +88,11 @@ private:
     struct Digger;
     struct Parts;
 
-    void setRoot(const Neighbour& near, const Seed& s, FromRoot& to) const;
-    void find(int number, Along& along);
+    void setRoot(Neighbour& near, const Seed& s) const;
     void take(const Few& few, const Seed& s);
+    void setNear(const Few& few);
+    SELDOM void findOdd();
+    bool mayReach(const Neighbour& near) const;
     void leaveOut();
     const Vector& root() const { return object_.root(seed_->root); }
     Fields own(Real position);
@@ -104,12 +105,12 @@ private:
     void addMember(Parts& parts, Real f, Real rate, const SoftObject& object, int at) const;
     void addDigger(Parts& parts, Real f, Real rate, Real weight, const SoftObject& object, int at) const;
     void addOwn(Real position, Parts& parts);
-    bool addNear(Real position, const Vector* path, int number, Parts& parts);
+    bool addNear(Real position, const Vector* path, int at, Parts& parts);
     static bool isSum(const Parts& parts);
     SELDOM void blendOdd(Parts& parts, Sample& sample);
 
     const SoftObject& object_;
-    const Neighbourhood& all_;
+    Neighbourhood& all_;
     const Bodies& bodies_;
     Nearby& nearby_;
     Counts& counts_;
@@ -117,19 +118,19 @@ private:
     const bool ownPlain_;           // it is not, its strength is 1, nothing digs within its body, and it samples no hollow
     const Real restParam_;          // t of the own field at position 1, unless it is warped
     const Real first_, last_, middle_;
-    FromRoot from_[NEIGHBOURS_MAX];
+    const Real restOfPath_;         // units: how far a path leads from its middle to either side
 
     // Of the path at hand.
-    const Few* few_ = nullptr;      // the neighbours whose fields are looked at; null: a part of a list
-    int rootOfFew_ = -1;            // the root for which what FromRoot holds is known of all of them; -1: none
+    const Few* few_ = nullptr;      // the list of the neighbours whose fields are looked at; null: a part of it
+    Few part_;                      // that part
+    Neighbour* const* near_;        // as they stand there
+    int touched_ = 0;
+    int rootOfFew_ = -1;            // the root that is known to all of them; -1: none
     bool odd_;                      // not ownPlain_, or some of them are not Neighbour::plain
     bool others_;                   // some of them are neither points nor segments
     const Seed* seed_;
-    Along* end_ = along_;
     bool complete_;
     bool shared_;                   // share_ holds at the position looked at last; else all are 1
-    int touched_;
-    Along along_[NEIGHBOURS_MAX];
     Real headField_;                // of a hollow: the field of what is hollowed out
     Real lookedAt_;
     Real ownField_, ownSlope_;
@@ -138,32 +139,21 @@ private:
     Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, if shared_
 };
 
-// What does not depend on the path.
-inline void Path::find(int number, Along& along)
+inline void Path::aim(Neighbour& near, const Seed& s)
 {
-    const Neighbour& near = all_.neighbours[number];
-    along.near = &near;
-    along.from = from_ + number;
-    along.kind = near.kind;
-    along.half = near.half;
-}
-
-inline void Path::aim(int number, const Seed& s, Along& along)
-{
-    find(number, along);
-    if (along.from->root != s.root) {
-        setRoot(*along.near, s, *along.from);
+    if (near.root != s.root) {
+        setRoot(near, s);
         rootOfFew_ = -1;
     }
-    along.aim(s.path);
+    near.aim(s.path);
 }
 
-inline __attribute__((always_inline)) Vector Path::fromCore(const Along& along, Real position) const
+inline __attribute__((always_inline)) Vector Path::fromCore(const Neighbour& near, Real position) const
 {
-    if (along.near->kind == Neighbour::OTHER)
-        return along.near->fromCoreSpace(along.out);
-    const Vector v = along.from->apart + from(position);
-    return along.near->kind == Neighbour::SEGMENT ? v - along.near->direction * (along.k * along.near->size) : v;
+    if (near.kind == Neighbour::OTHER)
+        return near.fromCoreSpace(near.out);
+    const Vector v = near.apart + from(position);
+    return near.kind == Neighbour::SEGMENT ? v - near.direction * (near.k * near.size) : v;
 }
 
 #endif

@@ -44,7 +44,7 @@ constexpr Real LEFT_OPEN(0.5), LEFT_OPEN_SHAPED(-100), LEFT_OPEN_NEXT(1), LEFT_O
 
 }  // namespace
 
-Settler::Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& all, const FrameContext& frame,
+Settler::Settler(SoftObject& object, const OwnFrame& own, Neighbourhood& all, const FrameContext& frame,
                  const Odometer& odometer, uint32_t updates)
     : path_(object, all, *frame.bodies, nearby_, *frame.counts), nearby_(object, all, *frame.bodies),
       cover_(object, all, nearby_, path_), object_(object), own_(own), all_(all), counts_(*frame.counts), now_(odometer.reading()),
@@ -216,6 +216,18 @@ bool Settler::setPatch(const Patch& patch, bool oversampled)
     return reached;
 }
 
+// Notes between which positions the seeds of a patch are.
+void Settler::setRange(Patch& patch, Real nearest, Real farthest) const
+{
+    patch.nearest = static_cast<uint8_t>(rawFromReal(nearest - RANGE) >> 10);
+    patch.farthest = static_cast<uint8_t>(rawFromReal(farthest + RANGE) >> 10);
+    if (nearby_.isBeyond(nearest) || nearby_.isBeyond(farthest)) {
+        // The list of those near them is made anew in the next frame.
+        memcpy(patch.near, patch.listed, sizeof patch.near);
+        patch.stale = true;
+    }
+}
+
 PatchState Settler::probe(Patch& patch)
 {
     Seed& s = object_.seed(patch.centre);
@@ -237,27 +249,15 @@ PatchState Settler::probe(Patch& patch)
     }
     patch.facing = facing(object_, s, own_);
     const int32_t away = own_.limb - patch.facing - patch.spread - TURNED;
-    if (away > 0) {
+    const bool hides = away <= 0 && isHidden(patch, s.position, own_);
+    if (away <= 0 && !hides)
+        return PATCH_MIXED;
+    if (away > 0)
         patch.due += wayOf(realFromRaw(away * 4) * shiftDown(object_.laidSize(), 2));
-        return PATCH_AWAY;
-    }
-    if (isHidden(patch, s.position, own_)) {
-        hidden_ = true;
-        return PATCH_AWAY;
-    }
-    return PATCH_MIXED;
-}
-
-// Notes between which positions the seeds of a patch are.
-inline void Settler::setRange(Patch& patch, Real nearest, Real farthest) const
-{
-    patch.nearest = static_cast<uint8_t>(rawFromReal(nearest - RANGE) >> 10);
-    patch.farthest = static_cast<uint8_t>(rawFromReal(farthest + RANGE) >> 10);
-    if (nearby_.isBeyond(nearest) || nearby_.isBeyond(farthest)) {
-        // The list of those near them is made anew in the next frame.
-        memcpy(patch.near, patch.listed, sizeof patch.near);
-        patch.stale = true;
-    }
+    hidden_ = hidden_ || hides;
+    // The others will wake where this one is.
+    setRange(patch, s.position, s.position);
+    return PATCH_AWAY;
 }
 
 void Settler::settleOthers(Patch& patch)
@@ -272,6 +272,7 @@ void Settler::settleOthers(Patch& patch)
         nearest = least(nearest, s.position);
         farthest = most(farthest, s.position);
     });
+    patch.asleep = false;
     setRange(patch, nearest, farthest);
 }
 
@@ -536,7 +537,7 @@ bool Settler::placeOnIsland(int i, int which, Real inside, Real outside)
 void rest(SoftObject& object, Patch& patch)
 {
     patch.nearest = patch.farthest = 64;
-    patch.bend.known = false;
+    patch.bend.known = patch.asleep = false;
     putAway(object, patch);
     forSeeds(object, patch, [&](Seed& s) {
         if (s.flags != (SEED_VALID | SEED_RESTING)) {
@@ -550,6 +551,9 @@ void rest(SoftObject& object, Patch& patch)
 void sleep(SoftObject& object, Patch& patch)
 {
     putAway(object, patch);
+    if (patch.asleep)
+        return;
+    patch.asleep = true;
     const Seed& centre = object.regular(patch.centre);
     forSeeds(object, patch, [&](Seed& s) {
         if (&s != &centre)

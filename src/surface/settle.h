@@ -14,7 +14,7 @@ constexpr Real LONGEST_WAIT(6);
 // of the object.
 class Settler {
 public:
-    Settler(SoftObject& object, const OwnFrame& own, const Neighbourhood& all, const FrameContext& frame,
+    Settler(SoftObject& object, const OwnFrame& own, Neighbourhood& all, const FrameContext& frame,
             const Odometer& odometer, uint32_t updates);
 
     // To be called before anything else about the seeds of a patch. False: no neighbour reaches them where they are.

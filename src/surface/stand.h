@@ -1,24 +1,48 @@
-// Where a neighbour stands, and how far it has come between two frames.
+// Where a neighbour stands, and how far it comes between two frames.
 #ifndef FB_STAND_H
 #define FB_STAND_H
 
 #include "gather.h"
 
-// Its centre and its axes, in the space of an object; of what is shaped, the map into its core space.
-struct Stand {
-    Vector place;
-    Real size;
-    Vector axes[3];    // of a point these are not known
-    WarpAmounts warp;
-    bool inRange;  // of the object
+// About the length of a vector, never less than nine tenths of it.
+inline Real roundLength(const Vector& v)
+{
+    const Real x = absolute(v.x), y = absolute(v.y), z = absolute(v.z), greatest = most(most(x, y), z);
+    return greatest + (x + y + z - greatest) * Real(0.375);
+}
+
+// How far a neighbour has come, units: no place of its field that the object could meet has come farther than `farthest`; what is
+// neither stretched nor warped has come that far where the object has its centre, too.
+struct Came {
+    Real farthest, middle;
 };
 
-Stand standOf(const SoftObject& object, const Neighbour& near);
+// A neighbour's centre and axes in the space of an object; of what is shaped, the map into its core space.
+class Stand {
+public:
+    // It stands where a neighbour does now.
+    void take(const Neighbour& near);
 
-// Units that no place of its field has come farther than: of what is shaped, none that is at most `reach` from the object's centre.
-Real cameWithin(const Neighbour& near, const Stand& now, const Stand& before, Real reach);
+    // The same, and how far the neighbour has come since it stood here. `reach` is the object's.
+    Came follow(const Neighbour& near, Real reach)
+    {
+        if (near.kind != Neighbour::POINT)
+            return followTurned(near, reach);
+        const Real way = roundLength(near.centre - place_) + absolute(near.size - size_);
+        place_ = near.centre;
+        size_ = near.size;
+        return {way, way};
+    }
 
-// About the length of a vector, never less than nine tenths of it.
-Real roundLength(const Vector& v);
+private:
+    SELDOM Came followTurned(const Neighbour& near, Real reach);
+    Real cameAsCore(const Neighbour& near, const Stand& before) const;
+    Real cameAsMapped(const Neighbour& near, const Stand& before, Real reach) const;
+
+    Vector place_;
+    Real size_;
+    Vector axes_[3];    // of a point these are not known
+    WarpAmounts warp_;
+};
 
 #endif

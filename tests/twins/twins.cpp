@@ -866,14 +866,13 @@ void registers()
         verdict(damage(reinterpret_cast<const void*>(findSeedsA), look) == 0, "registers are kept: findSeedsA", count);
         const uint32_t shade[5] = {word(&shading), word(seen), word(voxels), count, 0};
         verdict(damage(reinterpret_cast<const void*>(shadeSeedsA), shade) == 0, "registers are kept: shadeSeedsA", count);
-        static FromRoot from;
-        static Along alongs[40];
-        for (Along& along : alongs) {
-            along.from = &from;
-            along.kind = static_cast<int32_t>(count % 2);
-        }
+        static Neighbour near;
+        near.kind = count % 2 == 0 ? Along::POINT : Along::SEGMENT;
+        static Neighbour* list[40];
+        for (Neighbour*& item : list)
+            item = &near;
         static Fields sums;
-        const uint32_t add[5] = {word(alongs), word(alongs + count), 65536, word(&root), word(&sums)};
+        const uint32_t add[5] = {word(list), word(list + count), 65536, word(&root), word(&sums)};
         verdict(damage(reinterpret_cast<const void*>(addFieldsA), add) == 0, "registers are kept: addFieldsA", count);
         const Span within = {0, static_cast<int16_t>(8 * count)};
         const uint32_t find[5] = {word(a.frame.data), word(a.depth.data), word(&within), word(runs), 0};
@@ -1069,17 +1068,15 @@ void shadedSeeds(int rounds)
 }
 
 // What asm/fields.S counts on.
-static_assert(inasm3::FROM_A == offsetof(FromRoot, a) && inasm3::FROM_C == offsetof(FromRoot, c) &&
-              inasm3::FROM_TWICE == offsetof(FromRoot, twice16) && inasm3::FROM_Y == offsetof(FromRoot, y) &&
-              inasm3::FROM_ALONG == offsetof(FromRoot, along16), "FromRoot");
-static_assert(inasm3::ALONG_FROM == offsetof(Along, from) && inasm3::ALONG_KIND == offsetof(Along, kind) &&
-              inasm3::ALONG_HALF == offsetof(Along, half) && inasm3::ALONG_B == offsetof(Along, b) &&
+static_assert(inasm3::ALONG_KIND == offsetof(Along, kind) && inasm3::ALONG_HALF == offsetof(Along, half) &&
+              inasm3::ALONG_A == offsetof(Along, a) && inasm3::ALONG_C == offsetof(Along, c) &&
+              inasm3::ALONG_TWICE == offsetof(Along, twice16) && inasm3::ALONG_Y == offsetof(Along, y) &&
+              inasm3::ALONG_WAY == offsetof(Along, along16) && inasm3::ALONG_B == offsetof(Along, b) &&
               inasm3::ALONG_STEPY == offsetof(Along, stepY) && inasm3::ALONG_VALUE == offsetof(Along, value) &&
               inasm3::ALONG_SLOPE == offsetof(Along, slope) && inasm3::ALONG_T == offsetof(Along, t) &&
-              inasm3::ALONG_CHANGE == offsetof(Along, change) && inasm3::ALONG_K == offsetof(Along, k) &&
-              inasm3::ALONG_SIZE == sizeof(Along), "Along");
-static_assert(inasm3::KIND_SEGMENT == Neighbour::SEGMENT && Neighbour::POINT < Neighbour::SEGMENT &&
-              Neighbour::SEGMENT < Neighbour::OTHER, "Neighbour::Kind");
+              inasm3::ALONG_CHANGE == offsetof(Along, change) && inasm3::ALONG_K == offsetof(Along, k), "Along");
+static_assert(inasm3::KIND_SEGMENT == Along::SEGMENT && Along::POINT < Along::SEGMENT && Along::SEGMENT < Along::OTHER,
+              "Along::Kind");
 static_assert(inasm3::FIELDS_SUM == offsetof(Fields, sum) && inasm3::FIELDS_SLOPE == offsetof(Fields, slope) &&
               inasm3::FIELDS_STRONGEST == offsetof(Fields, strongest) && inasm3::FIELDS_TOUCHED == offsetof(Fields, touched),
               "Fields");
@@ -1091,49 +1088,51 @@ static_assert(inasm3::STEP_VALUE == offsetof(FieldStep, value) && inasm3::STEP_S
 void fieldsAlong(int rounds)
 {
     constexpr int MOST = 8;
-    static FromRoot from[MOST], kept[MOST];
-    static Along c[MOST + 2], a[MOST + 2];
+    static Neighbour c[MOST + 2], a[MOST + 2];
+    Neighbour *listC[MOST], *listA[MOST];
     int inside = 0, outside = 0, below0 = 0, beyond = 0, beside = 0, others = 0, none = 0;
     const auto real = [](double most) {
         return realFromRaw(below(static_cast<int>(2 * most * 65536) + 1) - static_cast<int>(most * 65536));
     };
     for (int round = 0; round < rounds; ++round) {
         const int count = below(MOST + 1);
-        fill(from, sizeof from);
         fill(c, sizeof c);
+        // The list is in another order than they.
+        const int shift = below(MOST);
         for (int i = 0; i < MOST; ++i) {
-            from[i].a = absolute(real(below(4) == 0 ? 4 : 1));
-            from[i].c = absolute(real(below(4) == 0 ? 4 : 0.5));
-            from[i].twice16 = {real(1), real(1), real(1)};
-            from[i].y = real(1.5);
-            from[i].along16 = {real(1), real(1), real(1)};
-            c[1 + i].from = from + i;
-            c[1 + i].kind = below(3);
-            c[1 + i].half = absolute(real(1));
-            c[1 + i].t = absolute(real(2));
-            c[1 + i].change = real(2);
+            Neighbour& near = c[1 + i];
+            near.a = absolute(real(below(4) == 0 ? 4 : 1));
+            near.c = absolute(real(below(4) == 0 ? 4 : 0.5));
+            near.twice16 = {real(1), real(1), real(1)};
+            near.y = real(1.5);
+            near.along16 = {real(1), real(1), real(1)};
+            near.kind = static_cast<Along::Kind>(below(3));
+            near.half = absolute(real(1));
+            near.t = absolute(real(2));
+            near.change = real(2);
             // What is aimed already.
-            c[1 + i].b = real(1);
-            c[1 + i].stepY = real(1);
+            near.b = real(1);
+            near.stepY = real(1);
+            listC[i] = c + 1 + (i + shift) % MOST;
+            listA[i] = a + 1 + (i + shift) % MOST;
         }
-        memcpy(kept, from, sizeof from);
         memcpy(a, c, sizeof c);
         const Vector path = {real(12), real(12), real(12)};
         for (int look = 0; look < 3; ++look) {
             const Real position = absolute(real(2));
             Fields sumC{absolute(real(1)), real(2), Real(0), 0}, sumA = sumC;
             const Vector* const taken = look == 0 && below(4) != 0 ? &path : nullptr;
-            addFieldsC(c + 1, c + 1 + count, position, taken, &sumC);
-            addFieldsA(a + 1, a + 1 + count, position, taken, &sumA);
+            addFieldsC(listC, listC + count, position, taken, &sumC);
+            addFieldsA(listA, listA + count, position, taken, &sumA);
             verdict(memcmp(&sumC, &sumA, sizeof sumC) == 0, "fields: the same sums", round);
             verdict(memcmp(c, a, sizeof c) == 0, "fields: each the same", round);
-            verdict(memcmp(kept, from, sizeof from) == 0, "fields: roots are left alone", round);
             none += sumC.touched == 0;
-            for (const Along* along = c + 1; along < c + 1 + count; ++along) {
-                (along->t >= Real(1) ? outside : along->t < Real(0) ? below0 : inside) += 1;
-                if (along->kind == Neighbour::SEGMENT)
-                    (absolute(along->k) == along->half ? beyond : beside) += 1;
-                others += along->kind == Neighbour::OTHER;
+            for (int i = 0; i < count; ++i) {
+                const Along& along = *listC[i];
+                (along.t >= Real(1) ? outside : along.t < Real(0) ? below0 : inside) += 1;
+                if (along.kind == Along::SEGMENT)
+                    (absolute(along.k) == along.half ? beyond : beside) += 1;
+                others += along.kind == Along::OTHER;
             }
         }
     }
