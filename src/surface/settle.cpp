@@ -216,18 +216,6 @@ bool Settler::setPatch(const Patch& patch, bool oversampled)
     return reached;
 }
 
-// Notes between which positions the seeds of a patch are.
-void Settler::setRange(Patch& patch, Real nearest, Real farthest) const
-{
-    patch.nearest = static_cast<uint8_t>(rawFromReal(nearest - RANGE) >> 10);
-    patch.farthest = static_cast<uint8_t>(rawFromReal(farthest + RANGE) >> 10);
-    if (nearby_.isBeyond(nearest) || nearby_.isBeyond(farthest)) {
-        // The list of those near them is made anew in the next frame.
-        memcpy(patch.near, patch.listed, sizeof patch.near);
-        patch.stale = true;
-    }
-}
-
 PatchState Settler::probe(Patch& patch)
 {
     Seed& s = object_.seed(patch.centre);
@@ -249,15 +237,27 @@ PatchState Settler::probe(Patch& patch)
     }
     patch.facing = facing(object_, s, own_);
     const int32_t away = own_.limb - patch.facing - patch.spread - TURNED;
-    const bool hides = away <= 0 && isHidden(patch, s.position, own_);
-    if (away <= 0 && !hides)
-        return PATCH_MIXED;
-    if (away > 0)
+    if (away > 0) {
         patch.due += wayOf(realFromRaw(away * 4) * shiftDown(object_.laidSize(), 2));
-    hidden_ = hidden_ || hides;
-    // The others will wake where this one is.
-    setRange(patch, s.position, s.position);
-    return PATCH_AWAY;
+        return PATCH_AWAY;
+    }
+    if (isHidden(patch, s.position, own_)) {
+        hidden_ = true;
+        return PATCH_AWAY;
+    }
+    return PATCH_MIXED;
+}
+
+// Notes between which positions the seeds of a patch are.
+inline void Settler::setRange(Patch& patch, Real nearest, Real farthest) const
+{
+    patch.nearest = static_cast<uint8_t>(rawFromReal(nearest - RANGE) >> 10);
+    patch.farthest = static_cast<uint8_t>(rawFromReal(farthest + RANGE) >> 10);
+    if (nearby_.isBeyond(nearest) || nearby_.isBeyond(farthest)) {
+        // The list of those near them is made anew in the next frame.
+        memcpy(patch.near, patch.listed, sizeof patch.near);
+        patch.stale = true;
+    }
 }
 
 void Settler::settleOthers(Patch& patch)
