@@ -114,35 +114,38 @@ bool Missed::findDepth(int at, int* depth)
     return true;
 }
 
+// From the depths of the drawn pixels beside one, in its row and in its column: how far away the surface is, and from which of these
+// it was found. False: there is none.
+bool Missed::findSurface(int at, int* depth, int* beside)
+{
+    const int inRow = frame_[at - 1] != 0 ? at - 1 : at + 1, inColumn = frame_[at - WIDTH] != 0 ? at - WIDTH : at + WIDTH;
+    const int first = frame_[inRow] != 0 ? inRow : inColumn, second = frame_[inColumn] != 0 ? inColumn : first;
+    *depth = zbuffer_[*beside = first];
+    if (findDepth(at, depth))
+        return true;
+    if (magnitude(zbuffer_[second] - zbuffer_[first]) < APART)
+        return false;
+    *depth = zbuffer_[*beside = second];
+    return findDepth(at, depth);
+}
+
 // A pixel beside a drawn one: it is drawn if there is surface, and those beside it are noted.
 void Missed::drawPixel(int column, int row)
 {
     const int at = row * WIDTH + column;
     if (column < 1 || column >= WIDTH - 1 || row < 1 || row >= HEIGHT - 1 || frame_[at] != 0)
         return;
-    int side = frame_[at - 1] != 0 ? at - 1 : at + 1, other = frame_[at - WIDTH] != 0 ? at - WIDTH : at + WIDTH;
-    side = frame_[side] != 0 ? side : other;
-    other = frame_[other] != 0 ? other : side;
-    int depth = zbuffer_[side], beside = side;
-    if (!findDepth(at, &depth)) {
-        if (magnitude(zbuffer_[other] - zbuffer_[side]) < APART)
-            return;
-        depth = zbuffer_[beside = other];
-        if (!findDepth(at, &depth))
-            return;
-    }
+    int depth, beside;
+    if (!findSurface(at, &depth, &beside))
+        return;
     setColour(at, depth, beside);
     // At the edge of what there is no more is looked for.
-    if (onEdge_)
-        return;
-    if (frame_[at - 1] == 0)
-        note(column - 1, row);
-    if (frame_[at + 1] == 0)
-        note(column + 1, row);
-    if (frame_[at - WIDTH] == 0)
-        note(column, row - 1);
-    if (frame_[at + WIDTH] == 0)
-        note(column, row + 1);
+    for (int away = -1; away <= 1 && !onEdge_; away += 2) {
+        if (frame_[at + away] == 0)
+            note(column + away, row);
+        if (frame_[at + away * WIDTH] == 0)
+            note(column, row + away);
+    }
 }
 
 // A pixel gets the colour of its own object and the brightness that the surface has there; the colour of one beside it where there

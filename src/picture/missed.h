@@ -43,6 +43,7 @@ private:
     void drawPixel(int column, int row);
     Real excess(int at, int depth);
     bool findDepth(int at, int* depth);
+    bool findSurface(int at, int* depth, int* beside);
     void setColour(int at, int depth, int beside);
 
     View& view_;
