@@ -133,7 +133,8 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
 
 bool findSeed(const Shading& v, const Seed& s, Seen* seen, Voxel* voxel)
 {
-    if (!(s.flags & SEED_VALID))
+    // One that rests is valid.
+    if (!(s.flags & (SEED_VALID | SEED_RESTING)))
         return false;
     int32_t place[3], facing;
     findPlace(v, s, place);
