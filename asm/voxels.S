@@ -295,7 +295,7 @@ ENDFUNC(findSeedsA)
         addl        %ecx, %eax
 .endm
 
-// edx = the column, eax = the row of a packed sum in eax
+// edx = the column, eax = the row of a packed sum in eax; the flags are those of the column
 .macro unpack
         leal        0x8000(%eax), %edx
         sarl        $16, %edx
@@ -314,7 +314,9 @@ ENDFUNC(findSeedsA)
 .macro on_picture axis
         packed        \axis
         unpack
-        magnitude        %edx
+        jns        1f
+        negl        %edx
+1:
         magnitude        %eax
 .endm
 
@@ -442,14 +444,12 @@ shade_high:
         movl        %edx, %esi
         movl        %eax, %ecx
         testl        %eax, %eax
-        jz        shade_swap
+        jz        shade_no_height
         movl        SHADE_AREA(%esp), %eax
         xorl        %edx, %edx
         divl        %ecx
-        addl        %eax, %esi
-shade_swap:
-        movl        %ecx, %eax
-        movl        %esi, %ecx
+        addl        %esi, %eax
+        xchgl        %eax, %ecx
 
         // ecx: wide, eax: high. Both += (itself >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff at most
 shade_extents:
@@ -478,17 +478,15 @@ shade_ended:
         // if (light <= DARK_MIDDLE) return
         cmpl        $DARK_MIDDLE, SHADE_LIGHT(%esp)
         jle        shade_done
-        // slopeX = (v.gradient[0] + (tiltX * v.gradientAhead >> 4)) >> 8, and the other
+        // slopeX = (v.gradient[0] + tiltX * v.gradientAhead) >> 12, and the other
         movswl        VOXEL_TILTX(%edi), %edx
         imull        AHEAD(%ebp), %edx
-        sarl        $4, %edx
         addl        GRADIENT(%ebp), %edx
-        sarl        $8, %edx
+        sarl        $12, %edx
         movswl        VOXEL_TILTY(%edi), %esi
         imull        AHEAD(%ebp), %esi
-        sarl        $4, %esi
         addl        GRADIENT+4(%ebp), %esi
-        sarl        $8, %esi
+        sarl        $12, %esi
         // corner = (|slopeX| * wide + |slopeY| * high) >> 8
         imull        %edx, %ecx
         testl        %ecx, %ecx
@@ -670,6 +668,9 @@ shade_area_most:
         movl        $AREA_MOST, %ecx
         jmp        shade_area
 
+shade_no_height:
+        movl        %esi, %ecx
+        jmp        shade_extents
 shade_steepest:
         movl        $STEEPEST_TILT, %eax
         jmp        shade_steep

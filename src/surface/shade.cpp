@@ -318,13 +318,15 @@ inline void Shader::setPatch(const Patch& patch, const Seen& middle, const Voxel
     ahead_ = shading_.gradientAhead;
     shading_.gradientAhead = (shading_.gradientAhead + (shading_.gradient[0] * (shearX_ >> 2) >> 8) +
                               (shading_.gradient[1] * (shearY_ >> 2) >> 8)) >> 4;
+    shading_.gradient[0] *= 16;
+    shading_.gradient[1] *= 16;
 }
 
 // Whether the slope of a patch that is set does not foretell the brightness of its seeds.
 inline bool Shader::bendsUnevenly(const Voxel* voxels, int count) const
 {
     const Voxel& middle = voxels[count >> 1];
-    const int32_t gradientX = shading_.gradient[0] >> 6, gradientY = shading_.gradient[1] >> 6, gradientZ = ahead_ >> 6;
+    const int32_t gradientX = shading_.gradient[0] >> 10, gradientY = shading_.gradient[1] >> 10, gradientZ = ahead_ >> 6;
     const auto errs = [&](const Voxel& v) {
         const int32_t x = v.x - middle.x, y = v.y - middle.y, z = v.z - middle.z;
         const int32_t change = (gradientX * x + gradientY * y + gradientZ * z) >> 11;
