@@ -353,9 +353,13 @@ ENDFUNC(findSeedsA)
         imull        SHADE_WAY_Y(%esp), %ecx
         subl        %ecx, %eax
         sarl        $8, %edx
+        jns        1f
+        negl        %edx
+1:
         sarl        $8, %eax
-        magnitude        %edx
-        magnitude        %eax
+        jns        1f
+        negl        %eax
+1:
 .endm
 
 // void shadeSeedsA(const Shading* shading, const Seen* seen, Voxel* voxels, int count). ebx is the seen seed, edi its voxel, ebp

@@ -448,10 +448,13 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
     // The painter may make two voxels of one.
     const int most = (PAINTED ? 2 : 1) * SEEDS_MOST;
     int at = first;
-    for (; at < count && list.count + most <= room; ++at) {
+    for (; at < count; ++at) {
         Patch& patch = patches[at];
-        if (patch.islands || (!(patch.state == PATCH_REST && restsAway(patch, own)) && isSeen(patch, own)))
-            shader.shadePatch<PAINTED>(patch, at + turn, list, painter);
+        if (!patch.islands && ((patch.state == PATCH_REST && restsAway(patch, own)) || !isSeen(patch, own)))
+            continue;
+        if (list.count + most > room)
+            break;
+        shader.shadePatch<PAINTED>(patch, at + turn, list, painter);
     }
     slopes.set(shader.spacing());
     return at;
