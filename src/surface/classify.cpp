@@ -101,11 +101,10 @@ bool outOfSight(const Patch& patch, const OwnFrame& own)
     const Bound ball = boundOf(patch, patch.radius);
     // Scales may be that much larger than their cells.
     const int32_t radius = ball.radius * 2;
-    const int32_t growth = rawFromReal(own.growth) >> 8;
     for (int i = 0; i < own.sideCount; ++i) {
         const OwnFrame::Side& side = own.sides[i];
         const int32_t inside = (side.inward[0] * ball.x + side.inward[1] * ball.y + side.inward[2] * ball.z) >> 14;
-        if (side.inside + ((inside + radius) * growth >> 8) < 0)
+        if (inside + radius < side.begin)
             return true;
     }
     return false;

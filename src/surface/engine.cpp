@@ -81,11 +81,15 @@ bool Engine::update(const FrameContext& frame)
     if (allRests_ && known && all.common && all.rests && all.count == 0)
         return false;
     bool displaced = false;
+    int unasked = 0;
     Patch* const end = patches_ + count_;
     for (Patch* patch = patches_; patch < end; ++patch) {
         patch->settled = false;
-        if ((patch - patches_) % ASKED_EVERY == ASKED_EVERY - 1 && stopAsked())
-            return true;
+        if (++unasked == ASKED_EVERY) {
+            unasked = 0;
+            if (stopAsked())
+                return true;
+        }
         displaced |= updatePatch(settler, *patch, own, all, known);
     }
     for (Patch* patch = patches_; patch < end; ++patch)

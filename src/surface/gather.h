@@ -101,10 +101,10 @@ struct OwnFrame {
     int32_t light[3];             // unit vector towards the light, 1.0 = 2^14
     int32_t right[3], up[3], ahead[3];  // axes of the view, 1.0 = 2^14
     Real growth;                  // units of the world in a unit of own space
-    // What bounds the view, where it cuts through the object: unit vectors inwards (1.0 = 2^14) and how far inside the centre is
-    // (1/16 unit of the world). And whether the object lies beyond one of the bounds.
+    // What bounds the view, where it cuts through the object: unit vectors inwards (1.0 = 2^14), and how far that way from the
+    // centre the view begins (1/16 unit). And whether the object lies beyond one of the bounds.
     struct Side {
-        int32_t inward[3], inside;
+        int32_t inward[3], begin;
     } sides[4];
     int sideCount;
     bool outOfSight;

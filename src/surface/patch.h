@@ -28,6 +28,7 @@ struct Bend {
     bool ball;          // it bends as a ball does; nothing else is known
     bool known;         // it has been measured since the patch rests, or does not any more
     bool stale;         // seeds have settled since it was measured
+    bool gentle;        // over so many spacings that no scale ends but next to the limb (shade.cpp)
 };
 
 // Units as 1/16 units.

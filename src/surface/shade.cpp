@@ -62,6 +62,9 @@ constexpr int32_t WHOLE_BEFORE = 64 * 256;
 constexpr int32_t FLATTEST = 8000;
 constexpr int32_t FACES_VIEWER = 16000;
 
+// And from which on no scale of a patch ends that rests and bends over no less than so many spacings.
+constexpr int32_t FACES_ABOUT = 9830, GENTLE_SPACINGS = 6;
+
 // A patch that settles in every frame has its bend measured in one of BEND_TURNS + 1 frames; its number says in which. Next to the
 // limb, where bends tell how far scales are drawn, it is one of BEND_TURNS_LIMB + 1.
 constexpr int BEND_TURNS_LIMB = 1, BEND_TURNS = 3;
@@ -94,6 +97,11 @@ private:
     void measureBend(Patch& patch) const;
     void setPatch(const Patch& patch, const Seen& middle, const Voxel& at);
     void setBend(const Patch& patch, const Seen& middle);
+    // Whether a patch faces the viewer so much that none of its scales bends out of sight.
+    bool endsNowhere(const Patch& patch, const Seen& middle) const
+    {
+        return middle.facing >= facesAbout_ && patch.bend.gentle && patch.state == PATCH_REST;
+    }
     bool bendsUnevenly(const Voxel* voxels, int count) const;
     bool cut(const Seed& s, Voxel* voxel) const;
     // What of a vector of own space lies along axis i of the view.
@@ -108,7 +116,7 @@ private:
     Shading shading_;
     int32_t spacing_;         // of the seeds, 1/256 unit
     bool ball_, near_;        // near: some seeds may be nearer than NEAREST_DEPTH
-    int32_t facesViewer_;     // FACES_VIEWER times the distance of the eye, steps of places
+    int32_t facesViewer_, facesAbout_;  // FACES_VIEWER and FACES_ABOUT times the distance of the eye, steps of places
     int viewShift_;           // brings the way to the eye to 14 bits
     const bool hollow_;       // the seeds sample a hollow
     int32_t ballGradient_[3]; // of the brightness over a ball, axes of the view, 1/8 step a unit with 8 bits of fraction
@@ -154,6 +162,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     const int32_t distance = own.distance32 >> (shading_.placeShift - 8);
     shading_.limb = distance * own.limb >> 11;
     facesViewer_ = (distance * (FACES_VIEWER >> 6)) >> 5;
+    facesAbout_ = (distance * (FACES_ABOUT >> 6)) >> 5;
     viewShift_ = larger(0, 18 - __builtin_clz(static_cast<uint32_t>(distance + 4096)));
     // Both per 1/32 unit of the world.
     const int32_t distance32 = larger(mulShift16(own.distance32, rawFromReal(own.growth)), 1);
@@ -183,6 +192,8 @@ SELDOM void Shader::measureBend(Patch& patch) const
     Bend& bend = patch.bend;
     bend.stale = false;
     bend.known = bend.ball = true;
+    const int32_t gentle = rawFromReal(object_.spacing()) * GENTLE_SPACINGS;
+    bend.gentle = ball_ && rawFromReal(object_.laidRadius()) >= gentle;
     if (ball_ && patch.state == PATCH_REST)
         return;
     const Seed *from[2] = {nullptr, nullptr}, *to[2] = {nullptr, nullptr};
@@ -238,6 +249,7 @@ SELDOM void Shader::measureBend(Patch& patch) const
     // The greater curvature of the two: in its direction the normal of the patch's other seeds differs.
     const int32_t one = product(turn[0], dual[0]), other = product(turn[1], dual[1]);
     const int32_t most = overArea(magnitude(one) > magnitude(other) ? one : other);
+    bend.gentle = magnitude(most) * (gentle >> shading_.placeShift) <= 1 << 21;
     const auto turned = [&](int i, int j) {
         return static_cast<int16_t>(limited(overArea(turn[0][i] * dual[0][j] + turn[1][i] * dual[1][j]) +
                                             ((most * n[i] >> 14) * n[j] >> 14), 16000));
@@ -258,7 +270,7 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
     shading_.gradient[1] = turnOf(bend, lights_[1]) >> 11;
     shading_.gradientAhead = turnOf(bend, lights_[2]) >> 11;
     shading_.horizonShare = flatHorizon_;
-    if (middle.facing >= facesViewer_)
+    if (middle.facing >= facesViewer_ || endsNowhere(patch, middle))
         return;
     // The curvature along the view.
     int32_t p[3], view[3];
@@ -297,7 +309,7 @@ inline void Shader::setPatch(const Patch& patch, const Seen& middle, const Voxel
         shading_.gradient[0] = ballGradient_[0];
         shading_.gradient[1] = ballGradient_[1];
         shading_.gradientAhead = ballGradient_[2];
-        shading_.horizonShare = ballHorizon_;
+        shading_.horizonShare = endsNowhere(patch, middle) ? flatHorizon_ : ballHorizon_;
     } else {
         setBend(patch, middle);
     }
@@ -306,13 +318,15 @@ inline void Shader::setPatch(const Patch& patch, const Seen& middle, const Voxel
     ahead_ = shading_.gradientAhead;
     shading_.gradientAhead = (shading_.gradientAhead + (shading_.gradient[0] * (shearX_ >> 2) >> 8) +
                               (shading_.gradient[1] * (shearY_ >> 2) >> 8)) >> 4;
+    shading_.gradient[0] *= 16;
+    shading_.gradient[1] *= 16;
 }
 
 // Whether the slope of a patch that is set does not foretell the brightness of its seeds.
 inline bool Shader::bendsUnevenly(const Voxel* voxels, int count) const
 {
     const Voxel& middle = voxels[count >> 1];
-    const int32_t gradientX = shading_.gradient[0] >> 6, gradientY = shading_.gradient[1] >> 6, gradientZ = ahead_ >> 6;
+    const int32_t gradientX = shading_.gradient[0] >> 10, gradientY = shading_.gradient[1] >> 10, gradientZ = ahead_ >> 6;
     const auto errs = [&](const Voxel& v) {
         const int32_t x = v.x - middle.x, y = v.y - middle.y, z = v.z - middle.z;
         const int32_t change = (gradientX * x + gradientY * y + gradientZ * z) >> 11;
@@ -434,10 +448,13 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
     // The painter may make two voxels of one.
     const int most = (PAINTED ? 2 : 1) * SEEDS_MOST;
     int at = first;
-    for (; at < count && list.count + most <= room; ++at) {
+    for (; at < count; ++at) {
         Patch& patch = patches[at];
-        if (patch.islands || (!(patch.state == PATCH_REST && restsAway(patch, own)) && isSeen(patch, own)))
-            shader.shadePatch<PAINTED>(patch, at + turn, list, painter);
+        if (!patch.islands && ((patch.state == PATCH_REST && restsAway(patch, own)) || !isSeen(patch, own)))
+            continue;
+        if (list.count + most > room)
+            break;
+        shader.shadePatch<PAINTED>(patch, at + turn, list, painter);
     }
     slopes.set(shader.spacing());
     return at;

@@ -124,8 +124,8 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     voxel.brightness = static_cast<int8_t>(light <= DARK_MIDDLE ? 0 : light);
     if (light <= DARK_MIDDLE)
         return;
-    const int32_t slopeX = (v.gradient[0] + (tiltX * v.gradientAhead >> 4)) >> 8;
-    const int32_t slopeY = (v.gradient[1] + (tiltY * v.gradientAhead >> 4)) >> 8;
+    const int32_t slopeX = (v.gradient[0] + tiltX * v.gradientAhead) >> 12;
+    const int32_t slopeY = (v.gradient[1] + tiltY * v.gradientAhead) >> 12;
     setSlopes(slopeX, slopeY, &voxel);
 }
 
@@ -133,7 +133,8 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
 
 bool findSeed(const Shading& v, const Seed& s, Seen* seen, Voxel* voxel)
 {
-    if (!(s.flags & SEED_VALID))
+    // One that rests is valid.
+    if (!(s.flags & (SEED_VALID | SEED_RESTING)))
         return false;
     int32_t place[3], facing;
     findPlace(v, s, place);

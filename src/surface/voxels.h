@@ -32,7 +32,7 @@ struct Shading {
     int32_t wholeMost;      // a cell of no larger area is covered as a whole
     int32_t deepest;        // a scale that ends changes its depth to no corner by more than this, 1/256 unit
     int32_t horizonShare;   // of the radius of curvature: half of it over the distance of the eye, 12 bits of fraction
-    int32_t gradient[2];    // of the brightness across the view, 1/8 step a unit with 8 bits of fraction
+    int32_t gradient[2];    // of the brightness across the view, 1/8 step a unit with 12 bits of fraction
     int32_t gradientAhead;  // the same along it, 4 bits of fraction
 };
 

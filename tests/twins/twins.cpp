@@ -935,7 +935,7 @@ static_assert(inasm2::SEED_PATH == offsetof(Seed, path) && inasm2::SEED_POSITION
               inasm2::SEED_ROOT == offsetof(Seed, root) && inasm2::SEED_FLAGS == offsetof(Seed, flags) &&
               inasm2::SEED_ALONG == offsetof(Seed, along) && inasm2::SEED_ACROSS == offsetof(Seed, across) &&
               inasm2::SEED_WAY == offsetof(Seed, way) && inasm2::SEED_AREA == offsetof(Seed, area) &&
-              inasm2::SEED_SIZE == sizeof(Seed), "Seed");
+              inasm2::SEED_SIZE == sizeof(Seed) && 1 << inasm2::SEED_SHIFT == sizeof(Seed), "Seed");
 static_assert(inasm2::SEED_VALID == ::SEED_VALID && inasm2::SEED_RESTING == ::SEED_RESTING, "states of seeds");
 static_assert(inasm2::PATCH_FIRST == offsetof(Patch, first) && inasm2::PATCH_COUNT == offsetof(Patch, count) &&
               inasm2::PATCH_RINGS == ::PATCH_RINGS, "Patch");
