@@ -109,9 +109,9 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
 {
     if (keeps(settler, patch, all, known))
         return true;
-    // Out of sight it needs no lists, unless it may be at rest or, where something is odd, counts on by them.
-    const bool soon = all.common && all.count > 0 && patch.state != PATCH_REST;
-    if (soon && outOfSight(patch, own)) {
+    // Out of sight a patch needs no lists, unless it may come to rest or, where something is odd, counts on by them.
+    const bool judgedFirst = all.common && all.count > 0 && patch.state != PATCH_REST;
+    if (judgedFirst && outOfSight(patch, own)) {
         patch.stale = patch.stale || !known;
         leave(patch);
         return true;
@@ -128,7 +128,7 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
     patch.reached = reached;
     if (!touched && all.rests && isAtRest(settler, patch, all))
         return false;
-    if (!soon && outOfSight(patch, own))
+    if (!judgedFirst && outOfSight(patch, own))
         leave(patch);
     else if (!known || patch.state == PATCH_REST || isDue(odometer_.reading(), patch.due))
         settle(settler, patch);
