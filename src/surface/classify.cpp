@@ -43,22 +43,28 @@ inline bool within(const Step& away, int32_t distance)
     return square(away) < distance * distance;
 }
 
-}  // namespace
-
-Bound boundOf(const Patch& patch, int32_t restRadius)
+// A ball round the seeds of a patch between two positions (1/64).
+inline Bound boundOf(const Patch& patch, int32_t restRadius, int32_t nearest, int32_t farthest)
 {
     // At rest.
-    if (patch.nearest == 64 && patch.farthest == 64)
+    if (nearest == 64 && farthest == 64)
         return {patch.middle[0], patch.middle[1], patch.middle[2], restRadius};
-    const int32_t position = (patch.nearest + patch.farthest) >> 1, half = (patch.farthest - patch.nearest + 1) >> 1;
+    const int32_t position = (nearest + farthest) >> 1, half = (farthest - nearest + 1) >> 1;
     const Step middle = above(patch, patch.path * (position - 64) >> 6);
-    const int32_t widest = patch.farthest > 64 ? patch.farthest : 64;
+    const int32_t widest = farthest > 64 ? farthest : 64;
     // One way leads across the paths, the other along them: the shorter makes the longer no longer than by half of it.
     const int32_t across = restRadius * widest, along = patch.path * half;
     int32_t radius = across > along ? across + (along >> 1) : along + (across >> 1);
     if (patch.lean != 0)
-        radius += patch.lean * (position < 64 ? 64 - patch.nearest : widest - 64);
+        radius += patch.lean * (position < 64 ? 64 - nearest : widest - 64);
     return {middle.x, middle.y, middle.z, radius >> 6};
+}
+
+}  // namespace
+
+Bound boundOf(const Patch& patch, int32_t restRadius)
+{
+    return boundOf(patch, restRadius, patch.nearest, patch.farthest);
 }
 
 bool reachesFromCore(const Neighbour& near, const Bound& ball)
@@ -98,7 +104,8 @@ bool outOfSight(const Patch& patch, const OwnFrame& own)
 {
     if (own.sideCount == 0)
         return false;
-    const Bound ball = boundOf(patch, patch.radius);
+    const int32_t nearest = patch.nearest < 64 ? patch.nearest : 64, farthest = patch.farthest > 64 ? patch.farthest : 64;
+    const Bound ball = boundOf(patch, patch.radius, nearest, farthest);
     // Scales may be that much larger than their cells.
     const int32_t radius = ball.radius * 2;
     for (int i = 0; i < own.sideCount; ++i) {

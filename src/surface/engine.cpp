@@ -39,6 +39,7 @@ private:
     bool stays(const Settler& settler, Patch& patch, bool stale) const;
     void renewLists(Patch& patch, const Neighbourhood& all);
     bool isAtRest(Settler& settler, Patch& patch, const Neighbourhood& all);
+    void leave(Patch& patch);
     void settle(Settler& settler, Patch& patch);
 
     SoftObject& object_;
@@ -112,6 +113,13 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
 {
     if (keeps(settler, patch, all, known))
         return true;
+    // Out of sight a patch needs no lists, unless it may come to rest or, where something is odd, counts on by them.
+    const bool judgedFirst = all.common && all.count > 0 && patch.state != PATCH_REST;
+    if (judgedFirst && outOfSight(patch, own)) {
+        patch.stale = patch.stale || !known;
+        leave(patch);
+        return true;
+    }
     const bool stale = !known || patch.stale;
     if (stale || isDue(odometer_.bound(), patch.listDue))
         renewLists(patch, all);
@@ -124,14 +132,19 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
     patch.reached = reached;
     if (!touched && all.rests && isAtRest(settler, patch, all))
         return false;
-    if (outOfSight(patch, own)) {
-        sleep(object_, patch);
-        patch.state = PATCH_AWAY;
-        patch.due = odometer_.reading();
-    } else if (!known || patch.state == PATCH_REST || isDue(odometer_.reading(), patch.due)) {
+    if (!judgedFirst && outOfSight(patch, own))
+        leave(patch);
+    else if (!known || patch.state == PATCH_REST || isDue(odometer_.reading(), patch.due))
         settle(settler, patch);
-    }
     return true;
+}
+
+// Puts a patch out of sight to sleep, until it is seen.
+inline void Engine::leave(Patch& patch)
+{
+    sleep(object_, patch);
+    patch.state = PATCH_AWAY;
+    patch.due = odometer_.reading();
 }
 
 // Whether a patch keeps its state, whoever reaches it now: it is not due, or still lies inside one neighbour.

@@ -137,7 +137,7 @@ inline bool reaches(const Neighbour& near, const Bound& ball)
 // Whether all seeds of a patch, if they were at one position, would lie nearer to a neighbour's core than a part of its size.
 bool isWithin(const Patch& patch, const Neighbour& near, Real position, Real part);
 
-// Whether a patch lies beside the view, where its seeds are.
+// Whether a patch lies beside the view, where its seeds are, where they rest, and in between.
 bool outOfSight(const Patch& patch, const OwnFrame& own);
 
 // Whether a patch is hidden behind what is nearer: where its seeds are, or if they all were at one position.
