@@ -114,8 +114,8 @@ bool Missed::findDepth(int at, int* depth)
     return true;
 }
 
-// From the depths of the drawn pixels beside one, in its row and in its column: how far away the surface is, and from which of these
-// it was found. False: there is none.
+// From the depths of the drawn pixels beside one, in its row and in its column: how far away the surface is, and from which of
+// these it was found. False: there is none.
 bool Missed::findSurface(int at, int* depth, int* beside)
 {
     const int inRow = frame_[at - 1] != 0 ? at - 1 : at + 1, inColumn = frame_[at - WIDTH] != 0 ? at - WIDTH : at + WIDTH;

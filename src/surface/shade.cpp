@@ -94,6 +94,7 @@ public:
 private:
     int findExtras(const Patch& patch, Seen* seen, Voxel* voxels) const;
     int leaveNear(Seen* seen, Voxel* voxels, int count) const;
+    bool findSteps(const Patch& patch, const Seed* from[2], const Seed* to[2]) const;
     void measureBend(Patch& patch) const;
     void setPatch(const Patch& patch, const Seen& middle, const Voxel& at);
     void setBend(const Patch& patch, const Seen& middle);
@@ -186,17 +187,11 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     shading_.leastPosition = hollow_ && !ball_ ? 1 << 8 : 0;
 }
 
-// How the surface bends, from two steps between valid seeds: along the middle ring, and from the first ring to the last.
-SELDOM void Shader::measureBend(Patch& patch) const
+// The ends of two steps between valid seeds of a patch: along its middle ring, or another where that has no two, and from its first
+// ring to its last. False: there are no two such steps.
+bool Shader::findSteps(const Patch& patch, const Seed* from[2], const Seed* to[2]) const
 {
-    Bend& bend = patch.bend;
-    bend.stale = false;
-    bend.known = bend.ball = true;
-    const int32_t gentle = rawFromReal(object_.spacing()) * GENTLE_SPACINGS;
-    bend.gentle = ball_ && rawFromReal(object_.laidRadius()) >= gentle;
-    if (ball_ && patch.state == PATCH_REST)
-        return;
-    const Seed *from[2] = {nullptr, nullptr}, *to[2] = {nullptr, nullptr};
+    from[0] = to[0] = from[1] = to[1] = nullptr;
     for (int ring = 0; ring < PATCH_RINGS; ++ring) {
         const Seed *first = shading_.seeds + patch.first[ring], *last = first + patch.count[ring] - 1;
         while (first <= last && !(first->flags & SEED_VALID))
@@ -213,7 +208,21 @@ SELDOM void Shader::measureBend(Patch& patch) const
             from[1] = first;
         to[1] = first;
     }
-    if (from[0] == to[0] || from[1] == to[1])
+    return from[0] != to[0] && from[1] != to[1];
+}
+
+// How the surface bends, from two steps between valid seeds: along the middle ring, and from the first ring to the last.
+SELDOM void Shader::measureBend(Patch& patch) const
+{
+    Bend& bend = patch.bend;
+    bend.stale = false;
+    bend.known = bend.ball = true;
+    const int32_t gentle = rawFromReal(object_.spacing()) * GENTLE_SPACINGS;
+    bend.gentle = ball_ && rawFromReal(object_.laidRadius()) >= gentle;
+    if (ball_ && patch.state == PATCH_REST)
+        return;
+    const Seed *from[2], *to[2];
+    if (!findSteps(patch, from, to))
         return;
     const Seed& centre = object_.regular(patch.centre);
     bend.normal = centre.flags & SEED_VALID ? centre.normal : from[0]->normal;
