@@ -19,14 +19,18 @@ ViewAxes withTurned(const Vector& right, const Vector& up, const Vector& ahead)
 
 ViewAxes viewAlong(const Vector& ahead, const Vector& up, const Vector& right)
 {
-    // Nearer than this (a sine) to the upward direction, which side is to the right cannot be told from it.
-    const Real upright(0.01);
+    // Nearer than this (a sine) to the upward direction, which side is to the right cannot be told from it; nearer than the other it
+    // can, but the product has few digits left.
+    const Real upright(0.01), steep(0.1);
     const Vector forward = unit(ahead);
     if (forward == Vector{Real(0), Real(0), Real(0)})
         return ViewAxes();
     Vector aside = cross(unit(up), forward);
-    if (length(aside) < upright)
-        aside = right - forward * dot(right, forward);
+    const Real sine = length(aside);
+    if (sine < steep) {
+        aside = sine < upright ? right : unit(aside);
+        aside = aside - forward * dot(aside, forward);
+    }
     aside = unit(aside);
     return withTurned(aside, cross(forward, aside), forward);
 }

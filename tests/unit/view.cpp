@@ -856,6 +856,13 @@ TEST(the_axes_of_a_view)
         const Vector v = vector(random.between(-400, 400), random.between(-400, 400), random.between(-400, 400));
         CHECK(size(vec(axes.toWorld(axes.fromWorld(v))) - vec(v)) < 1e-4 * 700);
     }
+    // Nearly along what is upwards.
+    for (int i = 0; i < 2000; ++i) {
+        const double a = random.between(40, 100), b = random.between(-100, 100), c = random.between(-100, 100);
+        const Vector ahead = vector(a + random.between(-2, 2), b + random.between(-2, 2), c + random.between(-2, 2));
+        const double across = std::sqrt(a * a + b * b);
+        CHECK(areAxes(viewAlong(ahead, vector(a, b, c), vector(b / across, -a / across, 0))));
+    }
     // A quarter to the right: what was above the eye lies to its left.
     const ViewAxes quarter = leaned(ViewAxes(), 0x40000000u);
     NEAR(number(quarter.fromWorld(y).x), -1, 1e-4);

@@ -167,9 +167,9 @@ async function tryPage(browser, home) {
 		await page.click(`#scenes button[data-scene=${name}]`);
 		await until(async () => (await text("status")).startsWith("Playing"));
 		ok(`${name} plays`, await playing() && await moves());
-		ok(`${name}: the text and the link are its own`, page.url().includes("scene=" + name) &&
+		ok(`${name}: the text and the link are its own`, await until(async () => page.url().includes("scene=" + name) &&
 			await page.$eval("#text", (area) => area.value) ===
-			fs.readFileSync(`build/web/scenes/${name}.FB`, "latin1").replaceAll("\r\n", "\n"));
+			fs.readFileSync(`build/web/scenes/${name}.FB`, "latin1").replaceAll("\r\n", "\n")));
 	}
 	await shot("scene");
 
