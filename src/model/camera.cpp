@@ -19,8 +19,8 @@ ViewAxes withTurned(const Vector& right, const Vector& up, const Vector& ahead)
 
 ViewAxes viewAlong(const Vector& ahead, const Vector& up, const Vector& right)
 {
-    // Nearer than this (a sine) to the upward direction, which side is to the right cannot be told from it; nearer than the other it
-    // can, but the product has few digits left.
+    // Nearer than this (a sine) to the upward direction, which side is to the right cannot be told from it; nearer than the other
+    // it can, but the product has few digits left.
     const Real upright(0.01), steep(0.1);
     const Vector forward = unit(ahead);
     if (forward == Vector{Real(0), Real(0), Real(0)})
