@@ -170,7 +170,7 @@ public:
     void scale(Real by) { setSize(size_ * by); }
     // The same, by the size to be reached, for what moves by the time and must not depend on the frame before.
     void setSize(Real size) { place(centre_, size); }
-    // Moves and scales it at once: its neighbours hear of it once.
+    // Moves and scales it at once, so that its neighbours are told no more often than of one of the two.
     void place(const Point& centre, Real size);
     // Stretches core and field along the object's own axes, each factor STRETCH_LEAST..STRETCH_MOST. To be called before
     // seeds are laid out.

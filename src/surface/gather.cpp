@@ -85,7 +85,7 @@ static void setSides(const SoftObject& object, const FrameContext& frame, const 
             continue;
         OwnFrame::Side& side = own.sides[own.sideCount++];
         axisInOwn(object, frame.axes.toWorld(u), side.inward);
-        // The least of which (begin * growth >> 8) is no less than -inside.
+        // It is the least number whose product with growth, over 256, is no less than -inside.
         const int32_t growth = larger(rawFromReal(object.growth()) >> 8, 1);
         side.begin = (-inside * 256 + (inside < 0 ? growth - 1 : 0)) / growth;
     }

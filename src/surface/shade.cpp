@@ -58,11 +58,12 @@ constexpr int32_t BEHIND = 64;
 // Depth before which the whole of a cell is covered: so near the viewer a ring is no straight band in the picture; 1/256 unit.
 constexpr int32_t WHOLE_BEFORE = 64 * 256;
 
-// The greatest radius of curvature, 1/32 unit, and the cosine of normal and viewer from which on it does not matter.
+// The greatest radius of curvature, 1/32 unit, and the cosine (1.0 = 2^14) of normal and viewer from which on it does not matter.
 constexpr int32_t FLATTEST = 8000;
 constexpr int32_t FACES_VIEWER = 16000;
 
-// And from which on no scale of a patch ends that rests and bends over no less than so many spacings.
+// The cosine from which on no scale ends of a patch that rests and bends over no less than so many spacings: the limb is
+// .6^2 * 6 / 2 = 1.08 spacings away there, farther than the scale reaches.
 constexpr int32_t FACES_ABOUT = 9830, GENTLE_SPACINGS = 6;
 
 // A patch that settles in every frame has its bend measured in one of BEND_TURNS + 1 frames; its number says in which. Next to the
@@ -327,6 +328,7 @@ inline void Shader::setPatch(const Patch& patch, const Seen& middle, const Voxel
     ahead_ = shading_.gradientAhead;
     shading_.gradientAhead = (shading_.gradientAhead + (shading_.gradient[0] * (shearX_ >> 2) >> 8) +
                               (shading_.gradient[1] * (shearY_ >> 2) >> 8)) >> 4;
+    // With as many bits of fraction as tilts times gradientAhead have.
     shading_.gradient[0] *= 16;
     shading_.gradient[1] *= 16;
 }
