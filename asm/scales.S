@@ -28,7 +28,10 @@
 #define VOXEL_SLOPEX 24                 /* one word with: */
 #define VOXEL_SLOPEY 25
 #define VOXEL_CUTAT  26
-#define VOXEL_SIZE   28
+#define VOXEL_CURVEXX 28                /* one double word, bytes all: */
+#define VOXEL_CURVEXY 29
+#define VOXEL_CURVEYY 30
+#define VOXEL_SIZE   32
 
 // struct Factors, struct Lens and the constants (include/picture/scales.h)
 #define FACTOR_X   0
@@ -40,7 +43,8 @@
 #define LENS_FAR   432
 #define LENS_NEXT  1
 #define FACTOR_MOST 0xffff
-#define LENS_STEPS ((LENS_FAR - LENS_NEAR) * 8)
+#define LENS_FINENESS 16
+#define LENS_STEPS ((LENS_FAR - LENS_NEAR) * LENS_FINENESS)
 #define STEEPEST   400
 #define LARGEST    40
 #define Z_EMPTY    0xffff
@@ -94,8 +98,12 @@
 #define CUT        124                  /* and the function that cuts: at the first pixel, from pixel to pixel and row to row */
 #define CUT_STEP   128
 #define CUT_ROW    132
-#define NEAR       136                  /* struct Factors of what is nearer than the table */
-#define LOCALS     152
+#define CUT_XX     136                  /* where it curves: what its steps change by (FineScale), and the first of a row */
+#define CUT_XY     140
+#define CUT_YY     144
+#define CUT_FIRST  148
+#define NEAR       152                  /* struct Factors of what is nearer than the table */
+#define LOCALS     168
 
         .text
 
@@ -120,6 +128,7 @@
 //
 // Those that are cut, clipped, larger or nearer than the tables enter each row at as many columns before its end as they are
 // wide. Of what is cut edx has the function that cuts, which costs 2 instructions a pixel more; 3 are all for a pixel cut off.
+// Along a curve the step changes as well: 2 more (486: 1 + 3, Pentium: 4).
 
         .balign 16
         FUNC(drawScalesA)
@@ -231,17 +240,19 @@ grow_bottom\large:
 voxel_loop:
         movl    END(%esp), %esi
         addl    LIST(%esp), %esi
-        // depth = lens->z + v.z;  f = factorsOf(lens, depth):  step = (depth >> 5) - LENS_NEAR * 8;  if (step < LENS_STEPS) ..
+        // depth = lens->z + v.z;  f = factorsOf(lens, depth):  step = lensStep(depth);  if (step < LENS_STEPS) ..   There are
+        // as many bytes of the table in a unit as depths have steps.
         movl    VOXEL_Z(%esi), %ebp
         movl    VOXEL_X(%esi), %ebx
         addl    LENS_Z(%esp), %ebp
         addl    LENS_X(%esp), %ebx
-        shrl    $1, %ebp
         movswl  VOXEL_WIDE(%esi), %edi
+        movl    %ebp, %eax
         cmpl    $LENS_STEPS*FACTOR_SIZE, %ebp
         jae     near
-        movl    %ebp, DEPTH(%esp)
+        shrl    $1, %eax
         andl    $-FACTOR_SIZE, %ebp
+        movl    %eax, DEPTH(%esp)
         addl    FACTORS(%esp), %ebp
         COVER_COLUMNS
         // if (wide <= 0) ..;  if (wide > LARGEST) break
@@ -405,6 +416,14 @@ even:
 2:
         .endm
 
+        .macro  PIXEL_curved at
+        PIXEL_cut \at
+        .endm
+
+        .macro  PIXEL_curvedending at
+        PIXEL_cutending \at
+        .endm
+
         // for (x = 0; x < wide; ++x, z += zStep) ..;   `at`: the pixel from edi. Behind the last one nothing is added.
         .macro  PIXELS kind wide at
         .set    at, \at
@@ -476,6 +495,7 @@ even:
 
         // for (y = high; y > 0; --y, z += zRow, cut += cutRow)
         //     for (x = 0; x < wide; ++x, z += zStep, cut += cutStep) ..;   edi is the pixel behind the last one of the row
+        // `cuts`: 0: nothing does; 1: along a line, and cutRow is from the last pixel of a row to the next one; 2: along a curve
         .macro  ENTERED kind cuts
         .balign 4
         .set    at, -LARGEST
@@ -485,6 +505,10 @@ entered_\kind\()_\wide:
         PIXEL_\kind at
         .if     \wide > 1
         addl    %ebx, %eax
+        .if     \cuts == 2
+        movl    CUT_XX(%esp), %ecx
+        addl    %ecx, CUT_STEP(%esp)
+        .endif
         .if     \cuts
         addl    CUT_STEP(%esp), %edx
         .endif
@@ -496,8 +520,20 @@ entered_\kind\()_\wide:
         addl    $SCREEN_WIDTH, %edi
         decl    HIGH(%esp)
         js      entered_\kind\()_done
-        .if     \cuts
+        .if     \cuts == 1
         addl    CUT_ROW(%esp), %edx
+        .endif
+        .if     \cuts == 2
+        // cutStep += cutXY, cutRow += cutYY
+        movl    CUT_XY(%esp), %ecx
+        movl    CUT_ROW(%esp), %edx
+        addl    CUT_FIRST(%esp), %ecx
+        addl    CUT_YY(%esp), %edx
+        movl    %ecx, CUT_FIRST(%esp)
+        movl    %edx, CUT_ROW(%esp)
+        movl    %ecx, CUT_STEP(%esp)
+        addl    CUT(%esp), %edx
+        movl    %edx, CUT(%esp)
         .endif
         jmp     *ENTRY(%esp)
 entered_\kind\()_done:
@@ -543,6 +579,8 @@ small:
         ENTERED ending, 0
         ENTERED cut, 1
         ENTERED cutending, 1
+        ENTERED curved, 2
+        ENTERED curvedending, 2
 
 leave:
         movl    END(%esp), %eax
@@ -645,6 +683,8 @@ entered:
         // if (isCut(v)) ..;   otherwise the code that the row is entered at has nothing to do with what cuts
         cmpw    $0, VOXEL_CUTX(%esi)    // both
         je      2f
+        cmpl    $0, VOXEL_CURVEXX(%esi) // all
+        jne     curved
         addl    $2*4*LARGEST, %eax      // to those that are cut
         movl    (%eax), %eax
         movl    %eax, ENTRY(%esp)
@@ -657,13 +697,13 @@ entered:
         sarl    $10, %ebx
         movl    %eax, CUT_STEP(%esp)
         movl    %ebx, CUT_ROW(%esp)
-        // cut = cutAt * 32 + ((cutAcross * toColumn + cutDown * toRow) >> 12)
+        // cut = cutAt * 4 + ((cutAcross * toColumn + cutDown * toRow) >> 12)
         imull   %ecx, %eax
         imull   %edx, %ebx
         subl    %eax, %ebx
         movswl  VOXEL_CUTAT(%esi), %eax
         sarl    $12, %ebx
-        shll    $5, %eax
+        shll    $2, %eax
         addl    %eax, %ebx
         movl    %ebx, CUT(%esp)
         // cutRow = cutDown - cutAcross * (wide - 1)
@@ -676,6 +716,78 @@ entered:
 2:
         movl    (%eax), %eax
         movl    %eax, ENTRY(%esp)
+        jmp     not_special
+
+        // setCut() of what ends at a curve
+        .balign 4
+curved:
+        addl    $4*4*LARGEST, %eax
+        movl    (%eax), %eax
+        movl    %eax, ENTRY(%esp)
+        // xx = (curveXX * f.zx >> 10) * f.zx >> 16;  xy, yy
+        .macro  CURVE_STEP curve factor other
+        movsbl  \curve(%esi), %eax
+        imull   \factor(%ebp), %eax
+        sarl    $10, %eax
+        imull   \other(%ebp), %eax
+        sarl    $16, %eax
+        .endm
+        CURVE_STEP VOXEL_CURVEXX, FACTOR_ZX, FACTOR_ZX
+        movl    %eax, CUT_XX(%esp)
+        CURVE_STEP VOXEL_CURVEXY, FACTOR_ZX, FACTOR_ZY
+        negl    %eax
+        movl    %eax, CUT_XY(%esp)
+        CURVE_STEP VOXEL_CURVEYY, FACTOR_ZY, FACTOR_ZY
+        movl    %eax, CUT_YY(%esp)
+        // acrossFirst = across + ((xx * toColumn + xy * toRow) >> 12);   eax: across + acrossFirst
+        .macro  CURVE_FIRST curve other
+        movl    \curve(%esp), %eax
+        movl    \other(%esp), %ebx
+        imull   %ecx, %eax
+        imull   %edx, %ebx
+        addl    %ebx, %eax
+        negl    %eax
+        sarl    $12, %eax
+        .endm
+        CURVE_FIRST CUT_XX, CUT_XY
+        movsbl  VOXEL_CUTX(%esi), %ebx
+        imull   FACTOR_ZX(%ebp), %ebx
+        sarl    $10, %ebx
+        addl    %ebx, %eax
+        movl    %eax, CUT_STEP(%esp)
+        addl    %ebx, %eax
+        sarl    $1, %eax
+        movl    %eax, CUT(%esp)
+        // downFirst = down + ((xy * toColumn + yy * toRow) >> 12)
+        CURVE_FIRST CUT_XY, CUT_YY
+        movsbl  VOXEL_CUTY(%esi), %ebx
+        imull   FACTOR_ZY(%ebp), %ebx
+        sarl    $10, %ebx
+        subl    %ebx, %eax
+        movl    %eax, CUT_ROW(%esp)
+        subl    %ebx, %eax
+        sarl    $1, %eax
+        // cut = cutAt * 4 + (((across + acrossFirst >> 1) * toColumn + (down + downFirst >> 1) * toRow) >> 12)
+        movl    CUT(%esp), %ebx
+        imull   %edx, %eax
+        imull   %ecx, %ebx
+        addl    %ebx, %eax
+        movswl  VOXEL_CUTAT(%esi), %ebx
+        negl    %eax
+        shll    $2, %ebx
+        sarl    $12, %eax
+        addl    %ebx, %eax
+        movl    %eax, CUT(%esp)
+        // cutStep -= xx >> 1;  cutRow -= yy >> 1
+        movl    CUT_XX(%esp), %eax
+        movl    CUT_YY(%esp), %ebx
+        sarl    $1, %eax
+        sarl    $1, %ebx
+        negl    %eax
+        subl    %ebx, CUT_ROW(%esp)
+        addl    CUT_STEP(%esp), %eax
+        movl    %eax, CUT_STEP(%esp)
+        movl    %eax, CUT_FIRST(%esp)
         jmp     not_special
 
         // Seldom
@@ -770,5 +882,7 @@ entered_ways:
         ENTRIES ending
         ENTRIES cut
         ENTRIES cutending
+        ENTRIES curved
+        ENTRIES curvedending
 
 ASM_END

@@ -38,7 +38,8 @@
 #define VOXEL_REACH  21
 #define VOXEL_SLOPEX 24                 /* and behind it, one double word with it: the other slope and cutAt */
 #define VOXEL_SLOPEY 25
-#define VOXEL_SIZE   28
+#define VOXEL_CURVE  28                 /* one double word, bytes all */
+#define VOXEL_SIZE   32
 
 // struct Seen and struct Shading (src/surface/voxels.h)
 #define SEEN_SEED    0
@@ -414,6 +415,7 @@ shade_tilted:
 shade_lit:
         movl        %edx, VOXEL_BRIGHT(%edi)
         movl        $0, VOXEL_SLOPEX(%edi)
+        movl        $0, VOXEL_CURVE(%edi)
 
         testb        $SEED_RESTING, SEED_FLAGS(%esi)
         jz        shade_fallen

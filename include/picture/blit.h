@@ -26,14 +26,15 @@ struct Scale {
     int32_t colour;   // palette index
 };
 
-// One that ends where it gets too far away, that is cut along a line, or whose brightness changes across it. `ramp` has the
-// palette index of each brightness that occurs. The brightnesses, and what cuts, have 8 bits of fraction: what they are at
-// the top left pixel, and how they change like the depth.
+// One that ends where it gets too far away, that is cut along a line or a curve, or whose brightness changes across it. `ramp` has
+// the palette index of each brightness that occurs. The brightnesses, and what cuts, have 8 bits of fraction: what they are at the
+// top left pixel, and how they change like the depth. What cuts need not change evenly.
 struct FineScale : Scale {
     int32_t zMost;  // of what is drawn
     const uint8_t* ramp;
     int32_t shade, shadeStep, shadeRow;
-    int32_t cut, cutStep, cutRow;  // what is drawn is where this is not negative
+    int32_t cut, cutStep, cutRow;  // what is drawn is where this is not negative; the row: from a first pixel to the one below
+    int32_t cutXX, cutXY, cutYY;   // by how much the step changes before each step and from row to row, the row before each row
 };
 
 // The depth of a pixel where nothing was drawn.

@@ -29,12 +29,6 @@ inline bool isFine(const Voxel& v)
     return (v.reach | v.slopeX | v.slopeY | v.cutX | v.cutY) != 0;
 }
 
-// Whether part of a voxel is left out by its linear function.
-inline bool isCut(const Voxel& v)
-{
-    return (v.cutX | v.cutY) != 0;
-}
-
 // How far away a voxel's pixels may be, 1/128 unit, when its middle is at `z`.
 constexpr int32_t NO_END = 0x7fffffff;
 inline int32_t endOf(const Voxel& v, int32_t z)
@@ -46,6 +40,35 @@ inline int32_t endOf(const Voxel& v, int32_t z)
 inline int32_t shadeStep(int slope, int32_t factor)
 {
     return wrappedProduct(slope, factor) >> 10;
+}
+
+// Of one of a voxel's curves, and Factors::zx or zy of its axes: the change of the step from pixel to pixel, 8 bits of fraction.
+inline int32_t curveStep(int curve, int32_t factor, int32_t other)
+{
+    return wrappedProduct(wrappedProduct(curve, factor) >> 10, other) >> 16;
+}
+
+// What cuts a voxel, from the middle of its scale's first pixel on. `way(a, b)` is what a change by `a` from column to column and
+// by `b` from row to row makes of the way to there from the middle of the scale.
+template <class Way>
+inline void setCut(const Voxel& v, int32_t zx, int32_t zy, Way way, FineScale* scale)
+{
+    const int32_t across = shadeStep(v.cutX, zx), down = -shadeStep(v.cutY, zy);
+    const int32_t xx = curveStep(v.curveXX, zx, zx), xy = -curveStep(v.curveXY, zx, zy), yy = curveStep(v.curveYY, zy, zy);
+    const int32_t acrossFirst = wrappedSum(across, way(xx, xy)), downFirst = wrappedSum(down, way(xy, yy));
+    // Half way it changes as it does on the whole way.
+    scale->cut = v.cutAt * 4 + way(wrappedSum(across, acrossFirst) >> 1, wrappedSum(down, downFirst) >> 1);
+    // A step that begins in the middle of a pixel has half of the change ahead that it makes to the step.
+    scale->cutStep = wrappedSum(acrossFirst, -(xx >> 1));
+    scale->cutRow = wrappedSum(downFirst, -(yy >> 1));
+    scale->cutXX = xx;
+    scale->cutXY = xy;
+    scale->cutYY = yy;
+}
+
+inline void setUncut(FineScale* scale)
+{
+    scale->cut = scale->cutStep = scale->cutRow = scale->cutXX = scale->cutXY = scale->cutYY = 0;
 }
 
 // Whether all depths of a scale fit the Z-buffer: from its first pixel on, which lies `z` away, they change by `across` up to
@@ -63,13 +86,15 @@ struct Factors {
     int32_t zx, zy;  // z 2^15 / focal: a tilt to the change of depth from pixel to pixel, 1/2^16 of 1/128 unit
 };
 constexpr int LENS_NEAR = 76, LENS_FAR = 432;
-constexpr int LENS_STEPS = (LENS_FAR - LENS_NEAR) * 8;
+// Steps of depth in a unit.
+constexpr int LENS_FINENESS = 16;
+constexpr int LENS_STEPS = (LENS_FAR - LENS_NEAR) * LENS_FINENESS;
 
 // The camera and the object in the terms of the loop, and what it has drawn.
 struct Lens {
     int32_t x, y, z;                   // the object's centre from the eye, 1/256 unit
     const uint8_t* ramp;               // as VoxelList's
-    const Factors* factors;            // one for each 1/8 unit of depth from LENS_NEAR to LENS_FAR units
+    const Factors* factors;            // one for each step of depth from LENS_NEAR to LENS_FAR units
     int32_t centreX, centreY;          // pixels with 12 bits of fraction, and half a pixel more
     uint8_t* frame;                    // as for blitScales()
     uint16_t* zbuffer;
@@ -109,10 +134,16 @@ inline void limitTilts(Lens* lens, uint32_t most)
     lens->tiltBits = tilt == 0 ? 0xffffffff : ~((2 * tilt - 1) * 0x10001);
 }
 
+// The step that a depth lies in, 1/256 unit; below 0 or LENS_STEPS and more beyond the table.
+inline int32_t lensStep(int32_t depth)
+{
+    return (depth >> 4) - LENS_NEAR * LENS_FINENESS;
+}
+
 // The factors for a depth, `near` for those that are computed. Null: there are none.
 inline const Factors* factorsOf(const Lens& lens, int32_t depth, Factors* near)
 {
-    const uint32_t step = static_cast<uint32_t>((depth >> 5) - LENS_NEAR * 8);
+    const uint32_t step = static_cast<uint32_t>(lensStep(depth));
     if (step < static_cast<uint32_t>(LENS_STEPS))
         return lens.factors + step;
     return nearFactors(lens, depth, near) ? near : nullptr;

@@ -30,9 +30,14 @@ public:
     void setPixels(bool pixels) { pixels_ = pixels; }
     bool pixels() const { return pixels_; }
 
-    // Whether large and clipped scales are placed by their exact depth, and not by the table of the loop: the report's method is
-    // compared byte for byte from version to version.
-    void setExact(bool exact) { exact_ = exact; }
+    // Whether scales are placed as they were in the first versions, large and clipped ones by their exact depth and others by steps
+    // of 1/8 unit: the report's method is compared byte for byte from version to version.
+    void setPrinted(bool printed)
+    {
+        printed_ = printed;
+        if (factors_ != nullptr)
+            makeLens();
+    }
 
     // Starts a frame: clears what the last one touched.
     void begin();
@@ -105,7 +110,7 @@ private:
     int32_t focalX_ = 0, focalY_ = 0, centreX_ = 0, centreY_ = 0;  // pixels, 12 bits of fraction
     Lens lens_{};
     bool pixels_ = false;
-    bool exact_ = false;
+    bool printed_ = false;
     uint8_t* frame_ = nullptr;
     uint16_t* zbuffer_ = nullptr;
     Factors* factors_ = nullptr;

@@ -13,13 +13,22 @@ struct Voxel {
     int8_t brightness;       // of the middle, 0..63; below 0, to DARK_MIDDLE, where only a part of the scale is lit: it has a slope
     uint8_t reach;           // what lies farther behind the middle than this, 1/32 unit, is left out: there the surface has bent
                              // out of sight; 0: all is drawn
-    int8_t cutX, cutY;       // slopes of a linear function across the scale, 1/8 a unit; both 0: it is not cut
+    int8_t cutX, cutY;       // slopes in the middle of a function across the scale, 1/8 a unit; both 0: it is not cut
     int8_t slopeX, slopeY;   // how the brightness changes across, 1/8 step a unit; no more than SHADING_MOST to any corner
-    int16_t cutAt;           // that function in the middle, 1/8; where it is negative nothing is drawn
+    int16_t cutAt;           // that function in the middle, 1/64; where it is negative nothing is drawn
+    int8_t curveXX, curveXY, curveYY;  // how its slopes change, 1/16 a squared unit: along x, one of them along the other's axis,
+                             // along y; all 0: it ends at a straight line
+    int8_t unused;           // 0
 };
 
 // Steps of brightness: 0..63, the 64-step ramp.
 constexpr int BRIGHTEST = 63;
+
+// Whether part of a voxel is left out by the function across it.
+inline bool isCut(const Voxel& v)
+{
+    return (v.cutX | v.cutY) != 0;
+}
 
 // Lambert's (report, The Rendering Technique) from the cosine of normal and light, 1.0 = 2^14; below 0 where the side is dark.
 inline int32_t lambert(int32_t cosine)

@@ -73,7 +73,7 @@ const char* Demo::prepare(int* status)
     if (voxels_ == nullptr || !view_.open())
         return "not enough memory for the picture";
     placeEye();
-    view_.setExact(options_.printed);
+    view_.setPrinted(options_.printed);
     palette_.make(model_, options_.grey, options_.printed);
     if (options_.recordFile != nullptr) {
         const char* problem = csv_.check(options_.recordFile, status);

@@ -33,7 +33,7 @@ namespace {
 // A row of a scale from column -wide to before 0: `both` has the depth, and above it the brightness with 8 bits of fraction.
 template <bool CUT>
 inline void fineRow(const FineScale& scale, uint8_t* pixels, uint16_t* depths, uint32_t both, uint32_t step, uint32_t most,
-                    uint32_t cut)
+                    uint32_t cut, uint32_t cutStep)
 {
     for (int x = -scale.wide; x != 0; ++x) {
         const uint32_t z = static_cast<uint16_t>(both);
@@ -42,8 +42,10 @@ inline void fineRow(const FineScale& scale, uint8_t* pixels, uint16_t* depths, u
             pixels[x] = scale.ramp[static_cast<int32_t>(both) >> 24];
         }
         both += step;
-        if (CUT)
-            cut += static_cast<uint32_t>(scale.cutStep);
+        if (CUT) {
+            cutStep += static_cast<uint32_t>(scale.cutXX);
+            cut += cutStep;
+        }
     }
 }
 
@@ -62,17 +64,19 @@ void blitFine(uint8_t* frame, uint16_t* zbuffer, const FineScale& scale)
     uint16_t* depths = zbuffer + end;
     const uint32_t wide = static_cast<uint32_t>(scale.wide);
     const uint32_t step = together(scale.zStep, scale.shadeStep), down = together(scale.zRow, scale.shadeRow) + step * wide;
-    const uint32_t cutDown = static_cast<uint32_t>(scale.cutRow) + static_cast<uint32_t>(scale.cutStep) * wide;
     const uint32_t most = scale.zMost > Z_EMPTY ? Z_EMPTY : static_cast<uint32_t>(scale.zMost);
-    const bool isCut = (scale.cut | scale.cutStep | scale.cutRow) != 0;
+    const bool isCut = (scale.cut | scale.cutStep | scale.cutRow | scale.cutXX | scale.cutXY | scale.cutYY) != 0;
     uint32_t both = together(scale.z, scale.shade), cut = static_cast<uint32_t>(scale.cut);
+    uint32_t cutStep = static_cast<uint32_t>(scale.cutStep), cutRow = static_cast<uint32_t>(scale.cutRow);
     for (int y = scale.high; y > 0; --y) {
         if (isCut)
-            fineRow<true>(scale, pixels, depths, both, step, most, cut);
+            fineRow<true>(scale, pixels, depths, both, step, most, cut, cutStep);
         else
-            fineRow<false>(scale, pixels, depths, both, step, most, 0);
+            fineRow<false>(scale, pixels, depths, both, step, most, 0, 0);
         both += down;
-        cut += cutDown;
+        cutStep += static_cast<uint32_t>(scale.cutXY);
+        cutRow += static_cast<uint32_t>(scale.cutYY);
+        cut += cutRow;
         pixels += WIDTH;
         depths += WIDTH;
     }

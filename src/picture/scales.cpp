@@ -52,11 +52,13 @@ inline void addShading(const Lens& lens, const Voxel& v, const Factors& f, int32
     scale->shade = v.brightness * 256 + 128 + (toFirst >> 12);
     scale->shadeStep = shadeAcross;
     scale->shadeRow = wrappedSum(shadeDown, -wrappedProduct(shadeAcross, wide));
-    const int32_t cutAcross = shadeStep(v.cutX, f.zx), cutDown = -shadeStep(v.cutY, f.zy);
-    const int32_t cutToFirst = wrappedSum(wrappedProduct(cutAcross, toColumn), wrappedProduct(cutDown, toRow));
-    scale->cut = isCut(v) ? v.cutAt * 32 + (cutToFirst >> 12) : 0;
-    scale->cutStep = cutAcross;
-    scale->cutRow = wrappedSum(cutDown, -wrappedProduct(cutAcross, wide));
+    const auto way = [&](int32_t across, int32_t down) {
+        return wrappedSum(wrappedProduct(across, toColumn), wrappedProduct(down, toRow)) >> 12;
+    };
+    if (isCut(v))
+        setCut(v, f.zx, f.zy, way, scale);
+    else
+        setUncut(scale);
 }
 
 }  // namespace

@@ -67,13 +67,14 @@ void View::makeLens()
     lens_.centreX = centreX_ + HALF;
     lens_.centreY = centreY_ + HALF;
     for (int i = 0; i < LENS_STEPS; ++i) {
-        // The middle of the step: (2i + 1) / 16 units beyond the nearest.
-        const int32_t z16 = 16 * 8 * LENS_NEAR / 8 + 2 * i + 1;
+        // The middle of the step, or of that of 1/8 unit.
+        constexpr int HALVES = 2 * LENS_FINENESS;
+        const int32_t z = HALVES * LENS_NEAR + (printed_ ? 2 * (i | 1) : 2 * i + 1);
         Factors& f = factors_[i];
-        f.x = (focalX_ * 16 + z16 / 2) / z16;
-        f.y = (focalY_ * 16 + z16 / 2) / z16;
-        f.zx = mulDiv(z16, 1 << 23, focalX_);
-        f.zy = mulDiv(z16, 1 << 23, focalY_);
+        f.x = (focalX_ * HALVES + z / 2) / z;
+        f.y = (focalY_ * HALVES + z / 2) / z;
+        f.zx = mulDiv(z, (1 << 27) / HALVES, focalX_);
+        f.zy = mulDiv(z, (1 << 27) / HALVES, focalY_);
     }
 }
 
@@ -216,22 +217,22 @@ bool View::project(const Voxel& voxel, FineScale* scale) const
     scale->shade = first(voxel.brightness * 256 + 128, shadeAcross, shadeDown);
     scale->shadeStep = shadeAcross;
     scale->shadeRow = shadeDown - shadeAcross * wide;
-    const int32_t cutAcross = shadeStep(voxel.cutX, pixelX), cutDown = -shadeStep(voxel.cutY, pixelY);
-    scale->cut = isCut(voxel) ? first(voxel.cutAt * 32, cutAcross, cutDown) : 0;
-    scale->cutStep = cutAcross;
-    scale->cutRow = cutDown - cutAcross * wide;
+    if (isCut(voxel))
+        setCut(voxel, pixelX, pixelY, [&](int32_t x, int32_t y) { return first(0, x, y); }, scale);
+    else
+        setUncut(scale);
     return true;
 }
 
-// Whether a voxel is small, neither near nor far, and wholly on the screen: for these alone an exact view leaves the depth to the
-// loop's table.
+// Whether a voxel is small, neither near nor far, and wholly on the screen: these alone are projected by the loop's table where the
+// methods are the printed ones.
 bool View::ordinary(const Voxel& voxel) const
 {
     constexpr int FAR = 256, WIDEST = 16, LARGEST_SUM = 24;
     const int32_t depth = wrappedSum(lens_.z, voxel.z);
     if (depth < LENS_NEAR * 256 || depth >= FAR * 256)
         return false;
-    const Factors& f = factors_[(depth >> 5) - LENS_NEAR * 8];
+    const Factors& f = factors_[lensStep(depth)];
     int32_t column, row;
     if (__builtin_mul_overflow(wrappedSum(lens_.x, voxel.x), f.x, &column) ||
         __builtin_mul_overflow(wrappedSum(lens_.y, voxel.y), f.y, &row))
@@ -250,7 +251,7 @@ bool View::ordinary(const Voxel& voxel) const
 bool View::prepareLoop(const VoxelList& list)
 {
     const int32_t nearest = wrappedSum(list.z, -list.reach), farthest = wrappedSum(list.z, list.reach);
-    const int last = (farthest >> 5) - LENS_NEAR * 8;
+    const int last = lensStep(farthest);
     const Factors& far = factors_[last < 0 ? 0 : last < LENS_STEPS ? last : LENS_STEPS - 1];
     limitTilts(&lens_, static_cast<uint32_t>(far.zx > far.zy ? far.zx : far.zy));
     const int32_t table = factors_[0].x > factors_[0].y ? factors_[0].x : factors_[0].y;
@@ -287,7 +288,7 @@ int View::showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool 
     int left = 0;
     lens_.ramp = ramp;
     for (const Voxel* at = from; at < to; ++at) {
-        if (exact_) {
+        if (printed_) {
             if (loop && ordinary(*at) && drawScales(&lens_, at, at + 1) > at)
                 continue;
         } else if (loop) {

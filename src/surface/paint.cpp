@@ -154,7 +154,7 @@ void Painter::add(const Seed& s, const Voxel& shaded)
         return;
     }
     const Spot spot = spotAt(place(s), s.normal, mix);
-    if (!spot.edge || (voxel.cutX | voxel.cutY) != 0) {
+    if (!spot.edge || isCut(voxel)) {
         put(voxel, spot.number);
         return;
     }
@@ -163,7 +163,7 @@ void Painter::add(const Seed& s, const Voxel& shaded)
                               static_cast<int16_t>(-spot.inward.z)};
     Voxel within = voxel, beyond = voxel;
     cut(spot.inward, spot.apart, &within);
-    if ((within.cutX | within.cutY) == 0 || !cut(outward, -spot.apart, &beyond) || (beyond.cutX | beyond.cutY) == 0) {
+    if (!isCut(within) || !cut(outward, -spot.apart, &beyond) || !isCut(beyond)) {
         put(voxel, spot.number);
         return;
     }

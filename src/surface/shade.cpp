@@ -2,6 +2,7 @@
 // out once for their patch.
 #include "shade.h"
 
+#include "limb.h"
 #include "math/normal.h"
 #include "math/whole.h"
 #include "paint.h"
@@ -77,6 +78,9 @@ constexpr int32_t UNEVEN_SHADING = 8;
 // the limb would come far before the surface.
 constexpr int32_t DEEPEST = 8;
 
+// Spacings, 1/64: what a scale that ends at the limb becomes larger by to each side.
+constexpr int32_t LIMB_MARGIN = 5;
+
 // Seeds of a patch, oversampled and fine ones included.
 constexpr int SEEDS_MOST = (2 + SoftObject::FINE_SEEDS) * PATCH_RINGS * PATCH_SEEDS;
 
@@ -106,6 +110,8 @@ private:
     }
     bool bendsUnevenly(const Voxel* voxels, int count) const;
     bool cut(const Seed& s, Voxel* voxel) const;
+    const Limb* limbOf(const Patch& patch);
+    void endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel);
     // What of a vector of own space lies along axis i of the view.
     template <class Part>
     int32_t along(const Part v[3], const int32_t axis[3], int i) const
@@ -117,6 +123,9 @@ private:
     const OwnFrame own_;
     Shading shading_;
     int32_t spacing_;         // of the seeds, 1/256 unit
+    int32_t step_;            // a step of places, 1/256 unit of the world, 16 bits of fraction
+    int32_t radius_;          // of a ball, 1/256 unit
+    int32_t limbMargin_;      // LIMB_MARGIN, 1/256 unit
     bool ball_, near_;        // near: some seeds may be nearer than NEAREST_DEPTH
     int32_t facesViewer_, facesAbout_;  // FACES_VIEWER and FACES_ABOUT times the distance of the eye, steps of places
     int viewShift_;           // brings the way to the eye to 14 bits
@@ -130,6 +139,9 @@ private:
     // Of the patch.
     int32_t ahead_;           // of the brightness along the view, 1/8 step a unit with 8 bits of fraction
     int32_t shearX_, shearY_; // of the ray through it, 10 bits of fraction
+    int32_t middle_;          // how far away it is, 1/256 unit
+    bool limbSought_, hasLimb_;
+    Limb limb_;               // of its seeds at rest, if it has one
 };
 
 Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame)
@@ -141,8 +153,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     const int32_t reach = rawFromReal(object.reach()) >> 8;
     near_ = own_.centre[2] - reach < NEAREST_DEPTH || own_.centre[2] + reach >= FARTHEST_DEPTH;
     shading_.placeShift = object.placeShift();
-    // A step of places in 1/256 unit of the world, 16 bits of fraction.
-    const int32_t step = rawFromReal(own.growth) << (shading_.placeShift - 8);
+    const int32_t step = step_ = rawFromReal(own.growth) << (shading_.placeShift - 8);
     shading_.turned = !ball_ || object.size() != object.laidSize() || frame.axes.turned;
     shading_.depth = own_.centre[2];
     const int32_t* const axes[] = {own.right, own.up, own.ahead};
@@ -171,8 +182,10 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     ballHorizon_ = mulShift16((smaller(radius >> 11, FLATTEST) << 12) / distance32, step);
     horizonScale_ = mulShift16(mulDiv(step, 1 << 12, distance32), step);
     flatHorizon_ = mulShift16(FLATTEST, horizonScale_);
+    radius_ = mulShift16(rawFromReal(object.laidRadius()) >> 8, rawFromReal(own.growth));
     const int32_t spacing = spacing_ = smaller(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
     shading_.deepest = spacing * DEEPEST;
+    limbMargin_ = spacing * LIMB_MARGIN >> 6;
     areaScale_ = static_cast<uint32_t>(mulShift16(spacing * spacing << 7, step));
     shading_.cellShift = __builtin_clz(static_cast<uint32_t>(spacing)) - 19;
     if (spacing << shading_.cellShift > 6143)
@@ -305,6 +318,8 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
 inline void Shader::setPatch(const Patch& patch, const Seen& middle, const Voxel& at)
 {
     const int32_t depth = own_.centre[2] + at.z;
+    middle_ = depth;
+    limbSought_ = false;
     const int32_t depth16 = depth >> 4, most = depth16 + (depth16 >> 1);
     shearX_ = (limited((own_.centre[0] + at.x) >> 4, most) << 10) / depth16;
     shearY_ = (limited((own_.centre[1] + at.y) >> 4, most) << 10) / depth16;
@@ -356,6 +371,29 @@ bool Shader::cut(const Seed& s, Voxel* voxel) const
     const int32_t border[] = {s.border.x, s.border.y, s.border.z};
     const int32_t x = along(border, own_.right, 0), y = along(border, own_.up, 1), z = along(border, own_.ahead, 2);
     return cutVoxel(x, y, z, s.apart, shearX_, shearY_, voxel);
+}
+
+// The limb of a patch where it rests. Null: there is none, or it is not known how the patch bends.
+inline const Limb* Shader::limbOf(const Patch& patch)
+{
+    if (!limbSought_) {
+        limbSought_ = true;
+        if (ball_)
+            hasLimb_ = findLimb(radius_, shearX_, shearY_, middle_, &limb_);
+        else
+            hasLimb_ = !patch.bend.ball && patch.state == PATCH_REST &&
+                       findLimb(patch.bend, own_, step_, shearX_, shearY_, middle_, &limb_);
+    }
+    return hasLimb_ ? &limb_ : nullptr;
+}
+
+// Ends the voxel of a seed at rest at the limb, if its tangent plane goes on beyond.
+inline void Shader::endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel)
+{
+    if (voxel->reach == 0 || !(seen.seed->flags & SEED_RESTING) || hollow_ || isCut(*voxel))
+        return;
+    if (const Limb* const limb = limbOf(patch))
+        ::endAtLimb(*limb, mulDiv(mulShift16(seen.facing, step_), 1 << 14, own_.centre[2] + voxel->z), limbMargin_, voxel);
 }
 
 // Finds the oversampled seeds of a patch that are seen, as findSeeds() does the regular ones.
@@ -410,6 +448,8 @@ inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter*
     setPatch(patch, middle, voxels[count >> 1]);
     shadeSeeds(&shading_, seen, voxels, count);
     if (!PAINTED && patch.state == PATCH_REST) {
+        for (int i = 0; i < count; ++i)
+            endAtLimb(patch, seen[i], voxels + i);
         list.count += count;
         return;
     }
@@ -430,6 +470,7 @@ inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter*
         } else if (to != voxels + i) {
             *to = voxels[i];
         }
+        endAtLimb(patch, seen[i], to);
         if (i < known) {
             // What is dark has its slopes; of a finish that is no end of the light.
             slopes.add(&s, static_cast<int>(&s - shading_.seeds), to, shines || to->brightness != 0 ? sight : Slopes::STAYS);

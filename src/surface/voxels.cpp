@@ -108,6 +108,7 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     voxel.reach = 0;
     voxel.cutX = voxel.cutY = voxel.slopeX = voxel.slopeY = 0;
     voxel.cutAt = 0;
+    voxel.curveXX = voxel.curveXY = voxel.curveYY = voxel.unused = 0;
     // Where a round surface bends out of sight its tangent plane goes on: the scale ends there. The limb is cos^2 radius / 2
     // away across the view, with cos the cosine of normal and viewer; along the plane that is cos radius / 2 deep.
     const int32_t reach = (v.horizonShare * facing >> 16) + 1;
@@ -185,8 +186,8 @@ bool cutVoxel(int32_t x, int32_t y, int32_t z, int32_t apart, int32_t shearX, in
     const int shift = most < 128 ? 0 : 25 - __builtin_clz(static_cast<uint32_t>(most));
     cutX >>= shift;
     cutY >>= shift;
-    const int32_t at = (apart + CUT_MARGIN) * 64 >> shift;
-    const int32_t corner = (magnitude(cutX) * voxel->wide + magnitude(cutY) * voxel->high) >> 8;
+    const int32_t at = (apart + CUT_MARGIN) * 512 >> shift;
+    const int32_t corner = (magnitude(cutX) * voxel->wide + magnitude(cutY) * voxel->high) >> 5;
     if (at >= corner)
         return true;
     if (at <= -corner)

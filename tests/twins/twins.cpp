@@ -351,6 +351,8 @@ static_assert(inasm::VOXEL_X == offsetof(Voxel, x) && inasm::VOXEL_Y == offsetof
               inasm::VOXEL_CUTY == offsetof(Voxel, cutY) && inasm::VOXEL_CUTY == inasm::VOXEL_BRIGHT + 3 &&
               inasm::VOXEL_SLOPEX == offsetof(Voxel, slopeX) && inasm::VOXEL_SLOPEY == inasm::VOXEL_SLOPEX + 1 &&
               inasm::VOXEL_SLOPEY == offsetof(Voxel, slopeY) && inasm::VOXEL_CUTAT == offsetof(Voxel, cutAt) &&
+              inasm::VOXEL_CURVEXX == offsetof(Voxel, curveXX) && inasm::VOXEL_CURVEXY == offsetof(Voxel, curveXY) &&
+              inasm::VOXEL_CURVEYY == offsetof(Voxel, curveYY) && offsetof(Voxel, unused) == inasm::VOXEL_CURVEXX + 3 &&
               inasm::VOXEL_SIZE == sizeof(Voxel), "Voxel");
 static_assert(inasm::FACTOR_X == offsetof(Factors, x) && inasm::FACTOR_Y == offsetof(Factors, y) &&
               inasm::FACTOR_ZX == offsetof(Factors, zx) && inasm::FACTOR_ZY == offsetof(Factors, zy) &&
@@ -364,7 +366,8 @@ static_assert(inasm::LENS_X == offsetof(Lens, x) && inasm::LENS_Y == offsetof(Le
               inasm::EMPTY == offsetof(Lens, empty) && inasm::TILT_ADD == offsetof(Lens, tiltAdd) &&
               inasm::TILT_BITS == offsetof(Lens, tiltBits) && inasm::FOCALX == offsetof(Lens, focalX) &&
               inasm::FOCALY == offsetof(Lens, focalY) && inasm::LENS_WORDS * 4 == sizeof(Lens), "Lens");
-static_assert(inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FAR == LENS_FAR && inasm::LENS_STEPS == LENS_STEPS &&
+static_assert(inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FINENESS == LENS_FINENESS &&
+                  inasm::FACTOR_SIZE * LENS_FINENESS == 256 && inasm::LENS_FAR == LENS_FAR && inasm::LENS_STEPS == LENS_STEPS &&
                   inasm::STEEPEST == STEEPEST && inasm::LARGEST == LARGEST && inasm::LENS_NEXT == LENS_NEXT &&
                   inasm::FACTOR_MOST == FACTOR_MOST && inasm::Z_EMPTY == Z_EMPTY && inasm::SCREEN_WIDTH == WIDE &&
                   inasm::SCREEN_HEIGHT == HIGH,
@@ -391,7 +394,7 @@ struct Optics {
         centreX = cx;
         centreY = cy;
         for (int i = 0; i < LENS_STEPS; ++i) {
-            const double z = LENS_NEAR + (i + 0.5) / 8;
+            const double z = LENS_NEAR + (i + 0.5) / LENS_FINENESS;
             factors[i].x = static_cast<int32_t>(fx * 4096 / z + 0.5);
             factors[i].y = static_cast<int32_t>(fy * 4096 / z + 0.5);
             factors[i].zx = static_cast<int32_t>(z * 32768 / fx);
@@ -487,13 +490,19 @@ Voxel anyVoxel(const Lens& lens)
     }
     v.cutX = v.cutY = 0;
     v.cutAt = static_cast<int16_t>(anything());
+    v.curveXX = v.curveXY = v.curveYY = v.unused = 0;
     if (below(4) == 0) {
         v.cutX = static_cast<int8_t>(anything());
         v.cutY = static_cast<int8_t>(anything());
         // Often so that the line lies within the scale.
         const int corner = (v.cutX < 0 ? -v.cutX : v.cutX) * v.wide / 256 + (v.cutY < 0 ? -v.cutY : v.cutY) * v.high / 256;
-        if (below(8) && corner < 16000)
-            v.cutAt = static_cast<int16_t>(below(2 * corner + 1) - corner);
+        if (below(8) && corner < 4000)
+            v.cutAt = static_cast<int16_t>((below(2 * corner + 1) - corner) * 8);
+        if (below(2)) {
+            v.curveXX = static_cast<int8_t>(anything());
+            v.curveXY = static_cast<int8_t>(anything());
+            v.curveYY = static_cast<int8_t>(anything());
+        }
     }
     switch (below(50)) {
     case 0: v.x = anything(); break;
@@ -608,7 +617,7 @@ void voxelLists(int rounds)
 
 // One voxel on an empty screen, held against the perspective in double precision: which pixels it takes, their depth and
 // colour, and whether it is one for the loop at all. In doubt (numbers have 12 bits of fraction, and factors change by
-// steps of 1/8 unit) either is right.
+// steps of 1/16 unit) either is right.
 void voxelByVoxel(int rounds)
 {
     static Fenced c, a;
@@ -659,8 +668,8 @@ void voxelByVoxel(int rounds)
             const auto most = [](double p, double q) {
                 return (p < 0 ? -p : p) > (q < 0 ? -q : q) ? (p < 0 ? -p : p) : (q < 0 ? -q : q);
             };
-            const double doubtX = 0.01 + 0.0011 * most(left - optics.centreX, right - optics.centreX);
-            const double doubtY = 0.01 + 0.0011 * most(top - optics.centreY, bottom - optics.centreY);
+            const double doubtX = 0.01 + 0.0006 * most(left - optics.centreX, right - optics.centreX);
+            const double doubtY = 0.01 + 0.0006 * most(top - optics.centreY, bottom - optics.centreY);
             // Pixels whose centres lie within, at least and at most.
             const auto first = [](double edge) { return static_cast<long>(__builtin_ceil(edge - 0.5)); };
             const long leastLeft = first(left - doubtX), mostLeft = first(left + doubtX), leastRight = first(right - doubtX),
@@ -709,10 +718,25 @@ void voxelByVoxel(int rounds)
                                          doubtX * most(across, 0) + doubtY * most(down, 0);
                     // Tilts are within 16; more may not fit the product.
                     const double end = v.reach != 0 && tilted ? z * 128 + v.reach * 4 : 1e9;
-                    // What cuts, and how sure it is: its steps are as those of the brightness.
-                    const double cut =
-                        isCut(v) ? v.cutAt / 8.0 + (v.cutX * dx / optics.focalX - v.cutY * dy / optics.focalY) * z / 8 : 0;
-                    const double cutDoubt = isCut(v) ? 0.01 + (most(dx, 0) + most(dy, 0)) / 256 +
+                    // What cuts, and how sure it is: its steps are as those of the brightness, and they change by steps as well.
+                    const double ux = dx * z / optics.focalX, uy = -dy * z / optics.focalY;
+                    const double curve = (v.curveXX * ux * ux + 2 * v.curveXY * ux * uy + v.curveYY * uy * uy) / 32;
+                    const double cut = isCut(v) ? v.cutAt / 64.0 + (v.cutX * ux + v.cutY * uy) / 8 + curve : 0;
+                    // What changes by so much from the middle to a corner may not fit its products.
+                    const double cornerX = v.wide / 256.0 + z / optics.focalX, cornerY = v.high / 256.0 + z / optics.focalY;
+                    const double cutSwing = (most(v.cutX, 0) * cornerX + most(v.cutY, 0) * cornerY) / 8 +
+                                         (most(v.curveXX, 0) * cornerX * cornerX + 2 * most(v.curveXY, 0) * cornerX * cornerY +
+                                          most(v.curveYY, 0) * cornerY * cornerY) / 16;
+                    const double curved =
+                        (v.curveXX | v.curveXY | v.curveYY) == 0
+                            ? 0
+                            : (cutSwing > 1000 ? 1e9 : 0) + (dx * dx + dy * dy + 2 * most(dx, dy)) / 256 * 2 + most(dx, dy) / 128 +
+                                  (most(v.curveXX, v.curveYY) + most(v.curveXY, 0)) / 16 * 0.006 *
+                                      (most(ux, uy) + 2 * (doubtX + doubtY) * z / optics.focalX) *
+                                      (most(ux, uy) + 2 * (doubtX + doubtY) * z / optics.focalX) +
+                                  (most(v.curveXX, v.curveYY) + most(v.curveXY, 0)) / 16 * (doubtX + doubtY) * z /
+                                      optics.focalX * most(ux, uy);
+                    const double cutDoubt = isCut(v) ? 0.01 + (most(dx, 0) + most(dy, 0)) / 256 + curved +
                                                            0.0021 * (most(v.cutX, 0) + most(v.cutY, 0)) / 8 *
                                                                (most(dx, dy) + 8 * (doubtX + doubtY) / 0.01) * z / optics.focalX
                                                      : 0;
@@ -944,7 +968,8 @@ static_assert(inasm2::VOXEL_X == offsetof(Voxel, x) && inasm2::VOXEL_Y == offset
               inasm2::VOXEL_HIGH == offsetof(Voxel, high) && inasm2::VOXEL_TILTX == offsetof(Voxel, tiltX) &&
               inasm2::VOXEL_TILTY == offsetof(Voxel, tiltY) && inasm2::VOXEL_BRIGHT == offsetof(Voxel, brightness) &&
               inasm2::VOXEL_REACH == offsetof(Voxel, reach) && inasm2::VOXEL_SLOPEX == offsetof(Voxel, slopeX) &&
-              inasm2::VOXEL_SLOPEY == offsetof(Voxel, slopeY) && inasm2::VOXEL_SIZE == sizeof(Voxel), "Voxel");
+              inasm2::VOXEL_SLOPEY == offsetof(Voxel, slopeY) && inasm2::VOXEL_CURVE == offsetof(Voxel, curveXX) &&
+              inasm2::VOXEL_SIZE == sizeof(Voxel), "Voxel");
 static_assert(inasm2::SEEN_SEED == offsetof(Seen, seed) && inasm2::SEEN_FACING == offsetof(Seen, facing) &&
               inasm2::SEEN_SIZE == sizeof(Seen), "Seen");
 static_assert(inasm2::SEEDS == offsetof(Shading, seeds) && inasm2::ROOTS == offsetof(Shading, roots) &&

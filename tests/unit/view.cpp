@@ -216,10 +216,10 @@ TEST(anything_may_be_shown)
     }
 }
 
-TEST(cut_scales_end_at_a_line)
+TEST(cut_scales_end_at_a_line_or_a_curve)
 {
-    // What is drawn of a scale that is cut are the pixels of the whole one where its linear function is not negative; in
-    // doubt (steps from pixel to pixel are rounded) either is right.
+    // What is drawn of a scale that is cut are the pixels of the whole one where its function is not negative; in doubt (steps
+    // from pixel to pixel are rounded) either is right.
     View view, whole;
     CHECK(view.open() && whole.open());
     Random random;
@@ -239,7 +239,12 @@ TEST(cut_scales_end_at_a_line)
         v.cutX = static_cast<int8_t>(random.below(255) - 127);
         v.cutY = static_cast<int8_t>(random.below(255) - 127);
         const double most = (std::abs(v.cutX) * v.wide + std::abs(v.cutY) * v.high) / 256.0;
-        v.cutAt = static_cast<int16_t>(random.between(-1.2, 1.2) * most);
+        v.cutAt = static_cast<int16_t>(random.between(-1.2, 1.2) * most * 8);
+        if (round % 2 == 0) {
+            v.curveXX = static_cast<int8_t>(random.below(65) - 32);
+            v.curveXY = static_cast<int8_t>(random.below(33) - 16);
+            v.curveYY = static_cast<int8_t>(random.below(65) - 32);
+        }
         view.begin();
         show(view, {v});
         const double column = 160 + 250 * (v.x / 256.0) / (v.z / 256.0),
@@ -255,10 +260,13 @@ TEST(cut_scales_end_at_a_line)
             }
             const double across = i % WIDTH + 0.5 - column, up = row - (i / WIDTH + 0.5);
             const double dx = across * z / 250, dy = up * z / number(view.camera().focalY);
-            const double value = (v.cutAt + v.cutX * dx + v.cutY * dy) / 8;
+            const double value = v.cutAt / 64.0 + (v.cutX * dx + v.cutY * dy) / 8 +
+                                 (v.curveXX * dx * dx + 2 * v.curveXY * dx * dy + v.curveYY * dy * dy) / 32;
             // The loop knows places and steps so well that the line is right to a sixteenth of a pixel.
-            const double doubt = (std::abs(across) + std::abs(up) + 2) / 256 +
-                                 (std::abs(v.cutX) * z / 250 + std::abs(v.cutY) * z / number(view.camera().focalY)) / 8 / 16;
+            const double slopeX = std::abs(v.cutX) / 8.0 + (std::abs(v.curveXX * dx) + std::abs(v.curveXY * dy)) / 16;
+            const double slopeY = std::abs(v.cutY) / 8.0 + (std::abs(v.curveXY * dx) + std::abs(v.curveYY * dy)) / 16;
+            const double far = std::abs(across) + std::abs(up), rounded = round % 2 == 0 ? far * far / 128 : 0;
+            const double doubt = (far + 2) / 256 + rounded + (slopeX * z / 250 + slopeY * z / number(view.camera().focalY)) / 16;
             const bool drawn = view.zbuffer()[i] != Z_EMPTY;
             if (drawn)
                 CHECK(view.zbuffer()[i] == whole.zbuffer()[i] && view.frame()[i] == whole.frame()[i]);
@@ -880,7 +888,7 @@ TEST(a_camera_that_only_moves_keeps_its_table)
     view.setCamera(camera);
     CHECK(view.camera().eye == camera.eye && view.camera().axes == camera.axes);
     // A voxel ahead is seen, in the axes of the view, wherever the eye is; with another focal length elsewhere.
-    const Voxel voxel{10 * 256, 0, 100 * 256, 256, 256, 0, 0, 40, 0, 0, 0, 0, 0, 0};
+    const Voxel voxel{10 * 256, 0, 100 * 256, 256, 256, 0, 0, 40, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     view.begin();
     SAME(show(view, voxel), 1);
     const int before = 160 + 25, after = 160 + 50;

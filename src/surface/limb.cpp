@@ -1,0 +1,91 @@
+// Where a surface bends out of sight, from how it bends.
+#include "limb.h"
+
+#include "math/whole.h"
+
+namespace {
+
+// The least curvature of which there is a limb, per unit, 1.0 = 2^14: a radius of 250 units.
+constexpr int32_t FLATTEST = 66;
+// No part of a Limb is more.
+constexpr int32_t SLANT = 4;
+
+inline int32_t times14(int32_t a, int32_t b)
+{
+    return a * b >> 14;
+}
+
+template <class Part, class Other>
+inline int32_t product14(const Part a[3], const Other b[3])
+{
+    return times14(a[0], b[0]) + times14(a[1], b[1]) + times14(a[2], b[2]);
+}
+
+// S times a vector, in the terms of Bend::turn.
+inline void turnAlong(const int16_t (&t)[6], const int32_t v[3], int32_t to[3])
+{
+    to[0] = times14(t[0], v[0]) + times14(t[3], v[1]) + times14(t[4], v[2]);
+    to[1] = times14(t[3], v[0]) + times14(t[1], v[1]) + times14(t[5], v[2]);
+    to[2] = times14(t[4], v[0]) + times14(t[5], v[1]) + times14(t[2], v[2]);
+}
+
+// From k, s and S across the view, per unit, 1.0 = 2^14.
+bool setLimb(int32_t k, int32_t alongX, int32_t alongY, int32_t xx, int32_t xy, int32_t yy, int32_t depth, Limb* limb)
+{
+    if (k < FLATTEST || larger(magnitude(alongX), magnitude(alongY)) >= k * SLANT)
+        return false;
+    limb->radius = (1 << 22) / k;
+    limb->nearness = smaller((limb->radius << 14) / depth, SLANT << 14);
+    limb->along[0] = (alongX << 14) / k;
+    limb->along[1] = (alongY << 14) / k;
+    limb->curve[0] = (xx - times14(alongX, limb->along[0])) * 2;
+    limb->curve[1] = (xy - times14(alongX, limb->along[1])) * 2;
+    limb->curve[2] = (yy - times14(alongY, limb->along[1])) * 2;
+    limb->curveMost = magnitude(limb->curve[0]) | magnitude(limb->curve[1]) | magnitude(limb->curve[2]);
+    return true;
+}
+
+}  // namespace
+
+bool findLimb(int32_t radius, int32_t shearX, int32_t shearY, int32_t depth, Limb* limb)
+{
+    const int32_t bend = (1 << 22) / larger(radius, 128), x = times14(shearX << 4, bend), y = times14(shearY << 4, bend);
+    return setLimb(bend + times14(shearX << 4, x) + times14(shearY << 4, y), x, y, bend, 0, bend, depth, limb);
+}
+
+bool findLimb(const Bend& bend, const OwnFrame& own, int32_t step, int32_t shearX, int32_t shearY, int32_t depth, Limb* limb)
+{
+    int32_t sight[3], along[3], right[3], up[3];
+    for (int i = 0; i < 3; ++i)
+        sight[i] = own.ahead[i] + ((own.right[i] * shearX + own.up[i] * shearY) >> 10);
+    turnAlong(bend.turn, sight, along);
+    turnAlong(bend.turn, own.right, right);
+    turnAlong(bend.turn, own.up, up);
+    // 1.0 = 2^13 over 256 steps.
+    const auto perUnit = [&](int32_t turn) { return limited(mulDiv(turn, 1 << 17, step), 1 << 15); };
+    return setLimb(perUnit(product14(along, sight)), perUnit(product14(along, own.right)), perUnit(product14(along, own.up)),
+                   perUnit(product14(right, own.right)), perUnit(product14(right, own.up)), perUnit(product14(up, own.up)), depth,
+                   limb);
+}
+
+void endAtLimb(const Limb& limb, int32_t cosine, int32_t more, Voxel* voxel)
+{
+    // A tilt is a part of the normal over the cosine.
+    const int32_t near = times14(cosine, limb.nearness) + (1 << 14);
+    const int32_t x = times14(voxel->tiltX * cosine >> 8, near) + times14(cosine, limb.along[0]);
+    const int32_t y = times14(voxel->tiltY * cosine >> 8, near) + times14(cosine, limb.along[1]);
+    // To 7 bits and a sign, and so that what is rounded up still fits.
+    const int32_t most = magnitude(x) | magnitude(y) | limb.curveMost | 0xff;
+    const int shift = 25 - __builtin_clz(static_cast<uint32_t>(most + (most >> 6))), half = 1 << shift >> 1;
+    const auto inward = [&](int32_t outward) { return static_cast<int8_t>((half - outward) >> shift); };
+    voxel->wide = static_cast<int16_t>(smaller(voxel->wide + more, 0x7fff));
+    voxel->high = static_cast<int16_t>(smaller(voxel->high + more, 0x7fff));
+    voxel->reach = 0;
+    voxel->cutX = inward(x);
+    voxel->cutY = inward(y);
+    const int32_t square = smaller(times14(cosine, cosine), 1 << 14);
+    voxel->cutAt = static_cast<int16_t>(smaller(((square * limb.radius >> 10) * 16 + half) >> shift, 32000));
+    voxel->curveXX = inward(limb.curve[0]);
+    voxel->curveXY = inward(limb.curve[1]);
+    voxel->curveYY = inward(limb.curve[2]);
+}

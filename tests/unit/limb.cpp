@@ -1,0 +1,175 @@
+// The limb: a scale next to it ends where rays of sight only touch the surface.
+#include "help.h"
+
+#include "../../src/surface/limb.h"
+#include "test.h"
+
+namespace {
+
+Vec cross(const Vec& a, const Vec& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+// A ray of sight meets a round surface in `seed`, whose normal is `normal`; both in axes of the view, units. What is left of a
+// voxel there, as the drawing loop takes it.
+struct Ended {
+    Voxel voxel;
+    double cosine;
+
+    // Below 0 beyond the limb; units across the view.
+    double at(double x, double y) const
+    {
+        return voxel.cutAt / 64.0 + (voxel.cutX * x + voxel.cutY * y) / 8.0 +
+               (voxel.curveXX * x * x + 2 * voxel.curveXY * x * y + voxel.curveYY * y * y) / 32.0;
+    }
+    // About how far a place is from the limb.
+    double apart(double x, double y) const
+    {
+        return at(x, y) / (std::hypot(voxel.cutX, voxel.cutY) / 8.0);
+    }
+};
+
+Ended end(const Limb& limb, const Vec& seed, const Vec& normal)
+{
+    Ended ended = {};
+    ended.cosine = -dot(normal, seed) / seed.z;
+    Voxel& v = ended.voxel;
+    v.wide = v.high = 300;
+    v.reach = 20;
+    v.tiltX = static_cast<int16_t>(std::lround(normal.x / ended.cosine * 256));
+    v.tiltY = static_cast<int16_t>(std::lround(normal.y / ended.cosine * 256));
+    endAtLimb(limb, static_cast<int32_t>(ended.cosine * 16384), 20, &v);
+    return ended;
+}
+
+// Of a convex surface round an axis; a ball's has no direction.
+struct Round {
+    Vec centre, axis;
+    double radius;
+
+    Vec across(const Vec& v) const { return v - axis * dot(axis, v); }
+    // How far outside of it a ray goes by, units; below 0 where it meets it.
+    double missed(const Vec& ray) const
+    {
+        const Vec d = across(ray), c = across(centre);
+        const double t = dot(d, c) / dot(d, d);
+        return size(d * t - c) - radius;
+    }
+};
+
+// Holds scales of seeds that are seen nearly edge-on against the surface; `limbOf` finds the limb for a seed.
+template <class LimbOf>
+void holdAgainst(const Round& round, Random& random, LimbOf limbOf, long* held, double* worst)
+{
+    for (int i = 0; i < 200; ++i) {
+        Vec out{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
+        out = round.across(out);
+        if (size(out) < 0.1)
+            continue;
+        const Vec normal = out * (1 / size(out)), seed = round.centre + normal * round.radius;
+        const double cosine = -dot(normal, seed) / seed.z;
+        // A slope has 7 bits, and so has a curve; what is smaller than a unit is made of smaller scales.
+        const double spacing = std::min(2.0, round.radius / 3);
+        if (cosine < 0.05 || cosine > 0.5)
+            continue;
+        Limb limb;
+        const bool found = limbOf(seed, &limb);
+        CHECK(found);
+        if (!found)
+            continue;
+        const Ended ended = end(limb, seed, normal);
+        CHECK(ended.voxel.reach == 0 && ended.voxel.wide == 320 && ended.voxel.high == 320);
+        CHECK(ended.at(0, 0) >= 0);
+        for (int k = 0; k < 20; ++k) {
+            const double x = random.between(-spacing, spacing), y = random.between(-spacing, spacing);
+            const double missed = round.missed(seed + Vec{x, y, 0});
+            // Where the limb is: beside it the two are alike.
+            if (std::fabs(missed) > spacing / 4)
+                continue;
+            ++*held;
+            if ((missed > 0) == (ended.at(x, y) < 0))
+                continue;
+            *worst = std::max(*worst, std::fabs(missed) / spacing);
+        }
+    }
+}
+
+}  // namespace
+
+TEST(scales_of_a_ball_end_at_its_limb)
+{
+    Random random;
+    long held = 0;
+    double worst = 0;
+    for (int i = 0; i < 100; ++i) {
+        const double depth = random.between(60, 300);
+        const Round ball{{random.between(-0.5, 0.5) * depth, random.between(-0.4, 0.4) * depth, depth}, {0, 0, 0},
+                         random.between(1, std::min(40.0, depth / 5))};
+        holdAgainst(ball, random, [&](const Vec& seed, Limb* limb) {
+            return findLimb(static_cast<int32_t>(ball.radius * 256), static_cast<int32_t>(seed.x / seed.z * 1024),
+                            static_cast<int32_t>(seed.y / seed.z * 1024), static_cast<int32_t>(seed.z * 256), limb);
+        }, &held, &worst);
+    }
+    note("%ld places held, in doubt up to %.3f spacings from the limb", held, worst);
+    CHECK(held > 5000);
+    CHECK(worst < 0.03);
+}
+
+TEST(scales_of_what_bends_end_at_its_limb)
+{
+    Random random;
+    long held = 0;
+    double worst = 0;
+    for (int i = 0; i < 100; ++i) {
+        const double depth = random.between(60, 300);
+        Vec axis{random.between(-1, 1), random.between(-1, 1), random.between(-0.5, 0.5)};
+        axis = axis * (1 / size(axis));
+        const Round tube{{random.between(-0.4, 0.4) * depth, random.between(-0.3, 0.3) * depth, depth}, axis,
+                         random.between(2, std::min(30.0, depth / 6))};
+        // Own axes are turned against the view.
+        Vec own[3] = {{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)}, {0, 0, 0}, {0, 0, 0}};
+        own[0] = own[0] * (1 / size(own[0]));
+        own[1] = cross(own[0], axis);
+        own[1] = own[1] * (1 / size(own[1]));
+        own[2] = cross(own[0], own[1]);
+        OwnFrame frame;
+        const auto part = [&](int k, int which) { return which == 0 ? own[k].x : which == 1 ? own[k].y : own[k].z; };
+        for (int k = 0; k < 3; ++k) {
+            frame.right[k] = static_cast<int32_t>(std::lround(part(k, 0) * 16384));
+            frame.up[k] = static_cast<int32_t>(std::lround(part(k, 1) * 16384));
+            frame.ahead[k] = static_cast<int32_t>(std::lround(part(k, 2) * 16384));
+        }
+        // A step of places is 1/32 unit: 256 of them are 8 units.
+        constexpr int32_t PLACES = 8 << 16;
+        Bend bend = {};
+        const int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+        for (int k = 0; k < 6; ++k) {
+            const Vec &a = own[pairs[k][0]], &b = own[pairs[k][1]];
+            const double turn = (dot(a, b) - dot(a, axis) * dot(b, axis)) / tube.radius;
+            bend.turn[k] = static_cast<int16_t>(std::lround(turn * 8 * 8192 / 2) * 2);
+        }
+        holdAgainst(tube, random, [&](const Vec& seed, Limb* limb) {
+            return findLimb(bend, frame, PLACES, static_cast<int32_t>(seed.x / seed.z * 1024),
+                            static_cast<int32_t>(seed.y / seed.z * 1024), static_cast<int32_t>(seed.z * 256), limb);
+        }, &held, &worst);
+    }
+    note("%ld places held, in doubt up to %.3f spacings from the limb", held, worst);
+    CHECK(held > 5000);
+    CHECK(worst < 0.03);
+}
+
+// What is flat along the ray has no limb.
+TEST(flat_surfaces_have_no_limb)
+{
+    Limb limb;
+    CHECK(!findLimb(1 << 20, 0, 0, 100 << 8, &limb));
+    Bend flat = {};
+    OwnFrame frame = {};
+    frame.right[0] = frame.up[1] = frame.ahead[2] = 16384;
+    CHECK(!findLimb(flat, frame, 8 << 16, 100, 100, 100 << 8, &limb));
+    flat.turn[0] = 8192;
+    CHECK(!findLimb(flat, frame, 8 << 16, 0, 0, 100 << 8, &limb));
+    flat.turn[2] = -8192;
+    CHECK(!findLimb(flat, frame, 8 << 16, 0, 0, 100 << 8, &limb));
+}
