@@ -78,8 +78,10 @@ constexpr int32_t UNEVEN_SHADING = 8;
 // the limb would come far before the surface.
 constexpr int32_t DEEPEST = 8;
 
-// Spacings, 1/64: what a scale that ends at the limb becomes larger by to each side.
-constexpr int32_t LIMB_MARGIN = 5;
+// Spacings, 1/64: what a scale that ends at the limb becomes larger by to each side. And 1/256 units: it becomes larger by no more,
+// for then its brightness changes to no corner by more than three steps more, and stays within SHADING_MOST of the ramp.
+constexpr int32_t LIMB_MARGIN = 3, LIMB_MARGIN_MOST = 24;
+static_assert(-DARK_MIDDLE * 8 + STEEPEST_SHADING + 2 * 127 * LIMB_MARGIN_MOST / 256 < SHADING_MOST * 8, "ramps");
 
 // Seeds of a patch, oversampled and fine ones included.
 constexpr int SEEDS_MOST = (2 + SoftObject::FINE_SEEDS) * PATCH_RINGS * PATCH_SEEDS;
@@ -185,7 +187,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     radius_ = mulShift16(rawFromReal(object.laidRadius()) >> 8, rawFromReal(own.growth));
     const int32_t spacing = spacing_ = smaller(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
     shading_.deepest = spacing * DEEPEST;
-    limbMargin_ = spacing * LIMB_MARGIN >> 6;
+    limbMargin_ = smaller(spacing * LIMB_MARGIN >> 6, LIMB_MARGIN_MOST);
     areaScale_ = static_cast<uint32_t>(mulShift16(spacing * spacing << 7, step));
     shading_.cellShift = __builtin_clz(static_cast<uint32_t>(spacing)) - 19;
     if (spacing << shading_.cellShift > 6143)
