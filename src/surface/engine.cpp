@@ -38,6 +38,7 @@ private:
     bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all, bool known);
     bool stays(const Settler& settler, Patch& patch, bool stale) const;
     void renewLists(Patch& patch, const Neighbourhood& all);
+    bool comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all, bool stale);
     bool isAtRest(Settler& settler, Patch& patch, const Neighbourhood& all);
     void leave(Patch& patch);
     void settle(Settler& settler, Patch& patch);
@@ -125,18 +126,24 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
         renewLists(patch, all);
     if (!all.common && stays(settler, patch, stale))
         return true;
-    const bool alone = all.common && all.rests && !isListed(patch.near);
-    const bool touched = !alone && settler.setPatch(patch);
-    const bool reached = all.common || stale || odometer_.hasMoved(all, settler.reaching());
-    patch.stirred = reached || patch.reached;
-    patch.reached = reached;
-    if (!touched && all.rests && isAtRest(settler, patch, all))
+    if (comesToRest(settler, patch, all, stale))
         return false;
     if (!judgedFirst && outOfSight(patch, own))
         leave(patch);
     else if (!known || patch.state == PATCH_REST || isDue(odometer_.reading(), patch.due))
         settle(settler, patch);
     return true;
+}
+
+// Finds out who reaches a patch. True: nobody does, and its seeds are where they rest.
+inline bool Engine::comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all, bool stale)
+{
+    const bool alone = all.common && all.rests && !isListed(patch.near);
+    const bool touched = !alone && settler.setPatch(patch);
+    const bool reached = all.common || stale || odometer_.hasMoved(all, settler.reaching());
+    patch.stirred = reached || patch.reached;
+    patch.reached = reached;
+    return !touched && all.rests && isAtRest(settler, patch, all);
 }
 
 // Puts a patch out of sight to sleep, until it is seen.

@@ -99,6 +99,11 @@ public:
     int32_t spacing() const { return spacing_; }
 
 private:
+    int findSeen(const Patch& patch, Seen* seen, Voxel* voxels, int* regular) const;
+    void shadeSeen(Patch& patch, int turn, const Seen* seen, Voxel* voxels, int count);
+    bool cutAtBorder(const Seed& s, Voxel* voxel) const;
+    template <bool PAINTED>
+    void listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list, Painter* painter);
     int findExtras(const Patch& patch, Seen* seen, Voxel* voxels) const;
     int leaveNear(Seen* seen, Voxel* voxels, int count) const;
     bool findSteps(const Patch& patch, const Seed* from[2], const Seed* to[2]) const;
@@ -429,43 +434,54 @@ SELDOM int Shader::leaveNear(Seen* seen, Voxel* voxels, int count) const
     return left;
 }
 
-template <bool PAINTED>
-inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter* painter)
+// Finds the seeds of a patch that the viewer sees, and sets the places of their voxels: `*regular` regular ones, and behind them
+// the others.
+inline int Shader::findSeen(const Patch& patch, Seen* seen, Voxel* voxels, int* regular) const
 {
-    // The painter makes one or two voxels of each.
-    Voxel unpainted[PAINTED ? SEEDS_MOST : 1];
-    Voxel *const voxels = PAINTED ? unpainted : list.room(), *to = voxels;
-    Seen seen[SEEDS_MOST];
     int count = findSeeds(&shading_, &patch, seen, voxels);
     if (near_)
         count = leaveNear(seen, voxels, count);
-    const int regular = count;
+    *regular = count;
     if (patch.extras || patch.islands)
         count += findExtras(patch, seen + count, voxels + count);
-    if (count == 0)
-        return;
+    return count;
+}
+
+// Writes the rest of their voxels.
+inline void Shader::shadeSeen(Patch& patch, int turn, const Seen* seen, Voxel* voxels, int count)
+{
     const Seen& middle = seen[count >> 1];
     if (!patch.bend.known || (patch.bend.stale && (turn & (middle.facing < facesViewer_ >> 2 ? BEND_TURNS_LIMB : BEND_TURNS)) == 0))
         measureBend(patch);
     setPatch(patch, middle, voxels[count >> 1]);
     shadeSeeds(&shading_, seen, voxels, count);
-    if (!PAINTED && patch.state == PATCH_REST) {
-        for (int i = 0; i < count; ++i)
-            endAtLimb(patch, seen[i], voxels + i);
-        list.count += count;
-        return;
-    }
+}
+
+// Cuts a voxel at the border, if its seed is next to one. False: nothing is left.
+inline bool Shader::cutAtBorder(const Seed& s, Voxel* voxel) const
+{
+    if (!(s.flags & SEED_BORDER))
+        return true;
+    if (!cut(s, voxel))
+        return false;
+    if (s.apart < 0)
+        voxel->z += BEHIND;
+    return true;
+}
+
+// Lists the voxels of a patch that blends, or is painted.
+template <bool PAINTED>
+inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list,
+                               Painter* painter)
+{
     const bool shines = PAINTED && painter->shines(), blends = patch.state == PATCH_MIXED;
     const int32_t sight = shines || (blends && bendsUnevenly(voxels, regular)) ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
     const int known = shines || blends ? regular : 0;
+    Voxel* to = list.room();
     for (int i = 0; i < count; ++i) {
         const Seed& s = *seen[i].seed;
-        if (s.flags & SEED_BORDER) {
-            if (!cut(s, voxels + i))
-                continue;
-            if (s.apart < 0)
-                voxels[i].z += BEHIND;
-        }
+        if (!cutAtBorder(s, voxels + i))
+            continue;
         if (PAINTED) {
             to = list.room();
             painter->add(s, voxels[i]);
@@ -483,6 +499,27 @@ inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter*
     }
     if (!PAINTED)
         list.count = static_cast<int>(to - list.voxels);
+}
+
+template <bool PAINTED>
+inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter* painter)
+{
+    // The painter makes one or two voxels of each.
+    Voxel unpainted[PAINTED ? SEEDS_MOST : 1];
+    Voxel* const voxels = PAINTED ? unpainted : list.room();
+    Seen seen[SEEDS_MOST];
+    int regular;
+    const int count = findSeen(patch, seen, voxels, &regular);
+    if (count == 0)
+        return;
+    shadeSeen(patch, turn, seen, voxels, count);
+    if (PAINTED || patch.state != PATCH_REST) {
+        listVoxels<PAINTED>(patch, seen, voxels, count, regular, list, painter);
+        return;
+    }
+    for (int i = 0; i < count; ++i)
+        endAtLimb(patch, seen[i], voxels + i);
+    list.count += count;
 }
 
 // Whether some of a patch that does not rest facing away may be seen. What has settled in this frame was not hidden before it did.
