@@ -9,6 +9,7 @@ namespace {
 constexpr int32_t FLATTEST = 66;
 // No part of a Limb is more.
 constexpr int32_t SLANT = 4;
+constexpr int32_t COSINE_MOST = (1 << 15) - 1;
 
 inline int32_t times14(int32_t a, int32_t b)
 {
@@ -70,8 +71,10 @@ bool findLimb(const Bend& bend, const OwnFrame& own, int32_t step, int32_t shear
 
 void endAtLimb(const Limb& limb, int32_t cosine, int32_t more, Voxel* voxel)
 {
+    // What is seen far aside from near has cosines beyond all that matter.
+    cosine = smaller(cosine, COSINE_MOST);
     // A tilt is a part of the normal over the cosine.
-    const int32_t near = times14(cosine, limb.nearness) + (1 << 14);
+    const int32_t near = smaller(times14(cosine, limb.nearness), (SLANT - 1) << 14) + (1 << 14);
     const int32_t x = times14(voxel->tiltX * cosine >> 8, near) + times14(cosine, limb.along[0]);
     const int32_t y = times14(voxel->tiltY * cosine >> 8, near) + times14(cosine, limb.along[1]);
     // To 7 bits and a sign, and so that what is rounded up still fits.
