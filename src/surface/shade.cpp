@@ -186,9 +186,12 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     viewShift_ = larger(0, 18 - __builtin_clz(static_cast<uint32_t>(distance + 4096)));
     // Both per 1/32 unit of the world.
     const int32_t distance32 = larger(mulShift16(own.distance32, rawFromReal(own.growth)), 1);
-    ballHorizon_ = mulShift16((smaller(radius >> 11, FLATTEST) << 12) / distance32, step);
+    // No product of half as much again with what a seed faces the viewer by may leave 32 bits.
+    const int32_t farthest = distance * 8 + (rawFromReal(object.laidReach()) >> shading_.placeShift);
+    const int32_t horizonMost = INT32_MAX / 3 * 2 / (farthest + 1);
+    ballHorizon_ = smaller(mulShift16((smaller(radius >> 11, FLATTEST) << 12) / distance32, step), horizonMost);
     horizonScale_ = mulShift16(mulDiv(step, 1 << 12, distance32), step);
-    flatHorizon_ = mulShift16(FLATTEST, horizonScale_);
+    flatHorizon_ = smaller(mulShift16(FLATTEST, horizonScale_), horizonMost);
     radius_ = mulShift16(rawFromReal(object.laidRadius()) >> 8, rawFromReal(own.growth));
     const int32_t spacing = spacing_ = smaller(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
     shading_.deepest = spacing * DEEPEST;
