@@ -16,8 +16,8 @@ struct Voxel {
     int8_t cutX, cutY;       // slopes in the middle of a function across the scale, 1/8 a unit; both 0: it is not cut
     int8_t slopeX, slopeY;   // how the brightness changes across, 1/8 step a unit; no more than SHADING_MOST to any corner
     int16_t cutAt;           // that function in the middle, 1/64; where it is negative nothing is drawn
-    int8_t curveXX, curveXY, curveYY;  // how its slopes change, 1/16 a squared unit: along x, one of them along the other's axis,
-                             // along y; all 0: it ends at a straight line
+    int8_t curveXX, curveXY, curveYY;  // by how much cutX changes along x, cutX along y and cutY along x, cutY along y, 1/16 a
+                             // squared unit; all 0: the scale ends at a straight line
     int8_t unused;           // 0
 };
 

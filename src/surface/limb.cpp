@@ -5,10 +5,11 @@
 
 namespace {
 
-// The least curvature of which there is a limb, per unit, 1.0 = 2^14: a radius of 250 units.
+// The least k of which a limb is known, per unit, 1.0 = 2^14: a radius of 250 units.
 constexpr int32_t FLATTEST = 66;
-// No part of a Limb is more.
+// No limb is known where s / k is more; and 1 / kz is taken for no more.
 constexpr int32_t SLANT = 4;
+// Cosines are taken for no more than this, 1.0 = 2^14: what is seen far aside from near has some beyond all that matter.
 constexpr int32_t COSINE_MOST = (1 << 15) - 1;
 
 inline int32_t times14(int32_t a, int32_t b)
@@ -71,7 +72,6 @@ bool findLimb(const Bend& bend, const OwnFrame& own, int32_t step, int32_t shear
 
 void endAtLimb(const Limb& limb, int32_t cosine, int32_t more, Voxel* voxel)
 {
-    // What is seen far aside from near has cosines beyond all that matter.
     cosine = smaller(cosine, COSINE_MOST);
     // A tilt is a part of the normal over the cosine.
     const int32_t near = smaller(times14(cosine, limb.nearness), (SLANT - 1) << 14) + (1 << 14);
@@ -86,6 +86,7 @@ void endAtLimb(const Limb& limb, int32_t cosine, int32_t more, Voxel* voxel)
     voxel->reach = 0;
     voxel->cutX = inward(x);
     voxel->cutY = inward(y);
+    // How far away the limb is.
     const int32_t square = smaller(times14(cosine, cosine), 1 << 14);
     voxel->cutAt = static_cast<int16_t>(smaller(((square * limb.radius >> 10) * 16 + half) >> shift, 32000));
     voxel->curveXX = inward(limb.curve[0]);

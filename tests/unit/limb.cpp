@@ -15,7 +15,6 @@ Vec cross(const Vec& a, const Vec& b)
 // voxel there, as the drawing loop takes it.
 struct Ended {
     Voxel voxel;
-    double cosine;
 
     // Below 0 beyond the limb; units across the view.
     double at(double x, double y) const
@@ -23,23 +22,18 @@ struct Ended {
         return voxel.cutAt / 64.0 + (voxel.cutX * x + voxel.cutY * y) / 8.0 +
                (voxel.curveXX * x * x + 2 * voxel.curveXY * x * y + voxel.curveYY * y * y) / 32.0;
     }
-    // About how far a place is from the limb.
-    double apart(double x, double y) const
-    {
-        return at(x, y) / (std::hypot(voxel.cutX, voxel.cutY) / 8.0);
-    }
 };
 
 Ended end(const Limb& limb, const Vec& seed, const Vec& normal)
 {
     Ended ended = {};
-    ended.cosine = -dot(normal, seed) / seed.z;
+    const double cosine = -dot(normal, seed) / seed.z;
     Voxel& v = ended.voxel;
     v.wide = v.high = 300;
     v.reach = 20;
-    v.tiltX = static_cast<int16_t>(std::lround(normal.x / ended.cosine * 256));
-    v.tiltY = static_cast<int16_t>(std::lround(normal.y / ended.cosine * 256));
-    endAtLimb(limb, static_cast<int32_t>(ended.cosine * 16384), 20, &v);
+    v.tiltX = static_cast<int16_t>(std::lround(normal.x / cosine * 256));
+    v.tiltY = static_cast<int16_t>(std::lround(normal.y / cosine * 256));
+    endAtLimb(limb, static_cast<int32_t>(cosine * 16384), 20, &v);
     return ended;
 }
 
