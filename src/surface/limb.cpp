@@ -31,6 +31,14 @@ inline void turnAlong(const int16_t (&t)[6], const int32_t v[3], int32_t to[3])
     to[2] = times14(t[4], v[0]) + times14(t[5], v[1]) + times14(t[2], v[2]);
 }
 
+// What cuts a voxel changes by 64 over a unit where the normal lies across the view: from 1.0 = 2^14 outwards to that inwards.
+constexpr int SHIFT = 8;
+constexpr int32_t HALF = 1 << (SHIFT - 1);
+inline int8_t inward(int32_t outward)
+{
+    return static_cast<int8_t>(limited((HALF - outward) >> SHIFT, 127));
+}
+
 // From k, s and S across the view, per unit, 1.0 = 2^14.
 bool setLimb(int32_t k, int32_t alongX, int32_t alongY, int32_t xx, int32_t xy, int32_t yy, int32_t depth, Limb* limb)
 {
@@ -40,10 +48,9 @@ bool setLimb(int32_t k, int32_t alongX, int32_t alongY, int32_t xx, int32_t xy, 
     limb->nearness = smaller((limb->radius << 14) / depth, SLANT << 14);
     limb->along[0] = (alongX << 14) / k;
     limb->along[1] = (alongY << 14) / k;
-    limb->curve[0] = (xx - times14(alongX, limb->along[0])) * 2;
-    limb->curve[1] = (xy - times14(alongX, limb->along[1])) * 2;
-    limb->curve[2] = (yy - times14(alongY, limb->along[1])) * 2;
-    limb->curveMost = magnitude(limb->curve[0]) | magnitude(limb->curve[1]) | magnitude(limb->curve[2]);
+    limb->curve[0] = inward((xx - times14(alongX, limb->along[0])) * 2);
+    limb->curve[1] = inward((xy - times14(alongX, limb->along[1])) * 2);
+    limb->curve[2] = inward((yy - times14(alongY, limb->along[1])) * 2);
     return true;
 }
 
@@ -77,10 +84,6 @@ void endAtLimb(const Limb& limb, int32_t cosine, int32_t more, Voxel* voxel)
     const int32_t near = smaller(times14(cosine, limb.nearness), (SLANT - 1) << 14) + (1 << 14);
     const int32_t x = times14(voxel->tiltX * cosine >> 8, near) + times14(cosine, limb.along[0]);
     const int32_t y = times14(voxel->tiltY * cosine >> 8, near) + times14(cosine, limb.along[1]);
-    // To 7 bits and a sign, and so that what is rounded up still fits.
-    const int32_t most = magnitude(x) | magnitude(y) | limb.curveMost | 0xff;
-    const int shift = 25 - __builtin_clz(static_cast<uint32_t>(most + (most >> 6))), half = 1 << shift >> 1;
-    const auto inward = [&](int32_t outward) { return static_cast<int8_t>((half - outward) >> shift); };
     voxel->wide = static_cast<int16_t>(smaller(voxel->wide + more, 0x7fff));
     voxel->high = static_cast<int16_t>(smaller(voxel->high + more, 0x7fff));
     voxel->reach = 0;
@@ -88,8 +91,8 @@ void endAtLimb(const Limb& limb, int32_t cosine, int32_t more, Voxel* voxel)
     voxel->cutY = inward(y);
     // How far away the limb is.
     const int32_t square = smaller(times14(cosine, cosine), 1 << 14);
-    voxel->cutAt = static_cast<int16_t>(smaller(((square * limb.radius >> 10) * 16 + half) >> shift, 32000));
-    voxel->curveXX = inward(limb.curve[0]);
-    voxel->curveXY = inward(limb.curve[1]);
-    voxel->curveYY = inward(limb.curve[2]);
+    voxel->cutAt = static_cast<int16_t>(smaller(((square * limb.radius >> 10) * 16 + HALF) >> SHIFT, 32000));
+    voxel->curveXX = limb.curve[0];
+    voxel->curveXY = limb.curve[1];
+    voxel->curveYY = limb.curve[2];
 }

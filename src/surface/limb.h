@@ -17,8 +17,7 @@ struct Limb {
     int32_t radius;    // 1 / k, 1/256 unit
     int32_t nearness;  // 1 / kz, 1.0 = 2^14
     int32_t along[2];  // s / k across the view, 1.0 = 2^14
-    int32_t curve[3];  // H across the view, along x, along both, along y: per unit, 1.0 = 2^13
-    int32_t curveMost; // no part of H is more than this, whatever its sign
+    int8_t curve[3];   // -H across the view, along x, along both, along y, as Voxel::curveXX, curveXY and curveYY
 };
 
 // The limb of a ball, `radius` in 1/256 unit, and of what bends as a patch does that has been measured; `step` is a step of places

@@ -520,8 +520,9 @@ inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter*
         listVoxels<PAINTED>(patch, seen, voxels, count, regular, list, painter);
         return;
     }
-    for (int i = 0; i < count; ++i)
-        endAtLimb(patch, seen[i], voxels + i);
+    if (!endsNowhere(patch, seen[count >> 1]))
+        for (int i = 0; i < count; ++i)
+            endAtLimb(patch, seen[i], voxels + i);
     list.count += count;
 }
 
