@@ -113,7 +113,7 @@ struct OwnFrame {
 };
 
 // On a ball a scale that is seen nearly edge-on adds next to nothing to those before it; on flat parts it may be all there is.
-constexpr int32_t LIMB_OF_BALL = 1400, LIMB = 1 << 7;
+constexpr int32_t LIMB_OF_BALL = 1300, LIMB = 1 << 7;
 
 // Of an object that is out of sight nothing else is known.
 OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame);

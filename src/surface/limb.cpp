@@ -56,9 +56,9 @@ bool setLimb(int32_t k, int32_t alongX, int32_t alongY, int32_t xx, int32_t xy, 
 
 }  // namespace
 
-bool findLimb(int32_t radius, int32_t shearX, int32_t shearY, int32_t depth, Limb* limb)
+bool findLimb(int32_t bend, int32_t shearX, int32_t shearY, int32_t depth, Limb* limb)
 {
-    const int32_t bend = (1 << 22) / larger(radius, 128), x = times14(shearX << 4, bend), y = times14(shearY << 4, bend);
+    const int32_t x = times14(shearX << 4, bend), y = times14(shearY << 4, bend);
     return setLimb(bend + times14(shearX << 4, x) + times14(shearY << 4, y), x, y, bend, 0, bend, depth, limb);
 }
 

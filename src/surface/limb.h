@@ -20,10 +20,11 @@ struct Limb {
     int8_t curve[3];   // -H across the view, along x, along both, along y, as Voxel::curveXX, curveXY and curveYY
 };
 
-// The limb of a ball, `radius` in 1/256 unit, and of what bends as a patch does that has been measured; `step` is a step of places
-// (voxels.h) in 1/256 unit of the world, 16 bits of fraction. The ray of sight leads (shearX, shearY) aside over a unit of depth,
-// 10 bits of fraction, and the seeds are `depth` away, 1/256 unit. False: along the ray the surface hardly bends, or to the viewer.
-bool findLimb(int32_t radius, int32_t shearX, int32_t shearY, int32_t depth, Limb* limb);
+// The limb of a ball, whose radius is 1 / `bend`, per unit, 1.0 = 2^14, to 2.0; and of what bends as a patch does that has been
+// measured, where `step` is a step of places (voxels.h) in 1/256 unit of the world, 16 bits of fraction. The ray of sight leads
+// (shearX, shearY) aside over a unit of depth, 10 bits of fraction, and the seeds are `depth` away, 1/256 unit. False: along the
+// ray the surface hardly bends, or to the viewer.
+bool findLimb(int32_t bend, int32_t shearX, int32_t shearY, int32_t depth, Limb* limb);
 bool findLimb(const Bend& bend, const OwnFrame& own, int32_t step, int32_t shearX, int32_t shearY, int32_t depth, Limb* limb);
 
 // Ends a voxel, uncut, at the limb. `cosine` is c, 1.0 = 2^14. The voxel becomes larger by `more` to each side, 1/256 unit, for

@@ -131,7 +131,7 @@ private:
     Shading shading_;
     int32_t spacing_;         // of the seeds, 1/256 unit
     int32_t step_;            // a step of places, 1/256 unit of the world, 16 bits of fraction
-    int32_t radius_;          // of a ball, 1/256 unit
+    int32_t ballBend_;        // 1 / the radius of a ball, per unit, 1.0 = 2^14
     int32_t limbMargin_;      // LIMB_MARGIN, 1/256 unit
     bool ball_, near_;        // near: some seeds may be nearer than NEAREST_DEPTH
     int32_t facesViewer_, facesAbout_;  // FACES_VIEWER and FACES_ABOUT times the distance of the eye, steps of places
@@ -192,7 +192,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     ballHorizon_ = smaller(mulShift16((smaller(radius >> 11, FLATTEST) << 12) / distance32, step), horizonMost);
     horizonScale_ = mulShift16(mulDiv(step, 1 << 12, distance32), step);
     flatHorizon_ = smaller(mulShift16(FLATTEST, horizonScale_), horizonMost);
-    radius_ = mulShift16(rawFromReal(object.laidRadius()) >> 8, rawFromReal(own.growth));
+    ballBend_ = (1 << 22) / larger(mulShift16(rawFromReal(object.laidRadius()) >> 8, rawFromReal(own.growth)), 128);
     const int32_t spacing = spacing_ = smaller(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
     shading_.deepest = spacing * DEEPEST;
     limbMargin_ = smaller(spacing * LIMB_MARGIN >> 6, LIMB_MARGIN_MOST);
@@ -388,8 +388,10 @@ inline const Limb* Shader::limbOf(const Patch& patch)
 {
     if (!limbSought_) {
         limbSought_ = true;
-        if (ball_)
-            hasLimb_ = findLimb(radius_, shearX_, shearY_, middle_, &limb_);
+        if (hollow_)
+            hasLimb_ = false;
+        else if (ball_)
+            hasLimb_ = findLimb(ballBend_, shearX_, shearY_, middle_, &limb_);
         else
             hasLimb_ = !patch.bend.ball && patch.state == PATCH_REST &&
                        findLimb(patch.bend, own_, step_, shearX_, shearY_, middle_, &limb_);
@@ -400,7 +402,7 @@ inline const Limb* Shader::limbOf(const Patch& patch)
 // Ends the voxel of a seed at rest at the limb, if its tangent plane goes on beyond.
 inline void Shader::endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel)
 {
-    if (voxel->reach == 0 || !(seen.seed->flags & SEED_RESTING) || hollow_ || isCut(*voxel))
+    if (voxel->reach == 0 || !(seen.seed->flags & SEED_RESTING) || isCut(*voxel))
         return;
     if (const Limb* const limb = limbOf(patch))
         ::endAtLimb(*limb, mulDiv(mulShift16(seen.facing, step_), 1 << 14, own_.centre[2] + voxel->z), limbMargin_, voxel);

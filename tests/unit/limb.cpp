@@ -101,7 +101,7 @@ TEST(scales_of_a_ball_end_at_its_limb)
         const Round ball{{random.between(-0.5, 0.5) * depth, random.between(-0.4, 0.4) * depth, depth}, {0, 0, 0},
                          random.between(1, std::min(40.0, depth / 5))};
         holdAgainst(ball, random, [&](const Vec& seed, Limb* limb) {
-            return findLimb(static_cast<int32_t>(ball.radius * 256), static_cast<int32_t>(seed.x / seed.z * 1024),
+            return findLimb(static_cast<int32_t>(16384 / ball.radius), static_cast<int32_t>(seed.x / seed.z * 1024),
                             static_cast<int32_t>(seed.y / seed.z * 1024), static_cast<int32_t>(seed.z * 256), limb);
         }, &held, &worst);
     }
@@ -157,7 +157,7 @@ TEST(scales_of_what_bends_end_at_its_limb)
 TEST(flat_surfaces_have_no_limb)
 {
     Limb limb;
-    CHECK(!findLimb(1 << 20, 0, 0, 100 << 8, &limb));
+    CHECK(!findLimb(16384 / 4096, 0, 0, 100 << 8, &limb));
     Bend flat = {};
     OwnFrame frame = {};
     frame.right[0] = frame.up[1] = frame.ahead[2] = 16384;
