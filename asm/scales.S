@@ -240,8 +240,8 @@ grow_bottom\large:
 voxel_loop:
         movl    END(%esp), %esi
         addl    LIST(%esp), %esi
-        // depth = lens->z + v.z;  f = factorsOf(lens, depth):  step = lensStep(depth);  if (step < LENS_STEPS) ..   There are
-        // as many bytes of the table in a unit as depths have steps.
+        // depth = lens->z + v.z;  f = factorsOf(lens, depth):  step = lensStep(depth);  if (step < LENS_STEPS) ..
+        // A unit has 256 steps of depth and takes 256 bytes of the table, so that a depth leads to its own factors.
         movl    VOXEL_Z(%esi), %ebp
         movl    VOXEL_X(%esi), %ebx
         addl    LENS_Z(%esp), %ebp
@@ -416,14 +416,6 @@ even:
 2:
         .endm
 
-        .macro  PIXEL_curved at
-        PIXEL_cut \at
-        .endm
-
-        .macro  PIXEL_curvedending at
-        PIXEL_cutending \at
-        .endm
-
         // for (x = 0; x < wide; ++x, z += zStep) ..;   `at`: the pixel from edi. Behind the last one nothing is added.
         .macro  PIXELS kind wide at
         .set    at, \at
@@ -496,13 +488,13 @@ even:
         // for (y = high; y > 0; --y, z += zRow, cut += cutRow)
         //     for (x = 0; x < wide; ++x, z += zStep, cut += cutStep) ..;   edi is the pixel behind the last one of the row
         // `cuts`: 0: nothing does; 1: along a line, and cutRow is from the last pixel of a row to the next one; 2: along a curve
-        .macro  ENTERED kind cuts
+        .macro  ENTERED kind pixel cuts
         .balign 4
         .set    at, -LARGEST
         .irp    wide, 40, 39, 38, 37, 36, 35, 34, 33, 32, 31, 30, 29, 28, 27, 26, 25, 24, 23, 22, 21, 20, \
                       19, 18, 17, 16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1
 entered_\kind\()_\wide:
-        PIXEL_\kind at
+        PIXEL_\pixel at
         .if     \wide > 1
         addl    %ebx, %eax
         .if     \cuts == 2
@@ -575,12 +567,12 @@ small:
         leal    (%esi,%ecx,2), %esi
         testl   %edx, %edx
         jmp     *ENTRY(%esp)
-        ENTERED shaded, 0
-        ENTERED ending, 0
-        ENTERED cut, 1
-        ENTERED cutending, 1
-        ENTERED curved, 2
-        ENTERED curvedending, 2
+        ENTERED shaded, shaded, 0
+        ENTERED ending, ending, 0
+        ENTERED cut, cut, 1
+        ENTERED cutending, cutending, 1
+        ENTERED curved, cut, 2
+        ENTERED curvedending, cutending, 2
 
 leave:
         movl    END(%esp), %eax

@@ -23,14 +23,6 @@ inline int32_t product14(const Part a[3], const Other b[3])
     return times14(a[0], b[0]) + times14(a[1], b[1]) + times14(a[2], b[2]);
 }
 
-// S times a vector, in the terms of Bend::turn.
-inline void turnAlong(const int16_t (&t)[6], const int32_t v[3], int32_t to[3])
-{
-    to[0] = times14(t[0], v[0]) + times14(t[3], v[1]) + times14(t[4], v[2]);
-    to[1] = times14(t[3], v[0]) + times14(t[1], v[1]) + times14(t[5], v[2]);
-    to[2] = times14(t[4], v[0]) + times14(t[5], v[1]) + times14(t[2], v[2]);
-}
-
 // What cuts a voxel changes by 64 over a unit where the normal lies across the view: from 1.0 = 2^14 outwards to that inwards.
 constexpr int SHIFT = 8;
 constexpr int32_t HALF = 1 << (SHIFT - 1);
@@ -67,9 +59,9 @@ bool findLimb(const Bend& bend, const OwnFrame& own, int32_t step, int32_t shear
     int32_t sight[3], along[3], right[3], up[3];
     for (int i = 0; i < 3; ++i)
         sight[i] = own.ahead[i] + ((own.right[i] * shearX + own.up[i] * shearY) >> 10);
-    turnAlong(bend.turn, sight, along);
-    turnAlong(bend.turn, own.right, right);
-    turnAlong(bend.turn, own.up, up);
+    turnAlong(bend, sight, along);
+    turnAlong(bend, own.right, right);
+    turnAlong(bend, own.up, up);
     // 1.0 = 2^13 over 256 steps.
     const auto perUnit = [&](int32_t turn) { return limited(mulDiv(turn, 1 << 17, step), 1 << 15); };
     return setLimb(perUnit(product14(along, sight)), perUnit(product14(along, own.right)), perUnit(product14(along, own.up)),

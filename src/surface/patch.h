@@ -31,6 +31,15 @@ struct Bend {
     bool gentle;        // over so many spacings that no scale ends but next to the limb (shade.cpp)
 };
 
+// By how much the normal turns on a way along `v`, any length: as Bend::turn.
+inline void turnAlong(const Bend& bend, const int32_t v[3], int32_t to[3])
+{
+    const int16_t(&t)[6] = bend.turn;
+    to[0] = (t[0] * v[0] + t[3] * v[1] + t[4] * v[2]) >> 14;
+    to[1] = (t[3] * v[0] + t[1] * v[1] + t[5] * v[2]) >> 14;
+    to[2] = (t[4] * v[0] + t[5] * v[1] + t[2] * v[2]) >> 14;
+}
+
 // Units as 1/16 units.
 inline int32_t steps16(Real units)
 {

@@ -47,9 +47,8 @@ inline int32_t turnOf(const Bend& bend, const int32_t both[6])
 // The same of one vector, however long it is, 2^-17.
 inline int32_t curvatureAlong(const Bend& bend, const int32_t v[3])
 {
-    const int16_t(&t)[6] = bend.turn;
-    const int32_t turned[] = {(t[0] * v[0] + t[3] * v[1] + t[4] * v[2]) >> 14, (t[3] * v[0] + t[1] * v[1] + t[5] * v[2]) >> 14,
-                              (t[4] * v[0] + t[5] * v[1] + t[2] * v[2]) >> 14};
+    int32_t turned[3];
+    turnAlong(bend, v, turned);
     return product(turned, v) >> 3;
 }
 

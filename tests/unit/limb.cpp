@@ -11,30 +11,24 @@ Vec cross(const Vec& a, const Vec& b)
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// A ray of sight meets a round surface in `seed`, whose normal is `normal`; both in axes of the view, units. What is left of a
-// voxel there, as the drawing loop takes it.
-struct Ended {
-    Voxel voxel;
-
-    // Below 0 beyond the limb; units across the view.
-    double at(double x, double y) const
-    {
-        return voxel.cutAt / 64.0 + (voxel.cutX * x + voxel.cutY * y) / 8.0 +
-               (voxel.curveXX * x * x + 2 * voxel.curveXY * x * y + voxel.curveYY * y * y) / 32.0;
-    }
-};
-
-Ended end(const Limb& limb, const Vec& seed, const Vec& normal)
+// What cuts a voxel, as the drawing loop takes it: below 0 beyond the limb; units across the view.
+double cutAt(const Voxel& v, double x, double y)
 {
-    Ended ended = {};
+    return v.cutAt / 64.0 + (v.cutX * x + v.cutY * y) / 8.0 +
+           (v.curveXX * x * x + 2 * v.curveXY * x * y + v.curveYY * y * y) / 32.0;
+}
+
+// What is left of the voxel of a seed at the limb; seed and normal in axes of the view, units.
+Voxel ended(const Limb& limb, const Vec& seed, const Vec& normal)
+{
     const double cosine = -dot(normal, seed) / seed.z;
-    Voxel& v = ended.voxel;
+    Voxel v = {};
     v.wide = v.high = 300;
     v.reach = 20;
     v.tiltX = static_cast<int16_t>(std::lround(normal.x / cosine * 256));
     v.tiltY = static_cast<int16_t>(std::lround(normal.y / cosine * 256));
     endAtLimb(limb, static_cast<int32_t>(cosine * 16384), 20, &v);
-    return ended;
+    return v;
 }
 
 // Of a convex surface round an axis; a ball's has no direction.
@@ -72,9 +66,9 @@ void holdAgainst(const Round& round, Random& random, LimbOf limbOf, long* held, 
         CHECK(found);
         if (!found)
             continue;
-        const Ended ended = end(limb, seed, normal);
-        CHECK(ended.voxel.reach == 0 && ended.voxel.wide == 320 && ended.voxel.high == 320);
-        CHECK(ended.at(0, 0) >= 0);
+        const Voxel voxel = ended(limb, seed, normal);
+        CHECK(voxel.reach == 0 && voxel.wide == 320 && voxel.high == 320);
+        CHECK(cutAt(voxel, 0, 0) >= 0);
         for (int k = 0; k < 20; ++k) {
             const double x = random.between(-spacing, spacing), y = random.between(-spacing, spacing);
             const double missed = round.missed(seed + Vec{x, y, 0});
@@ -82,7 +76,7 @@ void holdAgainst(const Round& round, Random& random, LimbOf limbOf, long* held, 
             if (std::fabs(missed) > spacing / 4)
                 continue;
             ++*held;
-            if ((missed > 0) == (ended.at(x, y) < 0))
+            if ((missed > 0) == (cutAt(voxel, x, y) < 0))
                 continue;
             *worst = std::max(*worst, std::fabs(missed) / spacing);
         }
@@ -120,7 +114,7 @@ TEST(scales_of_what_bends_end_at_its_limb)
         Vec axis{random.between(-1, 1), random.between(-1, 1), random.between(-0.5, 0.5)};
         axis = axis * (1 / size(axis));
         const Round tube{{random.between(-0.4, 0.4) * depth, random.between(-0.3, 0.3) * depth, depth}, axis,
-                         random.between(2, std::min(30.0, depth / 6))};
+                         random.between(2.1, std::min(30.0, depth / 6))};
         // Own axes are turned against the view.
         Vec own[3] = {{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)}, {0, 0, 0}, {0, 0, 0}};
         own[0] = own[0] * (1 / size(own[0]));
@@ -141,7 +135,7 @@ TEST(scales_of_what_bends_end_at_its_limb)
         for (int k = 0; k < 6; ++k) {
             const Vec &a = own[pairs[k][0]], &b = own[pairs[k][1]];
             const double turn = (dot(a, b) - dot(a, axis) * dot(b, axis)) / tube.radius;
-            bend.turn[k] = static_cast<int16_t>(std::lround(turn * 8 * 8192 / 2) * 2);
+            bend.turn[k] = static_cast<int16_t>(std::lround(turn * 8 * 8192));
         }
         holdAgainst(tube, random, [&](const Vec& seed, Limb* limb) {
             return findLimb(bend, frame, PLACES, static_cast<int32_t>(seed.x / seed.z * 1024),
