@@ -10,8 +10,8 @@
 // struct Scale (include/picture/blit.h)
 #define LEFT    0
 #define TOP     2
-#define WIDE    4
-#define HIGH    6
+#define WIDTH    4
+#define HEIGHT    6
 #define DEPTH   8
 #define STEP    12
 #define ROW     16
@@ -60,8 +60,8 @@ scale_loop:
         // pixels = frame + start;  depths = zbuffer + start
         addl    %eax, %edi
         leal    (%esi,%eax,2), %esi
-        movswl  WIDE(%ebp), %eax
-        movswl  HIGH(%ebp), %edx
+        movswl  WIDTH(%ebp), %eax
+        movswl  HEIGHT(%ebp), %edx
         movl    STEP(%ebp), %ebx
         movl    COLOUR(%ebp), %ecx
         cmpl    $WIDEST, %eax
@@ -71,14 +71,14 @@ scale_loop:
         movl    DEPTH(%ebp), %eax
         jmp     *28(%esp)
 
-        // for (y = high; y > 0; --y, z += zRow)
-        //     for (x = 0; x < wide; ++x, z += zStep)
+        // for (y = height; y > 0; --y, z += zRow)
+        //     for (x = 0; x < width; ++x, z += zStep)
         //         (z < depths[x]): depths[x] = z, pixels[x] = colour
-        .macro  ROWS wide
+        .macro  ROWS width
         .balign 16
-rows_\wide:
+rows_\width:
         .set    x, 0
-        .rept   \wide
+        .rept   \width
         cmpw    2*x(%esi), %ax
         jae     1f
         movw    %ax, 2*x(%esi)
@@ -91,7 +91,7 @@ rows_\wide:
         addl    $2*SCREEN_WIDTH, %esi
         addl    $SCREEN_WIDTH, %edi
         decl    %edx
-        jnz     rows_\wide
+        jnz     rows_\width
         addl    $SCALE_BYTES, %ebp
         cmpl    32(%esp), %ebp
         jb      scale_loop

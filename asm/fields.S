@@ -108,7 +108,7 @@ add_known:
         // if (t >= 1) value = slope = 0
         cmpl        $0x10000, %eax
         jge        add_outside
-        // t = most(t, 0)
+        // t = max(t, 0)
         testl        %eax, %eax
         js        add_below
 add_inside:
@@ -129,7 +129,7 @@ add_inside:
         addl        %ecx, FIELDS_SUM(%ebx)
         addl        %eax, FIELDS_SLOPE(%ebx)
         movl        $1, FIELDS_TOUCHED(%ebx)
-        // fields->strongest = most(fields->strongest, value)
+        // fields->strongest = max(fields->strongest, value)
         cmpl        FIELDS_STRONGEST(%ebx), %ecx
         jle        add_done
         movl        %ecx, FIELDS_STRONGEST(%ebx)

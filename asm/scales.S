@@ -17,8 +17,8 @@
 #define VOXEL_X      0
 #define VOXEL_Y      4
 #define VOXEL_Z      8
-#define VOXEL_WIDE   12
-#define VOXEL_HIGH   14
+#define VOXEL_HALF_WIDTH 12
+#define VOXEL_HALF_HEIGHT 14
 #define VOXEL_TILTX  16
 #define VOXEL_TILTY  18
 #define VOXEL_BRIGHT 20                 /* and behind it, one double word with it, bytes all: */
@@ -55,7 +55,7 @@
 #define UNROLLED   8
 // Of the table of ways to draw: columns, rows of a kind of scale, and how many bits a row of the table is wide. No scale
 // of the table has a corner so far from its middle that a depth could leave 16 bits.
-#define KIND_WIDE  16
+#define KIND_COLUMNS  16
 #define KIND_ROWS  24
 #define KIND_SHIFT 6
 // Behind the kinds of the table: what is larger, nearer or clipped, LARGEST ways; and what is only cut.
@@ -92,8 +92,8 @@
 #define FROM_COLUMN 100                 /* the way from the first pixel's middle to the scale's, to the left and down */
 #define FROM_ROW   104
 #define ROW        108
-#define WIDE       112                  /* of what is cut or large: columns - 1, rows - 1 (and then those to go), */
-#define HIGH       116
+#define WIDTH      112                  /* of what is cut or large: columns - 1, rows - 1 (and then those to go), */
+#define HEIGHT     116
 #define ENTRY      120                  /* where in the code a row of them begins, */
 #define CUT        124                  /* and the function that cuts: at the first pixel, from pixel to pixel and row to row */
 #define CUT_STEP   128
@@ -152,14 +152,14 @@
         movl    %ecx, LIST(%esp)
 
         .macro  COVER_COLUMNS near
-        // column = centreX + ((lens->x + v.x) * f.x >> 8);  halfWide = wide * f.x >> 8
+        // column = centreX + ((lens->x + v.x) * f.x >> 8);  half = v.halfWidth * f.x >> 8
         imull   FACTOR_X(%ebp), %ebx
         sarl    $8, %ebx
         imull   FACTOR_X(%ebp), %edi
         addl    CENTREX(%esp), %ebx
         sarl    $8, %edi
         movl    %ebx, %ecx
-        // left = (column - halfWide) >> 12;  right = (column + halfWide) >> 12
+        // left = (column - half) >> 12;  right = (column + half) >> 12
         subl    %edi, %ecx
         addl    %ebx, %edi
         sarl    $12, %ecx
@@ -172,7 +172,7 @@ left_grown\near:
         jg      grow_right\near
 right_grown\near:
         notl    %ecx
-        addl    %ecx, %edi              // wide - 1 = right + ~left
+        addl    %ecx, %edi              // width - 1 = right + ~left
         movl    %ecx, NOT_LEFT(%esp)
         .endm
 
@@ -192,20 +192,20 @@ grow_right\near:
         .endm
 
         .macro  COVER_ROWS large
-        // row = centreY - ((lens->y + v.y) * f.y >> 8);  halfHigh = high * f.y >> 8
+        // row = centreY - ((lens->y + v.y) * f.y >> 8);  half = v.halfHeight * f.y >> 8
         movl    VOXEL_Y(%esi), %edx
         shll    $12, %ecx
         addl    LENS_Y(%esp), %edx
         addl    %ebx, %ecx              // -toColumn = column - ((left + 1) << 12)
         imull   FACTOR_Y(%ebp), %edx
-        movswl  VOXEL_HIGH(%esi), %eax
+        movswl  VOXEL_HALF_HEIGHT(%esi), %eax
         sarl    $8, %edx
         movl    CENTREY(%esp), %ebx
         imull   FACTOR_Y(%ebp), %eax
         subl    %edx, %ebx
         sarl    $8, %eax
         movl    %ebx, %edx
-        // top = (row - halfHigh) >> 12;  bottom = (row + halfHigh) >> 12
+        // top = (row - half) >> 12;  bottom = (row + half) >> 12
         subl    %eax, %edx
         addl    %ebx, %eax
         sarl    $12, %edx
@@ -219,7 +219,7 @@ top_grown\large:
 bottom_grown\large:
         notl    %edx
         movl    %eax, BOTTOM(%esp)
-        addl    %edx, %eax              // high - 1
+        addl    %edx, %eax              // height - 1
         shll    $12, %edx
         .endm
 
@@ -246,7 +246,7 @@ voxel_loop:
         movl    VOXEL_X(%esi), %ebx
         addl    LENS_Z(%esp), %ebp
         addl    LENS_X(%esp), %ebx
-        movswl  VOXEL_WIDE(%esi), %edi
+        movswl  VOXEL_HALF_WIDTH(%esi), %edi
         movl    %ebp, %eax
         cmpl    $LENS_STEPS*FACTOR_SIZE, %ebp
         jae     near
@@ -255,11 +255,11 @@ voxel_loop:
         movl    %eax, DEPTH(%esp)
         addl    FACTORS(%esp), %ebp
         COVER_COLUMNS
-        // if (wide <= 0) ..;  if (wide > LARGEST) break
-        cmpl    $KIND_WIDE, %edi
+        // if (width <= 0) ..;  if (width > LARGEST) break
+        cmpl    $KIND_COLUMNS, %edi
         jae     odd_width
         COVER_ROWS
-        // if (high <= 0) ..;  if (high > LARGEST) break
+        // if (height <= 0) ..;  if (height > LARGEST) break
         cmpl    $KIND_ROWS, %eax
         jae     odd_height
         addl    %ebx, %edx              // -toRow = row - ((top + 1) << 12)
@@ -317,7 +317,7 @@ shaded:
         shll    $16, %edx
         movl    BOTTOM(%esp), %esi
         movl    shaded_ways(%ecx,%edi,4), %ecx
-        // -zRow = across * (wide - 1) - down, and -shadeRow
+        // -zRow = across * (width - 1) - down, and -shadeRow
         imull   %ebx, %edi
         leal    (%esi,%esi,4), %esi
         addl    %eax, %edi
@@ -339,7 +339,7 @@ shaded:
 even:
         cmpl    $KIND_ROWS, KIND(%esp)
         jae     shaded
-        // z = (depth >> 1) + ((across * toColumn + down * toRow) >> 12);  -zRow = across * (wide - 1) - down
+        // z = (depth >> 1) + ((across * toColumn + down * toRow) >> 12);  -zRow = across * (width - 1) - down
         imull   %ebx, %ecx
         imull   %eax, %edx
         movl    %ebx, %ebp
@@ -416,10 +416,10 @@ even:
 2:
         .endm
 
-        // for (x = 0; x < wide; ++x, z += zStep) ..;   `at`: the pixel from edi. Behind the last one nothing is added.
-        .macro  PIXELS kind wide at
+        // for (x = 0; x < width; ++x, z += zStep) ..;   `at`: the pixel from edi. Behind the last one nothing is added.
+        .macro  PIXELS kind width at
         .set    at, \at
-        .rept   \wide-1
+        .rept   \width-1
         PIXEL_\kind at
         addl    %ebx, %eax
         .set    at, at + 1
@@ -433,13 +433,13 @@ even:
         jmp     leave
         .endm
 
-        // for (y = high; y > 0; --y, z += zRow), up to UNROLLED rows. edi is the pixel behind the first one of the row below
+        // for (y = height; y > 0; --y, z += zRow), up to UNROLLED rows. edi is the pixel behind the first one of the row below
         // the scale: its left is what ~left makes of it.
-        .macro  SOME_ROWS kind row wide
-        .irp    high, 8, 7, 6, 5, 4, 3, 2, 1
-\kind\()_\wide\()_\high:
-        PIXELS  \kind, \wide, (-\high*SCREEN_WIDTH-1)
-        .if     \high > 1
+        .macro  SOME_ROWS kind row width
+        .irp    height, 8, 7, 6, 5, 4, 3, 2, 1
+\kind\()_\width\()_\height:
+        PIXELS  \kind, \width, (-\height*SCREEN_WIDTH-1)
+        .if     \height > 1
         subl    \row, %eax
         .endif
         .endr
@@ -448,9 +448,9 @@ even:
 
         // The same, any number of them. Of a scale of one brightness edx is free, of others it is made so. The rows that KIND
         // counts lie above the last one.
-        .macro  ALL_ROWS kind row wide
+        .macro  ALL_ROWS kind row width
         .balign 4
-\kind\()_\wide:
+\kind\()_\width:
         .ifnc   \kind, even
         movl    %edx, ROW(%esp)
         .endif
@@ -463,39 +463,39 @@ even:
         addl    %edx, %edi
         leal    (%esi,%edx,2), %esi
         movl    KIND(%esp), %edx
-\kind\()_\wide\()_row:
-        PIXELS  \kind, \wide, (-SCREEN_WIDTH-1)
+\kind\()_\width\()_row:
+        PIXELS  \kind, \width, (-SCREEN_WIDTH-1)
         subl    \row, %eax
         addl    $2*SCREEN_WIDTH, %esi
         addl    $SCREEN_WIDTH, %edi
         decl    %edx
-        jns     \kind\()_\wide\()_row
+        jns     \kind\()_\width\()_row
         NEXT_VOXEL
         .endm
 
         .balign 16
-        .irp    wide, 1, 2, 3, 4, 5, 6, 7, 8
-        SOME_ROWS even, %ebp, \wide
-        SOME_ROWS shaded, %edx, \wide
-        SOME_ROWS ending, %edx, \wide
+        .irp    width, 1, 2, 3, 4, 5, 6, 7, 8
+        SOME_ROWS even, %ebp, \width
+        SOME_ROWS shaded, %edx, \width
+        SOME_ROWS ending, %edx, \width
         .endr
-        .irp    wide, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16
-        ALL_ROWS even, %ebp, \wide
-        ALL_ROWS shaded, ROW(%esp), \wide
-        ALL_ROWS ending, ROW(%esp), \wide
+        .irp    width, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16
+        ALL_ROWS even, %ebp, \width
+        ALL_ROWS shaded, ROW(%esp), \width
+        ALL_ROWS ending, ROW(%esp), \width
         .endr
 
-        // for (y = high; y > 0; --y, z += zRow, cut += cutRow)
-        //     for (x = 0; x < wide; ++x, z += zStep, cut += cutStep) ..;   edi is the pixel behind the last one of the row
+        // for (y = height; y > 0; --y, z += zRow, cut += cutRow)
+        //     for (x = 0; x < width; ++x, z += zStep, cut += cutStep) ..;   edi is the pixel behind the last one of the row
         // `cuts`: 0: nothing does; 1: along a line, and cutRow is from the last pixel of a row to the next one; 2: along a curve
         .macro  ENTERED kind pixel cuts
         .balign 4
         .set    at, -LARGEST
-        .irp    wide, 40, 39, 38, 37, 36, 35, 34, 33, 32, 31, 30, 29, 28, 27, 26, 25, 24, 23, 22, 21, 20, \
+        .irp    width, 40, 39, 38, 37, 36, 35, 34, 33, 32, 31, 30, 29, 28, 27, 26, 25, 24, 23, 22, 21, 20, \
                       19, 18, 17, 16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1
-entered_\kind\()_\wide:
+entered_\kind\()_\width:
         PIXEL_\pixel at
-        .if     \wide > 1
+        .if     \width > 1
         addl    %ebx, %eax
         .if     \cuts == 2
         movl    CUT_XX(%esp), %ecx
@@ -510,7 +510,7 @@ entered_\kind\()_\wide:
         subl    ROW(%esp), %eax
         addl    $2*SCREEN_WIDTH, %esi
         addl    $SCREEN_WIDTH, %edi
-        decl    HIGH(%esp)
+        decl    HEIGHT(%esp)
         js      entered_\kind\()_done
         .if     \cuts == 1
         addl    CUT_ROW(%esp), %edx
@@ -532,17 +532,17 @@ entered_\kind\()_done:
         NEXT_VOXEL
         .endm
 
-        // if (!depthsFit(z, across * (wide - 1), down * (high - 1))) break
+        // if (!depthsFit(z, across * (width - 1), down * (height - 1))) break
         .balign 4
 large:
         movl    %edx, ROW(%esp)
         movswl  %bx, %ecx               // across
         negl    %edx
-        movswl  %dx, %edx               // down - across * (wide - 1)
-        imull   WIDE(%esp), %ecx
+        movswl  %dx, %edx               // down - across * (width - 1)
+        imull   WIDTH(%esp), %ecx
         addl    $LENS_NEAR*128, DEPTH(%esp)
         addl    %ecx, %edx
-        imull   HIGH(%esp), %edx
+        imull   HEIGHT(%esp), %edx
         cmpl    $Z_EMPTY, DEPTH(%esp)
         jae     leave
         addl    %ecx, DEPTH(%esp)
@@ -555,14 +555,14 @@ large:
         cmpl    $Z_EMPTY, DEPTH(%esp)
         jae     leave
         movl    ROW(%esp), %edx
-        // pixels -= high * WIDTH;  depths -= high * WIDTH;   and to the end of the row
+        // pixels -= height * SCREEN_WIDTH;  depths -= height * SCREEN_WIDTH;   and to the end of the row
 small:
-        movl    HIGH(%esp), %ecx
+        movl    HEIGHT(%esp), %ecx
         movl    %edx, ROW(%esp)
         notl    %ecx
         movl    CUT(%esp), %edx
         imull   $SCREEN_WIDTH, %ecx, %ecx
-        addl    WIDE(%esp), %ecx
+        addl    WIDTH(%esp), %ecx
         addl    %ecx, %edi
         leal    (%esi,%ecx,2), %esi
         testl   %edx, %edx
@@ -642,12 +642,12 @@ near:
         movl    %eax, NEAR+FACTOR_ZY(%esp)
         leal    NEAR(%esp), %ebp
         COVER_COLUMNS _near
-        // if (wide <= 0) ..;  if (wide > LARGEST) break
+        // if (width <= 0) ..;  if (width > LARGEST) break
 odd_width:
         cmpl    $LARGEST, %edi
         jae     no_width
         COVER_ROWS _large
-        // if (high <= 0) ..;  if (high > LARGEST) break
+        // if (height <= 0) ..;  if (height > LARGEST) break
 odd_height:
         cmpl    $LARGEST, %eax
         jae     no_height
@@ -658,8 +658,8 @@ cut:
         movl    KIND(%esp), %eax
         movl    $CUT_KIND, %ebx
 entered:
-        movl    %edi, WIDE(%esp)
-        movl    %eax, HIGH(%esp)
+        movl    %edi, WIDTH(%esp)
+        movl    %eax, HEIGHT(%esp)
         movl    %ebx, KIND(%esp)
         // zMost = endOf(v, depth >> 1)
         leal    entered_ways(,%edi,4), %eax
@@ -698,7 +698,7 @@ entered:
         shll    $2, %eax
         addl    %eax, %ebx
         movl    %ebx, CUT(%esp)
-        // cutRow = cutDown - cutAcross * (wide - 1)
+        // cutRow = cutDown - cutAcross * (width - 1)
         movl    CUT_STEP(%esp), %eax
         imull   %edi, %eax
         addl    CUT_ROW(%esp), %eax
@@ -831,18 +831,18 @@ steep:
 
         // Where the code for each kind, height and width begins. The kind that ends comes behind the shaded one, what
         // is cut or large behind that (KIND).
-        .macro  WAY kind high wide
-        .if     \wide > UNROLLED || \high > UNROLLED
-        .long   \kind\()_\wide
+        .macro  WAY kind height width
+        .if     \width > UNROLLED || \height > UNROLLED
+        .long   \kind\()_\width
         .else
-        .long   \kind\()_\wide\()_\high
+        .long   \kind\()_\width\()_\height
         .endif
         .endm
 
         .macro  WAYS kind
-        .irp    high, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24
-        .irp    wide, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16
-        WAY     \kind, \high, \wide
+        .irp    height, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24
+        .irp    width, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16
+        WAY     \kind, \height, \width
         .endr
         .endr
         .endm
@@ -854,18 +854,18 @@ even_ways:
 shaded_ways:
         WAYS    shaded
         WAYS    ending
-        .rept   (CUT_KIND-LARGE_KIND)*KIND_WIDE
+        .rept   (CUT_KIND-LARGE_KIND)*KIND_COLUMNS
         .long   large
         .endr
-        .rept   KIND_WIDE
+        .rept   KIND_COLUMNS
         .long   small
         .endr
 
         // Where in the code a row of each width begins.
         .macro  ENTRIES kind
-        .irp    wide, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, \
+        .irp    width, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, \
                       21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40
-        .long   entered_\kind\()_\wide
+        .long   entered_\kind\()_\width
         .endr
         .endm
 

@@ -30,8 +30,8 @@
 #define VOXEL_X      0
 #define VOXEL_Y      4
 #define VOXEL_Z      8
-#define VOXEL_WIDE   12
-#define VOXEL_HIGH   14
+#define VOXEL_HALF_WIDTH 12
+#define VOXEL_HALF_HEIGHT 14
 #define VOXEL_TILTX  16
 #define VOXEL_TILTY  18
 #define VOXEL_BRIGHT 20                 /* and behind it, one double word with it: reach and what cuts */
@@ -311,7 +311,7 @@ ENDFUNC(findSeedsA)
 1:
 .endm
 
-// A half axis of the cell on the picture plane: edx its width, eax its height; ecx is spare.
+// A half axis of the cell on the picture plane: edx its halfWidth, eax its halfHeight; ecx is spare.
 .macro on_picture axis
         packed        \axis
         unpack
@@ -381,7 +381,7 @@ FUNC(shadeSeedsA)
 
 shade_one:
         movl        SEEN_SEED(%ebx), %esi
-        // steep = smaller(((v.depth + voxel.z) << 8) / facing, STEEPEST_TILT)
+        // steep = min32(((v.depth + voxel.z) << 8) / facing, STEEPEST_TILT)
         movl        VOXEL_Z(%edi), %eax
         addl        DEPTH(%ebp), %eax
         shll        $8, %eax
@@ -410,7 +410,7 @@ shade_tilted:
         addl        $8192, %edx
         sarl        $14, %edx
         movl        %edx, SHADE_LIGHT(%esp)
-        // voxel.brightness = larger(light, 0), and all behind it 0
+        // voxel.brightness = max32(light, 0), and all behind it 0
         jle        shade_dark
 shade_lit:
         movl        %edx, VOXEL_BRIGHT(%edi)
@@ -431,11 +431,11 @@ shade_lit:
         movl        %edx, SHADE_AREA(%esp)
         on_picture SEED_ALONG
 shade_band:
-        // wide >>= v.cellShift; high >>= v.cellShift
+        // halfWidth >>= v.cellShift; halfHeight >>= v.cellShift
         movl        CELL_SHIFT(%ebp), %ecx
         sarl        %cl, %edx
         sarl        %cl, %eax
-        // if (wide > high) high += area / wide
+        // if (halfWidth > halfHeight) halfHeight += area / halfWidth
         cmpl        %eax, %edx
         jle        shade_high
         movl        %edx, %ecx
@@ -445,7 +445,7 @@ shade_band:
         divl        %ecx
         addl        %esi, %eax
         jmp        shade_extents
-        // else if (high > 0) wide += area / high
+        // else if (halfHeight > 0) halfWidth += area / halfHeight
 shade_high:
         movl        %edx, %esi
         movl        %eax, %ecx
@@ -457,7 +457,7 @@ shade_high:
         addl        %esi, %eax
         xchgl        %eax, %ecx
 
-        // ecx: wide, eax: high. Both += (itself >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff at most
+        // ecx: halfWidth, eax: halfHeight. Both += (itself >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff at most
 shade_extents:
         movl        %ecx, %edx
         sarl        $MARGIN_SHIFT, %edx
@@ -478,8 +478,8 @@ shade_extended:
         cmpl        $255, %edx
         jl        shade_end
 shade_ended:
-        movw        %cx, VOXEL_WIDE(%edi)
-        movw        %ax, VOXEL_HIGH(%edi)
+        movw        %cx, VOXEL_HALF_WIDTH(%edi)
+        movw        %ax, VOXEL_HALF_HEIGHT(%edi)
 
         // if (light <= DARK_MIDDLE) return
         cmpl        $DARK_MIDDLE, SHADE_LIGHT(%esp)
@@ -493,7 +493,7 @@ shade_ended:
         imull        AHEAD(%ebp), %esi
         addl        GRADIENT+4(%ebp), %esi
         sarl        $12, %esi
-        // corner = (|slopeX| * wide + |slopeY| * high) >> 8
+        // corner = (|slopeX| * halfWidth + |slopeY| * halfHeight) >> 8
         imull        %edx, %ecx
         testl        %ecx, %ecx
         jns        1f
@@ -553,7 +553,7 @@ shade_turned:
         movw        %dx, VOXEL_TILTY(%edi)
         jmp        shade_tilted
 
-        // deep = (|tiltX| * wide + |tiltY| * high) >> 8; if (deep >= reach * 8) voxel.reach = reach
+        // deep = (|tiltX| * halfWidth + |tiltY| * halfHeight) >> 8; if (deep >= reach * 8) voxel.reach = reach
 shade_end:
         movswl        VOXEL_TILTX(%edi), %esi
         magnitude        %esi
@@ -569,7 +569,7 @@ shade_end:
         jl        shade_ended
         shrl        $3, %edx
         movb        %dl, VOXEL_REACH(%edi)
-        // if (deep > v.deepest) wide = wide * v.deepest / deep, and high likewise
+        // if (deep > v.deepest) halfWidth = halfWidth * v.deepest / deep, and halfHeight likewise
         cmpl        DEEPEST(%ebp), %esi
         jle        shade_ended
         imull        DEEPEST(%ebp), %eax
@@ -582,7 +582,7 @@ shade_end:
         xchgl        %eax, %ecx
         jmp        shade_ended
 
-        // wide = (wide + |across.x|) >> v.cellShift, and high likewise
+        // halfWidth = (halfWidth + |across.x|) >> v.cellShift, and halfHeight likewise
 shade_whole:
         on_picture SEED_ACROSS
         movl        %edx, SHADE_AREA(%esp)
@@ -597,7 +597,7 @@ shade_add:
         movl        %edx, %ecx
         jmp        shade_extents
 
-        // Fall fall(s, v): position = larger(s.position >> 8, v.leastPosition)
+        // Fall fall(s, v): position = max32(s.position >> 8, v.leastPosition)
 shade_fallen:
         movl        SEED_POSITION(%esi), %eax
         sarl        $8, %eax
@@ -615,7 +615,7 @@ shade_position:
         cmpl        $UNEVEN, %eax
         jl        shade_torn
 shade_even:
-        // share = |position << 14 / cosine|; area = smaller((area * share >> 8) * position >> 8, AREA_MOST)
+        // share = |position << 14 / cosine|; area = min32((area * share >> 8) * position >> 8, AREA_MOST)
         movl        %edx, SHADE_OFF(%esp)
         movl        %eax, SHADE_AREA(%esp)
         movl        SHADE_POSITION(%esp), %eax

@@ -45,7 +45,7 @@ int benchPixels(const Lens& lens, const Voxel& v)
     Factors near;
     const Factors& f = *factorsOf(lens, depth, &near);
     const int32_t column = lens.centreX + ((lens.x + v.x) * f.x >> 8), row = lens.centreY - ((lens.y + v.y) * f.y >> 8);
-    const int32_t halfWide = v.wide * f.x >> 8, halfHigh = v.high * f.y >> 8;
+    const int32_t halfWide = v.halfWidth * f.x >> 8, halfHigh = v.halfHeight * f.y >> 8;
     const int wide = ((column + halfWide) >> 12) - ((column - halfWide) >> 12);
     const int high = ((row + halfHigh) >> 12) - ((row - halfHigh) >> 12);
     return wide * high;
@@ -96,7 +96,7 @@ void __wrap_blitScalesA(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, 
     __real_blitScalesA(frame, zbuffer, scales, count);
     blitScalesC(twinFrame, twinDepths, scales, count);
     for (int i = 0; i < count; ++i)
-        pixelsCovered += static_cast<unsigned>(scales[i].wide * scales[i].high);
+        pixelsCovered += static_cast<unsigned>(scales[i].width * scales[i].height);
     scalesDrawn += static_cast<unsigned>(count);
     byTheView += static_cast<unsigned>(count);
     differing += benchDiffers(frame, zbuffer);
@@ -110,7 +110,7 @@ void __wrap_blitFine(uint8_t* frame, uint16_t* zbuffer, const FineScale& scale)
     if (frame == twinFrame)
         return;
     __real_blitFine(twinFrame, twinDepths, scale);
-    pixelsCovered += static_cast<unsigned>(scale.wide * scale.high);
+    pixelsCovered += static_cast<unsigned>(scale.width * scale.height);
     ++scalesDrawn;
     ++byTheView;
     differing += benchDiffers(frame, zbuffer);

@@ -181,8 +181,8 @@ constexpr int floorToInt(Real a)
 #endif
 
 constexpr Real absolute(Real a) { return a < Real(0) ? -a : a; }
-constexpr Real least(Real a, Real b) { return b < a ? b : a; }
-constexpr Real most(Real a, Real b) { return a < b ? b : a; }
+constexpr Real min(Real a, Real b) { return b < a ? b : a; }
+constexpr Real max(Real a, Real b) { return a < b ? b : a; }
 constexpr Real clamp(Real a, Real low, Real high) { return a < low ? low : high < a ? high : a; }
 
 // a / b where the quotient is known to fit.

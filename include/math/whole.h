@@ -9,12 +9,12 @@ inline int32_t magnitude(int32_t a)
     return a < 0 ? -a : a;
 }
 
-inline int32_t smaller(int32_t a, int32_t b)
+inline int32_t min32(int32_t a, int32_t b)
 {
     return a < b ? a : b;
 }
 
-inline int32_t larger(int32_t a, int32_t b)
+inline int32_t max32(int32_t a, int32_t b)
 {
     return a < b ? b : a;
 }

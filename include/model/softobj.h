@@ -211,9 +211,9 @@ public:
     // Where no path leads square out of the unblended surface.
     bool slants() const { return tapers_ || shaped(); }
     // No distance from the core is less than this share of what it would be in an object that is not shaped.
-    Real narrowing() const { return least(stretch_.x, least(stretch_.y, stretch_.z)) * warp_.least(); }
+    Real narrowing() const { return min(stretch_.x, min(stretch_.y, stretch_.z)) * warp_.least(); }
     // The same of distances where the field is steep: it changes by no more than 1.6 of its size over this share of that.
-    Real steepest() const { return least(stretch_.x, least(stretch_.y, stretch_.z)) * warp_.leastSteep(); }
+    Real steepest() const { return min(stretch_.x, min(stretch_.y, stretch_.z)) * warp_.leastSteep(); }
     // The greatest distance from the centre at which there may be any field.
     Real reach() const { return reach_; }
     // Whether a place of the world is sure to lie beyond that.

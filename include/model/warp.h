@@ -41,7 +41,7 @@ public:
     struct Way {
         Vector plain, twisted;    // before all, and before the bend
         Real y{-30000};           // height that the rest holds for, before the bend
-        Real wide;                // by the taper
+        Real width;                // by the taper
         Real turnSine, turnCosine;  // of the twist
         Real sine, cosine;        // of the bend
         Real middle[2];           // where the bend brings the axis, x and y
@@ -58,7 +58,7 @@ public:
     Real outside(const Vector& place) const
     {
         const Real x = flipped_ ? -place.x : place.x;
-        return ::most(::most(-x - field_.x, x - inward_), ::most(absolute(place.y) - field_.y, absolute(place.z) - field_.z));
+        return ::max(::max(-x - field_.x, x - inward_), ::max(absolute(place.y) - field_.y, absolute(place.z) - field_.z));
     }
 
     // Of the way gone last: what becomes of a small step from Way::plain; and the gradient of a function, from what it is there.

@@ -18,8 +18,8 @@
 struct Scale {
     int16_t left;
     int16_t top;
-    int16_t wide;
-    int16_t high;
+    int16_t width;
+    int16_t height;
     int32_t z;        // of the top left pixel: distance along the viewing axis in 1/128 units; smaller is nearer
     int32_t zStep;    // from a pixel to the next one
     int32_t zRow;     // from the pixel behind the last of a row to the first of the next

@@ -47,7 +47,7 @@ public:
     int show(const VoxelList& list);
 
     // Text and lines on top of the picture: marks a rectangle of pixels as touched and gives the frame to draw into.
-    uint8_t* overlay(int left, int top, int wide, int high);
+    uint8_t* overlay(int left, int top, int width, int height);
 
     // True also for what lies beside the screen. What is nearer than 76 units is never hidden.
     bool hides(const int32_t place[3], int32_t radius) const override;

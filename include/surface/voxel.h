@@ -8,7 +8,7 @@
 // A scale in space. A seed keeps its own as long as nothing about it changes, wherever the object goes.
 struct Voxel {
     int32_t x, y, z;     // from the object's centre, axes of the view, 1/256 unit
-    int16_t wide, high;  // half extents along X and Y, 1/256 unit, 0 or more
+    int16_t halfWidth, halfHeight;  // half extents along X and Y, 1/256 unit, 0 or more
     int16_t tiltX, tiltY;    // slopes of the depth across the scale, 8 bits of fraction
     int8_t brightness;       // of the middle, 0..63; below 0, to DARK_MIDDLE, where only a part of the scale is lit: it has a slope
     uint8_t reach;           // what lies farther behind the middle than this, 1/32 unit, is left out: there the surface has bent

@@ -71,12 +71,12 @@ void Demo::key(int code)
     case '-':
     case '_':
         letGo();
-        resample(least(spacing_ * Real(1.25), SPACING_MOST));
+        resample(min(spacing_ * Real(1.25), SPACING_MOST));
         return;
     case '+':
     case '=':
         letGo();
-        resample(most(spacing_ * Real(0.8), SPACING_LEAST));
+        resample(max(spacing_ * Real(0.8), SPACING_LEAST));
         return;
     case machine::KEY_F4: hold(); return;
     case machine::KEY_F1:
@@ -306,11 +306,11 @@ void Demo::push(Real x, Real y, Real z)
     const ViewAxes& axes = camera.axes;
     const Vector was = axes.fromWorld(toVector(from)), eye = axes.fromWorld(toVector(camera.eye));
     Vector p = was + Vector{x, y, z};
-    p.z = clamp(p.z, least(DEPTH_LEAST, was.z), most(DEPTH_MOST, was.z));
-    const Real away = most(p.z - eye.z, Real(1));
+    p.z = clamp(p.z, min(DEPTH_LEAST, was.z), max(DEPTH_MOST, was.z));
+    const Real away = max(p.z - eye.z, Real(1));
     const Real right = away * (camera.centreX / camera.focalX), up = away * (camera.centreY / camera.focalY);
-    p.x = clamp(p.x, least(eye.x - right, was.x), most(eye.x + right, was.x));
-    p.y = clamp(p.y, least(eye.y - up, was.y), most(eye.y + up, was.y));
+    p.x = clamp(p.x, min(eye.x - right, was.x), max(eye.x + right, was.x));
+    p.y = clamp(p.y, min(eye.y - up, was.y), max(eye.y + up, was.y));
     if (editor_.move(axes.toWorld(p - was), time_))
         Anim::move(model_, shown_);
 }
@@ -362,7 +362,7 @@ void Demo::pointAt(const machine::Mouse& m)
     // As far as the pointer goes on the screen, at the object's distance.
     const Camera& camera = view_.camera();
     const Point& centre = model_.actor(editor_.selected()).object->centre();
-    const Real away = most(camera.axes.fromWorld(centre - camera.eye).z, Real(1));
+    const Real away = max(camera.axes.fromWorld(centre - camera.eye).z, Real(1));
     const Real x = Real(dx) / camera.focalX * away * Real(0.5);
     if (m.right)
         push(x, Real(0), Real(-dy) * UNITS_A_MICKEY);

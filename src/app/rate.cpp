@@ -55,7 +55,7 @@ int finerStep(Real spacing)
 Real distance(const SoftObject& object, const Camera& camera)
 {
     const Real away = object.centre().z - camera.eye.z, reach = object.radius() + object.coreReach();
-    return away < -reach ? Real(512) : most(away - reach, Real(10));
+    return away < -reach ? Real(512) : max(away - reach, Real(10));
 }
 
 // The spacing over what the object deserves: finer where it is near, and where it is thin.
@@ -74,7 +74,7 @@ bool canBeFiner(const SoftObject& object, const Camera& camera)
 
 bool canBeCoarser(const SoftObject& object)
 {
-    return object.spacing() < SPACING_MOST && spacingOf(coarserStep(object.spacing())) <= most(object.radius(), Real(1));
+    return object.spacing() < SPACING_MOST && spacingOf(coarserStep(object.spacing())) <= max(object.radius(), Real(1));
 }
 
 }  // namespace

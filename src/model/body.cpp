@@ -80,7 +80,7 @@ void Bodies::setWeights(SoftObject* const* objects)
         memset(entry.plain, 0, sizeof entry.plain);
         for (const List<Link>::Node* node = objects[i]->skel().first(); node != nullptr; node = node->next) {
             row[node->item.object->slot()] = node->item.weight;
-            entry.heaviest = most(entry.heaviest, node->item.weight);
+            entry.heaviest = max(entry.heaviest, node->item.weight);
         }
         for (const List<Link>::Node* node = objects[i]->dents().first(); node != nullptr; node = node->next)
             row[node->item.object->slot()] -= node->item.weight;

@@ -191,7 +191,7 @@ private:
             *c = cosine(on);
             return;
         }
-        const Angle angle = quarterTurn(least(length, arc_), arc_);
+        const Angle angle = quarterTurn(min(length, arc_), arc_);
         *s = sine(angle);
         *c = cosine(angle);
     }
@@ -201,8 +201,8 @@ private:
 
 Box::Box(int number, Real size, Real x, Real y, Real z)
     : SoftObject(number, size,
-                 length({shiftDown(most(x, Real(0)), 1), shiftDown(most(y, Real(0)), 1), shiftDown(most(z, Real(0)), 1)})),
-      halfMade_{shiftDown(most(x, Real(0)), 1), shiftDown(most(y, Real(0)), 1), shiftDown(most(z, Real(0)), 1)}
+                 length({shiftDown(max(x, Real(0)), 1), shiftDown(max(y, Real(0)), 1), shiftDown(max(z, Real(0)), 1)})),
+      halfMade_{shiftDown(max(x, Real(0)), 1), shiftDown(max(y, Real(0)), 1), shiftDown(max(z, Real(0)), 1)}
 {
     const Real toCore = Real(CORE_SIZE) / this->size();
     half16_ = halfMade_ * toCore;
@@ -221,7 +221,7 @@ void Box::layOutSeeds(SeedMaker& maker, Real spacing) const
     const Vector h = half();
     // A stretched face is gone over in steps of the stretched object.
     const Vector wide = stretchedOut(h);
-    const Real face = least(wide.x, wide.z), round = radius() * HALF_PI, side = shiftUp(h.y, 1);
+    const Real face = min(wide.x, wide.z), round = radius() * HALF_PI, side = shiftUp(h.y, 1);
     const Real whole = shiftUp(face + round, 1) + side;
     Outline outline(stretch());
     outline.plain(face);
@@ -250,8 +250,8 @@ void Box::layOutSeeds(SeedMaker& maker, Real spacing) const
         } else {
             height = h.y - (fromPole - face - round);
         }
-        loop.x = most(h.x - inset.x, Real(0));
-        loop.z = most(h.z - inset.z, Real(0));
+        loop.x = max(h.x - inset.x, Real(0));
+        loop.z = max(h.z - inset.z, Real(0));
         loop.face = fromPole < face;
         loop.number = k;
         loop.height = upper ? height : -height;

@@ -7,7 +7,7 @@
 #include "math/text.h"
 
 Cone::Cone(int number, Real size1, Real size2, Real length)
-    : SoftObject(number, most(size1, size2), shiftDown(most(length, leastLength(size1, size2)), 1), true),
+    : SoftObject(number, max(size1, size2), shiftDown(max(length, leastLength(size1, size2)), 1), true),
       size1Made_(size1), size2Made_(size2), lengthMade_(this->length()), mean16_(0), taper_(0)
 {
     mean16_ = shiftDown(size1 + size2, 1) * (Real(CORE_SIZE) / size());
@@ -66,7 +66,7 @@ void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
             ring.height = length() * share - coreReach();
             ring.radius = sizeAlong(ring.height) * restRoot();
         } else {
-            latitude = quarterTurn(least(at - cap1 - side, cap2), cap2);
+            latitude = quarterTurn(min(at - cap1 - side, cap2), cap2);
             ring.height = coreReach();
             ring.radius = radius2;
             shared = &root2;

@@ -5,7 +5,7 @@
 #include "model/round.h"
 #include "math/text.h"
 
-Cylinder::Cylinder(int number, Real size, Real length) : SoftObject(number, size, shiftDown(most(length, Real(0)), 1)) {}
+Cylinder::Cylinder(int number, Real size, Real length) : SoftObject(number, size, shiftDown(max(length, Real(0)), 1)) {}
 
 Vector Cylinder::fromCore(const Vector& q) const
 {

@@ -5,7 +5,7 @@
 #include "model/round.h"
 #include "math/text.h"
 
-Disc::Disc(int number, Real size, Real discRadius) : SoftObject(number, size, most(discRadius, Real(0))) {}
+Disc::Disc(int number, Real size, Real discRadius) : SoftObject(number, size, max(discRadius, Real(0))) {}
 
 Vector Disc::fromCore(const Vector& q) const
 {
@@ -38,7 +38,7 @@ void Disc::layOutSeeds(SeedMaker& maker, Real spacing) const
         if (at < discRadius())
             ring.core = at;
         else
-            latitude += quarterTurn(least(at - discRadius(), rim), rim);
+            latitude += quarterTurn(min(at - discRadius(), rim), rim);
         if (k == mirrored)
             latitude = 0;
         else if (k > mirrored)

@@ -71,7 +71,7 @@ Real circleReach(const Real* m)
 
 Real coneReach(const Real* m)
 {
-    return shiftDown(most(m[0], m[1]) + m[2], 1);
+    return shiftDown(max(m[0], m[1]) + m[2], 1);
 }
 
 Real boxReach(const Real* m)

@@ -116,7 +116,7 @@ const char* Model::expects(const Actor& item)
     const Vector& v = item.stretch;
     if (measures != nullptr || v == Vector{Real(1), Real(1), Real(1)})
         return measures;
-    const bool near = item.kind->reach(item.measure) * most(v.x, most(v.y, v.z)) <= Real(STRETCHED_REACH);
+    const bool near = item.kind->reach(item.measure) * max(v.x, max(v.y, v.z)) <= Real(STRETCHED_REACH);
     return near ? nullptr : "a stretch that leaves all of it within 100 units of its centre";
 }
 
@@ -445,7 +445,7 @@ Real Model::finest() const
 {
     Real spacing = count_ > 0 ? actors_[0]->object->spacing() : spacing_;
     for (int i = 1; i < count_; ++i)
-        spacing = least(spacing, actors_[i]->object->spacing());
+        spacing = min(spacing, actors_[i]->object->spacing());
     return spacing;
 }
 
@@ -453,7 +453,7 @@ Real Model::coarsest() const
 {
     Real spacing = count_ > 0 ? actors_[0]->object->spacing() : spacing_;
     for (int i = 1; i < count_; ++i)
-        spacing = most(spacing, actors_[i]->object->spacing());
+        spacing = max(spacing, actors_[i]->object->spacing());
     return spacing;
 }
 
@@ -573,7 +573,7 @@ Real Model::implicitAt(const Point& p, int* strongest) const
     for (const Part* part = parts; part < end; ++part)
         if (part->body != nullptr && part->body != last) {
             last = part->body;
-            highest = ::most(highest, fieldOf(part->body, parts, end));
+            highest = ::max(highest, fieldOf(part->body, parts, end));
         }
     return highest;
 }

@@ -163,7 +163,7 @@ bool Reader::focal()
     if (!readReal("pixels across", low, high, &camera.focalX))
         return false;
     // A pixel is 5 wide to 6 high.
-    camera.focalY = most(realFromRaw(mulDiv(rawFromReal(camera.focalX), 5, 6)), low);
+    camera.focalY = max(realFromRaw(mulDiv(rawFromReal(camera.focalX), 5, 6)), low);
     const char* behind = at_;
     if (!nextWord())
         return true;

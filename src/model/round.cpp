@@ -60,7 +60,7 @@ Angle Quarter::longitude(Real way) const
     int i = 0;
     while (i < STEPS - 1 && way_[i + 1] <= way)
         ++i;
-    const Real step = way_[i + 1] - way_[i], rest = least(way - way_[i], step);
+    const Real step = way_[i + 1] - way_[i], rest = min(way - way_[i], step);
     const Angle inStep = static_cast<Angle>(mulDiv(rawFromReal(rest), QUARTER / STEPS, rawFromReal(step)));
     return static_cast<Angle>(i) * (QUARTER / STEPS) + inStep;
 }
@@ -92,7 +92,7 @@ int thinning(Real step, Real spacing)
 
 RingMaker::RingMaker(SeedMaker& maker, const Vector& stretch, Real spacing)
     : maker_(maker), stretch_(stretch), spacing_(spacing), stretched_(isStretched(stretch)),
-      round_(stretch.x == stretch.z), flat_(most(stretch.x, stretch.z) > shiftUp(least(stretch.x, stretch.z), 1)), quarter_(stretch)
+      round_(stretch.x == stretch.z), flat_(max(stretch.x, stretch.z) > shiftUp(min(stretch.x, stretch.z), 1)), quarter_(stretch)
 {
 }
 
@@ -195,7 +195,7 @@ void RingMaker::addStretched(const Ring& ring, int k, int root)
 }
 
 Outline::Outline(const Vector& stretch)
-    : stretch_(stretch), across_(most(stretch.x, stretch.z)), stretched_(isStretched(stretch))
+    : stretch_(stretch), across_(max(stretch.x, stretch.z)), stretched_(isStretched(stretch))
 {
     before_[0] = after_[0] = Real(0);
 }
@@ -245,7 +245,7 @@ Real Outline::at(int32_t part, int32_t of, Real* across) const
         return before_[i];
     const Real share = before / after;
     *across = step * share;
-    return before_[i] + least((way - after_[i]) * share, before);
+    return before_[i] + min((way - after_[i]) * share, before);
 }
 
 void layOutCapsule(SeedMaker& maker, const Vector& stretch, Real radius, Real half, Real spacing)
@@ -272,7 +272,7 @@ void layOutCapsule(SeedMaker& maker, const Vector& stretch, Real radius, Real ha
         } else if (at < cap + body) {
             ring.height = at - cap - half;
         } else {
-            latitude = quarterTurn(least(at - cap - body, cap), cap);
+            latitude = quarterTurn(min(at - cap - body, cap), cap);
             ring.height = half;
             shared = &top;
         }

@@ -173,7 +173,7 @@ void SoftObject::findRest()
         (strength * geoff(middle) > level ? inside : outside) = middle;
     }
     laidHollow_ = dented != nullptr;
-    restParam_ = strength_ == Real(1) && !laidHollow_ ? Real(0.25) : most(inside, REST_LEAST);
+    restParam_ = strength_ == Real(1) && !laidHollow_ ? Real(0.25) : max(inside, REST_LEAST);
     restRoot_ = squareRoot(restParam_);
     rests_ = inside >= REST_LEAST && !laidHollow_;
     radius_ = size_ * restRoot_;
@@ -194,7 +194,7 @@ void SoftObject::setStretch(const Vector& factors)
 {
     stretch_ = factors;
     unstretch_ = {Real(1) / factors.x, Real(1) / factors.y, Real(1) / factors.z};
-    mostStretch_ = most(factors.x, most(factors.y, factors.z));
+    mostStretch_ = max(factors.x, max(factors.y, factors.z));
     stretched_ = !(factors == Vector{Real(1), Real(1), Real(1)});
     measureReach();
     recalc_ = true;
@@ -325,7 +325,7 @@ Real SoftObject::warpedParam(const Vector& q, Vector* slope) const
     *slope = q;
     const Real outside = warp_.outside(q);
     if (outside >= Real(0))
-        return Real(1) + shiftDown(least(outside * narrowing(), Real(1000)), 3);
+        return Real(1) + shiftDown(min(outside * narrowing(), Real(1000)), 3);
     Warp::Way way;
     warp_.back(q, way);
     const Real t = plainParam(unstretched(way.plain), slope);

@@ -60,7 +60,7 @@ static void layOutEllipsoid(SeedMaker& maker, const Vector& stretch, Real radius
     for (int turns = 0; turns < 3; ++turns) {
         // As the rings will see it: turned back.
         const Vector v = Tilted::tilt(stretch, (3 - turns) % 3);
-        const Real uneven = most(v.x, v.z) / ::least(v.x, v.z);
+        const Real uneven = max(v.x, v.z) / ::min(v.x, v.z);
         if (uneven < least) {
             least = uneven;
             best = turns;

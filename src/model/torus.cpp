@@ -5,7 +5,7 @@
 #include "model/round.h"
 #include "math/text.h"
 
-Torus::Torus(int number, Real size, Real ring) : SoftObject(number, size, most(ring, leastRing(size))) {}
+Torus::Torus(int number, Real size, Real ring) : SoftObject(number, size, max(ring, leastRing(size))) {}
 
 Vector Torus::fromCore(const Vector& q) const
 {

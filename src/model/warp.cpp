@@ -47,13 +47,13 @@ Real cosineLackOverAngle(Real a)
 
 void Warp::set(const WarpAmounts& amounts, const Vector& surface, const Vector& field, const Vector& steep)
 {
-    const Real height = surface.y, wide = ::most(surface.x, surface.z);
+    const Real height = surface.y, wide = ::max(surface.x, surface.z);
     asked_ = amounts_ = amounts;
     height_ = height;
     slope_ = amounts.part[WARP_TAPER] / height;
     twist_ = amounts.part[WARP_TWIST] / RADIAN / shiftUp(height, 1);
     most_ = Real(1) + absolute(amounts.part[WARP_TAPER]);
-    const Real degrees = ::least(absolute(amounts.part[WARP_BEND]), shiftUp(height, 1) / (wide * most_ * CLEAR) * RADIAN);
+    const Real degrees = ::min(absolute(amounts.part[WARP_BEND]), shiftUp(height, 1) / (wide * most_ * CLEAR) * RADIAN);
     flipped_ = amounts.part[WARP_BEND] < Real(0);
     amounts_.part[WARP_BEND] = flipped_ ? -degrees : degrees;
     end_ = shiftDown(degrees / RADIAN, 1);
@@ -68,8 +68,8 @@ void Warp::set(const WarpAmounts& amounts, const Vector& surface, const Vector& 
     endUp_ = height * sineOverAngle(end_);
     if (end_ > Real(0))
         most_ = most_ * Real(1.5);
-    least_ = leastWithin(::most(field.x, field.z));
-    leastSteep_ = leastWithin(::most(steep.x, steep.z));
+    least_ = leastWithin(::max(field.x, field.z));
+    leastSteep_ = leastWithin(::max(steep.x, steep.z));
 
     // What is wide when it is tapered and turned; the ends of a bent one come towards the middle of the circle.
     field_ = field;
@@ -87,15 +87,15 @@ Real Warp::leastWithin(Real wide) const
     Real spread = Real(1) / narrow + wide * absolute(slope_) / narrow + wide * absolute(twist_);
     // What lies towards the middle of the circle is pressed together.
     if (end_ > Real(0))
-        spread = spread / (Real(1) - ::least(wide * bend_, Real(0.75)));
-    return Real(1) / ::least(spread, Real(200));
+        spread = spread / (Real(1) - ::min(wide * bend_, Real(0.75)));
+    return Real(1) / ::min(spread, Real(200));
 }
 
 // What taper and twist do at a height.
 void Warp::turnAt(Real y, Way& way) const
 {
     way.y = y;
-    way.wide = Real(1) + slope_ * clamp(y, -height_, height_);
+    way.width = Real(1) + slope_ * clamp(y, -height_, height_);
     way.turnSine = Real(0);
     way.turnCosine = Real(1);
     if (twist_ != Real(0)) {
@@ -123,14 +123,14 @@ Vector Warp::out(const Vector& place, Way& way) const
     }
     way.plain = place;
     way.squeeze = Real(1);
-    const Vector wide{place.x * way.wide, place.y, place.z * way.wide};
+    const Vector wide{place.x * way.width, place.y, place.z * way.width};
     Vector& v = way.twisted;
     v = {wide.x * way.turnCosine + wide.z * way.turnSine, wide.y, wide.z * way.turnCosine - wide.x * way.turnSine};
     if (end_ == Real(0))
         return v;
     const Real x = flipped_ ? -v.x : v.x;
     if (within(place.y))
-        way.squeeze = ::most(Real(1) - x * bend_, LEAST_SQUEEZE);
+        way.squeeze = ::max(Real(1) - x * bend_, LEAST_SQUEEZE);
     const Real across = way.middle[0] + x * way.cosine + way.beyond * way.sine;
     return {flipped_ ? -across : across, way.middle[1] + way.beyond * way.cosine - x * way.sine, v.z};
 }
@@ -156,7 +156,7 @@ void Warp::unbend(Real& across, Real& up, Way& way) const
             up = below ? -on : on;
         }
         across = radius_ - away;
-        way.squeeze = ::most(Real(1) - across * bend_, LEAST_SQUEEZE);
+        way.squeeze = ::max(Real(1) - across * bend_, LEAST_SQUEEZE);
         return;
     }
     // From the end of the circle on, along its tangent.
@@ -180,19 +180,19 @@ void Warp::back(const Vector& place, Way& way) const
     way.twisted = way.plain = v;
     if (slope_ == Real(0) && twist_ == Real(0)) {
         way.y = v.y;
-        way.wide = way.turnCosine = Real(1);
+        way.width = way.turnCosine = Real(1);
         way.turnSine = Real(0);
         return;
     }
     turnAt(v.y, way);
     v = {v.x * way.turnCosine - v.z * way.turnSine, v.y, v.z * way.turnCosine + v.x * way.turnSine};
-    way.plain = slope_ == Real(0) ? v : Vector{v.x / way.wide, v.y, v.z / way.wide};
+    way.plain = slope_ == Real(0) ? v : Vector{v.x / way.width, v.y, v.z / way.width};
 }
 
 Vector Warp::stepOut(const Way& way, const Vector& step) const
 {
     const Real y = way.plain.y, widening = within(y) ? slope_ * step.y : Real(0);
-    const Real x = step.x * way.wide + way.plain.x * widening, z = step.z * way.wide + way.plain.z * widening;
+    const Real x = step.x * way.width + way.plain.x * widening, z = step.z * way.width + way.plain.z * widening;
     const Real turn = twist_ * step.y;
     const Vector v{x * way.turnCosine + z * way.turnSine + way.twisted.z * turn, step.y,
                    z * way.turnCosine - x * way.turnSine - way.twisted.x * turn};
@@ -208,13 +208,13 @@ Vector Warp::slopeOut(const Way& way, const Vector& slope) const
     const Vector& plain = way.plain;
     const Real y = plain.y, s = way.turnSine, c = way.turnCosine;
     if (slope_ != Real(0)) {
-        const Real inverse = Real(1) / way.wide;
+        const Real inverse = Real(1) / way.width;
         const Real along = within(y) ? (g.x * plain.x + g.z * plain.z) * slope_ * inverse : Real(0);
         g = {g.x * inverse, g.y - along, g.z * inverse};
     }
     if (twist_ != Real(0)) {
         // What a step up the axis turns it by.
-        const Real x = plain.x * way.wide, z = plain.z * way.wide;
+        const Real x = plain.x * way.width, z = plain.z * way.width;
         g = {g.x * c + g.z * s, g.y + twist_ * (g.z * x - g.x * z), g.z * c - g.x * s};
     }
     if (end_ == Real(0))

@@ -13,8 +13,8 @@ void blitScalesC(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int cou
         uint8_t* pixels = frame + start;
         uint16_t* depths = zbuffer + start;
         uint32_t z = static_cast<uint32_t>(scales->z);
-        for (int y = scales->high; y > 0; --y) {
-            for (int x = 0; x < scales->wide; ++x) {
+        for (int y = scales->height; y > 0; --y) {
+            for (int x = 0; x < scales->width; ++x) {
                 if (static_cast<uint16_t>(z) < depths[x]) {
                     depths[x] = static_cast<uint16_t>(z);
                     pixels[x] = static_cast<uint8_t>(scales->colour);
@@ -35,7 +35,7 @@ template <bool CUT>
 inline void fineRow(const FineScale& scale, uint8_t* pixels, uint16_t* depths, uint32_t both, uint32_t step, uint32_t most,
                     uint32_t cut, uint32_t cutStep)
 {
-    for (int x = -scale.wide; x != 0; ++x) {
+    for (int x = -scale.width; x != 0; ++x) {
         const uint32_t z = static_cast<uint16_t>(both);
         if (z < depths[x] && z <= most && (!CUT || static_cast<int32_t>(cut) >= 0)) {
             depths[x] = static_cast<uint16_t>(z);
@@ -59,16 +59,16 @@ inline uint32_t together(int32_t z, int32_t shade)
 
 void blitFine(uint8_t* frame, uint16_t* zbuffer, const FineScale& scale)
 {
-    const int end = scale.top * WIDTH + scale.left + scale.wide;
+    const int end = scale.top * WIDTH + scale.left + scale.width;
     uint8_t* pixels = frame + end;
     uint16_t* depths = zbuffer + end;
-    const uint32_t wide = static_cast<uint32_t>(scale.wide);
-    const uint32_t step = together(scale.zStep, scale.shadeStep), down = together(scale.zRow, scale.shadeRow) + step * wide;
+    const uint32_t width = static_cast<uint32_t>(scale.width);
+    const uint32_t step = together(scale.zStep, scale.shadeStep), down = together(scale.zRow, scale.shadeRow) + step * width;
     const uint32_t most = scale.zMost > Z_EMPTY ? Z_EMPTY : static_cast<uint32_t>(scale.zMost);
     const bool isCut = (scale.cut | scale.cutStep | scale.cutRow | scale.cutXX | scale.cutXY | scale.cutYY) != 0;
     uint32_t both = together(scale.z, scale.shade), cut = static_cast<uint32_t>(scale.cut);
     uint32_t cutStep = static_cast<uint32_t>(scale.cutStep), cutRow = static_cast<uint32_t>(scale.cutRow);
-    for (int y = scale.high; y > 0; --y) {
+    for (int y = scale.height; y > 0; --y) {
         if (isCut)
             fineRow<true>(scale, pixels, depths, both, step, most, cut, cutStep);
         else

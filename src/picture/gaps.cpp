@@ -28,7 +28,7 @@ inline bool inSlit(const uint8_t* pixel)
 // The columns of an opening, row after row. Those of the first `narrow` rows are closed.
 struct Opening {
     Span rows[GAP_MOST];
-    int high = 0, narrow = 0;
+    int height = 0, narrow = 0;
 };
 
 // What is empty beside an opening in the next row, all that lies between taken for empty. False: nothing is.
@@ -54,16 +54,16 @@ void follow(const uint8_t* frame, int y, int from, int to, int step, int widest,
     for (;;) {
         // All below a neck goes with it.
         if (to - from <= narrowest)
-            opening.narrow = opening.high + 1;
-        opening.rows[opening.high++] = {static_cast<int16_t>(from), static_cast<int16_t>(to)};
-        const int next = y + opening.high * step;
+            opening.narrow = opening.height + 1;
+        opening.rows[opening.height++] = {static_cast<int16_t>(from), static_cast<int16_t>(to)};
+        const int next = y + opening.height * step;
         if (next < 0 || next >= HEIGHT)
             return;
         if (!goesOn(frame + next * WIDTH, widest, &from, &to)) {
-            opening.narrow = opening.high;
+            opening.narrow = opening.height;
             return;
         }
-        if (to - from > widest || from == 0 || to == WIDTH || opening.high == widest)
+        if (to - from > widest || from == 0 || to == WIDTH || opening.height == widest)
             return;
     }
 }
@@ -191,7 +191,7 @@ void Gaps::closeFrom(int y, int from, int to, int step, int widest, int narrowes
         for (int i = 0; i < narrow; ++i)
             fill(ends, (y + i * step) * WIDTH + rows[i].from - 1, (y + i * step) * WIDTH + rows[i].to, 1);
     }
-    noteBeyond(y + narrow * step, rows[narrow < opening.high ? narrow : narrow - 1]);
+    noteBeyond(y + narrow * step, rows[narrow < opening.height ? narrow : narrow - 1]);
 }
 
 // Whether between two drawn pixels, `step` the way from each to the next, there is none of the surface.
@@ -282,14 +282,14 @@ void Gaps::closeSlit(int y, int x, int end, int step)
 {
     for (; x != end && inSlit(frame_ + y * WIDTH + x); x += step) {
         const int at = y * WIDTH + x;
-        int high = 1;
-        while (frame_[at + high * WIDTH] == 0)
-            ++high;
-        const int above = at - WIDTH, below = at + high * WIDTH;
+        int height = 1;
+        while (frame_[at + height * WIDTH] == 0)
+            ++height;
+        const int above = at - WIDTH, below = at + height * WIDTH;
         if (isOpen(above, below, WIDTH))
             continue;
-        fill(high > GAP_THIN ? endsOf(above, below) : NO_ENDS, above, below, WIDTH);
-        view_.overlay(x, y, 1, high);
+        fill(height > GAP_THIN ? endsOf(above, below) : NO_ENDS, above, below, WIDTH);
+        view_.overlay(x, y, 1, height);
     }
     missed_.note(x, y);
 }

@@ -63,7 +63,7 @@ bool Missed::takeCorner(int column, int row)
             if (frame_[at + down] == 0)
                 continue;
             const int upright = sideFrom(at - aside, -down, aside), flat = sideFrom(at + down, aside, -down);
-            const int shorter = smaller(upright, flat), longer = larger(upright, flat);
+            const int shorter = min32(upright, flat), longer = max32(upright, flat);
             if (shorter >= LONG_BOTH || longer == LONG)
                 return true;
             if (shorter >= SIDE)
@@ -165,7 +165,7 @@ void Missed::setColour(int at, int depth, int beside)
     if (own != nullptr && own->ramp() != nullptr && own->paint() == nullptr) {
         const Normal out = normalise({here - there.x, here - there.y, here - there.z}), light = normalise(model_->light);
         const int32_t cosine = (out.x * light.x + out.y * light.y + out.z * light.z) >> 14;
-        colour = own->ramp()[larger(lambert(cosine), 0)];
+        colour = own->ramp()[max32(lambert(cosine), 0)];
     }
     view_.setPixel(at, depth, colour);
 }

@@ -44,14 +44,14 @@ inline Extent extentOf(int32_t middle, int32_t half, int screen, int32_t* least,
 inline void addShading(const Lens& lens, const Voxel& v, const Factors& f, int32_t depth, int32_t toColumn, int32_t toRow,
                        FineScale* scale)
 {
-    const int wide = scale->wide;
+    const int width = scale->width;
     scale->zMost = endOf(v, depth >> 1);
     scale->ramp = lens.ramp;
     const int32_t shadeAcross = shadeStep(v.slopeX, f.zx), shadeDown = -shadeStep(v.slopeY, f.zy);
     const int32_t toFirst = wrappedSum(wrappedProduct(shadeAcross, toColumn), wrappedProduct(shadeDown, toRow));
     scale->shade = v.brightness * 256 + 128 + (toFirst >> 12);
     scale->shadeStep = shadeAcross;
-    scale->shadeRow = wrappedSum(shadeDown, -wrappedProduct(shadeAcross, wide));
+    scale->shadeRow = wrappedSum(shadeDown, -wrappedProduct(shadeAcross, width));
     const auto way = [&](int32_t across, int32_t down) {
         return wrappedSum(wrappedProduct(across, toColumn), wrappedProduct(down, toRow)) >> 12;
     };
@@ -74,13 +74,13 @@ const Voxel* drawScalesC(Lens* lens, const Voxel* voxels, const Voxel* end)
             break;
         const Factors& f = *factors;
         const int32_t column = lens->centreX + (wrappedProduct(wrappedSum(lens->x, v.x), f.x) >> 8);
-        const Extent columns = extentOf(column, v.wide * f.x >> 8, WIDTH, &lens->left, &lens->right);
+        const Extent columns = extentOf(column, v.halfWidth * f.x >> 8, WIDTH, &lens->left, &lens->right);
         if (columns.kind == Extent::LEFT)
             break;
         const int32_t row = lens->centreY - (wrappedProduct(wrappedSum(lens->y, v.y), f.y) >> 8);
         Extent rows{Extent::EMPTY, 0, 0};
         if (columns.kind == Extent::DRAWN)
-            rows = extentOf(row, v.high * f.y >> 8, HEIGHT, &lens->top, &lens->bottom);
+            rows = extentOf(row, v.halfHeight * f.y >> 8, HEIGHT, &lens->top, &lens->bottom);
         if (rows.kind == Extent::LEFT)
             break;
         if (rows.kind == Extent::EMPTY) {
@@ -94,12 +94,12 @@ const Voxel* drawScalesC(Lens* lens, const Voxel* voxels, const Voxel* end)
         FineScale scale;
         scale.left = static_cast<int16_t>(columns.from);
         scale.top = static_cast<int16_t>(rows.from);
-        scale.wide = static_cast<int16_t>(columns.length());
-        scale.high = static_cast<int16_t>(rows.length());
+        scale.width = static_cast<int16_t>(columns.length());
+        scale.height = static_cast<int16_t>(rows.length());
         scale.z = (depth >> 1) + ((across * toColumn + down * toRow) >> 12);
         scale.zStep = across;
-        scale.zRow = down - across * scale.wide;
-        if (!depthsFit(scale.z, across * (scale.wide - 1), down * (scale.high - 1)))
+        scale.zRow = down - across * scale.width;
+        if (!depthsFit(scale.z, across * (scale.width - 1), down * (scale.height - 1)))
             break;
         if (!isFine(v)) {
             scale.colour = lens->ramp[v.brightness];

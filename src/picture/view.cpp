@@ -125,10 +125,10 @@ bool View::hides(const int32_t place[3], int32_t radius) const
     int top = (row - halfHigh) >> FRACTION, bottom = (row + halfHigh) >> FRACTION;
     if (right < 0 || left >= WIDTH || bottom < 0 || top >= HEIGHT)
         return true;
-    left = larger(left, 0);
-    right = smaller(right, WIDTH - 1);
-    top = larger(top, 0);
-    bottom = smaller(bottom, HEIGHT - 1);
+    left = max32(left, 0);
+    right = min32(right, WIDTH - 1);
+    top = max32(top, 0);
+    bottom = min32(bottom, HEIGHT - 1);
     // Most of what is seen is so in the middle.
     const auto before = static_cast<uint16_t>(nearest);
     const auto seen = [&](int x, int y) { return zbuffer_[y * WIDTH + x] > before; };
@@ -153,8 +153,8 @@ bool View::place(const Voxel& voxel, Placed* at) const
         return false;
     *at = {z, mulDiv(x, focalX_, z) + centreX_, centreY_ - mulDiv(y, focalY_, z), HALF - 1, HALF - 1};
     if (!pixels_) {
-        at->halfWide = mulDiv(voxel.wide, focalX_, z);
-        at->halfHigh = mulDiv(voxel.high, focalY_, z);
+        at->halfWide = mulDiv(voxel.halfWidth, focalX_, z);
+        at->halfHigh = mulDiv(voxel.halfHeight, focalY_, z);
     }
     return true;
 }
@@ -172,8 +172,8 @@ bool View::clip(const Placed& at, FineScale* scale)
     bottom = bottom > HEIGHT ? HEIGHT : bottom;
     scale->left = static_cast<int16_t>(left);
     scale->top = static_cast<int16_t>(top);
-    scale->wide = static_cast<int16_t>(right - left);
-    scale->high = static_cast<int16_t>(bottom - top);
+    scale->width = static_cast<int16_t>(right - left);
+    scale->height = static_cast<int16_t>(bottom - top);
     return left < right && top < bottom;
 }
 
@@ -181,7 +181,7 @@ bool View::clip(const Placed& at, FineScale* scale)
 void View::tilt(const Voxel& voxel, const Placed& at, int32_t* across, int32_t* down) const
 {
     const auto swing = [](int32_t step, int32_t half, int32_t screen) {
-        return magnitude(step) * smaller((half >> FRACTION) + 2, screen);
+        return magnitude(step) * min32((half >> FRACTION) + 2, screen);
     };
     *across = limited(mulDiv(voxel.tiltX, at.z << 3, focalX_), STEEPEST);
     *down = limited(-mulDiv(voxel.tiltY, at.z << 3, focalY_), STEEPEST);
@@ -202,12 +202,12 @@ bool View::project(const Voxel& voxel, FineScale* scale) const
     const auto first = [&](int32_t centre, int32_t across, int32_t down) {
         return centre + static_cast<int32_t>((across * toColumn + down * toRow) >> FRACTION);
     };
-    const int32_t depth = at.z >> 1, wide = scale->wide;
+    const int32_t depth = at.z >> 1, width = scale->width;
     int32_t across, down;
     tilt(voxel, at, &across, &down);
     scale->z = first(depth, across, down);
     scale->zStep = across;
-    scale->zRow = down - across * wide;
+    scale->zRow = down - across * width;
     scale->zMost = endOf(voxel, depth);
 
     const int32_t pixelX = mulDiv(at.z, 1 << 19, focalX_), pixelY = mulDiv(at.z, 1 << 19, focalY_);
@@ -216,7 +216,7 @@ bool View::project(const Voxel& voxel, FineScale* scale) const
     scale->ramp = lens_.ramp;
     scale->shade = first(voxel.brightness * 256 + 128, shadeAcross, shadeDown);
     scale->shadeStep = shadeAcross;
-    scale->shadeRow = shadeDown - shadeAcross * wide;
+    scale->shadeRow = shadeDown - shadeAcross * width;
     if (isCut(voxel))
         setCut(voxel, pixelX, pixelY, [&](int32_t x, int32_t y) { return first(0, x, y); }, scale);
     else
@@ -239,7 +239,7 @@ bool View::ordinary(const Voxel& voxel) const
         return false;
     column = lens_.centreX + (column >> 8);
     row = lens_.centreY - (row >> 8);
-    const int32_t halfWide = voxel.wide * f.x >> 8, halfHigh = voxel.high * f.y >> 8;
+    const int32_t halfWide = voxel.halfWidth * f.x >> 8, halfHigh = voxel.halfHeight * f.y >> 8;
     const int left = (column - halfWide) >> FRACTION, right = (column + halfWide) >> FRACTION;
     const int top = (row - halfHigh) >> FRACTION, bottom = (row + halfHigh) >> FRACTION;
     return right - left <= WIDEST && right - left + bottom - top <= LARGEST_SUM && left >= 0 && right <= WIDTH && top >= 0 &&
@@ -305,7 +305,7 @@ int View::showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool 
                 blitFine(frame_, zbuffer_, scale);
             else
                 blitScales(frame_, zbuffer_, &scale, 1);
-            mark(scale.left, scale.top, scale.left + scale.wide, scale.top + scale.high);
+            mark(scale.left, scale.top, scale.left + scale.width, scale.top + scale.height);
         }
     }
     return left;
@@ -324,9 +324,9 @@ Point View::pointAt(int at, int depth) const
                                                (camera_.centreY - Real(row) - half) / camera_.focalY * z, z});
 }
 
-uint8_t* View::overlay(int left, int top, int wide, int high)
+uint8_t* View::overlay(int left, int top, int width, int height)
 {
-    mark(left, top, left + wide, top + high);
+    mark(left, top, left + width, top + height);
     return frame_;
 }
 

@@ -48,7 +48,7 @@ void Path::blend(Real position, Sample& sample)
     Real strongest(0);
     const auto add = [&](Real f, int slot, int at) {
         *end++ = {f, Real(0), bodies_.weights(slot), slot, at};
-        strongest = most(strongest, f);
+        strongest = max(strongest, f);
     };
     if (ownField_ > Real(0))
         add(ownField_, object_.slot(), -1);
@@ -110,7 +110,7 @@ inline void Path::addMember(Parts& parts, Real f, Real rate, const SoftObject& o
 {
     parts.sum += f;
     parts.slope += rate;
-    parts.strongest = most(parts.strongest, f);
+    parts.strongest = max(parts.strongest, f);
     if (complete_)
         return;
     Part& part = *parts.end++;
@@ -133,7 +133,7 @@ inline void Path::addDigger(Parts& parts, Real f, Real rate, Real weight, const 
 void Path::addOwn(Real position, Parts& parts)
 {
     const Real t = ownParam(position), strength = object_.strength();
-    const FieldStep own = t < Real(1) ? geoffQuick(most(t, Real(0))) : FieldStep{Real(0), Real(0)};
+    const FieldStep own = t < Real(1) ? geoffQuick(max(t, Real(0))) : FieldStep{Real(0), Real(0)};
     ownField_ = own.value * strength;
     ownSlope_ = own.slope * strength;
     headField_ = Real(0);
@@ -157,7 +157,7 @@ inline bool Path::addNear(Real position, const Vector* path, int at, Parts& part
         near.value = near.slope = Real(0);
         return false;
     }
-    const FieldStep field = geoffQuick(most(t, Real(0)));
+    const FieldStep field = geoffQuick(max(t, Real(0)));
     const bool plain = near.strength == Real(1);
     near.value = plain ? field.value : field.value * near.strength;
     near.slope = plain ? field.slope : field.slope * near.strength;
@@ -172,7 +172,7 @@ inline bool Path::addNear(Real position, const Vector* path, int at, Parts& part
     if (all_.hollow && near.object == all_.head)
         headField_ = near.value;
     else
-        parts.rival = most(parts.rival, near.value);
+        parts.rival = max(parts.rival, near.value);
     return true;
 }
 

@@ -15,12 +15,12 @@ void addFieldsC(Neighbour* const* first, Neighbour* const* end, Real position, c
             along.value = along.slope = Real(0);
             continue;
         }
-        const FieldStep field = geoffQuick(most(t, Real(0)));
+        const FieldStep field = geoffQuick(max(t, Real(0)));
         along.value = field.value;
         along.slope = field.slope;
         fields->sum += field.value;
         fields->slope += field.slope * along.change;
-        fields->strongest = most(fields->strongest, field.value);
+        fields->strongest = max(fields->strongest, field.value);
         fields->touched = 1;
     }
 }

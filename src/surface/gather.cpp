@@ -86,7 +86,7 @@ static void setSides(const SoftObject& object, const FrameContext& frame, const 
         OwnFrame::Side& side = own.sides[own.sideCount++];
         axisInOwn(object, frame.axes.toWorld(u), side.inward);
         // It is the least number whose product with growth, over 256, is no less than -inside.
-        const int32_t growth = larger(rawFromReal(object.growth()) >> 8, 1);
+        const int32_t growth = max32(rawFromReal(object.growth()) >> 8, 1);
         side.begin = (-inside * 256 + (inside < 0 ? growth - 1 : 0)) / growth;
     }
 }
@@ -151,7 +151,7 @@ static void place(const SoftObject& object, Real growth, const Vector& away, Nei
     near.centre = grown ? Vector{quotient(apart.x, growth), quotient(apart.y, growth), quotient(apart.z, growth)} : apart;
     near.size = grown ? quotient(other.size(), growth) : other.size();
     near.inverse16 = near.steep16 = near.sheer16 = grown ? quotient(Real(CORE_SIZE), near.size) : other.inverse16();
-    const Real proportion = least(quotient(object.size(), other.size()), Real(60));
+    const Real proportion = min(quotient(object.size(), other.size()), Real(60));
     near.ratio = proportion * proportion;
     near.x16 = rawFromReal(near.centre.x) >> 12;
     near.y16 = rawFromReal(near.centre.y) >> 12;
@@ -164,7 +164,7 @@ static Real greatestWeight(const SoftObject& digger)
 {
     Real greatest(0);
     for (const List<Link>::Node* node = digger.digs().first(); node != nullptr; node = node->next)
-        greatest = most(greatest, node->item.weight);
+        greatest = max(greatest, node->item.weight);
     return greatest;
 }
 
@@ -177,7 +177,7 @@ static void weigh(const Bodies& bodies, const Neighbourhood& all, Neighbour& nea
     near.weight = near.digs ? -bodies.weight(all.head->slot(), other.slot()) : Real(0);
     near.share = near.digs ? greatestWeight(other) : Real(1);
     near.samples = near.digs && other.hollowed() == all.head;
-    near.grain = near.plain ? near.size : near.size / (most(near.strength, Real(1)) * most(near.weight, Real(1)));
+    near.grain = near.plain ? near.size : near.size / (max(near.strength, Real(1)) * max(near.weight, Real(1)));
 }
 
 static void gatherFrom(SoftObject* const* from, int count, bool digs, const SoftObject& object, const Bodies& bodies,

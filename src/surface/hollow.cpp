@@ -60,7 +60,7 @@ SELDOM Real leadOf(const Vector& g, const Vector& out, Real own, const Rival& ri
 {
     const Vector a = quickUnit(out), b = quickUnit(rival.from);
     const Vector others = g - a * own + b * rival.steepest;
-    return dot(others, a + b) / most(Real(1) + dot(a, b), Real(0.05));
+    return dot(others, a + b) / max(Real(1) + dot(a, b), Real(0.05));
 }
 
 // By how much the steepness of a digging field changes from a place to one that is a unit farther from its core: F'' is
@@ -102,8 +102,8 @@ Real findShare(Path& path, Seed& s, Real shared, Vector* g)
     s.border = directionOf(normalise((rate < Real(0)) == hollow ? -wall : wall));
     const Real half = shiftDown(object.spacing() * s.position, 1);
     if (apart < half) {
-        const Real turn = change * shiftDown(half - most(apart, -half), 1);
-        *g = *g + withLength(hollow ? -wall : wall, hollow ? turn : least(turn, rival.steepest));
+        const Real turn = change * shiftDown(half - max(apart, -half), 1);
+        *g = *g + withLength(hollow ? -wall : wall, hollow ? turn : min(turn, rival.steepest));
     }
     return apart;
 }

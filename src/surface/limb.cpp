@@ -34,10 +34,10 @@ inline int8_t inward(int32_t outward)
 // From k, s and S across the view, per unit, 1.0 = 2^14.
 bool setLimb(int32_t k, int32_t alongX, int32_t alongY, int32_t xx, int32_t xy, int32_t yy, int32_t depth, Limb* limb)
 {
-    if (k < FLATTEST || larger(magnitude(alongX), magnitude(alongY)) >= k * SLANT)
+    if (k < FLATTEST || max32(magnitude(alongX), magnitude(alongY)) >= k * SLANT)
         return false;
     limb->radius = (1 << 22) / k;
-    limb->nearness = smaller((limb->radius << 14) / depth, SLANT << 14);
+    limb->nearness = min32((limb->radius << 14) / depth, SLANT << 14);
     limb->along[0] = (alongX << 14) / k;
     limb->along[1] = (alongY << 14) / k;
     limb->curve[0] = inward((xx - times14(alongX, limb->along[0])) * 2);
@@ -71,19 +71,19 @@ bool findLimb(const Bend& bend, const OwnFrame& own, int32_t step, int32_t shear
 
 void endAtLimb(const Limb& limb, int32_t cosine, int32_t more, Voxel* voxel)
 {
-    cosine = smaller(cosine, COSINE_MOST);
+    cosine = min32(cosine, COSINE_MOST);
     // A tilt is a part of the normal over the cosine.
-    const int32_t near = smaller(times14(cosine, limb.nearness), (SLANT - 1) << 14) + (1 << 14);
+    const int32_t near = min32(times14(cosine, limb.nearness), (SLANT - 1) << 14) + (1 << 14);
     const int32_t x = times14(voxel->tiltX * cosine >> 8, near) + times14(cosine, limb.along[0]);
     const int32_t y = times14(voxel->tiltY * cosine >> 8, near) + times14(cosine, limb.along[1]);
-    voxel->wide = static_cast<int16_t>(smaller(voxel->wide + more, 0x7fff));
-    voxel->high = static_cast<int16_t>(smaller(voxel->high + more, 0x7fff));
+    voxel->halfWidth = static_cast<int16_t>(min32(voxel->halfWidth + more, 0x7fff));
+    voxel->halfHeight = static_cast<int16_t>(min32(voxel->halfHeight + more, 0x7fff));
     voxel->reach = 0;
     voxel->cutX = inward(x);
     voxel->cutY = inward(y);
     // How far away the limb is.
-    const int32_t square = smaller(times14(cosine, cosine), 1 << 14);
-    voxel->cutAt = static_cast<int16_t>(smaller(((square * limb.radius >> 10) * 16 + HALF) >> SHIFT, 32000));
+    const int32_t square = min32(times14(cosine, cosine), 1 << 14);
+    voxel->cutAt = static_cast<int16_t>(min32(((square * limb.radius >> 10) * 16 + HALF) >> SHIFT, 32000));
     voxel->curveXX = limb.curve[0];
     voxel->curveXY = limb.curve[1];
     voxel->curveYY = limb.curve[2];

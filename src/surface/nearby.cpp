@@ -37,7 +37,7 @@ bool Nearby::setPatch(const Patch& patch, bool oversampled)
         if (near == nullptr || !reaches(*near, ball))
             return;
         near_.add(*near);
-        smallest_ = least(smallest_, near->grain);
+        smallest_ = min(smallest_, near->grain);
     });
     setComplete(near_);
     return near_.count > 0;
@@ -57,7 +57,7 @@ void Nearby::setOdd(const Patch& patch)
             if (near == nullptr)
                 return;
             dented_ = dented_ || near->digs;
-            smallest_ = least(smallest_, near->grain);
+            smallest_ = min(smallest_, near->grain);
         });
 }
 

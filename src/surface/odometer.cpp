@@ -41,8 +41,8 @@ bool Odometer::makeRoom(int count)
 // way does.
 inline Way Odometer::wayOfEye(const SoftObject& object, const OwnFrame& own)
 {
-    const Real away = most(nearLength(own.eye), Real(1));
-    const Real turned = least(roundLength(own.eye - eye_), away) / away;
+    const Real away = max(nearLength(own.eye), Real(1));
+    const Real turned = min(roundLength(own.eye - eye_), away) / away;
     eye_ = own.eye;
     return wayOf(turned * shiftDown(object.laidSize(), 2));
 }

@@ -45,7 +45,7 @@ Real pathOf(const SoftObject& object, const Patch& patch, const Vector& axis, Re
 SELDOM int16_t leanOf(const SoftObject& object, const Patch& patch, const Vector& axis, Real path)
 {
     Real most(0);
-    forSeeds(object, patch, [&](const Seed& s) { most = ::most(most, length(s.path - axis * path)); });
+    forSeeds(object, patch, [&](const Seed& s) { most = ::max(most, length(s.path - axis * path)); });
     return static_cast<int16_t>(steps16(most) + 1);
 }
 
@@ -76,7 +76,7 @@ void setPatch(const SoftObject& object, Patch& patch)
     patch.axis[0] = d.x;
     patch.axis[1] = d.y;
     patch.axis[2] = d.z;
-    patch.spread = static_cast<int16_t>(rawFromReal(least(lengthOf(spread), Real(1.9))) >> 2);
+    patch.spread = static_cast<int16_t>(rawFromReal(min(lengthOf(spread), Real(1.9))) >> 2);
     patch.middle[0] = static_cast<int16_t>(steps16(middle.x));
     patch.middle[1] = static_cast<int16_t>(steps16(middle.y));
     patch.middle[2] = static_cast<int16_t>(steps16(middle.z));

@@ -17,7 +17,7 @@ Path::Path(const SoftObject& object, Neighbourhood& all, const Bodies& bodies, N
     : object_(object), all_(all), bodies_(bodies), nearby_(nearby), counts_(counts), warped_(object.warped()),
       ownPlain_(!warped_ && object.strength() == Real(1) && !all.hollow && !all.inner), restParam_(object.restParam()),
       first_(all.deep ? FIRST_DEEP : FIRST), last_(all.last), middle_(all.deep ? shiftDown(first_ + last_, 1) : COVERED_AT),
-      restOfPath_((most(last_ - middle_, middle_ - first_) + Real(0.02)) * object.longestPath())
+      restOfPath_((max(last_ - middle_, middle_ - first_) + Real(0.02)) * object.longestPath())
 {
 }
 
@@ -267,7 +267,7 @@ Real Path::smoothStep() const
 {
     Real sheerest16(0);
     for (int i = 0; i < touched_; ++i)
-        sheerest16 = most(sheerest16, near_[i]->sheer16);
+        sheerest16 = max(sheerest16, near_[i]->sheer16);
     const Real sizes = shiftDown(sheerest16 * nearLength(seed_->path), 4);
     return SMOOTH < sizes * SMOOTH_OWN ? SMOOTH / sizes : SMOOTH_OWN;
 }

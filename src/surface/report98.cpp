@@ -114,7 +114,7 @@ bool Report98::update(const FrameContext& frame)
     // The report's slope is that of its fields. A stronger one is steeper, and what digs adds to it.
     Real steep = object_.strength();
     for (int n = 0; n < nearCount; ++n)
-        steep += most(Real(0), -near[n].weight) * near[n].object->strength();
+        steep += max(Real(0), -near[n].weight) * near[n].object->strength();
     step_ = steep > Real(1) ? Real(1) / steep : Real(1);
     // "The regular seeds at even positions in an array, and the corresponding extra samples at the following odd
     // position. The index in the update loop is incremented by one or two depending on the status of the extra seed."
@@ -238,8 +238,8 @@ void Report98::draw(const FrameContext& frame, VoxelList& list, int room, int* n
         v.x = rawFromReal(place.x) >> 8;
         v.y = rawFromReal(place.y) >> 8;
         v.z = rawFromReal(place.z) >> 8;
-        v.wide = static_cast<int16_t>(extent > INT16_MAX ? INT16_MAX : extent);
-        v.high = v.wide;
+        v.halfWidth = static_cast<int16_t>(extent > INT16_MAX ? INT16_MAX : extent);
+        v.halfHeight = v.halfWidth;
         v.tiltX = v.tiltY = 0;  // the report's scales face the viewer, and each has one brightness
         v.reach = 0;
         v.slopeX = v.slopeY = 0;

@@ -108,15 +108,15 @@ bool isInside(Path& path, Real* position, Sample* sample, Real* margin)
         *position = at;
         if (sample->excess <= Real(0))
             return false;
-        lowest = least(lowest, sample->excess);
+        lowest = min(lowest, sample->excess);
         if (sample->dominance <= OVERSHOOT)
             continue;
-        lowest = least(lowest, path.look(Real(1)).excess);
+        lowest = min(lowest, path.look(Real(1)).excess);
         if (lowest < VALLEY)
-            lowest = least(lowest, path.look(BETWEEN).excess);
+            lowest = min(lowest, path.look(BETWEEN).excess);
         if (lowest < VALLEY && at == COVERED_LATE)
-            lowest = least(lowest, path.look(BETWEEN_LATE).excess);
-        *margin = least(lowest, sample->dominance - OVERSHOOT);
+            lowest = min(lowest, path.look(BETWEEN_LATE).excess);
+        *margin = min(lowest, sample->dominance - OVERSHOOT);
         return lowest > Real(0);
     }
     return false;
@@ -136,7 +136,7 @@ Real search(Path& path, Real* position, Sample* sample)
         return Real(0);
     }
     while (before.position < path.last()) {
-        const Look now = lookAt(path, least(before.position + SEARCH_STEP, path.last()));
+        const Look now = lookAt(path, min(before.position + SEARCH_STEP, path.last()));
         Real outside = now.position;
         bool left = now.sample.excess <= Real(0);
         if (!left && before.sample.slope < Real(0) && now.sample.slope > Real(0)) {
@@ -186,7 +186,7 @@ bool comesBackFar(Path& path, Real from, Real weakest, Real* outside, Real* insi
     Look before = lookAt(path, from);
     bool out = before.sample.excess <= TOLERANCE;
     while (before.position < path.last() && path.ownField() > weakest) {
-        const Look now = lookAt(path, least(before.position + SEARCH_STEP, path.last()));
+        const Look now = lookAt(path, min(before.position + SEARCH_STEP, path.last()));
         const bool isOut = now.sample.excess <= Real(0);
         // Between two places outside there may be a hill.
         const bool hill = isOut && before.sample.slope > Real(0) && now.sample.slope < Real(0);
@@ -205,7 +205,7 @@ bool comesBackFar(Path& path, Real from, Real weakest, Real* outside, Real* insi
 bool leavesAgain(Path& path, Real* inside, Real* outside)
 {
     for (Real to = *inside; to < path.last(); *inside = to) {
-        to = least(to + SEARCH_STEP, path.last());
+        to = min(to + SEARCH_STEP, path.last());
         const Sample now = path.look(to);
         *outside = to;
         if (now.excess <= Real(0))
@@ -270,8 +270,8 @@ void DeepSearch::run(Real from, Real to)
 // Takes into account what was seen at a place.
 void DeepSearch::add(const Look& at)
 {
-    highest_ = most(highest_, at.sample.excess);
-    push_ = most(push_, path_.pushes());
+    highest_ = max(highest_, at.sample.excess);
+    push_ = max(push_, path_.pushes());
     if (at.sample.excess >= deepest_)
         return;
     deepest_ = at.sample.excess;
@@ -292,7 +292,7 @@ bool DeepSearch::leaves(const Look& inner, const Look& outer, Real* from)
     // There is a hill between the two. Its top is about where a slope that changes evenly is 0.
     *from += (outer.position - inner.position) * (inner.sample.slope / (inner.sample.slope - outer.sample.slope));
     const Real top = path_.look(*from).excess;
-    highest_ = most(highest_, top);
+    highest_ = max(highest_, top);
     return top > Real(0);
 }
 
@@ -307,10 +307,10 @@ int DeepSearch::crossings(const Look& begin, const Look& end)
     const bool outside = begin.sample.excess <= Real(0);
     const auto off = [&](Real excess) { return outside ? -excess : excess; };
     const Real a = off(begin.sample.excess), b = off(end.sample.excess);
-    const Real nearest = least(least(a, b), least(off(one), off(other))) - CUBIC_SPARE;
+    const Real nearest = min(min(a, b), min(off(one), off(other))) - CUBIC_SPARE;
     if (nearest > Real(0)) {
-        deepest_ = least(deepest_, off(nearest));
-        highest_ = most(highest_, off(nearest));
+        deepest_ = min(deepest_, off(nearest));
+        highest_ = max(highest_, off(nearest));
         return 0;
     }
     const auto clear = [](Real excess) { return absolute(excess) > CUBIC_SPARE; };
@@ -366,5 +366,5 @@ Real searchDeep(Path& path, Real* position, Sample* sample, Real* off, Real* pus
         return Real(0);
     }
     *off = search.deepest();
-    return most(*off, Real(0));
+    return max(*off, Real(0));
 }

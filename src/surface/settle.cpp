@@ -53,11 +53,11 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, Neighbourhood& all, co
       weakest_(ISOVALUE / (Real(1) + shiftUp(frame.bodies->heaviest(object.slot()), 1))),
       last_(&object.regular(object.seedSlots() - 2))
 {
-    Real strongest = most(object.strength(), Real(1));
+    Real strongest = max(object.strength(), Real(1));
     for (int i = 0; i < all.count; ++i)
-        strongest = most(strongest, all.neighbours[i].strength);
+        strongest = max(strongest, all.neighbours[i].strength);
     border_ = BORDER * strongest;
-    alike_ = least(object.spacing() * PARTED / object.radius(), Real(9));
+    alike_ = min(object.spacing() * PARTED / object.radius(), Real(9));
     open_ = object.spacing() * (object.shaped() ? LEFT_OPEN_SHAPED : LEFT_OPEN);
     openNext_ = object.spacing() * LEFT_OPEN_NEXT;
     openFine_ = object.spacing() * LEFT_OPEN_FINE;
@@ -103,7 +103,7 @@ Real Settler::settle(Seed& s)
         putOff(s, found ? sample.dominance - OVERSHOOT : off_, followed == LOST ? push_ : path_.pushMost());
     }
     s.blocker = static_cast<uint8_t>(cover_.strongest());
-    return found ? least(margin, sample.dominance - OVERSHOOT) : margin;
+    return found ? min(margin, sample.dominance - OVERSHOOT) : margin;
 }
 
 // Follows a seed from where it was, in the fields of those neighbours that reach it there.
@@ -211,7 +211,7 @@ bool Settler::setPatch(const Patch& patch, bool oversampled)
     patch_ = &patch;
     path_.leave();
     const bool reached = nearby_.setPatch(patch, oversampled);
-    const bool hurries = came_ > least(HURRY, shiftDown(nearby_.smallest(), 2));
+    const bool hurries = came_ > min(HURRY, shiftDown(nearby_.smallest(), 2));
     turn_ = hurries || nearby_.dented() ? 0 : (static_cast<uint32_t>(patch.centre) / 2 + updates_) % TURNS;
     return reached;
 }
@@ -269,8 +269,8 @@ void Settler::settleOthers(Patch& patch)
     forSeeds(object_, patch, [&](Seed& s) {
         if (&s != &centre)
             settleBeside(centre, s, someAway, &blocker);
-        nearest = least(nearest, s.position);
-        farthest = most(farthest, s.position);
+        nearest = min(nearest, s.position);
+        farthest = max(farthest, s.position);
     });
     patch.asleep = false;
     setRange(patch, nearest, farthest);

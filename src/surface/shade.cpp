@@ -182,19 +182,19 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     shading_.limb = distance * own.limb >> 11;
     facesViewer_ = (distance * (FACES_VIEWER >> 6)) >> 5;
     facesAbout_ = (distance * (FACES_ABOUT >> 6)) >> 5;
-    viewShift_ = larger(0, 18 - __builtin_clz(static_cast<uint32_t>(distance + 4096)));
+    viewShift_ = max32(0, 18 - __builtin_clz(static_cast<uint32_t>(distance + 4096)));
     // Both per 1/32 unit of the world.
-    const int32_t distance32 = larger(mulShift16(own.distance32, rawFromReal(own.growth)), 1);
+    const int32_t distance32 = max32(mulShift16(own.distance32, rawFromReal(own.growth)), 1);
     // No product of half as much again with what a seed faces the viewer by may leave 32 bits.
     const int32_t farthest = distance * 8 + (rawFromReal(object.laidReach()) >> shading_.placeShift);
     const int32_t horizonMost = INT32_MAX / 3 * 2 / (farthest + 1);
-    ballHorizon_ = smaller(mulShift16((smaller(radius >> 11, FLATTEST) << 12) / distance32, step), horizonMost);
+    ballHorizon_ = min32(mulShift16((min32(radius >> 11, FLATTEST) << 12) / distance32, step), horizonMost);
     horizonScale_ = mulShift16(mulDiv(step, 1 << 12, distance32), step);
-    flatHorizon_ = smaller(mulShift16(FLATTEST, horizonScale_), horizonMost);
-    ballBend_ = (1 << 22) / larger(mulShift16(rawFromReal(object.laidRadius()) >> 8, rawFromReal(own.growth)), 128);
-    const int32_t spacing = spacing_ = smaller(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
+    flatHorizon_ = min32(mulShift16(FLATTEST, horizonScale_), horizonMost);
+    ballBend_ = (1 << 22) / max32(mulShift16(rawFromReal(object.laidRadius()) >> 8, rawFromReal(own.growth)), 128);
+    const int32_t spacing = spacing_ = min32(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
     shading_.deepest = spacing * DEEPEST;
-    limbMargin_ = smaller(spacing * LIMB_MARGIN >> 6, LIMB_MARGIN_MOST);
+    limbMargin_ = min32(spacing * LIMB_MARGIN >> 6, LIMB_MARGIN_MOST);
     areaScale_ = static_cast<uint32_t>(mulShift16(spacing * spacing << 7, step));
     shading_.cellShift = __builtin_clz(static_cast<uint32_t>(spacing)) - 19;
     if (spacing << shading_.cellShift > 6143)
@@ -263,9 +263,9 @@ SELDOM void Shader::measureBend(Patch& patch) const
         turn[k][0] = b.normal.x - a.normal.x;
         turn[k][1] = b.normal.y - a.normal.y;
         turn[k][2] = b.normal.z - a.normal.z;
-        size[k] = larger(larger(magnitude(d[0]), magnitude(d[1])), magnitude(d[2]));
+        size[k] = max32(max32(magnitude(d[0]), magnitude(d[1])), magnitude(d[2]));
         // Nothing bends more than a ball of half a unit.
-        if (larger(larger(magnitude(turn[k][0]), magnitude(turn[k][1])), magnitude(turn[k][2])) > size[k] << 7)
+        if (max32(max32(magnitude(turn[k][0]), magnitude(turn[k][1])), magnitude(turn[k][2])) > size[k] << 7)
             return;
         // This step times the normal, or for the second the normal times this step.
         const int32_t sign = k == 0 ? 1 : -1;
@@ -274,7 +274,7 @@ SELDOM void Shader::measureBend(Patch& patch) const
         across[2] = sign * (n[0] * d[1] - n[1] * d[0]) >> 14;
     }
     const int32_t area = product(dual[0], step[0]);
-    if (smaller(size[0], size[1]) < 64 || magnitude(area) <= size[0] * size[1] >> 2)
+    if (min32(size[0], size[1]) < 64 || magnitude(area) <= size[0] * size[1] >> 2)
         return;
     bend.ball = false;
     const auto overArea = [&](int32_t sum) { return limited(mulDiv(sum, 128, area), 16000); };
@@ -319,7 +319,7 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
     if (!rests)
         shading_.horizonShare = ballHorizon_ * 3 >> 1;
     if (curvature > square >> 11)
-        shading_.horizonShare = smaller(shading_.horizonShare,
+        shading_.horizonShare = min32(shading_.horizonShare,
                                         mulShift16((rests ? square * 5 >> 1 : square * 2) / curvature, horizonScale_));
 }
 

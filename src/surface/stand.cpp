@@ -43,7 +43,7 @@ Real Stand::cameAsMapped(const Neighbour& near, const Stand& before, Real reach)
     const Vector most{absolute(by.x) + roundLength(axes_[0] - before.axes_[0]) * reach,
                       absolute(by.y) + roundLength(axes_[1] - before.axes_[1]) * reach,
                       absolute(by.z) + roundLength(axes_[2] - before.axes_[2]) * reach};
-    const Real way = least(roundLength(most), longest) * near.size * Real(1.0 / CORE_SIZE);
+    const Real way = min(roundLength(most), longest) * near.size * Real(1.0 / CORE_SIZE);
     if (!near.object->warped())
         return way;
     // A share of the width, and degrees.

@@ -7,7 +7,7 @@
 // About the length of a vector, never less than nine tenths of it.
 inline Real roundLength(const Vector& v)
 {
-    const Real x = absolute(v.x), y = absolute(v.y), z = absolute(v.z), greatest = most(most(x, y), z);
+    const Real x = absolute(v.x), y = absolute(v.y), z = absolute(v.z), greatest = max(max(x, y), z);
     return greatest + (x + y + z - greatest) * Real(0.375);
 }
 

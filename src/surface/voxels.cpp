@@ -59,7 +59,7 @@ struct Fall {
     }
     int32_t area(int32_t rest) const
     {
-        return smaller((rest * magnitude(share) >> 8) * position >> 8, AREA_MOST);
+        return min32((rest * magnitude(share) >> 8) * position >> 8, AREA_MOST);
     }
 };
 
@@ -70,7 +70,7 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     const int32_t depth = v.depth + voxel.z;
     // The tangent plane: depth changes by n.x depth / (n . to eye) for a unit across the view.
     const uint32_t rise = (static_cast<uint32_t>(depth) << 8) / static_cast<uint32_t>(facing);
-    const int32_t steep = smaller(static_cast<int32_t>(rise), STEEPEST_TILT);
+    const int32_t steep = min32(static_cast<int32_t>(rise), STEEPEST_TILT);
     const int16_t tiltX = static_cast<int16_t>(normalX * steep >> 14);
     const int16_t tiltY = static_cast<int16_t>(normalY * steep >> 14);
     const int32_t light = lambert(product(s.normal, v.light));
@@ -78,24 +78,24 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     voxel.tiltY = tiltY;
     // Half width and height. Beside each other, cells of a ring make a band: rectangles as wide as the way from one to the
     // next need not cover the whole of their cells, only, together, the band.
-    int32_t wide, high;
+    int32_t halfWidth, halfHeight;
     const auto measure = [&](int32_t cell, const auto& onPicture) {
         const OnPicture along = onPicture(s.along);
-        wide = magnitude(along.x);
-        high = magnitude(along.y);
+        halfWidth = magnitude(along.x);
+        halfHeight = magnitude(along.y);
         if (cell <= v.wholeMost) {
             const OnPicture across = onPicture(s.across);
-            wide = (wide + magnitude(across.x)) >> v.cellShift;
-            high = (high + magnitude(across.y)) >> v.cellShift;
+            halfWidth = (halfWidth + magnitude(across.x)) >> v.cellShift;
+            halfHeight = (halfHeight + magnitude(across.y)) >> v.cellShift;
             return;
         }
         const uint32_t area = static_cast<uint32_t>(mulHigh(cell * (facing >> 3), v.areaShare));
-        wide >>= v.cellShift;
-        high >>= v.cellShift;
-        if (wide > high)
-            high += static_cast<int32_t>(area / static_cast<uint32_t>(wide));
-        else if (high > 0)
-            wide += static_cast<int32_t>(area / static_cast<uint32_t>(high));
+        halfWidth >>= v.cellShift;
+        halfHeight >>= v.cellShift;
+        if (halfWidth > halfHeight)
+            halfHeight += static_cast<int32_t>(area / static_cast<uint32_t>(halfWidth));
+        else if (halfHeight > 0)
+            halfWidth += static_cast<int32_t>(area / static_cast<uint32_t>(halfHeight));
     };
     if (s.flags & SEED_RESTING) {
         measure(s.area, [&](const int8_t axis[3]) { return OnPicture(axis, v); });
@@ -103,8 +103,8 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
         const Fall fall(s, v);
         measure(fall.torn ? 0 : fall.area(s.area), [&](const int8_t axis[3]) { return fall.of(axis, s, v); });
     }
-    wide = smaller(wide + (wide >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff);
-    high = smaller(high + (high >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff);
+    halfWidth = min32(halfWidth + (halfWidth >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff);
+    halfHeight = min32(halfHeight + (halfHeight >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff);
     voxel.reach = 0;
     voxel.cutX = voxel.cutY = voxel.slopeX = voxel.slopeY = 0;
     voxel.cutAt = 0;
@@ -112,16 +112,16 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     // Where a round surface bends out of sight its tangent plane goes on: the scale ends there. The limb is cos^2 radius / 2
     // away across the view, with cos the cosine of normal and viewer; along the plane that is cos radius / 2 deep.
     const int32_t reach = (v.horizonShare * facing >> 16) + 1;
-    const int32_t deep = (magnitude(tiltX) * wide + magnitude(tiltY) * high) >> 8;
+    const int32_t deep = (magnitude(tiltX) * halfWidth + magnitude(tiltY) * halfHeight) >> 8;
     if (reach < 256 && deep >= reach * 8) {
         voxel.reach = static_cast<uint8_t>(reach);
         if (deep > v.deepest) {
-            wide = wide * v.deepest / deep;
-            high = high * v.deepest / deep;
+            halfWidth = halfWidth * v.deepest / deep;
+            halfHeight = halfHeight * v.deepest / deep;
         }
     }
-    voxel.wide = static_cast<int16_t>(wide);
-    voxel.high = static_cast<int16_t>(high);
+    voxel.halfWidth = static_cast<int16_t>(halfWidth);
+    voxel.halfHeight = static_cast<int16_t>(halfHeight);
     voxel.brightness = static_cast<int8_t>(light <= DARK_MIDDLE ? 0 : light);
     if (light <= DARK_MIDDLE)
         return;
@@ -187,7 +187,7 @@ bool cutVoxel(int32_t x, int32_t y, int32_t z, int32_t apart, int32_t shearX, in
     cutX >>= shift;
     cutY >>= shift;
     const int32_t at = (apart + CUT_MARGIN) * 512 >> shift;
-    const int32_t corner = (magnitude(cutX) * voxel->wide + magnitude(cutY) * voxel->high) >> 5;
+    const int32_t corner = (magnitude(cutX) * voxel->halfWidth + magnitude(cutY) * voxel->halfHeight) >> 5;
     if (at >= corner)
         return true;
     if (at <= -corner)

@@ -56,9 +56,9 @@ constexpr int32_t STEEPEST_SHADING = 240;
 inline void setSlopes(int32_t x, int32_t y, Voxel* voxel)
 {
     const int32_t light = voxel->brightness;
-    voxel->brightness = static_cast<int8_t>(larger(light, 0));
+    voxel->brightness = static_cast<int8_t>(max32(light, 0));
     voxel->slopeX = voxel->slopeY = 0;
-    int32_t corner = (magnitude(x) * voxel->wide + magnitude(y) * voxel->high) >> 8;
+    int32_t corner = (magnitude(x) * voxel->halfWidth + magnitude(y) * voxel->halfHeight) >> 8;
     if (corner < FLAT_SHADING)
         return;
     for (; corner > STEEPEST_SHADING; corner >>= 1) {

@@ -117,7 +117,7 @@ void blitBoth(int shift, const Scale* scales, int count)
             count);
     scalesTried += count;
     for (int i = 0; i < count; ++i)
-        pixelsTried += scales[i].wide * scales[i].high;
+        pixelsTried += scales[i].width * scales[i].height;
 }
 
 // A scale; its depth changes by `across` from column to column and by `down` from row to row.
@@ -126,8 +126,8 @@ Scale scale(int left, int top, int wide, int high, int z, int colour, int across
     Scale s;
     s.left = static_cast<int16_t>(left);
     s.top = static_cast<int16_t>(top);
-    s.wide = static_cast<int16_t>(wide);
-    s.high = static_cast<int16_t>(high);
+    s.width = static_cast<int16_t>(wide);
+    s.height = static_cast<int16_t>(high);
     s.z = z;
     s.zStep = across;
     s.zRow = down - across * wide;
@@ -185,7 +185,7 @@ Scale clipped(int wide, int high)
 // What a pixel of the screen gets from a scale that covers it.
 int depthAt(const Scale& s, int x, int y)
 {
-    return s.z + (x - s.left) * s.zStep + (y - s.top) * (s.zRow + s.zStep * s.wide);
+    return s.z + (x - s.left) * s.zStep + (y - s.top) * (s.zRow + s.zStep * s.width);
 }
 
 // Every size up to 64x64 at every alignment, alone on a random screen; checked against what the rule says, too, pixel
@@ -343,8 +343,8 @@ void randomLists(int rounds)
 
 // What asm/scales.S counts on (build/scalesdef.h: its own #defines, by tools/tests.mk).
 static_assert(inasm::VOXEL_X == offsetof(Voxel, x) && inasm::VOXEL_Y == offsetof(Voxel, y) &&
-              inasm::VOXEL_Z == offsetof(Voxel, z) && inasm::VOXEL_WIDE == offsetof(Voxel, wide) &&
-              inasm::VOXEL_HIGH == offsetof(Voxel, high) && inasm::VOXEL_TILTX == offsetof(Voxel, tiltX) &&
+              inasm::VOXEL_Z == offsetof(Voxel, z) && inasm::VOXEL_HALF_WIDTH == offsetof(Voxel, halfWidth) &&
+              inasm::VOXEL_HALF_HEIGHT == offsetof(Voxel, halfHeight) && inasm::VOXEL_TILTX == offsetof(Voxel, tiltX) &&
               inasm::VOXEL_TILTY == offsetof(Voxel, tiltY) && inasm::VOXEL_BRIGHT == offsetof(Voxel, brightness) &&
               inasm::VOXEL_REACH == offsetof(Voxel, reach) && inasm::VOXEL_REACH == inasm::VOXEL_BRIGHT + 1 &&
               inasm::VOXEL_CUTX == offsetof(Voxel, cutX) && inasm::VOXEL_CUTX == inasm::VOXEL_BRIGHT + 2 &&
@@ -375,7 +375,7 @@ static_assert(inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FINENESS == LENS_FINE
 
 // No depth of a scale of its table leaves 16 bits: a pixel's middle lies in the rectangle, so no farther from the scale's
 // than half a pixel more than half the pixels; and one step for what is rounded.
-constexpr int STEPS_MOST = (inasm::KIND_WIDE + 1 + inasm::KIND_ROWS + 1) / 2 * STEEPEST + 1;
+constexpr int STEPS_MOST = (inasm::KIND_COLUMNS + 1 + inasm::KIND_ROWS + 1) / 2 * STEEPEST + 1;
 static_assert(LENS_NEAR * 128 >= STEPS_MOST && LENS_FAR * 128 + STEPS_MOST < Z_EMPTY, "depths");
 
 long voxelsTried = 0, voxelsDrawn = 0;
@@ -446,7 +446,7 @@ Voxel anyVoxel(const Lens& lens)
     switch (below(8)) {
     case 0: wide = below(32) / 16.0; break;
     case 1: high = below(32) / 16.0; break;
-    case 2: wide = inasm::KIND_WIDE + (below(33) - 16) / 8.0, high = below(12); break;
+    case 2: wide = inasm::KIND_COLUMNS + (below(33) - 16) / 8.0, high = below(12); break;
     case 3: high = inasm::KIND_ROWS + (below(33) - 16) / 8.0; break;
     case 5: wide = below((LARGEST + 2) * 16) / 16.0, high = below((LARGEST + 2) * 16) / 16.0; break;
     case 6: (below(2) ? wide : high) = LARGEST + (below(33) - 16) / 8.0; break;
@@ -470,8 +470,8 @@ Voxel anyVoxel(const Lens& lens)
     v.x = static_cast<int32_t>((column - optics.centreX) * z / optics.focalX);
     v.y = static_cast<int32_t>((optics.centreY - row) * z / optics.focalY);
     v.z = z;
-    v.wide = extent(wide / 2 * z / optics.focalX);
-    v.high = extent(high / 2 * z / optics.focalY);
+    v.halfWidth = extent(wide / 2 * z / optics.focalX);
+    v.halfHeight = extent(high / 2 * z / optics.focalY);
     v.tiltX = static_cast<int16_t>(below(3) == 0 ? anything() : below(1201) - 600);
     v.tiltY = static_cast<int16_t>(below(3) == 0 ? anything() : below(1201) - 600);
     if (steep) {
@@ -495,7 +495,8 @@ Voxel anyVoxel(const Lens& lens)
         v.cutX = static_cast<int8_t>(anything());
         v.cutY = static_cast<int8_t>(anything());
         // Often so that the line lies within the scale.
-        const int corner = (v.cutX < 0 ? -v.cutX : v.cutX) * v.wide / 256 + (v.cutY < 0 ? -v.cutY : v.cutY) * v.high / 256;
+        const int corner = (v.cutX < 0 ? -v.cutX : v.cutX) * v.halfWidth / 256 +
+                           (v.cutY < 0 ? -v.cutY : v.cutY) * v.halfHeight / 256;
         if (below(8) && corner < 4000)
             v.cutAt = static_cast<int16_t>((below(2 * corner + 1) - corner) * 8);
         if (below(2)) {
@@ -508,10 +509,10 @@ Voxel anyVoxel(const Lens& lens)
     case 0: v.x = anything(); break;
     case 1: v.y = anything(); break;
     case 2: v.z = anything(); break;
-    case 3: v.wide = static_cast<int16_t>(anything()); break;
-    case 4: v.high = static_cast<int16_t>(anything()); break;
-    case 5: v.wide = 0; break;
-    case 6: v.high = 0; break;
+    case 3: v.halfWidth = static_cast<int16_t>(anything()); break;
+    case 4: v.halfHeight = static_cast<int16_t>(anything()); break;
+    case 5: v.halfWidth = 0; break;
+    case 6: v.halfHeight = 0; break;
     case 7: v.brightness = static_cast<int8_t>(any() & 127); break;
     case 8: v.tiltX = static_cast<int16_t>(32767 * (below(2) ? 1 : -1)); break;
     case 9: v.tiltY = static_cast<int16_t>(32767 * (below(2) ? 1 : -1)); break;
@@ -663,7 +664,7 @@ void voxelByVoxel(int rounds)
             ++stopped;
         } else {
             const double column = optics.centreX + x * optics.focalX / z, row = optics.centreY - y * optics.focalY / z;
-            const double halfWide = v.wide / 256.0 * optics.focalX / z, halfHigh = v.high / 256.0 * optics.focalY / z;
+            const double halfWide = v.halfWidth / 256.0 * optics.focalX / z, halfHigh = v.halfHeight / 256.0 * optics.focalY / z;
             const double left = column - halfWide, right = column + halfWide, top = row - halfHigh, bottom = row + halfHigh;
             const auto most = [](double p, double q) {
                 return (p < 0 ? -p : p) > (q < 0 ? -q : q) ? (p < 0 ? -p : p) : (q < 0 ? -q : q);
@@ -699,7 +700,7 @@ void voxelByVoxel(int rounds)
             const bool surelySmall = mostWide <= LARGEST && mostHigh <= LARGEST && surelyDeep;
             const bool surelyLarge = leastWide > LARGEST || (wideOn > 0 && leastHigh > LARGEST) || (surelyOn && surelyNotDeep);
             deep += surelyOn && mostWide <= LARGEST && mostHigh <= LARGEST && surelyNotDeep;
-            const bool sound = v.wide >= 0 && v.high >= 0;
+            const bool sound = v.halfWidth >= 0 && v.halfHeight >= 0;
             wrongStops += sound && (done == 0 ? surelySmall : surelyLarge);
             stopped += done == 0;
             empty += a.lens.empty;
@@ -723,7 +724,8 @@ void voxelByVoxel(int rounds)
                     const double curve = (v.curveXX * ux * ux + 2 * v.curveXY * ux * uy + v.curveYY * uy * uy) / 32;
                     const double cut = isCut(v) ? v.cutAt / 64.0 + (v.cutX * ux + v.cutY * uy) / 8 + curve : 0;
                     // What changes by so much from the middle to a corner may not fit its products.
-                    const double cornerX = v.wide / 256.0 + z / optics.focalX, cornerY = v.high / 256.0 + z / optics.focalY;
+                    const double cornerX = v.halfWidth / 256.0 + z / optics.focalX,
+                                 cornerY = v.halfHeight / 256.0 + z / optics.focalY;
                     const double cutSwing = (most(v.cutX, 0) * cornerX + most(v.cutY, 0) * cornerY) / 8 +
                                          (most(v.curveXX, 0) * cornerX * cornerX + 2 * most(v.curveXY, 0) * cornerX * cornerY +
                                           most(v.curveYY, 0) * cornerY * cornerY) / 16;
@@ -964,8 +966,8 @@ static_assert(inasm2::SEED_VALID == ::SEED_VALID && inasm2::SEED_RESTING == ::SE
 static_assert(inasm2::PATCH_FIRST == offsetof(Patch, first) && inasm2::PATCH_COUNT == offsetof(Patch, count) &&
               inasm2::PATCH_RINGS == ::PATCH_RINGS, "Patch");
 static_assert(inasm2::VOXEL_X == offsetof(Voxel, x) && inasm2::VOXEL_Y == offsetof(Voxel, y) &&
-              inasm2::VOXEL_Z == offsetof(Voxel, z) && inasm2::VOXEL_WIDE == offsetof(Voxel, wide) &&
-              inasm2::VOXEL_HIGH == offsetof(Voxel, high) && inasm2::VOXEL_TILTX == offsetof(Voxel, tiltX) &&
+              inasm2::VOXEL_Z == offsetof(Voxel, z) && inasm2::VOXEL_HALF_WIDTH == offsetof(Voxel, halfWidth) &&
+              inasm2::VOXEL_HALF_HEIGHT == offsetof(Voxel, halfHeight) && inasm2::VOXEL_TILTX == offsetof(Voxel, tiltX) &&
               inasm2::VOXEL_TILTY == offsetof(Voxel, tiltY) && inasm2::VOXEL_BRIGHT == offsetof(Voxel, brightness) &&
               inasm2::VOXEL_REACH == offsetof(Voxel, reach) && inasm2::VOXEL_SLOPEX == offsetof(Voxel, slopeX) &&
               inasm2::VOXEL_SLOPEY == offsetof(Voxel, slopeY) && inasm2::VOXEL_CURVE == offsetof(Voxel, curveXX) &&

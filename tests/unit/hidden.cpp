@@ -59,8 +59,8 @@ TEST(a_ball_is_hidden_when_all_before_it_is_nearer)
     // A wall of 80 to 60 units, 100 away.
     Voxel wall{};
     wall.z = steps(100);
-    wall.wide = static_cast<int16_t>(steps(40));
-    wall.high = static_cast<int16_t>(steps(30));
+    wall.halfWidth = static_cast<int16_t>(steps(40));
+    wall.halfHeight = static_cast<int16_t>(steps(30));
     wall.brightness = 40;
     const Camera& camera = view.camera();
     Random random;

@@ -23,7 +23,7 @@ Voxel ended(const Limb& limb, const Vec& seed, const Vec& normal)
 {
     const double cosine = -dot(normal, seed) / seed.z;
     Voxel v = {};
-    v.wide = v.high = 300;
+    v.halfWidth = v.halfHeight = 300;
     v.reach = 20;
     v.tiltX = static_cast<int16_t>(std::lround(normal.x / cosine * 256));
     v.tiltY = static_cast<int16_t>(std::lround(normal.y / cosine * 256));
@@ -67,7 +67,7 @@ void holdAgainst(const Round& round, Random& random, LimbOf limbOf, long* held, 
         if (!found)
             continue;
         const Voxel voxel = ended(limb, seed, normal);
-        CHECK(voxel.reach == 0 && voxel.wide == 320 && voxel.high == 320);
+        CHECK(voxel.reach == 0 && voxel.halfWidth == 320 && voxel.halfHeight == 320);
         CHECK(cutAt(voxel, 0, 0) >= 0);
         for (int k = 0; k < 20; ++k) {
             const double x = random.between(-spacing, spacing), y = random.between(-spacing, spacing);

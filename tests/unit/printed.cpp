@@ -102,8 +102,8 @@ TEST(printed_scales_grow_with_deformation)
     SAME(voxels.size(), expected.size());
     double most = 0, least = 99;
     for (size_t i = 0; i < voxels.size() && i < expected.size(); ++i) {
-        NEAR(voxels[i].wide / 256.0, expected[i], 1.0 / 128);
-        SAME(voxels[i].wide, voxels[i].high);
+        NEAR(voxels[i].halfWidth / 256.0, expected[i], 1.0 / 128);
+        SAME(voxels[i].halfWidth, voxels[i].halfHeight);
         most = std::fmax(most, expected[i]);
         least = std::fmin(least, expected[i]);
     }

@@ -45,8 +45,8 @@ TEST(real_arithmetic)
         CHECK((a >= b) == (ax >= by));
         CHECK((a == b) == (ax == by));
         CHECK((a != b) == (ax != by));
-        NEAR(number(least(a, b)), std::fmin(ax, by), 0);
-        NEAR(number(most(a, b)), std::fmax(ax, by), 0);
+        NEAR(number(min(a, b)), std::fmin(ax, by), 0);
+        NEAR(number(max(a, b)), std::fmax(ax, by), 0);
         SAME(floorToInt(a), std::floor(ax));
         NEAR(number(shiftDown(a, 3)), ax / 8, STEP);
         NEAR(number(shiftUp(a, 3)), ax * 8, EXACT * 1200);

@@ -32,7 +32,7 @@ struct Plane {
                 v.x = static_cast<int32_t>(std::lround(x * 256));
                 v.y = static_cast<int32_t>(std::lround(y * 256));
                 v.z = static_cast<int32_t>(std::lround(z * 256));
-                v.wide = v.high = 256;
+                v.halfWidth = v.halfHeight = 256;
                 const double brightness = 30 + changeX * (x - shearX * z) + changeY * (y - shearY * z);
                 v.brightness = static_cast<uint8_t>(std::clamp(std::lround(brightness), 0L, 63L));
             }
@@ -212,7 +212,7 @@ TEST(no_scale_comes_far_before_the_surface)
                 if (v.reach == 0)
                     continue;
                 ++limb;
-                deepest = std::max(deepest, (std::abs(v.tiltX) * v.wide + std::abs(v.tiltY) * v.high) / 65536.0);
+                deepest = std::max(deepest, (std::abs(v.tiltX) * v.halfWidth + std::abs(v.tiltY) * v.halfHeight) / 65536.0);
             }
     }
     note("%ld scales next to the limb, their corners %.2f units before or behind their middle at most", limb, deepest);

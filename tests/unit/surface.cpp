@@ -157,9 +157,9 @@ bool alike(const std::vector<Voxel>& a, const std::vector<Voxel>& b)
     if (a.size() != b.size())
         return false;
     for (size_t i = 0; i < a.size(); ++i)
-        if (a[i].x != b[i].x || a[i].y != b[i].y || a[i].z != b[i].z || a[i].wide != b[i].wide || a[i].high != b[i].high ||
-            a[i].tiltX != b[i].tiltX || a[i].tiltY != b[i].tiltY || a[i].brightness != b[i].brightness ||
-            a[i].reach != b[i].reach)
+        if (a[i].x != b[i].x || a[i].y != b[i].y || a[i].z != b[i].z ||
+            a[i].halfWidth != b[i].halfWidth || a[i].halfHeight != b[i].halfHeight || a[i].tiltX != b[i].tiltX ||
+            a[i].tiltY != b[i].tiltY || a[i].brightness != b[i].brightness || a[i].reach != b[i].reach)
             return false;
     return true;
 }

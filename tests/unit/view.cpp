@@ -22,8 +22,8 @@ Voxel voxel(double x, double y, double z, double wide, double high, int colour)
     v.x = steps(x);
     v.y = steps(y);
     v.z = steps(z);
-    v.wide = static_cast<int16_t>(wide * 256);
-    v.high = static_cast<int16_t>(high * 256);
+    v.halfWidth = static_cast<int16_t>(wide * 256);
+    v.halfHeight = static_cast<int16_t>(high * 256);
     v.brightness = static_cast<uint8_t>(colour);
     return v;
 }
@@ -37,7 +37,7 @@ Box box(const Voxel& v, const Camera& camera)
     const double x = v.x / 256.0, y = v.y / 256.0, z = v.z / 256.0;
     const double column = number(camera.centreX) + number(camera.focalX) * x / z;
     const double row = number(camera.centreY) - number(camera.focalY) * y / z;
-    const double wide = v.wide / 256.0 * number(camera.focalX) / z, high = v.high / 256.0 * number(camera.focalY) / z;
+    const double wide = v.halfWidth / 256.0 * number(camera.focalX) / z, high = v.halfHeight / 256.0 * number(camera.focalY) / z;
     return {column - wide, row - high, column + wide, row + high};
 }
 
@@ -198,8 +198,8 @@ TEST(anything_may_be_shown)
         for (Voxel& v : many) {
             for (int32_t* place : {&v.x, &v.y, &v.z})
                 *place = any();
-            v.wide = static_cast<int16_t>((random.bits() & 0x7fff) >> random.below(12));
-            v.high = static_cast<int16_t>((random.bits() & 0x7fff) >> random.below(12));
+            v.halfWidth = static_cast<int16_t>((random.bits() & 0x7fff) >> random.below(12));
+            v.halfHeight = static_cast<int16_t>((random.bits() & 0x7fff) >> random.below(12));
             v.tiltX = static_cast<int16_t>(any());
             v.tiltY = static_cast<int16_t>(any());
             v.brightness = static_cast<uint8_t>(random.below(64));
@@ -238,7 +238,7 @@ TEST(cut_scales_end_at_a_line_or_a_curve)
         show(whole, {v});
         v.cutX = static_cast<int8_t>(random.below(255) - 127);
         v.cutY = static_cast<int8_t>(random.below(255) - 127);
-        const double most = (std::abs(v.cutX) * v.wide + std::abs(v.cutY) * v.high) / 256.0;
+        const double most = (std::abs(v.cutX) * v.halfWidth + std::abs(v.cutY) * v.halfHeight) / 256.0;
         v.cutAt = static_cast<int16_t>(random.between(-1.2, 1.2) * most * 8);
         if (round % 2 == 0) {
             v.curveXX = static_cast<int8_t>(random.below(65) - 32);
