@@ -43,7 +43,7 @@ void findBorder(const Path& path, Seed& s, Real dominance)
     // Gradients, times half the squared size of the object.
     Vector g = path.from(s.position) * path.ownSlope();
     Real change = shiftDown(path.ownSlope() * path.lookedAt(), 1);
-    const Neighbour* const other = path.all().common ? strongestOf(path) : strongestOdd(path, s, &g, &change);
+    const Neighbour* const other = path.all().ordinary ? strongestOf(path) : strongestOdd(path, s, &g, &change);
     if (other == nullptr)
         return;
     // The fields were looked at before the last step.

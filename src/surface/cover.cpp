@@ -25,7 +25,7 @@ void Cover::find(int blocker)
     blocker_ = blocker;
     near_ = all_.bySlot[blocker];
     // The t of what is warped need not be convex.
-    const bool judged = near_ != nullptr && all_.common && !near_->object->warped();
+    const bool judged = near_ != nullptr && all_.ordinary && !near_->object->warped();
     limits_ = nullptr;
     if (!judged)
         return;
@@ -34,7 +34,7 @@ void Cover::find(int blocker)
         ++limits_;
 }
 
-bool Cover::hidesPath(const Seed& s)
+bool Cover::coversPath(const Seed& s)
 {
     path_.aim(*near_, s);
     const Real there = near_->param(COVERED_AT);
@@ -44,7 +44,7 @@ bool Cover::hidesPath(const Seed& s)
     return atRest < limits_->atRest && (there <= atRest || !isHeavy());
 }
 
-bool Cover::hidesAll(const Patch& patch)
+bool Cover::coversAll(const Patch& patch)
 {
     take(patch.blocker);
     if (limits_ == nullptr || object_.tapers() || isHeavy())

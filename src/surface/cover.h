@@ -14,12 +14,12 @@ public:
 
     // Whether the neighbour that was the strongest where a seed was not on the surface the last time is sure to keep it off the
     // surface (no path is at hand afterwards); and whether the one that was it in the middle of a patch does so to all its seeds.
-    bool hides(const Seed& s)
+    bool covers(const Seed& s)
     {
         take(s.blocker);
-        return limits_ != nullptr && hidesPath(s);
+        return limits_ != nullptr && coversPath(s);
     }
-    bool hidesAll(const Patch& patch);
+    bool coversAll(const Patch& patch);
 
     // The slot of the neighbour whose field is the strongest where the path at hand was looked at last.
     int strongest() const;
@@ -31,7 +31,7 @@ private:
             find(blocker);
     }
     void find(int blocker);
-    bool hidesPath(const Seed& s);
+    bool coversPath(const Seed& s);
     // Whether the link with it is so heavy that a path may leave the surface, leading away from it, where the two are alike.
     bool isHeavy() const { return nearby_.weight(blocker_) > Real(1); }
 

@@ -80,7 +80,7 @@ bool Engine::update(const FrameContext& frame)
     const bool known = odometer_.advance(object_, own, all, frame.bodies->version());
     Settler settler(object_, own, all, frame, odometer_, ++updates_);
     // All seeds stay at rest.
-    if (allRests_ && known && all.common && all.rests && all.count == 0)
+    if (allRests_ && known && all.ordinary && all.restsAtOne && all.count == 0)
         return false;
     bool displaced = false;
     int unasked = 0;
@@ -115,7 +115,7 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
     if (keeps(settler, patch, all, known))
         return true;
     // Out of sight a patch needs no lists, unless it may come to rest or, where something is odd, counts on by them.
-    const bool judgedFirst = all.common && all.count > 0 && patch.state != PATCH_REST;
+    const bool judgedFirst = all.ordinary && all.count > 0 && patch.state != PATCH_REST;
     if (judgedFirst && outOfSight(patch, own)) {
         patch.stale = patch.stale || !known;
         leave(patch);
@@ -124,7 +124,7 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
     const bool stale = !known || patch.stale;
     if (stale || isDue(odometer_.bound(), patch.listDue))
         renewLists(patch, all);
-    if (!all.common && stays(settler, patch, stale))
+    if (!all.ordinary && stays(settler, patch, stale))
         return true;
     if (comesToRest(settler, patch, all, stale))
         return false;
@@ -138,12 +138,12 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
 // Finds out who reaches a patch. True: nobody does, and its seeds are where they rest.
 inline bool Engine::comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all, bool stale)
 {
-    const bool alone = all.common && all.rests && !isListed(patch.near);
+    const bool alone = all.ordinary && all.restsAtOne && !isListed(patch.near);
     const bool touched = !alone && settler.setPatch(patch);
-    const bool reached = all.common || stale || odometer_.hasMoved(all, settler.reaching());
+    const bool reached = all.ordinary || stale || odometer_.hasMoved(all, settler.reaching());
     patch.stirred = reached || patch.reached;
     patch.reached = reached;
-    return !touched && all.rests && isAtRest(settler, patch, all);
+    return !touched && all.restsAtOne && isAtRest(settler, patch, all);
 }
 
 // Puts a patch out of sight to sleep, until it is seen.
@@ -159,7 +159,7 @@ inline bool Engine::keeps(Settler& settler, Patch& patch, const Neighbourhood& a
 {
     if (patch.state == PATCH_REST)
         return false;
-    if (known && all.common && !isDue(odometer_.reading(), patch.due))
+    if (known && all.ordinary && !isDue(odometer_.reading(), patch.due))
         return true;
     if (patch.state != PATCH_INSIDE || !settler.isStillCovered(patch))
         return false;
@@ -171,16 +171,16 @@ inline bool Engine::keeps(Settler& settler, Patch& patch, const Neighbourhood& a
 // still off the surface.
 inline bool Engine::stays(const Settler& settler, Patch& patch, bool stale) const
 {
-    const bool came = odometer_.count(patch);
+    const bool moved = odometer_.count(patch);
     if (settler.isStillOff(patch))
         return true;
-    return !came && !stale && odometer_.eyeStayed() && (patch.state == PATCH_MIXED || patch.state == PATCH_INSIDE);
+    return !moved && !stale && odometer_.eyeStayed() && (patch.state == PATCH_MIXED || patch.state == PATCH_INSIDE);
 }
 
 inline void Engine::renewLists(Patch& patch, const Neighbourhood& all)
 {
     classify(patch, all);
-    patch.listDue = odometer_.bound() + wayOf(LIST_SLACK);
+    patch.listDue = odometer_.bound() + travelOf(LIST_SLACK);
     patch.stale = false;
 }
 

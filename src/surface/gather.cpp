@@ -25,8 +25,8 @@ SELDOM void aimShaped(Neighbour& near)
     near.toCore[1] = near.toCore[1] * by.y;
     near.toCore[2] = near.toCore[2] * by.z;
     const Real narrowing = other.narrowing();
-    near.steep16 = near.inverse16 / narrowing;
-    near.sheer16 = near.inverse16 / other.steepest();
+    near.stretch16 = near.inverse16 / narrowing;
+    near.steepStretch16 = near.inverse16 / other.steepest();
     near.grain = near.grain * narrowing;
     near.size16 = (rawFromReal(near.size * narrowing) >> 12) + 1;
 }
@@ -150,7 +150,7 @@ static void place(const SoftObject& object, Real growth, const Vector& away, Nei
     const bool grown = growth != Real(1);
     near.centre = grown ? Vector{quotient(apart.x, growth), quotient(apart.y, growth), quotient(apart.z, growth)} : apart;
     near.size = grown ? quotient(other.size(), growth) : other.size();
-    near.inverse16 = near.steep16 = near.sheer16 = grown ? quotient(Real(CORE_SIZE), near.size) : other.inverse16();
+    near.inverse16 = near.stretch16 = near.steepStretch16 = grown ? quotient(Real(CORE_SIZE), near.size) : other.inverse16();
     const Real proportion = min(quotient(object.size(), other.size()), Real(60));
     near.ratio = proportion * proportion;
     near.x16 = rawFromReal(near.centre.x) >> 12;
@@ -203,7 +203,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
             aim(object, near);
         all.inner = all.inner || (!digs && dentedFromWithin(other, bodies));
         all.dented = all.dented || digs;
-        all.common = all.common && near.plain;
+        all.ordinary = all.ordinary && near.plain;
         all.simple = all.simple && near.kind != Neighbour::OTHER;
     }
 }
@@ -217,15 +217,15 @@ void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& 
     all.head = all.hollow ? hollowed : &object;
     all.weight = all.hollow ? -bodies.weight(all.head->slot(), object.slot()) : Real(0);
     all.inner = dentedFromWithin(*all.head, bodies);
-    all.rests = object.rests() && !all.hollow;
+    all.restsAtOne = object.rests() && !all.hollow;
     all.dented = false;
-    all.common = object.strength() == Real(1) && !all.hollow && !object.shaped();
+    all.ordinary = object.strength() == Real(1) && !all.hollow && !object.shaped();
     all.last = object.restRoot() == Real(0.5) ? Real(1.98) : Real(0.99) / object.restRoot();
     all.simple = true;
     memset(all.bySlot, 0, sizeof all.bySlot);
     gatherFrom(bodies.diggers(*all.head), bodies.diggerCount(*all.head), true, object, bodies, all);
     gatherFrom(bodies.members(*all.head), bodies.memberCount(*all.head), false, object, bodies, all);
-    all.deep = all.inner || all.dented || !all.rests;
-    all.common = all.common && !all.inner;
-    all.simple = all.simple && all.common;
+    all.deep = all.inner || all.dented || !all.restsAtOne;
+    all.ordinary = all.ordinary && !all.inner;
+    all.simple = all.simple && all.ordinary;
 }

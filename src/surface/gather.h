@@ -23,8 +23,8 @@ struct Neighbour : Along {
     Vector centre;      // units of own space, as all that follows
     Real size;          // where its field ends, from its core
     Real inverse16;     // CORE_SIZE / size
-    Real steep16;       // how long a unit of own space is in its core space at most: inverse16, or more if it is shaped
-    Real sheer16;       // the same where its field is steep
+    Real stretch16;       // how long a unit of own space is in its core space at most: inverse16, or more if it is shaped
+    Real steepStretch16;       // the same where its field is steep
     Real share;         // the greatest weight of what digs; of a member 1
     Real ratio;         // squared proportion of the own size to `size`: its share of the gradient
     Real strength;      // what its field is multiplied by
@@ -42,8 +42,8 @@ struct Neighbour : Along {
     Vector offset;      // and the own centre there
     // Of what leads along its paths:
     int root;           // index of the root for which it is known; -1: none yet
-    Vector apart;       // from the centre to the root; neither point nor segment: the root in core space
-    Vector step, out;   // neither point nor segment: the path at hand in core space, and half the gradient of t there, times
+    Vector toRoot;      // from the centre to the root; neither point nor segment: the root in core space
+    Vector step, halfGradient;  // neither point nor segment: the path at hand in core space, and half the gradient of t there, times
                         // CORE_SIZE^2
 
     // It takes up a path, and is looked at; what stands in Along is set, but F.
@@ -52,7 +52,10 @@ struct Neighbour : Along {
     Real otherParam(Real p);
 
     // What its field changes by at most over a unit, as it counts in that of a body whose members are linked.
-    Real pushMost() const { return shiftDown(sheer16 * strength * share * STEEPEST_OF_ALL, 4); }
+    Real steepestGradient() const
+    {
+        return shiftDown(steepStretch16 * strength * share * STEEPEST_OF_ALL, 4);
+    }
 
     // A vector of own space in core space, and half a gradient times CORE_SIZE^2 (see SoftObject::param()) in own space, where
     // it is times size^2.
@@ -81,9 +84,9 @@ struct Neighbourhood {
     bool hollow;        // its seeds sample a hollow
     Real weight;        // in that case, the weight by which the object digs into the head
     bool inner;         // some objects of the body dig into others of it
-    bool common;        // nothing digs, all strengths are 1, and the object is not shaped
+    bool ordinary;        // nothing digs, all strengths are 1, and the object is not shaped
     bool simple;        // all is common, and all neighbours are points or segments
-    bool rests;         // the surface lies at position 1 where no neighbour reaches
+    bool restsAtOne;         // the surface lies at position 1 where no neighbour reaches
     bool dented;        // some neighbours dig
     bool deep;          // paths are searched from near their roots
     Real last;          // position where the own field ends

@@ -141,12 +141,12 @@ void Settler::putOff(Seed& s, Real hold, Real push) const
 {
     s.flags |= SEED_OFF;
     const Real longest = path_.touched() == all_.count ? LONGEST_WAIT : LIST_SLACK;
-    s.due = static_cast<uint16_t>(patch_->came + wayUntil(hold, push, longest));
+    s.due = static_cast<uint16_t>(patch_->travelled + travelUntil(hold, push, longest));
 }
 
 bool Settler::isOff(const Patch& patch, const Seed& s)
 {
-    return (s.flags & SEED_OFF) && static_cast<int16_t>(patch.came - s.due) < 0;
+    return (s.flags & SEED_OFF) && static_cast<int16_t>(patch.travelled - s.due) < 0;
 }
 
 // What becomes of a patch the middle of which has just been found off the surface: whether all of it is. The own field is about the
@@ -155,9 +155,9 @@ PatchState Settler::probeOff(const Patch& patch, Seed& s) const
 {
     if (s.flags & SEED_FOLLOW)
         return PATCH_MIXED;
-    const Real hold = off_ - push_ * realFromRaw(patch.tight << 12) * APART;
+    const Real hold = off_ - gradientBound_ * realFromRaw(patch.tight << 12) * APART;
     if (hold <= Real(0))
         return PATCH_MIXED;
-    putOff(s, hold, push_);
+    putOff(s, hold, gradientBound_);
     return PATCH_INSIDE;
 }

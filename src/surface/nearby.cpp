@@ -6,7 +6,7 @@
 Nearby::Nearby(const SoftObject& object, Neighbourhood& all, const Bodies& bodies)
     : object_(object), all_(all), bodies_(bodies), ownWeights_(bodies.weights(object.slot()))
 {
-    allComplete_ = all.common && bodies.plainBody(object.slot());
+    allComplete_ = all.ordinary && bodies.plainBody(object.slot());
     if (allComplete_)
         return;
     listed_.count = 0;
@@ -24,7 +24,7 @@ bool Nearby::setPatch(const Patch& patch, bool oversampled)
     listed_.count = -1;
     smallest_ = object_.laidSize();
     dented_ = false;
-    if (!all_.common)
+    if (!all_.ordinary)
         setOdd(patch);
     if (!isListed(patch.near)) {
         near_.complete = true;
@@ -62,7 +62,7 @@ void Nearby::setOdd(const Patch& patch)
 }
 
 // Made when it is needed for the first time.
-const Few& Nearby::findListed()
+const NeighbourList& Nearby::findListed()
 {
     listed_.count = 0;
     forNeighbours(patch_->listed, [&](int slot) {
@@ -73,39 +73,39 @@ const Few& Nearby::findListed()
     return listed_;
 }
 
-void Nearby::findComplete(Few& few) const
+void Nearby::findComplete(NeighbourList& list) const
 {
-    few.complete = all_.common ? areAllOne(few) : isComplete(few);
+    list.complete = all_.ordinary ? areAllOne(list) : isComplete(list);
 }
 
-bool Nearby::isComplete(const Few& few) const
+bool Nearby::isComplete(const NeighbourList& list) const
 {
-    if (!areLinked(few))
+    if (!areLinked(list))
         return false;
-    for (int i = 0; i < few.count; ++i) {
-        const Neighbour& near = *few.near[i];
-        if (near.digs ? !digAlike(few, near) : all_.hollow && bodies_.weight(near.object->slot(), object_.slot()) != -all_.weight)
+    for (int i = 0; i < list.count; ++i) {
+        const Neighbour& near = *list.near[i];
+        if (near.digs ? !digAlike(list, near) : all_.hollow && bodies_.weight(near.object->slot(), object_.slot()) != -all_.weight)
             return false;
     }
     return true;
 }
 
 // The same where all is common and they are few.
-bool Nearby::areAllOne(const Few& few) const
+bool Nearby::areAllOne(const NeighbourList& list) const
 {
-    for (int i = 0; i < few.count; ++i) {
-        const int slot = few.near[i]->object->slot();
+    for (int i = 0; i < list.count; ++i) {
+        const int slot = list.near[i]->object->slot();
         if (ownWeights_[slot] != Real(1))
             return false;
         for (int j = 0; j < i; ++j)
-            if (bodies_.weight(few.near[j]->object->slot(), slot) != Real(1))
+            if (bodies_.weight(list.near[j]->object->slot(), slot) != Real(1))
                 return false;
     }
     return true;
 }
 
 // Whether all of those that do not dig, and the object, are linked at weight 1.
-bool Nearby::areLinked(const Few& few) const
+bool Nearby::areLinked(const NeighbourList& list) const
 {
     if (all_.inner)
         return false;
@@ -118,24 +118,24 @@ bool Nearby::areLinked(const Few& few) const
             missing |= members[word] & ~(plain[word] | (word == slot / 32 ? 1u << slot % 32 : 0));
         return missing == 0;
     };
-    const auto ofBody = [&](int i) { return !few.near[i]->digs; };
-    const auto slotOf = [&](int i) { return few.near[i]->object->slot(); };
+    const auto ofBody = [&](int i) { return !list.near[i]->digs; };
+    const auto slotOf = [&](int i) { return list.near[i]->object->slot(); };
     if (!all_.hollow)
         add(object_.slot());
-    for (int i = 0; i < few.count; ++i)
+    for (int i = 0; i < list.count; ++i)
         if (ofBody(i))
             add(slotOf(i));
-    for (int i = 0; i < few.count; ++i)
+    for (int i = 0; i < list.count; ++i)
         if (ofBody(i) && !isLinkedWithAll(slotOf(i)))
             return false;
     return all_.hollow || isLinkedWithAll(object_.slot());
 }
 
 // Whether one of them that digs does it with one weight into all the others that do not.
-bool Nearby::digAlike(const Few& few, const Neighbour& digging) const
+bool Nearby::digAlike(const NeighbourList& list, const Neighbour& digging) const
 {
-    for (int j = 0; j < few.count; ++j) {
-        const Neighbour& member = *few.near[j];
+    for (int j = 0; j < list.count; ++j) {
+        const Neighbour& member = *list.near[j];
         if (!member.digs && bodies_.weight(member.object->slot(), digging.object->slot()) != -digging.weight)
             return false;
     }

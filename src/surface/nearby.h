@@ -7,7 +7,7 @@
 
 // The neighbours to look at, and whether they and the object are all linked with each other at weight 1, and what digs does it with
 // one weight into all of them: then the sum of the fields, less what digs, is F.
-struct Few {
+struct NeighbourList {
     int count;
     bool complete;
     Neighbour* near[NEIGHBOURS_MAX];
@@ -25,35 +25,35 @@ public:
 
     // Those that may reach some place on the paths of the patch; those that reach its seeds where they are; and those that may
     // reach a position.
-    const Few& listed() { return listed_.count < 0 ? findListed() : listed_; }
-    const Few& at(Real position) { return isBeyond(position) ? listed() : near_; }
+    const NeighbourList& listed() { return listed_.count < 0 ? findListed() : listed_; }
+    const NeighbourList& at(Real position) { return isBeyond(position) ? listed() : near_; }
     // Whether a position is not one where the seeds of the patch are, so that others may reach it.
     bool isBeyond(Real position) const { return position < nearest_ || position > farthest_; }
 
-    const Few& reaching() const { return near_; }
+    const NeighbourList& reaching() const { return near_; }
 
     // The size of the smallest of them, or of the object.
     Real smallest() const { return smallest_; }
     // Whether something digs where the paths are, or the seeds sample a hollow.
     bool dented() const { return dented_; }
 
-    void setComplete(Few& few) const
+    void setComplete(NeighbourList& list) const
     {
-        few.complete = allComplete_;
-        if (!few.complete)
-            findComplete(few);
+        list.complete = allComplete_;
+        if (!list.complete)
+            findComplete(list);
     }
     // The weight of the object's link with another; 0: there is none.
     Real weight(int slot) const { return ownWeights_[slot]; }
 
 private:
-    void findComplete(Few& few) const;
-    bool isComplete(const Few& few) const;
-    bool areAllOne(const Few& few) const;
-    bool areLinked(const Few& few) const;
-    bool digAlike(const Few& few, const Neighbour& digging) const;
+    void findComplete(NeighbourList& list) const;
+    bool isComplete(const NeighbourList& list) const;
+    bool areAllOne(const NeighbourList& list) const;
+    bool areLinked(const NeighbourList& list) const;
+    bool digAlike(const NeighbourList& list, const Neighbour& digging) const;
     SELDOM void setOdd(const Patch& patch);
-    const Few& findListed();
+    const NeighbourList& findListed();
 
     const SoftObject& object_;
     Neighbourhood& all_;
@@ -63,7 +63,7 @@ private:
 
     // Of the patch.
     const Patch* patch_;
-    Few near_, listed_;  // listed_.count -1: not needed yet
+    NeighbourList near_, listed_;  // listed_.count -1: not needed yet
     Real smallest_;
     bool dented_;
     Real nearest_, farthest_;  // between which positions its seeds are, and a little more

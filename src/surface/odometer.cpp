@@ -8,18 +8,18 @@
 namespace {
 
 // A way as long as any, when it is not known how far things have come.
-constexpr Way EVERYWHERE = 1 << 20;
+constexpr Travel EVERYWHERE = 1 << 20;
 
 // As many steps of what goes round as never make it seem to go back: by them all is due.
 constexpr uint16_t ALL_DUE = 1 << 14;
 
 }  // namespace
 
-Way wayUntil(Real hold, Real push, Real longest)
+Travel travelUntil(Real hold, Real push, Real longest)
 {
     if (hold <= Real(0))
         return 0;
-    return wayOf(hold < push * longest ? hold / push : longest);
+    return travelOf(hold < push * longest ? hold / push : longest);
 }
 
 Odometer::~Odometer()
@@ -39,29 +39,29 @@ bool Odometer::makeRoom(int count)
 
 // How far the viewer has come. A quarter of the size is about how far a neighbour has to come to turn the surface as the viewer's
 // way does.
-inline Way Odometer::wayOfEye(const SoftObject& object, const OwnFrame& own)
+inline Travel Odometer::travelOfEye(const SoftObject& object, const OwnFrame& own)
 {
     const Real away = max(nearLength(own.eye), Real(1));
     const Real turned = min(roundLength(own.eye - eye_), away) / away;
     eye_ = own.eye;
-    return wayOf(turned * shiftDown(object.laidSize(), 2));
+    return travelOf(turned * shiftDown(object.laidSize(), 2));
 }
 
 bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion)
 {
-    leapt_ = fresh_ || linksVersion != linksVersion_ || all.common != common_ || all.count > room_;
+    leapt_ = fresh_ || linksVersion != linksVersion_ || all.ordinary != ordinary_ || all.count > room_;
     linksVersion_ = linksVersion;
-    common_ = all.common;
+    ordinary_ = all.ordinary;
     fresh_ = all.count > room_ && !makeRoom(all.count);
-    came_ = EVERYWHERE;
+    lastTravel_ = EVERYWHERE;
     if (fresh_)
         return false;
     if (leapt_)
         count_ = 0;
-    const Way eyeWay = wayOfEye(object, own);
-    eyeStayed_ = eyeWay == 0;
+    const Travel eyeTravel = travelOfEye(object, own);
+    eyeStayed_ = eyeTravel == 0;
     const Real reach = object.reach();
-    Way farthest = 0, longest = 0;
+    Travel farthest = 0, longest = 0;
     for (int i = 0; i < all.count; ++i) {
         const Neighbour& near = all.neighbours[i];
         Known& known = known_[i];
@@ -69,18 +69,19 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
             continue;
         known.inRange = near.inRange;
         // What is shaped comes farther in some places than in most.
-        const Came units = known.stand.follow(near, reach);
-        const Way way = wayOf(units.farthest), middle = wayOf(units.middle), came = way / 2 > middle ? way / 2 : middle;
-        farthest = way > farthest ? way : farthest;
-        longest = came > longest ? came : longest;
-        known.came = static_cast<uint16_t>(came < ALL_DUE ? came : ALL_DUE);
+        const Travelled units = known.pose.follow(near, reach);
+        const Travel outermost = travelOf(units.farthest), middle = travelOf(units.middle);
+        const Travel travelled = outermost / 2 > middle ? outermost / 2 : middle;
+        farthest = outermost > farthest ? outermost : farthest;
+        longest = travelled > longest ? travelled : longest;
+        known.travelled = static_cast<uint16_t>(travelled < ALL_DUE ? travelled : ALL_DUE);
     }
     if (count_ > all.count)
         forgetFar(all);
     if (!leapt_)
-        came_ = longest;
+        lastTravel_ = longest;
     bound_ += farthest;
-    reading_ += came_ + eyeWay;
+    reading_ += lastTravel_ + eyeTravel;
     return !leapt_;
 }
 
@@ -100,8 +101,8 @@ bool Odometer::isKnown(const Neighbourhood& all, int number)
     memmove(&known + 1, &known, static_cast<size_t>(count_ - 1 - number) * sizeof known);
     known.slot = slot;
     known.inRange = near.inRange;
-    known.came = 0;
-    known.stand.take(near);
+    known.travelled = 0;
+    known.pose.take(near);
     leapt_ |= near.inRange;
     return false;
 }
@@ -122,16 +123,16 @@ bool Odometer::count(Patch& patch) const
 {
     uint16_t way = leapt_ ? ALL_DUE : 0;
     for (const Known *known = known_, *const end = known_ + count_; known < end; ++known)
-        if (known->came > way && isListed(patch.listed, known->slot))
-            way = known->came;
-    patch.came = static_cast<uint16_t>(patch.came + way);
+        if (known->travelled > way && isListed(patch.listed, known->slot))
+            way = known->travelled;
+    patch.travelled = static_cast<uint16_t>(patch.travelled + way);
     return way > 0;
 }
 
-bool Odometer::hasMoved(const Neighbourhood& all, const Few& few) const
+bool Odometer::hasMoved(const Neighbourhood& all, const NeighbourList& list) const
 {
     bool moved = leapt_;
-    for (int i = 0; i < few.count && !moved; ++i)
-        moved = known_[few.near[i] - all.neighbours].came > 0;
+    for (int i = 0; i < list.count && !moved; ++i)
+        moved = known_[list.near[i] - all.neighbours].travelled > 0;
     return moved;
 }

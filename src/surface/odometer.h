@@ -6,23 +6,23 @@
 #define FB_ODOMETER_H
 
 #include "nearby.h"
-#include "stand.h"
+#include "pose.h"
 
 // A way, and the reading of an odometer: 1/1024 unit of own space. Readings go round, so isDue() compares them.
-typedef uint32_t Way;
+typedef uint32_t Travel;
 
-inline Way wayOf(Real units)
+inline Travel travelOf(Real units)
 {
-    return static_cast<Way>(rawFromReal(units) >> 6);
+    return static_cast<Travel>(rawFromReal(units) >> 6);
 }
 
-inline bool isDue(Way reading, Way due)
+inline bool isDue(Travel reading, Travel due)
 {
     return static_cast<int32_t>(reading - due) >= 0;
 }
 
 // How far neighbours may come that change a field by `push` in a unit, until it has changed by `hold`; at most `longest` units.
-Way wayUntil(Real hold, Real push, Real longest);
+Travel travelUntil(Real hold, Real push, Real longest);
 
 class Odometer {
 public:
@@ -36,29 +36,29 @@ public:
     // come or the last gone, or there is no memory.
     bool advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion);
 
-    Way reading() const { return reading_; }
+    Travel reading() const { return reading_; }
     // The same for the farthest places of neighbours that the object could meet.
-    Way bound() const { return bound_; }
+    Travel bound() const { return bound_; }
     // How far they came since the call before: what is neither stretched nor warped, as far as the farthest place of its core;
     // what is, as far as it came where the object has its centre, and half as far as its farthest place at least.
-    Way came() const { return came_; }
+    Travel lastTravel() const { return lastTravel_; }
     // Whether the viewer has come round the object since then.
     bool eyeStayed() const { return eyeStayed_; }
 
     // Counts on for a patch, whose lists hold, how far those on them came since the call before. False: none of them came at all.
     SELDOM bool count(Patch& patch) const;
     // Whether any of a few neighbours came since then.
-    SELDOM bool hasMoved(const Neighbourhood& all, const Few& few) const;
+    SELDOM bool hasMoved(const Neighbourhood& all, const NeighbourList& list) const;
 
 private:
     bool makeRoom(int count);
-    Way wayOfEye(const SoftObject& object, const OwnFrame& own);
+    Travel travelOfEye(const SoftObject& object, const OwnFrame& own);
     SELDOM bool isKnown(const Neighbourhood& all, int number);
     void forgetFar(const Neighbourhood& all);
 
-    Way reading_ = 0, bound_ = 0, came_ = 0;
+    Travel reading_ = 0, bound_ = 0, lastTravel_ = 0;
     uint32_t linksVersion_ = 0;
-    bool common_ = true;  // nothing was odd about the neighbours in the call before: what is odd is counted otherwise
+    bool ordinary_ = true;  // nothing was odd about the neighbours in the call before: what is odd is counted otherwise
     bool fresh_ = true;  // nothing is known of a frame before
     Vector eye_{Real(0), Real(0), Real(0)};  // where the viewer was, own axes
     bool eyeStayed_ = false;
@@ -68,8 +68,8 @@ private:
     struct Known {
         uint8_t slot;
         bool inRange;   // of the object
-        uint16_t came;  // how far it came in that call, as a Way; at most ALL_DUE
-        Stand stand;
+        uint16_t travelled;  // how far it came in that call, as a Way; at most ALL_DUE
+        Pose pose;
     };
     int room_ = 0, count_ = 0;
     Known* known_ = nullptr;

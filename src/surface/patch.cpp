@@ -97,7 +97,7 @@ void beginPatch(const SoftObject& object, Patch& patch)
     patch.blocker = static_cast<uint8_t>(object.slot());
     patch.nearest = patch.farthest = 64;
     patch.due = patch.listDue = 0;
-    patch.came = 0;
+    patch.travelled = 0;
     memset(patch.listed, 0, sizeof patch.listed);
     memset(patch.near, 0, sizeof patch.near);
     patch.bend.known = false;

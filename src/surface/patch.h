@@ -73,7 +73,7 @@ struct Patch {
     int16_t lean;       // how far from there one of them leads at most; 0: all lead along their normals
     uint8_t nearest, farthest;          // between which positions its seeds are, 1/64
     uint32_t due, listDue;              // readings of the odometer (odometer.h) when it, and when its lists are due
-    uint16_t came;      // how far those on its lists have come in all, 1/1024 unit; it goes round
+    uint16_t travelled;      // how far those on its lists have come in all, 1/1024 unit; it goes round
     // Its lists, a bit for the slot of each neighbour: those that may reach some place on its paths, and those that may reach
     // its seeds where they are.
     uint32_t listed[SLOTS_MAX / 32], near[SLOTS_MAX / 32];

@@ -29,14 +29,14 @@ void Path::setRoot(Neighbour& near, const Seed& s) const
     near.root = object_.shaped() ? -1 : s.root;
     const Vector& root = object_.root(s.root);
     if (near.kind == Neighbour::OTHER) {
-        near.apart = near.inCore(root) + near.offset;
+        near.toRoot = near.inCore(root) + near.offset;
         return;
     }
     const auto inSizes = [&](const Vector& v) {
         return Vector{shiftDown(v.x * near.inverse16, 4), shiftDown(v.y * near.inverse16, 4), shiftDown(v.z * near.inverse16, 4)};
     };
-    near.apart = root - near.centre;
-    const Vector e = inSizes(near.apart);
+    near.toRoot = root - near.centre;
+    const Vector e = inSizes(near.toRoot);
     near.a = dot(e, e);
     if (!known) {
         const Vector d = inSizes(s.path);
@@ -44,25 +44,25 @@ void Path::setRoot(Neighbour& near, const Seed& s) const
     }
     near.twice16 = e * shiftUp(near.inverse16, 1);
     if (near.kind == Neighbour::SEGMENT)
-        near.y = shiftDown(dot(near.apart, near.along16), 4);
+        near.y = shiftDown(dot(near.toRoot, near.along16), 4);
 }
 
 Real Neighbour::otherParam(Real p)
 {
-    t = object->param(apart + step * p, &out);
+    t = object->param(toRoot + step * p, &halfGradient);
     // Where the field has ended the product might leave 16.16, and nobody asks for it.
-    change = t < Real(1) ? shiftDown(dot(out, step), 7) : Real(0);
+    change = t < Real(1) ? shiftDown(dot(halfGradient, step), 7) : Real(0);
     return t;
 }
 
 // ---- A look at one position
 
 // Takes up the neighbours whose fields are looked at from now on, and what the root of a seed is to each.
-void Path::take(const Few& few, const Seed& s)
+void Path::take(const NeighbourList& list, const Seed& s)
 {
-    if (few_ != &few) {
-        few_ = &few;
-        setNear(few);
+    if (asked_ != &list) {
+        asked_ = &list;
+        setNear(list);
         odd_ = others_ = false;
         if (!all_.simple)
             findOdd();
@@ -70,14 +70,14 @@ void Path::take(const Few& few, const Seed& s)
     for (int i = 0; i < touched_; ++i)
         if (near_[i]->root != s.root)
             setRoot(*near_[i], s);
-    rootOfFew_ = object_.shaped() ? -1 : s.root;
+    rootOfAsked_ = object_.shaped() ? -1 : s.root;
 }
 
-inline void Path::setNear(const Few& few)
+inline void Path::setNear(const NeighbourList& list)
 {
-    near_ = few.near;
-    touched_ = few.count;
-    complete_ = few.complete;
+    near_ = list.near;
+    touched_ = list.count;
+    complete_ = list.complete;
 }
 
 // Whether something is odd about the object or its neighbours.
@@ -144,11 +144,11 @@ Sample Path::look(Real position)
     return sample;
 }
 
-bool Path::begin(const Few& few, const Seed& s, Real position, Sample* sample)
+bool Path::begin(const NeighbourList& list, const Seed& s, Real position, Sample* sample)
 {
     seed_ = &s;
-    if (few_ != &few || rootOfFew_ != s.root)
-        take(few, s);
+    if (asked_ != &list || rootOfAsked_ != s.root)
+        take(list, s);
     return !odd_ && !others_ ? lookPlain(position, &s.path, sample) : lookAnywhere(position, &s.path, sample);
 }
 
@@ -162,9 +162,9 @@ Sample Path::beginSearch(const Seed& s)
 
 void Path::beginDeepSearch(const Seed& s)
 {
-    const Few& listed = nearby_.listed();
+    const NeighbourList& listed = nearby_.listed();
     seed_ = &s;
-    if (few_ != &listed || rootOfFew_ != s.root)
+    if (asked_ != &listed || rootOfAsked_ != s.root)
         take(listed, s);
     for (int i = 0; i < touched_; ++i) {
         near_[i]->aim(s.path);
@@ -178,7 +178,7 @@ inline bool Path::mayReach(const Neighbour& near) const
 {
     if (near.t < Real(1))
         return true;
-    const Real reach = Real(1) + restOfPath_ * shiftDown(near.steep16, 4);
+    const Real reach = Real(1) + restOfPath_ * shiftDown(near.stretch16, 4);
     return near.t < (reach < Real(100) ? reach * reach : Real(10000));
 }
 
@@ -195,7 +195,7 @@ void Path::leaveOut()
     if (!complete_)
         nearby_.setComplete(part_);
     setNear(part_);
-    few_ = nullptr;
+    asked_ = nullptr;
 }
 
 // The own t at a position of the path of a warped object; sets ownChange_.
@@ -228,11 +228,11 @@ Vector Path::outward(Real position) const
             slope = -(slope * near.weight);
         const Real push = -(slope * near.ratio);
         if (near.kind == Neighbour::OTHER) {
-            g = g + near.fromCoreSpace(near.out) * push;
+            g = g + near.fromCoreSpace(near.halfGradient) * push;
             continue;
         }
         along += push;
-        g = g + near.apart * push;
+        g = g + near.toRoot * push;
         if (near.kind == Neighbour::SEGMENT)
             g = g - near.direction * (near.k * near.size * push);
     }
@@ -245,20 +245,20 @@ Vector Path::ownGradient(Real position, Real share) const
     return (warped_ ? ownOut_ : object_.slopeAt(root() + from(position))) * shiftDown(share * object_.laidSize(), 4);
 }
 
-Real Path::pushes() const
+Real Path::gradientBound() const
 {
     // The gradient of a field is 2 f' r / R^2, and r / R no more than r^2 / R^2 + 1/4; a little more for what that changes.
     Real sum(0);
     for (int i = 0; i < touched_; ++i)
-        sum += (Real(0.1) - near_[i]->slope * (near_[i]->t + Real(0.25))) * near_[i]->sheer16 * near_[i]->share;
+        sum += (Real(0.1) - near_[i]->slope * (near_[i]->t + Real(0.25))) * near_[i]->steepStretch16 * near_[i]->share;
     return shiftDown(sum, 3);
 }
 
-Real Path::pushMost() const
+Real Path::steepestGradient() const
 {
     Real sum(0);
     for (int i = 0; i < touched_; ++i)
-        sum += near_[i]->pushMost();
+        sum += near_[i]->steepestGradient();
     // Where not all are linked with all, some count for more.
     return complete_ ? sum : sum + shiftDown(sum, 2);
 }
@@ -267,7 +267,7 @@ Real Path::smoothStep() const
 {
     Real sheerest16(0);
     for (int i = 0; i < touched_; ++i)
-        sheerest16 = max(sheerest16, near_[i]->sheer16);
+        sheerest16 = max(sheerest16, near_[i]->steepStretch16);
     const Real sizes = shiftDown(sheerest16 * nearLength(seed_->path), 4);
     return SMOOTH < sizes * SMOOTH_OWN ? SMOOTH / sizes : SMOOTH_OWN;
 }

@@ -21,7 +21,7 @@ public:
     Path(const SoftObject& object, Neighbourhood& all, const Bodies& bodies, Nearby& nearby, Counts& counts);
 
     // Takes up the path of a seed in the fields of a few neighbours, and looks at a position. False: none of them reaches that.
-    bool begin(const Few& few, const Seed& s, Real position, Sample* sample);
+    bool begin(const NeighbourList& list, const Seed& s, Real position, Sample* sample);
 
     // Takes up the path of a seed that is searched, in the fields of those neighbours that reach some of it, and looks at middle().
     Sample beginSearch(const Seed& s);
@@ -41,7 +41,7 @@ public:
     Vector outward(Real position) const;
 
     // To be called when the lists of `nearby` change.
-    void leave() { few_ = nullptr; }
+    void leave() { asked_ = nullptr; }
 
     // Finds what there is to know of a neighbour's field along the path of a seed before any position is looked at. No path is at
     // hand afterwards.
@@ -49,8 +49,8 @@ public:
 
     // By how much the neighbours' fields may change, all together, when each neighbour moves by a unit: at the position looked at
     // last, and anywhere on the path.
-    Real pushes() const;
-    Real pushMost() const;
+    Real gradientBound() const;
+    Real steepestGradient() const;
 
     // How far two positions may be apart for the field in between to follow from what it is there and changes by, about.
     Real smoothStep() const;
@@ -89,8 +89,8 @@ private:
     struct Parts;
 
     void setRoot(Neighbour& near, const Seed& s) const;
-    void take(const Few& few, const Seed& s);
-    void setNear(const Few& few);
+    void take(const NeighbourList& list, const Seed& s);
+    void setNear(const NeighbourList& list);
     SELDOM void findOdd();
     bool mayReach(const Neighbour& near) const;
     void leaveOut();
@@ -121,11 +121,11 @@ private:
     const Real restOfPath_;         // units: how far a path leads from its middle to either side
 
     // Of the path at hand.
-    const Few* few_ = nullptr;      // the list of the neighbours whose fields are looked at; null: a part of it
-    Few part_;                      // that part
+    const NeighbourList* asked_ = nullptr;      // the list of the neighbours whose fields are looked at; null: a part of it
+    NeighbourList part_;                      // that part
     Neighbour* const* near_;        // as they stand there
     int touched_ = 0;
-    int rootOfFew_ = -1;            // the root that is known to all of them; -1: none
+    int rootOfAsked_ = -1;            // the root that is known to all of them; -1: none
     bool odd_;                      // not ownPlain_, or some of them are not Neighbour::plain
     bool others_;                   // some of them are neither points nor segments
     const Seed* seed_;
@@ -143,7 +143,7 @@ inline void Path::aim(Neighbour& near, const Seed& s)
 {
     if (near.root != s.root) {
         setRoot(near, s);
-        rootOfFew_ = -1;
+        rootOfAsked_ = -1;
     }
     near.aim(s.path);
 }
@@ -151,8 +151,8 @@ inline void Path::aim(Neighbour& near, const Seed& s)
 inline __attribute__((always_inline)) Vector Path::fromCore(const Neighbour& near, Real position) const
 {
     if (near.kind == Neighbour::OTHER)
-        return near.fromCoreSpace(near.out);
-    const Vector v = near.apart + from(position);
+        return near.fromCoreSpace(near.halfGradient);
+    const Vector v = near.toRoot + from(position);
     return near.kind == Neighbour::SEGMENT ? v - near.direction * (near.k * near.size) : v;
 }
 

@@ -228,7 +228,7 @@ public:
     void run(Real from, Real to);
 
     bool found() const { return found_; }
-    Real push() const { return push_; }
+    Real push() const { return gradientBound_; }
     Real inside() const { return inside_; }
     Real outside() const { return outside_; }
     // Of the field: what the isovalue is exceeded by at least and at most; and the place where that is least.
@@ -248,7 +248,7 @@ private:
     const Real smoothStep_;
     bool found_ = false;
     Real inside_{0}, outside_{0};
-    Real push_{0};
+    Real gradientBound_{0};
     Real deepest_{9}, highest_{-9}, deepestAt_{1};
     Sample deepestSample_{Real(9), Real(0), Real(0)};
 };
@@ -271,7 +271,7 @@ void DeepSearch::run(Real from, Real to)
 void DeepSearch::add(const Look& at)
 {
     highest_ = max(highest_, at.sample.excess);
-    push_ = max(push_, path_.pushes());
+    gradientBound_ = max(gradientBound_, path_.gradientBound());
     if (at.sample.excess >= deepest_)
         return;
     deepest_ = at.sample.excess;

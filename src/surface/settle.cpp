@@ -48,7 +48,7 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, Neighbourhood& all, co
                  const Odometer& odometer, uint32_t updates)
     : path_(object, all, *frame.bodies, nearby_, *frame.counts), nearby_(object, all, *frame.bodies),
       cover_(object, all, nearby_, path_), object_(object), own_(own), all_(all), counts_(*frame.counts), now_(odometer.reading()),
-      came_(realFromRaw(static_cast<int32_t>(odometer.came() << 6))), updates_(updates),
+      travelled_(realFromRaw(static_cast<int32_t>(odometer.lastTravel() << 6))), updates_(updates),
       heavy_(frame.bodies->heaviest(object.slot()) > HEAVY),
       weakest_(ISOVALUE / (Real(1) + shiftUp(frame.bodies->heaviest(object.slot()), 1))),
       last_(&object.regular(object.seedSlots() - 2))
@@ -100,7 +100,7 @@ Real Settler::settle(Seed& s)
         s.flags |= SEED_FOLLOW;
     if (nearby_.dented()) {
         off_ = found ? Real(0) : off_;
-        putOff(s, found ? sample.dominance - OVERSHOOT : off_, followed == LOST ? push_ : path_.pushMost());
+        putOff(s, found ? sample.dominance - OVERSHOOT : off_, followed == LOST ? gradientBound_ : path_.steepestGradient());
     }
     s.blocker = static_cast<uint8_t>(cover_.strongest());
     return found ? min(margin, sample.dominance - OVERSHOOT) : margin;
@@ -116,7 +116,7 @@ inline Settler::Followed Settler::followOn(Seed& s, Real* position, Sample* samp
         *position = Real(1);
         touched = path_.begin(nearby_.listed(), s, *position, sample);
     }
-    if (!touched && all_.rests)
+    if (!touched && all_.restsAtOne)
         return ALONE;
     const bool still = *position == s.position && absolute(sample->excess) <= TOLERANCE;
     if (closed || !follow(path_, position, sample))
@@ -138,14 +138,14 @@ void Settler::restThere(Seed& s)
         s.flags &= SEED_ACTIVE;
     }
     s.position = Real(1);
-    s.still = came_ < shiftDown(nearby_.smallest(), 3);
+    s.still = travelled_ < shiftDown(nearby_.smallest(), 3);
     s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
 }
 
 // Leaves a seed as it is: it has not moved, and what is known of it holds.
 inline void Settler::keep(Seed& s, Real dominance)
 {
-    s.still = s.still == 0 || came_ * Real(3) > shiftDown(nearby_.smallest(), 3) ? 1 : 3;
+    s.still = s.still == 0 || travelled_ * Real(3) > shiftDown(nearby_.smallest(), 3) ? 1 : 3;
     if (mixes())
         mix(path_, s);
     // But the border may have moved.
@@ -158,9 +158,9 @@ inline void Settler::keep(Seed& s, Real dominance)
 // Searches the whole path of a seed, in the fields of those neighbours that reach some of it.
 inline Real Settler::search(const Seed& s, Real* position, Sample* sample)
 {
-    if (nearby_.dented() || !all_.rests) {
+    if (nearby_.dented() || !all_.restsAtOne) {
         path_.beginDeepSearch(s);
-        return searchDeep(path_, position, sample, &off_, &push_);
+        return searchDeep(path_, position, sample, &off_, &gradientBound_);
     }
     // Most are sure to lie inside by the fields alone that reach the patch where it is.
     Real margin;
@@ -211,7 +211,7 @@ bool Settler::setPatch(const Patch& patch, bool oversampled)
     patch_ = &patch;
     path_.leave();
     const bool reached = nearby_.setPatch(patch, oversampled);
-    const bool hurries = came_ > min(HURRY, shiftDown(nearby_.smallest(), 2));
+    const bool hurries = travelled_ > min(HURRY, shiftDown(nearby_.smallest(), 2));
     turn_ = hurries || nearby_.dented() ? 0 : (static_cast<uint32_t>(patch.centre) / 2 + updates_) % TURNS;
     return reached;
 }
@@ -232,13 +232,13 @@ PatchState Settler::probe(Patch& patch)
         if (margin <= least)
             return PATCH_MIXED;
         // The own field, with which the strongest is compared, changes as well.
-        patch.due += wayUntil(margin - least, shiftUp(path_.pushes(), 1), LONGEST_WAIT);
+        patch.due += travelUntil(margin - least, shiftUp(path_.gradientBound(), 1), LONGEST_WAIT);
         return PATCH_INSIDE;
     }
     patch.facing = facing(object_, s, own_);
     const int32_t away = own_.limb - patch.facing - patch.spread - TURNED;
     if (away > 0) {
-        patch.due += wayOf(realFromRaw(away * 4) * shiftDown(object_.laidSize(), 2));
+        patch.due += travelOf(realFromRaw(away * 4) * shiftDown(object_.laidSize(), 2));
         return PATCH_AWAY;
     }
     if (isHidden(patch, s.position, own_)) {
@@ -316,7 +316,7 @@ inline bool Settler::waits(const Seed& s, bool someAway) const
 
 // Whether so much of the surface lies between two seeds beside each other that their scales may leave a gap. Where only one is on
 // the surface, it goes on to the border at least; `open` says how far it may do so. Of what sleeps nothing is known.
-inline bool Settler::gapes(const Seed& s, const Seed& n, Real open) const
+inline bool Settler::mayGape(const Seed& s, const Seed& n, Real open) const
 {
     if (s.flags & n.flags & SEED_VALID)
         return absolute(s.position - n.position) > alike_;
@@ -329,11 +329,11 @@ inline bool Settler::gapes(const Seed& s, const Seed& n, Real open) const
 // the border passes between the two and not between the seed and N. Null: there is none.
 inline const Seed* Settler::parted(const Seed& s) const
 {
-    if (s.neighbour >= 0 && gapes(s, object_.regular(s.neighbour), open_))
+    if (s.neighbour >= 0 && mayGape(s, object_.regular(s.neighbour), open_))
         return &object_.regular(s.neighbour);
     const Seed* const next = &s + 1;
     return &s < last_ && ((s.flags ^ next->flags) & SEED_VALID) && !object_.shaped() && next->root == s.root &&
-           gapes(s, *next, openNext_) ? next : nullptr;
+           mayGape(s, *next, openNext_) ? next : nullptr;
 }
 
 namespace {
@@ -434,7 +434,7 @@ bool Settler::settleFine(int i)
 {
     const Seed& extra = *object_.extra(i);
     const Seed* const ends[] = {&object_.regular(i), &object_.regular(extra.neighbour)};
-    const bool needed[] = {gapes(*ends[0], extra, openFine_), gapes(*ends[1], extra, openFine_)};
+    const bool needed[] = {mayGape(*ends[0], extra, openFine_), mayGape(*ends[1], extra, openFine_)};
     const bool oneRoot = !object_.shaped() && ends[0]->root == ends[1]->root;
     Seed* const fine = (needed[0] || needed[1]) && oneRoot ? object_.madeFine(i) : nullptr;
     if (fine == nullptr)

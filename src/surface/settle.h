@@ -21,18 +21,18 @@ public:
     bool setPatch(const Patch& patch, bool oversampled = false);
 
     // Those that do, after that.
-    const Few& reaching() const { return nearby_.reaching(); }
+    const NeighbourList& reaching() const { return nearby_.reaching(); }
 
     // Whether all paths of a patch are sure to lie inside the one neighbour that was the strongest there the last time. It is not
     // asked where the middle was on the surface.
     bool isCovered(const Patch& patch)
     {
         const bool settled = (object_.regular(patch.centre).flags & (SEED_VALID | SEED_RESTING)) == SEED_VALID;
-        return !settled && !nearby_.dented() && cover_.hidesAll(patch);
+        return !settled && !nearby_.dented() && cover_.coversAll(patch);
     }
 
     // The same of one that lay inside, before setPatch().
-    bool isStillCovered(const Patch& patch) { return all_.common && cover_.hidesAll(patch); }
+    bool isStillCovered(const Patch& patch) { return all_.ordinary && cover_.coversAll(patch); }
 
     // Whether all of one that lay off the surface, where something digs, still does; before setPatch().
     bool isStillOff(const Patch& patch) const { return patch.state == PATCH_INSIDE && isOff(patch, object_.regular(patch.centre)); }
@@ -72,11 +72,11 @@ private:
     void place(Seed& s, Real dominance);
     // What remains of the flags of a seed that is covered.
     int stillOff() const { return nearby_.dented() ? SEED_OFF | SEED_FOLLOW : 0; }
-    bool isCovered(const Seed& s) { return nearby_.dented() ? isOff(*patch_, s) : cover_.hides(s); }
+    bool isCovered(const Seed& s) { return nearby_.dented() ? isOff(*patch_, s) : cover_.covers(s); }
     void settleBeside(const Seed& centre, Seed& s, bool someAway, uint8_t* blocker);
     void setRange(Patch& patch, Real nearest, Real farthest) const;
     bool isAway(const Seed& s) const;
-    bool gapes(const Seed& s, const Seed& n, Real open) const;
+    bool mayGape(const Seed& s, const Seed& n, Real open) const;
     const Seed* parted(const Seed& s) const;
     SELDOM bool layOutExtra(const Seed& s, const Seed& other);
     SELDOM bool settleFine(int i);
@@ -101,8 +101,8 @@ private:
     const OwnFrame& own_;
     const Neighbourhood& all_;
     Counts& counts_;
-    const Way now_;     // reading of the odometer
-    const Real came_;   // how far neighbours came in this frame, units
+    const Travel now_;     // reading of the odometer
+    const Real travelled_;   // how far neighbours came in this frame, units
     const uint32_t updates_;
     const bool heavy_;  // the object has a link of more than HEAVY
     const Real weakest_;  // own field below which no islands are looked for: those with two neighbours at most have more
@@ -112,7 +112,7 @@ private:
     Real border_;       // of the field: a neighbour that is weaker than the own by less is near
     Real alike_;        // no more than this is between the positions of seeds that have not parted
     Real open_, openNext_, openFine_;  // LEFT_OPEN..., units
-    Real push_{0};      // by how much fields may change along the path at hand when neighbours come by a unit
+    Real gradientBound_{0};      // by how much fields may change along the path at hand when neighbours come by a unit
     Real off_;          // of the field: by how much the path at hand misses the surface, where it does
     bool hidden_ = false;
 };

@@ -12,11 +12,11 @@ constexpr int FARTHEST = 6;
 constexpr int32_t STEEPEST = 8191;
 
 // A way on the picture plane, 1/64 unit, and by how much the brightness changes on it, 1/16 step.
-struct Way {
+struct Travel {
     int32_t x, y, change;
 
     // From one voxel to another, or to or from one between the two when one of them is dark.
-    Way(const Voxel* a, const Voxel* b, const Voxel* between, int32_t sight)
+    Travel(const Voxel* a, const Voxel* b, const Voxel* between, int32_t sight)
     {
         if (a->brightness == 0)
             a = between;
@@ -27,7 +27,7 @@ struct Way {
         y = (b->y - a->y - (z * static_cast<int16_t>(sight) >> 10)) >> 2;
         change = (b->brightness - a->brightness) * 16;
     }
-    Way(int32_t toX, int32_t toY, int32_t by) : x(toX), y(toY), change(by) {}
+    Travel(int32_t toX, int32_t toY, int32_t by) : x(toX), y(toY), change(by) {}
     bool isLonger(int32_t most) const
     {
         return static_cast<uint32_t>(x + most) > static_cast<uint32_t>(2 * most) ||
@@ -51,8 +51,8 @@ void Slopes::set(int32_t spacing)
             continue;
         }
         const Shown *const last = find(shown->number - 1), *const next = find(shown->number + 1);
-        Way along(last != nullptr ? last->voxel : &v, next != nullptr ? next->voxel : &v, &v, shown->sight);
-        Way across(shown->before, shown->behind, &v, shown->sight);
+        Travel along(last != nullptr ? last->voxel : &v, next != nullptr ? next->voxel : &v, &v, shown->sight);
+        Travel across(shown->before, shown->behind, &v, shown->sight);
         if (along.isLonger(most))
             along = {0, 0, 0};
         if (across.isLonger(most))

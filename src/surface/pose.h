@@ -1,6 +1,6 @@
 // Where a neighbour stands, and how far it comes between two frames.
-#ifndef FB_STAND_H
-#define FB_STAND_H
+#ifndef FB_POSE_H
+#define FB_POSE_H
 
 #include "gather.h"
 
@@ -13,18 +13,18 @@ inline Real roundLength(const Vector& v)
 
 // How far a neighbour has come, units: no place of its field that the object could meet has come farther than `farthest`; what is
 // neither stretched nor warped has come that far where the object has its centre, too.
-struct Came {
+struct Travelled {
     Real farthest, middle;
 };
 
 // A neighbour's centre and axes in the space of an object; of what is shaped, the map into its core space.
-class Stand {
+class Pose {
 public:
     // It stands where a neighbour does now.
     void take(const Neighbour& near);
 
     // The same, and how far the neighbour has come since it stood here. `reach` is the object's.
-    Came follow(const Neighbour& near, Real reach)
+    Travelled follow(const Neighbour& near, Real reach)
     {
         if (near.kind != Neighbour::POINT)
             return followTurned(near, reach);
@@ -35,9 +35,9 @@ public:
     }
 
 private:
-    SELDOM Came followTurned(const Neighbour& near, Real reach);
-    Real cameAsCore(const Neighbour& near, const Stand& before) const;
-    Real cameAsMapped(const Neighbour& near, const Stand& before, Real reach) const;
+    SELDOM Travelled followTurned(const Neighbour& near, Real reach);
+    Real travelAsCore(const Neighbour& near, const Pose& before) const;
+    Real travelAsMapped(const Neighbour& near, const Pose& before, Real reach) const;
 
     Vector place_;
     Real size_;

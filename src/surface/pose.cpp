@@ -1,7 +1,7 @@
 // How far a neighbour comes: no farther than the farthest place of its core, and what its size changes by.
-#include "stand.h"
+#include "pose.h"
 
-void Stand::take(const Neighbour& near)
+void Pose::take(const Neighbour& near)
 {
     size_ = near.size;
     place_ = near.centre;
@@ -16,18 +16,18 @@ void Stand::take(const Neighbour& near)
     warp_ = near.object->warp().amounts();
 }
 
-Came Stand::followTurned(const Neighbour& near, Real reach)
+Travelled Pose::followTurned(const Neighbour& near, Real reach)
 {
-    const Stand before = *this;
+    const Pose before = *this;
     take(near);
     if (near.object->shaped())
-        return {cameAsMapped(near, before, reach), cameAsMapped(near, before, Real(0))};
-    const Real way = cameAsCore(near, before);
+        return {travelAsMapped(near, before, reach), travelAsMapped(near, before, Real(0))};
+    const Real way = travelAsCore(near, before);
     return {way, way};
 }
 
 // What is neither stretched nor warped, by what its core does.
-Real Stand::cameAsCore(const Neighbour& near, const Stand& before) const
+Real Pose::travelAsCore(const Neighbour& near, const Pose& before) const
 {
     const Vector extent = near.object->coreExtent16() * (near.size * Real(1.0 / CORE_SIZE));
     return roundLength(place_ - before.place_) + absolute(size_ - before.size_) +
@@ -36,7 +36,7 @@ Real Stand::cameAsCore(const Neighbour& near, const Stand& before) const
 }
 
 // What is, by its map into core space: no place that is at most `reach` from the object's centre.
-Real Stand::cameAsMapped(const Neighbour& near, const Stand& before, Real reach) const
+Real Pose::travelAsMapped(const Neighbour& near, const Pose& before, Real reach) const
 {
     const Vector by = place_ - before.place_;
     const Real longest(100);
