@@ -1,13 +1,13 @@
-// Whether one neighbour alone keeps seeds off the surface. From position 1, before which no path can leave the surface, to
-// COVERED_AT the two fields together are above the isovalue, for the neighbour's t is convex and lies below the straight line
-// between those it has there; and beyond the neighbour is the stronger of the two.
+// Whether one neighbour alone keeps seeds inside the body. No path leaves the surface before position 1. From there to COVERED_AT
+// the own field and the neighbour's together exceed the isovalue, because the neighbour's t is convex along the path, so that it
+// lies below the straight line between its values at the two positions. Beyond COVERED_AT the neighbour is the stronger of the two.
 #include "cover.h"
 
 #include "search.h"
 
-// At position COVERED_AT the own field is .23. A neighbour whose t is less than `there` at it is stronger by more than the
-// overshoot tolerance; and if its t is less than `atRest` at position 1, then between the two the body's field is above the
-// isovalue. The less it is linked with the object, the more it must do alone.
+// At position COVERED_AT the own field is .23. A neighbour whose t is less than `there` exceeds that by more than the overshoot
+// tolerance; and if its t is less than `atRest` at position 1, the body's field is above the isovalue between the two positions.
+// The smaller the weight of its link, the stronger the neighbour must be.
 constexpr Cover::Limits Cover::LIMITS[] = {
     {Real(1), Real(0.414), Real(0.69), Real(0.643), Real(0.83)},
     {Real(0.75), Real(0.35), Real(0.6), Real(0.591), Real(0.774)},
@@ -16,15 +16,15 @@ constexpr Cover::Limits Cover::LIMITS[] = {
     {Real(0), Real(0.2), Real(0.22), Real(0.447), Real(0.469)},
 };
 
-// Of the field: what is linked with the object and this strong is the one that keeps its seeds off the surface.
+// A neighbour that is linked with the object at weight 1 or more and has at least this field is preferred as a blocker.
 static constexpr Real COVERING(0.28);
 
-// Takes up a neighbour.
+// Chooses a blocker.
 void Cover::find(int blocker)
 {
     blocker_ = blocker;
     near_ = all_.bySlot[blocker];
-    // The t of what is warped need not be convex.
+    // The t of a warped neighbour need not be convex.
     const bool judged = near_ != nullptr && all_.ordinary && !near_->object->warped();
     limits_ = nullptr;
     if (!judged)

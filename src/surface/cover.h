@@ -1,5 +1,5 @@
-// Cover: a neighbour that alone keeps a seed, or all seeds of a patch, off the surface, so that none other need be asked. Without
-// it only the speed would change.
+// Cover: tests whether one neighbour alone keeps a seed, or all seeds of a patch, inside the body, so that no other neighbour need
+// be looked at. Without it only the speed would change.
 #ifndef FB_COVER_H
 #define FB_COVER_H
 
@@ -12,8 +12,8 @@ public:
     {
     }
 
-    // Whether the neighbour that was the strongest where a seed was not on the surface the last time is sure to keep it off the
-    // surface (no path is at hand afterwards); and whether the one that was it in the middle of a patch does so to all its seeds.
+    // Whether a seed's blocker, the neighbour that was the strongest when the seed was found off the surface, is sure to keep it
+    // off the surface again; and whether a patch's blocker does so for all seeds of the patch. No path is current after covers().
     bool covers(const Seed& s)
     {
         take(s.blocker);
@@ -21,7 +21,7 @@ public:
     }
     bool coversAll(const Patch& patch);
 
-    // The slot of the neighbour whose field is the strongest where the path at hand was looked at last.
+    // The slot of the neighbour whose field was the strongest where the current path was evaluated last: the next blocker.
     int strongest() const;
 
 private:
@@ -32,22 +32,23 @@ private:
     }
     void find(int blocker);
     bool coversPath(const Seed& s);
-    // Whether the link with it is so heavy that a path may leave the surface, leading away from it, where the two are alike.
+    // Whether the link with the blocker is so heavy that a path that leads away from it may leave the surface where the two fields
+    // are about equal.
     bool isHeavy() const { return nearby_.weight(blocker_) > Real(1); }
 
     const SoftObject& object_;
     Neighbourhood& all_;
     const Nearby& nearby_;
     Path& path_;
-    int blocker_ = -1;  // slot of the neighbour at hand; -1: none yet
-    Neighbour* near_;   // the same; null: it is none
-    // What it takes, if it is linked with the object at some weight or more: its t (model/field.h) is less than these at two
-    // positions of a path. And the roots of the two. Null: that is not known.
+    int blocker_ = -1;  // slot of the current blocker, -1 at first
+    Neighbour* near_;   // that neighbour; null if the object is out of range now
+    // A blocker that is linked with the object at `weight` or more covers a path if its t (model/field.h) is less than `there` at
+    // position COVERED_AT and less than `atRest` at position 1. `rootThere` and `rootAtRest` are the square roots of the two.
     struct Limits {
         Real weight, there, atRest, rootThere, rootAtRest;
     };
     static const Limits LIMITS[];
-    const Limits* limits_ = nullptr;
+    const Limits* limits_ = nullptr;  // those of the current blocker; null if it cannot be judged
 };
 
 #endif

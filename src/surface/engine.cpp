@@ -1,4 +1,4 @@
-// A frame of one object, from neighbours to voxels: the passes in their order. Start reading here.
+// The passes that bring one object from its neighbours to its voxels in a frame, in their order. Start reading here.
 #include "surface/engine.h"
 
 #include "math/alloc.h"
@@ -10,7 +10,7 @@
 
 namespace {
 
-// So many patches are updated before the user is asked whether to go on.
+// After this many patches the program looks whether the user wants to stop.
 constexpr int ASKED_EVERY = 32;
 
 class Engine : public Surface {
@@ -18,7 +18,7 @@ public:
     explicit Engine(SoftObject& object) : object_(object) {}
     ~Engine() override { free(patches_); }
 
-    // False: no memory.
+    // Makes the patches. Returns false when there is no memory.
     bool open()
     {
         count_ = patchesOf(object_);
@@ -47,13 +47,13 @@ private:
 
     Odometer odometer_;
     uint32_t updates_ = 0;
-    bool allRests_ = false;  // no patch was settled in the last update, nor had to be
+    bool allRests_ = false;  // all seeds were at rest after the last update
     Patch* patches_ = nullptr;
     int count_ = 0;
 };
 
-// The patches keep their states, but all of them are looked at. Seeds are searched from where they are: the paths of those that
-// were found lead elsewhere now, so that nothing of what is known of them holds.
+// The object has a new shape, and the paths of its seeds lead elsewhere. Patches keep their states but are all due; seeds start the
+// next search from their present positions, and nothing else that was known of them holds.
 void Engine::reshape()
 {
     const auto forget = [](Seed& s) {
@@ -79,7 +79,7 @@ bool Engine::update(const FrameContext& frame)
     gather(object_, frame, all);
     const bool known = odometer_.advance(object_, own, all, frame.bodies->version());
     Settler settler(object_, own, all, frame, odometer_, ++updates_);
-    // All seeds stay at rest.
+    // No neighbour is near, and all seeds are at rest already.
     if (allRests_ && known && all.ordinary && all.restsAtOne && all.count == 0)
         return false;
     bool displaced = false;
@@ -109,12 +109,13 @@ bool Engine::update(const FrameContext& frame)
     return settler.hidden();
 }
 
-// Brings a patch up to date. False: all its seeds are where they rest.
+// Brings a patch up to date. `known`: what was found out in earlier frames still holds. Returns false if all seeds of the patch
+// are at rest.
 inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& own, const Neighbourhood& all, bool known)
 {
     if (keeps(settler, patch, all, known))
         return true;
-    // Out of sight a patch needs no lists, unless it may come to rest or, where something is odd, counts on by them.
+    // A patch that is out of sight needs no lists, unless it may come to rest or the odometer has to count by them.
     const bool judgedFirst = all.ordinary && all.count > 0 && patch.state != PATCH_REST;
     if (judgedFirst && outOfSight(patch, own)) {
         patch.stale = patch.stale || !known;
@@ -135,7 +136,7 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
     return true;
 }
 
-// Finds out who reaches a patch. True: nobody does, and its seeds are where they rest.
+// Finds out which neighbours reach a patch. Returns true if none does and its seeds are at rest.
 inline bool Engine::comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all, bool stale)
 {
     const bool alone = all.ordinary && all.restsAtOne && !isListed(patch.near);
@@ -146,7 +147,7 @@ inline bool Engine::comesToRest(Settler& settler, Patch& patch, const Neighbourh
     return !touched && all.restsAtOne && isAtRest(settler, patch, all);
 }
 
-// Puts a patch out of sight to sleep, until it is seen.
+// Puts a patch that is out of sight to sleep until it comes into sight.
 inline void Engine::leave(Patch& patch)
 {
     sleep(object_, patch);
@@ -154,7 +155,8 @@ inline void Engine::leave(Patch& patch)
     patch.due = odometer_.reading();
 }
 
-// Whether a patch keeps its state, whoever reaches it now: it is not due, or still lies inside one neighbour.
+// Whether a patch keeps its state and its neighbours need not be looked at: it is not due yet, or it still lies inside the
+// neighbour that covered it.
 inline bool Engine::keeps(Settler& settler, Patch& patch, const Neighbourhood& all, bool known)
 {
     if (patch.state == PATCH_REST)
@@ -167,8 +169,8 @@ inline bool Engine::keeps(Settler& settler, Patch& patch, const Neighbourhood& a
     return true;
 }
 
-// The same where something digs, strengths differ or the object is shaped: whether none that it lists has come, or all of it is
-// still off the surface.
+// Whether a patch of a scene that is not ordinary (gather.h) keeps its state: no neighbour on its list has moved, or all of the
+// patch is still off the surface.
 inline bool Engine::stays(const Settler& settler, Patch& patch, bool stale) const
 {
     const bool moved = odometer_.count(patch);
@@ -177,6 +179,7 @@ inline bool Engine::stays(const Settler& settler, Patch& patch, bool stale) cons
     return !moved && !stale && odometer_.eyeStayed() && (patch.state == PATCH_MIXED || patch.state == PATCH_INSIDE);
 }
 
+// Makes the lists of a patch anew; they hold until a neighbour has travelled LIST_SLACK.
 inline void Engine::renewLists(Patch& patch, const Neighbourhood& all)
 {
     classify(patch, all);
@@ -184,7 +187,8 @@ inline void Engine::renewLists(Patch& patch, const Neighbourhood& all)
     patch.stale = false;
 }
 
-// No neighbour reaches the seeds of a patch where they were. Whether that holds where they rest, too: others may be there.
+// No neighbour reaches the seeds of a patch where they were. Puts them at rest, and returns whether no neighbour reaches them
+// there either: other neighbours may be near those places.
 inline bool Engine::isAtRest(Settler& settler, Patch& patch, const Neighbourhood& all)
 {
     if (patch.state == PATCH_REST)
@@ -195,7 +199,7 @@ inline bool Engine::isAtRest(Settler& settler, Patch& patch, const Neighbourhood
     return !settler.setPatch(patch);
 }
 
-// Judges a patch as a whole, and where it takes more than that, finds each of its seeds.
+// Judges a patch as a whole by the seed in its middle, and settles each of its seeds only where that does not decide.
 inline void Engine::settle(Settler& settler, Patch& patch)
 {
     if (settler.isCovered(patch)) {
@@ -212,7 +216,7 @@ inline void Engine::settle(Settler& settler, Patch& patch)
     }
 }
 
-// Shade and list what the viewer sees of the object.
+// Lists the voxels of what the viewer sees of the object.
 void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* next)
 {
     const OwnFrame own = ownFrame(object_, frame);
@@ -226,7 +230,7 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
     const Paint* const paint = shown->paint();
     const int at = shadePatches(object_, own, frame, patches_, count_, *next, static_cast<int>(updates_ & 0xffff), list, room);
     *next = at < count_ ? at : 0;
-    // With another ramp than its own, the whole object is to be seen in that one.
+    // An object that is shown in another ramp than its own, as when it is selected, shows no colours of its paint.
     if (paint != nullptr && shown->ramp() == paint->ramp)
         sortByColour(list, *paint);
 }

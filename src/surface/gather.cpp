@@ -1,4 +1,4 @@
-// The world as one object sees it.
+// Brings the viewer, the light and the neighbours of an object into its own space.
 #include "gather.h"
 
 #include "math/normal.h"
@@ -7,7 +7,7 @@
 
 namespace {
 
-// A unit vector of the world in the object's own axes, 1.0 = 2^14.
+// Turns a unit vector of the world into the object's own axes, 1.0 = 2^14.
 void axisInOwn(const SoftObject& object, const Vector& axis, int32_t* to)
 {
     const Vector v = object.toOwnAxes(axis);
@@ -16,7 +16,7 @@ void axisInOwn(const SoftObject& object, const Vector& axis, int32_t* to)
     to[2] = rawFromReal(v.z) >> 2;
 }
 
-// What else is known of one that is stretched or warped. Distances to it are judged by what they are at least.
+// Sets the rest of a neighbour that is stretched or warped. Distances to it are judged by their lower bounds.
 SELDOM void aimShaped(Neighbour& near)
 {
     const SoftObject& other = *near.object;
@@ -31,7 +31,7 @@ SELDOM void aimShaped(Neighbour& near)
     near.size16 = (rawFromReal(near.size * narrowing) >> 12) + 1;
 }
 
-// Own space to the core space of a neighbour that is no point.
+// Sets the map from own space to the core space of a neighbour that is no POINT.
 void aim(const SoftObject& object, Neighbour& near)
 {
     const SoftObject& other = *near.object;
@@ -39,7 +39,7 @@ void aim(const SoftObject& object, Neighbour& near)
     near.segment = near.half > Real(0) && !other.shaped();
     near.kind = near.segment && !other.tapers() ? Neighbour::SEGMENT : Neighbour::OTHER;
     near.half16 = rawFromReal(near.half * near.size) >> 12;
-    // Row i: axis i of the neighbour, in own axes.
+    // Row i is axis i of the neighbour in own axes.
     const Matrix& turn = other.turn();
     for (int i = 0; i < 3; ++i)
         near.toCore[i] = object.toOwnAxes({turn.m[0][i], turn.m[1][i], turn.m[2][i]}) * near.inverse16;
@@ -61,20 +61,20 @@ Vector Neighbour::fromCore16(const Vector& q) const
     return v * (size * object->narrowing());  // core space has CORE_SIZE = 16 to a size
 }
 
-// Finds out where the object lies against what bounds the view.
+// Finds the planes at the sides of the view that cut through the object, and whether it lies outside one of them.
 static void setSides(const SoftObject& object, const FrameContext& frame, const Vector& toCentre, OwnFrame& own)
 {
     own.sideCount = 0;
     own.outOfSight = false;
     if (frame.sideways == Real(0))
         return;
-    // As far as seeds can be pulled out, and a little for the size of scales.
+    // As far as seeds can be pulled out, and a margin for the size of scales.
     const Real reached = object.reach() + object.spacing() * Real(2);
     const int32_t reach = rawFromReal(reached) >> 12;
     const Vector inwards[] = {{Real(1), Real(0), frame.sideways}, {Real(-1), Real(0), frame.sideways},
                               {Real(0), Real(1), frame.upward}, {Real(0), Real(-1), frame.upward}};
     for (const Vector& inward : inwards) {
-        // Most are well inside: no vector is longer than its parts together.
+        // Most objects are well inside. The length of `inward` is no more than the sum of its components.
         if (dot(inward, toCentre) >= reached * (Real(1) + inward.z))
             continue;
         const Normal n = normalise(inward);
@@ -85,7 +85,7 @@ static void setSides(const SoftObject& object, const FrameContext& frame, const 
             continue;
         OwnFrame::Side& side = own.sides[own.sideCount++];
         axisInOwn(object, frame.axes.toWorld(u), side.inward);
-        // It is the least number whose product with growth, over 256, is no less than -inside.
+        // `begin` is -inside / growth, rounded up.
         const int32_t growth = max32(rawFromReal(object.growth()) >> 8, 1);
         side.begin = (-inside * 256 + (inside < 0 ? growth - 1 : 0)) / growth;
     }
@@ -106,11 +106,11 @@ OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
     own.eye32[0] = rawFromReal(eye.x) >> 11;
     own.eye32[1] = rawFromReal(eye.y) >> 11;
     own.eye32[2] = rawFromReal(eye.z) >> 11;
-    // An eye in the very centre is taken for one beside it.
+    // An eye in the very centre is moved aside, for no division may be by 0.
     own.distance32 = (rawFromReal(nearLength(eye)) >> 11) + 1;
     if (own.distance32 < 4)
         own.distance32 = 4;
-    // Of what is near the eye the parts are nearer than the centre, and face it by as much less of that distance.
+    // `limb` is meant for the distance of the centre. Parts of the object that are nearer to the eye need a smaller one.
     const Real extent = object.shaped() ? object.laidReach() : object.coreReach() / own.growth + object.laidRadius();
     const int32_t extent32 = rawFromReal(extent) >> 11;
     const int32_t limb = object.isBall() ? LIMB_OF_BALL : LIMB;
@@ -130,7 +130,7 @@ OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
     return own;
 }
 
-// Whether objects of its own body dig into one.
+// Whether a member of the object's own body digs into it.
 static bool dentedFromWithin(const SoftObject& object, const Bodies& bodies)
 {
     for (const List<Link>::Node* node = object.dents().first(); node != nullptr; node = node->next)
@@ -139,7 +139,8 @@ static bool dentedFromWithin(const SoftObject& object, const Bodies& bodies)
     return false;
 }
 
-// Where a neighbour is and how large, in own space; `away` leads there in the world, and `growth` is the object's.
+// Sets the place and the size of a neighbour in own space. `away` leads from the object to it in the world; `growth` is the
+// object's.
 static void place(const SoftObject& object, Real growth, const Vector& away, Neighbour& near)
 {
     const SoftObject& other = *near.object;
@@ -159,7 +160,7 @@ static void place(const SoftObject& object, Real growth, const Vector& away, Nei
     near.size16 = (rawFromReal(near.size) >> 12) + 1;
 }
 
-// By what an object digs into others at most.
+// The greatest weight by which an object digs into others.
 static Real greatestWeight(const SoftObject& digger)
 {
     Real greatest(0);
@@ -168,7 +169,7 @@ static Real greatestWeight(const SoftObject& digger)
     return greatest;
 }
 
-// By what a neighbour's field counts.
+// Sets how much a neighbour's field counts.
 static void weigh(const Bodies& bodies, const Neighbourhood& all, Neighbour& near)
 {
     const SoftObject& other = *near.object;
@@ -180,6 +181,7 @@ static void weigh(const Bodies& bodies, const Neighbourhood& all, Neighbour& nea
     near.grain = near.plain ? near.size : near.size / (max(near.strength, Real(1)) * max(near.weight, Real(1)));
 }
 
+// Adds those of `count` objects that are near enough to the neighbours. `digs`: they are no members of the body, but dig into it.
 static void gatherFrom(SoftObject* const* from, int count, bool digs, const SoftObject& object, const Bodies& bodies,
                        Neighbourhood& all)
 {

@@ -1,4 +1,4 @@
-// Which neighbours the paths of a patch may meet, from the patch's lists (classify.cpp) and from where its seeds are.
+// Finds the neighbours that the paths of a patch may meet, from the patch's lists (classify.cpp) and from where its seeds are.
 #include "nearby.h"
 
 #include "model/body.h"
@@ -30,7 +30,7 @@ bool Nearby::setPatch(const Patch& patch, bool oversampled)
         near_.complete = true;
         return false;
     }
-    // Oversampled seeds lie between those of the patch and those beside it.
+    // Oversampled seeds also lie between the seeds of this patch and those of adjacent patches.
     const Bound ball = boundOf(patch, oversampled ? patch.radius : patch.tight);
     forNeighbours(patch.near, [&](int slot) {
         Neighbour* const near = all_.bySlot[slot];
@@ -43,7 +43,7 @@ bool Nearby::setPatch(const Patch& patch, bool oversampled)
     return near_.count > 0;
 }
 
-// What a patch has besides where not all is common.
+// Sets what is different about a patch where the neighbourhood is not ordinary.
 void Nearby::setOdd(const Patch& patch)
 {
     if (object_.shaped())
@@ -61,7 +61,7 @@ void Nearby::setOdd(const Patch& patch)
         });
 }
 
-// Made when it is needed for the first time.
+// Makes the list when it is needed for the first time.
 const NeighbourList& Nearby::findListed()
 {
     listed_.count = 0;
@@ -78,6 +78,7 @@ void Nearby::findComplete(NeighbourList& list) const
     list.complete = all_.ordinary ? areAllOne(list) : isComplete(list);
 }
 
+// Whether a list is complete, in any scene.
 bool Nearby::isComplete(const NeighbourList& list) const
 {
     if (!areLinked(list))
@@ -90,7 +91,7 @@ bool Nearby::isComplete(const NeighbourList& list) const
     return true;
 }
 
-// The same where all is common and they are few.
+// Whether a list is complete, in an ordinary scene: tests every pair, which is quick for short lists.
 bool Nearby::areAllOne(const NeighbourList& list) const
 {
     for (int i = 0; i < list.count; ++i) {
@@ -104,7 +105,7 @@ bool Nearby::areAllOne(const NeighbourList& list) const
     return true;
 }
 
-// Whether all of those that do not dig, and the object, are linked at weight 1.
+// Whether the object and all members of the body on a list are linked with each other at weight 1.
 bool Nearby::areLinked(const NeighbourList& list) const
 {
     if (all_.inner)
@@ -131,7 +132,7 @@ bool Nearby::areLinked(const NeighbourList& list) const
     return all_.hollow || isLinkedWithAll(object_.slot());
 }
 
-// Whether one of them that digs does it with one weight into all the others that do not.
+// Whether a digging neighbour digs with one weight into all members of the body on a list.
 bool Nearby::digAlike(const NeighbourList& list, const Neighbour& digging) const
 {
     for (int j = 0; j < list.count; ++j) {

@@ -1,12 +1,12 @@
-// Nearby: which neighbours the paths of a patch may meet, so that a seed asks no others; and whether all of these are linked
-// with each other, so that their fields need only be added up.
+// Nearby: the neighbours that the paths of a patch may meet, so that its seeds evaluate no other fields; and whether all of them
+// are linked with each other, so that the field of the body is the sum of theirs.
 #ifndef FB_NEARBY_H
 #define FB_NEARBY_H
 
 #include "patch.h"
 
-// The neighbours to look at, and whether they and the object are all linked with each other at weight 1, and what digs does it with
-// one weight into all of them: then the sum of the fields, less what digs, is F.
+// Some neighbours of an object. The list is `complete` if they and the object are all linked with each other at weight 1, and every
+// digging one digs with one weight into all the others. Then the body's field F is the sum of their fields, less those that dig.
 struct NeighbourList {
     int count;
     bool complete;
@@ -15,26 +15,26 @@ struct NeighbourList {
     void add(Neighbour& neighbour) { near[count++] = &neighbour; }
 };
 
-// Those of one object in a frame, for one patch after the other.
+// Made once for an object and a frame; asked about one patch after another.
 class Nearby {
 public:
     Nearby(const SoftObject& object, Neighbourhood& all, const Bodies& bodies);
 
-    // Takes up a patch. False: no neighbour reaches its seeds where they are.
+    // Chooses the patch. Returns false if no neighbour reaches its seeds where they are.
     bool setPatch(const Patch& patch, bool oversampled);
 
-    // Those that may reach some place on the paths of the patch; those that reach its seeds where they are; and those that may
-    // reach a position.
+    // The neighbours that may reach some place on the paths of the patch; and those that may reach them at one position.
     const NeighbourList& listed() { return listed_.count < 0 ? findListed() : listed_; }
     const NeighbourList& at(Real position) { return isBeyond(position) ? listed() : near_; }
-    // Whether a position is not one where the seeds of the patch are, so that others may reach it.
+    // Whether a position is outside the range that the patch's seeds are in, so that other neighbours may reach it.
     bool isBeyond(Real position) const { return position < nearest_ || position > farthest_; }
 
+    // The neighbours that reach the seeds where they are.
     const NeighbourList& reaching() const { return near_; }
 
-    // The size of the smallest of them, or of the object.
+    // The smallest grain (gather.h) of these neighbours and the object.
     Real smallest() const { return smallest_; }
-    // Whether something digs where the paths are, or the seeds sample a hollow.
+    // Whether something digs near the paths, or the seeds sample a hollow.
     bool dented() const { return dented_; }
 
     void setComplete(NeighbourList& list) const
@@ -43,7 +43,7 @@ public:
         if (!list.complete)
             findComplete(list);
     }
-    // The weight of the object's link with another; 0: there is none.
+    // The weight of the object's link with another; 0 if there is none.
     Real weight(int slot) const { return ownWeights_[slot]; }
 
 private:
@@ -58,15 +58,15 @@ private:
     const SoftObject& object_;
     Neighbourhood& all_;
     const Bodies& bodies_;
-    const Real* const ownWeights_;  // of the object's links, by slots
-    bool allComplete_;  // all neighbours of the object, whatever patch they reach, and it are linked at weight 1
+    const Real* const ownWeights_;  // weights of the object's links, by slot
+    bool allComplete_;  // the list of all the object's neighbours is complete, and so is every other list
 
-    // Of the patch.
+    // Of the current patch:
     const Patch* patch_;
-    NeighbourList near_, listed_;  // listed_.count -1: not needed yet
+    NeighbourList near_, listed_;  // reaching() and listed(); listed_.count is -1 until it is asked for
     Real smallest_;
     bool dented_;
-    Real nearest_, farthest_;  // between which positions its seeds are, and a little more
+    Real nearest_, farthest_;  // the range of its seeds' positions, with a margin
 };
 
 #endif

@@ -1,4 +1,4 @@
-// How far things have come between two frames.
+// Measures how far the neighbours of an object and the viewer travel between two frames.
 #include "odometer.h"
 
 #include "math/alloc.h"
@@ -7,19 +7,20 @@
 
 namespace {
 
-// A way as long as any, when it is not known how far things have come.
+// A travel longer than any that is waited for, when it is not known how far things have travelled.
 constexpr Travel EVERYWHERE = 1 << 20;
 
-// As many steps of what goes round as never make it seem to go back: by them all is due.
+// The largest travel that may be added to a 16-bit count that wraps around without its seeming to run backwards. It makes
+// everything due.
 constexpr uint16_t ALL_DUE = 1 << 14;
 
 }  // namespace
 
-Travel travelUntil(Real hold, Real push, Real longest)
+Travel travelUntil(Real margin, Real gradientBound, Real longest)
 {
-    if (hold <= Real(0))
+    if (margin <= Real(0))
         return 0;
-    return travelOf(hold < push * longest ? hold / push : longest);
+    return travelOf(margin < gradientBound * longest ? margin / gradientBound : longest);
 }
 
 Odometer::~Odometer()
@@ -27,7 +28,7 @@ Odometer::~Odometer()
     free(known_);
 }
 
-// Room for so many neighbours. What was known of them is lost. False: no memory.
+// Makes room for `count` neighbours and forgets those that were known. Returns false when there is no memory.
 bool Odometer::makeRoom(int count)
 {
     free(known_);
@@ -37,8 +38,8 @@ bool Odometer::makeRoom(int count)
     return known_ != nullptr;
 }
 
-// How far the viewer has come. A quarter of the size is about how far a neighbour has to come to turn the surface as the viewer's
-// way does.
+// The viewer's travel round the object, turned into one of neighbours: when the viewer turns by an angle, a neighbour would have to
+// travel about that angle times a quarter of the object's size to turn the surface as much.
 inline Travel Odometer::travelOfEye(const SoftObject& object, const OwnFrame& own)
 {
     const Real away = max(nearLength(own.eye), Real(1));
@@ -68,7 +69,7 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
         if ((i >= count_ || known.slot != near.object->slot()) && !isKnown(all, i))
             continue;
         known.inRange = near.inRange;
-        // What is shaped comes farther in some places than in most.
+        // Some places of a shaped neighbour travel farther than most.
         const Travelled units = known.pose.follow(near, reach);
         const Travel outermost = travelOf(units.farthest), middle = travelOf(units.middle);
         const Travel travelled = outermost / 2 > middle ? outermost / 2 : middle;
@@ -85,8 +86,8 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
     return !leapt_;
 }
 
-// Whether a neighbour was gathered in the last call, too; if not, it is from now on. It was out of range by GATHER_SLACK then, or
-// has leapt.
+// Whether neighbour `number` was gathered in the last call, too. If not it becomes known now: it has come within GATHER_SLACK of
+// the range, or, if it is in range already, it has leapt.
 bool Odometer::isKnown(const Neighbourhood& all, int number)
 {
     const Neighbour& near = all.neighbours[number];
@@ -96,7 +97,7 @@ bool Odometer::isKnown(const Neighbourhood& all, int number)
     const uint8_t slot = static_cast<uint8_t>(near.object->slot());
     if (number < count_ && known.slot == slot)
         return true;
-    // The others move up.
+    // The entries behind it move up.
     count_ = count_ < room_ ? count_ + 1 : room_;
     memmove(&known + 1, &known, static_cast<size_t>(count_ - 1 - number) * sizeof known);
     known.slot = slot;
@@ -107,7 +108,7 @@ bool Odometer::isKnown(const Neighbourhood& all, int number)
     return false;
 }
 
-// Forgets those that are not even near any more. One that was in range has leapt.
+// Forgets the neighbours that are not gathered any more. One that was in range has leapt out of it.
 void Odometer::forgetFar(const Neighbourhood& all)
 {
     Known* to = known_;
@@ -121,12 +122,12 @@ void Odometer::forgetFar(const Neighbourhood& all)
 
 bool Odometer::count(Patch& patch) const
 {
-    uint16_t way = leapt_ ? ALL_DUE : 0;
+    uint16_t travel = leapt_ ? ALL_DUE : 0;
     for (const Known *known = known_, *const end = known_ + count_; known < end; ++known)
-        if (known->travelled > way && isListed(patch.listed, known->slot))
-            way = known->travelled;
-    patch.travelled = static_cast<uint16_t>(patch.travelled + way);
-    return way > 0;
+        if (known->travelled > travel && isListed(patch.listed, known->slot))
+            travel = known->travelled;
+    patch.travelled = static_cast<uint16_t>(patch.travelled + travel);
+    return travel > 0;
 }
 
 bool Odometer::hasMoved(const Neighbourhood& all, const NeighbourList& list) const

@@ -1,14 +1,16 @@
-// Odometer: how far the neighbours of an object have come, in its own space, and how far the viewer has come round it. What was
-// found out about a patch holds until they have come so far that it might be different: whoever finds it out says how far that
-// is, and when the odometer has got there the patch is due. A patch also hears how far those on its own
-// lists have come. Were everything always due, nothing but the speed would change.
+// Odometer: coherence over time. It adds up how far the neighbours of an object have travelled in its own space, and how far the
+// viewer has travelled round it. A result about a patch is valid until they have travelled so far that it might change: who finds
+// the result says how far that is, and when the odometer's reading gets there the patch is due again. Where a scene is not ordinary
+// (gather.h) a patch also counts the travel of the neighbours on its own lists. Were everything always due only the speed would
+// change.
 #ifndef FB_ODOMETER_H
 #define FB_ODOMETER_H
 
 #include "nearby.h"
 #include "pose.h"
 
-// A way, and the reading of an odometer: 1/1024 unit of own space. Readings go round, so isDue() compares them.
+// A distance travelled, and a reading of the odometer: 1/1024 unit of own space. Readings wrap around, so that only isDue() may
+// compare them.
 typedef uint32_t Travel;
 
 inline Travel travelOf(Real units)
@@ -21,8 +23,9 @@ inline bool isDue(Travel reading, Travel due)
     return static_cast<int32_t>(reading - due) >= 0;
 }
 
-// How far neighbours may come that change a field by `push` in a unit, until it has changed by `hold`; at most `longest` units.
-Travel travelUntil(Real hold, Real push, Real longest);
+// How far neighbours may travel before the field has changed by `margin`, if it changes by no more than `gradientBound` over a
+// unit. Never more than `longest` units.
+Travel travelUntil(Real margin, Real gradientBound, Real longest);
 
 class Odometer {
 public:
@@ -31,23 +34,24 @@ public:
     Odometer(const Odometer&) = delete;
     Odometer& operator=(const Odometer&) = delete;
 
-    // Finds out how far any neighbour, or the viewer, has come since the last call. False: nothing that was found out before
-    // holds, because it is the first call, links have changed, an object has leapt into range or out of it, the first odd one has
-    // come or the last gone, or there is no memory.
+    // Measures how far the neighbours and the viewer have travelled since the last call. Returns false if no earlier result is
+    // valid: in the first call, when links have changed, when an object has leapt into range or out of it, when the neighbourhood
+    // has become ordinary or is not any more, and when there is no memory.
     bool advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion);
 
+    // The total travel of the neighbours and the viewer.
     Travel reading() const { return reading_; }
-    // The same for the farthest places of neighbours that the object could meet.
+    // The total travel of the farthest places of neighbours that the object could meet, an upper bound for lists of neighbours.
     Travel bound() const { return bound_; }
-    // How far they came since the call before: what is neither stretched nor warped, as far as the farthest place of its core;
-    // what is, as far as it came where the object has its centre, and half as far as its farthest place at least.
+    // How far the neighbours travelled in the last call. One that is neither stretched nor warped travels as far as the farthest
+    // place of its core; a shaped one as far as it does at the object's centre, but at least half as far as its farthest place.
     Travel lastTravel() const { return lastTravel_; }
-    // Whether the viewer has come round the object since then.
+    // Whether the viewer did not travel round the object in the last call.
     bool eyeStayed() const { return eyeStayed_; }
 
-    // Counts on for a patch, whose lists hold, how far those on them came since the call before. False: none of them came at all.
+    // Adds the last travel of the neighbours on a patch's valid lists to Patch::travelled. Returns false if none of them moved.
     SELDOM bool count(Patch& patch) const;
-    // Whether any of a few neighbours came since then.
+    // Whether any neighbour of a list moved in the last call.
     SELDOM bool hasMoved(const Neighbourhood& all, const NeighbourList& list) const;
 
 private:
@@ -58,17 +62,17 @@ private:
 
     Travel reading_ = 0, bound_ = 0, lastTravel_ = 0;
     uint32_t linksVersion_ = 0;
-    bool ordinary_ = true;  // nothing was odd about the neighbours in the call before: what is odd is counted otherwise
-    bool fresh_ = true;  // nothing is known of a frame before
-    Vector eye_{Real(0), Real(0), Real(0)};  // where the viewer was, own axes
+    bool ordinary_ = true;  // the neighbourhood was ordinary in the last call: else travel is counted in another way
+    bool fresh_ = true;  // there was no call yet, or no memory
+    Vector eye_{Real(0), Real(0), Real(0)};  // where the viewer was in the last call, own axes
     bool eyeStayed_ = false;
-    bool leapt_ = true;  // nothing is known of a frame before, or all may have changed
+    bool leapt_ = true;  // advance() returned false
 
-    // What the last call has found out of each neighbour, in the order in which they are gathered.
+    // What the last call found out about each neighbour, in the order of Neighbourhood::neighbours.
     struct Known {
         uint8_t slot;
-        bool inRange;   // of the object
-        uint16_t travelled;  // how far it came in that call, as a Way; at most ALL_DUE
+        bool inRange;   // Neighbour::inRange
+        uint16_t travelled;  // a Travel, at most ALL_DUE
         Pose pose;
     };
     int room_ = 0, count_ = 0;

@@ -1,4 +1,4 @@
-// Patches: which seeds make one, and what is measured of it where its seeds rest.
+// Patches: which seeds belong to which patch, and the measures of a patch that follow from where its seeds rest.
 #include "patch.h"
 
 #include "math/normal.h"
@@ -8,7 +8,7 @@
 
 namespace {
 
-// --- What is measured of a patch
+// --- The measures of a patch
 
 Direction14 direction(const Vector& unitVector)
 {
@@ -23,12 +23,13 @@ Vector restOf(const SoftObject& object, const Seed& s)
 
 Vector restNormalOf(const SoftObject& object, const Seed& s)
 {
-    // When an object is warped anew, its seeds have long left their rest.
+    // A seed that has left its rest has another normal now.
     const Direction14 n = s.flags & SEED_RESTING ? s.normal : object.restNormal(s);
     return {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)};
 }
 
-// How long the paths of a patch are; of a shaped object, whose paths lead aside, how far along its axis they lead.
+// The mean length of a patch's paths; of a shaped object, whose paths are not parallel to normals, their mean extent along `axis`.
+// `share` is 1 / the number of seeds.
 Real pathOf(const SoftObject& object, const Patch& patch, const Vector& axis, Real share)
 {
     Real path(0);
@@ -41,7 +42,7 @@ Real pathOf(const SoftObject& object, const Patch& patch, const Vector& axis, Re
     return path;
 }
 
-// How far at most the paths of a shaped object lead from where the patch's path does, 1/16 unit.
+// The greatest distance, 1/16 unit, between the end of a shaped object's path and the end of the patch's mean path.
 SELDOM int16_t leanOf(const SoftObject& object, const Patch& patch, const Vector& axis, Real path)
 {
     Real most(0);
@@ -105,7 +106,7 @@ void beginPatch(const SoftObject& object, Patch& patch)
 
 // --- Which seeds make a patch
 
-// The rings from `ring` on that one band of patches has, the most seeds of one of them, and how many patches that takes.
+// A band of patches: the number of its rings, from `ring` on, and the number of patches that its longest ring needs.
 struct Band {
     int rings, runs;
 
@@ -122,13 +123,14 @@ struct Band {
     }
 };
 
-// The seeds of a patch: of each of its rings so many, one behind the other.
+// The seeds of a patch: in each of its rings `count` seeds from `first` on.
 struct Run {
     int first[PATCH_RINGS], count[PATCH_RINGS];
 };
 
-// The rings of a stretched object leave out seeds, each at other places (thinning() in model/round.h). The patches of a band
-// follow the fullest of its rings, and the seeds of the others come to those of that one that they lie nearest to.
+// Divides a band of a stretched object into patches. Rings of such an object leave out seeds, each in other places (thinning() in
+// model/round.h). The patches follow the fullest ring of the band, and a seed of another ring joins the patch of that seed of the
+// fullest ring that is nearest to it.
 class Follower {
 public:
     Follower(const SoftObject& object, int ring, int rings) : object_(object), rings_(rings), fullest_(0)
@@ -143,14 +145,14 @@ public:
         last_ = at_[fullest_];
     }
 
-    // The next patch. False: there are no more.
+    // Finds the next patch. Returns false when there is none.
     bool next(Run& run)
     {
         bool late = false;
         int left = 0;
         for (int k = 0; k < rings_; ++k) {
             left += end_[k] - at_[k];
-            // The patch before had no room for all of its seeds.
+            // The patch before had no room for all the seeds that belong to it.
             late = late || (isWithin(k, at_[k]) && isWithin(k, at_[k] + PATCH_SEEDS - 1));
         }
         if (left == 0)
@@ -174,15 +176,15 @@ public:
 private:
     const SoftObject& object_;
     int rings_, fullest_;
-    // Of each ring: its first seed, the end, the first of the next patch.
+    // Of each ring: its first seed, its end (exclusive), and the first seed of the next patch.
     int start_[PATCH_RINGS], end_[PATCH_RINGS], at_[PATCH_RINGS];
-    int near_[PATCH_RINGS];  // what is nearest to the seed before that one; -1: there is none
+    int near_[PATCH_RINGS];  // the seed of the fullest ring that is nearest to the seed before at_[], or -1
     struct Known {
-        int i, from, nearest;  // of a seed, from what is nearest to the one before
+        int i, from, nearest;  // findNearest() of seed i found `nearest` when it started at `from`
     } known_[PATCH_RINGS][2];
-    int last_;               // of the fullest: the end of the patches so far
+    int last_;               // the end (exclusive) of the patches so far, in the fullest ring
 
-    // Whether a seed of a ring belongs to the patches so far.
+    // Whether seed i of ring k belongs to the patches so far.
     bool isWithin(int k, int i)
     {
         return i < end_[k] && (last_ == end_[fullest_] || (k == fullest_ ? i : nearest(k, i)) < last_);
@@ -197,7 +199,7 @@ private:
         return squareOf(rest(i) - rest(n));
     }
 
-    // The seed of the fullest ring that is nearest to one. Of the next seed and of the one two farther on it is asked again.
+    // The seed of the fullest ring that is nearest to seed i of ring k. The last two answers of each ring are remembered.
     int nearest(int k, int i)
     {
         Known& known = known_[k][i == at_[k] ? 0 : 1];
@@ -206,7 +208,7 @@ private:
         return known.nearest;
     }
 
-    // The same, looked for some way on from that of the seed before, or anywhere.
+    // Searches onwards from the nearest seed of the seed before; where that fails, everywhere.
     int findNearest(int k, int i) const
     {
         const int start = start_[fullest_], end = end_[fullest_];
@@ -221,12 +223,12 @@ private:
         for (int j = start + 1; j < end; ++j)
             if (between(i, j) < between(i, n))
                 n = j;
-        // What lies just before the first of them is first.
+        // Rings are closed: a first seed may be nearest to one near the end, but belongs to the first patch all the same.
         return i == start_[k] && 2 * n > start + end ? start : n;
     }
 };
 
-// Calls `each` with the seeds of every patch of an object.
+// Calls each(run) with the seeds of every patch of an object.
 template <class Each>
 void forPatches(const SoftObject& object, Each each)
 {

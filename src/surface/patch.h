@@ -1,37 +1,36 @@
-// Patch: neighbouring seeds of three rings, judged as one by the seed in their midst. Most seeds of a frame need no look of
-// their own: their patch rests, lies inside a neighbour or faces away.
+// Patch: up to nine neighbouring seeds, from three rings, that are judged together by the seed in their middle. Most seeds need no
+// work of their own in a frame, because their patch rests, lies inside a neighbour or faces away from the viewer.
 #ifndef FB_PATCH_H
 #define FB_PATCH_H
 
 #include "gather.h"
 
-// The report's overshoot tolerance: by how much a neighbour's field may be stronger than that of a seed's own object.
+// The report's overshoot tolerance: a seed belongs to the surface as long as no neighbour's field exceeds the own field by more.
 constexpr Real OVERSHOOT(0.05);
 
-// A patch has seeds of this many rings beside each other, and at most so many of each.
+// The number of adjacent rings that a patch has seeds of, and the largest number of seeds from each.
 constexpr int PATCH_RINGS = 3;
 constexpr int PATCH_SEEDS = 3;
 
 enum PatchState : uint8_t {
-    PATCH_REST,    // no neighbour reaches it
-    PATCH_INSIDE,  // it lies inside a neighbour, or where that is stronger
-    PATCH_AWAY,    // a neighbour reaches it, and it faces away from the viewer, or is hidden
-    PATCH_MIXED,   // its seeds are settled
+    PATCH_REST,    // no neighbour reaches it: all its seeds are at rest
+    PATCH_INSIDE,  // all of it lies inside the body, where a neighbour is stronger than the own object
+    PATCH_AWAY,    // a neighbour reaches it, but it faces away from the viewer, is hidden or is out of sight
+    PATCH_MIXED,   // a neighbour reaches it, and its seeds are settled one by one
 };
 
-// How the surface of a patch bends, from the normals of its seeds.
+// The curvature of the surface over a patch, measured from the normals of its seeds.
 struct Bend {
-    int16_t turn[6];    // by how much the normal turns along x, y, z on a way along the same, along y or x on one along the other,
-                        // so for z and x, y and z; 1.0 = 2^13 over 256 steps of places (voxels.h); along the normal as much as
-                        // along the way on which it turns most
+    int16_t turn[6];    // a symmetric matrix, xx yy zz xy xz yz: how much the normal turns over a step; 1.0 = 2^13 over 256 steps
+                        // of places (voxels.h). Along the normal it has the greatest curvature of the patch
     Direction14 normal;
-    bool ball;          // it bends as a ball does; nothing else is known
-    bool known;         // it has been measured since the patch rests, or does not any more
+    bool ball;          // the patch is curved like the unblended ball, or nothing better is known; `turn` is not set
+    bool known;         // the rest is valid
     bool stale;         // seeds have settled since it was measured
-    bool gentle;        // over so many spacings that no scale ends but next to the limb (shade.cpp)
+    bool gentle;        // the radius of curvature is so many spacings that only scales next to the limb have an end (shade.cpp)
 };
 
-// By how much the normal turns on a way along `v`, any length: as Bend::turn.
+// The product of the matrix Bend::turn and a vector of any length: how much the normal turns over that step.
 inline void turnAlong(const Bend& bend, const int32_t v[3], int32_t to[3])
 {
     const int16_t(&t)[6] = bend.turn;
@@ -40,7 +39,7 @@ inline void turnAlong(const Bend& bend, const int32_t v[3], int32_t to[3])
     to[2] = (t[4] * v[0] + t[5] * v[1] + t[2] * v[2]) >> 14;
 }
 
-// Units as 1/16 units.
+// Converts units to 1/16 units, rounding down.
 inline int32_t steps16(Real units)
 {
     return rawFromReal(units) >> 12;
@@ -51,36 +50,35 @@ struct Patch {
     int32_t first[PATCH_RINGS];  // of each ring, the number of its first regular seed in the patch
     uint8_t count[PATCH_RINGS];  // and how many there are
     PatchState state;
-    uint8_t blocker;    // Seed::blocker, when the one in the middle was not on the surface the last time
+    uint8_t blocker;    // Seed::blocker of the middle seed, when that was not on the surface the last time
     bool stale;         // its lists have to be made anew
-    bool reached;       // one that has come since the frame before reaches its seeds where they are
-    bool stirred;       // and one did so then, or does so now; where all is common both are taken for granted
-    bool settled;       // its seeds were looked at in this frame
-    bool asleep;        // all but the one in the middle sleep
-    bool extras;        // oversampled seeds of it take part
-    bool fine;          // and fine ones
-    bool islands;       // and seeds on islands, where the paths of its regular ones come back
-    int32_t facing;     // of a settled patch: cosine of the surface in the middle and the direction to the viewer
-    int32_t centre;     // slot of the seed in the middle
-    int16_t middle[3];  // of where its seeds rest
-    int16_t radius;     // of a ball round the middle that holds all of those places and half a cell more
-    int16_t tight;      // of one that just holds them
-    int16_t axis[3];    // the mean of their normals
-    int16_t spread;     // greatest length of the difference of a normal to the axis
-    int16_t behind;     // where one of its seeds at rest faces a viewer, the axis times his place, and `spread` times his distance
-                        // more, is no less than this
-    int16_t path;       // mean length of their paths; of a shaped object, along the axis
-    int16_t lean;       // how far from there one of them leads at most; 0: all lead along their normals
-    uint8_t nearest, farthest;          // between which positions its seeds are, 1/64
-    uint32_t due, listDue;              // readings of the odometer (odometer.h) when it, and when its lists are due
-    uint16_t travelled;      // how far those on its lists have come in all, 1/1024 unit; it goes round
-    // Its lists, a bit for the slot of each neighbour: those that may reach some place on its paths, and those that may reach
-    // its seeds where they are.
+    bool reached;       // a neighbour that has moved since the frame before reaches its seeds
+    bool stirred;       // `reached` holds for this frame or held for the one before; always true in ordinary scenes (gather.h)
+    bool settled;       // its seeds were settled in this frame
+    bool asleep;        // all its seeds but the middle one are SEED_ASLEEP
+    bool extras;        // some of its oversampled seeds take part
+    bool fine;          // some of its fine seeds take part
+    bool islands;       // it has seeds on islands, where the paths of its regular seeds return to the surface
+    int32_t facing;     // of a settled patch: cosine of the middle seed's normal and the direction to the viewer
+    int32_t centre;     // slot of the middle seed
+    int16_t middle[3];  // the mean of the places where its seeds rest
+    int16_t radius;     // of a ball round the middle that contains those places and half a cell more
+    int16_t tight;      // of a ball round the middle that just contains those places
+    int16_t axis[3];    // the mean of the normals at rest, unit length
+    int16_t spread;     // the greatest length of the difference of such a normal and the axis
+    int16_t behind;     // if one of its seeds at rest faces a viewer at V, then axis * V + spread * |V| is at least this
+    int16_t path;       // the mean length of its paths; of a shaped object, their extent along the axis
+    int16_t lean;       // the greatest distance between a path's end and `path` along the axis; 0 if the object is not shaped
+    uint8_t nearest, farthest;          // the range of positions that contains those of its seeds, 1/64
+    uint32_t due, listDue;              // the odometer's readings (odometer.h) at which the patch and its lists are due
+    uint16_t travelled; // total travel of the neighbours on its lists, 1/1024 unit; it wraps around
+    // Its lists, one bit for each neighbour's slot: `listed` are the neighbours that may reach some place on its paths, `near`
+    // those that may reach its seeds where they are.
     uint32_t listed[SLOTS_MAX / 32], near[SLOTS_MAX / 32];
     Bend bend;
 };
 
-// Calls `each` with every regular seed of an object's patch.
+// Calls each(seed) for every regular seed of an object's patch.
 template <class Object, class Each>
 inline void forSeeds(Object& object, const Patch& patch, Each each)
 {
@@ -92,7 +90,7 @@ inline void forSeeds(Object& object, const Patch& patch, Each each)
     }
 }
 
-// Calls `each` with the slot of every neighbour on a list.
+// Calls each(slot) for every neighbour on a list.
 template <class Each>
 inline void forNeighbours(const uint32_t list[SLOTS_MAX / 32], Each each)
 {
@@ -101,6 +99,7 @@ inline void forNeighbours(const uint32_t list[SLOTS_MAX / 32], Each each)
             each(32 * word + __builtin_ctz(bits));
 }
 
+// Whether a list has any neighbour, or that of a slot.
 inline bool isListed(const uint32_t list[SLOTS_MAX / 32])
 {
     uint32_t any = 0;
@@ -114,26 +113,27 @@ inline bool isListed(const uint32_t list[SLOTS_MAX / 32], int slot)
     return (list[slot >> 5] >> (slot & 31) & 1) != 0;
 }
 
-// How many patches the seeds of an object make.
+// The number of patches that the seeds of an object make.
 int patchesOf(const SoftObject& object);
 
-// Fills them in.
+// Fills in that many patches, all at rest.
 void makePatches(const SoftObject& object, Patch* patches);
 
-// Measures them anew, when the seeds rest elsewhere. They are due at once, by the reading of the odometer.
+// Measures the patches anew after the seeds have been laid out elsewhere. `reading` is the odometer's: all patches are due at once.
 void reshapePatches(const SoftObject& object, Patch* patches, int count, uint32_t reading);
 
-// Makes the lists of a patch anew. They hold until a neighbour has come nearer by LIST_SLACK.
+// Makes the lists of a patch anew. They hold until some neighbour has travelled LIST_SLACK.
 void classify(Patch& patch, const Neighbourhood& all);
 constexpr Real LIST_SLACK = GATHER_SLACK;
 
-// A ball round the seeds of a patch where they are, 1/16 unit, from one round where they rest.
+// A ball, 1/16 unit. boundOf() returns one that contains the seeds of a patch where they are now; a ball of `restRadius` round the
+// patch's middle contains them at rest.
 struct Bound {
     int32_t x, y, z, radius;
 };
 Bound boundOf(const Patch& patch, int32_t restRadius);
 
-// Whether a neighbour's field reaches into a ball; most neighbours are points.
+// Whether a neighbour's field reaches into a ball. Most neighbours are points.
 bool reachesFromCore(const Neighbour& near, const Bound& ball);
 inline bool reaches(const Neighbour& near, const Bound& ball)
 {
@@ -143,13 +143,13 @@ inline bool reaches(const Neighbour& near, const Bound& ball)
     return x * x + y * y + z * z < reach * reach;
 }
 
-// Whether all seeds of a patch, if they were at one position, would lie nearer to a neighbour's core than a part of its size.
+// Whether all seeds of a patch, if they were at `position`, would be nearer to a neighbour's core than `part` of its size.
 bool isWithin(const Patch& patch, const Neighbour& near, Real position, Real part);
 
-// Whether a patch lies beside the view, where its seeds are, where they rest, and in between.
+// Whether a patch lies outside the view with its seeds where they are, where they rest, and anywhere in between.
 bool outOfSight(const Patch& patch, const OwnFrame& own);
 
-// Whether a patch is hidden behind what is nearer: where its seeds are, or if they all were at one position.
+// Whether a patch is hidden behind what is drawn already, with its seeds where they are, or as if all of them were at `position`.
 bool isHidden(const Patch& patch, const OwnFrame& own);
 bool isHidden(const Patch& patch, Real position, const OwnFrame& own);
 
@@ -161,7 +161,7 @@ inline bool restsAway(const Patch& patch, const OwnFrame& own)
     return most >> 14 < own.limb16 + patch.behind;
 }
 
-// Cosine of the surface at a seed and the direction to the viewer, 1.0 = 2^14, about.
+// The cosine of a seed's normal and the direction to the viewer, 1.0 = 2^14, approximately.
 int32_t facing(const SoftObject& object, const Seed& s, const OwnFrame& own);
 
 #endif

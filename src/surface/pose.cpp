@@ -1,4 +1,4 @@
-// How far a neighbour comes: no farther than the farthest place of its core, and what its size changes by.
+// How far a neighbour travels: at most as far as the farthest place of its core, plus the change of its size.
 #include "pose.h"
 
 void Pose::take(const Neighbour& near)
@@ -22,11 +22,11 @@ Travelled Pose::followTurned(const Neighbour& near, Real reach)
     take(near);
     if (near.object->shaped())
         return {travelAsMapped(near, before, reach), travelAsMapped(near, before, Real(0))};
-    const Real way = travelAsCore(near, before);
-    return {way, way};
+    const Real travelled = travelAsCore(near, before);
+    return {travelled, travelled};
 }
 
-// What is neither stretched nor warped, by what its core does.
+// The travel of a neighbour that is neither stretched nor warped: that of its core.
 Real Pose::travelAsCore(const Neighbour& near, const Pose& before) const
 {
     const Vector extent = near.object->coreExtent16() * (near.size * Real(1.0 / CORE_SIZE));
@@ -35,7 +35,8 @@ Real Pose::travelAsCore(const Neighbour& near, const Pose& before) const
            roundLength(axes_[2] - before.axes_[2]) * extent.z;
 }
 
-// What is, by its map into core space: no place that is at most `reach` from the object's centre.
+// The travel of a shaped neighbour, from its map into core space: an upper bound for all places no farther than `reach` from the
+// object's centre.
 Real Pose::travelAsMapped(const Neighbour& near, const Pose& before, Real reach) const
 {
     const Vector by = place_ - before.place_;
@@ -43,10 +44,10 @@ Real Pose::travelAsMapped(const Neighbour& near, const Pose& before, Real reach)
     const Vector most{absolute(by.x) + roundLength(axes_[0] - before.axes_[0]) * reach,
                       absolute(by.y) + roundLength(axes_[1] - before.axes_[1]) * reach,
                       absolute(by.z) + roundLength(axes_[2] - before.axes_[2]) * reach};
-    const Real way = min(roundLength(most), longest) * near.size * Real(1.0 / CORE_SIZE);
+    const Real travelled = min(roundLength(most), longest) * near.size * Real(1.0 / CORE_SIZE);
     if (!near.object->warped())
-        return way;
-    // A share of the width, and degrees.
+        return travelled;
+    // A taper is a share of the width; twist and bend are degrees.
     const auto change = [&](int part) { return absolute(warp_.part[part] - before.warp_.part[part]); };
-    return way + (change(WARP_TAPER) + (change(WARP_TWIST) + change(WARP_BEND)) * Real(0.0174533)) * near.object->reach();
+    return travelled + (change(WARP_TAPER) + (change(WARP_TWIST) + change(WARP_BEND)) * Real(0.0174533)) * near.object->reach();
 }

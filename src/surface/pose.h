@@ -1,37 +1,37 @@
-// Where a neighbour stands, and how far it comes between two frames.
+// Pose: where a neighbour is and how it is turned, and how far it travels between two frames.
 #ifndef FB_POSE_H
 #define FB_POSE_H
 
 #include "gather.h"
 
-// About the length of a vector, never less than nine tenths of it.
+// Roughly the length of a vector, never less than nine tenths of it.
 inline Real roundLength(const Vector& v)
 {
     const Real x = absolute(v.x), y = absolute(v.y), z = absolute(v.z), greatest = max(max(x, y), z);
     return greatest + (x + y + z - greatest) * Real(0.375);
 }
 
-// How far a neighbour has come, units: no place of its field that the object could meet has come farther than `farthest`; what is
-// neither stretched nor warped has come that far where the object has its centre, too.
+// How far a neighbour has travelled, units: at most `farthest` in any place of its field that the object could meet, and `middle`
+// at the object's centre. Both are the same if the neighbour is neither stretched nor warped.
 struct Travelled {
     Real farthest, middle;
 };
 
-// A neighbour's centre and axes in the space of an object; of what is shaped, the map into its core space.
+// A neighbour's centre and axes in an object's own space; of a shaped neighbour, the map into its core space instead.
 class Pose {
 public:
-    // It stands where a neighbour does now.
+    // Takes the present pose of a neighbour.
     void take(const Neighbour& near);
 
-    // The same, and how far the neighbour has come since it stood here. `reach` is the object's.
+    // Takes the present pose, and returns how far the neighbour has travelled from the one before. `reach` is the object's.
     Travelled follow(const Neighbour& near, Real reach)
     {
         if (near.kind != Neighbour::POINT)
             return followTurned(near, reach);
-        const Real way = roundLength(near.centre - place_) + absolute(near.size - size_);
+        const Real travelled = roundLength(near.centre - place_) + absolute(near.size - size_);
         place_ = near.centre;
         size_ = near.size;
-        return {way, way};
+        return {travelled, travelled};
     }
 
 private:
@@ -41,7 +41,7 @@ private:
 
     Vector place_;
     Real size_;
-    Vector axes_[3];    // of a point these are not known
+    Vector axes_[3];    // not set for a point
     WarpAmounts warp_;
 };
 
