@@ -1,5 +1,5 @@
-// Settling seeds, one settler for every scene: first one seed, then a patch of them. Newton's method follows the field along a
-// seed's path (path.h) to the isovalue, from where the seed was in the frame before; what it loses is searched (search.h).
+// Settles seeds: first one seed, then a patch of seeds. From where a seed was in the frame before, Newton's method follows the
+// field along its path (path.h) to the isovalue. Where that loses the surface the whole path is searched (search.h).
 #include "settle.h"
 
 #include "border.h"
@@ -10,36 +10,40 @@
 
 namespace {
 
-// Of the field, times the greatest strength: a neighbour that is weaker than the own by less is near.
+// In units of the field, for strength 1: the border to a neighbour is near where its field is weaker than the own one by less.
 constexpr Real BORDER(0.25);
-// Position beyond which a path that is hollowed out leaves the surface for good.
+// A path through a hollow that leaves the surface beyond this position does not enter it again.
 constexpr Real OUTERMOST(0.8);
-// By how much of the field an object's own changes at most over a length of the object's size.
+// A field of strength 1 changes by no more than this over a length of the object's size.
 constexpr Real STEEPEST(1.3);
-// Cosine (1.0 = 2^14) by which the middle of a patch must face away, more than its seeds differ, to be out of sight as a whole.
+// A patch is taken to face away if its middle does so by this cosine (1.0 = 2^14) plus the spread of its normals.
 constexpr int32_t TURNED = 500;
-// Units: no seed waits while neighbours come so far in a frame.
+// Units: no seed waits in a frame in which the neighbours travel farther.
 constexpr Real HURRY(2);
-// Cosines (1.0 = 2^14) by which a seed faces away that is looked at less often, and that needs no other one beside it.
+// A seed that faces away by LITTLE_AWAY or WELL_AWAY (cosines, 1.0 = 2^14) is settled less often; one that faces away by FAR_AWAY
+// needs no oversampled seed beside it.
 constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000, FAR_AWAY = 7500;
-// Of the field: where it is so far below the isovalue in the middle of a path, hardly any other object raises it; and where another
-// is stronger by as much, the surface is that one's.
+// In units of the field. If the field in the middle of a path is so far below the isovalue no other object is likely to raise it to
+// an island; and where a neighbour is stronger by as much, the island belongs to the neighbour.
 constexpr Real LEFT_ALONE(-0.2);
-// Every so many frames it is the turn of a patch that all its seeds are looked at.
+// In one of this many frames all seeds of a patch are settled; in the others some wait.
 constexpr uint32_t TURNS = 4;
-// Positions: by how much a seed may leave the range that those of its patch were found in before all neighbours are asked.
+// Margin of the range of positions that the seeds of a patch are in. A seed that leaves the range is settled in the fields of all
+// neighbours on the patch's list.
 constexpr Real RANGE(0.05);
-// Difference of the positions of two seeds, as a length in spacings, that activates the one between.
+// Two neighbouring seeds have parted, and the oversampled seed between them is needed, if their positions differ by more than this
+// many spacings.
 constexpr Real PARTED(1.5);
-// Of the field: by so much the own is stronger than any other where a path leaves an island. In a crease beside what belongs to
-// another object a scale would stand for neither side.
+// In units of the field: where a path leaves an island the own field must be stronger than any other by this. Nearer to another
+// object's part of the surface, in the crease between the two, a scale would fit neither side.
 constexpr Real CLEARLY(-0.06);
-// Of a link: beyond this weight the field rises half way between two objects, and islands are left when they part.
+// Objects that are linked with more than this weight leave islands of the surface between them when they part, for the field rises
+// again half way between them.
 constexpr Real HEAVY(1);
-// Cosine of path and normal (1.0 = 2^14): what a path only grazes its seed stands badly for.
+// Cosine of path and normal (1.0 = 2^14). A seed whose path meets an island at a smaller one is left out: the path only grazes it.
 constexpr int32_t GRAZING = 1500;
-// Spacings: how far the surface may go on from a seed to a border without an oversampled one towards the neighbour N (not at all on
-// shaped objects), without one towards the next of its ring, and without a fine one.
+// Spacings. The surface may go on for this distance from a seed to a border before an oversampled seed towards the neighbour N is
+// needed (on shaped objects always), one towards the next seed of the ring, and a fine seed.
 constexpr Real LEFT_OPEN(0.5), LEFT_OPEN_SHAPED(-100), LEFT_OPEN_NEXT(1), LEFT_OPEN_FINE(1.5);
 
 }  // namespace
@@ -65,8 +69,8 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, Neighbourhood& all, co
 
 // ---- One seed
 
-// Sets position, normal and flags of a seed. One that finds no surface of its own object is left without SEED_VALID; returned is
-// then by how much of the field it lies inside.
+// Sets position, normal and flags of a seed. If the path meets no surface of its own object the seed is left without SEED_VALID,
+// and the return value says by how much of the field the path lies inside.
 Real Settler::settle(Seed& s)
 {
     Sample sample;
@@ -94,8 +98,8 @@ Real Settler::settle(Seed& s)
         place(s, sample.dominance);
         return Real(0);
     }
-    // Where another object is the stronger, the path may leave the surface before that in a later frame: where a valley or haste
-    // tells so it is searched again in the next one, else when its turn comes.
+    // The path leaves the surface where another object is the stronger. In a later frame it may leave it nearer to its root. It is
+    // searched again in the next frame if a valley of the field makes that likely, or if the neighbours hurry; else in its turn.
     if (found && margin > VALLEY && turn_ != 0)
         s.flags |= SEED_FOLLOW;
     if (nearby_.dented()) {
@@ -106,10 +110,10 @@ Real Settler::settle(Seed& s)
     return found ? min(margin, sample.dominance - OVERSHOOT) : margin;
 }
 
-// Follows a seed from where it was, in the fields of those neighbours that reach it there.
+// Follows a seed from where it was, in the fields of the neighbours that reach it there.
 inline Settler::Followed Settler::followOn(Seed& s, Real* position, Sample* sample)
 {
-    // A path into a hollow may leave the surface farther out now, where that has closed again.
+    // The surface may have closed again farther out on a path into a hollow.
     const bool closed = nearby_.dented() && !all_.hollow && *position <= OUTERMOST && hasClosed(s);
     bool touched = path_.begin(nearby_.at(*position), s, *position, sample);
     if (!touched && *position != Real(1)) {
@@ -122,7 +126,7 @@ inline Settler::Followed Settler::followOn(Seed& s, Real* position, Sample* samp
     if (closed || !follow(path_, position, sample))
         return LOST;
     if (nearby_.isBeyond(*position)) {
-        // Where it is now, others may reach it.
+        // Where the seed is now other neighbours may reach it.
         path_.begin(nearby_.listed(), s, *position, sample);
         if (!follow(path_, position, sample))
             return LOST;
@@ -130,7 +134,7 @@ inline Settler::Followed Settler::followOn(Seed& s, Real* position, Sample* samp
     return still ? STILL : FOUND;
 }
 
-// Leaves a seed where nothing blends with it.
+// Puts a seed at rest, for nothing blends with it.
 void Settler::restThere(Seed& s)
 {
     if (!(s.flags & SEED_RESTING)) {
@@ -142,27 +146,27 @@ void Settler::restThere(Seed& s)
     s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
 }
 
-// Leaves a seed as it is: it has not moved, and what is known of it holds.
+// Leaves a seed that has not moved as it is, but for the border to a neighbour.
 inline void Settler::keep(Seed& s, Real dominance)
 {
     s.still = s.still == 0 || travelled_ * Real(3) > shiftDown(nearby_.smallest(), 3) ? 1 : 3;
     if (mixes())
         mix(path_, s);
-    // But the border may have moved.
+    // The border may have moved all the same.
     if (dominance > -shiftDown(border_, 1) && !nearby_.dented()) {
         findBorder(path_, s, dominance);
         s.flags |= SEED_BORDER;
     }
 }
 
-// Searches the whole path of a seed, in the fields of those neighbours that reach some of it.
+// Searches the whole path of a seed, in the fields of the neighbours that reach some place on it.
 inline Real Settler::search(const Seed& s, Real* position, Sample* sample)
 {
     if (nearby_.dented() || !all_.restsAtOne) {
         path_.beginDeepSearch(s);
         return searchDeep(path_, position, sample, &off_, &gradientBound_);
     }
-    // Most are sure to lie inside by the fields alone that reach the patch where it is.
+    // Most paths lie inside already by the fields of the neighbours that reach the patch where it is.
     Real margin;
     *position = path_.middle();
     path_.begin(nearby_.reaching(), s, *position, sample);
@@ -173,7 +177,7 @@ inline Real Settler::search(const Seed& s, Real* position, Sample* sample)
     return ::search(path_, position, sample);
 }
 
-// Gives a seed that is on the surface its normal, and what else there is to know of it there.
+// Gives a seed that is on the surface its normal, its colour where colours mix, and the border to a neighbour.
 inline void Settler::place(Seed& s, Real dominance)
 {
     Vector out = path_.outward(s.position);
@@ -190,7 +194,7 @@ inline void Settler::place(Seed& s, Real dominance)
     ++counts_.normals;
 }
 
-// Whether its colours mix with those of what it is linked with.
+// Whether the object's colours mix with those of the objects that it is linked with.
 inline bool Settler::mixes() const
 {
     return object_.paint() != nullptr && object_.paint()->mixes;
@@ -198,9 +202,9 @@ inline bool Settler::mixes() const
 
 // ---- A patch of seeds
 
-// By how much of the field the seed in the middle of a patch must lie inside, for all of the patch to do so: the other seeds
-// are no farther away than the radius of the patch, over which a field changes as STEEPEST says; and two fields change, the
-// strongest and the one that it is compared with.
+// The margin, in units of the field, by which the middle seed of a patch must lie inside so that all of the patch does. The other
+// seeds are no farther away than the radius of the patch, over which a field changes by STEEPEST at most; and two fields change,
+// the strongest neighbour's and the own one that it is compared with.
 static Real enough(const Patch& patch, Real size)
 {
     return clamp(realFromRaw(patch.radius << 12) / size * (STEEPEST + STEEPEST), Real(0.2), Real(0.9));
@@ -248,13 +252,13 @@ PatchState Settler::probe(Patch& patch)
     return PATCH_MIXED;
 }
 
-// Notes between which positions the seeds of a patch are.
+// Stores the range of positions that the seeds of a patch are in.
 inline void Settler::setRange(Patch& patch, Real nearest, Real farthest) const
 {
     patch.nearest = static_cast<uint8_t>(rawFromReal(nearest - RANGE) >> 10);
     patch.farthest = static_cast<uint8_t>(rawFromReal(farthest + RANGE) >> 10);
     if (nearby_.isBeyond(nearest) || nearby_.isBeyond(farthest)) {
-        // The list of those near them is made anew in the next frame.
+        // Other neighbours may reach them there. Patch::near is made anew in the next frame.
         memcpy(patch.near, patch.listed, sizeof patch.near);
         patch.stale = true;
     }
@@ -276,10 +280,10 @@ void Settler::settleOthers(Patch& patch)
     setRange(patch, nearest, farthest);
 }
 
-// Settles a seed of the patch that `centre` is in the middle of. `*blocker` is that of the seed that was not on the surface last.
+// Settles a seed beside the patch's middle seed, `centre`. `*blocker` is the blocker of the last seed that was off the surface.
 inline void Settler::settleBeside(const Seed& centre, Seed& s, bool someAway, uint8_t* blocker)
 {
-    // What has slept or rested is likely to be where the one in the middle is, or kept off by what kept off the last one.
+    // A seed that has slept or rested is likely to be at the position of the middle seed, or to have the blocker of the last one.
     const bool woken = (s.flags & SEED_ASLEEP) || ((s.flags & SEED_RESTING) && !(centre.flags & SEED_RESTING));
     if (woken)
         s.blocker = *blocker;
@@ -299,9 +303,9 @@ inline void Settler::settleBeside(const Seed& centre, Seed& s, bool someAway, ui
         *blocker = s.blocker;
 }
 
-// Coherence over time: a seed that did not move when it was looked at waits for a frame, and so does one that faces away a
-// little; one that did not move twice, or faces well away, waits for three. What is far off the surface waits for a frame, where
-// all scales of the patch meet.
+// Coherence over time. A seed that did not move when it was settled last, or that faces away a little, waits for one frame; a seed
+// that did not move twice, or that faces well away, waits for three. A seed that is off the surface waits for one frame, unless its
+// patch has oversampled seeds, or it is likely to come back.
 inline bool Settler::waits(const Seed& s, bool someAway) const
 {
     if (!(s.flags & SEED_VALID))
@@ -314,8 +318,9 @@ inline bool Settler::waits(const Seed& s, bool someAway) const
     return away > WELL_AWAY || (away > LITTLE_AWAY && (turn_ & 1) != 0);
 }
 
-// Whether so much of the surface lies between two seeds beside each other that their scales may leave a gap. Where only one is on
-// the surface, it goes on to the border at least; `open` says how far it may do so. Of what sleeps nothing is known.
+// Whether two neighbouring seeds may leave a gap between their scales. If both are on the surface they do when they have parted. If
+// only one is, the surface goes on from it to the border with another object, which may be no farther away than `open`. Nothing is
+// known about the surface at a seed that sleeps.
 inline bool Settler::mayGape(const Seed& s, const Seed& n, Real open) const
 {
     if (s.flags & n.flags & SEED_VALID)
@@ -325,8 +330,8 @@ inline bool Settler::mayGape(const Seed& s, const Seed& n, Real open) const
            (!(valid.flags & SEED_BORDER) || realFromRaw(valid.apart << 8) > open);
 }
 
-// The seed from which another has parted, so that the one between is needed: its neighbour N, or else the next of its ring, when
-// the border passes between the two and not between the seed and N. Null: there is none.
+// The neighbouring seed from which `s` has parted, so that the oversampled seed between them is needed: its neighbour N, or else
+// the next seed of its ring, if the border passes between these two and not between `s` and N. Null if there is none.
 inline const Seed* Settler::parted(const Seed& s) const
 {
     if (s.neighbour >= 0 && mayGape(s, object_.regular(s.neighbour), open_))
@@ -338,7 +343,8 @@ inline const Seed* Settler::parted(const Seed& s) const
 
 namespace {
 
-// The fine seeds of a regular one are not needed, but for those on an island; nor is its oversampled one; none of a patch is.
+// These end seeds that are not needed any more: the fine seeds of regular seed i, without or with those on islands; its seeds on
+// islands only; its oversampled and fine seeds; all such seeds of a patch.
 void putAwayFine(SoftObject& object, int i, int end = SoftObject::FINE_ISLAND)
 {
     Seed* const fine = object.fine(i);
@@ -372,13 +378,13 @@ void putAway(SoftObject& object, Patch& patch)
 
 }  // namespace
 
-// Whether a seed is not on the surface, or faces so far away that what lies beside it is not seen.
+// Whether a seed is off the surface, or faces so far away that nothing beside it is seen.
 bool Settler::isAway(const Seed& s) const
 {
     return !(s.flags & SEED_VALID) || facing(object_, s, own_) < -FAR_AWAY;
 }
 
-// Lays out the oversampled seed of a regular one between that and another. False: nobody would see it.
+// Lays out and activates the oversampled seed of a regular one, between that and another. Returns false if nobody would see it.
 bool Settler::layOutExtra(const Seed& s, const Seed& other)
 {
     if (isAway(s) && isAway(other))
@@ -429,7 +435,7 @@ void Settler::oversample(Patch& patch)
     });
 }
 
-// Settles those fine seeds of a regular one that are needed. False: none is.
+// Settles those fine seeds of regular seed i that are needed. Returns false if none is.
 bool Settler::settleFine(int i)
 {
     const Seed& extra = *object_.extra(i);
@@ -461,8 +467,8 @@ bool Settler::settleFine(int i)
     return true;
 }
 
-// Where necks are thin their surface hangs over: the path of a valid seed beside the border leaves the surface, and may come back
-// behind that, where another seed stands for it.
+// The surface of a thin neck overhangs: the path of a valid seed beside the border leaves the surface there and may meet it once
+// more farther out. The seed `s` is placed there.
 void Settler::settleBehind(const Seed& valid, Seed& s)
 {
     Sample sample;
@@ -474,7 +480,7 @@ void Settler::settleBehind(const Seed& valid, Seed& s)
     place(s, sample.dominance);
 }
 
-// Whether a neighbour that the object has a heavy link with may reach the paths of a patch.
+// Whether a neighbour that is linked with the object by more than HEAVY may reach the paths of a patch.
 bool Settler::mayHaveIslands(const Patch& patch) const
 {
     bool heavy = false;
@@ -482,8 +488,8 @@ bool Settler::mayHaveIslands(const Patch& patch) const
     return heavy && !nearby_.dented();
 }
 
-// Where links are heavy the field rises again half way to the other object: the paths of any seeds may come back to the surface,
-// whether their patch rests or faces away. Where none has, they take turns.
+// Where links are heavy the field rises again half way to the other object. The paths of any seeds may then meet the surface again,
+// even if their patch rests or faces away. Patches without islands are searched in turns.
 void Settler::settleIslands(Patch& patch)
 {
     setPatch(patch);
@@ -499,8 +505,8 @@ void Settler::settleIslands(Patch& patch)
     });
 }
 
-// The path of a regular seed enters an island and leaves it again. False: it does not come back, or only grazes what it comes back
-// to.
+// Places seeds where the path of regular seed i enters an island and where it leaves it again. Returns false if the path meets no
+// island, or only grazes it.
 bool Settler::settleIsland(int i)
 {
     const Seed& onPath = object_.regular(i);
@@ -516,7 +522,8 @@ bool Settler::settleIsland(int i)
     return (leavesAgain(path_, &inside, &outside) && placeOnIsland(i, SoftObject::FINE_ISLAND_END, inside, outside)) || enters;
 }
 
-// Places a seed on an island, between two positions of the path at hand. False: it would only graze it, or is another object's.
+// Places fine seed `which` of regular seed i on an island, between two positions of the current path. Returns false if the path
+// only grazes the island, or if the surface there belongs to another object.
 bool Settler::placeOnIsland(int i, int which, Real inside, Real outside)
 {
     Sample sample;

@@ -1,4 +1,4 @@
-// Settle: where the path of a seed leaves the surface of its body, and which way the surface faces there.
+// Settle, the pass that finds where the path of each seed leaves the surface of its body, and the normal there.
 #ifndef FB_SETTLE_H
 #define FB_SETTLE_H
 
@@ -7,61 +7,63 @@
 #include "odometer.h"
 #include "path.h"
 
-// Units: how far neighbours may come at most before what is off the surface is looked at again.
+// Units: after this much travel of the neighbours at the latest, what is off the surface is looked at again.
 constexpr Real LONGEST_WAIT(6);
 
-// Settles the seeds of one object, one settler for every scene. Made once for an object and a frame; `updates` counts those
-// of the object.
+// Settles the seeds of one object; there is one settler for every kind of scene. It is made once for an object and a frame.
+// `updates` is the number of the frame in the object's own count.
 class Settler {
 public:
     Settler(SoftObject& object, const OwnFrame& own, Neighbourhood& all, const FrameContext& frame,
             const Odometer& odometer, uint32_t updates);
 
-    // To be called before anything else about the seeds of a patch. False: no neighbour reaches them where they are.
+    // Chooses the patch; to be called before any of its seeds is settled. Returns false if no neighbour reaches the seeds where
+    // they are.
     bool setPatch(const Patch& patch, bool oversampled = false);
 
-    // Those that do, after that.
+    // The neighbours that reach them, after setPatch().
     const NeighbourList& reaching() const { return nearby_.reaching(); }
 
-    // Whether all paths of a patch are sure to lie inside the one neighbour that was the strongest there the last time. It is not
-    // asked where the middle was on the surface.
+    // Whether the blocker of a patch is sure to cover all its paths (cover.h). Not worth asking, and false, if the middle seed was
+    // on the surface.
     bool isCovered(const Patch& patch)
     {
         const bool settled = (object_.regular(patch.centre).flags & (SEED_VALID | SEED_RESTING)) == SEED_VALID;
         return !settled && !nearby_.dented() && cover_.coversAll(patch);
     }
 
-    // The same of one that lay inside, before setPatch().
+    // The same for a patch that was PATCH_INSIDE, before setPatch().
     bool isStillCovered(const Patch& patch) { return all_.ordinary && cover_.coversAll(patch); }
 
-    // Whether all of one that lay off the surface, where something digs, still does; before setPatch().
+    // Whether a patch that was off the surface, near something that digs, is sure to be so still; before setPatch().
     bool isStillOff(const Patch& patch) const { return patch.state == PATCH_INSIDE && isOff(patch, object_.regular(patch.centre)); }
 
-    // Settles the seed in the middle of a patch that neighbours reach, says from it what becomes of the patch, and sets when
-    // the patch is due again.
+    // Settles the middle seed of a patch that neighbours reach, returns the state that the patch gets from that, and sets when the
+    // patch is due again.
     PatchState probe(Patch& patch);
 
-    // Whether some patch was left because it is hidden.
+    // Whether some patch was left unsettled because it is hidden.
     bool hidden() const { return hidden_; }
 
     // Settles the other regular seeds of a patch.
     void settleOthers(Patch& patch);
 
-    // Settles those oversampled seeds of a patch that are needed, when all regular ones have been; the others end. It calls
-    // setPatch() by itself.
+    // Activates and settles those oversampled and fine seeds of a patch that are needed, and ends the others. All regular seeds
+    // must be settled before. It calls setPatch() itself.
     void oversample(Patch& patch);
 
-    // Whether there may be islands, and the seeds on those of a patch, whatever its state but PATCH_INSIDE.
+    // Whether paths of the object may lead through islands of the surface; and settles the seeds on the islands of a patch,
+    // whatever its state but PATCH_INSIDE.
     bool hasIslands() const { return heavy_; }
     SELDOM void settleIslands(Patch& patch);
 
 private:
-    // What comes of following a seed from where it was.
+    // The result of following a seed from where it was.
     enum Followed {
         LOST,   // the surface is not near
-        FOUND,  // it is on it
-        STILL,  // and has not moved
-        ALONE,  // no neighbour reaches it: it is at rest
+        FOUND,  // the seed is on the surface
+        STILL,  // the seed is on the surface, where it was before
+        ALONE,  // no neighbour reaches the seed: it is at rest
     };
 
     Real settle(Seed& s);
@@ -70,7 +72,7 @@ private:
     void keep(Seed& s, Real dominance);
     Real search(const Seed& s, Real* position, Sample* sample);
     void place(Seed& s, Real dominance);
-    // What remains of the flags of a seed that is covered.
+    // The flags that a covered seed keeps.
     int stillOff() const { return nearby_.dented() ? SEED_OFF | SEED_FOLLOW : 0; }
     bool isCovered(const Seed& s) { return nearby_.dented() ? isOff(*patch_, s) : cover_.covers(s); }
     void settleBeside(const Seed& centre, Seed& s, bool someAway, uint8_t* blocker);
@@ -87,7 +89,7 @@ private:
     bool waits(const Seed& s, bool someAway) const;
     bool mixes() const;
 
-    // What only dents and hollows need (hollow.cpp).
+    // For dents and hollows only (hollow.cpp):
     SELDOM bool findDented(Seed& s, Vector* g);
     SELDOM bool hasClosed(const Seed& s);
     void putOff(Seed& s, Real hold, Real push) const;
@@ -101,29 +103,29 @@ private:
     const OwnFrame& own_;
     const Neighbourhood& all_;
     Counts& counts_;
-    const Travel now_;     // reading of the odometer
-    const Real travelled_;   // how far neighbours came in this frame, units
+    const Travel now_;      // the odometer's reading
+    const Real travelled_;  // how far the neighbours travelled since the frame before, units
     const uint32_t updates_;
-    const bool heavy_;  // the object has a link of more than HEAVY
-    const Real weakest_;  // own field below which no islands are looked for: those with two neighbours at most have more
-    const Seed* const last_;  // of the regular ones
-    const Patch* patch_ = nullptr;  // that is at hand
-    uint32_t turn_ = 0; // of it, 0..3: what waits takes turns. 0: nothing waits
-    Real border_;       // of the field: a neighbour that is weaker than the own by less is near
-    Real alike_;        // no more than this is between the positions of seeds that have not parted
-    Real open_, openNext_, openFine_;  // LEFT_OPEN..., units
-    Real gradientBound_{0};      // by how much fields may change along the path at hand when neighbours come by a unit
-    Real off_;          // of the field: by how much the path at hand misses the surface, where it does
-    bool hidden_ = false;
+    const bool heavy_;      // the object has a link heavier than HEAVY
+    const Real weakest_;    // no islands are searched where the own field is below this: one between two objects has more
+    const Seed* const last_;  // the last regular seed
+    const Patch* patch_ = nullptr;  // the current patch
+    uint32_t turn_ = 0;     // 0..3: tells whose turn it is among the seeds of the patch that wait; in turn 0 none waits
+    Real border_;           // a neighbour whose field is weaker than the own one by less than this has its border near
+    Real alike_;            // seeds whose positions differ by more have parted
+    Real open_, openNext_, openFine_;  // LEFT_OPEN, LEFT_OPEN_NEXT and LEFT_OPEN_FINE, units
+    Real gradientBound_{0}; // an upper bound of how the field on the current path changes over a unit of the neighbours' travel
+    Real off_;              // by how much of the field the current path misses the surface, if it does
+    bool hidden_ = false;   // hidden()
 };
 
-// Puts the seeds of a patch where no neighbour reaches them.
+// Puts the seeds of a patch at rest, for no neighbour reaches them.
 void rest(SoftObject& object, Patch& patch);
 
-// Puts all seeds of a patch but the one in the middle to sleep: they are neither settled nor drawn.
+// Puts all seeds of a patch but the middle one to sleep: they are neither settled nor drawn.
 void sleep(SoftObject& object, Patch& patch);
 
-// The same to a patch that lies inside as a whole.
+// Puts a patch to sleep that lies inside the body as a whole: it becomes PATCH_INSIDE.
 void cover(SoftObject& object, Patch& patch);
 
 #endif
