@@ -61,6 +61,13 @@ inline bool isShorter(const Vector& v, Real than)
     return absolute(v.x) < than && absolute(v.y) < than && absolute(v.z) < than && squareOf(v) < squareOf(than);
 }
 
+// Whether two points are less than a distance apart. Most that are not are too far apart along the first axis already.
+inline bool isNearer(const Point& a, const Point& b, Real than)
+{
+    return absolute(a.x - b.x) < than && absolute(a.y - b.y) < than && absolute(a.z - b.z) < than &&
+           squareOf(a - b) < squareOf(than);
+}
+
 // Euclidean length.
 inline Real length(const Vector& v) { return lengthOf(squareOf(v)); }
 

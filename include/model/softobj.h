@@ -293,7 +293,7 @@ public:
     Real fieldFunc(const Point& p) const;
 
     // Whether fields of the two can meet anywhere, from centres and sizes alone.
-    bool inRange(const SoftObject& other) const { return isShorter(centre_ - other.centre_, reach_ + other.reach_); }
+    bool inRange(const SoftObject& other) const { return isNearer(centre_, other.centre_, reach_ + other.reach_); }
 
     // --- A frame
 

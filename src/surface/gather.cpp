@@ -189,10 +189,10 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
     Neighbour* next = all.neighbours + all.count;
     for (SoftObject* const* const end = from + count; from < end && all.count < NEIGHBOURS_MAX; ++from) {
         const SoftObject& other = **from;
-        const Vector apart = other.centre() - object.centre();
         const Real reach = object.reach() + other.reach();
-        if (&other == &object || !isShorter(apart, reach + GATHER_SLACK))
+        if (!isNearer(other.centre(), object.centre(), reach + GATHER_SLACK) || &other == &object)
             continue;
+        const Vector apart = other.centre() - object.centre();
         ++all.count;
         Neighbour& near = *next++;
         all.bySlot[other.slot()] = &near;
