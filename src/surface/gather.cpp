@@ -31,13 +31,25 @@ SELDOM void aimShaped(Neighbour& near)
     near.size16 = (rawFromReal(near.size * narrowing) >> 12) + 1;
 }
 
+// No neighbour of this size or more is tiny, unless the object's paths are longer than LONG_PATH; units.
+constexpr Real SMALL(6), LONG_PATH(50);
+
+// Whether a neighbour is so small, compared with the object's paths and the distance to their roots, that the products of fields.h,
+// whose unit is its size, could overflow. In core space they cannot.
+SELDOM bool isTiny(const SoftObject& object, const Neighbour& near)
+{
+    const Vector& c = near.centre;
+    const Real away = absolute(c.x) + absolute(c.y) + absolute(c.z) + object.laidReach();
+    return shiftDown(away, 6) > near.size || shiftDown(away, 5) * shiftDown(object.longestPath(), 4) > near.size * near.size;
+}
+
 // Sets the map from own space to the core space of a neighbour that is no POINT.
-void aim(const SoftObject& object, Neighbour& near)
+void aim(const SoftObject& object, bool tiny, Neighbour& near)
 {
     const SoftObject& other = *near.object;
     near.half = shiftDown(other.segmentHalf16(), 4);
     near.segment = near.half > Real(0) && !other.shaped();
-    near.kind = near.segment && !other.tapers() ? Neighbour::SEGMENT : Neighbour::OTHER;
+    near.kind = near.segment && !other.tapers() && !tiny ? Neighbour::SEGMENT : Neighbour::OTHER;
     near.half16 = rawFromReal(near.half * near.size) >> 12;
     // Row i is axis i of the neighbour in own axes.
     const Matrix& turn = other.turn();
@@ -186,6 +198,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
                        Neighbourhood& all)
 {
     const Real growth = object.growth();
+    const bool longPaths = object.longestPath() > LONG_PATH;
     Neighbour* next = all.neighbours + all.count;
     for (SoftObject* const* const end = from + count; from < end && all.count < NEIGHBOURS_MAX; ++from) {
         const SoftObject& other = **from;
@@ -201,8 +214,9 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         near.inRange = isShorter(apart, reach);
         place(object, growth, apart, near);
         weigh(bodies, all, near);
-        if (!other.isBall())
-            aim(object, near);
+        const bool tiny = (near.size < SMALL || longPaths) && isTiny(object, near);
+        if (tiny || !other.isBall())
+            aim(object, tiny, near);
         all.inner = all.inner || (!digs && dentedFromWithin(other, bodies));
         all.dented = all.dented || digs;
         all.ordinary = all.ordinary && near.plain;

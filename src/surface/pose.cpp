@@ -5,7 +5,7 @@ void Pose::take(const Neighbour& near)
 {
     size_ = near.size;
     place_ = near.centre;
-    if (near.kind == Neighbour::POINT)
+    if (near.object->isBall())
         return;
     const bool shaped = near.object->shaped();
     const Real unit = shaped ? Real(1) : near.size * Real(1.0 / CORE_SIZE);

@@ -26,7 +26,7 @@ public:
     // Takes the present pose, and returns how far the neighbour has travelled from the one before. `reach` is the object's.
     Travelled follow(const Neighbour& near, Real reach)
     {
-        if (near.kind != Neighbour::POINT)
+        if (!near.object->isBall())
             return followTurned(near, reach);
         const Real travelled = roundLength(near.centre - place_) + absolute(near.size - size_);
         place_ = near.centre;
@@ -41,7 +41,7 @@ private:
 
     Vector place_;
     Real size_;
-    Vector axes_[3];    // not set for a point
+    Vector axes_[3];    // not set for a ball
     WarpAmounts warp_;
 };
 

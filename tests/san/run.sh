@@ -41,6 +41,7 @@ ok "interactive" env FB_INPUT="$dir/script" build/san/demo /I /N:30
 ok "every scene there is" sh -c 'for f in tools/scenes/*.FB; do
 	build/san/demo /N:30 "/M:$f" || exit 1
 done'
+ok "the smallest beside the largest" build/san/demo /N:40 /R:8 /M:tests/fuzz/corpus/TINY.FB
 ok "any keys and moves" sh tests/san/monkey.sh 1 12
 sh tests/cli/run.sh build/san/demo >"$dir/cli" 2>&1
 count "$dir/cli" >"$dir/counted"
