@@ -257,8 +257,8 @@ void addInner(Part* parts, const Part* end)
 }  // namespace
 
 // The field is the sum of x_k^2 g_k over the sum of x_i^2. With x_i = f_i / the strongest,
-// dF/df_k = (2 x_k (g_k - F) / strongest + x_k^2 + sum of w_ik x_i^2) / sum of x_i^2. For a digger only the sum of w_ik x_i^2 counts,
-// with weights below 0.
+// dF/df_k = (2 x_k (g_k - F) / strongest + x_k^2 + sum of w_ik x_i^2) / sum of x_i^2. For a digger only the sum of w_ik x_i^2
+// counts, with weights below 0.
 void Path::blendOdd(Parts& parts, Sample& sample)
 {
     const Real inverse = quotient(Real(1), parts.strongest), twice = inverse + inverse;
