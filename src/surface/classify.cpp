@@ -29,7 +29,7 @@ inline Step fromCore(const Neighbour& near, const Step& at)
     if (near.kind == Neighbour::POINT)
         return {at.x - near.x16, at.y - near.y16, at.z - near.z16};
     if (near.segment) {
-        // The nearest point of the segment is at `on`.
+        // The nearest point of the segment lies `on` along it from its centre.
         const Step d{at.x - near.x16, at.y - near.y16, at.z - near.z16};
         const int32_t along = (d.x * near.axis[0] + d.y * near.axis[1] + d.z * near.axis[2]) >> 14;
         const int32_t on = along > near.half16 ? near.half16 : along < -near.half16 ? -near.half16 : along;
@@ -81,8 +81,8 @@ bool isWithin(const Patch& patch, const Neighbour& near, Real position, Real par
 
 void classify(Patch& patch, const Neighbourhood& all)
 {
-    // The sphere round the paths from where the seeds rest to where the own field ends, twice as far from the root; in a deep
-    // neighbourhood, round the whole paths. `half` is half their length, `beyond` the centre.
+    // The bounding sphere of the paths from where the seeds rest to position 2, where a field of strength 1 ends; in a deep
+    // neighbourhood, of the whole paths. `half` is half the length of that part, `beyond` the sphere's centre.
     const int32_t half = all.deep ? patch.path * (rawFromReal(all.last) >> 10) >> 7 : patch.path >> 1;
     const Step beyond = above(patch, all.deep ? half - patch.path : half);
     const int32_t slack = steps16(LIST_SLACK);

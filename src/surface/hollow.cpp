@@ -7,7 +7,7 @@
 
 namespace {
 
-// Spacings: a seed so far beyond the border of its part still has a scale that reaches into its part.
+// Spacings: a seed up to this far beyond the border of its part still has a scale that reaches into its part.
 constexpr Real SHARED(1.5);
 // Units: additional overlap of the scales at that border, because it is found only to first order.
 constexpr Real OVERLAP(0.18);

@@ -7,7 +7,7 @@ namespace {
 
 // The least k for which a limb is found, per unit, 1.0 = 2^14: a radius of about 250 units.
 constexpr int32_t FLATTEST = 66;
-// No limb is found where s / k is this or more, and 1 / kz is limited to this.
+// No limb is found where a component of s / k is this or more, and 1 / kz is limited to this.
 constexpr int32_t SLANT = 4;
 // Cosines are limited to this, 1.0 = 2^14: seeds that are near and far aside have greater ones, but these make no difference.
 constexpr int32_t COSINE_MOST = (1 << 15) - 1;

@@ -178,7 +178,7 @@ bool Painter::cut(const Direction14& inward, int32_t apart, Voxel* voxel) const
     return cutVoxel(along(inward, own_.right), along(inward, own_.up), along(inward, own_.ahead), apart, shear.x, shear.y, voxel);
 }
 
-// The pattern at `place` (own space), where the surface has the normal `normal`; without a pattern its colour had the number `mix`.
+// The pattern at `place` (own space). `normal` is the surface's normal there, `mix` the number of its colour without a pattern.
 Painter::Spot Painter::spotAt(const Vector& place, const Direction14& normal, uint8_t mix) const
 {
     Spot spot{mix, paint_.other, false, {0, 0, 0}, 0};

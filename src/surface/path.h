@@ -1,5 +1,6 @@
 // Path: the field of the body along the path of one seed. Along a path the field of every neighbour is a function of the
 // position; a Path evaluates the fields at one position after another, adds them up, and remembers the fields at the last position.
+// The own field is that of the object to which the seed belongs.
 #ifndef FB_PATH_H
 #define FB_PATH_H
 
@@ -129,13 +130,13 @@ private:
     const NeighbourList* asked_ = nullptr;      // the list of the neighbours that are evaluated; null: they are part_, or not set
     NeighbourList part_;                      // the neighbours of a list that reach the path
     Neighbour* const* near_;        // the neighbours of asked_ or part_
-    int touched_ = 0;
+    int touched_ = 0;               // their number
     int rootOfAsked_ = -1;            // index of the root for which all neighbours of asked_ are prepared; -1: none
     bool odd_;                      // not ownPlain_, or some neighbours are not Neighbour::plain
     bool others_;                   // the cores of some neighbours are neither points nor segments
     const Seed* seed_;
     bool complete_;
-    bool shared_;                   // share_ holds at the position evaluated last; else shares are 1, or minus a digger's weight
+    bool shared_;                   // share_ holds at the position evaluated last; else shares are 1, of a digging field -weight
     Real headField_;                // of a hollow: the field of the object that has the hollow
     Real lookedAt_;
     Real ownField_, ownSlope_;

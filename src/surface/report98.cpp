@@ -9,7 +9,7 @@
 
 namespace {
 
-// The report's tolerances. It names them without figures; these figures are ours. A field or a position has no unit.
+// The report's tolerances. It names them without figures; these figures are ours. Fields and positions have no unit.
 constexpr Real LOCATION_TOLERANCE(0.00004);  // field: "desired accuracy"
 constexpr int ITERATION_LIMIT = 32;
 constexpr Real NOWHERE(0.05);                // field: a path that ends farther from the isovalue may have no surface

@@ -1,4 +1,4 @@
-// Search: where a path leaves the surface, by Newton's method from where the seed was, or along the whole path.
+// Search: where a path leaves the surface, found by Newton's method from the seed's last position, or along the whole path.
 #ifndef FB_SEARCH_H
 #define FB_SEARCH_H
 

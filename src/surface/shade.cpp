@@ -54,7 +54,8 @@ inline int32_t curvatureAlong(const Bend& bend, const int32_t v[3])
     return product(turned, v) >> 3;
 }
 
-// 1/256 unit: a scale in the territory of another object lies so much deeper, so that it is seen only where that object has none.
+// 1/256 unit: a scale in the territory of another object is moved this much deeper, so that it is seen only where that object has
+// none.
 constexpr int32_t BEHIND = 64;
 
 // 1/256 unit: at a smaller depth scales cover the whole of their cells, because so near the viewer a ring is no straight band.
@@ -65,8 +66,8 @@ constexpr int32_t WHOLE_BEFORE = 64 * 256;
 constexpr int32_t FLATTEST = 8000;
 constexpr int32_t FACES_VIEWER = 16000;
 
-// In a patch at rest that faces the viewer with this cosine (1.0 = 2^14) or more, and whose radius of curvature is at least so many
-// spacings, no scale ends: the limb is .6^2 * 6 / 2 = 1.08 spacings away, farther than a scale reaches.
+// No scale of a patch at rest ends that faces the viewer with the cosine FACES_ABOUT (1.0 = 2^14) or more, if its radius of
+// curvature is at least GENTLE_SPACINGS: the limb is .6^2 * 6 / 2 = 1.08 spacings away, farther than a scale reaches.
 constexpr int32_t FACES_ABOUT = 9830, GENTLE_SPACINGS = 6;
 
 // The bend of a patch that settles in every frame is measured in one of BEND_TURNS + 1 frames, chosen by the patch's number. Next
@@ -253,8 +254,8 @@ SELDOM void Shader::measureBend(Patch& patch) const
     const Seed& centre = object_.regular(patch.centre);
     bend.normal = centre.flags & SEED_VALID ? centre.normal : from[0]->normal;
     const int32_t n[] = {bend.normal.x, bend.normal.y, bend.normal.z};
-    // The two steps, the turn of the normal over each, and the dual vector of each: the dot product of dual[k] and a vector, divided
-    // by the area between the steps, is the vector's component in units of step k.
+    // The two steps, the turn of the normal over each, and the dual vector of each: the dot product of dual[k] and a vector,
+    // divided by the area between the steps, is the vector's component in units of step k.
     int32_t step[2][3], turn[2][3], dual[2][3], size[2];
     for (int k = 0; k < 2; ++k) {
         const Seed &a = *from[k], &b = *to[k];
@@ -512,7 +513,7 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
 template <bool PAINTED>
 inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter* painter)
 {
-    // The painter makes one or two voxels of each unpainted one.
+    // The painter makes one or two voxels of each of these.
     Voxel unpainted[PAINTED ? SEEDS_MOST : 1];
     Voxel* const voxels = PAINTED ? unpainted : list.room();
     Seen seen[SEEDS_MOST];
@@ -531,8 +532,8 @@ inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter*
     list.count += count;
 }
 
-// Whether some of a patch may be seen, unless it rests facing away, which the caller tests. A patch that settled in this frame was
-// found not to be hidden just before.
+// Whether some of a patch may be seen; the caller has tested whether the patch rests facing away. A patch that settled in this
+// frame was found not to be hidden just before.
 bool isSeen(const Patch& patch, const OwnFrame& own)
 {
     if (patch.state == PATCH_REST)
@@ -546,7 +547,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
 {
     Shader shader(object, own, frame);
     slopes.begin();
-    // The painter may make two voxels of one.
+    // The painter may make two voxels of one seed.
     const int most = (PAINTED ? 2 : 1) * SEEDS_MOST;
     int i = first;
     for (; i < count; ++i) {

@@ -41,8 +41,10 @@ private:
     struct Shown {
         int32_t number;  // number of the seed, or COPY
         int32_t sight;
-        Voxel *voxel, *before, *behind;  // of the seed, and of the seeds beside it in the rings before and behind, else its own;
-    };                                   // a copy's `before` is the original
+        // The seed's voxel, and those of the seeds beside it in the rings before and behind: its own where there is none. The
+        // `before` of a copy is the original.
+        Voxel *voxel, *before, *behind;
+    };
     Shown* find(int number)
     {
         const int i = table_[number & (TABLE - 1)];
