@@ -135,8 +135,8 @@ bool Settler::hasClosed(const Seed& s)
 // ---- Seeds off the surface wait
 
 // Lets a seed wait that is off the surface, or outside its own part of it: the field would have to change by `hold`, and it changes
-// by at most `push` when the neighbours come nearer by a unit. The wait may be longer if all neighbours reach the path already; any
-// other is not part of `push`, but as its field begins gently, it does not matter within LIST_SLACK.
+// by at most `push` when the neighbours come nearer by a unit. The wait may be longer if all neighbours reach the path already. A
+// neighbour that does not is not part of `push`, but its field begins gently and does not matter within LIST_SLACK.
 void Settler::putOff(Seed& s, Real hold, Real push) const
 {
     s.flags |= SEED_OFF;

@@ -10,8 +10,8 @@
 constexpr Real COVERED_AT(1.36);
 
 // The body's field at a position of a path: its excess over the isovalue, its slope along the path, and the strongest
-// neighbour's field less the own field. For seeds that sample a hollow, excess and slope have the opposite sign: their paths
-// begin in the cavity, and the body lies outside.
+// neighbour's field less the own field. For seeds that sample a hollow, excess and slope have the opposite sign, because their
+// paths begin in the cavity and the body lies outside; and the field of the object that has the hollow stands for the own one.
 struct Sample {
     Real excess, slope, dominance;
 };

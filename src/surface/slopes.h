@@ -22,7 +22,7 @@ public:
     {
         Shown& shown = shown_[count_];
         shown = {number, sight, voxel, voxel, voxel};
-        // Towards the ring before, a seed lies beside the seed N of its predecessor in the own ring (model/seed.h).
+        // In the ring before, a seed lies beside the seed N of its predecessor in its own ring (model/seed.h).
         const int n = number > 0 ? seed[-1].neighbour : -1;
         if (Shown* const before = n >= 0 ? find(n >> 1) : nullptr) {
             shown.before = before->voxel;
