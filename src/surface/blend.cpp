@@ -1,21 +1,21 @@
-// The body's field where its members are not all linked with all at weight 1, or something digs into it (model/body.h): from the
-// fields along the path that were just looked at. It sets the share that each of them has in the change of the body's.
+// The body's field where its members are not all linked with each other at weight 1, or something digs into it (model/body.h). It
+// is computed from the fields just evaluated on the path, and with it each field's share: by how much the body's field follows it.
 #include "model/body.h"
 #include "path.h"
 
 namespace {
 
-// Of the field: what missing links take at least to be counted; and what is too weak to be divided by.
+// In units of the field: what missing links take away counts only above NEGLIGIBLE; no field below NOTHING is divided by.
 constexpr Real NEGLIGIBLE(0.002), NOTHING(0.0005);
 
-// A member of the body that has a field F at the position; `lack` is the sum in its derivative.
+// A member of the body that has a field f at the position; `lack` is dD/df (see findLacks()).
 struct Linked {
     Real f, lack;
     const Real* weights;
-    int slot, at;  // at: its place on the list; -1: the object
+    int slot, index;  // index: number of the neighbour on the list; -1: the object itself
 };
 
-// D = sum of (1 - w_ik) f_i f_k (f_i + f_k) over all pairs, and for each member that sum in the derivative; `*squares` becomes Q,
+// Returns D = sum of (1 - w_ik) f_i f_k (f_i + f_k) over all pairs, adds dD/df_i to each member's `lack`, and sets `*squares` to Q,
 // the sum of f_i^2.
 Real findLacks(Linked* parts, const Linked* end, Real* squares)
 {
@@ -38,16 +38,16 @@ Real findLacks(Linked* parts, const Linked* end, Real* squares)
 
 }  // namespace
 
-// The sum of the fields, less D / Q. Its derivative with respect to f_i is
+// The body's field is the sum of the fields less D / Q. Its derivative with respect to f_i is
 // 1 - (sum of (1 - w_ik) f_k (2 f_i + f_k) - 2 f_i D / Q) / Q.
 void Path::blend(Real position, Sample& sample)
 {
-    // The own first.
+    // The object itself comes first.
     Linked parts[NEIGHBOURS_MAX + 1];
     Linked* end = parts;
     Real strongest(0);
-    const auto add = [&](Real f, int slot, int at) {
-        *end++ = {f, Real(0), bodies_.weights(slot), slot, at};
+    const auto add = [&](Real f, int slot, int index) {
+        *end++ = {f, Real(0), bodies_.weights(slot), slot, index};
         strongest = max(strongest, f);
     };
     if (ownField_ > Real(0))
@@ -55,7 +55,7 @@ void Path::blend(Real position, Sample& sample)
     for (int i = 0; i < touched_; ++i)
         if (near_[i]->value > Real(0))
             add(near_[i]->value, near_[i]->object->slot(), i);
-    // In a crowd all fields are small, and their squares need the digits.
+    // In a crowd all fields are small: they are scaled up, because their squares would lose too many digits.
     const bool faint = strongest < Real(0.125) && strongest > Real(0);
     for (Linked* a = parts; a < end && faint; ++a)
         a->f = quotient(a->f, strongest);
@@ -70,34 +70,35 @@ void Path::blend(Real position, Sample& sample)
         share_[i] = Real(1);
     for (const Linked* a = parts; a < end; ++a) {
         const Real lost = (a->lack - a->f * twice) * inverse;
-        const Real rate = a->at < 0 ? shiftDown(ownSlope_ * position, 1) : near_[a->at]->slope * near_[a->at]->change;
-        share_[a->at + 1] = Real(1) - lost;
+        const Real rate = a->index < 0 ? shiftDown(ownSlope_ * position, 1) : near_[a->index]->slope * near_[a->index]->change;
+        share_[a->index + 1] = Real(1) - lost;
         sample.slope -= lost * rate;
     }
 }
 
 // ---- Where something digs, or strengths differ
 
-// A member of the body that has a field F at the position; x is that over the strongest one, g the sum of what it is linked with
-// and what digs into it, `linked` the sum of w_ik x_i^2.
+// A member of the body that has a field f at the position: x is f over the strongest member's field, g the weighted sum of its own
+// field, the fields that it is linked with and those that dig into it (model/body.h), `linked` the sum of w_ik x_i^2.
 struct Path::Part {
-    Real f, rate;  // F, dF/dp
+    Real f, rate;  // f, df/dp
     const Real* weights;
-    int slot, at;  // at: its place in share_
+    int slot, index;  // index: its place in share_
     Real g, linked;
     Real x, x2;
 };
 
-// What digs into the body and is none of it, and has a field F there; the weight is that by which it digs into the head.
+// An object outside the body that digs into it and has a field f at the position; `weight` is that with which it digs into the head
+// (Neighbourhood::head).
 struct Path::Digger {
     Real f, rate;
     Real weight;
-    int slot, at;
+    int slot, index;
 };
 
-// The sum of all fields, as if all members were linked with all and dug into like the head, and what that changes by over a
-// position; the strongest member's field, and that of those that take a path from the object. Where not all of that is so, each
-// of them.
+// The fields at a position: their sum, as if all members were linked with each other at weight 1 and dug into as the head is, and
+// the slope of the sum; the strongest member's field; and the strongest field of a rival, a member that could take the path from
+// the object. Members and diggers are listed only where the body's field may differ from the sum.
 struct Path::Parts {
     Real sum{0}, slope{0}, strongest{0}, rival{0};
     Part* end = members;
@@ -106,7 +107,7 @@ struct Path::Parts {
     Digger diggers[NEIGHBOURS_MAX + 1];
 };
 
-inline void Path::addMember(Parts& parts, Real f, Real rate, const SoftObject& object, int at) const
+inline void Path::addMember(Parts& parts, Real f, Real rate, const SoftObject& object, int index) const
 {
     parts.sum += f;
     parts.slope += rate;
@@ -118,18 +119,18 @@ inline void Path::addMember(Parts& parts, Real f, Real rate, const SoftObject& o
     part.rate = rate;
     part.slot = object.slot();
     part.weights = bodies_.weights(part.slot);
-    part.at = at;
+    part.index = index;
 }
 
-inline void Path::addDigger(Parts& parts, Real f, Real rate, Real weight, const SoftObject& object, int at) const
+inline void Path::addDigger(Parts& parts, Real f, Real rate, Real weight, const SoftObject& object, int index) const
 {
     parts.sum -= f * weight;
     parts.slope -= rate * weight;
     if (!complete_)
-        *parts.lastDigger++ = {f, rate, weight, object.slot(), at};
+        *parts.lastDigger++ = {f, rate, weight, object.slot(), index};
 }
 
-// The own field: it digs, if the seeds sample a hollow.
+// Adds the own field, which digs if the seeds sample a hollow.
 void Path::addOwn(Real position, Parts& parts)
 {
     const Real t = ownParam(position), strength = object_.strength();
@@ -146,10 +147,10 @@ void Path::addOwn(Real position, Parts& parts)
         addMember(parts, ownField_, rate, object_, 0);
 }
 
-// The field of a neighbour. False: it does not reach the position.
-inline bool Path::addNear(Real position, const Vector* path, int at, Parts& parts)
+// Adds the field of neighbour i. Returns false when it does not reach the position.
+inline bool Path::addNear(Real position, const Vector* path, int i, Parts& parts)
 {
-    Neighbour& near = *near_[at];
+    Neighbour& near = *near_[i];
     if (path != nullptr)
         near.aim(*path);
     const Real t = near.param(position);
@@ -165,10 +166,10 @@ inline bool Path::addNear(Real position, const Vector* path, int at, Parts& part
         return true;
     const Real rate = near.slope * near.change;
     if (near.digs) {
-        addDigger(parts, near.value, rate, near.weight, *near.object, at + 1);
+        addDigger(parts, near.value, rate, near.weight, *near.object, i + 1);
         return true;
     }
-    addMember(parts, near.value, rate, *near.object, at + 1);
+    addMember(parts, near.value, rate, *near.object, i + 1);
     if (all_.hollow && near.object == all_.head)
         headField_ = near.value;
     else
@@ -176,7 +177,8 @@ inline bool Path::addNear(Real position, const Vector* path, int at, Parts& part
     return true;
 }
 
-// Looks at a position where something is odd about the object or the neighbours. False: none of them reaches that position.
+// Evaluates the fields at a position where something is odd about the object or the neighbours. Returns false when no neighbour
+// reaches the position.
 bool Path::lookOdd(Real position, const Vector* path, Sample* sample)
 {
     Parts parts;
@@ -197,7 +199,8 @@ bool Path::lookOdd(Real position, const Vector* path, Sample* sample)
     return touched;
 }
 
-// Whether the members are all linked with each other at weight 1, and whatever digs does it by the same weight as into the head.
+// Whether all members are linked with each other at weight 1, and each digger digs into all of them with the weight that it has for
+// the head: then the sum of the fields is the body's field.
 bool Path::isSum(const Parts& parts)
 {
     for (const Part* a = parts.members; a < parts.end; ++a) {
@@ -213,7 +216,7 @@ bool Path::isSum(const Parts& parts)
 
 namespace {
 
-// Adds up for each of them what it is linked with, and returns the sum of x_i^2. `inverse`: of the strongest field.
+// Adds the links of each member to its g and `linked`, sets x, and returns the sum of x_i^2. `inverse` is 1 / the strongest field.
 template <class Part>
 Real addLinks(Part* parts, const Part* end, Real inverse)
 {
@@ -238,7 +241,8 @@ Real addLinks(Part* parts, const Part* end, Real inverse)
     return squares;
 }
 
-// The same for what members of a body dig into each other: what B digs into A by more than A into B.
+// Corrects g and `linked` for members that dig into each other: addLinks() took a pair's weight in the sum of B for both sums, but
+// in the sum of A it may be another.
 template <class Part>
 void addInner(Part* parts, const Part* end)
 {
@@ -253,8 +257,8 @@ void addInner(Part* parts, const Part* end)
 }  // namespace
 
 // The field is the sum of x_k^2 g_k over the sum of x_i^2. With x_i = f_i / the strongest,
-// dF/df_k = (2 x_k (g_k - F) / strongest + x_k^2 + sum of w_ik x_i^2) / sum of x_i^2; of what digs only the last sum, in which its
-// weights are below 0.
+// dF/df_k = (2 x_k (g_k - F) / strongest + x_k^2 + sum of w_ik x_i^2) / sum of x_i^2. For a digger only the sum of w_ik x_i^2
+// counts, with weights below 0.
 void Path::blendOdd(Parts& parts, Sample& sample)
 {
     const Real inverse = quotient(Real(1), parts.strongest), twice = inverse + inverse;
@@ -271,15 +275,15 @@ void Path::blendOdd(Parts& parts, Sample& sample)
             a->g += w * digger->f;
             linked += w * a->x2;
         }
-        share_[digger->at] = linked * share;
-        slope += share_[digger->at] * digger->rate;
+        share_[digger->index] = linked * share;
+        slope += share_[digger->index] * digger->rate;
     }
     for (const Part* a = parts.members; a < parts.end; ++a)
         above += a->x2 * a->g;
     const Real field = above * share;
     for (const Part* a = parts.members; a < parts.end; ++a) {
-        share_[a->at] = (a->x * (a->g - field) * twice + a->x2 + a->linked) * share;
-        slope += share_[a->at] * a->rate;
+        share_[a->index] = (a->x * (a->g - field) * twice + a->x2 + a->linked) * share;
+        slope += share_[a->index] * a->rate;
     }
     sample.excess = field - ISOVALUE;
     sample.slope = slope;

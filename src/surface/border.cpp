@@ -1,12 +1,12 @@
-// Where another object of the body takes over from a seed's own, to first order from the gradients of the two fields, and how their
-// colours mix there.
+// Where another object of the body takes over from a seed's own: found to first order, from the gradients of the two fields. Also
+// the colour to which the objects' colours mix there.
 #include "border.h"
 
 #include "model/paint.h"
 
 namespace {
 
-// The strongest neighbour.
+// The neighbour with the strongest field at the position evaluated last.
 const Neighbour* strongestOf(const Path& path)
 {
     const Neighbour* other = &path.near(0);
@@ -16,8 +16,9 @@ const Neighbour* strongestOf(const Path& path)
     return other;
 }
 
-// The same where not all is common: the strongest but for those that dig; null: there is none. `*g` and `*change`, gradient and
-// change of the own field, become what they are there; in a hollow what is dented stands for the object.
+// As strongestOf(), where something digs, strengths differ or the object is shaped: the strongest neighbour that does not dig, or
+// null. Sets `*change`, the slope of the own field along the path, and `*g`, its gradient, if the object is shaped; in a hollow
+// both become those of the object that has the hollow, because it is that object's border.
 SELDOM const Neighbour* strongestOdd(const Path& path, const Seed& s, Vector* g, Real* change)
 {
     *change = path.ownRate(path.lookedAt());
@@ -40,13 +41,13 @@ SELDOM const Neighbour* strongestOdd(const Path& path, const Seed& s, Vector* g,
 
 void findBorder(const Path& path, Seed& s, Real dominance)
 {
-    // Gradients, times half the squared size of the object.
+    // Gradients here are multiplied by half the squared size of the object.
     Vector g = path.from(s.position) * path.ownSlope();
     Real change = shiftDown(path.ownSlope() * path.lookedAt(), 1);
     const Neighbour* const other = path.all().ordinary ? strongestOf(path) : strongestOdd(path, s, &g, &change);
     if (other == nullptr)
         return;
-    // The fields were looked at before the last step.
+    // The fields were evaluated before the last step of Newton's method.
     dominance += (other->slope * other->change - change) * (s.position - path.lookedAt());
     g = g - path.fromCore(*other, s.position) * (other->slope * other->ratio);
     const Normal n = normalise(g);
@@ -69,7 +70,7 @@ void findNearer(const Path& path, Seed& s, Real dominance)
 void mix(const Path& path, Seed& s)
 {
     const Paint& own = *path.all().head->paint();
-    // What digs has no say.
+    // Objects that dig do not lend their colours.
     Real fields = path.all().hollow ? Real(0) : path.ownField();
     Vector sum = own.at * fields;
     for (int i = 0; i < path.touched(); ++i) {

@@ -1,11 +1,12 @@
-// Border: what a seed near the border of two objects knows of it, so that their scales end there, and the colour that the two make.
+// Border: where another object of the body takes over from a seed's own. A seed near that border knows its direction and distance,
+// so that its scale ends there, and the colour to which the objects' colours mix.
 #ifndef FB_BORDER_H
 #define FB_BORDER_H
 
 #include "math/normal.h"
 #include "path.h"
 
-// Units: no border is farther away.
+// Units: a border farther away counts as being at this distance.
 constexpr Real BORDER_FAR(30);
 
 inline Direction14 directionOf(const Normal& n)
@@ -13,14 +14,14 @@ inline Direction14 directionOf(const Normal& n)
     return {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
 }
 
-// Sets the border of a seed: which way and how far it is to where the strongest neighbour's field equals the own one, to first
-// order. `dominance`: by how much the neighbour's was stronger at the position looked at last.
+// Sets the border of a seed, to first order: direction and distance of the place where the strongest neighbour's field equals the
+// own one. `dominance` is the neighbour's field less the own one at the position evaluated last.
 void findBorder(const Path& path, Seed& s, Real dominance);
 
-// The same where the seed has a border already: the nearer one of the two.
+// As findBorder(), for a seed that has a border already: the seed keeps the nearer one of the two.
 SELDOM void findNearer(const Path& path, Seed& s, Real dominance);
 
-// The mean of the objects' colours, by their fields at the position looked at last.
+// Sets the colour of a seed to the mean of the objects' colours, weighted by their fields at the position evaluated last.
 void mix(const Path& path, Seed& s);
 
 #endif

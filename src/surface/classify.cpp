@@ -1,5 +1,5 @@
-// Patches: what is known of all seeds of a patch at once: which neighbours may reach it, whether it lies within one, faces away
-// or is out of sight.
+// What can be said of all seeds of a patch at once: which neighbours may reach the patch, and whether it lies within one of them,
+// is out of the view or is hidden.
 #include "patch.h"
 
 #include "math/whole.h"
@@ -16,19 +16,20 @@ inline int32_t square(const Step& s)
     return s.x * s.x + s.y * s.y + s.z * s.z;
 }
 
-// A place of own space on the patch's axis, `out` (1/16 unit) above where it rests.
+// The point of own space on the patch's axis that lies `out` (1/16 unit) above the middle of the seeds at rest.
 inline Step above(const Patch& patch, int32_t out)
 {
     return {patch.middle[0] + (patch.axis[0] * out >> 14), patch.middle[1] + (patch.axis[1] * out >> 14),
             patch.middle[2] + (patch.axis[2] * out >> 14)};
 }
 
+// The vector from a neighbour's core to a point of own space.
 inline Step fromCore(const Neighbour& near, const Step& at)
 {
     if (near.kind == Neighbour::POINT)
         return {at.x - near.x16, at.y - near.y16, at.z - near.z16};
     if (near.segment) {
-        // On the segment, as near as can be.
+        // The nearest point of the segment lies `on` along it from its centre.
         const Step d{at.x - near.x16, at.y - near.y16, at.z - near.z16};
         const int32_t along = (d.x * near.axis[0] + d.y * near.axis[1] + d.z * near.axis[2]) >> 14;
         const int32_t on = along > near.half16 ? near.half16 : along < -near.half16 ? -near.half16 : along;
@@ -43,16 +44,15 @@ inline bool within(const Step& away, int32_t distance)
     return square(away) < distance * distance;
 }
 
-// A ball round the seeds of a patch between two positions (1/64).
+// The bounding sphere of the seeds of a patch, if they are between two positions (1/64); `restRadius` is its radius at rest.
 inline Bound boundOf(const Patch& patch, int32_t restRadius, int32_t nearest, int32_t farthest)
 {
-    // At rest.
     if (nearest == 64 && farthest == 64)
         return {patch.middle[0], patch.middle[1], patch.middle[2], restRadius};
     const int32_t position = (nearest + farthest) >> 1, half = (farthest - nearest + 1) >> 1;
     const Step middle = above(patch, patch.path * (position - 64) >> 6);
     const int32_t widest = farthest > 64 ? farthest : 64;
-    // One way leads across the paths, the other along them: the shorter makes the longer no longer than by half of it.
+    // The radius is the root of across^2 + along^2, which is at most the longer one plus half the shorter one.
     const int32_t across = restRadius * widest, along = patch.path * half;
     int32_t radius = across > along ? across + (along >> 1) : along + (across >> 1);
     if (patch.lean != 0)
@@ -74,14 +74,15 @@ bool reachesFromCore(const Neighbour& near, const Bound& ball)
 
 bool isWithin(const Patch& patch, const Neighbour& near, Real position, Real part)
 {
-    const int32_t at = rawFromReal(position) >> 10, size = near.size16 * (rawFromReal(part) >> 8) >> 8;
-    const int32_t left = size - (patch.tight * (at > 64 ? at : 64) >> 6);
-    return left > 0 && within(fromCore(near, above(patch, patch.path * (at - 64) >> 6)), left);
+    const int32_t position64 = rawFromReal(position) >> 10, size = near.size16 * (rawFromReal(part) >> 8) >> 8;
+    const int32_t left = size - (patch.tight * (position64 > 64 ? position64 : 64) >> 6);
+    return left > 0 && within(fromCore(near, above(patch, patch.path * (position64 - 64) >> 6)), left);
 }
 
 void classify(Patch& patch, const Neighbourhood& all)
 {
-    // Half way along what is left of the paths when their seeds are at rest, where the own field ends; or along all of them.
+    // The bounding sphere of the paths from where the seeds rest to position 2, where a field of strength 1 ends; in a deep
+    // neighbourhood, of the whole paths. `half` is half the length of that part, `beyond` the sphere's centre.
     const int32_t half = all.deep ? patch.path * (rawFromReal(all.last) >> 10) >> 7 : patch.path >> 1;
     const Step beyond = above(patch, all.deep ? half - patch.path : half);
     const int32_t slack = steps16(LIST_SLACK);
@@ -106,7 +107,7 @@ bool outOfSight(const Patch& patch, const OwnFrame& own)
         return false;
     const int32_t nearest = patch.nearest < 64 ? patch.nearest : 64, farthest = patch.farthest > 64 ? patch.farthest : 64;
     const Bound ball = boundOf(patch, patch.radius, nearest, farthest);
-    // Scales may be that much larger than their cells.
+    // The radius is doubled because scales may be larger than their cells.
     const int32_t radius = ball.radius * 2;
     for (int i = 0; i < own.sideCount; ++i) {
         const OwnFrame::Side& side = own.sides[i];
@@ -117,13 +118,13 @@ bool outOfSight(const Patch& patch, const OwnFrame& own)
     return false;
 }
 
-// Whether a ball of own space is hidden.
+// Whether a sphere in own space is hidden behind what is nearer.
 static bool isHidden(const Bound& ball, const OwnFrame& own)
 {
     const int32_t growth = rawFromReal(own.growth) >> 8;
     const auto along = [&](const int32_t axis[3], int i) {
-        const int32_t way = (axis[0] * ball.x + axis[1] * ball.y + axis[2] * ball.z) >> 14;
-        return own.centre[i] + (way * growth >> 4);
+        const int32_t distance = (axis[0] * ball.x + axis[1] * ball.y + axis[2] * ball.z) >> 14;
+        return own.centre[i] + (distance * growth >> 4);
     };
     const int32_t place[] = {along(own.right, 0), along(own.up, 1), along(own.ahead, 2)};
     return own.hider->hides(place, ball.radius * growth >> 4);
@@ -138,8 +139,8 @@ bool isHidden(const Patch& patch, Real position, const OwnFrame& own)
 {
     if (own.hider == nullptr)
         return false;
-    const int32_t at = rawFromReal(position) >> 10, widest = at > 64 ? at : 64;
-    const Step middle = above(patch, patch.path * (at - 64) >> 6);
+    const int32_t position64 = rawFromReal(position) >> 10, widest = position64 > 64 ? position64 : 64;
+    const Step middle = above(patch, patch.path * (position64 - 64) >> 6);
     return isHidden(Bound{middle.x, middle.y, middle.z, (patch.radius + patch.lean) * widest >> 6}, own);
 }
 

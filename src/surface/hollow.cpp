@@ -1,34 +1,34 @@
 // What only dents and hollows need. Where something digs into an object the surface has a hollow, and two sets of seeds sample its
-// wall: those of the object and those of what digs. Here stands who samples which part of the wall, and how long a seed waits that
-// is not on the wall, or not in its own part of it.
+// wall: those of the dented object and those of the digging one. This file decides who samples which part of the wall, and how long
+// a seed waits that is not on the wall, or not in its own part of it.
 #include "border.h"
 #include "model/round.h"
 #include "settle.h"
 
 namespace {
 
-// Spacings: how far beyond the border of its part a seed still has a scale that reaches into it.
+// Spacings: a seed up to this far beyond the border of its part still has a scale that reaches into its part.
 constexpr Real SHARED(1.5);
-// Units: by how much more than others the two sides of that border overlap, which is found to first order.
+// Units: additional overlap of the scales at that border, because it is found only to first order.
 constexpr Real OVERLAP(0.18);
-// How far the border of two parts of a hollow's wall moves at most when what digs moves by a unit.
+// Upper bound on how far the border of two parts of a hollow's wall moves when the digging object moves by one unit.
 constexpr Real BORDER_SPEED(16);
-// How far the paths of a patch are apart where all of it is judged by one: of how far they are where they rest.
+// Distance of a patch's paths where one of them is judged for all, as a multiple of their distance at rest.
 constexpr Real APART(1.25);
-// The position that tells whether the surface has closed again over a hollow.
+// The position at which the field tells whether the surface has closed again over a hollow.
 constexpr Real CLOSING(0.95);
 
 // ---- Who samples the wall
 
-// The one that a seed shares the wall with.
+// The neighbour that a seed shares the wall with.
 struct Rival {
     const Neighbour* near;  // null: there is none
-    Vector from;            // what leads from its core to the seed
-    Real steepest;          // how steep its field is there, times half the squared size of the seed's object
+    Vector from;            // vector from its core to the seed
+    Real steepest;          // steepness of its field at the seed, times half the squared size of the seed's object
 };
 
-// The rival of a seed is what digs the most steeply where the seed is. To a seed of what digs, the object that is dented is one,
-// too.
+// The rival of a seed is the neighbour whose field is the steepest at the seed: for a seed of the dented object, among those whose
+// seeds sample a hollow in it; for a seed that samples a hollow, among those that dig, and the dented object.
 Rival rivalOf(const Path& path, Real position)
 {
     const Neighbourhood& all = path.all();
@@ -45,17 +45,17 @@ Rival rivalOf(const Path& path, Real position)
     return rival;
 }
 
-// A vector of the same direction and unit length, about.
+// About the unit vector in the direction of a vector; a zero vector stays as it is.
 Vector quickUnit(const Vector& v)
 {
     const Real size = lengthQuick(v);
     return size == Real(0) ? v : Vector{quotient(v.x, size), quotient(v.y, size), quotient(v.z, size)};
 }
 
-// The lead of a seed's object over its rival is by how much more steeply its field falls. Without other fields that is the
-// difference of the two; returned is what the others add to it. `g` is the way in which all fields fall together, `out` that of the
-// seed's path, `own` how steep the own field is. With a and b as unit vectors along `out` and along the rival's path, the lead is
-// (g.a + g.b) / (1 + a.b).
+// The lead of a seed's object over its rival is by how much more steeply its field falls. With g minus the gradient of all fields
+// together, and a and b unit vectors away from the own and the rival's core, the lead is (g.a + g.b) / (1 + a.b). Without other
+// fields that is the difference of the two steepnesses; returned is what the other fields add to this. `out` has the direction of
+// a, `own` is the steepness of the own field.
 SELDOM Real leadOf(const Vector& g, const Vector& out, Real own, const Rival& rival)
 {
     const Vector a = quickUnit(out), b = quickUnit(rival.from);
@@ -63,18 +63,18 @@ SELDOM Real leadOf(const Vector& g, const Vector& out, Real own, const Rival& ri
     return dot(others, a + b) / max(Real(1) + dot(a, b), Real(0.05));
 }
 
-// By how much the steepness of a digging field changes from a place to one that is a unit farther from its core: F'' is
-// 34/9 - 24/9 t.
+// By how much the steepness of a digging field changes when its core is a unit farther away: the derivative of -F' r, which is
+// -F' - 2 t F'', times `factor`. `slope` is -F', and F'' is 34/9 - 24/9 t.
 Real changeOf(Real slope, Real t, Real strength, Real factor)
 {
     return (slope - strength * t * (Real(68.0 / 9) - t * Real(48.0 / 9))) * factor;
 }
 
-// A surface that something has dug is sampled twice: by the paths of what is dented, and by those of what digs. Each has the part
-// where its paths are nearer to the normal: where its own field is the steeper one, if there are no others. Returned is how far a
-// seed that has just settled is on its own side of the border of the two parts, units, to first order; where that is no more than
-// `shared` to either side it sets the seed's border. `*g`, the direction outward, becomes that in the middle of what the border
-// leaves of the seed's cell: rims are sharp.
+// The wall of a hollow is sampled twice: by the paths of the dented object, and by those of the digging one. Each object has the
+// part where its paths are nearer to the normal: where its own field is the steeper one, if there are no others. Returns how far a
+// seed that has just settled lies on its own side of the border of the two parts: units, to first order. If that is at most
+// `shared` to either side, the function sets the seed's border. `*g`, the direction outward, then becomes that in the middle of
+// what the border leaves of the seed's cell, because at a sharp rim the two differ.
 Real findShare(Path& path, Seed& s, Real shared, Vector* g)
 {
     const SoftObject& object = path.object();
@@ -89,7 +89,7 @@ Real findShare(Path& path, Seed& s, Real shared, Vector* g)
     Real lead = own - rival.steepest;
     if (path.touched() > 1)
         lead += leadOf(hollow ? -*g : *g, out, own, rival);
-    // Away from the core of what digs.
+    // The vector from the core of the digging object.
     const Neighbour& other = *rival.near;
     const Vector wall = hollow ? out : rival.from;
     const Real rate = hollow ? changeOf(-path.ownSlope(), path.ownParam(s.position), object.strength(), path.all().weight)
@@ -110,7 +110,7 @@ Real findShare(Path& path, Seed& s, Real shared, Vector* g)
 
 }  // namespace
 
-// Shares the wall with others, for a seed that has found the surface. False: the surface there is the others' to sample.
+// Decides whether a seed that has found the surface samples it. Returns false when the rival samples that part of the wall.
 bool Settler::findDented(Seed& s, Vector* g)
 {
     const Real shared = object_.spacing() * SHARED, apart = findShare(path_, s, shared, g);
@@ -124,7 +124,7 @@ bool Settler::findDented(Seed& s, Vector* g)
     return true;
 }
 
-// Whether a path that led into a hollow may leave the surface farther out again.
+// Whether the surface has closed over a hollow, so that a path that led into it may leave the surface farther out again.
 bool Settler::hasClosed(const Seed& s)
 {
     Sample sample;
@@ -132,11 +132,11 @@ bool Settler::hasClosed(const Seed& s)
     return sample.excess > Real(0);
 }
 
-// ---- What is off the surface waits
+// ---- Seeds off the surface wait
 
-// A seed that is not on the surface, or not in its own part of it, by `hold` of the field that changes by `push` at most when the
-// neighbours come by a unit: until when it need not be looked at. It waits longer if all neighbours reach the path already: the
-// fields of those that do not begin gently.
+// Lets a seed wait that is off the surface, or outside its own part of it: the field would have to change by `hold`, and it changes
+// by at most `push` when the neighbours come nearer by a unit. The wait may be longer if all neighbours reach the path already. A
+// neighbour that does not is not part of `push`, but its field begins gently and does not matter within LIST_SLACK.
 void Settler::putOff(Seed& s, Real hold, Real push) const
 {
     s.flags |= SEED_OFF;
@@ -149,8 +149,9 @@ bool Settler::isOff(const Patch& patch, const Seed& s)
     return (s.flags & SEED_OFF) && static_cast<int16_t>(patch.travelled - s.due) < 0;
 }
 
-// What becomes of a patch the middle of which has just been found off the surface: whether all of it is. The own field is about the
-// same at one position of all its paths; where they come near the surface they are little farther apart than where they rest.
+// The state of a patch whose middle seed has just been found off the surface: PATCH_INSIDE if all of the patch is off it. At one
+// position the own field is about the same on all paths of the patch, and near the surface the paths are little farther apart than
+// where the seeds rest.
 PatchState Settler::probeOff(const Patch& patch, Seed& s) const
 {
     if (s.flags & SEED_FOLLOW)

@@ -1,15 +1,15 @@
-// Where a surface bends out of sight, from how it bends.
+// The limb, where a surface bends out of sight, computed from how the surface bends (limb.h explains the mathematics).
 #include "limb.h"
 
 #include "math/whole.h"
 
 namespace {
 
-// The least k of which a limb is known, per unit, 1.0 = 2^14: a radius of 250 units.
+// The least k for which a limb is found, per unit, 1.0 = 2^14: a radius of about 250 units.
 constexpr int32_t FLATTEST = 66;
-// No limb is known where s / k is more; and 1 / kz is taken for no more.
+// No limb is found where a component of s / k is this or more, and 1 / kz is limited to this.
 constexpr int32_t SLANT = 4;
-// Cosines are taken for no more than this, 1.0 = 2^14: what is seen far aside from near has some beyond all that matter.
+// Cosines are limited to this, 1.0 = 2^14: seeds that are near and far aside have greater ones, but these make no difference.
 constexpr int32_t COSINE_MOST = (1 << 15) - 1;
 
 inline int32_t times14(int32_t a, int32_t b)
@@ -23,7 +23,8 @@ inline int32_t product14(const Part a[3], const Other b[3])
     return times14(a[0], b[0]) + times14(a[1], b[1]) + times14(a[2], b[2]);
 }
 
-// What cuts a voxel changes by 64 over a unit where the normal lies across the view: from 1.0 = 2^14 outwards to that inwards.
+// The function that cuts a voxel has the slope 64 (as Voxel::cutX) where the normal lies across the view. inward() converts a
+// slope counted outwards, 1.0 = 2^14, to one counted inwards.
 constexpr int SHIFT = 8;
 constexpr int32_t HALF = 1 << (SHIFT - 1);
 inline int8_t inward(int32_t outward)
@@ -31,7 +32,7 @@ inline int8_t inward(int32_t outward)
     return static_cast<int8_t>(limited((HALF - outward) >> SHIFT, 127));
 }
 
-// From k, s and S across the view, per unit, 1.0 = 2^14.
+// Sets the limb from k, s and S across the view, per unit, 1.0 = 2^14. Returns false when there is no limb.
 bool setLimb(int32_t k, int32_t alongX, int32_t alongY, int32_t xx, int32_t xy, int32_t yy, int32_t depth, Limb* limb)
 {
     if (k < FLATTEST || max32(magnitude(alongX), magnitude(alongY)) >= k * SLANT)
@@ -62,7 +63,7 @@ bool findLimb(const Bend& bend, const OwnFrame& own, int32_t step, int32_t shear
     turnAlong(bend, sight, along);
     turnAlong(bend, own.right, right);
     turnAlong(bend, own.up, up);
-    // 1.0 = 2^13 over 256 steps.
+    // Turns have 1.0 = 2^13 over 256 steps (Bend::turn).
     const auto perUnit = [&](int32_t turn) { return limited(mulDiv(turn, 1 << 17, step), 1 << 15); };
     return setLimb(perUnit(product14(along, sight)), perUnit(product14(along, own.right)), perUnit(product14(along, own.up)),
                    perUnit(product14(right, own.right)), perUnit(product14(right, own.up)), perUnit(product14(up, own.up)), depth,
@@ -72,7 +73,7 @@ bool findLimb(const Bend& bend, const OwnFrame& own, int32_t step, int32_t shear
 void endAtLimb(const Limb& limb, int32_t cosine, int32_t more, Voxel* voxel)
 {
     cosine = min32(cosine, COSINE_MOST);
-    // A tilt is a part of the normal over the cosine.
+    // A tilt is a component of the normal divided by the cosine.
     const int32_t near = min32(times14(cosine, limb.nearness), (SLANT - 1) << 14) + (1 << 14);
     const int32_t x = times14(voxel->tiltX * cosine >> 8, near) + times14(cosine, limb.along[0]);
     const int32_t y = times14(voxel->tiltY * cosine >> 8, near) + times14(cosine, limb.along[1]);
@@ -81,7 +82,7 @@ void endAtLimb(const Limb& limb, int32_t cosine, int32_t more, Voxel* voxel)
     voxel->reach = 0;
     voxel->cutX = inward(x);
     voxel->cutY = inward(y);
-    // How far away the limb is.
+    // c^2 / 2k: how far away the limb is across the view.
     const int32_t square = min32(times14(cosine, cosine), 1 << 14);
     voxel->cutAt = static_cast<int16_t>(min32(((square * limb.radius >> 10) * 16 + HALF) >> SHIFT, 32000));
     voxel->curveXX = limb.curve[0];

@@ -21,11 +21,11 @@ inline int32_t along(const Direction14& n, const int32_t axis[3])
 
 constexpr int32_t ONE = 1 << 14;
 
-// Of the light that falls on what shines, the share that is scattered.
+// Share of the light that a shiny surface scatters, 1.0 = 2^14.
 constexpr int32_t SCATTERED = ONE * 3 / 4;
 
-// What a mirror shows of its surroundings by the height of where it looks, -1 straight down, 1 straight up: a dark ground,
-// a horizon, a sky that is bright above it. Straight lines between.
+// The surroundings that a mirror shows: light by the height of the reflected direction, -1 straight down, 1 straight up. The ground
+// is dark towards the horizon, the sky bright above it; between these corners the light changes linearly. All have 1.0 = 2^14.
 struct Corner {
     int32_t height, light;
 };
@@ -39,7 +39,8 @@ int32_t surroundings(int32_t height)
     return c->light + (height - c->height) * (c[1].light - c->light) / (c[1].height - c->height);
 }
 
-// The cosine of the normal and what is half way between light and viewer, to the 16th.
+// The highlight of a finish that shines: the 16th power of the cosine of the normal and the direction half way between light and
+// viewer.
 int32_t highlight(int32_t cosine)
 {
     if (cosine <= 0)
@@ -49,10 +50,10 @@ int32_t highlight(int32_t cosine)
     return cosine;
 }
 
-// Spacings: no scale reaches farther along the surface.
+// Spacings: no scale reaches farther than this along the surface from its seed.
 constexpr Real FARTHEST(2);
 
-// The ray of sight through a voxel: how far it leads aside over a unit of depth, 10 bits of fraction.
+// The ray of sight through a voxel: how far it leads aside over a unit of depth, 10 fraction bits.
 struct Shear {
     int32_t x, y;
 
@@ -64,13 +65,13 @@ struct Shear {
     }
 };
 
-// A cosine of 14 bits of fraction.
+// Converts a cosine with 14 fraction bits.
 inline Real part(int32_t cosine14)
 {
     return realFromRaw(cosine14 * 4);
 }
 
-// A sine, of turns.
+// The sine of an angle in turns.
 Real wave(Real turns)
 {
     return sine(static_cast<Angle>(rawFromReal(turns)) << 16);
@@ -105,8 +106,8 @@ int32_t Polish::brightness8(const Direction14& normal) const
     return (light > ONE ? ONE : light < 0 ? 0 : light) * BRIGHTEST >> 6;
 }
 
-// What the pattern has at a place: the number of the colour there; and if an edge of the pattern is near, the number of the
-// colour beyond, which way leads away from the edge and how far it is.
+// The pattern at a place: `number` is the number of the colour there. If an edge of the pattern is near, `beyond` is the number of
+// the colour beyond the edge, `inward` the direction away from the edge, and `apart` the distance to the edge.
 struct Painter::Spot {
     uint8_t number, beyond;
     bool edge;
@@ -120,7 +121,7 @@ Painter::Painter(const SoftObject& object, const OwnFrame& own, VoxelList& list)
 {
     if (paint_.pattern == PATTERN_NONE)
         return;
-    // A hollow has the pattern of what it is in.
+    // A hollow shows the pattern of the object that it is in.
     const SoftObject& shown = *object.shown();
     if (&shown != &object)
         from_ = object.toOwnAxes(object.centre() - shown.centre()) * quotient(Real(1), object.growth());
@@ -158,7 +159,7 @@ void Painter::add(const Seed& s, const Voxel& shaded)
         put(voxel, spot.number);
         return;
     }
-    // One too small to be cut in two keeps the colour of its middle.
+    // A voxel that the edge does not cut in two keeps the colour of its middle.
     const Direction14 outward{static_cast<int16_t>(-spot.inward.x), static_cast<int16_t>(-spot.inward.y),
                               static_cast<int16_t>(-spot.inward.z)};
     Voxel within = voxel, beyond = voxel;
@@ -177,7 +178,7 @@ bool Painter::cut(const Direction14& inward, int32_t apart, Voxel* voxel) const
     return cutVoxel(along(inward, own_.right), along(inward, own_.up), along(inward, own_.ahead), apart, shear.x, shear.y, voxel);
 }
 
-// `place` in own space, `normal` of the surface there; without the pattern the colour would have the number `mix`.
+// The pattern at `place` (own space). `normal` is the surface's normal there, `mix` the number of its colour without a pattern.
 Painter::Spot Painter::spotAt(const Vector& place, const Direction14& normal, uint8_t mix) const
 {
     Spot spot{mix, paint_.other, false, {0, 0, 0}, 0};
@@ -185,7 +186,7 @@ Painter::Spot Painter::spotAt(const Vector& place, const Direction14& normal, ui
     for (int i = 0; i < 3; ++i)
         u[i] = dot(place + from_, axis_[i]) * inverse_;
     if (paint_.pattern == PATTERN_MARBLE) {
-        // A light and a dark vein in two grains.
+        // There are one light and one dark vein every two grains.
         const Real bent = u[0] * Real(0.5) + Real(0.3) * wave(u[1] * Real(0.35) + Real(0.2)) +
                           Real(0.2) * wave(u[2] * Real(0.55) + u[1] * Real(0.2));
         const Real share = Real(0.5) + Real(0.5) * wave(bent);
@@ -193,7 +194,7 @@ Painter::Spot Painter::spotAt(const Vector& place, const Direction14& normal, ui
         spot.number = paint_.paints->numberAt(from + (paint_.otherAt - from) * share, paint_.shines());
         return spot;
     }
-    // Checks are cubes, stripes are slices along x.
+    // Checks are cubes; stripes are slices along the x axis.
     const int axes = paint_.pattern == PATTERN_CHECKS ? 3 : 1;
     bool odd = false;
     Real nearest = reach2_;
@@ -205,7 +206,7 @@ Painter::Spot Painter::spotAt(const Vector& place, const Direction14& normal, ui
         const Real apart = u[i] < Real(0.5) ? u[i] : Real(1) - u[i];
         if (apart * apart >= nearest)
             continue;
-        // The way along the surface.
+        // The distance along the surface is `apart` divided by the sine of the angle between the normal and the axis.
         const Vector& axis = axis_[i];
         const Real cosine = axis.x * part(normal.x) + axis.y * part(normal.y) + axis.z * part(normal.z);
         const Real slant = Real(1) - cosine * cosine;
@@ -243,7 +244,7 @@ void sortByColour(VoxelList& list, const Paint& paint)
     }
     for (int i = 0; i < list.count; ++i)
         to[i] = static_cast<int16_t>(first[list.number[i]]++);
-    // Each exchange brings one to its place.
+    // Each exchange brings one voxel to its final place.
     for (int i = 0; i < list.count; ++i) {
         while (to[i] != i) {
             const int other = to[i];

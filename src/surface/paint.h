@@ -1,5 +1,5 @@
-// Paint: what a finish makes of the brightness of an object's seeds, and the colours of its voxels. Only for objects that have
-// a paint (model/paint.h).
+// Paint: how a finish changes the brightness of an object's seeds, and which colours its voxels get. Only objects that have a
+// paint (model/paint.h) need it.
 #ifndef FB_SURFPAINT_H
 #define FB_SURFPAINT_H
 
@@ -7,30 +7,30 @@
 #include "model/paint.h"
 #include "surface/voxel.h"
 
-// What a finish that shines makes of an object's brightness. Made once for a frame.
+// The brightness of an object with a finish that shines. Made once for an object and a frame.
 class Polish {
 public:
     Polish(const SoftObject& object, const OwnFrame& own);
 
-    // Brightness of a surface that faces along `normal`, 0..63 with 8 bits of fraction.
+    // Brightness of the surface where it has this normal, 0..63 with 8 fraction bits.
     int32_t brightness8(const Direction14& normal) const;
 
 private:
     const OwnFrame& own_;
     const bool mirror_;
-    int32_t up_[3], half_[3];  // own axes: the height of the world, and what is half way between light and viewer
-    int32_t upAhead_;          // the height of where the viewer looks
+    int32_t up_[3], half_[3];  // own axes, 1.0 = 2^14: upwards in the world, and half way between light and viewer
+    int32_t upAhead_;          // how far upwards the viewer looks: cosine, 1.0 = 2^14
 };
 
-// Lists the voxels of one object in their colours. Made once for a frame.
+// Lists the voxels of one object in their colours. Made once for an object and a frame.
 class Painter {
 public:
     Painter(const SoftObject& object, const OwnFrame& own, VoxelList& list);
 
     bool shines() const { return paint_.shines(); }
 
-    // Lists what the shader has made of a seed; in two voxels where an edge of a pattern goes through it. What shines has one
-    // brightness there, and its slopes are still to come (slopes.h).
+    // Lists a voxel that the shader has made of a seed, or two voxels where an edge of the pattern goes through it. If the object
+    // shines, the voxel has one brightness for now, and its slopes are set later (slopes.h).
     void add(const Seed& s, const Voxel& voxel);
 
 private:
@@ -45,13 +45,13 @@ private:
     const OwnFrame& own_;
     const Polish polish_;
     VoxelList& list_;
-    Vector axis_[3];      // of the pattern, own axes: a ball's seeds do not turn with it, but its pattern does
-    Vector from_;         // own space: from the middle of the pattern to the object's centre
-    Real inverse_, edge_; // own space to grains; a grain in units of the world
-    Real reach2_;         // how far from a seed an edge is near, squared, in grains
+    Vector axis_[3];      // axes of the pattern, own axes: a ball's seeds do not turn with it, but its pattern does
+    Vector from_;         // own space: vector from the middle of the pattern to the object's centre
+    Real inverse_, edge_; // factor from own space to grains; length of a grain in units of the world
+    Real reach2_;         // squared distance from a seed within which an edge is near, in grains
 };
 
-// Sorts the voxels of a list by the numbers of their colours into runs.
+// Sorts the voxels of a list in place by the numbers of their colours, and sets the list's runs.
 void sortByColour(VoxelList& list, const Paint& paint);
 
 #endif

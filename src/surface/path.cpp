@@ -1,14 +1,14 @@
-// The fields of the object and of its neighbours along one path: their sum at a position, with its slope, and the direction in
-// which it falls. What becomes of the sum where not all are linked with all stands in blend.cpp.
+// The fields of the object and of its neighbours along one path: their sum at a position, its slope, and the direction in which
+// the sum falls. Where not all objects are linked with each other, blend.cpp turns the sum into the body's field.
 #include "path.h"
 
 #include "math/normal.h"
 
 namespace {
 
-// Positions: where paths begin to be searched, and those that are hollowed out or of weak objects.
+// Positions where the search of a path begins: usually, and where dents or weak fields may leave the surface deep inside.
 constexpr Real FIRST(0.7), FIRST_DEEP(0.06);
-// Sizes of a neighbour, and positions of the own field: how far it follows a cubic curve, about.
+// About how far a field follows a cubic curve: a neighbour's in its sizes, the own one in positions.
 constexpr Real SMOOTH(0.8), SMOOTH_OWN(0.96);
 
 }  // namespace
@@ -21,10 +21,10 @@ Path::Path(const SoftObject& object, Neighbourhood& all, const Bodies& bodies, N
 {
 }
 
-// What is the same for all seeds of a root.
+// Prepares a neighbour for a root: sets what the paths of all seeds of the root have in common.
 void Path::setRoot(Neighbour& near, const Seed& s) const
 {
-    // Of a shaped object each path has a length of its own, of a tapering one those of a root have.
+    // All paths have one length, but in a tapering object it differs from root to root, and in a shaped one from path to path.
     const bool known = near.root >= 0 && !object_.tapers();
     near.root = object_.shaped() ? -1 : s.root;
     const Vector& root = object_.root(s.root);
@@ -50,14 +50,14 @@ void Path::setRoot(Neighbour& near, const Seed& s) const
 Real Neighbour::otherParam(Real p)
 {
     t = object->param(toRoot + step * p, &halfGradient);
-    // Where the field has ended the product might leave 16.16, and nobody asks for it.
+    // Beyond the end of the field the product might overflow 16.16, and it is not needed.
     change = t < Real(1) ? shiftDown(dot(halfGradient, step), 7) : Real(0);
     return t;
 }
 
-// ---- A look at one position
+// ---- Evaluating the fields at one position
 
-// Takes up the neighbours whose fields are looked at from now on, and what the root of a seed is to each.
+// Makes the neighbours on a list those that are evaluated from now on, and prepares each of them for the root of a seed.
 void Path::take(const NeighbourList& list, const Seed& s)
 {
     if (asked_ != &list) {
@@ -80,7 +80,7 @@ inline void Path::setNear(const NeighbourList& list)
     complete_ = list.complete;
 }
 
-// Whether something is odd about the object or its neighbours.
+// Finds out whether something is odd about the object or these neighbours, which lookPlain() alone could not evaluate.
 void Path::findOdd()
 {
     odd_ = !ownPlain_;
@@ -90,7 +90,7 @@ void Path::findOdd()
     }
 }
 
-// The own field, of an object that is as strong as most.
+// Evaluates the own field of an object that is not warped and has strength 1.
 inline Fields Path::own(Real position)
 {
     const Real t = shiftDown(position * position, 2);
@@ -100,8 +100,9 @@ inline Fields Path::own(Real position)
     return {field.value, shiftDown(field.slope * position, 1), Real(0), 0};
 }
 
-// Looks at a position where there is nothing odd about the object and the neighbours. What is neither point nor segment has been
-// looked at. `path`: of a seed that is taken up now; null: it has been. False: none of them reaches that position.
+// Evaluates the fields at a position where nothing is odd about the object and the neighbours. A neighbour that is neither point
+// nor segment must have its t there already. `path` is the path that becomes current; null: it is current already. Returns false
+// when no neighbour reaches the position.
 inline bool Path::lookPlain(Real position, const Vector* path, Sample* sample)
 {
     ++counts_.iterations;
@@ -115,7 +116,7 @@ inline bool Path::lookPlain(Real position, const Vector* path, Sample* sample)
     return fields.touched != 0;
 }
 
-// The same anywhere.
+// Evaluates the fields at a position in every case. Parameters and result are those of lookPlain().
 bool Path::lookAnywhere(Real position, const Vector* path, Sample* sample)
 {
     if (odd_) {
@@ -173,7 +174,7 @@ void Path::beginDeepSearch(const Seed& s)
     leaveOut();
 }
 
-// Whether a neighbour may reach some place on the path, from its t in the middle.
+// Whether a neighbour may reach some position of the path, judged by its t in the middle.
 inline bool Path::mayReach(const Neighbour& near) const
 {
     if (near.t < Real(1))
@@ -182,7 +183,7 @@ inline bool Path::mayReach(const Neighbour& near) const
     return near.t < (reach < Real(100) ? reach * reach : Real(10000));
 }
 
-// Leaves out those that were listed and reach no place on the path, from what they are in its middle.
+// Leaves out the neighbours that reach no position of the path.
 void Path::leaveOut()
 {
     part_.count = 0;
@@ -198,7 +199,7 @@ void Path::leaveOut()
     asked_ = nullptr;
 }
 
-// The own t at a position of the path of a warped object; sets ownChange_.
+// The own t at a position of the path of a warped object; sets ownChange_ and ownOut_.
 Real Path::warpedParam(Real position)
 {
     const Real inward = Real(CORE_SIZE) / object_.laidSize();
@@ -208,16 +209,17 @@ Real Path::warpedParam(Real position)
     return t;
 }
 
-// ---- What is asked after a look
+// ---- Results of the last evaluation
 
-// Each field pushes away from its core by its slope over its squared size.
+// The gradient of a field is 2 F' / size^2 times the vector from its core. Because only the direction matters, each vector is added
+// with the factor -F' times the squared proportion of the own size to the neighbour's.
 Vector Path::outward(Real position) const
 {
     Real own = -(shared_ ? ownSlope_ * share_[0] : ownSlope_);
     if (!shared_ && all_.hollow)
         own = -(own * all_.weight);
     Vector g{Real(0), Real(0), Real(0)};
-    // Points push along the path, and from where they stand to the root.
+    // The vector from a point core to the seed is the vector to the root and the way along the path, which is added up in `along`.
     Real along = object_.slants() ? Real(0) : own;
     for (int i = 0; i < touched_; ++i) {
         const Neighbour& near = *near_[i];
@@ -247,7 +249,7 @@ Vector Path::ownGradient(Real position, Real share) const
 
 Real Path::gradientBound() const
 {
-    // The gradient of a field is 2 f' r / R^2, and r / R no more than r^2 / R^2 + 1/4; a little more for what that changes.
+    // The gradient of a field is 2 f' r / R^2, and r / R is at most r^2 / R^2 + 1/4; 0.1 allows for changes of the gradient itself.
     Real sum(0);
     for (int i = 0; i < touched_; ++i)
         sum += (Real(0.1) - near_[i]->slope * (near_[i]->t + Real(0.25))) * near_[i]->steepStretch16 * near_[i]->share;
@@ -259,7 +261,7 @@ Real Path::steepestGradient() const
     Real sum(0);
     for (int i = 0; i < touched_; ++i)
         sum += near_[i]->steepestGradient();
-    // Where not all are linked with all, some count for more.
+    // Where not all objects are linked with each other, some fields have a share above 1 in the body's field.
     return complete_ ? sum : sum + shiftDown(sum, 2);
 }
 

@@ -1,35 +1,40 @@
 // Path: the field of the body along the path of one seed. Along a path the field of every neighbour is a function of the
-// position; this adds them up at one position after the other, and knows what each of them was at the last.
+// position; a Path evaluates the fields at one position after another, adds them up, and remembers the fields at the last position.
+// The own field is that of the object to which the seed belongs.
 #ifndef FB_PATH_H
 #define FB_PATH_H
 
 #include "nearby.h"
 
-// The position at which the own field is .23; a neighbour that is stronger there is so for good (cover.h).
+// The position at which the own field has fallen to .23. A neighbour that is stronger there stays stronger farther out (cover.h).
 constexpr Real COVERED_AT(1.36);
 
-// The body's field at a position: its excess over the isovalue, its slope along the path, how much stronger than the own
-// field the strongest neighbour's is.
+// The body's field at a position of a path: its excess over the isovalue, its slope along the path, and the strongest
+// neighbour's field less the own field. For seeds that sample a hollow, excess and slope have the opposite sign, because their
+// paths begin in the cavity and the body lies outside; and the field of the object that has the hollow stands for the own one.
 struct Sample {
     Real excess, slope, dominance;
 };
 
-// The field along the paths of one object's seeds in a frame, one after the other: the path at hand is the one that was taken
-// up last. In a hollow inside and outside change places.
+// Evaluates fields along the paths of one object's seeds in a frame, one path after another. The current path is the one that was
+// begun last.
 class Path {
 public:
     Path(const SoftObject& object, Neighbourhood& all, const Bodies& bodies, Nearby& nearby, Counts& counts);
 
-    // Takes up the path of a seed in the fields of a few neighbours, and looks at a position. False: none of them reaches that.
+    // Makes the path of a seed current, with only the neighbours on `list`, and evaluates the fields at a position. Returns false
+    // when none of these neighbours reaches the position.
     bool begin(const NeighbourList& list, const Seed& s, Real position, Sample* sample);
 
-    // Takes up the path of a seed that is searched, in the fields of those neighbours that reach some of it, and looks at middle().
+    // Makes the path of a seed current for a search of its whole length, with the neighbours that reach some part of it. Returns
+    // the sample at middle().
     Sample beginSearch(const Seed& s);
-    // The same without a look.
+    // As beginSearch(), but without a sample.
     SELDOM void beginDeepSearch(const Seed& s);
 
-    // Looks at a position of the path at hand; and of that of a seed, in the fields of those neighbours that may reach it there.
+    // Evaluates the fields at a position of the current path.
     Sample look(Real position);
+    // Makes the path of a seed current, with the neighbours that may reach it at a position, and evaluates the fields there.
     Sample lookOn(const Seed& s, Real position)
     {
         Sample sample;
@@ -37,50 +42,51 @@ public:
         return sample;
     }
 
-    // The direction in which the field falls at a position that has just been looked at, any length, own axes.
+    // The direction in which the body's field falls (own axes, any length) at the position evaluated last, or a short step from it.
     Vector outward(Real position) const;
 
-    // To be called when the lists of `nearby` change.
+    // Must be called when the lists of `nearby` change.
     void leave() { asked_ = nullptr; }
 
-    // Finds what there is to know of a neighbour's field along the path of a seed before any position is looked at. No path is at
-    // hand afterwards.
+    // Prepares a neighbour's field along the path of a seed, so that the neighbour alone can be evaluated at positions. There is no
+    // current path afterwards.
     void aim(Neighbour& near, const Seed& s);
 
-    // By how much the neighbours' fields may change, all together, when each neighbour moves by a unit: at the position looked at
-    // last, and anywhere on the path.
+    // Upper bounds on how much the neighbours' fields together change when each neighbour moves by one unit: at the position
+    // evaluated last, and anywhere on the path.
     Real gradientBound() const;
     Real steepestGradient() const;
 
-    // How far two positions may be apart for the field in between to follow from what it is there and changes by, about.
+    // About the greatest distance of two positions between which the field still follows the cubic curve given by the fields and
+    // slopes at both.
     Real smoothStep() const;
 
-    // Positions: where paths are searched.
+    // The positions between which paths are searched.
     Real first() const { return first_; }
     Real last() const { return last_; }
-    // The position in between that is looked at first.
+    // The position in between that a search evaluates first.
     Real middle() const { return middle_; }
 
     const SoftObject& object() const { return object_; }
     const Neighbourhood& all() const { return all_; }
-    // How many neighbours are looked at along the path at hand, and each of them.
+    // The number of neighbours that are evaluated along the current path, and each of these neighbours.
     int touched() const { return touched_; }
     const Neighbour& near(int i) const { return *near_[i]; }
-    // What leads to a place on it, from the root and from the core of a neighbour.
+    // The vectors to a position of the current path from its root and from the core of a neighbour.
     Vector from(Real position) const { return seed_->path * position; }
     Vector fromCore(const Neighbour& near, Real position) const;
 
-    // The last position looked at, and F and dF/dt of the own field there.
+    // The position evaluated last, and F and dF/dt of the own field there.
     Real lookedAt() const { return lookedAt_; }
     Real ownField() const { return ownField_; }
     Real ownSlope() const { return ownSlope_; }
-    // The own t at a position; and dF/dp, when that has been looked at.
+    // The own t (model/field.h) at a position; and dF/dp of the own field, at the position evaluated last.
     Real ownParam(Real position) { return warped_ ? warpedParam(position) : position * position * restParam_; }
     Real ownRate(Real position) const
     {
         return warped_ ? ownSlope_ * ownChange_ : ownSlope_ * position * shiftUp(restParam_, 1);
     }
-    // Half the gradient of the own t at a position, times its squared size and a share: of an object whose paths slant.
+    // For an object whose paths slant: half the gradient of the own t at a position, times the squared size and a share.
     SELDOM Vector ownGradient(Real position, Real share) const;
 
 private:
@@ -99,13 +105,13 @@ private:
     bool lookPlain(Real position, const Vector* path, Sample* sample);
     SELDOM bool lookAnywhere(Real position, const Vector* path, Sample* sample);
     SELDOM Real warpedParam(Real position);
-    // The body's field from those that were found (blend.cpp).
+    // How fields make the body's field where that is not their plain sum (blend.cpp).
     SELDOM void blend(Real position, Sample& sample);
     SELDOM bool lookOdd(Real position, const Vector* path, Sample* sample);
-    void addMember(Parts& parts, Real f, Real rate, const SoftObject& object, int at) const;
-    void addDigger(Parts& parts, Real f, Real rate, Real weight, const SoftObject& object, int at) const;
+    void addMember(Parts& parts, Real f, Real rate, const SoftObject& object, int index) const;
+    void addDigger(Parts& parts, Real f, Real rate, Real weight, const SoftObject& object, int index) const;
     void addOwn(Real position, Parts& parts);
-    bool addNear(Real position, const Vector* path, int at, Parts& parts);
+    bool addNear(Real position, const Vector* path, int i, Parts& parts);
     static bool isSum(const Parts& parts);
     SELDOM void blendOdd(Parts& parts, Sample& sample);
 
@@ -114,29 +120,29 @@ private:
     const Bodies& bodies_;
     Nearby& nearby_;
     Counts& counts_;
-    const bool warped_;             // the object is
-    const bool ownPlain_;           // it is not, its strength is 1, nothing digs within its body, and it samples no hollow
-    const Real restParam_;          // t of the own field at position 1, unless it is warped
+    const bool warped_;             // the object is warped
+    const bool ownPlain_;           // it is not warped, its strength is 1, it samples no hollow, and no member digs into another
+    const Real restParam_;          // t of the own field at position 1, unless the object is warped
     const Real first_, last_, middle_;
-    const Real restOfPath_;         // units: how far a path leads from its middle to either side
+    const Real restOfPath_;         // units: the searched part of a path leads no farther than this from its middle
 
-    // Of the path at hand.
-    const NeighbourList* asked_ = nullptr;      // the list of the neighbours whose fields are looked at; null: a part of it
-    NeighbourList part_;                      // that part
-    Neighbour* const* near_;        // as they stand there
-    int touched_ = 0;
-    int rootOfAsked_ = -1;            // the root that is known to all of them; -1: none
-    bool odd_;                      // not ownPlain_, or some of them are not Neighbour::plain
-    bool others_;                   // some of them are neither points nor segments
+    // The current path:
+    const NeighbourList* asked_ = nullptr;      // the list of the neighbours that are evaluated; null: they are part_, or not set
+    NeighbourList part_;                      // the neighbours of a list that reach the path
+    Neighbour* const* near_;        // the neighbours of asked_ or part_
+    int touched_ = 0;               // their number
+    int rootOfAsked_ = -1;            // index of the root for which all neighbours of asked_ are prepared; -1: none
+    bool odd_;                      // not ownPlain_, or some neighbours are not Neighbour::plain
+    bool others_;                   // the cores of some neighbours are neither points nor segments
     const Seed* seed_;
     bool complete_;
-    bool shared_;                   // share_ holds at the position looked at last; else all are 1
-    Real headField_;                // of a hollow: the field of what is hollowed out
+    bool shared_;                   // share_ holds at the position evaluated last; else shares are 1, of a digging field -weight
+    Real headField_;                // of a hollow: the field of the object that has the hollow
     Real lookedAt_;
     Real ownField_, ownSlope_;
-    Real ownChange_;                // of a warped object: dt/dp, and half the gradient of t in core space, times CORE_SIZE^2
-    Vector ownOut_;
-    Real share_[NEIGHBOURS_MAX + 1];  // dF/df of the own and each touched neighbour's field, if shared_
+    Real ownChange_;                // of a warped object: dt/dp
+    Vector ownOut_;                 // of a warped object: half the gradient of t in core space, times CORE_SIZE^2
+    Real share_[NEIGHBOURS_MAX + 1];  // dF/df, by how much the body's field changes with the own (0) and each neighbour's (i + 1)
 };
 
 inline void Path::aim(Neighbour& near, const Seed& s)

@@ -1,5 +1,5 @@
 // The report's own methods, as printed (Section III, Algorithms and Optimizations): linear interpolation with slope -1,
-// the whole field sum for every guess, normals from three samples. Kept for comparison (/P); the engine finds the same
+// the sum of all fields for every guess, normals from three samples. They are kept for comparison (/P); the engine finds the same
 // surface with less work.
 #include "math/alloc.h"
 #include "model/softobj.h"
@@ -9,20 +9,20 @@
 
 namespace {
 
-// The report's tolerances. It names them and gives no figure; these are ours.
-constexpr Real LOCATION_TOLERANCE(0.00004);  // of the field: "desired accuracy"
+// The report's tolerances. It names them without figures; these figures are ours. Fields and positions have no unit.
+constexpr Real LOCATION_TOLERANCE(0.00004);  // field: "desired accuracy"
 constexpr int ITERATION_LIMIT = 32;
-constexpr Real NOWHERE(0.05);                // of the field: farther from the isovalue, and a path may have no surface
+constexpr Real NOWHERE(0.05);                // field: a path that ends farther from the isovalue may have no surface
 constexpr Real BACK_FACE(-0.43);             // cosine of path and direction to the viewer, below which a seed is skipped
-constexpr Real DISPLACEMENT(0.001);          // of the position: less is taken as not moved
-constexpr Real DEFORMITY(0.01);              // of the position: less, and the normal is the path
-constexpr Real OVERSHOOT(0.05);              // of the field: by how much a neighbour may be stronger
-constexpr Real OVERSAMPLE(0.05);             // difference of positions that activates the seed between
-constexpr Real SAMPLE_DISTANCE(0.5);         // units: the three samples for a normal
-constexpr Real SCALE(0.75);                  // half a scale, in spacings
+constexpr Real DISPLACEMENT(0.001);          // position: a seed that moves by less is taken as not moved
+constexpr Real DEFORMITY(0.01);              // position: nearer to 1 than this, the path is taken as the normal
+constexpr Real OVERSHOOT(0.05);              // field: by how much a neighbour may be stronger than the own object
+constexpr Real OVERSAMPLE(0.05);             // difference of two seeds' positions that activates the seed between them
+constexpr Real SAMPLE_DISTANCE(0.5);         // units: distance of the three samples for a normal from the seed
+constexpr Real SCALE(0.75);                  // half extent of a scale, in spacings
 constexpr Real MAGNIFICATION(2.0);           // growth of a scale with |position - 1|
 
-// Most neighbours that one object can blend with at a time; further ones are left out.
+// The most neighbours that one object can blend with at a time; further ones are left out.
 constexpr int NEAR_MAX = 63;
 
 class Report98 : public Surface {
@@ -35,10 +35,10 @@ public:
     void draw(const FrameContext& frame, VoxelList& list, int room, int* next) override;
 
 private:
-    // What is kept of a seed from frame to frame: "all seed position values, spatial locations and surface normals".
+    // The data kept of a seed from frame to frame: "all seed position values, spatial locations and surface normals".
     struct Kept {
-        Vector path;  // turned as the object is
-        Vector out;   // square to the unblended surface there, the radius long: the path, unless the object is shaped
+        Vector path;  // the seed's path, turned as the object is
+        Vector out;   // normal of the unblended surface there, as long as the radius: the path itself, unless the object is shaped
         Point point;
         Vector normal;
         uint8_t brightness;
@@ -55,7 +55,7 @@ private:
     Real step_{1};
 };
 
-// "Brightness proportional to the angle" of normal and light, 0..63, from the cosine.
+// "Brightness proportional to the angle" of normal and light, 0..63, from the cosine of that angle.
 uint8_t brightness(Real cosine)
 {
     const int step = floorToInt(cosine * Real(63) + Real(0.5));
@@ -86,8 +86,8 @@ void Report98::pose()
     }
 }
 
-// The neighbours close enough to matter, tested once at the start of an update cycle. What digs into the object has a weight
-// below 0, which the report has not.
+// Finds the neighbours close enough to matter, once at the start of an update cycle. Objects that dig into this one get a weight
+// below 0; the report has no such weights.
 int Report98::findNear(Link* near) const
 {
     int count = 0;
@@ -111,7 +111,7 @@ bool Report98::update(const FrameContext& frame)
     const int nearCount = findNear(near);
     const Vector toEye = unit(frame.eye - object_.centre());
     displaced_ = false;
-    // The report's slope is that of its fields. A stronger one is steeper, and what digs adds to it.
+    // The report's slope is that of its own fields. Fields of greater strength are steeper, and digging ones make the sum steeper.
     Real steep = object_.strength();
     for (int n = 0; n < nearCount; ++n)
         steep += max(Real(0), -near[n].weight) * near[n].object->strength();
@@ -176,7 +176,7 @@ void Report98::settle(int i, const FrameContext& frame, const Vector& toEye, con
     frame.counts->iterations += static_cast<uint32_t>(iterations);
     if (highest && difference > LOCATION_TOLERANCE) {
         ++frame.counts->unsettled;
-        // A path may have no surface where the object is weak or something digs into it.
+        // The path of a weak object, or of one that something digs into, may have no surface.
         highest = difference < NOWHERE || (object_.rests() && object_.dents().empty());
     }
 

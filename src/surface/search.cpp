@@ -1,27 +1,28 @@
-// Where a path leaves the surface. Most seeds are followed from where they were in the frame before; what is not found there is
-// looked for in steps along the path, and bisected.
+// Where a path leaves the surface. Most seeds are followed from where they were in the frame before. If that fails, the path is
+// searched in steps, and the crossing found by bisection.
 #include "search.h"
 
 #include "model/round.h"
 
 namespace {
 
-// Positions: after a step as short as this another look would change nothing that is seen; and no step is longer than that.
+// Positions: after a step of Newton's method as short as SHORT_STEP another evaluation would change nothing visible; LONGEST_STEP
+// limits the steps.
 constexpr Real SHORT_STEP(0.05), LONGEST_STEP(0.15);
-// Of the field per position: where the field falls by less, Newton's method is not trusted.
+// Slope of the field per position: where the field falls less steeply, Newton's method is not trusted.
 constexpr Real FLAT(-0.06);
 constexpr int NEWTON_STEPS = 5;
 constexpr int BISECTIONS = 12;
-// Positions: where a search begins, and its steps.
+// Positions: where a search begins, and the length of its steps.
 constexpr Real SEARCH_FIRST(0.88), SEARCH_STEP(0.16);
-// Positions: where it is asked after COVERED_AT whether a neighbour is the stronger; and what is looked at between 1 and each of
-// the two, in case the path leaves the surface there.
+// Positions: COVERED_LATE is tested after COVERED_AT for a neighbour that is stronger; BETWEEN and BETWEEN_LATE are evaluated in
+// case the path leaves the surface between position 1 and these two.
 constexpr Real COVERED_LATE(1.62), BETWEEN(1.18), BETWEEN_LATE(1.49);
-// Positions: the steps in which a path is followed that has left the surface, and how far it is followed.
+// Positions: the length of the steps in which comesBack() follows a path that has left the surface, and how far it does so.
 constexpr Real RETURN_STEP(0.08), RETURN_FAR(0.4);
-// Of the field: by how much it leaves the cubic curve that it follows.
+// In units of the field: how far the field may be off the cubic curve that stands for it.
 constexpr Real CUBIC_SPARE(0.03);
-// What is not known to be crossed no more than once.
+// The result of crossings() where the surface may be crossed more than once.
 constexpr int MORE = 2;
 
 }  // namespace
@@ -69,7 +70,7 @@ void bisect(Path& path, Real inside, Real outside, Real* position, Sample* sampl
 
 namespace {
 
-// What was seen at a position.
+// A position and the sample taken there.
 struct Look {
     Real position;
     Sample sample;
@@ -80,14 +81,14 @@ inline Look lookAt(Path& path, Real position)
     return {position, path.look(position)};
 }
 
-// About where a slope that changes evenly is 0 between two looks.
+// The position between two looks where the slope is 0, if it changes linearly.
 Real turnBetween(const Look& a, const Look& b)
 {
     return a.position + (b.position - a.position) * (a.sample.slope / (a.sample.slope - b.sample.slope));
 }
 
-// The lowest place of a valley between two looks. Unless it is too high to matter, its floor is looked for: it is about where a
-// slope that changes evenly is 0.
+// About the lowest place of a valley between two looks: its floor, evaluated where the slope should be 0; or just the lower one of
+// the two looks, if that is too high to matter.
 Look floorBetween(Path& path, const Look& a, const Look& b)
 {
     const Look& lower = a.sample.excess < b.sample.excess ? a : b;
@@ -129,7 +130,7 @@ Real search(Path& path, Real* position, Sample* sample)
         return margin;
     Look before = lookAt(path, SEARCH_FIRST), lowest{SEARCH_FIRST, {Real(9), Real(0), Real(0)}};
     if (before.sample.excess < Real(0)) {
-        // The path does not even begin inside: its own field is not half of what the surface takes.
+        // The path does not even begin inside: neighbours without a link to the object pull the body's field below the own one.
         *position = Real(1);
         *sample = before.sample;
         sample->excess = Real(1);
@@ -151,7 +152,7 @@ Real search(Path& path, Real* position, Sample* sample)
             return lowest.sample.excess;
         }
         before = now;
-        // From there on it is so for good.
+        // Beyond COVERED_AT, a neighbour that is stronger stays stronger.
         if (before.position >= COVERED_AT && before.sample.dominance > OVERSHOOT)
             break;
     }
@@ -188,7 +189,7 @@ bool comesBackFar(Path& path, Real from, Real weakest, Real* outside, Real* insi
     while (before.position < path.last() && path.ownField() > weakest) {
         const Look now = lookAt(path, min(before.position + SEARCH_STEP, path.last()));
         const bool isOut = now.sample.excess <= Real(0);
-        // Between two places outside there may be a hill.
+        // Between two positions outside, the field may rise above the isovalue and fall again.
         const bool hill = isOut && before.sample.slope > Real(0) && now.sample.slope < Real(0);
         *outside = before.position;
         *inside = hill ? turnBetween(before, now) : now.position;
@@ -218,20 +219,20 @@ bool leavesAgain(Path& path, Real* inside, Real* outside)
 
 namespace {
 
-// A path on which something digs, or of a weak object, looked at as a whole: where it leaves the surface, and how far off the
+// The search of a whole path, of a weak object or where something digs: where the path leaves the surface, or how far off the
 // surface all of it is.
 class DeepSearch {
 public:
     explicit DeepSearch(Path& path) : path_(path), hollow_(path.all().hollow), smoothStep_(path.smoothStep()) {}
 
-    // Looks for it from one position to another.
+    // Searches from one position to another, outwards or inwards.
     void run(Real from, Real to);
 
     bool found() const { return found_; }
     Real push() const { return gradientBound_; }
     Real inside() const { return inside_; }
     Real outside() const { return outside_; }
-    // Of the field: what the isovalue is exceeded by at least and at most; and the place where that is least.
+    // The least and the greatest excess of the field over the isovalue; and the position and the sample of the least one.
     Real deepest() const { return deepest_; }
     Real highest() const { return highest_; }
     Real deepestAt() const { return deepestAt_; }
@@ -267,7 +268,7 @@ void DeepSearch::run(Real from, Real to)
     }
 }
 
-// Takes into account what was seen at a place.
+// Takes a look into account.
 void DeepSearch::add(const Look& at)
 {
     highest_ = max(highest_, at.sample.excess);
@@ -279,7 +280,7 @@ void DeepSearch::add(const Look& at)
     deepestSample_ = at.sample;
 }
 
-// Whether the path leaves the surface between a place and one a step farther out; `*from` becomes where it is inside.
+// Whether the path leaves the surface between two looks a step apart; if so, it is inside at `*from`.
 bool DeepSearch::leaves(const Look& inner, const Look& outer, Real* from)
 {
     if (outer.sample.excess > Real(0))
@@ -289,21 +290,21 @@ bool DeepSearch::leaves(const Look& inner, const Look& outer, Real* from)
         return true;
     if (inner.sample.slope <= Real(0) || outer.sample.slope >= Real(0))
         return false;
-    // There is a hill between the two. Its top is about where a slope that changes evenly is 0.
+    // There is a hill between the two looks. Its top is about where the slope is 0, if it changes linearly.
     *from += (outer.position - inner.position) * (inner.sample.slope / (inner.sample.slope - outer.sample.slope));
     const Real top = path_.look(*from).excess;
     highest_ = max(highest_, top);
     return top > Real(0);
 }
 
-// Where the field follows a cubic curve between two places, it crosses the isovalue no oftener than its four control points do.
-// Returned is how often that is, 0 or 1, or MORE if it may be oftener; where it is not at all, what lies between is said to be no
-// nearer to the surface than the hull of the points.
+// The field between two looks is taken for a cubic curve, which crosses the isovalue no more often than the polygon of its four
+// control points does. Returns how often the field crosses it: 0, 1, or MORE if it may do so more than once. If 0, the field comes
+// no nearer to the isovalue than the control points (less CUBIC_SPARE), which updates the least and the greatest excess.
 int DeepSearch::crossings(const Look& begin, const Look& end)
 {
     const Real third = (end.position - begin.position) * Real(1.0 / 3);
     const Real one = begin.sample.excess + begin.sample.slope * third, other = end.sample.excess - end.sample.slope * third;
-    // Counted from the side where the first place lies.
+    // Excess counts as positive on the side of the isovalue where the first look lies.
     const bool outside = begin.sample.excess <= Real(0);
     const auto off = [&](Real excess) { return outside ? -excess : excess; };
     const Real a = off(begin.sample.excess), b = off(end.sample.excess);
@@ -318,7 +319,7 @@ int DeepSearch::crossings(const Look& begin, const Look& end)
     return a > Real(0) && b < Real(0) && allClear && (off(one) > Real(0) || off(other) < Real(0)) ? 1 : MORE;
 }
 
-// Sees to all that lies between two places, first to what the search comes to first. True: what was found will do.
+// Searches between two looks, the half nearer to `begin` first. Returns true when the search has found what it wants and may end.
 bool DeepSearch::scan(const Look& begin, const Look& end)
 {
     const Look &inner = hollow_ ? begin : end, &outer = hollow_ ? end : begin;
@@ -360,7 +361,7 @@ Real searchDeep(Path& path, Real* position, Sample* sample, Real* off, Real* pus
     *sample = search.deepestSample();
     sample->excess = Real(1);
     if (search.highest() <= Real(0)) {
-        // All that is there lies outside.
+        // The whole path lies outside.
         *off = -search.highest();
         *position = Real(1);
         return Real(0);

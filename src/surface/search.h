@@ -1,47 +1,47 @@
-// Search: where a path leaves the surface, by Newton's method from where the seed was, or along the whole path.
+// Search: where a path leaves the surface, found by Newton's method from the seed's last position, or along the whole path.
 #ifndef FB_SEARCH_H
 #define FB_SEARCH_H
 
 #include "path.h"
 
-// Of the field: a seed that is this near the isovalue is on the surface.
+// In units of the field: where the field differs from the isovalue by no more, a seed is on the surface.
 constexpr Real TOLERANCE(0.004);
-// Of the field: a valley this shallow above the isovalue is looked into.
+// In units of the field: where a valley of the field comes this near to the isovalue from above, its floor is looked for.
 constexpr Real VALLEY(0.12);
 
-// Newton's method from a sample already taken. True: `*position` is on the surface, and `*sample` was taken there or a short step
-// before.
+// Newton's method, from the sample at `*position`. Returns true when it ends with `*position` on the surface; `*sample` was then
+// taken there or a short step before.
 bool follow(Path& path, Real* position, Sample* sample);
 
-// Whether the seed is sure to lie inside a neighbour: from COVERED_AT or a place farther out on that is the stronger one, and the
-// path has not left the surface before. `*margin` becomes by how much of the field both hold. Position and sample are those of the
-// last of the two that was looked at.
+// Whether a seed is sure to lie inside a neighbour: from COVERED_AT on, or from a certain position farther out, the neighbour is
+// the stronger one, and the path does not leave the surface before. If so, `*margin` becomes the least amount of the field by which
+// these conditions hold. `*position` and `*sample` become those of the last of the two positions that was evaluated.
 bool isInside(Path& path, Real* position, Sample* sample, Real* margin);
 
-// Looks for the first place where the path leaves the surface. `*position` becomes that place and `*sample` what is there; where
-// the path leaves the surface nowhere, `*position` is the lowest place that was seen and the excess of `*sample` is above 0.
-// Returns how far from the isovalue the field stayed before: the least excess of the valleys that were looked into.
+// Searches for the first position where the path leaves the surface. `*position` and `*sample` become that position and the sample
+// there. Where the path never leaves the surface, `*position` is about where the field is lowest, and the excess of `*sample` is
+// above 0. Returns the least excess in the valleys before that position: how nearly the path left the surface earlier.
 Real search(Path& path, Real* position, Sample* sample);
 
-// The same for the paths of a weak object, or of one that something digs into: the last place where the path leaves the surface,
-// because it hides those before. Places where a neighbour is the stronger one count only if there are no others. On a path that
-// samples a hollow it is the first place. Where there is none, `*off` becomes by how much of the field the path misses the surface.
-// `*push` becomes by how much that may change when the neighbours come by a unit.
+// Searches the path of a weak object, or of one that something digs into, for the last position where it leaves the surface,
+// because the surface there hides the surface farther in. On a path that samples a hollow it searches for the first one. Positions
+// where a neighbour is the stronger one count only if there are no others. Where there is none at all, `*off` becomes the amount of
+// the field by which the path misses the surface; `*push` bounds the change of that when the neighbours come nearer by one unit.
 SELDOM Real searchDeep(Path& path, Real* position, Sample* sample, Real* off, Real* push);
 
-// Where the path of a seed comes back to the surface that it left at the seed, before the field falls far below the isovalue.
-// False: nowhere, or so near that the two places cannot be told apart.
+// Finds where the path of a seed comes back to the surface that it left at the seed. Returns false when the field falls far below
+// the isovalue first, when the path does not come back soon, or so soon that the two positions cannot be told apart.
 bool comesBack(Path& path, const Seed& s, Real* position, Sample* sample);
 
-// The same from a position on of the path at hand, however far the field falls before, as long as the own object is the strongest
-// and its field no weaker than `weakest`. The path comes back between the two positions.
+// Whether the current path comes back to the surface beyond position `from`, however far the field falls in between, while the own
+// object is the strongest and its field above `weakest`. The path comes back between `*outside` and `*inside`.
 bool comesBackFar(Path& path, Real from, Real weakest, Real* outside, Real* inside);
 
-// Where it then leaves the surface for the second time: from `*inside` on, which moves there. False: another object is the stronger
-// before it does.
+// Whether the current path then leaves the surface again: between `*inside`, which moves on, and `*outside`. Returns false when
+// another object becomes the stronger one before, or the path ends.
 bool leavesAgain(Path& path, Real* inside, Real* outside);
 
-// Finds where the path crosses the surface between a position inside and one outside.
+// Finds where the path crosses the surface between a position inside and one outside; the excess of `*sample` becomes 0.
 void bisect(Path& path, Real inside, Real outside, Real* position, Sample* sample);
 
 #endif

@@ -1,5 +1,5 @@
-// From settled seeds to voxels, in whole numbers, because it is done for every seed that is seen. What neighbours share is worked
-// out once for their patch.
+// From settled seeds to voxels, in whole numbers, because this is done for every visible seed. What the seeds of a patch have in
+// common is computed once for the patch.
 #include "shade.h"
 
 #include "limb.h"
@@ -11,9 +11,11 @@
 
 namespace {
 
-// Of the object that is being shaded. It is too large for the stack, and its table need not be cleared from object to object.
+// The slopes of the object that is being shaded. They are too large for the stack, and their table need not be cleared for the next
+// object.
 Slopes slopes;
 
+// The dot product of two vectors.
 template <class Part, class Other>
 inline int32_t product(const Part a[3], const Other b[3])
 {
@@ -26,8 +28,8 @@ inline int32_t product(const Direction14& a, const Part b[3])
     return a.x * b[0] + a.y * b[1] + a.z * b[2];
 }
 
-// The products of two vectors' parts, in the order of Bend::turn: with what leads along x, y and z in both, and in one and the
-// other. They lose 13 bits.
+// The products of the components of two vectors in the order of Bend::turn: xx, yy, zz, and the mixed ones xy, xz, yz, each of
+// which is the sum for both orders. They lose 13 bits.
 inline void findProducts(const int32_t a[3], const int32_t b[3], int32_t to[6])
 {
     for (int i = 0; i < 3; ++i)
@@ -37,14 +39,14 @@ inline void findProducts(const int32_t a[3], const int32_t b[3], int32_t to[6])
     to[5] = (a[1] * b[2] + a[2] * b[1]) >> 13;
 }
 
-// By how much the normal turns along one vector on a way along another, from the products of the two.
+// The component along one vector of the normal's turn over a step along another, from the products of the two vectors.
 inline int32_t turnOf(const Bend& bend, const int32_t both[6])
 {
     return bend.turn[0] * both[0] + bend.turn[1] * both[1] + bend.turn[2] * both[2] + bend.turn[3] * both[3] +
            bend.turn[4] * both[4] + bend.turn[5] * both[5];
 }
 
-// The same of one vector, however long it is, 2^-17.
+// The component along a vector of the normal's turn over a step along the same vector, times 2^-17.
 inline int32_t curvatureAlong(const Bend& bend, const int32_t v[3])
 {
     int32_t turned[3];
@@ -52,49 +54,51 @@ inline int32_t curvatureAlong(const Bend& bend, const int32_t v[3])
     return product(turned, v) >> 3;
 }
 
-// A scale in the territory of another object is to be seen only where that has none, and lies so much deeper; 1/256 unit.
+// 1/256 unit: a scale in the territory of another object is moved this much deeper, so that it is seen only where that object has
+// none.
 constexpr int32_t BEHIND = 64;
 
-// Depth before which the whole of a cell is covered: so near the viewer a ring is no straight band in the picture; 1/256 unit.
+// 1/256 unit: at a smaller depth scales cover the whole of their cells, because so near the viewer a ring is no straight band.
 constexpr int32_t WHOLE_BEFORE = 64 * 256;
 
-// The greatest radius of curvature, 1/32 unit, and the cosine (1.0 = 2^14) of normal and viewer from which on it does not matter.
+// The greatest radius of curvature (1/32 unit) that is told from flat; and the cosine of normal and direction to the viewer
+// (1.0 = 2^14) from which on the curvature does not matter.
 constexpr int32_t FLATTEST = 8000;
 constexpr int32_t FACES_VIEWER = 16000;
 
-// The cosine from which on no scale ends of a patch that rests and bends over no less than so many spacings: the limb is
-// .6^2 * 6 / 2 = 1.08 spacings away there, farther than the scale reaches.
+// No scale of a patch at rest ends that faces the viewer with the cosine FACES_ABOUT (1.0 = 2^14) or more, if its radius of
+// curvature is at least GENTLE_SPACINGS: the limb is .6^2 * 6 / 2 = 1.08 spacings away, farther than a scale reaches.
 constexpr int32_t FACES_ABOUT = 9830, GENTLE_SPACINGS = 6;
 
-// A patch that settles in every frame has its bend measured in one of BEND_TURNS + 1 frames; its number says in which. Next to the
-// limb, where bends tell how far scales are drawn, it is one of BEND_TURNS_LIMB + 1.
+// The bend of a patch that settles in every frame is measured in one of BEND_TURNS + 1 frames, chosen by the patch's number. Next
+// to the limb, where the bend decides how far scales are drawn, it is measured in one of BEND_TURNS_LIMB + 1 frames.
 constexpr int BEND_TURNS_LIMB = 1, BEND_TURNS = 3;
 
-// A patch bends unevenly when its slope foretells another brightness than some of its seeds have, by more than this, 1/4 step.
+// 1/4 step: a patch bends unevenly if its gradient predicts the brightness of some seed with an error greater than this.
 constexpr int32_t UNEVEN_SHADING = 8;
 
-// Spacings: from the middle of a scale that ends to its corner depth changes by no more. Where seeds have parted, scales next to
-// the limb would come far before the surface.
+// Spacings: upper bound on the change of depth from the middle of a scale that ends to its corner. Without it, scales next to the
+// limb would come far in front of the surface where seeds have parted.
 constexpr int32_t DEEPEST = 8;
 
-// Spacings, 1/64: what a scale that ends at the limb becomes larger by to each side. And 1/256 units: it becomes larger by no more,
-// for then its brightness changes to no corner by more than three steps more, and stays within SHADING_MOST of the ramp.
+// A scale that ends at the limb grows to each side by LIMB_MARGIN, 1/64 spacing, but by at most LIMB_MARGIN_MOST, 1/256 unit: this
+// adds at most three steps to the change of its brightness to a corner, which stays within SHADING_MOST of the ramp.
 constexpr int32_t LIMB_MARGIN = 3, LIMB_MARGIN_MOST = 24;
 static_assert(-DARK_MIDDLE * 8 + STEEPEST_SHADING + 2 * 127 * LIMB_MARGIN_MOST / 256 < SHADING_MOST * 8, "ramps");
 
-// Seeds of a patch, oversampled and fine ones included.
+// Upper bound on the seeds of a patch, with oversampled and fine ones.
 constexpr int SEEDS_MOST = (2 + SoftObject::FINE_SEEDS) * PATCH_RINGS * PATCH_SEEDS;
 
-// Turns the seeds of one object into voxels. Made once for an object and a frame.
+// Turns the seeds of one object into voxels. One is made for each object and frame.
 class Shader {
 public:
     Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame);
 
-    // Lists the voxels of a patch, by way of the painter of objects that have a paint.
+    // Lists the voxels of a patch; those of an object that has a paint go through the painter.
     template <bool PAINTED>
     void shadePatch(Patch& patch, int turn, VoxelList& list, Painter* painter);
 
-    // Of its seeds, 1/256 unit.
+    // Spacing of the object's seeds, 1/256 unit.
     int32_t spacing() const { return spacing_; }
 
 private:
@@ -104,12 +108,12 @@ private:
     template <bool PAINTED>
     void listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list, Painter* painter);
     int findExtras(const Patch& patch, Seen* seen, Voxel* voxels) const;
-    int leaveNear(Seen* seen, Voxel* voxels, int count) const;
+    int clipDepth(Seen* seen, Voxel* voxels, int count) const;
     bool findSteps(const Patch& patch, const Seed* from[2], const Seed* to[2]) const;
     void measureBend(Patch& patch) const;
     void setPatch(const Patch& patch, const Seen& middle, const Voxel& at);
     void setBend(const Patch& patch, const Seen& middle);
-    // Whether a patch faces the viewer so much that none of its scales bends out of sight.
+    // Whether a patch faces the viewer so much that no scale of it ends at the limb.
     bool endsNowhere(const Patch& patch, const Seen& middle) const
     {
         return middle.facing >= facesAbout_ && patch.bend.gentle && patch.state == PATCH_REST;
@@ -118,7 +122,7 @@ private:
     bool cut(const Seed& s, Voxel* voxel) const;
     const Limb* limbOf(const Patch& patch);
     void endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel);
-    // What of a vector of own space lies along axis i of the view.
+    // The component of a vector of own space along axis i of the view.
     template <class Part>
     int32_t along(const Part v[3], const int32_t axis[3], int i) const
     {
@@ -128,26 +132,26 @@ private:
     SoftObject& object_;
     const OwnFrame own_;
     Shading shading_;
-    int32_t spacing_;         // of the seeds, 1/256 unit
-    int32_t step_;            // a step of places, 1/256 unit of the world, 16 bits of fraction
-    int32_t ballBend_;        // 1 / the radius of a ball, per unit, 1.0 = 2^14
-    int32_t limbMargin_;      // LIMB_MARGIN, 1/256 unit
-    bool ball_, near_;        // near: some seeds may be nearer than NEAREST_DEPTH
+    int32_t spacing_;         // spacing of the seeds, 1/256 unit of the world, at most 2800
+    int32_t step_;            // length of a step of places, 1/256 unit of the world with 16 fraction bits
+    int32_t ballBend_;        // curvature of a ball: 1 / radius, per unit, 1.0 = 2^14
+    int32_t limbMargin_;      // LIMB_MARGIN as a length, 1/256 unit
+    bool ball_, clipsDepth_;  // clipsDepth_: some seeds may be nearer than NEAREST_DEPTH, or farther than FARTHEST_DEPTH
     int32_t facesViewer_, facesAbout_;  // FACES_VIEWER and FACES_ABOUT times the distance of the eye, steps of places
-    int viewShift_;           // brings the way to the eye to 14 bits
+    int viewShift_;           // right shift that brings vectors to the eye to 14 bits
     const bool hollow_;       // the seeds sample a hollow
-    int32_t ballGradient_[3]; // of the brightness over a ball, axes of the view, 1/8 step a unit with 8 bits of fraction
-    int32_t ballHorizon_, flatHorizon_;  // Shading::horizonShare of what bends like a ball, and of what is flat
-    int32_t horizonScale_;    // of a radius of curvature in steps of places / 8
-    int32_t lights_[3][6];    // products of the light and the axes of the view, times what brings turns to ballGradient_'s units
-    int32_t columns_[3], rows_[3], aheads_[3];  // axes of the view for cells, 14 bits of fraction more; aheads_ 4 bits more
-    uint32_t areaScale_;      // squared spacing
-    // Of the patch.
-    int32_t ahead_;           // of the brightness along the view, 1/8 step a unit with 8 bits of fraction
-    int32_t shearX_, shearY_; // of the ray through it, 10 bits of fraction
-    int32_t middle_;          // how far away it is, 1/256 unit
+    int32_t ballGradient_[3]; // gradient of the brightness over a ball, axes of the view, 1/8 step a unit with 8 fraction bits
+    int32_t ballHorizon_, flatHorizon_;  // Shading::horizonShare of a ball and of flat patches
+    int32_t horizonScale_;    // horizonShare of a radius of curvature of 8 steps of places
+    int32_t lights_[3][6];    // products of the light and the axes of the view, scaled so that turns become gradients (setBend())
+    int32_t columns_[3], rows_[3], aheads_[3];  // axes of the view for Shading::cell, 14 more fraction bits; aheads_: 4 more
+    uint32_t areaScale_;      // squared spacing, for Shading::areaShare
+    // The current patch:
+    int32_t ahead_;           // gradient of the brightness along the view, 1/8 step a unit with 8 fraction bits
+    int32_t shearX_, shearY_; // how far the ray through the patch leads aside over a unit of depth, 10 fraction bits
+    int32_t middle_;          // depth of the patch, 1/256 unit
     bool limbSought_, hasLimb_;
-    Limb limb_;               // of its seeds at rest, if it has one
+    Limb limb_;               // limb of its seeds at rest, if hasLimb_
 };
 
 Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame)
@@ -157,7 +161,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     shading_.roots = &object.root(0);
     ball_ = object.isBall();
     const int32_t reach = rawFromReal(object.reach()) >> 8;
-    near_ = own_.centre[2] - reach < NEAREST_DEPTH || own_.centre[2] + reach >= FARTHEST_DEPTH;
+    clipsDepth_ = own_.centre[2] - reach < NEAREST_DEPTH || own_.centre[2] + reach >= FARTHEST_DEPTH;
     shading_.placeShift = object.placeShift();
     const int32_t step = step_ = rawFromReal(own.growth) << (shading_.placeShift - 8);
     shading_.turned = !ball_ || object.size() != object.laidSize() || frame.axes.turned;
@@ -183,9 +187,9 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     facesViewer_ = (distance * (FACES_VIEWER >> 6)) >> 5;
     facesAbout_ = (distance * (FACES_ABOUT >> 6)) >> 5;
     viewShift_ = max32(0, 18 - __builtin_clz(static_cast<uint32_t>(distance + 4096)));
-    // Both per 1/32 unit of the world.
+    // Distance of the eye, 1/32 unit of the world.
     const int32_t distance32 = max32(mulShift16(own.distance32, rawFromReal(own.growth)), 1);
-    // No product of half as much again with what a seed faces the viewer by may leave 32 bits.
+    // horizonShare, or half as much again (setBend()), is multiplied by Seen::facing: the product must not overflow 32 bits.
     const int32_t farthest = distance * 8 + (rawFromReal(object.laidReach()) >> shading_.placeShift);
     const int32_t horizonMost = INT32_MAX / 3 * 2 / (farthest + 1);
     ballHorizon_ = min32(mulShift16((min32(radius >> 11, FLATTEST) << 12) / distance32, step), horizonMost);
@@ -199,19 +203,19 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     shading_.cellShift = __builtin_clz(static_cast<uint32_t>(spacing)) - 19;
     if (spacing << shading_.cellShift > 6143)
         --shading_.cellShift;
-    // The spacing times a power of 2 that leaves cells 16 bits: 3072 to 6143.
+    // The spacing times a power of 2: 3072..6143, so that cells fit 16 bits.
     const int32_t cell = spacing << shading_.cellShift;
     for (int i = 0; i < 3; ++i) {
         columns_[i] = (own.right[i] * cell >> 6) + 8192;
         rows_[i] = (own.up[i] * cell >> 6) + 8192;
         aheads_[i] = own.ahead[i] * cell >> 16;
     }
-    // Nearer to a long or flat core than where they rest, seeds of a hollow are no nearer to each other along it.
+    // Seeds of a hollow that settle nearer to a long or flat core than where they rest get no nearer to each other along the core.
     shading_.leastPosition = hollow_ && !ball_ ? 1 << 8 : 0;
 }
 
-// The ends of two steps between valid seeds of a patch: along its middle ring, or another where that has no two, and from its first
-// ring to its last. False: there are no two such steps.
+// Finds the ends of two steps between valid seeds of a patch: along its middle ring (another ring if that has fewer than two), and
+// from its first ring to its last. Returns false when there are no two such steps.
 bool Shader::findSteps(const Patch& patch, const Seed* from[2], const Seed* to[2]) const
 {
     from[0] = to[0] = from[1] = to[1] = nullptr;
@@ -234,7 +238,7 @@ bool Shader::findSteps(const Patch& patch, const Seed* from[2], const Seed* to[2
     return from[0] != to[0] && from[1] != to[1];
 }
 
-// How the surface bends, from two steps between valid seeds: along the middle ring, and from the first ring to the last.
+// Measures how the surface of a patch bends, from the turn of the normal over the two steps of findSteps().
 SELDOM void Shader::measureBend(Patch& patch) const
 {
     Bend& bend = patch.bend;
@@ -250,8 +254,8 @@ SELDOM void Shader::measureBend(Patch& patch) const
     const Seed& centre = object_.regular(patch.centre);
     bend.normal = centre.flags & SEED_VALID ? centre.normal : from[0]->normal;
     const int32_t n[] = {bend.normal.x, bend.normal.y, bend.normal.z};
-    // The steps, how the normal turns over each, and the vector whose product with a way, over the area between the steps, says how
-    // many of a step that has.
+    // The two steps, the turn of the normal over each, and the dual vector of each: the dot product of dual[k] and a vector,
+    // divided by the area between the steps, is the vector's component in units of step k.
     int32_t step[2][3], turn[2][3], dual[2][3], size[2];
     for (int k = 0; k < 2; ++k) {
         const Seed &a = *from[k], &b = *to[k];
@@ -264,10 +268,10 @@ SELDOM void Shader::measureBend(Patch& patch) const
         turn[k][1] = b.normal.y - a.normal.y;
         turn[k][2] = b.normal.z - a.normal.z;
         size[k] = max32(max32(magnitude(d[0]), magnitude(d[1])), magnitude(d[2]));
-        // Nothing bends more than a ball of half a unit.
+        // A normal that turns more than on a ball of half a unit is no measurement of a bend.
         if (max32(max32(magnitude(turn[k][0]), magnitude(turn[k][1])), magnitude(turn[k][2])) > size[k] << 7)
             return;
-        // This step times the normal, or for the second the normal times this step.
+        // The cross product of the normal and the first step, or of the second step and the normal.
         const int32_t sign = k == 0 ? 1 : -1;
         across[0] = sign * (n[1] * d[2] - n[2] * d[1]) >> 14;
         across[1] = sign * (n[2] * d[0] - n[0] * d[2]) >> 14;
@@ -278,7 +282,8 @@ SELDOM void Shader::measureBend(Patch& patch) const
         return;
     bend.ball = false;
     const auto overArea = [&](int32_t sum) { return limited(mulDiv(sum, 128, area), 16000); };
-    // The greater curvature of the two: in its direction the normal of the patch's other seeds differs.
+    // The greater curvature of the two also counts along this normal: the normals of the patch's other seeds lean away from it, so
+    // that steps along their tangent planes have a component along it.
     const int32_t one = product(turn[0], dual[0]), other = product(turn[1], dual[1]);
     const int32_t most = overArea(magnitude(one) > magnitude(other) ? one : other);
     bend.gentle = magnitude(most) * (gentle >> shading_.placeShift) <= 1 << 21;
@@ -294,7 +299,7 @@ SELDOM void Shader::measureBend(Patch& patch) const
     bend.turn[5] = turned(1, 2);
 }
 
-// How the brightness changes over a patch, and where it bends out of sight.
+// Sets how the brightness changes over a patch, and where the patch bends out of sight.
 inline void Shader::setBend(const Patch& patch, const Seen& middle)
 {
     const Bend& bend = patch.bend;
@@ -304,7 +309,7 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
     shading_.horizonShare = flatHorizon_;
     if (middle.facing >= facesViewer_ || endsNowhere(patch, middle))
         return;
-    // The curvature along the view.
+    // The curvature in the direction to the viewer, as far as that lies in the tangent plane.
     int32_t p[3], view[3];
     findPlace(shading_, *middle.seed, p);
     for (int i = 0; i < 3; ++i)
@@ -313,8 +318,8 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
     for (int i = 0; i < 3; ++i)
         view[i] -= n[i] * up >> 14;
     const int32_t square = product(view, view), curvature = curvatureAlong(bend, view);
-    // A quarter more than the radius at rest, for what scales differ from their cells: next to the limb there may be no other that
-    // covers it. What blends bends no less than a ball half as large again.
+    // At rest a quarter is added to the radius, because scales differ from their cells, and next to the limb there may be no other
+    // scale to cover the difference. A blending patch is taken to bend no less than a ball half as large again as the object.
     const bool rests = patch.state == PATCH_REST;
     if (!rests)
         shading_.horizonShare = ballHorizon_ * 3 >> 1;
@@ -323,7 +328,7 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
                                         mulShift16((rests ? square * 5 >> 1 : square * 2) / curvature, horizonScale_));
 }
 
-// To be called before the seeds of a patch that are seen.
+// Makes a patch current. Must be called before its visible seeds are shaded.
 inline void Shader::setPatch(const Patch& patch, const Seen& middle, const Voxel& at)
 {
     const int32_t depth = own_.centre[2] + at.z;
@@ -352,12 +357,12 @@ inline void Shader::setPatch(const Patch& patch, const Seen& middle, const Voxel
     ahead_ = shading_.gradientAhead;
     shading_.gradientAhead = (shading_.gradientAhead + (shading_.gradient[0] * (shearX_ >> 2) >> 8) +
                               (shading_.gradient[1] * (shearY_ >> 2) >> 8)) >> 4;
-    // With as many bits of fraction as tilts times gradientAhead have.
+    // As many fraction bits as a tilt times gradientAhead has.
     shading_.gradient[0] *= 16;
     shading_.gradient[1] *= 16;
 }
 
-// Whether the slope of a patch that is set does not foretell the brightness of its seeds.
+// Whether the gradient of the current patch predicts the brightness of its seeds badly.
 inline bool Shader::bendsUnevenly(const Voxel* voxels, int count) const
 {
     const Voxel& middle = voxels[count >> 1];
@@ -373,8 +378,8 @@ inline bool Shader::bendsUnevenly(const Voxel* voxels, int count) const
     return false;
 }
 
-// Where another object is the strongest the scale ends: at a straight line, for the difference of two fields is nearly linear
-// across it. False: nothing is left.
+// Ends a scale where another object is the strongest: at a straight line, because the difference of two fields is nearly linear
+// across the scale. Returns false when nothing of the scale is left.
 bool Shader::cut(const Seed& s, Voxel* voxel) const
 {
     const int32_t border[] = {s.border.x, s.border.y, s.border.z};
@@ -382,7 +387,7 @@ bool Shader::cut(const Seed& s, Voxel* voxel) const
     return cutVoxel(x, y, z, s.apart, shearX_, shearY_, voxel);
 }
 
-// The limb of a patch where it rests. Null: there is none, or it is not known how the patch bends.
+// The limb of a patch for its seeds at rest; null if there is none, or the bend of the patch is not known.
 inline const Limb* Shader::limbOf(const Patch& patch)
 {
     if (!limbSought_) {
@@ -398,7 +403,7 @@ inline const Limb* Shader::limbOf(const Patch& patch)
     return hasLimb_ ? &limb_ : nullptr;
 }
 
-// Ends the voxel of a seed at rest at the limb, if its tangent plane goes on beyond.
+// Ends the voxel of a seed at rest at the limb, if the tangent plane goes on beyond the limb and the voxel is not cut already.
 inline void Shader::endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel)
 {
     if (voxel->reach == 0 || !(seen.seed->flags & SEED_RESTING) || isCut(*voxel))
@@ -407,7 +412,7 @@ inline void Shader::endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel
         ::endAtLimb(*limb, mulDiv(mulShift16(seen.facing, step_), 1 << 14, own_.centre[2] + voxel->z), limbMargin_, voxel);
 }
 
-// Finds the oversampled seeds of a patch that are seen, as findSeeds() does the regular ones.
+// Finds the visible oversampled and fine seeds of a patch, as findSeeds() finds the regular ones.
 SELDOM int Shader::findExtras(const Patch& patch, Seen* seen, Voxel* voxels) const
 {
     int count = 0;
@@ -421,11 +426,11 @@ SELDOM int Shader::findExtras(const Patch& patch, Seen* seen, Voxel* voxels) con
             if ((fine[which].flags & SEED_ACTIVE) && findSeed(shading_, fine[which], seen + count, voxels + count))
                 ++count;
     });
-    return near_ ? leaveNear(seen, voxels, count) : count;
+    return clipsDepth_ ? clipDepth(seen, voxels, count) : count;
 }
 
-// Leaves out those that are too near or too far.
-SELDOM int Shader::leaveNear(Seen* seen, Voxel* voxels, int count) const
+// Removes the seeds that are too near or too far, in place, and returns how many are left.
+SELDOM int Shader::clipDepth(Seen* seen, Voxel* voxels, int count) const
 {
     int left = 0;
     for (int i = 0; i < count; ++i) {
@@ -438,20 +443,20 @@ SELDOM int Shader::leaveNear(Seen* seen, Voxel* voxels, int count) const
     return left;
 }
 
-// Finds the seeds of a patch that the viewer sees, and sets the places of their voxels: `*regular` regular ones, and behind them
-// the others.
+// Finds the visible seeds of a patch and sets the places of their voxels: first `*regular` regular seeds, then oversampled and fine
+// ones. Returns how many they are together.
 inline int Shader::findSeen(const Patch& patch, Seen* seen, Voxel* voxels, int* regular) const
 {
     int count = findSeeds(&shading_, &patch, seen, voxels);
-    if (near_)
-        count = leaveNear(seen, voxels, count);
+    if (clipsDepth_)
+        count = clipDepth(seen, voxels, count);
     *regular = count;
     if (patch.extras || patch.islands)
         count += findExtras(patch, seen + count, voxels + count);
     return count;
 }
 
-// Writes the rest of their voxels.
+// Writes the rest of the voxels of these seeds.
 inline void Shader::shadeSeen(Patch& patch, int turn, const Seen* seen, Voxel* voxels, int count)
 {
     const Seen& middle = seen[count >> 1];
@@ -461,7 +466,7 @@ inline void Shader::shadeSeen(Patch& patch, int turn, const Seen* seen, Voxel* v
     shadeSeeds(&shading_, seen, voxels, count);
 }
 
-// Cuts a voxel at the border, if its seed is next to one. False: nothing is left.
+// Cuts a voxel at the border, if its seed has one. Returns false when nothing of the voxel is left.
 inline bool Shader::cutAtBorder(const Seed& s, Voxel* voxel) const
 {
     if (!(s.flags & SEED_BORDER))
@@ -473,7 +478,7 @@ inline bool Shader::cutAtBorder(const Seed& s, Voxel* voxel) const
     return true;
 }
 
-// Lists the voxels of a patch that blends, or is painted.
+// Lists the voxels of a patch that blends, or whose object has a paint.
 template <bool PAINTED>
 inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list,
                                Painter* painter)
@@ -494,7 +499,7 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
         }
         endAtLimb(patch, seen[i], to);
         if (i < known) {
-            // What is dark has its slopes; of a finish that is no end of the light.
+            // A dark voxel keeps its slopes. With a finish that shines, brightness 0 does not mean that the light ends there.
             slopes.add(&s, static_cast<int>(&s - shading_.seeds), to, shines || to->brightness != 0 ? sight : Slopes::STAYS);
             if (PAINTED && list.room() > to + 1)
                 slopes.addCopy(to + 1, to);
@@ -508,7 +513,7 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
 template <bool PAINTED>
 inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter* painter)
 {
-    // The painter makes one or two voxels of each.
+    // The painter makes one or two voxels of each of these.
     Voxel unpainted[PAINTED ? SEEDS_MOST : 1];
     Voxel* const voxels = PAINTED ? unpainted : list.room();
     Seen seen[SEEDS_MOST];
@@ -527,7 +532,8 @@ inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter*
     list.count += count;
 }
 
-// Whether some of a patch that does not rest facing away may be seen. What has settled in this frame was not hidden before it did.
+// Whether some of a patch may be seen; the caller has tested whether the patch rests facing away. A patch that settled in this
+// frame was found not to be hidden just before.
 bool isSeen(const Patch& patch, const OwnFrame& own)
 {
     if (patch.state == PATCH_REST)
@@ -541,19 +547,19 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
 {
     Shader shader(object, own, frame);
     slopes.begin();
-    // The painter may make two voxels of one.
+    // The painter may make two voxels of one seed.
     const int most = (PAINTED ? 2 : 1) * SEEDS_MOST;
-    int at = first;
-    for (; at < count; ++at) {
-        Patch& patch = patches[at];
+    int i = first;
+    for (; i < count; ++i) {
+        Patch& patch = patches[i];
         if (!patch.islands && ((patch.state == PATCH_REST && restsAway(patch, own)) || !isSeen(patch, own)))
             continue;
         if (list.count + most > room)
             break;
-        shader.shadePatch<PAINTED>(patch, at + turn, list, painter);
+        shader.shadePatch<PAINTED>(patch, i + turn, list, painter);
     }
     slopes.set(shader.spacing());
-    return at;
+    return i;
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include "patch.h"
 #include "surface/voxel.h"
 
-// Lists what the viewer sees of the patches of one object, from patch `first` on, while the list holds fewer than `room` voxels
-// with another patch. `turn` counts the frames of the object. Returns the patch that is to come next, or `count`.
+// Adds the voxels of all seeds that the viewer sees to the list, patch by patch from patch `first` on, as long as the voxels of
+// another patch are sure to fit into `room`. `turn` counts the frames of the object. Returns the patch to go on with, or `count`.
 int shadePatches(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
                  int turn, VoxelList& list, int room);
 

@@ -1,22 +1,22 @@
-// Slopes of brightness from seed to seed.
+// Slopes of the brightness, from the voxels of the seeds beside each seed.
 #include "slopes.h"
 
 #include "voxels.h"
 
 namespace {
 
-// Spacings: on the picture plane, seeds on both sides of another lie no farther apart to the right or upwards.
+// Spacings on the picture plane: two seeds on both sides of another count only if they are no farther apart along x and along y.
 constexpr int FARTHEST = 6;
 
-// Slopes that are limited anyhow, 1/8 step a unit.
+// Limit of the slopes, 1/8 step a unit, so that nothing overflows; setSlopes() limits them further.
 constexpr int32_t STEEPEST = 8191;
 
-// A way on the picture plane, 1/64 unit, and by how much the brightness changes on it, 1/16 step.
-struct Travel {
+// A step on the picture plane, 1/64 unit, and the change of the brightness over it, 1/16 step.
+struct Step {
     int32_t x, y, change;
 
-    // From one voxel to another, or to or from one between the two when one of them is dark.
-    Travel(const Voxel* a, const Voxel* b, const Voxel* between, int32_t sight)
+    // The step from voxel `a` to voxel `b`. A dark one of the two is replaced by `between`, the voxel between them.
+    Step(const Voxel* a, const Voxel* b, const Voxel* between, int32_t sight)
     {
         if (a->brightness == 0)
             a = between;
@@ -27,7 +27,7 @@ struct Travel {
         y = (b->y - a->y - (z * static_cast<int16_t>(sight) >> 10)) >> 2;
         change = (b->brightness - a->brightness) * 16;
     }
-    Travel(int32_t toX, int32_t toY, int32_t by) : x(toX), y(toY), change(by) {}
+    Step(int32_t toX, int32_t toY, int32_t by) : x(toX), y(toY), change(by) {}
     bool isLonger(int32_t most) const
     {
         return static_cast<uint32_t>(x + most) > static_cast<uint32_t>(2 * most) ||
@@ -51,15 +51,15 @@ void Slopes::set(int32_t spacing)
             continue;
         }
         const Shown *const last = find(shown->number - 1), *const next = find(shown->number + 1);
-        Travel along(last != nullptr ? last->voxel : &v, next != nullptr ? next->voxel : &v, &v, shown->sight);
-        Travel across(shown->before, shown->behind, &v, shown->sight);
+        Step along(last != nullptr ? last->voxel : &v, next != nullptr ? next->voxel : &v, &v, shown->sight);
+        Step across(shown->before, shown->behind, &v, shown->sight);
         if (along.isLonger(most))
             along = {0, 0, 0};
         if (across.isLonger(most))
             across = {0, 0, 0};
         int32_t area = along.x * across.y - along.y * across.x;
         if (magnitude(area) < least) {
-            // Square to the longer one the slopes stay.
+            // The steps are nearly parallel, or one is missing: the slope at right angles to the longer one stays as it is.
             if (magnitude(along.x) + magnitude(along.y) < magnitude(across.x) + magnitude(across.y))
                 along = across;
             across = {-along.y, along.x, (v.slopeY * along.x - v.slopeX * along.y) >> 5};

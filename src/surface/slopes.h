@@ -1,27 +1,28 @@
-// How the brightness changes across scales where no patch bends evenly: from each seed to those beside it, in whichever patch they
-// are.
+// Slopes: how the brightness changes across scales where patches bend unevenly. It is measured from the seeds beside each seed,
+// whichever patch they belong to.
 #ifndef FB_SLOPES_H
 #define FB_SLOPES_H
 
 #include "model/seed.h"
 #include "surface/voxel.h"
 
-// The voxels of one object that show regular seeds which blend, or shine.
+// The voxels of one object that show the regular seeds of blending patches, or all regular seeds if the object shines.
 class Slopes {
 public:
-    // How far the ray of sight leads aside over a unit of depth, 10 bits of fraction, in one word; and where slopes stay.
+    // The ray of sight in one word: how far it leads aside over a unit of depth, x and y with 10 fraction bits. STAYS in its place
+    // means that the voxel keeps its slopes.
     static constexpr int32_t STAYS = INT32_MAX;
     static int32_t sight(int32_t shearX, int32_t shearY) { return shearX * 65536 + (shearY & 0xffff); }
 
     // Forgets all voxels.
     void begin() { count_ = 0; }
 
-    // A voxel shows seed `number` of its object, `*seed`. It comes behind those of the rings before.
+    // Adds a voxel, which shows `*seed`, seed `number` of its object. The seeds of earlier rings must have been added before.
     void add(const Seed* seed, int number, Voxel* voxel, int32_t sight)
     {
         Shown& shown = shown_[count_];
         shown = {number, sight, voxel, voxel, voxel};
-        // A seed is beside N of the one before it in its ring (model/seed.h).
+        // In the ring before, a seed lies beside the seed N of its predecessor in its own ring (model/seed.h).
         const int n = number > 0 ? seed[-1].neighbour : -1;
         if (Shown* const before = n >= 0 ? find(n >> 1) : nullptr) {
             shown.before = before->voxel;
@@ -29,18 +30,20 @@ public:
         }
         table_[number & (TABLE - 1)] = static_cast<int16_t>(count_++);
     }
-    // And so does another, the slopes of which are to be the same.
+    // Adds another voxel of the seed added last; it gets the slopes of the original.
     void addCopy(Voxel* voxel, Voxel* original) { shown_[count_++] = {COPY, 0, voxel, original, original}; }
 
-    // Sets the slopes of the voxels that have a sight: along the ring, and from the ring before to the one behind. In a direction
-    // in which no seed beside one is lit they stay. Seeds are `spacing` apart, 1/256 unit.
+    // Sets the slopes of all voxels but those that keep them, from the seeds beside each seed: along its ring, and in the rings
+    // before and behind. In a direction where no seed beside it is lit, a slope stays. Seeds are `spacing` apart, 1/256 unit.
     void set(int32_t spacing);
 
 private:
     struct Shown {
-        int32_t number;  // of the seed, or COPY
+        int32_t number;  // number of the seed, or COPY
         int32_t sight;
-        Voxel *voxel, *before, *behind;  // its own, and those of seeds beside it in the rings before and behind, or its own
+        // The seed's voxel, and those of the seeds beside it in the rings before and behind: its own where there is none. The
+        // `before` of a copy is the original.
+        Voxel *voxel, *before, *behind;
     };
     Shown* find(int number)
     {
@@ -48,7 +51,7 @@ private:
         return i < count_ && shown_[i].number == number ? shown_ + i : nullptr;
     }
 
-    // Seeds are looked up by the last bits of their numbers, which tell those of some rings apart.
+    // Seeds are looked up by the low bits of their numbers, which differ within a few neighbouring rings.
     static constexpr int TABLE = 1024, COPY = -2;
     int count_;
     Shown shown_[VOXELS_AT_ONCE];
