@@ -37,7 +37,7 @@ ViewAxes leaned(const ViewAxes& axes, Angle angle);
 // Turns the axes in the world. `by` is a pure rotation.
 ViewAxes turnedBy(const Matrix& by, const ViewAxes& axes);
 
-// Focal lengths and the centre of the picture are in pixels; 64 <= focal <= 500.
+// Focal lengths (FOCAL_LEAST..FOCAL_MOST of model/scene.h) and the centre of the picture are in pixels.
 struct Camera {
     // Place and axes of the eye, as Anim::move() left them.
     Point eye{Real(0), Real(0), Real(-120)};

@@ -15,7 +15,7 @@ void exchange(T& a, T& b)
 
 }  // namespace
 
-// A record is one block of memory: this struct, then the items, the keys and the links and dents.
+// A record is one block of memory: this struct, then the items, the keys, and the links and dents.
 struct alignas(Actor) Model::Record {
     struct Pair {
         int16_t a, b;  // numbers of the two objects
@@ -110,7 +110,7 @@ bool Model::restore(const Record* record)
     memcpy(then.title, record->title, sizeof title);
     const bool seenAnew = !(light == record->light) || !(camera.eye == record->camera.eye);
     swap(then);
-    // The objects taken over still have the brightness and the view of the present light and eye.
+    // The objects taken over still have the brightness and the view of the previous light and eye.
     if (seenAnew)
         recalcAll();
     const Record::Pair* const end = record->pair() + record->pairs;
@@ -125,7 +125,8 @@ bool Model::restore(const Record* record)
     return true;
 }
 
-// The items of a record. Objects that would be as they are now are left out: takeObjects() takes them over. False: no memory.
+// Makes the items of a record in `then`. An object equal to the present one is not made, because takeObjects() will move the
+// present one over. Returns false when there is no memory.
 bool Model::makeItems(const Record* record, Model& then) const
 {
     for (int i = 0; i < record->items; ++i) {
@@ -172,7 +173,7 @@ void Model::unlinkAll()
     }
 }
 
-// Hands over the objects that are as they were then.
+// Moves to `then` the objects that did not have to be made anew.
 void Model::takeObjects(Model& then)
 {
     for (int i = 0; i < then.count_; ++i) {
