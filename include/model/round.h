@@ -25,15 +25,15 @@ int stepsIn(Real length, Real spacing);
 class Quarter {
 public:
     explicit Quarter(const Vector& stretch);
-    Real length() const { return way_[STEPS]; }
-    // longitude(): the longitude, up to a quarter turn, after an arc length of `way`; wayTo(): the arc length up to a
+    Real length() const { return arcs_[STEPS]; }
+    // longitude(): the longitude, up to a quarter turn, after the arc length `arc`; wayTo(): the arc length up to a
     // longitude.
-    Angle longitude(Real way) const;
+    Angle longitude(Real arc) const;
     Real wayTo(Angle longitude) const;
 
 private:
     static constexpr int STEPS = 32;
-    Real way_[STEPS + 1];
+    Real arcs_[STEPS + 1];
 };
 
 // The distance between two rings on the stretched surface that are `step` apart on the unstretched one, at a place whose normal

@@ -45,10 +45,10 @@ public:
     // The index of the last key that is not later than a time; -1 if all are later.
     int before(int32_t time) const
     {
-        int at = -1;
-        while (at + 1 < count_ && keys_[at + 1].time <= time)
-            ++at;
-        return at;
+        int i = -1;
+        while (i + 1 < count_ && keys_[i + 1].time <= time)
+            ++i;
+        return i;
     }
 
 private:
@@ -59,21 +59,21 @@ private:
     int32_t repeat_;
 };
 
-// A cubic (Hermite) interpolation from key `at` to the next, at fraction `s` of the way. Its slope at a key is that of the line
+// A cubic (Hermite) interpolation from key `index` to the next, at fraction `s` of the way. Its slope at a key is that of the line
 // between the keys before and after; at the ends of a run that does not repeat the slope is 0.
-Keyed smoothly(const KeyRow& row, int at, Real s)
+Keyed smoothly(const KeyRow& row, int index, Real s)
 {
-    const Key &from = row.key(at), &to = row.key(at + 1);
-    const int64_t start = row.timeOf(at), end = row.timeOf(at + 1);
+    const Key &from = row.key(index), &to = row.key(index + 1);
+    const int64_t start = row.timeOf(index), end = row.timeOf(index + 1);
     const int32_t wide = static_cast<int32_t>(end - start);
     const Real s2 = s * s, s3 = s2 * s;
     const Real onto = s2 * Real(3) - s3 * Real(2);
     const Real outSlope = s3 - s2 * Real(2) + s, inSlope = s3 - s2;
-    const bool before = row.has(at - 1), after = row.has(at + 2);
-    const Key& previous = before ? row.key(at - 1) : from;
-    const Key& next = after ? row.key(at + 2) : to;
-    const int32_t aroundFrom = before ? static_cast<int32_t>(end - row.timeOf(at - 1)) : 1;
-    const int32_t aroundTo = after ? static_cast<int32_t>(row.timeOf(at + 2) - start) : 1;
+    const bool before = row.has(index - 1), after = row.has(index + 2);
+    const Key& previous = before ? row.key(index - 1) : from;
+    const Key& next = after ? row.key(index + 2) : to;
+    const int32_t aroundFrom = before ? static_cast<int32_t>(end - row.timeOf(index - 1)) : 1;
+    const int32_t aroundTo = after ? static_cast<int32_t>(row.timeOf(index + 2) - start) : 1;
     Keyed now;
     for (int i = 0; i < Key::VALUES; ++i) {
         const Real a = from.value[i], b = to.value[i];
@@ -97,17 +97,17 @@ Keyed keyed(const Key* keys, const Motion& motion, Time time)
 {
     const KeyRow row(keys, motion);
     const int32_t t = keyTime(keys, motion, time);
-    const int at = row.before(t);
-    if (!row.has(at) || !row.has(at + 1)) {
-        const Key& only = row.has(at) ? row.key(at) : row.key(0);
+    const int index = row.before(t);
+    if (!row.has(index) || !row.has(index + 1)) {
+        const Key& only = row.has(index) ? row.key(index) : row.key(0);
         return linearly(only, only, Real(0));
     }
-    const int64_t start = row.timeOf(at);
-    const int32_t wide = static_cast<int32_t>(row.timeOf(at + 1) - start);
+    const int64_t start = row.timeOf(index);
+    const int32_t wide = static_cast<int32_t>(row.timeOf(index + 1) - start);
     if (wide == 0)
-        return linearly(row.key(at), row.key(at + 1), Real(0));
+        return linearly(row.key(index), row.key(index + 1), Real(0));
     const Real s = realFromRaw(mulDiv(static_cast<int32_t>(t - start), 65536, wide));
-    return motion.smooth ? smoothly(row, at, s) : linearly(row.key(at), row.key(at + 1), s);
+    return motion.smooth ? smoothly(row, index, s) : linearly(row.key(index), row.key(index + 1), s);
 }
 
 Real limited(Real a)

@@ -97,8 +97,8 @@ void Bodies::findMembers(SoftObject* object, int* filled)
     const int begin = *filled;
     members_[(*filled)++] = object;
     bySlot_[object->slot()].first = static_cast<int16_t>(begin);
-    for (int at = begin; at < *filled; ++at) {
-        for (const List<Link>::Node* node = members_[at]->skel().first(); node != nullptr; node = node->next) {
+    for (int i = begin; i < *filled; ++i) {
+        for (const List<Link>::Node* node = members_[i]->skel().first(); node != nullptr; node = node->next) {
             SoftObject* other = node->item.object;
             if (bySlot_[other->slot()].first >= 0 || node->item.weight == Real(0))
                 continue;

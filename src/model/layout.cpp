@@ -441,7 +441,7 @@ int SoftObject::ringOf(int number) const
 }
 
 // Allocates a block of oversampled seeds; each is laid out when it is asked for. Returns null when there is no memory.
-Seed* SoftObject::layOutBlock(int at)
+Seed* SoftObject::layOutBlock(int index)
 {
     Seed* block = allocate<Seed>(EXTRA_BLOCK);
     if (block == nullptr)
@@ -452,7 +452,7 @@ Seed* SoftObject::layOutBlock(int at)
         block[i] = Seed();
         block[i].neighbour = NOT_LAID;
     }
-    laid_.extras[at] = block;
+    laid_.extras[index] = block;
     return block;
 }
 
@@ -460,8 +460,8 @@ Seed& SoftObject::laidExtra(int slot)
 {
     // Returned when there is no memory: a copy of the regular seed, which is not drawn.
     static Seed unseen;
-    const int at = slot >> (EXTRA_BITS + 1), number = slot >> 1;
-    if (laid_.extras[at] == nullptr && layOutBlock(at) == nullptr) {
+    const int block = slot >> (EXTRA_BITS + 1), number = slot >> 1;
+    if (laid_.extras[block] == nullptr && layOutBlock(block) == nullptr) {
         unseen = seed(slot - 1);
         unseen.flags = 0;
         return unseen;

@@ -123,10 +123,10 @@ const char* Model::expects(const Actor& item)
 
 void Model::remove(Actor* item)
 {
-    int at = 0;
-    while (items_[at] != item)
-        ++at;
-    for (int i = at + 1; i < itemCount_; ++i) {
+    int index = 0;
+    while (items_[index] != item)
+        ++index;
+    for (int i = index + 1; i < itemCount_; ++i) {
         Motion& motion = items_[i]->motion;
         if (item->number == motion.parent) {
             // The pose of the removed item becomes part of the centres of its children.
@@ -274,12 +274,12 @@ bool Model::addKey(Actor* item, const Key& key)
     Motion& motion = item->motion;
     if (motion.keyCount == 0)
         motion.firstKey = static_cast<int16_t>(keyCount_);
-    const int at = motion.firstKey + motion.keyCount;
-    memmove(keys_ + at + 1, keys_ + at, static_cast<size_t>(keyCount_ - at) * sizeof(Key));
-    keys_[at] = key;
+    const int index = motion.firstKey + motion.keyCount;
+    memmove(keys_ + index + 1, keys_ + index, static_cast<size_t>(keyCount_ - index) * sizeof(Key));
+    keys_[index] = key;
     ++keyCount_;
     for (int i = 0; i < itemCount_; ++i)
-        if (items_[i] != item && items_[i]->motion.keyCount > 0 && items_[i]->motion.firstKey >= at)
+        if (items_[i] != item && items_[i]->motion.keyCount > 0 && items_[i]->motion.firstKey >= index)
             ++items_[i]->motion.firstKey;
     ++motion.keyCount;
     motion.parts |= MOTION_KEYS;
@@ -551,7 +551,7 @@ Real fieldOf(SoftObject* const* body, const Part* parts, const Part* end)
 Real Model::implicitAt(const Point& p, int* strongest) const
 {
     Part parts[OBJECTS_MOST], *end = parts;
-    Real most(0), highest(0);
+    Real greatest(0), highest(0);
     *strongest = -1;
     for (int i = 0; i < count_; ++i) {
         const SoftObject& object = *actors_[i]->object;
@@ -561,13 +561,13 @@ Real Model::implicitAt(const Point& p, int* strongest) const
         if (field <= Real(0))
             continue;
         *end++ = {i, object.hasSurface() && bodiesKnown_ ? bodies_.members(object) : nullptr, field, Real(0), field};
-        if (object.hasSurface() && field > most) {
-            most = field;
+        if (object.hasSurface() && field > greatest) {
+            greatest = field;
             *strongest = i;
         }
     }
-    for (Part* part = parts; part < end && most > Real(0); ++part) {
-        part->share = quotient(part->field, most);
+    for (Part* part = parts; part < end && greatest > Real(0); ++part) {
+        part->share = quotient(part->field, greatest);
         for (const Part* other = parts; other < end && part->body != nullptr; ++other)
             part->sum += other->field * bodies_.weight(part->slot, other->slot);
     }

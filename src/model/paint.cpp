@@ -27,7 +27,7 @@ Vector between(const Vector& a, const Vector& b, int step, int steps)
     return a + (b - a) * (Real(step) / Real(steps));
 }
 
-int part(const Colour& c, int i)
+int component(const Colour& c, int i)
 {
     return i == 0 ? c.red : i == 1 ? c.green : c.blue;
 }
@@ -68,7 +68,7 @@ void Paints::measureBox()
         least_[p] = 255;
         most_[p] = 0;
         for (int i = 0; i < count_; ++i) {
-            const int value = part(colours_[i], p);
+            const int value = component(colours_[i], p);
             least_[p] = value < least_[p] ? value : least_[p];
             most_[p] = value > most_[p] ? value : most_[p];
         }
@@ -80,7 +80,7 @@ void Paints::measureBox()
 Vector Paints::inBox(const Colour& colour) const
 {
     const auto along = [&](int p) {
-        return most_[p] == least_[p] ? Real(0) : Real((part(colour, p) - least_[p]) * (SIDE - 1)) / Real(most_[p] - least_[p]);
+        return most_[p] == least_[p] ? Real(0) : Real((component(colour, p) - least_[p]) * (SIDE - 1)) / Real(most_[p] - least_[p]);
     };
     return {along(0), along(1), along(2)};
 }

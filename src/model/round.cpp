@@ -46,21 +46,21 @@ bool isStretched(const Vector& stretch)
 
 Quarter::Quarter(const Vector& stretch)
 {
-    way_[0] = way_[STEPS] = Real(0);
+    arcs_[0] = arcs_[STEPS] = Real(0);
     if (!isStretched(stretch))
         return;
     for (int i = 0; i < STEPS; ++i) {
         const Angle from = static_cast<Angle>(i) * (QUARTER / STEPS), to = from + QUARTER / STEPS;
-        way_[i + 1] = way_[i] + ::length({stretch.x * (sine(to) - sine(from)), Real(0), stretch.z * (cosine(to) - cosine(from))});
+        arcs_[i + 1] = arcs_[i] + ::length({stretch.x * (sine(to) - sine(from)), Real(0), stretch.z * (cosine(to) - cosine(from))});
     }
 }
 
-Angle Quarter::longitude(Real way) const
+Angle Quarter::longitude(Real arc) const
 {
     int i = 0;
-    while (i < STEPS - 1 && way_[i + 1] <= way)
+    while (i < STEPS - 1 && arcs_[i + 1] <= arc)
         ++i;
-    const Real step = way_[i + 1] - way_[i], rest = min(way - way_[i], step);
+    const Real step = arcs_[i + 1] - arcs_[i], rest = min(arc - arcs_[i], step);
     const Angle inStep = static_cast<Angle>(mulDiv(rawFromReal(rest), QUARTER / STEPS, rawFromReal(step)));
     return static_cast<Angle>(i) * (QUARTER / STEPS) + inStep;
 }
@@ -70,7 +70,7 @@ Real Quarter::wayTo(Angle longitude) const
     const Angle step = longitude / (QUARTER / STEPS);
     const int i = step < STEPS ? static_cast<int>(step) : STEPS - 1;
     const Angle rest = longitude - static_cast<Angle>(i) * (QUARTER / STEPS);
-    return way_[i] + portion(way_[i + 1] - way_[i], static_cast<int32_t>(rest), QUARTER / STEPS);
+    return arcs_[i] + portion(arcs_[i + 1] - arcs_[i], static_cast<int32_t>(rest), QUARTER / STEPS);
 }
 
 // The result is the area between a step up the surface and a step along the ring, divided by the length of the latter.

@@ -20,7 +20,7 @@ constexpr Real STEEP_AT(0.65 * CORE_SIZE);
 
 // Returns a vector close to `v` whose length equals that of `like`: the largest component of `v` takes up the difference. Each
 // call is exact to half a last bit and has no bias, so that a distance survives a million turns.
-Vector withSquare(const Vector& v, const Vector& like)
+Vector withLengthOf(const Vector& v, const Vector& like)
 {
 #if FB_REAL == FB_FIXED
     const auto square = [](const Vector& u) {
@@ -121,7 +121,7 @@ void SoftObject::rotate(const Point& about, const Vector& axis, Angle angle)
 {
     const Matrix by = Matrix::rotation(axis, angle);
     const Vector arm = centre_ - about;
-    translate(withSquare(by * arm, arm) - arm);
+    translate(withLengthOf(by * arm, arm) - arm);
     setTurn(by * turn_);
 }
 
