@@ -73,7 +73,8 @@ struct Seed {
         uint8_t blocker; // without SEED_VALID: slot of the neighbour that was the strongest there
     };
     // The seed's cell, its part of the unblended surface: two half axes, 1/64 of the spacing each, and the area of the
-    // parallelogram that they span, (1/64 spacing)^2 (0 for an oversampled seed: it lies in no band of its ring).
+    // parallelogram that they span, (1/64 spacing)^2. The cells of a ring form a band; the area is 0 for an oversampled seed,
+    // whose cell is in no band.
     int8_t along[3], across[3];
     int8_t way[3];       // direction of the path, 1.0 = 127
     uint16_t area;

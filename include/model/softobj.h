@@ -97,7 +97,8 @@ public:
     bool resample(Real spacing, SurfaceMaker makeSurface, const SoftObject* like = nullptr);
     // The reason why the latest failed resample(), of any object, failed: one line of words.
     static const char* resampleTrouble();
-    // The spacing of this object's seeds when `asked` is the spacing of the model: thin objects get closer seeds.
+    // The spacing of this object's seeds when `asked` is the spacing of the model: thin objects get closer seeds, at most twice
+    // as close.
     Real ownSpacing(Real asked) const;
     // The number of regular seeds that this spacing would give.
     int seedsAt(Real spacing) const;
@@ -208,14 +209,14 @@ public:
     bool stretched() const { return stretched_; }
     bool warped() const { return warped_; }
     const Warp& warp() const { return warp_; }
-    // Stretched or warped: paths from one root then differ in length.
+    // Returns true if the object is stretched or warped; paths from one root then differ in length.
     bool shaped() const { return shaped_; }
-    // Returns true if paths do not in general lead along the normal of the unblended surface.
+    // Returns true if paths do not, in general, lead along the normal of the unblended surface.
     bool slants() const { return tapers_ || shaped(); }
-    // Lower bound of: distance from the core, divided by the distance that an unshaped object would have there.
+    // Lower bound of the ratio between a distance from the core and the same distance in the object without stretch and warp.
     Real narrowing() const { return min(stretch_.x, min(stretch_.y, stretch_.z)) * warp_.least(); }
-    // The same lower bound where the field is steep: over a distance of steepest() times the size the field changes by at most
-    // 1.6 (strength 1).
+    // Like narrowing(), for the part of the field that is steep: over a distance of steepest() times the size the field changes
+    // by at most 1.6 times the strength.
     Real steepest() const { return min(stretch_.x, min(stretch_.y, stretch_.z)) * warp_.leastSteep(); }
     // Upper bound of the distance from the centre at which there is any field.
     Real reach() const { return reach_; }
@@ -228,9 +229,9 @@ public:
     // The factor by which the object has grown since its seeds were laid out: it scales own space to the world.
     Real growth() const { return size_ / laid_.size; }
     Real laidSize() const { return laid_.size; }
-    // Length of an unshaped object's paths when the seeds were laid out.
+    // Length of the paths of an object without stretch and warp, in own space.
     Real laidRadius() const { return laid_.size * restRoot_; }
-    // reach() when the seeds were laid out.
+    // reach() as a length of own space, whose scale is that of the time when the seeds were laid out.
     Real laidReach() const { return shaped() ? reach() / growth() : laid_.size + coreReach_ / growth(); }
     // Resting places are stored in 16 bits (Seed::place): the number of low bits of a 16.16 number that are dropped.
     int placeShift() const { return laid_.placeShift; }

@@ -12,7 +12,8 @@ namespace {
 // own.
 constexpr int EXTRA_CELL = 5;
 
-// An object with a smaller radius than this is thin: it gets as many seeds around it as an object of this radius. Units.
+// An object with a smaller radius than this is thin: it gets as many seeds around it as an object of this radius, though
+// at most twice as close. Units.
 constexpr Real THIN(4.5);
 
 // Value of `neighbour` in an oversampled seed that has not been laid out yet.

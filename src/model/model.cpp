@@ -551,7 +551,7 @@ Real fieldOf(SoftObject* const* body, const Part* parts, const Part* end)
 Real Model::implicitAt(const Point& p, int* strongest) const
 {
     Part parts[OBJECTS_MOST], *end = parts;
-    Real greatest(0), highest(0);
+    Real most(0), highest(0);
     *strongest = -1;
     for (int i = 0; i < count_; ++i) {
         const SoftObject& object = *actors_[i]->object;
@@ -561,13 +561,13 @@ Real Model::implicitAt(const Point& p, int* strongest) const
         if (field <= Real(0))
             continue;
         *end++ = {i, object.hasSurface() && bodiesKnown_ ? bodies_.members(object) : nullptr, field, Real(0), field};
-        if (object.hasSurface() && field > greatest) {
-            greatest = field;
+        if (object.hasSurface() && field > most) {
+            most = field;
             *strongest = i;
         }
     }
-    for (Part* part = parts; part < end && greatest > Real(0); ++part) {
-        part->share = quotient(part->field, greatest);
+    for (Part* part = parts; part < end && most > Real(0); ++part) {
+        part->share = quotient(part->field, most);
         for (const Part* other = parts; other < end && part->body != nullptr; ++other)
             part->sum += other->field * bodies_.weight(part->slot, other->slot);
     }

@@ -73,7 +73,7 @@ Real Quarter::wayTo(Angle longitude) const
     return arcs_[i] + portion(arcs_[i + 1] - arcs_[i], static_cast<int32_t>(rest), QUARTER / STEPS);
 }
 
-// The result is the area between a step up the surface and a step along the ring, divided by the length of the latter.
+// The factor is the area between a unit step up the surface and one along the ring, divided by the length of the latter.
 Real stretchedStep(Real step, const Vector& stretch, Real normalSine, Real normalCosine, Real sine, Real cosine)
 {
     const Real area = ::length({stretch.y * stretch.z * normalCosine * sine, stretch.x * stretch.z * normalSine,
