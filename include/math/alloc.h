@@ -1,4 +1,4 @@
-// Objects on the heap without the C++ library: memory that runs out gives null, never an exception.
+// Objects on the heap without the C++ library: when memory runs out the result is null, and there is never an exception.
 #ifndef FB_ALLOC_H
 #define FB_ALLOC_H
 
@@ -8,7 +8,7 @@ struct InPlace {};
 inline void* operator new(size_t, void* at, InPlace) noexcept { return at; }
 inline void operator delete(void*, void*, InPlace) noexcept {}
 
-// A new T, or null when there is no memory. Ended by destroy().
+// Returns a new T, or null when there is no memory. The owner ends it with destroy().
 template <class T, class... Args>
 T* make(Args&&... args)
 {
@@ -25,7 +25,7 @@ void destroy(T* object)
     }
 }
 
-// Room for `count` things that need no constructor, or null (also when the size does not fit 32 bits).
+// Room for `count` items that need no constructor. Returns null when there is no memory or the size does not fit 31 bits.
 template <class T>
 T* allocate(uint32_t count)
 {

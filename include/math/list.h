@@ -1,5 +1,5 @@
-// List: the report's "simple linked-list data structure". It holds what is few and changes while the program runs: a
-// SoftObject's skeleton, the model's objects.
+// List: the report's "simple linked-list data structure", for short lists that change while the program runs: the links of a
+// SoftObject. A list owns its nodes.
 #ifndef FB_LIST_H
 #define FB_LIST_H
 
@@ -18,7 +18,7 @@ public:
     List(const List&) = delete;
     List& operator=(const List&) = delete;
 
-    // Adds at the end. False: no memory, and the list is as it was.
+    // Adds an item at the end. Returns false when there is no memory; the list is unchanged then.
     bool append(const T& item)
     {
         Node* node = static_cast<Node*>(malloc(sizeof(Node)));
@@ -33,7 +33,7 @@ public:
         return true;
     }
 
-    // Takes out the first item equal to `item`. False: there was none.
+    // Removes the first item equal to `item`. Returns false if there is none.
     bool remove(const T& item)
     {
         for (Node** at = &head_; *at != nullptr; at = &(*at)->next) {
@@ -47,7 +47,7 @@ public:
         return false;
     }
 
-    // The first item equal to `item`, or null.
+    // Returns the first item equal to `item`, or null.
     T* find(const T& item)
     {
         for (Node* node = head_; node != nullptr; node = node->next)

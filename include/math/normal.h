@@ -1,20 +1,21 @@
-// Normal: a unit vector in whole numbers, and lengths by the same table: for what is done for every seed of a frame.
+// Normal: a unit vector in whole numbers, and quick lengths from the same table, for computations done for every seed of a
+// frame.
 #ifndef FB_NORMAL_H
 #define FB_NORMAL_H
 
 #include "math/vec.h"
 
-// A unit normal, each component scaled by 2^14; good to about 1/250.
+// A unit normal with 14 fraction bits (1.0 = 2^14); its error is about 1/250.
 struct Normal {
     int32_t x, y, z;
 };
 
-// The table behind normalise(). Call once before any object is made.
+// Fills the table that normalise() uses. Call it once before any object is made.
 void makeNormalTable();
 
 extern uint16_t inverseRoots[769];  // 2^28 / sqrt(s) for s = (i + 1/2) 2^20
 
-// The direction of a vector of any length in range; the zero vector gives the direction to the viewer.
+// The direction of a vector of any length in range; a zero vector gives (0, 0, -1), the direction to the viewer.
 inline Normal normalise(const Vector& v)
 {
 #if FB_REAL == FB_FIXED
@@ -23,7 +24,7 @@ inline Normal normalise(const Vector& v)
                           static_cast<uint32_t>(z < 0 ? ~z : z);
     if (bits == 0)
         return {0, 0, -16384};
-    // To 14 bits and a sign, so that the sum of squares has 26 to 30 bits.
+    // Shifts the components to 14 bits and a sign, so that the sum of squares has 26 to 30 bits.
     const int excess = 18 - __builtin_clz(bits);
     if (excess >= 0) {
         x >>= excess;

@@ -1,13 +1,13 @@
-// Real: a real number for the purposes of the representation (report, Section III, Data Structures: "can be easily
-// redefined as a single- or double-precision floating point number or as a fixed-point representation").
+// Real: a real number for the purposes of the representation (report, Section III, Data Structures: "can be easily redefined as
+// a single- or double-precision floating point number or as a fixed-point representation").
 //
-// One define chooses: FB_REAL is FB_FIXED (the default: 16.16, the same bits on every machine), FB_FLOAT or FB_DOUBLE.
-// Everything else in the program is written against the few names below and compiles with all three.
+// One define chooses: FB_REAL is FB_FIXED (the default: 16.16, the same bits on every machine), FB_FLOAT or FB_DOUBLE. The rest
+// of the program uses only the names below and compiles with all three.
 //
-// 16.16: one sign bit, 15 bits of units, 16 bits of fraction; range -32768 .. 32767.99998, step 1/65536. Products and
-// quotients are rounded towards minus infinity (the shift) and towards zero (the division). Sums must stay in range:
-// a squared distance does only up to 181 units, so no squared distance is ever formed from unscaled coordinates (see
-// SoftObject::coreParam).
+// 16.16: one sign bit, 15 integer bits, 16 fraction bits; range -32768 .. 32767.99998, step 1/65536. Products are rounded
+// towards minus infinity (by a shift), quotients towards zero. Sums must stay in range. A squared distance stays in range only
+// up to 181 units, so no squared distance is formed from unscaled coordinates as a Real (see SoftObject::plainParam and
+// squareOf()).
 #ifndef FB_REAL_H
 #define FB_REAL_H
 
@@ -27,8 +27,8 @@
 #define FB_I386 0
 #endif
 
-// For functions of the innermost loops: arguments in registers, where the compiler would pass them through memory; and what
-// is seldom needed stays out of the way of what often is.
+// For functions of the innermost loops: REGISTERS passes arguments in registers instead of memory; SELDOM keeps code that is
+// seldom needed from being inlined into code that runs often.
 #if FB_I386
 #define REGISTERS __attribute__((regparm(3)))
 #else
@@ -36,13 +36,13 @@
 #endif
 #define SELDOM __attribute__((noinline))
 
-// High 32 bits of the signed 64-bit product: one imul on the 386.
+// Upper 32 bits of the signed 64-bit product: one imul on the 386.
 inline int32_t mulHigh(int32_t a, int32_t b)
 {
     return static_cast<int32_t>((static_cast<int64_t>(a) * b) >> 32);
 }
 
-// (a * b) >> 16 on 64 bits between.
+// (a * b) >> 16, with a 64-bit product.
 inline int32_t mulShift16(int32_t a, int32_t b)
 {
 #if FB_I386
@@ -55,8 +55,8 @@ inline int32_t mulShift16(int32_t a, int32_t b)
 #endif
 }
 
-// a * b / c on 64 bits between, truncated towards zero; the quotient must fit 32 bits and c must not be 0.
-// The 386 has both steps as one instruction each; without libgcc there is no other 64-bit division.
+// a * b / c with a 64-bit product, truncated towards zero. The quotient must fit 32 bits and c must not be 0. The 386 does each
+// step with one instruction; without libgcc there is no other 64-bit division.
 inline int32_t mulDiv(int32_t a, int32_t b, int32_t c)
 {
 #if FB_I386
@@ -69,7 +69,7 @@ inline int32_t mulDiv(int32_t a, int32_t b, int32_t c)
 #endif
 }
 
-// a / b, rounded down; the quotient must fit 32 bits.
+// a / b, rounded down; the quotient must fit 32 bits. `*rest` receives the remainder.
 inline uint32_t quotient64(uint64_t a, uint32_t b, uint32_t* rest)
 {
 #if FB_I386
@@ -83,10 +83,10 @@ inline uint32_t quotient64(uint64_t a, uint32_t b, uint32_t* rest)
 #endif
 }
 
-// a / b, rounded down, any 64-bit number by any 32-bit one but 0; `*rest` is what is left over.
+// a / b, rounded down, for any 64-bit a and any 32-bit b but 0. `*rest` receives the remainder.
 inline uint64_t divide64(uint64_t a, uint32_t b, uint32_t* rest)
 {
-    // Long division in two digits of 32 bits: the rest of the first, below b, goes into the second.
+    // Long division in two digits of 32 bits: the remainder of the first digit, which is below b, goes into the second.
     const uint32_t high = quotient64(a >> 32, b, rest);
     const uint32_t low = quotient64(static_cast<uint64_t>(*rest) << 32 | static_cast<uint32_t>(a), b, rest);
     return static_cast<uint64_t>(high) << 32 | low;
@@ -105,7 +105,7 @@ struct Real {
     Real() = default;
     constexpr Real(int whole) : raw(static_cast<int32_t>(static_cast<uint32_t>(whole) << 16)) {}
     constexpr Real(long whole) : Real(static_cast<int>(whole)) {}
-    // For constants only: a double met at run time would need the x87, and the link without it fails.
+    // For constants only: a double computed at run time would need the x87, and the link fails without x87 support.
     constexpr Real(double value) : raw(static_cast<int32_t>(value * 65536 + (value < 0 ? -0.5 : 0.5))) {}
 
     static constexpr Real fromRaw(int32_t raw)
@@ -125,7 +125,7 @@ constexpr Real operator-(Real a, Real b) { return Real::fromRaw(a.raw - b.raw); 
 constexpr Real operator*(Real a, Real b)
 {
 #if FB_I386
-    // The compiler shifts the high half of the product too, for nobody.
+    // The compiler would also shift the high half of the product, which is not used.
     if (!__builtin_is_constant_evaluated() && !(__builtin_constant_p(a.raw) && __builtin_constant_p(b.raw)))
         return Real::fromRaw(mulShift16(a.raw, b.raw));
 #endif
@@ -138,8 +138,8 @@ constexpr bool operator>=(Real a, Real b) { return a.raw >= b.raw; }
 constexpr bool operator==(Real a, Real b) { return a.raw == b.raw; }
 constexpr bool operator!=(Real a, Real b) { return a.raw != b.raw; }
 
-// Quotient truncated towards zero. Division by zero and quotients out of range give the largest value of their sign
-// (the processor would stop the program instead).
+// Quotient truncated towards zero. A division by zero and a quotient out of range give the largest value with the quotient's
+// sign (the processor would stop the program instead).
 inline Real operator/(Real a, Real b)
 {
     const uint32_t top = a.raw < 0 ? 0u - static_cast<uint32_t>(a.raw) : static_cast<uint32_t>(a.raw);
@@ -153,10 +153,10 @@ inline Real operator/(Real a, Real b)
 constexpr Real shiftDown(Real a, int n) { return Real::fromRaw(a.raw >> n); }
 constexpr Real shiftUp(Real a, int n) { return Real::fromRaw(static_cast<int32_t>(static_cast<uint32_t>(a.raw) << n)); }
 
-// Largest integer not above the value.
+// The largest integer not above the value.
 constexpr int floorToInt(Real a) { return a.raw >> 16; }
 
-// To and from raw 16.16, for tables, files and dumps, whatever Real is.
+// Conversion from and to raw 16.16, for tables, files and dumps, whatever type Real is.
 constexpr Real realFromRaw(int32_t raw) { return Real::fromRaw(raw); }
 constexpr int32_t rawFromReal(Real a) { return a.raw; }
 
@@ -185,7 +185,7 @@ constexpr Real min(Real a, Real b) { return b < a ? b : a; }
 constexpr Real max(Real a, Real b) { return a < b ? b : a; }
 constexpr Real clamp(Real a, Real low, Real high) { return a < low ? low : high < a ? high : a; }
 
-// a / b where the quotient is known to fit.
+// a / b for quotients known to be in range, b not 0: without the checks of operator/.
 inline Real quotient(Real a, Real b)
 {
 #if FB_REAL == FB_FIXED
@@ -195,22 +195,23 @@ inline Real quotient(Real a, Real b)
 #endif
 }
 
-// Square root; 0 for values below 0. Exact to the last bit (rounded down) for 16.16.
+// Square root; 0 for values below 0. In 16.16 it is exact to the last bit (rounded down).
 Real squareRoot(Real a);
 
 // Integer square root, rounded down.
 uint32_t squareRoot64(uint64_t a);
 
-// An angle: the whole turn is 2^32, so that it wraps by itself.
+// An angle: a whole turn is 2^32, so that angles wrap around by themselves.
 typedef uint32_t Angle;
 
-// Sine and cosine scaled by 2^30, good to 2^-27; computed in integers, so the same on every machine and for every Real.
+// Sine and cosine with 30 fraction bits, good to 2^-27. They are computed in integers, so they are the same on every machine
+// and for every type of Real.
 int32_t sine30(Angle a);
 inline int32_t cosine30(Angle a) { return sine30(a + 0x40000000u); }
 Real sine(Angle a);
 inline Real cosine(Angle a) { return sine(a + 0x40000000u); }
 
-// A number of turns (any Real; only the fraction counts) as an angle.
+// A number of turns as an angle; only the fraction counts.
 Angle turns(Real t);
 
 #endif

@@ -1,5 +1,5 @@
-// Point, Vector, Matrix: the report's simple types (Section III, Data Structures), with the operations it names.
-// Units are the model's; components are Real, so in 16.16 each must stay within +-32767.
+// Point, Vector, Matrix: the report's simple types (Section III, Data Structures), with the operations it names. Components are
+// in the model's units and of type Real, so in 16.16 each must stay within +-32767.
 #ifndef FB_VEC_H
 #define FB_VEC_H
 
@@ -30,14 +30,14 @@ constexpr bool operator==(const Point& a, const Point& b) { return a.x == b.x &&
 constexpr Vector toVector(const Point& p) { return {p.x, p.y, p.z}; }
 constexpr Point toPoint(const Vector& v) { return {v.x, v.y, v.z}; }
 
-// Sum of products; in 16.16 it must stay below 32768, so both lengths below 181, or one of them small.
+// Dot product. In 16.16 the sum must stay below 32768, so both lengths must be below 181, or one of them small.
 constexpr Real dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 constexpr Vector cross(const Vector& a, const Vector& b)
 {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// The square of a length, for components of any size in range: to compare lengths without their roots.
+// The square of a length, for components of any size in range: it allows lengths to be compared without square roots.
 #if FB_REAL == FB_FIXED
 typedef uint64_t Square;
 
@@ -55,7 +55,7 @@ inline Square squareOf(Real a) { return a * a; }
 #endif
 Real lengthOf(Square square);
 
-// Whether a vector is shorter than a length; most that are not are too long along one axis.
+// Returns true if `v` is shorter than `than`. Most longer vectors are told by a single component, without squares.
 inline bool isShorter(const Vector& v, Real than)
 {
     return absolute(v.x) < than && absolute(v.y) < than && absolute(v.z) < than && squareOf(v) < squareOf(than);
@@ -71,16 +71,16 @@ inline bool isNearer(const Point& a, const Point& b, Real than)
 // Euclidean length.
 inline Real length(const Vector& v) { return lengthOf(squareOf(v)); }
 
-// The vector of the same direction with the given length; the zero vector has no direction and stays zero.
+// The vector with the direction of `v` and the given length; the zero vector has no direction and stays zero.
 Vector withLength(const Vector& v, Real newLength);
 inline Vector unit(const Vector& v) { return withLength(v, Real(1)); }
 
-// The part of `v` along `onto` (which need not have unit length; zero gives zero).
+// The component of `v` along `onto`, which need not have unit length; a zero `onto` gives zero.
 Vector projection(const Vector& v, const Vector& onto);
 
-// A 4x4 matrix for column vectors, m[row][column]. "Can be equated and multiplied by matrices to give new matrices,
-// and multiplied by points and vectors to give new points and vectors." The last row is 0 0 0 1 for all that the
-// program makes; a point takes the translation in column 3, a vector does not.
+// A 4x4 matrix for column vectors, m[row][column]. "Can be equated and multiplied by matrices to give new matrices, and
+// multiplied by points and vectors to give new points and vectors." The last row of every matrix of this program is 0 0 0 1.
+// Column 3, the translation, is added to points but not to vectors.
 struct Matrix {
     Real m[4][4];
 
@@ -93,8 +93,8 @@ struct Matrix {
     }
     static Matrix translation(const Vector& by);
     static Matrix scaling(Real by);
-    // Turn by `angle` about an axis through the origin, anticlockwise when the axis points at the reader in a
-    // right-handed system. The axis need not have unit length; a zero axis gives the identity.
+    // Turn by `angle` about an axis through the origin, anticlockwise when the axis points at the reader in a right-handed
+    // system. The axis need not have unit length; a zero axis gives the identity.
     static Matrix rotation(const Vector& axis, Angle angle);
 };
 

@@ -1,4 +1,4 @@
-// Whole numbers: the smaller and the larger of two, magnitudes, limits.
+// Whole numbers: magnitude, the smaller and the larger of two, and limits.
 #ifndef FB_WHOLE_H
 #define FB_WHOLE_H
 
@@ -19,7 +19,7 @@ inline int32_t max32(int32_t a, int32_t b)
     return a < b ? b : a;
 }
 
-// `a`, from -most to most.
+// `a` clamped to -most..most.
 inline int32_t limited(int32_t a, int32_t most)
 {
     return a > most ? most : a < -most ? -most : a;

@@ -1,12 +1,11 @@
-// Bodies: objects that links join, directly or through others, make one body, and the body has one field:
+// Bodies: objects that are joined by links, directly or through other objects, form one body, and a body has one field F:
 //
 //     g_i = f_i + sum over the links of i of w_ij f_j        F = sum of f_i^2 g_i / sum of f_i^2
 //
-// f_i is the field as the object's strength has it. What digs into i counts in g_i with minus its weight. A link of weight 0
-// counts as none: it joins nothing; so does a dent of weight 0. An object that digs and is linked with nothing has no surface,
-// and no term in the sums over i. Where all objects that reach a point are linked with each other at
-// weight 1, F is the plain sum of their fields, the report's implicit function; elsewhere it passes smoothly from one
-// object's sum to another's.
+// f_i is the field of object i times its strength. An object that digs into i counts in g_i with minus its weight. A link or a
+// dent of weight 0 counts as no link or dent. An object that digs and is linked with nothing has no surface, and no term in the
+// sums over i. Where all objects that reach a point are linked with each other at weight 1, F is the plain sum of their fields,
+// the report's implicit function; elsewhere F passes smoothly from one object's sum to another's.
 #ifndef FB_BODY_H
 #define FB_BODY_H
 
@@ -21,48 +20,48 @@ public:
     Bodies(const Bodies&) = delete;
     Bodies& operator=(const Bodies&) = delete;
 
-    // Finds the bodies of `count` objects from their links, and numbers the objects (SoftObject::slot()) in the order
-    // given. False: no memory; there are no bodies then.
+    // Finds the bodies of `count` objects from their links, and numbers the objects (SoftObject::slot()) in the order given.
+    // Returns false when there is no memory; there are no bodies then.
     bool find(SoftObject* const* objects, int count);
 
-    // The objects of the body that an object belongs to, itself among them.
+    // The objects of the body that an object belongs to, including the object itself.
     SoftObject* const* members(const SoftObject& object) const;
     int memberCount(const SoftObject& object) const;
 
-    // What digs into objects of that body and is none of it.
+    // The objects that dig into members of that body without being members.
     SoftObject* const* diggers(const SoftObject& object) const;
     int diggerCount(const SoftObject& object) const;
 
-    // By what the field of B counts in the sum of A, by their slots: the weight of their link, less that by which B digs into
-    // A; 0 where there is neither.
+    // The factor by which the field of B counts in the sum of A, both given by slot: the weight of their link minus the weight
+    // by which B digs into A; 0 where there is neither link nor dent.
     Real weight(int slotA, int slotB) const { return weights_[slotA * count_ + slotB]; }
-    // Those of one object, by the other's slot.
+    // The weights of all objects in the sum of one object, indexed by the other's slot.
     const Real* weights(int slot) const { return weights_ + slot * count_; }
 
-    // An object whose recalc flag is set tells those that it is linked to or digs into; this tells the rest of their body that
-    // it can reach.
+    // An object whose recalc flag is set has told the objects that it is linked to or digs into. This function tells the rest
+    // of their body, as far as the object can reach it, and the objects that dig into the body.
     void spreadRecalc() const;
 
-    // Those that an object is linked with at weight 1, a bit for each slot; LINK_WORDS words.
+    // The objects that an object is linked with at weight 1: one bit for each slot, in LINK_WORDS words.
     const uint32_t* plainLinks(int slot) const { return bySlot_[slot].plain; }
     static constexpr int LINK_WORDS = 4;
-    // Whether all of its body are linked with all at weight 1, and nothing else digs into it.
+    // Returns true if all members of the body are linked with each other at weight 1, and no other object digs into the body.
     bool plainBody(int slot) const { return bySlot_[slot].plainBody; }
-    // The greatest weight of its links; 0: it has none.
+    // The greatest weight of the object's links; 0 if it has no links.
     Real heaviest(int slot) const { return bySlot_[slot].heaviest; }
 
-    // Grows by one whenever the bodies have been found anew.
+    // Increases by one whenever the bodies have been found anew.
     uint32_t version() const { return version_; }
 
 private:
-    // What is known of an object.
+    // What is stored for each object.
     struct Entry {
-        int16_t first, size;               // where its body begins in members_, and how many it has
-        int16_t firstDigger, diggerCount;  // the same of what digs into the body, in diggers_
-        bool complete;                     // all of its body are linked with all, and nothing else digs into it
-        bool plainBody;                    // and all of that at weight 1
+        int16_t first, size;               // its body's first index in members_, and the number of members
+        int16_t firstDigger, diggerCount;  // the same of the objects that dig into the body, in diggers_
+        bool complete;                     // all members are linked with each other, and nothing else digs into the body
+        bool plainBody;                    // complete, and all weights are 1
         Real heaviest;
-        uint32_t plain[LINK_WORDS];        // as plainLinks() has them
+        uint32_t plain[LINK_WORDS];        // see plainLinks()
     };
 
     void release();
@@ -74,7 +73,7 @@ private:
     void spreadByDiggers(SoftObject& member) const;
 
     int count_ = 0;
-    Real* weights_ = nullptr;         // count_ rows of count_
+    Real* weights_ = nullptr;         // count_ rows of count_ weights
     Entry* bySlot_ = nullptr;
     SoftObject** members_ = nullptr;  // body after body
     SoftObject** diggers_ = nullptr;  // body after body

@@ -7,8 +7,8 @@
 
 class Box : public SoftObject {
 public:
-    // The core's edges are `x`, `y` and `z` units long, along the object's own axes, its middle in the centre (0 and more;
-    // less is taken as 0: a plate, a segment or a point is a core too). The surface lies size / 2 beyond it.
+    // The core's edges are `x`, `y` and `z` units long, along the object's own axes, and its middle is the centre. Values below
+    // 0 are taken as 0: the core may also be a plate, a segment or a point. The surface lies size / 2 outside the core.
     Box(int number, Real size, Real x, Real y, Real z);
 
     Vector fromCore(const Vector& q) const override;
@@ -16,11 +16,11 @@ public:
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
     void describe(char* to, int size) const override;
 
-    // Half the lengths of the core's edges.
+    // Half extents of the core.
     Vector half() const { return {grown(halfMade_.x), grown(halfMade_.y), grown(halfMade_.z)}; }
 
 private:
-    Vector halfMade_;  // as made: scaling never adds up errors
+    Vector halfMade_;  // when made, so that repeated scaling adds up no errors
     Vector half16_;    // in core space
 };
 

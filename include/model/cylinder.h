@@ -1,5 +1,5 @@
-// The soft cylinder: its core is a segment, the report's "spine [...] from which all unblended surface points are
-// equidistant". Completed from the report's sketch (Section III, Data Structures, and Appendix C).
+// The soft cylinder: its core is a segment, the report's "spine [...] from which all unblended surface points are equidistant".
+// The report only sketches it (Section III, Data Structures, and Appendix C).
 #ifndef FB_CYLINDER_H
 #define FB_CYLINDER_H
 
@@ -7,8 +7,8 @@
 
 class Cylinder : public SoftObject {
 public:
-    // The core is `length` units long (0 and more; less is taken as 0), along the object's y axis, its middle in the
-    // centre. The ends are round: the surface reaches size / 2 beyond the core.
+    // The core is `length` units long (below 0 is taken as 0), along the object's y axis, and its middle is the centre. The
+    // ends are round: the surface reaches size / 2 beyond the core.
     Cylinder(int number, Real size, Real length);
 
     Vector fromCore(const Vector& q) const override;

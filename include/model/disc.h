@@ -1,5 +1,5 @@
-// The soft disc: its core is a flat round plate, so its surface is a box with round corners swept round an axis (the
-// "offset surfaces from polygons" of the report's Appendix C, for the polygon of many corners).
+// The soft disc: its core is a flat round plate, so its surface is a plate with a round rim (the "offset surfaces from
+// polygons" of the report's Appendix C, for a polygon of many corners).
 #ifndef FB_DISC_H
 #define FB_DISC_H
 
@@ -7,8 +7,8 @@
 
 class Disc : public SoftObject {
 public:
-    // The core is a plate of radius `discRadius` (0 and more; less is taken as 0), square to the object's y axis. The
-    // surface lies size / 2 from it.
+    // The core is a plate of radius `discRadius` (below 0 is taken as 0), perpendicular to the object's y axis. The surface
+    // lies size / 2 away from it.
     Disc(int number, Real size, Real discRadius);
 
     Vector fromCore(const Vector& q) const override;

@@ -1,8 +1,9 @@
-// The implicit function of one primitive: the "Geoff" blending function (report, Appendix A, Implicit Function).
+// The implicit function of one primitive: the "Geoff" blending function (report, Appendix A, Implicit Function). Knows no
+// objects.
 //
 //     F(t) = 1 - 22/9 t + 17/9 t^2 - 4/9 t^3,   t = r^2 / R^2
 //
-// r is the distance to the core, R the size of the primitive, where the field reaches zero. A polynomial in r^2 needs no
+// r is the distance from the core and R the size of the primitive, where the field reaches zero. A polynomial in r^2 needs no
 // square root. F(0) = 1, F(1/4) = 1/2, F(1) = 0, and the slope at t = 1 is 0 too, so the field ends smoothly.
 #ifndef FB_FIELD_H
 #define FB_FIELD_H
@@ -12,11 +13,11 @@
 // "In the FB system, I use an isovalue of 0.5": the unblended surface lies at r = R/2.
 constexpr Real ISOVALUE(0.5);
 
-// F and dF/dt. `t` is 0 or more; from 1 on both are 0.
+// F and dF/dt for t >= 0; both are 0 from t = 1 on.
 Real geoff(Real t);
 Real geoffSlope(Real t);
 
-// F and dF/dt at the middle of each of FIELD_STEPS equal steps of t from 0 to 1, and for t beyond it 0.
+// The table: F and dF/dt at the middle of each of FIELD_STEPS equal steps of t from 0 to 1.
 struct FieldStep {
     Real value;
     Real slope;
@@ -27,12 +28,12 @@ extern FieldStep fieldSteps[FIELD_STEPS];
 // Fills the table. Call once before any object is updated.
 void makeFieldSteps();
 
-// F and dF/dt for 0 <= t < 1 from the table, by a straight line within each step: good to 2e-5 and 0.008.
+// F and dF/dt for 0 <= t < 1 from the table, interpolating F linearly within a step. The errors are at most 2e-5 and 0.008.
 inline FieldStep geoffQuick(Real t)
 {
     const int32_t raw = rawFromReal(t), off = (raw & 255) - 128;
     const FieldStep& step = fieldSteps[raw >> 8];
-    // The product of so few bits needs no more than 32.
+    // Both factors are so small that their product fits 32 bits.
     return {step.value + realFromRaw(rawFromReal(step.slope) * off >> 16), step.slope};
 }
 

@@ -1,5 +1,5 @@
-// Kinds: the primitives by name, with their measures, for everything that makes objects from words: scene files and
-// hands-on editing. A new primitive is one more row in src/model/kind.cpp.
+// Kinds: the primitives by name, with their measures. Scene files and the editor make objects from words with this table. A new
+// primitive is one more row in src/model/kind.cpp.
 #ifndef FB_KIND_H
 #define FB_KIND_H
 
@@ -7,7 +7,7 @@
 
 constexpr int MEASURES_MOST = 4;
 
-// A measure of a primitive: its word in a scene file, the range it may have, and what a new object has, units.
+// A measure of a primitive: its word in a scene file, its range, and its value in a new object, units.
 struct Measure {
     const char* word;
     Real least;
@@ -20,20 +20,21 @@ struct Kind {
     int measures;  // 1..MEASURES_MOST; the first is the size
     Measure measure[MEASURES_MOST];
 
-    // A new object, which the caller owns. Null: no memory. The measures have been checked.
+    // Makes an object, which the caller owns. Returns null when there is no memory. The caller has checked the measures.
     SoftObject* (*make)(int number, const Real* measures);
 
-    // Null, or what is expected where measures that are in range each do not fit each other. May be null itself.
+    // Returns null if the measures, each already in range, fit each other; else the words for what is expected. The pointer may
+    // be null: then any measures fit.
     const char* (*expects)(const Real* measures);
 
-    // How far its surface reaches from its centre at most, units.
+    // Upper bound of the distance of the surface from the centre, units.
     Real (*reach)(const Real* measures);
 };
 
 extern const Kind KINDS[];
 extern const int KIND_COUNT;
 
-// The kind with this name, in lower case; null: none.
+// Returns the kind with this name, which must be in lower case, or null.
 const Kind* kindNamed(const char* word);
 
 #endif

@@ -1,6 +1,6 @@
 // Paint: what an object shows besides its brightness under the light: its colour, its finish, its pattern, and whether its
-// colour mixes with those of the objects it blends with. A scene says so in words (Coat); Paints chooses the colours that
-// this takes, and a Paint tells the surface which of them a place has.
+// colour mixes with those of the objects it blends with. A scene describes this in words (Coat). Paints chooses the colours
+// that are needed, and a Paint tells the surface which of them each place shows. Palettes are made elsewhere.
 #ifndef FB_PAINT_H
 #define FB_PAINT_H
 
@@ -14,15 +14,15 @@ struct Colour {
     bool operator==(const Colour& c) const { return red == c.red && green == c.green && blue == c.blue; }
 };
 
-// The colour of an object that is given none, by how many there are before it.
+// The colour of an object that is given none, when there are `before` objects before it. The eight colours repeat.
 Colour usualColour(int before);
 
-// What a scene's lines `finish` and `pattern` say, in the order of their words.
+// The words of a scene's lines `finish` and `pattern` are in the order of these enumerations.
 enum Finish : uint8_t { FINISH_MATT, FINISH_SHINY, FINISH_MIRROR };
 enum Pattern : uint8_t { PATTERN_NONE, PATTERN_CHECKS, PATTERN_STRIPES, PATTERN_MARBLE };
 constexpr int FINISHES = 3, PATTERNS = 4;
 extern const char* const FINISH_WORDS[FINISHES];
-extern const char* const PATTERN_WORDS[PATTERNS];  // the first is no word of a scene
+extern const char* const PATTERN_WORDS[PATTERNS];  // the first is not used in scenes
 
 struct Coat {
     Finish finish = FINISH_MATT;
@@ -33,44 +33,45 @@ struct Coat {
 
 class Paints;
 
-// The paint of one object, as its surface works with it. Places in the colours' box are counted as Paints has them.
+// The paint of one object in the form that its surface uses. Places in the box of colours are as defined by Paints::inBox().
 struct Paint {
     Finish finish;
     Pattern pattern;
     bool mixes;
     uint8_t other;         // number of the pattern's colour
-    Real grain, made;      // as the coat has it, and the size that the object had when it was made
-    Vector at, otherAt;    // the object's own colour and the pattern's, in the box
+    Real grain, made;      // size of the pattern from the coat; size of the object when it was made
+    Vector at, otherAt;    // places in the box of the object's own colour and of the pattern's
     Paints* paints;
-    const uint8_t* ramp;   // of the own colour; as SoftObject::ramp() while nothing else is wanted of the object
-    const uint8_t* ramps;  // of all numbers, one every rampRoom bytes
+    const uint8_t* ramp;   // of the own colour; SoftObject::ramp() differs from it while the object is shown otherwise
+    const uint8_t* ramps;  // the ramps of all colours by number, one every rampRoom bytes
     int rampRoom;
-    uint8_t number;        // of the own colour
+    uint8_t number;        // number of the own colour
 
     bool shines() const { return finish != FINISH_MATT; }
 };
 
-// The colours of a model: each object's, those of patterns, and what lies between them where they mix. A colour that shines
-// is another than the same colour that is matt, because its ramp ends in white.
+// The colours of a model: the objects' own, those of the patterns, and mixtures of them. A shining colour is not the same as a
+// matt colour of equal red, green and blue, because the ramp of a shining colour ends in white.
 class Paints {
 public:
     static constexpr int MOST = 240;
 
-    // Chooses the colours, fills in a paint for each object (but for its ramps) and hands it over. Where more colours are
-    // wanted than there may be, neighbouring mixtures become one. False: each object has a colour of its own, matt, and no
-    // paint is made.
+    // Chooses the colours, fills in a paint for each object (all but its ramps) and gives it to the object. If more colours are
+    // wanted than MOST, neighbouring mixtures share one. Returns false if no paint is needed, because every object is matt and
+    // plain and colours do not mix.
     bool choose(const Model& model, Paint* paints);
 
-    // The colours, numbered from 0: first those of the objects, in their order.
+    // The colours, numbered from 0; the objects' own colours come first, in the order of the objects.
     int count() const { return count_; }
     const Colour& colour(int number) const { return colours_[number]; }
     bool shines(int number) const { return shines_[number]; }
-    // How much more than others a colour is seen: one of its own most, a mixture of three least.
+    // How much a colour matters in the picture: most for an own colour or a pattern's, least for a mixture of three.
     int weight(int number) const { return number < own_ ? 8 : number < pairs_ ? 2 : 1; }
-    // The number of a colour that was chosen; else of the nearest.
+    // The number of a chosen colour, or of the one nearest to it that shines (or is matt) likewise.
     int numberOf(const Colour& colour, bool shines) const;
 
-    // A colour in the box that holds all that mix: 0..SIDE - 1 along each axis.
+    // The place of a colour in the smallest box of red, green and blue that holds all colours to be mixed: 0..SIDE - 1 along
+    // each axis.
     static constexpr int SIDE = 16;
     Vector inBox(const Colour& colour) const;
     const Vector& placeOf(int number) const { return places_[number]; }
@@ -82,7 +83,7 @@ public:
     }
 
 private:
-    // What a cell has that holds no colour; and one that will.
+    // Contents of a cell without a colour, and of a cell that is to get one.
     static constexpr uint8_t EMPTY = 255, WANTED = 254;
 
     static int cellOf(const Vector& place)
@@ -105,14 +106,15 @@ private:
     uint8_t fill(int cell, bool shines);
 
     int count_ = 0;
-    // Those before objects_ are objects' own, those before own_ are asked for by name, those from pairs_ on are mixtures of three.
+    // Colours before objects_ are objects' own, those before own_ are named in the scene, those from pairs_ on are mixtures of
+    // three.
     int objects_ = 0, own_ = 0, pairs_ = 0;
     Colour colours_[MOST];
     bool shines_[MOST];
     Vector places_[MOST];
-    int least_[3] = {0, 0, 0}, most_[3] = {0, 0, 0};  // red, green and blue of the box
-    uint8_t cells_[2][SIDE * SIDE * SIDE];  // matt, shining: the number of the colour there
-    int wanted_[2] = {0, 0};                // and how many wait for one
+    int least_[3] = {0, 0, 0}, most_[3] = {0, 0, 0};  // range of red, green and blue in the box
+    uint8_t cells_[2][SIDE * SIDE * SIDE];  // [matt, shining]: number of each cell's colour
+    int wanted_[2] = {0, 0};                // [matt, shining]: number of WANTED cells
 };
 
 #endif

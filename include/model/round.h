@@ -1,65 +1,67 @@
-// What the primitives with round parts share: rings of seeds about the object's y axis (report, Appendix C, Figure 8,
-// "this method can be generalized to some other primitives"), and distances from that axis.
+// The common part of the primitives with round parts: rings of seeds about the object's y axis (report, Appendix C, Figure 8,
+// "this method can be generalized to some other primitives"), and quick lengths. Nothing here knows a particular primitive.
 #ifndef FB_ROUND_H
 #define FB_ROUND_H
 
 #include "model/seed.h"
 #include "math/vec.h"
 
-// A ring of seeds about the y axis, in the object's own space. Directions are given in the half plane through the axis:
-// sine and cosine of the latitude, 0 away from the axis, a quarter turn along +y.
+// A ring of seeds about the y axis, in the object's own space before any stretch. Directions in the half plane through the axis
+// are given by sine and cosine of a latitude, which is 0 pointing away from the axis and a quarter turn along +y.
 struct Ring {
-    Real core;                      // distance of its roots from the axis, units; 0: one root on the axis for all
-    Real height;                    // y of its roots
-    Real radius;                    // length of its paths
+    Real core;                      // distance of the roots from the axis, units; 0: all seeds share one root on the axis
+    Real height;                    // y of the roots
+    Real radius;                    // length of the paths
     Real pathSine, pathCosine;      // latitude of the paths
-    Real normalSine, normalCosine;  // latitude of the surface's normal: the same, but where the object tapers
-    Real across;                    // half way to the next ring, along the surface, units
+    Real normalSine, normalCosine;  // latitude of the surface's normal; it differs from that of the paths if the object tapers
+    Real across;                    // half the distance to the next ring along the surface, units
 };
 
-// The least number of steps of at most `spacing` units that `length` units are, 1 at least.
+// The least number, at least 1, of equal steps of at most `spacing` units into which `length` units can be divided.
 int stepsIn(Real length, Real spacing);
 
-// A quarter of the ellipse that a circle of radius 1 square to y becomes when it is stretched: longitudes by the length of the way
-// there. Longitude 0 points along z. It is not there for what is not stretched.
+// A quarter of the ellipse that a unit circle about the y axis becomes when it is stretched: it converts between arc length
+// along the ellipse and longitude on the circle. Longitude 0 points along z. Without a stretch the table is empty (all zero).
 class Quarter {
 public:
     explicit Quarter(const Vector& stretch);
-    Real length() const { return way_[STEPS]; }
-    // The longitude, up to a quarter turn, after a way; and the way to a longitude.
-    Angle longitude(Real way) const;
+    Real length() const { return arcs_[STEPS]; }
+    // longitude(): the longitude, up to a quarter turn, after the arc length `arc`; wayTo(): the arc length up to a
+    // longitude.
+    Angle longitude(Real arc) const;
     Real wayTo(Angle longitude) const;
 
 private:
     static constexpr int STEPS = 32;
-    Real way_[STEPS + 1];
+    Real arcs_[STEPS + 1];
 };
 
-// How far rings lie apart that are `step` apart on the unstretched surface, at a place where its normal has a latitude and a
-// longitude.
+// The distance between two rings on the stretched surface that are `step` apart on the unstretched one, at a place whose normal
+// has the given latitude and longitude.
 Real stretchedStep(Real step, const Vector& stretch, Real normalSine, Real normalCosine, Real sine, Real cosine);
 
-// Where rings are farther apart in one direction than in another, some leave out their seeds where they lie too close: the
-// power of two of which every such ring has them. The rings of a higher level are among those of all lower ones.
+// Where rings are farther apart on one side of an object than on another, some rings leave out their seeds on the side where
+// they lie too close: at level L only one ring of 2^L keeps them. thinning() returns the level for a distance `step` between
+// rings; thinned() says whether a ring leaves its seeds out. Rings kept at a higher level are also kept at all lower levels.
 int thinning(Real step, Real spacing);
 inline bool thinned(int ring, int level)
 {
     return ((ring ^ 5) & ((1 << level) - 1)) != 0;
 }
 
-// Makes rings of seeds on an object that is stretched, or not.
+// Makes rings of seeds on an object, stretched or not.
 class RingMaker {
 public:
     RingMaker(SeedMaker& maker, const Vector& stretch, Real spacing);
 
-    // Number of seeds of a ring: as many as fit `spacing` units apart, four at least (two, when it is flat).
+    // The number of seeds of a ring: as many as fit `spacing` units apart, at least four (two, if the ring is flat).
     int seedsOf(const Ring& ring) const;
 
-    // Adds the ring's roots, evenly spaced (one, when they lie on the axis), unless addSeeds() will. Returns the index of the
-    // first.
+    // Adds the ring's roots and returns the index of the first. They are evenly spaced; there is only one if it lies on the
+    // axis. On an object stretched differently along x and z, addSeeds() adds the roots off the axis instead.
     int addRoots(const Ring& ring);
 
-    // Begins a ring, number `k` of the object, and adds its seeds, the first in the plane x = 0; `root` is the index of its
+    // Begins ring number `k` of the object and adds its seeds, the first in the plane x = 0; `root` is the index of the ring's
     // first root.
     void addSeeds(const Ring& ring, int k, int root);
 
@@ -70,26 +72,27 @@ private:
     Vector stretch_;
     Real spacing_;
     bool stretched_;
-    bool round_, flat_;  // both ways across are stretched alike; one is twice the other or more
+    bool round_, flat_;  // x and z are stretched alike; one is stretched more than twice as much as the other
     Quarter quarter_;
 };
 
-// The outline of a round object in the half plane through its axis, from below: its parts in their order, and places along it,
-// evenly spaced on the stretched object.
+// The outline of a round object in the half plane through its axis, from bottom to top: a sequence of parts. It finds places
+// that are evenly spaced along the outline of the stretched object.
 class Outline {
 public:
     explicit Outline(const Vector& stretch);
 
-    // Adds a part of so many units along which the latitude of the normal goes from one to another, or stays.
+    // Adds a part of `length` units: an arc, along which the latitude of the normal changes from one value to another, or a
+    // straight line with a constant normal.
     void arc(Real length, Angle from, Angle to);
     void line(Real length, Real normalSine, Real normalCosine);
-    // One that is given in units of the stretched object.
+    // Adds a part whose length is already that on the stretched object.
     void plain(Real length);
 
     // The length of the stretched outline.
     Real length() const { return stretched_ ? after_[parts_] : before_[parts_]; }
-    // The place, in units of the outline as it was added, at part / of its stretched length; `*across` receives what is 1 / of
-    // there.
+    // Returns the place at the fraction part / of of the stretched length, measured along the unstretched outline; `*across`
+    // receives the length there of the fraction 1 / of.
     Real at(int32_t part, int32_t of, Real* across) const;
 
 private:
@@ -97,22 +100,22 @@ private:
     void add(Real length, Real factor);
 
     Vector stretch_;
-    Real across_;     // greatest factor square to the axis
+    Real across_;     // the larger stretch factor perpendicular to the axis
     bool stretched_;
     int parts_ = 0;
-    Real before_[PARTS_MOST + 1], after_[PARTS_MOST + 1];  // where each part begins, unstretched and stretched
+    Real before_[PARTS_MOST + 1], after_[PARTS_MOST + 1];  // start of each part, unstretched and stretched
 };
 
-// Seeds on what surrounds a segment along the y axis, `half` units to each side of the centre; 0: on a ball.
+// Lays seeds out round a segment along the y axis, `half` units to each side of the centre (0: on a ball).
 void layOutCapsule(SeedMaker& maker, const Vector& stretch, Real radius, Real half, Real spacing);
 
-// whole * part / of, with 64 bits between; the result must fit.
+// whole * part / of, computed with a 64-bit product; the result must fit 32 bits.
 inline Real portion(Real whole, int32_t part, int32_t of)
 {
     return realFromRaw(mulDiv(rawFromReal(whole), part, of));
 }
 
-// part / of as a share of a quarter turn, for 0 <= part <= of.
+// The fraction part / of of a quarter turn, for 0 <= part <= of.
 inline Angle quarterTurn(Real part, Real of)
 {
     return static_cast<Angle>(mulDiv(rawFromReal(part), 1 << 30, rawFromReal(of)));
@@ -121,8 +124,8 @@ inline Angle quarterTurn(Real part, Real of)
 constexpr Real PI(3.14159265);
 constexpr Real HALF_PI(1.57079633);
 
-// Length of a vector of up to 16000 units, good to 1/100000 of itself and the last bit: for distances that are needed
-// often. Two orders of magnitude quicker than length() on a 386, which computes every bit. Wants makeNormalTable().
+// Length of a vector of up to 16000 units, with an error of at most 1/100000 of it plus one last bit: for distances needed
+// often. On a 386 it is two orders of magnitude quicker than length(), which is exact. makeNormalTable() must have been called.
 Real lengthQuick(const Vector& v);
 
 #endif

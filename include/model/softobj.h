@@ -1,6 +1,6 @@
-// SoftObject: a primitive of the model, with the seeds that sample its surface and the list of the objects it blends
-// with (report, Section III, Data Structures). A subclass gives the distance to its core and lays out seeds and roots, and
-// nothing else; how seeds find the surface is the business of its Surface.
+// SoftObject: a primitive of the model, with the seeds that sample its surface and the list of the objects it blends with
+// (report, Section III, Data Structures). A subclass computes the distance to its core and lays out seeds and roots, nothing
+// else. How seeds find the surface is left to the object's Surface.
 #ifndef FB_SOFTOBJ_H
 #define FB_SOFTOBJ_H
 
@@ -14,27 +14,27 @@
 class SoftObject;
 struct Paint;
 
-// By how much an object may be stretched along each of its own axes, and how far from its centre what is stretched may reach
-// (units, before any scaling).
+// Limits of the factor by which an object may be stretched along each of its own axes, and the greatest distance from its
+// centre that a stretched surface may reach (units, before any scaling).
 constexpr Real STRETCH_LEAST(0.25);
 constexpr Real STRETCH_MOST(4);
 constexpr int STRETCHED_REACH = 100;
 
-// The sizes an object may have (the distance from its core where its field ends), units.
+// The range of an object's size, which is the distance from its core where its field ends, units.
 constexpr int MIN_SIZE = 1;
 constexpr int MAX_SIZE = 100;
 
-// Core space: the object's own axes with its centre in the origin, scaled so that its size is CORE_SIZE. An object that
-// moves, turns or is scaled is always the same there. 16 keeps four more bits of 16.16 than a size of 1 would.
+// Core space: the object's own axes with its centre in the origin, scaled so that its size is CORE_SIZE. Moving, turning or
+// scaling an object does not change it there. A size of 16 keeps four more bits of 16.16 than a size of 1 would.
 constexpr int CORE_SIZE = 16;
 
-// What an object's field is multiplied by where it stands in any sum.
+// The range of an object's strength: the factor by which its field is multiplied in every sum.
 constexpr Real STRENGTH_LEAST(0.25);
 constexpr Real STRENGTH_MOST(4);
 
-// An edge of the model's graph, as one of its two ends sees it: the neighbour, and what its field is multiplied by
-// before it is added here (the report's "weighted graph"; 1 is plain blending, 0..4). Of a dent: what it is multiplied by
-// before it is taken away.
+// An edge of the model's graph, as seen from one of its two ends: the neighbour, and the factor (0..4, 1 is plain blending) by
+// which the neighbour's field is multiplied before it is added at this end (the report's "weighted graph"). A dent is an edge
+// too: there the neighbour's field is multiplied by the weight and then subtracted.
 struct Link {
     SoftObject* object;
     Real weight;
@@ -44,150 +44,153 @@ struct Link {
 
 class SoftObject {
 public:
-    // `size` is the distance from the core where the field ends, MIN_SIZE..MAX_SIZE; the caller has checked it.
-    // `coreReach`: the greatest distance of a point of the core from the centre, units; 0 says that the core is the
-    // centre. `tapers`: the size differs along the core, and `size` is the greatest.
+    // `size` is the distance from the core where the field ends, MIN_SIZE..MAX_SIZE; the caller has checked it. `coreReach` is
+    // the greatest distance of a point of the core from the centre, units; 0 means that the core is the centre point. `tapers`
+    // means that the size differs along the core; `size` is then the greatest one.
     SoftObject(int number, Real size, Real coreReach = Real(0), bool tapers = false);
-    // Unlinks the object from all that it is linked to. A link that only the other end holds must be gone before.
+    // Unlinks the object from all objects in its lists. The caller must have removed any link that only the other end holds.
     virtual ~SoftObject();
     SoftObject(const SoftObject&) = delete;
     SoftObject& operator=(const SoftObject&) = delete;
 
-    // --- What a primitive gives
+    // --- What each primitive defines
 
-    // From the nearest point of the core to `q`, both in core space.
+    // The vector from the nearest point of the core to `q`, both in core space.
     virtual Vector fromCore(const Vector& q) const = 0;
 
-    // Squared distance to the core over squared size at `q` (core space): 0 at the core, 1 where the field ends, 1 or more
-    // beyond. `*slope` receives half its gradient times CORE_SIZE squared: the vector from the core, unless the object
-    // tapers. Of the object as if it were neither stretched nor warped.
+    // Squared distance from the core divided by the squared size at `q` (core space): 0 on the core, 1 where the field ends, 1
+    // or more beyond. `*slope` receives half the gradient of that value times CORE_SIZE squared, which is the vector from the
+    // core unless the object tapers. Stretch and warp are left out of account.
     virtual Real plainParam(const Vector& q, Vector* slope) const;
 
-    // How far the core extends along each axis to either side, in core space.
+    // Half extent of the core along each axis, in core space.
     virtual Vector coreExtent16() const { return {Real(0), Real(0), Real(0)}; }
 
-    // Where the core is a segment along the y axis: half its length in core space. Else 0. It is only a hint: fromCore()
-    // would say the same, slower.
+    // Half the length of the core in core space if the core is a segment along the y axis, else 0. This is only a hint for
+    // speed: fromCore() gives the same answer more slowly.
     virtual Real segmentHalf16() const { return Real(0); }
 
-    // Roots and seeds in the object's own space, `spacing` units apart on the unblended surface.
+    // Lays out roots and seeds in the object's own space, `spacing` units apart on the unblended surface.
     virtual void layOutSeeds(SeedMaker& maker, Real spacing) const = 0;
 
-    // Whether the last ring of seeds lies beside the first.
+    // Returns true if the last ring of seeds lies beside the first.
     virtual bool ringsClose() const { return false; }
 
-    // Whether distances from the core are convex: no less in the middle of a line than at both of its ends is wrong then.
-    // True for points, segments and plates, false for circles.
+    // Returns true if the distance from the core is a convex function of place: in the middle of a line it is then never
+    // greater than at the farther end. This holds for points, segments, plates and boxes, but not for circles.
     virtual bool coreConvex() const { return true; }
 
-    // The object in the words of a dumped frame ("sphere 1 3.25 -4 0 20"), at most `size` bytes with the final 0.
+    // Writes the object as a line of a dumped frame ("sphere 1 3.25 -4 0 20"), at most `size` bytes with the final 0.
     virtual void describe(char* to, int size) const = 0;
 
-    // What its own space has been made of, where that is no plain one ("stretch 1 ..."): SHAPES lines, those for which there
-    // is nothing to be said empty.
+    // Writes line `which` (0..SHAPES - 1) of the description of the stretch and the warp ("stretch 1 ..."), at most `size`
+    // bytes with the final 0. The text is empty where the object has no such stretch, taper, twist or bend.
     static constexpr int SHAPES = 1 + WARP_PARTS;
     void describeShape(int which, char* to, int size) const;
 
     // --- Seeds
 
-    // Lays the seeds out anew, `spacing` units apart, and makes the surface that will settle them. False: the object keeps
-    // what it had, and resampleTrouble() says why, unless it was stopped (model/stop.h).
-    // `like` is null, or an object of the same kind, measures, size and strength whose seeds have just been laid out: they are
-    // copied.
+    // Lays the seeds out anew, `spacing` units apart, and makes the surface that will settle them. Returns false on failure:
+    // the object then keeps its old seeds, and resampleTrouble() says why, unless the user stopped the program (model/stop.h).
+    // `like` is null, or an object of the same kind, measures, size and strength whose seeds have just been laid out; its seeds
+    // are copied then.
     bool resample(Real spacing, SurfaceMaker makeSurface, const SoftObject* like = nullptr);
-    // Why resample() failed the last time, for any object: one line of words.
+    // The reason why the latest failed resample(), of any object, failed: one line of words.
     static const char* resampleTrouble();
-    // The spacing that its seeds get where `asked` is that of the model: on thin objects they lie closer.
+    // The spacing of this object's seeds when `asked` is the spacing of the model: thin objects get closer seeds, at most twice
+    // as close.
     Real ownSpacing(Real asked) const;
-    // How many regular seeds there would be.
+    // The number of regular seeds that this spacing would give.
     int seedsAt(Real spacing) const;
     int seeds() const { return laid_.regular; }
     int oversampledSeeds() const { return laid_.oversampled; }
-    // As asked for; scaling makes the seeds lie up to a quarter closer or farther.
+    // The spacing that was asked for. Scaling the object makes the actual one up to a quarter smaller or larger.
     Real spacing() const { return laid_.spacing; }
 
-    // The seed in slot i: regular ones in even slots, the oversampled one of each in the slot behind it. Regular seeds lie
-    // in memory one behind the other; an oversampled one is laid out when it is first asked for.
+    // The seed in slot i: regular seeds have even slots, and the oversampled seed of each has the slot after it. Regular seeds
+    // are contiguous in memory; an oversampled seed is laid out when it is first asked for.
     Seed& seed(int i) { return i & 1 ? laidExtra(i) : laid_.seeds[i >> 1]; }
     const Seed& seed(int i) const { return const_cast<SoftObject*>(this)->seed(i); }
-    // The same, of an even slot.
+    // Like seed(), for an even slot only.
     const Seed& regular(int i) const { return laid_.seeds[i >> 1]; }
     Seed& regular(int i) { return laid_.seeds[i >> 1]; }
     int seedSlots() const { return 2 * laid_.regular; }
     // The slot of a regular seed.
     int slotOf(const Seed& s) const { return 2 * static_cast<int>(&s - laid_.seeds); }
-    // The oversampled seed that belongs to the regular one in slot i, or is in slot i; null: it is not laid out yet.
+    // The oversampled seed that belongs to the regular seed in slot i, or is itself in slot i. Null if it is not laid out yet.
     Seed* extra(int i) const
     {
         Seed* const block = laid_.extras[i >> (EXTRA_BITS + 1)];
         return block == nullptr ? nullptr : block + (i >> 1 & (EXTRA_BLOCK - 1));
     }
-    // Lays the oversampled seed of the regular one in slot i half way between that and another, its neighbour N or one of the
-    // same root; its own neighbour says which. True: it was elsewhere.
+    // Lays the oversampled seed of the regular seed in slot i half way between that seed and the one in slot `other`, which is
+    // its neighbour N or has the same root. The oversampled seed's `neighbour` records `other`. Returns true if it lay
+    // elsewhere before.
     bool layOutBetween(int i, int other);
-    // The fine seeds that belong to a regular one. Two lie between others, two on the paths of others where these come back.
+    // The fine seeds that belong to a regular seed. Two lie between other seeds; the others lie on paths that meet the surface
+    // again.
     enum FineSeed {
-        FINE_NEAR,    // half way from the regular seed to its oversampled one
-        FINE_FAR,     // half way from that to the neighbour
-        FINE_BEHIND,  // behind an overhanging neck, on the path of one of all these
-        FINE_ISLAND,  // where the path of the regular one enters an island,
-        FINE_ISLAND_END,  // and where it leaves that again
-        FINE_SEEDS    // how many there are
+        FINE_NEAR,    // half way from the regular seed to its oversampled seed
+        FINE_FAR,     // half way from the oversampled seed to the neighbour
+        FINE_BEHIND,  // behind an overhanging neck, on the path of one of these seeds
+        FINE_ISLAND,  // where the path of the regular seed enters an island,
+        FINE_ISLAND_END,  // and where it leaves that island again
+        FINE_SEEDS    // number of fine seeds
     };
-    // Those of the regular one in slot i. They lie in memory one behind the other, in that order. Null: there are none yet.
+    // The FINE_SEEDS fine seeds of the regular seed in slot i, contiguous and in the order of FineSeed. Null if not made yet.
     Seed* fine(int i) const
     {
         Seed* const block = laid_.fine[i >> (EXTRA_BITS + 1)];
         return block == nullptr ? nullptr : block + (i >> 1 & (EXTRA_BLOCK - 1)) * FINE_SEEDS;
     }
-    // Makes them, without paths. Null: there is no memory.
+    // Makes the fine seeds of slot i, without paths. Returns null when there is no memory.
     Seed* madeFine(int i);
-    // Gives FINE_NEAR or FINE_FAR its path. The two seeds that it lies between have one root.
+    // Sets the path of FINE_NEAR or FINE_FAR. The two seeds that the fine seed lies between must share one root.
     void layOutFine(int i, int which);
-    // Lays out all oversampled seeds. False: no memory.
+    // Lays out all oversampled seeds. Returns false when there is no memory.
     bool layOutExtras();
     const Vector& root(int i) const { return laid_.roots[i]; }
-    // Regular seeds are numbered from 0: ring k has those from ringStart(k) to before ringStart(k + 1).
+    // Regular seeds are numbered from 0: ring k has the half-open range ringStart(k) to ringStart(k + 1).
     int rings() const { return laid_.rings; }
     int ringStart(int k) const { return laid_.ringStarts[k]; }
-    // A seed's place in the world, as it has settled.
+    // A settled seed's place in the world.
     Point seedPoint(const Seed& s) const { return toWorld(root(s.root) + s.path * s.position); }
-    // The outward direction of the unblended surface where a seed rests.
+    // The outward normal of the unblended surface at a seed's resting place.
     Direction14 restNormal(const Seed& s) const;
 
-    // --- Operations (report, Section III: Translation, Rotation, Scaling). Each sets `recalc` here and, where the
-    // field of this object reaches them before or after, in its neighbours.
+    // --- Operations (report, Section III: Translation, Rotation, Scaling). Each sets `recalc` in this object and in those
+    // neighbours that this object's field reaches before or after the change.
 
     void translate(const Vector& by) { moveTo(centre_ + by); }
     void moveTo(const Point& centre) { place(centre, size_); }
-    // Turns by `angle` about an axis through `about`, which keeps its distance; a zero axis turns nothing.
+    // Turns by `angle` about an axis through `about`, keeping the distance from that point. A zero axis turns nothing.
     void rotate(const Point& about, const Vector& axis, Angle angle);
-    // Takes on an orientation, counted from the object's own axes. `turn` is a pure rotation.
+    // Sets the orientation relative to the object's own axes. `turn` is a pure rotation.
     void setTurn(const Matrix& turn);
-    // Multiplies size and core. The seeds are laid out anew when their spacing has drifted by more than a quarter from
-    // the one asked for (or, without the memory for it, stay as they are, drawn apart).
-    // The size is limited to MIN_SIZE..MAX_SIZE.
+    // Multiplies size and core; the size is clamped to MIN_SIZE..MAX_SIZE. When the actual spacing has drifted by more than a
+    // quarter from the one asked for, the seeds are laid out anew; without the memory for that they are kept as they are.
     void scale(Real by) { setSize(size_ * by); }
-    // The same, by the size to be reached, for what moves by the time and must not depend on the frame before.
+    // Like scale(), but sets the size itself: motion that depends on time alone must not depend on the previous frame.
     void setSize(Real size) { place(centre_, size); }
-    // Moves and scales it at once, so that its neighbours are told no more often than of one of the two.
+    // Moves and scales in one step, so that the neighbours are told only once.
     void place(const Point& centre, Real size);
-    // Stretches core and field along the object's own axes, each factor STRETCH_LEAST..STRETCH_MOST. To be called before
-    // seeds are laid out.
+    // Stretches core and field along the object's own axes by factors STRETCH_LEAST..STRETCH_MOST. Call it before seeds are
+    // laid out.
     void setStretch(const Vector& factors);
-    // Warps it, as stretched. It counts as warped from then on, whatever the amounts. Without the memory for it the object
-    // stays as it was.
+    // Warps the stretched object. It counts as warped from then on, even with amounts of 0. Without the memory for it the
+    // object is left unchanged.
     void setWarp(const WarpAmounts& amounts);
 
-    // What the field is multiplied by, STRENGTH_LEAST..STRENGTH_MOST. It decides where seeds rest, so it is given before they
-    // are laid out.
+    // The factor by which the field is multiplied, clamped to STRENGTH_LEAST..STRENGTH_MOST. It decides where seeds rest, so
+    // set it before they are laid out.
     void setStrength(Real strength);
     Real strength() const { return strength_; }
-    // param() of the core where seeds rest, a quarter of its squared proportion to the size when that is 1, and its root.
+    // Seeds rest where param() has the value restParam(): a quarter for strength 1. restRoot() is its square root: the distance
+    // of a resting seed from the core divided by the size.
     Real restParam() const { return restParam_; }
     Real restRoot() const { return restRoot_; }
-    // Whether the surface lies where seeds rest as long as no neighbour reaches them. Weak objects have none there, or none
-    // at all.
+    // Returns true if the surface lies where seeds rest as long as no neighbour reaches them. A weak object's own field may
+    // reach the isovalue nearer to the core, or nowhere; the result is false then, and also for the seeds of a hollow.
     bool rests() const { return rests_; }
 
     const Point& centre() const { return centre_; }
@@ -195,49 +198,50 @@ public:
     Real radius() const { return radius_; }
     // CORE_SIZE / size.
     Real inverse16() const { return inverse_; }
-    // It grows with the size, in the proportion that the object was made with.
+    // Greatest distance of a point of the core from the centre. It grows in proportion to the size.
     Real coreReach() const { return coreReach_; }
     const Matrix& turn() const { return turn_; }
     int number() const { return number_; }
-    // It looks the same from everywhere.
+    // Returns true if the object looks the same from everywhere.
     bool isBall() const { return ball_; }
     bool tapers() const { return tapers_; }
     const Vector& stretch() const { return stretch_; }
     bool stretched() const { return stretched_; }
     bool warped() const { return warped_; }
     const Warp& warp() const { return warp_; }
-    // Stretched or warped: paths from one root differ in length.
+    // Returns true if the object is stretched or warped; paths from one root then differ in length.
     bool shaped() const { return shaped_; }
-    // Where no path leads square out of the unblended surface.
+    // Returns true if paths do not, in general, lead along the normal of the unblended surface.
     bool slants() const { return tapers_ || shaped(); }
-    // No distance from the core is less than this share of what it would be in an object that is not shaped.
+    // Lower bound of the ratio between a distance from the core and the same distance in the object without stretch and warp.
     Real narrowing() const { return min(stretch_.x, min(stretch_.y, stretch_.z)) * warp_.least(); }
-    // The same of distances where the field is steep: it changes by no more than 1.6 of its size over this share of that.
+    // Like narrowing(), for the part of the field that is steep: over a distance of steepest() times the size the field changes
+    // by at most 1.6 times the strength.
     Real steepest() const { return min(stretch_.x, min(stretch_.y, stretch_.z)) * warp_.leastSteep(); }
-    // The greatest distance from the centre at which there may be any field.
+    // Upper bound of the distance from the centre at which there is any field.
     Real reach() const { return reach_; }
-    // Whether a place of the world is sure to lie beyond that.
+    // Returns true if a point of the world is certainly farther away than reach(). (False says nothing.)
     bool isFar(const Point& p) const
     {
         const Vector v = p - centre_;
         return absolute(v.x) >= reach_ || absolute(v.y) >= reach_ || absolute(v.z) >= reach_;
     }
-    // How much larger the object is than when its seeds were laid out: own space to the world.
+    // The factor by which the object has grown since its seeds were laid out: it scales own space to the world.
     Real growth() const { return size_ / laid_.size; }
     Real laidSize() const { return laid_.size; }
-    // How long paths were then.
+    // Length of the paths of an object without stretch and warp, in own space.
     Real laidRadius() const { return laid_.size * restRoot_; }
-    // And reach().
+    // reach() as a length of own space, whose scale is that of the time when the seeds were laid out.
     Real laidReach() const { return shaped() ? reach() / growth() : laid_.size + coreReach_ / growth(); }
-    // Where seeds rest is known in whole steps, 16 bits wide: bits of Real below those of a step.
+    // Resting places are stored in 16 bits (Seed::place): the number of low bits of a 16.16 number that are dropped.
     int placeShift() const { return laid_.placeShift; }
-    // Tells a seed its normal where it rests, and that place.
+    // Stores in a seed its normal at rest and its resting place.
     void layAtRest(Seed& s, const Direction14& normal) const;
-    // No path was longer.
+    // Upper bound of the length of a path.
     Real longestPath() const { return shaped() ? laidRadius() * mostStretch_ * warp_.most() : laidRadius(); }
 
-    // A place of own space, or one of the world in own axes, as if the object were not stretched; and back. What is square to
-    // a surface goes the same way as a place in unstretched(), from there to own space.
+    // unstretched() takes a vector of own space, or one of the world in own axes, to where it would be without the stretch;
+    // stretchedOut() takes it back. A normal of the unstretched surface becomes one of own space by unstretched() as well.
     Vector unstretched(const Vector& v) const
     {
         return stretched_ ? Vector{v.x * unstretch_.x, v.y * unstretch_.y, v.z * unstretch_.z} : v;
@@ -246,44 +250,47 @@ public:
     {
         return stretched_ ? Vector{v.x * stretch_.x, v.y * stretch_.y, v.z * stretch_.z} : v;
     }
-    // The same, as far as core space is concerned: what is warped is stretched behind the warp, in param().
+    // The same for vectors on their way to core space: a warped object is left stretched here, because param() undoes the warp
+    // first.
     Vector toCoreAxes(const Vector& v) const { return warped_ ? v : unstretched(v); }
 
-    // plainParam() at a place of core space, and half its gradient there times CORE_SIZE squared.
+    // plainParam() of the object as shaped, at a point of core space, and half its gradient there times CORE_SIZE squared.
     Real param(const Vector& q, Vector* slope) const { return warped_ ? warpedParam(q, slope) : plainParam(q, slope); }
-    // fromCore() at a place of core space.
+    // fromCore() of the object as shaped, at a point of core space.
     Vector awayFromCore(const Vector& q) const;
-    // Half the gradient of param() at a place of own space, in own space, times CORE_SIZE and laidSize().
+    // Half the gradient of param() at a point of own space, in own space, times CORE_SIZE and laidSize().
     Vector slopeAt(const Vector& place) const;
 
-    // A point of the object's own space in the world; a vector of the world in the object's own axes, unscaled.
+    // toWorld() takes a point of own space to the world; toOwnAxes() turns a vector of the world into own axes, without
+    // scaling.
     Point toWorld(const Vector& v) const;
     Vector toOwnAxes(const Vector& v) const { return isBall() ? v : turnedBack(v); }
 
     // --- The graph
 
-    // Adds a link to `other` in this object's skel, or gives the one there a new weight. False: no memory.
+    // Adds a link to `other` to this object's skel, or changes its weight. Returns false when there is no memory.
     bool link(SoftObject* other, Real weight);
-    // Takes the link out of this object's skel only. Harmless when there is none.
+    // Removes the link from this object's skel only. Without such a link it does nothing.
     void unlink(SoftObject* other);
     const List<Link>& skel() const { return skel_; }
-    // Lets `other` dig into this object: its field, times a weight of 0 or more, is taken away from this one's sum. Both know
-    // of it. False: no memory.
+    // Lets `other` dig into this object: its field times `weight` (0 or more) is subtracted from this object's sum. Both
+    // objects record it. Returns false when there is no memory.
     bool dent(SoftObject* other, Real weight);
-    // Fills it again. Harmless when there is none.
+    // Ends the digging of `other`. Without such a dent it does nothing.
     void undent(SoftObject* other);
-    // What digs into this object; and what this one digs into.
+    // dents(): the objects that dig into this one; digs(): the objects that this one digs into.
     const List<Link>& dents() const { return dents_; }
     const List<Link>& digs() const { return digs_; }
-    // Whether it has a surface of its own: it blends with another, or digs into none. Weights of 0 count as none.
+    // Returns true if the object has a surface of its own: it blends with another or digs into none. Weights of 0 do not count.
     bool hasSurface() const;
-    // The object whose hollow its seeds sample: the first that it digs into, when it has no surface of its own. Else null.
+    // The object whose hollow this object's seeds sample: the first it digs into, if this object has no surface of its own.
+    // Else null.
     const SoftObject* hollowed() const { return hollowLink() == nullptr ? nullptr : hollowLink()->object; }
-    // The object whose colour and paint its surface shows: its own, or what its hollow is in. Null: it has no surface.
+    // The object whose colour and paint this surface shows: itself, or the one with the hollow. Null if there is no surface.
     const SoftObject* shown() const { return hasSurface() ? this : hollowed(); }
-    // Whether its seeds were laid out for a hollow and are for a surface now, or the other way round.
+    // Returns true if the seeds were laid out for a hollow but are now needed for a surface, or the other way round.
     bool laidInVain() const { return laid_.seeds != nullptr && (hollowed() != nullptr) != laidHollow_; }
-    // Where Bodies keeps it.
+    // The object's index in Bodies.
     int slot() const { return slot_; }
     void setSlot(int slot) { slot_ = slot; }
 
@@ -292,61 +299,61 @@ public:
     // This object's contribution to the implicit function at `p`, 0..strength() (the report's fieldFunc).
     Real fieldFunc(const Point& p) const;
 
-    // Whether fields of the two can meet anywhere, from centres and sizes alone.
+    // Returns true if the fields of the two objects can overlap, judging by centres and reaches alone.
     bool inRange(const SoftObject& other) const { return isNearer(centre_, other.centre_, reach_ + other.reach_); }
 
     // --- A frame
 
-    // Settles the seeds on the surface, if `recalc` says that something changed (report, Section III, update()).
+    // Settles the seeds on the surface, if `recalc` says that something has changed (report, Section III, update()).
     void update(const FrameContext& frame);
 
     // Lists the voxels of the settled seeds; see Surface::draw().
     void draw(const FrameContext& frame, VoxelList& list, int room, int* next);
 
-    // Something that its seeds rest on has changed: look again.
+    // Marks that something the seeds depend on has changed, so that the next update() looks at them again.
     void setRecalc() { recalc_ = true; }
     bool recalc() const { return recalc_; }
-    // Some seed is not at rest; the surface says so.
+    // The surface records here whether some seed is not at rest.
     void setDisplaced(bool displaced) { displaced_ = displaced; }
 
-    // The palette indices of brightness 0..63, and of SHADING_MOST more before and behind (see VoxelList). Not owned.
+    // The palette indices of brightness 0..63, with SHADING_MOST more before and after them (see VoxelList). Not owned.
     void setRamp(const uint8_t* ramp) { ramp_ = ramp; }
     const uint8_t* ramp() const { return ramp_; }
-    // What it shows besides a colour of its own, matt; null: nothing. Not owned.
+    // What the object shows besides a matt colour of its own; null if nothing. Not owned.
     void setPaint(const Paint* paint) { paint_ = paint; }
     const Paint* paint() const { return paint_; }
 
 protected:
-    // "kind number numbers...", for describe().
+    // Writes "kind number numbers...", for describe().
     void describeAs(const char* kind, const Real* numbers, int count, char* to, int size) const;
 
-    // The reach of the core in core space.
+    // coreReach() in core space.
     Real coreReach16() const { return coreReach16_; }
-    // A measure that grows with the size, from what it was when the object was made.
+    // Scales a measure `made` from the time when the object was made by the object's growth since then.
     Real grown(Real made) const { return size_ == sizeMade_ ? made : made * (size_ / sizeMade_); }
 
-    // The object's y axis in the world, which round primitives describe themselves by.
+    // The object's y axis in the world; round primitives write it in describe().
     Vector axis() const { return {turn_.m[0][1], turn_.m[1][1], turn_.m[2][1]}; }
 
 private:
-    // Oversampled seeds are laid out this many at a time.
+    // Number of oversampled seeds laid out at a time (a block).
     static constexpr int EXTRA_BITS = 3;
     static constexpr int EXTRA_BLOCK = 1 << EXTRA_BITS;
 
-    // The seeds of an object and what was known when they were laid out.
+    // The seeds of an object, and the values that held when they were laid out.
     struct Layout {
-        Seed* seeds = nullptr;           // the regular ones
-        Seed** extras = nullptr;         // blocks of oversampled ones; null where none was needed yet
-        Seed** fine = nullptr;           // the same of fine ones
+        Seed* seeds = nullptr;           // the regular seeds
+        Seed** extras = nullptr;         // blocks of oversampled seeds; null where none was needed yet
+        Seed** fine = nullptr;           // blocks of fine seeds, likewise
         Vector* roots = nullptr;
         int32_t* ringStarts = nullptr;
-        int32_t* rootsBetween = nullptr; // of each ring: the first root for oversampled seeds between it and the one before
+        int32_t* rootsBetween = nullptr; // of each ring: first root for oversampled seeds between this ring and the one before
         int regular = 0, oversampled = 0, rings = 0, rootRoom = 0;
         Real spacing{2};
-        Real size{0};                    // of the object
-        int placeShift = 8;              // of the places where seeds rest
-        // Of a warped object: the regular seeds and the roots as they are without the warp, and as the `border` of those seeds the
-        // direction outward where they rest now. Else null.
+        Real size{0};                    // size of the object then
+        int placeShift = 8;              // SoftObject::placeShift()
+        // For a warped object: the regular seeds and the roots as they would be without the warp (`border` of these seeds holds
+        // the outward normal where the warped seed rests now). Else null.
         Seed* plainSeeds = nullptr;
         Vector* plainRoots = nullptr;
 
@@ -358,7 +365,7 @@ private:
         int nearestBefore(int ring, int seed, int successor, bool closed) const;
         bool rootsDiffer(int ring) const;
         void closeGap(Seed& s, Seed& n) const;
-        // The layout as it is without the warp. It shares all that it points at.
+        // The layout as it would be without the warp. It shares all memory with this one.
         Layout plain() const;
     };
 
@@ -393,16 +400,16 @@ private:
     int number_;
     Point centre_;
     Matrix turn_;
-    Real size_;       // R: where the field ends
-    Real radius_;     // R/2: "the distance each seed would be from the center if no blending were taking place"; R restRoot_
+    Real size_;       // R: distance from the core where the field ends
+    Real radius_;     // usually R/2: "the distance each seed would be from the center if no blending were taking place"
     Real inverse_;    // CORE_SIZE / size
     Real coreReach_;
-    Vector stretch_, unstretch_;  // factors along the own axes, and one over each
+    Vector stretch_, unstretch_;  // factors along the own axes, and their reciprocals
     Real mostStretch_;
     bool stretched_, warped_, shaped_, ball_;
     Real reach_;
-    Warp warp_;                   // of core space
-    Real sizeMade_, coreReachMade_, coreReach16_;  // as made, so that scaling never adds up errors
+    Warp warp_;                   // in core space
+    Real sizeMade_, coreReachMade_, coreReach16_;  // measures when made, so that repeated scaling adds up no errors
     List<Link> skel_, dents_, digs_;
     Real strength_, restParam_, restRoot_;
     bool rests_, laidHollow_;
@@ -410,7 +417,7 @@ private:
     bool recalc_;
     bool tapers_;
     bool displaced_;
-    bool unfinished_;  // the surface was not done in the last frame (Surface::update())
+    bool unfinished_;  // Surface::update() returned true in the last frame: it was not done
     const uint8_t* ramp_;
     const Paint* paint_ = nullptr;
 

@@ -1,4 +1,4 @@
-// The soft sphere: its core is a point. The report's one complete primitive.
+// The soft sphere: its core is a point. It is the one complete primitive of the report.
 #ifndef FB_SPHERE_H
 #define FB_SPHERE_H
 
@@ -13,8 +13,8 @@ public:
     void describe(char* to, int size) const override;
 };
 
-// Of the rings that approximate a sphere of `radius` (Appendix C, Figure 8): how many there are, and how many seeds lie
-// in the one at a latitude with cosine `cosine30` (2.30). Used by every primitive with round parts.
+// The rings that approximate a sphere of `radius` (Appendix C, Figure 8): their number, and the number of seeds in the ring at
+// the latitude whose cosine is `cosine30` (30 fraction bits). seedsInRing() serves every primitive with round parts.
 int ringCount(Real radius, Real spacing);
 int seedsInRing(Real radius, Real spacing, int32_t cosine30);
 

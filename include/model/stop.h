@@ -1,9 +1,10 @@
-// Stop: whether the user wants the program to end. What takes long asks now and then, a few times in a tenth of a second on
-// a 386, and ends early with its work undone.
+// Stop: whether the user wants the program to end. Long computations ask now and then, a few times in a tenth of a second on a
+// 386, and return early with their work unfinished.
 #ifndef FB_STOP_H
 #define FB_STOP_H
 
-// What knows; set by the program, null in tests. Once it has said yes it says so until the program is back in its loop.
+// Answers the question; the program sets it, and in tests it is null. Once it has returned true it goes on returning true until
+// the program is back in its main loop.
 inline bool (*stopSource)() = nullptr;
 
 inline bool stopAsked()

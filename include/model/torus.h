@@ -6,11 +6,11 @@
 
 class Torus : public SoftObject {
 public:
-    // The core is a circle of radius `ring` about the object's y axis. The tube, of radius size / 2, must not touch
-    // itself: a ring below leastRing() is taken as that.
+    // The core is a circle of radius `ring` about the object's y axis. The tube, of radius size / 2, must not touch itself: a
+    // ring below leastRing() is replaced by it.
     Torus(int number, Real size, Real ring);
 
-    // The smallest ring for a size: it leaves a hole of a quarter of the tube's radius.
+    // The smallest ring for a size: it leaves a hole whose radius is a quarter of the tube's.
     static Real leastRing(Real size) { return size * Real(0.625); }
 
     Vector fromCore(const Vector& q) const override;

@@ -1,12 +1,13 @@
-// Warp: what bends an object's space (Wyvill and others): taper, twist and bend, each about the object's own y axis. The field
-// of a warped object at a point is what it is without at the point that the warp brings there.
+// Warp: deforms an object's space (Wyvill and others) by taper, twist and bend, each about the object's own y axis. The field
+// of a warped object at a point P is the unwarped object's field at the point that the warp moves to P.
 //
-//     taper A   across the axis all is 1 + A y / h as wide, with y the height, -h..h
-//     twist A   turned about the axis by A degrees from -h to h
-//     bend  A   the axis becomes part of a circle, A degrees from -h to h, and leaves it straight beyond; towards +x
+//     taper A   widths across the axis are multiplied by 1 + A y / h, with y the height, -h..h
+//     twist A   the space is turned about the axis, by A degrees from -h to h
+//     bend  A   the axis becomes an arc of A degrees from -h to h, curved towards +x, and runs straight on beyond its ends
 //
-// h is the height of the object's surface above its centre. No bend brings the middle of its circle nearer to the axis than a
-// fifth more than the object is wide. A taper comes first, then a twist, then a bend.
+// h is the height of the object's surface above its centre. A bend is limited so that the middle of its circle keeps a distance
+// from the axis of at least 1.2 times the greatest half width of the tapered object. The taper is applied first, then the
+// twist, then the bend.
 #ifndef FB_WARP_H
 #define FB_WARP_H
 
@@ -15,7 +16,7 @@
 enum WarpPart : uint8_t { WARP_TAPER, WARP_TWIST, WARP_BEND };
 constexpr int WARP_PARTS = 3;
 
-// The greatest amount of each, to either side.
+// The greatest amount of each part, in either direction.
 constexpr Real WARP_MOST[WARP_PARTS] = {Real(0.75), Real(360), Real(180)};
 
 // The amounts of all three.
@@ -28,47 +29,49 @@ constexpr WarpAmounts NO_WARP{{Real(0), Real(0), Real(0)}};
 
 class Warp {
 public:
-    // For an object whose surface, whose field and what of that is steep reach so far from the centre along each axis. All lengths
-    // are in the same units, any that keep products in range. What would bend the surface beyond the middle of the circle is less.
+    // Sets the warp for an object whose surface, field and steep part of the field reach the given distances from the centre
+    // along each axis. All lengths are in the same unit; products of them must fit a Real. A bend that would carry the surface
+    // beyond the middle of the circle is reduced.
     void set(const WarpAmounts& amounts, const Vector& surface, const Vector& field, const Vector& steep);
 
-    // As asked for, and as they are.
+    // The amounts as asked for, and as limited.
     const WarpAmounts& asked() const { return asked_; }
     const WarpAmounts& amounts() const { return amounts_; }
     Real height() const { return height_; }
 
-    // A place, before and after, and what is the same for all of a height.
+    // One point before and after the warp, with the values that depend on its height only.
     struct Way {
-        Vector plain, twisted;    // before all, and before the bend
-        Real y{-30000};           // height that the rest holds for, before the bend
-        Real width;                // by the taper
-        Real turnSine, turnCosine;  // of the twist
-        Real sine, cosine;        // of the bend
-        Real middle[2];           // where the bend brings the axis, x and y
-        Real beyond;              // what of the height lies beyond the ends of the bend
-        Real squeeze;             // by how much the bend shortens what lies along the axis there; 1 beyond its ends
+        Vector plain, twisted;    // the point before the warp, and before the bend
+        Real y{-30000};           // the height before the bend for which the following values hold
+        Real width;                // factor of the taper
+        Real turnSine, turnCosine;  // of the angle of the twist
+        Real sine, cosine;        // of the angle of the bend
+        Real middle[2];           // x and y of the point of the axis, after the bend
+        Real beyond;              // the part of the height that lies beyond the ends of the bend
+        Real squeeze;             // factor by which the bend shortens lengths along the axis here; 1 beyond its ends
     };
 
-    // Where the warp brings a place. A way may be used again, quicker for places of one height.
+    // The warp: returns the place to which it moves a point. Reusing `way` is quicker for points of the same height.
     Vector out(const Vector& place, Way& way) const;
-    // From where the warp brought a place: Way::plain.
+    // The inverse warp: sets way.plain to the point that the warp moves to `place`.
     void back(const Vector& place, Way& way) const;
 
-    // How far a place lies outside a box that holds the field, once warped; 0 and less: inside.
+    // The distance of a place from a box that contains the warped field; 0 or less inside the box.
     Real outside(const Vector& place) const
     {
         const Real x = flipped_ ? -place.x : place.x;
         return ::max(::max(-x - field_.x, x - inward_), ::max(absolute(place.y) - field_.y, absolute(place.z) - field_.z));
     }
 
-    // Of the way gone last: what becomes of a small step from Way::plain; and the gradient of a function, from what it is there.
+    // With `way` from the latest out() or back(): the image of a small step from way.plain, and the gradient of a function
+    // after the warp, from its gradient at way.plain.
     Vector stepOut(const Way& way, const Vector& step) const;
     Vector slopeOut(const Way& way, const Vector& slope) const;
 
-    // No distance becomes smaller than this share of itself, and none from the centre larger than that.
+    // The warp multiplies every distance by least() or more, and distances from the centre by most() or less.
     Real least() const { return least_; }
     Real most() const { return most_; }
-    // The same as least() of distances where the field is steep.
+    // Like least(), for distances within the steep part of the field.
     Real leastSteep() const { return leastSteep_; }
 
 private:
@@ -79,15 +82,15 @@ private:
 
     WarpAmounts asked_ = NO_WARP, amounts_ = NO_WARP;
     Real height_{1};
-    Real slope_{0};    // of the taper
-    Real twist_{0};    // radians in a unit of height
-    Real bend_{0};     // curvature, one over a length; never below 0
-    Real radius_{0};   // of the circle
-    Real end_{0};      // half of the bend, radians
-    Real endSine_{0}, endCosine_{1}, endAcross_{0}, endUp_{0};  // and where it brings the ends of the axis
-    Vector field_{Real(0), Real(0), Real(0)};  // how far the field reaches, once warped
-    Real inward_{0};                           // and along x, to where it is bent
-    bool flipped_ = false;  // it bends towards -x
+    Real slope_{0};    // taper per unit of height
+    Real twist_{0};    // twist, radians per unit of height
+    Real bend_{0};     // curvature of the bend, 1 / radius_; never below 0
+    Real radius_{0};   // of the bend's circle
+    Real end_{0};      // half the angle of the bend, radians
+    Real endSine_{0}, endCosine_{1}, endAcross_{0}, endUp_{0};  // sine and cosine of end_; x and y of the upper end of the axis
+    Vector field_{Real(0), Real(0), Real(0)};  // half extents of the warped field
+    Real inward_{0};                           // extent of the warped field towards the middle of the bend's circle
+    bool flipped_ = false;  // the bend is towards -x
     Real least_{1}, leastSteep_{1}, most_{1};
 };
 

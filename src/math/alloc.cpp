@@ -1,5 +1,4 @@
-// The two functions that the compiler refers to for classes with virtual functions and that a program without the C++
-// library must bring itself.
+// Functions that the compiler calls for classes with virtual functions, and that a program without the C++ library must define.
 #include "math/alloc.h"
 
 void operator delete(void* at) noexcept { free(at); }

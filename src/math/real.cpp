@@ -1,10 +1,10 @@
-// Arithmetic that is no single instruction: roots and the circle. Integers throughout: the model's seeds and paths are
-// made with these, so they must come out the same on every machine.
+// Arithmetic of more than one instruction: square roots, sine and cosine. All of it is done in integers, because seeds and
+// paths are made with these functions and must be the same on every machine.
 #include "math/real.h"
 
 namespace {
 
-// a * b / 2^30, rounded down; it must fit 32 bits.
+// a * b / 2^30, rounded down; the result must fit 32 bits.
 inline int32_t times(int32_t a, int32_t b)
 {
 #if FB_I386
@@ -22,18 +22,19 @@ uint32_t squareRoot64(uint64_t a)
 {
     if (a == 0)
         return 0;
-    // The radicand shifted so that its top word has 29 or 30 bits: no quotient below leaves 32 bits.
+    // The radicand is shifted so that its upper word has 29 or 30 bits, and no quotient below exceeds 32 bits.
     const int up = (__builtin_clzll(a) & ~1) - 2;
     const uint64_t wide = up < 0 ? a >> 2 : a << up;
     const uint32_t top = static_cast<uint32_t>(wide >> 32);
-    // A line that is no more than 4% off the root, and three steps of Newton's method: 16 bits of the root, then all of them.
+    // Start with a straight line that is within 4% of the root, then three steps of Newton's method: the first gives 16 bits of
+    // the root, the other two give all bits.
     uint32_t root = top / 49152 + 11469;
     root = (root + top / root) << 15;
     uint32_t rest;
     root = (root >> 1) + (quotient64(wide, root, &rest) >> 1);
     root = (root >> 1) + (quotient64(wide, root, &rest) >> 1);
     root = up < 0 ? root << 1 : root >> (up >> 1);
-    // What was rounded on the way.
+    // Correct the error of rounding in the steps above.
     const auto square = [](uint32_t r) { return static_cast<uint64_t>(r) * r; };
     while (square(root) > a)
         --root;
@@ -57,12 +58,12 @@ Real squareRoot(Real a)
 
 int32_t sine30(Angle a)
 {
-    // Folded into the first quarter, where x = 0 .. 1 (2.30) stands for 0 .. pi/2.
+    // Fold the angle into the first quarter, where x = 0 .. 1 (30 fraction bits) stands for 0 .. pi/2.
     uint32_t x = a & 0x3fffffffu;
     if (a & 0x40000000u)
         x = 0x40000000u - x;
-    // sin(x pi/2) by its Taylor series up to x^13: the next term is below 2^-30 at x = 1.
-    // Coefficients (pi/2)^n / n! scaled by 2^30.
+    // sin(x pi/2) by its Taylor series up to x^13; the next term is below 2^-30 at x = 1. The coefficients are (pi/2)^n / n!,
+    // scaled by 2^30.
     const int32_t part = static_cast<int32_t>(x), square = times(part, part);
     int32_t sum = 61;                            // +(pi/2)^13/13!
     sum = -3864 + times(sum, square);            // -(pi/2)^11/11!

@@ -1,4 +1,4 @@
-// Numbers as text and back.
+// Numbers as text and text as numbers (text.h).
 #include "math/text.h"
 
 #include "rt.h"
@@ -7,7 +7,7 @@ namespace {
 
 const uint32_t POWERS[] = {1, 10, 100, 1000, 10000, 100000, 1000000};
 
-// Digits of `whole`, then `decimals` digits of `part`, into `to`; what does not fit is cut off.
+// Writes the digits of `whole`, then `decimals` digits of `part`, to `to`; digits that do not fit are cut off.
 int putDigits(char* to, int size, bool minus, uint64_t whole, uint32_t part, int decimals)
 {
     char digits[32];
@@ -38,7 +38,7 @@ int formatReal(char* to, int size, Real value)
 {
     const int32_t raw = rawFromReal(value);
     const uint32_t bits = raw < 0 ? 0u - static_cast<uint32_t>(raw) : static_cast<uint32_t>(raw);
-    // The fewest decimals that read back as the same value (parseReal): six do for every one.
+    // Find the fewest decimals that parseReal() reads back as the same value; six are enough for every value.
     int decimals = 0;
     uint32_t whole = 0, part = 0;
     for (; decimals <= 6; ++decimals) {
@@ -119,7 +119,7 @@ bool parseWhole(const char* text, int32_t* value)
 
 namespace {
 
-// One byte as any screen can show it, without a final 0; returns its length, 1 or 4.
+// Writes one byte of a text as any screen can show it, without a final 0. Returns the length, 1 or 4.
 int plainByte(char* to, char c)
 {
     static const char DIGITS[] = "0123456789ABCDEF";
@@ -143,7 +143,8 @@ char* plainText(char* to, int size, const char* text)
     int whole = 0, count = 0;
     for (; text[count] != 0; ++count)
         whole += plainByte(byte, text[count]);
-    // Without room for all: a third of it is the beginning, the rest the end, where a file's own name stands.
+    // If there is no room for the whole text: a third of the room is for its beginning, the rest for its end, where a file's
+    // own name is.
     const bool cut = whole >= size;
     const int front = cut ? size / 3 : whole, back = cut ? size - 1 - 3 - front : 0;
     int length = 0, at = 0;

@@ -1,4 +1,4 @@
-// The operations of Point, Vector and Matrix that are more than a line.
+// The operations of Point, Vector and Matrix that need more than a line (vec.h).
 #include "math/vec.h"
 
 Real lengthOf(Square square)
@@ -14,7 +14,7 @@ Real lengthOf(Square square)
 Vector withLength(const Vector& v, Real newLength)
 {
 #if FB_REAL == FB_FIXED
-    // Short vectors are first magnified: their length alone has too few bits to divide by.
+    // Short vectors are scaled up first, because their length alone has too few bits to divide by.
     int32_t x = v.x.raw, y = v.y.raw, z = v.z.raw;
     const int32_t limit = 1 << 28;
     if ((x | y | z) == 0)
@@ -70,7 +70,7 @@ Matrix Matrix::rotation(const Vector& axis, Angle angle)
     const Vector a = unit(axis);
     if (a == Vector{Real(0), Real(0), Real(0)})
         return r;
-    // Rodrigues: cos I + sin [a]x + (1 - cos) a a^T.
+    // Rodrigues' formula: cos I + sin [a]x + (1 - cos) a a^T.
     const Real c = cosine(angle), s = sine(angle), d = Real(1) - c;
     r.m[0][0] = c + a.x * a.x * d;
     r.m[0][1] = a.x * a.y * d - a.z * s;

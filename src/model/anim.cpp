@@ -1,4 +1,4 @@
-// Objects on their paths.
+// Anim: computes poses from motions and the time, item by item.
 #include "model/anim.h"
 
 #include "model/model.h"
@@ -7,18 +7,18 @@ namespace {
 
 constexpr Vector X_AXIS{Real(1), Real(0), Real(0)}, Y_AXIS{Real(0), Real(1), Real(0)}, Z_AXIS{Real(0), Real(0), Real(1)};
 
-// What the keys of a motion say at one time.
+// The values of a motion's keys at one time.
 struct Keyed {
     Real value[Key::VALUES];
 };
 
-// a * top / bottom for 0 <= top <= bottom.
+// a * top / bottom for 0 <= top <= bottom, computed without overflow.
 Real share(Real a, int32_t top, int32_t bottom)
 {
     return realFromRaw(mulDiv(rawFromReal(a), top, bottom));
 }
 
-// The time of the keys at a time of the animation.
+// Converts a time of the animation to one of the keys: modulo `repeat`, or clamped to the last key.
 int32_t keyTime(const Key* keys, const Motion& motion, Time time)
 {
     if (motion.repeat > 0) {
@@ -30,25 +30,25 @@ int32_t keyTime(const Key* keys, const Motion& motion, Time time)
     return time > static_cast<Time>(last) ? last : static_cast<int32_t>(time);
 }
 
-// The keys of a motion as a row without ends, if they repeat: key -1 is the last of the round before.
+// The keys of a motion by index. If they repeat, the row continues at both ends: key -1 is the last key of the previous round.
 class KeyRow {
 public:
     KeyRow(const Key* keys, const Motion& motion) : keys_(keys), count_(motion.keyCount), repeat_(motion.repeat) {}
 
     const Key& key(int i) const { return keys_[index(i)]; }
-    // Counted from the start of this round.
+    // The time of key i, counted from the start of the present round.
     int64_t timeOf(int i) const
     {
         return static_cast<int64_t>(key(i).time) + (i < 0 ? -repeat_ : i >= count_ ? repeat_ : 0);
     }
     bool has(int i) const { return repeat_ > 0 || (i >= 0 && i < count_); }
-    // The last key not after a time; -1 before the first.
+    // The index of the last key that is not later than a time; -1 if all are later.
     int before(int32_t time) const
     {
-        int at = -1;
-        while (at + 1 < count_ && keys_[at + 1].time <= time)
-            ++at;
-        return at;
+        int i = -1;
+        while (i + 1 < count_ && keys_[i + 1].time <= time)
+            ++i;
+        return i;
     }
 
 private:
@@ -59,21 +59,21 @@ private:
     int32_t repeat_;
 };
 
-// A cubic through the keys (Hermite), `s` of the way from key `at` to the next. Its slope at a key is that of the line between
-// the keys on either side of it; at the ends of a run that does not repeat the slope is 0.
-Keyed smoothly(const KeyRow& row, int at, Real s)
+// A cubic (Hermite) interpolation from key `index` to the next, at fraction `s` of the way. Its slope at a key is that of the line
+// between the keys before and after; at the ends of a run that does not repeat the slope is 0.
+Keyed smoothly(const KeyRow& row, int index, Real s)
 {
-    const Key &from = row.key(at), &to = row.key(at + 1);
-    const int64_t start = row.timeOf(at), end = row.timeOf(at + 1);
+    const Key &from = row.key(index), &to = row.key(index + 1);
+    const int64_t start = row.timeOf(index), end = row.timeOf(index + 1);
     const int32_t wide = static_cast<int32_t>(end - start);
     const Real s2 = s * s, s3 = s2 * s;
     const Real onto = s2 * Real(3) - s3 * Real(2);
     const Real outSlope = s3 - s2 * Real(2) + s, inSlope = s3 - s2;
-    const bool before = row.has(at - 1), after = row.has(at + 2);
-    const Key& previous = before ? row.key(at - 1) : from;
-    const Key& next = after ? row.key(at + 2) : to;
-    const int32_t aroundFrom = before ? static_cast<int32_t>(end - row.timeOf(at - 1)) : 1;
-    const int32_t aroundTo = after ? static_cast<int32_t>(row.timeOf(at + 2) - start) : 1;
+    const bool before = row.has(index - 1), after = row.has(index + 2);
+    const Key& previous = before ? row.key(index - 1) : from;
+    const Key& next = after ? row.key(index + 2) : to;
+    const int32_t aroundFrom = before ? static_cast<int32_t>(end - row.timeOf(index - 1)) : 1;
+    const int32_t aroundTo = after ? static_cast<int32_t>(row.timeOf(index + 2) - start) : 1;
     Keyed now;
     for (int i = 0; i < Key::VALUES; ++i) {
         const Real a = from.value[i], b = to.value[i];
@@ -84,7 +84,7 @@ Keyed smoothly(const KeyRow& row, int at, Real s)
     return now;
 }
 
-// Straight from one key to the next.
+// Linear interpolation from one key to the next.
 Keyed linearly(const Key& from, const Key& to, Real s)
 {
     Keyed now;
@@ -97,17 +97,17 @@ Keyed keyed(const Key* keys, const Motion& motion, Time time)
 {
     const KeyRow row(keys, motion);
     const int32_t t = keyTime(keys, motion, time);
-    const int at = row.before(t);
-    if (!row.has(at) || !row.has(at + 1)) {
-        const Key& only = row.has(at) ? row.key(at) : row.key(0);
+    const int index = row.before(t);
+    if (!row.has(index) || !row.has(index + 1)) {
+        const Key& only = row.has(index) ? row.key(index) : row.key(0);
         return linearly(only, only, Real(0));
     }
-    const int64_t start = row.timeOf(at);
-    const int32_t wide = static_cast<int32_t>(row.timeOf(at + 1) - start);
+    const int64_t start = row.timeOf(index);
+    const int32_t wide = static_cast<int32_t>(row.timeOf(index + 1) - start);
     if (wide == 0)
-        return linearly(row.key(at), row.key(at + 1), Real(0));
+        return linearly(row.key(index), row.key(index + 1), Real(0));
     const Real s = realFromRaw(mulDiv(static_cast<int32_t>(t - start), 65536, wide));
-    return motion.smooth ? smoothly(row, at, s) : linearly(row.key(at), row.key(at + 1), s);
+    return motion.smooth ? smoothly(row, index, s) : linearly(row.key(index), row.key(index + 1), s);
 }
 
 Real limited(Real a)
@@ -115,7 +115,7 @@ Real limited(Real a)
     return clamp(a, Real(-SPACE), Real(SPACE));
 }
 
-// The pose of an item within its parent.
+// The pose of an item relative to its parent.
 Pose poseAt(const Model& model, const Motion& motion, Time time)
 {
     Pose pose;
@@ -123,7 +123,7 @@ Pose poseAt(const Model& model, const Motion& motion, Time time)
     pose.scale = motion.scale;
     if (motion.parts == 0 && motion.moreCount == 0)
         return pose;
-    // Calls `with` for each further move of a part.
+    // Calls `with` for each further move of a part, with the move and its angle.
     const auto further = [&](MotionPart part, auto with) {
         for (int i = 0; i < motion.moreCount; ++i)
             if (motion.more[i].part == part)
@@ -186,7 +186,7 @@ Vector column(const Matrix& m, int i)
     return {m.m[0][i], m.m[1][i], m.m[2][i]};
 }
 
-// Where the eye is and which way it looks, when everything else is in its place.
+// Places and turns the eye, after everything else has been placed.
 void moveEye(Model& model)
 {
     Camera& camera = model.camera;
@@ -221,7 +221,7 @@ Wave makeWave(Real seconds, Real phase)
     const int32_t raw = rawFromReal(seconds);
     if (raw == 0)
         return wave;
-    // Turns a second: rounded down, so that no period shorter than the one asked for comes out.
+    // Turns a second, rounded down, so that the period is never shorter than the one asked for.
     const uint64_t rate = divide64(0xffffffffull << 16, static_cast<uint32_t>(raw < 0 ? -raw : raw));
     wave.rate = raw < 0 ? 0 - rate : rate;
     return wave;
@@ -256,17 +256,17 @@ Point placeAt(const Motion& motion, Time time)
 
 void Anim::move(Model& model, Time time)
 {
-    // Parents stand before their children.
+    // items() lists parents before their children, so a parent's pose is computed first.
     for (int i = 0; i < model.items(); ++i) {
         Actor& actor = model.item(i);
         Pose pose = poseAt(model, actor.motion, time);
         if (actor.motion.parent != 0) {
             const Actor* parent = model.itemNumbered(actor.motion.parent);
             if (parent != nullptr) {
-                // Limited before it is turned and scaled, so that no product leaves 16.16.
+                // Limited before it is turned and scaled, so that no product overflows 16.16.
                 const Vector arm{limited(pose.place.x), limited(pose.place.y), limited(pose.place.z)};
                 pose.place = parent->pose.place + parent->pose.turn * (arm * parent->pose.scale);
-                // Most turn with their parent and no further.
+                // Most items have no turn of their own, which saves a matrix product.
                 const bool turns = !sameTurn(pose.turn, Matrix::identity());
                 pose.turn = turns ? parent->pose.turn * pose.turn : parent->pose.turn;
                 pose.scale = clamp(pose.scale * parent->pose.scale, SCALE_LEAST, SCALE_MOST);

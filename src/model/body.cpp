@@ -1,4 +1,4 @@
-// Which objects make up one body, and with which weights.
+// Finds which objects form a body, and the weights between them.
 #include "model/body.h"
 
 #include "math/alloc.h"
@@ -54,7 +54,7 @@ bool Bodies::find(SoftObject* const* objects, int count)
     return true;
 }
 
-// Room for all that is known of so many objects. False: no memory.
+// Allocates the arrays for `count` objects. Returns false when there is no memory.
 bool Bodies::reserve(SoftObject* const* objects, uint32_t count)
 {
     uint32_t dents = 0;
@@ -68,7 +68,7 @@ bool Bodies::reserve(SoftObject* const* objects, uint32_t count)
     return weights_ != nullptr && bySlot_ != nullptr && members_ != nullptr && diggers_ != nullptr;
 }
 
-// Objects have their slots.
+// Fills in the weights. The objects must have their slots.
 void Bodies::setWeights(SoftObject* const* objects)
 {
     for (int i = 0; i < count_ * count_; ++i)
@@ -91,14 +91,14 @@ void Bodies::setWeights(SoftObject* const* objects)
                 bySlot_[i].plain[j / 32] |= 1u << j % 32;
 }
 
-// Adds an object and all that links join with it, breadth first.
+// Adds an object and all objects that links join with it, breadth first.
 void Bodies::findMembers(SoftObject* object, int* filled)
 {
     const int begin = *filled;
     members_[(*filled)++] = object;
     bySlot_[object->slot()].first = static_cast<int16_t>(begin);
-    for (int at = begin; at < *filled; ++at) {
-        for (const List<Link>::Node* node = members_[at]->skel().first(); node != nullptr; node = node->next) {
+    for (int i = begin; i < *filled; ++i) {
+        for (const List<Link>::Node* node = members_[i]->skel().first(); node != nullptr; node = node->next) {
             SoftObject* other = node->item.object;
             if (bySlot_[other->slot()].first >= 0 || node->item.weight == Real(0))
                 continue;
@@ -108,7 +108,8 @@ void Bodies::findMembers(SoftObject* object, int* filled)
     }
 }
 
-// `plain`: at weight 1.
+// Returns true if all members from `begin` to before `end` are linked with each other: at weight 1 if `plain`, else at any
+// weight but 0.
 bool Bodies::allLinked(int begin, int end, bool plain) const
 {
     for (int a = begin; a < end; ++a)
@@ -120,7 +121,7 @@ bool Bodies::allLinked(int begin, int end, bool plain) const
     return true;
 }
 
-// Adds what digs into the members from `begin` to before `end`, the body filled last.
+// Adds the objects that dig into the members from `begin` to before `end`, which are those of the body filled last.
 void Bodies::findDiggers(int begin, int end, int* filled)
 {
     const int first = *filled;
@@ -158,7 +159,7 @@ void Bodies::spreadRecalc() const
     }
 }
 
-// A member of a body hears from those that dig into the body, or they from it.
+// Passes the recalc flag between a member of a body and the objects that dig into the body, in both directions.
 void Bodies::spreadByDiggers(SoftObject& member) const
 {
     SoftObject* const* const from = diggers(member);

@@ -1,4 +1,5 @@
-// Seeds on a box: rings round its y axis, from the middle of the lower face out, up the sides, and in along the upper face.
+// Seeds on a box: rings round its y axis, from the middle of the lower face outwards, up the sides, and inwards along the upper
+// face.
 #include "model/box.h"
 
 #include "rt.h"
@@ -10,22 +11,22 @@ namespace {
 constexpr int FEWEST_IN_RING = 4;
 constexpr Real ROOT_HALF(0.70710678);
 
-// A seed on the diagonal of a ring with sharp corners has a part of the surface that reaches into the corner.
+// A seed on the diagonal of a ring with sharp corners has a cell that reaches into the corner: its half axes grow by sqrt(2).
 constexpr Real CORNER_PART(1.4142136);
 
 // A ring of seeds: a rectangle in a plane of constant y, with round corners.
 struct Loop {
-    Real x, z;                  // half edges of the rectangle on which its roots lie
-    Real height;                // y of its roots
+    Real x, z;                  // half edges of the rectangle that carries its roots
+    Real height;                // y of the roots
     Real radius;                // of the object
     Real pathSine, pathCosine;  // latitude of the paths
-    Real across;                // half way to the next ring, along the surface
-    bool face;                  // it lies on a face square to y, where that way is one of the stretched object
+    Real across;                // half the distance to the next ring along the surface
+    bool face;                  // the ring is on a face perpendicular to y, where `across` is measured on the stretched object
     int number;
     Real spacing;
 };
 
-// Adds rings. Seeds that follow each other above the same point of the core share a root.
+// Adds rings. Consecutive seeds above the same point of the core share a root.
 class LoopMaker {
 public:
     LoopMaker(SeedMaker& maker, const SoftObject& object)
@@ -33,14 +34,15 @@ public:
     {
     }
 
-    // Four sides, each from one corner's diagonal to the next, so that corners of all rings lie above each other. Round a
-    // plate, where no ring has sharp corners, the seeds are spaced evenly all the way.
+    // Adds a ring of four sides, each from one corner's diagonal to the next, so that the corners of all rings lie above each
+    // other. Where the core is a plate or less and no ring has sharp corners, the seeds are evenly spaced all the way round
+    // instead.
     void make(const Loop& loop)
     {
         loop_ = loop;
         const Real round = loop.radius * loop.pathCosine;
         if (stretched_) {
-            // A corner's way from a side that looks to x to the diagonal, and from there on.
+            // Arc lengths of a round corner: from a side that looks towards x to the diagonal, and from there on.
             const Real toDiagonal = quarter_.wayTo(0x20000000u);
             arcs_[1] = round * toDiagonal;
             arcs_[0] = round * (quarter_.length() - toDiagonal);
@@ -75,29 +77,29 @@ private:
     bool stretched_;
     Quarter quarter_;
     Loop loop_{};
-    Real arc_{0};              // length of a round corner, as stretched,
-    Real arcs_[2] = {Real(0), Real(0)};  // of its half beside a side that looks to x, and to z
+    Real arc_{0};              // length of a round corner, stretched
+    Real arcs_[2] = {Real(0), Real(0)};  // its half beside a side that looks towards x, and towards z
     bool begun_ = false;
     Vector root_{Real(0), Real(0), Real(0)};
     int rootIndex_ = -1;
 
-    // The straight part of a side, as stretched.
+    // Length of the straight part of a side, stretched.
     Real edgeOf(int side) const
     {
         const Real edge = shiftUp((side & 1) == 0 ? loop_.z : loop_.x, 1);
         return stretched_ ? edge * ((side & 1) == 0 ? stretch_.z : stretch_.x) : edge;
     }
-    // All of it, from diagonal to diagonal.
+    // Length of a whole side, from diagonal to diagonal.
     Real lengthOf(int side) const { return stretched_ ? edgeOf(side) + shiftUp(arcs_[side & 1], 1) : edgeOf(side) + arc_; }
 
-    // The number of steps whose length is nearest to the spacing.
+    // The number of equal steps whose length is nearest to the spacing.
     int countOf(Real length, int fewest) const
     {
         const int count = floorToInt(length / loop_.spacing + Real(0.5));
         return count < fewest ? fewest : count;
     }
 
-    // A vector of side 0, which looks to +x and runs to -z, as it lies on another side: a quarter turn each.
+    // Turns a vector of side 0, which looks towards +x and runs towards -z, to another side: a quarter turn for each.
     static Vector onSide(int side, const Vector& v)
     {
         switch (side) {
@@ -108,8 +110,8 @@ private:
         }
     }
 
-    // The number of the root at a place, which the seed that follows gets: that of the seed before, or a new one. With the first
-    // seed the ring begins.
+    // Returns the index of the root at a place for the next seed: the previous seed's root if it is at the same place, else a
+    // new one. Begins the ring with its first seed.
     int rootFor(const Vector& place)
     {
         if (!begun_)
@@ -122,7 +124,7 @@ private:
         return rootIndex_;
     }
 
-    // The seed `at` units along a side, with half the way to the next.
+    // Adds the seed `at` units along a side; `half` is half the distance to the next seed.
     void add(int side, Real at, Real half, bool corner)
     {
         const Real edge = edgeOf(side);
@@ -130,7 +132,7 @@ private:
         const Real factor = (side & 1) == 0 ? stretch_.z : stretch_.x;
         const Real halfEdge = (side & 1) == 0 ? loop_.z : loop_.x;
         const Real out = (side & 1) == 0 ? loop_.x : loop_.z;
-        // From the side's outward direction to the seed's, within the half plane of constant y.
+        // Sine and cosine of the angle from the side's outward direction to the seed's, in the plane of constant y.
         Real s(0), c(1), along;
         if (corner) {
             s = c = ROOT_HALF;
@@ -159,8 +161,8 @@ private:
                        onSide(side, {inward * c, high * loop_.pathCosine, inward * s}));
     }
 
-    // The same on a stretched box, whose seeds lie evenly by the way on the stretched surface; `towards` and `from`: the seed's
-    // direction in the plane of constant y, and its root, for side 0.
+    // The same for a stretched box, whose seeds are evenly spaced on the stretched surface. `towards` is the seed's direction
+    // in the plane of constant y and `from` its root, both as on side 0.
     void addStretched(int side, const Vector& towards, const Vector& from, Real half)
     {
         const Vector root = onSide(side, from), out = onSide(side, towards), round = onSide(side, {towards.z, Real(0), -towards.x});
@@ -180,11 +182,11 @@ private:
         maker_.addSeed(rootFor(root), {out.x * loop_.pathCosine, loop_.pathSine, out.z * loop_.pathCosine}, round * along, across);
     }
 
-    // Sine and cosine of an angle that is `length` units of a round corner beside a side.
+    // Sine and cosine of the angle to which a length of `length` units along a round corner corresponds, counted from the side.
     void turned(int side, Real length, Real* s, Real* c) const
     {
         if (stretched_) {
-            // Longitudes count from z; the angle, from where the side looks to.
+            // Longitudes count from z, but the angle counts from the direction in which the side looks.
             const Real way = length / (loop_.radius * loop_.pathCosine);
             const Angle on = (side & 1) == 0 ? 0x40000000u - quarter_.longitude(quarter_.length() - way) : quarter_.longitude(way);
             *s = sine(on);
@@ -216,10 +218,10 @@ Vector Box::fromCore(const Vector& q) const
 
 void Box::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
-    // The outline: half of the lower face's narrower way, a quarter circle, the side, and back. The rings lie in the middles
-    // of equal parts of it.
+    // The outline: half of the lower face along its narrower way, a quarter circle, the side, and the same back on the upper
+    // face. The rings lie in the middles of equal parts of it.
     const Vector h = half();
-    // A stretched face is gone over in steps of the stretched object.
+    // On a face, rings are spaced in units of the stretched object.
     const Vector wide = stretchedOut(h);
     const Real face = min(wide.x, wide.z), round = radius() * HALF_PI, side = shiftUp(h.y, 1);
     const Real whole = shiftUp(face + round, 1) + side;

@@ -1,4 +1,4 @@
-// The axes of a view.
+// The axes of a view (camera.h).
 #include "model/camera.h"
 
 namespace {
@@ -19,8 +19,9 @@ ViewAxes withTurned(const Vector& right, const Vector& up, const Vector& ahead)
 
 ViewAxes viewAlong(const Vector& ahead, const Vector& up, const Vector& right)
 {
-    // Nearer than this (a sine) to the upward direction, which side is to the right cannot be told from it; nearer than the other
-    // it can, but the product has few digits left.
+    // Limits of the sine of the angle between the view and the upward direction. Below `upright` the product does not tell
+    // which side is to the right; below `steep` it does, but with few digits, so it is made a unit vector and perpendicular
+    // again.
     const Real upright(0.01), steep(0.1);
     const Vector forward = unit(ahead);
     if (forward == Vector{Real(0), Real(0), Real(0)})

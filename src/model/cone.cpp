@@ -1,5 +1,5 @@
-// Seeds on a cone with round ends: rings up its outline. Paths are square to the core, not to the slanting side: along
-// them the own field is the same polynomial of the position as everywhere.
+// Seeds on a cone with round ends: rings from one end of its outline to the other. Paths are perpendicular to the core, not to
+// the slanting side, so that along a path the own field is the same polynomial of the position as in every other primitive.
 #include "model/cone.h"
 
 #include "rt.h"
@@ -19,8 +19,8 @@ Vector Cone::fromCore(const Vector& q) const
     return {q.x, q.y - clamp(q.y, -coreReach16(), coreReach16()), q.z};
 }
 
-// t = d^2 / R^2 with the size R at the nearest point of the core: half its gradient is d / R^2 - axis d^2 taper / R^3,
-// the second part on the side only.
+// t = d^2 / R^2, with d the vector from the core's nearest point and R the size there. Half its gradient is d / R^2 - axis d^2
+// taper / R^3; the second term exists on the side only, not on the ends.
 Real Cone::plainParam(const Vector& q, Vector* slope) const
 {
     const Real on = clamp(q.y, -coreReach16(), coreReach16());

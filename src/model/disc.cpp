@@ -1,4 +1,4 @@
-// Seeds on a disc: rings out along the lower face, round the rim, and back along the upper face.
+// Seeds on a disc: rings outwards along the lower face, round the rim, and inwards along the upper face.
 #include "model/disc.h"
 
 #include "rt.h"
@@ -18,7 +18,7 @@ Vector Disc::fromCore(const Vector& q) const
 
 void Disc::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
-    // The lower half of the outline: the face, and a quarter circle of the rim.
+    // The lower half of the outline: the face, then a quarter circle of the rim.
     const Real rim = radius() * HALF_PI;
     Outline outline(stretch());
     outline.line(discRadius(), Real(1), Real(0));
@@ -28,7 +28,7 @@ void Disc::layOutSeeds(SeedMaker& maker, Real spacing) const
     Ring ring{};
     ring.radius = radius();
     int root = 0;
-    // Ring k and the one as far from the end mirror each other in the plane of the core, and share their roots.
+    // Ring k and ring rings - 1 - k mirror each other in the plane of the core, and share their roots.
     for (int k = 0; k < rings; ++k) {
         const int mirrored = rings - 1 - k;
         const int below = k < mirrored ? k : mirrored;

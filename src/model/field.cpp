@@ -1,4 +1,4 @@
-// The Geoff function and its table.
+// The Geoff function and its table (field.h).
 #include "model/field.h"
 
 FieldStep fieldSteps[FIELD_STEPS];

@@ -1,4 +1,4 @@
-// The primitives that scene files and the editor know.
+// The table of the primitives that scene files and the editor know.
 #include "model/kind.h"
 
 #include "math/alloc.h"
@@ -43,7 +43,7 @@ SoftObject* makeBox(int number, const Real* m)
     return make<Box>(number, m[0], m[1], m[2], m[3]);
 }
 
-// The tube must not reach its own other side.
+// The tube must not touch itself across the hole.
 const char* torusExpects(const Real* m)
 {
     return m[1] >= Torus::leastRing(m[0]) ? nullptr : "a ring of at least five eighths of the size";

@@ -1,4 +1,5 @@
-// Laying out seeds: regular ones ring by ring as the primitive says, and an oversampled one beside each (report, Appendix C).
+// Laying out seeds: regular seeds ring by ring as the primitive says, and an oversampled seed beside each (report, Appendix C).
+// Also the warping of a layout. How seeds move is not known here.
 #include "math/alloc.h"
 #include "math/normal.h"
 #include "math/text.h"
@@ -7,16 +8,18 @@
 
 namespace {
 
-// The cell of an oversampled seed, which lies between seeds that have cells of their own: in eighths of theirs.
+// The size of an oversampled seed's cell, in eighths of a regular seed's cell: it lies between seeds that have cells of their
+// own.
 constexpr int EXTRA_CELL = 5;
 
-// An object of less than this radius is thin: as many seeds go round it as round one of this radius. Units.
+// An object with a smaller radius than this is thin: it gets as many seeds around it as an object of this radius, though
+// at most twice as close. Units.
 constexpr Real THIN(4.5);
 
-// The neighbour of an oversampled seed that has not been laid out yet.
+// Value of `neighbour` in an oversampled seed that has not been laid out yet.
 constexpr int32_t NOT_LAID = -2;
 
-// Roots that a seed's 16 bits can tell apart.
+// Number of roots that the 16 bits of Seed::root can tell apart.
 constexpr int ROOTS_MAX = UINT16_MAX + 1;
 
 int8_t toCell(int32_t steps)
@@ -24,7 +27,7 @@ int8_t toCell(int32_t steps)
     return static_cast<int8_t>(steps > 127 ? 127 : steps < -127 ? -127 : steps);
 }
 
-// A half axis of a seed's cell in 1/64 spacing; `inverse` is 64 / spacing.
+// Stores a half axis of a seed's cell in 1/64 of the spacing; `inverse` is 64 / spacing.
 void setAxis(int8_t* to, const Vector& half, Real inverse)
 {
     const auto cell = [&](Real part) { return toCell(floorToInt(part * inverse + Real(0.5))); };
@@ -33,13 +36,13 @@ void setAxis(int8_t* to, const Vector& half, Real inverse)
     to[2] = cell(half.z);
 }
 
-// Such an axis, as it stands in a seed.
+// A half axis as a vector, in 1/64 of the spacing.
 Vector vectorOf(const int8_t steps[3])
 {
     return {Real(static_cast<int>(steps[0])), Real(static_cast<int>(steps[1])), Real(static_cast<int>(steps[2]))};
 }
 
-// Which way the path leads.
+// Stores the direction of a seed's path, given as a unit vector.
 void setWay(Seed& s, const Direction14& n)
 {
     s.way[0] = toCell((n.x * 127 + 8192) >> 14);
@@ -53,7 +56,7 @@ void setWay(Seed& s)
     setWay(s, {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)});
 }
 
-// The area of the cell of a seed that rests, with its normal there.
+// Computes the area of the cell of a seed with normal `n`.
 void setArea(Seed& s, const Direction14& n)
 {
     const int8_t *const a = s.along, *const b = s.across;
@@ -62,8 +65,8 @@ void setArea(Seed& s, const Direction14& n)
     s.area = static_cast<uint16_t>((area < 0 ? -area : area) + 1);
 }
 
-// First run of layOutSeeds(): how much of everything there is. Between two rings with different roots lie oversampled
-// seeds with roots between: `between` of them at most. `many`: any two seeds may have one of their own between.
+// The first run of layOutSeeds() counts rings, seeds and roots. Oversampled seeds between two rings with different roots need
+// roots of their own: at most `between` in all. `many` means that any two seeds may have a root of their own between them.
 class Counter : public SeedMaker {
 public:
     explicit Counter(bool many) : many_(many) {}
@@ -100,10 +103,10 @@ public:
 private:
     const bool many_;
     int inRing_ = 0, root_ = -1;
-    bool various_ = false, variousBefore_ = false;  // this ring's seeds have different roots; those of the one before
+    bool various_ = false, variousBefore_ = false;  // the seeds of this ring, and of the ring before, have different roots
 };
 
-// Second run: writes roots and regular seeds, and where each ring starts.
+// The second run of layOutSeeds() stores roots, regular seeds, and the first seed of each ring.
 class Filler : public SeedMaker {
 public:
     Filler(const SoftObject& object, Seed* seeds, Vector* roots, int32_t* ringStarts, Real spacing)
@@ -143,14 +146,14 @@ private:
     int rootCount_ = 0, rings_ = 0, count_ = 0;
 };
 
-// Of a vector of any length.
+// The direction of a vector of any length.
 Direction14 direction(const Vector& v)
 {
     const Normal n = normalise(v);
     return {static_cast<int16_t>(n.x), static_cast<int16_t>(n.y), static_cast<int16_t>(n.z)};
 }
 
-// Why resample() failed the last time.
+// The reason why the latest failed resample() failed.
 char trouble[128];
 
 }  // namespace
@@ -196,7 +199,8 @@ SoftObject::Layout SoftObject::Layout::plain() const
     return layout;
 }
 
-// Of a ring, the number of the seed nearest to `target`; found by walking from the seed `from` of that ring.
+// Returns the number of the seed of a ring that is nearest to `target`, walking from seed `from` of that ring (0 is the first)
+// in both directions as long as the distance decreases.
 int SoftObject::Layout::nearestIn(int ring, int from, const Vector& target) const
 {
     const int start = ringStarts[ring], count = ringStarts[ring + 1] - start;
@@ -215,8 +219,9 @@ int SoftObject::Layout::nearestIn(int ring, int from, const Vector& target) cons
     return start + n;
 }
 
-// The same where rings leave out seeds (thinning() in round.h), for a seed of a ring and its successor: the nearest in any of
-// the rings before, as long as all of them lie together; else -1.
+// Does the work of nearestIn() where rings leave out seeds (thinning() in round.h): for a seed and its successor in a ring,
+// returns the number of the seed nearest to the successor in the closest ring before that has one. The three seeds must lie
+// within two spacings of each other; if no ring has such a seed, returns -1.
 int SoftObject::Layout::nearestBefore(int ring, int seed, int successor, bool closed) const
 {
     constexpr int BACK = 16;
@@ -245,7 +250,7 @@ int SoftObject::Layout::nearestBefore(int ring, int seed, int successor, bool cl
     return n;
 }
 
-// Makes the parts of the surface of a seed and of its neighbour meet, where rings between them leave out seeds.
+// Makes the cells of a seed and of its neighbour meet where the rings between them leave out seeds.
 void SoftObject::Layout::closeGap(Seed& s, Seed& n) const
 {
     const Vector a = vectorOf(s.across), b = vectorOf(n.across), apart = (rest(n) - rest(s)) * (Real(64) / spacing);
@@ -259,13 +264,13 @@ void SoftObject::Layout::closeGap(Seed& s, Seed& n) const
     setAxis(n.across, b, gap / both);
 }
 
-// Regular seeds and their roots. False: no room for them, or it was stopped.
+// Lays out regular seeds and their roots. Returns false if there is no room for them, or if the user stopped the program.
 bool SoftObject::layOutRegular(Layout& layout) const
 {
     Counter counter(manyRoots());
     layOutSeeds(counter, layout.spacing);
     counter.endRing();
-    // A seed's root has 16 bits. When roots between rings are too many for them, some oversampled seeds do without.
+    // A seed's root index has 16 bits. If there are too many roots between rings for that, some oversampled seeds get none.
     if (counter.roots > ROOTS_MAX) {
         snprintf(trouble, sizeof trouble, "object %d would need %d roots of seeds, and %d is the limit", number_, counter.roots,
                  ROOTS_MAX);
@@ -283,7 +288,7 @@ bool SoftObject::layOutRegular(Layout& layout) const
     return !stopAsked();
 }
 
-// Whether seeds of a ring have different roots.
+// Returns true if the seeds of a ring have different roots.
 bool SoftObject::Layout::rootsDiffer(int ring) const
 {
     for (int i = ringStarts[ring] + 1; i < ringStarts[ring + 1]; ++i)
@@ -311,7 +316,8 @@ void SoftObject::findNeighbours(Layout& layout, int ring) const
     }
 }
 
-// Finds the neighbours of all seeds, and for each ring which roots its oversampled seeds may have. False: it was stopped.
+// Finds the neighbours of all seeds, and which root indices the oversampled seeds of each ring may use. Returns false if the
+// user stopped the program.
 bool SoftObject::findNeighbours(Layout& layout) const
 {
     const int firstRing = ringsClose() ? 0 : 1;
@@ -329,7 +335,7 @@ bool SoftObject::findNeighbours(Layout& layout) const
     return true;
 }
 
-// The regular seeds of another object. False: no memory.
+// Copies the regular seeds of another object. Returns false when there is no memory.
 bool SoftObject::layOutLike(const SoftObject& other, Layout& layout) const
 {
     const Layout from = other.laid_.plain();
@@ -345,14 +351,14 @@ bool SoftObject::layOutLike(const SoftObject& other, Layout& layout) const
     return true;
 }
 
-// How long the path of a seed between two is, as if the object were not stretched.
+// The length of the path of a seed between two others, as if the object were not stretched.
 Real SoftObject::restLength(const Layout& layout, const Seed& a, const Seed& b) const
 {
     return tapers_ ? shiftDown(length(unstretched(a.path)) + length(unstretched(b.path)), 1) : layout.size * restRoot_;
 }
 
-// The point of the core that is nearest to the middle of two seeds, and the way from there to the middle, as if the object were
-// not stretched. False: the middle is about on the core.
+// Computes the point of the core nearest to the middle of two seeds (`*root`) and the vector from it to the middle (`*out`), as
+// if the object were not stretched. Returns false if the middle lies too close to the core to give a direction.
 bool SoftObject::rootBetween(const Layout& layout, const Seed& one, const Seed& other, Vector* root, Vector* out) const
 {
     const Vector middle = unstretched(layout.rest(one) + layout.rest(other)) * Real(0.5);
@@ -361,8 +367,8 @@ bool SoftObject::rootBetween(const Layout& layout, const Seed& one, const Seed& 
     return length(*out) >= shiftDown(layout.size, 4);
 }
 
-// The oversampled seed of regular seed `number` of a ring: half way to its neighbour N. Where there is none, for lack of a
-// root or of a direction, it is a copy.
+// Lays out the oversampled seed of regular seed `number` of a ring, half way to its neighbour N. If it has no neighbour, no
+// root or no direction, the oversampled seed is a copy of the regular one.
 void SoftObject::layOutExtra(Layout& layout, int number, int ring, Seed& extra) const
 {
     const Seed& one = layout.seeds[number];
@@ -374,7 +380,7 @@ void SoftObject::layOutExtra(Layout& layout, int number, int ring, Seed& extra) 
     if (one.root == other.root) {
         extra.path = withLength(unstretched(one.path + other.path), restLength(layout, one, other));
     } else {
-        // A root for each seed, or one for all of the ring: that of its first.
+        // Each seed has a root of its own, or the whole ring shares one: that of its first seed.
         const bool shared = layout.rootsBetween[ring + 1] - layout.rootsBetween[ring] == 1;
         const int first = layout.ringStarts[ring], index = layout.rootsBetween[ring] + (shared ? 0 : number - first);
         Vector root, out;
@@ -389,7 +395,7 @@ void SoftObject::layOutExtra(Layout& layout, int number, int ring, Seed& extra) 
         extra.path = withLength(out, restLength(layout, one, other));
     }
     if (tapers_) {
-        // The mean of two lengths is near: to where the field is that of the surface.
+        // The mean of the two lengths is only close: correct it to end where the field has the surface's value.
         Vector unused;
         const Vector rest = unstretched(layout.roots[extra.root]) + extra.path;
         const Real t = plainParam(rest * (Real(CORE_SIZE) / layout.size), &unused);
@@ -402,7 +408,7 @@ void SoftObject::layOutExtra(Layout& layout, int number, int ring, Seed& extra) 
     }
 }
 
-// Whether a block holds oversampled seeds that are in use.
+// Returns true if a block holds oversampled seeds that are in use.
 bool SoftObject::isUsed(const Seed* block)
 {
     bool used = false;
@@ -411,7 +417,7 @@ bool SoftObject::isUsed(const Seed* block)
     return used;
 }
 
-// Room for a block of oversampled seeds that was in use and is not any more. Null: all are in use.
+// Takes the memory of a block of oversampled seeds that are no longer in use. Returns null if all blocks are in use.
 Seed* SoftObject::blockFromOthers()
 {
     for (int i = 0; i < laid_.blocks(); ++i) {
@@ -435,8 +441,8 @@ int SoftObject::ringOf(int number) const
     return ring;
 }
 
-// Seeds that are laid out when they are asked for. Null: no memory.
-Seed* SoftObject::layOutBlock(int at)
+// Allocates a block of oversampled seeds; each is laid out when it is asked for. Returns null when there is no memory.
+Seed* SoftObject::layOutBlock(int index)
 {
     Seed* block = allocate<Seed>(EXTRA_BLOCK);
     if (block == nullptr)
@@ -447,16 +453,16 @@ Seed* SoftObject::layOutBlock(int at)
         block[i] = Seed();
         block[i].neighbour = NOT_LAID;
     }
-    laid_.extras[at] = block;
+    laid_.extras[index] = block;
     return block;
 }
 
 Seed& SoftObject::laidExtra(int slot)
 {
-    // Without memory it is a seed that nobody sees.
+    // Returned when there is no memory: a copy of the regular seed, which is not drawn.
     static Seed unseen;
-    const int at = slot >> (EXTRA_BITS + 1), number = slot >> 1;
-    if (laid_.extras[at] == nullptr && layOutBlock(at) == nullptr) {
+    const int block = slot >> (EXTRA_BITS + 1), number = slot >> 1;
+    if (laid_.extras[block] == nullptr && layOutBlock(block) == nullptr) {
         unseen = seed(slot - 1);
         unseen.flags = 0;
         return unseen;
@@ -523,7 +529,7 @@ bool SoftObject::layOutExtras()
     return true;
 }
 
-// Keeps seeds and roots of a layout as the warp will find them. False: no memory.
+// Keeps copies of a layout's seeds and roots as they are without the warp. Returns false when there is no memory.
 bool SoftObject::keepPlain(Layout& layout) const
 {
     layout.plainSeeds = allocate<Seed>(static_cast<uint32_t>(layout.regular));
@@ -542,8 +548,8 @@ bool SoftObject::keepPlain(Layout& layout) const
     return true;
 }
 
-// What a warp makes of a seed whose root has been warped: where it rests, its cell, and its normal if it is at rest. Returns the
-// normal of that place.
+// Warps a seed whose root has been warped already: its resting place, its cell, and its normal if it is at rest. Returns the
+// normal at the resting place.
 Direction14 SoftObject::warpSeed(const Seed& plain, const Vector& plainRoot, Seed& to, Warp::Way& way) const
 {
     const Real part(1.0 / 16384);
@@ -564,7 +570,7 @@ Direction14 SoftObject::warpSeed(const Seed& plain, const Vector& plainRoot, See
     return normal;
 }
 
-// The same of an oversampled seed, as layOutExtra() left it, and of its root.
+// Warps an oversampled seed, as layOutExtra() left it, and its root.
 void SoftObject::warpExtra(const Layout& plain, Seed& s) const
 {
     const Seed before = s;
@@ -574,7 +580,7 @@ void SoftObject::warpExtra(const Layout& plain, Seed& s) const
     warpSeed(before, plainRoot, s, way);
 }
 
-// Warps roots and the places where seeds rest; paths lead straight from one to the other. Seeds keep their positions.
+// Warps roots and resting places; paths lead straight from one to the other. Seeds keep their positions along the paths.
 void SoftObject::reshape()
 {
     const Real inward = Real(CORE_SIZE) / laid_.size, outward = shiftDown(laid_.size, 4);
@@ -586,7 +592,7 @@ void SoftObject::reshape()
         Seed& plain = laid_.plainSeeds[i];
         plain.border = warpSeed(plain, laid_.plainRoots[plain.root], laid_.seeds[i], way);
     }
-    // Those of the oversampled seeds that take part; the others are laid out when they do.
+    // Only oversampled seeds in use are warped; the others are laid out again when they are needed.
     for (int at = 0; at < laid_.blocks(); ++at) {
         free(laid_.fine[at]);
         laid_.fine[at] = nullptr;
@@ -617,7 +623,7 @@ void SoftObject::reshape()
     }
 }
 
-// The outward direction of the unblended surface without a warp, from where a seed rests and its path.
+// The outward normal of the unblended surface without a warp, at the resting place `rest` of a seed with path `path`.
 Direction14 SoftObject::plainNormal(const Vector& rest, const Vector& path) const
 {
     Vector slope = path;
@@ -634,7 +640,7 @@ Direction14 SoftObject::restNormal(const Seed& s) const
     return warped_ ? direction(slopeAt(rest)) : plainNormal(rest, s.path);
 }
 
-// No seed leaves the reach of its object.
+// Chooses the step of Seed::place so that 16 bits reach as far as the object, whose reach no seed leaves.
 void SoftObject::findSteps()
 {
     laid_.placeShift = 8;
@@ -678,7 +684,7 @@ bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObje
     for (int i = 0; i < layout.regular; ++i)
         layout.oversampled += layout.seeds[i].neighbour >= 0;
 
-    // The surface is made for the object as it will be; without memory for it the object goes back.
+    // The surface is made from the new layout. If there is no memory for it, the old layout is restored.
     Layout before = laid_;
     laid_ = layout;
     findSteps();
@@ -688,7 +694,7 @@ bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObje
             layAtRest(s, like != nullptr ? s.normal : plainNormal(laid_.rest(s), s.path));
             if (like != nullptr)
                 continue;
-            // Where no path slants it leads along the normal.
+            // Unless paths slant, a path leads along the normal.
             if (slants())
                 setWay(s);
             else

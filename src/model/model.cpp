@@ -1,4 +1,4 @@
-// The model, and the one that comes with the program.
+// The model, its items and links, and the predefined model. Records of a model are in record.cpp.
 #include "model/model.h"
 
 #include "math/alloc.h"
@@ -8,7 +8,7 @@ namespace {
 // Radius of the circular paths, units.
 constexpr int PATH = 22;
 
-// A sphere on a circle of PATH units round the origin, the plane of which is given by two perpendicular unit vectors.
+// A sphere on a circle of radius PATH round the origin; `u` and `v` are perpendicular unit vectors in the plane of the circle.
 Actor circlingSphere(const char* name, int size, const Colour& colour, const Vector& u, const Vector& v, Real phase,
                      int seconds)
 {
@@ -39,7 +39,8 @@ void Model::clear()
     keyCount_ = 0;
 }
 
-// The object of an item, its seeds laid out where the others' are. Null: no memory.
+// Makes the object of an item; if the other objects have seeds, it gets seeds of the same spacing. Returns null when there is
+// no memory.
 SoftObject* Model::makeObject(const Actor& item) const
 {
     SoftObject* object = item.kind == nullptr ? nullptr : item.kind->make(item.number, item.measure);
@@ -122,13 +123,13 @@ const char* Model::expects(const Actor& item)
 
 void Model::remove(Actor* item)
 {
-    int at = 0;
-    while (items_[at] != item)
-        ++at;
-    for (int i = at + 1; i < itemCount_; ++i) {
+    int index = 0;
+    while (items_[index] != item)
+        ++index;
+    for (int i = index + 1; i < itemCount_; ++i) {
         Motion& motion = items_[i]->motion;
         if (item->number == motion.parent) {
-            // The pose of what is taken away becomes part of the centre of its children.
+            // The pose of the removed item becomes part of the centres of its children.
             motion.parent = item->motion.parent;
             const Vector arm = item->pose.turn * (toVector(motion.centre) * item->pose.scale);
             motion.centre = item->pose.place + arm;
@@ -145,7 +146,7 @@ void Model::remove(Actor* item)
     }
     --itemCount_;
 
-    // An eye without its group stands, and one that looked at what is gone still looks that way.
+    // An eye that loses its group stands still, and one that looked at the removed item goes on looking at its last place.
     if (item->number == camera.carrier)
         camera.carrier = 0;
     if (camera.looks == Camera::AT_ITEM && item->number == camera.item) {
@@ -190,8 +191,8 @@ bool Model::setParent(Actor* item, int parent)
         if (above == item)
             return false;
     Motion& motion = item->motion;
-    // What its own motion adds to its centre, as seen from the parent it had; then the centre that brings it to the same
-    // place with the new one.
+    // `added` is what the item's own motion adds to its centre, as seen from its old parent. Choose the centre so that, with
+    // the same addition, the new parent brings the item to the same place.
     const Actor* before = itemNumbered(motion.parent);
     const Actor* carrier = itemNumbered(parent);
     const Point origin{Real(0), Real(0), Real(0)};
@@ -205,7 +206,7 @@ bool Model::setParent(Actor* item, int parent)
                      clamp(centre.z, Real(-SPACE), Real(SPACE))};
     motion.parent = carrier == nullptr ? 0 : parent;
 
-    // Parents stand before their children: each item in its turn, whatever carries it before it.
+    // Sort so that parents come before their children: for each item in turn, first whatever carries it.
     Actor* ordered[OBJECTS_MOST + GROUPS_MOST];
     int count = 0;
     const auto placed = [&](const Actor* what) {
@@ -236,7 +237,8 @@ bool Model::remake(Actor* item)
     SoftObject* fresh = makeObject(*item);
     if (fresh == nullptr)
         return false;
-    // The links and dents, at both ends; where memory fails one is lost, never half of it.
+    // Move links and dents to the new object, at both ends. Where memory runs out a link or dent is lost as a whole, never one
+    // end only.
     for (int i = 0; i < count_; ++i) {
         SoftObject* other = actors_[i]->object;
         Real weight;
@@ -272,12 +274,12 @@ bool Model::addKey(Actor* item, const Key& key)
     Motion& motion = item->motion;
     if (motion.keyCount == 0)
         motion.firstKey = static_cast<int16_t>(keyCount_);
-    const int at = motion.firstKey + motion.keyCount;
-    memmove(keys_ + at + 1, keys_ + at, static_cast<size_t>(keyCount_ - at) * sizeof(Key));
-    keys_[at] = key;
+    const int index = motion.firstKey + motion.keyCount;
+    memmove(keys_ + index + 1, keys_ + index, static_cast<size_t>(keyCount_ - index) * sizeof(Key));
+    keys_[index] = key;
     ++keyCount_;
     for (int i = 0; i < itemCount_; ++i)
-        if (items_[i] != item && items_[i]->motion.keyCount > 0 && items_[i]->motion.firstKey >= at)
+        if (items_[i] != item && items_[i]->motion.keyCount > 0 && items_[i]->motion.firstKey >= index)
             ++items_[i]->motion.firstKey;
     ++motion.keyCount;
     motion.parts |= MOTION_KEYS;
@@ -395,7 +397,7 @@ Actor* Model::eyeCarrier()
     Actor described;
     strcpy(described.name, EYE_NAME);
     described.motion.centre = camera.eye;
-    // It is saved with its turn, so that it is read as a group again.
+    // The writer saves the eye with a turn then, so that it is read as a group again.
     described.motion.parts = MOTION_TURN;
     Actor* carrier = addItem(described);
     if (carrier != nullptr)
@@ -411,13 +413,13 @@ bool Model::isLike(const Actor& a, const Actor& b)
     return same;
 }
 
-// An object before the i-th that has the same seeds; null: none.
+// Returns an object before the i-th that would have the same seeds, or null.
 const SoftObject* Model::alike(int i) const
 {
     const Actor& one = *actors_[i];
     for (int j = 0; one.kind != nullptr && one.object->hollowed() == nullptr && j < i; ++j) {
         const Actor& other = *actors_[j];
-        // What only digs lays its seeds out for what it digs into.
+        // An object that only digs has seeds laid out for the object it digs into.
         if (isLike(one, other) && other.object->size() == one.object->size() && other.object->hollowed() == nullptr)
             return other.object;
     }
@@ -523,15 +525,15 @@ int Model::strongestAt(const Point& p) const
 
 namespace {
 
-// What reaches a point: its field, that over the strongest there, and the sum of all that counts for it. `body`: null if it has
-// no surface.
+// An object whose field reaches a point: its field, the field divided by the strongest there, and the weighted sum of fields in
+// its g (body.h). `body` is the first of its body's members, or null if the object has no surface.
 struct Part {
     int slot;
     SoftObject* const* body;
     Real field, share, sum;
 };
 
-// The field of one body, from all that reaches the point (body.h).
+// The field F of one body at the point, from all parts that reach it (body.h).
 Real fieldOf(SoftObject* const* body, const Part* parts, const Part* end)
 {
     Real above(0), squares(0);

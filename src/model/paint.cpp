@@ -1,4 +1,4 @@
-// Which colours a model takes.
+// Paints: chooses the colours of a model. Knows neither the palette nor the screen.
 #include "model/paint.h"
 
 #include "model/model.h"
@@ -16,10 +16,10 @@ Colour usualColour(int before)
 
 namespace {
 
-// Places that are looked at along a line, and along a side of a triangle.
+// Number of steps in which mixtures are looked for along a line, and along a side of a triangle.
 constexpr int LINE_STEPS = 2 * Paints::SIDE, TRIANGLE_STEPS = Paints::SIDE;
 
-// With more colours than this only mixtures of two are chosen for; those of three have the nearest.
+// With more colours of objects than this, no mixtures of three are chosen; the nearest colour is used for them.
 constexpr int TRIPLES_MOST = 16;
 
 Vector between(const Vector& a, const Vector& b, int step, int steps)
@@ -27,7 +27,7 @@ Vector between(const Vector& a, const Vector& b, int step, int steps)
     return a + (b - a) * (Real(step) / Real(steps));
 }
 
-int part(const Colour& c, int i)
+int component(const Colour& c, int i)
 {
     return i == 0 ? c.red : i == 1 ? c.green : c.blue;
 }
@@ -61,14 +61,14 @@ int Paints::numberOf(const Colour& colour, bool shines) const
     return nearest;
 }
 
-// The box holds all colours chosen so far.
+// Computes the box around all colours chosen so far.
 void Paints::measureBox()
 {
     for (int p = 0; p < 3; ++p) {
         least_[p] = 255;
         most_[p] = 0;
         for (int i = 0; i < count_; ++i) {
-            const int value = part(colours_[i], p);
+            const int value = component(colours_[i], p);
             least_[p] = value < least_[p] ? value : least_[p];
             most_[p] = value > most_[p] ? value : most_[p];
         }
@@ -80,7 +80,7 @@ void Paints::measureBox()
 Vector Paints::inBox(const Colour& colour) const
 {
     const auto along = [&](int p) {
-        return most_[p] == least_[p] ? Real(0) : Real((part(colour, p) - least_[p]) * (SIDE - 1)) / Real(most_[p] - least_[p]);
+        return most_[p] == least_[p] ? Real(0) : Real((component(colour, p) - least_[p]) * (SIDE - 1)) / Real(most_[p] - least_[p]);
     };
     return {along(0), along(1), along(2)};
 }
@@ -117,7 +117,7 @@ void Paints::markTriangle(const Vector& a, const Vector& b, const Vector& c, boo
     }
 }
 
-// Which of the objects' colours are linked.
+// [a][b]: objects of the colours numbered a and b are linked.
 static bool linked[Model::OBJECTS_MOST][Model::OBJECTS_MOST];
 
 static void findLinks(const Model& model)
@@ -131,7 +131,7 @@ static void findLinks(const Model& model)
     }
 }
 
-// The mixtures of two colours that are linked.
+// Marks the mixtures of two colours whose objects are linked.
 void Paints::markPairs()
 {
     for (int a = 0; a < objects_; ++a)
@@ -140,7 +140,7 @@ void Paints::markPairs()
                 markLine(places_[a], places_[b], shines_[a]);
 }
 
-// The mixtures of three that are linked with each other.
+// Marks the mixtures of three colours whose objects are linked with each other.
 void Paints::markTriples()
 {
     for (int a = 0; objects_ <= TRIPLES_MOST && a < objects_; ++a)
@@ -150,13 +150,14 @@ void Paints::markTriples()
                     markTriangle(places_[a], places_[b], places_[c], shines_[a]);
 }
 
-// How many blocks of cells, `side` to an edge, have one that is wanted; with `make` each gets a colour, their mean.
+// Counts the blocks of cells, `side` cells to an edge, that contain a wanted cell. With `make`, the wanted cells of each block
+// get one colour, the mean of their places.
 int Paints::blocks(int side, bool shines, bool make)
 {
     int count = 0;
     if (wanted_[shines] == 0)
         return 0;
-    // Each cell is a block.
+    // Then each cell is a block.
     if (side == 1 && !make)
         return wanted_[shines];
     for (int block = 0; block < SIDE * SIDE * SIDE / (side * side * side); ++block) {
@@ -190,7 +191,8 @@ int Paints::blocks(int side, bool shines, bool make)
     return count;
 }
 
-// A colour for each cell that is wanted, or for each block of them, as small as there is room for.
+// Gives a colour to each wanted cell; if there are too many, one colour to each block of them, with blocks as small as
+// possible.
 void Paints::chooseWanted()
 {
     for (int side = 1; side <= SIDE; side *= 2) {
@@ -203,7 +205,7 @@ void Paints::chooseWanted()
     }
 }
 
-// A cell that has no colour of its own takes the nearest, when it is asked for.
+// A cell without a colour of its own gets the nearest colour when it is first asked for.
 uint8_t Paints::fill(int cell, bool shines)
 {
     const Colour colour = inCell(cell / (SIDE * SIDE), cell / SIDE % SIDE, cell % SIDE);
@@ -228,7 +230,7 @@ bool Paints::choose(const Model& model, Paint* paints)
     return true;
 }
 
-// The colours that are asked for by name.
+// Adds the colours that the scene names, and fills in the paints.
 void Paints::takeCoats(const Model& model, Paint* paints)
 {
     for (int i = 0; i < model.count(); ++i) {
@@ -257,7 +259,7 @@ void Paints::takeCoats(const Model& model, Paint* paints)
     }
 }
 
-// Those that lie between the two of a marble, and where objects mix, between two or three objects.
+// Adds mixtures of the two colours of a marble and, where colours mix, of two and three linked objects.
 void Paints::chooseMixtures(const Model& model, const Paint* paints)
 {
     memset(cells_, EMPTY, sizeof cells_);

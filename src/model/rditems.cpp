@@ -1,13 +1,14 @@
-// Reader: objects and groups, rows of them, and what blends with what.
+// Reader: the lines that make objects, groups and rows of them, and the lines that say what blends with what.
 #include "reader.h"
 
 namespace {
 
-// "blend all" goes through every pair; no scene needs it often. What lines with rows link or dent is limited in the same way.
+// "blend all" visits every pair; no scene needs it often. The number of pairs in lines that link or dent rows is limited
+// likewise.
 constexpr int ALL_MOST = 8;
 constexpr int ROW_PAIRS_MOST = 65024;
 
-// Gives an item of a row the name of the row and its number, which fit.
+// Gives an item of a row its name: the row's name and a number. The caller has checked that both fit.
 void nameInRow(Actor& actor, const Row& row, int i)
 {
     char name[NAME_ROOM + 12];
@@ -33,7 +34,7 @@ const Reader::Clause Reader::CLAUSES[] = {
     {"scale", false, true, &Reader::itemScale},
 };
 
-// A line that makes an object of a kind, or a group (null).
+// Reads a line that makes an object of a kind, or a group (`kind` null).
 bool Reader::object(const Kind* kind)
 {
     ItemLine line;
@@ -58,7 +59,7 @@ bool Reader::object(const Kind* kind)
         word_ = "step";
         return expected("repeat as well, for step to count");
     }
-    // Behind all clauses: with `in eye` the eye may have become the last group.
+    // Checked only after all clauses, because with `in eye` the eye may have become the last group.
     word_ = line.actor.name;
     if (!roomFor(kind == nullptr, 1))
         return false;
@@ -77,7 +78,7 @@ bool Reader::itemName(ItemLine& line)
     return true;
 }
 
-// Whether so many more groups or objects may be made.
+// Returns true if there is room for `count` more groups or objects; complains if not.
 bool Reader::roomFor(bool groups, int count)
 {
     const int taken = groups ? model_.items() - model_.count() : model_.count();
@@ -85,7 +86,7 @@ bool Reader::roomFor(bool groups, int count)
     return taken + count <= most ? true : expectedAtMost(most, groups ? "groups" : "objects");
 }
 
-// The word read last, and what belongs to it.
+// Reads the clause that the latest word begins.
 bool Reader::itemClause(ItemLine& line)
 {
     const Kind* kind = line.actor.kind;
@@ -163,7 +164,7 @@ bool Reader::itemScale(ItemLine& line)
     return readReal("a scale", SCALE_LEAST, SCALE_MOST, &line.actor.motion.scale);
 }
 
-// Adds as many items as the line says, each a step from the one before: NAME1, NAME2 and so on.
+// Adds as many items as the line says, NAME1, NAME2 and so on, each a step away from the previous one.
 bool Reader::addRow(ItemLine& line)
 {
     Actor& actor = line.actor;
@@ -198,7 +199,7 @@ bool Reader::addRow(ItemLine& line)
 
 // --- What blends with what
 
-// Two objects or rows, the first by the word read last.
+// Reads two names of objects or rows; the first is the latest word.
 bool Reader::readPair(const char* what, Row* a, Row* b)
 {
     if (!isObjects(a))
@@ -212,7 +213,7 @@ bool Reader::readPair(const char* what, Row* a, Row* b)
     return rowPairs_ <= ROW_PAIRS_MOST ? true : expectedAtMost(ROW_PAIRS_MOST, "pairs in all lines that blend or dent rows");
 }
 
-// A weight and the end of the line; the weight may be missing.
+// Reads a weight, which may be missing, and the end of the line.
 bool Reader::readWeight(Real* weight)
 {
     *weight = Real(1);

@@ -1,7 +1,7 @@
-// Reader: the title, colours and coats, where the eye is and what it sees.
+// Reader: the title, colours and coats, the eye and the light.
 #include "reader.h"
 
-// The title is all that is left of the line, in its own letters.
+// The title is the rest of the line with its upper and lower case.
 bool Reader::title()
 {
     word_ = "title";
@@ -71,7 +71,7 @@ bool Reader::pattern()
 
 // --- The viewer and the light
 
-// Where the eye stands; with `turn` or `in` it is a group.
+// Reads the eye's place. With `turn` or `in` the eye becomes a group.
 bool Reader::eye()
 {
     Vector place, turn{Real(0), Real(0), Real(0)};
@@ -108,7 +108,7 @@ bool Reader::eye()
     return true;
 }
 
-// What carries the eye. Parents stand before their children.
+// Reads the name of the item that carries the eye. It must come before the eye's group, as parents come before their children.
 bool Reader::eyeParent(const Actor** parent)
 {
     Actor* known;
@@ -121,7 +121,7 @@ bool Reader::eyeParent(const Actor** parent)
     return true;
 }
 
-// What the eye looks at: a place, or an object or a group.
+// Reads what the eye looks at: a place, an object or a group.
 bool Reader::look()
 {
     Camera& camera = model_.camera;

@@ -1,15 +1,15 @@
-// Reader: how things move.
+// Reader: the lines that say how items move and warp.
 #include "reader.h"
 
 namespace {
 
-// One of the three numbers of a vector, by its axis: 0, 1, 2.
+// The component of a vector along axis 0, 1 or 2.
 Real& along(Vector& v, int axis)
 {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-// Puts a motion into the place that the first of its kind has. False: that is taken.
+// Stores a motion as the first of its kind. Returns false if the item has one already.
 bool setFirst(Motion& motion, const Move& move)
 {
     if (move.part == MOTION_CIRCLE) {
@@ -41,7 +41,7 @@ bool setFirst(Motion& motion, const Move& move)
 
 // --- When
 
-// The word read last is `period`, `phase` or `lag`.
+// Reads the value of `period`, `phase` or `lag`, whichever is the latest word.
 bool Reader::readTiming(const Row& row, Timing* timing)
 {
     if (is("phase"))
@@ -52,7 +52,7 @@ bool Reader::readTiming(const Row& row, Timing* timing)
     return readPeriod(&timing->period);
 }
 
-// A time whose sign says which way round.
+// Reads a period; its sign gives the direction of the motion.
 bool Reader::readPeriod(Real* seconds)
 {
     if (!readReal("seconds", -PERIOD_MOST, PERIOD_MOST, seconds))
@@ -72,9 +72,9 @@ bool Reader::readLag(const Row& row, Real* lag)
     return readReal("a lag in turns", Real(-1), Real(1), lag);
 }
 
-// --- Motions that come round
+// --- Periodic motions
 
-// Lets each item of a row move so, beside what it does already.
+// Adds a motion to each item of a row, besides its other motions.
 bool Reader::addMoves(const Row& row, Move move, const Timing& timing)
 {
     for (int i = 0; i < row.count; ++i) {
@@ -89,7 +89,7 @@ bool Reader::addMoves(const Row& row, Move move, const Timing& timing)
     return true;
 }
 
-// A place for one more motion of a part that the item has already; null, and a complaint, when there is none.
+// Returns the place for one more motion of a part that the item has already. Complains and returns null if there is no room.
 Move* Reader::further(Actor& item, MotionPart part)
 {
     Motion& motion = item.motion;
@@ -111,7 +111,7 @@ bool Reader::circle()
     Move move;
     Timing timing;
     Real radius(0);
-    int first = 0, second = 1;  // axes of the plane
+    int first = 0, second = 1;  // axes of the plane of the circle
     bool round = false, across = false, down = false;
     while (nextWord()) {
         bool good;
@@ -143,7 +143,7 @@ bool Reader::circle()
     return timing.given ? addMoves(row, move, timing) : expected("period");
 }
 
-// Two different axes.
+// Reads the names of two different axes.
 bool Reader::readPlane(int* first, int* second)
 {
     nextWord();
@@ -159,7 +159,7 @@ bool Reader::path()
     Row row;
     if (!readMoving(&row))
         return false;
-    // `lag` may stand behind what it holds for: the line is read twice.
+    // `lag` may come after the paths that it is for, so the line is read twice.
     const char* const start = at_;
     Real lag(0);
     if (!pathClauses(row, &lag, false))
@@ -168,7 +168,7 @@ bool Reader::path()
     return pathClauses(row, &lag, true);
 }
 
-// What a path does along which axis; with `move` it moves so from then on.
+// Reads the axes of a path with their amplitudes and periods, and `lag`. With `move` it also adds the paths.
 bool Reader::pathClauses(const Row& row, Real* lag, bool move)
 {
     bool some = false;
@@ -214,7 +214,7 @@ bool Reader::moveAlong(const Row& row, int axis, Real amplitude, const Timing& t
     return true;
 }
 
-// Spins and swings.
+// Reads a spin or a swing.
 bool Reader::turning(MotionPart part)
 {
     Row row;
@@ -278,10 +278,10 @@ bool Reader::pulse()
 
 // --- Warps
 
-// Tapers, twists and bends.
+// Reads a taper, a twist or a bend.
 bool Reader::warp(WarpPart part)
 {
-    // What the amounts are.
+    // The units of the amounts, for complaints.
     static const char* const AMOUNTS[WARP_PARTS] = {"a share of the width", "degrees", "degrees"};
     Row row;
     if (!readMoving(&row))
@@ -332,7 +332,7 @@ bool Reader::keys()
             return expected("keys before the first key");
         }
     }
-    // All of a row have the same; what the line does not say stays as it was.
+    // All items of a row get the same values; what the line does not say stays as it was.
     const char* const start = at_;
     for (int i = 0; i < row.count; ++i) {
         at_ = start;
@@ -384,7 +384,7 @@ bool Reader::key()
     return true;
 }
 
-// Whether the time read last comes after the keys that a row has, and before they repeat.
+// Returns true if the time read last is later than the keys of each item of a row and before they repeat; complains if not.
 bool Reader::fitsKeys(const Row& row, int32_t time)
 {
     for (int i = 0; i < row.count; ++i) {

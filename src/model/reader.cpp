@@ -1,7 +1,7 @@
-// Reader: which statements there are, and how a line names what it is about.
+// Reader: the table of statements, and the names by which lines refer to items.
 #include "reader.h"
 
-// Beside the kinds of objects; a complaint lists them in this order.
+// The statements besides the kinds of objects. A complaint lists them in this order.
 const Reader::Statement Reader::STATEMENTS[] = {
     {"group", &Reader::group},     {"blend", &Reader::blend}, {"dent", &Reader::dent},       {"strength", &Reader::strength},
     {"circle", &Reader::circle},   {"path", &Reader::path},   {"spin", &Reader::spin},       {"swing", &Reader::swing},
@@ -56,7 +56,7 @@ bool Reader::expectedStatement()
 
 // --- Names of items
 
-// An item of a line above, which one name stands for.
+// Reads the name of an item (not of a row) that a line above has made.
 bool Reader::readKnown(const char* what, Actor** item)
 {
     nextWord();
@@ -76,7 +76,7 @@ const Row* Reader::rowNamed(const char* name) const
     return nullptr;
 }
 
-// The items that a name stands for. False, without a complaint: none.
+// Finds the items that a name stands for. Returns false, without a complaint, if there are none.
 bool Reader::find(const char* name, Row* row) const
 {
     const Row* known = rowNamed(name);
@@ -94,7 +94,7 @@ bool Reader::find(const char* name, Row* row) const
     return false;
 }
 
-// What a line of motion moves.
+// Reads the name of the items that a line of motion moves.
 bool Reader::readMoving(Row* row)
 {
     nextWord();
@@ -106,7 +106,7 @@ bool Reader::readMoving(Row* row)
     return carrier != nullptr && find(carrier->name, row);
 }
 
-// Whether the word read last stands for an object or a row of them, without a complaint.
+// Returns true if the latest word stands for an object or a row of objects. Never complains.
 bool Reader::isObjects(Row* row) const
 {
     return !isEmpty() && find(word_, row) && in(*row, 0).object != nullptr;
@@ -118,7 +118,7 @@ bool Reader::readObjects(Row* row)
     return isObjects(row) ? true : expected("the name of an object");
 }
 
-// The group that the eye moves with. Null, and a complaint: there cannot be one.
+// The group that the eye moves with, made if necessary. Complains and returns null if there cannot be one.
 Actor* Reader::eyeCarrier()
 {
     if (model_.camera.carrier == 0) {

@@ -1,32 +1,33 @@
-// Reader: the statements of a scene file, each one line. reader.cpp has the table of them; each subject has its file.
+// Reader: reads the statements of a scene file, one on each line. reader.cpp has their table; each subject has a file of its
+// own.
 #ifndef FB_READER_H
 #define FB_READER_H
 
 #include "words.h"
 
-// Items that one line made: `count` items of the model from `first` on. A row has a name of its own; a single item, as
-// the reader finds it, is a row of one.
+// The items made by one line: `count` items of the model from index `first` on. A line that makes several items gives the row a
+// name of its own; find() treats a single item as a row of one.
 struct Row {
     static constexpr int LEAST = 2;
-    static constexpr int ROWS_MOST = (Model::OBJECTS_MOST + Model::GROUPS_MOST) / LEAST;  // no more can be made
+    static constexpr int ROWS_MOST = (Model::OBJECTS_MOST + Model::GROUPS_MOST) / LEAST;  // a row has LEAST items
 
     char name[NAME_ROOM];
     int first = 0;
     int count = 0;
 };
 
-// What a line says of when something comes round; each item of a row is `lag` turns behind the one before.
+// The timing of a periodic motion as a line gives it; each item of a row is `lag` turns behind the previous item.
 struct Timing {
     Real period{0}, phase{0}, lag{0};
-    bool given = false;  // a period, that is
+    bool given = false;  // the line gives a period
 
     Wave waveOf(int i) const { return makeWave(period, phase - lag * Real(i)); }
 };
 
-// A line that makes an object, a group or a row of them.
+// The contents of a line that makes an object, a group or a row of them.
 struct ItemLine {
     Actor actor;
-    int given = 0;  // one bit a measure
+    int given = 0;  // bit i: measure i was given
     Real count{1};
     Vector step{Real(0), Real(0), Real(0)};
     bool stepped = false, coloured = false;
@@ -45,7 +46,7 @@ private:
     };
     static const Statement STATEMENTS[];
 
-    // What may follow the name of an item.
+    // A clause that may follow the name of an item, and where it is allowed.
     struct Clause {
         const char* word;
         bool ofObjects, ofGroups;
@@ -53,7 +54,7 @@ private:
     };
     static const Clause CLAUSES[];
 
-    // Statements, by their files. reader.cpp:
+    // Functions for statements, by the file they are in. reader.cpp:
     bool statement();
     bool expectedStatement();
     // rditems.cpp
@@ -107,7 +108,7 @@ private:
     bool focal();
     bool light();
 
-    // What stands for items.
+    // Functions that find the items a name stands for.
     bool readKnown(const char* what, Actor** item);
     bool readMoving(Row* row);
     bool readObjects(Row* row);

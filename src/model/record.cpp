@@ -1,4 +1,4 @@
-// Records of a model, which going back and forth in the editor needs, and the exchange of one model for another.
+// Records of a model, which the editor's undo and redo need, and the exchange of two models.
 #include "model/model.h"
 
 #include "math/alloc.h"
@@ -15,12 +15,12 @@ void exchange(T& a, T& b)
 
 }  // namespace
 
-// One block of memory: this, then the items, the keys and the links.
+// A record is one block of memory: this struct, then the items, the keys, and the links and dents.
 struct alignas(Actor) Model::Record {
     struct Pair {
-        int16_t a, b;  // numbers
+        int16_t a, b;  // numbers of the two objects
         Real weight;
-        bool dent;     // b digs into a; else they are linked
+        bool dent;     // true: b digs into a; false: the two are linked
     };
     int items, keys, pairs;
     Camera camera;
@@ -95,7 +95,7 @@ Model::Record* Model::record() const
 
 bool Model::restore(const Record* record)
 {
-    // What can fail comes first, beside what is there.
+    // Everything that can fail is done first, in a second model, so that this one stays unchanged on failure.
     Model then;
     then.spacing_ = spacing_;
     then.makeSurface_ = makeSurface_;
@@ -110,13 +110,13 @@ bool Model::restore(const Record* record)
     memcpy(then.title, record->title, sizeof title);
     const bool seenAnew = !(light == record->light) || !(camera.eye == record->camera.eye);
     swap(then);
-    // What was taken over is lit, and seen, as it was.
+    // The objects taken over still have the brightness and the view of the previous light and eye.
     if (seenAnew)
         recalcAll();
     const Record::Pair* const end = record->pair() + record->pairs;
     for (const Record::Pair* pair = record->pair(); pair < end; ++pair) {
         SoftObject *a = itemNumbered(pair->a)->object, *b = itemNumbered(pair->b)->object;
-        // Without memory the pair is missing.
+        // If memory runs out, this pair is left out.
         if (pair->dent)
             dent(a, b, pair->weight);
         else
@@ -125,7 +125,8 @@ bool Model::restore(const Record* record)
     return true;
 }
 
-// The items of a record. Objects that would be as they are now are left out: takeObjects() takes them over. False: no memory.
+// Makes the items of a record in `then`. An object equal to the present one is not made, because takeObjects() will move the
+// present one over. Returns false when there is no memory.
 bool Model::makeItems(const Record* record, Model& then) const
 {
     for (int i = 0; i < record->items; ++i) {
@@ -172,7 +173,7 @@ void Model::unlinkAll()
     }
 }
 
-// Hands over the objects that are as they were then.
+// Moves to `then` the objects that did not have to be made anew.
 void Model::takeObjects(Model& then)
 {
     for (int i = 0; i < then.count_; ++i) {

@@ -1,4 +1,4 @@
-// Rings of seeds, and quick lengths, for all primitives with round parts.
+// Rings of seeds, outlines and quick lengths, for all primitives with round parts (round.h).
 #include "model/round.h"
 
 #include "math/normal.h"
@@ -7,10 +7,10 @@
 
 namespace {
 
-// Seeds of a ring so small that it bends noticeably across one seed's part of it.
+// A ring of no more seeds than this is so small that it bends noticeably within one seed's cell.
 constexpr int POLAR_SEEDS = 12;
 
-// A seed's part of the surface is given a little larger than it is, for it is turned in 64ths of the spacing.
+// A seed's cell is made a little larger than needed, because half axes are rounded to 1/64 of the spacing.
 constexpr Real CELL_SPARE(1.04);
 
 // top / bottom, rounded down; the quotient must fit 32 bits.
@@ -46,21 +46,21 @@ bool isStretched(const Vector& stretch)
 
 Quarter::Quarter(const Vector& stretch)
 {
-    way_[0] = way_[STEPS] = Real(0);
+    arcs_[0] = arcs_[STEPS] = Real(0);
     if (!isStretched(stretch))
         return;
     for (int i = 0; i < STEPS; ++i) {
         const Angle from = static_cast<Angle>(i) * (QUARTER / STEPS), to = from + QUARTER / STEPS;
-        way_[i + 1] = way_[i] + ::length({stretch.x * (sine(to) - sine(from)), Real(0), stretch.z * (cosine(to) - cosine(from))});
+        arcs_[i + 1] = arcs_[i] + ::length({stretch.x * (sine(to) - sine(from)), Real(0), stretch.z * (cosine(to) - cosine(from))});
     }
 }
 
-Angle Quarter::longitude(Real way) const
+Angle Quarter::longitude(Real arc) const
 {
     int i = 0;
-    while (i < STEPS - 1 && way_[i + 1] <= way)
+    while (i < STEPS - 1 && arcs_[i + 1] <= arc)
         ++i;
-    const Real step = way_[i + 1] - way_[i], rest = min(way - way_[i], step);
+    const Real step = arcs_[i + 1] - arcs_[i], rest = min(arc - arcs_[i], step);
     const Angle inStep = static_cast<Angle>(mulDiv(rawFromReal(rest), QUARTER / STEPS, rawFromReal(step)));
     return static_cast<Angle>(i) * (QUARTER / STEPS) + inStep;
 }
@@ -70,10 +70,10 @@ Real Quarter::wayTo(Angle longitude) const
     const Angle step = longitude / (QUARTER / STEPS);
     const int i = step < STEPS ? static_cast<int>(step) : STEPS - 1;
     const Angle rest = longitude - static_cast<Angle>(i) * (QUARTER / STEPS);
-    return way_[i] + portion(way_[i + 1] - way_[i], static_cast<int32_t>(rest), QUARTER / STEPS);
+    return arcs_[i] + portion(arcs_[i + 1] - arcs_[i], static_cast<int32_t>(rest), QUARTER / STEPS);
 }
 
-// The area between a step up the surface and one along the ring, over the latter.
+// The factor is the area between a unit step up the surface and one along the ring, divided by the length of the latter.
 Real stretchedStep(Real step, const Vector& stretch, Real normalSine, Real normalCosine, Real sine, Real cosine)
 {
     const Real area = ::length({stretch.y * stretch.z * normalCosine * sine, stretch.x * stretch.z * normalSine,
@@ -135,7 +135,7 @@ void RingMaker::addSeeds(const Ring& ring, int k, int root)
     if (maker_.countRing(count, ring.core != Real(0)) || stopAsked())
         return;
     const uint32_t step = 0xffffffffu / static_cast<uint32_t>(count);
-    // A seed's part of the surface is widest at its outer edge: in the small rings about a pole that makes a difference.
+    // A seed's cell is widest at its outer edge, which makes a difference in the small rings about a pole.
     Real around = ring.core + ring.radius * ring.pathCosine;
     if (count <= POLAR_SEEDS)
         around += ring.across * absolute(ring.normalSine);
@@ -150,7 +150,7 @@ void RingMaker::addSeeds(const Ring& ring, int k, int root)
     }
 }
 
-// Evenly by the way round the ellipse, from its sharper end on.
+// Places the seeds at equal arc lengths round the ellipse, starting at its sharper end.
 void RingMaker::addStretched(const Ring& ring, int k, int root)
 {
     const int count = seedsOf(ring);
@@ -158,7 +158,7 @@ void RingMaker::addStretched(const Ring& ring, int k, int root)
     const bool sideways = stretch_.x > stretch_.z;
     if (stopAsked())
         return;
-    // Half the way to the next seed, of a circle of radius 1.
+    // Half the arc length to the next seed, first on the stretched unit circle, then on this ring.
     Real half = portion(whole, 1, 2 * count) * CELL_SPARE;
     half = count <= POLAR_SEEDS ? half * (around + ring.across * absolute(ring.normalSine)) : half * around;
     const uint32_t step = 0xffffffffu / static_cast<uint32_t>(count);
@@ -176,7 +176,7 @@ void RingMaker::addStretched(const Ring& ring, int k, int root)
             longitude = static_cast<Angle>(turns) * QUARTER +
                         ((turns & 1) == 0 ? quarter_.longitude(way) : QUARTER - quarter_.longitude(quarter_.length() - way));
         const Real s = sine(longitude), c = cosine(longitude);
-        // All round a circle it is the same.
+        // On a circle the level is the same all round.
         if (!round_ || i == 0)
             level = thinning(stretchedStep(shiftUp(ring.across, 1), stretch_, ring.normalSine, ring.normalCosine, s, c), spacing_);
         if (thinned(k, level))
@@ -250,7 +250,7 @@ Real Outline::at(int32_t part, int32_t of, Real* across) const
 
 void layOutCapsule(SeedMaker& maker, const Vector& stretch, Real radius, Real half, Real spacing)
 {
-    // The outline: a quarter circle, the side, a quarter circle. The rings lie in the middles of equal parts of it.
+    // The outline is a quarter circle, the side and a quarter circle. The rings lie in the middles of equal parts of it.
     const Real cap = radius * HALF_PI, body = shiftUp(half, 1);
     Outline outline(stretch);
     outline.arc(cap, 0u - QUARTER, 0);
@@ -297,7 +297,7 @@ Real lengthQuick(const Vector& v)
     const uint32_t bits = x | y | z;
     if (bits == 0)
         return Real(0);
-    // The square, with a root of 15 bits from the table; one step of Newton's method doubles the bits that hold.
+    // Compute the square, look up a root of 15 bits in the table, and double its precision by one step of Newton's method.
     const int excess = 18 - __builtin_clz(bits);
     uint64_t square;
     uint32_t root;

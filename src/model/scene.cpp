@@ -1,4 +1,4 @@
-// Scene files: where the text comes from and where it goes. The reader (reader.h) reads it, the writer (writer.h) writes it.
+// Scene files: opens and saves them. The Reader (reader.h) reads the text, the Writer (writer.h) writes it.
 #include "model/scene.h"
 
 #include "machine.h"
@@ -16,7 +16,7 @@ const char* readFrom(const char* name, Source& source, Model& model, SceneEnd* e
     return good ? nullptr : reader.complaint();
 }
 
-// Whether the last part of a path has an ending.
+// Returns true if the last part of a path has an extension.
 bool hasEnding(const char* name)
 {
     bool dot = false;
@@ -25,8 +25,9 @@ bool hasEnding(const char* name)
     return dot;
 }
 
-// Opens a scene. WALK is as good as WALK.FB; what is there under the name as it was given comes first. Negative: there is
-// none, and `*trouble` says why. Where it is there under another name, that is `*name` from then on, and stands in `longer`.
+// Opens a scene. The name is tried as given first; WALK may also stand for WALK.FB. Returns a negative number if there is no
+// such file; `*trouble` then says why the name as given failed. If the longer name is used, it is stored in `longer` and
+// becomes `*name`.
 int openScene(const char** name, char (&longer)[PLAIN_ROOM], const char** trouble)
 {
     static const char* const ENDINGS[] = {".FB", ".fb"};

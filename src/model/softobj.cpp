@@ -1,4 +1,4 @@
-// SoftObject: pose, graph and field of any primitive. How its seeds are laid out stands in layout.cpp.
+// SoftObject: pose, graph and field of any primitive. The layout of its seeds is in layout.cpp.
 #include "model/softobj.h"
 
 #include "math/alloc.h"
@@ -7,18 +7,20 @@
 
 namespace {
 
-// Of the spacing asked for: seeds that scaling has moved farther apart or together are laid out anew.
+// Seeds are laid out anew when scaling has changed their spacing by more than this share of the spacing asked for.
 constexpr Real DRIFT_MAX(0.25);
 
-// Seeds rest no nearer to the core than at this param(): where an object so weak blends, its surface lies farther out.
+// Seeds rest at this param() or farther out. Where an object too weak for that blends with others, its surface lies farther out
+// too.
 constexpr Real REST_LEAST(0.140625);
 
-// Core space: farther from the core than that a field is so much less steep than at most that no warp makes up for it.
+// Distance from the core, in core space, beyond which a field is so much less steep than at its steepest that no warp makes up
+// for it.
 constexpr Real STEEP_AT(0.65 * CORE_SIZE);
 
-// A vector of nearly the same length as `like`, made to have it: its largest component takes up the difference. Exact
-// to half a last bit each time, and never to one side, so that a million turns keep a distance.
-Vector withSquare(const Vector& v, const Vector& like)
+// Returns a vector close to `v` whose length equals that of `like`: the largest component of `v` takes up the difference. Each
+// call is exact to half a last bit and has no bias, so that a distance survives a million turns.
+Vector withLengthOf(const Vector& v, const Vector& like)
 {
 #if FB_REAL == FB_FIXED
     const auto square = [](const Vector& u) {
@@ -100,7 +102,7 @@ void SoftObject::place(const Point& centre, Real wanted)
     tellNeighbours();
 }
 
-// What follows from the size.
+// Sets the size and everything that depends on it.
 void SoftObject::setGrown(Real size)
 {
     size_ = size;
@@ -119,13 +121,13 @@ void SoftObject::rotate(const Point& about, const Vector& axis, Angle angle)
 {
     const Matrix by = Matrix::rotation(axis, angle);
     const Vector arm = centre_ - about;
-    translate(withSquare(by * arm, arm) - arm);
+    translate(withLengthOf(by * arm, arm) - arm);
     setTurn(by * turn_);
 }
 
 void SoftObject::setTurn(const Matrix& turn)
 {
-    // Columns made perpendicular and of unit length again: a product of many rotations drifts.
+    // Makes the columns perpendicular and of unit length again, because a product of many rotations drifts.
     Vector x{turn.m[0][0], turn.m[1][0], turn.m[2][0]};
     Vector y{turn.m[0][1], turn.m[1][1], turn.m[2][1]};
     x = unit(x);
@@ -144,7 +146,7 @@ void SoftObject::setTurn(const Matrix& turn)
     if (same)
         return;
     turn_ = square;
-    // A ball looks the same from everywhere.
+    // A ball looks the same from everywhere, so its seeds need not be looked at again.
     if (isBall())
         return;
     recalc_ = true;
@@ -159,8 +161,9 @@ void SoftObject::setStrength(Real wanted)
 
 void SoftObject::findRest()
 {
-    // Where the field is the isovalue: at 1/4 for a strength of 1, farther out for more. In a hollow the field of what is
-    // dented is anything between that and 1, and what digs takes away the difference: where it is half of that.
+    // Find the t where the object's field equals the isovalue: 1/4 for a strength of 1, farther out for more. For the wall of a
+    // hollow the level is different: the field of the dented object is between the isovalue and 1 there, so the digging object
+    // takes away 0 to 1/2. Seeds rest where it takes away the mean, half the isovalue.
     const SoftObject* const dented = hollowed();
     Real strength = strength_, level = ISOVALUE;
     if (dented != nullptr) {
@@ -200,7 +203,7 @@ void SoftObject::setStretch(const Vector& factors)
     recalc_ = true;
 }
 
-// The warp goes from where the surface rests at the bottom to where it does at the top.
+// Sets the warp. Its height is that of the surface on which seeds rest.
 void SoftObject::makeWarp(const WarpAmounts& amounts)
 {
     const Real radius = Real(CORE_SIZE) * restRoot_;
@@ -228,9 +231,9 @@ void SoftObject::setWarp(const WarpAmounts& amounts)
     tellNeighbours();
 }
 
-// "If the object is transformed, this flag is set and it will tell all its neighbors to set their recalc flags", but
-// "if an object has no displaced seeds [...] it will not tell its neighbors". Our addition: it does when it is near
-// enough to matter, so that huge jumps are safe.
+// "If the object is transformed, this flag is set and it will tell all its neighbors to set their recalc flags", but "if an
+// object has no displaced seeds [...] it will not tell its neighbors". Our addition: it also tells a neighbour that is in
+// range, so that huge jumps are safe.
 void SoftObject::tellNeighbours()
 {
     for (const List<Link>::Node* node = skel_.first(); node != nullptr; node = node->next) {
@@ -282,7 +285,7 @@ void SoftObject::undent(SoftObject* other)
     if (!dents_.remove({other, Real(0)}))
         return;
     other->digs_.remove({this, Real(0)});
-    // The other may have a surface again.
+    // The other object may have a surface again.
     recalc_ = other->recalc_ = true;
 }
 
@@ -313,7 +316,7 @@ Real SoftObject::plainParam(const Vector& q, Vector* slope) const
 {
     const Vector v = fromCore(q);
     *slope = v;
-    // Far away first: beyond this box the squares would overflow 16.16 and the field is 0 anyway.
+    // First exclude what is far away: beyond this box the squares would overflow 16.16, and the field is 0 anyway.
     const Real end(CORE_SIZE);
     if (absolute(v.x) >= end || absolute(v.y) >= end || absolute(v.z) >= end)
         return Real(1);
@@ -355,7 +358,7 @@ Real SoftObject::fieldFunc(const Point& p) const
 {
     Vector slope;
     const Vector v = p - centre_;
-    // Before it is scaled: what is far from a small object would leave 16.16.
+    // Exclude what is far away before scaling: its place relative to a small object would overflow 16.16.
     const Real end = size_ + coreReach_;
     if (isFar(p))
         return Real(0);

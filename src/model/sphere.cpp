@@ -7,7 +7,7 @@
 #include "model/round.h"
 
 namespace {
-constexpr int64_t PI_16 = 205887;       // pi, 16.16
+constexpr int64_t PI_16 = 205887;       // pi, 16 fraction bits
 constexpr int64_t TWO_PI_16 = 411775;
 constexpr int FEWEST_IN_RING = 4;
 }
@@ -29,7 +29,7 @@ int seedsInRing(Real radius, Real spacing, int32_t cosine30)
 
 namespace {
 
-// Passes seeds on with their axes changed round: what comes along y is that of another axis.
+// Passes seeds on with their axes permuted, so that the y axis of the rings becomes another axis of the object.
 class Tilted : public SeedMaker {
 public:
     Tilted(SeedMaker& maker, int turns) : maker_(maker), turns_(turns) {}
@@ -52,13 +52,13 @@ private:
 
 }  // namespace
 
-// An ellipsoid: rings about the axis round which it is most nearly round.
+// Lays out an ellipsoid: its rings go about that axis about which the stretch is most nearly round.
 static void layOutEllipsoid(SeedMaker& maker, const Vector& stretch, Real radius, Real spacing)
 {
     int best = 0;
     Real least(1000);
     for (int turns = 0; turns < 3; ++turns) {
-        // As the rings will see it: turned back.
+        // The stretch in the axes of the rings: permuted back.
         const Vector v = Tilted::tilt(stretch, (3 - turns) % 3);
         const Real uneven = max(v.x, v.z) / ::min(v.x, v.z);
         if (uneven < least) {
@@ -78,7 +78,7 @@ void Sphere::layOutSeeds(SeedMaker& maker, Real spacing) const
     }
     const int root = maker.addRoot({Real(0), Real(0), Real(0)});
     const int rings = ringCount(radius(), spacing);
-    // Half the distance of two rings: radius * pi / rings / 2.
+    // Half the distance between two rings: pi radius / rings / 2.
     const Real across = radius() * realFromRaw(static_cast<int32_t>(PI_16)) / Real(2 * rings);
     const uint32_t latitudeStep = 0x40000000u / static_cast<uint32_t>(rings);
     for (int k = 0; k < rings && !stopAsked(); ++k) {

@@ -1,4 +1,4 @@
-// Seeds on a torus: rings about its axis, one beside the other round the tube.
+// Seeds on a torus: rings about its axis that lie beside each other round the tube.
 #include "model/torus.h"
 
 #include "rt.h"
@@ -10,7 +10,8 @@ Torus::Torus(int number, Real size, Real ring) : SoftObject(number, size, max(ri
 Vector Torus::fromCore(const Vector& q) const
 {
     const Real away = lengthQuick({q.x, Real(0), q.z});
-    // On the axis all of the circle is equally near, and any direction serves; beside it few bits are left of one.
+    // On the axis all points of the circle are equally near, and any direction serves; close to it a direction would have few
+    // bits.
     if (away < Real(0.01))
         return {away - coreReach16(), q.y, Real(0)};
     const Real share = (away - coreReach16()) / away;
@@ -19,7 +20,7 @@ Vector Torus::fromCore(const Vector& q) const
 
 void Torus::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
-    // From the inside of the hole below to the outside.
+    // The lower half of the tube's outline, from the side of the hole to the outside.
     Outline outline(stretch());
     outline.arc(radius() * PI, 0x80000000u, 0xffffffffu);
     const int rings = stepsIn(outline.length(), shiftDown(spacing, 1));
@@ -27,8 +28,8 @@ void Torus::layOutSeeds(SeedMaker& maker, Real spacing) const
     Ring ring{};
     ring.core = this->ring();
     ring.radius = radius();
-    // From the inside of the hole, below, out and up and in again. Ring k and the one as far from the end mirror each
-    // other in the plane of the core, and share their roots.
+    // The rings go from the hole along the lower half outwards and along the upper half back. Ring k and ring rings - 1 - k
+    // mirror each other in the plane of the core, and share their roots.
     const uint32_t step = 0x80000000u / static_cast<uint32_t>(rings);
     int root = 0;
     for (int k = 0; k < rings; ++k) {

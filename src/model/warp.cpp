@@ -1,4 +1,4 @@
-// Space that is tapered, twisted and bent.
+// Warp: space that is tapered, twisted and bent. Knows no objects.
 #include "model/warp.h"
 
 #include "model/round.h"
@@ -8,13 +8,13 @@ namespace {
 constexpr Real RADIAN(57.2957795);  // degrees
 constexpr Real TURN_PER_RADIAN(0.15915494);
 
-// The middle of a bend is this much farther from the axis than the surface.
+// The middle of a bend's circle is at least this many times farther from the axis than the surface.
 constexpr Real CLEAR(1.2);
 
-// What lies along the axis is shortened no more than this far.
+// Lower limit of the factor by which a bend shortens lengths along the axis.
 constexpr Real LEAST_SQUEEZE(0.0625);
 
-// Less of a bend, radians, or a greater circle, is none.
+// A bend is left out if its half angle is below LEAST_END (radians), or the radius of its circle is above LARGEST.
 constexpr Real LEAST_END(0.005);
 constexpr Real LARGEST(8000);
 
@@ -23,14 +23,14 @@ Angle fromRadians(Real a)
     return turns(a * TURN_PER_RADIAN);
 }
 
-// Arc tangent over its tangent, from the square of that, 0..1: good to 1/8000 (Abramowitz and Stegun, 4.4.49).
+// atan(x) / x from s = x^2, 0..1, with an error of at most 1/8000 (Abramowitz and Stegun, 4.4.49).
 Real arcOverTangent(Real square)
 {
     const Real& s = square;
     return Real(0.999866) + s * (Real(-0.3302995) + s * (Real(0.180141) + s * (Real(-0.085133) + s * Real(0.0208351))));
 }
 
-// sin a / a and (1 - cos a) / a for angles of up to a quarter turn: also where next to nothing is left of a.
+// sin(a) / a and (1 - cos(a)) / a for angles of up to a quarter turn. The series keep their precision for tiny angles.
 Real sineOverAngle(Real a)
 {
     const Real s = a * a;
@@ -71,7 +71,8 @@ void Warp::set(const WarpAmounts& amounts, const Vector& surface, const Vector& 
     least_ = leastWithin(::max(field.x, field.z));
     leastSteep_ = leastWithin(::max(steep.x, steep.z));
 
-    // What is wide when it is tapered and turned; the ends of a bent one come towards the middle of the circle.
+    // Extents of the warped field: tapering and twisting widen it; the ends of a bent object come towards the middle of the
+    // circle.
     field_ = field;
     if (slope_ != Real(0) || twist_ != Real(0))
         field_.x = field_.z = (field.x + field.z) * (Real(1) + absolute(amounts.part[WARP_TAPER]));
@@ -79,19 +80,19 @@ void Warp::set(const WarpAmounts& amounts, const Vector& surface, const Vector& 
     field_.y += field_.x * endSine_;
 }
 
-// No distance becomes smaller than this share of itself as far as `wide` from the axis.
+// The least factor by which the warp multiplies a distance within `wide` units of the axis.
 Real Warp::leastWithin(Real wide) const
 {
-    // A distance along the axis may become a slanting one, a step across it a longer one.
+    // A distance along the axis may become a slanting one, and a step across the axis a longer one.
     const Real narrow = Real(1) - absolute(amounts_.part[WARP_TAPER]);
     Real spread = Real(1) / narrow + wide * absolute(slope_) / narrow + wide * absolute(twist_);
-    // What lies towards the middle of the circle is pressed together.
+    // The bend presses together what lies towards the middle of the circle.
     if (end_ > Real(0))
         spread = spread / (Real(1) - ::min(wide * bend_, Real(0.75)));
     return Real(1) / ::min(spread, Real(200));
 }
 
-// What taper and twist do at a height.
+// Computes taper and twist at a height.
 void Warp::turnAt(Real y, Way& way) const
 {
     way.y = y;
@@ -135,8 +136,8 @@ Vector Warp::out(const Vector& place, Way& way) const
     return {flipped_ ? -across : across, way.middle[1] + way.beyond * way.cosine - x * way.sine, v.z};
 }
 
-// From bent space, `across` towards the middle of the circle and `up` along its tangent in the centre. Sets `across` and `up` to
-// what they were before.
+// Undoes the bend. On entry `across` and `up` are coordinates in bent space: towards the middle of the circle, and along the
+// circle's tangent at the centre. On return they are the coordinates before the bend.
 void Warp::unbend(Real& across, Real& up, Way& way) const
 {
     const Real inward = radius_ - across;
@@ -147,7 +148,7 @@ void Warp::unbend(Real& across, Real& up, Way& way) const
         way.sine = quotient(up, away);
         way.cosine = quotient(inward, away);
         if (height <= inward) {
-            // The tangent times the radius, without the tangent's rounding.
+            // Radius times the tangent, computed without rounding the tangent first.
             up = up * (radius_ / inward);
             const Real tangent = up * bend_;
             up = up * arcOverTangent(tangent * tangent);
@@ -159,7 +160,7 @@ void Warp::unbend(Real& across, Real& up, Way& way) const
         way.squeeze = ::max(Real(1) - across * bend_, LEAST_SQUEEZE);
         return;
     }
-    // From the end of the circle on, along its tangent.
+    // Beyond the end of the arc the axis runs along its tangent.
     way.sine = below ? -endSine_ : endSine_;
     way.cosine = endCosine_;
     const Real fromX = across - endAcross_, fromY = below ? up + endUp_ : up - endUp_;
@@ -213,7 +214,7 @@ Vector Warp::slopeOut(const Way& way, const Vector& slope) const
         g = {g.x * inverse, g.y - along, g.z * inverse};
     }
     if (twist_ != Real(0)) {
-        // What a step up the axis turns it by.
+        // The change of the twist's angle with the height contributes to the gradient along the axis.
         const Real x = plain.x * way.width, z = plain.z * way.width;
         g = {g.x * c + g.z * s, g.y + twist_ * (g.z * x - g.x * z), g.z * c - g.x * s};
     }

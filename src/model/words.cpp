@@ -1,4 +1,4 @@
-// Words: it goes word by word and knows at each what is expected, so that it can say so.
+// Words: reads word by word, and knows at each word what is expected, so that it can say so in a complaint.
 #include "words.h"
 
 #include "machine.h"
@@ -8,10 +8,10 @@ namespace {
 
 constexpr char END_OF_TEXT = 26;  // Ctrl-Z
 
-// What a source gives instead of a character.
+// Values that Source::next() returns instead of a character.
 constexpr int AT_END = -1, UNREADABLE = -2;
 
-// Of a line or a word that is too long, a complaint shows so many characters.
+// Number of characters that a complaint shows of a line or a word that is too long.
 constexpr int SHOWN = 20;
 
 // Colours by name.
@@ -28,7 +28,7 @@ const ColourName COLOUR_NAMES[] = {
 
 char problem[640];
 
-// The value of a hexadecimal digit; -1: it is none.
+// The value of a hexadecimal digit (lower case); -1 if it is not one.
 int hexDigit(char c)
 {
     return isDigit(c) ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
@@ -78,7 +78,7 @@ bool Words::expected(const char* what)
 {
     char read[WORD_ROOM];
     int length = 0;
-    // Only what any screen can show.
+    // Replaces what some screens cannot show.
     for (; word_[length] != 0 && length < WORD_ROOM - 1; ++length)
         read[length] = word_[length] >= ' ' && word_[length] <= '~' ? word_[length] : '?';
     read[length] = 0;
@@ -116,7 +116,7 @@ void Words::quote(const char* text, int length)
 
 // --- Lines and words
 
-// The line goes into text_ as it stands but for blanks.
+// Stores the line in text_, with tabs replaced by blanks, zero bytes by '?', and CR left out.
 bool Words::nextLine(bool* there)
 {
     int length = 0;
@@ -255,7 +255,7 @@ bool Words::readDirection(const char* what, Vector* value)
 
 // --- Colours
 
-// A colour: a name, #rrggbb, or three numbers.
+// Reads a colour: a name, #rrggbb, or three numbers.
 bool Words::readColour(Colour* colour)
 {
     nextWord(true);
@@ -280,7 +280,7 @@ bool Words::readColour(Colour* colour)
     return true;
 }
 
-// The word read last as #rrggbb.
+// Converts the latest word, #rrggbb, to a colour.
 bool Words::hexColour(Colour* colour)
 {
     uint32_t value = 0;

@@ -1,27 +1,27 @@
-// Words: a text line by line and word by word, the values that words stand for, and the complaint where one is not what was
-// expected. Nothing here knows what a scene is made of.
+// Words: splits a text into lines and words, converts words to the values they stand for, and complains about a word that is
+// not what was expected. Nothing here knows what a scene consists of.
 #ifndef FB_WORDS_H
 #define FB_WORDS_H
 
 #include "model/paint.h"
 #include "model/scene.h"
 
-// Names in messages are whole as long as no path is longer than this.
+// Room for a name in a message, with the final 0: longer paths lose their middle.
 constexpr int PLAIN_ROOM = 260;
 
-bool isLetter(char c);  // a small one
+bool isLetter(char c);  // lower case only
 bool isDigit(char c);
 
-// The complaint "NAME: WHAT". It holds until the next one, of whatever kind.
+// Writes and returns the complaint "NAME: WHAT". It holds until the next complaint of any kind.
 const char* troubleWith(const char* name, const char* what);
 
-// Where the characters come from: a file, or a text in memory.
+// The source of the characters: a file, or a text in memory.
 class Source {
 public:
     explicit Source(int file) : file_(file) {}
     Source(const char* text, uint32_t length) : at_(text), end_(text + length) {}
 
-    // The next character; -1 at the end, -2 when the file cannot be read.
+    // Returns the next character, -1 at the end, or -2 when the file cannot be read.
     int next();
 
 private:
@@ -31,7 +31,7 @@ private:
     char buffer_[1024];
 };
 
-// Every function that returns a bool says by false that it has complained, but for nextWord() and is().
+// Functions that return bool return false after they have complained, except for nextWord(), is() and isEmpty().
 class Words {
 public:
     Words(const char* name, Source& source) : name_(name), source_(source) {}
@@ -40,39 +40,39 @@ public:
     const char* complaint() const;
 
 protected:
-    // The next line; `*there` is false behind the last.
+    // Reads the next line; `*there` becomes false after the last line.
     bool nextLine(bool* there);
-    // The next word of the line, in lower case; false, and the word is empty, at its end or a comment. With `hash` a word may
-    // begin with '#'.
+    // Reads the next word of the line, in lower case. Returns false, with an empty word, at the end of the line or at a
+    // comment. With `hash` a word may begin with '#'.
     bool nextWord(bool hash = false);
-    // What was read instead of what was expected: a complaint about the word read last, or about `word_` as it was set.
+    // Complains that `what` was expected instead of the latest word, or of the text that word_ has been set to. Returns false.
     bool expected(const char* what);
     bool expectedAtMost(int most, const char* what);
-    // A complaint about what is no fault of the text.
+    // Complains about something that is not the fault of the text. Returns false.
     bool trouble(const char* what);
 
     bool is(const char* word) const { return strcmp(word_, word) == 0; }
     bool isEmpty() const { return word_[0] == 0; }
 
-    // The values of the next words. `what` says in the complaint what the value is.
+    // These functions read values from the next words. In complaints, `what` says what the value is.
     bool readReal(const char* what, Real least, Real most, Real* value);
     bool readColour(Colour* colour);
-    // Three numbers. The name of the axis follows `what`: "degrees about ", or "a place, ".
+    // Reads three numbers. In complaints the name of the axis follows `what`: "degrees about ", or "a place, ".
     bool readVector(const char* what, Real least, Real most, Vector* value);
     bool readPlace(const char* what, Vector* value);
     bool readDirection(const char* what, Vector* value);
-    // A name, which becomes the word read last: a letter, then letters, digits, '-' or '_'.
+    // Reads a name, which becomes the latest word: a letter, then letters, digits, '-' or '_'.
     bool readName(const char* what);
     bool readEnd();
-    // The word read last as a number.
+    // Converts the latest word to a number.
     bool realIs(const char* what, Real least, Real most, Real* value);
-    // All that is left of the line, in its own letters, without the blanks around it and without a comment.
+    // The rest of the line with its upper and lower case, without the blanks around it and without a comment.
     const char* restOfLine(int* length);
-    // Makes some of the line's own characters the word that a complaint is about.
+    // Makes a part of the line, with its upper and lower case, the word that a complaint is about.
     void quote(const char* text, int length);
 
     const char* name_;
-    const char* at_ = nullptr;  // what follows the word in the line
+    const char* at_ = nullptr;  // the rest of the line after the word
     const char* word_ = "";
 
 private:

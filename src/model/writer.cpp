@@ -1,4 +1,4 @@
-// Writer: what the reader reads, statement by statement.
+// Writer: writes every statement that the reader reads.
 #include "writer.h"
 
 #include "math/text.h"
@@ -9,10 +9,10 @@ namespace {
 const char* const WARP_WORDS[WARP_PARTS] = {"taper", "twist", "bend"};
 const char* const AXIS_WORDS[3] = {"x", "y", "z"};
 
-// The order in which motions that come round are written.
+// The order in which periodic motions are written.
 const MotionPart ROUND_PARTS[] = {MOTION_CIRCLE, MOTION_PATH, MOTION_SPIN, MOTION_SWING, MOTION_PULSE};
 
-// The first motion of a part other than a path. False: there is none.
+// Copies the first motion of a part other than a path to `*move`. Returns false if there is none.
 bool firstMove(const Motion& m, MotionPart part, Move* move)
 {
     move->part = part;
@@ -36,7 +36,7 @@ bool firstMove(const Motion& m, MotionPart part, Move* move)
     return (m.parts & part) != 0;
 }
 
-// Along which axis a path beside the first goes. Without an amplitude it may be any that has a path already.
+// The axis of a path after the first. A path with an amplitude of 0 may be written along any axis that has a path already.
 int axisOf(const Motion& m, const Move& move)
 {
     const Real none(0);
@@ -46,7 +46,7 @@ int axisOf(const Motion& m, const Move& move)
     return (still ? m.along[1].period != none : move.a.y != none) ? 1 : 2;
 }
 
-// Whether all objects are linked with all, with one weight.
+// Returns true if all objects are linked with each other at one weight, `*common`.
 bool allLinked(const Model& model, Real* common)
 {
     Real weight;
@@ -76,7 +76,7 @@ Writer& Writer::word(const char* text)
     return *this;
 }
 
-// The shortest text that reads back as the value.
+// Writes the shortest text that reads back as the value.
 Writer& Writer::number(Real value)
 {
     const int32_t raw = rawFromReal(value);
@@ -103,7 +103,7 @@ Writer& Writer::period(const Wave& wave)
     return wave.phase != 0 ? word("phase").phase(wave) : *this;
 }
 
-// Of a link or a dent.
+// Writes the weight of a link or a dent, unless it is 1.
 Writer& Writer::weight(Real weight)
 {
     return weight != Real(1) ? number(weight) : *this;
@@ -138,7 +138,7 @@ bool Writer::write(const Model& model)
     return good_;
 }
 
-// The viewer and the light, as far as they name no item.
+// Writes the viewer and the light, except for what names an item.
 void Writer::camera(const Model& model)
 {
     const Camera& camera = model.camera;
@@ -160,7 +160,7 @@ void Writer::camera(const Model& model)
     end();
 }
 
-// An object, a group or the eye that moves, and all that it does.
+// Writes an object, a group or the eye's group, with its motion.
 void Writer::item(const Model& model, const Actor& actor)
 {
     const Motion& m = actor.motion;
@@ -190,7 +190,7 @@ void Writer::item(const Model& model, const Actor& actor)
     keys(model, actor);
 }
 
-// The kind, name and measures of an object. One without a kind, which was made elsewhere, is a sphere.
+// Writes the kind, name and measures of an object. An object without a kind, made in code, is written as a sphere.
 void Writer::object(const Actor& actor)
 {
     if (actor.kind == nullptr) {
@@ -202,7 +202,7 @@ void Writer::object(const Actor& actor)
         word(actor.kind->measure[i].word).number(actor.measure[i]);
 }
 
-// What an object's surface shows, and how strong its field is.
+// Writes what an object's surface shows, and the strength of its field.
 void Writer::coat(const Actor& actor)
 {
     const Coat& coat = actor.coat;
@@ -220,7 +220,7 @@ void Writer::coat(const Actor& actor)
     }
 }
 
-// The motions that come round: of each part the first, then the further ones.
+// Writes the periodic motions: the first of each part, then the further ones.
 void Writer::motion(const Actor& actor)
 {
     const Motion& m = actor.motion;
@@ -255,7 +255,7 @@ void Writer::move(const Actor& actor, const Move& move)
     end();
 }
 
-// The first path along each axis.
+// Writes the first path along each axis.
 void Writer::path(const Actor& actor)
 {
     const Motion& m = actor.motion;
@@ -305,7 +305,7 @@ void Writer::keys(const Model& model, const Actor& actor)
     }
 }
 
-// The item that the eye looks at.
+// Writes the name of the item that the eye looks at.
 void Writer::look(const Model& model)
 {
     const Actor* seen = model.camera.looks == Camera::AT_ITEM ? model.itemNumbered(model.camera.item) : nullptr;
@@ -326,7 +326,7 @@ void Writer::dents(const Model& model)
     }
 }
 
-// One line where all links are alike, else one for each.
+// Writes one line if all links are alike, else a line for each link.
 void Writer::links(const Model& model)
 {
     Real weight(1);

@@ -1,4 +1,4 @@
-// Writer: a model as the text of a scene file, which the reader reads back as the same model.
+// Writer: writes a model as the text of a scene file that the reader reads back as the same model.
 #ifndef FB_WRITER_H
 #define FB_WRITER_H
 
@@ -6,13 +6,13 @@
 
 class Writer {
 public:
-    // `put` takes the text line by line; false from it ends the writing.
+    // Calls `put` for each line; when `put` returns false, the writing ends.
     Writer(bool (*put)(void*, const char*), void* to) : put_(put), to_(to) {}
 
     bool write(const Model& model);
 
 private:
-    // Words and numbers are gathered in line_ until end(). No line the writer makes is longer than LINE_MOST.
+    // Words and numbers are gathered in line_ until end() writes it. No line is longer than LINE_MOST.
     Writer& word(const char* text);
     Writer& number(Real value);
     Writer& vector(const Vector& v) { return number(v.x).number(v.y).number(v.z); }
