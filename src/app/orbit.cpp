@@ -1,4 +1,4 @@
-// The eye about the scene.
+// Moves the eye around the scene.
 #include "app/orbit.h"
 
 namespace {
@@ -8,6 +8,7 @@ constexpr Real SHORTER(0.9);
 constexpr int SHORTER_MOST = 100;
 constexpr Real DISTANCE_LEAST(0.125), DISTANCE_MOST(4);
 
+// Returns the mean of the centres of all objects. Each is divided first, so that the sum does not overflow.
 Point middleOf(const Model& model)
 {
     const Real share = Real(1) / Real(model.count());
@@ -51,12 +52,12 @@ Camera Orbit::from(const Camera& camera, const Model& model)
         middle_ = middleOf(model);
     away_ = true;
     const Point about = camera.looks == Camera::AHEAD ? middle_ : camera.target;
-    // Over it about the axis that lies to the viewer's right, then round it about the upright one. Going to the right turns
-    // the eye against the clock as seen from above, and with it the view.
+    // First turn over the scene, about the axis to the viewer's right; then turn around it, about the upright axis. Going to
+    // the right turns the eye and the view axes counterclockwise as seen from above.
     const Vector upright{none, Real(1), none};
     const Matrix by = Matrix::rotation(upright, fromDegrees(-round_)) * Matrix::rotation(camera.axes.right, fromDegrees(over_));
     Camera moved = camera;
-    // No farther than an eye may be, on the same line.
+    // Shorten the distance on the same line until the eye is inside the space where it may be.
     Vector arm = by * ((camera.eye - about) * distance_);
     for (int i = 0; i < SHORTER_MOST && !within(about + arm); ++i)
         arm = arm * SHORTER;
