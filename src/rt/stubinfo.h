@@ -15,7 +15,7 @@ struct StubInfo {
     uint16_t dsSegment;      // real-mode segment of the transfer buffer
     uint16_t pspSelector;    // selector of the program segment prefix
     uint16_t csSelector;     // selector of the stub's code
-    uint16_t envSize;        // size of the environment up to the program's name, bytes
+    uint16_t envSize;        // size of the environment, including the program's name after it, bytes
     char basename[8];        // name of the file to load, if not the stub's own
     char argv0[16];
     char dpmiServer[16];
