@@ -51,7 +51,7 @@ raw_pm_to_rm:
 rm_load:
         lssw    %cs:rmregs_ptr, %sp
         popal
-        leaw    2(%esp), %sp            /* skip the flags, which rm_spss's stack has */
+        leaw    2(%esp), %sp            /* skip the flags: POPF takes them from the stack at rm_spss */
         popw    %es
         popw    %ds
         popw    %fs
