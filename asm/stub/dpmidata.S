@@ -4,7 +4,7 @@
 
         SECTION(.host)
 
-/* --- Descriptors. Bases are filled in by host_init from gdt_bases. --- */
+/* --- Descriptors. host_init fills in the bases listed in gdt_bases. --- */
         .balign 8
         .globl  gdt
 gdt:    .quad   0
@@ -41,7 +41,7 @@ rm_idtr: .word  0x3ff, 0, 0
 pm_to_rm_vec:   .long   raw_pm_to_rm
 rm_to_pm_vec:   .long   raw_rm_to_pm
 rm_ptrs:
-rm_go:          .word   rm_load, 0      /* where pm_to_rm arrives */
+rm_go:          .word   rm_load, 0      /* RM address to which pm_to_rm jumps */
 rmregs_ptr:     .word   rmregs, 0
 rmregs_gs_ptr:  .word   rmregs + R_IP, 0
 rm_return_ptr:  .word   rm_return, 0

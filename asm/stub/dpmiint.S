@@ -376,7 +376,7 @@ fault_first:
         call    fault_alarm
         jmp     1f
 
-/* An exception while one is pending. */
+/* An exception while a page fault is pending. */
 fault_again:
         cmpl    $14, %eax
         jne     fault_now
@@ -421,7 +421,7 @@ fault_in_host:
 fault_alarm:
         movl    $0, fault_count
         movb    $1, fault_pending
-        movb    $0x30, %al              /* counter 0, mode 0, 2: an interrupt in 2 microseconds */
+        movb    $0x30, %al              /* timer: counter 0, mode 0, count 2: an interrupt after 2 microseconds */
         outb    %al, $0x43
         movb    $2, %al
         outb    %al, $0x40
@@ -516,7 +516,7 @@ host_fault:
         jb      1f
         cmpl    $pop_gs, 8(%esp)
         ja      1f
-        movl    $0, 20(%esp)            /* the selector about to be popped */
+        movl    $0, 20(%esp)            /* replace the invalid selector that was about to be popped */
 3:      addl    $8, %esp
         iretl
 1:      cmpl    $14, (%esp)

@@ -330,10 +330,10 @@ void Demo::sayResults(uint64_t ticks)
     char text[1024];
     if (options_.benchmark) {
         // The divisor must fit 32 bits (one hour); the rate of a longer benchmark would be wrong.
-        const uint32_t most = ticks >> 32 != 0 ? 0xffffffffu : static_cast<uint32_t>(ticks);
+        const uint32_t divisor = ticks >> 32 != 0 ? 0xffffffffu : static_cast<uint32_t>(ticks);
         char spacing[24], rate[32], seconds[32];
         formatReal(spacing, sizeof spacing, spacing_);
-        formatQuotient(rate, sizeof rate, static_cast<uint64_t>(frames_) * machine::CLOCK_HZ, most, 2);
+        formatQuotient(rate, sizeof rate, static_cast<uint64_t>(frames_) * machine::CLOCK_HZ, divisor, 2);
         formatQuotient(seconds, sizeof seconds, ticks, machine::CLOCK_HZ, 2);
         snprintf(text, sizeof text, "%.100s, spacing %s%s: %s frames a second (%d frames in %s seconds)\n",
                  options_.modelFile == nullptr ? "four spheres" : options_.modelFile, spacing,

@@ -236,8 +236,8 @@ bool Dump::picture(int number, const View& view, const Palette& palette)
     char header[24];
     const int length = snprintf(header, sizeof header, "P6\n%d %d\n255\n", WIDTH, HEIGHT);
     return machine::writeFile(file, header, static_cast<uint32_t>(length)) == length &&
-           writeRows(file, 3, [&](int at, uint8_t* to) {
-               const uint8_t* colour = palette.dac() + 3 * view.frame()[at];
+           writeRows(file, 3, [&](int pixel, uint8_t* to) {
+               const uint8_t* colour = palette.dac() + 3 * view.frame()[pixel];
                for (int part = 0; part < 3; ++part)
                    to[part] = static_cast<uint8_t>((colour[part] * 255 + 31) / 63);
            }) &&
@@ -248,8 +248,8 @@ bool Dump::picture(int number, const View& view, const Palette& palette)
 bool Dump::distances(int number, const View& view)
 {
     const int file = create(number, "Z");
-    return file >= 0 && writeRows(file, 4, [&](int at, uint8_t* to) {
-               const uint16_t depth = view.zbuffer()[at];
+    return file >= 0 && writeRows(file, 4, [&](int pixel, uint8_t* to) {
+               const uint16_t depth = view.zbuffer()[pixel];
                const uint32_t z = depth == Z_EMPTY ? 0x7fffffffu : static_cast<uint32_t>(depth) << 9;
                for (int part = 0; part < 32; part += 8)
                    *to++ = static_cast<uint8_t>(z >> part);

@@ -317,11 +317,11 @@ bool Editor::remove()
     }
     if (!begin(OTHER, 0))
         return false;
-    const int at = selected();
-    Actor& gone = model_.actor(at);
+    const int index = selected();
+    Actor& gone = model_.actor(index);
     say("deleted ", gone.name);
     model_.remove(&gone);
-    selected_ = model_.actor(at % model_.count()).number;
+    selected_ = model_.actor(index % model_.count()).number;
     before_ = 0;
     return true;
 }

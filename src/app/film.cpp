@@ -13,7 +13,7 @@ constexpr uint32_t HEADER_BYTES = 128;
 constexpr uint32_t FRAME_HEADER_BYTES = 16;
 constexpr int FILE_MARK = 0xaf11;
 constexpr int FRAME_MARK = 0xf1fa;
-constexpr int COLOURS = 11;  // kinds of chunks
+constexpr int COLOURS = 11;  // kinds of chunks: the palette, changes of rows, a whole picture
 constexpr int CHANGES = 12;
 constexpr int WHOLE = 15;
 
@@ -29,20 +29,20 @@ constexpr uint32_t ROOM = static_cast<uint32_t>(WIDTH * HEIGHT) * 2 + 2048;
 // Upper bound of a file's length before a frame is added: DOS counts bytes with signed 32-bit numbers.
 constexpr uint32_t FILE_MOST = 0x7fffffffu - ROOM;
 
-// Returns the length of the run of equal pixels that begins at column `at`, at most up to `end` (exclusive).
-int runLength(const uint8_t* row, int at, int end)
+// Returns the length of the run of equal pixels that begins at column `x`, at most up to `end` (exclusive).
+int runLength(const uint8_t* row, int x, int end)
 {
     int length = 1;
-    while (at + length < end && length < PACKET_MOST && row[at + length] == row[at])
+    while (x + length < end && length < PACKET_MOST && row[x + length] == row[x])
         ++length;
     return length;
 }
 
-// Returns how many pixels from column `at` on are best stored one by one: those before the next run worth a packet.
-int plainLength(const uint8_t* row, int at, int end)
+// Returns how many pixels from column `x` on are best stored one by one: those before the next run worth a packet.
+int plainLength(const uint8_t* row, int x, int end)
 {
     int length = 0;
-    while (at + length < end && length < PACKET_MOST && runLength(row, at + length, end) < RUN_LEAST)
+    while (x + length < end && length < PACKET_MOST && runLength(row, x + length, end) < RUN_LEAST)
         ++length;
     return length;
 }
@@ -108,7 +108,7 @@ bool Film::writeHeader()
     put16(static_cast<uint32_t>(frames_));
     put16(WIDTH);
     put16(HEIGHT);
-    put16(8);  // bits a pixel
+    put16(8);  // bits per pixel
     put16(0);
     put16(static_cast<uint32_t>(jiffies_));
     return write(room_, HEADER_BYTES);

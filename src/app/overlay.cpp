@@ -66,12 +66,12 @@ void Overlay::text(int left, int top, const char* text)
 
 int Overlay::paragraph(int left, int top, int wide, const char* text, bool draw)
 {
-    const int most = wide / LETTER_WIDE;
+    const int lettersPerLine = wide / LETTER_WIDE;
     int lines = 0;
     while (*text != 0) {
         // A line takes as many words as fit; a word longer than the line is broken at the end of the line.
         int length = 0, end = 0;
-        while (text[length] != 0 && length < most) {
+        while (text[length] != 0 && length < lettersPerLine) {
             if (text[length] == ' ')
                 end = length;
             ++length;

@@ -94,9 +94,9 @@ void Rate::add(uint64_t ticks, const Model& model)
     ++counted_;
     const uint64_t wanted = static_cast<uint64_t>(machine::CLOCK_HZ) * counted_;
     // load_ = 256 * time taken / time allowed, limited to LOAD_MOST; both sides are shifted to fit a 32-bit divisor.
-    const uint64_t most = wanted * (LOAD_MOST / ON_TIME);
+    const uint64_t limit = wanted * (LOAD_MOST / ON_TIME);
     const uint64_t took = ticks_ * static_cast<uint32_t>(frames_);
-    uint64_t top = (took > most ? most : took) * ON_TIME, bottom = wanted;
+    uint64_t top = (took > limit ? limit : took) * ON_TIME, bottom = wanted;
     while (bottom >> 32 != 0) {
         top >>= 1;
         bottom >>= 1;
@@ -135,11 +135,11 @@ int Rate::next(const Model& model, Real* spacing)
     }
     if (coarse < 0)
         return -1;
-    const int32_t then = load_ + share(coarse, SEEDS_FINER);
+    const int32_t expected = load_ + share(coarse, SEEDS_FINER);
     const bool unfair = fine >= 0 && fine != coarse && found.most > found.least * UNFAIR;
-    if (then > FINER && !unfair)
+    if (expected > FINER && !unfair)
         return -1;
-    load_ = then;
+    load_ = expected;
     *spacing = spacingOf(finerStep(model.actor(coarse).object->spacing()));
     return coarse;
 }

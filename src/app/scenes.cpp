@@ -59,10 +59,10 @@ void Demo::askLoad()
         const int beside = machine::listFiles(directory_, SCENES, names + count, Ask::NAMES_MOST - count);
         for (int i = 0; i < beside; ++i) {
             const machine::FileName name = names[listedHere_ + i];
-            bool there = false;
+            bool listed = false;
             for (int j = 0; j < listedHere_; ++j)
-                there = there || sameStem(names[j].text, name.text);
-            if (!there)
+                listed = listed || sameStem(names[j].text, name.text);
+            if (!listed)
                 names[count++] = name;
         }
     }

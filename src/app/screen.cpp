@@ -169,9 +169,9 @@ void Demo::drawAsk()
         page[lines++] = line;
     } else {
         for (int i = 0; i < Ask::LINES_SHOWN && ask_.firstShown() + i < ask_.count(); ++i) {
-            const int at = ask_.firstShown() + i;
-            page[lines++] = ask_.names()[at].text;
-            if (at == ask_.chosen()) {
+            const int index = ask_.firstShown() + i;
+            page[lines++] = ask_.names()[index].text;
+            if (index == ask_.chosen()) {
                 snprintf(marked, sizeof marked, "> %s", page[lines - 1]);
                 page[lines - 1] = marked;
             }

@@ -45,8 +45,8 @@ const char* writePcx(const char* name, const uint8_t* picture, const uint8_t* da
     const int file = machine::createFile(name);
     bool good = file >= 0;
     memset(header, 0, sizeof header);
-    header[0] = 10;  // PCX
-    header[1] = 5;   // with a palette of 256 colours
+    header[0] = 10;  // the mark of a PCX file
+    header[1] = 5;   // version 5: may have a palette of 256 colours
     header[2] = 1;   // run-length encoded
     header[3] = 8;   // bits per pixel
     put16(header + 8, WIDTH - 1);
@@ -55,7 +55,7 @@ const char* writePcx(const char* name, const uint8_t* picture, const uint8_t* da
     put16(header + 14, HEIGHT);
     header[65] = 1;  // planes
     put16(header + 66, WIDTH);
-    put16(header + 68, 1);  // colour
+    put16(header + 68, 1);  // the palette has colours
     good = good && machine::writeFile(file, header, sizeof header) >= 0;
     for (int y = 0; good && y < HEIGHT; ++y) {
         const uint32_t bytes = packRow(picture + y * WIDTH);

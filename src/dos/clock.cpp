@@ -13,7 +13,7 @@ namespace {
 constexpr uint16_t COUNTER = 0x40;
 constexpr uint16_t COMMAND = 0x43;
 constexpr uint8_t LATCH = 0x00;
-constexpr uint8_t MODE_2 = 0x34;  // counter 0, both bytes
+constexpr uint8_t MODE_2 = 0x34;  // both modes: for counter 0, low byte then high byte
 constexpr uint8_t MODE_3 = 0x36;
 constexpr uint8_t READ_STATUS = 0xe2;  // the next byte read from counter 0 has its mode in bits 1 to 3
 constexpr uint16_t PIC = 0x20;

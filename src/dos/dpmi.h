@@ -54,7 +54,7 @@ inline uint32_t segmentBase(uint16_t selector)
     return ecx << 16 | (edx & 0xffff);
 }
 
-// 0007h
+// 0007h: sets the linear address at which a segment begins.
 inline bool setSegmentBase(uint16_t selector, uint32_t base)
 {
     uint32_t eax = 0x0007;
@@ -101,7 +101,7 @@ inline bool allocateDos(uint16_t paragraphs, uint16_t* segment, uint16_t* select
     return !carry;
 }
 
-// 0101h
+// 0101h: frees DOS memory.
 inline void freeDos(uint16_t selector)
 {
     uint32_t eax = 0x0101;
@@ -196,14 +196,14 @@ inline bool allocateMemory(uint32_t bytes, uint32_t* linear, uint32_t* handle)
     return !carry;
 }
 
-// 0502h
+// 0502h: frees memory of allocateMemory().
 inline void freeMemory(uint32_t handle)
 {
     uint32_t eax = 0x0502;
     __asm__ volatile("int $0x31" : "+a"(eax) : "S"(handle >> 16), "D"(handle & 0xffff) : "cc", "memory");
 }
 
-// The program's own selectors.
+// Return the program's own selectors.
 inline uint16_t codeSelector()
 {
     uint16_t selector;

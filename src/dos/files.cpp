@@ -16,7 +16,7 @@ constexpr uint32_t DISK_FULL = 39;
 constexpr uint32_t FAILED_CRITICALLY = 83;
 
 constexpr uint32_t LONGEST_NAME = 127;
-constexpr uint16_t READ_ONLY = 0x01;  // attributes
+constexpr uint16_t READ_ONLY = 0x01;  // bits of a file's attributes
 constexpr uint16_t DIRECTORY = 0x10;
 
 const char* trouble = "";

@@ -66,7 +66,7 @@ inline dpmi::RealRegs regs(uint32_t eax)
     dpmi::RealRegs r = {0, 0, 0, 0, 0, 0, 0, eax, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     return r;
 }
-// The carry flag of a real-mode call's results.
+// Returns the carry flag in the results of a real-mode call.
 inline bool carry(const dpmi::RealRegs& r)
 {
     return (r.flags & 1) != 0;

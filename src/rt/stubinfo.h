@@ -6,7 +6,7 @@
 
 struct StubInfo {
     char magic[16];          // "go32stub, v 2.0x"
-    uint32_t size;           // of this block, in bytes
+    uint32_t size;           // size of this block, bytes
     uint32_t minstack;       // size of the stack that the user wants, bytes; ignored, because our stack has a fixed size
     uint32_t memoryHandle;   // DPMI handle of the program's memory
     uint32_t initialSize;    // size of that memory, bytes
@@ -22,7 +22,7 @@ struct StubInfo {
 };
 static_assert(sizeof(StubInfo) == 84, "the layout is the stub's");
 
-// The stub's block, copied by start.S.
+// A copy of the stub's block, made by start.S.
 extern "C" StubInfo stubInfo;
 
 #endif
