@@ -1,16 +1,17 @@
-// The machine: everything the program needs from the computer it runs on, and nothing else.
+// The machine: everything that the program needs from the computer it runs on, and nothing else.
 //
-// One interface, two implementations, chosen when the program is linked: src/dos is a PC under DOS (mode 13h, PIT,
-// BIOS keyboard, int 33h mouse, DOS files), src/host is a machine with nothing behind it (no display, a clock that can
-// stand still, frames to files). No other file knows which one it talks to. A port to a third machine starts from
-// src/host and fills it in.
+// There is one interface with two implementations; the linker chooses one of them. src/dos is a PC under DOS (mode 13h,
+// PIT, BIOS keyboard, int 33h mouse, DOS files). src/host is a machine without devices (no display, a clock that can
+// stand still, frames written to files). No other file knows which implementation it calls. A port to a third machine
+// starts from src/host and fills in the devices.
 #ifndef FB_MACHINE_H
 #define FB_MACHINE_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-// The pixels of one row that were touched: columns from <= x < to, both multiples of 4, 0..320; from >= to: none.
+// The pixels of one row that were changed: the half-open range of columns from <= x < to. Both ends are multiples of 4 in
+// 0..320; the span is empty when from >= to.
 struct Span {
     int16_t from;
     int16_t to;
@@ -22,10 +23,11 @@ namespace machine {
 constexpr int WIDTH = 320;
 constexpr int HEIGHT = 200;
 
-// Ticks of clock() in a second: the input frequency of the PC's interval timer.
+// Ticks of clock() per second: the input frequency of the PC's interval timer.
 constexpr uint32_t CLOCK_HZ = 1193182;
 
-// Keys that are no characters, as key() returns them: 0x100 + the scan code of the BIOS.
+// Codes that key() returns for keys that are not characters: 0x100 + the scan code of the BIOS. The keys from Backspace on
+// have the codes of control characters.
 constexpr int KEY_F1 = 0x13b;
 constexpr int KEY_F2 = 0x13c;
 constexpr int KEY_F3 = 0x13d;
@@ -47,65 +49,66 @@ constexpr int KEY_ESC = 27;
 
 // --- Start and end
 
-// Makes the clock, break and crash handling ready; the video mode is not touched. Null, or one line that says what is
-// missing. Call once, before anything else below but out(), err() and the files.
+// Sets up the clock and the handling of breaks and crashes; it does not touch the video mode. Returns null, or one line that
+// says what is missing. To be called once, before all functions below except out(), err() and those for files.
 const char* start();
 
-// Puts everything back as start() found it: text mode, interrupt vectors, timer mode. Harmless when called twice.
+// Restores everything as start() found it: text mode, interrupt vectors, timer mode. A second call is harmless.
 void stop();
 
-// stop(), then `line` and a newline to standard error, then the end of the program with `status`.
+// Calls stop(), writes `line` and a newline to standard error, and ends the program with exit status `status`.
 [[noreturn]] void fail(int status, const char* line);
 
-// True once Ctrl-C or Ctrl-Break was pressed. The program ends at the next frame; nothing ends it in between.
+// Returns true from the moment Ctrl-C or Ctrl-Break was pressed. The keys set this flag only; the program itself asks
+// for it and ends.
 bool broken();
 
-// Text to standard output and standard error. "\n" ends a line on every machine. Only while in text mode.
+// Write text to standard output and to standard error. "\n" ends a line on every machine. Allowed in text mode only.
 void out(const char* text);
 void err(const char* text);
 
 // --- Video
 
-// Switches to mode 13h. Null, or one line that says why not (no VGA).
+// Switches to mode 13h. Returns null, or one line that says why this failed (no VGA).
 const char* openVideo();
 
-// Back to the text mode found by openVideo(). Harmless when no mode was set.
+// Restores the text mode that openVideo() found. Harmless when openVideo() has not switched the mode.
 void closeVideo();
 
-// The 256 colours, three bytes each (red, green, blue), every one 0..63 as the VGA's DAC takes them.
+// Sets the 256 colours: three bytes each (red, green, blue) in 0..63, as the DAC of the VGA expects them.
 void setPalette(const uint8_t rgb[768]);
 
-// Shows a part of `frame` (320x200 bytes, top row first): in each of the 200 rows the pixels of its span.
+// Copies a part of `frame` (320x200 bytes, top row first) to the screen: from each of the 200 rows the pixels of its span.
 void present(const uint8_t* frame, const Span rows[HEIGHT]);
 
-// Waits for the start of the next vertical retrace, but never longer than about 1/20 s (a card may not tell).
+// Waits for the start of the next vertical retrace, but at most about 1/20 s, because some cards do not report it.
 void waitRetrace();
 
 // --- Clock
 
-// Ticks of 1/CLOCK_HZ s since start(). Never goes back; good to a few ticks.
+// Returns the time since start() in ticks of 1/CLOCK_HZ s. It never decreases and is accurate to a few ticks.
 uint64_t clock();
 
-// Host only matters: with `still` clock() stands still at 0, so that a run depends on nothing but its switches. A PC
-// ignores it.
+// Stops the clock for a reproducible run: while `still` is set, clock() of the host returns 0, so that a run depends on
+// its switches only. The PC ignores this call.
 void standStill(bool still);
 
-// The date and the time of day, "2026-11-21 22:14:05", and the machine in a few words without a comma ("DOS 5.0 80486").
-// Both take at least 64 bytes.
+// Write the date and time of day ("2026-11-21 22:14:05"), and a short description of the machine without commas
+// ("DOS 5.0 80486"). `size` is at least 64 bytes for both.
 void date(char* to, int size);
 void describe(char* to, int size);
 
 // --- Keyboard and mouse
 
-// The next key pressed, or 0: a character, or one of the KEY_ codes above. Does not wait. Letters come as they would
-// without Caps Lock: capital with Shift and no other way.
+// Returns the next key in the keyboard buffer without waiting: a character, one of the KEY_ codes above, or 0 when no key is
+// there. Caps Lock has no effect: a letter is a capital only when Shift was held.
 int key();
 
-// Looks for a mouse. False: there is none, and mouse() says nothing moved.
+// Looks for a mouse. Returns false when there is none; mouse() then always reports that nothing happened.
 bool openMouse();
 
-// What the mouse did since the last call: mickeys (right and down are positive), how often the left button went down, and
-// the buttons now held.
+// What the mouse did since the last call: its movement in mickeys (right and down are positive), how often the left button
+// was pressed, and which buttons are held now.
 struct Mouse {
     int dx;
     int dy;
@@ -115,37 +118,40 @@ struct Mouse {
 };
 Mouse mouse();
 
-// --- Files. Handles are 0 or more; -1 is failure, and fileTrouble() then says why in a few words ("disk full").
+// --- Files. A handle is 0 or more; -1 means failure. After a failure fileTrouble() gives the reason in a few words
+// ("disk full").
 
 int createFile(const char* name);
 int openFile(const char* name);
-// Opens for writing at the end, making the file when there is none; `*fresh` tells whether it was made.
+// Opens a file for writing at its end, and creates the file when it does not exist; `*fresh` tells whether it was created.
 int appendFile(const char* name, bool* fresh);
-// Bytes read or written, -1 on failure. A write that does not fit on the disk is a failure ("disk full").
+// Return the number of bytes read or written, or -1 on failure. A write that does not fit on the disk is a failure
+// ("disk full").
 int32_t readFile(int file, void* to, uint32_t bytes);
 int32_t writeFile(int file, const void* from, uint32_t bytes);
-// False when what was written could not be kept.
+// Returns false when the data written could not be stored.
 bool closeFile(int file);
-// Goes back to the first byte of a file that is being written.
+// Moves to the first byte of a file that is open for writing.
 bool rewindFile(int file);
-// The names of files in a directory ("" is the current one) that end in `ending` (".FB", either case), sorted, as many as
-// there is room for; longer names than fit are left out. Returns how many; 0 too when there is no such directory.
+// Lists the files of a directory ("" is the current one) whose names end in `ending` (".FB", in any case), sorted. At most
+// `room` names are stored; names too long for FileName are left out. Returns the number of names stored, 0 also when the
+// directory does not exist.
 struct FileName {
     char text[32];
 };
 int listFiles(const char* directory, const char* ending, FileName* to, int room);
-// How many bytes an open file has; -1 on failure.
+// Returns the length of an open file in bytes, or -1 on failure.
 int32_t fileBytes(int file);
-// Cuts a file that is open for writing off behind its first `bytes` bytes.
+// Truncates a file that is open for writing to its first `bytes` bytes.
 bool cutFile(int file, uint32_t bytes);
-// Removes a plain file; false for anything else.
+// Removes an ordinary file; returns false when the name is anything else (a device, a directory) or on failure.
 bool removeFile(const char* name);
-// Saving that never loses what was there: what is written to the handle goes to a file of another name beside `name`,
-// which endSave() closes and puts in the place of `name`; with `good` false, or when that fails, it removes it, and what
-// was there before stays. One file at a time.
+// Saving that never loses the old file: beginSave() opens a temporary file beside `name`; endSave() closes it and replaces
+// `name` by it. When `good` is false or the replacement fails, endSave() removes the temporary file and the old file stays.
+// Only one file can be saved at a time.
 int beginSave(const char* name);
 bool endSave(int file, bool good);
-// Makes a directory; true too when it is there already.
+// Creates a directory; returns true also when the directory exists already.
 bool makeDirectory(const char* name);
 const char* fileTrouble();
 

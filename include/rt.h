@@ -1,5 +1,5 @@
-// What the program takes from a C library: a dozen functions. Hosts and DJGPP have them in their libc; for the stock
-// compiler, which has none for DOS, src/rt supplies these and no more (FB_RT is defined by the Makefile).
+// The dozen functions that the program needs from a C library. The host compiler and DJGPP have them in their libc. The
+// stock compiler has no libc for DOS; for it src/rt supplies these functions and no others (the Makefile defines FB_RT).
 #ifndef FB_RT_H
 #define FB_RT_H
 
@@ -20,16 +20,17 @@ int strncmp(const char* a, const char* b, size_t most);
 char* strchr(const char* text, int c);
 char* strcpy(char* to, const char* from);
 
-// From a heap that grows by DPMI memory; null when there is no more. free(null) is harmless.
+// Allocate from a heap that grows by blocks of DPMI memory; malloc() returns null when there is no more. free(null) is
+// harmless.
 void* malloc(size_t bytes);
 void free(void* block);
 
-// Only %d %u %x %c %s %% with l, width, zero padding, '-' and %.*s/%.Ns precision for strings; the rest of C's
-// conversions is not there. Never writes more than `size` bytes; returns the length the whole text would have.
+// Support only %d %u %x %c %s %%, with l, width, zero padding, '-', and the precisions %.*s and %.Ns for strings. They never
+// write more than `size` bytes and return the length that the whole text would have.
 int snprintf(char* to, size_t size, const char* format, ...) __attribute__((format(printf, 3, 4)));
 int vsnprintf(char* to, size_t size, const char* format, va_list args);
 
-// Ends the program with a status 0..255, without anything put back: machine::stop() does that.
+// Ends the program with a status 0..255. It restores nothing; machine::stop() does that.
 [[noreturn]] void exit(int status);
 }
 

@@ -1,17 +1,17 @@
-// The first instructions of DEMO.EXE as the stock compiler builds it: what DJGPP's crt0 is for its programs, and no
-// more. The stub has loaded .text and .data and jumps here with
+// The first instructions of DEMO.EXE in the stock build; DJGPP's programs have crt0 for this. The stub has loaded .text
+// and .data and jumps here with
 //
 //     cs:eip  start, ds the program's 32-bit data segment (same base as cs, limit at least the end of .bss)
 //     fs      a segment that begins with the go32 stub's information block (src/rt/stubinfo.h)
 //     ss:esp  the stub's small stack
 //
-// Order: es = ds, .bss cleared, the stack moved into .bss, the information block copied (it lies where the transfer
-// buffer will be), then rtStart(), which does not come back.
+// The steps: set es = ds, clear .bss, move the stack into .bss, copy the information block (the transfer buffer will
+// overwrite it), and call rtStart(), which does not return.
 
 #include "asm.h"
 
 #define STACK_BYTES 131072
-#define STUBINFO_SIZE 16                // offset of the block's size in the block
+#define STUBINFO_SIZE 16                // offset in the block of the block's size
 #define STUBINFO_BYTES 84
 
         .text
@@ -21,7 +21,7 @@ start:
         movw    %ds, %ax
         movw    %ax, %es
 
-        // for (p = bss; p < end; ++p) *p = 0; 32 bits at a time, for both ends are aligned to 4 at least
+        // Clear .bss, 32 bits at a time: both ends are aligned to at least 4 bytes.
         movl    $__bss_start, %edi
         movl    $_end, %ecx
         subl    %edi, %ecx
@@ -34,7 +34,7 @@ start:
         movw    %ax, %ss
         movl    $rtStackTop, %esp
 
-        // stubInfo = *fs:0, as much of it as both sides know
+        // Copy the block at fs:0 to stubInfo, as many bytes as both sides know.
         movl    $STUBINFO_BYTES, %ecx
         movl    %fs:STUBINFO_SIZE, %eax
         cmpl    %ecx, %eax
@@ -48,7 +48,7 @@ start:
         rep movsb
         popl    %ds
 
-        // The stub's segment is no longer ours to read; fs and gs are free for all.
+        // The stub's segment is not needed any more; fs and gs may be used freely from here on.
         xorl    %eax, %eax
         movw    %ax, %fs
         movw    %ax, %gs

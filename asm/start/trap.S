@@ -1,14 +1,14 @@
-// Processor exceptions of the program itself: where the DPMI host brings them, as DPMI function 0203h has it. One entry
-// for each exception notes its number; the common part stores the registers in trapState (src/dos/crash.cpp), and lets
-// the host go on not where the fault was but in crashed(), with the program's own segments and a stack kept for this.
-// Returning to the host first is what makes everything allowed afterwards: files, video, the end of the program.
+// The handlers of processor exceptions, which the DPMI host calls (DPMI function 0203h). There is one entry for each
+// exception, which pushes the exception's number. The common part stores the registers in trapState (src/dos/crash.cpp)
+// and makes the host resume the program in crashed() instead of at the fault, with the program's own segments and a stack
+// reserved for this. After this return to the host everything is allowed again: files, video, the end of the program.
 //
-// The host's stack at an entry, 32-bit words from ss:esp up:
+// The stack at an entry, 32-bit words from ss:esp up:
 //      0 return eip   4 return cs   8 error code   12 eip   16 cs   20 eflags   24 esp   28 ss
 
 #include "asm.h"
 
-// offsets in trapState
+// Offsets in trapState.
 #define NUMBER 0
 #define ERROR 4
 #define EIP 8
@@ -27,11 +27,11 @@
 #define ES 60
 
 #define TRAPS 15                // exceptions 0 to 14
-#define TRAP_STACK 8176         // where the stack kept for this begins: its size less 16
+#define TRAP_STACK 8176         // initial stack pointer in trapStack: its size minus 16
 
         .text
 
-// trapEntries: TRAPS entries of 8 bytes each, so that C++ can compute the address of one.
+// trapEntries: TRAPS entries of 8 bytes each, so that C++ can compute their addresses.
         .balign 8
         .globl  SYM(trapEntries)
 SYM(trapEntries):
@@ -45,7 +45,7 @@ SYM(trapEntries):
 
         .balign 8
 common:
-        // ds may be anything; cs has the same base and can be read.
+        // ds may have any value here, but cs has the same base as the program's ds and can be read.
         pushl   %ds
         pushl   %eax
         movw    %cs:SYM(trapData), %ax
@@ -74,7 +74,7 @@ common:
         movl    28(%esp), %eax
         movl    %eax, SYM(trapState)+SS
 
-        // Go on in trapped, on trapStack, without single steps.
+        // Resume the program at `trapped`, on trapStack, with the trap flag cleared.
         movl    $trapped, 12(%esp)
         movl    %cs, %eax
         movl    %eax, 16(%esp)

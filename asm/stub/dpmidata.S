@@ -1,10 +1,10 @@
-/* The host's tables and variables. .host is in the file; .hbss is cleared by host_init. */
+/* The tables and variables of the host. Section .host is in the file; .hbss is not, and host_init clears it. */
 
 #include "dpmi.h"
 
         SECTION(.host)
 
-/* --- Descriptors. Bases are filled in by host_init from gdt_bases. --- */
+/* --- Descriptors. host_init fills in the bases listed in gdt_bases. --- */
         .balign 8
         .globl  gdt
 gdt:    .quad   0
@@ -24,24 +24,24 @@ gdt:    .quad   0
         .endr
 
         .globl  gdt_bases, gdt_bases_end
-gdt_bases:                              /* selector, offset in the host's segment */
+gdt_bases:                              /* pairs: selector, offset in the host's segment */
         .word   HOST_CS, 0, HOST_DS, 0, HOST_CS16, 0, HOST_DS16, 0
         .word   TSS_SEL, tss, LDT_SEL, ldt, USER_CS & ~3, hlts, LOCK_SS & ~3, lock_stack
 gdt_bases_end:
 
         .globl  gdtr, idtr, rm_idtr
-gdtr:   .word   GDT_SIZE - 1, gdt, 0    /* addresses become linear in host_init */
+gdtr:   .word   GDT_SIZE - 1, gdt, 0    /* host_init makes the addresses linear */
 idtr:   .word   256 * 8 - 1, idt, 0
 rm_idtr: .word  0x3ff, 0, 0
 
-/* --- Mode switch. Pointers: offset, then the host's segment, filled in by host_init. --- */
+/* --- Mode switch. In the pointers from rm_ptrs on, host_init fills in the host's segment. --- */
         .balign 4
         .globl  pm_to_rm_vec, rm_to_pm_vec, rm_ptrs, rm_ptrs_end
         .globl  rm_go, rmregs_ptr, rmregs_gs_ptr, rm_return_ptr, switch_stack_ptr, rm_stack_cur
 pm_to_rm_vec:   .long   raw_pm_to_rm
 rm_to_pm_vec:   .long   raw_rm_to_pm
 rm_ptrs:
-rm_go:          .word   rm_load, 0      /* where pm_to_rm arrives */
+rm_go:          .word   rm_load, 0      /* RM address to which pm_to_rm jumps */
 rmregs_ptr:     .word   rmregs, 0
 rmregs_gs_ptr:  .word   rmregs + R_IP, 0
 rm_return_ptr:  .word   rm_return, 0
@@ -49,7 +49,7 @@ switch_stack_ptr: .word switch_stack_top, 0
 rm_stack_cur:   .word   rm_stack_top, 0
 rm_ptrs_end:
         .globl  switch_table
-switch_table:     .long   0, gdtr, idtr   /* CR3; linear addresses. VCPI's layout */
+switch_table:     .long   0, gdtr, idtr   /* in VCPI's layout: CR3, linear addresses of gdtr and idtr, LDT, TSS, CS:EIP */
                 .word   LDT_SEL, TSS_SEL
                 .long   pm_arrive
                 .word   HOST_CS, 0
@@ -62,7 +62,7 @@ version_flags:  .long   3               /* bit 1 is cleared under VCPI */
 host_seg:       .long   0
 psp_seg:        .long   0
 
-/* What each hooked IVT entry stands for; order of up_stubs. */
+/* The interrupt number of each hook, in the order of up_stubs. */
         .globl  hook_vec
 hook_vec:       .byte   0x08, 0x09, 0x0a, 0x0b, 0x0c, 0x0d, 0x0e, 0x0f
                 .byte   0x70, 0x71, 0x72, 0x73, 0x74, 0x75, 0x76, 0x77
@@ -72,11 +72,11 @@ hook_vec:       .byte   0x08, 0x09, 0x0a, 0x0b, 0x0c, 0x0d, 0x0e, 0x0f
         .globl  hlt_table
 hlt_table:      .long   crash, hlt_upret, hlt_cbret, hlt_excret, hlt_rawsw, hlt_state
 
-/* What has to be the same in a frame for a fault to be the same again. */
+/* The fields of two frames that must be equal for a fault to count as the same again. */
         .globl  again_fields
 again_fields:   .byte   F_EIP, F_ESP, F_EAX, F_ECX, F_EDX, F_EBX, F_EBP, F_ESI, F_EDI, 0xff
 
-/* --- Texts of a crash. --- */
+/* --- Messages of a crash. --- */
         .globl  exc_names, crash_lines, msg_exception, msg_nesting, msg_base, msg_limit
         .macro  NAMES n:vararg
         .irp    name, \n
@@ -111,7 +111,7 @@ msg_nesting:    .asciz "Interrupts or real-mode calls nested too deeply\r\n"
 msg_base:       .asciz "  base="
 msg_limit:      .asciz "  limit="
 
-/* Offset of a register in the frame, 80h added for selectors; then the text before it. */
+/* Pairs: the offset of a register in the frame, plus 80h for a selector; then the text printed before it. */
 crash_lines:
         .byte   F_EIP
         .asciz  " at eip="
@@ -151,7 +151,7 @@ crash_lines:
         .asciz  "\r\nss: sel="
         .byte   0xff
 
-/* --- Not in the file. --- */
+/* --- Variables that are not in the file. --- */
         SECTION_BSS(.hbss)
         .balign 16
         .globl  idt, ldt, pm_vec, exc_vec, thunks, hlts, tss, callbacks, hook_old, ivt_copy
@@ -159,12 +159,12 @@ crash_lines:
         .globl  r0_stack, r0_stack_top, rm_stack, rm_stack_top, lock_stack, switch_stack_top
 idt:            .skip   256 * 8
 ldt:            .skip   LDT_COUNT * 8
-pm_vec:         .skip   256 * 8         /* offset, selector of the client's interrupt handlers */
-thunks:         .skip   256 * 8         /* PUSH vector, JMP entry */
-exc_vec:        .skip   32 * 8          /* offset, selector of exception handlers, selector 0: none */
-callbacks:      .skip   CALLBACKS * 16  /* procedure, selector (0: free), structure, selector */
-hook_old:       .skip   HOOKS * 4
-ivt_copy:       .skip   1024            /* as it was at the start */
+pm_vec:         .skip   256 * 8         /* the client's interrupt handlers: offset, selector */
+thunks:         .skip   256 * 8         /* code: PUSH vector, JMP entry */
+exc_vec:        .skip   32 * 8          /* the client's exception handlers: offset, selector (0: no handler) */
+callbacks:      .skip   CALLBACKS * 16  /* offset and selector (0: free) of the procedure, then of the register structure */
+hook_old:       .skip   HOOKS * 4       /* the IVT entries before they were hooked */
+ivt_copy:       .skip   1024            /* the IVT at the start */
 blocks:         .skip   BLOCKS * 8
 blocks_end:
 arenas:         .skip   ARENAS * 16
@@ -173,15 +173,15 @@ tss:            .skip   104
 rmregs:         .skip   R_SIZE
                 .balign 4
                 .globl  fault_frame, fault_pages, fault_count, fault_pending, fault_defer
-fault_frame:    .skip   F_SIZE          /* page faults in DOSBox, see dpmiint.S */
-fault_pages:    .skip   FAULT_PAGES * 4 /* numbers of pages to be absent again */
+fault_frame:    .skip   F_SIZE          /* page faults in DOSBox, see dpmiint.S: the frame to be delivered */
+fault_pages:    .skip   FAULT_PAGES * 4 /* numbers of the pages that must become absent again */
 fault_count:    .skip   4
                 .globl  again_frame, again_count
-again_frame:    .skip   F_SIZE          /* what the last exception handler returned to */
-again_count:    .skip   4               /* how often that has been the same fault again */
+again_frame:    .skip   F_SIZE          /* the frame to which the last exception handler returned */
+again_count:    .skip   4               /* how often that frame has caused the same fault again */
                 .globl  shrunk
 shrunk:         .skip   2               /* a selector whose limit the client made less than a page, or 0 */
-fault_pending:  .skip   1
+fault_pending:  .skip   1               /* 1: a page fault waits to be delivered */
 fault_defer:    .skip   1               /* 1: this is DOSBox */
 hlts:           .skip   HLT_COUNT
                 .balign 4
@@ -195,30 +195,30 @@ lock_stack:     .skip   LOCK_STACK
 r0_stack:       .skip   R0_STACK
 r0_stack_top:
                 .globl  pages
-pages:          .skip   3 * 4096        /* page directory and first page table, aligned to 4 KB in here */
+pages:          .skip   3 * 4096        /* contains the page directory and the first page table, aligned to 4 KB */
 
         .globl  irq_target, xms_slack
-xms_slack:      .skip   4               /* KB more to ask XMS for, where its blocks do not start at pages */
-irq_target:     .skip   4
+xms_slack:      .skip   4               /* extra KB to request from XMS when its blocks do not start at page boundaries */
+irq_target:     .skip   4               /* CS:IP of the RM handler that rm_irq calls */
         .globl  host_base, rm_spss, pm_cont, up_num, up_spss, xms_entry, xms_super, cpu_type, fpu_type
         .globl  pic_masks, callbacks_used, vcpi_entry, switch_table_linear, old_15, old_23, a20_mode
         .globl  exit_code, env_seg, client_ip, client_cs, client_ds, client_ss, client_sp
 host_base:      .skip   4
 rm_spss:        .skip   4               /* SP, SS for rm_load */
-pm_cont:        .skip   4               /* where pm_arrive goes on */
-up_num:         .skip   4
-up_spss:        .skip   4
+pm_cont:        .skip   4               /* address at which pm_arrive continues */
+up_num:         .skip   4               /* number pushed by one of up_stubs */
+up_spss:        .skip   4               /* SS:SP of the RM code that called it */
 xms_entry:      .skip   4               /* 0: no XMS */
 vcpi_entry:     .skip   6
                 .balign 4
 switch_table_linear: .skip 4
         .globl  in_dos, pic_base
-in_dos:         .skip   4               /* linear address of DOS's busy flag */
-pic_base:       .skip   2               /* VCPI: interrupt bases of the controllers */
+in_dos:         .skip   4               /* linear address of the InDOS flag */
+pic_base:       .skip   2               /* VCPI: first interrupts of the two controllers, 0 without VCPI */
                 .balign 4
         .globl  pool_next, pool_end, pool_handle
-pool_next:      .skip   4               /* raw: pages for page tables, linear = physical address */
-pool_end:       .skip   4
+pool_next:      .skip   4               /* without VCPI: the next free page for page tables, linear = physical address */
+pool_end:       .skip   4               /* end of these pages */
 pool_handle:    .skip   4               /* XMS handle + 1 */
 old_15:         .skip   4
 old_23:         .skip   4
@@ -235,7 +235,7 @@ cpu_type:       .skip   1
 fpu_type:       .skip   1               /* bits 4 to 7 as in 0E00h */
 callbacks_used: .skip   1
                 .globl  cr0_start
-cr0_start:      .skip   1               /* MP and EM of CR0 */
+cr0_start:      .skip   1               /* bits MP and EM of CR0 at the start */
 a20_mode:       .skip   1               /* who switched A20 on: 0 nobody, 1 XMS, 2 port 92h, 3 keyboard controller */
 
         ASM_END

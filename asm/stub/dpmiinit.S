@@ -1,10 +1,10 @@
-/* The host's beginning and end, in real or V86 mode.
+/* The start and the end of the host, in real or V86 mode.
 
-     host_init    finds out what the machine has, fills in the tables, hooks Ctrl-C and critical errors
-     host_enter   the entry point that int 2Fh AX=1687h would have given: makes the caller the client
-     host_exit    the client has ended (int 21h AH=4Ch in PM, or a crash): everything back as it was
+     host_init    detects the memory of the machine, fills in the tables, hooks Ctrl-C and critical errors
+     host_enter   the entry point, as int 2Fh AX=1687h returns one: makes the caller the client
+     host_exit    called when the client has ended (int 21h AH=4Ch in PM, or a crash): restores the machine
 
-   Processor state is as DOS has it until host_enter, and again from rm_exit on. */
+   The processor state is that of DOS until host_enter, and again from rm_exit on. */
 
 #include "dpmi.h"
 #undef i386
@@ -12,7 +12,7 @@
         SECTION(.host)
         .code16
 
-/* Far. In: ES = PSP. Out: carry and DX = message (in our segment, ends with '$') if there is no way. */
+/* Far procedure. In: ES = PSP. Out: carry and DX = message (in our segment, ends with '$') if the host cannot start. */
         .globl  host_init
 host_init:
         push    %ds
@@ -30,7 +30,7 @@ host_init:
         xor     %eax, %eax
         mov     %cs, %ax
         mov     %ax, host_seg
-        mov     $rm_ptrs, %si           /* pointers to ourselves */
+        mov     $rm_ptrs, %si           /* fill in the segment of pointers into the host */
 1:      mov     %ax, 2(%si)
         add     $4, %si
         cmp     $rm_ptrs_end, %si
@@ -60,7 +60,7 @@ host_init:
         shr     $4, %eax
         mov     %ax, %es
         mov     %edx, %es:0
-        lea     0x3(%ebx), %edx         /* the directory is a page table too: all of them at PTES */
+        lea     0x3(%ebx), %edx         /* the directory is its own last page table: all tables appear at PTES */
         mov     %edx, %es:0xffc
         mov     host_base, %eax
         add     %eax, switch_table + 4
@@ -85,9 +85,9 @@ host_init:
 
         movl    $r0_stack_top, tss + 4
         movw    $HOST_DS, tss + 8
-        movw    $104, tss + 102         /* no I/O map: IOPL is enough */
+        movw    $104, tss + 102         /* no I/O permission map is needed: IOPL is 3 */
 
-        mov     $0xf000, %ax            /* its BIOS says "DOSBox" */
+        mov     $0xf000, %ax            /* the BIOS of DOSBox contains this name */
         mov     %ax, %fs
         cmpl    $0x42534f44, %fs:0xe061
         jne     7f
@@ -109,7 +109,7 @@ host_init:
         mov     %eax, in_dos
         pop     %es
 
-        xor     %ax, %ax                /* the vectors as they are */
+        xor     %ax, %ax                /* save all vectors */
         mov     %ax, %fs
         xor     %si, %si
         mov     $ivt_copy, %di
@@ -127,7 +127,7 @@ host_init:
         jne     6f
         cmpw    $raw_rm_to_pm, rm_to_pm_vec
         jne     6f
-        mov     host_seg, %ax           /* the BIOS's memory is ours alone now */
+        mov     host_seg, %ax           /* we use all of the BIOS's extended memory: report none to others */
         shl     $16, %eax
         mov     $rm_int15, %ax
         xchg    %eax, %fs:0x15 * 4
@@ -142,13 +142,13 @@ host_init:
 5:      mov     %ax, %ds
         lret
 
-/* cpu_type := 3, 4, 5 ...; fpu_type. A 386 it is. */
+/* Sets cpu_type (3, 4, 5 ...) and fpu_type. The processor is known to be at least a 386. */
 processor:
         mov     $3, %bl
         pushfl
         pop     %eax
         mov     %eax, %ecx
-        xor     $0x40000, %eax          /* AC: a 486 can change it */
+        xor     $0x40000, %eax          /* only a 486 or better can change AC */
         push    %eax
         popfl
         pushfl
@@ -157,7 +157,7 @@ processor:
         je      1f
         inc     %bx
         mov     %ecx, %eax
-        xor     $0x200000, %eax         /* ID: the processor can say more */
+        xor     $0x200000, %eax         /* if ID can be changed, there is CPUID */
         push    %eax
         popfl
         pushfl
@@ -173,7 +173,7 @@ processor:
         .arch   .387
         mov     %ah, %bl
         and     $15, %bl
-        cmp     $4, %bl                 /* family; the ones after 15 count as 15 */
+        cmp     $4, %bl                 /* the family; families above 15 count as 15 */
         jae     1f
         mov     $4, %bl
 1:      mov     %bl, cpu_type
@@ -185,11 +185,11 @@ processor:
         mov     $3 << 4, %al            /* 387 */
         cmp     $3, %bl
         je      3f
-        mov     $4 << 4, %al            /* 486 or better: built in */
+        mov     $4 << 4, %al            /* 486 or better: built-in coprocessor */
 3:      mov     %al, fpu_type
 2:      ret
 
-/* IDT, its thunks, and the client's default handlers. */
+/* Fills in the IDT, its thunks, and the client's default handlers. */
 vectors:
         xor     %bx, %bx                /* vector */
         mov     $thunks, %di
@@ -232,7 +232,7 @@ vectors:
         inc     %bx
         cmp     $256, %bx
         jb      1b
-        mov     pic_base, %bl           /* VCPI: the interrupt controllers may be elsewhere */
+        mov     pic_base, %bl           /* VCPI: the controllers may use other vectors, which get the same thunks */
         mov     $8, %di
         call    1f
         mov     pic_base + 1, %bl
@@ -250,11 +250,11 @@ vectors:
         loop    2b
 3:      ret
 
-/* --- Memory and A20 in plain real mode. Linear addresses are physical ones; mapped are the first MB and, as they
-       are asked for, the client's blocks, so that a wild pointer is noticed. The 64 KB behind the first MB are
-       left out: a stack that grows below the program's first byte ends there, where the processor does not look at
-       the limit of the stack's segment (an emulator's; or a limit of 4 GB). Page tables come from a pool of their
-       own. ES = page directory. Carry, DX: message. --- */
+/* --- Memory and A20 in plain real mode. Linear addresses equal physical addresses. Only the first MB and the client's
+       allocated blocks are mapped, so that a wild pointer causes a page fault. The 64 KB above the first MB are not
+       mapped: a stack that overflows below the program's first byte faults there, even when the limit of the stack
+       segment does not stop it (emulators do not check it; it may be 4 GB). Page tables come from a separate pool.
+       In: ES = page directory. Out: carry and DX = message on failure. --- */
 memory_init:
         mov     $0x1000, %di
         mov     $7, %eax
@@ -283,7 +283,7 @@ memory_init:
         cmp     $1, %ax
         jne     9f
         movb    $1, a20_mode
-        mov     xms_super, %ah          /* EDX = KB in all: a page table for each 4 MB, and some more */
+        mov     xms_super, %ah          /* EDX = free KB: reserve a page table for each 4 MB, and some more */
         add     $8, %ah
         xor     %edx, %edx
         lcall   *xms_entry
@@ -323,8 +323,8 @@ memory_init:
         clc
         ret
 
-/* No XMS: the BIOS. E801h counts KB to 16 MB and 64 KB units above; 88h counts KB. Above 16 MB is used only
-   if there is no hole below. */
+/* Without XMS the BIOS tells the memory. E801h counts KB up to 16 MB, and units of 64 KB above; 88h counts KB. Memory
+   above 16 MB is used only if there is no hole below it. */
 1:      mov     $0xe801, %ax
         xor     %cx, %cx
         xor     %dx, %dx
@@ -347,7 +347,7 @@ memory_init:
         movzwl  %ax, %eax
         shl     $10, %eax
 5:      and     $~0xfff, %eax
-        jz      vcpi_init               /* all of it is EMS, perhaps */
+        jz      vcpi_init               /* perhaps a memory manager has all of it */
         mov     %eax, %edx
         shr     $22, %edx
         add     $8, %dx
@@ -361,7 +361,7 @@ memory_init:
         mov     %edx, arenas
         call    a20_test
         jnz     8f
-        in      $0x92, %al              /* the fast way */
+        in      $0x92, %al              /* switch A20 on through port 92h, which is fast */
         mov     %al, %ah
         or      $2, %al
         and     $0xfe, %al              /* bit 0 resets the machine */
@@ -369,7 +369,7 @@ memory_init:
         movb    $2, a20_mode
         call    a20_wait
         jnz     8f
-        mov     $0xdf, %ah              /* the old way */
+        mov     $0xdf, %ah              /* else through the keyboard controller */
         call    kbc_output
         movb    $3, a20_mode
         call    a20_wait
@@ -384,7 +384,7 @@ memory_init:
 8:      clc
         ret
 
-/* Keyboard controller's output port := AH. AL, CX lost. */
+/* Writes AH to the output port of the keyboard controller. AL, CX are lost. */
 kbc_output:
         call    kbc_ready
         mov     $0xd1, %al
@@ -399,7 +399,7 @@ kbc_ready:
         loopnz  1b
         ret
 
-/* A20 on, perhaps after a while? Zero flag clear if so. */
+/* Waits a while for A20. Out: zero flag clear if A20 is on. */
 a20_wait:
         mov     $0x1000, %si
 1:      call    a20_test
@@ -408,7 +408,7 @@ a20_wait:
         jnz     1b
 2:      ret
 
-/* Zero flag clear: A20 is on. The BIOS's scratch area at 4F0h and the same address 1 MB above differ. */
+/* Tests A20. Out: zero flag clear if it is on: then the BIOS's scratch area at 4F0h and the word 1 MB above it differ. */
 a20_test:
         push    %cx
         push    %dx
@@ -427,9 +427,9 @@ a20_test:
         pop     %cx
         ret
 
-/* V86 mode: the server fills our first page table; the rest of the linear space is filled with its pages as
-   memory is asked for (dpmimem.S). From real mode it is the last resort. ES = page directory. Carry, DX:
-   message. */
+/* Sets up memory in V86 mode: the VCPI server fills our first page table; its pages are mapped to the rest of the
+   linear address space when memory is allocated (dpmimem.S). In real mode this is the last resort. In: ES = page
+   directory. Out: carry and DX = message on failure. */
 vcpi_init:
         xor     %ax, %ax
         mov     %ax, %fs
@@ -441,7 +441,7 @@ vcpi_init:
 5:      mov     %dx, %bp
         cmpl    $0, %fs:0x67 * 4
         je      9f
-        xor     %cx, %cx                /* VCPI there? DOSBox wants CX and DI like this */
+        xor     %cx, %cx                /* is there VCPI? DOSBox needs these values in CX and DI */
         mov     $0x0012, %di
         mov     $0xde00, %ax
         int     $0x67
@@ -454,7 +454,7 @@ vcpi_init:
         int     $0x67
         mov     %ebx, vcpi_entry
         movw    $VCPI_SEL, vcpi_entry + 4
-        mov     $0x1000, %si            /* ring 3 may use what is mapped */
+        mov     $0x1000, %si            /* let ring 3 use the mapped pages */
 1:      testb   $1, %es:(%si)
         jz      2f
         orb     $7, %es:(%si)
@@ -477,13 +477,13 @@ vcpi_init:
         shr     $10, %eax
         sub     %eax, %edx
         dec     %edx
-        cmp     $0xb0000, %edx          /* up to C0000000h at most: physical memory is mapped there */
+        cmp     $0xb0000, %edx          /* keep below C0000000h, where physical memory is mapped (0800h) */
         jbe     3f
         mov     $0xb0000, %edx
 3:      shl     $12, %edx
         mov     %edx, arenas + 4
         movl    $0x400000, arenas
-        mov     $0xde0a, %ax            /* BX, CX = where hardware interrupts arrive */
+        mov     $0xde0a, %ax            /* BX, CX = first vectors of the two interrupt controllers */
         int     $0x67
         mov     %bl, pic_base
         mov     %cl, pic_base + 1
@@ -495,15 +495,15 @@ vcpi_init:
 9:      stc
         ret
 
-/* EDX := physical address of page CX of the first MB. */
+/* Out: EDX = physical address of page CX of the first MB. */
 physical:
         mov     $0xde06, %ax
         int     $0x67
         and     $0xf000, %dx
         ret
 
-/* --- int 2Fh AX=1687h's entry point. Far. In: AX bit 0 = 1, a 32-bit client. Out: carry if refused; else
-       in PM, CS, DS, SS = the same segments, ES = PSP (100h bytes), FS = GS = 0. --- */
+/* --- The entry point as for int 2Fh AX=1687h, a far procedure. In: AX bit 0 = 1 for a 32-bit client. Out: carry if
+       refused; else in PM, with CS, DS, SS = selectors for the same segments, ES = PSP (100h bytes), FS = GS = 0. --- */
         .globl  host_enter
 host_enter:
         test    $1, %al
@@ -527,7 +527,7 @@ host_enter:
 pm_enter:
         movzwl  client_ds, %eax
         call    new_segment
-        pushl   %eax                    /* DS; the first ones cannot fail */
+        pushl   %eax                    /* DS; allocating the first descriptors cannot fail */
         movzwl  client_ss, %ebx
         cmpw    client_ds, %bx
         je      1f
@@ -543,7 +543,7 @@ pm_enter:
         pushl   %eax
         movzwl  client_ip, %eax
         pushl   %eax
-        movzwl  psp_seg, %eax           /* the environment's selector goes where its segment is */
+        movzwl  psp_seg, %eax           /* in the PSP, the environment's segment is replaced by a selector */
         movl    %eax, %ebx
         shll    $4, %ebx
         movw    $FLAT_DS, %cx
@@ -564,11 +564,11 @@ pm_enter:
         movw    20(%esp), %ds
         iretl
 
-/* --- The end. Jumped to in PM; AL = exit status; DS = HOST_DS. --- */
+/* --- The end of the client. Jumped to in PM. In: AL = exit status; DS = HOST_DS. --- */
         .globl  host_exit
 host_exit:
         movb    %al, exit_code
-        movl    %cr0, %eax              /* the coprocessor bits, which 0E01h can change */
+        movl    %cr0, %eax              /* restore the coprocessor bits, which 0E01h can change */
         andb    $~6, %al
         orb     cr0_start, %al
         movl    %eax, %cr0
@@ -601,7 +601,7 @@ rm_exit:
         int     $0x33
 1:      xor     %ax, %ax
         mov     %ax, %es
-        mov     host_seg, %ax           /* vectors that lead to us: as they were */
+        mov     host_seg, %ax           /* restore the vectors that lead to us */
         xor     %di, %di
 2:      cmp     %es:2(%di), %ax
         jne     3f
@@ -657,15 +657,15 @@ rm_exit:
 
 /* --- Real-mode handlers. --- */
 
-/* Critical error: the DOS call fails. */
+/* Critical error: makes the DOS call fail. */
         .globl  rm_int24
 rm_int24:
         mov     $3, %al
         iret
 
-/* Ctrl-C: ends the program with its registers printed, unless it is one that ours has started. A program that has
-   taken the keyboard's interrupt (DJGPP's libc does) sees the key there and does what it wants to; the key
-   goes on to the BIOS, where DOS finds it later: that is no second Ctrl-C, and DOS goes on. */
+/* Ctrl-C: prints the registers and ends the client. In a program that the client has started, the old handler is
+   called. A client that has hooked the keyboard interrupt (DJGPP's libc does) has already seen the key and reacted;
+   DOS finds the key later in the BIOS's buffer. This is not a second Ctrl-C, so DOS simply goes on. */
 rm_int23:
         push    %ax
         push    %bx
@@ -680,7 +680,7 @@ rm_int23:
         je      up_stubs + (CALLBACKS + HOOKS + 1) * 5
         iret
 
-/* Extended memory: none left. */
+/* Reports that no extended memory is left (int 15h AH=88h, AX=E801h). */
 rm_int15:
         cmp     $0x88, %ah
         je      1f
@@ -697,7 +697,7 @@ rm_int15:
         pop     %bp
         iret
 
-/* Save/restore state: nothing to do. */
+/* Save or restore state in RM (0305h): nothing to do. */
         .globl  rm_state
 rm_state:
         lret

@@ -1,27 +1,27 @@
-/* The host's interrupts: what every gate of the IDT leads to.
+/* The interrupts of the host: the handlers of all gates of the IDT.
 
      0 to 7          processor exceptions
-     8 to 15         hardware interrupts 0 to 7 and processor exceptions, told apart by the error code
-     21h, 2Fh, 31h   DOS (for its exit function), a question about the mode, DPMI
+     8 to 15         hardware interrupts 0 to 7 and processor exceptions, distinguished by the error code
+     21h, 2Fh, 31h   DOS (only its exit function is handled here), the question for the mode, DPMI
      70h to 77h      hardware interrupts 8 to 15
      all others      reflected to RM
 
-   A software interrupt for which the client has set a handler (0205h) does not come here: its gate leads to
-   the handler itself.
+   A software interrupt for which the client has set a handler (0205h) does not come here: its gate leads
+   directly to the handler.
 
-   The client runs in ring 3 with IOPL 3, the host in ring 0 with interrupts disabled throughout. So a gate
-   is always entered on a fresh ring 0 stack, whatever state the client's stack is in: DJGPP signals a
-   program by shrinking its data and stack segment, and a stack overflow must end in a message.
+   The client runs in ring 3 with IOPL 3, the host in ring 0 with interrupts always disabled. Therefore a gate
+   is always entered on a fresh ring 0 stack, whatever state the client's stack is in. This matters: DJGPP signals
+   a program by shrinking its data and stack segment, and a stack overflow must end in a message.
 
-   What the client has to call back to the host (default handlers, ends of handlers) is an address in a table
-   of HLT instructions. HLT is not allowed in ring 3; the fault's EIP says which service is meant. */
+   The addresses in the host that a client may call (default handlers, ends of handlers) lie in a table of HLT
+   instructions. HLT faults in ring 3, and the EIP of the fault tells which service is called. */
 
 #include "dpmi.h"
 
         SECTION(.host)
         .code32
 
-/* Vector and error code (or a dummy) are on the stack. */
+/* Completes a frame. On the stack: vector, error code (or a dummy), IRET frame. */
         .macro  SAVE_FRAME
         pushl   %gs
         pushl   %fs
@@ -35,8 +35,8 @@
         cld
         .endm
 
-/* Back to the client. A selector that has become invalid in the meantime (crt0 frees its own on the way
-   out) is replaced by 0: see host_fault. */
+/* Returns to the client. A selector that has become invalid in the meantime (DJGPP's crt0 frees its own selectors
+   when the program ends) is replaced by 0: see host_fault. */
         .globl  exit_frame
 exit_frame:
         cmpw    $0, %ss:shrunk
@@ -52,8 +52,8 @@ exit_iret:
         iretl
 
 /* DJGPP interrupts its programs (alarm, Ctrl-C as a signal) by making their data and stack segment so small that
-   the next access faults. Emulators do not check limits, so the host looks after it: a return to a shrunk stack
-   is a general protection fault. */
+   the next access faults. Emulators do not check limits, so the host does: a return to a shrunk stack causes a
+   general protection fault. */
 1:      movw    %ss:shrunk, %ax
         cmpw    %ax, F_SS(%esp)
         jne     exit_now
@@ -68,10 +68,10 @@ shrunk_fault:
         movl    $0, F_ERR(%ebp)
         jmp     deliver
 
-/* --- Software interrupts. Each entry: vector on the stack, pushed by its thunk. --- */
+/* --- Software interrupts. The thunk of each entry has pushed the vector. --- */
         .globl  entry_int21, entry_int2f, entry_soft
 entry_int2f:
-        cmpw    $0x1686, %ax            /* "are we in protected mode": AX = 0, yes */
+        cmpw    $0x1686, %ax            /* the question for protected mode: AX = 0 means yes */
         jne     entry_soft
         xorl    %eax, %eax
         addl    $4, %esp
@@ -93,7 +93,8 @@ entry_soft:
         cld
         jmp     host_exit               /* dpmiinit.S; AL = exit status */
 
-/* Interrupt EAX of the client at EBP in RM, with its GP registers and arithmetic flags both ways. */
+/* Calls RM interrupt EAX for the client whose frame is at EBP. General registers and arithmetic flags are passed to
+   RM and back. */
 reflect:
         pushl   %eax
         call    frame_to_rmregs
@@ -118,7 +119,8 @@ reflect:
 
 /* --- Hardware interrupts. --- */
 
-/* Vectors 8 to 15. From ring 3 without an error code, the stack is exactly vector and IRET frame. */
+/* Vectors 8 to 15. For an interrupt in ring 3 the stack has exactly the vector and the IRET frame; for an exception
+   it has an error code, too. */
         .globl  entry_low, entry_irq
 entry_low:
         pushl   %eax
@@ -140,7 +142,7 @@ entry_irq:
         call    rm_irq_call
         jmp     exit_frame
 
-/* The clock's tick that a page fault was waiting for: to RM in any case, then the fault. */
+/* The timer tick that a pending page fault was waiting for: reflects the tick to RM, then delivers the fault. */
 irq_to_rm:
         pushl   (%esp)
         SAVE_FRAME
@@ -151,8 +153,8 @@ irq_and_fault:
         call    rm_int
         jmp     fault_now
 
-/* To the client's handler, on the locked stack. What is interrupted stays on the ring 0 stack, which goes on
-   below it:  old ESP0, old lock_cur, IRET frame. */
+/* Calls the client's handler on the locked stack. The state of the interrupted code stays on the ring 0 stack (old
+   ESP0, old lock_cur, IRET frame), and interrupts use the ring 0 stack below it. */
 irq_to_client:
         cmpb    $0, %ss:fault_pending
         jne     irq_to_rm
@@ -160,7 +162,7 @@ irq_to_client:
         pushl   %eax
         pushl   %edx
         movl    %ss:lock_cur, %edx
-        cmpw    $LOCK_SS, 32(%esp)      /* already there: below what is in use */
+        cmpw    $LOCK_SS, 32(%esp)      /* on the locked stack already: continue below its ESP */
         jne     1f
         movl    28(%esp), %edx
 1:      movzbl  12(%esp), %eax
@@ -192,7 +194,7 @@ irq_to_client:
         movl    24(%esp), %eax
         iretl
 
-/* --- HLTs. Vector, error code, IRET frame on the stack; F_EIP is the number. --- */
+/* --- HLT instructions of the table. On the stack: vector, error code, IRET frame; EIP is the number of the HLT. --- */
 hlt_trap:
         cmpl    $HLT_IRQRET, 8(%esp)
         jne     1f
@@ -202,7 +204,7 @@ hlt_trap:
         cmpw    $0, %ss:shrunk
         jne     4f
         iretl
-4:      pushl   $0                      /* back to a shrunk stack? */
+4:      pushl   $0                      /* exit_frame checks whether the stack is the shrunk one */
         pushl   $13
         SAVE_FRAME
         jmp     exit_frame
@@ -211,7 +213,8 @@ hlt_trap:
         cmpl    $256, %eax
         jae     2f
 
-/* Default handler of interrupt EAX, jumped to by a client's handler: reflect, then IRET from its stack. */
+/* The default handler of interrupt EAX, to which a client's handler has jumped: reflects the interrupt, then does an
+   IRET from the client's stack. */
         cmpl    $0x21, %eax
         jne     3f
         cmpb    $0x4c, F_EAX + 1(%ebp)
@@ -247,7 +250,7 @@ hlt_state:                              /* far return */
         addl    $8, F_ESP(%ebp)
         jmp     exit_frame
 
-/* ES:ESI := the client's SS:ESP. EAX lost. */
+/* Out: ES:ESI = the client's SS:ESP. EAX is lost. */
         .globl  client_stack
 client_stack:
         movl    F_ESP(%ebp), %esi
@@ -259,7 +262,7 @@ client_stack:
         movzwl  %si, %esi
 1:      ret
 
-/* F_EFL := EAX, as far as the client may say so. */
+/* Sets F_EFL to those flags of EAX that the client may change. */
 set_eflags:
         andl    $0x40fd5, %eax          /* AC, OF DF IF TF SF ZF AF PF CF */
         orl     $IOPL3 | 2, %eax
@@ -278,7 +281,7 @@ entry_exc_code:
         jz      host_fault
         SAVE_FRAME
         movl    F_VEC(%ebp), %eax
-        cmpl    $2, %eax                /* NMI: the BIOS knows */
+        cmpl    $2, %eax                /* the BIOS handles NMI */
         jne     1f
         call    reflect
         jmp     exit_frame
@@ -291,7 +294,7 @@ entry_exc_code:
         movl    %cr2, %edx
         movl    %edx, F_CR2(%ebp)
 deliver:
-        pushl   %eax                    /* a handler that returned to the same fault, nothing changed? */
+        pushl   %eax                    /* count handlers that returned to the same fault with the same registers */
         movl    $again_fields, %esi
 1:      xorl    %eax, %eax
         lodsb
@@ -309,8 +312,8 @@ deliver:
         testl   %ebx, %ebx
         jz      2f
 
-/* To the client's handler (0203h) on the locked stack. Frame, upwards: return address (HLT_EXCRET), error
-   code, EIP, CS, EFLAGS, ESP, SS. All state is in that frame: the handler may never return. */
+/* Calls the client's handler (0203h) on the locked stack. Its frame, upwards: return address (HLT_EXCRET), error
+   code, EIP, CS, EFLAGS, ESP, SS. The frame contains the whole state, because the handler may never return. */
         movl    exc_vec(, %eax, 8), %ecx
         movl    lock_cur, %edx
         cmpw    $LOCK_SS, F_SS(%ebp)
@@ -318,7 +321,7 @@ deliver:
         movl    F_ESP(%ebp), %edx
         cmpl    $LOCK_STACK, %edx
         ja      crash
-        cmpl    $128, %edx              /* a handler that faults over and over */
+        cmpl    $128, %edx              /* the stack is used up: handlers that fault themselves */
         jb      crash
 4:      leal    lock_stack - 32(%edx), %edi
         leal    F_ERR(%ebp), %esi
@@ -337,7 +340,7 @@ deliver:
         andl    $~(IF_BIT | 0x100), F_EFL(%ebp)
         jmp     exit_frame
 
-/* No exception handler: 0 to 5 and 7 go to the interrupt's handler if there is one. */
+/* Without an exception handler, exceptions 0 to 7 go to the client's interrupt handler, if there is one. */
 2:      cmpl    $8, %eax
         jae     crash
         movzwl  pm_vec + 4(, %eax, 8), %ebx
@@ -357,10 +360,10 @@ deliver:
         andl    $~(IF_BIT | 0x100), F_EFL(%ebp)
         jmp     exit_frame
 
-/* --- Page faults in DOSBox. It runs the fault's handler inside the faulting instruction and gives up with "Pagefault
-       didn't correct page" when the program ends there. So the instruction is let through, on whatever page can
-       be had, and the fault is delivered, with the registers it had, when the client next comes to the host: at an
-       interrupt. The clock is made to tick at once for that; its rate is then the BIOS's. --- */
+/* --- Page faults in DOSBox. DOSBox runs the handler of a page fault inside the faulting instruction, and it stops with
+       "Pagefault didn't correct page" when the program ends there. Therefore the host lets the instruction complete on
+       any available page and delivers the fault later, with the registers of the fault, at the next interrupt. The
+       timer is programmed to interrupt at once for this, and afterwards to the rate of the BIOS. --- */
 
 /* EAX = 14, EBP = frame. */
 fault_first:
@@ -373,7 +376,7 @@ fault_first:
         call    fault_alarm
         jmp     1f
 
-/* An exception while one is pending. */
+/* An exception while a page fault is pending. */
 fault_again:
         cmpl    $14, %eax
         jne     fault_now
@@ -382,7 +385,7 @@ fault_again:
         orb     $IF_BIT >> 8, F_EFL + 1(%ebp)
         jmp     exit_frame
 
-/* The client made the host touch a bad address. Vector, error code, EIP, CS, EFLAGS on the stack. */
+/* The host has accessed a bad address for the client. On the stack: vector, error code, EIP, CS, EFLAGS. */
 fault_in_host:
         pushl   %gs
         pushl   %fs
@@ -395,7 +398,7 @@ fault_in_host:
         cld
         cmpb    $0, fault_pending
         jne     1f
-        movl    tss + 4, %esi           /* the client's frame, with this fault in it */
+        movl    tss + 4, %esi           /* deliver the client's frame with this fault */
         subl    $F_SIZE, %esi
         movl    $fault_frame, %edi
         movl    $F_SIZE / 4, %ecx
@@ -418,7 +421,7 @@ fault_in_host:
 fault_alarm:
         movl    $0, fault_count
         movb    $1, fault_pending
-        movb    $0x30, %al              /* counter 0, mode 0, 2: an interrupt in 2 microseconds */
+        movb    $0x30, %al              /* timer: counter 0, mode 0, count 2: an interrupt after 2 microseconds */
         outb    %al, $0x43
         movb    $2, %al
         outb    %al, $0x40
@@ -426,7 +429,7 @@ fault_alarm:
         outb    %al, $0x40
         ret
 
-/* Make the page at CR2 present: the client's own if 0507h made it absent, else one of the BIOS's ROM. */
+/* Makes the page at CR2 present: the client's own page if 0507h made it absent, otherwise a page of the BIOS's ROM. */
 fault_let_through:
         movw    $FLAT_DS, %ax
         movw    %ax, %fs
@@ -440,14 +443,14 @@ fault_let_through:
         movl    $ROM_PAGE, %eax
 1:      orb     $7, %al
         movl    %eax, %fs:PTES(, %edx, 4)
-        movl    fault_count, %eax       /* remember it, to be absent again */
+        movl    fault_count, %eax       /* remember the page: fault_now makes it absent again */
         cmpl    $FAULT_PAGES, %eax
         jae     2f
         movl    %edx, fault_pages(, %eax, 4)
         incl    fault_count
 2:      ret
 
-/* Deliver it. EBP = frame to be replaced. */
+/* Delivers the pending page fault. EBP = frame that the frame of the fault replaces. */
         .globl  fault_now
 fault_now:
         movl    $fault_frame, %esi
@@ -455,7 +458,7 @@ fault_now:
         movl    $F_SIZE / 4, %ecx
         rep movsl
         movb    $0, fault_pending
-        movb    $0x36, %al              /* mode 3, 65536 */
+        movb    $0x36, %al              /* timer: counter 0, mode 3, divisor 65536, as the BIOS sets it */
         outb    %al, $0x43
         xorl    %eax, %eax
         outb    %al, $0x40
@@ -481,7 +484,7 @@ fault_now:
         movl    F_VEC(%ebp), %eax
         jmp     deliver
 
-/* The exception handler's far return ran into HLT_EXCRET; the rest of the frame is on its stack. */
+/* The far return of the exception handler led to HLT_EXCRET; the rest of the frame is on the handler's stack. */
         .globl  hlt_excret
 hlt_excret:
         call    client_stack
@@ -503,8 +506,9 @@ hlt_excret:
         rep movsl
         jmp     exit_frame
 
-/* A fault in the host: vector, error code, EIP, CS, EFLAGS on the stack, then what was there. Expected only
-   in exit_frame. Otherwise the client handed us something unusable; its frame is on top of the ring 0 stack. */
+/* A fault in the host. On the stack: vector, error code, EIP, CS, EFLAGS, then the host's data. A fault is expected
+   only when exit_frame pops a selector. Any other fault means that the client has passed bad arguments; the client's
+   frame is at the start of the ring 0 stack. */
 host_fault:
         cmpl    $2, (%esp)              /* NMI */
         je      3f
@@ -512,7 +516,7 @@ host_fault:
         jb      1f
         cmpl    $pop_gs, 8(%esp)
         ja      1f
-        movl    $0, 20(%esp)            /* the selector about to be popped */
+        movl    $0, 20(%esp)            /* replace the invalid selector that was about to be popped */
 3:      addl    $8, %esp
         iretl
 1:      cmpl    $14, (%esp)
@@ -532,7 +536,7 @@ host_fault:
         movl    %eax, F_CR2(%ebp)
         cld
 
-/* Ctrl-C in DOS, called by the client at the top of the ring 0 stack. */
+/* Ctrl-C in a DOS call of the client, whose frame is at the start of the ring 0 stack. */
         .globl  ctrl_c
 ctrl_c:
         movl    tss + 4, %ebp
@@ -540,10 +544,11 @@ ctrl_c:
         movl    $0x23, F_VEC(%ebp)
         movl    $0, F_ERR(%ebp)
 
-/* --- The end: print the frame at EBP as DJGPP programs do, restore text mode, exit with status 255. --- */
+/* --- Ends the client: prints the frame at EBP in the format of DJGPP programs, restores text mode, exits with status
+       255. --- */
         .globl  crash
 crash:
-        movl    tss + 4, %esp           /* keep the frame, forget what was above it */
+        movl    tss + 4, %esp           /* keep the frame, drop the rest of the stack */
         subl    $F_SIZE, %esp
         cmpl    %esp, %ebp
         jae     1f
@@ -584,7 +589,7 @@ crash:
         subl    %edx, %edi
         jmp     crash_exit
 
-/* Too many interrupts or calls inside one another. */
+/* Ends the client because interrupts or calls are nested too deeply. */
         .globl  fatal_nesting
 fatal_nesting:
         movw    $HOST_DS, %dx
@@ -599,14 +604,14 @@ fatal_nesting:
         movl    $r0_stack_top, tss + 4
         movl    tss + 4, %esp
 
-/* EDI bytes at text to standard error; machine as found; exit. */
+/* Writes EDI bytes at `text` to standard error, restores timer, interrupt controllers and video mode, and exits. */
 crash_exit:
         pushl   %edi
-        movl    $rm_stack_top - 64, %eax /* whatever was nested is over */
+        movl    $rm_stack_top - 64, %eax /* drop all nested RM calls */
         movw    %ax, rm_stack_cur
         movw    $FLAT_DS, %ax
         movw    %ax, %fs
-        movl    in_dos, %eax            /* DOS may have been interrupted: it never goes on there */
+        movl    in_dos, %eax            /* an interrupted DOS call will never continue: DOS is not busy */
         movb    $0, %fs:(%eax)
         movb    %fs:0x449, %al          /* video mode */
         cmpb    $3, %al
@@ -634,7 +639,7 @@ crash_exit:
         movb    $0xff, %al
         jmp     host_exit
 
-/* ESI: text, NUL at its end; to EDI. ESI behind the NUL. */
+/* Copies the text at ESI, up to its NUL, to EDI. Out: ESI = address after the NUL, EDI = end of the copy. */
 put_text:
         lodsb
         testb   %al, %al
@@ -643,7 +648,7 @@ put_text:
         jmp     put_text
 1:      ret
 
-/* EAX in hexadecimal to EDI. ECX kept. */
+/* Write the lowest 2, 4 or 8 hexadecimal digits of EAX to EDI. ECX is kept. */
 put_hex2:
         shll    $24, %eax
         movb    $2, %dl
@@ -667,7 +672,7 @@ put_hex8:
         jnz     1b
         ret
 
-/* Selector EAX, base and limit. */
+/* Writes selector EAX with its base and limit to EDI. */
 put_selector:
         pushl   %ebx
         pushl   %eax

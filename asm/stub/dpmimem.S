@@ -1,14 +1,14 @@
-/* The host's memory: int 31h AH=05h and 08h.
+/* The memory services of the host: int 31h AH=05h and 08h.
 
-   The client's blocks lie in at most ARENAS pieces of extended memory. An arena is
+   The client's blocks lie in at most ARENAS pieces of extended memory, the arenas. An entry of their table is
 
-     .base .size .handle .flags      16 bytes; handle: XMS handle + 1, or 0 for memory that is not XMS's
+     .base .size .handle .flags      16 bytes; handle: XMS handle + 1, or 0 for memory that is not from XMS
 
-   With XMS an arena is allocated when no present one has room, so that what the program does not use stays
-   free for the programs it starts; an arena without blocks goes back at once. Without XMS there is one arena
-   from the start: what the BIOS reports, or under VCPI the pages that the server can give.
+   With XMS an arena is allocated only when no existing arena has room, so that memory that the program does not use
+   stays free for programs that it starts; an arena without blocks is freed at once. Without XMS there is one arena
+   from the start: the memory that the BIOS reports, or under VCPI the pages that the server can supply.
 
-   A block is .base, .size (both multiples of 4 KB, size 0 = unused entry); its base is its DPMI handle. */
+   The entry of a block is .base, .size (both multiples of 4 KB; size 0: unused entry). Its base is its DPMI handle. */
 
 #include "dpmi.h"
 
@@ -20,7 +20,8 @@
         SECTION(.host)
         .code32
 
-/* XMS function: EAX = AX, EDX. Out: EAX, EBX, EDX of the driver, in rmregs as well. */
+/* Calls the XMS driver. In: EAX, EDX = registers for the driver. Out: EAX, EBX, EDX as the driver returned them, also
+   in rmregs. */
 xms_call:
         movl    %eax, rmregs + R_EAX
         movl    %edx, rmregs + R_EDX
@@ -36,7 +37,8 @@ xms_call:
         movl    rmregs + R_EDX, %edx
         ret
 
-/* EAX := bytes that one more arena could have, multiple of 4 KB; 0 if none. All but EBP lost. */
+/* Out: EAX = largest size in bytes of one more arena, a multiple of 4 KB; 0 if there can be none. All registers except
+   EBP are lost. */
 arena_possible:
         cmpl    $0, xms_entry
         je      3f
@@ -66,17 +68,17 @@ arena_possible:
 3:      xorl    %eax, %eax
         ret
 
-/* A new arena of ECX bytes at least. Carry if there is none. EDI = arena. All but EBP lost.
-   Arenas are few, so each takes a quarter of what is left, and 1 MB at least; the first one, for the program
-   itself, no more, so that a large block is still to be had. XMS usually gives them back to back, and then blocks
-   of one and the next do not lie apart. */
+/* Allocates an arena of at least ECX bytes. Out: EDI = arena, or carry. All registers except EBP are lost.
+   There are few arenas, so each takes a quarter of the free memory and at least 1 MB. The first arena, for the program
+   itself, takes only 1 MB if that is enough, so that a large block remains available. XMS usually returns adjacent
+   memory, so that a block can extend from one arena to the next. */
 arena_new:
         pushl   %ecx
         call    arena_possible
         popl    %ecx
         cmpl    %eax, %ecx
-        ja      8f                      /* above: no carry, see there */
-        pushl   %ecx                    /* what is asked for */
+        ja      8f                      /* carry is clear here; 8 sets it */
+        pushl   %ecx                    /* the requested size */
         xorl    %edx, %edx
         cmpl    $0, arenas + A_SIZE
         je      2f
@@ -120,7 +122,7 @@ arena_new:
         movw    %bx, %dx
         cmpl    $0, xms_slack
         jne     4f
-        testl   $0x0fff, %edx           /* not at a page: ask for 3 KB more, now and in future */
+        testl   $0x0fff, %edx           /* not at a page boundary: request 3 KB more from now on, and try again */
         jz      4f
         movl    $3, xms_slack
         pushl   %esi
@@ -151,7 +153,7 @@ arena_new:
 8:      stc
         ret
 
-/* Give arena EDI back if it is XMS's and no block lies in it. All but EBP lost. */
+/* Frees arena EDI if it is from XMS and contains no block. All registers except EBP are lost. */
 arena_release:
         cmpl    $0, A_HANDLE(%edi)
         je      3f
@@ -160,10 +162,10 @@ arena_release:
 1:      movl    4(%esi), %eax
         testl   %eax, %eax
         jz      2f
-        addl    (%esi), %eax            /* ends behind its start, */
+        addl    (%esi), %eax            /* a block lies in the arena if it ends after the arena's start */
         cmpl    %edx, %eax
         jbe     2f
-        movl    (%esi), %eax            /* and starts before its end */
+        movl    (%esi), %eax            /* and begins before the arena's end */
         subl    A_SIZE(%edi), %eax
         jb      3f
         cmpl    %edx, %eax
@@ -183,8 +185,8 @@ arena_release:
         call    xms_call
 3:      ret
 
-/* First block that overlaps ECX bytes from EDX: ESI, carry; no carry if there is none. EAX lost. The entry
-   at EBX is left out. */
+/* Finds the first block that overlaps the ECX bytes at EDX, ignoring the entry at EBX. Out: carry and ESI = entry; no
+   carry if there is none. EAX is lost. */
 overlap:
         movl    $blocks, %esi
 1:      movl    4(%esi), %eax
@@ -193,11 +195,11 @@ overlap:
         cmpl    %ebx, %esi
         je      2f
         addl    (%esi), %eax
-        cmpl    %eax, %edx              /* behind its end? */
+        cmpl    %eax, %edx              /* after the block's end? */
         jae     2f
         movl    %edx, %eax
         addl    %ecx, %eax
-        cmpl    (%esi), %eax            /* before its start? */
+        cmpl    (%esi), %eax            /* before the block's start? */
         ja      3f
 2:      addl    $8, %esi
         cmpl    $blocks_end, %esi
@@ -207,7 +209,7 @@ overlap:
 3:      stc
         ret
 
-/* EAX := end of arena EDI and of those that follow it without a gap. ESI lost. */
+/* Out: EAX = end of arena EDI together with the arenas that follow it without a gap. ESI is lost. */
 arena_end:
         movl    A_BASE(%edi), %eax
         addl    A_SIZE(%edi), %eax
@@ -223,17 +225,17 @@ arena_end:
         jb      2b
         ret
 
-/* EDX := start of ECX free bytes, starting in arena EDI. Carry if there are none. EAX, EBX, ESI lost. */
+/* Finds ECX free bytes that begin in arena EDI. Out: EDX = their start, or carry. EAX, EBX, ESI are lost. */
 arena_fit:
         movl    A_BASE(%edi), %edx
         xorl    %ebx, %ebx
-1:      movl    A_BASE(%edi), %eax      /* still in this one? */
+1:      movl    A_BASE(%edi), %eax      /* does the place begin in this arena? */
         addl    A_SIZE(%edi), %eax
         cmpl    %eax, %edx
         cmc
         jc      2f
         call    arena_end
-        subl    %edx, %eax              /* what is left */
+        subl    %edx, %eax              /* bytes from the place to the end */
         cmpl    %ecx, %eax
         jb      2f
         call    overlap
@@ -243,7 +245,7 @@ arena_fit:
         jmp     1b
 2:      ret
 
-/* Allocate ECX bytes (a multiple of 4 KB, not 0): EDX = base, EDI = entry. Or carry and AX = error. */
+/* Allocates a block of ECX bytes (a multiple of 4 KB, not 0). Out: EDX = base, EDI = entry; or carry and AX = error. */
 mem_alloc:
         movl    $arenas, %edi
 1:      cmpl    $0, A_SIZE(%edi)
@@ -258,7 +260,7 @@ mem_alloc:
         popl    %ecx
         movl    $E_NO_PHYSICAL, %eax
         jc      7f
-        movl    $arenas, %edi           /* again from the start: it may continue another one */
+        movl    $arenas, %edi           /* from the first one: the new arena may continue an older one */
 8:      cmpl    $0, A_SIZE(%edi)
         je      9f
         call    arena_fit
@@ -280,10 +282,10 @@ mem_alloc:
         movl    %ecx, 4(%edi)
 7:      ret
 
-/* --- Pages. In plain real mode linear and physical addresses are the same; under VCPI pages come one by
-       one from the server. --- */
+/* --- Pages. In plain real mode linear addresses equal physical addresses; under VCPI the server supplies single
+       pages. --- */
 
-/* VCPI function EAX in PM. Some servers return with RETF as they should, DOSBox's with IRETD. */
+/* Calls VCPI function EAX from PM. Servers should return with RETF, but DOSBox returns with IRETD; both work here. */
 vcpi_call:
         pushl   %ebp
         movl    %esp, %ebp
@@ -293,7 +295,8 @@ vcpi_call:
         popl    %ebp
         ret
 
-/* Map memory to ECX bytes from EDX. Carry and AX = error if there is none left. Other registers kept. */
+/* Maps memory to the ECX bytes at linear address EDX. Out: carry and AX = error if there is none left. Other registers
+   are kept. */
 mem_commit:
         pushl   %ebx
         pushl   %ecx
@@ -326,7 +329,7 @@ mem_commit:
         popl    %ebx
         clc
         ret
-2:      movl    %edx, %ecx              /* give back what we got */
+2:      movl    %edx, %ecx              /* unmap the pages that were mapped */
         movl    %ebx, %edx
         subl    %ebx, %ecx
         jz      3f
@@ -339,7 +342,8 @@ mem_commit:
         stc
         ret
 
-/* A page table for linear address EDX. Carry if there is no page for it. EAX, ESI lost; FS = FLAT_DS. */
+/* Makes sure that there is a page table for linear address EDX. Out: carry if there is no page for the table. EAX, ESI
+   are lost. FS must be FLAT_DS. */
         .globl  page_table
 page_table:
         movl    %edx, %esi
@@ -361,7 +365,7 @@ page_table:
         addl    $4096, pool_next
 4:      orl     $7, %edx
         movl    %edx, %fs:PDES(, %esi, 4)
-        shll    $12, %esi               /* clear it where it is seen now */
+        shll    $12, %esi               /* clear the new table, which is visible at PTES now */
         pushl   %ecx
         movl    $1024, %ecx
 2:      movl    $0, %fs:PTES - 4(%esi, %ecx, 4)
@@ -374,7 +378,7 @@ page_table:
         stc
         ret
 
-/* The reverse of mem_commit. All registers but EAX kept. */
+/* Unmaps the ECX bytes at linear address EDX. All registers except EAX are kept. */
 mem_uncommit:
         pushl   %ecx
         pushl   %edx
@@ -393,14 +397,14 @@ mem_uncommit:
         call    vcpi_call
 2:      leal    1(%esi), %edx
         loop    1b
-        movl    %cr3, %eax              /* the processor remembers translations */
+        movl    %cr3, %eax              /* flush the processor's address translations */
         movl    %eax, %cr3
         popl    %esi
         popl    %edx
         popl    %ecx
         ret
 
-/* At the end of the client: under VCPI all pages go back to the server. */
+/* At the end of the client: under VCPI returns all pages to the server. */
         .globl  mem_free_all
 mem_free_all:
         cmpl    $0, vcpi_entry
@@ -424,10 +428,10 @@ mem_free_all:
         movl    $0xde05, %eax
         call    vcpi_call
 4:      decl    %edi
-        jnz     3b                      /* the first one lies in DOS memory */
+        jnz     3b                      /* entry 0, the first page table, lies in DOS memory */
 9:      ret
 
-/* Free the block at EDI. All but EBP lost. */
+/* Frees the block with entry EDI, and arenas that are now empty. All registers except EBP are lost. */
 mem_free:
         movl    (%edi), %edx
         movl    4(%edi), %ecx
@@ -444,12 +448,12 @@ mem_free:
         jb      1b
         ret
 
-/* EDI := entry of the block with the client's handle SI:DI. Carry and AX = 8023h if there is none. */
+/* Out: EDI = entry of the block with the client's handle SI:DI, or carry and AX = 8023h. */
 block_entry:
         movzwl  F_ESI(%ebp), %eax
         shll    $16, %eax
         movw    F_EDI(%ebp), %ax
-/* The same for handle EAX. */
+/* Out: EDI = entry of the block with handle EAX, or carry and AX = 8023h. */
 block_find:
         movl    $blocks, %edi
 1:      cmpl    $0, 4(%edi)
@@ -463,7 +467,7 @@ block_find:
         stc
 3:      ret
 
-/* ECX := BX:CX in whole pages. Carry and AX = 8021h for 0 and for sizes near 4 GB. */
+/* Rounds the size BX:CX up to whole pages. Out: ECX = size; or carry and AX = 8021h for 0 and for sizes near 4 GB. */
 block_size:
         shll    $16, %ebx
         movw    %cx, %bx
@@ -478,7 +482,7 @@ block_size:
         stc
         ret
 
-/* The block EDX, ECX for the client: BX:CX = address, SI:DI = handle. */
+/* Returns the block at EDX to the client: BX:CX = address, SI:DI = handle. */
 block_result:
         movw    %dx, F_ECX(%ebp)
         movw    %dx, F_EDI(%ebp)
@@ -488,8 +492,8 @@ block_result:
         clc
         ret
 
-/* 0500h  free memory.  In: ES:EDI = 30h bytes.  Out: there, -1 where not known. All pages are physical ones,
-   unlocked or not, and there is no swap file. */
+/* 0500h  free memory information.  In: ES:EDI = buffer of 30h bytes.  Out: the buffer; unknown fields are -1. Locked and
+   unlocked pages are all physical pages, and there is no swap file. */
         .globl  svc_0500
 svc_0500:
         call    arena_possible
@@ -499,9 +503,9 @@ svc_0500:
         movl    $arenas, %edi
 1:      movl    A_SIZE(%edi), %eax
         addl    %eax, (%esp)
-        movl    A_BASE(%edi), %edx      /* walk through its gaps */
+        movl    A_BASE(%edi), %edx      /* walk through the gaps of the arena */
 2:      movl    A_BASE(%edi), %ecx
-        addl    A_SIZE(%edi), %ecx      /* next block's start above EDX, or the end */
+        addl    A_SIZE(%edi), %ecx      /* ECX = start of the next block above EDX, or end of the arena */
         cmpl    %ecx, %edx
         jae     6f
         movl    $blocks, %esi
@@ -509,9 +513,9 @@ svc_0500:
         testl   %eax, %eax
         jz      4f
         addl    (%esi), %eax
-        cmpl    %eax, %edx              /* behind this block? */
+        cmpl    %eax, %edx              /* after this block? */
         jae     4f
-        cmpl    (%esi), %edx            /* in it? */
+        cmpl    (%esi), %edx            /* inside this block? */
         jae     5f
         cmpl    (%esi), %ecx
         jbe     4f
@@ -527,7 +531,7 @@ svc_0500:
         movl    %eax, 4(%esp)
 7:      movl    %ecx, %edx
         jmp     2b
-5:      movl    %eax, %edx              /* its end */
+5:      movl    %eax, %edx              /* go on at the block's end */
         jmp     2b
 6:      addl    $16, %edi
         cmpl    $arenas_end, %edi
@@ -581,8 +585,9 @@ svc_0502:
         clc
 1:      ret
 
-/* Can block EBX have ECX bytes where it is? Carry if not, and not zero if only because its arena ends, EAX bytes
-   behind its base. EDX = its base. EAX, ESI, EDI lost. */
+/* Tells whether block EBX can grow to ECX bytes in place. Out: EDX = its base; carry if it cannot. With carry, the zero
+   flag is clear if only the end of the arena prevents it, which is EAX bytes after the base; it is set if another block
+   does. EAX, ESI, EDI are lost. */
 room_behind:
         movl    (%ebx), %edx
         movl    $arenas, %edi
@@ -602,7 +607,7 @@ room_behind:
         stc
         ret
 
-/* 0503h  resize.  In: BX:CX = bytes, SI:DI = handle.  Out: as 0501h; the contents move along. */
+/* 0503h  resize.  In: BX:CX = bytes, SI:DI = handle.  Out: as 0501h; when the block moves, its contents are copied. */
         .globl  svc_0503
 svc_0503:
         call    block_size
@@ -613,13 +618,13 @@ svc_0503:
         cmpl    4(%edi), %ecx
         je      block_result
         jb      5f
-        movl    %edi, %ebx              /* larger: is there room behind it? */
+        movl    %edi, %ebx              /* larger: is there room after the block? */
         call    room_behind
         jnc     2f
-        jz      4f                      /* no, another block is there */
-        pushl   %ebx                    /* the arena ends: perhaps a new one continues it */
+        jz      4f                      /* no: another block is there */
+        pushl   %ebx                    /* the arena ends: perhaps a new arena continues it */
         pushl   %ecx
-        subl    %eax, %ecx              /* what is missing */
+        subl    %eax, %ecx              /* the bytes that are missing */
         call    arena_new
         popl    %ecx
         popl    %ebx
@@ -637,7 +642,7 @@ svc_0503:
         jc      9f
 3:      movl    %ecx, 4(%edi)
         jmp     block_result
-5:      pushl   %ecx                    /* smaller: stays */
+5:      pushl   %ecx                    /* smaller: the block stays in place */
         pushl   %edx
         addl    %ecx, %edx
         subl    4(%edi), %ecx
@@ -646,14 +651,14 @@ svc_0503:
         popl    %edx
         popl    %ecx
         jmp     3b
-4:      pushl   %ebx                    /* no: a new one */
+4:      pushl   %ebx                    /* no room: allocate a new block and copy */
         call    mem_alloc
         popl    %ebx
         jc      9f
         pushl   %edx
         movw    $FLAT_DS, %ax
         movw    %ax, %fs
-        movl    (%ebx), %esi            /* pages that 0507h made absent are present for the copy, and marked, */
+        movl    (%ebx), %esi            /* for the copy, make pages present that 0507h made absent, and mark them */
         movl    4(%ebx), %ecx
         shrl    $12, %esi
         shrl    $12, %ecx
@@ -674,7 +679,7 @@ svc_0503:
         popl    %ds
         pushl   %ss
         popl    %es
-        movl    (%ebx), %esi            /* and absent at the new place */
+        movl    (%ebx), %esi            /* make the marked pages absent at the new place */
         movl    4(%ebx), %ecx
         shrl    $12, %esi
         shrl    $12, %ecx
@@ -692,8 +697,8 @@ svc_0503:
 9:      ret
 
 /* 0507h  set page attributes, a DPMI 1.0 function that DJGPP's crt0 calls to make NULL pointers fault.
-   In: ESI = handle, EBX = offset in the block, ECX = pages, ES:EDX = a word for each page: bits 0 to
-   2 = 0 absent, 1 present, 3 as it is; bit 3 = writeable.  Out: ECX = pages done, on an error. */
+   In: ESI = handle, EBX = offset in the block, ECX = number of pages, ES:EDX = a word for each page: bits 0
+   to 2 = 0 absent, 1 present, 3 unchanged; bit 3 = writeable.  Out: on a bad word, ECX = number of pages done. */
         .globl  svc_0507
 svc_0507:
         movl    F_ESI(%ebp), %eax
@@ -726,7 +731,7 @@ svc_0507:
 2:      andb    $7, %al
         cmpb    $3, %al
         je      3f
-        andb    $~1, %dl                /* absent; its address stays, the page is still the block's */
+        andb    $~1, %dl                /* absent; the entry keeps the address, as the page still belongs to the block */
         cmpb    $1, %al
         jb      3f
         ja      7f
@@ -746,8 +751,8 @@ svc_0507:
         stc
 9:      ret
 
-/* 0800h  map physical memory.  In: BX:CX = physical address, SI:DI = bytes.  Out: BX:CX = linear address:
-   the same one in plain real mode; under VCPI linear addresses are used up from C0000000h on. */
+/* 0800h  map physical memory.  In: BX:CX = physical address, SI:DI = bytes.  Out: BX:CX = linear address. It equals the
+   physical address in plain real mode; under VCPI linear addresses from C0000000h on are used and never freed. */
         .globl  svc_0800
 svc_0800:
         shll    $16, %ebx

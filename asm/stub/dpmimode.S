@@ -1,27 +1,27 @@
-/* The host's mode switch: every way between protected mode (PM) and real or V86 mode (RM).
+/* The mode switches of the host: all ways between protected mode (PM) and real or V86 mode (RM).
 
-   Two one-way streets, taken with interrupts disabled:
+   There are two one-way switches, both made with interrupts disabled:
 
-     pm_to_rm   saves ESP in r0_cur, goes to RM and loads the whole register set of `rmregs` there,
-                SS:SP from rm_spss; then POPF and a far return from that stack say where to go on.
-     rm_save    stores the RM register set in `rmregs`, goes to PM, loads ESP from r0_cur and jumps to
+     pm_to_rm   saves ESP in r0_cur, switches to RM and loads the whole register set `rmregs` there, with
+                SS:SP from rm_spss; POPF and a far return from that stack then lead to the RM code.
+     rm_save    stores the RM register set in `rmregs`, switches to PM, loads ESP from r0_cur and jumps to
                 pm_cont.
 
-   A call of RM code from PM (rm_call) is the first street with `rm_return` as return address, then the
-   second with a plain RET as continuation. A call of PM code from RM (call-backs, hooked interrupts:
-   rm_up) is the second street, and at its end the first. They nest: whoever goes down leaves r0_cur at the
-   top of what it has on the ring 0 stack, whoever comes up goes on below it and moves the TSS's ESP0 there,
-   so that interrupts of the client cannot overwrite it. `rmregs` itself is only live with interrupts
-   disabled, so one is enough.
+   A call of RM code from PM (rm_call) uses the first switch with `rm_return` as return address, then the
+   second switch with a plain RET as continuation. A call of PM code from RM (call-backs, hooked interrupts:
+   rm_up) uses the second switch, and at its end the first one. Such calls nest: a switch to RM leaves r0_cur
+   at the top of the used part of the ring 0 stack; a call of PM code continues below it and moves the TSS's
+   ESP0 there, so that interrupts of the client cannot overwrite the used part. `rmregs` is in use only while
+   interrupts are disabled, so a single copy is enough.
 
-   How PE is set and cleared differs between plain real mode and VCPI: two jump vectors, set at start. */
+   Plain real mode and VCPI set and clear PE in different ways: two jump vectors are set at the start. */
 
 #include "dpmi.h"
 
         SECTION(.host)
 
-/* --- PM to RM. In: rmregs, rm_spss; on that stack FLAGS, IP, CS. Called (then rm_return comes back to the
-       caller) or jumped to. DS = HOST_DS. --- */
+/* --- PM to RM. In: rmregs, rm_spss; FLAGS, IP, CS on that stack; DS = HOST_DS. It is called (rm_return then returns
+       to the caller) or jumped to. --- */
         .code32
         .globl  pm_to_rm
 pm_to_rm:
@@ -32,7 +32,7 @@ pm_to_rm:
 raw_pm_to_rm:
         ljmp    $HOST_CS16, $1f
         .code16
-1:      movw    $HOST_DS16, %ax         /* limits of 64 KB and 16-bit stacks stay in force in RM */
+1:      movw    $HOST_DS16, %ax         /* RM keeps the limits, which must be 64 KB, and the stack size of 16 bits */
         movw    %ax, %ss
         movw    %ax, %ds
         movw    %ax, %es
@@ -40,7 +40,7 @@ raw_pm_to_rm:
         movw    %ax, %gs
         lidtl   rm_idtr
         movl    %cr0, %eax
-        andl    $0x7fffffff, %eax       /* paging off first; we are where linear is physical */
+        andl    $0x7fffffff, %eax       /* paging off first; here linear addresses equal physical ones */
         movl    %eax, %cr0
         jmp     2f
 2:      andb    $0xfe, %al
@@ -51,7 +51,7 @@ raw_pm_to_rm:
 rm_load:
         lssw    %cs:rmregs_ptr, %sp
         popal
-        leaw    2(%esp), %sp            /* flags come last */
+        leaw    2(%esp), %sp            /* skip the flags: POPF takes them from the stack at rm_spss */
         popw    %es
         popw    %ds
         popw    %fs
@@ -60,7 +60,7 @@ rm_load:
         popfw
         lretw
 
-/* The short way down and up for a hardware interrupt (rm_irq_call): no registers are handed over. */
+/* A shorter switch to RM and back for a hardware interrupt (rm_irq_call): no registers are passed. */
 rm_irq:
         movw    $rm_load, %cs:rm_go
         lssw    %cs:rm_spss, %sp
@@ -72,7 +72,7 @@ rm_irq:
 
 /* --- RM to PM. --- */
 
-/* Return address of RM code that was called from PM. */
+/* RM code that was called from PM returns here. */
         .globl  rm_return
 rm_return:
         pushfw
@@ -81,7 +81,7 @@ rm_return:
         movw    $pm_return, %cs:pm_cont
         jmp     rm_save
 
-/* RM code that leads to PM: 16 call-backs, then the hooked interrupts, the raw mode switch, Ctrl-C. Each
+/* Entry points in RM that lead to PM: 16 call-backs, then the hooked interrupts, the raw mode switch, Ctrl-C. Each
    pushes its number. */
         .globl  up_stubs
 up_stubs:
@@ -126,7 +126,7 @@ raw_rm_to_pm:
         movl    %eax, %cr0
         ljmpl   $HOST_CS, $pm_arrive
 
-/* The same under VCPI, int 67h AX=DE0Ch. ESI = linear address of the table of what to load. */
+/* RM to PM under VCPI, int 67h AX=DE0Ch. ESI = linear address of the table of registers to load. */
         .globl  vcpi_rm_to_pm
 vcpi_rm_to_pm:
         lssw    %cs:switch_stack_ptr, %sp
@@ -142,7 +142,7 @@ pm_arrive:
         movw    %ax, %ds
         movw    %ax, %es
         movl    r0_cur, %esp
-        andb    $0xfd, gdt + TSS_SEL + 5 /* not busy, else LTR faults */
+        andb    $0xfd, gdt + TSS_SEL + 5 /* clear the busy bit, else LTR faults */
         movw    $TSS_SEL, %ax
         ltr     %ax
         movw    $LDT_SEL, %ax
@@ -154,7 +154,7 @@ pm_arrive:
 pm_return:
         ret
 
-/* VCPI's way down: a far call of the server with the V86 segment registers on the stack. */
+/* PM to RM under VCPI: a far call of the server with the V86 registers on the stack. */
         .globl  vcpi_pm_to_rm
 vcpi_pm_to_rm:
         movzwl  host_seg, %eax
@@ -173,11 +173,11 @@ vcpi_pm_to_rm:
         movl    $0xde0c, %eax
         lcall   *%ss:vcpi_entry
 
-/* --- Call RM code from PM.
-       In:  rmregs (SS:SP = 0: the host's stack), EAX = target CS:IP,
+/* --- Calls RM code from PM.
+       In:  rmregs (SS:SP = 0: use the host's stack), EAX = target CS:IP,
             BL = 1: the target returns with IRET, as from an interrupt; 0: with a far return,
             ECX = words to copy from ES:ESI to the RM stack.
-       Out: rmregs. EBP kept, everything else lost; DS = ES = HOST_DS. --- */
+       Out: rmregs. EBP is kept, all other registers are lost; DS = ES = HOST_DS. --- */
         .globl  rm_call
 rm_call:
         movw    $FLAT_DS, %dx
@@ -192,7 +192,7 @@ rm_call:
         shll    $4, %edx                /* linear address of the stack segment */
         pushl   %ebp
         jecxz   3f
-        leal    (%ecx, %ecx), %ebp      /* copy, last word first */
+        leal    (%ecx, %ecx), %ebp      /* copy the words, the last one first */
         addl    %ebp, %esi
 2:      subl    $2, %esi
         subw    $2, %di
@@ -200,7 +200,7 @@ rm_call:
         movw    %bp, %fs:(%edx, %edi)
         loop    2b
 3:      movw    rmregs + R_FLAGS, %cx
-        andw    $0x0ed5, %cx            /* no TF, NT, IOPL */
+        andw    $0x0ed5, %cx            /* clear TF, NT, IOPL */
         orw     $0x0002, %cx
         testb   $1, %bl
         jz      4f
@@ -221,8 +221,8 @@ rm_call:
         popl    %ebp
         ret
 
-/* Call the RM handler of hardware interrupt EAX, a vector that is not hooked by the client. All registers but
-   ESP lost; DS = ES = HOST_DS. */
+/* Calls the RM handler of hardware interrupt EAX, a vector that the client has not hooked. All registers except ESP
+   are lost; DS = ES = HOST_DS. */
         .globl  rm_irq_call
 rm_irq_call:
         movw    $FLAT_DS, %dx
@@ -239,8 +239,8 @@ rm_irq_call:
         addw    $RM_CHUNK, rm_stack_cur
         ret
 
-/* Call RM interrupt EAX with rmregs. Lost and kept as above. A vector that leads up to PM by our own hook
-   is called as it was before the hook. */
+/* Calls RM interrupt EAX with rmregs; registers are lost and kept as in rm_call. If the vector leads to one of our
+   own hooks, the handler before the hook is called. */
         .globl  rm_int
 rm_int:
         movw    $FLAT_DS, %dx
@@ -262,10 +262,10 @@ rm_int:
         jae     3f
         movl    hook_old(, %eax, 4), %eax
         jmp     1b
-3:      movl    %fs:(0x24 * 4), %eax    /* the host's own defaults for 23h, 24h */
+3:      movl    %fs:(0x24 * 4), %eax    /* the host's own handlers, for 23h and 24h */
         jmp     1b
 
-/* int 21h for the host itself: EAX, EBX, EDX in rmregs set by the caller. Out: CF of DOS. */
+/* Calls int 21h for the host itself. In: EAX, EBX, EDX in rmregs. Out: the carry of DOS. */
         .globl  dos_call
 dos_call:
         movw    host_seg, %ax
@@ -278,7 +278,7 @@ dos_call:
         btw     $0, rmregs + R_FLAGS
         ret
 
-/* --- PM code called from RM. ESP = r0_cur, rmregs = the RM registers, up_spss = RM SS:SP. --- */
+/* --- PM code called from RM. In: ESP = r0_cur, rmregs = the RM registers, up_spss = SS:SP of the RM code. --- */
 pm_up:
         cmpl    $r0_stack + 512, %esp
         jb      fatal_nesting
@@ -289,8 +289,8 @@ pm_up:
         je      raw_to_pm
         ja      ctrl_c
 
-/* A hooked interrupt. The ring 0 stack keeps what RM needs afterwards; GP registers travel through the
-   handler, so that it can answer in them (int 24h does, in AL). */
+/* A hooked interrupt. The ring 0 stack keeps the segment registers and SS:SP of the RM code; the general registers
+   are passed to the handler and back, so that it can return results in them (int 24h does so in AL). */
         movzbl  hook_vec(%eax), %eax
         pushl   rmregs + R_FS
         pushl   rmregs + R_ES
@@ -321,8 +321,8 @@ pm_up:
         popl    %ds
         iretl
 
-/* Push what lock_stack_leave needs (old lock_cur, old ESP0), give out a piece of the locked stack, and make
-   the ring 0 stack below here the one for interrupts. Out: EDX = offset in the locked stack. ECX lost. */
+/* Pushes the old lock_cur and the old ESP0 for lock_stack_leave, allocates a piece of the locked stack, and makes
+   interrupts use the ring 0 stack below ESP. Out: EDX = offset in the locked stack. ECX is lost. */
 lock_stack_enter:
         popl    %ecx
         movl    lock_cur, %edx
@@ -333,7 +333,7 @@ lock_stack_enter:
         movl    %esp, tss + 4
         jmp     *%ecx
 
-/* Undo it; the ring 0 stack is then where it was before the call from RM. */
+/* Undoes lock_stack_enter; the ring 0 stack is then where it was when lock_stack_enter was called. */
 lock_stack_leave:
         popl    %ecx
         movl    tss + 4, %esp
@@ -341,7 +341,7 @@ lock_stack_leave:
         popl    lock_cur
         jmp     *%ecx
 
-/* The handler's IRET ran into HLT_UPRET. EBP = frame. */
+/* The handler's IRET led to HLT_UPRET. EBP = frame. */
         .globl  hlt_upret
 hlt_upret:
         call    frame_to_rmregs
@@ -355,14 +355,14 @@ hlt_upret:
         movzwl  rm_spss + 2, %edx
         shll    $4, %edx
         addl    %edx, %edi
-        movl    %fs:(%edi), %eax        /* IP, CS, FLAGS as an IRET would take them: FLAGS first for us */
+        movl    %fs:(%edi), %eax        /* reorder IP, CS, FLAGS (for IRET) to FLAGS, IP, CS (for pm_to_rm) */
         movw    %fs:4(%edi), %cx
         movw    %cx, %fs:(%edi)
         movl    %eax, %fs:2(%edi)
         jmp     pm_to_rm
 
-/* Call-back EAX + CALLBACKS. The client's procedure gets DS:ESI = RM SS:SP, ES:EDI = its register
-   structure, filled with the RM registers. */
+/* Call-back number EAX + CALLBACKS. The client's procedure gets DS:ESI = SS:SP of the RM code, and ES:EDI = its own
+   register structure, filled with the RM registers. */
 callback:
         leal    CALLBACKS(%eax), %eax
         movl    %eax, %ebx
@@ -399,14 +399,14 @@ callback:
         movw    %bp, %ds
         iretl
 
-/* The procedure's IRET ran into HLT_CBRET: go on in RM with the registers in ES:EDI. EBP = frame. */
+/* The procedure's IRET led to HLT_CBRET: the RM code goes on with the registers in ES:EDI. EBP = frame. */
         .globl  hlt_cbret
 hlt_cbret:
         call    client_to_rmregs
         call    lock_stack_leave
         movl    rmregs + R_SP, %edx
 
-/* Go on in RM with rmregs; SS:SP = EDX. */
+/* Goes on in RM with rmregs and SS:SP = EDX. */
 rm_resume:
         movw    $FLAT_DS, %ax
         movw    %ax, %fs
@@ -422,8 +422,8 @@ rm_resume:
         movl    %eax, %fs:2(%edx, %edi)
         jmp     pm_to_rm
 
-/* --- Raw mode switches (0306h). Both ways: AX = new DS, CX = ES, DX = SS, (E)BX = (E)SP, SI = CS,
-       (E)DI = (E)IP; EBP is kept. --- */
+/* --- Raw mode switches (0306h). In both directions the caller passes the new registers: AX = DS, CX = ES, DX = SS,
+       (E)BX = (E)SP, SI = CS, (E)DI = (E)IP; EBP is kept. --- */
 
 /* The client jumped to HLT_RAWSW. EBP = frame. */
         .globl  hlt_rawsw
@@ -447,7 +447,7 @@ hlt_rawsw:
         movl    tss + 4, %esp
         jmp     rm_resume
 
-/* RM code jumped to the last of up_stubs. */
+/* RM code jumped to the entry of up_stubs for raw mode switches. */
 raw_to_pm:
         movl    tss + 4, %esp
         movzwl  rmregs + R_EDX, %eax
@@ -467,9 +467,9 @@ raw_to_pm:
         movw    rmregs + R_EAX, %ds
         iretl
 
-/* --- Register sets. --- */
+/* --- Copying register sets. --- */
 
-/* GP registers of the frame at EBP to rmregs. ESI, EDI, ECX lost. */
+/* Copies the general registers of the frame at EBP to rmregs. ESI, EDI, ECX are lost. */
         .globl  frame_to_rmregs
 frame_to_rmregs:
         movl    %ebp, %esi
@@ -478,7 +478,7 @@ frame_to_rmregs:
         rep movsl
         ret
 
-/* And back. */
+/* Copies the general registers of rmregs to the frame at EBP. */
         .globl  rmregs_to_frame
 rmregs_to_frame:
         movl    $rmregs, %esi
@@ -487,7 +487,7 @@ rmregs_to_frame:
         rep movsl
         ret
 
-/* The client's register structure at its ES:EDI to rmregs. EAX, ECX, ESI, EDI lost. */
+/* Copies the register structure at the client's ES:EDI to rmregs. ECX, ESI, EDI are lost. */
         .globl  client_to_rmregs
 client_to_rmregs:
         movl    F_EDI(%ebp), %esi
@@ -499,7 +499,7 @@ client_to_rmregs:
         popl    %ds
         ret
 
-/* And back, without CS:IP and SS:SP. */
+/* Copies rmregs to the register structure at the client's ES:EDI, except CS:IP and SS:SP. */
         .globl  rmregs_to_client
 rmregs_to_client:
         movl    F_EDI(%ebp), %edi

@@ -1,8 +1,9 @@
-/* The host's services: int 31h. One short routine each; registers in and out stand above it.
+/* The services of the host: int 31h. Each service is one short routine; the comment above it lists the client's
+   registers: In, Out.
 
-   A service finds the client's registers in the frame at EBP (F_xxx), and EAX, EBX, ECX, EDX still as the
-   client had them; DS = ES = HOST_DS. It leaves results in the frame. A return with carry set gives the
-   client carry and the error code in AX. Memory services are in dpmimem.S. */
+   A service finds the client's registers in the frame at EBP (F_xxx); EAX, EBX, ECX, EDX still have the client's
+   values; DS = ES = HOST_DS. It stores its results in the frame. If it returns with carry set, the client gets
+   carry and the error code in AX. The memory services are in dpmimem.S. */
 
 #include "dpmi.h"
 
@@ -28,7 +29,7 @@ entry_int31:
         movzbl  %ah, %esi
         cmpl    $0x0e, %esi
         ja      1f
-        cmpb    svc_tables(, %esi, 4), %al      /* how many there are with this AH */
+        cmpb    svc_tables(, %esi, 4), %al      /* number of services with this AH */
         jae     1f
         movzwl  svc_tables + 2(, %esi, 4), %esi
         movzbl  %al, %edi
@@ -54,7 +55,8 @@ bad_selector:
 
 /* --- Descriptors. --- */
 
-/* EDI := address of the LDT descriptor of selector BX; carry and AX = 8022h if it is none of the client's. */
+/* Out: EDI = address of the LDT descriptor of selector BX; or carry and AX = 8022h if BX is not one of the client's
+   selectors. */
         .globl  ldt_entry
 ldt_entry:
         testb   $4, %bl
@@ -64,11 +66,11 @@ ldt_entry:
         cmpl    $LDT_COUNT * 8, %edi
         jae     bad_selector
         addl    $ldt, %edi
-        cmpb    $0, 5(%edi)             /* clc */
+        cmpb    $0, 5(%edi)             /* unused? this also clears carry */
         je      bad_selector
         ret
 
-/* Base of descriptor EDI := EDX. */
+/* Sets the base of descriptor EDI to EDX. */
         .globl  set_base
 set_base:
         pushl   %edx
@@ -79,7 +81,7 @@ set_base:
         popl    %edx
         ret
 
-/* EAX := base of descriptor EDI. */
+/* Out: EAX = base of descriptor EDI. */
         .globl  get_base
 get_base:
         movl    2(%edi), %eax
@@ -88,7 +90,7 @@ get_base:
         rorl    $8, %eax
         ret
 
-/* Limit of descriptor EDI := EAX, in 4 KB units if it is above 1 MB. Lost: EAX. */
+/* Sets the limit of descriptor EDI to EAX, in units of 4 KB from 1 MB on. EAX is lost. */
         .globl  set_limit
 set_limit:
         andb    $0x70, 6(%edi)
@@ -101,12 +103,13 @@ set_limit:
         orb     %al, 6(%edi)
         ret
 
-/* ECX descriptors in a row: EAX = first selector, EDI = its address; data, base 0, limit 0. Or carry. */
+/* Allocates ECX consecutive descriptors for data with base 0 and limit 0. Out: EAX = first selector, EDI = address of
+   its descriptor; or carry. */
         .globl  ldt_alloc
 ldt_alloc:
         jecxz   bad_value
         movl    $ldt + LDT_FIRST * 8, %edi
-1:      movl    %edi, %esi              /* a run of free ones from here? */
+1:      movl    %edi, %esi              /* are the ECX descriptors from here on free? */
         movl    %ecx, %edx
 2:      cmpl    $ldt + LDT_COUNT * 8, %esi
         jae     4f
@@ -131,7 +134,8 @@ ldt_alloc:
         stc
         ret
 
-/* EAX := selector of a new 64 KB data descriptor for real-mode segment EAX. EDI = its address. Or carry. */
+/* Allocates a 64 KB data descriptor for real-mode segment EAX. Out: EAX = selector, EDI = address of the descriptor; or
+   carry. */
         .globl  new_segment
 new_segment:
         pushl   %eax
@@ -145,7 +149,7 @@ new_segment:
         clc
 1:      ret
 
-/* 0000h  allocate descriptors.  In: CX = how many.  Out: AX = first selector. */
+/* 0000h  allocate descriptors.  In: CX = number.  Out: AX = first selector. */
 svc_0000:
         movzwl  %cx, %ecx
         call    ldt_alloc
@@ -153,7 +157,7 @@ svc_0000:
         movw    %ax, F_EAX(%ebp)
 1:      ret
 
-/* 0001h  free descriptor.  In: BX.  Segment registers that hold it become 0; not the one in CS or SS. */
+/* 0001h  free descriptor.  In: BX.  DS, ES, FS and GS become 0 if they hold it; a selector in CS or SS is refused. */
 svc_0001:
         call    ldt_entry
         jc      2f
@@ -177,8 +181,8 @@ svc_0001:
         clc
 2:      ret
 
-/* 0002h  selector for a real-mode segment.  In: BX = segment.  Out: AX, the same one each time.
-   The descriptor's free bit marks those that were made here. */
+/* 0002h  selector for a real-mode segment.  In: BX = segment.  Out: AX, for the same segment always the same selector.
+   The available bit of a descriptor marks those that were made here. */
 svc_0002:
         movzwl  %bx, %eax
         shll    $4, %eax
@@ -205,7 +209,7 @@ svc_0002:
 /* 0003h  selector increment.  Out: AX = 8. */
 svc_0003:
         movw    $8, F_EAX(%ebp)
-        ret                             /* carry is clear from the dispatch */
+        ret                             /* carry is still clear */
 
 /* 0006h  segment base.  In: BX.  Out: CX:DX. */
 svc_0006:
@@ -240,7 +244,7 @@ svc_0008:
         notl    %edx
         testl   $0x0fff, %edx
         jnz     bad_value
-2:      cmpw    shrunk, %bx             /* large again? */
+2:      cmpw    shrunk, %bx             /* the limit of the shrunk segment changes */
         jne     3f
         movw    $0, shrunk
 3:      movzwl  %bx, %eax
@@ -255,13 +259,13 @@ svc_0008:
         clc
 1:      ret
 
-/* CL = access byte: a code or data segment of ring 3? Carry and AX = 8021h if not. */
+/* Checks that access byte CL is that of a code or data segment of ring 3. Out: carry and AX = 8021h if not. */
 check_rights:
         movb    %cl, %al
         andb    $0x70, %al
         cmpb    $0x70, %al
         jne     bad_value
-        testb   $0x08, %cl              /* conforming code would run in ring 3 as well, but is of no use */
+        testb   $0x08, %cl              /* refuse conforming code, which would run in ring 3 but is of no use */
         jz      1f
         testb   $0x04, %cl
         jnz     bad_value
@@ -293,7 +297,7 @@ svc_000a:
         movw    %ax, F_EAX(%ebp)
         movsl
         lodsl
-        andl    $0xffeff0ff, %eax       /* writeable data, whatever it was */
+        andl    $0xffeff0ff, %eax       /* the alias is always writeable data */
         orl     $0x0000f200, %eax
         stosl
         clc
@@ -363,13 +367,13 @@ svc_0100:
         movzwl  F_EBX(%ebp), %eax
         jmp     dos_limit
 1:      pushl   %eax
-        movw    F_EAX(%ebp), %ax        /* no descriptor: give the block back */
+        movw    F_EAX(%ebp), %ax        /* no descriptor: free the block again */
         call    dos_free
         popl    %eax
         stc
         ret
 
-/* Limit of descriptor EDI := EAX paragraphs. */
+/* Sets the limit of descriptor EDI for a block of EAX paragraphs. */
 dos_limit:
         shll    $4, %eax
         jz      1f
@@ -385,7 +389,7 @@ dos_error:
         stc
         ret
 
-/* int 21h AH=49h for segment AX. Out: carry of DOS. */
+/* Frees the DOS memory block at segment AX (int 21h AH=49h). Out: the carry of DOS. */
 dos_free:
         pushl   %eax
         movw    host_seg, %ax
@@ -397,14 +401,15 @@ dos_free:
         movl    $0x4900, rmregs + R_EAX
         jmp     dos_int
 
-/* int 21h with rmregs as they are. Out: carry of DOS. */
+/* Calls int 21h with rmregs. Out: the carry of DOS. */
 dos_int:
         movl    $0x21, %eax
         call    rm_int
         btw     $0, rmregs + R_FLAGS
         ret
 
-/* EDI, EAX := descriptor and segment of DX; carry and AX = 8022h if it is not in the first MB. */
+/* Out: EDI = address of the descriptor of DX, EAX = its real-mode segment; or carry and AX = 8022h if it is not a segment
+   of the first MB. */
 dos_segment:
         movl    %edx, %ebx
         call    ldt_entry
@@ -458,7 +463,7 @@ svc_0200:
         clc
         ret
 
-/* 0201h  set it.  In: BL, CX:DX. */
+/* 0201h  set real-mode vector.  In: BL, CX:DX. */
 svc_0201:
         movw    $FLAT_DS, %ax
         movw    %ax, %fs
@@ -468,7 +473,7 @@ svc_0201:
         clc
         ret
 
-/* 0202h  exception handler.  In: BL = 0 to 1Fh.  Out: CX:EDX; ours is in the HLT table. */
+/* 0202h  exception handler.  In: BL = 0 to 1Fh.  Out: CX:EDX; the host's default handler is an entry of the HLT table. */
 svc_0202:
         movzbl  %bl, %ebx
         cmpl    $32, %ebx
@@ -484,7 +489,7 @@ svc_0202:
         clc
         ret
 
-/* 0203h  set it.  In: BL, CX:EDX. */
+/* 0203h  set exception handler.  In: BL, CX:EDX. */
 svc_0203:
         movzbl  %bl, %ebx
         cmpl    $32, %ebx
@@ -493,13 +498,13 @@ svc_0203:
         jc      2f
         cmpw    $USER_CS, %cx
         jne     1f
-        xorl    %ecx, %ecx              /* ours again */
+        xorl    %ecx, %ecx              /* back to the default handler */
 1:      movl    %edx, exc_vec(, %ebx, 8)
         movw    %cx, exc_vec + 4(, %ebx, 8)
         clc
 2:      ret
 
-/* Is CX a code selector of the client? Carry and AX = 8022h if not. EAX, ESI lost. */
+/* Checks that CX is a code selector of the client. Out: carry and AX = 8022h if not. EAX, ESI are lost. */
 check_code:
         testb   $3, %cl
         jz      bad_selector
@@ -522,8 +527,8 @@ svc_0204:
         clc
         ret
 
-/* 0205h  set it.  In: BL, CX:EDX.  Hardware interrupts, 1Ch, 23h and 24h are then taken from RM as well.
-   For other software interrupts the IDT leads straight to the handler. 31h stays ours. */
+/* 0205h  set protected-mode vector.  In: BL, CX:EDX.  For hardware interrupts, 1Ch, 23h and 24h the handler is also
+   called for interrupts in RM. For other software interrupts the IDT leads directly to the handler. 31h cannot be set. */
 svc_0205:
         movzbl  %bl, %ebx
         cmpl    $0x31, %ebx
@@ -552,11 +557,11 @@ svc_0205:
         xchgl   %fs:(, %ebx, 4), %eax
         movl    %eax, hook_old(, %esi, 4)
         jmp     5f
-3:      cmpl    %fs:(, %ebx, 4), %eax   /* ours again: unhook, unless someone came after us */
+3:      cmpl    %fs:(, %ebx, 4), %eax   /* default handler: unhook, unless others have hooked the vector after us */
         jne     5f
         movl    hook_old(, %esi, 4), %eax
         movl    %eax, %fs:(, %ebx, 4)
-5:      cmpl    $0x10, %ebx             /* gates that lead to the host in any case */
+5:      cmpl    $0x10, %ebx             /* 0 to 0Fh, 70h to 77h: the gates always lead to the host */
         jb      8f
         cmpl    $0x70, %ebx
         jb      6f
@@ -569,7 +574,7 @@ svc_0205:
         je      7f
         movl    %ecx, %eax
         movl    %edx, %edi
-        movl    $0xef00, %esi           /* trap gate: a software interrupt leaves IF alone */
+        movl    $0xef00, %esi           /* trap gate: a software interrupt does not change IF */
 7:      movw    %di, idt(, %ebx, 8)
         movw    %ax, idt + 2(, %ebx, 8)
         movw    %si, %di
@@ -596,13 +601,13 @@ svc_0300:
         clc
         ret
 
-client_stack_keep:                      /* client_stack without losing EAX */
+client_stack_keep:                      /* as client_stack, but keeps EAX */
         pushl   %eax
         call    client_stack
         popl    %eax
         ret
 
-/* 0301h  call with far return.  In: CX, ES:EDI (CS:IP in it). */
+/* 0301h  call with far return.  In: CX = words to copy, ES:EDI = registers, which contain CS:IP. */
 svc_0301:
         xorl    %ebx, %ebx
         jmp     1f
@@ -674,14 +679,14 @@ svc_0304:
         stc
         ret
 
-/* 0305h  save/restore state addresses.  Out: AX = 0 bytes, BX:CX RM, SI:EDI PM: both just return. */
+/* 0305h  save/restore state addresses.  Out: AX = size, 0 bytes; BX:CX in RM, SI:EDI in PM: both routines only return. */
 svc_0305:
         movw    $0, F_EAX(%ebp)
         movl    $HLT_STATE, F_EDI(%ebp)
         movl    $rm_state, %eax
         jmp     1f
 
-/* 0306h  raw mode switch addresses.  Out: BX:CX RM to PM, SI:EDI PM to RM. */
+/* 0306h  raw mode switch addresses.  Out: BX:CX from RM to PM, SI:EDI from PM to RM. */
 svc_0306:
         movl    $HLT_RAWSW, F_EDI(%ebp)
         movl    $up_stubs + (CALLBACKS + HOOKS) * 5, %eax
@@ -692,8 +697,8 @@ svc_0306:
         clc
         ret
 
-/* 0400h  version.  Out: AX = 0.90, BX = 32 bit (1), back to real mode and not V86 (2), CL = processor,
-   DH, DL = interrupt bases of the slave and master controller. */
+/* 0400h  version.  Out: AX = 0.90, BX = bit 0: 32-bit host, bit 1: interrupts are reflected to real mode, not to V86 mode;
+   CL = processor, DH, DL = interrupt bases of the slave and master controller. */
 svc_0400:
         movw    $0x005a, F_EAX(%ebp)
         movzwl  version_flags, %eax
@@ -705,9 +710,9 @@ svc_0400:
         ret
 
 /* 0600h, 0601h  lock, unlock linear memory; 0602h, 0603h pageable RM memory; 0702h, 0703h paging advice;
-   0801h unmap: nothing is ever paged. */
+   0801h unmap physical memory. There is nothing to do, because nothing is ever paged. */
 svc_nothing:
-        ret                             /* carry is clear from the dispatch */
+        ret                             /* carry is still clear */
 
 /* 0604h  page size.  Out: BX:CX = 4096. */
 svc_0604:
@@ -723,14 +728,14 @@ svc_0900:
         clc
         ret
 
-/* 0901h  enable.  Out: AL = 1 if they were. */
+/* 0901h  enable interrupts.  Out: AL = 1 if they were enabled. */
 svc_0901:
         call    svc_0902
         orb     $IF_BIT >> 8, F_EFL + 1(%ebp)
         clc
         ret
 
-/* 0902h  state.  Out: AL = 1 if enabled. */
+/* 0902h  interrupt state.  Out: AL = 1 if they are enabled. */
 svc_0902:
         movl    F_EFL(%ebp), %eax
         shrl    $9, %eax
@@ -739,11 +744,11 @@ svc_0902:
         clc
         ret
 
-/* 0E00h  coprocessor.  Out: AX bits 0, 1 = MP, EM of the client, 2, 3 = of the host, 4 to 7 = type. */
+/* 0E00h  coprocessor state.  Out: AX bits 0, 1 = MP, EM of the client, 2, 3 = MP, EM of the host, 4 to 7 = type. */
 svc_0e00:
         movl    %cr0, %eax
         shrl    $1, %eax
-        andl    $3, %eax                /* MP, EM: host and client share them */
+        andl    $3, %eax                /* host and client share MP and EM */
         leal    (%eax, %eax, 4), %eax
         orb     fpu_type, %al
         movw    %ax, F_EAX(%ebp)
@@ -761,7 +766,7 @@ svc_0e01:
         clc
         ret
 
-/* --- Tables: for each AH the number of services and where they are; 0 is a gap. --- */
+/* --- Tables: for each AH the number of services and the address of a table of their routines; 0: no such service. --- */
         .balign 4
         .macro  SVCS table
         .word   (\table\()_end - \table) / 2, \table

@@ -1,24 +1,24 @@
-/* The EXE's real-mode stub: a go32 loader that needs no other file.
+/* The real-mode stub of the EXE: a go32 loader that needs no other file.
 
-   Order of events, from the MZ header to the program:
+   The steps from the MZ header to the program:
 
-     1. DOS loads the stub (this part and the DPMI host behind it) and jumps to `start`.
-     2. Is there a DOS 3 and a 386? One line and exit status 1 if not.
-     3. The program's own file name is found behind the environment.
-     4. Int 2Fh AX=1687h: is a DPMI host present? If not, the host behind us is moved above the
-        transfer buffer and set up (dpmiinit.S); it offers the same entry point as int 2Fh would.
-        From here on it makes no difference who the host is.
-     5. DOS gets back the memory that is not needed.
-     6. The COFF header behind the stub is read from the file.
-     7. The host's entry point switches to protected mode; this code goes on as its 16-bit client.
+     1. DOS loads the stub (this part and the DPMI host that follows it) and jumps to `start`.
+     2. Without DOS 3 and a 386 the stub prints one line and ends with exit status 1.
+     3. The file name of the program is found after the environment.
+     4. Int 2Fh AX=1687h asks for a DPMI host. If there is none, the host after this part is moved above the
+        transfer buffer and set up (dpmiinit.S); its entry point is of the kind that int 2Fh returns.
+        From here on it makes no difference whose host it is.
+     5. Memory that is not needed is returned to DOS.
+     6. The COFF header that follows the stub is read from the file.
+     7. The host's entry point switches to protected mode; this code goes on as a 16-bit code segment there.
      8. Code and data descriptors and one memory block for the program are allocated.
      9. .text and .data are read through the transfer buffer, .bss is cleared.
     10. Far jump to the program with DS = its data, FS = the stub information block, SS:ESP = our stack.
 
-   The interface of steps 8 to 10 is the one of DJGPP's version 2 stub (go32 stubinfo), so that DJGPP's
-   crt0 and ours both start behind it.
+   The interface of steps 8 to 10 is that of DJGPP's version 2 stub (go32 stubinfo), so that both DJGPP's
+   crt0 and our start code can follow it.
 
-   Memory, offsets in our segment (it is the transfer buffer once the program runs):
+   Offsets in our segment, which becomes the transfer buffer when the program runs:
 
      0               stub information, code, messages        -- section .loader
      load_end        variables, header buffers, stack        -- section .lbss
@@ -31,9 +31,9 @@
 #define FILE_BUFFER 0x1000
 #define MIN_KEEP    16384
 
-/* Offsets in the COFF file header, its go32 optional header and a section header. */
+/* Offsets in the COFF file header, in its go32 optional header and in a section header. */
 #define COFF_MAGIC  0x014c
-#define COFF_HEADER 168         /* file header 20, optional header 28, three section headers of 40 */
+#define COFF_HEADER 168         /* file header 20, optional header 28, three section headers of 40 bytes each */
 #define COFF_ENTRY  (20 + 16)
 #define COFF_TEXT   48
 #define COFF_DATA   88
@@ -46,11 +46,11 @@
         .arch   i8086
         SECTION(.loader)
 
-/* --- Stub information: the program gets it as FS:0. Fields as DJGPP's tools and crt0 expect them. --- */
+/* --- Stub information: the program finds it at FS:0. DJGPP's tools and crt0 expect these fields. --- */
 stubinfo:
 si_magic:       .ascii  "go32stub, v 2.05"
 si_size:        .long   stubinfo_end - stubinfo
-si_minstack:    .long   0x80000         /* stack for the program, at least this many bytes */
+si_minstack:    .long   0x80000         /* least size of the program's stack in bytes, for DJGPP's crt0 */
 si_handle:      .long   0               /* DPMI handle of the program's memory block */
 si_initsize:    .long   0               /* size of that block */
 si_minkeep:     .word   MIN_KEEP        /* size of the transfer buffer */
@@ -58,15 +58,15 @@ si_ds_sel:      .word   0               /* our data selector */
 si_ds_seg:      .word   0               /* our segment */
 si_psp_sel:     .word   0
 si_cs_sel:      .word   0               /* our code selector: same base as our data */
-si_env_size:    .word   0               /* bytes of environment, the program's name included */
-si_basename:    .fill   8, 1, 0         /* load this file of our directory instead, if set */
-si_argv0:       .fill   16, 1, 0        /* argv[0] for the program, if set */
-si_server:      .asciz  "CWSDPMI.EXE"   /* not used: no file needs to be found */
+si_env_size:    .word   0               /* size of the environment in bytes, including the program's name */
+si_basename:    .fill   8, 1, 0         /* if set: load this file of our directory instead */
+si_argv0:       .fill   16, 1, 0        /* if set: argv[0] for the program */
+si_server:      .asciz  "CWSDPMI.EXE"   /* not used here: no separate host is loaded */
                 .fill   4, 1, 0
                 .balign 4
 stubinfo_end:
 
-/* --- Step 2. 8086 code up to need_386. --- */
+/* --- Step 2. Only 8086 instructions up to need_386. --- */
         .globl  start
 start:
         push    %cs
@@ -80,7 +80,7 @@ start:
         cmp     $3, %al
         jb      early_error
 
-        pushf                           /* 8086: bits 12 to 15 always set */
+        pushf                           /* 8086: bits 12 to 15 are always set */
         pop     %ax
         and     $0x0fff, %ax
         push    %ax
@@ -91,7 +91,7 @@ start:
         and     $0xf000, %ax
         cmp     $0xf000, %ax
         je      early_error
-        mov     $0x7000, %ax            /* 80286: bits 12 to 14 always clear in real mode */
+        mov     $0x7000, %ax            /* 80286: bits 12 to 14 are always clear in real mode */
         push    %ax
         popf
         pushf
@@ -107,7 +107,7 @@ early_error:                            /* DX: message, ends with '$' */
         mov     $0x4c01, %ax
         int     $0x21
 
-/* DS:DX, up to '$', to standard error. AX, BX, CX, DI lost. */
+/* Writes the text at DS:DX, up to '$', to standard error. AX, BX, CX, DI are lost. */
 put_string:
         mov     %dx, %di
 1:      cmpb    $'$', (%di)
@@ -127,7 +127,7 @@ need_386:
         push    %ax
         popf
 
-/* --- Step 3. The environment is a list of strings, an empty one, a word, our path. --- */
+/* --- Step 3. The environment is a list of strings, an empty string, a word, and our path. --- */
         mov     psp, %es
         mov     %es:0x2c, %es
         xor     %di, %di
@@ -136,7 +136,7 @@ need_386:
 1:      repne scasb
         scasb
         jne     1b
-        scasw                           /* the word: number of strings that follow */
+        scasw                           /* skip the word: the number of strings that follow */
         mov     $file_name, %si
         mov     %si, %bx
 2:      mov     %es:(%di), %al
@@ -153,13 +153,13 @@ need_386:
         je      3f
         cmp     $':', %al
         jne     2b
-3:      mov     %si, %bx                /* BX: behind the last separator */
+3:      mov     %si, %bx                /* BX: address after the last separator */
         jmp     2b
 4:      movb    $0, (%si)
         mov     %di, si_env_size
         cmpb    $0, si_basename
         je      6f
-        mov     $si_basename, %di       /* another file of the same directory was asked for */
+        mov     $si_basename, %di       /* load another file of the same directory */
         mov     $8, %cx
 5:      mov     (%di), %al
         test    %al, %al
@@ -172,7 +172,7 @@ need_386:
         movb    $0, 4(%bx)
 6:
 
-/* The parent's open files can fill all 20 handles that we inherit: make sure of two free ones. */
+/* Files that the parent left open can occupy all 20 handles that we inherit: close two to be sure of free ones. */
         mov     $0x3e, %ah
         mov     $19, %bx
         int     $0x21
@@ -180,7 +180,7 @@ need_386:
         mov     $18, %bx
         int     $0x21
 
-/* --- Steps 4 and 5. DI: first paragraph behind the transfer buffer. --- */
+/* --- Steps 4 and 5. `behind`: segment of the first paragraph after the transfer buffer. --- */
         mov     si_minkeep, %ax
         cmp     $MIN_KEEP, %ax
         jae     1f
@@ -200,9 +200,9 @@ need_386:
         int     $0x2f
         test    %ax, %ax
         jnz     own_host
-        test    $1, %bl                 /* does it take 32-bit clients? */
+        test    $1, %bl                 /* does it accept 32-bit clients? */
         jz      own_host
-        push    %cs                     /* step 5 for a present host: keep the transfer buffer only */
+        push    %cs                     /* step 5 for a host that was present: keep only the transfer buffer */
         pop     %ss
         mov     $stack_top, %sp
         mov     %di, mode_switch
@@ -221,13 +221,13 @@ need_386:
         jmp     load
 
 own_host:
-        mov     behind, %es             /* the image behind us goes above the transfer buffer */
+        mov     behind, %es             /* move the host's image above the transfer buffer */
         mov     psp, %ax
         mov     %es, %bx
         add     $host_paras, %bx
         push    %ds
         mov     %ax, %ds
-        cmp     %bx, 2                  /* PSP: first segment behind our memory block */
+        cmp     %bx, 2                  /* PSP: first segment after our memory block */
         pop     %ds
         mov     $msg_memory, %dx
         jb      error
@@ -238,12 +238,12 @@ own_host:
         mov     %es, %ax
         mov     %ax, mode_switch + 2
         mov     %ax, init_entry + 2
-        push    %cs                     /* only now: our stack lies where the image was */
+        push    %cs                     /* only now, because our stack lies where the image was */
         pop     %ss
         mov     $stack_top, %sp
         call    resize
         mov     psp, %es
-        lcall   *init_entry             /* dpmiinit.S: out CF, DX: message for carry, in its segment */
+        lcall   *init_entry             /* dpmiinit.S. Carry: failure, DX = message in the host's segment */
         jnc     1f
         mov     behind, %ds
         jmp     error
@@ -265,7 +265,7 @@ load:
         mov     $msg_format, %dx
         cmp     $0x5a4d, %ax            /* "MZ" */
         jne     error
-        movzwl  header + 4, %edi        /* pages of 512 bytes, the last one partly used */
+        movzwl  header + 4, %edi        /* the stub's length in pages of 512 bytes, the last page partly used */
         shl     $9, %edi
         movzwl  header + 2, %eax
         test    %ax, %ax
@@ -282,7 +282,7 @@ have_coff:
         add     %edi, header + COFF_DATA + S_SCNPTR
         mov     header + COFF_BSS + S_VADDR, %eax
         add     header + COFF_BSS + S_SIZE, %eax
-        cmp     $0x10001, %eax          /* crt0 wants a limit that needs 32 bits */
+        cmp     $0x10001, %eax          /* crt0 needs a limit above 64 KB */
         jae     1f
         mov     $0x10001, %eax
 1:      add     $0xffff, %eax
@@ -301,7 +301,7 @@ have_coff:
         push    %ds
         pop     %es
 
-/* --- Step 8. BX:CX and so on as the DPMI functions want them. --- */
+/* --- Step 8. --- */
         call    new_descriptor
         mov     %ax, entry + 4
         call    new_descriptor
@@ -319,7 +319,7 @@ have_coff:
         mov     $0xc09b, %cx            /* 32-bit code, 4 KB units, present */
         mov     entry + 4, %bx
         call    set_descriptor
-        mov     $0xc093, %cx            /* the same for data */
+        mov     $0xc093, %cx            /* 32-bit data, 4 KB units, present */
         mov     client_ds, %bx
         call    set_descriptor
 
@@ -351,7 +351,7 @@ have_coff:
 
 /* --- Helpers. --- */
 
-/* DOS memory block of the program := up to segment BX. */
+/* Resizes the DOS memory block of the program to end at segment BX. */
 resize:
         mov     psp, %es
         mov     %es, %ax
@@ -362,7 +362,7 @@ resize:
         jc      error
         ret
 
-/* Read COFF_HEADER bytes at file offset EDI into header. */
+/* Reads COFF_HEADER bytes at file offset EDI into `header`. */
 read_header:
         mov     %di, %dx
         mov     %edi, %ecx
@@ -380,7 +380,7 @@ read_header:
         jne     error
         ret
 
-/* Protected mode: allocate one descriptor, AX = selector. */
+/* Protected mode: allocates one descriptor. Out: AX = selector. */
 new_descriptor:
         xor     %ax, %ax
         mov     $1, %cx
@@ -389,7 +389,7 @@ new_descriptor:
         jc      error
         ret
 
-/* Protected mode: descriptor BX := program's block, rights CX at our privilege level. */
+/* Protected mode: makes descriptor BX cover the program's block, with access rights CX at our privilege level. */
 set_descriptor:
         mov     %cs, %ax
         and     $3, %ax
@@ -401,7 +401,7 @@ set_descriptor:
         mov     client_base + 2, %cx
         mov     $0x0007, %ax            /* base */
         int     $0x31
-        mov     si_initsize + 2, %cx    /* size is a multiple of 64 KB */
+        mov     si_initsize + 2, %cx    /* the size is a multiple of 64 KB */
         dec     %cx
         mov     $0xffff, %dx
         mov     $0x0008, %ax            /* limit */
@@ -410,7 +410,7 @@ set_descriptor:
         jc      error
         ret
 
-/* Protected mode: read the section whose header is at SI. */
+/* Protected mode: reads the section whose header is at SI into the program's block. */
 read_section:
         mov     S_VADDR(%si), %edi
         mov     S_SIZE(%si), %ebp
@@ -443,7 +443,7 @@ read_section:
         jmp     1b
 3:      ret
 
-/* Protected mode: int 21h with AX, DX, CX from dos_regs, BX = file, DS = our segment. Carry is an error. */
+/* Protected mode: calls int 21h with AX, DX, CX from dos_regs, BX = file, DS = our segment. Ends the program on an error. */
 dos_file:
         call    dos
         mov     $msg_short, %dx
@@ -452,7 +452,7 @@ dos_file:
         jnz     error
         ret
 
-/* The same, errors left to the caller. */
+/* As dos_file, but the caller handles errors. In: AX, DX; CX in dos_regs. */
 dos:
         mov     %ax, dos_regs + 0x1c
         mov     %dx, dos_regs + 0x14
@@ -462,7 +462,7 @@ dos:
         mov     %ax, dos_regs + 0x24
         xor     %eax, %eax
         mov     %ax, dos_regs + 0x20    /* flags */
-        mov     %eax, dos_regs + 0x2e   /* SS:SP = 0: the host's */
+        mov     %eax, dos_regs + 0x2e   /* SS:SP = 0: the host supplies the stack */
         push    %edi
         mov     $0x0300, %ax
         mov     $0x0021, %bx
@@ -472,10 +472,10 @@ dos:
         pop     %edi
         ret
 
-/* DS:DX: message. "Load error: FILE: message" to standard error, exit status 1. Both modes; in real mode
-   the message can be the host's, in another segment. */
+/* Writes "Load error: FILE: message" to standard error and ends with exit status 1. In: DS:DX = message. Works in
+   both modes; in real mode the message may lie in the host's segment. */
 error:
-        cmpw    $0, %cs:si_cs_sel       /* set once we are in protected mode */
+        cmpw    $0, %cs:si_cs_sel       /* not 0 in protected mode */
         jne     2f
         mov     %dx, %si
         mov     $message, %di
@@ -502,8 +502,8 @@ error:
         mov     $0x4c01, %ax
         int     $0x21
 
-/* DS:DX, up to '$' or NUL, to standard error, a character at a time: it goes through the same buffer in
-   both modes. */
+/* Writes the text at DS:DX, up to '$' or NUL, to standard error. It writes single characters through one buffer,
+   which works in both modes. */
 put:
         mov     %dx, %si
         push    %ds
@@ -542,10 +542,10 @@ msg_selectors:  .ascii  "the DPMI host has no free descriptors$"
 msg_ext_memory: .ascii  "not enough extended memory$"
 msg_short:      .ascii  "file is cut short or cannot be read$"
 
-/* Offsets in the host's segment; segments are filled in above. */
+/* Offset in the host's segment; the code above fills in the segment. */
 init_entry:     .word   host_init, 0
 
-/* Used before the host's image is moved away from .lbss. */
+/* Variables that are used before the host's image is moved; until then it occupies .lbss. */
 psp:            .word   0
 behind:         .word   0
 mode_switch:    .word   0, 0

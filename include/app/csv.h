@@ -1,4 +1,4 @@
-// Csv: the file of /O, to which every run appends its statistics as one record.
+// Csv: the file named by /O, to which every run appends its statistics as one record.
 #ifndef FB_CSV_H
 #define FB_CSV_H
 
@@ -7,12 +7,13 @@
 
 class Csv {
 public:
-    // Finds out before a run whether its record can be kept: the file is a file of records, or can be made. It leaves
-    // no file that was not there. Null, or one line that says why not; `*status` is then the exit status.
+    // Checks before a run that its record can be stored: either the file is a file of records, or it can be created. A
+    // file created for this test is removed again. Returns null, or one line that says what is wrong; `*status` is then
+    // the exit status.
     const char* check(const char* name, int* status);
 
-    // Appends the record of a run, with a line of names when the file is new. A record that does not fit is taken back.
-    // Null, or one line that says why not.
+    // Appends the record of a run, preceded by the line of field names when the file is new. A record that does not fit on
+    // the disk is removed again. Returns null, or one line that says what is wrong.
     const char* append(const Options& options, Real spacing, const Stats& stats);
 
 private:

@@ -1,4 +1,4 @@
-// Dumped frames (/D): picture, depth and scene of every frame as files, so that a frame can be tested.
+// Dump (/D): writes picture, depths and scene of every frame to files, so that a test can examine the frame.
 #ifndef FB_DUMP_H
 #define FB_DUMP_H
 
@@ -9,11 +9,11 @@
 
 class Dump {
 public:
-    // Makes the directory, tries whether it can be written to, and removes the frames of an older dump. Null, or one line that
-    // says why not.
+    // Creates the directory, tests that files can be written to it, and removes the frames of an older dump. Returns null, or
+    // one line that says what is wrong.
     const char* open(const char* directory);
 
-    // Writes F%07d.PPM, .Z and .TXT of one frame. Null, or one line that says why not.
+    // Writes one frame as F%07d.PPM, .Z and .TXT. Returns null, or one line that says what is wrong.
     const char* frame(int number, Time time, int rate, const Model& model, const View& view, const Palette& palette,
                       bool grey);
 

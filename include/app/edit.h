@@ -1,5 +1,5 @@
-// Editor: what a user may do to the model by hand, each with one call, and each undone with another. It knows nothing of
-// keys, mice and screens: src/app/keys.cpp maps those to these calls.
+// Editor: the operations by which a user edits the model, one function each, and undo. The editor knows nothing of keys,
+// mouse and screen: src/app/keys.cpp maps keys and mouse to these functions.
 #ifndef FB_EDIT_H
 #define FB_EDIT_H
 
@@ -7,10 +7,10 @@
 
 class Editor {
 public:
-    // Steps that can be undone. Where memory does not hold so many, the oldest are forgotten.
+    // The most steps that can be undone. When memory is too small for so many, the oldest steps are forgotten.
     static constexpr int STEPS_MOST = 64;
 
-    // Changes of one kind to one object are one step as long as they follow each other within this time.
+    // Changes of one kind to one object that follow each other within this time (1.0 s = 65536) are a single step of undo.
     static constexpr Time GESTURE = 65536;
 
     explicit Editor(Model& model) : model_(model) {}
@@ -18,77 +18,80 @@ public:
     Editor(const Editor&) = delete;
     Editor& operator=(const Editor&) = delete;
 
-    // The selected object, an index for Model::actor(); and the one that was selected before it (-1: none).
+    // The index, for Model::actor(), of the selected object, and of the object selected before it (-1: none).
     int selected() const { return find(selected_) < 0 ? 0 : find(selected_); }
     int before() const { return find(before_) == selected() ? -1 : find(before_); }
     void selectNext();
-    // Selects an object by its index; the one selected so far is then the one before.
+    // Selects the object with this index; the object selected until now becomes before().
     void select(int index);
 
-    // Every operation below returns true when it changed the model: it must then be moved (Anim::move), and its ramps
-    // made anew. message() then says in a few words what was done, or why nothing was. `now` only tells gestures apart.
+    // Every operation below returns true when it changed the model; the caller must then move the model (Anim::move) and
+    // compute its colour ramps anew. message() tells in a few words what was done, or why nothing was done. `now` only
+    // serves to tell gestures apart.
 
-    // Moves the selected object by a vector of the world; with it goes all that it carries. Moves and turns act on its
-    // group instead while wholeGroup() is set.
+    // Moves the selected object, with all that it carries, by a vector in world coordinates. While wholeGroup() is set,
+    // moves and turns act on the group of the object instead.
     bool move(const Vector& by, Time now);
-    // Turns it about axis 0, 1 or 2 (x, y, z) by so many degrees.
+    // Turns the selected object about axis 0, 1 or 2 (x, y, z).
     bool turn(int axis, Real degrees, Time now);
-    // Changes its size; and its last measure but the size (length, ring, disc), by so many units.
+    // Change the size of the selected object, or its last other measure (length, ring, disc), by `by` units.
     bool size(Real by, Time now);
     bool measure(Real by, Time now);
-    // A new object of a kind where the selected one is, blending with it; it is then the selected one.
+    // Adds an object of a kind at the place of the selected object, links the two, and selects the new one.
     bool add(const char* kind);
-    // Takes the selected object out. The last object stays.
+    // Removes the selected object. The last object of a model cannot be removed.
     bool remove();
-    // Links the selected object with the one selected before, or parts them.
+    // Link the selected object with the object selected before, or remove that link.
     bool link();
     bool unlink();
-    // Changes the weight of that link, or of the dent where there is no link.
+    // Changes the weight of that link; without a link, the weight of the dent.
     bool weigh(Real by, Time now);
-    // Lets the selected object dig into the one selected before, and parts them; or fills the hollow.
+    // Makes the selected object dent the object selected before, and removes their link. If it dents already: ends the dent.
     bool dent();
-    // Changes what its field is multiplied by.
+    // Changes the factor by which the field of the selected object is multiplied.
     bool strengthen(Real by, Time now);
-    // The next colour of a list for the selected object, or the one before (`step` 1 or -1).
+    // Gives the selected object the next colour of a list (`step` 1) or the previous one (`step` -1).
     bool colour(int step, Time now);
-    // Another finish for it in place of its own: matt, shiny, mirror, and round again; and another pattern: none, checks, stripes,
-    // marble.
+    // Give the selected object the next finish (matt, shiny, mirror, and matt again), or the next pattern (none, checks,
+    // stripes, marble, and none again).
     bool finish();
     bool pattern();
-    // Stretches it along its own y axis, by so much more of its length.
+    // Adds `by` to the factor by which the selected object is stretched along its own y axis.
     bool stretch(Real by, Time now);
-    // Another motion in place of the one it has: none, circle, path, spin, swing, pulse, and round again. And the periods
-    // of what moves it, times a factor.
+    // Gives the selected object the next motion: none, circle, path, spin, swing, pulse, and none again. pace() multiplies
+    // the periods of all its motions by a factor.
     bool motion();
     bool pace(Real factor, Time now);
     // Turns the light about axis 0 or 1 (x, y) of the world.
     bool light(int axis, Real degrees, Time now);
-    // Puts the selected object into the group of the one before, or both into a new one; takes it out of its group.
+    // join() puts the selected object into the group of the object selected before, or both into a new group; leave() takes
+    // it out of its group.
     bool join();
     bool leave();
     bool wholeGroup() const { return whole_; }
     void setWholeGroup(bool whole);
 
-    // Back to before the last step, and forward again as long as nothing else was done. What was selected then is
-    // selected again.
+    // Return to the model before the last step, and go forward again as long as no other change was made. The selection is
+    // restored, too.
     bool undo();
     bool redo();
     int steps() const { return undo_.count; }
 
-    // Writes the scene; false when that failed. Reads one, which takes the place of the model with seeds `spacing` apart;
-    // where `undoable` is false there is no way back, and what could be undone is forgotten.
+    // save() writes the scene and returns false on failure. load() replaces the model by a scene, with seeds `spacing`
+    // apart. When `undoable` is false, loading cannot be undone, and all earlier steps are forgotten.
     bool save(const char* name);
     bool load(const char* name, Real spacing, bool undoable = true);
 
-    // Words for the screen, capital letters; never null.
+    // The message for the screen; never null.
     const char* message() const { return message_; }
-    // The selected object in words: its name, measures, how many it blends with, its group; and which is the one before.
+    // Describes the selected object in words: its name, its measures, the number of its links, its group, and the name of
+    // the object selected before.
     void describe(char* to, int size) const;
 
 private:
     enum Action { NONE, MOVE, TURN, SIZE, MEASURE, WEIGHT, STRENGTH, COLOUR, STRETCH, PACE, LIGHT, OTHER };
 
-    // A model as it was, and what was selected in it.
+    // An earlier state of the model, and the selection at that time.
     struct Step {
         Model::Record* record;
         int selected, before;
@@ -114,11 +117,11 @@ private:
     void sayReal(const char* what, Real value, const char* unit = "");
 
     Model& model_;
-    int selected_ = 1;  // numbers: they stay what they are when other objects come and go
+    int selected_ = 1;  // numbers of objects, not indices: they do not change when other objects are added or removed
     int before_ = 0;
     Steps undo_, redo_;
     bool whole_ = false;
-    Action action_ = NONE;
+    Action action_ = NONE;  // the last change, the number of its object, and its time: they tell whether a gesture goes on
     int acted_ = 0;
     Time actedAt_ = 0;
     char message_[320] = "";

@@ -1,5 +1,5 @@
-// Film: what is played, in one file (/A): Autodesk's FLI, which is made for 320x200 pixels and the colours of a VGA. A
-// picture is stored as what differs from the one before.
+// Film: records the animation in one file (/A). The format is Autodesk's FLI, which is made for 320x200 pixels and the
+// colours of a VGA. Each picture is stored as its differences from the picture before.
 #ifndef FB_FILM_H
 #define FB_FILM_H
 
@@ -7,25 +7,25 @@
 
 class Film {
 public:
-    // The format counts time in 1/70 s and frames in 16 bits.
+    // The format measures time in jiffies of 1/70 s and counts frames with 16 bits.
     static constexpr int JIFFIES = 70;
     static constexpr int FRAMES_MOST = 65535;
-    // A run in real time is filmed at 35 frames a second, whatever its own rate.
+    // A run in real time is filmed at 35 frames per second, whatever its own frame rate.
     static constexpr int REAL_TIME_JIFFIES = 2;
 
     ~Film();
 
-    // Begins a file. `rate` is how many frames make a second, as with /N; each frame of the run is then one of the film,
-    // for the nearest whole number of 1/70 s. 0: frames come when they come, and the film keeps to the time. Null, or one
-    // line that says why not.
+    // Begins a file. With `rate` > 0 (frames per second of animation, as with /N) each frame of the run is one frame of the
+    // film and lasts the nearest whole number of jiffies. With `rate` 0 frames arrive at irregular times, and the film
+    // repeats or skips frames to keep to the clock. Returns null, or one line that says what is wrong.
     const char* open(const char* name, int rate);
     bool isOpen() const { return file_ >= 0; }
 
-    // Adds a picture (320x200 palette indices) that is seen from `now` on, with the colours it is shown in (768 bytes,
-    // 0..63). Null, or one line.
+    // Adds a picture (320x200 palette indices) that is shown from time `now` on, with its palette (768 bytes, 0..63).
+    // Returns null, or one line that says what is wrong.
     const char* add(const uint8_t* picture, const uint8_t* dac, Time now);
 
-    // Ends the file. Null, or one line. Harmless when none is open.
+    // Ends the file. Returns null, or one line that says what is wrong. Harmless when no file is open.
     const char* close();
 
 private:
@@ -43,13 +43,13 @@ private:
 
     int file_ = -1;
     bool realTime_ = false;
-    int jiffies_ = 0;   // a frame
+    int jiffies_ = 0;   // length of a frame
     int frames_ = 0;
     uint32_t bytes_ = 0;
     uint8_t* before_ = nullptr;  // the picture stored last
-    uint8_t* first_ = nullptr;
-    uint8_t* room_ = nullptr;    // where a frame is put together
-    uint8_t* at_ = nullptr;
+    uint8_t* first_ = nullptr;   // the first picture: a film ends with the changes that lead back to it
+    uint8_t* room_ = nullptr;    // buffer in which a frame is assembled
+    uint8_t* at_ = nullptr;      // where the next byte goes in `room_`
     uint8_t dac_[768], firstDac_[768];
     char name_[100];
     char problem_[160];

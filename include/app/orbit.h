@@ -1,4 +1,4 @@
-// Orbit: how far the user has gone about the scene, round it, over it, nearer to it; seen from the scene's own eye.
+// Orbit: how far the user has moved the eye around the scene, over it and nearer to it, relative to the scene's own camera.
 #ifndef FB_ORBIT_H
 #define FB_ORBIT_H
 
@@ -6,22 +6,23 @@
 
 class Orbit {
 public:
-    // Turns by degrees: round the scene to the right, over it. Neither pole is passed.
+    // Moves the eye by two angles in degrees: `round` to the right around the scene, `over` upwards. It stops short of both
+    // poles.
     void turn(Real round, Real over);
-    // Changes the distance by a factor, within limits.
+    // Multiplies the distance by a factor; the result is limited to 0.125..4 times the scene's own distance.
     void approach(Real factor);
-    // Back to the scene's own view.
+    // Returns to the scene's own view.
     void reset() { *this = Orbit(); }
 
-    // The camera that the scene's own one becomes. The eye goes round what it looks at, or else round the middle that the
-    // objects have when it first leaves its place.
+    // Returns the scene's camera `camera` as moved by the user. The eye turns about the camera's target; when the camera has
+    // no target, the eye turns about the middle that the objects had when it left its own place.
     Camera from(const Camera& camera, const Model& model);
 
 private:
     Real round_{0}, over_{0};  // degrees
-    Real distance_{1};         // of the scene's own
+    Real distance_{1};         // factor of the scene's own distance
     Point middle_{Real(0), Real(0), Real(0)};
-    bool away_ = false;        // it has left its place
+    bool away_ = false;        // the eye has left its own place, and `middle_` is valid
 };
 
 #endif

@@ -1,5 +1,5 @@
-// Overlay: text, boxes and marks on top of a picture that is drawn already, between View::show() and View::end(). It
-// changes pixels only; depths stay those of the model. Everything is cut off at the screen's edges.
+// Overlay: draws text, boxes and marks on top of a finished picture, between View::show() and View::end(). It changes pixels
+// but not the Z-buffer, whose depths remain those of the model. Everything is clipped at the edges of the screen.
 #ifndef FB_OVERLAY_H
 #define FB_OVERLAY_H
 
@@ -8,26 +8,26 @@
 
 class Overlay {
 public:
-    // A line of text takes so many pixels each way, a blank column and row included.
+    // Pixels from one letter to the next and from one line to the next, including one blank column or row.
     static constexpr int LETTER_WIDE = 6;
     static constexpr int LINE_HIGH = 8;
 
     explicit Overlay(View& view) : view_(view) {}
 
-    // Draws a line of text with a dark rim that keeps it readable on any picture; its first letter's top left pixel is
-    // at `left`, `top`. Small letters are drawn as capitals, what the font has not as '?'.
+    // Draws a line of text with a dark rim that keeps it readable on any picture; the top left pixel of the first letter is
+    // at `left`, `top`. Small letters are drawn as capitals, characters missing from the font as '?'.
     void text(int left, int top, const char* text);
 
-    // The same in lines of at most `wide` pixels, broken between words where it can be. Returns how many lines it takes;
-    // with `draw` false it only counts them.
+    // Draws text in lines of at most `wide` pixels, broken between words where possible. Returns the number of lines; when
+    // `draw` is false it only counts them.
     int paragraph(int left, int top, int wide, const char* text, bool draw = true);
 
-    // A panel for text to stand on: a line round it, and inside every second pixel darkened, so that the picture is seen
-    // through it.
+    // Draws a panel as a background for text: a frame line, and inside every second pixel darkened, so that the picture
+    // shows through.
     void panel(int left, int top, int wide, int high);
 
-    // Round a pixel: a small cross for the selected object, a small diamond for the one before. And the mouse's pointer,
-    // whose tip is at the pixel.
+    // Draw a mark at a pixel: a small cross around it (the selected object), a small diamond around it (the object selected
+    // before), and the mouse pointer, whose tip is at the pixel.
     void cross(int x, int y);
     void diamond(int x, int y);
     void pointer(int x, int y);

@@ -1,4 +1,5 @@
-// Pace: how the time of the animation follows the time of the run: held, let go, stepped, slower, faster, begun again.
+// Pace: derives the time of the animation from the time of the run. The animation can be paused, resumed, stepped, slowed
+// down, sped up and restarted.
 #ifndef FB_PACE_H
 #define FB_PACE_H
 
@@ -6,25 +7,25 @@
 
 class Pace {
 public:
-    // Each step of the speed doubles or halves it, from an eighth to eight times.
+    // The speed is 2^step: from 1/8 to 8 times the usual speed.
     static constexpr int FASTEST = 3;
     static constexpr int SLOWEST = -3;
 
     explicit Pace(bool running) : running_(running) {}
 
-    // The animation's time where the run's time is `now`, which never goes back.
+    // Returns the time of the animation when the time of the run is `now`; `now` must never decrease.
     Time at(Time now);
 
     bool running() const { return running_; }
     void setRunning(bool running) { running_ = running; }
 
-    // Moves the animation's time on by hand; back to its start.
+    // Advance the time of the animation by `by`, and reset it to the start.
     void step(Time by) { shown_ += by; }
     void restart() { shown_ = 0; }
 
-    // 1 faster, -1 slower. False: it is at the end of its range.
+    // Changes the speed by one step: `by` is 1 (faster) or -1 (slower). Returns false at the end of the range.
     bool change(int by);
-    // 0: as the scene has it; n: 2^n times as fast.
+    // The animation runs 2^speed() times as fast as the scene prescribes.
     int speed() const { return speed_; }
 
 private:

@@ -1,5 +1,5 @@
-// Rate: holds a number of frames a second by choosing the spacing of each object's seeds (/F). One object is laid out anew at
-// a time, a step of a fifth finer or coarser, so that nothing jumps.
+// Rate: holds a frame rate (/F) by choosing the spacing of each object's seeds. Usually one object at a time gets new seeds,
+// with a spacing about a fifth finer or coarser, so that the picture does not jump.
 #ifndef FB_RATE_H
 #define FB_RATE_H
 
@@ -7,22 +7,23 @@
 
 class Rate {
 public:
-    // How many frames a second are held from now on; 0: none.
+    // Sets the number of frames per second to be held from now on; 0 switches this off.
     void hold(int frames);
     int frames() const { return frames_; }
 
-    // Told of a frame: how long it took, in ticks of the machine's clock.
+    // Reports a frame: `ticks` is how long it took, in ticks of machine::clock().
     void add(uint64_t ticks, const Model& model);
 
-    // What is to be done before the next frame: an object that is laid out anew, and `*spacing` for it. To be asked until it
-    // says -1, nothing more.
+    // Returns the index of an object that must get new seeds before the next frame, and its new spacing in `*spacing`; -1
+    // when nothing is left to do. The caller calls it until it returns -1.
     int next(const Model& model, Real* spacing);
 
-    // There was no memory for the last one: from now on nothing becomes finer.
+    // The caller reports that there was no memory for the last change: from now on no object becomes finer.
     void refused() { finest_ = true; }
 
 private:
-    // Numbers of objects, -1 where there is none, and how coarse they are.
+    // The finest object that can become coarser and the coarsest one that can become finer: their indices (-1: there is
+    // none) and their coarseness.
     struct Extremes {
         int fine, coarse;
         Real least, most;
@@ -30,11 +31,11 @@ private:
     Extremes findExtremes(const Model& model) const;
 
     int frames_ = 0;
-    uint64_t ticks_ = 0;    // of the frames since the last decision
-    uint32_t counted_ = 0;
-    int32_t load_ = 0;      // length of a frame as it would be now, over the wanted one, 1.0 = 256
+    uint64_t ticks_ = 0;    // length of all frames since the last decision
+    uint32_t counted_ = 0;  // number of these frames
+    int32_t load_ = 0;      // expected length of a frame after the changes so far, over the wanted length; 1.0 = 256
     int left_ = 0;          // objects that may still be changed before the next frame
-    bool finest_ = false;
+    bool finest_ = false;   // no object may become finer: memory ran out
 };
 
 #endif

@@ -1,4 +1,4 @@
-// Stats: what a run reports at its end (report, Section V; the names are fixed from outside).
+// Stats: the statistics that a run prints at its end (report, Section V; the names of the figures are a fixed interface).
 #ifndef FB_STATS_H
 #define FB_STATS_H
 
@@ -6,11 +6,11 @@
 
 class Stats {
 public:
-    // Adds a frame's counts.
+    // Adds the counts of one frame.
     void addFrame(const Counts& counts);
     uint32_t frames() const { return frames_; }
 
-    // How long the frames took, in ticks of machine::clock().
+    // Sets how long all frames took, in ticks of machine::clock().
     void setTime(uint64_t ticks) { ticks_ = ticks; }
     void setSeeds(int regular, int oversampled)
     {
@@ -18,11 +18,11 @@ public:
         oversampled_ = oversampled;
     }
 
-    // One "name: value" a line, averages over the frames shown, into `to` (at least 1024 bytes).
+    // Writes lines of "name: value" to `to` (at least 1024 bytes); "per frame" values are averages over the frames shown.
     void format(char* to, int size) const;
 
-    // The same as a CSV record, and the line of names that goes before the first, both with an end of line. The other
-    // fields are what was played with which switches, when and on what; they hold no comma that is not quoted.
+    // Write the statistics as a CSV record, and the line of field names that precedes the first record, both with an end of
+    // line. `settings`, `scene`, `date` and `machine` become further fields; a comma in them must be inside quotes.
     void formatRecord(char* to, int size, const char* settings, const char* scene, const char* date,
                       const char* machine) const;
     static void formatHeader(char* to, int size);

@@ -1,4 +1,4 @@
-// A line to type, a list to choose from.
+// The keys that edit a line and choose from a list.
 #include "app/ask.h"
 
 #include "rt.h"
@@ -41,7 +41,7 @@ Ask::Answer Ask::key(int code)
             return length_ > 0 ? GIVEN : OPEN;
         if (code == machine::KEY_BACKSPACE && length_ > 0)
             line_[--length_] = 0;
-        // What a file's name may be made of; DOS has the last word.
+        // Characters that a file name may contain; DOS may still refuse the name.
         if (code > ' ' && code <= '~' && strchr("\"*?<>|", code) == nullptr && length_ + 1 < LINE_ROOM) {
             line_[length_++] = static_cast<char>(code);
             line_[length_] = 0;

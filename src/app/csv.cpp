@@ -1,4 +1,4 @@
-// Records of runs in a file, one a line, fields separated by commas.
+// A file of records: one run per line, fields separated by commas.
 #include "app/csv.h"
 
 #include "machine.h"
@@ -9,7 +9,7 @@ namespace {
 
 constexpr int RECORD_ROOM = 1400;
 
-// Whether a file is empty, or begins with our line of names. (A file that cannot be read is none of ours.)
+// Tells whether a file is empty or begins with our line of field names. Returns false for a file that cannot be read.
 bool isOurs(const char* name)
 {
     char header[RECORD_ROOM], there[RECORD_ROOM];
@@ -35,7 +35,7 @@ bool writeHeader(int file)
     return write(file, text);
 }
 
-// The switches of a run that bear on its figures.
+// Writes the switches that influence the statistics of a run.
 void formatSettings(char* to, size_t size, const Options& options, Real spacing)
 {
     char number[24], held[16] = "";
@@ -46,7 +46,7 @@ void formatSettings(char* to, size_t size, const Options& options, Real spacing)
              options.printed ? " P" : "", options.retrace ? " V" : "", options.noPresent ? " X" : "");
 }
 
-// A field in quotation marks, in plain text, its own marks doubled; the text ends where there is no more room.
+// Writes a field in quotation marks, with quotation marks inside it doubled. A text that is too long is cut off.
 void quote(char* to, int size, const char* text)
 {
     char plain[128];
@@ -86,7 +86,7 @@ const char* Csv::check(const char* name, int* status)
         *status = 2;
         return complain("this is no file of records; /O appends to its own files only, or makes a new one");
     }
-    // A disk that is full takes a name, but not a line.
+    // A full disk still accepts a new file's name, but not a line of text: so one is written as a test.
     bool good = writeHeader(file);
     const char* why = machine::fileTrouble();
     if (!machine::closeFile(file) && good) {
@@ -113,7 +113,7 @@ const char* Csv::append(const Options& options, Real spacing, const Stats& stats
     const int32_t before = machine::fileBytes(file);
     bool good = before >= 0 && (before > 0 || writeHeader(file)) && write(file, text);
     const char* why = machine::fileTrouble();
-    // No half record, and no empty file.
+    // After a failure neither half a record nor an empty file may remain.
     if (!good && before > 0)
         machine::cutFile(file, static_cast<uint32_t>(before));
     if (!machine::closeFile(file) && good) {

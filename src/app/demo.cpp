@@ -1,4 +1,4 @@
-// The program: a frame is move, update, draw, show, present; once through the house, no back and forth.
+// The main loop. Each frame passes once through the stages move, update, draw, show, present, without going back.
 #include "app/demo.h"
 
 #include "loop.h"
@@ -10,14 +10,14 @@
 
 namespace {
 
-// So many seeds take a 386 about three seconds.
+// The user is told about the wait from this number of seeds on: laying them out takes a 386 about three seconds.
 constexpr int SEEDS_TOLD = 16000;
-constexpr int COARSE = 4;  // times the spacing
+constexpr int COARSE = 4;  // a first estimate counts seeds at this multiple of the spacing
 
-// Whom what takes long asks whether to go on.
+// The run that stopSource asks whether a long computation shall stop.
 Demo* running;
 
-// The selected object pulses this long.
+// How long an object pulses after it was selected.
 constexpr Time PULSE = 65536 * 3 / 4;
 constexpr int PULSE_STEPS = 20;
 
@@ -40,7 +40,8 @@ Demo::~Demo()
     free(voxels_);
 }
 
-// Everything that can fail, before the video mode is touched. Null, or one line; `*status` is then the exit status.
+// Does everything that can fail before the video mode is switched. Returns null, or one line that says what is wrong;
+// `*status` is then the exit status.
 const char* Demo::prepare(int* status)
 {
     makeFieldSteps();
@@ -62,7 +63,7 @@ const char* Demo::prepare(int* status)
         rate_.hold(options_.hold);
     const uint64_t before = machine::clock();
     tellSeeds();
-    // Stopped, it has no seeds, and the loop ends before its first frame.
+    // When ESC stopped the layout, the model has no seeds; the loop then ends before its first frame.
     if (!model_.resample(spacing_, surfaceMaker()) && !interrupted()) {
         static char text[160];
         snprintf(text, sizeof text, "%s; try a larger spacing with /S", SoftObject::resampleTrouble());
@@ -91,10 +92,10 @@ const char* Demo::prepare(int* status)
     return nullptr;
 }
 
-// Before the video mode is there: what the user waits for, when it takes a slow processor more than a second or so.
+// Tells the user, still in text mode, that seeds are being laid out when there are so many that a slow processor takes a while.
 void Demo::tellSeeds()
 {
-    // Counted coarsely first, for that is quick.
+    // A coarse count first, because it is quick: the number of seeds grows with the inverse square of the spacing.
     if (model_.seedsAt(spacing_ * Real(COARSE)) * COARSE * COARSE < SEEDS_TOLD / 2)
         return;
     const int seeds = model_.seedsAt(spacing_);
@@ -110,7 +111,7 @@ void Demo::tellSeeds()
     machine::err(text);
 }
 
-// The end for want of something. What was filmed so far is kept.
+// Ends the program because of a failure. The frames filmed so far are kept.
 void Demo::fail(int status, const char* line)
 {
     film_.close();
@@ -130,8 +131,8 @@ void Demo::findTime()
     time_ = (seconds << 16) + divide64(static_cast<uint64_t>(rest) << 16, machine::CLOCK_HZ);
 }
 
-// Asked now and then while a frame is drawn: whether there is something that does not wait for its end, Ctrl-C or ESC.
-// Other keys are kept for later.
+// Called now and then while a frame is drawn. Returns true when ESC or Ctrl-C was pressed, which abandons the frame. Stores
+// the other keys for takeKeys().
 bool Demo::interrupted()
 {
     while (waiting_ < KEYS_MOST) {
@@ -144,7 +145,8 @@ bool Demo::interrupted()
     return escapeWaits_ || machine::broken();
 }
 
-// What a key started is stopped by ESC only when that is the next key: another one may come first that gives it a meaning.
+// Tells whether a long computation shall stop. A computation that a key has started is stopped by ESC only when ESC is the
+// very next key: a key before it may open a question, and ESC would then close that question.
 bool Demo::stopped()
 {
     const bool some = interrupted();
@@ -157,7 +159,7 @@ void Demo::resample(Real spacing)
 {
     char number[24], text[192];
     if (spacing != spacing_) {
-        // A few percent more or less are as many seconds.
+        // The time grows with the number of seeds, the inverse square of the spacing; this estimate is good enough.
         const Real ratio = spacing_ / spacing;
         const uint64_t ticks = layTicks_ * static_cast<uint32_t>(rawFromReal(ratio * ratio)) >> 16;
         if (ticks > machine::CLOCK_HZ / 2)
@@ -181,7 +183,7 @@ void Demo::resample(Real spacing)
     say(text);
 }
 
-// Brings everything along that depends on which objects there are.
+// Updates everything that depends on the set of objects, after the model was edited or replaced.
 void Demo::changed()
 {
     Anim::move(model_, shown_);
@@ -190,7 +192,7 @@ void Demo::changed()
     stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
 }
 
-// Frames a second, from the frames of the last half second or more.
+// Measures the frame rate over intervals of at least half a second.
 void Demo::countFrames()
 {
     ++fpsFrames_;
@@ -203,7 +205,7 @@ void Demo::countFrames()
     fpsFrames_ = 0;
 }
 
-// After a frame that began at `began`: lays objects out anew where the rate to be held wants it.
+// After a frame that began at tick `began`: lays out the seeds of those objects anew whose spacing rate_ wants to change.
 void Demo::holdRate(uint64_t began)
 {
     rate_.add(machine::clock() - began, model_);
@@ -214,7 +216,7 @@ void Demo::holdRate(uint64_t began)
     stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
 }
 
-// False: it was interrupted, and there is nothing to show.
+// Draws a frame. Returns false when it was interrupted and there is nothing to show.
 bool Demo::frame()
 {
     if (options_.interactive)
@@ -231,7 +233,8 @@ bool Demo::frame()
     return true;
 }
 
-// The view is the scene's, as far as the user has not gone about it. What is seen from elsewhere is looked at anew.
+// Sets the view's camera: the scene's own, moved by orbit_. When the eye has moved or turned, all seeds must be recomputed,
+// because what is visible has changed.
 void Demo::placeEye()
 {
     const Camera camera = orbit_.from(model_.camera, model_);
@@ -241,7 +244,7 @@ void Demo::placeEye()
     view_.setCamera(camera);
 }
 
-// False: it was interrupted.
+// Draws all objects. Returns false when it was interrupted.
 bool Demo::drawModel()
 {
     counts_ = Counts{};
@@ -253,7 +256,7 @@ bool Demo::drawModel()
     int order[Model::OBJECTS_MOST];
     Real depth[Model::OBJECTS_MOST];
     for (int i = 0; i < model_.count(); ++i) {
-        // Near objects first: what they hide of others need not be settled or drawn.
+        // Insertion sort by depth. Near objects come first: seeds of others that they hide need not be settled or drawn.
         depth[i] = frame.inView(model_.actor(i).object->centre()).z;
         int at = i;
         for (; at > 0 && depth[order[at - 1]] > depth[i]; --at)
@@ -281,7 +284,7 @@ bool Demo::drawModel()
     return true;
 }
 
-// False: it was interrupted.
+// Draws one object. Returns false when it was interrupted.
 bool Demo::drawObject(SoftObject& object, const FrameContext& frame)
 {
     int next = 0;
@@ -294,7 +297,7 @@ bool Demo::drawObject(SoftObject& object, const FrameContext& frame)
     return true;
 }
 
-// A short pulse of brightness shows which object is selected.
+// Returns a brighter copy of a ramp: a short pulse of brightness shows which object was selected.
 const uint8_t* Demo::pulseRamp(const uint8_t* ramp)
 {
     const Time phase = (time_ - selectedAt_) * 2;
@@ -309,7 +312,7 @@ bool Demo::finished() const
             machine::clock() - started_ >= static_cast<uint64_t>(options_.seconds) * machine::CLOCK_HZ);
 }
 
-// Writes the frame that is shown to where it is wanted. Null, or one line.
+// Writes the frame to the dump and to the film, if these are wanted. Returns null, or one line that says what is wrong.
 const char* Demo::keepFrame()
 {
     const char* problem = nullptr;
@@ -321,16 +324,16 @@ const char* Demo::keepFrame()
     return problem;
 }
 
-// What the run came to, on standard output: the statistics, or the one line of /B.
+// Prints the statistics of the run, or with /B its one line, on standard output.
 void Demo::sayResults(uint64_t ticks)
 {
     char text[1024];
     if (options_.benchmark) {
-        // A divisor has 32 bits; no benchmark that long would be any use.
-        const uint32_t most = ticks >> 32 != 0 ? 0xffffffffu : static_cast<uint32_t>(ticks);
+        // The divisor must fit 32 bits (one hour); the rate of a longer benchmark would be wrong.
+        const uint32_t divisor = ticks >> 32 != 0 ? 0xffffffffu : static_cast<uint32_t>(ticks);
         char spacing[24], rate[32], seconds[32];
         formatReal(spacing, sizeof spacing, spacing_);
-        formatQuotient(rate, sizeof rate, static_cast<uint64_t>(frames_) * machine::CLOCK_HZ, most, 2);
+        formatQuotient(rate, sizeof rate, static_cast<uint64_t>(frames_) * machine::CLOCK_HZ, divisor, 2);
         formatQuotient(seconds, sizeof seconds, ticks, machine::CLOCK_HZ, 2);
         snprintf(text, sizeof text, "%.100s, spacing %s%s: %s frames a second (%d frames in %s seconds)\n",
                  options_.modelFile == nullptr ? "four spheres" : options_.modelFile, spacing,
@@ -341,7 +344,7 @@ void Demo::sayResults(uint64_t ticks)
     machine::out(text);
 }
 
-// The machine, the program and the video mode. In trouble the program ends.
+// Starts the machine, prepares the run and switches the video mode. On failure it ends the program.
 void Demo::begin()
 {
     const char* problem = machine::start();
@@ -356,7 +359,7 @@ void Demo::begin()
     machine::standStill(options_.frames > 0);
     if (options_.interactive && !machine::openMouse())
         machine::out("No mouse driver found: use Tab, arrows, PgUp and PgDn.\n");
-    // With ESC pressed already the loop ends before its first frame.
+    // When ESC was pressed already, the loop ends before its first frame and needs no video mode.
     if (!interrupted()) {
         problem = machine::openVideo();
         if (problem != nullptr)
@@ -366,7 +369,7 @@ void Demo::begin()
     stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
 }
 
-// A frame that has been drawn comes onto the screen, and to wherever else it is wanted.
+// Puts a finished frame on the screen and writes it to the files that are wanted.
 void Demo::showFrame()
 {
     if (options_.retrace)
@@ -432,7 +435,7 @@ int demo(int count, char** arguments)
         machine::out(HELP);
         return 0;
     }
-    // The program's own path without its name.
+    // The path of the program up to the last separator; empty when the path is too long.
     char directory[128] = "";
     if (count > 0) {
         const int length = snprintf(directory, sizeof directory, "%s", arguments[0]);

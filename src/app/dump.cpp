@@ -1,4 +1,4 @@
-// Frames to files.
+// Writes frames to files: the picture as PPM, the depths as numbers of 32 bits, the scene as text.
 #include "app/dump.h"
 
 #include "rt.h"
@@ -11,13 +11,13 @@ namespace {
 
 constexpr int ROWS_AT_ONCE = 10;
 
-// The files of an older dump are looked for until so many frames in a row are missing.
+// The search for files of an older dump ends when this many frames in a row are missing.
 constexpr int GAP_MOST = 32;
 constexpr int NUMBER_MOST = 9999999;
 
 uint8_t rows[ROWS_AT_ONCE * WIDTH * 4];
 
-// Writes what stands at each place of the screen, `size` bytes from what `put` makes of it, a few rows at once.
+// Writes `size` bytes for each pixel of the screen, a few rows at a time; put(index, to) stores the bytes of one pixel.
 template <class Put>
 bool writeRows(int file, int size, Put put)
 {
@@ -31,12 +31,12 @@ bool writeRows(int file, int size, Put put)
     return true;
 }
 
-// The lines of a scene's text: what stands in one is gathered until end().
+// Writes the text of a scene line by line: words are collected until end() writes them as one line.
 class Lines {
 public:
     explicit Lines(int file) : file_(file) {}
 
-    // The first word of a line; the rest follows it.
+    // Begins a line with its first word; the other functions append to the line.
     Lines& begin(const char* word)
     {
         length_ = snprintf(text_, sizeof text_, "%s", word);
@@ -63,7 +63,7 @@ public:
     Lines& colour(const Colour& c) { return whole(c.red).whole(c.green).whole(c.blue); }
     void end() { line(text_); }
 
-    // A line that is there already.
+    // Writes a complete line.
     void line(const char* text)
     {
         good_ = good_ && machine::writeFile(file_, text, static_cast<uint32_t>(strlen(text))) >= 0 &&
@@ -84,7 +84,7 @@ private:
     char text_[200];
 };
 
-// Eye, axes of the view where they are not the world's, projection and light.
+// Writes the eye, the view axes where they differ from those of the world, the projection, the light and the isovalue.
 void viewLines(Lines& lines, const Camera& camera, const Vector& light)
 {
     lines.begin("eye").vector(toVector(camera.eye)).end();
@@ -99,7 +99,7 @@ void viewLines(Lines& lines, const Camera& camera, const Vector& light)
     lines.begin("isovalue").real(ISOVALUE).end();
 }
 
-// The objects, then their shapes.
+// Writes the objects, then their shapes.
 void objectLines(Lines& lines, const Model& model)
 {
     char text[200];
@@ -116,7 +116,7 @@ void objectLines(Lines& lines, const Model& model)
     }
 }
 
-// Links, each once, then strengths and dents.
+// Writes the links, each pair once, then strengths and dents.
 void blendLines(Lines& lines, const Model& model)
 {
     for (int i = 0; i < model.count(); ++i) {
@@ -139,7 +139,7 @@ void blendLines(Lines& lines, const Model& model)
     }
 }
 
-// How bright a colour is at least and where white begins to mix in, and the objects' colours.
+// Writes the lowest brightness of a ramp, the brightness at which white begins to mix in, and the colours of the objects.
 void rampLines(Lines& lines, const Model& model)
 {
     lines.begin("ambient").quotient(Palette::AMBIENT, 63, 6).end();
@@ -148,7 +148,7 @@ void rampLines(Lines& lines, const Model& model)
         lines.begin("ramp").whole(model.actor(i).object->number()).colour(model.actor(i).colour).end();
 }
 
-// Where a pattern lies in the world: its size, its other colour, its middle, and the axes x and y.
+// Writes how a pattern lies in the world: its grain, its second colour, the object's centre, and the object's x and y axes.
 void patternLine(Lines& lines, const SoftObject& object, const Paint& paint, const Colour& other)
 {
     lines.begin(PATTERN_WORDS[paint.pattern]).whole(object.number()).real(paint.grain * (object.size() / paint.made));
@@ -200,7 +200,7 @@ const char* Dump::open(const char* directory)
     const int file = create(0, "TXT");
     if (file < 0 || !machine::closeFile(file))
         return complain();
-    // Frames of an older dump would be mixed with the new ones; this takes the empty file along.
+    // Frames of an older dump would be mixed with the new ones. This removes the empty test file, too.
     static const char* const EXTENSIONS[] = {"PPM", "Z", "TXT"};
     for (int number = 0, missing = 0; missing < GAP_MOST && number <= NUMBER_MOST; ++number) {
         bool some = false;
@@ -227,7 +227,7 @@ const char* Dump::frame(int number, Time time, int rate, const Model& model, con
     return good ? nullptr : complain();
 }
 
-// The picture, as the palette shows it.
+// Writes the picture with the colours of the palette, scaled from 0..63 to 0..255.
 bool Dump::picture(int number, const View& view, const Palette& palette)
 {
     const int file = create(number, "PPM");
@@ -236,20 +236,20 @@ bool Dump::picture(int number, const View& view, const Palette& palette)
     char header[24];
     const int length = snprintf(header, sizeof header, "P6\n%d %d\n255\n", WIDTH, HEIGHT);
     return machine::writeFile(file, header, static_cast<uint32_t>(length)) == length &&
-           writeRows(file, 3, [&](int at, uint8_t* to) {
-               const uint8_t* colour = palette.dac() + 3 * view.frame()[at];
+           writeRows(file, 3, [&](int pixel, uint8_t* to) {
+               const uint8_t* colour = palette.dac() + 3 * view.frame()[pixel];
                for (int part = 0; part < 3; ++part)
                    to[part] = static_cast<uint8_t>((colour[part] * 255 + 31) / 63);
            }) &&
            machine::closeFile(file);
 }
 
-// The distances, 16.16.
+// Writes the depths as 16.16, little-endian; 0x7fffffff where nothing was drawn.
 bool Dump::distances(int number, const View& view)
 {
     const int file = create(number, "Z");
-    return file >= 0 && writeRows(file, 4, [&](int at, uint8_t* to) {
-               const uint16_t depth = view.zbuffer()[at];
+    return file >= 0 && writeRows(file, 4, [&](int pixel, uint8_t* to) {
+               const uint16_t depth = view.zbuffer()[pixel];
                const uint32_t z = depth == Z_EMPTY ? 0x7fffffffu : static_cast<uint32_t>(depth) << 9;
                for (int part = 0; part < 32; part += 8)
                    *to++ = static_cast<uint8_t>(z >> part);
@@ -263,7 +263,7 @@ bool Dump::scene(int number, Time time, int rate, const Model& model, const Came
     if (file < 0)
         return false;
     Lines lines(file);
-    // With /N a frame's time is number / rate exactly.
+    // With /N the time of a frame is exactly number / rate.
     if (rate > 0)
         lines.begin("time").quotient(static_cast<uint64_t>(number), static_cast<uint32_t>(rate), 1000 % rate == 0 ? 3 : 6).end();
     else

@@ -1,4 +1,4 @@
-// Operations by hand. Before each the model is recorded; undoing goes back to the record.
+// The operations of the editor. Before each operation the whole model is recorded; undo restores that record.
 #include "app/edit.h"
 
 #include "math/alloc.h"
@@ -7,27 +7,28 @@
 
 namespace {
 
-// Of new objects, and what the colour of an object may be changed to.
+// The colours that an object can be given; the first NEW_COLOURS are also the colours of new objects.
 const Colour COLOURS[] = {{224, 80, 224}, {64, 208, 216}, {255, 136, 40}, {208, 208, 208}, {160, 224, 64},
                           {255, 64, 48},  {64, 208, 72},  {72, 112, 255}, {255, 200, 48},  {176, 112, 72},
                           {255, 144, 176}, {136, 96, 224}};
 constexpr int COLOUR_COUNT = static_cast<int>(sizeof COLOURS / sizeof COLOURS[0]);
-constexpr int NEW_COLOURS = 5;  // new objects take turns with the first of them
+constexpr int NEW_COLOURS = 5;
 
-// Units: the size of a pattern that an object gets by hand.
+// The grain of a pattern that the user gives to an object, units.
 constexpr Real GRAIN(6);
 
-// The motions that an object can be given by hand.
+// The motions that the user can give to an object.
 enum Preset { STANDS, CIRCLE, PATH, SPIN, SWING, PULSE, PRESETS };
 const char* const PRESET_NAMES[PRESETS] = {"stands still", "goes round", "goes to and fro", "spins", "swings", "pulses"};
 
+// Returns the squared distance of two colours.
 int distance(const Colour& a, const Colour& b)
 {
     const int red = a.red - b.red, green = a.green - b.green, blue = a.blue - b.blue;
     return red * red + green * green + blue * blue;
 }
 
-// The colour of the list that is the least like another.
+// Returns the colour of the list that differs most from `colour`.
 Colour unlike(const Colour& colour)
 {
     int farthest = 0;
@@ -37,7 +38,7 @@ Colour unlike(const Colour& colour)
     return COLOURS[farthest];
 }
 
-// Which preset a motion is nearest to; motions of several parts count as the last.
+// Returns the preset that a motion resembles. A motion of several parts counts as the part that comes last in Preset.
 Preset presetOf(const Motion& motion)
 {
     if (motion.parts & (MOTION_KEYS | MOTION_PULSE))
@@ -51,7 +52,7 @@ Preset presetOf(const Motion& motion)
     return motion.circle.period != Real(0) ? CIRCLE : STANDS;
 }
 
-// Gives a motion that stands still the parts of a preset.
+// Adds the parts of a preset to a motion that stands still.
 void giveMotion(Motion& motion, Preset preset)
 {
     const Real none(0);
@@ -129,16 +130,18 @@ void Editor::sayReal(const char* what, Real value, const char* unit)
     say(what, " ", text, unit);
 }
 
-// Records the model, unless this goes on with the gesture that began last. False: no memory even for one record.
+// Records the model before a change, unless the change continues the last gesture. Returns false when there is no memory
+// even for one record.
 bool Editor::begin(Action action, Time now)
 {
     const int number = current().number;
-    const bool on = action == action_ && action != OTHER && number == acted_ && now - actedAt_ < GESTURE && undo_.count > 0;
+    const bool goesOn =
+        action == action_ && action != OTHER && number == acted_ && now - actedAt_ < GESTURE && undo_.count > 0;
     action_ = action;
     acted_ = number;
     actedAt_ = now;
     redo_.clear();
-    if (on)
+    if (goesOn)
         return true;
     Model::Record* record = model_.record();
     while (record == nullptr || undo_.count == STEPS_MOST) {
@@ -154,7 +157,7 @@ bool Editor::begin(Action action, Time now)
     return true;
 }
 
-// Forgets the step that begin() recorded: nothing came of it.
+// Forgets the step that begin() recorded, because the operation failed.
 void Editor::drop()
 {
     free(undo_.step[--undo_.count].record);
@@ -176,14 +179,14 @@ void Editor::selectNext()
     select((selected() + 1) % model_.count());
 }
 
-// The group that the selected object is in, directly; null: none.
+// Returns the group that directly carries the selected object, or null. A group is an item without an object.
 Actor* Editor::group()
 {
     Actor* parent = current().motion.parent == 0 ? nullptr : model_.itemNumbered(current().motion.parent);
     return parent != nullptr && parent->object == nullptr ? parent : nullptr;
 }
 
-// What moves and turns act on.
+// Returns the item that moves and turns act on: the selected object or its group.
 Actor& Editor::moved()
 {
     Actor* whole = whole_ ? group() : nullptr;
@@ -314,11 +317,11 @@ bool Editor::remove()
     }
     if (!begin(OTHER, 0))
         return false;
-    const int at = selected();
-    Actor& gone = model_.actor(at);
+    const int index = selected();
+    Actor& gone = model_.actor(index);
     say("deleted ", gone.name);
     model_.remove(&gone);
-    selected_ = model_.actor(at % model_.count()).number;
+    selected_ = model_.actor(index % model_.count()).number;
     before_ = 0;
     return true;
 }
@@ -394,7 +397,7 @@ bool Editor::weigh(Real by, Time now)
     }
     if (!begin(WEIGHT, now))
         return false;
-    // The link is there: nothing is allocated.
+    // This cannot fail: the link or dent exists already, so that nothing is allocated.
     if (dents)
         model_.dent(b, a, to);
     else
@@ -644,7 +647,7 @@ bool Editor::leave()
         return false;
     say(current().name, " has left ", from->name);
     model_.setParent(&current(), from->motion.parent);
-    // A group that carries nothing is no use, unless it carries the eye.
+    // An empty group is removed, unless it carries the eye.
     if (from->number == model_.camera.carrier)
         return true;
     for (int i = 0; i < model_.items(); ++i)
@@ -654,10 +657,10 @@ bool Editor::leave()
     return true;
 }
 
-// Goes to the newest step of one list, and keeps the way back in the other.
+// Restores the newest step of the list `from` and stores the present state in the list `to`, so that it can be restored.
 bool Editor::goBack(Steps& from, Steps& to)
 {
-    // Without the memory for it there is no way back; going is worth more.
+    // Without memory for the present state the step is still made, but it cannot be reverted.
     Model::Record* now = model_.record();
     const Step& step = from.step[from.count - 1];
     if (!model_.restore(step.record)) {

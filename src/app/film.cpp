@@ -1,4 +1,4 @@
-// The chunks of an FLI file: the first picture row by row, the others as changes; little-endian throughout.
+// The chunks of an FLI file: the first picture is stored row by row, the others as changes. All numbers are little-endian.
 #include "app/film.h"
 
 #include "machine.h"
@@ -13,36 +13,36 @@ constexpr uint32_t HEADER_BYTES = 128;
 constexpr uint32_t FRAME_HEADER_BYTES = 16;
 constexpr int FILE_MARK = 0xaf11;
 constexpr int FRAME_MARK = 0xf1fa;
-constexpr int COLOURS = 11;  // kinds of chunks
+constexpr int COLOURS = 11;  // kinds of chunks: the palette, changes of rows, a whole picture
 constexpr int CHANGES = 12;
 constexpr int WHOLE = 15;
 
-// The most that a packet of pixels holds, and how many equal ones are worth a packet of their own. What has not changed is
-// skipped where it is as long as that, too.
+// The most pixels in a packet, the most pixels that a packet can skip, and the shortest run of equal pixels that is worth a
+// packet of its own. A run of unchanged pixels is skipped, too, when it is as long as RUN_LEAST.
 constexpr int PACKET_MOST = 127;
 constexpr int SKIP_MOST = 255;
 constexpr int RUN_LEAST = 4;
 
-// A frame cannot be larger: each pixel on its own, a packet for each RUN_LEAST of them, and the colours.
+// Upper bound of the size of a frame in bytes: one byte per pixel, a packet for each RUN_LEAST pixels, and the colours.
 constexpr uint32_t ROOM = static_cast<uint32_t>(WIDTH * HEIGHT) * 2 + 2048;
 
-// No file is longer, for DOS counts its bytes with a sign.
+// Upper bound of a file's length before a frame is added: DOS counts bytes with signed 32-bit numbers.
 constexpr uint32_t FILE_MOST = 0x7fffffffu - ROOM;
 
-// How many of the pixels from `at` to before `end` are alike.
-int runLength(const uint8_t* row, int at, int end)
+// Returns the length of the run of equal pixels that begins at column `x`, at most up to `end` (exclusive).
+int runLength(const uint8_t* row, int x, int end)
 {
     int length = 1;
-    while (at + length < end && length < PACKET_MOST && row[at + length] == row[at])
+    while (x + length < end && length < PACKET_MOST && row[x + length] == row[x])
         ++length;
     return length;
 }
 
-// How many pixels from `at` on are best stored one by one.
-int plainLength(const uint8_t* row, int at, int end)
+// Returns how many pixels from column `x` on are best stored one by one: those before the next run worth a packet.
+int plainLength(const uint8_t* row, int x, int end)
 {
     int length = 0;
-    while (at + length < end && length < PACKET_MOST && runLength(row, at + length, end) < RUN_LEAST)
+    while (x + length < end && length < PACKET_MOST && runLength(row, x + length, end) < RUN_LEAST)
         ++length;
     return length;
 }
@@ -95,7 +95,7 @@ const char* Film::open(const char* name, int rate)
     if (jiffies_ == 0)
         jiffies_ = 1;
     file_ = machine::createFile(name);
-    // The header is written again at the end, when the numbers are known.
+    // close() writes the header again, with the final number of frames and bytes.
     return file_ >= 0 && writeHeader() ? nullptr : complain();
 }
 
@@ -108,13 +108,14 @@ bool Film::writeHeader()
     put16(static_cast<uint32_t>(frames_));
     put16(WIDTH);
     put16(HEIGHT);
-    put16(8);  // bits a pixel
+    put16(8);  // bits per pixel
     put16(0);
     put16(static_cast<uint32_t>(jiffies_));
     return write(room_, HEADER_BYTES);
 }
 
-// A row of the first picture. Counts above 0 repeat a pixel, those below are of pixels that follow one by one.
+// Stores a row of the first picture. A packet with a count above 0 repeats one pixel; a count below 0 is followed by that
+// many single pixels.
 void Film::putRow(const uint8_t* row)
 {
     uint8_t* const packets = at_;
@@ -130,25 +131,26 @@ void Film::putRow(const uint8_t* row)
     }
 }
 
-// What differs from the row before. Counts have the other sign here. Returns the number of packets.
+// Stores the changes of a row against the same row `before` of the last picture. The signs of the counts are the opposite
+// of those in putRow(). Returns the number of packets.
 int Film::putChanges(const uint8_t* row, const uint8_t* before)
 {
     uint8_t* const packets = at_;
     put8(0);
-    int done = 0;  // pixels that the packets so far have brought
+    int done = 0;  // columns that the packets so far have passed
     for (int x = 0; x < WIDTH;) {
         if (row[x] == before[x]) {
             ++x;
             continue;
         }
-        // To the last difference before a stretch without any that is worth skipping.
+        // The changed stretch ends (exclusive) before RUN_LEAST unchanged pixels, which are worth skipping.
         int end = x + 1;
         for (int i = end; i < WIDTH && i - end < RUN_LEAST; ++i)
             if (row[i] != before[i])
                 end = i + 1;
         int skip = x - done;
         if (skip > SKIP_MOST) {
-            // One pixel as it is, for a packet must bring something.
+            // A packet must not be empty: it stores one unchanged pixel.
             put8(SKIP_MOST);
             put8(1);
             put8(row[done + SKIP_MOST]);
@@ -171,7 +173,7 @@ int Film::putChanges(const uint8_t* row, const uint8_t* before)
     return *packets;
 }
 
-// Fills in the size and kind of a chunk that begins at `start`; its length is made even.
+// Ends a chunk that begins at `start`: pads it to an even length, and fills in its size and kind.
 void Film::endChunk(uint8_t* start, int kind)
 {
     if ((at_ - start) % 2 != 0)
@@ -241,7 +243,7 @@ bool Film::writeFrame(const uint8_t* picture, const uint8_t* dac)
     return write(room_, static_cast<uint32_t>(end - room_));
 }
 
-// A frame that shows what the one before did.
+// Writes a frame that shows the same picture as the frame before.
 bool Film::writeSame()
 {
     return writeFrame(before_, dac_);
@@ -249,7 +251,7 @@ bool Film::writeSame()
 
 const char* Film::add(const uint8_t* picture, const uint8_t* dac, Time now)
 {
-    // The number of frames that begin up to now.
+    // The number of film frames that begin up to `now`.
     uint32_t due = static_cast<uint32_t>(frames_) + 1;
     if (realTime_) {
         due = static_cast<uint32_t>(divide64(now * JIFFIES, static_cast<uint32_t>(jiffies_) << 16)) + 1;
@@ -270,7 +272,7 @@ const char* Film::close()
 {
     if (file_ < 0)
         return nullptr;
-    // Behind the last frame, and not counted, stands the way from it to the first, for those that play it round and round.
+    // The last frame is followed by the changes back to the first one, for players that loop. This frame is not counted.
     const int frames = frames_;
     bool good = frames == 0 || writeFrame(first_, firstDac_);
     frames_ = frames;

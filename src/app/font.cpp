@@ -1,5 +1,5 @@
 // The letters, drawn for this program: five pixels wide and seven high, as in a terminal of the nineteen-eighties. Each
-// row of a letter is one number, its leftmost pixel the highest bit, so that the shapes can be read here.
+// row of a letter is a binary number whose highest bit is the leftmost pixel, so that the shapes can be read here.
 #include "app/font.h"
 
 const uint8_t FONT[FONT_LETTERS][FONT_HIGH] = {

@@ -1,36 +1,36 @@
-// What keys and mouse do. Nothing here waits: a key changes what the next frame shows.
+// The actions of keys and mouse. No function here waits for input: a key changes what the next frame shows.
 #include "loop.h"
 #include "math/text.h"
 
 namespace {
 
-// Interactive mode: mickeys to units, and where objects may be moved to.
+// Interactive mode: units per mickey and per key, and the range of depths that objects may be moved to, units.
 constexpr Real UNITS_A_MICKEY(0.25);
 constexpr Real UNITS_A_KEY(2);
 constexpr Real DEPTH_LEAST(-60);
 constexpr Real DEPTH_MOST(120);
 
-// Hands on: what a key does at once.
+// Editing: by how much one key press changes a value.
 constexpr Real DEGREES_A_KEY(15);
 constexpr Real SIZE_A_KEY(1);
-constexpr Real WEIGHT_A_KEY(0.25);  // strength and stretch go by as much
-constexpr Real FASTER_A_KEY(0.8);  // of a period
+constexpr Real WEIGHT_A_KEY(0.25);  // also the step of strength and stretch
+constexpr Real FASTER_A_KEY(0.8);  // factor of a period
 constexpr Real SLOWER_A_KEY(1.25);
 
-// About the scene: degrees, and of the distance.
+// The eye: degrees around the scene per key press, and factors of the distance.
 constexpr Real DEGREES_A_VIEW(5);
 constexpr Real NEARER_A_KEY(0.9);
 constexpr Real FARTHER_A_KEY(1.111111);
 
 constexpr int STEPS_A_SECOND = 10;
 
-// The rate that F4 holds where /F names none.
+// The frame rate that F4 holds when /F is not given.
 constexpr int HOLD_FRAMES = 10;
 
-// How far from the pointer an object may lie that a click means.
+// How far from the pointer a click may still select an object, pixels.
 constexpr int PICK_REACH = 4;
 
-// Small letters for capital ones.
+// Turns a capital letter into a small one.
 int small(int code)
 {
     return code >= 'A' && code <= 'Z' ? code + ('a' - 'A') : code;
@@ -38,13 +38,13 @@ int small(int code)
 
 }  // namespace
 
-// Those that came while the last frame was drawn, then what came since.
+// Handles the keys that came while the last frame was drawn, then those that came since.
 void Demo::takeKeys()
 {
     takingKeys_ = true;
     nextKey_ = 0;
     while (!ended_) {
-        // What a key starts may take long and fetch those that come meanwhile.
+        // key() may start a long computation, during which interrupted() appends new keys to keys_.
         if (nextKey_ < waiting_) {
             key(keys_[nextKey_++]);
             continue;
@@ -105,12 +105,12 @@ void Demo::key(int code)
         handKey(code);
 }
 
-// The keys that move the eye about the scene. False: `code` is none of them.
+// Handles the keys that move the eye around the scene. Returns false when `code` is another key.
 bool Demo::eyeKey(int code)
 {
     const Real turn = DEGREES_A_VIEW, none(0);
     if (!options_.interactive) {
-        // There they move nothing else.
+        // Without /I the arrow keys do not move objects and may move the eye.
         switch (code) {
         case machine::KEY_LEFT: code = '5'; break;
         case machine::KEY_RIGHT: code = '6'; break;
@@ -136,7 +136,7 @@ bool Demo::eyeKey(int code)
     }
 }
 
-// Holds a rate, or lets it go.
+// Switches the holding of a frame rate on or off.
 void Demo::hold()
 {
     char text[40];
@@ -152,7 +152,7 @@ void Demo::hold()
     say(text);
 }
 
-// From now on the user chooses the spacing.
+// Stops holding a frame rate: from now on the user chooses the spacing, beginning with the coarsest one in use.
 void Demo::letGo()
 {
     if (rate_.frames() == 0)
@@ -161,7 +161,7 @@ void Demo::letGo()
     spacing_ = model_.coarsest();
 }
 
-// The keys that hold the animation, let it go and change its speed.
+// Handles the keys that pause, resume, step and restart the animation and change its speed; and `n`, the next scene.
 void Demo::playKey(int code)
 {
     switch (code) {
@@ -190,7 +190,7 @@ void Demo::playKey(int code)
     if (options_.interactive)
         return;
     if (code == '.') {
-        // A tenth of a second, or the step that a frame makes with /N.
+        // A step is a tenth of a second; with /N it is the time from one frame to the next.
         pace_.setRunning(false);
         pace_.step(static_cast<Time>(65536 / (options_.frames > 0 ? options_.rate : STEPS_A_SECOND)));
         say("a step on; space lets it run");
@@ -228,12 +228,12 @@ void Demo::handKey(int code)
     }
 }
 
-// The keys that edit the model. False: `code` is none of them.
+// Handles the keys that edit the model. Returns false when `code` is another key.
 bool Demo::editKey(int code)
 {
     const Real turn = DEGREES_A_KEY, size = SIZE_A_KEY, weight = WEIGHT_A_KEY;
     bool done = false;
-    // With Shift the other way; for other letters it makes no difference.
+    // With Shift these letters do the opposite; for other letters Shift makes no difference.
     switch (code) {
     case 'X': done = editor_.turn(0, -turn, time_); break;
     case 'Y': done = editor_.turn(1, -turn, time_); break;
@@ -292,7 +292,7 @@ bool Demo::editKey(int code)
     return true;
 }
 
-// Another object is selected.
+// Starts the pulse of the object that was just selected.
 void Demo::selected()
 {
     selectedAt_ = time_;
@@ -300,7 +300,8 @@ void Demo::selected()
 
 void Demo::push(Real x, Real y, Real z)
 {
-    // Kept where the viewer sees it: the centre stays on the screen. What is beyond already may come back by itself.
+    // In view coordinates, the new centre is limited to the screen and to the range of depths. An object that is already
+    // outside is not pulled in: its own place extends the range.
     const Point from = model_.actor(editor_.selected()).object->centre();
     const Camera& camera = view_.camera();
     const ViewAxes& axes = camera.axes;
@@ -337,7 +338,7 @@ void Demo::mouse()
         push(dx, -dy, Real(0));
 }
 
-// The mouse with a pointer: two mickeys are a pixel.
+// Handles the mouse while it moves a pointer: two mickeys are one pixel.
 void Demo::pointAt(const machine::Mouse& m)
 {
     const auto within = [](int at, int end) { return at < 0 ? 0 : at > end - 1 ? end - 1 : at; };
@@ -359,7 +360,7 @@ void Demo::pointAt(const machine::Mouse& m)
     const int dx = pointerX_ - fromX, dy = pointerY_ - fromY;
     if ((!dragging_ && !m.right) || (dx == 0 && dy == 0))
         return;
-    // As far as the pointer goes on the screen, at the object's distance.
+    // The object follows the pointer: pixels are converted to units at the distance of the object.
     const Camera& camera = view_.camera();
     const Point& centre = model_.actor(editor_.selected()).object->centre();
     const Real away = max(camera.axes.fromWorld(centre - camera.eye).z, Real(1));
@@ -370,8 +371,8 @@ void Demo::pointAt(const machine::Mouse& m)
         push(x, Real(-dy) / camera.focalY * away * Real(0.5), Real(0));
 }
 
-// The object that the last frame shows at a pixel, or a little beside it: the one whose own field is the strongest there.
-// -1: none.
+// Returns the index of the object that the last frame shows at a pixel or within PICK_REACH of it, or -1: the object whose
+// own field is strongest at the surface point there.
 int Demo::objectAt(int x, int y) const
 {
     const uint16_t* zbuffer = view_.zbuffer();

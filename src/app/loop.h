@@ -1,5 +1,5 @@
-// Demo: one run of the program. demo.cpp has its loop and the frame, keys.cpp what keys and mouse do, screen.cpp what is
-// written on top of the picture, scenes.cpp saving and loading while it runs.
+// Demo: one run of the program. demo.cpp has the main loop and draws the frames, keys.cpp handles keys and mouse, screen.cpp
+// writes on top of the picture, and scenes.cpp saves and loads scenes during the run.
 #ifndef FB_LOOP_H
 #define FB_LOOP_H
 
@@ -20,7 +20,7 @@
 
 class Demo {
 public:
-    // `directory` is where the program lies, with its final slash or colon; empty for the current directory.
+    // `directory` is the directory of the program, with its final slash or colon; empty for the current directory.
     Demo(const Options& options, const char* directory);
     ~Demo();
 
@@ -73,7 +73,7 @@ private:
     void nextScene();
     void shoot();
 
-    // --- On top of the picture (screen.cpp)
+    // --- Text on top of the picture (screen.cpp)
     void say(const char* text);
     void busy(const char* text);
     void drawOverlay();
@@ -86,7 +86,7 @@ private:
     Model model_;
     View view_;
     Palette palette_;
-    bool paletteStale_ = false;  // the card has another one: it is set with the next frame
+    bool paletteStale_ = false;  // the video card still has an older palette: it gets `palette_` with the next frame
     Csv csv_;
     Dump dump_;
     Film film_;
@@ -94,53 +94,53 @@ private:
     VoxelList* voxels_ = nullptr;
     Counts counts_;
     Real spacing_{2};
-    uint64_t layTicks_ = 0;      // how long laying out the seeds took the last time
+    uint64_t layTicks_ = 0;      // how long the last layout of all seeds took, in ticks of machine::clock()
     Rate rate_;
-    uint64_t started_ = 0;
-    Time time_ = 0;              // of the run
+    uint64_t started_ = 0;       // ticks
+    Time time_ = 0;              // time of the run
     Pace pace_;
-    Time shown_ = 0;             // of the animation
+    Time shown_ = 0;             // time of the animation
     int frames_ = 0;
     bool ended_ = false;
 
     // Keys that were pressed while a frame was drawn.
     static constexpr int KEYS_MOST = 64;
     int keys_[KEYS_MOST];
-    int waiting_ = 0;
-    bool escapeWaits_ = false;
-    int nextKey_ = 0;            // while they are taken: the one to be taken next
+    int waiting_ = 0;            // number of these keys
+    bool escapeWaits_ = false;   // ESC is one of them
+    int nextKey_ = 0;            // index of the key that takeKeys() handles next
     bool takingKeys_ = false;
 
     Orbit orbit_;
 
-    // Hands on.
+    // Editing (/I).
     Editor editor_;
-    Time selectedAt_ = 0;
-    bool pointing_ = false;      // the mouse moves a pointer
-    bool dragging_ = false;
-    int pointerX_, pointerY_;    // in half pixels
+    Time selectedAt_ = 0;        // when the selected object was selected: it pulses for a while
+    bool pointing_ = false;      // the mouse moves a pointer, not the object
+    bool dragging_ = false;      // the object follows the pointer
+    int pointerX_, pointerY_;    // half pixels
 
-    // On the screen.
+    // Text on the screen.
     Overlay overlay_;
-    bool greets_;                // tells for a while which keys to begin with
+    bool greets_;                // show the hint about the help key at the start
     char message_[320] = "";
-    Time messageEnd_ = 0;
-    bool help_ = false;
-    bool fps_ = false;
-    uint64_t fpsSince_ = 0;      // ticks
-    int fpsFrames_ = 0;
-    uint32_t fpsTicks_ = 0;      // of the frames counted last
-    int fpsCounted_ = 0;
+    Time messageEnd_ = 0;        // time of the run until which the message is shown
+    bool help_ = false;          // the page of keys is shown
+    bool fps_ = false;           // the frame rate is shown
+    uint64_t fpsSince_ = 0;      // start of the interval that is being counted, ticks
+    int fpsFrames_ = 0;          // frames in this interval so far
+    uint32_t fpsTicks_ = 0;      // length of the last complete interval
+    int fpsCounted_ = 0;         // frames in the last complete interval
 
     // Scenes.
     Ask ask_;
-    int listedHere_ = 0;         // of the names that ask_ lists, those in the current directory; the others lie beside us
-    char directory_[128];
+    int listedHere_ = 0;         // how many names in ask_ come from the current directory; the rest are from `directory_`
+    char directory_[128];        // the directory of the program
     char scene_[160];            // the file that was loaded last; empty: none
     char saved_[Ask::LINE_ROOM + 4] = "";     // the file that was saved last
-    char replaces_[Ask::LINE_ROOM + 4] = "";  // the file that the user was told is there
-    int shots_ = 0;              // up to which number screenshots are taken
-    bool shotWanted_ = false;
+    char replaces_[Ask::LINE_ROOM + 4] = "";  // the existing file that the user was asked about
+    int shots_ = 0;              // the highest number of a screenshot tried so far
+    bool shotWanted_ = false;    // the next frame is to be written as a screenshot
 };
 
 #endif

@@ -1,4 +1,4 @@
-// Where every machine enters the program.
+// The entry point on every machine.
 #include "app/demo.h"
 
 int main(int count, char** arguments)

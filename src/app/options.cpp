@@ -1,4 +1,4 @@
-// The command line.
+// Reads the command line, with one table for each kind of switch.
 #include "app/options.h"
 
 #include "rt.h"
@@ -46,8 +46,8 @@ const char* complain(const char* argument, const char* what)
 
 constexpr int NUMBER_ROOM = 24;
 
-// Copies a number's text up to the end of the argument or the next switch. Returns where it ends; null: there is none,
-// or it is longer than any number that is in range.
+// Copies the text of a number up to the end of the argument or the next switch. Returns the end of the text, or null when
+// the text is empty or longer than any valid number.
 const char* takeNumber(const char* value, char* number)
 {
     int length = 0;
@@ -69,7 +69,7 @@ bool wholeWithin(const char* text, int32_t most, int32_t* value)
     return true;
 }
 
-// The switches by what follows their letter: nothing, a name or a number.
+// The switches, in three tables: those followed by nothing, by a name, and by a number.
 struct Flag {
     char letter;
     bool Options::*value;
@@ -88,9 +88,9 @@ const Name NAMES[] = {
 struct Number {
     char letter;
     const char* expected;
-    int32_t most;              // 1 is the least
-    int32_t Options::*value;   // null: the spacing, which is no whole number
-    bool Options::*given;      // may be null
+    int32_t most;              // upper bound, inclusive; the lower bound is 1
+    int32_t Options::*value;   // null: the spacing, which need not be a whole number
+    bool Options::*given;      // set when the switch is given; may be null
 };
 const Number NUMBERS[] = {
     {'S', "a seed spacing from 0.25 to 8 is expected, as in /S:2", 0, nullptr, &Options::spacingGiven},
@@ -100,7 +100,7 @@ const Number NUMBERS[] = {
     {'T', "seconds from 1 to 86400 are expected, as in /T:60", SECONDS_MOST, &Options::seconds, nullptr},
 };
 
-// The switch of a letter in one of these tables; null: it has none.
+// Returns the entry of a letter in one of these tables, or null.
 template <class Switch, int COUNT>
 const Switch* find(const Switch (&table)[COUNT], char letter)
 {
@@ -119,7 +119,8 @@ bool spacingWithin(const char* text, Real* value)
     return true;
 }
 
-// Reads the number that follows a switch. /S2 is as good as /S:2. Null, or a complaint; `*at` is then behind the number.
+// Reads the number that follows a switch; /S2 means /S:2. Returns null and sets `*at` to the end of the number, or returns
+// a complaint.
 const char* parseNumber(const char* argument, const Number& number, const char** at, Options* options)
 {
     const char* value = *at;
@@ -138,7 +139,8 @@ const char* parseNumber(const char* argument, const Number& number, const char**
     return good ? nullptr : complain(argument, number.expected);
 }
 
-// Reads the name that follows a switch. It may have slashes: it goes to the end of the argument. Null, or a complaint.
+// Reads the name that follows a switch. A name may contain slashes and therefore extends to the end of the argument.
+// Returns null, or a complaint.
 const char* parseName(const char* argument, const char* at, const char** name)
 {
     if (*at != 0 && *at != ':' && *at != '=')
@@ -149,12 +151,12 @@ const char* parseName(const char* argument, const char* at, const char** name)
     return nullptr;
 }
 
-// Reads the switches of one argument, which begins with one; /G/I are two. Null, or a complaint.
+// Reads the switches of one argument that begins with a switch; /G/I are two switches. Returns null, or a complaint.
 const char* parseSwitches(const char* argument, Options* options)
 {
     const char* at = argument;
     while (*at != 0) {
-        // After the first, only '/' begins a switch: '-' is part of many a name and number.
+        // After the first switch only '/' begins another one, because '-' may be part of a name or a number.
         if (at != argument && *at != '/')
             return complain(argument, KNOWN);
         const char letter = at[1] >= 'a' && at[1] <= 'z' ? static_cast<char>(at[1] - 32) : at[1];

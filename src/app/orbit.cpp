@@ -1,13 +1,16 @@
-// The eye about the scene.
+// Moves the eye around the scene.
 #include "app/orbit.h"
 
 namespace {
 
+// The steepest view from above or below, degrees; the factor and the most steps by which the eye is drawn back into the
+// space where it may be; the range of distances, 1.0 = the scene's own.
 constexpr Real OVER_MOST(85);
 constexpr Real SHORTER(0.9);
 constexpr int SHORTER_MOST = 100;
 constexpr Real DISTANCE_LEAST(0.125), DISTANCE_MOST(4);
 
+// Returns the mean of the centres of all objects. Each is divided first, so that the sum does not overflow.
 Point middleOf(const Model& model)
 {
     const Real share = Real(1) / Real(model.count());
@@ -50,17 +53,17 @@ Camera Orbit::from(const Camera& camera, const Model& model)
     if (!away_)
         middle_ = middleOf(model);
     away_ = true;
-    const Point about = camera.looks == Camera::AHEAD ? middle_ : camera.target;
-    // Over it about the axis that lies to the viewer's right, then round it about the upright one. Going to the right turns
-    // the eye against the clock as seen from above, and with it the view.
+    const Point pivot = camera.looks == Camera::AHEAD ? middle_ : camera.target;
+    // First turn over the scene, about the axis to the viewer's right; then turn around it, about the upright axis. Going to
+    // the right turns the eye and the view axes counterclockwise as seen from above.
     const Vector upright{none, Real(1), none};
-    const Matrix by = Matrix::rotation(upright, fromDegrees(-round_)) * Matrix::rotation(camera.axes.right, fromDegrees(over_));
+    const Matrix matrix = Matrix::rotation(upright, fromDegrees(-round_)) * Matrix::rotation(camera.axes.right, fromDegrees(over_));
     Camera moved = camera;
-    // No farther than an eye may be, on the same line.
-    Vector arm = by * ((camera.eye - about) * distance_);
-    for (int i = 0; i < SHORTER_MOST && !within(about + arm); ++i)
+    // Shorten the distance on the same line until the eye is inside the space where it may be.
+    Vector arm = matrix * ((camera.eye - pivot) * distance_);
+    for (int i = 0; i < SHORTER_MOST && !within(pivot + arm); ++i)
         arm = arm * SHORTER;
-    moved.eye = about + arm;
-    moved.axes = turnedBy(by, camera.axes);
+    moved.eye = pivot + arm;
+    moved.axes = turnedBy(matrix, camera.axes);
     return moved;
 }

@@ -1,4 +1,4 @@
-// Letters into the frame buffer.
+// Draws letters, panels and marks into the frame buffer.
 #include "app/overlay.h"
 
 #include "app/font.h"
@@ -11,7 +11,7 @@ namespace {
 constexpr uint8_t INK = Palette::INK;
 constexpr uint8_t PAPER = 0;  // the background
 
-// The pointer's rows from its tip down: the columns of its outline and of what it encloses, leftmost highest.
+// The rows of the mouse pointer from its tip down; the highest bit is the leftmost pixel.
 constexpr int POINTER_WIDE = 7;
 constexpr int POINTER_HIGH = 10;
 constexpr uint8_t POINTER[POINTER_HIGH] = {0b1000000, 0b1100000, 0b1110000, 0b1111000, 0b1111100,
@@ -33,7 +33,7 @@ inline void Overlay::dot(uint8_t* frame, int x, int y, uint8_t colour)
 void Overlay::letters(int left, int top, const char* text, int length)
 {
     uint8_t* frame = view_.overlay(left - 1, top - 1, length * LETTER_WIDE + 1, FONT_HIGH + 2);
-    // The rim first, for all letters, so that none is drawn over its neighbour.
+    // The first pass draws the rims of all letters, so that no rim covers a neighbouring letter.
     for (int pass = 0; pass < 2; ++pass) {
         int x = left;
         for (int i = 0; i < length && x < WIDTH; ++i, x += LETTER_WIDE) {
@@ -66,12 +66,12 @@ void Overlay::text(int left, int top, const char* text)
 
 int Overlay::paragraph(int left, int top, int wide, const char* text, bool draw)
 {
-    const int most = wide / LETTER_WIDE;
+    const int lettersPerLine = wide / LETTER_WIDE;
     int lines = 0;
     while (*text != 0) {
-        // As many words as fit; a word longer than the line is broken where the line ends.
+        // A line takes as many words as fit; a word longer than the line is broken at the end of the line.
         int length = 0, end = 0;
-        while (text[length] != 0 && length < most) {
+        while (text[length] != 0 && length < lettersPerLine) {
             if (text[length] == ' ')
                 end = length;
             ++length;

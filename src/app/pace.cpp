@@ -1,5 +1,5 @@
-// The animation's time. At the usual speed it is the sum of the run's steps, so that a run in which nobody touches
-// anything shows the run's own time to the last bit.
+// The time of the animation. At the usual speed it is the sum of the time steps of the run, so that without any input it
+// equals the time of the run to the last bit.
 #include "app/pace.h"
 
 Time Pace::at(Time now)

@@ -1,5 +1,5 @@
-// Which object is laid out anew, and when. A frame costs about as much as there are seeds, so a step in the spacing of one
-// object tells beforehand what it will change; nothing is made finer that would have to be made coarser again.
+// Decides which object gets new seeds, and when. The time of a frame is about proportional to the number of seeds, so the
+// effect of a step in the spacing of one object can be predicted; a step is not made when it would have to be reverted.
 #include "app/rate.h"
 
 #include "app/options.h"
@@ -7,26 +7,28 @@
 
 namespace {
 
-// A frame on time, and the load at which objects become coarser; they become finer up to FINER.
+// Loads, 1.0 = 256: a frame exactly on time; the load above which objects become coarser; the load up to which they may
+// become finer; the largest load that is measured.
 constexpr int32_t ON_TIME = 256;
 constexpr int32_t COARSER = 264;
 constexpr int32_t FINER = 248;
 constexpr int32_t LOAD_MOST = 64 * ON_TIME;
 
-// Beyond half and one and a half of the wanted time there are more changes before a frame, and less to wait for each.
+// Far off, below half or above one and a half of the wanted time, decisions come after FEW_FRAMES frames and change more
+// objects at once: one of OBJECTS_A_CHANGE when too fast; more with the excess when too slow, and all at ALL_ABOVE.
 constexpr int32_t FAR_BELOW = ON_TIME / 2;
 constexpr int32_t FAR_ABOVE = ON_TIME * 3 / 2;
 constexpr int FEW_FRAMES = 2;
 constexpr int OBJECTS_A_CHANGE = 16;
 constexpr int32_t ALL_ABOVE = 8 * ON_TIME;
 
-// Four steps of the spacing are a factor of two; a step changes the number of seeds by 41%, or 29% the other way.
+// Four steps of the spacing make a factor of two. A finer step adds 41 % of the seeds, a coarser one removes 29 %.
 constexpr int STEPS_IN_TWO = 4;
 constexpr Real STEP[STEPS_IN_TWO] = {Real(1), Real(1.189207), Real(1.414214), Real(1.681793)};
 constexpr int STEPS = 5 * STEPS_IN_TWO;  // from SPACING_LEAST to SPACING_MOST
 constexpr int32_t SEEDS_FINER = 41, SEEDS_COARSER = 29;
 
-// Objects whose spacings are this much apart from what they deserve change although the rate is right.
+// When the coarsest and the finest object differ by more than this factor, objects change although the rate is right.
 constexpr Real UNFAIR(2.2);
 
 Real spacingOf(int step)
@@ -34,7 +36,7 @@ Real spacingOf(int step)
     return SPACING_LEAST * STEP[step % STEPS_IN_TWO] * Real(1 << step / STEPS_IN_TWO);
 }
 
-// The step next to a spacing that is coarser, or finer, by half a step at least.
+// Return the next step that is coarser, or finer, than a spacing by at least half a step (a factor of 1.09).
 int coarserStep(Real spacing)
 {
     int step = 0;
@@ -51,21 +53,22 @@ int finerStep(Real spacing)
     return step;
 }
 
-// How far the nearest part of an object is from the viewer, units; what is behind him is as good as far.
+// Returns the distance of the nearest part of an object from the eye along the z axis of the world, units; at least 10. An
+// object behind the eye counts as far away.
 Real distance(const SoftObject& object, const Camera& camera)
 {
     const Real away = object.centre().z - camera.eye.z, reach = object.radius() + object.coreReach();
     return away < -reach ? Real(512) : max(away - reach, Real(10));
 }
 
-// The spacing over what the object deserves: finer where it is near, and where it is thin.
+// Returns the spacing relative to the spacing that the object should have: near and thin objects should have finer seeds.
 Real coarseness(const SoftObject& object, const Camera& camera)
 {
     const Real thin = clamp(object.radius() * Real(0.1), Real(0.5), Real(1));
     return shiftUp(object.spacing(), 6) / (distance(object, camera) * thin);
 }
 
-// No more than a seed for each pixel, no less than a few across the object.
+// Seeds are not made finer than one per pixel, nor coarser than the radius of the object (or one unit).
 bool canBeFiner(const SoftObject& object, const Camera& camera)
 {
     return spacingOf(finerStep(object.spacing())) >= distance(object, camera) / camera.focalX &&
@@ -90,10 +93,10 @@ void Rate::add(uint64_t ticks, const Model& model)
     ticks_ += ticks;
     ++counted_;
     const uint64_t wanted = static_cast<uint64_t>(machine::CLOCK_HZ) * counted_;
-    // 256 times what the frames took over what they may take.
-    const uint64_t most = wanted * (LOAD_MOST / ON_TIME);
+    // load_ = 256 * time taken / time allowed, limited to LOAD_MOST; both sides are shifted to fit a 32-bit divisor.
+    const uint64_t limit = wanted * (LOAD_MOST / ON_TIME);
     const uint64_t took = ticks_ * static_cast<uint32_t>(frames_);
-    uint64_t top = (took > most ? most : took) * ON_TIME, bottom = wanted;
+    uint64_t top = (took > limit ? limit : took) * ON_TIME, bottom = wanted;
     while (bottom >> 32 != 0) {
         top >>= 1;
         bottom >>= 1;
@@ -104,7 +107,8 @@ void Rate::add(uint64_t ticks, const Model& model)
         return;
     ticks_ = 0;
     counted_ = 0;
-    // The farther off, the more objects; all of them where a frame takes nine times too long, and is a leap by itself.
+    // The farther off the rate is, the more objects change. All change when a frame takes nine times too long: the picture
+    // jumps at such a rate anyway.
     left_ = 1;
     if (load_ > FAR_ABOVE)
         left_ += model.count() * (load_ - FAR_ABOVE) / ALL_ABOVE;
@@ -131,16 +135,17 @@ int Rate::next(const Model& model, Real* spacing)
     }
     if (coarse < 0)
         return -1;
-    const int32_t then = load_ + share(coarse, SEEDS_FINER);
+    const int32_t expected = load_ + share(coarse, SEEDS_FINER);
     const bool unfair = fine >= 0 && fine != coarse && found.most > found.least * UNFAIR;
-    if (then > FINER && !unfair)
+    if (expected > FINER && !unfair)
         return -1;
-    load_ = then;
+    load_ = expected;
     *spacing = spacingOf(finerStep(model.actor(coarse).object->spacing()));
     return coarse;
 }
 
-// The object that is the finest for what it is, of those that can be coarser, and the other way round.
+// Finds the finest object of those that can become coarser, and the coarsest of those that can become finer. Fine and
+// coarse are measured by coarseness().
 Rate::Extremes Rate::findExtremes(const Model& model) const
 {
     Extremes found{-1, -1, Real(0), Real(0)};

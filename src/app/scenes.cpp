@@ -1,4 +1,4 @@
-// Saving and loading while the program runs, and screenshots.
+// Saving and loading scenes while the program runs, and screenshots.
 #include "app/shot.h"
 #include "loop.h"
 #include "math/text.h"
@@ -16,7 +16,7 @@ bool isThere(const char* name)
     return file >= 0;
 }
 
-// The name of a file behind its directories.
+// Returns the file name at the end of a path.
 const char* nameOf(const char* path)
 {
     const char* name = path;
@@ -26,7 +26,7 @@ const char* nameOf(const char* path)
     return name;
 }
 
-// Whether two names are the same up to their dots, whatever the case.
+// Tells whether two names are equal up to their first dots, ignoring case.
 bool sameStem(const char* a, const char* b)
 {
     const auto letter = [](char c) { return c == '.' ? '\0' : c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; };
@@ -41,7 +41,7 @@ bool sameStem(const char* a, const char* b)
 
 void Demo::askSave()
 {
-    // The name of the last time; before that, one that is not taken.
+    // The preset is the name saved last, or else a name that is not in use.
     char name[sizeof saved_];
     snprintf(name, sizeof name, "%s", saved_[0] != 0 ? saved_ : "SAVED.FB");
     for (int n = 2; saved_[0] == 0 && n < 100 && isThere(name); ++n)
@@ -52,17 +52,17 @@ void Demo::askSave()
 
 void Demo::askLoad()
 {
-    // Those in the current directory, then those beside the program whose names are not among them.
+    // List the scenes of the current directory, then those beside the program whose names are not in the list yet.
     machine::FileName* names = ask_.names();
     int count = listedHere_ = machine::listFiles("", SCENES, names, Ask::NAMES_MOST);
     if (directory_[0] != 0) {
         const int beside = machine::listFiles(directory_, SCENES, names + count, Ask::NAMES_MOST - count);
         for (int i = 0; i < beside; ++i) {
             const machine::FileName name = names[listedHere_ + i];
-            bool there = false;
+            bool listed = false;
             for (int j = 0; j < listedHere_; ++j)
-                there = there || sameStem(names[j].text, name.text);
-            if (!there)
+                listed = listed || sameStem(names[j].text, name.text);
+            if (!listed)
                 names[count++] = name;
         }
     }
@@ -77,7 +77,7 @@ void Demo::askLoad()
     ask_.askList("load a scene", count, marked);
 }
 
-// A key for the question that is open.
+// Passes a key to the open question and acts on its answer.
 void Demo::answer(int code)
 {
     if (ask_.key(code) != Ask::GIVEN)
@@ -94,7 +94,7 @@ void Demo::answer(int code)
     char name[sizeof saved_];
     snprintf(name, sizeof name, "%s%s", ask_.line(), strchr(nameOf(ask_.line()), '.') == nullptr ? SCENES : "");
     if (strcmp(name, saved_) != 0 && strcmp(name, replaces_) != 0 && isThere(name)) {
-        // Not without a second look.
+        // The file exists: the user must press Enter a second time.
         strcpy(replaces_, name);
         ask_.setQuestion("that file is there: Enter replaces it");
         return;
@@ -105,7 +105,7 @@ void Demo::answer(int code)
     say(editor_.message());
 }
 
-// Takes on a scene, or says why not.
+// Loads a scene; on failure the model stays. The editor's message tells the result.
 void Demo::load(const char* name, bool undoable)
 {
     char text[sizeof scene_ + 10];
@@ -120,7 +120,7 @@ void Demo::load(const char* name, bool undoable)
     }
 }
 
-// The scene behind this one, of those beside the program, with its title.
+// Loads the scene that follows the current one in the directory of the program, and shows its title.
 void Demo::nextScene()
 {
     machine::FileName* names = ask_.names();
@@ -145,7 +145,7 @@ void Demo::nextScene()
     say(text);
 }
 
-// Writes what is shown as the next SHOTnnnn.PCX that is not there yet.
+// Writes the frame as SHOTnnnn.PCX, with the next number that is not in use.
 void Demo::shoot()
 {
     shotWanted_ = false;

@@ -1,4 +1,4 @@
-// What is written on top of the picture: the selected object, messages, help, questions.
+// Draws text and marks on top of the picture: the selected object, messages, help, questions.
 #include "loop.h"
 #include "math/text.h"
 
@@ -8,12 +8,12 @@ constexpr int EDGE = 3;
 constexpr int LINE = Overlay::LINE_HIGH + 1;
 constexpr int LETTER = Overlay::LETTER_WIDE;
 
-// How long a message stays, and how much longer for each letter; how long the first words stay.
+// How long a message is shown, how much longer for each of its letters, and how long the greeting is shown (65536 = 1 s).
 constexpr Time MESSAGE = 65536 * 2;
 constexpr Time MESSAGE_A_LETTER = 65536 / 16;
 constexpr Time GREETING = 65536 * 3;
 
-// The frame rate's place, bottom right.
+// Letters reserved for the frame rate at the bottom right.
 constexpr int RATE_LETTERS = 11;
 
 const char* const PAGE[] = {
@@ -51,7 +51,7 @@ const char* const HANDS_PAGE[] = {
     "Shift with x y z w i h j v q e g: the other way",
 };
 
-// A page of lines in a panel in the middle of the screen.
+// Draws lines of text in a panel in the middle of the screen.
 void drawPage(Overlay& overlay, const char* const* page, int lines)
 {
     int letters = 0;
@@ -68,7 +68,7 @@ void drawPage(Overlay& overlay, const char* const* page, int lines)
 
 }  // namespace
 
-// Words at the bottom for a while.
+// Shows a message at the bottom of the screen for a while.
 void Demo::say(const char* text)
 {
     snprintf(message_, sizeof message_, "%s", text);
@@ -76,8 +76,8 @@ void Demo::say(const char* text)
     greets_ = false;
 }
 
-// Words that are seen at once, on top of the last frame, before something that takes long. Not in a run that counts its
-// frames, which must not depend on how long things take.
+// Shows a message at once, on top of the last frame, before a long computation. It does nothing with /N, because such a run
+// must not depend on how long its computations take.
 void Demo::busy(const char* text)
 {
     if (options_.frames > 0 || options_.noPresent || frames_ == 0)
@@ -90,7 +90,7 @@ void Demo::busy(const char* text)
     machine::present(view_.frame(), view_.rows());
 }
 
-// Draws a mark where an object is on the screen.
+// Draws a mark at the centre of an object on the screen.
 void Demo::mark(int index, void (Overlay::*shape)(int, int))
 {
     const Camera& camera = view_.camera();
@@ -107,7 +107,7 @@ void Demo::drawHands()
     char text[256];
     editor_.describe(text, sizeof text);
     overlay_.paragraph(EDGE, EDGE, machine::WIDTH - 2 * EDGE, text);
-    // Where the selected object is, and where a new one would come; and what a link would be made with.
+    // The cross marks the selected object, where add() would put a new one; the diamond marks the object that link() uses.
     mark(editor_.selected(), &Overlay::cross);
     if (editor_.before() >= 0)
         mark(editor_.before(), &Overlay::diamond);
@@ -127,7 +127,7 @@ void Demo::drawOverlay()
         snprintf(text + length, sizeof text - static_cast<size_t>(length), " fps");
         int letters = RATE_LETTERS;
         if (rate_.frames() > 0) {
-            // And the spacings, finest and coarsest, that hold it.
+            // Append the finest and the coarsest spacing in use.
             char held[32];
             const int used = formatQuotient(held, sizeof held, static_cast<uint32_t>(rawFromReal(model_.finest())), 65536, 1);
             held[used] = '-';
@@ -169,9 +169,9 @@ void Demo::drawAsk()
         page[lines++] = line;
     } else {
         for (int i = 0; i < Ask::LINES_SHOWN && ask_.firstShown() + i < ask_.count(); ++i) {
-            const int at = ask_.firstShown() + i;
-            page[lines++] = ask_.names()[at].text;
-            if (at == ask_.chosen()) {
+            const int index = ask_.firstShown() + i;
+            page[lines++] = ask_.names()[index].text;
+            if (index == ask_.chosen()) {
                 snprintf(marked, sizeof marked, "> %s", page[lines - 1]);
                 page[lines - 1] = marked;
             }

@@ -1,4 +1,4 @@
-// A PCX file: a header, the rows as runs of equal pixels, the palette at the end.
+// Writes a PCX file: a header, the rows as runs of equal pixels, and the palette at the end.
 #include "app/shot.h"
 
 #include "machine.h"
@@ -10,7 +10,7 @@ using machine::WIDTH;
 namespace {
 
 constexpr int RUN_MOST = 63;
-constexpr int RUN_MARK = 0xc0;  // a byte from here on is a count; a pixel of such a value needs one before it
+constexpr int RUN_MARK = 0xc0;  // bytes from this value on are counts; a pixel of such a value needs a count before it
 
 uint8_t header[128];
 uint8_t row[WIDTH * 2];
@@ -22,7 +22,7 @@ void put16(uint8_t* to, int value)
     to[1] = static_cast<uint8_t>(value >> 8);
 }
 
-// A row's pixels into `row`; returns how many bytes they take.
+// Packs the pixels of a row into `row`; returns the number of bytes.
 uint32_t packRow(const uint8_t* pixels)
 {
     uint8_t* to = row;
@@ -45,23 +45,23 @@ const char* writePcx(const char* name, const uint8_t* picture, const uint8_t* da
     const int file = machine::createFile(name);
     bool good = file >= 0;
     memset(header, 0, sizeof header);
-    header[0] = 10;  // PCX
-    header[1] = 5;   // with a palette of 256 colours
-    header[2] = 1;   // in runs
-    header[3] = 8;   // bits a pixel
+    header[0] = 10;  // the mark of a PCX file
+    header[1] = 5;   // version 5: may have a palette of 256 colours
+    header[2] = 1;   // run-length encoded
+    header[3] = 8;   // bits per pixel
     put16(header + 8, WIDTH - 1);
     put16(header + 10, HEIGHT - 1);
     put16(header + 12, WIDTH);
     put16(header + 14, HEIGHT);
     header[65] = 1;  // planes
     put16(header + 66, WIDTH);
-    put16(header + 68, 1);  // colour
+    put16(header + 68, 1);  // the palette has colours
     good = good && machine::writeFile(file, header, sizeof header) >= 0;
     for (int y = 0; good && y < HEIGHT; ++y) {
         const uint32_t bytes = packRow(picture + y * WIDTH);
         good = machine::writeFile(file, row, bytes) >= 0;
     }
-    // The palette, 0..255, behind a mark.
+    // The palette follows a mark byte; its values are scaled from 0..63 to 0..255.
     constexpr uint8_t MARK = 12;
     good = good && machine::writeFile(file, &MARK, 1) >= 0;
     for (int i = 0; good && i < 768; i += 96) {

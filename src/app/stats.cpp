@@ -1,4 +1,4 @@
-// Statistics of a run, as text.
+// Formats the statistics of a run as text.
 #include "app/stats.h"
 
 #include "machine.h"
@@ -18,7 +18,7 @@ void Stats::addFrame(const Counts& counts)
 
 void Stats::lines(Line* to) const
 {
-    // A quotient's divisor has 32 bits: long runs are counted in larger ticks.
+    // The divisor of a quotient must fit 32 bits: for long runs numerator and divisor are halved until it does.
     uint64_t ticks = ticks_;
     uint64_t hertz = machine::CLOCK_HZ;
     while (ticks >> 32 != 0) {

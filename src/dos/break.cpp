@@ -1,6 +1,6 @@
-// Ctrl-C, Ctrl-Break and DOS's critical errors. DOS and the BIOS call real-mode vectors for these, in the middle of
-// whatever runs. A few bytes of real-mode code in DOS memory answer them: a break sets a flag that broken() reads, and a
-// critical error (no disk in the drive, say) fails the DOS call that met it.
+// Ctrl-C, Ctrl-Break and the critical errors of DOS. DOS and the BIOS call real-mode vectors for these at any time. A few
+// bytes of real-mode code in DOS memory handle them: a break sets a flag that broken() reads; a critical error (for
+// example no disk in the drive) makes the DOS call fail that caused it.
 #include "pc.h"
 
 
@@ -10,20 +10,20 @@ constexpr int BIOS_BREAK = 0x1b;
 constexpr int DOS_BREAK = 0x23;
 constexpr int CRITICAL_ERROR = 0x24;
 
-// What else the BIOS keeps of a break: a flag in bit 7, and the ring of keys, which a Ctrl-C may be in.
+// Traces of a break in the BIOS data area: bit 7 of a flag byte, and the keyboard buffer, which may contain a Ctrl-C.
 constexpr uint32_t BIOS_BREAK_FLAG = 0x471;
 constexpr uint32_t KEYS_HEAD = 0x41a;
 constexpr uint32_t KEYS_TAIL = 0x41c;
 
-// The block in DOS memory, from its first byte: the flag, then the two handlers.
+// Offsets in the block in DOS memory: the flag, then the two handlers.
 constexpr uint16_t FLAG = 0;
 constexpr uint16_t ON_BREAK = 1;
 constexpr uint16_t ON_ERROR = 8;
 constexpr uint8_t realModeCode[] = {
     0x00,                                // flag
     0x2e, 0xc6, 0x06, 0x00, 0x00, 0x01,  // movb $1, %cs:flag
-    0xcf,                                // iret: whatever was broken goes on
-    0xb0, 0x03,                          // movb $3, %al: the call fails
+    0xcf,                                // iret: the interrupted code goes on
+    0xb0, 0x03,                          // movb $3, %al: make the DOS call fail
     0xcf,                                // iret
 };
 constexpr uint16_t PARAGRAPHS = 1;
@@ -38,7 +38,7 @@ dpmi::RealAddress oldDosBreak;
 dpmi::RealAddress oldCriticalError;
 uint8_t oldChecking;
 
-// int 21h, AH=33h: whether DOS looks for Ctrl-C in every call. Off while the program runs: files need no watching.
+// int 21h, AH=33h: whether DOS checks for Ctrl-C in every call. This is off while the program runs.
 uint8_t breakChecking()
 {
     dpmi::RealRegs r = pc::regs(0x3300);
@@ -78,8 +78,8 @@ void closeBreak()
 {
     if (!open)
         return;
-    // A break that was seen has been answered. What is left of it would make DOS (FreeDOS looks at the BIOS's flag) end the
-    // program a second time, in its next call.
+    // The program has handled this break already. Its traces would make DOS break the program a second time in the next
+    // DOS call (FreeDOS checks the flag of the BIOS), so they are removed.
     if (breakSeen())
         poke16(KEYS_HEAD, peek16(KEYS_TAIL));
     poke8(BIOS_BREAK_FLAG, uint8_t(peek8(BIOS_BREAK_FLAG) & 0x7f));

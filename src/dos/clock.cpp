@@ -1,9 +1,9 @@
-// The clock: counter 0 of the interval timer, which counts 65,536 ticks of 1/1193182 s between two timer interrupts, and
-// the BIOS's count of those interrupts. No interrupt is taken and the interrupts keep their rate, so that the time of
-// day goes on as ever.
+// The clock combines counter 0 of the interval timer, which counts 65,536 ticks of 1/1193182 s between two timer
+// interrupts, with the BIOS's count of these interrupts. The timer interrupt is not taken over and keeps its rate, so
+// that the time of day stays right.
 //
-// Most BIOSes leave the counter in mode 3, where it counts down by two, twice over. Mode 2 counts down by one: the only
-// thing changed here, at a moment right after an interrupt, so that not even a part of a tick is lost.
+// Most BIOSes leave the counter in mode 3, in which it counts down by two, twice per interrupt. Mode 2 counts down by one.
+// The mode is the only thing changed here, right after an interrupt, so that not even a part of a tick is lost.
 #include "machine.h"
 #include "pc.h"
 #include "rt.h"
@@ -13,22 +13,22 @@ namespace {
 constexpr uint16_t COUNTER = 0x40;
 constexpr uint16_t COMMAND = 0x43;
 constexpr uint8_t LATCH = 0x00;
-constexpr uint8_t MODE_2 = 0x34;  // counter 0, both bytes
+constexpr uint8_t MODE_2 = 0x34;  // both modes: for counter 0, low byte then high byte
 constexpr uint8_t MODE_3 = 0x36;
-constexpr uint8_t READ_STATUS = 0xe2;  // of counter 0: the next byte read from it holds the mode in bits 1 to 3
+constexpr uint8_t READ_STATUS = 0xe2;  // the next byte read from counter 0 has its mode in bits 1 to 3
 constexpr uint16_t PIC = 0x20;
-constexpr uint8_t READ_REQUESTS = 0x0a;  // OCW3: the next read gives the requests not yet served
+constexpr uint8_t READ_REQUESTS = 0x0a;  // OCW3: the next read returns the interrupt requests not yet served
 constexpr uint8_t TIMER_REQUEST = 0x01;
 
-constexpr uint32_t BIOS_TICKS = 0x46c;        // interrupts since midnight
-constexpr uint32_t TICKS_A_DAY = 0x1800b0;    // the count begins again here
+constexpr uint32_t BIOS_TICKS = 0x46c;        // address of the number of timer interrupts since midnight
+constexpr uint32_t TICKS_A_DAY = 0x1800b0;    // at this number the count returns to 0
 
 bool open = false;
-bool changed;         // the mode was not 2 and is to be put back
-uint32_t lastTicks;   // of the BIOS, at the last look
-uint32_t daysTicks;   // of the days gone by
-uint64_t origin;
-uint64_t last;
+bool changed;         // the mode was not 2 and must be restored
+uint32_t lastTicks;   // tick count of the BIOS at the last reading
+uint32_t daysTicks;   // ticks of the days before this one
+uint64_t origin;      // readClock() at the start
+uint64_t last;        // last result of machine::clock()
 
 uint32_t readCounter()
 {
@@ -39,13 +39,13 @@ uint32_t readCounter()
 
 void setMode(uint8_t mode)
 {
-    // A divisor of 0 counts as 65,536.
+    // A divisor of 0 means 65,536.
     pc::outPort(COMMAND, mode);
     pc::outPort(COUNTER, 0);
     pc::outPort(COUNTER, 0);
 }
 
-// Returns right after a timer interrupt; gives up after some time on a machine where none come.
+// Returns right after a timer interrupt. Gives up after eight wraps of the counter when no interrupt comes.
 void awaitTick()
 {
     const uint32_t ticks = pc::peek32(BIOS_TICKS);
@@ -58,8 +58,8 @@ void awaitTick()
     }
 }
 
-// Timer ticks since some midnight. (Counter and BIOS do not change at the same instant: between the two stands an
-// interrupt that has been requested and not yet served.)
+// Returns timer ticks since the midnight before the start. The counter wraps around a little before the BIOS counts: in
+// between, the interrupt has been requested but not served. The request register of the PIC shows this case.
 uint64_t readClock()
 {
     uint32_t ticks;
@@ -98,7 +98,7 @@ void openClock()
     lastTicks = 0;
     daysTicks = 0;
     last = 0;
-    // The counter takes the new divisor with its next input pulse; the first reading must not come before.
+    // The counter loads the new divisor at its next input pulse; this reading makes sure that the pulse has passed.
     readCounter();
     origin = readClock();
     open = true;
@@ -123,7 +123,8 @@ uint64_t clock()
 {
     if (open) {
         const uint64_t now = readClock() - origin;
-        // Never back, whatever the hardware (or an emulation of it) says; a negative difference is a huge one.
+        // The clock must never go back, whatever the hardware or its emulation returns. The difference is compared with a
+        // sign, so that a step back is negative.
         if (int64_t(now - last) > 0)
             last = now;
     }

@@ -1,5 +1,5 @@
-// Processor exceptions: a wild pointer or a division by zero ends in text mode, with everything put back, a line that
-// says what happened and where, and exit status 1. asm/start/trap.S catches them and stores the registers.
+// Processor exceptions: after a wild pointer or a division by zero the program restores the machine, prints in text mode
+// what happened and where, and ends with exit status 1. asm/start/trap.S catches the exception and stores the registers.
 #include "machine.h"
 #include "pc.h"
 #include "rt.h"
@@ -10,18 +10,18 @@
 
 extern "C" {
 
-// The registers at the exception, in the order that trap.S knows.
+// The registers at the exception; trap.S knows their offsets.
 struct TrapState {
     uint32_t number, error, eip, cs, eflags, esp, ss;
     uint32_t eax, ebx, ecx, edx, esi, edi, ebp, ds, es;
 };
 TrapState trapState;
-uint16_t trapData;  // the program's ds, for entries that come with any other
+uint16_t trapData;  // the program's ds, because ds may have any value at an exception
 
 constexpr uint32_t TRAP_STACK_BYTES = 8192;
 __attribute__((aligned(16))) uint8_t trapStack[TRAP_STACK_BYTES];
 
-extern const uint8_t trapEntries[];  // 8 bytes each
+extern const uint8_t trapEntries[];  // entry points, ENTRY_BYTES each
 [[noreturn]] void crashed();
 
 }  // extern "C"
@@ -31,7 +31,8 @@ namespace {
 constexpr int TRAPS = 15;
 constexpr uint32_t ENTRY_BYTES = 8;
 
-// Not taken: 1 (debuggers), 2 (NMI), 8 and 9 (never a program's own doing), 15 (reserved).
+// Bit i is set when exception i is handled. Not handled: 1 (debuggers), 2 (NMI), 8 and 9 (no program causes these), 15
+// (reserved; not even in the range of TRAPS).
 constexpr uint32_t TAKEN = 0x7cf9;
 
 bool open = false;
@@ -76,8 +77,8 @@ namespace pc {
 void openTraps()
 {
 #ifndef FB_RT
-    // DJGPP's libc has taken the exceptions, int 75h, and the keyboard, from which it makes a Ctrl-C an exception. All of
-    // it is put away until closeTraps(): here Ctrl-C is a key like others.
+    // DJGPP's libc has hooked the exceptions, int 75h and the keyboard, where it turns Ctrl-C into an exception. All these
+    // hooks are removed until closeTraps(): here Ctrl-C is an ordinary key.
     __djgpp_exception_toggle();
 #endif
     trapData = dpmi::dataSelector();
@@ -103,7 +104,7 @@ void closeTraps()
 
 }  // namespace pc
 
-// Reached from trap.S, with the program's segments and a fresh stack.
+// trap.S goes on here, with the program's segments and a fresh stack.
 void crashed()
 {
     if (crashing)
@@ -112,7 +113,7 @@ void crashed()
     machine::stop();
     const TrapState& s = trapState;
     char text[160];
-    // Exceptions 10 to 14 come with a code, which mostly is the selector that was wrong.
+    // Exceptions 10 to 14 have an error code, which in most cases is the wrong selector.
     char code[16] = "";
     if (s.number >= 10)
         snprintf(code, sizeof code, ", code %04x", unsigned(s.error & 0xffff));

@@ -1,5 +1,5 @@
-// The services of a DPMI 0.9 host, as functions: descriptors, memory, DOS memory, vectors, exceptions and real-mode
-// interrupts. One int 31h each; the function number stands beside the name. For src/dos and src/rt only.
+// The services of a DPMI 0.9 host as functions: descriptors, memory, DOS memory, vectors, exceptions and real-mode
+// interrupts. Each function is one int 31h; the comment begins with its DPMI number. For src/dos and src/rt only.
 #ifndef FB_DPMI_H
 #define FB_DPMI_H
 
@@ -8,7 +8,7 @@
 
 namespace dpmi {
 
-// The registers of a real-mode call, in the order DPMI lays down (50 bytes).
+// The registers of a real-mode call, in the order that DPMI prescribes (50 bytes).
 struct RealRegs {
     uint32_t edi, esi, ebp, reserved, ebx, edx, ecx, eax;
     uint16_t flags, es, ds, fs, gs, ip, cs, sp, ss;
@@ -26,7 +26,7 @@ struct FarAddress {
     uint16_t selector;
 };
 
-// 0000h: one new descriptor; 0 when there is none left.
+// 0000h: allocates one descriptor; returns 0 when there is none left.
 inline uint16_t allocateDescriptor()
 {
     uint32_t eax = 0x0000;
@@ -35,7 +35,7 @@ inline uint16_t allocateDescriptor()
     return carry ? 0 : uint16_t(eax);
 }
 
-// 0002h: a permanent descriptor for 64 KB at a real-mode segment; 0 on failure.
+// 0002h: returns a permanent descriptor for the 64 KB of a real-mode segment; 0 on failure.
 inline uint16_t segmentDescriptor(uint16_t segment)
 {
     uint32_t eax = 0x0002;
@@ -44,7 +44,7 @@ inline uint16_t segmentDescriptor(uint16_t segment)
     return carry ? 0 : uint16_t(eax);
 }
 
-// 0006h: the linear address where a segment begins.
+// 0006h: returns the linear address at which a segment begins.
 inline uint32_t segmentBase(uint16_t selector)
 {
     uint32_t eax = 0x0006;
@@ -54,7 +54,7 @@ inline uint32_t segmentBase(uint16_t selector)
     return ecx << 16 | (edx & 0xffff);
 }
 
-// 0007h
+// 0007h: sets the linear address at which a segment begins.
 inline bool setSegmentBase(uint16_t selector, uint32_t base)
 {
     uint32_t eax = 0x0007;
@@ -66,8 +66,8 @@ inline bool setSegmentBase(uint16_t selector, uint32_t base)
     return !carry;
 }
 
-// 0008h: the last offset; from 1 MB on its low twelve bits must be set. A segment register that holds the selector keeps
-// the old limit until it is loaded again.
+// 0008h: sets the limit, the last valid offset; from 1 MB on its low twelve bits must be set. A segment register that holds
+// the selector keeps the old limit until it is loaded again.
 inline bool setSegmentLimit(uint16_t selector, uint32_t limit)
 {
     uint32_t eax = 0x0008;
@@ -79,16 +79,16 @@ inline bool setSegmentLimit(uint16_t selector, uint32_t limit)
     return !carry;
 }
 
-// The last offset of a segment, as the processor sees it (lsl); 0 for a selector that is none.
+// Returns the last valid offset of a segment, as the processor sees it (lsl); 0 for an invalid selector.
 inline uint32_t segmentLimit(uint16_t selector)
 {
     uint32_t limit = 0;
-    // volatile: the same selector may have another limit the next time.
+    // volatile, because the limit of a selector can change between two calls.
     __asm__ volatile("lsll %1, %0" : "+r"(limit) : "r"(uint32_t(selector)) : "cc");
     return limit;
 }
 
-// 0100h: DOS memory, in paragraphs of 16 bytes; false when there is not enough.
+// 0100h: allocates DOS memory, in paragraphs of 16 bytes; returns false when there is not enough.
 inline bool allocateDos(uint16_t paragraphs, uint16_t* segment, uint16_t* selector)
 {
     uint32_t eax = 0x0100;
@@ -101,14 +101,14 @@ inline bool allocateDos(uint16_t paragraphs, uint16_t* segment, uint16_t* select
     return !carry;
 }
 
-// 0101h
+// 0101h: frees DOS memory.
 inline void freeDos(uint16_t selector)
 {
     uint32_t eax = 0x0101;
     __asm__ volatile("int $0x31" : "+a"(eax) : "d"(uint32_t(selector)) : "cc", "memory");
 }
 
-// 0200h, 0201h: a vector of the real-mode interrupt table.
+// 0200h, 0201h: get and set a vector of the real-mode interrupt table.
 inline RealAddress realVector(int number)
 {
     uint32_t eax = 0x0200;
@@ -126,7 +126,7 @@ inline void setRealVector(int number, RealAddress to)
                      : "cc", "memory");
 }
 
-// 0202h, 0203h: the handler of a processor exception 0..31.
+// 0202h, 0203h: get and set the handler of a processor exception 0..31.
 inline bool exceptionHandler(int number, FarAddress* is)
 {
     uint32_t eax = 0x0202;
@@ -148,8 +148,8 @@ inline bool setExceptionHandler(int number, FarAddress to)
     return !carry;
 }
 
-// 0300h: a real-mode interrupt with these registers; they hold its results. `ss:sp` 0: the host supplies the stack.
-// False when the host could not do it.
+// 0300h: executes a real-mode interrupt with these registers, which then hold its results. ss:sp = 0 lets the host supply
+// the stack. Returns false when the host refuses.
 inline bool realInterrupt(int number, RealRegs* regs)
 {
     uint32_t eax = 0x0300;
@@ -157,7 +157,7 @@ inline bool realInterrupt(int number, RealRegs* regs)
     regs->ss = 0;
     regs->sp = 0;
     regs->flags = 0x202;
-    // es is set for a caller whose es may be anything (an exception leaves it so).
+    // es is set here because the caller's es may have any value (after an exception).
     __asm__ volatile(
         "pushl %%es\n\t"
         "pushl %%ds\n\t"
@@ -170,7 +170,7 @@ inline bool realInterrupt(int number, RealRegs* regs)
     return !carry;
 }
 
-// 0400h: the processor, 3 for a 386, 4 for a 486 and so on.
+// 0400h: returns the processor, 3 for a 386, 4 for a 486 and so on.
 inline int processor()
 {
     uint32_t eax = 0x0400;
@@ -181,7 +181,7 @@ inline int processor()
     return int(ecx & 0xff);
 }
 
-// 0501h: memory by the byte; false when there is not enough.
+// 0501h: allocates memory, counted in bytes; returns false when there is not enough.
 inline bool allocateMemory(uint32_t bytes, uint32_t* linear, uint32_t* handle)
 {
     uint32_t eax = 0x0501;
@@ -196,14 +196,14 @@ inline bool allocateMemory(uint32_t bytes, uint32_t* linear, uint32_t* handle)
     return !carry;
 }
 
-// 0502h
+// 0502h: frees memory of allocateMemory().
 inline void freeMemory(uint32_t handle)
 {
     uint32_t eax = 0x0502;
     __asm__ volatile("int $0x31" : "+a"(eax) : "S"(handle >> 16), "D"(handle & 0xffff) : "cc", "memory");
 }
 
-// The program's own selectors.
+// Return the program's own selectors.
 inline uint16_t codeSelector()
 {
     uint16_t selector;

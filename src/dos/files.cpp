@@ -1,11 +1,11 @@
-// Files: DOS's handles, names and bytes by way of the transfer buffer.
+// Files: DOS calls with handles; names and data pass through the transfer buffer.
 #include "machine.h"
 #include "pc.h"
 #include "rt.h"
 
 namespace {
 
-// DOS's error codes
+// Error codes of DOS.
 constexpr uint32_t NO_FILE = 2;
 constexpr uint32_t NO_PATH = 3;
 constexpr uint32_t TOO_MANY = 4;
@@ -16,17 +16,17 @@ constexpr uint32_t DISK_FULL = 39;
 constexpr uint32_t FAILED_CRITICALLY = 83;
 
 constexpr uint32_t LONGEST_NAME = 127;
-constexpr uint16_t READ_ONLY = 0x01;  // attributes
+constexpr uint16_t READ_ONLY = 0x01;  // bits of a file's attributes
 constexpr uint16_t DIRECTORY = 0x10;
 
 const char* trouble = "";
 char otherTrouble[24];
 
-// The file that beginSave() made, and the one whose place it takes.
+// The temporary file of beginSave(), and the file that it will replace.
 char saving[LONGEST_NAME + 1 + 13];
 char savedAs[LONGEST_NAME + 1];
 
-// Notes why something failed; -1 for the caller to return.
+// Stores the text of an error for fileTrouble(). Returns -1, which the caller returns in turn.
 int failed(uint32_t error)
 {
     switch (error) {
@@ -58,8 +58,8 @@ int failed(uint32_t error)
     return -1;
 }
 
-// A DOS call that returns with carry set or not; what it returned, or -1 with the trouble noted. Results of all DOS calls
-// made here are at most 16 bits.
+// Makes a DOS call that reports errors by carry. Returns its result, or -1 after storing the error text. The results of all
+// DOS calls used here fit 16 bits.
 int call(dpmi::RealRegs* r)
 {
     if (!dpmi::realInterrupt(0x21, r))
@@ -68,8 +68,8 @@ int call(dpmi::RealRegs* r)
     return pc::carry(*r) ? failed(ax) : int(ax);
 }
 
-// A name as every DOS takes it: backslashes, none doubled (a directory "A:\" and a name make "A:\/NAME") and none at the
-// end but a root's. False when it is too long.
+// Converts a name to a form that every DOS accepts: backslashes for slashes, no double ones (a directory "A:\" and a name
+// give "A:\/NAME"), and none at the end except that of a root. Returns false when the name is too long.
 bool tidy(const char* name, char to[LONGEST_NAME + 1])
 {
     uint32_t length = 0;
@@ -87,7 +87,7 @@ bool tidy(const char* name, char to[LONGEST_NAME + 1])
     return true;
 }
 
-// A DOS call on a file's name, which goes to ds:dx.
+// Makes a DOS call with a file name at ds:dx.
 int callOnName(uint32_t eax, uint32_t ecx, const char* name, uint16_t* cx = nullptr)
 {
     const pc::Transfer buffer = pc::transfer();
@@ -117,8 +117,8 @@ bool renameFile(const char* from, const char* to)
     return call(&r) >= 0;
 }
 
-// Whether a name is that of a directory which is there without having been made: the current one, or a root. DOS knows
-// no attributes for these. A drive must be there for its root to be.
+// Tells whether a name is the current directory or a root directory. DOS has no attributes for these directories. The root
+// of a drive exists only if the drive does.
 bool isRoot(const char* name)
 {
     char copy[LONGEST_NAME + 1];
@@ -128,7 +128,7 @@ bool isRoot(const char* name)
         return true;
     if (copy[0] == '\0' || copy[1] != ':' || (copy[2] != '\0' && strcmp(copy + 2, "\\") != 0))
         return false;
-    dpmi::RealRegs r = pc::regs(0x3600);  // free space of a drive, 1 for A:
+    dpmi::RealRegs r = pc::regs(0x3600);  // free space of a drive: dl = 1 for A:; fails when there is no drive
     r.edx = uint32_t(copy[0] & 0x1f);
     return dpmi::realInterrupt(0x21, &r) && uint16_t(r.eax) != 0xffff;
 }
@@ -194,7 +194,7 @@ int32_t writeFile(int file, const void* from, uint32_t bytes)
     const pc::Transfer buffer = pc::transfer();
     uint32_t done = 0;
     while (done < bytes) {
-        // (A count of 0 would cut the file off here; the loop never asks for that.)
+        // `piece` is never 0: DOS would truncate the file.
         const uint32_t piece = bytes - done < buffer.bytes ? bytes - done : buffer.bytes;
         pc::copyToLow(uint32_t(buffer.segment) << 4, static_cast<const uint8_t*>(from) + done, piece);
         dpmi::RealRegs r = pc::regs(0x4000);
@@ -227,10 +227,10 @@ bool rewindFile(int file)
 
 int listFiles(const char* directory, const char* ending, FileName* to, int room)
 {
-    // DOS writes each file's facts into its disk transfer area, which lies in the buffer for the time of this call; the
-    // pattern stands behind it.
+    // DOS describes each file in its disk transfer area, which is moved into the transfer buffer during this call; the
+    // pattern follows it in the buffer.
     constexpr uint32_t PATTERN = 64;
-    constexpr uint32_t NAME = 30;  // in the facts: 13 bytes, the final 0 included
+    constexpr uint32_t NAME = 30;  // offset of the name in the description: 13 bytes, including the final 0
     const pc::Transfer buffer = pc::transfer();
     const uint32_t base = uint32_t(buffer.segment) << 4;
     char joined[LONGEST_NAME + 1];
@@ -285,7 +285,7 @@ bool cutFile(int file, uint32_t bytes)
     r.edx = bytes & 0xffff;
     if (call(&r) < 0)
         return false;
-    // Nothing written means: the file ends here.
+    // Writing 0 bytes truncates the file at this place.
     r = pc::regs(0x4000);
     r.ebx = uint32_t(file);
     r.ds = pc::transfer().segment;
@@ -305,8 +305,8 @@ int beginSave(const char* name)
     const bool there = callOnName(0x4300, 0, savedAs, &attributes) >= 0;
     if (there && (attributes & (READ_ONLY | DIRECTORY)) != 0)
         return failed(DENIED);
-    // DOS makes up the name of the new file; it wants the folder, with a backslash at its end where it is not the current
-    // one.
+    // DOS invents the name of the temporary file. It needs the directory of `name`, ending in a backslash; ".\" stands for a
+    // current directory.
     uint32_t folder = 0;
     for (uint32_t i = 0; savedAs[i] != '\0'; ++i)
         if (savedAs[i] == '\\' || savedAs[i] == ':')
@@ -350,8 +350,8 @@ bool endSave(int file, bool good)
         trouble = why;
         return false;
     }
-    // DOS renames to no name that is taken. Between the two calls the new file is there whole, under its own name; there it
-    // stays if the second fails.
+    // DOS cannot rename a file to an existing name, so the old file was removed first. If renaming fails, the new data is
+    // still complete in the temporary file, which stays.
     return renameFile(saving, savedAs);
 }
 

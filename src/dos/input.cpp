@@ -1,10 +1,10 @@
-// Keyboard and mouse: int 16h and int 33h, called only when there is something to fetch.
+// Keyboard and mouse: int 16h, called only when a key is waiting, and int 33h, called only when there is a mouse.
 #include "machine.h"
 #include "pc.h"
 
 namespace {
 
-// The BIOS's ring of keys: offsets of the next to read and the next to write, equal when it is empty.
+// The keyboard buffer of the BIOS, a ring: offsets of the next key to read and of the next to write, equal when it is empty.
 constexpr uint32_t KEYS_HEAD = 0x41a;
 constexpr uint32_t KEYS_TAIL = 0x41c;
 constexpr uint32_t KEYBOARD_FLAGS = 0x417;
@@ -24,7 +24,7 @@ namespace machine {
 int key()
 {
     while (pc::peek16(KEYS_HEAD) != pc::peek16(KEYS_TAIL)) {
-        // AH=10h gives the keys that only an enhanced keyboard has; AH=00h would wait for another one instead.
+        // AH=10h also returns the keys of an enhanced keyboard; AH=00h would skip such a key and wait for another one.
         dpmi::RealRegs r = pc::regs((pc::peek8(KEYBOARD_KIND) & ENHANCED) != 0 ? 0x1000 : 0x0000);
         if (!dpmi::realInterrupt(0x16, &r))
             return 0;
@@ -33,7 +33,7 @@ int key()
         if (character == 3) {
             pc::noteBreak();
         } else if (character == 0 || (character == 0xe0 && scan != 0)) {
-            // Both zero is what Ctrl-Break leaves behind: no key.
+            // Ctrl-Break leaves an entry with character and scan code 0, which is not a key.
             if (scan != 0)
                 return 0x100 + scan;
         } else {
@@ -47,7 +47,7 @@ int key()
 
 bool openMouse()
 {
-    // Without a driver the vector is null, or points to an iret.
+    // Without a driver the vector is null or points to an iret instruction.
     const dpmi::RealAddress driver = dpmi::realVector(MOUSE);
     const uint32_t at = (uint32_t(driver.segment) << 4) + driver.offset;
     if (at == 0 || pc::peek8(at) == IRET)
@@ -56,7 +56,7 @@ bool openMouse()
     if (!dpmi::realInterrupt(MOUSE, &r) || uint16_t(r.eax) != 0xffff)
         return false;
     mouseOpen = true;
-    mouse();  // what was moved before does not count
+    mouse();  // discards earlier movements and presses
     return true;
 }
 
@@ -70,7 +70,7 @@ Mouse mouse()
         now.left = (r.ebx & 1) != 0;
         now.right = (r.ebx & 2) != 0;
     }
-    // How often the left button went down: what happens while a frame is drawn counts too.
+    // The driver counts how often the left button was pressed, even while a frame was drawn.
     r = pc::regs(0x0005);
     if (dpmi::realInterrupt(MOUSE, &r))
         now.presses = uint16_t(r.ebx);

@@ -1,4 +1,4 @@
-// The machine as a PC under DOS: its start and end, text output, and the ways into DOS memory.
+// The machine as a PC under DOS: its start and end, text output, and access to DOS memory.
 #include "machine.h"
 #include "pc.h"
 #include "rt.h"
@@ -9,8 +9,8 @@
 #include <crt0.h>
 #include <go32.h>
 
-// DJGPP's start-up would expand `/?` as a pattern of file names, take `@name` for a file of arguments and read
-// DJGPP.ENV; here a command line is what it says.
+// DJGPP's start-up code would expand `/?` as a pattern of file names, read arguments from a file for `@name`, and read
+// DJGPP.ENV. All of this is switched off: the arguments are those of the command line.
 int _crt0_startup_flags = _CRT0_DISABLE_SBRK_ADDRESS_WRAP | _CRT0_FLAG_DISALLOW_RESPONSE_FILES;
 char** __crt0_glob_function(char*)
 {
@@ -26,7 +26,7 @@ constexpr int STDERR = 2;
 
 bool started = false;
 
-// Writes text by DOS, with the line ends of DOS. What cannot be written is lost: there is nobody to tell.
+// Writes text through DOS, with the line ends of DOS. Text that cannot be written is lost: an error could not be reported.
 void put(int handle, const char* text)
 {
     const pc::Transfer buffer = pc::transfer();
@@ -57,7 +57,7 @@ uint16_t lowMemory()
     static uint16_t selector = 0;
     if (selector == 0) {
         selector = dpmi::allocateDescriptor();
-        // Without it nothing can be said either.
+        // Without this selector no message can be printed, either.
         if (selector == 0 || !dpmi::setSegmentBase(selector, 0) || !dpmi::setSegmentLimit(selector, 0x10ffff))
             exit(1);
     }

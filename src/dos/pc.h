@@ -1,5 +1,5 @@
-// What the files of src/dos share: the first megabyte, the transfer buffer, ports, and each other's start and end.
-// Nothing outside src/dos includes this.
+// What the files of src/dos share: the first megabyte, the transfer buffer, ports, and the functions that open and close
+// each part. No file outside src/dos includes this header.
 #ifndef FB_PC_H
 #define FB_PC_H
 
@@ -10,7 +10,7 @@
 
 namespace pc {
 
-// A selector for the first megabyte and the 64 KB above it, from linear address 0. Made at the first call.
+// Returns a selector for the first megabyte and the 64 KB above it, with base 0. The first call allocates it.
 uint16_t lowMemory();
 
 inline uint8_t peek8(uint32_t at)
@@ -53,33 +53,33 @@ inline void outPort(uint16_t port, uint8_t value)
     __asm__ volatile("outb %0, %1" : : "a"(value), "Nd"(port));
 }
 
-// The buffer in DOS memory through which names and bytes go to DOS and back: at offset 0 of a segment.
+// The buffer in DOS memory through which names and data go to DOS and back. It begins at offset 0 of its segment.
 struct Transfer {
     uint16_t segment;
-    uint32_t bytes;  // 4 KB at least, below 64 KB
+    uint32_t bytes;  // at least 4 KB, less than 64 KB
 };
 Transfer transfer();
 
-// Empty registers for dpmi::realInterrupt().
+// Returns registers for dpmi::realInterrupt(), all 0 except eax.
 inline dpmi::RealRegs regs(uint32_t eax)
 {
     dpmi::RealRegs r = {0, 0, 0, 0, 0, 0, 0, eax, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     return r;
 }
-// The carry flag of a real-mode call's results.
+// Returns the carry flag in the results of a real-mode call.
 inline bool carry(const dpmi::RealRegs& r)
 {
     return (r.flags & 1) != 0;
 }
 
-// The rooms of this house, in the order in which machine::start() opens them; stop() closes them the other way round.
-// Each close is harmless when the room was never opened.
-void openTraps();   // processor exceptions end the program tidily
+// The parts of src/dos, in the order in which machine::start() opens them; stop() closes them in reverse order. A close
+// function is harmless when its part was never opened.
+void openTraps();   // processor exceptions: end the program in an orderly way
 void closeTraps();
-const char* openBreak();  // Ctrl-C, Ctrl-Break and critical errors; null, or what is wrong
+const char* openBreak();  // Ctrl-C, Ctrl-Break and critical errors; returns null, or what is wrong
 void closeBreak();
 bool breakSeen();
-void noteBreak();  // a Ctrl-C that came as a key
+void noteBreak();  // reports a Ctrl-C that came as a key
 void openClock();
 void closeClock();
 void closeMouse();

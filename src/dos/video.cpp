@@ -1,9 +1,9 @@
-// Video: mode 13h of a VGA, 320x200 in 256 colours, one byte a pixel from A000:0000 on.
+// Video: mode 13h of a VGA, 320x200 pixels in 256 colours, one byte per pixel from A000:0000 on.
 #include "machine.h"
 #include "pc.h"
 #include "rt.h"
 
-// asm/blit.S: copies the spans of `count` rows of `frame` (320 bytes a row) to the same places at selector:offset.
+// asm/blit.S: copies the spans of `count` rows of `frame` (320 bytes per row) to the same places at selector:offset.
 extern "C" void presentRows(uint32_t selector, uint32_t offset, const uint8_t* frame, const Span* rows, int count);
 
 namespace {
@@ -13,7 +13,7 @@ constexpr uint16_t DAC_INDEX = 0x3c8;
 constexpr uint16_t DAC_DATA = 0x3c9;
 constexpr uint16_t STATUS = 0x3da;
 constexpr uint8_t IN_RETRACE = 0x08;
-constexpr uint32_t BIOS_LAST_ROW = 0x484;  // rows of the text screen less one
+constexpr uint32_t BIOS_LAST_ROW = 0x484;  // address of the number of text rows minus 1
 constexpr uint8_t MODE_13H = 0x13;
 
 bool open = false;
@@ -34,7 +34,7 @@ uint8_t currentMode()
     return uint8_t(r.eax & 0x7f);
 }
 
-// int 10h, AX=1A00h, is there on a VGA and an MCGA, which both have mode 13h, and on nothing older.
+// int 10h, AX=1A00h, exists on VGA and MCGA cards, which both have mode 13h, but not on older cards.
 bool haveVga()
 {
     dpmi::RealRegs r = pc::regs(0x1a00);
@@ -76,7 +76,7 @@ void closeVideo()
         return;
     open = false;
     setMode(oldMode);
-    // A text screen of 50 (or 28) lines is 25 lines with a smaller font.
+    // A text screen of 50 (or 28) lines is the mode of 25 lines with a smaller font, which must be loaded again.
     if (oldMode <= 3 && (oldLastRow == 49 || oldLastRow == 27)) {
         dpmi::RealRegs r = pc::regs(oldLastRow == 49 ? 0x1112 : 0x1111);
         dpmi::realInterrupt(0x10, &r);

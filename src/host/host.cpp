@@ -1,20 +1,20 @@
-// The machine with nothing behind it: no display, no mouse, no keyboard, a clock that can stand still, and the files
-// and standard streams of a POSIX host. It lets the whole program run, dump frames and be tested where there is no DOS.
-// A port to another machine starts from a copy of this file.
+// The machine without devices: no display, no mouse, no keyboard, a clock that can stand still, and the files and
+// standard streams of a POSIX host. On it the whole program can run, dump frames and be tested without DOS. A port to
+// another machine starts from a copy of this file.
 //
-// Tests play a user by way of a script: the environment variable FB_INPUT names a text file, one event a line,
+// Tests replace the user by a script: the environment variable FB_INPUT names a text file with one event per line,
 //
 //     FRAME key NAME            a key: one character, or ESC, F1..F4, UP, DOWN, LEFT, RIGHT, PGUP, PGDN, INS, DEL,
-//                               HOME, SPACE, ENTER, TAB, BACKSPACE, BREAK (Ctrl-C)
+//                               HOME, END, SPACE, ENTER, TAB, BACKSPACE, BREAK (Ctrl-C)
 //     FRAME mouse DX DY BUTTONS mickeys moved, and the buttons held from then on: L, R, LR or -
 //
-// where FRAME counts the frames presented so far (0: before the first), in rising order. FRAME.N (4.3) is later in that
-// frame, while it is drawn: after key() was called N times and had nothing to tell. Lines that begin with '#' and
-// empty lines are skipped. A line that cannot be read makes start() fail, for a test must not pass on half a script.
-// With a script that has mouse lines openMouse() finds a mouse, otherwise it finds none.
+// where FRAME is the number of frames presented before the event (0: before the first frame). The events are in ascending
+// order. FRAME.N (4.3) is an event while the next frame is drawn: after key() has returned 0 N times. Lines that begin
+// with '#' and empty lines are skipped. A line that cannot be understood makes start() fail, because a test must not pass
+// with half a script. openMouse() finds a mouse if the script has mouse lines.
 //
-// FB_LOG names a file that is told, line by line, what the program does to the card and when it looks for keys: `palette`,
-// `present` and `key`.
+// FB_LOG names a log file. It gets one line for each call of setPalette() (`palette`) and present() (`present`), and for
+// each call of key() that finds no key (`key`).
 #include "machine.h"
 
 #include <dirent.h>
@@ -33,7 +33,7 @@
 namespace machine {
 namespace {
 
-// What the card would show, for a debugger to look at.
+// The picture and palette that a video card would show, for a debugger to look at.
 uint8_t screen[WIDTH * HEIGHT];
 uint8_t palette[768];
 
@@ -56,8 +56,8 @@ void onBreak(int)
 
 struct Event {
     unsigned long frame;
-    unsigned long polls;
-    int key;  // 0: a mouse event, -1: a break
+    unsigned long polls;  // the N of FRAME.N
+    int key;              // 0: a mouse event, -1: a break
     int dx;
     int dy;
     bool left;
@@ -66,17 +66,17 @@ struct Event {
 
 Event* events = nullptr;
 int eventCount = 0;
-int nextKey = 0;    // index of the next event that key() has to look at
-int nextMouse = 0;  // and mouse()
+int nextKey = 0;    // index of the next event for key()
+int nextMouse = 0;  // index of the next event for mouse()
 bool scriptHasMouse = false;
 unsigned long framesShown = 0;
-unsigned long emptyPolls = 0;  // of key() since then
+unsigned long emptyPolls = 0;  // how often key() has returned 0 since the last frame
 FILE* log = nullptr;
 bool leftHeld = false;
 bool rightHeld = false;
 char scriptTrouble[160];
 
-// The code key() returns for a key's name in a script; 0 for an unknown one, -1 for BREAK.
+// Returns the code of key() for the name of a key in a script; 0 for an unknown name, -1 for BREAK.
 int keyNamed(const char* name)
 {
     static const struct {
@@ -96,7 +96,7 @@ int keyNamed(const char* name)
     return 0;
 }
 
-// Reads one line of the script into `event`; false when it cannot be understood.
+// Reads one line of the script into `event`; returns false when it cannot be understood.
 bool parseEvent(const char* line, Event* event)
 {
     *event = Event{};
@@ -129,7 +129,7 @@ bool parseEvent(const char* line, Event* event)
     return false;
 }
 
-// Whether the time of an event has come.
+// Tells whether the time of an event has come.
 bool isDue(const Event& event)
 {
     return event.frame < framesShown || (event.frame == framesShown && event.polls <= emptyPolls);
@@ -146,7 +146,7 @@ void note(const char* what)
         fprintf(log, "%s\n", what);
 }
 
-// Null, or what is wrong with the script.
+// Reads the whole script. Returns null, or what is wrong with the script.
 const char* readScript(const char* name)
 {
     FILE* file = fopen(name, "r");
@@ -182,7 +182,7 @@ const char* readScript(const char* name)
     return nullptr;
 }
 
-// The words for errno, the same as on DOS for what both know.
+// Returns a text for errno; errors that DOS has too get the same text as there.
 const char* words(int error)
 {
     switch (error) {
@@ -213,7 +213,7 @@ int failed()
     return -1;
 }
 
-// The file that beginSave() made, and the one whose place it takes; both empty while nothing is being saved.
+// The file that will be replaced, and the temporary file of beginSave(); both null while nothing is being saved.
 char* savedAs = nullptr;
 char* saving = nullptr;
 
@@ -414,7 +414,7 @@ int openFile(const char* name)
     const int file = open(name, O_RDONLY | O_CLOEXEC);
     if (file < 0)
         return failed();
-    // A directory can be opened here but not on DOS; it must not look like an empty file.
+    // A directory can be opened here, but not on DOS; it must not look like a file.
     struct stat facts;
     if (fstat(file, &facts) == 0 && S_ISDIR(facts.st_mode)) {
         close(file);
@@ -522,7 +522,7 @@ int listFiles(const char* directory, const char* ending, FileName* to, int room)
 
 bool removeFile(const char* name)
 {
-    // What is no plain file is not ours to remove: a device, a link to one.
+    // Only ordinary files are removed: no devices and no symbolic links.
     struct stat facts;
     if (lstat(name, &facts) == 0 && !S_ISREG(facts.st_mode)) {
         errno = EPERM;
@@ -541,12 +541,12 @@ int beginSave(const char* name)
     struct stat facts;
     const bool there = stat(name, &facts) == 0;
     if (there && !S_ISREG(facts.st_mode)) {
-        // A device or a pipe takes what it is given; nothing can be put in its place.
+        // A device or a pipe is written directly; it cannot be replaced by a file.
         return createFile(name);
     }
     if (there && access(name, W_OK) != 0)
         return failed();
-    // Where a symbolic link leads.
+    // With a symbolic link, the file that it points to is replaced.
     savedAs = there ? realpath(name, nullptr) : strdup(name);
     saving = savedAs == nullptr ? nullptr : static_cast<char*>(malloc(strlen(savedAs) + sizeof ".XXXXXX"));
     if (saving != nullptr) {

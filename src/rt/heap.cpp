@@ -1,27 +1,27 @@
-// The heap: blocks in one list of free ones, sorted by address, first fit; neighbours that are free are one block. It
-// grows by memory from the DPMI host, which lies anywhere; the data segment's limit is raised to reach it. What was taken
-// is given back by the host when the program ends.
+// The heap: one list of free blocks, sorted by address and searched first fit; adjacent free blocks are merged. The heap
+// grows by memory from the DPMI host, at any address; the limit of the data segment is raised to reach it. The host frees
+// this memory when the program ends.
 #include "rt.h"
 
 #include "../dos/dpmi.h"
 
 namespace {
 
-// Stands before each block, used or free. Sizes and addresses are multiples of 8.
+// The header before each block, used or free. Sizes and addresses are multiples of 8.
 struct Block {
-    uint32_t bytes;  // with this header
+    uint32_t bytes;  // size, including this header
     Block* next;     // the next free block at a higher address; null in the last and in a used block
 };
 constexpr uint32_t HEADER = sizeof(Block);
 constexpr uint32_t SMALLEST = HEADER + 8;
 
-// How much the host is asked for: what is needed in whole pages, but this much at a time while the host has it.
+// The host is asked for CHUNK bytes; when more is needed or CHUNK is not to be had, for whole pages of STEP bytes.
 constexpr uint32_t CHUNK = 256 * 1024;
 constexpr uint32_t STEP = 4096;
 
 Block* firstFree = nullptr;
 
-// Puts a block back into the list and joins it with its neighbours.
+// Puts a block into the list of free blocks and merges it with its free neighbours.
 void insert(Block* block)
 {
     Block* before = nullptr;
@@ -45,7 +45,7 @@ void insert(Block* block)
     }
 }
 
-// The processor keeps a limit until the segment register is loaded again.
+// Loads the segment registers again, because the processor keeps the old limit until then.
 void reloadSegments()
 {
     __asm__ volatile(
@@ -58,7 +58,8 @@ void reloadSegments()
         : "eax", "memory");
 }
 
-// Gets a block of `bytes` from the host and within reach of ds; false when there is none.
+// Gets a block of `bytes` from the host, makes it accessible through ds, and adds it to the free blocks. Returns false when
+// there is no memory.
 bool grow(uint32_t bytes)
 {
     uint32_t linear;
@@ -66,7 +67,7 @@ bool grow(uint32_t bytes)
     if (!dpmi::allocateMemory(bytes, &linear, &handle))
         return false;
     const uint16_t ds = dpmi::dataSelector();
-    // Memory below the segment's base is reached too: the offset wraps, with a limit of 4 GB.
+    // Memory below the base of the segment can be used, too: with a limit of 4 GB the offset wraps around.
     uint32_t offset = linear - dpmi::segmentBase(ds);
     const uint32_t last = offset + (bytes - 1);
     if (last > dpmi::segmentLimit(ds)) {
@@ -77,7 +78,7 @@ bool grow(uint32_t bytes)
             return false;
         }
     }
-    // Hosts give whole pages or at least paragraphs; nothing says that they must.
+    // Hosts return whole pages or at least paragraphs, but DPMI does not guarantee it.
     const uint32_t skip = -offset & 7;
     offset += skip;
     Block* block = reinterpret_cast<Block*>(uintptr_t(offset));
@@ -86,6 +87,7 @@ bool grow(uint32_t bytes)
     return true;
 }
 
+// Takes the first free block that is large enough, and splits off the rest. Returns null when there is none.
 void* take(uint32_t bytes)
 {
     Block* before = nullptr;
@@ -123,7 +125,7 @@ void* malloc(size_t wanted)
     void* block = take(bytes);
     if (block != nullptr)
         return block;
-    // Room for what grow() may have to skip at the start.
+    // grow() may have to skip up to 7 bytes at the start.
     const uint32_t need = (bytes + 8 + STEP - 1) & ~(STEP - 1);
     if ((need < CHUNK && grow(CHUNK)) || grow(need))
         return take(bytes);

@@ -1,9 +1,9 @@
-// Formatted output into memory: the small part of printf's language that the program speaks (rt.h says which).
+// Formatted output into memory: the subset of printf's format language that the program uses (rt.h lists it).
 #include "rt.h"
 
 namespace {
 
-// Where the text goes: counts every character, stores those that fit before the final zero.
+// The destination of the text: counts every character, stores those that fit before the final 0.
 class Sink {
 public:
     Sink(char* to, size_t size) : to_(to), size_(size) {}
@@ -31,7 +31,7 @@ private:
     size_t length_ = 0;
 };
 
-// What stands between '%' and the letter.
+// The part of a conversion between '%' and the letter.
 struct Form {
     bool left = false;
     bool zero = false;
@@ -148,7 +148,7 @@ int vsnprintf(char* to, size_t size, const char* format, va_list args)
                 sink.put('%');
                 break;
             default:
-                // Not in our language: shown as it stands, for a silent loss would hide the mistake.
+                // An unknown conversion is printed as it is: a silent loss would hide the mistake.
                 sink.put('%');
                 --format;
                 break;

@@ -1,4 +1,4 @@
-// Start and end of the program: from start.S to main() with its arguments, and from exit() to DOS.
+// Start and end of the program: start.S calls rtStart(), which calls main() with its arguments; exit() returns to DOS.
 #include "rt.h"
 
 #include "../dos/dpmi.h"
@@ -10,7 +10,7 @@ int main(int argc, char** argv);
 
 namespace {
 
-// The command line is at most 126 characters, so at most 63 arguments, and the name before them.
+// The command line has at most 126 characters and therefore at most 63 arguments; the program's name precedes them.
 constexpr int MOST_ARGUMENTS = 64;
 constexpr int MOST_TAIL = 126;
 constexpr int MOST_NAME = 80;
@@ -19,9 +19,9 @@ char* arguments[MOST_ARGUMENTS + 1];
 char tail[MOST_TAIL + 1];
 char name[MOST_NAME];
 
-// In the program segment prefix
-constexpr uint32_t PSP_ENVIRONMENT = 0x2c;  // selector of the environment, as the DPMI host left it there
-constexpr uint32_t PSP_TAIL = 0x80;         // length of the command line, then the line
+// Offsets in the program segment prefix.
+constexpr uint32_t PSP_ENVIRONMENT = 0x2c;  // selector of the environment, stored there by the DPMI host
+constexpr uint32_t PSP_TAIL = 0x80;         // length of the command line, followed by the line
 
 uint8_t peek(uint16_t selector, uint32_t offset)
 {
@@ -30,7 +30,7 @@ uint8_t peek(uint16_t selector, uint32_t offset)
     return byte;
 }
 
-// The program's own path: behind the environment, after two zero bytes and a word. Empty when it cannot be found.
+// Finds the path of the program: it follows the environment, after two zero bytes and a word. Empty when it is not there.
 void findName()
 {
     const uint16_t environment =
@@ -50,7 +50,7 @@ void findName()
     name[length] = '\0';
 }
 
-// Fetches the command line behind the program's name.
+// Reads the command line without the program's name.
 void readTail()
 {
     const int length = peek(stubInfo.pspSelector, PSP_TAIL);
@@ -64,7 +64,8 @@ void readTail()
     tail[used] = '\0';
 }
 
-// Cuts it into arguments, in place: blanks and tabs separate, double quotes keep them together.
+// Splits the command line into arguments, in place, and returns their number including the name. Blanks and tabs separate
+// arguments, except between double quotes.
 int splitTail()
 {
     int count = 1;
@@ -84,7 +85,7 @@ int splitTail()
                 *to++ = *from;
             ++from;
         }
-        // The separator was read before its place is overwritten: `to` never passes `from`.
+        // The separator must be read before the final 0 may overwrite it; `to` never passes `from`.
         const bool more = *from != '\0';
         if (more)
             ++from;
@@ -98,7 +99,7 @@ int splitTail()
 
 extern "C" {
 
-// The constructors of static objects, as the linker script collects them. The program is meant to have none.
+// The constructors of static objects, collected by the linker script. The program should have none.
 typedef void (*Constructor)();
 extern Constructor __init_array_start[];
 extern Constructor __init_array_end[];
@@ -116,7 +117,7 @@ extern Constructor __init_array_end[];
 
 void exit(int status)
 {
-    // int 21h, AH=4Ch: the DPMI host gives back memory and descriptors.
+    // int 21h, AH=4Ch: the DPMI host frees all memory and descriptors of the program.
     for (;;)
         __asm__ volatile("int $0x21" : : "a"(0x4c00 | (status & 0xff)) : "memory");
 }

@@ -1,6 +1,6 @@
-// The string functions of the C library that the program uses, and those that the compiler calls on its own account.
-// Copying and filling are string instructions written out: a loop in C++ would be recognised by the compiler and turned
-// into a call of itself.
+// The string functions of the C library that the program uses, and those to which the compiler itself generates calls.
+// Copying and filling use string instructions: the compiler would recognise a loop in C++ and turn it into a call of the
+// very function that contains it.
 #include "rt.h"
 
 extern "C" {
@@ -17,7 +17,7 @@ void* memcpy(void* to, const void* from, size_t bytes)
 
 void* memmove(void* to, const void* from, size_t bytes)
 {
-    // Only a copy to a higher address within `bytes` of its source has to start at the end.
+    // Only when the target begins inside the source must the copy start at the end.
     if (uintptr_t(to) - uintptr_t(from) >= bytes)
         return memcpy(to, from, bytes);
     char* last = static_cast<char*>(to) + bytes - 1;
@@ -53,7 +53,7 @@ size_t strlen(const char* text)
     const char* end = text;
     while (*end != '\0') {
         ++end;
-        // Without this the compiler takes the loop for a call of strlen().
+        // Without this the compiler turns the loop into a call of strlen().
         __asm__("" : "+r"(end));
     }
     return size_t(end - text);
