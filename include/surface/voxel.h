@@ -31,8 +31,7 @@ inline bool isCut(const Voxel& v)
     return (v.cutX | v.cutY) != 0;
 }
 
-// Brightness by Lambert's law (report, The Rendering Technique) from the cosine of normal and light, 1.0 = 2^14. It is negative
-// where the surface faces away from the light.
+// Lambert's law (report, The Rendering Technique): brightness from the cosine of normal and light, 1.0 = 2^14; negative if unlit.
 inline int32_t lambert(int32_t cosine)
 {
     return (cosine * BRIGHTEST + 8192) >> 14;

@@ -1,7 +1,5 @@
-// Closing gaps: each row is scanned once. Only short runs of empty pixels between drawn ones take more work.
-//
-// A gap is a horizontal run of empty pixels between two drawn ones. An opening is the region of empty pixels that such a run
-// leads into, followed from row to row. A slit is a low vertical run that begins at the side of a drawn run.
+// Closing gaps: each row is scanned once. Only short runs of empty pixels between drawn ones (gaps) take more work. An opening is
+// the region of empty pixels that a gap leads into, followed from row to row. A slit is a low vertical run of empty pixels.
 #include "gaps.h"
 
 using machine::HEIGHT;
@@ -133,8 +131,7 @@ int Gaps::close(Real spacing)
     return drawn;
 }
 
-// Closes a gap: the pixels from column `from` to before `to` are empty, the pixels on both sides are drawn, and the seeds there
-// lie `spacing` pixels apart.
+// Closes the gap of columns `from` to before `to` between drawn pixels. The seeds there lie `spacing` pixels apart.
 void Gaps::closeRun(int y, int from, int to, int spacing)
 {
     const uint8_t* row = frame_ + y * WIDTH;
@@ -197,8 +194,7 @@ void Gaps::closeFrom(int y, int from, int to, int step, int widest, int narrowes
     noteBeyond(y + narrow * step, rows[narrow < opening.height ? narrow : narrow - 1]);
 }
 
-// Whether a gap is a real opening: the model has no surface half way between two drawn pixels. `step` is the distance of
-// neighbouring pixels in the frame (1 along a row, WIDTH along a column).
+// Whether the model has no surface half way between two drawn pixels of a row (`step` 1) or of a column (`step` WIDTH).
 bool Gaps::isOpen(int first, int last, int step) const
 {
     const int count = (last - first) / step;
@@ -206,8 +202,7 @@ bool Gaps::isOpen(int first, int last, int step) const
         return false;
     const Point here = view_.pointAt(first);
     const Vector way = view_.pointAt(last) - here;
-    // The nearer pixel may belong to something that hides the surface with the gap; that surface is then as far away as the
-    // farther pixel.
+    // The nearer pixel may belong to something in front of the surface, which is then as far away as the farther pixel.
     const int farther = zbuffer_[first] < zbuffer_[last] ? last : first;
     return isOff(here + Vector{shiftDown(way.x, 1), shiftDown(way.y, 1), shiftDown(way.z, 1)}) &&
            isOff(view_.pointAt(first + count / 2 * step, zbuffer_[farther]));
@@ -233,8 +228,7 @@ Gaps::Ends Gaps::endsOf(int first, int last) const
     return ends;
 }
 
-// Returns the first pixel between two drawn ones that belongs to the object of the last one, found by bisection with the fields
-// of both objects.
+// Finds, by bisection with both objects' fields, the first pixel between two drawn ones that belongs to the last one's object.
 int Gaps::divide(const Ends& ends, int first, int last, int step) const
 {
     const SoftObject &one = *model_->actor(ends.first).object, &other = *model_->actor(ends.last).object;
@@ -255,9 +249,8 @@ int Gaps::divide(const Ends& ends, int first, int last, int step) const
     return last;
 }
 
-// Fills the empty pixels between two drawn ones with the depth and the colour of whichever is closer on the screen. Where the
-// two belong to different objects, each pixel gets the ramp of the object whose field is the stronger there and a brightness that
-// is interpolated between the two ends.
+// Fills the empty pixels between two drawn ones with the depth and the colour of whichever is closer on the screen. Between two
+// objects each pixel gets the ramp of the object whose field is the stronger there, and an interpolated brightness.
 void Gaps::fill(const Ends& ends, int first, int last, int step)
 {
     const int count = (last - first) / step;
@@ -284,8 +277,7 @@ void Gaps::fill(const Ends& ends, int first, int last, int step)
     }
 }
 
-// Closes a slit column by column, from column x in steps of +-1 until `end` or until the slit ends. Each column is filled between
-// the drawn pixel above and the drawn pixel below.
+// Closes a slit column by column, from column x in steps of +-1 to before `end`, between the drawn pixels above and below.
 void Gaps::closeSlit(int y, int x, int end, int step)
 {
     for (; x != end && inSlit(frame_ + y * WIDTH + x); x += step) {

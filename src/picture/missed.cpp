@@ -1,5 +1,4 @@
-// Drawing parts of the surface that were missed: each pixel takes one ray, which is searched from the depth of a drawn pixel
-// beside it.
+// Drawing parts of the surface that were missed: one ray for each pixel, searched from the depth of a drawn pixel beside it.
 #include "missed.h"
 
 #include "math/normal.h"
@@ -40,8 +39,7 @@ void Missed::draw()
     }
 }
 
-// Returns the length, LONG at most, of the side of a corner that begins at pixel `at` and goes on in steps of `step`: its pixels
-// are drawn, and the pixels beside them, at a distance of `aside`, are empty.
+// Returns how many pixels from `at` on, in steps of `step`, are drawn with an empty pixel beside them (`at + aside`); LONG at most.
 int Missed::sideFrom(int at, int step, int aside) const
 {
     const auto onScreen = [](int pixel) { return pixel >= 0 && pixel < WIDTH * HEIGHT; };

@@ -26,8 +26,7 @@ public:
                (pixel[UP + END * outwards] != 0 && pixel[DOWN * END - outwards] != 0);
     }
 
-    // Notes a pixel that draw() is to look at when all gaps are closed. It may lie outside of the screen. Does nothing when there
-    // are NOTED_MOST already.
+    // Notes a pixel, possibly off the screen, that draw() is to look at. Does nothing when NOTED_MOST are noted already.
     void note(int column, int row)
     {
         if (count_ < NOTED_MOST)

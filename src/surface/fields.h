@@ -27,8 +27,7 @@ struct Along {
     Real t, change;     // t and dt/dp
     Real k;             // segment: coordinate of its nearest point
 
-    // For points and segments only: the first sets what depends on the path; the second sets and returns t at position p, and sets
-    // `change` and k.
+    // For points and segments only: set b and stepY for a path; set t, `change` and k for position p, and return t.
     void aimNear(const Vector& path);
     Real nearParam(Real p);
 };

@@ -44,8 +44,7 @@ constexpr int32_t NEAREST_DEPTH = 256, FARTHEST_DEPTH = 1 << 22;
 // Upper bound of a voxel's tilts, 8 fraction bits.
 constexpr int32_t STEEPEST_TILT = 20000;
 
-// A scale is larger than its cell to each side: by 2^-MARGIN_SHIFT of the half extent, and by the rounding error of positions
-// (1/256 unit).
+// A scale exceeds its cell to each side by 2^-MARGIN_SHIFT of the half extent and by the rounding error of positions, 1/256 unit.
 constexpr int MARGIN_SHIFT = 5;
 constexpr int32_t MARGIN_UNITS = 14;
 
@@ -56,8 +55,7 @@ constexpr int32_t FLAT_SHADING = 8;
 // really go on changing at the centre's slope.
 constexpr int32_t STEEPEST_SHADING = 240;
 
-// Sets the slopes of brightness of a voxel, 1/8 step per unit, or none if they make no visible difference. The voxel's half
-// extents and its brightness, which may be negative, are set already.
+// Sets a voxel's slopes of brightness, 1/8 step per unit, or none if they would not show. Half extents and brightness are known.
 inline void setSlopes(int32_t x, int32_t y, Voxel* voxel)
 {
     const int32_t light = voxel->brightness;
