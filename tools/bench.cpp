@@ -1,15 +1,15 @@
-// What the benchmark adds to the host program to count instructions: the copy to the screen that the DOS program makes,
-// and the C++ twins of the loops that draw scales beside the assembly, on the very lists that the demo draws.
+// Additions to the host program for the benchmark that counts instructions: the copy to the screen that the DOS program makes,
+// and calls of the C++ twins of the loops that draw scales, with the same lists that the assembly draws in the demo.
 //
-// It is linked in with the linker's --wrap, so that nothing of it is in the program itself (tools/bench.mk). A profiler
-// then tells the instructions of each routine by its name. What was drawn is told at the end of the run, on standard
-// output behind the statistics:
+// The linker's --wrap links them in (tools/bench.mk), so the program itself contains nothing of this file. A profiler reports the
+// instructions of each routine by its name. At the end of the run these figures are printed on standard output after the
+// statistics:
 //
-//     scales: N             scales drawn, whichever way
-//     scales by the view: N of them those that the loop left to View::project(), and the blitter drew one by one
-//     scale pixels: N       pixels they all cover
-//     scales differing: N   calls in which the twins drew, counted or stopped differently; has to be 0
-//     frames not cleared: N frames that began with something left of the one before; has to be 0
+//     scales: N             all scales drawn
+//     scales by the view: N those that the loop left to View::project() and that were drawn one by one
+//     scale pixels: N       pixels covered by all scales
+//     scales differing: N   calls in which the twins drew, counted or stopped differently; must be 0
+//     frames not cleared: N frames that began with remains of the previous one; must be 0
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>

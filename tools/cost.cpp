@@ -1,22 +1,21 @@
-// cost: instructions a frame of each room of the program, of its sources and of its functions, and the clocks that a 486
-// takes for them, as far as tables tell (clk486.h).
+// cost: prints the instructions per frame of each room (folder of src), source file and function of the program, and the clocks
+// that a 486 takes for them according to published tables (clk486.h).
 //
 //   cost [-t FUNCTIONS] MAP CODE SHORT LONG FRAMES
 //
 // SHORT and LONG are callgrind's counts by address (--dump-instr=yes) of two runs of the same program, LONG with FRAMES
-// frames more; what both do alike, the start and the end, falls out. MAP is the linker's map of the program: the object
-// file that an address comes from says whose it is, so no function has to be known by name, and what the compiler makes
-// inline counts for the source it is inlined into. A kernel asm/X.S belongs to the room that has X.cpp. What the C
-// library does counts for those who call it, at the clocks that its instructions take in the mean. CODE is the program
-// as objdump -d -w has it.
+// frames more; subtracting them removes the start and the end of the program, which both have in common. MAP is the linker's map:
+// it gives the object file of each address, so functions need not be known by name, and inlined code counts for the source that it
+// is inlined into. A kernel asm/X.S belongs to the room that contains X.cpp. Instructions of the C library count for its callers,
+// at their average number of clocks. CODE is the output of objdump -d -w for the program.
 //
 // Each line of the output is WHAT NAME INSTRUCTIONS CLOCKS:
 //
 //     all      all          the sum of the rooms
-//     room     ROOM         a folder of src; asm for kernels without a twin; library for what nobody of ours called
-//     source   ROOM/NAME    a source with its kernel
-//     function ROOM/NAME:F  the dearest functions
-//     unknown  all          instructions that the tables do not have; taken at 2 clocks
+//     room     ROOM         a folder of src; asm: kernels without a twin; library: library code not called by the program
+//     source   ROOM/NAME    a source file together with its kernel
+//     function ROOM/NAME:F  the most expensive functions
+//     unknown  all          instructions missing from the tables, counted as 2 clocks each
 #include <algorithm>
 #include <cctype>
 #include <cstdint>

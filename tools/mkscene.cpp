@@ -1,13 +1,12 @@
-// mkscene: random scenes for tests, the same one for the same seed on every machine.
+// mkscene: makes random scenes for tests; the same SEED gives the same scene on every machine.
 //
 //   mkscene SEED [OBJECTS] [eye] [dents] [paint] [shapes]   writes a scene file to standard output
 //
-// With the word paint half of the objects have a finish or a pattern, and in every other scene the colours mix. With `shapes`
-// objects are stretched, tapered, twisted and bent, too.
-// Three to nine objects (or as many as asked for) of all kinds, within what the default camera sees; some in groups, most
-// of them moving, some turning, swinging or pulsing; linked in one of several graphs, with weights up to 4. With `dents`
-// one to three objects more dig into others, and some have another strength than 1. With `eye` the same scene is seen by an eye
-// that goes about it. This file exists so that the picture is tried on scenes nobody chose.
+// A scene has three to nine objects (or OBJECTS) of all kinds within the view of the default camera. Some form groups, most of
+// them move, some turn, swing or pulse. They are linked in one of several graphs with weights up to 4. With `dents`, one to three
+// more objects dig into others, and some have a strength other than 1. With `eye`, the eye moves around the same scene. With
+// `paint`, half of the objects have a finish or a pattern, and colours mix in every other scene. With `shapes`, objects are also
+// stretched, tapered, twisted and bent. Random scenes test the program on cases that nobody has thought of.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>

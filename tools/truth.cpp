@@ -1,11 +1,11 @@
-// truth: holds dumped frames against the surface they should show.
+// truth: compares dumped frames with the surface that they should show.
 //
 //   truth [options] DIR...         figures of the frames in the directories
-//   truth --render OUT SCENE...    the true frames of scene texts, into OUT
+//   truth --render OUT SCENE...    writes the true frames of scene texts to OUT
 //
-// This file exists to be the command line round the yardstick: it walks the
-// frames, prints the figures, one `name: value` a line or one row of a table,
-// and judges them.
+// This file is the command line of the yardstick: it goes through the frames,
+// prints the figures (one `name: value` per line, or one row of a table), and
+// judges them.
 #include "truth.h"
 
 #include <algorithm>

@@ -1,7 +1,8 @@
-// A dumped frame held against its truth: the figures and the pictures.
+// Compares a dumped frame with its true picture, and makes the figures and the
+// pictures of differences.
 //
-// This file exists to be the one definition of what counts as a hole, as
-// see-through, as outside, as an error and as flicker.
+// This file alone defines what counts as a hole, as see-through, as outside, as
+// an error and as flicker.
 #include "truth.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 // Assembly against C++: each routine of asm/blit.S, asm/scales.S, asm/voxels.S and asm/fields.S and its twin in
-// src/picture/blit.cpp and scales.cpp, src/surface/voxels.cpp and fields.cpp get the same input, and all they may touch must come
-// out the same, with guard bytes round every buffer. A new assembly routine gets its part here before anything else uses it.
+// src/picture/blit.cpp and scales.cpp, src/surface/voxels.cpp and fields.cpp get the same input. All memory that they may write
+// must be equal afterwards, with guard bytes around every buffer. A new assembly routine must be tested here before it is used.
 //
-//   twins [SEED [ROUNDS]]     rounds of random scales, voxels and spans, after the cases that are always tried
+//   twins [SEED [ROUNDS]]     ROUNDS rounds of random scales, voxels and spans, after the fixed cases
 //
-// Prints what differs, how much was tried, and "N passed, N failed".
+// Prints each difference, the number of tests, and "N passed, N failed".
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>

@@ -1,4 +1,4 @@
-// The animation: exactly repeatable, driven by time alone, on the report's circles.
+// Tests of the animation: it depends on the time alone, repeats exactly, and follows the report's circles.
 #include "model/anim.h"
 
 #include "help.h"

@@ -1,4 +1,4 @@
-// Bodies: what links join, and whom it tells of movement.
+// Tests of bodies: links join objects to bodies, and an object that moves tells the others of its body.
 #include "help.h"
 #include "model/anim.h"
 #include "test.h"

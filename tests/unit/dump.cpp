@@ -1,4 +1,4 @@
-// Dumped frames: what the three files hold, and what happens where they cannot be written.
+// Tests of dumped frames: the contents of the three files, and the behaviour when they cannot be written.
 #include "app/dump.h"
 
 #include <dirent.h>

@@ -1,4 +1,4 @@
-// The Geoff function and its table, held against the polynomial in double precision.
+// Tests of the Geoff function and its table against the polynomial in double precision.
 #include "model/field.h"
 
 #include "help.h"

@@ -1,4 +1,4 @@
-// The small parts behind keys and screen: the animation's pace, questions, lines of text.
+// Tests of the small parts behind keys and screen: the animation's pace, questions to the user, lines of text.
 #include "app/ask.h"
 #include "app/options.h"
 #include "app/overlay.h"

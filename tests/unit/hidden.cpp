@@ -1,4 +1,4 @@
-// What nearer objects hide is neither settled nor drawn, and comes back when they go away.
+// Tests of occlusion: seeds hidden by nearer objects are neither settled nor drawn, and reappear when those objects go away.
 #include <cstdlib>
 #include <cstring>
 

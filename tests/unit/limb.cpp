@@ -1,4 +1,4 @@
-// The limb: a scale next to it ends where rays of sight only touch the surface.
+// Tests of the limb: a scale next to it ends where rays of sight are tangent to the surface.
 #include "help.h"
 
 #include "../../src/surface/limb.h"

@@ -1,4 +1,4 @@
-// The command line: every switch in every spelling, and every bad value refused with a line that names it.
+// Tests of the command line: every switch works in every spelling, and every bad value is refused with a line that names it.
 #include "app/options.h"
 
 #include <cstring>

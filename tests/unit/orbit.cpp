@@ -1,4 +1,4 @@
-// The user's way about a scene: where the eye comes to stand, and what it then sees in the middle.
+// Tests of moving the eye around a scene: its position, and the point that it sees in the middle of the picture.
 #include "app/orbit.h"
 #include "help.h"
 #include "test.h"

@@ -1,4 +1,4 @@
-// Paint: finishes, patterns, colours that mix: which colours are chosen, and what voxels get of them.
+// Tests of paint (finishes, patterns, mixed colours): the colours that are chosen, and the ramps that voxels get.
 #include "model/paint.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Palettes: ramps that rise, colours shared out among many objects.
+// Tests of palettes: ramps never get darker towards the light, and many objects share the 256 colours fairly.
 #include "picture/palette.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Patches: that they hold every seed once, and that what is said of a patch as a whole is true of each of its seeds, held
-// against a look at every seed in double precision. That none is missing that is seen stands in surface.cpp.
+// Tests of patches: each seed is in exactly one patch, and the state of a patch is true of each of its seeds, tested for every seed
+// in double precision. surface.cpp tests that no visible seed is missing.
 #include "../../src/surface/patch.h"
 
 #include "help.h"

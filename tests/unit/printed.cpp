@@ -1,4 +1,4 @@
-// The report's own methods (/P): its tolerances and answers to gaps at work, each by its figures.
+// Tests of the report's own methods (/P): its tolerances and its remedies for gaps, each with the report's numbers.
 #include "help.h"
 #include "test.h"
 

@@ -1,4 +1,4 @@
-// The holding of a rate: a clock that counts seeds, and what the controller makes of it.
+// Tests of the frame rate controller, with a simulated clock that depends on the number of seeds.
 #include "app/rate.h"
 
 #include "app/options.h"

@@ -1,4 +1,4 @@
-// Real in its three kinds: what every kind promises, and what 16.16 promises besides.
+// Tests of Real in its three kinds (16.16, float, double): what all kinds guarantee, and what 16.16 guarantees in addition.
 #include "math/real.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Seeds as they are laid out (report, Appendix C): how many, how evenly, and which is whose neighbour.
+// Tests of the layout of seeds (report, Appendix C): their number, their even distribution, and their neighbours.
 #include <algorithm>
 
 #include "help.h"

@@ -1,4 +1,5 @@
-// How the brightness changes across scales: what Slopes makes of voxels beside each other, and how true it is where objects blend.
+// Tests of how the brightness changes across scales: the slopes that Slopes computes from neighbouring voxels, and their accuracy
+// where objects blend.
 #include "../../src/surface/slopes.h"
 
 #include "help.h"

@@ -1,4 +1,4 @@
-// SoftObject: the operations of the report's Section III, the graph, and the field.
+// Tests of SoftObject: the operations of the report's Section III, the graph of links, and the field.
 #include "help.h"
 #include "stick.h"
 #include "test.h"

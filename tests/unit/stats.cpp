@@ -1,4 +1,4 @@
-// The statistics block.
+// Tests of the block of statistics that is printed at the end of a run.
 #include "app/stats.h"
 
 #include <cstring>

@@ -1,5 +1,5 @@
-// Scenes in, voxels out: whatever objects, links and weights a scene has, every voxel lies on the surface of the body, faces
-// as that does, and none is missing where the viewer sees it. The truth is in double precision throughout.
+// Tests of finding the surface: whatever objects, links and weights a scene has, every voxel lies on the surface of its body, has
+// the surface's orientation, and no voxel is missing where the viewer sees the surface. Reference values are in double precision.
 #include "model/torus.h"
 
 #include "help.h"
@@ -8,15 +8,15 @@
 
 namespace {
 
-// What the voxels of scenes are off by.
+// The errors of the voxels of scenes.
 struct Errors {
     long count = 0;
     double worst = 0, sum = 0;              // distance from the surface, units
-    long astray = 0;                        // voxels farther from it than they may be
+    long astray = 0;                        // voxels whose distance is out of tolerance
     double worstLight = 0, sumLight = 0;    // brightness, steps of 64
-    long dim = 0;                           // voxels of another brightness than they may have
-    double strongest = -1;                  // by how much a neighbour's field is stronger
-    long foreign = 0;                       // voxels where it is too much so
+    long dim = 0;                           // voxels whose brightness is out of tolerance
+    double strongest = -1;                  // by how much a neighbour's field is stronger than the voxel's own
+    long foreign = 0;                       // voxels where that is out of tolerance
     long away = 0;                          // voxels that face away from the viewer
 
     void report(const char* what) const
@@ -28,8 +28,8 @@ struct Errors {
     }
 };
 
-// A voxel may be this far from the surface (units, and parts of the spacing on small objects), and its brightness off by as
-// many steps of 64.
+// Tolerances: the distance from the surface (units; on small objects a part of the spacing) and the error of brightness (steps of
+// 64).
 constexpr double ASTRAY = 0.35;
 constexpr double DIM = 8;
 
@@ -40,13 +40,13 @@ Vec placeOf(const Scene& scene, const Voxel& voxel)
     return vec(scene.eye) + vec(axes.right) * at.x + vec(axes.up) * at.y + vec(axes.ahead) * at.z;
 }
 
-// The brightness of a place from which the field falls that way; below 0 on the side away from the light.
+// The brightness of the surface where the field falls in this direction; negative on the side away from the light.
 double lit(const Scene& scene, const Vec& fall)
 {
     return dot(fall, vec(scene.light)) / size(fall) * 63;
 }
 
-// Holds all voxels of a frame against the body.
+// Compares all voxels of a frame with the surface of the body.
 void measure(Scene& scene, const Body& body, Errors& errors)
 {
     for (size_t o = 0; o < scene.objects.size(); ++o) {
@@ -55,7 +55,7 @@ void measure(Scene& scene, const Body& body, Errors& errors)
             const Vec p = placeOf(scene, voxel);
             const Vec fall = body.fall(joined, p);
             const double steep = size(fall), off = body.field(joined, p) - 0.5;
-            // Where the field is flat, a place is as good as those round it.
+            // Where the field is flat, neighbouring points are just as good.
             const double distance = std::fabs(off) / std::fmax(steep, 0.3 / body.cores[o].size);
             ++errors.count;
             errors.worst = std::fmax(errors.worst, distance);
@@ -74,7 +74,7 @@ void measure(Scene& scene, const Body& body, Errors& errors)
     }
 }
 
-// Of the places where paths of regular seeds leave the surface in plain sight, how many have no voxel of the object near.
+// Counts the points where paths of regular seeds leave the surface in plain sight without a voxel of the object near.
 struct Missing {
     long count = 0, missing = 0;
     double farthest = 0;
@@ -112,7 +112,7 @@ void seek(Scene& scene, const Body& body, Missing& result)
     }
 }
 
-// Nothing to be seen that should not be, and next to nothing missing.
+// Checks that no voxel is where it should not be, and that almost none is missing.
 void judge(const char* what, const Errors& errors, const Missing& missing)
 {
     errors.report(what);
@@ -151,7 +151,7 @@ Scene pair(double size, double apart, bool printed)
     return scene;
 }
 
-// But for how the brightness changes across.
+// Compares two lists of voxels except for their slopes of brightness.
 bool alike(const std::vector<Voxel>& a, const std::vector<Voxel>& b)
 {
     if (a.size() != b.size())
@@ -164,7 +164,7 @@ bool alike(const std::vector<Voxel>& a, const std::vector<Voxel>& b)
     return true;
 }
 
-// Voxels across which the brightness changes otherwise.
+// Counts the voxels whose slopes of brightness differ.
 long otherSlopes(const std::vector<Voxel>& a, const std::vector<Voxel>& b)
 {
     long count = 0;
@@ -630,7 +630,8 @@ TEST(what_grows_takes_its_seeds_along)
     judge("growing", errors, missing);
 }
 
-// By how many steps the places of an object's seeds at rest are off, and how far out these are along their normals. Counts them.
+// Measures by how many steps the stored positions of an object's seeds at rest, and their distances along the normals (Seed::out),
+// are off, and counts these seeds.
 double restsOff(const SoftObject& object, long& count)
 {
     double worst = 0;

@@ -1,4 +1,4 @@
-// Numbers to text and back.
+// Tests of converting numbers to text and back.
 #include "math/text.h"
 
 #include <cstring>

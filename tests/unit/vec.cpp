@@ -1,4 +1,4 @@
-// Point, Vector and Matrix, held against double precision.
+// Tests of Point, Vector and Matrix against double precision.
 #include "math/vec.h"
 
 #include "help.h"

@@ -1,5 +1,5 @@
-// The view: the projection formula, clipping, and the promise that what is cleared and presented by spans looks the same
-// as the whole screen.
+// Tests of the view: the projection formula, clipping, the closing of gaps, and that clearing and presenting only spans gives the
+// same picture as with the whole screen.
 #include "picture/view.h"
 
 #include <algorithm>
@@ -82,7 +82,7 @@ TEST(projection_formula)
     CHECK(drawn > 3000);
 }
 
-// Scales of the sizes that surfaces are made of; and large and near ones with little tilt, which the view projects itself.
+// Scales of ordinary sizes, and large and near ones with little tilt, which the view projects itself.
 TEST(tilted_scales_lie_in_their_plane)
 {
     View view;
@@ -431,7 +431,7 @@ static void block(View& view, int left, int top, int right, int bottom, int colo
     SAME(show(view, v), 1);
 }
 
-// Of a rectangle of pixels, how many are drawn.
+// Counts the drawn pixels of a rectangle.
 static int drawnIn(const View& view, int left, int top, int right, int bottom)
 {
     int count = 0;
@@ -444,8 +444,8 @@ static int drawnIn(const View& view, int left, int top, int right, int bottom)
     return count;
 }
 
-// Between the blocks of the next tests seeds this far apart are 4 pixels apart: gaps are at most 14 pixels wide and high, the
-// ends of open ones 12 wide.
+// In the blocks of the next tests, seeds with this spacing are 4 pixels apart: gaps are at most 14 pixels wide and high, narrow
+// ends of openings at most 12 wide.
 static const Real SPACING(2.25);
 
 TEST(gaps_closed_all_round)
@@ -479,7 +479,7 @@ TEST(gaps_closed_all_round)
         }
 }
 
-// Two balls of size 40 as far as that to the left and to the right of the middle, or above and below it.
+// Two balls of size 40 at this distance to the left and to the right of the middle, or above and below it.
 static void addPair(Model& model, double away, bool upright = false)
 {
     Motion left{}, right{};
@@ -491,8 +491,8 @@ static void addPair(Model& model, double away, bool upright = false)
     CHECK(model.bodies() != nullptr);
 }
 
-// Between two objects the colour changes where the one's field becomes stronger, to two pixels, wherever the gap lies; the
-// brightness goes from the one side's to the other's, and the depth stays the nearer side's.
+// In a gap between two objects the colour changes where the other object's field becomes the stronger one, within two pixels,
+// wherever the gap lies. The brightness is interpolated between both sides, and each pixel has the depth of the closer side.
 TEST(gaps_between_two_objects)
 {
     Model model;
@@ -531,7 +531,7 @@ TEST(gaps_between_two_objects)
         }
 }
 
-// Between two objects that do not touch, at whatever distance, what is open stays so, on a side or with all drawn round it.
+// Openings between two objects that do not touch stay open at any distance, whether or not they are enclosed by drawn pixels.
 TEST(gaps_where_there_is_no_surface)
 {
     Model model;
@@ -560,7 +560,7 @@ TEST(gaps_where_there_is_no_surface)
         }
 }
 
-// The same where one lies above the other, and the gap is open on one side.
+// The same for two objects above each other, with a gap that is open on one side.
 TEST(slits_where_there_is_no_surface)
 {
     Model model;
@@ -582,8 +582,8 @@ TEST(slits_where_there_is_no_surface)
     }
 }
 
-// A ball with a corner of its picture missing is made whole, as far away and as bright as the true one is; without the model
-// the corner stays open.
+// A missing corner of a ball's picture is drawn with the true depth and brightness of the ball. Without the model the corner stays
+// open.
 TEST(surface_is_followed_from_corners)
 {
     Model model;
@@ -598,7 +598,7 @@ TEST(surface_is_followed_from_corners)
     View view;
     CHECK(view.open());
     const Vec eye = vec(view.camera().eye), light = vec(model.light) * (1 / size(vec(model.light)));
-    // How bright the ball is at a pixel, and how far away along the viewing axis. Less than 0: it is not there.
+    // The brightness of the ball at a pixel, and its depth; negative where the pixel does not show the ball.
     const auto trueAt = [&](double column, double row, double* depth) {
         const Camera& camera = view.camera();
         const Vec way{(column + 0.5 - number(camera.centreX)) / number(camera.focalX),
@@ -719,7 +719,7 @@ TEST(gaps_at_the_edges_of_the_screen)
 
 TEST(gaps_anywhere)
 {
-    // Anything on the screen, up to its edges: what was drawn stays, and what is new looks like something beside it.
+    // With anything on the screen, up to its edges, drawn pixels stay and new pixels look like one beside them.
     View view;
     CHECK(view.open());
     Random random;
@@ -767,8 +767,8 @@ TEST(gaps_anywhere)
 
 TEST(spans_are_enough)
 {
-    // A model that moves through everything (past the eye, out of the picture): drawn with clears and presents limited to
-    // spans it must look as when each frame starts on an empty screen and is presented whole.
+    // A model that moves everywhere (past the eye, out of the picture) must look the same whether clears and presents are limited
+    // to spans or each frame starts on an empty screen and is presented as a whole.
     Random random;
     View limited;
     CHECK(limited.open());
@@ -828,7 +828,7 @@ TEST(spans_are_enough)
 
 namespace {
 
-// Unit vectors, each square to the others, in the order of x, y and z.
+// Whether these are perpendicular unit vectors with the orientation of x, y and z.
 bool areAxes(const ViewAxes& axes)
 {
     const Vec right = vec(axes.right), up = vec(axes.up), ahead = vec(axes.ahead);
