@@ -52,7 +52,7 @@ uint32_t address(const std::string& text)
     return static_cast<uint32_t>(strtoull(text.c_str(), nullptr, 16));
 }
 
-// --- Whose an address is
+// --- Which source an address belongs to
 
 struct Range {
     uint32_t from, to;
@@ -63,14 +63,14 @@ class Map {
 public:
     explicit Map(const std::string& name);
 
-    // The source at the address, nullptr for the C library.
+    // Returns the source at an address, or nullptr for the C library.
     const std::string* sourceAt(uint32_t address) const;
 
 private:
     std::vector<Range> ranges_;
 };
 
-// "src/ROOM/NAME.o" at the end of an object's path; empty for what is not ours.
+// Finds "src/ROOM/NAME.o" at the end of an object's path; returns an empty string for foreign objects.
 std::string tailBehind(const std::string& path, const std::string& folder)
 {
     const size_t at = path.rfind("/" + folder + "/");
@@ -208,7 +208,7 @@ double clocksAt(const Code& code, const Counts& counts, uint32_t at, double time
     Executed executed;
     executed.times = times;
     executed.taken = number(counts.taken, at);
-    // As often as it went on to what stands behind it.
+    // How often execution went on to the next instruction.
     executed.begun = std::min(times, number(counts.executed, at + static_cast<uint32_t>(i.length)));
     const Instruction* before = nullptr;
     if (found != code.begin()) {
@@ -284,7 +284,7 @@ int main(int count, char** arguments)
     };
     for (const auto& at : counts.executed)
         book(at.first, at.second, clocksAt(code, counts, at.first, at.second, &unknown["all"].instructions));
-    // The C library's own count has what is booked on its callers now.
+    // The C library's own count now contains what has been added to its callers.
     const Cost library = rooms["library"];
     const double clocksEach = library.instructions > 0 ? library.clocks / library.instructions : 1;
     for (const auto& at : counts.called) {

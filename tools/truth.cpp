@@ -42,7 +42,7 @@ const char usage[] =
     "  --pairs          and the frame after each of them, for flicker\n"
     "  --threads N      1 to 16 (2)\n";
 
-// The bars a picture has to meet, and the totals held against them.
+// The limits (bars) that a picture has to meet, and the totals that are compared with them.
 struct Bar {
   const char *name;
   const char *column;   // of the table
@@ -77,7 +77,7 @@ const Bar bars[] = {
      [](const Figures &f) { return f.borderTrue > 0; }},
 };
 
-// How bad a frame is: its figures in units of the bars, holes one each.
+// How bad a frame is: the sum of its figures in units of the bars, where each hole counts as one.
 double badness(const Figures &f) {
   double sum = 0;
   for (const Bar &b : bars)
