@@ -1,12 +1,12 @@
-/* What every assembly file includes: it lets one source assemble for ELF (stock gcc -m32) and for
-   DJGPP's COFF, where C symbols carry a leading underscore.
+/* Every assembly file includes this header, so that one source assembles for ELF (stock gcc -m32) and for
+   DJGPP's COFF, where C symbols have a leading underscore.
 
    SYM(name)   a symbol shared with C or C++
-   SECTION(name), SECTION_BSS(name)    a section of its own, with code and data, or without contents
-   FUNC(name), ENDFUNC(name)    round a routine that C++ calls: its label and, on ELF, its type and size, by which profilers
-               know it
-   LOCAL(name), ENDFUNC(name)   the same of one that only its own file calls
-   ASM_END     last line of each file: on ELF it says that the file needs no executable stack */
+   SECTION(name), SECTION_BSS(name)    start a separate section: with code and data, or zero-initialised
+   FUNC(name), ENDFUNC(name)    enclose a routine that C++ calls: they define its label and, on ELF, its type and size for
+               profilers
+   LOCAL(name), ENDFUNC(name)   enclose a routine that is called only in its own file
+   ASM_END     last line of each file: tells an ELF linker that the file needs no executable stack */
 #ifndef ASM_ASM_H
 #define ASM_ASM_H
 

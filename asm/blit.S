@@ -1,9 +1,9 @@
-// The innermost loops for the 386 and up. src/picture/blit.cpp has each of them in C++ and says what it does; the tests feed
-// both the same input. Above each group of instructions stands the line of C++ that it implements.
+// The innermost loops for the 386 and up. Each routine implements its C++ twin in src/picture/blit.cpp, and the tests feed both
+// the same input. Above each group of instructions stands the line of C++ that it implements.
 //
-// Cycles are given as "486 / Pentium" with everything in the first-level cache. A 16-bit operand has a prefix byte: one
-// cycle on the 486, and on the Pentium it keeps the instruction out of the V pipe. A word for the depth is still right:
-// it halves what a clear and the cache have to hold.
+// Cycles are given as "486 / Pentium" with everything in the first-level cache. A 16-bit operand has a prefix byte, which takes
+// one cycle on the 486 and keeps the instruction out of the V pipe of the Pentium. Depths of 16 bits still pay, because they
+// halve the memory that has to be cleared and that the cache has to hold.
 
 #include "asm.h"
 
@@ -19,7 +19,7 @@
 #define SCALE_BYTES 24
 
 #define SCREEN_WIDTH 320
-#define WIDEST  16              /* rows up to this width have a loop of their own, without a counter in the row */
+#define WIDEST  16              /* each width up to this one has a loop of its own, in which a row is unrolled */
 
         .text
 
@@ -28,10 +28,10 @@
 //
 //   ebp  scale          eax  z (ax)             esi  depths + row
 //   edx  rows to go     ecx  colour (cl)        edi  pixels + row
-//   ebx  change of z from pixel to pixel
+//   ebx  zStep
 //
-// A pixel behind what is there costs 3 instructions (486: 2 + 3 + 1, Pentium: 3 when the branch is foreseen, the
-// addition pairs), one that is taken 5 (486: 2 + 1 + 2 + 1 + 1). A row adds 5, a scale 20.
+// An occluded pixel costs 3 instructions (486: 2 + 3 + 1; Pentium: 3 when the branch is predicted, and the addition pairs), a
+// drawn pixel 5 (486: 2 + 1 + 2 + 1 + 1). Each row adds 5 instructions, each scale 20.
 
         .balign 16
         FUNC(blitScalesA)
@@ -43,7 +43,7 @@
         movl    32(%esp), %eax          // count
         testl   %eax, %eax
         jle     scales_done
-        // The end of the list takes the place of the count: one comparison a scale.
+        // The end of the list replaces the count, so that the loop takes one comparison per scale and no counter.
         leal    (%eax,%eax,2), %eax
         leal    (%ebp,%eax,8), %eax     // scales + count
         movl    %eax, 32(%esp)
@@ -67,7 +67,7 @@ scale_loop:
         cmpl    $WIDEST, %eax
         ja      wide_rows
         movl    rows_of(,%eax,4), %eax
-        movl    %eax, 28(%esp)          // the place of `scales`, which ebp holds
+        movl    %eax, 28(%esp)          // in the stack slot of `scales`, which is in ebp now
         movl    DEPTH(%ebp), %eax
         jmp     *28(%esp)
 
@@ -115,10 +115,10 @@ rows_\width:
         ROWS    15
         ROWS    16
 
-        // The same with a counter, for scales near the viewer.
+        // Rows of more than WIDEST pixels, of scales near the viewer: the same with a counter.
         .balign 16
 wide_rows:
-        leal    (%esi,%eax,2), %esi     // both pointers at the end of the row; a counter runs up to 0
+        leal    (%esi,%eax,2), %esi     // both pointers point past the end of the row; x runs from -width up to 0
         addl    %eax, %edi
         negl    %eax
         pushl   %eax
@@ -158,7 +158,7 @@ scales_done:
 
         .balign 4
 rows_of:
-        .long   scales_done             // width 0 does not occur
+        .long   scales_done             // no scale has width 0
         .long   rows_1, rows_2, rows_3, rows_4, rows_5, rows_6, rows_7, rows_8
         .long   rows_9, rows_10, rows_11, rows_12, rows_13, rows_14, rows_15, rows_16
 
@@ -167,7 +167,7 @@ rows_of:
 //
 //   ebx  row            edx  frame              esi  zbuffer            ebp  rows to go
 //
-// String instructions: 486 5 + 4 a double word (slower than moves, but free of the loop), Pentium 1 a double word.
+// String instructions take 5 + 4 cycles per 32-bit word on the 486 (slower than moves, but without a loop), and 1 on the Pentium.
 
         .balign 16
         FUNC(clearRowsA)
@@ -219,10 +219,11 @@ clear_done:
 // ---------------------------------------------------------------------------------------------------------------------
 // int drawnRunsA(const uint8_t* row, const uint16_t* depths, const Span* within, Span* runs)
 //
-//   esi  row            edi  the pixel at hand  edx  the end of `within`     ebx  where the next run goes
+//   esi  row            edi  row + x            edx  row + within->to        ebx  runs + count
 //
-// String instructions again, 486: 5 for four pixels that are empty. Of those that are drawn sixteen at a time are passed over
-// for 22, by their depths, as long as none is 256 units away or more; the rest of a run costs 5 a pixel.
+// Empty pixels are skipped with string instructions, four in 5 cycles on the 486. Drawn pixels are skipped by their depths,
+// sixteen in 22 cycles: an empty pixel has depth 0xffff, so while bit 15 of sixteen depths is clear (they are nearer than 256
+// units) all of them are drawn. The rest of a run costs 5 cycles per pixel.
 
         .balign 16
         FUNC(drawnRunsA)
@@ -239,7 +240,7 @@ clear_done:
         addl    %esi, %edi
         addl    %esi, %edx
         cld
-        // while (x < to && row[x] == 0) ++x;   up to a multiple of four from the end, by fours, within the four
+        // while (x < to && row[x] == 0) ++x;   singly until to - x is a multiple of 4, then by fours, then singly in the last four
 runs_empty:
         movl    %edx, %ecx
         subl    %edi, %ecx
@@ -262,7 +263,7 @@ runs_first:
         leal    -1(%edi), %ecx
         subl    %esi, %ecx
         movw    %cx, (%ebx)
-        // while (x + 16 <= to && none of depths[x..x + 15] has bit 15) x += 16;   from an even x, the first drawn one or the next
+        // while (x + 16 <= to && none of depths[x..x + 15] has bit 15) x += 16;   starts at an even x, at most one pixel later
         movl    %edx, %eax
         leal    1(%ecx), %ecx
         subl    %esi, %eax
@@ -270,7 +271,7 @@ runs_first:
         movl    24(%esp), %ebp
         subl    $16, %eax
         leal    (%ebp,%ecx,2), %ecx
-        leal    (%ebp,%eax,2), %eax     // the last place from which sixteen lie within
+        leal    (%ebp,%eax,2), %eax     // the last address at which sixteen depths are still within
 runs_sixteen:
         cmpl    %eax, %ecx
         ja      runs_passed
@@ -297,7 +298,7 @@ runs_passed:
         jz      runs_last
         repne scasb
         jne     runs_last
-        // runs[count].to = x;  ++count.  Pixel x is empty, and edi is behind it.
+        // runs[count].to = x;  ++count;   pixel x is empty, and edi points one past it
         leal    -1(%edi), %ecx
         subl    %esi, %ecx
         movw    %cx, 2(%ebx)
@@ -323,7 +324,7 @@ runs_done:
 //
 //   es   the screen     edx  frame              ebx  row                eax  offset in the screen    ebp  rows to go
 //
-// The bus to the card sets the pace here, not the processor: double words are what it takes best.
+// The bus to the video card limits the speed here, not the processor; 32-bit words make the best use of the bus.
 
         .balign 16
         FUNC(presentRows)

@@ -1,14 +1,14 @@
-// The fields of neighbours along a path, for the 386 and up: half of what settling a seed takes. src/surface/fields.cpp has it in
-// C++ and fields.h says what it does; the tests feed both the same input. Above each group of instructions stands the line of C++
-// that it implements.
+// The fields of neighbours along a path, for the 386 and up: half of the time of settling a seed is spent here. The routine
+// implements its C++ twin in src/surface/fields.cpp (declared in fields.h), and the tests feed both the same input. Above each
+// group of instructions stands the line of C++ that it implements.
 //
-// What a field costs are its multiplications: four of a point, seven of a segment (one takes as long as its second factor has bits:
-// 9 to 38 cycles on the 386, 13 to 42 on the 486; 10 on the Pentium, in the U pipe alone), and three or six when a path is taken
-// up. There is no division.
+// The cost of a field is that of its multiplications: four for a point, seven for a segment, and three or six more to set a new
+// path. A multiplication takes 9 to 38 cycles on the 386 and 13 to 42 on the 486, depending on the bits of its second factor, and
+// 10 on the Pentium, in the U pipe only. There is no division.
 
 #include "asm.h"
 
-// struct Along (src/surface/fields.h), with which a neighbour begins
+// struct Along (src/surface/fields.h), the base of struct Neighbour
 #define ALONG_KIND   0
 #define ALONG_HALF   4
 #define ALONG_WAY    8
@@ -37,13 +37,13 @@
 
         .text
 
-// eax = eax * factor, as Real; edx is spare
+// eax = eax * factor, a product of 16.16 numbers; changes edx
 .macro times factor
         imull        \factor
         shrdl        $16, %edx, %eax
 .endm
 
-// to = the vector at ebx times the one at `vector` of what edi points to, over 16; ecx, eax and edx are spare
+// to = dot product of the vector at ebx and the vector at offset `vector` from edi, >> 4; changes eax, ecx and edx
 .macro product16 vector, to
         movl        (%ebx), %eax
         times        \vector(%edi)
@@ -58,8 +58,9 @@
         movl        %ecx, \to
 .endm
 
-// void addFieldsA(Neighbour* const* first, Neighbour* const* end, Real position, const Vector* path, Fields* fields). esi is the
-// place on the list, edi the neighbour at hand, ebp the position.
+// void addFieldsA(Neighbour* const* first, Neighbour* const* end, Real position, const Vector* path, Fields* fields)
+//
+//   esi  at             edi  along (**at)       ebp  position (p)
 #define ADD_FRAME    16
 #define ADD_FIRST    (ADD_FRAME+4)
 #define ADD_END      (ADD_FRAME+8)
@@ -80,7 +81,7 @@ add_one:
         movl        (%esi), %edi
         cmpl        $KIND_SEGMENT, ALONG_KIND(%edi)
         ja        add_other
-        // if (path != nullptr) b = dot(path, twice16) >> 4; of a segment stepY = dot(path, along16) >> 4
+        // if (path != nullptr) b = dot(path, twice16) >> 4;  if (kind == SEGMENT) stepY = dot(path, along16) >> 4
         movl        ADD_PATH(%esp), %ebx
         testl        %ebx, %ebx
         jz        add_aimed

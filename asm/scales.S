@@ -1,15 +1,15 @@
-// From voxels to pixels, for the 386 and up: the loop that a frame spends most of its time in but for settling.
-// src/picture/scales.cpp has it in C++ and says what it does; the tests feed both the same input. Above each group of
-// instructions stands the line of C++ that it implements.
+// From voxels to pixels, for the 386 and up: apart from settling, a frame spends most of its time in this loop. The routine
+// implements its C++ twin in src/picture/scales.cpp, and the tests feed both the same input. Above each group of instructions
+// stands the line of C++ that it implements.
 //
-// What a scale costs before its first pixel are its multiplications, eight of one brightness and twelve of a brightness
-// that changes (one takes as long as its second factor has bits: 9 to 38 cycles on the 386, 13 to 42 on the 486; 10 on the
-// Pentium, in the U pipe alone), so the factors are kept short: 15 bits for places and sizes, 10 for slopes. There is no
-// division.
+// The cost of a scale before its first pixel is that of its multiplications: eight for a scale of one brightness, twelve if the
+// brightness changes. A multiplication takes 9 to 38 cycles on the 386 and 13 to 42 on the 486, depending on the bits of its
+// second factor, and 10 on the Pentium, in the U pipe only. Therefore the factors are kept short: 15 bits for positions and
+// sizes, 10 for slopes. There is no division.
 //
-// Cycles of the rows are given as "486 / Pentium" with everything in the first-level cache. A 16-bit operand has a prefix
-// byte: one cycle on the 486, and on the Pentium it keeps the instruction out of the V pipe. A word for the depth is still
-// right: it halves what a clear and the cache have to hold.
+// Cycles of the rows are given as "486 / Pentium" with everything in the first-level cache. A 16-bit operand has a prefix byte,
+// which takes one cycle on the 486 and keeps the instruction out of the V pipe of the Pentium. Depths of 16 bits still pay,
+// because they halve the memory that has to be cleared and that the cache has to hold.
 
 #include "asm.h"
 
@@ -21,14 +21,14 @@
 #define VOXEL_HALF_HEIGHT 14
 #define VOXEL_TILTX  16
 #define VOXEL_TILTY  18
-#define VOXEL_BRIGHT 20                 /* and behind it, one double word with it, bytes all: */
+#define VOXEL_BRIGHT 20                 /* this and the next three are bytes and are read together as one 32-bit word */
 #define VOXEL_REACH  21
 #define VOXEL_CUTX   22
 #define VOXEL_CUTY   23
-#define VOXEL_SLOPEX 24                 /* one word with: */
+#define VOXEL_SLOPEX 24                 /* this and the next are bytes and are read together as one 16-bit word */
 #define VOXEL_SLOPEY 25
 #define VOXEL_CUTAT  26
-#define VOXEL_CURVEXX 28                /* one double word, bytes all: */
+#define VOXEL_CURVEXX 28                /* these and an unused one are bytes and are read together as one 32-bit word */
 #define VOXEL_CURVEXY 29
 #define VOXEL_CURVEYY 30
 #define VOXEL_SIZE   32
@@ -51,21 +51,23 @@
 #define SCREEN_WIDTH 320
 #define SCREEN_HEIGHT 200
 
-// Rows and columns up to which a scale's pixels stand in the code one by one.
+// For scales up to this width and height the code is unrolled: each of their pixels has its own instructions.
 #define UNROLLED   8
-// Of the table of ways to draw: columns, rows of a kind of scale, and how many bits a row of the table is wide. No scale
-// of the table has a corner so far from its middle that a depth could leave 16 bits.
+// The jump tables have an entry for each width up to KIND_COLUMNS and each height up to KIND_ROWS, for each kind of scale (even,
+// shaded, ending); a row of a table takes 2^KIND_SHIFT bytes. Scales within these limits are so small that no depth at a corner
+// can overflow 16 bits.
 #define KIND_COLUMNS  16
 #define KIND_ROWS  24
 #define KIND_SHIFT 6
-// Behind the kinds of the table: what is larger, nearer or clipped, LARGEST ways; and what is only cut.
+// Numbers of the table rows behind these kinds: for scales that are larger, nearer or clipped (any width up to LARGEST), and for
+// scales that are only cut.
 #define LARGE_KIND (2*KIND_ROWS)
 #define CUT_KIND   (2*KIND_ROWS+3)
 
-// A copy of the lens on the stack, and what else has no register.
+// The stack frame: a copy of the lens, and all values that have no register.
 #define LENS_X     0
 #define LENS_Y     4
-#define LENS_Z     8                    /* from the nearest depth of the table */
+#define LENS_Z     8                    /* minus the nearest depth of the table */
 #define RAMP       12
 #define FACTORS    16
 #define CENTREX    20
@@ -82,27 +84,27 @@
 #define FOCALX     64
 #define FOCALY     68
 #define LENS_WORDS 18
-#define LIST       72                   /* the voxel, counted in bytes from the end: below 0 */
+#define LIST       72                   /* address of the voxel - end, bytes: negative, 0 at the end of the list */
 #define END        76
-#define DEPTH      80                   /* 1/128 unit beyond the nearest of the table */
-#define NOT_LEFT   84                   /* ~left: it is what shortens the arithmetic */
+#define DEPTH      80                   /* depth of the scale - LENS_NEAR, 1/128 unit */
+#define NOT_LEFT   84                   /* ~left = -left - 1, which saves instructions */
 #define BOTTOM     88
-#define KIND       92                   /* rows - 1, and the first row of the kind in the table */
+#define KIND       92                   /* row of the jump table: height - 1 + the first row of the scale's kind */
 #define ZMOST      96
-#define FROM_COLUMN 100                 /* the way from the first pixel's middle to the scale's, to the left and down */
+#define FROM_COLUMN 100                 /* -toColumn, -toRow: from the first pixel's centre to the scale's middle */
 #define FROM_ROW   104
-#define ROW        108
-#define WIDTH      112                  /* of what is cut or large: columns - 1, rows - 1 (and then those to go), */
+#define ROW        108                  /* -zRow, -shadeRow packed in one word, from the last pixel of a row to the next row */
+#define WIDTH      112                  /* of a cut or large scale: width - 1; height - 1, and then the rows still to draw - 1; */
 #define HEIGHT     116
-#define ENTRY      120                  /* where in the code a row of them begins, */
-#define CUT        124                  /* and the function that cuts: at the first pixel, from pixel to pixel and row to row */
+#define ENTRY      120                  /* the address at which the code of a row is entered; */
+#define CUT        124                  /* and cut, cutStep, cutRow of its cut function */
 #define CUT_STEP   128
 #define CUT_ROW    132
-#define CUT_XX     136                  /* where it curves: what its steps change by (FineScale), and the first of a row */
+#define CUT_XX     136                  /* cutXX, cutXY, cutYY of a curved cut, and cutStep at the beginning of the row */
 #define CUT_XY     140
 #define CUT_YY     144
 #define CUT_FIRST  148
-#define NEAR       152                  /* struct Factors of what is nearer than the table */
+#define NEAR       152                  /* struct Factors for a scale nearer than the table */
 #define LOCALS     168
 
         .text
@@ -110,25 +112,26 @@
 // ---------------------------------------------------------------------------------------------------------------------
 // const Voxel* drawScalesA(Lens* lens, const Voxel* voxels, const Voxel* end)
 //
-//   esi  voxel     ebp  factors of its depth     edi  width - 1
-//   ecx  from the first pixel's middle to the scale's, columns     edx  the same, rows
+// Registers while a voxel is projected:
 //
-// and then, from row to row:
+//   esi  voxel     ebp  factors of its depth (f)     edi  width - 1     ecx  -toColumn     edx  -toRow
 //
-//   eax  z (ax), and above it the brightness with 8 bits of fraction     ebx  change of both from pixel to pixel
-//   edx  what is subtracted from both from row to row (of one brightness: ebp)
-//   ebp  the ramp     ecx  to look it up (the colour: cl)     esi  depths + row     edi  pixels + row
+// Registers while the pixels are drawn:
 //
-// z never leaves its 16 bits on a scale, so one addition changes both and the brightness takes no harm. A pixel behind what
-// is there costs 3 instructions (486: 2 + 3 + 1, Pentium: 3 when the branch is foreseen, the addition pairs), one that is
-// taken 8 (486: 2 + 1 + 1 + 2 + 2 + 1 + 1 + 1; Pentium 7, the copy pairs with the branch before it, the addition with the
-// store), of one brightness 5. A scale that ends compares once more where it would be taken. Up to UNROLLED rows and
-// columns a row costs one addition more and nothing is counted: the table has an entry into the code for each width and
-// height, from which on as many rows follow as are to be drawn. Larger scales go row by row.
+//   eax  lower half: z; upper half: shade (the brightness, 8 fraction bits)     ebx  zStep and shadeStep in the same halves
+//   edx  what is subtracted from eax between two rows (ebp instead for a scale of one brightness)
+//   ebp  ramp     ecx  index into the ramp, then the colour in cl     esi  depths + row     edi  pixels + row
 //
-// Those that are cut, clipped, larger or nearer than the tables enter each row at as many columns before its end as they are
-// wide. Of what is cut edx has the function that cuts, which costs 2 instructions a pixel more; 3 are all for a pixel cut off.
-// Along a curve the step changes as well: 2 more (486: 1 + 3, Pentium: 4).
+// z never overflows its 16 bits on a scale, so one addition changes z and shade. An occluded pixel costs 3 instructions (486:
+// 2 + 3 + 1; Pentium: 3 when the branch is predicted, and the addition pairs); a drawn pixel costs 8 (486: 2 + 1 + 1 + 2 + 2 +
+// 1 + 1 + 1; Pentium: 7, as the copy pairs with the branch before it and the addition with the store), or 5 in a scale of one
+// brightness. A scale with a greatest depth needs one more comparison for each pixel that passes the Z-buffer. Up to UNROLLED rows
+// and columns a row costs only one more addition and there is no counter: for each width the code draws UNROLLED rows, and the
+// jump table leads to the entry from which the scale's number of rows is left. Higher scales have a loop over the rows.
+//
+// Scales that are cut, clipped, large or nearer than the table use code that draws a row of LARGEST columns; it is entered at the
+// scale's width before its end. With a cut, edx has the cut function, which takes 2 more instructions per pixel (a pixel cut off
+// takes 3 altogether). Along a curve the step changes as well, with 2 instructions more (486: 1 + 3, Pentium: 4).
 
         .balign 16
         FUNC(drawScalesA)
@@ -176,8 +179,8 @@ right_grown\near:
         movl    %ecx, NOT_LEFT(%esp)
         .endm
 
-        // The rectangle lies on the screen, so what is not on it is found here. What is clipped goes on as what is large, for its
-        // middle may be far.
+        // The rectangle of the lens lies on the screen, so only a scale that enlarges it can cross the screen's edge. A clipped
+        // scale continues like a large one, because its middle may be far from its pixels.
         .macro  GROW_COLUMNS near
 grow_left\near:
         testl   %ecx, %ecx
@@ -241,7 +244,7 @@ voxel_loop:
         movl    END(%esp), %esi
         addl    LIST(%esp), %esi
         // depth = lens->z + v.z;  f = factorsOf(lens, depth):  step = lensStep(depth);  if (step < LENS_STEPS) ..
-        // A unit has 256 steps of depth and takes 256 bytes of the table, so that a depth leads to its own factors.
+        // A unit is 256 in depth and takes 256 bytes in the table: a depth with its low bits cleared is the offset of its factors.
         movl    VOXEL_Z(%esi), %ebp
         movl    VOXEL_X(%esi), %ebx
         addl    LENS_Z(%esp), %ebp
@@ -269,7 +272,7 @@ voxel_loop:
         ja      special
 not_special:
         // across = limited(tiltX * f.zx >> 16);  down = -limited(tiltY * f.zy >> 16);   eax has -down
-        movl    VOXEL_TILTX(%esi), %eax // both: Lens::tiltAdd
+        movl    VOXEL_TILTX(%esi), %eax // tiltX and tiltY in one word, see Lens::tiltAdd
         movswl  VOXEL_TILTX(%esi), %ebx
         addl    TILT_ADD(%esp), %eax
         imull   FACTOR_ZX(%ebp), %ebx
@@ -299,7 +302,7 @@ shaded:
         imull   FACTOR_ZY(%ebp), %edx
         sarl    $10, %ecx
         sarl    $10, %edx
-        // both changes in one register, from pixel to pixel and, the sign turned, from row to row
+        // ebx: across and shadeAcross packed into one word;  eax: -down and -shadeDown
         movl    %ecx, %ebp
         shll    $16, %ebp
         addl    %ebp, %ebx
@@ -334,7 +337,7 @@ shaded:
         addl    ZBUFFER(%esp), %esi
         jmp     *%ecx
 
-        // One brightness
+        // Scales of one brightness
         .balign 4
 even:
         cmpl    $KIND_ROWS, KIND(%esp)
@@ -402,7 +405,7 @@ even:
 1:
         .endm
 
-        // if (z < depths[x] && cut >= 0) ..;   the flags are those of `cut`
+        // if (z < depths[x] && cut >= 0) ..;   the sign flag is that of cut
         .macro  PIXEL_cut at
         js      2f
         PIXEL_shaded \at
@@ -416,7 +419,8 @@ even:
 2:
         .endm
 
-        // for (x = 0; x < width; ++x, z += zStep) ..;   `at`: the pixel from edi. Behind the last one nothing is added.
+        // for (x = 0; x < width; ++x, z += zStep) ..;   `at` is the first pixel's offset from edi; the step after the last pixel is
+        // left out
         .macro  PIXELS kind width at
         .set    at, \at
         .rept   \width-1
@@ -433,8 +437,8 @@ even:
         jmp     leave
         .endm
 
-        // for (y = height; y > 0; --y, z += zRow), up to UNROLLED rows. edi is the pixel behind the first one of the row below
-        // the scale: its left is what ~left makes of it.
+        // for (y = height; y > 0; --y, z += zRow), up to UNROLLED rows. edi points one past the first pixel of the row below the
+        // scale, because subtracting ~left has added left + 1.
         .macro  SOME_ROWS kind row width
         .irp    height, 8, 7, 6, 5, 4, 3, 2, 1
 \kind\()_\width\()_\height:
@@ -446,8 +450,8 @@ even:
         NEXT_VOXEL
         .endm
 
-        // The same, any number of them. Of a scale of one brightness edx is free, of others it is made so. The rows that KIND
-        // counts lie above the last one.
+        // The same for any number of rows, with edx as the counter; it is free in a scale of one brightness and saved to ROW in
+        // others. KIND is height - 1 here, the number of rows above the last one.
         .macro  ALL_ROWS kind row width
         .balign 4
 \kind\()_\width:
@@ -486,8 +490,9 @@ even:
         .endr
 
         // for (y = height; y > 0; --y, z += zRow, cut += cutRow)
-        //     for (x = 0; x < width; ++x, z += zStep, cut += cutStep) ..;   edi is the pixel behind the last one of the row
-        // `cuts`: 0: nothing does; 1: along a line, and cutRow is from the last pixel of a row to the next one; 2: along a curve
+        //     for (x = 0; x < width; ++x, z += zStep, cut += cutStep) ..;   edi points one past the last pixel of the row
+        // `cuts` is 0 without a cut function, 1 along a line (CUT_ROW leads from the last pixel of a row to the first of the next),
+        // 2 along a curve (CUT_ROW leads from the first pixel of a row to the first of the next).
         .macro  ENTERED kind pixel cuts
         .balign 4
         .set    at, -LARGEST
@@ -555,7 +560,7 @@ large:
         cmpl    $Z_EMPTY, DEPTH(%esp)
         jae     leave
         movl    ROW(%esp), %edx
-        // pixels -= height * SCREEN_WIDTH;  depths -= height * SCREEN_WIDTH;   and to the end of the row
+        // pixels -= height * SCREEN_WIDTH;  depths -= height * SCREEN_WIDTH;   and on to the end of the row: += width - 1
 small:
         movl    HEIGHT(%esp), %ecx
         movl    %edx, ROW(%esp)
@@ -578,7 +583,7 @@ leave:
         movl    END(%esp), %eax
         addl    LIST(%esp), %eax
 leave_at:
-        // What changed of the lens goes back; the voxel at hand is returned
+        // Copy the results from BOX_LEFT on back to the lens; return the current voxel
         movl    LOCALS+20(%esp), %edx   // lens
         leal    BOX_LEFT(%esp), %esi
         leal    BOX_LEFT(%edx), %edi
@@ -591,7 +596,7 @@ leave_at:
         popl    %ebp
         ret
 
-        // A voxel that ends where it gets too far away, or that is cut. (A depth and an end fit 16 bits.)
+        // A voxel with a reach or a cut: zMost = endOf(v, depth >> 1), which fits 16 bits within the table's depths
         .balign 4
 special:
         cmpl    $0xffff, VOXEL_BRIGHT(%esi)
@@ -667,17 +672,17 @@ entered:
         testl   %ebx, %ebx
         jz      1f
         shll    $2, %ebx
-        addl    $4*LARGEST, %eax        // to those that end
+        addl    $4*LARGEST, %eax        // from the table of `shaded` to that of `ending`
         addl    DEPTH(%esp), %ebx
         addl    $LENS_NEAR*128, %ebx
         movl    %ebx, ZMOST(%esp)
 1:
-        // if (isCut(v)) ..;   otherwise the code that the row is entered at has nothing to do with what cuts
-        cmpw    $0, VOXEL_CUTX(%esi)    // both
+        // if (isCut(v)) ..;   otherwise the row is drawn by code without a cut function
+        cmpw    $0, VOXEL_CUTX(%esi)    // cutX | cutY
         je      2f
-        cmpl    $0, VOXEL_CURVEXX(%esi) // all
+        cmpl    $0, VOXEL_CURVEXX(%esi) // curveXX | curveXY | curveYY
         jne     curved
-        addl    $2*4*LARGEST, %eax      // to those that are cut
+        addl    $2*4*LARGEST, %eax      // to the table of `cut` or `cutending`
         movl    (%eax), %eax
         movl    %eax, ENTRY(%esp)
         // cutAcross = cutX * f.zx >> 10;  cutDown = -(cutY * f.zy >> 10);   ebx has -cutDown
@@ -710,13 +715,13 @@ entered:
         movl    %eax, ENTRY(%esp)
         jmp     not_special
 
-        // setCut() of what ends at a curve
+        // setCut() for a cut along a curve; the table is that of `curved` or `curvedending`
         .balign 4
 curved:
         addl    $4*4*LARGEST, %eax
         movl    (%eax), %eax
         movl    %eax, ENTRY(%esp)
-        // xx = (curveXX * f.zx >> 10) * f.zx >> 16;  xy, yy
+        // xx = (curveXX * f.zx >> 10) * f.zx >> 16;  xy and yy likewise
         .macro  CURVE_STEP curve factor other
         movsbl  \curve(%esi), %eax
         imull   \factor(%ebp), %eax
@@ -731,7 +736,7 @@ curved:
         movl    %eax, CUT_XY(%esp)
         CURVE_STEP VOXEL_CURVEYY, FACTOR_ZY, FACTOR_ZY
         movl    %eax, CUT_YY(%esp)
-        // acrossFirst = across + ((xx * toColumn + xy * toRow) >> 12);   eax: across + acrossFirst
+        // acrossFirst = across + ((xx * toColumn + xy * toRow) >> 12);   CUT: (across + acrossFirst) >> 1
         .macro  CURVE_FIRST curve other
         movl    \curve(%esp), %eax
         movl    \other(%esp), %ebx
@@ -750,7 +755,7 @@ curved:
         addl    %ebx, %eax
         sarl    $1, %eax
         movl    %eax, CUT(%esp)
-        // downFirst = down + ((xy * toColumn + yy * toRow) >> 12)
+        // downFirst = down + ((xy * toColumn + yy * toRow) >> 12);   eax: (down + downFirst) >> 1
         CURVE_FIRST CUT_XY, CUT_YY
         movsbl  VOXEL_CUTY(%esi), %ebx
         imull   FACTOR_ZY(%ebp), %ebx
@@ -782,7 +787,7 @@ curved:
         movl    %eax, CUT_FIRST(%esp)
         jmp     not_special
 
-        // Seldom
+        // Rare cases
 no_width:
         testl   %edi, %edi
         jns     leave
@@ -829,8 +834,8 @@ steep:
         jmp     steps_limited
         ENDFUNC(drawScalesA)
 
-        // Where the code for each kind, height and width begins. The kind that ends comes behind the shaded one, what
-        // is cut or large behind that (KIND).
+        // The jump tables: the address of the code for each kind, height and width. `ending` follows `shaded`, and the rows for
+        // large and for cut scales follow `ending` (see KIND).
         .macro  WAY kind height width
         .if     \width > UNROLLED || \height > UNROLLED
         .long   \kind\()_\width
@@ -861,7 +866,7 @@ shaded_ways:
         .long   small
         .endr
 
-        // Where in the code a row of each width begins.
+        // The addresses at which the code of a row is entered for each width.
         .macro  ENTRIES kind
         .irp    width, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, \
                       21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40

@@ -1,6 +1,5 @@
-// From seeds to voxels, for the 386 and up. src/surface/voxels.cpp has it in C++ and
-// says what it does; the tests feed both the same input. Above each group of instructions stands the line of C++ that it
-// implements.
+// From seeds to voxels, for the 386 and up. The routines implement their C++ twins in src/surface/voxels.cpp, and the tests feed
+// both the same input. Above each group of instructions stands the line of C++ that it implements.
 
 #include "asm.h"
 
@@ -34,11 +33,11 @@
 #define VOXEL_HALF_HEIGHT 14
 #define VOXEL_TILTX  16
 #define VOXEL_TILTY  18
-#define VOXEL_BRIGHT 20                 /* and behind it, one double word with it: reach and what cuts */
+#define VOXEL_BRIGHT 20                 /* one 32-bit word with the bytes reach, cutX and cutY */
 #define VOXEL_REACH  21
-#define VOXEL_SLOPEX 24                 /* and behind it, one double word with it: the other slope and cutAt */
+#define VOXEL_SLOPEX 24                 /* one 32-bit word with the byte slopeY and the 16-bit cutAt */
 #define VOXEL_SLOPEY 25
-#define VOXEL_CURVE  28                 /* one double word, bytes all */
+#define VOXEL_CURVE  28                 /* one 32-bit word: the bytes curveXX, curveXY, curveYY and an unused one */
 #define VOXEL_SIZE   32
 
 // struct Seen and struct Shading (src/surface/voxels.h)
@@ -80,7 +79,8 @@
 
         .text
 
-// to = the sum of a vector of three 16-bit parts at `vector` of the seed (esi) times the axis at `axis` of the shading (ebp)
+// to = dot product of the 16-bit vector at offset `vector` of the seed (esi) and the 32-bit vector at offset `axis` of the shading
+// (ebp)
 .macro product vector, axis, to, spare
         movswl        \vector(%esi), \to
         imull        \axis(%ebp), \to
@@ -92,7 +92,7 @@
         addl        \spare, \to
 .endm
 
-// The same of the place that the voxel (edi) has in own space, which is shifted to 14 bits of fraction less.
+// to = dot product of the position in own space, which is kept in the voxel (edi), and the axis at offset `axis`, >> 14
 .macro along axis, to, spare
         movl        VOXEL_X(%edi), \to
         imull        \axis(%ebp), \to
@@ -105,7 +105,7 @@
         sarl        $14, \to
 .endm
 
-// Part k of the place of a seed (esi) above the root at ebx, in steps of places (cl).
+// One component, at offset `part`, of the position of a seed (esi) with its root at ebx, shifted by cl to steps of places
 .macro place part
         movl        SEED_PATH+\part(%esi), %eax
         imull        SEED_POSITION(%esi)
@@ -115,7 +115,8 @@
         movl        %eax, VOXEL_X+\part(%edi)
 .endm
 
-// eax = part k of the normal, at `normal` of the seed, times that of the vector from the place (edi) to the eye
+// eax = one component of the normal, at offset `normal`, times the same component, at offset `part`, of the vector from the
+// position in the voxel (edi) to the eye
 .macro to_eye part, normal
         movl        VOXEL_X+\part(%edi), %edx
         sarl        $3, %edx
@@ -125,20 +126,22 @@
         imull        %edx, %eax
 .endm
 
-// int findSeedsA(const Shading* shading, const Patch* patch, Seen* seen, Voxel* voxels). esi is the seed, edi the next voxel, ecx
-// the next seen seed, ebp the shading. A seed at rest that is seen takes 30 instructions, and 24 more where own space is turned
-// against the view; one that is not seen takes 18.
-#define FIND_END     0                  /* behind the last seed of the ring */
+// int findSeedsA(const Shading* shading, const Patch* patch, Seen* seen, Voxel* voxels)
+//
+//   esi  s              edi  voxels + count     ecx  seen + count       ebp  shading (v)
+//
+// A visible seed at rest takes 30 instructions, and 24 more if own space is turned relative to the view; an invisible one takes 18.
+#define FIND_END     0                  /* end of the ring's seeds */
 #define FIND_RING    4
-#define FIND_TURNED  8                  /* two words */
-#define FIND_NEXT    16                 /* the next seen seed, while cl is the shift of places */
+#define FIND_TURNED  8                  /* two 32-bit words: x and y of the voxel */
+#define FIND_NEXT    16                 /* ecx (seen + count), while cl holds placeShift */
 #define FIND_FRAME   20
 #define FIND_SHADING (FIND_FRAME+20)
 #define FIND_PATCH   (FIND_FRAME+24)
 #define FIND_SEEN    (FIND_FRAME+28)
 #define FIND_VOXELS  (FIND_FRAME+32)
 
-// *seen++ = {&s, facing}, and on to the next seed of the ring
+// *seen++ = {&s, facing};  ++voxels;   and continue with the next seed of the ring
 .macro found
         movl        %esi, SEEN_SEED(%ecx)
         movl        %ebx, SEEN_FACING(%ecx)
@@ -188,7 +191,7 @@ find_one:
         jle        find_not
         cmpl        $0, TURNED(%ebp)
         je        find_resting_straight
-        // voxel = place * the axes of the view
+        // voxel->x, y, z = along(v.toRight), along(v.toUp), along(v.toAhead)
         product        SEED_PLACE, TO_RIGHT, %eax, %edx
         sarl        $14, %eax
         movl        %eax, VOXEL_X(%edi)
@@ -205,7 +208,7 @@ find_ring_next:
         incl        %edx
         cmpl        $PATCH_RINGS, %edx
         jb        find_ring
-        // return seen - those given, of SEEN_SIZE bytes
+        // return count, from the bytes written to `seen` (SEEN_SIZE is 8)
         movl        %ecx, %eax
         subl        FIND_SEEN(%esp), %eax
         sarl        $3, %eax
@@ -216,7 +219,7 @@ find_ring_next:
         popl        %ebp
         ret
 
-        // voxel = place
+        // voxel->x, y, z = place
 find_resting_straight:
         movswl        SEED_PLACE(%esi), %eax
         movl        %eax, VOXEL_X(%edi)
@@ -269,7 +272,7 @@ find_not:
         jmp        find_ring_next
 ENDFUNC(findSeedsA)
 
-// The frame of shadeSeedsA, which the macros use.
+// The stack frame of shadeSeedsA; the macros use it too.
 #define SHADE_AREA   0
 #define SHADE_END    4
 #define SHADE_POSITION 8
@@ -284,7 +287,8 @@ ENDFUNC(findSeedsA)
 #define SHADE_VOXELS (SHADE_FRAME+28)
 #define SHADE_COUNT  (SHADE_FRAME+32)
 
-// eax = the packed sum of three 8-bit parts at `axis` of the seed times the axes of the picture plane; ecx is spare.
+// eax = sum of products (both coordinates packed, see OnPicture) of the 8-bit vector at offset `axis` of the seed and the axes of
+// the picture plane; changes ecx
 .macro packed axis
         movsbl        \axis(%esi), %eax
         imull        CELL(%ebp), %eax
@@ -296,7 +300,7 @@ ENDFUNC(findSeedsA)
         addl        %ecx, %eax
 .endm
 
-// edx = the column, eax = the row of a packed sum in eax; the flags are those of the column
+// edx = column and eax = row of the packed sum in eax; the flags are those of the column
 .macro unpack
         leal        0x8000(%eax), %edx
         sarl        $16, %edx
@@ -311,7 +315,7 @@ ENDFUNC(findSeedsA)
 1:
 .endm
 
-// A half axis of the cell on the picture plane: edx its halfWidth, eax its halfHeight; ecx is spare.
+// edx = |x|, eax = |y| of a half axis of the cell on the picture plane; changes ecx
 .macro on_picture axis
         packed        \axis
         unpack
@@ -321,7 +325,7 @@ ENDFUNC(findSeedsA)
         magnitude        %eax
 .endm
 
-// eax = the sum of three 8-bit parts at `axis` of the seed times its normal; ecx and edx are spare.
+// eax = dot product of the 8-bit vector at offset `axis` of the seed and its normal; changes ecx and edx
 .macro times_normal axis
         movsbl        \axis(%esi), %eax
         movswl        SEED_NORMAL(%esi), %edx
@@ -336,7 +340,8 @@ ENDFUNC(findSeedsA)
         addl        %ecx, %eax
 .endm
 
-// The same as on_picture where the cell has fallen: (e * position - way * off) >> 8, off = ((e * normal) >> 7) * share >> 14
+// on_picture for a seed that is not at rest (struct Fall): off = ((axis * normal) >> 7) * share >> 14;
+// |e.x * position - way.x * off >> 8|, and y likewise
 .macro fallen axis
         times_normal \axis
         sarl        $7, %eax
@@ -363,8 +368,9 @@ ENDFUNC(findSeedsA)
 1:
 .endm
 
-// void shadeSeedsA(const Shading* shading, const Seen* seen, Voxel* voxels, int count). ebx is the seen seed, edi its voxel, ebp
-// the shading.
+// void shadeSeedsA(const Shading* shading, const Seen* seen, Voxel* voxels, int count)
+//
+//   ebx  seen           edi  voxel              esi  s                  ebp  shading (v)
 FUNC(shadeSeedsA)
         pushl        %ebp
         pushl        %ebx
@@ -390,7 +396,7 @@ shade_one:
         cmpl        $STEEPEST_TILT, %eax
         jg        shade_steepest
 shade_steep:
-        // voxel.tiltX = normalX * steep >> 14, and the other
+        // voxel.tiltX = normalX * steep >> 14;  voxel.tiltY = normalY * steep >> 14
         cmpl        $0, TURNED(%ebp)
         jne        shade_turned
         movswl        SEED_NORMAL(%esi), %ecx
@@ -410,7 +416,7 @@ shade_tilted:
         addl        $8192, %edx
         sarl        $14, %edx
         movl        %edx, SHADE_LIGHT(%esp)
-        // voxel.brightness = max32(light, 0), and all behind it 0
+        // voxel.brightness = max32(light, 0);  reach, slopes, cut function = 0
         jle        shade_dark
 shade_lit:
         movl        %edx, VOXEL_BRIGHT(%edi)
@@ -457,7 +463,7 @@ shade_high:
         addl        %esi, %eax
         xchgl        %eax, %ecx
 
-        // ecx: halfWidth, eax: halfHeight. Both += (itself >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff at most
+        // halfWidth (ecx) = min32(halfWidth + (halfWidth >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff);  halfHeight (eax) likewise
 shade_extents:
         movl        %ecx, %edx
         sarl        $MARGIN_SHIFT, %edx
@@ -484,7 +490,7 @@ shade_ended:
         // if (light <= DARK_MIDDLE) return
         cmpl        $DARK_MIDDLE, SHADE_LIGHT(%esp)
         jle        shade_done
-        // slopeX = (v.gradient[0] + tiltX * v.gradientAhead) >> 12, and the other
+        // slopeX (edx) = (v.gradient[0] + tiltX * v.gradientAhead) >> 12;  slopeY (esi) likewise
         movswl        VOXEL_TILTX(%edi), %edx
         imull        AHEAD(%ebp), %edx
         addl        GRADIENT(%ebp), %edx
@@ -503,8 +509,8 @@ shade_ended:
         jns        1f
         negl        %eax
 1:        addl        %ecx, %eax
-        // if (corner < FLAT_SHADING) return; for (; corner > STEEPEST_SHADING; corner >>= 1) ..:  one comparison for both. From
-        // here on eax has ((corner - FLAT_SHADING) << 8) and more bits below.
+        // if (corner < FLAT_SHADING) return; for (; corner > STEEPEST_SHADING; corner >>= 1) ..:  one unsigned comparison for both.
+        // From here on eax is corner - FLAT_SHADING with 8 fraction bits.
         subl        $FLAT_SHADING<<8, %eax
         cmpl        $(STEEPEST_SHADING+1-FLAT_SHADING)<<8, %eax
         jae        shade_flat_or_steep
@@ -512,7 +518,7 @@ shade_ended:
 shade_softened:
         cmpl        $0, SHADE_LIGHT(%esp)
         jl        shade_dark_middle
-        // voxel.slopeX = limited(slopeX, 127), and the other
+        // voxel.slopeX = limited(slopeX, 127);  voxel.slopeY = limited(slopeY, 127)
 shade_slopes:
         leal        127(%edx), %eax
         cmpl        $254, %eax
@@ -539,7 +545,7 @@ shade_next:
         popl        %ebp
         ret
 
-        // normalX = product(s.normal, v.right), and the other
+        // normalX = product(s.normal, v.right);  normalY = product(s.normal, v.up)
 shade_turned:
         product        SEED_NORMAL, RIGHT, %ecx, %edx
         sarl        $14, %ecx
@@ -569,7 +575,7 @@ shade_end:
         jl        shade_ended
         shrl        $3, %edx
         movb        %dl, VOXEL_REACH(%edi)
-        // if (deep > v.deepest) halfWidth = halfWidth * v.deepest / deep, and halfHeight likewise
+        // if (deep > v.deepest) halfWidth = halfWidth * v.deepest / deep, halfHeight = halfHeight * v.deepest / deep
         cmpl        DEEPEST(%ebp), %esi
         jle        shade_ended
         imull        DEEPEST(%ebp), %eax
@@ -582,7 +588,7 @@ shade_end:
         xchgl        %eax, %ecx
         jmp        shade_ended
 
-        // halfWidth = (halfWidth + |across.x|) >> v.cellShift, and halfHeight likewise
+        // halfWidth = (halfWidth + |across.x|) >> v.cellShift;  halfHeight = (halfHeight + |across.y|) >> v.cellShift
 shade_whole:
         on_picture SEED_ACROSS
         movl        %edx, SHADE_AREA(%esp)
@@ -605,7 +611,7 @@ shade_fallen:
         jl        shade_least_position
 shade_position:
         movl        %eax, SHADE_POSITION(%esp)
-        // cosine = product(s.way, s.normal) >> 7; area = 0 where it is torn
+        // cosine = product(s.way, s.normal) >> 7; area = torn ? 0 : s.area
         times_normal SEED_WAY
         sarl        $7, %eax
         cltd
@@ -710,7 +716,7 @@ shade_dark_middle:
         jle        shade_done
         movb        %cl, VOXEL_BRIGHT(%edi)
         jmp        shade_slopes
-        // 127 with the sign it has.
+        // limited(): 127 with the sign of the slope
 shade_limit_x:
         sarl        $31, %edx
         addl        %edx, %edx

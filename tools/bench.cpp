@@ -1,15 +1,15 @@
-// What the benchmark adds to the host program to count instructions: the copy to the screen that the DOS program makes,
-// and the C++ twins of the loops that draw scales beside the assembly, on the very lists that the demo draws.
+// Additions to the host program for the benchmark that counts instructions: the copy to the screen that the DOS program makes,
+// and calls of the C++ twins of the loops that draw scales, with the same lists that the assembly draws in the demo.
 //
-// It is linked in with the linker's --wrap, so that nothing of it is in the program itself (tools/bench.mk). A profiler
-// then tells the instructions of each routine by its name. What was drawn is told at the end of the run, on standard
-// output behind the statistics:
+// The linker's --wrap links them in (tools/bench.mk), so the program itself contains nothing of this file. A profiler reports the
+// instructions of each routine by its name. At the end of the run these figures are printed on standard output after the
+// statistics:
 //
-//     scales: N             scales drawn, whichever way
-//     scales by the view: N of them those that the loop left to View::project(), and the blitter drew one by one
-//     scale pixels: N       pixels they all cover
-//     scales differing: N   calls in which the twins drew, counted or stopped differently; has to be 0
-//     frames not cleared: N frames that began with something left of the one before; has to be 0
+//     scales: N             all scales drawn
+//     scales by the view: N those that the loop left to View::project() and that were drawn one by one
+//     scale pixels: N       pixels covered by all scales
+//     scales differing: N   calls in which the twins drew, counted or stopped differently; must be 0
+//     frames not cleared: N frames that began with remains of the previous one; must be 0
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,7 +28,7 @@ uint16_t twinDepths[WIDTH * HEIGHT];
 unsigned long long scalesDrawn = 0, byTheView = 0, pixelsCovered = 0, differing = 0, leftOver = 0;
 unsigned long frames = 0;
 
-// Looked at in every sixteenth frame: to look costs as much as to draw.
+// The buffers are compared in every sixteenth frame only, because comparing costs as much as drawing.
 constexpr unsigned long LOOK_EVERY = 16;
 
 void tell()
@@ -37,8 +37,8 @@ void tell()
            scalesDrawn, byTheView, pixelsCovered, differing, leftOver);
 }
 
-// The pixels that a voxel which the loop dealt with covers. (What is of this file only is not counted: tools/bench.sh
-// knows it by the name.)
+// Returns the number of pixels of a voxel that the loop has drawn. (Instructions of this file are not counted: tools/bench.sh
+// recognises its functions by their names.)
 int benchPixels(const Lens& lens, const Voxel& v)
 {
     const int32_t depth = lens.z + v.z;
@@ -51,7 +51,7 @@ int benchPixels(const Lens& lens, const Voxel& v)
     return wide * high;
 }
 
-// The frame as it is so far; what is drawn over it later (gaps closed, text) is no business of the twins.
+// Compares the frame as drawn so far. Whatever is drawn over it later (filled gaps, text) does not concern the twins.
 bool benchDiffers(const uint8_t* frame, const uint16_t* zbuffer)
 {
     if (frames % LOOK_EVERY != 0)
@@ -71,7 +71,7 @@ void __real_blitScalesA(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, 
 const Voxel* __real_drawScalesA(Lens* lens, const Voxel* voxels, const Voxel* end);
 void __real_clearRowsA(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
 
-// A frame begins, for the twin too: what the program leaves in its buffers is there for both. (Nothing should be.)
+// A frame begins, for the twin too: it gets whatever the program has left in its buffers (which should be nothing).
 void __wrap_clearRowsA(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count)
 {
     __real_clearRowsA(frame, zbuffer, rows, count);
@@ -138,7 +138,7 @@ const Voxel* __wrap_drawScalesA(Lens* lens, const Voxel* voxels, const Voxel* en
     return done;
 }
 
-// machine::present(): the host's has no card to copy to.
+// Replaces machine::present(): the host has no video card to copy to.
 void __wrap__ZN7machine7presentEPKhPK4Span(const uint8_t* frame, const Span* rows)
 {
     if (frames++ == 0)

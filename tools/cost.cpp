@@ -1,22 +1,21 @@
-// cost: instructions a frame of each room of the program, of its sources and of its functions, and the clocks that a 486
-// takes for them, as far as tables tell (clk486.h).
+// cost: prints the instructions per frame of each room (folder of src), source file and function of the program, and the clocks
+// that a 486 takes for them according to published tables (clk486.h).
 //
 //   cost [-t FUNCTIONS] MAP CODE SHORT LONG FRAMES
 //
 // SHORT and LONG are callgrind's counts by address (--dump-instr=yes) of two runs of the same program, LONG with FRAMES
-// frames more; what both do alike, the start and the end, falls out. MAP is the linker's map of the program: the object
-// file that an address comes from says whose it is, so no function has to be known by name, and what the compiler makes
-// inline counts for the source it is inlined into. A kernel asm/X.S belongs to the room that has X.cpp. What the C
-// library does counts for those who call it, at the clocks that its instructions take in the mean. CODE is the program
-// as objdump -d -w has it.
+// frames more; subtracting them removes the start and the end of the program, which both have in common. MAP is the linker's map:
+// it gives the object file of each address, so functions need not be known by name, and inlined code counts for the source that it
+// is inlined into. A kernel asm/X.S belongs to the room that contains X.cpp. Instructions of the C library count for its callers,
+// at their average number of clocks. CODE is the output of objdump -d -w for the program.
 //
 // Each line of the output is WHAT NAME INSTRUCTIONS CLOCKS:
 //
 //     all      all          the sum of the rooms
-//     room     ROOM         a folder of src; asm for kernels without a twin; library for what nobody of ours called
-//     source   ROOM/NAME    a source with its kernel
-//     function ROOM/NAME:F  the dearest functions
-//     unknown  all          instructions that the tables do not have; taken at 2 clocks
+//     room     ROOM         a folder of src; asm: kernels without a twin; library: library code not called by the program
+//     source   ROOM/NAME    a source file together with its kernel
+//     function ROOM/NAME:F  the most expensive functions
+//     unknown  all          instructions missing from the tables, counted as 2 clocks each
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
@@ -53,7 +52,7 @@ uint32_t address(const std::string& text)
     return static_cast<uint32_t>(strtoull(text.c_str(), nullptr, 16));
 }
 
-// --- Whose an address is
+// --- Which source an address belongs to
 
 struct Range {
     uint32_t from, to;
@@ -64,14 +63,14 @@ class Map {
 public:
     explicit Map(const std::string& name);
 
-    // The source at the address, nullptr for the C library.
+    // Returns the source at an address, or nullptr for the C library.
     const std::string* sourceAt(uint32_t address) const;
 
 private:
     std::vector<Range> ranges_;
 };
 
-// "src/ROOM/NAME.o" at the end of an object's path; empty for what is not ours.
+// Finds "src/ROOM/NAME.o" at the end of an object's path; returns an empty string for foreign objects.
 std::string tailBehind(const std::string& path, const std::string& folder)
 {
     const size_t at = path.rfind("/" + folder + "/");
@@ -209,7 +208,7 @@ double clocksAt(const Code& code, const Counts& counts, uint32_t at, double time
     Executed executed;
     executed.times = times;
     executed.taken = number(counts.taken, at);
-    // As often as it went on to what stands behind it.
+    // How often execution went on to the next instruction.
     executed.begun = std::min(times, number(counts.executed, at + static_cast<uint32_t>(i.length)));
     const Instruction* before = nullptr;
     if (found != code.begin()) {
@@ -285,7 +284,7 @@ int main(int count, char** arguments)
     };
     for (const auto& at : counts.executed)
         book(at.first, at.second, clocksAt(code, counts, at.first, at.second, &unknown["all"].instructions));
-    // The C library's own count has what is booked on its callers now.
+    // The C library's own count now contains what has been added to its callers.
     const Cost library = rooms["library"];
     const double clocksEach = library.instructions > 0 ? library.clocks / library.instructions : 1;
     for (const auto& at : counts.called) {

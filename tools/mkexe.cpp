@@ -1,14 +1,14 @@
-/* The linker's last step: makes DOS executables out of what ld leaves.
+/* mkexe: the last step of linking; makes DOS executables from ld's output.
 
      mkexe --make-stub STUB.OUT OUT.EXE          the real-mode stub alone, from ld's output
-     mkexe STUB.EXE IN.ELF OUT.EXE               an ELF program, as COFF, behind the stub (or with --elf, as below)
-     mkexe --stub STUB.EXE --coff IN.EXE OUT.EXE any DJGPP program (with or without a stub) behind ours
+     mkexe STUB.EXE IN.ELF OUT.EXE               the stub, followed by an ELF program converted to COFF (or with --elf, as below)
+     mkexe --stub STUB.EXE --coff IN.EXE OUT.EXE our stub, followed by any DJGPP program (whose own stub is removed)
 
-   A DJGPP program is a COFF file behind a stub; the stub's MZ header says where it starts. The COFF part here
-   is file header, go32 optional header and three section headers, 168 (A8h) bytes, then .text and .data.
-   (Strip a program before it gets this stub: DJGPP's binutils 2.35 take every stub for 2 KB and damage the file.)
-   So .text of the ELF program has to start at an address that ends in 0A8h (tools/dos.ld says 10A8h), and
-   .data at a multiple of 200h: file offset and address then agree in their last nine bits, as DJGPP's do. */
+   A DJGPP program is a stub followed by a COFF file; the stub's MZ header tells where the COFF file starts. Here the COFF file
+   consists of file header, go32 optional header and three section headers, together 168 (A8h) bytes, then .text and .data.
+   Therefore .text of the ELF program has to start at an address that ends in 0A8h (10A8h in tools/dos.ld), and .data at a
+   multiple of 200h, so that file offset and address agree in their last nine bits, as they do in DJGPP's own files.
+   (Strip a program before it gets this stub: DJGPP's binutils 2.35 assume that every stub has 2 KB and damage the file.) */
 
 #include <cstdint>
 #include <cstdio>

@@ -1,11 +1,11 @@
-// mkgif: an animated GIF of a run's dumped frames.
+// mkgif: makes an animated GIF from the dumped frames of a run.
 //
 //   mkgif [--delay N] [--43] [--scale N] [--from N] [--to N] [--every N] OUT.GIF DIR
 //
-// This file exists so that the animated picture in the README can be made from
-// the program's own frames on a machine that has nothing but a compiler. The
-// format is GIF89a as CompuServe published it. Colours are exact as long as a
-// frame has 256 at most; beyond that low bits are dropped until they fit.
+// It makes the animated picture of the README from the program's own frames on
+// a machine that has only a compiler. The format is CompuServe's GIF89a. Colours
+// are exact as long as a frame has at most 256 of them; otherwise low bits are
+// dropped until they fit.
 #include "picture.h"
 
 #include <algorithm>

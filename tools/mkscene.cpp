@@ -1,13 +1,12 @@
-// mkscene: random scenes for tests, the same one for the same seed on every machine.
+// mkscene: makes random scenes for tests; the same SEED gives the same scene on every machine.
 //
 //   mkscene SEED [OBJECTS] [eye] [dents] [paint] [shapes]   writes a scene file to standard output
 //
-// With the word paint half of the objects have a finish or a pattern, and in every other scene the colours mix. With `shapes`
-// objects are stretched, tapered, twisted and bent, too.
-// Three to nine objects (or as many as asked for) of all kinds, within what the default camera sees; some in groups, most
-// of them moving, some turning, swinging or pulsing; linked in one of several graphs, with weights up to 4. With `dents`
-// one to three objects more dig into others, and some have another strength than 1. With `eye` the same scene is seen by an eye
-// that goes about it. This file exists so that the picture is tried on scenes nobody chose.
+// A scene has three to nine objects (or OBJECTS) of all kinds within the view of the default camera. Some form groups, most of
+// them move, some turn, swing or pulse. They are linked in one of several graphs with weights up to 4. With `dents`, one to three
+// more objects dig into others, and some have a strength other than 1. With `eye`, the eye moves around the same scene. With
+// `paint`, half of the objects have a finish or a pattern, and colours mix in every other scene. With `shapes`, objects are also
+// stretched, tapered, twisted and bent. Random scenes test the program on cases that nobody has thought of.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -29,10 +28,10 @@ uint64_t next() {
 
 int between(int low, int high) { return low + (int)(next() % (uint64_t)(high - low + 1)); }
 double tenths(int low, int high) { return between(low * 10, high * 10) / 10.0; }
-// True once in so many times.
+// Returns true with probability 1 / times.
 bool once(int times) { return between(1, times) == 1; }
 
-// An axis that is never 0 0 0.
+// A random axis that is never 0 0 0.
 void printAxis() {
   int x = between(-2, 2), y = between(-2, 2), z = between(-2, 2);
   if (!x && !y && !z) y = 1;
@@ -102,7 +101,7 @@ void printLink(int i, int j) {
   printf("\n");
 }
 
-// An eye at some distance from the scene, on one of several ways about it; it looks at its middle, at an object, or ahead.
+// An eye at some distance from the scene, on one of several paths around it; it looks at the centre, at an object, or ahead.
 void printEye(int objects) {
   printf("eye 0 0 0\n");
   switch (between(0, 3)) {
@@ -121,7 +120,7 @@ void printEye(int objects) {
       break;
     }
     default:
-      // Ahead of it lies the scene all the same: it rides on an arm that turns about the middle.
+      // It looks ahead at the scene, because it is on an arm that turns about the centre.
       printf("group arm\nspin arm axis 0 1 0 period %.1f\nswing arm axis 1 0 0 angle %d period %.1f\n", tenths(8, 20),
              between(10, 40), tenths(5, 12));
       printf("eye 0 0 -%d in arm\n", between(100, 125));
@@ -136,7 +135,7 @@ void printEye(int objects) {
 }
 
 void printDents(int objects) {
-  // Behind the links: `blend all` leaves out what digs. Each is near the middle of one of the others.
+  // Dents come after the links, because `blend all` leaves out objects that dig. Each is near the centre of another object.
   for (int i = 1; i <= objects; i++)
     if (once(3)) printf("strength o%d %.2f\n", i, once(2) ? between(25, 95) / 100.0 : between(11, 40) / 10.0);
   const int diggers = objects < 126 ? between(1, 3) : 0;
@@ -214,7 +213,7 @@ int main(int count, char **arguments) {
     }
   }
 
-  // Few of many objects may be large.
+  // Of many objects only few may be large.
   const int doublings = objects > 24 ? 0 : objects > 9 ? 1 : 2;
   for (int i = 1; i <= objects; i++) {
     const std::string name = "o" + std::to_string(i);

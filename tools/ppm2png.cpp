@@ -1,11 +1,10 @@
-// ppm2png: a PPM picture as a PNG file.
+// ppm2png: converts a PPM picture to a PNG file.
 //
 //   ppm2png [--43] [--scale N] IN.PPM OUT.PNG
 //
-// This file exists so that pictures for the README can be made from dumped
-// frames on a machine that has nothing but a compiler. It writes a palette
-// picture where 256 colours suffice, else 24-bit colour, compressed with
-// deflate's fixed codes (RFC 1950, 1951, 2083).
+// It makes the pictures of the README from dumped frames on a machine that has
+// only a compiler. It writes a palette picture if 256 colours suffice, else
+// 24-bit colour, compressed with deflate's fixed codes (RFC 1950, 1951, 2083).
 #include "picture.h"
 
 #include <algorithm>

@@ -1,11 +1,11 @@
-// truth: holds dumped frames against the surface they should show.
+// truth: compares dumped frames with the surface that they should show.
 //
 //   truth [options] DIR...         figures of the frames in the directories
-//   truth --render OUT SCENE...    the true frames of scene texts, into OUT
+//   truth --render OUT SCENE...    writes the true frames of scene texts to OUT
 //
-// This file exists to be the command line round the yardstick: it walks the
-// frames, prints the figures, one `name: value` a line or one row of a table,
-// and judges them.
+// This file is the command line of the yardstick: it goes through the frames,
+// prints the figures (one `name: value` per line, or one row of a table), and
+// judges them.
 #include "truth.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ const char usage[] =
     "  --pairs          and the frame after each of them, for flicker\n"
     "  --threads N      1 to 16 (2)\n";
 
-// The bars a picture has to meet, and the totals held against them.
+// The limits (bars) that a picture has to meet, and the totals that are compared with them.
 struct Bar {
   const char *name;
   const char *column;   // of the table
@@ -77,7 +77,7 @@ const Bar bars[] = {
      [](const Figures &f) { return f.borderTrue > 0; }},
 };
 
-// How bad a frame is: its figures in units of the bars, holes one each.
+// How bad a frame is: the sum of its figures in units of the bars, where each hole counts as one.
 double badness(const Figures &f) {
   double sum = 0;
   for (const Bar &b : bars)

@@ -1,7 +1,8 @@
-// A dumped frame held against its truth: the figures and the pictures.
+// Compares a dumped frame with its true picture, and makes the figures and the
+// pictures of differences.
 //
-// This file exists to be the one definition of what counts as a hole, as
-// see-through, as outside, as an error and as flicker.
+// This file alone defines what counts as a hole, as see-through, as outside, as
+// an error and as flicker.
 #include "truth.h"
 
 #include <algorithm>
@@ -12,16 +13,16 @@ namespace truth {
 
 namespace {
 
-// A DAC value of six bits as the dump has it.
+// A six-bit DAC value as the dump contains it.
 uint8_t eight(int six) { return (uint8_t)((six * 255 + 31) / 63); }
 
-// Colours this far apart (of 255, over all channels) are not the same.
+// Colours that differ by this much (of 255, over all channels) are different.
 const double APART = 2;
 // More colours than this share the palette's entries, which then are off by a few steps of the DAC; colours less than
 // APART_SHARED apart may be the same entry.
 const size_t EVEN_MOST = 4;
 const double APART_SHARED = 8;
-// A colour further than this from all of a ramp's is not the ramp's.
+// A colour farther than this from all colours of a ramp does not belong to the ramp.
 const double OFF = 14;
 // Of a painted scene, all mixtures and patterns of which share the palette: a colour further than this from all that a point
 // has is not the point's.

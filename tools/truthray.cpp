@@ -1,12 +1,12 @@
-// Where a viewing ray first meets the implicit surface.
+// Finds where a viewing ray first meets the implicit surface.
 //
-// This file exists to give an answer that can be trusted near tangents, where
-// stepping along the ray and looking for a change of sign would miss thin
-// slices. Along a ray the field of a sphere or cylinder is a chain of
-// polynomials of degree six in the depth, in Bernstein form, whose
-// coefficients enclose the values. The fields of other kinds are enclosed by
-// bounds until the stretch is short enough for a polynomial that follows them
-// to the eleventh decimal.
+// The answer can be trusted even where the ray is nearly tangent to the
+// surface; stepping along the ray and looking for a change of sign would miss
+// thin slices there. Along a ray the field of a sphere or cylinder is a chain
+// of polynomials of degree six in the depth, in Bernstein form, whose
+// coefficients bound the values. The fields of other kinds are enclosed by
+// bounds until the interval is short enough for a polynomial that approximates
+// them to the eleventh decimal.
 //
 // The objects that links join make one body, with one field:
 //
@@ -15,12 +15,13 @@
 // F is an average of the g_i, so there is no surface where all g_i are below
 // the isovalue, however small the f_i are. Elsewhere the sign is that of
 // sum f_i^2 (g_i - isovalue), a polynomial of degree eighteen. Where all
-// objects of the body that reach a stretch are linked with weight 1, F is
+// objects of the body that reach an interval are linked with weight 1, F is
 // their plain sum, of degree six. f_i is a field times its object's strength.
-// An object that digs into i has a weight below 0 in g_i; one that only digs
-// is no member of the sums over i. It is carried along behind the members. A stretch is halved until the enclosures
-// exclude the surface or the first crossing is pinned down. Bodies do not know
-// of each other: the nearest surface is seen.
+// An object that digs into i has a negative weight in g_i; one that only digs
+// is not a member of the sums over i and is stored after the members. An
+// interval is halved until the bounds exclude the surface or the first crossing
+// is found precisely. Bodies do not influence each other: the nearest surface
+// is the visible one.
 #include "truth.h"
 
 #include <algorithm>

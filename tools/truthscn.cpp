@@ -1,9 +1,8 @@
-// Scenes and dumped frames as files.
+// Reads scenes and dumped frames from files.
 //
-// This file exists so that everything the yardstick believes about the dump
-// format stands in one place. It is strict: a word it does not know, a missing
-// file or a short one is an error, because a figure from half a scene would be
-// worse than none.
+// All that the yardstick assumes about the dump format is in this file. It is
+// strict: an unknown word, a missing file or a file that is too short is an
+// error, because a figure from half a scene would be worse than none.
 #include "truth.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
-// The innermost loops: scales into the frame buffer under the Z-buffer, clears, and the copy to video memory. (Most
-// scales are drawn as soon as they are projected, by the loop of scales.h; what that leaves, very large or far aside, is
-// drawn here.)
+// The innermost loops: they draw scales into the frame buffer with a Z-buffer test, clear both buffers, and copy the frame to
+// video memory. (Most scales are drawn by the loop of scales.h as soon as they are projected. That loop refuses scales that
+// are very large or far off the viewing axis; those are drawn here.)
 //
-// Each routine stands twice: in C++ (src/picture/blit.cpp, the ...C names), which says what it does, and in assembly
-// (asm/blit.S), which the DOS program and the 32-bit host build use. Both do the same, byte for byte.
+// Each routine exists twice: in C++ (src/picture/blit.cpp, names that end in C), as the readable reference, and in assembly
+// (asm/blit.S, names that end in A), for the DOS program and the 32-bit host build. Both write the same bytes.
 #ifndef FB_BLIT_H
 #define FB_BLIT_H
 
@@ -11,30 +11,32 @@
 
 #include "machine.h"
 
-// A scale as it falls on the screen: a rectangle of one colour, "very simple to draw" (report, The Rendering Technique).
-// The report's scales all face the viewer; ours may lie in the plane of the surface, so that their depth changes by a
-// constant from pixel to pixel and from row to row. Lies wholly on the screen: 0 <= left, 1 <= wide, left + wide <= 320,
-// and the same for top, high and 200. Depths stay within 0..0xfffe at every pixel. No caller may pass another.
+// A scale projected onto the screen: a rectangle of one colour, "very simple to draw" (report, The Rendering Technique).
+// The report's scales all face the viewer. Ours may lie in the tangent plane of the surface, so that their depth changes by a
+// constant from pixel to pixel and from row to row. The caller guarantees that the scale lies wholly on the screen
+// (0 <= left, 1 <= width, left + width <= 320; 0 <= top, 1 <= height, top + height <= 200) and that its depth stays within
+// 0..0xfffe at every pixel; the routines do not check it.
 struct Scale {
     int16_t left;
     int16_t top;
     int16_t width;
     int16_t height;
-    int32_t z;        // of the top left pixel: distance along the viewing axis in 1/128 units; smaller is nearer
-    int32_t zStep;    // from a pixel to the next one
-    int32_t zRow;     // from the pixel behind the last of a row to the first of the next
+    int32_t z;        // depth of the top left pixel: distance along the viewing axis, 1/128 unit; smaller is nearer
+    int32_t zStep;    // change of depth from a pixel to its right neighbour
+    int32_t zRow;     // change of depth from one pixel past the end of a row to the first pixel of the next row
     int32_t colour;   // palette index
 };
 
-// One that ends where it gets too far away, that is cut along a line or a curve, or whose brightness changes across it. `ramp` has
-// the palette index of each brightness that occurs. The brightnesses, and what cuts, have 8 bits of fraction: what they are at the
-// top left pixel, and how they change like the depth. What cuts need not change evenly.
+// A scale that ends at a greatest depth, is cut along a line or a curve, or changes its brightness from pixel to pixel. The
+// brightness (shade) and the cut function have 8 fraction bits. The brightness changes by constant steps like the depth; the
+// steps of the cut function may change as well, so that it can follow a curve.
 struct FineScale : Scale {
-    int32_t zMost;  // of what is drawn
-    const uint8_t* ramp;
-    int32_t shade, shadeStep, shadeRow;
-    int32_t cut, cutStep, cutRow;  // what is drawn is where this is not negative; the row: from a first pixel to the one below
-    int32_t cutXX, cutXY, cutYY;   // by how much the step changes before each step and from row to row, the row before each row
+    int32_t zMost;                       // pixels with a depth beyond this are not drawn
+    const uint8_t* ramp;                 // palette index of each brightness that occurs
+    int32_t shade, shadeStep, shadeRow;  // brightness; used like z, zStep and zRow
+    int32_t cut, cutStep, cutRow;  // cut function: a pixel is drawn where it is >= 0; cutRow leads from the first pixel of a row
+                                   // to the first pixel of the next
+    int32_t cutXX, cutXY, cutYY;   // added before each step to cutStep; before each row to its first cutStep; and to cutRow
 };
 
 // The depth of a pixel where nothing was drawn.
@@ -42,29 +44,29 @@ constexpr uint16_t Z_EMPTY = 0xffff;
 
 extern "C" {
 
-// Draws `count` scales: a pixel is taken where the scale's z is less than the Z-buffer's, so the first of two at equal
-// depth stays. `frame` has 320x200 bytes, `zbuffer` 320x200 words, top row first.
+// Draws `count` scales. A pixel is written where the scale's z is less than the Z-buffer's, so of two scales at equal depth the
+// first one stays visible. `frame` has 320x200 bytes, `zbuffer` 320x200 16-bit words, top row first.
 void blitScalesC(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int count);
 
-// Draws one of the other kind. These are few and there is only this routine; most are drawn by drawScales().
+// Draws a FineScale. Few of them get here (drawScales() draws most), so this routine has no assembly twin.
 void blitFine(uint8_t* frame, uint16_t* zbuffer, const FineScale& scale);
 
-// Clears the spans of `count` rows from the top: frame to 0, Z-buffer to Z_EMPTY.
+// Clears one span in each of the first `count` rows: the frame to 0, the Z-buffer to Z_EMPTY.
 void clearRowsC(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
 
-// Copies the spans of `count` rows from `frame` to a screen of the same layout at `screen`.
+// Copies one span in each of the first `count` rows from `frame` to `screen`, which has the same layout.
 void copyRowsC(uint8_t* screen, const uint8_t* frame, const Span* rows, int count);
 
-// Finds the runs of drawn pixels (not 0) in a row of WIDTH: writes where each begins and where it ends, at most WIDTH / 2
-// of them, and returns how many. Looks at the pixels of `within` only; its ends are multiples of 4. `depths` are those of the
-// row: Z_EMPTY where a pixel is empty.
+// Finds the runs of drawn (nonzero) pixels in a row. Writes the half-open range of each run to `runs`, at most WIDTH / 2 ranges,
+// and returns their number. Only the pixels of `within` are searched; both its ends must be multiples of 4. `depths` is the same
+// row of the Z-buffer, with Z_EMPTY where a pixel is empty.
 int drawnRunsC(const uint8_t* row, const uint16_t* depths, const Span* within, Span* runs);
 
 #if FB_ASM
 int drawnRunsA(const uint8_t* row, const uint16_t* depths, const Span* within, Span* runs);
 void blitScalesA(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int count);
 void clearRowsA(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
-// The screen is at `offset` in the segment of `selector` (video memory has a selector of its own under DPMI).
+// copyRowsC() to a screen at `offset` in the segment of `selector` (video memory has a selector of its own under DPMI).
 void presentRows(uint32_t selector, uint32_t offset, const uint8_t* frame, const Span* rows, int count);
 #endif
 

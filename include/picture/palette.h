@@ -1,5 +1,5 @@
-// The 256 colours of mode 13h: a ramp of brightness for each colour of the model, or one grey ramp of 64 steps (/G,
-// "a monochrome mode that gives a nicer display").
+// Palette: the 256 colours of mode 13h. They hold a ramp of brightness for each colour of the model, or one grey ramp of 64 steps
+// (/G, "a monochrome mode that gives a nicer display").
 #ifndef FB_PALETTE_H
 #define FB_PALETTE_H
 
@@ -9,42 +9,41 @@
 class Palette {
 public:
     static constexpr int STEPS = 64;
-    static constexpr int RAMP = STEPS + 2 * SHADING_MOST;  // with the ends again, see VoxelList
+    static constexpr int RAMP = STEPS + 2 * SHADING_MOST;  // entries of a ramp with both ends repeated (see VoxelList::ramp)
 
-    // Of 63: the light that reaches every place, in colour. The grey ramp starts in the dark, so that all its steps are
-    // there for the form.
+    // Ambient light of coloured ramps, of 63. The grey ramp has no ambient light, so that all of its steps show the form.
     static constexpr int AMBIENT = 9;
 
-    // Of 63: above this light a colour turns towards white, and is half way there at full light. A highlight, at no cost
-    // when drawing.
+    // Above this light, of 63, a colour turns towards white; at full light it is half way there. This gives a highlight at no
+    // cost when drawing.
     static constexpr int HIGHLIGHT = 52;
 
-    // Of 63: the same for what shines (model/paint.h), which is white at full light.
+    // The limit that a shining finish (model/paint.h) has instead of HIGHLIGHT; such a finish is white at full light.
     static constexpr int GLOSS = 47;
 
-    // The entry of text and marks: the same near-white in every scene, no part of a ramp.
+    // The palette entry of text and marks: the same near-white in every scene, never part of a ramp.
     static constexpr uint8_t INK = 255;
 
-    // Makes ramps for the model's colours and hands each object its own. The ramps of up to four colours have 63 entries
-    // or more each. More colours share the 254 entries by need: those that are nearest to each other in colour and
-    // brightness are one, so that each ramp is as true as its neighbours leave it. Finishes, patterns and colours that mix
-    // take ramps like colours do, and the objects are handed their paint, unless `plain`; of these, grey has finishes only.
+    // Makes ramps for the model's colours and sets the ramp of each object. Up to four colours have ramps of at least 63 entries
+    // each. More colours share the 254 entries: ramp steps that are close to each other in colour and brightness become one
+    // entry, with the smallest total error. Finishes, patterns and mixed colours need ramps as colours do, and the objects get
+    // their paint too, unless `plain` is set. With `grey`, finishes are the only paint that shows.
     void make(Model& model, bool grey, bool plain = false);
 
-    // Red, green and blue of the 256 colours, 0..63, as the DAC takes them.
+    // Red, green and blue of the 256 colours, 0..63, in the DAC's format.
     const uint8_t* dac() const { return dac_; }
 
-    // The brightness of an entry, 0..63, in a ramp that has it.
+    // The brightness, 0..63, that a palette entry has in a ramp that contains it.
     int step(uint8_t entry) const { return steps_[entry]; }
 
-    // A ramp like the object's own with its brightness raised by `steps`, for the selected one; valid until the next
+    // Returns a copy of a ramp with its brightness raised by `steps`, to mark the selected object. It is valid until the next
     // call.
     const uint8_t* raised(const uint8_t* ramp, int steps);
 
 private:
-    static constexpr int ENTRIES = INK - 1;  // for ramps, from 1 on
+    static constexpr int ENTRIES = INK - 1;  // palette entries for ramps; the first one is number 1
     static constexpr int RAMPS_MOST = 240;
-    static constexpr int EVEN_MOST = 4;      // colours whose ramps have entries of their own
+    static constexpr int EVEN_MOST = 4;      // up to this number of colours each ramp has entries of its own
 
     static_assert(Paints::MOST <= RAMPS_MOST, "each colour has a ramp");
 

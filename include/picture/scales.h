@@ -1,6 +1,6 @@
-// From voxels to pixels: the perspective transformation of the seeds' scales (report, The Rendering Technique) and their
-// drawing, in one go for all that are of ordinary size and place. It stands twice, like the loops of blit.h: in C++
-// (src/picture/scales.cpp) and in assembly (asm/scales.S); both do the same, bit for bit.
+// From voxels to pixels: one loop that projects the seeds' scales (report, The Rendering Technique) and draws them, as far as they
+// have ordinary size and position. Like the loops of blit.h it exists twice, in C++ (src/picture/scales.cpp) and in assembly
+// (asm/scales.S); both write the same bits.
 #ifndef FB_SCALES_H
 #define FB_SCALES_H
 
@@ -8,12 +8,12 @@
 #include "picture/blit.h"
 #include "surface/voxel.h"
 
-// Depth steps (1/128 unit) from pixel to pixel; a surface seen more edge-on than this is taken as this steep.
+// Upper bound of the change of depth from pixel to pixel, 1/128 unit. A surface seen more edge-on is drawn with this slope.
 constexpr int32_t STEEPEST = 400;
-// The widest and highest scale that there is a loop for.
+// Greatest width and height, in pixels, of a scale that the loop draws.
 constexpr int LARGEST = 40;
 
-// Modulo 2^32, as the processor does it: no place or tilt whatever does harm.
+// Sums and products that wrap around modulo 2^32 like the processor's, so that no position or tilt is undefined behaviour in C++.
 constexpr int32_t wrappedSum(int32_t a, int32_t b)
 {
     return static_cast<int32_t>(static_cast<uint32_t>(a) + static_cast<uint32_t>(b));
@@ -23,42 +23,44 @@ constexpr int32_t wrappedProduct(int32_t a, int32_t b)
     return static_cast<int32_t>(static_cast<uint32_t>(a) * static_cast<uint32_t>(b));
 }
 
-// Whether there is more to a voxel than a rectangle of one colour.
+// Whether a voxel is more than a rectangle of one colour: it needs a FineScale.
 inline bool isFine(const Voxel& v)
 {
     return (v.reach | v.slopeX | v.slopeY | v.cutX | v.cutY) != 0;
 }
 
-// How far away a voxel's pixels may be, 1/128 unit, when its middle is at `z`.
+// The greatest depth of a voxel's pixels, 1/128 unit, when its centre is at depth `z`.
 constexpr int32_t NO_END = 0x7fffffff;
 inline int32_t endOf(const Voxel& v, int32_t z)
 {
     return v.reach != 0 ? z + v.reach * 4 : NO_END;
 }
 
-// Of a slope of brightness or of what cuts, and Factors::zx or zy: the change from pixel to pixel, 8 bits of fraction.
+// The change from pixel to pixel, 8 fraction bits, of a brightness or cut function with this slope. `factor` is Factors::zx or zy.
 inline int32_t shadeStep(int slope, int32_t factor)
 {
     return wrappedProduct(slope, factor) >> 10;
 }
 
-// Of one of a voxel's curves, and Factors::zx or zy of its axes: the change of the step from pixel to pixel, 8 bits of fraction.
+// The change of the cut function's step from pixel to pixel, 8 fraction bits, from one of a voxel's curvatures and the factors
+// (Factors::zx or zy) of its two axes.
 inline int32_t curveStep(int curve, int32_t factor, int32_t other)
 {
     return wrappedProduct(wrappedProduct(curve, factor) >> 10, other) >> 16;
 }
 
-// What cuts a voxel, from the middle of its scale's first pixel on. `way(a, b)` is what a change by `a` from column to column and
-// by `b` from row to row makes of the way to there from the middle of the scale.
-template <class Way>
-inline void setCut(const Voxel& v, int32_t zx, int32_t zy, Way way, FineScale* scale)
+// Sets a scale's cut function, starting at the centre of its first pixel. `toFirst(a, b)` returns by how much a function changes
+// between the middle of the scale and the centre of that pixel if it changes by `a` per column and by `b` per row.
+template <class ToFirst>
+inline void setCut(const Voxel& v, int32_t zx, int32_t zy, ToFirst toFirst, FineScale* scale)
 {
     const int32_t across = shadeStep(v.cutX, zx), down = -shadeStep(v.cutY, zy);
     const int32_t xx = curveStep(v.curveXX, zx, zx), xy = -curveStep(v.curveXY, zx, zy), yy = curveStep(v.curveYY, zy, zy);
-    const int32_t acrossFirst = wrappedSum(across, way(xx, xy)), downFirst = wrappedSum(down, way(xy, yy));
-    // Half way it changes as it does on the whole way.
-    scale->cut = v.cutAt * 4 + way(wrappedSum(across, acrossFirst) >> 1, wrappedSum(down, downFirst) >> 1);
-    // A step that begins in the middle of a pixel has half of the change ahead that it makes to the step.
+    const int32_t acrossFirst = wrappedSum(across, toFirst(xx, xy)), downFirst = wrappedSum(down, toFirst(xy, yy));
+    // The slope of a quadratic function half way is its average slope on the whole way.
+    scale->cut = v.cutAt * 4 + toFirst(wrappedSum(across, acrossFirst) >> 1, wrappedSum(down, downFirst) >> 1);
+    // The average slope of a step is the slope half a pixel ahead; the drawing loop adds a whole pixel's change before each step,
+    // so half of it is taken off here.
     scale->cutStep = wrappedSum(acrossFirst, -(xx >> 1));
     scale->cutRow = wrappedSum(downFirst, -(yy >> 1));
     scale->cutXX = xx;
@@ -71,8 +73,8 @@ inline void setUncut(FineScale* scale)
     scale->cut = scale->cutStep = scale->cutRow = scale->cutXX = scale->cutXY = scale->cutYY = 0;
 }
 
-// Whether all depths of a scale fit the Z-buffer: from its first pixel on, which lies `z` away, they change by `across` up to
-// the last column and by `down` up to the last row.
+// Whether the depths of all pixels of a scale fit the Z-buffer. `z` is the depth of the first pixel; it changes by `across` up to
+// the last column and by `down` up to the last row, so that it is enough to look at the four corners.
 inline bool depthsFit(int32_t z, int32_t across, int32_t down)
 {
     const uint32_t end = Z_EMPTY;
@@ -80,33 +82,34 @@ inline bool depthsFit(int32_t z, int32_t across, int32_t down)
            static_cast<uint32_t>(z + across + down) < end;
 }
 
-// What a depth makes of lengths.
+// Factors of the perspective projection at one depth z.
 struct Factors {
-    int32_t x, y;    // focal 2^12 / z: 1/256 unit to 1/2^20 pixel
-    int32_t zx, zy;  // z 2^15 / focal: a tilt to the change of depth from pixel to pixel, 1/2^16 of 1/128 unit
+    int32_t x, y;    // focal 2^12 / z: takes lengths in 1/256 unit to 2^-20 pixel
+    int32_t zx, zy;  // z 2^15 / focal: takes a tilt to the change of depth from pixel to pixel, 2^-16 of 1/128 unit
 };
+// The table of factors covers the depths from LENS_NEAR to before LENS_FAR units in LENS_FINENESS steps per unit.
 constexpr int LENS_NEAR = 76, LENS_FAR = 432;
-// Steps of depth in a unit.
 constexpr int LENS_FINENESS = 16;
 constexpr int LENS_STEPS = (LENS_FAR - LENS_NEAR) * LENS_FINENESS;
 
-// The camera and the object in the terms of the loop, and what it has drawn.
+// The loop's input (the camera, the object, the buffers) and its running results.
 struct Lens {
-    int32_t x, y, z;                   // the object's centre from the eye, 1/256 unit
-    const uint8_t* ramp;               // as VoxelList's
-    const Factors* factors;            // one for each step of depth from LENS_NEAR to LENS_FAR units
-    int32_t centreX, centreY;          // pixels with 12 bits of fraction, and half a pixel more
+    int32_t x, y, z;                   // the object's centre relative to the eye, 1/256 unit
+    const uint8_t* ramp;               // see VoxelList::ramp
+    const Factors* factors;            // LENS_STEPS entries, the nearest depth first
+    int32_t centreX, centreY;          // screen centre plus half a pixel, 12 fraction bits
     uint8_t* frame;                    // as for blitScales()
     uint16_t* zbuffer;
-    int32_t left, top, right, bottom;  // in and out: a rectangle that grows to hold at least all that is drawn; each lies on
-                                       // the screen, so what does not make it larger needs no test for the screen's edges
+    int32_t left, top, right, bottom;  // in and out: a rectangle that grows to contain all that is drawn. It never leaves the
+                                       // screen, so a scale that does not enlarge it needs no test against the screen's edges
     int32_t empty;                     // in and out: counts voxels that cover no pixel's centre on the screen
-    uint32_t tiltAdd, tiltBits;        // limitTilts()
-    int32_t focalX, focalY;            // pixels with 12 bits of fraction, 64 to 500 pixels
+    uint32_t tiltAdd, tiltBits;        // set by limitTilts()
+    int32_t focalX, focalY;            // focal lengths, 64 to 500 pixels, 12 fraction bits
 };
 
-// The factors of a depth nearer than the table, computed: such scales are few, and large. False: they are too large for the
-// products of the loop. A table's zx and zy are larger than these, so limitTilts() holds for them too.
+// Computes the factors of a depth nearer than the table; scales that near are few, and large. Returns false when the depth is
+// not within LENS_NEXT..LENS_NEAR or the factors are too large for the products of the loop. The zx and zy of the table are
+// larger than these, so the bound given to limitTilts() holds for these as well.
 constexpr int LENS_NEXT = 1;
 constexpr int32_t FACTOR_MOST = 0xffff;
 inline bool nearFactors(const Lens& lens, int32_t depth, Factors* near)
@@ -122,8 +125,9 @@ inline bool nearFactors(const Lens& lens, int32_t depth, Factors* near)
     return true;
 }
 
-// Finds out which tilts need no test for STEEPEST as long as no zx or zy is more than `most`: where tiltX and tiltY as one double
-// word, plus tiltAdd, have none of tiltBits, both lie in -TILT - 1 .. TILT, and `most` makes no more of that.
+// Sets tiltAdd and tiltBits, with which the loop tests both tilts of a voxel at once for whether they may exceed STEEPEST. `most`
+// is an upper bound of zx and zy. If tiltX and tiltY, taken together as one 32-bit word, plus tiltAdd have none of tiltBits set,
+// both lie within -tilt - 1 .. tilt, and no factor up to `most` takes such a tilt beyond STEEPEST.
 inline void limitTilts(Lens* lens, uint32_t most)
 {
     const uint32_t tilts = (static_cast<uint32_t>(STEEPEST) << 16) / (most | 1);
@@ -134,13 +138,13 @@ inline void limitTilts(Lens* lens, uint32_t most)
     lens->tiltBits = tilt == 0 ? 0xffffffff : ~((2 * tilt - 1) * 0x10001);
 }
 
-// The step that a depth lies in, 1/256 unit; below 0 or LENS_STEPS and more beyond the table.
+// The index of a depth (1/256 unit) in the table of factors. It is negative or >= LENS_STEPS for depths outside the table.
 inline int32_t lensStep(int32_t depth)
 {
     return (depth >> 4) - LENS_NEAR * LENS_FINENESS;
 }
 
-// The factors for a depth, `near` for those that are computed. Null: there are none.
+// Returns the factors for a depth: from the table, or computed into `near`. Returns null when there are none (nearFactors()).
 inline const Factors* factorsOf(const Lens& lens, int32_t depth, Factors* near)
 {
     const uint32_t step = static_cast<uint32_t>(lensStep(depth));
@@ -151,9 +155,9 @@ inline const Factors* factorsOf(const Lens& lens, int32_t depth, Factors* near)
 
 extern "C" {
 
-// Draws voxels up to before `end`, in their order, and returns the first that was not dealt with. It stops at a voxel that is
-// not its business: one behind the table's depths or all too near, larger than LARGEST, or so large and so tilted that a depth
-// would leave its 16 bits. Places times factors fit 32 bits, for the caller sees to that.
+// Draws the voxels from `voxels` to before `end` in order. Returns `end`, or the first voxel that it cannot draw: one beyond the
+// table's depths or too near for nearFactors(), one larger than LARGEST, or one so large and tilted that a depth would overflow
+// 16 bits. The caller guarantees that positions times factors fit 32 bits.
 const Voxel* drawScalesC(Lens* lens, const Voxel* voxels, const Voxel* end);
 #if FB_ASM
 const Voxel* drawScalesA(Lens* lens, const Voxel* voxels, const Voxel* end);

@@ -1,9 +1,9 @@
-// View: the camera, the frame buffer and the Z-buffer (report, The Rendering Technique and Appendix A). show() makes
-// scales of voxels by a perspective transformation and draws them: most by the loop of scales.h, the rest one by one.
+// View: the camera, the frame buffer and the Z-buffer (report, The Rendering Technique and Appendix A). show() projects voxels
+// to scales and draws them: most with the loop of scales.h, the rest one by one.
 //
-// A point p from the eye, in the axes of the view, falls on column centreX + focalX p.x / p.z and row
-// centreY - focalY p.y / p.z; pixel i covers [i, i + 1). Mode 13h shows 320x200 pixels on a 4:3 screen, so a pixel is
-// 5 wide to 6 high and focalX = 1.2 focalY.
+// A point p relative to the eye, in the axes of the view, is projected to column centreX + focalX p.x / p.z and row
+// centreY - focalY p.y / p.z; pixel i covers the half-open range [i, i + 1). Mode 13h shows 320x200 pixels on a 4:3 screen, so
+// the width of a pixel is to its height as 5 to 6, and focalX = 1.2 focalY.
 #ifndef FB_VIEW_H
 #define FB_VIEW_H
 
@@ -13,25 +13,26 @@
 
 class View : public Hider {
 public:
-    // Rows of the frame below the screen. They are empty: what looks for something below a pixel need not ask where the screen
-    // ends.
+    // The frame has this many more rows below the screen, which stay empty, so that a search for drawn pixels below a pixel need
+    // not test for the end of the screen.
     static constexpr int ROWS_BELOW = 6;
 
     ~View();
 
-    // Makes the buffers. False: no memory.
+    // Allocates the buffers. Returns false when there is no memory.
     bool open();
 
-    // Takes on a camera. 64 <= focal <= 500 pixels. One that has only moved or turned costs nothing.
+    // Sets the camera; 64 <= focal lengths <= 500 pixels. A camera that has only moved or turned costs nothing, because the table
+    // of factors stays valid.
     void setCamera(const Camera& camera);
     const Camera& camera() const { return camera_; }
 
-    // Scales or single pixels (the report's '*' key).
+    // Whether each voxel is drawn as a single pixel instead of a scale (the report's '*' key).
     void setPixels(bool pixels) { pixels_ = pixels; }
     bool pixels() const { return pixels_; }
 
-    // Whether scales are placed as they were in the first versions, large and clipped ones by their exact depth and others by steps
-    // of 1/8 unit: the report's method is compared byte for byte from version to version.
+    // With `printed`, scales are projected as in the first versions: large and clipped ones with their exact depth, all others
+    // with depths in steps of 1/8 unit. The pictures of the report's method are compared byte for byte between versions.
     void setPrinted(bool printed)
     {
         printed_ = printed;
@@ -39,49 +40,50 @@ public:
             makeLens();
     }
 
-    // Starts a frame: clears what the last one touched.
+    // Starts a frame: clears the pixels that the last frame touched.
     void begin();
 
-    // Draws the voxels of an object; those before the near plane (1 unit), behind 511 units or off the screen are left
-    // out. Returns the number of scales drawn.
+    // Draws the voxels of an object, except those nearer than 1 unit, farther than 511 units or off the screen. Returns the
+    // number of scales drawn.
     int show(const VoxelList& list);
 
-    // Text and lines on top of the picture: marks a rectangle of pixels as touched and gives the frame to draw into.
+    // For text and lines on top of the picture: marks a rectangle of pixels as touched and returns the frame to draw into.
     uint8_t* overlay(int left, int top, int width, int height);
 
-    // True also for what lies beside the screen. What is nearer than 76 units is never hidden.
+    // Also returns true for a ball beside the screen, unless it lies far aside. A ball that comes nearer than 76 units is never
+    // reported as hidden.
     bool hides(const int32_t place[3], int32_t radius) const override;
 
-    // Closes the gaps between scales: empty pixels take over colour and depth of the drawn ones beside them, where an
-    // opening is small (the limits stand in gaps.cpp) or ends between drawn pixels. `spacing` of the seeds, units. For when
-    // all objects are drawn, before anything is written over them; single pixels are left alone. With a model, what is open
-    // stays so: a gap wider than two pixels half way across which there is no surface within about a unit. With the model's
-    // colours too, what is filled between two objects has the colour of the one whose field is the stronger there.
-    // Returns the number of pixels that were drawn before.
+    // Closes the gaps between scales: empty pixels get the colour and the depth of the drawn pixels beside them where an opening
+    // is small (see the limits in gaps.cpp) or ends between drawn pixels. `spacing` is that of the seeds, units. To be called
+    // when all objects are drawn and before anything is drawn over them. Does nothing when voxels are drawn as single pixels.
+    // With a model, real openings stay open: gaps wider than two pixels half way across which the model has no surface within
+    // about a unit. With a palette as well, pixels filled between two objects get the colour of the object whose field is the
+    // stronger there. Returns the number of pixels that were drawn before gaps were closed.
     int closeGaps(Real spacing, const Model* model = nullptr, const Palette* palette = nullptr);
 
-    // The place in the world of a pixel (row * WIDTH + column) that was drawn; or of any, were it so far away (1/128 unit).
-    Point pointAt(int at) const { return pointAt(at, zbuffer_[at]); }
-    Point pointAt(int at, int depth) const;
+    // The point of the world that a pixel (row * WIDTH + column) shows: at its own depth, or at a given one (1/128 unit).
+    Point pointAt(int pixel) const { return pointAt(pixel, zbuffer_[pixel]); }
+    Point pointAt(int pixel, int depth) const;
 
-    // Of the frame as it is so far: a pixel (row * WIDTH + column) is given a depth (1/128 unit) and a colour, or what
-    // another one has; and between which columns of a row anything may be drawn.
-    void setPixel(int at, int depth, uint8_t colour)
+    // Sets the depth (1/128 unit) and the colour of a pixel (row * WIDTH + column) of the frame at hand.
+    void setPixel(int pixel, int depth, uint8_t colour)
     {
-        // What was empty may lie beyond all that was touched.
-        if (zbuffer_[at] == Z_EMPTY)
-            touchPixel(at);
-        zbuffer_[at] = static_cast<uint16_t>(depth);
-        frame_[at] = colour;
+        // An empty pixel may lie outside of the touched columns.
+        if (zbuffer_[pixel] == Z_EMPTY)
+            touchPixel(pixel);
+        zbuffer_[pixel] = static_cast<uint16_t>(depth);
+        frame_[pixel] = colour;
     }
-    void copyPixel(int at, int from)
+    void copyPixel(int pixel, int from)
     {
-        frame_[at] = frame_[from];
-        zbuffer_[at] = zbuffer_[from];
+        frame_[pixel] = frame_[from];
+        zbuffer_[pixel] = zbuffer_[from];
     }
+    // The columns of a row outside of which nothing has been drawn.
     const Span& touched(int row) const { return touched_[row]; }
 
-    // Ends a frame; rows() then tells what differs from the frame before.
+    // Ends a frame; rows() then returns the columns of each row that may differ from the frame before.
     void end();
 
     const uint8_t* frame() const { return frame_; }
@@ -89,25 +91,25 @@ public:
     const Span* rows() const { return present_; }
 
 private:
-    // Where a scale lies: the depth of its centre, 1/256 unit; the centre on the screen and half its sides, pixels with 12 bits of
-    // fraction.
+    // A projected scale: the depth of its centre, 1/256 unit; its centre on the screen and its half extents, pixels with 12
+    // fraction bits.
     struct Placed {
         int32_t z, column, row, halfWide, halfHigh;
     };
 
     void makeLens();
-    void touchPixel(int at);
+    void touchPixel(int pixel);
     void mark(int left, int top, int right, int bottom);
     bool prepareLoop(const VoxelList& list);
     int showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool loop);
     bool ordinary(const Voxel& voxel) const;
-    bool place(const Voxel& voxel, Placed* at) const;
-    static bool clip(const Placed& at, FineScale* scale);
-    void tilt(const Voxel& voxel, const Placed& at, int32_t* across, int32_t* down) const;
+    bool place(const Voxel& voxel, Placed* placed) const;
+    static bool clip(const Placed& placed, FineScale* scale);
+    void tilt(const Voxel& voxel, const Placed& placed, int32_t* across, int32_t* down) const;
     bool project(const Voxel& voxel, FineScale* scale) const;
 
     Camera camera_;
-    int32_t focalX_ = 0, focalY_ = 0, centreX_ = 0, centreY_ = 0;  // pixels, 12 bits of fraction
+    int32_t focalX_ = 0, focalY_ = 0, centreX_ = 0, centreY_ = 0;  // pixels, 12 fraction bits
     Lens lens_{};
     bool pixels_ = false;
     bool printed_ = false;

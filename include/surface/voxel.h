@@ -1,47 +1,50 @@
-// Voxel: what a seed looks like, draw() lists and show() puts on the screen (report, Section III, Algorithms: "converts
-// the seed list to a list of scales (called Voxels in the source code)").
+// Voxel: a seed's scale in space. draw() makes lists of voxels and show() draws them (report, Section III, Algorithms:
+// "converts the seed list to a list of scales (called Voxels in the source code)").
 #ifndef FB_VOXEL_H
 #define FB_VOXEL_H
 
 #include "math/vec.h"
 
-// A scale in space. A seed keeps its own as long as nothing about it changes, wherever the object goes.
+// A scale in space: a rectangle that faces the viewer, with the depths of the surface's tangent plane. It may be cut: a function
+// that is linear or quadratic across the scale (the cut function) tells where nothing is drawn.
 struct Voxel {
-    int32_t x, y, z;     // from the object's centre, axes of the view, 1/256 unit
-    int16_t halfWidth, halfHeight;  // half extents along X and Y, 1/256 unit, 0 or more
-    int16_t tiltX, tiltY;    // slopes of the depth across the scale, 8 bits of fraction
-    int8_t brightness;       // of the middle, 0..63; below 0, to DARK_MIDDLE, where only a part of the scale is lit: it has a slope
-    uint8_t reach;           // what lies farther behind the middle than this, 1/32 unit, is left out: there the surface has bent
-                             // out of sight; 0: all is drawn
-    int8_t cutX, cutY;       // slopes in the middle of a function across the scale, 1/8 a unit; both 0: it is not cut
-    int8_t slopeX, slopeY;   // how the brightness changes across, 1/8 step a unit; no more than SHADING_MOST to any corner
-    int16_t cutAt;           // that function in the middle, 1/64; where it is negative nothing is drawn
-    int8_t curveXX, curveXY, curveYY;  // by how much cutX changes along x, cutX along y and cutY along x, cutY along y, 1/16 a
-                             // squared unit; all 0: the scale ends at a straight line
+    int32_t x, y, z;         // centre relative to the object's centre, axes of the view, 1/256 unit
+    int16_t halfWidth, halfHeight;  // half extents along x and y, 1/256 unit, 0 or more
+    int16_t tiltX, tiltY;    // slopes of the depth along x and y, 8 fraction bits
+    int8_t brightness;       // at the centre, 0..63; DARK_MIDDLE + 1..-1 if only a part of the scale is lit (it has slopes then)
+    uint8_t reach;           // pixels farther behind the centre than this, 1/32 unit, are not drawn, because there the surface has
+                             // bent out of sight; 0: all are drawn
+    int8_t cutX, cutY;       // slopes of the cut function at the centre, 1/8 per unit; both 0: the scale is not cut
+    int8_t slopeX, slopeY;   // slopes of the brightness, 1/8 step per unit; at most SHADING_MOST steps to any corner
+    int16_t cutAt;           // cut function at the centre, 1/64; pixels where the function is negative are not drawn
+    int8_t curveXX, curveXY, curveYY;  // second derivatives of the cut function, 1/16 per squared unit; all 0: the scale is cut
+                             // along a straight line
     int8_t unused;           // 0
 };
 
-// Steps of brightness: 0..63, the 64-step ramp.
+// The brightest of the 64 steps 0..63 of a ramp.
 constexpr int BRIGHTEST = 63;
 
-// Whether part of a voxel is left out by the function across it.
+// Whether a cut function ends the voxel.
 inline bool isCut(const Voxel& v)
 {
     return (v.cutX | v.cutY) != 0;
 }
 
-// Lambert's (report, The Rendering Technique) from the cosine of normal and light, 1.0 = 2^14; below 0 where the side is dark.
+// Lambert's law (report, The Rendering Technique): brightness from the cosine of normal and light, 1.0 = 2^14; negative if unlit.
 inline int32_t lambert(int32_t cosine)
 {
     return (cosine * BRIGHTEST + 8192) >> 14;
 }
 
+// Upper bound of the change of brightness from the centre of a scale to its corners, steps.
 constexpr int SHADING_MOST = 64;
+// A scale whose centre is this dark, or darker, has brightness 0 and no slopes.
 constexpr int DARK_MIDDLE = -30;
 
 constexpr int VOXELS_AT_ONCE = 1024;
 
-// Voxels of a list that have one ramp: those from where the run before ends to before `end`.
+// Consecutive voxels of a list that have one ramp: from the end of the previous run to before `end`.
 struct RampRun {
     const uint8_t* ramp;
     int end;
@@ -50,18 +53,18 @@ constexpr int RUNS_MOST = 240;
 
 // The list of scales: voxels of one object.
 struct VoxelList {
-    int32_t x, y, z;       // the object's centre from the eye, 1/256 unit
-    const uint8_t* ramp;   // palette index of each brightness, and of SHADING_MOST more at both ends like those; 0 is the
-                           // background's, and taken for it when gaps are closed
-    int32_t reach;         // no voxel lies farther than this from the centre along any axis, 1/256 unit
+    int32_t x, y, z;       // the object's centre relative to the eye, axes of the view, 1/256 unit
+    const uint8_t* ramp;   // palette index of each brightness; both ends are repeated, so that -SHADING_MOST..63 + SHADING_MOST are
+                           // valid too. No index is 0: that is the background, which gaps are recognised by
+    int32_t reach;         // no voxel's centre is farther than this from the object's centre along any axis, 1/256 unit
     int count;             // voxels in the list
-    int runs;              // 0: all have `ramp`; else they have those of the runs
+    int runs;              // number of runs, each with its own ramp; 0: all voxels have `ramp`
     RampRun run[RUNS_MOST];
     Voxel voxels[VOXELS_AT_ONCE];
-    uint8_t number[VOXELS_AT_ONCE];  // of a painted object: of each voxel, the number of its colour
+    uint8_t number[VOXELS_AT_ONCE];  // of a painted object: the number of each voxel's colour
 
-    // Empties the list for an object, the centre of which is `place` from the eye, and no part of which lies farther from it
-    // than `most`.
+    // Empties the list for an object with its centre at `place` relative to the eye. `most` is the upper bound of the distance of
+    // its parts from the centre.
     void begin(const Vector& place, Real most, const uint8_t* objectRamp)
     {
         x = rawFromReal(place.x) >> 8;
@@ -71,7 +74,7 @@ struct VoxelList {
         ramp = objectRamp;
         count = runs = 0;
     }
-    // Where the next voxel may be written, and that it has been.
+    // The caller writes the next voxel to *room() and then calls take().
     Voxel* room() { return voxels + count; }
     void take() { ++count; }
 };

@@ -1,5 +1,5 @@
-// The innermost loops in C++: what asm/blit.S does, said plainly. Host builds draw with these; the tests hold the
-// assembly against them.
+// The innermost loops in C++, the readable reference for asm/blit.S. 64-bit host builds draw with these; the tests compare the
+// assembly with them.
 #include "picture/blit.h"
 
 #include "rt.h"
@@ -30,7 +30,8 @@ void blitScalesC(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int cou
 
 namespace {
 
-// A row of a scale from column -wide to before 0: `both` has the depth, and above it the brightness with 8 bits of fraction.
+// Draws a row of a scale; `pixels` and `depths` point one past its last pixel, so x runs from -width to before 0. `both` holds
+// the depth in its lower half and the brightness (8 fraction bits) in its upper half.
 template <bool CUT>
 inline void fineRow(const FineScale& scale, uint8_t* pixels, uint16_t* depths, uint32_t both, uint32_t step, uint32_t most,
                     uint32_t cut, uint32_t cutStep)
@@ -49,7 +50,8 @@ inline void fineRow(const FineScale& scale, uint8_t* pixels, uint16_t* depths, u
     }
 }
 
-// Depths stay within their 16 bits at each pixel, so one addition changes both.
+// Packs a depth and a brightness (or their steps) into one word. The depth stays within 16 bits at every pixel, so one addition
+// changes both without an overflow into the brightness.
 inline uint32_t together(int32_t z, int32_t shade)
 {
     return static_cast<uint32_t>(z) + (static_cast<uint32_t>(shade) << 16);

@@ -1,4 +1,5 @@
-// Closing gaps: each row is looked at once, and more only where a run of empty pixels between drawn ones is short.
+// Closing gaps: each row is scanned once. Only short runs of empty pixels between drawn ones (gaps) take more work. An opening is
+// the region of empty pixels that a gap leads into, followed from row to row. A slit is a low vertical run of empty pixels.
 #include "gaps.h"
 
 using machine::HEIGHT;
@@ -6,18 +7,16 @@ using machine::WIDTH;
 
 namespace {
 
-// What is taken for a gap (View::closeGaps()), pixels: what is closed all round and up to GAP_WIDE and a spacing of the
-// seeds wide and high; the end of what is open above or below, where it is up to GAP_NARROW and a spacing wide, or to a side,
-// where it is up to GAP_LOW high; and what is up to GAP_THIN wide.
-constexpr int GAP_WIDE = 10;
-constexpr int GAP_NARROW = 8;
-constexpr int GAP_LOW = 6;
-constexpr int GAP_THIN = 2;
-constexpr Real STEEP(1.3);  // of the field: by what it changes in a unit at most, times the size of its object
-constexpr int GAP_MOST = 32;  // however near the viewer
-constexpr int DIVIDED = 2;    // as near as this its ends stand when the place is found where a gap changes its colour
+// Limits of what counts as a gap (View::closeGaps()), pixels. "A spacing" is the spacing of the seeds on the screen.
+constexpr int GAP_WIDE = 10;  // and a spacing: width and height of an opening that is closed on all sides
+constexpr int GAP_NARROW = 8; // and a spacing: width of the narrow end of an opening that is open above or below
+constexpr int GAP_LOW = 6;    // height of a slit that is open to a side
+constexpr int GAP_THIN = 2;   // width of a run that is filled whatever lies above and below
+constexpr int GAP_MOST = 32;  // upper bound of all widths, however near the viewer the seeds are
+constexpr int DIVIDED = 2;    // the search for where a gap changes its colour ends when its bounds are this close
+constexpr Real STEEP(1.3);    // upper bound of the gradient of a field, times the size of its object
 
-// Whether a pixel is empty and lies right below a drawn one and a little way above another.
+// Whether a pixel is empty and lies right below a drawn one and at most GAP_LOW pixels above another.
 inline bool inSlit(const uint8_t* pixel)
 {
     static_assert(GAP_LOW == 6 && GAP_LOW <= View::ROWS_BELOW, "as many rows are looked at");
@@ -25,13 +24,14 @@ inline bool inSlit(const uint8_t* pixel)
            (pixel[WIDTH] | pixel[2 * WIDTH] | pixel[3 * WIDTH] | pixel[4 * WIDTH] | pixel[5 * WIDTH] | pixel[6 * WIDTH]) != 0;
 }
 
-// The columns of an opening, row after row. Those of the first `narrow` rows are closed.
+// The columns of an opening, row after row. The first `narrow` rows of it are to be filled.
 struct Opening {
     Span rows[GAP_MOST];
     int height = 0, narrow = 0;
 };
 
-// What is empty beside an opening in the next row, all that lies between taken for empty. False: nothing is.
+// Finds how an opening of columns *from to *to goes on in the next row: from the leftmost to the rightmost empty pixel connected
+// with it; drawn pixels between the two are ignored. Returns false when all pixels of the row next to the opening are drawn.
 bool goesOn(const uint8_t* row, int widest, int* from, int* to)
 {
     const int left = *from, right = *to;
@@ -48,11 +48,11 @@ bool goesOn(const uint8_t* row, int widest, int* from, int* to)
     return true;
 }
 
-// Follows an opening down (or up: `step`) from columns of a row.
+// Follows an opening down (`step` 1) or up (`step` -1) from the columns `from` to before `to` of row y.
 void follow(const uint8_t* frame, int y, int from, int to, int step, int widest, int narrowest, Opening& opening)
 {
     for (;;) {
-        // All below a neck goes with it.
+        // All that lies before a narrow place is filled together with it.
         if (to - from <= narrowest)
             opening.narrow = opening.height + 1;
         opening.rows[opening.height++] = {static_cast<int16_t>(from), static_cast<int16_t>(to)};
@@ -70,7 +70,7 @@ void follow(const uint8_t* frame, int y, int from, int to, int step, int widest,
 
 }  // namespace
 
-// Notes the empty pixels at both ends of a run that are in corners.
+// Notes the empty pixels at both ends of a run of drawn pixels, if they may be in inner corners.
 inline void Gaps::noteCorners(int y, const Span& run)
 {
     const uint8_t* const row = frame_ + y * WIDTH;
@@ -80,7 +80,7 @@ inline void Gaps::noteCorners(int y, const Span& run)
         missed_.note(run.to, y);
 }
 
-// The same of what lies beyond an opening that was closed: to both sides of some of its columns.
+// Notes the outermost empty pixels to both sides of `columns`, in the row where the filled part of an opening ends.
 void Gaps::noteBeyond(int y, const Span& columns)
 {
     int from = columns.from, to = columns.to;
@@ -98,7 +98,7 @@ void Gaps::noteBeyond(int y, const Span& columns)
 int Gaps::close(Real spacing)
 {
     int drawn = 0;
-    // A spacing in pixels is this over a depth of the Z-buffer.
+    // Divided by a depth of the Z-buffer, this is the spacing of the seeds in pixels.
     const int32_t near = mulShift16(rawFromReal(view_.camera().focalX) >> 4, rawFromReal(spacing)) >> 5;
     Span runs[WIDTH / 2];
     const uint8_t* row = frame_;
@@ -108,7 +108,7 @@ int Gaps::close(Real spacing)
             continue;
         const bool slits = y > 0;
         const Span* const end = runs + drawnRuns(row, zbuffer_ + y * WIDTH, &touched, runs);
-        int last = 0;  // behind the run before
+        int last = 0;  // one past the end of the previous run; 0 before the first
         for (const Span* run = runs; run < end; ++run) {
             const int from = run->from;
             drawn += run->to - from;
@@ -131,7 +131,7 @@ int Gaps::close(Real spacing)
     return drawn;
 }
 
-// Pixels from column `from` to before `to` are empty, those on both sides are not; seeds lie `spacing` pixels apart there.
+// Closes the gap of columns `from` to before `to` between drawn pixels. The seeds there lie `spacing` pixels apart.
 void Gaps::closeRun(int y, int from, int to, int spacing)
 {
     const uint8_t* row = frame_ + y * WIDTH;
@@ -141,11 +141,11 @@ void Gaps::closeRun(int y, int from, int to, int spacing)
         return;
     if (to - from <= GAP_THIN) {
         fill(NO_ENDS, y * WIDTH + from - 1, y * WIDTH + to, 1);
-        // What lies above may have been open to it.
+        // Openings above may have been open only because of this run.
         closeAbove(y, from, widest, GAP_NARROW + spacing);
         closeAbove(y, to - 1, widest, GAP_NARROW + spacing);
     }
-    // Where it begins, and where it ends if it was not closed from there.
+    // Follows the opening downwards if the row above is closed, and upwards if it is still empty and the row below is closed.
     for (int step = 1; step >= -1 && row[from] == 0; step -= 2) {
         if (y - step < 0 || y - step >= HEIGHT)
             continue;
@@ -157,7 +157,7 @@ void Gaps::closeRun(int y, int from, int to, int spacing)
     }
 }
 
-// What is empty above a pixel that has just been filled is followed up, if that has closed it below.
+// Follows the empty run above a pixel that has just been filled upwards, if the row below that run is closed now.
 void Gaps::closeAbove(int y, int x, int widest, int narrowest)
 {
     const uint8_t* row = frame_ + (y - 1) * WIDTH;
@@ -176,7 +176,7 @@ void Gaps::closeAbove(int y, int x, int widest, int narrowest)
     closeFrom(y - 1, from, to, -1, widest, narrowest);
 }
 
-// Closes what of the opening before which a row is closed is narrow, and what lies below that.
+// Follows an opening from its closed end, and fills its rows as far as the last one that is narrow.
 void Gaps::closeFrom(int y, int from, int to, int step, int widest, int narrowest)
 {
     Opening opening;
@@ -194,7 +194,7 @@ void Gaps::closeFrom(int y, int from, int to, int step, int widest, int narrowes
     noteBeyond(y + narrow * step, rows[narrow < opening.height ? narrow : narrow - 1]);
 }
 
-// Whether between two drawn pixels, `step` the way from each to the next, there is none of the surface.
+// Whether the model has no surface half way between two drawn pixels of a row (`step` 1) or of a column (`step` WIDTH).
 bool Gaps::isOpen(int first, int last, int step) const
 {
     const int count = (last - first) / step;
@@ -202,13 +202,13 @@ bool Gaps::isOpen(int first, int last, int step) const
         return false;
     const Point here = view_.pointAt(first);
     const Vector way = view_.pointAt(last) - here;
-    // The nearer of the two may hide what the gap is in, which is then as far away as the other.
+    // The nearer pixel may belong to something in front of the surface, which is then as far away as the farther pixel.
     const int farther = zbuffer_[first] < zbuffer_[last] ? last : first;
     return isOff(here + Vector{shiftDown(way.x, 1), shiftDown(way.y, 1), shiftDown(way.z, 1)}) &&
            isOff(view_.pointAt(first + count / 2 * step, zbuffer_[farther]));
 }
 
-// Whether a point lies well outside of every body.
+// Whether a point is well outside of every body: even the steepest field could not reach the isovalue within a unit.
 bool Gaps::isOff(const Point& p) const
 {
     int strongest;
@@ -216,8 +216,8 @@ bool Gaps::isOff(const Point& p) const
     return strongest < 0 || field < ISOVALUE - STEEP / model_->actor(strongest).object->size();
 }
 
-// Whose the drawn pixels on both sides of a gap are. None are named where their colour is the same, where their fields do not
-// meet, or without a model.
+// The objects that the drawn pixels on both sides of a gap belong to. Returns NO_ENDS where both have the same colour, where the
+// fields of the two objects do not meet, or without a model or a palette.
 Gaps::Ends Gaps::endsOf(int first, int last) const
 {
     if (model_ == nullptr || palette_ == nullptr || frame_[first] == frame_[last])
@@ -228,12 +228,12 @@ Gaps::Ends Gaps::endsOf(int first, int last) const
     return ends;
 }
 
-// Between two drawn pixels, `step` the way from each to the next: the first that is the last one's.
+// Finds, by bisection with both objects' fields, the first pixel between two drawn ones that belongs to the last one's object.
 int Gaps::divide(const Ends& ends, int first, int last, int step) const
 {
     const SoftObject &one = *model_->actor(ends.first).object, &other = *model_->actor(ends.last).object;
     Point here = view_.pointAt(first), there = view_.pointAt(last);
-    // The surface between them is taken for flat.
+    // The surface between the two pixels is assumed to be flat.
     while (last - first > DIVIDED * step) {
         const int at = first + (last - first) / step / 2 * step;
         const Vector way = there - here;
@@ -249,8 +249,8 @@ int Gaps::divide(const Ends& ends, int first, int last, int step) const
     return last;
 }
 
-// Empty pixels between two drawn ones, `step` the way from each to the next, take over what the nearer one has. Where the two
-// are of two objects, each gets the colour of the one that is the stronger there, and is as bright as lies between them.
+// Fills the empty pixels between two drawn ones with the depth and the colour of whichever is closer on the screen. Between two
+// objects each pixel gets the ramp of the object whose field is the stronger there, and an interpolated brightness.
 void Gaps::fill(const Ends& ends, int first, int last, int step)
 {
     const int count = (last - first) / step;
@@ -277,7 +277,7 @@ void Gaps::fill(const Ends& ends, int first, int last, int step)
     }
 }
 
-// From column x in steps until `end`: closes a slit column by column, with what lies below in it.
+// Closes a slit column by column, from column x in steps of +-1 to before `end`, between the drawn pixels above and below.
 void Gaps::closeSlit(int y, int x, int end, int step)
 {
     for (; x != end && inSlit(frame_ + y * WIDTH + x); x += step) {

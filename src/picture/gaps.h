@@ -1,4 +1,4 @@
-// Gaps between scales, when all objects of a frame are drawn (View::closeGaps()).
+// Gaps: finds the gaps between scales when all objects of a frame are drawn, and fills them (View::closeGaps()).
 #ifndef FB_GAPS_H
 #define FB_GAPS_H
 
@@ -13,11 +13,11 @@ public:
     {
     }
 
-    // Closes them, where seeds lie `spacing` units apart. Returns how many pixels were drawn before.
+    // Closes the gaps of seeds that lie `spacing` units apart. Returns the number of pixels that were drawn before.
     int close(Real spacing);
 
 private:
-    // Numbers of objects; both -1: none are named.
+    // The objects that the drawn pixels on both sides of a gap belong to; both are -1 where that does not matter.
     struct Ends {
         int first, last;
     };

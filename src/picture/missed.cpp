@@ -1,4 +1,4 @@
-// Drawing what was missed: one ray for each pixel, from where the surface beside it is.
+// Drawing parts of the surface that were missed: one ray for each pixel, searched from the depth of a drawn pixel beside it.
 #include "missed.h"
 
 #include "math/normal.h"
@@ -10,16 +10,16 @@ using machine::WIDTH;
 
 namespace {
 
-// Looks at fields in a frame, at most.
+// No pixel is begun after this many evaluations of the field in a frame.
 constexpr int LOOKS_MOST = 3500;
-// Depths, 1/128 unit: the first step along the ray; where two drawn pixels are farther apart, both are tried.
+// Depths, 1/128 unit: the first step along the ray; and the difference of two drawn pixels from which on both depths are tried.
 constexpr int STEP = 128, APART = 128;
-// How often the ray is followed to where the field rises, each time no more than FARTHEST times as far; and how far it may lead
-// through what is there, steps.
+// Upper bounds: of the steps along the ray towards a stronger field; of the ratio of each step to the one before; and of the
+// steps back through the object towards the eye.
 constexpr int STEPS = 3, FARTHEST = 4, THICKEST = 12;
-// Of the field: where it is so far below the isovalue there is no surface near.
+// No surface is near a point where the field is this much below the isovalue.
 constexpr Real NEAR(0.2);
-// Of the field, times the size of the object: by how much it exceeds the isovalue at the edge of what is seen.
+// A ray grazes the surface where the field, times the size of its object, exceeds the isovalue by less than this.
 constexpr Real RIM(0.25);
 
 }  // namespace
@@ -39,7 +39,7 @@ void Missed::draw()
     }
 }
 
-// How many pixels from one on are drawn, `step` the way from each to the next, and those empty that lie `aside` of them.
+// Returns how many pixels from `at` on, in steps of `step`, are drawn with an empty pixel beside them (`at + aside`); LONG at most.
 int Missed::sideFrom(int at, int step, int aside) const
 {
     const auto onScreen = [](int pixel) { return pixel >= 0 && pixel < WIDTH * HEIGHT; };
@@ -51,8 +51,8 @@ int Missed::sideFrom(int at, int step, int aside) const
     return count;
 }
 
-// Takes up a pixel that has been noted: in a short corner of drawn ones it takes over what lies beside it. True: the corner is so
-// long that the model is to be asked.
+// Looks at a noted pixel. In a short corner it gets the colour and the depth of the pixel beside it. Returns true when the corner
+// is so long that the surface has to be searched for.
 bool Missed::takeCorner(int column, int row)
 {
     const int at = row * WIDTH + column;
@@ -72,20 +72,21 @@ bool Missed::takeCorner(int column, int row)
     return false;
 }
 
-// By how much the field at a pixel exceeds the isovalue, were the surface so far away.
+// Returns by how much the field exceeds the isovalue at the point that a pixel shows at this depth.
 Real Missed::excess(int at, int depth)
 {
     ++looks_;
     return model_->implicitAt(view_.pointAt(at, depth), &strongest_) - ISOVALUE;
 }
 
-// From a depth near which the surface may be: becomes where the ray meets it. False: it does not.
+// Finds where the ray through a pixel enters the surface. *depth is a first guess and becomes the result. Returns false when the
+// ray misses the surface.
 bool Missed::findDepth(int at, int* depth)
 {
     int inside = *depth;
     Real here = excess(at, inside);
     onEdge_ = here < Real(0);
-    // Along the ray to where the field rises, as far as it takes if it goes on rising as it does.
+    // Looks for a point inside, in the direction in which the field rises, with steps of the secant method.
     for (int i = 0, step = STEP; here <= Real(0); ++i) {
         if (i == STEPS || here < -NEAR || inside + step <= 0 || inside + step >= Z_EMPTY)
             return false;
@@ -99,7 +100,7 @@ bool Missed::findDepth(int at, int* depth)
         here = rises ? there : here;
         step = (step > 0) == rises ? on : -on;
     }
-    // And from there to the side where the eye is.
+    // From there looks for a point outside, towards the eye, and interpolates between the last two points.
     int outside = inside;
     Real within = here;
     for (int i = 0; here > Real(0); ++i) {
@@ -114,8 +115,8 @@ bool Missed::findDepth(int at, int* depth)
     return true;
 }
 
-// From the depths of the drawn pixels beside one, in its row and in its column: how far away the surface is, and from which of
-// these it was found. False: there is none.
+// Finds the depth of the surface at a pixel, with the depth of a drawn pixel beside it, in its row or its column, as a first
+// guess. *beside becomes the number of that pixel. Returns false when there is no surface.
 bool Missed::findSurface(int at, int* depth, int* beside)
 {
     const int inRow = frame_[at - 1] != 0 ? at - 1 : at + 1, inColumn = frame_[at - WIDTH] != 0 ? at - WIDTH : at + WIDTH;
@@ -129,7 +130,7 @@ bool Missed::findSurface(int at, int* depth, int* beside)
     return findDepth(at, depth);
 }
 
-// A pixel beside a drawn one: it is drawn if there is surface, and those beside it are noted.
+// Draws an empty pixel beside a drawn one if there is surface, and notes the empty pixels beside it.
 void Missed::drawPixel(int column, int row)
 {
     const int at = row * WIDTH + column;
@@ -139,7 +140,7 @@ void Missed::drawPixel(int column, int row)
     if (!findSurface(at, &depth, &beside))
         return;
     setColour(at, depth, beside);
-    // At the edge of what there is no more is looked for.
+    // Where the ray only grazes the surface this is its outline: there is nothing beyond.
     for (int away = -1; away <= 1 && !onEdge_; away += 2) {
         if (frame_[at + away] == 0)
             note(column + away, row);
@@ -148,8 +149,8 @@ void Missed::drawPixel(int column, int row)
     }
 }
 
-// A pixel gets the colour of its own object and the brightness that the surface has there; the colour of one beside it where there
-// is more to it than that.
+// Gives a pixel the ramp of its object, with the brightness from the surface normal there. If the object is painted, the pixel
+// gets the colour of the pixel `beside` instead.
 void Missed::setColour(int at, int depth, int beside)
 {
     const Point p = view_.pointAt(at, depth);

@@ -1,5 +1,5 @@
-// Surface that nothing was drawn of, when gaps are closed (gaps.h): in an inner corner of what is drawn the model is asked whether
-// there is any, and from there on it is followed pixel by pixel.
+// Missed: finds parts of the surface that no scale has drawn, when gaps are closed (gaps.h). At each inner corner of the drawn
+// pixels a ray is intersected with the model's surface; where it hits, the surface is followed from pixel to pixel.
 #ifndef FB_MISSED_H
 #define FB_MISSED_H
 
@@ -7,17 +7,18 @@
 
 class Missed {
 public:
-    // So long are both sides of a corner that is none of a round outline. Where they are longer, both or one of them, there may be
-    // more than a pixel of it.
+    // Lengths of the two sides of a corner, pixels. A corner with both sides of at least SIDE is not part of a round outline and
+    // is filled. With both sides of LONG_BOTH or one side of LONG, more than a pixel of surface may be missing there.
     static constexpr int SIDE = 2, LONG_BOTH = 4, LONG = 8;
 
-    // The model may be null: only short corners are closed.
+    // The model may be null; then only short corners are closed.
     Missed(View& view, const Model* model) : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model)
     {
     }
 
-    // Whether an empty pixel may be in a corner of drawn ones: of the one beside it, against the way `outwards`, and those above
-    // that or below, and of as many in the row below or above.
+    // A quick test for whether an empty pixel may be in a corner of drawn ones. The pixel beside it, against the direction
+    // `outwards` (-1 or 1), is drawn. One side of the corner goes up (or down) from there, the other goes outwards in the row
+    // below (or above); the test looks at the last pixel, number SIDE, of both.
     static bool mayBeInCorner(const uint8_t* pixel, int outwards)
     {
         constexpr int DOWN = machine::WIDTH, UP = -DOWN, END = SIDE - 1;
@@ -25,14 +26,14 @@ public:
                (pixel[UP + END * outwards] != 0 && pixel[DOWN * END - outwards] != 0);
     }
 
-    // Notes a pixel that may be so when all gaps are closed; it may lie beside the screen. Of too many the last are left out.
+    // Notes a pixel, possibly off the screen, that draw() is to look at. Does nothing when NOTED_MOST are noted already.
     void note(int column, int row)
     {
         if (count_ < NOTED_MOST)
             noted_[count_++] = {static_cast<int16_t>(column), static_cast<int16_t>(row)};
     }
 
-    // Draws what there is at those noted, and beside them.
+    // Draws the surface at the noted pixels, and follows it to the pixels beside them.
     void draw();
 
 private:
@@ -54,9 +55,9 @@ private:
         int16_t column, row;
     } noted_[NOTED_MOST];
     int count_ = 0;
-    int looks_ = 0;  // at fields, so far
-    int strongest_ = -1;  // object at the last of them
-    bool onEdge_ = false;  // the ray that was followed last only just meets the surface
+    int looks_ = 0;        // evaluations of the field so far
+    int strongest_ = -1;   // the object with the strongest field at the last evaluation; -1: none
+    bool onEdge_ = false;  // the last ray only grazes the surface
 };
 
 #endif

@@ -1,20 +1,21 @@
-// Ramps of brightness.
+// Palette: makes the ramps of brightness. Where they need more palette entries than there are, similar colours are merged: the set
+// of all wanted colours is divided again and again in the subset of greatest error (like median cut, but at the mean).
 #include "picture/palette.h"
 
 #include "rt.h"
 
 namespace {
 
-// Brightness that the grey ramp never undercuts, of 64 steps: what no light reaches still stands out from the background.
+// Lower bound of the grey ramp's brightness, of 64 steps: unlit surface still differs from the background.
 constexpr int DARKEST = 2;
 
-// As the DAC takes them: of Palette::INK, and of what nothing is drawn on.
+// DAC values of Palette::INK and of the background.
 constexpr uint8_t INK_COLOUR[3] = {63, 63, 56};
 constexpr uint8_t BACKGROUND_COLOUR[3] = {1, 1, 6};
 
-// A colour at one step, as the DAC takes it, each part rounded once. A highlight goes towards white at a right angle to the
-// colour: what it has of the colour itself stays the light's share, so that a dump's `ramp` line holds for it too. What
-// shines turns into white itself.
+// Computes the DAC values of a colour at one step of brightness; each component is rounded once. A highlight adds only the part of
+// white that is perpendicular to the colour (as vectors of red, green and blue). The component along the colour stays
+// proportional to the light, so that the `ramp` line of a dump holds for highlights too. A shining colour turns into pure white.
 void shade(const Colour& colour, bool shines, int step, uint8_t* to)
 {
     constexpr int WHOLE = 255 * 63;
@@ -22,7 +23,7 @@ void shade(const Colour& colour, bool shines, int step, uint8_t* to)
     const int sum = parts[0] + parts[1] + parts[2];
     const int square = parts[0] * parts[0] + parts[1] * parts[1] + parts[2] * parts[2];
     for (int p = 0; p < 3; ++p) {
-        // The part times the light, of 63 and of WHOLE.
+        // The component times the light; full scale is 63 WHOLE.
         int value = parts[p] * (63 * Palette::AMBIENT + step * (63 - Palette::AMBIENT));
         if (shines && step > Palette::GLOSS) {
             value += (63 * WHOLE - value) / (63 - Palette::GLOSS) * (step - Palette::GLOSS);
@@ -35,22 +36,21 @@ void shade(const Colour& colour, bool shines, int step, uint8_t* to)
     }
 }
 
-// What a ramp would have from `step` on, for `steps` steps that the DAC cannot tell apart, and how much that counts.
+// A palette entry that a ramp would like to have: for `steps` steps of brightness, from `step` on, that have equal DAC values.
 struct Wish {
-    uint8_t part[3];
-    uint8_t colour;
+    uint8_t part[3];  // red, green, blue as DAC values
+    uint8_t colour;   // number of the ramp
     uint8_t step, steps;
-    uint8_t weight;  // of each step
+    uint8_t weight;   // of each step
 };
 
-// Wishes that one entry fulfils: those from `from` to before `to`. `error` is what it costs: the squared distances from
-// their mean, each counted by its weight.
+// The wishes `from` to before `to`, which share one palette entry: their mean.
 struct Box {
     int from, to;
-    uint32_t weight;
-    uint32_t sum[3];
-    int widest;  // the part that varies most
-    uint32_t error;
+    uint32_t weight;  // sum of weights
+    uint32_t sum[3];  // weighted sum of each component
+    int widest;       // the component that varies most
+    uint32_t error;   // weighted sum of the squared distances from the mean
 };
 
 Box measured(const Wish* wishes, int from, int to)
@@ -79,8 +79,8 @@ Box measured(const Wish* wishes, int from, int to)
     return box;
 }
 
-// Divides a box in two where its widest part passes the mean; returns where the second begins. Both have wishes, if any
-// two of the box differ.
+// Sorts the wishes of a box into those not above the mean of its widest component and those above; returns where the latter begin.
+// Neither half is empty unless all wishes are equal.
 int divide(Wish* wishes, const Box& box)
 {
     int from = box.from, to = box.to;
@@ -96,7 +96,7 @@ int divide(Wish* wishes, const Box& box)
     return from;
 }
 
-// Divides all wishes into boxes, at most so many, always that one which costs most. Returns how many there are.
+// Divides all wishes into `most` boxes at most; always divides the box with the greatest error. Returns the number of boxes.
 int divideAll(Wish* wishes, int wished, Box* boxes, int most)
 {
     int used = 1;
@@ -116,7 +116,7 @@ int divideAll(Wish* wishes, int wished, Box* boxes, int most)
     return used;
 }
 
-// What the ramp of a colour wishes for; returns how many wishes that are.
+// Writes the wishes of one colour's ramp; returns their number.
 int wishesOf(const Colour& colour, bool shines, int number, int weight, Wish* wishes)
 {
     int wished = 0;
@@ -137,7 +137,7 @@ int wishesOf(const Colour& colour, bool shines, int number, int weight, Wish* wi
     return wished;
 }
 
-// The different colours of the objects, and which one each object has; returns how many there are.
+// Collects the distinct colours of the objects, and the number of each object's colour. Returns how many colours there are.
 int coloursOf(const Model& model, Colour* colours, int* colourOf)
 {
     int count = 0;
@@ -152,7 +152,7 @@ int coloursOf(const Model& model, Colour* colours, int* colourOf)
     return count;
 }
 
-// Repeats the ends of a ramp; returns it.
+// Repeats both ends of a ramp SHADING_MOST times; returns the ramp.
 const uint8_t* lengthen(uint8_t* ramp)
 {
     for (int i = 1; i <= SHADING_MOST; ++i) {
@@ -170,7 +170,7 @@ void Palette::make(Model& model, bool grey, bool plain)
     for (int i = 0; i < model.count(); ++i)
         model.actor(i).object->setPaint(nullptr);
     const bool painted = !plain && paints_.choose(model, paint_);
-    // Seeds keep the numbers of their mixtures.
+    // Seeds store the numbers of their mixed colours, which may have changed.
     if (painted && model.mixed)
         model.settleAnew();
     memcpy(dac_ + 3 * INK, INK_COLOUR, sizeof INK_COLOUR);
@@ -180,7 +180,7 @@ void Palette::make(Model& model, bool grey, bool plain)
         makeColours(model, painted);
 }
 
-// One ramp for all. Of paint, a finish alone shows.
+// Makes one grey ramp for all objects. Of their paint only the finish is kept.
 void Palette::makeGrey(Model& model, bool painted)
 {
     for (int i = 0; i < STEPS; ++i) {
@@ -202,7 +202,7 @@ void Palette::makeGrey(Model& model, bool painted)
     }
 }
 
-// A ramp for each colour: those that the paints have chosen, or those of the objects.
+// Makes a ramp for each colour that the paints have chosen or, without paint, that the objects have.
 void Palette::makeColours(Model& model, bool painted)
 {
     memcpy(dac_, BACKGROUND_COLOUR, sizeof BACKGROUND_COLOUR);
@@ -245,7 +245,7 @@ void Palette::handRamps(Paint& paint) const
     paint.ramp = paint.ramps + paint.number * RAMP;
 }
 
-// Each ramp has as many entries of its own.
+// Gives each ramp the same number of palette entries of its own.
 void Palette::shareEvenly(const Colour* colours, const bool* shines, int count)
 {
     const int steps = ENTRIES / count < STEPS ? ENTRIES / count : STEPS;
@@ -259,7 +259,7 @@ void Palette::shareEvenly(const Colour* colours, const bool* shines, int count)
     }
 }
 
-// Divides what all ramps wish for into as many boxes as there are entries.
+// Divides the wishes of all ramps into as many boxes as there are palette entries.
 void Palette::share(const Colour* colours, const bool* shines, int count, const Paints* weights)
 {
     static Wish wishes[RAMPS_MOST * STEPS];
@@ -279,7 +279,8 @@ void Palette::share(const Colour* colours, const bool* shines, int count, const 
         neverDarken(ramps_[c] + SHADING_MOST);
 }
 
-// What is shared may come out a little darker than the step before; a ramp never does.
+// A shared entry may be a little darker than the entry of the step before. Such steps repeat that entry, so that no ramp gets
+// darker towards the light.
 void Palette::neverDarken(uint8_t* ramp) const
 {
     const auto light = [&](int step) {

@@ -1,4 +1,4 @@
-// From voxels to pixels in C++: what asm/scales.S does, said plainly.
+// From voxels to pixels in C++, the readable reference for asm/scales.S.
 #include "picture/scales.h"
 
 #include "math/whole.h"
@@ -8,22 +8,24 @@ using machine::WIDTH;
 
 namespace {
 
-// The pixels of a scale along one axis whose centres lie in its rectangle, from `from` to before `to`.
+// The pixels along one axis, `from` to before `to`, whose centres lie in a scale's rectangle. The loop leaves a TOO_LARGE scale to
+// its caller.
 struct Extent {
-    enum Kind { DRAWN, EMPTY, LEFT } kind;  // left to the view: it is too large
+    enum Kind { DRAWN, EMPTY, TOO_LARGE } kind;
     int from, to;
 
     int length() const { return to - from; }
 };
 
-// `middle` and `half`: of the rectangle, pixels with 12 bits of fraction. `least` and `most` grow to hold it.
+// Clips a rectangle with this centre and half extent (pixels, 12 fraction bits) to the screen along one axis. The range *least to
+// before *most grows to contain it.
 inline Extent extentOf(int32_t middle, int32_t half, int screen, int32_t* least, int32_t* most)
 {
     int from = (middle - half) >> 12, to = (middle + half) >> 12;
     if (from < *least) {
         if (from < 0) {
             if (to - from > LARGEST)
-                return {Extent::LEFT, from, to};
+                return {Extent::TOO_LARGE, from, to};
             from = 0;
         }
         *least = from;
@@ -31,16 +33,17 @@ inline Extent extentOf(int32_t middle, int32_t half, int screen, int32_t* least,
     if (to > *most) {
         if (to > screen) {
             if (to - from > LARGEST)
-                return {Extent::LEFT, from, to};
+                return {Extent::TOO_LARGE, from, to};
             to = screen;
         }
         *most = to;
     }
     const int length = to - from;
-    return {length <= 0 ? Extent::EMPTY : length > LARGEST ? Extent::LEFT : Extent::DRAWN, from, to};
+    return {length <= 0 ? Extent::EMPTY : length > LARGEST ? Extent::TOO_LARGE : Extent::DRAWN, from, to};
 }
 
-// Brightness and end of a scale that has them change across it; it has its place and its depths.
+// Sets all of a FineScale but its rectangle and its depths: brightness, greatest depth and cut function. (toColumn, toRow) leads
+// from the middle of the scale to the centre of its first pixel, 12 fraction bits.
 inline void addShading(const Lens& lens, const Voxel& v, const Factors& f, int32_t depth, int32_t toColumn, int32_t toRow,
                        FineScale* scale)
 {
@@ -48,15 +51,14 @@ inline void addShading(const Lens& lens, const Voxel& v, const Factors& f, int32
     scale->zMost = endOf(v, depth >> 1);
     scale->ramp = lens.ramp;
     const int32_t shadeAcross = shadeStep(v.slopeX, f.zx), shadeDown = -shadeStep(v.slopeY, f.zy);
-    const int32_t toFirst = wrappedSum(wrappedProduct(shadeAcross, toColumn), wrappedProduct(shadeDown, toRow));
-    scale->shade = v.brightness * 256 + 128 + (toFirst >> 12);
-    scale->shadeStep = shadeAcross;
-    scale->shadeRow = wrappedSum(shadeDown, -wrappedProduct(shadeAcross, width));
-    const auto way = [&](int32_t across, int32_t down) {
+    const auto toFirst = [&](int32_t across, int32_t down) {
         return wrappedSum(wrappedProduct(across, toColumn), wrappedProduct(down, toRow)) >> 12;
     };
+    scale->shade = v.brightness * 256 + 128 + toFirst(shadeAcross, shadeDown);
+    scale->shadeStep = shadeAcross;
+    scale->shadeRow = wrappedSum(shadeDown, -wrappedProduct(shadeAcross, width));
     if (isCut(v))
-        setCut(v, f.zx, f.zy, way, scale);
+        setCut(v, f.zx, f.zy, toFirst, scale);
     else
         setUncut(scale);
 }
@@ -75,19 +77,20 @@ const Voxel* drawScalesC(Lens* lens, const Voxel* voxels, const Voxel* end)
         const Factors& f = *factors;
         const int32_t column = lens->centreX + (wrappedProduct(wrappedSum(lens->x, v.x), f.x) >> 8);
         const Extent columns = extentOf(column, v.halfWidth * f.x >> 8, WIDTH, &lens->left, &lens->right);
-        if (columns.kind == Extent::LEFT)
+        if (columns.kind == Extent::TOO_LARGE)
             break;
         const int32_t row = lens->centreY - (wrappedProduct(wrappedSum(lens->y, v.y), f.y) >> 8);
         Extent rows{Extent::EMPTY, 0, 0};
         if (columns.kind == Extent::DRAWN)
             rows = extentOf(row, v.halfHeight * f.y >> 8, HEIGHT, &lens->top, &lens->bottom);
-        if (rows.kind == Extent::LEFT)
+        if (rows.kind == Extent::TOO_LARGE)
             break;
         if (rows.kind == Extent::EMPTY) {
             ++lens->empty;
             continue;
         }
-        // The plane of the surface: from the scale's middle to the middle of its first pixel, and on from there.
+        // The scale lies in the tangent plane of the surface. The depth at its middle is known; from there it is extrapolated to
+        // the centre of the first pixel.
         const int32_t across = limited(wrappedProduct(v.tiltX, f.zx) >> 16, STEEPEST);
         const int32_t down = -limited(wrappedProduct(v.tiltY, f.zy) >> 16, STEEPEST);
         const int32_t toColumn = ((columns.from + 1) << 12) - column, toRow = ((rows.from + 1) << 12) - row;

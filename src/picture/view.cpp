@@ -1,4 +1,4 @@
-// Perspective, and the way from voxels to pixels.
+// View: the perspective projection of voxels to scales, and the bookkeeping of which pixels a frame touches.
 #include "picture/view.h"
 
 #include "gaps.h"
@@ -13,9 +13,9 @@ namespace {
 constexpr int FRACTION = 12;
 constexpr int32_t HALF = 1 << (FRACTION - 1);
 constexpr int32_t NEAREST = 1 << 8;            // 1 unit
-// What hides is asked for at every third pixel of every third row: what may show between them is narrower than a scale.
+constexpr int32_t FARTHEST = 511 << 8;         // 16-bit depths of 1/128 unit end at 512 units
+// hides() looks at every third pixel of every third row: an object that shows only between them is narrower than a scale.
 constexpr int HIDING_STEP = 3;
-constexpr int32_t FARTHEST = 511 << 8;         // z in 1/128 unit ends at 512
 
 }  // namespace
 
@@ -67,7 +67,7 @@ void View::makeLens()
     lens_.centreX = centreX_ + HALF;
     lens_.centreY = centreY_ + HALF;
     for (int i = 0; i < LENS_STEPS; ++i) {
-        // The middle of the step, or of that of 1/8 unit.
+        // The middle of the step of 1/16 unit or, for the printed method, of 1/8 unit.
         constexpr int HALVES = 2 * LENS_FINENESS;
         const int32_t z = HALVES * LENS_NEAR + (printed_ ? 2 * (i | 1) : 2 * i + 1);
         Factors& f = factors_[i];
@@ -101,18 +101,18 @@ void View::mark(int left, int top, int right, int bottom)
     }
 }
 
-void View::touchPixel(int at)
+void View::touchPixel(int pixel)
 {
-    const int row = at / WIDTH, column = at - row * WIDTH;
+    const int row = pixel / WIDTH, column = pixel - row * WIDTH;
     if (column < touched_[row].from || column >= touched_[row].to)
         mark(column, row, column + 1, row + 1);
 }
 
-// All that a square round the ball covers is nearer than the nearest of the ball.
+// A ball is hidden if all pixels tested in the square around its projection are nearer than its nearest point.
 bool View::hides(const int32_t place[3], int32_t radius) const
 {
     const int32_t z = place[2], nearest = (z - radius) >> 1;
-    // Too near for the table of factors, or far beside the view.
+    // The ball is too near for the table of factors, or far beside the view.
     if (nearest < LENS_NEAR * 128 || magnitude(place[0]) > 2 * z || magnitude(place[1]) > 2 * z)
         return false;
     Factors unused;
@@ -129,7 +129,7 @@ bool View::hides(const int32_t place[3], int32_t radius) const
     right = min32(right, WIDTH - 1);
     top = max32(top, 0);
     bottom = min32(bottom, HEIGHT - 1);
-    // Most of what is seen is so in the middle.
+    // The middle is tested first because most balls that are visible at all are visible there.
     const auto before = static_cast<uint16_t>(nearest);
     const auto seen = [&](int x, int y) { return zbuffer_[y * WIDTH + x] > before; };
     if (seen((left + right) >> 1, (top + bottom) >> 1))
@@ -141,31 +141,31 @@ bool View::hides(const int32_t place[3], int32_t radius) const
     return true;
 }
 
-// Where the rectangle of a voxel falls on the screen. False: nowhere near it.
-bool View::place(const Voxel& voxel, Placed* at) const
+// Projects the rectangle of a voxel. Returns false when it is too near, too far or far off the screen.
+bool View::place(const Voxel& voxel, Placed* placed) const
 {
     const int32_t x = wrappedSum(lens_.x, voxel.x), y = wrappedSum(lens_.y, voxel.y), z = wrappedSum(lens_.z, voxel.z);
     if (z < NEAREST || z > FARTHEST)
         return false;
-    // Off the screen by far? Then the quotients below might not fit.
+    // The quotients of a voxel far off the screen might overflow below.
     const int32_t side = z * 16;
     if (x > side || x < -side || y > side || y < -side)
         return false;
-    *at = {z, mulDiv(x, focalX_, z) + centreX_, centreY_ - mulDiv(y, focalY_, z), HALF - 1, HALF - 1};
+    *placed = {z, mulDiv(x, focalX_, z) + centreX_, centreY_ - mulDiv(y, focalY_, z), HALF - 1, HALF - 1};
     if (!pixels_) {
-        at->halfWide = mulDiv(voxel.halfWidth, focalX_, z);
-        at->halfHigh = mulDiv(voxel.halfHeight, focalY_, z);
+        placed->halfWide = mulDiv(voxel.halfWidth, focalX_, z);
+        placed->halfHigh = mulDiv(voxel.halfHeight, focalY_, z);
     }
     return true;
 }
 
-// The pixels of the screen whose centres lie in the rectangle. False: there are none.
-bool View::clip(const Placed& at, FineScale* scale)
+// Sets the rectangle of the pixels on the screen whose centres lie in a projected scale. Returns false when there are none.
+bool View::clip(const Placed& placed, FineScale* scale)
 {
-    int left = (at.column - at.halfWide + HALF) >> FRACTION;
-    int right = (at.column + at.halfWide + HALF) >> FRACTION;
-    int top = (at.row - at.halfHigh + HALF) >> FRACTION;
-    int bottom = (at.row + at.halfHigh + HALF) >> FRACTION;
+    int left = (placed.column - placed.halfWide + HALF) >> FRACTION;
+    int right = (placed.column + placed.halfWide + HALF) >> FRACTION;
+    int top = (placed.row - placed.halfHigh + HALF) >> FRACTION;
+    int bottom = (placed.row + placed.halfHigh + HALF) >> FRACTION;
     left = left < 0 ? 0 : left;
     right = right > WIDTH ? WIDTH : right;
     top = top < 0 ? 0 : top;
@@ -177,40 +177,41 @@ bool View::clip(const Placed& at, FineScale* scale)
     return left < right && top < bottom;
 }
 
-// The plane of the surface: by how much the depth changes from column to column and from row to row, tilt (z / focal).
-void View::tilt(const Voxel& voxel, const Placed& at, int32_t* across, int32_t* down) const
+// Finds by how much the depth of the tangent plane changes from column to column and from row to row: tilt (z / focal).
+void View::tilt(const Voxel& voxel, const Placed& placed, int32_t* across, int32_t* down) const
 {
     const auto swing = [](int32_t step, int32_t half, int32_t screen) {
         return magnitude(step) * min32((half >> FRACTION) + 2, screen);
     };
-    *across = limited(mulDiv(voxel.tiltX, at.z << 3, focalX_), STEEPEST);
-    *down = limited(-mulDiv(voxel.tiltY, at.z << 3, focalY_), STEEPEST);
-    // Might the depth leave 16 bits at a corner? Then the scale faces the viewer.
-    const int32_t depth = at.z >> 1, most = swing(*across, at.halfWide, WIDTH) + swing(*down, at.halfHigh, HEIGHT);
+    *across = limited(mulDiv(voxel.tiltX, placed.z << 3, focalX_), STEEPEST);
+    *down = limited(-mulDiv(voxel.tiltY, placed.z << 3, focalY_), STEEPEST);
+    // If the depth might overflow 16 bits at a corner, the scale faces the viewer instead.
+    const int32_t depth = placed.z >> 1, most = swing(*across, placed.halfWide, WIDTH) + swing(*down, placed.halfHigh, HEIGHT);
     if (depth - most < 0 || depth + most >= Z_EMPTY)
         *across = *down = 0;
 }
 
-// A voxel that drawScales() left: any size and place. False: not on the screen.
+// Makes a scale of a voxel that drawScales() has not drawn; the voxel may have any size and position. Returns false when it covers
+// no pixel of the screen.
 bool View::project(const Voxel& voxel, FineScale* scale) const
 {
-    Placed at;
-    if (!place(voxel, &at) || !clip(at, scale))
+    Placed placed;
+    if (!place(voxel, &placed) || !clip(placed, scale))
         return false;
-    // Depth, brightness and cut change evenly. From what one is in the scale's centre to what it is in that of the first pixel:
-    const int64_t toColumn = (scale->left << FRACTION) + HALF - at.column, toRow = (scale->top << FRACTION) + HALF - at.row;
+    // Extrapolates a quantity that changes evenly from the middle of the scale to the centre of the first pixel.
+    const int64_t toColumn = (scale->left << FRACTION) + HALF - placed.column, toRow = (scale->top << FRACTION) + HALF - placed.row;
     const auto first = [&](int32_t centre, int32_t across, int32_t down) {
         return centre + static_cast<int32_t>((across * toColumn + down * toRow) >> FRACTION);
     };
-    const int32_t depth = at.z >> 1, width = scale->width;
+    const int32_t depth = placed.z >> 1, width = scale->width;
     int32_t across, down;
-    tilt(voxel, at, &across, &down);
+    tilt(voxel, placed, &across, &down);
     scale->z = first(depth, across, down);
     scale->zStep = across;
     scale->zRow = down - across * width;
     scale->zMost = endOf(voxel, depth);
 
-    const int32_t pixelX = mulDiv(at.z, 1 << 19, focalX_), pixelY = mulDiv(at.z, 1 << 19, focalY_);
+    const int32_t pixelX = mulDiv(placed.z, 1 << 19, focalX_), pixelY = mulDiv(placed.z, 1 << 19, focalY_);
     const int32_t shadeAcross = shadeStep(voxel.slopeX, pixelX), shadeDown = -shadeStep(voxel.slopeY, pixelY);
     scale->colour = lens_.ramp[voxel.brightness];
     scale->ramp = lens_.ramp;
@@ -224,8 +225,8 @@ bool View::project(const Voxel& voxel, FineScale* scale) const
     return true;
 }
 
-// Whether a voxel is small, neither near nor far, and wholly on the screen: these alone are projected by the loop's table where the
-// methods are the printed ones.
+// Whether a voxel is small, at a medium distance, and wholly on the screen. With the printed method only such voxels are projected
+// with the loop's table.
 bool View::ordinary(const Voxel& voxel) const
 {
     constexpr int FAR = 256, WIDEST = 16, LARGEST_SUM = 24;
@@ -246,8 +247,8 @@ bool View::ordinary(const Voxel& voxel) const
            bottom <= HEIGHT;
 }
 
-// Finds out what the loop of scales need not ask for each voxel of a list. False: the list is not for it, because products of
-// places and factors might leave 32 bits.
+// Makes the tests that hold for a whole list, so that the loop of scales need not make them for each voxel. Returns false when the
+// loop cannot draw the list because products of positions and factors might overflow 32 bits.
 bool View::prepareLoop(const VoxelList& list)
 {
     const int32_t nearest = wrappedSum(list.z, -list.reach), farthest = wrappedSum(list.z, list.reach);
@@ -270,22 +271,22 @@ int View::show(const VoxelList& list)
     lens_.empty = 0;
     const bool loop = prepareLoop(list) && !pixels_;
     const Voxel* from = list.voxels;
-    int left = 0;
+    int undrawn = 0;
     if (list.runs == 0)
-        left = showRun(list.ramp, from, from + list.count, loop);
+        undrawn = showRun(list.ramp, from, from + list.count, loop);
     for (const RampRun* run = list.run; run < list.run + list.runs; ++run) {
         const Voxel* const to = list.voxels + run->end;
-        left += showRun(run->ramp, from, to, loop);
+        undrawn += showRun(run->ramp, from, to, loop);
         from = to;
     }
     mark(lens_.left, lens_.top, lens_.right, lens_.bottom);
-    return list.count - left - lens_.empty;
+    return list.count - undrawn - lens_.empty;
 }
 
-// Draws voxels of one ramp; `loop`: the loop of scales may be used. Returns how many lie off the screen.
+// Draws voxels that have one ramp. `loop` says that the loop of scales may be used. Returns how many voxels project() has rejected.
 int View::showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool loop)
 {
-    int left = 0;
+    int undrawn = 0;
     lens_.ramp = ramp;
     for (const Voxel* at = from; at < to; ++at) {
         if (printed_) {
@@ -299,7 +300,7 @@ int View::showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool 
         const Voxel& voxel = *at;
         FineScale scale;
         if (!project(voxel, &scale)) {
-            ++left;
+            ++undrawn;
         } else {
             if (isFine(voxel))
                 blitFine(frame_, zbuffer_, scale);
@@ -308,7 +309,7 @@ int View::showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool 
             mark(scale.left, scale.top, scale.left + scale.width, scale.top + scale.height);
         }
     }
-    return left;
+    return undrawn;
 }
 
 int View::closeGaps(Real spacing, const Model* model, const Palette* palette)
@@ -316,9 +317,9 @@ int View::closeGaps(Real spacing, const Model* model, const Palette* palette)
     return pixels_ ? 0 : Gaps(*this, model, palette).close(spacing);
 }
 
-Point View::pointAt(int at, int depth) const
+Point View::pointAt(int pixel, int depth) const
 {
-    const int row = at / WIDTH, column = at - row * WIDTH;
+    const int row = pixel / WIDTH, column = pixel - row * WIDTH;
     const Real half(0.5), z = realFromRaw(static_cast<int32_t>(depth) << 9);
     return camera_.eye + camera_.axes.toWorld({(Real(column) + half - camera_.centreX) / camera_.focalX * z,
                                                (camera_.centreY - Real(row) - half) / camera_.focalY * z, z});

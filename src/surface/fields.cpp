@@ -1,4 +1,4 @@
-// The fields of neighbours along a path, in C++.
+// The fields of neighbours along a path in C++, the readable reference for asm/fields.S.
 #include "gather.h"
 
 void addFieldsC(Neighbour* const* first, Neighbour* const* end, Real position, const Vector* path, Fields* fields)

@@ -1,5 +1,5 @@
-// Fields along a path: where a seed's path leads in the field of each neighbour, and the fields of all of them at one position. The
-// innermost loops of settling.
+// Fields along a path: the innermost loop of settling. It evaluates the field of each neighbour at one position on a seed's path,
+// and adds them up.
 #ifndef FB_FIELDS_H
 #define FB_FIELDS_H
 
@@ -7,43 +7,43 @@
 
 struct Neighbour;
 
-// A neighbour's field along the paths of seeds, one path after the other. Its t (model/field.h) is a + p (b + p c), less
-// k (2 y - k) for a segment. Lengths are in its sizes, if not said otherwise.
+// The field F of one neighbour along the path of a seed. F is a function of t, the squared distance from the core over the squared
+// size (model/field.h). At position p on the path, t = a + p (b + p c); a segment subtracts k (2 (y + p stepY) - k) from it.
+// Lengths are multiples of the neighbour's size unless stated otherwise.
 struct Along {
-    // What kind of core it has: its centre, a segment of `half` sizes to each side, or what the primitive says.
+    // The core is the neighbour's centre, a segment that extends `half` to each side of it, or what the primitive defines.
     enum Kind : int32_t { POINT, SEGMENT, OTHER } kind;
     Real half;
-    Vector along16;  // a segment: its direction, 16 times
-    // The same for all seeds of a root:
-    Real a, c;       // squared distance of the root from the centre, squared length of the paths
-    Vector twice16;  // 32 (root - centre) / size^2, units
-    Real y;          // a segment: where the root lies along it
-    // Of the path at hand:
+    Vector along16;  // segment: its direction times 16
+    // These hold for all seeds of a root:
+    Real a, c;       // squared distance of the root from the centre; squared length of the paths
+    Vector twice16;  // 32 (root - centre) / size^2; root, centre and size in units
+    Real y;          // segment: coordinate of the root along it
+    // These hold for one path:
     Real b;
-    Real stepY;         // a segment: what the path leads along it
-    // At the last position looked at:
+    Real stepY;         // segment: component of the path along it
+    // These hold for the position evaluated last:
     Real value, slope;  // F and dF/dt
-    Real t, change;     // and dt/dp
-    Real k;             // where the nearest point of the segment lies along it
+    Real t, change;     // t and dt/dp
+    Real k;             // segment: coordinate of its nearest point
 
-    // A point or a segment takes up a path, and is looked at: t there; sets what else there is to know there but F.
+    // For points and segments only: set b and stepY for a path; set t, `change` and k for position p, and return t.
     void aimNear(const Vector& path);
     Real nearParam(Real p);
 };
 
-// What fields add up to at a position: their sum and what that changes by over a position, the strongest of them, and whether any
-// reaches it (1; else 0).
+// The fields of all neighbours at one position.
 struct Fields {
-    Real sum, slope, strongest;
-    int32_t touched;
+    Real sum, slope;    // sum of the fields, and its derivative by the position
+    Real strongest;     // the greatest single field
+    int32_t touched;    // 1 if any neighbour's field reaches the position, else 0
 };
 
 extern "C" {
 
-// It stands twice, in C++ (fields.cpp) and in assembly (asm/fields.S); both do the same, bit for bit.
-
-// Sets what the field of each neighbour on a list is at a position, and adds all of them, as strong as most are, to `fields`.
-// Points and segments take up a path first, if one is given; of the others t and change are set already.
+// Evaluates the field of each neighbour on a list at a position, and adds all of them, with strength 1, to `fields`. If `path` is
+// not null, points and segments are first set to that path (aimNear()). Other neighbours have their t and change set already.
+// The routine exists twice: in C++ (fields.cpp) and in assembly (asm/fields.S). Both write the same bits.
 void addFieldsC(Neighbour* const* first, Neighbour* const* end, Real position, const Vector* path, Fields* fields);
 #if FB_ASM
 void addFieldsA(Neighbour* const* first, Neighbour* const* end, Real position, const Vector* path, Fields* fields);

@@ -1,10 +1,9 @@
-// From seeds to voxels: what a seed looks like.
+// From seeds to voxels, the readable reference for asm/voxels.S.
 #include "voxels.h"
-
 
 namespace {
 
-// By how much the two sides of a cut overlap, 1/256 unit.
+// Both sides of a cut overlap: each goes on for this distance beyond the line, 1/256 unit.
 constexpr int32_t CUT_MARGIN = 16;
 
 inline int32_t product(const Direction14& a, const int32_t b[3])
@@ -12,11 +11,11 @@ inline int32_t product(const Direction14& a, const int32_t b[3])
     return (a.x * b[0] + a.y * b[1] + a.z * b[2]) >> 14;
 }
 
-// A vector of own space on the picture plane, sheared along the ray.
+// A vector of own space projected onto the picture plane along the ray of sight.
 struct OnPicture {
     int32_t x, y;
 
-    // Both sums of products are one, each 16 bits wide.
+    // x and y are computed with one sum of products: each takes 16 bits of it.
     OnPicture(const int8_t axis[3], const Shading& v)
     {
         const uint32_t both = static_cast<uint32_t>(axis[0]) * v.cell[0] + static_cast<uint32_t>(axis[1]) * v.cell[1] +
@@ -31,13 +30,13 @@ inline int32_t product(const int8_t axis[3], const Direction14& n)
     return axis[0] * n.x + axis[1] * n.y + axis[2] * n.z;
 }
 
-// What a seed's cell becomes on the surface as it is: it grows with the position, and falls along the path onto the tangent plane.
-// A half axis e becomes p (e - u (e.n) / (u.n)), with p the position and u the path.
+// The cell of a seed that is not at rest: the cell of the unblended surface is scaled by the position and projected along the path
+// onto the tangent plane. A half axis e becomes p (e - u (e.n) / (u.n)), with position p, unit vector u along the path, normal n.
 struct Fall {
-    int32_t position;  // 8 bits of fraction
-    int32_t share;     // position / (u.n), 8 bits of fraction
+    int32_t position;  // p, 8 fraction bits
+    int32_t share;     // p / (u.n), 8 fraction bits
     OnPicture way;     // u
-    bool torn;         // it is no part of an even band any more
+    bool torn;         // the cell does not form an even band with its neighbours any more
 
     Fall(const Seed& s, const Shading& v) : position(rawFromReal(s.position) >> 8), way(s.way, v)
     {
@@ -68,7 +67,7 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     const int32_t normalX = v.turned ? product(s.normal, v.right) : s.normal.x;
     const int32_t normalY = v.turned ? product(s.normal, v.up) : s.normal.y;
     const int32_t depth = v.depth + voxel.z;
-    // The tangent plane: depth changes by n.x depth / (n . to eye) for a unit across the view.
+    // On the tangent plane the depth changes by n.x depth / (n . vector to the eye) over a unit along x, and likewise along y.
     const uint32_t rise = (static_cast<uint32_t>(depth) << 8) / static_cast<uint32_t>(facing);
     const int32_t steep = min32(static_cast<int32_t>(rise), STEEPEST_TILT);
     const int16_t tiltX = static_cast<int16_t>(normalX * steep >> 14);
@@ -76,8 +75,8 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     const int32_t light = lambert(product(s.normal, v.light));
     voxel.tiltX = tiltX;
     voxel.tiltY = tiltY;
-    // Half width and height. Beside each other, cells of a ring make a band: rectangles as wide as the way from one to the
-    // next need not cover the whole of their cells, only, together, the band.
+    // Half extents. The cells of a ring form a band. A rectangle that is as long as the step to the next seed need not cover its
+    // whole cell; it is enough that all rectangles together cover the band.
     int32_t halfWidth, halfHeight;
     const auto measure = [&](int32_t cell, const auto& onPicture) {
         const OnPicture along = onPicture(s.along);
@@ -109,8 +108,8 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     voxel.cutX = voxel.cutY = voxel.slopeX = voxel.slopeY = 0;
     voxel.cutAt = 0;
     voxel.curveXX = voxel.curveXY = voxel.curveYY = voxel.unused = 0;
-    // Where a round surface bends out of sight its tangent plane goes on: the scale ends there. The limb is cos^2 radius / 2
-    // away across the view, with cos the cosine of normal and viewer; along the plane that is cos radius / 2 deep.
+    // Beyond the limb, where a round surface bends out of sight, its tangent plane would go on, so the scale has to end there. With
+    // c the cosine of normal and viewer, the limb is c^2 radius / 2 away across the view; the plane gets c radius / 2 deeper there.
     const int32_t reach = (v.horizonShare * facing >> 16) + 1;
     const int32_t deep = (magnitude(tiltX) * halfWidth + magnitude(tiltY) * halfHeight) >> 8;
     if (reach < 256 && deep >= reach * 8) {
@@ -134,7 +133,7 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
 
 bool findSeed(const Shading& v, const Seed& s, Seen* seen, Voxel* voxel)
 {
-    // One that rests is valid.
+    // A seed at rest counts as valid.
     if (!(s.flags & (SEED_VALID | SEED_RESTING)))
         return false;
     int32_t place[3], facing;
@@ -176,13 +175,13 @@ void shadeSeedsC(const Shading* shading, const Seen* seen, Voxel* voxels, int co
 
 bool cutVoxel(int32_t x, int32_t y, int32_t z, int32_t apart, int32_t shearX, int32_t shearY, Voxel* voxel)
 {
-    // A step across the view leads along the ray as well, as far as the scale is tilted.
+    // On the tilted scale a step across the view is also a step along the ray of sight.
     const int32_t ahead = (z + ((x * shearX + y * shearY) >> 10)) >> 2;
     int32_t cutX = x + (voxel->tiltX * ahead >> 6), cutY = y + (voxel->tiltY * ahead >> 6);
     const int32_t most = magnitude(cutX) | magnitude(cutY);
     if (most == 0)
         return true;
-    // To 7 bits and a sign.
+    // Scale the function to slopes of 7 bits and a sign.
     const int shift = most < 128 ? 0 : 25 - __builtin_clz(static_cast<uint32_t>(most));
     cutX >>= shift;
     cutY >>= shift;

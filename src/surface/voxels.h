@@ -1,4 +1,4 @@
-// Which seeds of a patch the viewer sees, and from those to their voxels: the innermost loops of shading.
+// The innermost loops of shading: they find the seeds of a patch that the viewer sees, and compute their voxels.
 #ifndef FB_VOXELS_H
 #define FB_VOXELS_H
 
@@ -6,53 +6,56 @@
 #include "patch.h"
 #include "surface/voxel.h"
 
-// A seed that the viewer sees, and its normal times the vector to the eye in steps of places, more than 0.
+// A seed that the viewer sees.
 struct Seen {
     const Seed* seed;
-    int32_t facing;
+    int32_t facing;         // dot product of its unit normal and the vector from the seed to the eye, steps of places; above 0
 };
 
-// What the frame, the object and the patch are to the voxels of seeds. Directions have 14 bits of fraction. Places of own space
-// are whole numbers of 16 bits, in steps that are a power of 2 in raw Real.
+// What shading needs to know of the frame, the object and the patch. Own space is the object's own coordinate system. Positions
+// in own space are 16-bit whole numbers of "steps of places", a step being 2^placeShift in raw Real. The cell of a seed is its
+// part of the surface. Unit vectors have 14 fraction bits.
 struct Shading {
-    const Seed* seeds;      // the object's regular ones
+    const Seed* seeds;      // the object's regular seeds
     const Vector* roots;
-    int32_t placeShift;     // bits of Real below those of places
-    int32_t eye[3];         // own space: 8 steps of places
+    int32_t placeShift;     // a raw Real shifted right by this is in steps of places
+    int32_t eye[3];         // the eye in own space, 8 steps of places
     int32_t light[3];       // unit vector towards the light, own axes
-    int32_t limb;           // a seed that faces the viewer no more than this is not drawn, steps of places
-    int32_t turned;         // 0: own space is that of the view, and the next fields are not used
-    int32_t right[3], up[3];  // axes of the view in own axes, over what a step of places is
-    int32_t toRight[3], toUp[3], toAhead[3];  // the same times what takes places to 1/256 unit of the world
-    int32_t depth;          // of the object's centre along the viewing axis, 1/256 unit
-    int32_t leastPosition;  // cells grow with the position from here on, 8 bits of fraction
-    uint32_t cell[3];       // axes of the picture plane, sheared along the ray: column in the upper half, row in the lower
-    int32_t cellShift;      // takes half axes of cells on the picture plane to 1/256 unit
-    int32_t areaShare;      // the area of a cell times facing / 8, times this: 2^32 times that on the picture plane
-    int32_t wholeMost;      // a cell of no larger area is covered as a whole
-    int32_t deepest;        // a scale that ends changes its depth to no corner by more than this, 1/256 unit
-    int32_t horizonShare;   // of the radius of curvature: half of it over the distance of the eye, 12 bits of fraction
-    int32_t gradient[2];    // of the brightness across the view, 1/8 step a unit with 12 bits of fraction
-    int32_t gradientAhead;  // the same along it, 4 bits of fraction
+    int32_t limb;           // a seed with a Seen::facing up to this is not drawn
+    int32_t turned;         // 0: own space has the axes and the scale of the view, and the next five fields are not used
+    int32_t right[3], up[3];  // axes of the view in own axes, divided by the length of a step of places in 1/256 unit
+    int32_t toRight[3], toUp[3], toAhead[3];  // the axes multiplied by that length: they take positions to 1/256 unit of the view
+    int32_t depth;          // depth of the object's centre, 1/256 unit
+    int32_t leastPosition;  // cells grow in proportion to the seed's position, or to this if it is greater; 8 fraction bits
+    uint32_t cell[3];       // axes of the picture plane, sheared along the ray: column in the upper 16 bits, row in the lower
+    int32_t cellShift;      // shifts half axes of cells on the picture plane right to 1/256 unit
+    int32_t areaShare;      // area of a cell on the picture plane = area * (facing / 8) * areaShare / 2^32
+    int32_t wholeMost;      // scales of cells up to this area cover the whole cell, those of larger ones only its share of a band
+    int32_t deepest;        // upper bound of the change of depth from the centre of a scale with a reach to its corners, 1/256 unit
+    int32_t horizonShare;   // takes Seen::facing to Voxel::reach in 2^-16: radius of curvature / distance of the eye, 12 fraction
+                            // bits, times a step of places in 1/256 unit
+    int32_t gradient[2];    // gradient of the brightness along x and y of the view, 1/8 step per unit, 12 fraction bits
+    int32_t gradientAhead;  // and along the ray of sight, 4 fraction bits
 };
 
-// Depths between which seeds are drawn, 1/256 unit.
+// Seeds from the first to before the second of these depths are drawn, 1/256 unit.
 constexpr int32_t NEAREST_DEPTH = 256, FARTHEST_DEPTH = 1 << 22;
 
-// No depth changes more than this across a scale, 8 bits of fraction.
+// Upper bound of a voxel's tilts, 8 fraction bits.
 constexpr int32_t STEEPEST_TILT = 20000;
 
-// What a scale is larger than its cell to each side: a part of the cell (2^-5), and what places are uncertain by (1/256 unit).
+// A scale exceeds its cell to each side by 2^-MARGIN_SHIFT of the half extent and by the rounding error of positions, 1/256 unit.
 constexpr int MARGIN_SHIFT = 5;
 constexpr int32_t MARGIN_UNITS = 14;
 
-// Change of brightness (1/8 step) from the middle of a scale to its corner below which it has one brightness.
+// A scale whose brightness changes by less than this from its centre to its corner (1/8 step) is drawn in one brightness.
 constexpr int32_t FLAT_SHADING = 8;
 
-// And the most that it is let to be: half of what says more, for there the brightness does not go on as it does in the middle.
+// Upper bound of that change. Greater slopes are halved until they fit, because so far from the centre the brightness does not
+// really go on changing at the centre's slope.
 constexpr int32_t STEEPEST_SHADING = 240;
 
-// Sets how the brightness changes across a voxel that has its extents, 1/8 step a unit: not at all when that is next to nothing.
+// Sets a voxel's slopes of brightness, 1/8 step per unit, or none if they would not show. Half extents and brightness are known.
 inline void setSlopes(int32_t x, int32_t y, Voxel* voxel)
 {
     const int32_t light = voxel->brightness;
@@ -65,7 +68,7 @@ inline void setSlopes(int32_t x, int32_t y, Voxel* voxel)
         x >>= 1;
         y >>= 1;
     }
-    // Not even a corner of it is lit.
+    // The centre is dark, and the light does not even reach a corner.
     if (corner + light * 8 <= 0)
         return;
     voxel->brightness = static_cast<int8_t>(light);
@@ -73,14 +76,14 @@ inline void setSlopes(int32_t x, int32_t y, Voxel* voxel)
     voxel->slopeY = static_cast<int8_t>(limited(y, 127));
 }
 
-// No scale is stretched to more than two and a half times its cell by blending: cosine of path and normal. Below the other cosine
-// a cell lies in no even band of its ring.
+// Cosines of path and normal. The first is a lower bound, so that blending stretches no scale to more than two and a half times its
+// cell. Below the second a cell no longer forms an even band with its neighbours in the ring.
 constexpr int32_t LEAST_COSINE = 6500, UNEVEN = 15500;
 
-// The largest area of a cell.
+// Upper bound of the area of a cell, in the units of Seed::area.
 constexpr int32_t AREA_MOST = 16383;
 
-// Where a seed is in own space, in steps of places.
+// Computes the position of a seed in own space, in steps of places.
 inline void findPlace(const Shading& v, const Seed& s, int32_t place[3])
 {
     if (s.flags & SEED_RESTING) {
@@ -94,18 +97,18 @@ inline void findPlace(const Shading& v, const Seed& s, int32_t place[3])
     place[2] = rawFromReal(to.z) >> v.placeShift;
 }
 
-// Whether the viewer sees a seed. If so, `*seen` and the place of the voxel are set.
+// Returns whether the viewer sees a seed, and then sets *seen and the position of its voxel.
 bool findSeed(const Shading& v, const Seed& s, Seen* seen, Voxel* voxel);
 
 extern "C" {
 
-// Both stand twice, in C++ (voxels.cpp), which says what they do, and in assembly (asm/voxels.S); both do the same, bit for bit.
+// Both routines exist twice: in C++ (voxels.cpp), the readable reference, and in assembly (asm/voxels.S). Both write the same bits.
 
-// Finds the regular seeds of a patch that the viewer sees, and sets the places of their voxels. Returns how many there are.
+// Finds the regular seeds of a patch that the viewer sees, and sets the positions of their voxels. Returns their number.
 int findSeedsC(const Shading* shading, const Patch* patch, Seen* seen, Voxel* voxels);
 
-// Writes the rest of the voxels of `count` seeds, uncut. All are NEAREST_DEPTH or more in front of the eye and less than
-// FARTHEST_DEPTH.
+// Sets all other fields of the voxels of `count` seeds, which are not cut. The caller guarantees that their depths are from
+// NEAREST_DEPTH to before FARTHEST_DEPTH.
 void shadeSeedsC(const Shading* shading, const Seen* seen, Voxel* voxels, int count);
 #if FB_ASM
 int findSeedsA(const Shading* shading, const Patch* patch, Seen* seen, Voxel* voxels);
@@ -122,9 +125,9 @@ void shadeSeedsA(const Shading* shading, const Seen* seen, Voxel* voxels, int co
 #define shadeSeeds shadeSeedsC
 #endif
 
-// Ends a voxel at a straight line: inwards of it leads (x, y, z), axes of the view, 1.0 = 2^14, and the middle is `apart` inwards,
-// 1/256 unit. (shearX, shearY) is how far the ray of sight leads aside over a unit of depth, 10 bits of fraction. False: nothing
-// is left.
+// Cuts a voxel along a straight line. The unit vector (x, y, z), axes of the view, 1.0 = 2^14, is perpendicular to the line and
+// points to the side that stays; the voxel's centre is `apart` away from the line on that side, 1/256 unit. (shearX, shearY) is
+// the slope of the ray of sight along x and y per unit of depth, 10 fraction bits. Returns false when nothing of the voxel is left.
 bool cutVoxel(int32_t x, int32_t y, int32_t z, int32_t apart, int32_t shearX, int32_t shearY, Voxel* voxel);
 
 #endif

@@ -1,10 +1,10 @@
 // Assembly against C++: each routine of asm/blit.S, asm/scales.S, asm/voxels.S and asm/fields.S and its twin in
-// src/picture/blit.cpp and scales.cpp, src/surface/voxels.cpp and fields.cpp get the same input, and all they may touch must come
-// out the same, with guard bytes round every buffer. A new assembly routine gets its part here before anything else uses it.
+// src/picture/blit.cpp and scales.cpp, src/surface/voxels.cpp and fields.cpp get the same input. All memory that they may write
+// must be equal afterwards, with guard bytes around every buffer. A new assembly routine must be tested here before it is used.
 //
-//   twins [SEED [ROUNDS]]     rounds of random scales, voxels and spans, after the cases that are always tried
+//   twins [SEED [ROUNDS]]     ROUNDS rounds of random scales, voxels and spans, after the fixed cases
 //
-// Prints what differs, how much was tried, and "N passed, N failed".
+// Prints each difference, the number of tests, and "N passed, N failed".
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -32,7 +32,7 @@ constexpr int HIGH = machine::HEIGHT;
 constexpr int PIXELS = WIDE * HIGH;
 constexpr int GUARD = 2048;
 
-// A run of xorshift: the same on every machine for the same seed.
+// A step of the xorshift generator; its numbers are the same on every machine for the same seed.
 uint32_t state;
 uint32_t any()
 {
@@ -43,7 +43,7 @@ uint32_t any()
 }
 int below(int n) { return static_cast<int>(any() % static_cast<uint32_t>(n)); }
 
-// A buffer between two guards.
+// A buffer between two guard areas.
 template <class T, int COUNT>
 struct Guarded {
     T before[GUARD];
@@ -56,7 +56,7 @@ struct Screen {
     Guarded<uint16_t, PIXELS> depth;
 };
 
-// `misplaced` shifts the whole buffers in memory, so that every alignment is met.
+// `misplaced` shifts the whole buffer in memory, so that every alignment is tested.
 constexpr int SHIFTS = 16;
 struct Room {
     alignas(64) uint8_t bytes[sizeof(Screen) + SHIFTS];
@@ -92,7 +92,7 @@ void fill(void* to, size_t bytes)
         byte[i] = static_cast<uint8_t>(any());
 }
 
-// The same contents for both.
+// Gives both sets of buffers the same contents.
 void prepare(int shift, bool empty)
 {
     Screen& c = roomC.at(shift);
@@ -106,7 +106,7 @@ bool same(int shift) { return memcmp(&roomC.at(shift), &roomA.at(shift), sizeof(
 
 void blitBoth(int shift, const Scale* scales, int count)
 {
-    // The list itself stands between guards too, and may not be changed.
+    // The list itself lies between guards too, and must not be changed.
     static Scale kept[4096];
     memcpy(kept, scales, sizeof(Scale) * static_cast<size_t>(count));
     Screen& c = roomC.at(shift);
@@ -131,12 +131,12 @@ Scale scale(int left, int top, int wide, int high, int z, int colour, int across
     s.z = z;
     s.zStep = across;
     s.zRow = down - across * wide;
-    // Only the low byte of the colour counts.
+    // Only the low byte of the colour is used.
     s.colour = static_cast<int32_t>((any() & 0x7fffff00u) | static_cast<uint32_t>(colour));
     return s;
 }
 
-// A depth worth trying: anything, the ends, or a few values so that equal ones meet.
+// An interesting depth: any value, the ends of the range, or one of a few values so that equal depths meet.
 int depth()
 {
     static const int ENDS[] = {0, 1, 0x7fff, 0x8000, 0x8001, 0xfffe, 0xffff};
@@ -147,7 +147,7 @@ int depth()
     }
 }
 
-// A scale of which every pixel's depth is in range: level, or sloped gently or steeply.
+// A scale whose depth is in range at every pixel: level, or sloped gently or steeply.
 Scale sloped(int left, int top, int wide, int high)
 {
     if (below(4) == 0)
@@ -159,14 +159,14 @@ Scale sloped(int left, int top, int wide, int high)
     const int fall = (across < 0 ? -across : across) * (wide - 1) + (down < 0 ? -down : down) * (high - 1);
     if (fall > 0xfffe)
         return scale(left, top, wide, high, depth(), below(256));
-    // Where the nearest corner lies: anywhere, or so that one touches an end of the range.
+    // The depth of the nearest corner is anywhere in range, or at one of its ends.
     const int room = 0xfffe - fall;
     int z = below(4) == 0 ? (below(2) ? 0 : room) : below(4) == 0 ? (room < 0x7ffc ? room : 0x7ffc) : below(room + 1);
     z += (across < 0 ? -across * (wide - 1) : 0) + (down < 0 ? -down * (high - 1) : 0);
     return scale(left, top, wide, high, z, below(256), across, down);
 }
 
-// A scale of a size, clipped at the edges of the screen as the view clips it; at least one pixel is left.
+// A scale of a given size, clipped at the edges of the screen like the view's scales; at least one pixel is left.
 Scale clipped(int wide, int high)
 {
     int left = below(WIDE + wide - 1) - wide + 1, top = below(HIGH + high - 1) - high + 1;
@@ -182,14 +182,14 @@ Scale clipped(int wide, int high)
     return sloped(left, top, right - left, bottom - top);
 }
 
-// What a pixel of the screen gets from a scale that covers it.
+// The depth that a scale has at a pixel of the screen.
 int depthAt(const Scale& s, int x, int y)
 {
     return s.z + (x - s.left) * s.zStep + (y - s.top) * (s.zRow + s.zStep * s.width);
 }
 
-// Every size up to 64x64 at every alignment, alone on a random screen; checked against what the rule says, too, pixel
-// by pixel: two twins with the same fault would agree.
+// Tests every size up to 64x64 at every alignment, alone on a random screen. The result is also compared with the rule, pixel by
+// pixel, because twins with the same fault would agree.
 void everySize()
 {
     long wrong = 0;
@@ -201,7 +201,8 @@ void everySize()
                 Screen& c = roomC.at(shift);
                 Screen& a = roomA.at(shift);
                 const Scale s = sloped(4 * below((WIDE - 64) / 4) + align, below(HIGH - 63), wide, high);
-                // Only the part round it is refreshed and compared: the whole is compared once for each width.
+                // Only the part that the scale covers is refreshed and compared here; the whole screen is compared once for each
+                // width.
                 for (int y = s.top; y < s.top + high; ++y)
                     for (int x = s.left; x < s.left + wide; ++x) {
                         const int at = y * WIDE + x;
@@ -233,7 +234,7 @@ void everySize()
     verdict(wrong == 0, "nearer pixels are taken, others stay", wrong);
 }
 
-// Wide and high ones up to the whole screen.
+// Tests wide and high scales up to the whole screen.
 void largeOnes()
 {
     for (int i = 0; i < 200; ++i) {
@@ -246,7 +247,7 @@ void largeOnes()
     }
 }
 
-// The corners and edges, one pixel and more.
+// Tests scales of one pixel and more at the corners and edges.
 void edges()
 {
     for (int wide = 1; wide <= 64; ++wide) {
@@ -270,7 +271,7 @@ void edges()
     verdict(same(0), "an empty list", 0);
 }
 
-// The runs of a row: none, one, many, at the ends; within spans of every kind, at every alignment, with pixels round them.
+// Tests the runs of a row (none, one, many, at the ends) in all kinds of spans, at every alignment, with drawn pixels around them.
 void runs()
 {
     static uint8_t row[WIDE + 8 + SHIFTS];
@@ -298,7 +299,7 @@ void runs()
         memset(a, 0x55, sizeof a);
         const int count = drawnRunsC(pixels, depths, &within, c);
         verdict(drawnRunsA(pixels, depths, &within, a) == count && memcmp(c, a, sizeof c) == 0, "runs of drawn pixels", i);
-        // And what they are.
+        // The runs must also be right.
         long wrong = 0;
         int x = from;
         for (int k = 0; k < count; ++k) {
@@ -341,7 +342,7 @@ void randomLists(int rounds)
 
 // --- Scales of voxels
 
-// What asm/scales.S counts on (build/scalesdef.h: its own #defines, by tools/tests.mk).
+// Constants that asm/scales.S relies on (build/scalesdef.h holds its own #defines, by tools/tests.mk).
 static_assert(inasm::VOXEL_X == offsetof(Voxel, x) && inasm::VOXEL_Y == offsetof(Voxel, y) &&
               inasm::VOXEL_Z == offsetof(Voxel, z) && inasm::VOXEL_HALF_WIDTH == offsetof(Voxel, halfWidth) &&
               inasm::VOXEL_HALF_HEIGHT == offsetof(Voxel, halfHeight) && inasm::VOXEL_TILTX == offsetof(Voxel, tiltX) &&
@@ -373,18 +374,18 @@ static_assert(inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FINENESS == LENS_FINE
                   inasm::SCREEN_HEIGHT == HIGH,
               "constants");
 
-// No depth of a scale of its table leaves 16 bits: a pixel's middle lies in the rectangle, so no farther from the scale's
-// than half a pixel more than half the pixels; and one step for what is rounded.
+// No depth of a scale in the loop's tables overflows 16 bits. A pixel's centre lies in the rectangle, so it is at most half the
+// scale's pixels and half a pixel away from the scale's middle; one more step covers rounding.
 constexpr int STEPS_MOST = (inasm::KIND_COLUMNS + 1 + inasm::KIND_ROWS + 1) / 2 * STEEPEST + 1;
 static_assert(LENS_NEAR * 128 >= STEPS_MOST && LENS_FAR * 128 + STEPS_MOST < Z_EMPTY, "depths");
 
 long voxelsTried = 0, voxelsDrawn = 0;
 
-// A camera and the lens that the view makes of it, its table computed anew.
+// A camera, and the lens that the view makes of it, with a table computed here.
 struct Optics {
     double focalX, focalY, centreX, centreY;  // pixels
     Factors factors[LENS_STEPS];
-    uint8_t ramps[384];  // of any byte, signed or not
+    uint8_t ramps[384];  // any bytes, with the top bit set or not
     const uint8_t* ramp() const { return ramps + 128; }
 
     void set(double fx, double fy, double cx, double cy)
@@ -405,7 +406,7 @@ struct Optics {
 };
 Optics optics;
 
-// One of the demo's, or any that the view allows; or factors that no camera makes (products of extents fit 32 bits).
+// The demo's camera, or any that the view allows, or factors that no camera makes (products with extents still fit 32 bits).
 void anyOptics()
 {
     const double focal = 64 + below(437);
@@ -421,18 +422,18 @@ void anyOptics()
         f.zx = static_cast<int32_t>(any() >> below(32));
         f.zy = static_cast<int32_t>(any() >> below(32));
     }
-    // No smaller than those that are nearer.
+    // The table's factors must not be smaller than those of nearer depths.
     optics.factors[0].zx = static_cast<int32_t>(LENS_NEAR * 32768 / optics.focalX) + 1;
     optics.factors[0].zy = static_cast<int32_t>(LENS_NEAR * 32768 / optics.focalY) + 1;
 }
 
-// Any number, small ones as often as large ones.
+// Any number; every number of bits is equally likely.
 int32_t anything() { return static_cast<int32_t>(any()) >> below(32); }
 
 int32_t minus(int32_t a, int32_t b) { return static_cast<int32_t>(static_cast<uint32_t>(a) - static_cast<uint32_t>(b)); }
 
-// A voxel about (x, y, z), by where and how large it falls on the screen: everywhere, but often at an edge of the screen,
-// at an end of the table, as wide or as large as goes; and some that are nowhere.
+// Makes a voxel in the coordinates of the lens from a position and a size on the screen: anywhere, but often at an edge of the
+// screen, at an end of the table, or of the greatest width or height. A few voxels lie far off the screen.
 Voxel anyVoxel(const Lens& lens)
 {
     const auto near = [](int at, int by) { return at + below(2 * by + 1) - by; };
@@ -453,7 +454,7 @@ Voxel anyVoxel(const Lens& lens)
     case 4: wide = below(8), high = below(3) ? below(8) : below(30); break;
     default: break;
     }
-    // So large and so steep, at an end of the table, that a corner may leave 16 bits.
+    // Some are so large and steep, at an end of the table, that the depth at a corner may overflow 16 bits.
     const bool steep = below(10) == 0;
     if (steep) {
         z = (below(2) ? LENS_NEAR * 256 + below(24 * 256) : LENS_FAR * 256 - 1 - below(24 * 256));
@@ -466,7 +467,7 @@ Voxel anyVoxel(const Lens& lens)
         row = (below(2) ? high / 2 : HIGH - high / 2) + (below(33) - 16) / 8.0;
     const auto extent = [](double e) { return static_cast<int16_t>(e < 0 ? 0 : e > 32767 ? 32767 : e); };
     Voxel v;
-    fill(&v, sizeof v);  // what lies between the fields, too
+    fill(&v, sizeof v);  // also the bytes that belong to no field
     v.x = static_cast<int32_t>((column - optics.centreX) * z / optics.focalX);
     v.y = static_cast<int32_t>((optics.centreY - row) * z / optics.focalY);
     v.z = z;
@@ -484,7 +485,7 @@ Voxel anyVoxel(const Lens& lens)
     if (below(2) == 0) {
         v.slopeX = static_cast<int8_t>(any());
         v.slopeY = static_cast<int8_t>(any());
-        // What has a slope may be dark in the middle.
+        // A voxel with slopes of brightness may be dark in the middle.
         if (below(3) == 0 && (v.slopeX | v.slopeY) != 0)
             v.brightness = static_cast<int8_t>(DARK_MIDDLE + below(-DARK_MIDDLE));
     }
@@ -494,7 +495,7 @@ Voxel anyVoxel(const Lens& lens)
     if (below(4) == 0) {
         v.cutX = static_cast<int8_t>(anything());
         v.cutY = static_cast<int8_t>(anything());
-        // Often so that the line lies within the scale.
+        // The line of the cut often lies within the scale.
         const int corner = (v.cutX < 0 ? -v.cutX : v.cutX) * v.halfWidth / 256 +
                            (v.cutY < 0 ? -v.cutY : v.cutY) * v.halfHeight / 256;
         if (below(8) && corner < 4000)
@@ -524,7 +525,7 @@ Voxel anyVoxel(const Lens& lens)
     return v;
 }
 
-// A lens between guards.
+// A lens between guard areas.
 struct Fenced {
     uint8_t before[64];
     Lens lens;
@@ -535,7 +536,7 @@ void makeLens(Fenced& c, Fenced& a, int shift)
 {
     fill(&c, sizeof c);
     Lens& lens = c.lens;
-    // Most objects lie before the viewer; the rest anywhere.
+    // Most objects lie in front of the viewer, the rest anywhere.
     lens.x = below(20) ? below(40000) - 20000 : anything();
     lens.y = below(20) ? below(40000) - 20000 : anything();
     lens.z = below(20) ? below(65536) : anything();
@@ -594,7 +595,7 @@ void voxelLists(int rounds)
         }
         memcpy(&before, &list, sizeof list);
         memcpy(&opticsBefore, &optics, sizeof optics);
-        // As the view does: what is left is skipped.
+        // A voxel that the loop has left is skipped, as in the view.
         bool agree = true;
         const Voxel* const end = list.data + count;
         for (const Voxel* at = list.data; at <= end; ++at) {
@@ -616,9 +617,9 @@ void voxelLists(int rounds)
     }
 }
 
-// One voxel on an empty screen, held against the perspective in double precision: which pixels it takes, their depth and
-// colour, and whether it is one for the loop at all. In doubt (numbers have 12 bits of fraction, and factors change by
-// steps of 1/16 unit) either is right.
+// Draws one voxel on an empty screen and compares the result with the projection in double precision: which pixels are drawn, their
+// depth and colour, and whether the loop should draw the voxel at all. Within the rounding error (numbers have 12 fraction bits,
+// and factors change by steps of 1/16 unit) either result is right.
 void voxelByVoxel(int rounds)
 {
     static Fenced c, a;
@@ -643,7 +644,7 @@ void voxelByVoxel(int rounds)
         a.lens.top = HIGH;
         a.lens.right = a.lens.bottom = a.lens.empty = 0;
         const Voxel v = anyVoxel(a.lens);
-        // The loop's callers see to it that the products of places fit.
+        // The loop's callers guarantee that the products of positions fit.
         Factors computed;
         const Factors* const f = factorsOf(a.lens, wrappedSum(a.lens.z, v.z), &computed);
         const auto fits = [](int32_t place, int32_t factor) {
@@ -671,23 +672,23 @@ void voxelByVoxel(int rounds)
             };
             const double doubtX = 0.01 + 0.0006 * most(left - optics.centreX, right - optics.centreX);
             const double doubtY = 0.01 + 0.0006 * most(top - optics.centreY, bottom - optics.centreY);
-            // Pixels whose centres lie within, at least and at most.
+            // Lower and upper bounds of the pixels whose centres lie within the rectangle.
             const auto first = [](double edge) { return static_cast<long>(__builtin_ceil(edge - 0.5)); };
             const long leastLeft = first(left - doubtX), mostLeft = first(left + doubtX), leastRight = first(right - doubtX),
                        mostRight = first(right + doubtX), leastTop = first(top - doubtY), mostTop = first(top + doubtY),
                        leastBottom = first(bottom - doubtY), mostBottom = first(bottom + doubtY);
             const bool surelyOn = leastLeft >= 0 && mostRight <= WIDE && leastTop >= 0 && mostBottom <= HIGH;
-            // What is sure to be on the screen of it.
+            // The part that is certainly on the screen.
             const auto within = [](long from, long to, long end) { return (to < end ? to : end) - (from > 0 ? from : 0); };
             const long wideOn = within(mostLeft, leastRight, WIDE), highOn = within(mostTop, leastBottom, HIGH);
             clipped += !surelyOn && wideOn > 0 && highOn > 0 && done == 1;
             const long mostWide = mostRight - leastLeft, mostHigh = mostBottom - leastTop;
             const long leastWide = leastRight - mostLeft, leastHigh = leastBottom - mostTop;
-            // Steps are whole 1/128 units, and no more than STEEPEST.
+            // Steps are whole 1/128 units, STEEPEST at most.
             const auto limited = [](double s) { return s > STEEPEST ? STEEPEST : s < -STEEPEST ? -STEEPEST : s; };
             const double across = limited(v.tiltX / 256.0 * z * 128 / optics.focalX),
                          down = limited(v.tiltY / 256.0 * z * 128 / optics.focalY);
-            // How far the depth swings from the middle to a corner's pixel, at most; tilts beyond 16 may not fit the product.
+            // Upper bound of the change of depth from the middle to a corner's pixel. Products of tilts beyond 16 may overflow.
             const bool tilted = most(v.tiltX, v.tiltY) <= 16 * 256;
             const double stepX = tilted ? most(across, 0) * 1.001 + 1 : STEEPEST,
                          stepY = tilted ? most(down, 0) * 1.001 + 1 : STEEPEST;
@@ -717,13 +718,14 @@ void voxelByVoxel(int rounds)
                     const double doubt = 2 + most(dx, 0) * (1 + 0.001 * most(across, 0)) +
                                          most(dy, 0) * (1 + 0.001 * most(down, 0)) + (mostWide + mostHigh) +
                                          doubtX * most(across, 0) + doubtY * most(down, 0);
-                    // Tilts are within 16; more may not fit the product.
+                    // The end is tested for tilts within 16 only; products of greater ones may overflow.
                     const double end = v.reach != 0 && tilted ? z * 128 + v.reach * 4 : 1e9;
-                    // What cuts, and how sure it is: its steps are as those of the brightness, and they change by steps as well.
+                    // The cut function and its rounding error: it changes by rounded steps like the brightness, and the steps
+                    // themselves change too.
                     const double ux = dx * z / optics.focalX, uy = -dy * z / optics.focalY;
                     const double curve = (v.curveXX * ux * ux + 2 * v.curveXY * ux * uy + v.curveYY * uy * uy) / 32;
                     const double cut = isCut(v) ? v.cutAt / 64.0 + (v.cutX * ux + v.cutY * uy) / 8 + curve : 0;
-                    // What changes by so much from the middle to a corner may not fit its products.
+                    // The products of a function that changes this much from the middle to a corner may overflow.
                     const double cornerX = v.halfWidth / 256.0 + z / optics.focalX,
                                  cornerY = v.halfHeight / 256.0 + z / optics.focalY;
                     const double cutSwing = (most(v.cutX, 0) * cornerX + most(v.cutY, 0) * cornerY) / 8 +
@@ -759,7 +761,7 @@ void voxelByVoxel(int rounds)
                     wrongEnds += expected - doubt > end;
                     const double shade =
                         v.brightness + v.slopeX / 8.0 * dx * z / optics.focalX - v.slopeY / 8.0 * dy * z / optics.focalY;
-                    // Steps are whole 1/256 from pixel to pixel, and lengths are good to a thousandth.
+                    // Steps from pixel to pixel are whole multiples of 1/256, and lengths are accurate to a thousandth.
                     const double unsure = 0.01 + (most(dx, 0) + most(dy, 0)) / 256 +
                                           0.0021 * (most(v.slopeX, 0) + most(v.slopeY, 0)) / 8 *
                                               (most(dx, dy) + 8 * (doubtX + doubtY) / 0.01) * z / optics.focalX;
@@ -792,7 +794,7 @@ void voxelByVoxel(int rounds)
             "voxels: there were some of each kind", drawn);
 }
 
-// Spans of any kind: none, everything, short ones at the ends.
+// Makes spans of all kinds: empty, the whole row, short ones at the ends.
 void spans(Span* rows)
 {
     for (int y = 0; y < HIGH; ++y) {
@@ -810,7 +812,7 @@ void spans(Span* rows)
     }
 }
 
-// The selector that the program's data are reached by: the assembly is given one for video memory.
+// The selector of the program's data, which stands in for that of video memory.
 uint32_t dataSelector()
 {
     uint32_t selector;
@@ -818,8 +820,8 @@ uint32_t dataSelector()
     return selector & 0xffff;
 }
 
-// Calls a routine with up to five words of arguments; what it leaves of the registers that a caller counts on: 0 when all
-// is as it was, and the direction flag clear.
+// Calls a routine with up to five words of arguments. Returns 0 if it preserves the registers that its caller relies on and leaves
+// the direction flag clear.
 uint32_t damage(const void* routine, const uint32_t arguments[5])
 {
     uint32_t bad;
@@ -878,7 +880,7 @@ void registers()
         const uint32_t blit[5] = {word(a.frame.data), word(a.depth.data), word(list), count, 0};
         verdict(damage(reinterpret_cast<const void*>(blitScalesA), blit) == 0, "registers are kept: blitScalesA", count);
         for (uint32_t i = 0; i < 40; ++i) {
-            // From each: some stop at once, some go on.
+            // Start at each voxel: some calls stop at once, others go on.
             const uint32_t draw[5] = {word(&f.lens), word(voxels + i), word(voxels + (i + count < 40 ? i + count : 40)), 0, 0};
             verdict(damage(reinterpret_cast<const void*>(drawScalesA), draw) == 0, "registers are kept: drawScalesA", count);
         }
@@ -910,7 +912,7 @@ void clearsAndCopies(int rounds)
 {
     static Span rows[HIGH];
     for (int round = 0; round < rounds; ++round) {
-        // Frames are at least aligned to words in the program; here to anything.
+        // In the program frames are aligned to 32-bit words at least; here they have any alignment.
         const int shift = below(SHIFTS);
         const int count = round % 5 == 0 ? below(HIGH + 1) : HIGH;
         spans(rows);
@@ -928,7 +930,7 @@ void clearsAndCopies(int rounds)
                 wrong += a.frame.data[y * WIDE + x] != 0 || a.depth.data[y * WIDE + x] != Z_EMPTY;
         verdict(wrong == 0, "what a clear leaves", wrong);
 
-        // One screen is the source for both; the other buffers are the two screens.
+        // One screen is the source for both copies; the other buffers are the two destinations.
         static Guarded<uint8_t, PIXELS> screenC, screenA, before;
         fill(&screenC, sizeof screenC);
         memcpy(&screenA, &screenC, sizeof screenC);
@@ -954,7 +956,7 @@ void clearsAndCopies(int rounds)
 
 }  // namespace
 
-// What asm/voxels.S counts on.
+// Constants that asm/voxels.S relies on.
 static_assert(inasm2::SEED_PATH == offsetof(Seed, path) && inasm2::SEED_POSITION == offsetof(Seed, position) &&
               inasm2::SEED_NORMAL == offsetof(Seed, normal) && inasm2::SEED_PLACE == offsetof(Seed, place) &&
               inasm2::SEED_OUT == offsetof(Seed, out) &&
@@ -991,7 +993,7 @@ static_assert(inasm2::STEEPEST_TILT == STEEPEST_TILT && inasm2::MARGIN_SHIFT == 
               inasm2::STEEPEST_SHADING == STEEPEST_SHADING && inasm2::LEAST_COSINE == LEAST_COSINE && inasm2::UNEVEN == UNEVEN &&
               inasm2::AREA_MOST == AREA_MOST && inasm2::BRIGHTEST == BRIGHTEST, "constants of shading");
 
-// Seeds at random before viewers at random. That there were some of each kind is checked, too.
+// Tests random seeds in front of random viewers, and that seeds of each kind occurred.
 void shadedSeeds(int rounds)
 {
     constexpr int MOST = 18, ROOTS = 5;
@@ -1049,7 +1051,7 @@ void shadedSeeds(int rounds)
             s.flags = static_cast<uint8_t>((below(8) == 0 ? 0 : ::SEED_VALID) | (below(2) == 0 ? 0 : ::SEED_RESTING));
             s.area = static_cast<uint16_t>(below(4) == 0 ? 0 : below(AREA_MOST + 1));
         }
-        // At most so many of a ring, that a patch has room for.
+        // A patch has room for this many seeds of a ring at most.
         Patch patch;
         fill(&patch, sizeof patch);
         for (int ring = 0; ring < ::PATCH_RINGS; ++ring) {
@@ -1063,7 +1065,7 @@ void shadedSeeds(int rounds)
         memcpy(seenA, seenC, sizeof seenC);
         const int count = findSeedsC(&v, &patch, seenC + 1, c + 1);
         verdict(findSeedsA(&v, &patch, seenA + 1, a + 1) == count, "seeds: as many are seen", round);
-        // What leads to a seed that is not seen may have been written behind the last one that is.
+        // The twins may have begun to write the entry after the last visible seed.
         verdict(memcmp(a, c, sizeof(Voxel) * static_cast<size_t>(count + 1)) == 0, "seeds: at the same places", round);
         verdict(memcmp(seenA, seenC, sizeof seenC) == 0, "seeds: the same ones", round);
         memcpy(a, c, sizeof c);
@@ -1094,7 +1096,7 @@ void shadedSeeds(int rounds)
             "seeds: there were some of each kind", plain);
 }
 
-// What asm/fields.S counts on.
+// Constants that asm/fields.S relies on.
 static_assert(inasm3::ALONG_KIND == offsetof(Along, kind) && inasm3::ALONG_HALF == offsetof(Along, half) &&
               inasm3::ALONG_A == offsetof(Along, a) && inasm3::ALONG_C == offsetof(Along, c) &&
               inasm3::ALONG_TWICE == offsetof(Along, twice16) && inasm3::ALONG_Y == offsetof(Along, y) &&
@@ -1110,8 +1112,8 @@ static_assert(inasm3::FIELDS_SUM == offsetof(Fields, sum) && inasm3::FIELDS_SLOP
 static_assert(inasm3::STEP_VALUE == offsetof(FieldStep, value) && inasm3::STEP_SLOPE == offsetof(FieldStep, slope) &&
               sizeof(FieldStep) == 8, "FieldStep");
 
-// Paths at random in the fields of neighbours at random, each looked at as it is taken up and then twice more. That there were
-// some of each kind is checked, too.
+// Tests random paths in the fields of random neighbours: each is evaluated when the path is set and twice more afterwards. Also
+// tests that neighbours of each kind occurred.
 void fieldsAlong(int rounds)
 {
     constexpr int MOST = 8;
@@ -1124,7 +1126,7 @@ void fieldsAlong(int rounds)
     for (int round = 0; round < rounds; ++round) {
         const int count = below(MOST + 1);
         fill(c, sizeof c);
-        // The list is in another order than they.
+        // The list has another order than the array.
         const int shift = below(MOST);
         for (int i = 0; i < MOST; ++i) {
             Neighbour& near = c[1 + i];
@@ -1137,7 +1139,7 @@ void fieldsAlong(int rounds)
             near.half = absolute(real(1));
             near.t = absolute(real(2));
             near.change = real(2);
-            // What is aimed already.
+            // These depend on a path set before.
             near.b = real(1);
             near.stepY = real(1);
             listC[i] = c + 1 + (i + shift) % MOST;

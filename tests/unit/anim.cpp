@@ -1,4 +1,4 @@
-// The animation: exactly repeatable, driven by time alone, on the report's circles.
+// Tests of the animation: it depends on the time alone, repeats exactly, and follows the report's circles.
 #include "model/anim.h"
 
 #include "help.h"
@@ -8,7 +8,8 @@ TEST(places_follow_from_time_alone)
 {
     Model one, two;
     CHECK(one.makeFourSpheres() && two.makeFourSpheres());
-    // Every frame, and every seventh frame: the same places at the same times; in 16.16 to the bit.
+    // One model is moved to every frame, the other to every seventh. Both have the same positions at the same times, in 16.16 bit
+    // by bit.
     for (Time t = 0; t < 60 * 65536; t += 6554) {
         Anim::move(one, t);
         if (t / 6554 % 7 != 0)
@@ -17,7 +18,7 @@ TEST(places_follow_from_time_alone)
         for (int i = 0; i < 4; ++i)
             NEAR(size(vec(one.actor(i).object->centre()) - vec(two.actor(i).object->centre())), 0, EXACT * 100);
     }
-    // And back to the start.
+    // Time can also go back to the start.
     Anim::move(one, 12345);
     Anim::move(one, 0);
     Anim::move(two, 0);
@@ -45,7 +46,7 @@ TEST(circular_paths)
 
 TEST(the_minute_keeps_moving)
 {
-    // No object stands still, none jumps: at most 40 units a second.
+    // No object stands still or jumps: each moves at most 40 units per second.
     Model model;
     CHECK(model.makeFourSpheres());
     for (int i = 0; i < 4; ++i) {
@@ -61,7 +62,7 @@ TEST(the_minute_keeps_moving)
 
 TEST(any_time_will_do)
 {
-    // 48 bits of time: no overflow shows.
+    // Times have 48 bits; none of them causes a visible overflow.
     Model model;
     CHECK(model.makeFourSpheres());
     for (Time t : {Time(0), Time(1), Time(65536) * 86400, (Time(1) << 47), (Time(1) << 48) - 1}) {

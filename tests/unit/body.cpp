@@ -1,4 +1,4 @@
-// Bodies: what links join, and whom it tells of movement.
+// Tests of bodies: links join objects to bodies, and an object that moves tells the others of its body.
 #include "help.h"
 #include "model/anim.h"
 #include "test.h"
@@ -41,7 +41,7 @@ TEST(bodies_are_what_links_join)
     NEAR(weight(1, 6), 0.5, 0);
     NEAR(weight(0, 5), 0, 0);
     NEAR(weight(2, 2), 0, 0);
-    // Found anew, as the links are then.
+    // Bodies are found anew when links have changed.
     scene.objects[3]->unlink(scene.objects[5].get());
     scene.objects[5]->unlink(scene.objects[3].get());
     scene.link(2, 5, 2);
@@ -54,7 +54,7 @@ TEST(bodies_are_what_links_join)
 
 TEST(bodies_of_any_graph)
 {
-    // Against a search of its own, for random graphs of all sizes.
+    // Compares the bodies of random graphs of all sizes with a search of the test's own.
     Random random;
     for (int round = 0; round < 60; ++round) {
         Scene scene;
@@ -87,7 +87,8 @@ TEST(bodies_of_any_graph)
 
 TEST(bodies_are_told_of_movement)
 {
-    // A chain: its ends are not linked, but reach each other; one apart is in reach of none, one is another body.
+    // A chain: objects 0 and 2 are not linked, but in range of each other; 3 is linked, but out of range; 4 is in range, but a body
+    // of its own.
     Scene scene;
     scene.ball(20, 0, 0, 0, 4);
     scene.ball(20, 8, 0, 0, 4);
@@ -106,7 +107,7 @@ TEST(bodies_are_told_of_movement)
     CHECK(scene.objects[2]->recalc());
     CHECK(!scene.objects[3]->recalc());
     CHECK(!scene.objects[4]->recalc());
-    // Nothing moved, nobody is told.
+    // If nothing has moved, no object is told.
     scene.update();
     scene.bodies->spreadRecalc();
     for (auto& object : scene.objects)
@@ -141,7 +142,7 @@ TEST(what_digs_into_bodies)
     CHECK((members(scene, 6) == std::vector<int>{7}));
     for (size_t i = 0; i < 7; ++i)
         CHECK(scene.objects[i]->hasSurface() == (i != 2 && i != 5));
-    // Seeds of what only digs are those of a hollow: they lie farther out.
+    // An object that only digs has the seeds of a hollow, which lie farther out.
     CHECK(scene.objects[2]->hollowed() == scene.objects[1].get() && scene.objects[3]->hollowed() == nullptr);
     CHECK(scene.objects[5]->hollowed() == nullptr && scene.objects[6]->hollowed() == nullptr);
     CHECK(scene.objects[2]->laidInVain() && !scene.objects[3]->laidInVain());
@@ -152,16 +153,17 @@ TEST(what_digs_into_bodies)
     };
     NEAR(weight(1, 2), -1.5, 0);
     NEAR(weight(2, 1), 0, 0);
-    NEAR(weight(4, 3), -1.5, 0);  // the link's less the dent's
+    NEAR(weight(4, 3), -1.5, 0);  // the link's weight minus the dent's
     NEAR(weight(3, 4), 0.5, 0);
-    // All of a body are told of what digs into one of it, and so is what else digs there; nobody else is.
+    // When an object that digs into a body moves, all members of the body and all other objects that dig there are told, but no
+    // others.
     scene.update();
     scene.objects[2]->translate(vector(0, 1, 0));
     scene.bodies->spreadRecalc();
     for (size_t i = 0; i < 7; ++i)
         CHECK(scene.objects[i]->recalc() == (i < 4 || i == 5));
     scene.update();
-    // An object that goes takes its dents with it; one that digs no more is seen.
+    // An object that is deleted takes its dents with it; one that digs no more has a visible surface.
     scene.objects[1]->undent(scene.objects[2].get());
     CHECK(scene.objects[2]->hasSurface() && scene.objects[2]->recalc() && scene.objects[1]->recalc());
     scene.objects.erase(scene.objects.begin() + 5);
@@ -172,7 +174,7 @@ TEST(what_digs_into_bodies)
     CHECK(diggers(0) == none);
 }
 
-// The field at a point is that of the body that has the greatest there: by the formula of body.h.
+// The field at a point is that of the body with the greatest field there, by the formula of body.h.
 TEST(field_of_bodies_at_a_point)
 {
     Random random;

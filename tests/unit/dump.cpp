@@ -1,4 +1,4 @@
-// Dumped frames: what the three files hold, and what happens where they cannot be written.
+// Tests of dumped frames: the contents of the three files, and the behaviour when they cannot be written.
 #include "app/dump.h"
 
 #include <dirent.h>
@@ -151,7 +151,7 @@ TEST(a_dumped_frame)
     SAME(std::count_if(lines.begin(), lines.end(), [](const std::string& line) {
         return line.compare(0, 4, "dent") == 0 || line.compare(0, 8, "strength") == 0;
     }), 2);
-    // A directory that is there already will do. How the eye stands is told where it is turned, and only there.
+    // An existing directory is accepted. The axes of the eye are written if it is turned, and only then.
     CHECK(dump.open(directory.c_str()) == nullptr);
     Camera camera = model.camera;
     camera.axes = viewAlong(vector(1, 0, 0), vector(0, 1, 0), vector(1, 0, 0));
@@ -167,7 +167,7 @@ TEST(a_dumped_frame)
     discard(top);
 }
 
-// The lines of a dump's text from the blends on.
+// Returns the lines of a dump's text from the blends on.
 static std::vector<std::string> paintLines(bool grey, bool printed)
 {
     const std::string directory = scratch();
@@ -208,7 +208,7 @@ TEST(paint_in_a_dump)
     SAME(std::sscanf(lines[6].c_str(), "checks %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf", n, n + 1, n + 2, n + 3,
                      n + 4, n + 5, n + 6, n + 7, n + 8, n + 9, n + 10, n + 11, n + 12, n + 13),
          14);
-    // Twice as large as in the scene, turned from x to y.
+    // The pattern is twice as large as in the scene and turned from x to y.
     const double wanted[14] = {1, 17, 1, 2, 3, 10, 0, 0, 0, 1, 0, -1, 0, 0};
     for (int i = 0; i < 14; ++i)
         NEAR(n[i], wanted[i], 2e-4);
@@ -237,7 +237,7 @@ TEST(places_that_cannot_be_written)
         CHECK(std::strchr(problem, '\n') == nullptr);
         CHECK(std::strstr(problem, top.substr(0, 10).c_str()) != nullptr);
     }
-    // The directory goes away, or a file stands in the way, while dumping.
+    // While dumping, the directory disappears, or a file is in the way.
     Model model;
     CHECK(model.makeFourSpheres());
     View view;

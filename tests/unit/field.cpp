@@ -1,4 +1,4 @@
-// The Geoff function and its table, held against the polynomial in double precision.
+// Tests of the Geoff function and its table against the polynomial in double precision.
 #include "model/field.h"
 
 #include "help.h"
@@ -12,7 +12,7 @@ TEST(geoff_function)
     NEAR(number(geoff(Real(7))), 0, 0);
     NEAR(number(geoffSlope(Real(1))), 0, 0);
     NEAR(number(geoffSlope(Real(0))), -22.0 / 9, 2 * STEP + EXACT * 4);
-    // It ends smoothly: value and slope just inside.
+    // The field ends smoothly: value and slope just inside t = 1.
     NEAR(number(geoff(Real(0.999))), 0, 1e-4);
     NEAR(number(geoffSlope(Real(0.999))), 0, 0.01);
     for (int i = 0; i < 65536; i += 7) {

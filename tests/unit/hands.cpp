@@ -1,4 +1,4 @@
-// The small parts behind keys and screen: the animation's pace, questions, lines of text.
+// Tests of the small parts behind keys and screen: the animation's pace, questions to the user, lines of text.
 #include "app/ask.h"
 #include "app/options.h"
 #include "app/overlay.h"
@@ -56,7 +56,7 @@ TEST(a_line_is_typed)
         CHECK(ask.key(machine::KEY_BACKSPACE) == Ask::OPEN);
     CHECK(ask.line()[0] == 0);
     CHECK(ask.key(machine::KEY_ENTER) == Ask::OPEN);  // no answer
-    for (const int code : {42, 63, 34, 60, 62, 124, 32, 7, 200, 0x152})  // no characters of names, no characters
+    for (const int code : {42, 63, 34, 60, 62, 124, 32, 7, 200, 0x152})  // not allowed in names, or no characters
         CHECK(ask.key(code) == Ask::OPEN);
     CHECK(ask.line()[0] == 0);
     CHECK(ask.key('q') == Ask::OPEN);
@@ -106,9 +106,9 @@ TEST(text_is_broken_between_words)
     CHECK(overlay.paragraph(0, 0, wide, "0123456789", false) == 1);
     CHECK(overlay.paragraph(0, 0, wide, "01234 6789 ab", false) == 2);
     CHECK(overlay.paragraph(0, 0, wide, "01234 678901", false) == 2);
-    CHECK(overlay.paragraph(0, 0, wide, "0123456789abcdefghijk", false) == 3);  // no place to break it
+    CHECK(overlay.paragraph(0, 0, wide, "0123456789abcdefghijk", false) == 3);  // a word too long for a line
     CHECK(overlay.paragraph(0, 0, wide, "a b c d e f g h i j k", false) == 3);
-    // Nothing beyond the width, wherever it breaks; and off the screen nothing at all.
+    // Nothing is drawn beyond the width, wherever the text breaks, and nothing at all off the screen.
     for (const char* text : {"01234 678901", "0123456789abcdefghijk", "######### #########"}) {
         view.begin();
         const int lines = overlay.paragraph(20, 30, wide, text);

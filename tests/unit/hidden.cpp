@@ -1,4 +1,4 @@
-// What nearer objects hide is neither settled nor drawn, and comes back when they go away.
+// Tests of occlusion: seeds hidden by nearer objects are neither settled nor drawn, and reappear when those objects go away.
 #include <cstdlib>
 #include <cstring>
 
@@ -13,7 +13,7 @@ namespace {
 
 int32_t steps(double units) { return static_cast<int32_t>(std::lround(units * 256)); }
 
-// A frame as the demo makes it: the objects are given the nearest first.
+// Makes a frame like the demo: the objects are updated and drawn in order, the nearest first.
 void play(Scene& scene, View& view, bool hides)
 {
     scene.findBodies();
@@ -29,7 +29,7 @@ void play(Scene& scene, View& view, bool hides)
     view.end();
 }
 
-// Two balls that blend behind a larger one, which stands in front of all of them or of none.
+// Two balls that blend, behind a larger one which hides both of them or none.
 struct Behind {
     Scene scene;
     View view;
@@ -56,7 +56,7 @@ TEST(a_ball_is_hidden_when_all_before_it_is_nearer)
 {
     View view;
     CHECK(view.open());
-    // A wall of 80 to 60 units, 100 away.
+    // A wall of 80 by 60 units at a distance of 100.
     Voxel wall{};
     wall.z = steps(100);
     wall.halfWidth = static_cast<int16_t>(steps(40));
@@ -72,10 +72,11 @@ TEST(a_ball_is_hidden_when_all_before_it_is_nearer)
         const double x = random.between(-60, 60) * z / 100, y = random.between(-45, 45) * z / 100;
         const int32_t place[] = {steps(x), steps(y), steps(z)};
         const bool isHidden = view.hides(place, steps(radius));
-        // By how many pixels the ball's square lies within the wall, or beyond its side.
+        // By how many pixels the square around the ball's projection lies within the wall; negative if it extends beyond the wall's
+        // edge.
         const double within = std::min((40 / 100.0 - (std::fabs(x) + radius) / z) * number(camera.focalX),
                                        (30 / 100.0 - (std::fabs(y) + radius) / z) * number(camera.focalY));
-        // And by how many it lies beside the screen.
+        // By how many pixels the ball lies beside the screen.
         const double beside = std::max((std::fabs(x) - radius) / z * number(camera.focalX) - WIDTH / 2,
                                        (std::fabs(y) - radius) / z * number(camera.focalY) - HEIGHT / 2);
         if (std::fabs(beside) < 1)
@@ -107,7 +108,7 @@ TEST(what_is_hidden_is_not_settled)
 
 TEST(what_was_hidden_comes_back)
 {
-    // What is behind does not move, and is nobody's neighbour that does.
+    // The objects behind do not move and have no neighbour that moves.
     Behind was(0), never(80);
     for (int i = 0; i < 3; ++i)
         play(was.scene, was.view, true);
@@ -122,6 +123,6 @@ TEST(what_was_hidden_comes_back)
         CHECK(drawn > 1000);
         CHECK(wrong <= drawn / 500);
     }
-    // And once all of it is seen, it rests.
+    // Once all of it is visible, no seed has to be updated any more.
     SAME(was.scene.counts.updated, 0u);
 }

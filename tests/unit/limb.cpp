@@ -1,4 +1,4 @@
-// The limb: a scale next to it ends where rays of sight only touch the surface.
+// Tests of the limb: a scale next to it ends where rays of sight are tangent to the surface.
 #include "help.h"
 
 #include "../../src/surface/limb.h"
@@ -11,14 +11,14 @@ Vec cross(const Vec& a, const Vec& b)
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// What cuts a voxel, as the drawing loop takes it: below 0 beyond the limb; units across the view.
+// The cut function of a voxel as the drawing loop computes it: negative beyond the limb; x and y in units across the view.
 double cutAt(const Voxel& v, double x, double y)
 {
     return v.cutAt / 64.0 + (v.cutX * x + v.cutY * y) / 8.0 +
            (v.curveXX * x * x + 2 * v.curveXY * x * y + v.curveYY * y * y) / 32.0;
 }
 
-// What is left of the voxel of a seed at the limb; seed and normal in axes of the view, units.
+// Cuts the voxel of a seed at the limb; seed and normal in axes of the view, units.
 Voxel ended(const Limb& limb, const Vec& seed, const Vec& normal)
 {
     const double cosine = -dot(normal, seed) / seed.z;
@@ -31,13 +31,13 @@ Voxel ended(const Limb& limb, const Vec& seed, const Vec& normal)
     return v;
 }
 
-// Of a convex surface round an axis; a ball's has no direction.
+// A convex surface of revolution; a ball has the axis 0.
 struct Round {
     Vec centre, axis;
     double radius;
 
     Vec across(const Vec& v) const { return v - axis * dot(axis, v); }
-    // How far outside of it a ray goes by, units; below 0 where it meets it.
+    // The distance by which a ray misses the surface, units; negative if it hits the surface.
     double missed(const Vec& ray) const
     {
         const Vec d = across(ray), c = across(centre);
@@ -46,7 +46,7 @@ struct Round {
     }
 };
 
-// Holds scales of seeds that are seen nearly edge-on against the surface; `limbOf` finds the limb for a seed.
+// Compares scales of seeds that are seen nearly edge-on with the surface; `limbOf` finds the limb for a seed.
 template <class LimbOf>
 void holdAgainst(const Round& round, Random& random, LimbOf limbOf, long* held, double* worst)
 {
@@ -57,7 +57,7 @@ void holdAgainst(const Round& round, Random& random, LimbOf limbOf, long* held, 
             continue;
         const Vec normal = out * (1 / size(out)), seed = round.centre + normal * round.radius;
         const double cosine = -dot(normal, seed) / seed.z;
-        // A slope has 7 bits, and so has a curve; what is smaller than a unit is made of smaller scales.
+        // A slope and a curve have only 7 bits; surfaces smaller than a unit have smaller scales.
         const double spacing = std::min(2.0, round.radius / 3);
         if (cosine < 0.05 || cosine > 0.5)
             continue;
@@ -72,7 +72,7 @@ void holdAgainst(const Round& round, Random& random, LimbOf limbOf, long* held, 
         for (int k = 0; k < 20; ++k) {
             const double x = random.between(-spacing, spacing), y = random.between(-spacing, spacing);
             const double missed = round.missed(seed + Vec{x, y, 0});
-            // Where the limb is: beside it the two are alike.
+            // Only positions near the limb are compared; the approximation holds there.
             if (std::fabs(missed) > spacing / 4)
                 continue;
             ++*held;
@@ -115,7 +115,7 @@ TEST(scales_of_what_bends_end_at_its_limb)
         axis = axis * (1 / size(axis));
         const Round tube{{random.between(-0.4, 0.4) * depth, random.between(-0.3, 0.3) * depth, depth}, axis,
                          random.between(2.1, std::min(30.0, depth / 6))};
-        // Own axes are turned against the view.
+        // The object's own axes are turned relative to the view.
         Vec own[3] = {{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)}, {0, 0, 0}, {0, 0, 0}};
         own[0] = own[0] * (1 / size(own[0]));
         own[1] = cross(own[0], axis);
@@ -147,7 +147,7 @@ TEST(scales_of_what_bends_end_at_its_limb)
     CHECK(worst < 0.03);
 }
 
-// What is flat along the ray has no limb.
+// A surface that is flat along the ray has no limb.
 TEST(flat_surfaces_have_no_limb)
 {
     Limb limb;

@@ -1,4 +1,4 @@
-// The list.
+// Tests of the linked list.
 #include "math/list.h"
 
 #include "test.h"

@@ -1,4 +1,4 @@
-// The command line: every switch in every spelling, and every bad value refused with a line that names it.
+// Tests of the command line: every switch works in every spelling, and every bad value is refused with a line that names it.
 #include "app/options.h"
 
 #include <cstring>
@@ -8,7 +8,7 @@
 
 namespace {
 
-// Reads one command line of words.
+// Parses a command line that consists of these words.
 const char* parse(std::vector<std::string> words, Options* options)
 {
     words.insert(words.begin(), "demo");
@@ -38,13 +38,13 @@ void bad(const std::string& word)
         note("accepted: %s", word.c_str());
         return;
     }
-    // One line, which begins with the switch.
+    // The message is one line, which begins with the switch.
     CHECK(std::strchr(problem, '\n') == nullptr);
     if (!CHECK(std::strncmp(problem, word.c_str(), word.size() < 40 ? word.size() : 40) == 0))
         note("%s: %s", word.c_str(), problem);
 }
 
-// The same switch with / and -, capital and small.
+// Tests a switch with / and -, in upper and lower case.
 std::vector<std::string> spellings(char letter, const std::string& rest = "")
 {
     std::vector<std::string> all;
@@ -131,7 +131,7 @@ TEST(several_together)
     CHECK(o.grey && o.printed && !o.interactive);
     NEAR(number(o.spacing), 4, 0);
     SAME(o.frames, 10);
-    // The last of two counts.
+    // The last of two values counts.
     NEAR(number(good({"/S:4", "/S:1"}).spacing), 1, 0);
 }
 
@@ -150,18 +150,18 @@ TEST(bad_switches)
         bad(word);
     for (const char* word : {"/D", "/D:", "/M", "/M:", "/M=", "/Dout", "/MWALK", "/O1"})
         bad(word);
-    // A very long one is cut, not overrun.
+    // A very long switch is cut off in the message and does not overrun it.
     Options options;
     const char* problem = parse({"/" + std::string(500, 'Z')}, &options);
     CHECK(problem != nullptr && std::strlen(problem) < 300);
-    // A good one before or behind does not help.
+    // A valid switch before or after a bad one does not help.
     CHECK(parse({"/G", "/Q"}, &options) != nullptr);
     CHECK(parse({"/Q", "/G"}, &options) != nullptr);
 }
 
 TEST(habits)
 {
-    // Switches in one word, '=' for ':', a number behind its letter.
+    // Several switches in one word, '=' for ':', and a number directly after its letter are accepted.
     Options o = good({"/G/I/s2/N=5/r35"});
     CHECK(o.grey && o.interactive && !o.printed && o.rateGiven);
     NEAR(number(o.spacing), 2, 0);
@@ -171,12 +171,12 @@ TEST(habits)
     NEAR(number(o.spacing), 0.5, 0);
     CHECK(o.noPresent && !o.rateGiven);
     SAME(o.seconds, 60);
-    // A name goes to the end of its word, slashes and all.
+    // A name extends to the end of its word, including slashes.
     o = good({"/G/M:scenes/walk.fb", "/D=out/G"});
     TEXT(o.modelFile, "scenes/walk.fb");
     TEXT(o.dumpDirectory, "out/G");
     CHECK(o.grey);
-    // A word that is no switch is the scene.
+    // A word that is not a switch is the name of the scene.
     TEXT(good({"WALK.FB"}).modelFile, "WALK.FB");
     TEXT(good({"/G", "walk", "/N5"}).modelFile, "walk");
     for (const char* twice : {"other", "/M:other"}) {
@@ -190,7 +190,7 @@ TEST(complaints_are_plain_text)
     Options options;
     const char* problem = parse({"/Q\n\x1b[2J\xff"}, &options);
     CHECK(problem != nullptr && std::strncmp(problem, "/Q\\x0A\\x1B[2J\\xFF: ", 19) == 0);
-    // What is too long keeps its beginning and its end.
+    // A switch that is too long for the message keeps its beginning and its end.
     problem = parse({"/N:1" + std::string(300, '0') + "end"}, &options);
     CHECK(problem != nullptr && std::strncmp(problem, "/N:1000", 7) == 0 && std::strstr(problem, "...") != nullptr);
     CHECK(problem != nullptr && std::strstr(problem, "000end: ") != nullptr);
@@ -211,7 +211,7 @@ TEST(help_names_every_switch_and_key)
          {"/I", "/G", "/P", "/S:", "/F:", "/N:", "/T:", "/D:", "/M:", "/?", "*", "-", "+", "ESC", "left button", "right button"})
         if (!CHECK(std::strstr(HELP, word) != nullptr))
             note("not in the help: %s", word);
-    // It fits a text screen.
+    // The list fits a text screen.
     int line = 0, lines = 0, longest = 0;
     for (const char* c = HELP; *c != 0; ++c) {
         if (*c == '\n') {

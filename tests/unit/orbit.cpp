@@ -1,11 +1,11 @@
-// The user's way about a scene: where the eye comes to stand, and what it then sees in the middle.
+// Tests of moving the eye around a scene: its position, and the point that it sees in the middle of the picture.
 #include "app/orbit.h"
 #include "help.h"
 #include "test.h"
 
 namespace {
 
-// Four objects round a middle that is not the origin.
+// Four objects around a centre that is not the origin.
 void fill(Model& model)
 {
     const Vector places[] = {vector(30, 10, 0), vector(-10, 10, 0), vector(10, 30, 20), vector(10, -10, -20)};
@@ -20,7 +20,7 @@ void fill(Model& model)
     Anim::move(model, 0);
 }
 
-// The point in the middle of the picture, as far away as the middle of the scene was.
+// The point in the middle of the picture at this distance from the eye.
 Vec seen(const Camera& camera, double distance) { return vec(camera.eye) + vec(camera.axes.ahead) * distance; }
 
 }  // namespace
@@ -34,18 +34,18 @@ TEST(about_a_scene)
     Orbit orbit;
     Camera camera = orbit.from(model.camera, model);
     CHECK(camera.eye == model.camera.eye && !camera.axes.turned);
-    // A quarter to the right, seen from its right side.
+    // After a quarter turn to the right the scene is seen from its right side.
     for (int i = 0; i < 18; ++i)
         orbit.turn(Real(5), Real(0));
     camera = orbit.from(model.camera, model);
     CHECK(size(vec(camera.eye) - Vec{120, 10, 0}) < 0.1);
     CHECK(size(seen(camera, 110) - middle) < 0.1);
     NEAR(number(camera.axes.up.y), 1, 1e-3);
-    // The middle does not follow the objects while the eye is away.
+    // The centre does not follow the objects while the eye is away from its place.
     model.actor(0).object->translate(vector(0, 40, 0));
     const Camera later = orbit.from(model.camera, model);
     CHECK(later.eye == camera.eye && later.axes == camera.axes);
-    // Over it, as far as that goes, and nearer.
+    // The eye goes up as far as it can, and nearer.
     for (int i = 0; i < 40; ++i)
         orbit.turn(Real(0), Real(5));
     orbit.approach(Real(0.5));
@@ -53,11 +53,11 @@ TEST(about_a_scene)
     NEAR(size(vec(camera.eye) - middle), 55, 0.1);
     CHECK(size(seen(camera, 55) - middle) < 0.1);
     CHECK(camera.eye.y > Real(60) && camera.axes.up.y > Real(0.05));
-    // And back.
+    // The eye returns to its place.
     orbit.reset();
     camera = orbit.from(model.camera, model);
     CHECK(camera.eye == model.camera.eye && !camera.axes.turned);
-    // All the way round is where it began.
+    // A full circle ends where it began.
     for (int i = 0; i < 72; ++i)
         orbit.turn(Real(-5), Real(0));
     camera = orbit.from(model.camera, model);
@@ -86,7 +86,7 @@ TEST(about_what_the_eye_looks_at)
         CHECK(size(seen(camera, distance) - target) < 0.3);
         CHECK(absolute(camera.eye.x) <= Real(SPACE) && absolute(camera.eye.y) <= Real(SPACE) &&
               absolute(camera.eye.z) <= Real(SPACE));
-        // Only the edge of the space keeps it nearer than it was asked to be.
+        // Only the edge of the space may keep the eye nearer than requested.
         const double most =
             std::fmax(std::fabs(number(camera.eye.x)), std::fmax(std::fabs(number(camera.eye.y)), std::fabs(number(camera.eye.z))));
         CHECK(distance > away * factor - 0.5 || most > 200);

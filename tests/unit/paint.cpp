@@ -1,4 +1,4 @@
-// Paint: finishes, patterns, colours that mix: which colours are chosen, and what voxels get of them.
+// Tests of paint (finishes, patterns, mixed colours): the colours that are chosen, and the ramps that voxels get.
 #include "model/paint.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace {
 
-// A scene from its text, with a palette, settled at a time.
+// A scene made from its text, with a palette, settled at a given time.
 struct Painted {
     Model model;
     Palette palette;
@@ -36,7 +36,7 @@ struct Painted {
     }
     SoftObject& object(int i) { return *model.actor(i).object; }
     FrameContext frame() { return {model.camera.eye, unit(model.light), model.bodies(), &counts}; }
-    // Calls `each` with each voxel of an object, its ramp and its place from the object's centre.
+    // Calls `each` with each voxel of an object, its ramp and its position relative to the object's centre.
     template <class Each>
     void draw(int i, Each each, int room = 256)
     {
@@ -53,7 +53,7 @@ struct Painted {
             SAME(at, list->runs == 0 ? 0 : list->count);
         } while (next != 0);
     }
-    // Red, green and blue of a palette's entry, 0..255.
+    // Red, green and blue of a palette entry, 0..255.
     Vec rgb(int entry) const
     {
         const uint8_t* c = palette.dac() + 3 * entry;
@@ -67,7 +67,7 @@ double away(const Vec& a, const Vec& b)
     return std::sqrt(dot(d, d));
 }
 
-// What a colour is at full light before the highlight begins, as a ramp has it.
+// The ramp entry of a colour at a step of brightness below the highlight.
 Vec lit(const Vec& colour, int step)
 {
     return colour * ((Palette::AMBIENT + step * (63 - Palette::AMBIENT) / 63.0) / 63);
@@ -83,7 +83,7 @@ TEST(paint_only_where_it_is_asked_for)
     CHECK(none.object(0).paint() == nullptr && none.object(1).paint() == nullptr);
     Painted one(BALLS + "finish a shiny\n");
     CHECK(one.object(0).paint() != nullptr && one.object(0).paint()->finish == FINISH_SHINY);
-    // As printed there is none; in grey there are finishes.
+    // A plain palette has no paint; a grey one has finishes only.
     Painted plain(BALLS + "finish a shiny\ncolours mixed\n", 0, false, true);
     CHECK(plain.object(0).paint() == nullptr);
     CHECK(std::equal(plain.palette.dac(), plain.palette.dac() + 768, none.palette.dac()));
@@ -92,7 +92,7 @@ TEST(paint_only_where_it_is_asked_for)
     CHECK(!grey.object(0).paint()->mixes && grey.object(1).paint() == nullptr);
     Painted bare(BALLS, 0, true);
     CHECK(std::equal(bare.palette.dac(), bare.palette.dac() + 768, grey.palette.dac()));
-    // What is taken back leaves nothing behind.
+    // Paint that is taken away leaves nothing behind.
     one.model.actor(0).coat = Coat();
     one.palette.make(one.model, false);
     CHECK(one.object(0).paint() == nullptr);
@@ -101,7 +101,7 @@ TEST(paint_only_where_it_is_asked_for)
 
 TEST(colours_of_paint_have_ramps)
 {
-    // All at once, and more colours than there may be.
+    // All kinds of paint at once, and more colours than there may be.
     std::string text = "colours mixed\n";
     for (int i = 1; i <= 128; ++i) {
         char line[200];
@@ -140,7 +140,7 @@ TEST(colours_mix_by_the_fields)
     const Vec red{255, 64, 48}, blue{72, 112, 255};
     const Paint& paint = *p.object(0).paint();
     const Truth truths[] = {{{{{-10, 0, 0}, 40, 1}}}, {{{{12, 0, 0}, 40, 1}}}};
-    // How far the seeds' mixtures are from the mean of the two colours.
+    // The distance of the seeds' mixed colours from the average of the two colours.
     int mixed = 0;
     const auto worst = [&](const Vec& first) {
         double most = 0;
@@ -165,8 +165,8 @@ TEST(colours_mix_by_the_fields)
     const double off = worst(red);
     note("%d mixtures of %d colours, off by %.1f of 255 at most", mixed, paint.paints->count(), off);
     CHECK(mixed > 300);
-    CHECK(off < 14);  // a cell of the box is 12 by 3 by 14 large
-    // Other colours while nothing moves: the seeds get their new numbers.
+    CHECK(off < 14);  // a mixture stands for a cell of 12 by 3 by 14 in colour space
+    // When the colours change while nothing moves, the seeds get new numbers.
     p.model.actor(1).coat.pattern = PATTERN_STRIPES;
     p.model.actor(1).coat.grain = Real(5);
     for (int change = 0; change < 2; ++change) {
@@ -181,7 +181,7 @@ TEST(colours_mix_by_the_fields)
     }
     p.model.actor(1).coat = Coat();
     p.palette.make(p.model, false);
-    // No band wider than a scale of the report's: of 63 steps of light, 8 from one scale of such a ball to the next.
+    // Neighbouring mixtures differ no more than neighbouring scales of the report's picture: 8 of 63 steps of light on such a ball.
     Vec before = p.rgb(p.object(0).ramp()[45]);
     double step = 0;
     for (int i = 0; i <= 64; ++i) {
@@ -192,7 +192,7 @@ TEST(colours_mix_by_the_fields)
     }
     note("neighbouring mixtures differ by %.1f of 255 at most", step);
     CHECK(step < 8 * 255 / 63.0);
-    // In light the ramps are those of the mixtures.
+    // At each brightness the ramps have the colours of the mixtures.
     double sum = 0;
     int count = 0;
     for (int n = 0; n < paint.paints->count(); ++n)
@@ -271,7 +271,7 @@ TEST(patterns_turn_with_the_object)
             note("%s at %.1f: %d voxels, %d more at edges, %d of the wrong colour", kind, seconds, right, edges, wrong);
             CHECK(right > 150 && wrong * 100 <= right && edges > 100 && both[0] > 80 && both[1] > 80);
         }
-    // A ball that turns shows it.
+    // The pattern of a ball turns with the ball.
     std::string shown[2];
     for (int t = 0; t < 2; ++t) {
         Painted p("sphere a size 50 colour white\nspin a axis 0 1 0 period 8\npattern a stripes 10 red\n", t);
@@ -283,7 +283,7 @@ TEST(patterns_turn_with_the_object)
 
 TEST(painted_lists_in_any_room)
 {
-    // The same voxels, whatever fits the list; and as one ramp while the object is pointed out.
+    // The voxels are the same whatever the room of the list. While the object is marked as selected they have one ramp.
     Painted p("sphere a size 50 colour white\npattern a marble 12 blue\n");
     std::multiset<std::pair<const uint8_t*, std::string>> all[2];
     for (int k = 0; k < 2; ++k)

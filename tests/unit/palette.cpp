@@ -1,4 +1,4 @@
-// Palettes: ramps that rise, colours shared out among many objects.
+// Tests of palettes: ramps never get darker towards the light, and many objects share the 256 colours fairly.
 #include "picture/palette.h"
 
 #include <cmath>
@@ -36,14 +36,14 @@ TEST(grey_ramp)
         CHECK(light(palette, ramp[i]) >= light(palette, ramp[i - 1]));
         steps += light(palette, ramp[i]) != light(palette, ramp[i - 1]);
     }
-    // "One 64-step ramp", but for the darkest, which stand out from the background.
+    // "One 64-step ramp", except that the darkest steps are equal so that they differ from the background.
     CHECK(steps >= 60);
     for (int i = 0; i < 64; ++i) {
         const uint8_t* c = palette.dac() + 3 * ramp[i];
         CHECK(c[0] == c[1] && c[1] == c[2]);
         CHECK(ramp[i] != 0);
     }
-    // Text has its own entry.
+    // Text has a palette entry of its own.
     CHECK(light(palette, Palette::INK) > 3 * 58);
     for (int i = 1; i < 4; ++i)
         for (int step = 0; step < 64; ++step)
@@ -71,7 +71,7 @@ TEST(a_ramp_for_each_colour)
         }
         for (int i = 0; i < 256; ++i)
             used[i] = used[i] || own[i];
-        // The colour is the object's: its strongest part is the ramp's strongest.
+        // The ramp has the hue of the object's colour: the components have the same order.
         const Colour& c = model.actor(o).colour;
         const uint8_t* middle = palette.dac() + 3 * ramp[45];
         CHECK((c.red >= c.green) == (middle[0] >= middle[1]));
@@ -81,8 +81,8 @@ TEST(a_ramp_for_each_colour)
 
 TEST(ramps_are_true_to_their_colours)
 {
-    // What the dump's `ramp` and `ambient` lines say: at each step the colour times ambient + (1 - ambient) step / 63, up to
-    // where the highlights begin. Distances in steps of the DAC.
+    // The dump's `ramp` and `ambient` lines promise at each step the colour times ambient + (1 - ambient) step / 63, up to where
+    // highlights begin. Distances are in steps of the DAC.
     struct Bar {
         int colours;
         double rms, worst;
@@ -92,7 +92,7 @@ TEST(ramps_are_true_to_their_colours)
         Model model;
         std::vector<Colour> colours;
         for (int i = 0; i < bar.colours; ++i) {
-            // Round the wheel, bright and dark.
+            // Colours from all around the colour wheel, bright and dark.
             const auto part = [&](double turn) { return 0.5 + 0.5 * std::cos(2 * M_PI * (turn + double(i) / bar.colours)); };
             const double full = i % 3 == 0 ? 120 : 255;
             colours.push_back({static_cast<uint8_t>(full * part(0)), static_cast<uint8_t>(full * part(1 / 3.0)),
@@ -116,7 +116,7 @@ TEST(ramps_are_true_to_their_colours)
                 worst = square > worst ? square : worst;
             }
         }
-        // Highlights: their share of the colour itself is that too, where each colour has its own shades.
+        // The component of a highlight along the colour keeps that promise too, where each colour has entries of its own.
         for (int o = 0; bar.colours <= 4 && o < bar.colours; ++o) {
             const Colour& full = colours[o];
             const uint8_t* ramp = model.actor(o).object->ramp();
@@ -155,7 +155,7 @@ TEST(more_colours_than_fit)
         }
         CHECK(steps >= 14);
     }
-    // Colours so dark that all their shades fit have them all.
+    // If the colours are so dark that all their shades fit, each shade has an entry.
     Model dark;
     for (int i = 0; i < 20; ++i)
         CHECK(dark.add(make<Sphere>(i + 1, Real(10)), {static_cast<uint8_t>(30 + i), 0, 40}, Motion{}));

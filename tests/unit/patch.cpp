@@ -1,5 +1,5 @@
-// Patches: that they hold every seed once, and that what is said of a patch as a whole is true of each of its seeds, held
-// against a look at every seed in double precision. That none is missing that is seen stands in surface.cpp.
+// Tests of patches: each seed is in exactly one patch, and the state of a patch is true of each of its seeds, tested for every seed
+// in double precision. surface.cpp tests that no visible seed is missing.
 #include "../../src/surface/patch.h"
 
 #include "help.h"
@@ -23,13 +23,13 @@ std::vector<Patch> patchesIn(const SoftObject& object)
     return patches;
 }
 
-// Where a seed rests, in the world.
+// The position of a seed at rest in the world.
 Vec restOf(const SoftObject& object, const Seed& s)
 {
     return vec(object.toWorld(object.root(s.root) + s.path));
 }
 
-// Objects of all kinds, turned any way, in a small space.
+// Places objects of all kinds, turned at random, in a small space.
 void scatter(Scene& scene, std::vector<const Kind*>& kinds, Random& random, int count, double room)
 {
     for (int i = 0; i < count; ++i) {
@@ -118,7 +118,7 @@ TEST(patches_at_rest_are_out_of_reach)
                         if (other == o || body.cores[other].param(p) >= 0.999)
                             continue;
                         any = true;
-                        // And the patch knows by whom it is reached.
+                        // The patch must have this neighbour on its lists.
                         bool listed = false;
                         for (int n = 0; n < all.count; ++n) {
                             const int slot = all.neighbours[n].object->slot();
@@ -129,7 +129,7 @@ TEST(patches_at_rest_are_out_of_reach)
                         CHECK(listed);
                     }
                 });
-                // No seed of a patch at rest is reached; of the others few for nothing.
+                // No seed of a patch at rest is reached by a neighbour. Only few other patches are reached by no neighbour.
                 CHECK(touched || !any);
                 rest += !touched;
                 reached += any;
@@ -154,7 +154,7 @@ TEST(patches_that_face_away_are_out_of_sight)
         const Body body(scene, kinds);
         const SoftObject& object = *scene.objects[0];
         const OwnFrame own = ownFrame(object, scene.frame());
-        // What is seen more edge-on is not drawn.
+        // Seeds seen more edge-on than this are not drawn.
         const double limb = own.limb / 16384.0 * own.distance32 / 32;
         for (const Patch& patch : patchesIn(object)) {
             bool seen = false;

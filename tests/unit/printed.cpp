@@ -1,10 +1,10 @@
-// The report's own methods (/P): its tolerances and answers to gaps at work, each by its figures.
+// Tests of the report's own methods (/P): its tolerances and its remedies for gaps, each with the report's numbers.
 #include "help.h"
 #include "test.h"
 
 namespace {
 
-// What src/surface/report98.cpp is made with.
+// Constants of src/surface/report98.cpp.
 constexpr double LOCATION_TOLERANCE = 0.00004;
 constexpr int ITERATION_LIMIT = 32;
 constexpr double OVERSHOOT = 0.05;
@@ -48,7 +48,7 @@ TEST(printed_seeds_lie_on_the_surface)
             scene.counts = Counts{};
             scene.update();
             CHECK(scene.counts.updated > 0);
-            // No seed takes longer than the limit, however badly they are placed.
+            // No seed exceeds the limit of iterations, however badly the seeds are placed.
             CHECK(scene.counts.iterations <= scene.counts.updated * static_cast<uint32_t>(ITERATION_LIMIT));
             unsettled += scene.counts.unsettled;
             for (size_t o = 0; o < scene.objects.size(); ++o) {
@@ -68,13 +68,13 @@ TEST(printed_seeds_lie_on_the_surface)
     }
     note("%ld seeds: field within %.5f of the isovalue, %ld beyond the tolerances, %u unsettled", count, worst, beyond, unsettled);
     CHECK(count > 30000);
-    // Those beyond are the ones that reached the limit of iterations, and are counted.
+    // Only seeds that reached the limit of iterations, and are counted as such, are beyond the tolerance.
     CHECK(beyond <= static_cast<long>(unsettled));
 }
 
 TEST(printed_accuracy)
 {
-    // All but those counted are as near as the report's "desired accuracy" when they start afresh.
+    // All other seeds reach the report's "desired accuracy" when they start afresh.
     Scene scene = pair(20, 17);
     long beyond = 0, count = 0;
     const Truth truth = scene.truth(0);
@@ -91,7 +91,7 @@ TEST(printed_accuracy)
 
 TEST(printed_scales_grow_with_deformation)
 {
-    // Half a scale is SCALE spacings at rest, and grows by MAGNIFICATION with the deformity.
+    // The half extent of a scale is SCALE spacings at rest, and grows by MAGNIFICATION with the deformity.
     Scene scene = pair(20, 19);
     const std::vector<Voxel> voxels = scene.draw(0);
     std::vector<double> expected;
@@ -112,7 +112,7 @@ TEST(printed_scales_grow_with_deformation)
 
 TEST(printed_normals)
 {
-    // Three samples for each; none where the surface is hardly deformed; as the field says.
+    // A normal takes three samples; where the surface is hardly deformed none is taken. Normals agree with the field.
     Scene far = pair(20, 60);
     CHECK(far.draw(0).size() > 100);
     SAME(far.counts.normals, 0);
@@ -142,7 +142,7 @@ TEST(printed_normals)
     CHECK(count > 20);
     CHECK(sum / count < 2.5);
     CHECK(worstRest < 4);
-    // What has not moved keeps its normal.
+    // A seed that has not moved keeps its normal.
     scene.objects[0]->setRecalc();
     scene.update();
     scene.draw(0);
@@ -156,7 +156,7 @@ TEST(printed_normals)
 
 TEST(printed_overshoot)
 {
-    // Two alike: the border lies half way between them.
+    // The border of two equal balls is half way between them.
     Scene scene = pair(24, 18);
     const SoftObject& ball = *scene.objects[0];  // the left one
     const Truth truth = scene.truth(0);
@@ -178,7 +178,7 @@ TEST(printed_overshoot)
 
 TEST(printed_oversampled_seeds)
 {
-    // They take part exactly where S and N differ by more than the tolerance; none after the objects have come apart.
+    // Oversampled seeds take part exactly where S and N differ by more than the tolerance, and not after the objects have parted.
     Scene scene = pair(20, 19);
     const auto active = [&](bool check) {
         int count = 0;
@@ -201,7 +201,7 @@ TEST(printed_oversampled_seeds)
 
 TEST(printed_seeds_that_face_away)
 {
-    // Nothing that faces the viewer is passed over.
+    // No seed that faces the viewer is left out.
     Scene scene;
     scene.printed = true;
     SoftObject& ball = scene.ball(40, 30, 20, 40);

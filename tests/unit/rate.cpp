@@ -1,4 +1,4 @@
-// The holding of a rate: a clock that counts seeds, and what the controller makes of it.
+// Tests of the frame rate controller, with a simulated clock that depends on the number of seeds.
 #include "app/rate.h"
 
 #include "app/options.h"
@@ -8,7 +8,7 @@
 
 namespace {
 
-// A machine on which a frame takes a share of a second for each seed of the model, and a share for itself.
+// A simulated machine, on which each seed of the model takes a share of a second per frame, and the frame itself another share.
 struct Run {
     Model model;
     Rate rate;
@@ -57,7 +57,7 @@ void fourBalls(Run& run)
 
 TEST(a_rate_is_held)
 {
-    // From a machine that is four times too slow to one that is ten times too fast.
+    // Machines from four times too slow to ten times too fast.
     for (double times : {0.25, 0.5, 0.9, 1.5, 4.0, 10.0}) {
         for (int frames : {5, 10, 30}) {
             Run run(2500 * frames * times, 0.1 / frames);
@@ -68,7 +68,8 @@ TEST(a_rate_is_held)
             note("%d wanted, %g times the machine: %.1f a second, spacings %.2f to %.2f after %d changes", frames, times, reached,
                  number(run.model.finest()), number(run.model.coarsest()), run.changes);
             CHECK(reached > 0.95 * frames && reached < 1.3 * frames);
-            // One object at a time, or two while a frame takes four times too long; by less than a third, and then it stays.
+            // One object changes at a time (or two while a frame takes four times too long), by less than a third. Then nothing
+            // changes.
             CHECK(run.atOnce == 1 || (times < 0.5 && run.atOnce == 2));
             CHECK(run.largestStep < 1.35);
             run.changes = 0;
@@ -80,7 +81,7 @@ TEST(a_rate_is_held)
 
 TEST(a_rate_is_held_by_what_shows_least)
 {
-    // Near and far, thick and thin: a slow machine keeps the seeds where they are seen.
+    // Near and far, thick and thin objects: on a slow machine the seeds are kept where they are most visible.
     Run run(3000);
     run.add(30, -20, -60);
     run.add(30, 20, 100);
@@ -90,7 +91,7 @@ TEST(a_rate_is_held_by_what_shows_least)
     run.play(200);
     CHECK(run.spacing(0) < run.spacing(1));
     CHECK(run.spacing(2) < run.spacing(0));
-    // What was far comes near, and the seeds go with it.
+    // When near and far objects change places, the spacings follow.
     run.model.actor(1).object->moveTo(point(20, 0, -60));
     run.model.actor(0).object->moveTo(point(-20, 0, 100));
     run.play(200);
@@ -99,7 +100,7 @@ TEST(a_rate_is_held_by_what_shows_least)
 
 TEST(a_rate_has_its_limits)
 {
-    // No finer than a pixel, however fast the machine; no coarser than the objects bear.
+    // Spacings get no finer than a pixel, however fast the machine, and no coarser than the objects allow.
     Run fast(1e9);
     fourBalls(fast);
     fast.rate.hold(10);
@@ -110,14 +111,14 @@ TEST(a_rate_has_its_limits)
     slow.rate.hold(10);
     slow.play(400);
     CHECK(number(slow.model.coarsest()) > 6 && slow.model.coarsest() <= SPACING_MOST);
-    // Without memory nothing becomes finer.
+    // Without memory nothing gets finer.
     Run poor(1e6);
     fourBalls(poor);
     poor.rate.hold(10);
     poor.rate.refused();
     poor.play(50);
     SAME(poor.changes, 0);
-    // And none is held when none is wanted.
+    // No rate is held unless one is set.
     Run none(100);
     fourBalls(none);
     Real spacing;
@@ -127,7 +128,7 @@ TEST(a_rate_has_its_limits)
 
 TEST(a_rate_is_held_by_many)
 {
-    // Forty small balls on a slow machine: several at once, but never a third of them.
+    // Of forty small balls on a slow machine several change at once, but never more than a third.
     Run run(5000);
     for (int i = 0; i < 40; ++i)
         run.add(10, -40 + 2 * i, i);

@@ -1,4 +1,4 @@
-// Real in its three kinds: what every kind promises, and what 16.16 promises besides.
+// Tests of Real in its three kinds (16.16, float, double): what all kinds guarantee, and what 16.16 guarantees in addition.
 #include "math/real.h"
 
 #include <cmath>
@@ -17,7 +17,7 @@ TEST(real_conversions)
     SAME(rawFromReal(Real(-1.5)), -98304);
     CHECK(realFromRaw(65536) == Real(1));
     CHECK(realFromRaw(-32768) == Real(-0.5));
-    // Raw values travel through every kind unchanged as far as its bits go.
+    // Each kind of Real keeps raw values unchanged as far as its precision allows.
     Random random;
     for (int i = 0; i < 1000; ++i) {
         const int32_t raw = static_cast<int32_t>(random.bits()) >> 8;
@@ -98,7 +98,7 @@ TEST(circle)
         NEAR(number(sine(a)), truth, STEP + 1e-7);
         NEAR(number(cosine(a)), std::cos(a * (M_PI / 2147483648.0)), STEP + 1e-7);
     }
-    // As the header states.
+    // The precision is that stated in the header.
     NEAR(worst, 0, std::ldexp(1.0, -27));
     SAME(sine30(0), 0);
     SAME(sine30(0x40000000u), 0x40000000);
@@ -144,7 +144,7 @@ TEST(wide_arithmetic)
 
 TEST(fixed_point_rounds_as_stated)
 {
-    // Products towards minus infinity, quotients towards zero.
+    // Products are rounded towards minus infinity, quotients towards zero.
     SAME((Real::fromRaw(-1) * Real(0.5)).raw, -1);
     SAME((Real::fromRaw(1) * Real(0.5)).raw, 0);
     SAME((Real::fromRaw(-1) / Real(2)).raw, 0);
@@ -174,7 +174,7 @@ TEST(fixed_point_division_never_traps)
     SAME((Real(-30000) / Real::fromRaw(1)).raw, -INT32_MAX);
     SAME((Real(30000) / Real::fromRaw(-1)).raw, -INT32_MAX);
     SAME((Real::fromRaw(INT32_MIN) / Real::fromRaw(1)).raw, -INT32_MAX);
-    // Every quotient near the end of the range has the right size or the largest.
+    // A quotient near the end of the range is either correct or the largest number.
     Random random;
     for (int i = 0; i < 200000; ++i) {
         const int32_t a = static_cast<int32_t>(random.bits()), b = static_cast<int32_t>(random.bits()) >> random.below(31);

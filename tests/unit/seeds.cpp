@@ -1,4 +1,4 @@
-// Seeds as they are laid out (report, Appendix C): how many, how evenly, and which is whose neighbour.
+// Tests of the layout of seeds (report, Appendix C): their number, their even distribution, and their neighbours.
 #include <algorithm>
 
 #include "help.h"
@@ -7,7 +7,7 @@
 
 namespace {
 
-// Slots of the first seed of each ring, and one past the last.
+// Slots of the first seed of each ring, and one past the last ring.
 std::vector<int> rings(const SoftObject& object)
 {
     std::vector<int> starts;
@@ -18,7 +18,7 @@ std::vector<int> rings(const SoftObject& object)
     return starts;
 }
 
-// Seeds of a sphere by the report's rings, in double precision.
+// The number of seeds of a sphere by the report's rings, in double precision.
 void expected(double radius, double spacing, int* regular, int* first)
 {
     const int n = static_cast<int>(std::ceil(M_PI * radius / spacing - 1e-6));
@@ -32,7 +32,7 @@ void expected(double radius, double spacing, int* regular, int* first)
     }
 }
 
-// Share of seeds whose nearest neighbour is within 35% of the spacing.
+// The share of seeds whose nearest neighbour is at the distance of the spacing within 35%.
 double evenness(const SoftObject& object, double spacing)
 {
     std::vector<Vec> points;
@@ -78,7 +78,7 @@ TEST(counts_at_every_spacing)
             const SoftObject& ball = scene.ball(size, 0, 0, 0, spacing);
             int regular, first = 0;
             expected(size / 2, number(real(spacing)), &regular, &first);
-            // A ring whose length is a whole number of spacings may round either way: a few of many rings do.
+            // A ring whose length is a whole number of spacings may be rounded either way; this happens in a few of many rings.
             const int slack = static_cast<int>(size / 2 / spacing / 5);
             NEAR(ball.seeds(), regular, slack);
             SAME(ball.seeds() - ball.oversampledSeeds(), first);
@@ -128,7 +128,7 @@ TEST(seeds_are_even)
 
 TEST(every_point_has_a_seed_near_it)
 {
-    // Even also means that no part of the sphere is left out.
+    // An even distribution also leaves out no part of the sphere.
     Random random;
     Scene scene;
     const SoftObject& ball = scene.ball(35, 0, 0, 0, 2);
@@ -165,7 +165,7 @@ TEST(neighbour_rule_of_the_oversampled_seeds)
                     double nearest = 1e9;
                     for (int j = starts[k - 1]; j < starts[k]; j += 2)
                         nearest = std::fmin(nearest, size(vec(ball.seed(j).path) - target));
-                    // Two may be equally near.
+                    // Two seeds may be equally near.
                     NEAR(size(vec(ball.seed(s.neighbour).path) - target), nearest, 2e-3);
                     const Vec middle = (vec(s.path) + vec(ball.seed(s.neighbour).path)) * 0.5;
                     const Vec o = vec(ball.seed(i + 1).path);
@@ -179,9 +179,8 @@ TEST(neighbour_rule_of_the_oversampled_seeds)
 
 TEST(roots_are_shared)
 {
-    // All seeds of a sphere have one root; those of a cap of the stick too. The root of an oversampled seed
-    // between two roots is the point of the core nearest to the middle of the two seeds, so that its path is square to the
-    // core.
+    // All seeds of a sphere have one root, and so have those of each cap of the stick. The root of an oversampled seed between two
+    // roots is the point of the core nearest to the midpoint of the two seeds, so that its path is perpendicular to the core.
     Scene scene;
     const SoftObject& ball = scene.ball(30, 1, 2, 3);
     for (int i = 0; i < ball.seedSlots(); ++i)
@@ -238,7 +237,7 @@ TEST(thin_objects_have_closer_seeds)
     }
     for (double spacing : {2.0, 1.0, 4.0}) {
         CHECK(model.resample(real(spacing), makeEngine));
-        // As many seeds go round what is 6 thick as round what is 9 thick; nothing has seeds less than half as far apart.
+        // Thin objects have a finer spacing: one 6 thick has as many seeds around it as one 9 thick. No spacing is less than half.
         const double expected[] = {1, 1, 6 / 9.0, 0.5};
         int seeds = 0;
         for (int i = 0; i < 4; ++i) {
@@ -249,7 +248,7 @@ TEST(thin_objects_have_closer_seeds)
         NEAR(model.actor(1).object->seeds(), model.actor(2).object->seeds(), 1);
         NEAR(number(model.coarsest()), spacing, 0);
     }
-    // One that comes later.
+    // An object that is added later.
     described.measure[0] = real(6);
     CHECK(model.addItem(described) != nullptr);
     NEAR(number(model.actor(4).object->spacing()), 4 * 6 / 9.0, 1e-3);
@@ -257,7 +256,7 @@ TEST(thin_objects_have_closer_seeds)
 
 TEST(equal_objects_have_equal_seeds)
 {
-    // Seeds are copied where an object of the same kind, measures and size has some; that must not show.
+    // Seeds are copied from an object of the same kind, measures and size if there is one; the result must be the same.
     for (const char* kind : {"sphere", "torus", "cone", "box"}) {
         Model model;
         Actor described;
@@ -266,7 +265,7 @@ TEST(equal_objects_have_equal_seeds)
         for (int i = 0; i < MEASURES_MOST; ++i)
             described.measure[i] = real(measures[i]);
         CHECK(model.addItem(described) != nullptr && model.addItem(described) != nullptr);
-        // The third differs.
+        // The third object differs.
         described.measure[0] = Real(24);
         CHECK(model.addItem(described) != nullptr);
         for (double spacing : {2.0, 1.5}) {

@@ -1,4 +1,5 @@
-// How the brightness changes across scales: what Slopes makes of voxels beside each other, and how true it is where objects blend.
+// Tests of how the brightness changes across scales: the slopes that Slopes computes from neighbouring voxels, and their accuracy
+// where objects blend.
 #include "../../src/surface/slopes.h"
 
 #include "help.h"
@@ -10,7 +11,7 @@ namespace {
 constexpr int32_t SPACING = 512;
 constexpr int RINGS = 5, ROUND = 7;
 
-// A plane of seeds in rings, tilted away from the viewer, and the voxels that show them.
+// A plane of seeds in rings, tilted relative to the viewer, and the voxels of these seeds.
 struct Plane {
     std::vector<Seed> seeds{static_cast<size_t>(RINGS * ROUND)};
     std::vector<Voxel> voxels{static_cast<size_t>(RINGS * ROUND)};
@@ -19,12 +20,12 @@ struct Plane {
 
     static int at(int ring, int i) { return ring * ROUND + i; }
 
-    // Brightness 30 in the middle, and its change for a unit of the picture plane.
+    // The brightness is 30 in the middle and changes by these amounts per unit of the picture plane.
     Plane(double changeX, double changeY)
     {
         for (int ring = 0; ring < RINGS; ++ring)
             for (int i = 0; i < ROUND; ++i) {
-                // N is beside the next seed of the ring (model/seed.h).
+                // The seed N of the ring before is beside the next seed of the ring (model/seed.h).
                 seeds[at(ring, i)].neighbour = ring == 0 ? -1 : 2 * at(ring - 1, std::min(i + 1, ROUND - 1));
                 Voxel& v = voxels[at(ring, i)];
                 v = {};
@@ -45,20 +46,20 @@ struct Plane {
             slopes->add(&seeds[i], i, &voxels[i], wanted ? Slopes::sight(bits10(shearX), bits10(shearY)) : Slopes::STAYS);
         slopes->set(SPACING);
     }
-    // Whether the slopes of a lit voxel are right, but for what rounding brightness to whole steps makes of them.
+    // Whether the slopes of a lit voxel are right, except for the rounding of brightness to whole steps.
     bool isRight(int i, double changeX, double changeY, double off) const
     {
         return std::fabs(voxels[i].slopeX - 8 * changeX) <= off && std::fabs(voxels[i].slopeY - 8 * changeY) <= off;
     }
 };
 
-// By how much the brightness of scales is off a unit beside their middles.
+// The squared errors of brightness a unit beside the centres of scales.
 struct Beside {
     double sum = 0;
     long count = 0;
 };
 
-// The place of the surface on the ray of sight that goes through one near it.
+// The point of the surface on the ray of sight through a point near the surface.
 Vec onSurface(const Body& body, const std::vector<size_t>& joined, const Vec& eye, Vec p)
 {
     const Vec ray = (p - eye) * (1 / size(p - eye));
@@ -67,7 +68,7 @@ Vec onSurface(const Body& body, const std::vector<size_t>& joined, const Vec& ey
     return p;
 }
 
-// Cuts are another thing, and so are the limb and the terminator.
+// Leaves out scales that are cut and scales near the limb or the terminator.
 void lookBeside(Scene& scene, const Body& body, Beside& all)
 {
     const Vec eye = vec(scene.eye);
@@ -104,13 +105,13 @@ TEST(slopes_are_those_of_the_brightness)
         plane.set();
         for (int ring = 0; ring < RINGS; ++ring)
             for (int i = 0; i < ROUND; ++i) {
-                // A dark or wholly lit one beside it tells less than there is.
+                // A dark or fully lit neighbour does not show the full change of brightness.
                 bool clear = true;
                 for (int k = std::max(ring - 1, 0); k <= std::min(ring + 1, RINGS - 1); ++k)
                     for (int j = std::max(i - 1, 0); j <= std::min(i + 1, ROUND - 1); ++j)
                         clear = clear && plane.voxels[Plane::at(k, j)].brightness % 63 != 0;
                 const bool inside = ring > 0 && ring < RINGS - 1;
-                // Rings close: at their ends seeds of other rings are beside them.
+                // Rings are closed, so the neighbours at their ends are seeds of other rings.
                 if (clear && i > 0 && i < ROUND - 1 && std::fabs(x) + std::fabs(y) > 1.5)
                     CHECK(plane.isRight(Plane::at(ring, i), x, y, inside ? 4 : 8));
             }
@@ -126,7 +127,7 @@ TEST(slopes_stay_where_nothing_is_known)
     for (const Voxel& v : still.voxels)
         CHECK(v.slopeX == 3 && v.slopeY == -2);
 
-    // All others are dark, or far away.
+    // All other voxels are dark, or far away.
     const int middle = Plane::at(2, 3);
     for (int dark = 0; dark < 2; ++dark) {
         Plane lone(1, 1);
@@ -144,7 +145,8 @@ TEST(slopes_stay_where_nothing_is_known)
         CHECK(lone.voxels[middle].slopeX == 12 && lone.voxels[middle].slopeY == -9);
     }
 
-    // Only the seeds of its ring are lit: along that the slope is theirs, square to it what it was.
+    // Only the seeds of the voxel's ring are lit: the slope along the ring is computed from them, and the slope perpendicular to it
+    // is kept.
     Plane ring(1.5, 0);
     ring.shearX = ring.shearY = 0;
     for (int i = 0; i < RINGS * ROUND; ++i) {
@@ -174,7 +176,7 @@ TEST(slopes_of_a_voxel_in_two_parts_are_alike)
     CHECK(plane.isRight(17, 1, -1, 4));
 }
 
-// Half a spacing to each side of a seed where balls blend, the brightness of its scale is about that of the surface.
+// A unit beside the seeds of balls that blend, the brightness of their scales is close to that of the surface.
 TEST(slopes_are_true_where_balls_blend)
 {
     Beside all;
@@ -194,7 +196,7 @@ TEST(slopes_are_true_where_balls_blend)
     CHECK(std::sqrt(all.sum / all.count) < 1.5);
 }
 
-// Next to the limb the scales of seeds that have parted are tilted and wide; none reaches far before the surface.
+// Next to the limb, scales of seeds that have moved apart are tilted and wide; none extends far in front of the surface.
 TEST(no_scale_comes_far_before_the_surface)
 {
     Random random;

@@ -1,11 +1,11 @@
-// SoftObject: the operations of the report's Section III, the graph, and the field.
+// Tests of SoftObject: the operations of the report's Section III, the graph of links, and the field.
 #include "help.h"
 #include "stick.h"
 #include "test.h"
 
 namespace {
 
-// A million in the ordinary build; the sanitizers take ten times as long.
+// A million steps in the ordinary build; fewer with the sanitizers, which take ten times as long.
 #if defined(__SANITIZE_ADDRESS__)
 constexpr int STEPS = 50000;
 #else
@@ -39,13 +39,13 @@ TEST(translation)
     }
     CHECK(stick->centre() == point(3.5, -20, 7.25));
     NEAR(size(stick->a() - Vec{3.5 - 8, -20, 7.25}), 0, 1e-4);
-    // Nothing moved, nothing to do.
+    // If nothing has moved, there is nothing to do.
     scene.update();
     stick->translate(vector(0, 0, 0));
     CHECK(!stick->recalc());
     stick->moveTo(point(1, 2, 3));
     CHECK(stick->centre() == point(1, 2, 3));
-    // There and back again, as often as one likes: in 16.16 to the bit.
+    // Moving to and fro any number of times leads back to the start, in 16.16 bit by bit.
     const Point start = stick->centre();
     Random random;
     for (int i = 0; i < 1000; ++i) {
@@ -61,18 +61,18 @@ TEST(rotation_places_seeds_and_core)
     Scene scene;
     Stick* stick = new Stick(1, 10, 9);
     scene.add(stick, 2, 0, 0);
-    // A quarter about the z axis through the origin.
+    // A quarter turn about the z axis through the origin.
     stick->rotate(point(0, 0, 0), vector(0, 0, 1), 0x40000000u);
     CHECK(stick->recalc());
     NEAR(size(vec(stick->centre()) - Vec{0, 2, 0}), 0, 1e-3);
     NEAR(size(stick->a() - Vec{0, 2 - 9, 0}), 0, 1e-3);
     NEAR(size(stick->b() - Vec{0, 2 + 9, 0}), 0, 1e-3);
     for (int i = 0; i < stick->seedSlots(); i += 2) {
-        // Each seed still rests at one radius from the core.
+        // Each seed still rests at the same distance from the core.
         const Vec p = vec(stick->seedPoint(stick->seed(i)));
         NEAR(size(p - onSegment(p, stick->a(), stick->b())), 5, 2e-3);
     }
-    // A ball: its place turns.
+    // Of a ball only the position turns.
     SoftObject& ball = scene.ball(20, 10, 0, 0);
     ball.rotate(point(0, 0, 0), vector(0, 1, 0), 0x80000000u);
     NEAR(size(vec(ball.centre()) - Vec{-10, 0, 0}), 0, 1e-3);
@@ -130,7 +130,7 @@ TEST(the_graph)
     const Point middle = point(0, 0, 0);
     const double alone = number(a.fieldFunc(middle));
     NEAR(alone, trueGeoff(0.09), 1e-3);
-    // Each end of a link has its own weight, and a second link gives a new one and makes no second entry.
+    // Each end of a link has its own weight. Linking again sets a new weight and makes no second entry.
     const auto weight = [&](const SoftObject& from, const SoftObject& to) {
         double found = 0;
         int links = 0;
@@ -176,13 +176,13 @@ TEST(field_of_a_primitive)
         const Vec f = vec(p) - onSegment(vec(p), stick->a(), stick->b());
         NEAR(number(stick->fieldFunc(p)), trueGeoff(dot(f, f) / (14.0 * 14)), 6e-4);
     }
-    // Far away nothing overflows: the field is zero everywhere.
+    // Far away the field is zero everywhere, and nothing overflows.
     for (double far : {100.0, 181.0, 182.0, 255.0, 300.0, 1000.0, 8000.0}) {
         CHECK(ball.fieldFunc(point(far, 0, 0)) == Real(0));
         CHECK(ball.fieldFunc(point(-far, far, far)) == Real(0));
         CHECK(ball.fieldFunc(point(0, 0, -far)) == Real(0));
     }
-    // Sizes at both ends.
+    // The smallest and the largest size.
     SoftObject& large = scene.ball(MAX_SIZE, 0, 0, 0, 8);
     SoftObject& tiny = scene.ball(MIN_SIZE, 0, 0, 0, 0.25);
     for (int i = 0; i < 5000; ++i) {

@@ -1,4 +1,4 @@
-// The statistics block.
+// Tests of the block of statistics that is printed at the end of a run.
 #include "app/stats.h"
 
 #include <cstring>
@@ -22,7 +22,7 @@ std::string block(const Stats& stats)
 
 TEST(statistics_as_fixed)
 {
-    // The names in this order, each as the first lines of the block; the figures of a run of 785 frames in a minute.
+    // The block begins with these lines in this order; the numbers are those of a run of 785 frames in a minute.
     Stats stats;
     stats.setSeeds(2496, 2480);
     Counts counts{};
@@ -46,7 +46,7 @@ TEST(statistics_as_fixed)
         "normals per frame: 894.0\n"
         "field evaluations per frame: 11570.0\n";
     TEXT(block(stats).substr(0, expected.size()), expected);
-    // Whatever follows has the same form.
+    // All further lines have the same form.
     std::istringstream lines(block(stats).substr(expected.size()));
     std::string line;
     while (std::getline(lines, line))
@@ -65,7 +65,7 @@ TEST(statistics_of_nothing)
 
 TEST(statistics_of_a_long_run)
 {
-    // A day at 500 frames a second, and every count at its largest.
+    // A day at 500 frames per second, with every count at its largest.
     Stats stats;
     Counts counts{};
     counts.updated = 2000000;

@@ -1,5 +1,5 @@
-// Scenes in, voxels out: whatever objects, links and weights a scene has, every voxel lies on the surface of the body, faces
-// as that does, and none is missing where the viewer sees it. The truth is in double precision throughout.
+// Tests of finding the surface: whatever objects, links and weights a scene has, every voxel lies on the surface of its body, has
+// the surface's orientation, and no voxel is missing where the viewer sees the surface. Reference values are in double precision.
 #include "model/torus.h"
 
 #include "help.h"
@@ -8,15 +8,15 @@
 
 namespace {
 
-// What the voxels of scenes are off by.
+// The errors of the voxels of scenes.
 struct Errors {
     long count = 0;
     double worst = 0, sum = 0;              // distance from the surface, units
-    long astray = 0;                        // voxels farther from it than they may be
+    long astray = 0;                        // voxels whose distance is out of tolerance
     double worstLight = 0, sumLight = 0;    // brightness, steps of 64
-    long dim = 0;                           // voxels of another brightness than they may have
-    double strongest = -1;                  // by how much a neighbour's field is stronger
-    long foreign = 0;                       // voxels where it is too much so
+    long dim = 0;                           // voxels whose brightness is out of tolerance
+    double strongest = -1;                  // by how much a neighbour's field is stronger than the voxel's own
+    long foreign = 0;                       // voxels where that is out of tolerance
     long away = 0;                          // voxels that face away from the viewer
 
     void report(const char* what) const
@@ -28,8 +28,8 @@ struct Errors {
     }
 };
 
-// A voxel may be this far from the surface (units, and parts of the spacing on small objects), and its brightness off by as
-// many steps of 64.
+// Tolerances: the distance from the surface (units; on small objects a part of the spacing) and the error of brightness (steps of
+// 64).
 constexpr double ASTRAY = 0.35;
 constexpr double DIM = 8;
 
@@ -40,13 +40,13 @@ Vec placeOf(const Scene& scene, const Voxel& voxel)
     return vec(scene.eye) + vec(axes.right) * at.x + vec(axes.up) * at.y + vec(axes.ahead) * at.z;
 }
 
-// The brightness of a place from which the field falls that way; below 0 on the side away from the light.
+// The brightness of the surface where the field falls in this direction; negative on the side away from the light.
 double lit(const Scene& scene, const Vec& fall)
 {
     return dot(fall, vec(scene.light)) / size(fall) * 63;
 }
 
-// Holds all voxels of a frame against the body.
+// Compares all voxels of a frame with the surface of the body.
 void measure(Scene& scene, const Body& body, Errors& errors)
 {
     for (size_t o = 0; o < scene.objects.size(); ++o) {
@@ -55,7 +55,7 @@ void measure(Scene& scene, const Body& body, Errors& errors)
             const Vec p = placeOf(scene, voxel);
             const Vec fall = body.fall(joined, p);
             const double steep = size(fall), off = body.field(joined, p) - 0.5;
-            // Where the field is flat, a place is as good as those round it.
+            // Where the field is flat, neighbouring points are just as good.
             const double distance = std::fabs(off) / std::fmax(steep, 0.3 / body.cores[o].size);
             ++errors.count;
             errors.worst = std::fmax(errors.worst, distance);
@@ -74,7 +74,7 @@ void measure(Scene& scene, const Body& body, Errors& errors)
     }
 }
 
-// Of the places where paths of regular seeds leave the surface in plain sight, how many have no voxel of the object near.
+// Counts the points where paths of regular seeds leave the surface in plain sight without a voxel of the object near.
 struct Missing {
     long count = 0, missing = 0;
     double farthest = 0;
@@ -100,7 +100,7 @@ void seek(Scene& scene, const Body& body, Missing& result)
             const Vec toEye = vec(scene.eye) - p;
             if (body.dominance(o, joined, p) > -0.05 || dot(fall, toEye) < 0.3 * size(fall) * size(toEye))
                 continue;
-            // No voxel farther away than those of a patch drawn as one may be, where paths have spread.
+            // Where paths have spread, the nearest voxel may be as far away as the voxels of a patch that is drawn as one.
             double nearest = 1e9;
             for (const Vec& place : places)
                 nearest = std::fmin(nearest, size(place - p));
@@ -112,7 +112,7 @@ void seek(Scene& scene, const Body& body, Missing& result)
     }
 }
 
-// Nothing to be seen that should not be, and next to nothing missing.
+// Checks that no voxel is where it should not be, and that almost none is missing.
 void judge(const char* what, const Errors& errors, const Missing& missing)
 {
     errors.report(what);
@@ -120,9 +120,9 @@ void judge(const char* what, const Errors& errors, const Missing& missing)
          missing.missing, missing.farthest);
     CHECK(errors.count > 0);
     CHECK(missing.count > 0);
-    // Single ones may be off where two parts of the surface meet in a fold, or a patch lies half behind the edge.
+    // Single voxels may be off where two parts of the surface meet in a fold, or where a patch lies half behind the edge.
     CHECK(errors.astray <= errors.count / 5000);
-    // Or a frame late, for a seed waits that had not moved.
+    // Or they may be a frame late, because a seed that had not moved waits.
     CHECK(errors.worst < 2 * ASTRAY);
     CHECK(errors.foreign <= 1 + errors.count / 5000);
     CHECK(errors.away <= 1 + errors.count / 10000);
@@ -131,7 +131,7 @@ void judge(const char* what, const Errors& errors, const Missing& missing)
     CHECK(errors.dim <= errors.count / 200);
 }
 
-// A frame of a scene.
+// Makes a frame of a scene and tests it.
 void look(Scene& scene, Errors& errors, Missing& missing, const std::vector<const Kind*>& kinds = {})
 {
     scene.update();
@@ -140,7 +140,7 @@ void look(Scene& scene, Errors& errors, Missing& missing, const std::vector<cons
     seek(scene, body, missing);
 }
 
-// Two balls alike on the x axis, linked.
+// Two equal balls on the x axis, linked.
 Scene pair(double size, double apart, bool printed)
 {
     Scene scene;
@@ -151,7 +151,7 @@ Scene pair(double size, double apart, bool printed)
     return scene;
 }
 
-// But for how the brightness changes across.
+// Compares two lists of voxels except for their slopes of brightness.
 bool alike(const std::vector<Voxel>& a, const std::vector<Voxel>& b)
 {
     if (a.size() != b.size())
@@ -164,7 +164,7 @@ bool alike(const std::vector<Voxel>& a, const std::vector<Voxel>& b)
     return true;
 }
 
-// Voxels across which the brightness changes otherwise.
+// Counts the voxels whose slopes of brightness differ.
 long otherSlopes(const std::vector<Voxel>& a, const std::vector<Voxel>& b)
 {
     long count = 0;
@@ -190,7 +190,7 @@ SoftObject* makeOf(const Kind& kind, int number)
 
 TEST(islands_between_heavily_linked_objects_are_found)
 {
-    // Two balls have parted; half way there is an island, one half of which is each one's.
+    // Two balls have parted. Half way there is an island, and each ball owns half of it.
     Scene scene;
     scene.ball(24, -14, 4, 0);
     scene.ball(18, 17, 4, 0);
@@ -212,8 +212,8 @@ TEST(islands_between_heavily_linked_objects_are_found)
 
 TEST(bulges_are_found_where_patches_rest_or_face_away)
 {
-    // The paths of the large ball lead out where nothing reaches its surface, and away from the viewer; the link to the small one
-    // raises the field again where they end.
+    // Paths of the large ball leave its surface where no neighbour reaches it, or on the side away from the viewer. The link to the
+    // small ball raises the field again near the ends of these paths.
     Scene scene;
     scene.ball(32, 0, 0, 0);
     scene.ball(14, 31.4, 0, 10.2);
@@ -234,7 +234,7 @@ TEST(bulges_are_found_where_patches_rest_or_face_away)
         SAME(off, 0);
         scene.objects[1]->translate(vector(0, 0.25, 0));
     }
-    // They are gone when the small one is.
+    // The bulges disappear with the small ball.
     scene.objects[1]->translate(vector(0, 60, 0));
     scene.update();
     for (const Voxel& voxel : scene.draw(0))
@@ -243,7 +243,7 @@ TEST(bulges_are_found_where_patches_rest_or_face_away)
 
 TEST(bulges_have_an_outer_side)
 {
-    // Two small ones raise the field beside the large ball: its paths come back to the surface there and leave it for good.
+    // Two small balls raise the field beside the large ball: its paths enter the surface again there and then leave it for good.
     for (double away : {33.0, 33.5, 34.0}) {
         Scene scene;
         scene.ball(45, 0, 0, 0);
@@ -278,7 +278,8 @@ TEST(bulges_have_an_outer_side)
 
 TEST(overhanging_necks_have_scales)
 {
-    // Seen from the centre of the large one the neck to the small one hangs over: paths leave the surface and come back behind.
+    // Seen from the centre of the large ball, the neck to the small one overhangs: paths leave the surface and enter it again
+    // behind.
     Scene scene;
     scene.ball(20, -21.826, 2.757, 0);
     scene.ball(25, 0, -20.923, 6.798);
@@ -364,7 +365,7 @@ TEST(every_kind_with_every_kind)
 
 TEST(an_eye_that_goes_round)
 {
-    // Of every kind, a ball with it: from all sides, leaning, looking at it or past it.
+    // An object of every kind together with a ball is seen from all sides by an eye that leans, and looks at it or past it.
     for (int k = 0; k < KIND_COUNT; ++k) {
         Errors errors;
         Missing missing;
@@ -391,8 +392,8 @@ TEST(an_eye_that_goes_round)
 
 TEST(a_turned_eye_sees_what_a_turned_scene_shows)
 {
-    // A ring and two balls before an unturned eye, and the same scene turned as a whole, the eye with it: the same scales. The
-    // report's own methods know of no turn either.
+    // A ring and two balls in front of an unturned eye must give the same scales as the scene turned as a whole together with the
+    // eye. The report's own methods do not depend on the turn either.
     for (bool printed : {false, true}) {
         Random random;
         const Matrix by = Matrix::rotation(vector(1, 2, -1), 0x15000000u);
@@ -422,7 +423,7 @@ TEST(a_turned_eye_sees_what_a_turned_scene_shows)
             straight.show(i, {&a});
             turned.show(i, {&b});
         }
-        // Balls do not turn, so that their seeds lie elsewhere: the surface is the same, the scales on it are not.
+        // Balls do not turn with the scene, so their seeds are elsewhere: the surface is the same, but its scales are not.
         long drawn = 0, off = 0, alone = 0;
         for (int i = 0; i < machine::WIDTH * machine::HEIGHT; ++i) {
             const int za = a.zbuffer()[i], zb = b.zbuffer()[i];
@@ -461,7 +462,7 @@ TEST(a_ball_along_a_long_one_close_to_the_viewer)
 
 TEST(chains)
 {
-    // Each linked with the one before alone; those two apart reach each other too.
+    // Each object is linked only with the one before; objects two places apart are in range of each other too.
     Errors errors;
     Missing missing;
     for (double apart : {6.0, 9.0, 13.0}) {
@@ -500,7 +501,7 @@ TEST(weights)
             scene.ball(20, apart / 2, 3, 2);
             scene.link(0, 1, weight);
             look(scene, errors, missing);
-            // Links of several weights in one body, one of them missing.
+            // One body has links of several weights, and one link is missing.
             Scene three;
             three.ball(24, -apart / 2, 0, 0);
             three.ball(20, apart / 2, 3, 2);
@@ -526,7 +527,7 @@ TEST(crowds)
         judge(what, errors, missing);
     };
     {
-        // At one place all are equally strong, and all of them are seen.
+        // Objects at one position are equally strong everywhere, and all of them are visible.
         Scene scene;
         for (int i = 0; i < 40; ++i)
             scene.ball(20, 0, 0, 0, 4);
@@ -573,7 +574,8 @@ TEST(crowds)
 
 TEST(what_moves_leaves_no_trace)
 {
-    // A small ball goes round two large ones, in small steps and in leaps: what it has passed is as if it had never been there.
+    // A small ball goes around two large ones, in small steps and in leaps. The objects that it has passed must look as if it had
+    // never been there.
     for (int steps : {240, 12}) {
         Scene scene;
         scene.ball(60, -8, 0, 16);
@@ -630,7 +632,8 @@ TEST(what_grows_takes_its_seeds_along)
     judge("growing", errors, missing);
 }
 
-// By how many steps the places of an object's seeds at rest are off, and how far out these are along their normals. Counts them.
+// Measures by how many steps the stored positions of an object's seeds at rest, and their distances along the normals (Seed::out),
+// are off, and counts these seeds.
 double restsOff(const SoftObject& object, long& count)
 {
     double worst = 0;
@@ -693,8 +696,8 @@ TEST(what_has_not_changed_is_left_alone)
 
 TEST(the_wall_of_a_hollow_that_moves_is_found)
 {
-    // A ball digs its way round another. What waits because it was off the wall is there when the wall has come: as many seeds
-    // are on the surface as when all are looked for anew, but for a few, and all of those that are lie on it.
+    // A ball digs its way around another. Seeds that wait because they are off the wall must be there when the wall arrives: all
+    // valid seeds lie on the surface, and there are almost as many as when all seeds are searched for afresh.
     const auto place = [](int frame) { return point(14 * std::cos(frame * 0.03), 14 * std::sin(frame * 0.03), -9); };
     const auto valid = [](const Scene& scene, double* worst) {
         int count = 0;
@@ -740,7 +743,7 @@ TEST(the_wall_of_a_hollow_that_moves_is_found)
     CHECK(all > 1000);
     note("%ld seeds on the wall and beside it, %ld when looked for anew", found, all);
     CHECK(found > all - all / 50 && found < all + all / 50);
-    // They are not all looked at in each frame: most of them are off the wall.
+    // Not all seeds are updated in each frame, because most of them are off the wall.
     moved.counts = Counts{};
     moved.objects[1]->moveTo(place(60));
     moved.update();
@@ -749,7 +752,7 @@ TEST(the_wall_of_a_hollow_that_moves_is_found)
 
 TEST(what_is_odd_leaves_no_trace)
 {
-    // A strong ball goes past another one, and when it is gone a ball that is as strong as most comes to that.
+    // A strong ball passes another one; after it is gone, a ball of ordinary strength comes to that one.
     Scene scene;
     scene.ball(40, 0, 0, 0);
     scene.ball(30, 60, 0, 0);
@@ -780,12 +783,12 @@ TEST(only_what_is_near_is_told)
         Scene scene = pair(20, 80, printed);
         scene.update();
         CHECK(!scene.objects[0]->recalc() && !scene.objects[1]->recalc());
-        // Far away it moves, and the other is not told.
+        // An object that moves out of range does not tell the other one.
         scene.objects[0]->translate(vector(1, 0, 0));
         CHECK(scene.objects[0]->recalc());
         CHECK(!scene.objects[1]->recalc());
         scene.update();
-        // "This works as long as there are no huge jumps": here they are safe, in and out.
+        // "This works as long as there are no huge jumps": here jumps into and out of range are safe.
         scene.objects[0]->moveTo(point(30, 0, 0));
         CHECK(scene.objects[1]->recalc());
         scene.update();
@@ -794,7 +797,7 @@ TEST(only_what_is_near_is_told)
         scene.update();
         scene.objects[0]->translate(vector(-1, 0, 0));
         CHECK(!scene.objects[1]->recalc());
-        // Blending ones tell each other of everything.
+        // Objects that blend tell each other of every change.
         Scene near = pair(20, 19, printed);
         near.update();
         near.objects[1]->translate(vector(0.1, 0, 0));
@@ -810,8 +813,8 @@ TEST(only_what_is_near_is_told)
 
 TEST(drawing_in_parts)
 {
-    // However little room there is for voxels at a time, they are the same; only slopes of brightness where one part ends and the
-    // next begins know of fewer seeds.
+    // The voxels are the same however little room there is for them at a time. Only slopes of brightness differ, where one part of
+    // the list ends and the next begins, because fewer neighbours are known there.
     for (bool printed : {false, true}) {
         Scene scene = pair(60, 30, printed);
         scene.update();

@@ -1,4 +1,4 @@
-// Runs the unit tests: all, or those whose name contains the first argument.
+// Runs all unit tests, or those whose name contains the first argument.
 #include "test.h"
 
 #include <cstdarg>

@@ -1,4 +1,4 @@
-// Numbers to text and back.
+// Tests of converting numbers to text and back.
 #include "math/text.h"
 
 #include <cstring>
@@ -52,7 +52,7 @@ TEST(reals_as_text)
     TEXT(text(realFromRaw(INT32_MAX)), "32767.99998");
     TEXT(text(realFromRaw(INT32_MIN)), "-32768");
 #endif
-    // What does not fit is cut off, never written past the end.
+    // A text that does not fit is cut off and never written past the end.
     char small[6];
     std::memset(small, 'x', sizeof small);
     formatReal(small, 4, Real(-123.5));
@@ -62,7 +62,7 @@ TEST(reals_as_text)
 
 TEST(reals_read_back)
 {
-    // "It reads back as the same 16.16 value": every fraction there is, and others.
+    // "It reads back as the same 16.16 value": tests every fraction, and other numbers.
     long wrong = 0;
     for (int32_t raw = 0; raw < 65536; ++raw) {
         Real value;
@@ -91,7 +91,7 @@ TEST(reals_read)
     CHECK(reads("0007", 7));
     CHECK(reads("-0", 0));
     CHECK(reads("208.333333", 208.333333));
-    CHECK(reads("1.1234567890123456789", 1.123456));  // beyond the sixth decimal: dropped
+    CHECK(reads("1.1234567890123456789", 1.123456));  // digits beyond the sixth decimal are dropped
     CHECK(reads("32767.5", 32767.5));
     CHECK(reads("-32767.5", -32767.5));
 }
@@ -143,11 +143,11 @@ TEST(plain_text)
     TEXT(plainText(to, sizeof to, "WALK.FB"), "WALK.FB");
     TEXT(plainText(to, sizeof to, ""), "");
     TEXT(plainText(to, sizeof to, "a\nb\x7f\x80 ~"), "a\\x0Ab\\x7F\\x80 ~");
-    // To the last byte of the room, and one beyond: a third, three points, the end.
+    // A text may fill the room to its last byte. A text one byte longer is shortened to its first third, three points, and its end.
     char small[17];
     TEXT(plainText(small, sizeof small, "0123456789abcdef"), "0123456789abcdef");
     TEXT(plainText(small, sizeof small, "0123456789abcdefg"), "01234...9abcdefg");
-    // An escape is never cut in two.
+    // An escape sequence is never cut in two.
     TEXT(plainText(small, sizeof small, "0123\x01" "56789abcde\x02"), "0123...bcde\\x02");
     for (int size = 16; size < 64; ++size) {
         std::string text;

@@ -1,4 +1,4 @@
-// Point, Vector and Matrix, held against double precision.
+// Tests of Point, Vector and Matrix against double precision.
 #include "math/vec.h"
 
 #include "help.h"
@@ -59,7 +59,7 @@ TEST(lengths)
         }
     }
     NEAR(number(length(vector(0, 0, 0))), 0, 0);
-    // Beyond the range of Real the fixed-point length stays at its end.
+    // A length beyond the range of Real becomes the largest fixed-point number.
 #if FB_REAL == FB_FIXED
     SAME(length(vector(32767, 32767, -32767)).raw, INT32_MAX);
 #endif
@@ -77,7 +77,7 @@ TEST(new_length_same_direction)
             const double wanted = random.between(0.5, 100);
             const Vector w = withLength(v, real(wanted));
             NEAR(size(vec(w)), wanted, 3 * STEP + EXACT * 500);
-            // The direction is as good as the bits of v.
+            // The direction is as accurate as the bits of v allow.
             const Vec d = vec(v) * (1 / before), e = vec(w) * (1 / size(vec(w)));
             close(e, d, 4 * STEP / wanted + EXACT * 10);
         }
@@ -102,7 +102,7 @@ TEST(projections)
             continue;
         const Vec p = vec(projection(v, onto));
         close(p, d * dot(vec(v), d), 200 * STEP * 2 + EXACT * 1000);
-        // What is left stands at a right angle.
+        // The rest is perpendicular to the direction.
         NEAR(dot(vec(v) - p, d), 0, 500 * STEP + EXACT * 1000);
     }
     CHECK(projection(vector(1, 2, 3), vector(0, 0, 0)) == vector(0, 0, 0));
@@ -114,12 +114,12 @@ TEST(matrices)
     const Point p = point(3, -4, 5);
     CHECK(one * p == p);
     CHECK(one * toVector(p) == toVector(p));
-    // A point takes the translation, a vector does not.
+    // A translation changes a point but not a vector.
     const Matrix shift = Matrix::translation(vector(10, 20, 30));
     CHECK(shift * p == point(13, 16, 35));
     CHECK(shift * toVector(p) == toVector(p));
     CHECK(Matrix::scaling(Real(2)) * p == point(6, -8, 10));
-    // Scale first, then shift; and the other way round.
+    // First scaling, then translation; and the other way round.
     CHECK((shift * Matrix::scaling(Real(2))) * p == point(16, 12, 40));
     CHECK((Matrix::scaling(Real(2)) * shift) * p == point(26, 32, 70));
     const Matrix same = one * shift;
@@ -130,7 +130,7 @@ TEST(matrices)
 
 TEST(rotations)
 {
-    // A quarter about z takes x to y: anticlockwise as seen from the tip of the axis.
+    // A quarter turn about z takes x to y: anticlockwise as seen from the tip of the axis.
     close(vec(Matrix::rotation(vector(0, 0, 7), 0x40000000u) * vector(1, 0, 0)), {0, 1, 0}, 2 * STEP + 1e-7);
     close(vec(Matrix::rotation(vector(1, 0, 0), 0x40000000u) * vector(0, 1, 0)), {0, 0, 1}, 2 * STEP + 1e-7);
     close(vec(Matrix::rotation(vector(0, 1, 0), 0x40000000u) * vector(0, 0, 1)), {1, 0, 0}, 2 * STEP + 1e-7);
@@ -145,12 +145,12 @@ TEST(rotations)
         const Matrix turn = Matrix::rotation(axis, angle);
         const Vector w = turn * v;
         NEAR(size(vec(w)), size(vec(v)), 300 * 2 * STEP + EXACT * 1000 + 1e-6);
-        // Rodrigues in double precision.
+        // Rodrigues' formula in double precision.
         const Vec a = vec(axis) * (1 / size(vec(axis))), x = vec(v);
         const double c = std::cos(angle * (M_PI / 2147483648.0)), s = std::sin(angle * (M_PI / 2147483648.0));
         const Vec cr{a.y * x.z - a.z * x.y, a.z * x.x - a.x * x.z, a.x * x.y - a.y * x.x};
         close(vec(w), x * c + cr * s + a * (dot(a, x) * (1 - c)), 300 * 3 * STEP + EXACT * 1000 + 1e-6);
-        // And back.
+        // The inverse rotation leads back.
         close(vec(Matrix::rotation(axis, 0u - angle) * w), x, 900 * 2 * STEP + EXACT * 2000 + 1e-6);
     }
 }

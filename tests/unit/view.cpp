@@ -1,5 +1,5 @@
-// The view: the projection formula, clipping, and the promise that what is cleared and presented by spans looks the same
-// as the whole screen.
+// Tests of the view: the projection formula, clipping, the closing of gaps, and that clearing and presenting only spans gives the
+// same picture as with the whole screen.
 #include "picture/view.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ Voxel voxel(double x, double y, double z, double wide, double high, int colour)
     return v;
 }
 
-// The rectangle of a voxel by the formula, in pixels.
+// The rectangle of a voxel on the screen by the projection formula, pixels.
 struct Box {
     double left, top, right, bottom;
 };
@@ -58,7 +58,8 @@ TEST(projection_formula)
         drawn += show(view, v);
         view.end();
         const Box b = box(v, view.camera());
-        // Factors stand in a table by steps of 1/8 unit, that is 1/1024 at z = 64; numbers have 12 bits of fraction.
+        // Factors are tabulated in steps of 1/16 unit, so at z = 76 they are off by 1/2400 at most; numbers have 12 fraction bits.
+        // The tolerances leave some room.
         const double ax = 0.01 + 0.0011 * std::fmax(std::fabs(b.left - 160), std::fabs(b.right - 160));
         const double ay = 0.01 + 0.0011 * std::fmax(std::fabs(b.top - 100), std::fabs(b.bottom - 100));
         long wrong = 0;
@@ -82,7 +83,7 @@ TEST(projection_formula)
     CHECK(drawn > 3000);
 }
 
-// Scales of the sizes that surfaces are made of; and large and near ones with little tilt, which the view projects itself.
+// Scales of ordinary sizes, and large and near ones with little tilt, which the view projects itself.
 TEST(tilted_scales_lie_in_their_plane)
 {
     View view;
@@ -110,7 +111,8 @@ TEST(tilted_scales_lie_in_their_plane)
                     ++tried;
                     const double dx = x + 0.5 - column, dy = y + 0.5 - row;
                     const double across = v.tiltX / 256.0 * z / 250, down = v.tiltY / 256.0 * z / number(view.camera().focalY);
-                    // Steps are whole 1/128 units, added up from the corner; the centre is as good as the projection.
+                    // Depths change by whole steps of 1/128 unit, added up from the corner; the centre is as accurate as the
+                    // projection.
                     const double tolerance = (std::fabs(dx) + std::fabs(dy) + b.right - b.left + b.bottom - b.top + 2) / 128 +
                                              0.2 * (std::abs(v.tiltX) + std::abs(v.tiltY)) / 256.0 * z / 208;
                     wrong += std::fabs(view.zbuffer()[y * WIDTH + x] / 128.0 - (z + across * dx - down * dy)) > tolerance;
@@ -123,7 +125,7 @@ TEST(tilted_scales_lie_in_their_plane)
 
 TEST(round_on_a_4_to_3_screen)
 {
-    // Pixels are 5 wide to 6 high: 1.2 times as many columns as rows for the same length.
+    // A pixel is 5 wide to 6 high: a length has 1.2 times as many columns as rows.
     View view;
     CHECK(view.open());
     NEAR(number(view.camera().focalX), 1.2 * number(view.camera().focalY), 1e-3);
@@ -142,8 +144,8 @@ TEST(round_on_a_4_to_3_screen)
 
 TEST(scales_grow_with_nearness)
 {
-    // "Gaps brought on by objects being moved closer to the viewpoint [are] solved by magnifying the scales at render
-    // time according to their distance": half as far away, twice as large.
+    // "Gaps brought on by objects being moved closer to the viewpoint [are] solved by magnifying the scales at render time
+    // according to their distance": at half the distance a scale is twice as large.
     View view;
     CHECK(view.open());
     double before = 0;
@@ -180,7 +182,7 @@ TEST(left_out)
             CHECK(view.frame()[i] == 0);
             break;
         }
-    // The planes themselves.
+    // Voxels exactly on the near and the far plane.
     const Voxel in[] = {voxel(0, 0, 1, 0.1, 0.1, 1), voxel(0, 0, 511, 5, 5, 1)};
     view.begin();
     SAME(show(view, in, 2), 2);
@@ -188,7 +190,7 @@ TEST(left_out)
 
 TEST(anything_may_be_shown)
 {
-    // Any voxel at all, in any number: the sanitizers watch, and the screen's edges hold.
+    // Any number of random voxels: the sanitizers watch memory, and nothing is drawn beyond the screen's edges.
     View view;
     CHECK(view.open());
     Random random;
@@ -218,8 +220,8 @@ TEST(anything_may_be_shown)
 
 TEST(cut_scales_end_at_a_line_or_a_curve)
 {
-    // What is drawn of a scale that is cut are the pixels of the whole one where its function is not negative; in doubt (steps
-    // from pixel to pixel are rounded) either is right.
+    // A cut scale draws those pixels of the whole scale where the cut function is not negative. Within the rounding error of the
+    // steps from pixel to pixel either is right.
     View view, whole;
     CHECK(view.open() && whole.open());
     Random random;
@@ -249,7 +251,7 @@ TEST(cut_scales_end_at_a_line_or_a_curve)
         show(view, {v});
         const double column = 160 + 250 * (v.x / 256.0) / (v.z / 256.0),
                      row = 100 - number(view.camera().focalY) * (v.y / 256.0) / (v.z / 256.0);
-        // What is not within the box is cleared or was never drawn: other tests hold the view to that.
+        // Pixels outside of the box are cleared or were never drawn; other tests check that.
         const Box around = box(v, view.camera());
         const int from = std::max(0, static_cast<int>(around.top) - 2), to = std::min(HEIGHT, static_cast<int>(around.bottom) + 2);
         for (int i = from * WIDTH; i < to * WIDTH; ++i) {
@@ -262,7 +264,7 @@ TEST(cut_scales_end_at_a_line_or_a_curve)
             const double dx = across * z / 250, dy = up * z / number(view.camera().focalY);
             const double value = v.cutAt / 64.0 + (v.cutX * dx + v.cutY * dy) / 8 +
                                  (v.curveXX * dx * dx + 2 * v.curveXY * dx * dy + v.curveYY * dy * dy) / 32;
-            // The loop knows places and steps so well that the line is right to a sixteenth of a pixel.
+            // The loop's positions and steps are so accurate that the line is right to a sixteenth of a pixel.
             const double slopeX = std::abs(v.cutX) / 8.0 + (std::abs(v.curveXX * dx) + std::abs(v.curveXY * dy)) / 16;
             const double slopeY = std::abs(v.cutY) / 8.0 + (std::abs(v.curveXY * dx) + std::abs(v.curveYY * dy)) / 16;
             const double far = std::abs(across) + std::abs(up), rounded = round % 2 == 0 ? far * far / 128 : 0;
@@ -285,8 +287,8 @@ TEST(cut_scales_end_at_a_line_or_a_curve)
 
 TEST(places_count_from_the_lists_own)
 {
-    // An object's voxels count from its centre: wherever that is, what is drawn is the same as when they count from the
-    // eye, for those that the loop draws and for those that it leaves.
+    // An object's voxels are relative to its centre. Wherever the centre is, the picture is the same as with voxels relative to the
+    // eye, both for voxels that the loop draws and for those that it leaves to the view.
     View one, two;
     CHECK(one.open() && two.open());
     Random random;
@@ -342,7 +344,7 @@ TEST(colours_are_the_lists_own)
         SAME(view.frame()[141 * WIDTH + 160], 0);
     }
     view.setPixels(false);
-    // What covers no pixel's centre is not counted: halfway between two columns there is none for a narrow one.
+    // A scale that covers no pixel's centre is not counted: a narrow scale halfway between two columns covers none.
     list.voxels[0] = voxel(0, 0, 125, 0.1, 0.1, 5);
     list.voxels[1] = voxel(0.25, 0.3, 125, 0.1, 0.1, 5);
     list.reach = 125 * 256;
@@ -356,7 +358,7 @@ TEST(colours_are_the_lists_own)
 
 TEST(far_aside_is_not_seen)
 {
-    // So far to a side or up that places times factors would come round to the middle of the screen again.
+    // Voxels so far to a side that the products of positions and factors would wrap around to the middle of the screen.
     View view;
     CHECK(view.open());
     for (const double z : {40.0, 76.1, 120.0, 300.0})
@@ -370,13 +372,13 @@ TEST(far_aside_is_not_seen)
 
 TEST(nearest_is_seen)
 {
-    // The Z-buffer: whatever the order, the nearest scale is what is seen.
+    // With the Z-buffer the nearest scale is visible whatever the order of drawing.
     View one, two;
     CHECK(one.open() && two.open());
     Random random;
     std::vector<Voxel> list;
     for (int i = 0; i < 400; ++i)
-        // Depths apart by more than the Z-buffer's step.
+        // The depths differ by more than a step of the Z-buffer.
         list.push_back(voxel(random.between(-40, 40), random.between(-30, 30), 80 + i * 0.1, 4, 4, 1 + i % 63));
     std::vector<Voxel> reversed(list.rbegin(), list.rend());
     for (View* view : {&one, &two}) {
@@ -431,7 +433,7 @@ static void block(View& view, int left, int top, int right, int bottom, int colo
     SAME(show(view, v), 1);
 }
 
-// Of a rectangle of pixels, how many are drawn.
+// Counts the drawn pixels of a rectangle.
 static int drawnIn(const View& view, int left, int top, int right, int bottom)
 {
     int count = 0;
@@ -444,8 +446,8 @@ static int drawnIn(const View& view, int left, int top, int right, int bottom)
     return count;
 }
 
-// Between the blocks of the next tests seeds this far apart are 4 pixels apart: gaps are at most 14 pixels wide and high, the
-// ends of open ones 12 wide.
+// In the blocks of the next tests, seeds with this spacing are 4 pixels apart: gaps are at most 14 pixels wide and high, narrow
+// ends of openings at most 12 wide.
 static const Real SPACING(2.25);
 
 TEST(gaps_closed_all_round)
@@ -466,7 +468,7 @@ TEST(gaps_closed_all_round)
             const int at = (top + high / 2) * WIDTH + left;
             if (wide <= 12 || (wide <= 14 && high <= 14)) {
                 SAME(drawnIn(view, left, top, right, bottom), wide * high);
-                // From the nearer side, with its depth.
+                // A filled pixel has the colour and the depth of the closer side.
                 SAME(view.frame()[at], 7);
                 SAME(view.zbuffer()[at], view.zbuffer()[at - 1]);
                 SAME(view.frame()[at + wide - 1], wide == 1 ? 7 : 8);
@@ -479,7 +481,7 @@ TEST(gaps_closed_all_round)
         }
 }
 
-// Two balls of size 40 as far as that to the left and to the right of the middle, or above and below it.
+// Two balls of size 40 at this distance to the left and to the right of the middle, or above and below it.
 static void addPair(Model& model, double away, bool upright = false)
 {
     Motion left{}, right{};
@@ -491,8 +493,8 @@ static void addPair(Model& model, double away, bool upright = false)
     CHECK(model.bodies() != nullptr);
 }
 
-// Between two objects the colour changes where the one's field becomes stronger, to two pixels, wherever the gap lies; the
-// brightness goes from the one side's to the other's, and the depth stays the nearer side's.
+// In a gap between two objects the colour changes where the other object's field becomes the stronger one, within two pixels,
+// wherever the gap lies. The brightness is interpolated between both sides, and each pixel has the depth of the closer side.
 TEST(gaps_between_two_objects)
 {
     Model model;
@@ -511,7 +513,8 @@ TEST(gaps_between_two_objects)
                     for (int x = x0; x < x1; ++x)
                         view.setPixel(y * WIDTH + x, depth * 128, colour);
             };
-            // Their fields are equal at column 160, whatever was drawn beside the gap, and there is surface all along it.
+            // The fields of both balls are equal at column 160, whatever was drawn beside the gap, and there is surface all along
+            // it.
             block(100, 60, from, 140, 120, ramps[0][10]);
             block(to, 60, 220, 140, 121, behind[50]);
             block(from, 60, to, 94, 120, ramps[0][30]);
@@ -531,7 +534,7 @@ TEST(gaps_between_two_objects)
         }
 }
 
-// Between two objects that do not touch, at whatever distance, what is open stays so, on a side or with all drawn round it.
+// Openings between two objects that do not touch stay open at any distance, whether or not they are enclosed by drawn pixels.
 TEST(gaps_where_there_is_no_surface)
 {
     Model model;
@@ -560,7 +563,7 @@ TEST(gaps_where_there_is_no_surface)
         }
 }
 
-// The same where one lies above the other, and the gap is open on one side.
+// The same for two objects above each other, with a gap that is open on one side.
 TEST(slits_where_there_is_no_surface)
 {
     Model model;
@@ -582,8 +585,8 @@ TEST(slits_where_there_is_no_surface)
     }
 }
 
-// A ball with a corner of its picture missing is made whole, as far away and as bright as the true one is; without the model
-// the corner stays open.
+// A missing corner of a ball's picture is drawn with the true depth and brightness of the ball. Without the model the corner stays
+// open.
 TEST(surface_is_followed_from_corners)
 {
     Model model;
@@ -598,7 +601,7 @@ TEST(surface_is_followed_from_corners)
     View view;
     CHECK(view.open());
     const Vec eye = vec(view.camera().eye), light = vec(model.light) * (1 / size(vec(model.light)));
-    // How bright the ball is at a pixel, and how far away along the viewing axis. Less than 0: it is not there.
+    // The brightness of the ball at a pixel, and its depth; negative where the pixel does not show the ball.
     const auto trueAt = [&](double column, double row, double* depth) {
         const Camera& camera = view.camera();
         const Vec way{(column + 0.5 - number(camera.centreX)) / number(camera.focalX),
@@ -621,7 +624,7 @@ TEST(surface_is_followed_from_corners)
         view.end();
         for (int y = 0; y < bottom; ++y)
             for (int x = 150; x < right; ++x) {
-                // Well inside the picture of the ball, and next to that.
+                // The pixel is well inside the picture of the ball, or next to such a pixel.
                 const bool inside = trueAt(x - 1.5, y - 1.5, &depth) >= 0 && trueAt(x + 1.5, y - 1.5, &depth) >= 0;
                 const bool near = trueAt(x, y + 1, &depth) >= 0;
                 const double bright = trueAt(x, y, &depth);
@@ -667,7 +670,7 @@ TEST(gaps_open_on_a_side)
     View view;
     CHECK(view.open());
     for (int size = 1; size <= 10; ++size) {
-        // Open above, below, on both of these, and to the right.
+        // The gap is open above, below, on both of these sides, or to the right.
         view.begin();
         block(view, 20, 20, 40, 50, 7);
         block(view, 40 + size, 20, 70, 50, 7);
@@ -689,7 +692,7 @@ TEST(gaps_open_on_a_side)
         SAME(below, size <= 12 ? 30 * size : 0);
         SAME(both, size <= 2 ? 30 * size : 0);
         SAME(right, size <= 6 ? 20 * size : 0);
-        // And nothing beside.
+        // No pixel beside the gap is filled.
         SAME(drawnIn(view, 0, 0, WIDTH, HEIGHT), before + above + below + both + right);
     }
 }
@@ -700,7 +703,7 @@ TEST(gaps_at_the_edges_of_the_screen)
     CHECK(view.open());
     for (int high = 1; high <= 14; ++high)
         for (int size = 1; size <= 12; ++size) {
-            // Closed above and open below, where the screen ends; and the other way round.
+            // The gap is closed above and open at the lower end of the screen, or the other way round.
             view.begin();
             block(view, 20, 150, 40, HEIGHT, 7);
             block(view, 40 + size, 150, 70, HEIGHT, 7);
@@ -719,7 +722,7 @@ TEST(gaps_at_the_edges_of_the_screen)
 
 TEST(gaps_anywhere)
 {
-    // Anything on the screen, up to its edges: what was drawn stays, and what is new looks like something beside it.
+    // With anything on the screen, up to its edges, drawn pixels stay and new pixels look like one beside them.
     View view;
     CHECK(view.open());
     Random random;
@@ -767,12 +770,12 @@ TEST(gaps_anywhere)
 
 TEST(spans_are_enough)
 {
-    // A model that moves through everything (past the eye, out of the picture): drawn with clears and presents limited to
-    // spans it must look as when each frame starts on an empty screen and is presented whole.
+    // A model that moves everywhere (past the eye, out of the picture) must look the same whether clears and presents are limited
+    // to spans or each frame starts on an empty screen and is presented as a whole.
     Random random;
     View limited;
     CHECK(limited.open());
-    std::vector<uint8_t> screen(WIDTH * HEIGHT, 77);  // as the card may be before the first frame
+    std::vector<uint8_t> screen(WIDTH * HEIGHT, 77);  // the video memory may hold anything before the first frame
     long presented = 0;
     const int frames = 120;
     for (int frame = 0; frame < frames; ++frame) {
@@ -822,13 +825,13 @@ TEST(spans_are_enough)
     }
     const double share = static_cast<double>(presented) / (static_cast<double>(frames) * WIDTH * HEIGHT);
     note("%.0f%% of the screen presented on average", share * 100);
-    // And it does limit something.
+    // Fewer pixels are cleared and presented than with the whole screen.
     CHECK(share < 0.9);
 }
 
 namespace {
 
-// Unit vectors, each square to the others, in the order of x, y and z.
+// Whether these are perpendicular unit vectors with the orientation of x, y and z.
 bool areAxes(const ViewAxes& axes)
 {
     const Vec right = vec(axes.right), up = vec(axes.up), ahead = vec(axes.ahead);
@@ -846,7 +849,7 @@ TEST(the_axes_of_a_view)
     CHECK(!viewAlong(vector(0, 0, 77), vector(0, 3, 0), x).turned);
     CHECK(!viewAlong(vector(0, 0, 0), y, x).turned);
     CHECK(!leaned(ViewAxes(), 0).turned && !turnedBy(Matrix::identity(), ViewAxes()).turned);
-    // Straight up or down, what lay to the right still does.
+    // When the eye looks straight up or down, its right stays where it was.
     for (double d : {1.0, -1.0}) {
         const ViewAxes axes = viewAlong(vector(0, d, 0), y, x);
         CHECK(axes.turned && axes.right == x && areAxes(axes));
@@ -864,14 +867,14 @@ TEST(the_axes_of_a_view)
         const Vector v = vector(random.between(-400, 400), random.between(-400, 400), random.between(-400, 400));
         CHECK(size(vec(axes.toWorld(axes.fromWorld(v))) - vec(v)) < 1e-4 * 700);
     }
-    // Nearly along what is upwards.
+    // The eye looks nearly along the upward direction.
     for (int i = 0; i < 2000; ++i) {
         const double a = random.between(40, 100), b = random.between(-100, 100), c = random.between(-100, 100);
         const Vector ahead = vector(a + random.between(-2, 2), b + random.between(-2, 2), c + random.between(-2, 2));
         const double across = std::sqrt(a * a + b * b);
         CHECK(areAxes(viewAlong(ahead, vector(a, b, c), vector(b / across, -a / across, 0))));
     }
-    // A quarter to the right: what was above the eye lies to its left.
+    // After a quarter turn to the right about the axis of sight, what was above the eye lies to its left.
     const ViewAxes quarter = leaned(ViewAxes(), 0x40000000u);
     NEAR(number(quarter.fromWorld(y).x), -1, 1e-4);
     NEAR(number(quarter.fromWorld(x).y), 1, 1e-4);
@@ -887,7 +890,7 @@ TEST(a_camera_that_only_moves_keeps_its_table)
     camera.axes = viewAlong(vector(1, 0, 0), vector(0, 1, 0), vector(1, 0, 0));
     view.setCamera(camera);
     CHECK(view.camera().eye == camera.eye && view.camera().axes == camera.axes);
-    // A voxel ahead is seen, in the axes of the view, wherever the eye is; with another focal length elsewhere.
+    // A voxel straight ahead is drawn in the axes of the view wherever the eye is; with another focal length it is drawn elsewhere.
     const Voxel voxel{10 * 256, 0, 100 * 256, 256, 256, 0, 0, 40, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     view.begin();
     SAME(show(view, voxel), 1);
