@@ -15,8 +15,8 @@ public:
     void add(uint64_t ticks, const Model& model);
 
     // Returns the index of an object that must get new seeds before the next frame, and its new spacing in `*spacing`; -1
-    // when nothing is left to do. The caller calls it until it returns -1.
-    int next(const Model& model, Real* spacing);
+    // when nothing is left to do. `camera` is the one that the model is seen by. The caller calls it until it returns -1.
+    int next(const Model& model, const Camera& camera, Real* spacing);
 
     // The caller reports that there was no memory for the last change: from now on no object becomes finer.
     void refused() { finest_ = true; }
@@ -28,7 +28,7 @@ private:
         int fine, coarse;
         Real least, most;
     };
-    Extremes findExtremes(const Model& model) const;
+    Extremes findExtremes(const Model& model, const Camera& camera) const;
 
     int frames_ = 0;
     uint64_t ticks_ = 0;    // length of all frames since the last decision

@@ -210,7 +210,7 @@ void Demo::holdRate(uint64_t began)
 {
     rate_.add(machine::clock() - began, model_);
     Real spacing;
-    for (int i; (i = rate_.next(model_, &spacing)) >= 0;)
+    for (int i; (i = rate_.next(model_, view_.camera(), &spacing)) >= 0;)
         if (!model_.actor(i).object->resample(spacing, surfaceMaker()))
             rate_.refused();
     stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());

@@ -53,11 +53,11 @@ int finerStep(Real spacing)
     return step;
 }
 
-// Returns the distance of the nearest part of an object from the eye along the z axis of the world, units; at least 10. An
-// object behind the eye counts as far away.
-Real distance(const SoftObject& object, const Camera& camera)
+// Returns the depth of the nearest part of an object, which is its distance from the eye along the viewing axis, units; at
+// least 10. An object behind the eye counts as far away.
+Real depthOf(const SoftObject& object, const Camera& camera)
 {
-    const Real away = object.centre().z - camera.eye.z, reach = object.radius() + object.coreReach();
+    const Real away = dot(object.centre() - camera.eye, camera.axes.ahead), reach = object.radius() + object.coreReach();
     return away < -reach ? Real(512) : max(away - reach, Real(10));
 }
 
@@ -65,13 +65,13 @@ Real distance(const SoftObject& object, const Camera& camera)
 Real coarseness(const SoftObject& object, const Camera& camera)
 {
     const Real thin = clamp(object.radius() * Real(0.1), Real(0.5), Real(1));
-    return shiftUp(object.spacing(), 6) / (distance(object, camera) * thin);
+    return shiftUp(object.spacing(), 6) / (depthOf(object, camera) * thin);
 }
 
 // Seeds are not made finer than one per pixel, nor coarser than the radius of the object (or one unit).
 bool canBeFiner(const SoftObject& object, const Camera& camera)
 {
-    return spacingOf(finerStep(object.spacing())) >= distance(object, camera) / camera.focalX &&
+    return spacingOf(finerStep(object.spacing())) >= depthOf(object, camera) / camera.focalX &&
            object.spacing() > SPACING_LEAST;
 }
 
@@ -116,12 +116,12 @@ void Rate::add(uint64_t ticks, const Model& model)
         left_ += model.count() / OBJECTS_A_CHANGE;
 }
 
-int Rate::next(const Model& model, Real* spacing)
+int Rate::next(const Model& model, const Camera& camera, Real* spacing)
 {
     if (left_ == 0)
         return -1;
     --left_;
-    const Extremes found = findExtremes(model);
+    const Extremes found = findExtremes(model, camera);
     const int fine = found.fine, coarse = found.coarse;
     const auto share = [&](int i, int32_t percent) {
         return mulDiv(load_ * percent, model.actor(i).object->seeds(), 100 * (model.seeds() + 1));
@@ -146,17 +146,17 @@ int Rate::next(const Model& model, Real* spacing)
 
 // Finds the finest object of those that can become coarser, and the coarsest of those that can become finer. Fine and
 // coarse are measured by coarseness().
-Rate::Extremes Rate::findExtremes(const Model& model) const
+Rate::Extremes Rate::findExtremes(const Model& model, const Camera& camera) const
 {
     Extremes found{-1, -1, Real(0), Real(0)};
     for (int i = 0; i < model.count(); ++i) {
         const SoftObject& object = *model.actor(i).object;
-        const Real here = coarseness(object, model.camera);
+        const Real here = coarseness(object, camera);
         if (canBeCoarser(object) && (found.fine < 0 || here < found.least)) {
             found.fine = i;
             found.least = here;
         }
-        if (!finest_ && canBeFiner(object, model.camera) && (found.coarse < 0 || here > found.most)) {
+        if (!finest_ && canBeFiner(object, camera) && (found.coarse < 0 || here > found.most)) {
             found.coarse = i;
             found.most = here;
         }

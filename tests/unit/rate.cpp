@@ -31,7 +31,7 @@ struct Run {
             rate.add(static_cast<uint64_t>(seconds() * machine::CLOCK_HZ), model);
             Real spacing;
             int now = 0;
-            for (int at; (at = rate.next(model, &spacing)) >= 0; ++now) {
+            for (int at; (at = rate.next(model, model.camera, &spacing)) >= 0; ++now) {
                 SoftObject& object = *model.actor(at).object;
                 const double by = number(spacing) / number(object.spacing());
                 largestStep = std::fmax(largestStep, std::fmax(by, 1 / by));
@@ -96,6 +96,11 @@ TEST(a_rate_is_held_by_what_shows_least)
     run.model.actor(0).object->moveTo(point(-20, 0, 100));
     run.play(200);
     CHECK(run.spacing(1) < run.spacing(0));
+    // Seen from behind, what was far is near.
+    run.model.camera.eye = point(0, 0, 120);
+    run.model.camera.axes = viewAlong(vector(0, 0, -1), vector(0, 1, 0), vector(-1, 0, 0));
+    run.play(200);
+    CHECK(run.spacing(0) < run.spacing(1));
 }
 
 TEST(a_rate_has_its_limits)
@@ -123,7 +128,7 @@ TEST(a_rate_has_its_limits)
     fourBalls(none);
     Real spacing;
     SAME(none.rate.frames(), 0);
-    SAME(none.rate.next(none.model, &spacing), -1);
+    SAME(none.rate.next(none.model, none.model.camera, &spacing), -1);
 }
 
 TEST(a_rate_is_held_by_many)
