@@ -744,7 +744,9 @@ svc_0507:
         movl    %eax, %cr3
 4:      clc
         ret
-7:      movl    F_ECX(%ebp), %eax
+7:      movl    %cr3, %eax              /* the pages before the bad word have changed */
+        movl    %eax, %cr3
+        movl    F_ECX(%ebp), %eax
         subl    %ecx, %eax
         movl    %eax, F_ECX(%ebp)
 8:      movw    $E_VALUE, %ax

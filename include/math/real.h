@@ -27,13 +27,7 @@
 #define FB_I386 0
 #endif
 
-// For functions of the innermost loops: REGISTERS passes arguments in registers instead of memory; SELDOM keeps code that is
-// seldom needed from being inlined into code that runs often.
-#if FB_I386
-#define REGISTERS __attribute__((regparm(3)))
-#else
-#define REGISTERS
-#endif
+// Keeps code that is seldom needed from being inlined into code that runs often.
 #define SELDOM __attribute__((noinline))
 
 // Upper 32 bits of the signed 64-bit product: one imul on the 386.

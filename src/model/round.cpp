@@ -13,18 +13,6 @@ constexpr int POLAR_SEEDS = 12;
 // A seed's cell is made a little larger than needed, because half axes are rounded to 1/64 of the spacing.
 constexpr Real CELL_SPARE(1.04);
 
-// top / bottom, rounded down; the quotient must fit 32 bits.
-inline uint32_t quotient(uint64_t top, uint32_t bottom)
-{
-#if FB_I386
-    uint32_t low = static_cast<uint32_t>(top), high = static_cast<uint32_t>(top >> 32);
-    asm("divl %2" : "+a"(low), "+d"(high) : "rm"(bottom) : "cc");
-    return low;
-#else
-    return static_cast<uint32_t>(top / bottom);
-#endif
-}
-
 }  // namespace
 
 int stepsIn(Real length, Real spacing)
@@ -312,7 +300,8 @@ Real lengthQuick(const Vector& v)
         square = x * x + y * y + z * z;
         root = static_cast<uint32_t>(square * inverseRoots[square >> 20] >> 28);
     }
-    root = (root + quotient(square, root)) >> 1;
+    uint32_t rest;
+    root = (root + quotient64(square, root, &rest)) >> 1;
     return Real::fromRaw(static_cast<int32_t>(excess > 0 ? root : root >> -excess));
 #else
     return squareRoot(dot(v, v));
