@@ -219,6 +219,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
             aim(object, tiny, near);
         all.inner = all.inner || (!digs && dentedFromWithin(other, bodies));
         all.dented = all.dented || digs;
+        all.uneven = all.uneven || near.ratio > UNEVEN_SIZES;
         all.ordinary = all.ordinary && near.plain;
         all.simple = all.simple && near.kind != Neighbour::OTHER;
     }
@@ -237,6 +238,7 @@ void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& 
     all.dented = false;
     all.ordinary = object.strength() == Real(1) && !all.hollow && !object.shaped();
     all.last = object.restRoot() == Real(0.5) ? Real(1.98) : Real(0.99) / object.restRoot();
+    all.uneven = false;
     all.simple = true;
     memset(all.bySlot, 0, sizeof all.bySlot);
     gatherFrom(bodies.diggers(*all.head), bodies.diggerCount(*all.head), true, object, bodies, all);

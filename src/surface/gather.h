@@ -17,6 +17,9 @@ constexpr Real GATHER_SLACK(3);
 // No field of strength 1 changes by more than this over a length of one size.
 constexpr Real STEEPEST_OF_ALL(1.6);
 
+// See Neighbourhood::uneven.
+constexpr Real UNEVEN_SIZES(16);
+
 // A neighbour in the own space of the object that is being updated, and its field along the current path. Lengths are in units
 // of own space. In core space a neighbour is turned to its own axes and scaled to the size CORE_SIZE.
 struct Neighbour : Along {
@@ -90,6 +93,7 @@ struct Neighbourhood {
     bool inner;         // some members of the body dig into other members
     bool ordinary;      // nothing digs, all strengths are 1, and the object is not shaped
     bool simple;        // ordinary, and every neighbour is a POINT or a SEGMENT
+    bool uneven;        // the squared proportion of the own size to that of some neighbour exceeds UNEVEN_SIZES
     bool restsAtOne;    // the surface lies at position 1 where no neighbour reaches
     bool dented;        // some neighbours dig
     bool deep;          // paths are searched from near their roots on

@@ -87,7 +87,8 @@ Real findShare(Path& path, Seed& s, Real shared, Vector* g)
     if (hollow)
         own = own * path.all().weight;
     Real lead = own - rival.steepest;
-    if (path.touched() > 1)
+    // Beside a far smaller neighbour `g` is scaled, and the others' part of the lead is left out.
+    if (path.touched() > 1 && path.gradientShift() == 0)
         lead += leadOf(hollow ? -*g : *g, out, own, rival);
     // The vector from the core of the digging object.
     const Neighbour& other = *rival.near;
@@ -103,7 +104,8 @@ Real findShare(Path& path, Seed& s, Real shared, Vector* g)
     const Real half = shiftDown(object.spacing() * s.position, 1);
     if (apart < half) {
         const Real turn = change * shiftDown(half - max(apart, -half), 1);
-        *g = *g + withLength(hollow ? -wall : wall, hollow ? turn : min(turn, rival.steepest));
+        const Vector across = withLength(hollow ? -wall : wall, hollow ? turn : min(turn, rival.steepest));
+        *g = *g + across * realFromRaw(65536 >> path.gradientShift());
     }
     return apart;
 }

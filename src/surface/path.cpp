@@ -211,13 +211,27 @@ Real Path::warpedParam(Real position)
 
 // ---- Results of the last evaluation
 
-// The gradient of a field is 2 F' / size^2 times the vector from its core. Because only the direction matters, each vector is added
-// with the factor -F' times the squared proportion of the own size to the neighbour's.
-Vector Path::outward(Real position) const
+// The shift that brings the largest ratio of a neighbour that reaches the seed to 8 or less.
+SELDOM int Path::findGradientShift() const
+{
+    Real largest(0);
+    for (int i = 0; i < touched_; ++i)
+        if (near_[i]->slope != Real(0))
+            largest = max(largest, near_[i]->ratio);
+    int shift = 0;
+    while (shiftDown(largest, shift) > Real(8))
+        ++shift;
+    return shift;
+}
+
+// The gradient of a field is 2 F' / size^2 times the vector from its core. Each vector is added with the factor -F' times the squared
+// proportion of the own size to the neighbour's, over 2^shift.
+inline __attribute__((always_inline)) Vector Path::sumGradients(Real position, int shift) const
 {
     Real own = -(shared_ ? ownSlope_ * share_[0] : ownSlope_);
     if (!shared_ && all_.hollow)
         own = -(own * all_.weight);
+    own = shiftDown(own, shift);
     Vector g{Real(0), Real(0), Real(0)};
     // The vector from a point core to the seed is the vector to the root and the way along the path, which is added up in `along`.
     Real along = object_.slants() ? Real(0) : own;
@@ -228,7 +242,7 @@ Vector Path::outward(Real position) const
         Real slope = shared_ ? near.slope * share_[i + 1] : near.slope;
         if (!shared_ && near.digs)
             slope = -(slope * near.weight);
-        const Real push = -(slope * near.ratio);
+        const Real push = -(shiftDown(slope, shift) * near.ratio);
         if (near.kind == Neighbour::OTHER) {
             g = g + near.fromCoreSpace(near.halfGradient) * push;
             continue;
@@ -240,6 +254,12 @@ Vector Path::outward(Real position) const
     }
     g = g + seed_->path * (along * position);
     return object_.slants() ? g + ownGradient(position, own) : g;
+}
+
+Vector Path::outward(Real position)
+{
+    gradientShift_ = all_.uneven ? findGradientShift() : 0;
+    return gradientShift_ == 0 ? sumGradients(position, 0) : sumGradients(position, gradientShift_);
 }
 
 Vector Path::ownGradient(Real position, Real share) const

@@ -42,8 +42,10 @@ public:
         return sample;
     }
 
-    // The direction in which the body's field falls (own axes, any length) at the position evaluated last, or a short step from it.
-    Vector outward(Real position) const;
+    // The direction in which the body's field falls (own axes) at the position evaluated last, or a short step from it. Its length is
+    // half the gradient times the squared own size, over 2^gradientShift(): beside a small neighbour that alone would leave 16.16.
+    Vector outward(Real position);
+    int gradientShift() const { return gradientShift_; }
 
     // Must be called when the lists of `nearby` change.
     void leave() { asked_ = nullptr; }
@@ -98,6 +100,8 @@ private:
     void take(const NeighbourList& list, const Seed& s);
     void setNear(const NeighbourList& list);
     SELDOM void findOdd();
+    SELDOM int findGradientShift() const;
+    Vector sumGradients(Real position, int shift) const;
     bool mayReach(const Neighbour& near) const;
     void leaveOut();
     const Vector& root() const { return object_.root(seed_->root); }
@@ -131,6 +135,7 @@ private:
     NeighbourList part_;                      // the neighbours of a list that reach the path
     Neighbour* const* near_;        // the neighbours of asked_ or part_
     int touched_ = 0;               // their number
+    int gradientShift_ = 0;
     int rootOfAsked_ = -1;            // index of the root for which all neighbours of asked_ are prepared; -1: none
     bool odd_;                      // not ownPlain_, or some neighbours are not Neighbour::plain
     bool others_;                   // the cores of some neighbours are neither points nor segments
