@@ -3,6 +3,7 @@
 #ifndef FB_PATCH_H
 #define FB_PATCH_H
 
+#include "bend.h"
 #include "gather.h"
 
 // The report's overshoot tolerance: a seed belongs to the surface as long as no neighbour's field exceeds the own field by more.
@@ -18,26 +19,6 @@ enum PatchState : uint8_t {
     PATCH_AWAY,    // a neighbour reaches it, but it faces away from the viewer, is hidden or is out of sight
     PATCH_MIXED,   // a neighbour reaches it, and its seeds are settled one by one
 };
-
-// The curvature of the surface over a patch, measured from the normals of its seeds.
-struct Bend {
-    int16_t turn[6];    // a symmetric matrix, xx yy zz xy xz yz: how much the normal turns over a step; 1.0 = 2^13 over 256 steps
-                        // of places (voxels.h). Along the normal it has the greatest curvature of the patch
-    Direction14 normal;
-    bool ball;          // the patch is curved like the unblended ball, or nothing better is known; `turn` is not set
-    bool known;         // the rest is valid
-    bool stale;         // seeds have settled since it was measured
-    bool gentle;        // the radius of curvature is so many spacings that only scales next to the limb have an end (shade.cpp)
-};
-
-// The product of the matrix Bend::turn and a vector of any length: how much the normal turns over that step.
-inline void turnAlong(const Bend& bend, const int32_t v[3], int32_t to[3])
-{
-    const int16_t(&t)[6] = bend.turn;
-    to[0] = (t[0] * v[0] + t[3] * v[1] + t[4] * v[2]) >> 14;
-    to[1] = (t[3] * v[0] + t[1] * v[1] + t[5] * v[2]) >> 14;
-    to[2] = (t[4] * v[0] + t[5] * v[1] + t[2] * v[2]) >> 14;
-}
 
 // Converts units to 1/16 units, rounding down.
 inline int32_t steps16(Real units)

@@ -224,8 +224,8 @@ SELDOM int Path::findGradientShift() const
     return shift;
 }
 
-// The gradient of a field is 2 F' / size^2 times the vector from its core. Each vector is added with the factor -F' times the squared
-// proportion of the own size to the neighbour's, over 2^shift.
+// The gradient of a field is 2 F' / size^2 times the vector from its core. Each vector is added with the factor -F' times the
+// squared proportion of the own size to the neighbour's, over 2^shift.
 inline __attribute__((always_inline)) Vector Path::sumGradients(Real position, int shift) const
 {
     Real own = -(shared_ ? ownSlope_ * share_[0] : ownSlope_);

@@ -42,8 +42,9 @@ public:
         return sample;
     }
 
-    // The direction in which the body's field falls (own axes) at the position evaluated last, or a short step from it. Its length is
-    // half the gradient times the squared own size, over 2^gradientShift(): beside a small neighbour that alone would leave 16.16.
+    // The direction in which the body's field falls (own axes) at the position evaluated last, or a short step from it. Its length
+    // is half the gradient times the squared own size, over 2^gradientShift(): beside a small neighbour that alone would leave
+    // 16.16.
     Vector outward(Real position);
     int gradientShift() const { return gradientShift_; }
 

@@ -2,6 +2,7 @@
 // common is computed once for the patch.
 #include "shade.h"
 
+#include "bend.h"
 #include "limb.h"
 #include "math/normal.h"
 #include "math/whole.h"
@@ -15,45 +16,6 @@ namespace {
 // object.
 Slopes slopes;
 
-// The dot product of two vectors.
-template <class Part, class Other>
-inline int32_t product(const Part a[3], const Other b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-template <class Part>
-inline int32_t product(const Direction14& a, const Part b[3])
-{
-    return a.x * b[0] + a.y * b[1] + a.z * b[2];
-}
-
-// The products of the components of two vectors in the order of Bend::turn: xx, yy, zz, and the mixed ones xy, xz, yz, each of
-// which is the sum for both orders. They lose 13 bits.
-inline void findProducts(const int32_t a[3], const int32_t b[3], int32_t to[6])
-{
-    for (int i = 0; i < 3; ++i)
-        to[i] = a[i] * b[i] >> 13;
-    to[3] = (a[0] * b[1] + a[1] * b[0]) >> 13;
-    to[4] = (a[0] * b[2] + a[2] * b[0]) >> 13;
-    to[5] = (a[1] * b[2] + a[2] * b[1]) >> 13;
-}
-
-// The component along one vector of the normal's turn over a step along another, from the products of the two vectors.
-inline int32_t turnOf(const Bend& bend, const int32_t both[6])
-{
-    return bend.turn[0] * both[0] + bend.turn[1] * both[1] + bend.turn[2] * both[2] + bend.turn[3] * both[3] +
-           bend.turn[4] * both[4] + bend.turn[5] * both[5];
-}
-
-// The component along a vector of the normal's turn over a step along the same vector, times 2^-17.
-inline int32_t curvatureAlong(const Bend& bend, const int32_t v[3])
-{
-    int32_t turned[3];
-    turnAlong(bend, v, turned);
-    return product(turned, v) >> 3;
-}
-
 // 1/256 unit: a scale in the territory of another object is moved this much deeper, so that it is seen only where that object has
 // none.
 constexpr int32_t BEHIND = 64;
@@ -66,9 +28,9 @@ constexpr int32_t WHOLE_BEFORE = 64 * 256;
 constexpr int32_t FLATTEST = 8000;
 constexpr int32_t FACES_VIEWER = 16000;
 
-// No scale of a patch at rest ends that faces the viewer with the cosine FACES_ABOUT (1.0 = 2^14) or more, if its radius of
-// curvature is at least GENTLE_SPACINGS: the limb is .6^2 * 6 / 2 = 1.08 spacings away, farther than a scale reaches.
-constexpr int32_t FACES_ABOUT = 9830, GENTLE_SPACINGS = 6;
+// No scale of a patch at rest ends that faces the viewer with the cosine FACES_ABOUT (1.0 = 2^14) or more, if its bend is gentle:
+// the limb is .6^2 * GENTLE_SPACINGS / 2 = 1.08 spacings away, farther than a scale reaches.
+constexpr int32_t FACES_ABOUT = 9830;
 
 // The bend of a patch that settles in every frame is measured in one of BEND_TURNS + 1 frames, chosen by the patch's number. Next
 // to the limb, where the bend decides how far scales are drawn, it is measured in one of BEND_TURNS_LIMB + 1 frames.
@@ -109,8 +71,6 @@ private:
     void listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list, Painter* painter);
     int findExtras(const Patch& patch, Seen* seen, Voxel* voxels) const;
     int clipDepth(Seen* seen, Voxel* voxels, int count) const;
-    bool findSteps(const Patch& patch, const Seed* from[2], const Seed* to[2]) const;
-    void measureBend(Patch& patch) const;
     void setPatch(const Patch& patch, const Seen& middle, const Voxel& at);
     void setBend(const Patch& patch, const Seen& middle);
     // Whether a patch faces the viewer so much that no scale of it ends at the limb.
@@ -126,7 +86,7 @@ private:
     template <class Part>
     int32_t along(const Part v[3], const int32_t axis[3], int i) const
     {
-        return shading_.turned ? product(v, axis) >> 14 : v[i];
+        return shading_.turned ? dot(v, axis) >> 14 : v[i];
     }
 
     SoftObject& object_;
@@ -180,7 +140,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
         findProducts(own.light, axes[i], lights_[i]);
         for (int32_t& light : lights_[i])
             light = mulShift16(light, gradientScale);
-        ballGradient_[i] = (product(own.light, axes[i]) >> 14) * (BRIGHTEST * 32) / ((radius >> 8) + 1);
+        ballGradient_[i] = (dot(own.light, axes[i]) >> 14) * (BRIGHTEST * 32) / ((radius >> 8) + 1);
     }
     const int32_t distance = own.distance32 >> (shading_.placeShift - 8);
     shading_.limb = distance * own.limb >> 11;
@@ -214,91 +174,6 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     shading_.leastPosition = hollow_ && !ball_ ? 1 << 8 : 0;
 }
 
-// Finds the ends of two steps between valid seeds of a patch: along its middle ring (another ring if that has fewer than two), and
-// from its first ring to its last. Returns false when there are no two such steps.
-bool Shader::findSteps(const Patch& patch, const Seed* from[2], const Seed* to[2]) const
-{
-    from[0] = to[0] = from[1] = to[1] = nullptr;
-    for (int ring = 0; ring < PATCH_RINGS; ++ring) {
-        const Seed *first = shading_.seeds + patch.first[ring], *last = first + patch.count[ring] - 1;
-        while (first <= last && !(first->flags & SEED_VALID))
-            ++first;
-        while (first <= last && !(last->flags & SEED_VALID))
-            --last;
-        if (first > last)
-            continue;
-        if (from[0] == to[0] || (ring == PATCH_RINGS / 2 && first != last)) {
-            from[0] = first;
-            to[0] = last;
-        }
-        if (from[1] == nullptr)
-            from[1] = first;
-        to[1] = first;
-    }
-    return from[0] != to[0] && from[1] != to[1];
-}
-
-// Measures how the surface of a patch bends, from the turn of the normal over the two steps of findSteps().
-SELDOM void Shader::measureBend(Patch& patch) const
-{
-    Bend& bend = patch.bend;
-    bend.stale = false;
-    bend.known = bend.ball = true;
-    const int32_t gentle = rawFromReal(object_.spacing()) * GENTLE_SPACINGS;
-    bend.gentle = ball_ && rawFromReal(object_.laidRadius()) >= gentle;
-    if (ball_ && patch.state == PATCH_REST)
-        return;
-    const Seed *from[2], *to[2];
-    if (!findSteps(patch, from, to))
-        return;
-    const Seed& centre = object_.regular(patch.centre);
-    bend.normal = centre.flags & SEED_VALID ? centre.normal : from[0]->normal;
-    const int32_t n[] = {bend.normal.x, bend.normal.y, bend.normal.z};
-    // The two steps, the turn of the normal over each, and the dual vector of each: the dot product of dual[k] and a vector,
-    // divided by the area between the steps, is the vector's component in units of step k.
-    int32_t step[2][3], turn[2][3], dual[2][3], size[2];
-    for (int k = 0; k < 2; ++k) {
-        const Seed &a = *from[k], &b = *to[k];
-        int32_t start[3], *const d = step[k], *const across = dual[1 - k];
-        findPlace(shading_, a, start);
-        findPlace(shading_, b, d);
-        for (int i = 0; i < 3; ++i)
-            d[i] -= start[i];
-        turn[k][0] = b.normal.x - a.normal.x;
-        turn[k][1] = b.normal.y - a.normal.y;
-        turn[k][2] = b.normal.z - a.normal.z;
-        size[k] = max32(max32(magnitude(d[0]), magnitude(d[1])), magnitude(d[2]));
-        // A normal that turns more than on a ball of half a unit is no measurement of a bend.
-        if (max32(max32(magnitude(turn[k][0]), magnitude(turn[k][1])), magnitude(turn[k][2])) > size[k] << 7)
-            return;
-        // The cross product of the normal and the first step, or of the second step and the normal.
-        const int32_t sign = k == 0 ? 1 : -1;
-        across[0] = sign * (n[1] * d[2] - n[2] * d[1]) >> 14;
-        across[1] = sign * (n[2] * d[0] - n[0] * d[2]) >> 14;
-        across[2] = sign * (n[0] * d[1] - n[1] * d[0]) >> 14;
-    }
-    const int32_t area = product(dual[0], step[0]);
-    if (min32(size[0], size[1]) < 64 || magnitude(area) <= size[0] * size[1] >> 2)
-        return;
-    bend.ball = false;
-    const auto overArea = [&](int32_t sum) { return limited(mulDiv(sum, 128, area), 16000); };
-    // The greater curvature of the two also counts along this normal: the normals of the patch's other seeds lean away from it, so
-    // that steps along their tangent planes have a component along it.
-    const int32_t one = product(turn[0], dual[0]), other = product(turn[1], dual[1]);
-    const int32_t most = overArea(magnitude(one) > magnitude(other) ? one : other);
-    bend.gentle = magnitude(most) * (gentle >> shading_.placeShift) <= 1 << 21;
-    const auto turned = [&](int i, int j) {
-        return static_cast<int16_t>(limited(overArea(turn[0][i] * dual[0][j] + turn[1][i] * dual[1][j]) +
-                                            ((most * n[i] >> 14) * n[j] >> 14), 16000));
-    };
-    bend.turn[0] = turned(0, 0);
-    bend.turn[1] = turned(1, 1);
-    bend.turn[2] = turned(2, 2);
-    bend.turn[3] = turned(0, 1);
-    bend.turn[4] = turned(0, 2);
-    bend.turn[5] = turned(1, 2);
-}
-
 // Sets how the brightness changes over a patch, and where the patch bends out of sight.
 inline void Shader::setBend(const Patch& patch, const Seen& middle)
 {
@@ -314,10 +189,10 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
     findPlace(shading_, *middle.seed, p);
     for (int i = 0; i < 3; ++i)
         view[i] = (shading_.eye[i] - (p[i] >> 3)) >> viewShift_;
-    const int32_t up = product(bend.normal, view) >> 14, n[] = {bend.normal.x, bend.normal.y, bend.normal.z};
+    const int32_t up = dot(bend.normal, view) >> 14, n[] = {bend.normal.x, bend.normal.y, bend.normal.z};
     for (int i = 0; i < 3; ++i)
         view[i] -= n[i] * up >> 14;
-    const int32_t square = product(view, view), curvature = curvatureAlong(bend, view);
+    const int32_t square = dot(view, view), curvature = curvatureAlong(bend, view);
     // At rest a quarter is added to the radius, because scales differ from their cells, and next to the limb there may be no other
     // scale to cover the difference. A blending patch is taken to bend no less than a ball half as large again as the object.
     const bool rests = patch.state == PATCH_REST;
@@ -461,7 +336,7 @@ inline void Shader::shadeSeen(Patch& patch, int turn, const Seen* seen, Voxel* v
 {
     const Seen& middle = seen[count >> 1];
     if (!patch.bend.known || (patch.bend.stale && (turn & (middle.facing < facesViewer_ >> 2 ? BEND_TURNS_LIMB : BEND_TURNS)) == 0))
-        measureBend(patch);
+        measureBend(object_, shading_, patch);
     setPatch(patch, middle, voxels[count >> 1]);
     shadeSeeds(&shading_, seen, voxels, count);
 }

@@ -1,0 +1,94 @@
+// Measures how the surface of a patch bends, from the places and normals of its seeds.
+#include "bend.h"
+
+#include "math/whole.h"
+#include "voxels.h"
+
+namespace {
+
+// Finds the ends of two steps between valid seeds of a patch: along its middle ring (another ring if that has fewer than two), and
+// from its first ring to its last. Returns false when there are no two such steps.
+bool findSteps(const Seed* seeds, const Patch& patch, const Seed* from[2], const Seed* to[2])
+{
+    from[0] = to[0] = from[1] = to[1] = nullptr;
+    for (int ring = 0; ring < PATCH_RINGS; ++ring) {
+        const Seed *first = seeds + patch.first[ring], *last = first + patch.count[ring] - 1;
+        while (first <= last && !(first->flags & SEED_VALID))
+            ++first;
+        while (first <= last && !(last->flags & SEED_VALID))
+            --last;
+        if (first > last)
+            continue;
+        if (from[0] == to[0] || (ring == PATCH_RINGS / 2 && first != last)) {
+            from[0] = first;
+            to[0] = last;
+        }
+        if (from[1] == nullptr)
+            from[1] = first;
+        to[1] = first;
+    }
+    return from[0] != to[0] && from[1] != to[1];
+}
+
+}  // namespace
+
+void measureBend(const SoftObject& object, const Shading& shading, Patch& patch)
+{
+    Bend& bend = patch.bend;
+    bend.stale = false;
+    bend.known = bend.ball = true;
+    const int32_t gentle = rawFromReal(object.spacing()) * GENTLE_SPACINGS;
+    const bool ball = object.isBall();
+    bend.gentle = ball && rawFromReal(object.laidRadius()) >= gentle;
+    if (ball && patch.state == PATCH_REST)
+        return;
+    const Seed *from[2], *to[2];
+    if (!findSteps(shading.seeds, patch, from, to))
+        return;
+    const Seed& centre = object.regular(patch.centre);
+    bend.normal = centre.flags & SEED_VALID ? centre.normal : from[0]->normal;
+    const int32_t n[] = {bend.normal.x, bend.normal.y, bend.normal.z};
+    // The two steps, the turn of the normal over each, and the dual vector of each: the dot product of dual[k] and a vector,
+    // divided by the area between the steps, is the vector's component in units of step k.
+    int32_t step[2][3], turn[2][3], dual[2][3], size[2];
+    for (int k = 0; k < 2; ++k) {
+        const Seed &a = *from[k], &b = *to[k];
+        int32_t start[3], *const d = step[k], *const across = dual[1 - k];
+        findPlace(shading, a, start);
+        findPlace(shading, b, d);
+        for (int i = 0; i < 3; ++i)
+            d[i] -= start[i];
+        turn[k][0] = b.normal.x - a.normal.x;
+        turn[k][1] = b.normal.y - a.normal.y;
+        turn[k][2] = b.normal.z - a.normal.z;
+        size[k] = max32(max32(magnitude(d[0]), magnitude(d[1])), magnitude(d[2]));
+        // A normal that turns more than on a ball of half a unit is no measurement of a bend.
+        if (max32(max32(magnitude(turn[k][0]), magnitude(turn[k][1])), magnitude(turn[k][2])) > size[k] << 7)
+            return;
+        // The cross product of the normal and the first step, or of the second step and the normal.
+        const int32_t sign = k == 0 ? 1 : -1;
+        across[0] = sign * (n[1] * d[2] - n[2] * d[1]) >> 14;
+        across[1] = sign * (n[2] * d[0] - n[0] * d[2]) >> 14;
+        across[2] = sign * (n[0] * d[1] - n[1] * d[0]) >> 14;
+    }
+    const int32_t area = dot(dual[0], step[0]);
+    if (min32(size[0], size[1]) < 64 || magnitude(area) <= size[0] * size[1] >> 2)
+        return;
+    bend.ball = false;
+    const auto overArea = [&](int32_t sum) { return limited(mulDiv(sum, 128, area), 16000); };
+    // The greater curvature of the two also counts along this normal: the normals of the patch's other seeds lean away from it, so
+    // that steps along their tangent planes have a component along it.
+    const int32_t one = dot(turn[0], dual[0]), other = dot(turn[1], dual[1]);
+    const int32_t most = overArea(magnitude(one) > magnitude(other) ? one : other);
+    bend.gentle = magnitude(most) * (gentle >> shading.placeShift) <= 1 << 21;
+    const auto turned = [&](int i, int j) {
+        return static_cast<int16_t>(limited(overArea(turn[0][i] * dual[0][j] + turn[1][i] * dual[1][j]) +
+                                            ((most * n[i] >> 14) * n[j] >> 14), 16000));
+    };
+    bend.turn[0] = turned(0, 0);
+    bend.turn[1] = turned(1, 1);
+    bend.turn[2] = turned(2, 2);
+    bend.turn[3] = turned(0, 1);
+    bend.turn[4] = turned(0, 2);
+    bend.turn[5] = turned(1, 2);
+}
