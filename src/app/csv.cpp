@@ -41,7 +41,7 @@ void formatSettings(char* to, size_t size, const Options& options, Real spacing)
     char number[24], held[16] = "";
     formatReal(number, sizeof number, spacing);
     if (options.holds())
-        snprintf(held, sizeof held, " F:%d", options.hold);
+        snprintf(held, sizeof held, " F:%d", static_cast<int>(options.hold));
     snprintf(to, size, "S:%s%s%s%s%s%s%s", number, held, options.interactive ? " I" : "", options.grey ? " G" : "",
              options.printed ? " P" : "", options.retrace ? " V" : "", options.noPresent ? " X" : "");
 }
