@@ -98,8 +98,8 @@ std::vector<Section> coffSections(const Bytes &coff) {
         s.address = get(coff, h + 12, 4);
         s.size = get(coff, h + 16, 4);
         s.offset = get(coff, h + 20, 4);
-        s.type = s.offset ? 1 : 8;                    // as ELF has it: contents or none,
-        s.flags = 2;                                  // in memory
+        s.type = s.offset ? 1 : 8;                    // ELF section type: with contents (1) or without (8)
+        s.flags = 2;                                  // ELF section flags: loaded into memory
         result.push_back(s);
     }
     return result;
@@ -108,7 +108,7 @@ std::vector<Section> coffSections(const Bytes &coff) {
 Bytes makeStub(const Bytes &elf, const std::string &name) {
     const bool coff = get(elf, 0, 2) == 0x14c && get(elf, 16, 2) == 28;
     if (!coff) checkElf(elf, name);
-    const uint32_t header = 32;                       // bytes; the image follows, everything in paragraphs
+    const uint32_t header = 32;                       // size in bytes; the image follows, and all sizes are whole paragraphs
     Bytes image;
     for (const Section &s : coff ? coffSections(elf) : elfSections(elf)) {
         if (s.name != ".loader" && s.name != ".host") continue;
@@ -125,7 +125,7 @@ Bytes makeStub(const Bytes &elf, const std::string &name) {
     const uint32_t stackSegment = 0x1c00, stackSize = 0x400;
     Bytes exe(header);
     put(exe, 0, 0x5a4d, 2);
-    put(exe, 2, 0, 2);                                // bytes in the last page: all
+    put(exe, 2, 0, 2);                                // bytes used in the last page: 0 means all
     put(exe, 4, size / 512, 2);
     put(exe, 8, header / 16, 2);
     put(exe, 10, stackSegment + stackSize / 16 - (size - header) / 16, 2);
@@ -133,7 +133,7 @@ Bytes makeStub(const Bytes &elf, const std::string &name) {
     put(exe, 14, stackSegment, 2);
     put(exe, 16, stackSize, 2);
     put(exe, 20, get(elf, coff ? 20 + 16 : 24, 4), 2); // IP
-    put(exe, 24, header, 2);                          // relocation table: empty
+    put(exe, 24, header, 2);                          // the relocation table is empty
     exe.insert(exe.end(), image.begin(), image.end());
     return exe;
 }
@@ -178,7 +178,7 @@ Bytes makeCoff(const Bytes &elf, const std::string &name) {
     uint32_t dataSize = (data.size + 3) / 4 * 4;
     Bytes coff(dataOffset + dataSize);
     put(coff, 0, 0x14c, 2);                           // i386
-    put(coff, 2, 3, 2);                               // sections
+    put(coff, 2, 3, 2);                               // count of sections
     put(coff, 16, 28, 2);                             // size of the optional header
     put(coff, 18, 0x010f, 2);                         // no relocations, line numbers, symbols; executable, 32-bit LE
     put(coff, 20, 0x010b, 2);                         // demand paged
