@@ -87,7 +87,7 @@ std::vector<Section> elfSections(const Bytes &elf) {
     return result;
 }
 
-/* --- The stub: what has contents, as an image behind an MZ header. The linker's output is ELF from the stock
+/* --- The stub: its sections with contents, as an image behind an MZ header. The linker's output is ELF from the stock
        tools and COFF from DJGPP's. --- */
 
 std::vector<Section> coffSections(const Bytes &coff) {
@@ -120,8 +120,8 @@ Bytes makeStub(const Bytes &elf, const std::string &name) {
     uint32_t size = (header + image.size() + 511) / 512 * 512;
     image.resize(size - header);
 
-    /* The first stack lies above everything that the loader moves: 64 KB of transfer buffer at most and the
-       host behind it. DOS has to give that much; what is not needed goes back at once. */
+    /* The first stack lies above all memory that the loader uses: at most 64 KB of transfer buffer, and the host
+       behind it. DOS must provide that much memory; the loader returns the unused part at once. */
     const uint32_t stackSegment = 0x1c00, stackSize = 0x400;
     Bytes exe(header);
     put(exe, 0, 0x5a4d, 2);
@@ -138,7 +138,7 @@ Bytes makeStub(const Bytes &elf, const std::string &name) {
     return exe;
 }
 
-/* Size of the MZ part of a file, that is, where something behind it starts; 0 if it has no MZ header. */
+/* Returns the size of the MZ part of a file, which is the offset of the data behind it; 0 if there is no MZ header. */
 uint32_t mzSize(const Bytes &exe) {
     if (exe.size() < 28 || get(exe, 0, 2) != 0x5a4d) return 0;
     uint32_t size = get(exe, 4, 2) * 512, last = get(exe, 2, 2);
@@ -210,7 +210,7 @@ Bytes makeCoff(const Bytes &elf, const std::string &name) {
     return coff;
 }
 
-/* The COFF part of a DJGPP program, with or without a stub. */
+/* Returns the COFF part of a DJGPP program with or without a stub. */
 Bytes takeCoff(const std::string &name) {
     Bytes exe = readFile(name);
     uint32_t start = mzSize(exe);

@@ -59,7 +59,7 @@ void testSpace()
             outside = std::fmax(outside, number(warp.outside(toReal(warped(far, amounts[0], amounts[1], amounts[2], h)))));
             const Vec q = p + Vec{between(-1, 1), between(-1, 1), between(-1, 1)};
             shortest = std::fmin(shortest, size(warped(q, amounts[0], amounts[1], amounts[2], h) - there) / size(q - p));
-            // slopeOut() must give the gradient of n . p in warped space: its product with each warped step must be n times the step.
+            // slopeOut() must give the gradient of n . p in warped space: its product with a warped step is n times the plain step.
             if (std::fabs(p.y) > h - 1)
                 continue;
             const Vec n{between(-1, 1), between(-1, 1), between(-1, 1)};
