@@ -10,13 +10,12 @@
 //
 //   F = sum f_i^2 g_i / sum f_i^2,   g_i = f_i + sum w_ij f_j
 //
-// F is an average of the g_i, so there is no surface where all g_i are below
-// the isovalue, however small the f_i are. Elsewhere the sign of F - isovalue is the sign of
-// sum f_i^2 (g_i - isovalue), a polynomial of degree eighteen. Where all objects of the body that reach an interval are
-// linked with weight 1, F is their plain sum, of degree six. f_i is a field times its object's strength. An object that
-// digs into i has a negative weight in g_i; an object that only digs is not a member of the sums over i and is stored
-// after the members. An interval is halved until the bounds exclude the surface or the first crossing is found precisely.
-// Bodies do not influence each other: the nearest surface is the visible one.
+// F is an average of the g_i, so there is no surface where all g_i are below the isovalue, however small the f_i are.
+// Elsewhere the sign of F - isovalue is the sign of sum f_i^2 (g_i - isovalue), a polynomial of degree eighteen. Where all
+// objects of the body that reach an interval are linked with weight 1, F is their plain sum, of degree six. f_i is a field
+// times its object's strength. An object that digs into i has a negative weight in g_i; an object that only digs is not a
+// member of the sums over i and is stored after the members. An interval is halved until the bounds exclude the surface or
+// the first crossing is found precisely. Bodies do not influence each other: the nearest surface is the visible one.
 #include "truth.h"
 
 #include <algorithm>
