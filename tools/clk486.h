@@ -1,16 +1,16 @@
-// Clocks that an instruction takes on a 486, by the tables of the i486 Processor Programmer's Reference Manual: for the
-// estimate of tools/cost.cpp. It is an estimate: every access hits the cache and is aligned, the prefetch queue is full,
-// no write waits for the bus. What the tables leave open:
+// Clocks that an instruction takes on a 486, according to the tables of the i486 Processor Programmer's Reference Manual, for
+// the estimate of tools/cost.cpp. It is an estimate: every access is assumed to hit the cache and to be aligned, the prefetch
+// queue to be full, and no write to wait for the bus. Where the tables leave the number open, it is taken as follows:
 //
-//   a multiplication's 13 to 42 clocks   10 and one for each significant bit of the multiplier: taken as 16 bits, which
-//                                        is 26; of 16 bits 18, of 8 bits 15
-//   bsf, bsr                             one bit in the middle: 24 and 55
+//   multiplication (13 to 42 clocks)     10 and one for each significant bit of the multiplier, which is taken to have 16
+//                                        bits: 26; with operands of 16 bits 18, of 8 bits 15
+//   bsf, bsr                             as for a bit in the middle: 24 and 55
 //   setcc                                3.5 (4 if set, 3 if not)
-//   base and index in an address         one clock more
-//   displacement and immediate           one clock more
-//   base register just written           one clock more, by the order in memory
-//   operand size, address, segment       each prefix one clock more
-//   a jump taken or not                  3 or 1, by the counts of both
+//   address with base and index          one clock more
+//   displacement and immediate operand   one clock more
+//   base register just written           one clock more if the instruction before it in memory writes the register
+//   size, address and segment prefixes   one clock more for each
+//   conditional jump                     3 if taken, 1 if not, by the counts of both
 #ifndef CLK486_H
 #define CLK486_H
 
@@ -26,25 +26,26 @@
 struct Instruction {
     uint32_t address = 0;
     int length = 0;
-    int slowPrefixes = 0;  // those that cost a clock
+    int slowPrefixes = 0;  // prefixes that cost a clock each
     bool wide16 = false;   // operands of 16 bits
     bool repeated = false;
     std::string word;
-    std::vector<std::string> operands;  // as AT&T writes them, the destination last
+    std::vector<std::string> operands;  // in AT&T order, the destination last
 };
 
-// How often it was executed: times in all, and jumps taken; `begun` only for string instructions that repeat, which count
-// once for each repetition and once for finding the end.
+// How often an instruction was executed (`times`), and how often its jump was taken. `begun` says how often a repeated string
+// instruction was started; its `times` counts each repetition, and the end once more.
 struct Executed {
     double times = 0, taken = 0, begun = 0;
 };
 
 class Clocks486 {
 public:
-    // Clocks of all executions. What the tables do not know (the C library's SSE) takes 2 and sets *known to false.
+    // Returns the clocks of all executions. An instruction missing from the tables (the C library's SSE) counts 2 clocks and
+    // sets *known to false.
     static double of(const Instruction& i, const Instruction* before, const Executed& executed, bool* known);
 
-    // A line of objdump -d -w; false if it is none of an instruction.
+    // Parses a line of objdump -d -w. Returns false if the line holds no instruction.
     static bool parse(const std::string& line, Instruction* i);
 
 private:
@@ -109,7 +110,7 @@ inline bool Clocks486::parse(const std::string& line, Instruction* i)
     return !i->word.empty();
 }
 
-// What the address costs beyond the instruction itself.
+// Returns the clocks that prefixes and address cost in addition to the instruction itself.
 inline double Clocks486::addressing(const Instruction& i, const Instruction* before)
 {
     double more = i.slowPrefixes;
@@ -136,7 +137,7 @@ inline double Clocks486::addressing(const Instruction& i, const Instruction* bef
     return more + (immediate && displacement ? 1 : 0);
 }
 
-// Clocks of one execution but for its address; 0 and *known false where the tables have nothing.
+// Returns the clocks of one execution without its address; returns 0 and sets *known to false if the tables lack it.
 inline double Clocks486::once(const Instruction& i, const std::string& word, bool* known)
 {
     const auto begins = [&word](const char* with) { return word.compare(0, std::string(with).size(), with) == 0; };

@@ -132,9 +132,9 @@ const std::string* Map::sourceAt(uint32_t address) const
 
 struct Counts {
     std::map<uint32_t, double> executed;       // times that the instruction at an address was executed
-    std::map<uint32_t, double> taken;          // times that the jump there was taken
-    std::map<uint32_t, std::string> function;  // the function it stands in
-    std::map<uint32_t, double> called;         // instructions of the C library's functions that are called there
+    std::map<uint32_t, double> taken;          // times that the jump at an address was taken
+    std::map<uint32_t, std::string> function;  // function that contains an address
+    std::map<uint32_t, double> called;         // C library instructions executed by calls at an address
 };
 
 void add(Counts* counts, const std::string& name, const Map& map, double sign)
@@ -208,7 +208,7 @@ double clocksAt(const Code& code, const Counts& counts, uint32_t at, double time
     Executed executed;
     executed.times = times;
     executed.taken = number(counts.taken, at);
-    // How often execution went on to the next instruction.
+    // Executions of the following instruction: how often execution went on after the repeated string instruction.
     executed.begun = std::min(times, number(counts.executed, at + static_cast<uint32_t>(i.length)));
     const Instruction* before = nullptr;
     if (found != code.begin()) {

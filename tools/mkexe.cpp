@@ -87,7 +87,7 @@ std::vector<Section> elfSections(const Bytes &elf) {
     return result;
 }
 
-/* --- The stub: what has contents, as an image behind an MZ header. The linker's output is ELF from the stock
+/* --- The stub: its sections with contents, as an image behind an MZ header. The linker's output is ELF from the stock
        tools and COFF from DJGPP's. --- */
 
 std::vector<Section> coffSections(const Bytes &coff) {
@@ -98,8 +98,8 @@ std::vector<Section> coffSections(const Bytes &coff) {
         s.address = get(coff, h + 12, 4);
         s.size = get(coff, h + 16, 4);
         s.offset = get(coff, h + 20, 4);
-        s.type = s.offset ? 1 : 8;                    // as ELF has it: contents or none,
-        s.flags = 2;                                  // in memory
+        s.type = s.offset ? 1 : 8;                    // ELF section type: with contents (1) or without (8)
+        s.flags = 2;                                  // ELF section flags: loaded into memory
         result.push_back(s);
     }
     return result;
@@ -108,7 +108,7 @@ std::vector<Section> coffSections(const Bytes &coff) {
 Bytes makeStub(const Bytes &elf, const std::string &name) {
     const bool coff = get(elf, 0, 2) == 0x14c && get(elf, 16, 2) == 28;
     if (!coff) checkElf(elf, name);
-    const uint32_t header = 32;                       // bytes; the image follows, everything in paragraphs
+    const uint32_t header = 32;                       // size in bytes; the image follows, and all sizes are whole paragraphs
     Bytes image;
     for (const Section &s : coff ? coffSections(elf) : elfSections(elf)) {
         if (s.name != ".loader" && s.name != ".host") continue;
@@ -120,12 +120,12 @@ Bytes makeStub(const Bytes &elf, const std::string &name) {
     uint32_t size = (header + image.size() + 511) / 512 * 512;
     image.resize(size - header);
 
-    /* The first stack lies above everything that the loader moves: 64 KB of transfer buffer at most and the
-       host behind it. DOS has to give that much; what is not needed goes back at once. */
+    /* The first stack lies above all memory that the loader uses: at most 64 KB of transfer buffer, and the host
+       behind it. DOS must provide that much memory; the loader returns the unused part at once. */
     const uint32_t stackSegment = 0x1c00, stackSize = 0x400;
     Bytes exe(header);
     put(exe, 0, 0x5a4d, 2);
-    put(exe, 2, 0, 2);                                // bytes in the last page: all
+    put(exe, 2, 0, 2);                                // bytes used in the last page: 0 means all
     put(exe, 4, size / 512, 2);
     put(exe, 8, header / 16, 2);
     put(exe, 10, stackSegment + stackSize / 16 - (size - header) / 16, 2);
@@ -133,12 +133,12 @@ Bytes makeStub(const Bytes &elf, const std::string &name) {
     put(exe, 14, stackSegment, 2);
     put(exe, 16, stackSize, 2);
     put(exe, 20, get(elf, coff ? 20 + 16 : 24, 4), 2); // IP
-    put(exe, 24, header, 2);                          // relocation table: empty
+    put(exe, 24, header, 2);                          // the relocation table is empty
     exe.insert(exe.end(), image.begin(), image.end());
     return exe;
 }
 
-/* Size of the MZ part of a file, that is, where something behind it starts; 0 if it has no MZ header. */
+/* Returns the size of the MZ part of a file, which is the offset of the data behind it; 0 if there is no MZ header. */
 uint32_t mzSize(const Bytes &exe) {
     if (exe.size() < 28 || get(exe, 0, 2) != 0x5a4d) return 0;
     uint32_t size = get(exe, 4, 2) * 512, last = get(exe, 2, 2);
@@ -178,7 +178,7 @@ Bytes makeCoff(const Bytes &elf, const std::string &name) {
     uint32_t dataSize = (data.size + 3) / 4 * 4;
     Bytes coff(dataOffset + dataSize);
     put(coff, 0, 0x14c, 2);                           // i386
-    put(coff, 2, 3, 2);                               // sections
+    put(coff, 2, 3, 2);                               // count of sections
     put(coff, 16, 28, 2);                             // size of the optional header
     put(coff, 18, 0x010f, 2);                         // no relocations, line numbers, symbols; executable, 32-bit LE
     put(coff, 20, 0x010b, 2);                         // demand paged
@@ -210,7 +210,7 @@ Bytes makeCoff(const Bytes &elf, const std::string &name) {
     return coff;
 }
 
-/* The COFF part of a DJGPP program, with or without a stub. */
+/* Returns the COFF part of a DJGPP program with or without a stub. */
 Bytes takeCoff(const std::string &name) {
     Bytes exe = readFile(name);
     uint32_t start = mzSize(exe);

@@ -2,9 +2,8 @@
 //
 //   mkgif [--delay N] [--43] [--scale N] [--from N] [--to N] [--every N] OUT.GIF DIR
 //
-// It makes the animated picture of the README from the program's own frames on
-// a machine that has only a compiler. The format is CompuServe's GIF89a. Colours
-// are exact as long as a frame has at most 256 of them; otherwise low bits are
+// It makes the animated picture of the README from the program's own frames on a machine that has only a compiler. The
+// format is CompuServe's GIF89a. Colours are exact as long as a frame has at most 256 of them; otherwise low bits are
 // dropped until they fit.
 #include "picture.h"
 
@@ -18,8 +17,7 @@ void put16(std::string &out, int v) {
   out += (char)(v >> 8);
 }
 
-// The variable-length codes of GIF's LZW, packed from the low bit up and cut
-// into blocks of 255 bytes.
+// Writes the variable-length codes of GIF's LZW: packed from the low bit up and divided into blocks of 255 bytes.
 class Codes {
 public:
   explicit Codes(std::string &o) : out(o) {}
@@ -47,12 +45,12 @@ private:
   int count = 0;
 };
 
-// Appends the compressed indices; each is below 1 << bits, bits 2 to 8.
+// Appends the compressed indices. Each index is below 1 << bits; bits is 2 to 8.
 void compress(const std::vector<uint8_t> &indices, int bits, std::string &out) {
   const int clear = 1 << bits, stop = clear + 1, full = 4096;
   out += (char)bits;
   Codes codes(out);
-  // next[code][index]: the code of that string with the index behind it.
+  // next[code][index] is the code of the string of `code` followed by `index`.
   std::vector<uint16_t> next(full * 256);
   int size = bits + 1, free = stop + 1, prefix = -1;
   codes.put(clear, size);
@@ -68,8 +66,7 @@ void compress(const std::vector<uint8_t> &indices, int bits, std::string &out) {
     }
     codes.put(prefix, size);
     if (free < full) {
-      // The decoder is one string behind: a code of `size` bits more is
-      // needed once the string just made would no longer fit.
+      // The decoder is one string behind the encoder, so codes become longer only when the string just made no longer fits.
       if (free == 1 << size) size++;
       longer = (uint16_t)free++;
     } else {
@@ -168,11 +165,11 @@ int main(int argc, char **argv) {
   std::string out = "GIF89a";
   put16(out, width);
   put16(out, height);
-  // One palette for all if it can be exact, else one for each frame.
+  // All frames share one palette if it can hold their exact colours; otherwise each frame has its own.
   out += (char)(fits ? 0xF0 | (bitsFor(shared.colours.size()) - 1) : 0x70);
   put16(out, 0);
   if (fits) putTable(shared, out);
-  out += "\x21\xFF\x0BNETSCAPE2.0";   // play for ever
+  out += "\x21\xFF\x0BNETSCAPE2.0";   // repeat for ever
   out += std::string("\x03\x01\x00\x00\x00", 5);
 
   Image shown;
@@ -186,7 +183,7 @@ int main(int argc, char **argv) {
     }
     const Palette &palette = fits ? shared : own;
     for (uint32_t &c : p.pixels) c &= mask;
-    // Only the rectangle that changed is stored, the rest is left standing.
+    // Only the rectangle that changed is stored; the rest of the picture stays on the screen.
     int x0 = 0, y0 = 0, x1 = width, y1 = height;
     if (!shown.pixels.empty()) {
       x0 = width, y0 = height, x1 = y1 = 0;
@@ -196,10 +193,10 @@ int main(int argc, char **argv) {
             x0 = std::min(x0, x), x1 = std::max(x1, x + 1);
             y0 = std::min(y0, y), y1 = std::max(y1, y + 1);
           }
-      if (x1 == 0) x0 = y0 = 0, x1 = y1 = 1;   // nothing: one pixel, for its delay
+      if (x1 == 0) x0 = y0 = 0, x1 = y1 = 1;   // nothing changed: one pixel is stored for its delay
     }
     int bits = bitsFor(palette.colours.size());
-    out += std::string("\x21\xF9\x04\x04", 4);   // leave it in place afterwards
+    out += std::string("\x21\xF9\x04\x04", 4);   // the picture stays in place afterwards
     put16(out, (int)delay);
     out += std::string(2, '\0');
     out += ',';

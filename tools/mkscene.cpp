@@ -88,7 +88,7 @@ void printMoving(const char *name) {
   }
 }
 
-// Three of four links have the report's weight.
+// Three of four links have weight 1, as in the report.
 double weight() {
   if (!once(4)) return 1;
   return once(2) ? between(2, 9) / 10.0 : between(11, 40) / 10.0;
@@ -213,12 +213,12 @@ int main(int count, char **arguments) {
     }
   }
 
-  // Of many objects only few may be large.
+  // If there are many objects, few of them may be large.
   const int doublings = objects > 24 ? 0 : objects > 9 ? 1 : 2;
   for (int i = 1; i <= objects; i++) {
     const std::string name = "o" + std::to_string(i);
     const int kind = between(0, 8);
-    // Sizes on a scale where halving is as likely as doubling.
+    // Sizes are chosen on a logarithmic scale: a small object is as likely as a large one.
     int size = between(5, 16);
     const int most = kind < 4 ? doublings : std::min(doublings, 1);
     for (int d = between(0, most); d > 0; d--) size = size * 19 / 10;
@@ -229,7 +229,7 @@ int main(int count, char **arguments) {
     } else if (kind == 6) {
       printf("torus %s size %d ring %d", name.c_str(), size, std::max(between(8, 28), (size * 5 + 7) / 8));
     } else if (kind == 7) {
-      // One in three flat ones is a box.
+      // One in three discs is replaced by a box.
       if (once(3)) {
         const int x = between(2, 30), y = between(2, 30);
         printf("box %s size %d x %d y %d z %d", name.c_str(), size, x, y, between(2, 30));
@@ -243,7 +243,7 @@ int main(int count, char **arguments) {
     const double x = tenths(-20, 20), y = tenths(-14, 14), z = tenths(-16, 30);
     printf(" at %.1f %.1f %.1f", x, y, z);
     const bool stretched = shapes && !once(3);
-    // Half as large to twice as large, but for the longest, which become no longer.
+    // Stretch factors are from 0.25 to 2, but at most 1 along z and along the axes in which the kind is long.
     if (stretched) {
       const double x = between(25, 100) / 50.0, y = between(25, 100) / (kind < 4 ? 50.0 : 100.0);
       printf(" stretch %.2f %.2f %.2f", kind == 6 || kind == 7 ? x / 2 : x, y, between(25, 100) / 100.0);
@@ -278,21 +278,21 @@ int main(int count, char **arguments) {
     case 1: printf("blend all\n"); break;
     case 2: printf("blend all %.1f\n", between(3, 40) / 10.0); break;
     case 3:
-      // A chain.
+      // Each object is linked with the previous one: a chain.
       for (int i = 2; i <= objects; i++) printLink(i, i - 1);
       break;
     case 4:
-      // All with the first.
+      // Every object is linked with the first one.
       for (int i = 2; i <= objects; i++) printLink(1, i);
       break;
     case 5:
-      // Two bodies, each linked throughout.
+      // Two bodies are formed, in each of which all objects are linked.
       for (int i = 1; i <= objects; i++)
         for (int j = 1; j < i; j++)
           if ((i - j) % 2 == 0) printLink(i, j);
       break;
     default:
-      // About half of the pairs.
+      // About half of all pairs are linked.
       for (int i = 1; i <= objects; i++)
         for (int j = 1; j < i; j++)
           if (once(2)) printLink(i, j);

@@ -1,8 +1,5 @@
-// A picture in memory, read from a binary PPM file and brought to the shape it
-// is to be shown in.
-//
-// This header exists because both picture tools, mkgif and ppm2png, begin the
-// same way.
+// A picture in memory: read from a binary PPM file, with a palette made of its colours, and stretched to the shape in which
+// it is shown. This header exists because both picture tools, mkgif and ppm2png, begin with these steps.
 #ifndef PICTURE_H
 #define PICTURE_H
 
@@ -18,12 +15,12 @@ struct Image {
   std::vector<uint32_t> pixels;   // 0xRRGGBB, top row first
 };
 
-// A palette and each colour's place in it. Holds 256 colours at most.
+// A palette of at most 256 colours, and the index of each colour.
 struct Palette {
   std::vector<uint32_t> colours;
   std::map<uint32_t, int> place;
-  // Adds a picture's colours, low bits dropped by `mask`. False if there are
-  // more than 256; the palette is then of no use.
+  // Adds the colours of a picture; `mask` drops their low bits. Returns false if there are more than 256 colours; the
+  // palette is then unusable.
   bool add(const Image &p, uint32_t mask = 0xFFFFFF) {
     uint32_t last = ~0u;
     for (uint32_t c : p.pixels) {
@@ -38,8 +35,8 @@ struct Palette {
   }
 };
 
-// Reads a P6 picture with 8-bit samples, up to 4096 pixels each way. False and
-// a reason if it is none.
+// Reads a P6 picture with 8-bit samples, up to 4096 pixels wide and high. Returns false, and a reason, if the file is not
+// such a picture.
 inline bool readPpm(const std::string &path, Image &p, std::string &why) {
   FILE *f = std::fopen(path.c_str(), "rb");
   if (!f) {
@@ -74,8 +71,8 @@ inline bool readPpm(const std::string &path, Image &p, std::string &why) {
   return good;
 }
 
-// The nearest pixel of each place: `scale` times as large, and a fifth taller
-// if `tall`, which gives mode 13h's pixels their shape on a square-pixel screen.
+// Returns the picture `scale` times as large, by nearest pixels. With `tall` it is a fifth taller in addition, which shows
+// mode 13h's pixels in their true shape on a screen with square pixels.
 inline Image stretch(const Image &p, int scale, bool tall) {
   Image out;
   out.width = p.width * scale;
@@ -88,7 +85,7 @@ inline Image stretch(const Image &p, int scale, bool tall) {
   return out;
 }
 
-// A whole number within limits.
+// Reads a whole number. Returns false unless the text is a number from `least` to `most`.
 inline bool wholeNumber(const char *text, long least, long most, long &v) {
   char *end;
   v = std::strtol(text, &end, 10);

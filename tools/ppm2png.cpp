@@ -2,9 +2,8 @@
 //
 //   ppm2png [--43] [--scale N] IN.PPM OUT.PNG
 //
-// It makes the pictures of the README from dumped frames on a machine that has
-// only a compiler. It writes a palette picture if 256 colours suffice, else
-// 24-bit colour, compressed with deflate's fixed codes (RFC 1950, 1951, 2083).
+// It makes the pictures of the README from dumped frames on a machine that has only a compiler. It writes a palette picture
+// if 256 colours suffice, else 24-bit colour, compressed with deflate's fixed codes (RFC 1950, 1951, 2083).
 #include "picture.h"
 
 #include <algorithm>
@@ -33,11 +32,11 @@ void chunk(std::string &out, const std::string &name, const std::string &data) {
 class Bits {
 public:
   explicit Bits(std::string &o) : out(o) {}
-  // Low bit first, as deflate packs numbers.
+  // Appends a number, low bit first, as deflate stores numbers.
   void number(uint32_t v, int bits) {
     for (int i = 0; i < bits; i++) bit(v >> i & 1);
   }
-  // High bit first, as it packs codes.
+  // Appends a code, high bit first, as deflate stores codes.
   void code(uint32_t v, int bits) {
     for (int i = bits - 1; i >= 0; i--) bit(v >> i & 1);
   }
@@ -58,7 +57,7 @@ private:
   int count = 0;
 };
 
-// The fixed code of a literal or length symbol.
+// Appends the fixed code of a literal or length symbol.
 void symbol(Bits &bits, int s) {
   if (s < 144) bits.code(0x30 + s, 8);
   else if (s < 256) bits.code(0x190 + s - 144, 9);
@@ -66,8 +65,8 @@ void symbol(Bits &bits, int s) {
   else bits.code(0xC0 + s - 280, 8);
 }
 
-// Lengths from 3 and distances from 1 come in classes whose extra bits grow by
-// one every four (two) classes.
+// Lengths (from 3) and distances (from 1) are divided into classes; the count of extra bits grows by one every four classes
+// of lengths and every two classes of distances.
 void putLength(Bits &bits, int length) {
   if (length == 258) return symbol(bits, 285);
   int v = length - 3, extra = 0;
@@ -83,12 +82,11 @@ void putDistance(Bits &bits, int distance) {
   bits.number(v & ((1 << extra) - 1), extra);
 }
 
-// zlib data in one block of fixed codes; repeats are looked for by a hash of
-// three bytes, 64 candidates at most.
+// Returns zlib data in one block of fixed codes. Repeats are found by a hash of three bytes; at most 64 candidates are tried.
 std::string deflate(const std::string &in) {
   std::string out("\x78\x01", 2);
   Bits bits(out);
-  bits.number(1, 1);   // the last block
+  bits.number(1, 1);   // this is the last block
   bits.number(1, 2);   // fixed codes
   const int n = (int)in.size(), window = 32768;
   std::vector<int> head(65536, -1), before(n, -1);
@@ -158,7 +156,7 @@ int main(int argc, char **argv) {
   put32(header, p.width);
   put32(header, p.height);
   header += (char)8;
-  header += (char)(fits ? 3 : 2);   // palette or colour
+  header += (char)(fits ? 3 : 2);   // colour type: palette or RGB
   header += std::string(3, '\0');
   for (int y = 0; y < p.height; y++) {
     // Colour rows are stored as differences from the pixel to the left.

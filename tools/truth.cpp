@@ -3,9 +3,8 @@
 //   truth [options] DIR...         figures of the frames in the directories
 //   truth --render OUT SCENE...    writes the true frames of scene texts to OUT
 //
-// This file is the command line of the yardstick: it goes through the frames,
-// prints the figures (one `name: value` per line, or one row of a table), and
-// judges them.
+// This file is the command line of the yardstick: it reads the frames, prints the figures (one `name: value` per line, or
+// one row of a table), and compares the figures with their limits.
 #include "truth.h"
 
 #include <algorithm>
@@ -42,10 +41,10 @@ const char usage[] =
     "  --pairs          and the frame after each of them, for flicker\n"
     "  --threads N      1 to 16 (2)\n";
 
-// The limits (bars) that a picture has to meet, and the totals that are compared with them.
+// The limits (bars) that a picture has to meet, and the figures that are compared with them.
 struct Bar {
   const char *name;
-  const char *column;   // of the table
+  const char *column;   // head of the figure's column in the table
   int decimals;
   double spacing2, spacing1;
   double (*value)(const Figures &);
@@ -77,7 +76,7 @@ const Bar bars[] = {
      [](const Figures &f) { return f.borderTrue > 0; }},
 };
 
-// How bad a frame is: the sum of its figures in units of the bars, where each hole counts as one.
+// Returns how bad a frame is: the sum of its figures divided by their bars (a hole counts as 1).
 double badness(const Figures &f) {
   double sum = 0;
   for (const Bar &b : bars)
@@ -149,7 +148,7 @@ const char csvHead[] =
     "outside5x5_pct,rim_missing,depth_rms,depth_rms_smooth,brightness_rms,flicker,flicker_pct,"
     "flicker_edge_pct,colour,colour_pct,border\n";
 
-// Absent figures are empty fields.
+// Returns a record of the CSV file. Figures that were not measured are empty fields.
 std::string csvLine(long n, double time, const Figures &f) {
   char b[512];
   std::snprintf(b, sizeof b, "%ld,%.3f,%ld,%ld,%ld,%ld,%ld,%.4f,%ld,%.4f,%.4f,%ld,%.4f,%.4f,", n,
@@ -193,7 +192,7 @@ void printHead() {
   std::printf("\n");
 }
 
-// A line of a list of limits.
+// One line of the file given by --limits.
 struct Limit {
   std::string scene, spacing, figure;
   double most;
@@ -220,7 +219,8 @@ bool readLimits(const std::string &path, std::vector<Limit> &limits, std::string
   return true;
 }
 
-// One row of the table. True if nothing is beyond its bar and its limit.
+// Prints one row of the table. Returns false if a figure exceeds both its bar and its limit, or if the list cannot be
+// written; `why` is set in the latter case.
 bool printRow(const std::string &name, int spacing, const std::vector<Limit> *limits, const std::string &listName,
               const Figures &f, std::string &why) {
   const std::string number = std::to_string(spacing);
@@ -337,7 +337,7 @@ int main(int argc, char **argv) {
       if (!readFrame(names[d], n, frame, why)) return trouble(why);
       picture.trace(frame.scene, (int)threads);
       Figures f = compare(frame, picture);
-      // Flicker is between neighbours in the run only.
+      // Flicker is measured only between neighbouring frames of a run.
       if (last >= 0 && last == n - 1) compareFlicker(before, beforePicture, frame, picture, f);
       last = n;
       total.add(f);
@@ -361,7 +361,7 @@ int main(int argc, char **argv) {
     if (!readFrame(names[r.dir], r.number, frame, why)) return trouble(why);
     picture.trace(frame.scene, (int)threads);
     char name[48];
-    // A second directory's frames stand beside the first's.
+    // Frames of the second and later directories have the directory's number in their names.
     if (r.dir) std::snprintf(name, sizeof name, "/W%07ld-%d.PPM", r.number, (int)r.dir + 1);
     else std::snprintf(name, sizeof name, "/W%07ld.PPM", r.number);
     if (!writePpm(out + name, SHEET_WIDTH, HEIGHT, sheet(frame, picture), why)) return trouble(why);

@@ -1,8 +1,5 @@
-// Compares a dumped frame with its true picture, and makes the figures and the
-// pictures of differences.
-//
-// This file alone defines what counts as a hole, as see-through, as outside, as
-// an error and as flicker.
+// Compares a dumped frame with its true picture, and makes the figures and the pictures of differences. This file alone
+// defines what counts as a hole, as see-through, as outside, as an error and as flicker.
 #include "truth.h"
 
 #include <algorithm>
@@ -13,19 +10,20 @@ namespace truth {
 
 namespace {
 
-// A six-bit DAC value as the dump contains it.
+// Returns the 8-bit sample that the dump holds for a six-bit DAC value.
 uint8_t eight(int six) { return (uint8_t)((six * 255 + 31) / 63); }
 
-// Colours that differ by this much (of 255, over all channels) are different.
+// Two ramps fit a pixel equally well if the distances of their nearest colours from the pixel's differ by at most this much.
+// (Distances of colours are Euclidean, over three channels of 0 to 255.)
 const double APART = 2;
-// More colours than this share the palette's entries, which then are off by a few steps of the DAC; colours less than
-// APART_SHARED apart may be the same entry.
+// With more colours than EVEN_MOST the ramps share palette entries, which then are a few steps of the DAC off; APART_SHARED
+// takes the place of APART.
 const size_t EVEN_MOST = 4;
 const double APART_SHARED = 8;
 // A colour farther than this from all colours of a ramp does not belong to the ramp.
 const double OFF = 14;
-// Of a painted scene, all mixtures and patterns of which share the palette: a colour further than this from all that a point
-// has is not the point's.
+// In a painted scene all mixtures and patterns share the palette: a pixel's colour is wrong if it is further than this from
+// every colour that the true point can have.
 const double OFF_PAINTED = 40;
 
 }  // namespace
@@ -45,8 +43,8 @@ Ramps::Ramps(const Scene &s)
   for (const Colour &c : colours) steps.push_back(stepsOf(c, false));
 }
 
-// Whole numbers, each rounded once, as the program has them for its palette. A highlight goes towards white at a right
-// angle to the colour. What shines turns into white itself, in the last quarter of the light.
+// Whole numbers, rounded once for each channel, as the program computes its palette. A highlight adds the part of white that
+// is perpendicular to the colour. A shiny colour turns into white itself in the last quarter of the light.
 Ramps::Steps Ramps::stepsOf(const Colour &c, bool shines) const {
   const int top = RAMP - 1, dark = (int)std::lround(ambient * top), high = (int)std::lround(highlight * top);
   const int whole = 255 * top, gloss = 47;
@@ -67,7 +65,7 @@ Ramps::Steps Ramps::stepsOf(const Colour &c, bool shines) const {
 }
 
 const Ramps::Steps &Ramps::stepsAt(const Hit &h) const {
-  // Colours are told apart to half a step of the DAC.
+  // Colours are distinguished to half a step of the DAC.
   auto half = [](double part) { return (uint32_t)std::lround(part / 2); };
   uint32_t key = half(h.colour.r) << 17 | half(h.colour.g) << 9 | half(h.colour.b) << 1 | (h.shines ? 1 : 0);
   auto there = pointSteps.find(key);
@@ -108,7 +106,7 @@ const Ramps::Reading &Ramps::read(const uint8_t *rgb) const {
     for (int step = 0; step < RAMP; step++) {
       double d = 0;
       for (int k = 0; k < 3; k++) d += (rgb[k] - ramp.rgb[step][k]) * (rgb[k] - ramp.rgb[step][k]);
-      // Steps of one colour count with their middle.
+      // If several steps have one colour, their mean is taken.
       if (d < miss) miss = d, sum = 0, count = 0;
       if (d == miss) sum += step, count++;
     }
@@ -146,8 +144,7 @@ void Ramps::paint(int object, double brightness, uint8_t *rgb) const {
 
 namespace {
 
-// All of the 3 by 3 pixels show the surface, without a jump of more than
-// BEHIND in depth between them if `calm`.
+// Returns whether all of the 3 by 3 pixels show the surface and, if `calm`, their depths differ by at most BEHIND.
 bool whole(const Picture &t, int column, int row, bool calm) {
   double least = 1e300, most = -1e300;
   for (int y = -1; y <= 1; y++)
@@ -160,8 +157,7 @@ bool whole(const Picture &t, int column, int row, bool calm) {
   return !calm || most - least <= BEHIND;
 }
 
-// Some surface no further away than `limit` (squared pixels) within two rows
-// and columns.
+// Returns whether there is surface within two rows and columns and within a squared distance of `limit` pixels.
 bool surfaceNear(const Picture &t, int column, int row, int limit) {
   for (int y = -2; y <= 2; y++)
     for (int x = -2; x <= 2; x++)
@@ -169,7 +165,7 @@ bool surfaceNear(const Picture &t, int column, int row, int limit) {
   return false;
 }
 
-// Whether a pixel's colour tells its object, and there is surface: which ramp it is by its colour, and by the truth.
+// Returns whether there is surface and the pixel's colour tells its object. Stores the ramps by drawn colour and by truth.
 bool coloured(const Frame &f, const Picture &t, const Ramps &ramps, int column, int row, int &drawn, int &truly) {
   const Hit &h = t.at(column, row);
   if (!h.any() || h.tied || !f.drawn(column, row)) return false;
@@ -177,7 +173,7 @@ bool coloured(const Frame &f, const Picture &t, const Ramps &ramps, int column, 
   return drawn >= 0 && truly >= 0;
 }
 
-// The ramp is truly there, or right above, below or beside.
+// Returns whether the ramp is the true one of the pixel or of a pixel right above, below or beside it.
 bool rampNear(const Picture &t, const Ramps &ramps, int column, int row, int ramp) {
   const int x[] = {0, 1, -1, 0, 0}, y[] = {0, 0, 0, 1, -1};
   for (int k = 0; k < 5; k++) {
@@ -187,8 +183,8 @@ bool rampNear(const Picture &t, const Ramps &ramps, int column, int row, int ram
   return false;
 }
 
-// The brightness of a drawn pixel in ramp steps. In a painted scene it is read by the colour of that true point, there or right
-// above, below or beside, which has the nearest; `miss` is how far that is.
+// Returns the brightness of a drawn pixel in ramp steps. In a painted scene the colour is compared with the true points of
+// the pixel and its four neighbours, and the nearest one counts; `miss` receives its distance.
 double brightness(const Ramps &ramps, const uint8_t *rgb, const Picture &t, int column, int row, double *miss = nullptr) {
   double least, step = ramps.step(rgb, t.at(column, row), &least);
   const int x[] = {1, -1, 0, 0}, y[] = {0, 0, 1, -1};
@@ -201,7 +197,7 @@ double brightness(const Ramps &ramps, const uint8_t *rgb, const Picture &t, int 
   return step;
 }
 
-// The borders of a pixel with the one to its right (dx = 1) or below it (dy = 1): drawn and true ones.
+// Tells whether there is a border between a pixel and its right (dx = 1) or lower (dy = 1) neighbour, as drawn and in truth.
 void borders(const Frame &f, const Picture &t, const Ramps &ramps, int column, int row, int dx, int dy, bool &drawn,
              bool &truly) {
   int d0, t0, d1, t1;

@@ -1,27 +1,21 @@
 // Finds where a viewing ray first meets the implicit surface.
 //
-// The answer can be trusted even where the ray is nearly tangent to the
-// surface; stepping along the ray and looking for a change of sign would miss
-// thin slices there. Along a ray the field of a sphere or cylinder is a chain
-// of polynomials of degree six in the depth, in Bernstein form, whose
-// coefficients bound the values. The fields of other kinds are enclosed by
-// bounds until the interval is short enough for a polynomial that approximates
-// them to the eleventh decimal.
+// The answer can be trusted even where the ray is nearly tangent to the surface; stepping along the ray and looking for a
+// change of sign would miss thin slices there. Along a ray the field of a sphere, cylinder or box is a chain of polynomials
+// of degree six in the depth. They are kept in Bernstein form, whose coefficients bound the values. The fields of other
+// kinds are enclosed by bounds until the interval is short enough for a polynomial that approximates them to the eleventh
+// decimal (the eighth in warped space).
 //
-// The objects that links join make one body, with one field:
+// Objects joined by links make one body, with one field:
 //
 //   F = sum f_i^2 g_i / sum f_i^2,   g_i = f_i + sum w_ij f_j
 //
-// F is an average of the g_i, so there is no surface where all g_i are below
-// the isovalue, however small the f_i are. Elsewhere the sign is that of
-// sum f_i^2 (g_i - isovalue), a polynomial of degree eighteen. Where all
-// objects of the body that reach an interval are linked with weight 1, F is
-// their plain sum, of degree six. f_i is a field times its object's strength.
-// An object that digs into i has a negative weight in g_i; one that only digs
-// is not a member of the sums over i and is stored after the members. An
-// interval is halved until the bounds exclude the surface or the first crossing
-// is found precisely. Bodies do not influence each other: the nearest surface
-// is the visible one.
+// F is an average of the g_i, so there is no surface where all g_i are below the isovalue, however small the f_i are.
+// Elsewhere the sign of F - isovalue is the sign of sum f_i^2 (g_i - isovalue), a polynomial of degree eighteen. Where all
+// objects of the body that reach an interval are linked with weight 1, F is their plain sum, of degree six. f_i is a field
+// times its object's strength. An object that digs into i has a negative weight in g_i; an object that only digs is not a
+// member of the sums over i and is stored after the members. An interval is halved until the bounds exclude the surface or
+// the first crossing is found precisely. Bodies do not influence each other: the nearest surface is the visible one.
 #include "truth.h"
 
 #include <algorithm>
@@ -94,7 +88,7 @@ void sphereBreaks(const Object &o, const Ray &ray, std::vector<double> &t) {
 
 // ---- cylinder: x1 y1 z1 x2 y2 z2 R. The core is a line segment. ------------
 
-// Core and bounding ball shared by the kinds with a segment for a core.
+// Sets the core and the bounding sphere for kinds whose core is a segment.
 void setSegment(Object &o, const double *from, const double *to, double size) {
   Vec a{from[0], from[1], from[2]}, b{to[0], to[1], to[2]};
   o.a = a;
@@ -104,6 +98,7 @@ void setSegment(Object &o, const double *from, const double *to, double size) {
   o.reach = o.len / 2 + size;
 }
 
+// Returns the position along the core of the core's nearest point to p, clamped to [0, len].
 double along(const Object &o, Vec p) {
   return std::min(std::max(dot(p - o.a, o.u), 0.0), o.len);
 }
@@ -121,6 +116,7 @@ double cylinderQ(const Object &o, Vec p, Vec *g) {
   return dot(m, m) * k;
 }
 
+// The quadratic of an infinitely long cylinder; valid between the ends of the core.
 void bodyQuadratic(const Object &o, const Ray &ray, double c[3]) {
   Vec m = ray.eye - o.a;
   m = m - o.u * dot(m, o.u);
@@ -138,7 +134,7 @@ void cylinderQuadratic(const Object &o, const Ray &ray, double t, double c[3]) {
   else bodyQuadratic(o, ray, c);
 }
 
-// Where a ray passes a plane square to the axis, `at` along it from o.a.
+// Appends the depth where a ray passes the plane perpendicular to the axis at distance `at` along the axis from o.a.
 void whereAlong(const Object &o, const Ray &ray, double at, std::vector<double> &t) {
   double d = dot(ray.dir, o.u);
   if (d != 0) t.push_back((at - dot(ray.eye - o.a, o.u)) / d);
@@ -158,8 +154,8 @@ void cylinderBreaks(const Object &o, const Ray &ray, std::vector<double> &t) {
 
 // ---- kinds without a polynomial --------------------------------------------
 
-// The distance to any core changes by at most the distance travelled, which
-// bounds q from its value in the middle.
+// Over a distance travelled, the distance to any core changes by at most that distance; this bounds q in [a, b] from its
+// value in the middle.
 void distanceBounds(const Object &o, const Ray &ray, double a, double b, double &low, double &high) {
   double d = std::sqrt(o.kind->q(o, point(ray, (a + b) / 2), nullptr));
   double h = (b - a) / 2 * length(ray.dir) / o.size;
@@ -200,8 +196,8 @@ double discQ(const Object &o, Vec p, Vec *g) {
   return (h * h + d * d) * k;
 }
 
-// cone: x1 y1 z1 R1 x2 y2 z2 R2. The core is a line segment; the size is
-// taken at the nearest point of it and goes evenly from R1 to R2.
+// cone: x1 y1 z1 R1 x2 y2 z2 R2. The core is a line segment. The size changes linearly from R1 to R2 along the core and
+// is taken at the core's nearest point.
 const char *coneSet(Object &o, const double *v) {
   o.size = v[3];
   o.size2 = v[7];
@@ -233,14 +229,14 @@ void coneBounds(const Object &o, const Ray &ray, double a, double b, double &low
   high = (d + h) * (d + h) / (least * least);
 }
 
-// A torus is smooth but on its axis; there the ray is nearest to the axis.
+// A torus is smooth except on its axis; the only possible break is the depth where the ray is nearest to the axis.
 void torusBreaks(const Object &o, const Ray &ray, std::vector<double> &t) {
   Vec d = ray.dir - o.u * dot(ray.dir, o.u), m = ray.eye - o.a;
   double k = dot(d, d);
   if (k > 0) t.push_back(-dot(m, d) / k);
 }
 
-// A disc's flat part ends at its radius.
+// q of a disc has breaks where the ray passes the cylinder of the disc's radius about its axis.
 void discBreaks(const Object &o, const Ray &ray, std::vector<double> &t) {
   if (!(o.len > 0)) return;
   Object tube = o;
@@ -257,16 +253,15 @@ void coneBreaks(const Object &o, const Ray &ray, std::vector<double> &t) {
 
 // ---- box: cx cy cz ax ay az bx by bz A B C R --------------------------------
 //
-// The core is a solid box about c, A, B and C long along its x axis a, its y
-// axis b and its z axis a x b. Beyond the core q is the sum of the squares of
-// what each of its coordinates lies beyond a pair of planes.
+// The core is a solid box about c with the edges A, B and C along its x axis a, its y axis b and its z axis a x b. q is the
+// sum of the squares of the distances by which the point lies beyond each pair of planes, divided by R^2.
 
-// Unit axes from the first two and a third.
+// Makes three perpendicular unit axes from the given x and y axes. Returns a message if that is impossible, or null.
 const char *setAxes(const double *v, Vec axis[3]) {
   Vec x{v[0], v[1], v[2]}, y{v[3], v[4], v[5]};
   if (!(length(x) > 0)) return "the x axis has no direction";
   x = x * (1 / length(x));
-  // Square to the first, which a turn of whole numbers leaves it but for the last places.
+  // Makes y exactly perpendicular to x; the program's fixed-point rotations leave an error in the last digits.
   y = y - x * dot(x, y);
   if (!(length(y) > 0)) return "the y axis has no direction of its own";
   y = y * (1 / length(y));
@@ -286,7 +281,7 @@ const char *boxSet(Object &o, const double *v) {
   return badSize(o.size) ? "the size must be above 0" : nullptr;
 }
 
-// How far along an axis m lies beyond the two planes at +-half.
+// Returns the signed distance by which m lies beyond the planes at +-half, 0 between them.
 double beyond(double m, double half) { return m - std::min(std::max(m, -half), half); }
 
 double boxQ(const Object &o, Vec p, Vec *g) {
@@ -297,7 +292,7 @@ double boxQ(const Object &o, Vec p, Vec *g) {
   return (x * x + y * y + z * z) * k;
 }
 
-// Where a ray passes the six planes, ascending.
+// Returns the depths where a ray passes the six planes, in ascending order.
 std::vector<double> boxPlanes(const Object &o, const Ray &ray) {
   const double half[] = {o.half.x, o.half.y, o.half.z};
   std::vector<double> t;
@@ -328,7 +323,7 @@ void boxQuadratic(const Object &o, const Ray &ray, double t, double c[3]) {
 void boxBreaks(const Object &o, const Ray &ray, std::vector<double> &t) {
   const std::vector<double> plane = boxPlanes(o, ray);
   t.insert(t.end(), plane.begin(), plane.end());
-  // q = 1 on each stretch between two planes, and before and behind them all.
+  // Roots of q = 1 in each interval between two planes, and before the first and behind the last plane.
   for (size_t i = 0; i <= plane.size(); i++) {
     double middle = 0;
     if (!plane.empty())
@@ -350,7 +345,7 @@ const Kind kinds[] = {
 
 // ---- Bernstein form ----------------------------------------------------------
 
-const int N = 7;   // coefficients of degree six
+const int N = 7;   // coefficients of a form of degree six
 
 // The product of a quadratic and a quartic, all in Bernstein form.
 void product(const double q[3], const double s[5], double c[N]) {
@@ -363,7 +358,7 @@ void product(const double q[3], const double s[5], double c[N]) {
   c[6] = q[2] * s[4];
 }
 
-// The Geoff function of a quadratic in the depth, on [a, b].
+// Stores the Geoff function of a quadratic in the depth as a form on [a, b].
 void fieldForm(const double quad[3], double a, double b, double f[N]) {
   const double one2[3] = {1, 1, 1}, one4[5] = {1, 1, 1, 1, 1};
   double q[3], s[5], linear[N], square[N], cube[N];
@@ -382,7 +377,7 @@ void fieldForm(const double quad[3], double a, double b, double f[N]) {
     f[k] = 1 - 22 / 9.0 * linear[k] + 17 / 9.0 * square[k] - 4 / 9.0 * cube[k];
 }
 
-// Halves the interval: left and right are the forms on the two halves.
+// Halves the interval: `left` and `right` receive the forms on the two halves.
 template <int M>
 void halve(const double *c, double *left, double *right) {
   double w[M];
@@ -403,13 +398,13 @@ double value(const double *c, double x) {
   return w[0];
 }
 
-// The only zero in [0, 1] of a form that starts below and ends above or at 0.
+// Returns the only zero in [0, 1] of a form that starts below 0 and ends at or above 0.
 template <int M>
 double onlyZero(const double *c) {
   double x0 = 0, x1 = 1, f0 = c[0], f1 = c[M - 1];
   for (int i = 0; i < 160 && x1 - x0 > 1e-12; i++) {
-    // False position, its weight halved where one end stays (Illinois); every
-    // third time the middle, because the form may be flat at one end.
+    // Regula falsi with the Illinois rule (an end that stays has its value halved). Every third step bisects instead,
+    // because the form may be flat at one end.
     double x = x0 - f0 * (x1 - x0) / (f1 - f0);
     if (i % 3 == 2 || !(x > x0 && x < x1)) x = (x0 + x1) / 2;
     double f = value<M>(c, x);
@@ -430,8 +425,8 @@ int signChanges(const double *c) {
   return changes;
 }
 
-// Forms that go through values at N evenly spaced places: the inverse of the
-// Bernstein polynomials' values there.
+// The matrix that turns values at N evenly spaced places into the form through these values: the inverse of the matrix of
+// the Bernstein polynomials' values at these places.
 struct Through {
   double m[N][N];
   Through() {
@@ -460,7 +455,7 @@ struct Through {
 };
 const Through through;
 
-const int BODY = 19;   // coefficients of degree eighteen
+const int BODY = 19;   // coefficients of a form of degree eighteen
 const int SQUARE = 13;
 
 double choose(int n, int k) {
@@ -469,7 +464,7 @@ double choose(int n, int k) {
   return c;
 }
 
-// What scales the products of forms.
+// Binomial coefficients, which scale the products of forms.
 struct Choices {
   double six[N], twelve[SQUARE], eighteen[BODY];
   Choices() {
@@ -491,15 +486,14 @@ void addSquareTimes(const double f[N], const double g[N], double to[BODY]) {
   for (int k = 0; k < BODY; k++) to[k] += all[k] / choices.eighteen[k];
 }
 
-// Shortest stretch of depth looked into. Field missed in a stretch this short
-// is less than its length times the steepest slope, 1.6/R.
+// Length of the shortest interval of depth that is searched. The field missed in an interval this short is less than its
+// length times the steepest slope, 1.6/R.
 const double FINEST = 1e-7;
-// Fields that differ by a smaller share are as strong as each other; that is a
-// band of about a thousandth of a unit at a border.
+// Fields that differ by a smaller share count as equally strong: a band about a thousandth of a unit wide at a border.
 const double TIE = 1e-4;
-// How far a form may be from the field it follows.
+// Greatest difference between a field and the form that approximates it.
 const double FOLLOWS = 1e-11;
-// Where space is warped a field has kinks in its curvature that no break tells.
+// The limit in warped space, where the curvature of a field has kinks that no break marks.
 const double FOLLOWS_WARPED = 1e-8;
 
 }  // namespace
@@ -515,18 +509,16 @@ const Kind *findKind(const std::string &word) {
 // stretch n cx cy cz ax ay az bx by bz X Y Z
 // taper, twist, bend n cx cy cz ax ay az bx by bz A H
 //
-// Object n has its own space about c, with the x axis a, the y axis b and a
-// third square to both. What its own line says of it holds in plain space; that
-// is stretched by X, Y and Z. Then, with y from -H to H and as at the ends
-// beyond, x and z become 1 + A y / H as wide; all is turned about the y axis by
-// A y / 2H degrees (beyond, too), from z to x; and the y axis becomes part of a
-// circle towards x, of A degrees, straight on beyond its ends.
+// Object n has its own space about c, with the x axis a, the y axis b and a z axis perpendicular to both. The object's own
+// line describes it in plain space. That space is stretched by X, Y and Z. Then x and z are scaled by 1 + A y / H, with y
+// clamped to [-H, H]; space is turned about the y axis by A y / 2H degrees, from z to x (y is not clamped); and the y axis
+// between -H and H becomes part of a circle of A degrees towards x, continued by straight lines at its ends.
 
 const char *Object::setShape(const std::string &word, const double *v) {
   if (plain) {
     plain = false;
     centre = {v[0], v[1], v[2]};
-    // A ball about the centre that holds the field.
+    // The bounding sphere is enlarged so that it is centred on `centre`.
     reach += length(middle - centre);
     middle = centre;
     if (const char *wrong = setAxes(v + 3, own)) return wrong;
@@ -555,7 +547,7 @@ const char *Object::setShape(const std::string &word, const double *v) {
 
 namespace {
 
-// Where a point of a bent plane was: the axis is part of a circle about (1/k, 0), k = bend / 2h.
+// Maps a point of the bent x-y plane back. The bent axis is part of a circle about (1/k, 0), k = bend / 2h.
 void unbend(double bend, double h, double &x, double &y) {
   if (bend < 0) {
     x = -x;
@@ -570,7 +562,7 @@ void unbend(double bend, double h, double &x, double &y) {
     y = angle * radius;
     return;
   }
-  // From the end of the circle, along its tangent.
+  // Beyond the end of the circle the axis follows the tangent.
   const double fromX = x - radius * (1 - std::cos(on)), fromY = y - radius * std::sin(on);
   x = fromX * std::cos(on) - fromY * std::sin(on);
   y = on * radius + fromX * std::sin(on) + fromY * std::cos(on);
@@ -592,21 +584,21 @@ Vec Object::plainPoint(Vec p) const {
   return centre + own[0] * (x / wide / stretch.x) + own[1] * (y / stretch.y) + own[2] * (z / wide / stretch.z);
 }
 
-// Of a space that is not warped: lines stay straight.
+// Only for a space that is not warped, where lines stay straight.
 Ray Object::plainRay(const Ray &ray) const {
   if (plain) return ray;
   return {plainPoint(ray.eye), plainPoint(centre + ray.dir) - centre};
 }
 
 double Object::steepest(Vec p, double distance) const {
-  // As wide as three times the field, so that it holds a little beyond it.
+  // The bound covers three times the reach of the field, so it also holds somewhat outside the field.
   const double wide = 3 * reach, narrow = 1 - std::fabs(taper);
   double most = (1 + wide * std::fabs(taper) / h) / narrow * (1 + wide * std::fabs(twist) / (2 * h));
   if (bend != 0) {
     const double radius = 2 * h / std::fabs(bend);
     const Vec m = p - centre;
     const double x = dot(m, own[0]) * (bend < 0 ? -1 : 1) - radius, y = dot(m, own[1]), away = std::hypot(x, y) - distance;
-    // About the middle of the circle, and beyond it, where its two ends meet, anything may be.
+    // There is no bound near the middle of the circle, and on its far side, where the two ends of the axis meet.
     if (away <= 0 || (x > -distance && std::fabs(y) <= distance)) return 1e30;
     most *= std::max(1.0, radius / away);
   }
@@ -641,21 +633,21 @@ void Object::bounds(const Ray &ray, double a, double b, double &low, double &hig
   const double drift = size2 > 0 && len > 0 ? (size2 - size) / len : 0;
   const double h = distance * steepest(middle, distance) / least * std::sqrt(1 + 9 * drift * drift);
   const double d = std::sqrt(q(middle, nullptr));
-  // A long stretch may hold anything.
+  // Over a long interval q may have any value.
   low = 0, high = 1e30;
   if (h > 0.5) return;
   low = d > h ? (d - h) * (d - h) : 0;
   high = (d + h) * (d + h);
 }
 
-// What one call of trace() works with.
+// Working storage of one call of trace().
 struct Tracer::Work {
   Ray ray;
-  std::vector<double> t;          // depths where polynomials change
-  std::vector<int> live;          // objects whose field reaches the stretch
-  std::vector<double> form;       // their Bernstein coefficients, N each
-  std::vector<char> known;        // whether they are there
-  std::vector<int> with;          // of live, what digs into the body at hand
+  std::vector<double> t;          // depths of the breaks, ascending
+  std::vector<int> live;          // objects whose fields reach the interval
+  std::vector<double> form;       // Bernstein coefficients of their fields, N each
+  std::vector<char> known;        // whether the coefficients of an object are set
+  std::vector<int> with;          // indices in `live` of the objects that dig into the current body
 };
 
 Tracer::Tracer(const Scene &s) : scene(s), body(s.objects.size(), -1) {
@@ -683,13 +675,13 @@ void Tracer::forgetPlain() {
   std::fill(plain.begin(), plain.end(), 0);
 }
 
-// An object's field at a point, as it counts in sums.
+// Returns the field of an object at a point, times the object's strength.
 double Tracer::strengthened(int i, Vec p) const {
   const Object &o = scene.objects[i];
   return o.strength * geoff(o.q(p, nullptr));
 }
 
-// Whether an object that is none of the n members digs into one of them.
+// Returns whether an object that is not one of the n members digs into one of them.
 bool Tracer::digs(int object, const int *members, int n) const {
   for (int k = 0; k < n; k++)
     if (scene.weight[members[k]][object] != 0) return true;
@@ -721,7 +713,7 @@ double Tracer::field(int number, Vec p, Vec *gradient, int *strongest) const {
   size_t members = here.size();
   for (int i = 0; i < n; i++)
     if (body[i] != number && digs(i, here.data(), (int)members)) add(i);
-  // All fields by the strongest, so that the squares of small ones are kept.
+  // Fields are divided by the strongest one, so that the squares of small fields do not underflow.
   double above = 0, below = 0;
   size_t m = here.size();
   std::vector<double> sum(members);
@@ -746,7 +738,7 @@ double Tracer::field(int number, Vec p, Vec *gradient, int *strongest) const {
   return F;
 }
 
-// The rays of one row lie in a plane through the eye.
+// The rays of one row lie in a plane through the eye; the distance of the bounding sphere's middle from it is tested.
 bool Tracer::inRow(int i, double row) const {
   const Object &o = scene.objects[i];
   double slope = -(row - scene.centreY) / scene.focalY;
@@ -769,8 +761,7 @@ bool Tracer::eyeInside() const {
 
 namespace {
 
-// The least depth in [a, b] at which the form is at or above zero; below 0 if
-// there is none.
+// Returns the least depth in [a, b] at which the form is at or above zero, or -1 if there is none.
 double firstOf(const double *c, double a, double b) {
   if (*std::max_element(c, c + N) < 0) return -1;
   if (c[0] >= 0) return a;
@@ -782,8 +773,8 @@ double firstOf(const double *c, double a, double b) {
   return t >= 0 ? t : firstOf(right, mid, b);
 }
 
-// The same where the form of degree eighteen is, and one of the n sums less
-// the isovalue.
+// Returns the least depth in [a, b] at which the form of degree eighteen, and at least one of the n forms g_i - isovalue in
+// `sums`, are at or above zero, or -1 if there is none.
 double firstOfBody(const double *c, const double *sums, int n, double a, double b) {
   if (*std::max_element(sums, sums + n * N) < 0) return -1;
   if (*std::max_element(c, c + BODY) < 0) return -1;
@@ -805,7 +796,7 @@ double firstOfBody(const double *c, const double *sums, int n, double a, double 
 
 }  // namespace
 
-// Whether another object of the body, of another colour, is as strong at p.
+// Returns whether the field of another object of the body, in another colour, is as strong at p.
 bool Tracer::tie(int object, Vec p) const {
   auto colour = [&](int i) {
     auto ramp = scene.ramps.find(scene.objects[i].number);
@@ -821,10 +812,10 @@ bool Tracer::tie(int object, Vec p) const {
   return false;
 }
 
-// A form on [a, b] that follows an object's field; false if none of degree six does.
+// Stores a form on [a, b] that approximates an object's field. Returns false if no form of degree six is near enough.
 bool Tracer::follow(const Work &w, int i, double a, double b, double *form) const {
   const Object &o = scene.objects[i];
-  // A longer stretch could hold what none of the places looked at shows.
+  // A longer interval could hide features between the sampled places.
   double least = o.size2 > 0 ? std::min(o.size, o.size2) : o.size;
   const double whole = (b - a) * length(w.ray.dir);
   if (o.warped() ? whole * o.steepest(point(w.ray, (a + b) / 2), whole) > least / 2
@@ -842,10 +833,9 @@ bool Tracer::follow(const Work &w, int i, double a, double b, double *form) cons
   return true;
 }
 
-// The least depth in [a, b] at which the body's field is at or above the
-// isovalue; below 0 if there is none. `which` are the n objects that reach the
-// stretch, the body's members first and behind them what digs into it; `form`
-// are their fields where `known`; `sum` says that F is their sum.
+// Returns the least depth in [a, b] at which the body's field is at or above the isovalue, or -1 if there is none. `which`
+// lists the n objects that reach the interval: first the body's members, then the objects that dig into it. `form` holds
+// their fields where `known` is set; `sum` says that F is the plain sum of the fields.
 double Tracer::first(const Work &w, const int *which, int n, int members, const double *form, const char *known, bool sum,
                      double a, double b) const {
   std::vector<double> now(form, form + n * N);
@@ -853,7 +843,7 @@ double Tracer::first(const Work &w, const int *which, int n, int members, const 
   bool all = true;
   for (int k = 0; k < n; k++) all = all && have[k];
   if (!all) {
-    // Enough to exclude the surface, before polynomials are laid.
+    // Bounds may exclude the surface, which saves fitting polynomials.
     std::vector<double> low(n), high(n);
     for (int k = 0; k < n; k++) {
       if (have[k]) {
@@ -955,7 +945,7 @@ Hit Tracer::trace(double column, double row, const int *which, int count) const 
       if (on) w.live.push_back(which[n]);
     }
     if (w.live.empty()) continue;
-    // Body by body.
+    // Objects of one body become neighbours.
     std::stable_sort(w.live.begin(), w.live.end(), [&](int i, int j) { return body[i] < body[j]; });
     int lives = (int)w.live.size();
     w.form.assign(lives * N, 0);
@@ -973,7 +963,7 @@ Hit Tracer::trace(double column, double row, const int *which, int count) const 
       int number = body[w.live[n]];
       for (end = n; end < lives && body[w.live[end]] == number;) end++;
       if (number < 0) continue;
-      // What digs into them, behind copies of the members.
+      // Objects that dig into the body are appended to copies of the members' lists.
       w.with.clear();
       for (int i = 0; i < lives; i++)
         if ((i < n || i >= end) && digs(w.live[i], &w.live[n], end - n)) w.with.push_back(i);
@@ -1016,12 +1006,11 @@ Hit Tracer::trace(double column, double row, const int *which, int count) const 
   return hit;
 }
 
-// A matt surface scatters light by the cosine of its normal. A shiny one
-// scatters three quarters of that, and reflects the light itself: the cosine of
-// its normal and what is half way between light and viewer, to the 16th, of
-// what is missing to full brightness. A mirror has the same highlight on what it
-// reflects of its surroundings, by the height of where it looks: a ground, a
-// horizon, a sky. The viewer is taken to be far away along his axis.
+// A matt surface scatters light by the cosine between its normal and the light. A shiny surface scatters three quarters of
+// that and adds a highlight: the cosine between its normal and the direction half way between light and viewer, to the
+// 16th power, times what is missing to full brightness. A mirror has the same highlight, on a reflection of the
+// surroundings (ground, horizon, sky) that depends on the height of the reflected direction only. The viewer is taken to be
+// far away along the viewing axis.
 double Tracer::brightness(const Coat &coat, Vec normal) const {
   double cosine = std::max(0.0, dot(normal, scene.light));
   if (coat.finish == Coat::MATT) return cosine;
@@ -1040,7 +1029,7 @@ double Tracer::brightness(const Coat &coat, Vec normal) const {
 
 namespace {
 
-// How much of its other colour a pattern has at p.
+// Returns the share, 0 to 1, of the pattern's second colour at p.
 double other(const Coat &c, Vec p) {
   const double turn = 2 * 3.14159265358979323846;
   Vec m = p - c.middle;

@@ -1,8 +1,6 @@
-// Reads scenes and dumped frames from files.
-//
-// All that the yardstick assumes about the dump format is in this file. It is
-// strict: an unknown word, a missing file or a file that is too short is an
-// error, because a figure from half a scene would be worse than none.
+// Reads scenes and dumped frames from files. All that the yardstick assumes about the dump format is in this file. The
+// reader is strict: an unknown word, a missing file or a file of the wrong length is an error, because a figure from half a
+// scene would be worse than none.
 #include "truth.h"
 
 #include <algorithm>
@@ -35,13 +33,13 @@ bool number(const std::string &word, double &v) {
   return *end == 0 && end != word.c_str() && std::isfinite(v);
 }
 
-// The lines that are not objects: their word, and how many numbers follow.
+// Lines that are not objects: their first word, the least and greatest count of numbers behind it, and whether a scene needs it.
 struct Fact {
   const char *word;
   size_t least, most;
   bool needed;
 };
-// How far three axes may be from unit vectors square to each other.
+// Greatest error of axes that should be perpendicular unit vectors.
 const double SKEW = 0.001;
 const Fact facts[] = {
     {"time", 1, 1, true},   {"eye", 3, 3, true},       {"focal", 2, 2, true},
@@ -202,7 +200,7 @@ bool parseScene(const std::string &text, const std::string &name, Scene &s, std:
     c.axis[0] = x, c.axis[1] = y;
     c.axis[2] = {x.y * y.z - x.z * y.y, x.z * y.x - x.x * y.z, x.x * y.y - x.y * y.x};
   }
-  // A turned eye has three axes, to its right, up and ahead, as x, y and z are.
+  // The axes of a turned eye (right, up, ahead) must be perpendicular unit vectors, oriented as x, y and z are.
   Vec side = {s.up.y * s.ahead.z - s.up.z * s.ahead.y, s.up.z * s.ahead.x - s.up.x * s.ahead.z,
               s.up.x * s.ahead.y - s.up.y * s.ahead.x};
   if (length(s.right - side) > SKEW || std::fabs(length(s.up) - 1) > SKEW || std::fabs(length(s.ahead) - 1) > SKEW ||
@@ -261,7 +259,7 @@ bool readScene(const std::string &path, Scene &s, std::string &why) {
 
 namespace {
 
-// A P6 picture of the screen's size with 8-bit samples.
+// Reads a P6 picture of the screen's size with 8-bit samples.
 bool parsePpm(const std::string &data, const std::string &name, std::vector<uint8_t> &rgb,
               std::string &why) {
   size_t at = 2;

@@ -1,6 +1,6 @@
 #!/bin/sh
-# DEMO.EXE in DOSBox, end to end: statistics, bad input and trouble, what is put back, frames against the host's, and the
-# keys and mouse in a window. Prints `ok` and `FAIL` lines and a count.
+# Tests DEMO.EXE in DOSBox from end to end: statistics, bad input and other errors, restored state, frames compared with the
+# host's, and keys and mouse in a window. Prints `ok` and `FAIL` lines and a count.
 #
 #   tests/dos/demo.sh [DEMO.EXE [FILE...]]     default build/DEMO.EXE; FILEs are put beside it (a DPMI host, say)
 #
@@ -49,7 +49,7 @@ ok 'a run: vectors, timer, DOS memory as before' cmp "$c/BEFORE.TXT" "$c/AFTER.T
 dos -c 20000 -- 'DEMO /T:3 > OUT.TXT'
 ok '/T:3 lasts three seconds' grep -q '^seconds: 3\.[01]' "$c/OUT.TXT"
 
-# ---- Bad input: a line that names it, status 2, and the screen not touched
+# ---- Bad input gives a line that names it and status 2, and does not touch the screen
 
 bad() {
     rm -f "$c"/*.TXT
@@ -70,7 +70,7 @@ ok '/? on standard output' has "$c/OUT.TXT" '/N:n'
 ok '/? has status 0' status 0 "$c"
 ok 'a missing file is named' has "$c/SCREEN.TXT" NONE.TXT
 
-# ---- Trouble: a line, status 1, text mode
+# ---- Other errors give a line and status 1 in text mode
 
 trouble() {
     ok "$1: a line" has "$c/SCREEN.TXT" "$2"
@@ -119,7 +119,7 @@ ok 'a file that is no file of records: named' has "$c/SCREEN.TXT" 'ONE.FB: this 
 ok 'a file that is no file of records: as it was' cmp "$scratch/one.fb" "$c/ONE.FB"
 rm -rf "$c/F"
 
-# ---- Frames, byte for byte those of the host (a few; tests/frames compares many)
+# ---- Frames must be byte for byte those of the host (only a few; tests/frames compares many)
 
 frames() {
     rm -rf "$c/F" "$scratch/F"
@@ -127,7 +127,7 @@ frames() {
     (cd "$scratch" && "$host" "$@" /D:F > out.txt)
     ok "frames of $*: as many" test "$(ls "$c/F" | wc -l)" = "$(ls "$scratch/F" | wc -l)"
     ok "frames of $*: the same bytes" diff -rq "$c/F" "$scratch/F"
-    # Times differ; everything counted must not.
+    # Times differ, but all counts must be equal.
     tr -d '\r' < "$c/OUT.TXT" | grep -v -E '^(seconds|fps):' > "$scratch/dos.txt"
     grep -v -E '^(seconds|fps):' "$scratch/out.txt" > "$scratch/host.txt"
     ok "frames of $*: the same counts" cmp "$scratch/dos.txt" "$scratch/host.txt"
@@ -144,7 +144,7 @@ dos -m 4 -o cpu.cputype=386 -- 'DEMO /N:5 > OUT.TXT' "$E1"
 ok 'a 386 with 4 MB' has "$c/OUT.TXT" 'frames: 5'
 ok 'a 386 with 4 MB: status 0' status 0 "$c"
 
-# Every shipped scene, and the finest sampling of the four spheres in 16 MB.
+# Every shipped scene must run, and the four spheres with the finest sampling that 16 MB allow.
 cp tools/scenes/*.FB "$c"
 for scene in tools/scenes/*.FB; do
     name=$(basename "$scene" .FB)
@@ -157,7 +157,7 @@ dos -m 16 -- cls 'DEMO /N:2 /R:1 /S:0.25 > OUT.TXT' 'MTEST SCREEN > SCREEN.TXT'
 ok '/S:0.25 in 16 MB' has "$c/OUT.TXT" 'frames: 2'
 ok '/S:0.25: statistics alone on standard output' lacks "$c/OUT.TXT" Laying
 
-# ---- A rate that is held, on a 386
+# ---- A constant frame rate on a 386
 
 rm -f "$c"/*.TXT
 dos -c 8000 -m 4 -- 'DEMO /G /F:10 /T:20 > OUT.TXT'
@@ -167,17 +167,17 @@ ok '/F:10 reaches about ten, and soon' awk -v fps="$fps" 'BEGIN { exit !(fps > 8
 
 # ---- Keys and mouse, in a window
 
-# far N: how many pixels of the first (N 1) or last (N $) frame dumped have nothing drawn on them: 0x7fffffff.
+# far N: prints how many pixels of the first (N 1) or last (N $) dumped frame are empty (0x7fffffff).
 far() {
     tr -cd '\177' < "$(ls "$c/F/"*.Z | sed -n "$1p")" | wc -c
 }
-# scene N: where sphere N is, in the first and in the last frame dumped.
+# scene N: prints the lines of sphere N in the first and in the last dumped frame.
 scene() {
     for file in $(ls "$c/F/"*.TXT | sed -n '1p;$p'); do
         tr -d '\r' < "$file" | grep "^sphere $1 "
     done
 }
-# moved N COLUMN: whether sphere N was moved along an axis (column 3 x, 4 y, 5 z).
+# moved N COLUMN: succeeds if sphere N was moved along an axis (column 3 is x, 4 is y, 5 is z).
 moved() {
     test "$(scene "$1" | cut -d ' ' -f "$2" | sort -u | wc -l)" = 2
 }
@@ -207,7 +207,7 @@ if startDisplay; then
     ok 'ESC ends' test "$(names "$c/OUT.TXT")" = "$NAMES"
     ok 'ESC: status 0' status 0 "$c"
 
-    # While seeds are laid out, which takes a 386 twenty seconds.
+    # Input while the seeds are laid out, which takes twenty seconds on a 386.
     slow() {
         rm -f "$c"/*.TXT
         dos -w -c 8000 -- cls 'DEMO /S:0.25 > OUT.TXT' "$E1" "$E2" 'MTEST SCREEN > SCREEN.TXT' &
@@ -244,7 +244,7 @@ if startDisplay; then
     wait $running
     ok '* shows pixels in place of scales' test "$(far '$')" -gt $(($(far 1) * 11 / 10))
 
-    # The first click only gives DOSBox the mouse. Pauses are long, for writing frames is slow.
+    # The first click only makes DOSBox capture the mouse. The pauses are long because writing frames is slow.
     window /I /S:6 /D:F
     xdotool mousemove --window "$dosWindow" 300 200 sleep 0.5 click 1 sleep 1 2> /dev/null
     drag 10 0
@@ -261,7 +261,7 @@ if startDisplay; then
     done
     ok '/I: the mouse moved one sphere right and up' test $moves = 1
 
-    # Another object, selected by the left button; the right button held.
+    # The left button selects another object, and the right button is held.
     before=$(scene 2 | head -n 1)
     window /I /S:6 /D:F
     xdotool mousemove --window "$dosWindow" 300 200 sleep 0.5 click 1 sleep 1 mousedown 1 sleep 1 mouseup 1 sleep 0.5 \

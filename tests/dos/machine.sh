@@ -1,6 +1,6 @@
 #!/bin/sh
-# The PC and the run-time in DOSBox: MTEST.EXE in its several ways, by itself and with keys and mouse from a window.
-# Prints `ok` and `FAIL` lines and a count.
+# Tests of the PC and the run-time in DOSBox: MTEST.EXE with its various arguments, by itself and with keys and mouse in a
+# window. Prints `ok` and `FAIL` lines and a count.
 #
 #   tests/dos/machine.sh [MTEST.EXE [FILE...]]     default build/MTEST.EXE; FILEs are put beside it (a DPMI host, say)
 set -u
@@ -23,7 +23,7 @@ ok 'vectors, timer, video and DOS memory as before' cmp "$c/BEFORE.TXT" "$c/AFTE
 long=aaaaaaaaaaaaaaaaaaaaaaaaaaaaaa
 dos -- 'MTEST ARGS one  "two three" f"o u"r "" > ARGS.TXT' \
     "MTEST.EXE ARGS $long $long $long b1234567890123456789 > LONG.TXT" 'MTEST ARGS > NONE.TXT'
-# (DJGPP's start-up has its own way with the program's name: small letters, slashes.)
+# (DJGPP's start-up code changes the program's name to small letters and slashes.)
 for file in ARGS LONG NONE; do
     tr '/A-Z' '\\a-z' < "$c/$file.TXT" > "$scratch/$file"
 done
@@ -35,7 +35,7 @@ ok 'a long command line' cmp "$scratch/long" "$scratch/LONG"
 printf 'name c:\\mtest.exe\r\nend null\r\n' > "$scratch/none"
 ok 'no arguments' cmp "$scratch/none" "$scratch/NONE"
 
-# Exceptions, each raised in mode 13h with the timer and the vectors taken.
+# Each exception is raised in mode 13h while the timer and the vectors are taken.
 crash() {
     rm -f "$c"/*.TXT
     dos -- 'MTEST STATE > BEFORE.TXT' cls "MTEST CRASH $1 > OUT.TXT" "$E1" "$E2" 'MTEST SCREEN > SCREEN.TXT' \
@@ -61,7 +61,7 @@ dos -o dosbox.machine=ega -- cls 'MTEST NOVGA' "$E1" "$E2" 'MTEST SCREEN > SCREE
 ok 'no VGA: a line' has "$c/SCREEN.TXT" 'no VGA found'
 ok 'no VGA: status 1' status 1 "$c"
 
-# In a window: the keyboard and the mouse themselves.
+# In a window: real input from keyboard and mouse.
 if startDisplay; then
     play() {
         rm -f "$c/PLAY.TXT"
@@ -70,8 +70,8 @@ if startDisplay; then
         awaitTitle MTEST
     }
     play
-    # A click gives DOSBox the mouse; it is a press of the left button for it too. (xdotool's complaints about the input
-    # focus come from there being no window manager.)
+    # A click makes DOSBox capture the mouse; DOSBox also counts it as a press of the left button. (xdotool complains about the
+    # input focus because there is no window manager.)
     xdotool mousemove --window "$dosWindow" 300 200 sleep 0.3 mousedown 1 sleep 0.2 mouseup 1 sleep 0.5 2> /dev/null
     for i in 1 2 3 4 5; do
         xdotool mousemove_relative -- 8 -4 sleep 0.1 2> /dev/null
@@ -94,7 +94,7 @@ if startDisplay; then
     wait $running
     ok 'Ctrl-C is a break' has "$c/PLAY.TXT" 'broken yes'
     ok 'and all is as before' cmp "$c/BEFORE.TXT" "$c/AFTER.TXT"
-    # (DOSBox has no Ctrl-Break on its keyboard; MTEST ALL calls its vector.)
+    # (DOSBox's keyboard has no Ctrl-Break; MTEST ALL calls its vector.)
 else
     echo "# no Xvfb and xdotool: keyboard and mouse not tried"
 fi

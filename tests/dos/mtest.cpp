@@ -1,16 +1,16 @@
-// A program that tries the PC and the run-time, each promise of machine.h and rt.h, on the machine itself: in DOSBox,
-// started by run.sh, or on a real PC by hand. Its first argument says what to do:
+// Tries each promise of machine.h and rt.h about the PC and the run-time on the machine itself: in DOSBox, started by run.sh,
+// or on a real PC by hand. The first argument says what to do:
 //
-//   MTEST ALL [BLOCKS]  everything that needs nobody's help; a line `ok NAME` or `FAIL NAME` for each, status 0 or 1.
-//                       BLOCKS: most blocks of 60,000 bytes to take from the heap
+//   MTEST ALL [BLOCKS]  runs everything that needs no user; prints `ok NAME` or `FAIL NAME` for each check, status 0 or 1.
+//                       BLOCKS: greatest number of 60,000-byte blocks to take from the heap
 //   MTEST ARGS ...      prints its arguments in brackets
 //   MTEST FULL FILE     fills the disk with FILE, which must end in "disk full"
 //   MTEST NOVGA         expects to find no VGA
-//   MTEST CRASH N       raises exception N (0, 6, 12, 13; 113: by a wild pointer) in mode 13h, with the timer taken.
-//                       12 and 113 need a processor that checks limits, which DOSBox's does not
-//   MTEST PLAY SECONDS  shows colours and prints the keys, mouse movement and breaks it got, until ESC or a break
-//   MTEST SCREEN        prints the video mode, the timer's mode and the text that stands on the screen
-//   MTEST STATE         prints break vectors, timer mode and free DOS memory, to be compared before and after a program
+//   MTEST CRASH N       raises exception N (0, 6, 12, 13; 113: by a wild pointer) in mode 13h while it uses the timer.
+//                       12 and 113 need a processor that checks segment limits, which DOSBox's does not
+//   MTEST PLAY SECONDS  shows colours and prints the keys, mouse movements and breaks received, until ESC or a break
+//   MTEST SCREEN        prints the video mode, the timer's mode and the text on the screen
+//   MTEST STATE         prints break vectors, timer mode and free DOS memory, for comparison before and after a program
 #include "../../src/dos/pc.h"
 #include "machine.h"
 #include "rt.h"
@@ -45,7 +45,7 @@ uint8_t videoMode() {
     return uint8_t(r.eax & 0x7f);
 }
 
-// The timer's mode 0..7, by the 8254's read-back command; mode 2 reads as 2 or 6, mode 3 as 3 or 7.
+// Returns the timer's mode, 0 to 7, by the 8254's read-back command; mode 2 reads as 2 or 6, mode 3 as 3 or 7.
 int timerMode() {
     pc::outPort(0x43, 0xe2);
     return pc::inPort(0x40) >> 1 & 7;
@@ -126,9 +126,9 @@ void testWide() {
     check("divide", divide64(0x123456789abcdefull, 1000, &rest) == 81985529216486ull && rest == 895);
 }
 
-// `most`: blocks to take at most, for a DPMI host that swaps to a slow disk rather than say that memory is out.
+// `most` limits the number of blocks, for a DPMI host that swaps to a slow disk instead of running out of memory.
 void testHeap(uint32_t most) {
-    // Until memory is out, all of it used, every block its own.
+    // Takes blocks until memory runs out; all of it is written, and the blocks must not overlap.
     constexpr uint32_t BLOCK = 60000;
     uint32_t* chain = nullptr;
     uint32_t count = 0;
@@ -175,7 +175,7 @@ void testHeap(uint32_t most) {
         chain = next;
     }
     check("all of it again after free", again == count);
-    // Blocks that came in one piece from the DPMI host are one piece again: four fit where there were four.
+    // Free blocks that came in one piece from the DPMI host are joined again: a block of four times the size fits.
     void* big = malloc(4 * BLOCK);
     check("free blocks join", big != nullptr);
     memset(big, 1, 4 * BLOCK);
@@ -192,7 +192,7 @@ void testHeap(uint32_t most) {
     free(none);
 
 #ifdef FB_RT
-    // Larger than what the heap asks for in one go. (DJGPP's heap does not join what it has to make such blocks of.)
+    // Blocks larger than the pieces that the heap asks for. (DJGPP's heap does not join the pieces that it needs for them.)
     bool large = true;
     for (uint32_t bytes = 100000; bytes < 1500000; bytes = bytes * 3 / 2) {
         uint8_t* block = static_cast<uint8_t*>(malloc(bytes));
@@ -206,7 +206,7 @@ void testHeap(uint32_t most) {
     check("large blocks", large);
 #endif
 
-    // Random sizes, taken and given back in random order, contents checked.
+    // Blocks of random sizes are taken and freed in random order; their contents are checked.
     static uint8_t* blocks[200];
     static uint32_t sizes[200];
     uint32_t seed = 1;
@@ -300,7 +300,7 @@ void testFiles() {
     check("removeFile of no file", !machine::removeFile("MTDIR\\NEW.DAT") &&
                                        strcmp(machine::fileTrouble(), "no such file or directory") == 0);
     check("removeFile of a directory", !machine::removeFile("MTDIR"));
-    // Saving: what was there stays until the new is whole.
+    // When a file is saved, the old one remains until the new one is complete.
     const auto holds = [&](const char* name, const char* text) {
         const int opened = machine::openFile(name);
         const int32_t got = machine::readFile(opened, back, 100);
@@ -337,7 +337,7 @@ void testFiles() {
     check("the first byte is another, the rest is there", machine::readFile(file, back, 9) == 3 && memcmp(back, "xbc", 3) == 0);
     machine::closeFile(file);
     machine::removeFile("MTDIR\\TWICE.X");
-    // (DOS says "access denied", DOSBox that there is no such file.)
+    // (DOS says "access denied"; DOSBox says that there is no such file.)
     check("createFile over a directory", machine::createFile("MTDIR") == -1);
     char longName[200];
     memset(longName, 'A', sizeof longName);
@@ -357,7 +357,7 @@ void testClock() {
     check("start again is harmless", machine::start() == nullptr);
     check("timer in mode 2", (timerMode() & 3) == 2);
 
-    // Three seconds: never back, no jumps of a whole tick, 65,536 a BIOS tick.
+    // For three seconds the clock must not run backwards or jump by a whole tick, and must count 65,536 per BIOS tick.
     uint32_t tick = biosTicks();
     while (biosTicks() == tick) {
     }
@@ -401,7 +401,7 @@ uint8_t clockSeconds() {
     }
 }
 
-// The time of day must not be late for all the starts and stops.
+// Many starts and stops must not make the time of day late.
 void testTimeOfDay() {
     uint8_t second = clockSeconds();
     while (clockSeconds() == second) {
@@ -410,7 +410,7 @@ void testTimeOfDay() {
     const uint32_t begin = biosTicks();
     for (int i = 0; i < 25; ++i) {
         machine::start();
-        // So that a timer set anew at once would lose half a tick.
+        // Waits for nearly half a tick, which would be lost if the timer were set anew at once.
         while (machine::clock() < 30000) {
         }
         machine::stop();
@@ -472,7 +472,7 @@ void testKeys() {
     stuffKey(0x1e61);
     stuffKey(0x3b00);
     stuffKey(0x48e0);
-    stuffKey(0x0000);  // what Ctrl-Break leaves
+    stuffKey(0x0000);  // the entry that Ctrl-Break leaves
     stuffKey(0x011b);
     stuffKey(0x372a);
     check("a character", machine::key() == 'a');
@@ -483,7 +483,7 @@ void testKeys() {
     check("no key", machine::key() == 0);
     const uint8_t flags = pc::peek8(0x417);
     pc::poke8(0x417, uint8_t(flags | 0x40));
-    stuffKey(0x2d58);  // X alone, and x with Shift, as Caps Lock has them
+    stuffKey(0x2d58);  // with Caps Lock, X comes without Shift and x with Shift
     stuffKey(0x2d78);
     stuffKey(0x0231);
     check("Caps Lock: x", machine::key() == 'x');
@@ -519,7 +519,7 @@ void testVideo() {
         colours = colours && pc::inPort(0x3c9) == palette[i];
     }
     for (int y = 0; y < machine::HEIGHT; ++y) {
-        // Spans of every width, and none in some rows.
+        // Spans of every width; some rows are empty.
         rows[y].from = int16_t(y % 40 * 4);
         rows[y].to = int16_t(320 - y % 41 * 4);
         if (y % 10 == 0) {
@@ -595,7 +595,7 @@ int crash(int number) {
     volatile int zero = 0;
     switch (number) {
         case 0:
-            // (The compiler knows ways to divide 1 by anything without dividing.)
+            // (The compiler can divide 1 by a variable without a division instruction.)
             __asm__ volatile("xorl %%edx, %%edx\n\tdivl %0" : : "m"(zero) : "eax", "edx");
             break;
         case 6:
@@ -605,11 +605,11 @@ int crash(int number) {
             __asm__ volatile("movl $0x7ffffff0, %esp\n\tpushl %eax");
             break;
         case 13:
-            // A selector that is none. (DOSBox checks selectors, but not the limits of segments.)
+            // An invalid selector. (DOSBox checks selectors, but not the limits of segments.)
             __asm__ volatile("movw %w0, %%gs" : : "r"(0xfff8));
             break;
         case 113:
-            // Beyond the limit of ds, wherever that is.
+            // The access exceeds the limit of ds, wherever the limit is.
             *reinterpret_cast<volatile int*>(uintptr_t(dpmi::segmentLimit(dpmi::dataSelector()) - 1)) = 1;
             break;
         default:
@@ -692,7 +692,7 @@ int state() {
     const int vectors[] = {0x08, 0x09, 0x10, 0x16, 0x1b, 0x1c, 0x21, 0x23, 0x24, 0x33};
     for (int vector : vectors) {
         const dpmi::RealAddress at = dpmi::realVector(vector);
-        // 23h and 24h belong to the program that runs: only their segment's owner can be compared, so not shown.
+        // 23h and 24h belong to the running program, so they differ and are not printed.
         if (vector != 0x23 && vector != 0x24) {
             print("int %xh %04x:%04x\n", unsigned(vector), unsigned(at.segment), unsigned(at.offset));
         }

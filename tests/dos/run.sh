@@ -1,5 +1,5 @@
 #!/bin/sh
-# The PC behind the machine's seam, and DEMO.EXE on it, in DOSBox.
+# Tests in DOSBox: the machine interface on a PC (machine.sh), and DEMO.EXE (demo.sh).
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 . tests/lib.sh

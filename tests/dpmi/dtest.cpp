@@ -1,17 +1,18 @@
-// DTEST.EXE tries a DPMI host, the stub's own or another, service by service: what each promises and what it must refuse.
-// A line `ok NAME` or `FAIL NAME` for each check. The first argument says what to do:
+// DTEST.EXE tests a DPMI host, the stub's own or another, service by service: what each service promises and what it must
+// refuse. It prints `ok NAME` or `FAIL NAME` for each check. The first argument says what to do:
 //
-//   DTEST ALL             every service, with arguments that it must take and such that it must refuse (default)
-//   DTEST GOOD [NOWILD]   only the former: what every host should do. Some crash from the latter. NOWILD: no wild pointers
+//   DTEST ALL             tests every service with arguments that it must accept and that it must refuse (default)
+//   DTEST GOOD [NOWILD]   only with arguments to accept, as every host should; some hosts crash on the others.
+//                         NOWILD: without wild pointers
 //   DTEST TICKS N DIV     N timer interrupts at 1193182/DIV Hz, reflected to real mode under load; none may be lost
-//   DTEST CRASH KIND      ends by an exception: 0, 6, 13, 14 (wild pointer), S (stack overflow), L (the same with frames of
-//                         4 and 8 KB, and handlers like those of DJGPP's libc), R (a handler that returns, and nothing is better)
+//   DTEST CRASH KIND      ends by an exception: 0, 6, 13, 14 (wild pointer), S (stack overflow), L (stack overflow with frames
+//                         of 4 and 8 KB, and handlers like those of DJGPP's libc), R (a handler returns without any remedy)
 //   DTEST BREAK           ends by Ctrl-C
-//   DTEST CATCH           takes the keyboard's interrupt, as DJGPP's libc does: Ctrl-C is its own business, and DOS goes on
+//   DTEST CATCH           takes the keyboard interrupt, as DJGPP's libc does: the host must then leave Ctrl-C to the program
 //   DTEST MOUSE SECONDS   counts calls of the mouse driver's call-back
-//   DTEST FREE            prints free DOS and extended memory, to be compared before and after other programs
+//   DTEST FREE            prints free DOS and extended memory, for comparison before and after other programs
 //   DTEST SCREEN          prints the video mode and the text on the screen
-//   DTEST TIME N          timer interrupts: how long one takes, in the instructions of a machine with fixed cycles
+//   DTEST TIME N          prints the cost of a timer interrupt in instructions, on a machine with a fixed number of cycles
 //
 #include "../../src/dos/dpmi.h"
 #include "../../src/rt/stubinfo.h"
@@ -58,11 +59,11 @@ void nested(dpmi::RealRegs*);
 namespace {
 
 int failures = 0;
-bool strict = true;  // ALL, not GOOD
-bool wild = true;    // not NOWILD
-uint32_t ourBase;  // linear address of our offset 0
+bool strict = true;  // false with GOOD: checks of refusals are left out
+bool wild = true;    // false with NOWILD
+uint32_t ourBase;  // linear address of the data segment's offset 0
 
-// ---- Printing: through the transfer buffer, for that is the stub's promise too.
+// ---- Printing, through the transfer buffer, because the buffer is a promise of the stub too
 
 uint8_t* linear(uint32_t address) {
     return reinterpret_cast<uint8_t*>(address - ourBase);
@@ -96,8 +97,8 @@ void check(const char* name, bool good) {
 
 // ---- int 31h
 
-// A check that a service refuses something, or of one that DPMI 0.9 does not ask for: with ALL only, and only then is it
-// called.
+// A check made with ALL only: that a service refuses something, or does more than DPMI 0.9 requires. The expression, and with
+// it the service, is evaluated with ALL only.
 #define STRICT(name, made) \
     do {                    \
         if (strict) check(name, made); \
@@ -164,7 +165,7 @@ void testDescriptors() {
     check("0009 seen by 000B", (descriptor[5] & 0xfe) == 0xfa && (descriptor[6] & 0x40) != 0);
     STRICT("0009 ring 0 refused", carry(call(0x0009, one, 0x4092)));
     STRICT("0009 system segment refused", carry(call(0x0009, one, 0x00e2)));
-    call(0x0009, one, 0x40f2);  // some hosts take anything
+    call(0x0009, one, 0x40f2);  // some hosts accept any access rights
     descriptor[2] = 0x34;
     descriptor[3] = 0x12;
     descriptor[5] = 0xf2;
@@ -230,7 +231,7 @@ void testDosMemory() {
     check("0100 all of it is back", low(call(0x0100, 0xffff).ebx) == largest);
 }
 
-// ---- Real-mode code in a DOS block: segment, and a pointer to it.
+// ---- Real-mode code in a DOS block: its segment, and a pointer to the block
 
 uint16_t codeSegment;
 uint8_t* code;
@@ -247,7 +248,7 @@ void testRealMode() {
     static const uint8_t stackInt[] = {0x89, 0xe5, 0x8b, 0x46, 0x08, 0xcf};      // mov bp, sp; mov ax, [bp+8]; iret
     static const uint8_t allRegs[] = {0x66, 0xf7, 0xd0, 0x66, 0xf7, 0xd3, 0x66, 0xf7, 0xd1, 0x66, 0xf7, 0xd2,
                                       0x66, 0xf7, 0xd6, 0x66, 0xf7, 0xd7, 0x66, 0xf7, 0xd5,  // not eax ... ebp
-                                      0x06, 0x1e, 0x07, 0x1f, 0xf9, 0xcb};       // es and ds change places; stc; retf
+                                      0x06, 0x1e, 0x07, 0x1f, 0xf9, 0xcb};       // exchanges es and ds; stc; retf
     static const uint8_t ifState[] = {0x9c, 0x58, 0xcf};                         // pushf; pop ax; iret
     putCode(0x000, addFar, sizeof addFar);
     putCode(0x010, addIret, sizeof addIret);
@@ -282,7 +283,7 @@ void testRealMode() {
                                               regs.esi == ~0x56789abcu && regs.edi == ~0x6789abcdu &&
                                               regs.ebp == ~0x789abcdeu && regs.es == 0x5678 && regs.ds == 0x1234 &&
                                               (regs.flags & 1) == 1);
-    // words from our stack: a pointer to them becomes the top of the stack by a small frame of our own
+    // The host copies two words from our stack, so this assembly pushes them just before the call.
     uint32_t result;
     regs = {};
     regs.cs = codeSegment;
@@ -293,7 +294,7 @@ void testRealMode() {
                      : "memory", "cc");
     check("0301 words from the stack", low(regs.eax) == 0x8888);
 
-    // a stack of ours in the structure
+    // The structure names a real-mode stack of our own.
     regs = {};
     regs.eax = 1;
     regs.ebx = 2;
@@ -304,7 +305,7 @@ void testRealMode() {
     check("0301 on our stack", !carry(r) && low(regs.eax) == 3 && regs.ss == codeSegment && regs.sp == 0x1000 &&
                                    (code[0xffe] | code[0xfff] << 8) != 0);
 
-    // 0200, 0201, 0300
+    // Services 0200, 0201 and 0300
     Int31 old = call(0x0200, 0x60);
     check("0201 set a real-mode vector", !carry(call(0x0201, 0x60, codeSegment, 0x10)));
     Int31 now = call(0x0200, 0x60);
@@ -358,7 +359,7 @@ void testInterrupts() {
     STRICT("0205 data selector refused", carry(call(0x0205, 0x60, dpmi::dataSelector(), 0)));
     check("0205 as it was", !carry(call(0x0205, 0x60, low(old.ecx), old.edx)));
 
-    // The timer, taken here: counted while we compute, while DOS is called, and while real mode computes.
+    // The timer interrupt is taken and counted while this program computes, while DOS is called, and while real mode computes.
     old = call(0x0204, 8);
     oldHandler = {old.edx, uint16_t(old.ecx)};
     check("0205 set int 8", !carry(call(0x0205, 8, dpmi::codeSelector(), offsetOf(tickChain))));
@@ -391,7 +392,7 @@ void testInterrupts() {
     }
     check("timer no longer ours", ticks == 0);
 
-    // 1Ch, which the BIOS calls from int 8
+    // Interrupt 1Ch, which the BIOS calls from interrupt 8
     old = call(0x0204, 0x1c);
     call(0x0205, 0x1c, dpmi::codeSelector(), offsetOf(countOnly));
     counted = 0;
@@ -401,7 +402,7 @@ void testInterrupts() {
     check("int 1Ch comes up", counted >= 3);
     call(0x0205, 0x1c, low(old.ecx), old.edx);
 
-    // Ctrl-C as DOS reports it (DOSBox's DOS never does): int 23h; retf
+    // Ctrl-C as DOS reports it (which DOSBox's DOS never does): int 23h; retf
     static const uint8_t breakCode[] = {0xcd, 0x23, 0xcb};
     putCode(0x0c0, breakCode, sizeof breakCode);
     old = call(0x0204, 0x23);
@@ -421,7 +422,7 @@ void testInterrupts() {
     dpmi::realInterrupt(0x24, &regs);
     check("int 24h of the host fails the call", (regs.eax & 0xff) == 3);
 
-    // interrupt flag
+    // The interrupt flag
     call(0x0901);
     Int31 r = call(0x0900);
     check("0900 was on", (r.eax & 0xff) == 1 && (call(0x0902).eax & 0xff) == 0);
@@ -455,7 +456,7 @@ void testExceptions() {
         r = call(0x0202, uint32_t(kinds[i]));
         check("0203 as it was", low(r.ecx) == low(old.ecx) && r.edx == old.edx);
     }
-    // DOSBox: the clock was used to come back from the wild pointer
+    // (In DOSBox raise() depends on the clock to come back from the wild pointer.)
     check("interrupts are on afterwards", (call(0x0902).eax & 0xff) == 1);
 }
 
@@ -497,7 +498,7 @@ void testCallBacks() {
     for (int i = 0; i < count; ++i) good = good && !carry(call(0x0304, 0, low(all[i].ecx), low(all[i].edx)));
     check("0304 all of them", good);
 
-    // real mode in protected mode in real mode ...
+    // Real mode calls protected mode, which calls real mode, and so on.
     nestedStack = offsetOf(nestedStacks + sizeof nestedStacks);
     in = {0x0303, 0, 0, 0, offsetOf(callBackNested), offsetOf(&backRegs), dpmi::dataSelector(), dpmi::codeSelector(), 0};
     int31(&in);
@@ -547,9 +548,9 @@ void testRaw() {
         put(offsetOf(rawBack), 4);  // mov edi, EIP
         put(0xea, 1);
         put(low(r.ecx), 2);
-        put(low(r.ebx), 2);  // jmp far
+        put(low(r.ebx), 2);  // far jump
         putCode(0x200, bytes, at);
-        // ESP as rawSwitch will have it: below this frame the argument, the return address and four registers
+        // The value of ESP in rawSwitch: below this frame lie the argument, the return address and four registers.
         static uint32_t esp;
         __asm__ volatile("movl %%esp, %0" : "=m"(esp));
         uint16_t where[2] = {0x200, codeSegment};
@@ -628,7 +629,7 @@ void testMemory() {
     STRICT("0503 freed refused", !resize(b.handle, 0x1000).good);
     STRICT("0502 nonsense refused", !release(0xdeadbeef));
 
-    // all there is, in blocks of a quarter of it, each written and checked
+    // All memory is taken in blocks of a quarter of it and then smaller ones; the ends of each are written and checked.
     Block blocks[300];
     int count = 0;
     uint32_t bytes = before.word[0] / 4 & ~0xfffu;
@@ -653,7 +654,7 @@ void testMemory() {
     check("0502 all of them", good);
     Info after = info();
     check("0500 as much as before", after.word[0] == before.word[0] && after.word[5] == before.word[5]);
-    // step by step, as a heap grows
+    // Memory is taken step by step, as a growing heap does.
     count = 0;
     sum = 0;
     const uint32_t step = (before.word[0] / 200 & ~0xffffu) + 0x10000;
@@ -668,7 +669,7 @@ void testMemory() {
     good = true;
     for (int i = 0; i < count; ++i) good = good && release(blocks[i].handle);
     check("0502 all of those, too", good && info().word[0] == before.word[0]);
-    // a block with an absent page moves
+    // A block that contains an absent page is moved.
     if (strict) {
         a = allocate(0x20000);
         b = allocate(0x10000);
@@ -686,7 +687,7 @@ void testMemory() {
         check("0507 present again, its contents too", !carry(r) && filled(a2.address, 0x20000, 9));
         check("0502 both", release(a2.handle) && release(b.handle) && info().word[0] == before.word[0]);
     }
-    // many small ones
+    // Many small blocks
     count = 0;
     while (count < 250 && (blocks[count] = allocate(0x1000)).good) ++count;
     check("0501 250 small blocks", count == 250);
@@ -735,7 +736,7 @@ void testRest() {
     __asm__ volatile("int $0x2f" : "=a"(r.eax) : "a"(0x1686) : "ebx", "ecx", "edx", "cc");
     check("int 2Fh 1686h: protected mode", low(r.eax) == 0);
 
-    // the stub's promises
+    // The promises of the stub
     check("stub information", sameBytes(stubInfo.magic, "go32stub", 8) && stubInfo.size >= 84);
     Int31 base = call(0x0006, stubInfo.dsSelector);
     check("its data selector and segment", pair(base.ecx, base.edx) == stubInfo.dsSegment * 16u);
@@ -766,7 +767,7 @@ uint8_t in8(uint16_t port) {
     return value;
 }
 
-// Counter 2 runs free from 65536 down: a clock that does not need interrupts.
+// Returns the value of counter 2, which runs down from 65536 all the time: a clock that does not need interrupts.
 uint16_t counter2() {
     out8(0x43, 0x80);
     const uint16_t lowByte = in8(0x42);
@@ -774,7 +775,7 @@ uint16_t counter2() {
 }
 
 int timerTicks(uint32_t wanted, uint32_t divisor) {
-    // The BIOS's own handler counts in 40:6Ch; so its count of what reached real mode is the measure.
+    // The BIOS's own handler counts in 40:6Ch, so that count tells how many interrupts reached real mode.
     volatile uint32_t* const bios = reinterpret_cast<volatile uint32_t*>(linear(0x46c));
     const uint8_t speaker = in8(0x61);
     out8(0x61, uint8_t((speaker & ~2) | 1));
@@ -811,7 +812,7 @@ int timerTicks(uint32_t wanted, uint32_t divisor) {
     *bios = saved + uint32_t(uint32_t(clocks >> 16));
     __asm__ volatile("sti");
     out8(0x61, speaker);
-    const uint32_t due = uint32_t(clocks >> 1) / divisor * 2;  // 32 bits: no 64-bit division here
+    const uint32_t due = uint32_t(clocks >> 1) / divisor * 2;  // in 32 bits, because there is no 64-bit division here
     print("# %u timer interrupts, %u due\n", unsigned(got), unsigned(due));
     char text[80];
     snprintf(text, sizeof text, "%u timer interrupts under load, none lost", unsigned(wanted));
@@ -819,8 +820,8 @@ int timerTicks(uint32_t wanted, uint32_t divisor) {
     return failures == 0 ? 0 : 1;
 }
 
-// Instructions that one timer interrupt costs: a loop of known length runs for a known number of interrupts, once with
-// the timer at its slowest and once fast, against counter 2; with fixed cycles an instruction has a fixed time.
+// Prints how many instructions one timer interrupt costs. A loop of known length is timed by counter 2, once with the slowest
+// timer and once with a fast one. With fixed cycles every instruction takes the same time.
 int timeTicks(uint32_t divisor) {
     volatile uint32_t* const bios = reinterpret_cast<volatile uint32_t*>(linear(0x46c));
     const uint8_t speaker = in8(0x61);
@@ -839,7 +840,7 @@ int timeTicks(uint32_t divisor) {
         const uint32_t from = *bios;
         uint16_t last = counter2();
         for (int i = 0; i < 2000; ++i) {
-            uint32_t n = 500;  // a thousand instructions
+            uint32_t n = 500;  // 1000 instructions
             __asm__ volatile("1: decl %0\n\tjnz 1b" : "+r"(n) : : "cc");
             const uint16_t now = counter2();
             total += uint16_t(last - now);
@@ -853,7 +854,7 @@ int timeTicks(uint32_t divisor) {
     out8(0x40, 0);
     *bios = saved;
     out8(0x61, speaker);
-    // 2000 * 1010 instructions took clocks[0] without (almost) any interrupt
+    // 2000 * 1010 instructions took clocks[0] with hardly any interrupts.
     const uint32_t extra = clocks[1] - clocks[0];
     const uint32_t perInterrupt = extra / (happened[1] - happened[0]);
     print("# 2020000 instructions: %u clocks of 1193182 Hz; with %u interrupts: %u; one interrupt: %u clocks, %u instructions\n",
@@ -879,7 +880,7 @@ int mouse(uint32_t seconds) {
     while (*bios - from < seconds * 18 && counted < 10) int21(0x0b00);
     print("# %u calls from the mouse driver\n", unsigned(counted));
     check("call-back from the mouse driver", counted > 0);
-    return failures == 0 ? 0 : 1;  // the call-back stays with the driver: the host has to take it back
+    return failures == 0 ? 0 : 1;  // the call-back stays registered with the driver: the host has to remove it
 }
 
 int freeMemory() {
@@ -910,7 +911,7 @@ int screen() {
     return 0;
 }
 
-// Ctrl-C as the BIOS's keyboard buffer has it, and DOS looking for it.
+// Puts Ctrl-C into the BIOS's keyboard buffer, and calls DOS so that DOS finds it.
 void typeBreak() {
     dpmi::RealRegs regs = {};
     regs.eax = 0x0500;
@@ -918,12 +919,12 @@ void typeBreak() {
     dpmi::realInterrupt(0x16, &regs);
     for (int i = 0; i < 1000; ++i) int21(0x0b00);
     regs = {};
-    dpmi::realInterrupt(0x23, &regs);  // DOSBox's DOS does not look for it
+    dpmi::realInterrupt(0x23, &regs);  // DOSBox's DOS does not look for Ctrl-C
 }
 
 }  // namespace
 
-// A call-back's work: calls DOS, and itself through real mode as often as CX says.
+// The work of a call-back: calls DOS, and calls the call-back again through real mode, CX times in all.
 void nested(dpmi::RealRegs* r) {
     dpmi::RealRegs mine = *r;
     ++deepest;
@@ -946,7 +947,7 @@ void nested(dpmi::RealRegs* r) {
 int main(int argc, char** argv) {
     Int31 base = call(0x0006, dpmi::dataSelector());
     ourBase = pair(base.ecx, base.edx);
-    // Near pointers: our data segment reaches all linear addresses, as DJGPP's can.
+    // Pointers are near: the data segment is made to reach all linear addresses, as DJGPP programs can do.
     const uint32_t limit = dpmi::segmentLimit(dpmi::dataSelector());
     dataSelector = dpmi::dataSelector();
     const char* what = argc > 1 ? argv[1] : "ALL";
@@ -955,7 +956,7 @@ int main(int argc, char** argv) {
     const bool all = strcmp(what, "ALL") == 0 || !strict;
     (void)limit;
     if (all) {
-        // before the limit changes
+        // The limit is compared before it is changed.
         const bool size = limit == stubInfo.initialSize - 1;
         call(0x0008, dataSelector, 0xffff, 0xffff);
         __asm__ volatile("pushl %%ds\n\tpopl %%ds\n\tpushl %%ds\n\tpopl %%es\n\tpushl %%ss\n\tpopl %%ss" : : : "memory");

@@ -1,9 +1,9 @@
-// The assembly of DTEST.EXE (dtest.cpp says what each is for): int 31h with all registers, interrupt and exception
-// handlers, call-back procedures, the raw mode switch.
+// The assembly part of DTEST.EXE (dtest.cpp uses it): int 31h with all registers, interrupt and exception handlers, call-back
+// procedures, and the raw mode switch.
 
 #include "asm.h"
 
-// struct Int31
+// Offsets in struct Int31
 #define EAX 0
 #define EBX 4
 #define ECX 8
@@ -16,7 +16,7 @@
 
         .text
 
-// void int31(Int31*)
+// void int31(Int31*): calls int 31h with these registers, and stores the registers and flags that it returns
         .globl  SYM(int31)
 SYM(int31):
         pushl   %ebp
@@ -54,14 +54,14 @@ SYM(int31):
         popl    %ebp
         ret
 
-// int 60h: EAX + 1234h, carry set, to be seen by the caller
+// Handler of int 60h: adds 1234h to EAX and sets the carry flag in the caller's flags
         .globl  SYM(handler60)
 SYM(handler60):
         addl    $0x1234, %eax
         orl     $1, 8(%esp)
         iretl
 
-// A handler that counts, then goes on in the one before (chain) or ends the interrupt (own)
+// Timer handlers that count, and then jump to the previous handler (tickChain) or end the interrupt (tickOwn)
         .globl  SYM(tickChain), SYM(tickOwn)
 SYM(tickChain):
         pushl   %ds
@@ -80,7 +80,7 @@ SYM(tickOwn):
         popl    %ds
         iretl
 
-// A handler that only counts, for Ctrl-C and critical errors; AL = 3 is "fail" for the latter
+// A handler that only counts, for Ctrl-C and critical errors; AL = 3 means "fail" in the latter case
         .globl  SYM(countOnly)
 SYM(countOnly):
         pushl   %ds
@@ -90,7 +90,7 @@ SYM(countOnly):
         movb    $3, %al
         iretl
 
-// Exception handler: notes what it sees and goes on at `recover` with the stack that was there
+// Exception handler: notes error code, EIP and SS, and continues at `recover` on the stack of the exception
         .globl  SYM(exceptionSeen)
 SYM(exceptionSeen):
         pushl   %ds
@@ -129,7 +129,7 @@ SYM(raise):
 2:      movl    $5f, SYM(raiseEip)
 5:      ud2
 3:      movl    $6f, SYM(raiseEip)
-        movl    $0x1230, %eax           // a selector beyond any table
+        movl    $0x1230, %eax           // a selector beyond any descriptor table
 6:      movw    %ax, %es
         jmp     recover
 4:      movl    $7f, SYM(raiseEip)
@@ -145,7 +145,7 @@ recover:
         popl    %ebp
         ret
 
-// Call-back for a far call from real mode: EAX := ~EAX, return for it
+// Call-back for a far call from real mode: inverts EAX and returns to the caller
         .globl  SYM(callBack)
 SYM(callBack):
         cld
@@ -156,7 +156,7 @@ SYM(callBack):
         addw    $4, %es:46(%edi)
         iretl
 
-// Call-back that itself calls real mode: to a stack of its own, then nested(registers)
+// Call-back that calls real mode itself: it switches to a stack of its own and calls nested(registers)
         .globl  SYM(callBackNested)
 SYM(callBackNested):
         cld
@@ -194,8 +194,8 @@ SYM(callBackMouse):
         addw    $4, %es:46(%edi)
         iretl
 
-// void rawSwitch(const uint16_t rm[2]): to real mode at rm[0]:rm[1] (offset, segment) with its stack at the end of that
-// segment's first 256 bytes; the code there jumps back to rawBack.
+// void rawSwitch(const uint16_t rm[2]): switches to real mode at rm[1]:rm[0], with the stack at the end of the first 256 bytes
+// of that segment; the code there jumps back to rawBack
         .globl  SYM(rawSwitch), SYM(rawBack)
 SYM(rawSwitch):
         pushl   %ebp
@@ -220,7 +220,7 @@ SYM(rawBack):
         popl    %ebp
         ret
 
-// uint32_t intEax(int, uint32_t eax, uint32_t *flags): interrupts 10h, 16h, 21h, 33h, 60h from here
+// uint32_t intN(uint32_t eax) for N = 10, 16, 21, 33, 60: calls interrupt Nh; stores the returned EBX and flags
         .macro  INTN n
         .globl  SYM(int\n)
 SYM(int\n):
@@ -248,13 +248,13 @@ SYM(int\n):
         INTN    33
         INTN    60
 
-// void overflow(): fills the stack and what lies below it
+// void overflow(): fills the stack and goes on below it
         .globl  SYM(overflow)
 SYM(overflow):
         pushl   $0x12345678
         jmp     SYM(overflow)
 
-// void largeFrames(): calls itself for ever, with frames of 4 and 8 KB in turn, of which it writes a little at the top
+// void largeFrames(): calls itself for ever with frames of 4 and 8 KB in turn, and writes only to the ends of each
         .globl  SYM(largeFrames)
 SYM(largeFrames):
         subl    $4096-4, %esp
@@ -264,13 +264,13 @@ SYM(largeFrames):
         movl    $0x12345678, (%esp)
         call    SYM(largeFrames)
 
-// Exception handler: returns, and nothing is better
+// Exception handler that returns without any remedy
         .globl  SYM(exceptionAgain)
 SYM(exceptionAgain):
         lretl
 
-// Exception handler as in DJGPP's libc: writes the state to the stack that was there, and goes on on it in a function
-// that does not return; from a fault in itself, on a stack of its own
+// Exception handler as in DJGPP's libc: writes the state to the stack of the exception and continues there in a function that
+// does not return. If the exception was on a stack of the host, it continues on a stack of its own.
         .globl  SYM(exceptionOnStack)
 SYM(exceptionOnStack):
         pushl   %eax

@@ -1,11 +1,11 @@
 #!/bin/sh
-# The DPMI host on FreeDOS in an emulated PC. FreeDOS is in no Debian package, so this is not part of `make test`: it takes a
-# bootable floppy image with KERNEL.SYS and COMMAND.COM and some 350 KB free (720 KB or 1.44 MB), and uses a copy of it.
+# Tests the DPMI host on FreeDOS in an emulated PC. No Debian package contains FreeDOS, so this is not part of `make test`: it
+# needs a bootable floppy image (720 KB or 1.44 MB) with KERNEL.SYS, COMMAND.COM and some 350 KB free, and uses a copy of it.
 #
 #   tests/dpmi/freedos.sh FLOPPY.IMG [FILE.EXE...]
 #
-# A boot may take FB_BOOT_SECONDS of the processor's time (180) and ten times that by the clock. One that takes more, or that
-# the emulator ends, is one failure that says so, and at which command; what it leaves undone is not judged.
+# A boot may take FB_BOOT_SECONDS of processor time (180) and ten times that by the clock. A boot that takes more, or that the
+# emulator ends, is one failure; its line names the command that ran. Checks that were not reached are not judged.
 #
 # A FILE may be a driver (HIMEMX, JEMM386, JEMMEX: loaded by CONFIG.SYS, one at a time, JEMM386 behind HIMEMX) or another
 # DPMI host that stays resident with -p (CWSDPMI). Needs qemu-system-x86 and mtools.
@@ -28,16 +28,16 @@ shift
 a=$scratch/a.img
 MTOOLS_SKIP_CHECK=1
 export MTOOLS_SKIP_CHECK
-# OUT F4h, AL; HLT: the emulator's exit
+# OUT F4h, AL; HLT: ends the emulator
 printf '\260\000\272\364\000\356\364' > "$scratch/QUIT.COM"
 drivers=
 files=
 
 seconds=${FB_BOOT_SECONDS:-180}
 
-# run NAME CPU MB COMMAND...: boots, runs, leaves the output files in $scratch. The clock counts instructions, so that no timer
-# interrupt is late because the machine under the emulator is busy. False, with a line that says what happened, when the
-# commands did not all come to their end.
+# run NAME CPU MB COMMAND...: boots, runs the commands, and leaves the output files in $scratch. The clock counts instructions,
+# so that timer interrupts are on time even if the real machine is busy. If the commands did not all finish, it prints a line
+# that says what happened, and fails.
 run() {
     boot=$1
     cpu=$2
@@ -97,7 +97,7 @@ run() {
     return 1
 }
 
-# all NAME CPU MB: every service, a page fault, stack overflows, Ctrl-C, timer interrupts, the demo
+# all NAME CPU MB: tests every service, a page fault, stack overflows, Ctrl-C, timer interrupts, and the demo
 all() {
     label=$1
     run "$label" "$2" "$3" 'DTEST FREE > BEFORE.TXT' CLS 'DTEST CRASH 14' 'DTEST SCREEN > CRASH.TXT' CLS 'DTEST CRASH S' \

@@ -1,11 +1,11 @@
 #!/bin/sh
-# The stub's DPMI host in DOSBox: every service with every kind of memory, timer interrupts, ends by exceptions and by
-# Ctrl-C, the mouse driver's call-back, fifty programs in a row. Prints `ok` and `FAIL` lines and a count.
+# Tests the stub's DPMI host in DOSBox: every service with every kind of memory, timer interrupts, ends by exceptions and by
+# Ctrl-C, the mouse driver's call-back, and fifty programs in a row. Prints `ok` and `FAIL` lines and a count.
 #
 #   tests/dpmi/run.sh [quick] [HOST.EXE]
 #
-# quick: twenty thousand timer interrupts instead of a million. HOST.EXE: another DPMI host that stays resident with -p
-# (CWSDPMI): the stub has to use it.
+# quick: runs twenty thousand timer interrupts instead of a million. HOST.EXE: another DPMI host that stays resident with -p
+# (CWSDPMI), which the stub must use.
 set -u
 . tests/dos/lib.sh
 
@@ -18,7 +18,7 @@ dos() {
     tools/dosbox.sh -t 90 -d "$c" "$@"
 }
 
-# all NAME OPTION...: everything in DOSBox with these options; only failures are listed, and how many checks there were.
+# all NAME OPTION...: runs all checks in DOSBox with these options; prints only failures and the count of checks.
 all() {
     label=$1
     shift
@@ -47,7 +47,7 @@ all 'V86 mode, VCPI, dynamic core' -o cpu.core=dynamic -- V86
 all '386' -o cpu.cputype=386 --
 all '486' -o cpu.cputype=486_slow --
 
-# Timer interrupts: none lost while DOS and the host are called. At 50 kHz, 800 instructions each.
+# No timer interrupt may be lost while DOS and the host are called. At 50 kHz there are 800 instructions for each.
 n=1000000
 if [ "${1:-}" = quick ]; then
     n=20000
@@ -59,7 +59,7 @@ ran "$c/TICKS.TXT"
 dos -c 40000 -- V86 "DTEST TICKS 20000 50 > TICKS.TXT"
 ran "$c/TICKS.TXT"
 
-# Ends: text mode, a line that says what it was, exit status, memory.
+# An end by an exception must leave text mode, a line that names the exception, an exit status, and all memory free.
 crash() {
     how=$1
     text=$2
@@ -93,7 +93,7 @@ ran "$c/CATCH.TXT"
 ok 'CATCH: to its end' has "$c/CATCH.TXT" 'ok 0205 given back'
 ok 'CATCH in V86 mode: to its end' has "$c/CATCH86.TXT" 'ok 0205 given back'
 
-# Fifty in a row
+# Fifty programs in a row
 set -- 'DTEST FREE > BEFORE.TXT'
 i=0
 while [ $i -lt 50 ]; do
@@ -116,7 +116,7 @@ ok 'program cut short: status 1' status 1 "$c"
 dos -m 1 -- cls DTEST "$E1" "$E2" 'V86'
 ok 'no memory: status 1' status 1 "$c"
 
-# Another host, loaded first. (Not with wild pointers: those end DOSBox under any host but ours.)
+# Another host is loaded first. (Wild pointers are left out: they end DOSBox under any host but the stub's.)
 if [ -n "$host" ]; then
     cp "$host" "$c/HOST.EXE"
     cp build/DEMO.EXE "$c"
@@ -125,7 +125,7 @@ if [ -n "$host" ]; then
     ok 'another host: the demo' has "$c/DEMO.TXT" 'seeds: 2496'
 fi
 
-# The mouse driver's call-back, and that nothing of it stays behind
+# The mouse driver's call-back is called, and is removed at the end of the program
 if startDisplay; then
     rm -f "$c"/*.TXT
     tools/dosbox.sh -w -c 20000 -t 60 -d "$c" -- 'DTEST MOUSE 20 > MOUSE.TXT' 'DTEST ALL > ALL.TXT' &

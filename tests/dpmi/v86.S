@@ -1,12 +1,12 @@
-/* V86.COM: goes to protected mode by VCPI and straight back. In an emulator whose memory manager offers VCPI but leaves
-   the processor in real mode until somebody asks (DOSBox), DOS runs in V86 mode afterwards, as it does under EMM386 from
-   the start; so the VCPI side of the DPMI host can be tried. Exit status 0: V86 mode; 1: still real mode; 2: no VCPI. */
+/* V86.COM: switches to protected mode by VCPI and straight back. DOSBox's memory manager offers VCPI but leaves the processor
+   in real mode until a program uses VCPI; afterwards DOS runs in V86 mode, as it does under EMM386 from the start. So the
+   VCPI side of the DPMI host can be tested. The exit status is 0 for V86 mode, 1 for real mode, 2 if there is no VCPI. */
 
         .code16
         .text
         .globl  start
 start:
-        xor     %cx, %cx                /* DOSBox answers from real mode only to who looks like JEMM */
+        xor     %cx, %cx                /* in real mode DOSBox answers only a caller that looks like JEMM */
         mov     $0x0012, %di
         mov     $0xde00, %ax
         int     $0x67
@@ -91,10 +91,10 @@ quit:   mov     $0x4c, %ah
         int     $0x21
 
         .balign 4
-gdt:    .quad   0, 0, 0, 0              /* 8, 10h, 18h: the server's */
+gdt:    .quad   0, 0, 0, 0              /* selectors 8, 10h, 18h: filled by the VCPI server */
         .quad   0x00409a000000ffff      /* 20h code */
         .quad   0x004092000000ffff      /* 28h data */
-        .quad   0x00cf92000000ffff      /* 30h everything */
+        .quad   0x00cf92000000ffff      /* 30h all memory */
         .quad   0x0000890000000067      /* 38h TSS */
 gdtr:   .word   0x3f
         .long   gdt

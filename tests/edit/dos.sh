@@ -1,6 +1,6 @@
 #!/bin/sh
-# Hands on in DOSBox, in a window, with the keyboard and the mouse of an X server: what was done by hand is in the scene
-# that the program saves, and the host's program reads it. Closes with "N passed, N failed".
+# Interactive mode in a DOSBox window, with the keyboard and mouse of an X server: the saved scene must contain what was done by
+# hand, and the host's program must read the scene. The last line is "N passed, N failed".
 cd "$(dirname "$0")/../.." || exit 1
 . tests/dos/lib.sh
 
@@ -25,15 +25,15 @@ dos -w -c 60000 -- cls 'DEMO /I /G /S:4 /M:HAND.FB > OUT.TXT' "$E1" &
 running=$!
 awaitTitle DEMO
 type F1 F1 f
-# The second is selected; a cylinder comes where it is, turned twice and made greater.
+# The second object is selected; a cylinder is added in its place, turned twice and enlarged.
 type Tab c z z bracketright
-# The first click only gives DOSBox the mouse.
+# The first click only makes DOSBox capture the mouse.
 xdotool mousemove --window "$dosWindow" 300 200 sleep 0.5 click 1 sleep 1 2>/dev/null
 for i in 1 2 3 4 5; do
 	xdotool mousemove_relative -- 6 -8 sleep 0.1 2>/dev/null
 done
 sleep 0.5
-# A sphere too many, taken back; then saved.
+# One more sphere is added and taken back; then the scene is saved.
 type Insert u F2 Return Escape
 wait $running
 
@@ -50,7 +50,7 @@ echo "# the mouse brought the cylinder from 20 0 to ${1:-?} ${2:-?}"
 ok 'the mouse moved it right and up' test "${1:-0}" -gt 22 -a "${2:-0}" -gt 2
 ok "the host's program plays it" build/demo /X /N:2 "/M:$scratch/saved"
 
-# Caps Lock changes nothing; a pointer picks what it is clicked on: from the middle of the screen, two mickeys a pixel.
+# Caps Lock must not change anything. A pointer (from the middle of the screen, two mickeys a pixel) selects what it clicks on.
 rm -f "$c"/*.TXT "$c/SAVED.FB"
 dos -w -c 60000 -- cls 'DEMO /I /G /S:4 /M:HAND.FB /A:HAND.FLI > OUT.TXT' "$E1" &
 running=$!
@@ -61,7 +61,7 @@ for i in 1 2 3 4 5 6 7 8; do
 	xdotool mousemove_relative -- -10 0 sleep 0.1 2>/dev/null
 done
 xdotool mousedown 1 sleep 0.05 mouseup 1 sleep 0.5 2>/dev/null
-# A click of a moment between two frames of a slow machine is not lost: see tests/edit/run.sh.
+# tests/edit/run.sh tests that a short click between two frames of a slow machine is not lost.
 type bracketright semicolon apostrophe j F2 Return F1
 sleep 0.5
 type Escape
@@ -78,7 +78,7 @@ ok 'the other is as large as it was' grep -q '^sphere two size 20 ' "$scratch/sa
 ok 'a film of it' build/filmtst frames "$c/HAND.FLI"
 build/filmtst frames "$c/HAND.FLI" | sed 's/^/# /'
 
-# The same bytes as the host's: a film; a screenshot, when the pulse of the selected one is over.
+# A film and a screenshot must have the same bytes as the host's; the screenshot is made after the selected object has pulsed.
 build/demo /N:30 /S:4 "/A:$scratch/host.fli" >/dev/null
 printf '20 key p\n21 key ESC\n' >"$scratch/script"
 host=$PWD/build/demo
@@ -100,7 +100,7 @@ wait $running
 ok 'a film: the bytes of the host' cmp "$scratch/host.fli" "$c/DOS.FLI"
 ok 'a screenshot: the bytes of the host' cmp "$scratch/SHOT0001.PCX" "$c/SHOT0001.PCX"
 
-# About the scene with the keys of a PC: the same view as the host's, and back.
+# The keys of a PC move the eye around the scene: the view must equal the host's, and the eye must come back.
 printf '2 key RIGHT\n2 key RIGHT\n2 key UP\n2 key PGUP\n3 key p\n4 key ESC\n' >"$scratch/script"
 rm -f "$c"/*.PCX "$scratch"/*.PCX
 (cd "$scratch" && FB_INPUT=script "$host" /S:4 /N:40 /M:c/HAND.FB >/dev/null)
@@ -118,7 +118,7 @@ ok 'about the scene: the bytes of the host' cmp "$scratch/SHOT0001.PCX" "$c/SHOT
 ok 'it is another view' sh -c "! cmp -s '$c/SHOT0001.PCX' '$c/SHOT0002.PCX'"
 ok 'End: its own view' cmp "$c/SHOT0001.PCX" "$c/SHOT0003.PCX"
 
-# The next scene beside the program.
+# The next scene in the program's folder.
 rm -f "$c"/*.FB "$c"/*.TXT
 printf 'sphere a size 11\r\n' >"$c/A.FB"
 printf 'sphere b size 12\r\n' >"$c/B.FB"

@@ -1,11 +1,11 @@
-// Reads what the program writes for others, films and screenshots, with no code of the program, and compares it with
-// pictures it dumped.
+// Reads the files that the program writes for other programs, films and screenshots, and compares them with dumped pictures.
+// It shares no code with the program.
 //
-//   filmtst frames FILE.FLI              prints: frames, 1/70 s a frame, bytes
-//   filmtst same FILE.FLI FROM DIR       each frame is DIR/F%07d.PPM, the first of them number FROM
-//   filmtst frame FILE.FLI N OUT.PPM     one frame as a picture
-//   filmtst pcx FILE.PCX OUT.PPM         a screenshot as a picture
-//   filmtst ink FILE.PPM X Y WIDE HIGH   how many pixels of a part have the colour of text
+//   filmtst frames FILE.FLI              prints the number of frames, 1/70 s per frame, and bytes
+//   filmtst same FILE.FLI FROM DIR       the frames must equal DIR/F%07d.PPM, numbered from FROM
+//   filmtst frame FILE.FLI N OUT.PPM     writes one frame as a picture
+//   filmtst pcx FILE.PCX OUT.PPM         writes a screenshot as a picture
+//   filmtst ink FILE.PPM X Y WIDE HIGH   prints how many pixels of a rectangle have the colour of text
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -34,7 +34,7 @@ std::string contents(const std::string& name)
     return std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
 }
 
-// Bytes in order; reading past the end is a fault of the file.
+// Reads bytes in order; an attempt to read past the end is reported as an error of the file.
 class Bytes {
 public:
     Bytes(const std::string& text, size_t from, size_t to) : text_(text), at_(from), end_(to)
@@ -103,7 +103,7 @@ public:
         at_ = 128;
     }
 
-    // The next frame into the picture.
+    // Applies the next frame to the picture.
     void next(Picture& picture)
     {
         Bytes header(text_, at_, at_ + 16);
@@ -270,7 +270,7 @@ int main(int count, char** arguments)
         if (contents(arguments[4] + std::string(name)) != picture.ppm())
             die("another picture than " + std::string(name));
     }
-    // One more leads back to the first.
+    // The film has one more frame, which leads back to the first.
     if (film.frames > 0) {
         Film again(arguments[2]);
         Picture first;

@@ -1,8 +1,8 @@
 #!/bin/sh
-# Tests of interactive mode as a user has it: scripts of keys and mouse moves played to the program, and what the dumped
-# scenes, the saved file and the pictures then say. The last line is "N passed, N failed".
+# Tests interactive mode as a user sees it: scripts of keys and mouse moves are played to the program, and the dumped scenes,
+# the saved file and the pictures are checked. The last line is "N passed, N failed".
 #
-# DEMO names another build of the program than build/demo.
+# DEMO names another build of the program to test instead of build/demo.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 top=$(pwd)
@@ -26,7 +26,7 @@ ok() { # ok NAME COMMAND...
 	: >log
 }
 
-# play FRAMES SWITCHES...: the script on standard input, frames into d/.
+# play FRAMES SWITCHES...: plays the script on standard input, and dumps the frames into d/.
 play() {
 	frames=$1
 	shift
@@ -34,11 +34,11 @@ play() {
 	rm -rf d
 	FB_INPUT=script "$demo" /I "/N:$frames" /S:4 /D:d "$@" >out 2>&1 || bad "the program ended with $?: $(tail -n 1 out)"
 }
-scene() { sed 1d "$(printf 'd/F%07d.TXT' "$1")"; } # without the time
-has() { scene "$1" | grep -qxF -- "$2" || { scene "$1"; return 1; }; } # frame, line
+scene() { sed 1d "$(printf 'd/F%07d.TXT' "$1")"; } # FRAME: its scene without the time
+has() { scene "$1" | grep -qxF -- "$2" || { scene "$1"; return 1; }; } # FRAME LINE: the frame's scene has this line
 lacks() { ! has "$1" "$2" >/dev/null; }
-count() { test "$(scene "$1" | grep -c "^$2 ")" -eq "$3"; }             # frame, word, how many
-alike() { scene "$1" >one; scene "$2" >two; diff one two; }            # two frames
+count() { test "$(scene "$1" | grep -c "^$2 ")" -eq "$3"; }             # FRAME WORD N: N lines begin with this word
+alike() { scene "$1" >one; scene "$2" >two; diff one two; }            # FRAME FRAME: both have the same scene
 picture() { cmp "$(printf 'd/F%07d.PPM' "$1")" "$(printf 'd/F%07d.PPM' "$2")"; }
 depth() { cmp "$(printf 'd/F%07d.Z' "$1")" "$(printf 'd/F%07d.Z' "$2")"; }
 
@@ -72,7 +72,7 @@ END
 ok "left button selects the next" has 3 "sphere 2 31 0 0 20"
 ok "the mouse cannot lose it" has 4 "sphere 2 -76.79993 -57.59949 0 20"
 
-# Presses while one frame was drawn are all there; and so are those of a fast hand.
+# Presses during the drawing of a frame must not be lost, even if they follow each other quickly.
 play 4 /M:one.fb <<'END'
 1 mouse 0 0 L
 1 mouse 0 0 -
@@ -82,7 +82,7 @@ play 4 /M:one.fb <<'END'
 END
 ok "two clicks in a frame select the next but one" has 2 "cylinder 3 -28 -10 0 -28 10 0 12"
 
-# --- The pointer: from the middle of the screen, two mickeys a pixel
+# --- The pointer, which starts in the middle of the screen and moves a pixel for two mickeys
 play 9 /M:one.fb <<'END'
 1 key m
 1 mouse 125 0 -
@@ -103,8 +103,8 @@ ok "a click on nothing" alike 6 7
 ok "leaves it selected" has 8 "sphere 2 45.51917 6.91132 0 20"
 ok "the others stay" has 8 "sphere 1 0 0 0 20"
 
-# --- What does not wait for the end of a frame
-ends() { # SCRIPT SWITCHES...
+# --- Input that does not wait for the end of a frame
+ends() { # SCRIPT SWITCHES...: plays the script; leaves out, err and status
 	printf "$1" >script
 	shift
 	FB_INPUT=script "$demo" "$@" >out 2>err
@@ -229,7 +229,7 @@ END
 ok "another motion takes the place of keys" sh -c '! grep -q "^key" SAVED.FB && grep -q "^sphere k" SAVED.FB'
 rm -f SAVED.FB
 
-# --- Undo: forty steps, and back one by one
+# --- Undo: forty steps are kept and taken back one by one
 (
 	i=0
 	while [ $i -lt 10 ]; do
@@ -251,7 +251,7 @@ while [ $steps -le 40 ]; do
 done
 echo "undone step by step: $((steps - 1))"
 ok "forty steps undone, each as it was" test $steps -eq 41
-# A gesture is one step; a pause ends it.
+# A continued movement is one undo step, until a pause.
 (
 	for f in 1 2 3 4 5 20 21 22; do echo "$f mouse 8 0 -"; done
 	echo "30 key u"
@@ -261,7 +261,7 @@ ok "moved" has 29 "sphere 1 16 0 0 20"
 ok "the second gesture undone" has 30 "sphere 1 10 0 0 20"
 ok "the first gesture undone" has 31 "sphere 1 0 0 0 20"
 
-# --- Saving and loading: F2 asks for a name, F3 for one of a list
+# --- Saving and loading: F2 asks for a name, F3 offers a list
 rm -f SAVED.FB
 play 8 /M:one.fb <<'END'
 1 key TAB
@@ -368,10 +368,10 @@ play 4 /M:one.fb <<'END'
 END
 ok "nowhere to save: it goes on" has 2 "sphere 1 2 0 0 20"
 
-# --- About the scene: the eye goes, the objects stay, and End brings it back
+# --- Around the scene: the eye moves, the objects stay, and End brings the eye back
 objects() { scene "$1" | grep -v '^eye\|^right\|^up\|^ahead'; }
 objectsAlike() { objects "$1" >one; objects "$2" >two; diff one two; }
-eyeAt() { # FRAME X Y Z: to a hundredth of a unit
+eyeAt() { # FRAME X Y Z: the eye is there, to a hundredth of a unit
 	scene "$1" | awk -v x="$2" -v y="$3" -v z="$4" '
 		$1 == "eye" { found = ($2 - x) ^ 2 < 1e-4 && ($3 - y) ^ 2 < 1e-4 && ($4 - z) ^ 2 < 1e-4; print }
 		END { exit !found }'
@@ -391,20 +391,20 @@ ok "its own view" alike 0 9
 ok "the picture is what it was" depth 0 9
 ok "no object has moved" sh -c 'grep -q "^sphere 1 -20 0 0 30" d/F0000001.TXT'
 for f in 1 3 5 6 8; do ok "nor any other: $f" objectsAlike 0 $f; done
-# From the side, right is right all the same, and what is pointed at is what is seen.
+# Seen from the side, "right" is still the right of the view, and the pointer selects the object that is seen under it.
 (i=0; while [ $i -lt 18 ]; do echo "1 key 6"; i=$((i + 1)); done
 	printf '2 key RIGHT\n3 key PGUP\n4 key m\n5 mouse 0 0 L\n6 mouse 0 0 -\n7 key UP\n') | play 10 /M:two.fb
 ok "to the right of the view" has 2 "sphere 1 -20 0 2 30"
 ok "away from it" has 3 "sphere 1 -22 0 2 30"
 ok "the nearer one is in the middle" has 7 "sphere 2 20 2 0 20"
-# What faced away is looked at anew: a body that is alike from behind covers as many pixels there, at once.
+# Seeds that faced away are updated at once: a body that looks the same from behind must cover as many pixels there.
 printf 'sphere a size 30 at -9 0 0\nsphere b size 30 at 9 0 0\nblend a b\n' >alike.fb
 (i=0; while [ $i -lt 36 ]; do echo "1 key 6"; i=$((i + 1)); done) | play 2 /M:alike.fb
 covered() { od -An -v -tx4 -w4 "$(printf 'd/F%07d.Z' "$1")" | grep -vc 7fffffff; }
 ok "from behind" eyeAt 1 0 0 120
 ok "all of it is there" awk -v front="$(covered 0)" -v back="$(covered 1)" \
 	'BEGIN { print front, back; exit !(front > 2000 && back > front * 0.99 && back < front * 1.01) }'
-# While it plays the arrows do it too.
+# In automatic mode the arrow keys move the eye, too.
 cat >script <<'END'
 2 key RIGHT
 3 key UP
@@ -420,7 +420,7 @@ ok "and nearer" sh -c '! cmp -s d/F0000003.Z d/F0000004.Z'
 for f in 0 1 5 6 7 8 9; do ok "the rest is as without keys: $f" cmp "a/F000000$f.TXT" "d/F000000$f.TXT"; done
 for f in 6 7 8 9; do ok "and its depths: $f" sh -c "cmp a/F000000$f.Z d/F000000$f.Z"; done
 
-# --- Groups: moved in the world's directions, whatever the group is turned and scaled to
+# --- Groups: their objects move in the directions of the world, however the group is turned and scaled
 cat >group.fb <<'END'
 group g at 10 0 0 turn 0 0 90 scale 2
 sphere s size 10 at 5 0 0 in g
@@ -452,7 +452,7 @@ play 12 /M:one.fb <<'END'
 END
 ok "into a group: all stay where they are" alike 0 1
 ok "the whole group moves" sh -c '! cmp -s d/F0000002.TXT d/F0000003.TXT'
-moved() { # FRAME FRAME SPHERE: how far it goes along x
+moved() { # FRAME FRAME SPHERE: prints how far the sphere moves along x
 	echo "$(scene "$1" | grep "^sphere $3 ") $(scene "$2" | grep "^sphere $3 ")" | awk '{ print $9 - $3 }'
 }
 ok "both of it" test "$(moved 2 3 1) $(moved 2 3 2) $(moved 2 3 3)" = "2 2 0"
@@ -574,7 +574,7 @@ ok "are undone" alike 0 14
 ok "and saved" sh -c 'sed 1d d/F0000012.TXT >one; sed 1d is/F0000000.TXT | diff one -'
 rm -rf is
 rm -f SAVED.FB
-# All that the format can say is saved, also after a step that was undone: what was saved plays as what was loaded.
+# Everything that the format can express is saved, also after an undone step: the saved scene plays like the loaded one.
 cat >all.fb <<'END'
 title Everything
 colours mixed
@@ -624,14 +624,14 @@ END
 	rm -rf d was is
 	"$demo" "/M:$file" /N:6 /R:1 /S:4 /D:was >out 2>&1 || bad "$file"
 	"$demo" /M:SAVED.FB /N:6 /R:1 /S:4 /D:is >out 2>&1 || bad "$file, saved"
-	# Links may stand in another order.
+	# Links may be in another order.
 	for text in was/*.TXT is/*.TXT; do
 		sort -o "$text" "$text"
 	done
 	ok "$file saved plays the same" sh -c 'test "$(ls was | wc -l)" -eq 18 && diff -r was is'
 done
 rm -f SAVED.FB
-# The picture under another light is that of a scene which has it from the start.
+# After a change of the light, the picture must equal that of a scene which has this light from the start.
 play 40 /M:one.fb <<'END'
 1 key e
 1 key F2
@@ -646,7 +646,7 @@ ok "seen in the new light" cmp d1/F0000002.Z d/F0000002.Z
 ok "a screenshot is what is shown" cmp shot.ppm d1/F0000039.PPM
 ok "as bright as from the start" cmp d1/F0000038.PPM d/F0000038.PPM
 rm -f SAVED*.FB SHOT*.PCX
-# Each motion moves it when time runs, and the last one lets it stand.
+# Each kind of motion moves the object while time runs; the last choice stops the object.
 play 80 /M:one.fb <<'END'
 0 key SPACE
 1 key o
@@ -659,12 +659,12 @@ play 80 /M:one.fb <<'END'
 61 key v
 END
 for from in 2 12 42 62; do
-	# (A ball that spins or swings looks the same.)
+	# (A spinning or swinging ball looks the same in all frames.)
 	ok "it moves: frame $from" sh -c "! cmp -s \"$(printf 'd/F%07d.Z' $from)\" \"$(printf 'd/F%07d.Z' $((from + 4)))\""
 done
 ok "then it stands" alike 52 56
 
-# --- Running, and nothing else moves by itself
+# --- Running: nothing moves unless time runs
 play 12 <<'END'
 2 key SPACE
 7 key SPACE
@@ -673,7 +673,7 @@ ok "it stands" alike 0 1
 ok "it runs" sh -c '! cmp -s d/F0000003.TXT d/F0000005.TXT'
 ok "it stands again" alike 8 11
 
-# --- What is written on the screen
+# --- Texts on the screen
 play 40 /M:one.fb <<'END'
 10 key F1
 12 key F1
@@ -708,7 +708,7 @@ rm -rf b
 FB_INPUT=script "$demo" /N:10 /S:4 /D:b >out 2>&1
 ok "automatic: no key edits" diff -r a b
 
-# Long names take a second line; long messages make way for the frame rate.
+# A long name takes a second line; a long message hides the frame rate.
 ink() { "$top/build/filmtst" ink "$(printf 'd/F%07d.PPM' "$1")" "$2" "$3" "$4" "$5"; } # frame x y wide high
 cat >long.fb <<'END'
 sphere averyveryverylo size 20.125
@@ -730,8 +730,8 @@ ok "the frame rate" test "$(ink 25 240 189 80 11)" -gt 50
 ok "is not written over" test "$(ink 25 240 150 80 50)" -eq "$(ink 42 240 150 80 50)"
 ok "a long message beside it" test "$(ink 42 0 180 240 20)" -gt 200
 
-# --- Automatic mode: time held, stepped, begun again, slower and faster
-auto() { # FRAMES SWITCHES...: the script on standard input, frames into d/
+# --- Automatic mode: time is stopped, stepped, restarted, slowed down and sped up
+auto() { # FRAMES SWITCHES...: plays the script on standard input, and dumps the frames into d/
 	frames=$1
 	shift
 	cat >script
@@ -741,7 +741,7 @@ auto() { # FRAMES SWITCHES...: the script on standard input, frames into d/
 auto 40 </dev/null
 rm -rf plain
 mv d plain
-was() { # FRAME PLAIN: the scene is that of a frame of the run without keys
+was() { # FRAME PLAIN: the scene equals that of frame PLAIN of the run without keys
 	scene "$1" >one
 	sed 1d "$(printf 'plain/F%07d.TXT' "$2")" | diff one -
 }
@@ -778,7 +778,7 @@ END
 ok "the spacing is told" test "$(ink 1 0 185 200 15)" -gt 50
 ok "and frames without keys bear no words" test "$(ink 0 0 0 320 200)" -eq 0
 
-# The next scene: those beside the program, in order.
+# The next scene: the scenes in the program's folder, in order.
 mkdir beside
 cp "$demo" beside/demo
 printf 'title a ball all alone\nsphere a size 11\n' >beside/A.FB
@@ -805,7 +805,7 @@ cp "$demo" none/demo
 FB_INPUT=script none/demo /N:6 /S:8 /D:none/d >out 2>&1
 ok "no scenes: it goes on" test -s none/d/F0000005.PPM
 
-# Films: what was dumped, on 64 and 32 bits, in colour and grey; the first words of a run in real time.
+# Films must show the dumped frames, on 64 and 32 bits, in colour and grey; and the first messages of a run in real time.
 film() { "$top/build/filmtst" "$@"; }
 rm -rf d
 printf '5 key h\n7 key INS\n9 key F1\n11 key F1\n' >script
@@ -833,7 +833,7 @@ ok "not in a run of so many seconds" test "$(ink 0 0 0 320 200)" -eq 0
 ok "a benchmark says one line" sh -c 'test $(wc -l <out) -eq 1 &&
 	grep -q "^four spheres, spacing 8: [0-9.]* frames a second ([0-9]* frames in 1.0[0-9] seconds)$" out'
 
-# --- The same on 32 bits
+# --- The same tests on the 32-bit build
 if [ -x "$top/build/demo32" ] && [ "$DEMO" = build/demo ]; then
 	cat >script <<'END'
 1 key TAB
@@ -851,12 +851,12 @@ END
 	FB_INPUT=script "$demo" /I /N:20 /D:a >out 2>&1
 	FB_INPUT=script "$top/build/demo32" /I /N:20 /D:b >out 2>&1
 	ok "64 bits and 32: the same frames" diff -r a b
-	# And all of the above with the sanitizers looking on, if they are at hand.
+	# All tests above are repeated with the sanitizers, if that build exists.
 	if [ -x "$top/build/san/demo" ]; then
 		(cd "$top" && DEMO=build/san/demo sh tests/edit/run.sh) >san 2>&1
 		ok "under the sanitizers: $(tail -n 1 san)" grep -q ' passed, 0 failed$' san
 	fi
-	# And in DOSBox, by keyboard and mouse.
+	# The tests in DOSBox, by keyboard and mouse.
 	(cd "$top" && sh tests/edit/dos.sh) >dos 2>&1
 	grep -v '^ok ' dos | sed '$d'
 	last=$(tail -n 1 dos)

@@ -1,6 +1,6 @@
 #!/bin/sh
-# The same frames from every build: the 64-bit host, the 32-bit host with the assembly, and DEMO.EXE in DOSBox must dump
-# the same bytes for the same switches. The builds with a Real of floating point must show nearly the same picture.
+# Tests that all builds draw the same frames: the 64-bit host, the 32-bit host with the assembly, and DEMO.EXE in DOSBox must
+# dump the same bytes for the same switches. Builds whose Real is floating point must show nearly the same picture.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 . tests/lib.sh
@@ -14,7 +14,7 @@ same() { # same NAME A B
 	ok "$1" build/samefrm "$2" "$3"
 }
 
-# Frames and switches; DOSBox writes about fifteen frames a second.
+# Each line has a number of frames and switches; DOSBox writes about fifteen frames a second.
 sets='60
 40 /G
 16 /S:1
@@ -37,13 +37,13 @@ number=0
 while read -r frames switches; do
 	number=$((number + 1))
 	label="/N:$frames${switches:+ $switches}"
-	# The switches are words of their own.
+	# The switches must be split into words, so they are not quoted.
 	build/demo /N:"$frames" /D:"$dir/h" $switches >"$dir/h.txt"
 	build/demo32 /N:"$frames" /D:"$dir/w" $switches >"$dir/w.txt"
 	ok "frames dumped, $label" test "$(ls "$dir/h" | grep -c PPM)" -eq "$frames"
 	same "32-bit host, $label" "$dir/h" "$dir/w"
 	same "DEMO.EXE, $label" "$dir/h" "$c/D$number"
-	# Everything but the time taken is the same, too.
+	# The statistics must be the same, too, except for the time taken.
 	grep -v -e '^seconds' -e '^fps' "$dir/h.txt" >"$dir/h.cmp"
 	tr -d '\r' <"$c/OUT$number.TXT" | grep -v -e '^seconds' -e '^fps' >"$dir/c.cmp"
 	ok "statistics of the 32-bit host, $label" cmp "$dir/h.txt" "$dir/w.txt"
@@ -54,13 +54,13 @@ done <"$dir/sets"
 echo "# $total frames from each of three builds"
 ok "a hundred frames and more" test "$total" -ge 100
 
-# The emulator's other way of running code, instruction by instruction; no picture is copied to the card here, which may
-# not change what is dumped.
+# The emulator's other core, which interprets instructions one by one. Here no picture is copied to the card, which must not
+# change what is dumped.
 build/demo /N:3 /D:"$dir/h" >"$dir/h.txt"
 tools/dosbox.sh -c max -o cpu.core=normal -t 120 -d "$c" -- 'DEMO /N:3 /X /D:NORMAL > OUT.TXT'
 same "DEMO.EXE interpreted" "$dir/h" "$c/NORMAL"
 
-# The same program made by DJGPP, where its compiler is.
+# The same program, made by DJGPP if its compiler is installed.
 if command -v "${CROSS:-i586-pc-msdosdjgpp-}g++" >/dev/null; then
 	ok "DJGPP builds it" make -s -f Makefile.djgpp
 	cp build/djgpp/DEMO.EXE "$c/DJDEMO.EXE"
@@ -75,7 +75,7 @@ else
 	echo "# no DJGPP compiler here: its DEMO.EXE was not compared"
 fi
 
-# Seeds that are changed while it runs, and objects moved by the mouse: from a script, host builds only.
+# Seeds are changed while the program runs, and objects are moved by the mouse: from a script, so on the host builds only.
 cat >"$dir/script" <<END
 1 key -
 2 mouse 40 10 L
@@ -91,7 +91,7 @@ for program in demo demo32; do
 done
 same "32-bit host, interactive" "$dir/demo" "$dir/demo32"
 
-# And by a user who tries everything, in folders of their own for what is saved.
+# A user who tries everything, imitated by random input; each run has an empty folder, because it may save files.
 top=$PWD
 for seed in 11 12 13; do
 	awk -v seed=$seed -f tests/san/monkey.awk >"$dir/script"
@@ -103,7 +103,7 @@ for seed in 11 12 13; do
 	same "32-bit host, any keys and moves, $seed" "$dir/mdemo" "$dir/mdemo32"
 done
 
-# Real as float and double.
+# Builds whose Real is float or double.
 for switches in '' '/G /S:1' '/P'; do
 	rm -rf "$dir/h"
 	build/demo /N:40 /D:"$dir/h" $switches >"$dir/h.txt"
@@ -114,7 +114,7 @@ for switches in '' '/G /S:1' '/P'; do
 		ok "nearly the same with $kind $switches" build/samefrm -near "$dir/h" "$dir/f"
 	done
 done
-# That "nearly" is not "anything": the next frame is something else.
+# The next frame must not count as "nearly" the same.
 mkdir "$dir/one" "$dir/two"
 for end in PPM Z TXT; do
 	cp "$dir/h/F0000004.$end" "$dir/one/F0000000.$end"

@@ -1,10 +1,10 @@
-// Holds the dumped frames of two directories against each other, file by file.
+// Compares the dumped frames of two directories file by file.
 //
-//   samefrm A B            they must have the same files with the same bytes
-//   samefrm -near A B      they must have the same frames, and pictures that are nearly the same: for builds with another
-//                          kind of Real, whose seeds round otherwise. Scenes are not compared.
+//   samefrm A B            both must have the same files with the same bytes
+//   samefrm -near A B      both must have the same frames with nearly the same pictures: for builds with another kind of Real,
+//                          whose seeds are rounded differently. Scenes are not compared.
 //
-// Prints one line with what was compared. Exit status 0 when they agree, 1 when not, 2 when a directory cannot be read.
+// Prints one line about what was compared. The exit status is 0 if they agree, 1 if not, 2 if a directory cannot be read.
 #include <dirent.h>
 
 #include <algorithm>
@@ -80,12 +80,12 @@ int exact(const std::string& a, const std::string& b)
     return frames == 0 || differ != 0 || missing != 0;
 }
 
-// What "nearly" means. A seed that rounds otherwise moves the edges of its scale by a pixel, or hides behind another: then
-// a pixel takes on a neighbour's brightness and depth, and none shows where no scale was.
+// Limits for nearly the same pictures. A seed that is rounded differently moves the edges of its scale by a pixel, or is hidden by
+// another seed: a pixel then shows a neighbour's brightness and depth, or the background.
 constexpr int BRIGHTNESS = 24;          // of 255: about 6 of the ramp's 64 steps
 constexpr double DEPTH = 1.0;           // units
-constexpr double UNLIKE_MOST = 0.025;   // share of the drawn pixels that differ by more, mean of the frames
-constexpr double OUTLINE_MOST = 0.005;  // share that is drawn in one picture only
+constexpr double UNLIKE_MOST = 0.025;   // greatest share of drawn pixels that differ by more, on average over the frames
+constexpr double OUTLINE_MOST = 0.005;  // greatest share of pixels drawn in only one of the pictures
 
 int near(const std::string& a, const std::string& b)
 {

@@ -1,16 +1,16 @@
-// Feeds random scenes (scenes.h) to the reader, in process: some as they are made, without a mistake, some with slips, and
-// both and the FILEs changed at random. It asks of each:
+// Feeds random scenes (scenes.h) to the reader, in process: scenes without a mistake, scenes with slips, and both of these and
+// the FILEs after random changes. It checks for each scene:
 //
-//   - it is read, or refused with one line of plain text that names the file; without a mistake it is read, unless there
-//     are more objects, keys or motions than there may be;
-//   - what was read is moved about in time, written, and read again: the same objects at the same places, and the same
-//     text the second time.
+//   - The scene is read, or it is refused with one line of plain text that names the file. A scene without a mistake is read,
+//     unless it has more objects, keys or motions than are allowed.
+//   - A scene that was read is shown at several times, written, and read again: this gives the same objects at the same
+//     places, and writing it again gives the same text.
 //
-//   fuzz COUNT SEED FILE...     COUNT scenes, the FILEs first; the same ones for the same seed
-//   fuzz --draw COUNT SEED FILE...   the same, and every one in sixteen that is read is settled and drawn as well
+//   fuzz COUNT SEED FILE...          COUNT scenes, the FILEs first; the same SEED gives the same scenes
+//   fuzz --draw COUNT SEED FILE...   also settles and draws one in sixteen of the scenes that are read
 //
-// Crashes, undefined behaviour and leaks are for the sanitizers to find, with which this is built; an input that takes
-// longer than ten seconds counts as a hang. What fails is left in build/fuzzfail.fb.
+// The program is built with the sanitizers, which find crashes, undefined behaviour and leaks. An input that takes longer
+// than ten seconds counts as a hang. The input that failed is left in build/fuzzfail.fb.
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
@@ -54,7 +54,7 @@ void onAlarm(int)
     alarm(10);
 }
 
-// The sanitizers stop the program by way of this: the input is kept.
+// The sanitizers call this before they stop the program, so that the input is kept.
 extern "C" void __sanitizer_set_death_callback(void (*callback)(void));
 void onDeath()
 {
@@ -73,7 +73,7 @@ bool putLine(void* to, const char* line)
     return true;
 }
 
-// Whether the objects i and j blend, and j digs into i, alike in both models.
+// Returns whether objects i and j are linked, and j digs into i, with the same weights in both models.
 bool sameLinks(const Model& model, const Model& again, int i, int j)
 {
     const SoftObject *a = model.actor(i).object, *b = model.actor(j).object;
@@ -85,7 +85,7 @@ bool sameLinks(const Model& model, const Model& again, int i, int j)
     return Model::dented(a, b, &weight) == Model::dented(a2, b2, &weight2) && weight == weight2;
 }
 
-// Whether two items have the same measures, and are stretched, tapered, twisted and bent alike, now and in motion.
+// Returns whether two items have the same measures, stretch, taper, twist and bend, and the same motions of these.
 bool sameShape(const Actor& a, const Actor& b)
 {
     for (int i = 0; i < MEASURES_MOST; ++i)
@@ -269,7 +269,7 @@ int main(int count, char** arguments)
             ++drawn;
             draw(model, random.once(4));
         }
-        // Some of what is taken lives on, so that changes add up.
+        // Some of the accepted scenes are kept for further changes, so that changes accumulate.
         if (random.once(8)) {
             if (pool.size() < given + 400)
                 pool.push_back(current);

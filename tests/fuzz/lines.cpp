@@ -1,11 +1,11 @@
-// Random command lines: read in process, and some of them given to the program.
+// Random command lines: parsed in process, and some of them given to the program.
 //
-//   fuzzline COUNT SEED                  COUNT command lines to parseOptions(); the same ones for the same seed
-//   fuzzline --run DEMO DIR COUNT SEED   COUNT command lines to the program DEMO, in the folder DIR, where ONE.FB is a scene
+//   fuzzline COUNT SEED                  gives COUNT command lines to parseOptions(); the same SEED gives the same lines
+//   fuzzline --run DEMO DIR COUNT SEED   runs the program DEMO with COUNT command lines in the folder DIR, where ONE.FB is a scene
 //
-// Half of the lines are put together of switches that are good; then every value that the program reads is known, and is
-// compared. The others have slips, or are any bytes. Whatever is said must be one line of plain text that begins with an
-// argument; the program must end with status 0, 1 or 2, by itself, and with 2 have played nothing.
+// Half of the lines consist of valid switches; for these every value that the program reads is known and is compared. The
+// other lines have slips or consist of random bytes. A complaint must be one line of plain text that begins with an
+// argument. The program must end by itself, with status 0, 1 or 2; with status 2 it must not have played anything.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -22,7 +22,7 @@
 
 namespace {
 
-// A command line, and what it asks for if it is good.
+// A command line, and the options it asks for if it is valid.
 struct Line {
     std::vector<std::string> words;
     Options wanted;
@@ -52,7 +52,7 @@ private:
 
     bool slip() { return slips_ && random_.once(12); }
 
-    // Switches in one word, or the scene.
+    // Adds one word to the line: several switches, or the name of the scene.
     void word()
     {
         std::string word;
@@ -70,7 +70,7 @@ private:
 
     bool scene_ = false;
 
-    // One more switch; false when nothing can follow it.
+    // Appends one switch to the word. Returns false when nothing can follow the switch.
     bool one(std::string& word)
     {
         word += word.empty() && random_.once(3) ? '-' : '/';
@@ -79,7 +79,7 @@ private:
         const char* const names = "DMOA";
         const size_t kind = random_.below(10);
         if (slip()) {
-            // No switch that there is; more may come to be than there are today.
+            // No switch has one of these letters; a letter that becomes a switch must be removed here.
             word += "QWZ!0~\x80"[random_.below(7)];
             line_.good = false;
             return true;
@@ -101,7 +101,7 @@ private:
             number(word, numbers[kind - 4]);
             return true;
         }
-        // One scene is enough.
+        // Only one scene is allowed.
         char which = names[random_.below(4)];
         which = scene_ && which == 'M' ? 'D' : which;
         put(word, which);
@@ -110,7 +110,7 @@ private:
             line_.good = false;
             return false;
         }
-        // A film may replace a file; none of the others here.
+        // Only a film may replace an existing file; the other names here must be new.
         const std::string value = (which == 'A' ? "f" : "") + name(true);
         word += value;
         (which == 'D' ? line_.dump : which == 'M' ? line_.model : which == 'A' ? line_.film : line_.record) = value;
@@ -123,7 +123,7 @@ private:
     void number(std::string& word, char letter)
     {
         put(word, letter);
-        // /S2 as well as /S:2 and /S=2.
+        // A number may follow its switch directly (/S2) or after a mark (/S:2 and /S=2).
         const size_t mark = random_.below(3);
         word += mark == 0 ? "" : mark == 1 ? ":" : "=";
         char text[40];
@@ -132,7 +132,7 @@ private:
             static const char* const BAD[] = {"",     "0",        "-1",       "x",       "1x",    "9999999999",
                                               "0.2",  "8.01",     "10000000", "1e1",     "86401", "1001",
                                               "0x10", "\xb2\x07", "+",        "1.2.3.4", ":",     "="};
-            // What is out of range for one may be in range for another.
+            // A number that is out of range for one switch may be valid for another.
             std::string bad = BAD[random_.below(sizeof BAD / sizeof BAD[0])];
             if ((letter == 'S' && bad == "1001") || (letter == 'N' && (bad == "86401" || bad == "1001")) ||
                 (letter == 'T' && bad == "1001"))
@@ -143,7 +143,7 @@ private:
         Options& o = line_.wanted;
         switch (letter) {
         case 'S': {
-            // Sixteenths: exact in binary and in six decimals.
+            // Sixteenths are exact in binary and in six decimals.
             const int sixteenths = 4 + static_cast<int>(random_.below(125));
             snprintf(text, sizeof text, "%.*f", random_.once(2) && sixteenths % 16 == 0 ? 0 : 4, sixteenths / 16.0);
             o.spacing = Real(sixteenths) / Real(16);
@@ -171,7 +171,7 @@ private:
         return random_.once(4) ? (random_.once(2) ? 1 : most) : 1 + static_cast<int32_t>(random_.below(static_cast<size_t>(most)));
     }
 
-    // A file's name: after a switch anything but nothing, alone no switch.
+    // Returns a file name: any non-empty text behind a switch; a name that stands alone must not look like a switch.
     std::string name(bool behindSwitch)
     {
         static const char* const NAMES[] = {"ONE.FB", "one", "ONE", "none", "out", "a/b", "R.CSV", "a b", "\xc3\xa4\n", "x:y", "."};
@@ -183,7 +183,7 @@ private:
         return name;
     }
 
-    // Any bytes but the end, at any place.
+    // Changes bytes at random places, to any value except the terminating 0.
     void spoil(std::string& word)
     {
         line_.good = false;
@@ -201,7 +201,7 @@ private:
     }
 
 public:
-    // The last line may be good all the same.
+    // Tells whether the last line was spoiled; a spoiled line may still be valid.
     bool spoiled_ = false;
     void begin()
     {
@@ -300,10 +300,10 @@ std::string read(const char* name)
     return text;
 }
 
-// Runs the program; what it says is left in files.
+// Runs the program; its output is left in files.
 void run(const char* program, unsigned long* status)
 {
-    // Short, whatever the line asks for; a line that was bad is bad all the same.
+    // The run is kept short whatever the line asks for; an invalid line stays invalid.
     line.words.push_back("/N:1");
     line.words.push_back("/S:8");
     std::vector<char*> arguments = pointers(program);
@@ -324,7 +324,7 @@ void run(const char* program, unsigned long* status)
         failed("ended badly", err.c_str());
     const int code = WEXITSTATUS(ended);
     ++status[code];
-    // The run has /N and /S: a rate to be held is ignored, and that is said.
+    // The run has /N and /S, so a frame rate asked for is ignored, and the program says so.
     if (code == 0 && !err.empty() && err != "/F has no effect with /N or /S.\n")
         failed("a good end, with complaints", err.c_str());
     const char* figures = line.wanted.benchmark ? "(1 frames in " : "frames: 1\n";

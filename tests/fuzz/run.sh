@@ -1,10 +1,10 @@
 #!/bin/sh
-# Random scenes to the reader and random command lines to the program, all under the sanitizers.
+# Gives random scenes to the reader and random command lines to the program, all under the sanitizers.
 #
 #   sh tests/fuzz/run.sh [SCENES [LINES [RUNS [SEED]]]]
 #
-# SCENES scenes are read (20000 by default; the full test is 100000), and a hundredth as many drawn; LINES command lines are
-# read (20000; 200000), and RUNS given to the program (100; 2000). The last line is "N passed, N failed".
+# The reader gets SCENES scenes (20000 by default; the full test uses 100000); one in a hundred is drawn as well. LINES command
+# lines are parsed (20000; 200000), and RUNS are given to the program (100; 2000). The last line is "N passed, N failed".
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 . tests/lib.sh
@@ -17,7 +17,7 @@ corpus="tests/fuzz/corpus/*.FB tools/scenes/*.FB tests/scenes/hurt/*.FB"
 mkdir "$dir/runs"
 printf 'title One\nsphere a size 30 colour pink\ncircle a radius 10 period 5\n' >"$dir/runs/ONE.FB"
 
-# fuzz NAME COMMAND...: one check; what it counted is shown.
+# fuzz NAME COMMAND...: runs one check and shows what it has counted.
 fuzz() {
 	ok "$@"
 	sed 's/^/# /' "$dir/said"

@@ -1,11 +1,11 @@
-// Scenes at random.
+// Makes random scenes and random changes of scene texts.
 #include "scenes.h"
 
 #include <cstdio>
 
 namespace {
 
-// What may stand where something else is expected.
+// Words that are used where something else is expected.
 const char* const ODD[] = {"", "-", ".", "--1", "1e5", "0x10", "nan", "32768", "-32768", "99999999999999999999", "0.0000001",
                            "+5", "5-", "\x01\x02", "\xc3\xa4", "#", "#ff", "all", "repeat", "sphere", "1,5", "\t7\t"};
 constexpr size_t ODD_COUNT = sizeof ODD / sizeof ODD[0];
@@ -37,7 +37,7 @@ private:
     struct Item {
         std::string name;
         bool group;
-        size_t count;  // 1: no row
+        size_t count;  // 1 if the item is not a row
         double keyTime = -1;
         double repeat = 0;
     };
@@ -74,7 +74,7 @@ private:
         case 1: snprintf(text, sizeof text, "%.1f", value); break;
         default: snprintf(text, sizeof text, "%d", static_cast<int>(value)); break;
         }
-        // Rounding may have left the range.
+        // Rounding may have moved the value out of its range.
         double back = 0;
         sscanf(text, "%lf", &back);
         if (back < low || back > high)
@@ -90,7 +90,7 @@ private:
 
     void direction()
     {
-        // Never 0 0 0.
+        // The direction is never 0 0 0, because y is at least 1.
         number(-250, 250);
         number(1, 250);
         number(-250, 250);
@@ -144,12 +144,12 @@ private:
         if (slip())
             return items_.empty() ? "all" : items_[random_.below(items_.size())].name;
         char text[24];
-        // Letters behind the number: a row's name and a number are never another item's.
+        // Letters follow the number, so that a name made of a row's name and a number is never the name of another item.
         snprintf(text, sizeof text, "n%zu%s", items_.size(), count > 99 ? "-row" : random_.once(3) ? "_longer" : "x");
         return text;
     }
 
-    // A name of something that is there; of a row, one of its items at times.
+    // Returns the name of an existing item.
     std::string known(const Item& item)
     {
         if (slip())
@@ -221,7 +221,7 @@ private:
         for (size_t i = random_.below(4); i > 0; --i) {
             switch (random_.below(6)) {
             case 5:
-                // What keeps the largest of its kind within 100 units.
+                // These factors keep the largest object of each kind within 100 units.
                 if (!group) {
                     word("stretch");
                     for (int part = 0; part < 3; ++part)
@@ -246,7 +246,7 @@ private:
                 }
                 break;
             case 3: {
-                // A parent that is no row.
+                // A parent must not be a row.
                 if (random_.once(20)) {
                     word("in");
                     word("eye");
@@ -281,7 +281,7 @@ private:
         items_.push_back({name, group, count});
     }
 
-    // From the first line on that moves the eye it is an item, and its parents are those before it.
+    // From the first line that moves the eye, the eye is an item; its parents must come before that line.
     void eyeMoves()
     {
         if (!eyeIsItem_)
@@ -553,7 +553,7 @@ private:
             }
             break;
         default:
-            // A line that says nothing.
+            // An empty line.
             if (slip())
                 word(ODD[random_.below(ODD_COUNT)]);
             break;
@@ -562,7 +562,7 @@ private:
     }
 };
 
-// Words of the language, for changes.
+// Words of the language, for random changes.
 const char* const WORDS[] = {
     "colours", "mixed", "finish", "shiny", "mirror", "pattern", "checks", "stripes", "marble",
     "sphere", "cylinder", "torus", "disc", "cone", "box", "group", "blend", "dent", "strength", "circle", "path", "spin",
@@ -577,7 +577,7 @@ struct Place {
     size_t at, length;
 };
 
-// All words of a text.
+// Returns the places of all words of a text.
 std::vector<Place> wordsOf(const std::string& text)
 {
     std::vector<Place> all;
@@ -592,7 +592,7 @@ std::vector<Place> wordsOf(const std::string& text)
     return all;
 }
 
-// All lines, each with its end.
+// Returns the places of all lines, each including its line end.
 std::vector<Place> linesOf(const std::string& text)
 {
     std::vector<Place> all;
@@ -609,7 +609,7 @@ std::vector<Place> linesOf(const std::string& text)
 
 uint64_t Random::next()
 {
-    // xorshift64*, from a state that is never 0.
+    // The generator is xorshift64*, whose state must never be 0.
     uint64_t x = state_ == 0 ? 0x9e3779b97f4a7c15u : state_;
     x ^= x >> 12;
     x ^= x << 25;
@@ -634,7 +634,7 @@ void change(Random& random, std::string& text, const std::string& other)
         case 0: text.replace(word.at, word.length, WORDS[random.below(sizeof WORDS / sizeof WORDS[0])]); break;
         case 1: text.replace(word.at, word.length, ODD[random.below(ODD_COUNT)]); break;
         case 2: {
-            // Two words change places with what is between them.
+            // Two words are exchanged.
             const Place second = words.empty() ? Place{0, 0} : words[random.below(words.size())];
             if (word.at + word.length <= second.at) {
                 const std::string a = text.substr(word.at, word.length), b = text.substr(second.at, second.length);
@@ -664,7 +664,7 @@ void change(Random& random, std::string& text, const std::string& other)
                 text[random.below(text.size())] = static_cast<char>(random.next());
             break;
         case 9: {
-            // A digit more, less, or another.
+            // A digit is added, removed or replaced.
             const size_t digit = text.find_first_of("0123456789", random.below(text.size() + 1));
             if (digit != std::string::npos) {
                 const char fresh = static_cast<char>('0' + random.below(10));

@@ -1,14 +1,12 @@
 // Tests of the picture tools with a decoder of their own.
 //
-//   picstst make DIR                frames that are awkward to compress
+//   picstst make DIR                writes frames that are hard to compress
 //   picstst gif FILE DIR SCALE 43|- OFF DELAY FRAME...
-//                                   the GIF shows just these frames of DIR, no
-//                                   sample further off than OFF
-//   picstst png FILE PPM SCALE 43|-  the PNG is the picture
+//                                   the GIF must show exactly these frames of DIR, with no sample off by more than OFF
+//   picstst png FILE PPM SCALE 43|-  the PNG must show the picture
 //
-// This file exists so that the tools are tested where no other program that
-// reads these formats is installed. The decoders are written from the formats'
-// descriptions, not from the encoders.
+// This file exists so that the tools are tested even where no other program that reads these formats is installed. The
+// decoders are written from the descriptions of the formats, not from the encoders.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -190,7 +188,7 @@ static uint32_t crcTable(uint8_t n) {
   return c;
 }
 
-// zlib data in blocks of fixed codes or stored ones.
+// Unpacks zlib data that consists of stored blocks and blocks of fixed codes.
 static Bytes inflate(const Bytes &in) {
   static const int lengths[] = {3,  4,  5,  6,  7,  8,  9,  10, 11,  13,  15,  17,  19,  23, 27,
                                 31, 35, 43, 51, 59, 67, 83, 99, 115, 131, 163, 195, 227, 258};
@@ -309,11 +307,11 @@ static void make(const std::string &dir) {
         uint8_t *p = &rgb[3 * (y * 320 + x)];
         int v = 0;
         if (n == 1 || n == 2) v = std::max(0, 255 - ((x - 100 - 9 * n) * (x - 100 - 9 * n) + (y - 90) * (y - 90)) / 9);
-        if (n == 3) v = (int)noise();              // all of 256 greys, no order
-        if (n == 4 || n == 5) v = (x + y) % 2 * 255;   // and the same again
+        if (n == 3) v = (int)noise();              // all 256 greys in random order
+        if (n == 4 || n == 5) v = (x + y) % 2 * 255;   // two greys in alternation; frames 4 and 5 are the same
         p[0] = p[1] = p[2] = (uint8_t)v;
-        if (n == 6) p[0] = (uint8_t)x, p[1] = (uint8_t)y;         // thousands
-        if (n == 7) p[0] = (uint8_t)(x / 20 * 16), p[1] = (uint8_t)(y / 13 * 16);   // hundreds
+        if (n == 6) p[0] = (uint8_t)x, p[1] = (uint8_t)y;         // thousands of colours
+        if (n == 7) p[0] = (uint8_t)(x / 20 * 16), p[1] = (uint8_t)(y / 13 * 16);   // hundreds of colours
       }
     char name[32];
     std::snprintf(name, sizeof name, "/F%07d.PPM", n);
@@ -330,7 +328,7 @@ int main(int argc, char **argv) {
   if (what == "make" && argc == 3) {
     make(argv[2]);
   } else if (what == "gif" && argc >= 7) {
-    // The frames wanted follow by number, the delay before them.
+    // The arguments that follow are the frame numbers, after the delay.
     int delay = -1;
     std::vector<Rgb> frames = readGif(argv[2], delay);
     if (delay != std::atoi(argv[7])) fail("delay " + std::to_string(delay));

@@ -1,7 +1,6 @@
 #!/bin/sh
-# Tests of the picture tools: what mkgif and ppm2png write is read back by the
-# test's own decoder and held against the frames it was made from.
-# Run from the top of the tree. The last line is "N passed, N failed".
+# Tests of the picture tools: the test's own decoder reads what mkgif and ppm2png write, and compares it with the frames from
+# which it was made. Run it from the top of the tree. The last line is "N passed, N failed".
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 make -s -f tools/pics.mk build/mkgif build/ppm2png build/picstst || exit 1
@@ -32,7 +31,7 @@ says() { # says TEXT COMMAND...: ends with 2 and one line that has the text
 
 mkdir "$dir/f"
 $test make "$dir/f" || exit 1
-# Frames 0 to 5 have 256 greys together: exact, one palette.
+# Frames 0 to 5 have 256 greys together, so one exact palette is possible.
 ok "greys" $gif --to 5 "$dir/a.gif" "$dir/f"
 ok "greys read back" $test gif "$dir/a.gif" "$dir/f" 1 - 0 10 0 1 2 3 4 5
 $gif --to 5 --43 --delay 7 "$dir/a.gif" "$dir/f" >"$dir/log"
@@ -44,7 +43,7 @@ ok "every second" $gif --from 1 --to 5 --every 2 "$dir/a.gif" "$dir/f"
 ok "every second read back" $test gif "$dir/a.gif" "$dir/f" 1 - 0 10 1 3 5
 ok "one frame of one colour" $gif --to 0 "$dir/a.gif" "$dir/f"
 ok "one frame of one colour read back" $test gif "$dir/a.gif" "$dir/f" 1 - 0 10 0
-# Frame 7 has 256 colours of its own, more with the others: still exact.
+# Frame 7 has 256 colours of its own, and the frames together have more: the colours must still be exact.
 ok "a palette for each" $gif --from 3 --to 7 --every 4 "$dir/a.gif" "$dir/f"
 ok "a palette for each read back" $test gif "$dir/a.gif" "$dir/f" 1 - 0 10 3 7
 ok "too many colours" $gif --from 6 --to 6 "$dir/a.gif" "$dir/f"
@@ -55,13 +54,13 @@ for n in 0 1 3 6 7; do
 done
 ok "large png" $png --scale 3 --43 "$dir/f/F0000001.PPM" "$dir/a.png"
 ok "large png read back" $test png "$dir/a.png" "$dir/f/F0000001.PPM" 3 43
-# The decoder itself: it must notice damage.
+# The decoder itself must notice damage.
 ok "small png" $png "$dir/f/F0000001.PPM" "$dir/a.png"
 printf '\125' | dd of="$dir/a.png" bs=1 seek=2000 conv=notrunc 2>/dev/null
 ok "a damaged png is noticed" sh -c "! $test png '$dir/a.png' '$dir/f/F0000001.PPM' 1 -"
 $gif --to 2 "$dir/a.gif" "$dir/f" >/dev/null
 ok "another frame is noticed" sh -c "! $test gif '$dir/a.gif' '$dir/f' 1 - 0 10 0 2 2"
-# Trouble: one line, status 2.
+# Errors give one line and status 2.
 ok "no directory" says "$dir/none" $gif "$dir/a.gif" "$dir/none"
 ok "no frames" says "no frames" $gif --from 50 "$dir/a.gif" "$dir/f"
 ok "unwritable gif" says "cannot be written" $gif "$dir/none/a.gif" "$dir/f"

@@ -1,5 +1,5 @@
-// Cores against the formula in double precision, wherever an object stands; and whether the seeds rest on the surface
-// and keep to it, as far as the own field goes, all along their paths.
+// Compares the fields of the cores with the formula in double precision, for objects in any position; and tests that the seeds
+// rest on the surface and that the object's own field changes along their paths as it should.
 #include "prims.h"
 
 #include <cstdio>
@@ -22,7 +22,7 @@ double geoffExact(double t)
     return t >= 1 ? 0 : 1 + t * (-22 / 9.0 + t * (17 / 9.0 - t * 4 / 9.0));
 }
 
-// A point of the world in the object's own space, as it was made.
+// Returns a world point in the object's own space, as the object was made.
 Vec inOwn(const SoftObject& object, const Sample& sample, Vec p)
 {
     const Vec v = p - vec(object.centre());
@@ -58,12 +58,12 @@ void testField(const Sample& sample)
         const double reach = number(object->reach());
         for (int i = 0; i < 1000; ++i) {
             const Vec from = vec(object->centre());
-            // Near ones, and some far off: up to 500 units away in each direction.
+            // Three of four points are near the object; the others are up to 500 units away in each direction.
             const double most = i % 4 == 0 ? 500 : 1.2 * reach;
             const Vec p = from + Vec{between(-most, most), between(-most, most), between(-most, most)};
             const double t = sample.param(inOwn(*object, sample, p));
             const double f = number(object->fieldFunc(toReal(p)));
-            // The place in core space, and as it comes back from there.
+            // The point in core space; fromCore() gives its vector from the core.
             const Real perUnit = Real(CORE_SIZE) / object->size();
             const Vector q = object->unstretched(object->toOwnAxes(toReal(p) - object->centre())) * perUnit;
             const bool inRange =
@@ -75,7 +75,7 @@ void testField(const Sample& sample)
                 const double exact = std::sqrt(t) * CORE_SIZE;
                 far = std::fmax(far, std::fabs(d - exact) / (1 + d));
             }
-            // The slope is half the gradient, with lengths of core space, times CORE_SIZE squared.
+            // The slope is half the gradient, in lengths of core space, times CORE_SIZE squared.
             if (inRange && t > 0.02 && t < 0.9) {
                 Vector s;
                 object->param(q, &s);
@@ -122,13 +122,13 @@ void testSeeds(const Sample& sample, bool posed)
         if (std::string(sample.kind) != "cone" && !sample.stretched())
             longest = std::fmax(longest, std::fabs(size(path) - radius));
         for (double position = 0.5; position < 1.9; position += 0.2) {
-            // In the hole of a torus the other side is nearer at the end.
+            // In the hole of a torus the other side of the ring is nearer to the end of a path.
             const double t = sample.param(inOwn(*object, sample, root + path * position)), own = position * position / 4;
             if (std::string(sample.kind) == "torus" && t < own)
                 continue;
             along = std::fmax(along, std::fabs(t - own));
         }
-        // An oversampled seed lies between S and N.
+        // An oversampled seed lies between its seed and that seed's neighbour.
         if ((i & 1) != 0) {
             const Seed& before = object->seed(i - 1);
             const Seed& n = object->seed(before.neighbour);
@@ -143,18 +143,18 @@ void testSeeds(const Sample& sample, bool posed)
     check(longest < 0.002, "%s: paths off the radius by %g", name.c_str(), longest);
     check(apart < (sample.stretched() ? 4 : 3.2), "%s: an oversampled seed lies %g from its neighbours", name.c_str(), apart);
     const std::string kind = sample.kind;
-    // Stretched rings away from the axis have roots of their own.
+    // Rings of stretched objects that are away from the axis have roots of their own.
     if (sample.stretched())
         return;
     if (kind == "sphere")
         check(roots.size() == 1, "%s: %zu roots", name.c_str(), roots.size());
-    // Rings on the spine share a root, caps too.
+    // The seeds of a ring on the axis share a root, and so do those of a cap.
     if (kind == "cylinder" || kind == "cone")
         check(roots.size() <= static_cast<size_t>(sample.measure * (posed ? 1.7 : 1) * 0.8 + 4), "%s: %zu roots", name.c_str(),
               roots.size());
     if (kind == "box" && sample.reach() == 0)
         check(roots.size() == 1, "%s: %zu roots", name.c_str(), roots.size());
-    // Halves that mirror each other share theirs.
+    // Seeds of halves that mirror each other share roots.
     if (kind == "torus" || (kind == "disc" && sample.measure > 0))
         check(roots.size() <= static_cast<size_t>(object->seeds() * 6 / 10 + 4), "%s: %zu roots, %d seeds", name.c_str(),
               roots.size(), object->seeds());
@@ -164,7 +164,7 @@ void describes(const SoftObject& object, const char* expected)
 {
     char text[200];
     object.describe(text, sizeof text);
-    // Ends of the core come out of a turn: compared as numbers.
+    // The ends of a turned core are not exact, so numbers are compared as numbers.
     bool same = true;
     const char *a = text, *b = expected;
     while (*a && *b) {
@@ -181,7 +181,7 @@ void describes(const SoftObject& object, const char* expected)
     check(same && *a == *b, "described as '%s', not '%s'", text, expected);
 }
 
-// Seeds of an object of any strength rest where its surface is; or where weak ones have them.
+// The seeds of an object of any strength must rest on its surface or, if it is too weak to have a surface, at restParam().
 void testStrength(const Sample& sample, double strength)
 {
     Object object = sample.make();
@@ -216,7 +216,7 @@ void testCores()
             testSeeds(sample, true);
         }
 
-    // The words of a dump, in the world: a quarter turn about z takes y to -x.
+    // Tests the words of a dump, in world coordinates: a quarter turn about z takes y to -x.
     const Vector z{Real(0), Real(0), Real(1)};
     for (const Sample& sample : FEW) {
         Object object = sample.make(3);
@@ -231,7 +231,7 @@ void testCores()
                                                 : "box 3 1.5 -2 30 0 1 0 -1 0 0 24 16 12 14");
     }
 
-    // Measures out of range.
+    // Measures out of range are limited.
     describes(*Object(make<Cylinder>(1, Real(10), Real(-5))), "cylinder 1 0 0 0 0 0 0 10");
     describes(*Object(make<Torus>(1, Real(16), Real(3))), "torus 1 0 0 0 0 1 0 10 16");
     describes(*Object(make<Disc>(1, Real(10), Real(-1))), "disc 1 0 0 0 0 1 0 0 10");

@@ -1,4 +1,4 @@
-// Small scenes with every primitive, alone, turned, and blending, as frames for the yardstick.
+// Draws small scenes with every primitive, alone, turned, and blending, as frames for the yardstick.
 #include "prims.h"
 
 #include <cstdio>
@@ -14,14 +14,14 @@ namespace {
 
 constexpr int FRAMES = 12;
 
-// A scene: its objects, and what it does to them before a frame.
+// A scene: its objects, their relations, and a function that moves the objects before each frame.
 struct Play {
     std::string name;
     double spacing;
     std::vector<Object> objects;
     std::vector<std::pair<int, int>> links;
     std::function<void(std::vector<SoftObject*>&, int frame)> move;
-    std::vector<std::pair<int, int>> dents = {};  // the second digs into the first
+    std::vector<std::pair<int, int>> dents = {};  // the second object of a pair digs into the first
     double dentWeight = 1;
     std::vector<double> strengths = {};
 };
@@ -86,7 +86,7 @@ Point point(double x, double y, double z)
     return {real(x), real(y), real(z)};
 }
 
-// A turn that shows an object from all sides in the course of a scene.
+// Turns an object a little, so that the frames of a scene show it from all sides.
 void tumble(SoftObject* object, int frame)
 {
     if (frame > 0)
@@ -103,14 +103,14 @@ int drawScenes(const char* directory)
     for (const double spacing : {2.0, 1.0})
         for (const Sample& sample : FEW) {
             const std::string end = spacing == 2 ? "" : "_1";
-            // Turning on the spot, off the middle of the picture.
+            // The object turns on the spot, away from the middle of the picture.
             Play alone{sample.kind + ("_turned" + end), spacing, {}, {}, nullptr};
             alone.objects.push_back(sample.make(1));
             alone.objects[0]->moveTo(point(-8, 5, 10));
             alone.move = [](std::vector<SoftObject*>& o, int frame) { tumble(o[0], frame); };
             plays.push_back(std::move(alone));
 
-            // A ball passes by.
+            // A ball passes by the object.
             Play ball{sample.kind + ("_ball" + end), spacing, {}, {{0, 1}}, nullptr};
             ball.objects.push_back(sample.make(1));
             ball.objects.push_back(FEW[0].make(2));
@@ -120,7 +120,7 @@ int drawScenes(const char* directory)
             };
             plays.push_back(std::move(ball));
 
-            // Two of a kind, one across the other, drawing apart.
+            // Two crossed objects of one kind draw apart.
             Play pair{sample.kind + ("_pair" + end), spacing, {}, {{0, 1}}, nullptr};
             pair.objects.push_back(sample.make(1));
             pair.objects.push_back(sample.make(2));
@@ -133,7 +133,7 @@ int drawScenes(const char* directory)
             plays.push_back(std::move(pair));
         }
 
-    // Stretched and warped ones: alone, and in one heap with a ball.
+    // Stretched and warped objects: each alone, and all in one heap with a ball.
     const std::vector<Sample> shapes = {
         {"sphere", 30, 0, 0, 0, 0, {1.8, 1, 0.6}}, {"cylinder", 14, 0, 36}, {"box", 12, 0, 16, 36, 8}};
     const auto sway = [](std::vector<SoftObject*>& o, int frame) {
@@ -163,7 +163,7 @@ int drawScenes(const char* directory)
         plays.push_back(std::move(heap));
     }
 
-    // A long one close to the viewer, who sees its ends from quite different sides, and a ball along it.
+    // A long object close to the viewer, who sees its ends from quite different sides, and a ball that moves along the object.
     for (const double spacing : {2.0, 1.0}) {
         Play near{spacing == 2 ? "near" : "near_1", spacing, {}, {{0, 1}}, nullptr};
         near.objects.push_back(Sample{"cylinder", 14, 0, 90}.make(1));
@@ -178,7 +178,7 @@ int drawScenes(const char* directory)
         plays.push_back(std::move(near));
     }
 
-    // Each kind with a ball that digs into it and passes by, and a large ball that each kind digs into.
+    // Each kind with a ball that digs into it and passes by, and a large ball into which each kind digs.
     for (const double spacing : {2.0, 1.0})
         for (const Sample& sample : FEW) {
             const std::string end = spacing == 2 ? "" : "_1";
@@ -201,7 +201,8 @@ int drawScenes(const char* directory)
             plays.push_back(std::move(digs));
         }
 
-    // A hollow across two that blend, one of them strong; and a weak ball, a strong one and one that is nothing alone in a row.
+    // An object digs a hollow across two blending balls, one of them strong. In the other scene a weak ball, a strong one and one
+    // too weak to have a surface alone stand in a row.
     for (const double spacing : {2.0, 1.0}) {
         const std::string end = spacing == 2 ? "" : "_1";
         Play across{"across" + end, spacing, {}, {{0, 1}}, nullptr, {{0, 2}, {1, 2}}, 0.8, {1, 1.5, 1}};
@@ -225,7 +226,7 @@ int drawScenes(const char* directory)
         plays.push_back(std::move(strengths));
     }
 
-    // All kinds in one heap.
+    // All kinds blend in one heap.
     for (const double spacing : {2.0, 1.0}) {
         Play heap{spacing == 2 ? "heap" : "heap_1", spacing, {}, {}, nullptr};
         for (size_t i = 0; i < FEW.size(); ++i) {
@@ -242,7 +243,7 @@ int drawScenes(const char* directory)
         };
         plays.push_back(std::move(heap));
 
-        // Scaled up and down.
+        // All kinds are scaled up and down.
         Play pulse{spacing == 2 ? "pulse" : "pulse_1", spacing, {}, {}, nullptr};
         for (size_t i = 0; i < FEW.size(); ++i) {
             pulse.objects.push_back(FEW[i].make(static_cast<int>(i + 1)));

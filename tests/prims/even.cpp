@@ -1,4 +1,4 @@
-// How evenly seeds lie: for every seed the distance to its nearest neighbour, against the spacing asked for.
+// Tests how evenly seeds lie: compares every seed's distance from its nearest neighbour with the required spacing.
 #include "prims.h"
 
 #include <algorithm>
@@ -7,7 +7,8 @@
 
 namespace {
 
-// Distances of each point to the nearest other one; looked for in cells of `cell`, and further cells when need be.
+// Returns for each point the distance to the nearest other point. Points are sorted into cells of width `cell`; the search
+// goes on to further cells as long as they may hold a nearer point.
 std::vector<double> nearest(const std::vector<Vec>& points, double cell)
 {
     const auto key = [&](int x, int y, int z) {
@@ -48,7 +49,7 @@ void testEvenness(bool table)
     for (const Sample& sample : all) {
         const double most = sample.stretched() ? 0.5 : 0.35;
         for (const double spacing : {0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0}) {
-            // What is thinner than the spacing has seeds of both its sides near each other.
+            // On an object thinner than the spacing, seeds of opposite sides are near each other.
             const double thinnest = std::fmin(sample.size, sample.size2 > 0 ? sample.size2 : sample.size) / 2 *
                                     std::fmin(sample.stretch.x, std::fmin(sample.stretch.y, sample.stretch.z));
             if (sample.stretched() && thinnest < 1.5 * spacing)
@@ -73,7 +74,7 @@ void testEvenness(bool table)
                             100 * *std::min_element(distances.begin(), distances.end()) / spacing,
                             100 * sum / static_cast<double>(distances.size()) / spacing,
                             100 * *std::max_element(distances.begin(), distances.end()) / spacing, share);
-            // Where rings about a pole are flat, a handful lie nearer.
+            // A few seeds lie closer together where the rings about a pole are flattened by the stretch.
             const bool even = share >= 99 || (sample.stretched() && (share >= 98 || distances.size() - good <= 8));
             check(even, "%s, spacing %g: nearest neighbours of %.2f%% of seeds lie within %g%% of it", sample.name().c_str(),
                   spacing, share, 100 * most);

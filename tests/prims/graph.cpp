@@ -1,4 +1,4 @@
-// The graph of objects: links made, weighed and broken at any time, objects that come and go.
+// Tests the graph of objects: links made, weighted and broken at any time, and objects that are created and destroyed.
 #include "prims.h"
 
 #include <random>
@@ -29,7 +29,7 @@ struct Scene {
     Bodies bodies;
     uint8_t ramp[64 + 2 * SHADING_MOST] = {};
 
-    // Frames of all objects, until also those seeds have had their turn that face away.
+    // Draws all objects several times, so that even the seeds that face away (which are updated less often) have been updated.
     void update(const std::vector<SoftObject*>& objects)
     {
         frame(objects);
@@ -66,7 +66,7 @@ double weightOf(const SoftObject& of, const SoftObject* seen)
     return 0;
 }
 
-// The field of the body that an object belongs to (model/body.h).
+// Returns the field of the body that an object belongs to (see model/body.h).
 double bodyField(const Scene& scene, const SoftObject& object, const Point& p)
 {
     SoftObject* const* members = scene.bodies.members(object);
@@ -85,7 +85,7 @@ double bodyField(const Scene& scene, const SoftObject& object, const Point& p)
     return below > 0 ? above / below : 0;
 }
 
-// Seeds that rest at position 1, valid; those moved outwards; those not valid. Those asleep do not count.
+// Counts of the awake seeds of an object: valid and at rest at position 1, moved outwards, and not valid.
 struct Tally {
     int rest = 0, moved = 0, gone = 0;
 };
@@ -127,7 +127,7 @@ void testLinks(const Sample& sample)
         b->resample(Real(2), makeEngine);
         b->moveTo(point(0, 0, -18));
         scene.update({a.get(), b.get()});
-        // They overlap, but do not blend.
+        // The objects overlap, but must not blend.
         check(tally(*a).rest == a->seeds() && tally(*b).rest == b->seeds(), "%s: blends with what it is not linked to", name);
         check(a->link(b.get(), Real(1)) && b->link(a.get(), Real(1)), "%s: no link", name);
         check(a->recalc() && b->recalc(), "%s: a link asks for no update", name);
@@ -137,7 +137,7 @@ void testLinks(const Sample& sample)
         check(one.moved > 0 && tally(*b).moved > 0, "%s: does not blend with what it is linked to", name);
         check(!a->recalc() && !b->recalc(), "%s: not settled", name);
 
-        // Weighed anew: one link, not two, and what it adds is scaled.
+        // Linking again with another weight replaces the link, and scales the bulge.
         a->link(b.get(), Real(0.25));
         check(a->recalc(), "%s: a new weight asks for no update", name);
         scene.update({a.get(), b.get()});
@@ -145,7 +145,7 @@ void testLinks(const Sample& sample)
         a->link(b.get(), Real(1));
         scene.update({a.get(), b.get()});
 
-        // A neighbour that moves, turns or is scaled asks for an update here.
+        // An object needs an update when its neighbour moves, turns or is scaled.
         b->translate({Real(0.5), Real(0), Real(0)});
         check(a->recalc(), "%s: not told of a move", name);
         scene.update({a.get(), b.get()});
@@ -167,14 +167,14 @@ void testLinks(const Sample& sample)
         scene.update({a.get(), b.get()});
         check(tally(*a).moved > 0, "%s: does not blend when linked again", name);
     }
-    // The other has ended.
+    // The neighbour has been destroyed.
     check(a->skel().empty() && a->recalc(), "%s: still linked to what has ended", name);
     scene.update({a.get()});
     check(tally(*a).rest == a->seeds(), "%s: blends with what has ended", name);
 }
 
-// A heap of objects that come, go, move, turn, grow, link and part at random; after each update every valid seed lies on
-// the surface.
+// Objects of a heap are created, destroyed, moved, turned, scaled, linked and unlinked at random; after each update every
+// valid seed must lie on the surface.
 void testComingAndGoing()
 {
     Scene scene;
@@ -231,7 +231,7 @@ void testComingAndGoing()
                 const Seed& s = object->seed(i);
                 if (!(s.flags & SEED_VALID) || ((i & 1) != 0 && !(s.flags & SEED_ACTIVE)))
                     continue;
-                // Those that face away are looked at less often.
+                // Seeds that face away are updated less often, so they are skipped.
                 const Vector normal{realFromRaw(s.normal.x * 4), realFromRaw(s.normal.y * 4), realFromRaw(s.normal.z * 4)};
                 const Vec n = vec(object->isBall() ? normal : object->turn() * normal);
                 if (dot(n, Vec{0, 0, -120} - vec(object->seedPoint(s))) < 0)

@@ -1,5 +1,5 @@
-// Translation, rotation and scaling of every primitive (report, Section III), against double precision, and many times
-// over.
+// Compares translation, rotation and scaling of every primitive (report, Section III) with double precision, also after many
+// repetitions.
 #include "prims.h"
 
 namespace {
@@ -18,7 +18,7 @@ std::vector<Vec> places(const SoftObject& object)
     return all;
 }
 
-// The greatest distance of two lists of places; huge when they differ in length.
+// Returns the greatest distance between corresponding places of two lists; 1e9 if their lengths differ.
 double apart(const std::vector<Vec>& a, const std::vector<Vec>& b)
 {
     if (a.size() != b.size())
@@ -36,7 +36,7 @@ Vec turned(Vec p, Vec about, Vec axis, double angle)
     return about + v * std::cos(angle) + across * std::sin(angle) + u * (dot(u, v) * (1 - std::cos(angle)));
 }
 
-// How far path lengths are from the radius where the seed rests, units of the object as it is now: by its field at the end.
+// Returns the greatest error of the path lengths, by the field at the paths' ends, in units at the object's current size.
 double offPaths(const SoftObject& object)
 {
     double most = 0;
@@ -80,13 +80,13 @@ void testMoves(const Sample& sample)
     }
     check(apart(places(*object), expected) < 0.005, "%s: rotation is off by %g", name, apart(places(*object), expected));
 
-    // A zero axis, and a turn to where it is already: nothing happens.
+    // A zero axis and a turn to the present orientation change nothing.
     const std::vector<Vec> before = places(*object);
     object->rotate(toReal(about), {Real(0), Real(0), Real(0)}, 0x40000000u);
     object->setTurn(object->turn());
     check(apart(places(*object), before) < 0.001, "%s: turning by nothing moves it", name);
 
-    // Back: a turn is counted from how the seeds were laid out.
+    // A turn is relative to the orientation in which the seeds were laid out, so the identity turns the object back.
     object->setTurn(Matrix::identity());
     object->moveTo(toReal({0, 0, 0}));
     check(apart(places(*object), start) < 1e-3, "%s: not back in place", name);
@@ -102,7 +102,7 @@ void testScaling(const Sample& sample)
     const int seeds = object->seeds();
     const double whole = std::fmax(sample.size, sample.size2);
 
-    // Within a quarter: the same seeds, moved out from the centre.
+    // If the size changes by less than a quarter, the seeds stay and move away from the centre.
     for (const double factor : {1.2, 1.0, 0.8}) {
         object->scale(real(factor * whole / number(object->size())));
         std::vector<Vec> expected = start;
@@ -117,7 +117,7 @@ void testScaling(const Sample& sample)
         check(object->recalc(), "%s: a scaled object wants no update", name);
     }
 
-    // Beyond: as many seeds as the new surface wants.
+    // If the size changes more, the object is resampled with as many seeds as the new surface needs.
     for (const double factor : {1.3, 2.5, 0.7}) {
         object->scale(real(factor * whole / number(object->size())));
         const double ratio = static_cast<double>(object->seeds()) / seeds / (factor * factor);
@@ -127,7 +127,7 @@ void testScaling(const Sample& sample)
         check(object->spacing() == Real(2), "%s scaled by %g: spacing", name, factor);
     }
 
-    // The measures of the core go with the size, and no error adds up.
+    // The measures of the core are scaled with the size, and rounding errors do not accumulate.
     for (int i = 0; i < 20000; ++i)
         object->scale(real(i % 2 ? 1.2 : 1 / 1.2));
     object->scale(real(whole / number(object->size())));
@@ -135,7 +135,7 @@ void testScaling(const Sample& sample)
           "%s: the core is %g long", name, number(object->coreReach()));
     check(offPaths(*object) < 0.002, "%s, scaled often: paths off by %g", name, offPaths(*object));
 
-    // The limits.
+    // Sizes beyond the limits are limited.
     object->scale(Real(1000));
     check(object->size() == Real(MAX_SIZE), "%s: size %g", name, number(object->size()));
     for (int i = 0; i < 8; ++i)
@@ -144,7 +144,7 @@ void testScaling(const Sample& sample)
     object->scale(Real(0));
     check(object->size() == Real(MIN_SIZE), "%s: size %g", name, number(object->size()));
 
-    // Laid out anew while turned and moved.
+    // An object that is turned and moved is resampled to the same places.
     Object other = sample.make();
     other->resample(Real(2), makeEngine);
     other->rotate(toReal({3, 1, 2}), {Real(1), Real(2), Real(3)}, 0x33333333u);
@@ -153,7 +153,7 @@ void testScaling(const Sample& sample)
           name);
 }
 
-// A million turns: path lengths, and the distance from what it turns about.
+// A million turns must change neither the path lengths nor the distance from the point turned about.
 void testMillion(const Sample& sample)
 {
     const char* name = sample.kind;

@@ -1,4 +1,4 @@
-// What the tests of the primitives share: the objects they are made on, Real as double, and a count of checks.
+// Shared by the tests of the primitives: the objects under test, conversions of Real to double, and a count of checks.
 #ifndef FB_TEST_PRIMS_H
 #define FB_TEST_PRIMS_H
 
@@ -45,30 +45,30 @@ struct Destroy {
 };
 typedef std::unique_ptr<SoftObject, Destroy> Object;
 
-// A primitive under test: what it is made of, and its field by the book: the square of distance / size at `p` in the
-// object's own space, for an object as made.
+// A primitive under test: its kind and measures. param() computes the argument of its field from the definition: the squared
+// ratio of distance and size at `p`, which is given in the space of the object as it was made.
 struct Sample {
     const char* kind;
-    double size, size2, measure;  // size2: cones only; measure: length, ring, radius of the disc, or the first edge of a box
-    double y = 0, z = 0;          // a box's other edges
+    double size, size2, measure;  // size2: cone only; measure: length, ring, radius of the disc, or first edge of the box
+    double y = 0, z = 0;          // other edges of the box
     Vec stretch{1, 1, 1};
 
     Object make(int number = 1) const;
     double param(Vec p) const;
     bool stretched() const { return stretch.x != 1 || stretch.y != 1 || stretch.z != 1; }
-    // How far the core reaches, unstretched.
+    // Returns how far the unstretched core reaches from the centre.
     double reach() const;
     std::string name() const;
 };
 
-// One of each kind, and the table of all that are tried.
+// One sample of each kind, and tables of more samples.
 extern const std::vector<Sample> FEW, MANY, STRETCHED;
 
-// The yardsticks of a test: counts and complains.
+// Counts a check and, if it failed, prints the message. Returns `good`.
 bool check(bool good, const char* format, ...) __attribute__((format(printf, 2, 3)));
 extern int passed, failed;
 
-// The tests, by file.
+// The tests, one function for each file.
 void testEvenness(bool table);
 void testCores();
 void testWarps();

@@ -1,8 +1,8 @@
 // Tests of the primitives: seeds, cores, operations, graph.
 //
-//   primtst          all checks; the last line is "N passed, N failed"
-//   primtst even     a table of seeds and evenness
-//   primtst draw DIR frames of small scenes with every primitive, for the yardstick
+//   primtst          runs all checks; the last line is "N passed, N failed"
+//   primtst even     prints a table of seeds and their evenness
+//   primtst draw DIR writes frames of small scenes with every primitive, for the yardstick
 #include "prims.h"
 
 #include <cstdarg>

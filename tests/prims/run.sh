@@ -1,10 +1,10 @@
 #!/bin/sh
-# Tests of the primitives: seeds, cores, operations and graph; and small scenes with each of them, alone and turned,
-# blending with a ball, with one of its kind and with all kinds, held against the true surface. Run from the top of the
-# tree. Scenes whose name ends in _dented or _digs have a ball that digs into each, or each dig into a ball.
+# Tests of the primitives: seeds, cores, operations and graph; then small scenes with each primitive (alone, turned, blending
+# with a ball, with another of its kind, and with all kinds), compared with the true surface. Run it from the top of the
+# tree. In scenes named _dented a ball digs into the primitive; in scenes named _digs the primitive digs into a ball.
 #
-#   sh tests/prims/run.sh         all of it; the last line is "N passed, N failed"
-#   build/primtst even            seeds and evenness of each primitive, as a table
+#   sh tests/prims/run.sh         runs everything; the last line is "N passed, N failed"
+#   build/primtst even            prints a table of seeds and evenness of each primitive
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 . tests/lib.sh
@@ -13,9 +13,9 @@ build build/primtst build/truth
 build/primtst >"$dir/out" 2>&1
 count "$dir/out"
 
-# What the yardstick says of a scene, against the bars of the picture: none or, where objects blend, at most two pixels
-# through which nothing shows, little that shows through, little that sticks out, depths that are right where the surface
-# has no jumps. Scenes whose name ends in _1 have seeds one unit apart, the others two.
+# fair SCENE HOLES [DEPTH [THROUGH]]: compares the yardstick's figures with their limits: at most HOLES holes, a small share of
+# see-through pixels and of pixels outside, and small errors of depth where the surface has no jumps. Scenes whose name ends
+# in _1 have a seed spacing of 1 unit, the others of 2.
 fair() {
 	build/truth --worst 0 "$dir/frames/$1" | awk -F': ' -v scene="$1" -v holes="$2" -v known="${3:-}" -v shows="${4:-}" '
 		{ value[$1] = $2 }
@@ -37,15 +37,15 @@ mkdir "$dir/frames"
 ok "scenes drawn" build/primtst draw "$dir/frames"
 for scene in "$dir"/frames/*; do
 	scene=$(basename "$scene")
-	# A cylinder that runs past the viewer at 60 units is known to fall short: single pixels of its neck with a ball stay
-	# open, and scales there are too flat.
+	# A known weakness: where a cylinder passes the viewer at 60 units, single pixels of its neck with a ball stay open, and
+	# the scales there are too flat.
 	known='' through=''
 	case $scene in
 	*_turned*) holes=0 ;;
-	torus_digs*) holes=2 through=0.06 ;; # what a ring leaves standing in its middle lies steep to all paths
+	torus_digs*) holes=2 through=0.06 ;; # the surface left in the middle of the ring is steep to all paths
 	near) holes=6 known=1.35 ;;
-	near_1) holes=30 known=0.9 ;; # the tip of a neck: gaps that lead outside are not closed over it any more
-	cylinder_dented) holes=3 ;; # at the rim of a hollow
+	near_1) holes=30 known=0.9 ;; # gaps at the tip of a neck stay open, because they lead outside
+	cylinder_dented) holes=3 ;; # they are at the rim of the hollow
 	*) holes=2 ;;
 	esac
 	if fair "$scene" $holes "$known" "$through"; then

@@ -1,5 +1,5 @@
-// Warped space against the same in double precision: where places go and come back from, which way slopes turn; seeds of warped
-// objects, which rest on the surface and go with it.
+// Compares warped space with the same functions in double precision: places there and back, and slopes; and tests that the
+// seeds of warped objects rest on the surface and move with it.
 #include "prims.h"
 
 #include <random>
@@ -18,7 +18,7 @@ Vector toReal(Vec p)
     return {real(p.x), real(p.y), real(p.z)};
 }
 
-// As model/warp.h has it; angles in degrees, h the height.
+// Warps a place as model/warp.h describes it; angles are in degrees, h is the height.
 Vec warped(Vec p, double taper, double twist, double bend, double h)
 {
     const double on = std::fmin(std::fmax(p.y, -h), h), wide = 1 + taper * on / h;
@@ -59,7 +59,7 @@ void testSpace()
             outside = std::fmax(outside, number(warp.outside(toReal(warped(far, amounts[0], amounts[1], amounts[2], h)))));
             const Vec q = p + Vec{between(-1, 1), between(-1, 1), between(-1, 1)};
             shortest = std::fmin(shortest, size(warped(q, amounts[0], amounts[1], amounts[2], h) - there) / size(q - p));
-            // The gradient of n . p, from the places that steps lead to: what it says of each step is what the step brings.
+            // slopeOut() must give the gradient of n . p in warped space: its product with a warped step is n times the plain step.
             if (std::fabs(p.y) > h - 1)
                 continue;
             const Vec n{between(-1, 1), between(-1, 1), between(-1, 1)};
@@ -83,7 +83,7 @@ void testSpace()
         say(shortest >= number(warp.least()), "a distance became so much of itself:", shortest);
         say(farthest <= number(warp.most()) + 0.01, "a place went so much farther from the centre:", farthest);
     }
-    // No bend round a middle that lies inside.
+    // The centre of a bend must not lie inside the object, so the bend is limited.
     Warp warp;
     warp.set({{Real(0), Real(0), Real(-180)}}, {Real(20), Real(10), Real(20)}, {Real(40), Real(30), Real(40)},
              {Real(30), Real(20), Real(30)});
@@ -97,7 +97,7 @@ void testSeeds(const Sample& sample)
     for (const double* amounts : AMOUNTS) {
         Object object = sample.make();
         object->resample(Real(2), makeEngine);
-        // Some oversampled seeds take part before it is warped, the others are laid out when they are asked for.
+        // Some oversampled seeds are active before the object is warped; the others are laid out only when they are needed.
         for (int i = 1; i < object->seedSlots(); i += 64)
             object->seed(i).flags = SEED_ACTIVE;
         object->setWarp(amountsOf(amounts));
@@ -120,7 +120,7 @@ void testSeeds(const Sample& sample)
     }
 }
 
-// A swinging amount takes the seeds along, in small steps, and leaves their positions.
+// While an amount swings, the seeds move along in small steps and keep their positions on their paths.
 void testSway(const Sample& sample, int part)
 {
     Object object = sample.make();
@@ -132,7 +132,7 @@ void testSway(const Sample& sample, int part)
     for (int step = 0; step <= 128; ++step) {
         WarpAmounts amounts = NO_WARP;
         amounts.part[part] = WARP_MOST[part] * real(std::sin(step * M_PI / 64));
-        // Every oversampled seed takes part.
+        // All oversampled seeds are active.
         for (int i = 0; i < object->seedSlots(); ++i) {
             object->seed(i).position = real(1 + 0.0001 * i);
             object->seed(i).flags |= SEED_ACTIVE;
@@ -148,7 +148,7 @@ void testSway(const Sample& sample, int part)
         }
         before = now;
     }
-    // At most the object's extent times what the angle, or the share, changes by in a step.
+    // Bound: the object's extent times the change of the angle (or of the share) in one step.
     const double extent = number(object->reach()),
                  most = extent * (part == 0 ? 0.75 : number(WARP_MOST[part]) * M_PI / 180) * M_PI / 64;
     check(farthest <= most, "%s: a seed leaps %g units", sample.name().c_str(), farthest);
@@ -168,7 +168,7 @@ void testWarps()
     testSeeds({"sphere", 24, 0, 0, 0, 0, {1.6, 1.2, 0.5}});
     testSeeds({"cylinder", 12, 0, 30, 0, 0, {2, 1, 0.7}});
 
-    // The words of a dump: of an object that is stretched and warped, in its order.
+    // Tests the words of a dump for an object that is stretched and warped, and their order.
     Object object = Sample{"cylinder", 16, 0, 30, 0, 0, {2, 1, 0.5}}.make(3);
     object->setWarp({{real(0.25), real(-90), Real(0)}});
     object->moveTo({Real(5), Real(0), Real(0)});
@@ -180,7 +180,7 @@ void testWarps()
         check(std::string(text) == lines[i], "described as '%s', not '%s'", text, lines[i]);
     }
 
-    // A strength that is given after the warp counts as one given before it.
+    // A strength set after the warp must count like one set before it.
     Object other = Sample{"cylinder", 16, 0, 30, 0, 0, {2, 1, 0.5}}.make(4);
     other->setStrength(real(3));
     other->setWarp(object->warp().asked());

@@ -1,8 +1,8 @@
 #!/bin/sh
-# Tests of scene files: the statements, complaints and limits in process (scntst.cpp); then the program with scene files:
-# the report's four spheres from a file give the frames of the model built in, every shipped scene plays, is the same on
-# the 64-bit and the 32-bit build, and reads back after it was written; bad files end it with status 2 and one line.
-# The last line is "N passed, N failed".
+# Tests of scene files. scntst.cpp tests the statements, complaints and limits in process; then the program reads scene files:
+# the report's four spheres from a file must give the frames of the built-in model; every shipped scene must play, give the
+# same frames on the 64-bit and the 32-bit build, and read back after it was written; a bad file must end the program with
+# status 2 and one line. The last line is "N passed, N failed".
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 make -s build/demo build/demo32 build/scntst build/mkscene || { echo "0 passed, 1 failed"; exit 1; }
@@ -25,12 +25,12 @@ case $last in
 *) bad "scntst did not reach its end"; cat "$dir/log" ;;
 esac
 
-# same NAME DIR DIR: all files of both are there and the same.
+# same NAME DIR DIR: both directories must have the same files with the same contents.
 same() {
 	if diff -r "$2" "$3" >"$dir/log" 2>&1 && [ -n "$(ls "$2")" ]; then good; else bad "$1"; head -n 3 "$dir/log"; fi
 }
 
-# The four spheres from a file: every byte of every dumped file.
+# The four spheres from a file must give the same bytes in every dumped file.
 for switches in "/N:60" "/N:20 /G /S:1" "/N:20 /P" "/N:20 /R:70 /S:3"; do
 	rm -rf "$dir/a" "$dir/b"
 	# shellcheck disable=SC2086
@@ -40,7 +40,7 @@ for switches in "/N:60" "/N:20 /G /S:1" "/N:20 /P" "/N:20 /R:70 /S:3"; do
 done
 echo "four spheres from a file: 120 frames compared with the model built in"
 
-# Every scene on both builds.
+# Every scene must give the same frames on both builds.
 frames=0
 for scene in tools/scenes/*.FB tests/scenes/hurt/*.FB; do
 	rm -rf "$dir/a" "$dir/b"
@@ -51,7 +51,7 @@ for scene in tools/scenes/*.FB tests/scenes/hurt/*.FB; do
 done
 echo "scenes: $frames frames compared between 64 bits and 32"
 
-# The shipped ones in DOSBox as well, in one go, as fast as the emulator can.
+# The shipped scenes run in DOSBox as well, all in one go and as fast as the emulator can.
 if command -v dosbox >/dev/null && make -s build/DEMO.EXE >"$dir/log" 2>&1; then
 	mkdir "$dir/c"
 	cp build/DEMO.EXE tools/scenes/*.FB "$dir/c"
@@ -72,18 +72,18 @@ else
 	echo "# no dosbox or no DEMO.EXE: scenes not tried in DOS"
 fi
 
-# A place is a function of time: the same at 4 s, whatever the frames before.
+# Places depend on the time only: they must be equal at 4 s, whatever frames were drawn before.
 for scene in tools/scenes/*.FB; do
 	rm -rf "$dir/a" "$dir/b"
 	build/demo /X /N:5 /R:1 "/M:$scene" "/D:$dir/a" >"$dir/out.a" 2>&1
 	build/demo /X /N:29 /R:7 "/M:$scene" "/D:$dir/b" >"$dir/out.b" 2>&1
-	# The first line has the time, to other decimals.
+	# The first line is the time, which may differ in the last decimals.
 	sed 1d "$dir/a/F0000004.TXT" >"$dir/out.a"
 	sed 1d "$dir/b/F0000028.TXT" >"$dir/out.b"
 	if [ -s "$dir/out.a" ] && cmp -s "$dir/out.a" "$dir/out.b"; then good; else bad "$scene: other places at 4 s"; fi
 done
 
-# The generator: the same file for the same seed, and the program takes it.
+# The generator must make the same file for the same seed, and the program must accept it.
 build/mkscene 5 >"$dir/one.fb"
 build/mkscene 5 >"$dir/two.fb"
 if cmp -s "$dir/one.fb" "$dir/two.fb"; then good; else bad "mkscene: two files for one seed"; fi
@@ -92,7 +92,7 @@ for seed in $(seq 30); do
 	cat "$dir/r.fb" >>"$dir/all.fb"
 	if build/demo /X /N:1 "/M:$dir/r.fb" >"$dir/out" 2>&1; then good; else bad "random scene $seed: $(head -n 1 "$dir/out")"; fi
 done
-# All that scene makers write is among them: every kind and every motion, groups, weights below and above 1.
+# The scenes together must contain all statements that authors write: every kind, every motion, groups, and various weights.
 for word in '^sphere' '^cylinder' '^torus' '^disc' '^cone' '^box' '^group' ' in g' '^circle' '^path' '^spin' '^swing' '^pulse' \
 	'^key .* angle' '^key .* scale' '^blend all$' '^blend o[0-9]* o[0-9]*$' '^blend o.* 0\.[1-9]$' '^blend o.* [1-4]\.[0-9]$'; do
 	if grep -q -- "$word" "$dir/all.fb"; then good; else bad "mkscene: thirty scenes without $word"; fi
@@ -134,7 +134,7 @@ done
 for word in 'stretch' '^taper' '^twist' '^bend' 'swing'; do
 	if grep -q -- "$word" "$dir/shapes.fb"; then good; else bad "mkscene: twenty scenes without $word"; fi
 done
-# The same scenes, seen by an eye that goes about them.
+# The same scenes are seen by an eye that moves around them.
 : >"$dir/all.fb"
 for seed in $(seq 30); do
 	build/mkscene $seed >"$dir/r.fb"
@@ -153,7 +153,8 @@ done
 build/mkscene 1 128 >"$dir/r.fb"
 if build/demo /X /N:1 /S:8 "/M:$dir/r.fb" >"$dir/out" 2>&1; then good; else bad "a random scene of 128"; fi
 
-# refused NAME WORDS SWITCHES...: status 2, these words as the only line on standard error, and no frame written.
+# refused NAME WORDS SWITCHES...: the program must end with status 2, with these words as the only line on standard error, and
+# must not write a frame.
 refused() {
 	name=$1 words=$2
 	shift 2

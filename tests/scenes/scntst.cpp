@@ -1,5 +1,5 @@
-// Tests of scene files in process: what each statement does to place, turn and size at known times; every complaint in
-// full; every limit, kept and broken by one.
+// Tests of scene files in process: the effect of each statement on place, turn and size at known times; the full text of every
+// complaint; every limit, reached and exceeded by one.
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -41,7 +41,7 @@ const char* read(const std::string& text, Model& model)
     return wrong;
 }
 
-// The text is read, and item NAME is at x y z (and scaled so) at a time.
+// The text must be read, and item NAME must be at x y z with this scale at the given time.
 void place(const std::string& text, const char* name, double seconds, double x, double y, double z, double scale = 1)
 {
     Model model;
@@ -60,7 +60,7 @@ void place(const std::string& text, const char* name, double seconds, double x, 
     check(good, std::to_string(seconds) + " s of: " + text);
 }
 
-// The text is refused with these very words.
+// The text must be refused with exactly these words.
 void refused(const std::string& text, const std::string& words)
 {
     Model model;
@@ -103,7 +103,7 @@ void motion()
     place(S + "keys s smooth\n" + keys, "s", 3, 20, 8, -4);
     place(S + "keys s smooth\nkey s 0 0 0 0\nkey s 2 10 0 0", "s", 1, 5, 0, 0);
     place(S + "keys s smooth\nkey s 0 0 0 0\nkey s 2 10 0 0", "s", 0.5, 10 * (3 * 0.0625 - 2 * 0.015625), 0, 0);
-    // Slope at the middle key is that from the first to the last: 5 a second.
+    // The slope at the middle key is the slope between its neighbours: 5 a second.
     place(S + "keys s smooth\nkey s 0 0 0 0\nkey s 2 10 0 0\nkey s 4 20 0 0", "s", 1, 10 * 0.5 - 0.125 * 10, 0, 0);
     place(S + "keys s repeat 4\nkey s 0 0 0 0\nkey s 2 8 0 0", "s", 4 * 300 + 3, 4, 0, 0);
     place(S + "keys s repeat 4\nkey s 1 0 0 0\nkey s 3 8 0 0", "s", 4, 4, 0, 0);
@@ -124,10 +124,10 @@ void motion()
     place("sphere p size 9 at 0 7 0\nsphere s size 20 at 10 0 0 in p", "s", 0, 10, 7, 0);
     place("group a at 10 0 0\nspin a axis 0 0 1 period 4\ngroup b at 10 0 0 in a\nspin b axis 0 0 1 period 4\n"
           "sphere s size 20 at 10 0 0 in b", "s", 1, 0, 10, 0);
-    // Nothing leaves the space of the model.
+    // No item leaves the space of the model.
     place("group g at 250 0 0 scale 4\nsphere s size 20 at 250 0 0 in g", "s", 0, 250, 0, 0, 4);
 
-    // A size is a function of the time, whatever was shown before.
+    // A size depends on the time only, not on what was shown before.
     Model once, often;
     const std::string text = S + "cylinder c size 12 length 30 at 40 0 0\npulse s by 0.3 period 3\npulse c by 0.7 period 2";
     read(text, once);
@@ -148,7 +148,7 @@ void motion()
     Anim::move(once, at(0));
     check(once.actor(1).object->size() == Real(12) && size != Real(12), "size back at time 0");
 
-    // What follows from the lines' ends, case and comments.
+    // Line ends, case and comments.
     place("SPHERE S SIZE 20 AT 1 2 3 # here\r\n\r\n#\r\n\tCIRCLE\ts RADIUS 0 PERIOD 1\r\n", "s", 0, 1, 2, 3);
     place("sphere s size 20 at 1 2 3\n\x1a" "anything", "s", 0, 1, 2, 3);
     place("sphere s size 20 at 1 2 3", "s", 0, 1, 2, 3);
@@ -165,7 +165,7 @@ std::string repeated(int count, const char* form)
     return all;
 }
 
-// A second motion of a kind adds to the first.
+// A second motion of one kind is added to the first.
 void sums()
 {
     place(S + "circle s radius 10 period 4\ncircle s radius 3 period 2", "s", 1, -3, 10, 0);
@@ -178,7 +178,7 @@ void sums()
     const std::string in = "sphere s size 20 at 10 0 0 in g";
     place("group g\nspin g axis 0 1 0 period 4\nspin g axis 0 0 1 period 2\n" + in, "s", 1, 0, 0, -10);
     place("group g\nspin g axis 0 0 1 period 8\nspin g axis 0 0 1 period 8\n" + in, "s", 1, 0, 10, 0);
-    // The later turns what the earlier has turned: x to y to z, not x to x to y.
+    // A later motion turns the result of the earlier one: in the first line x goes to y and then to z.
     place("group g\nspin g axis 0 0 1 period 4\nspin g axis 1 0 0 period 4\n" + in, "s", 1, 0, 0, 10);
     place("group g\nspin g axis 1 0 0 period 4\nspin g axis 0 0 1 period 4\n" + in, "s", 1, 0, 10, 0);
     place("group g\nswing g axis 0 0 1 angle 60 period 4\nswing g axis 0 0 1 angle 30 period 4\n" + in, "s", 1, 0, 10, 0);
@@ -239,7 +239,7 @@ void colours()
     refused("sphere a size 9 colour 1 red 3", "T.FB:1: 'red': expected red, green and blue from 0 to 255");
     refused("sphere a size 9 colour -1 2 3", "T.FB:1: '-1': expected red, green and blue from 0 to 255");
     refused("group g color red", "T.FB:1: 'color': expected at, turn, scale, repeat, step or in");
-    // Elsewhere it is a comment, close to a word too.
+    // Elsewhere '#' begins a comment, even directly behind a word.
     place("sphere s size 20#ff0000\ncircle s radius 10 period 4 #rrggbb", "s", 1, 0, 10, 0);
 }
 
@@ -298,7 +298,7 @@ void rows()
           "each like one written by itself");
     check(model.itemNamed("b1")->colour.red == 255 && model.itemNamed("b2")->colour.red == 64, "with the colours of single ones");
     place("group g repeat 2 step 0 5 0\nsphere s size 9 in g2", "s", 0, 0, 5, 0);
-    // The row's name stands for each of it.
+    // The name of a row stands for each of its items.
     place(five + "path b y 10 4 0.25", "b3", 0, 21, 10, 4);
     place(five + "path b4 y 10 4 0.25", "b3", 0, 21, 0, 4);
     place(five + "circle b radius 10 period 8 lag 0.25\n", "b1", 0, 11, 2, 3);
@@ -432,7 +432,7 @@ void dents()
     refused(S + "strength s 1 1", "T.FB:2: '1': expected the end of the line");
 }
 
-// What the editor saves: the objects that rows made, all motions, the title; and it reads back as the same.
+// Tests what the editor saves: the items of rows, all motions, the title. The saved text must read back as the same scene.
 void saved()
 {
     const std::string text =
@@ -497,7 +497,7 @@ size_t filesIn(const std::string& directory)
     return count - 2;
 }
 
-// A scene that cannot be saved whole leaves the one that was there.
+// A scene that cannot be saved completely must leave the existing file unchanged.
 void safety()
 {
     char scratch[] = "/tmp/fbsave.XXXXXX";
@@ -513,7 +513,7 @@ void safety()
     const std::string before = contents(name);
     check(before.find("sphere s size 20") != std::string::npos && filesIn(directory) == 1, "the scene, and no other file");
 
-    // Room for half of it.
+    // The file size is limited, so that only half of the scene fits.
     const auto old = signal(SIGXFSZ, SIG_IGN);
     rlimit limit, was;
     getrlimit(RLIMIT_FSIZE, &was);
@@ -527,7 +527,7 @@ void safety()
     check(contents(name) == before && filesIn(directory) == 1, "and what was there is there still, alone");
 
     check(writeScene(name.c_str(), large) == nullptr && contents(name).size() > 2000 && filesIn(directory) == 1, "written over it");
-    // By way of a link, and with the rights that it had.
+    // A file that is saved through a symbolic link keeps its permissions, and the link stays a link.
     chmod(name.c_str(), 0640);
     check(symlink("a.fb", link.c_str()) == 0 && writeScene(link.c_str(), small) == nullptr, "saved through a link");
     struct stat facts;
@@ -538,7 +538,7 @@ void safety()
     wrong = writeScene((directory + "/none/a.fb").c_str(), small);
     check(wrong != nullptr && directory + "/none/a.fb: no such file or directory" == wrong, "no such folder");
 
-    // Scenes by names without their ending.
+    // Scenes can be named without the ending of the file name.
     Model again;
     SceneEnd end;
     check(readScene((directory + "/a").c_str(), again, &end) == nullptr && again.count() == 1, "a.fb by the name a");
@@ -576,7 +576,7 @@ void links()
     check(two.camera.focalY == Real(100), "focal, both");
 }
 
-// The text is read; at a time the eye is there and looks along these axes.
+// The text must be read, and at the given time the eye must be at `eye` with these axes.
 void stands(const std::string& text, double seconds, const Vector& eye, const Vector& right, const Vector& up, const Vector& ahead)
 {
     Model model;
@@ -612,7 +612,7 @@ std::string textOf(const Model& model)
     return text;
 }
 
-// An eye that moves, turns and looks at something.
+// Tests an eye that moves, turns and looks at something.
 void eyes()
 {
     const Vector x = v(1, 0, 0), y = v(0, 1, 0), z = v(0, 0, 1);
@@ -627,9 +627,9 @@ void eyes()
     stands(S + "eye 0 0 0 turn 90 0 0", 0, v(0, 0, 0), x, z, v(0, -1, 0));
     stands(S + "spin eye axis 0 1 0 period 4", 1, v(0, 0, -120), v(0, 0, -1), y, x);
     stands("group g at 5 0 0\nspin g axis 0 1 0 period 4\neye 0 0 -100 in g\n" + S, 1, v(-95, 0, 0), v(0, 0, -1), y, x);
-    // Later lines say it anew: out of the group again.
+    // A later `eye` line replaces the earlier one: the eye has left the group.
     stands("group g at 5 0 0\neye 0 0 -100 in g\n" + S + "eye 0 0 -90 turn 0 0 0", 1, v(0, 0, -90), x, y, z);
-    // Looking.
+    // The eye looks at a place or an item.
     stands(S + "eye 0 0 -100\nlook 100 0 0", 0, v(0, 0, -100), v(h, 0, -h), y, v(h, 0, h));
     stands(S + "look 0 0 -250", 0, v(0, 0, -120), -x, y, -z);
     stands(S + "look 0 100 -120\neye 0 0 -120", 0, v(0, 0, -120), x, -z, y);
@@ -639,13 +639,13 @@ void eyes()
     stands(S + "eye 0 0 0\ncircle eye radius 100 plane zx period 4\nlook s", 1, v(100, 0, 0), z, y, -x);
     stands(S + "look 5 5 5\nlook s", 0, v(0, 0, -120), x, y, z);
     stands("group g at 0 0 9\n" + S + "look g\nlook 0 0 -250", 0, v(0, 0, -120), -x, y, -z);
-    // What it rides on leans it, looking or not.
+    // The eye's own turn and roll tilt the view, whether or not the eye looks at something.
     stands(S + "eye 0 0 -120 turn 0 0 90\nlook s", 0, v(0, 0, -120), y, -x, z);
     stands(S + "roll 90", 0, v(0, 0, -120), -y, x, z);
     stands(S + "look 0 0 -250\nroll -90", 0, v(0, 0, -120), y, x, -z);
-    // A light on the eye goes with it.
+    // An object in the eye's group moves with the eye.
     place(S + "sphere lamp size 9 at 0 5 0 in eye\npath eye x 10 4 0", "lamp", 1, 10, 5, -120);
-    // Something of that name is what its name says.
+    // An object or group named `eye` takes precedence over the eye.
     place("sphere eye size 20\npath eye x 10 4 0", "eye", 1, 10, 0, 0);
     stands("sphere eye size 20\npath eye x 10 4 0", 1, v(0, 0, -120), x, y, z);
     stands("sphere eye size 20\npath eye x 120 4 0\nlook eye", 1, v(0, 0, -120), v(h, 0, -h), y, v(h, 0, h));
@@ -672,7 +672,7 @@ void eyes()
     refused(S + "roll 361", "T.FB:2: '361': expected degrees from -360 to 360");
     refused(S + "roll", "T.FB:2: end of line: expected degrees from -360 to 360");
 
-    // Saved, and read again: the same scene, and the same text from then on.
+    // A saved scene must read back as the same scene, and saving it again must give the same text.
     const std::string texts[] = {
         S + "eye 1 2 -100\nlook 3 4 5\nroll 10",
         "group g at 5 0 0\nspin g axis 0 1 0 period 4\neye 0 0 -100 turn 1 2 3 in g\n" + S +
@@ -691,7 +691,7 @@ void eyes()
         check(model.camera.eye == again.camera.eye && model.camera.axes == again.camera.axes, "its eye stands alike: " + saved);
     }
 
-    // What is looked at goes: the eye looks where it was. And its group goes: it stands.
+    // When the item looked at is removed, the eye keeps its direction. When the eye's own item is removed, the eye stays in place.
     Model model;
     read("sphere s size 20 at 120 0 0\nsphere t size 9\npath eye x 10 4 0.25\nlook s", model);
     model.resample(Real(4), makeEngine);
@@ -824,7 +824,7 @@ void limits()
     place(deep + "sphere s size 9 at 1 0 0 in g63", "s", 0, 65, 0, 0);
 }
 
-// Changing a model while it runs, and going back.
+// Changes a model while it runs, and restores the model from a record.
 void changes()
 {
     Model model;

@@ -1,15 +1,16 @@
 #!/bin/sh
-# Holds the program's frames against the true surface: the minute of the four spheres, the shipped scenes, the scenes made
-# to hurt and random ones, in colour, at two spacings, ten frames a second and seventy. Prints a table, one row a scene and
-# spacing, with the bars above it; a figure beyond its bar bears a '!'. The last line counts the rows beyond a bar.
+# Compares the program's frames with the true surface: one minute of the four spheres, the shipped scenes, the difficult scenes
+# of tests/scenes/hurt, and random scenes, in colour, at two spacings, at ten and at seventy frames a second. It prints the bars
+# and a table with one row for each scene and spacing, where a figure beyond its bar is marked '!', and last the count of rows
+# beyond a bar.
 #
 #   sh tests/scenes/truth.sh           some of the frames, 4 random scenes (two minutes)
 #   sh tests/scenes/truth.sh full      many of them, 24 random scenes (half an hour)
 #   sh tests/scenes/truth.sh quick     a few, 1 random scene, for a look
 #
-# SCENES names other scenes instead, as tools/truth.sh takes them; SPACING is 2 or 1 for one spacing only; DEMO, SWITCHES,
-# LIMITS and LIST are as there. Ends with 1 when a bar is broken or a run failed; with LIMITS, when a figure is beyond both
-# its bar and its limit.
+# SCENES names other scenes instead, as for tools/truth.sh; SPACING is 2 or 1 for only one spacing; DEMO, SWITCHES, LIMITS and
+# LIST are as described there. The exit status is 1 when a bar is broken or a run failed; with LIMITS, when a figure is beyond
+# both its bar and its limit.
 set -u
 cd "$(dirname "$0")/../.." || exit 2
 mode=${1:-some}
@@ -23,7 +24,7 @@ make -s build/truth build/mkscene || exit 2
 [ -n "${DEMO:-}" ] || make -s build/demo || exit 2
 rows=0
 beyond=0
-# What a row that does not hold bears.
+# The mark of a row that breaks a bar (and its limit).
 mark=!
 [ -z "${LIMITS:-}" ] || mark=!!
 
@@ -40,7 +41,7 @@ if [ -n "${SCENES:-}" ]; then
 else
 	judge MINUTE $minute
 	for scene in tools/scenes/*.FB tests/scenes/hurt/*.FB; do
-		# The four spheres are the minute's.
+		# The four spheres have been judged as MINUTE.
 		[ "$scene" = tools/scenes/FOUR.FB ] || judge "$scene" $frames
 	done
 	for seed in $(seq $seeds); do judge "$seed" $frames; done
