@@ -15,6 +15,13 @@ struct Ring {
     Real pathSine, pathCosine;      // latitude of the paths
     Real normalSine, normalCosine;  // latitude of the surface's normal; it differs from that of the paths if the object tapers
     Real across;                    // half the distance to the next ring along the surface, units
+
+    // Distance of its seeds from the axis, units; 0 where the tube of a strong torus meets itself across the hole.
+    Real around() const
+    {
+        const Real away = core + radius * pathCosine;
+        return away > Real(0) ? away : Real(0);
+    }
 };
 
 // The least number, at least 1, of equal steps of at most `spacing` units into which `length` units can be divided.

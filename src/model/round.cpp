@@ -86,7 +86,7 @@ RingMaker::RingMaker(SeedMaker& maker, const Vector& stretch, Real spacing)
 
 int RingMaker::seedsOf(const Ring& ring) const
 {
-    const Real around = ring.core + ring.radius * ring.pathCosine;
+    const Real around = ring.around();
     if (!stretched_)
         return seedsInRing(around, spacing_, 1 << 30);
     const int count = floorToInt(shiftUp(around * quarter_.length(), 2) / spacing_);
@@ -124,7 +124,7 @@ void RingMaker::addSeeds(const Ring& ring, int k, int root)
         return;
     const uint32_t step = 0xffffffffu / static_cast<uint32_t>(count);
     // A seed's cell is widest at its outer edge, which makes a difference in the small rings about a pole.
-    Real around = ring.core + ring.radius * ring.pathCosine;
+    Real around = ring.around();
     if (count <= POLAR_SEEDS)
         around += ring.across * absolute(ring.normalSine);
     const Real along = around * sine(step / 2) * CELL_SPARE, across = ring.across * CELL_SPARE;
@@ -142,7 +142,7 @@ void RingMaker::addSeeds(const Ring& ring, int k, int root)
 void RingMaker::addStretched(const Ring& ring, int k, int root)
 {
     const int count = seedsOf(ring);
-    const Real around = ring.core + ring.radius * ring.pathCosine, whole = shiftUp(quarter_.length(), 2);
+    const Real around = ring.around(), whole = shiftUp(quarter_.length(), 2);
     const bool sideways = stretch_.x > stretch_.z;
     if (stopAsked())
         return;

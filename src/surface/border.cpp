@@ -19,16 +19,17 @@ const Neighbour* strongestOf(const Path& path)
 // As strongestOf(), where something digs, strengths differ or the object is shaped: the strongest neighbour that does not dig, or
 // null. Sets `*change`, the slope of the own field along the path, and `*g`, its gradient, if the object is shaped; in a hollow
 // both become those of the object that has the hollow, because it is that object's border.
-SELDOM const Neighbour* strongestOdd(const Path& path, const Seed& s, Vector* g, Real* change)
+SELDOM const Neighbour* strongestOdd(const Path& path, const Seed& s, int shift, Vector* g, Real* change)
 {
     *change = path.ownRate(path.lookedAt());
     if (path.object().shaped())
-        *g = path.ownGradient(s.position, path.ownSlope());
+        *g = path.ownGradient(s.position, shiftDown(path.ownSlope(), shift));
     const Neighbour* other = nullptr;
     for (int i = 0; i < path.touched(); ++i) {
         const Neighbour& near = path.near(i);
         if (path.all().hollow && near.object == path.all().head) {
-            *g = path.fromCore(near, s.position) * (near.slope * near.ratio);
+            if (near.slope != Real(0))
+                *g = path.fromCore(near, s.position) * (shiftDown(near.slope, shift) * near.ratio);
             *change = near.slope * near.change;
         } else if (!near.digs && (other == nullptr || near.value > other->value)) {
             other = &near;
@@ -41,19 +42,22 @@ SELDOM const Neighbour* strongestOdd(const Path& path, const Seed& s, Vector* g,
 
 void findBorder(const Path& path, Seed& s, Real dominance)
 {
-    // Gradients here are multiplied by half the squared size of the object.
-    Vector g = path.from(s.position) * path.ownSlope();
+    // Gradients here are multiplied by half the squared size of the object, over 2^shift.
+    const int shift = path.neededShift();
+    Vector g = path.from(s.position) * shiftDown(path.ownSlope(), shift);
     Real change = shiftDown(path.ownSlope() * path.lookedAt(), 1);
-    const Neighbour* const other = path.all().ordinary ? strongestOf(path) : strongestOdd(path, s, &g, &change);
+    const Neighbour* const other = path.all().ordinary ? strongestOf(path) : strongestOdd(path, s, shift, &g, &change);
     if (other == nullptr)
         return;
     // The fields were evaluated before the last step of Newton's method.
     dominance += (other->slope * other->change - change) * (s.position - path.lookedAt());
-    g = g - path.fromCore(*other, s.position) * (other->slope * other->ratio);
+    // Beyond the end of its field the vector from a core may be too long.
+    if (other->slope != Real(0))
+        g = g - path.fromCore(*other, s.position) * (shiftDown(other->slope, shift) * other->ratio);
     const Normal n = normalise(g);
     const Real steep = dot(g, {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)});
     const Real size = path.object().laidSize();
-    const Real distance = clamp(-dominance * size, Real(-100), Real(100)) * size * Real(0.5);
+    const Real distance = shiftDown(clamp(-dominance * size, Real(-100), Real(100)) * size * Real(0.5), shift);
     const Real apart = clamp(absolute(distance) < steep * BORDER_FAR ? distance / steep : BORDER_FAR, -BORDER_FAR, BORDER_FAR);
     s.apart = static_cast<int16_t>(rawFromReal(apart) >> 8);
     s.border = directionOf(n);

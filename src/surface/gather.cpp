@@ -31,6 +31,9 @@ SELDOM void aimShaped(Neighbour& near)
     near.size16 = (rawFromReal(near.size * narrowing) >> 12) + 1;
 }
 
+// A neighbour is coarse (gather.h) where this is exceeded: 2^15 / CORE_SIZE / 32, and a margin.
+constexpr Real COARSE(60);
+
 // No neighbour of this size or more is tiny, unless the object's paths are longer than LONG_PATH; units.
 constexpr Real SMALL(6), LONG_PATH(50);
 
@@ -58,6 +61,9 @@ void aim(const SoftObject& object, bool tiny, Neighbour& near)
     near.along16 = near.toCore[1];
     if (other.shaped())
         aimShaped(near);
+    // Half a gradient times a path must stay below 2^15.
+    const Real step = shiftDown(object.longestPath(), 5) * near.stretch16, stretch = near.stretch16 / near.inverse16;
+    near.coarse = min(step, COARSE + Real(1)) * min(stretch, COARSE + Real(1)) > COARSE;
     near.direction = object.toOwnAxes({turn.m[0][1], turn.m[1][1], turn.m[2][1]});
     near.axis[0] = rawFromReal(near.direction.x) >> 2;
     near.axis[1] = rawFromReal(near.direction.y) >> 2;

@@ -36,6 +36,7 @@ struct Neighbour : Along {
     bool digs;          // it is no member of the body, but digs into a member
     bool samples;       // its seeds sample a hollow of the head
     bool inRange;       // its field may reach the object's seeds now; else it may do so GATHER_SLACK nearer
+    bool coarse;        // an OTHER whose core space is so large that products there need their operands scaled down first
     bool segment;       // its core is a segment, half16 long to each side of the centre, whether or not the object tapers
     Real weight;        // weight by which it digs into the head, 0 if it does not
     Real grain;         // length over which its field changes as much as a plain field does over its size
@@ -69,6 +70,8 @@ struct Neighbour : Along {
     Vector fromCoreSpace(const Vector& v) const
     {
         const Real scale = size * size * Real(1.0 / (CORE_SIZE * CORE_SIZE));
+        if (coarse)
+            return toCore[0] * (v.x * scale) + toCore[1] * (v.y * scale) + toCore[2] * (v.z * scale);
         return (toCore[0] * v.x + toCore[1] * v.y + toCore[2] * v.z) * scale;
     }
     // Returns the vector from its core to a place of own space, both 1/16 unit; not to be called of a POINT. Of a shaped

@@ -47,11 +47,26 @@ void Path::setRoot(Neighbour& near, const Seed& s) const
         near.y = shiftDown(dot(near.toRoot, near.along16), 4);
 }
 
+// dot(halfGradient, step) / 128 where that, or its parts, may leave 16.16: what is too large is limited.
+static SELDOM Real coarseChange(const Vector& halfGradient, const Vector& step)
+{
+    const auto part = [](Real g, Real s) {
+        return clamp(shiftDown(g, 7), Real(-30), Real(30)) * clamp(shiftDown(s, 4), Real(-300), Real(300));
+    };
+    const Real sum = part(halfGradient.x, step.x) + part(halfGradient.y, step.y) + part(halfGradient.z, step.z);
+    return shiftUp(clamp(sum, Real(-2000), Real(2000)), 4);
+}
+
 Real Neighbour::otherParam(Real p)
 {
     t = object->param(toRoot + step * p, &halfGradient);
     // Beyond the end of the field the product might overflow 16.16, and it is not needed.
-    change = t < Real(1) ? shiftDown(dot(halfGradient, step), 7) : Real(0);
+    if (t >= Real(1))
+        change = Real(0);
+    else if (coarse)
+        change = coarseChange(halfGradient, step);
+    else
+        change = shiftDown(dot(halfGradient, step), 7);
     return t;
 }
 
@@ -258,7 +273,7 @@ inline __attribute__((always_inline)) Vector Path::sumGradients(Real position, i
 
 Vector Path::outward(Real position)
 {
-    gradientShift_ = all_.uneven ? findGradientShift() : 0;
+    gradientShift_ = neededShift();
     return gradientShift_ == 0 ? sumGradients(position, 0) : sumGradients(position, gradientShift_);
 }
 

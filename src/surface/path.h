@@ -47,6 +47,8 @@ public:
     // 16.16.
     Vector outward(Real position);
     int gradientShift() const { return gradientShift_; }
+    // The shift that outward() needs at the position evaluated last: 0, unless there is a far smaller neighbour.
+    int neededShift() const { return all_.uneven ? findGradientShift() : 0; }
 
     // Must be called when the lists of `nearby` change.
     void leave() { asked_ = nullptr; }

@@ -43,6 +43,8 @@ ok "every scene there is" sh -c 'for f in tools/scenes/*.FB; do
 done'
 ok "the smallest beside the largest" build/san/demo /N:40 /R:8 /M:tests/fuzz/corpus/TINY.FB
 ok "the same, with heavy links" build/san/demo /N:12 /R:8 /S:5 /M:tests/fuzz/corpus/SMALL.FB
+ok "the same, warped" build/san/demo /N:12 /R:8 /S:5 /M:tests/fuzz/corpus/WARPED.FB
+ok "a torus that meets itself" build/san/demo /N:12 /R:8 /S:5 /M:tests/fuzz/corpus/SPINDLE.FB
 ok "any keys and moves" sh tests/san/monkey.sh 1 12
 sh tests/cli/run.sh build/san/demo >"$dir/cli" 2>&1
 count "$dir/cli" >"$dir/counted"
