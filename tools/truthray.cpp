@@ -1055,10 +1055,8 @@ Colour Tracer::colour(int object, Vec p) const {
     sum += f, parts[0] += f * ramp->second.r, parts[1] += f * ramp->second.g, parts[2] += f * ramp->second.b;
   };
   if (!scene.mixed) add(object, 1);
-  for (int i = 0; scene.mixed && i < (int)scene.objects.size(); i++) {
-    const Object &o = scene.objects[i];
-    if (body[i] == body[object]) add(i, geoff(o.q(p, nullptr)));
-  }
+  for (int i = 0; scene.mixed && i < (int)scene.objects.size(); i++)
+    if (body[i] == body[object]) add(i, strengthened(i, p));
   if (!(sum > 0)) return {0, 0, 0};
   const Coat &coat = scene.coats[object];
   double share = other(coat, p);
