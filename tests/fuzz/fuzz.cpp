@@ -10,13 +10,14 @@
 //   fuzz --draw COUNT SEED FILE...   also settles and draws one in sixteen of the scenes that are read
 //
 // The program is built with the sanitizers, which find crashes, undefined behaviour and leaks. An input that takes longer
-// than ten seconds counts as a hang. The input that failed is left in build/fuzzfail.fb.
+// than ten to twenty seconds of processor time counts as a hang. The input that failed is left in build/fuzzfail.fb.
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <sys/time.h>
 #include <unistd.h>
 #include <vector>
 
@@ -46,12 +47,19 @@ volatile unsigned long round_ = 0, roundSeen = 0;
     _exit(1);
 }
 
+// Calls onAlarm() after ten seconds of the program's own time: a busy machine makes no hang.
+void watch()
+{
+    const itimerval limit{{0, 0}, {10, 0}};
+    setitimer(ITIMER_VIRTUAL, &limit, nullptr);
+}
+
 void onAlarm(int)
 {
     if (round_ == roundSeen)
         failed("a hang");
     roundSeen = round_;
-    alarm(10);
+    watch();
 }
 
 // The sanitizers call this before they stop the program, so that the input is kept.
@@ -159,8 +167,8 @@ int main(int count, char** arguments)
     const size_t given = pool.size();
     makeFieldSteps();
     makeNormalTable();
-    signal(SIGALRM, onAlarm);
-    alarm(10);
+    signal(SIGVTALRM, onAlarm);
+    watch();
     __sanitizer_set_death_callback(onDeath);
 
     unsigned long taken = 0, refused = 0, drawn = 0, whole = 0;
@@ -267,7 +275,9 @@ int main(int count, char** arguments)
         }
         if (draws && random.once(16)) {
             ++drawn;
-            draw(model, random.once(4));
+            // The report's method asks every object for every seed: with very many it takes minutes under the sanitizers.
+            const bool printed = random.once(4);
+            draw(model, printed && model.count() <= 40);
         }
         // Some of the accepted scenes are kept for further changes, so that changes accumulate.
         if (random.once(8)) {
