@@ -55,12 +55,6 @@ inline Square squareOf(Real a) { return a * a; }
 #endif
 Real lengthOf(Square square);
 
-// Returns true if `v` is shorter than `than`. Most longer vectors are told by a single component, without squares.
-inline bool isShorter(const Vector& v, Real than)
-{
-    return absolute(v.x) < than && absolute(v.y) < than && absolute(v.z) < than && squareOf(v) < squareOf(than);
-}
-
 // Whether two points are less than a distance apart. Most that are not are too far apart along the first axis already.
 inline bool isNearer(const Point& a, const Point& b, Real than)
 {

@@ -3,8 +3,9 @@
 #define FB_BEND_H
 
 #include "math/whole.h"
-#include "model/softobj.h"
+#include "model/seed.h"
 
+class SoftObject;
 struct Patch;
 struct Shading;
 
@@ -46,6 +47,7 @@ inline int32_t turnOf(const Bend& bend, const int32_t both[6])
            bend.turn[4] * both[4] + bend.turn[5] * both[5];
 }
 
+// The dot product of a direction and a vector, with 14 more fraction bits than the vector has.
 inline int32_t dot(const Direction14& a, const int32_t b[3])
 {
     return a.x * b[0] + a.y * b[1] + a.z * b[2];

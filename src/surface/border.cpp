@@ -16,6 +16,15 @@ const Neighbour* strongestOf(const Path& path)
     return other;
 }
 
+// The gradient of a neighbour's field at a position, times half the squared size of the object, over 2^shift. Beyond the end of the
+// field the vector from the core may be too long for 16.16.
+inline Vector gradientOf(const Path& path, const Neighbour& near, Real position, int shift)
+{
+    if (near.slope == Real(0))
+        return {Real(0), Real(0), Real(0)};
+    return path.fromCore(near, position) * (shiftDown(near.slope, shift) * near.ratio);
+}
+
 // As strongestOf(), where something digs, strengths differ or the object is shaped: the strongest neighbour that does not dig, or
 // null. Sets `*change`, the slope of the own field along the path, and `*g`, its gradient, if the object is shaped; in a hollow
 // both become those of the object that has the hollow, because it is that object's border.
@@ -28,8 +37,7 @@ SELDOM const Neighbour* strongestOdd(const Path& path, const Seed& s, int shift,
     for (int i = 0; i < path.touched(); ++i) {
         const Neighbour& near = path.near(i);
         if (path.all().hollow && near.object == path.all().head) {
-            if (near.slope != Real(0))
-                *g = path.fromCore(near, s.position) * (shiftDown(near.slope, shift) * near.ratio);
+            *g = gradientOf(path, near, s.position, shift);
             *change = near.slope * near.change;
         } else if (!near.digs && (other == nullptr || near.value > other->value)) {
             other = &near;
@@ -43,7 +51,7 @@ SELDOM const Neighbour* strongestOdd(const Path& path, const Seed& s, int shift,
 void findBorder(const Path& path, Seed& s, Real dominance)
 {
     // Gradients here are multiplied by half the squared size of the object, over 2^shift.
-    const int shift = path.neededShift();
+    const int shift = path.gradientShift();
     Vector g = path.from(s.position) * shiftDown(path.ownSlope(), shift);
     Real change = shiftDown(path.ownSlope() * path.lookedAt(), 1);
     const Neighbour* const other = path.all().ordinary ? strongestOf(path) : strongestOdd(path, s, shift, &g, &change);
@@ -51,9 +59,7 @@ void findBorder(const Path& path, Seed& s, Real dominance)
         return;
     // The fields were evaluated before the last step of Newton's method.
     dominance += (other->slope * other->change - change) * (s.position - path.lookedAt());
-    // Beyond the end of its field the vector from a core may be too long.
-    if (other->slope != Real(0))
-        g = g - path.fromCore(*other, s.position) * (shiftDown(other->slope, shift) * other->ratio);
+    g = g - gradientOf(path, *other, s.position, shift);
     const Normal n = normalise(g);
     const Real steep = dot(g, {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)});
     const Real size = path.object().laidSize();

@@ -41,6 +41,8 @@ constexpr Real SMALL(6), LONG_PATH(50);
 // whose unit is its size, could overflow. In core space they cannot.
 SELDOM bool isTiny(const SoftObject& object, const Neighbour& near)
 {
+    // No root is farther from the neighbour than `away`. In its sizes that is squared, and multiplied by 32 times a path: 64^2 and
+    // 32 * 512 are within 2^15.
     const Vector& c = near.centre;
     const Real away = absolute(c.x) + absolute(c.y) + absolute(c.z) + object.laidReach();
     return shiftDown(away, 6) > near.size || shiftDown(away, 5) * shiftDown(object.longestPath(), 4) > near.size * near.size;
@@ -208,8 +210,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
     Neighbour* next = all.neighbours + all.count;
     for (SoftObject* const* const end = from + count; from < end && all.count < NEIGHBOURS_MAX; ++from) {
         const SoftObject& other = **from;
-        const Real reach = object.reach() + other.reach();
-        if (!isNearer(other.centre(), object.centre(), reach + GATHER_SLACK) || &other == &object)
+        if (!isNearer(other.centre(), object.centre(), object.reach() + other.reach() + GATHER_SLACK) || &other == &object)
             continue;
         const Vector apart = other.centre() - object.centre();
         ++all.count;
@@ -217,7 +218,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         all.bySlot[other.slot()] = &near;
         near.object = &other;
         near.digs = digs;
-        near.inRange = isShorter(apart, reach);
+        near.inRange = object.inRange(other);
         place(object, growth, apart, near);
         weigh(bodies, all, near);
         const bool tiny = (near.size < SMALL || longPaths) && isTiny(object, near);

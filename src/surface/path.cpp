@@ -271,10 +271,10 @@ inline __attribute__((always_inline)) Vector Path::sumGradients(Real position, i
     return object_.slants() ? g + ownGradient(position, own) : g;
 }
 
-Vector Path::outward(Real position)
+Vector Path::outward(Real position) const
 {
-    gradientShift_ = neededShift();
-    return gradientShift_ == 0 ? sumGradients(position, 0) : sumGradients(position, gradientShift_);
+    const int shift = gradientShift();
+    return shift == 0 ? sumGradients(position, 0) : sumGradients(position, shift);
 }
 
 Vector Path::ownGradient(Real position, Real share) const

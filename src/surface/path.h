@@ -45,10 +45,9 @@ public:
     // The direction in which the body's field falls (own axes) at the position evaluated last, or a short step from it. Its length
     // is half the gradient times the squared own size, over 2^gradientShift(): beside a small neighbour that alone would leave
     // 16.16.
-    Vector outward(Real position);
-    int gradientShift() const { return gradientShift_; }
-    // The shift that outward() needs at the position evaluated last: 0, unless there is a far smaller neighbour.
-    int neededShift() const { return all_.uneven ? findGradientShift() : 0; }
+    Vector outward(Real position) const;
+    // The shift of gradients at the position evaluated last: 0, unless there is a far smaller neighbour.
+    int gradientShift() const { return all_.uneven ? findGradientShift() : 0; }
 
     // Must be called when the lists of `nearby` change.
     void leave() { asked_ = nullptr; }
@@ -138,7 +137,6 @@ private:
     NeighbourList part_;                      // the neighbours of a list that reach the path
     Neighbour* const* near_;        // the neighbours of asked_ or part_
     int touched_ = 0;               // their number
-    int gradientShift_ = 0;
     int rootOfAsked_ = -1;            // index of the root for which all neighbours of asked_ are prepared; -1: none
     bool odd_;                      // not ownPlain_, or some neighbours are not Neighbour::plain
     bool others_;                   // the cores of some neighbours are neither points nor segments
