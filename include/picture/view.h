@@ -11,6 +11,12 @@
 #include "picture/palette.h"
 #include "picture/scales.h"
 
+// A pixel just across a border between two objects, where the surface of the other object must go on, and the depth at which it is
+// expected there, 1/128 unit.
+struct Crossing {
+    uint16_t pixel, depth;
+};
+
 class View : public Hider {
 public:
     // The frame has this many more rows below the screen, which stay empty, so that a search for drawn pixels below a pixel need
@@ -58,8 +64,9 @@ public:
     // is small (see the limits in gaps.cpp) or ends between drawn pixels. `spacing` is that of the seeds, units. To be called
     // when all objects are drawn and before anything is drawn over them. Does nothing when voxels are drawn as single pixels.
     // With a model, real openings stay open: gaps wider than two pixels half way across which the model has no surface within
-    // about a unit. With a palette as well, pixels filled between two objects get the colour of the object whose field is the
-    // stronger there. Returns the number of pixels that were drawn before gaps were closed.
+    // about a unit. Where scales have missed the model's surface it is drawn (missed.h). With a palette as well, pixels filled
+    // between two objects get the colour of the object whose field is the stronger there. Returns the number of pixels that were
+    // drawn before gaps were closed.
     int closeGaps(Real spacing, const Model* model = nullptr, const Palette* palette = nullptr);
 
     // The point of the world that a pixel (row * WIDTH + column) shows: at its own depth, or at a given one (1/128 unit).
@@ -80,6 +87,10 @@ public:
         frame_[pixel] = frame_[from];
         zbuffer_[pixel] = zbuffer_[from];
     }
+    // The crossings of this frame's scales, as far as those scales were seen when their object was drawn.
+    static constexpr int CROSSINGS_MOST = 2048;
+    const Crossing* crossings() const { return crossings_; }
+    int crossingCount() const { return crossingCount_; }
     // The columns of a row outside of which nothing has been drawn.
     const Span& touched(int row) const { return touched_[row]; }
 
@@ -91,6 +102,10 @@ public:
     const Span* rows() const { return present_; }
 
 private:
+    // Positions on the screen have this many fraction bits; and half a pixel.
+    static constexpr int FRACTION = 12;
+    static constexpr int32_t HALF = 1 << (FRACTION - 1);
+
     // A projected scale: the depth of its centre, 1/256 unit; its centre on the screen and its half extents, pixels with 12
     // fraction bits.
     struct Placed {
@@ -102,6 +117,8 @@ private:
     void mark(int left, int top, int right, int bottom);
     bool prepareLoop(const VoxelList& list);
     int showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool loop);
+    void noteCrossings(const VoxelList& list);
+    void noteCrossing(const Voxel& voxel);
     bool ordinary(const Voxel& voxel) const;
     bool place(const Voxel& voxel, Placed* placed) const;
     static bool clip(const Placed& placed, FineScale* scale);
@@ -116,6 +133,8 @@ private:
     uint8_t* frame_ = nullptr;
     uint16_t* zbuffer_ = nullptr;
     Factors* factors_ = nullptr;
+    Crossing crossings_[CROSSINGS_MOST];
+    int crossingCount_ = 0;
     Span touched_[machine::HEIGHT];
     Span last_[machine::HEIGHT];
     Span present_[machine::HEIGHT];

@@ -58,6 +58,7 @@ struct VoxelList {
                            // valid too. No index is 0: that is the background, which gaps are recognised by
     int32_t reach;         // no voxel's centre is farther than this from the object's centre along any axis, 1/256 unit
     int count;             // voxels in the list
+    bool bordered;         // some voxels are cut at a border to another object
     int runs;              // number of runs, each with its own ramp; 0: all voxels have `ramp`
     RampRun run[RUNS_MOST];
     Voxel voxels[VOXELS_AT_ONCE];
@@ -73,6 +74,7 @@ struct VoxelList {
         reach = rawFromReal(most) >> 8;
         ramp = objectRamp;
         count = runs = 0;
+        bordered = false;
     }
     // The caller writes the next voxel to *room() and then calls take().
     Voxel* room() { return voxels + count; }

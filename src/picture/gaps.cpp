@@ -15,6 +15,9 @@ constexpr int GAP_THIN = 2;   // width of a run that is filled whatever lies abo
 constexpr int GAP_MOST = 32;  // upper bound of all widths, however near the viewer the seeds are
 constexpr int DIVIDED = 2;    // the search for where a gap changes its colour ends when its bounds are this close
 constexpr Real STEEP(1.3);    // upper bound of the gradient of a field, times the size of its object
+// Units: an opening stays open if the surface is at least this far away half way across it. If it is nearer than that, but not
+// nearer than DOUBTFUL, only those pixels of the opening are drawn that show the surface.
+constexpr Real OPEN(1), DOUBTFUL(0.25);
 
 // Whether a pixel is empty and lies right below a drawn one and at most GAP_LOW pixels above another.
 inline bool inSlit(const uint8_t* pixel)
@@ -185,35 +188,52 @@ void Gaps::closeFrom(int y, int from, int to, int step, int widest, int narrowes
     const Span* const rows = opening.rows;
     if (narrow > 0) {
         const int middle = narrow / 2, row = (y + middle * step) * WIDTH;
-        if (isOpen(row + rows[middle].from - 1, row + rows[middle].to, 1))
+        const Real off = distanceOff(row + rows[middle].from - 1, row + rows[middle].to, 1);
+        if (off >= OPEN)
             return;
         const Ends ends = endsOf(row + rows[middle].from - 1, row + rows[middle].to);
-        for (int i = 0; i < narrow; ++i)
-            fill(ends, (y + i * step) * WIDTH + rows[i].from - 1, (y + i * step) * WIDTH + rows[i].to, 1);
+        for (int i = 0; i < narrow; ++i) {
+            const int start = (y + i * step) * WIDTH, first = start + rows[i].from - 1, last = start + rows[i].to;
+            if (off < DOUBTFUL || last - first <= GAP_THIN + 1)
+                fill(ends, first, last, 1);
+            else if (!closeExactly(first, last))
+                break;
+        }
     }
     noteBeyond(y + narrow * step, rows[narrow < opening.height ? narrow : narrow - 1]);
 }
 
-// Whether the model has no surface half way between two drawn pixels of a row (`step` 1) or of a column (`step` WIDTH).
-bool Gaps::isOpen(int first, int last, int step) const
+// Draws the surface of the model from both ends of a row's gap on, as far as it goes. Returns false when there is none.
+bool Gaps::closeExactly(int first, int last)
+{
+    const bool drawn = missed_.follow(first + 1, zbuffer_[first], first);
+    return missed_.follow(last - 1, zbuffer_[last], last) || drawn;
+}
+
+// A lower bound of the distance from the place half way between two drawn pixels of a row (`step` 1) or of a column (`step` WIDTH)
+// to the surface of the model, units. It is 0 or less if the place lies inside, if the gap is thin, and without a model.
+Real Gaps::distanceOff(int first, int last, int step) const
 {
     const int count = (last - first) / step;
     if (model_ == nullptr || count <= GAP_THIN + 1)
-        return false;
+        return Real(0);
     const Point here = view_.pointAt(first);
     const Vector way = view_.pointAt(last) - here;
+    const Real off = distanceOff(here + Vector{shiftDown(way.x, 1), shiftDown(way.y, 1), shiftDown(way.z, 1)});
+    if (off < DOUBTFUL)
+        return off;
     // The nearer pixel may belong to something in front of the surface, which is then as far away as the farther pixel.
     const int farther = zbuffer_[first] < zbuffer_[last] ? last : first;
-    return isOff(here + Vector{shiftDown(way.x, 1), shiftDown(way.y, 1), shiftDown(way.z, 1)}) &&
-           isOff(view_.pointAt(first + count / 2 * step, zbuffer_[farther]));
+    return min(off, distanceOff(view_.pointAt(first + count / 2 * step, zbuffer_[farther])));
 }
 
-// Whether a point is well outside of every body: even the steepest field could not reach the isovalue within a unit.
-bool Gaps::isOff(const Point& p) const
+// A lower bound of the distance from a point to the surface of any body, units: it follows from the steepest gradient that a field
+// can have. It is OPEN where no field reaches the point.
+Real Gaps::distanceOff(const Point& p) const
 {
     int strongest;
     const Real field = model_->implicitAt(p, &strongest);
-    return strongest < 0 || field < ISOVALUE - STEEP / model_->actor(strongest).object->size();
+    return strongest < 0 ? OPEN : (ISOVALUE - min(field, Real(1))) * (model_->actor(strongest).object->size() / STEEP);
 }
 
 // The objects that the drawn pixels on both sides of a gap belong to. Returns NO_ENDS where both have the same colour, where the
@@ -286,7 +306,7 @@ void Gaps::closeSlit(int y, int x, int end, int step)
         while (frame_[at + height * WIDTH] == 0)
             ++height;
         const int above = at - WIDTH, below = at + height * WIDTH;
-        if (isOpen(above, below, WIDTH))
+        if (distanceOff(above, below, WIDTH) >= OPEN)
             continue;
         fill(height > GAP_THIN ? endsOf(above, below) : NO_ENDS, above, below, WIDTH);
         view_.overlay(x, y, 1, height);

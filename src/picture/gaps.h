@@ -29,8 +29,9 @@ private:
     void closeAbove(int y, int x, int widest, int narrowest);
     void closeFrom(int y, int from, int to, int step, int widest, int narrowest);
     void closeSlit(int y, int x, int end, int step);
-    bool isOpen(int first, int last, int step) const;
-    bool isOff(const Point& p) const;
+    bool closeExactly(int first, int last);
+    Real distanceOff(int first, int last, int step) const;
+    Real distanceOff(const Point& p) const;
     Ends endsOf(int first, int last) const;
     int divide(const Ends& ends, int first, int last, int step) const;
     void fill(const Ends& ends, int first, int last, int step);

@@ -1,4 +1,4 @@
-// Drawing parts of the surface that were missed: one ray for each pixel, searched from the depth of a drawn pixel beside it.
+// Drawing parts of the surface that were missed: one ray for each pixel, searched from the depth that the surface has beside it.
 #include "missed.h"
 
 #include "math/normal.h"
@@ -19,24 +19,44 @@ constexpr int STEP = 128, APART = 128;
 constexpr int STEPS = 3, FARTHEST = 4, THICKEST = 12;
 // No surface is near a point where the field is this much below the isovalue.
 constexpr Real NEAR(0.2);
-// A ray grazes the surface where the field, times the size of its object, exceeds the isovalue by less than this.
+// A ray only grazes the surface if the field, times the size of its object, rises by less than this over the STEP that leads inside.
 constexpr Real RIM(0.25);
+// A depth that differs from all others.
+constexpr int NOWHERE = -APART;
+// A pixel that is drawn shows the surface unless it is deeper by more than this, 1/128 unit.
+constexpr int BEHIND = 512;
 
 }  // namespace
+
+// Whether a pixel shows nothing, or something well behind this depth.
+inline bool Missed::isMissing(int at, int depth) const
+{
+    return frame_[at] == 0 || zbuffer_[at] > depth + BEHIND;
+}
 
 void Missed::draw()
 {
     const int corners = count_;
-    for (int i = 0; i < corners; ++i) {
-        const Place& at = noted_[i];
-        if (!takeCorner(at.column, at.row) || model_ == nullptr || looks_ >= LOOKS_MOST)
-            continue;
-        drawPixel(at.column, at.row);
-        while (count_ > corners && looks_ < LOOKS_MOST) {
-            const Place next = noted_[--count_];
-            drawPixel(next.column, next.row);
+    for (int i = 0; i < corners; ++i)
+        if (takeCorner(noted_[i].pixel) && model_ != nullptr) {
+            const int at = noted_[i].pixel, beside = drawnBeside(at, NOWHERE);
+            follow(at, zbuffer_[beside], beside);
         }
+    const Crossing* const end = view_.crossings() + view_.crossingCount();
+    for (const Crossing* at = view_.crossings(); at < end && model_ != nullptr; ++at)
+        if (isMissing(at->pixel, at->depth))
+            follow(at->pixel, at->depth, at->pixel);
+}
+
+bool Missed::follow(int at, int depth, int from)
+{
+    const int before = count_;
+    bool any = false;
+    for (put(at, depth, from); count_ > before;) {
+        const Place place = noted_[--count_];
+        any |= looks_ < LOOKS_MOST && drawPixel(place);
     }
+    return any;
 }
 
 // Returns how many pixels from `at` on, in steps of `step`, are drawn with an empty pixel beside them (`at + aside`); LONG at most.
@@ -53,10 +73,9 @@ int Missed::sideFrom(int at, int step, int aside) const
 
 // Looks at a noted pixel. In a short corner it gets the colour and the depth of the pixel beside it. Returns true when the corner
 // is so long that the surface has to be searched for.
-bool Missed::takeCorner(int column, int row)
+bool Missed::takeCorner(int at)
 {
-    const int at = row * WIDTH + column;
-    if (column < 1 || column >= WIDTH - 1 || row < 1 || row >= HEIGHT - 1 || frame_[at] != 0)
+    if (frame_[at] != 0)
         return false;
     for (int aside = -1; aside <= 1; aside += 2)
         for (int down = -WIDTH; down <= WIDTH && frame_[at - aside] != 0; down += 2 * WIDTH) {
@@ -110,48 +129,62 @@ bool Missed::findDepth(int at, int* depth)
         outside -= STEP;
         here = excess(at, outside);
     }
-    onEdge_ = onEdge_ && strongest_ >= 0 && within * model_->actor(strongest_).object->size() < RIM;
+    onEdge_ = onEdge_ && strongest_ >= 0 && (within - here) * model_->actor(strongest_).object->size() < RIM;
     *depth = outside + floorToInt(quotient(-here, within - here) * Real(STEP));
     return true;
 }
 
-// Finds the depth of the surface at a pixel, with the depth of a drawn pixel beside it, in its row or its column, as a first
-// guess. *beside becomes the number of that pixel. Returns false when there is no surface.
-bool Missed::findSurface(int at, int* depth, int* beside)
+// Returns a drawn pixel beside a pixel whose depth differs from `depth` by at least APART, or `at` itself if there is none.
+int Missed::drawnBeside(int at, int depth) const
 {
-    const int inRow = frame_[at - 1] != 0 ? at - 1 : at + 1, inColumn = frame_[at - WIDTH] != 0 ? at - WIDTH : at + WIDTH;
-    const int first = frame_[inRow] != 0 ? inRow : inColumn, second = frame_[inColumn] != 0 ? inColumn : first;
-    *depth = zbuffer_[*beside = first];
-    if (findDepth(at, depth))
-        return true;
-    if (magnitude(zbuffer_[second] - zbuffer_[first]) < APART)
-        return false;
-    *depth = zbuffer_[*beside = second];
-    return findDepth(at, depth);
+    const int beside[] = {at - 1, at + 1, at - WIDTH, at + WIDTH};
+    for (const int pixel : beside)
+        if (frame_[pixel] != 0 && magnitude(zbuffer_[pixel] - depth) >= APART)
+            return pixel;
+    return at;
 }
 
-// Draws an empty pixel beside a drawn one if there is surface, and notes the empty pixels beside it.
-void Missed::drawPixel(int column, int row)
+// Finds the depth of the surface at a place. A drawn pixel in the same row is the best guide, because near the upper and the lower
+// end of an outline depths change most from row to row. If the ray misses the surface from that depth, it may hit it from the depth
+// of another drawn pixel beside it. Returns false when there is no surface.
+bool Missed::findSurface(Place* place)
 {
-    const int at = row * WIDTH + column;
-    if (column < 1 || column >= WIDTH - 1 || row < 1 || row >= HEIGHT - 1 || frame_[at] != 0)
-        return;
-    int depth, beside;
-    if (!findSurface(at, &depth, &beside))
-        return;
-    setColour(at, depth, beside);
-    // Where the ray only grazes the surface this is its outline: there is nothing beyond.
-    for (int away = -1; away <= 1 && !onEdge_; away += 2) {
-        if (frame_[at + away] == 0)
-            note(column + away, row);
-        if (frame_[at + away * WIDTH] == 0)
-            note(column, row + away);
+    const int at = place->pixel;
+    for (int beside = at - 1; beside <= at + 1; beside += 2)
+        if (frame_[beside] != 0 && magnitude(zbuffer_[beside] - place->depth) <= BEHIND)
+            *place = {place->pixel, zbuffer_[beside], static_cast<uint16_t>(beside)};
+    int depth = place->depth;
+    if (!findDepth(at, &depth)) {
+        place->from = static_cast<uint16_t>(drawnBeside(at, place->depth));
+        depth = zbuffer_[place->from];
+        if (place->from == at || !findDepth(at, &depth))
+            return false;
     }
+    place->depth = static_cast<uint16_t>(depth);
+    return true;
 }
 
-// Gives a pixel the ramp of its object, with the brightness from the surface normal there. If the object is painted, the pixel
-// gets the colour of the pixel `beside` instead.
-void Missed::setColour(int at, int depth, int beside)
+// Draws a pixel where surface is missing, and notes the pixels beside it where it may be missing too. Returns false when nothing is
+// missing.
+bool Missed::drawPixel(Place place)
+{
+    const int at = place.pixel, row = at / WIDTH, column = at - row * WIDTH;
+    if (column < 1 || column >= WIDTH - 1 || row < 1 || row >= HEIGHT - 1 || !isMissing(at, place.depth) || !findSurface(&place) ||
+        !isMissing(at, place.depth) || !setColour(at, place.depth, place.from))
+        return false;
+    // Where the ray only grazes the surface this is its outline: there is nothing beyond.
+    for (int away = 1; away <= WIDTH && !onEdge_; away += WIDTH - 1) {
+        if (isMissing(at - away, place.depth))
+            put(at - away, place.depth, at);
+        if (isMissing(at + away, place.depth))
+            put(at + away, place.depth, at);
+    }
+    return true;
+}
+
+// Gives a pixel the ramp of its object, with the brightness from the surface normal there. If the object is painted, and the pixel
+// `from` beside it shows that object too, the pixel gets the colour of that one instead. Returns false when there is no colour.
+bool Missed::setColour(int at, int depth, int from)
 {
     const Point p = view_.pointAt(at, depth);
     const auto fieldAt = [&](const Vector& away) {
@@ -162,11 +195,15 @@ void Missed::setColour(int at, int depth, int beside)
     const Vector there{fieldAt({half, none, none}), fieldAt({none, half, none}), fieldAt({none, none, half})};
     const Real here = fieldAt({none, none, none});
     const SoftObject* const own = strongest_ < 0 ? nullptr : model_->actor(strongest_).object;
-    uint8_t colour = frame_[beside];
-    if (own != nullptr && own->ramp() != nullptr && own->paint() == nullptr) {
+    uint8_t colour = frame_[from];
+    if (own != nullptr && own->ramp() != nullptr &&
+        (own->paint() == nullptr || from == at || model_->strongestAt(view_.pointAt(from)) != strongest_)) {
         const Normal out = normalise({here - there.x, here - there.y, here - there.z}), light = normalise(model_->light);
         const int32_t cosine = (out.x * light.x + out.y * light.y + out.z * light.z) >> 14;
         colour = own->ramp()[max32(lambert(cosine), 0)];
     }
+    if (colour == 0)
+        return false;
     view_.setPixel(at, depth, colour);
+    return true;
 }

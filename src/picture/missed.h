@@ -1,5 +1,6 @@
 // Missed: finds parts of the surface that no scale has drawn, when gaps are closed (gaps.h). At each inner corner of the drawn
-// pixels a ray is intersected with the model's surface; where it hits, the surface is followed from pixel to pixel.
+// pixels, and across each border between objects where nothing is drawn at the surface's depth, a ray is intersected with the
+// model's surface. Where it hits, the surface is followed from pixel to pixel.
 #ifndef FB_MISSED_H
 #define FB_MISSED_H
 
@@ -26,34 +27,49 @@ public:
                (pixel[UP + END * outwards] != 0 && pixel[DOWN * END - outwards] != 0);
     }
 
-    // Notes a pixel, possibly off the screen, that draw() is to look at. Does nothing when NOTED_MOST are noted already.
+    // Notes a pixel, possibly off the screen, that may be in a corner, for draw(). Does nothing when NOTED_MOST are noted already.
     void note(int column, int row)
     {
-        if (count_ < NOTED_MOST)
-            noted_[count_++] = {static_cast<int16_t>(column), static_cast<int16_t>(row)};
+        if (column >= 1 && column < machine::WIDTH - 1 && row >= 1 && row < machine::HEIGHT - 1)
+            put(row * machine::WIDTH + column, 0, 0);
     }
 
-    // Draws the surface at the noted pixels, and follows it to the pixels beside them.
+    // Draws the surface where it is missing at the noted corners and at the view's crossings, and follows it to the pixels beside
+    // them.
     void draw();
+
+    // Draws the surface from a pixel on wherever it is missing. It is looked for from `depth` on (1/128 unit), and is that of the
+    // pixel `from`, if that is another pixel. Returns false when none is missing there.
+    bool follow(int at, int depth, int from);
 
 private:
     static constexpr int NOTED_MOST = 1024;
 
+    // A pixel that the surface may go on to, the depth where it is looked for (1/128 unit), and the pixel that it comes from.
+    struct Place {
+        uint16_t pixel, depth, from;
+    };
+
+    void put(int pixel, int depth, int from)
+    {
+        if (count_ < NOTED_MOST)
+            noted_[count_++] = {static_cast<uint16_t>(pixel), static_cast<uint16_t>(depth), static_cast<uint16_t>(from)};
+    }
     int sideFrom(int at, int step, int aside) const;
-    bool takeCorner(int column, int row);
-    void drawPixel(int column, int row);
+    bool takeCorner(int at);
+    bool isMissing(int at, int depth) const;
+    int drawnBeside(int at, int depth) const;
+    bool findSurface(Place* place);
+    bool drawPixel(Place place);
     Real excess(int at, int depth);
     bool findDepth(int at, int* depth);
-    bool findSurface(int at, int* depth, int* beside);
-    void setColour(int at, int depth, int beside);
+    bool setColour(int at, int depth, int from);
 
     View& view_;
     const uint8_t* frame_;
     const uint16_t* zbuffer_;
     const Model* model_;
-    struct Place {
-        int16_t column, row;
-    } noted_[NOTED_MOST];
+    Place noted_[NOTED_MOST];
     int count_ = 0;
     int looks_ = 0;        // evaluations of the field so far
     int strongest_ = -1;   // the object with the strongest field at the last evaluation; -1: none

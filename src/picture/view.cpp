@@ -10,8 +10,6 @@ using machine::WIDTH;
 
 namespace {
 
-constexpr int FRACTION = 12;
-constexpr int32_t HALF = 1 << (FRACTION - 1);
 constexpr int32_t NEAREST = 1 << 8;            // 1 unit
 constexpr int32_t FARTHEST = 511 << 8;         // 16-bit depths of 1/128 unit end at 512 units
 // hides() looks at every third pixel of every third row: an object that shows only between them is narrower than a scale.
@@ -81,6 +79,7 @@ void View::makeLens()
 void View::begin()
 {
     clearRows(frame_, zbuffer_, touched_, HEIGHT);
+    crossingCount_ = 0;
     for (int y = 0; y < HEIGHT; ++y)
         touched_[y] = {WIDTH, 0};
 }
@@ -280,6 +279,8 @@ int View::show(const VoxelList& list)
         from = to;
     }
     mark(lens_.left, lens_.top, lens_.right, lens_.bottom);
+    if (list.bordered && !pixels_)
+        noteCrossings(list);
     return list.count - undrawn - lens_.empty;
 }
 

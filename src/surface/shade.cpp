@@ -66,7 +66,7 @@ public:
 private:
     int findSeen(const Patch& patch, Seen* seen, Voxel* voxels, int* regular) const;
     void shadeSeen(Patch& patch, int turn, const Seen* seen, Voxel* voxels, int count);
-    bool cutAtBorder(const Seed& s, Voxel* voxel) const;
+    bool cutAtBorder(const Seed& s, Voxel* voxel, VoxelList& list) const;
     template <bool PAINTED>
     void listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list, Painter* painter);
     int findExtras(const Patch& patch, Seen* seen, Voxel* voxels) const;
@@ -342,12 +342,13 @@ inline void Shader::shadeSeen(Patch& patch, int turn, const Seen* seen, Voxel* v
 }
 
 // Cuts a voxel at the border, if its seed has one. Returns false when nothing of the voxel is left.
-inline bool Shader::cutAtBorder(const Seed& s, Voxel* voxel) const
+inline bool Shader::cutAtBorder(const Seed& s, Voxel* voxel, VoxelList& list) const
 {
     if (!(s.flags & SEED_BORDER))
         return true;
     if (!cut(s, voxel))
         return false;
+    list.bordered = true;
     if (s.apart < 0)
         voxel->z += BEHIND;
     return true;
@@ -364,7 +365,7 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
     Voxel* to = list.room();
     for (int i = 0; i < count; ++i) {
         const Seed& s = *seen[i].seed;
-        if (!cutAtBorder(s, voxels + i))
+        if (!cutAtBorder(s, voxels + i, list))
             continue;
         if (PAINTED) {
             to = list.room();

@@ -585,25 +585,31 @@ TEST(slits_where_there_is_no_surface)
     }
 }
 
-// A missing corner of a ball's picture is drawn with the true depth and brightness of the ball. Without the model the corner stays
-// open.
-TEST(surface_is_followed_from_corners)
-{
+namespace {
+
+// A ball of radius 20 in the middle of the view, and the picture that it truly has.
+struct BallView {
     Model model;
-    Motion still{};
-    still.centre = point(0, 0, 0);
-    CHECK(model.add(make<Sphere>(1, Real(40)), {255, 0, 0}, still));
-    Anim::move(model, 0);
-    CHECK(model.bodies() != nullptr);
     Palette palette;
-    palette.make(model, false);
-    const uint8_t* const ramp = model.actor(0).object->ramp();
     View view;
-    CHECK(view.open());
-    const Vec eye = vec(view.camera().eye), light = vec(model.light) * (1 / size(vec(model.light)));
+    const uint8_t* ramp;
+
+    BallView()
+    {
+        Motion still{};
+        still.centre = point(0, 0, 0);
+        CHECK(model.add(make<Sphere>(1, Real(40)), {255, 0, 0}, still));
+        Anim::move(model, 0);
+        CHECK(model.bodies() != nullptr && view.open());
+        palette.make(model, false);
+        ramp = model.actor(0).object->ramp();
+    }
+
     // The brightness of the ball at a pixel, and its depth; negative where the pixel does not show the ball.
-    const auto trueAt = [&](double column, double row, double* depth) {
+    double trueAt(double column, double row, double* depth) const
+    {
         const Camera& camera = view.camera();
+        const Vec eye = vec(camera.eye), light = vec(model.light) * (1 / size(vec(model.light)));
         const Vec way{(column + 0.5 - number(camera.centreX)) / number(camera.focalX),
                       (number(camera.centreY) - row - 0.5) / number(camera.focalY), 1};
         const double a = dot(way, way), b = dot(way, eye), root = b * b - a * (dot(eye, eye) - 400);
@@ -611,38 +617,132 @@ TEST(surface_is_followed_from_corners)
             return -1.0;
         *depth = (-b - std::sqrt(root)) / a;
         return std::max(0.0, 63 * dot(eye + way * *depth, light) / 20);
-    };
-    const auto played = [&](const Model* with, int right, int bottom) {
-        view.begin();
+    }
+
+    // Sets a pixel to the true depth, in a colour that does not matter, if it shows the ball.
+    void set(int column, int row)
+    {
+        double depth;
+        if (trueAt(column, row, &depth) >= 0)
+            view.setPixel(row * WIDTH + column, static_cast<int>(depth * 128), ramp[30]);
+    }
+
+    // Judges the pixels of columns left to right and rows 0 to bottom: returns whether all that are well inside the picture of the
+    // ball show it with its depth and brightness, and no pixel shows it that is not inside or next to such a pixel.
+    bool holds(int left, int right, int bottom, const char* what) const
+    {
         int open = 0, wrong = 0, drawn = 0;
         double depth;
+        for (int y = 0; y < bottom; ++y)
+            for (int x = left; x < right; ++x) {
+                const bool inside = trueAt(x - 1.5, y - 1.5, &depth) >= 0 && trueAt(x + 1.5, y - 1.5, &depth) >= 0 &&
+                                    trueAt(x - 1.5, y + 1.5, &depth) >= 0 && trueAt(x + 1.5, y + 1.5, &depth) >= 0;
+                const bool near = trueAt(x - 1, y, &depth) >= 0 || trueAt(x + 1, y, &depth) >= 0 ||
+                                  trueAt(x, y - 1, &depth) >= 0 || trueAt(x, y + 1, &depth) >= 0;
+                const double bright = trueAt(x, y, &depth);
+                const int at = y * WIDTH + x, step = palette.step(view.frame()[at]);
+                const bool shown = view.frame()[at] != 0 && view.zbuffer()[at] < 140 * 128;
+                drawn += shown;
+                open += inside && !shown;
+                wrong += shown && !near;
+                if (inside && shown)
+                    wrong += std::fabs(view.zbuffer()[at] / 128.0 - depth) > 0.5 || std::fabs(step - bright) > 2.5;
+            }
+        note("%s: %d pixels drawn, %d left open, %d wrong", what, drawn, open, wrong);
+        return open == 0 && wrong == 0 && drawn > 0;
+    }
+};
+
+}  // namespace
+
+// A missing corner of a ball's picture is drawn with the true depth and brightness of the ball. Without the model the corner stays
+// open.
+TEST(surface_is_followed_from_corners)
+{
+    BallView ball;
+    const auto played = [&](const Model* with, int right, int bottom) {
+        ball.view.begin();
         for (int y = 0; y < HEIGHT; ++y)
             for (int x = 0; x < WIDTH; ++x)
-                if (trueAt(x, y, &depth) >= 0 && (x < 150 || x >= right || y >= bottom))
-                    view.setPixel(y * WIDTH + x, static_cast<int>(depth * 128), ramp[30]);
-        view.closeGaps(SPACING, with, &palette);
-        view.end();
-        for (int y = 0; y < bottom; ++y)
-            for (int x = 150; x < right; ++x) {
-                // The pixel is well inside the picture of the ball, or next to such a pixel.
-                const bool inside = trueAt(x - 1.5, y - 1.5, &depth) >= 0 && trueAt(x + 1.5, y - 1.5, &depth) >= 0;
-                const bool near = trueAt(x, y + 1, &depth) >= 0;
-                const double bright = trueAt(x, y, &depth);
-                const int at = y * WIDTH + x;
-                drawn += view.frame()[at] != 0;
-                open += inside && view.frame()[at] == 0;
-                wrong += view.frame()[at] != 0 && !near;
-                if (inside && view.frame()[at] != 0 && with != nullptr)
-                    wrong += std::fabs(view.zbuffer()[at] / 128.0 - depth) > 0.5 ||
-                             std::fabs(palette.step(view.frame()[at]) - bright) > 2.5;
-            }
-        note("a bite to column %d, row %d: %d pixels drawn, %d left open, %d wrong", right, bottom, drawn, open, wrong);
-        return with == nullptr ? open > 0 : open == 0 && wrong == 0 && drawn > 0;
+                if (x < 150 || x >= right || y >= bottom)
+                    ball.set(x, y);
+        ball.view.closeGaps(SPACING, with, &ball.palette);
+        ball.view.end();
+        return ball.holds(150, right, bottom, with == nullptr ? "without the model" : "a bite");
     };
-    CHECK(played(nullptr, 175, 88));
-    CHECK(played(&model, 170, 88));
-    CHECK(played(&model, 165, 85));
-    CHECK(played(&model, WIDTH, 70));
+    CHECK(!played(nullptr, 175, 88));
+    CHECK(played(&ball.model, 170, 88));
+    CHECK(played(&ball.model, 165, 85));
+    CHECK(played(&ball.model, WIDTH, 70));
+}
+
+// The right part of a ball is missing, and a scale is cut at the border that the ball has there. The rest of the ball is drawn,
+// also in front of what is drawn farther away. Nothing is drawn if the scale is hidden or the cut is that of a limb.
+TEST(surface_goes_on_across_borders)
+{
+    BallView ball;
+    const auto played = [&](bool limb, double behind, double before) {
+        constexpr int LEFT = 190, ROW = 100;
+        ball.view.begin();
+        if (behind > 0)
+            block(ball.view, 0, 0, WIDTH, HEIGHT, 9, behind);
+        for (int y = 0; y < HEIGHT; ++y)
+            for (int x = 0; x < LEFT; ++x)
+                ball.set(x, y);
+        if (before > 0)
+            block(ball.view, 0, 0, LEFT, HEIGHT, 9, before);
+        // A scale whose right half is cut off at column LEFT.
+        double depth;
+        ball.trueAt(LEFT - 0.5, ROW, &depth);
+        const Camera& camera = ball.view.camera();
+        VoxelList* const list = make<VoxelList>();
+        list->begin({Real(0), Real(0), Real(0)}, Real(200), ball.ramp);
+        Voxel* const v = list->room();
+        *v = voxel((LEFT - number(camera.centreX)) / number(camera.focalX) * depth,
+                   (number(camera.centreY) - ROW - 0.5) / number(camera.focalY) * depth, depth, 1, 1, 30);
+        v->cutX = -100;
+        v->curveXX = limb ? -1 : 0;
+        list->bordered = true;
+        list->take();
+        ball.view.show(*list);
+        destroy(list);
+        ball.view.closeGaps(SPACING, &ball.model, &ball.palette);
+        ball.view.end();
+        return ball.holds(LEFT, WIDTH, HEIGHT, "beyond the border");
+    };
+    CHECK(played(false, 0, 0));
+    CHECK(played(false, 150, 0));
+    CHECK(!played(false, 0, 60));
+    CHECK(!played(true, 0, 0));
+}
+
+// The waist of two balls that blend is narrow enough to count as a gap of the outline. What truly lies outside stays empty.
+TEST(hollow_outlines_are_not_filled)
+{
+    Model model;
+    addPair(model, 25);
+    CHECK(model.link(model.actor(0).object, model.actor(1).object, Real(1)));
+    CHECK(model.bodies() != nullptr);
+    Palette palette;
+    palette.make(model, false);
+    View view;
+    CHECK(view.open());
+    view.begin();
+    int drawn = 0;
+    int strongest;
+    for (int y = 50; y < 150; ++y)
+        for (int x = 60; x < 260; ++x)
+            for (int depth = 95 * 128; depth < 121 * 128; depth += 32)
+                if (model.implicitAt(view.pointAt(y * WIDTH + x, depth), &strongest) >= ISOVALUE) {
+                    view.setPixel(y * WIDTH + x, depth, model.actor(strongest).object->ramp()[30]);
+                    ++drawn;
+                    break;
+                }
+    view.closeGaps(SPACING, &model, &palette);
+    view.end();
+    const int more = drawnIn(view, 0, 0, WIDTH, HEIGHT) - drawn;
+    note("%d pixels of the outline, %d filled", drawn, more);
+    CHECK(drawn > 5000 && more <= 4);
 }
 
 TEST(gaps_grow_with_spacing_and_nearness)
