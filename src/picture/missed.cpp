@@ -19,7 +19,7 @@ constexpr int STEP = 128, APART = 128;
 constexpr int STEPS = 3, FARTHEST = 4, THICKEST = 12;
 // No surface is near a point where the field is this much below the isovalue.
 constexpr Real NEAR(0.2);
-// A ray only grazes the surface if the field, times the size of its object, rises by less than this over the STEP that leads inside.
+// A ray only grazes the surface if the field, times the size of its object, rises by less than this over the last STEP.
 constexpr Real RIM(0.25);
 // A depth that differs from all others.
 constexpr int NOWHERE = -APART;
