@@ -11,10 +11,11 @@
 #include "picture/palette.h"
 #include "picture/scales.h"
 
-// A pixel just across a border between two objects, where the surface of the other object must go on, and the depth at which it is
-// expected there, 1/128 unit.
+// A pixel on a border between two objects, and the surface's depth there, 1/128 unit. `outwards` leads to the pixel across the
+// border, where the surface must go on as that of the other object.
 struct Crossing {
     uint16_t pixel, depth;
+    int16_t outwards;
 };
 
 class View : public Hider {

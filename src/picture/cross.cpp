@@ -1,6 +1,6 @@
 // Crossings: where a scale is cut at the border to another object, the surface goes on as that object's. Seeds of the other object
-// may be missing there, because their paths leave the surface elsewhere. A crossing is a pixel where that can be tested when all
-// objects are drawn (missed.h).
+// may be missing there, because their paths leave the surface elsewhere. A crossing tells where to test that when all objects are
+// drawn (missed.h).
 #include "math/whole.h"
 #include "picture/view.h"
 
@@ -38,8 +38,7 @@ void View::noteCrossings(const VoxelList& list)
             noteCrossing(*voxel);
 }
 
-// Notes the pixel across the border from the place on the border that is closest to the scale's centre, if the scale is seen beside
-// that place.
+// Notes the pixel of the place on the border that is closest to the scale's centre, if the scale is seen beside that place.
 void View::noteCrossing(const Voxel& voxel)
 {
     const int32_t z = lens_.z + voxel.z, square = voxel.cutX * voxel.cutX + voxel.cutY * voxel.cutY;
@@ -58,5 +57,6 @@ void View::noteCrossing(const Voxel& voxel)
     const int inwards = stepOf(voxel.cutX, voxel.cutY) - stepOf(voxel.cutY, voxel.cutX) * WIDTH;
     const int32_t depth = (z + ((voxel.tiltX * aside + voxel.tiltY * up) >> 8)) >> 1;
     if (depth > 0 && depth < Z_EMPTY && magnitude(zbuffer_[border + inwards] - depth) <= SEEN)
-        crossings_[crossingCount_++] = {static_cast<uint16_t>(border - inwards), static_cast<uint16_t>(depth)};
+        crossings_[crossingCount_++] = {static_cast<uint16_t>(border), static_cast<uint16_t>(depth),
+                                        static_cast<int16_t>(-inwards)};
 }

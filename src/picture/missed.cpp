@@ -43,9 +43,11 @@ void Missed::draw()
             follow(at, zbuffer_[beside], beside);
         }
     const Crossing* const end = view_.crossings() + view_.crossingCount();
-    for (const Crossing* at = view_.crossings(); at < end && model_ != nullptr; ++at)
-        if (isMissing(at->pixel, at->depth))
-            follow(at->pixel, at->depth, at->pixel);
+    for (const Crossing* at = view_.crossings(); at < end && model_ != nullptr; ++at) {
+        const int first = isMissing(at->pixel, at->depth) ? at->pixel : at->pixel + at->outwards;
+        if (isMissing(first, at->depth))
+            follow(first, at->depth, first);
+    }
 }
 
 bool Missed::follow(int at, int depth, int from)
