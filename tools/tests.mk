@@ -33,7 +33,7 @@ $(eval $(call variant,float,-O2 -DFB_REAL=FB_FLOAT))
 $(eval $(call variant,double,-O2 -DFB_REAL=FB_DOUBLE))
 # Shifts of negative numbers are what every compiler of use makes of them, and C++20 says so too.
 SANITIZE = -fsanitize=address,undefined -fno-sanitize=shift-base -fno-sanitize-recover=all
-$(eval $(call variant,san,-O1 -g -fno-omit-frame-pointer $(SANITIZE)))
+$(eval $(call variant,san,-O1 -g1 -fno-omit-frame-pointer $(SANITIZE)))
 
 UNIT_PARTS = $(TEST_PARTS) $(wildcard tests/unit/*.cpp)
 

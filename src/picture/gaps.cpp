@@ -98,11 +98,11 @@ void Gaps::noteBeyond(int y, const Span& columns)
     missed_.note(to - 1, y);
 }
 
-int Gaps::close(Real spacing)
+int Gaps::close()
 {
     int drawn = 0;
     // Divided by a depth of the Z-buffer, this is the spacing of the seeds in pixels.
-    const int32_t near = mulShift16(rawFromReal(view_.camera().focalX) >> 4, rawFromReal(spacing)) >> 5;
+    const int32_t near = mulShift16(rawFromReal(view_.camera().focalX) >> 4, rawFromReal(spacing_)) >> 5;
     Span runs[WIDTH / 2];
     const uint8_t* row = frame_;
     for (int y = 0; y < HEIGHT; ++y, row += WIDTH) {

@@ -6,15 +6,15 @@
 
 class Gaps {
 public:
-    // Model and palette may be null.
-    Gaps(View& view, const Model* model, const Palette* palette)
+    // The seeds lie `spacing` units apart. Model and palette may be null.
+    Gaps(View& view, const Model* model, const Palette* palette, Real spacing)
         : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model), palette_(palette),
-          missed_(view, model)
+          missed_(view, model, spacing), spacing_(spacing)
     {
     }
 
-    // Closes the gaps of seeds that lie `spacing` units apart. Returns the number of pixels that were drawn before.
-    int close(Real spacing);
+    // Closes the gaps. Returns the number of pixels that were drawn before.
+    int close();
 
 private:
     // The objects that the drawn pixels on both sides of a gap belong to; both are -1 where that does not matter.
@@ -42,6 +42,7 @@ private:
     const Model* model_;
     const Palette* palette_;
     Missed missed_;
+    Real spacing_;
 };
 
 #endif

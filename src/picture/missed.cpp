@@ -10,8 +10,9 @@ using machine::WIDTH;
 
 namespace {
 
-// No pixel is begun after this many evaluations of the field in a frame.
-constexpr int LOOKS_MOST = 3500;
+// No pixel is begun after this many evaluations of the field in a frame: as many as there are seeds on an area, so that the coarse
+// pictures that slow machines choose are not held up.
+constexpr int LOOKS_MOST = 3500, LOOKS_AT_ONE = 6000;
 // Depths, 1/128 unit: the first step along the ray; and the difference of two drawn pixels from which on both depths are tried.
 constexpr int STEP = 128, APART = 128;
 // Upper bounds: of the steps along the ray towards a stronger field; of the ratio of each step to the one before; and of the
@@ -27,6 +28,13 @@ constexpr int NOWHERE = -APART;
 constexpr int BEHIND = 512;
 
 }  // namespace
+
+Missed::Missed(View& view, const Model* model, Real spacing)
+    : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model)
+{
+    const Real square = max(spacing * spacing, Real(1));
+    looksMost_ = min32(floorToInt(quotient(Real(LOOKS_AT_ONE), square)), LOOKS_MOST);
+}
 
 // Whether a pixel shows nothing, or something well behind this depth.
 inline bool Missed::isMissing(int at, int depth) const
@@ -56,7 +64,7 @@ bool Missed::follow(int at, int depth, int from)
     bool any = false;
     for (put(at, depth, from); count_ > before;) {
         const Place place = noted_[--count_];
-        any |= looks_ < LOOKS_MOST && drawPixel(place);
+        any |= looks_ < looksMost_ && drawPixel(place);
     }
     return any;
 }

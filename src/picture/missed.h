@@ -12,10 +12,8 @@ public:
     // is filled. With both sides of LONG_BOTH or one side of LONG, more than a pixel of surface may be missing there.
     static constexpr int SIDE = 2, LONG_BOTH = 4, LONG = 8;
 
-    // The model may be null; then only short corners are closed.
-    Missed(View& view, const Model* model) : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model)
-    {
-    }
+    // The seeds lie `spacing` units apart. The model may be null; then only short corners are closed.
+    Missed(View& view, const Model* model, Real spacing);
 
     // A quick test for whether an empty pixel may be in a corner of drawn ones. The pixel beside it, against the direction
     // `outwards` (-1 or 1), is drawn. One side of the corner goes up (or down) from there, the other goes outwards in the row
@@ -71,6 +69,7 @@ private:
     const Model* model_;
     Place noted_[NOTED_MOST];
     int count_ = 0;
+    int looksMost_;        // no pixel is begun after this many evaluations of the field
     int looks_ = 0;        // evaluations of the field so far
     int strongest_ = -1;   // the object with the strongest field at the last evaluation; -1: none
     bool onEdge_ = false;  // the last ray only grazes the surface

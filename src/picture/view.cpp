@@ -315,7 +315,7 @@ int View::showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool 
 
 int View::closeGaps(Real spacing, const Model* model, const Palette* palette)
 {
-    return pixels_ ? 0 : Gaps(*this, model, palette).close(spacing);
+    return pixels_ ? 0 : Gaps(*this, model, palette, spacing).close();
 }
 
 Point View::pointAt(int pixel, int depth) const

@@ -33,12 +33,33 @@ Test::Test(const char* f, const char* n, void (*r)()) : file(f), name(n), run(r)
     *at = this;
 }
 
-bool check(bool good, const char* file, int line, const std::string& what)
+bool check(bool good, const char* file, int line, const char* what)
 {
     ++checks;
     if (!good && ++bad <= SHOWN)
-        std::printf("  %s:%d: %s\n", tail(file), line, what.c_str());
+        std::printf("  %s:%d: %s\n", tail(file), line, what);
     return good;
+}
+
+void checkNear(double a, double b, double tolerance, const char* file, int line, const char* what)
+{
+    ++checks;
+    if (!(a - b <= tolerance && b - a <= tolerance) && ++bad <= SHOWN)
+        std::printf("  %s:%d: %s = %.9g, expected %.9g +- %.9g\n", tail(file), line, what, a, b, tolerance);
+}
+
+void checkSame(long long a, long long b, const char* file, int line, const char* what)
+{
+    ++checks;
+    if (a != b && ++bad <= SHOWN)
+        std::printf("  %s:%d: %s = %lld, expected %lld\n", tail(file), line, what, a, b);
+}
+
+void checkText(const std::string& a, const std::string& b, const char* file, int line, const char* what)
+{
+    ++checks;
+    if (a != b && ++bad <= SHOWN)
+        std::printf("  %s:%d: %s = \"%s\", expected \"%s\"\n", tail(file), line, what, a.c_str(), b.c_str());
 }
 
 }  // namespace fbtest

@@ -18,19 +18,16 @@ struct Test {
     Test* next;
 };
 
-// Counts a check; says which one failed. The first few of a test are printed, the rest only counted.
-bool check(bool good, const char* file, int line, const std::string& what);
+// These count a check and say which one failed. The first few of a test are printed, the rest only counted. They take no strings
+// that have to be made first, because most checks do not fail.
+bool check(bool good, const char* file, int line, const char* what);
+void checkNear(double a, double b, double tolerance, const char* file, int line, const char* what);
+void checkSame(long long a, long long b, const char* file, int line, const char* what);
+void checkText(const std::string& a, const std::string& b, const char* file, int line, const char* what);
 
 // Text, or none.
 inline std::string said(const std::string& text) { return text; }
 inline std::string said(const char* text) { return text != nullptr ? text : "(null)"; }
-
-inline std::string said(double a)
-{
-    char text[40];
-    std::snprintf(text, sizeof text, "%.9g", a);
-    return text;
-}
 
 }  // namespace fbtest
 
@@ -42,26 +39,13 @@ inline std::string said(double a)
 #define CHECK(condition) fbtest::check((condition), __FILE__, __LINE__, #condition)
 
 // Two numbers (anything that casts to double) no further apart than `tolerance`; both are shown when they are.
-#define NEAR(a, b, tolerance)                                                                                       \
-    do {                                                                                                            \
-        const double a_ = (a), b_ = (b), t_ = (tolerance);                                                          \
-        fbtest::check(a_ - b_ <= t_ && b_ - a_ <= t_, __FILE__, __LINE__,                                             \
-                    std::string(#a " = ") + fbtest::said(a_) + ", expected " + fbtest::said(b_) + " +- " + fbtest::said(t_)); \
-    } while (0)
+#define NEAR(a, b, tolerance) fbtest::checkNear((a), (b), (tolerance), __FILE__, __LINE__, #a)
 
 // Two whole numbers that are equal.
-#define SAME(a, b)                                                                                                \
-    do {                                                                                                          \
-        const long long a_ = static_cast<long long>(a), b_ = static_cast<long long>(b);                           \
-        fbtest::check(a_ == b_, __FILE__, __LINE__,                                                                 \
-                    std::string(#a " = ") + std::to_string(a_) + ", expected " + std::to_string(b_));             \
-    } while (0)
+#define SAME(a, b) fbtest::checkSame(static_cast<long long>(a), static_cast<long long>(b), __FILE__, __LINE__, #a)
 
-#define TEXT(a, b)                                                                                                \
-    do {                                                                                                          \
-        const std::string a_ = fbtest::said(a), b_ = fbtest::said(b);                                             \
-        fbtest::check(a_ == b_, __FILE__, __LINE__, std::string(#a " = \"") + a_ + "\", expected \"" + b_ + "\"");  \
-    } while (0)
+// Two texts that are equal.
+#define TEXT(a, b) fbtest::checkText(fbtest::said(a), fbtest::said(b), __FILE__, __LINE__, #a)
 
 // A figure worth knowing, printed with the test's name.
 void note(const char* format, ...) __attribute__((format(printf, 1, 2)));

@@ -3,6 +3,8 @@
 #ifndef FB_TEST_TRUTH_H
 #define FB_TEST_TRUTH_H
 
+#include <array>
+
 #include "help.h"
 #include "model/box.h"
 #include "model/cone.h"
@@ -21,6 +23,8 @@ struct Core {
     double param(const Vec& p) const
     {
         const Vec v = p - centre;
+        if (half == 0 && ring == 0 && disc < 0 && tip < 0 && !box)
+            return dot(v, v) / (size * size);
         const double y = dot(v, axis), away = ::size(v - axis * y);
         if (tip >= 0) {
             const double on = std::clamp(y, -half, half);
@@ -110,14 +114,18 @@ struct Body {
 
     double field(const std::vector<size_t>& body, const Vec& p) const
     {
-        std::vector<double> f;
-        for (size_t i : body)
-            f.push_back(part(i, p));
+        // This is evaluated so often that a vector would cost more than all the rest.
+        std::array<double, 128> f;
+        for (size_t a = 0; a < body.size(); ++a)
+            f.at(a) = part(body[a], p);
         double above = 0, below = 0;
         for (size_t a = 0; a < body.size(); ++a) {
+            if (f[a] == 0)
+                continue;
             double g = f[a];
+            const std::vector<double>& row = weights[body[a]];
             for (size_t b = 0; b < body.size(); ++b)
-                g += weights[body[a]][body[b]] * f[b];
+                g += row[body[b]] * f[b];
             above += f[a] * f[a] * g;
             below += f[a] * f[a];
         }

@@ -666,7 +666,7 @@ TEST(surface_is_followed_from_corners)
             for (int x = 0; x < WIDTH; ++x)
                 if (x < 150 || x >= right || y >= bottom)
                     ball.set(x, y);
-        ball.view.closeGaps(SPACING, with, &ball.palette);
+        ball.view.closeGaps(Real(1), with, &ball.palette);
         ball.view.end();
         return ball.holds(150, right, bottom, with == nullptr ? "without the model" : "a bite");
     };
@@ -706,7 +706,7 @@ TEST(surface_goes_on_across_borders)
         list->take();
         ball.view.show(*list);
         destroy(list);
-        ball.view.closeGaps(SPACING, &ball.model, &ball.palette);
+        ball.view.closeGaps(Real(1), &ball.model, &ball.palette);
         ball.view.end();
         return ball.holds(LEFT, WIDTH, HEIGHT, "beyond the border");
     };
