@@ -223,8 +223,7 @@ public:
     // Returns true if a point of the world is certainly farther away than reach(). (False says nothing.)
     bool isFar(const Point& p) const
     {
-        const Vector v = p - centre_;
-        return absolute(v.x) >= reach_ || absolute(v.y) >= reach_ || absolute(v.z) >= reach_;
+        return absolute(p.x - centre_.x) >= reach_ || absolute(p.y - centre_.y) >= reach_ || absolute(p.z - centre_.z) >= reach_;
     }
     // The factor by which the object has grown since its seeds were laid out: it scales own space to the world.
     Real growth() const { return size_ / laid_.size; }
