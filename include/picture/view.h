@@ -88,7 +88,8 @@ public:
         frame_[pixel] = frame_[from];
         zbuffer_[pixel] = zbuffer_[from];
     }
-    // The crossings of this frame's scales, as far as those scales were seen when their object was drawn.
+    // The crossings of this frame's scales, as far as those scales were seen when their object was drawn. Those beyond
+    // CROSSINGS_MOST are left out.
     static constexpr int CROSSINGS_MOST = 2048;
     const Crossing* crossings() const { return crossings_; }
     int crossingCount() const { return crossingCount_; }

@@ -10,8 +10,8 @@ using machine::WIDTH;
 
 namespace {
 
-// No pixel is begun after this many evaluations of the field in a frame: as many as there are seeds on an area, so that the coarse
-// pictures that slow machines choose are not held up.
+// No pixel is begun after LOOKS_MOST evaluations of the field in a frame, nor after LOOKS_AT_ONE divided by the squared spacing of
+// the seeds: slow machines choose coarse pictures, which must not cost more than they save.
 constexpr int LOOKS_MOST = 3500, LOOKS_AT_ONE = 6000;
 // Depths, 1/128 unit: the first step along the ray; and the difference of two drawn pixels from which on both depths are tried.
 constexpr int STEP = 128, APART = 128;
@@ -22,7 +22,7 @@ constexpr int STEPS = 3, FARTHEST = 4, THICKEST = 12;
 constexpr Real NEAR(0.2);
 // A ray only grazes the surface if the field, times the size of its object, rises by less than this over the last STEP.
 constexpr Real RIM(0.25);
-// A depth that differs from all others.
+// A depth that differs from all depths of pixels by APART or more.
 constexpr int NOWHERE = -APART;
 // A pixel that is drawn shows the surface unless it is deeper by more than this, 1/128 unit.
 constexpr int BEHIND = 512;

@@ -43,7 +43,8 @@ public:
 private:
     static constexpr int NOTED_MOST = 1024;
 
-    // A pixel that the surface may go on to, the depth where it is looked for (1/128 unit), and the pixel that it comes from.
+    // A pixel that the surface may go on to, the depth where it is looked for (1/128 unit), and the pixel that it comes from. Of a
+    // corner only the pixel counts.
     struct Place {
         uint16_t pixel, depth, from;
     };

@@ -656,17 +656,17 @@ struct BallView {
 }  // namespace
 
 // A missing corner of a ball's picture is drawn with the true depth and brightness of the ball. Without the model the corner stays
-// open.
+// open, and where the seeds lie far apart only a part of it is drawn.
 TEST(surface_is_followed_from_corners)
 {
     BallView ball;
-    const auto played = [&](const Model* with, int right, int bottom) {
+    const auto played = [&](const Model* with, int right, int bottom, double spacing = 1) {
         ball.view.begin();
         for (int y = 0; y < HEIGHT; ++y)
             for (int x = 0; x < WIDTH; ++x)
                 if (x < 150 || x >= right || y >= bottom)
                     ball.set(x, y);
-        ball.view.closeGaps(Real(1), with, &ball.palette);
+        ball.view.closeGaps(real(spacing), with, &ball.palette);
         ball.view.end();
         return ball.holds(150, right, bottom, with == nullptr ? "without the model" : "a bite");
     };
@@ -674,6 +674,7 @@ TEST(surface_is_followed_from_corners)
     CHECK(played(&ball.model, 170, 88));
     CHECK(played(&ball.model, 165, 85));
     CHECK(played(&ball.model, WIDTH, 70));
+    CHECK(!played(&ball.model, 170, 88, 4));
 }
 
 // The right part of a ball is missing, and a scale is cut at the border that the ball has there. The rest of the ball is drawn,
