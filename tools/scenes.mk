@@ -5,27 +5,6 @@ build/mkscene: tools/mkscene.cpp tools/scenes.mk
 	@mkdir -p build
 	$(HOSTCXX) -O2 -std=c++17 -Wall -Wextra -o $@ tools/mkscene.cpp
 
-# The reader of scene files with everything it uses, under the sanitizers, and what feeds it.
-# (Not src/math/alloc.cpp: the mutator uses the C++ library, which brings its own operator delete.)
-FUZZ_FLAGS = -std=c++17 -O1 -g -fsanitize=address,undefined -fno-sanitize=shift-base -fno-sanitize-recover=all \
-	-Wall -Wextra -Iinclude
-FUZZ_PARTS = $(patsubst %.cpp,build/fuzzo/%.o,\
-	$(filter-out $(MAIN) src/math/alloc.cpp,$(PROGRAM)) src/host/host.cpp)
-
-build/fuzzo/%.o: %.cpp
-	@mkdir -p $(@D)
-	$(HOSTCXX) $(FUZZ_FLAGS) -MMD -MP -c $< -o $@
-
-build/fuzz: $(FUZZ_PARTS) build/fuzzo/tests/fuzz/fuzz.o build/fuzzo/tests/fuzz/scenes.o tools/scenes.mk
-	$(HOSTCXX) $(FUZZ_FLAGS) -o $@ $(filter %.o,$^)
-
-# The same for command lines.
-build/fuzzline: build/fuzzo/tests/fuzz/lines.o build/fuzzo/tests/fuzz/scenes.o build/fuzzo/src/app/options.o \
-		build/fuzzo/src/math/text.o build/fuzzo/src/math/real.o
-	$(HOSTCXX) $(FUZZ_FLAGS) -o $@ $^
-
--include $(wildcard build/fuzzo/*/*.d build/fuzzo/*/*/*.d)
-
 SCNTST_PARTS = $(patsubst %.cpp,build/host/%.o,\
 	$(filter-out $(MAIN),$(PROGRAM)) src/host/host.cpp)
 

@@ -4,6 +4,7 @@
 #   build/unit-KIND      the unit tests with that kind of Real: fixed, float, double
 #   build/demo-KIND      the demo with that kind of Real: float, double
 #   build/san/demo, build/san/unit    the demo and the unit tests under the address and undefined sanitizers
+#   build/fuzz, build/fuzzline        what feeds random scenes and command lines to the program, under the sanitizers
 #   build/twins          each assembly routine against its C++ twin
 
 TEST_CXX ?= $(HOST_CXX)
@@ -28,18 +29,20 @@ build/$(1)/tests/%.o: tests/%.cpp
 -include $$(wildcard build/$(1)/*/*.d build/$(1)/*/*/*.d)
 endef
 
-$(eval $(call variant,fixed,-O2))
-$(eval $(call variant,float,-O2 -DFB_REAL=FB_FLOAT))
-$(eval $(call variant,double,-O2 -DFB_REAL=FB_DOUBLE))
+$(eval $(call variant,fixed,-O2 -DFB_REAL=FB_$(REAL)))
+$(eval $(call variant,float,-O1 -DFB_REAL=FB_FLOAT))
+$(eval $(call variant,double,-O1 -DFB_REAL=FB_DOUBLE))
 # Shifts of negative numbers are what every compiler of use makes of them, and C++20 says so too.
 SANITIZE = -fsanitize=address,undefined -fno-sanitize=shift-base -fno-sanitize-recover=all
 $(eval $(call variant,san,-O1 -g1 -fno-omit-frame-pointer $(SANITIZE)))
 
-UNIT_PARTS = $(TEST_PARTS) $(wildcard tests/unit/*.cpp)
+UNIT_TESTS = $(wildcard tests/unit/*.cpp)
+UNIT_PARTS = $(TEST_PARTS) $(UNIT_TESTS)
 
 build/unit-%:
 	$(TEST_CXX) -o $@ $^
-build/unit-fixed: $(UNIT_PARTS:%.cpp=build/fixed/%.o)
+# The program's objects are those of build/demo.
+build/unit-fixed: $(TEST_PARTS:%.cpp=build/host/%.o) $(UNIT_TESTS:%.cpp=build/fixed/%.o)
 build/unit-float: $(UNIT_PARTS:%.cpp=build/float/%.o)
 build/unit-double: $(UNIT_PARTS:%.cpp=build/double/%.o)
 
@@ -51,6 +54,13 @@ build/demo-double: $(patsubst %.cpp,build/double/%.o,$(TEST_PARTS) $(MAIN))
 build/san/unit: $(UNIT_PARTS:%.cpp=build/san/%.o)
 	$(TEST_CXX) $(SANITIZE) -o $@ $^
 build/san/demo: $(patsubst %.cpp,build/san/%.o,$(TEST_PARTS) $(MAIN))
+	$(TEST_CXX) $(SANITIZE) -o $@ $^
+
+# The reader of scene files with everything it uses, under the sanitizers, and what feeds it; and the same for command lines.
+# (Not src/math/alloc.cpp: the mutator uses the C++ library, which brings its own operator delete.)
+build/fuzz: $(patsubst %.cpp,build/san/%.o,$(filter-out src/math/alloc.cpp,$(TEST_PARTS)) tests/fuzz/fuzz.cpp tests/fuzz/scenes.cpp)
+	$(TEST_CXX) $(SANITIZE) -o $@ $^
+build/fuzzline: $(patsubst %,build/san/%.o,tests/fuzz/lines tests/fuzz/scenes src/app/options src/math/text src/math/real)
 	$(TEST_CXX) $(SANITIZE) -o $@ $^
 
 build/twins: build/host32/tests/twins/twins.o $(patsubst %,build/host32/%.o,src/picture/blit src/picture/scales \
