@@ -10,9 +10,9 @@ using machine::WIDTH;
 
 namespace {
 
-// No pixel is begun after LOOKS_MOST evaluations of the field in a frame, nor after LOOKS_AT_ONE divided by the squared spacing of
-// the seeds: slow machines choose coarse pictures, which must not cost more than they save.
-constexpr int LOOKS_MOST = 3500, LOOKS_AT_ONE = 6000;
+// No pixel is begun after LOOKS_MOST evaluations of the field in a frame, nor after LOOKS_AT_ONE divided by the cube of the seeds'
+// spacing: slow machines choose coarse pictures, which must not cost more than they save.
+constexpr int LOOKS_MOST = 3500, LOOKS_AT_ONE = 28000;
 // Depths, 1/128 unit: the first step along the ray; and the difference of two drawn pixels from which on both depths are tried.
 constexpr int STEP = 128, APART = 128;
 // Upper bounds: of the steps along the ray towards a stronger field; of the ratio of each step to the one before; and of the
@@ -32,8 +32,8 @@ constexpr int BEHIND = 512;
 Missed::Missed(View& view, const Model* model, Real spacing)
     : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model)
 {
-    const Real square = max(spacing * spacing, Real(1));
-    looksMost_ = min32(floorToInt(quotient(Real(LOOKS_AT_ONE), square)), LOOKS_MOST);
+    const Real cube = max(spacing * spacing * spacing, Real(1));
+    looksMost_ = min32(floorToInt(quotient(Real(LOOKS_AT_ONE), cube)), LOOKS_MOST);
 }
 
 // Whether a pixel shows nothing, or something well behind this depth.
