@@ -1,9 +1,10 @@
 #!/bin/sh
-# Runs every test suite, two at a time where there are two processors, and adds up what they say.
+# Runs every test suite, three at a time where there are two processors or more, and adds up what they say.
 #
 #   sh tests/run.sh [SUITE...]      the folders of tests/ with a run.sh; default: all of them
 #
-# LANES says how many run at a time. They build in the same place, so while there are two a `make` waits for the other one's.
+# LANES says how many run at a time; those in DOSBox and in a browser wait for a clock half of their time. They build in the same
+# place, so each `make` waits for another lane's.
 # A suite is a script tests/SUITE/run.sh, run from the top of the tree. It builds what it needs, prints a line for each
 # failure ("FAIL ..." or "FAILED: ...") and closes with "N passed, N failed". One that ends without that line, or with a
 # status that does not go with it, counts as a failure of its own. The last line here is the sum, alone.
@@ -11,8 +12,8 @@
 set -u
 cd "$(dirname "$0")/.." || exit 1
 
-# In this order: what is quick and close to the cause first, the picture as a whole last.
-order="unit twins pics truth tree cli san dpmi dos frames golden"
+# In this order: what is close to the cause first; then suites that compute beside ones that wait, the longest first.
+order="unit twins pics tree cli truth golden dpmi bars dos san web prims bench edit release"
 if [ $# -gt 0 ]; then
 	suites=$*
 else
@@ -32,9 +33,9 @@ fi
 mkdir -p build/log build/lanes
 rm -rf build/lanes/*
 begun=$(date +%s)
-lanes=${LANES:-$(nproc 2>/dev/null || echo 1)}
-command -v flock >/dev/null && [ "$lanes" -ge 2 ] && lanes=2 || lanes=1
-if [ $lanes -eq 2 ]; then
+lanes=${LANES:-$([ "$(nproc 2>/dev/null || echo 1)" -ge 2 ] && echo 3 || echo 1)}
+command -v flock >/dev/null || lanes=1
+if [ "$lanes" -ge 2 ]; then
 	cat >build/lanes/make <<-END
 		#!/bin/sh
 		[ -z "\${FB_MAKING:-}" ] || exec $(command -v make) "\$@"
@@ -92,7 +93,7 @@ lane() {
 }
 
 trap 'trap - TERM; kill 0; exit 130' HUP INT TERM
-for number in $(seq $lanes); do
+for number in $(seq "$lanes"); do
 	lane &
 done
 passed=0

@@ -622,7 +622,7 @@ struct BallView {
     // Sets a pixel to the true depth, in a colour that does not matter, if it shows the ball.
     void set(int column, int row)
     {
-        double depth;
+        double depth = 0;
         if (trueAt(column, row, &depth) >= 0)
             view.setPixel(row * WIDTH + column, static_cast<int>(depth * 128), ramp[30]);
     }
@@ -632,7 +632,7 @@ struct BallView {
     bool holds(int left, int right, int bottom, const char* what) const
     {
         int open = 0, wrong = 0, drawn = 0;
-        double depth;
+        double depth = 0;
         for (int y = 0; y < bottom; ++y)
             for (int x = left; x < right; ++x) {
                 const bool inside = trueAt(x - 1.5, y - 1.5, &depth) >= 0 && trueAt(x + 1.5, y - 1.5, &depth) >= 0 &&
@@ -693,7 +693,7 @@ TEST(surface_goes_on_across_borders)
         if (before > 0)
             block(ball.view, 0, 0, LEFT, HEIGHT, 9, before);
         // A scale whose right half is cut off at column LEFT.
-        double depth;
+        double depth = 0;
         ball.trueAt(LEFT - 0.5, ROW, &depth);
         const Camera& camera = ball.view.camera();
         VoxelList* const list = make<VoxelList>();
