@@ -28,9 +28,10 @@
 #define VOXEL_SLOPEX 24                 /* this and the next are bytes and are read together as one 16-bit word */
 #define VOXEL_SLOPEY 25
 #define VOXEL_CUTAT  26
-#define VOXEL_CURVEXX 28                /* these and an unused one are bytes and are read together as one 32-bit word */
+#define VOXEL_CURVEXX 28                /* these are bytes; the lower three of a 32-bit word */
 #define VOXEL_CURVEXY 29
 #define VOXEL_CURVEYY 30
+#define VOXEL_FRONT  31                 /* the word's highest byte */
 #define VOXEL_SIZE   32
 
 // struct Factors, struct Lens and the constants (include/picture/scales.h)
@@ -90,7 +91,7 @@
 #define NOT_LEFT   84                   /* ~left = -left - 1, which saves instructions */
 #define BOTTOM     88
 #define KIND       92                   /* row of the jump table: height - 1 + the first row of the scale's kind */
-#define ZMOST      96
+#define ZRANGE     96                   /* zMost - zLeast */
 #define FROM_COLUMN 100                 /* -toColumn, -toRow: from the first pixel's centre to the scale's middle */
 #define FROM_ROW   104
 #define ROW        108                  /* -zRow, -shadeRow packed in one word, from the last pixel of a row to the next row */
@@ -105,7 +106,8 @@
 #define CUT_YY     144
 #define CUT_FIRST  148
 #define NEAR       152                  /* struct Factors for a scale nearer than the table */
-#define LOCALS     168
+#define ZLEAST     168
+#define LOCALS     172
 
         .text
 
@@ -125,7 +127,7 @@
 // z never overflows its 16 bits on a scale, so one addition changes z and shade. An occluded pixel costs 3 instructions (486:
 // 2 + 3 + 1; Pentium: 3 when the branch is predicted, and the addition pairs); a drawn pixel costs 8 (486: 2 + 1 + 1 + 2 + 2 +
 // 1 + 1 + 1; Pentium: 7, as the copy pairs with the branch before it and the addition with the store), or 5 in a scale of one
-// brightness. A scale with a greatest depth needs one more comparison for each pixel that passes the Z-buffer. Up to UNROLLED rows
+// brightness. A scale with ends needs four more instructions for each pixel that passes the Z-buffer. Up to UNROLLED rows
 // and columns a row costs only one more addition and there is no counter: for each width the code draws UNROLLED rows, and the
 // jump table leads to the entry from which the scale's number of rows is left. Higher scales have a loop over the rows.
 //
@@ -267,7 +269,7 @@ voxel_loop:
         jae     odd_height
         addl    %ebx, %edx              // -toRow = row - ((top + 1) << 12)
         movl    %eax, KIND(%esp)
-        // zMost = endOf(v, depth >> 1);  if (isCut(v)) ..
+        // setEnds(v, depth >> 1, &scale);  if (isCut(v)) ..
         cmpl    $255, VOXEL_BRIGHT(%esi)
         ja      special
 not_special:
@@ -391,11 +393,13 @@ even:
 1:
         .endm
 
-        // if (z < depths[x] && z <= zMost): depths[x] = z, pixels[x] = ramp[shade >> 8]
+        // if (z < depths[x] && z - zLeast <= zMost - zLeast): depths[x] = z, pixels[x] = ramp[shade >> 8]
         .macro  PIXEL_ending at
         cmpw    2*(\at)(%esi), %ax
         jae     1f
-        cmpw    ZMOST(%esp), %ax
+        movl    %eax, %ecx
+        subl    ZLEAST(%esp), %ecx
+        cmpw    ZRANGE(%esp), %cx
         ja      1f
         movl    %eax, %ecx
         movw    %ax, 2*(\at)(%esi)
@@ -412,7 +416,7 @@ even:
 2:
         .endm
 
-        // if (z < depths[x] && z <= zMost && cut >= 0) ..
+        // if (z < depths[x] && z - zLeast <= zMost - zLeast && cut >= 0) ..
         .macro  PIXEL_cutending at
         js      2f
         PIXEL_ending \at
@@ -596,16 +600,29 @@ leave_at:
         popl    %ebp
         ret
 
-        // A voxel with a reach or a cut: zMost = endOf(v, depth >> 1), which fits 16 bits within the table's depths
+        // setEnds(v, depth >> 1, &scale) for a voxel with this reach; zMost fits 16 bits within the table's depths.
+        .macro  SET_ENDS reach free
+        movl    DEPTH(%esp), \free
+        leal    LENS_NEAR*128(\free,\reach,4), \reach
+        addl    $LENS_NEAR*128, \free
+        movl    \reach, ZRANGE(%esp)
+        movzbl  VOXEL_FRONT(%esi), \reach
+        shll    $2, \reach
+        subl    \reach, \free
+        jns     1f
+        xorl    \free, \free
+1:      movl    \free, ZLEAST(%esp)
+        subl    \free, ZRANGE(%esp)
+        .endm
+
+        // A voxel with a reach or a cut
         .balign 4
 special:
         cmpl    $0xffff, VOXEL_BRIGHT(%esi)
         ja      cut
         movzbl  VOXEL_REACH(%esi), %eax
-        movl    DEPTH(%esp), %ebx
-        leal    LENS_NEAR*128(%ebx,%eax,4), %eax
+        SET_ENDS %eax, %ebx
         addl    $KIND_ROWS, KIND(%esp)
-        movl    %eax, ZMOST(%esp)
         jmp     not_special
 
         // if (depth < LENS_NEXT * 256 || depth >= LENS_NEAR * 256) break
@@ -666,22 +683,19 @@ entered:
         movl    %edi, WIDTH(%esp)
         movl    %eax, HEIGHT(%esp)
         movl    %ebx, KIND(%esp)
-        // zMost = endOf(v, depth >> 1)
-        leal    entered_ways(,%edi,4), %eax
+        // setEnds(v, depth >> 1, &scale)
         movzbl  VOXEL_REACH(%esi), %ebx
+        xorl    %eax, %eax
         testl   %ebx, %ebx
-        jz      1f
-        shll    $2, %ebx
-        addl    $4*LARGEST, %eax        // from the table of `shaded` to that of `ending`
-        addl    DEPTH(%esp), %ebx
-        addl    $LENS_NEAR*128, %ebx
-        movl    %ebx, ZMOST(%esp)
-1:
+        jz      3f
+        SET_ENDS %ebx, %eax
+        movl    $4*LARGEST, %eax        // from the table of `shaded` to that of `ending`
+3:      leal    entered_ways(%eax,%edi,4), %eax
         // if (isCut(v)) ..;   otherwise the row is drawn by code without a cut function
         cmpw    $0, VOXEL_CUTX(%esi)    // cutX | cutY
         je      2f
-        cmpl    $0, VOXEL_CURVEXX(%esi) // curveXX | curveXY | curveYY
-        jne     curved
+        testl   $0xffffff, VOXEL_CURVEXX(%esi) // curveXX | curveXY | curveYY
+        jnz     curved
         addl    $2*4*LARGEST, %eax      // to the table of `cut` or `cutending`
         movl    (%eax), %eax
         movl    %eax, ENTRY(%esp)

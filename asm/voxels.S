@@ -37,7 +37,8 @@
 #define VOXEL_REACH  21
 #define VOXEL_SLOPEX 24                 /* one 32-bit word with the byte slopeY and the 16-bit cutAt */
 #define VOXEL_SLOPEY 25
-#define VOXEL_CURVE  28                 /* one 32-bit word: the bytes curveXX, curveXY, curveYY and an unused one */
+#define VOXEL_CURVE  28                 /* one 32-bit word: the bytes curveXX, curveXY, curveYY and front */
+#define VOXEL_FRONT  31
 #define VOXEL_SIZE   32
 
 // struct Seen and struct Shading (src/surface/voxels.h)
@@ -62,7 +63,7 @@
 #define CELL_SHIFT   124
 #define AREA_SHARE   128
 #define WHOLE_MOST   132
-#define DEEPEST      136
+#define FRONT        136
 #define HORIZON      140
 #define GRADIENT     144
 #define AHEAD        152
@@ -559,7 +560,8 @@ shade_turned:
         movw        %dx, VOXEL_TILTY(%edi)
         jmp        shade_tilted
 
-        // deep = (|tiltX| * halfWidth + |tiltY| * halfHeight) >> 8; if (deep >= reach * 8) voxel.reach = reach
+        // deep = (|tiltX| * halfWidth + |tiltY| * halfHeight) >> 8
+        // if (deep >= reach * 8) voxel.reach = reach, voxel.front = v.front
 shade_end:
         movswl        VOXEL_TILTX(%edi), %esi
         magnitude        %esi
@@ -575,17 +577,8 @@ shade_end:
         jl        shade_ended
         shrl        $3, %edx
         movb        %dl, VOXEL_REACH(%edi)
-        // if (deep > v.deepest) halfWidth = halfWidth * v.deepest / deep, halfHeight = halfHeight * v.deepest / deep
-        cmpl        DEEPEST(%ebp), %esi
-        jle        shade_ended
-        imull        DEEPEST(%ebp), %eax
-        xorl        %edx, %edx
-        divl        %esi
-        xchgl        %eax, %ecx
-        imull        DEEPEST(%ebp), %eax
-        xorl        %edx, %edx
-        divl        %esi
-        xchgl        %eax, %ecx
+        movl        FRONT(%ebp), %edx
+        movb        %dl, VOXEL_FRONT(%edi)
         jmp        shade_ended
 
         // halfWidth = (halfWidth + |across.x|) >> v.cellShift;  halfHeight = (halfHeight + |across.y|) >> v.cellShift

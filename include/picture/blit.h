@@ -27,11 +27,11 @@ struct Scale {
     int32_t colour;   // palette index
 };
 
-// A scale that ends at a greatest depth, is cut along a line or a curve, or changes its brightness from pixel to pixel. The
-// brightness (shade) and the cut function have 8 fraction bits. The brightness changes by constant steps like the depth; the
+// A scale that ends at a least and a greatest depth, is cut along a line or a curve, or changes its brightness from pixel to pixel.
+// The brightness (shade) and the cut function have 8 fraction bits. The brightness changes by constant steps like the depth; the
 // steps of the cut function may change as well, so that it can follow a curve.
 struct FineScale : Scale {
-    int32_t zMost;                       // pixels with a depth beyond this are not drawn
+    int32_t zLeast, zMost;               // pixels with a depth below zLeast or beyond zMost are not drawn
     const uint8_t* ramp;                 // palette index of each brightness that occurs
     int32_t shade, shadeStep, shadeRow;  // brightness; used like z, zStep and zRow
     int32_t cut, cutStep, cutRow;  // cut function: a pixel is drawn where it is >= 0; cutRow leads from the first pixel of a row

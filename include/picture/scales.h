@@ -5,6 +5,7 @@
 #define FB_SCALES_H
 
 #include "math/real.h"
+#include "math/whole.h"
 #include "picture/blit.h"
 #include "surface/voxel.h"
 
@@ -29,11 +30,11 @@ inline bool isFine(const Voxel& v)
     return (v.reach | v.slopeX | v.slopeY | v.cutX | v.cutY) != 0;
 }
 
-// The greatest depth of a voxel's pixels, 1/128 unit, when its centre is at depth `z`.
-constexpr int32_t NO_END = 0x7fffffff;
-inline int32_t endOf(const Voxel& v, int32_t z)
+// Sets the least and the greatest depth of a voxel's pixels; its centre is at depth `z`, 1/128 unit.
+inline void setEnds(const Voxel& v, int32_t z, FineScale* scale)
 {
-    return v.reach != 0 ? z + v.reach * 4 : NO_END;
+    scale->zLeast = v.reach != 0 ? max32(z - v.front * 4, 0) : 0;
+    scale->zMost = v.reach != 0 ? min32(z + v.reach * 4, Z_EMPTY) : Z_EMPTY;
 }
 
 // The change from pixel to pixel, 8 fraction bits, of a brightness or cut function with this slope. `factor` is Factors::zx or zy.

@@ -13,17 +13,21 @@ struct Voxel {
     int16_t tiltX, tiltY;    // slopes of the depth along x and y, 8 fraction bits
     int8_t brightness;       // at the centre, 0..63; DARK_MIDDLE + 1..-1 if only a part of the scale is lit (it has slopes then)
     uint8_t reach;           // pixels farther behind the centre than this, 1/32 unit, are not drawn, because there the surface has
-                             // bent out of sight; 0: all are drawn
+                             // bent out of sight; 0: pixels are drawn however far before or behind the centre they are
     int8_t cutX, cutY;       // slopes of the cut function at the centre, 1/8 per unit; both 0: the scale is not cut
     int8_t slopeX, slopeY;   // slopes of the brightness, 1/8 step per unit; at most SHADING_MOST steps to any corner
     int16_t cutAt;           // cut function at the centre, 1/64; pixels where the function is negative are not drawn
     int8_t curveXX, curveXY, curveYY;  // second derivatives of the cut function, 1/16 per squared unit; all 0: the scale is cut
                              // along a straight line
-    int8_t unused;           // 0
+    uint8_t front;           // if `reach` is not 0: pixels farther before the centre than this, 1/32 unit, are not drawn, because
+                             // there the tangent plane lies far before the surface
 };
 
 // The brightest of the 64 steps 0..63 of a ramp.
 constexpr int BRIGHTEST = 63;
+
+// The greatest value of `reach` and `front`.
+constexpr int REACH_MOST = 255;
 
 // Whether a cut function ends the voxel.
 inline bool isCut(const Voxel& v)

@@ -525,25 +525,32 @@ int Model::strongestAt(const Point& p) const
 
 namespace {
 
-// An object whose field reaches a point: its field, the field divided by the strongest there, and the weighted sum of fields in
-// its g (body.h). `body` is the first of its body's members, or null if the object has no surface.
+// An object whose field reaches a point. `body` is the first of its body's members, or null if the object has no surface.
 struct Part {
     int slot;
     SoftObject* const* body;
-    Real field, share, sum;
+    Real field;
 };
 
-// The field F of one body at the point, from all parts that reach it (body.h).
-Real fieldOf(SoftObject* const* body, const Part* parts, const Part* end)
+// The field F of the body of one of the parts at the point that they reach (body.h). `most` is the strongest part's field.
+Real fieldOf(const Bodies& bodies, const Part& one, const Part* parts, const Part* end, Real most)
 {
-    Real above(0), squares(0);
-    for (const Part* part = parts; part < end; ++part)
-        if (part->body == body) {
-            const Real square = part->share * part->share;
-            above += square * part->sum;
-            squares += square;
-        }
-    return squares > Real(0) ? above / squares : Real(0);
+    const bool plain = bodies.plainBody(one.slot);
+    Real sum(0), above(0), squares(0);
+    for (const Part* part = parts; part < end; ++part) {
+        if (part->body != one.body)
+            continue;
+        sum += part->field;
+        if (plain)
+            continue;
+        Real weighted = part->field;
+        for (const Part* other = parts; other < end; ++other)
+            weighted += other->field * bodies.weight(part->slot, other->slot);
+        const Real share = quotient(part->field, most), square = share * share;
+        above += square * weighted;
+        squares += square;
+    }
+    return plain ? sum : squares > Real(0) ? above / squares : Real(0);
 }
 
 }  // namespace
@@ -560,22 +567,17 @@ Real Model::implicitAt(const Point& p, int* strongest) const
         const Real field = object.fieldFunc(p);
         if (field <= Real(0))
             continue;
-        *end++ = {i, object.hasSurface() && bodiesKnown_ ? bodies_.members(object) : nullptr, field, Real(0), field};
+        *end++ = {i, object.hasSurface() && bodiesKnown_ ? bodies_.members(object) : nullptr, field};
         if (object.hasSurface() && field > most) {
             most = field;
             *strongest = i;
         }
     }
-    for (Part* part = parts; part < end && most > Real(0); ++part) {
-        part->share = quotient(part->field, most);
-        for (const Part* other = parts; other < end && part->body != nullptr; ++other)
-            part->sum += other->field * bodies_.weight(part->slot, other->slot);
-    }
     SoftObject* const* last = nullptr;
     for (const Part* part = parts; part < end; ++part)
         if (part->body != nullptr && part->body != last) {
             last = part->body;
-            highest = ::max(highest, fieldOf(part->body, parts, end));
+            highest = ::max(highest, fieldOf(bodies_, *part, parts, end, most));
         }
     return highest;
 }

@@ -33,12 +33,13 @@ namespace {
 // Draws a row of a scale; `pixels` and `depths` point one past its last pixel, so x runs from -width to before 0. `both` holds
 // the depth in its lower half and the brightness (8 fraction bits) in its upper half.
 template <bool CUT>
-inline void fineRow(const FineScale& scale, uint8_t* pixels, uint16_t* depths, uint32_t both, uint32_t step, uint32_t most,
-                    uint32_t cut, uint32_t cutStep)
+inline void fineRow(const FineScale& scale, uint8_t* pixels, uint16_t* depths, uint32_t both, uint32_t step, uint32_t cut,
+                    uint32_t cutStep)
 {
+    const uint32_t least = static_cast<uint32_t>(scale.zLeast), range = static_cast<uint32_t>(scale.zMost) - least;
     for (int x = -scale.width; x != 0; ++x) {
         const uint32_t z = static_cast<uint16_t>(both);
-        if (z < depths[x] && z <= most && (!CUT || static_cast<int32_t>(cut) >= 0)) {
+        if (z < depths[x] && z - least <= range && (!CUT || static_cast<int32_t>(cut) >= 0)) {
             depths[x] = static_cast<uint16_t>(z);
             pixels[x] = scale.ramp[static_cast<int32_t>(both) >> 24];
         }
@@ -66,15 +67,14 @@ void blitFine(uint8_t* frame, uint16_t* zbuffer, const FineScale& scale)
     uint16_t* depths = zbuffer + end;
     const uint32_t width = static_cast<uint32_t>(scale.width);
     const uint32_t step = together(scale.zStep, scale.shadeStep), down = together(scale.zRow, scale.shadeRow) + step * width;
-    const uint32_t most = scale.zMost > Z_EMPTY ? Z_EMPTY : static_cast<uint32_t>(scale.zMost);
     const bool isCut = (scale.cut | scale.cutStep | scale.cutRow | scale.cutXX | scale.cutXY | scale.cutYY) != 0;
     uint32_t both = together(scale.z, scale.shade), cut = static_cast<uint32_t>(scale.cut);
     uint32_t cutStep = static_cast<uint32_t>(scale.cutStep), cutRow = static_cast<uint32_t>(scale.cutRow);
     for (int y = scale.height; y > 0; --y) {
         if (isCut)
-            fineRow<true>(scale, pixels, depths, both, step, most, cut, cutStep);
+            fineRow<true>(scale, pixels, depths, both, step, cut, cutStep);
         else
-            fineRow<false>(scale, pixels, depths, both, step, most, 0, 0);
+            fineRow<false>(scale, pixels, depths, both, step, 0, 0);
         both += down;
         cutStep += static_cast<uint32_t>(scale.cutXY);
         cutRow += static_cast<uint32_t>(scale.cutYY);

@@ -42,13 +42,13 @@ inline Extent extentOf(int32_t middle, int32_t half, int screen, int32_t* least,
     return {length <= 0 ? Extent::EMPTY : length > LARGEST ? Extent::TOO_LARGE : Extent::DRAWN, from, to};
 }
 
-// Sets all of a FineScale but its rectangle and its depths: brightness, greatest depth and cut function. (toColumn, toRow) leads
-// from the middle of the scale to the centre of its first pixel, 12 fraction bits.
+// Sets all of a FineScale but its rectangle and its depths: brightness, least and greatest depth, and cut function. (toColumn,
+// toRow) leads from the middle of the scale to the centre of its first pixel, 12 fraction bits.
 inline void addShading(const Lens& lens, const Voxel& v, const Factors& f, int32_t depth, int32_t toColumn, int32_t toRow,
                        FineScale* scale)
 {
     const int width = scale->width;
-    scale->zMost = endOf(v, depth >> 1);
+    setEnds(v, depth >> 1, scale);
     scale->ramp = lens.ramp;
     const int32_t shadeAcross = shadeStep(v.slopeX, f.zx), shadeDown = -shadeStep(v.slopeY, f.zy);
     const auto toFirst = [&](int32_t across, int32_t down) {

@@ -208,7 +208,7 @@ bool View::project(const Voxel& voxel, FineScale* scale) const
     scale->z = first(depth, across, down);
     scale->zStep = across;
     scale->zRow = down - across * width;
-    scale->zMost = endOf(voxel, depth);
+    setEnds(voxel, depth, scale);
 
     const int32_t pixelX = mulDiv(placed.z, 1 << 19, focalX_), pixelY = mulDiv(placed.z, 1 << 19, focalY_);
     const int32_t shadeAcross = shadeStep(voxel.slopeX, pixelX), shadeDown = -shadeStep(voxel.slopeY, pixelY);

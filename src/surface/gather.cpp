@@ -208,10 +208,12 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
     const Real growth = object.growth();
     const bool longPaths = object.longestPath() > LONG_PATH;
     Neighbour* next = all.neighbours + all.count;
-    for (SoftObject* const* const end = from + count; from < end && all.count < NEIGHBOURS_MAX; ++from) {
+    for (SoftObject* const* const end = from + count; from < end; ++from) {
         const SoftObject& other = **from;
         if (!isNearer(other.centre(), object.centre(), object.reach() + other.reach() + GATHER_SLACK) || &other == &object)
             continue;
+        if (next == all.neighbours + NEIGHBOURS_MAX)
+            return;
         const Vector apart = other.centre() - object.centre();
         ++all.count;
         Neighbour& near = *next++;

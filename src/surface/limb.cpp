@@ -79,7 +79,7 @@ void endAtLimb(const Limb& limb, int32_t cosine, int32_t more, Voxel* voxel)
     const int32_t y = times14(voxel->tiltY * cosine >> 8, near) + times14(cosine, limb.along[1]);
     voxel->halfWidth = static_cast<int16_t>(min32(voxel->halfWidth + more, 0x7fff));
     voxel->halfHeight = static_cast<int16_t>(min32(voxel->halfHeight + more, 0x7fff));
-    voxel->reach = 0;
+    voxel->reach = REACH_MOST;
     voxel->cutX = inward(x);
     voxel->cutY = inward(y);
     // c^2 / 2k: how far away the limb is across the view.

@@ -245,7 +245,8 @@ void Report98::draw(const FrameContext& frame, VoxelList& list, int room, int* n
         v.slopeX = v.slopeY = 0;
         v.cutX = v.cutY = 0;
         v.cutAt = 0;
-        v.curveXX = v.curveXY = v.curveYY = v.unused = 0;
+        v.curveXX = v.curveXY = v.curveYY = 0;
+        v.front = 0;
         list.take();
     }
     *next = i < object_.seedSlots() ? i : 0;

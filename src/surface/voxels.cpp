@@ -107,17 +107,15 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     voxel.reach = 0;
     voxel.cutX = voxel.cutY = voxel.slopeX = voxel.slopeY = 0;
     voxel.cutAt = 0;
-    voxel.curveXX = voxel.curveXY = voxel.curveYY = voxel.unused = 0;
+    voxel.curveXX = voxel.curveXY = voxel.curveYY = 0;
+    voxel.front = 0;
     // Beyond the limb, where a round surface bends out of sight, its tangent plane would go on, so the scale has to end there. With
     // c the cosine of normal and viewer, the limb is c^2 radius / 2 away across the view; the plane gets c radius / 2 deeper there.
     const int32_t reach = (v.horizonShare * facing >> 16) + 1;
     const int32_t deep = (magnitude(tiltX) * halfWidth + magnitude(tiltY) * halfHeight) >> 8;
     if (reach < 256 && deep >= reach * 8) {
         voxel.reach = static_cast<uint8_t>(reach);
-        if (deep > v.deepest) {
-            halfWidth = halfWidth * v.deepest / deep;
-            halfHeight = halfHeight * v.deepest / deep;
-        }
+        voxel.front = static_cast<uint8_t>(v.front);
     }
     voxel.halfWidth = static_cast<int16_t>(halfWidth);
     voxel.halfHeight = static_cast<int16_t>(halfHeight);

@@ -353,8 +353,8 @@ static_assert(inasm::VOXEL_X == offsetof(Voxel, x) && inasm::VOXEL_Y == offsetof
               inasm::VOXEL_SLOPEX == offsetof(Voxel, slopeX) && inasm::VOXEL_SLOPEY == inasm::VOXEL_SLOPEX + 1 &&
               inasm::VOXEL_SLOPEY == offsetof(Voxel, slopeY) && inasm::VOXEL_CUTAT == offsetof(Voxel, cutAt) &&
               inasm::VOXEL_CURVEXX == offsetof(Voxel, curveXX) && inasm::VOXEL_CURVEXY == offsetof(Voxel, curveXY) &&
-              inasm::VOXEL_CURVEYY == offsetof(Voxel, curveYY) && offsetof(Voxel, unused) == inasm::VOXEL_CURVEXX + 3 &&
-              inasm::VOXEL_SIZE == sizeof(Voxel), "Voxel");
+              inasm::VOXEL_CURVEYY == offsetof(Voxel, curveYY) && inasm::VOXEL_FRONT == offsetof(Voxel, front) &&
+              inasm::VOXEL_FRONT == inasm::VOXEL_CURVEXX + 3 && inasm::VOXEL_SIZE == sizeof(Voxel), "Voxel");
 static_assert(inasm::FACTOR_X == offsetof(Factors, x) && inasm::FACTOR_Y == offsetof(Factors, y) &&
               inasm::FACTOR_ZX == offsetof(Factors, zx) && inasm::FACTOR_ZY == offsetof(Factors, zy) &&
               inasm::FACTOR_SIZE == sizeof(Factors), "Factors");
@@ -491,7 +491,8 @@ Voxel anyVoxel(const Lens& lens)
     }
     v.cutX = v.cutY = 0;
     v.cutAt = static_cast<int16_t>(anything());
-    v.curveXX = v.curveXY = v.curveYY = v.unused = 0;
+    v.curveXX = v.curveXY = v.curveYY = 0;
+    v.front = static_cast<uint8_t>(any() >> (24 + below(6)));
     if (below(4) == 0) {
         v.cutX = static_cast<int8_t>(anything());
         v.cutY = static_cast<int8_t>(anything());
@@ -719,7 +720,8 @@ void voxelByVoxel(int rounds)
                                          most(dy, 0) * (1 + 0.001 * most(down, 0)) + (mostWide + mostHigh) +
                                          doubtX * most(across, 0) + doubtY * most(down, 0);
                     // The end is tested for tilts within 16 only; products of greater ones may overflow.
-                    const double end = v.reach != 0 && tilted ? z * 128 + v.reach * 4 : 1e9;
+                    const bool ends = v.reach != 0 && tilted;
+                    const double end = ends ? z * 128 + v.reach * 4 : 1e9, start = ends ? z * 128 - v.front * 4 : -1e9;
                     // The cut function and its rounding error: it changes by rounded steps like the brightness, and the steps
                     // themselves change too.
                     const double ux = dx * z / optics.focalX, uy = -dy * z / optics.focalY;
@@ -752,13 +754,13 @@ void voxelByVoxel(int rounds)
                     }
                     wrongCuts += taken && cut < -cutDoubt;
                     if (!taken) {
-                        wrongPixels +=
-                            screen.frame.data[at] != 0 || (sure && done == 1 && expected + doubt < end && (tilted || v.reach == 0));
+                        const bool shows = expected + doubt < end && expected - doubt > start && (tilted || v.reach == 0);
+                        wrongPixels += screen.frame.data[at] != 0 || (sure && done == 1 && shows);
                         continue;
                     }
                     ++pixels;
                     wrongPixels += !may || done == 0;
-                    wrongEnds += expected - doubt > end;
+                    wrongEnds += expected - doubt > end || expected + doubt < start;
                     const double shade =
                         v.brightness + v.slopeX / 8.0 * dx * z / optics.focalX - v.slopeY / 8.0 * dy * z / optics.focalY;
                     // Steps from pixel to pixel are whole multiples of 1/256, and lengths are accurate to a thousandth.
@@ -783,7 +785,7 @@ void voxelByVoxel(int rounds)
     }
     verdict(wrongStops == 0, "voxels: ordinary ones are drawn, others are left", wrongStops);
     verdict(wrongPixels == 0, "voxels: pixels as in double precision", wrongPixels);
-    verdict(wrongEnds == 0, "voxels: nothing behind where they end", wrongEnds);
+    verdict(wrongEnds == 0, "voxels: nothing before or behind where they end", wrongEnds);
     verdict(wrongCuts == 0 && cutOff > rounds && cutKept > rounds, "voxels: cut as in double precision", wrongCuts);
     verdict(wrongShades == 0 && shaded > rounds, "voxels: brightness as in double precision", wrongShades);
     verdict(wrongDepths == 0, "voxels: depths as in double precision", wrongDepths);
@@ -973,7 +975,7 @@ static_assert(inasm2::VOXEL_X == offsetof(Voxel, x) && inasm2::VOXEL_Y == offset
               inasm2::VOXEL_TILTY == offsetof(Voxel, tiltY) && inasm2::VOXEL_BRIGHT == offsetof(Voxel, brightness) &&
               inasm2::VOXEL_REACH == offsetof(Voxel, reach) && inasm2::VOXEL_SLOPEX == offsetof(Voxel, slopeX) &&
               inasm2::VOXEL_SLOPEY == offsetof(Voxel, slopeY) && inasm2::VOXEL_CURVE == offsetof(Voxel, curveXX) &&
-              inasm2::VOXEL_SIZE == sizeof(Voxel), "Voxel");
+              inasm2::VOXEL_FRONT == offsetof(Voxel, front) && inasm2::VOXEL_SIZE == sizeof(Voxel), "Voxel");
 static_assert(inasm2::SEEN_SEED == offsetof(Seen, seed) && inasm2::SEEN_FACING == offsetof(Seen, facing) &&
               inasm2::SEEN_SIZE == sizeof(Seen), "Seen");
 static_assert(inasm2::SEEDS == offsetof(Shading, seeds) && inasm2::ROOTS == offsetof(Shading, roots) &&
@@ -986,7 +988,7 @@ static_assert(inasm2::SEEDS == offsetof(Shading, seeds) && inasm2::ROOTS == offs
               inasm2::LEAST_POSITION == offsetof(Shading, leastPosition) && inasm2::CELL == offsetof(Shading, cell) &&
               inasm2::CELL_SHIFT == offsetof(Shading, cellShift) && inasm2::AREA_SHARE == offsetof(Shading, areaShare) &&
               inasm2::WHOLE_MOST == offsetof(Shading, wholeMost) &&
-              inasm2::DEEPEST == offsetof(Shading, deepest) && inasm2::HORIZON == offsetof(Shading, horizonShare) &&
+              inasm2::FRONT == offsetof(Shading, front) && inasm2::HORIZON == offsetof(Shading, horizonShare) &&
               inasm2::GRADIENT == offsetof(Shading, gradient) && inasm2::AHEAD == offsetof(Shading, gradientAhead), "Shading");
 static_assert(inasm2::STEEPEST_TILT == STEEPEST_TILT && inasm2::MARGIN_SHIFT == MARGIN_SHIFT &&
               inasm2::MARGIN_UNITS == MARGIN_UNITS && inasm2::FLAT_SHADING == FLAT_SHADING &&
@@ -1031,7 +1033,7 @@ void shadedSeeds(int rounds)
         v.cellShift = below(8);
         v.areaShare = below(0x40000000);
         v.wholeMost = below(3) == 0 ? AREA_MOST : 0;
-        v.deepest = below(3) == 0 ? below(1 << (8 + below(7))) : 22400;
+        v.front = below(REACH_MOST + 1);
         v.horizonShare = below(1 << (4 + below(8)));
         v.gradient[0] = number(1 << (8 + below(8)));
         v.gradient[1] = number(1 << (8 + below(8)));

@@ -67,7 +67,7 @@ void holdAgainst(const Round& round, Random& random, LimbOf limbOf, long* held, 
         if (!found)
             continue;
         const Voxel voxel = ended(limb, seed, normal);
-        CHECK(voxel.reach == 0 && voxel.halfWidth == 320 && voxel.halfHeight == 320);
+        CHECK(voxel.reach == REACH_MOST && voxel.halfWidth == 320 && voxel.halfHeight == 320);
         CHECK(cutAt(voxel, 0, 0) >= 0);
         for (int k = 0; k < 20; ++k) {
             const double x = random.between(-spacing, spacing), y = random.between(-spacing, spacing);
