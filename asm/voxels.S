@@ -63,10 +63,11 @@
 #define CELL_SHIFT   124
 #define AREA_SHARE   128
 #define WHOLE_MOST   132
-#define FRONT        136
-#define HORIZON      140
-#define GRADIENT     144
-#define AHEAD        152
+#define DEEPEST      136
+#define FRONT        140
+#define HORIZON      144
+#define GRADIENT     148
+#define AHEAD        156
 #define STEEPEST_TILT 20000
 #define MARGIN_SHIFT 5
 #define MARGIN_UNITS 14
@@ -579,6 +580,17 @@ shade_end:
         movb        %dl, VOXEL_REACH(%edi)
         movl        FRONT(%ebp), %edx
         movb        %dl, VOXEL_FRONT(%edi)
+        // if (deep > v.deepest) halfWidth = halfWidth * v.deepest / deep, halfHeight = halfHeight * v.deepest / deep
+        cmpl        DEEPEST(%ebp), %esi
+        jle        shade_ended
+        imull        DEEPEST(%ebp), %eax
+        xorl        %edx, %edx
+        divl        %esi
+        xchgl        %eax, %ecx
+        imull        DEEPEST(%ebp), %eax
+        xorl        %edx, %edx
+        divl        %esi
+        xchgl        %eax, %ecx
         jmp        shade_ended
 
         // halfWidth = (halfWidth + |across.x|) >> v.cellShift;  halfHeight = (halfHeight + |across.y|) >> v.cellShift

@@ -373,7 +373,9 @@ private:
     void findRest();
     void makeWarp(const WarpAmounts& amounts);
     void setGrown(Real size);
-    void tellNeighbours();
+    // Tells the neighbours at its old place, where it had another reach, and at the new one.
+    void tellNeighbours(const Point& before, Real reachBefore);
+    void tellNeighbours() { tellNeighbours(centre_, reach_); }
     bool layOutRegular(Layout& layout) const;
     bool findNeighbours(Layout& layout) const;
     void findNeighbours(Layout& layout, int ring) const;

@@ -94,12 +94,13 @@ void SoftObject::place(const Point& centre, Real wanted)
     const Real size = clamp(wanted, Real(MIN_SIZE), Real(MAX_SIZE));
     if (centre == centre_ && size == size_)
         return;
-    tellNeighbours();
+    const Point before = centre_;
+    const Real reachBefore = reach_;
     centre_ = centre;
     if (size != size_)
         setGrown(size);
     recalc_ = true;
-    tellNeighbours();
+    tellNeighbours(before, reachBefore);
 }
 
 // Sets the size and everything that depends on it.
@@ -112,8 +113,11 @@ void SoftObject::setGrown(Real size)
     measureReach();
     if (laid_.seeds != nullptr) {
         const Real drift = growth();
-        if (drift > Real(1) + DRIFT_MAX || drift < Real(1) - DRIFT_MAX)
+        if (drift > Real(1) + DRIFT_MAX || drift < Real(1) - DRIFT_MAX) {
+            // Seeds that are laid out anew are not displaced any more.
+            tellNeighbours();
             resample(laid_.spacing, makeSurface_);
+        }
     }
 }
 
@@ -234,15 +238,18 @@ void SoftObject::setWarp(const WarpAmounts& amounts)
 // "If the object is transformed, this flag is set and it will tell all its neighbors to set their recalc flags", but "if an
 // object has no displaced seeds [...] it will not tell its neighbors". Our addition: it also tells a neighbour that is in
 // range, so that huge jumps are safe.
-void SoftObject::tellNeighbours()
+void SoftObject::tellNeighbours(const Point& before, Real reachBefore)
 {
+    const auto reaches = [&](const SoftObject& other) {
+        return inRange(other) || isNearer(before, other.centre_, reachBefore + other.reach_);
+    };
     for (const List<Link>::Node* node = skel_.first(); node != nullptr; node = node->next) {
-        if (!node->item.object->recalc_ && (displaced_ || inRange(*node->item.object)))
+        if (!node->item.object->recalc_ && (displaced_ || reaches(*node->item.object)))
             node->item.object->recalc_ = true;
     }
     for (int i = 0; i < 2; ++i)
         for (const List<Link>::Node* node = (i == 0 ? digs_ : dents_).first(); node != nullptr; node = node->next)
-            if (inRange(*node->item.object))
+            if (reaches(*node->item.object))
                 node->item.object->recalc_ = true;
 }
 

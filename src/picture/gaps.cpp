@@ -15,6 +15,7 @@ constexpr int GAP_THIN = 2;   // width of a run that is filled whatever lies abo
 constexpr int GAP_MOST = 32;  // upper bound of all widths, however near the viewer the seeds are
 constexpr int DIVIDED = 2;    // the search for where a gap changes its colour ends when its bounds are this close
 constexpr Real STEEP(1.3);    // upper bound of the gradient of a field, times the size of its object
+constexpr int SLIVER = 2;     // width of a run of drawn pixels beside which surface may be missing
 // Units: an opening stays open if the surface is at least this far away half way across it. If it is nearer than that, but not
 // nearer than DOUBTFUL, only those pixels of the opening are drawn that show the surface.
 constexpr Real OPEN(1), DOUBTFUL(0.25);
@@ -73,7 +74,8 @@ void follow(const uint8_t* frame, int y, int from, int to, int step, int widest,
 
 }  // namespace
 
-// Notes the empty pixels at both ends of a run of drawn pixels, if they may be in inner corners.
+// Notes the empty pixels at both ends of a run of drawn pixels, if they may be in inner corners. Beside a narrow run they may be a
+// part of an island that seeds have missed; at the upper and the lower end of an outline the next row is drawn there.
 inline void Gaps::noteCorners(int y, const Span& run)
 {
     const uint8_t* const row = frame_ + y * WIDTH;
@@ -81,6 +83,11 @@ inline void Gaps::noteCorners(int y, const Span& run)
         missed_.note(run.from - 1, y);
     if (Missed::mayBeInCorner(row + run.to, 1))
         missed_.note(run.to, y);
+    if (run.to - run.from > SLIVER || model_ == nullptr)
+        return;
+    for (int end = run.from - 1, inwards = 1; inwards >= -1; end = run.to, inwards -= 2)
+        if ((row[end - WIDTH] | row[end + WIDTH]) == 0)
+            missed_.note(end, y, inwards);
 }
 
 // Notes the outermost empty pixels to both sides of `columns`, in the row where the filled part of an opening ends.

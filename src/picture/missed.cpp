@@ -46,7 +46,9 @@ void Missed::draw()
 {
     const int corners = count_;
     for (int i = 0; i < corners; ++i)
-        if (takeCorner(noted_[i].pixel) && model_ != nullptr) {
+        if (noted_[i].depth != 0) {
+            follow(noted_[i].pixel, noted_[i].depth, noted_[i].from);
+        } else if (takeCorner(noted_[i].pixel) && model_ != nullptr) {
             const int at = noted_[i].pixel, beside = drawnBeside(at, NOWHERE);
             follow(at, zbuffer_[beside], beside);
         }
@@ -201,8 +203,8 @@ bool Missed::setColour(int at, int depth, int from)
         ++looks_;
         return model_->implicitAt(p + away, &strongest_);
     };
-    const Real half(0.5), none(0);
-    const Vector there{fieldAt({half, none, none}), fieldAt({none, half, none}), fieldAt({none, none, half})};
+    const Real step(0.25), none(0);
+    const Vector there{fieldAt({step, none, none}), fieldAt({none, step, none}), fieldAt({none, none, step})};
     const Real here = fieldAt({none, none, none});
     const SoftObject* const own = strongest_ < 0 ? nullptr : model_->actor(strongest_).object;
     uint8_t colour = frame_[from];

@@ -25,11 +25,13 @@ public:
                (pixel[UP + END * outwards] != 0 && pixel[DOWN * END - outwards] != 0);
     }
 
-    // Notes a pixel, possibly off the screen, that may be in a corner, for draw(). Does nothing when NOTED_MOST are noted already.
-    void note(int column, int row)
+    // Notes a pixel, possibly off the screen, that may be in a corner, for draw(); or, if `inwards` is 1 or -1, one where the
+    // surface that is drawn so many columns away may go on. Does nothing when NOTED_MOST are noted already.
+    void note(int column, int row, int inwards = 0)
     {
+        const int at = row * machine::WIDTH + column;
         if (column >= 1 && column < machine::WIDTH - 1 && row >= 1 && row < machine::HEIGHT - 1)
-            put(row * machine::WIDTH + column, 0, 0);
+            put(at, inwards != 0 ? zbuffer_[at + inwards] : 0, at + inwards);
     }
 
     // Draws the surface where it is missing at the noted corners and at the view's crossings, and follows it to the pixels beside
@@ -43,8 +45,8 @@ public:
 private:
     static constexpr int NOTED_MOST = 1024;
 
-    // A pixel that the surface may go on to, the depth where it is looked for (1/128 unit), and the pixel that it comes from. Of a
-    // corner only the pixel counts.
+    // A pixel that the surface may go on to, the depth where it is looked for (1/128 unit), and the pixel that it comes from. A
+    // corner has the depth 0, and only its pixel counts.
     struct Place {
         uint16_t pixel, depth, from;
     };

@@ -39,9 +39,13 @@ constexpr int BEND_TURNS_LIMB = 1, BEND_TURNS = 3;
 // 1/4 step: a patch bends unevenly if its gradient predicts the brightness of some seed with an error greater than this.
 constexpr int32_t UNEVEN_SHADING = 8;
 
-// 1/64 spacing: scales next to the limb are drawn as far as this before their centres. The scales beside them cover the rest of
-// their cells, on which the tangent plane lies well before the surface.
-constexpr int32_t FRONT = 80;
+// Spacings: upper bound on the change of depth from the middle of a scale that ends to its corner. Without it, scales next to the
+// limb would come far beyond the outline where seeds have parted.
+constexpr int32_t DEEPEST = 8;
+
+// Spacings: scales that end are drawn as far as this before their centres. Farther before them the tangent plane is well before the
+// surface, and the scales beside them cover it.
+constexpr int32_t FRONT = 2;
 
 // A scale that ends at the limb grows to each side by LIMB_MARGIN, 1/64 spacing, but by at most LIMB_MARGIN_MOST, 1/256 unit: this
 // adds at most three steps to the change of its brightness to a corner, which stays within SHADING_MOST of the ramp.
@@ -157,7 +161,8 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     flatHorizon_ = min32(mulShift16(FLATTEST, horizonScale_), horizonMost);
     ballBend_ = (1 << 22) / max32(mulShift16(rawFromReal(object.laidRadius()) >> 8, rawFromReal(own.growth)), 128);
     const int32_t spacing = spacing_ = min32(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
-    shading_.front = min32(spacing * FRONT >> 9, REACH_MOST);
+    shading_.deepest = spacing * DEEPEST;
+    shading_.front = min32(spacing * FRONT >> 3, REACH_MOST);
     limbMargin_ = min32(spacing * LIMB_MARGIN >> 6, LIMB_MARGIN_MOST);
     areaScale_ = static_cast<uint32_t>(mulShift16(spacing * spacing << 7, step));
     shading_.cellShift = __builtin_clz(static_cast<uint32_t>(spacing)) - 19;

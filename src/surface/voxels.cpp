@@ -116,6 +116,10 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     if (reach < 256 && deep >= reach * 8) {
         voxel.reach = static_cast<uint8_t>(reach);
         voxel.front = static_cast<uint8_t>(v.front);
+        if (deep > v.deepest) {
+            halfWidth = halfWidth * v.deepest / deep;
+            halfHeight = halfHeight * v.deepest / deep;
+        }
     }
     voxel.halfWidth = static_cast<int16_t>(halfWidth);
     voxel.halfHeight = static_cast<int16_t>(halfHeight);

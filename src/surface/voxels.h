@@ -31,6 +31,7 @@ struct Shading {
     int32_t cellShift;      // shifts half axes of cells on the picture plane right to 1/256 unit
     int32_t areaShare;      // area of a cell on the picture plane = area * (facing / 8) * areaShare / 2^32
     int32_t wholeMost;      // scales of cells up to this area cover the whole cell, those of larger ones only its share of a band
+    int32_t deepest;        // upper bound of the change of depth from the centre of a scale with a reach to its corners, 1/256 unit
     int32_t front;          // Voxel::front of all voxels that have a reach
     int32_t horizonShare;   // takes Seen::facing to Voxel::reach in 2^-16: radius of curvature / distance of the eye, 12 fraction
                             // bits, times a step of places in 1/256 unit

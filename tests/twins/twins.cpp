@@ -988,7 +988,8 @@ static_assert(inasm2::SEEDS == offsetof(Shading, seeds) && inasm2::ROOTS == offs
               inasm2::LEAST_POSITION == offsetof(Shading, leastPosition) && inasm2::CELL == offsetof(Shading, cell) &&
               inasm2::CELL_SHIFT == offsetof(Shading, cellShift) && inasm2::AREA_SHARE == offsetof(Shading, areaShare) &&
               inasm2::WHOLE_MOST == offsetof(Shading, wholeMost) &&
-              inasm2::FRONT == offsetof(Shading, front) && inasm2::HORIZON == offsetof(Shading, horizonShare) &&
+              inasm2::DEEPEST == offsetof(Shading, deepest) && inasm2::FRONT == offsetof(Shading, front) &&
+              inasm2::HORIZON == offsetof(Shading, horizonShare) &&
               inasm2::GRADIENT == offsetof(Shading, gradient) && inasm2::AHEAD == offsetof(Shading, gradientAhead), "Shading");
 static_assert(inasm2::STEEPEST_TILT == STEEPEST_TILT && inasm2::MARGIN_SHIFT == MARGIN_SHIFT &&
               inasm2::MARGIN_UNITS == MARGIN_UNITS && inasm2::FLAT_SHADING == FLAT_SHADING &&
@@ -1033,6 +1034,7 @@ void shadedSeeds(int rounds)
         v.cellShift = below(8);
         v.areaShare = below(0x40000000);
         v.wholeMost = below(3) == 0 ? AREA_MOST : 0;
+        v.deepest = below(3) == 0 ? below(1 << (8 + below(7))) : 22400;
         v.front = below(REACH_MOST + 1);
         v.horizonShare = below(1 << (4 + below(8)));
         v.gradient[0] = number(1 << (8 + below(8)));

@@ -196,7 +196,8 @@ TEST(slopes_are_true_where_balls_blend)
     CHECK(std::sqrt(all.sum / all.count) < 1.5);
 }
 
-// Next to the limb, the planes of tilted and wide scales come far before the surface; of none is that part drawn.
+// Next to the limb, scales of seeds that have moved apart are tilted and wide. None extends far, and none is drawn by more than two
+// spacings before its middle.
 TEST(no_scale_comes_far_before_the_surface)
 {
     Random random;
@@ -219,8 +220,9 @@ TEST(no_scale_comes_far_before_the_surface)
                 drawn = std::max(drawn, std::min(corner, v.front / 32.0));
             }
     }
-    note("%ld scales next to the limb, their corners %.2f units before their middle at most, drawn up to %.2f", limb, corners, drawn);
+    note("%ld scales next to the limb, their corners %.2f units before or behind their middle at most; drawn before it up to %.2f",
+         limb, corners, drawn);
     CHECK(limb > 1000);
-    CHECK(corners > 10);
-    NEAR(drawn, 2.5, 0.01);
+    CHECK(corners > 10 && corners <= 16.1);
+    NEAR(drawn, 4, 0.01);
 }

@@ -677,6 +677,37 @@ TEST(surface_is_followed_from_corners)
     CHECK(!played(&ball.model, 170, 88, 4));
 }
 
+// Of a ball only a piece a few pixels wide is drawn. Beside a narrow piece the rest of the surface is looked for, as far as the
+// limit of rays allows; a broader one has an outline like any other.
+TEST(surface_is_followed_from_slivers)
+{
+    BallView ball;
+    const auto drawn = [&](int width) {
+        ball.view.begin();
+        for (int y = 90; y < 100; ++y)
+            for (int x = 160; x < 160 + width; ++x)
+                ball.set(x, y);
+        ball.view.closeGaps(Real(1), &ball.model, &ball.palette);
+        ball.view.end();
+        int count = 0;
+        for (int y = 0; y < HEIGHT; ++y)
+            for (int x = 0; x < WIDTH; ++x) {
+                const int at = y * WIDTH + x;
+                if (ball.view.frame()[at] == 0)
+                    continue;
+                ++count;
+                double depth = 0;
+                if (ball.trueAt(x, y, &depth) >= 0)
+                    NEAR(ball.view.zbuffer()[at] / 128.0, depth, 0.5);
+            }
+        note("%d of the 10 rows' %d pixels", count, 10 * width);
+        return count;
+    };
+    CHECK(drawn(1) > 300);
+    CHECK(drawn(2) > 300);
+    CHECK(drawn(5) == 50);
+}
+
 // The right part of a ball is missing, and a scale is cut at the border that the ball has there. The rest of the ball is drawn,
 // also in front of what is drawn farther away. Nothing is drawn if the scale is hidden or the cut is that of a limb.
 TEST(surface_goes_on_across_borders)
