@@ -1,6 +1,6 @@
 // Missed: finds parts of the surface that no scale has drawn, when gaps are closed (gaps.h). At each inner corner of the drawn
-// pixels, and across each border between objects where nothing is drawn at the surface's depth, a ray is intersected with the
-// model's surface. Where it hits, the surface is followed from pixel to pixel.
+// pixels, beside runs of one or two of them, and across each border between objects where nothing is drawn at the surface's depth,
+// a ray is intersected with the model's surface. Where it hits, the surface is followed from pixel to pixel.
 #ifndef FB_MISSED_H
 #define FB_MISSED_H
 
@@ -34,7 +34,7 @@ public:
             put(at, inwards != 0 ? zbuffer_[at + inwards] : 0, at + inwards);
     }
 
-    // Draws the surface where it is missing at the noted corners and at the view's crossings, and follows it to the pixels beside
+    // Draws the surface where it is missing at the noted pixels and at the view's crossings, and follows it to the pixels beside
     // them.
     void draw();
 
