@@ -47,6 +47,9 @@
 #define LENS_FINENESS 16
 #define LENS_STEPS ((LENS_FAR - LENS_NEAR) * LENS_FINENESS)
 #define STEEPEST   400
+#define DOMED_WIDE 8
+#define DOMED_HIGH 12
+#define DOMED_PIXEL 287
 #define LARGEST    40
 #define Z_EMPTY    0xffff
 #define SCREEN_WIDTH 320
@@ -107,7 +110,11 @@
 #define CUT_FIRST  148
 #define NEAR       152                  /* struct Factors for a scale nearer than the table */
 #define ZLEAST     168
-#define LOCALS     172
+#define DOME       172                  /* dome of a scale with a straight cut; negative for other scales */
+#define FIRST      176                  /* of a domed scale: z and shade at the beginning of the row, their steps there, and */
+#define STEP       180                  /* their change to the next row, in the halves of one word each */
+#define DOWN       184
+#define LOCALS     188
 
         .text
 
@@ -133,7 +140,8 @@
 //
 // Scales that are cut, clipped, large or nearer than the table use code that draws a row of LARGEST columns; it is entered at the
 // scale's width before its end. With a cut, edx has the cut function, which takes 2 more instructions per pixel (a pixel cut off
-// takes 3 altogether). Along a curve the step changes as well, with 2 instructions more (486: 1 + 3, Pentium: 4).
+// takes 3 altogether). Along a straight line the step of the depth changes with the dome, with 1 instruction more (486, Pentium: 2).
+// Along a curve the step of the cut function changes, with 2 instructions more (486: 1 + 3, Pentium: 4).
 
         .balign 16
         FUNC(drawScalesA)
@@ -506,6 +514,9 @@ entered_\kind\()_\width:
         PIXEL_\pixel at
         .if     \width > 1
         addl    %ebx, %eax
+        .if     \cuts == 1
+        addl    DOME(%esp), %ebx
+        .endif
         .if     \cuts == 2
         movl    CUT_XX(%esp), %ecx
         addl    %ecx, CUT_STEP(%esp)
@@ -516,7 +527,18 @@ entered_\kind\()_\width:
         .endif
         .set    at, at + 1
         .endr
+        .if     \cuts == 1
+        // z and shade start from the row before; its change to the next row grows by the dome
+        movl    DOWN(%esp), %ebx
+        movl    FIRST(%esp), %eax
+        addl    %ebx, %eax
+        addl    DOME(%esp), %ebx
+        movl    %eax, FIRST(%esp)
+        movl    %ebx, DOWN(%esp)
+        movl    STEP(%esp), %ebx
+        .else
         subl    ROW(%esp), %eax
+        .endif
         addl    $2*SCREEN_WIDTH, %esi
         addl    $SCREEN_WIDTH, %edi
         decl    HEIGHT(%esp)
@@ -569,13 +591,51 @@ small:
         movl    HEIGHT(%esp), %ecx
         movl    %edx, ROW(%esp)
         notl    %ecx
-        movl    CUT(%esp), %edx
         imull   $SCREEN_WIDTH, %ecx, %ecx
         addl    WIDTH(%esp), %ecx
         addl    %ecx, %edi
         leal    (%esi,%ecx,2), %esi
+        movl    DOME(%esp), %ecx
+        testl   %ecx, %ecx
+        jns     domed
+on_row:
+        movl    CUT(%esp), %edx
         testl   %edx, %edx
         jmp     *ENTRY(%esp)
+
+        // setDome(dome, toColumn, toRow, &scale);   DOWN: zStep * (width - 1) + zRow before it, with shade
+        .balign 4
+domed:
+        movl    %ebx, %edx
+        movl    FROM_COLUMN(%esp), %ebp
+        imull   WIDTH(%esp), %edx
+        negl    %ebp
+        subl    ROW(%esp), %edx
+        movl    %ebp, FROM_COLUMN(%esp)
+        // across = dome * toColumn >> 12;  zStep += across + dome / 2
+        imull   %ecx, %ebp
+        shrl    $1, %ecx
+        sarl    $12, %ebp
+        addl    %ecx, %ebx
+        addl    %ecx, %edx
+        movl    FROM_ROW(%esp), %ecx
+        addl    %ebp, %ebx
+        negl    %ecx
+        imull   FROM_COLUMN(%esp), %ebp
+        movl    %ecx, FROM_ROW(%esp)
+        // down = dome * toRow >> 12;  z += (across * toColumn + down * toRow) >> 13
+        imull   DOME(%esp), %ecx
+        sarl    $12, %ecx
+        movl    %ebx, STEP(%esp)
+        addl    %ecx, %edx
+        imull   FROM_ROW(%esp), %ecx
+        movl    %edx, DOWN(%esp)
+        addl    %ecx, %ebp
+        sarl    $13, %ebp
+        addl    %ebp, %eax
+        movl    RAMP(%esp), %ebp
+        movl    %eax, FIRST(%esp)
+        jmp     on_row
         ENTERED shaded, shaded, 0
         ENTERED ending, ending, 0
         ENTERED cut, cut, 1
@@ -680,6 +740,7 @@ cut:
         movl    KIND(%esp), %eax
         movl    $CUT_KIND, %ebx
 entered:
+        movl    $-1, DOME(%esp)
         movl    %edi, WIDTH(%esp)
         movl    %eax, HEIGHT(%esp)
         movl    %ebx, KIND(%esp)
@@ -723,6 +784,25 @@ entered:
         addl    CUT_ROW(%esp), %eax
         negl    %eax
         movl    %eax, CUT_ROW(%esp)
+        // domeOf(v, f)
+        movswl  VOXEL_HALF_WIDTH(%esi), %eax
+        movswl  VOXEL_HALF_HEIGHT(%esi), %ebx
+        imull   FACTOR_X(%ebp), %eax
+        imull   FACTOR_Y(%ebp), %ebx
+        cmpl    $DOMED_WIDE<<20, %eax
+        movl    $0, DOME(%esp)
+        jg      not_special
+        cmpl    $DOMED_HIGH<<20, %ebx
+        jg      not_special
+        movl    FACTOR_ZX(%ebp), %eax
+        sarl    $6, %eax
+        cmpl    $DOMED_PIXEL, %eax
+        jle     4f
+        movl    $DOMED_PIXEL, %eax
+4:      imull   %eax, %eax
+        shrl    $13, %eax
+        addl    %eax, %eax
+        movl    %eax, DOME(%esp)
         jmp     not_special
 2:
         movl    (%eax), %eax

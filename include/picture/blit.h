@@ -37,6 +37,8 @@ struct FineScale : Scale {
     int32_t cut, cutStep, cutRow;  // cut function: a pixel is drawn where it is >= 0; cutRow leads from the first pixel of a row
                                    // to the first pixel of the next
     int32_t cutXX, cutXY, cutYY;   // added before each step to cutStep; before each row to its first cutStep; and to cutRow
+    int32_t dome;  // of a scale with a cut: added to zStep after each step in a row, and to the change of z from row to row after
+                   // each row; 0: the depth changes by constant steps
 };
 
 // The depth of a pixel where nothing was drawn.

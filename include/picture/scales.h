@@ -71,7 +71,7 @@ inline void setCut(const Voxel& v, int32_t zx, int32_t zy, ToFirst toFirst, Fine
 
 inline void setUncut(FineScale* scale)
 {
-    scale->cut = scale->cutStep = scale->cutRow = scale->cutXX = scale->cutXY = scale->cutYY = 0;
+    scale->cut = scale->cutStep = scale->cutRow = scale->cutXX = scale->cutXY = scale->cutYY = scale->dome = 0;
 }
 
 // Whether the depths of all pixels of a scale fit the Z-buffer. `z` is the depth of the first pixel; it changes by `across` up to
@@ -92,6 +92,36 @@ struct Factors {
 constexpr int LENS_NEAR = 76, LENS_FAR = 432;
 constexpr int LENS_FINENESS = 16;
 constexpr int LENS_STEPS = (LENS_FAR - LENS_NEAR) * LENS_FINENESS;
+
+// Next to a border the surface is often a hollow between two objects. There tangent planes come before the middles of the scales
+// beside them, and a pixel would show a scale by its very edge. A scale that is cut along a straight line is therefore domed: its
+// depth grows with the squared distance from its centre, by 1/4 unit at a distance of one unit, so that of overlapping scales a
+// pixel shows the one whose centre is nearest. A scale that reaches farther than DOMED_WIDE or DOMED_HIGH pixels from its centre has
+// no dome, and where a pixel is wider than DOMED_PIXEL units (9 fraction bits) domes do not grow further: depths within the table of
+// factors still fit the Z-buffer.
+constexpr int32_t DOMED_WIDE = 8, DOMED_HIGH = 12, DOMED_PIXEL = 287;
+constexpr int32_t DOME_MOST = 2 * (DOMED_PIXEL * DOMED_PIXEL >> 13);
+static_assert(LENS_FAR * 128 + STEEPEST * (DOMED_WIDE + DOMED_HIGH) +
+              DOME_MOST / 2 * (DOMED_WIDE * DOMED_WIDE + DOMED_HIGH * DOMED_HIGH) < Z_EMPTY, "depths");
+
+// The dome of a voxel that is cut along a straight line, as FineScale::dome: 1/128 unit, an even number up to DOME_MOST.
+inline int32_t domeOf(const Voxel& v, const Factors& f)
+{
+    if (v.halfWidth * f.x > DOMED_WIDE << 20 || v.halfHeight * f.y > DOMED_HIGH << 20)
+        return 0;
+    const int32_t pixel = min32(f.zx >> 6, DOMED_PIXEL);
+    return (pixel * pixel >> 13) * 2;
+}
+
+// Domes a scale whose plane is set. (toColumn, toRow) leads from its centre to the centre of its first pixel, 12 fraction bits.
+inline void setDome(int32_t dome, int32_t toColumn, int32_t toRow, FineScale* scale)
+{
+    const int32_t across = dome * toColumn >> 12, down = dome * toRow >> 12;
+    scale->dome = dome;
+    scale->z += (across * toColumn + down * toRow) >> 13;
+    scale->zRow += down + dome / 2 - (across + dome / 2) * scale->width;
+    scale->zStep += across + dome / 2;
+}
 
 // The loop's input (the camera, the object, the buffers) and its running results.
 struct Lens {

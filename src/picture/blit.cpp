@@ -45,6 +45,7 @@ inline void fineRow(const FineScale& scale, uint8_t* pixels, uint16_t* depths, u
         }
         both += step;
         if (CUT) {
+            step += static_cast<uint32_t>(scale.dome);
             cutStep += static_cast<uint32_t>(scale.cutXX);
             cut += cutStep;
         }
@@ -66,8 +67,9 @@ void blitFine(uint8_t* frame, uint16_t* zbuffer, const FineScale& scale)
     uint8_t* pixels = frame + end;
     uint16_t* depths = zbuffer + end;
     const uint32_t width = static_cast<uint32_t>(scale.width);
-    const uint32_t step = together(scale.zStep, scale.shadeStep), down = together(scale.zRow, scale.shadeRow) + step * width;
-    const bool isCut = (scale.cut | scale.cutStep | scale.cutRow | scale.cutXX | scale.cutXY | scale.cutYY) != 0;
+    const uint32_t step = together(scale.zStep, scale.shadeStep);
+    uint32_t down = together(scale.zRow, scale.shadeRow) + step * width;
+    const bool isCut = (scale.cut | scale.cutStep | scale.cutRow | scale.cutXX | scale.cutXY | scale.cutYY | scale.dome) != 0;
     uint32_t both = together(scale.z, scale.shade), cut = static_cast<uint32_t>(scale.cut);
     uint32_t cutStep = static_cast<uint32_t>(scale.cutStep), cutRow = static_cast<uint32_t>(scale.cutRow);
     for (int y = scale.height; y > 0; --y) {
@@ -76,6 +78,7 @@ void blitFine(uint8_t* frame, uint16_t* zbuffer, const FineScale& scale)
         else
             fineRow<false>(scale, pixels, depths, both, step, 0, 0);
         both += down;
+        down += static_cast<uint32_t>(scale.dome);
         cutStep += static_cast<uint32_t>(scale.cutXY);
         cutRow += static_cast<uint32_t>(scale.cutYY);
         cut += cutRow;

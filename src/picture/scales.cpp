@@ -57,10 +57,12 @@ inline void addShading(const Lens& lens, const Voxel& v, const Factors& f, int32
     scale->shade = v.brightness * 256 + 128 + toFirst(shadeAcross, shadeDown);
     scale->shadeStep = shadeAcross;
     scale->shadeRow = wrappedSum(shadeDown, -wrappedProduct(shadeAcross, width));
-    if (isCut(v))
-        setCut(v, f.zx, f.zy, toFirst, scale);
-    else
-        setUncut(scale);
+    setUncut(scale);
+    if (!isCut(v))
+        return;
+    setCut(v, f.zx, f.zy, toFirst, scale);
+    if ((v.curveXX | v.curveXY | v.curveYY) == 0)
+        setDome(domeOf(v, f), toColumn, toRow, scale);
 }
 
 }  // namespace

@@ -217,10 +217,9 @@ bool View::project(const Voxel& voxel, FineScale* scale) const
     scale->shade = first(voxel.brightness * 256 + 128, shadeAcross, shadeDown);
     scale->shadeStep = shadeAcross;
     scale->shadeRow = shadeDown - shadeAcross * width;
+    setUncut(scale);
     if (isCut(voxel))
         setCut(voxel, pixelX, pixelY, [&](int32_t x, int32_t y) { return first(0, x, y); }, scale);
-    else
-        setUncut(scale);
     return true;
 }
 

@@ -707,6 +707,12 @@ void voxelByVoxel(int rounds)
             stopped += done == 0;
             empty += a.lens.empty;
             wrongEmpties += sound && a.lens.empty != 0 && (done == 0 || a.lens.empty != 1 || (wideOn > 0 && highOn > 0));
+            // A scale with a straight cut is domed: half of its dome is added at a distance of a pixel.
+            const double perPixel = z / optics.focalX * 32 * z / optics.focalX;
+            const double dome = perPixel < DOME_MOST / 2 ? perPixel : DOME_MOST / 2;
+            const bool mayBeDomed = isCut(v) && (v.curveXX | v.curveXY | v.curveYY) == 0 && halfWide < DOMED_WIDE + 0.1 &&
+                                    halfHigh < DOMED_HIGH + 0.1;
+            const bool domed = mayBeDomed && halfWide < DOMED_WIDE - 0.1 && halfHigh < DOMED_HIGH - 0.1;
             long pixels = 0;
             for (int py = 0; py < HIGH; ++py)
                 for (int px = 0; px < WIDE; ++px) {
@@ -715,8 +721,11 @@ void voxelByVoxel(int rounds)
                     const bool sure = px >= mostLeft && px < leastRight && py >= mostTop && py < leastBottom;
                     const bool may = px >= leastLeft && px < mostRight && py >= leastTop && py < mostBottom;
                     const double dx = px + 0.5 - column, dy = py + 0.5 - row;
-                    const double expected = z * 128 + across * dx - down * dy;
-                    const double doubt = 2 + most(dx, 0) * (1 + 0.001 * most(across, 0)) +
+                    const double square = dx * dx + dy * dy;
+                    const double expected = z * 128 + across * dx - down * dy + (domed ? dome * square : 0);
+                    // Half a dome is a whole number, and it changes the steps by whole numbers.
+                    const double domeDoubt = !mayBeDomed ? 0 : (domed ? 1.1 : dome + 1) * square + most(dx, 0) + most(dy, 0);
+                    const double doubt = 2 + domeDoubt + most(dx, 0) * (1 + 0.001 * most(across, 0)) +
                                          most(dy, 0) * (1 + 0.001 * most(down, 0)) + (mostWide + mostHigh) +
                                          doubtX * most(across, 0) + doubtY * most(down, 0);
                     // The end is tested for tilts within 16 only; products of greater ones may overflow.
