@@ -140,8 +140,8 @@
 //
 // Scales that are cut, clipped, large or nearer than the table use code that draws a row of LARGEST columns; it is entered at the
 // scale's width before its end. With a cut, edx has the cut function, which takes 2 more instructions per pixel (a pixel cut off
-// takes 3 altogether). Along a straight line the step of the depth changes with the dome, with 1 instruction more (486, Pentium: 2).
-// Along a curve the step of the cut function changes, with 2 instructions more (486: 1 + 3, Pentium: 4).
+// takes 3 altogether). Along a straight line the step of the depth changes with the dome, with 1 instruction more (486 and
+// Pentium: 2). Along a curve the step of the cut function changes, with 2 instructions more (486: 1 + 3, Pentium: 4).
 
         .balign 16
         FUNC(drawScalesA)
