@@ -6,6 +6,10 @@
 
 namespace {
 
+// Two fields count as the same where they differ by less than TIE, in units of the field, and their gradients by less than a fifth
+// of the gradient on the surface of an object alone; ALIKE is that fifth times half the object's size.
+constexpr Real TIE(0.002), ALIKE(0.15);
+
 // The neighbour with the strongest field at the position evaluated last.
 const Neighbour* strongestOf(const Path& path)
 {
@@ -48,7 +52,7 @@ SELDOM const Neighbour* strongestOdd(const Path& path, const Seed& s, int shift,
 
 }  // namespace
 
-void findBorder(const Path& path, Seed& s, Real dominance)
+bool findBorder(const Path& path, Seed& s, Real dominance)
 {
     // Gradients here are multiplied by half the squared size of the object, over 2^shift.
     const int shift = path.gradientShift();
@@ -56,25 +60,29 @@ void findBorder(const Path& path, Seed& s, Real dominance)
     Real change = shiftDown(path.ownSlope() * path.lookedAt(), 1);
     const Neighbour* const other = path.all().ordinary ? strongestOf(path) : strongestOdd(path, s, shift, &g, &change);
     if (other == nullptr)
-        return;
+        return true;
     // The fields were evaluated before the last step of Newton's method.
     dominance += (other->slope * other->change - change) * (s.position - path.lookedAt());
     g = g - gradientOf(path, *other, s.position, shift);
     const Normal n = normalise(g);
     const Real steep = dot(g, {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)});
     const Real size = path.object().laidSize();
+    if (dominance > -TIE && steep < shiftDown(size * ALIKE, shift) && other->object->slot() < path.all().head->slot())
+        return false;
     const Real distance = shiftDown(clamp(-dominance * size, Real(-100), Real(100)) * size * Real(0.5), shift);
     const Real apart = clamp(absolute(distance) < steep * BORDER_FAR ? distance / steep : BORDER_FAR, -BORDER_FAR, BORDER_FAR);
     s.apart = static_cast<int16_t>(rawFromReal(apart) >> 8);
     s.border = directionOf(n);
+    return true;
 }
 
-void findNearer(const Path& path, Seed& s, Real dominance)
+bool findNearer(const Path& path, Seed& s, Real dominance)
 {
     const Seed before = s;
-    findBorder(path, s, dominance);
-    if (before.apart < s.apart)
+    const bool own = findBorder(path, s, dominance);
+    if (own && before.apart < s.apart)
         s = before;
+    return own;
 }
 
 void mix(const Path& path, Seed& s)

@@ -15,11 +15,13 @@ inline Direction14 directionOf(const Normal& n)
 }
 
 // Sets the border of a seed, to first order: direction and distance of the place where the strongest neighbour's field equals the
-// own one. `dominance` is the neighbour's field less the own one at the position evaluated last.
-void findBorder(const Path& path, Seed& s, Real dominance);
+// own one. `dominance` is the neighbour's field less the own one at the position evaluated last. Returns false if the two fields are
+// the same around the seed, as around the end that two tubes share, and the neighbour stands before the own object in the model:
+// the surface is the neighbour's then, so that only one of the two draws it.
+bool findBorder(const Path& path, Seed& s, Real dominance);
 
 // As findBorder(), for a seed that has a border already: the seed keeps the nearer one of the two.
-SELDOM void findNearer(const Path& path, Seed& s, Real dominance);
+SELDOM bool findNearer(const Path& path, Seed& s, Real dominance);
 
 // Sets the colour of a seed to the mean of the objects' colours, weighted by their fields at the position evaluated last.
 void mix(const Path& path, Seed& s);

@@ -154,9 +154,18 @@ inline void Settler::keep(Seed& s, Real dominance)
         mix(path_, s);
     // The border may have moved all the same.
     if (dominance > -shiftDown(border_, 1) && !nearby_.dented()) {
-        findBorder(path_, s, dominance);
-        s.flags |= SEED_BORDER;
+        if (findBorder(path_, s, dominance))
+            s.flags |= SEED_BORDER;
+        else
+            leaveToStrongest(s);
     }
+}
+
+// Leaves the surface at a seed to the strongest neighbour.
+inline void Settler::leaveToStrongest(Seed& s)
+{
+    s.flags &= SEED_ACTIVE;
+    s.blocker = static_cast<uint8_t>(cover_.strongest());
 }
 
 // Searches the whole path of a seed, in the fields of the neighbours that reach some place on it.
@@ -177,7 +186,8 @@ inline Real Settler::search(const Seed& s, Real* position, Sample* sample)
     return ::search(path_, position, sample);
 }
 
-// Gives a seed that is on the surface its normal, its colour where colours mix, and the border to a neighbour.
+// Gives a seed that is on the surface its normal, its colour where colours mix, and the border to a neighbour. The seed is left
+// without SEED_VALID where the surface belongs to the neighbour, or is another one (findDented()).
 inline void Settler::place(Seed& s, Real dominance)
 {
     Vector out = path_.outward(s.position);
@@ -188,7 +198,10 @@ inline void Settler::place(Seed& s, Real dominance)
     if (mixes())
         mix(path_, s);
     if (dominance > -border_) {
-        s.flags & SEED_BORDER ? findNearer(path_, s, dominance) : findBorder(path_, s, dominance);
+        if (!(s.flags & SEED_BORDER ? findNearer(path_, s, dominance) : findBorder(path_, s, dominance))) {
+            leaveToStrongest(s);
+            return;
+        }
         s.flags |= SEED_BORDER;
     }
     ++counts_.normals;

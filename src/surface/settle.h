@@ -70,6 +70,7 @@ private:
     Followed followOn(Seed& s, Real* position, Sample* sample);
     void restThere(Seed& s);
     void keep(Seed& s, Real dominance);
+    void leaveToStrongest(Seed& s);
     Real search(const Seed& s, Real* position, Sample* sample);
     void place(Seed& s, Real dominance);
     // The flags that a covered seed keeps.

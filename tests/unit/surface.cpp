@@ -460,6 +460,39 @@ TEST(a_ball_along_a_long_one_close_to_the_viewer)
     }
 }
 
+TEST(of_two_fields_that_are_the_same_the_first_has_the_surface)
+{
+    // A ball stands at the end of a tube of its size: round that end the two fields are the same, and elsewhere the tube's is the
+    // stronger.
+    const Real measures[] = {Real(20), Real(40)};
+    for (const bool ballFirst : {false, true}) {
+        Scene scene;
+        const auto addTube = [&] { scene.add(kindNamed("cylinder")->make(1, measures), 3, -2, 10); };
+        if (!ballFirst)
+            addTube();
+        SoftObject& ball = scene.ball(20, 3, 18, 10);
+        if (ballFirst)
+            addTube();
+        SoftObject& tube = *scene.objects[ballFirst ? 1 : 0];
+        scene.linkAll();
+        long ofBall = 0, ofTube = 0;
+        for (int frame = 0; frame < 20; ++frame) {
+            scene.update();
+            const Vec end = vec(ball.centre()), way = (end - vec(tube.centre())) * (1 / 20.0);
+            const auto isOnCap = [&](const Voxel& v) { return dot(placeOf(scene, v) - end, way) > 1.5; };
+            for (const Voxel& v : scene.draw(ballFirst ? 0 : 1))
+                ofBall += isOnCap(v);
+            for (const Voxel& v : scene.draw(ballFirst ? 1 : 0))
+                ofTube += isOnCap(v);
+            for (SoftObject* const object : {&ball, &tube})
+                object->rotate(point(3, -2, 10), vector(1, 0.3, 0.2), 0x0b000000u);
+        }
+        note("%ld voxels of the ball and %ld of the tube round the end", ofBall, ofTube);
+        CHECK((ballFirst ? ofBall : ofTube) > 300);
+        SAME(ballFirst ? ofTube : ofBall, 0);
+    }
+}
+
 TEST(chains)
 {
     // Each object is linked only with the one before; objects two places apart are in range of each other too.
@@ -527,7 +560,7 @@ TEST(crowds)
         judge(what, errors, missing);
     };
     {
-        // Objects at one position are equally strong everywhere, and all of them are visible.
+        // Objects at one position are equally strong everywhere, and the first of them is visible.
         Scene scene;
         for (int i = 0; i < 40; ++i)
             scene.ball(20, 0, 0, 0, 4);
@@ -537,7 +570,8 @@ TEST(crowds)
         Errors errors;
         measure(scene, body, errors);
         errors.report("40 at one place");
-        CHECK(errors.count > 40);
+        CHECK(errors.count > 25);
+        SAME(static_cast<long>(scene.draw(0).size()), errors.count);
         SAME(errors.astray, 0);
         SAME(errors.foreign, 0);
     }
