@@ -161,10 +161,10 @@ inline void Settler::keep(Seed& s, Real dominance)
     }
 }
 
-// Leaves the surface at a seed to the strongest neighbour.
+// Leaves the surface at a seed to the strongest neighbour. Its path goes on leaving the surface there.
 inline void Settler::leaveToStrongest(Seed& s)
 {
-    s.flags &= SEED_ACTIVE;
+    s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_FOLLOW);
     s.blocker = static_cast<uint8_t>(cover_.strongest());
 }
 
