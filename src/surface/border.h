@@ -15,9 +15,9 @@ inline Direction14 directionOf(const Normal& n)
 }
 
 // Sets the border of a seed, to first order: direction and distance of the place where the strongest neighbour's field equals the
-// own one. `dominance` is the neighbour's field less the own one at the position evaluated last. Returns false if the two fields are
-// the same around the seed, as around the end that two tubes share, and the neighbour stands before the own object in the model:
-// the surface is the neighbour's then, so that only one of the two draws it.
+// own one. `dominance` is the neighbour's field less the own one at the position evaluated last. Returns false if the two fields
+// are the same around the seed, as around the end that two tubes share, and the neighbour stands before the own object in the
+// model: the surface is the neighbour's then, so that only one of the two draws it.
 bool findBorder(const Path& path, Seed& s, Real dominance);
 
 // As findBorder(), for a seed that has a border already: the seed keeps the nearer one of the two.
