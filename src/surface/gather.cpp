@@ -207,10 +207,12 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
 {
     const Real growth = object.growth();
     const bool longPaths = object.longestPath() > LONG_PATH;
+    const Point centre = object.centre();
+    const Real reach = object.reach() + GATHER_SLACK;
     Neighbour* next = all.neighbours + all.count;
     for (SoftObject* const* const end = from + count; from < end; ++from) {
         const SoftObject& other = **from;
-        if (!isNearer(other.centre(), object.centre(), object.reach() + other.reach() + GATHER_SLACK) || &other == &object)
+        if (!isNearer(other.centre(), centre, reach + other.reach()) || &other == &object)
             continue;
         if (next == all.neighbours + NEIGHBOURS_MAX)
             return;
