@@ -19,7 +19,7 @@ constexpr Real STEEPEST(1.3);
 // A patch is taken to face away if its middle does so by this cosine (1.0 = 2^14) plus the spread of its normals.
 constexpr int32_t TURNED = 500;
 // Units: no seed waits in a frame in which the neighbours travel farther.
-constexpr Real HURRY(2);
+constexpr Real HURRY(3);
 // A seed that faces away by LITTLE_AWAY or WELL_AWAY (cosines, 1.0 = 2^14) is settled less often; one that faces away by FAR_AWAY
 // needs no oversampled seed beside it.
 constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000, FAR_AWAY = 7500;
