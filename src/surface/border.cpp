@@ -6,9 +6,9 @@
 
 namespace {
 
-// Two fields count as the same where they differ by less than TIE, in units of the field, and their gradients by less than a fifth
-// of the gradient on the surface of an object alone; ALIKE is that fifth times half the object's size.
-constexpr Real TIE(0.002), ALIKE(0.15);
+// Two fields count as the same where they differ by less than TIE times the own one, and their gradients by less than ALIKE times
+// the own one.
+constexpr Real TIE(0.004), ALIKE(0.2);
 
 // The neighbour with the strongest field at the position evaluated last.
 const Neighbour* strongestOf(const Path& path)
@@ -63,11 +63,12 @@ bool findBorder(const Path& path, Seed& s, Real dominance)
         return true;
     // The fields were evaluated before the last step of Newton's method.
     dominance += (other->slope * other->change - change) * (s.position - path.lookedAt());
+    const Vector own = g;
     g = g - gradientOf(path, *other, s.position, shift);
     const Normal n = normalise(g);
     const Real steep = dot(g, {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)});
     const Real size = path.object().laidSize();
-    if (dominance > -TIE && steep < shiftDown(size * ALIKE, shift) && other->object->slot() < path.all().head->slot())
+    if (other->object->slot() < path.all().head->slot() && dominance > -path.ownField() * TIE && steep < nearLength(own) * ALIKE)
         return false;
     const Real distance = shiftDown(clamp(-dominance * size, Real(-100), Real(100)) * size * Real(0.5), shift);
     const Real apart = clamp(absolute(distance) < steep * BORDER_FAR ? distance / steep : BORDER_FAR, -BORDER_FAR, BORDER_FAR);
