@@ -24,7 +24,8 @@
 //                 its position: it wakes up, or another
 //                 object is stronger there, or it is on a
 //                 part of a hollow's wall that another
-//                 object samples
+//                 object samples, or where an equal field
+//                 stands first
 //   SEED_OFF      an object digs near the seed, which      the seed settles anew
 //                 cannot be on the surface before `due`
 //   SEED_FRONT    /P only: its path does not point away    its path points away

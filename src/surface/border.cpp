@@ -6,8 +6,8 @@
 
 namespace {
 
-// Two fields count as the same where they differ by less than TIE times the own one, and their gradients by less than ALIKE times
-// the own one.
+// Two fields count as the same where the own one exceeds the neighbour's by less than TIE times the latter, and their gradients
+// differ by less than ALIKE times the own gradient.
 constexpr Real TIE(0.004), ALIKE(0.2);
 
 // The neighbour with the strongest field at the position evaluated last.
@@ -68,7 +68,7 @@ bool findBorder(const Path& path, Seed& s, Real dominance)
     const Normal n = normalise(g);
     const Real steep = dot(g, {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)});
     const Real size = path.object().laidSize();
-    if (other->object->slot() < path.all().head->slot() && dominance > -path.ownField() * TIE && steep < nearLength(own) * ALIKE)
+    if (other->object->slot() < path.all().head->slot() && dominance > -other->value * TIE && steep < nearLength(own) * ALIKE)
         return false;
     const Real distance = shiftDown(clamp(-dominance * size, Real(-100), Real(100)) * size * Real(0.5), shift);
     const Real apart = clamp(absolute(distance) < steep * BORDER_FAR ? distance / steep : BORDER_FAR, -BORDER_FAR, BORDER_FAR);

@@ -546,6 +546,8 @@ bool Settler::placeOnIsland(int i, int which, Real inside, Real outside)
     if (sample.dominance > (which == SoftObject::FINE_ISLAND_END ? CLEARLY : OVERSHOOT))
         return false;
     place(s, sample.dominance);
+    if (!(s.flags & SEED_VALID))
+        return false;
     s.flags |= SEED_ACTIVE;
     const int32_t cosine = (s.way[0] * s.normal.x + s.way[1] * s.normal.y + s.way[2] * s.normal.z) >> 7;
     Seed* const fine = magnitude(cosine) < GRAZING ? nullptr : object_.madeFine(i);
