@@ -58,6 +58,21 @@
         movl        %ecx, \to
 .endm
 
+// change = b + 2 p c; eax = t = a + p (b + p c); changes ecx and edx
+.macro findT
+        // outer = p * c; inner = b + outer; change = inner + outer
+        movl        ALONG_C(%edi), %eax
+        times        %ebp
+        movl        ALONG_B(%edi), %ecx
+        addl        %eax, %ecx
+        addl        %ecx, %eax
+        movl        %eax, ALONG_CHANGE(%edi)
+        // t = a + p * inner
+        movl        %ecx, %eax
+        times        %ebp
+        addl        ALONG_A(%edi), %eax
+.endm
+
 // void addFieldsA(Neighbour* const* first, Neighbour* const* end, Real position, const Vector* path, Fields* fields)
 //
 //   esi  at             edi  along (**at)       ebp  position (p)
@@ -77,41 +92,22 @@ FUNC(addFieldsA)
         jmp        add_next
 
 add_one:
-        // if (kind != OTHER)
+        // if (kind == POINT) b = dot(path, twice16) >> 4 if (path != nullptr)
         movl        (%esi), %edi
-        cmpl        $KIND_SEGMENT, ALONG_KIND(%edi)
-        ja        add_other
-        // if (path != nullptr) b = dot(path, twice16) >> 4;  if (kind == SEGMENT) stepY = dot(path, along16) >> 4
         movl        ADD_PATH(%esp), %ebx
+        cmpl        $KIND_SEGMENT, ALONG_KIND(%edi)
+        jae        add_no_point
         testl        %ebx, %ebx
         jz        add_aimed
         product16 ALONG_TWICE, ALONG_B(%edi)
-        cmpl        $KIND_SEGMENT, ALONG_KIND(%edi)
-        jne        add_aimed
-        product16 ALONG_WAY, ALONG_STEPY(%edi)
 add_aimed:
-        // outer = p * c; inner = b + outer; change = inner + outer
-        movl        ALONG_C(%edi), %eax
-        times        %ebp
-        movl        ALONG_B(%edi), %ecx
-        addl        %eax, %ecx
-        addl        %ecx, %eax
-        movl        %eax, ALONG_CHANGE(%edi)
-        // t = a + p * inner
-        movl        %ecx, %eax
-        times        %ebp
-        addl        ALONG_A(%edi), %eax
-        cmpl        $KIND_SEGMENT, ALONG_KIND(%edi)
-        je        add_segment
+        findT
 add_param:
         movl        %eax, ALONG_T(%edi)
 add_known:
-        // if (t >= 1) value = slope = 0
+        // if (t >= 1) value = slope = 0; t = max(t, 0)
         cmpl        $0x10000, %eax
-        jge        add_outside
-        // t = max(t, 0)
-        testl        %eax, %eax
-        js        add_below
+        jae        add_outside
 add_inside:
         // step = fieldSteps[t >> 8]; value = step.value + (step.slope * ((t & 255) - 128) >> 16); slope = step.slope
         movzbl        %al, %ecx
@@ -145,7 +141,15 @@ add_next:
         popl        %ebp
         ret
 
+add_no_point:
+        ja        add_other
+        // if (path != nullptr) b = dot(path, twice16) >> 4, stepY = dot(path, along16) >> 4
+        testl        %ebx, %ebx
+        jz        add_segment
+        product16 ALONG_TWICE, ALONG_B(%edi)
+        product16 ALONG_WAY, ALONG_STEPY(%edi)
 add_segment:
+        findT
         // at = y + p * stepY
         movl        %eax, %ecx
         movl        ALONG_STEPY(%edi), %eax
@@ -179,11 +183,10 @@ add_beside:
 add_other:
         movl        ALONG_T(%edi), %eax
         jmp        add_known
-add_below:
-        xorl        %eax, %eax
-        jmp        add_inside
 add_outside:
-        xorl        %eax, %eax
+        testl        %eax, %eax
+        movl        $0, %eax
+        js        add_inside
         movl        %eax, ALONG_VALUE(%edi)
         movl        %eax, ALONG_SLOPE(%edi)
         jmp        add_done

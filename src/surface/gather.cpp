@@ -208,32 +208,38 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
     const Real growth = object.growth();
     const bool longPaths = object.longestPath() > LONG_PATH;
     const Point centre = object.centre();
-    const Real reach = object.reach() + GATHER_SLACK;
+    const Real reach = object.reach();
+    bool inner = false, uneven = false, plain = true, others = false;
     Neighbour* next = all.neighbours + all.count;
     for (SoftObject* const* const end = from + count; from < end; ++from) {
         const SoftObject& other = **from;
-        if (!isNearer(other.centre(), centre, reach + other.reach()) || &other == &object)
+        const Real range = reach + other.reach();
+        if (!isNearer(other.centre(), centre, range + GATHER_SLACK) || &other == &object)
             continue;
         if (next == all.neighbours + NEIGHBOURS_MAX)
-            return;
-        const Vector apart = other.centre() - object.centre();
-        ++all.count;
+            break;
         Neighbour& near = *next++;
         all.bySlot[other.slot()] = &near;
         near.object = &other;
         near.digs = digs;
-        near.inRange = object.inRange(other);
-        place(object, growth, apart, near);
+        const Vector away = other.centre() - centre;
+        near.inRange = squareOf(away) < squareOf(range);
+        place(object, growth, away, near);
         weigh(bodies, all, near);
         const bool tiny = (near.size < SMALL || longPaths) && isTiny(object, near);
         if (tiny || !other.isBall())
             aim(object, tiny, near);
-        all.inner = all.inner || (!digs && dentedFromWithin(other, bodies));
-        all.dented = all.dented || digs;
-        all.uneven = all.uneven || near.ratio > UNEVEN_SIZES;
-        all.ordinary = all.ordinary && near.plain;
-        all.simple = all.simple && near.kind != Neighbour::OTHER;
+        inner |= !digs && dentedFromWithin(other, bodies);
+        uneven |= near.ratio > UNEVEN_SIZES;
+        plain &= near.plain;
+        others |= near.kind == Neighbour::OTHER;
     }
+    all.dented = all.dented || (digs && next > all.neighbours + all.count);
+    all.count = static_cast<int>(next - all.neighbours);
+    all.inner = all.inner || inner;
+    all.uneven = all.uneven || uneven;
+    all.ordinary = all.ordinary && plain;
+    all.simple = all.simple && !others;
 }
 
 void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& all)

@@ -112,11 +112,15 @@ bool Odometer::isKnown(const Neighbourhood& all, int number)
 void Odometer::forgetFar(const Neighbourhood& all)
 {
     Known* to = known_;
-    for (const Known *from = known_, *const end = known_ + count_; from < end; ++from)
-        if (all.bySlot[from->slot] != nullptr)
-            *to++ = *from;
-        else
+    for (const Known *from = known_, *const end = known_ + count_; from < end; ++from) {
+        if (all.bySlot[from->slot] == nullptr) {
             leapt_ |= from->inRange;
+            continue;
+        }
+        if (to != from)
+            *to = *from;
+        ++to;
+    }
     count_ = static_cast<int>(to - known_);
 }
 
