@@ -79,7 +79,8 @@ struct Seed {
     int8_t along[3], across[3];
     int8_t way[3];       // direction of the path, 1.0 = 127
     uint16_t area;
-    uint8_t spare[14];   // pads a seed to 64 bytes, so that an index becomes an address by a shift
+    uint16_t placedAt;   // the odometer's reading when the normal was found, 1/64 unit
+    uint8_t spare[12];   // pads a seed to 64 bytes, so that an index becomes an address by a shift
 };
 
 // Receives the seeds of a primitive, ring by ring, in the object's own space (Appendix C: "canonical" space). A layout runs

@@ -81,7 +81,9 @@ Real Settler::settle(Seed& s)
         return Real(0);
     }
     ++counts_.updated;
-    if (followed == STILL && (s.flags & SEED_VALID) && !(s.flags & SEED_RESTING) && sample.dominance <= OVERSHOOT) {
+    // The surface may turn about a seed that does not move.
+    if (followed == STILL && (s.flags & SEED_VALID) && !(s.flags & SEED_RESTING) && sample.dominance <= OVERSHOOT &&
+        !isOld(s.placedAt, shiftDown(nearby_.smallest(), 1))) {
         keep(s, sample.dominance);
         return Real(0);
     }
@@ -146,6 +148,12 @@ void Settler::restThere(Seed& s)
     s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
 }
 
+// Whether what was found at an earlier reading does not hold any more: it lasts until the neighbours have travelled so far.
+inline bool Settler::isOld(uint16_t foundAt, Real lasts) const
+{
+    return hurries_ || static_cast<uint16_t>(reading64() - foundAt) >= travelOf(lasts) >> 4;
+}
+
 // Leaves a seed that has not moved as it is, but for the border to a neighbour.
 inline void Settler::keep(Seed& s, Real dominance)
 {
@@ -154,10 +162,11 @@ inline void Settler::keep(Seed& s, Real dominance)
         mix(path_, s);
     // The border may have moved all the same.
     if (dominance > -shiftDown(border_, 1) && !nearby_.dented()) {
-        if (findBorder(path_, s, dominance))
-            s.flags |= SEED_BORDER;
-        else
+        if (!findBorder(path_, s, dominance)) {
             leaveToStrongest(s);
+            return;
+        }
+        s.flags |= SEED_BORDER;
     }
 }
 
@@ -194,6 +203,7 @@ inline void Settler::place(Seed& s, Real dominance)
     if (nearby_.dented() && !findDented(s, &out))
         return;
     s.normal = directionOf(normalise(out));
+    s.placedAt = reading64();
     s.flags |= SEED_VALID;
     if (mixes())
         mix(path_, s);
@@ -228,8 +238,8 @@ bool Settler::setPatch(const Patch& patch, bool oversampled)
     patch_ = &patch;
     path_.leave();
     const bool reached = nearby_.setPatch(patch, oversampled);
-    const bool hurries = travelled_ > min(HURRY, shiftDown(nearby_.smallest(), 2));
-    turn_ = hurries || nearby_.dented() ? 0 : (static_cast<uint32_t>(patch.centre) / 2 + updates_) % TURNS;
+    hurries_ = travelled_ > min(HURRY, shiftDown(nearby_.smallest(), 2));
+    turn_ = hurries_ || nearby_.dented() ? 0 : (static_cast<uint32_t>(patch.centre) / 2 + updates_) % TURNS;
     return reached;
 }
 
@@ -532,7 +542,8 @@ bool Settler::settleIsland(int i)
         !comesBackFar(path_, valid ? onPath.position : Real(1), weakest_, &outside, &inside))
         return false;
     const bool enters = placeOnIsland(i, SoftObject::FINE_ISLAND, inside, outside);
-    return (leavesAgain(path_, &inside, &outside) && placeOnIsland(i, SoftObject::FINE_ISLAND_END, inside, outside)) || enters;
+    const bool leaves = leavesAgain(path_, &inside, &outside) && placeOnIsland(i, SoftObject::FINE_ISLAND_END, inside, outside);
+    return enters || leaves;
 }
 
 // Places fine seed `which` of regular seed i on an island, between two positions of the current path. Returns false if the path

@@ -89,6 +89,9 @@ private:
     bool placeOnIsland(int i, int which, Real inside, Real outside);
     bool waits(const Seed& s, bool someAway) const;
     bool mixes() const;
+    // The odometer's reading, 1/64 unit, as seeds store it.
+    uint16_t reading64() const { return static_cast<uint16_t>(now_ >> 4); }
+    bool isOld(uint16_t foundAt, Real lasts) const;
 
     // For dents and hollows only (hollow.cpp):
     SELDOM bool findDented(Seed& s, Vector* g);
@@ -111,6 +114,7 @@ private:
     const Real weakest_;    // no islands are searched where the own field is below this: one between two objects has more
     const Seed* const last_;  // the last regular seed
     const Patch* patch_ = nullptr;  // the current patch
+    bool hurries_ = false;  // neighbours travel so far in a frame that nothing holds from the frame before
     uint32_t turn_ = 0;     // 0..3: tells whose turn it is among the seeds of the patch that wait; in turn 0 none waits
     Real border_;           // a neighbour whose field is weaker than the own one by less than this has its border near
     Real alike_;            // seeds whose positions differ by more have parted

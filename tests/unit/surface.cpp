@@ -178,14 +178,6 @@ bool identical(const std::vector<Voxel>& a, const std::vector<Voxel>& b)
     return alike(a, b) && otherSlopes(a, b) == 0;
 }
 
-SoftObject* makeOf(const Kind& kind, int number)
-{
-    Real measures[MEASURES_MOST];
-    for (int i = 0; i < kind.measures; ++i)
-        measures[i] = kind.measure[i].usual;
-    return kind.make(number, measures);
-}
-
 }  // namespace
 
 TEST(islands_between_heavily_linked_objects_are_found)
@@ -630,6 +622,41 @@ TEST(what_moves_leaves_no_trace)
         }
         judge(steps > 100 ? "small steps" : "leaps", errors, missing);
     }
+}
+
+TEST(a_seed_that_stays_may_get_another_normal)
+{
+    // A ball goes round another. Seeds on the axis stay where they are, but the surface turns there. First it leaps to the mirror
+    // image of its place, then it goes on by steps of two units.
+    Scene moved;
+    SoftObject& ball = moved.ball(24, 0, 0, 0);
+    const auto placeAt = [](int step) {
+        const double angle = step == 0 ? -0.37 : 0.37 + step * 0.14;
+        return point(13.9 * std::cos(angle), 13.9 * std::sin(angle), -6);
+    };
+    SoftObject& other = moved.ball(20, number(placeAt(0).x), number(placeAt(0).y), -6);
+    moved.linkAll();
+    double leapt = 0, walked = 0;
+    for (int step = 0; step < 40; ++step) {
+        other.moveTo(placeAt(step));
+        moved.update();
+        Scene fresh;
+        fresh.ball(24, 0, 0, 0);
+        fresh.ball(20, number(placeAt(step).x), number(placeAt(step).y), -6);
+        fresh.linkAll();
+        fresh.update();
+        for (int i = 0; i < ball.seedSlots(); i += 2) {
+            const Seed &a = ball.regular(i), &b = fresh.objects[0]->regular(i);
+            if (!(a.flags & b.flags & SEED_VALID))
+                continue;
+            const double off = std::hypot(a.normal.x - b.normal.x, a.normal.y - b.normal.y, a.normal.z - b.normal.z) / 16384;
+            double& worst = step == 1 ? leapt : walked;
+            worst = std::fmax(worst, off);
+        }
+    }
+    note("normals are off by %.3f at most after the leap, by %.3f on the way", leapt, walked);
+    CHECK(leapt < 0.05);
+    CHECK(walked < 0.4);
 }
 
 TEST(what_turns_is_lit_anew)

@@ -13,6 +13,15 @@
 #include "model/kind.h"
 #include "model/torus.h"
 
+// Makes an object of a kind with the kind's usual measures.
+inline SoftObject* makeOf(const Kind& kind, int number)
+{
+    Real measures[MEASURES_MOST];
+    for (int i = 0; i < kind.measures; ++i)
+        measures[i] = kind.measure[i].usual;
+    return kind.make(number, measures);
+}
+
 // An object: t(p), the squared distance to its core over its squared size.
 struct Core {
     Vec centre, axis;  // the core lies along or about the axis
