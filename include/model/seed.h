@@ -79,8 +79,12 @@ struct Seed {
     int8_t along[3], across[3];
     int8_t way[3];       // direction of the path, 1.0 = 127
     uint16_t area;
-    uint16_t placedAt;   // the odometer's reading when the normal was found, 1/64 unit
-    uint8_t spare[12];   // pads a seed to 64 bytes, so that an index becomes an address by a shift
+    int16_t lightChange[3];  // of a seed that settled beside a border, an oversampled or a fine one: the gradient of the brightness
+                             // along the surface, own axes, 1/128 step per unit of the world. Its component along the normal
+                             // does not count
+    uint16_t placedAt;   // the odometer's readings when the normal and when `lightChange` were found, 1/64 unit
+    uint16_t litAt;
+    uint8_t spare[4];    // pads a seed to 64 bytes, so that an index becomes an address by a shift
 };
 
 // Receives the seeds of a primitive, ring by ring, in the object's own space (Appendix C: "canonical" space). A layout runs

@@ -4,10 +4,19 @@
 #define FB_BORDER_H
 
 #include "math/normal.h"
+#include "math/whole.h"
 #include "path.h"
 
 // Units: a border farther away counts as being at this distance.
 constexpr Real BORDER_FAR(30);
+
+// A seed no farther than this from a border, 1/256 unit, knows how the light changes around it (Seed::lightChange), like all
+// oversampled and fine seeds: the seeds about it tell that badly, because some are missing.
+constexpr int32_t BESIDE = 256;
+inline bool isBesideBorder(const Seed& s)
+{
+    return (s.flags & SEED_BORDER) && s.apart <= BESIDE;
+}
 
 inline Direction14 directionOf(const Normal& n)
 {

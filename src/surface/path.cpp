@@ -240,8 +240,9 @@ SELDOM int Path::findGradientShift() const
 }
 
 // The gradient of a field is 2 F' / size^2 times the vector from its core. Each vector is added with the factor -F' times the
-// squared proportion of the own size to the neighbour's, over 2^shift.
-inline __attribute__((always_inline)) Vector Path::sumGradients(Real position, int shift) const
+// squared proportion of the own size to the neighbour's, over 2^shift. `slants`: the path may not lead away from the own core's
+// nearest point.
+inline __attribute__((always_inline)) Vector Path::sumGradients(Real position, int shift, bool slants) const
 {
     Real own = -(shared_ ? ownSlope_ * share_[0] : ownSlope_);
     if (!shared_ && all_.hollow)
@@ -249,7 +250,7 @@ inline __attribute__((always_inline)) Vector Path::sumGradients(Real position, i
     own = shiftDown(own, shift);
     Vector g{Real(0), Real(0), Real(0)};
     // The vector from a point core to the seed is the vector to the root and the way along the path, which is added up in `along`.
-    Real along = object_.slants() ? Real(0) : own;
+    Real along = slants ? Real(0) : own;
     for (int i = 0; i < touched_; ++i) {
         const Neighbour& near = *near_[i];
         if (near.slope == Real(0))
@@ -268,13 +269,23 @@ inline __attribute__((always_inline)) Vector Path::sumGradients(Real position, i
             g = g - near.direction * (near.k * near.size * push);
     }
     g = g + seed_->path * (along * position);
-    return object_.slants() ? g + ownGradient(position, own) : g;
+    return slants ? g + ownGradient(position, own) : g;
 }
 
 Vector Path::outward(Real position) const
 {
     const int shift = gradientShift();
-    return shift == 0 ? sumGradients(position, 0) : sumGradients(position, shift);
+    return shift == 0 ? sumGradients(position, 0, object_.slants()) : sumGradients(position, shift, object_.slants());
+}
+
+Vector Path::outwardBeside(const Seed& s, Real position, const Vector& distance)
+{
+    Seed beside = s;
+    beside.path = s.path + distance * (Real(1) / position);
+    lookOn(beside, position);
+    const Vector out = sumGradients(position, gradientShift(), !object_.isBall() || object_.slants());
+    seed_ = nullptr;
+    return out;
 }
 
 Vector Path::ownGradient(Real position, Real share) const

@@ -46,6 +46,8 @@ public:
     // is half the gradient times the squared own size, over 2^gradientShift(): beside a small neighbour that alone would leave
     // 16.16.
     Vector outward(Real position) const;
+    // As outward(), at a position of the path that passes a seed's path at a distance. There is no current path afterwards.
+    Vector outwardBeside(const Seed& s, Real position, const Vector& distance);
     // The shift of gradients at the position evaluated last: 0, unless there is a far smaller neighbour.
     int gradientShift() const { return all_.uneven ? findGradientShift() : 0; }
 
@@ -103,7 +105,7 @@ private:
     void setNear(const NeighbourList& list);
     SELDOM void findOdd();
     SELDOM int findGradientShift() const;
-    Vector sumGradients(Real position, int shift) const;
+    Vector sumGradients(Real position, int shift, bool slants) const;
     bool mayReach(const Neighbour& near) const;
     void leaveOut();
     const Vector& root() const { return object_.root(seed_->root); }

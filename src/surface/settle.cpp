@@ -45,6 +45,8 @@ constexpr int32_t GRAZING = 1500;
 // Spacings. The surface may go on for this distance from a seed to a border before an oversampled seed towards the neighbour N is
 // needed (on shaped objects always), one towards the next seed of the ring, and a fine seed.
 constexpr Real LEFT_OPEN(0.5), LEFT_OPEN_SHAPED(-100), LEFT_OPEN_NEXT(1), LEFT_OPEN_FINE(1.5);
+// Units: travel of the neighbours over which the change of the light around a seed is taken to stay the same.
+constexpr Real LIGHT_LASTS(3);
 
 }  // namespace
 
@@ -98,6 +100,7 @@ Real Settler::settle(Seed& s)
     s.position = position;
     if (found && sample.dominance <= OVERSHOOT) {
         place(s, sample.dominance);
+        renewLightChange(s);
         return Real(0);
     }
     // The path leaves the surface where another object is the stronger. In a later frame it may leave it nearer to its root. It is
@@ -168,6 +171,7 @@ inline void Settler::keep(Seed& s, Real dominance)
         }
         s.flags |= SEED_BORDER;
     }
+    renewLightChange(s);
 }
 
 // Leaves the surface at a seed to the strongest neighbour. Its path goes on leaving the surface there.
@@ -215,6 +219,14 @@ inline void Settler::place(Seed& s, Real dominance)
         s.flags |= SEED_BORDER;
     }
     ++counts_.normals;
+}
+
+// Finds anew how the light changes around a seed that needs to know, if what was found before is old.
+inline void Settler::renewLightChange(Seed& s)
+{
+    const bool regular = s.area != 0;
+    if ((s.flags & SEED_VALID) && (!regular || isBesideBorder(s)) && isOld(s.litAt, LIGHT_LASTS))
+        findLightChange(s);
 }
 
 // Whether the object's colours mix with those of the objects that it is linked with.
@@ -501,6 +513,8 @@ void Settler::settleBehind(const Seed& valid, Seed& s)
         return;
     s.flags = SEED_ACTIVE;
     place(s, sample.dominance);
+    if (s.flags & SEED_VALID)
+        findLightChange(s);
 }
 
 // Whether a neighbour that is linked with the object by more than HEAVY may reach the paths of a patch.
@@ -543,6 +557,10 @@ bool Settler::settleIsland(int i)
         return false;
     const bool enters = placeOnIsland(i, SoftObject::FINE_ISLAND, inside, outside);
     const bool leaves = leavesAgain(path_, &inside, &outside) && placeOnIsland(i, SoftObject::FINE_ISLAND_END, inside, outside);
+    if (enters)
+        findLightChange(object_.fine(i)[SoftObject::FINE_ISLAND]);
+    if (leaves)
+        findLightChange(object_.fine(i)[SoftObject::FINE_ISLAND_END]);
     return enters || leaves;
 }
 

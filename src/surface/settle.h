@@ -73,6 +73,9 @@ private:
     void leaveToStrongest(Seed& s);
     Real search(const Seed& s, Real* position, Sample* sample);
     void place(Seed& s, Real dominance);
+    void renewLightChange(Seed& s);
+    // Finds how the light changes around a seed (ltchange.cpp), unless the seed is dark or faces away.
+    SELDOM void findLightChange(Seed& s);
     // The flags that a covered seed keeps.
     int stillOff() const { return nearby_.dented() ? SEED_OFF | SEED_FOLLOW : 0; }
     bool isCovered(const Seed& s) { return nearby_.dented() ? isOff(*patch_, s) : cover_.covers(s); }

@@ -3,6 +3,7 @@
 #include "shade.h"
 
 #include "bend.h"
+#include "border.h"
 #include "limb.h"
 #include "math/normal.h"
 #include "math/whole.h"
@@ -84,6 +85,7 @@ private:
     }
     bool bendsUnevenly(const Voxel* voxels, int count) const;
     bool cut(const Seed& s, Voxel* voxel) const;
+    void setSlopesOf(const Seed& s, Voxel* voxel) const;
     const Limb* limbOf(const Patch& patch);
     void endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel);
     // The component of a vector of own space along axis i of the view.
@@ -359,6 +361,15 @@ inline bool Shader::cutAtBorder(const Seed& s, Voxel* voxel, VoxelList& list) co
     return true;
 }
 
+// Sets the slopes of a voxel's brightness from how the light changes around its seed.
+inline void Shader::setSlopesOf(const Seed& s, Voxel* voxel) const
+{
+    const int32_t gradient[] = {s.lightChange[0], s.lightChange[1], s.lightChange[2]};
+    const int32_t x = along(gradient, own_.right, 0), y = along(gradient, own_.up, 1);
+    const int32_t z = along(gradient, own_.ahead, 2) + ((x * shearX_ + y * shearY_) >> 10);
+    setSlopes((x + (voxel->tiltX * z >> 8)) >> 4, (y + (voxel->tiltY * z >> 8)) >> 4, voxel);
+}
+
 // Lists the voxels of a patch that blends, or whose object has a paint.
 template <bool PAINTED>
 inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list,
@@ -370,6 +381,9 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
     Voxel* to = list.room();
     for (int i = 0; i < count; ++i) {
         const Seed& s = *seen[i].seed;
+        const bool knows = blends && !shines && (i >= regular || isBesideBorder(s)) && voxels[i].brightness != 0;
+        if (knows)
+            setSlopesOf(s, voxels + i);
         if (!cutAtBorder(s, voxels + i, list))
             continue;
         if (PAINTED) {
@@ -381,7 +395,8 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
         endAtLimb(patch, seen[i], to);
         if (i < known) {
             // A dark voxel keeps its slopes. With a finish that shines, brightness 0 does not mean that the light ends there.
-            slopes.add(&s, static_cast<int>(&s - shading_.seeds), to, shines || to->brightness != 0 ? sight : Slopes::STAYS);
+            const bool stays = knows || (!shines && to->brightness == 0);
+            slopes.add(&s, static_cast<int>(&s - shading_.seeds), to, stays ? Slopes::STAYS : sight);
             if (PAINTED && list.room() > to + 1)
                 slopes.addCopy(to + 1, to);
         }

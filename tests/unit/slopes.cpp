@@ -94,6 +94,57 @@ void lookBeside(Scene& scene, const Body& body, Beside& all)
     }
 }
 
+// Seeds that know how the light changes around them: how much it does, steps a unit, and how many are right.
+struct LightChanges {
+    long seeds = 0, extras = 0, right = 0;
+    double change = 0;
+};
+
+Vec crossed(const Vec& a, const Vec& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+void lookAtSeeds(const Scene& scene, const Body& body, size_t o, LightChanges& all)
+{
+    const SoftObject& object = *scene.objects[o];
+    const std::vector<size_t> joined = body.joined(o);
+    const Vec light = vec(scene.light);
+    const auto inWorld = [&](const Vec& v) {
+        const auto row = [&](int i) {
+            const Real* const m = object.turn().m[i];
+            return number(m[0]) * v.x + number(m[1]) * v.y + number(m[2]) * v.z;
+        };
+        return Vec{row(0), row(1), row(2)};
+    };
+    const auto look = [&](const Seed& s, bool regular) {
+        const bool knows = !regular || ((s.flags & SEED_BORDER) && s.apart < 256);
+        if ((s.flags & (SEED_VALID | SEED_RESTING)) != SEED_VALID || !knows)
+            return;
+        const Vec p = vec(object.centre()) + inWorld(vec(object.root(s.root) + s.path * s.position)) * number(object.growth());
+        const Vec fall = body.fall(joined, p), n = fall * (1 / size(fall));
+        // A patch that is hidden or faces away is not settled.
+        if (std::fabs(body.field(joined, p) - 0.5) > 0.01 || dot(n, vec(scene.eye) - p) < 2 || dot(n, light) < 0.05)
+            return;
+        const Vec found = inWorld(Vec{s.lightChange[0] / 128.0, s.lightChange[1] / 128.0, s.lightChange[2] / 128.0});
+        const Vec side = crossed(n, light), across = side * (1 / size(side)), along = crossed(n, across);
+        const auto truly = [&](const Vec& way) {
+            const Vec after = body.fall(joined, p + way * 0.5), before = body.fall(joined, p - way * 0.5);
+            return 63 * dot(after * (1 / size(after)) - before * (1 / size(before)), light);
+        };
+        const double x = truly(across), y = truly(along), much = std::hypot(x, y);
+        all.right += std::hypot(dot(found, across) - x, dot(found, along) - y) < 0.5 + 0.25 * much;
+        all.change += much;
+        ++all.seeds;
+        all.extras += !regular;
+    };
+    for (int i = 0; i < object.seedSlots(); i += 2) {
+        look(object.regular(i), true);
+        if (object.extra(i) != nullptr)
+            look(*object.extra(i), false);
+    }
+}
+
 }  // namespace
 
 TEST(slopes_are_those_of_the_brightness)
@@ -194,6 +245,41 @@ TEST(slopes_are_true_where_balls_blend)
     note("brightness a unit beside %ld seeds: %.2f steps off", all.count / 4, std::sqrt(all.sum / all.count));
     CHECK(all.count > 4000);
     CHECK(std::sqrt(all.sum / all.count) < 1.5);
+}
+
+// How the light changes around seeds beside a border and around oversampled seeds: half a unit to each side of those that are lit
+// and face the viewer. Objects are of every kind, linked all or in a chain, and some have grown since their seeds were laid out.
+TEST(seeds_beside_borders_know_how_the_light_changes)
+{
+    Random random;
+    for (const bool chain : {false, true}) {
+        LightChanges all;
+        for (int round = 0; round < 30; ++round) {
+            Scene scene;
+            std::vector<const Kind*> kinds;
+            for (int i = 0; i < 3; ++i) {
+                kinds.push_back(&KINDS[(round + i * (1 + round / KIND_COUNT)) % KIND_COUNT]);
+                SoftObject& object = scene.add(makeOf(*kinds.back(), i + 1), 11 * (i - 1) + random.between(-2, 2),
+                                               random.between(-5, 5), random.between(-5, 5));
+                object.rotate(object.centre(), vector(1, 0.4, 0.2), static_cast<uint32_t>(random.between(0, 4e9)));
+                if (i == 1 && round % 2)
+                    object.setSize(object.size() * Real(1.3));
+            }
+            scene.link(0, 1);
+            scene.link(1, 2);
+            if (!chain)
+                scene.link(0, 2);
+            for (int frame = 0; frame < 3; ++frame)
+                scene.update();
+            const Body body(scene, kinds);
+            for (size_t o = 0; o < 3; ++o)
+                lookAtSeeds(scene, body, o, all);
+        }
+        note("around %ld seeds, %ld of them oversampled, the light changes by %.1f steps a unit; %.1f %% know how", all.seeds,
+             all.extras, all.change / all.seeds, 100.0 * all.right / all.seeds);
+        CHECK(all.extras > 100 && all.seeds - all.extras > 100);
+        CHECK(all.right > 0.85 * all.seeds);
+    }
 }
 
 // Next to the limb, scales of seeds that have moved apart are tilted and wide. None extends far, and none is drawn by more than two
