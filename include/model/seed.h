@@ -79,9 +79,10 @@ struct Seed {
     int8_t along[3], across[3];
     int8_t way[3];       // direction of the path, 1.0 = 127
     uint16_t area;
+    static constexpr int16_t LIGHT_UNKNOWN = INT16_MIN;
     int16_t lightChange[3];  // of a seed that settled beside a border, an oversampled or a fine one: the gradient of the brightness
                              // along the surface, own axes, 1/128 step per unit of the world. Its component along the normal
-                             // does not count
+                             // does not count. The first is LIGHT_UNKNOWN until it has been found
     uint16_t placedAt;   // the odometer's readings when the normal and when `lightChange` were found, 1/64 unit
     uint16_t litAt;
     uint8_t spare[4];    // pads a seed to 64 bytes, so that an index becomes an address by a shift

@@ -225,7 +225,8 @@ inline void Settler::place(Seed& s, Real dominance)
 inline void Settler::renewLightChange(Seed& s)
 {
     const bool regular = s.area != 0;
-    if ((s.flags & SEED_VALID) && (!regular || isBesideBorder(s)) && isOld(s.litAt, LIGHT_LASTS))
+    if ((s.flags & SEED_VALID) && (!regular || isBesideBorder(s)) &&
+        (s.lightChange[0] == Seed::LIGHT_UNKNOWN || isOld(s.litAt, LIGHT_LASTS)))
         findLightChange(s);
 }
 
@@ -430,6 +431,7 @@ bool Settler::layOutExtra(const Seed& s, const Seed& other)
         putAway(object_, i);
     if (!(extra.flags & SEED_ACTIVE)) {
         extra.flags = SEED_ACTIVE | SEED_FOLLOW;
+        extra.lightChange[0] = Seed::LIGHT_UNKNOWN;
         extra.position = s.position;
         extra.still = 0;
     }
@@ -490,6 +492,7 @@ bool Settler::settleFine(int i)
         if (!(s.flags & SEED_ACTIVE)) {
             object_.layOutFine(i, which);
             s.flags = SEED_ACTIVE | SEED_FOLLOW;
+            s.lightChange[0] = Seed::LIGHT_UNKNOWN;
             s.position = ends[which]->position;
             s.still = 0;
         }

@@ -381,7 +381,8 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
     Voxel* to = list.room();
     for (int i = 0; i < count; ++i) {
         const Seed& s = *seen[i].seed;
-        const bool knows = blends && !shines && (i >= regular || isBesideBorder(s)) && voxels[i].brightness != 0;
+        const bool knows = blends && !shines && (i >= regular || isBesideBorder(s)) && voxels[i].brightness != 0 &&
+                           s.lightChange[0] != Seed::LIGHT_UNKNOWN;
         if (knows)
             setSlopesOf(s, voxels + i);
         if (!cutAtBorder(s, voxels + i, list))
