@@ -46,15 +46,17 @@ void Path::blend(Real position, Sample& sample)
     Linked parts[NEIGHBOURS_MAX + 1];
     Linked* end = parts;
     Real strongest(0);
-    const auto add = [&](Real f, int slot, int index) {
-        *end++ = {f, Real(0), bodies_.weights(slot), slot, index};
+    const auto add = [&](Real f, const Real* weights, int slot, int index) {
+        *end++ = {f, Real(0), weights, slot, index};
         strongest = max(strongest, f);
     };
     if (ownField_ > Real(0))
-        add(ownField_, object_.slot(), -1);
-    for (int i = 0; i < touched_; ++i)
-        if (near_[i]->value > Real(0))
-            add(near_[i]->value, near_[i]->object->slot(), i);
+        add(ownField_, bodies_.weights(object_.slot()), object_.slot(), -1);
+    for (int i = 0; i < touched_; ++i) {
+        const Neighbour& near = *near_[i];
+        if (near.value > Real(0))
+            add(near.value, near.weights, near.slot, i);
+    }
     // In a crowd all fields are small: they are scaled up, because their squares would lose too many digits.
     const bool faint = strongest < Real(0.125) && strongest > Real(0);
     for (Linked* a = parts; a < end && faint; ++a)

@@ -94,7 +94,7 @@ void classify(Patch& patch, const Neighbourhood& all)
     for (const Neighbour *near = all.neighbours, *const end = near + all.count; near < end; ++near) {
         if (!within(fromCore(*near, beyond), near->size16 + radius))
             continue;
-        const uint32_t slot = static_cast<uint32_t>(near->object->slot()), bit = 1u << slot % 32;
+        const uint32_t slot = static_cast<uint32_t>(near->slot), bit = 1u << slot % 32;
         patch.listed[slot / 32] |= bit;
         if (reaches(*near, ball))
             patch.near[slot / 32] |= bit;

@@ -59,7 +59,7 @@ int Cover::strongest() const
     Real most(-1);
     for (int i = 0; i < path_.touched(); ++i) {
         const Neighbour& near = path_.near(i);
-        const int candidate = near.object->slot();
+        const int candidate = near.slot;
         const Real value = near.value > COVERING && nearby_.weight(candidate) >= Real(1) ? near.value + Real(1) : near.value;
         if (value > most && !near.digs) {
             most = value;

@@ -219,8 +219,10 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         if (next == all.neighbours + NEIGHBOURS_MAX)
             break;
         Neighbour& near = *next++;
-        all.bySlot[other.slot()] = &near;
         near.object = &other;
+        near.slot = other.slot();
+        near.weights = bodies.weights(near.slot);
+        all.bySlot[near.slot] = &near;
         near.digs = digs;
         const Vector away = other.centre() - centre;
         near.inRange = squareOf(away) < squareOf(range);

@@ -24,6 +24,8 @@ constexpr Real UNEVEN_SIZES(16);
 // of own space. In core space a neighbour is turned to its own axes and scaled to the size CORE_SIZE.
 struct Neighbour : Along {
     const SoftObject* object;
+    int slot;              // SoftObject::slot()
+    const Real* weights;   // of the object's links, by slot
     Vector centre;
     Real size;          // distance from its core at which its field ends
     Real inverse16;     // CORE_SIZE / size

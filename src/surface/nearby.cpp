@@ -85,7 +85,7 @@ bool Nearby::isComplete(const NeighbourList& list) const
         return false;
     for (int i = 0; i < list.count; ++i) {
         const Neighbour& near = *list.near[i];
-        if (near.digs ? !digAlike(list, near) : all_.hollow && bodies_.weight(near.object->slot(), object_.slot()) != -all_.weight)
+        if (near.digs ? !digAlike(list, near) : all_.hollow && bodies_.weight(near.slot, object_.slot()) != -all_.weight)
             return false;
     }
     return true;
@@ -95,11 +95,11 @@ bool Nearby::isComplete(const NeighbourList& list) const
 bool Nearby::areAllOne(const NeighbourList& list) const
 {
     for (int i = 0; i < list.count; ++i) {
-        const int slot = list.near[i]->object->slot();
+        const int slot = list.near[i]->slot;
         if (ownWeights_[slot] != Real(1))
             return false;
         for (int j = 0; j < i; ++j)
-            if (bodies_.weight(list.near[j]->object->slot(), slot) != Real(1))
+            if (list.near[j]->weights[slot] != Real(1))
                 return false;
     }
     return true;
@@ -120,7 +120,7 @@ bool Nearby::areLinked(const NeighbourList& list) const
         return missing == 0;
     };
     const auto ofBody = [&](int i) { return !list.near[i]->digs; };
-    const auto slotOf = [&](int i) { return list.near[i]->object->slot(); };
+    const auto slotOf = [&](int i) { return list.near[i]->slot; };
     if (!all_.hollow)
         add(object_.slot());
     for (int i = 0; i < list.count; ++i)

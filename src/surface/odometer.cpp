@@ -67,7 +67,7 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
     for (int i = 0; i < all.count; ++i) {
         const Neighbour& near = all.neighbours[i];
         Known& known = known_[i];
-        if ((i >= count_ || known.slot != near.object->slot()) && !isKnown(all, i))
+        if ((i >= count_ || known.slot != near.slot) && !isKnown(all, i))
             continue;
         known.inRange = near.inRange;
         // Some places of a shaped neighbour travel farther than most.
@@ -95,7 +95,7 @@ bool Odometer::isKnown(const Neighbourhood& all, int number)
     Known& known = known_[number];
     if (count_ == room_ || (number < count_ && all.bySlot[known.slot] == nullptr))
         forgetFar(all);
-    const uint8_t slot = static_cast<uint8_t>(near.object->slot());
+    const uint8_t slot = static_cast<uint8_t>(near.slot);
     if (number < count_ && known.slot == slot)
         return true;
     // The entries behind it move up.
