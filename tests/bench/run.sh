@@ -66,8 +66,16 @@ ok "BENCH.BAT: a second each" sh -c "tr -d '\r' <'$c/REC.CSV' |
 fps() { # fps SWITCHES: of the first such record
 	tr -d '\r' <"$c/REC.CSV" | awk -F , -v switches="$1" '$1 == switches { print $4; exit }'
 }
-# (Not by how much, for that is the program's business: the copy is a few per cent of a frame.)
-ok "/X: without the copy it is faster" awk -v a="$(fps 'S:2 G X')" -v b="$(fps 'S:2 G')" 'BEGIN { exit !(a > b) }'
+# (Not by how much, for that is the program's business: the copy is a few per cent of a frame. A busy machine may slow one of the
+# two runs down by more; then both are made again, twice at most.)
+faster_without_copy() {
+	for again in yes yes no; do
+		awk -v a="$(fps 'S:2 G X')" -v b="$(fps 'S:2 G')" 'BEGIN { exit !(a > b) }' && return
+		[ $again = no ] || dos -c 30000 -- 'DEL REC.CSV' 'DEMO /B /G /T:2 /O:REC.CSV' 'DEMO /B /G /X /T:2 /O:REC.CSV'
+	done
+	return 1
+}
+ok "/X: without the copy it is faster" faster_without_copy
 
 # One small sphere: far above the screen's 70 a second, and held to them by /V.
 printf 'sphere ONE size 8\r\n' >"$c/SMALL.FB"
