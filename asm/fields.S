@@ -58,8 +58,8 @@
         movl        %ecx, \to
 .endm
 
-// change = b + 2 p c; eax = t = a + p (b + p c); changes ecx and edx
-.macro findT
+// Sets `change` = b + 2 p c, and eax = t = a + p (b + p c); changes ecx and edx
+.macro find_t
         // outer = p * c; inner = b + outer; change = inner + outer
         movl        ALONG_C(%edi), %eax
         times        %ebp
@@ -92,7 +92,7 @@ FUNC(addFieldsA)
         jmp        add_next
 
 add_one:
-        // if (kind == POINT) b = dot(path, twice16) >> 4 if (path != nullptr)
+        // if (kind == POINT && path != nullptr) b = dot(path, twice16) >> 4
         movl        (%esi), %edi
         movl        ADD_PATH(%esp), %ebx
         cmpl        $KIND_SEGMENT, ALONG_KIND(%edi)
@@ -101,11 +101,11 @@ add_one:
         jz        add_aimed
         product16 ALONG_TWICE, ALONG_B(%edi)
 add_aimed:
-        findT
+        find_t
 add_param:
         movl        %eax, ALONG_T(%edi)
 add_known:
-        // if (t >= 1) value = slope = 0; t = max(t, 0)
+        // if (t >= 1) value = slope = 0; t = max(t, 0). (Taken for unsigned, a negative t is large, too.)
         cmpl        $0x10000, %eax
         jae        add_outside
 add_inside:
@@ -143,13 +143,13 @@ add_next:
 
 add_no_point:
         ja        add_other
-        // if (path != nullptr) b = dot(path, twice16) >> 4, stepY = dot(path, along16) >> 4
+        // if (path != nullptr) b = dot(path, twice16) >> 4; stepY = dot(path, along16) >> 4
         testl        %ebx, %ebx
         jz        add_segment
         product16 ALONG_TWICE, ALONG_B(%edi)
         product16 ALONG_WAY, ALONG_STEPY(%edi)
 add_segment:
-        findT
+        find_t
         // at = y + p * stepY
         movl        %eax, %ecx
         movl        ALONG_STEPY(%edi), %eax

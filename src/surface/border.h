@@ -4,7 +4,6 @@
 #define FB_BORDER_H
 
 #include "math/normal.h"
-#include "math/whole.h"
 #include "path.h"
 
 // Units: a border farther away counts as being at this distance.

@@ -7,7 +7,8 @@
 
 namespace {
 
-// The turn of a normal is measured over a step: this part of the spacing, but no more than this part of the object's radius.
+// The turn of a normal is measured over a step: at position 1 this part of the spacing, but no more than this part of the object's
+// radius.
 constexpr Real OF_SPACING(0.75), OF_RADIUS(0.125);
 // Units of the world: no shorter step is divided by, so that `perTurn` times any turn fits 32 bits.
 constexpr Real SHORTEST(0.125);
@@ -39,7 +40,8 @@ void Settler::findLightChange(Seed& s)
     const auto part = [&](int i) { return cosineOf(light[i] - (n[i] * lit >> 14)) * length; };
     const Vector step{part(0), part(1), part(2)};
     // The step ends on a path beside the seed's, at a position a little farther out or in.
-    const Vector way{realFromRaw(s.way[0] * 516), realFromRaw(s.way[1] * 516), realFromRaw(s.way[2] * 516)};
+    const auto wayPart = [&](int i) { return realFromRaw(s.way[i] * (65536 / 127)); };
+    const Vector way{wayPart(0), wayPart(1), wayPart(2)};
     const Real out = dot(step, way);
     const Normal there = normalise(path_.outwardBeside(s, s.position + quotient(out, radius), step - way * out));
     // 1/128 step a unit, for a turn of 1.

@@ -275,7 +275,8 @@ inline __attribute__((always_inline)) Vector Path::sumGradients(Real position, i
 Vector Path::outward(Real position) const
 {
     const int shift = gradientShift();
-    return shift == 0 ? sumGradients(position, 0, object_.slants()) : sumGradients(position, shift, object_.slants());
+    const bool slants = object_.slants();
+    return shift == 0 ? sumGradients(position, 0, slants) : sumGradients(position, shift, slants);
 }
 
 Vector Path::outwardBeside(const Seed& s, Real position, const Vector& distance)

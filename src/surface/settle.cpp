@@ -151,7 +151,8 @@ void Settler::restThere(Seed& s)
     s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
 }
 
-// Whether what was found at an earlier reading does not hold any more: it lasts until the neighbours have travelled so far.
+// Whether what was found at an earlier reading of the odometer does not hold any more: it lasts while the neighbours travel `lasts`
+// units, unless they hurry.
 inline bool Settler::isOld(uint16_t foundAt, Real lasts) const
 {
     return hurries_ || static_cast<uint16_t>(reading64() - foundAt) >= travelOf(lasts) >> 4;

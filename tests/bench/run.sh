@@ -63,19 +63,15 @@ ok "BENCH.BAT: every shipped scene but the built-in one" sh -c "cd tools/scenes 
 	[ \$f = FOUR.FB ] || grep -q \"^IF EXIST \$f DEMO .*/M:\$f\" ../bench.bat || exit 1; done"
 ok "BENCH.BAT: a second each" sh -c "tr -d '\r' <'$c/REC.CSV' |
 	awk -F , 'NR > 1 && (\$3 < 1 || \$2 < 1) { bad = 1 } END { exit bad }'"
-fps() { # fps SWITCHES: of the first such record
-	tr -d '\r' <"$c/REC.CSV" | awk -F , -v switches="$1" '$1 == switches { print $4; exit }'
+# (Not by how much, for that is the program's business: the copy is a few per cent of a frame. A busy machine only slows runs down,
+# by as much: the best of three runs of each kind count.)
+dos -c 30000 -- 'DEMO /B /G /T:1 /O:X.CSV' 'DEMO /B /G /X /T:1 /O:X.CSV' 'DEMO /B /G /T:1 /O:X.CSV' \
+	'DEMO /B /G /X /T:1 /O:X.CSV' 'DEMO /B /G /T:1 /O:X.CSV' 'DEMO /B /G /X /T:1 /O:X.CSV'
+best() { # best SWITCHES: frames a second
+	tr -d '\r' <"$c/X.CSV" | awk -F , -v switches="$1" '$1 == switches && $4 > best { best = $4 } END { print best + 0 }'
 }
-# (Not by how much, for that is the program's business: the copy is a few per cent of a frame. A busy machine may slow one of the
-# two runs down by more; then both are made again, twice at most.)
-faster_without_copy() {
-	for again in yes yes no; do
-		awk -v a="$(fps 'S:2 G X')" -v b="$(fps 'S:2 G')" 'BEGIN { exit !(a > b) }' && return
-		[ $again = no ] || dos -c 30000 -- 'DEL REC.CSV' 'DEMO /B /G /T:2 /O:REC.CSV' 'DEMO /B /G /X /T:2 /O:REC.CSV'
-	done
-	return 1
-}
-ok "/X: without the copy it is faster" faster_without_copy
+ok "/X: three runs with the copy and three without" lines 7 "$c/X.CSV"
+ok "/X: without the copy it is faster" awk -v a="$(best 'S:2 G X')" -v b="$(best 'S:2 G')" 'BEGIN { exit !(b > 0 && a > b) }'
 
 # One small sphere: far above the screen's 70 a second, and held to them by /V.
 printf 'sphere ONE size 8\r\n' >"$c/SMALL.FB"
