@@ -24,6 +24,9 @@ public:
     // Returns false when there is no memory; there are no bodies then.
     bool find(SoftObject* const* objects, int count);
 
+    // The object with a slot.
+    const SoftObject& object(int slot) const { return *members_[bySlot_[slot].member]; }
+
     // The objects of the body that an object belongs to, including the object itself.
     SoftObject* const* members(const SoftObject& object) const;
     int memberCount(const SoftObject& object) const;
@@ -56,7 +59,8 @@ public:
 private:
     // What is stored for each object.
     struct Entry {
-        int16_t first, size;               // its body's first index in members_, and the number of members
+        int16_t member;                    // its index in members_
+        int16_t first, size;               // its body's first index there, and the number of members
         int16_t firstDigger, diggerCount;  // the same of the objects that dig into the body, in diggers_
         bool complete;                     // all members are linked with each other, and nothing else digs into the body
         bool plainBody;                    // complete, and all weights are 1

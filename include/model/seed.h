@@ -9,7 +9,11 @@
 //
 //   state         set when                                 cleared when
 //   SEED_VALID    the seed settled on the surface, where   its path leaves the surface in a neighbour's territory, or
-//                 its own object is the strongest          nowhere
+//                 its own object has the strongest claim   nowhere
+//                 (gather.h)
+//   SEED_GUEST    in that place another object's field is  it is not any more
+//                 the stronger: the seed shows that
+//                 object's colour
 //   SEED_ACTIVE   an oversampled seed takes part           its regular seed and that seed's neighbour are in the same
 //                                                          state again
 //   SEED_RESTING  no neighbour reaches the seed: it is at  a neighbour reaches it
@@ -39,6 +43,7 @@ enum SeedFlag : uint8_t {
     SEED_FRONT = 8,
     SEED_OFF = 8,        // shares the bit of SEED_FRONT, which only /P uses
     SEED_KEPT = 16,
+    SEED_GUEST = 16,     // shares the bit of SEED_KEPT, which only /P uses
     SEED_BORDER = 32,
     SEED_ASLEEP = 64,
     SEED_FOLLOW = 128,
@@ -58,7 +63,8 @@ struct Seed {
                          // oversampled seed: slot of the seed on its other side
     Direction14 normal;  // of the surface at the seed
     union {
-        Direction14 border;  // with SEED_BORDER: direction in which the own field gains fastest on the strongest neighbour's
+        Direction14 border;  // with SEED_BORDER: direction in which the own field gains fastest on the strongest neighbour's (with
+                             // SEED_GUEST: in which the host's field does so on the second strongest)
         int16_t place[3];    // with SEED_RESTING: resting place, in steps given by SoftObject::placeShift()
     };
     union {
@@ -85,7 +91,8 @@ struct Seed {
                              // does not count. The first is LIGHT_UNKNOWN until it has been found
     uint16_t placedAt;   // the odometer's readings when the normal and when `lightChange` were found, 1/64 unit
     uint16_t litAt;
-    uint8_t spare[4];    // pads a seed to 64 bytes, so that an index becomes an address by a shift
+    uint8_t host;        // with SEED_GUEST: slot of the object whose field is the strongest
+    uint8_t spare[3];    // pads a seed to 64 bytes, so that an index becomes an address by a shift
 };
 
 // Receives the seeds of a primitive, ring by ring, in the object's own space (Appendix C: "canonical" space). A layout runs

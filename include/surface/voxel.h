@@ -63,10 +63,11 @@ struct VoxelList {
     int32_t reach;         // no voxel's centre is farther than this from the object's centre along any axis, 1/256 unit
     int count;             // voxels in the list
     bool bordered;         // some voxels are cut at a border to another object
+    int guests;            // voxels at the end of `voxels` that belong to other objects
     int runs;              // number of runs, each with its own ramp; 0: all voxels have `ramp`
     RampRun run[RUNS_MOST];
     Voxel voxels[VOXELS_AT_ONCE];
-    uint8_t number[VOXELS_AT_ONCE];  // of a painted object: the number of each voxel's colour
+    uint8_t number[VOXELS_AT_ONCE];  // of a painted object: the number of each voxel's colour; of a guest: the slot of its host
 
     // Empties the list for an object with its centre at `place` relative to the eye. `most` is the upper bound of the distance of
     // its parts from the centre.
@@ -77,12 +78,19 @@ struct VoxelList {
         z = rawFromReal(place.z) >> 8;
         reach = rawFromReal(most) >> 8;
         ramp = objectRamp;
-        count = runs = 0;
+        count = guests = runs = 0;
         bordered = false;
     }
     // The caller writes the next voxel to *room() and then calls take().
     Voxel* room() { return voxels + count; }
     void take() { ++count; }
+    // Room for a voxel that belongs to another object. There is none if count + guests is VOXELS_AT_ONCE.
+    Voxel* roomForGuest(uint8_t slot)
+    {
+        const int at = VOXELS_AT_ONCE - ++guests;
+        number[at] = slot;
+        return voxels + at;
+    }
 };
 
 #endif

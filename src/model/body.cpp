@@ -98,6 +98,7 @@ void Bodies::findMembers(SoftObject* object, int* filled)
     members_[(*filled)++] = object;
     bySlot_[object->slot()].first = static_cast<int16_t>(begin);
     for (int i = begin; i < *filled; ++i) {
+        bySlot_[members_[i]->slot()].member = static_cast<int16_t>(i);
         for (const List<Link>::Node* node = members_[i]->skel().first(); node != nullptr; node = node->next) {
             SoftObject* other = node->item.object;
             if (bySlot_[other->slot()].first >= 0 || node->item.weight == Real(0))

@@ -175,7 +175,7 @@ inline bool Path::addNear(Real position, const Vector* path, int i, Parts& parts
     if (all_.hollow && near.object == all_.head)
         headField_ = near.value;
     else
-        parts.rival = max(parts.rival, near.value);
+        parts.rival = max(parts.rival, near.value * near.claim + ownField_ * (Real(1) - near.ownClaim));
     return true;
 }
 

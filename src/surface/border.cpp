@@ -10,27 +10,17 @@ namespace {
 // differ by less than ALIKE times the own gradient.
 constexpr Real TIE(0.004), ALIKE(0.2);
 
-// The neighbour with the strongest field at the position evaluated last.
-const Neighbour* strongestOf(const Path& path)
-{
-    const Neighbour* other = &path.near(0);
-    for (int i = 1; i < path.touched(); ++i)
-        if (path.near(i).value > other->value)
-            other = &path.near(i);
-    return other;
-}
-
 // The gradient of a neighbour's field at a position, times half the squared size of the object, over 2^shift. Beyond the end of the
 // field the vector from the core may be too long for 16.16.
-inline Vector gradientOf(const Path& path, const Neighbour& near, Real position, int shift)
+inline __attribute__((always_inline)) Vector gradientOf(const Path& path, const Neighbour& near, Real position, int shift)
 {
     if (near.slope == Real(0))
         return {Real(0), Real(0), Real(0)};
     return path.fromCore(near, position) * (shiftDown(near.slope, shift) * near.ratio);
 }
 
-// As strongestOf(), where something digs, strengths differ or the object is shaped: the strongest neighbour that does not dig, or
-// null. Sets `*change`, the slope of the own field along the path, and `*g`, its gradient, if the object is shaped; in a hollow
+// As Path::strongest(), where something digs, strengths differ or the object is shaped: the strongest neighbour that does not dig,
+// or null. Sets `*change`, the slope of the own field along the path, and `*g`, its gradient, if the object is shaped; in a hollow
 // both become those of the object that has the hollow, because it is that object's border.
 SELDOM const Neighbour* strongestOdd(const Path& path, const Seed& s, int shift, Vector* g, Real* change)
 {
@@ -50,6 +40,29 @@ SELDOM const Neighbour* strongestOdd(const Path& path, const Seed& s, int shift,
     return other;
 }
 
+// The direction of a gradient, and its length.
+struct Steepest {
+    Normal way;
+    Real length;
+
+    explicit Steepest(const Vector& g)
+        : way(normalise(g)), length(dot(g, {realFromRaw(way.x * 4), realFromRaw(way.y * 4), realFromRaw(way.z * 4)}))
+    {
+    }
+};
+
+// Sets the border of a seed where one field is `ahead` of another. The gradient of their difference is given in the units of
+// gradientOf().
+inline __attribute__((always_inline)) void setBorder(const Path& path, Seed& s, Real ahead, const Steepest& steepest, int shift)
+{
+    const Real size = path.object().laidSize();
+    const Real distance = shiftDown(clamp(ahead * size, Real(-100), Real(100)) * size * Real(0.5), shift);
+    const bool isNear = absolute(distance) < steepest.length * BORDER_FAR;
+    const Real apart = clamp(isNear ? distance / steepest.length : BORDER_FAR, -BORDER_FAR, BORDER_FAR);
+    s.apart = static_cast<int16_t>(rawFromReal(apart) >> 8);
+    s.border = directionOf(steepest.way);
+}
+
 }  // namespace
 
 bool findBorder(const Path& path, Seed& s, Real dominance)
@@ -58,23 +71,31 @@ bool findBorder(const Path& path, Seed& s, Real dominance)
     const int shift = path.gradientShift();
     Vector g = path.from(s.position) * shiftDown(path.ownSlope(), shift);
     Real change = shiftDown(path.ownSlope() * path.lookedAt(), 1);
-    const Neighbour* const other = path.all().ordinary ? strongestOf(path) : strongestOdd(path, s, shift, &g, &change);
+    const Neighbour* const other = path.all().ordinary ? path.strongest() : strongestOdd(path, s, shift, &g, &change);
     if (other == nullptr)
         return true;
     // The fields were evaluated before the last step of Newton's method.
     dominance += (other->slope * other->change - change) * (s.position - path.lookedAt());
     const Vector own = g;
     g = g - gradientOf(path, *other, s.position, shift);
-    const Normal n = normalise(g);
-    const Real steep = dot(g, {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)});
-    const Real size = path.object().laidSize();
-    if (other->object->slot() < path.all().head->slot() && dominance > -other->value * TIE && steep < nearLength(own) * ALIKE)
+    const Steepest steepest(g);
+    if (other->object->slot() < path.all().head->slot() && dominance > -other->value * TIE &&
+        steepest.length < nearLength(own) * ALIKE)
         return false;
-    const Real distance = shiftDown(clamp(-dominance * size, Real(-100), Real(100)) * size * Real(0.5), shift);
-    const Real apart = clamp(absolute(distance) < steep * BORDER_FAR ? distance / steep : BORDER_FAR, -BORDER_FAR, BORDER_FAR);
-    s.apart = static_cast<int16_t>(rawFromReal(apart) >> 8);
-    s.border = directionOf(n);
+    setBorder(path, s, -dominance, steepest, shift);
     return true;
+}
+
+void findGuestBorder(const Path& path, Seed& s, const Neighbour& host)
+{
+    const int shift = path.gradientShift();
+    const Neighbour* const third = path.strongest(&host);
+    const bool own = third == nullptr || third->value < path.ownField();
+    const Vector g = own ? path.from(s.position) * shiftDown(path.ownSlope(), shift) : gradientOf(path, *third, s.position, shift);
+    const Real change = own ? path.ownRate(path.lookedAt()) : third->slope * third->change;
+    const Real field = own ? path.ownField() : third->value;
+    const Real ahead = host.value - field + (host.slope * host.change - change) * (s.position - path.lookedAt());
+    setBorder(path, s, ahead, Steepest(gradientOf(path, host, s.position, shift) - g), shift);
 }
 
 bool findNearer(const Path& path, Seed& s, Real dominance)

@@ -28,6 +28,10 @@ inline Direction14 directionOf(const Normal& n)
 // model: the surface is the neighbour's then, so that only one of the two draws it.
 bool findBorder(const Path& path, Seed& s, Real dominance);
 
+// Sets the border of a seed in a place that belongs to a neighbour, its host: direction and distance of the place where the host's
+// field equals the second strongest one, be that the own field or another's.
+SELDOM void findGuestBorder(const Path& path, Seed& s, const Neighbour& host);
+
 // As findBorder(), for a seed that has a border already: the seed keeps the nearer one of the two.
 SELDOM bool findNearer(const Path& path, Seed& s, Real dominance);
 

@@ -19,6 +19,10 @@ constexpr Cover::Limits Cover::LIMITS[] = {
 // A neighbour that is linked with the object at weight 1 or more and has at least this field is preferred as a blocker.
 static constexpr Real COVERING(0.28);
 
+// The same where the neighbour's claim is weaker than its field: the path lies inside up to position FAINT_AT, beyond which the own
+// object shows nothing that belongs to another.
+constexpr Cover::Limits Cover::OF_GUESTS{Real(1), Real(0.24), Real(0.55), Real(0.49), Real(0.742)};
+
 // Chooses a blocker.
 void Cover::find(int blocker)
 {
@@ -29,15 +33,21 @@ void Cover::find(int blocker)
     limits_ = nullptr;
     if (!judged)
         return;
+    const Real weight = nearby_.weight(blocker);
+    at_ = near_->claim < Real(1) ? FAINT_AT : COVERED_AT;
+    if (near_->claim < Real(1)) {
+        limits_ = weight < OF_GUESTS.weight ? nullptr : &OF_GUESTS;
+        return;
+    }
     limits_ = LIMITS;
-    while (nearby_.weight(blocker) < limits_->weight)
+    while (weight < limits_->weight)
         ++limits_;
 }
 
 bool Cover::coversPath(const Seed& s)
 {
     path_.aim(*near_, s);
-    const Real there = near_->param(COVERED_AT);
+    const Real there = near_->param(at_);
     if (there >= limits_->there)
         return false;
     const Real atRest = near_->param(Real(1));
@@ -49,7 +59,7 @@ bool Cover::coversAll(const Patch& patch)
     take(patch.blocker);
     if (limits_ == nullptr || object_.tapers() || isHeavy())
         return false;
-    return !near_->object->slants() && isWithin(patch, *near_, COVERED_AT, limits_->rootThere) &&
+    return !near_->object->slants() && isWithin(patch, *near_, at_, limits_->rootThere) &&
            isWithin(patch, *near_, Real(1), limits_->rootAtRest);
 }
 

@@ -47,8 +47,9 @@ private:
     struct Limits {
         Real weight, there, atRest, rootThere, rootAtRest;
     };
-    static const Limits LIMITS[];
+    static const Limits LIMITS[], OF_GUESTS;
     const Limits* limits_ = nullptr;  // those of the current blocker; null if it cannot be judged
+    Real at_{0};                      // the position that `there` is for: COVERED_AT or FAINT_AT
 };
 
 #endif

@@ -201,6 +201,20 @@ static void weigh(const Bodies& bodies, const Neighbourhood& all, Neighbour& nea
     near.grain = near.plain ? near.size : near.size / (max(near.strength, Real(1)) * max(near.weight, Real(1)));
 }
 
+// Sets by how much a neighbour's claim and the own one differ from their fields. `weight` is that of their link.
+static void setClaims(const SoftObject& object, Real weight, Neighbour& near)
+{
+    const auto isPlain = [](const SoftObject& o) {
+        return o.strength() == Real(1) && !o.shaped() && o.paint() == nullptr && o.hasSurface();
+    };
+    near.claim = near.ownClaim = Real(1);
+    const Real heavy = clamp(weight, Real(1), HEAVIEST), own = object.size(), other = near.object->size();
+    if (own * GUEST_SIZES < other * heavy && isPlain(object) && isPlain(*near.object))
+        near.claim = quotient(own * GUEST_SIZES, other * heavy);
+    else if (other * HOST_SIZES < own * heavy && isPlain(object) && isPlain(*near.object))
+        near.ownClaim = quotient(other * HOST_SIZES, own * heavy);
+}
+
 // Adds those of `count` objects that are near enough to the neighbours. `digs`: they are no members of the body, but dig into it.
 static void gatherFrom(SoftObject* const* from, int count, bool digs, const SoftObject& object, const Bodies& bodies,
                        Neighbourhood& all)
@@ -209,7 +223,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
     const bool longPaths = object.longestPath() > LONG_PATH;
     const Point centre = object.centre();
     const Real reach = object.reach();
-    bool inner = false, uneven = false, plain = true, others = false;
+    bool inner = false, uneven = false, plain = true, others = false, claims = false;
     Neighbour* next = all.neighbours + all.count;
     for (SoftObject* const* const end = from + count; from < end; ++from) {
         const SoftObject& other = **from;
@@ -228,11 +242,13 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         near.inRange = squareOf(away) < squareOf(range);
         place(object, growth, away, near);
         weigh(bodies, all, near);
+        setClaims(object, bodies.weight(object.slot(), near.slot), near);
         const bool tiny = (near.size < SMALL || longPaths) && isTiny(object, near);
         if (tiny || !other.isBall())
             aim(object, tiny, near);
         inner |= !digs && dentedFromWithin(other, bodies);
         uneven |= near.ratio > UNEVEN_SIZES;
+        claims |= near.claim < Real(1) || near.ownClaim < Real(1);
         plain &= near.plain;
         others |= near.kind == Neighbour::OTHER;
     }
@@ -240,6 +256,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
     all.count = static_cast<int>(next - all.neighbours);
     all.inner = all.inner || inner;
     all.uneven = all.uneven || uneven;
+    all.claims = all.claims || claims;
     all.ordinary = all.ordinary && plain;
     all.simple = all.simple && !others;
 }
@@ -257,12 +274,12 @@ void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& 
     all.dented = false;
     all.ordinary = object.strength() == Real(1) && !all.hollow && !object.shaped();
     all.last = object.restRoot() == Real(0.5) ? Real(1.98) : Real(0.99) / object.restRoot();
-    all.uneven = false;
+    all.uneven = all.claims = false;
     all.simple = true;
     memset(all.bySlot, 0, sizeof all.bySlot);
     gatherFrom(bodies.diggers(*all.head), bodies.diggerCount(*all.head), true, object, bodies, all);
     gatherFrom(bodies.members(*all.head), bodies.memberCount(*all.head), false, object, bodies, all);
     all.deep = all.inner || all.dented || !all.restsAtOne;
     all.ordinary = all.ordinary && !all.inner;
-    all.simple = all.simple && all.ordinary;
+    all.simple = all.simple && all.ordinary && !all.claims;
 }

@@ -20,6 +20,14 @@ constexpr Real STEEPEST_OF_ALL(1.6);
 // See Neighbourhood::uneven.
 constexpr Real UNEVEN_SIZES(16);
 
+// Which object's seeds show a place on the surface is decided by claims. An object's claim is its field; but where a small object
+// blends with a large one, the field of the large one counts less. Its paths only graze the surface around the small object, which
+// the paths of the small one meet squarely. The colour does not follow claims: it is that of the strongest field.
+// A small object shows more if the large one is more than GUEST_SIZES times as large, and the large one shows less if it is more
+// than HOST_SIZES times as large; in between both show the same surface. A link heavier than 1, of up to HEAVIEST, counts like a
+// larger proportion.
+constexpr Real GUEST_SIZES(3), HOST_SIZES(4), HEAVIEST(3);
+
 // A neighbour in the own space of the object that is being updated, and its field along the current path. Lengths are in units
 // of own space. In core space a neighbour is turned to its own axes and scaled to the size CORE_SIZE.
 struct Neighbour : Along {
@@ -41,6 +49,7 @@ struct Neighbour : Along {
     bool coarse;        // an OTHER whose core space is so large that products there need their operands scaled down first
     bool segment;       // its core is a segment, half16 long to each side of the centre, whether or not the object tapers
     Real weight;        // weight by which it digs into the head, 0 if it does not
+    Real claim, ownClaim;  // factors, 1 or less, of its field and of the own field where the claims of the two are compared
     Real grain;         // length over which its field changes as much as a plain field does over its size
     int32_t x16, y16, z16, size16;  // centre and size, 1/16 unit
     int32_t half16, axis[3];        // half length of the segment, 1/16 unit, and its direction, 1.0 = 2^14
@@ -97,10 +106,11 @@ struct Neighbourhood {
     Real weight;        // in that case, the weight by which the object digs into the head
     bool inner;         // some members of the body dig into other members
     bool ordinary;      // nothing digs, all strengths are 1, and the object is not shaped
-    bool simple;        // ordinary, and every neighbour is a POINT or a SEGMENT
+    bool simple;        // ordinary, every neighbour is a POINT or a SEGMENT, and no claim differs from a field
     bool uneven;        // the squared proportion of the own size to that of some neighbour exceeds UNEVEN_SIZES
     bool restsAtOne;    // the surface lies at position 1 where no neighbour reaches
     bool dented;        // some neighbours dig
+    bool claims;        // some claims differ from the fields
     bool deep;          // paths are searched from near their roots on
     Real last;          // the position at which the own field ends
     Neighbour neighbours[NEIGHBOURS_MAX];

@@ -99,6 +99,7 @@ inline void Path::setNear(const NeighbourList& list)
 void Path::findOdd()
 {
     odd_ = !ownPlain_;
+    others_ = all_.claims;
     for (int i = 0; i < touched_; ++i) {
         odd_ |= !near_[i]->plain;
         others_ |= near_[i]->kind == Neighbour::OTHER;
@@ -113,6 +114,21 @@ inline Fields Path::own(Real position)
     ownField_ = field.value;
     ownSlope_ = field.slope;
     return {field.value, shiftDown(field.slope * position, 1), Real(0), 0};
+}
+
+// The greatest difference of a neighbour's claim and the own one at the position evaluated last.
+Real Path::dominantClaim() const
+{
+    Real most = -ownField_;
+    for (int i = 0; i < touched_; ++i)
+        most = max(most, near_[i]->value * near_[i]->claim - ownField_ * near_[i]->ownClaim);
+    return most;
+}
+
+Real Path::dominance() const
+{
+    const Neighbour* const other = strongest();
+    return (other == nullptr ? Real(0) : other->value) - ownField_;
 }
 
 // Evaluates the fields at a position where nothing is odd about the object and the neighbours. A neighbour that is neither point
@@ -147,7 +163,10 @@ bool Path::lookAnywhere(Real position, const Vector* path, Sample* sample)
             near.aim(*path);
         near.otherParam(position);
     }
-    return lookPlain(position, path, sample);
+    const bool touched = lookPlain(position, path, sample);
+    if (all_.claims)
+        sample->dominance = dominantClaim();
+    return touched;
 }
 
 Sample Path::look(Real position)

@@ -9,9 +9,14 @@
 // The position at which the own field has fallen to .23. A neighbour that is stronger there stays stronger farther out (cover.h).
 constexpr Real COVERED_AT(1.36);
 
+// A seed in a place that belongs to another object is not shown if the own field is weaker than FAINT there: its scale would be
+// coarse. FAINT_AT is about the position where the own field has fallen to that.
+constexpr Real FAINT(0.05), FAINT_AT(1.71);
+
 // The body's field at a position of a path: its excess over the isovalue, its slope along the path, and the strongest
-// neighbour's field less the own field. For seeds that sample a hollow, excess and slope have the opposite sign, because their
-// paths begin in the cavity and the body lies outside; and the field of the object that has the hollow stands for the own one.
+// neighbour's claim (gather.h) less the own one. For seeds that sample a hollow, excess and slope have the opposite sign, because
+// their paths begin in the cavity and the body lies outside; and the field of the object that has the hollow stands for the own
+// one.
 struct Sample {
     Real excess, slope, dominance;
 };
@@ -50,6 +55,12 @@ public:
     Vector outwardBeside(const Seed& s, Real position, const Vector& distance);
     // The shift of gradients at the position evaluated last: 0, unless there is a far smaller neighbour.
     int gradientShift() const { return all_.uneven ? findGradientShift() : 0; }
+
+    // The member of the body among the neighbours whose field was the strongest at the position evaluated last, but for `other`;
+    // null if there is none.
+    const Neighbour* strongest(const Neighbour* other = nullptr) const;
+    // The strongest neighbour's field less the own one there. It differs from Sample::dominance where claims are not fields.
+    Real dominance() const;
 
     // Must be called when the lists of `nearby` change.
     void leave() { asked_ = nullptr; }
@@ -110,6 +121,7 @@ private:
     void leaveOut();
     const Vector& root() const { return object_.root(seed_->root); }
     Fields own(Real position);
+    SELDOM Real dominantClaim() const;
     bool lookPlain(Real position, const Vector* path, Sample* sample);
     SELDOM bool lookAnywhere(Real position, const Vector* path, Sample* sample);
     SELDOM Real warpedParam(Real position);
@@ -141,7 +153,7 @@ private:
     int touched_ = 0;               // their number
     int rootOfAsked_ = -1;            // index of the root for which all neighbours of asked_ are prepared; -1: none
     bool odd_;                      // not ownPlain_, or some neighbours are not Neighbour::plain
-    bool others_;                   // the cores of some neighbours are neither points nor segments
+    bool others_;                   // the cores of some neighbours are neither points nor segments, or claims are not fields
     const Seed* seed_;
     bool complete_;
     bool shared_;                   // share_ holds at the position evaluated last; else shares are 1, of a digging field -weight
@@ -160,6 +172,15 @@ inline void Path::aim(Neighbour& near, const Seed& s)
         rootOfAsked_ = -1;
     }
     near.aim(s.path);
+}
+
+inline const Neighbour* Path::strongest(const Neighbour* other) const
+{
+    const Neighbour* strongest = nullptr;
+    for (int i = 0; i < touched_; ++i)
+        if (near_[i] != other && !near_[i]->digs && (strongest == nullptr || near_[i]->value > strongest->value))
+            strongest = near_[i];
+    return strongest;
 }
 
 inline __attribute__((always_inline)) Vector Path::fromCore(const Neighbour& near, Real position) const

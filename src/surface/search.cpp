@@ -102,22 +102,25 @@ Look floorBetween(Path& path, const Look& a, const Look& b)
 bool isInside(Path& path, Real* position, Sample* sample, Real* margin)
 {
     Real lowest(9);
-    static constexpr Real PLACES[] = {COVERED_AT, COVERED_LATE};
-    for (const Real at : PLACES) {
+    static constexpr Real PLACES[] = {COVERED_AT, COVERED_LATE, FAINT_AT};
+    const int places = path.all().claims ? 3 : 2;
+    for (int i = 0; i < places; ++i) {
+        const Real at = PLACES[i];
         if (*position != at)
             *sample = path.look(at);
         *position = at;
         if (sample->excess <= Real(0))
             return false;
         lowest = min(lowest, sample->excess);
-        if (sample->dominance <= OVERSHOOT)
+        const Real dominance = at == FAINT_AT ? path.dominance() : sample->dominance;
+        if (dominance <= OVERSHOOT)
             continue;
         lowest = min(lowest, path.look(Real(1)).excess);
         if (lowest < VALLEY)
             lowest = min(lowest, path.look(BETWEEN).excess);
-        if (lowest < VALLEY && at == COVERED_LATE)
+        if (lowest < VALLEY && at != COVERED_AT)
             lowest = min(lowest, path.look(BETWEEN_LATE).excess);
-        *margin = min(lowest, sample->dominance - OVERSHOOT);
+        *margin = min(lowest, dominance - OVERSHOOT);
         return lowest > Real(0);
     }
     return false;

@@ -14,8 +14,9 @@ constexpr Real VALLEY(0.12);
 bool follow(Path& path, Real* position, Sample* sample);
 
 // Whether a seed is sure to lie inside a neighbour: from COVERED_AT on, or from a certain position farther out, the neighbour is
-// the stronger one, and the path does not leave the surface before. If so, `*margin` becomes the least amount of the field by which
-// these conditions hold. `*position` and `*sample` become those of the last of the two positions that was evaluated.
+// the stronger one, and the path does not leave the surface before. (Where claims are not fields, FAINT_AT is such a place, too.)
+// If so, `*margin` becomes the least amount of the field by which these conditions hold. `*position` and `*sample` become those of
+// the last of these positions that was evaluated.
 bool isInside(Path& path, Real* position, Sample* sample, Real* margin);
 
 // Searches for the first position where the path leaves the surface. `*position` and `*sample` become that position and the sample

@@ -45,8 +45,23 @@ constexpr int32_t GRAZING = 1500;
 // Spacings. The surface may go on for this distance from a seed to a border before an oversampled seed towards the neighbour N is
 // needed (on shaped objects always), one towards the next seed of the ring, and a fine seed.
 constexpr Real LEFT_OPEN(0.5), LEFT_OPEN_SHAPED(-100), LEFT_OPEN_NEXT(1), LEFT_OPEN_FINE(1.5);
+// Cosine of path and normal (1.0 = 2^14). In a place that belongs to another object a seed is not shown if its path meets the
+// surface at a smaller one.
+constexpr int32_t SQUARE = 8000;
 // Units: travel of the neighbours over which the change of the light around a seed is taken to stay the same.
 constexpr Real LIGHT_LASTS(3);
+
+// Cosine of a seed's path and its normal, 1.0 = 2^14.
+inline int32_t cosineOfPath(const Seed& s)
+{
+    return (s.way[0] * s.normal.x + s.way[1] * s.normal.y + s.way[2] * s.normal.z) >> 7;
+}
+
+// Whether a seed is on the surface, in a place that belongs to its own object.
+inline bool isOnOwn(const Seed& s)
+{
+    return (s.flags & (SEED_VALID | SEED_GUEST)) == SEED_VALID;
+}
 
 }  // namespace
 
@@ -77,7 +92,7 @@ Real Settler::settle(Seed& s)
 {
     Sample sample;
     Real position = s.position;
-    const Followed followed = s.flags & (SEED_VALID | SEED_FOLLOW) ? followOn(s, &position, &sample) : LOST;
+    const Followed followed = isOnOwn(s) || (s.flags & SEED_FOLLOW) ? followOn(s, &position, &sample) : LOST;
     if (followed == ALONE) {
         restThere(s);
         return Real(0);
@@ -98,15 +113,17 @@ Real Settler::settle(Seed& s)
         found = sample.excess <= Real(0);
     }
     s.position = position;
-    if (found && sample.dominance <= OVERSHOOT) {
+    const bool claimed = found && sample.dominance <= OVERSHOOT;
+    if (claimed) {
         place(s, sample.dominance);
         renewLightChange(s);
-        return Real(0);
     }
     // The path leaves the surface where another object is the stronger. In a later frame it may leave it nearer to its root. It is
     // searched again in the next frame if a valley of the field makes that likely, or if the neighbours hurry; else in its turn.
-    if (found && margin > VALLEY && turn_ != 0)
+    if (found && (!claimed || (s.flags & SEED_GUEST)) && margin > VALLEY && turn_ != 0)
         s.flags |= SEED_FOLLOW;
+    if (claimed)
+        return Real(0);
     if (nearby_.dented()) {
         off_ = found ? Real(0) : off_;
         putOff(s, found ? sample.dominance - OVERSHOOT : off_, followed == LOST ? gradientBound_ : path_.steepestGradient());
@@ -164,15 +181,45 @@ inline void Settler::keep(Seed& s, Real dominance)
     s.still = s.still == 0 || travelled_ * Real(3) > shiftDown(nearby_.smallest(), 3) ? 1 : 3;
     if (mixes())
         mix(path_, s);
+    // A guest's path is searched again in its turn.
+    if (turn_ == 0)
+        s.flags &= static_cast<uint8_t>(~SEED_FOLLOW);
     // The border may have moved all the same.
-    if (dominance > -shiftDown(border_, 1) && !nearby_.dented()) {
-        if (!findBorder(path_, s, dominance)) {
-            leaveToStrongest(s);
-            return;
-        }
-        s.flags |= SEED_BORDER;
+    if (nearby_.dented() || setBorder(s, dominance, shiftDown(border_, 1)))
+        renewLightChange(s);
+    else
+        leaveToStrongest(s);
+}
+
+// Sets the border of a seed that is on the surface, if it is nearer than `nearer` in units of the field, and whether the seed is a
+// guest. Returns false where the surface is left to the strongest neighbour.
+inline bool Settler::setBorder(Seed& s, Real dominance, Real nearer)
+{
+    if (all_.claims) {
+        s.flags &= static_cast<uint8_t>(~SEED_GUEST);
+        dominance = path_.dominance();
+        const Neighbour* const strongest = path_.strongest();
+        if (dominance > Real(0) && strongest->claim < Real(1))
+            return makeGuest(s, *strongest);
     }
-    renewLightChange(s);
+    if (dominance <= -nearer)
+        return true;
+    const bool dented = (s.flags & SEED_BORDER) && nearby_.dented();
+    if (!(dented ? findNearer(path_, s, dominance) : findBorder(path_, s, dominance)))
+        return false;
+    s.flags |= SEED_BORDER;
+    return true;
+}
+
+// Lets a seed show a place that belongs to a neighbour. Returns false if the seed would show it badly.
+bool Settler::makeGuest(Seed& s, const Neighbour& host)
+{
+    if (path_.ownField() < FAINT || cosineOfPath(s) < SQUARE)
+        return false;
+    findGuestBorder(path_, s, host);
+    s.host = static_cast<uint8_t>(host.slot);
+    s.flags |= SEED_GUEST | SEED_BORDER;
+    return true;
 }
 
 // Leaves the surface at a seed to the strongest neighbour. Its path goes on leaving the surface there.
@@ -212,14 +259,10 @@ inline void Settler::place(Seed& s, Real dominance)
     s.flags |= SEED_VALID;
     if (mixes())
         mix(path_, s);
-    if (dominance > -border_) {
-        if (!(s.flags & SEED_BORDER ? findNearer(path_, s, dominance) : findBorder(path_, s, dominance))) {
-            leaveToStrongest(s);
-            return;
-        }
-        s.flags |= SEED_BORDER;
-    }
-    ++counts_.normals;
+    if (setBorder(s, dominance, border_))
+        ++counts_.normals;
+    else
+        leaveToStrongest(s);
 }
 
 // Finds anew how the light changes around a seed that needs to know, if what was found before is old.
@@ -356,15 +399,18 @@ inline bool Settler::waits(const Seed& s, bool someAway) const
 }
 
 // Whether two neighbouring seeds may leave a gap between their scales. If both are on the surface they do when they have parted. If
-// only one is, the surface goes on from it to the border with another object, which may be no farther away than `open`. Nothing is
-// known about the surface at a seed that sleeps.
+// only one is, the surface goes on from it to the border with another object, which may be no farther away than `open`. (Beyond the
+// border it may belong to a guest.) Nothing is known about the surface at a seed that sleeps.
 inline bool Settler::mayGape(const Seed& s, const Seed& n, Real open) const
 {
-    if (s.flags & n.flags & SEED_VALID)
-        return absolute(s.position - n.position) > alike_;
-    const Seed& valid = s.flags & SEED_VALID ? s : n;
-    return (valid.flags & SEED_VALID) && !(n.flags & SEED_ASLEEP) &&
-           (!(valid.flags & SEED_BORDER) || realFromRaw(valid.apart << 8) > open);
+    if (s.flags & n.flags & SEED_VALID) {
+        if (absolute(s.position - n.position) <= alike_)
+            return false;
+        if (((s.flags ^ n.flags) & SEED_GUEST) == 0)
+            return true;
+    }
+    const Seed& own = isOnOwn(s) ? s : n;
+    return isOnOwn(own) && !(n.flags & SEED_ASLEEP) && (!(own.flags & SEED_BORDER) || realFromRaw(own.apart << 8) > open);
 }
 
 // The neighbouring seed from which `s` has parted, so that the oversampled seed between them is needed: its neighbour N, or else
@@ -374,7 +420,7 @@ inline const Seed* Settler::parted(const Seed& s) const
     if (s.neighbour >= 0 && mayGape(s, object_.regular(s.neighbour), open_))
         return &object_.regular(s.neighbour);
     const Seed* const next = &s + 1;
-    return &s < last_ && ((s.flags ^ next->flags) & SEED_VALID) && !object_.shaped() && next->root == s.root &&
+    return &s < last_ && ((s.flags ^ next->flags) & (SEED_VALID | SEED_GUEST)) && !object_.shaped() && next->root == s.root &&
            mayGape(s, *next, openNext_) ? next : nullptr;
 }
 
@@ -499,8 +545,8 @@ bool Settler::settleFine(int i)
         }
         if (!waits(s, false))
             settle(s);
-        if (((ends[which]->flags ^ extra.flags) & SEED_VALID) && !nearby_.dented())
-            settleBehind(s.flags & SEED_VALID ? s : extra.flags & SEED_VALID ? extra : *ends[which],
+        if (isOnOwn(*ends[which]) != isOnOwn(extra) && !nearby_.dented())
+            settleBehind(isOnOwn(s) ? s : isOnOwn(extra) ? extra : *ends[which],
                          fine[SoftObject::FINE_BEHIND]);
     }
     return true;
@@ -576,14 +622,16 @@ bool Settler::placeOnIsland(int i, int which, Real inside, Real outside)
     Seed s = object_.regular(i);
     s.flags = 0;
     bisect(path_, inside, outside, &s.position, &sample);
+    // An island has no guests.
+    if (all_.claims)
+        sample.dominance = path_.dominance();
     if (sample.dominance > (which == SoftObject::FINE_ISLAND_END ? CLEARLY : OVERSHOOT))
         return false;
     place(s, sample.dominance);
     if (!(s.flags & SEED_VALID))
         return false;
     s.flags |= SEED_ACTIVE;
-    const int32_t cosine = (s.way[0] * s.normal.x + s.way[1] * s.normal.y + s.way[2] * s.normal.z) >> 7;
-    Seed* const fine = magnitude(cosine) < GRAZING ? nullptr : object_.madeFine(i);
+    Seed* const fine = magnitude(cosineOfPath(s)) < GRAZING ? nullptr : object_.madeFine(i);
     if (fine != nullptr)
         fine[which] = s;
     return fine != nullptr;

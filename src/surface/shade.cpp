@@ -348,11 +348,9 @@ inline void Shader::shadeSeen(Patch& patch, int turn, const Seen* seen, Voxel* v
     shadeSeeds(&shading_, seen, voxels, count);
 }
 
-// Cuts a voxel at the border, if its seed has one. Returns false when nothing of the voxel is left.
+// Cuts a voxel at the border of its seed. Returns false when nothing of the voxel is left.
 inline bool Shader::cutAtBorder(const Seed& s, Voxel* voxel, VoxelList& list) const
 {
-    if (!(s.flags & SEED_BORDER))
-        return true;
     if (!cut(s, voxel))
         return false;
     list.bordered = true;
@@ -385,8 +383,19 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
                            s.lightChange[0] != Seed::LIGHT_UNKNOWN;
         if (knows)
             setSlopesOf(s, voxels + i);
-        if (!cutAtBorder(s, voxels + i, list))
-            continue;
+        // A dark voxel keeps its slopes. With a finish that shines, brightness 0 does not mean that the light ends there.
+        const auto sightOf = [&](const Voxel& v) { return knows || (!shines && v.brightness == 0) ? Slopes::STAYS : sight; };
+        if (s.flags & SEED_BORDER) {
+            if (!cutAtBorder(s, voxels + i, list))
+                continue;
+            if (!PAINTED && (s.flags & SEED_GUEST)) {
+                Voxel* const guest = list.roomForGuest(s.host);
+                *guest = voxels[i];
+                if (i < known)
+                    slopes.add(&s, static_cast<int>(&s - shading_.seeds), guest, sightOf(*guest));
+                continue;
+            }
+        }
         if (PAINTED) {
             to = list.room();
             painter->add(s, voxels[i]);
@@ -395,9 +404,7 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
         }
         endAtLimb(patch, seen[i], to);
         if (i < known) {
-            // A dark voxel keeps its slopes. With a finish that shines, brightness 0 does not mean that the light ends there.
-            const bool stays = knows || (!shines && to->brightness == 0);
-            slopes.add(&s, static_cast<int>(&s - shading_.seeds), to, stays ? Slopes::STAYS : sight);
+            slopes.add(&s, static_cast<int>(&s - shading_.seeds), to, sightOf(*to));
             if (PAINTED && list.room() > to + 1)
                 slopes.addCopy(to + 1, to);
         }
@@ -451,7 +458,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
         Patch& patch = patches[i];
         if (!patch.islands && ((patch.state == PATCH_REST && restsAway(patch, own)) || !isSeen(patch, own)))
             continue;
-        if (list.count + most > room)
+        if (list.count + list.guests + most > room)
             break;
         shader.shadePatch<PAINTED>(patch, i + turn, list, painter);
     }

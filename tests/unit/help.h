@@ -137,6 +137,7 @@ struct Scene {
     const Hider* hider = nullptr;
     Vector light = unit(vector(0.5, 0.7, -0.5));
     std::vector<uint8_t> ramp;
+    std::vector<std::vector<uint8_t>> ramps;  // a copy for each object, so that its voxels can be told from others
 
     Scene() : ramp(64 + 2 * SHADING_MOST)
     {
@@ -158,7 +159,8 @@ struct Scene {
         object->moveTo(point(x, y, z));
         if (!object->resample(real(spacing), printed ? makeReport98 : makeEngine))
             std::abort();
-        object->setRamp(ramp.data() + SHADING_MOST);
+        ramps.push_back(ramp);
+        object->setRamp(ramps.back().data() + SHADING_MOST);
         found = false;
         return *object;
     }
@@ -202,9 +204,19 @@ struct Scene {
             object->update(frame());
     }
     // All voxels of an object, drawn in batches of `room`; their places from the eye, in the axes of the view.
-    std::vector<Voxel> draw(size_t i, int room = 256)
+    // `owners` receives for each the index of the object whose colour it has.
+    std::vector<Voxel> draw(size_t i, int room = 256, std::vector<size_t>* owners = nullptr)
     {
         std::vector<Voxel> all;
+        const auto ownerOf = [&](const VoxelList& list, int k) {
+            const RampRun* run = list.run;
+            while (list.runs > 0 && run->end <= k)
+                ++run;
+            size_t owner = 0;
+            while (owner < objects.size() && objects[owner]->ramp() != (list.runs > 0 ? run->ramp : list.ramp))
+                ++owner;
+            return owner;
+        };
         auto list = std::make_unique<VoxelList>();
         int next = 0;
         do {
@@ -216,6 +228,8 @@ struct Scene {
                 all.back().x += list->x;
                 all.back().y += list->y;
                 all.back().z += list->z;
+                if (owners != nullptr)
+                    owners->push_back(ownerOf(*list, k));
             }
         } while (next != 0);
         return all;

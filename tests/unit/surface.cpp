@@ -51,7 +51,10 @@ void measure(Scene& scene, const Body& body, Errors& errors)
 {
     for (size_t o = 0; o < scene.objects.size(); ++o) {
         const std::vector<size_t> joined = body.joined(o);
-        for (const Voxel& voxel : scene.draw(o)) {
+        std::vector<size_t> owners;
+        const std::vector<Voxel> voxels = scene.draw(o, 256, &owners);
+        for (size_t k = 0; k < voxels.size(); ++k) {
+            const Voxel& voxel = voxels[k];
             const Vec p = placeOf(scene, voxel);
             const Vec fall = body.fall(joined, p);
             const double steep = size(fall), off = body.field(joined, p) - 0.5;
@@ -66,7 +69,7 @@ void measure(Scene& scene, const Body& body, Errors& errors)
             errors.worstLight = std::fmax(errors.worstLight, light);
             errors.sumLight += light;
             errors.dim += light > DIM;
-            const double stronger = body.dominance(o, joined, p);
+            const double stronger = body.dominance(owners[k], joined, p);
             errors.strongest = std::fmax(errors.strongest, stronger);
             errors.foreign += stronger > 0.08;
             errors.away += dot(fall, vec(scene.eye) - p) < -0.2 * steep * size(vec(scene.eye) - p);
@@ -86,8 +89,13 @@ void seek(Scene& scene, const Body& body, Missing& result)
         const std::vector<size_t> joined = body.joined(o);
         const SoftObject& object = *scene.objects[o];
         std::vector<Vec> places;
-        for (const Voxel& voxel : scene.draw(o))
-            places.push_back(placeOf(scene, voxel));
+        for (const size_t other : joined) {
+            std::vector<size_t> owners;
+            const std::vector<Voxel> voxels = scene.draw(other, 256, &owners);
+            for (size_t k = 0; k < voxels.size(); ++k)
+                if (owners[k] == o)
+                    places.push_back(placeOf(scene, voxels[k]));
+        }
         for (int i = 0; i < object.seedSlots(); i += 2) {
             const Seed& s = object.seed(i);
             const Vec root = vec(object.toWorld(object.root(s.root)));
@@ -231,6 +239,70 @@ TEST(bulges_are_found_where_patches_rest_or_face_away)
     scene.update();
     for (const Voxel& voxel : scene.draw(0))
         CHECK(size(placeOf(scene, voxel)) < 17);
+}
+
+TEST(a_small_object_shows_what_surrounds_it)
+{
+    // In the field of a large ball almost all of the surface around a small one belongs to the large one, whose paths only graze
+    // it. On all sides of the small ball that the viewer sees there is a scale near, in the large ball's colour.
+    for (double away : {23.5, 25.0, 26.5}) {
+        Scene scene;
+        scene.ball(40, 0, 0, 0);
+        scene.ball(6, -0.6 * away, 0, -0.8 * away, 1);
+        scene.link(0, 1);
+        scene.update();
+        const Body body(scene);
+        const std::vector<size_t> joined = body.joined(0);
+        std::vector<size_t> owners;
+        std::vector<Vec> places[2];
+        const std::vector<Voxel> voxels = scene.draw(1, 256, &owners);
+        for (size_t k = 0; k < voxels.size(); ++k)
+            places[owners[k]].push_back(placeOf(scene, voxels[k]));
+        int points = 0, bare = 0;
+        const Vec centre = vec(scene.objects[1]->centre());
+        for (int i = 0; i < 60; ++i)
+            for (int j = 0; j < 30; ++j) {
+                const double longitude = i * 6.2832 / 60, height = (j + 0.5) / 15 - 1, round = std::sqrt(1 - height * height);
+                const Vec way{round * std::cos(longitude), height, round * std::sin(longitude)};
+                double from = 0.1;
+                while (from < 4.8 && body.field(joined, centre + way * from) > 0.5)
+                    from += 0.02;
+                const Vec p = centre + way * from, fall = body.fall(joined, p), toEye = vec(scene.eye) - p;
+                if (from >= 4.8 || body.dominance(0, joined, p) > -0.03 || dot(fall, toEye) < 0.2 * size(fall) * size(toEye) ||
+                    dot(fall, way) < 0.6 * size(fall))
+                    continue;
+                double nearest = 1e9;
+                for (const Vec& place : places[0])
+                    nearest = std::fmin(nearest, size(place - p));
+                ++points;
+                bare += nearest > 2;
+            }
+        // The scales of both colours end where the two fields are equal.
+        const SoftObject& small = *scene.objects[1];
+        double off = 0;
+        int borders = 0;
+        for (int i = 0; i < small.seedSlots(); i += 2) {
+            const Seed& s = small.seed(i);
+            const double apart = s.apart / 256.0;
+            if (!(s.flags & SEED_VALID) || !(s.flags & SEED_BORDER) || apart > 0.5)
+                continue;
+            const Vec p = centre + vec(s.path) * number(s.position);
+            const Vec border = Vec{static_cast<double>(s.border.x), static_cast<double>(s.border.y),
+                                   static_cast<double>(s.border.z)} * (1 / 16384.0);
+            const double is = s.flags & SEED_GUEST ? 1 : -1;
+            CHECK(is * body.dominance(1, joined, p) > -0.06);
+            off = std::fmax(off, std::fabs(body.dominance(1, joined, p - border * apart)));
+            ++borders;
+        }
+        CHECK(borders > 0);
+        CHECK(off < 0.03);
+        note("%.1f units away: %zu scales in the small ball's colour, %zu in the large one's; %d of %d points bare", away,
+             places[1].size(), places[0].size(), bare, points);
+        note("%d borders, where the fields differ by %.4f at most", borders, off);
+        CHECK(places[0].size() >= 10);
+        CHECK(points > 50);
+        CHECK(bare <= points / 100);
+    }
 }
 
 TEST(bulges_have_an_outer_side)
