@@ -133,7 +133,12 @@ Real search(Path& path, Real* position, Sample* sample)
         return margin;
     Look before = lookAt(path, SEARCH_FIRST), lowest{SEARCH_FIRST, {Real(9), Real(0), Real(0)}};
     if (before.sample.excess < Real(0)) {
-        // The path does not even begin inside: neighbours without a link to the object pull the body's field below the own one.
+        // Neighbours without a link to the object pull the body's field below the own one: the path leaves the surface before, or
+        // it does not even begin inside.
+        if (path.look(path.first()).excess > Real(0)) {
+            bisect(path, path.first(), before.position, position, sample);
+            return Real(9);
+        }
         *position = Real(1);
         *sample = before.sample;
         sample->excess = Real(1);

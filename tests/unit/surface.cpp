@@ -241,6 +241,39 @@ TEST(bulges_are_found_where_patches_rest_or_face_away)
         CHECK(size(placeOf(scene, voxel)) < 17);
 }
 
+TEST(unlinked_neighbours_pull_the_surface_inwards)
+{
+    // A small ball links four others into one body. Three of them are not linked with the first, and together they pull its
+    // surface well inside the place where its seeds rest. At first one of them covers it, so that each of its paths is searched.
+    Scene scene;
+    scene.ball(16, 0, 0, 0);
+    scene.ball(40, 0, 3, 0);
+    scene.ball(40, 18, -10, -20);
+    scene.ball(40, -18, -10, -20);
+    scene.ball(5, 10, 0, 2);
+    for (size_t i = 0; i < 4; ++i)
+        scene.link(i, 4);
+    scene.update();
+    scene.objects[1]->moveTo(point(0, 21, -20));
+    scene.update();
+    const Body body(scene);
+    const std::vector<size_t> joined = body.joined(0);
+    const SoftObject& ball = *scene.objects[0];
+    int deep = 0, lost = 0;
+    for (int i = 0; i < ball.seedSlots(); i += 2) {
+        const Seed& s = ball.seed(i);
+        const Vec path = vec(s.path);
+        const double position = body.leaves(joined, {0, 0, 0}, path);
+        if (position > 0.87 || body.dominance(0, joined, path * position) > -0.1 || path.z > -2)
+            continue;
+        ++deep;
+        lost += !(s.flags & SEED_VALID) || std::fabs(number(s.position) - position) > 0.03;
+    }
+    note("%d seeds deeper than 0.87, %d of them lost", deep, lost);
+    CHECK(deep >= 5);
+    SAME(lost, 0);
+}
+
 TEST(a_small_object_shows_what_surrounds_it)
 {
     // In the field of a large ball almost all of the surface around a small one belongs to the large one, whose paths only graze
