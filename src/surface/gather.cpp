@@ -207,7 +207,6 @@ static void setClaims(const SoftObject& object, Real weight, Neighbour& near)
     const auto isPlain = [](const SoftObject& o) {
         return o.strength() == Real(1) && !o.shaped() && o.paint() == nullptr && o.hasSurface();
     };
-    near.claim = near.ownClaim = Real(1);
     const Real heavy = clamp(weight, Real(1), HEAVIEST), own = object.size(), other = near.object->size();
     if (own * GUEST_SIZES < other * heavy && isPlain(object) && isPlain(*near.object))
         near.claim = quotient(own * GUEST_SIZES, other * heavy);
@@ -223,6 +222,9 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
     const bool longPaths = object.longestPath() > LONG_PATH;
     const Point centre = object.centre();
     const Real reach = object.reach();
+    // Only neighbours of far different size, or with heavy links, have claims that differ from their fields.
+    const Real* const weights = bodies.weights(object.slot());
+    const Real large = object.size() * GUEST_SIZES, small = quotient(object.size(), HOST_SIZES) + Real(0.01);
     bool inner = false, uneven = false, plain = true, others = false, claims = false;
     Neighbour* next = all.neighbours + all.count;
     for (SoftObject* const* const end = from + count; from < end; ++from) {
@@ -242,13 +244,17 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         near.inRange = squareOf(away) < squareOf(range);
         place(object, growth, away, near);
         weigh(bodies, all, near);
-        setClaims(object, bodies.weight(object.slot(), near.slot), near);
+        near.claim = near.ownClaim = Real(1);
+        const Real weight = weights[near.slot];
+        if (other.size() > large || other.size() < small || weight > Real(1)) {
+            setClaims(object, weight, near);
+            claims |= near.claim < Real(1) || near.ownClaim < Real(1);
+        }
         const bool tiny = (near.size < SMALL || longPaths) && isTiny(object, near);
         if (tiny || !other.isBall())
             aim(object, tiny, near);
         inner |= !digs && dentedFromWithin(other, bodies);
         uneven |= near.ratio > UNEVEN_SIZES;
-        claims |= near.claim < Real(1) || near.ownClaim < Real(1);
         plain &= near.plain;
         others |= near.kind == Neighbour::OTHER;
     }
