@@ -9,19 +9,22 @@
 // tolerance; and if its t is less than `atRest` at position 1, the body's field is above the isovalue between the two positions.
 // The smaller the weight of its link, the stronger the neighbour must be.
 constexpr Cover::Limits Cover::LIMITS[] = {
-    {Real(1), Real(0.414), Real(0.69), Real(0.643), Real(0.83)},
-    {Real(0.75), Real(0.35), Real(0.6), Real(0.591), Real(0.774)},
-    {Real(0.5), Real(0.28), Real(0.49), Real(0.529), Real(0.7)},
-    {Real(0.25), Real(0.24), Real(0.34), Real(0.489), Real(0.583)},
-    {Real(0), Real(0.2), Real(0.22), Real(0.447), Real(0.469)},
+    {Real(1), COVERED_AT, Real(0.414), Real(0.69), Real(0.643), Real(0.83)},
+    {Real(0.75), COVERED_AT, Real(0.35), Real(0.6), Real(0.591), Real(0.774)},
+    {Real(0.5), COVERED_AT, Real(0.28), Real(0.49), Real(0.529), Real(0.7)},
+    {Real(0.25), COVERED_AT, Real(0.24), Real(0.34), Real(0.489), Real(0.583)},
+    {Real(0), COVERED_AT, Real(0.2), Real(0.22), Real(0.447), Real(0.469)},
+};
+
+// The same for a neighbour whose claim is weaker than its field: the path must lie inside as far as FAINT_AT, beyond which the own
+// object shows nothing that belongs to another. With a link lighter than 1 such a neighbour never covers a path.
+constexpr Cover::Limits Cover::LIMITS_OF_GUESTS[] = {
+    {Real(1), FAINT_AT, Real(0.24), Real(0.55), Real(0.49), Real(0.742)},
+    {Real(0), FAINT_AT, Real(0), Real(0), Real(0), Real(0)},
 };
 
 // A neighbour that is linked with the object at weight 1 or more and has at least this field is preferred as a blocker.
 static constexpr Real COVERING(0.28);
-
-// The same where the neighbour's claim is weaker than its field: the path lies inside up to position FAINT_AT, beyond which the own
-// object shows nothing that belongs to another.
-constexpr Cover::Limits Cover::OF_GUESTS{Real(1), Real(0.24), Real(0.55), Real(0.49), Real(0.742)};
 
 // Chooses a blocker.
 void Cover::find(int blocker)
@@ -33,21 +36,15 @@ void Cover::find(int blocker)
     limits_ = nullptr;
     if (!judged)
         return;
-    const Real weight = nearby_.weight(blocker);
-    at_ = near_->claim < Real(1) ? FAINT_AT : COVERED_AT;
-    if (near_->claim < Real(1)) {
-        limits_ = weight < OF_GUESTS.weight ? nullptr : &OF_GUESTS;
-        return;
-    }
-    limits_ = LIMITS;
-    while (weight < limits_->weight)
+    limits_ = near_->claim < Real(1) ? LIMITS_OF_GUESTS : LIMITS;
+    while (nearby_.weight(blocker) < limits_->weight)
         ++limits_;
 }
 
 bool Cover::coversPath(const Seed& s)
 {
     path_.aim(*near_, s);
-    const Real there = near_->param(at_);
+    const Real there = near_->param(limits_->position);
     if (there >= limits_->there)
         return false;
     const Real atRest = near_->param(Real(1));
@@ -59,7 +56,7 @@ bool Cover::coversAll(const Patch& patch)
     take(patch.blocker);
     if (limits_ == nullptr || object_.tapers() || isHeavy())
         return false;
-    return !near_->object->slants() && isWithin(patch, *near_, at_, limits_->rootThere) &&
+    return !near_->object->slants() && isWithin(patch, *near_, limits_->position, limits_->rootThere) &&
            isWithin(patch, *near_, Real(1), limits_->rootAtRest);
 }
 

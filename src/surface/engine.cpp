@@ -230,8 +230,6 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
     const Paint* const paint = shown->paint();
     const int at = shadePatches(object_, own, frame, patches_, count_, *next, static_cast<int>(updates_ & 0xffff), list, room);
     *next = at < count_ ? at : 0;
-    if (list.guests > 0)
-        listGuests(list, *frame.bodies);
     // An object that is shown in another ramp than its own, as when it is selected, shows no colours of its paint.
     if (paint != nullptr && shown->ramp() == paint->ramp)
         sortByColour(list, *paint);

@@ -24,9 +24,9 @@ constexpr Real UNEVEN_SIZES(16);
 // blends with a large one, the field of the large one counts less. Its paths only graze the surface around the small object, which
 // the paths of the small one meet squarely. The colour does not follow claims: it is that of the strongest field.
 // A small object shows more if the large one is more than GUEST_SIZES times as large, and the large one shows less if it is more
-// than HOST_SIZES times as large; in between both show the same surface. A link heavier than 1, of up to HEAVIEST, counts like a
-// larger proportion.
-constexpr Real GUEST_SIZES(3), HOST_SIZES(4), HEAVIEST(3);
+// than HOST_SIZES times as large; in between both show the same surface. A link heavier than 1 counts like a larger
+// proportion, up to CLAIM_WEIGHT_MOST.
+constexpr Real GUEST_SIZES(3), HOST_SIZES(4), CLAIM_WEIGHT_MOST(3);
 
 // A neighbour in the own space of the object that is being updated, and its field along the current path. Lengths are in units
 // of own space. In core space a neighbour is turned to its own axes and scaled to the size CORE_SIZE.

@@ -256,26 +256,3 @@ void sortByColour(VoxelList& list, const Paint& paint)
         }
     }
 }
-
-void listGuests(VoxelList& list, const Bodies& bodies)
-{
-    Voxel* const guests = list.voxels + VOXELS_AT_ONCE - list.guests;
-    uint8_t* const hosts = list.number + VOXELS_AT_ONCE - list.guests;
-    if (list.count > 0)
-        list.run[list.runs++] = {list.ramp, list.count};
-    for (int done = 0; done < list.guests;) {
-        const uint8_t host = hosts[done];
-        for (int i = done; i < list.guests; ++i) {
-            if (hosts[i] != host)
-                continue;
-            const Voxel voxel = guests[i];
-            guests[i] = guests[done];
-            guests[done] = voxel;
-            hosts[i] = hosts[done];
-            hosts[done++] = host;
-        }
-        list.run[list.runs++] = {bodies.object(host).ramp(), list.count + done};
-    }
-    memmove(list.voxels + list.count, guests, static_cast<size_t>(list.guests) * sizeof *guests);
-    list.count += list.guests;
-}

@@ -51,9 +51,6 @@ private:
     Real reach2_;         // squared distance from a seed within which an edge is near, in grains
 };
 
-// Adds the guests of a list to its voxels, those of each host as a run of its own.
-void listGuests(VoxelList& list, const Bodies& bodies);
-
 // Sorts the voxels of a list in place by the numbers of their colours, and sets the list's runs.
 void sortByColour(VoxelList& list, const Paint& paint);
 

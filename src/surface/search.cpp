@@ -112,6 +112,7 @@ bool isInside(Path& path, Real* position, Sample* sample, Real* margin)
         if (sample->excess <= Real(0))
             return false;
         lowest = min(lowest, sample->excess);
+        // Beyond FAINT_AT a seed shows nothing that belongs to another object, whatever its claim.
         const Real dominance = at == FAINT_AT ? path.dominance() : sample->dominance;
         if (dominance <= OVERSHOOT)
             continue;

@@ -185,7 +185,7 @@ inline void Settler::keep(Seed& s, Real dominance)
     if (turn_ == 0)
         s.flags &= static_cast<uint8_t>(~SEED_FOLLOW);
     // The border may have moved all the same.
-    if (nearby_.dented() || setBorder(s, dominance, shiftDown(border_, 1)))
+    if (nearby_.dented() || settleBorder(s, dominance, shiftDown(border_, 1)))
         renewLightChange(s);
     else
         leaveToStrongest(s);
@@ -193,14 +193,15 @@ inline void Settler::keep(Seed& s, Real dominance)
 
 // Sets the border of a seed that is on the surface, if it is nearer than `nearer` in units of the field, and whether the seed is a
 // guest. Returns false where the surface is left to the strongest neighbour.
-inline bool Settler::setBorder(Seed& s, Real dominance, Real nearer)
+inline bool Settler::settleBorder(Seed& s, Real dominance, Real nearer)
 {
+    // A guest may be none any more, and then its border is another one.
+    if (s.flags & SEED_GUEST)
+        s.flags &= static_cast<uint8_t>(~(SEED_GUEST | SEED_BORDER));
     if (all_.claims) {
-        s.flags &= static_cast<uint8_t>(~SEED_GUEST);
         dominance = path_.dominance();
-        const Neighbour* const strongest = path_.strongest();
-        if (dominance > Real(0) && strongest->claim < Real(1))
-            return makeGuest(s, *strongest);
+        if (dominance > Real(0) && path_.strongest()->claim < Real(1))
+            return makeGuest(s, *path_.strongest());
     }
     if (dominance <= -nearer)
         return true;
@@ -259,7 +260,7 @@ inline void Settler::place(Seed& s, Real dominance)
     s.flags |= SEED_VALID;
     if (mixes())
         mix(path_, s);
-    if (setBorder(s, dominance, border_))
+    if (settleBorder(s, dominance, border_))
         ++counts_.normals;
     else
         leaveToStrongest(s);

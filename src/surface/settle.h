@@ -73,7 +73,7 @@ private:
     void leaveToStrongest(Seed& s);
     Real search(const Seed& s, Real* position, Sample* sample);
     void place(Seed& s, Real dominance);
-    bool setBorder(Seed& s, Real dominance, Real nearer);
+    bool settleBorder(Seed& s, Real dominance, Real nearer);
     SELDOM bool makeGuest(Seed& s, const Neighbour& host);
     void renewLightChange(Seed& s);
     // Finds how the light changes around a seed (ltchange.cpp), unless the seed is dark or faces away.

@@ -8,6 +8,7 @@
 #include "math/normal.h"
 #include "math/whole.h"
 #include "paint.h"
+#include "rt.h"
 #include "slopes.h"
 #include "voxels.h"
 
@@ -445,6 +446,30 @@ bool isSeen(const Patch& patch, const OwnFrame& own)
     return patch.state == PATCH_MIXED && (patch.settled || !isHidden(patch, own));
 }
 
+// Adds the guests of a list to its voxels, those of each host as a run of its own.
+SELDOM void listGuests(VoxelList& list, const Bodies& bodies)
+{
+    Voxel* const guests = list.voxels + VOXELS_AT_ONCE - list.guests;
+    uint8_t* const hosts = list.number + VOXELS_AT_ONCE - list.guests;
+    if (list.count > 0)
+        list.run[list.runs++] = {list.ramp, list.count};
+    for (int done = 0; done < list.guests;) {
+        const uint8_t host = hosts[done];
+        for (int i = done; i < list.guests; ++i) {
+            if (hosts[i] != host)
+                continue;
+            const Voxel voxel = guests[i];
+            guests[i] = guests[done];
+            guests[done] = voxel;
+            hosts[i] = hosts[done];
+            hosts[done++] = host;
+        }
+        list.run[list.runs++] = {bodies.object(host).ramp(), list.count + done};
+    }
+    memmove(list.voxels + list.count, guests, static_cast<size_t>(list.guests) * sizeof *guests);
+    list.count += list.guests;
+}
+
 template <bool PAINTED>
 int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
             int turn, VoxelList& list, int room, Painter* painter)
@@ -463,6 +488,8 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
         shader.shadePatch<PAINTED>(patch, i + turn, list, painter);
     }
     slopes.set(shader.spacing());
+    if (list.guests > 0)
+        listGuests(list, *frame.bodies);
     return i;
 }
 
