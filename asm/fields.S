@@ -35,6 +35,14 @@
 #define STEP_VALUE   0
 #define STEP_SLOPE   4
 
+// The arguments of addFieldsA on the stack
+#define ADD_FRAME    16
+#define ADD_FIRST    (ADD_FRAME+4)
+#define ADD_END      (ADD_FRAME+8)
+#define ADD_POSITION (ADD_FRAME+12)
+#define ADD_PATH     (ADD_FRAME+16)
+#define ADD_FIELDS   (ADD_FRAME+20)
+
         .text
 
 // eax = eax * factor, a product of 16.16 numbers; changes edx
@@ -73,82 +81,71 @@
         addl        ALONG_A(%edi), %eax
 .endm
 
-// void addFieldsA(Neighbour* const* first, Neighbour* const* end, Real position, const Vector* path, Fields* fields)
-//
-//   esi  at             edi  along (**at)       ebp  position (p)
-#define ADD_FRAME    16
-#define ADD_FIRST    (ADD_FRAME+4)
-#define ADD_END      (ADD_FRAME+8)
-#define ADD_POSITION (ADD_FRAME+12)
-#define ADD_PATH     (ADD_FRAME+16)
-#define ADD_FIELDS   (ADD_FRAME+20)
-FUNC(addFieldsA)
-        pushl        %ebp
-        pushl        %ebx
-        pushl        %esi
-        pushl        %edi
-        movl        ADD_FIRST(%esp), %esi
-        movl        ADD_POSITION(%esp), %ebp
-        jmp        add_next
+// Goes on with the next neighbour, if there is one.
+.macro add_next aims
+        addl        $4, %esi
+        cmpl        ADD_END(%esp), %esi
+        jb        add_one\aims
+        jmp        add_end
+.endm
 
-add_one:
-        // if (kind == POINT && path != nullptr) b = dot(path, twice16) >> 4
+// Evaluates all neighbours. `aims` is 1 if they are set to a path, at ebx, before; else 0.
+.macro add_all aims
+add_one\aims:
         movl        (%esi), %edi
-        movl        ADD_PATH(%esp), %ebx
+        // if (kind == POINT && path != nullptr) b = dot(path, twice16) >> 4
         cmpl        $KIND_SEGMENT, ALONG_KIND(%edi)
-        jae        add_no_point
-        testl        %ebx, %ebx
-        jz        add_aimed
+        jae        add_no_point\aims
+        .if \aims
         product16 ALONG_TWICE, ALONG_B(%edi)
-add_aimed:
+        .endif
         find_t
-add_param:
+add_param\aims:
         movl        %eax, ALONG_T(%edi)
-add_known:
+add_known\aims:
         // if (t >= 1) value = slope = 0; t = max(t, 0). (Taken for unsigned, a negative t is large, too.)
         cmpl        $0x10000, %eax
-        jae        add_outside
-add_inside:
+        jae        add_outside\aims
+add_inside\aims:
         // step = fieldSteps[t >> 8]; value = step.value + (step.slope * ((t & 255) - 128) >> 16); slope = step.slope
         movzbl        %al, %ecx
         shrl        $8, %eax
         addl        $-128, %ecx
-        movl        SYM(fieldSteps)+STEP_SLOPE(,%eax,8), %ebx
-        imull        %ebx, %ecx
+        movl        SYM(fieldSteps)+STEP_SLOPE(,%eax,8), %edx
+        imull        %edx, %ecx
         sarl        $16, %ecx
         addl        SYM(fieldSteps)+STEP_VALUE(,%eax,8), %ecx
-        movl        %ebx, ALONG_SLOPE(%edi)
+        movl        %edx, ALONG_SLOPE(%edi)
         movl        %ecx, ALONG_VALUE(%edi)
         // fields->sum += value; fields->slope += slope * change
         movl        ALONG_CHANGE(%edi), %eax
-        times        %ebx
-        movl        ADD_FIELDS(%esp), %ebx
-        addl        %ecx, FIELDS_SUM(%ebx)
-        addl        %eax, FIELDS_SLOPE(%ebx)
-        movl        $1, FIELDS_TOUCHED(%ebx)
+        times        %edx
+        movl        ADD_FIELDS(%esp), %edx
+        addl        %ecx, FIELDS_SUM(%edx)
+        addl        %eax, FIELDS_SLOPE(%edx)
+        movl        $1, FIELDS_TOUCHED(%edx)
         // fields->strongest = max(fields->strongest, value)
-        cmpl        FIELDS_STRONGEST(%ebx), %ecx
-        jle        add_done
-        movl        %ecx, FIELDS_STRONGEST(%ebx)
-add_done:
-        addl        $4, %esi
-add_next:
-        cmpl        ADD_END(%esp), %esi
-        jb        add_one
-        popl        %edi
-        popl        %esi
-        popl        %ebx
-        popl        %ebp
-        ret
+        cmpl        FIELDS_STRONGEST(%edx), %ecx
+        jle        add_done\aims
+        movl        %ecx, FIELDS_STRONGEST(%edx)
+add_done\aims:
+        add_next \aims
 
-add_no_point:
-        ja        add_other
+add_outside\aims:
+        testl        %eax, %eax
+        movl        $0, %eax
+        js        add_inside\aims
+        movl        %eax, ALONG_VALUE(%edi)
+        movl        %eax, ALONG_SLOPE(%edi)
+        add_next \aims
+
+add_no_point\aims:
+        ja        add_other\aims
         // if (path != nullptr) b = dot(path, twice16) >> 4; stepY = dot(path, along16) >> 4
-        testl        %ebx, %ebx
-        jz        add_segment
+        .if \aims
         product16 ALONG_TWICE, ALONG_B(%edi)
         product16 ALONG_WAY, ALONG_STEPY(%edi)
-add_segment:
+        .endif
         find_t
         // at = y + p * stepY
         movl        %eax, %ecx
@@ -157,38 +154,54 @@ add_segment:
         addl        ALONG_Y(%edi), %eax
         // k = clamp(at, -half, half)
         movl        ALONG_HALF(%edi), %edx
-        movl        %eax, %ebx
         cmpl        %edx, %eax
-        jg        add_beyond
+        jg        add_clamped\aims
         negl        %edx
         cmpl        %edx, %eax
-        jge        add_beside
-add_beyond:
-        movl        %edx, %ebx
-add_beside:
-        movl        %ebx, ALONG_K(%edi)
+        jl        add_clamped\aims
+        movl        %eax, %edx
+add_clamped\aims:
+        movl        %edx, ALONG_K(%edi)
         // t -= k * (at + at - k)
         addl        %eax, %eax
-        subl        %ebx, %eax
-        times        %ebx
+        subl        %edx, %eax
+        times        ALONG_K(%edi)
         subl        %eax, %ecx
         // change -= k * (stepY + stepY)
         movl        ALONG_STEPY(%edi), %eax
         addl        %eax, %eax
-        times        %ebx
+        times        ALONG_K(%edi)
         subl        %eax, ALONG_CHANGE(%edi)
         movl        %ecx, %eax
-        jmp        add_param
+        jmp        add_param\aims
 
-add_other:
+add_other\aims:
         movl        ALONG_T(%edi), %eax
-        jmp        add_known
-add_outside:
-        testl        %eax, %eax
-        movl        $0, %eax
-        js        add_inside
-        movl        %eax, ALONG_VALUE(%edi)
-        movl        %eax, ALONG_SLOPE(%edi)
-        jmp        add_done
+        jmp        add_known\aims
+.endm
+
+// void addFieldsA(Neighbour* const* first, Neighbour* const* end, Real position, const Vector* path, Fields* fields)
+//
+//   esi  at             edi  along (**at)       ebp  position (p)       ebx  path
+FUNC(addFieldsA)
+        pushl        %ebp
+        pushl        %ebx
+        pushl        %esi
+        pushl        %edi
+        movl        ADD_FIRST(%esp), %esi
+        movl        ADD_POSITION(%esp), %ebp
+        movl        ADD_PATH(%esp), %ebx
+        cmpl        ADD_END(%esp), %esi
+        jae        add_end
+        testl        %ebx, %ebx
+        jz        add_one0
+        add_all 1
+        add_all 0
+add_end:
+        popl        %edi
+        popl        %esi
+        popl        %ebx
+        popl        %ebp
+        ret
 ENDFUNC(addFieldsA)
 ASM_END
