@@ -29,7 +29,7 @@
 #define FIELDS_SUM   0
 #define FIELDS_SLOPE 4
 #define FIELDS_STRONGEST 8
-#define FIELDS_TOUCHED 12
+#define FIELDS_REACHING 12
 
 // struct FieldStep (include/model/field.h)
 #define STEP_VALUE   0
@@ -117,13 +117,13 @@ add_inside\aims:
         addl        SYM(fieldSteps)+STEP_VALUE(,%eax,8), %ecx
         movl        %edx, ALONG_SLOPE(%edi)
         movl        %ecx, ALONG_VALUE(%edi)
-        // fields->sum += value; fields->slope += slope * change
+        // fields->sum += value; fields->slope += slope * change; ++fields->reaching
         movl        ALONG_CHANGE(%edi), %eax
         times        %edx
         movl        ADD_FIELDS(%esp), %edx
         addl        %ecx, FIELDS_SUM(%edx)
         addl        %eax, FIELDS_SLOPE(%edx)
-        movl        $1, FIELDS_TOUCHED(%edx)
+        incl        FIELDS_REACHING(%edx)
         // fields->strongest = max(fields->strongest, value)
         cmpl        FIELDS_STRONGEST(%edx), %ecx
         jle        add_done\aims

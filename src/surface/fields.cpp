@@ -21,6 +21,6 @@ void addFieldsC(Neighbour* const* first, Neighbour* const* end, Real position, c
         fields->sum += field.value;
         fields->slope += field.slope * along.change;
         fields->strongest = max(fields->strongest, field.value);
-        fields->touched = 1;
+        ++fields->reaching;
     }
 }

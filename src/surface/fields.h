@@ -36,7 +36,7 @@ struct Along {
 struct Fields {
     Real sum, slope;    // sum of the fields, and its derivative by the position
     Real strongest;     // the greatest single field
-    int32_t touched;    // 1 if any neighbour's field reaches the position, else 0
+    int32_t reaching;   // number of neighbours whose fields reach the position
 };
 
 extern "C" {

@@ -131,6 +131,15 @@ Real Path::dominance() const
     return (other == nullptr ? Real(0) : other->value) - ownField_;
 }
 
+// Whether the sum of the fields is the body's field where no more than one neighbour reaches the position.
+inline bool Path::addsUp() const
+{
+    for (int i = 0; i < touched_; ++i)
+        if (near_[i]->value > Real(0))
+            return near_[i]->weights[object_.slot()] == Real(1);
+    return true;
+}
+
 // Evaluates the fields at a position where nothing is odd about the object and the neighbours. A neighbour that is neither point
 // nor segment must have its t there already. `path` is the path that becomes current; null: it is current already. Returns false
 // when no neighbour reaches the position.
@@ -142,9 +151,9 @@ inline bool Path::lookPlain(Real position, const Vector* path, Sample* sample)
     Fields fields = own(position);
     addFields(near_, near_ + touched_, position, path, &fields);
     *sample = {fields.sum - ISOVALUE, fields.slope, fields.strongest - ownField_};
-    if (!complete_)
+    if (!complete_ && (fields.reaching > 1 || !addsUp()))
         blend(position, *sample);
-    return fields.touched != 0;
+    return fields.reaching != 0;
 }
 
 // Evaluates the fields at a position in every case. Parameters and result are those of lookPlain().

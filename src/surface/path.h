@@ -122,6 +122,7 @@ private:
     const Vector& root() const { return object_.root(seed_->root); }
     Fields own(Real position);
     SELDOM Real dominantClaim() const;
+    bool addsUp() const;
     bool lookPlain(Real position, const Vector* path, Sample* sample);
     SELDOM bool lookAnywhere(Real position, const Vector* path, Sample* sample);
     SELDOM Real warpedParam(Real position);

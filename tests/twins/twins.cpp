@@ -1120,7 +1120,7 @@ static_assert(inasm3::ALONG_KIND == offsetof(Along, kind) && inasm3::ALONG_HALF 
 static_assert(inasm3::KIND_SEGMENT == Along::SEGMENT && Along::POINT < Along::SEGMENT && Along::SEGMENT < Along::OTHER,
               "Along::Kind");
 static_assert(inasm3::FIELDS_SUM == offsetof(Fields, sum) && inasm3::FIELDS_SLOPE == offsetof(Fields, slope) &&
-              inasm3::FIELDS_STRONGEST == offsetof(Fields, strongest) && inasm3::FIELDS_TOUCHED == offsetof(Fields, touched),
+              inasm3::FIELDS_STRONGEST == offsetof(Fields, strongest) && inasm3::FIELDS_REACHING == offsetof(Fields, reaching),
               "Fields");
 static_assert(inasm3::STEP_VALUE == offsetof(FieldStep, value) && inasm3::STEP_SLOPE == offsetof(FieldStep, slope) &&
               sizeof(FieldStep) == 8, "FieldStep");
@@ -1168,7 +1168,7 @@ void fieldsAlong(int rounds)
             addFieldsA(listA, listA + count, position, taken, &sumA);
             verdict(memcmp(&sumC, &sumA, sizeof sumC) == 0, "fields: the same sums", round);
             verdict(memcmp(c, a, sizeof c) == 0, "fields: each the same", round);
-            none += sumC.touched == 0;
+            none += sumC.reaching == 0;
             for (int i = 0; i < count; ++i) {
                 const Along& along = *listC[i];
                 (along.t >= Real(1) ? outside : along.t < Real(0) ? below0 : inside) += 1;
