@@ -52,8 +52,10 @@ void Path::blend(Real position, Sample& sample)
     };
     if (ownField_ > Real(0))
         add(ownField_, bodies_.weights(object_.slot()), object_.slot(), -1);
+    share_[0] = Real(1);
     for (int i = 0; i < touched_; ++i) {
         const Neighbour& near = *near_[i];
+        share_[i + 1] = Real(1);
         if (near.value > Real(0))
             add(near.value, near.weights, near.slot, i);
     }
@@ -68,8 +70,6 @@ void Path::blend(Real position, Sample& sample)
     const Real inverse = quotient(Real(1), squares), lack = lacks * inverse, twice = lack + lack;
     sample.excess -= faint ? lack * strongest : lack;
     shared_ = true;
-    for (int i = 0; i <= touched_; ++i)
-        share_[i] = Real(1);
     for (const Linked* a = parts; a < end; ++a) {
         const Real lost = (a->lack - a->f * twice) * inverse;
         const Real rate = a->index < 0 ? shiftDown(ownSlope_ * position, 1) : near_[a->index]->slope * near_[a->index]->change;
