@@ -218,6 +218,8 @@ static void setClaims(const SoftObject& object, Real weight, Neighbour& near)
 static void gatherFrom(SoftObject* const* from, int count, bool digs, const SoftObject& object, const Bodies& bodies,
                        Neighbourhood& all)
 {
+    if (count == 0)
+        return;
     const Real growth = object.growth();
     const bool longPaths = object.longestPath() > LONG_PATH;
     const Point centre = object.centre();

@@ -86,6 +86,7 @@ private:
     }
     bool bendsUnevenly(const Voxel* voxels, int count) const;
     bool cut(const Seed& s, Voxel* voxel) const;
+    bool knowsLight(const Seed& s, bool regular, const Voxel& voxel) const;
     void setSlopesOf(const Seed& s, Voxel* voxel) const;
     const Limb* limbOf(const Patch& patch);
     void endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel);
@@ -369,6 +370,12 @@ inline void Shader::setSlopesOf(const Seed& s, Voxel* voxel) const
     setSlopes((x + (voxel->tiltX * z >> 8)) >> 4, (y + (voxel->tiltY * z >> 8)) >> 4, voxel);
 }
 
+// Whether a seed of a patch that blends knows how the light changes about its voxel (ltchange.cpp).
+inline bool Shader::knowsLight(const Seed& s, bool regular, const Voxel& voxel) const
+{
+    return (!regular || isBesideBorder(s)) && voxel.brightness != 0 && s.lightChange[0] != Seed::LIGHT_UNKNOWN;
+}
+
 // Lists the voxels of a patch that blends, or whose object has a paint.
 template <bool PAINTED>
 inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list,
@@ -380,36 +387,32 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
     Voxel* to = list.room();
     for (int i = 0; i < count; ++i) {
         const Seed& s = *seen[i].seed;
-        const bool knows = blends && !shines && (i >= regular || isBesideBorder(s)) && voxels[i].brightness != 0 &&
-                           s.lightChange[0] != Seed::LIGHT_UNKNOWN;
+        const bool knows = blends && !shines && knowsLight(s, i < regular, voxels[i]);
         if (knows)
             setSlopesOf(s, voxels + i);
-        // A dark voxel keeps its slopes. With a finish that shines, brightness 0 does not mean that the light ends there.
-        const auto sightOf = [&](const Voxel& v) { return knows || (!shines && v.brightness == 0) ? Slopes::STAYS : sight; };
+        Voxel* shown = to;
         if (s.flags & SEED_BORDER) {
             if (!cutAtBorder(s, voxels + i, list))
                 continue;
-            if (!PAINTED && (s.flags & SEED_GUEST)) {
-                Voxel* const guest = list.roomForGuest(s.host);
-                *guest = voxels[i];
-                if (i < known)
-                    slopes.add(&s, static_cast<int>(&s - shading_.seeds), guest, sightOf(*guest));
-                continue;
-            }
+            if (!PAINTED && (s.flags & SEED_GUEST))
+                shown = list.roomForGuest(s.host);
         }
         if (PAINTED) {
-            to = list.room();
+            shown = to = list.room();
             painter->add(s, voxels[i]);
-        } else if (to != voxels + i) {
-            *to = voxels[i];
+        } else if (shown != voxels + i) {
+            *shown = voxels[i];
         }
-        endAtLimb(patch, seen[i], to);
+        endAtLimb(patch, seen[i], shown);
         if (i < known) {
-            slopes.add(&s, static_cast<int>(&s - shading_.seeds), to, sightOf(*to));
-            if (PAINTED && list.room() > to + 1)
-                slopes.addCopy(to + 1, to);
+            // A dark voxel keeps its slopes. With a finish that shines, brightness 0 does not mean that the light ends there.
+            const bool stays = knows || (!shines && shown->brightness == 0);
+            slopes.add(&s, static_cast<int>(&s - shading_.seeds), shown, stays ? Slopes::STAYS : sight);
+            if (PAINTED && list.room() > shown + 1)
+                slopes.addCopy(shown + 1, shown);
         }
-        ++to;
+        if (shown == to)
+            ++to;
     }
     if (!PAINTED)
         list.count = static_cast<int>(to - list.voxels);
