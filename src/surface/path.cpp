@@ -136,7 +136,7 @@ inline bool Path::addsUp() const
 {
     for (int i = 0; i < touched_; ++i)
         if (near_[i]->value > Real(0))
-            return near_[i]->weights[object_.slot()] == Real(1);
+            return nearby_.weight(near_[i]->slot) == Real(1);
     return true;
 }
 
