@@ -89,7 +89,7 @@
         jmp        add_end
 .endm
 
-// Evaluates all neighbours. `aims` is 1 if they are set to a path, at ebx, before; else 0.
+// The loop over all neighbours. With `aims` 1 it sets each to the path at ebx first, with 0 it does not: `path` is null then.
 .macro add_all aims
 add_one\aims:
         movl        (%esi), %edi

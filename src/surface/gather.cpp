@@ -224,7 +224,8 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
     const bool longPaths = object.longestPath() > LONG_PATH;
     const Point centre = object.centre();
     const Real reach = object.reach();
-    // Only neighbours of far different size, or with heavy links, have claims that differ from their fields.
+    // Only neighbours of far different size, or with heavy links, have claims that differ from their fields. (.01 allows for the
+    // rounding of the quotient.)
     const Real* const weights = bodies.weights(object.slot());
     const Real large = object.size() * GUEST_SIZES, small = quotient(object.size(), HOST_SIZES) + Real(0.01);
     bool inner = false, uneven = false, plain = true, others = false, claims = false;

@@ -78,7 +78,7 @@ void Path::take(const NeighbourList& list, const Seed& s)
     if (asked_ != &list) {
         asked_ = &list;
         setNear(list);
-        odd_ = others_ = false;
+        odd_ = special_ = false;
         if (!all_.simple)
             findOdd();
     }
@@ -95,15 +95,16 @@ inline void Path::setNear(const NeighbourList& list)
     complete_ = list.complete;
 }
 
-// Finds out whether something is odd about the object or these neighbours, which lookPlain() alone could not evaluate.
+// Finds out whether something is odd or special about the object or these neighbours.
 void Path::findOdd()
 {
     odd_ = !ownPlain_;
-    others_ = all_.claims;
+    special_ = all_.claims;
     for (int i = 0; i < touched_; ++i) {
         odd_ |= !near_[i]->plain;
-        others_ |= near_[i]->kind == Neighbour::OTHER;
+        special_ |= near_[i]->kind == Neighbour::OTHER;
     }
+    special_ |= odd_;
 }
 
 // Evaluates the own field of an object that is not warped and has strength 1.
@@ -181,10 +182,10 @@ bool Path::lookAnywhere(Real position, const Vector* path, Sample* sample)
 Sample Path::look(Real position)
 {
     Sample sample;
-    if (!odd_ && !others_)
-        lookPlain(position, nullptr, &sample);
-    else
+    if (special_)
         lookAnywhere(position, nullptr, &sample);
+    else
+        lookPlain(position, nullptr, &sample);
     return sample;
 }
 
@@ -193,7 +194,7 @@ bool Path::begin(const NeighbourList& list, const Seed& s, Real position, Sample
     seed_ = &s;
     if (asked_ != &list || rootOfAsked_ != s.root)
         take(list, s);
-    return !odd_ && !others_ ? lookPlain(position, &s.path, sample) : lookAnywhere(position, &s.path, sample);
+    return special_ ? lookAnywhere(position, &s.path, sample) : lookPlain(position, &s.path, sample);
 }
 
 Sample Path::beginSearch(const Seed& s)

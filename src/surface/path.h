@@ -154,7 +154,8 @@ private:
     int touched_ = 0;               // their number
     int rootOfAsked_ = -1;            // index of the root for which all neighbours of asked_ are prepared; -1: none
     bool odd_;                      // not ownPlain_, or some neighbours are not Neighbour::plain
-    bool others_;                   // the cores of some neighbours are neither points nor segments, or claims are not fields
+    bool special_;                  // lookPlain() alone does not do: odd_, or the cores of some neighbours are neither points nor
+                                    // segments, or claims are not fields
     const Seed* seed_;
     bool complete_;
     bool shared_;                   // share_ holds at the position evaluated last; else shares are 1, of a digging field -weight
