@@ -93,8 +93,9 @@ private:
     }
     int add(const Colour& colour, bool shines);
     void measureBox();
-    void markPairs();
-    void markTriples();
+    class Links;
+    void markPairs(const Links& linked);
+    void markTriples(const Links& linked);
     void mark(const Vector& place, bool shines);
     void markLine(const Vector& a, const Vector& b, bool shines);
     void markTriangle(const Vector& a, const Vector& b, const Vector& c, bool shines);

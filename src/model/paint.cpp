@@ -117,36 +117,42 @@ void Paints::markTriangle(const Vector& a, const Vector& b, const Vector& c, boo
     }
 }
 
-// [a][b]: objects of the colours numbered a and b are linked.
-static bool linked[Model::OBJECTS_MOST][Model::OBJECTS_MOST];
+// Tells which objects' own colours belong to linked objects: of_[a][b] for the colours numbered a and b.
+class Paints::Links {
+public:
+    explicit Links(const Model& model);
+    bool are(int a, int b) const { return of_[a][b]; }
 
-static void findLinks(const Model& model)
+private:
+    bool of_[Model::OBJECTS_MOST][Model::OBJECTS_MOST] = {};
+};
+
+Paints::Links::Links(const Model& model)
 {
-    memset(linked, 0, sizeof linked);
     for (int i = 0; i < model.count(); ++i) {
         const SoftObject* const object = model.actor(i).object;
         for (const List<Link>::Node* node = object->skel().first(); node != nullptr; node = node->next)
             if (node->item.weight > Real(0))
-                linked[object->paint()->number][node->item.object->paint()->number] = true;
+                of_[object->paint()->number][node->item.object->paint()->number] = true;
     }
 }
 
 // Marks the mixtures of two colours whose objects are linked.
-void Paints::markPairs()
+void Paints::markPairs(const Links& linked)
 {
     for (int a = 0; a < objects_; ++a)
         for (int b = 0; b < objects_; ++b)
-            if (a != b && linked[a][b])
+            if (a != b && linked.are(a, b))
                 markLine(places_[a], places_[b], shines_[a]);
 }
 
 // Marks the mixtures of three colours whose objects are linked with each other.
-void Paints::markTriples()
+void Paints::markTriples(const Links& linked)
 {
     for (int a = 0; objects_ <= TRIPLES_MOST && a < objects_; ++a)
         for (int b = 0; b < objects_; ++b)
             for (int c = 0; c < b; ++c)
-                if (b != a && c != a && linked[a][b] && linked[a][c] && linked[b][c])
+                if (b != a && c != a && linked.are(a, b) && linked.are(a, c) && linked.are(b, c))
                     markTriangle(places_[a], places_[b], places_[c], shines_[a]);
 }
 
@@ -269,14 +275,13 @@ void Paints::chooseMixtures(const Model& model, const Paint* paints)
     for (int i = 0; i < model.count(); ++i)
         if (paints[i].pattern == PATTERN_MARBLE)
             markLine(paints[i].at, paints[i].otherAt, paints[i].shines());
-    if (model.mixed) {
-        findLinks(model);
-        markPairs();
-    }
+    const Links linked(model);
+    if (model.mixed)
+        markPairs(linked);
     chooseWanted();
     pairs_ = count_;
     if (model.mixed) {
-        markTriples();
+        markTriples(linked);
         chooseWanted();
     }
 }
