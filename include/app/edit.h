@@ -110,6 +110,7 @@ private:
     Actor& moved();
     bool begin(Action action, Time now);
     void drop();
+    void forgetUndone();
     bool goBack(Steps& from, Steps& to);
     bool changeMeasure(int which, Real by, Action action, Time now);
     bool pairOf(SoftObject** a, SoftObject** b);
@@ -120,6 +121,8 @@ private:
     int selected_ = 1;  // numbers of objects, not indices: they do not change when other objects are added or removed
     int before_ = 0;
     Steps undo_, redo_;
+    bool begun_ = false;    // the last begin() recorded a step; otherwise its change went on with a gesture
+    bool changed_ = false;  // the model has changed since redo_ was filled, which is then to be forgotten
     bool whole_ = false;
     Action action_ = NONE;  // the last change, the number of its object, and its time: they tell whether a gesture goes on
     int acted_ = 0;

@@ -140,10 +140,15 @@ bool Editor::begin(Action action, Time now)
     action_ = action;
     acted_ = number;
     actedAt_ = now;
-    redo_.clear();
+    forgetUndone();
+    begun_ = !goesOn;
     if (goesOn)
         return true;
     Model::Record* record = model_.record();
+    if (record == nullptr) {
+        redo_.clear();
+        record = model_.record();
+    }
     while (record == nullptr || undo_.count == STEPS_MOST) {
         if (undo_.count == 0) {
             say("no memory left");
@@ -154,14 +159,26 @@ bool Editor::begin(Action action, Time now)
             record = model_.record();
     }
     undo_.step[undo_.count++] = {record, selected_, before_};
+    changed_ = true;
     return true;
 }
 
-// Forgets the step that begin() recorded, because the operation failed.
+// Ends an operation that failed and changed nothing: forgets the step that begin() recorded, if it did. What was undone before can
+// still be done again.
 void Editor::drop()
 {
-    free(undo_.step[--undo_.count].record);
+    if (begun_)
+        free(undo_.step[--undo_.count].record);
+    changed_ = false;
     action_ = NONE;
+}
+
+// Forgets what was undone before, if the model has changed since.
+void Editor::forgetUndone()
+{
+    if (changed_)
+        redo_.clear();
+    changed_ = false;
 }
 
 void Editor::select(int index)
@@ -258,6 +275,7 @@ bool Editor::changeMeasure(int which, Real by, Action action, Time now)
     actor.measure[which] = to;
     if (!model_.remake(&actor)) {
         actor.measure[which] = was;
+        drop();
         say(SoftObject::resampleTrouble());
         return false;
     }
@@ -685,6 +703,7 @@ bool Editor::goBack(Steps& from, Steps& to)
 
 bool Editor::undo()
 {
+    forgetUndone();
     if (undo_.count == 0) {
         say("nothing to undo");
         return false;
@@ -697,6 +716,7 @@ bool Editor::undo()
 
 bool Editor::redo()
 {
+    forgetUndone();
     if (redo_.count == 0) {
         say("nothing to do again");
         return false;
