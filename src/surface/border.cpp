@@ -19,14 +19,19 @@ inline __attribute__((always_inline)) Vector gradientOf(const Path& path, const 
     return path.fromCore(near, position) * (shiftDown(near.slope, shift) * near.ratio);
 }
 
+// The gradient of the own field at a seed's position, times half the squared size of the object, over 2^shift.
+inline Vector ownGradientOf(const Path& path, const Seed& s, int shift)
+{
+    const Real slope = shiftDown(path.ownSlope(), shift);
+    return path.object().slants() ? path.ownGradient(s.position, slope) : path.from(s.position) * slope;
+}
+
 // As Path::strongest(), where something digs, strengths differ or the object is shaped: the strongest neighbour that does not dig,
-// or null. Sets `*change`, the slope of the own field along the path, and `*g`, its gradient, if the object is shaped; in a hollow
-// both become those of the object that has the hollow, because it is that object's border.
+// or null. Sets `*change`, the slope of the own field along the path; in a hollow that and `*g`, the own gradient, become those of
+// the object that has the hollow, because it is that object's border.
 SELDOM const Neighbour* strongestOdd(const Path& path, const Seed& s, int shift, Vector* g, Real* change)
 {
     *change = path.ownRate(path.lookedAt());
-    if (path.object().shaped())
-        *g = path.ownGradient(s.position, shiftDown(path.ownSlope(), shift));
     const Neighbour* other = nullptr;
     for (int i = 0; i < path.touched(); ++i) {
         const Neighbour& near = path.near(i);
@@ -57,7 +62,7 @@ inline __attribute__((always_inline)) void setBorder(const Path& path, Seed& s, 
 {
     const Real size = path.object().laidSize();
     const Real distance = shiftDown(clamp(ahead * size, Real(-100), Real(100)) * size * Real(0.5), shift);
-    const bool isNear = absolute(distance) < steepest.length * BORDER_FAR;
+    const bool isNear = absolute(distance) < min(steepest.length, Real(1000)) * BORDER_FAR;
     const Real apart = clamp(isNear ? distance / steepest.length : BORDER_FAR, -BORDER_FAR, BORDER_FAR);
     s.apart = static_cast<int16_t>(rawFromReal(apart) >> 8);
     s.border = directionOf(steepest.way);
@@ -69,7 +74,7 @@ bool findBorder(const Path& path, Seed& s, Real dominance)
 {
     // Gradients here are multiplied by half the squared size of the object, over 2^shift.
     const int shift = path.gradientShift();
-    Vector g = path.from(s.position) * shiftDown(path.ownSlope(), shift);
+    Vector g = ownGradientOf(path, s, shift);
     Real change = shiftDown(path.ownSlope() * path.lookedAt(), 1);
     const Neighbour* const other = path.all().ordinary ? path.strongest() : strongestOdd(path, s, shift, &g, &change);
     if (other == nullptr)
@@ -91,7 +96,7 @@ void findGuestBorder(const Path& path, Seed& s, const Neighbour& host)
     const int shift = path.gradientShift();
     const Neighbour* const third = path.strongest(&host);
     const bool own = third == nullptr || third->value < path.ownField();
-    const Vector g = own ? path.from(s.position) * shiftDown(path.ownSlope(), shift) : gradientOf(path, *third, s.position, shift);
+    const Vector g = own ? ownGradientOf(path, s, shift) : gradientOf(path, *third, s.position, shift);
     const Real change = own ? path.ownRate(path.lookedAt()) : third->slope * third->change;
     const Real field = own ? path.ownField() : third->value;
     const Real ahead = host.value - field + (host.slope * host.change - change) * (s.position - path.lookedAt());
