@@ -76,10 +76,6 @@ public:
     // Returns true if the last ring of seeds lies beside the first.
     virtual bool ringsClose() const { return false; }
 
-    // Returns true if the distance from the core is a convex function of place: in the middle of a line it is then never
-    // greater than at the farther end. This holds for points, segments, plates and boxes, but not for circles.
-    virtual bool coreConvex() const { return true; }
-
     // Writes the object as a line of a dumped frame ("sphere 1 3.25 -4 0 20"), at most `size` bytes with the final 0.
     virtual void describe(char* to, int size) const = 0;
 

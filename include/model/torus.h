@@ -19,7 +19,6 @@ public:
     bool ringsClose() const override { return true; }
     void describe(char* to, int size) const override;
 
-    bool coreConvex() const override { return false; }
 
     Real ring() const { return coreReach(); }
 };

@@ -1,6 +1,7 @@
-// Whether one neighbour alone keeps seeds inside the body. No path leaves the surface before position 1. From there to COVERED_AT
-// the own field and the neighbour's together exceed the isovalue, because the neighbour's t is convex along the path, so that it
-// lies below the straight line between its values at the two positions. Beyond COVERED_AT the neighbour is the stronger of the two.
+// Whether one neighbour alone keeps seeds inside the body. The two fields are judged as if they were alone: then no path leaves the
+// surface before position 1. From there to COVERED_AT they exceed the isovalue together, because the neighbour's t is nearly always
+// convex along the path, so that it lies below the straight line between its values at the two positions. Beyond COVERED_AT the
+// neighbour is the stronger of the two. Objects that are not linked with each other, and a torus, may make an exception.
 #include "cover.h"
 
 #include "search.h"

@@ -40,7 +40,7 @@ private:
     void renewLists(Patch& patch, const Neighbourhood& all);
     bool comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all, bool stale);
     bool isAtRest(Settler& settler, Patch& patch, const Neighbourhood& all);
-    void leave(Patch& patch);
+    void sleepOutOfSight(Patch& patch);
     void settle(Settler& settler, Patch& patch);
 
     SoftObject& object_;
@@ -97,8 +97,8 @@ bool Engine::update(const FrameContext& frame)
     for (Patch* patch = patches_; patch < end; ++patch)
         if (patch->settled)
             settler.oversample(*patch);
-    for (Patch* patch = patches_; settler.hasIslands() && patch < end; ++patch) {
-        if (patch->state == PATCH_INSIDE)
+    for (Patch* patch = patches_; patch < end; ++patch) {
+        if (!patch->islands && (!settler.hasIslands() || patch->state == PATCH_INSIDE))
             continue;
         if (patch->stale || isDue(odometer_.bound(), patch->listDue))
             renewLists(*patch, all);
@@ -119,7 +119,7 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
     const bool judgedFirst = all.ordinary && all.count > 0 && patch.state != PATCH_REST;
     if (judgedFirst && outOfSight(patch, own)) {
         patch.stale = patch.stale || !known;
-        leave(patch);
+        sleepOutOfSight(patch);
         return true;
     }
     const bool stale = !known || patch.stale;
@@ -130,7 +130,7 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
     if (comesToRest(settler, patch, all, stale))
         return false;
     if (!judgedFirst && outOfSight(patch, own))
-        leave(patch);
+        sleepOutOfSight(patch);
     else if (!known || patch.state == PATCH_REST || isDue(odometer_.reading(), patch.due))
         settle(settler, patch);
     return true;
@@ -148,7 +148,7 @@ inline bool Engine::comesToRest(Settler& settler, Patch& patch, const Neighbourh
 }
 
 // Puts a patch that is out of sight to sleep until it comes into sight.
-inline void Engine::leave(Patch& patch)
+inline void Engine::sleepOutOfSight(Patch& patch)
 {
     sleep(object_, patch);
     patch.state = PATCH_AWAY;

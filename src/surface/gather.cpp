@@ -196,7 +196,7 @@ static void weigh(const Bodies& bodies, const Neighbourhood& all, Neighbour& nea
     near.strength = other.strength();
     near.plain = !near.digs && near.strength == Real(1) && !(all.hollow && &other == all.head);
     near.weight = near.digs ? -bodies.weight(all.head->slot(), other.slot()) : Real(0);
-    near.share = near.digs ? greatestWeight(other) : Real(1);
+    near.greatestWeight = near.digs ? greatestWeight(other) : Real(1);
     near.samples = near.digs && other.hollowed() == all.head;
     near.grain = near.plain ? near.size : near.size / (max(near.strength, Real(1)) * max(near.weight, Real(1)));
 }

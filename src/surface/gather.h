@@ -39,7 +39,7 @@ struct Neighbour : Along {
     Real inverse16;     // CORE_SIZE / size
     Real stretch16;     // the greatest length in core space of one unit of own space: inverse16, or more if it is shaped
     Real steepStretch16;  // the same, only where its field is steep
-    Real share;         // of a digging neighbour, the greatest weight by which it digs; of a member of the body, 1
+    Real greatestWeight;  // the greatest weight by which it digs into any object; 1 if it is a member of the body
     Real ratio;         // (own size / size)^2, the factor of its share of the gradient
     Real strength;      // factor of its field
     bool plain;         // it is a member of the body, its strength is 1, and it is not the head of a hollow
@@ -72,7 +72,7 @@ struct Neighbour : Along {
     // An upper bound of the change of its field over a unit, as that counts in the field of a body whose members are all linked.
     Real steepestGradient() const
     {
-        return shiftDown(steepStretch16 * strength * share * STEEPEST_OF_ALL, 4);
+        return shiftDown(steepStretch16 * strength * greatestWeight * STEEPEST_OF_ALL, 4);
     }
 
     // Turns a vector of own space into core space; and half a gradient times CORE_SIZE^2 (see SoftObject::param()) into own

@@ -8,7 +8,7 @@
 namespace {
 
 // Spacings: a seed up to this far beyond the border of its part still has a scale that reaches into its part.
-constexpr Real SHARED(1.5);
+constexpr Real BEYOND_PART(1.5);
 // Units: additional overlap of the scales at that border, because it is found only to first order.
 constexpr Real OVERLAP(0.18);
 // Upper bound on how far the border of two parts of a hollow's wall moves when the digging object moves by one unit.
@@ -73,9 +73,9 @@ Real changeOf(Real slope, Real t, Real strength, Real factor)
 // The wall of a hollow is sampled twice: by the paths of the dented object, and by those of the digging one. Each object has the
 // part where its paths are nearer to the normal: where its own field is the steeper one, if there are no others. Returns how far a
 // seed that has just settled lies on its own side of the border of the two parts: units, to first order. If that is at most
-// `shared` to either side, the function sets the seed's border. `*g`, the direction outward, then becomes that in the middle of
+// `margin` to either side, the function sets the seed's border. `*g`, the direction outward, then becomes that in the middle of
 // what the border leaves of the seed's cell, because at a sharp rim the two differ.
-Real findShare(Path& path, Seed& s, Real shared, Vector* g)
+Real findOwnPart(Path& path, Seed& s, Real margin, Vector* g)
 {
     const SoftObject& object = path.object();
     const bool hollow = path.all().hollow;
@@ -97,7 +97,7 @@ Real findShare(Path& path, Seed& s, Real shared, Vector* g)
                              : changeOf(-other.slope, other.t, other.strength, other.weight * other.ratio);
     const Real change = absolute(rate);
     const Real apart = absolute(lead) < change * BORDER_FAR ? lead / change : lead < Real(0) ? -BORDER_FAR : BORDER_FAR;
-    if (absolute(apart) > shared)
+    if (absolute(apart) > margin)
         return apart;
     s.apart = static_cast<int16_t>(rawFromReal(apart + OVERLAP) >> 8);
     s.border = directionOf(normalise((rate < Real(0)) == hollow ? -wall : wall));
@@ -115,13 +115,13 @@ Real findShare(Path& path, Seed& s, Real shared, Vector* g)
 // Decides whether a seed that has found the surface samples it. Returns false when the rival samples that part of the wall.
 bool Settler::findDented(Seed& s, Vector* g)
 {
-    const Real shared = object_.spacing() * SHARED, apart = findShare(path_, s, shared, g);
-    if (apart < -shared) {
+    const Real margin = object_.spacing() * BEYOND_PART, apart = findOwnPart(path_, s, margin, g);
+    if (apart < -margin) {
         s.flags |= SEED_FOLLOW;
-        putOff(s, -apart - shared, BORDER_SPEED);
+        putOff(s, -apart - margin, BORDER_SPEED);
         return false;
     }
-    if (apart < shared)
+    if (apart < margin)
         s.flags |= SEED_BORDER;
     return true;
 }
@@ -137,13 +137,13 @@ bool Settler::hasClosed(const Seed& s)
 // ---- Seeds off the surface wait
 
 // Lets a seed wait that is off the surface, or outside its own part of it: the field would have to change by `hold`, and it changes
-// by at most `push` when the neighbours come nearer by a unit. The wait may be longer if all neighbours reach the path already. A
-// neighbour that does not is not part of `push`, but its field begins gently and does not matter within LIST_SLACK.
-void Settler::putOff(Seed& s, Real hold, Real push) const
+// by at most `gradientBound` when the neighbours come nearer by a unit. The wait may be longer if all neighbours reach the path
+// already. A neighbour that does not is not part of the bound, but its field begins gently and does not matter within LIST_SLACK.
+void Settler::putOff(Seed& s, Real hold, Real gradientBound) const
 {
     s.flags |= SEED_OFF;
     const Real longest = path_.touched() == all_.count ? LONGEST_WAIT : LIST_SLACK;
-    s.due = static_cast<uint16_t>(patch_->travelled + travelUntil(hold, push, longest));
+    s.due = static_cast<uint16_t>(patch_->travelled + travelUntil(hold, gradientBound, longest));
 }
 
 bool Settler::isOff(const Patch& patch, const Seed& s)

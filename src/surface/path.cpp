@@ -312,15 +312,19 @@ Vector Path::outwardBeside(const Seed& s, Real position, const Vector& distance)
 {
     Seed beside = s;
     beside.path = s.path + distance * (Real(1) / position);
-    lookOn(beside, position);
+    // The neighbours are prepared with the seed's own path, because all paths have its length and the path beside it does not.
+    const NeighbourList& list = nearby_.at(position);
+    take(list, s);
+    Sample sample;
+    begin(list, beside, position, &sample);
     const Vector out = sumGradients(position, gradientShift(), !object_.isBall() || object_.slants());
     seed_ = nullptr;
     return out;
 }
 
-Vector Path::ownGradient(Real position, Real share) const
+Vector Path::ownGradient(Real position, Real factor) const
 {
-    return (warped_ ? ownOut_ : object_.slopeAt(root() + from(position))) * shiftDown(share * object_.laidSize(), 4);
+    return (warped_ ? ownOut_ : object_.slopeAt(root() + from(position))) * shiftDown(factor * object_.laidSize(), 4);
 }
 
 Real Path::gradientBound() const
@@ -328,7 +332,7 @@ Real Path::gradientBound() const
     // The gradient of a field is 2 f' r / R^2, and r / R is at most r^2 / R^2 + 1/4; 0.1 allows for changes of the gradient itself.
     Real sum(0);
     for (int i = 0; i < touched_; ++i)
-        sum += (Real(0.1) - near_[i]->slope * (near_[i]->t + Real(0.25))) * near_[i]->steepStretch16 * near_[i]->share;
+        sum += (Real(0.1) - near_[i]->slope * (near_[i]->t + Real(0.25))) * near_[i]->steepStretch16 * near_[i]->greatestWeight;
     return shiftDown(sum, 3);
 }
 

@@ -63,7 +63,7 @@ public:
     Real dominance() const;
 
     // Must be called when the lists of `nearby` change.
-    void leave() { asked_ = nullptr; }
+    void forgetList() { asked_ = nullptr; }
 
     // Prepares a neighbour's field along the path of a seed, so that the neighbour alone can be evaluated at positions. There is no
     // current path afterwards.
@@ -103,8 +103,8 @@ public:
     {
         return warped_ ? ownSlope_ * ownChange_ : ownSlope_ * position * shiftUp(restParam_, 1);
     }
-    // For an object whose paths slant: half the gradient of the own t at a position, times the squared size and a share.
-    SELDOM Vector ownGradient(Real position, Real share) const;
+    // For an object whose paths slant: half the gradient of the own t at a position, times the squared size and a factor.
+    SELDOM Vector ownGradient(Real position, Real factor) const;
 
 private:
     struct Part;

@@ -238,7 +238,7 @@ public:
     void run(Real from, Real to);
 
     bool found() const { return found_; }
-    Real push() const { return gradientBound_; }
+    Real gradientBound() const { return gradientBound_; }
     Real inside() const { return inside_; }
     Real outside() const { return outside_; }
     // The least and the greatest excess of the field over the isovalue; and the position and the sample of the least one.
@@ -299,8 +299,8 @@ bool DeepSearch::leaves(const Look& inner, const Look& outer, Real* from)
         return true;
     if (inner.sample.slope <= Real(0) || outer.sample.slope >= Real(0))
         return false;
-    // There is a hill between the two looks. Its top is about where the slope is 0, if it changes linearly.
-    *from += (outer.position - inner.position) * (inner.sample.slope / (inner.sample.slope - outer.sample.slope));
+    // There is a hill between the two looks.
+    *from = turnBetween(inner, outer);
     const Real top = path_.look(*from).excess;
     highest_ = max(highest_, top);
     return top > Real(0);
@@ -356,12 +356,12 @@ bool DeepSearch::scan(const Look& begin, const Look& end)
 
 }  // namespace
 
-Real searchDeep(Path& path, Real* position, Sample* sample, Real* off, Real* push)
+Real searchDeep(Path& path, Real* position, Sample* sample, Real* off, Real* gradientBound)
 {
     const bool hollow = path.all().hollow;
     DeepSearch search(path);
     search.run(hollow ? path.first() : path.last(), hollow ? path.last() : path.first());
-    *push = search.push();
+    *gradientBound = search.gradientBound();
     if (search.found()) {
         bisect(path, search.inside(), search.outside(), position, sample);
         return Real(9);

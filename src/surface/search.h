@@ -13,10 +13,10 @@ constexpr Real VALLEY(0.12);
 // taken there or a short step before.
 bool follow(Path& path, Real* position, Sample* sample);
 
-// Whether a seed is sure to lie inside a neighbour: from COVERED_AT on, or from a certain position farther out, the neighbour is
-// the stronger one, and the path does not leave the surface before. (Where claims are not fields, FAINT_AT is such a place, too.)
-// If so, `*margin` becomes the least amount of the field by which these conditions hold. `*position` and `*sample` become those of
-// the last of these positions that was evaluated.
+// Whether a seed lies inside a neighbour, judged at a few positions: from COVERED_AT on, or from a certain position farther out,
+// the neighbour is the stronger one, and the path does not leave the surface before. (Where claims are not fields, FAINT_AT is such
+// a place, too.) If so, `*margin` becomes the least amount of the field by which these conditions hold. `*position` and `*sample`
+// become those of the last of these positions that was evaluated.
 bool isInside(Path& path, Real* position, Sample* sample, Real* margin);
 
 // Searches for the first position where the path leaves the surface. `*position` and `*sample` become that position and the sample
@@ -27,8 +27,9 @@ Real search(Path& path, Real* position, Sample* sample);
 // Searches the path of a weak object, or of one that something digs into, for the last position where it leaves the surface,
 // because the surface there hides the surface farther in. On a path that samples a hollow it searches for the first one. Positions
 // where a neighbour is the stronger one count only if there are no others. Where there is none at all, `*off` becomes the amount of
-// the field by which the path misses the surface; `*push` bounds the change of that when the neighbours come nearer by one unit.
-SELDOM Real searchDeep(Path& path, Real* position, Sample* sample, Real* off, Real* push);
+// the field by which the path misses the surface. `*gradientBound` bounds the change of that when the neighbours come nearer by one
+// unit.
+SELDOM Real searchDeep(Path& path, Real* position, Sample* sample, Real* off, Real* gradientBound);
 
 // Finds where the path of a seed comes back to the surface that it left at the seed. Returns false when the field falls far below
 // the isovalue first, when the path does not come back soon, or so soon that the two positions cannot be told apart.

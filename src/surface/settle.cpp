@@ -14,7 +14,7 @@ namespace {
 constexpr Real BORDER(0.25);
 // A path through a hollow that leaves the surface beyond this position does not enter it again.
 constexpr Real OUTERMOST(0.8);
-// A field of strength 1 changes by no more than this over a length of the object's size.
+// A field of strength 1 is taken to change by this over a length of the object's size. (Where it is steepest it changes by 1.6.)
 constexpr Real STEEPEST(1.3);
 // A patch is taken to face away if its middle does so by this cosine (1.0 = 2^14) plus the spread of its normals.
 constexpr int32_t TURNED = 500;
@@ -26,7 +26,7 @@ constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000, FAR_AWAY = 7500;
 // In units of the field. If the field in the middle of a path is so far below the isovalue no other object is likely to raise it to
 // an island; and where a neighbour is stronger by as much, the island belongs to the neighbour.
 constexpr Real LEFT_ALONE(-0.2);
-// In one of this many frames all seeds of a patch are settled; in the others some wait.
+// In one of this many frames all seeds of a stirred patch are settled; in the others some wait.
 constexpr uint32_t TURNS = 4;
 // Margin of the range of positions that the seeds of a patch are in. A seed that leaves the range is settled in the fields of all
 // neighbours on the patch's list.
@@ -294,7 +294,7 @@ static Real enough(const Patch& patch, Real size)
 bool Settler::setPatch(const Patch& patch, bool oversampled)
 {
     patch_ = &patch;
-    path_.leave();
+    path_.forgetList();
     const bool reached = nearby_.setPatch(patch, oversampled);
     hurries_ = travelled_ > min(HURRY, shiftDown(nearby_.smallest(), 2));
     turn_ = hurries_ || nearby_.dented() ? 0 : (static_cast<uint32_t>(patch.centre) / 2 + updates_) % TURNS;
@@ -427,12 +427,12 @@ inline const Seed* Settler::parted(const Seed& s) const
 
 namespace {
 
-// These end seeds that are not needed any more: the fine seeds of regular seed i, without or with those on islands; its seeds on
-// islands only; its oversampled and fine seeds; all such seeds of a patch.
-void putAwayFine(SoftObject& object, int i, int end = SoftObject::FINE_ISLAND)
+// These end seeds that are not needed any more: the fine seeds of regular seed i, but for those on islands; its seeds on islands;
+// its oversampled and fine seeds; those of a patch.
+void putAwayFine(SoftObject& object, int i)
 {
     Seed* const fine = object.fine(i);
-    for (int which = 0; which < end && fine != nullptr; ++which)
+    for (int which = 0; which < SoftObject::FINE_ISLAND && fine != nullptr; ++which)
         fine[which].flags = 0;
 }
 
@@ -451,13 +451,9 @@ void putAway(SoftObject& object, int i)
 
 void putAway(SoftObject& object, Patch& patch)
 {
-    if (patch.extras || patch.islands)
-        forSeeds(object, patch, [&](const Seed& s) {
-            const int i = object.slotOf(s);
-            putAway(object, i);
-            putAwayFine(object, i, SoftObject::FINE_SEEDS);
-        });
-    patch.extras = patch.fine = patch.islands = false;
+    if (patch.extras)
+        forSeeds(object, patch, [&](const Seed& s) { putAway(object, object.slotOf(s)); });
+    patch.extras = patch.fine = false;
 }
 
 }  // namespace
@@ -581,7 +577,7 @@ bool Settler::mayHaveIslands(const Patch& patch) const
 void Settler::settleIslands(Patch& patch)
 {
     setPatch(patch);
-    const bool may = mayHaveIslands(patch), had = patch.islands;
+    const bool may = patch.state != PATCH_INSIDE && mayHaveIslands(patch), had = patch.islands;
     if (may && !had && (turn_ & 1) != 0)
         return;
     patch.islands = false;

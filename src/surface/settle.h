@@ -52,8 +52,8 @@ public:
     // must be settled before. It calls setPatch() itself.
     void oversample(Patch& patch);
 
-    // Whether paths of the object may lead through islands of the surface; and settles the seeds on the islands of a patch,
-    // whatever its state but PATCH_INSIDE.
+    // Whether paths of the object may lead through islands of the surface; and settles the seeds on the islands of a patch. A patch
+    // that is PATCH_INSIDE loses its islands.
     bool hasIslands() const { return heavy_; }
     SELDOM void settleIslands(Patch& patch);
 
@@ -101,7 +101,7 @@ private:
     // For dents and hollows only (hollow.cpp):
     SELDOM bool findDented(Seed& s, Vector* g);
     SELDOM bool hasClosed(const Seed& s);
-    void putOff(Seed& s, Real hold, Real push) const;
+    void putOff(Seed& s, Real hold, Real gradientBound) const;
     static bool isOff(const Patch& patch, const Seed& s);
     SELDOM PatchState probeOff(const Patch& patch, Seed& s) const;
 
@@ -120,7 +120,7 @@ private:
     const Seed* const last_;  // the last regular seed
     const Patch* patch_ = nullptr;  // the current patch
     bool hurries_ = false;  // neighbours travel so far in a frame that nothing holds from the frame before
-    uint32_t turn_ = 0;     // 0..3: tells whose turn it is among the seeds of the patch that wait; in turn 0 none waits
+    uint32_t turn_ = 0;     // 0..3: tells whose turn it is among the seeds of the patch that wait; 0: none of a stirred patch do
     Real border_;           // a neighbour whose field is weaker than the own one by less than this has its border near
     Real alike_;            // seeds whose positions differ by more have parted
     Real open_, openNext_, openFine_;  // LEFT_OPEN, LEFT_OPEN_NEXT and LEFT_OPEN_FINE, units
