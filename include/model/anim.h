@@ -12,8 +12,8 @@ class Model;
 // Animation time in 1/65536 s since the start; 48 bits are used.
 typedef uint64_t Time;
 
-// The space of the model: no coordinate of a centre or of the eye exceeds this (units, either sign), so that every distance
-// fits 16.16 and nothing lies beyond the far end of the Z-buffer.
+// The space of the model: no coordinate of a centre or of the eye exceeds this (units, either sign), so that the distance between
+// any two of them fits 16.16. What is too far from the eye for the Z-buffer is not drawn.
 constexpr int SPACE = 250;
 
 // The range of the factor by which parents, pulses and keys together scale an object's size.

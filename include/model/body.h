@@ -45,10 +45,11 @@ public:
     // of their body, as far as the object can reach it, and the objects that dig into the body.
     void spreadRecalc() const;
 
-    // The objects that an object is linked with at weight 1: one bit for each slot, in LINK_WORDS words.
+    // The objects whose factor in the sum of an object is 1 (weight()): one bit for each slot, in LINK_WORDS words.
     const uint32_t* plainLinks(int slot) const { return bySlot_[slot].plain; }
     static constexpr int LINK_WORDS = 4;
-    // Returns true if all members of the body are linked with each other at weight 1, and no other object digs into the body.
+    // Returns true if every member of the body counts in the sum of every other with a factor of 1, and no other object digs into
+    // the body.
     bool plainBody(int slot) const { return bySlot_[slot].plainBody; }
     // The greatest weight of the object's links; 0 if it has no links.
     Real heaviest(int slot) const { return bySlot_[slot].heaviest; }

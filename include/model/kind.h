@@ -27,7 +27,7 @@ struct Kind {
     // be null: then any measures fit.
     const char* (*expects)(const Real* measures);
 
-    // Upper bound of the distance of the surface from the centre, units.
+    // Upper bound of the distance of the surface from the centre, units, for a strength of 1.
     Real (*reach)(const Real* measures);
 };
 

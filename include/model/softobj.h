@@ -15,7 +15,7 @@ class SoftObject;
 struct Paint;
 
 // Limits of the factor by which an object may be stretched along each of its own axes, and the greatest distance from its
-// centre that a stretched surface may reach (units, before any scaling).
+// centre that a stretched surface of strength 1 may reach (units, before any scaling).
 constexpr Real STRETCH_LEAST(0.25);
 constexpr Real STRETCH_MOST(4);
 constexpr int STRETCHED_REACH = 100;
@@ -278,8 +278,8 @@ public:
     const List<Link>& digs() const { return digs_; }
     // Returns true if the object has a surface of its own: it blends with another or digs into none. Weights of 0 do not count.
     bool hasSurface() const;
-    // The object whose hollow this object's seeds sample: the first it digs into, if this object has no surface of its own.
-    // Else null.
+    // The object whose hollow this object's seeds sample: of those it digs into, the one with the lowest number, if this object
+    // has no surface of its own. Else null.
     const SoftObject* hollowed() const { return hollowLink() == nullptr ? nullptr : hollowLink()->object; }
     // The object whose colour and paint this surface shows: itself, or the one with the hollow. Null if there is no surface.
     const SoftObject* shown() const { return hasSurface() ? this : hollowed(); }

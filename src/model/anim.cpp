@@ -2,6 +2,7 @@
 #include "model/anim.h"
 
 #include "model/model.h"
+#include "model/round.h"
 
 namespace {
 
@@ -11,12 +12,6 @@ constexpr Vector X_AXIS{Real(1), Real(0), Real(0)}, Y_AXIS{Real(0), Real(1), Rea
 struct Keyed {
     Real value[Key::VALUES];
 };
-
-// a * top / bottom for 0 <= top <= bottom, computed without overflow.
-Real share(Real a, int32_t top, int32_t bottom)
-{
-    return realFromRaw(mulDiv(rawFromReal(a), top, bottom));
-}
 
 // Converts a time of the animation to one of the keys: modulo `repeat`, or clamped to the last key.
 int32_t keyTime(const Key* keys, const Motion& motion, Time time)
@@ -65,7 +60,7 @@ Keyed smoothly(const KeyRow& row, int index, Real s)
 {
     const Key &from = row.key(index), &to = row.key(index + 1);
     const int64_t start = row.timeOf(index), end = row.timeOf(index + 1);
-    const int32_t wide = static_cast<int32_t>(end - start);
+    const int32_t span = static_cast<int32_t>(end - start);
     const Real s2 = s * s, s3 = s2 * s;
     const Real onto = s2 * Real(3) - s3 * Real(2);
     const Real outSlope = s3 - s2 * Real(2) + s, inSlope = s3 - s2;
@@ -77,8 +72,8 @@ Keyed smoothly(const KeyRow& row, int index, Real s)
     Keyed now;
     for (int i = 0; i < Key::VALUES; ++i) {
         const Real a = from.value[i], b = to.value[i];
-        const Real slopeFrom = before ? share(b - previous.value[i], wide, aroundFrom) : Real(0);
-        const Real slopeTo = after ? share(next.value[i] - a, wide, aroundTo) : Real(0);
+        const Real slopeFrom = before ? portion(b - previous.value[i], span, aroundFrom) : Real(0);
+        const Real slopeTo = after ? portion(next.value[i] - a, span, aroundTo) : Real(0);
         now.value[i] = a + (b - a) * onto + slopeFrom * outSlope + slopeTo * inSlope;
     }
     return now;
@@ -103,14 +98,12 @@ Keyed keyed(const Key* keys, const Motion& motion, Time time)
         return linearly(only, only, Real(0));
     }
     const int64_t start = row.timeOf(index);
-    const int32_t wide = static_cast<int32_t>(row.timeOf(index + 1) - start);
-    if (wide == 0)
-        return linearly(row.key(index), row.key(index + 1), Real(0));
-    const Real s = realFromRaw(mulDiv(static_cast<int32_t>(t - start), 65536, wide));
+    const int32_t span = static_cast<int32_t>(row.timeOf(index + 1) - start);
+    const Real s = realFromRaw(mulDiv(static_cast<int32_t>(t - start), 65536, span));
     return motion.smooth ? smoothly(row, index, s) : linearly(row.key(index), row.key(index + 1), s);
 }
 
-Real limited(Real a)
+Real inSpace(Real a)
 {
     return clamp(a, Real(-SPACE), Real(SPACE));
 }
@@ -264,15 +257,15 @@ void Anim::move(Model& model, Time time)
             const Actor* parent = model.itemNumbered(actor.motion.parent);
             if (parent != nullptr) {
                 // Limited before it is turned and scaled, so that no product overflows 16.16.
-                const Vector arm{limited(pose.place.x), limited(pose.place.y), limited(pose.place.z)};
+                const Vector arm{inSpace(pose.place.x), inSpace(pose.place.y), inSpace(pose.place.z)};
                 pose.place = parent->pose.place + parent->pose.turn * (arm * parent->pose.scale);
                 // Most items have no turn of their own, which saves a matrix product.
-                const bool turns = !sameTurn(pose.turn, Matrix::identity());
-                pose.turn = turns ? parent->pose.turn * pose.turn : parent->pose.turn;
+                const bool hasTurn = !sameTurn(pose.turn, Matrix::identity());
+                pose.turn = hasTurn ? parent->pose.turn * pose.turn : parent->pose.turn;
                 pose.scale = clamp(pose.scale * parent->pose.scale, SCALE_LEAST, SCALE_MOST);
             }
         }
-        pose.place = {limited(pose.place.x), limited(pose.place.y), limited(pose.place.z)};
+        pose.place = {inSpace(pose.place.x), inSpace(pose.place.y), inSpace(pose.place.z)};
         const bool turned = !sameTurn(pose.turn, actor.pose.turn);
         actor.pose = pose;
         if (actor.object == nullptr)
@@ -281,7 +274,8 @@ void Anim::move(Model& model, Time time)
         object.place(pose.place, actor.made * pose.scale);
         if ((actor.motion.parts & MOTION_WARP) != 0 || object.warped())
             object.setWarp(warpAt(actor.motion, time));
-        if (turned && (!object.isBall() || actor.coat.pattern != PATTERN_NONE))
+        // A ball is turned only for its pattern or warp. Both may begin while its turn stays the same.
+        if ((turned && !object.isBall()) || actor.coat.pattern != PATTERN_NONE || (actor.motion.parts & MOTION_WARP) != 0)
             object.setTurn(pose.turn);
     }
     moveEye(model);

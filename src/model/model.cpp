@@ -161,7 +161,9 @@ void Model::remove(Actor* item)
         for (int i = 0; i < count_; ++i) {
             if (actors_[i] == item)
                 continue;
-            actors_[i]->object->unlink(item->object);
+            unlink(actors_[i]->object, item->object);
+            undent(actors_[i]->object, item->object);
+            undent(item->object, actors_[i]->object);
             actors_[after++] = actors_[i];
         }
         count_ = after;
@@ -547,7 +549,8 @@ Real fieldOf(const Bodies& bodies, const Part& one, const Part* parts, const Par
         for (const Part* other = parts; other < end; ++other)
             weighted += other->field * bodies.weight(part->slot, other->slot);
         const Real share = quotient(part->field, most), square = share * share;
-        above += square * weighted;
+        // Far inside the body the sum of so many might overflow.
+        above += square * clamp(weighted, Real(-240), Real(240));
         squares += square;
     }
     return plain ? sum : squares > Real(0) ? above / squares : Real(0);

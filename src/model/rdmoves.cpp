@@ -112,19 +112,20 @@ bool Reader::circle()
     Timing timing;
     Real radius(0);
     int first = 0, second = 1;  // axes of the plane of the circle
-    bool round = false, across = false, down = false;
+    bool radiusGiven = false, planeGiven = false, uGiven = false, vGiven = false;
     while (nextWord()) {
         bool good;
         if (is("radius")) {
-            round = true;
+            radiusGiven = true;
             good = readReal("a radius", Real(0), Real(SPACE), &radius);
         } else if (is("plane")) {
+            planeGiven = true;
             good = readPlane(&first, &second);
         } else if (is("u")) {
-            across = true;
+            uGiven = true;
             good = readPlace("an arm, ", &move.a);
         } else if (is("v")) {
-            down = true;
+            vGiven = true;
             good = readPlace("an arm, ", &move.b);
         } else if (isTiming()) {
             good = readTiming(row, &timing);
@@ -134,9 +135,11 @@ bool Reader::circle()
         if (!good)
             return false;
     }
-    if (round == (across && down) || across != down)
+    if (radiusGiven == uGiven || uGiven != vGiven)
         return expected("a radius, or both u and v");
-    if (round) {
+    if (planeGiven && !radiusGiven)
+        return expected("a plane only beside a radius");
+    if (radiusGiven) {
         along(move.a, first) = radius;
         along(move.b, second) = radius;
     }
@@ -224,14 +227,14 @@ bool Reader::turning(MotionPart part)
     Move move;
     move.part = part;
     Timing timing;
-    bool pointed = false, wide = !swings;
+    bool axisGiven = false, angleGiven = !swings;
     while (nextWord()) {
         bool good;
         if (is("axis")) {
-            pointed = true;
+            axisGiven = true;
             good = readDirection("an axis, ", &move.a);
         } else if (swings && is("angle")) {
-            wide = true;
+            angleGiven = true;
             good = readReal("degrees", -DEGREES_MOST, DEGREES_MOST, &move.amount);
         } else if (isTiming()) {
             good = readTiming(row, &timing);
@@ -244,8 +247,8 @@ bool Reader::turning(MotionPart part)
         if (!good)
             return false;
     }
-    if (!pointed || !wide || !timing.given)
-        return expected(!pointed ? "axis" : !wide ? "angle" : "period");
+    if (!axisGiven || !angleGiven || !timing.given)
+        return expected(!axisGiven ? "axis" : !angleGiven ? "angle" : "period");
     return addMoves(row, move, timing);
 }
 

@@ -311,10 +311,11 @@ const Link* SoftObject::hollowLink() const
 {
     if (digs_.empty() || hasSurface())
         return nullptr;
-    const List<Link>::Node* node = digs_.first();
-    while (node->item.weight == Real(0))
-        node = node->next;
-    return node->item.object->hasSurface() ? &node->item : nullptr;
+    const Link* first = nullptr;
+    for (const List<Link>::Node* node = digs_.first(); node != nullptr; node = node->next)
+        if (node->item.weight != Real(0) && (first == nullptr || node->item.object->number() < first->object->number()))
+            first = &node->item;
+    return first->object->hasSurface() ? first : nullptr;
 }
 
 // --- The field

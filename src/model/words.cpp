@@ -128,10 +128,6 @@ bool Words::nextLine(bool* there)
     if (over_)
         return true;
     ++line_;
-    if (line_ > SCENE_LINES_MOST) {
-        word_ = "one more line";
-        return expectedAtMost(SCENE_LINES_MOST, "lines");
-    }
     for (int characters = 0;; ++characters) {
         const int c = source_.next();
         if (c == UNREADABLE) {
@@ -151,7 +147,10 @@ bool Words::nextLine(bool* there)
     }
     text_[length] = 0;
     *there = some;
-    return true;
+    if (!some || line_ <= SCENE_LINES_MOST)
+        return true;
+    word_ = "one more line";
+    return expectedAtMost(SCENE_LINES_MOST, "lines");
 }
 
 bool Words::tooLong(int length)
@@ -175,6 +174,8 @@ bool Words::nextWord(bool hash)
     while (*at_ != ' ' && *at_ != 0 && (*at_ != '#' || (hash && length == 0))) {
         if (length < WORD_ROOM - 1)
             room_[length++] = *at_ >= 'A' && *at_ <= 'Z' ? static_cast<char>(*at_ + 32) : *at_;
+        else
+            room_[length - 1] = '?';  // nothing that is read is that long
         ++at_;
     }
     room_[length] = 0;

@@ -10,7 +10,7 @@ const char* const WARP_WORDS[WARP_PARTS] = {"taper", "twist", "bend"};
 const char* const AXIS_WORDS[3] = {"x", "y", "z"};
 
 // The order in which periodic motions are written.
-const MotionPart ROUND_PARTS[] = {MOTION_CIRCLE, MOTION_PATH, MOTION_SPIN, MOTION_SWING, MOTION_PULSE};
+const MotionPart PERIODIC_PARTS[] = {MOTION_CIRCLE, MOTION_PATH, MOTION_SPIN, MOTION_SWING, MOTION_PULSE};
 
 // Copies the first motion of a part other than a path to `*move`. Returns false if there is none.
 bool firstMove(const Motion& m, MotionPart part, Move* move)
@@ -79,16 +79,8 @@ Writer& Writer::word(const char* text)
 // Writes the shortest text that reads back as the value.
 Writer& Writer::number(Real value)
 {
-    const int32_t raw = rawFromReal(value);
     char text[24];
-    text[0] = '-';
-    char* digits = raw < 0 ? text + 1 : text;
-    for (int decimals = 0; decimals <= 6; ++decimals) {
-        formatQuotient(digits, 20, static_cast<uint32_t>(raw < 0 ? -raw : raw), 65536, decimals);
-        Real back;
-        if (parseReal(text, &back) && back == value)
-            break;
-    }
+    formatReal(text, sizeof text, value);
     return word(text);
 }
 
@@ -224,7 +216,7 @@ void Writer::coat(const Actor& actor)
 void Writer::motion(const Actor& actor)
 {
     const Motion& m = actor.motion;
-    for (MotionPart part : ROUND_PARTS) {
+    for (MotionPart part : PERIODIC_PARTS) {
         Move first;
         if (part == MOTION_PATH)
             path(actor);

@@ -531,6 +531,20 @@ ok "not into the group that it carries" alike 0 5
 ok "the colour done again" alike 1 6
 ok "no larger ring even so" alike 1 7
 ok "and the colour undone" alike 0 8
+# What an object has dug closes when the object is deleted.
+printf 'sphere far size 10 at 60 0 0\nsphere one size 40 at 0 0 10\n' >whole.fb
+{ echo "sphere dig size 20"; cat whole.fb; echo "dent one dig"; } >dug.fb
+play 6 /M:whole.fb </dev/null
+mv d whole
+for switches in "" /P; do
+	# shellcheck disable=SC2086
+	play 6 /M:dug.fb $switches <<'END'
+2 key DEL
+END
+	ok "the hollow closes $switches" sh -c '! cmp -s d/F0000001.Z d/F0000005.Z'
+	[ -n "$switches" ] || ok "as if it had never been" cmp d/F0000005.Z whole/F0000005.Z
+done
+rm -rf whole
 # Strengths and dents
 play 16 /M:one.fb <<'END'
 1 key i

@@ -374,6 +374,20 @@ bool append(void* to, const char* line)
     return true;
 }
 
+// A ball has a turn only where that shows, and then at once.
+void turnedBalls()
+{
+    const std::string ball = "sphere b size 60 turn 0 0 90\n";
+    for (const char* more : {"taper b 0 swing 0.7 period 4", "taper b 0.1", "pattern b stripes 6 red"}) {
+        Model model;
+        check(read(ball + more, model) == nullptr, more);
+        Anim::move(model, 0);
+        Anim::move(model, at(1));
+        const Vector x = model.itemNamed("b")->object->turn() * Vector{Real(1), Real(0), Real(0)};
+        check(std::fabs(number(x.y) - 1) < 0.01, std::string("turned: ") + more);
+    }
+}
+
 // Strengths, and objects that dig into others.
 void dents()
 {
@@ -413,6 +427,13 @@ void dents()
         puts(wrong);
     writeSceneText(append, &second, again);
     check(wrong == nullptr && first == second, "and read back as the same");
+
+    // The order of the lines does not matter.
+    for (const char* lines : {"dent one dig\ndent two dig", "dent two dig\ndent one dig"}) {
+        Model two;
+        read(std::string("sphere one size 30\nsphere two size 30 at 20 0 0\nsphere dig size 20\n") + lines, two);
+        check(two.itemNamed("dig")->object->hollowed() == two.itemNamed("one")->object, std::string("the hollow of the first: ") + lines);
+    }
 
     refused(S + "dent s", "T.FB:2: end of line: expected the name of a second object");
     refused(S + "dent", "T.FB:2: end of line: expected the name of an object");
@@ -764,6 +785,7 @@ void complaints()
     refused(S + "circle s radius 1", "T.FB:2: end of line: expected period");
     refused(S + "circle s period 1", "T.FB:2: end of line: expected a radius, or both u and v");
     refused(S + "circle s u 1 0 0 period 1", "T.FB:2: end of line: expected a radius, or both u and v");
+    refused(S + "circle s plane yz u 1 0 0 v 0 1 0 period 1", "T.FB:2: end of line: expected a plane only beside a radius");
     refused(S + "circle s radius 2 plane xx period 1", "T.FB:2: 'xx': expected xy, yz, zx, yx, zy or xz");
     refused(S + "circle s radius 2 period 0.05",
             "T.FB:2: '0.05': expected 0.1 seconds or more, or -0.1 or less to go backwards");
@@ -812,6 +834,8 @@ void limits()
     refused(S + "circle" + std::string(250, ' ') + "s\n",
             "T.FB:2: 'circle              ...': expected a line of at most 250 characters");
     taken(S + std::string(31998, '\n') + "#", "32000 lines");
+    taken(S + std::string(31998, '\n') + "#\n", "32000 lines, the last one ended");
+    refused("sphere s size 20." + std::string(40, '0') + "abc", "T.FB:1: '20.000000000000000000000000000?': expected size from 1 to 100");
     refused(S + std::string(31999, '\n') + "#\n", "T.FB:32001: 'one more line': expected at most 32000 lines");
     taken(S + repeated(8, "blend all # %d\n"), "8 times blend all");
     refused(S + repeated(9, "blend all # %d\n"), "T.FB:10: 'all': expected blend all in at most 8 lines");
@@ -881,6 +905,7 @@ int main()
     paints();
     rows();
     saved();
+    turnedBalls();
     dents();
     safety();
     links();
