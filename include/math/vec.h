@@ -37,6 +37,19 @@ constexpr Vector cross(const Vector& a, const Vector& b)
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+// dot(a, b) / 2^shift for vectors of which only one is short (components below 8192); in 16.16 it is limited to the range. `shift`
+// is at most 15.
+#if FB_REAL == FB_FIXED
+inline Real dotDown(const Vector& a, const Vector& b, int shift)
+{
+    const int64_t product = int64_t(a.x.raw) * b.x.raw + int64_t(a.y.raw) * b.y.raw + int64_t(a.z.raw) * b.z.raw;
+    const int64_t raw = product >> (16 + shift);
+    return Real::fromRaw(static_cast<int32_t>(raw > INT32_MAX ? INT32_MAX : raw < -INT32_MAX ? -INT32_MAX : raw));
+}
+#else
+inline Real dotDown(const Vector& a, const Vector& b, int shift) { return shiftDown(dot(a, b), shift); }
+#endif
+
 // The square of a length, for components of any size in range: it allows lengths to be compared without square roots.
 #if FB_REAL == FB_FIXED
 typedef uint64_t Square;

@@ -135,7 +135,7 @@ struct Lens {
                                        // screen, so a scale that does not enlarge it needs no test against the screen's edges
     int32_t empty;                     // in and out: counts voxels that cover no pixel's centre on the screen
     uint32_t tiltAdd, tiltBits;        // set by limitTilts()
-    int32_t focalX, focalY;            // focal lengths, 64 to 500 pixels, 12 fraction bits
+    int32_t focalX, focalY;            // focal lengths, pixels with 12 fraction bits
 };
 
 // Computes the factors of a depth nearer than the table; scales that near are few, and large. Returns false when the depth is

@@ -29,8 +29,8 @@ public:
     // Allocates the buffers. Returns false when there is no memory.
     bool open();
 
-    // Sets the camera; 64 <= focal lengths <= 500 pixels. A camera that has only moved or turned costs nothing, because the table
-    // of factors stays valid.
+    // Sets the camera, with focal lengths of FOCAL_LEAST..FOCAL_MOST pixels (model/scene.h); below about 15, steep scales get wrong
+    // depths. A camera that has only moved or turned costs nothing, because the table of factors stays valid.
     void setCamera(const Camera& camera);
     const Camera& camera() const { return camera_; }
 
@@ -66,9 +66,8 @@ public:
     // when all objects are drawn and before anything is drawn over them. Does nothing when voxels are drawn as single pixels.
     // With a model, real openings stay open: gaps wider than two pixels half way across which the model has no surface within
     // about a unit. Where scales have missed the model's surface it is drawn (missed.h). With a palette as well, pixels filled
-    // between two objects get the colour of the object whose field is the stronger there. Returns the number of pixels that were
-    // drawn before gaps were closed.
-    int closeGaps(Real spacing, const Model* model = nullptr, const Palette* palette = nullptr);
+    // between two objects get the colour of the object whose field is the stronger there.
+    void closeGaps(Real spacing, const Model* model = nullptr, const Palette* palette = nullptr);
 
     // The point of the world that a pixel (row * WIDTH + column) shows: at its own depth, or at a given one (1/128 unit).
     Point pointAt(int pixel) const { return pointAt(pixel, zbuffer_[pixel]); }

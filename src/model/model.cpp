@@ -562,10 +562,12 @@ Real Model::implicitAt(const Point& p, int* strongest) const
 {
     Part parts[OBJECTS_MOST], *end = parts;
     Real most(0), highest(0);
-    *strongest = -1;
+    // Copied, because most objects are far: the loop is quicker where nothing that it writes may be the point.
+    const Point at = p;
+    int best = -1;
     for (int i = 0; i < count_; ++i) {
         const SoftObject& object = *actors_[i]->object;
-        if (object.isFar(p))
+        if (object.isFar(at))
             continue;
         const Real field = object.fieldFunc(p);
         if (field <= Real(0))
@@ -573,9 +575,10 @@ Real Model::implicitAt(const Point& p, int* strongest) const
         *end++ = {i, object.hasSurface() && bodiesKnown_ ? bodies_.members(object) : nullptr, field};
         if (object.hasSurface() && field > most) {
             most = field;
-            *strongest = i;
+            best = i;
         }
     }
+    *strongest = best;
     SoftObject* const* last = nullptr;
     for (const Part* part = parts; part < end; ++part)
         if (part->body != nullptr && part->body != last) {

@@ -105,9 +105,8 @@ void Gaps::noteBeyond(int y, const Span& columns)
     missed_.note(to - 1, y);
 }
 
-int Gaps::close()
+void Gaps::close()
 {
-    int drawn = 0;
     // Divided by a depth of the Z-buffer, this is the spacing of the seeds in pixels.
     const int32_t near = mulShift16(rawFromReal(view_.camera().focalX) >> 4, rawFromReal(spacing_)) >> 5;
     Span runs[WIDTH / 2];
@@ -121,7 +120,6 @@ int Gaps::close()
         int last = 0;  // one past the end of the previous run; 0 before the first
         for (const Span* run = runs; run < end; ++run) {
             const int from = run->from;
-            drawn += run->to - from;
             if (last > 0 && from - last <= GAP_MOST) {
                 const int before = zbuffer_[y * WIDTH + last - 1], behind = zbuffer_[y * WIDTH + from];
                 closeRun(y, last, from, near / ((before > behind ? before : behind) | 1));
@@ -138,7 +136,6 @@ int Gaps::close()
             closeSlit(y, last, WIDTH, 1);
     }
     missed_.draw();
-    return drawn;
 }
 
 // Closes the gap of columns `from` to before `to` between drawn pixels. The seeds there lie `spacing` pixels apart.

@@ -13,8 +13,7 @@ public:
     {
     }
 
-    // Closes the gaps. Returns the number of pixels that were drawn before.
-    int close();
+    void close();
 
 private:
     // The objects that the drawn pixels on both sides of a gap belong to; both are -1 where that does not matter.

@@ -312,9 +312,10 @@ int View::showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool 
     return undrawn;
 }
 
-int View::closeGaps(Real spacing, const Model* model, const Palette* palette)
+void View::closeGaps(Real spacing, const Model* model, const Palette* palette)
 {
-    return pixels_ ? 0 : Gaps(*this, model, palette, spacing).close();
+    if (!pixels_)
+        Gaps(*this, model, palette, spacing).close();
 }
 
 Point View::pointAt(int pixel, int depth) const

@@ -7,6 +7,10 @@ namespace {
 
 // In units of the field: what missing links take away counts only above NEGLIGIBLE; no field below NOTHING is divided by.
 constexpr Real NEGLIGIBLE(0.002), NOTHING(0.0005);
+// Among more members than this the sum over all pairs might overflow, unless their fields are scaled to 0.5.
+constexpr int CROWD = 64;
+// So far inside the body, in units of the field, it does not matter how far.
+constexpr Real DEEP(240);
 
 // A member of the body that has a field f at the position; `lack` is dD/df (see findLacks()).
 struct Linked {
@@ -60,15 +64,16 @@ void Path::blend(Real position, Sample& sample)
             add(near.value, near.weights, near.slot, i);
     }
     // In a crowd all fields are small: they are scaled up, because their squares would lose too many digits.
-    const bool faint = strongest < Real(0.125) && strongest > Real(0);
-    for (Linked* a = parts; a < end && faint; ++a)
-        a->f = quotient(a->f, strongest);
+    const bool crowd = end - parts > CROWD, scaled = crowd || (strongest < Real(0.125) && strongest > Real(0));
+    const Real one = crowd ? strongest + strongest : strongest;
+    for (Linked* a = parts; a < end && scaled; ++a)
+        a->f = quotient(a->f, one);
     Real squares(0);
     const Real lacks = findLacks(parts, end, &squares);
     if (absolute(lacks) <= squares * NEGLIGIBLE)
         return;
     const Real inverse = quotient(Real(1), squares), lack = lacks * inverse, twice = lack + lack;
-    sample.excess -= faint ? lack * strongest : lack;
+    sample.excess -= scaled ? lack * one : lack;
     shared_ = true;
     for (const Linked* a = parts; a < end; ++a) {
         const Real lost = (a->lack - a->f * twice) * inverse;
@@ -281,7 +286,7 @@ void Path::blendOdd(Parts& parts, Sample& sample)
         slope += share_[digger->index] * digger->rate;
     }
     for (const Part* a = parts.members; a < parts.end; ++a)
-        above += a->x2 * a->g;
+        above += a->x2 * clamp(a->g, -DEEP, DEEP);
     const Real field = above * share;
     for (const Part* a = parts.members; a < parts.end; ++a) {
         share_[a->index] = (a->x * (a->g - field) * twice + a->x2 + a->linked) * share;

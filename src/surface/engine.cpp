@@ -46,7 +46,7 @@ private:
     SoftObject& object_;
 
     Odometer odometer_;
-    uint32_t updates_ = 0;
+    uint32_t updates_ = 0, draws_ = 0;
     bool allRests_ = false;  // all seeds were at rest after the last update
     Patch* patches_ = nullptr;
     int count_ = 0;
@@ -228,7 +228,9 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
         return;
     }
     const Paint* const paint = shown->paint();
-    const int at = shadePatches(object_, own, frame, patches_, count_, *next, static_cast<int>(updates_ & 0xffff), list, room);
+    if (*next == 0)
+        ++draws_;
+    const int at = shadePatches(object_, own, frame, patches_, count_, *next, static_cast<int>(draws_ & 0xffff), list, room);
     *next = at < count_ ? at : 0;
     // An object that is shown in another ramp than its own, as when it is selected, shows no colours of its paint.
     if (paint != nullptr && shown->ramp() == paint->ramp)

@@ -31,8 +31,17 @@ SELDOM void aimShaped(Neighbour& near)
     near.size16 = (rawFromReal(near.size * narrowing) >> 12) + 1;
 }
 
-// A neighbour is coarse (gather.h) where this is exceeded: 2^15 / CORE_SIZE / 32, and a margin.
-constexpr Real COARSE(60);
+// Tangent of half the angle of the widest view whose sides are looked at: wider ones would leave 16.16.
+constexpr Real WIDEST(32);
+
+// A neighbour whose size is a smaller part than this of the distance over which it might be felt is left out: it is too small to be
+// seen, and core space as large as that distance would leave 16.16.
+constexpr Real UNSEEN(0.002);
+
+static SELDOM bool isUnseen(const SoftObject& object, const SoftObject& other)
+{
+    return other.size() < (object.reach() + other.reach()) * UNSEEN;
+}
 
 // No neighbour of this size or more is tiny, unless the object's paths are longer than LONG_PATH; units.
 constexpr Real SMALL(6), LONG_PATH(50);
@@ -63,9 +72,6 @@ void aim(const SoftObject& object, bool tiny, Neighbour& near)
     near.along16 = near.toCore[1];
     if (other.shaped())
         aimShaped(near);
-    // Half a gradient times a path must stay below 2^15.
-    const Real step = shiftDown(object.longestPath(), 5) * near.stretch16, stretch = near.stretch16 / near.inverse16;
-    near.coarse = min(step, COARSE + Real(1)) * min(stretch, COARSE + Real(1)) > COARSE;
     near.direction = object.toOwnAxes({turn.m[0][1], turn.m[1][1], turn.m[2][1]});
     near.axis[0] = rawFromReal(near.direction.x) >> 2;
     near.axis[1] = rawFromReal(near.direction.y) >> 2;
@@ -86,7 +92,8 @@ static void setSides(const SoftObject& object, const FrameContext& frame, const 
 {
     own.sideCount = 0;
     own.outOfSight = false;
-    if (frame.sideways == Real(0))
+    // Nothing that matters is outside so wide a view.
+    if (frame.sideways == Real(0) || frame.sideways > WIDEST)
         return;
     // As far as seeds can be pulled out, and a margin for the size of scales.
     const Real reached = object.reach() + object.spacing() * Real(2);
@@ -252,6 +259,11 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         if (other.size() > large || other.size() < small || weight > Real(1)) {
             setClaims(object, weight, near);
             claims |= near.claim < Real(1) || near.ownClaim < Real(1);
+        }
+        if (near.size < SMALL && isUnseen(object, other)) {
+            all.bySlot[near.slot] = nullptr;
+            --next;
+            continue;
         }
         const bool tiny = (near.size < SMALL || longPaths) && isTiny(object, near);
         if (tiny || !other.isBall())

@@ -46,7 +46,6 @@ struct Neighbour : Along {
     bool digs;          // it is no member of the body, but digs into a member
     bool samples;       // its seeds sample a hollow of the head
     bool inRange;       // its field may reach the object's seeds now; else it may do so GATHER_SLACK nearer
-    bool coarse;        // an OTHER whose core space is so large that products there need their operands scaled down first
     bool segment;       // its core is a segment, half16 long to each side of the centre, whether or not the object tapers
     Real weight;        // weight by which it digs into the head, 0 if it does not
     Real claim, ownClaim;  // factors, 1 or less, of its field and of the own field where the claims of the two are compared
@@ -80,12 +79,11 @@ struct Neighbour : Along {
     Vector inCore(const Vector& v) const { return {dot(toCore[0], v), dot(toCore[1], v), dot(toCore[2], v)}; }
     Vector fromCoreSpace(const Vector& v) const
     {
+        // The gradient of a warped object may be so long that it has to be scaled first.
         const Real scale = size * size * Real(1.0 / (CORE_SIZE * CORE_SIZE));
-        if (coarse)
-            return toCore[0] * (v.x * scale) + toCore[1] * (v.y * scale) + toCore[2] * (v.z * scale);
-        return (toCore[0] * v.x + toCore[1] * v.y + toCore[2] * v.z) * scale;
+        return toCore[0] * (v.x * scale) + toCore[1] * (v.y * scale) + toCore[2] * (v.z * scale);
     }
-    // Returns the vector from its core to a place of own space, both 1/16 unit; not to be called of a POINT. Of a shaped
+    // Returns the vector, 1/16 unit, from its core to a place of own space, units; not to be called of a POINT. Of a shaped
     // neighbour the vector may be too short, never too long.
     Vector fromCore16(const Vector& q) const;
 };

@@ -6,7 +6,7 @@
 namespace {
 
 // The least k for which a limb is found, per unit, 1.0 = 2^14: a radius of about 250 units.
-constexpr int32_t FLATTEST = 66;
+constexpr int32_t LEAST_CURVATURE = 66;
 // No limb is found where a component of s / k is this or more, and 1 / kz is limited to this.
 constexpr int32_t SLANT = 4;
 // Cosines are limited to this, 1.0 = 2^14: seeds that are near and far aside have greater ones, but these make no difference.
@@ -35,7 +35,7 @@ inline int8_t inward(int32_t outward)
 // Sets the limb from k, s and S across the view, per unit, 1.0 = 2^14. Returns false when there is no limb.
 bool setLimb(int32_t k, int32_t alongX, int32_t alongY, int32_t xx, int32_t xy, int32_t yy, int32_t depth, Limb* limb)
 {
-    if (k < FLATTEST || max32(magnitude(alongX), magnitude(alongY)) >= k * SLANT)
+    if (k < LEAST_CURVATURE || max32(magnitude(alongX), magnitude(alongY)) >= k * SLANT)
         return false;
     limb->radius = (1 << 22) / k;
     limb->nearness = min32((limb->radius << 14) / depth, SLANT << 14);

@@ -106,6 +106,8 @@ bool Odometer::isKnown(const Neighbourhood& all, int number)
     known.travelled = 0;
     known.pose.take(near);
     leapt_ |= near.inRange;
+    // The patches' lists were made without it, and it may have come nearer uncounted: all of them are due.
+    bound_ += travelOf(GATHER_SLACK);
     return false;
 }
 

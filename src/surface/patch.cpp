@@ -192,11 +192,7 @@ private:
 
     Square between(int i, int n) const
     {
-        const auto rest = [&](int number) {
-            const Seed& s = object_.regular(2 * number);
-            return object_.root(s.root) + s.path;
-        };
-        return squareOf(rest(i) - rest(n));
+        return squareOf(restOf(object_, object_.regular(2 * i)) - restOf(object_, object_.regular(2 * n)));
     }
 
     // The seed of the fullest ring that is nearest to seed i of ring k. The last two answers of each ring are remembered.

@@ -47,26 +47,11 @@ void Path::setRoot(Neighbour& near, const Seed& s) const
         near.y = shiftDown(dot(near.toRoot, near.along16), 4);
 }
 
-// dot(halfGradient, step) / 128 where that, or its parts, may leave 16.16: what is too large is limited.
-static SELDOM Real coarseChange(const Vector& halfGradient, const Vector& step)
-{
-    const auto part = [](Real g, Real s) {
-        return clamp(shiftDown(g, 7), Real(-30), Real(30)) * clamp(shiftDown(s, 4), Real(-300), Real(300));
-    };
-    const Real sum = part(halfGradient.x, step.x) + part(halfGradient.y, step.y) + part(halfGradient.z, step.z);
-    return shiftUp(clamp(sum, Real(-2000), Real(2000)), 4);
-}
-
 Real Neighbour::otherParam(Real p)
 {
     t = object->param(toRoot + step * p, &halfGradient);
-    // Beyond the end of the field the product might overflow 16.16, and it is not needed.
-    if (t >= Real(1))
-        change = Real(0);
-    else if (coarse)
-        change = coarseChange(halfGradient, step);
-    else
-        change = shiftDown(dot(halfGradient, step), 7);
+    // Beyond the end of the field the derivative is not needed.
+    change = t < Real(1) ? dotDown(halfGradient, step, 7) : Real(0);
     return t;
 }
 
@@ -249,7 +234,7 @@ Real Path::warpedParam(Real position)
     const Real inward = Real(CORE_SIZE) / object_.laidSize();
     const Vector step = seed_->path * inward;
     const Real t = object_.param(root() * inward + step * position, &ownOut_);
-    ownChange_ = t < Real(1) ? shiftDown(dot(ownOut_, step), 7) : Real(0);
+    ownChange_ = t < Real(1) ? dotDown(ownOut_, step, 7) : Real(0);
     return t;
 }
 

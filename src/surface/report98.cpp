@@ -78,8 +78,12 @@ bool Report98::open()
 void Report98::pose()
 {
     for (int i = 0; i < object_.seedSlots(); ++i) {
-        const Seed& s = object_.seed(i);
-        kept_[i].path = kept_[i].out = object_.toWorld(s.path) - object_.centre();
+        Seed& s = object_.seed(i);
+        const Vector path = object_.toWorld(s.path) - object_.centre();
+        // A seed that turns with its object has moved, although its position on the path is the same.
+        if (!(path == kept_[i].path))
+            s.flags = static_cast<uint8_t>(s.flags & ~SEED_KEPT);
+        kept_[i].path = kept_[i].out = path;
         if (object_.shaped())
             kept_[i].out = withLength(object_.toWorld(object_.slopeAt(object_.root(s.root) + s.path)) - object_.centre(),
                                       object_.radius());
@@ -233,20 +237,13 @@ void Report98::draw(const FrameContext& frame, VoxelList& list, int room, int* n
         const Real half = object_.spacing() * SCALE * (Real(1) + deformity * MAGNIFICATION);
         const int32_t extent = rawFromReal(half) >> 8;
         Voxel& v = *list.room();
+        v = {};  // the report's scales face the viewer, and each has one brightness
         v.brightness = kept.brightness;
         const Vector place = frame.axes.fromWorld(kept.point - object_.centre());
         v.x = rawFromReal(place.x) >> 8;
         v.y = rawFromReal(place.y) >> 8;
         v.z = rawFromReal(place.z) >> 8;
-        v.halfWidth = static_cast<int16_t>(extent > INT16_MAX ? INT16_MAX : extent);
-        v.halfHeight = v.halfWidth;
-        v.tiltX = v.tiltY = 0;  // the report's scales face the viewer, and each has one brightness
-        v.reach = 0;
-        v.slopeX = v.slopeY = 0;
-        v.cutX = v.cutY = 0;
-        v.cutAt = 0;
-        v.curveXX = v.curveXY = v.curveYY = 0;
-        v.front = 0;
+        v.halfWidth = v.halfHeight = static_cast<int16_t>(extent > INT16_MAX ? INT16_MAX : extent);
         list.take();
     }
     *next = i < object_.seedSlots() ? i : 0;

@@ -27,16 +27,16 @@ constexpr int32_t WHOLE_BEFORE = 64 * 256;
 
 // The greatest radius of curvature (1/32 unit) that is told from flat; and the cosine of normal and direction to the viewer
 // (1.0 = 2^14) from which on the curvature does not matter.
-constexpr int32_t FLATTEST = 8000;
+constexpr int32_t LONGEST_RADIUS = 8000;
 constexpr int32_t FACES_VIEWER = 16000;
 
 // No scale of a patch at rest ends that faces the viewer with the cosine FACES_ABOUT (1.0 = 2^14) or more, if its bend is gentle:
 // the limb is .6^2 * GENTLE_SPACINGS / 2 = 1.08 spacings away, farther than a scale reaches.
 constexpr int32_t FACES_ABOUT = 9830;
 
-// The bend of a patch that settles in every frame is measured in one of BEND_TURNS + 1 frames, chosen by the patch's number. Next
-// to the limb, where the bend decides how far scales are drawn, it is measured in one of BEND_TURNS_LIMB + 1 frames.
-constexpr int BEND_TURNS_LIMB = 1, BEND_TURNS = 3;
+// The bend of a patch that settles in every frame is measured in one of BEND_DRAWS + 1 frames, chosen by the patch's number. Next
+// to the limb, where the bend decides how far scales are drawn, it is measured in one of BEND_DRAWS_LIMB + 1 frames.
+constexpr int BEND_DRAWS_LIMB = 1, BEND_DRAWS = 3;
 
 // 1/4 step: a patch bends unevenly if its gradient predicts the brightness of some seed with an error greater than this.
 constexpr int32_t UNEVEN_SHADING = 8;
@@ -64,14 +64,14 @@ public:
 
     // Lists the voxels of a patch; those of an object that has a paint go through the painter.
     template <bool PAINTED>
-    void shadePatch(Patch& patch, int turn, VoxelList& list, Painter* painter);
+    void shadePatch(Patch& patch, int draws, VoxelList& list, Painter* painter);
 
     // Spacing of the object's seeds, 1/256 unit.
     int32_t spacing() const { return spacing_; }
 
 private:
     int findSeen(const Patch& patch, Seen* seen, Voxel* voxels, int* regular) const;
-    void shadeSeen(Patch& patch, int turn, const Seen* seen, Voxel* voxels, int count);
+    void shadeSeen(Patch& patch, int draws, const Seen* seen, Voxel* voxels, int count);
     bool cutAtBorder(const Seed& s, Voxel* voxel, VoxelList& list) const;
     template <bool PAINTED>
     void listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list, Painter* painter);
@@ -160,9 +160,9 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     // horizonShare, or half as much again (setBend()), is multiplied by Seen::facing: the product must not overflow 32 bits.
     const int32_t farthest = distance * 8 + (rawFromReal(object.laidReach()) >> shading_.placeShift);
     const int32_t horizonMost = INT32_MAX / 3 * 2 / (farthest + 1);
-    ballHorizon_ = min32(mulShift16((min32(radius >> 11, FLATTEST) << 12) / distance32, step), horizonMost);
+    ballHorizon_ = min32(mulShift16((min32(radius >> 11, LONGEST_RADIUS) << 12) / distance32, step), horizonMost);
     horizonScale_ = mulShift16(mulDiv(step, 1 << 12, distance32), step);
-    flatHorizon_ = min32(mulShift16(FLATTEST, horizonScale_), horizonMost);
+    flatHorizon_ = min32(mulShift16(LONGEST_RADIUS, horizonScale_), horizonMost);
     ballBend_ = (1 << 22) / max32(mulShift16(rawFromReal(object.laidRadius()) >> 8, rawFromReal(own.growth)), 128);
     const int32_t spacing = spacing_ = min32(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
     shading_.deepest = spacing * DEEPEST;
@@ -341,10 +341,11 @@ inline int Shader::findSeen(const Patch& patch, Seen* seen, Voxel* voxels, int* 
 }
 
 // Writes the rest of the voxels of these seeds.
-inline void Shader::shadeSeen(Patch& patch, int turn, const Seen* seen, Voxel* voxels, int count)
+inline void Shader::shadeSeen(Patch& patch, int draws, const Seen* seen, Voxel* voxels, int count)
 {
     const Seen& middle = seen[count >> 1];
-    if (!patch.bend.known || (patch.bend.stale && (turn & (middle.facing < facesViewer_ >> 2 ? BEND_TURNS_LIMB : BEND_TURNS)) == 0))
+    const int pause = middle.facing < facesViewer_ >> 2 ? BEND_DRAWS_LIMB : BEND_DRAWS;
+    if (!patch.bend.known || (patch.bend.stale && (draws & pause) == 0))
         measureBend(object_, shading_, patch);
     setPatch(patch, middle, voxels[count >> 1]);
     shadeSeeds(&shading_, seen, voxels, count);
@@ -419,7 +420,7 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
 }
 
 template <bool PAINTED>
-inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter* painter)
+inline void Shader::shadePatch(Patch& patch, int draws, VoxelList& list, Painter* painter)
 {
     // The painter makes one or two voxels of each of these.
     Voxel unpainted[PAINTED ? SEEDS_MOST : 1];
@@ -429,7 +430,7 @@ inline void Shader::shadePatch(Patch& patch, int turn, VoxelList& list, Painter*
     const int count = findSeen(patch, seen, voxels, &regular);
     if (count == 0)
         return;
-    shadeSeen(patch, turn, seen, voxels, count);
+    shadeSeen(patch, draws, seen, voxels, count);
     if (PAINTED || patch.state != PATCH_REST) {
         listVoxels<PAINTED>(patch, seen, voxels, count, regular, list, painter);
         return;
@@ -475,12 +476,13 @@ SELDOM void listGuests(VoxelList& list, const Bodies& bodies)
 
 template <bool PAINTED>
 int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
-            int turn, VoxelList& list, int room, Painter* painter)
+            int draws, VoxelList& list, int room, Painter* painter)
 {
     Shader shader(object, own, frame);
     slopes.begin();
-    // The painter may make two voxels of one seed.
-    const int most = (PAINTED ? 2 : 1) * SEEDS_MOST;
+    // The painter may make two voxels of one seed. Guests are listed from the other end on, while the voxels of the patch still
+    // stand at this one.
+    const int most = 2 * SEEDS_MOST;
     int i = first;
     for (; i < count; ++i) {
         Patch& patch = patches[i];
@@ -488,7 +490,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
             continue;
         if (list.count + list.guests + most > room)
             break;
-        shader.shadePatch<PAINTED>(patch, i + turn, list, painter);
+        shader.shadePatch<PAINTED>(patch, i + draws, list, painter);
     }
     slopes.set(shader.spacing());
     if (list.guests > 0)
@@ -499,10 +501,10 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
 }  // namespace
 
 int shadePatches(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
-                 int turn, VoxelList& list, int room)
+                 int draws, VoxelList& list, int room)
 {
-    if (object.paint() == nullptr)
-        return shadeAs<false>(object, own, frame, patches, count, first, turn, list, room, nullptr);
+    if (object.shown()->paint() == nullptr)
+        return shadeAs<false>(object, own, frame, patches, count, first, draws, list, room, nullptr);
     Painter painter(object, own, list);
-    return shadeAs<true>(object, own, frame, patches, count, first, turn, list, room, &painter);
+    return shadeAs<true>(object, own, frame, patches, count, first, draws, list, room, &painter);
 }

@@ -147,8 +147,10 @@ bool findSeed(const Shading& v, const Seed& s, Seen* seen, Voxel* voxel)
                   s.normal.z * (v.eye[2] - (place[2] >> 3))) >> 11;
     if (facing <= v.limb)
         return false;
+    // More than 511 units from the object's centre the sum wraps around, which takes the voxel far out of the view.
     const auto along = [&](const int32_t axis[3]) {
-        return (place[0] * axis[0] + place[1] * axis[1] + place[2] * axis[2]) >> 14;
+        const auto part = [&](int i) { return static_cast<uint32_t>(place[i]) * static_cast<uint32_t>(axis[i]); };
+        return static_cast<int32_t>(part(0) + part(1) + part(2)) >> 14;
     };
     voxel->x = v.turned ? along(v.toRight) : place[0];
     voxel->y = v.turned ? along(v.toUp) : place[1];

@@ -75,6 +75,45 @@ else
 	echo "# no DJGPP compiler here: its DEMO.EXE was not compared"
 fi
 
+# Frames do not tell what was before: a ball that has leapt to its place looks as if it had always been there.
+cat >"$dir/still.fb" <<END
+sphere a size 40
+sphere b size 40 at 22 14 0
+blend a b
+END
+cat >"$dir/leap.fb" <<END
+sphere a size 40
+sphere b size 40
+blend a b
+keys b linear
+key b 0 100 100 0
+key b 0.5 100 100 0
+key b 0.55 22 14 0
+END
+for scene in still leap; do
+	build/demo /M:"$dir/$scene.fb" /N:14 /R:10 /D:"$dir/$scene" >/dev/null
+done
+ok "what has leapt looks as if it had stayed" cmp "$dir/leap/F0000013.PPM" "$dir/still/F0000013.PPM"
+# In grey only one of the two objects at a hollow's wall may be painted.
+for shiny in a d; do
+	printf 'sphere a size 40\nsphere d size 16 at 0 0 -20\ndent a d\nfinish %s shiny\n' $shiny >"$dir/hollow.fb"
+	for program in demo demo32; do
+		ok "$program: a hollow, $shiny shines" build/$program /M:"$dir/hollow.fb" /G /N:3 /D:"$dir/$program"
+	done
+	same "32-bit host, a hollow, $shiny shines" "$dir/demo" "$dir/demo32"
+	rm -rf "$dir/demo" "$dir/demo32"
+done
+# The report's method: what turns is lit anew, though no position on any path changes.
+cat >"$dir/turns.fb" <<END
+group g
+spin g axis 0 1 0 period 4
+cylinder a size 24 length 30 at -14 0 0 in g
+cylinder b size 24 length 30 at 14 0 0 turn 0 0 90 in g
+blend a b
+END
+build/demo /M:"$dir/turns.fb" /P /N:12 /R:10 >"$dir/out"
+ok "the report's method lights what turns" test "$(sed -n 's/^normals per frame: \([0-9]*\).*/\1/p' "$dir/out")" -gt 300
+
 # Seeds are changed while the program runs, and objects are moved by the mouse: from a script, so on the host builds only.
 cat >"$dir/script" <<END
 1 key -

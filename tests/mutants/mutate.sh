@@ -22,7 +22,7 @@ export UNIT_KINDS DEMO
 
 cd "$copy" || exit 1
 # Those that are soon done first.
-suites="twins unit cli edit golden prims"
+suites="twins unit cli edit golden prims frames"
 for suite in $suites; do
 	sh "tests/$suite/run.sh" >"$dir/log" 2>&1 || {
 		grep FAIL "$dir/log"

@@ -64,12 +64,12 @@ TEST(a_ball_is_hidden_when_all_before_it_is_nearer)
     wall.brightness = 40;
     const Camera& camera = view.camera();
     Random random;
-    long hidden = 0, seen = 0;
+    long hidden = 0, seen = 0, outside = 0;
     for (int k = 0; k < 20000; ++k) {
         view.begin();
         CHECK(show(view, wall) == 1);
         const double z = random.between(78, 300), radius = random.between(0.5, 12);
-        const double x = random.between(-60, 60) * z / 100, y = random.between(-45, 45) * z / 100;
+        const double x = random.between(-90, 90) * z / 100, y = random.between(-70, 70) * z / 100;
         const int32_t place[] = {steps(x), steps(y), steps(z)};
         const bool isHidden = view.hides(place, steps(radius));
         // By how many pixels the square around the ball's projection lies within the wall; negative if it extends beyond the wall's
@@ -81,6 +81,7 @@ TEST(a_ball_is_hidden_when_all_before_it_is_nearer)
                                        (std::fabs(y) - radius) / z * number(camera.focalY) - HEIGHT / 2);
         if (std::fabs(beside) < 1)
             continue;
+        outside += beside > 0;
         if (beside > 0)
             CHECK(isHidden || std::fabs(x) > z || std::fabs(y) > z || z - radius < 76);
         else if (z - radius < 99.9 || within < -4)
@@ -91,7 +92,7 @@ TEST(a_ball_is_hidden_when_all_before_it_is_nearer)
             continue;
         ++(isHidden ? hidden : seen);
     }
-    CHECK(hidden > 1000 && seen > 1000);
+    CHECK(hidden > 1000 && seen > 1000 && outside > 1000);
 }
 
 TEST(what_is_hidden_is_not_settled)

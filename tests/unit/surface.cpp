@@ -208,6 +208,40 @@ TEST(islands_between_heavily_linked_objects_are_found)
     note("%d scales of the first ball on the island, %d of them not on its surface", there, off);
     CHECK(there >= 2);
     SAME(off, 0);
+    // With a lighter link there is none, and nothing is left of it.
+    scene.link(0, 1, 1);
+    scene.update();
+    for (const Voxel& voxel : scene.draw(0))
+        CHECK(placeOf(scene, voxel).x < 0);
+}
+
+TEST(borders_of_cones_are_found)
+{
+    // Two cones that blend. Their borders are known to first order: where one is near, the two fields are nearly the same there.
+    const Real measures[] = {Real(30), Real(8), Real(40)};
+    Scene scene;
+    scene.add(kindNamed("cone")->make(1, measures), -7, 0, 0);
+    scene.add(kindNamed("cone")->make(2, measures), 7, 3, 0);
+    scene.linkAll();
+    scene.update();
+    const std::vector<const Kind*> kinds{kindNamed("cone"), kindNamed("cone")};
+    const Body body(scene, kinds);
+    const SoftObject& object = *scene.objects[0];
+    long borders = 0;
+    double sum = 0;
+    for (int i = 0; i < object.seedSlots(); i += 2) {
+        const Seed& s = object.seed(i);
+        if ((s.flags & (SEED_VALID | SEED_BORDER)) != (SEED_VALID | SEED_BORDER) || std::abs(s.apart) > 512)
+            continue;
+        const Vec place = vec(object.toWorld(object.root(s.root) + s.path * s.position));
+        const Vec way{s.border.x / 16384.0, s.border.y / 16384.0, s.border.z / 16384.0};
+        const Vec end = place - way * (s.apart / 256.0);
+        ++borders;
+        sum += std::fabs(body.dominance(0, body.joined(0), end));
+    }
+    note("%ld seeds have a border within two units, where the fields differ by %.4f on average", borders, sum / borders);
+    CHECK(borders > 20);
+    CHECK(sum / borders < 0.002);
 }
 
 TEST(bulges_are_found_where_patches_rest_or_face_away)
