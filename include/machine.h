@@ -147,7 +147,8 @@ bool cutFile(int file, uint32_t bytes);
 // Removes an ordinary file; returns false when the name is anything else (a device, a directory) or on failure.
 bool removeFile(const char* name);
 // Saving that never loses the old file: beginSave() opens a temporary file beside `name`; endSave() closes it and replaces
-// `name` by it. When `good` is false or the replacement fails, endSave() removes the temporary file and the old file stays.
+// `name` by it. When `good` is false or the replacement fails, endSave() removes the temporary file and the old file stays. Only
+// on DOS, when the old file was removed already and renaming then fails, the temporary file stays, for it holds the only copy.
 // Only one file can be saved at a time.
 int beginSave(const char* name);
 bool endSave(int file, bool good);

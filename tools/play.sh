@@ -13,6 +13,10 @@ scene=${1:-}
 play=build/play
 mkdir -p $play || exit 1
 cp build/DEMO.EXE build/PLAY.COM $play || exit 1
+# The key N goes through all scenes beside the program.
+for file in tools/scenes/*.FB; do
+	[ -f "$play/$(basename "$file")" ] || cp "$file" $play || exit 1
+done
 what="the four spheres"
 if [ -n "$scene" ]; then
 	file=$scene
@@ -25,6 +29,8 @@ if [ -n "$scene" ]; then
 	# Under its own name, which mistakes in it are told with, where DOS has such names.
 	name=$(basename "$file" | tr '[:lower:]' '[:upper:]')
 	expr "$name" : '[A-Z0-9_-]\{1,8\}\.FB$' >/dev/null || name=SCENE.FB
+	# A scene that the user has saved there under this name is kept.
+	[ ! -f "$play/$name" ] || cmp -s "$file" "$play/$name" || mv "$play/$name" "$play/${name%.FB}.OLD"
 	cp "$file" "$play/$name" || exit 1
 	set -- "/M:$name" "$@"
 	what=$file

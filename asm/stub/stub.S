@@ -21,7 +21,7 @@
    Offsets in our segment, which becomes the transfer buffer when the program runs:
 
      0               stub information, code, messages        -- section .loader
-     load_end        variables, header buffers, stack        -- section .lbss
+     behind .loader  variables, header buffers, stack        -- section .lbss, up to loader_end
      0x1000          file buffer, to the end of the transfer buffer (stubinfo: minkeep, 16 KB)
      minkeep         embedded DPMI host, when it is used */
 

@@ -17,8 +17,9 @@ public:
 
     // Begins a file. With `rate` > 0 (frames per second of animation, as with /N) each frame of the run is one frame of the
     // film and lasts the nearest whole number of jiffies. With `rate` 0 frames arrive at irregular times, and the film
-    // repeats or skips frames to keep to the clock. Returns null, or one line that says what is wrong.
-    const char* open(const char* name, int rate);
+    // repeats or skips frames to keep to the clock. An older film is replaced, any other file is not. Returns null, or one line
+    // that says what is wrong; `*status` is then the program's exit status.
+    const char* open(const char* name, int rate, int* status);
     bool isOpen() const { return file_ >= 0; }
 
     // Adds a picture (320x200 palette indices) that is shown from time `now` on, with its palette (768 bytes, 0..63).
@@ -46,6 +47,7 @@ private:
     int jiffies_ = 0;   // length of a frame
     int frames_ = 0;
     uint32_t bytes_ = 0;
+    bool full_ = false;  // a write has failed, after which nothing more is added
     uint8_t* before_ = nullptr;  // the picture stored last
     uint8_t* first_ = nullptr;   // the first picture: a film ends with the changes that lead back to it
     uint8_t* room_ = nullptr;    // buffer in which a frame is assembled

@@ -35,7 +35,7 @@ bool writeHeader(int file)
     return write(file, text);
 }
 
-// Writes the switches that influence the statistics of a run.
+// Writes the switches that influence the statistics of a run, but for /R.
 void formatSettings(char* to, size_t size, const Options& options, Real spacing)
 {
     char number[24], held[16] = "";
@@ -114,7 +114,7 @@ const char* Csv::append(const Options& options, Real spacing, const Stats& stats
     bool good = before >= 0 && (before > 0 || writeHeader(file)) && write(file, text);
     const char* why = machine::fileTrouble();
     // After a failure neither half a record nor an empty file may remain.
-    if (!good && before > 0)
+    if (!good && before >= 0)
         machine::cutFile(file, static_cast<uint32_t>(before));
     if (!machine::closeFile(file) && good) {
         good = false;

@@ -82,14 +82,13 @@ const char* Demo::prepare(int* status)
             return problem;
         *status = 1;
     }
-    if (options_.filmFile != nullptr) {
-        const char* problem = film_.open(options_.filmFile, options_.frames > 0 ? options_.rate : 0);
+    if (options_.dumpDirectory != nullptr) {
+        const char* problem = dump_.open(options_.dumpDirectory);
         if (problem != nullptr)
             return problem;
     }
-    if (options_.dumpDirectory != nullptr)
-        return dump_.open(options_.dumpDirectory);
-    return nullptr;
+    // Last, because it replaces an older film.
+    return options_.filmFile == nullptr ? nullptr : film_.open(options_.filmFile, options_.frames > 0 ? options_.rate : 0, status);
 }
 
 // Tells the user, still in text mode, that seeds are being laid out when there are so many that a slow processor takes a while.
@@ -158,7 +157,8 @@ bool Demo::stopped()
 void Demo::resample(Real spacing)
 {
     char number[24], text[192];
-    if (spacing != spacing_) {
+    // When a held rate has just ended, thin objects may have finer seeds than others.
+    if (spacing != spacing_ || spacing != model_.finest()) {
         // The time grows with the number of seeds, the inverse square of the spacing; this estimate is good enough.
         const Real ratio = spacing_ / spacing;
         const uint64_t ticks = layTicks_ * static_cast<uint32_t>(rawFromReal(ratio * ratio)) >> 16;
@@ -329,11 +329,13 @@ void Demo::sayResults(uint64_t ticks)
 {
     char text[1024];
     if (options_.benchmark) {
-        // The divisor must fit 32 bits (one hour); the rate of a longer benchmark would be wrong.
-        const uint32_t divisor = ticks >> 32 != 0 ? 0xffffffffu : static_cast<uint32_t>(ticks);
+        // The divisor of a quotient must fit 32 bits: for runs longer than an hour both sides are halved until it does.
+        uint64_t hertz = machine::CLOCK_HZ, divisor = ticks;
+        for (; divisor >> 32 != 0; divisor >>= 1)
+            hertz >>= 1;
         char spacing[24], rate[32], seconds[32];
         formatReal(spacing, sizeof spacing, spacing_);
-        formatQuotient(rate, sizeof rate, static_cast<uint64_t>(frames_) * machine::CLOCK_HZ, divisor, 2);
+        formatQuotient(rate, sizeof rate, static_cast<uint64_t>(frames_) * hertz, static_cast<uint32_t>(divisor), 2);
         formatQuotient(seconds, sizeof seconds, ticks, machine::CLOCK_HZ, 2);
         snprintf(text, sizeof text, "%.100s, spacing %s%s: %s frames a second (%d frames in %s seconds)\n",
                  options_.modelFile == nullptr ? "four spheres" : options_.modelFile, spacing,
@@ -356,9 +358,13 @@ void Demo::begin()
         fail(1, "interrupted");
     if (problem != nullptr)
         fail(status, problem);
-    machine::standStill(options_.frames > 0);
-    if (options_.interactive && !machine::openMouse())
-        machine::out("No mouse driver found: use Tab, arrows, PgUp and PgDn.\n");
+    machine::standStill(options_.frames > 0 && options_.seconds == 0 && !options_.benchmark);
+    if (options_.interactive && !machine::openMouse()) {
+        machine::err("No mouse driver found: use Tab, arrows, PgUp and PgDn.\n");
+        // Most users do not see that any more when the picture is there.
+        if (options_.frames == 0)
+            say("no mouse: use Tab, arrows, PgUp and PgDn");
+    }
     // When ESC was pressed already, the loop ends before its first frame and needs no video mode.
     if (!interrupted()) {
         problem = machine::openVideo();

@@ -463,7 +463,8 @@ bool Editor::strengthen(Real by, Time now)
     actor.strength = to;
     if (!model_.remake(&actor)) {
         actor.strength = was;
-        say("no memory for so many seeds");
+        drop();
+        say(SoftObject::resampleTrouble());
         return false;
     }
     sayReal("strength", to);

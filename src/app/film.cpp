@@ -76,13 +76,26 @@ void Film::put32(uint32_t value)
 
 bool Film::write(const uint8_t* from, uint32_t bytes)
 {
-    if (machine::writeFile(file_, from, bytes) != static_cast<int32_t>(bytes))
+    full_ = full_ || machine::writeFile(file_, from, bytes) != static_cast<int32_t>(bytes);
+    if (full_)
         return false;
     bytes_ += bytes;
     return true;
 }
 
-const char* Film::open(const char* name, int rate)
+// Whether there is a file of this name that is no film.
+static bool isOther(const char* name)
+{
+    uint8_t start[6] = {};
+    const int file = machine::openFile(name);
+    if (file < 0)
+        return false;
+    const bool some = machine::fileBytes(file) > 0 && machine::readFile(file, start, sizeof start) >= 0;
+    machine::closeFile(file);
+    return some && (start[4] | start[5] << 8) != FILE_MARK;
+}
+
+const char* Film::open(const char* name, int rate, int* status)
 {
     snprintf(name_, sizeof name_, "%.99s", name);
     before_ = allocate<uint8_t>(WIDTH * HEIGHT);
@@ -94,6 +107,11 @@ const char* Film::open(const char* name, int rate)
     jiffies_ = realTime_ ? REAL_TIME_JIFFIES : (JIFFIES + rate / 2) / rate;
     if (jiffies_ == 0)
         jiffies_ = 1;
+    if (isOther(name)) {
+        *status = 2;
+        snprintf(problem_, sizeof problem_, "%s: this is no film; /A replaces only films", name_);
+        return problem_;
+    }
     file_ = machine::createFile(name);
     // close() writes the header again, with the final number of frames and bytes.
     return file_ >= 0 && writeHeader() ? nullptr : complain();
@@ -239,8 +257,10 @@ bool Film::writeFrame(const uint8_t* picture, const uint8_t* dac)
     put32(static_cast<uint32_t>(end - room_));
     put16(FRAME_MARK);
     put16(static_cast<uint32_t>(chunks));
+    if (!write(room_, static_cast<uint32_t>(end - room_)))
+        return false;
     ++frames_;
-    return write(room_, static_cast<uint32_t>(end - room_));
+    return true;
 }
 
 // Writes a frame that shows the same picture as the frame before.
@@ -277,7 +297,9 @@ const char* Film::close()
     bool good = frames == 0 || writeFrame(first_, firstDac_);
     frames_ = frames;
     const uint32_t bytes = bytes_;
-    good = good && machine::rewindFile(file_) && writeHeader();
+    // A film whose last frame did not fit is still a film of the others.
+    full_ = false;
+    good = (good || machine::cutFile(file_, bytes)) && machine::rewindFile(file_) && writeHeader() && good;
     bytes_ = bytes;
     good = machine::closeFile(file_) && good;
     file_ = -1;

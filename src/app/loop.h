@@ -69,7 +69,7 @@ private:
     void askSave();
     void askLoad();
     void answer(int code);
-    void load(const char* name, bool undoable);
+    bool load(const char* name, bool undoable);
     void nextScene();
     void shoot();
 

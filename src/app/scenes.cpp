@@ -105,19 +105,21 @@ void Demo::answer(int code)
     say(editor_.message());
 }
 
-// Loads a scene; on failure the model stays. The editor's message tells the result.
-void Demo::load(const char* name, bool undoable)
+// Loads a scene. On failure it returns false, and the model stays. The editor's message tells the result.
+bool Demo::load(const char* name, bool undoable)
 {
     char text[sizeof scene_ + 10];
     snprintf(text, sizeof text, "loading %s", name);
     busy(text);
     snprintf(scene_, sizeof scene_, "%s", name);
-    if (editor_.load(name, spacing_, undoable)) {
-        pace_.restart();
-        orbit_.reset();
-        shown_ = 0;
-        changed();
-    }
+    if (!editor_.load(name, spacing_, undoable))
+        return false;
+    saved_[0] = 0;
+    pace_.restart();
+    orbit_.reset();
+    shown_ = 0;
+    changed();
+    return true;
 }
 
 // Loads the scene that follows the current one in the directory of the program, and shows its title.
@@ -135,8 +137,7 @@ void Demo::nextScene()
             next = (i + 1) % count;
     char path[sizeof scene_], text[TITLE_ROOM + sizeof(machine::FileName) + 4];
     snprintf(path, sizeof path, "%s%.31s", directory_, names[next].text);
-    load(path, false);
-    if (strncmp(editor_.message(), "loaded ", 7) != 0) {
+    if (!load(path, false)) {
         say(editor_.message());
         return;
     }

@@ -340,19 +340,19 @@ bool endSave(int file, bool good)
     if (good && !closed)
         why = trouble;
     good = good && closed;
+    // DOS cannot rename a file to an existing name, so the old file is removed first.
     uint16_t attributes;
-    if (good && callOnName(0x4300, 0, savedAs, &attributes) >= 0 && !removeFile(savedAs)) {
+    const bool replaces = good && callOnName(0x4300, 0, savedAs, &attributes) >= 0;
+    const bool removed = replaces && removeFile(savedAs);
+    if (good && replaces == removed && renameFile(saving, savedAs))
+        return true;
+    if (good)
         why = trouble;
-        good = false;
-    }
-    if (!good) {
+    // When the old file is gone already, the temporary file holds the only copy and stays.
+    if (!removed)
         removeFile(saving);
-        trouble = why;
-        return false;
-    }
-    // DOS cannot rename a file to an existing name, so the old file was removed first. If renaming fails, the new data is
-    // still complete in the temporary file, which stays.
-    return renameFile(saving, savedAs);
+    trouble = why;
+    return false;
 }
 
 bool makeDirectory(const char* name)

@@ -95,14 +95,6 @@ int vsnprintf(char* to, size_t size, const char* format, va_list args)
             else
                 break;
         }
-        if (*format == '*') {
-            form.width = va_arg(args, int);
-            if (form.width < 0) {
-                form.left = true;
-                form.width = -form.width;
-            }
-            ++format;
-        }
         for (; *format >= '0' && *format <= '9'; ++format)
             form.width = form.width * 10 + (*format - '0');
         if (*format == '.') {
@@ -119,8 +111,7 @@ int vsnprintf(char* to, size_t size, const char* format, va_list args)
             ++format;
         }
         switch (*format) {
-            case 'd':
-            case 'i': {
+            case 'd': {
                 const int value = va_arg(args, int);
                 putNumber(&sink, form, value < 0 ? 0u - uint32_t(value) : uint32_t(value), 10, value < 0);
                 break;

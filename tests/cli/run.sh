@@ -341,7 +341,9 @@ for far in '30000 0 -' '-30000 0 -' '0 30000 -' '0 -30000 -' '0 30000 R' '0 -300
 		Y * Y * 43403 <= (Z + 120) * (Z + 120) * 10200'
 done
 ok "without a mouse it says so" plays '9 key ESC\n' /I /N:3
-ok "in words" sh -c "grep -qi 'mouse' '$dir/out'"
+ok "in words, beside the statistics" sh -c "grep -qi 'mouse' '$dir/err' && ! grep -qi 'mouse' '$dir/out'"
+ok "a benchmark of few frames has a rate" sh -c "'$demo' /B /N:20 | grep -q ': [1-9][0-9.]* frames a second'"
+ok "a time ends a run of frames" timeout 20 "$demo" /N:9999999 /T:1
 printf 'nonsense\n' >"$dir/script"
 ok "half a script is no script" sh -c "FB_INPUT='$dir/script' '$demo' /N:1 >/dev/null 2>&1; test \$? -ne 0"
 summary

@@ -37,6 +37,7 @@ ran() {
     fi
     tr -d '\r' < "$1" > "$scratch/ran"
     cat "$scratch/ran"
+    grep -q -e '^ok ' -e '^FAIL ' "$scratch/ran" || ok "checks in $(basename "$1")" false
     passed=$((passed + $(grep -c '^ok ' "$scratch/ran")))
     failed=$((failed + $(grep -c '^FAIL ' "$scratch/ran")))
 }

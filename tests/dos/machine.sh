@@ -16,6 +16,7 @@ for file in "$@"; do
 done
 dos -- 'MTEST STATE > BEFORE.TXT' 'MTEST ALL 200 > ALL.TXT' 'MTEST STATE > AFTER.TXT'
 ran "$c/ALL.TXT"
+ok 'MTEST ALL: to its end' has "$c/ALL.TXT" '# all of it'
 ok 'no file of another name is left by saving' test "$(ls "$c" "$c/MTDIR" | grep -v ':$' | grep -c .)" -eq 9
 ok 'vectors, timer, video and DOS memory as before' cmp "$c/BEFORE.TXT" "$c/AFTER.TXT"
 

@@ -570,6 +570,7 @@ int all(uint32_t mostBlocks) {
     testBreak();
     testKeys();
     testVideo();
+    print("# all of it\n");
     return failures == 0 ? 0 : 1;
 }
 

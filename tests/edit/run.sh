@@ -861,6 +861,13 @@ ok "at its pace" sh -c "'$top/build/filmtst' frames f.fli | grep -q '^20 frames 
 if [ -c /dev/full ]; then
 	ok "a full disk" sh -c "! '$demo' /N:2 /A:/dev/full 2>err && grep -q 'disk full' err"
 fi
+(trap '' XFSZ; ulimit -f 200; exec "$demo" /N:200 /A:part.fli) >out 2>&1
+ok "what fits of a film is kept" sh -c 'test $(od -An -tu4 -N4 part.fli) -eq $(wc -c <part.fli) &&
+	test $(od -An -tu2 -j6 -N2 part.fli) -gt 10'
+cp f.fli older.fli
+ok "a scene is not replaced by a film" sh -c "! '$demo' /N:2 /M:one.fb /A:one.fb 2>err && grep -q 'one.fb: this is no film' err"
+ok "and is still there" grep -q sphere one.fb
+ok "nor is a film, when there can be no dump" sh -c "! '$demo' /N:2 /D:one.fb/d /A:f.fli 2>err && cmp f.fli older.fli"
 ok "a film that cannot be" sh -c "! '$demo' /N:2 /A:none/none/x.fli 2>err && grep -q 'none/none/x.fli: no such file' err"
 timeout -s INT 4.5 "$demo" /S:8 /A:f.fli >out 2>&1
 ok "broken off, it is whole" film frames f.fli
@@ -894,11 +901,9 @@ END
 	FB_INPUT=script "$demo" /I /N:20 /D:a >out 2>&1
 	FB_INPUT=script "$top/build/demo32" /I /N:20 /D:b >out 2>&1
 	ok "64 bits and 32: the same frames" diff -r a b
-	# All tests above are repeated with the sanitizers, if that build exists.
-	if [ -x "$top/build/san/demo" ]; then
-		(cd "$top" && DEMO=build/san/demo sh tests/edit/run.sh) >san 2>&1
-		ok "under the sanitizers: $(tail -n 1 san)" grep -q ' passed, 0 failed$' san
-	fi
+	# All tests above are repeated with the sanitizers.
+	(cd "$top" && make -s build/san/demo && DEMO=build/san/demo sh tests/edit/run.sh) >san 2>&1
+	ok "under the sanitizers: $(tail -n 1 san)" grep -q ' passed, 0 failed$' san
 	# The tests in DOSBox, by keyboard and mouse.
 	(cd "$top" && sh tests/edit/dos.sh) >dos 2>&1
 	grep -v '^ok ' dos | sed '$d'

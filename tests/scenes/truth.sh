@@ -32,6 +32,9 @@ build/truth --head
 # judge SCENE FRAMES
 judge() {
 	said=$(QUIET=1 sh tools/truth.sh "$1" "${SPACING:-both}" "$2" 2>&1)
+	status=$?
+	[ $status -le 1 ] || said="$said
+$1: truth.sh ended with status $status"
 	echo "$said"
 	beyond=$((beyond + $(echo "$said" | grep -c -e "$mark" -e failed: -e truth)))
 	rows=$((rows + $(echo "$said" | wc -l)))
