@@ -45,7 +45,7 @@ make -s build/truth build/mkgif
 build/demo /N:60 "/D:$dir/demo" >"$dir/said"
 build/mkgif --43 --delay 10 $to/demo.gif "$dir/demo"
 
-build/demo /G /N:600 "/D:$dir/minute" >"$dir/said"
+build/demo /N:600 "/D:$dir/minute" >"$dir/said"
 mkdir "$dir/worst"
 build/truth --worst 2 --out "$dir/worst" "$dir/minute" >"$dir/said"
 number=0

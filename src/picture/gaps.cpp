@@ -53,7 +53,7 @@ bool goesOn(const uint8_t* row, int widest, int* from, int* to)
 }
 
 // Follows an opening down (`step` 1) or up (`step` -1) from the columns `from` to before `to` of row y.
-void follow(const uint8_t* frame, int y, int from, int to, int step, int widest, int narrowest, Opening& opening)
+void followOpening(const uint8_t* frame, int y, int from, int to, int step, int widest, int narrowest, Opening& opening)
 {
     for (;;) {
         // All that lies before a narrow place is filled together with it.
@@ -187,7 +187,7 @@ void Gaps::closeAbove(int y, int x, int widest, int narrowest)
 void Gaps::closeFrom(int y, int from, int to, int step, int widest, int narrowest)
 {
     Opening opening;
-    follow(frame_, y, from, to, step, widest, narrowest, opening);
+    followOpening(frame_, y, from, to, step, widest, narrowest, opening);
     const int narrow = opening.narrow;
     const Span* const rows = opening.rows;
     if (narrow > 0) {

@@ -98,7 +98,7 @@ bool Engine::update(const FrameContext& frame)
         if (patch->settled)
             settler.oversample(*patch);
     for (Patch* patch = patches_; patch < end; ++patch) {
-        if (!patch->islands && (!settler.hasIslands() || patch->state == PATCH_INSIDE))
+        if (patch->state == PATCH_INSIDE || !(settler.hasIslands() || patch->islands))
             continue;
         if (patch->stale || isDue(odometer_.bound(), patch->listDue))
             renewLists(*patch, all);

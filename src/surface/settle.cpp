@@ -428,7 +428,7 @@ inline const Seed* Settler::parted(const Seed& s) const
 namespace {
 
 // These end seeds that are not needed any more: the fine seeds of regular seed i, but for those on islands; its seeds on islands;
-// its oversampled and fine seeds; those of a patch.
+// its oversampled and fine seeds; all such seeds of a patch.
 void putAwayFine(SoftObject& object, int i)
 {
     Seed* const fine = object.fine(i);
@@ -451,9 +451,13 @@ void putAway(SoftObject& object, int i)
 
 void putAway(SoftObject& object, Patch& patch)
 {
-    if (patch.extras)
-        forSeeds(object, patch, [&](const Seed& s) { putAway(object, object.slotOf(s)); });
-    patch.extras = patch.fine = false;
+    if (patch.extras || patch.islands)
+        forSeeds(object, patch, [&](const Seed& s) {
+            const int i = object.slotOf(s);
+            putAway(object, i);
+            putAwayIsland(object, i);
+        });
+    patch.extras = patch.fine = patch.islands = false;
 }
 
 }  // namespace
@@ -577,7 +581,7 @@ bool Settler::mayHaveIslands(const Patch& patch) const
 void Settler::settleIslands(Patch& patch)
 {
     setPatch(patch);
-    const bool may = patch.state != PATCH_INSIDE && mayHaveIslands(patch), had = patch.islands;
+    const bool may = mayHaveIslands(patch), had = patch.islands;
     if (may && !had && (turn_ & 1) != 0)
         return;
     patch.islands = false;

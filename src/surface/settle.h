@@ -52,8 +52,8 @@ public:
     // must be settled before. It calls setPatch() itself.
     void oversample(Patch& patch);
 
-    // Whether paths of the object may lead through islands of the surface; and settles the seeds on the islands of a patch. A patch
-    // that is PATCH_INSIDE loses its islands.
+    // Whether paths of the object may lead through islands of the surface; and settles the seeds on the islands of a patch,
+    // whatever its state but PATCH_INSIDE. Where no link is heavy any more the islands end.
     bool hasIslands() const { return heavy_; }
     SELDOM void settleIslands(Patch& patch);
 

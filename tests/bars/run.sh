@@ -50,7 +50,10 @@ for i in 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19; do
 done >"$dir/TWENTY.FB"
 build/demo "/M:$dir/TWENTY.FB" /N:1 "/D:$dir/twenty" >"$dir/out"
 ok "colours of twenty" told "$dir/twenty" 30
-ok "few of them wrong" awk -F': ' '/^pixels whose object/ { told = $2 } /^pixels of another/ { seen = 1; wrong = $2 } END { exit !(seen && 50 * wrong < told) }' "$dir/told"
+ok "few of them wrong" awk -F': ' '
+	/^pixels whose object/ { told = $2 }
+	/^pixels of another/ { seen = 1; wrong = $2 }
+	END { exit !(seen && 50 * wrong < told) }' "$dir/told"
 ok "each has its colour" test "$(sed -n 's/^ramp [0-9]* //p' "$dir/twenty/F0000000.TXT" | sort -u | wc -l)" -eq 20
 ok "a scene that is not there" sh -c '! sh tools/truth.sh NOSUCH 2>/dev/null'
 

@@ -432,7 +432,8 @@ void dents()
     for (const char* lines : {"dent one dig\ndent two dig", "dent two dig\ndent one dig"}) {
         Model two;
         read(std::string("sphere one size 30\nsphere two size 30 at 20 0 0\nsphere dig size 20\n") + lines, two);
-        check(two.itemNamed("dig")->object->hollowed() == two.itemNamed("one")->object, std::string("the hollow of the first: ") + lines);
+        check(two.itemNamed("dig")->object->hollowed() == two.itemNamed("one")->object,
+              std::string("the hollow of the first: ") + lines);
     }
 
     refused(S + "dent s", "T.FB:2: end of line: expected the name of a second object");
@@ -835,7 +836,8 @@ void limits()
             "T.FB:2: 'circle              ...': expected a line of at most 250 characters");
     taken(S + std::string(31998, '\n') + "#", "32000 lines");
     taken(S + std::string(31998, '\n') + "#\n", "32000 lines, the last one ended");
-    refused("sphere s size 20." + std::string(40, '0') + "abc", "T.FB:1: '20.000000000000000000000000000?': expected size from 1 to 100");
+    refused("sphere s size 20." + std::string(40, '0') + "abc",
+            "T.FB:1: '20.000000000000000000000000000?': expected size from 1 to 100");
     refused(S + std::string(31999, '\n') + "#\n", "T.FB:32001: 'one more line': expected at most 32000 lines");
     taken(S + repeated(8, "blend all # %d\n"), "8 times blend all");
     refused(S + repeated(9, "blend all # %d\n"), "T.FB:10: 'all': expected blend all in at most 8 lines");
