@@ -326,7 +326,8 @@ void run(const char* program, unsigned long* status)
     ++status[code];
     // The run has /N and /S, so a frame rate asked for is ignored, and the program says so; and there is no mouse for /I.
     std::string notices = err;
-    for (const std::string known : {"No mouse driver found: use Tab, arrows, PgUp and PgDn.\n", "/F has no effect with /N or /S.\n"})
+    for (const std::string known : {"No mouse driver found: use Tab, arrows, PgUp and PgDn.\n",
+                                    "/F has no effect with /N or /S.\n"})
         if (notices.rfind(known, 0) == 0)
             notices.erase(0, known.size());
     if (code == 0 && !notices.empty())
