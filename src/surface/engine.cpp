@@ -42,11 +42,13 @@ private:
     bool isAtRest(Settler& settler, Patch& patch, const Neighbourhood& all);
     void sleepOutOfSight(Patch& patch);
     void settle(Settler& settler, Patch& patch);
+    SELDOM void settleIslands(Settler& settler, const Neighbourhood& all);
 
     SoftObject& object_;
 
     Odometer odometer_;
     uint32_t updates_ = 0, draws_ = 0;
+    bool islands_ = false;   // some patches have seeds on islands
     bool allRests_ = false;  // all seeds were at rest after the last update
     Patch* patches_ = nullptr;
     int count_ = 0;
@@ -97,16 +99,25 @@ bool Engine::update(const FrameContext& frame)
     for (Patch* patch = patches_; patch < end; ++patch)
         if (patch->settled)
             settler.oversample(*patch);
-    for (Patch* patch = patches_; patch < end; ++patch) {
-        if (patch->state == PATCH_INSIDE || !(settler.hasIslands() || patch->islands))
+    if (settler.hasIslands() || islands_)
+        settleIslands(settler, all);
+    object_.setDisplaced(displaced);
+    allRests_ = !displaced;
+    return settler.hidden();
+}
+
+// Settles the islands of all patches. They end when no link of the object is heavy any more.
+void Engine::settleIslands(Settler& settler, const Neighbourhood& all)
+{
+    islands_ = false;
+    for (Patch* patch = patches_; patch < patches_ + count_; ++patch) {
+        if (patch->state == PATCH_INSIDE)
             continue;
         if (patch->stale || isDue(odometer_.bound(), patch->listDue))
             renewLists(*patch, all);
         settler.settleIslands(*patch);
+        islands_ |= patch->islands;
     }
-    object_.setDisplaced(displaced);
-    allRests_ = !displaced;
-    return settler.hidden();
 }
 
 // Brings a patch up to date. `known`: what was found out in earlier frames still holds. Returns false if all seeds of the patch
