@@ -7,10 +7,9 @@
 
 namespace {
 
-// Turns a unit vector of the world into the object's own axes, 1.0 = 2^14.
-void axisInOwn(const SoftObject& object, const Vector& axis, int32_t* to)
+// Stores the components of a unit vector, 1.0 = 2^14.
+inline void store14(const Vector& v, int32_t* to)
 {
-    const Vector v = object.toOwnAxes(axis);
     to[0] = rawFromReal(v.x) >> 2;
     to[1] = rawFromReal(v.y) >> 2;
     to[2] = rawFromReal(v.z) >> 2;
@@ -111,7 +110,7 @@ static void setSides(const SoftObject& object, const FrameContext& frame, const 
         if (inside >= reach)
             continue;
         OwnFrame::Side& side = own.sides[own.sideCount++];
-        axisInOwn(object, frame.axes.toWorld(u), side.inward);
+        store14(object.toOwnAxes(frame.axes.toWorld(u)), side.inward);
         // `begin` is -inside / growth, rounded up.
         const int32_t growth = max32(rawFromReal(object.growth()) >> 8, 1);
         side.begin = (-inside * 256 + (inside < 0 ? growth - 1 : 0)) / growth;
@@ -146,10 +145,10 @@ OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
     own.limb16 = own.distance16 * own.limb >> 14;
     for (int i = 0; i < 3; ++i)
         own.eye16[i] = own.eye32[i] >> 1;
-    axisInOwn(object, frame.light, own.light);
-    axisInOwn(object, frame.axes.right, own.right);
-    axisInOwn(object, frame.axes.up, own.up);
-    axisInOwn(object, frame.axes.ahead, own.ahead);
+    store14(object.toOwnAxes(frame.light), own.light);
+    store14(object.toOwnAxes(frame.axes.right), own.right);
+    store14(object.toOwnAxes(frame.axes.up), own.up);
+    store14(object.toOwnAxes(frame.axes.ahead), own.ahead);
     own.hider = frame.hider;
     own.centre[0] = rawFromReal(toCentre.x) >> 8;
     own.centre[1] = rawFromReal(toCentre.y) >> 8;
@@ -221,11 +220,30 @@ static void setClaims(const SoftObject& object, Real weight, Neighbour& near)
         near.ownClaim = quotient(other * HOST_SIZES, own * heavy);
 }
 
+// Collects those of `count` objects that are not too far away along any axis to reach an object, but for itself. Returns their
+// number. Most objects are far: this loop stands alone because it is quicker so.
+SELDOM static int findNear(SoftObject* const* from, int count, const SoftObject& object, const SoftObject** near)
+{
+    const Point centre = object.centre();
+    const Real range = object.reach() + GATHER_SLACK;
+    int found = 0;
+    for (SoftObject* const* const end = from + count; from < end; ++from) {
+        const SoftObject& other = **from;
+        const Real most = other.reach() + range;
+        if (absolute(other.centre().x - centre.x) < most && absolute(other.centre().y - centre.y) < most &&
+            absolute(other.centre().z - centre.z) < most && &other != &object)
+            near[found++] = &other;
+    }
+    return found;
+}
+
 // Adds those of `count` objects that are near enough to the neighbours. `digs`: they are no members of the body, but dig into it.
 static void gatherFrom(SoftObject* const* from, int count, bool digs, const SoftObject& object, const Bodies& bodies,
                        Neighbourhood& all)
 {
-    if (count == 0)
+    const SoftObject* found[NEIGHBOURS_MAX];
+    const int reaching = count == 0 ? 0 : findNear(from, count, object, found);
+    if (reaching == 0)
         return;
     const Real growth = object.growth();
     const bool longPaths = object.longestPath() > LONG_PATH;
@@ -237,10 +255,12 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
     const Real large = object.size() * GUEST_SIZES, small = quotient(object.size(), HOST_SIZES) + Real(0.01);
     bool inner = false, uneven = false, plain = true, others = false, claims = false;
     Neighbour* next = all.neighbours + all.count;
-    for (SoftObject* const* const end = from + count; from < end; ++from) {
-        const SoftObject& other = **from;
+    for (int i = 0; i < reaching; ++i) {
+        const SoftObject& other = *found[i];
         const Real range = reach + other.reach();
-        if (!isNearer(other.centre(), centre, range + GATHER_SLACK) || &other == &object)
+        const Vector away = other.centre() - centre;
+        const auto square = squareOf(away);
+        if (square >= squareOf(range + GATHER_SLACK))
             continue;
         if (next == all.neighbours + NEIGHBOURS_MAX)
             break;
@@ -250,8 +270,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         near.weights = bodies.weights(near.slot);
         all.bySlot[near.slot] = &near;
         near.digs = digs;
-        const Vector away = other.centre() - centre;
-        near.inRange = squareOf(away) < squareOf(range);
+        near.inRange = square < squareOf(range);
         place(object, growth, away, near);
         weigh(bodies, all, near);
         near.claim = near.ownClaim = Real(1);
