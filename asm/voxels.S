@@ -62,7 +62,7 @@
 #define CELL         112
 #define CELL_SHIFT   124
 #define AREA_SHARE   128
-#define WHOLE_MOST   132
+#define WHOLE_BEFORE 132
 #define DEEPEST      136
 #define FRONT        140
 #define HORIZON      144
@@ -427,12 +427,14 @@ shade_lit:
 
         testb        $SEED_RESTING, SEED_FLAGS(%esi)
         jz        shade_fallen
-        // if (s.area <= v.wholeMost)
+        // if (s.area == 0 || facing < v.wholeBefore)
         movzwl        SEED_AREA(%esi), %ecx
-        cmpl        WHOLE_MOST(%ebp), %ecx
-        jle        shade_whole
-        // area = mulHigh(s.area * (facing >> 3), v.areaShare)
         movl        SEEN_FACING(%ebx), %eax
+        testl        %ecx, %ecx
+        jz        shade_whole
+        cmpl        WHOLE_BEFORE(%ebp), %eax
+        jl        shade_whole
+        // area = mulHigh(s.area * (facing >> 3), v.areaShare)
         sarl        $3, %eax
         imull        %ecx, %eax
         imull        AREA_SHARE(%ebp)
@@ -651,12 +653,14 @@ shade_area:
         unpack
         movl        %edx, SHADE_WAY_X(%esp)
         movl        %eax, SHADE_WAY_Y(%esp)
-        // if (area <= v.wholeMost)
+        // if (area == 0 || facing < v.wholeBefore)
         movl        SHADE_AREA(%esp), %ecx
-        cmpl        WHOLE_MOST(%ebp), %ecx
-        jle        shade_fallen_whole
-        // area = mulHigh(area * (facing >> 3), v.areaShare)
         movl        SEEN_FACING(%ebx), %eax
+        testl        %ecx, %ecx
+        jz        shade_fallen_whole
+        cmpl        WHOLE_BEFORE(%ebp), %eax
+        jl        shade_fallen_whole
+        // area = mulHigh(area * (facing >> 3), v.areaShare)
         sarl        $3, %eax
         imull        %ecx, %eax
         imull        AREA_SHARE(%ebp)

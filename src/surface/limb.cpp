@@ -70,15 +70,13 @@ bool findLimb(const Bend& bend, const OwnFrame& own, int32_t step, int32_t shear
                    limb);
 }
 
-void endAtLimb(const Limb& limb, int32_t cosine, int32_t more, Voxel* voxel)
+void endAtLimb(const Limb& limb, int32_t cosine, Voxel* voxel)
 {
     cosine = min32(cosine, COSINE_MOST);
     // A tilt is a component of the normal divided by the cosine.
     const int32_t near = min32(times14(cosine, limb.nearness), (SLANT - 1) << 14) + (1 << 14);
     const int32_t x = times14(voxel->tiltX * cosine >> 8, near) + times14(cosine, limb.along[0]);
     const int32_t y = times14(voxel->tiltY * cosine >> 8, near) + times14(cosine, limb.along[1]);
-    voxel->halfWidth = static_cast<int16_t>(min32(voxel->halfWidth + more, 0x7fff));
-    voxel->halfHeight = static_cast<int16_t>(min32(voxel->halfHeight + more, 0x7fff));
     voxel->reach = REACH_MOST;
     voxel->cutX = inward(x);
     voxel->cutY = inward(y);

@@ -27,8 +27,7 @@ struct Limb {
 bool findLimb(int32_t bend, int32_t shearX, int32_t shearY, int32_t depth, Limb* limb);
 bool findLimb(const Bend& bend, const OwnFrame& own, int32_t step, int32_t shearX, int32_t shearY, int32_t depth, Limb* limb);
 
-// Ends a voxel that is not cut yet at the limb. `cosine` is c, 1.0 = 2^14. The voxel grows by `more` to each side, 1/256 unit,
-// because there may be no other voxel to cover the rest of the surface up to the limb.
-void endAtLimb(const Limb& limb, int32_t cosine, int32_t more, Voxel* voxel);
+// Ends a voxel that is not cut yet at the limb. `cosine` is c, 1.0 = 2^14.
+void endAtLimb(const Limb& limb, int32_t cosine, Voxel* voxel);
 
 #endif

@@ -25,6 +25,10 @@ constexpr int32_t BEHIND = 64;
 // 1/256 unit: at a smaller depth scales cover the whole of their cells, because so near the viewer a ring is no straight band.
 constexpr int32_t WHOLE_BEFORE = 64 * 256;
 
+// Half spacings: where the limb is nearer than this a scale covers the whole of its cell, because the next scale of its band, which
+// would cover the rest, may face away.
+constexpr int32_t WHOLE_AT_LIMB = 4;
+
 // The greatest radius of curvature (1/32 unit) that is told from flat; and the cosine of normal and direction to the viewer
 // (1.0 = 2^14) from which on the curvature does not matter.
 constexpr int32_t LONGEST_RADIUS = 8000;
@@ -48,11 +52,6 @@ constexpr int32_t DEEPEST = 8;
 // Spacings: scales that end are drawn as far as this before their centres. Farther before them the tangent plane is well before the
 // surface, and the scales beside them cover it.
 constexpr int32_t FRONT = 2;
-
-// A scale that ends at the limb grows to each side by LIMB_MARGIN, 1/64 spacing, but by at most LIMB_MARGIN_MOST, 1/256 unit: this
-// adds at most three steps to the change of its brightness to a corner, which stays within SHADING_MOST of the ramp.
-constexpr int32_t LIMB_MARGIN = 3, LIMB_MARGIN_MOST = 24;
-static_assert(-DARK_MIDDLE * 8 + STEEPEST_SHADING + 2 * 127 * LIMB_MARGIN_MOST / 256 < SHADING_MOST * 8, "ramps");
 
 // Upper bound on the seeds of a patch, with oversampled and fine ones.
 constexpr int SEEDS_MOST = (2 + SoftObject::FINE_SEEDS) * PATCH_RINGS * PATCH_SEEDS;
@@ -103,7 +102,7 @@ private:
     int32_t spacing_;         // spacing of the seeds, 1/256 unit of the world, at most 2800
     int32_t step_;            // length of a step of places, 1/256 unit of the world with 16 fraction bits
     int32_t ballBend_;        // curvature of a ball: 1 / radius, per unit, 1.0 = 2^14
-    int32_t limbMargin_;      // LIMB_MARGIN as a length, 1/256 unit
+    int32_t nearLimb_;        // Voxel::reach where the limb is WHOLE_AT_LIMB away, 16 more fraction bits
     bool ball_, clipsDepth_;  // clipsDepth_: some seeds may be nearer than NEAREST_DEPTH, or farther than FARTHEST_DEPTH
     int32_t facesViewer_, facesAbout_;  // FACES_VIEWER and FACES_ABOUT times the distance of the eye, steps of places
     int viewShift_;           // right shift that brings vectors to the eye to 14 bits
@@ -157,9 +156,9 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     viewShift_ = max32(0, 18 - __builtin_clz(static_cast<uint32_t>(distance + 4096)));
     // Distance of the eye, 1/32 unit of the world.
     const int32_t distance32 = max32(mulShift16(own.distance32, rawFromReal(own.growth)), 1);
-    // horizonShare, or half as much again (setBend()), is multiplied by Seen::facing: the product must not overflow 32 bits.
+    // horizonShare is multiplied by Seen::facing: the product must not overflow 32 bits.
     const int32_t farthest = distance * 8 + (rawFromReal(object.laidReach()) >> shading_.placeShift);
-    const int32_t horizonMost = INT32_MAX / 3 * 2 / (farthest + 1);
+    const int32_t horizonMost = INT32_MAX / (farthest + 1);
     ballHorizon_ = min32(mulShift16((min32(radius >> 11, LONGEST_RADIUS) << 12) / distance32, step), horizonMost);
     horizonScale_ = mulShift16(mulDiv(step, 1 << 12, distance32), step);
     flatHorizon_ = min32(mulShift16(LONGEST_RADIUS, horizonScale_), horizonMost);
@@ -167,7 +166,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     const int32_t spacing = spacing_ = min32(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
     shading_.deepest = spacing * DEEPEST;
     shading_.front = min32(spacing * FRONT >> 3, REACH_MOST);
-    limbMargin_ = min32(spacing * LIMB_MARGIN >> 6, LIMB_MARGIN_MOST);
+    nearLimb_ = (spacing * WHOLE_AT_LIMB >> 5) << 16;
     areaScale_ = static_cast<uint32_t>(mulShift16(spacing * spacing << 7, step));
     shading_.cellShift = __builtin_clz(static_cast<uint32_t>(spacing)) - 19;
     if (spacing << shading_.cellShift > 6143)
@@ -202,14 +201,11 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
     for (int i = 0; i < 3; ++i)
         view[i] -= n[i] * up >> 14;
     const int32_t square = dot(view, view), curvature = curvatureAlong(bend, view);
-    // At rest a quarter is added to the radius, because scales differ from their cells, and next to the limb there may be no other
-    // scale to cover the difference. A blending patch is taken to bend no less than a ball half as large again as the object.
-    const bool rests = patch.state == PATCH_REST;
-    if (!rests)
-        shading_.horizonShare = ballHorizon_ * 3 >> 1;
+    // A blending patch is taken to bend no less than an unblended ball as large as the object.
+    if (patch.state != PATCH_REST)
+        shading_.horizonShare = ballHorizon_;
     if (curvature > square >> 11)
-        shading_.horizonShare = min32(shading_.horizonShare,
-                                        mulShift16((rests ? square * 5 >> 1 : square * 2) / curvature, horizonScale_));
+        shading_.horizonShare = min32(shading_.horizonShare, mulShift16(square * 2 / curvature, horizonScale_));
 }
 
 // Makes a patch current. Must be called before its visible seeds are shaded.
@@ -225,7 +221,6 @@ inline void Shader::setPatch(const Patch& patch, const Seen& middle, const Voxel
         const int32_t column = (columns_[i] - aheads_[i] * shearX_) >> 14, row = (rows_[i] - aheads_[i] * shearY_) >> 14;
         shading_.cell[i] = (static_cast<uint32_t>(column) << 16) + static_cast<uint32_t>(row);
     }
-    shading_.wholeMost = depth < WHOLE_BEFORE ? AREA_MOST : 0;
     const uint32_t share = areaScale_ / static_cast<uint32_t>(depth >> 3);
     shading_.areaShare = static_cast<int32_t>((share < 0x3ffff ? share : 0x3ffff) << 13);
     if (patch.bend.ball) {
@@ -238,6 +233,7 @@ inline void Shader::setPatch(const Patch& patch, const Seen& middle, const Voxel
     }
     if (hollow_)
         shading_.horizonShare = flatHorizon_;
+    shading_.wholeBefore = depth < WHOLE_BEFORE ? INT32_MAX : nearLimb_ / max32(shading_.horizonShare, 1);
     ahead_ = shading_.gradientAhead;
     shading_.gradientAhead = (shading_.gradientAhead + (shading_.gradient[0] * (shearX_ >> 2) >> 8) +
                               (shading_.gradient[1] * (shearY_ >> 2) >> 8)) >> 4;
@@ -293,7 +289,7 @@ inline void Shader::endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel
     if (voxel->reach == 0 || !(seen.seed->flags & SEED_RESTING) || isCut(*voxel))
         return;
     if (const Limb* const limb = limbOf(patch))
-        ::endAtLimb(*limb, mulDiv(mulShift16(seen.facing, step_), 1 << 14, own_.centre[2] + voxel->z), limbMargin_, voxel);
+        ::endAtLimb(*limb, mulDiv(mulShift16(seen.facing, step_), 1 << 14, own_.centre[2] + voxel->z), voxel);
 }
 
 // Finds the visible oversampled and fine seeds of a patch, as findSeeds() finds the regular ones.

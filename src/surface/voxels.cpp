@@ -82,7 +82,7 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
         const OnPicture along = onPicture(s.along);
         halfWidth = magnitude(along.x);
         halfHeight = magnitude(along.y);
-        if (cell <= v.wholeMost) {
+        if (cell == 0 || facing < v.wholeBefore) {
             const OnPicture across = onPicture(s.across);
             halfWidth = (halfWidth + magnitude(across.x)) >> v.cellShift;
             halfHeight = (halfHeight + magnitude(across.y)) >> v.cellShift;

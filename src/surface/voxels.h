@@ -30,7 +30,7 @@ struct Shading {
     uint32_t cell[3];       // axes of the picture plane, sheared along the ray: column in the upper 16 bits, row in the lower
     int32_t cellShift;      // shifts half axes of cells on the picture plane right to 1/256 unit
     int32_t areaShare;      // area of a cell on the picture plane = area * (facing / 8) * areaShare / 2^32
-    int32_t wholeMost;      // scales of cells up to this area cover the whole cell, those of larger ones only its share of a band
+    int32_t wholeBefore;    // the scales of seeds with a smaller Seen::facing cover the whole cell, others only its share of a band
     int32_t deepest;        // upper bound of the change of depth from the centre of a scale with a reach to its corners, 1/256 unit
     int32_t front;          // Voxel::front of all voxels that have a reach
     int32_t horizonShare;   // takes Seen::facing to Voxel::reach in 2^-16: radius of curvature / distance of the eye, 12 fraction
@@ -55,6 +55,7 @@ constexpr int32_t FLAT_SHADING = 8;
 // Upper bound of that change. Greater slopes are halved until they fit, because so far from the centre the brightness does not
 // really go on changing at the centre's slope.
 constexpr int32_t STEEPEST_SHADING = 240;
+static_assert(-DARK_MIDDLE * 8 + STEEPEST_SHADING < SHADING_MOST * 8, "no corner of a scale is beyond the ends of a ramp");
 
 // Sets a voxel's slopes of brightness, 1/8 step per unit, or none if they would not show. Half extents and brightness are known.
 inline void setSlopes(int32_t x, int32_t y, Voxel* voxel)

@@ -996,7 +996,7 @@ static_assert(inasm2::SEEDS == offsetof(Shading, seeds) && inasm2::ROOTS == offs
               inasm2::TO_AHEAD == offsetof(Shading, toAhead) && inasm2::DEPTH == offsetof(Shading, depth) &&
               inasm2::LEAST_POSITION == offsetof(Shading, leastPosition) && inasm2::CELL == offsetof(Shading, cell) &&
               inasm2::CELL_SHIFT == offsetof(Shading, cellShift) && inasm2::AREA_SHARE == offsetof(Shading, areaShare) &&
-              inasm2::WHOLE_MOST == offsetof(Shading, wholeMost) &&
+              inasm2::WHOLE_BEFORE == offsetof(Shading, wholeBefore) &&
               inasm2::DEEPEST == offsetof(Shading, deepest) && inasm2::FRONT == offsetof(Shading, front) &&
               inasm2::HORIZON == offsetof(Shading, horizonShare) &&
               inasm2::GRADIENT == offsetof(Shading, gradient) && inasm2::AHEAD == offsetof(Shading, gradientAhead), "Shading");
@@ -1042,7 +1042,7 @@ void shadedSeeds(int rounds)
         v.leastPosition = below(2) << 8;
         v.cellShift = below(8);
         v.areaShare = below(0x40000000);
-        v.wholeMost = below(3) == 0 ? AREA_MOST : 0;
+        v.wholeBefore = below(4) == 0 ? INT32_MAX : below(1 << below(12));
         v.deepest = below(3) == 0 ? below(1 << (8 + below(7))) : 22400;
         v.front = below(REACH_MOST + 1);
         v.horizonShare = below(1 << (4 + below(8)));
@@ -1099,8 +1099,9 @@ void shadedSeeds(int rounds)
             ended += voxel.reach != 0;
             sloped += voxel.slopeX != 0;
             steep += voxel.tiltX > 5000;
-            whole += s.area <= v.wholeMost;
-            torn += !(s.flags & ::SEED_RESTING) && s.area > v.wholeMost && s.normal.x / 130 != s.way[0];
+            const bool isWhole = s.area == 0 || seenC[1 + i].facing < v.wholeBefore;
+            whole += isWhole;
+            torn += !(s.flags & ::SEED_RESTING) && !isWhole && s.normal.x / 130 != s.way[0];
             plain += voxel.reach == 0 && voxel.slopeX == 0;
         }
     }

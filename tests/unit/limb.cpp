@@ -27,7 +27,7 @@ Voxel ended(const Limb& limb, const Vec& seed, const Vec& normal)
     v.reach = 20;
     v.tiltX = static_cast<int16_t>(std::lround(normal.x / cosine * 256));
     v.tiltY = static_cast<int16_t>(std::lround(normal.y / cosine * 256));
-    endAtLimb(limb, static_cast<int32_t>(cosine * 16384), 20, &v);
+    endAtLimb(limb, static_cast<int32_t>(cosine * 16384), &v);
     return v;
 }
 
@@ -67,7 +67,7 @@ void holdAgainst(const Round& round, Random& random, LimbOf limbOf, long* held, 
         if (!found)
             continue;
         const Voxel voxel = ended(limb, seed, normal);
-        CHECK(voxel.reach == REACH_MOST && voxel.halfWidth == 320 && voxel.halfHeight == 320);
+        CHECK(voxel.reach == REACH_MOST && voxel.halfWidth == 300 && voxel.halfHeight == 300);
         CHECK(cutAt(voxel, 0, 0) >= 0);
         for (int k = 0; k < 20; ++k) {
             const double x = random.between(-spacing, spacing), y = random.between(-spacing, spacing);
