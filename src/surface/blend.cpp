@@ -12,74 +12,72 @@ constexpr int CROWD = 64;
 // So far inside the body, in units of the field, it does not matter how far.
 constexpr Real DEEP(240);
 
-// A member of the body that has a field f at the position; `lack` is dD/df (see findLacks()).
+// A member of the body that has a field f at the position; `lack` is dD/df, where D is the sum of (1 - w_ik) f_i f_k (f_i + f_k)
+// over all pairs of members.
 struct Linked {
     Real f, lack;
-    const Real* weights;
-    int slot, index;  // index: number of the neighbour on the list; -1: the object itself
+    Neighbour* near;  // null: the object itself
 };
 
-// Returns D = sum of (1 - w_ik) f_i f_k (f_i + f_k) over all pairs, adds dD/df_i to each member's `lack`, and sets `*squares` to Q,
-// the sum of f_i^2.
-Real findLacks(Linked* parts, const Linked* end, Real* squares)
+// Adds to the `lack` of two members what their link, of weight w, leaves to be missing, and returns the term of the two in D.
+inline __attribute__((always_inline)) Real addLack(Linked& a, Linked& b, Real w)
 {
-    Real lacks(0), sumOfSquares(0);
-    for (Linked* a = parts; a < end; ++a) {
-        sumOfSquares += a->f * a->f;
-        for (Linked* b = parts; b < a; ++b) {
-            const Real w = b->weights[a->slot];
-            if (w == Real(1))
-                continue;
-            const Real one = w == Real(0) ? a->f : a->f - w * a->f, sum = a->f + b->f, product = one * b->f;
-            lacks += product * sum;
-            a->lack += product + (w == Real(0) ? b->f : b->f - w * b->f) * sum;
-            b->lack += product + one * sum;
-        }
-    }
-    *squares = sumOfSquares;
-    return lacks;
+    const Real one = w == Real(0) ? a.f : a.f - w * a.f, sum = a.f + b.f, product = one * b.f;
+    a.lack += product + (w == Real(0) ? b.f : b.f - w * b.f) * sum;
+    b.lack += product + one * sum;
+    return product * sum;
 }
 
 }  // namespace
 
-// The body's field is the sum of the fields less D / Q. Its derivative with respect to f_i is
+// The body's field is the sum of the fields less D / Q, where Q is the sum of f_i^2. Its derivative with respect to f_i is
 // 1 - (sum of (1 - w_ik) f_k (2 f_i + f_k) - 2 f_i D / Q) / Q.
-void Path::blend(Real position, Sample& sample)
+void Path::blend(Real position, const Fields& fields, Sample& sample)
 {
-    // The object itself comes first.
-    Linked parts[NEIGHBOURS_MAX + 1];
+    Linked own{ownField_, Real(0), nullptr}, parts[NEIGHBOURS_MAX];
     Linked* end = parts;
-    Real strongest(0);
-    const auto add = [&](Real f, const Real* weights, int slot, int index) {
-        *end++ = {f, Real(0), weights, slot, index};
-        strongest = max(strongest, f);
-    };
-    if (ownField_ > Real(0))
-        add(ownField_, bodies_.weights(object_.slot()), object_.slot(), -1);
-    share_[0] = Real(1);
     for (int i = 0; i < touched_; ++i) {
-        const Neighbour& near = *near_[i];
-        share_[i + 1] = Real(1);
+        Neighbour& near = *near_[i];
         if (near.value > Real(0))
-            add(near.value, near.weights, near.slot, i);
+            *end++ = {near.value, Real(0), &near};
+        else
+            near.share = Real(1);
     }
     // In a crowd all fields are small: they are scaled up, because their squares would lose too many digits.
-    const bool crowd = end - parts > CROWD, scaled = crowd || (strongest < Real(0.125) && strongest > Real(0));
+    const Real strongest = max(ownField_, fields.strongest);
+    const bool crowd = end - parts >= CROWD, scaled = crowd || (strongest < Real(0.125) && strongest > Real(0));
     const Real one = crowd ? strongest + strongest : strongest;
-    for (Linked* a = parts; a < end && scaled; ++a)
-        a->f = quotient(a->f, one);
-    Real squares(0);
-    const Real lacks = findLacks(parts, end, &squares);
+    if (scaled) {
+        own.f = quotient(own.f, one);
+        for (Linked* a = parts; a < end; ++a)
+            a->f = quotient(a->f, one);
+    }
+    Real lacks(0), squares = own.f * own.f;
+    for (Linked* a = parts; a < end; ++a) {
+        squares += a->f * a->f;
+        const int slot = a->near->slot;
+        if (nearby_.weight(slot) != Real(1))
+            lacks += addLack(*a, own, nearby_.weight(slot));
+        for (Linked* b = parts; b < a; ++b) {
+            const Real w = b->near->weights[slot];
+            if (w != Real(1))
+                lacks += addLack(*a, *b, w);
+        }
+    }
     if (absolute(lacks) <= squares * NEGLIGIBLE)
         return;
     const Real inverse = quotient(Real(1), squares), lack = lacks * inverse, twice = lack + lack;
     sample.excess -= scaled ? lack * one : lack;
     shared_ = true;
+    // Returns what is missing from a member's share.
+    const auto lost = [&](const Linked& a) { return (a.lack - a.f * twice) * inverse; };
+    const Real ownLost = lost(own);
+    ownShare_ = Real(1) - ownLost;
+    sample.slope -= ownLost * shiftDown(ownSlope_ * position, 1);
     for (const Linked* a = parts; a < end; ++a) {
-        const Real lost = (a->lack - a->f * twice) * inverse;
-        const Real rate = a->index < 0 ? shiftDown(ownSlope_ * position, 1) : near_[a->index]->slope * near_[a->index]->change;
-        share_[a->index + 1] = Real(1) - lost;
-        sample.slope -= lost * rate;
+        const Real nearLost = lost(*a);
+        a->near->share = Real(1) - nearLost;
+        sample.slope -= nearLost * (a->near->slope * a->near->change);
     }
 }
 
@@ -90,7 +88,8 @@ void Path::blend(Real position, Sample& sample)
 struct Path::Part {
     Real f, rate;  // f, df/dp
     const Real* weights;
-    int slot, index;  // index: its place in share_
+    int slot;
+    Real* share;
     Real g, linked;
     Real x, x2;
 };
@@ -100,7 +99,8 @@ struct Path::Part {
 struct Path::Digger {
     Real f, rate;
     Real weight;
-    int slot, index;
+    int slot;
+    Real* share;
 };
 
 // The fields at a position: their sum, as if all members were linked with each other at weight 1 and dug into as the head is, and
@@ -114,7 +114,7 @@ struct Path::Parts {
     Digger diggers[NEIGHBOURS_MAX + 1];
 };
 
-inline void Path::addMember(Parts& parts, Real f, Real rate, const SoftObject& object, int index) const
+inline void Path::addMember(Parts& parts, Real f, Real rate, const SoftObject& object, Real* share) const
 {
     parts.sum += f;
     parts.slope += rate;
@@ -126,15 +126,15 @@ inline void Path::addMember(Parts& parts, Real f, Real rate, const SoftObject& o
     part.rate = rate;
     part.slot = object.slot();
     part.weights = bodies_.weights(part.slot);
-    part.index = index;
+    part.share = share;
 }
 
-inline void Path::addDigger(Parts& parts, Real f, Real rate, Real weight, const SoftObject& object, int index) const
+inline void Path::addDigger(Parts& parts, Real f, Real rate, Real weight, const SoftObject& object, Real* share) const
 {
     parts.sum -= f * weight;
     parts.slope -= rate * weight;
     if (!complete_)
-        *parts.lastDigger++ = {f, rate, weight, object.slot(), index};
+        *parts.lastDigger++ = {f, rate, weight, object.slot(), share};
 }
 
 // Adds the own field, which digs if the seeds sample a hollow.
@@ -149,9 +149,9 @@ void Path::addOwn(Real position, Parts& parts)
         return;
     const Real rate = ownRate(position);
     if (all_.hollow)
-        addDigger(parts, ownField_, rate, all_.weight, object_, 0);
+        addDigger(parts, ownField_, rate, all_.weight, object_, &ownShare_);
     else
-        addMember(parts, ownField_, rate, object_, 0);
+        addMember(parts, ownField_, rate, object_, &ownShare_);
 }
 
 // Adds the field of neighbour i. Returns false when it does not reach the position.
@@ -173,10 +173,10 @@ inline bool Path::addNear(Real position, const Vector* path, int i, Parts& parts
         return true;
     const Real rate = near.slope * near.change;
     if (near.digs) {
-        addDigger(parts, near.value, rate, near.weight, *near.object, i + 1);
+        addDigger(parts, near.value, rate, near.weight, *near.object, &near.share);
         return true;
     }
-    addMember(parts, near.value, rate, *near.object, i + 1);
+    addMember(parts, near.value, rate, *near.object, &near.share);
     if (all_.hollow && near.object == all_.head)
         headField_ = near.value;
     else
@@ -272,8 +272,9 @@ void Path::blendOdd(Parts& parts, Sample& sample)
     const Real share = quotient(Real(1), addLinks(parts.members, parts.end, inverse));
     if (all_.inner)
         addInner(parts.members, parts.end);
-    for (int i = 0; i <= touched_; ++i)
-        share_[i] = Real(1);
+    ownShare_ = Real(1);
+    for (int i = 0; i < touched_; ++i)
+        near_[i]->share = Real(1);
     Real slope(0), above(0);
     for (const Digger* digger = parts.diggers; digger < parts.lastDigger; ++digger) {
         Real linked(0);
@@ -282,15 +283,15 @@ void Path::blendOdd(Parts& parts, Sample& sample)
             a->g += w * digger->f;
             linked += w * a->x2;
         }
-        share_[digger->index] = linked * share;
-        slope += share_[digger->index] * digger->rate;
+        *digger->share = linked * share;
+        slope += *digger->share * digger->rate;
     }
     for (const Part* a = parts.members; a < parts.end; ++a)
         above += a->x2 * clamp(a->g, -DEEP, DEEP);
     const Real field = above * share;
     for (const Part* a = parts.members; a < parts.end; ++a) {
-        share_[a->index] = (a->x * (a->g - field) * twice + a->x2 + a->linked) * share;
-        slope += share_[a->index] * a->rate;
+        *a->share = (a->x * (a->g - field) * twice + a->x2 + a->linked) * share;
+        slope += *a->share * a->rate;
     }
     sample.excess = field - ISOVALUE;
     sample.slope = slope;

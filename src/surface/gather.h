@@ -61,6 +61,7 @@ struct Neighbour : Along {
     Vector toRoot;      // from the centre to the root; of an OTHER, the root in core space
     Vector step;        // of an OTHER: the path in core space
     Vector halfGradient;  // of an OTHER: half the gradient of t there, times CORE_SIZE^2
+    Real share;         // by how much the body's field changes with its field, dF/df, where that is known (Path::shared_)
 
     // Takes up a path; evaluates t and its derivative at a position of the path. Both set their fields of Along; the field's
     // value is not computed.

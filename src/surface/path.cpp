@@ -138,7 +138,7 @@ inline bool Path::lookPlain(Real position, const Vector* path, Sample* sample)
     addFields(near_, near_ + touched_, position, path, &fields);
     *sample = {fields.sum - ISOVALUE, fields.slope, fields.strongest - ownField_};
     if (!complete_ && (fields.reaching > 1 || !addsUp()))
-        blend(position, *sample);
+        blend(position, fields, *sample);
     return fields.reaching != 0;
 }
 
@@ -258,7 +258,7 @@ SELDOM int Path::findGradientShift() const
 // nearest point.
 inline __attribute__((always_inline)) Vector Path::sumGradients(Real position, int shift, bool slants) const
 {
-    Real own = -(shared_ ? ownSlope_ * share_[0] : ownSlope_);
+    Real own = -(shared_ ? ownSlope_ * ownShare_ : ownSlope_);
     if (!shared_ && all_.hollow)
         own = -(own * all_.weight);
     own = shiftDown(own, shift);
@@ -269,7 +269,7 @@ inline __attribute__((always_inline)) Vector Path::sumGradients(Real position, i
         const Neighbour& near = *near_[i];
         if (near.slope == Real(0))
             continue;
-        Real slope = shared_ ? near.slope * share_[i + 1] : near.slope;
+        Real slope = shared_ ? near.slope * near.share : near.slope;
         if (!shared_ && near.digs)
             slope = -(slope * near.weight);
         const Real push = -(shiftDown(slope, shift) * near.ratio);

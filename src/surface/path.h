@@ -127,10 +127,10 @@ private:
     SELDOM bool lookAnywhere(Real position, const Vector* path, Sample* sample);
     SELDOM Real warpedParam(Real position);
     // How fields make the body's field where that is not their plain sum (blend.cpp).
-    SELDOM void blend(Real position, Sample& sample);
+    SELDOM void blend(Real position, const Fields& fields, Sample& sample);
     SELDOM bool lookOdd(Real position, const Vector* path, Sample* sample);
-    void addMember(Parts& parts, Real f, Real rate, const SoftObject& object, int index) const;
-    void addDigger(Parts& parts, Real f, Real rate, Real weight, const SoftObject& object, int index) const;
+    void addMember(Parts& parts, Real f, Real rate, const SoftObject& object, Real* share) const;
+    void addDigger(Parts& parts, Real f, Real rate, Real weight, const SoftObject& object, Real* share) const;
     void addOwn(Real position, Parts& parts);
     bool addNear(Real position, const Vector* path, int i, Parts& parts);
     static bool isSum(const Parts& parts);
@@ -158,13 +158,13 @@ private:
                                     // segments, or claims are not fields
     const Seed* seed_;
     bool complete_;
-    bool shared_;                   // share_ holds at the position evaluated last; else shares are 1, of a digging field -weight
+    bool shared_;                   // shares hold at the position evaluated last; else they are 1, of a digging field -weight
     Real headField_;                // of a hollow: the field of the object that has the hollow
     Real lookedAt_;
     Real ownField_, ownSlope_;
     Real ownChange_;                // of a warped object: dt/dp
     Vector ownOut_;                 // of a warped object: half the gradient of t in core space, times CORE_SIZE^2
-    Real share_[NEIGHBOURS_MAX + 1];  // dF/df, by how much the body's field changes with the own (0) and each neighbour's (i + 1)
+    Real ownShare_;                 // as Neighbour::share, of the own field
 };
 
 inline void Path::aim(Neighbour& near, const Seed& s)
