@@ -10,33 +10,33 @@ namespace {
 // differ by less than ALIKE times the own gradient.
 constexpr Real TIE(0.004), ALIKE(0.2);
 
-// The gradient of a neighbour's field at a position, times half the squared size of the object, over 2^shift. Beyond the end of the
-// field the vector from the core may be too long for 16.16.
-inline __attribute__((always_inline)) Vector gradientOf(const Path& path, const Neighbour& near, Real position, int shift)
+// The gradient of a neighbour's field at the end of the vector `from` the path's root, times half the squared size of the object,
+// over 2^shift. Beyond the end of the field the vector from the core may be too long for 16.16.
+inline __attribute__((always_inline)) Vector gradientOf(const Path& path, const Neighbour& near, const Vector& from, int shift)
 {
     if (near.slope == Real(0))
         return {Real(0), Real(0), Real(0)};
-    return path.fromCore(near, position) * (shiftDown(near.slope, shift) * near.ratio);
+    return path.fromCore(near, from) * (shiftDown(near.slope, shift) * near.ratio);
 }
 
-// The gradient of the own field at a seed's position, times half the squared size of the object, over 2^shift.
-inline Vector ownGradientOf(const Path& path, const Seed& s, int shift)
+// The gradient of the own field at a seed, times half the squared size of the object, over 2^shift.
+inline Vector ownGradientOf(const Path& path, const Seed& s, const Vector& from, int shift)
 {
     const Real slope = shiftDown(path.ownSlope(), shift);
-    return path.object().slants() ? path.ownGradient(s.position, slope) : path.from(s.position) * slope;
+    return path.object().slants() ? path.ownGradient(s.position, slope) : from * slope;
 }
 
 // As Path::strongest(), where something digs, strengths differ or the object is shaped: the strongest neighbour that does not dig,
 // or null. Sets `*change`, the slope of the own field along the path; in a hollow that and `*g`, the own gradient, become those of
 // the object that has the hollow, because it is that object's border.
-SELDOM const Neighbour* strongestOdd(const Path& path, const Seed& s, int shift, Vector* g, Real* change)
+SELDOM const Neighbour* strongestOdd(const Path& path, const Vector& from, int shift, Vector* g, Real* change)
 {
     *change = path.ownRate(path.lookedAt());
     const Neighbour* other = nullptr;
     for (int i = 0; i < path.touched(); ++i) {
         const Neighbour& near = path.near(i);
         if (path.all().hollow && near.object == path.all().head) {
-            *g = gradientOf(path, near, s.position, shift);
+            *g = gradientOf(path, near, from, shift);
             *change = near.slope * near.change;
         } else if (!near.digs && (other == nullptr || near.value > other->value)) {
             other = &near;
@@ -61,9 +61,9 @@ struct Steepest {
 inline __attribute__((always_inline)) void setBorder(const Path& path, Seed& s, Real ahead, const Steepest& steepest, int shift)
 {
     const Real size = path.object().laidSize();
-    const Real distance = shiftDown(clamp(ahead * size, Real(-100), Real(100)) * size * Real(0.5), shift);
+    const Real distance = shiftDown(clamp(ahead * size, Real(-100), Real(100)) * size, shift + 1);
     const bool isNear = absolute(distance) < min(steepest.length, Real(1000)) * BORDER_FAR;
-    const Real apart = clamp(isNear ? distance / steepest.length : BORDER_FAR, -BORDER_FAR, BORDER_FAR);
+    const Real apart = isNear ? quotient(distance, steepest.length) : BORDER_FAR;
     s.apart = static_cast<int16_t>(rawFromReal(apart) >> 8);
     s.border = directionOf(steepest.way);
 }
@@ -74,17 +74,18 @@ bool findBorder(const Path& path, Seed& s, Real dominance)
 {
     // Gradients here are multiplied by half the squared size of the object, over 2^shift.
     const int shift = path.gradientShift();
-    Vector g = ownGradientOf(path, s, shift);
+    const Vector from = path.from(s.position);
+    Vector g = ownGradientOf(path, s, from, shift);
     Real change = shiftDown(path.ownSlope() * path.lookedAt(), 1);
-    const Neighbour* const other = path.all().ordinary ? path.strongest() : strongestOdd(path, s, shift, &g, &change);
+    const Neighbour* const other = path.all().ordinary ? path.strongest() : strongestOdd(path, from, shift, &g, &change);
     if (other == nullptr)
         return true;
     // The fields were evaluated before the last step of Newton's method.
     dominance += (other->slope * other->change - change) * (s.position - path.lookedAt());
     const Vector own = g;
-    g = g - gradientOf(path, *other, s.position, shift);
+    g = g - gradientOf(path, *other, from, shift);
     const Steepest steepest(g);
-    if (other->object->slot() < path.all().head->slot() && dominance > -other->value * TIE &&
+    if (other->slot < path.all().head->slot() && dominance > -other->value * TIE &&
         steepest.length < nearLength(own) * ALIKE)
         return false;
     setBorder(path, s, -dominance, steepest, shift);
@@ -94,13 +95,14 @@ bool findBorder(const Path& path, Seed& s, Real dominance)
 void findGuestBorder(const Path& path, Seed& s, const Neighbour& host)
 {
     const int shift = path.gradientShift();
+    const Vector from = path.from(s.position);
     const Neighbour* const third = path.strongest(&host);
     const bool own = third == nullptr || third->value < path.ownField();
-    const Vector g = own ? ownGradientOf(path, s, shift) : gradientOf(path, *third, s.position, shift);
+    const Vector g = own ? ownGradientOf(path, s, from, shift) : gradientOf(path, *third, from, shift);
     const Real change = own ? path.ownRate(path.lookedAt()) : third->slope * third->change;
     const Real field = own ? path.ownField() : third->value;
     const Real ahead = host.value - field + (host.slope * host.change - change) * (s.position - path.lookedAt());
-    setBorder(path, s, ahead, Steepest(gradientOf(path, host, s.position, shift) - g), shift);
+    setBorder(path, s, ahead, Steepest(gradientOf(path, host, from, shift) - g), shift);
 }
 
 bool findNearer(const Path& path, Seed& s, Real dominance)

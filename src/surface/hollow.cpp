@@ -37,7 +37,7 @@ Rival rivalOf(const Path& path, Real position)
         const Neighbour& near = path.near(i);
         if (near.slope == Real(0) || !(all.hollow ? near.digs || near.object == all.head : near.samples))
             continue;
-        const Vector v = path.fromCore(near, position);
+        const Vector v = path.fromCore(near, path.from(position));
         const Real steep = -(near.slope * near.ratio * nearLength(v) * (near.digs ? near.weight : Real(1)));
         if (steep > rival.steepest)
             rival = {&near, v, steep};

@@ -89,9 +89,9 @@ public:
     // The number of neighbours that are evaluated along the current path, and each of these neighbours.
     int touched() const { return touched_; }
     const Neighbour& near(int i) const { return *near_[i]; }
-    // The vectors to a position of the current path from its root and from the core of a neighbour.
+    // The vector to a position of the current path from its root; and that from the core of a neighbour to the same place.
     Vector from(Real position) const { return seed_->path * position; }
-    Vector fromCore(const Neighbour& near, Real position) const;
+    Vector fromCore(const Neighbour& near, const Vector& from) const;
 
     // The position evaluated last, and F and dF/dt of the own field there.
     Real lookedAt() const { return lookedAt_; }
@@ -185,11 +185,11 @@ inline const Neighbour* Path::strongest(const Neighbour* other) const
     return strongest;
 }
 
-inline __attribute__((always_inline)) Vector Path::fromCore(const Neighbour& near, Real position) const
+inline __attribute__((always_inline)) Vector Path::fromCore(const Neighbour& near, const Vector& from) const
 {
     if (near.kind == Neighbour::OTHER)
         return near.fromCoreSpace(near.halfGradient);
-    const Vector v = near.toRoot + from(position);
+    const Vector v = near.toRoot + from;
     return near.kind == Neighbour::SEGMENT ? v - near.direction * (near.k * near.size) : v;
 }
 
