@@ -21,30 +21,36 @@ Path::Path(const SoftObject& object, Neighbourhood& all, const Bodies& bodies, N
 {
 }
 
-// Prepares a neighbour for a root: sets what the paths of all seeds of the root have in common.
-void Path::setRoot(Neighbour& near, const Seed& s) const
+// Prepares neighbours for a root, but for those that know it: sets what the paths of all seeds of the root have in common.
+void Path::setRoots(Neighbour* const* first, Neighbour* const* end, const Seed& s) const
 {
-    // All paths have one length, but in a tapering object it differs from root to root, and in a shaped one from path to path.
-    const bool known = near.root >= 0 && !object_.tapers();
-    near.root = object_.shaped() ? -1 : s.root;
     const Vector& root = object_.root(s.root);
-    if (near.kind == Neighbour::OTHER) {
-        near.toRoot = near.inCore(root) + near.offset;
-        return;
+    for (Neighbour* const* at = first; at < end; ++at) {
+        Neighbour& near = **at;
+        if (near.root == s.root)
+            continue;
+        // All paths have one length, but in a tapering object it differs from root to root, and in a shaped one from path to path.
+        const bool known = near.root >= 0 && !object_.tapers();
+        near.root = object_.shaped() ? -1 : s.root;
+        if (near.kind == Neighbour::OTHER) {
+            near.toRoot = near.inCore(root) + near.offset;
+            continue;
+        }
+        const auto inSizes = [&](const Vector& v) {
+            return Vector{shiftDown(v.x * near.inverse16, 4), shiftDown(v.y * near.inverse16, 4),
+                          shiftDown(v.z * near.inverse16, 4)};
+        };
+        near.toRoot = root - near.centre;
+        const Vector e = inSizes(near.toRoot);
+        near.a = dot(e, e);
+        if (!known) {
+            const Vector d = inSizes(s.path);
+            near.c = dot(d, d);
+        }
+        near.twice16 = e * shiftUp(near.inverse16, 1);
+        if (near.kind == Neighbour::SEGMENT)
+            near.y = shiftDown(dot(near.toRoot, near.along16), 4);
     }
-    const auto inSizes = [&](const Vector& v) {
-        return Vector{shiftDown(v.x * near.inverse16, 4), shiftDown(v.y * near.inverse16, 4), shiftDown(v.z * near.inverse16, 4)};
-    };
-    near.toRoot = root - near.centre;
-    const Vector e = inSizes(near.toRoot);
-    near.a = dot(e, e);
-    if (!known) {
-        const Vector d = inSizes(s.path);
-        near.c = dot(d, d);
-    }
-    near.twice16 = e * shiftUp(near.inverse16, 1);
-    if (near.kind == Neighbour::SEGMENT)
-        near.y = shiftDown(dot(near.toRoot, near.along16), 4);
 }
 
 Real Neighbour::otherParam(Real p)
@@ -67,9 +73,12 @@ void Path::take(const NeighbourList& list, const Seed& s)
         if (!all_.simple)
             findOdd();
     }
-    for (int i = 0; i < touched_; ++i)
-        if (near_[i]->root != s.root)
-            setRoot(*near_[i], s);
+    // Most often all of them know the root.
+    Neighbour *const *first = near_, *const *const end = near_ + touched_;
+    while (first < end && (*first)->root == s.root)
+        ++first;
+    if (first < end)
+        setRoots(first, end, s);
     rootOfAsked_ = object_.shaped() ? -1 : s.root;
 }
 

@@ -111,7 +111,7 @@ private:
     struct Digger;
     struct Parts;
 
-    void setRoot(Neighbour& near, const Seed& s) const;
+    void setRoots(Neighbour* const* first, Neighbour* const* end, const Seed& s) const;
     void take(const NeighbourList& list, const Seed& s);
     void setNear(const NeighbourList& list);
     SELDOM void findOdd();
@@ -170,7 +170,8 @@ private:
 inline void Path::aim(Neighbour& near, const Seed& s)
 {
     if (near.root != s.root) {
-        setRoot(near, s);
+        Neighbour* const one = &near;
+        setRoots(&one, &one + 1, s);
         rootOfAsked_ = -1;
     }
     near.aim(s.path);
