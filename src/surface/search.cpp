@@ -6,12 +6,6 @@
 
 namespace {
 
-// Positions: after a step of Newton's method as short as SHORT_STEP another evaluation would change nothing visible; LONGEST_STEP
-// limits the steps.
-constexpr Real SHORT_STEP(0.05), LONGEST_STEP(0.15);
-// Slope of the field per position: where the field falls less steeply, Newton's method is not trusted.
-constexpr Real FLAT(-0.06);
-constexpr int NEWTON_STEPS = 5;
 constexpr int BISECTIONS = 12;
 // Positions: where a search begins, and the length of its steps.
 constexpr Real SEARCH_FIRST(0.88), SEARCH_STEP(0.16);
@@ -26,24 +20,6 @@ constexpr Real CUBIC_SPARE(0.03);
 constexpr int MORE = 2;
 
 }  // namespace
-
-bool follow(Path& path, Real* position, Sample* sample)
-{
-    for (int i = 0; i < NEWTON_STEPS; ++i) {
-        if (absolute(sample->excess) <= TOLERANCE && sample->slope <= FLAT)
-            return true;
-        if (sample->slope > FLAT)
-            return false;
-        const Real step = clamp(quotient(-sample->excess, sample->slope), -LONGEST_STEP, LONGEST_STEP);
-        *position += step;
-        if (*position < path.first() || *position > path.last())
-            return false;
-        if (absolute(step) <= SHORT_STEP)
-            return true;
-        *sample = path.look(*position);
-    }
-    return false;
-}
 
 void bisect(Path& path, Real inside, Real outside, Real* position, Sample* sample)
 {

@@ -8,10 +8,16 @@
 constexpr Real TOLERANCE(0.004);
 // In units of the field: where a valley of the field comes this near to the isovalue from above, its floor is looked for.
 constexpr Real VALLEY(0.12);
+// Positions: after a step of Newton's method as short as SHORT_STEP another evaluation would change nothing visible; LONGEST_STEP
+// limits the steps.
+constexpr Real SHORT_STEP(0.05), LONGEST_STEP(0.15);
+// Slope of the field per position: where the field falls less steeply, Newton's method is not trusted.
+constexpr Real FLAT(-0.06);
+constexpr int NEWTON_STEPS = 5;
 
 // Newton's method, from the sample at `*position`. Returns true when it ends with `*position` on the surface; `*sample` was then
 // taken there or a short step before.
-bool follow(Path& path, Real* position, Sample* sample);
+inline bool follow(Path& path, Real* position, Sample* sample);
 
 // Whether a seed lies inside a neighbour, judged at a few positions: from COVERED_AT on, or from a certain position farther out,
 // the neighbour is the stronger one, and the path does not leave the surface before. (Where claims are not fields, FAINT_AT is such
@@ -45,5 +51,23 @@ bool leavesAgain(Path& path, Real* inside, Real* outside);
 
 // Finds where the path crosses the surface between a position inside and one outside; the excess of `*sample` becomes 0.
 void bisect(Path& path, Real inside, Real outside, Real* position, Sample* sample);
+
+inline bool follow(Path& path, Real* position, Sample* sample)
+{
+    for (int i = 0; i < NEWTON_STEPS; ++i) {
+        if (sample->slope > FLAT)
+            return false;
+        if (absolute(sample->excess) <= TOLERANCE)
+            return true;
+        const Real step = clamp(quotient(-sample->excess, sample->slope), -LONGEST_STEP, LONGEST_STEP);
+        *position += step;
+        if (*position < path.first() || *position > path.last())
+            return false;
+        if (absolute(step) <= SHORT_STEP)
+            return true;
+        *sample = path.look(*position);
+    }
+    return false;
+}
 
 #endif
