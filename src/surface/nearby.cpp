@@ -15,6 +15,17 @@ Nearby::Nearby(const SoftObject& object, Neighbourhood& all, const Bodies& bodie
     allComplete_ = isComplete(listed_);
 }
 
+// Calls each(neighbour) for every neighbour on a list that was gathered in this frame.
+template <class Each>
+inline void Nearby::forGathered(const uint32_t list[SLOTS_MAX / 32], Each each) const
+{
+    Neighbour* const* bySlot = all_.bySlot;
+    for (int word = 0; word < SLOTS_MAX / 32; ++word, bySlot += 32)
+        for (uint32_t bits = list[word]; bits != 0; bits &= bits - 1)
+            if (Neighbour* const near = bySlot[__builtin_ctz(bits)])
+                each(*near);
+}
+
 bool Nearby::setPatch(const Patch& patch, bool oversampled)
 {
     nearest_ = realFromRaw(patch.nearest << 10);
@@ -32,12 +43,12 @@ bool Nearby::setPatch(const Patch& patch, bool oversampled)
     }
     // Oversampled seeds also lie between the seeds of this patch and those of adjacent patches.
     const Bound ball = boundOf(patch, oversampled ? patch.radius : patch.tight);
-    forNeighbours(patch.near, [&](int slot) {
-        Neighbour* const near = all_.bySlot[slot];
-        if (near == nullptr || !reaches(*near, ball))
+    forGathered(patch.near, [&](Neighbour& near) {
+        if (!reaches(near, ball))
             return;
-        near_.add(*near);
-        smallest_ = min(smallest_, near->grain);
+        near_.add(near);
+        if (near.grain < smallest_)
+            smallest_ = near.grain;
     });
     setComplete(near_);
     return near_.count > 0;
@@ -52,12 +63,9 @@ void Nearby::setOdd(const Patch& patch)
         smallest_ = smallest_ / object_.strength();
     dented_ = all_.inner || all_.hollow;
     if (all_.dented || all_.hollow)
-        forNeighbours(patch.listed, [&](int slot) {
-            const Neighbour* const near = all_.bySlot[slot];
-            if (near == nullptr)
-                return;
-            dented_ = dented_ || near->digs;
-            smallest_ = min(smallest_, near->grain);
+        forGathered(patch.listed, [&](const Neighbour& near) {
+            dented_ = dented_ || near.digs;
+            smallest_ = min(smallest_, near.grain);
         });
 }
 
@@ -65,10 +73,7 @@ void Nearby::setOdd(const Patch& patch)
 const NeighbourList& Nearby::findListed()
 {
     listed_.count = 0;
-    forNeighbours(patch_->listed, [&](int slot) {
-        if (all_.bySlot[slot] != nullptr)
-            listed_.add(*all_.bySlot[slot]);
-    });
+    forGathered(patch_->listed, [&](Neighbour& near) { listed_.add(near); });
     setComplete(listed_);
     return listed_;
 }

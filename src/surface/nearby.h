@@ -12,7 +12,11 @@ struct NeighbourList {
     bool complete;
     Neighbour* near[NEIGHBOURS_MAX];
 
-    void add(Neighbour& neighbour) { near[count++] = &neighbour; }
+    void add(Neighbour& neighbour)
+    {
+        near[count] = &neighbour;
+        ++count;
+    }
 };
 
 // Made once for an object and a frame; asked about one patch after another.
@@ -52,6 +56,7 @@ private:
     bool areAllOne(const NeighbourList& list) const;
     bool areLinked(const NeighbourList& list) const;
     bool digAlike(const NeighbourList& list, const Neighbour& digging) const;
+    template <class Each> void forGathered(const uint32_t list[SLOTS_MAX / 32], Each each) const;
     SELDOM void setOdd(const Patch& patch);
     const NeighbourList& findListed();
 
