@@ -86,13 +86,13 @@ void classify(Patch& patch, const Neighbourhood& all)
     const int32_t half = all.deep ? patch.path * (rawFromReal(all.last) >> 10) >> 7 : patch.path >> 1;
     const Step beyond = above(patch, all.deep ? half - patch.path : half);
     const int32_t slack = steps16(LIST_SLACK);
-    const int32_t radius = half + patch.radius + (patch.radius >> 1) + patch.lean + slack;
+    const Bound paths{beyond.x, beyond.y, beyond.z, half + patch.radius + (patch.radius >> 1) + patch.lean + slack};
     memset(patch.listed, 0, sizeof patch.listed);
     memset(patch.near, 0, sizeof patch.near);
     Bound ball = boundOf(patch, patch.radius);
     ball.radius += slack;
     for (const Neighbour *near = all.neighbours, *const end = near + all.count; near < end; ++near) {
-        if (!within(fromCore(*near, beyond), near->size16 + radius))
+        if (!reaches(*near, paths))
             continue;
         const uint32_t slot = static_cast<uint32_t>(near->slot), bit = 1u << slot % 32;
         patch.listed[slot / 32] |= bit;

@@ -15,7 +15,10 @@ inline void store14(const Vector& v, int32_t* to)
     to[2] = rawFromReal(v.z) >> 2;
 }
 
-// Sets the rest of a neighbour that is stretched or warped. Distances to it are judged by their lower bounds.
+// 1/16 unit: no neighbour reaches farther.
+constexpr int32_t FARTHEST16 = 1 << 14;
+
+// Sets the rest of a neighbour that is stretched or warped. Distances to it are judged by their lower bounds, from its core only.
 SELDOM void aimShaped(Neighbour& near)
 {
     const SoftObject& other = *near.object;
@@ -28,6 +31,7 @@ SELDOM void aimShaped(Neighbour& near)
     near.steepStretch16 = near.inverse16 / other.steepest();
     near.grain = near.grain * narrowing;
     near.size16 = (rawFromReal(near.size * narrowing) >> 12) + 1;
+    near.outer16 = FARTHEST16;
 }
 
 // Tangent of half the angle of the widest view whose sides are looked at: wider ones would leave 16.16.
@@ -69,6 +73,8 @@ void aim(const SoftObject& object, bool tiny, Neighbour& near)
     for (int i = 0; i < 3; ++i)
         near.toCore[i] = object.toOwnAxes({turn.m[0][i], turn.m[1][i], turn.m[2][i]}) * near.inverse16;
     near.along16 = near.toCore[1];
+    const int32_t half16 = near.segment ? near.half16 : rawFromReal(other.coreReach() / object.growth()) >> 12;
+    near.outer16 = near.size16 + half16 + ROUNDED16;
     if (other.shaped())
         aimShaped(near);
     near.direction = object.toOwnAxes({turn.m[0][1], turn.m[1][1], turn.m[2][1]});
@@ -183,7 +189,7 @@ static void place(const SoftObject& object, Real growth, const Vector& away, Nei
     near.x16 = rawFromReal(near.centre.x) >> 12;
     near.y16 = rawFromReal(near.centre.y) >> 12;
     near.z16 = rawFromReal(near.centre.z) >> 12;
-    near.size16 = (rawFromReal(near.size) >> 12) + 1;
+    near.size16 = near.outer16 = (rawFromReal(near.size) >> 12) + 1;
 }
 
 // The greatest weight by which an object digs into others.

@@ -28,6 +28,9 @@ constexpr Real UNEVEN_SIZES(16);
 // proportion, up to CLAIM_WEIGHT_MOST.
 constexpr Real GUEST_SIZES(3), HOST_SIZES(4), CLAIM_WEIGHT_MOST(3);
 
+// Distances from the cores of neighbours are less than this wrong, 1/16 unit.
+constexpr int32_t ROUNDED16 = 8;
+
 // A neighbour in the own space of the object that is being updated, and its field along the current path. Lengths are in units
 // of own space. In core space a neighbour is turned to its own axes and scaled to the size CORE_SIZE.
 struct Neighbour : Along {
@@ -51,6 +54,7 @@ struct Neighbour : Along {
     Real claim, ownClaim;  // factors, 1 or less, of its field and of the own field where the claims of the two are compared
     Real grain;         // length over which its field changes as much as a plain field does over its size
     int32_t x16, y16, z16, size16;  // centre and size, 1/16 unit
+    int32_t outer16;    // its field reaches no place that is farther from its centre, 1/16 unit; size16 if it is a POINT
     int32_t half16, axis[3];        // half length of the segment, 1/16 unit, and its direction, 1.0 = 2^14
     Vector direction;   // the segment's, unit length
     // Of a neighbour that is no POINT:

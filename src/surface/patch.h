@@ -114,14 +114,24 @@ struct Bound {
 };
 Bound boundOf(const Patch& patch, int32_t restRadius);
 
-// Whether a neighbour's field reaches into a ball. Most neighbours are points.
+// Whether a neighbour's field reaches into a ball. The distance from its centre nearly always tells. (The steps are in the order
+// that takes the fewest registers.)
 bool reachesFromCore(const Neighbour& near, const Bound& ball);
 inline bool reaches(const Neighbour& near, const Bound& ball)
 {
-    if (near.kind != Neighbour::POINT)
-        return reachesFromCore(near, ball);
-    const int32_t x = ball.x - near.x16, y = ball.y - near.y16, z = ball.z - near.z16, reach = near.size16 + ball.radius;
-    return x * x + y * y + z * z < reach * reach;
+    const int32_t x = ball.x - near.x16;
+    int32_t away = x * x;
+    const int32_t y = ball.y - near.y16;
+    away += y * y;
+    const int32_t z = ball.z - near.z16;
+    away += z * z;
+    const int32_t outer = near.outer16 + ball.radius;
+    if (away >= outer * outer)
+        return false;
+    if (near.kind == Neighbour::POINT)
+        return true;
+    const int32_t inner = near.size16 - ROUNDED16 + ball.radius;
+    return (near.segment && away < inner * inner) || reachesFromCore(near, ball);
 }
 
 // Whether all seeds of a patch, if they were at `position`, would be nearer to a neighbour's core than `part` of its size.
