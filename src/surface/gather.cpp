@@ -60,7 +60,8 @@ SELDOM bool isTiny(const SoftObject& object, const Neighbour& near)
     return shiftDown(away, 6) > near.size || shiftDown(away, 5) * shiftDown(object.longestPath(), 4) > near.size * near.size;
 }
 
-// Sets the map from own space to the core space of a neighbour that is no POINT.
+// Sets what is special about a neighbour that is no POINT: its axis, and the map from own space to its core space. Of that map
+// only the row for the axis matters of a SEGMENT.
 void aim(const SoftObject& object, bool tiny, Neighbour& near)
 {
     const SoftObject& other = *near.object;
@@ -68,19 +69,22 @@ void aim(const SoftObject& object, bool tiny, Neighbour& near)
     near.segment = near.half > Real(0) && !other.shaped();
     near.kind = near.segment && !other.tapers() && !tiny ? Neighbour::SEGMENT : Neighbour::OTHER;
     near.half16 = rawFromReal(near.half * near.size) >> 12;
-    // Row i is axis i of the neighbour in own axes.
-    const Matrix& turn = other.turn();
-    for (int i = 0; i < 3; ++i)
-        near.toCore[i] = object.toOwnAxes({turn.m[0][i], turn.m[1][i], turn.m[2][i]}) * near.inverse16;
-    near.along16 = near.toCore[1];
     const int32_t half16 = near.segment ? near.half16 : rawFromReal(other.coreReach() / object.growth()) >> 12;
     near.outer16 = near.size16 + half16 + ROUNDED16;
+    // Axis i of the neighbour in own axes.
+    const Matrix& turn = other.turn();
+    const auto axis = [&](int i) { return object.toOwnAxes({turn.m[0][i], turn.m[1][i], turn.m[2][i]}); };
+    near.direction = axis(1);
+    store14(near.direction, near.axis);
+    near.along16 = near.toCore[1] = near.direction * near.inverse16;
+    if (near.kind == Neighbour::SEGMENT) {
+        near.toCore[0] = near.toCore[2] = {Real(0), Real(0), Real(0)};
+        return;
+    }
+    near.toCore[0] = axis(0) * near.inverse16;
+    near.toCore[2] = axis(2) * near.inverse16;
     if (other.shaped())
         aimShaped(near);
-    near.direction = object.toOwnAxes({turn.m[0][1], turn.m[1][1], turn.m[2][1]});
-    near.axis[0] = rawFromReal(near.direction.x) >> 2;
-    near.axis[1] = rawFromReal(near.direction.y) >> 2;
-    near.axis[2] = rawFromReal(near.direction.z) >> 2;
     near.offset = other.toCoreAxes(other.toOwnAxes(object.centre() - other.centre())) * (Real(CORE_SIZE) / other.size());
 }
 
