@@ -18,21 +18,35 @@ void Pose::take(const Neighbour& near)
 
 Travelled Pose::followTurned(const Neighbour& near, Real reach)
 {
+    if (!near.object->shaped()) {
+        const Real travelled = followCore(near);
+        return {travelled, travelled};
+    }
     const Pose before = *this;
     take(near);
-    if (near.object->shaped())
-        return {travelAsMapped(near, before, reach), travelAsMapped(near, before, Real(0))};
-    const Real travelled = travelAsCore(near, before);
-    return {travelled, travelled};
+    return {travelAsMapped(near, before, reach), travelAsMapped(near, before, Real(0))};
 }
 
-// The travel of a neighbour that is neither stretched nor warped: that of its core.
-Real Pose::travelAsCore(const Neighbour& near, const Pose& before) const
+// Follows a neighbour that is neither stretched nor warped: its travel is that of its core. Axes along which the core does not
+// extend do not matter.
+Real Pose::followCore(const Neighbour& near)
 {
-    const Vector extent = near.object->coreExtent16() * (near.size * Real(1.0 / CORE_SIZE));
-    return roundLength(place_ - before.place_) + absolute(size_ - before.size_) +
-           roundLength(axes_[0] - before.axes_[0]) * extent.x + roundLength(axes_[1] - before.axes_[1]) * extent.y +
-           roundLength(axes_[2] - before.axes_[2]) * extent.z;
+    const Real unit = near.size * Real(1.0 / CORE_SIZE);
+    const Vector extent = near.object->coreExtent16();
+    Real travelled = roundLength(near.centre - place_) + absolute(near.size - size_);
+    place_ = near.centre;
+    size_ = near.size;
+    const auto turn = [&](int i, Real half16) {
+        if (half16 == Real(0))
+            return;
+        const Vector axis = near.toCore[i] * unit;
+        travelled += roundLength(axis - axes_[i]) * (half16 * unit);
+        axes_[i] = axis;
+    };
+    turn(0, extent.x);
+    turn(1, extent.y);
+    turn(2, extent.z);
+    return travelled;
 }
 
 // The travel of a shaped neighbour, from its map into core space: an upper bound for all places no farther than `reach` from the

@@ -36,7 +36,7 @@ public:
 
 private:
     SELDOM Travelled followTurned(const Neighbour& near, Real reach);
-    Real travelAsCore(const Neighbour& near, const Pose& before) const;
+    Real followCore(const Neighbour& near);
     Real travelAsMapped(const Neighbour& near, const Pose& before, Real reach) const;
 
     Vector place_;
