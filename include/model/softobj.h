@@ -259,7 +259,13 @@ public:
     // toWorld() takes a point of own space to the world; toOwnAxes() turns a vector of the world into own axes, without
     // scaling.
     Point toWorld(const Vector& v) const;
-    Vector toOwnAxes(const Vector& v) const { return isBall() ? v : turnedBack(v); }
+    Vector toOwnAxes(const Vector& v) const
+    {
+        if (isBall())
+            return v;
+        const Vector turned = turnedBack(v);
+        return {turned.x, turned.y, turned.z};
+    }
 
     // --- The graph
 
@@ -364,7 +370,7 @@ private:
         Layout plain() const;
     };
 
-    Vector turnedBack(const Vector& v) const;
+    Vector turnedBack(Vector v) const;
     const Link* hollowLink() const;
     void findRest();
     void makeWarp(const WarpAmounts& amounts);

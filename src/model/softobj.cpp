@@ -81,7 +81,7 @@ Point SoftObject::toWorld(const Vector& v) const
     return centre_ + (isBall() ? grown : turn_ * grown);
 }
 
-Vector SoftObject::turnedBack(const Vector& v) const
+Vector SoftObject::turnedBack(Vector v) const
 {
     // The inverse of a rotation is its transpose.
     const Real(&m)[4][4] = turn_.m;

@@ -180,20 +180,25 @@ static bool dentedFromWithin(const SoftObject& object, const Bodies& bodies)
 static void place(const SoftObject& object, Real growth, const Vector& away, Neighbour& near)
 {
     const SoftObject& other = *near.object;
-    const Vector apart = object.toOwnAxes(away);
     near.kind = Neighbour::POINT;
     near.root = -1;
     near.segment = false;
-    const bool grown = growth != Real(1);
-    near.centre = grown ? Vector{quotient(apart.x, growth), quotient(apart.y, growth), quotient(apart.z, growth)} : apart;
-    near.size = grown ? quotient(other.size(), growth) : other.size();
-    near.inverse16 = near.stretch16 = near.steepStretch16 = grown ? quotient(Real(CORE_SIZE), near.size) : other.inverse16();
+    Vector centre = object.toOwnAxes(away);
+    Real size = other.size(), inverse16 = other.inverse16();
+    if (growth != Real(1)) {
+        centre = {quotient(centre.x, growth), quotient(centre.y, growth), quotient(centre.z, growth)};
+        size = quotient(size, growth);
+        inverse16 = quotient(Real(CORE_SIZE), size);
+    }
+    near.centre = centre;
+    near.size = size;
+    near.inverse16 = near.stretch16 = near.steepStretch16 = inverse16;
     const Real proportion = min(quotient(object.size(), other.size()), Real(60));
     near.ratio = proportion * proportion;
-    near.x16 = rawFromReal(near.centre.x) >> 12;
-    near.y16 = rawFromReal(near.centre.y) >> 12;
-    near.z16 = rawFromReal(near.centre.z) >> 12;
-    near.size16 = near.outer16 = (rawFromReal(near.size) >> 12) + 1;
+    near.x16 = rawFromReal(centre.x) >> 12;
+    near.y16 = rawFromReal(centre.y) >> 12;
+    near.z16 = rawFromReal(centre.z) >> 12;
+    near.size16 = near.outer16 = (rawFromReal(size) >> 12) + 1;
 }
 
 // The greatest weight by which an object digs into others.
