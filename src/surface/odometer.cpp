@@ -70,10 +70,8 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
         if ((i >= count_ || known.slot != near.slot) && !isKnown(all, i))
             continue;
         known.inRange = near.inRange;
-        // Some places of a shaped neighbour travel farther than most.
         const Travelled units = known.pose.follow(near, reach);
-        const Travel outermost = travelOf(units.farthest), middle = travelOf(units.middle);
-        const Travel travelled = outermost / 2 > middle ? outermost / 2 : middle;
+        const Travel outermost = travelOf(units.farthest), travelled = travelOf(units.most);
         farthest = outermost > farthest ? outermost : farthest;
         longest = travelled > longest ? travelled : longest;
         known.travelled = static_cast<uint16_t>(travelled < ALL_DUE ? travelled : ALL_DUE);

@@ -24,7 +24,9 @@ Travelled Pose::followTurned(const Neighbour& near, Real reach)
     }
     const Pose before = *this;
     take(near);
-    return {travelAsMapped(near, before, reach), travelAsMapped(near, before, Real(0))};
+    // Some places of a shaped neighbour travel farther than most, which are taken to travel like the object's centre.
+    const Real farthest = travelAsMapped(near, before, reach);
+    return {farthest, max(travelAsMapped(near, before, Real(0)), shiftDown(farthest, 1))};
 }
 
 // Follows a neighbour that is neither stretched nor warped: its travel is that of its core. Axes along which the core does not

@@ -11,10 +11,10 @@ inline Real roundLength(const Vector& v)
     return greatest + (x + y + z - greatest) * Real(0.375);
 }
 
-// How far a neighbour has travelled, units: at most `farthest` in any place of its field that the object could meet, and `middle`
-// at the object's centre. Both are the same if the neighbour is neither stretched nor warped.
+// How far a neighbour has travelled, units: at most `farthest` in any place of its field that the object could meet, and `most` in
+// most of these places. Both are the same if the neighbour is neither stretched nor warped.
 struct Travelled {
-    Real farthest, middle;
+    Real farthest, most;
 };
 
 // A neighbour's centre and axes in an object's own space; of a shaped neighbour, the map into its core space instead.
@@ -29,7 +29,7 @@ public:
         if (!near.object->isBall())
             return followTurned(near, reach);
         const Real travelled = roundLength(near.centre - place_) + absolute(near.size - size_);
-        place_ = near.centre;
+        place_ = {near.centre.x, near.centre.y, near.centre.z};
         size_ = near.size;
         return {travelled, travelled};
     }
