@@ -116,7 +116,9 @@ static void setSides(const SoftObject& object, const FrameContext& frame, const 
         const Normal n = normalise(inward);
         const Vector u{realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)};
         const int32_t inside = rawFromReal(dot(u, toCentre)) >> 12;
-        own.outOfSight = own.outOfSight || inside < -reach;
+        own.outOfSight = inside < -reach;
+        if (own.outOfSight)
+            return;
         if (inside >= reach)
             continue;
         OwnFrame::Side& side = own.sides[own.sideCount++];
