@@ -72,11 +72,15 @@ bool reachesFromCore(const Neighbour& near, const Bound& ball)
     return within(fromCore(near, {ball.x, ball.y, ball.z}), near.size16 + ball.radius);
 }
 
-bool isWithin(const Patch& patch, const Neighbour& near, Real position, Real part)
+int32_t depthWithin(const Patch& patch, const Neighbour& near, Real position, Real part)
 {
     const int32_t position64 = rawFromReal(position) >> 10, size = near.size16 * (rawFromReal(part) >> 8) >> 8;
     const int32_t left = size - (patch.tight * (position64 > 64 ? position64 : 64) >> 6);
-    return left > 0 && within(fromCore(near, above(patch, patch.path * (position64 - 64) >> 6)), left);
+    if (left <= 0)
+        return 0;
+    // The depth is left - distance = (left^2 - distance^2) / (left + distance), and the distance is less than `left`.
+    const int32_t distance2 = square(fromCore(near, above(patch, patch.path * (position64 - 64) >> 6)));
+    return (left * left - distance2 + 2 * left - 1) / (2 * left);
 }
 
 void classify(Patch& patch, const Neighbourhood& all)

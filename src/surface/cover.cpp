@@ -52,13 +52,14 @@ bool Cover::coversPath(const Seed& s)
     return atRest < limits_->atRest && (there <= atRest || !isHeavy());
 }
 
-bool Cover::coversAll(const Patch& patch)
+int32_t Cover::coversAll(const Patch& patch)
 {
     take(patch.blocker);
     if (limits_ == nullptr || object_.tapers() || isHeavy())
-        return false;
-    return !near_->object->slants() && isWithin(patch, *near_, limits_->position, limits_->rootThere) &&
-           isWithin(patch, *near_, Real(1), limits_->rootAtRest);
+        return 0;
+    const int32_t there = near_->object->slants() ? 0 : depthWithin(patch, *near_, limits_->position, limits_->rootThere);
+    const int32_t atRest = there <= 0 ? 0 : depthWithin(patch, *near_, Real(1), limits_->rootAtRest);
+    return there < atRest ? there : atRest;
 }
 
 int Cover::strongest() const

@@ -14,14 +14,15 @@ public:
     }
 
     // Whether a seed's blocker, the neighbour that was the strongest when the seed was found off the surface, almost certainly
-    // keeps it off the surface again; and whether a patch's blocker does so for all seeds of the patch. No path is current after
-    // covers().
+    // keeps it off the surface again; and whether a patch's blocker does so for all seeds of the patch. If it does, coversAll()
+    // returns how far the blocker would have to move, at least, before it does not, 1/16 unit; else 0 or less. No path is current
+    // after covers().
     bool covers(const Seed& s)
     {
         take(s.blocker);
         return limits_ != nullptr && coversPath(s);
     }
-    bool coversAll(const Patch& patch);
+    int32_t coversAll(const Patch& patch);
 
     // The slot of the neighbour whose field was the strongest where the current path was evaluated last: the next blocker.
     int strongest() const;

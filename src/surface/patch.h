@@ -134,8 +134,9 @@ inline bool reaches(const Neighbour& near, const Bound& ball)
     return (near.segment && away < inner * inner) || reachesFromCore(near, ball);
 }
 
-// Whether all seeds of a patch, if they were at `position`, would be nearer to a neighbour's core than `part` of its size.
-bool isWithin(const Patch& patch, const Neighbour& near, Real position, Real part);
+// By how much all seeds of a patch, if they were at `position`, would be nearer to a neighbour's core than `part` of its size, 1/16
+// unit: a lower bound, rounded up. 0 or less if some would not be nearer.
+int32_t depthWithin(const Patch& patch, const Neighbour& near, Real position, Real part);
 
 // Whether a patch lies outside the view with its seeds where they are, where they rest, and anywhere in between.
 bool outOfSight(const Patch& patch, const OwnFrame& own);

@@ -29,11 +29,18 @@ public:
     bool isCovered(const Patch& patch)
     {
         const bool settled = (object_.regular(patch.centre).flags & (SEED_VALID | SEED_RESTING)) == SEED_VALID;
-        return !settled && !nearby_.dented() && cover_.coversAll(patch);
+        return !settled && !nearby_.dented() && cover_.coversAll(patch) > 0;
     }
 
-    // The same for a patch that was PATCH_INSIDE, before setPatch().
-    bool isStillCovered(const Patch& patch) { return all_.ordinary && cover_.coversAll(patch); }
+    // The same for a patch that was PATCH_INSIDE, before setPatch(). It sets when a covered patch is due again.
+    bool isStillCovered(Patch& patch)
+    {
+        const int32_t depth = all_.ordinary ? cover_.coversAll(patch) : 0;
+        // Some travels are measured a tenth too short.
+        if (depth > ROUNDED16)
+            patch.due = now_ + travelOf(realFromRaw((depth - ROUNDED16) << 12) * Real(0.9));
+        return depth > 0;
+    }
 
     // Whether a patch that was off the surface, near something that digs, is sure to be so still; before setPatch().
     bool isStillOff(const Patch& patch) const { return patch.state == PATCH_INSIDE && isOff(patch, object_.regular(patch.centre)); }
