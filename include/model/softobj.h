@@ -298,7 +298,11 @@ public:
     // --- The field
 
     // This object's contribution to the implicit function at `p`, 0..strength() (the report's fieldFunc).
-    Real fieldFunc(const Point& p) const;
+    Real fieldFunc(const Point& p) const
+    {
+        // What is far away is excluded before scaling: its place relative to a small object would overflow 16.16.
+        return isFar(p) ? Real(0) : fieldNear(p);
+    }
 
     // Returns true if the fields of the two objects can overlap, judging by centres and reaches alone.
     bool inRange(const SoftObject& other) const { return isNearer(centre_, other.centre_, reach_ + other.reach_); }
@@ -371,6 +375,7 @@ private:
     };
 
     Vector turnedBack(Vector v) const;
+    Real fieldNear(const Point& p) const;
     const Link* hollowLink() const;
     void findRest();
     void makeWarp(const WarpAmounts& amounts);

@@ -567,13 +567,12 @@ Real Model::implicitAt(const Point& p, int* strongest) const
     int best = -1;
     for (int i = 0; i < count_; ++i) {
         const SoftObject& object = *actors_[i]->object;
-        if (object.isFar(at))
-            continue;
-        const Real field = object.fieldFunc(p);
+        const Real field = object.fieldFunc(at);
         if (field <= Real(0))
             continue;
-        *end++ = {i, object.hasSurface() && bodiesKnown_ ? bodies_.members(object) : nullptr, field};
-        if (object.hasSurface() && field > most) {
+        const bool shown = object.hasSurface();
+        *end++ = {i, shown && bodiesKnown_ ? bodies_.members(object) : nullptr, field};
+        if (shown && field > most) {
             most = field;
             best = i;
         }

@@ -320,15 +320,21 @@ const Link* SoftObject::hollowLink() const
 
 // --- The field
 
-Real SoftObject::plainParam(const Vector& q, Vector* slope) const
+// The squared distance from the core divided by the squared size, for a vector from the core in core space.
+static Real paramOf(const Vector& v)
 {
-    const Vector v = fromCore(q);
-    *slope = v;
     // First exclude what is far away: beyond this box the squares would overflow 16.16, and the field is 0 anyway.
     const Real end(CORE_SIZE);
     if (absolute(v.x) >= end || absolute(v.y) >= end || absolute(v.z) >= end)
         return Real(1);
     return shiftDown(dot(v, v), 8);
+}
+
+Real SoftObject::plainParam(const Vector& q, Vector* slope) const
+{
+    const Vector v = fromCore(q);
+    *slope = v;
+    return paramOf(v);
 }
 
 Real SoftObject::warpedParam(const Vector& q, Vector* slope) const
@@ -362,14 +368,13 @@ Vector SoftObject::slopeAt(const Vector& place) const
     return toCoreAxes(slope);
 }
 
-Real SoftObject::fieldFunc(const Point& p) const
+Real SoftObject::fieldNear(const Point& p) const
 {
-    Vector slope;
     const Vector v = p - centre_;
-    // Exclude what is far away before scaling: its place relative to a small object would overflow 16.16.
+    if (isBall())
+        return strength_ * geoff(paramOf(v * inverse_));
+    Vector slope;
     const Real end = size_ + coreReach_;
-    if (isFar(p))
-        return Real(0);
     const Vector q = toCoreAxes(toOwnAxes(v));
     if (stretched_ && !warped_ && (absolute(q.x) >= end || absolute(q.y) >= end || absolute(q.z) >= end))
         return Real(0);
