@@ -75,10 +75,7 @@ struct Seed {
     uint16_t root;       // index of the root point, which several seeds may share
     uint8_t flags;       // SeedFlag
     uint8_t mix;         // number of the colour at the seed, where colours mix (model/paint.h)
-    union {
-        uint8_t still;   // 0: the seed moved when last looked at; 1: it did not; 3: nor the time before
-        uint8_t blocker; // without SEED_VALID: slot of the neighbour that was the strongest there
-    };
+    uint8_t blocker;     // without SEED_VALID: slot of the neighbour that was the strongest there
     // The seed's cell, its part of the unblended surface: two half axes, 1/64 of the spacing each, and the area of the
     // parallelogram that they span, (1/64 spacing)^2. The cells of a ring form a band; the area is 0 for an oversampled seed,
     // whose cell is in no band.

@@ -51,7 +51,8 @@ public:
     virtual ~Surface() {}
 
     // Settles the object's seeds on the surface (report, Section III, update()). It is called when something has changed, and
-    // when the previous call returned true: that call was stopped, or it left out seeds that would have been hidden.
+    // when the previous call returned true: that call was stopped, or it left out seeds that would have been hidden or whose voxels
+    // could be predicted.
     virtual bool update(const FrameContext& frame) = 0;
 
     // Tells the surface that the seeds' roots, paths and resting places have changed.

@@ -131,7 +131,7 @@ public:
         s.normal = {0, 0, 0};
         s.root = static_cast<uint16_t>(root);
         s.flags = SEED_VALID | SEED_RESTING;
-        s.still = 0;
+        s.blocker = 0;
         s.placedAt = 0;
         s.lightChange[0] = Seed::LIGHT_UNKNOWN;
         setAxis(s.along, object_.stretchedOut(along), inverseSpacing_);

@@ -26,6 +26,7 @@ public:
         if (patches_ == nullptr)
             return false;
         makePatches(object_, patches_);
+        reckoning_.open(count_);
         return true;
     }
 
@@ -35,6 +36,7 @@ public:
 
 private:
     bool updatePatch(Settler& settler, Patch& patch, const OwnFrame& own, const Neighbourhood& all, bool known);
+    bool isMovedOn(Patch& patch, const Neighbourhood& all);
     bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all, bool known);
     bool stays(const Settler& settler, Patch& patch, bool stale) const;
     void renewLists(Patch& patch, const Neighbourhood& all);
@@ -47,6 +49,7 @@ private:
     SoftObject& object_;
 
     Odometer odometer_;
+    Reckoning reckoning_;
     uint32_t updates_ = 0, draws_ = 0;
     bool islands_ = false;   // some patches have seeds on islands
     bool allRests_ = false;  // all seeds were at rest after the last update
@@ -69,6 +72,7 @@ void Engine::reshape()
             forget(*object_.extra(i));
     }
     reshapePatches(object_, patches_, count_, odometer_.reading());
+    reckoning_.forget();
 }
 
 // Gather what reaches the object, classify its patches, settle those that are due.
@@ -80,11 +84,12 @@ bool Engine::update(const FrameContext& frame)
         return false;
     gather(object_, frame, all);
     const bool known = odometer_.advance(object_, own, all, frame.bodies->version());
+    reckoning_.beginUpdate(own, odometer_.lastTravel(), known);
     Settler settler(object_, own, all, frame, odometer_, ++updates_);
     // No neighbour is near, and all seeds are at rest already.
     if (allRests_ && known && all.ordinary && all.restsAtOne && all.count == 0)
         return false;
-    bool displaced = false;
+    bool displaced = false, movedOn = false;
     int unasked = 0;
     Patch* const end = patches_ + count_;
     for (Patch* patch = patches_; patch < end; ++patch) {
@@ -94,7 +99,10 @@ bool Engine::update(const FrameContext& frame)
             if (stopAsked())
                 return true;
         }
-        displaced |= updatePatch(settler, *patch, own, all, known);
+        if (isMovedOn(*patch, all))
+            displaced = movedOn = true;
+        else
+            displaced |= updatePatch(settler, *patch, own, all, known);
     }
     for (Patch* patch = patches_; patch < end; ++patch)
         if (patch->settled)
@@ -103,7 +111,8 @@ bool Engine::update(const FrameContext& frame)
         settleIslands(settler, all);
     object_.setDisplaced(displaced);
     allRests_ = !displaced;
-    return settler.hidden();
+    // What was moved on has to be settled yet, even if nothing changes any more.
+    return settler.hidden() || movedOn;
 }
 
 // Settles the islands of all patches. They end when no link of the object is heavy any more.
@@ -118,6 +127,17 @@ void Engine::settleIslands(Settler& settler, const Neighbourhood& all)
         settler.settleIslands(*patch);
         islands_ |= patch->islands;
     }
+}
+
+// Whether a patch is not settled because its voxels are moved on. What its neighbours do meanwhile counts in a later frame.
+inline bool Engine::isMovedOn(Patch& patch, const Neighbourhood& all)
+{
+    if (patch.state != PATCH_MIXED || !reckoning_.moves(static_cast<int>(&patch - patches_), patch))
+        return false;
+    patch.reached = true;
+    if (!all.ordinary && odometer_.count(patch))
+        patch.stale = true;
+    return true;
 }
 
 // Brings a patch up to date. `known`: what was found out in earlier frames still holds. Returns false if all seeds of the patch
@@ -230,6 +250,8 @@ inline void Engine::settle(Settler& settler, Patch& patch)
 // Lists the voxels of what the viewer sees of the object.
 void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* next)
 {
+    if (*next == 0)
+        reckoning_.beginDraw();
     const OwnFrame own = ownFrame(object_, frame);
     const SoftObject* const shown = object_.shown();
     list.begin(frame.inView(object_.centre()), object_.reach(),
@@ -241,7 +263,8 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
     const Paint* const paint = shown->paint();
     if (*next == 0)
         ++draws_;
-    const int at = shadePatches(object_, own, frame, patches_, count_, *next, static_cast<int>(draws_ & 0xffff), list, room);
+    const int at = shadePatches(object_, own, frame, patches_, count_, *next, static_cast<int>(draws_ & 0xffff), list, room,
+                                reckoning_);
     *next = at < count_ ? at : 0;
     // An object that is shown in another ramp than its own, as when it is selected, shows no colours of its paint.
     if (paint != nullptr && shown->ramp() == paint->ramp)

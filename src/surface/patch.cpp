@@ -94,7 +94,7 @@ void beginPatch(const SoftObject& object, Patch& patch)
 {
     patch.state = PATCH_REST;
     patch.reached = patch.stirred = true;
-    patch.extras = patch.fine = patch.islands = patch.settled = patch.asleep = patch.stale = false;
+    patch.extras = patch.fine = patch.islands = patch.settled = patch.asleep = patch.stale = patch.moved = false;
     patch.blocker = static_cast<uint8_t>(object.slot());
     patch.nearest = patch.farthest = 64;
     patch.due = patch.listDue = 0;

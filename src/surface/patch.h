@@ -39,6 +39,7 @@ struct Patch {
     bool asleep;        // all its seeds but the middle one are SEED_ASLEEP
     bool extras;        // some of its oversampled seeds take part
     bool fine;          // some of its fine seeds take part
+    bool moved;         // in the frame before its voxels were moved on instead of being shaded (reckon.h)
     bool islands;       // it has seeds on islands, where the paths of its regular seeds return to the surface
     int32_t facing;     // of a settled patch: cosine of the middle seed's normal and the direction to the viewer
     int32_t centre;     // slot of the middle seed

@@ -104,7 +104,6 @@ Real Settler::settle(Seed& s)
         keep(s, sample.dominance);
         return Real(0);
     }
-    s.still = 0;
     s.flags &= SEED_ACTIVE;
     bool found = followed != LOST;
     Real margin(9);
@@ -164,7 +163,6 @@ void Settler::restThere(Seed& s)
         s.flags &= SEED_ACTIVE;
     }
     s.position = Real(1);
-    s.still = travelled_ < shiftDown(nearby_.smallest(), 3);
     s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
 }
 
@@ -178,7 +176,6 @@ inline bool Settler::isOld(uint16_t foundAt, Real lasts) const
 // Leaves a seed that has not moved as it is, but for the border to a neighbour.
 inline void Settler::keep(Seed& s, Real dominance)
 {
-    s.still = s.still == 0 || travelled_ * Real(3) > shiftDown(nearby_.smallest(), 3) ? 1 : 3;
     if (mixes())
         mix(path_, s);
     // A guest's path is searched again in its turn.
@@ -297,7 +294,7 @@ bool Settler::setPatch(const Patch& patch, bool oversampled)
     path_.forgetList();
     const bool reached = nearby_.setPatch(patch, oversampled);
     hurries_ = travelled_ > min(HURRY, shiftDown(nearby_.smallest(), 2));
-    turn_ = hurries_ || nearby_.dented() ? 0 : (static_cast<uint32_t>(patch.centre) / 2 + updates_) % TURNS;
+    turn_ = hurries_ || nearby_.dented() || patch.moved ? 0 : (static_cast<uint32_t>(patch.centre) / 2 + updates_) % TURNS;
     return reached;
 }
 
@@ -377,21 +374,20 @@ inline void Settler::settleBeside(const Seed& centre, Seed& s, bool someAway, ui
     if (woken) {
         s.position = centre.position;
         s.flags = SEED_FOLLOW;
-        s.still = 0;
     }
     settle(s);
     if (!(s.flags & SEED_VALID))
         *blocker = s.blocker;
 }
 
-// Coherence over time. A seed that did not move when it was settled last, or that faces away a little, waits for one frame; a seed
-// that did not move twice, or that faces well away, waits for three. A seed that is off the surface waits for one frame, unless its
-// patch has oversampled seeds, or it is likely to come back.
+// Coherence over time. A seed that faces away a little waits for one frame, one that faces well away for three. A seed that is off the
+// surface waits for one frame, unless its patch has oversampled seeds, or it is likely to come back. None waits in a patch that was
+// moved on, because such a patch has waited already.
 inline bool Settler::waits(const Seed& s, bool someAway) const
 {
     if (!(s.flags & SEED_VALID))
         return (turn_ & 1) != 0 && !patch_->extras && !(s.flags & SEED_FOLLOW);
-    if (!patch_->stirred || (s.still & turn_) != 0)
+    if (!patch_->stirred)
         return true;
     if (!someAway || turn_ == 0)
         return false;
@@ -481,7 +477,6 @@ bool Settler::layOutExtra(const Seed& s, const Seed& other)
         extra.flags = SEED_ACTIVE | SEED_FOLLOW;
         extra.lightChange[0] = Seed::LIGHT_UNKNOWN;
         extra.position = s.position;
-        extra.still = 0;
     }
     return true;
 }
@@ -542,7 +537,6 @@ bool Settler::settleFine(int i)
             s.flags = SEED_ACTIVE | SEED_FOLLOW;
             s.lightChange[0] = Seed::LIGHT_UNKNOWN;
             s.position = ends[which]->position;
-            s.still = 0;
         }
         if (!waits(s, false))
             settle(s);

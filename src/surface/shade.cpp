@@ -61,9 +61,10 @@ class Shader {
 public:
     Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame);
 
-    // Lists the voxels of a patch; those of an object that has a paint go through the painter.
+    // Lists the voxels of a patch; those of an object that has a paint go through the painter. Returns how many of the voxels, the
+    // first ones, have been added to the slopes.
     template <bool PAINTED>
-    void shadePatch(Patch& patch, int draws, VoxelList& list, Painter* painter);
+    int shadePatch(Patch& patch, int draws, VoxelList& list, Painter* painter);
 
     // Spacing of the object's seeds, 1/256 unit.
     int32_t spacing() const { return spacing_; }
@@ -73,7 +74,7 @@ private:
     void shadeSeen(Patch& patch, int draws, const Seen* seen, Voxel* voxels, int count);
     bool cutAtBorder(const Seed& s, Voxel* voxel, VoxelList& list) const;
     template <bool PAINTED>
-    void listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list, Painter* painter);
+    int listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list, Painter* painter);
     int findExtras(const Patch& patch, Seen* seen, Voxel* voxels) const;
     int clipDepth(Seen* seen, Voxel* voxels, int count) const;
     void setPatch(const Patch& patch, const Seen& middle, const Voxel& at);
@@ -341,7 +342,7 @@ inline void Shader::shadeSeen(Patch& patch, int draws, const Seen* seen, Voxel* 
 {
     const Seen& middle = seen[count >> 1];
     const int pause = middle.facing < facesViewer_ >> 2 ? BEND_DRAWS_LIMB : BEND_DRAWS;
-    if (!patch.bend.known || (patch.bend.stale && (draws & pause) == 0))
+    if (!patch.bend.known || (patch.bend.stale && ((draws & pause) == 0 || patch.moved)))
         measureBend(object_, shading_, patch);
     setPatch(patch, middle, voxels[count >> 1]);
     shadeSeeds(&shading_, seen, voxels, count);
@@ -373,15 +374,17 @@ inline bool Shader::knowsLight(const Seed& s, bool regular, const Voxel& voxel) 
     return (!regular || isBesideBorder(s)) && voxel.brightness != 0 && s.lightChange[0] != Seed::LIGHT_UNKNOWN;
 }
 
-// Lists the voxels of a patch that blends, or whose object has a paint.
+// Lists the voxels of a patch that blends, or whose object has a paint. Returns how many of them take part in slopes.
 template <bool PAINTED>
-inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list,
-                               Painter* painter)
+inline int Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list,
+                              Painter* painter)
 {
     const bool shines = PAINTED && painter->shines(), blends = patch.state == PATCH_MIXED;
     const int32_t sight = shines || (blends && bendsUnevenly(voxels, regular)) ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
     const int known = shines || blends ? regular : 0;
     Voxel* to = list.room();
+    const Voxel* const begin = to;
+    int sloped = 0;
     for (int i = 0; i < count; ++i) {
         const Seed& s = *seen[i].seed;
         const bool knows = blends && !shines && knowsLight(s, i < regular, voxels[i]);
@@ -408,15 +411,19 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
             if (PAINTED && list.room() > shown + 1)
                 slopes.addCopy(shown + 1, shown);
         }
-        if (shown == to)
-            ++to;
+        const Voxel* const end = PAINTED ? list.room() : shown == to ? to + 1 : to;
+        for (; to < end; ++to)
+            list.seed[to - list.voxels] = &s;
+        if (i < known)
+            sloped = static_cast<int>(to - begin);
     }
     if (!PAINTED)
         list.count = static_cast<int>(to - list.voxels);
+    return sloped;
 }
 
 template <bool PAINTED>
-inline void Shader::shadePatch(Patch& patch, int draws, VoxelList& list, Painter* painter)
+inline int Shader::shadePatch(Patch& patch, int draws, VoxelList& list, Painter* painter)
 {
     // The painter makes one or two voxels of each of these.
     Voxel unpainted[PAINTED ? SEEDS_MOST : 1];
@@ -425,16 +432,17 @@ inline void Shader::shadePatch(Patch& patch, int draws, VoxelList& list, Painter
     int regular;
     const int count = findSeen(patch, seen, voxels, &regular);
     if (count == 0)
-        return;
+        return 0;
     shadeSeen(patch, draws, seen, voxels, count);
-    if (PAINTED || patch.state != PATCH_REST) {
-        listVoxels<PAINTED>(patch, seen, voxels, count, regular, list, painter);
-        return;
-    }
+    if (PAINTED || patch.state != PATCH_REST)
+        return listVoxels<PAINTED>(patch, seen, voxels, count, regular, list, painter);
     if (!endsNowhere(patch, seen[count >> 1]))
         for (int i = 0; i < count; ++i)
             endAtLimb(patch, seen[i], voxels + i);
+    for (int i = 0; i < count; ++i)
+        list.seed[list.count + i] = seen[i].seed;
     list.count += count;
+    return 0;
 }
 
 // Whether some of a patch may be seen; the caller has tested whether the patch rests facing away. A patch that settled in this
@@ -472,7 +480,7 @@ SELDOM void listGuests(VoxelList& list, const Bodies& bodies)
 
 template <bool PAINTED>
 int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
-            int draws, VoxelList& list, int room, Painter* painter)
+            int draws, VoxelList& list, int room, Painter* painter, Reckoning& reckoning)
 {
     Shader shader(object, own, frame);
     slopes.begin();
@@ -486,9 +494,18 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
             continue;
         if (list.count + list.guests + most > room)
             break;
-        shader.shadePatch<PAINTED>(patch, i + draws, list, painter);
+        patch.moved = reckoning.moves(i, patch);
+        if (patch.moved) {
+            reckoning.move(i, &object.regular(0), list, slopes);
+            continue;
+        }
+        const int begin = list.count, guests = list.guests;
+        const int sloped = shader.shadePatch<PAINTED>(patch, i + draws, list, painter);
+        if (list.count > begin && list.guests == guests)
+            reckoning.note(i, patch, begin, sloped, list);
     }
     slopes.set(shader.spacing());
+    reckoning.follow(first, i, list);
     if (list.guests > 0)
         listGuests(list, *frame.bodies);
     return i;
@@ -497,10 +514,10 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
 }  // namespace
 
 int shadePatches(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
-                 int draws, VoxelList& list, int room)
+                 int draws, VoxelList& list, int room, Reckoning& reckoning)
 {
     if (object.shown()->paint() == nullptr)
-        return shadeAs<false>(object, own, frame, patches, count, first, draws, list, room, nullptr);
+        return shadeAs<false>(object, own, frame, patches, count, first, draws, list, room, nullptr, reckoning);
     Painter painter(object, own, list);
-    return shadeAs<true>(object, own, frame, patches, count, first, draws, list, room, &painter);
+    return shadeAs<true>(object, own, frame, patches, count, first, draws, list, room, &painter, reckoning);
 }
