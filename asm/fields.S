@@ -2,9 +2,9 @@
 // implements its C++ twin in src/surface/fields.cpp (declared in fields.h), and the tests feed both the same input. Above each
 // group of instructions stands the line of C++ that it implements.
 //
-// The cost of a field is that of its multiplications: four for a point, seven for a segment, and three or six more to set a new
-// path. A multiplication takes 9 to 38 cycles on the 386 and 13 to 42 on the 486, depending on the bits of its second factor, and
-// 10 on the Pentium, in the U pipe only. There is no division.
+// The cost of a field is that of its multiplications: four for a point and seven for a segment, but two and four where the field
+// does not reach, and three or six more to set a new path. A multiplication takes 9 to 38 cycles on the 386 and 13 to 42 on the
+// 486, depending on the bits of its second factor, and 10 on the Pentium, in the U pipe only. There is no division.
 
 #include "asm.h"
 
@@ -51,8 +51,8 @@
         shrdl        $16, %edx, %eax
 .endm
 
-// to = dot product of the vector at ebx and the vector at offset `vector` from edi, >> 4; changes eax, ecx and edx
-.macro product16 vector, to
+// ecx = dot product of the vector at ebx and the vector at offset `vector` from edi, >> 4; changes eax and edx
+.macro product16 vector
         movl        (%ebx), %eax
         times        \vector(%edi)
         movl        %eax, %ecx
@@ -63,22 +63,43 @@
         times        \vector+8(%edi)
         addl        %eax, %ecx
         sarl        $4, %ecx
-        movl        %ecx, \to
 .endm
 
-// Sets `change` = b + 2 p c, and eax = t = a + p (b + p c); changes ecx and edx
-.macro find_t
-        // outer = p * c; inner = b + outer; change = inner + outer
+// Sets ecx = inner = b + p c, and eax = t = a + p inner; changes edx. With `aims` 1 ecx is b before.
+.macro find_t aims
+        // outer = p * c; inner = b + outer
         movl        ALONG_C(%edi), %eax
-        times        %ebp
-        movl        ALONG_B(%edi), %ecx
-        addl        %eax, %ecx
+        times        ADD_POSITION(%esp)
+        .if \aims
         addl        %ecx, %eax
-        movl        %eax, ALONG_CHANGE(%edi)
+        .else
+        addl        ALONG_B(%edi), %eax
+        .endif
+        movl        %eax, %ecx
         // t = a + p * inner
-        movl        %ecx, %eax
-        times        %ebp
+        times        ADD_POSITION(%esp)
         addl        ALONG_A(%edi), %eax
+.endm
+
+// Sets `change` of a point, and edx to it; ecx is inner before.
+.macro find_change
+        // change = inner + outer;   outer is inner - b
+        leal        (%ecx,%ecx), %edx
+        subl        ALONG_B(%edi), %edx
+        movl        %edx, ALONG_CHANGE(%edi)
+.endm
+
+// The same of a segment; changes eax and ecx.
+.macro find_change_beside
+        // change = inner + outer - k * (stepY + stepY);   outer is inner - b
+        movl        ALONG_STEPY(%edi), %eax
+        addl        %ecx, %ecx
+        addl        %eax, %eax
+        subl        ALONG_B(%edi), %ecx
+        times        ALONG_K(%edi)
+        subl        %eax, %ecx
+        movl        %ecx, ALONG_CHANGE(%edi)
+        movl        %ecx, %edx
 .endm
 
 // Goes on with the next neighbour, if there is one.
@@ -97,60 +118,69 @@ add_one\aims:
         cmpl        $KIND_SEGMENT, ALONG_KIND(%edi)
         jae        add_no_point\aims
         .if \aims
-        product16 ALONG_TWICE, ALONG_B(%edi)
+        product16 ALONG_TWICE
+        movl        %ecx, ALONG_B(%edi)
         .endif
-        find_t
-add_param\aims:
+        find_t \aims
         movl        %eax, ALONG_T(%edi)
-add_known\aims:
-        // if (t >= 1) value = slope = 0; t = max(t, 0). (Taken for unsigned, a negative t is large, too.)
+        // if (t >= 1) value = slope = 0. (Taken for unsigned, a negative t is large, too.)
         cmpl        $0x10000, %eax
         jae        add_outside\aims
 add_inside\aims:
+        find_change
+add_changing\aims:
         // step = fieldSteps[t >> 8]; value = step.value + (step.slope * ((t & 255) - 128) >> 16); slope = step.slope
         movzbl        %al, %ecx
         shrl        $8, %eax
         addl        $-128, %ecx
-        movl        SYM(fieldSteps)+STEP_SLOPE(,%eax,8), %edx
-        imull        %edx, %ecx
+        imull        SYM(fieldSteps)+STEP_SLOPE(,%eax,8), %ecx
         sarl        $16, %ecx
         addl        SYM(fieldSteps)+STEP_VALUE(,%eax,8), %ecx
-        movl        %edx, ALONG_SLOPE(%edi)
+        movl        SYM(fieldSteps)+STEP_SLOPE(,%eax,8), %eax
         movl        %ecx, ALONG_VALUE(%edi)
+        movl        %eax, ALONG_SLOPE(%edi)
         // fields->sum += value; fields->slope += slope * change; ++fields->reaching
-        movl        ALONG_CHANGE(%edi), %eax
         times        %edx
-        movl        ADD_FIELDS(%esp), %edx
-        addl        %ecx, FIELDS_SUM(%edx)
-        addl        %eax, FIELDS_SLOPE(%edx)
-        incl        FIELDS_REACHING(%edx)
+        addl        %ecx, FIELDS_SUM(%ebp)
+        addl        %eax, FIELDS_SLOPE(%ebp)
+        incl        FIELDS_REACHING(%ebp)
         // fields->strongest = max(fields->strongest, value)
-        cmpl        FIELDS_STRONGEST(%edx), %ecx
+        cmpl        FIELDS_STRONGEST(%ebp), %ecx
         jle        add_done\aims
-        movl        %ecx, FIELDS_STRONGEST(%edx)
+        movl        %ecx, FIELDS_STRONGEST(%ebp)
 add_done\aims:
         add_next \aims
 
 add_outside\aims:
         testl        %eax, %eax
-        movl        $0, %eax
-        js        add_inside\aims
-        movl        %eax, ALONG_VALUE(%edi)
-        movl        %eax, ALONG_SLOPE(%edi)
+        js        add_below\aims
+        movl        $0, ALONG_VALUE(%edi)
+        movl        $0, ALONG_SLOPE(%edi)
         add_next \aims
+
+        // t = max(t, 0)
+add_below\aims:
+        cmpl        $KIND_SEGMENT, ALONG_KIND(%edi)
+        movl        $0, %eax
+        jb        add_inside\aims
+        find_change_beside
+        xorl        %eax, %eax
+        jmp        add_changing\aims
 
 add_no_point\aims:
         ja        add_other\aims
         // if (path != nullptr) b = dot(path, twice16) >> 4; stepY = dot(path, along16) >> 4
         .if \aims
-        product16 ALONG_TWICE, ALONG_B(%edi)
-        product16 ALONG_WAY, ALONG_STEPY(%edi)
+        product16 ALONG_WAY
+        movl        %ecx, ALONG_STEPY(%edi)
+        product16 ALONG_TWICE
+        movl        %ecx, ALONG_B(%edi)
         .endif
-        find_t
+        find_t \aims
+        movl        %eax, ALONG_T(%edi)
         // at = y + p * stepY
-        movl        %eax, %ecx
         movl        ALONG_STEPY(%edi), %eax
-        times        %ebp
+        times        ADD_POSITION(%esp)
         addl        ALONG_Y(%edi), %eax
         // k = clamp(at, -half, half)
         movl        ALONG_HALF(%edi), %edx
@@ -166,30 +196,37 @@ add_clamped\aims:
         addl        %eax, %eax
         subl        %edx, %eax
         times        ALONG_K(%edi)
-        subl        %eax, %ecx
-        // change -= k * (stepY + stepY)
-        movl        ALONG_STEPY(%edi), %eax
-        addl        %eax, %eax
-        times        ALONG_K(%edi)
-        subl        %eax, ALONG_CHANGE(%edi)
-        movl        %ecx, %eax
-        jmp        add_param\aims
+        subl        %eax, ALONG_T(%edi)
+        movl        ALONG_T(%edi), %eax
+        // if (t >= 1) value = slope = 0
+        cmpl        $0x10000, %eax
+        jae        add_outside\aims
+        find_change_beside
+        movl        ALONG_T(%edi), %eax
+        jmp        add_changing\aims
 
+        // The t and the change of other neighbours are known.
 add_other\aims:
         movl        ALONG_T(%edi), %eax
-        jmp        add_known\aims
+        movl        ALONG_CHANGE(%edi), %edx
+        cmpl        $0x10000, %eax
+        jge        add_outside\aims
+        testl        %eax, %eax
+        jns        add_changing\aims
+        xorl        %eax, %eax
+        jmp        add_changing\aims
 .endm
 
 // void addFieldsA(Neighbour* const* first, Neighbour* const* end, Real position, const Vector* path, Fields* fields)
 //
-//   esi  at             edi  along (**at)       ebp  position (p)       ebx  path
+//   esi  at             edi  along (**at)       ebp  fields             ebx  path
 FUNC(addFieldsA)
         pushl        %ebp
         pushl        %ebx
         pushl        %esi
         pushl        %edi
         movl        ADD_FIRST(%esp), %esi
-        movl        ADD_POSITION(%esp), %ebp
+        movl        ADD_FIELDS(%esp), %ebp
         movl        ADD_PATH(%esp), %ebx
         cmpl        ADD_END(%esp), %esi
         jae        add_end

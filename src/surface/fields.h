@@ -24,7 +24,7 @@ struct Along {
     Real stepY;         // segment: component of the path along it
     // These hold for the position evaluated last:
     Real value, slope;  // F and dF/dt
-    Real t, change;     // t and dt/dp
+    Real t, change;     // t and dt/dp; the latter is known only while t is below 1, where the field ends
     Real k;             // segment: coordinate of its nearest point
 
     // For points and segments only: set b and stepY for a path; set t, `change` and k for position p, and return t.
@@ -67,13 +67,16 @@ inline void Along::aimNear(const Vector& path)
 inline Real Along::nearParam(Real p)
 {
     const Real outer = p * c, inner = b + outer;
-    change = inner + outer;
     t = a + p * inner;
     if (kind == SEGMENT) {
         const Real at = y + p * stepY;
         k = clamp(at, -half, half);
-        change -= k * (stepY + stepY);
         t -= k * (at + at - k);
+    }
+    if (t < Real(1)) {
+        change = inner + outer;
+        if (kind == SEGMENT)
+            change -= k * (stepY + stepY);
     }
     return t;
 }
