@@ -281,9 +281,11 @@ ENDFUNC(findSeedsA)
 #define SHADE_SHARE  12
 #define SHADE_WAY_X  16
 #define SHADE_WAY_Y  20
-#define SHADE_OFF    24
-#define SHADE_LIGHT  28
-#define SHADE_FRAME  32
+#define SHADE_OFF_X  24
+#define SHADE_WIDE   28                 /* halfWidth and halfHeight of the cell's one axis */
+#define SHADE_HIGH   32
+#define SHADE_NORMAL 36                 /* s.normal as three 32-bit words */
+#define SHADE_FRAME  48
 #define SHADE_SHADING (SHADE_FRAME+20)
 #define SHADE_SEEN   (SHADE_FRAME+24)
 #define SHADE_VOXELS (SHADE_FRAME+28)
@@ -302,10 +304,10 @@ ENDFUNC(findSeedsA)
         addl        %ecx, %eax
 .endm
 
-// edx = column and eax = row of the packed sum in eax; the flags are those of the column
+// ecx = column and eax = row of the packed sum in eax; the flags are those of the column
 .macro unpack
-        leal        0x8000(%eax), %edx
-        sarl        $16, %edx
+        leal        0x8000(%eax), %ecx
+        sarl        $16, %ecx
         cwtl
 .endm
 
@@ -317,52 +319,48 @@ ENDFUNC(findSeedsA)
 1:
 .endm
 
-// edx = |x|, eax = |y| of a half axis of the cell on the picture plane; changes ecx
+// ecx = |x|, eax = |y| of a half axis of the cell on the picture plane
 .macro on_picture axis
         packed        \axis
         unpack
         jns        1f
-        negl        %edx
+        negl        %ecx
 1:
         magnitude        %eax
 .endm
 
-// eax = dot product of the 8-bit vector at offset `axis` of the seed and its normal; changes ecx and edx
+// eax = dot product of the 8-bit vector at offset `axis` of the seed and its normal; changes ecx
 .macro times_normal axis
         movsbl        \axis(%esi), %eax
-        movswl        SEED_NORMAL(%esi), %edx
-        imull        %edx, %eax
+        imull        SHADE_NORMAL(%esp), %eax
         movsbl        \axis+1(%esi), %ecx
-        movswl        SEED_NORMAL+2(%esi), %edx
-        imull        %edx, %ecx
+        imull        SHADE_NORMAL+4(%esp), %ecx
         addl        %ecx, %eax
         movsbl        \axis+2(%esi), %ecx
-        movswl        SEED_NORMAL+4(%esi), %edx
-        imull        %edx, %ecx
+        imull        SHADE_NORMAL+8(%esp), %ecx
         addl        %ecx, %eax
 .endm
 
 // on_picture for a seed that is not at rest (struct Fall): off = ((axis * normal) >> 7) * share >> 14;
-// |e.x * position - way.x * off >> 8|, and y likewise
+// |e.x * position - way.x * off >> 8|, and y likewise; changes edx
 .macro fallen axis
         times_normal \axis
         sarl        $7, %eax
         imull        SHADE_SHARE(%esp), %eax
         sarl        $14, %eax
-        movl        %eax, SHADE_OFF(%esp)
+        movl        %eax, %edx
+        imull        SHADE_WAY_X(%esp), %eax
+        imull        SHADE_WAY_Y(%esp), %edx
+        movl        %eax, SHADE_OFF_X(%esp)
         packed        \axis
         unpack
-        movl        SHADE_OFF(%esp), %ecx
-        imull        SHADE_POSITION(%esp), %edx
-        imull        SHADE_WAY_X(%esp), %ecx
-        subl        %ecx, %edx
-        movl        SHADE_OFF(%esp), %ecx
+        imull        SHADE_POSITION(%esp), %ecx
         imull        SHADE_POSITION(%esp), %eax
-        imull        SHADE_WAY_Y(%esp), %ecx
-        subl        %ecx, %eax
-        sarl        $8, %edx
+        subl        SHADE_OFF_X(%esp), %ecx
+        subl        %edx, %eax
+        sarl        $8, %ecx
         jns        1f
-        negl        %edx
+        negl        %ecx
 1:
         sarl        $8, %eax
         jns        1f
@@ -417,13 +415,11 @@ shade_tilted:
         imull        $BRIGHTEST, %edx, %edx
         addl        $8192, %edx
         sarl        $14, %edx
-        movl        %edx, SHADE_LIGHT(%esp)
-        // voxel.brightness = max32(light, 0);  reach, slopes, cut function = 0
-        jle        shade_dark
-shade_lit:
-        movl        %edx, VOXEL_BRIGHT(%edi)
+        // voxel.brightness = light;  reach, slopes, cut function = 0
+        movzbl        %dl, %edx
         movl        $0, VOXEL_SLOPEX(%edi)
         movl        $0, VOXEL_CURVE(%edi)
+        movl        %edx, VOXEL_BRIGHT(%edi)
 
         testb        $SEED_RESTING, SEED_FLAGS(%esi)
         jz        shade_fallen
@@ -441,37 +437,118 @@ shade_lit:
         movl        %edx, SHADE_AREA(%esp)
         on_picture SEED_ALONG
 shade_band:
-        // halfWidth >>= v.cellShift; halfHeight >>= v.cellShift
+        // halfWidth (esi) >>= v.cellShift; halfHeight (eax) >>= v.cellShift
+        movl        %ecx, %esi
         movl        CELL_SHIFT(%ebp), %ecx
-        sarl        %cl, %edx
+        sarl        %cl, %esi
         sarl        %cl, %eax
         // if (halfWidth > halfHeight) halfHeight += area / halfWidth
-        cmpl        %eax, %edx
+        cmpl        %eax, %esi
         jle        shade_high
-        movl        %edx, %ecx
-        movl        %eax, %esi
+        movl        %eax, %ecx
         movl        SHADE_AREA(%esp), %eax
         xorl        %edx, %edx
-        divl        %ecx
-        addl        %esi, %eax
+        divl        %esi
+        addl        %ecx, %eax
         jmp        shade_extents
         // else if (halfHeight > 0) halfWidth += area / halfHeight
 shade_high:
-        movl        %edx, %esi
         movl        %eax, %ecx
         testl        %eax, %eax
-        jz        shade_no_height
+        jz        shade_extents
         movl        SHADE_AREA(%esp), %eax
         xorl        %edx, %edx
         divl        %ecx
-        addl        %esi, %eax
-        xchgl        %eax, %ecx
+        addl        %eax, %esi
+        movl        %ecx, %eax
+        jmp        shade_extents
+
+        // halfWidth = (halfWidth + |across.x|) >> v.cellShift;  halfHeight = (halfHeight + |across.y|) >> v.cellShift
+shade_whole:
+        on_picture SEED_ACROSS
+        movl        %ecx, SHADE_WIDE(%esp)
+        movl        %eax, SHADE_HIGH(%esp)
+        on_picture SEED_ALONG
+        jmp        shade_add
+
+        // Fall fall(s, v): position = max32(s.position >> 8, v.leastPosition)
+shade_fallen:
+        movl        SEED_POSITION(%esi), %eax
+        sarl        $8, %eax
+        cmpl        LEAST_POSITION(%ebp), %eax
+        jl        shade_least_position
+shade_position:
+        movl        %eax, SHADE_POSITION(%esp)
+        // cosine = product(s.way, s.normal) >> 7;   edx has s.area
+        .irp    part, 0, 1, 2
+        movswl        SEED_NORMAL+2*\part(%esi), %edx
+        movl        %edx, SHADE_NORMAL+4*\part(%esp)
+        .endr
+        times_normal SEED_WAY
+        movzwl        SEED_AREA(%esi), %edx
+        sarl        $7, %eax
+        // torn = magnitude(cosine) < UNEVEN;   edx has 0 then
+        cmpl        $UNEVEN, %eax
+        jl        shade_torn
+shade_even:
+        movl        %edx, SHADE_AREA(%esp)
+        // share = (position << 14) / cosine
+        movl        %eax, %ecx
+        movl        SHADE_POSITION(%esp), %eax
+        shll        $14, %eax
+        cltd
+        idivl        %ecx
+        movl        %eax, SHADE_SHARE(%esp)
+        // way(s.way, v)
+        packed        SEED_WAY
+        unpack
+        movl        %ecx, SHADE_WAY_X(%esp)
+        movl        %eax, SHADE_WAY_Y(%esp)
+        // if (cell == 0 || facing < v.wholeBefore):  cell is 0 if the cell is torn or s.area is 0
+        movl        SHADE_AREA(%esp), %ecx
+        movl        SEEN_FACING(%ebx), %eax
+        testl        %ecx, %ecx
+        jz        shade_fallen_whole
+        cmpl        WHOLE_BEFORE(%ebp), %eax
+        jl        shade_fallen_whole
+        // cell = fall.area(s.area);   min32((s.area * magnitude(share) >> 8) * position >> 8, AREA_MOST)
+        movl        SHADE_SHARE(%esp), %edx
+        magnitude        %edx
+        imull        %edx, %ecx
+        sarl        $8, %ecx
+        imull        SHADE_POSITION(%esp), %ecx
+        sarl        $8, %ecx
+        jz        shade_fallen_whole
+        cmpl        $AREA_MOST, %ecx
+        jg        shade_area_most
+shade_area:
+        // area = mulHigh(cell * (facing >> 3), v.areaShare)
+        sarl        $3, %eax
+        imull        %ecx, %eax
+        imull        AREA_SHARE(%ebp)
+        movl        %edx, SHADE_AREA(%esp)
+        fallen        SEED_ALONG
+        jmp        shade_band
+
+        // halfWidth (esi) = (halfWidth + |across.x|) >> v.cellShift;  halfHeight (eax) likewise
+shade_fallen_whole:
+        fallen        SEED_ACROSS
+        movl        %ecx, SHADE_WIDE(%esp)
+        movl        %eax, SHADE_HIGH(%esp)
+        fallen        SEED_ALONG
+shade_add:
+        movl        SHADE_WIDE(%esp), %esi
+        addl        SHADE_HIGH(%esp), %eax
+        addl        %ecx, %esi
+        movl        CELL_SHIFT(%ebp), %ecx
+        sarl        %cl, %esi
+        sarl        %cl, %eax
 
         // halfWidth (ecx) = min32(halfWidth + (halfWidth >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff);  halfHeight (eax) likewise
 shade_extents:
-        movl        %ecx, %edx
+        movl        %esi, %edx
         sarl        $MARGIN_SHIFT, %edx
-        leal        MARGIN_UNITS(%ecx,%edx), %ecx
+        leal        MARGIN_UNITS(%esi,%edx), %ecx
         movl        %eax, %edx
         sarl        $MARGIN_SHIFT, %edx
         leal        MARGIN_UNITS(%eax,%edx), %eax
@@ -484,16 +561,29 @@ shade_wide:
 shade_extended:
         movl        HORIZON(%ebp), %edx
         imull        SEEN_FACING(%ebx), %edx
-        sarl        $16, %edx
-        cmpl        $255, %edx
-        jl        shade_end
+        cmpl        $255<<16, %edx
+        jge        shade_ended
+        // deep = (magnitude(tiltX) * halfWidth + magnitude(tiltY) * halfHeight) >> 8;   esi has it with 8 fraction bits
+        movswl        VOXEL_TILTX(%edi), %esi
+        magnitude        %esi
+        imull        %ecx, %esi
+        movswl        VOXEL_TILTY(%edi), %ebp
+        magnitude        %ebp
+        imull        %eax, %ebp
+        addl        %ebp, %esi
+        movl        SHADE_SHADING(%esp), %ebp
+        // if (deep >= reach * 8) ..;   edx has reach * 8 with 8 fraction bits, - 1
+        sarl        $5, %edx
+        orl        $0x7ff, %edx
+        cmpl        %edx, %esi
+        jg        shade_end
 shade_ended:
         movw        %cx, VOXEL_HALF_WIDTH(%edi)
         movw        %ax, VOXEL_HALF_HEIGHT(%edi)
 
         // if (light <= DARK_MIDDLE) return
-        cmpl        $DARK_MIDDLE, SHADE_LIGHT(%esp)
-        jle        shade_done
+        cmpb        $DARK_MIDDLE, VOXEL_BRIGHT(%edi)
+        jle        shade_dark
         // slopeX (edx) = (v.gradient[0] + tiltX * v.gradientAhead) >> 12;  slopeY (esi) likewise
         movswl        VOXEL_TILTX(%edi), %edx
         imull        AHEAD(%ebp), %edx
@@ -505,36 +595,31 @@ shade_ended:
         sarl        $12, %esi
         // corner = (|slopeX| * halfWidth + |slopeY| * halfHeight) >> 8
         imull        %edx, %ecx
-        testl        %ecx, %ecx
-        jns        1f
-        negl        %ecx
-1:        imull        %esi, %eax
-        testl        %eax, %eax
-        jns        1f
-        negl        %eax
-1:        addl        %ecx, %eax
+        magnitude        %ecx
+        imull        %esi, %eax
+        magnitude        %eax
+        addl        %ecx, %eax
         // if (corner < FLAT_SHADING) return; for (; corner > STEEPEST_SHADING; corner >>= 1) ..:  one unsigned comparison for both.
         // From here on eax is corner - FLAT_SHADING with 8 fraction bits.
         subl        $FLAT_SHADING<<8, %eax
         cmpl        $(STEEPEST_SHADING+1-FLAT_SHADING)<<8, %eax
         jae        shade_flat_or_steep
-        // if (corner + light * 8 <= 0) return; voxel.brightness = light
+        // if (corner + light * 8 <= 0) return;   voxel.brightness has the light so far
 shade_softened:
-        cmpl        $0, SHADE_LIGHT(%esp)
+        cmpb        $0, VOXEL_BRIGHT(%edi)
         jl        shade_dark_middle
-        // voxel.slopeX = limited(slopeX, 127);  voxel.slopeY = limited(slopeY, 127)
+        // voxel.slopeX = limited(slopeX, 127);  voxel.slopeY = limited(slopeY, 127):  most often one comparison shows that both
+        // stay as they are
 shade_slopes:
         leal        127(%edx), %eax
+        leal        127(%esi), %ecx
+        orl        %ecx, %eax
         cmpl        $254, %eax
-        ja        shade_limit_x
-shade_slope_x:
+        ja        shade_limit
+shade_limited:
+        movl        %esi, %ecx
         movb        %dl, VOXEL_SLOPEX(%edi)
-        leal        127(%esi), %eax
-        cmpl        $254, %eax
-        ja        shade_limit_y
-shade_slope_y:
-        movl        %esi, %eax
-        movb        %al, VOXEL_SLOPEY(%edi)
+        movb        %cl, VOXEL_SLOPEY(%edi)
 
 shade_done:
         addl        $SEEN_SIZE, %ebx
@@ -563,22 +648,11 @@ shade_turned:
         movw        %dx, VOXEL_TILTY(%edi)
         jmp        shade_tilted
 
-        // deep = (|tiltX| * halfWidth + |tiltY| * halfHeight) >> 8
-        // if (deep >= reach * 8) voxel.reach = reach, voxel.front = v.front
+        // voxel.reach = reach, voxel.front = v.front
 shade_end:
-        movswl        VOXEL_TILTX(%edi), %esi
-        magnitude        %esi
-        imull        %ecx, %esi
-        movswl        VOXEL_TILTY(%edi), %ebp
-        magnitude        %ebp
-        imull        %eax, %ebp
-        addl        %ebp, %esi
-        movl        SHADE_SHADING(%esp), %ebp
+        sarl        $11, %edx
         sarl        $8, %esi
-        leal        8(,%edx,8), %edx        // reach * 8
-        cmpl        %edx, %esi
-        jl        shade_ended
-        shrl        $3, %edx
+        incl        %edx
         movb        %dl, VOXEL_REACH(%edi)
         movl        FRONT(%ebp), %edx
         movb        %dl, VOXEL_FRONT(%edi)
@@ -595,109 +669,33 @@ shade_end:
         xchgl        %eax, %ecx
         jmp        shade_ended
 
-        // halfWidth = (halfWidth + |across.x|) >> v.cellShift;  halfHeight = (halfHeight + |across.y|) >> v.cellShift
-shade_whole:
-        on_picture SEED_ACROSS
-        movl        %edx, SHADE_AREA(%esp)
-        movl        %eax, SHADE_OFF(%esp)
-        on_picture SEED_ALONG
-        addl        SHADE_OFF(%esp), %eax
-shade_add:
-        addl        SHADE_AREA(%esp), %edx
-        movl        CELL_SHIFT(%ebp), %ecx
-        sarl        %cl, %edx
-        sarl        %cl, %eax
-        movl        %edx, %ecx
-        jmp        shade_extents
-
-        // Fall fall(s, v): position = max32(s.position >> 8, v.leastPosition)
-shade_fallen:
-        movl        SEED_POSITION(%esi), %eax
-        sarl        $8, %eax
-        cmpl        LEAST_POSITION(%ebp), %eax
-        jl        shade_least_position
-shade_position:
-        movl        %eax, SHADE_POSITION(%esp)
-        // cosine = product(s.way, s.normal) >> 7; area = torn ? 0 : s.area
-        times_normal SEED_WAY
-        sarl        $7, %eax
-        cltd
-        xorl        %edx, %eax
-        subl        %edx, %eax
-        movzwl        SEED_AREA(%esi), %ecx
-        cmpl        $UNEVEN, %eax
-        jl        shade_torn
-shade_even:
-        // share = |position << 14 / cosine|; area = min32((area * share >> 8) * position >> 8, AREA_MOST)
-        movl        %edx, SHADE_OFF(%esp)
-        movl        %eax, SHADE_AREA(%esp)
-        movl        SHADE_POSITION(%esp), %eax
-        shll        $14, %eax
-        xorl        %edx, %edx
-        divl        SHADE_AREA(%esp)
-        imull        %eax, %ecx
-        sarl        $8, %ecx
-        imull        SHADE_POSITION(%esp), %ecx
-        sarl        $8, %ecx
-        cmpl        $AREA_MOST, %ecx
-        jg        shade_area_most
-shade_area:
-        movl        %ecx, SHADE_AREA(%esp)
-        // share has the sign of the cosine
-        movl        SHADE_OFF(%esp), %edx
-        xorl        %edx, %eax
-        subl        %edx, %eax
-        movl        %eax, SHADE_SHARE(%esp)
-        // way(s.way, v)
-        packed        SEED_WAY
-        unpack
-        movl        %edx, SHADE_WAY_X(%esp)
-        movl        %eax, SHADE_WAY_Y(%esp)
-        // if (area == 0 || facing < v.wholeBefore)
-        movl        SHADE_AREA(%esp), %ecx
-        movl        SEEN_FACING(%ebx), %eax
-        testl        %ecx, %ecx
-        jz        shade_fallen_whole
-        cmpl        WHOLE_BEFORE(%ebp), %eax
-        jl        shade_fallen_whole
-        // area = mulHigh(area * (facing >> 3), v.areaShare)
-        sarl        $3, %eax
-        imull        %ecx, %eax
-        imull        AREA_SHARE(%ebp)
-        movl        %edx, SHADE_AREA(%esp)
-        fallen        SEED_ALONG
-        jmp        shade_band
-
-shade_fallen_whole:
-        fallen        SEED_ACROSS
-        movl        %edx, SHADE_AREA(%esp)
-        movl        %eax, SHADE_COUNT(%esp)
-        fallen        SEED_ALONG
-        addl        SHADE_COUNT(%esp), %eax
-        jmp        shade_add
-
 shade_least_position:
         movl        LEAST_POSITION(%ebp), %eax
         jmp        shade_position
+        // if (magnitude(cosine) < LEAST_COSINE) cosine = cosine < 0 ? -LEAST_COSINE : LEAST_COSINE
 shade_torn:
-        xorl        %ecx, %ecx
+        xorl        %edx, %edx
         cmpl        $LEAST_COSINE, %eax
         jge        shade_even
+        testl        %eax, %eax
+        js        shade_backwards
         movl        $LEAST_COSINE, %eax
+        jmp        shade_even
+shade_backwards:
+        cmpl        $-LEAST_COSINE, %eax
+        jle        1f
+        movl        $-LEAST_COSINE, %eax
+1:        cmpl        $-UNEVEN, %eax
+        jg        shade_even
+        movzwl        SEED_AREA(%esi), %edx
         jmp        shade_even
 shade_area_most:
         movl        $AREA_MOST, %ecx
         jmp        shade_area
 
-shade_no_height:
-        movl        %esi, %ecx
-        jmp        shade_extents
 shade_steepest:
         movl        $STEEPEST_TILT, %eax
         jmp        shade_steep
-shade_dark:
-        xorl        %edx, %edx
-        jmp        shade_lit
 shade_too_wide:
         movl        $0x7fff, %ecx
         jmp        shade_wide
@@ -706,7 +704,7 @@ shade_too_high:
         jmp        shade_extended
 shade_flat_or_steep:
         testl        %eax, %eax
-        js        shade_done
+        js        shade_flat
         // slopeX >>= 1, slopeY >>= 1
         addl        $FLAT_SHADING<<8, %eax
 shade_steepest_shading:
@@ -718,25 +716,30 @@ shade_steepest_shading:
         subl        $FLAT_SHADING<<8, %eax
         jmp        shade_softened
 shade_dark_middle:
-        movl        SHADE_LIGHT(%esp), %ecx
+        movsbl        VOXEL_BRIGHT(%edi), %ecx
         sarl        $8, %eax
         leal        FLAT_SHADING(%eax,%ecx,8), %eax
         testl        %eax, %eax
-        jle        shade_done
-        movb        %cl, VOXEL_BRIGHT(%edi)
-        jmp        shade_slopes
+        jg        shade_slopes
+        // voxel.brightness = max32(light, 0) where a voxel has no slopes
+shade_flat:
+        cmpb        $0, VOXEL_BRIGHT(%edi)
+        jge        shade_done
+shade_dark:
+        movb        $0, VOXEL_BRIGHT(%edi)
+        jmp        shade_done
         // limited(): 127 with the sign of the slope
-shade_limit_x:
-        sarl        $31, %edx
-        addl        %edx, %edx
-        addl        $1, %edx
-        imull        $127, %edx, %edx
-        jmp        shade_slope_x
-shade_limit_y:
-        sarl        $31, %esi
-        addl        %esi, %esi
-        addl        $1, %esi
-        imull        $127, %esi, %esi
-        jmp        shade_slope_y
+shade_limit:
+        .irp    slope, %edx, %esi
+        leal        127(\slope), %eax
+        cmpl        $254, %eax
+        jbe        1f
+        sarl        $31, \slope
+        addl        \slope, \slope
+        addl        $1, \slope
+        imull        $127, \slope, \slope
+1:
+        .endr
+        jmp        shade_limited
 ENDFUNC(shadeSeedsA)
 ASM_END
