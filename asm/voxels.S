@@ -107,25 +107,20 @@
         sarl        $14, \to
 .endm
 
-// One component, at offset `part`, of the position of a seed (esi) with its root at ebx, shifted by cl to steps of places
-.macro place part
+// Sets a component, at offset `part`, of the voxel's (edi) position to that of a seed (esi) with its root at ebx, shifted by cl to
+// steps of places. to = the same component, at offset `normal`, of the normal times that of the vector from the eye to the seed;
+// changes eax and edx.
+.macro place part, normal, to
         movl        SEED_PATH+\part(%esi), %eax
         imull        SEED_POSITION(%esi)
         shrdl        $16, %edx, %eax
         addl        \part(%ebx), %eax
         sarl        %cl, %eax
+        movswl        SEED_NORMAL+\normal(%esi), \to
         movl        %eax, VOXEL_X+\part(%edi)
-.endm
-
-// eax = one component of the normal, at offset `normal`, times the same component, at offset `part`, of the vector from the
-// position in the voxel (edi) to the eye
-.macro to_eye part, normal
-        movl        VOXEL_X+\part(%edi), %edx
-        sarl        $3, %edx
-        movl        EYE+\part(%ebp), %eax
-        subl        %edx, %eax
-        movswl        SEED_NORMAL+\normal(%esi), %edx
-        imull        %edx, %eax
+        sarl        $3, %eax
+        subl        EYE+\part(%ebp), %eax
+        imull        %eax, \to
 .endm
 
 // int findSeedsA(const Shading* shading, const Patch* patch, Seen* seen, Voxel* voxels)
@@ -134,7 +129,8 @@
 //
 // A visible seed at rest takes 30 instructions, and 24 more if own space is turned relative to the view; an invisible one takes 18.
 #define FIND_END     0                  /* end of the ring's seeds */
-#define FIND_RING    4
+#define FIND_RING    4                  /* ring - PATCH_RINGS */
+#define FIND_AWAY    8                  /* normal * ((place >> 3) - eye), as far as it is added up */
 #define FIND_TURNED  8                  /* two 32-bit words: x and y of the voxel */
 #define FIND_NEXT    16                 /* ecx (seen + count), while cl holds placeShift */
 #define FIND_FRAME   20
@@ -167,13 +163,13 @@ FUNC(findSeedsA)
         movl        FIND_SHADING(%esp), %ebp
         movl        FIND_VOXELS(%esp), %edi
         movl        FIND_SEEN(%esp), %ecx
-        xorl        %edx, %edx
+        movl        $-PATCH_RINGS, FIND_RING(%esp)
         // for (ring = 0; ring < PATCH_RINGS; ++ring) for (s = seeds + first[ring], end = s + count[ring]; s < end; ++s)
 find_ring:
         movl        FIND_PATCH(%esp), %ebx
-        movl        %edx, FIND_RING(%esp)
-        movzbl        PATCH_COUNT(%ebx,%edx), %eax
-        movl        PATCH_FIRST(%ebx,%edx,4), %esi
+        movl        FIND_RING(%esp), %edx
+        movzbl        PATCH_COUNT+PATCH_RINGS(%ebx,%edx), %eax
+        movl        PATCH_FIRST+4*PATCH_RINGS(%ebx,%edx,4), %esi
         shll        $SEED_SHIFT, %eax
         jz        find_ring_next
         shll        $SEED_SHIFT, %esi
@@ -206,10 +202,8 @@ find_one:
 find_found:
         found
 find_ring_next:
-        movl        FIND_RING(%esp), %edx
-        incl        %edx
-        cmpl        $PATCH_RINGS, %edx
-        jb        find_ring
+        incl        FIND_RING(%esp)
+        jnz        find_ring
         // return count, from the bytes written to `seen` (SEEN_SIZE is 8)
         movl        %ecx, %eax
         subl        FIND_SEEN(%esp), %eax
@@ -242,17 +236,15 @@ find_moved:
         movl        %ecx, FIND_NEXT(%esp)
         leal        (%eax,%ebx,4), %ebx
         movl        PLACE_SHIFT(%ebp), %ecx
-        place        0
-        place        4
-        place        8
-        movl        FIND_NEXT(%esp), %ecx
         // facing = (normal * (eye - (place >> 3))) >> 11; if (facing <= v.limb) continue
-        to_eye        0, 0
-        movl        %eax, %ebx
-        to_eye        4, 2
-        addl        %eax, %ebx
-        to_eye        8, 4
-        addl        %eax, %ebx
+        place        0, 0, %edx
+        movl        %edx, FIND_AWAY(%esp)
+        place        4, 2, %edx
+        addl        %edx, FIND_AWAY(%esp)
+        place        8, 4, %ebx
+        addl        FIND_AWAY(%esp), %ebx
+        movl        FIND_NEXT(%esp), %ecx
+        negl        %ebx
         sarl        $11, %ebx
         cmpl        LIMB(%ebp), %ebx
         jle        find_not
