@@ -165,6 +165,8 @@ inline bool Path::addNear(Real position, const Vector* path, int i, Parts& parts
         near.value = near.slope = Real(0);
         return false;
     }
+    if (near.kind != Neighbour::OTHER)
+        near.findChange(position);
     const FieldStep field = geoffQuick(max(t, Real(0)));
     const bool plain = near.strength == Real(1);
     near.value = plain ? field.value : field.value * near.strength;

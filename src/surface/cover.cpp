@@ -48,7 +48,7 @@ bool Cover::coversPath(const Seed& s)
     const Real there = near_->param(limits_->position);
     if (there >= limits_->there)
         return false;
-    const Real atRest = near_->param(Real(1));
+    const Real atRest = near_->restParam();
     return atRest < limits_->atRest && (there <= atRest || !isHeavy());
 }
 

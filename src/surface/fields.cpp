@@ -15,6 +15,8 @@ void addFieldsC(Neighbour* const* first, Neighbour* const* end, Real position, c
             along.value = along.slope = Real(0);
             continue;
         }
+        if (along.kind != Along::OTHER)
+            along.findChange(position);
         const FieldStep field = geoffQuick(max(t, Real(0)));
         along.value = field.value;
         along.slope = field.slope;

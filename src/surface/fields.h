@@ -24,12 +24,19 @@ struct Along {
     Real stepY;         // segment: component of the path along it
     // These hold for the position evaluated last:
     Real value, slope;  // F and dF/dt
-    Real t, change;     // t and dt/dp; the latter is known only while t is below 1, where the field ends
+    Real t, change;     // t, and dt/dp, which need not be known beyond the end of the field
     Real k;             // segment: coordinate of its nearest point
 
-    // For points and segments only: set b and stepY for a path; set t, `change` and k for position p, and return t.
+    // For points and segments only: set b and stepY for a path; set t and k for position p, or for position 1, and return t; set
+    // `change` for the position evaluated last.
     void aimNear(const Vector& path);
     Real nearParam(Real p);
+    Real nearRestParam();
+    void findChange(Real p);
+
+private:
+    // Turns the t that a segment's centre alone would have into the segment's; `at` is the position's coordinate along it.
+    void leaveAxis(Real at);
 };
 
 // The fields of all neighbours at one position.
@@ -66,19 +73,33 @@ inline void Along::aimNear(const Vector& path)
 
 inline Real Along::nearParam(Real p)
 {
-    const Real outer = p * c, inner = b + outer;
+    const Real inner = b + p * c;
     t = a + p * inner;
-    if (kind == SEGMENT) {
-        const Real at = y + p * stepY;
-        k = clamp(at, -half, half);
-        t -= k * (at + at - k);
-    }
-    if (t < Real(1)) {
-        change = inner + outer;
-        if (kind == SEGMENT)
-            change -= k * (stepY + stepY);
-    }
+    if (kind == SEGMENT)
+        leaveAxis(y + p * stepY);
     return t;
+}
+
+inline Real Along::nearRestParam()
+{
+    t = a + (b + c);
+    if (kind == SEGMENT)
+        leaveAxis(y + stepY);
+    return t;
+}
+
+inline void Along::leaveAxis(Real at)
+{
+    k = clamp(at, -half, half);
+    t -= k * (at + at - k);
+}
+
+inline void Along::findChange(Real p)
+{
+    const Real outer = p * c, inner = b + outer;
+    change = inner + outer;
+    if (kind == SEGMENT)
+        change -= k * (stepY + stepY);
 }
 
 #endif

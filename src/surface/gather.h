@@ -67,10 +67,11 @@ struct Neighbour : Along {
     Vector halfGradient;  // of an OTHER: half the gradient of t there, times CORE_SIZE^2
     Real share;         // by how much the body's field changes with its field, dF/df, where that is known (Path::shared_)
 
-    // Takes up a path; evaluates t and its derivative at a position of the path. Both set their fields of Along; the field's
-    // value is not computed.
+    // Takes up a path; evaluates t at a position of the path, or at position 1. All set their fields of Along; the field's value is
+    // not computed, and only an OTHER's derivative of t is.
     void aim(const Vector& path);
     Real param(Real p) { return kind == OTHER ? otherParam(p) : nearParam(p); }
+    Real restParam() { return kind == OTHER ? otherParam(Real(1)) : nearRestParam(); }
     Real otherParam(Real p);
 
     // An upper bound of the change of its field over a unit, as that counts in the field of a body whose members are all linked.
