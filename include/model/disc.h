@@ -12,6 +12,7 @@ public:
     Disc(int number, Real size, Real discRadius);
 
     Vector fromCore(const Vector& q) const override;
+    Real plainParam(const Vector& q, Vector* slope) const override;
     Vector coreExtent16() const override { return {coreReach16(), Real(0), coreReach16()}; }
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
     void describe(char* to, int size) const override;

@@ -3,8 +3,8 @@
 #ifndef FB_ROUND_H
 #define FB_ROUND_H
 
+#include "math/normal.h"
 #include "model/seed.h"
-#include "math/vec.h"
 
 // A ring of seeds about the y axis, in the object's own space before any stretch. Directions in the half plane through the axis
 // are given by sine and cosine of a latitude, which is 0 pointing away from the axis and a quarter turn along +y.
@@ -133,6 +133,36 @@ constexpr Real HALF_PI(1.57079633);
 
 // Length of a vector of up to 16000 units, with an error of at most 1/100000 of it plus one last bit: for distances needed
 // often. On a 386 it is two orders of magnitude quicker than length(), which is exact. makeNormalTable() must have been called.
-Real lengthQuick(const Vector& v);
+inline Real lengthQuick(const Vector& v)
+{
+#if FB_REAL == FB_FIXED
+    uint32_t x = static_cast<uint32_t>(v.x.raw < 0 ? -v.x.raw : v.x.raw);
+    uint32_t y = static_cast<uint32_t>(v.y.raw < 0 ? -v.y.raw : v.y.raw);
+    uint32_t z = static_cast<uint32_t>(v.z.raw < 0 ? -v.z.raw : v.z.raw);
+    const uint32_t bits = x | y | z;
+    if (bits == 0)
+        return Real(0);
+    // Compute the square, look up a root of 15 bits in the table, and double its precision by one step of Newton's method.
+    const int excess = 18 - __builtin_clz(bits);
+    uint64_t square;
+    uint32_t root;
+    if (excess > 0) {
+        square = static_cast<uint64_t>(x) * x + static_cast<uint64_t>(y) * y + static_cast<uint64_t>(z) * z;
+        const uint32_t few = static_cast<uint32_t>(square >> (2 * excess));
+        root = static_cast<uint32_t>(static_cast<uint64_t>(few) * inverseRoots[few >> 20] >> 28) << excess;
+    } else {
+        x <<= -excess;
+        y <<= -excess;
+        z <<= -excess;
+        square = x * x + y * y + z * z;
+        root = static_cast<uint32_t>(square * inverseRoots[square >> 20] >> 28);
+    }
+    uint32_t rest;
+    root = (root + quotient64(square, root, &rest)) >> 1;
+    return Real::fromRaw(static_cast<int32_t>(excess > 0 ? root : root >> -excess));
+#else
+    return squareRoot(dot(v, v));
+#endif
+}
 
 #endif

@@ -60,7 +60,7 @@ public:
 
     // Squared distance from the core divided by the squared size at `q` (core space): 0 on the core, 1 where the field ends, 1
     // or more beyond. `*slope` receives half the gradient of that value times CORE_SIZE squared, which is the vector from the
-    // core unless the object tapers. Stretch and warp are left out of account.
+    // core unless the object tapers; where the value is 1 or more it receives any vector. Stretch and warp are left out of account.
     virtual Real plainParam(const Vector& q, Vector* slope) const;
 
     // Half extent of the core along each axis, in core space.
@@ -329,6 +329,16 @@ public:
     const Paint* paint() const { return paint_; }
 
 protected:
+    // plainParam() for a vector from the core, in core space.
+    static Real paramOf(const Vector& v)
+    {
+        // First exclude what is far away: beyond this box the squares would overflow 16.16, and the field is 0 anyway.
+        const Real end(CORE_SIZE);
+        if (absolute(v.x) >= end || absolute(v.y) >= end || absolute(v.z) >= end)
+            return Real(1);
+        return shiftDown(dot(v, v), 8);
+    }
+
     // Writes "kind number numbers...", for describe().
     void describeAs(const char* kind, const Real* numbers, int count, char* to, int size) const;
 

@@ -14,6 +14,7 @@ public:
     static Real leastRing(Real size) { return size * Real(0.625); }
 
     Vector fromCore(const Vector& q) const override;
+    Real plainParam(const Vector& q, Vector* slope) const override;
     Vector coreExtent16() const override { return {coreReach16(), Real(0), coreReach16()}; }
     void layOutSeeds(SeedMaker& maker, Real spacing) const override;
     bool ringsClose() const override { return true; }

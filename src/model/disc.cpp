@@ -7,13 +7,31 @@
 
 Disc::Disc(int number, Real size, Real discRadius) : SoftObject(number, size, max(discRadius, Real(0))) {}
 
-Vector Disc::fromCore(const Vector& q) const
+// Disc::fromCore() for a plate of radius `core`.
+static inline Vector fromPlate(const Vector& q, Real core)
 {
     const Real away = lengthQuick({q.x, Real(0), q.z});
-    if (away <= coreReach16())
+    if (away <= core)
         return {Real(0), q.y, Real(0)};
-    const Real share = (away - coreReach16()) / away;
+    const Real share = quotient(away - core, away);
     return {q.x * share, q.y, q.z * share};
+}
+
+Vector Disc::fromCore(const Vector& q) const
+{
+    return fromPlate(q, coreReach16());
+}
+
+Real Disc::plainParam(const Vector& q, Vector* slope) const
+{
+    // Far above or below the core it need not be known how far the nearest point of the core lies aside.
+    if (absolute(q.y) >= Real(CORE_SIZE)) {
+        *slope = q;
+        return Real(1);
+    }
+    const Vector v = fromPlate(q, coreReach16());
+    *slope = v;
+    return paramOf(v);
 }
 
 void Disc::layOutSeeds(SeedMaker& maker, Real spacing) const

@@ -1,7 +1,6 @@
-// Rings of seeds, outlines and quick lengths, for all primitives with round parts (round.h).
+// Rings of seeds and outlines, for all primitives with round parts (round.h).
 #include "model/round.h"
 
-#include "math/normal.h"
 #include "model/sphere.h"
 #include "model/stop.h"
 
@@ -274,36 +273,4 @@ void layOutCapsule(SeedMaker& maker, const Vector& stretch, Real radius, Real ha
             *shared = root;
         ringMaker.addSeeds(ring, k, root);
     }
-}
-
-Real lengthQuick(const Vector& v)
-{
-#if FB_REAL == FB_FIXED
-    uint32_t x = static_cast<uint32_t>(v.x.raw < 0 ? -v.x.raw : v.x.raw);
-    uint32_t y = static_cast<uint32_t>(v.y.raw < 0 ? -v.y.raw : v.y.raw);
-    uint32_t z = static_cast<uint32_t>(v.z.raw < 0 ? -v.z.raw : v.z.raw);
-    const uint32_t bits = x | y | z;
-    if (bits == 0)
-        return Real(0);
-    // Compute the square, look up a root of 15 bits in the table, and double its precision by one step of Newton's method.
-    const int excess = 18 - __builtin_clz(bits);
-    uint64_t square;
-    uint32_t root;
-    if (excess > 0) {
-        square = static_cast<uint64_t>(x) * x + static_cast<uint64_t>(y) * y + static_cast<uint64_t>(z) * z;
-        const uint32_t few = static_cast<uint32_t>(square >> (2 * excess));
-        root = static_cast<uint32_t>(static_cast<uint64_t>(few) * inverseRoots[few >> 20] >> 28) << excess;
-    } else {
-        x <<= -excess;
-        y <<= -excess;
-        z <<= -excess;
-        square = x * x + y * y + z * z;
-        root = static_cast<uint32_t>(square * inverseRoots[square >> 20] >> 28);
-    }
-    uint32_t rest;
-    root = (root + quotient64(square, root, &rest)) >> 1;
-    return Real::fromRaw(static_cast<int32_t>(excess > 0 ? root : root >> -excess));
-#else
-    return squareRoot(dot(v, v));
-#endif
 }

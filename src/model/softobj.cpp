@@ -320,16 +320,6 @@ const Link* SoftObject::hollowLink() const
 
 // --- The field
 
-// The squared distance from the core divided by the squared size, for a vector from the core in core space.
-static Real paramOf(const Vector& v)
-{
-    // First exclude what is far away: beyond this box the squares would overflow 16.16, and the field is 0 anyway.
-    const Real end(CORE_SIZE);
-    if (absolute(v.x) >= end || absolute(v.y) >= end || absolute(v.z) >= end)
-        return Real(1);
-    return shiftDown(dot(v, v), 8);
-}
-
 Real SoftObject::plainParam(const Vector& q, Vector* slope) const
 {
     const Vector v = fromCore(q);

@@ -7,15 +7,33 @@
 
 Torus::Torus(int number, Real size, Real ring) : SoftObject(number, size, max(ring, leastRing(size))) {}
 
-Vector Torus::fromCore(const Vector& q) const
+// Torus::fromCore() for a circle of radius `core`.
+static inline Vector fromCircle(const Vector& q, Real core)
 {
     const Real away = lengthQuick({q.x, Real(0), q.z});
     // On the axis all points of the circle are equally near, and any direction serves; close to it a direction would have few
     // bits.
     if (away < Real(0.01))
-        return {away - coreReach16(), q.y, Real(0)};
-    const Real share = (away - coreReach16()) / away;
+        return {away - core, q.y, Real(0)};
+    const Real share = (away - core) / away;
     return {q.x * share, q.y, q.z * share};
+}
+
+Vector Torus::fromCore(const Vector& q) const
+{
+    return fromCircle(q, coreReach16());
+}
+
+Real Torus::plainParam(const Vector& q, Vector* slope) const
+{
+    // Far above or below the core it need not be known how far the nearest point of the core lies aside.
+    if (absolute(q.y) >= Real(CORE_SIZE)) {
+        *slope = q;
+        return Real(1);
+    }
+    const Vector v = fromCircle(q, coreReach16());
+    *slope = v;
+    return paramOf(v);
 }
 
 void Torus::layOutSeeds(SeedMaker& maker, Real spacing) const
