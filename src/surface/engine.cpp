@@ -26,7 +26,7 @@ public:
         if (patches_ == nullptr)
             return false;
         makePatches(object_, patches_);
-        reckoning_.open(count_);
+        reckoning_.open(count_, object_.spacing());
         return true;
     }
 

@@ -8,15 +8,15 @@ namespace {
 
 // Units: nothing is moved on for so long that the neighbours travel farther meanwhile, because then their steps are seldom even.
 constexpr Real FARTHEST(6);
-// Steps count as even if they differ by less than this: those of the viewer, as a share of the distance; those of an axis of the view,
-// 1.0 = 2^14; the neighbours' travel, 1/1024 unit and a quarter of the travel.
-constexpr Real EVEN_EYE(0.012);
+// Steps count as even if they differ by less than this: those of the viewer, as a share of the distance; those of the object's growth;
+// those of an axis of the view, 1.0 = 2^14; the neighbours' travel, 1/1024 unit and a quarter of the travel.
+constexpr Real EVEN_EYE(0.012), EVEN_GROWTH(0.005);
 constexpr int32_t EVEN_AXIS = 200, EVEN_TRAVEL = 100;
 // An object with more patches has so many seeds that the memory is wanted for these; and a patch with more voxels is not tracked.
 constexpr int PATCHES_MOST = 1000, VOXELS_MOST = 16;
-// The error of a single step, in the units of Errors::greatest(), with which a patch is moved on for a frame. Errors grow with the
-// square of the number of steps.
-constexpr int32_t TOLERATED = 64;
+// The error of a single step, in the units of Errors::greatest(), with which a patch is moved on for a frame. It grows with the
+// spacing, because who wants finer seeds wants to see more: for each unit, and at most. Errors grow with the square of the steps.
+constexpr int32_t TOLERATED = 32, TOLERATED_MOST = 64;
 // 1/256 unit: nearer to the viewer errors are seen more.
 constexpr int32_t NEAR = 64 << 8;
 constexpr int LONGEST_PERIOD = 4, STEPS_MOST = LONGEST_PERIOD - 1;
@@ -41,13 +41,13 @@ inline int32_t correct(int32_t now, int32_t before, int16_t* step, int shift)
 }
 
 // The period of a patch, from its last one and from the error at the end of that.
-inline int periodAfter(int period, int32_t error)
+inline int periodAfter(int period, int32_t error, int32_t tolerated)
 {
-    if (error < (period == 1 ? TOLERATED : TOLERATED / 2))
+    if (error < (period == 1 ? tolerated : tolerated / 2))
         return period < LONGEST_PERIOD ? period * 2 : period;
-    if (period == 1 || error >= TOLERATED * 8)
+    if (period == 1 || error >= tolerated * 8)
         return 1;
-    return error < (period == 2 ? TOLERATED * 4 : TOLERATED * 2) ? period : period / 2;
+    return error < (period == 2 ? tolerated * 4 : tolerated * 2) ? period : period / 2;
 }
 
 // Where a scale is tilted its edges may be off by as much more.
@@ -66,8 +66,10 @@ Reckoning::~Reckoning()
     free(tracks_);
 }
 
-void Reckoning::open(int count)
+void Reckoning::open(int count, Real spacing)
 {
+    tolerated_ = min32(rawFromReal(spacing * Real(TOLERATED)) >> 16, TOLERATED_MOST);
+    room_ = rawFromReal(min(spacing, Real(2))) >> 9;
     if (count <= PATCHES_MOST)
         tracks_ = allocate<Track>(static_cast<uint32_t>(count));
     count_ = tracks_ == nullptr ? 0 : count;
@@ -91,7 +93,9 @@ void Reckoning::beginUpdate(const OwnFrame& own, Travel travel, bool known)
     const Real most = Real(own.distance32 >> 5) * EVEN_EYE;
     const int32_t difference = magnitude(static_cast<int32_t>(travel - travel_));
     isEven_ = known && count_ > 0 && travel < travelOf(FARTHEST) / 2 && difference < static_cast<int32_t>(travel >> 2) + EVEN_TRAVEL &&
-              absolute(change.x) < most && absolute(change.y) < most && absolute(change.z) < most;
+              absolute(own.growth - growth_ - growthStep_) < EVEN_GROWTH && absolute(change.x) < most && absolute(change.y) < most && absolute(change.z) < most;
+    growthStep_ = own.growth - growth_;
+    growth_ = own.growth;
     eye_ = own.eye;
     eyeStep_ = step;
     travel_ = travel;
@@ -230,6 +234,20 @@ bool Reckoning::arrange(Track& track, const VoxelList& list)
     return true;
 }
 
+// Sets the period of a track to the one that its errors allow, or to a shorter one. `shaky`: small errors are seen.
+inline void Reckoning::setPeriod(int number, Track& track, int period, bool shaky) const
+{
+    if (period > 2 && (shaky || travel_ * period > travelOf(FARTHEST)))
+        period = 2;
+    // A border travels about half as far as the neighbours.
+    while (track.state == PATCH_MIXED && period > 1 && static_cast<int32_t>(travel_ >> 3) * (period - 1) > room_)
+        period /= 2;
+    // Half of the patches begin in a frame, half in the next, so that all frames take about the same time.
+    if (track.period == 1 && period == 2 && ((number + frame_) & 1) != 0)
+        period = 1;
+    track.period = static_cast<uint8_t>(period);
+}
+
 void Reckoning::follow(int number, Track& track, const VoxelList& list)
 {
     track.frame = frame_;
@@ -241,6 +259,7 @@ void Reckoning::follow(int number, Track& track, const VoxelList& list)
     }
     const int shift = track.age < 2 ? 0 : __builtin_ctz(track.period);
     Errors errors;
+    bool shaky = list.z + list.voxels[track.first].z < NEAR;
     for (int i = 0; i < track.count; ++i) {
         Tracked& t = track.voxels[i];
         const Voxel &v = list.voxels[track.first + i], &before = t.voxel;
@@ -265,16 +284,15 @@ void Reckoning::follow(int number, Track& track, const VoxelList& list)
                             (INT8_MAX - magnitude(v.cutY) - STEPS_MOST * magnitude(t.stepCutY)) |
                             (INT16_MAX - magnitude(v.cutAt) - STEPS_MOST * magnitude(t.stepCutAt));
         }
+        // Next to the limb the outline would come late.
+        shaky |= track.state == PATCH_REST && isCut(v);
         t.voxel = v;
+        if (t.number != list.number[track.first + i])
+            errors.spare = -1;
         t.number = list.number[track.first + i];
     }
-    track.period = static_cast<uint8_t>(track.age < 2 || errors.spare < 0 ? 1 : periodAfter(track.period, errors.greatest()));
-    const bool near = list.z + list.voxels[track.first].z < NEAR;
-    if (track.period > 2 && (near || travel_ * track.period > travelOf(FARTHEST)))
-        track.period = 2;
-    // Half of the patches begin in a frame, half in the next, so that all frames take about the same time.
-    if (track.period == 2 && shift == 0 && ((number + frame_) & 1) != 0)
-        track.period = 1;
+    const bool known = track.age >= 2 && errors.spare >= 0;
+    setPeriod(number, track, known ? periodAfter(track.period, errors.greatest(), tolerated_) : 1, shaky);
     track.age = static_cast<uint8_t>(min32(track.age + 1, 2));
     track.left = static_cast<uint8_t>(track.period - 1);
 }

@@ -15,8 +15,9 @@ public:
     Reckoning(const Reckoning&) = delete;
     Reckoning& operator=(const Reckoning&) = delete;
 
-    // Makes `count` tracks. If they are too many, or there is no memory, no patch is ever moved on.
-    void open(int count);
+    // Makes `count` tracks of an object whose seeds are `spacing` apart, units. If they are too many, or there is no memory, no patch is
+    // ever moved on.
+    void open(int count, Real spacing);
     // Forgets where all voxels were, because the seeds have been laid out elsewhere.
     void forget();
 
@@ -63,15 +64,20 @@ private:
     };
     void follow(int number, Track& track, const VoxelList& list);
     bool arrange(Track& track, const VoxelList& list);
+    void setPeriod(int number, Track& track, int period, bool shaky) const;
     static void setBeside(const Voxel& voxel, Tracked& tracked);
 
     Track* tracks_ = nullptr;
     int count_ = 0;
+    int32_t tolerated_ = 0;                    // error of a single step that is tolerated
+    int32_t room_ = 0;                         // how far a border may travel unseen, 1/256 unit: half a spacing
     uint16_t frame_ = 0, before_ = 0;          // numbers of this frame and of the frame before
     bool isEven_ = false;                      // viewer and neighbours go on as in the frame before
     bool isUpdated_ = false, isIdle_ = false;  // the object is updated in this frame; it was not in the frame before
-    // Of the update before: the viewer (own axes), two axes of the view and the travel, and the changes of the first two.
+    // Of the update before: the viewer (own axes), the object's growth, two axes of the view and the travel, and
+    // the changes of the first three.
     Vector eye_{Real(0), Real(0), Real(0)}, eyeStep_{Real(0), Real(0), Real(0)};
+    Real growth_{1}, growthStep_{0};
     int32_t axes_[6] = {}, axesStep_[6] = {};
     Travel travel_ = 0;
 };

@@ -1,0 +1,125 @@
+// Tests of dead reckoning: what moves evenly is moved on and stays near the truth, and what does not is found anew at once.
+#include "help.h"
+#include "test.h"
+
+namespace {
+
+// How far voxels are from the nearest ones of a scene without a past, units, and by how much their brightness differs.
+struct Distance {
+    double sum = 0, worst = 0, light = 0;
+    long count = 0;
+
+    void add(const std::vector<Voxel>& voxels, const std::vector<Voxel>& fresh)
+    {
+        for (const Voxel& v : voxels) {
+            double nearest = 1e9, light = 0;
+            for (const Voxel& f : fresh) {
+                const double off = std::hypot(v.x - f.x, v.y - f.y, v.z - f.z) / 256;
+                if (off < nearest) {
+                    nearest = off;
+                    light = std::fabs(v.brightness - f.brightness);
+                }
+            }
+            sum += nearest;
+            this->light += light;
+            worst = std::fmax(worst, nearest);
+            ++count;
+        }
+    }
+};
+
+// A ball, and another one that blends with it at a place that a function gives for each frame.
+struct Pair {
+    Scene scene;
+    SoftObject* other;
+
+    explicit Pair(const Vec& at)
+    {
+        scene.ball(30, 0, 0, 0);
+        other = &scene.ball(24, at.x, at.y, at.z);
+        scene.linkAll();
+    }
+    // A frame, as the program makes it: the voxels of both objects. `updated` receives how many seeds were settled.
+    std::vector<Voxel> frame(uint32_t* updated)
+    {
+        scene.counts = Counts{};
+        scene.update();
+        std::vector<Voxel> all = scene.draw(0);
+        const std::vector<Voxel> more = scene.draw(1);
+        all.insert(all.end(), more.begin(), more.end());
+        *updated = scene.counts.updated;
+        return all;
+    }
+};
+
+// Plays frames and holds each from `from` on against a scene without a past. Returns the mean number of seeds settled in them.
+double play(int frames, int from, Vec (*at)(int), Distance& distance)
+{
+    Pair pair(at(0));
+    double settled = 0;
+    for (int i = 0; i < frames; ++i) {
+        const Vec place = at(i);
+        pair.other->moveTo(point(place.x, place.y, place.z));
+        uint32_t updated, anew;
+        const std::vector<Voxel> voxels = pair.frame(&updated);
+        if (i < from)
+            continue;
+        settled += updated;
+        Pair fresh(place);
+        distance.add(voxels, fresh.frame(&anew));
+    }
+    return settled / (frames - from);
+}
+
+}  // namespace
+
+TEST(what_moves_evenly_is_moved_on)
+{
+    // The same way in steps of a quarter of a unit, and to and fro, so that no step is like the one before.
+    Distance even, torn;
+    const double evenly = play(40, 10, [](int i) { return Vec{12 + i * 0.2, 4 + i * 0.15, -6}; }, even);
+    const double toAndFro = play(40, 10, [](int i) { return Vec{12 + i % 2 * 4.0, 4 + i % 2 * 3.0, -6}; }, torn);
+    note("settled: %.0f seeds of what moves evenly, %.0f of what does not; voxels are off by %.3f and %.3f on average, %.2f and %.2f "
+         "at most; brightness by %.2f and %.2f", evenly, toAndFro, even.sum / even.count, torn.sum / torn.count, even.worst,
+         torn.worst, even.light / even.count, torn.light / torn.count);
+    CHECK(evenly < 0.7 * toAndFro);
+    CHECK(even.sum < 0.1 * even.count);
+    CHECK(even.worst < 2.5);
+    CHECK(even.light < 1.0 * even.count);
+    CHECK(torn.sum < 0.1 * torn.count);
+}
+
+TEST(what_stops_or_leaps_is_found_anew)
+{
+    // After twenty even steps the ball stops, or leaps: from the frame after the next on, or at once, nothing is left of its way.
+    Distance stopped, leapt;
+    play(30, 25, [](int i) { return Vec{12 + std::min(i, 20) * 0.2, 4, -6}; }, stopped);
+    play(22, 21, [](int i) { return i <= 20 ? Vec{12 + i * 0.2, 4, -6} : Vec{-10, 12, -8}; }, leapt);
+    note("voxels are off by %.3f after a stop and by %.3f after a leap, %.2f and %.2f at most", stopped.sum / stopped.count,
+         leapt.sum / leapt.count, stopped.worst, leapt.worst);
+    CHECK(stopped.count > 0 && leapt.count > 0);
+    CHECK(stopped.sum < 0.03 * stopped.count);
+    CHECK(leapt.sum < 0.03 * leapt.count);
+    CHECK(stopped.light < 0.3 * stopped.count);
+    CHECK(leapt.light < 0.3 * leapt.count);
+}
+
+TEST(what_was_moved_on_is_settled_in_the_end)
+{
+    // The objects stop, and nobody tells them that anything changes: what was moved on must be settled all the same.
+    Pair pair({12, 4, -6});
+    uint32_t updated;
+    for (int i = 0; i < 21; ++i) {
+        pair.other->moveTo(point(12 + i * 0.2, 4, -6));
+        pair.frame(&updated);
+    }
+    std::vector<Voxel> voxels;
+    for (int i = 0; i < 8; ++i)
+        voxels = pair.frame(&updated);
+    CHECK(updated == 0);
+    Pair fresh({12 + 20 * 0.2, 4, -6});
+    Distance distance;
+    distance.add(voxels, fresh.frame(&updated));
+    note("voxels are off by %.3f on average, %.2f at most", distance.sum / distance.count, distance.worst);
+    CHECK(distance.count > 0 && distance.sum < 0.03 * distance.count);
+}
