@@ -8,8 +8,8 @@ namespace {
 
 // Units: nothing is moved on for so long that the neighbours travel farther meanwhile, because then their steps are seldom even.
 constexpr Real FARTHEST(6);
-// Steps count as even if they differ by less than this: those of the viewer, as a share of the distance; those of the object's growth;
-// those of an axis of the view, 1.0 = 2^14; the neighbours' travel, 1/1024 unit and a quarter of the travel.
+// Steps count as even if they differ by less than this: those of the viewer, as a share of the distance; of the object's growth; of an
+// axis of the view, 1.0 = 2^14; the neighbours' travel, 1/1024 unit and a quarter of the travel.
 constexpr Real EVEN_EYE(0.012), EVEN_GROWTH(0.005);
 constexpr int32_t EVEN_AXIS = 200, EVEN_TRAVEL = 100;
 // An object with more patches has so many seeds that the memory is wanted for these; and a patch with more voxels is not tracked.
@@ -92,8 +92,10 @@ void Reckoning::beginUpdate(const OwnFrame& own, Travel travel, bool known)
     const Vector step = own.eye - eye_, change = step - eyeStep_;
     const Real most = Real(own.distance32 >> 5) * EVEN_EYE;
     const int32_t difference = magnitude(static_cast<int32_t>(travel - travel_));
-    isEven_ = known && count_ > 0 && travel < travelOf(FARTHEST) / 2 && difference < static_cast<int32_t>(travel >> 2) + EVEN_TRAVEL &&
-              absolute(own.growth - growth_ - growthStep_) < EVEN_GROWTH && absolute(change.x) < most && absolute(change.y) < most && absolute(change.z) < most;
+    isEven_ = known && count_ > 0 && travel < travelOf(FARTHEST) / 2 &&
+              difference < static_cast<int32_t>(travel >> 2) + EVEN_TRAVEL &&
+              absolute(own.growth - growth_ - growthStep_) < EVEN_GROWTH &&
+              absolute(change.x) < most && absolute(change.y) < most && absolute(change.z) < most;
     growthStep_ = own.growth - growth_;
     growth_ = own.growth;
     eye_ = own.eye;
