@@ -8,8 +8,8 @@ namespace {
 
 // Units: nothing is moved on for so long that the neighbours travel farther meanwhile, because then their steps are seldom even.
 constexpr Real FARTHEST(6);
-// Steps count as even if they differ by less than this: those of the viewer, as a share of the distance; of the object's growth; of an
-// axis of the view, 1.0 = 2^14; the neighbours' travel, 1/1024 unit and a quarter of the travel.
+// Steps count as even if they differ by less than this: those of the viewer, as a share of the distance; of the object's growth; of
+// an axis of the view, 1.0 = 2^14; the neighbours' travel, 1/1024 unit and a quarter of the travel.
 constexpr Real EVEN_EYE(0.012), EVEN_GROWTH(0.005);
 constexpr int32_t EVEN_AXIS = 200, EVEN_TRAVEL = 100;
 // An object with more patches has so many seeds that the memory is wanted for these; and a patch with more voxels is not tracked.

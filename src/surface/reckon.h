@@ -1,6 +1,6 @@
-// Dead reckoning: coherence over time. Over a few frames most patches move evenly, and so do their voxels. A patch whose voxels were
-// found where the steps of the frames before had led is moved on by the same steps for one frame, or for three, and meanwhile neither
-// settled nor shaded. Without this file the program is slower and the picture hardly different.
+// Dead reckoning: coherence over time. Over a few frames most patches move evenly, and so do their voxels. A patch whose voxels
+// were found where the steps of the frames before had led is moved on by the same steps for one frame, or for three, and meanwhile
+// neither settled nor shaded. Without this file the program is slower and the picture hardly different.
 #ifndef FB_RECKON_H
 #define FB_RECKON_H
 
@@ -15,8 +15,8 @@ public:
     Reckoning(const Reckoning&) = delete;
     Reckoning& operator=(const Reckoning&) = delete;
 
-    // Makes `count` tracks of an object whose seeds are `spacing` apart, units. If they are too many, or there is no memory, no patch is
-    // ever moved on.
+    // Makes `count` tracks of an object whose seeds are `spacing` apart, units. If they are too many, or there is no memory, no
+    // patch is ever moved on.
     void open(int count, Real spacing);
     // Forgets where all voxels were, because the seeds have been laid out elsewhere.
     void forget();

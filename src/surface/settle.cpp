@@ -380,9 +380,9 @@ inline void Settler::settleBeside(const Seed& centre, Seed& s, bool someAway, ui
         *blocker = s.blocker;
 }
 
-// Coherence over time. A seed that faces away a little waits for one frame, one that faces well away for three. A seed that is off the
-// surface waits for one frame, unless its patch has oversampled seeds, or it is likely to come back. None waits in a patch that was
-// moved on, because such a patch has waited already.
+// Coherence over time. A seed that faces away a little waits for one frame, one that faces well away for three. A seed that is off
+// the surface waits for one frame, unless its patch has oversampled seeds, or it is likely to come back. None waits in a patch that
+// was moved on, because such a patch has waited already.
 inline bool Settler::waits(const Seed& s, bool someAway) const
 {
     if (!(s.flags & SEED_VALID))

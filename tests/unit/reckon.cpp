@@ -79,8 +79,8 @@ TEST(what_moves_evenly_is_moved_on)
     Distance even, torn;
     const double evenly = play(40, 10, [](int i) { return Vec{12 + i * 0.2, 4 + i * 0.15, -6}; }, even);
     const double toAndFro = play(40, 10, [](int i) { return Vec{12 + i % 2 * 4.0, 4 + i % 2 * 3.0, -6}; }, torn);
-    note("settled: %.0f seeds of what moves evenly, %.0f of what does not; voxels are off by %.3f and %.3f on average, %.2f and %.2f "
-         "at most; brightness by %.2f and %.2f", evenly, toAndFro, even.sum / even.count, torn.sum / torn.count, even.worst,
+    note("settled: %.0f seeds of what moves evenly, %.0f of what does not; voxels are off by %.3f and %.3f on average, %.2f and "
+         "%.2f at most; brightness by %.2f and %.2f", evenly, toAndFro, even.sum / even.count, torn.sum / torn.count, even.worst,
          torn.worst, even.light / even.count, torn.light / torn.count);
     CHECK(evenly < 0.7 * toAndFro);
     CHECK(even.sum < 0.1 * even.count);
