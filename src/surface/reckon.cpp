@@ -20,7 +20,7 @@ constexpr int32_t TOLERATED = 32, TOLERATED_MOST = 64;
 // 1/256 unit: nearer to the viewer errors are seen more.
 constexpr int32_t NEAR = 64 << 8;
 constexpr int LONGEST_PERIOD = 4, STEPS_MOST = LONGEST_PERIOD - 1;
-// The palest and the darkest brightness that a ramp has entries for on both sides of (VoxelList::ramp), steps.
+// With these brightnesses, steps, the corners of a scale still find entries in its ramp (VoxelList::ramp).
 constexpr int32_t PALEST = 93, DARKEST = -34;
 
 // The errors of the predictions of a patch's voxels, or-ed because that is quicker than to find the greatest of each kind.
