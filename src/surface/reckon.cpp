@@ -12,6 +12,10 @@ constexpr Real FARTHEST(6);
 // an axis of the view, 1.0 = 2^14; the neighbours' travel, 1/1024 unit and a quarter of the travel.
 constexpr Real EVEN_EYE(0.012), EVEN_GROWTH(0.005);
 constexpr int32_t EVEN_AXIS = 200, EVEN_TRAVEL = 100;
+// When following an object's voxels has not paid for VAIN_MOST frames, none is followed for PAUSE frames; for twice as many if it
+// does not pay after these either, and so on, up to PAUSE_MOST. A voxel that is moved on saves so many times what it takes to
+// follow one: it need not be shaded, or neither settled nor shaded.
+constexpr int VAIN_MOST = 6, PAUSE = 16, PAUSE_MOST = 256, SHADING_PAYS = 1, SETTLING_PAYS = 4;
 // An object with more patches has so many seeds that the memory is wanted for these; and a patch with more voxels is not tracked.
 constexpr int PATCHES_MOST = 1000, VOXELS_MOST = 16;
 // The error of a single step, in the units of Errors::greatest(), with which a patch is moved on for a frame. It grows with the
@@ -121,6 +125,15 @@ void Reckoning::beginDraw()
     }
     isIdle_ = count_ > 0 && !isUpdated_;
     before_ = frame_++;
+    if (pause_ > 0)
+        --pause_;
+    else if (followed_ <= saved_)
+        vain_ = lastPause_ = 0;
+    else if (++vain_ == VAIN_MOST) {
+        vain_ = 0;
+        pause_ = lastPause_ = lastPause_ == 0 ? PAUSE : min32(lastPause_ * 2, PAUSE_MOST);
+    }
+    followed_ = saved_ = 0;
 }
 
 void Reckoning::move(int number, const Seed* seeds, VoxelList& list, Slopes& slopes)
@@ -151,13 +164,14 @@ void Reckoning::move(int number, const Seed* seeds, VoxelList& list, Slopes& slo
     }
     list.count = at;
     list.bordered |= track.bordered;
+    saved_ += track.count * (track.state == PATCH_MIXED ? SETTLING_PAYS : SHADING_PAYS);
     --track.left;
     track.frame = frame_;
 }
 
 void Reckoning::note(int number, const Patch& patch, int first, int sloped, const VoxelList& list)
 {
-    if (count_ == 0 || travel_ >= travelOf(FARTHEST))
+    if (count_ == 0 || pause_ > 0 || travel_ >= travelOf(FARTHEST))
         return;
     Track& track = tracks_[number];
     track.first = static_cast<int16_t>(first);
@@ -260,6 +274,7 @@ void Reckoning::follow(int number, Track& track, const VoxelList& list)
         return;
     }
     const int shift = track.age < 2 ? 0 : __builtin_ctz(track.period);
+    followed_ += track.count;
     Errors errors;
     bool shaky = list.z + list.voxels[track.first].z < NEAR;
     for (int i = 0; i < track.count; ++i) {
