@@ -149,7 +149,9 @@ void Reckoning::move(int number, const Seed* seeds, VoxelList& list, Slopes& slo
         v.tiltX = static_cast<int16_t>(v.tiltX + t->stepTiltX);
         v.tiltY = static_cast<int16_t>(v.tiltY + t->stepTiltY);
         t->brightness16 = static_cast<int16_t>(t->brightness16 + t->stepBrightness16);
-        v.brightness = static_cast<int8_t>(t->brightness16 >> 4);
+        // Only a voxel with slopes may be darker than dark (voxel.h).
+        const int brightness = t->brightness16 >> 4;
+        v.brightness = static_cast<int8_t>(brightness < 0 && (v.slopeX | v.slopeY) == 0 ? 0 : brightness);
         if (isCut(v)) {
             v.cutX = static_cast<int8_t>(v.cutX + t->stepCutX);
             v.cutY = static_cast<int8_t>(v.cutY + t->stepCutY);
@@ -182,11 +184,11 @@ void Reckoning::note(int number, const Patch& patch, int first, int sloped, cons
     track.state = patch.state;
 }
 
-void Reckoning::follow(int from, int to, const VoxelList& list)
+void Reckoning::follow(int from, int to, const VoxelList& list, bool painted)
 {
     for (int i = from; i < to && count_ > 0; ++i)
         if (tracks_[i].first >= 0) {
-            follow(i, tracks_[i], list);
+            follow(i, tracks_[i], list, painted);
             tracks_[i].first = -1;
         }
 }
@@ -264,7 +266,7 @@ inline void Reckoning::setPeriod(int number, Track& track, int period, bool shak
     track.period = static_cast<uint8_t>(period);
 }
 
-void Reckoning::follow(int number, Track& track, const VoxelList& list)
+void Reckoning::follow(int number, Track& track, const VoxelList& list, bool painted)
 {
     track.frame = frame_;
     track.bordered = list.bordered;
@@ -304,9 +306,9 @@ void Reckoning::follow(int number, Track& track, const VoxelList& list)
         // Next to the limb the outline would come late.
         shaky |= track.state == PATCH_REST && isCut(v);
         t.voxel = v;
-        if (t.number != list.number[track.first + i])
+        if (painted && t.number != list.number[track.first + i])
             errors.spare = -1;
-        t.number = list.number[track.first + i];
+        t.number = painted ? list.number[track.first + i] : 0;
     }
     const bool known = track.age >= 2 && errors.spare >= 0;
     setPeriod(number, track, known ? periodAfter(track.period, errors.greatest(), tolerated_) : 1, shaky);

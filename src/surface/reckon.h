@@ -39,8 +39,9 @@ public:
     // Notes that a patch has been shaded: its voxels are those of the list from `first` on, the first `sloped` of which were added
     // to the slopes.
     void note(int number, const Patch& patch, int first, int sloped, const VoxelList& list);
-    // Follows the voxels of the patches noted, from number `from` to before `to`. To be called when their slopes are set.
-    void follow(int from, int to, const VoxelList& list);
+    // Follows the voxels of the patches noted, from number `from` to before `to`. To be called when their slopes are set. If the
+    // object is `painted`, its voxels have colours of their own (VoxelList::number).
+    void follow(int from, int to, const VoxelList& list, bool painted);
 
 private:
     // A voxel as it was shown last, and its steps from frame to frame in the units of Voxel; the brightness in 1/16 step.
@@ -62,7 +63,7 @@ private:
         PatchState state;
         bool bordered;          // VoxelList::bordered
     };
-    void follow(int number, Track& track, const VoxelList& list);
+    void follow(int number, Track& track, const VoxelList& list, bool painted);
     bool arrange(Track& track, const VoxelList& list);
     void setPeriod(int number, Track& track, int period, bool shaky) const;
     static void setBeside(const Voxel& voxel, Tracked& tracked);

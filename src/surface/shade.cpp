@@ -506,7 +506,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
             reckoning.note(i, patch, begin, sloped, list);
     }
     slopes.set(shader.spacing());
-    reckoning.follow(first, i, list);
+    reckoning.follow(first, i, list, PAINTED);
     if (list.guests > 0)
         listGuests(list, *frame.bodies);
     return i;
