@@ -40,14 +40,25 @@ for switches in "/N:60" "/N:20 /G /S:1" "/N:20 /P" "/N:20 /R:70 /S:3"; do
 done
 echo "four spheres from a file: 120 frames compared with the model built in"
 
-# Every scene must give the same frames on both builds.
+# Every scene must give the same frames on both builds, in long steps and in short ones, with which voxels are moved on.
 frames=0
+both() { # both NAME SCENE: compares the builds
+	for rate in 2 35; do
+		rm -rf "$dir/a" "$dir/b"
+		if build/demo /N:16 /R:$rate "/M:$2" "/D:$dir/a" >"$dir/out.a" 2>&1; then good; else bad "$1: $(head -n 1 "$dir/out.a")"; fi
+		build/demo32 /N:16 /R:$rate "/M:$2" "/D:$dir/b" >"$dir/out.b" 2>&1
+		same "$1, $rate frames a second, 64 bits and 32" "$dir/a" "$dir/b"
+		frames=$((frames + 16))
+	done
+}
 for scene in tools/scenes/*.FB tests/scenes/hurt/*.FB; do
-	rm -rf "$dir/a" "$dir/b"
-	if build/demo /N:10 /R:2 "/M:$scene" "/D:$dir/a" >"$dir/out.a" 2>&1; then good; else bad "$scene: $(head -n 1 "$dir/out.a")"; fi
-	build/demo32 /N:10 /R:2 "/M:$scene" "/D:$dir/b" >"$dir/out.b" 2>&1
-	same "$scene, 64 bits and 32" "$dir/a" "$dir/b"
-	frames=$((frames + 10))
+	both "$scene" "$scene"
+done
+for seed in $(seq 30); do
+	build/mkscene $seed >"$dir/r.fb"
+	both "random scene $seed" "$dir/r.fb"
+	build/mkscene $seed paint >"$dir/r.fb"
+	both "random scene $seed, painted" "$dir/r.fb"
 done
 echo "scenes: $frames frames compared between 64 bits and 32"
 
@@ -58,7 +69,7 @@ if command -v dosbox >/dev/null; then
 	set --
 	for scene in tools/scenes/*.FB; do
 		name=$(basename "$scene" .FB)
-		set -- "$@" "DEMO /N:8 /R:2 /M:$name.FB /D:$name > $name.TXT"
+		set -- "$@" "DEMO /N:8 /R:2 /M:$name.FB /D:$name > $name.TXT" "DEMO /N:12 /R:35 /M:$name.FB /D:${name}35 > $name.TXT"
 	done
 	tools/dosbox.sh -c max -o cpu.core=dynamic -t 300 -d "$dir/c" -- "$@" >"$dir/log" 2>&1 || bad "scenes in DOSBox"
 	for scene in tools/scenes/*.FB; do
@@ -66,6 +77,9 @@ if command -v dosbox >/dev/null; then
 		rm -rf "$dir/a"
 		build/demo /N:8 /R:2 "/M:$scene" "/D:$dir/a" >"$dir/out.a" 2>&1
 		same "$scene, host and DOS" "$dir/a" "$dir/c/$name"
+		rm -rf "$dir/a"
+		build/demo /N:12 /R:35 "/M:$scene" "/D:$dir/a" >"$dir/out.a" 2>&1
+		same "$scene, short steps, host and DOS" "$dir/a" "$dir/c/${name}35"
 	done
 	echo "scenes: $(ls "$dir"/c/*/*.PPM | wc -l) frames compared between the host and DOS"
 else

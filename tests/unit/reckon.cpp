@@ -123,3 +123,20 @@ TEST(what_was_moved_on_is_settled_in_the_end)
     note("voxels are off by %.3f on average, %.2f at most", distance.sum / distance.count, distance.worst);
     CHECK(distance.count > 0 && distance.sum < 0.04 * distance.count);
 }
+
+TEST(what_is_moved_on_stays_within_its_ramp)
+{
+    // The light comes from behind, so that much of both balls is dark: without slopes no voxel may be darker than that.
+    Pair pair({12, 4, -6});
+    pair.scene.light = unit(vector(0.6, 0.2, 0.8));
+    int dark = 0;
+    uint32_t updated;
+    for (int i = 0; i < 60; ++i) {
+        pair.other->moveTo(point(12 + i * 0.15, 4 + i * 0.05, -6));
+        for (const Voxel& v : pair.frame(&updated)) {
+            CHECK(v.brightness >= 0 || (v.slopeX | v.slopeY) != 0);
+            dark += v.brightness == 0;
+        }
+    }
+    CHECK(dark > 1000);
+}
