@@ -291,6 +291,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         place(object, growth, away, near);
         weigh(bodies, all, near);
         near.claim = near.ownClaim = Real(1);
+        near.change = Real(0);  // until the field is evaluated where it reaches
         const Real weight = weights[near.slot];
         if (other.size() > large || other.size() < small || weight > Real(1)) {
             setClaims(object, weight, near);
