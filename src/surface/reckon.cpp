@@ -23,14 +23,13 @@ constexpr int PATCHES_MOST = 1000, VOXELS_MOST = 16;
 constexpr int32_t TOLERATED = 32, TOLERATED_MOST = 64;
 // 1/256 unit: nearer to the viewer errors are seen more.
 constexpr int32_t NEAR = 64 << 8;
-constexpr int LONGEST_PERIOD = 4, STEPS_MOST = LONGEST_PERIOD - 1;
+constexpr int LONGEST_PERIOD = 4;
 // With these brightnesses, steps, the corners of a scale still find entries in its ramp (VoxelList::ramp).
 constexpr int32_t PALEST = 93, DARKEST = -34;
 
 // The errors of the predictions of a patch's voxels, or-ed because that is quicker than to find the greatest of each kind.
 struct Errors {
     int32_t place = 0, depth = 0, brightness16 = 0, tilt = 0, cut = 0;
-    int32_t spare = 0;  // below 0: the voxels may not be moved on
 
     // 64 stands for 1/8 unit across the view, 1/4 unit of depth, 4 steps of brightness, or a quarter of a tilt of one.
     int32_t greatest() const { return place << 1 | depth | brightness16 | tilt | cut; }
@@ -150,12 +149,12 @@ void Reckoning::move(int number, const Seed* seeds, VoxelList& list, Slopes& slo
         v.tiltY = static_cast<int16_t>(v.tiltY + t->stepTiltY);
         t->brightness16 = static_cast<int16_t>(t->brightness16 + t->stepBrightness16);
         // Only a voxel with slopes may be darker than dark (voxel.h).
-        const int brightness = t->brightness16 >> 4;
-        v.brightness = static_cast<int8_t>(brightness < 0 && (v.slopeX | v.slopeY) == 0 ? 0 : brightness);
+        const int32_t darkest = (v.slopeX | v.slopeY) == 0 ? 0 : DARKEST;
+        v.brightness = static_cast<int8_t>(min32(max32(t->brightness16 >> 4, darkest), PALEST));
         if (isCut(v)) {
-            v.cutX = static_cast<int8_t>(v.cutX + t->stepCutX);
-            v.cutY = static_cast<int8_t>(v.cutY + t->stepCutY);
-            v.cutAt = static_cast<int16_t>(v.cutAt + t->stepCutAt);
+            v.cutX = static_cast<int8_t>(limited(v.cutX + t->stepCutX, INT8_MAX));
+            v.cutY = static_cast<int8_t>(limited(v.cutY + t->stepCutY, INT8_MAX));
+            v.cutAt = static_cast<int16_t>(limited(v.cutAt + t->stepCutAt, INT16_MAX));
         }
         list.voxels[at] = v;
         list.number[at] = t->number;
@@ -278,39 +277,37 @@ void Reckoning::follow(int number, Track& track, const VoxelList& list, bool pai
     const int shift = track.age < 2 ? 0 : __builtin_ctz(track.period);
     followed_ += track.count;
     Errors errors;
-    bool shaky = list.z + list.voxels[track.first].z < NEAR;
-    for (int i = 0; i < track.count; ++i) {
-        Tracked& t = track.voxels[i];
-        const Voxel &v = list.voxels[track.first + i], &before = t.voxel;
-        errors.place |= correct(v.x, before.x, &t.stepX, shift) | correct(v.y, before.y, &t.stepY, shift);
-        errors.depth |= correct(v.z, before.z, &t.stepZ, shift);
-        errors.tilt |= beyond(correct(v.tiltX, before.tiltX, &t.stepTiltX, shift), v.tiltX);
-        errors.tilt |= beyond(correct(v.tiltY, before.tiltY, &t.stepTiltY, shift), v.tiltY);
-        const int32_t now = v.brightness * 16 + 8;
-        errors.brightness16 |= correct(now, t.brightness16, &t.stepBrightness16, shift);
-        t.brightness16 = static_cast<int16_t>(now);
-        const int32_t last = (now + t.stepBrightness16 * STEPS_MOST) >> 4;
-        errors.spare |= (last - DARKEST) | (PALEST - last);
-        if (!isCut(v) || !isCut(before)) {
+    const Voxel* v = list.voxels + track.first;
+    const uint8_t* colour = list.number + track.first;
+    const bool rests = track.state == PATCH_REST;
+    bool shaky = list.z + v->z < NEAR, changed = false;
+    for (Tracked *t = track.voxels, *const end = t + track.count; t < end; ++t, ++v, ++colour) {
+        const Voxel& before = t->voxel;
+        errors.place |= correct(v->x, before.x, &t->stepX, shift) | correct(v->y, before.y, &t->stepY, shift);
+        errors.depth |= correct(v->z, before.z, &t->stepZ, shift);
+        errors.tilt |= beyond(correct(v->tiltX, before.tiltX, &t->stepTiltX, shift), v->tiltX) |
+                       beyond(correct(v->tiltY, before.tiltY, &t->stepTiltY, shift), v->tiltY);
+        const int32_t now = v->brightness * 16 + 8;
+        errors.brightness16 |= correct(now, t->brightness16, &t->stepBrightness16, shift);
+        t->brightness16 = static_cast<int16_t>(now);
+        if (!isCut(*v) || !isCut(before)) {
             // How a border moves that has just come is not known.
-            t.stepCutX = t.stepCutY = t.stepCutAt = 0;
-            errors.spare |= isCut(v) ? -1 : 0;
+            t->stepCutX = t->stepCutY = t->stepCutAt = 0;
+            changed |= isCut(*v);
         } else {
-            errors.cut |= correct(v.cutX, before.cutX, &t.stepCutX, shift) << 2;
-            errors.cut |= correct(v.cutY, before.cutY, &t.stepCutY, shift) << 2;
-            errors.cut |= correct(v.cutAt, before.cutAt, &t.stepCutAt, shift) >> 2;
-            errors.spare |= (INT8_MAX - magnitude(v.cutX) - STEPS_MOST * magnitude(t.stepCutX)) |
-                            (INT8_MAX - magnitude(v.cutY) - STEPS_MOST * magnitude(t.stepCutY)) |
-                            (INT16_MAX - magnitude(v.cutAt) - STEPS_MOST * magnitude(t.stepCutAt));
+            errors.cut |= correct(v->cutX, before.cutX, &t->stepCutX, shift) << 3 |
+                          correct(v->cutY, before.cutY, &t->stepCutY, shift) << 3 |
+                          correct(v->cutAt, before.cutAt, &t->stepCutAt, shift) >> 1;
         }
         // Next to the limb the outline would come late.
-        shaky |= track.state == PATCH_REST && isCut(v);
-        t.voxel = v;
-        if (painted && t.number != list.number[track.first + i])
-            errors.spare = -1;
-        t.number = painted ? list.number[track.first + i] : 0;
+        shaky |= rests && isCut(*v);
+        t->voxel = *v;
+        if (painted) {
+            changed |= t->number != *colour;
+            t->number = *colour;
+        }
     }
-    const bool known = track.age >= 2 && errors.spare >= 0;
+    const bool known = track.age >= 2 && !changed;
     setPeriod(number, track, known ? periodAfter(track.period, errors.greatest(), tolerated_) : 1, shaky);
     track.age = static_cast<uint8_t>(min32(track.age + 1, 2));
     track.left = static_cast<uint8_t>(track.period - 1);
