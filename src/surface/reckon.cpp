@@ -6,8 +6,6 @@
 
 namespace {
 
-// Units: nothing is moved on for so long that the neighbours travel farther meanwhile, because then their steps are seldom even.
-constexpr Real FARTHEST(6);
 // Steps count as even if they differ by less than this: those of the viewer, as a share of the distance; of the object's growth; of
 // an axis of the view, 1.0 = 2^14; the neighbours' travel, 1/1024 unit and a quarter of the travel.
 constexpr Real EVEN_EYE(0.012), EVEN_GROWTH(0.005);
@@ -15,9 +13,9 @@ constexpr int32_t EVEN_AXIS = 200, EVEN_TRAVEL = 100;
 // When following an object's voxels has not paid for VAIN_MOST frames, none is followed for PAUSE frames; for twice as many if it
 // does not pay after these either, and so on, up to PAUSE_MOST. A voxel that is moved on saves so many times what it takes to
 // follow one: it need not be shaded, or neither settled nor shaded.
-constexpr int VAIN_MOST = 6, PAUSE = 16, PAUSE_MOST = 256, SHADING_PAYS = 1, SETTLING_PAYS = 4;
+constexpr int VAIN_MOST = 5, PAUSE = 32, PAUSE_MOST = 256, SHADING_PAYS = 1, SETTLING_PAYS = 4;
 // An object with more patches has so many seeds that the memory is wanted for these; and a patch with more voxels is not tracked.
-constexpr int PATCHES_MOST = 1000, VOXELS_MOST = 16;
+constexpr int PATCHES_MOST = 2500, VOXELS_MOST = 16;
 // The error of a single step, in the units of Errors::greatest(), with which a patch is moved on for a frame. It grows with the
 // spacing, because who wants finer seeds wants to see more: for each unit, and at most. Errors grow with the square of the steps.
 constexpr int32_t TOLERATED = 32, TOLERATED_MOST = 64;
@@ -172,7 +170,7 @@ void Reckoning::move(int number, const Seed* seeds, VoxelList& list, Slopes& slo
 
 void Reckoning::note(int number, const Patch& patch, int first, int sloped, const VoxelList& list)
 {
-    if (count_ == 0 || pause_ > 0 || travel_ >= travelOf(FARTHEST))
+    if (!follows())
         return;
     Track& track = tracks_[number];
     track.first = static_cast<int16_t>(first);

@@ -36,6 +36,8 @@ public:
     // Adds the voxels of such a patch to the list, moved on by a frame. `seeds` are the object's regular seeds.
     void move(int number, const Seed* seeds, VoxelList& list, Slopes& slopes);
 
+    // Whether voxels are followed in this frame, so that note() and follow() do anything.
+    bool follows() const { return count_ > 0 && pause_ == 0 && travel_ < travelOf(FARTHEST); }
     // Notes that a patch has been shaded: its voxels are those of the list from `first` on, the first `sloped` of which were added
     // to the slopes.
     void note(int number, const Patch& patch, int first, int sloped, const VoxelList& list);
@@ -44,6 +46,9 @@ public:
     void follow(int from, int to, const VoxelList& list, bool painted);
 
 private:
+    // Units: nothing is moved on for so long that the neighbours travel farther meanwhile: then their steps are seldom even.
+    static constexpr Real FARTHEST{6};
+
     // A voxel as it was shown last, and its steps from frame to frame in the units of Voxel; the brightness in 1/16 step.
     struct Tracked {
         Voxel voxel;

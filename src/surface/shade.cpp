@@ -59,7 +59,7 @@ constexpr int SEEDS_MOST = (2 + SoftObject::FINE_SEEDS) * PATCH_RINGS * PATCH_SE
 // Turns the seeds of one object into voxels. One is made for each object and frame.
 class Shader {
 public:
-    Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame);
+    Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame, bool followed);
 
     // Lists the voxels of a patch; those of an object that has a paint go through the painter. Returns how many of the voxels, the
     // first ones, have been added to the slopes.
@@ -107,6 +107,7 @@ private:
     bool ball_, clipsDepth_;  // clipsDepth_: some seeds may be nearer than NEAREST_DEPTH, or farther than FARTHEST_DEPTH
     int32_t facesViewer_, facesAbout_;  // FACES_VIEWER and FACES_ABOUT times the distance of the eye, steps of places
     int viewShift_;           // right shift that brings vectors to the eye to 14 bits
+    const bool followed_;     // the voxels are followed (reckon.h), so that their seeds must be listed
     const bool hollow_;       // the seeds sample a hollow
     int32_t ballGradient_[3]; // gradient of the brightness over a ball, axes of the view, 1/8 step a unit with 8 fraction bits
     int32_t ballHorizon_, flatHorizon_;  // Shading::horizonShare of a ball and of flat patches
@@ -122,8 +123,8 @@ private:
     Limb limb_;               // limb of its seeds at rest, if hasLimb_
 };
 
-Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame)
-    : object_(object), own_(own), hollow_(!object.hasSurface())
+Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame, bool followed)
+    : object_(object), own_(own), followed_(followed), hollow_(!object.hasSurface())
 {
     shading_.seeds = &object.regular(0);
     shading_.roots = &object.root(0);
@@ -439,7 +440,7 @@ inline int Shader::shadePatch(Patch& patch, int draws, VoxelList& list, Painter*
     if (!endsNowhere(patch, seen[count >> 1]))
         for (int i = 0; i < count; ++i)
             endAtLimb(patch, seen[i], voxels + i);
-    for (int i = 0; i < count; ++i)
+    for (int i = 0; followed_ && i < count; ++i)
         list.seed[list.count + i] = seen[i].seed;
     list.count += count;
     return 0;
@@ -482,7 +483,7 @@ template <bool PAINTED>
 int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
             int draws, VoxelList& list, int room, Painter* painter, Reckoning& reckoning)
 {
-    Shader shader(object, own, frame);
+    Shader shader(object, own, frame, reckoning.follows());
     slopes.begin();
     // The painter may make two voxels of one seed. Guests are listed from the other end on, while the voxels of the patch still
     // stand at this one.
