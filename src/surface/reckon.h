@@ -86,7 +86,8 @@ private:
     Real growth_{1}, growthStep_{0};
     int32_t axes_[6] = {}, axesStep_[6] = {};
     Travel travel_ = 0;
-    int followed_ = 0, saved_ = 0;   // voxels followed in this frame; how many more could be for what was saved
+    int followed_ = 0;               // how many voxels were followed in this frame
+    int saved_ = 0;                  // how many could be followed in the time that moving voxels on saved in this frame
     int vain_ = 0;                   // frames in a row in which following did not pay
     int pause_ = 0, lastPause_ = 0;  // frames for which nothing is followed yet; how many there were the last time
 };

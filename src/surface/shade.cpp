@@ -495,7 +495,6 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
             continue;
         if (list.count + list.guests + most > room)
             break;
-        // A ball's pattern turns under its seeds: voxels that show one are always found anew.
         patch.moved = reckoning.moves(i, patch);
         if (patch.moved) {
             reckoning.move(i, &object.regular(0), list, slopes);
@@ -503,6 +502,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
         }
         const int begin = list.count, guests = list.guests;
         const int sloped = shader.shadePatch<PAINTED>(patch, i + draws, list, painter);
+        // A ball's pattern turns under its seeds: voxels that show one are always found anew. So are those of patches with guests.
         if (list.count > begin && list.guests == guests && !(PAINTED && painter->hasPattern()))
             reckoning.note(i, patch, begin, sloped, list);
     }
