@@ -183,7 +183,9 @@ void Reckoning::note(int number, const Patch& patch, int first, int sloped, cons
 
 void Reckoning::follow(int from, int to, const VoxelList& list, bool painted)
 {
-    for (int i = from; i < to && count_ > 0; ++i)
+    if (!follows())
+        return;
+    for (int i = from; i < to; ++i)
         if (tracks_[i].first >= 0) {
             follow(i, tracks_[i], list, painted);
             tracks_[i].first = -1;

@@ -343,7 +343,7 @@ inline void Shader::shadeSeen(Patch& patch, int draws, const Seen* seen, Voxel* 
 {
     const Seen& middle = seen[count >> 1];
     const int pause = middle.facing < facesViewer_ >> 2 ? BEND_DRAWS_LIMB : BEND_DRAWS;
-    if (!patch.bend.known || (patch.bend.stale && ((draws & pause) == 0 || patch.moved)))
+    if (!patch.bend.known || (patch.bend.stale && (draws & pause) == 0))
         measureBend(object_, shading_, patch);
     setPatch(patch, middle, voxels[count >> 1]);
     shadeSeeds(&shading_, seen, voxels, count);
