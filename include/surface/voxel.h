@@ -55,8 +55,6 @@ struct RampRun {
 };
 constexpr int RUNS_MOST = 240;
 
-struct Seed;
-
 // The list of scales: voxels of one object.
 struct VoxelList {
     int32_t x, y, z;       // the object's centre relative to the eye, axes of the view, 1/256 unit
@@ -69,8 +67,6 @@ struct VoxelList {
     int runs;              // number of runs, each with its own ramp; 0: all voxels have `ramp`
     RampRun run[RUNS_MOST];
     Voxel voxels[VOXELS_AT_ONCE];
-    const Seed* seed[VOXELS_AT_ONCE];  // where voxels are followed (reckon.h): the seed that each of them shows, unless it is a
-                                       // guest. Sorting the list by colour makes it invalid
     uint8_t number[VOXELS_AT_ONCE];  // of a painted object: the number of each voxel's colour; of a guest: the slot of its host
 
     // Empties the list for an object with its centre at `place` relative to the eye. `most` is the upper bound of the distance of

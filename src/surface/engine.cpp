@@ -4,6 +4,7 @@
 #include "math/alloc.h"
 #include "model/stop.h"
 #include "paint.h"
+#include "reckon.h"
 #include "rt.h"
 #include "settle.h"
 #include "shade.h"
@@ -15,7 +16,7 @@ constexpr int ASKED_EVERY = 32;
 
 class Engine : public Surface {
 public:
-    explicit Engine(SoftObject& object) : object_(object) {}
+    explicit Engine(SoftObject& object) : object_(object), reckoning_(object) {}
     ~Engine() override { free(patches_); }
 
     // Makes the patches. Returns false when there is no memory.
@@ -26,7 +27,7 @@ public:
         if (patches_ == nullptr)
             return false;
         makePatches(object_, patches_);
-        reckoning_.open(count_, object_.spacing());
+        reckoning_.open(count_);
         return true;
     }
 
@@ -84,8 +85,9 @@ bool Engine::update(const FrameContext& frame)
         return false;
     gather(object_, frame, all);
     const bool known = odometer_.advance(object_, own, all, frame.bodies->version());
-    reckoning_.beginUpdate(own, odometer_.lastTravel(), known);
     Settler settler(object_, own, all, frame, odometer_, ++updates_);
+    // Islands change too suddenly for dead reckoning.
+    reckoning_.begin(odometer_.lastTravel(), known && !settler.hasIslands());
     // No neighbour is near, and all seeds are at rest already.
     if (allRests_ && known && all.ordinary && all.restsAtOne && all.count == 0)
         return false;
@@ -100,13 +102,16 @@ bool Engine::update(const FrameContext& frame)
                 return true;
         }
         if (isMovedOn(*patch, all))
-            displaced = movedOn = true;
+            displaced = movedOn = patch->moved = true;
         else
             displaced |= updatePatch(settler, *patch, own, all, known);
     }
     for (Patch* patch = patches_; patch < end; ++patch)
-        if (patch->settled)
+        if (patch->settled) {
             settler.oversample(*patch);
+            reckoning_.follow(static_cast<int>(patch - patches_), *patch, settler.smallest());
+            patch->moved = false;
+        }
     if (settler.hasIslands() || islands_)
         settleIslands(settler, all);
     object_.setDisplaced(displaced);
@@ -129,14 +134,17 @@ void Engine::settleIslands(Settler& settler, const Neighbourhood& all)
     }
 }
 
-// Whether a patch is not settled because its voxels are moved on. What its neighbours do meanwhile counts in a later frame.
+// Moves the seeds of a patch on instead of settling them, if they move evenly. What its neighbours do meanwhile counts in a later
+// frame.
 inline bool Engine::isMovedOn(Patch& patch, const Neighbourhood& all)
 {
-    if (patch.state != PATCH_MIXED || !reckoning_.moves(static_cast<int>(&patch - patches_), patch))
+    const int number = static_cast<int>(&patch - patches_);
+    if (!reckoning_.moves(number, patch))
         return false;
+    reckoning_.move(number, patch);
     patch.reached = true;
-    if (!all.ordinary && odometer_.count(patch))
-        patch.stale = true;
+    if (!all.ordinary)
+        odometer_.count(patch);
     return true;
 }
 
@@ -207,7 +215,7 @@ inline bool Engine::stays(const Settler& settler, Patch& patch, bool stale) cons
     const bool moved = odometer_.count(patch);
     if (settler.isStillOff(patch))
         return true;
-    return !moved && !stale && odometer_.eyeStayed() && (patch.state == PATCH_MIXED || patch.state == PATCH_INSIDE);
+    return !moved && !stale && !patch.moved && odometer_.eyeStayed() && (patch.state == PATCH_MIXED || patch.state == PATCH_INSIDE);
 }
 
 // Makes the lists of a patch anew; they hold until a neighbour has travelled LIST_SLACK.
@@ -250,8 +258,6 @@ inline void Engine::settle(Settler& settler, Patch& patch)
 // Lists the voxels of what the viewer sees of the object.
 void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* next)
 {
-    if (*next == 0)
-        reckoning_.beginDraw();
     const OwnFrame own = ownFrame(object_, frame);
     const SoftObject* const shown = object_.shown();
     list.begin(frame.inView(object_.centre()), object_.reach(),
@@ -263,8 +269,7 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
     const Paint* const paint = shown->paint();
     if (*next == 0)
         ++draws_;
-    const int at = shadePatches(object_, own, frame, patches_, count_, *next, static_cast<int>(draws_ & 0xffff), list, room,
-                                reckoning_);
+    const int at = shadePatches(object_, own, frame, patches_, count_, *next, static_cast<int>(draws_ & 0xffff), list, room);
     *next = at < count_ ? at : 0;
     // An object that is shown in another ramp than its own, as when it is selected, shows no colours of its paint.
     if (paint != nullptr && shown->ramp() == paint->ramp)

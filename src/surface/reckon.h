@@ -1,95 +1,69 @@
-// Dead reckoning: coherence over time. Over a few frames most patches move evenly, and so do their voxels. A patch whose voxels
-// were found where the steps of the frames before had led is moved on by the same steps for one frame, or for three, and meanwhile
-// neither settled nor shaded. Without this file the program is slower and the picture hardly different.
+// Dead reckoning: coherence over time. Over a few frames most patches blend evenly: their seeds go on along their paths, and their
+// normals turn, as in the frames before. A patch whose seeds were found where such steps had led is moved on by the same steps for
+// one frame, or for three, and not settled meanwhile. Without this file the program is slower and the picture hardly different.
 #ifndef FB_RECKON_H
 #define FB_RECKON_H
 
 #include "odometer.h"
-#include "slopes.h"
 
-// The tracks of all patches of one object.
+// How the seeds of all patches of one object move.
 class Reckoning {
 public:
-    Reckoning() = default;
+    explicit Reckoning(SoftObject& object) : object_(object) {}
     ~Reckoning();
     Reckoning(const Reckoning&) = delete;
     Reckoning& operator=(const Reckoning&) = delete;
 
-    // Makes `count` tracks of an object whose seeds are `spacing` apart, units. If they are too many, or there is no memory, no
-    // patch is ever moved on.
-    void open(int count, Real spacing);
-    // Forgets where all voxels were, because the seeds have been laid out elsewhere.
+    // Makes the tracks of `count` patches. If they are too many, or there is no memory, no patch is ever moved on.
+    void open(int count);
+    // Forgets where the seeds were, because they have been laid out elsewhere.
     void forget();
 
-    // Begins a frame in which the object is updated. `travel` is how far its neighbours have travelled since the update before;
-    // `known`: none of them has leapt (Odometer::advance()).
-    void beginUpdate(const OwnFrame& own, Travel travel, bool known);
-    // Begins the drawing of a frame, whether or not the object was updated in it.
-    void beginDraw();
+    // Begins an update of the object. `travel` is how far its neighbours have travelled since the update before; `known`: none of
+    // them has leapt (Odometer::advance()).
+    void begin(Travel travel, bool known);
 
-    // Whether a patch is moved on in this frame. `number` counts the object's patches.
+    // Whether a patch is moved on in this update. `number` counts the object's patches.
     bool moves(int number, const Patch& patch) const
     {
-        return isEven_ && tracks_[number].left != 0 && tracks_[number].frame == before_ && tracks_[number].state == patch.state &&
-               !(patch.settled && isUpdated_) && !patch.islands;
+        return isEven_ && tracks_[number].left != 0 && tracks_[number].update == update_ - 1 && patch.state == PATCH_MIXED &&
+               !patch.islands;
     }
-    // Adds the voxels of such a patch to the list, moved on by a frame. `seeds` are the object's regular seeds.
-    void move(int number, const Seed* seeds, VoxelList& list, Slopes& slopes);
-
-    // Whether voxels are followed in this frame, so that note() and follow() do anything.
-    bool follows() const { return count_ > 0 && pause_ == 0 && travel_ < travelOf(FARTHEST); }
-    // Notes that a patch has been shaded: its voxels are those of the list from `first` on, the first `sloped` of which were added
-    // to the slopes.
-    void note(int number, const Patch& patch, int first, int sloped, const VoxelList& list);
-    // Follows the voxels of the patches noted, from number `from` to before `to`. To be called when their slopes are set. If the
-    // object is `painted`, its voxels have colours of their own (VoxelList::number).
-    void follow(int from, int to, const VoxelList& list, bool painted);
+    // Moves the seeds of such a patch on.
+    void move(int number, const Patch& patch);
+    // Follows the seeds of a patch that has been settled in this update, with its oversampled seeds. `smallest` is the size of the
+    // smallest of the object and the neighbours that reach the patch, units.
+    void follow(int number, const Patch& patch, Real smallest);
 
 private:
-    // Units: nothing is moved on for so long that the neighbours travel farther meanwhile: then their steps are seldom even.
-    static constexpr Real FARTHEST{6};
-
-    // A voxel as it was shown last, and its steps from frame to frame in the units of Voxel; the brightness in 1/16 step.
-    struct Tracked {
-        Voxel voxel;
-        const Seed* seed;
-        int16_t brightness16;
-        int16_t stepX, stepY, stepZ, stepTiltX, stepTiltY, stepBrightness16, stepCutX, stepCutY, stepCutAt;
-        uint8_t number;  // VoxelList::number
+    // Where a seed was in the last update, and its steps from one update to the next.
+    struct Motion {
+        Real position, step;
+        Direction14 normal, turn;
+        int16_t apart, stepApart;  // Seed::apart
+        uint16_t placedAt;         // Seed::placedAt
+        bool known, bordered;      // it is on the surface and does not rest; it has a border
     };
     struct Track {
-        Tracked* voxels;
-        int16_t first, listed;  // where its voxels begin in the list, and how many there are; `first` is -1 unless it was noted
-        uint16_t frame;         // number of the frame in which the patch was shown last
-        uint8_t count, room;    // voxels in the track, and how many there is room for
-        uint8_t sloped;         // the first voxels, which take part in slopes (slopes.h)
-        uint8_t age;            // how often its voxels were followed: their steps are known from 2 on
-        uint8_t period, left;   // the patch is shaded once in `period` frames; frames left until then
-        PatchState state;
-        bool bordered;          // VoxelList::bordered
+        Motion* motions;       // of the patch's regular seeds and, after each, of its oversampled seed; null before they are needed
+        uint32_t update;       // number of the update in which the patch was followed or moved on last
+        uint8_t age;           // how often its seeds were followed: their steps are known from 2 on
+        uint8_t period, left;  // the patch is settled once in `period` updates; updates left until then
     };
-    void follow(int number, Track& track, const VoxelList& list, bool painted);
-    bool arrange(Track& track, const VoxelList& list);
-    void setPeriod(int number, Track& track, int period, bool shaky) const;
-    static void setBeside(const Voxel& voxel, Tracked& tracked);
+    template <class Each>
+    void forMotions(const Track& track, const Patch& patch, Each each) const;
+    bool prepare(Track& track) const;
+    int32_t correct(const Seed& s, int shift, Motion& m) const;
 
+    SoftObject& object_;
     Track* tracks_ = nullptr;
     int count_ = 0;
-    int32_t tolerated_ = 0;                    // error of a single step that is tolerated
-    int32_t room_ = 0;                         // how far a border may travel unseen, 1/256 unit: half a spacing
-    uint16_t frame_ = 0, before_ = 0;          // numbers of this frame and of the frame before
-    bool isEven_ = false;                      // viewer and neighbours go on as in the frame before
-    bool isUpdated_ = false, isIdle_ = false;  // the object is updated in this frame; it was not in the frame before
-    // Of the update before: the viewer (own axes), the object's growth, two axes of the view and the travel, and
-    // the changes of the first three.
-    Vector eye_{Real(0), Real(0), Real(0)}, eyeStep_{Real(0), Real(0), Real(0)};
-    Real growth_{1}, growthStep_{0};
-    int32_t axes_[6] = {}, axesStep_[6] = {};
-    Travel travel_ = 0;
-    int followed_ = 0;               // how many voxels were followed in this frame
-    int saved_ = 0;                  // how many could be followed in the time that moving voxels on saved in this frame
-    int vain_ = 0;                   // frames in a row in which following did not pay
-    int pause_ = 0, lastPause_ = 0;  // frames for which nothing is followed yet; how many there were the last time
+    Travel farthest_ = 0;    // the constants of reckon.cpp for this object: FARTHEST as a travel,
+    int32_t tolerated_ = 0;  // TOLERATED,
+    int32_t near_ = 0;       // and NEAR, 1/256 unit
+    uint32_t update_ = 0;    // number of this update
+    Travel travel_ = 0;      // travel of the neighbours in it
+    bool isEven_ = false;    // they go on as in the update before
 };
 
 #endif

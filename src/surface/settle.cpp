@@ -100,7 +100,7 @@ Real Settler::settle(Seed& s)
     ++counts_.updated;
     // The surface may turn about a seed that does not move.
     if (followed == STILL && (s.flags & SEED_VALID) && !(s.flags & SEED_RESTING) && sample.dominance <= OVERSHOOT &&
-        !isOld(s.placedAt, shiftDown(nearby_.smallest(), 1))) {
+        !isOld(s.placedAt, shiftDown(nearby_.smallest(), 2))) {
         keep(s, sample.dominance);
         return Real(0);
     }
@@ -143,13 +143,15 @@ inline Settler::Followed Settler::followOn(Seed& s, Real* position, Sample* samp
     }
     if (!touched && all_.restsAtOne)
         return ALONE;
-    const bool still = *position == s.position && absolute(sample->excess) <= TOLERANCE;
-    if (closed || !follow(path_, position, sample))
+    // Where a seed has been moved on a small error would be taken for a part of its motion.
+    const Real tolerance = patch_->moved ? Real(0) : TOLERANCE;
+    const bool still = *position == s.position && absolute(sample->excess) <= tolerance;
+    if (closed || !follow(path_, position, sample, tolerance))
         return LOST;
     if (nearby_.isBeyond(*position)) {
         // Where the seed is now other neighbours may reach it.
         path_.begin(nearby_.listed(), s, *position, sample);
-        if (!follow(path_, position, sample))
+        if (!follow(path_, position, sample, tolerance))
             return LOST;
     }
     return still ? STILL : FOUND;

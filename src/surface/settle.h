@@ -23,6 +23,8 @@ public:
 
     // The neighbours that reach them, after setPatch().
     const NeighbourList& reaching() const { return nearby_.reaching(); }
+    // The size of the smallest of them and of the object, units.
+    Real smallest() const { return nearby_.smallest(); }
 
     // Whether the blocker of a patch is sure to cover all its paths (cover.h). Not worth asking, and false, if the middle seed was
     // on the surface.

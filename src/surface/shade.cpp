@@ -59,12 +59,11 @@ constexpr int SEEDS_MOST = (2 + SoftObject::FINE_SEEDS) * PATCH_RINGS * PATCH_SE
 // Turns the seeds of one object into voxels. One is made for each object and frame.
 class Shader {
 public:
-    Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame, bool followed);
+    Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame);
 
-    // Lists the voxels of a patch; those of an object that has a paint go through the painter. Returns how many of the voxels, the
-    // first ones, have been added to the slopes.
+    // Lists the voxels of a patch; those of an object that has a paint go through the painter.
     template <bool PAINTED>
-    int shadePatch(Patch& patch, int draws, VoxelList& list, Painter* painter);
+    void shadePatch(Patch& patch, int draws, VoxelList& list, Painter* painter);
 
     // Spacing of the object's seeds, 1/256 unit.
     int32_t spacing() const { return spacing_; }
@@ -74,7 +73,7 @@ private:
     void shadeSeen(Patch& patch, int draws, const Seen* seen, Voxel* voxels, int count);
     bool cutAtBorder(const Seed& s, Voxel* voxel, VoxelList& list) const;
     template <bool PAINTED>
-    int listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list, Painter* painter);
+    void listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list, Painter* painter);
     int findExtras(const Patch& patch, Seen* seen, Voxel* voxels) const;
     int clipDepth(Seen* seen, Voxel* voxels, int count) const;
     void setPatch(const Patch& patch, const Seen& middle, const Voxel& at);
@@ -107,7 +106,6 @@ private:
     bool ball_, clipsDepth_;  // clipsDepth_: some seeds may be nearer than NEAREST_DEPTH, or farther than FARTHEST_DEPTH
     int32_t facesViewer_, facesAbout_;  // FACES_VIEWER and FACES_ABOUT times the distance of the eye, steps of places
     int viewShift_;           // right shift that brings vectors to the eye to 14 bits
-    const bool followed_;     // the voxels are followed (reckon.h), so that their seeds must be listed
     const bool hollow_;       // the seeds sample a hollow
     int32_t ballGradient_[3]; // gradient of the brightness over a ball, axes of the view, 1/8 step a unit with 8 fraction bits
     int32_t ballHorizon_, flatHorizon_;  // Shading::horizonShare of a ball and of flat patches
@@ -123,8 +121,8 @@ private:
     Limb limb_;               // limb of its seeds at rest, if hasLimb_
 };
 
-Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame, bool followed)
-    : object_(object), own_(own), followed_(followed), hollow_(!object.hasSurface())
+Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame)
+    : object_(object), own_(own), hollow_(!object.hasSurface())
 {
     shading_.seeds = &object.regular(0);
     shading_.roots = &object.root(0);
@@ -375,17 +373,15 @@ inline bool Shader::knowsLight(const Seed& s, bool regular, const Voxel& voxel) 
     return (!regular || isBesideBorder(s)) && voxel.brightness != 0 && s.lightChange[0] != Seed::LIGHT_UNKNOWN;
 }
 
-// Lists the voxels of a patch that blends, or whose object has a paint. Returns how many of them take part in slopes.
+// Lists the voxels of a patch that blends, or whose object has a paint.
 template <bool PAINTED>
-inline int Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list,
-                              Painter* painter)
+inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list,
+                               Painter* painter)
 {
     const bool shines = PAINTED && painter->shines(), blends = patch.state == PATCH_MIXED;
     const int32_t sight = shines || (blends && bendsUnevenly(voxels, regular)) ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
     const int known = shines || blends ? regular : 0;
     Voxel* to = list.room();
-    const Voxel* const begin = to;
-    int sloped = 0;
     for (int i = 0; i < count; ++i) {
         const Seed& s = *seen[i].seed;
         const bool knows = blends && !shines && knowsLight(s, i < regular, voxels[i]);
@@ -412,19 +408,15 @@ inline int Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxel
             if (PAINTED && list.room() > shown + 1)
                 slopes.addCopy(shown + 1, shown);
         }
-        const Voxel* const end = PAINTED ? list.room() : shown == to ? to + 1 : to;
-        for (; to < end; ++to)
-            list.seed[to - list.voxels] = &s;
-        if (i < known)
-            sloped = static_cast<int>(to - begin);
+        if (!PAINTED && shown == to)
+            ++to;
     }
     if (!PAINTED)
         list.count = static_cast<int>(to - list.voxels);
-    return sloped;
 }
 
 template <bool PAINTED>
-inline int Shader::shadePatch(Patch& patch, int draws, VoxelList& list, Painter* painter)
+inline void Shader::shadePatch(Patch& patch, int draws, VoxelList& list, Painter* painter)
 {
     // The painter makes one or two voxels of each of these.
     Voxel unpainted[PAINTED ? SEEDS_MOST : 1];
@@ -433,17 +425,16 @@ inline int Shader::shadePatch(Patch& patch, int draws, VoxelList& list, Painter*
     int regular;
     const int count = findSeen(patch, seen, voxels, &regular);
     if (count == 0)
-        return 0;
+        return;
     shadeSeen(patch, draws, seen, voxels, count);
-    if (PAINTED || patch.state != PATCH_REST)
-        return listVoxels<PAINTED>(patch, seen, voxels, count, regular, list, painter);
+    if (PAINTED || patch.state != PATCH_REST) {
+        listVoxels<PAINTED>(patch, seen, voxels, count, regular, list, painter);
+        return;
+    }
     if (!endsNowhere(patch, seen[count >> 1]))
         for (int i = 0; i < count; ++i)
             endAtLimb(patch, seen[i], voxels + i);
-    for (int i = 0; followed_ && i < count; ++i)
-        list.seed[list.count + i] = seen[i].seed;
     list.count += count;
-    return 0;
 }
 
 // Whether some of a patch may be seen; the caller has tested whether the patch rests facing away. A patch that settled in this
@@ -481,9 +472,9 @@ SELDOM void listGuests(VoxelList& list, const Bodies& bodies)
 
 template <bool PAINTED>
 int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
-            int draws, VoxelList& list, int room, Painter* painter, Reckoning& reckoning)
+            int draws, VoxelList& list, int room, Painter* painter)
 {
-    Shader shader(object, own, frame, reckoning.follows());
+    Shader shader(object, own, frame);
     slopes.begin();
     // The painter may make two voxels of one seed. Guests are listed from the other end on, while the voxels of the patch still
     // stand at this one.
@@ -495,19 +486,9 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
             continue;
         if (list.count + list.guests + most > room)
             break;
-        patch.moved = reckoning.moves(i, patch);
-        if (patch.moved) {
-            reckoning.move(i, &object.regular(0), list, slopes);
-            continue;
-        }
-        const int begin = list.count, guests = list.guests;
-        const int sloped = shader.shadePatch<PAINTED>(patch, i + draws, list, painter);
-        // A ball's pattern turns under its seeds: voxels that show one are always found anew. So are those of patches with guests.
-        if (list.count > begin && list.guests == guests && !(PAINTED && painter->hasPattern()))
-            reckoning.note(i, patch, begin, sloped, list);
+        shader.shadePatch<PAINTED>(patch, i + draws, list, painter);
     }
     slopes.set(shader.spacing());
-    reckoning.follow(first, i, list, PAINTED);
     if (list.guests > 0)
         listGuests(list, *frame.bodies);
     return i;
@@ -516,10 +497,10 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
 }  // namespace
 
 int shadePatches(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
-                 int draws, VoxelList& list, int room, Reckoning& reckoning)
+                 int draws, VoxelList& list, int room)
 {
     if (object.shown()->paint() == nullptr)
-        return shadeAs<false>(object, own, frame, patches, count, first, draws, list, room, nullptr, reckoning);
+        return shadeAs<false>(object, own, frame, patches, count, first, draws, list, room, nullptr);
     Painter painter(object, own, list);
-    return shadeAs<true>(object, own, frame, patches, count, first, draws, list, room, &painter, reckoning);
+    return shadeAs<true>(object, own, frame, patches, count, first, draws, list, room, &painter);
 }

@@ -203,6 +203,13 @@ struct Scene {
         for (auto& object : objects)
             object->update(frame());
     }
+    // As update(), and nothing is left where it has only been moved on (surface/reckon.h): in a second update, in which nothing
+    // has moved, that is settled.
+    void settle()
+    {
+        update();
+        update();
+    }
     // All voxels of an object, drawn in batches of `room`; their places from the eye, in the axes of the view.
     // `owners` receives for each the index of the object whose colour it has.
     std::vector<Voxel> draw(size_t i, int room = 256, std::vector<size_t>* owners = nullptr)

@@ -142,7 +142,7 @@ void judge(const char* what, const Errors& errors, const Missing& missing)
 // Makes a frame of a scene and tests it.
 void look(Scene& scene, Errors& errors, Missing& missing, const std::vector<const Kind*>& kinds = {})
 {
-    scene.update();
+    scene.settle();
     const Body body(scene, kinds);
     measure(scene, body, errors);
     seek(scene, body, missing);
@@ -928,6 +928,7 @@ TEST(the_wall_of_a_hollow_that_moves_is_found)
         moved.update();
         if (frame % 6 != 5)
             continue;
+        moved.settle();
         Scene fresh;
         fresh.ball(40, 0, 0, 0);
         fresh.ball(24, 14, 0, -9);
@@ -970,6 +971,7 @@ TEST(what_is_odd_leaves_no_trace)
         scene.update();
         if (frame % 6 != 5)
             continue;
+        scene.settle();
         const Body body(scene);
         measure(scene, body, errors);
         seek(scene, body, missing);
