@@ -28,6 +28,7 @@ public:
             return false;
         makePatches(object_, patches_);
         reckoning_.open(count_);
+        still_.open(count_);
         return true;
     }
 
@@ -51,6 +52,7 @@ private:
 
     Odometer odometer_;
     Reckoning reckoning_;
+    Still still_;
     uint32_t updates_ = 0, draws_ = 0;
     bool islands_ = false;   // some patches have seeds on islands
     bool allRests_ = false;  // all seeds were at rest after the last update
@@ -74,6 +76,7 @@ void Engine::reshape()
     }
     reshapePatches(object_, patches_, count_, odometer_.reading());
     reckoning_.forget();
+    still_.forget();
 }
 
 // Gather what reaches the object, classify its patches, settle those that are due.
@@ -110,6 +113,7 @@ bool Engine::update(const FrameContext& frame)
         if (patch->settled) {
             settler.oversample(*patch);
             reckoning_.follow(static_cast<int>(patch - patches_), *patch, settler.smallest());
+            still_.forget(static_cast<int>(patch - patches_));
             patch->moved = false;
         }
     if (settler.hasIslands() || islands_)
@@ -142,6 +146,7 @@ inline bool Engine::isMovedOn(Patch& patch, const Neighbourhood& all)
     if (!reckoning_.moves(number, patch))
         return false;
     reckoning_.move(number, patch);
+    still_.forget(number);
     patch.reached = true;
     if (!all.ordinary)
         odometer_.count(patch);
@@ -267,9 +272,12 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
         return;
     }
     const Paint* const paint = shown->paint();
-    if (*next == 0)
+    if (*next == 0) {
         ++draws_;
-    const int at = shadePatches(object_, own, frame, patches_, count_, *next, static_cast<int>(draws_ & 0xffff), list, room);
+        still_.begin(own, paint);
+    }
+    const int at = shadePatches(object_, own, frame, patches_, count_, *next, static_cast<int>(draws_ & 0xffff), list, room,
+                                still_);
     *next = at < count_ ? at : 0;
     // An object that is shown in another ramp than its own, as when it is selected, shows no colours of its paint.
     if (paint != nullptr && shown->ramp() == paint->ramp)

@@ -28,6 +28,8 @@ public:
     Painter(const SoftObject& object, const OwnFrame& own, VoxelList& list);
 
     bool shines() const { return paint_.shines(); }
+    // Whether all voxels are in the object's own colour.
+    bool isPlain() const { return paint_.pattern == PATTERN_NONE && !paint_.mixes; }
 
     // Lists a voxel that the shader has made of a seed, or two voxels where an edge of the pattern goes through it. If the object
     // shines, the voxel has one brightness for now, and its slopes are set later (slopes.h).

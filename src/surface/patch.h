@@ -13,7 +13,7 @@ constexpr Real OVERSHOOT(0.05);
 constexpr int PATCH_RINGS = 3;
 constexpr int PATCH_SEEDS = 3;
 
-// Nothing is kept of earlier frames (reckon.h) for an object with more patches than this: it has so many seeds that the
+// Nothing is kept of earlier frames (reckon.h, still.h) for an object with more patches than this: it has so many seeds that the
 // memory is wanted for these.
 constexpr int PATCHES_FOLLOWED = 2500;
 

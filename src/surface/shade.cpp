@@ -65,7 +65,8 @@ public:
     template <bool PAINTED>
     void shadePatch(Patch& patch, int draws, VoxelList& list, Painter* painter);
 
-    // Spacing of the object's seeds, 1/256 unit.
+    // The object's regular seeds, and their spacing, 1/256 unit.
+    const Seed* seeds() const { return shading_.seeds; }
     int32_t spacing() const { return spacing_; }
 
 private:
@@ -472,7 +473,7 @@ SELDOM void listGuests(VoxelList& list, const Bodies& bodies)
 
 template <bool PAINTED>
 int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
-            int draws, VoxelList& list, int room, Painter* painter)
+            int draws, VoxelList& list, int room, Painter* painter, Still& still)
 {
     Shader shader(object, own, frame);
     slopes.begin();
@@ -486,7 +487,16 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
             continue;
         if (list.count + list.guests + most > room)
             break;
+        // A pattern may move over seeds that stand still.
+        const bool keeps = !PAINTED || painter->isPlain();
+        if (keeps && still.has(i, patch)) {
+            still.list(i, shader.seeds(), list, slopes);
+            continue;
+        }
+        const int begin = list.count, guests = list.guests, sloped = slopes.count();
         shader.shadePatch<PAINTED>(patch, i + draws, list, painter);
+        if (keeps && list.guests == guests)
+            still.keep(i, patch, begin, list, sloped, slopes);
     }
     slopes.set(shader.spacing());
     if (list.guests > 0)
@@ -497,10 +507,10 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
 }  // namespace
 
 int shadePatches(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
-                 int draws, VoxelList& list, int room)
+                 int draws, VoxelList& list, int room, Still& still)
 {
     if (object.shown()->paint() == nullptr)
-        return shadeAs<false>(object, own, frame, patches, count, first, draws, list, room, nullptr);
+        return shadeAs<false>(object, own, frame, patches, count, first, draws, list, room, nullptr, still);
     Painter painter(object, own, list);
-    return shadeAs<true>(object, own, frame, patches, count, first, draws, list, room, &painter);
+    return shadeAs<true>(object, own, frame, patches, count, first, draws, list, room, &painter, still);
 }

@@ -14,6 +14,12 @@ public:
     static constexpr int32_t STAYS = INT32_MAX;
     static int32_t sight(int32_t shearX, int32_t shearY) { return shearX * 65536 + (shearY & 0xffff); }
 
+    // How a voxel has been added: the number of its seed, or NONE if it has not; and the ray of sight.
+    struct Added {
+        int32_t number, sight;
+    };
+    static constexpr int32_t NONE = -1;
+
     // Forgets all voxels.
     void begin() { count_ = 0; }
 
@@ -32,6 +38,11 @@ public:
     }
     // Adds another voxel of the seed added last; it gets the slopes of the original.
     void addCopy(Voxel* voxel, Voxel* original) { shown_[count_++] = {COPY, 0, voxel, original, original}; }
+
+    // The number of voxels that have been added; and how the one was that was added as number `i`, and which one it is.
+    int count() const { return count_; }
+    Added added(int i) const { return {shown_[i].number, shown_[i].sight}; }
+    const Voxel* voxel(int i) const { return shown_[i].voxel; }
 
     // Sets the slopes of all voxels but those that keep them, from the seeds beside each seed: along its ring, and in the rings
     // before and behind. In a direction where no seed beside it is lit, a slope stays. Seeds are `spacing` apart, 1/256 unit.
