@@ -112,8 +112,8 @@ void Reckoning::move(int number, const Patch& patch)
     track.update = update_;
 }
 
-// Corrects the motion of a seed, in which 2^shift steps were made. How a new one moves is not known: it stays for now. Returns about
-// the error, as TOLERATED; several errors are or-ed, because that is quicker than to find the greatest.
+// Corrects the motion of a seed, in which 2^shift steps were made. How a new one moves is not known: it stays for now. Returns
+// about the error, as TOLERATED; several errors are or-ed, because that is quicker than to find the greatest.
 inline int32_t Reckoning::correct(const Seed& s, int shift, Motion& m) const
 {
     const bool known = m.known, bordered = (s.flags & SEED_BORDER) != 0;
