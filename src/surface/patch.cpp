@@ -101,7 +101,7 @@ void beginPatch(const SoftObject& object, Patch& patch)
     patch.travelled = 0;
     memset(patch.listed, 0, sizeof patch.listed);
     memset(patch.near, 0, sizeof patch.near);
-    patch.bend.known = false;
+    patch.bend.known = patch.bend.stale = false;
 }
 
 // --- Which seeds make a patch
