@@ -14,6 +14,10 @@ namespace {
 // After this many patches the program looks whether the user wants to stop.
 constexpr int ASKED_EVERY = 32;
 
+// An object with more patches than this has so many seeds that the memory is wanted for these: of its earlier frames nothing is
+// kept (reckon.h, still.h).
+constexpr int FOLLOWED_MOST = 2500;
+
 class Engine : public Surface {
 public:
     explicit Engine(SoftObject& object) : object_(object), reckoning_(object) {}
@@ -27,8 +31,10 @@ public:
         if (patches_ == nullptr)
             return false;
         makePatches(object_, patches_);
-        reckoning_.open(count_);
-        still_.open(count_);
+        if (count_ <= FOLLOWED_MOST) {
+            reckoning_.open(count_);
+            still_.open(count_);
+        }
         return true;
     }
 
@@ -38,7 +44,8 @@ public:
 
 private:
     bool updatePatch(Settler& settler, Patch& patch, const OwnFrame& own, const Neighbourhood& all, bool known);
-    bool isMovedOn(Patch& patch, const Neighbourhood& all);
+    int numberOf(const Patch& patch) const { return static_cast<int>(&patch - patches_); }
+    bool moveOn(Patch& patch, const Neighbourhood& all);
     bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all, bool known);
     bool stays(const Settler& settler, Patch& patch, bool stale) const;
     void renewLists(Patch& patch, const Neighbourhood& all);
@@ -104,16 +111,15 @@ bool Engine::update(const FrameContext& frame)
             if (stopAsked())
                 return true;
         }
-        if (isMovedOn(*patch, all))
-            displaced = movedOn = patch->moved = true;
+        if (moveOn(*patch, all))
+            displaced = movedOn = true;
         else
             displaced |= updatePatch(settler, *patch, own, all, known);
     }
     for (Patch* patch = patches_; patch < end; ++patch)
         if (patch->settled) {
             settler.oversample(*patch);
-            reckoning_.follow(static_cast<int>(patch - patches_), *patch, settler.smallest());
-            still_.forget(static_cast<int>(patch - patches_));
+            reckoning_.follow(numberOf(*patch), *patch, settler.smallest());
             patch->moved = false;
         }
     if (settler.hasIslands() || islands_)
@@ -138,16 +144,16 @@ void Engine::settleIslands(Settler& settler, const Neighbourhood& all)
     }
 }
 
-// Moves the seeds of a patch on instead of settling them, if they move evenly. What its neighbours do meanwhile counts in a later
-// frame.
-inline bool Engine::isMovedOn(Patch& patch, const Neighbourhood& all)
+// Moves the seeds of a patch on, so that they need not be settled. Returns false if they do not move evenly. What the neighbours do
+// meanwhile counts in a later frame.
+inline bool Engine::moveOn(Patch& patch, const Neighbourhood& all)
 {
-    const int number = static_cast<int>(&patch - patches_);
+    const int number = numberOf(patch);
     if (!reckoning_.moves(number, patch))
         return false;
     reckoning_.move(number, patch);
     still_.forget(number);
-    patch.reached = true;
+    patch.moved = patch.reached = true;
     if (!all.ordinary)
         odometer_.count(patch);
     return true;
@@ -213,8 +219,8 @@ inline bool Engine::keeps(Settler& settler, Patch& patch, const Neighbourhood& a
     return true;
 }
 
-// Whether a patch of a scene that is not ordinary (gather.h) keeps its state: no neighbour on its list has moved, or all of the
-// patch is still off the surface.
+// Whether a patch of a scene that is not ordinary (gather.h) keeps its state: it has not been moved on and no neighbour on its list
+// has moved, or all of the patch is still off the surface.
 inline bool Engine::stays(const Settler& settler, Patch& patch, bool stale) const
 {
     const bool moved = odometer_.count(patch);
@@ -255,6 +261,7 @@ inline void Engine::settle(Settler& settler, Patch& patch)
     if (patch.settled) {
         settler.settleOthers(patch);
         patch.bend.stale = true;
+        still_.forget(numberOf(patch));
     } else {
         sleep(object_, patch);
     }

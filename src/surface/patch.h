@@ -13,10 +13,6 @@ constexpr Real OVERSHOOT(0.05);
 constexpr int PATCH_RINGS = 3;
 constexpr int PATCH_SEEDS = 3;
 
-// Nothing is kept of earlier frames (reckon.h, still.h) for an object with more patches than this: it has so many seeds that the
-// memory is wanted for these.
-constexpr int PATCHES_FOLLOWED = 2500;
-
 enum PatchState : uint8_t {
     PATCH_REST,    // no neighbour reaches it: all its seeds are at rest
     PATCH_INSIDE,  // all of it lies inside the body, where a neighbour is stronger than the own object
@@ -43,7 +39,7 @@ struct Patch {
     bool asleep;        // all its seeds but the middle one are SEED_ASLEEP
     bool extras;        // some of its oversampled seeds take part
     bool fine;          // some of its fine seeds take part
-    bool moved;         // in the last update its seeds were moved on instead of being settled (reckon.h)
+    bool moved;         // since it was settled its seeds have been moved on (reckon.h)
     bool islands;       // it has seeds on islands, where the paths of its regular seeds return to the surface
     int32_t facing;     // of a settled patch: cosine of the middle seed's normal and the direction to the viewer
     int32_t centre;     // slot of the middle seed

@@ -57,8 +57,7 @@ void Reckoning::open(int count)
     farthest_ = travelOf(spacing * FARTHEST);
     tolerated_ = rawFromReal(spacing * spacing * spacing * Real(TOLERATED)) >> 16;
     near_ = rawFromReal(spacing * NEAR) >> 8;
-    if (count <= PATCHES_FOLLOWED)
-        tracks_ = allocate<Track>(static_cast<uint32_t>(count));
+    tracks_ = allocate<Track>(static_cast<uint32_t>(count));
     count_ = tracks_ == nullptr ? 0 : count;
     for (int i = 0; i < count_; ++i)
         tracks_[i] = Track{};
@@ -164,6 +163,7 @@ inline bool Reckoning::prepare(Track& track) const
 
 void Reckoning::follow(int number, const Patch& patch, Real smallest)
 {
+    // The travel of the next update may be much shorter.
     if (count_ == 0 || travel_ > 2 * farthest_ || !prepare(tracks_[number]))
         return;
     Track& track = tracks_[number];

@@ -14,7 +14,7 @@ public:
     Reckoning(const Reckoning&) = delete;
     Reckoning& operator=(const Reckoning&) = delete;
 
-    // Makes the tracks of `count` patches. If they are too many, or there is no memory, no patch is ever moved on.
+    // Makes the tracks of `count` patches. Without that, or without memory, no patch is ever moved on.
     void open(int count);
     // Forgets where the seeds were, because they have been laid out elsewhere.
     void forget();

@@ -143,7 +143,8 @@ inline Settler::Followed Settler::followOn(Seed& s, Real* position, Sample* samp
     }
     if (!touched && all_.restsAtOne)
         return ALONE;
-    // Where a seed has been moved on a small error would be taken for a part of its motion.
+    // Of a seed that has been moved on a small error would be taken for a part of its motion, and its normal is not known: such a
+    // seed is never STILL.
     const Real tolerance = patch_->moved ? Real(0) : TOLERANCE;
     const bool still = *position == s.position && absolute(sample->excess) <= tolerance;
     if (closed || !follow(path_, position, sample, tolerance))

@@ -29,8 +29,7 @@ Still::~Still()
 
 void Still::open(int count)
 {
-    if (count <= PATCHES_FOLLOWED)
-        kept_ = allocate<Kept>(static_cast<uint32_t>(count));
+    kept_ = allocate<Kept>(static_cast<uint32_t>(count));
     count_ = kept_ == nullptr ? 0 : count;
     for (int i = 0; i < count_; ++i)
         kept_[i] = Kept{};
@@ -40,17 +39,15 @@ void Still::begin(const OwnFrame& own, const Paint* paint)
 {
     if (count_ == 0)
         return;
-    const Finish finish = paint == nullptr ? FINISH_MATT : paint->finish;
-    const uint8_t colour = paint == nullptr ? 0 : paint->number;
-    if (draws_ > 0 && isSame(own, frame_) && finish == finish_ && colour == colour_) {
+    const int32_t paintedAs = paint == nullptr ? -1 : paint->finish << 8 | paint->number;
+    if (draws_ > 0 && isSame(own, frame_) && paintedAs == paintedAs_) {
         draws_ = 2;
         return;
     }
     draws_ = 1;
     ++since_;
     frame_ = own;
-    finish_ = finish;
-    colour_ = colour;
+    paintedAs_ = paintedAs;
 }
 
 void Still::list(int number, const Seed* seeds, VoxelList& list, Slopes& slopes) const
@@ -59,7 +56,7 @@ void Still::list(int number, const Seed* seeds, VoxelList& list, Slopes& slopes)
     for (const One *one = kept.voxels, *const end = one + kept.count; one < end; ++one) {
         Voxel* const voxel = list.room();
         *voxel = one->voxel;
-        list.number[list.count] = colour_;
+        list.number[list.count] = static_cast<uint8_t>(paintedAs_);
         list.take();
         const int32_t seed = one->added.number;
         if (seed != Slopes::NONE)

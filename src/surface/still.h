@@ -15,7 +15,7 @@ public:
     Still(const Still&) = delete;
     Still& operator=(const Still&) = delete;
 
-    // Makes room for `count` patches. If they are too many, or there is no memory, nothing is kept.
+    // Makes room for `count` patches. Without that, or without memory, nothing is kept.
     void open(int count);
     // Forgets all voxels, because the seeds have been laid out elsewhere; or those of a patch, because its seeds have moved.
     void forget() { draws_ = 0; }
@@ -61,9 +61,8 @@ private:
     int count_ = 0;
     int draws_ = 0;       // how often the object has been drawn as it is seen now; 2: more than once
     uint32_t since_ = 0;  // how often it has been drawn otherwise than the time before
-    OwnFrame frame_;      // how it was drawn last: the frame, and its finish and its colour's number if it has a paint
-    Finish finish_ = FINISH_MATT;
-    uint8_t colour_ = 0;
+    OwnFrame frame_;      // how it was drawn last: the frame,
+    int32_t paintedAs_ = -1;  // and its finish (256 times that) and the number of its colour, or -1 if it has no paint
 };
 
 #endif

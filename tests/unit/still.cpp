@@ -17,8 +17,11 @@ void change(Scene& scene, int which)
     case 2: scene.eye = point(1, 0.5, -119); break;
     case 3: scene.light = unit(vector(0.4, 0.8, -0.4)); break;
     case 4: scene.objects[1]->setSize(real(23)); break;
-    case 5: scene.objects[0]->unlink(scene.objects[1].get()); scene.objects[1]->unlink(scene.objects[0].get());
-            scene.found = false; break;
+    case 5:
+        scene.objects[0]->unlink(scene.objects[1].get());
+        scene.objects[1]->unlink(scene.objects[0].get());
+        scene.found = false;
+        break;
     case 6: scene.objects[2]->moveTo(point(-30, -20, 12)); break;
     }
 }
