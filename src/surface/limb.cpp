@@ -17,12 +17,6 @@ inline int32_t times14(int32_t a, int32_t b)
     return a * b >> 14;
 }
 
-template <class Part, class Other>
-inline int32_t product14(const Part a[3], const Other b[3])
-{
-    return times14(a[0], b[0]) + times14(a[1], b[1]) + times14(a[2], b[2]);
-}
-
 // The function that cuts a voxel has the slope 64 (as Voxel::cutX) where the normal lies across the view. inward() converts a
 // slope counted outwards, 1.0 = 2^14, to one counted inwards.
 constexpr int SHIFT = 8;
@@ -49,25 +43,32 @@ bool setLimb(int32_t k, int32_t alongX, int32_t alongY, int32_t xx, int32_t xy, 
 
 }  // namespace
 
+void findViewProducts(const OwnFrame& own, ViewProducts* axes)
+{
+    findProducts(own.right, own.right, axes->xx);
+    findProducts(own.right, own.up, axes->xy);
+    findProducts(own.up, own.up, axes->yy);
+    findProducts(own.right, own.ahead, axes->xz);
+    findProducts(own.up, own.ahead, axes->yz);
+    findProducts(own.ahead, own.ahead, axes->zz);
+}
+
 bool findLimb(int32_t bend, int32_t shearX, int32_t shearY, int32_t depth, Limb* limb)
 {
     const int32_t x = times14(shearX << 4, bend), y = times14(shearY << 4, bend);
     return setLimb(bend + times14(shearX << 4, x) + times14(shearY << 4, y), x, y, bend, 0, bend, depth, limb);
 }
 
-bool findLimb(const Bend& bend, const OwnFrame& own, int32_t step, int32_t shearX, int32_t shearY, int32_t depth, Limb* limb)
+bool findLimb(const Bend& bend, const ViewProducts& axes, int32_t step, int32_t shearX, int32_t shearY, int32_t depth,
+              Limb* limb)
 {
-    int32_t sight[3], along[3], right[3], up[3];
-    for (int i = 0; i < 3; ++i)
-        sight[i] = own.ahead[i] + ((own.right[i] * shearX + own.up[i] * shearY) >> 10);
-    turnAlong(bend, sight, along);
-    turnAlong(bend, own.right, right);
-    turnAlong(bend, own.up, up);
-    // Turns have 1.0 = 2^13 over 256 steps (Bend::turn).
-    const auto perUnit = [&](int32_t turn) { return limited(mulDiv(turn, 1 << 17, step), 1 << 15); };
-    return setLimb(perUnit(product14(along, sight)), perUnit(product14(along, own.right)), perUnit(product14(along, own.up)),
-                   perUnit(product14(right, own.right)), perUnit(product14(right, own.up)), perUnit(product14(up, own.up)), depth,
-                   limb);
+    // Turns have 1.0 = 2^13 over 256 steps (Bend::turn), and the products 15 fraction bits.
+    const auto perUnit = [&](const int32_t products[6]) { return limited(mulDiv(turnOf(bend, products), 4, step), 1 << 15); };
+    const int32_t xx = perUnit(axes.xx), xy = perUnit(axes.xy), yy = perUnit(axes.yy), xz = perUnit(axes.xz), yz = perUnit(axes.yz);
+    // S w and w S w, where w leads (shearX, shearY) aside.
+    const int32_t alongX = xz + ((shearX * xx + shearY * xy) >> 10), alongY = yz + ((shearX * xy + shearY * yy) >> 10);
+    const int32_t k = perUnit(axes.zz) + ((shearX * (xz + alongX) + shearY * (yz + alongY)) >> 10);
+    return setLimb(k, alongX, alongY, xx, xy, yy, depth, limb);
 }
 
 void endAtLimb(const Limb& limb, int32_t cosine, Voxel* voxel)
@@ -77,7 +78,8 @@ void endAtLimb(const Limb& limb, int32_t cosine, Voxel* voxel)
     const int32_t near = min32(times14(cosine, limb.nearness), (SLANT - 1) << 14) + (1 << 14);
     const int32_t x = times14(voxel->tiltX * cosine >> 8, near) + times14(cosine, limb.along[0]);
     const int32_t y = times14(voxel->tiltY * cosine >> 8, near) + times14(cosine, limb.along[1]);
-    voxel->reach = REACH_MOST;
+    // `reach` was a guess of the depth at which the surface has bent out of sight; the limb itself may be somewhat deeper.
+    voxel->reach = static_cast<uint8_t>(min32(voxel->reach * 3 >> 1, REACH_MOST));
     voxel->cutX = inward(x);
     voxel->cutY = inward(y);
     // c^2 / 2k: how far away the limb is across the view.

@@ -20,14 +20,21 @@ struct Limb {
     int8_t curve[3];   // -H across the view, along x, along both, along y, as Voxel::curveXX, curveXY and curveYY
 };
 
+// The products of any two axes of the view (findProducts()): x is to the right, y up, z ahead.
+struct ViewProducts {
+    int32_t xx[6], xy[6], yy[6], xz[6], yz[6], zz[6];
+};
+void findViewProducts(const OwnFrame& own, ViewProducts* axes);
+
 // Find the limb of a ball with the curvature `bend` (1 / radius, per unit, 1.0 = 2^14, at most 2.0), and of a patch whose bend has
 // been measured, where `step` is the length of a step of places (voxels.h), 1/256 unit of the world with 16 fraction bits. The ray
 // of sight leads (shearX, shearY) aside over a unit of depth, 10 fraction bits, and the seeds are `depth` away, 1/256 unit. Return
 // false when along the ray the surface hardly bends, or bends towards the viewer.
 bool findLimb(int32_t bend, int32_t shearX, int32_t shearY, int32_t depth, Limb* limb);
-bool findLimb(const Bend& bend, const OwnFrame& own, int32_t step, int32_t shearX, int32_t shearY, int32_t depth, Limb* limb);
+bool findLimb(const Bend& bend, const ViewProducts& axes, int32_t step, int32_t shearX, int32_t shearY, int32_t depth,
+              Limb* limb);
 
-// Ends a voxel that is not cut yet at the limb. `cosine` is c, 1.0 = 2^14.
+// Ends a voxel that has a reach, and is not cut yet, at the limb. `cosine` is c, 1.0 = 2^14.
 void endAtLimb(const Limb& limb, int32_t cosine, Voxel* voxel);
 
 #endif

@@ -113,13 +113,14 @@ private:
     int32_t horizonScale_;    // horizonShare of a radius of curvature of 8 steps of places
     int32_t lights_[3][6];    // products of the light and the axes of the view, scaled so that turns become gradients (setBend())
     int32_t columns_[3], rows_[3], aheads_[3];  // axes of the view for Shading::cell, 14 more fraction bits; aheads_: 4 more
+    ViewProducts axes_;       // for findLimb()
     uint32_t areaScale_;      // squared spacing, for Shading::areaShare
     // The current patch:
     int32_t ahead_;           // gradient of the brightness along the view, 1/8 step a unit with 8 fraction bits
     int32_t shearX_, shearY_; // how far the ray through the patch leads aside over a unit of depth, 10 fraction bits
     int32_t middle_;          // depth of the patch, 1/256 unit
     bool limbSought_, hasLimb_;
-    Limb limb_;               // limb of its seeds at rest, if hasLimb_
+    Limb limb_;               // limb of its regular seeds, if hasLimb_
 };
 
 Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame)
@@ -179,6 +180,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
         rows_[i] = (own.up[i] * cell >> 6) + 8192;
         aheads_[i] = own.ahead[i] * cell >> 16;
     }
+    findViewProducts(own_, &axes_);
     // Seeds of a hollow that settle nearer to a long or flat core than where they rest get no nearer to each other along the core.
     shading_.leastPosition = hollow_ && !ball_ ? 1 << 8 : 0;
 }
@@ -268,26 +270,25 @@ bool Shader::cut(const Seed& s, Voxel* voxel) const
     return cutVoxel(x, y, z, s.apart, shearX_, shearY_, voxel);
 }
 
-// The limb of a patch for its seeds at rest; null if there is none, or the bend of the patch is not known.
+// The limb of a patch; null if there is none, or the bend of the patch is not known.
 inline const Limb* Shader::limbOf(const Patch& patch)
 {
     if (!limbSought_) {
         limbSought_ = true;
         if (hollow_)
             hasLimb_ = false;
-        else if (ball_)
-            hasLimb_ = findLimb(ballBend_, shearX_, shearY_, middle_, &limb_);
+        else if (patch.bend.ball)
+            hasLimb_ = ball_ && patch.state == PATCH_REST && findLimb(ballBend_, shearX_, shearY_, middle_, &limb_);
         else
-            hasLimb_ = !patch.bend.ball && patch.state == PATCH_REST &&
-                       findLimb(patch.bend, own_, step_, shearX_, shearY_, middle_, &limb_);
+            hasLimb_ = findLimb(patch.bend, axes_, step_, shearX_, shearY_, middle_, &limb_);
     }
     return hasLimb_ ? &limb_ : nullptr;
 }
 
-// Ends the voxel of a seed at rest at the limb, if the tangent plane goes on beyond the limb and the voxel is not cut already.
+// Ends the voxel of a regular seed at the limb, if the tangent plane goes on beyond the limb and the voxel is not cut already.
 inline void Shader::endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel)
 {
-    if (voxel->reach == 0 || !(seen.seed->flags & SEED_RESTING) || isCut(*voxel))
+    if (voxel->reach == 0 || isCut(*voxel))
         return;
     if (const Limb* const limb = limbOf(patch))
         ::endAtLimb(*limb, mulDiv(mulShift16(seen.facing, step_), 1 << 14, own_.centre[2] + voxel->z), voxel);
@@ -380,7 +381,9 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
                                Painter* painter)
 {
     const bool shines = PAINTED && painter->shines(), blends = patch.state == PATCH_MIXED;
-    const int32_t sight = shines || (blends && bendsUnevenly(voxels, regular)) ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
+    // Where a patch bends unevenly neither its gradient nor its limb is known.
+    const bool uneven = blends && bendsUnevenly(voxels, regular);
+    const int32_t sight = shines || uneven ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
     const int known = shines || blends ? regular : 0;
     Voxel* to = list.room();
     for (int i = 0; i < count; ++i) {
@@ -401,7 +404,8 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
         } else if (shown != voxels + i) {
             *shown = voxels[i];
         }
-        endAtLimb(patch, seen[i], shown);
+        if (i < regular && !uneven)
+            endAtLimb(patch, seen[i], shown);
         if (i < known) {
             // A dark voxel keeps its slopes. With a finish that shines, brightness 0 does not mean that the light ends there.
             const bool stays = knows || (!shines && shown->brightness == 0);

@@ -67,7 +67,7 @@ void holdAgainst(const Round& round, Random& random, LimbOf limbOf, long* held, 
         if (!found)
             continue;
         const Voxel voxel = ended(limb, seed, normal);
-        CHECK(voxel.reach == REACH_MOST && voxel.halfWidth == 300 && voxel.halfHeight == 300);
+        CHECK(voxel.reach == 30 && voxel.halfWidth == 300 && voxel.halfHeight == 300);
         CHECK(cutAt(voxel, 0, 0) >= 0);
         for (int k = 0; k < 20; ++k) {
             const double x = random.between(-spacing, spacing), y = random.between(-spacing, spacing);
@@ -128,6 +128,8 @@ TEST(scales_of_what_bends_end_at_its_limb)
             frame.up[k] = static_cast<int32_t>(std::lround(part(k, 1) * 16384));
             frame.ahead[k] = static_cast<int32_t>(std::lround(part(k, 2) * 16384));
         }
+        ViewProducts axes;
+        findViewProducts(frame, &axes);
         // A step of places is 1/32 unit: 256 of them are 8 units.
         constexpr int32_t PLACES = 8 << 16;
         Bend bend = {};
@@ -138,7 +140,7 @@ TEST(scales_of_what_bends_end_at_its_limb)
             bend.turn[k] = static_cast<int16_t>(std::lround(turn * 8 * 8192));
         }
         holdAgainst(tube, random, [&](const Vec& seed, Limb* limb) {
-            return findLimb(bend, frame, PLACES, static_cast<int32_t>(seed.x / seed.z * 1024),
+            return findLimb(bend, axes, PLACES, static_cast<int32_t>(seed.x / seed.z * 1024),
                             static_cast<int32_t>(seed.y / seed.z * 1024), static_cast<int32_t>(seed.z * 256), limb);
         }, &held, &worst);
     }
@@ -155,9 +157,11 @@ TEST(flat_surfaces_have_no_limb)
     Bend flat = {};
     OwnFrame frame = {};
     frame.right[0] = frame.up[1] = frame.ahead[2] = 16384;
-    CHECK(!findLimb(flat, frame, 8 << 16, 100, 100, 100 << 8, &limb));
+    ViewProducts axes;
+    findViewProducts(frame, &axes);
+    CHECK(!findLimb(flat, axes, 8 << 16, 100, 100, 100 << 8, &limb));
     flat.turn[0] = 8192;
-    CHECK(!findLimb(flat, frame, 8 << 16, 0, 0, 100 << 8, &limb));
+    CHECK(!findLimb(flat, axes, 8 << 16, 0, 0, 100 << 8, &limb));
     flat.turn[2] = -8192;
-    CHECK(!findLimb(flat, frame, 8 << 16, 0, 0, 100 << 8, &limb));
+    CHECK(!findLimb(flat, axes, 8 << 16, 0, 0, 100 << 8, &limb));
 }
