@@ -9,9 +9,6 @@ using machine::WIDTH;
 
 namespace {
 
-// A scale that is tilted more than this, as the sum of both slopes, has no crossing: it is close to the outline, and the pixel
-// across its border would mostly lie outside. 8 fraction bits.
-constexpr int32_t STEEP_TILT = 4 << 8;
 // A scale is seen where the Z-buffer differs from its depth by no more than this, 1/128 unit.
 constexpr int32_t SEEN = 256;
 
@@ -21,11 +18,11 @@ inline int stepOf(int32_t component, int32_t other)
     return 2 * magnitude(component) < magnitude(other) ? 0 : component < 0 ? -1 : 1;
 }
 
-// Whether a scale is cut along a straight line, as a whole not too close to the outline: at a border, or at an edge of a pattern,
-// where nothing is missing. A cut that curves is the limb of the surface.
+// Whether a scale is cut along a straight line: at a border, or at an edge of a pattern, where nothing is missing. A cut that curves
+// is the limb of the surface.
 inline bool crossesBorder(const Voxel& v)
 {
-    return (v.curveXX | v.curveXY | v.curveYY) == 0 && magnitude(v.tiltX) + magnitude(v.tiltY) <= STEEP_TILT;
+    return (v.curveXX | v.curveXY | v.curveYY) == 0;
 }
 
 }  // namespace
