@@ -45,7 +45,7 @@ public:
 private:
     bool updatePatch(Settler& settler, Patch& patch, const OwnFrame& own, const Neighbourhood& all, bool known);
     int numberOf(const Patch& patch) const { return static_cast<int>(&patch - patches_); }
-    bool moveOn(Patch& patch, const Neighbourhood& all);
+    bool moveOn(int number, const Neighbourhood& all);
     bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all, bool known);
     bool stays(const Settler& settler, Patch& patch, bool stale) const;
     void renewLists(Patch& patch, const Neighbourhood& all);
@@ -102,25 +102,20 @@ bool Engine::update(const FrameContext& frame)
     if (allRests_ && known && all.ordinary && all.restsAtOne && all.count == 0)
         return false;
     bool displaced = false, movedOn = false;
-    int unasked = 0;
-    Patch* const end = patches_ + count_;
-    for (Patch* patch = patches_; patch < end; ++patch) {
-        patch->settled = false;
-        if (++unasked == ASKED_EVERY) {
-            unasked = 0;
-            if (stopAsked())
-                return true;
-        }
-        if (moveOn(*patch, all))
+    for (int i = 0; i < count_; ++i) {
+        patches_[i].settled = false;
+        if (i % ASKED_EVERY == ASKED_EVERY - 1 && stopAsked())
+            return true;
+        if (moveOn(i, all))
             displaced = movedOn = true;
         else
-            displaced |= updatePatch(settler, *patch, own, all, known);
+            displaced |= updatePatch(settler, patches_[i], own, all, known);
     }
-    for (Patch* patch = patches_; patch < end; ++patch)
-        if (patch->settled) {
-            settler.oversample(*patch);
-            reckoning_.follow(numberOf(*patch), *patch, settler.smallest());
-            patch->moved = false;
+    for (int i = 0; i < count_; ++i)
+        if (Patch& patch = patches_[i]; patch.settled) {
+            settler.oversample(patch);
+            reckoning_.follow(i, patch, settler.smallest());
+            patch.moved = false;
         }
     if (settler.hasIslands() || islands_)
         settleIslands(settler, all);
@@ -146,9 +141,9 @@ void Engine::settleIslands(Settler& settler, const Neighbourhood& all)
 
 // Moves the seeds of a patch on, so that they need not be settled. Returns false if they do not move evenly. What the neighbours do
 // meanwhile counts in a later frame.
-inline bool Engine::moveOn(Patch& patch, const Neighbourhood& all)
+inline bool Engine::moveOn(int number, const Neighbourhood& all)
 {
-    const int number = numberOf(patch);
+    Patch& patch = patches_[number];
     if (!reckoning_.moves(number, patch))
         return false;
     reckoning_.move(number, patch);
