@@ -10,7 +10,7 @@ namespace {
 // of them, for over a longer way steps are seldom even.
 constexpr Real FARTHEST(1.5), OF_SMALLEST(0.22);
 // Spacings: the error of a border is seen only where the border is nearer to its seed than this.
-constexpr Real NEAR(1.5);
+constexpr Real NEAR(1.2);
 // Units: a greater spacing counts as this one.
 constexpr Real COARSE(2);
 // 1/1024 unit: the travels of two updates count as even if they differ by less than this and half of the travel.
@@ -22,7 +22,7 @@ constexpr int32_t TOLERATED = 8;
 // Greater than any error that is tolerated.
 constexpr int32_t UNKNOWN = INT16_MAX;
 // Where a component of a normal changes by this in an update, 1.0 = 2^14, normals that are moved on would get too long.
-constexpr int32_t FAST = 1024;
+constexpr int32_t FAST = 2048;
 
 // Corrects a step that has led from `before` elsewhere than to `now`; 2^shift such steps were made. Returns about the error.
 inline int32_t correctStep(int32_t now, int32_t before, int shift, int16_t& step)
