@@ -1,7 +1,7 @@
 #!/bin/sh
 # The picture's bars: every figure of every scene of `tests/scenes/truth.sh some` holds its bar, or the limit that
-# limits.txt grants it until it does. A line there is "scene spacing figure limit"; the list may only become shorter and its
-# limits lower. Lines that are no longer needed are named.
+# limits.txt grants it until it does. A line there is "scene spacing figure limit". The list becomes shorter and its limits lower;
+# where one has to rise for a picture that is better on the whole, the commit says so. Lines that are no longer needed are named.
 #
 #   sh tests/bars/run.sh          the last line is "N passed, N failed"
 #   sh tests/bars/regen.sh        writes limits.txt anew from the figures of the last run
