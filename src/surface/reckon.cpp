@@ -16,9 +16,9 @@ constexpr Real COARSE(2);
 // 1/1024 unit: the travels of two updates count as even if they differ by less than this and half of the travel.
 constexpr int32_t EVEN_TRAVEL = 100;
 constexpr int LONGEST_PERIOD = 4;
-// The error of a single step with which a patch is moved on, for the cube of the spacing: who wants finer seeds wants to see more.
+// The error of a single step with which a patch is moved on, for the square of the spacing: who wants finer seeds wants to see more.
 // 64 stands for 1/4 unit along a path, 1/8 unit across a border, or 1/16 of a normal's length.
-constexpr int32_t TOLERATED = 8;
+constexpr int32_t TOLERATED = 16;
 // Greater than any error that is tolerated.
 constexpr int32_t UNKNOWN = INT16_MAX;
 // Where a component of a normal changes by this in an update, 1.0 = 2^14, normals that are moved on would get too long.
@@ -55,7 +55,7 @@ void Reckoning::open(int count)
 {
     const Real spacing = min(object_.spacing(), COARSE);
     farthest_ = travelOf(spacing * FARTHEST);
-    tolerated_ = rawFromReal(spacing * spacing * spacing * Real(TOLERATED)) >> 16;
+    tolerated_ = rawFromReal(spacing * spacing * Real(TOLERATED)) >> 16;
     near_ = rawFromReal(spacing * NEAR) >> 8;
     tracks_ = allocate<Track>(static_cast<uint32_t>(count));
     count_ = tracks_ == nullptr ? 0 : count;
