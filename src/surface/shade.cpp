@@ -381,8 +381,8 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
                                Painter* painter)
 {
     const bool shines = PAINTED && painter->shines(), blends = patch.state == PATCH_MIXED;
-    // Where a patch bends unevenly neither its gradient nor its limb is known.
-    const bool uneven = blends && bendsUnevenly(voxels, regular);
+    // Where a patch bends unevenly, or has parted from others, neither its gradient nor its limb is known.
+    const bool uneven = blends && (patch.extras || bendsUnevenly(voxels, regular));
     const int32_t sight = shines || uneven ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
     const int known = shines || blends ? regular : 0;
     Voxel* to = list.room();
