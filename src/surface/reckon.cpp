@@ -16,8 +16,8 @@ constexpr Real COARSE(2);
 // 1/1024 unit: the travels of two updates count as even if they differ by less than this and half of the travel.
 constexpr int32_t EVEN_TRAVEL = 100;
 constexpr int LONGEST_PERIOD = 4;
-// The error of a single step with which a patch is moved on, for the square of the spacing: who wants finer seeds wants to see more.
-// 64 stands for 1/4 unit along a path, 1/8 unit across a border, or 1/16 of a normal's length.
+// The error of a single step with which a patch is moved on, for the square of the spacing: who wants finer seeds wants to see
+// more. 64 stands for 1/4 unit along a path, 1/8 unit across a border, or 1/16 of a normal's length.
 constexpr int32_t TOLERATED = 16;
 // Greater than any error that is tolerated.
 constexpr int32_t UNKNOWN = INT16_MAX;
@@ -163,15 +163,15 @@ inline bool Reckoning::prepare(Track& track) const
 
 void Reckoning::follow(int number, const Patch& patch, Real smallest)
 {
+    const Travel ofSmallest = travelOf(smallest * OF_SMALLEST), farthest = ofSmallest < farthest_ ? ofSmallest : farthest_;
     // The travel of the next update may be much shorter.
-    if (count_ == 0 || travel_ > 2 * farthest_ || !prepare(tracks_[number]))
+    if (count_ == 0 || travel_ > 2 * farthest || !prepare(tracks_[number]))
         return;
     Track& track = tracks_[number];
     const int shift = track.age < 2 ? 0 : __builtin_ctz(track.period);
     int32_t error = 0;
     forMotions(track, patch, [&](const Seed& s, Motion& m) { error |= correct(s, shift, m); });
     int period = track.age >= 2 && !patch.fine && !patch.islands ? periodAfter(track.period, error, tolerated_) : 1;
-    const Travel ofSmallest = travelOf(smallest * OF_SMALLEST), farthest = ofSmallest < farthest_ ? ofSmallest : farthest_;
     while (period > 1 && travel_ * static_cast<Travel>(period - 1) > farthest)
         period /= 2;
     // Half of the patches begin in an update, half in the next, so that all updates take about the same time.
