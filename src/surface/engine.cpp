@@ -44,7 +44,6 @@ public:
 
 private:
     bool updatePatch(Settler& settler, Patch& patch, const OwnFrame& own, const Neighbourhood& all, bool known);
-    int numberOf(const Patch& patch) const { return static_cast<int>(&patch - patches_); }
     bool moveOn(int number, const Neighbourhood& all);
     bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all, bool known);
     bool stays(const Settler& settler, Patch& patch, bool stale) const;
@@ -115,6 +114,7 @@ bool Engine::update(const FrameContext& frame)
         if (Patch& patch = patches_[i]; patch.settled) {
             settler.oversample(patch);
             reckoning_.follow(i, patch, settler.smallest());
+            still_.forget(i);
             patch.moved = false;
         }
     if (settler.hasIslands() || islands_)
@@ -256,7 +256,6 @@ inline void Engine::settle(Settler& settler, Patch& patch)
     if (patch.settled) {
         settler.settleOthers(patch);
         patch.bend.stale = true;
-        still_.forget(numberOf(patch));
     } else {
         sleep(object_, patch);
     }

@@ -20,7 +20,8 @@ struct Limb {
     int8_t curve[3];   // -H across the view, along x, along both, along y, as Voxel::curveXX, curveXY and curveYY
 };
 
-// The products of any two axes of the view (findProducts()): x is to the right, y up, z ahead.
+// The products of any two axes of the view, 15 fraction bits, by which a bend is measured along them (turnOf()): x is to the right,
+// y up, z ahead. They are the same for all patches of an object.
 struct ViewProducts {
     int32_t xx[6], xy[6], yy[6], xz[6], yz[6], zz[6];
 };

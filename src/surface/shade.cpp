@@ -113,7 +113,8 @@ private:
     int32_t horizonScale_;    // horizonShare of a radius of curvature of 8 steps of places
     int32_t lights_[3][6];    // products of the light and the axes of the view, scaled so that turns become gradients (setBend())
     int32_t columns_[3], rows_[3], aheads_[3];  // axes of the view for Shading::cell, 14 more fraction bits; aheads_: 4 more
-    ViewProducts axes_;       // for findLimb()
+    ViewProducts axes_;       // for findLimb(), if hasAxes_
+    bool hasAxes_ = false;
     uint32_t areaScale_;      // squared spacing, for Shading::areaShare
     // The current patch:
     int32_t ahead_;           // gradient of the brightness along the view, 1/8 step a unit with 8 fraction bits
@@ -180,7 +181,6 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
         rows_[i] = (own.up[i] * cell >> 6) + 8192;
         aheads_[i] = own.ahead[i] * cell >> 16;
     }
-    findViewProducts(own_, &axes_);
     // Seeds of a hollow that settle nearer to a long or flat core than where they rest get no nearer to each other along the core.
     shading_.leastPosition = hollow_ && !ball_ ? 1 << 8 : 0;
 }
@@ -275,12 +275,16 @@ inline const Limb* Shader::limbOf(const Patch& patch)
 {
     if (!limbSought_) {
         limbSought_ = true;
-        if (hollow_)
+        if (hollow_) {
             hasLimb_ = false;
-        else if (patch.bend.ball)
+        } else if (patch.bend.ball) {
             hasLimb_ = ball_ && patch.state == PATCH_REST && findLimb(ballBend_, shearX_, shearY_, middle_, &limb_);
-        else
+        } else {
+            if (!hasAxes_)
+                findViewProducts(own_, &axes_);
+            hasAxes_ = true;
             hasLimb_ = findLimb(patch.bend, axes_, step_, shearX_, shearY_, middle_, &limb_);
+        }
     }
     return hasLimb_ ? &limb_ : nullptr;
 }
@@ -381,7 +385,7 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
                                Painter* painter)
 {
     const bool shines = PAINTED && painter->shines(), blends = patch.state == PATCH_MIXED;
-    // Where a patch bends unevenly, or has parted from others, neither its gradient nor its limb is known.
+    // Where a patch bends unevenly, or its seeds have parted, neither its gradient nor its limb is known.
     const bool uneven = blends && (patch.extras || bendsUnevenly(voxels, regular));
     const int32_t sight = shines || uneven ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
     const int known = shines || blends ? regular : 0;

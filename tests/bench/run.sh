@@ -63,8 +63,9 @@ ok "BENCH.BAT: every shipped scene but the built-in one" sh -c "cd tools/scenes 
 	[ \$f = FOUR.FB ] || grep -q \"^IF EXIST \$f DEMO .*/M:\$f\" ../bench.bat || exit 1; done"
 ok "BENCH.BAT: a second each" sh -c "tr -d '\r' <'$c/REC.CSV' |
 	awk -F , 'NR > 1 && (\$3 < 1 || \$2 < 1) { bad = 1 } END { exit bad }'"
-# (Not by how much, for that is the program's business: the copy is less than a per cent of a frame. So that every run shows the
-# same frames, they are counted, and a fixed time apart. A busy machine only slows runs down: the best of three of each kind count.)
+# (Not by how much, for that is the program's business: the copy is less than a per cent of a frame. The number of frames and the
+# time between them are given, so that every run shows the same frames. A busy machine only slows runs down: the best of three of
+# each kind count.)
 dos -c 30000 -- 'DEMO /B /G /R:35 /N:30 /O:X.CSV' 'DEMO /B /G /X /R:35 /N:30 /O:X.CSV' 'DEMO /B /G /R:35 /N:30 /O:X.CSV' \
 	'DEMO /B /G /X /R:35 /N:30 /O:X.CSV' 'DEMO /B /G /R:35 /N:30 /O:X.CSV' 'DEMO /B /G /X /R:35 /N:30 /O:X.CSV'
 best() { # best SWITCHES: frames a second

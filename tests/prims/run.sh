@@ -45,7 +45,8 @@ for scene in "$dir"/frames/*; do
 	known='' through='' holes=0
 	case $scene in
 	torus_digs*) through=0.06 ;; # the surface left in the middle of the ring is steep to all paths
-	cone_ball*) holes=1 ;; # at spacing 2 a pixel at the tip of the cone's part, at 1 one at the border of the two
+	cone_ball) holes=1 ;;   # a pixel at the tip of the cone's part
+	cone_ball_1) holes=1 ;; # a pixel at the border of the two
 	near_1) [ $every = 2 ] || holes=30 ;; # the tip of a neck, in frames that the short run leaves out
 	esac
 	if fair "$scene" $holes "$known" "$through"; then
