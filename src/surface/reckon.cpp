@@ -15,7 +15,7 @@ constexpr Real NEAR(1.2);
 constexpr Real COARSE(2);
 // 1/1024 unit: the travels of two updates count as even if they differ by less than this and half of the travel.
 constexpr int32_t EVEN_TRAVEL = 100;
-constexpr int LONGEST_PERIOD = 4;
+constexpr int LONGEST_PERIOD = 8;
 // The error of a single step with which a patch is moved on, for the square of the spacing: who wants finer seeds wants to see
 // more. 64 stands for 1/4 unit along a path, 1/8 unit across a border, or 1/16 of a normal's length.
 constexpr int32_t TOLERATED = 16;
@@ -23,6 +23,7 @@ constexpr int32_t TOLERATED = 16;
 constexpr int32_t UNKNOWN = INT16_MAX;
 // Where a component of a normal changes by this in an update, 1.0 = 2^14, normals that are moved on would get too long.
 constexpr int32_t FAST = 2048;
+static_assert((1 << 14) + FAST * (LONGEST_PERIOD - 1) <= INT16_MAX, "normals fit 16 bits");
 
 // Corrects a step that has led from `before` elsewhere than to `now`; 2^shift such steps were made. Returns about the error.
 inline int32_t correctStep(int32_t now, int32_t before, int shift, int16_t& step)
@@ -61,12 +62,6 @@ void Reckoning::open(int count)
     count_ = tracks_ == nullptr ? 0 : count;
     for (int i = 0; i < count_; ++i)
         tracks_[i] = Track{};
-}
-
-void Reckoning::forget()
-{
-    for (int i = 0; i < count_; ++i)
-        tracks_[i].age = tracks_[i].left = 0;
 }
 
 void Reckoning::begin(Travel travel, bool known)
@@ -156,8 +151,8 @@ inline bool Reckoning::prepare(Track& track) const
     if (track.motions == nullptr)
         track.motions = allocate<Motion>(MOTIONS);
     for (int i = 0; i < MOTIONS && track.motions != nullptr; ++i)
-        track.motions[i] = Motion{};
-    track.age = 0;
+        track.motions[i].known = false;
+    track.period = 0;
     return track.motions != nullptr;
 }
 
@@ -168,17 +163,16 @@ void Reckoning::follow(int number, const Patch& patch, Real smallest)
     if (count_ == 0 || travel_ > 2 * farthest || !prepare(tracks_[number]))
         return;
     Track& track = tracks_[number];
-    const int shift = track.age < 2 ? 0 : __builtin_ctz(track.period);
+    const int before = track.period, shift = before < 2 ? 0 : __builtin_ctz(track.period);
     int32_t error = 0;
     forMotions(track, patch, [&](const Seed& s, Motion& m) { error |= correct(s, shift, m); });
-    int period = track.age >= 2 && !patch.fine && !patch.islands ? periodAfter(track.period, error, tolerated_) : 1;
+    int period = before == 0 || patch.fine || patch.islands ? 1 : periodAfter(before, error, tolerated_);
     while (period > 1 && travel_ * static_cast<Travel>(period - 1) > farthest)
         period /= 2;
     // Half of the patches begin in an update, half in the next, so that all updates take about the same time.
-    if (track.period == 1 && period == 2 && ((static_cast<uint32_t>(number) + update_) & 1) != 0)
+    if (before == 1 && period == 2 && ((static_cast<uint32_t>(number) + update_) & 1) != 0)
         period = 1;
     track.period = static_cast<uint8_t>(period);
-    track.age = static_cast<uint8_t>(min32(track.age + 1, 2));
     track.left = static_cast<uint8_t>(period - 1);
     track.update = update_;
 }

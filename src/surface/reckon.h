@@ -1,6 +1,6 @@
 // Dead reckoning: coherence over time. Over a few frames most patches blend evenly: their seeds go on along their paths, and their
 // normals turn, as in the frames before. A patch whose seeds were found where such steps had led is moved on by the same steps for
-// one frame, or for three, and not settled meanwhile. Without this file the program is slower and the picture hardly different.
+// one to seven frames, and not settled meanwhile. Without this file the program is slower and the picture hardly different.
 #ifndef FB_RECKON_H
 #define FB_RECKON_H
 
@@ -17,7 +17,7 @@ public:
     // Makes the tracks of `count` patches. Without that, or without memory, no patch is ever moved on.
     void open(int count);
     // Forgets where the seeds were, because they have been laid out elsewhere.
-    void forget();
+    void forget() { ++update_; }
 
     // Begins an update of the object. `travel` is how far its neighbours have travelled since the update before; `known`: none of
     // them has leapt (Odometer::advance()).
@@ -47,8 +47,7 @@ private:
     struct Track {
         Motion* motions;       // of the patch's regular seeds and, after each, of its oversampled seed; null before they are needed
         uint32_t update;       // number of the update in which the patch was followed or moved on last
-        uint8_t age;           // how often its seeds were followed: their steps are known from 2 on
-        uint8_t period, left;  // the patch is settled once in `period` updates; updates left until then
+        uint8_t period, left;  // the patch is settled once in `period` updates (0: not followed yet); updates left until then
     };
     template <class Each>
     void forMotions(const Track& track, const Patch& patch, Each each) const;
