@@ -94,11 +94,12 @@ constexpr int LENS_FINENESS = 16;
 constexpr int LENS_STEPS = (LENS_FAR - LENS_NEAR) * LENS_FINENESS;
 
 // Where the surface bulges, the tangent plane of each scale comes before the middles of the scales beside it, and a pixel would
-// show a scale by its very edge. Next to a border that is seen most, for there normals turn fast. A scale that is cut along a
-// straight line is therefore domed: its depth grows with the squared distance from its centre, by 1/4 unit at a distance of one
-// unit, so that of overlapping scales a pixel shows the one whose centre is nearest. A scale that reaches farther than DOMED_WIDE
-// or DOMED_HIGH pixels from its centre has no dome, and where a pixel is wider than DOMED_PIXEL units (9 fraction bits) domes do
-// not grow further: depths within the table of factors still fit the Z-buffer.
+// show a scale by its very edge. That is seen most next to a border and where a patch bends unevenly, for there normals turn fast.
+// A scale that is cut along a straight line, or nowhere (voxel.h), is therefore domed: its depth grows with the squared distance
+// from its centre, by 1/4 unit at a distance of one unit, so that of overlapping scales a pixel shows the one whose centre is
+// nearest. A scale that reaches farther than DOMED_WIDE or DOMED_HIGH pixels from its centre has no dome, and where a pixel is
+// wider than DOMED_PIXEL units (9 fraction bits) domes do not grow further: depths within the table of factors still fit the
+// Z-buffer.
 constexpr int32_t DOMED_WIDE = 8, DOMED_HIGH = 12, DOMED_PIXEL = 287;
 constexpr int32_t DOME_MOST = 2 * (DOMED_PIXEL * DOMED_PIXEL >> 13);
 static_assert(LENS_FAR * 128 + STEEPEST * (DOMED_WIDE + DOMED_HIGH) +

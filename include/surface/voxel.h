@@ -35,6 +35,21 @@ inline bool isCut(const Voxel& v)
     return (v.cutX | v.cutY) != 0;
 }
 
+// The greatest value of `cutAt`.
+constexpr int CUT_MOST = 32000;
+
+// Lets a voxel count as cut along a straight line, so that it is domed (picture/scales.h), though nothing of it is cut away; and
+// tells whether that was done.
+inline void cutNowhere(Voxel* v)
+{
+    v->cutX = 1;
+    v->cutAt = CUT_MOST;
+}
+inline bool isCutNowhere(const Voxel& v)
+{
+    return v.cutAt == CUT_MOST;
+}
+
 // Lambert's law (report, The Rendering Technique): brightness from the cosine of normal and light, 1.0 = 2^14; negative if unlit.
 inline int32_t lambert(int32_t cosine)
 {

@@ -18,11 +18,11 @@ inline int stepOf(int32_t component, int32_t other)
     return 2 * magnitude(component) < magnitude(other) ? 0 : component < 0 ? -1 : 1;
 }
 
-// Whether a scale is cut along a straight line: at a border, or at an edge of a pattern, where nothing is missing. A cut that
-// curves is the limb of the surface.
+// Whether a scale that is cut ends at a border, or at an edge of a pattern, where nothing is missing. A cut that curves is the limb
+// of the surface.
 inline bool crossesBorder(const Voxel& v)
 {
-    return (v.curveXX | v.curveXY | v.curveYY) == 0;
+    return (v.curveXX | v.curveXY | v.curveYY) == 0 && !isCutNowhere(v);
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ void endAtLimb(const Limb& limb, int32_t cosine, Voxel* voxel)
     voxel->cutY = inward(y);
     // c^2 / 2k: how far away the limb is across the view.
     const int32_t square = min32(times14(cosine, cosine), 1 << 14);
-    voxel->cutAt = static_cast<int16_t>(min32(((square * limb.radius >> 10) * 16 + HALF) >> SHIFT, 32000));
+    voxel->cutAt = static_cast<int16_t>(min32(((square * limb.radius >> 10) * 16 + HALF) >> SHIFT, CUT_MOST));
     voxel->curveXX = limb.curve[0];
     voxel->curveXY = limb.curve[1];
     voxel->curveYY = limb.curve[2];

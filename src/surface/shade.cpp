@@ -49,6 +49,9 @@ constexpr int32_t UNEVEN_SHADING = 8;
 // limb would come far beyond the outline where seeds have parted.
 constexpr int32_t DEEPEST = 8;
 
+// 1/32 unit: how deep a dome is where scales overlap, 0.7 units from its middle.
+constexpr int32_t DOME_DEPTH = 4;
+
 // Spacings: scales that end are drawn as far as this before their centres. Farther before them the tangent plane is well before the
 // surface, and the scales beside them cover it.
 constexpr int32_t FRONT = 2;
@@ -298,6 +301,16 @@ inline void Shader::endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel
         ::endAtLimb(*limb, mulDiv(mulShift16(seen.facing, step_), 1 << 14, own_.centre[2] + voxel->z), voxel);
 }
 
+// Domes a voxel, unless it is cut and so domed already. Its end moves back as its depths do.
+inline void dome(Voxel* voxel)
+{
+    if (isCut(*voxel))
+        return;
+    cutNowhere(voxel);
+    if (voxel->reach != 0)
+        voxel->reach = static_cast<uint8_t>(min32(voxel->reach + DOME_DEPTH, REACH_MOST));
+}
+
 // Finds the visible oversampled and fine seeds of a patch, as findSeeds() finds the regular ones.
 SELDOM int Shader::findExtras(const Patch& patch, Seen* seen, Voxel* voxels) const
 {
@@ -385,7 +398,8 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
                                Painter* painter)
 {
     const bool shines = PAINTED && painter->shines(), blends = patch.state == PATCH_MIXED;
-    // Where a patch bends unevenly, or its seeds have parted, neither its gradient nor its limb is known.
+    // Where a patch bends unevenly, or its seeds have parted, neither its gradient nor its limb is known; its scales are stretched
+    // and bend fast, so that each has to leave the place beside it to the next one (scales.h).
     const bool uneven = blends && (patch.extras || bendsUnevenly(voxels, regular));
     const int32_t sight = shines || uneven ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
     const int known = shines || blends ? regular : 0;
@@ -408,7 +422,9 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
         } else if (shown != voxels + i) {
             *shown = voxels[i];
         }
-        if (i < regular && !uneven)
+        if (uneven)
+            dome(shown);
+        else if (i < regular)
             endAtLimb(patch, seen[i], shown);
         if (i < known) {
             // A dark voxel keeps its slopes. With a finish that shines, brightness 0 does not mean that the light ends there.

@@ -197,6 +197,6 @@ bool cutVoxel(int32_t x, int32_t y, int32_t z, int32_t apart, int32_t shearX, in
         return false;
     voxel->cutX = static_cast<int8_t>(cutX);
     voxel->cutY = static_cast<int8_t>(cutY);
-    voxel->cutAt = static_cast<int16_t>(limited(at, 32000));
+    voxel->cutAt = static_cast<int16_t>(limited(at, CUT_MOST));
     return true;
 }
