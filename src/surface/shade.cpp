@@ -43,14 +43,14 @@ constexpr int32_t FACES_ABOUT = 9830;
 constexpr int BEND_DRAWS_LIMB = 1, BEND_DRAWS = 3;
 
 // 1/4 step: a patch bends unevenly if its gradient predicts the brightness of some seed with an error greater than this.
-constexpr int32_t UNEVEN_SHADING = 8;
+constexpr int32_t UNEVEN_SHADING = 6;
 
 // Spacings: upper bound on the change of depth from the middle of a scale that ends to its corner. Without it, scales next to the
 // limb would come far beyond the outline where seeds have parted.
 constexpr int32_t DEEPEST = 8;
 
-// 1/32 unit: how deep a dome is where scales overlap, 0.7 units from its middle.
-constexpr int32_t DOME_DEPTH = 4;
+// A scale that is domed may end farther behind its centre by the depth that a dome has where scales overlap: a spacing over 16.
+constexpr int DOME_SHIFT = 4;
 
 // Spacings: scales that end are drawn as far as this before their centres. Farther before them the tangent plane is well before the
 // surface, and the scales beside them cover it.
@@ -93,6 +93,7 @@ private:
     void setSlopesOf(const Seed& s, Voxel* voxel) const;
     const Limb* limbOf(const Patch& patch);
     void endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel);
+    void dome(Voxel* voxel) const;
     // The component of a vector of own space along axis i of the view.
     template <class Part>
     int32_t along(const Part v[3], const int32_t axis[3], int i) const
@@ -301,14 +302,14 @@ inline void Shader::endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel
         ::endAtLimb(*limb, mulDiv(mulShift16(seen.facing, step_), 1 << 14, own_.centre[2] + voxel->z), voxel);
 }
 
-// Domes a voxel, unless it is cut and so domed already. Its end moves back as its depths do.
-inline void dome(Voxel* voxel)
+// Domes a voxel, unless it is cut and so domed already.
+inline void Shader::dome(Voxel* voxel) const
 {
     if (isCut(*voxel))
         return;
     cutNowhere(voxel);
     if (voxel->reach != 0)
-        voxel->reach = static_cast<uint8_t>(min32(voxel->reach + DOME_DEPTH, REACH_MOST));
+        voxel->reach = static_cast<uint8_t>(min32(voxel->reach + (spacing_ >> 3 >> DOME_SHIFT), REACH_MOST));
 }
 
 // Finds the visible oversampled and fine seeds of a patch, as findSeeds() finds the regular ones.
