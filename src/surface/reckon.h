@@ -47,7 +47,8 @@ private:
     struct Track {
         Motion* motions;       // of the patch's regular seeds and, after each, of its oversampled seed; null before they are needed
         uint32_t update;       // number of the update in which the patch was followed or moved on last
-        uint8_t period, left;  // the patch is settled once in `period` updates (0: not followed yet); updates left until then
+        uint8_t age;           // how often its seeds were followed: their steps are known from 2 on
+        uint8_t period, left;  // the patch is settled once in `period` updates; updates left until then
     };
     template <class Each>
     void forMotions(const Track& track, const Patch& patch, Each each) const;
