@@ -307,6 +307,11 @@ PatchState Settler::probe(Patch& patch)
     patch.due = now_;
     if (!(s.flags & SEED_VALID) && patch.state == PATCH_MIXED && isCovered(s))
         return PATCH_MIXED;
+    // What was hidden is likely to be so still; in its turn it is settled all the same.
+    if (patch.state == PATCH_AWAY && turn_ != 0 && (s.flags & SEED_VALID) && isHidden(patch, s.position, own_)) {
+        hidden_ = true;
+        return PATCH_AWAY;
+    }
     const Real least = enough(patch, nearby_.smallest());
     const bool stays = !patch.stirred && patch.state == PATCH_MIXED && (s.flags & SEED_VALID);
     const Real margin = stays ? Real(0) : settle(s);
