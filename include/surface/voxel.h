@@ -39,7 +39,7 @@ inline bool isCut(const Voxel& v)
 constexpr int CUT_MOST = 32000;
 
 // Lets a voxel count as cut along a straight line, so that it is domed (picture/scales.h), though nothing of it is cut away; and
-// tells whether that was done.
+// tells whether a straight cut is one of these. (One whose cut function is as great as theirs has its line as far out of reach.)
 inline void cutNowhere(Voxel* v)
 {
     v->cutX = 1;

@@ -164,17 +164,17 @@ void Reckoning::follow(int number, const Patch& patch, Real smallest)
     if (count_ == 0 || travel_ > 2 * farthest || !prepare(tracks_[number]))
         return;
     Track& track = tracks_[number];
-    const int before = track.period, shift = __builtin_ctz(track.period);
+    const int shift = __builtin_ctz(track.period);
     int32_t error = 0;
     forMotions(track, patch, [&](const Seed& s, Motion& m) { error |= correct(s, shift, m); });
-    int period = track.age < 2 || patch.fine || patch.islands ? 1 : periodAfter(before, error, tolerated_);
+    int period = track.age >= 2 && !patch.fine && !patch.islands ? periodAfter(track.period, error, tolerated_) : 1;
     while (period > 1 && travel_ * static_cast<Travel>(period - 1) > farthest)
         period /= 2;
     // Half of the patches begin in an update, half in the next, so that all updates take about the same time.
-    if (before == 1 && period == 2 && ((static_cast<uint32_t>(number) + update_) & 1) != 0)
+    if (track.period == 1 && period == 2 && ((static_cast<uint32_t>(number) + update_) & 1) != 0)
         period = 1;
-    track.age = static_cast<uint8_t>(min32(track.age + 1, 2));
     track.period = static_cast<uint8_t>(period);
+    track.age = static_cast<uint8_t>(min32(track.age + 1, 2));
     track.left = static_cast<uint8_t>(period - 1);
     track.update = update_;
 }

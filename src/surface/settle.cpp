@@ -301,6 +301,14 @@ bool Settler::setPatch(const Patch& patch, bool oversampled)
     return reached;
 }
 
+// Whether a patch is hidden, as if all its seeds were at `position`, and so is left unsettled.
+inline bool Settler::staysHidden(const Patch& patch, Real position)
+{
+    const bool hidden = isHidden(patch, position, own_);
+    hidden_ |= hidden;
+    return hidden;
+}
+
 PatchState Settler::probe(Patch& patch)
 {
     Seed& s = object_.seed(patch.centre);
@@ -308,10 +316,8 @@ PatchState Settler::probe(Patch& patch)
     if (!(s.flags & SEED_VALID) && patch.state == PATCH_MIXED && isCovered(s))
         return PATCH_MIXED;
     // What was hidden is likely to be so still; in its turn it is settled all the same.
-    if (patch.state == PATCH_AWAY && turn_ != 0 && (s.flags & SEED_VALID) && isHidden(patch, s.position, own_)) {
-        hidden_ = true;
+    if (patch.state == PATCH_AWAY && turn_ != 0 && (s.flags & SEED_VALID) && staysHidden(patch, s.position))
         return PATCH_AWAY;
-    }
     const Real least = enough(patch, nearby_.smallest());
     const bool stays = !patch.stirred && patch.state == PATCH_MIXED && (s.flags & SEED_VALID);
     const Real margin = stays ? Real(0) : settle(s);
@@ -331,11 +337,7 @@ PatchState Settler::probe(Patch& patch)
         patch.due += travelOf(realFromRaw(away * 4) * shiftDown(object_.laidSize(), 2));
         return PATCH_AWAY;
     }
-    if (isHidden(patch, s.position, own_)) {
-        hidden_ = true;
-        return PATCH_AWAY;
-    }
-    return PATCH_MIXED;
+    return staysHidden(patch, s.position) ? PATCH_AWAY : PATCH_MIXED;
 }
 
 // Stores the range of positions that the seeds of a patch are in.

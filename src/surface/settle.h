@@ -91,6 +91,7 @@ private:
     int stillOff() const { return nearby_.dented() ? SEED_OFF | SEED_FOLLOW : 0; }
     bool isCovered(const Seed& s) { return nearby_.dented() ? isOff(*patch_, s) : cover_.covers(s); }
     void settleBeside(const Seed& centre, Seed& s, bool someAway, uint8_t* blocker);
+    bool staysHidden(const Patch& patch, Real position);
     void setRange(Patch& patch, Real nearest, Real farthest) const;
     bool isAway(const Seed& s) const;
     bool mayGape(const Seed& s, const Seed& n, Real open) const;

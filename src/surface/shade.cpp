@@ -49,7 +49,7 @@ constexpr int32_t UNEVEN_SHADING = 6;
 // limb would come far beyond the outline where seeds have parted.
 constexpr int32_t DEEPEST = 8;
 
-// A scale that is domed may end farther behind its centre by the depth that a dome has where scales overlap: a spacing over 16.
+// A scale that is domed ends farther behind its centre by the depth of a dome where scales overlap, the spacing over 2^DOME_SHIFT.
 constexpr int DOME_SHIFT = 4;
 
 // Spacings: scales that end are drawn as far as this before their centres. Farther before them the tangent plane is well before the
@@ -309,7 +309,7 @@ inline void Shader::dome(Voxel* voxel) const
         return;
     cutNowhere(voxel);
     if (voxel->reach != 0)
-        voxel->reach = static_cast<uint8_t>(min32(voxel->reach + (spacing_ >> 3 >> DOME_SHIFT), REACH_MOST));
+        voxel->reach = static_cast<uint8_t>(min32(voxel->reach + (spacing_ >> (3 + DOME_SHIFT)), REACH_MOST));
 }
 
 // Finds the visible oversampled and fine seeds of a patch, as findSeeds() finds the regular ones.
