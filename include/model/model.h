@@ -101,6 +101,8 @@ public:
 
     // The bodies that the links form, found anew when links have changed. Returns null when there is no memory.
     const Bodies* bodies();
+    // Whether two objects belong to different bodies, as found by the latest bodies().
+    bool areApart(const SoftObject& a, const SoftObject& b) const { return bodies_.members(a) != bodies_.members(b); }
 
     // The number of regular seeds that a spacing would give.
     int seedsAt(Real spacing) const;
@@ -146,13 +148,11 @@ public:
     // Has all bodies found and all seeds settled anew in the next frame.
     void settleAnew();
 
-    // The index of the object whose own field is the strongest at a point, among the objects that have a surface; it gives the
-    // point its colour. -1 if no such field reaches the point.
+    // The greatest of the bodies' fields (model/body.h) at a point, or the field of the body that `member` belongs to; 0 where none
+    // reaches. `*strongest` receives the index of that body's member whose own field is the strongest, which gives the point its
+    // colour; -1 if none reaches. The bodies are those found by the latest bodies().
+    Real implicitAt(const Point& p, int* strongest, const SoftObject* member = nullptr) const;
     int strongestAt(const Point& p) const;
-
-    // The greatest of the bodies' fields (model/body.h) at a point; 0 where no field reaches. It uses the bodies found by the
-    // latest bodies(). `*strongest` receives strongestAt().
-    Real implicitAt(const Point& p, int* strongest) const;
 
     // Sets the light, and has all objects looked at again.
     void setLight(const Vector& to);

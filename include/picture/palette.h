@@ -21,6 +21,9 @@ public:
     // The limit that a shining finish (model/paint.h) has instead of HIGHLIGHT; such a finish is white at full light.
     static constexpr int GLOSS = 47;
 
+    // At most so many ramps are made.
+    static constexpr int RAMPS_MOST = 240;
+
     // The palette entry of text and marks: the same near-white in every scene, never part of a ramp.
     static constexpr uint8_t INK = 255;
 
@@ -36,13 +39,17 @@ public:
     // The brightness, 0..63, that a palette entry has in a ramp that contains it.
     int step(uint8_t entry) const { return steps_[entry]; }
 
+    // In colour: the number, 1..RAMPS_MOST, of the ramp that contains a palette entry; 0 if none or several do. And the number of an
+    // object's ramp.
+    int rampOf(uint8_t entry) const { return rampOf_[entry]; }
+    int numberOf(const uint8_t* ramp) const { return static_cast<int>(ramp - ramps_[0]) / RAMP + 1; }
+
     // Returns a copy of a ramp with its brightness raised by `steps`, to mark the selected object. It is valid until the next
     // call.
     const uint8_t* raised(const uint8_t* ramp, int steps);
 
 private:
     static constexpr int ENTRIES = INK - 1;  // palette entries for ramps; the first one is number 1
-    static constexpr int RAMPS_MOST = 240;
     static constexpr int EVEN_MOST = 4;      // up to this number of colours each ramp has entries of its own
 
     static_assert(Paints::MOST <= RAMPS_MOST, "each colour has a ramp");
@@ -52,12 +59,13 @@ private:
     void shareEvenly(const Colour* colours, const bool* shines, int count);
     void share(const Colour* colours, const bool* shines, int count, const Paints* weights);
     void neverDarken(uint8_t* ramp) const;
+    void describeEntries(int count);
     void handRamps(Paint& paint) const;
 
     Paints paints_;
     Paint paint_[Model::OBJECTS_MOST];
     uint8_t dac_[768];
-    uint8_t steps_[256] = {};
+    uint8_t steps_[256] = {}, rampOf_[256] = {};
     uint8_t ramps_[RAMPS_MOST][RAMP];
     uint8_t raised_[RAMP];
 };

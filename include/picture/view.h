@@ -66,7 +66,8 @@ public:
     // when all objects are drawn and before anything is drawn over them. Does nothing when voxels are drawn as single pixels.
     // With a model, real openings stay open: gaps wider than two pixels half way across which the model has no surface within
     // about a unit. Where scales have missed the model's surface it is drawn (missed.h). With a palette as well, pixels filled
-    // between two objects get the colour of the object whose field is the stronger there.
+    // between two objects get the colour of the object whose field is the stronger there, and so do the pixels beside borders of
+    // colours (borders.h).
     void closeGaps(Real spacing, const Model* model = nullptr, const Palette* palette = nullptr);
 
     // The point of the world that a pixel (row * WIDTH + column) shows: at its own depth, or at a given one (1/128 unit).

@@ -534,16 +534,24 @@ struct Part {
     Real field;
 };
 
-// The field F of the body of one of the parts at the point that they reach (body.h). `most` is the strongest part's field.
-Real fieldOf(const Bodies& bodies, const Part& one, const Part* parts, const Part* end, Real most)
+// The field F of the body of one of the parts at the point that they reach (body.h). `*strongest` receives the slot of the body's
+// strongest part.
+Real fieldOf(const Bodies& bodies, const Part& one, const Part* parts, const Part* end, int* strongest)
 {
-    const bool plain = bodies.plainBody(one.slot);
-    Real sum(0), above(0), squares(0);
+    Real sum(0), most(0), above(0), squares(0);
     for (const Part* part = parts; part < end; ++part) {
         if (part->body != one.body)
             continue;
         sum += part->field;
-        if (plain)
+        if (part->field > most) {
+            most = part->field;
+            *strongest = part->slot;
+        }
+    }
+    if (bodies.plainBody(one.slot))
+        return sum;
+    for (const Part* part = parts; part < end; ++part) {
+        if (part->body != one.body)
             continue;
         Real weighted = part->field;
         for (const Part* other = parts; other < end; ++other)
@@ -553,36 +561,35 @@ Real fieldOf(const Bodies& bodies, const Part& one, const Part* parts, const Par
         above += square * clamp(weighted, Real(-240), Real(240));
         squares += square;
     }
-    return plain ? sum : squares > Real(0) ? above / squares : Real(0);
+    return squares > Real(0) ? above / squares : Real(0);
 }
 
 }  // namespace
 
-Real Model::implicitAt(const Point& p, int* strongest) const
+Real Model::implicitAt(const Point& p, int* strongest, const SoftObject* member) const
 {
     Part parts[OBJECTS_MOST], *end = parts;
-    Real most(0), highest(0);
     // Copied, because most objects are far: the loop is quicker where nothing that it writes may be the point.
     const Point at = p;
-    int best = -1;
     for (int i = 0; i < count_; ++i) {
         const SoftObject& object = *actors_[i]->object;
         const Real field = object.fieldFunc(at);
-        if (field <= Real(0))
+        if (field > Real(0))
+            *end++ = {i, bodiesKnown_ && object.hasSurface() ? bodies_.members(object) : nullptr, field};
+    }
+    Real highest(0);
+    *strongest = -1;
+    SoftObject* const *last = nullptr, *const *const only = member == nullptr ? nullptr : bodies_.members(*member);
+    for (const Part* part = parts; part < end; ++part) {
+        if (part->body == nullptr || part->body == last || (only != nullptr && part->body != only))
             continue;
-        const bool shown = object.hasSurface();
-        *end++ = {i, shown && bodiesKnown_ ? bodies_.members(object) : nullptr, field};
-        if (shown && field > most) {
-            most = field;
-            best = i;
+        last = part->body;
+        int own = -1;
+        const Real field = fieldOf(bodies_, *part, parts, end, &own);
+        if (field > highest || *strongest < 0) {
+            highest = field;
+            *strongest = own;
         }
     }
-    *strongest = best;
-    SoftObject* const* last = nullptr;
-    for (const Part* part = parts; part < end; ++part)
-        if (part->body != nullptr && part->body != last) {
-            last = part->body;
-            highest = ::max(highest, fieldOf(bodies_, *part, parts, end, most));
-        }
-    return highest;
+    return ::max(highest, Real(0));
 }

@@ -6,10 +6,10 @@
 
 class Gaps {
 public:
-    // The seeds lie `spacing` units apart. Model and palette may be null.
-    Gaps(View& view, const Model* model, const Palette* palette, Real spacing)
+    // The seeds lie `spacing` units apart. Model and palette may be null. What is missing is noted in `missed`, and drawn.
+    Gaps(View& view, const Model* model, const Palette* palette, Missed& missed, Real spacing)
         : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model), palette_(palette),
-          missed_(view, model, spacing), spacing_(spacing)
+          missed_(missed), spacing_(spacing)
     {
     }
 
@@ -40,7 +40,7 @@ private:
     const uint16_t* zbuffer_;
     const Model* model_;
     const Palette* palette_;
-    Missed missed_;
+    Missed& missed_;
     Real spacing_;
 };
 

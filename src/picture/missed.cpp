@@ -194,8 +194,6 @@ bool Missed::drawPixel(Place place)
     return true;
 }
 
-// Gives a pixel the ramp of its object, with the brightness from the surface normal there. If the object is painted, and the pixel
-// `from` beside it shows that object too, the pixel gets the colour of that one instead. Returns false when there is no colour.
 bool Missed::setColour(int at, int depth, int from)
 {
     const Point p = view_.pointAt(at, depth);

@@ -42,6 +42,11 @@ public:
     // pixel `from`, if that is another pixel. Returns false when none is missing there.
     bool follow(int at, int depth, int from);
 
+    // Gives a pixel this depth (1/128 unit) and the ramp of its object, with the brightness from the surface normal there. If the
+    // object is painted, and the pixel `from` beside it shows that object too, it gets the colour of that one instead. Returns false
+    // when there is no colour.
+    bool setColour(int at, int depth, int from);
+
 private:
     static constexpr int NOTED_MOST = 1024;
 
@@ -64,7 +69,6 @@ private:
     bool drawPixel(Place place);
     Real excess(int at, int depth);
     bool findDepth(int at, int* depth);
-    bool setColour(int at, int depth, int from);
 
     View& view_;
     const uint8_t* frame_;

@@ -224,11 +224,7 @@ void Palette::makeColours(Model& model, bool painted)
         share(colours, shines, count, painted ? &paints_ : nullptr);
     else
         shareEvenly(colours, shines, count);
-    for (int c = 0; c < count; ++c) {
-        const uint8_t* const ramp = lengthen(ramps_[c] + SHADING_MOST);
-        for (int i = 0; i < STEPS; ++i)
-            steps_[ramp[i]] = static_cast<uint8_t>(i);
-    }
+    describeEntries(count);
     for (int i = 0; i < model.count(); ++i) {
         if (painted) {
             rampOf[i] = paint_[i].number;
@@ -236,6 +232,25 @@ void Palette::makeColours(Model& model, bool painted)
         }
         model.actor(i).object->setRamp(ramps_[rampOf[i]] + SHADING_MOST);
     }
+}
+
+// Lengthens the ramps, and finds the brightness and the ramp of each entry.
+void Palette::describeEntries(int count)
+{
+    constexpr uint8_t SHARED = 255;  // for now: several ramps have the entry
+    static_assert(RAMPS_MOST < SHARED);
+    memset(rampOf_, 0, sizeof rampOf_);
+    for (int c = 0; c < count; ++c) {
+        const uint8_t* const ramp = lengthen(ramps_[c] + SHADING_MOST);
+        const uint8_t number = static_cast<uint8_t>(c + 1);
+        for (int i = 0; i < STEPS; ++i) {
+            steps_[ramp[i]] = static_cast<uint8_t>(i);
+            uint8_t& of = rampOf_[ramp[i]];
+            of = of == 0 || of == number ? number : SHARED;
+        }
+    }
+    for (uint8_t& of : rampOf_)
+        of = of == SHARED ? 0 : of;
 }
 
 void Palette::handRamps(Paint& paint) const

@@ -1,6 +1,7 @@
 // View: the perspective projection of voxels to scales, and the bookkeeping of which pixels a frame touches.
 #include "picture/view.h"
 
+#include "borders.h"
 #include "gaps.h"
 #include "math/alloc.h"
 #include "math/whole.h"
@@ -314,8 +315,12 @@ int View::showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool 
 
 void View::closeGaps(Real spacing, const Model* model, const Palette* palette)
 {
-    if (!pixels_)
-        Gaps(*this, model, palette, spacing).close();
+    if (pixels_)
+        return;
+    Missed missed(*this, model, spacing);
+    Gaps(*this, model, palette, missed, spacing).close();
+    if (model != nullptr && palette != nullptr && !model->mixed)
+        Borders(*this, *model, *palette, missed).mend();
 }
 
 Point View::pointAt(int pixel, int depth) const

@@ -568,6 +568,68 @@ TEST(gaps_between_two_objects)
         }
 }
 
+// Draws what a model shows, pixel by pixel, each pixel in the colour of step 30 of the object that it belongs to and `nearer` units
+// before the surface; returns the objects by pixel, -1 where there is none.
+static std::vector<int> drawTruly(View& view, const Model& model, double nearer)
+{
+    std::vector<int> owners(WIDTH * HEIGHT, -1);
+    for (int at = 0; at < WIDTH * HEIGHT; ++at)
+        for (int depth = 90 * 128, object; depth < 125 * 128; depth += 16)
+            if (model.implicitAt(view.pointAt(at, depth), &object) >= ISOVALUE) {
+                owners[static_cast<size_t>(at)] = object;
+                view.setPixel(at, depth - static_cast<int>(nearer * 128), model.actor(object).object->ramp()[30]);
+                break;
+            }
+    return owners;
+}
+
+// Teeth and scraps of a wrong colour beside a border get the colour of the object that they belong to, even if their depth is off by
+// half a unit; what was right stays, and so does what lies far from any border.
+TEST(borders_of_colours)
+{
+    for (const bool linked : {true, false})
+        for (double nearer : {-0.5, 0.0, 0.5}) {
+            Model model;
+            addPair(model, 10);
+            CHECK(!linked || model.link(model.actor(0).object, model.actor(1).object, Real(1)));
+            CHECK(model.bodies() != nullptr);
+            Palette palette;
+            palette.make(model, false);
+            View view;
+            CHECK(view.open());
+            view.begin();
+            const std::vector<int> owners = drawTruly(view, model, nearer);
+            const auto isInside = [&](int at) { return owners[static_cast<size_t>(at)] >= 0; };
+            // Teeth of four by four pixels to both sides of the border at column 160.
+            int wrong = 0, left = 0, spoilt = 0;
+            const auto isWrong = [&](int at) {
+                const int owner = owners[static_cast<size_t>(at)];
+                return isInside(at) && palette.rampOf(view.frame()[at]) != palette.numberOf(model.actor(owner).object->ramp());
+            };
+            for (int y = 60; y < 140; ++y)
+                for (int x = 156; x < 164; ++x) {
+                    const int at = y * WIDTH + x, other = (y / 4) % 2;
+                    if (!isInside(at) || (x >= 160) == (other == 1))
+                        continue;
+                    view.setPixel(at, view.zbuffer()[at], model.actor(other).object->ramp()[30]);
+                    wrong += isWrong(at);
+                }
+            const int far = 100 * WIDTH + 120;
+            CHECK(isInside(far));
+            view.setPixel(far + 1, view.zbuffer()[far + 1], palette.INK);
+            view.closeGaps(SPACING, &model, &palette);
+            for (int at = 0; at < WIDTH * HEIGHT; ++at) {
+                const int column = at % WIDTH;
+                left += isWrong(at) && column >= 156 && column < 164;
+                spoilt += isWrong(at) && (column < 156 || column >= 164) && at != far + 1;
+            }
+            note("%s, %.1f units off: %d pixels in a wrong colour, %d left", linked ? "one body" : "two bodies", nearer, wrong, left);
+            CHECK(wrong > 150 && left <= wrong / 20);
+            SAME(spoilt, 0);
+            SAME(view.frame()[far + 1], palette.INK);
+        }
+}
+
 // Openings between two objects that do not touch stay open at any distance, whether or not they are enclosed by drawn pixels.
 TEST(gaps_where_there_is_no_surface)
 {

@@ -1,0 +1,156 @@
+// Borders of colours. Every second pixel of every second row is looked at. Where two that follow each other differ in colour, the
+// fields of the objects that have these colours tell which of the pixels between them belongs to which object.
+#include "borders.h"
+
+#include "math/whole.h"
+#include "model/paint.h"
+#include "rt.h"
+
+using machine::HEIGHT;
+using machine::WIDTH;
+
+namespace {
+
+// Pixels from one that is looked at to the next, in both directions. A wrong pixel that stands alone may be missed.
+constexpr int GRID = 2;
+// No pixel is looked at after so many in a frame.
+constexpr int LOOKS_MOST = 2000;
+// 1/128 unit: pixels whose depths differ by more do not belong to one piece of the surface.
+constexpr int LEVEL = 256;
+// In units of the field: where a body's field is off the isovalue by no more its surface is there. Where the surfaces of two bodies
+// cross it has to be known better.
+constexpr Real EXACT(0.02), EXACT_CROSSING(0.004);
+// The surface is looked for along the ray with one step of this length, 1/128 unit, and is no farther away than FARTHEST steps.
+constexpr int STEP = 128;
+constexpr Real FARTHEST(2);
+
+}  // namespace
+
+Borders::Borders(View& view, const Model& model, const Palette& palette, Missed& missed)
+    : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model), palette_(palette), missed_(missed)
+{
+    memset(first_, -1, sizeof first_);
+    for (int i = 0; i < model.count(); ++i) {
+        const SoftObject& object = *model.actor(i).object;
+        const Paint* const paint = object.paint();
+        // Which colour of a pattern a place has only the seeds know.
+        if (!object.hasSurface() || object.ramp() == nullptr || (paint != nullptr && paint->pattern != PATTERN_NONE))
+            continue;
+        int16_t& first = first_[palette.numberOf(object.ramp())];
+        next_[i] = first;
+        first = static_cast<int16_t>(i);
+    }
+}
+
+void Borders::mend()
+{
+    for (int y = 0; y < HEIGHT; y += GRID) {
+        const Span& touched = view_.touched(y);
+        const uint8_t* const row = frame_ + y * WIDTH;
+        const uint8_t* const end = row + touched.to;
+        int last = 0;
+        for (const uint8_t* at = row + touched.from; at < end; at += GRID) {
+            const int ramp = palette_.rampOf(*at);
+            if (ramp == last || ramp == 0)
+                continue;
+            if (last != 0)
+                mendBeside(static_cast<int>(at - frame_));
+            last = ramp;
+        }
+    }
+}
+
+// Looks at the two pixels beside a border and, from each that has been mended on, at those beside that. The border lies between a
+// pixel and another one farther to the left.
+void Borders::mendBeside(int right)
+{
+    const int ramp = rampAt(right);
+    while (rampAt(right - 1) == ramp)
+        --right;
+    if (magnitude(zbuffer_[right - 1] - zbuffer_[right]) > LEVEL)
+        return;
+    note(right, right - 1);
+    note(right - 1, right);
+    while (count_ > 0) {
+        const Place place = noted_[--count_];
+        if (!mend(place))
+            continue;
+        const int beside[] = {-1, 1, -WIDTH, WIDTH};
+        for (const int step : beside)
+            note(place.pixel + step, place.pixel);
+    }
+}
+
+// Notes a pixel that is not shown in the ramp of another one. Palette entries that are in several ramps tell nothing.
+inline void Borders::note(int at, int from)
+{
+    const int ramp = rampAt(at), other = rampAt(from);
+    if (ramp != 0 && other != 0 && ramp != other && count_ < NOTED_MOST)
+        noted_[count_++] = {static_cast<uint16_t>(at), static_cast<uint16_t>(from)};
+}
+
+// Shows a pixel in the ramp of the one beside it, if it belongs to an object that has that ramp. Returns false if it does not.
+bool Borders::mend(const Place& place)
+{
+    const int at = place.pixel, row = at / WIDTH, column = at - row * WIDTH;
+    if (++looks_ > LOOKS_MOST || row < 1 || row >= HEIGHT - 1 || column < 1 || column >= WIDTH - 1)
+        return false;
+    const int own = rampAt(at), ramp = rampAt(place.from);
+    const SoftObject *shown, *right;
+    if (!isStronger(ramp, own, view_.pointAt(at), &right, &shown))
+        return false;
+    const bool crossing = shown != nullptr && model_.areApart(*shown, *right);
+    int depth = zbuffer_[at], shownDepth = depth;
+    if (!findDepth(*right, at, crossing ? EXACT_CROSSING : EXACT, &depth))
+        return false;
+    // Of two bodies whose surfaces cross the nearer one is seen.
+    if (crossing ? findDepth(*shown, at, EXACT_CROSSING, &shownDepth) && shownDepth < depth
+                 : depth != shownDepth && !isStronger(ramp, own, view_.pointAt(at, depth), &right, &shown))
+        return false;
+    // The brightness goes on across a border, but not from one body to another.
+    if (crossing)
+        return missed_.setColour(at, depth, place.from);
+    view_.setPixel(at, depth, right->ramp()[palette_.step(frame_[at])]);
+    return true;
+}
+
+// Whether at a point the strongest object of one ramp is stronger than that of another ramp. Both receive null where none reaches.
+bool Borders::isStronger(int ramp, int other, const Point& p, const SoftObject** strongest, const SoftObject** second) const
+{
+    Real field, otherField;
+    *strongest = strongestOf(ramp, p, &field);
+    *second = strongestOf(other, p, &otherField);
+    return field > otherField;
+}
+
+// The object with the strongest field at a point, of those that are shown in a ramp; null if none of them reaches it.
+inline const SoftObject* Borders::strongestOf(int ramp, const Point& p, Real* field) const
+{
+    const SoftObject* strongest = nullptr;
+    *field = Real(0);
+    for (int i = first_[ramp]; i >= 0; i = next_[i]) {
+        const SoftObject* const object = model_.actor(i).object;
+        const Real there = object->fieldFunc(p);
+        if (there > *field) {
+            *field = there;
+            strongest = object;
+        }
+    }
+    return strongest;
+}
+
+// Finds where the surface of an object's body is behind a pixel, by one step of the secant method from `*depth`, if the field there
+// is off the isovalue by more than `exact`. Returns false if the surface is not near.
+bool Borders::findDepth(const SoftObject& object, int at, Real exact, int* depth) const
+{
+    int strongest;
+    const Real off = model_.implicitAt(view_.pointAt(at, *depth), &strongest, &object) - ISOVALUE;
+    if (absolute(off) <= exact)
+        return true;
+    const int step = off > Real(0) ? -STEP : STEP;
+    const Real change = model_.implicitAt(view_.pointAt(at, *depth + step), &strongest, &object) - ISOVALUE - off;
+    if (absolute(change) * FARTHEST < absolute(off) || (change > Real(0)) == (off > Real(0)))
+        return false;
+    *depth += floorToInt(quotient(-off, change) * Real(step));
+    return true;
+}

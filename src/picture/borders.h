@@ -1,0 +1,45 @@
+// Borders of colours: where two colours meet on the surface, gives each pixel the colour of the object that it belongs to.
+#ifndef FB_BORDERS_H
+#define FB_BORDERS_H
+
+#include "missed.h"
+
+class Borders {
+public:
+    // The palette has made the ramps of the model's objects, in colour. `missed` draws single pixels.
+    Borders(View& view, const Model& model, const Palette& palette, Missed& missed);
+
+    // Finds pixels in the colour of a wrong object, beside the borders of colours and from there on, and gives them the colour and
+    // the depth of the right one. To be called when gaps are closed.
+    void mend();
+
+private:
+    // A pixel, and one beside it whose object it may belong to.
+    struct Place {
+        uint16_t pixel, from;
+    };
+
+    void mendBeside(int right);
+    void note(int at, int from);
+    bool mend(const Place& place);
+    bool isStronger(int ramp, int other, const Point& p, const SoftObject** strongest, const SoftObject** second) const;
+    const SoftObject* strongestOf(int ramp, const Point& p, Real* field) const;
+    bool findDepth(const SoftObject& object, int at, Real exact, int* depth) const;
+    int rampAt(int pixel) const { return palette_.rampOf(frame_[pixel]); }
+
+    static constexpr int NOTED_MOST = 256;
+
+    View& view_;
+    const uint8_t* frame_;
+    const uint16_t* zbuffer_;
+    const Model& model_;
+    const Palette& palette_;
+    Missed& missed_;
+    Place noted_[NOTED_MOST];  // pixels that wait to be looked at
+    int count_ = 0;            // their number
+    int looks_ = 0;            // pixels looked at so far
+    // Lists of the objects that are shown in one ramp: the first object of each ramp, and after each object the next; -1: none.
+    int16_t first_[Palette::RAMPS_MOST + 1], next_[Model::OBJECTS_MOST];
+};
+
+#endif
