@@ -39,8 +39,8 @@ public:
     // The brightness, 0..63, that a palette entry has in a ramp that contains it.
     int step(uint8_t entry) const { return steps_[entry]; }
 
-    // In colour: the number, 1..RAMPS_MOST, of the ramp that contains a palette entry; 0 if none or several do. And the number of an
-    // object's ramp.
+    // In colour: the number, 1..RAMPS_MOST, of the ramp that contains a palette entry; 0 if none or several do. And the number of
+    // an object's ramp.
     int rampOf(uint8_t entry) const { return rampOf_[entry]; }
     int numberOf(const uint8_t* ramp) const { return static_cast<int>(ramp - ramps_[0]) / RAMP + 1; }
 

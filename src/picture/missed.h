@@ -43,8 +43,8 @@ public:
     bool follow(int at, int depth, int from);
 
     // Gives a pixel this depth (1/128 unit) and the ramp of its object, with the brightness from the surface normal there. If the
-    // object is painted, and the pixel `from` beside it shows that object too, it gets the colour of that one instead. Returns false
-    // when there is no colour.
+    // object is painted, and the pixel `from` beside it shows that object too, it gets the colour of that one instead. Returns
+    // false when there is no colour.
     bool setColour(int at, int depth, int from);
 
 private:

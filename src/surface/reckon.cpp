@@ -17,7 +17,7 @@ constexpr Real COARSE(2);
 constexpr int32_t EVEN_TRAVEL = 100;
 constexpr int LONGEST_PERIOD = 8;
 // The error of a single step with which a patch is moved on, for the square of the spacing: who wants finer seeds wants to see
-// more. 64 stands for 1/4 unit along a path, 1/8 unit across a border, or 1/16 of a normal's length.
+// more. 64 stands for 1/4 unit along a path or across a border, or 1/16 of a normal's length.
 constexpr int32_t TOLERATED = 16;
 // Greater than any error that is tolerated.
 constexpr int32_t UNKNOWN = INT16_MAX;
@@ -128,7 +128,7 @@ inline int32_t Reckoning::correct(const Seed& s, int shift, Motion& m) const
         error = rawFromReal(absolute(off * object_.radius())) >> 8 | turned >> 4;
     }
     if (known && bordered && m.bordered) {
-        const int32_t off = correctStep(s.apart, m.apart, shift, m.stepApart) << 1;
+        const int32_t off = correctStep(s.apart, m.apart, shift, m.stepApart);
         error |= magnitude(s.apart) < near_ ? off : 0;
     } else {
         m.stepApart = 0;

@@ -4,7 +4,7 @@
 namespace {
 
 // Both sides of a cut overlap: each goes on for this distance beyond the line, 1/256 unit.
-constexpr int32_t CUT_MARGIN = 10;
+constexpr int32_t CUT_MARGIN = 12;
 
 inline int32_t product(const Direction14& a, const int32_t b[3])
 {

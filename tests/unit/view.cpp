@@ -583,8 +583,8 @@ static std::vector<int> drawTruly(View& view, const Model& model, double nearer)
     return owners;
 }
 
-// Teeth and scraps of a wrong colour beside a border get the colour of the object that they belong to, even if their depth is off by
-// half a unit; what was right stays, and so does what lies far from any border.
+// Teeth of a wrong colour at a border get the colour of the object that they belong to, even if their depth is off by half a unit;
+// what was right stays, and so does what lies far from the border.
 TEST(borders_of_colours)
 {
     for (const bool linked : {true, false})
@@ -623,7 +623,8 @@ TEST(borders_of_colours)
                 left += isWrong(at) && column >= 156 && column < 164;
                 spoilt += isWrong(at) && (column < 156 || column >= 164) && at != far + 1;
             }
-            note("%s, %.1f units off: %d pixels in a wrong colour, %d left", linked ? "one body" : "two bodies", nearer, wrong, left);
+            note("%s, %.1f units off: %d pixels in a wrong colour, %d left", linked ? "one body" : "two bodies", nearer, wrong,
+                 left);
             CHECK(wrong > 150 && left <= wrong / 20);
             SAME(spoilt, 0);
             SAME(view.frame()[far + 1], palette.INK);
