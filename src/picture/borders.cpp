@@ -100,17 +100,19 @@ bool Borders::mend(const Place& place)
     if (!isStronger(ramp, own, view_.pointAt(at), &right, &shown))
         return false;
     const bool crossing = shown != nullptr && model_.areApart(*shown, *right);
-    int depth = zbuffer_[at], shownDepth = depth;
+    const int before = zbuffer_[at];
+    int depth = before, shownDepth = before;
     if (!findDepth(*right, at, crossing ? EXACT_CROSSING : EXACT, &depth))
         return false;
     // Of two bodies whose surfaces cross the nearer one is seen.
     if (crossing ? findDepth(*shown, at, EXACT_CROSSING, &shownDepth) && shownDepth < depth
-                 : depth != shownDepth && !isStronger(ramp, own, view_.pointAt(at, depth), &right, &shown))
+                 : depth != before && !isStronger(ramp, own, view_.pointAt(at, depth), &right, &shown))
         return false;
     // The brightness goes on across a border, but not from one body to another.
-    if (crossing)
-        return missed_.setColour(at, depth, place.from);
-    view_.setPixel(at, depth, right->ramp()[palette_.step(frame_[at])]);
+    if (crossing && !missed_.setColour(at, depth, place.from))
+        return false;
+    // The depth stays: it is the same whether colours are shown or not.
+    view_.setPixel(at, before, crossing ? frame_[at] : right->ramp()[palette_.step(frame_[at])]);
     return true;
 }
 

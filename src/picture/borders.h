@@ -9,8 +9,8 @@ public:
     // The palette has made the ramps of the model's objects, in colour. `missed` draws single pixels.
     Borders(View& view, const Model& model, const Palette& palette, Missed& missed);
 
-    // Finds pixels in the colour of a wrong object, beside the borders of colours and from there on, and gives them the colour and
-    // the depth of the right one. To be called when gaps are closed.
+    // Finds pixels in the colour of a wrong object, beside the borders of colours and from there on, and gives them the colour of
+    // the right one. Depths stay. To be called when gaps are closed.
     void mend();
 
 private:
