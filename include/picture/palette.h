@@ -41,7 +41,7 @@ public:
 
     // In colour: the number, 1..RAMPS_MOST, of the ramp that contains a palette entry; 0 if none or several do. And the number of
     // an object's ramp.
-    int rampOf(uint8_t entry) const { return rampOf_[entry]; }
+    uint8_t rampOf(uint8_t entry) const { return rampOf_[entry]; }
     int numberOf(const uint8_t* ramp) const { return static_cast<int>(ramp - ramps_[0]) / RAMP + 1; }
 
     // Returns a copy of a ramp with its brightness raised by `steps`, to mark the selected object. It is valid until the next

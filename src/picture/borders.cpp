@@ -44,18 +44,20 @@ Borders::Borders(View& view, const Model& model, const Palette& palette, Missed&
 
 void Borders::mend()
 {
+    // Copied, because the loop is quicker where the palette is at hand.
+    const Palette& palette = palette_;
     for (int y = 0; y < HEIGHT; y += GRID) {
         const Span& touched = view_.touched(y);
         const uint8_t* const row = frame_ + y * WIDTH;
         const uint8_t* const end = row + touched.to;
-        int last = 0;
+        uint8_t last = 0;
         for (const uint8_t* at = row + touched.from; at < end; at += GRID) {
-            const int ramp = palette_.rampOf(*at);
-            if (ramp == last || ramp == 0)
+            const uint8_t ramp = palette.rampOf(*at);
+            if (ramp == last)
                 continue;
-            if (last != 0)
+            if (ramp != 0 && last != 0)
                 mendBeside(static_cast<int>(at - frame_));
-            last = ramp;
+            last = ramp != 0 ? ramp : last;
         }
     }
 }
