@@ -62,8 +62,8 @@ void Borders::mend()
     }
 }
 
-// Looks at the two pixels beside a border and, from each that has been mended on, at those beside that. The border lies between a
-// pixel and another one farther to the left.
+// Looks at the two pixels beside a border, which lies to the left of a pixel or farther to the left. Wherever a pixel has been
+// mended it looks at those beside that one, too.
 void Borders::mendBeside(int right)
 {
     const int ramp = rampAt(right);
@@ -98,23 +98,23 @@ bool Borders::mend(const Place& place)
     if (++looks_ > LOOKS_MOST || row < 1 || row >= HEIGHT - 1 || column < 1 || column >= WIDTH - 1)
         return false;
     const int own = rampAt(at), ramp = rampAt(place.from);
-    const SoftObject *shown, *right;
-    if (!isStronger(ramp, own, view_.pointAt(at), &right, &shown))
+    const SoftObject *shown, *owner;
+    if (!isStronger(ramp, own, view_.pointAt(at), &owner, &shown))
         return false;
-    const bool crossing = shown != nullptr && model_.areApart(*shown, *right);
+    const bool crossing = shown != nullptr && model_.areApart(*shown, *owner);
     const int before = zbuffer_[at];
     int depth = before, shownDepth = before;
-    if (!findDepth(*right, at, crossing ? EXACT_CROSSING : EXACT, &depth))
+    if (!findDepth(*owner, at, crossing ? EXACT_CROSSING : EXACT, &depth))
         return false;
     // Of two bodies whose surfaces cross the nearer one is seen.
     if (crossing ? findDepth(*shown, at, EXACT_CROSSING, &shownDepth) && shownDepth < depth
-                 : depth != before && !isStronger(ramp, own, view_.pointAt(at, depth), &right, &shown))
+                 : depth != before && !isStronger(ramp, own, view_.pointAt(at, depth), &owner, &shown))
         return false;
     // The brightness goes on across a border, but not from one body to another.
     if (crossing && !missed_.setColour(at, depth, place.from))
         return false;
     // The depth stays: it is the same whether colours are shown or not.
-    view_.setPixel(at, before, crossing ? frame_[at] : right->ramp()[palette_.step(frame_[at])]);
+    view_.setPixel(at, before, crossing ? frame_[at] : owner->ramp()[palette_.step(frame_[at])]);
     return true;
 }
 

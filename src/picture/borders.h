@@ -9,8 +9,8 @@ public:
     // The palette has made the ramps of the model's objects, in colour. `missed` draws single pixels.
     Borders(View& view, const Model& model, const Palette& palette, Missed& missed);
 
-    // Finds pixels in the colour of a wrong object, beside the borders of colours and from there on, and gives them the colour of
-    // the right one. Depths stay. To be called when gaps are closed.
+    // Finds pixels at borders of colours that have the colour of a wrong object, and gives them that of the object that they belong
+    // to. Depths stay. To be called when gaps are closed.
     void mend();
 
 private:
