@@ -152,6 +152,7 @@ public:
     // reaches. `*strongest` receives the index of that body's member whose own field is the strongest, which gives the point its
     // colour; -1 if none reaches. The bodies are those found by the latest bodies().
     Real implicitAt(const Point& p, int* strongest, const SoftObject* member = nullptr) const;
+    // That index, of all bodies.
     int strongestAt(const Point& p) const;
 
     // Sets the light, and has all objects looked at again.

@@ -21,7 +21,7 @@ public:
     // The limit that a shining finish (model/paint.h) has instead of HIGHLIGHT; such a finish is white at full light.
     static constexpr int GLOSS = 47;
 
-    // At most so many ramps are made.
+    // Upper bound of the number of ramps.
     static constexpr int RAMPS_MOST = 240;
 
     // The palette entry of text and marks: the same near-white in every scene, never part of a ramp.
@@ -39,7 +39,7 @@ public:
     // The brightness, 0..63, that a palette entry has in a ramp that contains it.
     int step(uint8_t entry) const { return steps_[entry]; }
 
-    // In colour: the number, 1..RAMPS_MOST, of the ramp that contains a palette entry; 0 if none or several do. And the number of
+    // In colour: the number, 1..RAMPS_MOST, of the ramp that contains a palette entry, 0 if none or several do; and the number of
     // an object's ramp.
     uint8_t rampOf(uint8_t entry) const { return rampOf_[entry]; }
     int numberOf(const uint8_t* ramp) const { return static_cast<int>(ramp - ramps_[0]) / RAMP + 1; }

@@ -44,7 +44,7 @@ Borders::Borders(View& view, const Model& model, const Palette& palette, Missed&
 
 void Borders::mend()
 {
-    // Copied, because the loop is quicker where the palette is at hand.
+    // The loop is quicker where it need not fetch the palette's address for each pixel.
     const Palette& palette = palette_;
     for (int y = 0; y < HEIGHT; y += GRID) {
         const Span& touched = view_.touched(y);
@@ -75,7 +75,7 @@ void Borders::mendBeside(int right)
     note(right - 1, right);
     while (count_ > 0) {
         const Place place = noted_[--count_];
-        if (!mend(place))
+        if (!mendPixel(place))
             continue;
         const int beside[] = {-1, 1, -WIDTH, WIDTH};
         for (const int step : beside)
@@ -92,7 +92,7 @@ inline void Borders::note(int at, int from)
 }
 
 // Shows a pixel in the ramp of the one beside it, if it belongs to an object that has that ramp. Returns false if it does not.
-bool Borders::mend(const Place& place)
+bool Borders::mendPixel(const Place& place)
 {
     const int at = place.pixel, row = at / WIDTH, column = at - row * WIDTH;
     if (++looks_ > LOOKS_MOST || row < 1 || row >= HEIGHT - 1 || column < 1 || column >= WIDTH - 1)
@@ -104,10 +104,10 @@ bool Borders::mend(const Place& place)
     const bool crossing = shown != nullptr && model_.areApart(*shown, *owner);
     const int before = zbuffer_[at];
     int depth = before, shownDepth = before;
-    if (!findDepth(*owner, at, crossing ? EXACT_CROSSING : EXACT, &depth))
+    if (!correctDepth(*owner, at, crossing ? EXACT_CROSSING : EXACT, &depth))
         return false;
     // Of two bodies whose surfaces cross the nearer one is seen.
-    if (crossing ? findDepth(*shown, at, EXACT_CROSSING, &shownDepth) && shownDepth < depth
+    if (crossing ? correctDepth(*shown, at, EXACT_CROSSING, &shownDepth) && shownDepth < depth
                  : depth != before && !isStronger(ramp, own, view_.pointAt(at, depth), &owner, &shown))
         return false;
     // The brightness goes on across a border, but not from one body to another.
@@ -143,9 +143,10 @@ inline const SoftObject* Borders::strongestOf(int ramp, const Point& p, Real* fi
     return strongest;
 }
 
-// Finds where the surface of an object's body is behind a pixel, by one step of the secant method from `*depth`, if the field there
-// is off the isovalue by more than `exact`. Returns false if the surface is not near.
-bool Borders::findDepth(const SoftObject& object, int at, Real exact, int* depth) const
+// Moves a depth behind a pixel to the surface of an object's body, by one step of the secant method, if the field there is off the
+// isovalue by more than `exact`. (Missed::findDepth() searches in many steps, and for whichever body comes first.) Returns false if
+// the surface is not near.
+bool Borders::correctDepth(const SoftObject& object, int at, Real exact, int* depth) const
 {
     int strongest;
     const Real off = model_.implicitAt(view_.pointAt(at, *depth), &strongest, &object) - ISOVALUE;

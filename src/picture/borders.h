@@ -6,7 +6,7 @@
 
 class Borders {
 public:
-    // The palette has made the ramps of the model's objects, in colour. `missed` draws single pixels.
+    // The palette has made the ramps of the model's objects, in colour; colours do not mix. `missed` draws single pixels.
     Borders(View& view, const Model& model, const Palette& palette, Missed& missed);
 
     // Finds pixels at borders of colours that have the colour of a wrong object, and gives them that of the object that they belong
@@ -21,10 +21,10 @@ private:
 
     void mendBeside(int right);
     void note(int at, int from);
-    bool mend(const Place& place);
+    bool mendPixel(const Place& place);
     bool isStronger(int ramp, int other, const Point& p, const SoftObject** strongest, const SoftObject** second) const;
     const SoftObject* strongestOf(int ramp, const Point& p, Real* field) const;
-    bool findDepth(const SoftObject& object, int at, Real exact, int* depth) const;
+    bool correctDepth(const SoftObject& object, int at, Real exact, int* depth) const;
     int rampAt(int pixel) const { return palette_.rampOf(frame_[pixel]); }
 
     static constexpr int NOTED_MOST = 256;

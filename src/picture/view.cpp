@@ -319,6 +319,7 @@ void View::closeGaps(Real spacing, const Model* model, const Palette* palette)
         return;
     Missed missed(*this, model, spacing);
     Gaps(*this, model, palette, missed, spacing).close();
+    // Where colours mix there are no borders between them.
     if (model != nullptr && palette != nullptr && !model->mixed)
         Borders(*this, *model, *palette, missed).mend();
 }

@@ -568,18 +568,19 @@ TEST(gaps_between_two_objects)
         }
 }
 
-// Draws what a model shows, pixel by pixel, each pixel in the colour of step 30 of the object that it belongs to and `nearer` units
-// before the surface; returns the objects by pixel, -1 where there is none.
+// Draws what the middle of the screen shows of a model, each pixel in the colour of step 30 of the object that it belongs to and
+// `nearer` units before the surface. Returns these objects by pixel, -1 where there is none.
 static std::vector<int> drawTruly(View& view, const Model& model, double nearer)
 {
     std::vector<int> owners(WIDTH * HEIGHT, -1);
-    for (int at = 0; at < WIDTH * HEIGHT; ++at)
-        for (int depth = 90 * 128, object; depth < 125 * 128; depth += 16)
-            if (model.implicitAt(view.pointAt(at, depth), &object) >= ISOVALUE) {
-                owners[static_cast<size_t>(at)] = object;
-                view.setPixel(at, depth - static_cast<int>(nearer * 128), model.actor(object).object->ramp()[30]);
-                break;
-            }
+    for (int y = 50; y < 150; ++y)
+        for (int x = 60; x < 260; ++x)
+            for (int at = y * WIDTH + x, depth = 90 * 128, object; depth < 125 * 128; depth += 16)
+                if (model.implicitAt(view.pointAt(at, depth), &object) >= ISOVALUE) {
+                    owners[static_cast<size_t>(at)] = object;
+                    view.setPixel(at, depth - static_cast<int>(nearer * 128), model.actor(object).object->ramp()[30]);
+                    break;
+                }
     return owners;
 }
 
@@ -857,16 +858,8 @@ TEST(hollow_outlines_are_not_filled)
     View view;
     CHECK(view.open());
     view.begin();
-    int drawn = 0;
-    int strongest;
-    for (int y = 50; y < 150; ++y)
-        for (int x = 60; x < 260; ++x)
-            for (int depth = 95 * 128; depth < 121 * 128; depth += 32)
-                if (model.implicitAt(view.pointAt(y * WIDTH + x, depth), &strongest) >= ISOVALUE) {
-                    view.setPixel(y * WIDTH + x, depth, model.actor(strongest).object->ramp()[30]);
-                    ++drawn;
-                    break;
-                }
+    const std::vector<int> owners = drawTruly(view, model, 0);
+    const int drawn = static_cast<int>(owners.size() - static_cast<size_t>(std::count(owners.begin(), owners.end(), -1)));
     view.closeGaps(SPACING, &model, &palette);
     view.end();
     const int more = drawnIn(view, 0, 0, WIDTH, HEIGHT) - drawn;
