@@ -434,17 +434,25 @@ shade_band:
         movl        CELL_SHIFT(%ebp), %ecx
         sarl        %cl, %esi
         sarl        %cl, %eax
-        // if (halfWidth > halfHeight) halfHeight += area / halfWidth
         cmpl        %eax, %esi
         jle        shade_high
+        // if (halfWidth > halfHeight): is it slanting, 3 halfHeight > 2 halfWidth? Else halfHeight += area / halfWidth
+        leal        (%eax,%eax,2), %ecx
+        leal        (%esi,%esi), %edx
+        cmpl        %edx, %ecx
+        jg        shade_slanting
         movl        %eax, %ecx
         movl        SHADE_AREA(%esp), %eax
         xorl        %edx, %edx
         divl        %esi
         addl        %ecx, %eax
         jmp        shade_extents
-        // else if (halfHeight > 0) halfWidth += area / halfHeight
+        // else: is it slanting, 3 halfWidth > 2 halfHeight? Else, if (halfHeight > 0), halfWidth += area / halfHeight
 shade_high:
+        leal        (%esi,%esi,2), %ecx
+        leal        (%eax,%eax), %edx
+        cmpl        %edx, %ecx
+        jg        shade_slanting
         movl        %eax, %ecx
         testl        %eax, %eax
         jz        shade_extents
@@ -453,6 +461,17 @@ shade_high:
         divl        %ecx
         addl        %eax, %esi
         movl        %ecx, %eax
+        jmp        shade_extents
+        // share = area / (halfWidth + halfHeight); halfWidth += share; halfHeight += share
+shade_slanting:
+        leal        (%esi,%eax), %edx
+        movl        %eax, %ecx
+        movl        %edx, SHADE_WIDE(%esp)
+        movl        SHADE_AREA(%esp), %eax
+        xorl        %edx, %edx
+        divl        SHADE_WIDE(%esp)
+        addl        %eax, %esi
+        addl        %ecx, %eax
         jmp        shade_extents
 
         // halfWidth = (halfWidth + |across.x|) >> v.cellShift;  halfHeight = (halfHeight + |across.y|) >> v.cellShift

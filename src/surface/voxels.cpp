@@ -91,10 +91,17 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
         const uint32_t area = static_cast<uint32_t>(mulHigh(cell * (facing >> 3), v.areaShare));
         halfWidth >>= v.cellShift;
         halfHeight >>= v.cellShift;
-        if (halfWidth > halfHeight)
+        // Where the band runs aslant, some rectangles that are long in x would follow others that are long in y, and corners of the
+        // band between these would not be covered. There each rectangle is long in both.
+        if (halfWidth * 3 > halfHeight * 2 && halfHeight * 3 > halfWidth * 2) {
+            const int32_t share = static_cast<int32_t>(area / static_cast<uint32_t>(halfWidth + halfHeight));
+            halfWidth += share;
+            halfHeight += share;
+        } else if (halfWidth > halfHeight) {
             halfHeight += static_cast<int32_t>(area / static_cast<uint32_t>(halfWidth));
-        else if (halfHeight > 0)
+        } else if (halfHeight > 0) {
             halfWidth += static_cast<int32_t>(area / static_cast<uint32_t>(halfHeight));
+        }
     };
     if (s.flags & SEED_RESTING) {
         measure(s.area, [&](const int8_t axis[3]) { return OnPicture(axis, v); });

@@ -425,6 +425,41 @@ TEST(overhanging_necks_have_scales)
     CHECK(nearest < 2);
 }
 
+TEST(bands_that_run_aslant_are_covered)
+{
+    // Rings of seeds on a torus that is seen from everywhere: each place that faces the viewer lies behind some scale. The scale
+    // need not be one beside the place, but it must be no farther behind it than a tangent plane may be.
+    Random random;
+    int points = 0, bare = 0;
+    for (int round = 0; round < 40; ++round) {
+        Scene scene;
+        SoftObject& torus = scene.add(new Torus(1, Real(16), Real(20)), 0, 0, 0);
+        torus.rotate(torus.centre(), vector(random.between(-1, 1), random.between(-1, 1), 1), random.bits());
+        scene.update();
+        const std::vector<Voxel> voxels = scene.draw(0);
+        for (int k = 0; k < 3000; ++k) {
+            const double longitude = random.between(0, 6.2832), latitude = random.between(0, 6.2832);
+            const Vec out{std::cos(latitude) * std::cos(longitude), std::sin(latitude), std::cos(latitude) * std::sin(longitude)};
+            const Vec core{20 * std::cos(longitude), 0, 20 * std::sin(longitude)};
+            const auto inWorld = [&](const Vec& v) { return vec(torus.toWorld(vector(v.x, v.y, v.z))); };
+            const Vec p = inWorld(core + out * 8) - vec(scene.eye), normal = inWorld(out) - inWorld({0, 0, 0});
+            if (-dot(normal, p) < 0.7 * size(p))
+                continue;
+            ++points;
+            bool covered = false;
+            for (const Voxel& v : voxels) {
+                const double z = v.z / 256.0, x = p.x * z / p.z - v.x / 256.0, y = p.y * z / p.z - v.y / 256.0;
+                covered = covered || (std::fabs(x) <= v.halfWidth / 256.0 && std::fabs(y) <= v.halfHeight / 256.0 &&
+                                      std::fabs(z + (x * v.tiltX + y * v.tiltY) / 256.0 - p.z) < 1);
+            }
+            bare += !covered;
+        }
+    }
+    note("%d of %d points are not covered", bare, points);
+    CHECK(points > 10000);
+    CHECK(bare <= points / 4000);
+}
+
 TEST(an_object_alone)
 {
     for (int k = 0; k < KIND_COUNT; ++k) {
