@@ -332,8 +332,11 @@ PatchState Settler::probe(Patch& patch)
         return PATCH_INSIDE;
     }
     patch.facing = facing(object_, s, own_);
-    const int32_t away = own_.limb - patch.facing - patch.spread - TURNED;
-    if (away > 0) {
+    // Where a link is heavy the surface bulges between the two objects, and its normals spread more than at rest. A guest's normal,
+    // beyond the crease to another object, tells nothing about the patch.
+    const int32_t spread = heavy_ ? 2 * patch.spread : patch.spread;
+    const int32_t away = own_.limb - patch.facing - spread - TURNED;
+    if (away > 0 && isOnOwn(s)) {
         patch.due += travelOf(realFromRaw(away * 4) * shiftDown(object_.laidSize(), 2));
         return PATCH_AWAY;
     }
