@@ -38,52 +38,47 @@ Real Cone::plainParam(const Vector& q, Vector* slope) const
     return t;
 }
 
+// The outline has a corner where each end meets the side. Each of the three parts is divided into equal steps of its own, so that no
+// cell reaches across a corner.
 void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
+    enum Part { END1, SIDE, END2, PARTS };
     const Real radius1 = size1() * restRoot(), radius2 = size2() * restRoot();
     const Vector normal = unit({(size1Made_ - size2Made_) * restRoot(), lengthMade_, Real(0)});
-    const Real cap1 = radius1 * HALF_PI, cap2 = radius2 * HALF_PI;
-    const Real side = ::length({radius1 - radius2, length(), Real(0)});
-    Outline outline(stretch());
-    outline.arc(cap1, 0xc0000000u, 0);
-    outline.line(side, normal.x, normal.y);
-    outline.arc(cap2, 0, 0x40000000u);
-    const int rings = stepsIn(outline.length(), spacing);
+    const Real lengths[PARTS] = {radius1 * HALF_PI, ::length({radius1 - radius2, length(), Real(0)}), radius2 * HALF_PI};
     RingMaker ringMaker(maker, stretch(), spacing);
     Ring ring{};
-    int root1 = -1, root2 = -1;
-    for (int k = 0; k < rings; ++k) {
-        const Real at = outline.at(2 * k + 1, 2 * rings, &ring.across);
-        Angle latitude = 0;
-        int* shared = nullptr;
-        if (at < cap1) {
-            latitude = quarterTurn(at, cap1) - 0x40000000u;
-            ring.height = -coreReach();
-            ring.radius = radius1;
-            shared = &root1;
-        } else if (at < cap1 + side) {
-            const Real share = (at - cap1) / side;
-            ring.height = length() * share - coreReach();
-            ring.radius = sizeAlong(ring.height) * restRoot();
-        } else {
-            latitude = quarterTurn(min(at - cap1 - side, cap2), cap2);
-            ring.height = coreReach();
-            ring.radius = radius2;
-            shared = &root2;
+    int number = 0;
+    for (int part = END1; part < PARTS; ++part) {
+        Outline outline(stretch());
+        if (part == SIDE)
+            outline.line(lengths[part], normal.x, normal.y);
+        else
+            outline.arc(lengths[part], part == END1 ? 0u - QUARTER : 0, part == END1 ? 0 : QUARTER);
+        const int rings = stepsIn(outline.length(), spacing);
+        int root = -1;
+        for (int k = 0; k < rings; ++k) {
+            const Real at = outline.at(2 * k + 1, 2 * rings, &ring.across);
+            if (part == SIDE) {
+                ring.height = length() * (at / lengths[part]) - coreReach();
+                ring.radius = sizeAlong(ring.height) * restRoot();
+                ring.pathSine = Real(0);
+                ring.pathCosine = Real(1);
+                ring.normalSine = normal.x;
+                ring.normalCosine = normal.y;
+            } else {
+                const Angle latitude = quarterTurn(min(at, lengths[part]), lengths[part]) - (part == END1 ? QUARTER : 0);
+                ring.height = part == END1 ? -coreReach() : coreReach();
+                ring.radius = part == END1 ? radius1 : radius2;
+                ring.pathSine = ring.normalSine = sine(latitude);
+                ring.pathCosine = ring.normalCosine = cosine(latitude);
+            }
+            // All seeds of an end have a common root.
+            if (part == SIDE || root < 0)
+                root = ringMaker.addRoots(ring);
+            maker.restAt(ring.radius);
+            ringMaker.addSeeds(ring, number++, root);
         }
-        ring.pathSine = ring.normalSine = sine(latitude);
-        ring.pathCosine = ring.normalCosine = cosine(latitude);
-        if (shared == nullptr) {
-            ring.normalSine = normal.x;
-            ring.normalCosine = normal.y;
-        }
-        int root = shared == nullptr ? -1 : *shared;
-        if (root < 0)
-            root = ringMaker.addRoots(ring);
-        if (shared != nullptr)
-            *shared = root;
-        maker.restAt(ring.radius);
-        ringMaker.addSeeds(ring, k, root);
     }
 }
 

@@ -22,8 +22,6 @@ int stepsIn(Real length, Real spacing)
 
 namespace {
 
-constexpr Angle QUARTER = 0x40000000u;
-
 bool isStretched(const Vector& stretch)
 {
     return !(stretch == Vector{Real(1), Real(1), Real(1)});
