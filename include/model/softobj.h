@@ -123,12 +123,13 @@ public:
     // its neighbour N or has the same root. The oversampled seed's `neighbour` records `other`. Returns true if it lay
     // elsewhere before.
     bool layOutBetween(int i, int other);
-    // The fine seeds that belong to a regular seed. Two lie between other seeds; the others lie on paths that meet the surface
-    // again.
+    // The fine seeds that belong to a regular seed: two half way between others; two on a wall, the surface between two seeds whose
+    // positions lie far apart (along which paths run); and those on paths that meet the surface again.
     enum FineSeed {
         FINE_NEAR,    // half way from the regular seed to its oversampled seed
         FINE_FAR,     // half way from the oversampled seed to the neighbour
-        FINE_BEHIND,  // behind an overhanging neck, on the path of one of these seeds
+        FINE_LOWER,   // at two heights of one wall between these seeds
+        FINE_UPPER,
         FINE_ISLAND,  // where the path of the regular seed enters an island,
         FINE_ISLAND_END,  // and where it leaves that island again
         FINE_SEEDS    // number of fine seeds
@@ -143,6 +144,9 @@ public:
     Seed* madeFine(int i);
     // Sets the path of FINE_NEAR or FINE_FAR. The two seeds that the fine seed lies between must share one root.
     void layOutFine(int i, int which);
+    // Gives a seed a path between those of two seeds: at `position` it passes the fraction `share` of the way from the first to the
+    // second. It begins in the root of the nearer one.
+    void layBetween(Seed& s, const Seed& a, const Seed& b, Real position, Real share) const;
     // Lays out all oversampled seeds. Returns false when there is no memory.
     bool layOutExtras();
     const Vector& root(int i) const { return laid_.roots[i]; }

@@ -68,6 +68,6 @@ public:
 typedef Surface* (*SurfaceMaker)(SoftObject& object);
 
 // The least `room` for voxels that Surface::draw() can work with.
-constexpr int DRAW_ROOM = 128;
+constexpr int DRAW_ROOM = 150;
 
 #endif

@@ -38,8 +38,8 @@ Real Cone::plainParam(const Vector& q, Vector* slope) const
     return t;
 }
 
-// The outline has a corner where each end meets the side. Each of the three parts is divided into equal steps of its own, so that no
-// cell reaches across a corner.
+// The outline has a corner where each end meets the side. Each of the three parts is divided into equal steps of its own, so that
+// no cell reaches across a corner.
 void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
 {
     enum Part { END1, SIDE, END2, PARTS };

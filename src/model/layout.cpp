@@ -521,6 +521,18 @@ void SoftObject::layOutFine(int i, int which)
     setWay(s);
 }
 
+void SoftObject::layBetween(Seed& s, const Seed& a, const Seed& b, Real position, Real share) const
+{
+    const bool nearA = share < Real(0.5);
+    const Seed &near = nearA ? a : b, &far = nearA ? b : a;
+    Vector way = far.path - near.path;
+    if (far.root != near.root)
+        way = way + (root(far.root) - root(near.root)) * (Real(1) / position);
+    s.root = near.root;
+    s.path = withLength(near.path + way * (nearA ? share : Real(1) - share), length(near.path));
+    setWay(s);
+}
+
 bool SoftObject::layOutExtras()
 {
     for (int i = 0; i < laid_.blocks(); ++i)

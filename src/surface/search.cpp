@@ -12,8 +12,6 @@ constexpr Real SEARCH_FIRST(0.88), SEARCH_STEP(0.16);
 // Positions: COVERED_LATE is tested after COVERED_AT for a neighbour that is stronger; BETWEEN and BETWEEN_LATE are evaluated in
 // case the path leaves the surface between position 1 and these two.
 constexpr Real COVERED_LATE(1.62), BETWEEN(1.18), BETWEEN_LATE(1.49);
-// Positions: the length of the steps in which comesBack() follows a path that has left the surface, and how far it does so.
-constexpr Real RETURN_STEP(0.08), RETURN_FAR(0.4);
 // In units of the field: how far the field may be off the cubic curve that stands for it.
 constexpr Real CUBIC_SPARE(0.03);
 // The result of crossings() where the surface may be crossed more than once.
@@ -148,26 +146,7 @@ Real search(Path& path, Real* position, Sample* sample)
     return lowest.sample.excess;
 }
 
-bool comesBack(Path& path, const Seed& s, Real* position, Sample* sample)
-{
-    const Real left = s.position, end = left + RETURN_FAR;
-    Real from = left;
-    while (from < end) {
-        const Real outside = from;
-        const Sample now = path.lookOn(s, from += RETURN_STEP);
-        if (now.excess > Real(0)) {
-            if (outside == left)
-                return false;
-            bisect(path, from, outside, position, sample);
-            return true;
-        }
-        if (now.dominance > OVERSHOOT || now.excess < -VALLEY)
-            return false;
-    }
-    return false;
-}
-
-bool comesBackFar(Path& path, Real from, Real weakest, Real* outside, Real* inside)
+bool comesBack(Path& path, Real from, Real weakest, Real* outside, Real* inside)
 {
     Look before = lookAt(path, from);
     bool out = before.sample.excess <= TOLERANCE;

@@ -37,13 +37,9 @@ Real search(Path& path, Real* position, Sample* sample);
 // unit.
 SELDOM Real searchDeep(Path& path, Real* position, Sample* sample, Real* off, Real* gradientBound);
 
-// Finds where the path of a seed comes back to the surface that it left at the seed. Returns false when the field falls far below
-// the isovalue first, when the path does not come back soon, or so soon that the two positions cannot be told apart.
-bool comesBack(Path& path, const Seed& s, Real* position, Sample* sample);
-
 // Whether the current path comes back to the surface beyond position `from`, however far the field falls in between, while the own
 // object is the strongest and its field above `weakest`. The path comes back between `*outside` and `*inside`.
-bool comesBackFar(Path& path, Real from, Real weakest, Real* outside, Real* inside);
+bool comesBack(Path& path, Real from, Real weakest, Real* outside, Real* inside);
 
 // Whether the current path then leaves the surface again: between `*inside`, which moves on, and `*outside`. Returns false when
 // another object becomes the stronger one before, or the path ends.

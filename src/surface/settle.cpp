@@ -32,11 +32,16 @@ constexpr uint32_t TURNS = 4;
 // neighbours on the patch's list.
 constexpr Real RANGE(0.05);
 // Two neighbouring seeds have parted, and the oversampled seed between them is needed, if their positions differ by more than this
-// many spacings.
-constexpr Real PARTED(1.5);
+// many spacings. Between objects with a heavy link the surface bends more.
+constexpr Real PARTED(1.5), PARTED_HEAVY(1);
 // In units of the field: where a path leaves an island the own field must be stronger than any other by this. Nearer to another
 // object's part of the surface, in the crease between the two, a scale would fit neither side.
 constexpr Real CLEARLY(-0.06);
+// Parts of a wall's height: where its two fine seeds are placed.
+constexpr Real LOWER(0.33), UPPER(0.67);
+// The search across a wall: the number of its steps, and the least part of what is left that each step takes off.
+constexpr int ACROSS_STEPS = 4;
+constexpr Real STRAIGHT(0.2);
 // Objects that are linked with more than this weight leave islands of the surface between them when they part, for the field rises
 // again half way between them.
 constexpr Real HEAVY(1);
@@ -44,7 +49,7 @@ constexpr Real HEAVY(1);
 constexpr int32_t GRAZING = 1500;
 // Spacings. The surface may go on for this distance from a seed to a border before an oversampled seed towards the neighbour N is
 // needed (on shaped objects always), one towards the next seed of the ring, and a fine seed.
-constexpr Real LEFT_OPEN(0.5), LEFT_OPEN_SHAPED(-100), LEFT_OPEN_NEXT(1), LEFT_OPEN_FINE(1.5);
+constexpr Real LEFT_OPEN(0.55), LEFT_OPEN_SHAPED(-100), LEFT_OPEN_NEXT(1), LEFT_OPEN_FINE(1.5);
 // Cosine of path and normal (1.0 = 2^14). In a place that belongs to another object a seed is not shown if its path meets the
 // surface at a smaller one.
 constexpr int32_t SQUARE = 8000;
@@ -78,7 +83,7 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, Neighbourhood& all, co
     for (int i = 0; i < all.count; ++i)
         strongest = max(strongest, all.neighbours[i].strength);
     border_ = BORDER * strongest;
-    alike_ = min(object.spacing() * PARTED / object.radius(), Real(9));
+    alike_ = min(object.spacing() * (heavy_ ? PARTED_HEAVY : PARTED) / object.radius(), Real(9));
     open_ = object.spacing() * (object.shaped() ? LEFT_OPEN_SHAPED : LEFT_OPEN);
     openNext_ = object.spacing() * LEFT_OPEN_NEXT;
     openFine_ = object.spacing() * LEFT_OPEN_FINE;
@@ -534,45 +539,74 @@ bool Settler::settleFine(int i)
     const Seed& extra = *object_.extra(i);
     const Seed* const ends[] = {&object_.regular(i), &object_.regular(extra.neighbour)};
     const bool needed[] = {mayGape(*ends[0], extra, openFine_), mayGape(*ends[1], extra, openFine_)};
-    const bool oneRoot = !object_.shaped() && ends[0]->root == ends[1]->root;
-    Seed* const fine = (needed[0] || needed[1]) && oneRoot ? object_.madeFine(i) : nullptr;
+    const bool oneRoot = ends[0]->root == ends[1]->root;
+    Seed* const fine = (needed[0] || needed[1]) && !object_.shaped() ? object_.madeFine(i) : nullptr;
     if (fine == nullptr)
         return false;
-    fine[SoftObject::FINE_BEHIND].flags = 0;
+    Seed &lower = fine[SoftObject::FINE_LOWER], &upper = fine[SoftObject::FINE_UPPER];
+    if (patch_->stirred)
+        lower.flags = upper.flags = 0;
     for (int which = SoftObject::FINE_NEAR; which <= SoftObject::FINE_FAR; ++which) {
         Seed& s = fine[which];
         if (!needed[which]) {
             s.flags = 0;
             continue;
         }
-        if (!(s.flags & SEED_ACTIVE)) {
-            object_.layOutFine(i, which);
-            s.flags = SEED_ACTIVE | SEED_FOLLOW;
-            s.lightChange[0] = Seed::LIGHT_UNKNOWN;
-            s.position = ends[which]->position;
-        }
-        if (!waits(s, false))
+        const Seed *from = ends[which], *to = &extra;
+        if (oneRoot) {
+            if (!(s.flags & SEED_ACTIVE)) {
+                object_.layOutFine(i, which);
+                s.flags = SEED_ACTIVE | SEED_FOLLOW;
+                s.lightChange[0] = Seed::LIGHT_UNKNOWN;
+                s.position = from->position;
+            }
+            if (waits(s, false))
+                continue;
             settle(s);
-        if (isOnOwn(*ends[which]) != isOnOwn(extra) && !nearby_.dented())
-            settleBehind(isOnOwn(s) ? s : isOnOwn(extra) ? extra : *ends[which],
-                         fine[SoftObject::FINE_BEHIND]);
+            (absolute(from->position - s.position) > absolute(to->position - s.position) ? to : from) = &s;
+        }
+        if ((lower.flags | upper.flags) & SEED_ACTIVE)
+            continue;
+        lower = upper = extra;
+        lower.lightChange[0] = upper.lightChange[0] = Seed::LIGHT_UNKNOWN;
+        settleOnWall(*from, *to, LOWER, lower);
+        settleOnWall(*from, *to, UPPER, upper);
     }
     return true;
 }
 
-// The surface of a thin neck overhangs: the path of a valid seed beside the border leaves the surface there and may meet it once
-// more farther out. The seed `s` is placed there.
-void Settler::settleBehind(const Seed& valid, Seed& s)
+// Where the path of one seed leaves the surface far farther out than the path beside it, the surface between them is a wall along
+// which paths run, such as the side of a thin neck. It is searched across: `s` gets the position at a part of the wall's height
+// and a path between the two that meets the surface there. Its flags become 0 if there is no wall, or that place belongs to another
+// object.
+void Settler::settleOnWall(const Seed& a, const Seed& b, Real height, Seed& s)
 {
-    Sample sample;
-    s = valid;
     s.flags = 0;
-    if (!comesBack(path_, s, &s.position, &sample) || sample.dominance > OVERSHOOT)
+    if (absolute(a.position - b.position) <= alike_ || nearby_.dented())
         return;
+    const Seed &foot = a.position < b.position ? a : b, &top = &foot == &a ? b : a;
+    const Real position = foot.position + (top.position - foot.position) * height;
+    Real outside = path_.lookOn(foot, position).excess, inside = path_.lookOn(top, position).excess;
+    if (outside >= Real(0) || inside <= Real(0))
+        return;
+    ++counts_.updated;
+    Real from(0), to(1);
+    Sample sample;
+    for (int i = 0; i < ACROSS_STEPS; ++i) {
+        const Real share = from + clamp(quotient(outside, outside - inside), STRAIGHT, Real(1) - STRAIGHT) * (to - from);
+        object_.layBetween(s, foot, top, position, share);
+        sample = path_.lookOn(s, position);
+        if (absolute(sample.excess) <= TOLERANCE)
+            break;
+        (sample.excess < Real(0) ? from : to) = share;
+        (sample.excess < Real(0) ? outside : inside) = sample.excess;
+    }
+    if (sample.dominance > OVERSHOOT)
+        return;
+    s.position = position;
     s.flags = SEED_ACTIVE;
     place(s, sample.dominance);
-    if (s.flags & SEED_VALID)
-        findLightChange(s);
+    renewLightChange(s);
 }
 
 // Whether a neighbour that is linked with the object by more than HEAVY may reach the paths of a patch.
@@ -611,7 +645,7 @@ bool Settler::settleIsland(int i)
     const Sample middle = path_.beginSearch(onPath);
     Real outside, inside;
     if (middle.excess < LEFT_ALONE || middle.dominance > -LEFT_ALONE ||
-        !comesBackFar(path_, valid ? onPath.position : Real(1), weakest_, &outside, &inside))
+        !comesBack(path_, valid ? onPath.position : Real(1), weakest_, &outside, &inside))
         return false;
     const bool enters = placeOnIsland(i, SoftObject::FINE_ISLAND, inside, outside);
     const bool leaves = leavesAgain(path_, &inside, &outside) && placeOnIsland(i, SoftObject::FINE_ISLAND_END, inside, outside);

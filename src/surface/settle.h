@@ -98,7 +98,7 @@ private:
     const Seed* parted(const Seed& s) const;
     SELDOM bool layOutExtra(const Seed& s, const Seed& other);
     SELDOM bool settleFine(int i);
-    void settleBehind(const Seed& valid, Seed& s);
+    void settleOnWall(const Seed& a, const Seed& b, Real height, Seed& s);
     bool mayHaveIslands(const Patch& patch) const;
     SELDOM bool settleIsland(int i);
     bool placeOnIsland(int i, int which, Real inside, Real outside);

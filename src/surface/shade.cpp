@@ -504,7 +504,8 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
     slopes.begin();
     // The painter may make two voxels of one seed. Guests are listed from the other end on, while the voxels of the patch still
     // stand at this one.
-    const int most = 2 * SEEDS_MOST;
+    constexpr int most = 2 * SEEDS_MOST;
+    static_assert(most <= DRAW_ROOM);
     int i = first;
     for (; i < count; ++i) {
         Patch& patch = patches[i];
