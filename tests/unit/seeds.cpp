@@ -1,6 +1,7 @@
 // Tests of the layout of seeds (report, Appendix C): their number, their even distribution, and their neighbours.
 #include <algorithm>
 
+#include "model/cone.h"
 #include "help.h"
 #include "stick.h"
 #include "test.h"
@@ -306,4 +307,27 @@ TEST(oversampled_seeds_need_no_memory_until_they_are_needed)
     CHECK(ball.layOutExtras());
     for (int i = 0; i < ball.seedSlots(); i += 2)
         CHECK(ball.extra(i) != nullptr);
+}
+
+TEST(no_cell_of_a_cone_reaches_across_a_corner)
+{
+    const double sizes[][3] = {{30, 6, 30}, {12, 30, 20}, {22, 10, 24}, {9, 26, 40}};
+    for (const auto& size : sizes)
+        for (double spacing : {1.0, 2.0, 3.0}) {
+            Scene scene;
+            SoftObject& cone = scene.add(new Cone(1, real(size[0]), real(size[1]), real(size[2])), 0, 0, 0, spacing);
+            const double corner = number(cone.coreReach());
+            double farthest = -1e9;
+            for (int i = 0; i < cone.seedSlots(); i += 2) {
+                const Seed& s = cone.seed(i);
+                // Half of the cell along the axis. Cells are made 4 % larger than needed.
+                const double half = std::fabs(s.across[1] * number(cone.spacing()) / 64) / 1.04;
+                const double height = std::fabs(number(cone.root(s.root).y) + number(s.path.y));
+                const bool onEnd = std::fabs(number(s.path.y)) > 0.001;
+                farthest = std::fmax(farthest, (onEnd ? corner - height : height - corner) + half);
+            }
+            note("size %g tip %g length %g, spacing %g: cells end %.3f spacings beyond the corners at most", size[0], size[1],
+                 size[2], spacing, farthest / spacing);
+            CHECK(farthest < 0.06 * spacing);
+        }
 }
