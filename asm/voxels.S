@@ -436,23 +436,23 @@ shade_band:
         sarl        %cl, %eax
         cmpl        %eax, %esi
         jle        shade_high
-        // if (halfWidth > halfHeight): is it slanting, 3 halfHeight > 2 halfWidth? Else halfHeight += area / halfWidth
+        // if (halfWidth > halfHeight): is the band diagonal, 3 halfHeight > 2 halfWidth? Else halfHeight += area / halfWidth
         leal        (%eax,%eax,2), %ecx
         leal        (%esi,%esi), %edx
         cmpl        %edx, %ecx
-        jg        shade_slanting
+        jg        shade_diagonal
         movl        %eax, %ecx
         movl        SHADE_AREA(%esp), %eax
         xorl        %edx, %edx
         divl        %esi
         addl        %ecx, %eax
         jmp        shade_extents
-        // else: is it slanting, 3 halfWidth > 2 halfHeight? Else, if (halfHeight > 0), halfWidth += area / halfHeight
+        // else: is the band diagonal, 3 halfWidth > 2 halfHeight? Else, if (halfHeight > 0), halfWidth += area / halfHeight
 shade_high:
         leal        (%esi,%esi,2), %ecx
         leal        (%eax,%eax), %edx
         cmpl        %edx, %ecx
-        jg        shade_slanting
+        jg        shade_diagonal
         movl        %eax, %ecx
         testl        %eax, %eax
         jz        shade_extents
@@ -463,7 +463,7 @@ shade_high:
         movl        %ecx, %eax
         jmp        shade_extents
         // share = area / (halfWidth + halfHeight); halfWidth += share; halfHeight += share
-shade_slanting:
+shade_diagonal:
         leal        (%esi,%eax), %edx
         movl        %eax, %ecx
         movl        %edx, SHADE_WIDE(%esp)

@@ -197,13 +197,14 @@ uint32_t squareRoot64(uint64_t a);
 
 // An angle: a whole turn is 2^32, so that angles wrap around by themselves.
 typedef uint32_t Angle;
+constexpr Angle QUARTER = 0x40000000u;  // a quarter turn
 
 // Sine and cosine with 30 fraction bits, good to 2^-27. They are computed in integers, so they are the same on every machine
 // and for every type of Real.
 int32_t sine30(Angle a);
-inline int32_t cosine30(Angle a) { return sine30(a + 0x40000000u); }
+inline int32_t cosine30(Angle a) { return sine30(a + QUARTER); }
 Real sine(Angle a);
-inline Real cosine(Angle a) { return sine(a + 0x40000000u); }
+inline Real cosine(Angle a) { return sine(a + QUARTER); }
 
 // A number of turns as an angle; only the fraction counts.
 Angle turns(Real t);

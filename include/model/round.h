@@ -128,7 +128,6 @@ inline Angle quarterTurn(Real part, Real of)
     return static_cast<Angle>(mulDiv(rawFromReal(part), 1 << 30, rawFromReal(of)));
 }
 
-constexpr Angle QUARTER = 0x40000000u;  // a quarter turn
 constexpr Real PI(3.14159265);
 constexpr Real HALF_PI(1.57079633);
 

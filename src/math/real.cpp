@@ -60,8 +60,8 @@ int32_t sine30(Angle a)
 {
     // Fold the angle into the first quarter, where x = 0 .. 1 (30 fraction bits) stands for 0 .. pi/2.
     uint32_t x = a & 0x3fffffffu;
-    if (a & 0x40000000u)
-        x = 0x40000000u - x;
+    if (a & QUARTER)
+        x = QUARTER - x;
     // sin(x pi/2) by its Taylor series up to x^13; the next term is below 2^-30 at x = 1. The coefficients are (pi/2)^n / n!,
     // scaled by 2^30.
     const int32_t part = static_cast<int32_t>(x), square = times(part, part);

@@ -188,7 +188,7 @@ private:
         if (stretched_) {
             // Longitudes count from z, but the angle counts from the direction in which the side looks.
             const Real way = length / (loop_.radius * loop_.pathCosine);
-            const Angle on = (side & 1) == 0 ? 0x40000000u - quarter_.longitude(quarter_.length() - way) : quarter_.longitude(way);
+            const Angle on = (side & 1) == 0 ? QUARTER - quarter_.longitude(quarter_.length() - way) : quarter_.longitude(way);
             *s = sine(on);
             *c = cosine(on);
             return;
@@ -227,9 +227,9 @@ void Box::layOutSeeds(SeedMaker& maker, Real spacing) const
     const Real whole = shiftUp(face + round, 1) + side;
     Outline outline(stretch());
     outline.plain(face);
-    outline.arc(round, 0xc0000000u, 0);
+    outline.arc(round, 0u - QUARTER, 0);
     outline.line(side, Real(0), Real(1));
-    outline.arc(round, 0, 0x40000000u);
+    outline.arc(round, 0, QUARTER);
     outline.plain(face);
     const int rings = stepsIn(outline.length(), spacing);
     Loop loop{};
@@ -246,9 +246,9 @@ void Box::layOutSeeds(SeedMaker& maker, Real spacing) const
         if (fromPole < face) {
             const Real in = face - fromPole;
             inset = stretched() ? Vector{in / stretch().x, Real(0), in / stretch().z} : Vector{in, Real(0), in};
-            latitude = 0x40000000u;
+            latitude = QUARTER;
         } else if (fromPole < face + round) {
-            latitude = 0x40000000u - quarterTurn(fromPole - face, round);
+            latitude = QUARTER - quarterTurn(fromPole - face, round);
         } else {
             height = h.y - (fromPole - face - round);
         }

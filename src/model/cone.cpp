@@ -50,11 +50,15 @@ void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
     Ring ring{};
     int number = 0;
     for (int part = END1; part < PARTS; ++part) {
+        // The values of an end; on the side they change from ring to ring.
+        const Angle start = part == END1 ? 0u - QUARTER : 0;
+        ring.height = part == END1 ? -coreReach() : coreReach();
+        ring.radius = part == END1 ? radius1 : radius2;
         Outline outline(stretch());
         if (part == SIDE)
             outline.line(lengths[part], normal.x, normal.y);
         else
-            outline.arc(lengths[part], part == END1 ? 0u - QUARTER : 0, part == END1 ? 0 : QUARTER);
+            outline.arc(lengths[part], start, start + QUARTER);
         const int rings = stepsIn(outline.length(), spacing);
         int root = -1;
         for (int k = 0; k < rings; ++k) {
@@ -67,9 +71,7 @@ void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
                 ring.normalSine = normal.x;
                 ring.normalCosine = normal.y;
             } else {
-                const Angle latitude = quarterTurn(min(at, lengths[part]), lengths[part]) - (part == END1 ? QUARTER : 0);
-                ring.height = part == END1 ? -coreReach() : coreReach();
-                ring.radius = part == END1 ? radius1 : radius2;
+                const Angle latitude = start + quarterTurn(min(at, lengths[part]), lengths[part]);
                 ring.pathSine = ring.normalSine = sine(latitude);
                 ring.pathCosine = ring.normalCosine = cosine(latitude);
             }

@@ -40,7 +40,7 @@ void Disc::layOutSeeds(SeedMaker& maker, Real spacing) const
     const Real rim = radius() * HALF_PI;
     Outline outline(stretch());
     outline.line(discRadius(), Real(1), Real(0));
-    outline.arc(rim, 0xc0000000u, 0);
+    outline.arc(rim, 0u - QUARTER, 0);
     const int rings = stepsIn(outline.length(), shiftDown(spacing, 1));
     RingMaker ringMaker(maker, stretch(), spacing);
     Ring ring{};
@@ -51,7 +51,7 @@ void Disc::layOutSeeds(SeedMaker& maker, Real spacing) const
         const int mirrored = rings - 1 - k;
         const int below = k < mirrored ? k : mirrored;
         const Real at = outline.at(2 * below + 1, rings, &ring.across);
-        Angle latitude = 0xc0000000u;
+        Angle latitude = 0u - QUARTER;
         ring.core = discRadius();
         if (at < discRadius())
             ring.core = at;

@@ -80,10 +80,10 @@ void Sphere::layOutSeeds(SeedMaker& maker, Real spacing) const
     const int rings = ringCount(radius(), spacing);
     // Half the distance between two rings: pi radius / rings / 2.
     const Real across = radius() * realFromRaw(static_cast<int32_t>(PI_16)) / Real(2 * rings);
-    const uint32_t latitudeStep = 0x40000000u / static_cast<uint32_t>(rings);
+    const uint32_t latitudeStep = QUARTER / static_cast<uint32_t>(rings);
     for (int k = 0; k < rings && !stopAsked(); ++k) {
         // -pi/2 + pi (k + 1/2) / rings
-        const Angle latitude = static_cast<uint32_t>(2 * k + 1) * latitudeStep - 0x40000000u;
+        const Angle latitude = static_cast<uint32_t>(2 * k + 1) * latitudeStep - QUARTER;
         const int count = seedsInRing(radius(), spacing, cosine30(latitude));
         maker.beginRing();
         if (maker.countRing(count, false))

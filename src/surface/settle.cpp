@@ -39,9 +39,9 @@ constexpr Real PARTED(1.5), PARTED_HEAVY(1);
 constexpr Real CLEARLY(-0.06);
 // Parts of a wall's height: where its two fine seeds are placed.
 constexpr Real LOWER(0.33), UPPER(0.67);
-// The search across a wall: the number of its steps, and the least part of what is left that each step takes off.
+// The search across a wall: the number of its steps, and the least part of the remaining width that a step leaves on either side.
 constexpr int ACROSS_STEPS = 4;
-constexpr Real STRAIGHT(0.2);
+constexpr Real LEAST_LEFT(0.2);
 // Objects that are linked with more than this weight leave islands of the surface between them when they part, for the field rises
 // again half way between them.
 constexpr Real HEAVY(1);
@@ -563,10 +563,15 @@ bool Settler::settleFine(int i)
             if (waits(s, false))
                 continue;
             settle(s);
-            (absolute(from->position - s.position) > absolute(to->position - s.position) ? to : from) = &s;
+            // A wall is looked for on that side of this seed where the positions differ more.
+            if (absolute(from->position - s.position) > absolute(to->position - s.position))
+                to = &s;
+            else
+                from = &s;
         }
         if ((lower.flags | upper.flags) & SEED_ACTIVE)
             continue;
+        // Their cells are as large as that of the oversampled seed.
         lower = upper = extra;
         lower.lightChange[0] = upper.lightChange[0] = Seed::LIGHT_UNKNOWN;
         settleOnWall(*from, *to, LOWER, lower);
@@ -576,9 +581,9 @@ bool Settler::settleFine(int i)
 }
 
 // Where the path of one seed leaves the surface far farther out than the path beside it, the surface between them is a wall along
-// which paths run, such as the side of a thin neck. It is searched across: `s` gets the position at a part of the wall's height
-// and a path between the two that meets the surface there. Its flags become 0 if there is no wall, or that place belongs to another
-// object.
+// which paths run, such as the side of a thin neck. It is searched across: seed `s`, which brings its cell, gets the position at a
+// part of the wall's height, and a path between the two that meets the surface there. Its flags become 0 if there is no wall, or
+// that place belongs to another object.
 void Settler::settleOnWall(const Seed& a, const Seed& b, Real height, Seed& s)
 {
     s.flags = 0;
@@ -593,13 +598,18 @@ void Settler::settleOnWall(const Seed& a, const Seed& b, Real height, Seed& s)
     Real from(0), to(1);
     Sample sample;
     for (int i = 0; i < ACROSS_STEPS; ++i) {
-        const Real share = from + clamp(quotient(outside, outside - inside), STRAIGHT, Real(1) - STRAIGHT) * (to - from);
+        const Real share = from + clamp(quotient(outside, outside - inside), LEAST_LEFT, Real(1) - LEAST_LEFT) * (to - from);
         object_.layBetween(s, foot, top, position, share);
         sample = path_.lookOn(s, position);
         if (absolute(sample.excess) <= TOLERANCE)
             break;
-        (sample.excess < Real(0) ? from : to) = share;
-        (sample.excess < Real(0) ? outside : inside) = sample.excess;
+        if (sample.excess < Real(0)) {
+            from = share;
+            outside = sample.excess;
+        } else {
+            to = share;
+            inside = sample.excess;
+        }
     }
     if (sample.dominance > OVERSHOOT)
         return;

@@ -91,8 +91,8 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
         const uint32_t area = static_cast<uint32_t>(mulHigh(cell * (facing >> 3), v.areaShare));
         halfWidth >>= v.cellShift;
         halfHeight >>= v.cellShift;
-        // Where the band runs aslant, some rectangles that are long in x would follow others that are long in y, and corners of the
-        // band between these would not be covered. There each rectangle is long in both.
+        // In a band that is about diagonal, rectangles that are long in x would stand beside others that are long in y, and corners
+        // of the band between the two would not be covered. There each rectangle is longer in x and y alike.
         if (halfWidth * 3 > halfHeight * 2 && halfHeight * 3 > halfWidth * 2) {
             const int32_t share = static_cast<int32_t>(area / static_cast<uint32_t>(halfWidth + halfHeight));
             halfWidth += share;

@@ -74,8 +74,8 @@ void testEvenness(bool table)
                             100 * *std::min_element(distances.begin(), distances.end()) / spacing,
                             100 * sum / static_cast<double>(distances.size()) / spacing,
                             100 * *std::max_element(distances.begin(), distances.end()) / spacing, share);
-            // A few seeds lie closer together where the rings about a pole are flattened by the stretch, or lie closer because
-            // the end of a cone is divided into steps of its own.
+            // A few seeds lie closer together where the rings about a pole are flattened by the stretch, and on the ends of cones,
+            // which are divided into steps of their own.
             const bool closer = sample.stretched() || object->tapers();
             const bool even = share >= 99 || (closer && (share >= 98 || distances.size() - good <= 8));
             check(even, "%s, spacing %g: nearest neighbours of %.2f%% of seeds lie within %g%% of it", sample.name().c_str(),

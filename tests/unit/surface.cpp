@@ -40,6 +40,32 @@ Vec placeOf(const Scene& scene, const Voxel& voxel)
     return vec(scene.eye) + vec(axes.right) * at.x + vec(axes.up) * at.y + vec(axes.ahead) * at.z;
 }
 
+// The places of an object's voxels, in the world.
+std::vector<Vec> placesOf(Scene& scene, size_t object)
+{
+    std::vector<Vec> places;
+    for (const Voxel& voxel : scene.draw(object))
+        places.push_back(placeOf(scene, voxel));
+    return places;
+}
+
+// The distance from a point to the nearest of these places.
+double distanceTo(const std::vector<Vec>& places, const Vec& p)
+{
+    double nearest = 1e9;
+    for (const Vec& place : places)
+        nearest = std::fmin(nearest, size(place - p));
+    return nearest;
+}
+
+// Where a straight line from a point inside leaves a body, in steps of 1/50 of the length of `way`.
+Vec surfaceFrom(const Body& body, const std::vector<size_t>& joined, Vec p, const Vec& way)
+{
+    while (body.field(joined, p) > 0.5)
+        p = p + way * 0.02;
+    return p;
+}
+
 // The brightness of the surface where the field falls in this direction; negative on the side away from the light.
 double lit(const Scene& scene, const Vec& fall)
 {
@@ -338,11 +364,8 @@ TEST(a_small_object_shows_what_surrounds_it)
                 if (from >= 4.8 || body.dominance(0, joined, p) > -0.03 || dot(fall, toEye) < 0.2 * size(fall) * size(toEye) ||
                     dot(fall, way) < 0.6 * size(fall))
                     continue;
-                double nearest = 1e9;
-                for (const Vec& place : places[0])
-                    nearest = std::fmin(nearest, size(place - p));
                 ++points;
-                bare += nearest > 2;
+                bare += distanceTo(places[0], p) > 2;
             }
         // The scales of both colours end where the two fields are equal.
         const SoftObject& small = *scene.objects[1];
@@ -418,24 +441,16 @@ TEST(walls_of_necks_have_scales)
         scene.update();
         const Body body(scene);
         const std::vector<size_t> joined = body.joined(0);
-        std::vector<Vec> places;
-        for (size_t i = 0; i < 2; ++i)
-            for (const Voxel& voxel : scene.draw(i))
-                places.push_back(placeOf(scene, voxel));
+        const std::vector<Vec> places[] = {placesOf(scene, 0), placesOf(scene, 1)};
         int points = 0, bare = 0;
         double farthest = 0;
         for (double x = -away / 2 + 18; x < away / 2 - 12; x += 0.25)
             for (int k = 0; k < 48; ++k) {
                 const Vec across{0, std::cos(k * 6.2832 / 48), std::sin(k * 6.2832 / 48)};
-                double from = 0;
-                while (body.field(joined, Vec{x, 0, 0} + across * from) > 0.5)
-                    from += 0.02;
-                const Vec p = Vec{x, 0, 0} + across * from, toEye = vec(scene.eye) - p;
+                const Vec p = surfaceFrom(body, joined, {x, 0, 0}, across), toEye = vec(scene.eye) - p;
                 if (dot(body.fall(joined, p), toEye) < 0.4 * size(body.fall(joined, p)) * size(toEye))
                     continue;
-                double nearest = 1e9;
-                for (const Vec& place : places)
-                    nearest = std::fmin(nearest, size(place - p));
+                const double nearest = std::fmin(distanceTo(places[0], p), distanceTo(places[1], p));
                 ++points;
                 bare += nearest > 2;
                 farthest = std::fmax(farthest, nearest);
@@ -460,10 +475,7 @@ TEST(bulges_of_heavy_links_are_seen_from_everywhere)
         scene.settle();
         const Body body(scene);
         const std::vector<size_t> joined = body.joined(0);
-        std::vector<Vec> places;
-        for (size_t i = 0; i < 2; ++i)
-            for (const Voxel& voxel : scene.draw(i))
-                places.push_back(placeOf(scene, voxel));
+        const std::vector<Vec> places[] = {placesOf(scene, 0), placesOf(scene, 1)};
         const Vec axis = vec(scene.objects[1]->centre()) - vec(scene.objects[0]->centre());
         const Vec side{axis.z, 0, -axis.x}, other{axis.x * axis.y, -(axis.x * axis.x + axis.z * axis.z), axis.y * axis.z};
         for (double along = 0.3; along < 0.8; along += 0.01)
@@ -471,15 +483,12 @@ TEST(bulges_of_heavy_links_are_seen_from_everywhere)
                 const double round = k * 6.2832 / 48;
                 const Vec across = side * (std::cos(round) / size(side)) + other * (std::sin(round) / size(other));
                 const Vec from = vec(scene.objects[0]->centre()) + axis * along;
-                double out = 0;
-                while (body.field(joined, from + across * out) > 0.5)
-                    out += 0.05;
-                const Vec p = from + across * out, toEye = vec(scene.eye) - p, fall = body.fall(joined, p);
-                if (out == 0 || dot(fall, toEye) < 0.3 * size(fall) * size(toEye))
+                if (body.field(joined, from) <= 0.5)
                     continue;
-                double nearest = 1e9;
-                for (const Vec& place : places)
-                    nearest = std::fmin(nearest, size(place - p));
+                const Vec p = surfaceFrom(body, joined, from, across), toEye = vec(scene.eye) - p, fall = body.fall(joined, p);
+                if (dot(fall, toEye) < 0.3 * size(fall) * size(toEye))
+                    continue;
+                const double nearest = std::fmin(distanceTo(places[0], p), distanceTo(places[1], p));
                 ++points;
                 bare += nearest > 2.5;
             }
@@ -489,7 +498,7 @@ TEST(bulges_of_heavy_links_are_seen_from_everywhere)
     CHECK(bare <= points / 40);
 }
 
-TEST(bands_that_run_aslant_are_covered)
+TEST(diagonal_bands_are_covered)
 {
     // Rings of seeds on a torus that is seen from everywhere: each place that faces the viewer lies behind some scale. The scale
     // need not be one beside the place, but it must be no farther behind it than a tangent plane may be.
