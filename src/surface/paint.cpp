@@ -135,14 +135,16 @@ Painter::Painter(const SoftObject& object, const OwnFrame& own, VoxelList& list)
     reach2_ = reach * reach;
 }
 
-void Painter::put(const Voxel& voxel, uint8_t number)
+Voxel* Painter::put(const Voxel& voxel, uint8_t number)
 {
+    Voxel* const place = list_.room();
     list_.number[list_.count] = number;
-    *list_.room() = voxel;
+    *place = voxel;
     list_.take();
+    return place;
 }
 
-void Painter::add(const Seed& s, const Voxel& shaded)
+Voxel* Painter::add(const Seed& s, const Voxel& shaded)
 {
     Voxel voxel = shaded;
     if (paint_.shines()) {
@@ -150,26 +152,21 @@ void Painter::add(const Seed& s, const Voxel& shaded)
         voxel.slopeX = voxel.slopeY = 0;
     }
     const uint8_t mix = paint_.mixes && !(s.flags & SEED_RESTING) ? s.mix : paint_.number;
-    if (paint_.pattern == PATTERN_NONE) {
-        put(voxel, mix);
-        return;
-    }
+    if (paint_.pattern == PATTERN_NONE)
+        return put(voxel, mix);
     const Spot spot = spotAt(place(s), s.normal, mix);
-    if (!spot.edge || isCut(voxel)) {
-        put(voxel, spot.number);
-        return;
-    }
+    if (!spot.edge || isCut(voxel))
+        return put(voxel, spot.number);
     // A voxel that the edge does not cut in two keeps the colour of its middle.
     const Direction14 outward{static_cast<int16_t>(-spot.inward.x), static_cast<int16_t>(-spot.inward.y),
                               static_cast<int16_t>(-spot.inward.z)};
     Voxel within = voxel, beyond = voxel;
     cut(spot.inward, spot.apart, &within);
-    if (!isCut(within) || !cut(outward, -spot.apart, &beyond) || !isCut(beyond)) {
-        put(voxel, spot.number);
-        return;
-    }
-    put(within, spot.number);
+    if (!isCut(within) || !cut(outward, -spot.apart, &beyond) || !isCut(beyond))
+        return put(voxel, spot.number);
+    Voxel* const shown = put(within, spot.number);
     put(beyond, spot.beyond);
+    return shown;
 }
 
 bool Painter::cut(const Direction14& inward, int32_t apart, Voxel* voxel) const

@@ -32,13 +32,13 @@ public:
     bool isPlain() const { return paint_.pattern == PATTERN_NONE && !paint_.mixes; }
 
     // Lists a voxel that the shader has made of a seed, or two voxels where an edge of the pattern goes through it. If the object
-    // shines, the voxel has one brightness for now, and its slopes are set later (slopes.h).
-    void add(const Seed& s, const Voxel& voxel);
+    // shines, the voxel has one brightness for now, and its slopes are set later (slopes.h). Returns its place in the list.
+    Voxel* add(const Seed& s, const Voxel& voxel);
 
 private:
     struct Spot;
     Vector place(const Seed& s) const { return object_.root(s.root) + s.path * s.position; }
-    void put(const Voxel& voxel, uint8_t number);
+    Voxel* put(const Voxel& voxel, uint8_t number);
     bool cut(const Direction14& inward, int32_t apart, Voxel* voxel) const;
     Spot spotAt(const Vector& place, const Direction14& normal, uint8_t mix) const;
 

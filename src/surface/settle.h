@@ -10,6 +10,22 @@
 // Units: after this much travel of the neighbours at the latest, what is off the surface is looked at again.
 constexpr Real LONGEST_WAIT(6);
 
+// Objects that are linked with more than this weight leave islands of the surface between them when they part, for the field rises
+// again half way between them.
+constexpr Real HEAVY(1);
+
+// Cosine of a seed's path and its normal, 1.0 = 2^14.
+inline int32_t cosineOfPath(const Seed& s)
+{
+    return (s.way[0] * s.normal.x + s.way[1] * s.normal.y + s.way[2] * s.normal.z) >> 7;
+}
+
+// Whether a seed is on the surface, in a place that belongs to its own object.
+inline bool isOnOwn(const Seed& s)
+{
+    return (s.flags & (SEED_VALID | SEED_GUEST)) == SEED_VALID;
+}
+
 // Settles the seeds of one object; there is one settler for every kind of scene. It is made once for an object and a frame.
 // `updates` is the number of the frame in the object's own count.
 class Settler {
@@ -93,20 +109,23 @@ private:
     void settleBeside(const Seed& centre, Seed& s, bool someAway, uint8_t* blocker);
     bool staysHidden(const Patch& patch, Real position);
     void setRange(Patch& patch, Real nearest, Real farthest) const;
-    bool isAway(const Seed& s) const;
+    bool waits(const Seed& s, bool someAway) const;
+    bool mixes() const;
+    // The odometer's reading, 1/64 unit, as seeds store it.
+    uint16_t reading64() const { return static_cast<uint16_t>(now_ >> 4); }
+    bool isOld(uint16_t foundAt, Real lasts) const;
+
+    // For seeds beside regular ones (extras.cpp). setGaps() sets alike_, open_, openNext_ and openFine_.
+    void setGaps();
     bool mayGape(const Seed& s, const Seed& n, Real open) const;
     const Seed* parted(const Seed& s) const;
+    bool isAway(const Seed& s) const;
     SELDOM bool layOutExtra(const Seed& s, const Seed& other);
     SELDOM bool settleFine(int i);
     void settleOnWall(const Seed& a, const Seed& b, Real height, Seed& s);
     bool mayHaveIslands(const Patch& patch) const;
     SELDOM bool settleIsland(int i);
     bool placeOnIsland(int i, int which, Real inside, Real outside);
-    bool waits(const Seed& s, bool someAway) const;
-    bool mixes() const;
-    // The odometer's reading, 1/64 unit, as seeds store it.
-    uint16_t reading64() const { return static_cast<uint16_t>(now_ >> 4); }
-    bool isOld(uint16_t foundAt, Real lasts) const;
 
     // For dents and hollows only (hollow.cpp):
     SELDOM bool findDented(Seed& s, Vector* g);
@@ -138,6 +157,9 @@ private:
     Real off_;              // by how much of the field the current path misses the surface, if it does
     bool hidden_ = false;   // hidden()
 };
+
+// Ends the oversampled and fine seeds of a patch, those on islands too.
+void putAway(SoftObject& object, Patch& patch);
 
 // Puts the seeds of a patch at rest, for no neighbour reaches them.
 void rest(SoftObject& object, Patch& patch);

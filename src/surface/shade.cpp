@@ -76,6 +76,7 @@ private:
     int findSeen(const Patch& patch, Seen* seen, Voxel* voxels, int* regular) const;
     void shadeSeen(Patch& patch, int draws, const Seen* seen, Voxel* voxels, int count);
     bool cutAtBorder(const Seed& s, Voxel* voxel, VoxelList& list) const;
+    static Voxel* listUnpainted(const Seed& s, const Voxel* voxel, Voxel** to, VoxelList& list);
     template <bool PAINTED>
     void listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list, Painter* painter);
     int findExtras(const Patch& patch, Seen* seen, Voxel* voxels) const;
@@ -393,6 +394,15 @@ inline bool Shader::knowsLight(const Seed& s, bool regular, const Voxel& voxel) 
     return (!regular || isBesideBorder(s)) && voxel.brightness != 0 && s.lightChange[0] != Seed::LIGHT_UNKNOWN;
 }
 
+// Adds an unpainted voxel to a list, which ends before `*to`, or to its guests. Returns its place there.
+inline Voxel* Shader::listUnpainted(const Seed& s, const Voxel* voxel, Voxel** to, VoxelList& list)
+{
+    Voxel* const shown = s.flags & SEED_GUEST ? list.roomForGuest(s.host) : (*to)++;
+    if (shown != voxel)
+        *shown = *voxel;
+    return shown;
+}
+
 // Lists the voxels of a patch that blends, or whose object has a paint.
 template <bool PAINTED>
 inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list,
@@ -403,39 +413,27 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
     // and bend fast, so that each has to leave the place beside it to the next one (scales.h).
     const bool uneven = blends && (patch.extras || bendsUnevenly(voxels, regular));
     const int32_t sight = shines || uneven ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
-    const int known = shines || blends ? regular : 0;
+    const int sloped = shines || blends ? regular : 0;
     Voxel* to = list.room();
     for (int i = 0; i < count; ++i) {
         const Seed& s = *seen[i].seed;
         const bool knows = blends && !shines && knowsLight(s, i < regular, voxels[i]);
         if (knows)
             setSlopesOf(s, voxels + i);
-        Voxel* shown = to;
-        if (s.flags & SEED_BORDER) {
-            if (!cutAtBorder(s, voxels + i, list))
-                continue;
-            if (!PAINTED && (s.flags & SEED_GUEST))
-                shown = list.roomForGuest(s.host);
-        }
-        if (PAINTED) {
-            shown = to = list.room();
-            painter->add(s, voxels[i]);
-        } else if (shown != voxels + i) {
-            *shown = voxels[i];
-        }
+        if ((s.flags & SEED_BORDER) && !cutAtBorder(s, voxels + i, list))
+            continue;
+        Voxel* const shown = PAINTED ? painter->add(s, voxels[i]) : listUnpainted(s, voxels + i, &to, list);
         if (uneven)
             dome(shown);
         else if (i < regular)
             endAtLimb(patch, seen[i], shown);
-        if (i < known) {
-            // A dark voxel keeps its slopes. With a finish that shines, brightness 0 does not mean that the light ends there.
-            const bool stays = knows || (!shines && shown->brightness == 0);
-            slopes.add(&s, static_cast<int>(&s - shading_.seeds), shown, stays ? Slopes::STAYS : sight);
-            if (PAINTED && list.room() > shown + 1)
-                slopes.addCopy(shown + 1, shown);
-        }
-        if (!PAINTED && shown == to)
-            ++to;
+        if (i >= sloped)
+            continue;
+        // A dark voxel keeps its slopes. With a finish that shines, brightness 0 does not mean that the light ends there.
+        const bool stays = knows || (!shines && shown->brightness == 0);
+        slopes.add(&s, static_cast<int>(&s - shading_.seeds), shown, stays ? Slopes::STAYS : sight);
+        if (PAINTED && list.room() > shown + 1)
+            slopes.addCopy(shown + 1, shown);
     }
     if (!PAINTED)
         list.count = static_cast<int>(to - list.voxels);
