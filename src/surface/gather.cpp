@@ -224,8 +224,9 @@ static void weigh(const Bodies& bodies, const Neighbourhood& all, Neighbour& nea
     near.grain = near.plain ? near.size : near.size / (max(near.strength, Real(1)) * max(near.weight, Real(1)));
 }
 
-// Sets by how much a neighbour's claim and the own one differ from their fields. `weight` is that of their link.
-static void setClaims(const SoftObject& object, Real weight, Neighbour& near)
+// Sets by how much a neighbour's claim and the own one differ from their fields. `weight` is that of their link. Returns true if
+// one of them differs.
+static bool setClaims(const SoftObject& object, Real weight, Neighbour& near)
 {
     const auto isPlain = [](const SoftObject& o) {
         return o.strength() == Real(1) && !o.shaped() && o.paint() == nullptr && o.hasSurface();
@@ -235,6 +236,7 @@ static void setClaims(const SoftObject& object, Real weight, Neighbour& near)
         near.claim = quotient(own * GUEST_SIZES, other * heavy);
     else if (other * HOST_SIZES < own * heavy && isPlain(object) && isPlain(*near.object))
         near.ownClaim = quotient(other * HOST_SIZES, own * heavy);
+    return near.claim < Real(1) || near.ownClaim < Real(1);
 }
 
 // Collects those of `count` objects that are not too far away along any axis to reach an object, but for itself. Returns their
@@ -254,6 +256,33 @@ SELDOM static int findNear(SoftObject* const* from, int count, const SoftObject&
     return found;
 }
 
+namespace {
+
+// Flags of a neighbourhood, from the neighbours gathered so far.
+struct Gathered {
+    bool dented = false, inner = false, uneven = false, claims = false, plain = true, simple = true;
+
+    void add(const Neighbour& near, const Bodies& bodies)
+    {
+        dented |= near.digs;
+        inner |= !near.digs && dentedFromWithin(*near.object, bodies);
+        uneven |= near.ratio > UNEVEN_SIZES;
+        plain &= near.plain;
+        simple &= near.kind != Neighbour::OTHER;
+    }
+    void putInto(Neighbourhood& all) const
+    {
+        all.dented = all.dented || dented;
+        all.inner = all.inner || inner;
+        all.uneven = all.uneven || uneven;
+        all.claims = all.claims || claims;
+        all.ordinary = all.ordinary && plain;
+        all.simple = all.simple && simple;
+    }
+};
+
+}  // namespace
+
 // Adds those of `count` objects that are near enough to the neighbours. `digs`: they are no members of the body, but dig into it.
 static void gatherFrom(SoftObject* const* from, int count, bool digs, const SoftObject& object, const Bodies& bodies,
                        Neighbourhood& all)
@@ -270,7 +299,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
     // rounding of the quotient.)
     const Real* const weights = bodies.weights(object.slot());
     const Real large = object.size() * GUEST_SIZES, small = quotient(object.size(), HOST_SIZES) + Real(0.01);
-    bool inner = false, uneven = false, plain = true, others = false, claims = false;
+    Gathered gathered;
     Neighbour* next = all.neighbours + all.count;
     for (int i = 0; i < reaching; ++i) {
         const SoftObject& other = *found[i];
@@ -293,10 +322,8 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         near.claim = near.ownClaim = Real(1);
         near.change = Real(0);  // until the field is evaluated where it reaches
         const Real weight = weights[near.slot];
-        if (other.size() > large || other.size() < small || weight > Real(1)) {
-            setClaims(object, weight, near);
-            claims |= near.claim < Real(1) || near.ownClaim < Real(1);
-        }
+        if (other.size() > large || other.size() < small || weight > Real(1))
+            gathered.claims |= setClaims(object, weight, near);
         if (near.size < SMALL && isUnseen(object, other)) {
             all.bySlot[near.slot] = nullptr;
             --next;
@@ -305,18 +332,10 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         const bool tiny = (near.size < SMALL || longPaths) && isTiny(object, near);
         if (tiny || !other.isBall())
             aim(object, tiny, near);
-        inner |= !digs && dentedFromWithin(other, bodies);
-        uneven |= near.ratio > UNEVEN_SIZES;
-        plain &= near.plain;
-        others |= near.kind == Neighbour::OTHER;
+        gathered.add(near, bodies);
     }
-    all.dented = all.dented || (digs && next > all.neighbours + all.count);
     all.count = static_cast<int>(next - all.neighbours);
-    all.inner = all.inner || inner;
-    all.uneven = all.uneven || uneven;
-    all.claims = all.claims || claims;
-    all.ordinary = all.ordinary && plain;
-    all.simple = all.simple && !others;
+    gathered.putInto(all);
 }
 
 void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& all)

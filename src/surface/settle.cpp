@@ -65,9 +65,7 @@ Real Settler::settle(Seed& s)
         return Real(0);
     }
     ++counts_.updated;
-    // The surface may turn about a seed that does not move.
-    if (followed == STILL && (s.flags & SEED_VALID) && !(s.flags & SEED_RESTING) && sample.dominance <= OVERSHOOT &&
-        !isOld(s.placedAt, shiftDown(nearby_.smallest(), 2))) {
+    if (followed == STILL && keepsNormal(s, sample.dominance)) {
         keep(s, sample.dominance);
         return Real(0);
     }
@@ -141,6 +139,13 @@ void Settler::restThere(Seed& s)
 inline bool Settler::isOld(uint16_t foundAt, Real lasts) const
 {
     return hurries_ || static_cast<uint16_t>(reading64() - foundAt) >= travelOf(lasts) >> 4;
+}
+
+// Whether a seed that has not moved keeps its normal. The surface may turn about it.
+inline bool Settler::keepsNormal(const Seed& s, Real dominance) const
+{
+    return (s.flags & SEED_VALID) && !(s.flags & SEED_RESTING) && dominance <= OVERSHOOT &&
+           !isOld(s.placedAt, shiftDown(nearby_.smallest(), 2));
 }
 
 // Leaves a seed that has not moved as it is, but for the border to a neighbour.

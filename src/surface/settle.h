@@ -94,6 +94,7 @@ private:
     Real settle(Seed& s);
     Followed followOn(Seed& s, Real* position, Sample* sample);
     void restThere(Seed& s);
+    bool keepsNormal(const Seed& s, Real dominance) const;
     void keep(Seed& s, Real dominance);
     void leaveToStrongest(Seed& s);
     Real search(const Seed& s, Real* position, Sample* sample);
