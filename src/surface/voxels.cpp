@@ -62,6 +62,75 @@ struct Fall {
     }
 };
 
+// Half extents of a scale, 1/256 unit.
+struct Extents {
+    int32_t halfWidth, halfHeight;
+};
+
+// Half extents of a seed's scale. `cell` is the area of the seed's cell, or 0 if the scale has to cover the whole cell, and
+// onPicture(axis) projects a half axis of the cell.
+template <class Project>
+inline Extents extentsOf(const Seed& s, int32_t cell, int32_t facing, const Shading& v, Project onPicture)
+{
+    const OnPicture along = onPicture(s.along);
+    int32_t halfWidth = magnitude(along.x), halfHeight = magnitude(along.y);
+    if (cell == 0 || facing < v.wholeBefore) {
+        const OnPicture across = onPicture(s.across);
+        return {(halfWidth + magnitude(across.x)) >> v.cellShift, (halfHeight + magnitude(across.y)) >> v.cellShift};
+    }
+    // The cells of a ring form a band. A rectangle that is as long as the step to the next seed need not cover its whole cell; it
+    // is enough that all rectangles together cover the band.
+    const uint32_t area = static_cast<uint32_t>(mulHigh(cell * (facing >> 3), v.areaShare));
+    halfWidth >>= v.cellShift;
+    halfHeight >>= v.cellShift;
+    // In a band that is about diagonal, rectangles that are long in x would stand beside others that are long in y, and corners
+    // of the band between the two would not be covered. There each rectangle is longer in x and y alike.
+    if (halfWidth * 3 > halfHeight * 2 && halfHeight * 3 > halfWidth * 2) {
+        const int32_t share = static_cast<int32_t>(area / static_cast<uint32_t>(halfWidth + halfHeight));
+        halfWidth += share;
+        halfHeight += share;
+    } else if (halfWidth > halfHeight) {
+        halfHeight += static_cast<int32_t>(area / static_cast<uint32_t>(halfWidth));
+    } else if (halfHeight > 0) {
+        halfWidth += static_cast<int32_t>(area / static_cast<uint32_t>(halfHeight));
+    }
+    return {halfWidth, halfHeight};
+}
+
+inline Extents extentsOf(const Seed& s, int32_t facing, const Shading& v)
+{
+    if (s.flags & SEED_RESTING)
+        return extentsOf(s, s.area, facing, v, [&](const int8_t axis[3]) { return OnPicture(axis, v); });
+    const Fall fall(s, v);
+    return extentsOf(s, fall.torn ? 0 : fall.area(s.area), facing, v, [&](const int8_t axis[3]) { return fall.of(axis, s, v); });
+}
+
+// An extent with the margin by which scales overlap.
+inline int32_t withMargin(int32_t extent)
+{
+    return min32(extent + (extent >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff);
+}
+
+// Sets the extents of a voxel, and where it ends. Beyond the limb, where a round surface bends out of sight, its tangent plane
+// would go on, so the scale has to end there. With c the cosine of normal and viewer, the limb is c^2 radius / 2 away across the
+// view; the plane gets c radius / 2 deeper there.
+inline void setExtents(const Shading& v, int32_t facing, Extents extents, Voxel& voxel)
+{
+    extents = {withMargin(extents.halfWidth), withMargin(extents.halfHeight)};
+    voxel.reach = voxel.front = 0;
+    const int32_t reach = (v.horizonShare * facing >> 16) + 1;
+    const int32_t deep = (magnitude(voxel.tiltX) * extents.halfWidth + magnitude(voxel.tiltY) * extents.halfHeight) >> 8;
+    if (reach < 256 && deep >= reach * 8) {
+        voxel.reach = static_cast<uint8_t>(reach);
+        voxel.front = static_cast<uint8_t>(v.front);
+        if (deep > v.deepest)
+            extents = {extents.halfWidth * v.deepest / deep, extents.halfHeight * v.deepest / deep};
+    }
+    voxel.halfWidth = static_cast<int16_t>(extents.halfWidth);
+    voxel.halfHeight = static_cast<int16_t>(extents.halfHeight);
+}
+
+// Sets all of a voxel but its place.
 inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
 {
     const int32_t normalX = v.turned ? product(s.normal, v.right) : s.normal.x;
@@ -70,71 +139,18 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     // On the tangent plane the depth changes by n.x depth / (n . vector to the eye) over a unit along x, and likewise along y.
     const uint32_t rise = (static_cast<uint32_t>(depth) << 8) / static_cast<uint32_t>(facing);
     const int32_t steep = min32(static_cast<int32_t>(rise), STEEPEST_TILT);
-    const int16_t tiltX = static_cast<int16_t>(normalX * steep >> 14);
-    const int16_t tiltY = static_cast<int16_t>(normalY * steep >> 14);
-    const int32_t light = lambert(product(s.normal, v.light));
-    voxel.tiltX = tiltX;
-    voxel.tiltY = tiltY;
-    // Half extents. The cells of a ring form a band. A rectangle that is as long as the step to the next seed need not cover its
-    // whole cell; it is enough that all rectangles together cover the band.
-    int32_t halfWidth, halfHeight;
-    const auto measure = [&](int32_t cell, const auto& onPicture) {
-        const OnPicture along = onPicture(s.along);
-        halfWidth = magnitude(along.x);
-        halfHeight = magnitude(along.y);
-        if (cell == 0 || facing < v.wholeBefore) {
-            const OnPicture across = onPicture(s.across);
-            halfWidth = (halfWidth + magnitude(across.x)) >> v.cellShift;
-            halfHeight = (halfHeight + magnitude(across.y)) >> v.cellShift;
-            return;
-        }
-        const uint32_t area = static_cast<uint32_t>(mulHigh(cell * (facing >> 3), v.areaShare));
-        halfWidth >>= v.cellShift;
-        halfHeight >>= v.cellShift;
-        // In a band that is about diagonal, rectangles that are long in x would stand beside others that are long in y, and corners
-        // of the band between the two would not be covered. There each rectangle is longer in x and y alike.
-        if (halfWidth * 3 > halfHeight * 2 && halfHeight * 3 > halfWidth * 2) {
-            const int32_t share = static_cast<int32_t>(area / static_cast<uint32_t>(halfWidth + halfHeight));
-            halfWidth += share;
-            halfHeight += share;
-        } else if (halfWidth > halfHeight) {
-            halfHeight += static_cast<int32_t>(area / static_cast<uint32_t>(halfWidth));
-        } else if (halfHeight > 0) {
-            halfWidth += static_cast<int32_t>(area / static_cast<uint32_t>(halfHeight));
-        }
-    };
-    if (s.flags & SEED_RESTING) {
-        measure(s.area, [&](const int8_t axis[3]) { return OnPicture(axis, v); });
-    } else {
-        const Fall fall(s, v);
-        measure(fall.torn ? 0 : fall.area(s.area), [&](const int8_t axis[3]) { return fall.of(axis, s, v); });
-    }
-    halfWidth = min32(halfWidth + (halfWidth >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff);
-    halfHeight = min32(halfHeight + (halfHeight >> MARGIN_SHIFT) + MARGIN_UNITS, 0x7fff);
-    voxel.reach = 0;
+    voxel.tiltX = static_cast<int16_t>(normalX * steep >> 14);
+    voxel.tiltY = static_cast<int16_t>(normalY * steep >> 14);
+    setExtents(v, facing, extentsOf(s, facing, v), voxel);
     voxel.cutX = voxel.cutY = voxel.slopeX = voxel.slopeY = 0;
     voxel.cutAt = 0;
     voxel.curveXX = voxel.curveXY = voxel.curveYY = 0;
-    voxel.front = 0;
-    // Beyond the limb, where a round surface bends out of sight, its tangent plane would go on, so the scale has to end there. With
-    // c the cosine of normal and viewer, the limb is c^2 radius / 2 away across the view; the plane gets c radius / 2 deeper there.
-    const int32_t reach = (v.horizonShare * facing >> 16) + 1;
-    const int32_t deep = (magnitude(tiltX) * halfWidth + magnitude(tiltY) * halfHeight) >> 8;
-    if (reach < 256 && deep >= reach * 8) {
-        voxel.reach = static_cast<uint8_t>(reach);
-        voxel.front = static_cast<uint8_t>(v.front);
-        if (deep > v.deepest) {
-            halfWidth = halfWidth * v.deepest / deep;
-            halfHeight = halfHeight * v.deepest / deep;
-        }
-    }
-    voxel.halfWidth = static_cast<int16_t>(halfWidth);
-    voxel.halfHeight = static_cast<int16_t>(halfHeight);
+    const int32_t light = lambert(product(s.normal, v.light));
     voxel.brightness = static_cast<int8_t>(light <= DARK_MIDDLE ? 0 : light);
     if (light <= DARK_MIDDLE)
         return;
-    const int32_t slopeX = (v.gradient[0] + tiltX * v.gradientAhead) >> 12;
-    const int32_t slopeY = (v.gradient[1] + tiltY * v.gradientAhead) >> 12;
+    const int32_t slopeX = (v.gradient[0] + voxel.tiltX * v.gradientAhead) >> 12;
+    const int32_t slopeY = (v.gradient[1] + voxel.tiltY * v.gradientAhead) >> 12;
     setSlopes(slopeX, slopeY, &voxel);
 }
 
