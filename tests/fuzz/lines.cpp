@@ -41,7 +41,7 @@ public:
         for (size_t words = random_.below(7); words > 0; --words)
             word();
         if (slips_ && random_.once(2) && !line_.words.empty())
-            spoil(line_.words[random_.below(line_.words.size())]);
+            spoil(random_.pick(line_.words));
         return line_;
     }
 
@@ -133,7 +133,7 @@ private:
                                               "0.2",  "8.01",     "10000000", "1e1",     "86401", "1001",
                                               "0x10", "\xb2\x07", "+",        "1.2.3.4", ":",     "="};
             // A number that is out of range for one switch may be valid for another.
-            std::string bad = BAD[random_.below(sizeof BAD / sizeof BAD[0])];
+            std::string bad = random_.pick(BAD);
             if ((letter == 'S' && bad == "1001") || (letter == 'N' && (bad == "86401" || bad == "1001")) ||
                 (letter == 'T' && bad == "1001"))
                 bad = "none";
@@ -175,7 +175,7 @@ private:
     std::string name(bool behindSwitch)
     {
         static const char* const NAMES[] = {"ONE.FB", "one", "ONE", "none", "out", "a/b", "R.CSV", "a b", "\xc3\xa4\n", "x:y", "."};
-        std::string name = NAMES[random_.below(sizeof NAMES / sizeof NAMES[0])];
+        std::string name = random_.pick(NAMES);
         if (random_.once(10))
             name = std::string(1 + random_.below(300), 'n') + name;
         if (behindSwitch && random_.once(8))

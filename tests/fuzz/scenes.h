@@ -3,6 +3,7 @@
 #define FB_FUZZ_SCENES_H
 
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ public:
     size_t below(size_t n) { return n == 0 ? 0 : static_cast<size_t>(next() % n); }
     // Returns true once in n times on average.
     bool once(size_t n) { return below(n) == 0; }
+    // Returns one of all; there must be one.
+    template <class All>
+    auto& pick(All& all) { return all[below(std::size(all))]; }
 
 private:
     uint64_t state_;
