@@ -8,7 +8,6 @@ namespace {
 // Words that are used where something else is expected.
 const char* const ODD[] = {"", "-", ".", "--1", "1e5", "0x10", "nan", "32768", "-32768", "99999999999999999999", "0.0000001",
                            "+5", "5-", "\x01\x02", "\xc3\xa4", "#", "#ff", "all", "repeat", "sphere", "1,5", "\t7\t"};
-constexpr size_t ODD_COUNT = sizeof ODD / sizeof ODD[0];
 
 const char* const COLOURS[] = {"white", "silver", "grey", "gray", "black", "red", "orange", "yellow",
                                "lime", "green", "cyan", "blue", "violet", "magenta", "pink", "brown"};
@@ -17,6 +16,26 @@ const char* const FINISHES[] = {"matt", "shiny", "mirror"};
 const char* const PATTERNS[] = {"checks", "stripes", "marble"};
 
 const char* const PLANES[] = {"xy", "yz", "zx", "yx", "zy", "xz"};
+
+// A kind of object with its measures. No part of a stretch exceeds `stretch`: this and the ranges keep the largest object
+// within 100 units.
+struct Kind {
+    const char* word;
+    double stretch;
+    struct Measure {
+        const char* word;
+        double low, high;
+    };
+    std::vector<Measure> measures;
+};
+const Kind KINDS[] = {
+    {"sphere", 2, {{"size", 1, 100}}},
+    {"cylinder", 0.66, {{"size", 1, 100}, {"length", 0, 100}}},
+    {"torus", 0.66, {{"size", 1, 60}, {"ring", 38, 100}}},
+    {"disc", 0.66, {{"size", 1, 100}, {"disc", 0, 100}}},
+    {"cone", 0.66, {{"size", 1, 100}, {"length", 50, 100}, {"tip", 1, 100}}},
+    {"box", 0.66, {{"size", 1, 100}, {"x", 0, 100}, {"y", 0, 100}, {"z", 0, 100}}},
+};
 
 class Maker {
 public:
@@ -27,7 +46,7 @@ public:
         const size_t statements = 1 + random_.below(random_.once(6) ? 60 : 14);
         if (random_.once(3))
             title();
-        object(false);
+        newItem(false);
         for (size_t i = 0; i < statements; ++i)
             statement();
         return text_;
@@ -39,7 +58,6 @@ private:
         bool group;
         size_t count;  // 1 if the item is not a row
         double keyTime = -1;
-        double repeat = 0;
     };
 
     Random& random_;
@@ -64,7 +82,7 @@ private:
         if (slip()) {
             const double beyond = random_.once(2) ? 0.00002 : 1 + double(random_.below(1000));
             snprintf(text, sizeof text, "%.6f", random_.once(2) ? low - beyond : high + beyond);
-            word(random_.once(3) ? ODD[random_.below(ODD_COUNT)] : text);
+            word(random_.once(3) ? random_.pick(ODD) : text);
             return;
         }
         const double share = random_.once(8) ? double(random_.below(2)) : double(random_.below(1000001)) / 1000000;
@@ -82,10 +100,22 @@ private:
         word(text);
     }
 
+    void number(const char* before, double low, double high)
+    {
+        word(before);
+        number(low, high);
+    }
+
     void vector(double most)
     {
         for (int i = 0; i < 3; ++i)
             number(-most, most);
+    }
+
+    void vector(const char* before, double most)
+    {
+        word(before);
+        vector(most);
     }
 
     void direction()
@@ -94,6 +124,12 @@ private:
         number(-250, 250);
         number(1, 250);
         number(-250, 250);
+    }
+
+    void axis()
+    {
+        word("axis");
+        direction();
     }
 
     void period()
@@ -113,18 +149,21 @@ private:
 
     void phase()
     {
-        if (!random_.once(2))
-            return;
-        word("phase");
-        number(-1, 1);
+        if (random_.once(2))
+            number("phase", -1, 1);
     }
 
     void lag(const Item& item)
     {
-        if (item.count > 1 ? !random_.once(2) : !slip())
-            return;
-        word("lag");
-        number(-1, 1);
+        if (item.count > 1 ? random_.once(2) : slip())
+            number("lag", -1, 1);
+    }
+
+    void wave(const Item& item)
+    {
+        lag(item);
+        period();
+        phase();
     }
 
     void end()
@@ -142,7 +181,7 @@ private:
     std::string freshName(size_t count)
     {
         if (slip())
-            return items_.empty() ? "all" : items_[random_.below(items_.size())].name;
+            return items_.empty() ? "all" : random_.pick(items_).name;
         char text[24];
         // Letters follow the number, so that a name made of a row's name and a number is never the name of another item.
         snprintf(text, sizeof text, "n%zu%s", items_.size(), count > 99 ? "-row" : random_.once(3) ? "_longer" : "x");
@@ -150,12 +189,17 @@ private:
     }
 
     // Returns the name of an existing item.
-    std::string known(const Item& item)
+    std::string known(const Item& item) { return slip() ? random_.pick(ODD) : item.name; }
+
+    // Begins a statement about an item.
+    void about(const char* statement, const Item& item)
     {
-        if (slip())
-            return ODD[random_.below(ODD_COUNT)];
-        return item.name;
+        word(statement);
+        word(known(item));
     }
+
+    // Returns whether to make a statement that is for objects only: with a group it would be a slip.
+    bool asObject(const Item& item) { return !item.group || slip(); }
 
     void colour()
     {
@@ -166,7 +210,7 @@ private:
     void paint()
     {
         switch (random_.below(3)) {
-        case 0: word(slip() ? "reddish" : COLOURS[random_.below(sizeof COLOURS / sizeof COLOURS[0])]); break;
+        case 0: word(slip() ? "reddish" : random_.pick(COLOURS)); break;
         case 1: {
             char text[16];
             snprintf(text, sizeof text, "#%06x", static_cast<unsigned>(random_.below(1 << 24)));
@@ -180,105 +224,78 @@ private:
         }
     }
 
-    void object(bool group)
+    // Makes a new item, a group or an object.
+    void newItem(bool group)
     {
         const size_t count = random_.once(5) ? 2 + random_.below(random_.once(12) ? (group ? 62 : 110) : 8) : 1;
         const std::string name = freshName(count);
-        size_t kind = 0;
-        if (group) {
-            word("group");
-            word(name);
-        } else {
-            static const char* const KINDS[] = {"sphere", "cylinder", "torus", "disc", "cone", "box"};
-            kind = random_.below(6);
-            word(KINDS[kind]);
-            word(name);
-            word("size");
-            number(1, kind == 2 ? 60 : 100);
-            if (kind == 1 || kind == 4) {
-                word("length");
-                number(kind == 4 ? 50 : 0, 100);
-            }
-            if (kind == 2) {
-                word("ring");
-                number(38, 100);
-            }
-            if (kind == 3) {
-                word("disc");
-                number(0, 100);
-            }
-            for (const char* edge : {"x", "y", "z"})
-                if (kind == 5) {
-                    word(edge);
-                    number(0, 100);
-                }
-            if (kind == 4) {
-                word("tip");
-                number(1, 100);
-            }
-        }
+        const Kind* kind = group ? nullptr : &random_.pick(KINDS);
+        word(group ? "group" : kind->word);
+        word(name);
+        if (!group)
+            for (const Kind::Measure& measure : kind->measures)
+                number(measure.word, measure.low, measure.high);
         bool placed = false;
-        for (size_t i = random_.below(4); i > 0; --i) {
-            switch (random_.below(6)) {
-            case 5:
-                // These factors keep the largest object of each kind within 100 units.
-                if (!group) {
-                    word("stretch");
-                    for (int part = 0; part < 3; ++part)
-                        number(0.25, kind == 0 ? 2 : 0.66);
-                }
-                break;
-            case 0:
-                word("at");
-                vector(count > 1 ? 20 : 250);
-                placed = true;
-                break;
-            case 1:
-                word("turn");
-                vector(360);
-                break;
-            case 2:
-                if (group) {
-                    word("scale");
-                    number(0.0625, 4);
-                } else {
-                    colour();
-                }
-                break;
-            case 3: {
-                // A parent must not be a row.
-                if (random_.once(20)) {
-                    word("in");
-                    word("eye");
-                    eyeMoves();
-                    break;
-                }
-                for (const Item& item : items_) {
-                    if (item.count == 1 && random_.once(3)) {
-                        word("in");
-                        word(known(item));
-                        break;
-                    }
-                }
-                break;
-            }
-            default: break;
-            }
-        }
-        if (count > 1 || slip()) {
-            if (!slip()) {
-                word("repeat");
-                char text[24];
-                snprintf(text, sizeof text, slip() ? "%zu.5" : "%zu", count);
-                word(text);
-            }
-            if (random_.once(2)) {
-                word("step");
-                vector((placed ? 230.0 : 250.0) / double(count));
-            }
-        }
+        for (size_t i = random_.below(4); i > 0; --i)
+            placed = property(kind, count) || placed;
+        if (count > 1 || slip())
+            row(count, placed ? 230 : 250);
         end();
         items_.push_back({name, group, count});
+    }
+
+    // Adds a property, or none, to a new item; a group has no kind. Returns whether the property is its place.
+    bool property(const Kind* kind, size_t count)
+    {
+        switch (random_.below(6)) {
+        case 0: vector("at", count > 1 ? 20 : 250); return true;
+        case 1: vector("turn", 360); break;
+        case 2:
+            if (kind == nullptr)
+                number("scale", 0.0625, 4);
+            else
+                colour();
+            break;
+        case 3: parent(); break;
+        case 5:
+            if (kind != nullptr) {
+                word("stretch");
+                for (int part = 0; part < 3; ++part)
+                    number(0.25, kind->stretch);
+            }
+            break;
+        default: break;
+        }
+        return false;
+    }
+
+    void parent()
+    {
+        if (random_.once(20)) {
+            word("in");
+            word("eye");
+            eyeMoves();
+            return;
+        }
+        // A parent must not be a row.
+        for (const Item& item : items_) {
+            if (item.count == 1 && random_.once(3)) {
+                about("in", item);
+                return;
+            }
+        }
+    }
+
+    void row(size_t count, double length)
+    {
+        if (!slip()) {
+            word("repeat");
+            char text[24];
+            snprintf(text, sizeof text, slip() ? "%zu.5" : "%zu", count);
+            word(text);
+        }
+        if (random_.once(2))
+            vector("step", length / double(count));
     }
 
     // From the first line that moves the eye, the eye is an item; its parents must come before that line.
@@ -291,18 +308,15 @@ private:
 
     void eye()
     {
-        word("eye");
-        vector(250);
+        vector("eye", 250);
         if (random_.once(3)) {
-            word("turn");
-            vector(360);
+            vector("turn", 360);
             eyeMoves();
         }
-        const size_t known = eyeIsItem_ ? beforeEye_ : items_.size();
-        const size_t parent = random_.below(known + 1);
-        if (parent < known && items_[parent].count == 1) {
-            word("in");
-            word(this->known(items_[parent]));
+        const size_t parents = eyeIsItem_ ? beforeEye_ : items_.size();
+        const size_t parent = random_.below(parents + 1);
+        if (parent < parents && items_[parent].count == 1) {
+            about("in", items_[parent]);
             eyeMoves();
         } else if (slip()) {
             word("in");
@@ -325,238 +339,225 @@ private:
         line_.clear();
     }
 
+    // Makes a statement: the oftener it stands in the table, the more there are. Each ends its lines itself, as some have none.
     void statement()
     {
-        Item& item = items_[random_.below(items_.size())];
-        switch (random_.below(20)) {
-        case 19: {
-            if (item.group && !slip()) {
-                object(false);
-                return;
-            }
-            const size_t part = random_.below(3);
-            static const char* const WARPS[] = {"taper", "twist", "bend"};
-            const double most = part == 0 ? 0.75 : part == 1 ? 360 : 180;
-            word(WARPS[part]);
-            word(known(item));
-            number(-most, most);
+        static constexpr void (Maker::*STATEMENTS[])(Item&) = {
+            &Maker::object, &Maker::object, &Maker::object, &Maker::group, &Maker::circle, &Maker::path, &Maker::turning,
+            &Maker::turning, &Maker::pulse, &Maker::keys, &Maker::key, &Maker::key, &Maker::link, &Maker::view,
+            &Maker::nothing, &Maker::finish, &Maker::pattern, &Maker::strength, &Maker::link, &Maker::warp};
+        Item& item = random_.pick(items_);
+        (this->*random_.pick(STATEMENTS))(item);
+    }
+
+    void object(Item&) { newItem(false); }
+    void group(Item&) { newItem(true); }
+
+    void circle(Item& item)
+    {
+        about("circle", item);
+        if (random_.once(2)) {
+            number("radius", 0, 250);
             if (random_.once(2)) {
-                word("swing");
-                number(-most, most);
-                lag(item);
-                period();
-                phase();
+                word("plane");
+                word(slip() ? "xx" : random_.pick(PLANES));
             }
-            break;
+        } else {
+            vector("u", 250);
+            vector("v", 250);
         }
-        case 0:
-        case 1:
-        case 2: object(false); return;
-        case 3: object(true); return;
-        case 4:
-            word("circle");
-            word(known(item));
-            if (random_.once(2)) {
-                word("radius");
-                number(0, 250);
-                if (random_.once(2)) {
-                    word("plane");
-                    word(slip() ? "xx" : PLANES[random_.below(6)]);
-                }
-            } else {
-                word("u");
-                vector(250);
-                word("v");
-                vector(250);
-            }
-            lag(item);
-            period();
-            phase();
-            break;
-        case 5:
-            word("path");
-            word(known(item));
-            for (size_t i = 1 + random_.below(3); i > 0; --i) {
-                word(std::string(1, "xyz"[random_.below(3)]));
-                number(-250, 250);
-                seconds();
-                number(-1, 1);
-            }
-            lag(item);
-            break;
-        case 6:
-        case 7: {
-            const bool swings = random_.once(2);
-            word(swings ? "swing" : "spin");
-            word(known(item));
-            word("axis");
-            direction();
-            if (swings) {
-                word("angle");
-                number(-360, 360);
-            }
-            period();
-            phase();
-            lag(item);
-            break;
+        wave(item);
+        end();
+    }
+
+    void path(Item& item)
+    {
+        about("path", item);
+        for (size_t i = 1 + random_.below(3); i > 0; --i) {
+            word(std::string(1, "xyz"[random_.below(3)]));
+            number(-250, 250);
+            seconds();
+            number(-1, 1);
         }
-        case 8:
-            word("pulse");
-            word(known(item));
-            word("by");
-            number(0, 0.75);
-            lag(item);
-            period();
-            phase();
-            break;
-        case 9:
-            if (item.keyTime >= 0 && !slip())
-                return;
-            word("keys");
-            word(known(item));
-            if (random_.once(2))
-                word(random_.once(2) ? "smooth" : "linear");
-            if (random_.once(2)) {
-                word("repeat");
-                item.repeat = 3000;
-                number(2999.5, 3600);
-            }
-            if (random_.once(2)) {
-                word("axis");
-                direction();
-            }
-            break;
-        case 10:
-        case 11:
-            for (size_t i = 1 + random_.below(4); i > 0; --i) {
-                word("key");
-                word(known(item));
-                char text[32];
-                item.keyTime = item.keyTime < 0 ? double(random_.below(3)) : item.keyTime + 0.1 + double(random_.below(100)) / 10;
-                if (item.keyTime > 2900)
-                    item.keyTime = 2900;
-                snprintf(text, sizeof text, "%.3f", item.keyTime);
-                word(slip() ? "0" : text);
-                vector(250);
-                if (random_.once(3)) {
-                    word("angle");
-                    number(-3600, 3600);
-                }
-                if (random_.once(3)) {
-                    word("scale");
-                    number(0.0625, 4);
-                }
-                end();
-            }
+        lag(item);
+        end();
+    }
+
+    void turning(Item& item)
+    {
+        const bool swings = random_.once(2);
+        about(swings ? "swing" : "spin", item);
+        axis();
+        if (swings)
+            number("angle", -360, 360);
+        period();
+        phase();
+        lag(item);
+        end();
+    }
+
+    void pulse(Item& item)
+    {
+        about("pulse", item);
+        number("by", 0, 0.75);
+        wave(item);
+        end();
+    }
+
+    void keys(Item& item)
+    {
+        if (item.keyTime >= 0 && !slip())
             return;
-        case 15:
-            if (random_.once(3)) {
-                word(random_.once(4) ? "colors" : "colours");
-                word(random_.once(3) ? "apart" : slip() ? "mixt" : "mixed");
-                break;
-            }
-            if (item.group && !slip())
-                return;
-            word("finish");
-            word(known(item));
-            word(slip() ? "gloss" : FINISHES[random_.below(3)]);
-            break;
-        case 16:
-            if (item.group && !slip())
-                return;
-            word("pattern");
-            word(known(item));
-            word(slip() ? "none" : PATTERNS[random_.below(3)]);
-            number(1, 100);
-            paint();
-            break;
-        case 17:
-            if (item.group && !slip())
-                return;
-            word("strength");
-            word(known(item));
-            number(0.25, 4);
-            break;
-        case 12:
-        case 18: {
-            const bool dents = random_.once(2);
-            word(dents ? "dent" : "blend");
-            if (!dents && random_.once(4)) {
-                word("all");
-            } else {
-                const Item& other = items_[random_.below(items_.size())];
-                if ((item.group || other.group || (&item == &other && item.count == 1)) && !slip()) {
-                    line_.clear();
-                    return;
-                }
-                word(known(item));
-                word(known(other));
-            }
-            if (random_.once(2))
-                number(0, 4);
-            break;
+        about("keys", item);
+        if (random_.once(2))
+            word(random_.once(2) ? "smooth" : "linear");
+        if (random_.once(2))
+            number("repeat", 2999.5, 3600);
+        if (random_.once(2))
+            axis();
+        end();
+    }
+
+    void key(Item& item)
+    {
+        for (size_t i = 1 + random_.below(4); i > 0; --i) {
+            about("key", item);
+            char text[32];
+            item.keyTime = item.keyTime < 0 ? double(random_.below(3)) : item.keyTime + 0.1 + double(random_.below(100)) / 10;
+            if (item.keyTime > 2900)
+                item.keyTime = 2900;
+            snprintf(text, sizeof text, "%.3f", item.keyTime);
+            word(slip() ? "0" : text);
+            vector(250);
+            if (random_.once(3))
+                number("angle", -3600, 3600);
+            if (random_.once(3))
+                number("scale", 0.0625, 4);
+            end();
         }
-        case 13:
-            switch (random_.below(6)) {
-            case 0:
-                eye();
-                break;
-            case 1:
-                word("look");
-                if (random_.once(2) || (item.count > 1 && !slip()))
-                    vector(250);
-                else
-                    word(known(item));
-                break;
-            case 2:
-                word("roll");
-                number(-360, 360);
-                break;
-            case 3:
-                // The eye moves as objects do.
-                eyeMoves();
-                switch (random_.below(4)) {
-                case 0:
-                    word("circle");
-                    word("eye");
-                    word("radius");
-                    number(0, 250);
-                    period();
-                    break;
-                case 1:
-                    word("path");
-                    word("eye");
-                    word("z");
-                    number(-250, 250);
-                    seconds();
-                    number(-1, 1);
-                    break;
-                default:
-                    word("spin");
-                    word("eye");
-                    word("axis");
-                    direction();
-                    period();
-                    break;
-                }
-                break;
-            case 4:
-                word("focal");
-                number(1, 500);
-                if (random_.once(2))
-                    number(1, 500);
-                break;
-            default:
-                word("light");
-                direction();
-                break;
+    }
+
+    void link(Item& item)
+    {
+        const bool dents = random_.once(2);
+        word(dents ? "dent" : "blend");
+        if (!dents && random_.once(4)) {
+            word("all");
+        } else {
+            const Item& other = random_.pick(items_);
+            if ((item.group || other.group || (&item == &other && item.count == 1)) && !slip()) {
+                line_.clear();
+                return;
             }
+            word(known(item));
+            word(known(other));
+        }
+        if (random_.once(2))
+            number(0, 4);
+        end();
+    }
+
+    void view(Item& item)
+    {
+        switch (random_.below(6)) {
+        case 0: eye(); break;
+        case 1:
+            word("look");
+            if (random_.once(2) || (item.count > 1 && !slip()))
+                vector(250);
+            else
+                word(known(item));
+            break;
+        case 2: number("roll", -360, 360); break;
+        case 3: eyeMotion(); break;
+        case 4:
+            number("focal", 1, 500);
+            if (random_.once(2))
+                number(1, 500);
             break;
         default:
-            // An empty line.
-            if (slip())
-                word(ODD[random_.below(ODD_COUNT)]);
+            word("light");
+            direction();
             break;
+        }
+        end();
+    }
+
+    // The eye moves as objects do.
+    void eyeMotion()
+    {
+        eyeMoves();
+        const size_t motion = random_.below(4);
+        word(motion == 0 ? "circle" : motion == 1 ? "path" : "spin");
+        word("eye");
+        if (motion == 1) {
+            number("z", -250, 250);
+            seconds();
+            number(-1, 1);
+            return;
+        }
+        if (motion == 0)
+            number("radius", 0, 250);
+        else
+            axis();
+        period();
+    }
+
+    void nothing(Item&)
+    {
+        if (slip())
+            word(random_.pick(ODD));
+        end();
+    }
+
+    void finish(Item& item)
+    {
+        if (random_.once(3)) {
+            word(random_.once(4) ? "colors" : "colours");
+            word(random_.once(3) ? "apart" : slip() ? "mixt" : "mixed");
+        } else {
+            if (!asObject(item))
+                return;
+            about("finish", item);
+            word(slip() ? "gloss" : random_.pick(FINISHES));
+        }
+        end();
+    }
+
+    void pattern(Item& item)
+    {
+        if (!asObject(item))
+            return;
+        about("pattern", item);
+        word(slip() ? "none" : random_.pick(PATTERNS));
+        number(1, 100);
+        paint();
+        end();
+    }
+
+    void strength(Item& item)
+    {
+        if (!asObject(item))
+            return;
+        about("strength", item);
+        number(0.25, 4);
+        end();
+    }
+
+    void warp(Item& item)
+    {
+        if (!asObject(item)) {
+            object(item);
+            return;
+        }
+        const size_t part = random_.below(3);
+        static const char* const WARPS[] = {"taper", "twist", "bend"};
+        const double most = part == 0 ? 0.75 : part == 1 ? 360 : 180;
+        about(WARPS[part], item);
+        number(-most, most);
+        if (random_.once(2)) {
+            number("swing", -most, most);
+            wave(item);
         }
         end();
     }
@@ -605,6 +606,44 @@ std::vector<Place> linesOf(const std::string& text)
     return all;
 }
 
+// Returns one of the places, or the beginning of the text if there is none.
+Place any(Random& random, const std::vector<Place>& places)
+{
+    return places.empty() ? Place{0, 0} : random.pick(places);
+}
+
+// Exchanges two words, if the second one comes later.
+void exchange(std::string& text, Place first, Place second)
+{
+    if (first.at + first.length > second.at)
+        return;
+    const std::string a = text.substr(first.at, first.length), b = text.substr(second.at, second.length);
+    text.replace(second.at, second.length, a);
+    text.replace(first.at, first.length, b);
+}
+
+void moveLine(Random& random, std::string& text, Place line)
+{
+    const std::string moved = text.substr(line.at, line.length);
+    text.erase(line.at, line.length);
+    text.insert(any(random, linesOf(text)).at, moved);
+}
+
+// Adds, removes or replaces a digit.
+void changeDigit(Random& random, std::string& text)
+{
+    const size_t digit = text.find_first_of("0123456789", random.below(text.size() + 1));
+    if (digit == std::string::npos)
+        return;
+    const char fresh = static_cast<char>('0' + random.below(10));
+    if (random.once(3))
+        text.insert(digit, 1, fresh);
+    else if (random.once(2))
+        text.erase(digit, 1);
+    else
+        text[digit] = fresh;
+}
+
 }  // namespace
 
 uint64_t Random::next()
@@ -626,57 +665,26 @@ std::string makeScene(Random& random, size_t slips)
 void change(Random& random, std::string& text, const std::string& other)
 {
     for (size_t times = 1 + random.below(5); times > 0; --times) {
-        const std::vector<Place> words = wordsOf(text), lines = linesOf(text);
-        const std::vector<Place> theirs = linesOf(other);
-        const Place word = words.empty() ? Place{0, 0} : words[random.below(words.size())];
-        const Place line = lines.empty() ? Place{0, 0} : lines[random.below(lines.size())];
+        const std::vector<Place> words = wordsOf(text);
+        const Place word = any(random, words), line = any(random, linesOf(text));
         switch (random.below(12)) {
-        case 0: text.replace(word.at, word.length, WORDS[random.below(sizeof WORDS / sizeof WORDS[0])]); break;
-        case 1: text.replace(word.at, word.length, ODD[random.below(ODD_COUNT)]); break;
-        case 2: {
-            // Two words are exchanged.
-            const Place second = words.empty() ? Place{0, 0} : words[random.below(words.size())];
-            if (word.at + word.length <= second.at) {
-                const std::string a = text.substr(word.at, word.length), b = text.substr(second.at, second.length);
-                text.replace(second.at, second.length, a);
-                text.replace(word.at, word.length, b);
-            }
-            break;
-        }
-        case 3: text.insert(word.at, std::string(WORDS[random.below(sizeof WORDS / sizeof WORDS[0])]) + " "); break;
+        case 0: text.replace(word.at, word.length, random.pick(WORDS)); break;
+        case 1: text.replace(word.at, word.length, random.pick(ODD)); break;
+        case 2: exchange(text, word, any(random, words)); break;
+        case 3: text.insert(word.at, std::string(random.pick(WORDS)) + " "); break;
         case 4: text.erase(word.at, word.length + (random.once(2) ? 1 : 0)); break;
         case 5: text.insert(line.at, text.substr(line.at, line.length)); break;
-        case 6:
-            if (!theirs.empty()) {
-                const Place from = theirs[random.below(theirs.size())];
-                text.insert(line.at, other.substr(from.at, from.length));
-            }
-            break;
-        case 7: {
-            const std::string moved = text.substr(line.at, line.length);
-            text.erase(line.at, line.length);
-            const std::vector<Place> left = linesOf(text);
-            text.insert(left.empty() ? 0 : left[random.below(left.size())].at, moved);
+        case 6: {
+            const Place from = any(random, linesOf(other));
+            text.insert(line.at, other.substr(from.at, from.length));
             break;
         }
+        case 7: moveLine(random, text, line); break;
         case 8:
             if (!text.empty())
-                text[random.below(text.size())] = static_cast<char>(random.next());
+                random.pick(text) = static_cast<char>(random.next());
             break;
-        case 9: {
-            // A digit is added, removed or replaced.
-            const size_t digit = text.find_first_of("0123456789", random.below(text.size() + 1));
-            if (digit != std::string::npos) {
-                const char fresh = static_cast<char>('0' + random.below(10));
-                if (random.once(3))
-                    text.insert(digit, 1, fresh);
-                else if (random.once(2))
-                    text.erase(digit, 1);
-                else
-                    text[digit] = fresh;
-            }
-            break;
-        }
+        case 9: changeDigit(random, text); break;
         case 10:
             if (random.once(10))
                 text.resize(random.below(text.size() + 1));
