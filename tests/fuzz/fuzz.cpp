@@ -35,16 +35,31 @@ namespace {
 std::string current;
 volatile unsigned long round_ = 0, roundSeen = 0;
 
-[[noreturn]] void failed(const char* what)
+void keepInput()
 {
     FILE* file = fopen("build/fuzzfail.fb", "wb");
     if (file != nullptr) {
         fwrite(current.data(), 1, current.size(), file);
         fclose(file);
     }
+}
+
+[[noreturn]] void failed(const char* what)
+{
+    keepInput();
     printf("FAILED: input %lu: %s (kept in build/fuzzfail.fb)\n", round_, what);
     fflush(stdout);
     _exit(1);
+}
+
+// Fails unless this holds, and prints the complaint of the reader that goes with it.
+void must(bool holds, const char* what, const char* complaint = nullptr)
+{
+    if (holds)
+        return;
+    if (complaint != nullptr)
+        puts(complaint);
+    failed(what);
 }
 
 // Calls onAlarm() after ten seconds of the program's own time: a busy machine makes no hang.
@@ -64,19 +79,10 @@ void onAlarm(int)
 
 // The sanitizers call this before they stop the program, so that the input is kept.
 extern "C" void __sanitizer_set_death_callback(void (*callback)(void));
-void onDeath()
-{
-    FILE* file = fopen("build/fuzzfail.fb", "wb");
-    if (file != nullptr) {
-        fwrite(current.data(), 1, current.size(), file);
-        fclose(file);
-    }
-}
 
 bool putLine(void* to, const char* line)
 {
-    if (strlen(line) > static_cast<size_t>(LINE_MOST) + 1)
-        failed("a written line is too long");
+    must(strlen(line) <= static_cast<size_t>(LINE_MOST) + 1, "a written line is too long");
     static_cast<std::string*>(to)->append(line);
     return true;
 }
@@ -116,8 +122,7 @@ void draw(Model& model, bool printed)
 {
     static VoxelList list;
     static Palette palette;
-    if (!model.resample(Real(6), makeEngine))
-        failed("no memory for seeds");
+    must(model.resample(Real(6), makeEngine), "no memory for seeds");
     // Very many seeds take minutes under the sanitizers: they are drawn at fewer times, and not by the report's method, which
     // asks every object for each seed.
     long seeds = 0, left = 150000;
@@ -125,8 +130,7 @@ void draw(Model& model, bool printed)
         seeds += model.actor(i).object->seeds();
     printed = printed && seeds * model.count() < 200000;
     palette.make(model, false, printed);
-    if (printed && !model.resample(Real(6), makeReport98))
-        failed("no memory for seeds");
+    must(!printed || model.resample(Real(6), makeReport98), "no memory for seeds");
     Counts counts{};
     for (Time time : TIMES) {
         if (left < 0)
@@ -134,8 +138,7 @@ void draw(Model& model, bool printed)
         left -= seeds;
         Anim::move(model, time);
         const FrameContext frame{model.camera.eye, unit(model.light), model.bodies(), &counts, model.camera.axes};
-        if (frame.bodies == nullptr)
-            failed("no memory for bodies");
+        must(frame.bodies != nullptr, "no memory for bodies");
         for (int i = 0; i < model.count(); ++i)
             model.actor(i).object->update(frame);
         for (int i = 0; i < model.count(); ++i) {
@@ -145,6 +148,149 @@ void draw(Model& model, bool printed)
             while (next != 0);
         }
     }
+}
+
+std::string contents(const char* name)
+{
+    FILE* file = fopen(name, "rb");
+    if (file == nullptr) {
+        fprintf(stderr, "fuzz: cannot read %s\n", name);
+        exit(2);
+    }
+    std::string text;
+    for (int c = getc(file); c != EOF; c = getc(file))
+        text += static_cast<char>(c);
+    fclose(file);
+    return text;
+}
+
+// The files, and behind them some of the scenes that were read: further changes of these accumulate.
+class Pool {
+public:
+    explicit Pool(char** files)
+    {
+        for (; files[given_] != nullptr; ++given_)
+            texts_.push_back(contents(files[given_]));
+    }
+
+    // Makes the next input. Returns whether it is a scene without a mistake.
+    bool next(Random& random) const
+    {
+        // The files themselves come first, unchanged.
+        if (round_ < given_) {
+            current = texts_[round_];
+            return false;
+        }
+        switch (random.below(5)) {
+        case 0: current = makeScene(random, 0); return true;
+        case 1: current = makeScene(random, 40 + random.below(400)); break;
+        case 2:
+            current = makeScene(random, random.below(200));
+            change(random, current, random.pick(texts_));
+            break;
+        case 3:
+            current = texts_[random.below(given_)];
+            change(random, current, makeScene(random, 0));
+            break;
+        default:
+            current = random.pick(texts_);
+            change(random, current, random.pick(texts_));
+            break;
+        }
+        return false;
+    }
+
+    void keep(Random& random)
+    {
+        if (texts_.size() < given_ + 400)
+            texts_.push_back(current);
+        else
+            texts_[given_ + random.below(400)] = current;
+    }
+
+private:
+    size_t given_ = 0;
+    std::vector<std::string> texts_;
+};
+
+void checkComplaint(const char* complaint, SceneEnd end, bool faultless)
+{
+    must(end == SCENE_BAD, "refused for another reason than the text", complaint);
+    must(strncmp(complaint, "FUZZ.FB:", 8) == 0 && strstr(complaint, ": expected ") != nullptr,
+         "the complaint does not say where and what");
+    for (const char* c = complaint; *c != 0; ++c)
+        must(*c >= ' ' && *c <= '~' && c - complaint <= 400, "the complaint is not one line of plain text");
+    must(!faultless || strstr(complaint, "expected at most") != nullptr || strstr(complaint, "blend all in at most") != nullptr ||
+             strstr(complaint, "a time after") != nullptr,
+         "refused without a mistake", complaint);
+}
+
+bool inSpace(const Point& p)
+{
+    return absolute(p.x) <= Real(SPACE) && absolute(p.y) <= Real(SPACE) && absolute(p.z) <= Real(SPACE);
+}
+
+void checkEye(const Camera& eye, const Camera& again)
+{
+    must(eye.eye == again.eye && eye.axes == again.axes, "seen from elsewhere when read again");
+    must(inSpace(eye.eye), "the eye left the space of the model");
+    const ViewAxes& axes = eye.axes;
+    const Real slack(0.001);
+    must(absolute(length(axes.right) - Real(1)) <= slack && absolute(length(axes.ahead) - Real(1)) <= slack &&
+             length(cross(axes.ahead, axes.right) - axes.up) <= slack && absolute(dot(axes.ahead, axes.right)) <= slack,
+         "the axes of the view are none");
+}
+
+void checkItem(const Actor& item, const Actor& again)
+{
+    const Coat &coat = item.coat, &other = again.coat;
+    must(coat.finish == other.finish && coat.pattern == other.pattern && coat.grain == other.grain && coat.colour == other.colour,
+         "another paint when read again");
+    must(item.strength == again.strength, "another strength when read again");
+    must(sameShape(item, again), "another shape when read again");
+    const Pose &a = item.pose, &b = again.pose;
+    must(a.place == b.place && a.scale == b.scale && memcmp(&a.turn, &b.turn, sizeof a.turn) == 0,
+         "moves in another way when read again");
+    must(inSpace(a.place), "left the space of the model");
+}
+
+void checkSame(Model& model, Model& again)
+{
+    must(strcmp(model.title, again.title) == 0, "another title when read again");
+    must(model.count() == again.count() && model.items() == again.items() && model.keyCount() == again.keyCount(),
+         "not as many objects, groups or keys when read again");
+    must(model.mixed == again.mixed, "colours that mix, or not, when read again");
+    for (int i = 0; i < model.count(); ++i)
+        for (int j = 0; j < model.count(); ++j)
+            must(sameLinks(model, again, i, j), "other links or dents when read again");
+    for (Time time : TIMES) {
+        Anim::move(model, time);
+        Anim::move(again, time);
+        checkEye(model.camera, again.camera);
+        for (int i = 0; i < model.items(); ++i)
+            checkItem(model.item(i), again.item(i));
+    }
+}
+
+// Reads the input, writes what was read, and reads that again. Returns false if the input is refused.
+bool checkReading(Model& model, bool faultless)
+{
+    SceneEnd end = SCENE_GOOD;
+    const char* complaint = readSceneText("FUZZ.FB", current.data(), static_cast<uint32_t>(current.size()), model, &end);
+    if (complaint != nullptr) {
+        checkComplaint(complaint, end, faultless);
+        return false;
+    }
+    must(end == SCENE_GOOD, "read, but the end says otherwise");
+    std::string first, second;
+    writeSceneText(putLine, &first, model);
+    Model again;
+    complaint = readSceneText("AGAIN.FB", first.data(), static_cast<uint32_t>(first.size()), again, &end);
+    must(complaint == nullptr, "what was written is refused", complaint);
+    writeSceneText(putLine, &second, again);
+    must(first == second, "written twice, and not the same");
+    checkSame(model, again);
+    return true;
 }
 
 }  // namespace
@@ -162,139 +308,29 @@ int main(int count, char** arguments)
     }
     const unsigned long rounds = strtoul(arguments[1], nullptr, 10);
     Random random(strtoull(arguments[2], nullptr, 10) * 2654435761u + 1);
-    std::vector<std::string> pool;
-    for (int i = 3; i < count; ++i) {
-        FILE* file = fopen(arguments[i], "rb");
-        if (file == nullptr) {
-            fprintf(stderr, "fuzz: cannot read %s\n", arguments[i]);
-            return 2;
-        }
-        std::string text;
-        for (int c = getc(file); c != EOF; c = getc(file))
-            text += static_cast<char>(c);
-        fclose(file);
-        pool.push_back(text);
-    }
-    const size_t given = pool.size();
+    Pool pool(arguments + 3);
     makeFieldSteps();
     makeNormalTable();
     signal(SIGVTALRM, onAlarm);
     watch();
-    __sanitizer_set_death_callback(onDeath);
+    __sanitizer_set_death_callback(keepInput);
 
     unsigned long taken = 0, refused = 0, drawn = 0, whole = 0;
     for (round_ = 0; round_ < rounds; ++round_) {
-        // The files themselves come first, unchanged.
-        bool faultless = false;
-        if (round_ < given) {
-            current = pool[round_];
-        } else {
-            switch (random.below(5)) {
-            case 0:
-                current = makeScene(random, 0);
-                faultless = true;
-                break;
-            case 1: current = makeScene(random, 40 + random.below(400)); break;
-            case 2:
-                current = makeScene(random, random.below(200));
-                change(random, current, pool[random.below(pool.size())]);
-                break;
-            case 3:
-                current = pool[random.below(given)];
-                change(random, current, makeScene(random, 0));
-                break;
-            default:
-                current = pool[random.below(pool.size())];
-                change(random, current, pool[random.below(pool.size())]);
-                break;
-            }
-        }
+        const bool faultless = pool.next(random);
         whole += faultless;
         Model model;
-        SceneEnd end = SCENE_GOOD;
-        const char* wrong = readSceneText("FUZZ.FB", current.data(), static_cast<uint32_t>(current.size()), model, &end);
-        if (wrong != nullptr) {
+        if (!checkReading(model, faultless)) {
             ++refused;
-            if (end != SCENE_BAD) {
-                puts(wrong);
-                failed("refused for another reason than the text");
-            }
-            if (strncmp(wrong, "FUZZ.FB:", 8) != 0 || strstr(wrong, ": expected ") == nullptr)
-                failed("the complaint does not say where and what");
-            for (const char* c = wrong; *c != 0; ++c)
-                if (*c < ' ' || *c > '~' || c - wrong > 400)
-                    failed("the complaint is not one line of plain text");
-            if (faultless && strstr(wrong, "expected at most") == nullptr && strstr(wrong, "blend all in at most") == nullptr &&
-                strstr(wrong, "a time after") == nullptr) {
-                puts(wrong);
-                failed("refused without a mistake");
-            }
             continue;
         }
         ++taken;
-        if (end != SCENE_GOOD)
-            failed("read, but the end says otherwise");
-        std::string first, second;
-        writeSceneText(putLine, &first, model);
-        Model again;
-        wrong = readSceneText("AGAIN.FB", first.data(), static_cast<uint32_t>(first.size()), again, &end);
-        if (wrong != nullptr) {
-            puts(wrong);
-            failed("what was written is refused");
-        }
-        writeSceneText(putLine, &second, again);
-        if (first != second)
-            failed("written twice, and not the same");
-        if (strcmp(model.title, again.title) != 0)
-            failed("another title when read again");
-        if (model.count() != again.count() || model.items() != again.items() || model.keyCount() != again.keyCount())
-            failed("not as many objects, groups or keys when read again");
-        if (model.mixed != again.mixed)
-            failed("colours that mix, or not, when read again");
-        for (int i = 0; i < model.count(); ++i)
-            for (int j = 0; j < model.count(); ++j)
-                if (!sameLinks(model, again, i, j))
-                    failed("other links or dents when read again");
-        for (Time time : TIMES) {
-            Anim::move(model, time);
-            Anim::move(again, time);
-            const Camera &eye = model.camera, &other = again.camera;
-            if (!(eye.eye == other.eye) || !(eye.axes == other.axes))
-                failed("seen from elsewhere when read again");
-            if (absolute(eye.eye.x) > Real(SPACE) || absolute(eye.eye.y) > Real(SPACE) || absolute(eye.eye.z) > Real(SPACE))
-                failed("the eye left the space of the model");
-            const ViewAxes& axes = eye.axes;
-            const Real slack(0.001);
-            if (absolute(length(axes.right) - Real(1)) > slack || absolute(length(axes.ahead) - Real(1)) > slack ||
-                length(cross(axes.ahead, axes.right) - axes.up) > slack || absolute(dot(axes.ahead, axes.right)) > slack)
-                failed("the axes of the view are none");
-            for (int i = 0; i < model.items(); ++i) {
-                const Coat &coat = model.item(i).coat, &coatAgain = again.item(i).coat;
-                if (coat.finish != coatAgain.finish || coat.pattern != coatAgain.pattern || coat.grain != coatAgain.grain ||
-                    !(coat.colour == coatAgain.colour))
-                    failed("another paint when read again");
-                if (model.item(i).strength != again.item(i).strength)
-                    failed("another strength when read again");
-                if (!sameShape(model.item(i), again.item(i)))
-                    failed("another shape when read again");
-                const Pose &a = model.item(i).pose, &b = again.item(i).pose;
-                if (!(a.place == b.place) || a.scale != b.scale || memcmp(&a.turn, &b.turn, sizeof a.turn) != 0)
-                    failed("moves in another way when read again");
-                if (absolute(a.place.x) > Real(SPACE) || absolute(a.place.y) > Real(SPACE) || absolute(a.place.z) > Real(SPACE))
-                    failed("left the space of the model");
-            }
-        }
         if (draws && random.once(16)) {
             ++drawn;
             draw(model, random.once(4));
         }
-        // Some of the accepted scenes are kept for further changes, so that changes accumulate.
-        if (random.once(8)) {
-            if (pool.size() < given + 400)
-                pool.push_back(current);
-            else
-                pool[given + random.below(400)] = current;
-        }
+        if (random.once(8))
+            pool.keep(random);
     }
     printf("%lu scenes, %lu of them without a mistake: %lu read, written and read again, %lu refused, %lu drawn\n", rounds, whole,
            taken, refused, drawn);
