@@ -599,59 +599,53 @@ static void shiftDepth(Frame &f, int column, int row, double by) {
   f.z[place(column, row)] += (int)(by * 65536);
 }
 
-static void counts() {
-  const std::string one = "sphere 1 0 0 0 60\n";
-  Made m = made(one);
+// Returns the leftmost column that the surface has on the row of the picture's middle.
+static int rimOf(const Made &m) {
+  int rim = 0;
+  while (!m.picture.at(rim, 100).any()) rim++;
+  return rim;
+}
+
+static void itself(const Made &m) {
   Figures f = compare(m.frame, m.picture);
   check(f.holes == 0 && f.seeThrough == 0 && f.outside == 0 && f.missing == 0, "the truth itself: no faults");
   check(f.surface == f.drawn && f.both == f.drawn, "the truth itself: drawn where there is surface");
   check(f.interior > 0 && f.interior < f.surface, "the truth itself: an interior within a rim");
   check(f.depthRms() < 1e-4, "the truth itself: depth");
   check(f.shaded == f.both && f.shadeRms() < 0.32, "the truth itself: brightness rounded to steps");
+}
 
+static void holes(const Made &m) {
   Made h = m;
   for (int i = 0; i < 7; i++) h.frame.z[place(150 + 2 * i, 100)] = EMPTY;
-  f = compare(h.frame, h.picture);
+  Figures f = compare(h.frame, h.picture);
   check(f.holes == 7 && f.missing == 7, "seven holes");
   check(f.drawn == f.surface - 7, "seven fewer drawn");
 
   // A rim pixel not drawn is no hole.
   h = m;
-  int rim = 0;
-  while (!h.picture.at(rim, 100).any()) rim++;
+  const int rim = rimOf(m);
   h.frame.z[place(rim, 100)] = EMPTY;
   f = compare(h.frame, h.picture);
   check(f.holes == 0 && f.missing == 1, "a rim pixel is no hole");
   h.frame.z[place(rim + 1, 100)] = EMPTY;
   check(compare(h.frame, h.picture).holes == 1, "the pixel behind the rim is one");
+}
 
-  h = m;
+static void seeThrough(Made h) {
   for (int i = 0; i < 5; i++) shiftDepth(h.frame, 150 + i, 90, 4.5);
   for (int i = 0; i < 6; i++) shiftDepth(h.frame, 150 + i, 80, 3.5);
   for (int i = 0; i < 6; i++) shiftDepth(h.frame, 150 + i, 70, -4.5);
-  shiftDepth(h.frame, rim, 100, 4.5);
-  f = compare(h.frame, h.picture);
+  shiftDepth(h.frame, rimOf(h), 100, 4.5);
+  Figures f = compare(h.frame, h.picture);
   check(f.seeThrough == 5, "five see-through: further behind than 4 units, interior");
   checkNear(f.seeThroughShare(), 100.0 * 5 / f.interior, 1e-12, "see-through share of interior pixels");
+}
 
-  // Outside: beyond a distance of two pixels. Left of the rim on the row of
-  // the ball's middle, which is its leftmost.
-  for (int off = 1; off <= 4; off++) {
-    h = m;
-    h.frame.z[place(rim - off, 100)] = 100 * 65536;
-    f = compare(h.frame, h.picture);
-    check(f.outside == (off > 2) && f.outsideBox == (off > 2), "outside by " + std::to_string(off));
-  }
-  h = m;
-  for (int i = 0; i < 6; i++) h.frame.z[place(5 + i, 5)] = 100 * 65536;
-  f = compare(h.frame, h.picture);
-  check(f.outside == 6 && f.drawn == f.surface + 6, "six outside");
-  checkNear(f.outsideShare(), 100.0 * 6 / f.drawn, 1e-12, "outside share of drawn pixels");
-  // Two across and two up is 2.83 away: out of the circle, in the square.
-  h = m;
-  int corner = 0;
-  for (int r = 0; r < HEIGHT && !corner; r++)
-    for (int c = 2; c < WIDTH - 2 && !corner; c++) {
+// Draws a pixel two across and two up from the surface: 2.83 away, so out of the circle, in the square.
+static bool drawAtCorner(Made &m) {
+  for (int r = 0; r < HEIGHT; r++)
+    for (int c = 2; c < WIDTH - 2; c++) {
       if (m.picture.at(c, r).any()) break;
       bool circle = false, square = false;
       for (int y = -2; y <= 2; y++)
@@ -661,17 +655,39 @@ static void counts() {
             circle = circle || x * x + y * y <= 4;
           }
       if (square && !circle) {
-        corner = 1;
-        h.frame.z[place(c, r)] = 100 * 65536;
+        m.frame.z[place(c, r)] = 100 * 65536;
+        return true;
       }
     }
+  return false;
+}
+
+// Outside: beyond a distance of two pixels.
+static void outside(const Made &m) {
+  Made h;
+  Figures f;
+  // Left of the rim on the row of the ball's middle, which is its leftmost.
+  for (int off = 1; off <= 4; off++) {
+    h = m;
+    h.frame.z[place(rimOf(m) - off, 100)] = 100 * 65536;
+    f = compare(h.frame, h.picture);
+    check(f.outside == (off > 2) && f.outsideBox == (off > 2), "outside by " + std::to_string(off));
+  }
+  h = m;
+  for (int i = 0; i < 6; i++) h.frame.z[place(5 + i, 5)] = 100 * 65536;
+  f = compare(h.frame, h.picture);
+  check(f.outside == 6 && f.drawn == f.surface + 6, "six outside");
+  checkNear(f.outsideShare(), 100.0 * 6 / f.drawn, 1e-12, "outside share of drawn pixels");
+  h = m;
+  const bool corner = drawAtCorner(h);
   f = compare(h.frame, h.picture);
   check(corner && f.outside == 1 && f.outsideBox == 0, "outside in the circle's and the square's sense");
+}
 
-  h = m;
+static void depths(Made h) {
   for (int32_t &z : h.frame.z)
     if (z != EMPTY) z += 32768;
-  f = compare(h.frame, h.picture);
+  Figures f = compare(h.frame, h.picture);
   checkNear(f.depthRms(), 0.5, 1e-4, "depth RMS of a shift by half a unit");
   checkNear(f.smoothRms(), 0.5, 1e-4, "depth RMS away from jumps, too");
   // Two balls one behind the other: a wrong rim weighs on the plain figure only.
@@ -683,10 +699,19 @@ static void counts() {
   shiftDepth(two.frame, jump + 1, 100, -20);
   f = compare(two.frame, two.picture);
   check(f.depthRms() > 0.1 && f.smoothRms() < 1e-4, "an error at a jump");
+}
+
+static void counts() {
+  Made m = made("sphere 1 0 0 0 60\n");
+  itself(m);
+  holes(m);
+  seeThrough(m);
+  outside(m);
+  depths(m);
 
   // The whole screen full: pixels at the edge have neighbours beyond it.
   Made full = made("sphere 1 0 0 0 200\n");
-  f = compare(full.frame, full.picture);
+  Figures f = compare(full.frame, full.picture);
   check(f.surface == WIDTH * HEIGHT && f.interior == WIDTH * HEIGHT, "a full screen is all interior");
   full.frame.z[0] = EMPTY;
   check(compare(full.frame, full.picture).holes == 1, "a hole in the corner");
@@ -736,7 +761,7 @@ static void paintGrey(Frame &f, int column, int row, int step) {
   for (int k = 0; k < 3; k++) f.rgb[3 * place(column, row) + k] = (uint8_t)(step << 2 | step >> 4);
 }
 
-static void brightness() {
+static void greySteps() {
   // All light ambient: the true step is 63 everywhere.
   Made m = made("ambient 1\nsphere 1 0 0 0 60\n");
   auto grey = [&]() { return Ramps(m.frame.scene).step(m.frame.pixel(160, 100), 0); };
@@ -751,8 +776,10 @@ static void brightness() {
   for (int r = 0; r < HEIGHT; r++)
     for (int c = 0; c < WIDTH; c++) paintGrey(m.frame, c, r, 60);
   checkNear(compare(m.frame, m.picture).shadeRms(), 3, 1e-6, "three steps too dark");
+}
 
-  // Colours: known with the ramps, unknown without.
+static void colouredSteps() {
+  // Known with the ramps, unknown without.
   Made c = made("ramp 1 255 128 0\nramp 2 0 64 255\nsphere 1 -15 0 0 40\nsphere 2 15 0 0 40\n");
   Figures f = compare(c.frame, c.picture);
   check(f.shaded == f.both && f.shadeRms() < 0.32, "brightness in colour");
@@ -760,11 +787,34 @@ static void brightness() {
   without.scene.ramps.clear();
   f = compare(without, c.picture);
   check(f.shaded == 0 && f.coloured == 0 && f.both > 0, "no ramps, no brightness figure, no colour figure");
+  // Black fits both ramps where nothing is ambient; then the object that
+  // should be there decides, and the colour tells nothing.
+  Ramps dark(c.frame.scene);
+  const uint8_t black[3] = {0, 0, 0};
+  check(dark.shown(black) < 0 && dark.step(black, 0) < 1 && dark.step(black, 1) < 1, "black is anybody's");
+  const uint8_t alien[3] = {0, 255, 0};
+  check(dark.shown(alien) < 0, "a colour of no ramp");
+}
 
+// Paints every pixel ten steps too dark or too bright.
+static void paintTenOff(Made &m) {
+  Ramps ramps(m.frame.scene);
+  for (int r = 0; r < HEIGHT; r++)
+    for (int c = 0; c < WIDTH; c++) {
+      Hit h = m.picture.at(c, r);
+      if (!h.any()) continue;
+      h.shade += h.shade >= 30 ? -10 : 10;
+      ramps.paint(h, &m.frame.rgb[3 * place(c, r)]);
+    }
+}
+
+// Light as the program divides it up.
+static const std::string programLight = "ambient 0.142857\nhighlight 0.825397\n";
+
+static void palette() {
   // The program's palette, worked out by hand: the darkest, one in the middle,
   // the last below the highlight, the brightest.
-  const std::string lit = "ambient 0.142857\nhighlight 0.825397\n";
-  Made p = made(lit + "ramp 1 255 64 48\nramp 2 72 112 255\nsphere 1 -15 0 0 40\nsphere 2 15 0 0 40\n");
+  Made p = made(programLight + "ramp 1 255 64 48\nramp 2 72 112 255\nsphere 1 -15 0 0 40\nsphere 2 15 0 0 40\n");
   Ramps ramps(p.frame.scene);
   struct {
     int light, red, green, blue;   // of 63
@@ -789,24 +839,17 @@ static void brightness() {
       check(ramps.shown(rgb) == ramps.of(object) && std::fabs(ramps.step(rgb, object) - (9 + light * 54 / 63.0)) < 0.44,
             "there and back, object " + std::to_string(object) + ", light " + std::to_string(light));
     }
-  f = compare(p.frame, p.picture);
+  Figures f = compare(p.frame, p.picture);
   check(f.shadeRms() < 0.5 && f.coloured == f.both, "brightness in the program's ramps");
-  // Ten steps off at every pixel.
-  for (int r = 0; r < HEIGHT; r++)
-    for (int col = 0; col < WIDTH; col++) {
-      const Hit &h = p.picture.at(col, r);
-      if (!h.any()) continue;
-      ramps.paint(h.object, h.shade >= 30 ? h.shade - 10 : h.shade + 10, &p.frame.rgb[3 * place(col, r)]);
-    }
+  paintTenOff(p);
   // The ambient share leaves 54 of 63 steps to the light.
   checkNear(compare(p.frame, p.picture).shadeRms(), 10 * 63 / 54.0, 0.3, "ten steps of the ramp off in colour");
-  // Black fits both ramps where nothing is ambient; then the object that
-  // should be there decides, and the colour tells nothing.
-  Ramps dark(c.frame.scene);
-  const uint8_t black[3] = {0, 0, 0};
-  check(dark.shown(black) < 0 && dark.step(black, 0) < 1 && dark.step(black, 1) < 1, "black is anybody's");
-  const uint8_t alien[3] = {0, 255, 0};
-  check(dark.shown(alien) < 0, "a colour of no ramp");
+}
+
+static void brightness() {
+  greySteps();
+  colouredSteps();
+  palette();
 }
 
 static void colours() {
@@ -921,9 +964,8 @@ static void flickers() {
     Made a = made("ambient 1\nsphere 1 0 0 0 60\n"), b = a;
     b.frame.scene.time = a.frame.scene.time + dt;
     for (int i = 0; i < pixels; i++) {
-      int at = place(140 + i, 100), step = 63 - change;
-      for (int k = 0; k < 3; k++) b.frame.rgb[3 * at + k] = (uint8_t)(step << 2 | step >> 4);
-      if (vanish) b.frame.z[at] = EMPTY;
+      paintGrey(b.frame, 140 + i, 100, 63 - change);
+      if (vanish) b.frame.z[place(140 + i, 100)] = EMPTY;
     }
     Figures f;
     compareFlicker(a.frame, a.picture, b.frame, b.picture, f);
@@ -957,8 +999,8 @@ static void flickers() {
   check(g.pairs == 1 && g.flicker == 0, "a true change is no flicker");
 }
 
-static void paints() {
-  // Finishes, from a normal: what is scattered, what is mirrored of the light, what of the surroundings.
+// Finishes, from a normal: what is scattered, what is mirrored of the light, what of the surroundings.
+static void finishes() {
   Scene plain = scene("light 0 0 -1\nsphere 1 0 0 0 60\n");
   Tracer t(plain);
   Coat matt, shiny, mirror;
@@ -973,55 +1015,58 @@ static void paints() {
   checkNear(t.brightness(mirror, {1, 0, 0}), 13 / 24.0, 1e-12, "at the horizon");
   checkNear(t.brightness(mirror, {0, std::sqrt(1 - c8 * c8), -c8}),
             1 - 0.5 * (h - 0.3) / 0.7 + 0.5 * (h - 0.3) / 0.7 * std::pow(c8, 16), 1e-12, "at the sky");
+}
 
-  // Colours that mix.
-  const std::string lit = "ambient 0.142857\nhighlight 0.825397\n";
-  const std::string balls = lit + "ramp 1 200 0 100\nramp 2 0 100 50\nsphere 1 -12 0 0 50\nsphere 2 12 0 0 50\n";
-  Scene apart = scene(balls + "mixed\n"), one = scene(balls + "blend 1 2\n"), both = scene(balls + "blend 1 2\nmixed\n");
-  auto is = [&](Colour c, double r, double g, double b, const std::string &name) {
-    check(std::fabs(c.r - r) + std::fabs(c.g - g) + std::fabs(c.b - b) < 1e-9, name);
-  };
+static const std::string mixedBalls =
+    programLight + "ramp 1 200 0 100\nramp 2 0 100 50\nsphere 1 -12 0 0 50\nsphere 2 12 0 0 50\n";
+
+static void checkColour(Colour c, double r, double g, double b, const std::string &name) {
+  check(std::fabs(c.r - r) + std::fabs(c.g - g) + std::fabs(c.b - b) < 1e-9, name);
+}
+
+// Colours that mix.
+static void mixtures() {
+  Scene apart = scene(mixedBalls + "mixed\n"), one = scene(mixedBalls + "blend 1 2\n");
+  Scene both = scene(mixedBalls + "blend 1 2\nmixed\n");
   const Vec mid{0, 0, -15};
-  is(Tracer(both).colour(0, mid), 100, 50, 75, "half way between two");
-  is(Tracer(one).colour(0, mid), 200, 0, 100, "not where colours do not mix");
-  is(Tracer(apart).colour(0, mid), 200, 0, 100, "nor between bodies");
-  is(Tracer(both).colour(0, {-40, 0, 0}), 200, 0, 100, "nor where the other does not reach");
+  checkColour(Tracer(both).colour(0, mid), 100, 50, 75, "half way between two");
+  checkColour(Tracer(one).colour(0, mid), 200, 0, 100, "not where colours do not mix");
+  checkColour(Tracer(apart).colour(0, mid), 200, 0, 100, "nor between bodies");
+  checkColour(Tracer(both).colour(0, {-40, 0, 0}), 200, 0, 100, "nor where the other does not reach");
   const double a = geoff(4 / 2500.0), b = geoff(484 / 2500.0);
-  is(Tracer(both).colour(0, {-10, 0, 0}), 200 * a / (a + b), 100 * b / (a + b), (100 * a + 50 * b) / (a + b), "by the fields");
+  checkColour(Tracer(both).colour(0, {-10, 0, 0}), 200 * a / (a + b), 100 * b / (a + b), (100 * a + 50 * b) / (a + b),
+              "by the fields");
+}
 
-  // Patterns, in their own axes: x along z, y along x, so z along y.
+// Patterns, in their own axes: x along z, y along x, so z along y.
+static void patterns() {
   const std::string at = " 2 0 0 5 0 0 1 1 0 0\n";
   auto pattern = [&](const std::string &word, Vec p) {
     Scene s = scene("ramp 1 200 0 100\nsphere 1 0 0 0 60\n" + word + " 1 4 80 160" + at);
     return Tracer(s).colour(0, p);
   };
-  is(pattern("checks", {1, 1, 6}), 200, 0, 100, "the first check");
-  is(pattern("checks", {1, 1, 10}), 80, 160, 2, "one on");
-  is(pattern("checks", {1, -1, 10}), 200, 0, 100, "and down");
-  is(pattern("checks", {-1, -1, 10}), 80, 160, 2, "and to the left");
-  is(pattern("stripes", {1, -1, 10}), 80, 160, 2, "a stripe");
-  is(pattern("stripes", {-9, -7, 10}), 80, 160, 2, "all along");
-  is(pattern("stripes", {1, 1, 4}), 80, 160, 2, "on both sides");
-  is(pattern("stripes", {1, 1, 6}), 200, 0, 100, "between");
+  checkColour(pattern("checks", {1, 1, 6}), 200, 0, 100, "the first check");
+  checkColour(pattern("checks", {1, 1, 10}), 80, 160, 2, "one on");
+  checkColour(pattern("checks", {1, -1, 10}), 200, 0, 100, "and down");
+  checkColour(pattern("checks", {-1, -1, 10}), 80, 160, 2, "and to the left");
+  checkColour(pattern("stripes", {1, -1, 10}), 80, 160, 2, "a stripe");
+  checkColour(pattern("stripes", {-9, -7, 10}), 80, 160, 2, "all along");
+  checkColour(pattern("stripes", {1, 1, 4}), 80, 160, 2, "on both sides");
+  checkColour(pattern("stripes", {1, 1, 6}), 200, 0, 100, "between");
   const double turn = 2 * 3.14159265358979,
                vein = 0.5 + 0.5 * std::sin(turn * (0.5 * 0.25 + 0.3 * std::sin(turn * (0.35 * 0.5 + 0.2)) +
                                                    0.2 * std::sin(turn * (0.55 * 0.75 + 0.2 * 0.5))));
-  is(pattern("marble", {2, 3, 6}), 200 + vein * (80 - 200), vein * 160, 100 + vein * (2 - 100), "marble");
+  checkColour(pattern("marble", {2, 3, 6}), 200 + vein * (80 - 200), vein * 160, 100 + vein * (2 - 100), "marble");
+}
 
-  // True frames, judged; and damaged.
-  const std::string all = balls + "blend 1 2\nmixed\nshiny 2\nchecks 1 12 250 250 250 -12 0 0 0.8 0.6 0 -0.6 0.8 0\n";
+// True frames, judged; and damaged.
+static void paintedFrames() {
+  const std::string all = mixedBalls + "blend 1 2\nmixed\nshiny 2\nchecks 1 12 250 250 250 -12 0 0 0.8 0.6 0 -0.6 0.8 0\n";
   Made m = made(all);
   Figures f = compare(m.frame, m.picture);
   check(f.shaded == f.both && f.shadeRms() < 0.6 && f.coloured == f.both && f.wrongColour == 0, "the truth itself, painted");
   check(f.border == 0 && f.borderTrue == 0, "its borders are not judged");
-  Ramps ramps(m.frame.scene);
-  for (int x = 0; x < WIDTH; x++)
-    for (int y = 0; y < HEIGHT; y++) {
-      Hit hit = m.picture.at(x, y);
-      if (!hit.any()) continue;
-      hit.shade += hit.shade >= 30 ? -10 : 10;
-      ramps.paint(hit, &m.frame.rgb[3 * place(x, y)]);
-    }
+  paintTenOff(m);
   checkNear(compare(m.frame, m.picture).shadeRms(), 10 * 63 / 54.0, 1, "ten steps of the ramp off, painted");
   m = made(all);
   int spoilt = 0;
@@ -1037,6 +1082,13 @@ static void paints() {
   Made grey = made("shiny 1\nsphere 1 0 0 0 60\n");
   f = compare(grey.frame, grey.picture);
   check(f.shaded == f.both && f.shadeRms() < 0.32 && f.coloured == 0, "a finish in grey");
+}
+
+static void paints() {
+  finishes();
+  mixtures();
+  patterns();
+  paintedFrames();
 }
 
 // Where a place of plain space goes, as the words of a dump say; angles in degrees, axes those of the world.
