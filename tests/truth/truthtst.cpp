@@ -852,111 +852,142 @@ static void brightness() {
   palette();
 }
 
-static void colours() {
-  const std::string balls = "sphere 1 -10 0 0 60\nsphere 2 10 0 0 60\nblend 1 2\n";
-  const std::string lit = "eye 0 0 -200\nambient 0.5\n";
-  const std::string ramps = "ramp 1 255 64 48\nramp 2 72 112 255\n";
-  // Two balls alike: the true border is the upright line between columns 159
-  // and 160, as long as the picture is high there.
-  Made m = made(lit + balls + ramps);
-  int high = 0, top = 0;
-  for (int r = 0; r < HEIGHT; r++)
-    if (m.picture.at(159, r).any() && m.picture.at(160, r).any()) {
-      if (!high) top = r;
-      high++;
-    }
-  Figures f = compare(m.frame, m.picture);
-  check(high > 50 && f.borderTrue == high && f.border == high, "an upright border");
-  check(f.coloured == f.drawn && f.wrongColour == 0, "colours of the truth");
-  auto give = [](Made &to, int column, int row, int object) {
-    Ramps(to.frame.scene).paint(object, 40, &to.frame.rgb[3 * place(column, row)]);
-  };
+static const std::string twoAlike = "sphere 1 -10 0 0 60\nsphere 2 10 0 0 60\nblend 1 2\n";
+static const std::string halfLit = "eye 0 0 -200\nambient 0.5\n";
+static const std::string twoRamps = "ramp 1 255 64 48\nramp 2 72 112 255\n";
 
-  // Scraps: five pixels apart from each other, far inside the first ball.
+// Paints a pixel in the colour of an object.
+static void paintAs(Made &to, int column, int row, int object) {
+  Ramps(to.frame.scene).paint(object, 40, &to.frame.rgb[3 * place(column, row)]);
+}
+
+// Two balls alike: the true border is the upright line between columns 159
+// and 160, as long as the picture is high there.
+struct Upright : Made {
+  int high = 0, top = 0;
+  Upright() : Made(made(halfLit + twoAlike + twoRamps)) {
+    for (int r = 0; r < HEIGHT; r++)
+      if (picture.at(159, r).any() && picture.at(160, r).any()) {
+        if (!high) top = r;
+        high++;
+      }
+  }
+};
+
+static void uprightBorder(const Upright &m) {
+  Figures f = compare(m.frame, m.picture);
+  check(m.high > 50 && f.borderTrue == m.high && f.border == m.high, "an upright border");
+  check(f.coloured == f.drawn && f.wrongColour == 0, "colours of the truth");
+}
+
+// Scraps: five pixels apart from each other, far inside the first ball.
+static void scrapsOfColour(const Upright &m) {
   Made scraps = m;
-  for (int i = 0; i < 5; i++) give(scraps, 130 + 3 * i, 100, 1);
-  f = compare(scraps.frame, scraps.picture);
+  for (int i = 0; i < 5; i++) paintAs(scraps, 130 + 3 * i, 100, 1);
+  Figures f = compare(scraps.frame, scraps.picture);
   check(f.wrongColour == 5, "five scraps of colour");
-  check(f.border == high + 20 && f.borderTrue == high, "a scrap has a border of four");
+  check(f.border == m.high + 20 && f.borderTrue == m.high, "a scrap has a border of four");
   checkNear(f.colourShare(), 100.0 * 5 / f.drawn, 1e-12, "their share of drawn pixels");
-  checkNear(f.borderRatio(), (high + 20.0) / high, 1e-12, "border over true border");
+  checkNear(f.borderRatio(), (m.high + 20.0) / m.high, 1e-12, "border over true border");
   std::vector<uint8_t> picture = sheet(scraps.frame, scraps.picture);
   auto painted = [&](int column, int row) { return &picture[3 * (row * SHEET_WIDTH + 2 * (WIDTH + 4) + column)]; };
   check(painted(133, 100)[0] == 0 && painted(133, 100)[1] == 255 && painted(133, 100)[2] == 255, "a scrap is cyan");
   check(painted(132, 100)[0] == 0 && painted(132, 100)[1] == 128 && painted(132, 100)[2] == 0, "its border is green");
   check(painted(140, 80)[1] == painted(140, 80)[0], "the rest is grey");
+}
+
+// A pixel may have the colour of the pixel beside it, left, right, above or below.
+static void besideTheBorder(const Made &m) {
   // A pixel from the other's region is near enough, two are not, nor is a diagonal.
   Made close = m;
-  give(close, 159, 100, 1);
+  paintAs(close, 159, 100, 1);
   check(compare(close.frame, close.picture).wrongColour == 0, "a pixel over the border");
-  give(close, 158, 100, 1);
+  paintAs(close, 158, 100, 1);
   check(compare(close.frame, close.picture).wrongColour == 1, "two pixels over the border");
-  Made corner = made(lit + ramps + "sphere 1 0 0 20 120\nsphere 2 0 0 -60 40\n");
+  Made corner = made(halfLit + twoRamps + "sphere 1 0 0 20 120\nsphere 2 0 0 -60 40\n");
   int wrong = 0, beside = 0;
-  for (int r = 1; r < HEIGHT - 1; r++)
-    for (int c = 1; c < WIDTH - 1; c++) {
+  for (int r = 1; r < HEIGHT - 1 && beside <= 60; r++)
+    for (int c = 1; c < WIDTH - 1 && beside <= 60; c++) {
       auto is = [&](int x, int y) { return corner.picture.at(x, y).object == 1; };
       if (is(c, r) || !corner.picture.at(c, r).any()) continue;
       bool four = is(c + 1, r) || is(c - 1, r) || is(c, r + 1) || is(c, r - 1);
       bool diagonal = is(c + 1, r + 1) || is(c - 1, r - 1) || is(c - 1, r + 1) || is(c + 1, r - 1);
       if (!four && !diagonal) continue;
       Made one = corner;
-      give(one, c, r, 1);
-      f = compare(one.frame, one.picture);
-      wrong += f.wrongColour != (four ? 0 : 1);
+      paintAs(one, c, r, 1);
+      wrong += compare(one.frame, one.picture).wrongColour != (four ? 0 : 1);
       beside++;
-      if (beside > 60) r = c = HEIGHT * WIDTH;
     }
   check(beside > 20 && wrong == 0, "beside and diagonal: " + std::to_string(wrong) + " wrong of " + std::to_string(beside));
+  // One object before another without a link: the border is its outline.
+  Figures f = compare(corner.frame, corner.picture);
+  check(f.borderTrue > 60 && f.border == f.borderTrue, "an outline before another object is a border");
+}
 
-  // A comb: every second row reaches three pixels into the other's region.
-  Made comb = m;
-  int teeth = 0, gaps = 0;
-  for (int r = top; r < top + high; r += 2) {
-    teeth++;
-    for (int c = 160; c < 163; c++) give(comb, c, r, 0);
-    gaps += 3 * ((r > top) + (r + 1 < top + high));
-  }
-  f = compare(comb.frame, comb.picture);
+// A comb: every second row reaches three pixels into the other's region.
+static void comb(Upright m) {
   // Away from the picture's top and bottom all of the comb's pixels are there.
+  const int bottom = m.top + m.high - 1;
   bool whole = true;
-  for (int c = 157; c < 164; c++) whole = whole && m.picture.at(c, top).any() && m.picture.at(c, top + high - 1).any();
+  for (int c = 157; c < 164; c++) whole = whole && m.picture.at(c, m.top).any() && m.picture.at(c, bottom).any();
+  int teeth = 0, gaps = 0;
+  for (int r = m.top; r <= bottom; r += 2) {
+    teeth++;
+    for (int c = 160; c < 163; c++) paintAs(m, c, r, 0);
+    gaps += 3 * ((r > m.top) + (r < bottom));
+  }
+  Figures f = compare(m.frame, m.picture);
   check(whole && f.wrongColour == 2 * teeth, "a comb: two of a tooth's three pixels are wrong");
-  check(f.border == high + gaps && f.borderTrue == high, "a comb's border: its teeth's sides as well");
+  check(f.border == m.high + gaps && f.borderTrue == m.high, "a comb's border: its teeth's sides as well");
+}
 
-  // Holes and what sticks out have no colour to be judged.
+// Holes and what sticks out have no colour to be judged.
+static void withoutColour(const Upright &m) {
   Made hole = m;
   hole.frame.z[place(159, 100)] = EMPTY;
-  f = compare(hole.frame, hole.picture);
-  check(f.coloured == f.surface - 1 && f.borderTrue == high - 1 && f.border == high - 1, "a hole in the border");
+  Figures f = compare(hole.frame, hole.picture);
+  check(f.coloured == f.surface - 1 && f.borderTrue == m.high - 1 && f.border == m.high - 1, "a hole in the border");
   Made out = m;
   out.frame.z[place(3, 3)] = 65536;
-  give(out, 3, 3, 0);
+  paintAs(out, 3, 3, 0);
   check(compare(out.frame, out.picture).wrongColour == 0, "what sticks out is not judged twice");
+}
 
-  // Two objects of one colour; two ramps that a palette tells apart only where it rounds; grey.
-  Made same = made(lit + balls + "ramp 1 255 64 48\nramp 2 255 64 48\n");
-  f = compare(same.frame, same.picture);
+// Two objects of one colour; two ramps that a palette tells apart only where it rounds; grey.
+static void coloursAlike() {
+  Made same = made(halfLit + twoAlike + "ramp 1 255 64 48\nramp 2 255 64 48\n");
+  Figures f = compare(same.frame, same.picture);
   check(f.coloured == f.drawn && f.border == 0 && f.borderTrue == 0, "one colour, no border");
-  Made alike = made(lit + balls + "ramp 1 100 100 40\nramp 2 101 100 40\n");
+  Made alike = made(halfLit + twoAlike + "ramp 1 100 100 40\nramp 2 101 100 40\n");
   f = compare(alike.frame, alike.picture);
   check(3 * f.coloured < f.drawn && f.wrongColour == 0, "colours alike tell little");
-  // Two at one place: either colour is right, and beside the third's border too.
-  Made place2 = made(lit + "sphere 1 -12 0 0 50\nsphere 2 -12 0 0 50\nsphere 3 14 0 0 60\nblend 1 2\nblend 2 3\nblend 1 3\n"
-                     + ramps + "ramp 3 255 200 48\n");
-  f = compare(place2.frame, place2.picture);
+  Made grey = made(halfLit + twoAlike);
+  check(compare(grey.frame, grey.picture).coloured == 0, "grey tells nothing");
+}
+
+// Two at one place: either colour is right, and beside the third's border too.
+static void eitherColour() {
+  Made tied = made(halfLit + "sphere 1 -12 0 0 50\nsphere 2 -12 0 0 50\nsphere 3 14 0 0 60\nblend 1 2\nblend 2 3\nblend 1 3\n"
+                    + twoRamps + "ramp 3 255 200 48\n");
+  Figures f = compare(tied.frame, tied.picture);
   check(f.coloured > 0 && f.coloured < f.drawn, "where cores coincide no colour is judged");
   Figures either = f;
   for (int r = 0; r < HEIGHT; r++)
     for (int c = 0; c < WIDTH; c++)
-      if (place2.picture.at(c, r).tied) give(place2, c, r, (r / 3 + c / 3) % 2);
-  f = compare(place2.frame, place2.picture);
+      if (tied.picture.at(c, r).tied) paintAs(tied, c, r, (r / 3 + c / 3) % 2);
+  f = compare(tied.frame, tied.picture);
   check(f.wrongColour == 0 && f.border == either.border && f.coloured == either.coloured, "either colour is right there");
-  Made grey = made(lit + balls);
-  check(compare(grey.frame, grey.picture).coloured == 0, "grey tells nothing");
-  // One object before another without a link: the border is its outline.
-  f = compare(corner.frame, corner.picture);
-  check(f.borderTrue > 60 && f.border == f.borderTrue, "an outline before another object is a border");
+}
+
+static void colours() {
+  Upright m;
+  uprightBorder(m);
+  scrapsOfColour(m);
+  besideTheBorder(m);
+  comb(m);
+  withoutColour(m);
+  coloursAlike();
+  eitherColour();
 }
 
 static void flickers() {
