@@ -72,6 +72,11 @@ public:
     // first root.
     void addSeeds(const Ring& ring, int k, int root);
 
+    // Adds roots and seeds of ring number `k` of an object that is its own mirror image in the plane y = 0. Its ring number
+    // rings - 1 - k is the image of this one, and shares its roots. `latitude` is that of the lower one of the two; the sines and
+    // cosines of `ring` are set from it.
+    void addMirrored(Ring& ring, int k, int rings, Angle latitude);
+
 private:
     void addStretched(const Ring& ring, int k, int root);
 
@@ -81,6 +86,7 @@ private:
     bool stretched_;
     bool round_, flat_;  // x and z are stretched alike; one is stretched more than twice as much as the other
     Quarter quarter_;
+    int root_ = 0;  // for addMirrored(): the number of roots below ring k, or its image
 };
 
 // The outline of a round object in the half plane through its axis, from bottom to top: a sequence of parts. It finds places

@@ -342,6 +342,15 @@ protected:
             return Real(1);
         return shiftDown(dot(v, v), 8);
     }
+    // plainParam() of a core that lies in the plane y = 0. fromCore() returns the vector to `q` from the core's nearest point. Far
+    // above or below the core it need not be known how far that lies aside.
+    template <class FromCore>
+    static Real flatParam(const Vector& q, Vector* slope, FromCore fromCore)
+    {
+        const bool far = absolute(q.y) >= Real(CORE_SIZE);
+        *slope = far ? q : fromCore();
+        return far ? Real(1) : paramOf(*slope);
+    }
 
     // Writes "kind number numbers...", for describe().
     void describeAs(const char* kind, const Real* numbers, int count, char* to, int size) const;

@@ -24,14 +24,7 @@ Vector Disc::fromCore(const Vector& q) const
 
 Real Disc::plainParam(const Vector& q, Vector* slope) const
 {
-    // Far above or below the core it need not be known how far the nearest point of the core lies aside.
-    if (absolute(q.y) >= Real(CORE_SIZE)) {
-        *slope = q;
-        return Real(1);
-    }
-    const Vector v = fromPlate(q, coreReach16());
-    *slope = v;
-    return paramOf(v);
+    return flatParam(q, slope, [&] { return fromPlate(q, coreReach16()); });
 }
 
 void Disc::layOutSeeds(SeedMaker& maker, Real spacing) const
@@ -45,34 +38,12 @@ void Disc::layOutSeeds(SeedMaker& maker, Real spacing) const
     RingMaker ringMaker(maker, stretch(), spacing);
     Ring ring{};
     ring.radius = radius();
-    int root = 0;
-    // Ring k and ring rings - 1 - k mirror each other in the plane of the core, and share their roots.
     for (int k = 0; k < rings; ++k) {
-        const int mirrored = rings - 1 - k;
-        const int below = k < mirrored ? k : mirrored;
+        const int mirrored = rings - 1 - k, below = k < mirrored ? k : mirrored;
         const Real at = outline.at(2 * below + 1, rings, &ring.across);
-        Angle latitude = 0u - QUARTER;
-        ring.core = discRadius();
-        if (at < discRadius())
-            ring.core = at;
-        else
-            latitude += quarterTurn(min(at - discRadius(), rim), rim);
-        if (k == mirrored)
-            latitude = 0;
-        else if (k > mirrored)
-            latitude = 0u - latitude;
-        ring.pathSine = ring.normalSine = sine(latitude);
-        ring.pathCosine = ring.normalCosine = cosine(latitude);
-        const int roots = ring.core == Real(0) ? 1 : ringMaker.seedsOf(ring);
-        if (k > mirrored) {
-            root -= roots;
-            ringMaker.addSeeds(ring, k, root);
-        } else {
-            ringMaker.addRoots(ring);
-            ringMaker.addSeeds(ring, k, root);
-            if (k < mirrored)
-                root += roots;
-        }
+        const bool onFace = at < discRadius();
+        ring.core = onFace ? at : discRadius();
+        ringMaker.addMirrored(ring, k, rings, (onFace ? 0 : quarterTurn(min(at - discRadius(), rim), rim)) - QUARTER);
     }
 }
 

@@ -135,6 +135,25 @@ void RingMaker::addSeeds(const Ring& ring, int k, int root)
     }
 }
 
+void RingMaker::addMirrored(Ring& ring, int k, int rings, Angle latitude)
+{
+    const int mirrored = rings - 1 - k;
+    if (k == mirrored)
+        latitude = 0;
+    else if (k > mirrored)
+        latitude = 0u - latitude;
+    ring.pathSine = ring.normalSine = sine(latitude);
+    ring.pathCosine = ring.normalCosine = cosine(latitude);
+    const int roots = ring.core == Real(0) ? 1 : seedsOf(ring);
+    if (k > mirrored)
+        root_ -= roots;
+    else
+        addRoots(ring);
+    addSeeds(ring, k, root_);
+    if (k < mirrored)
+        root_ += roots;
+}
+
 // Places the seeds at equal arc lengths round the ellipse, starting at its sharper end.
 void RingMaker::addStretched(const Ring& ring, int k, int root)
 {

@@ -26,14 +26,7 @@ Vector Torus::fromCore(const Vector& q) const
 
 Real Torus::plainParam(const Vector& q, Vector* slope) const
 {
-    // Far above or below the core it need not be known how far the nearest point of the core lies aside.
-    if (absolute(q.y) >= Real(CORE_SIZE)) {
-        *slope = q;
-        return Real(1);
-    }
-    const Vector v = fromCircle(q, coreReach16());
-    *slope = v;
-    return paramOf(v);
+    return flatParam(q, slope, [&] { return fromCircle(q, coreReach16()); });
 }
 
 void Torus::layOutSeeds(SeedMaker& maker, Real spacing) const
@@ -46,32 +39,13 @@ void Torus::layOutSeeds(SeedMaker& maker, Real spacing) const
     Ring ring{};
     ring.core = this->ring();
     ring.radius = radius();
-    // The rings go from the hole along the lower half outwards and along the upper half back. Ring k and ring rings - 1 - k
-    // mirror each other in the plane of the core, and share their roots.
+    // The rings go from the hole along the lower half outwards and along the upper half back.
     const uint32_t step = 0x80000000u / static_cast<uint32_t>(rings);
-    int root = 0;
     for (int k = 0; k < rings; ++k) {
-        const int mirrored = rings - 1 - k;
-        const int below = k < mirrored ? k : mirrored;
+        const int mirrored = rings - 1 - k, below = k < mirrored ? k : mirrored;
         const Real at = outline.at(2 * below + 1, rings, &ring.across);
-        Angle latitude = 0x80000000u + static_cast<uint32_t>(2 * below + 1) * step;
-        if (stretched())
-            latitude = 0x80000000u + 2 * quarterTurn(at, radius() * PI);
-        if (k == mirrored)
-            latitude = 0;
-        else if (k > mirrored)
-            latitude = 0u - latitude;
-        ring.pathSine = ring.normalSine = sine(latitude);
-        ring.pathCosine = ring.normalCosine = cosine(latitude);
-        if (k > mirrored) {
-            root -= ringMaker.seedsOf(ring);
-            ringMaker.addSeeds(ring, k, root);
-        } else {
-            ringMaker.addRoots(ring);
-            ringMaker.addSeeds(ring, k, root);
-            if (k < mirrored)
-                root += ringMaker.seedsOf(ring);
-        }
+        const Angle turn = stretched() ? 2 * quarterTurn(at, radius() * PI) : static_cast<uint32_t>(2 * below + 1) * step;
+        ringMaker.addMirrored(ring, k, rings, 0x80000000u + turn);
     }
 }
 
