@@ -42,6 +42,8 @@ uint32_t any()
     return state;
 }
 int below(int n) { return static_cast<int>(any() % static_cast<uint32_t>(n)); }
+// A number from -most to most.
+int around(int most) { return below(2 * most + 1) - most; }
 
 // A buffer between two guard areas.
 template <class T, int COUNT>
@@ -153,10 +155,10 @@ Scale sloped(int left, int top, int wide, int high)
     if (below(4) == 0)
         return scale(left, top, wide, high, depth(), below(256));
     const int most = below(3) == 0 ? 700 : 40;
-    int across = below(2 * most + 1) - most, down = below(2 * most + 1) - most;
+    int across = around(most), down = around(most);
     if (below(5) == 0)
         (below(2) ? across : down) = 0;
-    const int fall = (across < 0 ? -across : across) * (wide - 1) + (down < 0 ? -down : down) * (high - 1);
+    const int fall = magnitude(across) * (wide - 1) + magnitude(down) * (high - 1);
     if (fall > 0xfffe)
         return scale(left, top, wide, high, depth(), below(256));
     // The depth of the nearest corner is anywhere in range, or at one of its ends.
@@ -403,6 +405,7 @@ struct Optics {
         }
         fill(ramps, sizeof ramps);
     }
+    void setDemo() { set(250, 625 / 3.0, 160, 100); }
 };
 Optics optics;
 
@@ -411,7 +414,7 @@ void anyOptics()
 {
     const double focal = 64 + below(437);
     if (below(2))
-        optics.set(250, 625 / 3.0, 160, 100);
+        optics.setDemo();
     else
         optics.set(focal, below(2) ? focal / 1.2 < 64 ? 64 : focal / 1.2 : 64 + below(437), below(500) - 90.5, below(400) - 100.25);
     if (below(4))
@@ -432,94 +435,129 @@ int32_t anything() { return static_cast<int32_t>(any()) >> below(32); }
 
 int32_t minus(int32_t a, int32_t b) { return static_cast<int32_t>(static_cast<uint32_t>(a) - static_cast<uint32_t>(b)); }
 
-// Makes a voxel in the coordinates of the lens from a position and a size on the screen: anywhere, but often at an edge of the
-// screen, at an end of the table, or of the greatest width or height. A few voxels lie far off the screen.
-Voxel anyVoxel(const Lens& lens)
+// Where a voxel is to appear.
+struct Spot {
+    int32_t z;                       // 1/256 unit
+    double column, row, wide, high;  // middle and size on the screen, pixels
+    bool steep;
+};
+
+// Anywhere, but often at an edge of the screen, at an end of the table, or of the greatest width or height. A few lie far off the
+// screen.
+Spot anySpot()
 {
-    const auto near = [](int at, int by) { return at + below(2 * by + 1) - by; };
-    int32_t z = LENS_NEAR * 256 + below((LENS_FAR - LENS_NEAR) * 256);
-    if (below(16) == 0)
-        z = near((below(2) ? LENS_NEAR : LENS_FAR) * 256, 40);
+    const auto upTo = [](int most) { return below(most * 16) / 16.0; };
+    const auto nearly = [](double pixels) { return pixels + around(16) / 8.0; };
+    Spot s;
+    s.z = LENS_NEAR * 256 + below((LENS_FAR - LENS_NEAR) * 256);
+    if (below(16) == 0) {
+        s.z = (below(2) ? LENS_NEAR : LENS_FAR) * 256;
+        s.z += around(40);
+    }
     if (below(8) == 0)
-        z = below(8) ? 10 * 256 + below((LENS_NEAR - 10) * 256) : below(LENS_NEAR * 256);
-    double column = below(WIDE * 16) / 16.0, row = below(HIGH * 16) / 16.0;
-    double wide = below(18 * 16) / 16.0, high = below(18 * 16) / 16.0;
+        s.z = below(8) ? 10 * 256 + below((LENS_NEAR - 10) * 256) : below(LENS_NEAR * 256);
+    s.column = upTo(WIDE), s.row = upTo(HIGH);
+    s.wide = upTo(18), s.high = upTo(18);
     switch (below(8)) {
-    case 0: wide = below(32) / 16.0; break;
-    case 1: high = below(32) / 16.0; break;
-    case 2: wide = inasm::KIND_COLUMNS + (below(33) - 16) / 8.0, high = below(12); break;
-    case 3: high = inasm::KIND_ROWS + (below(33) - 16) / 8.0; break;
-    case 5: wide = below((LARGEST + 2) * 16) / 16.0, high = below((LARGEST + 2) * 16) / 16.0; break;
-    case 6: (below(2) ? wide : high) = LARGEST + (below(33) - 16) / 8.0; break;
-    case 4: wide = below(8), high = below(3) ? below(8) : below(30); break;
+    case 0: s.wide = upTo(2); break;
+    case 1: s.high = upTo(2); break;
+    case 2: s.wide = nearly(inasm::KIND_COLUMNS), s.high = below(12); break;
+    case 3: s.high = nearly(inasm::KIND_ROWS); break;
+    case 4: s.wide = below(8), s.high = below(3) ? below(8) : below(30); break;
+    case 5: s.wide = upTo(LARGEST + 2), s.high = upTo(LARGEST + 2); break;
+    case 6: (below(2) ? s.wide : s.high) = nearly(LARGEST); break;
     default: break;
     }
     // Some are so large and steep, at an end of the table, that the depth at a corner may overflow 16 bits.
-    const bool steep = below(10) == 0;
-    if (steep) {
-        z = (below(2) ? LENS_NEAR * 256 + below(24 * 256) : LENS_FAR * 256 - 1 - below(24 * 256));
-        wide = 20 + below(20 * 16) / 16.0, high = 20 + below(20 * 16) / 16.0;
-        column = LARGEST + below(WIDE - 2 * LARGEST), row = LARGEST + below(HIGH - 2 * LARGEST);
+    s.steep = below(10) == 0;
+    if (s.steep) {
+        s.z = below(2) ? LENS_NEAR * 256 + below(24 * 256) : LENS_FAR * 256 - 1 - below(24 * 256);
+        s.wide = 20 + upTo(20), s.high = 20 + upTo(20);
+        s.column = LARGEST + below(WIDE - 2 * LARGEST), s.row = LARGEST + below(HIGH - 2 * LARGEST);
     }
     if (below(8) == 0)
-        column = (below(2) ? wide / 2 : WIDE - wide / 2) + (below(33) - 16) / 8.0;
+        s.column = nearly(below(2) ? s.wide / 2 : WIDE - s.wide / 2);
     if (below(8) == 0)
-        row = (below(2) ? high / 2 : HIGH - high / 2) + (below(33) - 16) / 8.0;
-    const auto extent = [](double e) { return static_cast<int16_t>(e < 0 ? 0 : e > 32767 ? 32767 : e); };
-    Voxel v;
-    fill(&v, sizeof v);  // also the bytes that belong to no field
-    v.x = static_cast<int32_t>((column - optics.centreX) * z / optics.focalX);
-    v.y = static_cast<int32_t>((optics.centreY - row) * z / optics.focalY);
-    v.z = z;
-    v.halfWidth = extent(wide / 2 * z / optics.focalX);
-    v.halfHeight = extent(high / 2 * z / optics.focalY);
-    v.tiltX = static_cast<int16_t>(below(3) == 0 ? anything() : below(1201) - 600);
-    v.tiltY = static_cast<int16_t>(below(3) == 0 ? anything() : below(1201) - 600);
-    if (steep) {
-        v.tiltX = static_cast<int16_t>((below(2) ? 1 : -1) * below(4000));
-        v.tiltY = static_cast<int16_t>((below(2) ? 1 : -1) * below(4000));
-    }
-    v.brightness = static_cast<int8_t>(below(64));
-    v.reach = static_cast<uint8_t>(below(2) ? 0 : any() >> (24 + below(6)));
-    v.slopeX = v.slopeY = 0;
+        s.row = nearly(below(2) ? s.high / 2 : HIGH - s.high / 2);
+    return s;
+}
+
+// A value of Voxel::reach or front.
+uint8_t anyReach() { return static_cast<uint8_t>(any() >> (24 + below(6))); }
+
+// Sets brightness, ends and cut function of a voxel with known half extents.
+void addShading(Voxel* v)
+{
+    const auto slope = [] { return static_cast<int8_t>(anything()); };
+    v->brightness = static_cast<int8_t>(below(64));
+    v->reach = below(2) ? 0 : anyReach();
+    v->slopeX = v->slopeY = 0;
     if (below(2) == 0) {
-        v.slopeX = static_cast<int8_t>(any());
-        v.slopeY = static_cast<int8_t>(any());
+        v->slopeX = static_cast<int8_t>(any());
+        v->slopeY = static_cast<int8_t>(any());
         // A voxel with slopes of brightness may be dark in the middle.
-        if (below(3) == 0 && (v.slopeX | v.slopeY) != 0)
-            v.brightness = static_cast<int8_t>(DARK_MIDDLE + below(-DARK_MIDDLE));
+        if (below(3) == 0 && (v->slopeX | v->slopeY) != 0)
+            v->brightness = static_cast<int8_t>(DARK_MIDDLE + below(-DARK_MIDDLE));
     }
-    v.cutX = v.cutY = 0;
-    v.cutAt = static_cast<int16_t>(anything());
-    v.curveXX = v.curveXY = v.curveYY = 0;
-    v.front = static_cast<uint8_t>(any() >> (24 + below(6)));
-    if (below(4) == 0) {
-        v.cutX = static_cast<int8_t>(anything());
-        v.cutY = static_cast<int8_t>(anything());
-        // The line of the cut often lies within the scale.
-        const int corner = (v.cutX < 0 ? -v.cutX : v.cutX) * v.halfWidth / 256 +
-                           (v.cutY < 0 ? -v.cutY : v.cutY) * v.halfHeight / 256;
-        if (below(8) && corner < 4000)
-            v.cutAt = static_cast<int16_t>((below(2 * corner + 1) - corner) * 8);
-        if (below(2)) {
-            v.curveXX = static_cast<int8_t>(anything());
-            v.curveXY = static_cast<int8_t>(anything());
-            v.curveYY = static_cast<int8_t>(anything());
-        }
+    v->cutX = v->cutY = 0;
+    v->cutAt = static_cast<int16_t>(anything());
+    v->curveXX = v->curveXY = v->curveYY = 0;
+    v->front = anyReach();
+    if (below(4) != 0)
+        return;
+    v->cutX = slope();
+    v->cutY = slope();
+    // The line of the cut often lies within the scale.
+    const int corner = magnitude(v->cutX) * v->halfWidth / 256 + magnitude(v->cutY) * v->halfHeight / 256;
+    if (below(8) && corner < 4000)
+        v->cutAt = static_cast<int16_t>(around(corner) * 8);
+    if (below(2)) {
+        v->curveXX = slope();
+        v->curveXY = slope();
+        v->curveYY = slope();
     }
+}
+
+// Gives a field of a few voxels an unusual value.
+void addOddity(Voxel* v)
+{
     switch (below(50)) {
-    case 0: v.x = anything(); break;
-    case 1: v.y = anything(); break;
-    case 2: v.z = anything(); break;
-    case 3: v.halfWidth = static_cast<int16_t>(anything()); break;
-    case 4: v.halfHeight = static_cast<int16_t>(anything()); break;
-    case 5: v.halfWidth = 0; break;
-    case 6: v.halfHeight = 0; break;
-    case 7: v.brightness = static_cast<int8_t>(any() & 127); break;
-    case 8: v.tiltX = static_cast<int16_t>(32767 * (below(2) ? 1 : -1)); break;
-    case 9: v.tiltY = static_cast<int16_t>(32767 * (below(2) ? 1 : -1)); break;
+    case 0: v->x = anything(); break;
+    case 1: v->y = anything(); break;
+    case 2: v->z = anything(); break;
+    case 3: v->halfWidth = static_cast<int16_t>(anything()); break;
+    case 4: v->halfHeight = static_cast<int16_t>(anything()); break;
+    case 5: v->halfWidth = 0; break;
+    case 6: v->halfHeight = 0; break;
+    case 7: v->brightness = static_cast<int8_t>(any() & 127); break;
+    case 8: v->tiltX = static_cast<int16_t>(32767 * (below(2) ? 1 : -1)); break;
+    case 9: v->tiltY = static_cast<int16_t>(32767 * (below(2) ? 1 : -1)); break;
     default: break;
     }
+}
+
+// Makes a voxel in the coordinates of the lens.
+Voxel anyVoxel(const Lens& lens)
+{
+    const Spot s = anySpot();
+    const auto extent = [](double e) { return static_cast<int16_t>(e < 0 ? 0 : e > 32767 ? 32767 : e); };
+    const auto tilt = [] { return static_cast<int16_t>(below(3) == 0 ? anything() : around(600)); };
+    const auto steepTilt = [] { return static_cast<int16_t>((below(2) ? 1 : -1) * below(4000)); };
+    Voxel v;
+    fill(&v, sizeof v);  // also the bytes that belong to no field
+    v.x = static_cast<int32_t>((s.column - optics.centreX) * s.z / optics.focalX);
+    v.y = static_cast<int32_t>((optics.centreY - s.row) * s.z / optics.focalY);
+    v.z = s.z;
+    v.halfWidth = extent(s.wide / 2 * s.z / optics.focalX);
+    v.halfHeight = extent(s.high / 2 * s.z / optics.focalY);
+    v.tiltX = tilt();
+    v.tiltY = tilt();
+    if (s.steep) {
+        v.tiltX = steepTilt();
+        v.tiltY = steepTilt();
+    }
+    addShading(&v);
+    addOddity(&v);
     v.x = minus(v.x, lens.x);
     v.y = minus(v.y, lens.y);
     v.z = minus(v.z, lens.z);
@@ -618,23 +656,246 @@ void voxelLists(int rounds)
     }
 }
 
-// Draws one voxel on an empty screen and compares the result with the projection in double precision: which pixels are drawn, their
-// depth and colour, and whether the loop should draw the voxel at all. Within the rounding error (numbers have 12 fraction bits,
-// and factors change by steps of 1/16 unit) either result is right.
+// --- Voxels one by one, compared with the projection in double precision. Within the rounding error (the loop's numbers have 12
+// fraction bits, and its factors change by steps of 1/16 unit) either result is right; what is right in any case is "sure".
+
+double larger(double a, double b) { return fabs(a) > fabs(b) ? fabs(a) : fabs(b); }
+
+// A number in double precision, and how far the loop's number may be from it.
+struct Estimate {
+    double value, doubt;
+    double least() const { return value - doubt; }
+    double most() const { return value + doubt; }
+};
+Estimate operator+(Estimate a, Estimate b) { return {a.value + b.value, a.doubt + b.doubt}; }
+
+// A voxel's scale along one axis of the screen.
+struct Axis {
+    double unit;          // units in a pixel at the voxel's depth; negative if the view's axis has the other direction
+    double middle, half;  // middle and half extent, pixels
+    double doubt;         // of both ends, pixels
+    long leastFrom, mostFrom, leastTo, mostTo;  // bounds of the pixels whose centres lie between the ends
+    double slope;         // change of depth from pixel to pixel, 1/128 unit, STEEPEST at most
+
+    Axis(double centre, double units, double place, int halfExtent, int tilt)
+        : unit(units), middle(centre + place / unit), half(halfExtent / 256.0 / fabs(unit)),
+          doubt(0.01 + 0.0006 * larger(middle - half - centre, middle + half - centre)),
+          leastFrom(first(middle - half - doubt)), mostFrom(first(middle - half + doubt)),
+          leastTo(first(middle + half - doubt)), mostTo(first(middle + half + doubt)),
+          slope(fmax(-STEEPEST, fmin(tilt / 2.0 * unit, STEEPEST))) {}
+    static long first(double end) { return static_cast<long>(ceil(end - 0.5)); }
+
+    bool mayHold(int pixel) const { return pixel >= leastFrom && pixel < mostTo; }
+    bool surelyHolds(int pixel) const { return pixel >= mostFrom && pixel < leastTo; }
+    long leastLength() const { return leastTo - mostFrom; }
+    long mostLength() const { return mostTo - leastFrom; }
+    bool surelyWhole(int screen) const { return leastFrom >= 0 && mostTo <= screen; }
+    bool surelySeen(int screen) const { return mostFrom < leastTo && mostFrom < screen && leastTo > 0; }
+    // Bounds of the change of depth from the middle to the last pixel. The loop's slopes are whole 1/128 units.
+    double leastSwing() const { return fabs(slope) * 0.998 * (half - 1 - doubt) - leastLength(); }
+    double mostSwing() const { return (fabs(slope) * 1.001 + 1) * (half + doubt); }
+    double steepestSwing() const { return STEEPEST * (half + doubt); }
+    double depthDoubt(double d) const { return fabs(d) * (1 + 0.001 * fabs(slope)) + mostLength() + doubt * fabs(slope); }
+};
+
+// What double precision makes of a voxel for which the loop has factors. (dx, dy) leads from the middle of the scale to a pixel's
+// centre.
+struct Ideal {
+    const Voxel& v;
+    double depth;  // of the middle, 1/128 unit
+    Axis x, y;
+    bool tame;     // the tilts are within 16; the products of greater ones may overflow, so that depths are unknown
+
+    Ideal(const Lens& lens, const Voxel& voxel)
+        : v(voxel), depth(wrappedSum(lens.z, v.z) / 2.0),
+          x(optics.centreX, depth / 128 / optics.focalX, wrappedSum(lens.x, v.x) / 256.0, v.halfWidth, v.tiltX),
+          y(optics.centreY, -depth / 128 / optics.focalY, wrappedSum(lens.y, v.y) / 256.0, v.halfHeight, v.tiltY),
+          tame(larger(v.tiltX, v.tiltY) <= 16 * 256) {}
+
+    bool surelyWhole() const { return x.surelyWhole(WIDE) && y.surelyWhole(HIGH); }
+    bool surelySeen() const { return x.surelySeen(WIDE) && y.surelySeen(HIGH); }
+    bool surelyFits() const
+    {
+        const double swing = (tame ? x.mostSwing() + y.mostSwing() : x.steepestSwing() + y.steepestSwing()) + 2;
+        return depth - swing >= 0 && depth + swing < Z_EMPTY;
+    }
+    bool surelyOverflows() const
+    {
+        const double swing = x.leastSwing() + y.leastSwing() - 2;
+        return tame && x.leastLength() > 0 && y.leastLength() > 0 && (depth - swing < 0 || depth + swing > Z_EMPTY);
+    }
+    bool surelySmall() const { return x.mostLength() <= LARGEST && y.mostLength() <= LARGEST; }
+    bool surelyLarge() const { return x.leastLength() > LARGEST || (x.surelySeen(WIDE) && y.leastLength() > LARGEST); }
+
+    // A scale with a straight cut is domed: half of its dome is added at a distance of a pixel. Half a dome is a whole number, and
+    // it changes the slopes by whole numbers.
+    Estimate domeAt(double dx, double dy) const
+    {
+        const auto within = [&](double margin) { return x.half < DOMED_WIDE + margin && y.half < DOMED_HIGH + margin; };
+        if (!isCut(v) || isCurved() || !within(0.1))
+            return {0, 0};
+        const double square = dx * dx + dy * dy, dome = fmin(32 * x.unit * x.unit, DOME_MOST / 2);
+        const bool sure = within(-0.1);
+        return {sure ? dome * square : 0, (sure ? 1.1 : dome + 1) * square + fabs(dx) + fabs(dy)};
+    }
+    Estimate depthAt(double dx, double dy) const
+    {
+        const Estimate flat{depth + x.slope * dx + y.slope * dy, 2 + x.depthDoubt(dx) + y.depthDoubt(dy)};
+        return flat + domeAt(dx, dy);
+    }
+    // Whether a depth lies between where the voxel begins and where it ends.
+    bool surelyWithin(Estimate at) const
+    {
+        return v.reach == 0 || (tame && at.least() > depth - v.front * 4 && at.most() < depth + v.reach * 4);
+    }
+    bool surelyBeyond(Estimate at) const
+    {
+        return v.reach != 0 && tame && (at.most() < depth - v.front * 4 || at.least() > depth + v.reach * 4);
+    }
+
+    // A function with these slopes, 1/8 per unit. It changes from pixel to pixel by whole multiples of 1/256, and lengths are
+    // accurate to a thousandth.
+    Estimate linearAt(double middle, int slopeX, int slopeY, double dx, double dy) const
+    {
+        const double slopes = (fabs(slopeX) + fabs(slopeY)) / 8;
+        return {middle + (slopeX * dx * x.unit + slopeY * dy * y.unit) / 8,
+                0.01 + (fabs(dx) + fabs(dy)) / 256 + 0.0021 * slopes * (larger(dx, dy) + 800 * (x.doubt + y.doubt)) * x.unit};
+    }
+    bool isCurved() const { return (v.curveXX | v.curveXY | v.curveYY) != 0; }
+    // The change of the cut function from the middle to a corner.
+    double cutSwing() const
+    {
+        const double cornerX = v.halfWidth / 256.0 + fabs(x.unit), cornerY = v.halfHeight / 256.0 + fabs(y.unit);
+        return (fabs(v.cutX) * cornerX + fabs(v.cutY) * cornerY) / 8 +
+               (fabs(v.curveXX) * cornerX * cornerX + 2 * fabs(v.curveXY) * cornerX * cornerY +
+                fabs(v.curveYY) * cornerY * cornerY) / 16;
+    }
+    // The quadratic part of the cut function; its steps themselves change by rounded steps. The products of a function that changes
+    // too much may overflow.
+    Estimate curveAt(double dx, double dy) const
+    {
+        if (!isCurved())
+            return {0, 0};
+        const double ux = dx * x.unit, uy = dy * y.unit, far = larger(ux, uy), doubt = (x.doubt + y.doubt) * x.unit;
+        const double curves = (larger(v.curveXX, v.curveYY) + fabs(v.curveXY)) / 16;
+        return {(v.curveXX * ux * ux + 2 * v.curveXY * ux * uy + v.curveYY * uy * uy) / 32,
+                (cutSwing() > 1000 ? 1e9 : 0) + (dx * dx + dy * dy + 3 * larger(dx, dy)) / 128 +
+                    curves * (0.006 * (far + 2 * doubt) * (far + 2 * doubt) + doubt * far)};
+    }
+    Estimate cutAt(double dx, double dy) const
+    {
+        return isCut(v) ? linearAt(v.cutAt / 64.0, v.cutX, v.cutY, dx, dy) + curveAt(dx, dy) : Estimate{0, 0};
+    }
+    bool mayHaveColour(int colour, double dx, double dy) const
+    {
+        const bool plain = (v.slopeX | v.slopeY) == 0;
+        const Estimate shade = plain ? Estimate{1.0 * v.brightness, 0} : linearAt(v.brightness, v.slopeX, v.slopeY, dx, dy);
+        for (double b = floor(shade.least() + 0.5); b <= floor(shade.most() + 0.5); ++b)
+            if (colour == optics.ramp()[static_cast<int8_t>(static_cast<int>(b))])
+                return true;
+        return false;
+    }
+};
+
+// Counts of faults, and of the cases in which there could have been one.
+struct VoxelTally {
+    long wrongStops, wrongPixels, wrongEnds, wrongCuts, wrongShades, wrongDepths, wrongBoxes, wrongEmpties;
+    long drawn, stopped, empty, nearOnes, clipped, deep, shaded, cutOff, cutKept;
+};
+
+// Compares a pixel that is drawn with what it should be.
+void checkDrawn(const Ideal& ideal, int column, int row, int colour, int z, VoxelTally* t)
+{
+    const double dx = column + 0.5 - ideal.x.middle, dy = row + 0.5 - ideal.y.middle;
+    const Estimate depth = ideal.depthAt(dx, dy);
+    t->wrongPixels += !ideal.x.mayHold(column) || !ideal.y.mayHold(row);
+    t->wrongCuts += ideal.cutAt(dx, dy).most() < 0;
+    t->wrongEnds += ideal.surelyBeyond(depth);
+    t->wrongDepths += ideal.tame && fabs(z - depth.value) > depth.doubt;
+    t->wrongShades += !ideal.mayHaveColour(colour, dx, dy);
+    t->shaded += (ideal.v.slopeX | ideal.v.slopeY) != 0;
+    t->cutKept += isCut(ideal.v);
+}
+
+// Looks for a reason why a pixel that surely lies in the rectangle of a drawn voxel is not drawn.
+void checkMissing(const Ideal& ideal, int column, int row, VoxelTally* t)
+{
+    const double dx = column + 0.5 - ideal.x.middle, dy = row + 0.5 - ideal.y.middle;
+    const Estimate cut = ideal.cutAt(dx, dy);
+    t->cutOff += cut.most() < 0;
+    t->wrongPixels += cut.least() >= 0 && ideal.surelyWithin(ideal.depthAt(dx, dy));
+}
+
+// Compares all pixels, and clears the screen for the next voxel. Returns how many were drawn.
+long checkPixels(const Ideal& ideal, const Lens& lens, bool done, VoxelTally* t)
+{
+    Screen& screen = roomA.at(0);
+    long pixels = 0;
+    for (int row = 0; row < HIGH; ++row)
+        for (int column = 0; column < WIDE; ++column) {
+            uint8_t& colour = screen.frame.data[row * WIDE + column];
+            uint16_t& z = screen.depth.data[row * WIDE + column];
+            if (z == Z_EMPTY) {
+                t->wrongPixels += colour != 0;
+                if (done && ideal.x.surelyHolds(column) && ideal.y.surelyHolds(row))
+                    checkMissing(ideal, column, row, t);
+                continue;
+            }
+            ++pixels;
+            t->wrongPixels += !done;
+            t->wrongBoxes += column < lens.left || column >= lens.right || row < lens.top || row >= lens.bottom;
+            checkDrawn(ideal, column, row, colour, z, t);
+            z = Z_EMPTY;
+            colour = 0;
+        }
+    return pixels;
+}
+
+// Compares what became of a voxel: whether the loop left it to its caller (`done` is false then), counted it as empty, or drew it.
+void checkVoxel(const Ideal& ideal, const Lens& lens, bool done, VoxelTally* t)
+{
+    const bool sound = ideal.v.halfWidth >= 0 && ideal.v.halfHeight >= 0;
+    const bool whole = ideal.surelyWhole(), seen = ideal.surelySeen(), overflows = whole && ideal.surelyOverflows();
+    t->wrongStops += sound && (done ? ideal.surelyLarge() || overflows : ideal.surelySmall() && ideal.surelyFits());
+    t->wrongEmpties += sound && lens.empty != 0 && (!done || lens.empty != 1 || seen);
+    const long pixels = checkPixels(ideal, lens, done, t);
+    t->wrongEmpties += sound && done && ideal.v.reach == 0 && !isCut(ideal.v) && (pixels == 0) != (lens.empty == 1);
+    t->drawn += pixels > 0;
+    t->empty += lens.empty;
+    t->clipped += !whole && seen && done;
+    t->deep += overflows && ideal.surelySmall();
+}
+
+// Whether the products of a voxel's position fit, which the loop's callers guarantee.
+bool isAllowed(const Lens& lens, const Voxel& v)
+{
+    Factors computed;
+    const Factors* const f = factorsOf(lens, wrappedSum(lens.z, v.z), &computed);
+    const auto fits = [](int32_t place, int32_t factor) {
+        return static_cast<int32_t>(1LL * place * factor) == 1LL * place * factor;
+    };
+    return f == nullptr || (fits(wrappedSum(lens.x, v.x), f->x) && fits(wrappedSum(lens.y, v.y), f->y));
+}
+
+// Whether the loop has factors for a depth, 1/256 unit.
+bool hasFactors(int32_t depth)
+{
+    return depth >= LENS_NEXT * 256 && depth < LENS_FAR * 256 &&
+           (depth >= LENS_NEAR * 256 || larger(optics.focalX, optics.focalY) * 4096 * 256 / depth < FACTOR_MOST + 1);
+}
+
+// Draws each voxel on an empty screen: which pixels are drawn, their depth and colour, and whether the loop should draw it at all.
 void voxelByVoxel(int rounds)
 {
     static Fenced c, a;
     prepare(0, true);
-    Screen& screen = roomA.at(0);
-    memset(screen.frame.data, 0, sizeof screen.frame.data);
-    long wrongPixels = 0, wrongEnds = 0, wrongShades = 0, shaded = 0, wrongDepths = 0, wrongStops = 0, wrongBoxes = 0,
-         wrongEmpties = 0, wrongCuts = 0, cutOff = 0, cutKept = 0, deep = 0, nearOnes = 0, clipped = 0, drawn = 0, stopped = 0,
-         empty = 0;
+    memset(roomA.at(0).frame.data, 0, sizeof roomA.at(0).frame.data);
+    VoxelTally t{};
     for (int round = 0; round < rounds; ++round) {
         if (round % 16 == 0) {
             const double focal = 100 + below(300);
             if (round % 32 == 0)
-                optics.set(250, 625 / 3.0, 160, 100);
+                optics.setDemo();
             else
                 optics.set(focal, focal / 1.2, below(320), below(200));
             for (int i = 0; i < 384; ++i)
@@ -645,164 +906,29 @@ void voxelByVoxel(int rounds)
         a.lens.top = HIGH;
         a.lens.right = a.lens.bottom = a.lens.empty = 0;
         const Voxel v = anyVoxel(a.lens);
-        // The loop's callers guarantee that the products of positions fit.
-        Factors computed;
-        const Factors* const f = factorsOf(a.lens, wrappedSum(a.lens.z, v.z), &computed);
-        const auto fits = [](int32_t place, int32_t factor) {
-            return static_cast<int32_t>(1LL * place * factor) == 1LL * place * factor;
-        };
-        if (f != nullptr && (!fits(wrappedSum(a.lens.x, v.x), f->x) || !fits(wrappedSum(a.lens.y, v.y), f->y)))
+        if (!isAllowed(a.lens, v))
             continue;
-        const int done = static_cast<int>(drawScalesA(&a.lens, &v, &v + 1) - &v);
-        const double x = wrappedSum(a.lens.x, v.x) / 256.0, y = wrappedSum(a.lens.y, v.y) / 256.0;
+        const bool done = drawScalesA(&a.lens, &v, &v + 1) != &v;
         const int32_t depth = wrappedSum(a.lens.z, v.z);
-        const double z = depth / 256.0;
-        const double largest = z > 0 ? (optics.focalX > optics.focalY ? optics.focalX : optics.focalY) * 4096 / z : 1e9;
-        const bool inRange =
-            depth >= LENS_NEXT * 256 && depth < LENS_FAR * 256 && (depth >= LENS_NEAR * 256 || largest < FACTOR_MOST + 1);
-        nearOnes += done != 0 && depth < LENS_NEAR * 256;
-        if (!inRange) {
-            wrongStops += done != 0;
-            ++stopped;
-        } else {
-            const double column = optics.centreX + x * optics.focalX / z, row = optics.centreY - y * optics.focalY / z;
-            const double halfWide = v.halfWidth / 256.0 * optics.focalX / z, halfHigh = v.halfHeight / 256.0 * optics.focalY / z;
-            const double left = column - halfWide, right = column + halfWide, top = row - halfHigh, bottom = row + halfHigh;
-            const auto most = [](double p, double q) {
-                return (p < 0 ? -p : p) > (q < 0 ? -q : q) ? (p < 0 ? -p : p) : (q < 0 ? -q : q);
-            };
-            const double doubtX = 0.01 + 0.0006 * most(left - optics.centreX, right - optics.centreX);
-            const double doubtY = 0.01 + 0.0006 * most(top - optics.centreY, bottom - optics.centreY);
-            // Lower and upper bounds of the pixels whose centres lie within the rectangle.
-            const auto first = [](double edge) { return static_cast<long>(__builtin_ceil(edge - 0.5)); };
-            const long leastLeft = first(left - doubtX), mostLeft = first(left + doubtX), leastRight = first(right - doubtX),
-                       mostRight = first(right + doubtX), leastTop = first(top - doubtY), mostTop = first(top + doubtY),
-                       leastBottom = first(bottom - doubtY), mostBottom = first(bottom + doubtY);
-            const bool surelyOn = leastLeft >= 0 && mostRight <= WIDE && leastTop >= 0 && mostBottom <= HIGH;
-            // The part that is certainly on the screen.
-            const auto within = [](long from, long to, long end) { return (to < end ? to : end) - (from > 0 ? from : 0); };
-            const long wideOn = within(mostLeft, leastRight, WIDE), highOn = within(mostTop, leastBottom, HIGH);
-            clipped += !surelyOn && wideOn > 0 && highOn > 0 && done == 1;
-            const long mostWide = mostRight - leastLeft, mostHigh = mostBottom - leastTop;
-            const long leastWide = leastRight - mostLeft, leastHigh = leastBottom - mostTop;
-            // Steps are whole 1/128 units, STEEPEST at most.
-            const auto limited = [](double s) { return s > STEEPEST ? STEEPEST : s < -STEEPEST ? -STEEPEST : s; };
-            const double across = limited(v.tiltX / 256.0 * z * 128 / optics.focalX),
-                         down = limited(v.tiltY / 256.0 * z * 128 / optics.focalY);
-            // Upper bound of the change of depth from the middle to a corner's pixel. Products of tilts beyond 16 may overflow.
-            const bool tilted = most(v.tiltX, v.tiltY) <= 16 * 256;
-            const double stepX = tilted ? most(across, 0) * 1.001 + 1 : STEEPEST,
-                         stepY = tilted ? most(down, 0) * 1.001 + 1 : STEEPEST;
-            const double swing = stepX * halfWide + stepY * halfHigh + doubtX * stepX + doubtY * stepY + 2;
-            const bool surelyDeep = z * 128 - swing >= 0 && z * 128 + swing < Z_EMPTY;
-            const double leastSwing = most(across, 0) * 0.998 * (halfWide - 1 - doubtX) +
-                                      most(down, 0) * 0.998 * (halfHigh - 1 - doubtY) - leastWide - leastHigh - 2;
-            const bool surelyNotDeep =
-                tilted && leastWide > 0 && leastHigh > 0 && (z * 128 - leastSwing < 0 || z * 128 + leastSwing > Z_EMPTY);
-            const bool surelySmall = mostWide <= LARGEST && mostHigh <= LARGEST && surelyDeep;
-            const bool surelyLarge = leastWide > LARGEST || (wideOn > 0 && leastHigh > LARGEST) || (surelyOn && surelyNotDeep);
-            deep += surelyOn && mostWide <= LARGEST && mostHigh <= LARGEST && surelyNotDeep;
-            const bool sound = v.halfWidth >= 0 && v.halfHeight >= 0;
-            wrongStops += sound && (done == 0 ? surelySmall : surelyLarge);
-            stopped += done == 0;
-            empty += a.lens.empty;
-            wrongEmpties += sound && a.lens.empty != 0 && (done == 0 || a.lens.empty != 1 || (wideOn > 0 && highOn > 0));
-            // A scale with a straight cut is domed: half of its dome is added at a distance of a pixel.
-            const double perPixel = z / optics.focalX * 32 * z / optics.focalX;
-            const double dome = perPixel < DOME_MOST / 2 ? perPixel : DOME_MOST / 2;
-            const bool mayBeDomed = isCut(v) && (v.curveXX | v.curveXY | v.curveYY) == 0 && halfWide < DOMED_WIDE + 0.1 &&
-                                    halfHigh < DOMED_HIGH + 0.1;
-            const bool domed = mayBeDomed && halfWide < DOMED_WIDE - 0.1 && halfHigh < DOMED_HIGH - 0.1;
-            long pixels = 0;
-            for (int py = 0; py < HIGH; ++py)
-                for (int px = 0; px < WIDE; ++px) {
-                    const int at = py * WIDE + px;
-                    const bool taken = screen.depth.data[at] != Z_EMPTY;
-                    const bool sure = px >= mostLeft && px < leastRight && py >= mostTop && py < leastBottom;
-                    const bool may = px >= leastLeft && px < mostRight && py >= leastTop && py < mostBottom;
-                    const double dx = px + 0.5 - column, dy = py + 0.5 - row;
-                    const double square = dx * dx + dy * dy;
-                    const double expected = z * 128 + across * dx - down * dy + (domed ? dome * square : 0);
-                    // Half a dome is a whole number, and it changes the steps by whole numbers.
-                    const double domeDoubt = !mayBeDomed ? 0 : (domed ? 1.1 : dome + 1) * square + most(dx, 0) + most(dy, 0);
-                    const double doubt = 2 + domeDoubt + most(dx, 0) * (1 + 0.001 * most(across, 0)) +
-                                         most(dy, 0) * (1 + 0.001 * most(down, 0)) + (mostWide + mostHigh) +
-                                         doubtX * most(across, 0) + doubtY * most(down, 0);
-                    // The end is tested for tilts within 16 only; products of greater ones may overflow.
-                    const bool ends = v.reach != 0 && tilted;
-                    const double end = ends ? z * 128 + v.reach * 4 : 1e9, start = ends ? z * 128 - v.front * 4 : -1e9;
-                    // The cut function and its rounding error: it changes by rounded steps like the brightness, and the steps
-                    // themselves change too.
-                    const double ux = dx * z / optics.focalX, uy = -dy * z / optics.focalY;
-                    const double curve = (v.curveXX * ux * ux + 2 * v.curveXY * ux * uy + v.curveYY * uy * uy) / 32;
-                    const double cut = isCut(v) ? v.cutAt / 64.0 + (v.cutX * ux + v.cutY * uy) / 8 + curve : 0;
-                    // The products of a function that changes this much from the middle to a corner may overflow.
-                    const double cornerX = v.halfWidth / 256.0 + z / optics.focalX,
-                                 cornerY = v.halfHeight / 256.0 + z / optics.focalY;
-                    const double cutSwing = (most(v.cutX, 0) * cornerX + most(v.cutY, 0) * cornerY) / 8 +
-                                         (most(v.curveXX, 0) * cornerX * cornerX + 2 * most(v.curveXY, 0) * cornerX * cornerY +
-                                          most(v.curveYY, 0) * cornerY * cornerY) / 16;
-                    const double curved =
-                        (v.curveXX | v.curveXY | v.curveYY) == 0
-                            ? 0
-                            : (cutSwing > 1000 ? 1e9 : 0) + (dx * dx + dy * dy + 2 * most(dx, dy)) / 256 * 2 + most(dx, dy) / 128 +
-                                  (most(v.curveXX, v.curveYY) + most(v.curveXY, 0)) / 16 * 0.006 *
-                                      (most(ux, uy) + 2 * (doubtX + doubtY) * z / optics.focalX) *
-                                      (most(ux, uy) + 2 * (doubtX + doubtY) * z / optics.focalX) +
-                                  (most(v.curveXX, v.curveYY) + most(v.curveXY, 0)) / 16 * (doubtX + doubtY) * z /
-                                      optics.focalX * most(ux, uy);
-                    const double cutDoubt = isCut(v) ? 0.01 + (most(dx, 0) + most(dy, 0)) / 256 + curved +
-                                                           0.0021 * (most(v.cutX, 0) + most(v.cutY, 0)) / 8 *
-                                                               (most(dx, dy) + 8 * (doubtX + doubtY) / 0.01) * z / optics.focalX
-                                                     : 0;
-                    cutOff += !taken && sure && done == 1 && cut < -cutDoubt;
-                    cutKept += taken && isCut(v);
-                    if (!taken && cut < cutDoubt && isCut(v)) {
-                        wrongPixels += screen.frame.data[at] != 0;
-                        continue;
-                    }
-                    wrongCuts += taken && cut < -cutDoubt;
-                    if (!taken) {
-                        const bool shows = expected + doubt < end && expected - doubt > start && (tilted || v.reach == 0);
-                        wrongPixels += screen.frame.data[at] != 0 || (sure && done == 1 && shows);
-                        continue;
-                    }
-                    ++pixels;
-                    wrongPixels += !may || done == 0;
-                    wrongEnds += expected - doubt > end || expected + doubt < start;
-                    const double shade =
-                        v.brightness + v.slopeX / 8.0 * dx * z / optics.focalX - v.slopeY / 8.0 * dy * z / optics.focalY;
-                    // Steps from pixel to pixel are whole multiples of 1/256, and lengths are accurate to a thousandth.
-                    const double unsure = 0.01 + (most(dx, 0) + most(dy, 0)) / 256 +
-                                          0.0021 * (most(v.slopeX, 0) + most(v.slopeY, 0)) / 8 *
-                                              (most(dx, dy) + 8 * (doubtX + doubtY) / 0.01) * z / optics.focalX;
-                    const bool plain = (v.slopeX | v.slopeY) == 0;
-                    bool right = false;
-                    for (double b = __builtin_floor(shade + 0.5 - unsure); b <= __builtin_floor(shade + 0.5 + unsure); ++b)
-                        right = right || screen.frame.data[at] == optics.ramp()[static_cast<int8_t>(static_cast<int>(b))];
-                    wrongShades += plain ? screen.frame.data[at] != optics.ramp()[v.brightness] : !right;
-                    shaded += !plain;
-                    wrongBoxes += px < a.lens.left || px >= a.lens.right || py < a.lens.top || py >= a.lens.bottom;
-                    wrongDepths += tilted && most(screen.depth.data[at] - expected, 0) > doubt;
-                    screen.depth.data[at] = Z_EMPTY;
-                    screen.frame.data[at] = 0;
-                }
-            drawn += pixels > 0;
-            wrongEmpties += sound && done == 1 && v.reach == 0 && !isCut(v) && (pixels == 0) != (a.lens.empty == 1);
-        }
+        if (hasFactors(depth))
+            checkVoxel(Ideal(a.lens, v), a.lens, done, &t);
+        else
+            t.wrongStops += done;
+        t.stopped += !done;
+        t.nearOnes += done && depth < LENS_NEAR * 256;
         ++voxelsTried;
     }
-    verdict(wrongStops == 0, "voxels: ordinary ones are drawn, others are left", wrongStops);
-    verdict(wrongPixels == 0, "voxels: pixels as in double precision", wrongPixels);
-    verdict(wrongEnds == 0, "voxels: nothing before or behind where they end", wrongEnds);
-    verdict(wrongCuts == 0 && cutOff > rounds && cutKept > rounds, "voxels: cut as in double precision", wrongCuts);
-    verdict(wrongShades == 0 && shaded > rounds, "voxels: brightness as in double precision", wrongShades);
-    verdict(wrongDepths == 0, "voxels: depths as in double precision", wrongDepths);
-    verdict(wrongBoxes == 0, "voxels: the rectangle holds what is drawn", wrongBoxes);
-    verdict(wrongEmpties == 0, "voxels: those without a pixel are counted", wrongEmpties);
-    verdict(drawn > rounds / 3 && deep > rounds / 200 && nearOnes > rounds / 50 && clipped > rounds / 50 && stopped > rounds / 20 &&
-                empty > rounds / 100,
-            "voxels: there were some of each kind", drawn);
+    verdict(t.wrongStops == 0, "voxels: ordinary ones are drawn, others are left", t.wrongStops);
+    verdict(t.wrongPixels == 0, "voxels: pixels as in double precision", t.wrongPixels);
+    verdict(t.wrongEnds == 0, "voxels: nothing before or behind where they end", t.wrongEnds);
+    verdict(t.wrongCuts == 0 && t.cutOff > rounds && t.cutKept > rounds, "voxels: cut as in double precision", t.wrongCuts);
+    verdict(t.wrongShades == 0 && t.shaded > rounds, "voxels: brightness as in double precision", t.wrongShades);
+    verdict(t.wrongDepths == 0, "voxels: depths as in double precision", t.wrongDepths);
+    verdict(t.wrongBoxes == 0, "voxels: the rectangle holds what is drawn", t.wrongBoxes);
+    verdict(t.wrongEmpties == 0, "voxels: those without a pixel are counted", t.wrongEmpties);
+    verdict(t.drawn > rounds / 3 && t.deep > rounds / 200 && t.nearOnes > rounds / 50 && t.clipped > rounds / 50 &&
+                t.stopped > rounds / 20 && t.empty > rounds / 100,
+            "voxels: there were some of each kind", t.drawn);
 }
 
 // Makes spans of all kinds: empty, the whole row, short ones at the ends.
