@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <initializer_list>
 
 #include "../../src/surface/fields.h"
 #include "../../src/surface/voxels.h"
@@ -44,6 +45,8 @@ uint32_t any()
 int below(int n) { return static_cast<int>(any() % static_cast<uint32_t>(n)); }
 // A number from -most to most.
 int around(int most) { return below(2 * most + 1) - most; }
+Real realAround(double most) { return realFromRaw(around(static_cast<int>(most * 65536))); }
+Vector vectorAround(double most) { return {realAround(most), realAround(most), realAround(most)}; }
 
 // A buffer between two guard areas.
 template <class T, int COUNT>
@@ -982,6 +985,31 @@ uint32_t damage(const void* routine, const uint32_t arguments[5])
 
 uint32_t word(const void* pointer) { return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(pointer)); }
 
+// The message is "registers are kept: " and the routine's name.
+template <class Routine>
+void checkRegisters(const char* message, Routine* routine, const uint32_t (&arguments)[5], uint32_t count)
+{
+    verdict(damage(reinterpret_cast<const void*>(routine), arguments) == 0, message, count);
+}
+
+// Makes 40 seeds, and a viewer who sees them all.
+Shading allSeen(Seen* seen, const Vector* root)
+{
+    static Seed seeds[40];
+    for (int i = 0; i < 40; ++i) {
+        fill(seeds + i, sizeof seeds[i]);
+        seeds[i].root = 0;
+        seen[i] = {seeds + i, 1000 + below(30000)};
+    }
+    Shading shading{};
+    shading.seeds = seeds;
+    shading.roots = root;
+    shading.depth = 30000 << 8;
+    shading.turned = 1;
+    shading.limb = -0x7fffffff;
+    return shading;
+}
+
 void registers()
 {
     prepare(0, true);
@@ -998,50 +1026,37 @@ void registers()
     static Span rows[HIGH];
     spans(rows);
     static Span runs[WIDE / 2];
-    static Shading shading;
-    static Seed seeds[40];
     static Seen seen[40];
-    for (int i = 0; i < 40; ++i) {
-        fill(seeds + i, sizeof seeds[i]);
-        seeds[i].root = 0;
-        seen[i] = {seeds + i, 1000 + below(30000)};
-    }
     static Vector root;
-    shading.seeds = seeds;
-    shading.roots = &root;
-    shading.depth = 30000 << 8;
-    shading.turned = 1;
-    shading.limb = -0x7fffffff;
-    static const uint32_t COUNTS[] = {0, 1, 40};
-    for (uint32_t count : COUNTS) {
-        const uint32_t blit[5] = {word(a.frame.data), word(a.depth.data), word(list), count, 0};
-        verdict(damage(reinterpret_cast<const void*>(blitScalesA), blit) == 0, "registers are kept: blitScalesA", count);
+    const Shading shading = allSeen(seen, &root);
+    for (uint32_t count : {0u, 1u, 40u}) {
+        checkRegisters("registers are kept: blitScalesA", blitScalesA,
+                       {word(a.frame.data), word(a.depth.data), word(list), count}, count);
         for (uint32_t i = 0; i < 40; ++i) {
             // Start at each voxel: some calls stop at once, others go on.
-            const uint32_t draw[5] = {word(&f.lens), word(voxels + i), word(voxels + (i + count < 40 ? i + count : 40)), 0, 0};
-            verdict(damage(reinterpret_cast<const void*>(drawScalesA), draw) == 0, "registers are kept: drawScalesA", count);
+            checkRegisters("registers are kept: drawScalesA", drawScalesA,
+                           {word(&f.lens), word(voxels + i), word(voxels + (i + count < 40 ? i + count : 40))}, count);
         }
-        const uint32_t clear[5] = {word(a.frame.data), word(a.depth.data), word(rows), count * 5, 0};
-        verdict(damage(reinterpret_cast<const void*>(clearRowsA), clear) == 0, "registers are kept: clearRowsA", count);
-        const uint32_t present[5] = {dataSelector(), word(roomC.at(0).frame.data), word(a.frame.data), word(rows), count * 5};
-        verdict(damage(reinterpret_cast<const void*>(presentRows), present) == 0, "registers are kept: presentRows", count);
+        checkRegisters("registers are kept: clearRowsA", clearRowsA,
+                       {word(a.frame.data), word(a.depth.data), word(rows), count * 5}, count);
+        checkRegisters("registers are kept: presentRows", presentRows,
+                       {dataSelector(), word(roomC.at(0).frame.data), word(a.frame.data), word(rows), count * 5}, count);
         static Patch patch;
         patch.count[0] = patch.count[2] = static_cast<uint8_t>(count / 2);
-        const uint32_t look[5] = {word(&shading), word(&patch), word(seen), word(voxels), 0};
-        verdict(damage(reinterpret_cast<const void*>(findSeedsA), look) == 0, "registers are kept: findSeedsA", count);
-        const uint32_t shade[5] = {word(&shading), word(seen), word(voxels), count, 0};
-        verdict(damage(reinterpret_cast<const void*>(shadeSeedsA), shade) == 0, "registers are kept: shadeSeedsA", count);
+        checkRegisters("registers are kept: findSeedsA", findSeedsA,
+                       {word(&shading), word(&patch), word(seen), word(voxels)}, count);
+        checkRegisters("registers are kept: shadeSeedsA", shadeSeedsA, {word(&shading), word(seen), word(voxels), count}, count);
         static Neighbour near;
         near.kind = count % 2 == 0 ? Along::POINT : Along::SEGMENT;
         static Neighbour* list[40];
         for (Neighbour*& item : list)
             item = &near;
         static Fields sums;
-        const uint32_t add[5] = {word(list), word(list + count), 65536, word(&root), word(&sums)};
-        verdict(damage(reinterpret_cast<const void*>(addFieldsA), add) == 0, "registers are kept: addFieldsA", count);
+        checkRegisters("registers are kept: addFieldsA", addFieldsA,
+                       {word(list), word(list + count), 65536, word(&root), word(&sums)}, count);
         const Span within = {0, static_cast<int16_t>(8 * count)};
-        const uint32_t find[5] = {word(a.frame.data), word(a.depth.data), word(&within), word(runs), 0};
-        verdict(damage(reinterpret_cast<const void*>(drawnRunsA), find) == 0, "registers are kept: drawnRunsA", count);
+        checkRegisters("registers are kept: drawnRunsA", drawnRunsA,
+                       {word(a.frame.data), word(a.depth.data), word(&within), word(runs)}, count);
     }
 }
 
@@ -1091,7 +1106,7 @@ void clearsAndCopies(int rounds)
     }
 }
 
-}  // namespace
+// --- Seeds
 
 // Constants that asm/voxels.S relies on.
 static_assert(inasm2::SEED_PATH == offsetof(Seed, path) && inasm2::SEED_POSITION == offsetof(Seed, position) &&
@@ -1131,72 +1146,102 @@ static_assert(inasm2::STEEPEST_TILT == STEEPEST_TILT && inasm2::MARGIN_SHIFT == 
               inasm2::STEEPEST_SHADING == STEEPEST_SHADING && inasm2::LEAST_COSINE == LEAST_COSINE && inasm2::UNEVEN == UNEVEN &&
               inasm2::AREA_MOST == AREA_MOST && inasm2::BRIGHTEST == BRIGHTEST, "constants of shading");
 
+constexpr int SEEDS = 18, ROOTS = 5;
+
+Direction14 anyDirection()
+{
+    const double x = around(1000), y = around(1000), z = around(1000) + 0.5, one = 16384 / sqrt(x * x + y * y + z * z);
+    return {static_cast<int16_t>(x * one), static_cast<int16_t>(y * one), static_cast<int16_t>(z * one)};
+}
+
+Shading anyShading(const Seed* seeds, const Vector* roots)
+{
+    Shading v;
+    fill(&v, sizeof v);
+    v.seeds = seeds;
+    v.roots = roots;
+    v.placeShift = 8 + below(2);
+    v.limb = around(3000);
+    v.turned = below(2);
+    for (int i = 0; i < 3; ++i) {
+        v.eye[i] = around(120 * 32);
+        v.light[i] = around(9459);
+        for (int32_t* axis : {v.right, v.up, v.toRight, v.toUp, v.toAhead})
+            axis[i] = around(16384);
+        v.cell[i] = (static_cast<uint32_t>(around(100)) << 16) + static_cast<uint32_t>(around(100));
+    }
+    v.depth = 65536 + below(1 << 18);
+    v.leastPosition = below(2) << 8;
+    v.cellShift = below(8);
+    v.areaShare = below(0x40000000);
+    v.wholeBefore = below(4) == 0 ? INT32_MAX : below(1 << below(12));
+    v.deepest = below(3) == 0 ? below(1 << (8 + below(7))) : 22400;
+    v.front = below(REACH_MOST + 1);
+    v.horizonShare = below(1 << (4 + below(8)));
+    v.gradient[0] = around(1 << (8 + below(8)));
+    v.gradient[1] = around(1 << (8 + below(8)));
+    v.gradientAhead = around(1 << below(12));
+    return v;
+}
+
+// Sets the fields of a seed that may not have just any value.
+void limitSeed(Seed* s)
+{
+    const Direction14 way = anyDirection();
+    s->way[0] = static_cast<int8_t>(way.x / 130);
+    s->way[1] = static_cast<int8_t>(way.y / 130);
+    s->way[2] = static_cast<int8_t>(way.z / 130);
+    s->path = vectorAround(20);
+    s->position = realFromRaw(below(3 << 16));
+    s->normal = below(3) == 0 ? anyDirection() : way;
+    s->root = static_cast<uint16_t>(below(ROOTS));
+    s->flags = static_cast<uint8_t>((below(8) == 0 ? 0 : ::SEED_VALID) | (below(2) == 0 ? 0 : ::SEED_RESTING));
+    s->area = static_cast<uint16_t>(below(4) == 0 ? 0 : below(AREA_MOST + 1));
+}
+
+Patch anyPatch()
+{
+    Patch patch;
+    fill(&patch, sizeof patch);
+    for (int ring = 0; ring < ::PATCH_RINGS; ++ring) {
+        patch.count[ring] = static_cast<uint8_t>(below(SEEDS / ::PATCH_RINGS + 1));
+        patch.first[ring] = below(SEEDS - patch.count[ring] + 1);
+    }
+    return patch;
+}
+
+struct SeedTally {
+    int found, hidden, ended, sloped, steep, whole, torn, plain;
+};
+
+void countSeed(const Shading& v, const Seen& seen, const Voxel& voxel, SeedTally* t)
+{
+    const Seed& s = *seen.seed;
+    const bool whole = s.area == 0 || seen.facing < v.wholeBefore;
+    t->ended += voxel.reach != 0;
+    t->sloped += voxel.slopeX != 0;
+    t->steep += voxel.tiltX > 5000;
+    t->whole += whole;
+    t->torn += !(s.flags & ::SEED_RESTING) && !whole && s.normal.x / 130 != s.way[0];
+    t->plain += voxel.reach == 0 && voxel.slopeX == 0;
+}
+
 // Tests random seeds in front of random viewers, and that seeds of each kind occurred.
 void shadedSeeds(int rounds)
 {
-    constexpr int MOST = 18, ROOTS = 5;
-    static Seed seeds[MOST], kept[MOST];
+    static Seed seeds[SEEDS], kept[SEEDS];
     static Vector roots[ROOTS];
-    static Voxel c[MOST + 2], a[MOST + 2];
-    static Seen seenC[MOST + 2], seenA[MOST + 2];
-    int ended = 0, sloped = 0, steep = 0, whole = 0, plain = 0, torn = 0, hidden = 0, found = 0;
-    const auto number = [](int most) { return below(2 * most + 1) - most; };
-    const auto length = [&](int most) { return realFromRaw(number(most << 16)); };
-    const auto direction = [&] {
-        const double x = number(1000), y = number(1000), z = number(1000) + 0.5, one = 16384 / sqrt(x * x + y * y + z * z);
-        return Direction14{static_cast<int16_t>(x * one), static_cast<int16_t>(y * one), static_cast<int16_t>(z * one)};
-    };
+    static Voxel c[SEEDS + 2], a[SEEDS + 2];
+    static Seen seenC[SEEDS + 2], seenA[SEEDS + 2];
+    SeedTally t{};
     for (int round = 0; round < rounds; ++round) {
-        Shading v;
-        fill(&v, sizeof v);
-        v.seeds = seeds;
-        v.roots = roots;
-        v.placeShift = 8 + below(2);
-        v.limb = number(3000);
-        v.turned = below(2);
-        for (int i = 0; i < 3; ++i) {
-            v.eye[i] = number(120 * 32);
-            v.light[i] = number(9459);
-            v.right[i] = number(16384);
-            v.up[i] = number(16384);
-            v.toRight[i] = number(16384);
-            v.toUp[i] = number(16384);
-            v.toAhead[i] = number(16384);
-            v.cell[i] = (static_cast<uint32_t>(number(100)) << 16) + static_cast<uint32_t>(number(100));
-        }
-        v.depth = 65536 + below(1 << 18);
-        v.leastPosition = below(2) << 8;
-        v.cellShift = below(8);
-        v.areaShare = below(0x40000000);
-        v.wholeBefore = below(4) == 0 ? INT32_MAX : below(1 << below(12));
-        v.deepest = below(3) == 0 ? below(1 << (8 + below(7))) : 22400;
-        v.front = below(REACH_MOST + 1);
-        v.horizonShare = below(1 << (4 + below(8)));
-        v.gradient[0] = number(1 << (8 + below(8)));
-        v.gradient[1] = number(1 << (8 + below(8)));
-        v.gradientAhead = number(1 << below(12));
+        const Shading v = anyShading(seeds, roots);
         for (Vector& root : roots)
-            root = {length(20), length(20), length(20)};
+            root = vectorAround(20);
         fill(seeds, sizeof seeds);
-        for (Seed& s : seeds) {
-            const Direction14 way = direction();
-            s.way[0] = static_cast<int8_t>(way.x / 130);
-            s.way[1] = static_cast<int8_t>(way.y / 130);
-            s.way[2] = static_cast<int8_t>(way.z / 130);
-            s.path = {length(20), length(20), length(20)};
-            s.position = realFromRaw(below(3 << 16));
-            s.normal = below(3) == 0 ? direction() : way;
-            s.root = static_cast<uint16_t>(below(ROOTS));
-            s.flags = static_cast<uint8_t>((below(8) == 0 ? 0 : ::SEED_VALID) | (below(2) == 0 ? 0 : ::SEED_RESTING));
-            s.area = static_cast<uint16_t>(below(4) == 0 ? 0 : below(AREA_MOST + 1));
-        }
-        // A patch has room for this many seeds of a ring at most.
-        Patch patch;
-        fill(&patch, sizeof patch);
-        for (int ring = 0; ring < ::PATCH_RINGS; ++ring) {
-            patch.count[ring] = static_cast<uint8_t>(below(MOST / ::PATCH_RINGS + 1));
-            patch.first[ring] = below(MOST - patch.count[ring] + 1);
-        }
+        for (Seed& s : seeds)
+            limitSeed(&s);
+        const Patch patch = anyPatch();
         memcpy(kept, seeds, sizeof seeds);
         fill(c, sizeof c);
         fill(seenC, sizeof seenC);
@@ -1207,34 +1252,26 @@ void shadedSeeds(int rounds)
         // The twins may have begun to write the entry after the last visible seed.
         verdict(memcmp(a, c, sizeof(Voxel) * static_cast<size_t>(count + 1)) == 0, "seeds: at the same places", round);
         verdict(memcmp(seenA, seenC, sizeof seenC) == 0, "seeds: the same ones", round);
-        memcpy(a, c, sizeof c);
         for (int i = 1; i <= count; ++i) {
             seenC[i].facing = 1 + below(1 << (4 + below(13)));
-            c[i].z = number(20000);
-            a[i].z = c[i].z;
+            c[i].z = around(20000);
         }
+        memcpy(a, c, sizeof c);
         shadeSeedsC(&v, seenC + 1, c + 1, count);
         shadeSeedsA(&v, seenC + 1, a + 1, count);
         verdict(memcmp(a, c, sizeof c) == 0, "seeds: the same voxels", round);
         verdict(memcmp(kept, seeds, sizeof seeds) == 0, "seeds: are left alone", round);
-        found += count;
-        hidden += patch.count[0] + patch.count[1] + patch.count[2] - count;
-        for (int i = 0; i < count; ++i) {
-            const Voxel& voxel = c[1 + i];
-            const Seed& s = *seenC[1 + i].seed;
-            ended += voxel.reach != 0;
-            sloped += voxel.slopeX != 0;
-            steep += voxel.tiltX > 5000;
-            const bool isWhole = s.area == 0 || seenC[1 + i].facing < v.wholeBefore;
-            whole += isWhole;
-            torn += !(s.flags & ::SEED_RESTING) && !isWhole && s.normal.x / 130 != s.way[0];
-            plain += voxel.reach == 0 && voxel.slopeX == 0;
-        }
+        t.found += count;
+        t.hidden += patch.count[0] + patch.count[1] + patch.count[2] - count;
+        for (int i = 1; i <= count; ++i)
+            countSeed(v, seenC[i], c[i], &t);
     }
-    verdict(ended > rounds / 4 && sloped > rounds / 2 && steep > rounds / 4 && whole > rounds && plain > rounds / 40 &&
-                torn > rounds / 4 && hidden > rounds && found > rounds,
-            "seeds: there were some of each kind", plain);
+    verdict(t.ended > rounds / 4 && t.sloped > rounds / 2 && t.steep > rounds / 4 && t.whole > rounds && t.plain > rounds / 40 &&
+                t.torn > rounds / 4 && t.hidden > rounds && t.found > rounds,
+            "seeds: there were some of each kind", t.plain);
 }
+
+// --- Fields
 
 // Constants that asm/fields.S relies on.
 static_assert(inasm3::ALONG_KIND == offsetof(Along, kind) && inasm3::ALONG_HALF == offsetof(Along, half) &&
@@ -1252,6 +1289,23 @@ static_assert(inasm3::FIELDS_SUM == offsetof(Fields, sum) && inasm3::FIELDS_SLOP
 static_assert(inasm3::STEP_VALUE == offsetof(FieldStep, value) && inasm3::STEP_SLOPE == offsetof(FieldStep, slope) &&
               sizeof(FieldStep) == 8, "FieldStep");
 
+// Sets the fields of a neighbour that may not have just any value.
+void limitNeighbour(Neighbour* near)
+{
+    near->a = absolute(realAround(below(4) == 0 ? 4 : 1));
+    near->c = absolute(realAround(below(4) == 0 ? 4 : 0.5));
+    near->twice16 = vectorAround(1);
+    near->y = realAround(1.5);
+    near->along16 = vectorAround(1);
+    near->kind = static_cast<Along::Kind>(below(3));
+    near->half = absolute(realAround(1));
+    near->t = absolute(realAround(2));
+    near->change = realAround(2);
+    // These depend on a path set before.
+    near->b = realAround(1);
+    near->stepY = realAround(1);
+}
+
 // Tests random paths in the fields of random neighbours: each is evaluated when the path is set and twice more afterwards. Also
 // tests that neighbours of each kind occurred.
 void fieldsAlong(int rounds)
@@ -1260,36 +1314,21 @@ void fieldsAlong(int rounds)
     static Neighbour c[MOST + 2], a[MOST + 2];
     Neighbour *listC[MOST], *listA[MOST];
     int inside = 0, outside = 0, below0 = 0, beyond = 0, beside = 0, others = 0, none = 0;
-    const auto real = [](double most) {
-        return realFromRaw(below(static_cast<int>(2 * most * 65536) + 1) - static_cast<int>(most * 65536));
-    };
     for (int round = 0; round < rounds; ++round) {
         const int count = below(MOST + 1);
         fill(c, sizeof c);
         // The list has another order than the array.
         const int shift = below(MOST);
         for (int i = 0; i < MOST; ++i) {
-            Neighbour& near = c[1 + i];
-            near.a = absolute(real(below(4) == 0 ? 4 : 1));
-            near.c = absolute(real(below(4) == 0 ? 4 : 0.5));
-            near.twice16 = {real(1), real(1), real(1)};
-            near.y = real(1.5);
-            near.along16 = {real(1), real(1), real(1)};
-            near.kind = static_cast<Along::Kind>(below(3));
-            near.half = absolute(real(1));
-            near.t = absolute(real(2));
-            near.change = real(2);
-            // These depend on a path set before.
-            near.b = real(1);
-            near.stepY = real(1);
+            limitNeighbour(c + 1 + i);
             listC[i] = c + 1 + (i + shift) % MOST;
             listA[i] = a + 1 + (i + shift) % MOST;
         }
         memcpy(a, c, sizeof c);
-        const Vector path = {real(12), real(12), real(12)};
+        const Vector path = vectorAround(12);
         for (int look = 0; look < 3; ++look) {
-            const Real position = absolute(real(2));
-            Fields sumC{absolute(real(1)), real(2), Real(0), 0}, sumA = sumC;
+            const Real position = absolute(realAround(2));
+            Fields sumC{absolute(realAround(1)), realAround(2), Real(0), 0}, sumA = sumC;
             const Vector* const taken = look == 0 && below(4) != 0 ? &path : nullptr;
             addFieldsC(listC, listC + count, position, taken, &sumC);
             addFieldsA(listA, listA + count, position, taken, &sumA);
@@ -1309,6 +1348,8 @@ void fieldsAlong(int rounds)
                 others > rounds && none > rounds / 20,
             "fields: there were some of each kind", below0);
 }
+
+}  // namespace
 
 int main(int count, char** arguments)
 {
