@@ -42,22 +42,17 @@ std::string contents(const std::string& name)
     return text.str();
 }
 
-}  // namespace
-
-TEST(a_dumped_frame)
+std::vector<std::string> linesOf(const std::string& text)
 {
-    const std::string top = scratch(), directory = top + "/NEW";
-    Model model;
-    CHECK(model.makeFourSpheres());
-    Anim::move(model, 78643);  // 1.2 s
-    CHECK(model.dent(model.actor(2).object, model.actor(0).object, Real(1.5)));
-    model.actor(1).object->setStrength(Real(2));
-    CHECK(model.resample(Real(4), makeEngine));
-    View view;
-    CHECK(view.open());
-    view.setCamera(model.camera);
-    Palette palette;
-    palette.make(model, false);
+    std::istringstream in(text);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);)
+        lines.push_back(line);
+    return lines;
+}
+
+void draw(Model& model, View& view)
+{
     Counts counts{};
     const FrameContext frame{model.camera.eye, unit(model.light), model.bodies(), &counts};
     VoxelList list;
@@ -72,15 +67,14 @@ TEST(a_dumped_frame)
         } while (next != 0);
     }
     view.end();
-    Dump dump;
-    CHECK(dump.open(directory.c_str()) == nullptr);
-    CHECK(dump.frame(12, 78643, 10, model, view, palette, false) == nullptr);
+}
 
-    const std::string picture = contents(directory + "/F0000012.PPM");
+// Compares the files of colours and of depths with the view.
+void checkPixels(const std::string& picture, const std::string& depth, const View& view, const Palette& palette)
+{
     const std::string header = "P6\n320 200\n255\n";
     SAME(picture.size(), header.size() + 192000);
     TEXT(picture.substr(0, header.size()), header);
-    const std::string depth = contents(directory + "/F0000012.Z");
     SAME(depth.size(), 256000);
     long wrong = 0, drawn = 0;
     for (size_t i = 0; i < 64000; ++i) {
@@ -101,15 +95,11 @@ TEST(a_dumped_frame)
     }
     SAME(wrong, 0);
     CHECK(drawn > 5000);
+}
 
-    // The scene, line by line.
-    std::istringstream text(contents(directory + "/F0000012.TXT"));
-    std::vector<std::string> lines;
-    for (std::string line; std::getline(text, line);)
-        lines.push_back(line);
-    CHECK(lines.size() >= 17);
-    if (lines.size() < 17)
-        return;
+// The lines of the time, the camera and the light.
+void checkView(const std::vector<std::string>& lines)
+{
     TEXT(lines[0], "time 1.200");
     TEXT(lines[1], "eye 0 0 -120");
     TEXT(lines[3], "centre 160 100");
@@ -123,6 +113,11 @@ TEST(a_dumped_frame)
     SAME(std::sscanf(lines[2].c_str(), "focal %lf %lf", &fx, &fy), 2);
     NEAR(fx, 250, 0);
     NEAR(fy, 208.3333, 1e-3);
+}
+
+// The lines of the four spheres and of their relations.
+void checkObjects(const std::vector<std::string>& lines, const Model& model)
+{
     for (int i = 0; i < 4; ++i) {
         int n;
         double x, y, z, r;
@@ -151,6 +146,37 @@ TEST(a_dumped_frame)
     SAME(std::count_if(lines.begin(), lines.end(), [](const std::string& line) {
         return line.compare(0, 4, "dent") == 0 || line.compare(0, 8, "strength") == 0;
     }), 2);
+}
+
+}  // namespace
+
+TEST(a_dumped_frame)
+{
+    const std::string top = scratch(), directory = top + "/NEW";
+    Model model;
+    CHECK(model.makeFourSpheres());
+    Anim::move(model, 78643);  // 1.2 s
+    CHECK(model.dent(model.actor(2).object, model.actor(0).object, Real(1.5)));
+    model.actor(1).object->setStrength(Real(2));
+    CHECK(model.resample(Real(4), makeEngine));
+    View view;
+    CHECK(view.open());
+    view.setCamera(model.camera);
+    Palette palette;
+    palette.make(model, false);
+    draw(model, view);
+    Dump dump;
+    CHECK(dump.open(directory.c_str()) == nullptr);
+    CHECK(dump.frame(12, 78643, 10, model, view, palette, false) == nullptr);
+    checkPixels(contents(directory + "/F0000012.PPM"), contents(directory + "/F0000012.Z"), view, palette);
+    const std::string text = contents(directory + "/F0000012.TXT");
+    const std::vector<std::string> lines = linesOf(text);
+    CHECK(lines.size() >= 17);
+    if (lines.size() < 17)
+        return;
+    checkView(lines);
+    checkObjects(lines, model);
+
     // An existing directory is accepted. The axes of the eye are written if it is turned, and only then.
     CHECK(dump.open(directory.c_str()) == nullptr);
     Camera camera = model.camera;
@@ -162,7 +188,7 @@ TEST(a_dumped_frame)
     const size_t at = turned.find(words);
     CHECK(at == turned.find(eye) + eye.size());
     CHECK(turned.find("time 1.300\n") == 0);
-    CHECK(at != std::string::npos && turned.erase(at, words.size()).substr(11) == text.str().substr(11));
+    CHECK(at != std::string::npos && turned.erase(at, words.size()).substr(11) == text.substr(11));
     discard(directory);
     discard(top);
 }
@@ -185,12 +211,13 @@ static std::vector<std::string> paintLines(bool grey, bool printed)
     Dump dump;
     CHECK(dump.open(directory.c_str()) == nullptr);
     CHECK(dump.frame(0, 0, 10, model, view, palette, grey) == nullptr);
-    std::istringstream text(contents(directory + "/F0000000.TXT"));
     std::vector<std::string> lines;
     bool on = false;
-    for (std::string line; std::getline(text, line); on = on || line.find("blend") == 0)
+    for (const std::string& line : linesOf(contents(directory + "/F0000000.TXT"))) {
         if (on)
             lines.push_back(line);
+        on = on || line.find("blend") == 0;
+    }
     discard(directory);
     return lines;
 }
