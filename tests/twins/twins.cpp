@@ -696,8 +696,7 @@ struct Axis {
     bool surelySeen(int screen) const { return mostFrom < leastTo && mostFrom < screen && leastTo > 0; }
     // Bounds of the change of depth from the middle to the last pixel. The loop's slopes are whole 1/128 units.
     double leastSwing() const { return fabs(slope) * 0.998 * (half - 1 - doubt) - leastLength(); }
-    double mostSwing() const { return (fabs(slope) * 1.001 + 1) * (half + doubt); }
-    double steepestSwing() const { return STEEPEST * (half + doubt); }
+    double mostSwing(bool tame) const { return (tame ? fabs(slope) * 1.001 + 1 : STEEPEST) * (half + doubt); }
     double depthDoubt(double d) const { return fabs(d) * (1 + 0.001 * fabs(slope)) + mostLength() + doubt * fabs(slope); }
 };
 
@@ -719,7 +718,7 @@ struct Ideal {
     bool surelySeen() const { return x.surelySeen(WIDE) && y.surelySeen(HIGH); }
     bool surelyFits() const
     {
-        const double swing = (tame ? x.mostSwing() + y.mostSwing() : x.steepestSwing() + y.steepestSwing()) + 2;
+        const double swing = x.mostSwing(tame) + y.mostSwing(tame) + 2;
         return depth - swing >= 0 && depth + swing < Z_EMPTY;
     }
     bool surelyOverflows() const
@@ -887,7 +886,8 @@ bool hasFactors(int32_t depth)
            (depth >= LENS_NEAR * 256 || larger(optics.focalX, optics.focalY) * 4096 * 256 / depth < FACTOR_MOST + 1);
 }
 
-// Draws each voxel on an empty screen: which pixels are drawn, their depth and colour, and whether the loop should draw it at all.
+// Draws each voxel on an empty screen, and compares whether the loop draws it at all, which pixels it draws, and their depth and
+// colour.
 void voxelByVoxel(int rounds)
 {
     static Fenced c, a;
