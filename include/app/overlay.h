@@ -36,7 +36,7 @@ public:
 
 private:
     void dot(uint8_t* frame, int x, int y, uint8_t colour);
-
+    void stamp(uint8_t* frame, int left, int top, const uint8_t* rows, int width, int height, bool rim);
     void letters(int left, int top, const char* text, int length);
 
     View& view_;

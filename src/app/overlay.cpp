@@ -30,6 +30,25 @@ inline void Overlay::dot(uint8_t* frame, int x, int y, uint8_t colour)
         frame[y * WIDTH + x] = colour;
 }
 
+// Draws a picture whose rows are bits, the leftmost of `width` the highest; or only the dark rim around its pixels.
+void Overlay::stamp(uint8_t* frame, int left, int top, const uint8_t* rows, int width, int height, bool rim)
+{
+    for (int row = 0, y = top; row < height; ++row, ++y) {
+        for (int column = 0, x = left; column < width; ++column, ++x) {
+            if ((rows[row] >> (width - 1 - column) & 1) == 0)
+                continue;
+            if (!rim) {
+                dot(frame, x, y, INK);
+                continue;
+            }
+            dot(frame, x - 1, y, PAPER);
+            dot(frame, x + 1, y, PAPER);
+            dot(frame, x, y - 1, PAPER);
+            dot(frame, x, y + 1, PAPER);
+        }
+    }
+}
+
 void Overlay::letters(int left, int top, const char* text, int length)
 {
     uint8_t* frame = view_.overlay(left - 1, top - 1, length * LETTER_WIDE + 1, FONT_HIGH + 2);
@@ -40,21 +59,7 @@ void Overlay::letters(int left, int top, const char* text, int length)
             const char c = text[i];
             const int capital = c >= 'a' && c <= 'z' ? c - 32 : c;
             const int known = capital >= FONT_FIRST && capital < FONT_FIRST + FONT_LETTERS ? capital : '?';
-            const uint8_t* letter = FONT[known - FONT_FIRST];
-            for (int row = 0; row < FONT_HIGH; ++row) {
-                for (int column = 0; column < FONT_WIDE; ++column) {
-                    if ((letter[row] >> (FONT_WIDE - 1 - column) & 1) == 0)
-                        continue;
-                    if (pass == 1) {
-                        dot(frame, x + column, top + row, INK);
-                        continue;
-                    }
-                    dot(frame, x + column - 1, top + row, PAPER);
-                    dot(frame, x + column + 1, top + row, PAPER);
-                    dot(frame, x + column, top + row - 1, PAPER);
-                    dot(frame, x + column, top + row + 1, PAPER);
-                }
-            }
+            stamp(frame, x, top, FONT[known - FONT_FIRST], FONT_WIDE, FONT_HIGH, pass == 0);
         }
     }
 }
@@ -130,20 +135,6 @@ void Overlay::diamond(int x, int y)
 void Overlay::pointer(int x, int y)
 {
     uint8_t* frame = view_.overlay(x - 1, y - 1, POINTER_WIDE + 2, POINTER_HIGH + 2);
-    for (int pass = 0; pass < 2; ++pass) {
-        for (int row = 0; row < POINTER_HIGH; ++row) {
-            for (int column = 0; column < POINTER_WIDE; ++column) {
-                if ((POINTER[row] >> (POINTER_WIDE - 1 - column) & 1) == 0)
-                    continue;
-                if (pass == 1) {
-                    dot(frame, x + column, y + row, INK);
-                    continue;
-                }
-                dot(frame, x + column - 1, y + row, PAPER);
-                dot(frame, x + column + 1, y + row, PAPER);
-                dot(frame, x + column, y + row - 1, PAPER);
-                dot(frame, x + column, y + row + 1, PAPER);
-            }
-        }
-    }
+    stamp(frame, x, y, POINTER, POINTER_WIDE, POINTER_HIGH, true);
+    stamp(frame, x, y, POINTER, POINTER_WIDE, POINTER_HIGH, false);
 }

@@ -3,25 +3,10 @@
 # which it was made. Run it from the top of the tree. The last line is "N passed, N failed".
 set -u
 cd "$(dirname "$0")/../.." || exit 1
-make -s -f tools/pics.mk build/mkgif build/ppm2png build/picstst || exit 1
+. tests/lib.sh
+build -f tools/pics.mk build/mkgif build/ppm2png build/picstst
 
-dir=$(mktemp -d "${TMPDIR:-/tmp}/pics.XXXXXX") || exit 1
-trap 'rm -rf "$dir"' EXIT
-trap 'exit 1' HUP INT TERM
 gif=build/mkgif png=build/ppm2png test=build/picstst
-passed=0
-failed=0
-ok() { # ok NAME COMMAND...
-	name=$1
-	shift
-	if "$@" >"$dir/said" 2>&1; then
-		passed=$((passed + 1))
-	else
-		failed=$((failed + 1))
-		echo "FAILED: $name"
-		sed 's/^/  /' "$dir/said"
-	fi
-}
 says() { # says TEXT COMMAND...: ends with 2 and one line that has the text
 	text=$1
 	shift
@@ -70,5 +55,4 @@ ok "no arguments" says "usage" $gif
 ok "no picture" says "no P6" $png tools/pics.mk "$dir/a.png"
 ok "unwritable png" says "cannot be written" $png "$dir/f/F0000000.PPM" "$dir/none/a.png"
 ok "no arguments to ppm2png" says "usage" $png
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+summary

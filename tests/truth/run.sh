@@ -4,26 +4,10 @@
 # Run from the top of the tree. The last line is "N passed, N failed".
 set -u
 cd "$(dirname "$0")/../.." || exit 1
-make -s -f tools/truth.mk build/truth build/truthtst || exit 1
+. tests/lib.sh
+build -f tools/truth.mk build/truth build/truthtst
 
 tool=build/truth
-dir=$(mktemp -d "${TMPDIR:-/tmp}/truth.XXXXXX") || exit 1
-trap 'rm -rf "$dir"' EXIT
-trap 'exit 1' HUP INT TERM
-
-passed=0
-failed=0
-ok() { # ok NAME COMMAND...
-	name=$1
-	shift
-	if "$@" >"$dir/said" 2>&1; then
-		passed=$((passed + 1))
-	else
-		failed=$((failed + 1))
-		echo "FAILED: $name"
-		sed 's/^/  /' "$dir/said"
-	fi
-}
 status() { # status WANTED COMMAND...: the command ends with that status
 	want=$1
 	shift
@@ -190,19 +174,5 @@ ok "unknown word" says 2 "F0000002.TXT:10: unknown word: blob" "$tool" "$dir/sho
 ok "help" status 0 "$tool" --help
 
 build/truthtst >"$dir/log" 2>&1
-last=$(tail -n 1 "$dir/log")
-case $last in
-*" passed, "*" failed")
-	grep -v ' passed, ' "$dir/log"
-	set -- $last
-	passed=$((passed + $1))
-	failed=$((failed + $3))
-	;;
-*)
-	echo "FAILED: build/truthtst did not reach its end"
-	cat "$dir/log"
-	failed=$((failed + 1))
-	;;
-esac
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+count "$dir/log"
+summary
