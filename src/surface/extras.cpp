@@ -241,8 +241,9 @@ void Settler::settleOnWall(const Seed& a, const Seed& b, Real height, Seed& s)
         return;
     s.position = position;
     s.flags = SEED_ACTIVE;
-    place(s, sample.dominance);
-    renewLightChange(s);
+    placeExtra(s, sample.dominance);
+    if (s.flags & SEED_VALID)
+        findLightChange(s);
 }
 
 // Whether a neighbour that is linked with the object by more than HEAVY may reach the paths of a patch.
@@ -305,7 +306,7 @@ bool Settler::placeOnIsland(int i, int which, Real inside, Real outside)
         sample.dominance = path_.dominance();
     if (sample.dominance > (which == SoftObject::FINE_ISLAND_END ? CLEARLY : OVERSHOOT))
         return false;
-    place(s, sample.dominance);
+    placeExtra(s, sample.dominance);
     if (!(s.flags & SEED_VALID))
         return false;
     s.flags |= SEED_ACTIVE;
