@@ -347,9 +347,9 @@ protected:
     template <class FromCore>
     static Real flatParam(const Vector& q, Vector* slope, FromCore fromCore)
     {
-        const bool far = absolute(q.y) >= Real(CORE_SIZE);
-        *slope = far ? q : fromCore();
-        return far ? Real(1) : paramOf(*slope);
+        const bool isFar = absolute(q.y) >= Real(CORE_SIZE);
+        *slope = isFar ? q : fromCore();
+        return isFar ? Real(1) : paramOf(*slope);
     }
 
     // Writes "kind number numbers...", for describe().
