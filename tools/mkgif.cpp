@@ -100,126 +100,167 @@ void putTable(const Palette &p, std::string &out) {
   }
 }
 
-int trouble(const std::string &what) {
+// Says what is wrong. Returns false, for its callers to return too.
+bool trouble(const std::string &what) {
   std::fprintf(stderr, "mkgif: %s\n", what.c_str());
-  return 2;
+  return false;
 }
 
-}  // namespace
-
-int main(int argc, char **argv) {
+struct Options {
   long delay = 10, scale = 1, from = 0, to = 9999999, every = 1;
   bool tall = false;
-  std::vector<std::string> names;
+  std::vector<std::string> names;   // OUT.GIF, DIR
+};
+
+bool readArguments(int argc, char **argv, Options &o) {
   struct {
     const char *name, *range;
     long least, most, *value;
-  } options[] = {{"--delay", "1 to 65535 hundredths of a second", 1, 65535, &delay},
-                 {"--scale", "1 to 4", 1, 4, &scale},
-                 {"--from", "a frame's number", 0, 9999999, &from},
-                 {"--to", "a frame's number", 0, 9999999, &to},
-                 {"--every", "1 or more", 1, 9999999, &every}};
+  } numbers[] = {{"--delay", "1 to 65535 hundredths of a second", 1, 65535, &o.delay},
+                 {"--scale", "1 to 4", 1, 4, &o.scale},
+                 {"--from", "a frame's number", 0, 9999999, &o.from},
+                 {"--to", "a frame's number", 0, 9999999, &o.to},
+                 {"--every", "1 or more", 1, 9999999, &o.every}};
   for (int i = 1; i < argc; i++) {
     std::string a = argv[i];
     bool known = a == "--43";
-    if (known) tall = true;
-    for (auto &o : options) {
-      if (a != o.name) continue;
+    if (known) o.tall = true;
+    for (auto &n : numbers) {
+      if (a != n.name) continue;
       known = true;
-      if (i + 1 >= argc || !wholeNumber(argv[++i], o.least, o.most, *o.value))
-        return trouble(a + " wants " + o.range);
+      if (i + 1 >= argc || !wholeNumber(argv[++i], n.least, n.most, *n.value)) return trouble(a + " wants " + n.range);
     }
     if (!known && a[0] == '-') return trouble("unknown option: " + a);
-    if (!known) names.push_back(a);
+    if (!known) o.names.push_back(a);
   }
-  if (names.size() != 2)
-    return trouble("usage: mkgif [--delay N] [--43] [--scale N] [--from N] [--to N] [--every N] OUT.GIF DIR");
+  return o.names.size() == 2 ||
+         trouble("usage: mkgif [--delay N] [--43] [--scale N] [--from N] [--to N] [--every N] OUT.GIF DIR");
+}
 
-  std::vector<std::string> files;
+// Lists the chosen frames of the directory in ascending order.
+bool listFrames(const Options &o, std::vector<std::string> &files) {
   std::error_code error;
-  std::filesystem::directory_iterator it(names[1], error), end;
-  if (error) return trouble(names[1] + ": " + error.message());
+  std::filesystem::directory_iterator it(o.names[1], error), end;
+  if (error) return trouble(o.names[1] + ": " + error.message());
   for (; it != end; it.increment(error)) {
     std::string name = it->path().filename().string();
     if (name.size() != 12 || name[0] != 'F' || name.substr(8) != ".PPM" ||
         name.find_first_not_of("0123456789", 1) != 8)
       continue;
     long n = std::atol(name.c_str() + 1);
-    if (n >= from && n <= to && (n - from) % every == 0) files.push_back(it->path().string());
+    if (n >= o.from && n <= o.to && (n - o.from) % o.every == 0) files.push_back(it->path().string());
   }
   std::sort(files.begin(), files.end());
-  if (files.empty()) return trouble(names[1] + ": no frames");
+  return !files.empty() || trouble(o.names[1] + ": no frames");
+}
 
-  std::vector<Image> frames(files.size());
-  Palette shared;
-  bool fits = true;
+bool readFrames(const std::vector<std::string> &files, std::vector<Image> &frames) {
+  frames.resize(files.size());
   for (size_t i = 0; i < files.size(); i++) {
     std::string why;
     if (!readPpm(files[i], frames[i], why)) return trouble(why);
     if (frames[i].width != frames[0].width || frames[i].height != frames[0].height)
       return trouble(files[i] + ": is not of the first frame's size");
-    fits = fits && shared.add(frames[i]);
   }
-  int width = (int)(frames[0].width * scale), height = (int)(frames[0].height * scale * (tall ? 6 : 5) / 5);
+  return true;
+}
 
-  std::string out = "GIF89a";
+// A part of the picture: columns x0 to x1 - 1, rows y0 to y1 - 1.
+struct Part {
+  int x0, y0, x1, y1;
+};
+
+// Returns the smallest part that has all pixels in which two pictures differ.
+Part changed(const Image &before, const Image &after) {
+  Part part = {after.width, after.height, 0, 0};
+  for (int y = 0; y < after.height; y++)
+    for (int x = 0; x < after.width; x++)
+      if (after.pixels[y * after.width + x] != before.pixels[y * after.width + x]) {
+        part.x0 = std::min(part.x0, x), part.x1 = std::max(part.x1, x + 1);
+        part.y0 = std::min(part.y0, y), part.y1 = std::max(part.y1, y + 1);
+      }
+  if (part.x1 == 0) part = {0, 0, 1, 1};   // nothing changed: one pixel is stored for its delay
+  return part;
+}
+
+// Drops as few low bits of the colours as make them fit into a palette, and returns the palette.
+Palette reduce(Image &p) {
+  Palette own;
+  uint32_t mask = 0xFFFFFF;
+  for (int bits = 1; !own.add(p, mask); bits++) {
+    own = Palette();
+    mask = (0xFF << bits & 0xFF) * 0x010101;
+  }
+  for (uint32_t &c : p.pixels) c &= mask;
+  return own;
+}
+
+void putHeader(int width, int height, const Palette *shared, std::string &out) {
+  out += "GIF89a";
   put16(out, width);
   put16(out, height);
-  // All frames share one palette if it can hold their exact colours; otherwise each frame has its own.
-  out += (char)(fits ? 0xF0 | (bitsFor(shared.colours.size()) - 1) : 0x70);
+  out += (char)(shared ? 0xF0 | (bitsFor(shared->colours.size()) - 1) : 0x70);
   put16(out, 0);
-  if (fits) putTable(shared, out);
+  if (shared) putTable(*shared, out);
   out += "\x21\xFF\x0BNETSCAPE2.0";   // repeat for ever
   out += std::string("\x03\x01\x00\x00\x00", 5);
+}
 
+// Appends a part of a picture, to be shown for `delay`. The palette is stored with it if it is the picture's own.
+void putPicture(const Image &p, const Part &part, long delay, const Palette &palette, bool own, std::string &out) {
+  int bits = bitsFor(palette.colours.size());
+  out += std::string("\x21\xF9\x04\x04", 4);   // the picture stays in place afterwards
+  put16(out, (int)delay);
+  out += std::string(2, '\0');
+  out += ',';
+  put16(out, part.x0);
+  put16(out, part.y0);
+  put16(out, part.x1 - part.x0);
+  put16(out, part.y1 - part.y0);
+  out += (char)(own ? 0x80 | (bits - 1) : 0);
+  if (own) putTable(palette, out);
+  std::vector<uint8_t> indices;
+  for (int y = part.y0; y < part.y1; y++)
+    for (int x = part.x0; x < part.x1; x++)
+      indices.push_back((uint8_t)palette.place.find(p.pixels[y * p.width + x])->second);
+  compress(indices, bits, out);
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  Options o;
+  std::vector<std::string> files;
+  std::vector<Image> frames;
+  if (!readArguments(argc, argv, o) || !listFrames(o, files) || !readFrames(files, frames)) return 2;
+  // All frames share one palette if it can hold their exact colours; otherwise each frame has its own.
+  Palette shared;
+  bool fits = true;
+  for (const Image &frame : frames) fits = fits && shared.add(frame);
+
+  std::string out;
+  int width = (int)(frames[0].width * o.scale), height = (int)(frames[0].height * o.scale * (o.tall ? 6 : 5) / 5);
+  putHeader(width, height, fits ? &shared : nullptr, out);
   Image shown;
   for (const Image &frame : frames) {
-    Image p = stretch(frame, (int)scale, tall);
+    Image p = stretch(frame, (int)o.scale, o.tall);
     Palette own;
-    uint32_t mask = 0xFFFFFF;
-    for (int bits = 1; !fits && !own.add(p, mask); bits++) {
-      own = Palette();
-      mask = (0xFF << bits & 0xFF) * 0x010101;
-    }
-    const Palette &palette = fits ? shared : own;
-    for (uint32_t &c : p.pixels) c &= mask;
-    // Only the rectangle that changed is stored; the rest of the picture stays on the screen.
-    int x0 = 0, y0 = 0, x1 = width, y1 = height;
-    if (!shown.pixels.empty()) {
-      x0 = width, y0 = height, x1 = y1 = 0;
-      for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++)
-          if (p.pixels[y * width + x] != shown.pixels[y * width + x]) {
-            x0 = std::min(x0, x), x1 = std::max(x1, x + 1);
-            y0 = std::min(y0, y), y1 = std::max(y1, y + 1);
-          }
-      if (x1 == 0) x0 = y0 = 0, x1 = y1 = 1;   // nothing changed: one pixel is stored for its delay
-    }
-    int bits = bitsFor(palette.colours.size());
-    out += std::string("\x21\xF9\x04\x04", 4);   // the picture stays in place afterwards
-    put16(out, (int)delay);
-    out += std::string(2, '\0');
-    out += ',';
-    put16(out, x0);
-    put16(out, y0);
-    put16(out, x1 - x0);
-    put16(out, y1 - y0);
-    out += (char)(fits ? 0 : 0x80 | (bits - 1));
-    if (!fits) putTable(palette, out);
-    std::vector<uint8_t> indices;
-    for (int y = y0; y < y1; y++)
-      for (int x = x0; x < x1; x++)
-        indices.push_back((uint8_t)palette.place.find(p.pixels[y * width + x])->second);
-    compress(indices, bits, out);
+    if (!fits) own = reduce(p);
+    // Only the part that changed is stored; the rest of the picture stays on the screen.
+    Part part = shown.pixels.empty() ? Part{0, 0, width, height} : changed(shown, p);
+    putPicture(p, part, o.delay, fits ? shared : own, !fits, out);
     shown = std::move(p);
   }
   out += ';';
 
-  FILE *f = std::fopen(names[0].c_str(), "wb");
+  FILE *f = std::fopen(o.names[0].c_str(), "wb");
   bool good = f && std::fwrite(out.data(), 1, out.size(), f) == out.size();
   if (f && std::fclose(f) != 0) good = false;
-  if (!good) return trouble(names[0] + ": cannot be written");
-  std::printf("%s: %zu frames, %dx%d, %zu bytes, %s\n", names[0].c_str(), frames.size(), width,
+  if (!good) {
+    trouble(o.names[0] + ": cannot be written");
+    return 2;
+  }
+  std::printf("%s: %zu frames, %dx%d, %zu bytes, %s\n", o.names[0].c_str(), frames.size(), width,
               height, out.size(), fits ? "colours exact" : "a palette for each frame");
   return 0;
 }
