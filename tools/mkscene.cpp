@@ -88,6 +88,94 @@ void printMoving(const char *name) {
   }
 }
 
+void printGroup(int g) {
+  const std::string name = "g" + std::to_string(g);
+  const double x = tenths(-14, 14), y = tenths(-10, 10), z = tenths(-6, 20);
+  printf("group %s at %.1f %.1f %.1f", name.c_str(), x, y, z);
+  if (once(3)) printf(" scale 0.%d", between(6, 9));
+  if (g == 2 && once(2)) printf(" in g1");
+  printf("\n");
+  if (!once(3)) printTurning(name.c_str());
+  if (once(3)) {
+    const int across = between(2, 12);
+    printf("path %s x %d 7 0 z %d 9 0.25\n", name.c_str(), across, between(2, 12));
+  }
+}
+
+enum Kind { SPHERE, CYLINDER, TORUS, DISC, CONE };
+
+void printKind(const char *name, Kind kind, int size) {
+  switch (kind) {
+    case SPHERE: printf("sphere %s size %d", name, size); break;
+    case CYLINDER: printf("cylinder %s size %d length %d", name, size, between(5, 44)); break;
+    case TORUS: printf("torus %s size %d ring %d", name, size, std::max(between(8, 28), (size * 5 + 7) / 8)); break;
+    case DISC:
+      // One in three discs is replaced by a box.
+      if (once(3)) {
+        const int x = between(2, 30), y = between(2, 30);
+        printf("box %s size %d x %d y %d z %d", name, size, x, y, between(2, 30));
+      } else {
+        printf("disc %s size %d disc %d", name, size, between(4, 24));
+      }
+      break;
+    case CONE: {
+      const int tip = between(3, 24);
+      printf("cone %s size %d tip %d length %d", name, size, tip, std::max(between(8, 40), (abs(size - tip) + 1) / 2));
+      break;
+    }
+  }
+}
+
+void printWarps(const char *name) {
+  static const struct {
+    const char *word;
+    double most;
+  } warps[] = {{"taper", 0.7}, {"twist", 180}, {"bend", 120}};
+  for (const auto &warp : warps) {
+    if (!once(4)) continue;
+    const double amount = warp.most * between(-100, 100) / 100.0, swing = warp.most * between(0, 100) / 100.0;
+    printf("%s %s %.2f", warp.word, name, amount);
+    if (once(2)) printf(" swing %.2f period %.1f phase 0.%d", swing, tenths(3, 9), between(0, 9));
+    printf("\n");
+  }
+}
+
+// The object's size is at most about 16 * 2^doublings.
+void printObject(int i, int doublings, int groups, bool shapes) {
+  const std::string name = "o" + std::to_string(i);
+  // Some kinds are more likely than others.
+  static const Kind kinds[] = {SPHERE, SPHERE, SPHERE, SPHERE, CYLINDER, CYLINDER, TORUS, DISC, CONE};
+  const Kind kind = kinds[between(0, 8)];
+  // Sizes are chosen on a logarithmic scale: a small object is as likely as a large one.
+  int size = between(5, 16);
+  const int most = kind == SPHERE ? doublings : std::min(doublings, 1);
+  for (int d = between(0, most); d > 0; d--) size = size * 19 / 10;
+  printKind(name.c_str(), kind, size);
+  const double x = tenths(-20, 20), y = tenths(-14, 14), z = tenths(-16, 30);
+  printf(" at %.1f %.1f %.1f", x, y, z);
+  const bool stretched = shapes && !once(3);
+  // Stretch factors are from 0.25 to 2, but at most 1 along z and along the axes in which the kind is long.
+  if (stretched) {
+    const double x = between(25, 100) / 50.0, y = between(25, 100) / (kind == SPHERE ? 50.0 : 100.0);
+    printf(" stretch %.2f %.2f %.2f", kind == TORUS || kind == DISC ? x / 2 : x, y, between(25, 100) / 100.0);
+  }
+  // A plain sphere looks the same however it is turned.
+  const bool turns = kind != SPHERE || stretched;
+  if (turns) {
+    const int a = between(-180, 180), b = between(-180, 180);
+    printf(" turn %d %d %d", a, b, between(-180, 180));
+  }
+  if (groups > 0 && !once(3)) printf(" in g%d", between(1, groups));
+  printf("\n");
+  printMoving(name.c_str());
+  if (turns && once(2)) printTurning(name.c_str());
+  if (shapes) printWarps(name.c_str());
+  if (once(5)) {
+    const int by = between(5, 40);
+    printf("pulse %s by 0.%02d period %.1f\n", name.c_str(), by, tenths(2, 8));
+  }
+}
+
 // Three of four links have weight 1, as in the report.
 double weight() {
   if (!once(4)) return 1;
@@ -99,6 +187,34 @@ void printLink(int i, int j) {
   printf("blend o%d o%d", i, j);
   if (w != 1) printf(" %.1f", w);
   printf("\n");
+}
+
+void printLinks(int objects) {
+  switch (between(0, 7)) {
+    case 0:
+    case 1: printf("blend all\n"); break;
+    case 2: printf("blend all %.1f\n", between(3, 40) / 10.0); break;
+    case 3:
+      // Each object is linked with the previous one: a chain.
+      for (int i = 2; i <= objects; i++) printLink(i, i - 1);
+      break;
+    case 4:
+      // Every object is linked with the first one.
+      for (int i = 2; i <= objects; i++) printLink(1, i);
+      break;
+    case 5:
+      // Two bodies are formed, in each of which all objects are linked.
+      for (int i = 1; i <= objects; i++)
+        for (int j = 1; j < i; j++)
+          if ((i - j) % 2 == 0) printLink(i, j);
+      break;
+    default:
+      // About half of all pairs are linked.
+      for (int i = 1; i <= objects; i++)
+        for (int j = 1; j < i; j++)
+          if (once(2)) printLink(i, j);
+      break;
+  }
 }
 
 // An eye at some distance from the scene, on one of several paths around it; it looks at the centre, at an object, or ahead.
@@ -173,16 +289,15 @@ void printPaint(int objects) {
 }  // namespace
 
 int main(int count, char **arguments) {
-  const bool shapes = count > 2 && std::string(arguments[count - 1]) == "shapes";
-  if (shapes) count--;
-  const bool paint = count > 2 && std::string(arguments[count - 1]) == "paint";
-  if (paint) count--;
-  const bool dents = count > 2 && std::string(arguments[count - 1]) == "dents";
-  if (dents) count--;
+  // Returns whether `word` is the last argument, and drops it. Words are asked for from the last one in the usage to the first.
+  auto endsWith = [&](const char *word) {
+    const bool there = count > 2 && std::string(arguments[count - 1]) == word;
+    if (there) count--;
+    return there;
+  };
+  const bool shapes = endsWith("shapes"), paint = endsWith("paint"), dents = endsWith("dents"), eye = endsWith("eye");
   char *end = nullptr;
   const unsigned long long seed = count > 1 ? strtoull(arguments[1], &end, 10) : 0;
-  const bool eye = count > 2 && std::string(arguments[count - 1]) == "eye";
-  if (eye) count--;
   if (count < 2 || count > 3 || end == arguments[1] || *end != 0) {
     fputs("usage: mkscene SEED [OBJECTS, 1 to 128] [eye] [dents] [paint] [shapes]\n", stderr);
     return 2;
@@ -199,105 +314,11 @@ int main(int count, char **arguments) {
   printf("# Random scene %llu of %d objects.\n", seed, objects);
 
   const int groups = std::max(between(-1, 2), 0);
-  for (int g = 1; g <= groups; g++) {
-    const std::string name = "g" + std::to_string(g);
-    const double x = tenths(-14, 14), y = tenths(-10, 10), z = tenths(-6, 20);
-    printf("group %s at %.1f %.1f %.1f", name.c_str(), x, y, z);
-    if (once(3)) printf(" scale 0.%d", between(6, 9));
-    if (g == 2 && once(2)) printf(" in g1");
-    printf("\n");
-    if (!once(3)) printTurning(name.c_str());
-    if (once(3)) {
-      const int across = between(2, 12);
-      printf("path %s x %d 7 0 z %d 9 0.25\n", name.c_str(), across, between(2, 12));
-    }
-  }
-
+  for (int g = 1; g <= groups; g++) printGroup(g);
   // If there are many objects, few of them may be large.
   const int doublings = objects > 24 ? 0 : objects > 9 ? 1 : 2;
-  for (int i = 1; i <= objects; i++) {
-    const std::string name = "o" + std::to_string(i);
-    const int kind = between(0, 8);
-    // Sizes are chosen on a logarithmic scale: a small object is as likely as a large one.
-    int size = between(5, 16);
-    const int most = kind < 4 ? doublings : std::min(doublings, 1);
-    for (int d = between(0, most); d > 0; d--) size = size * 19 / 10;
-    if (kind < 4) {
-      printf("sphere %s size %d", name.c_str(), size);
-    } else if (kind < 6) {
-      printf("cylinder %s size %d length %d", name.c_str(), size, between(5, 44));
-    } else if (kind == 6) {
-      printf("torus %s size %d ring %d", name.c_str(), size, std::max(between(8, 28), (size * 5 + 7) / 8));
-    } else if (kind == 7) {
-      // One in three discs is replaced by a box.
-      if (once(3)) {
-        const int x = between(2, 30), y = between(2, 30);
-        printf("box %s size %d x %d y %d z %d", name.c_str(), size, x, y, between(2, 30));
-      } else {
-        printf("disc %s size %d disc %d", name.c_str(), size, between(4, 24));
-      }
-    } else {
-      const int tip = between(3, 24);
-      printf("cone %s size %d tip %d length %d", name.c_str(), size, tip, std::max(between(8, 40), (abs(size - tip) + 1) / 2));
-    }
-    const double x = tenths(-20, 20), y = tenths(-14, 14), z = tenths(-16, 30);
-    printf(" at %.1f %.1f %.1f", x, y, z);
-    const bool stretched = shapes && !once(3);
-    // Stretch factors are from 0.25 to 2, but at most 1 along z and along the axes in which the kind is long.
-    if (stretched) {
-      const double x = between(25, 100) / 50.0, y = between(25, 100) / (kind < 4 ? 50.0 : 100.0);
-      printf(" stretch %.2f %.2f %.2f", kind == 6 || kind == 7 ? x / 2 : x, y, between(25, 100) / 100.0);
-    }
-    if (kind >= 4 || stretched) {
-      const int a = between(-180, 180), b = between(-180, 180);
-      printf(" turn %d %d %d", a, b, between(-180, 180));
-    }
-    if (groups > 0 && !once(3)) printf(" in g%d", between(1, groups));
-    printf("\n");
-    printMoving(name.c_str());
-    if ((kind >= 4 || stretched) && once(2)) printTurning(name.c_str());
-    static const struct {
-      const char *word;
-      double most;
-    } warps[] = {{"taper", 0.7}, {"twist", 180}, {"bend", 120}};
-    for (const auto &warp : warps) {
-      if (!shapes || !once(4)) continue;
-      const double amount = warp.most * between(-100, 100) / 100.0, swing = warp.most * between(0, 100) / 100.0;
-      printf("%s %s %.2f", warp.word, name.c_str(), amount);
-      if (once(2)) printf(" swing %.2f period %.1f phase 0.%d", swing, tenths(3, 9), between(0, 9));
-      printf("\n");
-    }
-    if (once(5)) {
-      const int by = between(5, 40);
-      printf("pulse %s by 0.%02d period %.1f\n", name.c_str(), by, tenths(2, 8));
-    }
-  }
-
-  switch (between(0, 7)) {
-    case 0:
-    case 1: printf("blend all\n"); break;
-    case 2: printf("blend all %.1f\n", between(3, 40) / 10.0); break;
-    case 3:
-      // Each object is linked with the previous one: a chain.
-      for (int i = 2; i <= objects; i++) printLink(i, i - 1);
-      break;
-    case 4:
-      // Every object is linked with the first one.
-      for (int i = 2; i <= objects; i++) printLink(1, i);
-      break;
-    case 5:
-      // Two bodies are formed, in each of which all objects are linked.
-      for (int i = 1; i <= objects; i++)
-        for (int j = 1; j < i; j++)
-          if ((i - j) % 2 == 0) printLink(i, j);
-      break;
-    default:
-      // About half of all pairs are linked.
-      for (int i = 1; i <= objects; i++)
-        for (int j = 1; j < i; j++)
-          if (once(2)) printLink(i, j);
-      break;
-  }
+  for (int i = 1; i <= objects; i++) printObject(i, doublings, groups, shapes);
+  printLinks(objects);
   if (eye) printEye(objects);
   if (dents) printDents(objects);
   if (paint) printPaint(objects);
