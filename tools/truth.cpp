@@ -5,6 +5,7 @@
 //
 // This file is the command line of the yardstick: it reads the frames, prints the figures (one `name: value` per line, or
 // one row of a table), and compares the figures with their limits.
+#include "picture.h"
 #include "truth.h"
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
+#include <utility>
 
 using namespace truth;
 
@@ -49,6 +51,7 @@ struct Bar {
   double spacing2, spacing1;
   double (*value)(const Figures &);
   bool (*known)(const Figures &);
+  double most(int spacing) const { return spacing == 2 ? spacing2 : spacing1; }
 };
 
 const Bar bars[] = {
@@ -187,7 +190,7 @@ void printHead() {
   for (const Bar &b : bars) std::printf(" %11s", b.column);
   for (int spacing : {2, 1}) {
     std::printf("\nbars, spacing %d ", spacing);
-    for (const Bar &b : bars) std::printf(" %11g", spacing == 2 ? b.spacing2 : b.spacing1);
+    for (const Bar &b : bars) std::printf(" %11g", b.most(spacing));
   }
   std::printf("\n");
 }
@@ -219,170 +222,205 @@ bool readLimits(const std::string &path, std::vector<Limit> &limits, std::string
   return true;
 }
 
+struct Options {
+  bool verbose = false, rendering = false, pairs = false, limited = false;
+  std::string csv, out, row, list;   // as given to the options of these names
+  std::vector<Limit> limits;
+  std::vector<std::string> names;    // the directories, or with --render the scenes
+  long worst = 3, threads = 2, every = 1;
+  int spacing = 0;                   // whose bars are compared; 0: none are
+};
+
+// Takes the argument at argv[i]. If it is an option with a value, i moves on to the value.
+bool takeArgument(char **argv, int &i, Options &o, std::string &why) {
+  const std::pair<const char *, bool *> switches[] = {{"-v", &o.verbose}, {"--pairs", &o.pairs}};
+  const std::pair<const char *, std::string *> texts[] = {
+      {"--row", &o.row}, {"--list", &o.list}, {"--csv", &o.csv}, {"--out", &o.out}, {"--render", &o.out}};
+  const struct {
+    const char *name, *range;
+    long least, most, *value;
+  } numbers[] = {{"--worst", "0 to 1000", 0, 1000, &o.worst},
+                 {"--every", "1 or more", 1, 1000000, &o.every},
+                 {"--threads", "1 to 16", 1, 16, &o.threads}};
+  const std::string a = argv[i];
+  const char *value = argv[i + 1];   // null behind the last argument
+  for (const auto &[name, on] : switches)
+    if (a == name) return *on = true;
+  for (const auto &n : numbers)
+    if (a == n.name) {
+      i++;
+      if (value && wholeNumber(value, n.least, n.most, *n.value)) return true;
+      why = a + " wants " + n.range;
+      return false;
+    }
+  if (a[0] != '-') {
+    o.names.push_back(a);
+    return true;
+  }
+  i++;
+  for (const auto &[name, text] : texts)
+    if (value && a == name) {
+      *text = value;
+      o.rendering = o.rendering || a == "--render";
+      return true;
+    }
+  if (value && a == "--limits") {
+    o.limited = true;
+    return readLimits(value, o.limits, why);
+  }
+  if (value && a == "--bars") {
+    const std::string name = value;
+    o.spacing = name == "spacing2" ? 2 : name == "spacing1" ? 1 : 0;
+    if (!o.spacing) why = "--bars wants spacing2 or spacing1, not " + name;
+    return o.spacing != 0;
+  }
+  why = "unknown option, or one without its value: " + a + " (--help lists them)";
+  return false;
+}
+
 // Prints one row of the table. Returns false if a figure exceeds both its bar and its limit, or if the list cannot be
 // written; `why` is set in the latter case.
-bool printRow(const std::string &name, int spacing, const std::vector<Limit> *limits, const std::string &listName,
-              const Figures &f, std::string &why) {
-  const std::string number = std::to_string(spacing);
+bool printRow(const Options &o, const Figures &f, std::string &why) {
+  const std::string number = std::to_string(o.spacing);
   bool good = true;
   std::string list;
-  std::printf("%-13s %s ", name.c_str(), number.c_str());
+  std::printf("%-13s %s ", o.row.c_str(), number.c_str());
   for (const Bar &b : bars) {
     if (!b.known(f)) {
       std::printf(" %11s", "-");
       continue;
     }
-    double v = b.value(f), most = spacing == 2 ? b.spacing2 : b.spacing1;
+    double v = b.value(f), most = b.most(o.spacing);
     const char *mark = v > most ? "!" : "";
-    if (limits)
-      for (const Limit &l : *limits)
-        if (l.scene == name && l.spacing == number && l.figure == b.column) most = std::max(most, l.most);
+    for (const Limit &l : o.limits)
+      if (l.scene == o.row && l.spacing == number && l.figure == b.column) most = std::max(most, l.most);
     if (v > most) {
       good = false;
-      if (limits) mark = "!!";
+      if (o.limited) mark = "!!";
     }
     char cell[48];
     std::snprintf(cell, sizeof cell, "%.*f%s", b.decimals, v, mark);
     std::printf(" %11s", cell);
     std::snprintf(cell, sizeof cell, " %.*f\n", b.decimals, v);
-    list += name + " " + number + " " + b.column + cell;
+    list += o.row + " " + number + " " + b.column + cell;
   }
   std::printf("\n");
-  if (listName.empty()) return good;
-  FILE *file = std::fopen(listName.c_str(), "a");
+  if (o.list.empty()) return good;
+  FILE *file = std::fopen(o.list.c_str(), "a");
   bool written = file && std::fputs(list.c_str(), file) >= 0;
   if (file && std::fclose(file) != 0) written = false;
-  if (!written) why = listName + ": cannot be written";
+  if (!written) why = o.list + ": cannot be written";
   return good && written;
 }
 
-}  // namespace
+// A frame, and how bad it is.
+struct Rank {
+  double badness;
+  size_t dir;
+  long number;
+};
 
-int main(int argc, char **argv) {
-  bool verbose = false, rendering = false, pairs = false, limited = false;
-  std::string csvName, out, why, row, listName;
-  std::vector<Limit> limits;
-  std::vector<std::string> names;
-  long worst = 3, threads = 2, every = 1;
-  int bar = -1;
-  for (int i = 1; i < argc; i++) {
-    std::string a = argv[i];
-    auto isNumber = [&](long least, long most, long &v) {
-      char *end = nullptr;
-      if (i + 1 < argc) v = std::strtol(argv[++i], &end, 10);
-      return end && end != argv[i] && *end == 0 && v >= least && v <= most;
-    };
-    if (a == "-h" || a == "--help") {
-      std::fputs(usage, stdout);
-      return 0;
-    } else if (a == "--head") {
-      printHead();
-      return 0;
-    } else if (a == "--pairs") {
-      pairs = true;
-    } else if (a == "--row" && i + 1 < argc) {
-      row = argv[++i];
-    } else if (a == "--list" && i + 1 < argc) {
-      listName = argv[++i];
-    } else if (a == "--limits" && i + 1 < argc) {
-      limited = true;
-      if (!readLimits(argv[++i], limits, why)) return trouble(why);
-    } else if (a == "-v") {
-      verbose = true;
-    } else if (a == "--render" && i + 1 < argc) {
-      rendering = true, out = argv[++i];
-    } else if (a == "--csv" && i + 1 < argc) {
-      csvName = argv[++i];
-    } else if (a == "--out" && i + 1 < argc) {
-      out = argv[++i];
-    } else if (a == "--worst") {
-      if (!isNumber(0, 1000, worst)) return trouble("--worst wants 0 to 1000");
-    } else if (a == "--every") {
-      if (!isNumber(1, 1000000, every)) return trouble("--every wants 1 or more");
-    } else if (a == "--threads") {
-      if (!isNumber(1, 16, threads)) return trouble("--threads wants 1 to 16");
-    } else if (a == "--bars" && i + 1 < argc) {
-      a = argv[++i];
-      bar = a == "spacing2" ? 2 : a == "spacing1" ? 1 : 0;
-      if (!bar) return trouble("--bars wants spacing2 or spacing1, not " + a);
-    } else if (a[0] == '-') {
-      return trouble("unknown option, or one without its value: " + a + " (--help lists them)");
-    } else {
-      names.push_back(a);
-    }
-  }
-  if (names.empty()) return trouble(rendering ? "no scene named" : "no directory named (--help lists the options)");
-  if (rendering) return render(out, names, (int)threads);
-  if (!row.empty() && bar < 0) return trouble("--row wants --bars");
-
-  Figures total;
-  struct Rank {
-    double badness;
-    size_t dir;
-    long number;
-  };
-  std::vector<Rank> ranks;
+// Compares the frames of all directories with the surface, and ranks them from the worst on.
+bool judge(const Options &o, Figures &total, std::vector<Rank> &ranks, std::string &why) {
   std::string csv = csvHead;
   Frame frame, before;
   Picture picture, beforePicture;
-  for (size_t d = 0; d < names.size(); d++) {
+  for (size_t d = 0; d < o.names.size(); d++) {
     std::vector<long> numbers;
-    if (!listFrames(names[d], numbers, why)) return trouble(why);
+    if (!listFrames(o.names[d], numbers, why)) return false;
     long last = -1;
     for (size_t k = 0; k < numbers.size(); k++) {
-      if (k % every != 0 && !(pairs && k % every == 1)) continue;
+      if (k % o.every != 0 && !(o.pairs && k % o.every == 1)) continue;
       long n = numbers[k];
       std::swap(frame, before);
       std::swap(picture, beforePicture);
-      if (!readFrame(names[d], n, frame, why)) return trouble(why);
-      picture.trace(frame.scene, (int)threads);
+      if (!readFrame(o.names[d], n, frame, why)) return false;
+      picture.trace(frame.scene, (int)o.threads);
       Figures f = compare(frame, picture);
       // Flicker is measured only between neighbouring frames of a run.
       if (last >= 0 && last == n - 1) compareFlicker(before, beforePicture, frame, picture, f);
       last = n;
       total.add(f);
       ranks.push_back({badness(f), d, n});
-      if (verbose) printFrame(n, frame.scene.time, f);
-      if (!csvName.empty()) csv += csvLine(n, frame.scene.time, f);
+      if (o.verbose) printFrame(n, frame.scene.time, f);
+      if (!o.csv.empty()) csv += csvLine(n, frame.scene.time, f);
     }
   }
-  if (!csvName.empty() && !writeFile(csvName, csv, why)) return trouble(why);
-
   std::stable_sort(ranks.begin(), ranks.end(),
                    [](const Rank &a, const Rank &b) { return a.badness > b.badness; });
-  if ((size_t)worst < ranks.size()) ranks.resize(worst);
-  for (const Rank &r : ranks) {
-    if (row.empty()) {
+  return o.csv.empty() || writeFile(o.csv, csv, why);
+}
+
+// Writes a frame as a picture: ours, true, difference.
+bool writeSheet(const Options &o, const Rank &r, std::string &why) {
+  Frame frame;
+  Picture picture;
+  if (!readFrame(o.names[r.dir], r.number, frame, why)) return false;
+  picture.trace(frame.scene, (int)o.threads);
+  char name[48];
+  // Frames of the second and later directories have the directory's number in their names.
+  if (r.dir) std::snprintf(name, sizeof name, "/W%07ld-%d.PPM", r.number, (int)r.dir + 1);
+  else std::snprintf(name, sizeof name, "/W%07ld.PPM", r.number);
+  return writePpm(o.out + name, SHEET_WIDTH, HEIGHT, sheet(frame, picture), why);
+}
+
+bool showWorst(const Options &o, const std::vector<Rank> &ranks, std::string &why) {
+  for (size_t k = 0; k < ranks.size() && k < (size_t)o.worst; k++) {
+    const Rank &r = ranks[k];
+    if (o.row.empty()) {
       std::printf("worst frame: %ld (%.2f bars)", r.number, r.badness);
-      if (names.size() > 1) std::printf(" in %s", names[r.dir].c_str());
+      if (o.names.size() > 1) std::printf(" in %s", o.names[r.dir].c_str());
       std::printf("\n");
     }
-    if (out.empty()) continue;
-    if (!readFrame(names[r.dir], r.number, frame, why)) return trouble(why);
-    picture.trace(frame.scene, (int)threads);
-    char name[48];
-    // Frames of the second and later directories have the directory's number in their names.
-    if (r.dir) std::snprintf(name, sizeof name, "/W%07ld-%d.PPM", r.number, (int)r.dir + 1);
-    else std::snprintf(name, sizeof name, "/W%07ld.PPM", r.number);
-    if (!writePpm(out + name, SHEET_WIDTH, HEIGHT, sheet(frame, picture), why)) return trouble(why);
+    if (!o.out.empty() && !writeSheet(o, r, why)) return false;
   }
-  if (!row.empty()) {
-    bool good = printRow(row, bar, limited ? &limits : nullptr, listName, total, why);
+  return true;
+}
+
+// Returns whether all figures hold their bars.
+bool printBars(int spacing, const Figures &total) {
+  bool held = true;
+  for (const Bar &b : bars) {
+    double most = b.most(spacing), v = b.value(total);
+    if (!b.known(total)) {
+      std::printf("bar not judged: %s\n", b.name);
+    } else if (v > most) {
+      std::printf("bar broken: %s: %.4f, at most %g\n", b.name, v, most);
+      held = false;
+    }
+  }
+  if (held) std::printf("bars: held\n");
+  return held;
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  Options o;
+  std::string why;
+  for (int i = 1; i < argc; i++) {
+    std::string a = argv[i];
+    if (a == "-h" || a == "--help") {
+      std::fputs(usage, stdout);
+      return 0;
+    }
+    if (a == "--head") {
+      printHead();
+      return 0;
+    }
+    if (!takeArgument(argv, i, o, why)) return trouble(why);
+  }
+  if (o.names.empty()) return trouble(o.rendering ? "no scene named" : "no directory named (--help lists the options)");
+  if (o.rendering) return render(o.out, o.names, (int)o.threads);
+  if (!o.row.empty() && o.spacing == 0) return trouble("--row wants --bars");
+
+  Figures total;
+  std::vector<Rank> ranks;
+  if (!judge(o, total, ranks, why) || !showWorst(o, ranks, why)) return trouble(why);
+  if (!o.row.empty()) {
+    bool good = printRow(o, total, why);
     return why.empty() ? !good : trouble(why);
   }
   printTotals(total);
-
-  int broken = 0;
-  if (bar >= 0)
-    for (const Bar &b : bars) {
-      double limit = bar == 2 ? b.spacing2 : b.spacing1, v = b.value(total);
-      if (!b.known(total)) {
-        std::printf("bar not judged: %s\n", b.name);
-      } else if (v > limit) {
-        std::printf("bar broken: %s: %.4f, at most %g\n", b.name, v, limit);
-        broken = 1;
-      }
-    }
-  if (bar >= 0 && !broken) std::printf("bars: held\n");
-  return broken;
+  return o.spacing != 0 && !printBars(o.spacing, total);
 }

@@ -4,7 +4,7 @@ HOSTCXX ?= g++
 TRUTH_FLAGS = -O2 -std=c++17 -Wall -Wextra -pthread
 TRUTH_PARTS = tools/truthray.cpp tools/truthscn.cpp tools/truthcmp.cpp
 
-build/truth: tools/truth.cpp $(TRUTH_PARTS) tools/truth.h tools/truth.mk
+build/truth: tools/truth.cpp $(TRUTH_PARTS) tools/truth.h tools/picture.h tools/truth.mk
 	@mkdir -p build
 	$(HOSTCXX) $(TRUTH_FLAGS) -o $@ tools/truth.cpp $(TRUTH_PARTS)
 
