@@ -267,7 +267,7 @@ const char *setAxes(const double *v, Vec axis[3]) {
   y = y * (1 / length(y));
   axis[0] = x;
   axis[1] = y;
-  axis[2] = {x.y * y.z - x.z * y.y, x.z * y.x - x.x * y.z, x.x * y.y - x.y * y.x};
+  axis[2] = cross(x, y);
   return nullptr;
 }
 

@@ -33,187 +33,219 @@ bool number(const std::string &word, double &v) {
   return *end == 0 && end != word.c_str() && std::isfinite(v);
 }
 
-// Lines that are not objects: their first word, the least and greatest count of numbers behind it, and whether a scene needs it.
+// Greatest error of axes that should be perpendicular unit vectors.
+const double SKEW = 0.001;
+
+// What a line may say: its first word, the least and greatest count of numbers behind it, and whether a scene needs it.
 struct Fact {
   const char *word;
   size_t least, most;
   bool needed;
+  // Stores what is said of the scene, and checks what is said of objects; null: nothing to do. Returns false, for the reason
+  // `wrong`, if the numbers are wrong.
+  bool (*take)(Scene &, const double *v);
+  const char *wrong = "";
+  // Stores what is said of the objects with the indices a and b. The first numbers name them; there are `objects` of them, 0 to
+  // 2. Returns a message if the numbers are wrong, or null.
+  int objects = 0;
+  const char *(*store)(Scene &, const struct Line &, int a, int b) = nullptr;
 };
-// Greatest error of axes that should be perpendicular unit vectors.
-const double SKEW = 0.001;
+
+// A line that is no object. A number that may be left out and is left out is 1.
+struct Line {
+  int number;
+  const Fact *fact;
+  std::vector<double> v;
+};
+
+const char *storeShape(Scene &s, const Line &l, int a, int) { return s.objects[a].setShape(l.fact->word, l.v.data() + 1); }
+
+const char *storeLink(Scene &s, const Line &l, int a, int b) {
+  if (a == b) return "blend of an object with itself";
+  s.link[a][b] = s.link[b][a] = s.weight[a][b] = s.weight[b][a] = l.v[2];
+  return nullptr;
+}
+
+const char *storeDent(Scene &s, const Line &l, int a, int b) {
+  if (a == b) return "dent of an object by itself";
+  s.weight[a][b] -= l.v[2];
+  const std::vector<double> &links = s.link[b];
+  const bool linked = std::any_of(links.begin(), links.end(), [](double weight) { return weight != 0; });
+  if (l.v[2] != 0 && !linked) s.objects[b].ghost = true;
+  return nullptr;
+}
+
+const char *storeStrength(Scene &s, const Line &l, int a, int) {
+  s.objects[a].strength = l.v[1];
+  return nullptr;
+}
+
+const char *storeCoat(Scene &s, const Line &l, int a, int) {
+  const std::string word = l.fact->word;
+  const std::vector<double> &v = l.v;
+  Coat &c = s.coats[a];
+  if (word == "shiny") c.finish = Coat::SHINY;
+  if (word == "mirror") c.finish = Coat::MIRROR;
+  if (v.size() == 1) return nullptr;
+  c.pattern = word == "checks" ? Coat::CHECKS : word == "stripes" ? Coat::STRIPES : Coat::MARBLE;
+  c.grain = v[1];
+  c.colour = {v[2], v[3], v[4]};
+  c.middle = {v[5], v[6], v[7]};
+  Vec x{v[8], v[9], v[10]}, y{v[11], v[12], v[13]};
+  if (!(c.grain > 0)) return "the size of a pattern must be above 0";
+  if (std::fabs(length(x) - 1) > 0.01 || std::fabs(length(y) - 1) > 0.01 || std::fabs(dot(x, y)) > 0.01)
+    return "the axes of a pattern must be of unit length and square to each other";
+  c.axis[0] = x, c.axis[1] = y, c.axis[2] = cross(x, y);
+  return nullptr;
+}
+
+bool takeLight(Scene &s, const double *v) {
+  Vec l{v[0], v[1], v[2]};
+  s.light = l * (1 / length(l));
+  return length(l) > 0;
+}
+
+bool takeRamp(Scene &s, const double *v) {
+  s.ramps[(int)v[0]] = {v[1], v[2], v[3]};
+  return v[1] >= 0 && v[2] >= 0 && v[3] >= 0 && v[1] + v[2] + v[3] > 0;
+}
+
+bool goodShare(double v) { return v >= 0 && v <= 1; }
+bool takeWeight(Scene &, const double *v) { return v[2] >= 0; }
+
 const Fact facts[] = {
-    {"time", 1, 1, true},   {"eye", 3, 3, true},       {"focal", 2, 2, true},
-    {"centre", 2, 2, true}, {"light", 3, 3, true},     {"isovalue", 1, 1, false},
-    {"strength", 2, 2, false}, {"dent", 2, 3, false},
-    {"right", 3, 3, false}, {"up", 3, 3, false},       {"ahead", 3, 3, false},
-    {"blend", 2, 3, false}, {"ambient", 1, 1, false}, {"highlight", 1, 1, false},  {"ramp", 4, 4, false},
-    {"mixed", 0, 0, false}, {"shiny", 1, 1, false},    {"mirror", 1, 1, false},
-    {"checks", 14, 14, false}, {"stripes", 14, 14, false}, {"marble", 14, 14, false},
-    {"stretch", 13, 13, false}, {"taper", 12, 12, false}, {"twist", 12, 12, false}, {"bend", 12, 12, false},
+    {"time", 1, 1, true, [](Scene &s, const double *v) { s.time = v[0]; return true; }},
+    {"eye", 3, 3, true, [](Scene &s, const double *v) { s.eye = {v[0], v[1], v[2]}; return true; }},
+    {"right", 3, 3, false, [](Scene &s, const double *v) { s.right = {v[0], v[1], v[2]}; return true; }},
+    {"up", 3, 3, false, [](Scene &s, const double *v) { s.up = {v[0], v[1], v[2]}; return true; }},
+    {"ahead", 3, 3, false, [](Scene &s, const double *v) { s.ahead = {v[0], v[1], v[2]}; return true; }},
+    {"focal", 2, 2, true, [](Scene &s, const double *v) { s.focalX = v[0], s.focalY = v[1]; return v[0] > 0 && v[1] > 0; },
+     "focal lengths must be above 0"},
+    {"centre", 2, 2, true, [](Scene &s, const double *v) { s.centreX = v[0], s.centreY = v[1]; return true; }},
+    {"light", 3, 3, true, takeLight, "the light has no direction"},
+    {"isovalue", 1, 1, false, [](Scene &s, const double *v) { s.isovalue = v[0]; return v[0] > 0; },
+     "the isovalue must be above 0"},
+    {"ambient", 1, 1, false, [](Scene &s, const double *v) { s.ambient = v[0]; return goodShare(v[0]); },
+     "ambient must be from 0 to 1"},
+    {"highlight", 1, 1, false, [](Scene &s, const double *v) { s.highlight = v[0]; return goodShare(v[0]); },
+     "highlight must be from 0 to 1"},
+    {"ramp", 4, 4, false, takeRamp, "a ramp wants a colour that is not black"},
+    {"mixed", 0, 0, false, [](Scene &s, const double *) { return s.mixed = true; }},
+    {"stretch", 13, 13, false, nullptr, "", 1, storeShape},
+    {"taper", 12, 12, false, nullptr, "", 1, storeShape},
+    {"twist", 12, 12, false, nullptr, "", 1, storeShape},
+    {"bend", 12, 12, false, nullptr, "", 1, storeShape},
+    {"blend", 2, 3, false, takeWeight, "a link's weight must not be negative", 2, storeLink},
+    {"dent", 2, 3, false, takeWeight, "a dent's weight must not be negative", 2, storeDent},
+    {"strength", 2, 2, false, [](Scene &, const double *v) { return v[1] > 0; }, "a strength must be above 0", 1, storeStrength},
+    {"shiny", 1, 1, false, nullptr, "", 1, storeCoat},
+    {"mirror", 1, 1, false, nullptr, "", 1, storeCoat},
+    {"checks", 14, 14, false, nullptr, "", 1, storeCoat},
+    {"stripes", 14, 14, false, nullptr, "", 1, storeCoat},
+    {"marble", 14, 14, false, nullptr, "", 1, storeCoat},
+};
+
+class SceneReader {
+public:
+  SceneReader(const std::string &name, Scene &s, std::string &why) : name(name), s(s), why(why) {}
+  bool read(const std::string &text) {
+    for (size_t at = 0; at < text.size();) {
+      size_t end = std::min(text.find('\n', at), text.size());
+      std::vector<std::string> words = split(text.substr(at, end - at));
+      at = end + 1;
+      lineNumber++;
+      if (!words.empty() && words[0][0] != '#' && !readLine(words)) return false;
+    }
+    return storeLines() && checkScene();
+  }
+private:
+  bool fail(const std::string &what) {
+    why = name + ":" + std::to_string(lineNumber) + ": " + what;
+    return false;
+  }
+  bool readLine(const std::vector<std::string> &words) {
+    std::vector<double> v(words.size() - 1);
+    for (size_t i = 0; i < v.size(); i++)
+      if (!number(words[i + 1], v[i])) return fail("not a number: " + words[i + 1]);
+    if (const Kind *kind = findKind(words[0])) return addObject(*kind, words, v);
+    for (const Fact &f : facts)
+      if (words[0] == f.word) return addFact(f, v);
+    return fail("unknown word: " + words[0]);
+  }
+  bool addObject(const Kind &kind, const std::vector<std::string> &words, const std::vector<double> &v) {
+    if ((int)v.size() != kind.numbers + 1)
+      return fail(words[0] + " wants " + std::to_string(kind.numbers + 1) + " numbers");
+    Object o{};
+    o.kind = &kind;
+    o.number = (int)v[0];
+    if (o.number != v[0]) return fail("an object's number must be whole");
+    if (!index.insert({o.number, (int)s.objects.size()}).second)
+      return fail("object " + words[1] + " is there already");
+    if (const char *wrong = kind.set(o, v.data() + 1)) return fail(wrong);
+    s.objects.push_back(o);
+    return true;
+  }
+  bool addFact(const Fact &f, std::vector<double> &v) {
+    if (v.size() < f.least || v.size() > f.most)
+      return fail(std::string(f.word) + " with " + std::to_string(v.size()) + " numbers");
+    seen[f.word] = true;
+    v.resize(f.most, 1);
+    if (f.take && !f.take(s, v.data())) return fail(f.wrong);
+    if (f.store == storeShape) return store({lineNumber, &f, v});
+    if (f.store) lines.push_back({lineNumber, &f, v});
+    return true;
+  }
+  // Stores what a line says of objects.
+  bool store(const Line &l) {
+    lineNumber = l.number;
+    int which[2] = {0, 0};
+    for (int i = 0; i < l.fact->objects; i++) {
+      auto o = index.find((int)l.v[i]);
+      if (o == index.end()) return fail(std::string(l.fact->word) + " names an object that is not there");
+      which[i] = o->second;
+    }
+    const char *wrong = l.fact->store(s, l, which[0], which[1]);
+    return !wrong || fail(wrong);
+  }
+  // Stores the lines about objects, now that all objects are known. Links come first, because dents change their weights.
+  bool storeLines() {
+    size_t n = s.objects.size();
+    s.link.assign(n, std::vector<double>(n, 0));
+    s.weight = s.link;
+    s.coats.assign(n, Coat());
+    for (auto pass : {storeLink, storeDent, storeStrength, storeCoat})
+      for (const Line &l : lines)
+        if (l.fact->store == pass && !store(l)) return false;
+    return true;
+  }
+  bool checkScene() {
+    // The axes of a turned eye (right, up, ahead) must be perpendicular unit vectors, oriented as x, y and z are.
+    if (length(s.right - cross(s.up, s.ahead)) > SKEW || std::fabs(length(s.up) - 1) > SKEW ||
+        std::fabs(length(s.ahead) - 1) > SKEW || std::fabs(dot(s.up, s.ahead)) > SKEW) {
+      why = name + ": right, up and ahead are no axes of a view";
+      return false;
+    }
+    for (const Fact &f : facts)
+      if (f.needed && !seen[f.word]) {
+        why = name + ": no line \"" + f.word + "\"";
+        return false;
+      }
+    return true;
+  }
+  const std::string &name;
+  Scene &s;
+  std::string &why;
+  int lineNumber = 0;
+  std::map<int, int> index;          // object number -> index
+  std::map<std::string, bool> seen;  // first words of lines
+  std::vector<Line> lines;           // those about objects that are stored at the end
 };
 
 }  // namespace
 
 bool parseScene(const std::string &text, const std::string &name, Scene &s, std::string &why) {
   s = Scene();
-  struct Link {
-    int line;
-    double a, b, weight;
-  };
-  struct Word {
-    int line;
-    std::string word;
-    std::vector<double> v;
-  };
-  std::vector<Word> coats;
-  std::vector<Link> links, dents, strengths;
-  std::map<int, int> index;   // object number -> index
-  std::map<std::string, bool> seen;
-  int lineNumber = 0;
-  auto fail = [&](const std::string &what) {
-    why = name + ":" + std::to_string(lineNumber) + ": " + what;
-    return false;
-  };
-  for (size_t at = 0; at < text.size();) {
-    size_t end = text.find('\n', at);
-    if (end == std::string::npos) end = text.size();
-    std::vector<std::string> words = split(text.substr(at, end - at));
-    at = end + 1;
-    lineNumber++;
-    if (words.empty() || words[0][0] == '#') continue;
-    std::vector<double> v(words.size() - 1);
-    for (size_t i = 0; i < v.size(); i++)
-      if (!number(words[i + 1], v[i])) return fail("not a number: " + words[i + 1]);
-    const std::string &word = words[0];
-    if (const Kind *kind = findKind(word)) {
-      if ((int)v.size() != kind->numbers + 1)
-        return fail(word + " wants " + std::to_string(kind->numbers + 1) + " numbers");
-      Object o{};
-      o.kind = kind;
-      o.number = (int)v[0];
-      if (o.number != v[0]) return fail("an object's number must be whole");
-      if (!index.insert({o.number, (int)s.objects.size()}).second)
-        return fail("object " + words[1] + " is there already");
-      if (const char *wrong = kind->set(o, v.data() + 1)) return fail(wrong);
-      s.objects.push_back(o);
-      continue;
-    }
-    const Fact *fact = nullptr;
-    for (const Fact &f : facts)
-      if (word == f.word) fact = &f;
-    if (!fact) return fail("unknown word: " + word);
-    if (v.size() < fact->least || v.size() > fact->most)
-      return fail(word + " with " + std::to_string(v.size()) + " numbers");
-    seen[word] = true;
-    if (word == "time") s.time = v[0];
-    if (word == "eye") s.eye = {v[0], v[1], v[2]};
-    if (word == "right") s.right = {v[0], v[1], v[2]};
-    if (word == "up") s.up = {v[0], v[1], v[2]};
-    if (word == "ahead") s.ahead = {v[0], v[1], v[2]};
-    if (word == "focal") {
-      if (v[0] <= 0 || v[1] <= 0) return fail("focal lengths must be above 0");
-      s.focalX = v[0], s.focalY = v[1];
-    }
-    if (word == "centre") s.centreX = v[0], s.centreY = v[1];
-    if (word == "light") {
-      Vec l{v[0], v[1], v[2]};
-      if (!(length(l) > 0)) return fail("the light has no direction");
-      s.light = l * (1 / length(l));
-    }
-    if (word == "isovalue") {
-      if (v[0] <= 0) return fail("the isovalue must be above 0");
-      s.isovalue = v[0];
-    }
-    if (word == "ambient") {
-      if (v[0] < 0 || v[0] > 1) return fail("ambient must be from 0 to 1");
-      s.ambient = v[0];
-    }
-    if (word == "highlight") {
-      if (v[0] < 0 || v[0] > 1) return fail("highlight must be from 0 to 1");
-      s.highlight = v[0];
-    }
-    if (word == "ramp") {
-      if (v[1] < 0 || v[2] < 0 || v[3] < 0 || v[1] + v[2] + v[3] <= 0)
-        return fail("a ramp wants a colour that is not black");
-      s.ramps[(int)v[0]] = {v[1], v[2], v[3]};
-    }
-    if (word == "mixed") s.mixed = true;
-    for (const char *coat : {"shiny", "mirror", "checks", "stripes", "marble"})
-      if (word == coat) coats.push_back({lineNumber, word, v});
-    if (word == "stretch" || word == "taper" || word == "twist" || word == "bend") {
-      auto o = index.find((int)v[0]);
-      if (o == index.end()) return fail(word + " names an object that is not there");
-      if (const char *wrong = s.objects[o->second].setShape(word, v.data() + 1)) return fail(wrong);
-    }
-    if (word == "blend" && v.size() > 2 && v[2] < 0) return fail("a link's weight must not be negative");
-    if (word == "blend") links.push_back({lineNumber, v[0], v[1], v.size() > 2 ? v[2] : 1});
-    if (word == "dent" && v.size() > 2 && v[2] < 0) return fail("a dent's weight must not be negative");
-    if (word == "dent") dents.push_back({lineNumber, v[0], v[1], v.size() > 2 ? v[2] : 1});
-    if (word == "strength" && v[1] <= 0) return fail("a strength must be above 0");
-    if (word == "strength") strengths.push_back({lineNumber, v[0], v[0], v[1]});
-  }
-  size_t n = s.objects.size();
-  s.link.assign(n, std::vector<double>(n, 0));
-  for (const Link &l : links) {
-    lineNumber = l.line;
-    auto a = index.find((int)l.a), b = index.find((int)l.b);
-    if (a == index.end() || b == index.end()) return fail("blend names an object that is not there");
-    if (a == b) return fail("blend of an object with itself");
-    s.link[a->second][b->second] = s.link[b->second][a->second] = l.weight;
-  }
-  s.weight = s.link;
-  for (const Link &l : dents) {
-    lineNumber = l.line;
-    auto a = index.find((int)l.a), b = index.find((int)l.b);
-    if (a == index.end() || b == index.end()) return fail("dent names an object that is not there");
-    if (a == b) return fail("dent of an object by itself");
-    s.weight[a->second][b->second] -= l.weight;
-    Object &digger = s.objects[b->second];
-    digger.ghost = digger.ghost || l.weight != 0;
-  }
-  for (size_t i = 0; i < n; i++)
-    for (size_t j = 0; j < n; j++)
-      if (s.link[i][j] != 0) s.objects[i].ghost = false;
-  for (const Link &l : strengths) {
-    lineNumber = l.line;
-    auto a = index.find((int)l.a);
-    if (a == index.end()) return fail("strength names an object that is not there");
-    s.objects[a->second].strength = l.weight;
-  }
-  s.coats.assign(n, Coat());
-  for (const Word &w : coats) {
-    lineNumber = w.line;
-    auto o = index.find((int)w.v[0]);
-    if (o == index.end()) return fail(w.word + " names an object that is not there");
-    Coat &c = s.coats[o->second];
-    if (w.word == "shiny") c.finish = Coat::SHINY;
-    if (w.word == "mirror") c.finish = Coat::MIRROR;
-    if (w.v.size() == 1) continue;
-    c.pattern = w.word == "checks" ? Coat::CHECKS : w.word == "stripes" ? Coat::STRIPES : Coat::MARBLE;
-    c.grain = w.v[1];
-    c.colour = {w.v[2], w.v[3], w.v[4]};
-    c.middle = {w.v[5], w.v[6], w.v[7]};
-    Vec x{w.v[8], w.v[9], w.v[10]}, y{w.v[11], w.v[12], w.v[13]};
-    if (!(c.grain > 0)) return fail("the size of a pattern must be above 0");
-    if (std::fabs(length(x) - 1) > 0.01 || std::fabs(length(y) - 1) > 0.01 || std::fabs(dot(x, y)) > 0.01)
-      return fail("the axes of a pattern must be of unit length and square to each other");
-    c.axis[0] = x, c.axis[1] = y;
-    c.axis[2] = {x.y * y.z - x.z * y.y, x.z * y.x - x.x * y.z, x.x * y.y - x.y * y.x};
-  }
-  // The axes of a turned eye (right, up, ahead) must be perpendicular unit vectors, oriented as x, y and z are.
-  Vec side = {s.up.y * s.ahead.z - s.up.z * s.ahead.y, s.up.z * s.ahead.x - s.up.x * s.ahead.z,
-              s.up.x * s.ahead.y - s.up.y * s.ahead.x};
-  if (length(s.right - side) > SKEW || std::fabs(length(s.up) - 1) > SKEW || std::fabs(length(s.ahead) - 1) > SKEW ||
-      std::fabs(dot(s.up, s.ahead)) > SKEW) {
-    why = name + ": right, up and ahead are no axes of a view";
-    return false;
-  }
-  for (const Fact &f : facts)
-    if (f.needed && !seen[f.word]) {
-      why = name + ": no line \"" + f.word + "\"";
-      return false;
-    }
-  return true;
+  return SceneReader(name, s, why).read(text);
 }
 
 bool readFile(const std::string &path, std::string &data, std::string &why) {
