@@ -231,7 +231,7 @@ static bool setClaims(const SoftObject& object, Real weight, Neighbour& near)
     const auto isPlain = [](const SoftObject& o) {
         return o.strength() == Real(1) && !o.shaped() && o.paint() == nullptr && o.hasSurface();
     };
-    const Real heavy = clamp(weight, Real(1), CLAIM_WEIGHT_MOST), own = object.size(), other = near.object->size();
+    const Real heavy = clamp(weight * weight, Real(1), CLAIM_WEIGHT_MOST), own = object.size(), other = near.object->size();
     if (own * GUEST_SIZES < other * heavy && isPlain(object) && isPlain(*near.object))
         near.claim = quotient(own * GUEST_SIZES, other * heavy);
     else if (other * HOST_SIZES < own * heavy && isPlain(object) && isPlain(*near.object))

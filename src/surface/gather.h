@@ -22,11 +22,13 @@ constexpr Real UNEVEN_SIZES(16);
 
 // Which object's seeds show a place on the surface is decided by claims. An object's claim is its field; but where a small object
 // blends with a large one, the field of the large one counts less. Its paths only graze the surface around the small object, which
-// the paths of the small one meet squarely. The colour does not follow claims: it is that of the strongest field.
+// the paths of the small one meet squarely. So it is between objects of like sizes if their link is heavy: each side of the bulge
+// between them is nearer to one of them, and is met squarely by the paths of the other. The colour does not follow claims: it is
+// that of the strongest field.
 // A small object shows more if the large one is more than GUEST_SIZES times as large, and the large one shows less if it is more
-// than HOST_SIZES times as large; in between both show the same surface. A link heavier than 1 counts like a larger
-// proportion, up to CLAIM_WEIGHT_MOST.
-constexpr Real GUEST_SIZES(3), HOST_SIZES(4), CLAIM_WEIGHT_MOST(3);
+// than HOST_SIZES times as large; in between both show the same surface. A link heavier than 1 counts like a larger proportion: by
+// the square of its weight, up to CLAIM_WEIGHT_MOST.
+constexpr Real GUEST_SIZES(3), HOST_SIZES(4), CLAIM_WEIGHT_MOST(6);
 
 // Distances from the cores of neighbours are less than this wrong, 1/16 unit.
 constexpr int32_t ROUNDED16 = 8;
