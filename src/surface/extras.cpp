@@ -239,10 +239,7 @@ void Settler::settleOnWall(const Seed& a, const Seed& b, Real height, Seed& s)
     }
     if (sample.dominance > OVERSHOOT)
         return;
-    s.position = position;
-    s.flags = SEED_ACTIVE;
-    placeExtra(s, sample.dominance);
-    if (s.flags & SEED_VALID)
+    if (placeAt(s, position, sample.dominance))
         findLightChange(s);
 }
 
@@ -298,18 +295,16 @@ bool Settler::settleIsland(int i)
 bool Settler::placeOnIsland(int i, int which, Real inside, Real outside)
 {
     Sample sample;
-    Seed s = object_.regular(i);
-    s.flags = 0;
-    bisect(path_, inside, outside, &s.position, &sample);
+    Real position;
+    bisect(path_, inside, outside, &position, &sample);
     // An island has no guests.
     if (all_.claims)
         sample.dominance = path_.dominance();
     if (sample.dominance > (which == SoftObject::FINE_ISLAND_END ? CLEARLY : OVERSHOOT))
         return false;
-    placeExtra(s, sample.dominance);
-    if (!(s.flags & SEED_VALID))
+    Seed s = object_.regular(i);
+    if (!placeAt(s, position, sample.dominance))
         return false;
-    s.flags |= SEED_ACTIVE;
     Seed* const fine = magnitude(cosineOfPath(s)) < GRAZING ? nullptr : object_.madeFine(i);
     if (fine != nullptr)
         fine[which] = s;

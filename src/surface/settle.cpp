@@ -238,10 +238,14 @@ inline void Settler::place(Seed& s, Real dominance)
         leaveToStrongest(s);
 }
 
-// place() for seeds beside regular ones, which are few: settle() is quicker with a copy of its own.
-SELDOM void Settler::placeExtra(Seed& s, Real dominance)
+// Activates a seed at a position of the current path that is on the surface, and places it there. Returns false if it shows nothing
+// there.
+bool Settler::placeAt(Seed& s, Real position, Real dominance)
 {
+    s.position = position;
+    s.flags = SEED_ACTIVE;
     place(s, dominance);
+    return (s.flags & SEED_VALID) != 0;
 }
 
 // Finds anew how the light changes around a seed that needs to know, if what was found before is old.

@@ -99,7 +99,7 @@ private:
     void leaveToStrongest(Seed& s);
     Real search(const Seed& s, Real* position, Sample* sample);
     void place(Seed& s, Real dominance);
-    void placeExtra(Seed& s, Real dominance);
+    SELDOM bool placeAt(Seed& s, Real position, Real dominance);
     bool settleBorder(Seed& s, Real dominance, Real nearer);
     SELDOM bool makeGuest(Seed& s, const Neighbour& host);
     void renewLightChange(Seed& s);

@@ -146,7 +146,7 @@ Play pair(const Sample& sample)
         tumble(o[0], frame);
     }};
     play.add(sample);
-    play.add(sample).rotate(point(0, 0, 0), {Real(1), Real(0), Real(0)}, 0x40000000u);
+    play.add(sample).rotate(point(0, 0, 0), {Real(1), Real(0), Real(0)}, QUARTER);
     return play;
 }
 
@@ -214,7 +214,7 @@ Play near()
         turn(o[0], frame, {Real(0), Real(1), real(0.2)}, 0x0a000000u);
         o[1]->moveTo(point(-44 + 8 * frame, 12, -55));
     }};
-    play.add({"cylinder", 14, 0, 90}).rotate(point(0, 0, 0), {Real(0), Real(0), Real(1)}, 0x40000000u);
+    play.add({"cylinder", 14, 0, 90}).rotate(point(0, 0, 0), {Real(0), Real(0), Real(1)}, QUARTER);
     play.add(FEW[0]);
     return play;
 }
