@@ -6,9 +6,8 @@
 
 namespace {
 
-// Two fields count as the same where the own one exceeds the neighbour's by less than TIE times the latter, and their gradients
-// differ by less than ALIKE times the own gradient.
-constexpr Real TIE(0.004), ALIKE(0.2);
+// Two gradients count as the same if they differ by less than ALIKE times the own one.
+constexpr Real ALIKE(0.2);
 
 // The gradient of a neighbour's field at the end of the vector `from` the path's root, times half the squared size of the object,
 // over 2^shift. Beyond the end of the field the vector from the core may be too long for 16.16.

@@ -9,6 +9,9 @@
 // Units: a border farther away counts as being at this distance.
 constexpr Real BORDER_FAR(30);
 
+// Two fields count as the same if they differ by less than TIE times the neighbour's.
+constexpr Real TIE(0.004);
+
 // A seed no farther than this from a border, 1/256 unit, knows how the light changes around it (Seed::lightChange), like all
 // oversampled and fine seeds: the seeds about it tell that badly, because some are missing.
 constexpr int32_t BESIDE = 256;

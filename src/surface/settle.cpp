@@ -172,8 +172,10 @@ inline bool Settler::settleBorder(Seed& s, Real dominance, Real nearer)
         s.flags &= static_cast<uint8_t>(~(SEED_GUEST | SEED_BORDER));
     if (all_.claims) {
         dominance = path_.dominance();
-        if (dominance > Real(0) && path_.strongest()->claim < Real(1))
-            return makeGuest(s, *path_.strongest());
+        // Where the two fields are the same there is no host: one of the objects has the surface, as findBorder() decides.
+        const Neighbour* const host = path_.strongest();
+        if (host != nullptr && host->claim < Real(1) && dominance > host->value * TIE)
+            return makeGuest(s, *host);
     }
     if (dominance <= -nearer)
         return true;

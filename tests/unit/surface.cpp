@@ -732,6 +732,26 @@ TEST(of_two_fields_that_are_the_same_the_first_has_the_surface)
     }
 }
 
+TEST(of_two_balls_at_one_place_the_first_has_the_surface)
+{
+    // However heavy their link is. A heavy one lets each of two balls show what belongs to the other.
+    for (const double weight : {1.0, 2.0, 4.0}) {
+        Scene scene;
+        for (int i = 0; i < 2; ++i)
+            scene.ball(20, -36, 12, 0);
+        scene.link(0, 1, weight);
+        for (int frame = 0; frame < 12; ++frame) {
+            for (const auto& ball : scene.objects)
+                ball->translate(vector(1.3, -0.4, 0.7));
+            scene.update();
+            std::vector<size_t> owners;
+            CHECK(scene.draw(0, 256, &owners).size() > 100);
+            CHECK(std::count(owners.begin(), owners.end(), 0u) == static_cast<long>(owners.size()));
+            CHECK(scene.draw(1).empty());
+        }
+    }
+}
+
 TEST(chains)
 {
     // Each object is linked only with the one before; objects two places apart are in range of each other too.
