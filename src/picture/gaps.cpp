@@ -16,9 +16,9 @@ constexpr int GAP_MOST = 32;  // upper bound of all widths, however near the vie
 constexpr int DIVIDED = 2;    // the search for where a gap changes its colour ends when its bounds are this close
 constexpr Real STEEP(1.3);    // upper bound of the gradient of a field, times the size of its object
 constexpr int SLIVER = 2;     // width of a run of drawn pixels beside which surface may be missing
-// Units: an opening stays open if the surface is at least this far away half way across it. If it is nearer than that, but not
-// nearer than DOUBTFUL, only those pixels of the opening are drawn that show the surface.
-constexpr Real OPEN(1), DOUBTFUL(0.25);
+// Units, half way across an opening: if the surface is at least DOUBTFUL away there, only those pixels of the opening are drawn
+// that show the surface, and from OPEN on only if surface is found beside the farther end. From FAR on it is not looked for.
+constexpr Real DOUBTFUL(0.25), FAR(3);
 
 // Whether a pixel is empty and lies right below a drawn one and at most GAP_LOW pixels above another.
 inline bool inSlit(const uint8_t* pixel)
@@ -193,12 +193,12 @@ void Gaps::closeFrom(int y, int from, int to, int step, int widest, int narrowes
     if (narrow > 0) {
         const int middle = narrow / 2, row = (y + middle * step) * WIDTH;
         const Real off = distanceOff(row + rows[middle].from - 1, row + rows[middle].to, 1);
-        if (off >= OPEN)
+        if (off >= OPEN && (off >= FAR || !searchBehind(y * WIDTH + rows[0].from - 1, y * WIDTH + rows[0].to)))
             return;
         const Ends ends = endsOf(row + rows[middle].from - 1, row + rows[middle].to);
         for (int i = 0; i < narrow; ++i) {
             const int start = (y + i * step) * WIDTH, first = start + rows[i].from - 1, last = start + rows[i].to;
-            if (off < DOUBTFUL || last - first <= GAP_THIN + 1)
+            if (off < DOUBTFUL || (off < OPEN && last - first <= GAP_THIN + 1))
                 fill(ends, first, last, 1);
             else if (!closeExactly(first, last))
                 break;
@@ -207,11 +207,34 @@ void Gaps::closeFrom(int y, int from, int to, int step, int widest, int narrowes
     noteBeyond(y + narrow * step, rows[narrow < opening.height ? narrow : narrow - 1]);
 }
 
-// Draws the surface of the model from both ends of a row's gap on, as far as it goes. Returns false when there is none.
+// Draws surface that is missing beside the farther one of two drawn pixels of a row. Returns false when there is none.
+bool Gaps::searchBehind(int first, int last)
+{
+    return zbuffer_[first] < zbuffer_[last] ? missed_.follow(last - 1, zbuffer_[last], last)
+                                            : missed_.follow(first + 1, zbuffer_[first], first);
+}
+
+// Draws the surface of the model from both ends of a row's gap on, as far as it goes, and fills the rest if that is thin. Returns
+// false when there is no surface.
 bool Gaps::closeExactly(int first, int last)
 {
-    const bool drawn = missed_.follow(first + 1, zbuffer_[first], first);
-    return missed_.follow(last - 1, zbuffer_[last], last) || drawn;
+    bool drawn = missed_.follow(first + 1, zbuffer_[first], first);
+    drawn |= missed_.follow(last - 1, zbuffer_[last], last);
+    while (first + 1 < last && frame_[first + 1] != 0)
+        ++first;
+    while (first + 1 < last && frame_[last - 1] != 0)
+        --last;
+    if (last - first <= GAP_THIN + 1)
+        fill(NO_ENDS, first, last, 1);
+    return drawn;
+}
+
+// The point of the world half way between those that two pixels show.
+Point Gaps::halfWay(int first, int last) const
+{
+    const Point here = view_.pointAt(first);
+    const Vector way = view_.pointAt(last) - here;
+    return here + Vector{shiftDown(way.x, 1), shiftDown(way.y, 1), shiftDown(way.z, 1)};
 }
 
 // A lower bound of the distance from the place half way between two drawn pixels of a row (`step` 1) or of a column (`step` WIDTH)
@@ -221,9 +244,7 @@ Real Gaps::distanceOff(int first, int last, int step) const
     const int count = (last - first) / step;
     if (model_ == nullptr || count <= GAP_THIN + 1)
         return Real(0);
-    const Point here = view_.pointAt(first);
-    const Vector way = view_.pointAt(last) - here;
-    const Real off = distanceOff(here + Vector{shiftDown(way.x, 1), shiftDown(way.y, 1), shiftDown(way.z, 1)});
+    const Real off = distanceOff(halfWay(first, last));
     if (off < DOUBTFUL)
         return off;
     // The nearer pixel may belong to something in front of the surface, which is then as far away as the farther pixel.
@@ -232,12 +253,14 @@ Real Gaps::distanceOff(int first, int last, int step) const
 }
 
 // A lower bound of the distance from a point to the surface of any body, units: it follows from the steepest gradient that a field
-// can have. It is OPEN where no field reaches the point.
+// can have. It is FAR where no field reaches the point, and 0 without a model.
 Real Gaps::distanceOff(const Point& p) const
 {
+    if (model_ == nullptr)
+        return Real(0);
     int strongest;
     const Real field = model_->implicitAt(p, &strongest);
-    return strongest < 0 ? OPEN : (ISOVALUE - min(field, Real(1))) * (model_->actor(strongest).object->size() / STEEP);
+    return strongest < 0 ? FAR : (ISOVALUE - min(field, Real(1))) * (model_->actor(strongest).object->size() / STEEP);
 }
 
 // The objects that the drawn pixels on both sides of a gap belong to. Returns NO_ENDS where both have the same colour, where the

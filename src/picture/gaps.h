@@ -21,6 +21,8 @@ private:
         int first, last;
     };
     static constexpr Ends NO_ENDS{-1, -1};
+    // A place is open if the surface is at least this far away, units.
+    static constexpr Real OPEN{1};
 
     void noteCorners(int y, const Span& run);
     void noteBeyond(int y, const Span& columns);
@@ -28,7 +30,9 @@ private:
     void closeAbove(int y, int x, int widest, int narrowest);
     void closeFrom(int y, int from, int to, int step, int widest, int narrowest);
     void closeSlit(int y, int x, int end, int step);
+    bool searchBehind(int first, int last);
     bool closeExactly(int first, int last);
+    Point halfWay(int first, int last) const;
     Real distanceOff(int first, int last, int step) const;
     Real distanceOff(const Point& p) const;
     Ends endsOf(int first, int last) const;

@@ -806,6 +806,36 @@ TEST(surface_is_followed_from_slivers)
     CHECK(drawn(5) == 50);
 }
 
+// A strip of a ball is missing between two things that stand before it. If they stand close to it, it is found; what is farther
+// behind them may be missing because there is nothing.
+TEST(surface_is_found_behind_gaps)
+{
+    BallView ball;
+    const auto played = [&](double before, int high) {
+        constexpr int LEFT = 150, RIGHT = 158, TOP = 80;
+        ball.view.begin();
+        double depth = 0;
+        ball.trueAt(LEFT, TOP + high / 2, &depth);
+        block(ball.view, 130, TOP - 10, 180, TOP, 7, depth - before);
+        block(ball.view, 130, TOP, LEFT, TOP + high, 7, depth - before);
+        block(ball.view, RIGHT, TOP, 180, TOP + high, 7, depth - before);
+        ball.view.closeGaps(Real(1), &ball.model, &ball.palette);
+        ball.view.end();
+        int right = 0;
+        for (int y = TOP; y < TOP + high; ++y)
+            for (int x = LEFT; x < RIGHT; ++x) {
+                ball.trueAt(x, y, &depth);
+                right += std::fabs(ball.view.zbuffer()[y * WIDTH + x] / 128.0 - depth) < 0.5;
+            }
+        note("%d of %d pixels %.1f units behind are right", right, high * (RIGHT - LEFT), before);
+        return right;
+    };
+    SAME(played(0.5, 10), 80);
+    SAME(played(1.5, 10), 80);
+    SAME(played(2, 10), 80);
+    SAME(played(12, 10), 0);
+}
+
 // The right part of a ball is missing, and a scale is cut at the border that the ball has there. The rest of the ball is drawn,
 // also in front of what is drawn farther away. Nothing is drawn if the scale is hidden or the cut is that of a limb.
 TEST(surface_goes_on_across_borders)
