@@ -65,7 +65,8 @@ public:
     // is small (see the limits in gaps.cpp) or ends between drawn pixels. `spacing` is that of the seeds, units. To be called
     // when all objects are drawn and before anything is drawn over them. Does nothing when voxels are drawn as single pixels.
     // With a model, real openings stay open: gaps wider than two pixels half way across which the model has no surface within
-    // about a unit. Where scales have missed the model's surface it is drawn (missed.h). With a palette as well, pixels filled
+    // about a unit. Where scales have missed the model's surface it is drawn (missed.h), also in cracks through which something
+    // farther away shows (cracks.cpp). With a palette as well, pixels filled
     // between two objects get the colour of the object whose field is the stronger there, and so do the pixels beside borders of
     // colours (borders.h).
     void closeGaps(Real spacing, const Model* model = nullptr, const Palette* palette = nullptr);
@@ -96,6 +97,9 @@ public:
     // The columns of a row outside of which nothing has been drawn.
     const Span& touched(int row) const { return touched_[row]; }
 
+    // The columns of a row outside of which no list of voxels lies behind an earlier one that has borders to other objects.
+    const Span& covered(int row) const { return covered_[row]; }
+
     // Ends a frame; rows() then returns the columns of each row that may differ from the frame before.
     void end();
 
@@ -117,6 +121,7 @@ private:
     void makeLens();
     void touchPixel(int pixel);
     void mark(int left, int top, int right, int bottom);
+    void noteCovered(bool bordered);
     bool prepareLoop(const VoxelList& list);
     int showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool loop);
     void noteCrossings(const VoxelList& list);
@@ -138,6 +143,9 @@ private:
     Crossing crossings_[CROSSINGS_MOST];
     int crossingCount_ = 0;
     Span touched_[machine::HEIGHT];
+    bool anyBordered_;                // in this frame some list is bordered
+    Span bordered_[machine::HEIGHT];  // for each row, the columns that bordered lists have drawn on
+    Span covered_[machine::HEIGHT];
     Span last_[machine::HEIGHT];
     Span present_[machine::HEIGHT];
 };

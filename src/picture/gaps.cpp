@@ -18,7 +18,7 @@ constexpr Real STEEP(1.3);    // upper bound of the gradient of a field, times t
 constexpr int SLIVER = 2;     // width of a run of drawn pixels beside which surface may be missing
 // Units, half way across an opening: if the surface is at least DOUBTFUL away there, only those pixels of the opening are drawn
 // that show the surface, and from OPEN on only if surface is found beside the farther end. From FAR on it is not looked for.
-constexpr Real DOUBTFUL(0.25), FAR(3);
+constexpr Real DOUBTFUL(0.25), OPEN(1), FAR(3);
 
 // Whether a pixel is empty and lies right below a drawn one and at most GAP_LOW pixels above another.
 inline bool inSlit(const uint8_t* pixel)
@@ -136,6 +136,7 @@ void Gaps::close()
             closeSlit(y, last, WIDTH, 1);
     }
     missed_.draw();
+    closeCracks();
 }
 
 // Closes the gap of columns `from` to before `to` between drawn pixels. The seeds there lie `spacing` pixels apart.

@@ -1,4 +1,6 @@
-// Gaps: finds the gaps between scales when all objects of a frame are drawn, and fills them (View::closeGaps()).
+// Gaps: finds the gaps between scales when all objects of a frame are drawn, and fills them (View::closeGaps()). Gaps through which
+// the background shows are in gaps.cpp; those through which something farther away shows, the cracks,
+// are in cracks.cpp.
 #ifndef FB_GAPS_H
 #define FB_GAPS_H
 
@@ -21,8 +23,6 @@ private:
         int first, last;
     };
     static constexpr Ends NO_ENDS{-1, -1};
-    // A place is open if the surface is at least this far away, units.
-    static constexpr Real OPEN{1};
 
     void noteCorners(int y, const Span& run);
     void noteBeyond(int y, const Span& columns);
@@ -32,6 +32,10 @@ private:
     void closeSlit(int y, int x, int end, int step);
     bool searchBehind(int first, int last);
     bool closeExactly(int first, int last);
+    void closeCracks();
+    void closeCracks(int y);
+    void closeColumn(int at);
+    void closeCrack(int first, int step);
     Point halfWay(int first, int last) const;
     Real distanceOff(int first, int last, int step) const;
     Real distanceOff(const Point& p) const;

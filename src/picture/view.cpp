@@ -81,8 +81,18 @@ void View::begin()
 {
     clearRows(frame_, zbuffer_, touched_, HEIGHT);
     crossingCount_ = 0;
+    anyBordered_ = false;
     for (int y = 0; y < HEIGHT; ++y)
-        touched_[y] = {WIDTH, 0};
+        touched_[y] = bordered_[y] = covered_[y] = {WIDTH, 0};
+}
+
+// Extends a span by the columns `from` to before `to`.
+static inline void extend(int from, int to, Span* span)
+{
+    if (span->from > from)
+        span->from = static_cast<int16_t>(from);
+    if (span->to < to)
+        span->to = static_cast<int16_t>(to);
 }
 
 void View::mark(int left, int top, int right, int bottom)
@@ -93,11 +103,19 @@ void View::mark(int left, int top, int right, int bottom)
     bottom = bottom > HEIGHT ? HEIGHT : bottom;
     if (left >= right)
         return;
-    for (int y = top; y < bottom; ++y) {
-        if (touched_[y].from > left)
-            touched_[y].from = static_cast<int16_t>(left);
-        if (touched_[y].to < right)
-            touched_[y].to = static_cast<int16_t>(right);
+    for (int y = top; y < bottom; ++y)
+        extend(left, right, &touched_[y]);
+}
+
+// Notes where a list may show through cracks in earlier ones. Only surface near borders between objects has cracks.
+void View::noteCovered(bool bordered)
+{
+    for (int y = lens_.top; y < lens_.bottom; ++y) {
+        const int from = max32(lens_.left, bordered_[y].from), to = min32(lens_.right, bordered_[y].to);
+        if (from < to)
+            extend(from, to, &covered_[y]);
+        if (bordered)
+            extend(lens_.left, lens_.right, &bordered_[y]);
     }
 }
 
@@ -279,6 +297,9 @@ int View::show(const VoxelList& list)
         from = to;
     }
     mark(lens_.left, lens_.top, lens_.right, lens_.bottom);
+    anyBordered_ |= list.bordered;
+    if (anyBordered_)
+        noteCovered(list.bordered);
     if (list.bordered && !pixels_)
         noteCrossings(list);
     return list.count - undrawn - lens_.empty;
@@ -307,7 +328,10 @@ int View::showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool 
                 blitFine(frame_, zbuffer_, scale);
             else
                 blitScales(frame_, zbuffer_, &scale, 1);
-            mark(scale.left, scale.top, scale.left + scale.width, scale.top + scale.height);
+            lens_.left = min32(lens_.left, scale.left);
+            lens_.top = min32(lens_.top, scale.top);
+            lens_.right = max32(lens_.right, scale.left + scale.width);
+            lens_.bottom = max32(lens_.bottom, scale.top + scale.height);
         }
     }
     return undrawn;

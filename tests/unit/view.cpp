@@ -806,6 +806,55 @@ TEST(surface_is_followed_from_slivers)
     CHECK(drawn(5) == 50);
 }
 
+// A ball has a crack of a few rows, through which something behind it shows. It is closed, if the ball's scales had borders to
+// another object. What lies before the ball is truly open.
+TEST(cracks_are_closed)
+{
+    BallView ball;
+    constexpr int LEFT = 140, RIGHT = 180, BEHIND = 160 * 128;
+    const auto seenThrough = [&](int top, int high, bool bordered, double before) {
+        View& view = ball.view;
+        view.begin();
+        VoxelList* const list = make<VoxelList>();
+        list->begin({Real(0), Real(0), Real(0)}, Real(200), ball.ramp);
+        *list->room() = voxel(0, 0, 90, 30, 20, 30);
+        list->take();
+        list->bordered = bordered;
+        SAME(view.show(*list), 1);
+        destroy(list);
+        block(view, LEFT - 10, 70, RIGHT + 10, 130, 9, 170);
+        for (int y = 80; y < 120; ++y)
+            for (int x = LEFT - 5; x < RIGHT + 5; ++x) {
+                double depth = 0;
+                CHECK(ball.trueAt(x, y, &depth) >= 0);
+                const bool open = y >= top && y < top + high && x >= LEFT && x < RIGHT;
+                view.setPixel(y * WIDTH + x, open ? BEHIND : static_cast<int>((depth - before) * 128), ball.ramp[open ? 10 : 30]);
+            }
+        view.closeGaps(Real(1), &ball.model, &ball.palette);
+        view.end();
+        int count = 0;
+        for (int y = top; y < top + high; ++y)
+            for (int x = LEFT; x < RIGHT; ++x) {
+                const int at = y * WIDTH + x;
+                double depth = 0;
+                const double bright = ball.trueAt(x, y, &depth);
+                count += view.zbuffer()[at] == BEHIND;
+                if (view.zbuffer()[at] != BEHIND) {
+                    NEAR(view.zbuffer()[at] / 128.0, depth, 0.5);
+                    NEAR(ball.palette.step(view.frame()[at]), bright, 2.5);
+                }
+            }
+        return count;
+    };
+    for (int top = 90; top < 103; ++top)
+        for (int high = 1; high <= 6; ++high) {
+            const int all = high * (RIGHT - LEFT);
+            SAME(seenThrough(top, high, true, 0), high <= 3 ? 0 : all);
+            SAME(seenThrough(top, high, false, 0), all);
+            SAME(seenThrough(top, high, true, 15), all);
+        }
+}
+
 // A strip of a ball is missing between two things that stand before it. If they stand close to it, it is found; what is farther
 // behind them may be missing because there is nothing.
 TEST(surface_is_found_behind_gaps)
