@@ -148,12 +148,8 @@ public:
     // Has all bodies found and all seeds settled anew in the next frame.
     void settleAnew();
 
-    // The greatest of the bodies' fields (model/body.h) at a point, or the field of the body that `member` belongs to; 0 where none
-    // reaches. `*strongest` receives the index of that body's member whose own field is the strongest, which gives the point its
-    // colour; -1 if none reaches. The bodies are those found by the latest bodies().
-    Real implicitAt(const Point& p, int* strongest, const SoftObject* member = nullptr) const;
-    // That index, of all bodies.
-    int strongestAt(const Point& p) const;
+    // The bodies as the latest bodies() found them; null if something has changed since then.
+    const Bodies* knownBodies() const { return bodiesKnown_ ? &bodies_ : nullptr; }
 
     // Sets the light, and has all objects looked at again.
     void setLight(const Vector& to);

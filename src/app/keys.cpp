@@ -1,6 +1,7 @@
 // The actions of keys and mouse. No function here waits for input: a key changes what the next frame shows.
 #include "loop.h"
 #include "math/text.h"
+#include "model/probe.h"
 
 namespace {
 
@@ -390,5 +391,5 @@ int Demo::objectAt(int x, int y) const
     }
     if (nearest > PICK_REACH * PICK_REACH)
         return -1;
-    return model_.strongestAt(view_.pointAt(atY * machine::WIDTH + atX));
+    return FieldProbe(&model_).strongestAt(view_.pointAt(atY * machine::WIDTH + atX));
 }

@@ -26,12 +26,13 @@ constexpr Real FARTHEST(2);
 
 }  // namespace
 
-Borders::Borders(View& view, const Model& model, const Palette& palette, Missed& missed)
-    : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model), palette_(palette), missed_(missed)
+Borders::Borders(View& view, FieldProbe& probe, const Palette& palette, Missed& missed)
+    : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), probe_(probe), model_(*probe.model()), palette_(palette),
+      missed_(missed)
 {
     memset(first_, -1, sizeof first_);
-    for (int i = 0; i < model.count(); ++i) {
-        const SoftObject& object = *model.actor(i).object;
+    for (int i = 0; i < model_.count(); ++i) {
+        const SoftObject& object = *model_.actor(i).object;
         const Paint* const paint = object.paint();
         // Which colour of a pattern a place has only the seeds know.
         if (!object.hasSurface() || object.ramp() == nullptr || (paint != nullptr && paint->pattern != PATTERN_NONE))
@@ -149,11 +150,11 @@ inline const SoftObject* Borders::strongestOf(int ramp, const Point& p, Real* fi
 bool Borders::correctDepth(const SoftObject& object, int at, Real exact, int* depth) const
 {
     int strongest;
-    const Real off = model_.implicitAt(view_.pointAt(at, *depth), &strongest, &object) - ISOVALUE;
+    const Real off = probe_.implicitAt(view_.pointAt(at, *depth), &strongest, &object) - ISOVALUE;
     if (absolute(off) <= exact)
         return true;
     const int step = off > Real(0) ? -STEP : STEP;
-    const Real change = model_.implicitAt(view_.pointAt(at, *depth + step), &strongest, &object) - ISOVALUE - off;
+    const Real change = probe_.implicitAt(view_.pointAt(at, *depth + step), &strongest, &object) - ISOVALUE - off;
     if (absolute(change) * FARTHEST < absolute(off) || (change > Real(0)) == (off > Real(0)))
         return false;
     *depth += floorToInt(quotient(-off, change) * Real(step));

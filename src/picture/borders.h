@@ -6,8 +6,9 @@
 
 class Borders {
 public:
-    // The palette has made the ramps of the model's objects, in colour; colours do not mix. `missed` draws single pixels.
-    Borders(View& view, const Model& model, const Palette& palette, Missed& missed);
+    // There is a model, and the palette has made the ramps of its objects, in colour; colours do not mix. `missed` draws single
+    // pixels.
+    Borders(View& view, FieldProbe& probe, const Palette& palette, Missed& missed);
 
     // Finds pixels at borders of colours that have the colour of a wrong object, and gives them that of the object that they belong
     // to. Depths stay. To be called when gaps are closed.
@@ -32,6 +33,7 @@ private:
     View& view_;
     const uint8_t* frame_;
     const uint16_t* zbuffer_;
+    FieldProbe& probe_;
     const Model& model_;
     const Palette& palette_;
     Missed& missed_;

@@ -18,7 +18,7 @@ constexpr Real STEEP(1.3);    // upper bound of the gradient of a field, times t
 constexpr int SLIVER = 2;     // width of a run of drawn pixels beside which surface may be missing
 // Units, half way across an opening: if the surface is at least DOUBTFUL away there, only those pixels of the opening are drawn
 // that show the surface, and from OPEN on only if surface is found beside the farther end. From FAR on it is not looked for.
-constexpr Real DOUBTFUL(0.25), OPEN(1), FAR(3);
+constexpr Real DOUBTFUL(0.25), OPEN(1), FAR(2);
 
 // Whether a pixel is empty and lies right below a drawn one and at most GAP_LOW pixels above another.
 inline bool inSlit(const uint8_t* pixel)
@@ -260,7 +260,7 @@ Real Gaps::distanceOff(const Point& p) const
     if (model_ == nullptr)
         return Real(0);
     int strongest;
-    const Real field = model_->implicitAt(p, &strongest);
+    const Real field = probe_.implicitAt(p, &strongest);
     return strongest < 0 ? FAR : (ISOVALUE - min(field, Real(1))) * (model_->actor(strongest).object->size() / STEEP);
 }
 
@@ -270,7 +270,7 @@ Gaps::Ends Gaps::endsOf(int first, int last) const
 {
     if (model_ == nullptr || palette_ == nullptr || frame_[first] == frame_[last])
         return NO_ENDS;
-    const Ends ends{model_->strongestAt(view_.pointAt(first)), model_->strongestAt(view_.pointAt(last))};
+    const Ends ends{probe_.strongestAt(view_.pointAt(first)), probe_.strongestAt(view_.pointAt(last))};
     if (ends.first < 0 || ends.last < 0 || !model_->actor(ends.first).object->inRange(*model_->actor(ends.last).object))
         return NO_ENDS;
     return ends;

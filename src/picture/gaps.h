@@ -1,6 +1,5 @@
-// Gaps: finds the gaps between scales when all objects of a frame are drawn, and fills them (View::closeGaps()). Gaps through which
-// the background shows are in gaps.cpp; those through which something farther away shows, the cracks,
-// are in cracks.cpp.
+// Gaps: finds the gaps between scales when all objects of a frame are drawn, and fills them (View::closeGaps()). Those through
+// which the background shows are in gaps.cpp; those through which something farther away shows, the cracks, are in cracks.cpp.
 #ifndef FB_GAPS_H
 #define FB_GAPS_H
 
@@ -8,9 +7,10 @@
 
 class Gaps {
 public:
-    // The seeds lie `spacing` units apart. Model and palette may be null. What is missing is noted in `missed`, and drawn.
-    Gaps(View& view, const Model* model, const Palette* palette, Missed& missed, Real spacing)
-        : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model), palette_(palette),
+    // The seeds lie `spacing` units apart. The model and the palette may be null. What is missing is noted in `missed`, and
+    // drawn.
+    Gaps(View& view, FieldProbe& probe, const Palette* palette, Missed& missed, Real spacing)
+        : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), probe_(probe), model_(probe.model()), palette_(palette),
           missed_(missed), spacing_(spacing)
     {
     }
@@ -46,7 +46,8 @@ private:
     View& view_;
     const uint8_t* frame_;
     const uint16_t* zbuffer_;
-    const Model* model_;
+    FieldProbe& probe_;
+    const Model* const model_;
     const Palette* palette_;
     Missed& missed_;
     Real spacing_;

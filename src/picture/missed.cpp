@@ -29,8 +29,8 @@ constexpr int BEHIND = 512;
 
 }  // namespace
 
-Missed::Missed(View& view, const Model* model, Real spacing)
-    : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), model_(model)
+Missed::Missed(View& view, FieldProbe& probe, Real spacing)
+    : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), probe_(probe), model_(probe.model())
 {
     const Real cube = max(spacing * spacing * spacing, Real(1));
     looksMost_ = min32(floorToInt(quotient(Real(LOOKS_AT_ONE), cube)), LOOKS_MOST);
@@ -107,7 +107,7 @@ bool Missed::takeCorner(int at)
 Real Missed::excess(int at, int depth)
 {
     ++looks_;
-    return model_->implicitAt(view_.pointAt(at, depth), &strongest_) - ISOVALUE;
+    return probe_.implicitAt(view_.pointAt(at, depth), &strongest_) - ISOVALUE;
 }
 
 // Finds where the ray through a pixel enters the surface. *depth is a first guess and becomes the result. Returns false when the
@@ -199,7 +199,7 @@ bool Missed::setColour(int at, int depth, int from)
     const Point p = view_.pointAt(at, depth);
     const auto fieldAt = [&](const Vector& away) {
         ++looks_;
-        return model_->implicitAt(p + away, &strongest_);
+        return probe_.implicitAt(p + away, &strongest_);
     };
     const Real step(0.25), none(0);
     const Vector there{fieldAt({step, none, none}), fieldAt({none, step, none}), fieldAt({none, none, step})};
@@ -207,7 +207,7 @@ bool Missed::setColour(int at, int depth, int from)
     const SoftObject* const own = strongest_ < 0 ? nullptr : model_->actor(strongest_).object;
     uint8_t colour = frame_[from];
     if (own != nullptr && own->ramp() != nullptr &&
-        (own->paint() == nullptr || from == at || model_->strongestAt(view_.pointAt(from)) != strongest_)) {
+        (own->paint() == nullptr || from == at || probe_.strongestAt(view_.pointAt(from)) != strongest_)) {
         const Normal out = normalise({here - there.x, here - there.y, here - there.z}), light = normalise(model_->light);
         const int32_t cosine = (out.x * light.x + out.y * light.y + out.z * light.z) >> 14;
         colour = own->ramp()[max32(lambert(cosine), 0)];

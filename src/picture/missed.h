@@ -4,6 +4,7 @@
 #ifndef FB_MISSED_H
 #define FB_MISSED_H
 
+#include "model/probe.h"
 #include "picture/view.h"
 
 class Missed {
@@ -13,7 +14,7 @@ public:
     static constexpr int SIDE = 2, LONG_BOTH = 4, LONG = 8;
 
     // The seeds lie `spacing` units apart. The model may be null; then only short corners are closed.
-    Missed(View& view, const Model* model, Real spacing);
+    Missed(View& view, FieldProbe& probe, Real spacing);
 
     // A quick test for whether an empty pixel may be in a corner of drawn ones. The pixel beside it, against the direction
     // `outwards` (-1 or 1), is drawn. One side of the corner goes up (or down) from there, the other goes outwards in the row
@@ -73,7 +74,8 @@ private:
     View& view_;
     const uint8_t* frame_;
     const uint16_t* zbuffer_;
-    const Model* model_;
+    FieldProbe& probe_;
+    const Model* const model_;
     Place noted_[NOTED_MOST];
     int count_ = 0;
     int looksMost_;        // no pixel is begun after this many evaluations of the field

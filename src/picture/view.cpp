@@ -341,11 +341,12 @@ void View::closeGaps(Real spacing, const Model* model, const Palette* palette)
 {
     if (pixels_)
         return;
-    Missed missed(*this, model, spacing);
-    Gaps(*this, model, palette, missed, spacing).close();
+    FieldProbe probe(model);
+    Missed missed(*this, probe, spacing);
+    Gaps(*this, probe, palette, missed, spacing).close();
     // Where colours mix there are no borders between them.
     if (model != nullptr && palette != nullptr && !model->mixed)
-        Borders(*this, *model, *palette, missed).mend();
+        Borders(*this, probe, *palette, missed).mend();
 }
 
 Point View::pointAt(int pixel, int depth) const

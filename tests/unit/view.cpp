@@ -7,6 +7,7 @@
 
 #include "help.h"
 #include "model/anim.h"
+#include "model/probe.h"
 #include "test.h"
 
 using machine::HEIGHT;
@@ -573,10 +574,11 @@ TEST(gaps_between_two_objects)
 static std::vector<int> drawTruly(View& view, const Model& model, double nearer)
 {
     std::vector<int> owners(WIDTH * HEIGHT, -1);
+    FieldProbe probe(&model);
     for (int y = 50; y < 150; ++y)
         for (int x = 60; x < 260; ++x)
             for (int at = y * WIDTH + x, depth = 90 * 128, object; depth < 125 * 128; depth += 16)
-                if (model.implicitAt(view.pointAt(at, depth), &object) >= ISOVALUE) {
+                if (probe.implicitAt(view.pointAt(at, depth), &object) >= ISOVALUE) {
                     owners[static_cast<size_t>(at)] = object;
                     view.setPixel(at, depth - static_cast<int>(nearer * 128), model.actor(object).object->ramp()[30]);
                     break;

@@ -1,0 +1,42 @@
+// FieldProbe: evaluates the field of a model; quickly where one point lies near the one before.
+#ifndef FB_PROBE_H
+#define FB_PROBE_H
+
+#include "model/model.h"
+
+class FieldProbe {
+public:
+    // The model must not change as long as the probe is used. A null model has no field to evaluate.
+    explicit FieldProbe(const Model* model) : model_(model) {}
+    const Model* model() const { return model_; }
+
+    // The greatest of the bodies' fields (model/body.h) at a point, or the field of the body that `member` belongs to; 0 where none
+    // reaches. `*strongest` receives the index of that body's member whose own field is the strongest, which gives the point its
+    // colour; -1 if none reaches, or the bodies are not known (Model::knownBodies()).
+    Real implicitAt(const Point& p, int* strongest, const SoftObject* member = nullptr);
+    // That index, of all bodies.
+    int strongestAt(const Point& p)
+    {
+        int strongest;
+        implicitAt(p, &strongest);
+        return strongest;
+    }
+
+private:
+    struct Part;
+
+    void gather(const Point& p);
+    Real fieldOf(const Part& one, const Part* parts, const Part* end, int* strongest) const;
+
+    const Model* model_;
+    // The objects that may reach points within AROUND of `middle_` along each axis; none are known while `count_` is negative.
+    Point middle_;
+    int count_ = -1;
+    struct Near {
+        const SoftObject* object;
+        int slot;
+    };
+    Near near_[Model::OBJECTS_MOST];
+};
+
+#endif
