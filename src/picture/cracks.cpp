@@ -1,4 +1,4 @@
-// Closing cracks: pixels that show something far behind the surface above and below them, because no seed met the surface there.
+// Closing cracks: pixels that show something far behind the surface on both sides of them, because no seed met the surface there.
 // They are found in the depths of the picture; a ray then tells a crack from a place that is truly open.
 #include "gaps.h"
 
@@ -10,73 +10,86 @@ using machine::WIDTH;
 
 namespace {
 
-// The least change of depth into a crack, 1/128 unit; and the greatest height of a crack, pixels.
+// The least change of depth into a crack, 1/128 unit; and the greatest width of a crack, pixels.
 constexpr int DEEP = 512;
-constexpr int CRACK_HIGH = 3;
-constexpr int BELOW = CRACK_HIGH * WIDTH;
+constexpr int CRACK_WIDE = 3;
 
-// So many columns are tested at once.
-constexpr int AT_ONCE = 8;
+// A pixel is compared with one so many columns to the right, and with one so many rows below: if one of the two lies in a crack,
+// the other one does not.
+constexpr int AWAY = 4;
+static_assert(AWAY >= CRACK_WIDE, "the other pixel lies beyond the crack");
 
-// Compares the depths of two pixels side by side with those of the pixels CRACK_HIGH rows below. The result has some of the bits
-// LARGE if one of the two differences is DEEP or more. Both are computed in one subtraction.
+// So many columns are tested at once. Half of them are compared with the other half.
+constexpr int AT_ONCE = 2 * AWAY;
+
+// Compares the depths of two pixels side by side with those of the pixels `away` from them. The result has some of the bits LARGE
+// if one of the two differences is DEEP or more. Both are computed in one subtraction.
 constexpr uint32_t BOTH = 0x10001, LARGE = ~((2 * DEEP - 1) * BOTH);
-inline uint32_t jumpBelow(const uint16_t* depths)
+inline uint32_t compared(const uint16_t* depths, int away)
 {
-    uint32_t here, below;
+    uint32_t here, there;
     memcpy(&here, depths, sizeof here);
-    memcpy(&below, depths + BELOW, sizeof below);
-    return below - here + DEEP * BOTH;
+    memcpy(&there, depths + away, sizeof there);
+    return there - here + DEEP * BOTH;
 }
 
-// Whether one of the next CRACK_HIGH pixels of a column is not much deeper than `depth`.
+// Whether one of the next CRACK_WIDE pixels in a direction is not much deeper than `depth`.
 inline bool comesBack(const uint16_t* depths, int step, int depth)
 {
-    static_assert(CRACK_HIGH == 3, "as many pixels are tested");
+    static_assert(CRACK_WIDE == 3, "as many pixels are tested");
     const int deepest = depth + DEEP;
     return depths[step] <= deepest || depths[2 * step] <= deepest || depths[3 * step] <= deepest;
 }
 
 }  // namespace
 
-// Each pixel is compared with one CRACK_HIGH rows above or below it: if it lies in a crack, the other one does not.
 void Gaps::closeCracks()
 {
     if (model_ == nullptr)
         return;
-    for (int top = 2 * CRACK_HIGH; top + 3 * CRACK_HIGH <= HEIGHT; top += 2 * CRACK_HIGH)
-        for (int y = top; y < top + CRACK_HIGH; ++y)
-            closeCracks(y);
-}
-
-// Closes the cracks that pass through a row or through the one CRACK_HIGH rows below it.
-void Gaps::closeCracks(int y)
-{
-    const Span covered = view_.covered(y);
-    const uint16_t* const row = zbuffer_ + y * WIDTH;
-    const uint16_t* const end = row + covered.to;
-    for (const uint16_t* at = row + (covered.from & -AT_ONCE); at < end; at += AT_ONCE) {
-        if (((jumpBelow(at) | jumpBelow(at + 2) | jumpBelow(at + 4) | jumpBelow(at + 6)) & LARGE) == 0)
+    for (int y = 2 * AWAY; y < HEIGHT - 2 * AWAY; ++y) {
+        const Span& covered = view_.covered(y);
+        if (covered.from >= covered.to)
             continue;
-        for (int x = 0; x < AT_ONCE; x += 2)
-            if (jumpBelow(at + x) & LARGE) {
-                closeColumn(static_cast<int>(at + x - zbuffer_));
-                closeColumn(static_cast<int>(at + x + 1 - zbuffer_));
-            }
+        const uint16_t* const row = zbuffer_ + y * WIDTH;
+        const uint16_t* const from = row + max32(covered.from & -AT_ONCE, AT_ONCE);
+        const uint16_t* const to = row + min32(covered.to, WIDTH - AT_ONCE);
+        closeUpright(from, to);
+        if (y % (2 * AWAY) < AWAY)
+            closeLying(from, to);
     }
 }
 
-inline void Gaps::closeColumn(int at)
+// Closes the cracks that a part of a row crosses.
+void Gaps::closeUpright(const uint16_t* from, const uint16_t* to)
 {
-    const int here = zbuffer_[at], below = zbuffer_[at + BELOW];
-    if (below > here + DEEP && comesBack(zbuffer_ + at + BELOW, WIDTH, here))
-        closeCrack(at, WIDTH);
-    else if (here > below + DEEP && comesBack(zbuffer_ + at, -WIDTH, below))
-        closeCrack(at + BELOW, -WIDTH);
+    for (const uint16_t* at = from; at < to; at += AT_ONCE)
+        if ((compared(at, AWAY) | compared(at + 2, AWAY)) & LARGE)
+            for (int x = 0; x < AWAY; ++x)
+                closeBetween(static_cast<int>(at + x - zbuffer_), 1);
 }
 
-// Draws the surface that is missing in a crack, if it is one: it begins at most CRACK_HIGH rows below (`step` WIDTH) or above
-// (-WIDTH) a pixel.
+// Closes the cracks that lie in a part of a row or AWAY rows below it.
+void Gaps::closeLying(const uint16_t* from, const uint16_t* to)
+{
+    constexpr int below = AWAY * WIDTH;
+    for (const uint16_t* at = from; at < to; at += AT_ONCE)
+        if ((compared(at, below) | compared(at + 2, below) | compared(at + 4, below) | compared(at + 6, below)) & LARGE)
+            for (int x = 0; x < AT_ONCE; ++x)
+                closeBetween(static_cast<int>(at + x - zbuffer_), WIDTH);
+}
+
+// Closes the crack that a pixel, or the one AWAY steps on, lies in, if there is one.
+inline void Gaps::closeBetween(int at, int step)
+{
+    const int there = at + AWAY * step, deeper = zbuffer_[there] - zbuffer_[at];
+    if (deeper > DEEP && comesBack(zbuffer_ + there, step, zbuffer_[at]))
+        closeCrack(at, step);
+    else if (deeper < -DEEP && comesBack(zbuffer_ + at, -step, zbuffer_[there]))
+        closeCrack(there, -step);
+}
+
+// Draws the surface that is missing in a crack, if it is one: it begins a few steps from a pixel that does not lie in it.
 void Gaps::closeCrack(int first, int step)
 {
     while (zbuffer_[first + step] <= zbuffer_[first] + DEEP)
@@ -84,7 +97,7 @@ void Gaps::closeCrack(int first, int step)
     const int near = zbuffer_[first];
     int last = first + step, least = Z_EMPTY;
     for (; zbuffer_[last] > near + DEEP; last += step) {
-        if (last == first + (CRACK_HIGH + 1) * step)
+        if (last == first + (CRACK_WIDE + 1) * step)
             return;
         least = min32(least, zbuffer_[last]);
     }

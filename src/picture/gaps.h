@@ -33,8 +33,9 @@ private:
     bool searchBehind(int first, int last);
     bool closeExactly(int first, int last);
     void closeCracks();
-    void closeCracks(int y);
-    void closeColumn(int at);
+    void closeUpright(const uint16_t* from, const uint16_t* to);
+    void closeLying(const uint16_t* from, const uint16_t* to);
+    void closeBetween(int at, int step);
     void closeCrack(int first, int step);
     Point halfWay(int first, int last) const;
     Real distanceOff(int first, int last, int step) const;

@@ -808,13 +808,15 @@ TEST(surface_is_followed_from_slivers)
     CHECK(drawn(5) == 50);
 }
 
-// A ball has a crack of a few rows, through which something behind it shows. It is closed, if the ball's scales had borders to
-// another object. What lies before the ball is truly open.
+// A ball has a crack of a few rows or columns, through which something behind it shows. It is closed, if the ball's scales had
+// borders to another object. What lies before the ball is truly open.
 TEST(cracks_are_closed)
 {
     BallView ball;
-    constexpr int LEFT = 140, RIGHT = 180, BEHIND = 160 * 128;
-    const auto seenThrough = [&](int top, int high, bool bordered, double before) {
+    constexpr int LENGTH = 24, BEHIND = 160 * 128;
+    const auto seenThrough = [&](bool upright, int from, int wide, bool bordered, double before) {
+        const int left = upright ? from : 148, right = left + (upright ? wide : LENGTH);
+        const int top = upright ? 88 : from, bottom = top + (upright ? LENGTH : wide);
         View& view = ball.view;
         view.begin();
         VoxelList* const list = make<VoxelList>();
@@ -824,19 +826,19 @@ TEST(cracks_are_closed)
         list->bordered = bordered;
         SAME(view.show(*list), 1);
         destroy(list);
-        block(view, LEFT - 10, 70, RIGHT + 10, 130, 9, 170);
+        block(view, 130, 70, 190, 130, 9, 170);
         for (int y = 80; y < 120; ++y)
-            for (int x = LEFT - 5; x < RIGHT + 5; ++x) {
+            for (int x = 135; x < 185; ++x) {
                 double depth = 0;
                 CHECK(ball.trueAt(x, y, &depth) >= 0);
-                const bool open = y >= top && y < top + high && x >= LEFT && x < RIGHT;
+                const bool open = y >= top && y < bottom && x >= left && x < right;
                 view.setPixel(y * WIDTH + x, open ? BEHIND : static_cast<int>((depth - before) * 128), ball.ramp[open ? 10 : 30]);
             }
         view.closeGaps(Real(1), &ball.model, &ball.palette);
         view.end();
         int count = 0;
-        for (int y = top; y < top + high; ++y)
-            for (int x = LEFT; x < RIGHT; ++x) {
+        for (int y = top; y < bottom; ++y)
+            for (int x = left; x < right; ++x) {
                 const int at = y * WIDTH + x;
                 double depth = 0;
                 const double bright = ball.trueAt(x, y, &depth);
@@ -848,13 +850,14 @@ TEST(cracks_are_closed)
             }
         return count;
     };
-    for (int top = 90; top < 103; ++top)
-        for (int high = 1; high <= 6; ++high) {
-            const int all = high * (RIGHT - LEFT);
-            SAME(seenThrough(top, high, true, 0), high <= 3 ? 0 : all);
-            SAME(seenThrough(top, high, false, 0), all);
-            SAME(seenThrough(top, high, true, 15), all);
-        }
+    for (const bool upright : {false, true})
+        for (int wide = 1; wide <= 6; ++wide)
+            for (int from = 0; from < 12; ++from) {
+                const int start = (upright ? 150 : 92) + from, all = wide * LENGTH;
+                SAME(seenThrough(upright, start, wide, true, 0), wide <= 3 ? 0 : all);
+                SAME(seenThrough(upright, start, wide, false, 0), all);
+                SAME(seenThrough(upright, start, wide, true, 15), all);
+            }
 }
 
 // A strip of a ball is missing between two things that stand before it. If they stand close to it, it is found; what is farther
