@@ -49,7 +49,7 @@
 #define STEEPEST   400
 #define DOMED_WIDE 8
 #define DOMED_HIGH 12
-#define DOMED_PIXEL 287
+#define DOMED_PIXEL 268
 #define LARGEST    40
 #define Z_EMPTY    0xffff
 #define SCREEN_WIDTH 320
@@ -800,7 +800,8 @@ entered:
         jle     4f
         movl    $DOMED_PIXEL, %eax
 4:      imull   %eax, %eax
-        shrl    $13, %eax
+        leal    (%eax,%eax,4), %eax
+        shrl    $15, %eax
         addl    %eax, %eax
         movl    %eax, DOME(%esp)
         jmp     not_special

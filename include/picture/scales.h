@@ -96,12 +96,12 @@ constexpr int LENS_STEPS = (LENS_FAR - LENS_NEAR) * LENS_FINENESS;
 // Where the surface bulges, the tangent plane of each scale comes before the middles of the scales beside it, and a pixel would
 // show a scale by its very edge. That is seen most next to a border and where a patch bends unevenly, for there normals turn fast.
 // A scale that is cut along a straight line, or nowhere (voxel.h), is therefore domed: its depth grows with the squared distance
-// from its centre, by 1/4 unit at a distance of one unit, so that of overlapping scales a pixel shows the one whose centre is
+// from its centre, by 5/16 unit at a distance of one unit, so that of overlapping scales a pixel shows the one whose centre is
 // nearest. A scale that reaches farther than DOMED_WIDE or DOMED_HIGH pixels from its centre has no dome, and where a pixel is
 // wider than DOMED_PIXEL units (9 fraction bits) domes do not grow further: depths within the table of factors still fit the
 // Z-buffer.
-constexpr int32_t DOMED_WIDE = 8, DOMED_HIGH = 12, DOMED_PIXEL = 287;
-constexpr int32_t DOME_MOST = 2 * (DOMED_PIXEL * DOMED_PIXEL >> 13);
+constexpr int32_t DOMED_WIDE = 8, DOMED_HIGH = 12, DOMED_PIXEL = 268;
+constexpr int32_t DOME_MOST = 2 * (5 * DOMED_PIXEL * DOMED_PIXEL >> 15);
 static_assert(LENS_FAR * 128 + STEEPEST * (DOMED_WIDE + DOMED_HIGH) +
               DOME_MOST / 2 * (DOMED_WIDE * DOMED_WIDE + DOMED_HIGH * DOMED_HIGH) < Z_EMPTY, "depths");
 
@@ -111,7 +111,7 @@ inline int32_t domeOf(const Voxel& v, const Factors& f)
     if (v.halfWidth * f.x > DOMED_WIDE << 20 || v.halfHeight * f.y > DOMED_HIGH << 20)
         return 0;
     const int32_t pixel = min32(f.zx >> 6, DOMED_PIXEL);
-    return (pixel * pixel >> 13) * 2;
+    return (5 * pixel * pixel >> 15) * 2;
 }
 
 // Domes a scale whose plane is set. (toColumn, toRow) leads from its centre to the centre of its first pixel, 12 fraction bits.
