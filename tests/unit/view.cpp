@@ -818,14 +818,19 @@ TEST(cracks_are_closed)
         const int left = upright ? from : 148, right = left + (upright ? wide : LENGTH);
         const int top = upright ? 88 : from, bottom = top + (upright ? LENGTH : wide);
         View& view = ball.view;
+        const auto draw = [&](const Voxel& v, bool isBordered) {
+            VoxelList* const list = make<VoxelList>();
+            list->begin({Real(0), Real(0), Real(0)}, Real(200), ball.ramp);
+            *list->room() = v;
+            list->take();
+            list->bordered = isBordered;
+            SAME(view.show(*list), 1);
+            destroy(list);
+        };
         view.begin();
-        VoxelList* const list = make<VoxelList>();
-        list->begin({Real(0), Real(0), Real(0)}, Real(200), ball.ramp);
-        *list->room() = voxel(0, 0, 90, 30, 20, 30);
-        list->take();
-        list->bordered = bordered;
-        SAME(view.show(*list), 1);
-        destroy(list);
+        // Beside the ball something always has borders.
+        draw(voxel(-50, 0, 90, 5, 20, 30), true);
+        draw(voxel(0, 0, 90, 30, 20, 30), bordered);
         block(view, 130, 70, 190, 130, 9, 170);
         for (int y = 80; y < 120; ++y)
             for (int x = 135; x < 185; ++x) {
