@@ -89,11 +89,16 @@ inline void Gaps::closeBetween(int at, int step)
         closeCrack(there, -step);
 }
 
-// Draws the surface that is missing in a crack, if it is one: it begins a few steps from a pixel that does not lie in it.
+// Draws the surface that is missing in a crack, if it is one: it begins at most AWAY steps from a pixel that does not lie in it.
 void Gaps::closeCrack(int first, int step)
 {
-    while (zbuffer_[first + step] <= zbuffer_[first] + DEEP)
+    const int end = first + AWAY * step;
+    while (zbuffer_[first + step] <= zbuffer_[first] + DEEP) {
         first += step;
+        // A surface that is steep is no crack.
+        if (first == end)
+            return;
+    }
     const int near = zbuffer_[first];
     int last = first + step, least = Z_EMPTY;
     for (; zbuffer_[last] > near + DEEP; last += step) {

@@ -865,6 +865,39 @@ TEST(cracks_are_closed)
             }
 }
 
+// Depths that change by less from pixel to pixel than into a crack, but by more over a few pixels, are those of steep surface, down
+// to the edges of the screen.
+TEST(steep_surface_has_no_cracks)
+{
+    BallView ball;
+    View& view = ball.view;
+    for (const int step : {200, -200})
+        for (const bool upright : {false, true}) {
+            view.begin();
+            VoxelList* const list = make<VoxelList>();
+            list->begin({Real(0), Real(0), Real(0)}, Real(200), ball.ramp);
+            *list->room() = voxel(0, 0, 90, 100, 100, 30);
+            list->take();
+            list->bordered = true;
+            view.show(*list);
+            view.show(*list);
+            destroy(list);
+            const auto depthAt = [&](int at) {
+                const int way = upright ? at % WIDTH : at / WIDTH;
+                // It comes back after seven pixels.
+                return 140 * 128 + step * (way % 7);
+            };
+            for (int at = 0; at < WIDTH * HEIGHT; ++at)
+                view.setPixel(at, depthAt(at), ball.ramp[30]);
+            view.closeGaps(Real(1), &ball.model, nullptr);
+            view.end();
+            int changed = 0;
+            for (int at = 0; at < WIDTH * HEIGHT; ++at)
+                changed += view.zbuffer()[at] != depthAt(at);
+            SAME(changed, 0);
+        }
+}
+
 // A strip of a ball is missing between two things that stand before it. If they stand close to it, it is found; what is farther
 // behind them may be missing because there is nothing.
 TEST(surface_is_found_behind_gaps)
