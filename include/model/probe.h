@@ -29,7 +29,7 @@ private:
     Real fieldOf(const Part& one, const Part* parts, const Part* end, int* strongest) const;
 
     const Model* model_;
-    // The objects that may reach points within AROUND of `middle_` along each axis; none are known while `count_` is negative.
+    // The objects that may reach points less than AROUND away from `middle_` along each axis; unknown while `count_` is negative.
     Point middle_;
     int count_ = -1;
     struct Near {

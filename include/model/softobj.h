@@ -220,10 +220,11 @@ public:
     Real steepest() const { return min(stretch_.x, min(stretch_.y, stretch_.z)) * warp_.leastSteep(); }
     // Upper bound of the distance from the centre at which there is any field.
     Real reach() const { return reach_; }
-    // Returns true if a point of the world is certainly farther away than reach(). (False says nothing.)
-    bool isFar(const Point& p) const
+    // Returns true if a point of the world is certainly farther away than reach() and `more` units. (False says nothing.)
+    bool isFar(const Point& p, Real more = Real(0)) const
     {
-        return absolute(p.x - centre_.x) >= reach_ || absolute(p.y - centre_.y) >= reach_ || absolute(p.z - centre_.z) >= reach_;
+        const Real most = reach_ + more;
+        return absolute(p.x - centre_.x) >= most || absolute(p.y - centre_.y) >= most || absolute(p.z - centre_.z) >= most;
     }
     // The factor by which the object has grown since its seeds were laid out: it scales own space to the world.
     Real growth() const { return size_ / laid_.size; }

@@ -6,9 +6,9 @@ namespace {
 // Half the edge of the cube whose objects are kept for the next points, units.
 constexpr Real AROUND(5);
 
-inline bool isWithin(const Vector& v, Real most)
+inline bool isAround(const Point& p, const Point& middle)
 {
-    return absolute(v.x) <= most && absolute(v.y) <= most && absolute(v.z) <= most;
+    return absolute(p.x - middle.x) < AROUND && absolute(p.y - middle.y) < AROUND && absolute(p.z - middle.z) < AROUND;
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ void FieldProbe::gather(const Point& p)
     count_ = 0;
     for (int i = 0; i < model_->count(); ++i) {
         const SoftObject& object = *model_->actor(i).object;
-        if (isWithin(p - object.centre(), object.reach() + AROUND))
+        if (!object.isFar(p, AROUND))
             near_[count_++] = {&object, i};
     }
 }
@@ -69,7 +69,7 @@ Real FieldProbe::implicitAt(const Point& p, int* strongest, const SoftObject* me
     *strongest = -1;
     if (bodies == nullptr)
         return Real(0);
-    if (count_ < 0 || !isWithin(p - middle_, AROUND))
+    if (count_ < 0 || !isAround(p, middle_))
         gather(p);
     Part parts[Model::OBJECTS_MOST], *end = parts;
     for (const Near* near = near_; near < near_ + count_; ++near) {

@@ -9,8 +9,8 @@ using machine::WIDTH;
 
 namespace {
 
-// The least change of depth into a crack, 1/128 unit; and the greatest width of a crack, pixels.
-constexpr int DEEP = 512;
+// In a crack, pixels are deeper by more than this, 1/128 unit. The greatest width of a crack, pixels.
+constexpr int DEEP = Missed::BEHIND;
 constexpr int CRACK_WIDE = 3;
 
 // A pixel is compared with one so many columns to the right, and with one so many rows below: if one of the two lies in a crack,
@@ -23,6 +23,7 @@ constexpr int AT_ONCE = 2 * AWAY;
 
 // Compares the depths of two pixels side by side with those of the pixels `away` from them. The result has some of the bits LARGE
 // if one of the two differences is DEEP or more. Both are computed in one subtraction.
+static_assert((DEEP & (DEEP - 1)) == 0, "small differences, plus DEEP, have no bit beyond those of 2 DEEP - 1");
 constexpr uint32_t BOTH = 0x10001, LARGE = ~((2 * DEEP - 1) * BOTH);
 // (The builtin is a move on any compiler; without a C library memcpy() is a call.)
 inline uint32_t compared(const uint16_t* depths, int away)

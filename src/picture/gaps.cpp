@@ -230,14 +230,6 @@ bool Gaps::closeExactly(int first, int last)
     return drawn;
 }
 
-// The point of the world half way between those that two pixels show.
-Point Gaps::halfWay(int first, int last) const
-{
-    const Point here = view_.pointAt(first);
-    const Vector way = view_.pointAt(last) - here;
-    return here + Vector{shiftDown(way.x, 1), shiftDown(way.y, 1), shiftDown(way.z, 1)};
-}
-
 // A lower bound of the distance from the place half way between two drawn pixels of a row (`step` 1) or of a column (`step` WIDTH)
 // to the surface of the model, units. It is 0 or less if the place lies inside, if the gap is thin, and without a model.
 Real Gaps::distanceOff(int first, int last, int step) const
@@ -245,7 +237,9 @@ Real Gaps::distanceOff(int first, int last, int step) const
     const int count = (last - first) / step;
     if (model_ == nullptr || count <= GAP_THIN + 1)
         return Real(0);
-    const Real off = distanceOff(halfWay(first, last));
+    const Point here = view_.pointAt(first);
+    const Vector way = view_.pointAt(last) - here;
+    const Real off = distanceOff(here + Vector{shiftDown(way.x, 1), shiftDown(way.y, 1), shiftDown(way.z, 1)});
     if (off < DOUBTFUL)
         return off;
     // The nearer pixel may belong to something in front of the surface, which is then as far away as the farther pixel.
@@ -254,11 +248,9 @@ Real Gaps::distanceOff(int first, int last, int step) const
 }
 
 // A lower bound of the distance from a point to the surface of any body, units: it follows from the steepest gradient that a field
-// can have. It is FAR where no field reaches the point, and 0 without a model.
+// can have. It is FAR where no field reaches the point.
 Real Gaps::distanceOff(const Point& p) const
 {
-    if (model_ == nullptr)
-        return Real(0);
     int strongest;
     const Real field = probe_.implicitAt(p, &strongest);
     return strongest < 0 ? FAR : (ISOVALUE - min(field, Real(1))) * (model_->actor(strongest).object->size() / STEEP);

@@ -37,7 +37,6 @@ private:
     void closeLying(const uint16_t* from, const uint16_t* to);
     void closeBetween(int at, int step);
     void closeCrack(int first, int step);
-    Point halfWay(int first, int last) const;
     Real distanceOff(int first, int last, int step) const;
     Real distanceOff(const Point& p) const;
     Ends endsOf(int first, int last) const;

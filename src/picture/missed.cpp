@@ -24,8 +24,6 @@ constexpr Real NEAR(0.2);
 constexpr Real RIM(0.25);
 // A depth that differs from all depths of pixels by APART or more.
 constexpr int NOWHERE = -APART;
-// A pixel that is drawn shows the surface unless it is deeper by more than this, 1/128 unit.
-constexpr int BEHIND = 512;
 
 }  // namespace
 

@@ -13,6 +13,9 @@ public:
     // is filled. With both sides of LONG_BOTH or one side of LONG, more than a pixel of surface may be missing there.
     static constexpr int SIDE = 2, LONG_BOTH = 4, LONG = 8;
 
+    // A pixel that is drawn shows the surface unless it is deeper by more than this, 1/128 unit.
+    static constexpr int BEHIND = 512;
+
     // The seeds lie `spacing` units apart. The model may be null; then only short corners are closed.
     Missed(View& view, FieldProbe& probe, Real spacing);
 

@@ -16,6 +16,15 @@ constexpr int32_t FARTHEST = 511 << 8;         // 16-bit depths of 1/128 unit en
 // hides() looks at every third pixel of every third row: an object that shows only between them is narrower than a scale.
 constexpr int HIDING_STEP = 3;
 
+// Extends a span by the columns `from` to before `to`.
+inline void extend(int from, int to, Span* span)
+{
+    if (span->from > from)
+        span->from = static_cast<int16_t>(from);
+    if (span->to < to)
+        span->to = static_cast<int16_t>(to);
+}
+
 }  // namespace
 
 View::~View()
@@ -86,15 +95,6 @@ void View::begin()
         touched_[y] = bordered_[y] = covered_[y] = {WIDTH, 0};
 }
 
-// Extends a span by the columns `from` to before `to`.
-static inline void extend(int from, int to, Span* span)
-{
-    if (span->from > from)
-        span->from = static_cast<int16_t>(from);
-    if (span->to < to)
-        span->to = static_cast<int16_t>(to);
-}
-
 void View::mark(int left, int top, int right, int bottom)
 {
     left = left < 0 ? 0 : left & ~3;
@@ -107,7 +107,8 @@ void View::mark(int left, int top, int right, int bottom)
         extend(left, right, &touched_[y]);
 }
 
-// Notes where a list may show through cracks in earlier ones. Only surface near borders between objects has cracks.
+// Notes where the list drawn last may show through cracks in earlier ones. Cracks in lists without borders are too rare to be
+// looked for.
 void View::noteCovered(bool bordered)
 {
     for (int y = lens_.top; y < lens_.bottom; ++y) {

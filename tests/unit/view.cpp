@@ -727,6 +727,18 @@ struct BallView {
             view.setPixel(row * WIDTH + column, static_cast<int>(depth * 128), ramp[30]);
     }
 
+    // Draws a voxel in the colours of the ball, as one of a list that has borders to another object or not.
+    void show(const Voxel& v, bool bordered)
+    {
+        VoxelList* const list = make<VoxelList>();
+        list->begin({Real(0), Real(0), Real(0)}, Real(200), ramp);
+        *list->room() = v;
+        list->take();
+        list->bordered = bordered;
+        view.show(*list);
+        destroy(list);
+    }
+
     // Judges the pixels of columns left to right and rows 0 to bottom: returns whether all that are well inside the picture of the
     // ball show it with its depth and brightness, and no pixel shows it that is not inside or next to such a pixel.
     bool holds(int left, int right, int bottom, const char* what) const
@@ -818,19 +830,10 @@ TEST(cracks_are_closed)
         const int left = upright ? from : 148, right = left + (upright ? wide : LENGTH);
         const int top = upright ? 88 : from, bottom = top + (upright ? LENGTH : wide);
         View& view = ball.view;
-        const auto draw = [&](const Voxel& v, bool isBordered) {
-            VoxelList* const list = make<VoxelList>();
-            list->begin({Real(0), Real(0), Real(0)}, Real(200), ball.ramp);
-            *list->room() = v;
-            list->take();
-            list->bordered = isBordered;
-            SAME(view.show(*list), 1);
-            destroy(list);
-        };
         view.begin();
         // Beside the ball something always has borders.
-        draw(voxel(-50, 0, 90, 5, 20, 30), true);
-        draw(voxel(0, 0, 90, 30, 20, 30), bordered);
+        ball.show(voxel(-50, 0, 90, 5, 20, 30), true);
+        ball.show(voxel(0, 0, 90, 30, 20, 30), bordered);
         block(view, 130, 70, 190, 130, 9, 170);
         for (int y = 80; y < 120; ++y)
             for (int x = 135; x < 185; ++x) {
@@ -874,14 +877,8 @@ TEST(steep_surface_has_no_cracks)
     for (const int step : {200, -200})
         for (const bool upright : {false, true}) {
             view.begin();
-            VoxelList* const list = make<VoxelList>();
-            list->begin({Real(0), Real(0), Real(0)}, Real(200), ball.ramp);
-            *list->room() = voxel(0, 0, 90, 100, 100, 30);
-            list->take();
-            list->bordered = true;
-            view.show(*list);
-            view.show(*list);
-            destroy(list);
+            ball.show(voxel(0, 0, 90, 100, 100, 30), true);
+            ball.show(voxel(0, 0, 90, 100, 100, 30), true);
             const auto depthAt = [&](int at) {
                 const int way = upright ? at % WIDTH : at / WIDTH;
                 // It comes back after seven pixels.
@@ -947,17 +944,11 @@ TEST(surface_goes_on_across_borders)
         double depth = 0;
         ball.trueAt(LEFT - 0.5, ROW, &depth);
         const Camera& camera = ball.view.camera();
-        VoxelList* const list = make<VoxelList>();
-        list->begin({Real(0), Real(0), Real(0)}, Real(200), ball.ramp);
-        Voxel* const v = list->room();
-        *v = voxel((LEFT - number(camera.centreX)) / number(camera.focalX) * depth,
-                   (number(camera.centreY) - ROW - 0.5) / number(camera.focalY) * depth, depth, 1, 1, 30);
-        v->cutX = -100;
-        v->curveXX = limb ? -1 : 0;
-        list->bordered = true;
-        list->take();
-        ball.view.show(*list);
-        destroy(list);
+        Voxel v = voxel((LEFT - number(camera.centreX)) / number(camera.focalX) * depth,
+                        (number(camera.centreY) - ROW - 0.5) / number(camera.focalY) * depth, depth, 1, 1, 30);
+        v.cutX = -100;
+        v.curveXX = limb ? -1 : 0;
+        ball.show(v, true);
         ball.view.closeGaps(Real(1), &ball.model, &ball.palette);
         ball.view.end();
         return ball.holds(LEFT, WIDTH, HEIGHT, "beyond the border");
