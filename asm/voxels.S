@@ -583,11 +583,14 @@ shade_extended:
         imull        %eax, %ebp
         addl        %ebp, %esi
         movl        SHADE_SHADING(%esp), %ebp
-        // if (deep >= reach * 8) ..;   edx has reach * 8 with 8 fraction bits, - 1
+        // if (deep >= reach * 8 || (deep >= reach * 4 && ..;   edx has reach * 8 with 8 fraction bits, - 1, and then reach * 4
         sarl        $5, %edx
         orl        $0x7ff, %edx
         cmpl        %edx, %esi
         jg        shade_end
+        shrl        $1, %edx
+        cmpl        %edx, %esi
+        jg        shade_near
 shade_ended:
         movw        %cx, VOXEL_HALF_WIDTH(%edi)
         movw        %ax, VOXEL_HALF_HEIGHT(%edi)
@@ -659,11 +662,32 @@ shade_turned:
         movw        %dx, VOXEL_TILTY(%edi)
         jmp        shade_tilted
 
+        // .. (reach * 8 - deep) * reach * 32 <= halfWidth * halfWidth + halfHeight * halfHeight)) ..
+shade_near:
+        sarl        $10, %edx
+        movl        %ecx, SHADE_WIDE(%esp)
+        incl        %edx
+        movl        %eax, SHADE_HIGH(%esp)
+        sarl        $8, %esi
+        imull        %ecx, %ecx
+        imull        %eax, %eax
+        leal        (,%edx,8), %ebp
+        addl        %eax, %ecx
+        subl        %esi, %ebp
+        imull        %edx, %ebp
+        shll        $5, %ebp
+        cmpl        %ecx, %ebp
+        movl        SHADE_SHADING(%esp), %ebp
+        movl        SHADE_WIDE(%esp), %ecx
+        movl        SHADE_HIGH(%esp), %eax
+        jg        shade_ended
+        jmp        shade_reaching
         // voxel.reach = reach, voxel.front = v.front
 shade_end:
         sarl        $11, %edx
         sarl        $8, %esi
         incl        %edx
+shade_reaching:
         movb        %dl, VOXEL_REACH(%edi)
         movl        FRONT(%ebp), %edx
         movb        %dl, VOXEL_FRONT(%edi)

@@ -113,14 +113,16 @@ inline int32_t withMargin(int32_t extent)
 
 // Sets the extents of a voxel, and where it ends. Beyond the limb, where a round surface bends out of sight, its tangent plane
 // would go on, so the scale has to end there. With c the cosine of normal and viewer, the limb is c^2 radius / 2 away across the
-// view; the plane gets c radius / 2 deeper there.
+// view; the plane gets c radius / 2 deeper there, which is the reach. The limb is a curve, and so it is nearer to the corners: on a
+// ball, a corner that is e away from the centre lies beyond the limb where the plane gets at least reach - e^2 / 4 reach deeper.
 inline void setExtents(const Shading& v, int32_t facing, Extents extents, Voxel& voxel)
 {
     extents = {withMargin(extents.halfWidth), withMargin(extents.halfHeight)};
     voxel.reach = voxel.front = 0;
     const int32_t reach = (v.horizonShare * facing >> 16) + 1;
     const int32_t deep = (magnitude(voxel.tiltX) * extents.halfWidth + magnitude(voxel.tiltY) * extents.halfHeight) >> 8;
-    if (reach < 256 && deep >= reach * 8) {
+    const int32_t square = extents.halfWidth * extents.halfWidth + extents.halfHeight * extents.halfHeight;
+    if (reach < 256 && (deep >= reach * 8 || (deep >= reach * 4 && (reach * 8 - deep) * reach * 32 <= square))) {
         voxel.reach = static_cast<uint8_t>(reach);
         voxel.front = static_cast<uint8_t>(v.front);
         if (deep > v.deepest)

@@ -168,3 +168,46 @@ TEST(flat_surfaces_have_no_limb)
     flat.turn[2] = -8192;
     CHECK(!findLimb(flat, axes, 8 << 16, 0, 0, 100 << 8, &limb));
 }
+
+namespace {
+
+// The number of scales without an end that a ball has which blends with nothing, and the number of their corners that lie more than
+// BEYOND units outside its outline.
+constexpr double BEYOND = 0.08;
+struct Corners {
+    long scales = 0, beyond = 0;
+
+    void add(double size, const Vec& at)
+    {
+        Scene scene;
+        scene.eye = point(0, 0, 0);
+        scene.ball(size, at.x, at.y, at.z);
+        scene.update();
+        for (const Voxel& v : scene.draw(0)) {
+            if (v.reach != 0)
+                continue;
+            ++scales;
+            for (int corner = 0; corner < 4; ++corner) {
+                const Vec out{v.x + (corner & 1 ? 1.0 : -1.0) * v.halfWidth, v.y + (corner & 2 ? 1.0 : -1.0) * v.halfHeight,
+                              static_cast<double>(v.z)};
+                const Vec ray = out * (1 / ::size(out));
+                beyond += ::size(at - ray * dot(at, ray)) - size / 2 > BEYOND;
+            }
+        }
+    }
+};
+
+}  // namespace
+
+TEST(scales_whose_corners_are_beyond_the_limb_end_there)
+{
+    Random random;
+    Corners corners;
+    for (int i = 0; i < 40; ++i) {
+        const double depth = random.between(80, 250), size = random.between(8, 50);
+        corners.add(size, {random.between(-0.3, 0.3) * depth, random.between(-0.2, 0.2) * depth, depth});
+    }
+    note("%ld scales without an end, %ld corners beyond the limb", corners.scales, corners.beyond);
+    CHECK(corners.scales > 9000);
+    CHECK(corners.beyond < 40);
+}
