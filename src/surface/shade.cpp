@@ -200,19 +200,17 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
     shading_.horizonShare = flatHorizon_;
     if (middle.facing >= facesViewer_ || endsNowhere(patch, middle))
         return;
-    // The curvature in the direction to the viewer, as far as that lies in the tangent plane.
+    // The curvature along the ray of sight. Next to the limb the ray lies in the tangent plane. Where the patch's middle faces the
+    // viewer more, the bend counts along its normal as well, or the curvature would seem to be too small for the seeds at the limb.
     int32_t p[3], view[3];
     findPlace(shading_, *middle.seed, p);
     for (int i = 0; i < 3; ++i)
         view[i] = (shading_.eye[i] - (p[i] >> 3)) >> viewShift_;
-    const int32_t up = dot(bend.normal, view) >> 14, n[] = {bend.normal.x, bend.normal.y, bend.normal.z};
-    for (int i = 0; i < 3; ++i)
-        view[i] -= n[i] * up >> 14;
     const int32_t square = dot(view, view), curvature = curvatureAlong(bend, view);
     // A blending patch is taken to bend no less than an unblended ball as large as the object.
     if (patch.state != PATCH_REST)
         shading_.horizonShare = ballHorizon_;
-    if (curvature > square >> 11)
+    if (curvature > square >> 16)
         shading_.horizonShare = min32(shading_.horizonShare, mulShift16(square * 2 / curvature, horizonScale_));
 }
 
