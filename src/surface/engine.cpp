@@ -15,7 +15,7 @@ namespace {
 constexpr int ASKED_EVERY = 32;
 
 // An object with more patches than this has so many seeds that the memory is wanted for these: of its earlier frames nothing is
-// kept (reckon.h, still.h).
+// kept (reckon.h, keeper.h).
 constexpr int FOLLOWED_MOST = 2500;
 
 class Engine : public Surface {
@@ -33,7 +33,7 @@ public:
         makePatches(object_, patches_);
         if (count_ <= FOLLOWED_MOST) {
             reckoning_.open(count_);
-            still_.open(count_);
+            keeper_.open(count_, object_.spacing());
         }
         return true;
     }
@@ -58,7 +58,7 @@ private:
 
     Odometer odometer_;
     Reckoning reckoning_;
-    Still still_;
+    Keeper keeper_;
     uint32_t updates_ = 0, draws_ = 0;
     bool islands_ = false;   // some patches have seeds on islands
     bool allRests_ = false;  // all seeds were at rest after the last update
@@ -82,7 +82,7 @@ void Engine::reshape()
     }
     reshapePatches(object_, patches_, count_, odometer_.reading());
     reckoning_.forget();
-    still_.forget();
+    keeper_.forget();
 }
 
 // Gather what reaches the object, classify its patches, settle those that are due.
@@ -114,7 +114,7 @@ bool Engine::update(const FrameContext& frame)
         if (Patch& patch = patches_[i]; patch.settled) {
             settler.oversample(patch);
             reckoning_.follow(i, patch, settler.smallest());
-            still_.forget(i);
+            keeper_.forget(i);
             patch.moved = false;
         }
     if (settler.hasIslands() || islands_)
@@ -147,7 +147,7 @@ inline bool Engine::moveOn(int number, const Neighbourhood& all)
     if (!reckoning_.moves(number, patch))
         return false;
     reckoning_.move(number, patch);
-    still_.forget(number);
+    keeper_.forget(number);
     patch.moved = patch.reached = true;
     if (!all.ordinary)
         odometer_.count(patch);
@@ -275,10 +275,10 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
     const Paint* const paint = shown->paint();
     if (*next == 0) {
         ++draws_;
-        still_.begin(own, paint);
+        keeper_.begin(own, paint);
     }
     const int at = shadePatches(object_, own, frame, patches_, count_, *next, static_cast<int>(draws_ & 0xffff), list, room,
-                                still_);
+                                keeper_);
     *next = at < count_ ? at : 0;
     // An object that is shown in another ramp than its own, as when it is selected, shows no colours of its paint.
     if (paint != nullptr && shown->ramp() == paint->ramp)

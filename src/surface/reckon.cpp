@@ -3,6 +3,7 @@
 
 #include "math/alloc.h"
 #include "math/whole.h"
+#include "period.h"
 
 namespace {
 
@@ -11,37 +12,13 @@ namespace {
 constexpr Real FARTHEST(1.5), OF_SMALLEST(0.22);
 // Spacings: the error of a border is seen only where the border is nearer to its seed than this.
 constexpr Real NEAR(1.2);
-// Units: a greater spacing counts as this one.
-constexpr Real COARSE(2);
 // 1/1024 unit: the travels of two updates count as even if they differ by less than this and half of the travel.
 constexpr int32_t EVEN_TRAVEL = 100;
-constexpr int LONGEST_PERIOD = 8;
-// The error of a single step with which a patch is moved on, for the square of the spacing: who wants finer seeds wants to see
-// more. 64 stands for 1/4 unit along a path or across a border, or 1/16 of a normal's length.
-constexpr int32_t TOLERATED = 16;
 // Greater than any error that is tolerated.
 constexpr int32_t UNKNOWN = INT16_MAX;
 // Where a component of a normal changes by this in an update, 1.0 = 2^14, normals that are moved on would get too long.
 constexpr int32_t FAST = 2048;
 static_assert((1 << 14) + FAST * (LONGEST_PERIOD - 1) <= INT16_MAX, "normals fit 16 bits");
-
-// Corrects a step that has led from `before` elsewhere than to `now`; 2^shift such steps were made. Returns about the error.
-inline int32_t correctStep(int32_t now, int32_t before, int shift, int16_t& step)
-{
-    const int32_t error = now - before - step;
-    step = static_cast<int16_t>(step + (error >> shift));
-    return error ^ error >> 31;
-}
-
-// The period of a patch, from its last one and from the error at the end of that.
-inline int periodAfter(int period, int32_t error, int32_t tolerated)
-{
-    if (error < (period == 1 ? tolerated : tolerated / 2))
-        return period < LONGEST_PERIOD ? period * 2 : period;
-    if (period == 1 || error >= tolerated * 8)
-        return 1;
-    return error < (period == 2 ? tolerated * 4 : tolerated * 2) ? period : period / 2;
-}
 
 }  // namespace
 
@@ -56,7 +33,7 @@ void Reckoning::open(int count)
 {
     const Real spacing = min(object_.spacing(), COARSE);
     farthest_ = travelOf(spacing * FARTHEST);
-    tolerated_ = rawFromReal(spacing * spacing * Real(TOLERATED)) >> 16;
+    tolerated_ = toleratedError(object_.spacing());
     near_ = rawFromReal(spacing * NEAR) >> 8;
     tracks_ = allocate<Track>(static_cast<uint32_t>(count));
     count_ = tracks_ == nullptr ? 0 : count;
@@ -107,7 +84,7 @@ void Reckoning::move(int number, const Patch& patch)
 }
 
 // Corrects the motion of a seed, in which 2^shift steps were made. How a new one moves is not known: it stays for now. Returns
-// about the error, as TOLERATED; several errors are or-ed, because that is quicker than to find the greatest.
+// about the error, as toleratedError(); several errors are or-ed, because that is quicker than to find the greatest.
 inline int32_t Reckoning::correct(const Seed& s, int shift, Motion& m) const
 {
     const bool known = m.known, bordered = (s.flags & SEED_BORDER) != 0;

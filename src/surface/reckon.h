@@ -59,7 +59,7 @@ private:
     Track* tracks_ = nullptr;
     int count_ = 0;
     Travel farthest_ = 0;    // the constants of reckon.cpp for this object: FARTHEST as a travel,
-    int32_t tolerated_ = 0;  // TOLERATED,
+    int32_t tolerated_ = 0;  // toleratedError(),
     int32_t near_ = 0;       // and NEAR, 1/256 unit
     uint32_t update_ = 0;    // number of this update
     Travel travel_ = 0;      // travel of the neighbours in it

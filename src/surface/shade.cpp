@@ -494,7 +494,7 @@ SELDOM void listGuests(VoxelList& list, const Bodies& bodies)
 
 template <bool PAINTED>
 int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
-            int draws, VoxelList& list, int room, Painter* painter, Still& still)
+            int draws, VoxelList& list, int room, Painter* painter, Keeper& keeper)
 {
     Shader shader(object, own, frame);
     slopes.begin();
@@ -511,14 +511,14 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
             break;
         // A pattern may move over seeds that stand still.
         const bool keeps = !PAINTED || painter->isPlain();
-        if (keeps && still.has(i, patch)) {
-            still.list(i, shader.seeds(), list, slopes);
+        if (keeps && keeper.has(i, patch)) {
+            keeper.list(i, shader.seeds(), list, slopes);
             continue;
         }
         const int begin = list.count, guests = list.guests, sloped = slopes.count();
         shader.shadePatch<PAINTED>(patch, i + draws, list, painter);
         if (keeps && list.guests == guests)
-            still.keep(i, patch, begin, list, sloped, slopes);
+            keeper.keep(i, patch, begin, list, sloped, slopes);
     }
     slopes.set(shader.spacing());
     if (list.guests > 0)
@@ -529,10 +529,10 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
 }  // namespace
 
 int shadePatches(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
-                 int draws, VoxelList& list, int room, Still& still)
+                 int draws, VoxelList& list, int room, Keeper& keeper)
 {
     if (object.shown()->paint() == nullptr)
-        return shadeAs<false>(object, own, frame, patches, count, first, draws, list, room, nullptr, still);
+        return shadeAs<false>(object, own, frame, patches, count, first, draws, list, room, nullptr, keeper);
     Painter painter(object, own, list);
-    return shadeAs<true>(object, own, frame, patches, count, first, draws, list, room, &painter, still);
+    return shadeAs<true>(object, own, frame, patches, count, first, draws, list, room, &painter, keeper);
 }
