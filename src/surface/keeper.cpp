@@ -10,8 +10,8 @@
 namespace {
 
 // In the units of Keeper::View: a change of the view counts as even if it differs from the change before by no more than JOLT and a
-// quarter of itself.
-constexpr int32_t JOLT = 24;
+// quarter of itself, and if neither an axis nor the light changes by more than FASTEST: what turns fast does not go on straight.
+constexpr int32_t JOLT = 24, FASTEST = 500;
 // Frames in which nothing is kept after a change with an error of UNEVEN_ERRORS times the tolerated one.
 constexpr uint8_t PAUSE = 32;
 constexpr int32_t UNEVEN_ERRORS = 8;
@@ -84,7 +84,8 @@ bool Keeper::movesEvenly()
         motion_ = draws_ == 3 ? EVEN : UNEVEN;
         for (int i = 0; i < PARTS && motion_ == EVEN; ++i) {
             const int32_t change = now[i] - before[i], changeBefore = before[i] - earlier[i];
-            if (magnitude(change - changeBefore) > JOLT + (magnitude(change) >> 2))
+            const bool fast = i < AXES && magnitude(change) > FASTEST;
+            if (fast || magnitude(change - changeBefore) > JOLT + (magnitude(change) >> 2))
                 motion_ = UNEVEN;
         }
     }

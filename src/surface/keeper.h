@@ -42,7 +42,9 @@ public:
     // them are in the object's own colour, and the list has no guests among them.
     void keep(int number, const Patch& patch, int first, const VoxelList& list, int sloped, const Slopes& slopes)
     {
-        if (count_ > 0 && !patch.islands && (patch.state == PATCH_REST || (stands_ && !patch.bend.stale)))
+        if (count_ == 0 || patch.islands)
+            return;
+        if (stands_ ? patch.state == PATCH_REST || !patch.bend.stale : patch.state == PATCH_REST && movesEvenly())
             store(kept_[number], patch, first, list, sloped, slopes);
     }
 
@@ -82,8 +84,9 @@ private:
     void store(Kept& kept, const Patch& patch, int first, const VoxelList& list, int sloped, const Slopes& slopes) const;
     void follow(Kept& kept, const Voxel* voxels) const;
 
-    // How the object is seen and lit: the axes of the view and the light (1.0 = 2^14), the eye (1/32 unit).
-    static constexpr int PARTS = 15;
+    // How the object is seen and lit: the first AXES parts are the axes of the view and the light (1.0 = 2^14), the others the eye
+    // (1/32 unit).
+    static constexpr int PARTS = 15, AXES = 12;
     typedef int32_t View[PARTS];
 
     Kept* kept_ = nullptr;
