@@ -210,6 +210,7 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
     // A blending patch is taken to bend no less than an unblended ball as large as the object.
     if (patch.state != PATCH_REST)
         shading_.horizonShare = ballHorizon_;
+    // What bends less is as good as flat, and its radius might overflow.
     if (curvature > square >> 16)
         shading_.horizonShare = min32(shading_.horizonShare, mulShift16(square * 2 / curvature, horizonScale_));
 }

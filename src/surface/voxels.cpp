@@ -114,7 +114,8 @@ inline int32_t withMargin(int32_t extent)
 // Sets the extents of a voxel, and where it ends. Beyond the limb, where a round surface bends out of sight, its tangent plane
 // would go on, so the scale has to end there. With c the cosine of normal and viewer, the limb is c^2 radius / 2 away across the
 // view; the plane gets c radius / 2 deeper there, which is the reach. The limb is a curve, and so it is nearer to the corners: on a
-// ball, a corner that is e away from the centre lies beyond the limb where the plane gets at least reach - e^2 / 4 reach deeper.
+// ball, a corner that is e away from the centre lies beyond the limb where the plane gets at least reach - e^2 / (4 reach) deeper.
+// (Where the plane gets less than half as deep as the reach, that is so only on balls hardly larger than a scale.)
 inline void setExtents(const Shading& v, int32_t facing, Extents extents, Voxel& voxel)
 {
     extents = {withMargin(extents.halfWidth), withMargin(extents.halfHeight)};

@@ -94,6 +94,21 @@ struct Truth {
     }
 };
 
+// How far a voxel is from the nearest one of a list, units, and by how much the brightness of the two differs.
+struct Apart {
+    double distance = 1e9, light = 0;
+};
+inline Apart fromNearest(const Voxel& v, const std::vector<Voxel>& list)
+{
+    Apart apart;
+    for (const Voxel& other : list) {
+        const double distance = std::hypot(v.x - other.x, v.y - other.y, v.z - other.z) / 256;
+        if (distance < apart.distance)
+            apart = {distance, std::fabs(v.brightness - other.brightness)};
+    }
+    return apart;
+}
+
 // Draws voxels that are counted from the eye itself, or from (x, y, z), 1/256 unit; the colour of each is its brightness.
 // Returns the number of scales drawn.
 inline int show(View& view, const Voxel* voxels, size_t count, int32_t x = 0, int32_t y = 0, int32_t z = 0)

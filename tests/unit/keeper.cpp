@@ -118,22 +118,13 @@ private:
     {
         for (const Voxel& v : voxels) {
             ++all;
-            double nearest = 1e9, off = 0;
-            for (const Voxel& m : made) {
-                const double away = std::hypot(v.x - m.x, v.y - m.y, v.z - m.z) / 256;
-                if (away < nearest) {
-                    nearest = away;
-                    off = std::abs(v.brightness - m.brightness);
-                    if (memcmp(&v, &m, sizeof v) == 0)
-                        break;
-                }
-            }
-            if (nearest == 0 && off == 0)
+            const Apart apart = fromNearest(v, made);
+            if (apart.distance == 0 && apart.light == 0)
                 continue;
             ++moved;
-            sum += nearest;
-            light += off;
-            worst = std::fmax(worst, nearest);
+            sum += apart.distance;
+            light += apart.light;
+            worst = std::fmax(worst, apart.distance);
         }
     }
 };

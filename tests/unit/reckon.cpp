@@ -12,17 +12,10 @@ struct Distance {
     void add(const std::vector<Voxel>& voxels, const std::vector<Voxel>& fresh)
     {
         for (const Voxel& v : voxels) {
-            double nearest = 1e9, light = 0;
-            for (const Voxel& f : fresh) {
-                const double off = std::hypot(v.x - f.x, v.y - f.y, v.z - f.z) / 256;
-                if (off < nearest) {
-                    nearest = off;
-                    light = std::fabs(v.brightness - f.brightness);
-                }
-            }
-            sum += nearest;
-            this->light += light;
-            worst = std::fmax(worst, nearest);
+            const Apart apart = fromNearest(v, fresh);
+            sum += apart.distance;
+            light += apart.light;
+            worst = std::fmax(worst, apart.distance);
             ++count;
         }
     }
