@@ -65,6 +65,8 @@ lacking() {
 	has Xvfb || echo xvfb
 	has xdotool || echo xdotool
 	has valgrind || echo valgrind
+	# Where the kernel runs no 32-bit programs.
+	sh tools/run32.sh -k || has qemu-i386 || echo qemu-user
 	has i586-pc-msdosdjgpp-objdump || echo binutils-djgpp
 	has cmp || echo diffutils
 	has git || echo git

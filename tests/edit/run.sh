@@ -899,7 +899,7 @@ if [ -x "$top/build/demo32" ] && [ "$DEMO" = build/demo ]; then
 END
 	rm -rf a b
 	FB_INPUT=script "$demo" /I /N:20 /D:a >out 2>&1
-	FB_INPUT=script "$top/build/demo32" /I /N:20 /D:b >out 2>&1
+	FB_INPUT=script sh "$top/tools/run32.sh" "$top/build/demo32" /I /N:20 /D:b >out 2>&1
 	ok "64 bits and 32: the same frames" diff -r a b
 	# All tests above are repeated with the sanitizers.
 	(cd "$top" && make -s build/san/demo && DEMO=build/san/demo sh tests/edit/run.sh) >san 2>&1

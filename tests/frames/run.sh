@@ -39,7 +39,7 @@ while read -r frames switches; do
 	label="/N:$frames${switches:+ $switches}"
 	# The switches must be split into words, so they are not quoted.
 	build/demo /N:"$frames" /D:"$dir/h" $switches >"$dir/h.txt"
-	build/demo32 /N:"$frames" /D:"$dir/w" $switches >"$dir/w.txt"
+	sh tools/run32.sh build/demo32 /N:"$frames" /D:"$dir/w" $switches >"$dir/w.txt"
 	ok "frames dumped, $label" test "$(ls "$dir/h" | grep -c PPM)" -eq "$frames"
 	same "32-bit host, $label" "$dir/h" "$dir/w"
 	same "DEMO.EXE, $label" "$dir/h" "$c/D$number"
@@ -98,7 +98,7 @@ ok "what has leapt looks as if it had stayed" cmp "$dir/leap/F0000013.PPM" "$dir
 for shiny in a d; do
 	printf 'sphere a size 40\nsphere d size 16 at 0 0 -20\ndent a d\nfinish %s shiny\n' $shiny >"$dir/hollow.fb"
 	for program in demo demo32; do
-		ok "$program: a hollow, $shiny shines" build/$program /M:"$dir/hollow.fb" /G /N:3 /D:"$dir/$program"
+		ok "$program: a hollow, $shiny shines" sh tools/run32.sh build/$program /M:"$dir/hollow.fb" /G /N:3 /D:"$dir/$program"
 	done
 	same "32-bit host, a hollow, $shiny shines" "$dir/demo" "$dir/demo32"
 	rm -rf "$dir/demo" "$dir/demo32"
@@ -126,7 +126,7 @@ cat >"$dir/script" <<END
 8 key +
 END
 for program in demo demo32; do
-	FB_INPUT=$dir/script build/$program /I /N:12 /D:"$dir/$program" >/dev/null
+	FB_INPUT=$dir/script sh tools/run32.sh build/$program /I /N:12 /D:"$dir/$program" >/dev/null
 done
 same "32-bit host, interactive" "$dir/demo" "$dir/demo32"
 
@@ -137,7 +137,7 @@ for seed in 11 12 13; do
 	for program in demo demo32; do
 		rm -rf "${dir:?}/at" "${dir:?}/m$program"
 		mkdir "$dir/at"
-		(cd "$dir/at" && FB_INPUT=$dir/script "$top/build/$program" /I /N:26 /S:4 /D:"$dir/m$program" >/dev/null)
+		(cd "$dir/at" && FB_INPUT=$dir/script sh "$top/tools/run32.sh" "$top/build/$program" /I /N:26 /S:4 /D:"$dir/m$program" >/dev/null)
 	done
 	same "32-bit host, any keys and moves, $seed" "$dir/mdemo" "$dir/mdemo32"
 done

@@ -46,7 +46,7 @@ both() { # both NAME SCENE: compares the builds
 	for rate in 2 35; do
 		rm -rf "$dir/a" "$dir/b"
 		if build/demo /N:16 /R:$rate "/M:$2" "/D:$dir/a" >"$dir/out.a" 2>&1; then good; else bad "$1: $(head -n 1 "$dir/out.a")"; fi
-		build/demo32 /N:16 /R:$rate "/M:$2" "/D:$dir/b" >"$dir/out.b" 2>&1
+		sh tools/run32.sh build/demo32 /N:16 /R:$rate "/M:$2" "/D:$dir/b" >"$dir/out.b" 2>&1
 		same "$1, $rate frames a second, 64 bits and 32" "$dir/a" "$dir/b"
 		frames=$((frames + 16))
 	done
