@@ -86,10 +86,8 @@ struct Seed {
     int16_t lightChange[3];  // of a seed that settled beside a border, an oversampled or a fine one: the gradient of the brightness
                              // along the surface, own axes, 1/128 step per unit of the world. Its component along the normal
                              // does not count. The first is LIGHT_UNKNOWN until it has been found
-    uint16_t placedAt;   // the odometer's readings when the normal and when `lightChange` were found, 1/64 unit
-    uint16_t litAt;
     uint8_t host;        // with SEED_GUEST: slot of the object whose field is the strongest
-    uint8_t spare[3];    // pads a seed to 64 bytes, so that an index becomes an address by a shift
+    uint8_t spare[7];    // pads a seed to 64 bytes, so that an index becomes an address by a shift
 };
 
 // Receives the seeds of a primitive, ring by ring, in the object's own space (Appendix C: "canonical" space). A layout runs

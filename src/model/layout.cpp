@@ -132,7 +132,6 @@ public:
         s.root = static_cast<uint16_t>(root);
         s.flags = SEED_VALID | SEED_RESTING;
         s.blocker = 0;
-        s.placedAt = 0;
         s.lightChange[0] = Seed::LIGHT_UNKNOWN;
         setAxis(s.along, object_.stretchedOut(along), inverseSpacing_);
         setAxis(s.across, object_.stretchedOut(across), inverseSpacing_);

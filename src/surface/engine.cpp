@@ -48,18 +48,18 @@ private:
     bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all, bool known);
     bool stays(const Settler& settler, Patch& patch, bool stale) const;
     void renewLists(Patch& patch, const Neighbourhood& all);
-    bool comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all, bool stale);
+    bool comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all);
     bool isAtRest(Settler& settler, Patch& patch, const Neighbourhood& all);
     void sleepOutOfSight(Patch& patch);
     void settle(Settler& settler, Patch& patch);
-    SELDOM void settleIslands(Settler& settler, const Neighbourhood& all);
+    SELDOM void settleIslands(Settler& settler, const Neighbourhood& all, bool known);
 
     SoftObject& object_;
 
     Odometer odometer_;
     Reckoning reckoning_;
     Keeper keeper_;
-    uint32_t updates_ = 0, draws_ = 0;
+    uint32_t draws_ = 0;
     bool islands_ = false;   // some patches have seeds on islands
     bool allRests_ = false;  // all seeds were at rest after the last update
     Patch* patches_ = nullptr;
@@ -94,7 +94,7 @@ bool Engine::update(const FrameContext& frame)
         return false;
     gather(object_, frame, all);
     const bool known = odometer_.advance(object_, own, all, frame.bodies->version());
-    Settler settler(object_, own, all, frame, odometer_, ++updates_);
+    Settler settler(object_, own, all, frame, odometer_);
     // Islands change too suddenly for dead reckoning.
     reckoning_.begin(odometer_.lastTravel(), known && !settler.hasIslands());
     // No neighbour is near, and all seeds are at rest already.
@@ -118,19 +118,21 @@ bool Engine::update(const FrameContext& frame)
             patch.moved = false;
         }
     if (settler.hasIslands() || islands_)
-        settleIslands(settler, all);
+        settleIslands(settler, all, known);
     object_.setDisplaced(displaced);
     allRests_ = !displaced;
     // What was moved on has to be settled yet, even if nothing changes any more.
     return settler.hidden() || movedOn;
 }
 
-// Settles the islands of all patches. They end when no link of the object is heavy any more.
-void Engine::settleIslands(Settler& settler, const Neighbourhood& all)
+// Settles the islands of all patches. In patches without any they are searched in every other frame, if earlier results hold. They
+// end when no link of the object is heavy any more.
+void Engine::settleIslands(Settler& settler, const Neighbourhood& all, bool known)
 {
     islands_ = false;
     for (Patch* patch = patches_; patch < patches_ + count_; ++patch) {
-        if (patch->state == PATCH_INSIDE)
+        const bool hasTurn = !known || ((static_cast<uint32_t>(patch - patches_) + draws_) & 1) == 0;
+        if (patch->state == PATCH_INSIDE || (!patch->islands && !hasTurn))
             continue;
         if (patch->stale || isDue(odometer_.bound(), patch->listDue))
             renewLists(*patch, all);
@@ -148,7 +150,7 @@ inline bool Engine::moveOn(int number, const Neighbourhood& all)
         return false;
     reckoning_.move(number, patch);
     keeper_.forget(number);
-    patch.moved = patch.reached = true;
+    patch.moved = true;
     if (!all.ordinary)
         odometer_.count(patch);
     return true;
@@ -172,7 +174,7 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
         renewLists(patch, all);
     if (!all.ordinary && stays(settler, patch, stale))
         return true;
-    if (comesToRest(settler, patch, all, stale))
+    if (comesToRest(settler, patch, all))
         return false;
     if (!judgedFirst && outOfSight(patch, own))
         sleepOutOfSight(patch);
@@ -182,13 +184,10 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
 }
 
 // Finds out which neighbours reach a patch. Returns true if none does and its seeds are at rest.
-inline bool Engine::comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all, bool stale)
+inline bool Engine::comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all)
 {
     const bool alone = all.ordinary && all.restsAtOne && !isListed(patch.near);
     const bool touched = !alone && settler.setPatch(patch);
-    const bool reached = all.ordinary || stale || odometer_.hasMoved(all, settler.reaching());
-    patch.stirred = reached || patch.reached;
-    patch.reached = reached;
     return !touched && all.restsAtOne && isAtRest(settler, patch, all);
 }
 

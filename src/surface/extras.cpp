@@ -150,7 +150,7 @@ void Settler::oversample(Patch& patch)
             return;
         if (!(extra->flags & SEED_VALID) && isCovered(*extra))
             extra->flags &= SEED_ACTIVE | stillOff();
-        else if (!waits(*extra, false))
+        else
             settle(*extra);
         if (settleFine(i))
             patch.fine = true;
@@ -170,8 +170,7 @@ bool Settler::settleFine(int i)
     if (fine == nullptr)
         return false;
     Seed &lower = fine[SoftObject::FINE_LOWER], &upper = fine[SoftObject::FINE_UPPER];
-    if (patch_->stirred)
-        lower.flags = upper.flags = 0;
+    lower.flags = upper.flags = 0;
     for (int which = SoftObject::FINE_NEAR; which <= SoftObject::FINE_FAR; ++which) {
         Seed& s = fine[which];
         if (!needed[which]) {
@@ -186,8 +185,6 @@ bool Settler::settleFine(int i)
                 s.lightChange[0] = Seed::LIGHT_UNKNOWN;
                 s.position = from->position;
             }
-            if (waits(s, false))
-                continue;
             settle(s);
             // A wall is looked for on that side of this seed where the positions differ more.
             if (absolute(from->position - s.position) > absolute(to->position - s.position))
@@ -252,13 +249,11 @@ bool Settler::mayHaveIslands(const Patch& patch) const
 }
 
 // Where links are heavy the field rises again half way to the other object. The paths of any seeds may then meet the surface again,
-// even if their patch rests or faces away. Patches without islands are searched in turns.
+// even if their patch rests or faces away.
 void Settler::settleIslands(Patch& patch)
 {
     setPatch(patch);
     const bool may = mayHaveIslands(patch), had = patch.islands;
-    if (may && !had && (turn_ & 1) != 0)
-        return;
     patch.islands = false;
     forSeeds(object_, patch, [&](const Seed& s) {
         const int i = object_.slotOf(s);

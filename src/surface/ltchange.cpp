@@ -34,7 +34,6 @@ void Settler::findLightChange(Seed& s)
     const int32_t lit = (n[0] * light[0] + n[1] * light[1] + n[2] * light[2]) >> 14;
     if (lit < DARK || n[0] * eye[0] + n[1] * eye[1] + n[2] * eye[2] <= 0)
         return;
-    s.litAt = reading64();
     const Real radius = object_.slants() ? nearLength(s.path) : object_.laidRadius();
     const Real length = min(object_.spacing() * OF_SPACING, radius * OF_RADIUS) * s.position;
     const auto part = [&](int i) { return cosineOf(light[i] - (n[i] * lit >> 14)) * length; };

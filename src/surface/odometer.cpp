@@ -134,11 +134,3 @@ bool Odometer::count(Patch& patch) const
     patch.travelled = static_cast<uint16_t>(patch.travelled + travel);
     return travel > 0;
 }
-
-bool Odometer::hasMoved(const Neighbourhood& all, const NeighbourList& list) const
-{
-    bool moved = leapt_;
-    for (int i = 0; i < list.count && !moved; ++i)
-        moved = known_[list.near[i] - all.neighbours].travelled > 0;
-    return moved;
-}

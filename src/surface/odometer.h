@@ -51,8 +51,6 @@ public:
 
     // Adds the last travel of the neighbours on a patch's valid lists to Patch::travelled. Returns false if none of them moved.
     SELDOM bool count(Patch& patch) const;
-    // Whether any neighbour of a list moved in the last call.
-    SELDOM bool hasMoved(const Neighbourhood& all, const NeighbourList& list) const;
 
 private:
     bool makeRoom(int count);

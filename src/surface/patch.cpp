@@ -93,7 +93,6 @@ void setPatch(const SoftObject& object, Patch& patch)
 void beginPatch(const SoftObject& object, Patch& patch)
 {
     patch.state = PATCH_REST;
-    patch.reached = patch.stirred = true;
     patch.extras = patch.fine = patch.islands = patch.settled = patch.asleep = patch.stale = patch.moved = false;
     patch.blocker = static_cast<uint8_t>(object.slot());
     patch.nearest = patch.farthest = 64;

@@ -33,8 +33,6 @@ struct Patch {
     PatchState state;
     uint8_t blocker;    // Seed::blocker of the middle seed, when that was not on the surface the last time
     bool stale;         // its lists have to be made anew
-    bool reached;       // a neighbour that has moved since the frame before reaches its seeds
-    bool stirred;       // `reached` holds for this frame or held for the one before; always true in ordinary scenes (gather.h)
     bool settled;       // its seeds were settled in this frame
     bool asleep;        // all its seeds but the middle one are SEED_ASLEEP
     bool extras;        // some of its oversampled seeds take part

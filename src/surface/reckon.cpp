@@ -95,8 +95,7 @@ inline int32_t Reckoning::correct(const Seed& s, int shift, Motion& m) const
     if (!known) {
         m.step = Real(0);
         m.turn = {0, 0, 0};
-    } else if (s.placedAt != m.placedAt || s.position != m.position) {
-        // Otherwise it has not been settled, because it was not its turn.
+    } else {
         const Real off = s.position - m.position - m.step;
         m.step += shiftDown(off, shift);
         const int32_t turned = correctStep(s.normal.x, m.normal.x, shift, m.turn.x) |
@@ -113,7 +112,6 @@ inline int32_t Reckoning::correct(const Seed& s, int shift, Motion& m) const
     m.position = s.position;
     m.normal = s.normal;
     m.apart = s.apart;
-    m.placedAt = s.placedAt;
     m.bordered = bordered;
     const bool fast = (magnitude(m.turn.x) | magnitude(m.turn.y) | magnitude(m.turn.z)) >= FAST;
     return fast || (s.flags & SEED_GUEST) ? UNKNOWN : error;

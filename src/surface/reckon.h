@@ -41,7 +41,6 @@ private:
         Real position, step;
         Direction14 normal, turn;
         int16_t apart, stepApart;  // Seed::apart
-        uint16_t placedAt;         // Seed::placedAt
         bool known, bordered;      // it is on the surface and does not rest; it has a border
     };
     struct Track {

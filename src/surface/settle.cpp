@@ -18,28 +18,19 @@ constexpr Real OUTERMOST(0.8);
 constexpr Real STEEPEST(1.3);
 // A patch is taken to face away if its middle does so by this cosine (1.0 = 2^14) plus the spread of its normals.
 constexpr int32_t TURNED = 500;
-// Units: no seed waits in a frame in which the neighbours travel farther.
-constexpr Real HURRY(3);
-// A seed that faces away by LITTLE_AWAY or WELL_AWAY (cosines, 1.0 = 2^14) is settled less often.
-constexpr int32_t LITTLE_AWAY = 2000, WELL_AWAY = 5000;
-// In one of this many frames all seeds of a stirred patch are settled; in the others some wait.
-constexpr uint32_t TURNS = 4;
 // Margin of the range of positions that the seeds of a patch are in. A seed that leaves the range is settled in the fields of all
 // neighbours on the patch's list.
 constexpr Real RANGE(0.05);
 // Cosine of path and normal (1.0 = 2^14). In a place that belongs to another object a seed is not shown if its path meets the
 // surface at a smaller one.
 constexpr int32_t SQUARE = 8000;
-// Units: travel of the neighbours over which the change of the light around a seed is taken to stay the same.
-constexpr Real LIGHT_LASTS(3);
 
 }  // namespace
 
 Settler::Settler(SoftObject& object, const OwnFrame& own, Neighbourhood& all, const FrameContext& frame,
-                 const Odometer& odometer, uint32_t updates)
+                 const Odometer& odometer)
     : path_(object, all, *frame.bodies, nearby_, *frame.counts), nearby_(object, all, *frame.bodies),
       cover_(object, all, nearby_, path_), object_(object), own_(own), all_(all), counts_(*frame.counts), now_(odometer.reading()),
-      travelled_(realFromRaw(static_cast<int32_t>(odometer.lastTravel() << 6))), updates_(updates),
       heavy_(frame.bodies->heaviest(object.slot()) > HEAVY),
       weakest_(ISOVALUE / (Real(1) + shiftUp(frame.bodies->heaviest(object.slot()), 1))),
       last_(&object.regular(object.seedSlots() - 2))
@@ -65,10 +56,6 @@ Real Settler::settle(Seed& s)
         return Real(0);
     }
     ++counts_.updated;
-    if (followed == STILL && keepsNormal(s, sample.dominance)) {
-        keep(s, sample.dominance);
-        return Real(0);
-    }
     s.flags &= SEED_ACTIVE;
     bool found = followed != LOST;
     Real margin(9);
@@ -80,11 +67,13 @@ Real Settler::settle(Seed& s)
     const bool claimed = found && sample.dominance <= OVERSHOOT;
     if (claimed) {
         place(s, sample.dominance);
-        renewLightChange(s);
+        const bool isRegular = s.area != 0;
+        if ((s.flags & SEED_VALID) && (!isRegular || isBesideBorder(s)))
+            findLightChange(s);
     }
-    // The path leaves the surface where another object is the stronger. In a later frame it may leave it nearer to its root. It is
-    // searched again in the next frame if a valley of the field makes that likely, or if the neighbours hurry; else in its turn.
-    if (found && (!claimed || (s.flags & SEED_GUEST)) && margin > VALLEY && turn_ != 0)
+    // The path leaves the surface where another object is the stronger. In a later frame it may leave it nearer to its root: it is
+    // searched again in the next frame if a valley of the field makes that likely, else in the frame after that.
+    if (found && (!claimed || (s.flags & SEED_GUEST)) && followed == LOST && margin > VALLEY)
         s.flags |= SEED_FOLLOW;
     if (claimed)
         return Real(0);
@@ -108,10 +97,8 @@ inline Settler::Followed Settler::followOn(Seed& s, Real* position, Sample* samp
     }
     if (!touched && all_.restsAtOne)
         return ALONE;
-    // Of a seed that has been moved on a small error would be taken for a part of its motion, and its normal is not known: such a
-    // seed is never STILL.
+    // Of a seed that has been moved on a small error would be taken for a part of its motion.
     const Real tolerance = patch_->moved ? Real(0) : TOLERANCE;
-    const bool still = *position == s.position && absolute(sample->excess) <= tolerance;
     if (closed || !follow(path_, position, sample, tolerance))
         return LOST;
     if (nearby_.isBeyond(*position)) {
@@ -120,7 +107,7 @@ inline Settler::Followed Settler::followOn(Seed& s, Real* position, Sample* samp
         if (!follow(path_, position, sample, tolerance))
             return LOST;
     }
-    return still ? STILL : FOUND;
+    return FOUND;
 }
 
 // Puts a seed at rest, for nothing blends with it.
@@ -134,42 +121,10 @@ void Settler::restThere(Seed& s)
     s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
 }
 
-// Whether what was found at an earlier reading of the odometer does not hold any more: it lasts while the neighbours travel `lasts`
-// units, unless they hurry.
-inline bool Settler::isOld(uint16_t foundAt, Real lasts) const
+// Sets the border of a seed that is on the surface, if it is near, and whether the seed is a guest. Returns false where the surface
+// is left to the strongest neighbour.
+inline bool Settler::settleBorder(Seed& s, Real dominance)
 {
-    return hurries_ || static_cast<uint16_t>(reading64() - foundAt) >= travelOf(lasts) >> 4;
-}
-
-// Whether a seed that has not moved keeps its normal. The surface may turn about it.
-inline bool Settler::keepsNormal(const Seed& s, Real dominance) const
-{
-    return (s.flags & SEED_VALID) && !(s.flags & SEED_RESTING) && dominance <= OVERSHOOT &&
-           !isOld(s.placedAt, shiftDown(nearby_.smallest(), 2));
-}
-
-// Leaves a seed that has not moved as it is, but for the border to a neighbour.
-inline void Settler::keep(Seed& s, Real dominance)
-{
-    if (mixes())
-        mix(path_, s);
-    // A guest's path is searched again in its turn.
-    if (turn_ == 0)
-        s.flags &= static_cast<uint8_t>(~SEED_FOLLOW);
-    // The border may have moved all the same.
-    if (nearby_.dented() || settleBorder(s, dominance, shiftDown(border_, 1)))
-        renewLightChange(s);
-    else
-        leaveToStrongest(s);
-}
-
-// Sets the border of a seed that is on the surface, if it is nearer than `nearer` in units of the field, and whether the seed is a
-// guest. Returns false where the surface is left to the strongest neighbour.
-inline bool Settler::settleBorder(Seed& s, Real dominance, Real nearer)
-{
-    // A guest may be none any more, and then its border is another one.
-    if (s.flags & SEED_GUEST)
-        s.flags &= static_cast<uint8_t>(~(SEED_GUEST | SEED_BORDER));
     if (all_.claims) {
         dominance = path_.dominance();
         // Where the two fields are the same there is no host: one of the objects has the surface, as findBorder() decides.
@@ -177,7 +132,7 @@ inline bool Settler::settleBorder(Seed& s, Real dominance, Real nearer)
         if (host != nullptr && host->claim < Real(1) && dominance > host->value * TIE)
             return makeGuest(s, *host);
     }
-    if (dominance <= -nearer)
+    if (dominance <= -border_)
         return true;
     const bool dented = (s.flags & SEED_BORDER) && nearby_.dented();
     if (!(dented ? findNearer(path_, s, dominance) : findBorder(path_, s, dominance)))
@@ -230,11 +185,10 @@ inline void Settler::place(Seed& s, Real dominance)
     if (nearby_.dented() && !findDented(s, &out))
         return;
     s.normal = directionOf(normalise(out));
-    s.placedAt = reading64();
     s.flags |= SEED_VALID;
     if (mixes())
         mix(path_, s);
-    if (settleBorder(s, dominance, border_))
+    if (settleBorder(s, dominance))
         ++counts_.normals;
     else
         leaveToStrongest(s);
@@ -248,15 +202,6 @@ bool Settler::placeAt(Seed& s, Real position, Real dominance)
     s.flags = SEED_ACTIVE;
     place(s, dominance);
     return (s.flags & SEED_VALID) != 0;
-}
-
-// Finds anew how the light changes around a seed that needs to know, if what was found before is old.
-inline void Settler::renewLightChange(Seed& s)
-{
-    const bool regular = s.area != 0;
-    if ((s.flags & SEED_VALID) && (!regular || isBesideBorder(s)) &&
-        (s.lightChange[0] == Seed::LIGHT_UNKNOWN || isOld(s.litAt, LIGHT_LASTS)))
-        findLightChange(s);
 }
 
 // Whether the object's colours mix with those of the objects that it is linked with.
@@ -279,10 +224,7 @@ bool Settler::setPatch(const Patch& patch, bool oversampled)
 {
     patch_ = &patch;
     path_.forgetList();
-    const bool reached = nearby_.setPatch(patch, oversampled);
-    hurries_ = travelled_ > min(HURRY, shiftDown(nearby_.smallest(), 2));
-    turn_ = hurries_ || nearby_.dented() || patch.moved ? 0 : (static_cast<uint32_t>(patch.centre) / 2 + updates_) % TURNS;
-    return reached;
+    return nearby_.setPatch(patch, oversampled);
 }
 
 // Whether a patch is hidden, as if all its seeds were at `position`, and so is left unsettled.
@@ -299,12 +241,8 @@ PatchState Settler::probe(Patch& patch)
     patch.due = now_;
     if (!(s.flags & SEED_VALID) && patch.state == PATCH_MIXED && isCovered(s))
         return PATCH_MIXED;
-    // What was hidden is likely to be so still; in its turn it is settled all the same.
-    if (patch.state == PATCH_AWAY && turn_ != 0 && (s.flags & SEED_VALID) && staysHidden(patch, s.position))
-        return PATCH_AWAY;
     const Real least = enough(patch, nearby_.smallest());
-    const bool stays = !patch.stirred && patch.state == PATCH_MIXED && (s.flags & SEED_VALID);
-    const Real margin = stays ? Real(0) : settle(s);
+    const Real margin = settle(s);
     if (!(s.flags & SEED_VALID)) {
         patch.blocker = s.blocker;
         if (nearby_.dented())
@@ -342,12 +280,11 @@ inline void Settler::setRange(Patch& patch, Real nearest, Real farthest) const
 void Settler::settleOthers(Patch& patch)
 {
     const Seed& centre = object_.regular(patch.centre);
-    const bool someAway = !(centre.flags & SEED_VALID) || patch.facing < patch.spread;
     uint8_t blocker = patch.blocker;
     Real nearest(9), farthest(0);
     forSeeds(object_, patch, [&](Seed& s) {
         if (&s != &centre)
-            settleBeside(centre, s, someAway, &blocker);
+            settleBeside(centre, s, &blocker);
         nearest = min(nearest, s.position);
         farthest = max(farthest, s.position);
     });
@@ -356,14 +293,12 @@ void Settler::settleOthers(Patch& patch)
 }
 
 // Settles a seed beside the patch's middle seed, `centre`. `*blocker` is the blocker of the last seed that was off the surface.
-inline void Settler::settleBeside(const Seed& centre, Seed& s, bool someAway, uint8_t* blocker)
+inline void Settler::settleBeside(const Seed& centre, Seed& s, uint8_t* blocker)
 {
     // A seed that has slept or rested is likely to be at the position of the middle seed, or to have the blocker of the last one.
     const bool woken = (s.flags & SEED_ASLEEP) || ((s.flags & SEED_RESTING) && !(centre.flags & SEED_RESTING));
     if (woken)
         s.blocker = *blocker;
-    else if (waits(s, someAway))
-        return;
     if ((!(s.flags & SEED_VALID) || (woken && !(centre.flags & SEED_VALID))) && isCovered(s)) {
         s.flags &= stillOff();
         return;
@@ -375,21 +310,6 @@ inline void Settler::settleBeside(const Seed& centre, Seed& s, bool someAway, ui
     settle(s);
     if (!(s.flags & SEED_VALID))
         *blocker = s.blocker;
-}
-
-// Coherence over time. A seed that faces away a little waits for one frame, one that faces well away for three. A seed that is off
-// the surface waits for one frame, unless its patch has oversampled seeds, or it is likely to come back. None waits in a patch that
-// was moved on, because such a patch has waited already.
-bool Settler::waits(const Seed& s, bool someAway) const
-{
-    if (!(s.flags & SEED_VALID))
-        return (turn_ & 1) != 0 && !patch_->extras && !(s.flags & SEED_FOLLOW);
-    if (!patch_->stirred)
-        return true;
-    if (!someAway || turn_ == 0)
-        return false;
-    const int32_t away = -facing(object_, s, own_);
-    return away > WELL_AWAY || (away > LITTLE_AWAY && (turn_ & 1) != 0);
 }
 
 void rest(SoftObject& object, Patch& patch)

@@ -27,19 +27,17 @@ inline bool isOnOwn(const Seed& s)
 }
 
 // Settles the seeds of one object; there is one settler for every kind of scene. It is made once for an object and a frame.
-// `updates` is the number of the frame in the object's own count.
+//
 class Settler {
 public:
     Settler(SoftObject& object, const OwnFrame& own, Neighbourhood& all, const FrameContext& frame,
-            const Odometer& odometer, uint32_t updates);
+            const Odometer& odometer);
 
     // Chooses the patch; to be called before any of its seeds is settled. Returns false if no neighbour reaches the seeds where
     // they are.
     bool setPatch(const Patch& patch, bool oversampled = false);
 
-    // The neighbours that reach them, after setPatch().
-    const NeighbourList& reaching() const { return nearby_.reaching(); }
-    // The size of the smallest of them and of the object, units.
+    // The size of the smallest of them and of the object, units; after setPatch().
     Real smallest() const { return nearby_.smallest(); }
 
     // Whether the blocker of a patch is sure to cover all its paths (cover.h). Not worth asking, and false, if the middle seed was
@@ -87,35 +85,27 @@ private:
     enum Followed {
         LOST,   // the surface is not near
         FOUND,  // the seed is on the surface
-        STILL,  // the seed is on the surface, where it was before
         ALONE,  // no neighbour reaches the seed: it is at rest
     };
 
     Real settle(Seed& s);
     Followed followOn(Seed& s, Real* position, Sample* sample);
     void restThere(Seed& s);
-    bool keepsNormal(const Seed& s, Real dominance) const;
-    void keep(Seed& s, Real dominance);
     void leaveToStrongest(Seed& s);
     Real search(const Seed& s, Real* position, Sample* sample);
     void place(Seed& s, Real dominance);
     SELDOM bool placeAt(Seed& s, Real position, Real dominance);
-    bool settleBorder(Seed& s, Real dominance, Real nearer);
+    bool settleBorder(Seed& s, Real dominance);
     SELDOM bool makeGuest(Seed& s, const Neighbour& host);
-    void renewLightChange(Seed& s);
     // Finds how the light changes around a seed (ltchange.cpp), unless the seed is dark or faces away.
     SELDOM void findLightChange(Seed& s);
     // The flags that a covered seed keeps.
     int stillOff() const { return nearby_.dented() ? SEED_OFF | SEED_FOLLOW : 0; }
     bool isCovered(const Seed& s) { return nearby_.dented() ? isOff(*patch_, s) : cover_.covers(s); }
-    void settleBeside(const Seed& centre, Seed& s, bool someAway, uint8_t* blocker);
+    void settleBeside(const Seed& centre, Seed& s, uint8_t* blocker);
     bool staysHidden(const Patch& patch, Real position);
     void setRange(Patch& patch, Real nearest, Real farthest) const;
-    bool waits(const Seed& s, bool someAway) const;
     bool mixes() const;
-    // The odometer's reading, 1/64 unit, as seeds store it.
-    uint16_t reading64() const { return static_cast<uint16_t>(now_ >> 4); }
-    bool isOld(uint16_t foundAt, Real lasts) const;
 
     // For seeds beside regular ones (extras.cpp). setGaps() sets alike_, open_, openNext_ and openFine_.
     void setGaps();
@@ -144,14 +134,10 @@ private:
     const Neighbourhood& all_;
     Counts& counts_;
     const Travel now_;      // the odometer's reading
-    const Real travelled_;  // how far the neighbours travelled since the frame before, units
-    const uint32_t updates_;
     const bool heavy_;      // the object has a link heavier than HEAVY
     const Real weakest_;    // no islands are searched where the own field is below this: one between two objects has more
     const Seed* const last_;  // the last regular seed
     const Patch* patch_ = nullptr;  // the current patch
-    bool hurries_ = false;  // neighbours travel so far in a frame that nothing holds from the frame before
-    uint32_t turn_ = 0;     // 0..3: tells whose turn it is among the seeds of the patch that wait; 0: none of a stirred patch do
     Real border_;           // a neighbour whose field is weaker than the own one by less than this has its border near
     Real alike_;            // seeds whose positions differ by more have parted
     Real open_, openNext_, openFine_;  // LEFT_OPEN, LEFT_OPEN_NEXT and LEFT_OPEN_FINE, units
