@@ -35,7 +35,6 @@ bool findSteps(const Seed* seeds, const Patch& patch, const Seed* from[2], const
 void measureBend(const SoftObject& object, const Shading& shading, Patch& patch)
 {
     Bend& bend = patch.bend;
-    bend.stale = false;
     bend.known = bend.ball = true;
     const int32_t gentle = rawFromReal(object.spacing()) * GENTLE_SPACINGS;
     const bool ball = object.isBall();

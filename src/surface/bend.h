@@ -15,8 +15,7 @@ struct Bend {
                         // of places (voxels.h). Along the normal it has the greatest curvature of the patch
     Direction14 normal;
     bool ball;          // the patch is curved like the unblended ball, or nothing better is known; `turn` is not set
-    bool known;         // the rest is valid
-    bool stale;         // seeds have settled since it was measured
+    bool known;         // no seed has settled since it was measured
     bool gentle;        // the radius of curvature is so many spacings that only scales next to the limb have an end (shade.cpp)
 };
 

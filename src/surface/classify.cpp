@@ -83,26 +83,13 @@ int32_t depthWithin(const Patch& patch, const Neighbour& near, Real position, Re
     return (left * left - distance2 + 2 * left - 1) / (2 * left);
 }
 
-void classify(Patch& patch, const Neighbourhood& all)
+// From where the seeds rest to position 2, where a field of strength 1 ends; in a deep neighbourhood, the whole paths. `half` is
+// half the length of that part.
+Bound boundOfPaths(const Patch& patch, const Neighbourhood& all)
 {
-    // The bounding sphere of the paths from where the seeds rest to position 2, where a field of strength 1 ends; in a deep
-    // neighbourhood, of the whole paths. `half` is half the length of that part, `beyond` the sphere's centre.
     const int32_t half = all.deep ? patch.path * (rawFromReal(all.last) >> 10) >> 7 : patch.path >> 1;
-    const Step beyond = above(patch, all.deep ? half - patch.path : half);
-    const int32_t slack = steps16(LIST_SLACK);
-    const Bound paths{beyond.x, beyond.y, beyond.z, half + patch.radius + (patch.radius >> 1) + patch.lean + slack};
-    memset(patch.listed, 0, sizeof patch.listed);
-    memset(patch.near, 0, sizeof patch.near);
-    Bound ball = boundOf(patch, patch.radius);
-    ball.radius += slack;
-    for (const Neighbour *near = all.neighbours, *const end = near + all.count; near < end; ++near) {
-        if (!reaches(*near, paths))
-            continue;
-        const uint32_t slot = static_cast<uint32_t>(near->slot), bit = 1u << slot % 32;
-        patch.listed[slot / 32] |= bit;
-        if (reaches(*near, ball))
-            patch.near[slot / 32] |= bit;
-    }
+    const Step middle = above(patch, all.deep ? half - patch.path : half);
+    return {middle.x, middle.y, middle.z, half + patch.radius + (patch.radius >> 1) + patch.lean};
 }
 
 bool outOfSight(const Patch& patch, const OwnFrame& own)

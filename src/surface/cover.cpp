@@ -24,9 +24,6 @@ constexpr Cover::Limits Cover::LIMITS_OF_GUESTS[] = {
     {Real(0), FAINT_AT, Real(0), Real(0), Real(0), Real(0)},
 };
 
-// A neighbour that is linked with the object at weight 1 or more and has at least this field is preferred as a blocker.
-static constexpr Real COVERING(0.28);
-
 // Chooses a blocker.
 void Cover::find(int blocker)
 {
@@ -68,11 +65,9 @@ int Cover::strongest() const
     Real most(-1);
     for (int i = 0; i < path_.touched(); ++i) {
         const Neighbour& near = path_.near(i);
-        const int candidate = near.slot;
-        const Real value = near.value > COVERING && nearby_.weight(candidate) >= Real(1) ? near.value + Real(1) : near.value;
-        if (value > most && !near.digs) {
-            most = value;
-            slot = candidate;
+        if (near.value > most && !near.digs) {
+            most = near.value;
+            slot = near.slot;
         }
     }
     return slot;

@@ -46,20 +46,19 @@ private:
     bool updatePatch(Settler& settler, Patch& patch, const OwnFrame& own, const Neighbourhood& all, bool known);
     bool moveOn(int number, const Neighbourhood& all);
     bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all, bool known);
-    bool stays(const Settler& settler, Patch& patch, bool stale) const;
-    void renewLists(Patch& patch, const Neighbourhood& all);
+    bool stays(const Settler& settler, Patch& patch, const Neighbourhood& all, bool known) const;
     bool comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all);
-    bool isAtRest(Settler& settler, Patch& patch, const Neighbourhood& all);
+    bool isAtRest(Settler& settler, Patch& patch);
     void sleepOutOfSight(Patch& patch);
     void settle(Settler& settler, Patch& patch);
-    SELDOM void settleIslands(Settler& settler, const Neighbourhood& all, bool known);
+    SELDOM void settleIslands(Settler& settler, bool known);
 
     SoftObject& object_;
 
     Odometer odometer_;
     Reckoning reckoning_;
     Keeper keeper_;
-    uint32_t draws_ = 0;
+    uint32_t islandsTurn_ = 0;  // tells in which patches islands are searched
     bool islands_ = false;   // some patches have seeds on islands
     bool allRests_ = false;  // all seeds were at rest after the last update
     Patch* patches_ = nullptr;
@@ -118,7 +117,7 @@ bool Engine::update(const FrameContext& frame)
             patch.moved = false;
         }
     if (settler.hasIslands() || islands_)
-        settleIslands(settler, all, known);
+        settleIslands(settler, known);
     object_.setDisplaced(displaced);
     allRests_ = !displaced;
     // What was moved on has to be settled yet, even if nothing changes any more.
@@ -127,15 +126,14 @@ bool Engine::update(const FrameContext& frame)
 
 // Settles the islands of all patches. In patches without any they are searched in every other frame, if earlier results hold. They
 // end when no link of the object is heavy any more.
-void Engine::settleIslands(Settler& settler, const Neighbourhood& all, bool known)
+void Engine::settleIslands(Settler& settler, bool known)
 {
     islands_ = false;
+    ++islandsTurn_;
     for (Patch* patch = patches_; patch < patches_ + count_; ++patch) {
-        const bool hasTurn = !known || ((static_cast<uint32_t>(patch - patches_) + draws_) & 1) == 0;
+        const bool hasTurn = !known || ((static_cast<uint32_t>(patch - patches_) + islandsTurn_) & 1) == 0;
         if (patch->state == PATCH_INSIDE || (!patch->islands && !hasTurn))
             continue;
-        if (patch->stale || isDue(odometer_.bound(), patch->listDue))
-            renewLists(*patch, all);
         settler.settleIslands(*patch);
         islands_ |= patch->islands;
     }
@@ -152,7 +150,7 @@ inline bool Engine::moveOn(int number, const Neighbourhood& all)
     keeper_.forget(number);
     patch.moved = true;
     if (!all.ordinary)
-        odometer_.count(patch);
+        odometer_.count(patch, all);
     return true;
 }
 
@@ -162,17 +160,13 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
 {
     if (keeps(settler, patch, all, known))
         return true;
-    // A patch that is out of sight needs no lists, unless it may come to rest or the odometer has to count by them.
+    // What is out of sight need not be looked at, unless it may come to rest or the odometer has to count the neighbours' travel.
     const bool judgedFirst = all.ordinary && all.count > 0 && patch.state != PATCH_REST;
     if (judgedFirst && outOfSight(patch, own)) {
-        patch.stale = patch.stale || !known;
         sleepOutOfSight(patch);
         return true;
     }
-    const bool stale = !known || patch.stale;
-    if (stale || isDue(odometer_.bound(), patch.listDue))
-        renewLists(patch, all);
-    if (!all.ordinary && stays(settler, patch, stale))
+    if (!all.ordinary && stays(settler, patch, all, known))
         return true;
     if (comesToRest(settler, patch, all))
         return false;
@@ -186,9 +180,8 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
 // Finds out which neighbours reach a patch. Returns true if none does and its seeds are at rest.
 inline bool Engine::comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all)
 {
-    const bool alone = all.ordinary && all.restsAtOne && !isListed(patch.near);
-    const bool touched = !alone && settler.setPatch(patch);
-    return !touched && all.restsAtOne && isAtRest(settler, patch, all);
+    const bool touched = settler.setPatch(patch);
+    return !touched && all.restsAtOne && isAtRest(settler, patch);
 }
 
 // Puts a patch that is out of sight to sleep until it comes into sight.
@@ -207,39 +200,27 @@ inline bool Engine::keeps(Settler& settler, Patch& patch, const Neighbourhood& a
         return false;
     if (known && all.ordinary && !isDue(odometer_.reading(), patch.due))
         return true;
-    if (patch.state != PATCH_INSIDE || !settler.isStillCovered(patch))
-        return false;
-    patch.stale = patch.stale || !known;
-    return true;
+    return patch.state == PATCH_INSIDE && settler.isStillCovered(patch);
 }
 
-// Whether a patch of a scene that is not ordinary (gather.h) keeps its state: it has not been moved on and no neighbour on its list
-// has moved, or all of the patch is still off the surface.
-inline bool Engine::stays(const Settler& settler, Patch& patch, bool stale) const
+// Whether a patch of a scene that is not ordinary (gather.h) keeps its state: it has not been moved on and no neighbour that may
+// reach its paths has moved, or all of the patch is still off the surface.
+inline bool Engine::stays(const Settler& settler, Patch& patch, const Neighbourhood& all, bool known) const
 {
-    const bool moved = odometer_.count(patch);
+    const bool moved = odometer_.count(patch, all);
     if (settler.isStillOff(patch))
         return true;
-    return !moved && !stale && !patch.moved && odometer_.eyeStayed() && (patch.state == PATCH_MIXED || patch.state == PATCH_INSIDE);
-}
-
-// Makes the lists of a patch anew; they hold until a neighbour has travelled LIST_SLACK.
-inline void Engine::renewLists(Patch& patch, const Neighbourhood& all)
-{
-    classify(patch, all);
-    patch.listDue = odometer_.bound() + travelOf(LIST_SLACK);
-    patch.stale = false;
+    return !moved && known && !patch.moved && odometer_.eyeStayed() && (patch.state == PATCH_MIXED || patch.state == PATCH_INSIDE);
 }
 
 // No neighbour reaches the seeds of a patch where they were. Puts them at rest, and returns whether no neighbour reaches them
 // there either: other neighbours may be near those places.
-inline bool Engine::isAtRest(Settler& settler, Patch& patch, const Neighbourhood& all)
+inline bool Engine::isAtRest(Settler& settler, Patch& patch)
 {
     if (patch.state == PATCH_REST)
         return true;
     rest(object_, patch);
     patch.state = PATCH_REST;
-    classify(patch, all);
     return !settler.setPatch(patch);
 }
 
@@ -254,7 +235,7 @@ inline void Engine::settle(Settler& settler, Patch& patch)
     patch.settled = patch.state == PATCH_MIXED;
     if (patch.settled) {
         settler.settleOthers(patch);
-        patch.bend.stale = true;
+        patch.bend.known = false;
     } else {
         sleep(object_, patch);
     }
@@ -272,12 +253,9 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
         return;
     }
     const Paint* const paint = shown->paint();
-    if (*next == 0) {
-        ++draws_;
+    if (*next == 0)
         keeper_.begin(own, paint);
-    }
-    const int at = shadePatches(object_, own, frame, patches_, count_, *next, static_cast<int>(draws_ & 0xffff), list, room,
-                                keeper_);
+    const int at = shadePatches(object_, own, frame, patches_, count_, *next, list, room, keeper_);
     *next = at < count_ ? at : 0;
     // An object that is shown in another ramp than its own, as when it is selected, shows no colours of its paint.
     if (paint != nullptr && shown->ramp() == paint->ramp)

@@ -240,12 +240,16 @@ void Settler::settleOnWall(const Seed& a, const Seed& b, Real height, Seed& s)
         findLightChange(s);
 }
 
-// Whether a neighbour that is linked with the object by more than HEAVY may reach the paths of a patch.
-bool Settler::mayHaveIslands(const Patch& patch) const
+// Whether a neighbour that is linked with the object by more than HEAVY may reach the paths of the current patch.
+bool Settler::mayHaveIslands()
 {
-    bool heavy = false;
-    forNeighbours(patch.listed, [&](int slot) { heavy = heavy || nearby_.weight(slot) > HEAVY; });
-    return heavy && !nearby_.dented();
+    if (nearby_.dented())
+        return false;
+    const NeighbourList& onPaths = nearby_.listed();
+    for (int i = 0; i < onPaths.count; ++i)
+        if (nearby_.weight(onPaths.near[i]->slot) > HEAVY)
+            return true;
+    return false;
 }
 
 // Where links are heavy the field rises again half way to the other object. The paths of any seeds may then meet the surface again,
@@ -253,7 +257,7 @@ bool Settler::mayHaveIslands(const Patch& patch) const
 void Settler::settleIslands(Patch& patch)
 {
     setPatch(patch);
-    const bool may = mayHaveIslands(patch), had = patch.islands;
+    const bool may = mayHaveIslands(), had = patch.islands;
     patch.islands = false;
     forSeeds(object_, patch, [&](const Seed& s) {
         const int i = object_.slotOf(s);

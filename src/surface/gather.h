@@ -11,8 +11,9 @@
 constexpr int NEIGHBOURS_MAX = 127;
 constexpr int SLOTS_MAX = 128;
 
-// Neighbours are gathered when they are this many units out of range, so that lists of them stay valid for a while.
-constexpr Real GATHER_SLACK(3);
+// Neighbours are gathered when they are this many units out of range, so that what comes into range can be told from what leaps
+// into it (odometer.h).
+constexpr Real GATHER_SLACK(1);
 
 // No field of strength 1 changes by more than this over a length of one size.
 constexpr Real STEEPEST_OF_ALL(1.6);

@@ -138,11 +138,11 @@ bool Settler::hasClosed(const Seed& s)
 
 // Lets a seed wait that is off the surface, or outside its own part of it: the field would have to change by `hold`, and it changes
 // by at most `gradientBound` when the neighbours come nearer by a unit. The wait may be longer if all neighbours reach the path
-// already. A neighbour that does not is not part of the bound, but its field begins gently and does not matter within LIST_SLACK.
+// already. A neighbour that does not is not part of the bound, but its field begins gently and does not matter within GATHER_SLACK.
 void Settler::putOff(Seed& s, Real hold, Real gradientBound) const
 {
     s.flags |= SEED_OFF;
-    const Real longest = path_.touched() == all_.count ? LONGEST_WAIT : LIST_SLACK;
+    const Real longest = path_.touched() == all_.count ? LONGEST_WAIT : GATHER_SLACK;
     s.due = static_cast<uint16_t>(patch_->travelled + travelUntil(hold, gradientBound, longest));
 }
 

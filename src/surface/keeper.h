@@ -44,7 +44,7 @@ public:
     {
         if (count_ == 0 || patch.islands)
             return;
-        if (stands_ ? !patch.bend.stale : patch.state == PATCH_REST && movesEvenly())
+        if (stands_ || (patch.state == PATCH_REST && movesEvenly()))
             store(kept_[number], patch, first, list, sloped, slopes);
     }
 

@@ -1,4 +1,4 @@
-// Finds the neighbours that the paths of a patch may meet, from the patch's lists (classify.cpp) and from where its seeds are.
+// Finds the neighbours that the paths of a patch may meet, and those that reach its seeds where they are.
 #include "nearby.h"
 
 #include "model/body.h"
@@ -15,17 +15,6 @@ Nearby::Nearby(const SoftObject& object, Neighbourhood& all, const Bodies& bodie
     allComplete_ = isComplete(listed_);
 }
 
-// Calls each(neighbour) for every neighbour on a list that was gathered in this frame.
-template <class Each>
-inline void Nearby::forGathered(const uint32_t list[SLOTS_MAX / 32], Each each) const
-{
-    Neighbour* const* bySlot = all_.bySlot;
-    for (int word = 0; word < SLOTS_MAX / 32; ++word, bySlot += 32)
-        for (uint32_t bits = list[word]; bits != 0; bits &= bits - 1)
-            if (Neighbour* const near = bySlot[__builtin_ctz(bits)])
-                each(*near);
-}
-
 bool Nearby::setPatch(const Patch& patch, bool oversampled)
 {
     nearest_ = realFromRaw(patch.nearest << 10);
@@ -36,44 +25,45 @@ bool Nearby::setPatch(const Patch& patch, bool oversampled)
     smallest_ = object_.laidSize();
     dented_ = false;
     if (!all_.ordinary)
-        setOdd(patch);
-    if (!isListed(patch.near)) {
-        near_.complete = true;
-        return false;
-    }
+        setOdd();
     // Oversampled seeds also lie between the seeds of this patch and those of adjacent patches.
     const Bound ball = boundOf(patch, oversampled ? patch.radius : patch.tight);
-    forGathered(patch.near, [&](Neighbour& near) {
-        if (!reaches(near, ball))
-            return;
-        near_.add(near);
-        if (near.grain < smallest_)
-            smallest_ = near.grain;
-    });
+    for (Neighbour *near = all_.neighbours, *const end = near + all_.count; near < end; ++near) {
+        if (!reaches(*near, ball))
+            continue;
+        near_.add(*near);
+        if (near->grain < smallest_)
+            smallest_ = near->grain;
+    }
     setComplete(near_);
     return near_.count > 0;
 }
 
 // Sets what is different about a patch where the neighbourhood is not ordinary.
-void Nearby::setOdd(const Patch& patch)
+void Nearby::setOdd()
 {
     if (object_.shaped())
         smallest_ = smallest_ * object_.narrowing();
     if (object_.strength() > Real(1))
         smallest_ = smallest_ / object_.strength();
     dented_ = all_.inner || all_.hollow;
-    if (all_.dented || all_.hollow)
-        forGathered(patch.listed, [&](const Neighbour& near) {
-            dented_ = dented_ || near.digs;
-            smallest_ = min(smallest_, near.grain);
-        });
+    if (!all_.dented && !all_.hollow)
+        return;
+    const NeighbourList& onPaths = listed();
+    for (int i = 0; i < onPaths.count; ++i) {
+        dented_ = dented_ || onPaths.near[i]->digs;
+        smallest_ = min(smallest_, onPaths.near[i]->grain);
+    }
 }
 
 // Makes the list when it is needed for the first time.
 const NeighbourList& Nearby::findListed()
 {
     listed_.count = 0;
-    forGathered(patch_->listed, [&](Neighbour& near) { listed_.add(near); });
+    const Bound paths = boundOfPaths(*patch_, all_);
+    for (Neighbour *near = all_.neighbours, *const end = near + all_.count; near < end; ++near)
+        if (reaches(*near, paths))
+            listed_.add(*near);
     setComplete(listed_);
     return listed_;
 }

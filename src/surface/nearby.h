@@ -56,8 +56,7 @@ private:
     bool areAllOne(const NeighbourList& list) const;
     bool areLinked(const NeighbourList& list) const;
     bool digAlike(const NeighbourList& list, const Neighbour& digging) const;
-    template <class Each> void forGathered(const uint32_t list[SLOTS_MAX / 32], Each each) const;
-    SELDOM void setOdd(const Patch& patch);
+    SELDOM void setOdd();
     const NeighbourList& findListed();
 
     const SoftObject& object_;

@@ -63,16 +63,14 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
     const Travel eyeTravel = travelOfEye(object, own);
     eyeStayed_ = eyeTravel == 0;
     const Real reach = object.reach();
-    Travel farthest = 0, longest = 0;
+    Travel longest = 0;
     for (int i = 0; i < all.count; ++i) {
         const Neighbour& near = all.neighbours[i];
         Known& known = known_[i];
         if ((i >= count_ || known.slot != near.slot) && !isKnown(all, i))
             continue;
         known.inRange = near.inRange;
-        const Travelled units = known.pose.follow(near, reach);
-        const Travel outermost = travelOf(units.farthest), travelled = travelOf(units.most);
-        farthest = outermost > farthest ? outermost : farthest;
+        const Travel travelled = travelOf(known.pose.follow(near, reach));
         longest = travelled > longest ? travelled : longest;
         known.travelled = static_cast<uint16_t>(travelled < ALL_DUE ? travelled : ALL_DUE);
     }
@@ -80,7 +78,6 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
         forgetFar(all);
     if (!leapt_)
         lastTravel_ = longest;
-    bound_ += farthest;
     reading_ += lastTravel_ + eyeTravel;
     return !leapt_;
 }
@@ -104,8 +101,6 @@ bool Odometer::isKnown(const Neighbourhood& all, int number)
     known.travelled = 0;
     known.pose.take(near);
     leapt_ |= near.inRange;
-    // The patches' lists were made without it, and it may have come nearer uncounted: all of them are due.
-    bound_ += travelOf(GATHER_SLACK);
     return false;
 }
 
@@ -125,12 +120,14 @@ void Odometer::forgetFar(const Neighbourhood& all)
     count_ = static_cast<int>(to - known_);
 }
 
-bool Odometer::count(Patch& patch) const
+bool Odometer::count(Patch& patch, const Neighbourhood& all) const
 {
     uint16_t travel = leapt_ ? ALL_DUE : 0;
-    for (const Known *known = known_, *const end = known_ + count_; known < end; ++known)
-        if (known->travelled > travel && isListed(patch.listed, known->slot))
-            travel = known->travelled;
+    Bound paths = boundOfPaths(patch, all);
+    paths.radius += steps16(GATHER_SLACK);
+    for (int i = 0; i < count_; ++i)
+        if (known_[i].travelled > travel && reaches(all.neighbours[i], paths))
+            travel = known_[i].travelled;
     patch.travelled = static_cast<uint16_t>(patch.travelled + travel);
     return travel > 0;
 }

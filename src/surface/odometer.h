@@ -1,7 +1,7 @@
 // Odometer: coherence over time. It adds up how far the neighbours of an object have travelled in its own space, and how far the
 // viewer has travelled round it. A result about a patch is valid until they have travelled so far that it might change: who finds
 // the result says how far that is, and when the odometer's reading gets there the patch is due again. Where a scene is not ordinary
-// (gather.h) a patch also counts the travel of the neighbours on its own lists. Were everything always due only the speed would
+// (gather.h) a patch also counts the travel of the neighbours that may reach it. Were everything always due only the speed would
 // change.
 #ifndef FB_ODOMETER_H
 #define FB_ODOMETER_H
@@ -41,16 +41,14 @@ public:
 
     // The total travel of the neighbours and the viewer.
     Travel reading() const { return reading_; }
-    // The total travel of the farthest places of neighbours that the object could meet, an upper bound for lists of neighbours.
-    Travel bound() const { return bound_; }
-    // How far the neighbours travelled in the last call. One that is neither stretched nor warped travels as far as the farthest
-    // place of its core; a shaped one as far as it does at the object's centre, but at least half as far as its farthest place.
+    // How far the neighbours travelled in the last call.
     Travel lastTravel() const { return lastTravel_; }
     // Whether the viewer did not travel round the object in the last call.
     bool eyeStayed() const { return eyeStayed_; }
 
-    // Adds the last travel of the neighbours on a patch's valid lists to Patch::travelled. Returns false if none of them moved.
-    SELDOM bool count(Patch& patch) const;
+    // Adds the last travel of the neighbours that may reach a patch's paths to Patch::travelled; those that may do so when they
+    // have travelled GATHER_SLACK count as well. Returns false if none of them moved.
+    SELDOM bool count(Patch& patch, const Neighbourhood& all) const;
 
 private:
     bool makeRoom(int count);
@@ -58,7 +56,7 @@ private:
     SELDOM bool isKnown(const Neighbourhood& all, int number);
     void forgetFar(const Neighbourhood& all);
 
-    Travel reading_ = 0, bound_ = 0, lastTravel_ = 0;
+    Travel reading_ = 0, lastTravel_ = 0;
     uint32_t linksVersion_ = 0;
     bool ordinary_ = true;  // the neighbourhood was ordinary in the last call: else travel is counted in another way
     bool fresh_ = true;  // there was no call yet, or no memory

@@ -93,14 +93,12 @@ void setPatch(const SoftObject& object, Patch& patch)
 void beginPatch(const SoftObject& object, Patch& patch)
 {
     patch.state = PATCH_REST;
-    patch.extras = patch.fine = patch.islands = patch.settled = patch.asleep = patch.stale = patch.moved = false;
+    patch.extras = patch.fine = patch.islands = patch.settled = patch.asleep = patch.moved = false;
     patch.blocker = static_cast<uint8_t>(object.slot());
     patch.nearest = patch.farthest = 64;
-    patch.due = patch.listDue = 0;
+    patch.due = 0;
     patch.travelled = 0;
-    memset(patch.listed, 0, sizeof patch.listed);
-    memset(patch.near, 0, sizeof patch.near);
-    patch.bend.known = patch.bend.stale = false;
+    patch.bend.known = false;
 }
 
 // --- Which seeds make a patch
@@ -286,7 +284,6 @@ void reshapePatches(const SoftObject& object, Patch* patches, int count, uint32_
     for (int i = 0; i < count; ++i) {
         setPatch(object, patches[i]);
         patches[i].due = reading;
-        patches[i].stale = true;
         patches[i].bend.known = false;
     }
 }

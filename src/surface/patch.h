@@ -32,7 +32,6 @@ struct Patch {
     uint8_t count[PATCH_RINGS];  // and how many there are
     PatchState state;
     uint8_t blocker;    // Seed::blocker of the middle seed, when that was not on the surface the last time
-    bool stale;         // its lists have to be made anew
     bool settled;       // its seeds were settled in this frame
     bool asleep;        // all its seeds but the middle one are SEED_ASLEEP
     bool extras;        // some of its oversampled seeds take part
@@ -50,11 +49,8 @@ struct Patch {
     int16_t path;       // the mean length of its paths; of a shaped object, their extent along the axis
     int16_t lean;       // the greatest distance between a path's end and `path` along the axis; 0 if the object is not shaped
     uint8_t nearest, farthest;          // the range of positions that contains those of its seeds, 1/64
-    uint32_t due, listDue;              // the odometer's readings (odometer.h) at which the patch and its lists are due
-    uint16_t travelled; // total travel of the neighbours on its lists, 1/1024 unit; it wraps around
-    // Its lists, one bit for each neighbour's slot: `listed` are the neighbours that may reach some place on its paths, `near`
-    // those that may reach its seeds where they are.
-    uint32_t listed[SLOTS_MAX / 32], near[SLOTS_MAX / 32];
+    uint32_t due;       // the odometer's reading (odometer.h) at which the patch is due
+    uint16_t travelled; // total travel of the neighbours that may reach its paths, 1/1024 unit; it wraps around
     Bend bend;
 };
 
@@ -70,29 +66,6 @@ inline void forSeeds(Object& object, const Patch& patch, Each each)
     }
 }
 
-// Calls each(slot) for every neighbour on a list.
-template <class Each>
-inline void forNeighbours(const uint32_t list[SLOTS_MAX / 32], Each each)
-{
-    for (int word = 0; word < SLOTS_MAX / 32; ++word)
-        for (uint32_t bits = list[word]; bits != 0; bits &= bits - 1)
-            each(32 * word + __builtin_ctz(bits));
-}
-
-// Whether a list has any neighbour, or that of a slot.
-inline bool isListed(const uint32_t list[SLOTS_MAX / 32])
-{
-    uint32_t any = 0;
-    for (int word = 0; word < SLOTS_MAX / 32; ++word)
-        any |= list[word];
-    return any != 0;
-}
-
-inline bool isListed(const uint32_t list[SLOTS_MAX / 32], int slot)
-{
-    return (list[slot >> 5] >> (slot & 31) & 1) != 0;
-}
-
 // The number of patches that the seeds of an object make.
 int patchesOf(const SoftObject& object);
 
@@ -102,16 +75,13 @@ void makePatches(const SoftObject& object, Patch* patches);
 // Measures the patches anew after the seeds have been laid out elsewhere. `reading` is the odometer's: all patches are due at once.
 void reshapePatches(const SoftObject& object, Patch* patches, int count, uint32_t reading);
 
-// Makes the lists of a patch anew. They hold until some neighbour has travelled LIST_SLACK.
-void classify(Patch& patch, const Neighbourhood& all);
-constexpr Real LIST_SLACK = GATHER_SLACK;
-
 // A ball, 1/16 unit. boundOf() returns one that contains the seeds of a patch where they are now; a ball of `restRadius` round the
-// patch's middle contains them at rest.
+// patch's middle contains them at rest. boundOfPaths() returns one that contains all places that its seeds may move to.
 struct Bound {
     int32_t x, y, z, radius;
 };
 Bound boundOf(const Patch& patch, int32_t restRadius);
+Bound boundOfPaths(const Patch& patch, const Neighbourhood& all);
 
 // Whether a neighbour's field reaches into a ball. The distance from its centre nearly always tells. (The steps are in the order
 // that takes the fewest registers.)

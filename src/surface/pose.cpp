@@ -16,17 +16,15 @@ void Pose::take(const Neighbour& near)
     warp_ = near.object->warp().amounts();
 }
 
-Travelled Pose::followTurned(const Neighbour& near, Real reach)
+Real Pose::followTurned(const Neighbour& near, Real reach)
 {
-    if (!near.object->shaped()) {
-        const Real travelled = followCore(near);
-        return {travelled, travelled};
-    }
+    if (!near.object->shaped())
+        return followCore(near);
     const Pose before = *this;
     take(near);
     // Some places of a shaped neighbour travel farther than most, which are taken to travel like the object's centre.
     const Real farthest = travelAsMapped(near, before, reach);
-    return {farthest, max(travelAsMapped(near, before, Real(0)), shiftDown(farthest, 1))};
+    return max(travelAsMapped(near, before, Real(0)), shiftDown(farthest, 1));
 }
 
 // Follows a neighbour that is neither stretched nor warped: its travel is that of its core. Axes along which the core does not

@@ -11,31 +11,27 @@ inline Real roundLength(const Vector& v)
     return greatest + (x + y + z - greatest) * Real(0.375);
 }
 
-// How far a neighbour has travelled, units: at most `farthest` in any place of its field that the object could meet, and `most` in
-// most of these places. Both are the same if the neighbour is neither stretched nor warped.
-struct Travelled {
-    Real farthest, most;
-};
-
 // A neighbour's centre and axes in an object's own space; of a shaped neighbour, the map into its core space instead.
 class Pose {
 public:
     // Takes the present pose of a neighbour.
     void take(const Neighbour& near);
 
-    // Takes the present pose, and returns how far the neighbour has travelled from the one before. `reach` is the object's.
-    Travelled follow(const Neighbour& near, Real reach)
+    // Takes the present pose, and returns how far the neighbour has travelled from the one before, units: as far as the farthest
+    // place of its core. A shaped one travels as far as it does at the object's centre, but at least half as far as in any place no
+    // farther than `reach`, the object's, from there.
+    Real follow(const Neighbour& near, Real reach)
     {
         if (!near.object->isBall())
             return followTurned(near, reach);
         const Real travelled = roundLength(near.centre - place_) + absolute(near.size - size_);
         place_ = {near.centre.x, near.centre.y, near.centre.z};
         size_ = near.size;
-        return {travelled, travelled};
+        return travelled;
     }
 
 private:
-    SELDOM Travelled followTurned(const Neighbour& near, Real reach);
+    SELDOM Real followTurned(const Neighbour& near, Real reach);
     Real followCore(const Neighbour& near);
     Real travelAsMapped(const Neighbour& near, const Pose& before, Real reach) const;
 

@@ -71,10 +71,6 @@ Real Settler::settle(Seed& s)
         if ((s.flags & SEED_VALID) && (!isRegular || isBesideBorder(s)))
             findLightChange(s);
     }
-    // The path leaves the surface where another object is the stronger. In a later frame it may leave it nearer to its root: it is
-    // searched again in the next frame if a valley of the field makes that likely, else in the frame after that.
-    if (found && (!claimed || (s.flags & SEED_GUEST)) && followed == LOST && margin > VALLEY)
-        s.flags |= SEED_FOLLOW;
     if (claimed)
         return Real(0);
     if (nearby_.dented()) {
@@ -266,15 +262,10 @@ PatchState Settler::probe(Patch& patch)
 }
 
 // Stores the range of positions that the seeds of a patch are in.
-inline void Settler::setRange(Patch& patch, Real nearest, Real farthest) const
+static void setRange(Patch& patch, Real nearest, Real farthest)
 {
     patch.nearest = static_cast<uint8_t>(rawFromReal(nearest - RANGE) >> 10);
     patch.farthest = static_cast<uint8_t>(rawFromReal(farthest + RANGE) >> 10);
-    if (nearby_.isBeyond(nearest) || nearby_.isBeyond(farthest)) {
-        // Other neighbours may reach them there. Patch::near is made anew in the next frame.
-        memcpy(patch.near, patch.listed, sizeof patch.near);
-        patch.stale = true;
-    }
 }
 
 void Settler::settleOthers(Patch& patch)

@@ -104,7 +104,6 @@ private:
     bool isCovered(const Seed& s) { return nearby_.dented() ? isOff(*patch_, s) : cover_.covers(s); }
     void settleBeside(const Seed& centre, Seed& s, uint8_t* blocker);
     bool staysHidden(const Patch& patch, Real position);
-    void setRange(Patch& patch, Real nearest, Real farthest) const;
     bool mixes() const;
 
     // For seeds beside regular ones (extras.cpp). setGaps() sets alike_, open_, openNext_ and openFine_.
@@ -115,7 +114,7 @@ private:
     SELDOM bool layOutExtra(const Seed& s, const Seed& other);
     SELDOM bool settleFine(int i);
     void settleOnWall(const Seed& a, const Seed& b, Real height, Seed& s);
-    bool mayHaveIslands(const Patch& patch) const;
+    bool mayHaveIslands();
     SELDOM bool settleIsland(int i);
     bool placeOnIsland(int i, int which, Real inside, Real outside);
 

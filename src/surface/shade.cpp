@@ -38,10 +38,6 @@ constexpr int32_t FACES_VIEWER = 16000;
 // the limb is .6^2 * GENTLE_SPACINGS / 2 = 1.08 spacings away, farther than a scale reaches.
 constexpr int32_t FACES_ABOUT = 9830;
 
-// The bend of a patch that settles in every frame is measured in one of BEND_DRAWS + 1 frames, chosen by the patch's number. Next
-// to the limb, where the bend decides how far scales are drawn, it is measured in one of BEND_DRAWS_LIMB + 1 frames.
-constexpr int BEND_DRAWS_LIMB = 1, BEND_DRAWS = 3;
-
 // 1/4 step: a patch bends unevenly if its gradient predicts the brightness of some seed with an error greater than this.
 constexpr int32_t UNEVEN_SHADING = 6;
 
@@ -66,7 +62,7 @@ public:
 
     // Lists the voxels of a patch; those of an object that has a paint go through the painter.
     template <bool PAINTED>
-    void shadePatch(Patch& patch, int draws, VoxelList& list, Painter* painter);
+    void shadePatch(Patch& patch, VoxelList& list, Painter* painter);
 
     // The object's regular seeds, and their spacing, 1/256 unit.
     const Seed* seeds() const { return shading_.seeds; }
@@ -74,7 +70,7 @@ public:
 
 private:
     int findSeen(const Patch& patch, Seen* seen, Voxel* voxels, int* regular) const;
-    void shadeSeen(Patch& patch, int draws, const Seen* seen, Voxel* voxels, int count);
+    void shadeSeen(Patch& patch, const Seen* seen, Voxel* voxels, int count);
     bool cutAtBorder(const Seed& s, Voxel* voxel, VoxelList& list) const;
     static Voxel* listUnpainted(const Seed& s, const Voxel* voxel, Voxel** to, VoxelList& list);
     template <bool PAINTED>
@@ -357,11 +353,10 @@ inline int Shader::findSeen(const Patch& patch, Seen* seen, Voxel* voxels, int* 
 }
 
 // Writes the rest of the voxels of these seeds.
-inline void Shader::shadeSeen(Patch& patch, int draws, const Seen* seen, Voxel* voxels, int count)
+inline void Shader::shadeSeen(Patch& patch, const Seen* seen, Voxel* voxels, int count)
 {
     const Seen& middle = seen[count >> 1];
-    const int pause = middle.facing < facesViewer_ >> 2 ? BEND_DRAWS_LIMB : BEND_DRAWS;
-    if (!patch.bend.known || (patch.bend.stale && (draws & pause) == 0))
+    if (!patch.bend.known)
         measureBend(object_, shading_, patch);
     setPatch(patch, middle, voxels[count >> 1]);
     shadeSeeds(&shading_, seen, voxels, count);
@@ -439,7 +434,7 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
 }
 
 template <bool PAINTED>
-inline void Shader::shadePatch(Patch& patch, int draws, VoxelList& list, Painter* painter)
+inline void Shader::shadePatch(Patch& patch, VoxelList& list, Painter* painter)
 {
     // The painter makes one or two voxels of each of these.
     Voxel unpainted[PAINTED ? SEEDS_MOST : 1];
@@ -449,7 +444,7 @@ inline void Shader::shadePatch(Patch& patch, int draws, VoxelList& list, Painter
     const int count = findSeen(patch, seen, voxels, &regular);
     if (count == 0)
         return;
-    shadeSeen(patch, draws, seen, voxels, count);
+    shadeSeen(patch, seen, voxels, count);
     if (PAINTED || patch.state != PATCH_REST) {
         listVoxels<PAINTED>(patch, seen, voxels, count, regular, list, painter);
         return;
@@ -495,7 +490,7 @@ SELDOM void listGuests(VoxelList& list, const Bodies& bodies)
 
 template <bool PAINTED>
 int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
-            int draws, VoxelList& list, int room, Painter* painter, Keeper& keeper)
+            VoxelList& list, int room, Painter* painter, Keeper& keeper)
 {
     Shader shader(object, own, frame);
     slopes.begin();
@@ -517,7 +512,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
             continue;
         }
         const int begin = list.count, guests = list.guests, sloped = slopes.count();
-        shader.shadePatch<PAINTED>(patch, i + draws, list, painter);
+        shader.shadePatch<PAINTED>(patch, list, painter);
         if (keeps && list.guests == guests)
             keeper.keep(i, patch, begin, list, sloped, slopes);
     }
@@ -530,10 +525,10 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
 }  // namespace
 
 int shadePatches(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
-                 int draws, VoxelList& list, int room, Keeper& keeper)
+                 VoxelList& list, int room, Keeper& keeper)
 {
     if (object.shown()->paint() == nullptr)
-        return shadeAs<false>(object, own, frame, patches, count, first, draws, list, room, nullptr, keeper);
+        return shadeAs<false>(object, own, frame, patches, count, first, list, room, nullptr, keeper);
     Painter painter(object, own, list);
-    return shadeAs<true>(object, own, frame, patches, count, first, draws, list, room, &painter, keeper);
+    return shadeAs<true>(object, own, frame, patches, count, first, list, room, &painter, keeper);
 }

@@ -6,9 +6,9 @@
 #include "surface/voxel.h"
 
 // Adds the voxels of all seeds that the viewer sees to the list, patch by patch from patch `first` on, as long as the voxels of
-// another patch are sure to fit into `room`. `draws` counts how often the object has been drawn; `keeper` has the voxels of earlier
-// frames. Returns the patch to go on with, or `count`.
+// another patch are sure to fit into `room`. `keeper` has the voxels of earlier frames. Returns the patch to go on with, or
+// `count`.
 int shadePatches(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
-                 int draws, VoxelList& list, int room, Keeper& keeper);
+                 VoxelList& list, int room, Keeper& keeper);
 
 #endif

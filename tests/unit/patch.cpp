@@ -1,6 +1,8 @@
 // Tests of patches: each seed is in exactly one patch, and the state of a patch is true of each of its seeds, tested for every seed
 // in double precision. surface.cpp tests that no visible seed is missing.
-#include "../../src/surface/patch.h"
+#include "../../src/surface/nearby.h"
+
+#include <algorithm>
 
 #include "help.h"
 #include "test.h"
@@ -108,9 +110,12 @@ TEST(patches_at_rest_are_out_of_reach)
             const SoftObject& object = *scene.objects[o];
             Neighbourhood all;
             gather(object, frame, all);
-            for (Patch& patch : patchesIn(object)) {
-                classify(patch, all);
-                const bool touched = isListed(patch.near);
+            Nearby nearby(object, all, *frame.bodies);
+            for (const Patch& patch : patchesIn(object)) {
+                const bool touched = nearby.setPatch(patch, false);
+                const auto isIn = [&](const NeighbourList& list, const SoftObject& other) {
+                    return std::any_of(list.near, list.near + list.count, [&](const Neighbour* n) { return n->object == &other; });
+                };
                 bool any = false;
                 forSeeds(object, patch, [&](const Seed& s) {
                     const Vec p = restOf(object, s);
@@ -118,15 +123,8 @@ TEST(patches_at_rest_are_out_of_reach)
                         if (other == o || body.cores[other].param(p) >= 0.999)
                             continue;
                         any = true;
-                        // The patch must have this neighbour on its lists.
-                        bool listed = false;
-                        for (int n = 0; n < all.count; ++n) {
-                            const int slot = all.neighbours[n].object->slot();
-                            listed = listed || (all.neighbours[n].object == scene.objects[other].get() &&
-                                                (patch.near[slot >> 5] >> (slot & 31) & 1) != 0 &&
-                                                (patch.listed[slot >> 5] >> (slot & 31) & 1) != 0);
-                        }
-                        CHECK(listed);
+                        CHECK(isIn(nearby.reaching(), *scene.objects[other]));
+                        CHECK(isIn(nearby.listed(), *scene.objects[other]));
                     }
                 });
                 // No seed of a patch at rest is reached by a neighbour. Only few other patches are reached by no neighbour.
