@@ -36,10 +36,7 @@ void measureBend(const SoftObject& object, const Shading& shading, Patch& patch)
 {
     Bend& bend = patch.bend;
     bend.known = bend.ball = true;
-    const int32_t gentle = rawFromReal(object.spacing()) * GENTLE_SPACINGS;
-    const bool ball = object.isBall();
-    bend.gentle = ball && rawFromReal(object.laidRadius()) >= gentle;
-    if (ball && patch.state == PATCH_REST)
+    if (object.isBall() && patch.state == PATCH_REST)
         return;
     const Seed *from[2], *to[2];
     if (!findSteps(shading.seeds, patch, from, to))
@@ -79,7 +76,6 @@ void measureBend(const SoftObject& object, const Shading& shading, Patch& patch)
     // that steps along their tangent planes have a component along it.
     const int32_t one = dot(turn[0], dual[0]), other = dot(turn[1], dual[1]);
     const int32_t most = overArea(magnitude(one) > magnitude(other) ? one : other);
-    bend.gentle = magnitude(most) * (gentle >> shading.placeShift) <= 1 << 21;
     const auto turned = [&](int i, int j) {
         return static_cast<int16_t>(limited(overArea(turn[0][i] * dual[0][j] + turn[1][i] * dual[1][j]) +
                                             ((most * n[i] >> 14) * n[j] >> 14), 16000));

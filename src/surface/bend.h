@@ -16,7 +16,6 @@ struct Bend {
     Direction14 normal;
     bool ball;          // the patch is curved like the unblended ball, or nothing better is known; `turn` is not set
     bool known;         // no seed has settled since it was measured
-    bool gentle;        // the radius of curvature is so many spacings that only scales next to the limb have an end (shade.cpp)
 };
 
 // The product of the matrix Bend::turn and a vector of any length: how much the normal turns over that step.
@@ -59,9 +58,6 @@ inline int32_t curvatureAlong(const Bend& bend, const int32_t v[3])
     turnAlong(bend, v, turned);
     return dot(turned, v) >> 3;
 }
-
-// A bend is gentle if its radius of curvature is at least this many spacings.
-constexpr int32_t GENTLE_SPACINGS = 6;
 
 // Measures the bend of a patch from two steps between its valid seeds, and from how far the normal turns over each.
 SELDOM void measureBend(const SoftObject& object, const Shading& shading, Patch& patch);

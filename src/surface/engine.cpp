@@ -43,15 +43,15 @@ public:
     void draw(const FrameContext& frame, VoxelList& list, int room, int* next) override;
 
 private:
-    bool updatePatch(Settler& settler, Patch& patch, const OwnFrame& own, const Neighbourhood& all, bool known);
+    bool updatePatch(Settler& settler, Patch& patch, const OwnFrame& own, const Neighbourhood& all);
     bool moveOn(int number, const Neighbourhood& all);
-    bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all, bool known);
-    bool stays(const Settler& settler, Patch& patch, const Neighbourhood& all, bool known) const;
+    bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all);
+    bool stays(const Settler& settler, Patch& patch, const Neighbourhood& all) const;
     bool comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all);
     bool isAtRest(Settler& settler, Patch& patch);
     void sleepOutOfSight(Patch& patch);
     void settle(Settler& settler, Patch& patch);
-    SELDOM void settleIslands(Settler& settler, bool known);
+    SELDOM void settleIslands(Settler& settler);
 
     SoftObject& object_;
 
@@ -92,12 +92,12 @@ bool Engine::update(const FrameContext& frame)
     if (own.outOfSight || (!object_.hasSurface() && object_.hollowed() == nullptr))
         return false;
     gather(object_, frame, all);
-    const bool known = odometer_.advance(object_, own, all, frame.bodies->version());
+    odometer_.advance(object_, own, all, frame.bodies->version());
     Settler settler(object_, own, all, frame, odometer_);
     // Islands change too suddenly for dead reckoning.
-    reckoning_.begin(odometer_.lastTravel(), known && !settler.hasIslands());
+    reckoning_.begin(odometer_.lastTravel(), !settler.hasIslands());
     // No neighbour is near, and all seeds are at rest already.
-    if (allRests_ && known && all.ordinary && all.restsAtOne && all.count == 0)
+    if (allRests_ && !odometer_.leapt() && all.ordinary && all.restsAtOne && all.count == 0)
         return false;
     bool displaced = false, movedOn = false;
     for (int i = 0; i < count_; ++i) {
@@ -107,7 +107,7 @@ bool Engine::update(const FrameContext& frame)
         if (moveOn(i, all))
             displaced = movedOn = true;
         else
-            displaced |= updatePatch(settler, patches_[i], own, all, known);
+            displaced |= updatePatch(settler, patches_[i], own, all);
     }
     for (int i = 0; i < count_; ++i)
         if (Patch& patch = patches_[i]; patch.settled) {
@@ -117,21 +117,21 @@ bool Engine::update(const FrameContext& frame)
             patch.moved = false;
         }
     if (settler.hasIslands() || islands_)
-        settleIslands(settler, known);
+        settleIslands(settler);
     object_.setDisplaced(displaced);
     allRests_ = !displaced;
     // What was moved on has to be settled yet, even if nothing changes any more.
     return settler.hidden() || movedOn;
 }
 
-// Settles the islands of all patches. In patches without any they are searched in every other frame, if earlier results hold. They
-// end when no link of the object is heavy any more.
-void Engine::settleIslands(Settler& settler, bool known)
+// Settles the islands of all patches. In patches without any they are searched in every other frame, unless something has leapt.
+// They end when no link of the object is heavy any more.
+void Engine::settleIslands(Settler& settler)
 {
     islands_ = false;
     ++islandsTurn_;
     for (Patch* patch = patches_; patch < patches_ + count_; ++patch) {
-        const bool hasTurn = !known || ((static_cast<uint32_t>(patch - patches_) + islandsTurn_) & 1) == 0;
+        const bool hasTurn = odometer_.leapt() || ((static_cast<uint32_t>(patch - patches_) + islandsTurn_) & 1) == 0;
         if (patch->state == PATCH_INSIDE || (!patch->islands && !hasTurn))
             continue;
         settler.settleIslands(*patch);
@@ -154,11 +154,10 @@ inline bool Engine::moveOn(int number, const Neighbourhood& all)
     return true;
 }
 
-// Brings a patch up to date. `known`: what was found out in earlier frames still holds. Returns false if all seeds of the patch
-// are at rest.
-inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& own, const Neighbourhood& all, bool known)
+// Brings a patch up to date. Returns false if all its seeds are at rest.
+inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& own, const Neighbourhood& all)
 {
-    if (keeps(settler, patch, all, known))
+    if (keeps(settler, patch, all))
         return true;
     // What is out of sight need not be looked at, unless it may come to rest or the odometer has to count the neighbours' travel.
     const bool judgedFirst = all.ordinary && all.count > 0 && patch.state != PATCH_REST;
@@ -166,13 +165,13 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
         sleepOutOfSight(patch);
         return true;
     }
-    if (!all.ordinary && stays(settler, patch, all, known))
+    if (!all.ordinary && stays(settler, patch, all))
         return true;
     if (comesToRest(settler, patch, all))
         return false;
     if (!judgedFirst && outOfSight(patch, own))
         sleepOutOfSight(patch);
-    else if (!known || patch.state == PATCH_REST || isDue(odometer_.reading(), patch.due))
+    else if (patch.state == PATCH_REST || isDue(odometer_.reading(), patch.due))
         settle(settler, patch);
     return true;
 }
@@ -194,23 +193,23 @@ inline void Engine::sleepOutOfSight(Patch& patch)
 
 // Whether a patch keeps its state and its neighbours need not be looked at: it is not due yet, or it still lies inside the
 // neighbour that covered it.
-inline bool Engine::keeps(Settler& settler, Patch& patch, const Neighbourhood& all, bool known)
+inline bool Engine::keeps(Settler& settler, Patch& patch, const Neighbourhood& all)
 {
     if (patch.state == PATCH_REST)
         return false;
-    if (known && all.ordinary && !isDue(odometer_.reading(), patch.due))
+    if (all.ordinary && !isDue(odometer_.reading(), patch.due))
         return true;
     return patch.state == PATCH_INSIDE && settler.isStillCovered(patch);
 }
 
 // Whether a patch of a scene that is not ordinary (gather.h) keeps its state: it has not been moved on and no neighbour that may
 // reach its paths has moved, or all of the patch is still off the surface.
-inline bool Engine::stays(const Settler& settler, Patch& patch, const Neighbourhood& all, bool known) const
+inline bool Engine::stays(const Settler& settler, Patch& patch, const Neighbourhood& all) const
 {
     const bool moved = odometer_.count(patch, all);
     if (settler.isStillOff(patch))
         return true;
-    return !moved && known && !patch.moved && odometer_.eyeStayed() && (patch.state == PATCH_MIXED || patch.state == PATCH_INSIDE);
+    return !moved && !patch.moved && odometer_.eyeStayed() && (patch.state == PATCH_MIXED || patch.state == PATCH_INSIDE);
 }
 
 // No neighbour reaches the seeds of a patch where they were. Puts them at rest, and returns whether no neighbour reaches them

@@ -260,7 +260,7 @@ namespace {
 
 // Flags of a neighbourhood, from the neighbours gathered so far.
 struct Gathered {
-    bool dented = false, inner = false, uneven = false, claims = false, plain = true, simple = true;
+    bool dented = false, inner = false, uneven = false, claims = false, plain = true;
 
     void add(const Neighbour& near, const Bodies& bodies)
     {
@@ -268,7 +268,6 @@ struct Gathered {
         inner |= !near.digs && dentedFromWithin(*near.object, bodies);
         uneven |= near.ratio > UNEVEN_SIZES;
         plain &= near.plain;
-        simple &= near.kind != Neighbour::OTHER;
     }
     void putInto(Neighbourhood& all) const
     {
@@ -277,7 +276,6 @@ struct Gathered {
         all.uneven = all.uneven || uneven;
         all.claims = all.claims || claims;
         all.ordinary = all.ordinary && plain;
-        all.simple = all.simple && simple;
     }
 };
 
@@ -352,11 +350,9 @@ void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& 
     all.ordinary = object.strength() == Real(1) && !all.hollow && !object.shaped();
     all.last = object.restRoot() == Real(0.5) ? Real(1.98) : Real(0.99) / object.restRoot();
     all.uneven = all.claims = false;
-    all.simple = true;
     memset(all.bySlot, 0, sizeof all.bySlot);
     gatherFrom(bodies.diggers(*all.head), bodies.diggerCount(*all.head), true, object, bodies, all);
     gatherFrom(bodies.members(*all.head), bodies.memberCount(*all.head), false, object, bodies, all);
     all.deep = all.inner || all.dented || !all.restsAtOne;
     all.ordinary = all.ordinary && !all.inner;
-    all.simple = all.simple && all.ordinary && !all.claims;
 }

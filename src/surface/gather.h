@@ -113,7 +113,6 @@ struct Neighbourhood {
     Real weight;        // in that case, the weight by which the object digs into the head
     bool inner;         // some members of the body dig into other members
     bool ordinary;      // nothing digs, all strengths are 1, and the object is not shaped
-    bool simple;        // ordinary, every neighbour is a POINT or a SEGMENT, and no claim differs from a field
     bool uneven;        // the squared proportion of the own size to that of some neighbour exceeds UNEVEN_SIZES
     bool restsAtOne;    // the surface lies at position 1 where no neighbour reaches
     bool dented;        // some neighbours dig

@@ -4,15 +4,9 @@
 #include "model/body.h"
 
 Nearby::Nearby(const SoftObject& object, Neighbourhood& all, const Bodies& bodies)
-    : object_(object), all_(all), bodies_(bodies), ownWeights_(bodies.weights(object.slot()))
+    : object_(object), all_(all), bodies_(bodies), ownWeights_(bodies.weights(object.slot())),
+      allComplete_(all.ordinary && bodies.plainBody(object.slot()))
 {
-    allComplete_ = all.ordinary && bodies.plainBody(object.slot());
-    if (allComplete_)
-        return;
-    listed_.count = 0;
-    for (int i = 0; i < all.count; ++i)
-        listed_.add(all.neighbours[i]);
-    allComplete_ = isComplete(listed_);
 }
 
 bool Nearby::setPatch(const Patch& patch, bool oversampled)

@@ -63,7 +63,7 @@ private:
     Neighbourhood& all_;
     const Bodies& bodies_;
     const Real* const ownWeights_;  // weights of the object's links, by slot
-    bool allComplete_;  // the list of all the object's neighbours is complete, and so is every other list
+    const bool allComplete_;  // all objects of the body are linked at weight 1, so that every list is complete
 
     // Of the current patch:
     const Patch* patch_;

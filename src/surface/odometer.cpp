@@ -49,15 +49,17 @@ inline Travel Odometer::travelOfEye(const SoftObject& object, const OwnFrame& ow
     return travelOf(turned * shiftDown(object.laidSize(), 2));
 }
 
-bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion)
+void Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion)
 {
     leapt_ = fresh_ || linksVersion != linksVersion_ || all.ordinary != ordinary_ || all.count > room_;
     linksVersion_ = linksVersion;
     ordinary_ = all.ordinary;
     fresh_ = all.count > room_ && !makeRoom(all.count);
     lastTravel_ = EVERYWHERE;
-    if (fresh_)
-        return false;
+    if (fresh_) {
+        reading_ += lastTravel_;
+        return;
+    }
     if (leapt_)
         count_ = 0;
     const Travel eyeTravel = travelOfEye(object, own);
@@ -79,7 +81,6 @@ bool Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
     if (!leapt_)
         lastTravel_ = longest;
     reading_ += lastTravel_ + eyeTravel;
-    return !leapt_;
 }
 
 // Whether neighbour `number` was gathered in the last call, too. If not it becomes known now: it has come within GATHER_SLACK of

@@ -34,11 +34,12 @@ public:
     Odometer(const Odometer&) = delete;
     Odometer& operator=(const Odometer&) = delete;
 
-    // Measures how far the neighbours and the viewer have travelled since the last call. Returns false if no earlier result is
-    // valid: in the first call, when links have changed, when an object has leapt into range or out of it, when the neighbourhood
-    // has become ordinary or is not any more, and when there is no memory.
-    bool advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion);
+    // Measures how far the neighbours and the viewer have travelled since the last call.
+    void advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion);
 
+    // Whether something has leapt in the last call: an object into range or out of it; a link; or nothing is known, as in the first
+    // call, when the neighbourhood has become ordinary or is not any more, or without memory. Then everything is due.
+    bool leapt() const { return leapt_; }
     // The total travel of the neighbours and the viewer.
     Travel reading() const { return reading_; }
     // How far the neighbours travelled in the last call.
@@ -62,7 +63,7 @@ private:
     bool fresh_ = true;  // there was no call yet, or no memory
     Vector eye_{Real(0), Real(0), Real(0)};  // where the viewer was in the last call, own axes
     bool eyeStayed_ = false;
-    bool leapt_ = true;  // advance() returned false
+    bool leapt_ = true;  // leapt()
 
     // What the last call found out about each neighbour, in the order of Neighbourhood::neighbours.
     struct Known {

@@ -284,6 +284,7 @@ void reshapePatches(const SoftObject& object, Patch* patches, int count, uint32_
     for (int i = 0; i < count; ++i) {
         setPatch(object, patches[i]);
         patches[i].due = reading;
+        patches[i].moved = true;
         patches[i].bend.known = false;
     }
 }

@@ -41,10 +41,10 @@ void Reckoning::open(int count)
         tracks_[i] = Track{};
 }
 
-void Reckoning::begin(Travel travel, bool known)
+void Reckoning::begin(Travel travel, bool mayMove)
 {
     const int32_t difference = magnitude(static_cast<int32_t>(travel - travel_));
-    isEven_ = known && count_ > 0 && travel <= farthest_ && difference < static_cast<int32_t>(travel / 2) + EVEN_TRAVEL;
+    isEven_ = mayMove && count_ > 0 && travel <= farthest_ && difference < static_cast<int32_t>(travel / 2) + EVEN_TRAVEL;
     travel_ = travel;
     ++update_;
 }

@@ -19,9 +19,9 @@ public:
     // Forgets where the seeds were, because they have been laid out elsewhere.
     void forget() { ++update_; }
 
-    // Begins an update of the object. `travel` is how far its neighbours have travelled since the update before; `known`: none of
-    // them has leapt (Odometer::advance()).
-    void begin(Travel travel, bool known);
+    // Begins an update of the object. `travel` is how far its neighbours have travelled since the update before. Without
+    // `mayMove` no patch is moved on in it.
+    void begin(Travel travel, bool mayMove);
 
     // Whether a patch is moved on in this update. `number` counts the object's patches.
     bool moves(int number, const Patch& patch) const

@@ -29,14 +29,8 @@ constexpr int32_t WHOLE_BEFORE = 64 * 256;
 // would cover the rest, may face away.
 constexpr int32_t WHOLE_AT_LIMB = 4;
 
-// The greatest radius of curvature (1/32 unit) that is told from flat; and the cosine of normal and direction to the viewer
-// (1.0 = 2^14) from which on the curvature does not matter.
+// 1/32 unit: the greatest radius of curvature that is told from flat.
 constexpr int32_t LONGEST_RADIUS = 8000;
-constexpr int32_t FACES_VIEWER = 16000;
-
-// No scale of a patch at rest ends that faces the viewer with the cosine FACES_ABOUT (1.0 = 2^14) or more, if its bend is gentle:
-// the limb is .6^2 * GENTLE_SPACINGS / 2 = 1.08 spacings away, farther than a scale reaches.
-constexpr int32_t FACES_ABOUT = 9830;
 
 // 1/4 step: a patch bends unevenly if its gradient predicts the brightness of some seed with an error greater than this.
 constexpr int32_t UNEVEN_SHADING = 6;
@@ -79,11 +73,6 @@ private:
     int clipDepth(Seen* seen, Voxel* voxels, int count) const;
     void setPatch(const Patch& patch, const Seen& middle, const Voxel& at);
     void setBend(const Patch& patch, const Seen& middle);
-    // Whether a patch faces the viewer so much that no scale of it ends at the limb.
-    bool endsNowhere(const Patch& patch, const Seen& middle) const
-    {
-        return middle.facing >= facesAbout_ && patch.bend.gentle && patch.state == PATCH_REST;
-    }
     bool bendsUnevenly(const Voxel* voxels, int count) const;
     bool cut(const Seed& s, Voxel* voxel) const;
     bool knowsLight(const Seed& s, bool regular, const Voxel& voxel) const;
@@ -106,7 +95,6 @@ private:
     int32_t ballBend_;        // curvature of a ball: 1 / radius, per unit, 1.0 = 2^14
     int32_t nearLimb_;        // Voxel::reach where the limb is WHOLE_AT_LIMB away, 16 more fraction bits
     bool ball_, clipsDepth_;  // clipsDepth_: some seeds may be nearer than NEAREST_DEPTH, or farther than FARTHEST_DEPTH
-    int32_t facesViewer_, facesAbout_;  // FACES_VIEWER and FACES_ABOUT times the distance of the eye, steps of places
     int viewShift_;           // right shift that brings vectors to the eye to 14 bits
     const bool hollow_;       // the seeds sample a hollow
     int32_t ballGradient_[3]; // gradient of the brightness over a ball, axes of the view, 1/8 step a unit with 8 fraction bits
@@ -155,8 +143,6 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     }
     const int32_t distance = own.distance32 >> (shading_.placeShift - 8);
     shading_.limb = distance * own.limb >> 11;
-    facesViewer_ = (distance * (FACES_VIEWER >> 6)) >> 5;
-    facesAbout_ = (distance * (FACES_ABOUT >> 6)) >> 5;
     viewShift_ = max32(0, 18 - __builtin_clz(static_cast<uint32_t>(distance + 4096)));
     // Distance of the eye, 1/32 unit of the world.
     const int32_t distance32 = max32(mulShift16(own.distance32, rawFromReal(own.growth)), 1);
@@ -193,9 +179,6 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
     shading_.gradient[0] = turnOf(bend, lights_[0]) >> 11;
     shading_.gradient[1] = turnOf(bend, lights_[1]) >> 11;
     shading_.gradientAhead = turnOf(bend, lights_[2]) >> 11;
-    shading_.horizonShare = flatHorizon_;
-    if (middle.facing >= facesViewer_ || endsNowhere(patch, middle))
-        return;
     // The curvature along the ray of sight. Next to the limb the ray lies in the tangent plane. Where the patch's middle faces the
     // viewer more, the bend counts along its normal as well, or the curvature would seem to be too small for the seeds at the limb.
     int32_t p[3], view[3];
@@ -204,8 +187,7 @@ inline void Shader::setBend(const Patch& patch, const Seen& middle)
         view[i] = (shading_.eye[i] - (p[i] >> 3)) >> viewShift_;
     const int32_t square = dot(view, view), curvature = curvatureAlong(bend, view);
     // A blending patch is taken to bend no less than an unblended ball as large as the object.
-    if (patch.state != PATCH_REST)
-        shading_.horizonShare = ballHorizon_;
+    shading_.horizonShare = patch.state == PATCH_REST ? flatHorizon_ : ballHorizon_;
     // What bends less is as good as flat, and its radius might overflow.
     if (curvature > square >> 16)
         shading_.horizonShare = min32(shading_.horizonShare, mulShift16(square * 2 / curvature, horizonScale_));
@@ -230,7 +212,7 @@ inline void Shader::setPatch(const Patch& patch, const Seen& middle, const Voxel
         shading_.gradient[0] = ballGradient_[0];
         shading_.gradient[1] = ballGradient_[1];
         shading_.gradientAhead = ballGradient_[2];
-        shading_.horizonShare = endsNowhere(patch, middle) ? flatHorizon_ : ballHorizon_;
+        shading_.horizonShare = ballHorizon_;
     } else {
         setBend(patch, middle);
     }
@@ -449,9 +431,8 @@ inline void Shader::shadePatch(Patch& patch, VoxelList& list, Painter* painter)
         listVoxels<PAINTED>(patch, seen, voxels, count, regular, list, painter);
         return;
     }
-    if (!endsNowhere(patch, seen[count >> 1]))
-        for (int i = 0; i < count; ++i)
-            endAtLimb(patch, seen[i], voxels + i);
+    for (int i = 0; i < count; ++i)
+        endAtLimb(patch, seen[i], voxels + i);
     list.count += count;
 }
 

@@ -1022,6 +1022,35 @@ TEST(what_has_not_changed_is_left_alone)
     }
 }
 
+TEST(seeds_of_an_object_with_a_new_shape_settle)
+{
+    // Nothing changes but the object's own shape. Its seeds must settle as in a model that begins with that shape.
+    const auto made = [](Scene& scene) {
+        scene.add(new Torus(1, real(20), real(24)), 0, 0, 0);
+        scene.ball(24, 24, 12, 0);
+        scene.linkAll();
+    };
+    const auto settled = [](Scene& scene, double twist) {
+        scene.objects[0]->setWarp({{Real(0), real(twist), real(twist / 2)}});
+        scene.update();
+        const SoftObject& object = *scene.objects[0];
+        int valid = 0;
+        for (int i = 0; i < object.seedSlots(); i += 2)
+            valid += (object.regular(i).flags & SEED_VALID) != 0;
+        return valid;
+    };
+    Scene scene;
+    made(scene);
+    for (double twist = 0; twist < 60; twist += 8) {
+        const int before = settled(scene, twist);
+        Scene fresh;
+        made(fresh);
+        const int anew = settled(fresh, twist);
+        note("twisted by %g: %d seeds on the surface, %d in a new model", twist, before, anew);
+        CHECK(before > 100 && before > anew * 0.98 && before < anew * 1.02);
+    }
+}
+
 TEST(the_wall_of_a_hollow_that_moves_is_found)
 {
     // A ball digs its way around another. Seeds that wait because they are off the wall must be there when the wall arrives: all
