@@ -10,18 +10,11 @@
 // tolerance; and if its t is less than `atRest` at position 1, the body's field is above the isovalue between the two positions.
 // The smaller the weight of its link, the stronger the neighbour must be.
 constexpr Cover::Limits Cover::LIMITS[] = {
-    {Real(1), COVERED_AT, Real(0.414), Real(0.69), Real(0.643), Real(0.83)},
-    {Real(0.75), COVERED_AT, Real(0.35), Real(0.6), Real(0.591), Real(0.774)},
-    {Real(0.5), COVERED_AT, Real(0.28), Real(0.49), Real(0.529), Real(0.7)},
-    {Real(0.25), COVERED_AT, Real(0.24), Real(0.34), Real(0.489), Real(0.583)},
-    {Real(0), COVERED_AT, Real(0.2), Real(0.22), Real(0.447), Real(0.469)},
-};
-
-// The same for a neighbour whose claim is weaker than its field: the path must lie inside as far as FAINT_AT, beyond which the own
-// object shows nothing that belongs to another. With a link lighter than 1 such a neighbour never covers a path.
-constexpr Cover::Limits Cover::LIMITS_OF_GUESTS[] = {
-    {Real(1), FAINT_AT, Real(0.24), Real(0.55), Real(0.49), Real(0.742)},
-    {Real(0), FAINT_AT, Real(0), Real(0), Real(0), Real(0)},
+    {Real(1), Real(0.414), Real(0.69), Real(0.643), Real(0.83)},
+    {Real(0.75), Real(0.35), Real(0.6), Real(0.591), Real(0.774)},
+    {Real(0.5), Real(0.28), Real(0.49), Real(0.529), Real(0.7)},
+    {Real(0.25), Real(0.24), Real(0.34), Real(0.489), Real(0.583)},
+    {Real(0), Real(0.2), Real(0.22), Real(0.447), Real(0.469)},
 };
 
 // Chooses a blocker.
@@ -29,12 +22,12 @@ void Cover::find(int blocker)
 {
     blocker_ = blocker;
     near_ = all_.bySlot[blocker];
-    // The t of a warped neighbour need not be convex.
-    const bool judged = near_ != nullptr && all_.ordinary && !near_->object->warped();
+    // The t of a warped neighbour need not be convex. Where a neighbour's claim is weaker than its field, paths may show guests.
+    const bool judged = near_ != nullptr && all_.ordinary && !near_->object->warped() && near_->claim == Real(1);
     limits_ = nullptr;
     if (!judged)
         return;
-    limits_ = near_->claim < Real(1) ? LIMITS_OF_GUESTS : LIMITS;
+    limits_ = LIMITS;
     while (nearby_.weight(blocker) < limits_->weight)
         ++limits_;
 }
@@ -42,7 +35,7 @@ void Cover::find(int blocker)
 bool Cover::coversPath(const Seed& s)
 {
     path_.aim(*near_, s);
-    const Real there = near_->param(limits_->position);
+    const Real there = near_->param(COVERED_AT);
     if (there >= limits_->there)
         return false;
     const Real atRest = near_->restParam();
@@ -54,7 +47,7 @@ int32_t Cover::coversAll(const Patch& patch)
     take(patch.blocker);
     if (limits_ == nullptr || object_.tapers() || isHeavy())
         return 0;
-    const int32_t there = near_->object->slants() ? 0 : depthWithin(patch, *near_, limits_->position, limits_->rootThere);
+    const int32_t there = near_->object->slants() ? 0 : depthWithin(patch, *near_, COVERED_AT, limits_->rootThere);
     const int32_t atRest = there <= 0 ? 0 : depthWithin(patch, *near_, Real(1), limits_->rootAtRest);
     return there < atRest ? there : atRest;
 }

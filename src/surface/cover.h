@@ -46,11 +46,11 @@ private:
     int blocker_ = -1;  // slot of the current blocker, -1 at first
     Neighbour* near_;   // that neighbour; null if the object is out of range now
     // A blocker that is linked with the object at `weight` or more covers a path if its t (model/field.h) is less than `there` at
-    // a position and less than `atRest` at position 1. `rootThere` and `rootAtRest` are the square roots of the two.
+    // position COVERED_AT and less than `atRest` at position 1. `rootThere` and `rootAtRest` are the square roots of the two.
     struct Limits {
-        Real weight, position, there, atRest, rootThere, rootAtRest;
+        Real weight, there, atRest, rootThere, rootAtRest;
     };
-    static const Limits LIMITS[], LIMITS_OF_GUESTS[];
+    static const Limits LIMITS[];
     const Limits* limits_ = nullptr;  // those of the current blocker; null if it cannot be judged
 };
 

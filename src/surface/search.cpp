@@ -12,6 +12,8 @@ constexpr Real SEARCH_FIRST(0.88), SEARCH_STEP(0.16);
 // Positions: COVERED_LATE is tested after COVERED_AT for a neighbour that is stronger; BETWEEN and BETWEEN_LATE are evaluated in
 // case the path leaves the surface between position 1 and these two.
 constexpr Real COVERED_LATE(1.62), BETWEEN(1.18), BETWEEN_LATE(1.49);
+// In units of the field: where it comes this near to the isovalue from above, the path may leave the surface beside that place.
+constexpr Real VALLEY(0.12);
 // In units of the field: how far the field may be off the cubic curve that stands for it.
 constexpr Real CUBIC_SPARE(0.03);
 // The result of crossings() where the surface may be crossed more than once.
@@ -59,16 +61,6 @@ inline Look lookAt(Path& path, Real position)
 Real turnBetween(const Look& a, const Look& b)
 {
     return a.position + (b.position - a.position) * (a.sample.slope / (a.sample.slope - b.sample.slope));
-}
-
-// About the lowest place of a valley between two looks: its floor, evaluated where the slope should be 0; or just the lower one of
-// the two looks, if that is too high to matter.
-Look floorBetween(Path& path, const Look& a, const Look& b)
-{
-    const Look& lower = a.sample.excess < b.sample.excess ? a : b;
-    if (lower.sample.excess >= VALLEY)
-        return lower;
-    return lookAt(path, turnBetween(a, b));
 }
 
 }  // namespace
@@ -124,7 +116,7 @@ Real search(Path& path, Real* position, Sample* sample)
         Real outside = now.position;
         bool left = now.sample.excess <= Real(0);
         if (!left && before.sample.slope < Real(0) && now.sample.slope > Real(0)) {
-            const Look floor = floorBetween(path, before, now);
+            const Look floor = lookAt(path, turnBetween(before, now));
             left = floor.sample.excess < Real(0);
             outside = floor.position;
             if (!left && floor.sample.excess < lowest.sample.excess)

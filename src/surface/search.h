@@ -6,8 +6,6 @@
 
 // In units of the field: where the field differs from the isovalue by no more, a seed is on the surface.
 constexpr Real TOLERANCE(0.004);
-// In units of the field: where a valley of the field comes this near to the isovalue from above, its floor is looked for.
-constexpr Real VALLEY(0.12);
 // Positions: after a step of Newton's method as short as SHORT_STEP another evaluation would change nothing visible; LONGEST_STEP
 // limits the steps.
 constexpr Real SHORT_STEP(0.05), LONGEST_STEP(0.15);
