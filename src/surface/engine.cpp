@@ -166,7 +166,7 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
         return true;
     }
     if (!all.ordinary && stays(settler, patch, all))
-        return true;
+        return patch.state != PATCH_REST;
     if (comesToRest(settler, patch, all))
         return false;
     if (!judgedFirst && outOfSight(patch, own))
@@ -180,7 +180,10 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
 inline bool Engine::comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all)
 {
     const bool touched = settler.setPatch(patch);
-    return !touched && all.restsAtOne && isAtRest(settler, patch);
+    if (touched || !all.restsAtOne || !isAtRest(settler, patch))
+        return false;
+    patch.moved = false;
+    return true;
 }
 
 // Puts a patch that is out of sight to sleep until it comes into sight.
@@ -209,7 +212,9 @@ inline bool Engine::stays(const Settler& settler, Patch& patch, const Neighbourh
     const bool moved = odometer_.count(patch, all);
     if (settler.isStillOff(patch))
         return true;
-    return !moved && !patch.moved && odometer_.eyeStayed() && (patch.state == PATCH_MIXED || patch.state == PATCH_INSIDE);
+    if (moved || patch.moved)
+        return false;
+    return patch.state == PATCH_REST || (odometer_.eyeStayed() && patch.state != PATCH_AWAY);
 }
 
 // No neighbour reaches the seeds of a patch where they were. Puts them at rest, and returns whether no neighbour reaches them

@@ -43,11 +43,12 @@ void Nearby::setOdd()
     dented_ = all_.inner || all_.hollow;
     if (!all_.dented && !all_.hollow)
         return;
-    const NeighbourList& onPaths = listed();
-    for (int i = 0; i < onPaths.count; ++i) {
-        dented_ = dented_ || onPaths.near[i]->digs;
-        smallest_ = min(smallest_, onPaths.near[i]->grain);
-    }
+    const Bound paths = boundOfPaths(*patch_, all_);
+    for (const Neighbour *near = all_.neighbours, *const end = near + all_.count; near < end; ++near)
+        if (reaches(*near, paths)) {
+            dented_ = dented_ || near->digs;
+            smallest_ = min(smallest_, near->grain);
+        }
 }
 
 // Makes the list when it is needed for the first time.

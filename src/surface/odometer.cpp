@@ -124,11 +124,16 @@ void Odometer::forgetFar(const Neighbourhood& all)
 bool Odometer::count(Patch& patch, const Neighbourhood& all) const
 {
     uint16_t travel = leapt_ ? ALL_DUE : 0;
-    Bound paths = boundOfPaths(patch, all);
-    paths.radius += steps16(GATHER_SLACK);
-    for (int i = 0; i < count_; ++i)
-        if (known_[i].travelled > travel && reaches(all.neighbours[i], paths))
-            travel = known_[i].travelled;
+    const Bound paths = boundOfPaths(patch, all);
+    for (int i = 0; i < count_; ++i) {
+        const Travel travelled = known_[i].travelled;
+        if (travelled <= travel)
+            continue;
+        // It may have left the paths in this call; some of its places travel twice as far.
+        const int32_t margin = steps16(GATHER_SLACK) + static_cast<int32_t>(travelled >> 5);
+        if (reaches(all.neighbours[i], {paths.x, paths.y, paths.z, paths.radius + margin}))
+            travel = static_cast<uint16_t>(travelled);
+    }
     patch.travelled = static_cast<uint16_t>(patch.travelled + travel);
     return travel > 0;
 }

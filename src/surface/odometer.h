@@ -47,8 +47,8 @@ public:
     // Whether the viewer did not travel round the object in the last call.
     bool eyeStayed() const { return eyeStayed_; }
 
-    // Adds the last travel of the neighbours that may reach a patch's paths to Patch::travelled; those that may do so when they
-    // have travelled GATHER_SLACK count as well. Returns false if none of them moved.
+    // Adds the last travel of the neighbours that may reach a patch's paths to Patch::travelled; those that have just left
+    // them, or may reach them when they have travelled GATHER_SLACK, count as well. Returns false if none of them moved.
     SELDOM bool count(Patch& patch, const Neighbourhood& all) const;
 
 private:
