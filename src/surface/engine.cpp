@@ -58,7 +58,7 @@ private:
     Odometer odometer_;
     Reckoning reckoning_;
     Keeper keeper_;
-    uint32_t islandsTurn_ = 0;  // tells in which patches islands are searched
+    uint32_t islandSearches_ = 0;  // how often islands were searched
     bool islands_ = false;   // some patches have seeds on islands
     bool allRests_ = false;  // all seeds were at rest after the last update
     Patch* patches_ = nullptr;
@@ -129,9 +129,9 @@ bool Engine::update(const FrameContext& frame)
 void Engine::settleIslands(Settler& settler)
 {
     islands_ = false;
-    ++islandsTurn_;
+    ++islandSearches_;
     for (Patch* patch = patches_; patch < patches_ + count_; ++patch) {
-        const bool hasTurn = odometer_.leapt() || ((static_cast<uint32_t>(patch - patches_) + islandsTurn_) & 1) == 0;
+        const bool hasTurn = odometer_.leapt() || ((static_cast<uint32_t>(patch - patches_) + islandSearches_) & 1) == 0;
         if (patch->state == PATCH_INSIDE || (!patch->islands && !hasTurn))
             continue;
         settler.settleIslands(*patch);
@@ -206,7 +206,7 @@ inline bool Engine::keeps(Settler& settler, Patch& patch, const Neighbourhood& a
 }
 
 // Whether a patch of a scene that is not ordinary (gather.h) keeps its state: it has not been moved on and no neighbour that may
-// reach its paths has moved, or all of the patch is still off the surface.
+// reach its paths has moved, or all of the patch is still off the surface. At rest it does not depend on the viewer.
 inline bool Engine::stays(const Settler& settler, Patch& patch, const Neighbourhood& all) const
 {
     const bool moved = odometer_.count(patch, all);

@@ -37,8 +37,8 @@ public:
     // Measures how far the neighbours and the viewer have travelled since the last call.
     void advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion);
 
-    // Whether something has leapt in the last call: an object into range or out of it; a link; or nothing is known, as in the first
-    // call, when the neighbourhood has become ordinary or is not any more, or without memory. Then everything is due.
+    // Whether no earlier result is valid since the last call: an object has leapt into range or out of it, links have changed, the
+    // neighbourhood has become ordinary or is not any more, or nothing was known before. Then everything is due.
     bool leapt() const { return leapt_; }
     // The total travel of the neighbours and the viewer.
     Travel reading() const { return reading_; }

@@ -7,9 +7,9 @@
 
 namespace {
 
-// While a patch is moved on the neighbours travel no farther than FARTHEST spacings and FARTHER units, and than this part of the
-// size of the smallest of them, for over a longer way steps are seldom even.
-constexpr Real FARTHEST(1.375), FARTHER(0.25), OF_SMALLEST(0.22);
+// While a patch is moved on the neighbours travel no farther than so many spacings and so many units together, and than this part
+// of the size of the smallest of them, for over a longer way steps are seldom even.
+constexpr Real FAR_SPACINGS(1.375), FAR_UNITS(0.25), OF_SMALLEST(0.22);
 // Spacings: the error of a border is seen only where the border is nearer to its seed than this.
 constexpr Real NEAR(1.2);
 // 1/1024 unit: the travels of two updates count as even if they differ by less than this and half of the travel.
@@ -32,7 +32,7 @@ Reckoning::~Reckoning()
 void Reckoning::open(int count)
 {
     const Real spacing = min(object_.spacing(), COARSE);
-    farthest_ = travelOf(spacing * FARTHEST + FARTHER);
+    farthest_ = travelOf(spacing * FAR_SPACINGS + FAR_UNITS);
     tolerated_ = toleratedError(object_.spacing());
     near_ = rawFromReal(spacing * NEAR) >> 8;
     tracks_ = allocate<Track>(static_cast<uint32_t>(count));

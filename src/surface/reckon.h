@@ -57,7 +57,7 @@ private:
     SoftObject& object_;
     Track* tracks_ = nullptr;
     int count_ = 0;
-    Travel farthest_ = 0;    // the constants of reckon.cpp for this object: FARTHEST spacings and FARTHER as a travel,
+    Travel farthest_ = 0;    // the constants of reckon.cpp for this object: FAR_SPACINGS and FAR_UNITS as a travel,
     int32_t tolerated_ = 0;  // toleratedError(),
     int32_t near_ = 0;       // and NEAR, 1/256 unit
     uint32_t update_ = 0;    // number of this update

@@ -67,8 +67,8 @@ Real Settler::settle(Seed& s)
     const bool claimed = found && sample.dominance <= OVERSHOOT;
     if (claimed) {
         place(s, sample.dominance);
-        const bool isRegular = s.area != 0;
-        if ((s.flags & SEED_VALID) && (!isRegular || isBesideBorder(s)))
+        const bool isExtra = s.area == 0;
+        if ((s.flags & SEED_VALID) && (isExtra || isBesideBorder(s)))
             findLightChange(s);
     }
     if (claimed)

@@ -27,7 +27,6 @@ inline bool isOnOwn(const Seed& s)
 }
 
 // Settles the seeds of one object; there is one settler for every kind of scene. It is made once for an object and a frame.
-//
 class Settler {
 public:
     Settler(SoftObject& object, const OwnFrame& own, Neighbourhood& all, const FrameContext& frame,
@@ -37,7 +36,7 @@ public:
     // they are.
     bool setPatch(const Patch& patch, bool oversampled = false);
 
-    // The size of the smallest of them and of the object, units; after setPatch().
+    // The size of the smallest of the object and the neighbours that reach the seeds, units; after setPatch().
     Real smallest() const { return nearby_.smallest(); }
 
     // Whether the blocker of a patch is sure to cover all its paths (cover.h). Not worth asking, and false, if the middle seed was
