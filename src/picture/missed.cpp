@@ -34,6 +34,21 @@ Missed::Missed(View& view, FieldProbe& probe, Real spacing)
     looksMost_ = min32(floorToInt(quotient(Real(LOOKS_AT_ONE), cube)), LOOKS_MOST);
 }
 
+// Calls each(pixel) for those of the pixels beside a pixel that are on the screen.
+template <class Each>
+inline void forBeside(int at, Each each)
+{
+    const int column = at % WIDTH;
+    if (column > 0)
+        each(at - 1);
+    if (column < WIDTH - 1)
+        each(at + 1);
+    if (at >= WIDTH)
+        each(at - WIDTH);
+    if (at < WIDTH * (HEIGHT - 1))
+        each(at + WIDTH);
+}
+
 // Whether a pixel shows nothing, or something well behind this depth.
 inline bool Missed::isMissing(int at, int depth) const
 {
@@ -147,11 +162,12 @@ bool Missed::findDepth(int at, int* depth)
 // Returns a drawn pixel beside a pixel whose depth differs from `depth` by at least APART, or `at` itself if there is none.
 int Missed::drawnBeside(int at, int depth) const
 {
-    const int beside[] = {at - 1, at + 1, at - WIDTH, at + WIDTH};
-    for (const int pixel : beside)
-        if (frame_[pixel] != 0 && magnitude(zbuffer_[pixel] - depth) >= APART)
-            return pixel;
-    return at;
+    int found = at;
+    forBeside(at, [&](int pixel) {
+        if (found == at && frame_[pixel] != 0 && magnitude(zbuffer_[pixel] - depth) >= APART)
+            found = pixel;
+    });
+    return found;
 }
 
 // Finds the depth of the surface at a place. A drawn pixel in the same row is the best guide, because near the upper and the lower
@@ -160,9 +176,10 @@ int Missed::drawnBeside(int at, int depth) const
 bool Missed::findSurface(Place* place)
 {
     const int at = place->pixel;
-    for (int beside = at - 1; beside <= at + 1; beside += 2)
-        if (frame_[beside] != 0 && magnitude(zbuffer_[beside] - place->depth) <= BEHIND)
+    forBeside(at, [&](int beside) {
+        if (magnitude(beside - at) == 1 && frame_[beside] != 0 && magnitude(zbuffer_[beside] - place->depth) <= BEHIND)
             *place = {place->pixel, zbuffer_[beside], static_cast<uint16_t>(beside)};
+    });
     int depth = place->depth;
     if (!findDepth(at, &depth)) {
         place->from = static_cast<uint16_t>(drawnBeside(at, place->depth));
@@ -178,17 +195,16 @@ bool Missed::findSurface(Place* place)
 // missing.
 bool Missed::drawPixel(Place place)
 {
-    const int at = place.pixel, row = at / WIDTH, column = at - row * WIDTH;
-    if (column < 1 || column >= WIDTH - 1 || row < 1 || row >= HEIGHT - 1 || !isMissing(at, place.depth) || !findSurface(&place) ||
-        !isMissing(at, place.depth) || !setColour(at, place.depth, place.from))
+    const int at = place.pixel;
+    if (!isMissing(at, place.depth) || !findSurface(&place) || !isMissing(at, place.depth) ||
+        !setColour(at, place.depth, place.from))
         return false;
     // Where the ray only grazes the surface this is its outline: there is nothing beyond.
-    for (int away = 1; away <= WIDTH && !onEdge_; away += WIDTH - 1) {
-        if (isMissing(at - away, place.depth))
-            put(at - away, place.depth, at);
-        if (isMissing(at + away, place.depth))
-            put(at + away, place.depth, at);
-    }
+    if (!onEdge_)
+        forBeside(at, [&](int beside) {
+            if (isMissing(beside, place.depth))
+                put(beside, place.depth, at);
+        });
     return true;
 }
 

@@ -789,6 +789,41 @@ TEST(surface_is_followed_from_corners)
     CHECK(!played(&ball.model, 170, 88, 4));
 }
 
+// The same at the edges of the screen, all along which the ball is seen.
+TEST(surface_is_followed_to_the_edges_of_the_screen)
+{
+    BallView ball;
+    Camera camera = ball.view.camera();
+    camera.eye = point(0, 0, -32);
+    ball.view.setCamera(camera);
+    constexpr int LONG = 24, DEEP = 6;
+    const struct {
+        int left, top, right, bottom;
+    } bites[] = {{150, 0, 150 + LONG, DEEP}, {150, HEIGHT - DEEP, 150 + LONG, HEIGHT}, {0, 90, DEEP, 90 + LONG},
+                 {WIDTH - DEEP, 90, WIDTH, 90 + LONG}};
+    for (const auto& bite : bites) {
+        ball.view.begin();
+        for (int y = 0; y < HEIGHT; ++y)
+            for (int x = 0; x < WIDTH; ++x)
+                if (x < bite.left || x >= bite.right || y < bite.top || y >= bite.bottom)
+                    ball.set(x, y);
+        ball.view.closeGaps(real(0.25), &ball.model, &ball.palette);
+        ball.view.end();
+        int open = 0;
+        for (int y = bite.top; y < bite.bottom; ++y)
+            for (int x = bite.left; x < bite.right; ++x) {
+                double depth = 0;
+                CHECK(ball.trueAt(x, y, &depth) >= 0);
+                const int at = y * WIDTH + x;
+                open += ball.view.frame()[at] == 0;
+                if (ball.view.frame()[at] != 0)
+                    NEAR(ball.view.zbuffer()[at] / 128.0, depth, 0.5);
+            }
+        note("columns %d to %d, rows %d to %d: %d pixels left open", bite.left, bite.right, bite.top, bite.bottom, open);
+        SAME(open, 0);
+    }
+}
+
 // Of a ball only a piece a few pixels wide is drawn. Beside a narrow piece the rest of the surface is looked for, as far as the
 // limit of rays allows; a broader one has an outline like any other.
 TEST(surface_is_followed_from_slivers)
