@@ -39,10 +39,14 @@ public:
     // The brightness, 0..63, that a palette entry has in a ramp that contains it.
     int step(uint8_t entry) const { return steps_[entry]; }
 
-    // In colour: the number, 1..RAMPS_MOST, of the ramp that contains a palette entry, 0 if none or several do; and the number of
-    // an object's ramp.
+    // The number, 1..RAMPS_MOST, of the ramp that contains a palette entry, 0 if none or several do; the number of an object's
+    // ramp; and the ramp with a number.
     uint8_t rampOf(uint8_t entry) const { return rampOf_[entry]; }
     int numberOf(const uint8_t* ramp) const { return static_cast<int>(ramp - ramps_[0]) / RAMP + 1; }
+    const uint8_t* ramp(int number) const { return ramps_[number - 1] + SHADING_MOST; }
+
+    // Whether all objects have one grey ramp.
+    bool isGrey() const { return grey_; }
 
     // Returns a copy of a ramp with its brightness raised by `steps`, to mark the selected object. It is valid until the next
     // call.
@@ -62,6 +66,7 @@ private:
     void describeEntries(int count);
     void handRamps(Paint& paint) const;
 
+    bool grey_ = false;
     Paints paints_;
     Paint paint_[Model::OBJECTS_MOST];
     uint8_t dac_[768];

@@ -280,7 +280,7 @@ bool Demo::drawModel()
             return false;
     }
     if (!options_.printed)
-        view_.closeGaps(model_.coarsest(), &model_, options_.grey ? nullptr : &palette_);
+        view_.closeGaps(model_.coarsest(), &model_, &palette_);
     return true;
 }
 

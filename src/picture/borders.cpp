@@ -23,6 +23,8 @@ constexpr Real EXACT(0.02), EXACT_CROSSING(0.004);
 // The surface is looked for along the ray with one step of this length, 1/128 unit, and is no farther away than FARTHEST steps.
 constexpr int STEP = 128;
 constexpr Real FARTHEST(2);
+// From a pixel to those beside it.
+constexpr int BESIDE[] = {-1, 1, -WIDTH, WIDTH};
 
 }  // namespace
 
@@ -78,8 +80,7 @@ void Borders::mendBeside(int right)
         const Place place = noted_[--count_];
         if (!mendPixel(place))
             continue;
-        const int beside[] = {-1, 1, -WIDTH, WIDTH};
-        for (const int step : beside)
+        for (const int step : BESIDE)
             note(place.pixel + step, place.pixel);
     }
 }
@@ -115,8 +116,21 @@ bool Borders::mendPixel(const Place& place)
     if (crossing && !missed_.setColour(at, depth, place.from))
         return false;
     // The depth stays: it is the same whether colours are shown or not.
-    view_.setPixel(at, before, crossing ? frame_[at] : owner->ramp()[palette_.step(frame_[at])]);
+    view_.setPixel(at, before, crossing ? frame_[at] : owner->ramp()[meanBrightness(at, ramp)]);
     return true;
+}
+
+// The mean brightness of a pixel and of those beside it that are shown in a ramp. (At a crease the pixel, which the wrong object's
+// scale has drawn, has the brightness of the other side.)
+int Borders::meanBrightness(int at, int ramp) const
+{
+    int sum = palette_.step(frame_[at]), count = 1;
+    for (const int step : BESIDE)
+        if (rampAt(at + step) == ramp) {
+            sum += palette_.step(frame_[at + step]);
+            ++count;
+        }
+    return (sum + count / 2) / count;
 }
 
 // Whether at a point the strongest object of one ramp is stronger than that of another ramp. Both receive null where none reaches.

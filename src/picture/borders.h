@@ -23,6 +23,7 @@ private:
     void mendBeside(int right);
     void note(int at, int from);
     bool mendPixel(const Place& place);
+    int meanBrightness(int at, int ramp) const;
     bool isStronger(int ramp, int other, const Point& p, const SoftObject** strongest, const SoftObject** second) const;
     const SoftObject* strongestOf(int ramp, const Point& p, Real* field) const;
     bool correctDepth(const SoftObject& object, int at, Real exact, int* depth) const;

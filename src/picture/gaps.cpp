@@ -257,10 +257,10 @@ Real Gaps::distanceOff(const Point& p) const
 }
 
 // The objects that the drawn pixels on both sides of a gap belong to. Returns NO_ENDS where both have the same colour, where the
-// fields of the two objects do not meet, or without a model or a palette.
+// fields of the two objects do not meet, if all objects are grey, or without a model or a palette.
 Gaps::Ends Gaps::endsOf(int first, int last) const
 {
-    if (model_ == nullptr || palette_ == nullptr || frame_[first] == frame_[last])
+    if (model_ == nullptr || palette_ == nullptr || palette_->isGrey() || frame_[first] == frame_[last])
         return NO_ENDS;
     const Ends ends{probe_.strongestAt(view_.pointAt(first)), probe_.strongestAt(view_.pointAt(last))};
     if (ends.first < 0 || ends.last < 0 || !model_->actor(ends.first).object->inRange(*model_->actor(ends.last).object))
@@ -289,18 +289,31 @@ int Gaps::divide(const Ends& ends, int first, int last, int step) const
     return last;
 }
 
-// Fills the empty pixels between two drawn ones with the depth and the colour of whichever is closer on the screen. Between two
-// objects each pixel gets the ramp of the object whose field is the stronger there, and an interpolated brightness.
+// The ramp that two drawn pixels share; null if they have the same colour, if they share none, or without a palette.
+inline const uint8_t* Gaps::commonRamp(int first, int last) const
+{
+    if (palette_ == nullptr || frame_[first] == frame_[last])
+        return nullptr;
+    const uint8_t number = palette_->rampOf(frame_[first]);
+    return number != 0 && number == palette_->rampOf(frame_[last]) ? palette_->ramp(number) : nullptr;
+}
+
+// Fills the empty pixels between two drawn ones with the depth and the colour of whichever is closer on the screen. The brightness
+// is interpolated between two objects, where each pixel gets the ramp of the object whose field is the stronger there, and if both
+// pixels have one ramp.
 void Gaps::fill(const Ends& ends, int first, int last, int step)
 {
     const int count = (last - first) / step;
-    const bool named = ends.first >= 0 && count > GAP_THIN + 1;
+    const uint8_t *one, *other;
     int second = last, light = 0, lighter = 0;
-    const uint8_t *one = nullptr, *other = nullptr;
-    if (named) {
+    if (ends.first >= 0 && count > GAP_THIN + 1) {
         second = ends.first == ends.last ? last : divide(ends, first, last, step);
         one = model_->actor(ends.first).object->ramp();
         other = model_->actor(ends.last).object->ramp();
+    } else {
+        one = other = commonRamp(first, last);
+    }
+    if (one != nullptr) {
         light = palette_->step(frame_[first]) << 8;
         lighter = ((palette_->step(frame_[last]) << 8) - light) / count;
     }
@@ -309,11 +322,8 @@ void Gaps::fill(const Ends& ends, int first, int last, int step)
         if (frame_[at] != 0)
             continue;
         view_.copyPixel(at, 2 * i <= count ? first : last);
-        if (!named)
-            continue;
-        const uint8_t* const ramp = at < second ? one : other;
-        const int brightness = (light + i * lighter + 128) >> 8;
-        view_.setPixel(at, zbuffer_[at], ramp[brightness]);
+        if (one != nullptr)
+            view_.setPixel(at, zbuffer_[at], (at < second ? one : other)[(light + i * lighter + 128) >> 8]);
     }
 }
 

@@ -39,6 +39,7 @@ private:
     void closeCrack(int first, int step);
     Real distanceOff(int first, int last, int step) const;
     Real distanceOff(const Point& p) const;
+    const uint8_t* commonRamp(int first, int last) const;
     Ends endsOf(int first, int last) const;
     int divide(const Ends& ends, int first, int last, int step) const;
     void fill(const Ends& ends, int first, int last, int step);

@@ -174,6 +174,7 @@ void Palette::make(Model& model, bool grey, bool plain)
     if (painted && model.mixed)
         model.settleAnew();
     memcpy(dac_ + 3 * INK, INK_COLOUR, sizeof INK_COLOUR);
+    grey_ = grey;
     if (grey)
         makeGrey(model, painted);
     else
@@ -188,9 +189,9 @@ void Palette::makeGrey(Model& model, bool painted)
         memset(dac_ + 3 * (1 + i), value, 3);
         ramps_[0][SHADING_MOST + i] = static_cast<uint8_t>(1 + i);
     }
-    const uint8_t* ramp = lengthen(ramps_[0] + SHADING_MOST);
+    describeEntries(1);
     for (int i = 0; i < model.count(); ++i) {
-        model.actor(i).object->setRamp(ramp);
+        model.actor(i).object->setRamp(ramp(1));
         if (!painted)
             continue;
         if (paint_[i].finish == FINISH_MATT)

@@ -346,7 +346,7 @@ void View::closeGaps(Real spacing, const Model* model, const Palette* palette)
     Missed missed(*this, probe, spacing);
     Gaps(*this, probe, palette, missed, spacing).close();
     // Where colours mix there are no borders between them.
-    if (model != nullptr && palette != nullptr && !model->mixed)
+    if (model != nullptr && palette != nullptr && !palette->isGrey() && !model->mixed)
         Borders(*this, probe, *palette, missed).mend();
 }
 

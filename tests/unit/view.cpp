@@ -569,6 +569,39 @@ TEST(gaps_between_two_objects)
         }
 }
 
+// A gap between two pixels of one ramp, or of the grey one, is filled with a brightness between theirs; without a palette, with
+// that of the closer side.
+TEST(gaps_in_one_ramp)
+{
+    Model model;
+    addPair(model, 10);
+    for (const bool grey : {false, true}) {
+        Palette palette;
+        palette.make(model, grey);
+        const uint8_t* const ramp = model.actor(0).object->ramp();
+        View view;
+        CHECK(view.open());
+        for (int wide = 1; wide <= 2; ++wide)
+            for (const Palette* with : {static_cast<const Palette*>(&palette), static_cast<const Palette*>(nullptr)}) {
+                constexpr int LEFT = 120;
+                view.begin();
+                for (int y = 80; y < 120; ++y)
+                    for (int x = 100; x < 140; ++x)
+                        if (x < LEFT || x >= LEFT + wide)
+                            view.setPixel(y * WIDTH + x, 120 * 128, ramp[x < LEFT ? 10 : 52]);
+                view.closeGaps(SPACING, &model, with);
+                view.end();
+                for (int i = 0; i < wide; ++i) {
+                    const int step = palette.step(view.frame()[100 * WIDTH + LEFT + i]);
+                    if (with == nullptr)
+                        SAME(step, i == 0 ? 10 : 52);
+                    else
+                        NEAR(step, 10 + 42.0 * (i + 1) / (wide + 1), 1);
+                }
+            }
+    }
+}
+
 // Draws what the middle of the screen shows of a model, each pixel in the colour of step 30 of the object that it belongs to and
 // `nearer` units before the surface. Returns these objects by pixel, -1 where there is none.
 static std::vector<int> drawTruly(View& view, const Model& model, double nearer)
@@ -632,6 +665,35 @@ TEST(borders_of_colours)
             SAME(spoilt, 0);
             SAME(view.frame()[far + 1], palette.INK);
         }
+}
+
+// At a crease the two sides differ in brightness. A pixel that gets the other colour gets a brightness between those of the two.
+TEST(brightness_beside_borders_of_colours)
+{
+    Model model;
+    addPair(model, 10);
+    CHECK(model.link(model.actor(0).object, model.actor(1).object, Real(1)));
+    CHECK(model.bodies() != nullptr);
+    Palette palette;
+    palette.make(model, false);
+    View view;
+    CHECK(view.open());
+    view.begin();
+    drawTruly(view, model, 0);
+    // The border should be at column 160, and is at column 162.
+    const uint8_t *const left = model.actor(0).object->ramp(), *const right = model.actor(1).object->ramp();
+    for (int y = 95; y < 105; ++y)
+        for (int x = 150; x < 170; ++x)
+            view.setPixel(y * WIDTH + x, view.zbuffer()[y * WIDTH + x], x < 162 ? left[20] : right[50]);
+    view.closeGaps(SPACING, &model, &palette);
+    view.end();
+    for (int y = 97; y < 103; ++y) {
+        const uint8_t* const row = view.frame() + y * WIDTH;
+        SAME(row[159], left[20]);
+        SAME(row[162], right[50]);
+        SAME(palette.rampOf(row[161]), palette.numberOf(right));
+        NEAR(palette.step(row[161]), 35, 1);
+    }
 }
 
 // Openings between two objects that do not touch stay open at any distance, whether or not they are enclosed by drawn pixels.
