@@ -322,8 +322,9 @@ void Gaps::fill(const Ends& ends, int first, int last, int step)
         if (frame_[at] != 0)
             continue;
         view_.copyPixel(at, 2 * i <= count ? first : last);
-        if (one != nullptr)
-            view_.setPixel(at, zbuffer_[at], (at < second ? one : other)[(light + i * lighter + 128) >> 8]);
+        // (The ramp has a name because an index into a conditional pointer goes wrong in GCC 12 with sanitizers.)
+        if (const uint8_t* const ramp = at < second ? one : other)
+            view_.setPixel(at, zbuffer_[at], ramp[(light + i * lighter + 128) >> 8]);
     }
 }
 
