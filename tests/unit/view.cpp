@@ -667,32 +667,46 @@ TEST(borders_of_colours)
         }
 }
 
+namespace {
+
+// The same two balls, linked, with their palette, and a view that has begun a frame.
+struct PairView {
+    Model model;
+    Palette palette;
+    View view;
+
+    explicit PairView(double away)
+    {
+        addPair(model, away);
+        CHECK(model.link(model.actor(0).object, model.actor(1).object, Real(1)));
+        CHECK(model.bodies() != nullptr);
+        palette.make(model, false);
+        CHECK(view.open());
+        view.begin();
+    }
+};
+
+}  // namespace
+
 // At a crease the two sides differ in brightness. A pixel that gets the other colour gets a brightness between those of the two.
 TEST(brightness_beside_borders_of_colours)
 {
-    Model model;
-    addPair(model, 10);
-    CHECK(model.link(model.actor(0).object, model.actor(1).object, Real(1)));
-    CHECK(model.bodies() != nullptr);
-    Palette palette;
-    palette.make(model, false);
-    View view;
-    CHECK(view.open());
-    view.begin();
-    drawTruly(view, model, 0);
+    PairView pair(10);
+    View& view = pair.view;
+    drawTruly(view, pair.model, 0);
     // The border should be at column 160, and is at column 162.
-    const uint8_t *const left = model.actor(0).object->ramp(), *const right = model.actor(1).object->ramp();
+    const uint8_t *const left = pair.model.actor(0).object->ramp(), *const right = pair.model.actor(1).object->ramp();
     for (int y = 95; y < 105; ++y)
         for (int x = 150; x < 170; ++x)
             view.setPixel(y * WIDTH + x, view.zbuffer()[y * WIDTH + x], x < 162 ? left[20] : right[50]);
-    view.closeGaps(SPACING, &model, &palette);
+    view.closeGaps(SPACING, &pair.model, &pair.palette);
     view.end();
     for (int y = 97; y < 103; ++y) {
         const uint8_t* const row = view.frame() + y * WIDTH;
         SAME(row[159], left[20]);
         SAME(row[162], right[50]);
-        SAME(palette.rampOf(row[161]), palette.numberOf(right));
-        NEAR(palette.step(row[161]), 35, 1);
+        SAME(pair.palette.rampOf(row[161]), pair.palette.numberOf(right));
+        NEAR(pair.palette.step(row[161]), 35, 1);
     }
 }
 
@@ -1059,20 +1073,12 @@ TEST(surface_goes_on_across_borders)
 // The waist of two balls that blend is narrow enough to count as a gap of the outline. What truly lies outside stays empty.
 TEST(hollow_outlines_are_not_filled)
 {
-    Model model;
-    addPair(model, 25);
-    CHECK(model.link(model.actor(0).object, model.actor(1).object, Real(1)));
-    CHECK(model.bodies() != nullptr);
-    Palette palette;
-    palette.make(model, false);
-    View view;
-    CHECK(view.open());
-    view.begin();
-    const std::vector<int> owners = drawTruly(view, model, 0);
+    PairView pair(25);
+    const std::vector<int> owners = drawTruly(pair.view, pair.model, 0);
     const int drawn = static_cast<int>(owners.size() - static_cast<size_t>(std::count(owners.begin(), owners.end(), -1)));
-    view.closeGaps(SPACING, &model, &palette);
-    view.end();
-    const int more = drawnIn(view, 0, 0, WIDTH, HEIGHT) - drawn;
+    pair.view.closeGaps(SPACING, &pair.model, &pair.palette);
+    pair.view.end();
+    const int more = drawnIn(pair.view, 0, 0, WIDTH, HEIGHT) - drawn;
     note("%d pixels of the outline, %d filled", drawn, more);
     CHECK(drawn > 5000 && more <= 4);
 }
