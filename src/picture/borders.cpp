@@ -23,8 +23,6 @@ constexpr Real EXACT(0.02), EXACT_CROSSING(0.004);
 // The surface is looked for along the ray with one step of this length, 1/128 unit, and is no farther away than FARTHEST steps.
 constexpr int STEP = 128;
 constexpr Real FARTHEST(2);
-// From a pixel to those beside it.
-constexpr int BESIDE[] = {-1, 1, -WIDTH, WIDTH};
 
 }  // namespace
 
@@ -78,10 +76,8 @@ void Borders::mendBeside(int right)
     note(right - 1, right);
     while (count_ > 0) {
         const Place place = noted_[--count_];
-        if (!mendPixel(place))
-            continue;
-        for (const int step : BESIDE)
-            note(place.pixel + step, place.pixel);
+        if (mendPixel(place))
+            forBeside(place.pixel, [&](int pixel) { note(pixel, place.pixel); });
     }
 }
 
@@ -125,11 +121,12 @@ bool Borders::mendPixel(const Place& place)
 int Borders::meanBrightness(int at, int ramp) const
 {
     int sum = palette_.step(frame_[at]), count = 1;
-    for (const int step : BESIDE)
-        if (rampAt(at + step) == ramp) {
-            sum += palette_.step(frame_[at + step]);
+    forBeside(at, [&](int pixel) {
+        if (rampAt(pixel) == ramp) {
+            sum += palette_.step(frame_[pixel]);
             ++count;
         }
+    });
     return (sum + count / 2) / count;
 }
 

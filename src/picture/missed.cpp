@@ -34,21 +34,6 @@ Missed::Missed(View& view, FieldProbe& probe, Real spacing)
     looksMost_ = min32(floorToInt(quotient(Real(LOOKS_AT_ONE), cube)), LOOKS_MOST);
 }
 
-// Calls each(pixel) for those of the pixels beside a pixel that are on the screen.
-template <class Each>
-inline void forBeside(int at, Each each)
-{
-    const int column = at % WIDTH;
-    if (column > 0)
-        each(at - 1);
-    if (column < WIDTH - 1)
-        each(at + 1);
-    if (at >= WIDTH)
-        each(at - WIDTH);
-    if (at < WIDTH * (HEIGHT - 1))
-        each(at + WIDTH);
-}
-
 // Whether a pixel shows nothing, or something well behind this depth.
 inline bool Missed::isMissing(int at, int depth) const
 {

@@ -7,6 +7,22 @@
 #include "model/probe.h"
 #include "picture/view.h"
 
+// Calls each(pixel) for those of the four pixels beside a pixel that are on the screen: left, right, above and below.
+template <class Each>
+inline void forBeside(int at, Each each)
+{
+    using machine::WIDTH;
+    const int column = at % WIDTH;
+    if (column > 0)
+        each(at - 1);
+    if (column < WIDTH - 1)
+        each(at + 1);
+    if (at >= WIDTH)
+        each(at - WIDTH);
+    if (at < WIDTH * (machine::HEIGHT - 1))
+        each(at + WIDTH);
+}
+
 class Missed {
 public:
     // Lengths of the two sides of a corner, pixels. A corner with both sides of at least SIDE is not part of a round outline and
