@@ -32,14 +32,19 @@ struct Scale {
 // steps of the cut function may change as well, so that it can follow a curve.
 struct FineScale : Scale {
     int32_t zLeast, zMost;               // pixels with a depth below zLeast or beyond zMost are not drawn
-    const uint8_t* ramp;                 // palette index of each brightness that occurs
+    const uint8_t* ramp;                 // VoxelList::ramp
     int32_t shade, shadeStep, shadeRow;  // brightness; used like z, zStep and zRow
     int32_t cut, cutStep, cutRow;  // cut function: a pixel is drawn where it is >= 0; cutRow leads from the first pixel of a row
                                    // to the first pixel of the next
     int32_t cutXX, cutXY, cutYY;   // added before each step to cutStep; before each row to its first cutStep; and to cutRow
+    bool blends;   // where a pixel already shows the same ramp, up to BLENDED nearer or farther, its brightness becomes the mean of
+                   // both; its depth is the lesser one as always
     int32_t dome;  // of a scale with a cut: added to zStep after each step in a row, and to the change of z from row to row after
                    // each row; 0: the depth changes by constant steps
 };
+
+// 1/128 unit, see FineScale::blends.
+constexpr int32_t BLENDED = 96;
 
 // The depth of a pixel where nothing was drawn.
 constexpr uint16_t Z_EMPTY = 0xffff;

@@ -9,7 +9,7 @@
 class Palette {
 public:
     static constexpr int STEPS = 64;
-    static constexpr int RAMP = STEPS + 2 * SHADING_MOST;  // entries of a ramp with both ends repeated (see VoxelList::ramp)
+    static constexpr int RAMP = STEPS + 2 * SHADING_MOST + 256;  // bytes of a ramp (see VoxelList::ramp)
 
     // Ambient light of coloured ramps, of 63. The grey ramp has no ambient light, so that all of its steps show the form.
     static constexpr int AMBIENT = 9;

@@ -35,6 +35,12 @@ inline bool isCut(const Voxel& v)
     return (v.cutX | v.cutY) != 0;
 }
 
+// Whether it does so along a straight line.
+inline bool isCutStraight(const Voxel& v)
+{
+    return isCut(v) && (v.curveXX | v.curveXY | v.curveYY) == 0;
+}
+
 // The greatest value of `cutAt`.
 constexpr int CUT_MOST = 32000;
 
@@ -58,6 +64,9 @@ inline int32_t lambert(int32_t cosine)
 
 // Upper bound of the change of brightness from the centre of a scale to its corners, steps.
 constexpr int SHADING_MOST = 64;
+// A ramp also tells its steps: ramp[STEP_OF + i] is the step, 0..63, that has palette index i; as a signed byte it is negative if
+// none has.
+constexpr int STEP_OF = BRIGHTEST + 1 + SHADING_MOST;
 // A scale whose centre is this dark, or darker, has brightness 0 and no slopes.
 constexpr int DARK_MIDDLE = -30;
 
@@ -74,7 +83,8 @@ constexpr int RUNS_MOST = 240;
 struct VoxelList {
     int32_t x, y, z;       // the object's centre relative to the eye, axes of the view, 1/256 unit
     const uint8_t* ramp;   // palette index of each brightness; both ends are repeated, so that -SHADING_MOST..63 + SHADING_MOST are
-                           // valid too. No index is 0: that is the background, which gaps are recognised by
+                           // valid too; and the step of each index (STEP_OF). No index is 0: that is the background, which gaps
+                           // are recognised by
     int32_t reach;         // no voxel's centre is farther than this from the object's centre along any axis, 1/256 unit
     int count;             // voxels in the list
     bool bordered;         // some voxels are cut at a border to another object

@@ -3,6 +3,7 @@
 #include "picture/blit.h"
 
 #include "rt.h"
+#include "surface/voxel.h"
 
 using machine::WIDTH;
 
@@ -30,6 +31,18 @@ void blitScalesC(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int cou
 
 namespace {
 
+// Draws a pixel of a scale that blends. `shade` is its brightness in steps of the ramp.
+inline void blend(const uint8_t* ramp, int32_t z, int32_t shade, uint16_t* depth, uint8_t* pixel)
+{
+    const int32_t nearer = *depth - z;
+    const int32_t there = static_cast<int8_t>(ramp[STEP_OF + *pixel]);
+    const bool blends = there >= 0 && nearer < BLENDED && nearer >= -BLENDED;
+    if (nearer > 0)
+        *depth = static_cast<uint16_t>(z);
+    if (nearer > 0 || (nearer < 0 && blends))
+        *pixel = ramp[blends ? (there + shade) >> 1 : shade];
+}
+
 // Draws a row of a scale; `pixels` and `depths` point one past its last pixel, so x runs from -width to before 0. `both` holds
 // the depth in its lower half and the brightness (8 fraction bits) in its upper half.
 template <bool CUT>
@@ -39,9 +52,14 @@ inline void fineRow(const FineScale& scale, uint8_t* pixels, uint16_t* depths, u
     const uint32_t least = static_cast<uint32_t>(scale.zLeast), range = static_cast<uint32_t>(scale.zMost) - least;
     for (int x = -scale.width; x != 0; ++x) {
         const uint32_t z = static_cast<uint16_t>(both);
-        if (z < depths[x] && z - least <= range && (!CUT || static_cast<int32_t>(cut) >= 0)) {
+        const int32_t shade = static_cast<int32_t>(both) >> 24;
+        const bool drawn = z - least <= range && (!CUT || static_cast<int32_t>(cut) >= 0);
+        if (CUT && scale.blends) {
+            if (drawn)
+                blend(scale.ramp, static_cast<int32_t>(z), shade, depths + x, pixels + x);
+        } else if (drawn && z < depths[x]) {
             depths[x] = static_cast<uint16_t>(z);
-            pixels[x] = scale.ramp[static_cast<int32_t>(both) >> 24];
+            pixels[x] = scale.ramp[shade];
         }
         both += step;
         if (CUT) {

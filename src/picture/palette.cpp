@@ -152,13 +152,16 @@ int coloursOf(const Model& model, Colour* colours, int* colourOf)
     return count;
 }
 
-// Repeats both ends of a ramp SHADING_MOST times; returns the ramp.
+// Repeats both ends of a ramp SHADING_MOST times, and adds the step of each palette entry; returns the ramp.
 const uint8_t* lengthen(uint8_t* ramp)
 {
     for (int i = 1; i <= SHADING_MOST; ++i) {
         ramp[-i] = ramp[0];
         ramp[Palette::STEPS - 1 + i] = ramp[Palette::STEPS - 1];
     }
+    memset(ramp + STEP_OF, -1, 256);
+    for (int i = 0; i < Palette::STEPS; ++i)
+        ramp[STEP_OF + ramp[i]] = static_cast<uint8_t>(i);
     return ramp;
 }
 

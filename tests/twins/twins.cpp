@@ -375,7 +375,8 @@ static_assert(inasm::LENS_X == offsetof(Lens, x) && inasm::LENS_Y == offsetof(Le
 static_assert(inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FINENESS == LENS_FINENESS &&
                   inasm::FACTOR_SIZE * LENS_FINENESS == 256 && inasm::LENS_FAR == LENS_FAR && inasm::LENS_STEPS == LENS_STEPS &&
                   inasm::STEEPEST == STEEPEST && inasm::LARGEST == LARGEST && inasm::LENS_NEXT == LENS_NEXT &&
-                  inasm::FACTOR_MOST == FACTOR_MOST && inasm::Z_EMPTY == Z_EMPTY && inasm::SCREEN_WIDTH == WIDE &&
+                  inasm::FACTOR_MOST == FACTOR_MOST && inasm::BLENDED == BLENDED && inasm::STEP_OF == STEP_OF &&
+                  inasm::Z_EMPTY == Z_EMPTY && inasm::SCREEN_WIDTH == WIDE &&
                   inasm::SCREEN_HEIGHT == HIGH,
               "constants");
 
@@ -390,7 +391,7 @@ long voxelsTried = 0, voxelsDrawn = 0;
 struct Optics {
     double focalX, focalY, centreX, centreY;  // pixels
     Factors factors[LENS_STEPS];
-    uint8_t ramps[384];  // any bytes, with the top bit set or not
+    uint8_t ramps[128 + STEP_OF + 256];  // any bytes, with the top bit set or not
     const uint8_t* ramp() const { return ramps + 128; }
 
     void set(double fx, double fy, double cx, double cy)
@@ -901,8 +902,9 @@ void voxelByVoxel(int rounds)
                 optics.setDemo();
             else
                 optics.set(focal, focal / 1.2, below(320), below(200));
-            for (int i = 0; i < 384; ++i)
+            for (int i = 0; i < 128 + STEP_OF; ++i)
                 optics.ramps[i] = static_cast<uint8_t>(5 * i + 7);
+            memset(optics.ramps + 128 + STEP_OF, -1, 256);
         }
         makeLens(c, a, 0);
         a.lens.left = WIDE;

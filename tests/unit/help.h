@@ -109,16 +109,21 @@ inline Apart fromNearest(const Voxel& v, const std::vector<Voxel>& list)
     return apart;
 }
 
+// A ramp (VoxelList::ramp) in which the palette index of each brightness is that brightness. It tells no steps, so that no scale
+// blends.
+inline std::vector<uint8_t> plainRamp()
+{
+    std::vector<uint8_t> ramp(SHADING_MOST + STEP_OF + 256, 255);
+    for (int i = 0; i < SHADING_MOST + STEP_OF; ++i)
+        ramp[static_cast<size_t>(i)] = static_cast<uint8_t>(std::clamp(i - SHADING_MOST, 0, BRIGHTEST));
+    return ramp;
+}
+
 // Draws voxels that are counted from the eye itself, or from (x, y, z), 1/256 unit; the colour of each is its brightness.
 // Returns the number of scales drawn.
 inline int show(View& view, const Voxel* voxels, size_t count, int32_t x = 0, int32_t y = 0, int32_t z = 0)
 {
-    static const std::vector<uint8_t> ramp = [] {
-        std::vector<uint8_t> r(64 + 2 * SHADING_MOST);
-        for (int i = 0; i < static_cast<int>(r.size()); ++i)
-            r[static_cast<size_t>(i)] = static_cast<uint8_t>(std::clamp(i - SHADING_MOST, 0, 63));
-        return r;
-    }();
+    static const std::vector<uint8_t> ramp = plainRamp();
     VoxelList list{};
     list.x = x;
     list.y = y;
@@ -151,14 +156,10 @@ struct Scene {
     ViewAxes axes;
     const Hider* hider = nullptr;
     Vector light = unit(vector(0.5, 0.7, -0.5));
-    std::vector<uint8_t> ramp;
+    std::vector<uint8_t> ramp = plainRamp();
     std::vector<std::vector<uint8_t>> ramps;  // a copy for each object, so that its voxels can be told from others
 
-    Scene() : ramp(64 + 2 * SHADING_MOST)
-    {
-        for (int i = 0; i < static_cast<int>(ramp.size()); ++i)
-            ramp[static_cast<size_t>(i)] = static_cast<uint8_t>(std::clamp(i - SHADING_MOST, 0, 63));
-    }
+    Scene() = default;
     Scene(Scene&&) = default;
     // Objects that are linked with each other go before the links do.
     ~Scene()

@@ -1,6 +1,7 @@
 // Tests of palettes: ramps never get darker towards the light, and many objects share the 256 colours fairly.
 #include "picture/palette.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -175,6 +176,24 @@ TEST(more_colours_than_fit)
     Model empty;
     palette.make(empty, false);
     palette.make(empty, true);
+}
+
+TEST(ramps_tell_their_steps)
+{
+    Model model;
+    CHECK(model.makeFourSpheres());
+    Palette palette;
+    for (const bool grey : {false, true}) {
+        palette.make(model, grey);
+        const uint8_t* const ramp = model.actor(1).object->ramp();
+        for (int i = 0; i < 256; ++i) {
+            const bool has = std::find(ramp, ramp + 64, i) != ramp + 64;
+            const int step = static_cast<int8_t>(ramp[STEP_OF + i]);
+            SAME(step >= 0, has);
+            if (has)
+                SAME(ramp[step], i);
+        }
+    }
 }
 
 TEST(raised_ramp)

@@ -320,6 +320,54 @@ TEST(of_cut_scales_that_overlap_the_nearest_is_seen)
     CHECK(left > 500 && right > 500);
 }
 
+TEST(cut_scales_of_one_ramp_blend)
+{
+    // Where a cut scale lies close before or behind what is drawn, the brightness is the mean, if the ramp is the same. The depth
+    // is the lesser one.
+    View view;
+    CHECK(view.open());
+    std::vector<uint8_t> own = plainRamp(), others = plainRamp();
+    for (int i = 0; i <= BRIGHTEST; ++i) {
+        own[static_cast<size_t>(SHADING_MOST + STEP_OF + i)] = static_cast<uint8_t>(i);
+        others[static_cast<size_t>(SHADING_MOST + i)] = static_cast<uint8_t>(i + 100);
+    }
+    Random random;
+    int blended = 0, apart = 0;
+    for (int round = 0; round < 2000; ++round) {
+        VoxelList list{};
+        list.reach = 10 * 256;
+        list.z = steps(100);
+        list.count = 1;
+        // A slope that does not show makes it a scale whose brightness may change. Both scales have the same dome.
+        Voxel v = voxel(0, 0, 0, random.between(1, 2), random.between(1, 2), 20);
+        v.slopeX = 1;
+        cutNowhere(&v);
+        const bool cut = round % 4 != 0, same = round % 8 != 1;
+        const int nearer = random.below(320) - 160;  // 1/128 unit
+        // What is not cut has no dome.
+        if (!cut && std::abs(nearer) < 4)
+            continue;
+        view.begin();
+        list.ramp = (same ? own : others).data() + SHADING_MOST;
+        list.voxels[0] = v;
+        view.show(list);
+        const int at = 100 * WIDTH + 160, before = view.zbuffer()[at];
+        v.brightness = 41;
+        if (!cut)
+            v.cutX = 0;
+        v.z = -2 * nearer;
+        list.ramp = own.data() + SHADING_MOST;
+        list.voxels[0] = v;
+        view.show(list);
+        const bool blends = cut && same && nearer < BLENDED && nearer >= -BLENDED && nearer != 0;
+        SAME(view.frame()[at], blends ? 30 : nearer > 0 ? 41 : same ? 20 : 120);
+        if (cut)
+            SAME(view.zbuffer()[at], nearer > 0 ? before - nearer : before);
+        ++(blends ? blended : apart);
+    }
+    CHECK(blended > 400 && apart > 400);
+}
+
 TEST(places_count_from_the_lists_own)
 {
     // An object's voxels are relative to its centre. Wherever the centre is, the picture is the same as with voxels relative to the
