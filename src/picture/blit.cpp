@@ -53,11 +53,11 @@ inline void fineRow(const FineScale& scale, uint8_t* pixels, uint16_t* depths, u
     for (int x = -scale.width; x != 0; ++x) {
         const uint32_t z = static_cast<uint16_t>(both);
         const int32_t shade = static_cast<int32_t>(both) >> 24;
-        const bool drawn = z - least <= range && (!CUT || static_cast<int32_t>(cut) >= 0);
+        const bool inside = z - least <= range && (!CUT || static_cast<int32_t>(cut) >= 0);
         if (CUT && scale.blends) {
-            if (drawn)
+            if (inside)
                 blend(scale.ramp, static_cast<int32_t>(z), shade, depths + x, pixels + x);
-        } else if (drawn && z < depths[x]) {
+        } else if (inside && z < depths[x]) {
             depths[x] = static_cast<uint16_t>(z);
             pixels[x] = scale.ramp[shade];
         }
