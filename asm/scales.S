@@ -50,7 +50,7 @@
 #define DOMED_WIDE 8
 #define DOMED_HIGH 12
 #define DOMED_PIXEL 268
-#define BLENDED    96
+#define AVERAGED   96
 #define STEP_OF    128
 #define LARGEST    40
 #define Z_EMPTY    0xffff
@@ -116,7 +116,7 @@
 #define FIRST      176                  /* of a domed scale: z and shade at the beginning of the row, their steps there, and */
 #define STEP       180                  /* their change to the next row, in the halves of one word each */
 #define DOWN       184
-#define THERE      188                  /* of a pixel that is blended: the step of the ramp that it shows */
+#define THERE      188                  /* of a pixel that is averaged: the step of the ramp that it shows */
 #define LOCALS     192
 
         .text
@@ -144,8 +144,9 @@
 // Scales that are cut, clipped, large or nearer than the table use code that draws a row of LARGEST columns; it is entered at the
 // scale's width before its end. With a cut, edx has the cut function, which takes 2 more instructions per pixel (a pixel cut off
 // takes 3 altogether). Along a straight line the step of the depth changes with the dome, with 1 instruction more (486 and
-// Pentium: 2), and the pixels blend: one that is drawn takes 3 instructions more, one that is averaged 11, and an occluded one that
-// is averaged 15. Along a curve the step of the cut function changes, with 2 instructions more (486: 1 + 3, Pentium: 4).
+// Pentium: 2), and pixels are averaged (FineScale::averages): one that is, takes 11 instructions more if it is nearer and 15 if it
+// is occluded, and any other one 3. Along a curve the step of the cut function changes, with 2 instructions more (486: 1 + 3,
+// Pentium: 4).
 
         .balign 16
         FUNC(drawScalesA)
@@ -435,13 +436,13 @@ even:
 2:
         .endm
 
-        // blend() in src/picture/blit.cpp;   cx: nearer = depths[x] - z
-        .macro  BLEND at
+        // average() in src/picture/blit.cpp;   cx: nearer = depths[x] - z
+        .macro  AVERAGE at
         movw    2*(\at)(%esi), %cx
         subw    %ax, %cx
         jbe     3f
         movw    %ax, 2*(\at)(%esi)
-        cmpw    $BLENDED, %cx
+        cmpw    $AVERAGED, %cx
         jb      4f
 5:      movl    %eax, %ecx
         sarl    $24, %ecx
@@ -450,8 +451,8 @@ even:
 2:
         // What follows is needed for fewer pixels, and stands apart so that the others need no jump past it.
         .text   1
-        // farther: if (nearer < 0 && nearer >= -BLENDED && there >= 0) ..
-3:      cmpw    $-BLENDED, %cx
+        // farther: if (nearer < 0 && nearer >= -AVERAGED && there >= 0) ..
+3:      cmpw    $-AVERAGED, %cx
         jb      2b
         movzbl  \at(%edi), %ecx
         movsbl  STEP_OF(%ebp,%ecx), %ecx
@@ -473,20 +474,20 @@ even:
         .text   0
         .endm
 
-        // if (cut >= 0) blend(..)
-        .macro  PIXEL_blended at
+        // if (cut >= 0) average(..)
+        .macro  PIXEL_averaged at
         js      2f
-        BLEND   \at
+        AVERAGE \at
         .endm
 
-        // if (z - zLeast <= zMost - zLeast && cut >= 0) blend(..)
-        .macro  PIXEL_blendedending at
+        // if (z - zLeast <= zMost - zLeast && cut >= 0) average(..)
+        .macro  PIXEL_averagedending at
         js      2f
         movl    %eax, %ecx
         subl    ZLEAST(%esp), %ecx
         cmpw    ZRANGE(%esp), %cx
         ja      2f
-        BLEND   \at
+        AVERAGE \at
         .endm
 
         // for (x = 0; x < width; ++x, z += zStep) ..;   `at` is the first pixel's offset from edi; the step after the last pixel is
@@ -696,8 +697,8 @@ domed:
         jmp     on_row
         ENTERED shaded, shaded, 0
         ENTERED ending, ending, 0
-        ENTERED cut, blended, 1
-        ENTERED cutending, blendedending, 1
+        ENTERED cut, averaged, 1
+        ENTERED cutending, averagedending, 1
         ENTERED curved, cut, 2
         ENTERED curvedending, cutending, 2
 

@@ -37,14 +37,14 @@ struct FineScale : Scale {
     int32_t cut, cutStep, cutRow;  // cut function: a pixel is drawn where it is >= 0; cutRow leads from the first pixel of a row
                                    // to the first pixel of the next
     int32_t cutXX, cutXY, cutYY;   // added before each step to cutStep; before each row to its first cutStep; and to cutRow
-    bool blends;   // where a pixel already shows the same ramp, up to BLENDED nearer or farther, its brightness becomes the mean of
-                   // both; its depth is the lesser one as always
+    bool averages; // where a pixel already shows the same ramp, and is less than AVERAGED nearer or farther, its brightness becomes
+                   // the mean of both; its depth is the lesser one as always
     int32_t dome;  // of a scale with a cut: added to zStep after each step in a row, and to the change of z from row to row after
                    // each row; 0: the depth changes by constant steps
 };
 
-// 1/128 unit, see FineScale::blends.
-constexpr int32_t BLENDED = 96;
+// 1/128 unit, see FineScale::averages.
+constexpr int32_t AVERAGED = 96;
 
 // The depth of a pixel where nothing was drawn.
 constexpr uint16_t Z_EMPTY = 0xffff;

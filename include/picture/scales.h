@@ -67,13 +67,13 @@ inline void setCut(const Voxel& v, int32_t zx, int32_t zy, ToFirst toFirst, Fine
     scale->cutXX = xx;
     scale->cutXY = xy;
     scale->cutYY = yy;
-    scale->blends = isCutStraight(v);
+    scale->averages = isCutStraight(v);
 }
 
 inline void setUncut(FineScale* scale)
 {
     scale->cut = scale->cutStep = scale->cutRow = scale->cutXX = scale->cutXY = scale->cutYY = scale->dome = 0;
-    scale->blends = false;
+    scale->averages = false;
 }
 
 // Whether the depths of all pixels of a scale fit the Z-buffer. `z` is the depth of the first pixel; it changes by `across` up to
@@ -99,10 +99,10 @@ constexpr int LENS_STEPS = (LENS_FAR - LENS_NEAR) * LENS_FINENESS;
 // show a scale by its very edge. That is seen most next to a border and where a patch bends unevenly, for there normals turn fast.
 // A scale that is cut along a straight line, or nowhere (voxel.h), is therefore domed: its depth grows with the squared distance
 // from its centre, by 5/16 unit at a distance of one unit, so that of overlapping scales a pixel shows the one whose centre is
-// nearest. There the brightness of neighbouring scales differs most as well, and would jump from one to the other: so they blend
-// (FineScale::blends). A scale that reaches farther than DOMED_WIDE or DOMED_HIGH pixels from its centre has no dome, and where a
-// pixel is wider than DOMED_PIXEL units (9 fraction bits) domes do not grow further: depths within the table of factors still fit
-// the Z-buffer.
+// nearest. There the brightness of neighbouring scales differs most as well, and would jump from one to the other: so it is
+// averaged (FineScale::averages). A scale that reaches farther than DOMED_WIDE or DOMED_HIGH pixels from its centre has no dome,
+// and where a pixel is wider than DOMED_PIXEL units (9 fraction bits) domes do not grow further: depths within the table of
+// factors still fit the Z-buffer.
 constexpr int32_t DOMED_WIDE = 8, DOMED_HIGH = 12, DOMED_PIXEL = 268;
 constexpr int32_t DOME_MOST = 2 * (5 * DOMED_PIXEL * DOMED_PIXEL >> 15);
 static_assert(LENS_FAR * 128 + STEEPEST * (DOMED_WIDE + DOMED_HIGH) +

@@ -31,16 +31,16 @@ void blitScalesC(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int cou
 
 namespace {
 
-// Draws a pixel of a scale that blends. `shade` is its brightness in steps of the ramp.
-inline void blend(const uint8_t* ramp, int32_t z, int32_t shade, uint16_t* depth, uint8_t* pixel)
+// Draws a pixel of a scale that averages. `shade` is its brightness in steps of the ramp.
+inline void average(const uint8_t* ramp, int32_t z, int32_t shade, uint16_t* depth, uint8_t* pixel)
 {
     const int32_t nearer = *depth - z;
     const int32_t there = static_cast<int8_t>(ramp[STEP_OF + *pixel]);
-    const bool blends = there >= 0 && nearer < BLENDED && nearer >= -BLENDED;
+    const bool averages = there >= 0 && nearer < AVERAGED && nearer >= -AVERAGED;
     if (nearer > 0)
         *depth = static_cast<uint16_t>(z);
-    if (nearer > 0 || (nearer < 0 && blends))
-        *pixel = ramp[blends ? (there + shade) >> 1 : shade];
+    if (nearer > 0 || (nearer < 0 && averages))
+        *pixel = ramp[averages ? (there + shade) >> 1 : shade];
 }
 
 // Draws a row of a scale; `pixels` and `depths` point one past its last pixel, so x runs from -width to before 0. `both` holds
@@ -54,9 +54,9 @@ inline void fineRow(const FineScale& scale, uint8_t* pixels, uint16_t* depths, u
         const uint32_t z = static_cast<uint16_t>(both);
         const int32_t shade = static_cast<int32_t>(both) >> 24;
         const bool inside = z - least <= range && (!CUT || static_cast<int32_t>(cut) >= 0);
-        if (CUT && scale.blends) {
+        if (CUT && scale.averages) {
             if (inside)
-                blend(scale.ramp, static_cast<int32_t>(z), shade, depths + x, pixels + x);
+                average(scale.ramp, static_cast<int32_t>(z), shade, depths + x, pixels + x);
         } else if (inside && z < depths[x]) {
             depths[x] = static_cast<uint16_t>(z);
             pixels[x] = scale.ramp[shade];

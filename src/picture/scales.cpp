@@ -61,7 +61,7 @@ inline void addShading(const Lens& lens, const Voxel& v, const Factors& f, int32
     if (!isCut(v))
         return;
     setCut(v, f.zx, f.zy, toFirst, scale);
-    if (scale->blends)
+    if (scale->averages)
         setDome(domeOf(v, f), toColumn, toRow, scale);
 }
 

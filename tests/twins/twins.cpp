@@ -375,7 +375,7 @@ static_assert(inasm::LENS_X == offsetof(Lens, x) && inasm::LENS_Y == offsetof(Le
 static_assert(inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FINENESS == LENS_FINENESS &&
                   inasm::FACTOR_SIZE * LENS_FINENESS == 256 && inasm::LENS_FAR == LENS_FAR && inasm::LENS_STEPS == LENS_STEPS &&
                   inasm::STEEPEST == STEEPEST && inasm::LARGEST == LARGEST && inasm::LENS_NEXT == LENS_NEXT &&
-                  inasm::FACTOR_MOST == FACTOR_MOST && inasm::BLENDED == BLENDED && inasm::STEP_OF == STEP_OF &&
+                  inasm::FACTOR_MOST == FACTOR_MOST && inasm::AVERAGED == AVERAGED && inasm::STEP_OF == STEP_OF &&
                   inasm::Z_EMPTY == Z_EMPTY && inasm::SCREEN_WIDTH == WIDE &&
                   inasm::SCREEN_HEIGHT == HIGH,
               "constants");

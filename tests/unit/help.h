@@ -109,8 +109,8 @@ inline Apart fromNearest(const Voxel& v, const std::vector<Voxel>& list)
     return apart;
 }
 
-// A ramp (VoxelList::ramp) in which the palette index of each brightness is that brightness. It tells no steps, so that no scale
-// blends.
+// A ramp (VoxelList::ramp) in which the palette index of each brightness is that brightness. It tells no steps, so that no
+// scale averages.
 inline std::vector<uint8_t> plainRamp()
 {
     std::vector<uint8_t> ramp(SHADING_MOST + STEP_OF + 256, 255);

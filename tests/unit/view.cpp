@@ -320,7 +320,7 @@ TEST(of_cut_scales_that_overlap_the_nearest_is_seen)
     CHECK(left > 500 && right > 500);
 }
 
-TEST(cut_scales_of_one_ramp_blend)
+TEST(cut_scales_of_one_ramp_are_averaged)
 {
     // Where a cut scale lies close before or behind what is drawn, the brightness is the mean, if the ramp is the same. The depth
     // is the lesser one.
@@ -332,7 +332,7 @@ TEST(cut_scales_of_one_ramp_blend)
         others[static_cast<size_t>(SHADING_MOST + i)] = static_cast<uint8_t>(i + 100);
     }
     Random random;
-    int blended = 0, apart = 0;
+    int averaged = 0, apart = 0;
     for (int round = 0; round < 2000; ++round) {
         VoxelList list{};
         list.reach = 10 * 256;
@@ -359,13 +359,13 @@ TEST(cut_scales_of_one_ramp_blend)
         list.ramp = own.data() + SHADING_MOST;
         list.voxels[0] = v;
         view.show(list);
-        const bool blends = cut && same && nearer < BLENDED && nearer >= -BLENDED && nearer != 0;
-        SAME(view.frame()[at], blends ? 30 : nearer > 0 ? 41 : same ? 20 : 120);
+        const bool averages = cut && same && nearer < AVERAGED && nearer >= -AVERAGED && nearer != 0;
+        SAME(view.frame()[at], averages ? 30 : nearer > 0 ? 41 : same ? 20 : 120);
         if (cut)
             SAME(view.zbuffer()[at], nearer > 0 ? before - nearer : before);
-        ++(blends ? blended : apart);
+        ++(averages ? averaged : apart);
     }
-    CHECK(blended > 400 && apart > 400);
+    CHECK(averaged > 400 && apart > 400);
 }
 
 TEST(places_count_from_the_lists_own)
