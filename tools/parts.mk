@@ -11,5 +11,5 @@ KERNELS = $(wildcard asm/*.S)
 FOR_386 = -march=i386 -mtune=i486 -maccumulate-outgoing-args
 MAIN = src/app/main.cpp
 QUICK = $(addprefix src/surface/,settle ltchange nearby path fields blend search cover border hollow \
-		classify reckon shade bend limb slopes voxels) \
+		classify shade bend limb slopes voxels keeper) \
 	$(addprefix src/picture/,view gaps)

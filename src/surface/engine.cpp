@@ -3,8 +3,8 @@
 
 #include "math/alloc.h"
 #include "model/stop.h"
+#include "odometer.h"
 #include "paint.h"
-#include "reckon.h"
 #include "rt.h"
 #include "settle.h"
 #include "shade.h"
@@ -15,12 +15,12 @@ namespace {
 constexpr int ASKED_EVERY = 32;
 
 // An object with more patches than this has so many seeds that the memory is wanted for these: of its earlier frames nothing is
-// kept (reckon.h, keeper.h).
-constexpr int FOLLOWED_MOST = 2500;
+// kept (keeper.h).
+constexpr int KEPT_MOST = 2500;
 
 class Engine : public Surface {
 public:
-    explicit Engine(SoftObject& object) : object_(object), reckoning_(object) {}
+    explicit Engine(SoftObject& object) : object_(object), keeper_(object) {}
     ~Engine() override { free(patches_); }
 
     // Makes the patches. Returns false when there is no memory.
@@ -31,10 +31,8 @@ public:
         if (patches_ == nullptr)
             return false;
         makePatches(object_, patches_);
-        if (count_ <= FOLLOWED_MOST) {
-            reckoning_.open(count_);
-            keeper_.open(count_, object_.spacing());
-        }
+        if (count_ <= KEPT_MOST)
+            keeper_.open(count_);
         return true;
     }
 
@@ -44,7 +42,7 @@ public:
 
 private:
     bool updatePatch(Settler& settler, Patch& patch, const OwnFrame& own, const Neighbourhood& all);
-    bool moveOn(int number, const Neighbourhood& all);
+    bool goesOn(int number, const Neighbourhood& all);
     bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all);
     bool stays(const Settler& settler, Patch& patch, const Neighbourhood& all) const;
     bool comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all);
@@ -56,9 +54,9 @@ private:
     SoftObject& object_;
 
     Odometer odometer_;
-    Reckoning reckoning_;
     Keeper keeper_;
     uint32_t islandSearches_ = 0;  // how often islands were searched
+    bool begun_ = false;     // the keeper has begun this frame
     bool islands_ = false;   // some patches have seeds on islands
     bool allRests_ = false;  // all seeds were at rest after the last update
     Patch* patches_ = nullptr;
@@ -80,7 +78,6 @@ void Engine::reshape()
             forget(*object_.extra(i));
     }
     reshapePatches(object_, patches_, count_, odometer_.reading());
-    reckoning_.forget();
     keeper_.forget();
 }
 
@@ -94,25 +91,25 @@ bool Engine::update(const FrameContext& frame)
     gather(object_, frame, all);
     odometer_.advance(object_, own, all, frame.bodies->version());
     Settler settler(object_, own, all, frame, odometer_);
-    // Islands change too suddenly for dead reckoning.
-    reckoning_.begin(odometer_.lastTravel(), !settler.hasIslands());
+    // Islands change too suddenly to go on.
+    keeper_.begin(own, odometer_.lastTravel(), !settler.hasIslands());
+    begun_ = true;
     // No neighbour is near, and all seeds are at rest already.
     if (allRests_ && !odometer_.leapt() && all.ordinary && all.restsAtOne && all.count == 0)
         return false;
-    bool displaced = false, movedOn = false;
+    bool displaced = false, wentOn = false;
     for (int i = 0; i < count_; ++i) {
         patches_[i].settled = false;
         if (i % ASKED_EVERY == ASKED_EVERY - 1 && stopAsked())
             return true;
-        if (moveOn(i, all))
-            displaced = movedOn = true;
+        if (goesOn(i, all))
+            displaced = wentOn = true;
         else
             displaced |= updatePatch(settler, patches_[i], own, all);
     }
     for (int i = 0; i < count_; ++i)
         if (Patch& patch = patches_[i]; patch.settled) {
             settler.oversample(patch);
-            reckoning_.follow(i, patch, settler.smallest());
             keeper_.forget(i);
             patch.moved = false;
         }
@@ -120,8 +117,8 @@ bool Engine::update(const FrameContext& frame)
         settleIslands(settler);
     object_.setDisplaced(displaced);
     allRests_ = !displaced;
-    // What was moved on has to be settled yet, even if nothing changes any more.
-    return settler.hidden() || movedOn;
+    // What went on has to be settled yet, even if nothing changes any more.
+    return settler.hidden() || wentOn;
 }
 
 // Settles the islands of all patches. In patches without any they are searched in every other frame, unless something has leapt.
@@ -139,15 +136,13 @@ void Engine::settleIslands(Settler& settler)
     }
 }
 
-// Moves the seeds of a patch on, so that they need not be settled. Returns false if they do not move evenly. What the neighbours do
-// meanwhile counts in a later frame.
-inline bool Engine::moveOn(int number, const Neighbourhood& all)
+// Whether the voxels of a patch that blends go on, so that its seeds need not be settled. What the neighbours do meanwhile counts
+// in a later frame.
+inline bool Engine::goesOn(int number, const Neighbourhood& all)
 {
     Patch& patch = patches_[number];
-    if (!reckoning_.moves(number, patch))
+    if (patch.state != PATCH_MIXED || !keeper_.goesOn(number, patch))
         return false;
-    reckoning_.move(number, patch);
-    keeper_.forget(number);
     patch.moved = true;
     if (!all.ordinary)
         odometer_.count(patch, all);
@@ -205,7 +200,7 @@ inline bool Engine::keeps(Settler& settler, Patch& patch, const Neighbourhood& a
     return patch.state == PATCH_INSIDE && settler.isStillCovered(patch);
 }
 
-// Whether a patch of a scene that is not ordinary (gather.h) keeps its state: it has not been moved on and no neighbour that may
+// Whether a patch of a scene that is not ordinary (gather.h) keeps its state: its voxels have not gone on and no neighbour that may
 // reach its paths has moved, or all of the patch is still off the surface. At rest it does not depend on the viewer.
 inline bool Engine::stays(const Settler& settler, Patch& patch, const Neighbourhood& all) const
 {
@@ -257,8 +252,10 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
         return;
     }
     const Paint* const paint = shown->paint();
-    if (*next == 0)
-        keeper_.begin(own, paint);
+    // Without an update nothing has moved.
+    if (*next == 0 && !begun_)
+        keeper_.begin(own, 0, true);
+    begun_ = false;
     const int at = shadePatches(object_, own, frame, patches_, count_, *next, list, room, keeper_);
     *next = at < count_ ? at : 0;
     // An object that is shown in another ramp than its own, as when it is selected, shows no colours of its paint.

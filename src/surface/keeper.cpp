@@ -3,16 +3,27 @@
 
 #include "math/alloc.h"
 #include "math/whole.h"
-#include "period.h"
 #include "rt.h"
-#include "voxels.h"
 
 namespace {
 
-// In the units of Keeper::View: a change of the view counts as even if it differs from the change before by no more than JOLT and a
-// quarter of itself, and if neither an axis nor the light changes by more than FASTEST: what turns fast does not go on straight.
+// Voxels are made anew once in a period of 1, 2, 4 or 8 frames.
+constexpr int LONGEST_PERIOD = 8;
+// Units: a greater spacing counts as this one.
+constexpr Real COARSE(2);
+// The error of a single step that is tolerated where patches blend, 1/256 unit at a spacing of 1. It grows with the square of the
+// spacing, because who wants finer seeds wants to see more: at COARSE it is 1/4 unit. Where patches rest half of it is tolerated,
+// for their voxels are made anew more quickly than seeds are settled.
+constexpr Real TOLERATED(16);
+// Spacings: the neighbours travel no farther than this in a period.
+constexpr Real FARTHEST(2);
+// 1/1024 unit: the travels of two frames count as even if they differ by less than this and half of the travel.
+constexpr int32_t EVEN_TRAVEL = 100;
+// In the units of Keeper::view_: a change of the view counts as even if it differs from the change before by no more than JOLT and
+// a quarter of itself. If an axis or the light changes by more than FASTEST the object turns fast. What rests does not go on
+// straight then; where patches blend the error tells.
 constexpr int32_t JOLT = 24, FASTEST = 500;
-// Frames in which nothing is kept after a change with an error of UNEVEN_ERRORS times the tolerated one.
+// Frames in which nothing is kept of a patch at rest after a change with an error of UNEVEN_ERRORS times the tolerated one.
 constexpr uint8_t PAUSE = 32;
 constexpr int32_t UNEVEN_ERRORS = 8;
 // Greater than any error that is tolerated: a limb has come or gone.
@@ -21,6 +32,9 @@ constexpr int32_t OTHERWISE = 1 << 14;
 constexpr int32_t LONG_STEP = 1024;
 static_assert(STEEPEST_TILT + LONG_STEP * LONGEST_PERIOD <= INT16_MAX, "tilts fit 16 bits");
 static_assert((BRIGHTEST + 1) * 256 + LONG_STEP * LONGEST_PERIOD <= INT16_MAX, "brightness fits 16 bits");
+// Cosines, 1.0 = 2^14: a patch without voxels is made anew when a seed comes so near to facing the viewer. HIDDEN is smaller than
+// any cosine: no seed of the patch is on the surface.
+constexpr int32_t NEARLY_SEEN = 250, HIDDEN = -20000;
 
 bool isSame(const int32_t a[3], const int32_t b[3])
 {
@@ -34,6 +48,25 @@ bool isSame(const OwnFrame& a, const OwnFrame& b)
            isSame(a.up, b.up) && isSame(a.ahead, b.ahead) && a.growth == b.growth && a.distance32 == b.distance32;
 }
 
+// Corrects a step that has led from `before` elsewhere than to `now`; 2^shift such steps were made. Returns about the error.
+template <class Step>
+inline int32_t correctStep(int32_t now, int32_t before, int shift, Step& step)
+{
+    const int32_t error = now - before - step;
+    step = static_cast<Step>(step + (error >> shift));
+    return error ^ error >> 31;
+}
+
+// The next period, from the last one and from the error at the end of that.
+int periodAfter(int period, int32_t error, int32_t tolerated)
+{
+    if (error < (period == 1 ? tolerated : tolerated / 2))
+        return period < LONGEST_PERIOD ? period * 2 : period;
+    if (period == 1 || error >= tolerated * 8)
+        return 1;
+    return error < (period == 2 ? tolerated * 4 : tolerated * 2) ? period : period / 2;
+}
+
 }  // namespace
 
 Keeper::~Keeper()
@@ -43,60 +76,67 @@ Keeper::~Keeper()
     free(kept_);
 }
 
-void Keeper::open(int count, Real spacing)
+void Keeper::open(int count)
 {
-    // Voxels of what rests are made anew more quickly than seeds are settled, so that less has to be tolerated.
-    tolerated_ = toleratedError(spacing) / 2;
+    const Real spacing = min(object_.spacing(), COARSE);
+    tolerated_ = rawFromReal(spacing * spacing * TOLERATED) >> 16;
+    farthest_ = static_cast<uint32_t>(rawFromReal(spacing * FARTHEST) >> 6);
     kept_ = allocate<Kept>(static_cast<uint32_t>(count));
     count_ = kept_ == nullptr ? 0 : count;
     for (int i = 0; i < count_; ++i)
         kept_[i] = Kept{};
 }
 
-void Keeper::begin(const OwnFrame& own, const Paint* paint)
+void Keeper::begin(const OwnFrame& own, uint32_t travel, bool blendsEvenly)
 {
     if (count_ == 0)
         return;
+    const SoftObject* const shown = object_.shown();
+    const Paint* const paint = shown == nullptr ? nullptr : shown->paint();
     const int32_t paintedAs = paint == nullptr ? -1 : paint->finish << 8 | paint->number;
     if (paintedAs != paintedAs_)
         draws_ = 0;
     paintedAs_ = paintedAs;
-    stands_ = draws_ > 0 && isSame(own, own_);
-    draws_ = min32(draws_ + 1, 3);
     ++frame_;
-    motion_ = UNKNOWN;
-    int32_t* to = views_[frame_ % 3];
-    const int32_t* const parts[] = {own.right, own.up, own.ahead, own.light, own.eye32};
-    for (const int32_t* part : parts)
-        for (int i = 0; i < 3; ++i)
-            *to++ = part[i];
-    if (stands_)
-        return;
-    ++since_;
-    own_ = own;
+    motion_ = motionOf(own);
+    if (motion_ != STANDS) {
+        ++since_;
+        own_ = own;
+    }
+    const bool even = magnitude(static_cast<int32_t>(travel - travel_)) < static_cast<int32_t>(travel / 2) + EVEN_TRAVEL;
+    travel_ = travel;
+    longest_ = even && blendsEvenly ? LONGEST_PERIOD : 1;
+    while (longest_ > 1 && travel * static_cast<uint32_t>(longest_ - 1) > farthest_)
+        longest_ /= 2;
 }
 
-// Whether the view changes as it did in the frame before.
-bool Keeper::movesEvenly()
+// How the view changes.
+Keeper::Motion Keeper::motionOf(const OwnFrame& own)
 {
-    if (motion_ == UNKNOWN) {
-        const View &now = views_[frame_ % 3], &before = views_[(frame_ + 2) % 3], &earlier = views_[(frame_ + 1) % 3];
-        motion_ = draws_ == 3 ? EVEN : UNEVEN;
-        for (int i = 0; i < PARTS && motion_ == EVEN; ++i) {
-            const int32_t change = now[i] - before[i], changeBefore = before[i] - earlier[i];
-            const bool fast = i < AXES && magnitude(change) > FASTEST;
-            if (fast || magnitude(change - changeBefore) > JOLT + (magnitude(change) >> 2))
-                motion_ = UNEVEN;
+    const int32_t* const parts[] = {own.right, own.up, own.ahead, own.light, own.eye32};
+    int32_t *last = view_, *lastChange = viewChange_;
+    bool uneven = false, fast = false;
+    for (const int32_t* const part : parts) {
+        for (int i = 0; i < 3; ++i, ++last, ++lastChange) {
+            const int32_t change = part[i] - *last;
+            uneven |= magnitude(change - *lastChange) > JOLT + (magnitude(change) >> 2);
+            fast |= magnitude(change) > FASTEST && part != own.eye32;
+            *last = part[i];
+            *lastChange = change;
         }
     }
-    return motion_ == EVEN;
+    const bool stands = draws_ > 0 && isSame(own, own_);
+    draws_ = min32(draws_ + 1, 3);
+    return stands ? STANDS : uneven || draws_ < 3 ? UNEVEN : fast ? FAST : EVEN;
 }
 
-void Keeper::list(int number, const Seed* seeds, VoxelList& list, Slopes& slopes)
+void Keeper::list(int number, const Patch& patch, VoxelList& list, Slopes& slopes)
 {
     Kept& kept = kept_[number];
+    const bool goes = goesOn(number, patch);
+    const Seed* const seeds = &object_.regular(0);
     for (One *one = kept.voxels, *const end = one + kept.count; one < end; ++one) {
-        if (!stands_)
+        if (goes)
             one->goOn();
         Voxel* const voxel = list.room();
         *voxel = one->voxel;
@@ -107,75 +147,156 @@ void Keeper::list(int number, const Seed* seeds, VoxelList& list, Slopes& slopes
             slopes.add(seeds + seed, seed, voxel, one->added.sight);
     }
     list.bordered |= kept.bordered;
-    if (!stands_)
+    if (goes)
         --kept.left;
-    kept.drawn = stands_ ? 0 : frame_;
+    kept.drawn = goes ? frame_ : 0;
 }
 
-void Keeper::store(Kept& kept, const Patch& patch, int first, const VoxelList& list, int sloped, const Slopes& slopes) const
+// Makes room for the voxels of a patch. Returns false when there is no memory.
+bool Keeper::makeRoom(Kept& kept, int count) const
 {
-    const int count = list.count - first;
-    const bool follows = kept.drawn == frame_ - 1 && kept.left == 0 && kept.count == count && kept.state == patch.state;
+    if (count <= kept.room)
+        return true;
+    free(kept.voxels);
+    kept.voxels = allocate<One>(static_cast<uint32_t>(count));
+    kept.room = static_cast<uint8_t>(kept.voxels == nullptr ? 0 : count);
+    return kept.room > 0;
+}
+
+void Keeper::store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool mayGoOn, const Slopes& slopes) const
+{
+    const bool follows = mayGoOn && kept.drawn == frame_ - 1 && kept.left == 0 && kept.state == patch.state;
     kept.since = 0;
-    if (kept.pause > 0 && !stands_) {
+    if (mayGoOn && patch.state == PATCH_REST && kept.pause > 0) {
         --kept.pause;
         return;
     }
-    if (count > kept.room) {
-        free(kept.voxels);
-        kept.voxels = allocate<One>(static_cast<uint32_t>(count));
-        kept.room = static_cast<uint8_t>(kept.voxels == nullptr ? 0 : count);
-        kept.drawn = 0;
-        if (kept.room == 0)
-            return;
-    }
-    // What stands has no steps that would be known when it moves.
-    kept.drawn = stands_ ? 0 : frame_;
-    if (stands_) {
-        for (int i = 0; i < count; ++i)
-            kept.voxels[i].set(list.voxels[first + i]);
-    } else if (follows) {
-        follow(kept, list.voxels + first);
-    } else {
-        for (int i = 0; i < count; ++i)
-            kept.voxels[i] = One(list.voxels[first + i]);
-        kept.stepsKnown = false;
-        kept.period = 1;
-        kept.left = 0;
-    }
-    for (int i = sloped; i < slopes.count(); ++i)
-        kept.voxels[slopes.voxel(i) - list.voxels - first].added = slopes.added(i);
-    kept.count = static_cast<uint8_t>(count);
+    kept.drawn = 0;
+    const bool same = follows && hasSameSeeds(kept, made);
+    if (!same && !(follows ? rearrange(kept, made) : makeRoom(kept, made.count)))
+        return;
+    if (follows)
+        follow(kept, patch, made, same);
+    else
+        begin(kept, made);
+    for (int i = made.sloped; i < slopes.count(); ++i)
+        kept.voxels[slopes.voxel(i) - made.voxels].added = slopes.added(i);
+    kept.count = static_cast<uint8_t>(made.count);
     kept.state = patch.state;
-    kept.bordered = list.bordered;
+    kept.bordered = made.bordered;
     kept.since = since_;
+    // What stands has no steps that would be known when it moves.
+    kept.drawn = mayGoOn ? frame_ : 0;
+}
+
+// Keeps the voxels of a patch, of which nothing is known.
+inline void Keeper::begin(Kept& kept, const PatchVoxels& made)
+{
+    for (int i = 0; i < made.count; ++i) {
+        kept.voxels[i] = One{};
+        kept.voxels[i].begin(made.voxels[i], made.seen[i].seed);
+    }
+    kept.period = 1;
+    kept.left = 0;
+    kept.facing = 0;
+    kept.stepsKnown = false;
+}
+
+// Whether a patch shows the same seeds as when its voxels were kept.
+inline bool Keeper::hasSameSeeds(const Kept& kept, const PatchVoxels& made)
+{
+    bool same = kept.count == made.count;
+    for (int i = 0; i < made.count && same; ++i)
+        same = kept.voxels[i].seed == made.seen[i].seed;
+    return same;
+}
+
+// Puts the kept voxels of a patch in the order of those that have been made: those of seeds that are not seen any more go, and for
+// a seed that has come into sight there is a voxel without a seed. Returns false when there is no memory.
+bool Keeper::rearrange(Kept& kept, const PatchVoxels& made) const
+{
+    One now[ONES_MOST];
+    const One *before = kept.voxels, *const end = before + kept.count;
+    for (int i = 0; i < made.count; ++i) {
+        const One* at = before;
+        while (at < end && at->seed != made.seen[i].seed)
+            ++at;
+        if (at < end) {
+            now[i] = *at;
+            before = at + 1;
+        } else {
+            // It is taken to move like another voxel of the patch.
+            now[i] = kept.count > 0 ? kept.voxels[0] : One{};
+            now[i].seed = nullptr;
+        }
+    }
+    if (!makeRoom(kept, made.count))
+        return false;
+    memcpy(static_cast<void*>(kept.voxels), now, static_cast<size_t>(made.count) * sizeof now[0]);
+    return true;
 }
 
 // Corrects the steps of voxels that have been made anew at the end of a period, and sets the next period.
-void Keeper::follow(Kept& kept, const Voxel* voxels) const
+inline void Keeper::follow(Kept& kept, const Patch& patch, const PatchVoxels& made, bool sameSeeds) const
 {
     const int shift = __builtin_ctz(kept.period);
+    const bool blends = patch.state == PATCH_MIXED;
     int32_t error = 0;
-    for (int i = 0; i < kept.count; ++i)
-        error |= kept.voxels[i].follow(voxels[i], shift);
-    int period = kept.stepsKnown ? periodAfter(kept.period, error, tolerated_) : 1;
+    for (int i = 0; i < made.count; ++i) {
+        One& one = kept.voxels[i];
+        if (one.seed == nullptr)
+            one.begin(made.voxels[i], made.seen[i].seed);
+        else
+            error |= one.follow(made.voxels[i], shift, blends);
+    }
+    const int32_t tolerated = blends ? tolerated_ : tolerated_ / 2;
+    int period = kept.stepsKnown ? periodAfter(kept.period, error, tolerated) : 1;
+    // Others may come into sight, or go, as soon.
+    if (!sameSeeds)
+        period = blends ? min32(period, 2) : 1;
     // A patch that shows nothing may turn into sight.
-    if (kept.count == 0)
-        period = min32(period, 2);
-    if (kept.stepsKnown && error >= tolerated_ * UNEVEN_ERRORS)
+    if (made.count == 0)
+        period = min32(period, blends ? longestUnseen(kept, patch, shift) : 2);
+    if (blends) {
+        period = min32(period, longest_);
+        // Half of the patches begin in a frame, half in the next, so that all frames take about the same time.
+        if (kept.period == 1 && period == 2 && ((static_cast<uint32_t>(&kept - kept_) + frame_) & 1) != 0)
+            period = 1;
+    } else if (kept.stepsKnown && error >= tolerated * UNEVEN_ERRORS) {
         kept.pause = PAUSE;
+    }
     kept.stepsKnown = true;
     kept.period = static_cast<uint8_t>(period);
     kept.left = static_cast<uint8_t>(period - 1);
 }
 
+// The longest period in which no seed of a patch without voxels turns into sight; it goes on turning as in the period before.
+int Keeper::longestUnseen(Kept& kept, const Patch& patch, int shift) const
+{
+    int32_t nearest = HIDDEN;
+    forSeeds(object_, patch, [&](const Seed& s) {
+        if (s.flags & (SEED_VALID | SEED_RESTING))
+            nearest = max32(nearest, facing(object_, s, own_));
+    });
+    const int32_t step = (nearest - kept.facing) >> shift;
+    kept.facing = nearest;
+    int period = LONGEST_PERIOD;
+    while (period > 1 && nearest + step * (period - 1) > own_.limb - NEARLY_SEEN)
+        period /= 2;
+    return period;
+}
+
 // ---- One voxel
 
-Keeper::One::One(const Voxel& v)
-    : voxel(v), added{Slopes::NONE, 0}, place{v.x * 16, v.y * 16, v.z * 16}, step{0, 0, 0},
-      light(static_cast<int16_t>(v.brightness * 256 + 128)), stepLight(0), reach(static_cast<int16_t>(v.reach * 128)), stepReach(0),
-      stepTiltX(0), stepTiltY(0), stepCutAt(0)
+// Takes a voxel of which nothing is known, and leaves the steps as they are.
+void Keeper::One::begin(const Voxel& v, const Seed* of)
 {
+    for (int i = 0; i < 3; ++i)
+        place[i] = (&v.x)[i] * 16;
+    light = static_cast<int16_t>(v.brightness * 256 + 128);
+    reach = static_cast<int16_t>(v.reach * 128);
+    seed = of;
+    set(v);
 }
 
 // Takes a step.
@@ -191,17 +312,19 @@ inline void Keeper::One::goOn()
         const int32_t darkest = voxel.brightness < 0 ? DARK_MIDDLE + 1 : 0;
         voxel.brightness = static_cast<int8_t>(max32(min32(light >> 8, BRIGHTEST), darkest));
     }
-    if (voxel.reach == 0)
+    if ((stepReach | stepCutAt) == 0)
         return;
-    reach = static_cast<int16_t>(max32(min32(reach + stepReach, REACH_MOST * 128), 128));
-    voxel.reach = static_cast<uint8_t>(reach >> 7);
+    if (voxel.reach != 0) {
+        reach = static_cast<int16_t>(max32(min32(reach + stepReach, REACH_MOST * 128), 128));
+        voxel.reach = static_cast<uint8_t>(reach >> 7);
+    }
     voxel.cutAt = static_cast<int16_t>(limited(voxel.cutAt + stepCutAt, CUT_MOST));
 }
 
 // Takes the voxel as it has been made anew, and corrects the steps, of which 2^shift were made. Returns about the error in units of
-// 1/256; a step of brightness counts as 1/32 unit, and the reach half. Several errors are or-ed, because that is quicker than to
-// find the greatest.
-inline int32_t Keeper::One::follow(const Voxel& v, int shift)
+// 1/256; a step of brightness counts as 1/32 unit, and the reach half. Where patches blend an error of tilt or brightness counts
+// twice. Several errors are or-ed, because that is quicker than to find the greatest.
+inline int32_t Keeper::One::follow(const Voxel& v, int shift, bool blends)
 {
     const int32_t to[] = {v.x * 16, v.y * 16, v.z * 16}, lightTo = v.brightness * 256 + 128;
     int32_t error = 0;
@@ -209,17 +332,23 @@ inline int32_t Keeper::One::follow(const Voxel& v, int shift)
         error |= correctStep(to[i], place[i], shift, step[i]) >> 4;
         place[i] = to[i];
     }
-    error |= correctStep(v.tiltX, voxel.tiltX, shift, stepTiltX) | correctStep(v.tiltY, voxel.tiltY, shift, stepTiltY);
-    error |= correctStep(lightTo, light, shift, stepLight) >> 5;
+    error |= (correctStep(v.tiltX, voxel.tiltX, shift, stepTiltX) | correctStep(v.tiltY, voxel.tiltY, shift, stepTiltY)) << blends;
+    error |= correctStep(lightTo, light, shift, stepLight) >> (5 - blends);
     light = static_cast<int16_t>(lightTo);
     const int32_t reachTo = v.reach * 128;
     if (v.reach != 0 && voxel.reach != 0) {
-        error |= correctStep(reachTo, reach, shift, stepReach) >> 5 | correctStep(v.cutAt, voxel.cutAt, shift, stepCutAt) >> 1;
+        error |= correctStep(reachTo, reach, shift, stepReach) >> 5;
     } else if (v.reach != voxel.reach) {
-        stepReach = stepCutAt = 0;
-        error = OTHERWISE;
+        stepReach = 0;
+        error |= blends ? 0 : OTHERWISE;
     }
     reach = static_cast<int16_t>(reachTo);
+    if ((v.cutAt | voxel.cutAt) != 0) {
+        if (isCut(v) && isCut(voxel) && !isCutNowhere(v) && !isCutNowhere(voxel))
+            error |= correctStep(v.cutAt, voxel.cutAt, shift, stepCutAt) >> 1;
+        else
+            stepCutAt = 0;
+    }
     error |= (magnitude(stepTiltX) | magnitude(stepTiltY) | magnitude(stepLight)) & ~(LONG_STEP - 1);
     set(v);
     return error;

@@ -1,64 +1,82 @@
-// Keeper: coherence over time. Voxels of patches that have not been settled are kept from frame to frame. While neither the object
-// nor the viewer nor the light moves they stay as they are. Those of a patch at rest that is seen to turn or to come nearer evenly
-// go on as in the frames before, for up to seven frames. Without this file the program is slower, and the picture hardly different.
+// Keeper: coherence over time. The voxels of patches are kept from frame to frame. While neither the object nor the viewer nor the
+// light moves, those of patches that have not been settled stay as they are. Over a few frames most patches change evenly: each of
+// their voxels moves, tilts and brightens as in the frames before. Such voxels go on by the same steps for up to seven frames, and
+// the seeds are not settled meanwhile. Without this file the program is slower, and the picture hardly different.
 #ifndef FB_KEEPER_H
 #define FB_KEEPER_H
 
 #include "model/paint.h"
 #include "patch.h"
 #include "slopes.h"
+#include "voxels.h"
+
+// The voxels of a patch as they have just been made: of which seed each is, and from which entry on the slopes have got them.
+struct PatchVoxels {
+    const Voxel* voxels;
+    const Seen* seen;
+    int count, sloped;
+    bool bordered;  // VoxelList::bordered
+};
 
 // The voxels that the patches of one object have kept. Patches are counted from 0.
 class Keeper {
 public:
-    Keeper() = default;
+    explicit Keeper(const SoftObject& object) : object_(object) {}
     ~Keeper();
     Keeper(const Keeper&) = delete;
     Keeper& operator=(const Keeper&) = delete;
 
-    // Makes room for `count` patches of seeds that are `spacing` apart. Without that, or without memory, nothing is kept.
-    void open(int count, Real spacing);
-    // Forgets all voxels, because the seeds have been laid out elsewhere; or those of a patch, because its seeds have moved.
+    // Makes room for `count` patches. Without that, or without memory, nothing is kept.
+    void open(int count);
+    // Forgets all voxels, because the seeds have been laid out elsewhere; or that those of a patch are still right, because its
+    // seeds have been settled.
     void forget() { draws_ = 0; }
     void forget(int number)
     {
         if (count_ > 0)
-            kept_[number].since = kept_[number].drawn = 0;
+            kept_[number].since = 0;
     }
 
-    // Begins the drawing of a frame. `paint` is the object's, or null.
-    void begin(const OwnFrame& own, const Paint* paint);
+    // Begins a frame. `travel` is how far the object's neighbours have travelled since the frame before, 1/1024 unit. Unless
+    // `blendsEvenly`, no patch that blends goes on in it.
+    void begin(const OwnFrame& own, uint32_t travel, bool blendsEvenly);
 
-    // Whether the voxels that a patch has kept are those of this frame, or may go on; and adds them to the list and to the slopes.
-    // `seeds` are the object's regular seeds.
-    bool has(int number, const Patch& patch)
+    // Whether the voxels of a patch go on in this frame. If it blends its seeds need not be settled.
+    bool goesOn(int number, const Patch& patch) const
     {
-        if (count_ == 0 || kept_[number].state != patch.state || patch.islands)
-            return false;
-        return stands_ ? kept_[number].since == since_ : goesOn(kept_[number]);
+        return count_ > 0 && kept_[number].left != 0 && kept_[number].drawn == frame_ - 1 && kept_[number].state == patch.state &&
+               !patch.islands && isEven(patch);
     }
-    void list(int number, const Seed* seeds, VoxelList& list, Slopes& slopes);
-    // Keeps the voxels of a patch: those of the list from `first` on, of which the slopes have got those from `sloped` on. All of
-    // them are in the object's own colour, and the list has no guests among them.
-    void keep(int number, const Patch& patch, int first, const VoxelList& list, int sloped, const Slopes& slopes)
+    // Whether they are those of this frame, because nothing has changed.
+    bool stands(int number, const Patch& patch) const
+    {
+        return motion_ == STANDS && count_ > 0 && kept_[number].since == since_ && kept_[number].state == patch.state &&
+               !patch.islands;
+    }
+    // Adds the voxels of such a patch to the list and to the slopes, after a step if they go on.
+    void list(int number, const Patch& patch, VoxelList& list, Slopes& slopes);
+    // Keeps voxels that have been made in this frame. All of them are in the object's own colour.
+    void keep(int number, const Patch& patch, const PatchVoxels& made, const Slopes& slopes)
     {
         if (count_ == 0 || patch.islands)
             return;
-        if (stands_ || (patch.state == PATCH_REST && movesEvenly()))
-            store(kept_[number], patch, first, list, sloped, slopes);
+        const bool mayGoOn = isEven(patch) && !patch.fine;
+        if (mayGoOn || motion_ == STANDS)
+            store(kept_[number], patch, made, mayGoOn, slopes);
     }
 
 private:
     // A voxel, and how it changes from one frame to the next.
     struct One {
         Voxel voxel;
+        const Seed* seed;
         Slopes::Added added;        // how the slopes have got it
         int32_t place[3], step[3];  // Voxel::x, y, z with 4 more fraction bits, and their change
         int16_t light, stepLight;   // Voxel::brightness with 8 more fraction bits
         int16_t reach, stepReach;   // Voxel::reach with 7 more fraction bits
         int16_t stepTiltX, stepTiltY, stepCutAt;
 
-        explicit One(const Voxel& v);
+        void begin(const Voxel& v, const Seed* of);
         // Takes another voxel, and leaves the steps as they are.
         void set(const Voxel& v)
         {
@@ -66,12 +84,13 @@ private:
             added = {Slopes::NONE, 0};
         }
         void goOn();
-        int32_t follow(const Voxel& v, int shift);
+        int32_t follow(const Voxel& v, int shift, bool blends);
     };
     struct Kept {
         One* voxels;
-        uint32_t since;       // since_ when they were kept; 0: they are not valid
+        uint32_t since;       // since_ when they were kept; 0: they are not right any more
         uint32_t drawn;       // number of the frame in which they were drawn last
+        int32_t facing;       // of a blending patch without voxels: facing() of the seed that is the nearest to be seen, or HIDDEN
         uint8_t count, room;  // voxels, and how many there is room for
         uint8_t period, left; // they are made once in `period` frames; frames left until then
         uint8_t pause;        // for so many frames none are kept while something moves, because they changed unevenly
@@ -79,25 +98,38 @@ private:
         PatchState state;
         bool bordered;        // VoxelList::bordered
     };
-    bool goesOn(const Kept& kept) { return kept.left != 0 && kept.drawn == frame_ - 1 && movesEvenly(); }
-    bool movesEvenly();
-    void store(Kept& kept, const Patch& patch, int first, const VoxelList& list, int sloped, const Slopes& slopes) const;
-    void follow(Kept& kept, const Voxel* voxels) const;
+    // How the object, the viewer and the light move: not at all, as in the frame before, the same but turning fast, or otherwise.
+    enum Motion { STANDS, EVEN, FAST, UNEVEN };
 
-    // How the object is seen and lit: the first AXES parts are the axes of the view and the light (1.0 = 2^14), the others the eye
-    // (1/32 unit).
-    static constexpr int PARTS = 15, AXES = 12;
-    typedef int32_t View[PARTS];
+    bool isEven(const Patch& patch) const
+    {
+        return patch.state == PATCH_MIXED ? longest_ > 1 && motion_ != UNEVEN : patch.state == PATCH_REST && motion_ == EVEN;
+    }
+    Motion motionOf(const OwnFrame& own);
+    void store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool mayGoOn, const Slopes& slopes) const;
+    bool makeRoom(Kept& kept, int count) const;
+    static void begin(Kept& kept, const PatchVoxels& made);
+    static bool hasSameSeeds(const Kept& kept, const PatchVoxels& made);
+    bool rearrange(Kept& kept, const PatchVoxels& made) const;
+    void follow(Kept& kept, const Patch& patch, const PatchVoxels& made, bool sameSeeds) const;
+    int longestUnseen(Kept& kept, const Patch& patch, int shift) const;
 
+    // The most voxels of a patch without fine seeds: of regular and oversampled ones.
+    static constexpr int ONES_MOST = 2 * PATCH_RINGS * PATCH_SEEDS;
+
+    const SoftObject& object_;
     Kept* kept_ = nullptr;
     int count_ = 0;
-    int32_t tolerated_ = 0;   // toleratedError()
+    int32_t tolerated_ = 0;   // the error of a step that is tolerated where patches blend, 1/256 unit
+    uint32_t farthest_ = 0;   // FARTHEST for this object, 1/1024 unit
     int draws_ = 0;           // how often the object has been drawn; 3: more than twice
     uint32_t frame_ = 1;      // number of this frame
     uint32_t since_ = 0;      // how often it has been drawn otherwise than the time before
-    bool stands_ = false;     // it is drawn as the time before
-    enum { UNKNOWN, EVEN, UNEVEN } motion_ = UNKNOWN;  // how it moves, once movesEvenly() has been asked
-    View views_[3];           // of this frame and the two before, by the remainder of their numbers
+    Motion motion_ = UNEVEN;
+    uint32_t travel_ = 0;     // travel of the neighbours
+    int longest_ = 1;         // the longest period that they allow where patches blend
+    // How the object is seen and lit: the axes of the view, the light (1.0 = 2^14) and the eye (1/32 unit); and their change.
+    int32_t view_[15] = {}, viewChange_[15] = {};
     OwnFrame own_;            // how it was drawn last: the frame,
     int32_t paintedAs_ = -1;  // and its finish (256 times that) and the number of its colour, or -1 if it has no paint
 };

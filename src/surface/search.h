@@ -14,8 +14,8 @@ constexpr Real FLAT(-0.06);
 constexpr int NEWTON_STEPS = 5;
 
 // Newton's method, from the sample at `*position`, which is on the surface if the field differs from the isovalue by no more than
-// `tolerance`. Returns true when it ends with `*position` on the surface; `*sample` was then taken there or a short step before.
-inline bool follow(Path& path, Real* position, Sample* sample, Real tolerance);
+// TOLERANCE. Returns true when it ends with `*position` on the surface; `*sample` was then taken there or a short step before.
+inline bool follow(Path& path, Real* position, Sample* sample);
 
 // Whether a seed lies inside a neighbour, judged at a few positions: from COVERED_AT on, or from a certain position farther out,
 // the neighbour is the stronger one, and the path does not leave the surface before. (Where claims are not fields, FAINT_AT is such
@@ -46,12 +46,12 @@ bool leavesAgain(Path& path, Real* inside, Real* outside);
 // Finds where the path crosses the surface between a position inside and one outside; the excess of `*sample` becomes 0.
 void bisect(Path& path, Real inside, Real outside, Real* position, Sample* sample);
 
-inline bool follow(Path& path, Real* position, Sample* sample, Real tolerance)
+inline bool follow(Path& path, Real* position, Sample* sample)
 {
     for (int i = 0; i < NEWTON_STEPS; ++i) {
         if (sample->slope > FLAT)
             return false;
-        if (absolute(sample->excess) <= tolerance)
+        if (absolute(sample->excess) <= TOLERANCE)
             return true;
         const Real step = clamp(quotient(-sample->excess, sample->slope), -LONGEST_STEP, LONGEST_STEP);
         *position += step;

@@ -93,14 +93,12 @@ inline Settler::Followed Settler::followOn(Seed& s, Real* position, Sample* samp
     }
     if (!touched && all_.restsAtOne)
         return ALONE;
-    // Of a seed that has been moved on a small error would be taken for a part of its motion.
-    const Real tolerance = patch_->moved ? Real(0) : TOLERANCE;
-    if (closed || !follow(path_, position, sample, tolerance))
+    if (closed || !follow(path_, position, sample))
         return LOST;
     if (nearby_.isBeyond(*position)) {
         // Where the seed is now other neighbours may reach it.
         path_.begin(nearby_.listed(), s, *position, sample);
-        if (!follow(path_, position, sample, tolerance))
+        if (!follow(path_, position, sample))
             return LOST;
     }
     return FOUND;

@@ -58,17 +58,18 @@ public:
     template <bool PAINTED>
     void shadePatch(Patch& patch, VoxelList& list, Painter* painter);
 
-    // The object's regular seeds, and their spacing, 1/256 unit.
-    const Seed* seeds() const { return shading_.seeds; }
+    // The spacing of the object's seeds, 1/256 unit.
     int32_t spacing() const { return spacing_; }
+    // The seeds of the last patch of which voxels have been listed.
+    const Seen* seen() const { return seen_; }
 
 private:
-    int findSeen(const Patch& patch, Seen* seen, Voxel* voxels, int* regular) const;
-    void shadeSeen(Patch& patch, const Seen* seen, Voxel* voxels, int count);
+    int findSeen(const Patch& patch, Voxel* voxels, int* regular);
+    void shadeSeen(Patch& patch, Voxel* voxels, int count);
     bool cutAtBorder(const Seed& s, Voxel* voxel, VoxelList& list) const;
     static Voxel* listUnpainted(const Seed& s, const Voxel* voxel, Voxel** to, VoxelList& list);
     template <bool PAINTED>
-    void listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list, Painter* painter);
+    void listVoxels(const Patch& patch, Voxel* voxels, int count, int regular, VoxelList& list, Painter* painter);
     int findExtras(const Patch& patch, Seen* seen, Voxel* voxels) const;
     int clipDepth(Seen* seen, Voxel* voxels, int count) const;
     void setPatch(const Patch& patch, const Seen& middle, const Voxel& at);
@@ -111,6 +112,7 @@ private:
     int32_t middle_;          // depth of the patch, 1/256 unit
     bool limbSought_, hasLimb_;
     Limb limb_;               // limb of its regular seeds, if hasLimb_
+    Seen seen_[SEEDS_MOST];   // seen()
 };
 
 Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame)
@@ -323,25 +325,25 @@ SELDOM int Shader::clipDepth(Seen* seen, Voxel* voxels, int count) const
 
 // Finds the visible seeds of a patch and sets the places of their voxels: first `*regular` regular seeds, then oversampled and fine
 // ones. Returns how many they are together.
-inline int Shader::findSeen(const Patch& patch, Seen* seen, Voxel* voxels, int* regular) const
+inline int Shader::findSeen(const Patch& patch, Voxel* voxels, int* regular)
 {
-    int count = findSeeds(&shading_, &patch, seen, voxels);
+    int count = findSeeds(&shading_, &patch, seen_, voxels);
     if (clipsDepth_)
-        count = clipDepth(seen, voxels, count);
+        count = clipDepth(seen_, voxels, count);
     *regular = count;
     if (patch.extras || patch.islands)
-        count += findExtras(patch, seen + count, voxels + count);
+        count += findExtras(patch, seen_ + count, voxels + count);
     return count;
 }
 
 // Writes the rest of the voxels of these seeds.
-inline void Shader::shadeSeen(Patch& patch, const Seen* seen, Voxel* voxels, int count)
+inline void Shader::shadeSeen(Patch& patch, Voxel* voxels, int count)
 {
-    const Seen& middle = seen[count >> 1];
+    const Seen& middle = seen_[count >> 1];
     if (!patch.bend.known)
         measureBend(object_, shading_, patch);
     setPatch(patch, middle, voxels[count >> 1]);
-    shadeSeeds(&shading_, seen, voxels, count);
+    shadeSeeds(&shading_, seen_, voxels, count);
 }
 
 // Cuts a voxel at the border of its seed. Returns false when nothing of the voxel is left.
@@ -381,7 +383,7 @@ inline Voxel* Shader::listUnpainted(const Seed& s, const Voxel* voxel, Voxel** t
 
 // Lists the voxels of a patch that blends, or whose object has a paint.
 template <bool PAINTED>
-inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxels, int count, int regular, VoxelList& list,
+inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, int regular, VoxelList& list,
                                Painter* painter)
 {
     const bool shines = PAINTED && painter->shines(), blends = patch.state == PATCH_MIXED;
@@ -391,18 +393,20 @@ inline void Shader::listVoxels(const Patch& patch, const Seen* seen, Voxel* voxe
     const int32_t sight = shines || uneven ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
     const int sloped = shines || blends ? regular : 0;
     Voxel* to = list.room();
+    int listed = 0;
     for (int i = 0; i < count; ++i) {
-        const Seed& s = *seen[i].seed;
+        const Seed& s = *seen_[i].seed;
         const bool knows = blends && !shines && knowsLight(s, i < regular, voxels[i]);
         if (knows)
             setSlopesOf(s, voxels + i);
         if ((s.flags & SEED_BORDER) && !cutAtBorder(s, voxels + i, list))
             continue;
+        seen_[listed++] = seen_[i];
         Voxel* const shown = PAINTED ? painter->add(s, voxels[i]) : listUnpainted(s, voxels + i, &to, list);
         if (uneven)
             dome(shown);
         else if (i < regular)
-            endAtLimb(patch, seen[i], shown);
+            endAtLimb(patch, seen_[i], shown);
         if (i >= sloped)
             continue;
         // A dark voxel keeps its slopes. With a finish that shines, brightness 0 does not mean that the light ends there.
@@ -421,18 +425,17 @@ inline void Shader::shadePatch(Patch& patch, VoxelList& list, Painter* painter)
     // The painter makes one or two voxels of each of these.
     Voxel unpainted[PAINTED ? SEEDS_MOST : 1];
     Voxel* const voxels = PAINTED ? unpainted : list.room();
-    Seen seen[SEEDS_MOST];
     int regular;
-    const int count = findSeen(patch, seen, voxels, &regular);
+    const int count = findSeen(patch, voxels, &regular);
     if (count == 0)
         return;
-    shadeSeen(patch, seen, voxels, count);
+    shadeSeen(patch, voxels, count);
     if (PAINTED || patch.state != PATCH_REST) {
-        listVoxels<PAINTED>(patch, seen, voxels, count, regular, list, painter);
+        listVoxels<PAINTED>(patch, voxels, count, regular, list, painter);
         return;
     }
     for (int i = 0; i < count; ++i)
-        endAtLimb(patch, seen[i], voxels + i);
+        endAtLimb(patch, seen_[i], voxels + i);
     list.count += count;
 }
 
@@ -479,23 +482,26 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
     // stand at this one.
     constexpr int most = 2 * SEEDS_MOST;
     static_assert(most <= DRAW_ROOM);
+    // A pattern may move over seeds that stand still.
+    const bool keeps = !PAINTED || painter->isPlain();
     int i = first;
     for (; i < count; ++i) {
         Patch& patch = patches[i];
-        if (!patch.islands && ((patch.state == PATCH_REST && restsAway(patch, own)) || !isSeen(patch, own)))
+        if (patch.state == PATCH_REST && !patch.islands && restsAway(patch, own))
+            continue;
+        const bool goesOn = keeps && keeper.goesOn(i, patch);
+        if (!goesOn && !patch.islands && !isSeen(patch, own))
             continue;
         if (list.count + list.guests + most > room)
             break;
-        // A pattern may move over seeds that stand still.
-        const bool keeps = !PAINTED || painter->isPlain();
-        if (keeps && keeper.has(i, patch)) {
-            keeper.list(i, shader.seeds(), list, slopes);
+        if (goesOn || (keeps && keeper.stands(i, patch))) {
+            keeper.list(i, patch, list, slopes);
             continue;
         }
         const int begin = list.count, guests = list.guests, sloped = slopes.count();
         shader.shadePatch<PAINTED>(patch, list, painter);
         if (keeps && list.guests == guests)
-            keeper.keep(i, patch, begin, list, sloped, slopes);
+            keeper.keep(i, patch, {list.voxels + begin, shader.seen(), list.count - begin, sloped, list.bordered}, slopes);
     }
     slopes.set(shader.spacing());
     if (list.guests > 0)

@@ -40,7 +40,7 @@ for switches in "/N:60" "/N:20 /G /S:1" "/N:20 /P" "/N:20 /R:70 /S:3"; do
 done
 echo "four spheres from a file: 120 frames compared with the model built in"
 
-# Every scene must give the same frames on both builds, in long steps and in short ones, with which seeds are moved on.
+# Every scene must give the same frames on both builds, in long steps and in short ones, with which voxels go on.
 frames=0
 both() { # both NAME SCENE: compares the builds
 	for rate in 2 35; do

@@ -219,7 +219,7 @@ struct Scene {
         for (auto& object : objects)
             object->update(frame());
     }
-    // As update(), and nothing is left where it has only been moved on (surface/reckon.h): in a second update, in which nothing
+    // As update(), and nothing is left that only goes on (surface/keeper.h): in a second update, in which nothing
     // has moved, that is settled.
     void settle()
     {
