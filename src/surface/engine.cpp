@@ -3,7 +3,6 @@
 
 #include "math/alloc.h"
 #include "model/stop.h"
-#include "odometer.h"
 #include "paint.h"
 #include "rt.h"
 #include "settle.h"
@@ -42,7 +41,7 @@ public:
 
 private:
     bool updatePatch(Settler& settler, Patch& patch, const OwnFrame& own, const Neighbourhood& all);
-    bool goesOn(int number, const Neighbourhood& all);
+    bool goOn(int number, const Neighbourhood& all);
     bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all);
     bool stays(const Settler& settler, Patch& patch, const Neighbourhood& all) const;
     bool comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all);
@@ -102,7 +101,7 @@ bool Engine::update(const FrameContext& frame)
         patches_[i].settled = false;
         if (i % ASKED_EVERY == ASKED_EVERY - 1 && stopAsked())
             return true;
-        if (goesOn(i, all))
+        if (goOn(i, all))
             displaced = wentOn = true;
         else
             displaced |= updatePatch(settler, patches_[i], own, all);
@@ -136,9 +135,9 @@ void Engine::settleIslands(Settler& settler)
     }
 }
 
-// Whether the voxels of a patch that blends go on, so that its seeds need not be settled. What the neighbours do meanwhile counts
-// in a later frame.
-inline bool Engine::goesOn(int number, const Neighbourhood& all)
+// Lets the voxels of a patch that blends go on, so that its seeds need not be settled. Returns false if they do not. What the
+// neighbours do meanwhile counts in a later frame.
+inline bool Engine::goOn(int number, const Neighbourhood& all)
 {
     Patch& patch = patches_[number];
     if (patch.state != PATCH_MIXED || !keeper_.goesOn(number, patch))

@@ -3,6 +3,7 @@
 
 #include "math/alloc.h"
 #include "math/whole.h"
+#include "model/paint.h"
 #include "rt.h"
 
 namespace {
@@ -80,14 +81,14 @@ void Keeper::open(int count)
 {
     const Real spacing = min(object_.spacing(), COARSE);
     tolerated_ = rawFromReal(spacing * spacing * TOLERATED) >> 16;
-    farthest_ = static_cast<uint32_t>(rawFromReal(spacing * FARTHEST) >> 6);
+    farthest_ = travelOf(spacing * FARTHEST);
     kept_ = allocate<Kept>(static_cast<uint32_t>(count));
     count_ = kept_ == nullptr ? 0 : count;
     for (int i = 0; i < count_; ++i)
         kept_[i] = Kept{};
 }
 
-void Keeper::begin(const OwnFrame& own, uint32_t travel, bool blendsEvenly)
+void Keeper::begin(const OwnFrame& own, Travel travel, bool blendsEvenly)
 {
     if (count_ == 0)
         return;
@@ -106,7 +107,7 @@ void Keeper::begin(const OwnFrame& own, uint32_t travel, bool blendsEvenly)
     const bool even = magnitude(static_cast<int32_t>(travel - travel_)) < static_cast<int32_t>(travel / 2) + EVEN_TRAVEL;
     travel_ = travel;
     longest_ = even && blendsEvenly ? LONGEST_PERIOD : 1;
-    while (longest_ > 1 && travel * static_cast<uint32_t>(longest_ - 1) > farthest_)
+    while (longest_ > 1 && travel * static_cast<Travel>(longest_ - 1) > farthest_)
         longest_ /= 2;
 }
 

@@ -5,8 +5,7 @@
 #ifndef FB_KEEPER_H
 #define FB_KEEPER_H
 
-#include "model/paint.h"
-#include "patch.h"
+#include "odometer.h"
 #include "slopes.h"
 #include "voxels.h"
 
@@ -37,9 +36,9 @@ public:
             kept_[number].since = 0;
     }
 
-    // Begins a frame. `travel` is how far the object's neighbours have travelled since the frame before, 1/1024 unit. Unless
-    // `blendsEvenly`, no patch that blends goes on in it.
-    void begin(const OwnFrame& own, uint32_t travel, bool blendsEvenly);
+    // Begins a frame. `travel` is how far the object's neighbours have travelled since the frame before. Unless `blendsEvenly`,
+    // no patch that blends goes on in it.
+    void begin(const OwnFrame& own, Travel travel, bool blendsEvenly);
 
     // Whether the voxels of a patch go on in this frame. If it blends its seeds need not be settled.
     bool goesOn(int number, const Patch& patch) const
@@ -121,12 +120,12 @@ private:
     Kept* kept_ = nullptr;
     int count_ = 0;
     int32_t tolerated_ = 0;   // the error of a step that is tolerated where patches blend, 1/256 unit
-    uint32_t farthest_ = 0;   // FARTHEST for this object, 1/1024 unit
+    Travel farthest_ = 0;     // FARTHEST for this object
     int draws_ = 0;           // how often the object has been drawn; 3: more than twice
     uint32_t frame_ = 1;      // number of this frame
     uint32_t since_ = 0;      // how often it has been drawn otherwise than the time before
     Motion motion_ = UNEVEN;
-    uint32_t travel_ = 0;     // travel of the neighbours
+    Travel travel_ = 0;       // travel of the neighbours
     int longest_ = 1;         // the longest period that they allow where patches blend
     // How the object is seen and lit: the axes of the view, the light (1.0 = 2^14) and the eye (1/32 unit); and their change.
     int32_t view_[15] = {}, viewChange_[15] = {};

@@ -36,9 +36,6 @@ public:
     // they are.
     bool setPatch(const Patch& patch, bool oversampled = false);
 
-    // The size of the smallest of the object and the neighbours that reach the seeds, units; after setPatch().
-    Real smallest() const { return nearby_.smallest(); }
-
     // Whether the blocker of a patch is sure to cover all its paths (cover.h). Not worth asking, and false, if the middle seed was
     // on the surface.
     bool isCovered(const Patch& patch)
