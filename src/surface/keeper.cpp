@@ -154,7 +154,7 @@ void Keeper::list(int number, const Patch& patch, VoxelList& list, Slopes& slope
 }
 
 // Makes room for the voxels of a patch. Returns false when there is no memory.
-bool Keeper::makeRoom(Kept& kept, int count) const
+bool Keeper::makeRoom(Kept& kept, int count)
 {
     if (count <= kept.room)
         return true;
@@ -214,7 +214,7 @@ inline bool Keeper::hasSameSeeds(const Kept& kept, const PatchVoxels& made)
 
 // Puts the kept voxels of a patch in the order of those that have been made: those of seeds that are not seen any more go, and for
 // a seed that has come into sight there is a voxel without a seed. Returns false when there is no memory.
-bool Keeper::rearrange(Kept& kept, const PatchVoxels& made) const
+bool Keeper::rearrange(Kept& kept, const PatchVoxels& made)
 {
     One now[ONES_MOST];
     const One *before = kept.voxels, *const end = before + kept.count;
@@ -292,8 +292,9 @@ int Keeper::longestUnseen(Kept& kept, const Patch& patch, int shift) const
 // Takes a voxel of which nothing is known, and leaves the steps as they are.
 void Keeper::One::begin(const Voxel& v, const Seed* of)
 {
-    for (int i = 0; i < 3; ++i)
-        place[i] = (&v.x)[i] * 16;
+    place[0] = v.x * 16;
+    place[1] = v.y * 16;
+    place[2] = v.z * 16;
     light = static_cast<int16_t>(v.brightness * 256 + 128);
     reach = static_cast<int16_t>(v.reach * 128);
     seed = of;

@@ -106,10 +106,10 @@ private:
     }
     Motion motionOf(const OwnFrame& own);
     void store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool mayGoOn, const Slopes& slopes) const;
-    bool makeRoom(Kept& kept, int count) const;
+    static bool makeRoom(Kept& kept, int count);
     static void begin(Kept& kept, const PatchVoxels& made);
     static bool hasSameSeeds(const Kept& kept, const PatchVoxels& made);
-    bool rearrange(Kept& kept, const PatchVoxels& made) const;
+    static bool rearrange(Kept& kept, const PatchVoxels& made);
     void follow(Kept& kept, const Patch& patch, const PatchVoxels& made, bool sameSeeds) const;
     int longestUnseen(Kept& kept, const Patch& patch, int shift) const;
 

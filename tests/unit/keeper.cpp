@@ -147,11 +147,12 @@ TEST(voxels_of_what_turns_evenly_go_on)
 
 TEST(what_turns_otherwise_or_stands_is_made_anew)
 {
-    // In the last frames it turns faster; or it stands.
-    const Turning faster(27, 25, [](int i) { return i < 25 ? 0.8 : 2.0 * (i - 23); });
+    // In the last frames it turns fast; or only faster than before; or it stands.
+    const Turning fast(27, 25, [](int i) { return i < 25 ? 0.8 : 2.0 * (i - 23); });
+    const Turning faster(27, 25, [](int i) { return i < 25 ? 0.8 : 1.4; });
     const Turning stopped(40, 32, [](int i) { return i < 30 ? 0.8 : 0.0; });
-    CHECK(faster.all > 1000 && stopped.all > 2000);
-    CHECK(faster.moved == 0 && stopped.moved == 0);
+    CHECK(fast.all > 1000 && faster.all > 1000 && stopped.all > 2000);
+    CHECK(fast.moved == 0 && faster.moved == 0 && stopped.moved == 0);
     // It has turned slowly and then stood, and turns on as slowly: the old steps do not count.
     const Turning one(24, 23, [](int i) { return i < 19 || i > 22 ? 0.07 : 0.0; });
     const Turning other(27, 26, [](int i) { return i < 22 || i > 25 ? 0.07 : 0.0; });
