@@ -7,7 +7,8 @@
 # place, so each `make` waits for another lane's.
 # A suite is a script tests/SUITE/run.sh, run from the top of the tree. It builds what it needs, prints a line for each
 # failure ("FAIL ..." or "FAILED: ...") and closes with "N passed, N failed". One that ends without that line, or with a
-# status that does not go with it, counts as a failure of its own. The last line here is the sum, alone.
+# status that does not go with it, counts as a failure of its own, and so does one that takes longer than LIMIT seconds
+# (900). The last line here is the sum, alone.
 # The whole output of each suite is kept in build/log.
 set -u
 cd "$(dirname "$0")/.." || exit 1
@@ -51,7 +52,9 @@ one() {
 	suite=$1
 	log=build/log/$suite.txt
 	start=$(date +%s)
-	sh "tests/$suite/run.sh" >"$log" 2>&1
+	timeout -k 10 "${LIMIT:-900}" sh "tests/$suite/run.sh" >"$log" 2>&1 &
+	echo $! >"build/lanes/$suite.pid"
+	wait $!
 	status=$?
 	took=$(($(date +%s) - start))
 	last=$(tail -n 1 "$log" | tr -d '\r')
@@ -75,7 +78,7 @@ one() {
 		fi
 	else
 		tail -n 40 "$log"
-		echo "FAIL $suite: did not reach its end (status $status)"
+		echo "FAIL $suite: did not reach its end (status $status; 124 or 137: out of time)"
 		good=0
 		bad=1
 	fi
@@ -92,7 +95,8 @@ lane() {
 	done
 }
 
-trap 'trap - TERM; kill 0; exit 130' HUP INT TERM
+# Each suite is a group of processes of its own, which its `timeout` ends.
+trap 'trap - TERM; kill $(cat build/lanes/*.pid) 2>/dev/null; kill 0; exit 130' HUP INT TERM
 for number in $(seq "$lanes"); do
 	lane &
 done

@@ -87,7 +87,7 @@ startDisplay() {
 awaitTitle() {
     tries=0
     dosWindow=
-    while [ -z "$dosWindow" ] && [ $tries -lt 100 ]; do
+    while [ -z "$dosWindow" ] && [ $tries -lt 300 ]; do
         dosWindow=$(xdotool search --name "Program: *$1" 2> /dev/null | head -n 1)
         [ -n "$dosWindow" ] || sleep 0.1
         tries=$((tries + 1))
