@@ -25,10 +25,10 @@ constexpr int32_t EVEN_TRAVEL = 100;
 // straight then; where patches blend the error tells.
 constexpr int32_t JOLT = 24, FASTEST = 500;
 // Frames in which nothing is kept of a patch at rest after a change with an error of UNEVEN_ERRORS times the tolerated one.
-constexpr uint8_t PAUSE = 32;
+constexpr uint8_t PAUSE = 8;
 constexpr int32_t UNEVEN_ERRORS = 8;
-// Greater than any error that is tolerated: a limb has come or gone.
-constexpr int32_t OTHERWISE = 1 << 14;
+// Voxel::brightness with 8 more fraction bits: a smaller error may come from rounding alone, and corrects nothing.
+constexpr int32_t ROUNDED_LIGHT = 384;
 // Steps as long as this count as errors, so that nothing overflows in a period.
 constexpr int32_t LONG_STEP = 1024;
 static_assert(STEEPEST_TILT + LONG_STEP * LONGEST_PERIOD <= INT16_MAX, "tilts fit 16 bits");
@@ -242,15 +242,17 @@ inline void Keeper::follow(Kept& kept, const Patch& patch, const PatchVoxels& ma
 {
     const int shift = __builtin_ctz(kept.period);
     const bool blends = patch.state == PATCH_MIXED;
+    const int32_t tolerated = blends ? tolerated_ : tolerated_ / 2;
+    // Only where patches rest do the scales at the limb make the whole outline.
+    const One::Errors errors{object_.spacing() < COARSE ? 6 : 7, blends ? 0 : tolerated * 4};
     int32_t error = 0;
     for (int i = 0; i < made.count; ++i) {
         One& one = kept.voxels[i];
         if (one.seed == nullptr)
             one.begin(made.voxels[i], made.seen[i].seed);
         else
-            error |= one.follow(made.voxels[i], shift, blends);
+            error |= one.follow(made.voxels[i], shift, errors);
     }
-    const int32_t tolerated = blends ? tolerated_ : tolerated_ / 2;
     int period = kept.stepsKnown ? periodAfter(kept.period, error, tolerated) : 1;
     // Others may come into sight, or go, as soon.
     if (!sameSeeds)
@@ -324,9 +326,10 @@ inline void Keeper::One::goOn()
 }
 
 // Takes the voxel as it has been made anew, and corrects the steps, of which 2^shift were made. Returns about the error in units of
-// 1/256; a step of brightness counts as 1/32 unit, and the reach half. Where patches blend an error of tilt or brightness counts
-// twice. Several errors are or-ed, because that is quicker than to find the greatest.
-inline int32_t Keeper::One::follow(const Voxel& v, int shift, bool blends)
+// 1/256: one of tilt counts twice as far as it moves the edge of the scale, as it opens cracks, and four times between fine seeds;
+// one of the cut about as far as it moves the line, one of the reach half, and a step of brightness 1/16 unit. Several errors are
+// or-ed, because that is quicker than to find the greatest.
+inline int32_t Keeper::One::follow(const Voxel& v, int shift, const Errors& errors)
 {
     const int32_t to[] = {v.x * 16, v.y * 16, v.z * 16}, lightTo = v.brightness * 256 + 128;
     int32_t error = 0;
@@ -334,20 +337,27 @@ inline int32_t Keeper::One::follow(const Voxel& v, int shift, bool blends)
         error |= correctStep(to[i], place[i], shift, step[i]) >> 4;
         place[i] = to[i];
     }
-    error |= (correctStep(v.tiltX, voxel.tiltX, shift, stepTiltX) | correctStep(v.tiltY, voxel.tiltY, shift, stepTiltY)) << blends;
-    error |= correctStep(lightTo, light, shift, stepLight) >> (5 - blends);
+    const int32_t tiltXError = correctStep(v.tiltX, voxel.tiltX, shift, stepTiltX);
+    const int32_t tiltYError = correctStep(v.tiltY, voxel.tiltY, shift, stepTiltY);
+    error |= (tiltXError * v.halfWidth | tiltYError * v.halfHeight) >> errors.tiltShift;
+    int32_t lightStep = stepLight;
+    const int32_t lightError = correctStep(lightTo, light, shift, lightStep);
+    if (lightError > ROUNDED_LIGHT) {
+        error |= lightError >> 4;
+        stepLight = static_cast<int16_t>(lightStep);
+    }
     light = static_cast<int16_t>(lightTo);
     const int32_t reachTo = v.reach * 128;
     if (v.reach != 0 && voxel.reach != 0) {
         error |= correctStep(reachTo, reach, shift, stepReach) >> 5;
     } else if (v.reach != voxel.reach) {
         stepReach = 0;
-        error |= blends ? 0 : OTHERWISE;
+        error |= errors.otherwise;
     }
     reach = static_cast<int16_t>(reachTo);
     if ((v.cutAt | voxel.cutAt) != 0) {
         if (isCut(v) && isCut(voxel) && !isCutNowhere(v) && !isCutNowhere(voxel))
-            error |= correctStep(v.cutAt, voxel.cutAt, shift, stepCutAt) >> 1;
+            error |= correctStep(v.cutAt, voxel.cutAt, shift, stepCutAt) >> 2;
         else
             stepCutAt = 0;
     }

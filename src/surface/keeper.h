@@ -83,7 +83,13 @@ private:
             added = {Slopes::NONE, 0};
         }
         void goOn();
-        int32_t follow(const Voxel& v, int shift, bool blends);
+        // An error of tilt counts times half the extent of the scale, over 2^tiltShift. `otherwise` is the error if a scale has got
+        // a reach, or lost it.
+        struct Errors {
+            int tiltShift;
+            int32_t otherwise;
+        };
+        int32_t follow(const Voxel& v, int shift, const Errors& errors);
     };
     struct Kept {
         One* voxels;
