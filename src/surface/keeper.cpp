@@ -10,8 +10,8 @@ namespace {
 
 // Voxels are made anew once in a period of 1, 2, 4 or 8 frames.
 constexpr int LONGEST_PERIOD = 8;
-// Units: a greater spacing counts as this one.
-constexpr Real COARSE(2);
+// Units: a greater spacing than COARSE counts as this one; up to FINE errors of tilt count more.
+constexpr Real COARSE(2), FINE(1);
 // The error of a single step that is tolerated where patches blend, 1/256 unit at a spacing of 1. It grows with the square of the
 // spacing, because who wants finer seeds wants to see more: at COARSE it is 1/4 unit. Where patches rest half of it is tolerated,
 // for their voxels are made anew more quickly than seeds are settled.
@@ -244,7 +244,7 @@ inline void Keeper::follow(Kept& kept, const Patch& patch, const PatchVoxels& ma
     const bool blends = patch.state == PATCH_MIXED;
     const int32_t tolerated = blends ? tolerated_ : tolerated_ / 2;
     // Only where patches rest do the scales at the limb make the whole outline.
-    const One::Errors errors{object_.spacing() < COARSE ? 6 : 7, blends ? 0 : tolerated * 4};
+    const One::Errors errors{object_.spacing() <= FINE ? 6 : 8 - blends, blends ? 0 : tolerated * 4};
     int32_t error = 0;
     for (int i = 0; i < made.count; ++i) {
         One& one = kept.voxels[i];
@@ -326,9 +326,9 @@ inline void Keeper::One::goOn()
 }
 
 // Takes the voxel as it has been made anew, and corrects the steps, of which 2^shift were made. Returns about the error in units of
-// 1/256: one of tilt counts twice as far as it moves the edge of the scale, as it opens cracks, and four times between fine seeds;
-// one of the cut about as far as it moves the line, one of the reach half, and a step of brightness 1/16 unit. Several errors are
-// or-ed, because that is quicker than to find the greatest.
+// 1/256: one of tilt counts as far as it moves the edge of the scale (twice as far where patches blend, as it opens cracks, and
+// four times between fine seeds), one of the cut about as far as it moves the line, one of the reach half, and a step of
+// brightness 1/16 unit. Several errors are or-ed, because that is quicker than to find the greatest.
 inline int32_t Keeper::One::follow(const Voxel& v, int shift, const Errors& errors)
 {
     const int32_t to[] = {v.x * 16, v.y * 16, v.z * 16}, lightTo = v.brightness * 256 + 128;
