@@ -56,6 +56,7 @@ one() {
 	echo $! >"build/lanes/$suite.pid"
 	wait $!
 	status=$?
+	rm -f "build/lanes/$suite.pid"
 	took=$(($(date +%s) - start))
 	last=$(tail -n 1 "$log" | tr -d '\r')
 	if expr "$last" : '[0-9][0-9]* passed, [0-9][0-9]* failed$' >/dev/null; then
@@ -96,7 +97,7 @@ lane() {
 }
 
 # Each suite is a group of processes of its own, which its `timeout` ends.
-trap 'trap - TERM; kill $(cat build/lanes/*.pid) 2>/dev/null; kill 0; exit 130' HUP INT TERM
+trap 'trap - TERM; kill $(cat build/lanes/*.pid 2>/dev/null) 2>/dev/null; kill 0; exit 130' HUP INT TERM
 for number in $(seq "$lanes"); do
 	lane &
 done

@@ -27,7 +27,7 @@ constexpr int32_t JOLT = 24, FASTEST = 500;
 // Frames in which nothing is kept of a patch at rest after a change with an error of UNEVEN_ERRORS times the tolerated one.
 constexpr uint8_t PAUSE = 8;
 constexpr int32_t UNEVEN_ERRORS = 8;
-// Voxel::brightness with 8 more fraction bits: a smaller error may come from rounding alone, and corrects nothing.
+// Voxel::brightness with 8 more fraction bits: an error up to this may come from rounding alone, and corrects nothing.
 constexpr int32_t ROUNDED_LIGHT = 384;
 // Steps as long as this count as errors, so that nothing overflows in a period.
 constexpr int32_t LONG_STEP = 1024;
@@ -243,7 +243,7 @@ inline void Keeper::follow(Kept& kept, const Patch& patch, const PatchVoxels& ma
     const int shift = __builtin_ctz(kept.period);
     const bool blends = patch.state == PATCH_MIXED;
     const int32_t tolerated = blends ? tolerated_ : tolerated_ / 2;
-    // Only where patches rest do the scales at the limb make the whole outline.
+    // Where patches rest a limb that comes or goes ends the period, because their scales alone make the outline.
     const One::Errors errors{object_.spacing() <= FINE ? 6 : 8 - blends, blends ? 0 : tolerated * 4};
     int32_t error = 0;
     for (int i = 0; i < made.count; ++i) {
@@ -340,11 +340,11 @@ inline int32_t Keeper::One::follow(const Voxel& v, int shift, const Errors& erro
     const int32_t tiltXError = correctStep(v.tiltX, voxel.tiltX, shift, stepTiltX);
     const int32_t tiltYError = correctStep(v.tiltY, voxel.tiltY, shift, stepTiltY);
     error |= (tiltXError * v.halfWidth | tiltYError * v.halfHeight) >> errors.tiltShift;
-    int32_t lightStep = stepLight;
-    const int32_t lightError = correctStep(lightTo, light, shift, lightStep);
+    int16_t corrected = stepLight;
+    const int32_t lightError = correctStep(lightTo, light, shift, corrected);
     if (lightError > ROUNDED_LIGHT) {
         error |= lightError >> 4;
-        stepLight = static_cast<int16_t>(lightStep);
+        stepLight = corrected;
     }
     light = static_cast<int16_t>(lightTo);
     const int32_t reachTo = v.reach * 128;
