@@ -136,13 +136,14 @@ void Keeper::list(int number, const Patch& patch, VoxelList& list, Slopes& slope
     Kept& kept = kept_[number];
     const bool goes = goesOn(number, patch);
     const Seed* const seeds = &object_.regular(0);
-    for (One *one = kept.voxels, *const end = one + kept.count; one < end; ++one) {
+    Voxel* voxel = list.room();
+    if (paintedAs_ >= 0)
+        memset(list.number + list.count, paintedAs_ & 255, kept.count);
+    list.count += kept.count;
+    for (One *one = kept.voxels, *const end = one + kept.count; one < end; ++one, ++voxel) {
         if (goes)
             one->goOn();
-        Voxel* const voxel = list.room();
         *voxel = one->voxel;
-        list.number[list.count] = static_cast<uint8_t>(paintedAs_);
-        list.take();
         const int32_t seed = one->added.number;
         if (seed != Slopes::NONE)
             slopes.add(seeds + seed, seed, voxel, one->added.sight);
@@ -347,21 +348,23 @@ inline int32_t Keeper::One::follow(const Voxel& v, int shift, const Errors& erro
         stepLight = corrected;
     }
     light = static_cast<int16_t>(lightTo);
-    const int32_t reachTo = v.reach * 128;
-    if (v.reach != 0 && voxel.reach != 0) {
-        error |= correctStep(reachTo, reach, shift, stepReach) >> 5;
-    } else if (v.reach != voxel.reach) {
-        stepReach = 0;
-        error |= errors.otherwise;
+    if ((v.reach | voxel.reach) != 0) {
+        const int32_t reachTo = v.reach * 128;
+        if (v.reach != 0 && voxel.reach != 0) {
+            error |= correctStep(reachTo, reach, shift, stepReach) >> 5;
+        } else {
+            stepReach = 0;
+            error |= errors.otherwise;
+        }
+        reach = static_cast<int16_t>(reachTo);
     }
-    reach = static_cast<int16_t>(reachTo);
     if ((v.cutAt | voxel.cutAt) != 0) {
         if (isCut(v) && isCut(voxel) && !isCutNowhere(v) && !isCutNowhere(voxel))
             error |= correctStep(v.cutAt, voxel.cutAt, shift, stepCutAt) >> 2;
         else
             stepCutAt = 0;
     }
-    error |= (magnitude(stepTiltX) | magnitude(stepTiltY) | magnitude(stepLight)) & ~(LONG_STEP - 1);
+    error |= ((stepTiltX + LONG_STEP) | (stepTiltY + LONG_STEP) | (stepLight + LONG_STEP)) & INT32_MAX & ~(2 * LONG_STEP - 1);
     set(v);
     return error;
 }
