@@ -144,9 +144,8 @@ void Keeper::list(int number, const Patch& patch, VoxelList& list, Slopes& slope
         if (goes)
             one->goOn();
         *voxel = one->voxel;
-        const int32_t seed = one->added.number;
-        if (seed != Slopes::NONE)
-            slopes.add(seeds + seed, seed, voxel, one->added.sight);
+        if (one->number != NONE)
+            slopes.add(seeds + one->number, one->number, voxel, Slopes::STAYS);
     }
     list.bordered |= kept.bordered;
     if (goes)
@@ -165,7 +164,7 @@ bool Keeper::makeRoom(Kept& kept, int count)
     return kept.room > 0;
 }
 
-void Keeper::store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool mayGoOn, const Slopes& slopes) const
+void Keeper::store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool mayGoOn, Slopes& slopes) const
 {
     const bool follows = mayGoOn && kept.drawn == frame_ - 1 && kept.left == 0 && kept.state == patch.state;
     kept.since = 0;
@@ -181,8 +180,11 @@ void Keeper::store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool
         follow(kept, patch, made, same);
     else
         begin(kept, made);
-    for (int i = made.sloped; i < slopes.count(); ++i)
-        kept.voxels[slopes.voxel(i) - made.voxels].added = slopes.added(i);
+    for (int i = made.sloped; i < slopes.count(); ++i) {
+        One& one = kept.voxels[slopes.voxel(i) - made.voxels];
+        one.number = slopes.number(i);
+        slopes.keepIn(i, &one.voxel);
+    }
     kept.count = static_cast<uint8_t>(made.count);
     kept.state = patch.state;
     kept.bordered = made.bordered;

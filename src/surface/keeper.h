@@ -55,7 +55,7 @@ public:
     // Adds the voxels of such a patch to the list and to the slopes, after a step if they go on.
     void list(int number, const Patch& patch, VoxelList& list, Slopes& slopes);
     // Keeps voxels that have been made in this frame. All of them are in the object's own colour.
-    void keep(int number, const Patch& patch, const PatchVoxels& made, const Slopes& slopes)
+    void keep(int number, const Patch& patch, const PatchVoxels& made, Slopes& slopes)
     {
         if (count_ == 0 || patch.islands)
             return;
@@ -65,11 +65,12 @@ public:
     }
 
 private:
+    static constexpr int32_t NONE = -1;
     // A voxel, and how it changes from one frame to the next.
     struct One {
         Voxel voxel;
         const Seed* seed;
-        Slopes::Added added;        // how the slopes have got it
+        int32_t number;             // number of its seed if the slopes have got the voxel; otherwise NONE
         int32_t place[3], step[3];  // Voxel::x, y, z with 4 more fraction bits, and their change
         int16_t light, stepLight;   // Voxel::brightness with 8 more fraction bits
         int16_t reach, stepReach;   // Voxel::reach with 7 more fraction bits
@@ -80,7 +81,7 @@ private:
         void set(const Voxel& v)
         {
             voxel = v;
-            added = {Slopes::NONE, 0};
+            number = NONE;
         }
         void goOn();
         // An error of tilt counts times half the extent of the scale, over 2^tiltShift. `otherwise` is the error if a scale has got
@@ -111,7 +112,7 @@ private:
         return patch.state == PATCH_MIXED ? longest_ > 1 && motion_ != UNEVEN : patch.state == PATCH_REST && motion_ == EVEN;
     }
     Motion motionOf(const OwnFrame& own);
-    void store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool mayGoOn, const Slopes& slopes) const;
+    void store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool mayGoOn, Slopes& slopes) const;
     static bool makeRoom(Kept& kept, int count);
     static void begin(Kept& kept, const PatchVoxels& made);
     static bool hasSameSeeds(const Kept& kept, const PatchVoxels& made);

@@ -69,5 +69,10 @@ void Slopes::set(int32_t spacing)
         }
         setSlopes(limited((along.change * across.y - across.change * along.y) * 32 / area, STEEPEST),
                   limited((across.change * along.x - along.change * across.x) * 32 / area, STEEPEST), &v);
+        if (shown->kept != nullptr) {
+            shown->kept->brightness = v.brightness;
+            shown->kept->slopeX = v.slopeX;
+            shown->kept->slopeY = v.slopeY;
+        }
     }
 }

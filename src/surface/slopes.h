@@ -14,12 +14,6 @@ public:
     static constexpr int32_t STAYS = INT32_MAX;
     static int32_t sight(int32_t shearX, int32_t shearY) { return shearX * 65536 + (shearY & 0xffff); }
 
-    // How a voxel has been added: the number of its seed, or NONE if it has not; and the ray of sight.
-    struct Added {
-        int32_t number, sight;
-    };
-    static constexpr int32_t NONE = -1;
-
     // Forgets all voxels.
     void begin() { count_ = 0; }
 
@@ -27,7 +21,7 @@ public:
     void add(const Seed* seed, int number, Voxel* voxel, int32_t sight)
     {
         Shown& shown = shown_[count_];
-        shown = {number, sight, voxel, voxel, voxel};
+        shown = {number, sight, voxel, voxel, voxel, nullptr};
         // In the ring before, a seed lies beside the seed N of its predecessor in its own ring (model/seed.h).
         const int n = number > 0 ? seed[-1].neighbour : -1;
         if (Shown* const before = n >= 0 ? find(n >> 1) : nullptr) {
@@ -37,12 +31,15 @@ public:
         table_[number & (TABLE - 1)] = static_cast<int16_t>(count_++);
     }
     // Adds another voxel of the seed added last; it gets the slopes of the original.
-    void addCopy(Voxel* voxel, Voxel* original) { shown_[count_++] = {COPY, 0, voxel, original, original}; }
+    void addCopy(Voxel* voxel, Voxel* original) { shown_[count_++] = {COPY, 0, voxel, original, original, nullptr}; }
 
-    // The number of voxels that have been added; and how the one was that was added as number `i`, and which one it is.
+    // The number of voxels that have been added; and of the one that was added as number `i`: which one it is, and the number of
+    // its seed.
     int count() const { return count_; }
-    Added added(int i) const { return {shown_[i].number, shown_[i].sight}; }
     const Voxel* voxel(int i) const { return shown_[i].voxel; }
+    int32_t number(int i) const { return shown_[i].number; }
+    // Lets set() write the slopes and the brightness of that voxel to another one, too.
+    void keepIn(int i, Voxel* kept) { shown_[i].kept = kept; }
 
     // Sets the slopes of all voxels but those that keep them, from the seeds beside each seed: along its ring, and in the rings
     // before and behind. In a direction where no seed beside it is lit, a slope stays. Seeds are `spacing` apart, 1/256 unit.
@@ -55,6 +52,7 @@ private:
         // The seed's voxel, and those of the seeds beside it in the rings before and behind: its own where there is none. The
         // `before` of a copy is the original.
         Voxel *voxel, *before, *behind;
+        Voxel* kept;     // what keepIn() has got, or null
     };
     Shown* find(int number)
     {

@@ -5,9 +5,10 @@
 
 namespace {
 
-// How far voxels are from the nearest ones of a scene without a past, units, and by how much their brightness differs.
+// How far voxels are from the nearest ones of a scene without a past, units, and by how much their brightness and its slopes differ
+// (Voxel::slopeX, slopeY).
 struct Distance {
-    double sum = 0, worst = 0, light = 0;
+    double sum = 0, worst = 0, light = 0, slopes = 0;
     long count = 0;
 
     void add(const std::vector<Voxel>& voxels, const std::vector<Voxel>& fresh)
@@ -16,6 +17,7 @@ struct Distance {
             const Apart apart = fromNearest(v, fresh);
             sum += apart.distance;
             light += apart.light;
+            slopes += apart.slopes;
             worst = std::fmax(worst, apart.distance);
             ++count;
         }
@@ -74,12 +76,14 @@ TEST(what_blends_evenly_goes_on)
     const double evenly = play(40, 10, [](int i) { return Vec{12 + i * 0.2, 4 + i * 0.15, -6}; }, even);
     const double toAndFro = play(40, 10, [](int i) { return Vec{12 + i % 2 * 4.0, 4 + i % 2 * 3.0, -6}; }, torn);
     note("settled: %.0f seeds of what moves evenly, %.0f of what does not; voxels are off by %.3f and %.3f on average, %.2f and "
-         "%.2f at most; brightness by %.2f and %.2f", evenly, toAndFro, even.sum / even.count, torn.sum / torn.count, even.worst,
-         torn.worst, even.light / even.count, torn.light / torn.count);
+         "%.2f at most; brightness by %.2f and %.2f, its slopes by %.1f and %.1f", evenly, toAndFro, even.sum / even.count,
+         torn.sum / torn.count, even.worst, torn.worst, even.light / even.count, torn.light / torn.count, even.slopes / even.count,
+         torn.slopes / torn.count);
     CHECK(evenly < 0.7 * toAndFro);
     CHECK(even.sum < 0.1 * even.count);
     CHECK(even.worst < 2.5);
     CHECK(even.light < 1.0 * even.count);
+    CHECK(even.slopes < 2.5 * even.count);
     CHECK(torn.sum < 0.1 * torn.count);
 }
 

@@ -96,7 +96,7 @@ struct Truth {
 
 // How far a voxel is from the nearest one of a list, units, and by how much the brightness of the two differs.
 struct Apart {
-    double distance = 1e9, light = 0;
+    double distance = 1e9, light = 0, slopes = 0;
 };
 inline Apart fromNearest(const Voxel& v, const std::vector<Voxel>& list)
 {
@@ -104,7 +104,8 @@ inline Apart fromNearest(const Voxel& v, const std::vector<Voxel>& list)
     for (const Voxel& other : list) {
         const double distance = std::hypot(v.x - other.x, v.y - other.y, v.z - other.z) / 256;
         if (distance < apart.distance)
-            apart = {distance, std::fabs(v.brightness - other.brightness)};
+            apart = {distance, std::fabs(v.brightness - other.brightness),
+                     std::hypot(v.slopeX - other.slopeX, v.slopeY - other.slopeY)};
     }
     return apart;
 }
