@@ -41,15 +41,15 @@
 #define FACTOR_ZY  12
 #define FACTOR_SIZE 16
 #define LENS_NEAR  76
-#define LENS_FAR   432
+#define LENS_FAR   423
 #define LENS_NEXT  1
 #define FACTOR_MOST 0xffff
 #define LENS_FINENESS 16
 #define LENS_STEPS ((LENS_FAR - LENS_NEAR) * LENS_FINENESS)
 #define STEEPEST   400
-#define DOMED_WIDE 8
-#define DOMED_HIGH 12
-#define DOMED_PIXEL 268
+#define DOMED      6
+#define DOME_MOST  2880
+#define WIDEST_PIXEL 10000
 #define AVERAGED   96
 #define STEP_OF    128
 #define LARGEST    40
@@ -633,16 +633,16 @@ large:
         addl    $LENS_NEAR*128, DEPTH(%esp)
         addl    %ecx, %edx
         imull   HEIGHT(%esp), %edx
-        cmpl    $Z_EMPTY, DEPTH(%esp)
+        cmpl    $Z_EMPTY-DOME_MOST, DEPTH(%esp)
         jae     leave
         addl    %ecx, DEPTH(%esp)
-        cmpl    $Z_EMPTY, DEPTH(%esp)
+        cmpl    $Z_EMPTY-DOME_MOST, DEPTH(%esp)
         jae     leave
         addl    %edx, DEPTH(%esp)
-        cmpl    $Z_EMPTY, DEPTH(%esp)
+        cmpl    $Z_EMPTY-DOME_MOST, DEPTH(%esp)
         jae     leave
         subl    %ecx, DEPTH(%esp)
-        cmpl    $Z_EMPTY, DEPTH(%esp)
+        cmpl    $Z_EMPTY-DOME_MOST, DEPTH(%esp)
         jae     leave
         movl    ROW(%esp), %edx
         // pixels -= height * SCREEN_WIDTH;  depths -= height * SCREEN_WIDTH;   and on to the end of the row: += width - 1
@@ -844,20 +844,16 @@ entered:
         negl    %eax
         movl    %eax, CUT_ROW(%esp)
         // domeOf(v, f)
-        movswl  VOXEL_HALF_WIDTH(%esi), %eax
-        movswl  VOXEL_HALF_HEIGHT(%esi), %ebx
-        imull   FACTOR_X(%ebp), %eax
-        imull   FACTOR_Y(%ebp), %ebx
-        cmpl    $DOMED_WIDE<<20, %eax
         movl    $0, DOME(%esp)
+        cmpw    $DOMED*256, VOXEL_HALF_WIDTH(%esi)
         jg      not_special
-        cmpl    $DOMED_HIGH<<20, %ebx
+        cmpw    $DOMED*256, VOXEL_HALF_HEIGHT(%esi)
         jg      not_special
         movl    FACTOR_ZX(%ebp), %eax
         sarl    $6, %eax
-        cmpl    $DOMED_PIXEL, %eax
+        cmpl    $WIDEST_PIXEL, %eax
         jle     4f
-        movl    $DOMED_PIXEL, %eax
+        movl    $WIDEST_PIXEL, %eax
 4:      imull   %eax, %eax
         leal    (%eax,%eax,4), %eax
         shrl    $15, %eax

@@ -76,22 +76,13 @@ inline void setUncut(FineScale* scale)
     scale->averages = false;
 }
 
-// Whether the depths of all pixels of a scale fit the Z-buffer. `z` is the depth of the first pixel; it changes by `across` up to
-// the last column and by `down` up to the last row, so that it is enough to look at the four corners.
-inline bool depthsFit(int32_t z, int32_t across, int32_t down)
-{
-    const uint32_t end = Z_EMPTY;
-    return static_cast<uint32_t>(z) < end && static_cast<uint32_t>(z + across) < end && static_cast<uint32_t>(z + down) < end &&
-           static_cast<uint32_t>(z + across + down) < end;
-}
-
 // Factors of the perspective projection at one depth z.
 struct Factors {
     int32_t x, y;    // focal 2^12 / z: takes lengths in 1/256 unit to 2^-20 pixel
     int32_t zx, zy;  // z 2^15 / focal: takes a tilt to the change of depth from pixel to pixel, 2^-16 of 1/128 unit
 };
 // The table of factors covers the depths from LENS_NEAR to before LENS_FAR units in LENS_FINENESS steps per unit.
-constexpr int LENS_NEAR = 76, LENS_FAR = 432;
+constexpr int LENS_NEAR = 76, LENS_FAR = 423;
 constexpr int LENS_FINENESS = 16;
 constexpr int LENS_STEPS = (LENS_FAR - LENS_NEAR) * LENS_FINENESS;
 
@@ -100,21 +91,28 @@ constexpr int LENS_STEPS = (LENS_FAR - LENS_NEAR) * LENS_FINENESS;
 // A scale that is cut along a straight line, or nowhere (voxel.h), is therefore domed: its depth grows with the squared distance
 // from its centre, by 5/16 unit at a distance of one unit, so that of overlapping scales a pixel shows the one whose centre is
 // nearest. There the brightness of neighbouring scales differs most as well, and would jump from one to the other: so it is
-// averaged (FineScale::averages). A scale that reaches farther than DOMED_WIDE or DOMED_HIGH pixels from its centre has no dome,
-// and where a pixel is wider than DOMED_PIXEL units (9 fraction bits) domes do not grow further: depths within the table of
-// factors still fit the Z-buffer.
-constexpr int32_t DOMED_WIDE = 8, DOMED_HIGH = 12, DOMED_PIXEL = 268;
-constexpr int32_t DOME_MOST = 2 * (5 * DOMED_PIXEL * DOMED_PIXEL >> 15);
-static_assert(LENS_FAR * 128 + STEEPEST * (DOMED_WIDE + DOMED_HIGH) +
-              DOME_MOST / 2 * (DOMED_WIDE * DOMED_WIDE + DOMED_HIGH * DOMED_HIGH) < Z_EMPTY, "depths");
+// averaged (FineScale::averages). A scale that reaches farther than DOMED units from its centre along x or y has no dome. So no
+// dome makes a pixel deeper by more than DOME_MOST, 1/128 unit.
+constexpr int DOMED = 6, DOME_MOST = 2 * DOMED * DOMED * 40;
+// 9 fraction bits: a pixel that is wider than this many units counts as this wide, so that domes fit 16 bits.
+constexpr int32_t WIDEST_PIXEL = 10000;
 
-// The dome of a voxel that is cut along a straight line, as FineScale::dome: 1/128 unit, an even number up to DOME_MOST.
+// The dome of a voxel that is cut along a straight line, as FineScale::dome: 1/128 unit, an even number that fits 16 bits.
 inline int32_t domeOf(const Voxel& v, const Factors& f)
 {
-    if (v.halfWidth * f.x > DOMED_WIDE << 20 || v.halfHeight * f.y > DOMED_HIGH << 20)
+    if (v.halfWidth > DOMED * 256 || v.halfHeight > DOMED * 256)
         return 0;
-    const int32_t pixel = min32(f.zx >> 6, DOMED_PIXEL);
+    const int32_t pixel = min32(f.zx >> 6, WIDEST_PIXEL);
     return (5 * pixel * pixel >> 15) * 2;
+}
+
+// Whether the depths of all pixels of a scale fit the Z-buffer, with a dome or without. `z` is the depth of the first pixel; it
+// changes by `across` up to the last column and by `down` up to the last row, so that it is enough to look at the four corners.
+inline bool depthsFit(int32_t z, int32_t across, int32_t down)
+{
+    const uint32_t end = Z_EMPTY - DOME_MOST;
+    return static_cast<uint32_t>(z) < end && static_cast<uint32_t>(z + across) < end && static_cast<uint32_t>(z + down) < end &&
+           static_cast<uint32_t>(z + across + down) < end;
 }
 
 // Domes a scale whose plane is set. (toColumn, toRow) leads from its centre to the centre of its first pixel, 12 fraction bits.

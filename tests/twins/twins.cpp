@@ -375,7 +375,8 @@ static_assert(inasm::LENS_X == offsetof(Lens, x) && inasm::LENS_Y == offsetof(Le
 static_assert(inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FINENESS == LENS_FINENESS &&
                   inasm::FACTOR_SIZE * LENS_FINENESS == 256 && inasm::LENS_FAR == LENS_FAR && inasm::LENS_STEPS == LENS_STEPS &&
                   inasm::STEEPEST == STEEPEST && inasm::LARGEST == LARGEST && inasm::LENS_NEXT == LENS_NEXT &&
-                  inasm::FACTOR_MOST == FACTOR_MOST && inasm::AVERAGED == AVERAGED && inasm::STEP_OF == STEP_OF &&
+                  inasm::FACTOR_MOST == FACTOR_MOST && inasm::AVERAGED == AVERAGED && inasm::DOMED == DOMED &&
+                  inasm::DOME_MOST == DOME_MOST && inasm::WIDEST_PIXEL == WIDEST_PIXEL && inasm::STEP_OF == STEP_OF &&
                   inasm::Z_EMPTY == Z_EMPTY && inasm::SCREEN_WIDTH == WIDE &&
                   inasm::SCREEN_HEIGHT == HIGH,
               "constants");
@@ -383,7 +384,7 @@ static_assert(inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FINENESS == LENS_FINE
 // No depth of a scale in the loop's tables overflows 16 bits. A pixel's centre lies in the rectangle, so it is at most half the
 // scale's pixels and half a pixel away from the scale's middle; one more step covers rounding.
 constexpr int STEPS_MOST = (inasm::KIND_COLUMNS + 1 + inasm::KIND_ROWS + 1) / 2 * STEEPEST + 1;
-static_assert(LENS_NEAR * 128 >= STEPS_MOST && LENS_FAR * 128 + STEPS_MOST < Z_EMPTY, "depths");
+static_assert(LENS_NEAR * 128 >= STEPS_MOST && LENS_FAR * 128 + STEPS_MOST + DOME_MOST < Z_EMPTY, "depths");
 
 long voxelsTried = 0, voxelsDrawn = 0;
 
@@ -720,7 +721,7 @@ struct Ideal {
     bool surelyFits() const
     {
         const double swing = x.mostSwing(tame) + y.mostSwing(tame) + 2;
-        return depth - swing >= 0 && depth + swing < Z_EMPTY;
+        return depth - swing >= 0 && depth + swing < Z_EMPTY - DOME_MOST;
     }
     bool surelyOverflows() const
     {
@@ -734,12 +735,10 @@ struct Ideal {
     // it changes the slopes by whole numbers.
     Estimate domeAt(double dx, double dy) const
     {
-        const auto within = [&](double margin) { return x.half < DOMED_WIDE + margin && y.half < DOMED_HIGH + margin; };
-        if (!isCut(v) || isCurved() || !within(0.1))
+        if (!isCut(v) || isCurved() || v.halfWidth > DOMED * 256 || v.halfHeight > DOMED * 256)
             return {0, 0};
-        const double square = dx * dx + dy * dy, dome = fmin(32 * x.unit * x.unit, DOME_MOST / 2);
-        const bool sure = within(-0.1);
-        return {sure ? dome * square : 0, (sure ? 1.1 : dome + 1) * square + fabs(dx) + fabs(dy)};
+        const double square = dx * dx + dy * dy, dome = 40 * x.unit * x.unit;
+        return {dome * square, 1.1 * square + fabs(dx) + fabs(dy)};
     }
     Estimate depthAt(double dx, double dy) const
     {
