@@ -14,7 +14,7 @@ constexpr int DEEP = Missed::BEHIND;
 constexpr int CRACK_WIDE = 3;
 
 // A pixel is compared with one so many columns to the right, and with one so many rows below: if one of the two lies in a crack,
-// the other one does not.
+// the other one does not. Where their depths differ each pixel is looked at.
 constexpr int AWAY = 4;
 static_assert(AWAY >= CRACK_WIDE, "the other pixel lies beyond the crack");
 
@@ -48,15 +48,16 @@ void Gaps::closeCracks()
 {
     if (model_ == nullptr)
         return;
-    for (int y = 2 * AWAY; y < HEIGHT - 2 * AWAY; ++y) {
+    // At the ends of a row a pixel of the row before or behind is taken for the one beside: then the ray finds no surface.
+    for (int y = 1; y < HEIGHT - 1; ++y) {
         const Span& covered = view_.covered(y);
         if (covered.from >= covered.to)
             continue;
         const uint16_t* const row = zbuffer_ + y * WIDTH;
-        const uint16_t* const from = row + max32(covered.from & -AT_ONCE, AT_ONCE);
-        const uint16_t* const to = row + min32(covered.to, WIDTH - AT_ONCE);
+        const uint16_t* const from = row + (covered.from & -AT_ONCE);
+        const uint16_t* const to = row + covered.to;
         closeUpright(from, to);
-        if (y % (2 * AWAY) < AWAY)
+        if (y % (2 * AWAY) < AWAY && y <= HEIGHT - 2 * AWAY)
             closeLying(from, to);
     }
 }
@@ -66,40 +67,33 @@ void Gaps::closeUpright(const uint16_t* from, const uint16_t* to)
 {
     for (const uint16_t* at = from; at < to; at += AT_ONCE)
         if ((compared(at, AWAY) | compared(at + 2, AWAY)) & LARGE)
-            for (int x = 0; x < AWAY; ++x)
-                closeBetween(static_cast<int>(at + x - zbuffer_), 1);
+            for (int x = 0; x < AT_ONCE; ++x)
+                closeAt(at + x, 1);
 }
 
-// Closes the cracks that lie in a part of a row or AWAY rows below it.
+// Closes the cracks that begin in a part of a row or AWAY rows below it, and lead down.
 void Gaps::closeLying(const uint16_t* from, const uint16_t* to)
 {
     constexpr int below = AWAY * WIDTH;
     for (const uint16_t* at = from; at < to; at += AT_ONCE)
         if ((compared(at, below) | compared(at + 2, below) | compared(at + 4, below) | compared(at + 6, below)) & LARGE)
-            for (int x = 0; x < AT_ONCE; ++x)
-                closeBetween(static_cast<int>(at + x - zbuffer_), WIDTH);
+            for (int x = 0; x < AT_ONCE; ++x) {
+                closeAt(at + x, WIDTH);
+                closeAt(at + x + below, WIDTH);
+            }
 }
 
-// Closes the crack that a pixel, or the one AWAY steps on, lies in, if there is one.
-inline void Gaps::closeBetween(int at, int step)
+// Closes the crack that begins with a pixel, in steps of `step`, if one does.
+inline void Gaps::closeAt(const uint16_t* at, int step)
 {
-    const int there = at + AWAY * step, deeper = zbuffer_[there] - zbuffer_[at];
-    if (deeper > DEEP && comesBack(zbuffer_ + there, step, zbuffer_[at]))
-        closeCrack(at, step);
-    else if (deeper < -DEEP && comesBack(zbuffer_ + at, -step, zbuffer_[there]))
-        closeCrack(there, -step);
+    const int before = at[-step];
+    if (*at > before + DEEP && comesBack(at, step, before))
+        closeCrack(static_cast<int>(at - zbuffer_) - step, step);
 }
 
-// Draws the surface that is missing in a crack, if it is one: it begins at most AWAY steps from a pixel that does not lie in it.
+// Draws the surface that is missing in a crack, if it is one: it begins after pixel `first`.
 void Gaps::closeCrack(int first, int step)
 {
-    const int end = first + AWAY * step;
-    while (zbuffer_[first + step] <= zbuffer_[first] + DEEP) {
-        first += step;
-        // A surface that is steep is no crack.
-        if (first == end)
-            return;
-    }
     const int near = zbuffer_[first];
     int last = first + step, least = Z_EMPTY;
     for (; zbuffer_[last] > near + DEEP; last += step) {

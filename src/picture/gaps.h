@@ -35,7 +35,7 @@ private:
     void closeCracks();
     void closeUpright(const uint16_t* from, const uint16_t* to);
     void closeLying(const uint16_t* from, const uint16_t* to);
-    void closeBetween(int at, int step);
+    void closeAt(const uint16_t* at, int step);
     void closeCrack(int first, int step);
     Real distanceOff(int first, int last, int step) const;
     Real distanceOff(const Point& p) const;

@@ -280,6 +280,8 @@ bool View::prepareLoop(const VoxelList& list)
 
 int View::show(const VoxelList& list)
 {
+    if (list.count == 0)
+        return 0;
     lens_.x = list.x;
     lens_.y = list.y;
     lens_.z = list.z;
