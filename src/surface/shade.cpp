@@ -42,9 +42,9 @@ constexpr int32_t DEEPEST = 8;
 // A scale that is domed ends farther behind its centre by the depth of a dome where scales overlap, the spacing over 2^DOME_SHIFT.
 constexpr int DOME_SHIFT = 4;
 
-// Quarters of the spacing: scales that end are drawn as far as this before their centres. Farther before them the tangent plane is
-// well before the surface, and the scales beside them cover it.
-constexpr int32_t FRONT = 5;
+// Spacings: scales that end are drawn as far as this before their centres. Farther before them the tangent plane is well before the
+// surface, and the scales beside them cover it.
+constexpr int32_t FRONT = 1;
 
 // Upper bound on the seeds of a patch, with oversampled and fine ones.
 constexpr int SEEDS_MOST = (2 + SoftObject::FINE_SEEDS) * PATCH_RINGS * PATCH_SEEDS;
@@ -157,7 +157,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     ballBend_ = (1 << 22) / max32(mulShift16(rawFromReal(object.laidRadius()) >> 8, rawFromReal(own.growth)), 128);
     const int32_t spacing = spacing_ = min32(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
     shading_.deepest = spacing * DEEPEST;
-    shading_.front = min32(spacing * FRONT >> 5, REACH_MOST);
+    shading_.front = min32(spacing * FRONT >> 3, REACH_MOST);
     nearLimb_ = (spacing * WHOLE_AT_LIMB >> 5) << 16;
     areaScale_ = static_cast<uint32_t>(mulShift16(spacing * spacing << 7, step));
     shading_.cellShift = __builtin_clz(static_cast<uint32_t>(spacing)) - 19;
