@@ -980,12 +980,13 @@ TEST(surface_is_followed_from_slivers)
 }
 
 // A ball has a crack of a few rows or columns, through which something behind it shows. It is closed, if the ball's scales had
-// borders to another object. What lies before the ball is truly open.
+// borders to another object, even if the ball is drawn no farther than a pixel or two beyond the crack. What lies before the ball
+// is truly open.
 TEST(cracks_are_closed)
 {
     BallView ball;
     constexpr int LENGTH = 24, BEHIND = 160 * 128;
-    const auto seenThrough = [&](bool upright, int from, int wide, bool bordered, double before) {
+    const auto seenThrough = [&](bool upright, int from, int wide, bool bordered, double before, int beside) {
         const int left = upright ? from : 148, right = left + (upright ? wide : LENGTH);
         const int top = upright ? 88 : from, bottom = top + (upright ? LENGTH : wide);
         View& view = ball.view;
@@ -998,7 +999,8 @@ TEST(cracks_are_closed)
             for (int x = 135; x < 185; ++x) {
                 double depth = 0;
                 CHECK(ball.trueAt(x, y, &depth) >= 0);
-                const bool open = y >= top && y < bottom && x >= left && x < right;
+                const bool ended = upright ? x >= right + beside : y >= bottom + beside;
+                const bool open = ended || (y >= top && y < bottom && x >= left && x < right);
                 view.setPixel(y * WIDTH + x, open ? BEHIND : static_cast<int>((depth - before) * 128), ball.ramp[open ? 10 : 30]);
             }
         view.closeGaps(Real(1), &ball.model, &ball.palette);
@@ -1021,9 +1023,10 @@ TEST(cracks_are_closed)
         for (int wide = 1; wide <= 6; ++wide)
             for (int from = 0; from < 12; ++from) {
                 const int start = (upright ? 150 : 92) + from, all = wide * LENGTH;
-                SAME(seenThrough(upright, start, wide, true, 0), wide <= 3 ? 0 : all);
-                SAME(seenThrough(upright, start, wide, false, 0), all);
-                SAME(seenThrough(upright, start, wide, true, 15), all);
+                SAME(seenThrough(upright, start, wide, true, 0, WIDTH), wide <= 3 ? 0 : all);
+                SAME(seenThrough(upright, start, wide, true, 0, wide <= 2 ? 1 : 2), wide <= 3 ? 0 : all);
+                SAME(seenThrough(upright, start, wide, false, 0, WIDTH), all);
+                SAME(seenThrough(upright, start, wide, true, 15, WIDTH), all);
             }
 }
 
