@@ -93,7 +93,7 @@ constexpr int LENS_STEPS = (LENS_FAR - LENS_NEAR) * LENS_FINENESS;
 // nearest. There the brightness of neighbouring scales differs most as well, and would jump from one to the other: so it is
 // averaged (FineScale::averages). A scale that reaches farther than DOMED units from its centre along x or y has no dome. So no
 // dome makes a pixel deeper by more than DOME_MOST, 1/128 unit.
-constexpr int DOMED = 6, DOME_MOST = 2 * DOMED * DOMED * 40;
+constexpr int DOMED = 6, DOME_MOST = 2 * DOMED * DOMED * 5 * 128 / 16;
 // 9 fraction bits: a pixel that is wider than this many units counts as this wide, so that domes fit 16 bits.
 constexpr int32_t WIDEST_PIXEL = 10000;
 

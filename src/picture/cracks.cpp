@@ -48,7 +48,7 @@ void Gaps::closeCracks()
 {
     if (model_ == nullptr)
         return;
-    // At the ends of a row a pixel of the row before or behind is taken for the one beside: then the ray finds no surface.
+    // At the ends of a row, pixels of the rows above and below stand in for those beside: what a ray finds is right all the same.
     for (int y = 1; y < HEIGHT - 1; ++y) {
         const Span& covered = view_.covered(y);
         if (covered.from >= covered.to)
