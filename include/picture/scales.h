@@ -92,9 +92,9 @@ constexpr int LENS_STEPS = (LENS_FAR - LENS_NEAR) * LENS_FINENESS;
 // from its centre, by 5/16 unit at a distance of one unit, so that of overlapping scales a pixel shows the one whose centre is
 // nearest. There the brightness of neighbouring scales differs most as well, and would jump from one to the other: so it is
 // averaged (FineScale::averages). A scale that reaches farther than DOMED units from its centre along x or y has no dome. So no
-// dome makes a pixel deeper by more than DOME_MOST, 1/128 unit.
+// dome makes a pixel deeper by more than DOME_MOST, 1/128 unit, and depths within the table of factors still fit the Z-buffer.
 constexpr int DOMED = 6, DOME_MOST = 2 * DOMED * DOMED * 5 * 128 / 16;
-// 9 fraction bits: a pixel that is wider than this many units counts as this wide, so that domes fit 16 bits.
+// Units, 9 fraction bits: a pixel that is wider than this counts as this wide, so that domes fit 16 bits.
 constexpr int32_t WIDEST_PIXEL = 10000;
 
 // The dome of a voxel that is cut along a straight line, as FineScale::dome: 1/128 unit, an even number that fits 16 bits.

@@ -91,16 +91,13 @@ inline void Gaps::closeAt(const uint16_t* at, int step)
         closeCrack(static_cast<int>(at - zbuffer_) - step, step);
 }
 
-// Draws the surface that is missing in a crack, if it is one: it begins after pixel `first`.
+// Draws the surface that is missing in a crack, if it is one: it begins after pixel `first`, and comesBack() from there.
 void Gaps::closeCrack(int first, int step)
 {
     const int near = zbuffer_[first];
     int last = first + step, least = Z_EMPTY;
-    for (; zbuffer_[last] > near + DEEP; last += step) {
-        if (last == first + (CRACK_WIDE + 1) * step)
-            return;
+    for (; zbuffer_[last] > near + DEEP; last += step)
         least = min32(least, zbuffer_[last]);
-    }
     if (zbuffer_[last] >= near - DEEP && zbuffer_[last] < least - DEEP)
         missed_.follow(first + step, near, first);
 }

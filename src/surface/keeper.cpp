@@ -31,6 +31,7 @@ constexpr int32_t UNEVEN_ERRORS = 8;
 constexpr int32_t ROUNDED_LIGHT = 384;
 // Steps as long as this count as errors, so that nothing overflows in a period.
 constexpr int32_t LONG_STEP = 1024;
+static_assert((LONG_STEP & (LONG_STEP - 1)) == 0, "a power of two");
 static_assert(STEEPEST_TILT + LONG_STEP * LONGEST_PERIOD <= INT16_MAX, "tilts fit 16 bits");
 static_assert((BRIGHTEST + 1) * 256 + LONG_STEP * LONGEST_PERIOD <= INT16_MAX, "brightness fits 16 bits");
 // Cosines, 1.0 = 2^14: a patch without voxels is made anew when a seed comes so near to facing the viewer. HIDDEN is smaller than
@@ -366,6 +367,7 @@ inline int32_t Keeper::One::follow(const Voxel& v, int shift, const Errors& erro
         else
             stepCutAt = 0;
     }
+    // A step that is not long, plus LONG_STEP, has no bit beyond those of 2 LONG_STEP - 1. The sign is no part of an error.
     error |= ((stepTiltX + LONG_STEP) | (stepTiltY + LONG_STEP) | (stepLight + LONG_STEP)) & INT32_MAX & ~(2 * LONG_STEP - 1);
     set(v);
     return error;

@@ -1,7 +1,8 @@
 // Keeper: coherence over time. The voxels of patches are kept from frame to frame. While neither the object nor the viewer nor the
 // light moves, those of patches that have not been settled stay as they are. Over a few frames most patches change evenly: each of
-// their voxels moves, tilts and brightens as in the frames before. Such voxels go on by the same steps for up to seven frames, and
-// the seeds are not settled meanwhile. Without this file the program is slower, and the picture hardly different.
+// their voxels moves, tilts and brightens as in the frames before. Such voxels go on by the same steps for up to seven frames, with
+// the slopes of brightness that they have, and the seeds are not settled meanwhile. Without this file the program is slower, and
+// the picture hardly different.
 #ifndef FB_KEEPER_H
 #define FB_KEEPER_H
 

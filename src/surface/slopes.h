@@ -52,7 +52,7 @@ private:
         // The seed's voxel, and those of the seeds beside it in the rings before and behind: its own where there is none. The
         // `before` of a copy is the original.
         Voxel *voxel, *before, *behind;
-        Voxel* kept;     // what keepIn() has got, or null
+        Voxel* kept;     // the other voxel of keepIn(), or null
     };
     Shown* find(int number)
     {

@@ -94,7 +94,7 @@ struct Truth {
     }
 };
 
-// How far a voxel is from the nearest one of a list, units, and by how much the brightness of the two differs.
+// How far a voxel is from the nearest one of a list, units, and by how much the brightness of the two and its slopes differ.
 struct Apart {
     double distance = 1e9, light = 0, slopes = 0;
 };
