@@ -24,6 +24,9 @@ constexpr int32_t EVEN_TRAVEL = 100;
 // a quarter of itself. If an axis or the light changes by more than FASTEST the object turns fast. What rests does not go on
 // straight then; where patches blend the error tells.
 constexpr int32_t JOLT = 24, FASTEST = 500;
+// An object that grows or shrinks by more than 2^-GROWS of its size in a frame counts as turning fast, too: scales keep their
+// extents while they go on, and would part.
+constexpr int GROWS = 6;
 // Frames in which nothing is kept of a patch at rest after a change with an error of UNEVEN_ERRORS times the tolerated one.
 constexpr uint8_t PAUSE = 8;
 constexpr int32_t UNEVEN_ERRORS = 8;
@@ -127,6 +130,7 @@ Keeper::Motion Keeper::motionOf(const OwnFrame& own)
             *lastChange = change;
         }
     }
+    fast |= absolute(own.growth - own_.growth) > shiftDown(own.growth, GROWS);
     const bool stands = draws_ > 0 && isSame(own, own_);
     draws_ = min32(draws_ + 1, 3);
     return stands ? STANDS : uneven || draws_ < 3 ? UNEVEN : fast ? FAST : EVEN;

@@ -159,3 +159,33 @@ TEST(what_turns_otherwise_or_stands_is_made_anew)
     CHECK(one.all > 500 && other.all > 500);
     CHECK(one.moved == 0 && other.moved == 0);
 }
+
+TEST(what_grows_has_no_old_extents)
+{
+    // A ball grows by a twenty-fifth of its size in each frame. Its scales keep their extents while they go on, and would part.
+    Scene scene;
+    SoftObject& ball = scene.ball(30, 0, 0, 0, 2);
+    double size = 30, narrow = 1;
+    long all = 0;
+    for (int i = 0; i < 12; ++i) {
+        size *= 1.04;
+        ball.setSize(real(size));
+        scene.update();
+        const std::vector<Voxel> voxels = scene.draw(0);
+        Scene fresh;
+        SoftObject& other = fresh.ball(30, 0, 0, 0, 2);
+        other.setSize(real(size));
+        fresh.update();
+        const std::vector<Voxel> made = fresh.draw(0);
+        long area = 0, fits = 0;
+        for (const Voxel& v : voxels)
+            area += long{v.halfWidth} * v.halfHeight;
+        for (const Voxel& v : made)
+            fits += long{v.halfWidth} * v.halfHeight;
+        all += static_cast<long>(voxels.size());
+        narrow = std::fmin(narrow, static_cast<double>(area) / fits);
+    }
+    note("%ld voxels; their area is at least %.3f of what it should be", all, narrow);
+    CHECK(all > 2000);
+    CHECK(narrow > 0.98);
+}
