@@ -18,16 +18,13 @@ double cutAt(const Voxel& v, double x, double y)
            (v.curveXX * x * x + 2 * v.curveXY * x * y + v.curveYY * y * y) / 32.0;
 }
 
-// The reach of a voxel before it is cut, 1/32 unit. A limb may lie half as deep again.
-constexpr int REACH = 20;
-
 // Cuts the voxel of a seed at the limb; seed and normal in axes of the view, units.
 Voxel ended(const Limb& limb, const Vec& seed, const Vec& normal)
 {
     const double cosine = -dot(normal, seed) / seed.z;
     Voxel v = {};
     v.halfWidth = v.halfHeight = 300;
-    v.reach = REACH;
+    v.reach = 20;
     v.tiltX = static_cast<int16_t>(std::lround(normal.x / cosine * 256));
     v.tiltY = static_cast<int16_t>(std::lround(normal.y / cosine * 256));
     endAtLimb(limb, static_cast<int32_t>(cosine * 16384), &v);
@@ -48,6 +45,13 @@ struct Round {
         return size(d * t - c) - radius;
     }
 };
+
+// How deep a scale of this seed goes at the limb, units.
+double deepAt(const Round& round, const Vec& seed, double cosine)
+{
+    const Vec ray = round.across(seed * (1 / seed.z));
+    return cosine * round.radius / (2 * dot(ray, ray));
+}
 
 // Compares scales of seeds that are seen nearly edge-on with the surface; `limbOf` finds the limb for a seed.
 template <class LimbOf>
@@ -70,7 +74,9 @@ void holdAgainst(const Round& round, Random& random, LimbOf limbOf, long* held, 
         if (!found)
             continue;
         const Voxel voxel = ended(limb, seed, normal);
-        CHECK(voxel.reach == REACH * 3 / 2 && voxel.halfWidth == 300 && voxel.halfHeight == 300);
+        CHECK(voxel.halfWidth == 300 && voxel.halfHeight == 300);
+        const double deep = std::min(deepAt(round, seed, cosine) * 32, REACH_MOST / 1.3);
+        CHECK(voxel.reach > deep && voxel.reach < deep * 1.3 + 2);
         CHECK(cutAt(voxel, 0, 0) >= 0);
         for (int k = 0; k < 20; ++k) {
             const double x = random.between(-spacing, spacing), y = random.between(-spacing, spacing);
