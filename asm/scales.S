@@ -856,8 +856,7 @@ entered:
         movl    $WIDEST_PIXEL, %eax
 4:      imull   %eax, %eax
         leal    (%eax,%eax,4), %eax
-        shrl    $15, %eax
-        addl    %eax, %eax
+        shrl    $14, %eax
         movl    %eax, DOME(%esp)
         jmp     not_special
 2:

@@ -282,12 +282,11 @@ inline void Shader::endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel
         ::endAtLimb(*limb, mulDiv(mulShift16(seen.facing, step_), 1 << 14, own_.centre[2] + voxel->z), voxel);
 }
 
-// Domes a voxel, unless it is cut and so domed already.
+// Domes a voxel; one that is cut at a border is domed already. The end of its depth makes room for the dome.
 inline void Shader::dome(Voxel* voxel) const
 {
-    if (isCut(*voxel))
-        return;
-    cutNowhere(voxel);
+    if (!isCut(*voxel))
+        cutNowhere(voxel);
     if (voxel->reach != 0)
         voxel->reach = static_cast<uint8_t>(min32(voxel->reach + (spacing_ >> (3 + DOME_SHIFT)), REACH_MOST));
 }
@@ -403,7 +402,7 @@ inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, int
             continue;
         seen_[listed++] = seen_[i];
         Voxel* const shown = PAINTED ? painter->add(s, voxels[i]) : listUnpainted(s, voxels + i, &to, list);
-        if (uneven)
+        if (uneven || isCut(*shown))
             dome(shown);
         else if (i < regular)
             endAtLimb(patch, seen_[i], shown);

@@ -731,14 +731,14 @@ struct Ideal {
     bool surelySmall() const { return x.mostLength() <= LARGEST && y.mostLength() <= LARGEST; }
     bool surelyLarge() const { return x.leastLength() > LARGEST || (x.surelySeen(WIDE) && y.leastLength() > LARGEST); }
 
-    // A scale with a straight cut is domed: half of its dome is added at a distance of a pixel. Half a dome is a whole number, and
-    // it changes the slopes by whole numbers.
+    // A scale with a straight cut is domed: half of its dome is added at a distance of a pixel. The dome and its half are rounded
+    // down, and they change the slopes by whole numbers.
     Estimate domeAt(double dx, double dy) const
     {
         if (!isCut(v) || isCurved() || v.halfWidth > DOMED * 256 || v.halfHeight > DOMED * 256)
             return {0, 0};
         const double square = dx * dx + dy * dy, dome = 40 * x.unit * x.unit;
-        return {dome * square, 1.1 * square + fabs(dx) + fabs(dy)};
+        return {dome * square, 0.6 * square + 1.5 * (fabs(dx) + fabs(dy))};
     }
     Estimate depthAt(double dx, double dy) const
     {
