@@ -414,7 +414,8 @@ struct Optics {
 };
 Optics optics;
 
-// The demo's camera, or any that the view allows, or factors that no camera makes (products with extents still fit 32 bits).
+// The demo's camera, or any that the view allows, or factors that no camera makes (none is negative, and products with extents fit
+// 32 bits).
 void anyOptics()
 {
     const double focal = 64 + below(437);
@@ -427,8 +428,8 @@ void anyOptics()
     for (Factors& f : optics.factors) {
         f.x = below(65536) >> below(16);
         f.y = below(65536) >> below(16);
-        f.zx = static_cast<int32_t>(any() >> below(32));
-        f.zy = static_cast<int32_t>(any() >> below(32));
+        f.zx = static_cast<int32_t>(any() >> (1 + below(31)));
+        f.zy = static_cast<int32_t>(any() >> (1 + below(31)));
     }
     // The table's factors must not be smaller than those of nearer depths.
     optics.factors[0].zx = static_cast<int32_t>(LENS_NEAR * 32768 / optics.focalX) + 1;
@@ -732,13 +733,14 @@ struct Ideal {
     bool surelyLarge() const { return x.leastLength() > LARGEST || (x.surelySeen(WIDE) && y.leastLength() > LARGEST); }
 
     // A scale with a straight cut is domed: half of its dome is added at a distance of a pixel. The dome and its half are rounded
-    // down, and they change the slopes by whole numbers.
+    // down, and they change the slopes by whole numbers. It is as much aside as the middle of the scale is in doubt.
     Estimate domeAt(double dx, double dy) const
     {
         if (!isCut(v) || isCurved() || v.halfWidth > DOMED * 256 || v.halfHeight > DOMED * 256)
             return {0, 0};
         const double square = dx * dx + dy * dy, dome = 40 * x.unit * x.unit;
-        return {dome * square, 0.6 * square + 1.5 * (fabs(dx) + fabs(dy))};
+        return {dome * square, 0.6 * square + 1.5 * (fabs(dx) + fabs(dy)) + 0.002 * dome * square +
+                                   2 * dome * (fabs(dx) * x.doubt + fabs(dy) * y.doubt)};
     }
     Estimate depthAt(double dx, double dy) const
     {
