@@ -97,8 +97,8 @@ constexpr int DOMED = 6, DOME_MOST = 2 * DOMED * DOMED * 5 * 128 / 16;
 // Units, 9 fraction bits: a pixel that is wider than this counts as this wide, so that domes fit 16 bits.
 constexpr int32_t WIDEST_PIXEL = 10000;
 
-// The dome of a voxel that is cut along a straight line, as FineScale::dome: 1/128 unit, rounded down, so that
-// next to the eye, where pixels are narrow, there is none. It fits 16 bits.
+// The dome of a voxel that is cut along a straight line, as FineScale::dome: 1/128 unit, and it fits 16 bits. It is rounded down:
+// next to the eye, where pixels are narrow, there is none.
 inline int32_t domeOf(const Voxel& v, const Factors& f)
 {
     if (v.halfWidth > DOMED * 256 || v.halfHeight > DOMED * 256)

@@ -273,16 +273,16 @@ inline const Limb* Shader::limbOf(const Patch& patch)
     return hasLimb_ ? &limb_ : nullptr;
 }
 
-// Ends the voxel of a regular seed at the limb, if the tangent plane goes on beyond the limb and the voxel is not cut already.
+// Ends the voxel of a regular seed, which is not cut, at the limb, if the tangent plane goes on beyond the limb.
 inline void Shader::endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel)
 {
-    if (voxel->reach == 0 || isCut(*voxel))
+    if (voxel->reach == 0)
         return;
     if (const Limb* const limb = limbOf(patch))
         ::endAtLimb(*limb, mulDiv(mulShift16(seen.facing, step_), 1 << 14, own_.centre[2] + voxel->z), voxel);
 }
 
-// Domes a voxel; one that is cut at a border is domed already. The end of its depth makes room for the dome.
+// Domes a voxel, unless it is cut at a border and so domed already, and lets it end as much deeper as its dome is deep.
 inline void Shader::dome(Voxel* voxel) const
 {
     if (!isCut(*voxel))

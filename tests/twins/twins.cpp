@@ -733,14 +733,14 @@ struct Ideal {
     bool surelyLarge() const { return x.leastLength() > LARGEST || (x.surelySeen(WIDE) && y.leastLength() > LARGEST); }
 
     // A scale with a straight cut is domed: half of its dome is added at a distance of a pixel. The dome and its half are rounded
-    // down, and they change the slopes by whole numbers. It is as much aside as the middle of the scale is in doubt.
+    // down, and they change the slopes by whole numbers. A dome lies aside by as much as the middle of its scale is in doubt.
     Estimate domeAt(double dx, double dy) const
     {
         if (!isCut(v) || isCurved() || v.halfWidth > DOMED * 256 || v.halfHeight > DOMED * 256)
             return {0, 0};
         const double square = dx * dx + dy * dy, dome = 40 * x.unit * x.unit;
-        return {dome * square, 0.6 * square + 1.5 * (fabs(dx) + fabs(dy)) + 0.002 * dome * square +
-                                   2 * dome * (fabs(dx) * x.doubt + fabs(dy) * y.doubt)};
+        const double aside = 2 * dome * (fabs(dx) * x.doubt + fabs(dy) * y.doubt);
+        return {dome * square, 0.6 * square + 1.5 * (fabs(dx) + fabs(dy)) + aside};
     }
     Estimate depthAt(double dx, double dy) const
     {
