@@ -95,8 +95,14 @@ public:
     static constexpr int CROSSINGS_MOST = 2048;
     const Crossing* crossings() const { return crossings_; }
     int crossingCount() const { return crossingCount_; }
-    // The columns of a row outside of which nothing has been drawn.
+    // The columns of a row outside of which nothing has been drawn, multiples of 4. setTouched() is told all runs of drawn pixels.
     const Span& touched(int row) const { return touched_[row]; }
+    void setTouched(int row, const Span* runs, const Span* end)
+    {
+        touched_[row] = {machine::WIDTH, 0};
+        if (runs < end)
+            touched_[row] = {static_cast<int16_t>(runs->from & ~3), static_cast<int16_t>((end[-1].to + 3) & ~3)};
+    }
 
     // The columns of a row outside of which no list of voxels lies behind an earlier one that has borders to other objects.
     const Span& covered(int row) const { return covered_[row]; }

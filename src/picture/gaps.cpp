@@ -117,6 +117,7 @@ void Gaps::close()
             continue;
         const bool slits = y > 0;
         const Span* const end = runs + drawnRuns(row, zbuffer_ + y * WIDTH, &touched, runs);
+        view_.setTouched(y, runs, end);
         int last = 0;  // one past the end of the previous run; 0 before the first
         for (const Span* run = runs; run < end; ++run) {
             const int from = run->from;

@@ -136,22 +136,27 @@ Keeper::Motion Keeper::motionOf(const OwnFrame& own)
     return stands ? STANDS : uneven || draws_ < 3 ? UNEVEN : fast ? FAST : EVEN;
 }
 
-void Keeper::list(int number, const Patch& patch, VoxelList& list, Slopes& slopes)
+void Keeper::list(int number, bool goes, VoxelList& list, Slopes& slopes)
 {
     Kept& kept = kept_[number];
-    const bool goes = goesOn(number, patch);
     const Seed* const seeds = &object_.regular(0);
     Voxel* voxel = list.room();
     if (paintedAs_ >= 0)
         memset(list.number + list.count, paintedAs_ & 255, kept.count);
     list.count += kept.count;
-    for (One *one = kept.voxels, *const end = one + kept.count; one < end; ++one, ++voxel) {
-        if (goes)
-            one->goOn();
-        *voxel = one->voxel;
-        if (one->number != NONE)
-            slopes.add(seeds + one->number, one->number, voxel, Slopes::STAYS);
+    const auto add = [&](const One& one) {
+        *voxel = one.voxel;
+        if (one.number != NONE)
+            slopes.add(seeds + one.number, one.number, voxel, Slopes::STAYS);
+        ++voxel;
+    };
+    One *one = kept.voxels, *const end = one + kept.count;
+    for (; goes && one < end; ++one) {
+        one->goOn();
+        add(*one);
     }
+    for (; one < end; ++one)
+        add(*one);
     list.bordered |= kept.bordered;
     if (goes)
         --kept.left;

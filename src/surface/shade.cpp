@@ -494,7 +494,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
         if (list.count + list.guests + most > room)
             break;
         if (goesOn || (keeps && keeper.stands(i, patch))) {
-            keeper.list(i, patch, list, slopes);
+            keeper.list(i, goesOn, list, slopes);
             continue;
         }
         const int begin = list.count, guests = list.guests, sloped = slopes.count();

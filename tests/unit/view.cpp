@@ -1274,6 +1274,9 @@ TEST(spans_are_enough)
         scene.ball(20, 90 * std::sin(0.9 * t), 60 * std::sin(1.1 * t), 20, 3);
         if (frame % 20 == 3)
             scene.ball(12, -20, 10 * std::sin(t), -105 + 3 * std::sin(3 * t), 2);
+        // Index 0 is the background's.
+        for (std::vector<uint8_t>& ramp : scene.ramps)
+            std::replace(ramp.begin(), ramp.end(), uint8_t{0}, uint8_t{1});
         scene.linkAll();
         scene.printed = frame % 2 == 1;
         scene.update();
