@@ -68,7 +68,7 @@
 #define HORIZON      144
 #define GRADIENT     148
 #define AHEAD        156
-#define STEEPEST_TILT 20000
+#define STEEPEST_TILT 18000
 #define MARGIN_SHIFT 5
 #define MARGIN_UNITS 14
 #define FLAT_SHADING 8

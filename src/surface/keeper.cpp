@@ -16,8 +16,8 @@ constexpr Real COARSE(2), FINE(1);
 // spacing, because who wants finer seeds wants to see more: at COARSE it is 1/4 unit. Where patches rest half of it is tolerated,
 // for their voxels are made anew more quickly than seeds are settled.
 constexpr Real TOLERATED(16);
-// Spacings: the neighbours travel no farther than this in a period.
-constexpr Real FARTHEST(2);
+// Units: the neighbours travel no farther than this in a period.
+constexpr Real FARTHEST(4);
 // 1/1024 unit: the travels of two frames count as even if they differ by less than this and half of the travel.
 constexpr int32_t EVEN_TRAVEL = 100;
 // In the units of Keeper::view_: a change of the view counts as even if it differs from the change before by no more than JOLT and
@@ -31,12 +31,12 @@ constexpr int GROWS = 6;
 constexpr uint8_t PAUSE = 8;
 constexpr int32_t UNEVEN_ERRORS = 8;
 // Voxel::brightness with 8 more fraction bits: an error up to this may come from rounding alone, and corrects nothing.
-constexpr int32_t ROUNDED_LIGHT = 384;
+constexpr int32_t ROUNDED_LIGHT = 512;
 // Steps as long as this count as errors, so that nothing overflows in a period.
-constexpr int32_t LONG_STEP = 1024;
+constexpr int32_t LONG_STEP = 2048;
 static_assert((LONG_STEP & (LONG_STEP - 1)) == 0, "a power of two");
-static_assert(STEEPEST_TILT + LONG_STEP * LONGEST_PERIOD <= INT16_MAX, "tilts fit 16 bits");
-static_assert((BRIGHTEST + 1) * 256 + LONG_STEP * LONGEST_PERIOD <= INT16_MAX, "brightness fits 16 bits");
+static_assert(STEEPEST_TILT + LONG_STEP * (LONGEST_PERIOD - 1) <= INT16_MAX, "tilts fit 16 bits");
+static_assert((BRIGHTEST + 1) * 256 + LONG_STEP * (LONGEST_PERIOD - 1) <= INT16_MAX, "brightness fits 16 bits");
 // Cosines, 1.0 = 2^14: a patch without voxels is made anew when a seed comes so near to facing the viewer. HIDDEN is smaller than
 // any cosine: no seed of the patch is on the surface.
 constexpr int32_t NEARLY_SEEN = 250, HIDDEN = -20000;
@@ -62,11 +62,12 @@ inline int32_t correctStep(int32_t now, int32_t before, int shift, Step& step)
     return error ^ error >> 31;
 }
 
-// The next period, from the last one and from the error at the end of that.
+// The next period, from the last one and from the error at the end of that. Errors grow about with the square of the period: in one
+// that is four times as long a small error will still be tolerated.
 int periodAfter(int period, int32_t error, int32_t tolerated)
 {
     if (error < (period == 1 ? tolerated : tolerated / 2))
-        return period < LONGEST_PERIOD ? period * 2 : period;
+        return min32(error < tolerated / 8 ? period * 4 : period * 2, LONGEST_PERIOD);
     if (period == 1 || error >= tolerated * 8)
         return 1;
     return error < (period == 2 ? tolerated * 4 : tolerated * 2) ? period : period / 2;
@@ -85,7 +86,6 @@ void Keeper::open(int count)
 {
     const Real spacing = min(object_.spacing(), COARSE);
     tolerated_ = rawFromReal(spacing * spacing * TOLERATED) >> 16;
-    farthest_ = travelOf(spacing * FARTHEST);
     kept_ = allocate<Kept>(static_cast<uint32_t>(count));
     count_ = kept_ == nullptr ? 0 : count;
     for (int i = 0; i < count_; ++i)
@@ -111,7 +111,7 @@ void Keeper::begin(const OwnFrame& own, Travel travel, bool blendsEvenly)
     const bool even = magnitude(static_cast<int32_t>(travel - travel_)) < static_cast<int32_t>(travel / 2) + EVEN_TRAVEL;
     travel_ = travel;
     longest_ = even && blendsEvenly ? LONGEST_PERIOD : 1;
-    while (longest_ > 1 && travel * static_cast<Travel>(longest_ - 1) > farthest_)
+    while (longest_ > 1 && travel * static_cast<Travel>(longest_ - 1) > travelOf(FARTHEST))
         longest_ /= 2;
 }
 
@@ -257,7 +257,7 @@ inline void Keeper::follow(Kept& kept, const Patch& patch, const PatchVoxels& ma
     const bool blends = patch.state == PATCH_MIXED;
     const int32_t tolerated = blends ? tolerated_ : tolerated_ / 2;
     // Where patches rest a limb that comes or goes ends the period, because their scales alone make the outline.
-    const One::Errors errors{object_.spacing() <= FINE ? 6 : 8 - blends, blends ? 0 : tolerated * 4};
+    const One::Errors errors{object_.spacing() <= FINE ? 6 : 10 - blends, blends ? 0 : tolerated * 4};
     int32_t error = 0;
     for (int i = 0; i < made.count; ++i) {
         One& one = kept.voxels[i];
@@ -339,9 +339,9 @@ inline void Keeper::One::goOn()
 }
 
 // Takes the voxel as it has been made anew, and corrects the steps, of which 2^shift were made. Returns about the error in units of
-// 1/256: one of tilt counts as far as it moves the edge of the scale (twice as far where patches blend, as it opens cracks, and
-// four times between fine seeds), one of the cut about as far as it moves the line, one of the reach half, and a step of
-// brightness 1/16 unit. Several errors are or-ed, because that is quicker than to find the greatest.
+// 1/256: one of tilt counts half as far as it moves the edge of the scale where patches blend, a quarter where they rest, and four
+// times between fine seeds; one of the cut about as far as it moves the line, one of the reach half, and a step of brightness
+// 1/16 unit. Several errors are or-ed, because that is quicker than to find the greatest.
 inline int32_t Keeper::One::follow(const Voxel& v, int shift, const Errors& errors)
 {
     const int32_t to[] = {v.x * 16, v.y * 16, v.z * 16}, lightTo = v.brightness * 256 + 128;
@@ -372,7 +372,7 @@ inline int32_t Keeper::One::follow(const Voxel& v, int shift, const Errors& erro
     }
     if ((v.cutAt | voxel.cutAt) != 0) {
         if (isCut(v) && isCut(voxel) && !isCutNowhere(v) && !isCutNowhere(voxel))
-            error |= correctStep(v.cutAt, voxel.cutAt, shift, stepCutAt) >> 2;
+            error |= correctStep(v.cutAt, voxel.cutAt, shift, stepCutAt) >> 3;
         else
             stepCutAt = 0;
     }

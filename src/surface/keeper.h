@@ -128,7 +128,6 @@ private:
     Kept* kept_ = nullptr;
     int count_ = 0;
     int32_t tolerated_ = 0;   // the error of a step that is tolerated where patches blend, 1/256 unit
-    Travel farthest_ = 0;     // FARTHEST for this object
     int draws_ = 0;           // how often the object has been drawn; 3: more than twice
     uint32_t frame_ = 1;      // number of this frame
     uint32_t since_ = 0;      // how often it has been drawn otherwise than the time before

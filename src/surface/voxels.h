@@ -43,7 +43,7 @@ struct Shading {
 constexpr int32_t NEAREST_DEPTH = 256, FARTHEST_DEPTH = 1 << 22;
 
 // Upper bound of a voxel's tilts, 8 fraction bits.
-constexpr int32_t STEEPEST_TILT = 20000;
+constexpr int32_t STEEPEST_TILT = 18000;
 
 // A scale exceeds its cell to each side by 2^-MARGIN_SHIFT of the half extent and by the rounding error of positions, 1/256 unit.
 constexpr int MARGIN_SHIFT = 5;

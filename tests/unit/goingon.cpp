@@ -83,7 +83,7 @@ TEST(what_blends_evenly_goes_on)
     CHECK(even.sum < 0.1 * even.count);
     CHECK(even.worst < 2.5);
     CHECK(even.light < 1.0 * even.count);
-    CHECK(even.slopes < 2.5 * even.count);
+    CHECK(even.slopes < 3.0 * even.count);
     CHECK(torn.sum < 0.1 * torn.count);
 }
 

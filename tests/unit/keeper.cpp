@@ -78,8 +78,9 @@ namespace {
 
 // A torus that turns before each frame, held against one that is turned likewise, but only seen in that frame.
 struct Turning {
-    // How many voxels go on, and how far these are from where they should be, units; and by how much their brightness differs.
-    long moved = 0, all = 0;
+    // How many voxels go on, and how many of these should have gone out of sight, as none is near; how far they are from where they
+    // should be, units; and by how much their brightness differs.
+    long moved = 0, all = 0, gone = 0;
     double worst = 0, sum = 0, light = 0;
 
     // It is judged from a frame on; `degrees` gives the turn before each frame.
@@ -125,6 +126,7 @@ private:
             sum += apart.distance;
             light += apart.light;
             worst = std::fmax(worst, apart.distance);
+            gone += apart.distance > 0.5;
         }
     }
 };
@@ -135,12 +137,15 @@ TEST(voxels_of_what_turns_evenly_go_on)
 {
     const Turning even(30, 10, [](int) { return 1.6; });
     const Turning torn(30, 10, [](int i) { return i % 2 == 0 ? 3.0 : -1.5; });
-    note("evenly: %ld of %ld voxels go on, off by %.3f units on average, %.2f at most, and by %.2f steps of brightness; unevenly: "
-         "%ld of %ld", even.moved, even.all, even.sum / even.moved, even.worst, even.light / even.moved, torn.moved, torn.all);
+    note("evenly: %ld of %ld voxels go on, off by %.3f units on average, %.2f at most, and by %.2f steps of brightness, %ld should "
+         "have gone; unevenly: %ld of %ld", even.moved, even.all, even.sum / even.moved, even.worst, even.light / even.moved,
+         even.gone, torn.moved, torn.all);
     CHECK(even.all > 5000 && torn.all > 5000);
     CHECK(even.moved > even.all / 10);
     CHECK(even.sum < 0.1 * even.moved);
-    CHECK(even.worst < 0.5);
+    // A seed that turns out of sight may still be shown for a few frames: the next one is a spacing away.
+    CHECK(even.worst < 2.2);
+    CHECK(even.gone < even.moved / 1000);
     CHECK(even.light < even.moved);
     CHECK(torn.moved == 0);
 }
