@@ -32,7 +32,8 @@ constexpr uint8_t PAUSE = 8;
 constexpr int32_t UNEVEN_ERRORS = 8;
 // Voxel::brightness with 8 more fraction bits: an error up to this may come from rounding alone, and corrects nothing.
 constexpr int32_t ROUNDED_LIGHT = 512;
-// Steps as long as this count as errors, so that nothing overflows in a period.
+// Steps of tilt as long as this count as errors, so that nothing overflows in a period; and steps of brightness half as long, for
+// what brightens so fast does so unevenly.
 constexpr int32_t LONG_STEP = 2048;
 static_assert((LONG_STEP & (LONG_STEP - 1)) == 0, "a power of two");
 static_assert(STEEPEST_TILT + LONG_STEP * (LONGEST_PERIOD - 1) <= INT16_MAX, "tilts fit 16 bits");
@@ -377,7 +378,7 @@ inline int32_t Keeper::One::follow(const Voxel& v, int shift, const Errors& erro
             stepCutAt = 0;
     }
     // A step that is not long, plus LONG_STEP, has no bit beyond those of 2 LONG_STEP - 1. The sign is no part of an error.
-    error |= ((stepTiltX + LONG_STEP) | (stepTiltY + LONG_STEP) | (stepLight + LONG_STEP)) & INT32_MAX & ~(2 * LONG_STEP - 1);
+    error |= ((stepTiltX + LONG_STEP) | (stepTiltY + LONG_STEP) | (stepLight * 2 + LONG_STEP)) & INT32_MAX & ~(2 * LONG_STEP - 1);
     set(v);
     return error;
 }
