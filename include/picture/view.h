@@ -95,7 +95,8 @@ public:
     static constexpr int CROSSINGS_MOST = 2048;
     const Crossing* crossings() const { return crossings_; }
     int crossingCount() const { return crossingCount_; }
-    // The columns of a row outside of which nothing has been drawn, multiples of 4. setTouched() is told all runs of drawn pixels.
+    // The columns of a row outside of which nothing has been drawn, multiples of 4. setTouched() sets them from the runs of drawn
+    // pixels, which must be all that the row has, from left to right.
     const Span& touched(int row) const { return touched_[row]; }
     void setTouched(int row, const Span* runs, const Span* end)
     {

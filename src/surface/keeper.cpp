@@ -341,7 +341,7 @@ inline void Keeper::One::goOn()
 
 // Takes the voxel as it has been made anew, and corrects the steps, of which 2^shift were made. Returns about the error in units of
 // 1/256: one of tilt counts half as far as it moves the edge of the scale where patches blend, a quarter where they rest, and four
-// times between fine seeds; one of the cut about as far as it moves the line, one of the reach half, and a step of brightness
+// times between fine seeds; one of the cut about half as far as it moves the line, one of the reach half, and a step of brightness
 // 1/16 unit. Several errors are or-ed, because that is quicker than to find the greatest.
 inline int32_t Keeper::One::follow(const Voxel& v, int shift, const Errors& errors)
 {

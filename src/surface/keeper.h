@@ -53,7 +53,7 @@ public:
         return motion_ == STANDS && count_ > 0 && kept_[number].since == since_ && kept_[number].state == patch.state &&
                !patch.islands;
     }
-    // Adds the voxels of such a patch to the list and to the slopes, after a step if it `goes` on.
+    // Adds the voxels of such a patch to the list and to the slopes, after a step if they go on (`goes`: goesOn() in this frame).
     void list(int number, bool goes, VoxelList& list, Slopes& slopes);
     // Keeps voxels that have been made in this frame. All of them are in the object's own colour.
     void keep(int number, const Patch& patch, const PatchVoxels& made, Slopes& slopes)
