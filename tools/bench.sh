@@ -258,6 +258,10 @@ page_loops() {
 			pattern='^(drawScalesC|blitScalesC|blitFine)'
 		}
 		cost=$(loop "$pattern")
+		[ "$cost" -gt 0 ] || {
+			echo "bench.sh: no instruction of the $which was counted" >&2
+			return 1
+		}
 		awk -v name="$name" -v cost="$cost" -v frames="$frames" -v scales=$scales -v pixels=$pixels 'BEGIN {
 			printf "  %-40s %11d %10.1f %17.2f\n", name, cost / frames, cost / scales, cost / pixels
 		}'
