@@ -18,6 +18,8 @@ constexpr Real OUTERMOST(0.8);
 constexpr Real STEEPEST(1.3);
 // A patch is taken to face away if its middle does so by this cosine (1.0 = 2^14) plus the spread of its normals.
 constexpr int32_t TURNED = 500;
+// A normal leans if the cosine of it and the one at rest is less (1.0 = 2^14).
+constexpr int32_t LEANING = 15500;
 // Margin of the range of positions that the seeds of a patch are in. A seed that leaves the range is settled in the fields of all
 // neighbours on the patch's list.
 constexpr Real RANGE(0.05);
@@ -229,6 +231,17 @@ inline bool Settler::staysHidden(const Patch& patch, Real position)
     return hidden;
 }
 
+// How far the normals of a patch's seeds lean away from that of its middle seed, as Patch::spread. Where a link is heavy the
+// surface bulges between the two objects, and its normals spread more than at rest; so they do where the middle one leans itself.
+inline int32_t Settler::spreadOf(const Patch& patch, const Seed& middle) const
+{
+    if (heavy_)
+        return 2 * patch.spread;
+    const Direction14& n = middle.normal;
+    const int32_t cosine = (n.x * patch.axis[0] + n.y * patch.axis[1] + n.z * patch.axis[2]) >> 14;
+    return cosine < LEANING ? patch.spread + (patch.spread >> 2) : patch.spread;
+}
+
 PatchState Settler::probe(Patch& patch)
 {
     Seed& s = object_.seed(patch.centre);
@@ -248,10 +261,8 @@ PatchState Settler::probe(Patch& patch)
         return PATCH_INSIDE;
     }
     patch.facing = facing(object_, s, own_);
-    // Where a link is heavy the surface bulges between the two objects, and its normals spread more than at rest. A guest's normal,
-    // beyond the crease to another object, tells nothing about the patch.
-    const int32_t spread = heavy_ ? 2 * patch.spread : patch.spread;
-    const int32_t away = own_.limb - patch.facing - spread - TURNED;
+    const int32_t away = own_.limb - patch.facing - spreadOf(patch, s) - TURNED;
+    // A guest's normal, beyond the crease to another object, tells nothing about the patch.
     if (away > 0 && isOnOwn(s)) {
         patch.due += travelOf(realFromRaw(away * 4) * shiftDown(object_.laidSize(), 2));
         return PATCH_AWAY;

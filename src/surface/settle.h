@@ -99,6 +99,7 @@ private:
     int stillOff() const { return nearby_.dented() ? SEED_OFF | SEED_FOLLOW : 0; }
     bool isCovered(const Seed& s) { return nearby_.dented() ? isOff(*patch_, s) : cover_.covers(s); }
     void settleBeside(const Seed& centre, Seed& s, uint8_t* blocker);
+    int32_t spreadOf(const Patch& patch, const Seed& middle) const;
     bool staysHidden(const Patch& patch, Real position);
     bool mixes() const;
 
