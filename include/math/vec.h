@@ -108,5 +108,7 @@ struct Matrix {
 Matrix operator*(const Matrix& a, const Matrix& b);
 Point operator*(const Matrix& a, const Point& p);
 Vector operator*(const Matrix& a, const Vector& v);
+// Undoes a rotation: turnedBack(a, a * v) is v. The inverse of a rotation is its transpose.
+Vector turnedBack(const Matrix& a, const Vector& v);
 
 #endif

@@ -7,6 +7,7 @@
 #include "math/vec.h"
 #include "model/warp.h"
 
+struct Actor;
 class Model;
 
 // Animation time in 1/65536 s since the start; 48 bits are used.
@@ -145,6 +146,14 @@ class Anim {
 public:
     // Gives every object and group of the model its place, turn and scale at `time`; then moves the eye.
     static void move(Model& model, Time time);
+
+    // Chooses which balls ride (SoftObject::setRides()): those whose neighbours travel less beside them if they do. To be called
+    // before the first move(). Without memory nothing rides.
+    static void chooseRiders(Model& model);
+
+private:
+    // The pose of an item in the world. Its parent's Actor::pose must be that of the same time.
+    static Pose poseOf(const Model& model, const Actor& actor, Time time);
 };
 
 #endif

@@ -204,6 +204,11 @@ public:
     int number() const { return number_; }
     // Returns true if the object looks the same from everywhere.
     bool isBall() const { return ball_; }
+    // Returns true if the object's own axes turn with it. Those of a ball are the axes of the world unless it rides.
+    bool turns() const { return !ball_ || rides_; }
+    // A ball that rides turns its seeds with it, so that they keep their places beside neighbours that turn about the same centre
+    // as it does. It is the same ball, sampled at other places.
+    void setRides(bool rides) { rides_ = rides; }
     bool tapers() const { return tapers_; }
     const Vector& stretch() const { return stretch_; }
     bool stretched() const { return stretched_; }
@@ -264,13 +269,7 @@ public:
     // toWorld() takes a point of own space to the world; toOwnAxes() turns a vector of the world into own axes, without
     // scaling.
     Point toWorld(const Vector& v) const;
-    Vector toOwnAxes(const Vector& v) const
-    {
-        if (isBall())
-            return v;
-        const Vector turned = turnedBack(v);
-        return {turned.x, turned.y, turned.z};
-    }
+    Vector toOwnAxes(const Vector& v) const { return turns() ? turnedBack(turn_, v) : v; }
 
     // --- The graph
 
@@ -398,7 +397,6 @@ private:
         Layout plain() const;
     };
 
-    Vector turnedBack(Vector v) const;
     Real fieldNear(const Point& p) const;
     const Link* hollowLink() const;
     void findRest();
@@ -438,7 +436,7 @@ private:
     Real coreReach_;
     Vector stretch_, unstretch_;  // factors along the own axes, and their reciprocals
     Real mostStretch_;
-    bool stretched_, warped_, shaped_, ball_;
+    bool stretched_, warped_, shaped_, ball_, rides_ = false;
     Real reach_;
     Warp warp_;                   // in core space
     Real sizeMade_, coreReachMade_, coreReach16_;  // measures when made, so that repeated scaling adds up no errors

@@ -58,6 +58,8 @@ const char* Demo::prepare(int* status)
     } else if (!model_.makeFourSpheres()) {
         return "not enough memory for the model";
     }
+    if (!options_.printed)
+        Anim::chooseRiders(model_);
     Anim::move(model_, 0);
     if (options_.holds())
         rate_.hold(options_.hold);

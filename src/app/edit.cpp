@@ -4,6 +4,7 @@
 #include "math/alloc.h"
 #include "model/scene.h"
 #include "math/text.h"
+#include "surface/engine.h"
 
 namespace {
 
@@ -747,8 +748,11 @@ bool Editor::load(const char* name, Real spacing, bool undoable)
     }
     SceneEnd end;
     const char* problem = readScene(name, *fresh, &end);
-    if (problem == nullptr)
+    if (problem == nullptr) {
+        if (model_.surfaceMaker() != makeReport98)
+            Anim::chooseRiders(*fresh);
         Anim::move(*fresh, 0);
+    }
     if (problem == nullptr && !fresh->resample(spacing, model_.surfaceMaker()))
         problem = SoftObject::resampleTrouble();
     const bool good = problem == nullptr && (!undoable || begin(OTHER, 0));

@@ -247,25 +247,29 @@ Point placeAt(const Motion& motion, Time time)
     return motion.centre + motion.u * cosine(angle) + motion.v * sine(angle);
 }
 
+Pose Anim::poseOf(const Model& model, const Actor& actor, Time time)
+{
+    Pose pose = poseAt(model, actor.motion, time);
+    const Actor* const parent = actor.motion.parent == 0 ? nullptr : model.itemNumbered(actor.motion.parent);
+    if (parent != nullptr) {
+        // Limited before it is turned and scaled, so that no product overflows 16.16.
+        const Vector arm{inSpace(pose.place.x), inSpace(pose.place.y), inSpace(pose.place.z)};
+        pose.place = parent->pose.place + parent->pose.turn * (arm * parent->pose.scale);
+        // Most items have no turn of their own, which saves a matrix product.
+        const bool hasTurn = !sameTurn(pose.turn, Matrix::identity());
+        pose.turn = hasTurn ? parent->pose.turn * pose.turn : parent->pose.turn;
+        pose.scale = clamp(pose.scale * parent->pose.scale, SCALE_LEAST, SCALE_MOST);
+    }
+    pose.place = {inSpace(pose.place.x), inSpace(pose.place.y), inSpace(pose.place.z)};
+    return pose;
+}
+
 void Anim::move(Model& model, Time time)
 {
     // items() lists parents before their children, so a parent's pose is computed first.
     for (int i = 0; i < model.items(); ++i) {
         Actor& actor = model.item(i);
-        Pose pose = poseAt(model, actor.motion, time);
-        if (actor.motion.parent != 0) {
-            const Actor* parent = model.itemNumbered(actor.motion.parent);
-            if (parent != nullptr) {
-                // Limited before it is turned and scaled, so that no product overflows 16.16.
-                const Vector arm{inSpace(pose.place.x), inSpace(pose.place.y), inSpace(pose.place.z)};
-                pose.place = parent->pose.place + parent->pose.turn * (arm * parent->pose.scale);
-                // Most items have no turn of their own, which saves a matrix product.
-                const bool hasTurn = !sameTurn(pose.turn, Matrix::identity());
-                pose.turn = hasTurn ? parent->pose.turn * pose.turn : parent->pose.turn;
-                pose.scale = clamp(pose.scale * parent->pose.scale, SCALE_LEAST, SCALE_MOST);
-            }
-        }
-        pose.place = {inSpace(pose.place.x), inSpace(pose.place.y), inSpace(pose.place.z)};
+        const Pose pose = poseOf(model, actor, time);
         const bool turned = !sameTurn(pose.turn, actor.pose.turn);
         actor.pose = pose;
         if (actor.object == nullptr)
@@ -274,8 +278,8 @@ void Anim::move(Model& model, Time time)
         object.place(pose.place, actor.made * pose.scale);
         if ((actor.motion.parts & MOTION_WARP) != 0 || object.warped())
             object.setWarp(warpAt(actor.motion, time));
-        // A ball is turned only for its pattern or warp. Both may begin while its turn stays the same.
-        if ((turned && !object.isBall()) || actor.coat.pattern != PATTERN_NONE || (actor.motion.parts & MOTION_WARP) != 0)
+        // A ball that does not ride is turned only for its pattern or warp. Both may begin while its turn stays the same.
+        if ((turned && object.turns()) || actor.coat.pattern != PATTERN_NONE || (actor.motion.parts & MOTION_WARP) != 0)
             object.setTurn(pose.turn);
     }
     moveEye(model);

@@ -343,12 +343,7 @@ bool Model::dented(const SoftObject* a, const SoftObject* b, Real* weight)
 
 Vector Model::inverse(const Pose& pose, const Vector& v)
 {
-    // The inverse of a rotation is its transpose.
-    Matrix back = Matrix::identity();
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            back.m[i][j] = pose.turn.m[j][i];
-    const Vector turned = back * v;
+    const Vector turned = turnedBack(pose.turn, v);
     return {turned.x / pose.scale, turned.y / pose.scale, turned.z / pose.scale};
 }
 

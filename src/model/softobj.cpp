@@ -78,15 +78,7 @@ SoftObject::~SoftObject()
 Point SoftObject::toWorld(const Vector& v) const
 {
     const Vector grown = size_ == laid_.size ? v : v * growth();
-    return centre_ + (isBall() ? grown : turn_ * grown);
-}
-
-Vector SoftObject::turnedBack(Vector v) const
-{
-    // The inverse of a rotation is its transpose.
-    const Real(&m)[4][4] = turn_.m;
-    return {m[0][0] * v.x + m[1][0] * v.y + m[2][0] * v.z, m[0][1] * v.x + m[1][1] * v.y + m[2][1] * v.z,
-            m[0][2] * v.x + m[1][2] * v.y + m[2][2] * v.z};
+    return centre_ + (turns() ? turn_ * grown : grown);
 }
 
 void SoftObject::place(const Point& centre, Real wanted)
@@ -150,11 +142,13 @@ void SoftObject::setTurn(const Matrix& turn)
     if (same)
         return;
     turn_ = square;
-    // A ball looks the same from everywhere, so its seeds need not be looked at again.
-    if (isBall())
+    // The seeds of a ball that does not ride stay where they are.
+    if (!turns())
         return;
     recalc_ = true;
-    tellNeighbours();
+    // Neighbours do not feel the turn of a ball.
+    if (!ball_)
+        tellNeighbours();
 }
 
 void SoftObject::setStrength(Real wanted)

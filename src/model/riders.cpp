@@ -1,0 +1,83 @@
+// Chooses the balls that ride: whose seeds turn with the group that carries them. Where a group turns as one, its balls are then at
+// rest beside each other, and their surfaces need not be found anew.
+#include "math/alloc.h"
+#include "math/vec.h"
+#include "model/anim.h"
+#include "model/model.h"
+
+namespace {
+
+// The motion is looked at over several steps, each `STEP` long and `APART` after the one before.
+constexpr int STEPS = 8;
+constexpr Time STEP = 65536 / 16, APART = 65536 * 13 / 8;
+
+// A ball rides if its neighbours then travel less than this part of what they travel otherwise. To turn seeds is not for nothing.
+constexpr Real WORTH_TURNING(0.6);
+
+// How far the neighbours of a ball travel beside it, units: in the axes of the world, and in axes that turn with it.
+struct Travels {
+    Real inWorld{0}, riding{0};
+
+    // Limited so that no sum overflows.
+    static Real travel(const Vector& from, const Vector& to) { return min(length(to - from), Real(30)); }
+
+    // Adds a step of a ball and a neighbour, unless they are more than `range` apart. The poses at its end are `next` further on.
+    void add(const Pose* ball, const Pose* other, int next, Real range)
+    {
+        const Vector from = other[0].place - ball[0].place, to = other[next].place - ball[next].place;
+        if (length(from) > range)
+            return;
+        inWorld += travel(from, to);
+        riding += travel(turnedBack(ball[0].turn, from), turnedBack(ball[next].turn, to));
+    }
+};
+
+// The number of the item that an object belongs to.
+int itemOf(const Model& model, const SoftObject& object)
+{
+    int i = 0;
+    while (model.item(i).object != &object)
+        ++i;
+    return i;
+}
+
+// Whether a ball is to ride. `poses` holds those of all items at the begin and the end of each step.
+bool isRider(const Model& model, int number, const Pose* poses)
+{
+    const int items = model.items();
+    Travels travels;
+    for (const auto* node = model.item(number).object->skel().first(); node != nullptr; node = node->next) {
+        const int other = itemOf(model, *node->item.object);
+        const Real range = model.item(number).object->reach() + node->item.object->reach();
+        for (int step = 0; step < STEPS; ++step) {
+            const Pose* const begin = poses + 2 * step * items;
+            travels.add(begin + number, begin + other, items, range);
+        }
+    }
+    return travels.riding < travels.inWorld * WORTH_TURNING;
+}
+
+}  // namespace
+
+void Anim::chooseRiders(Model& model)
+{
+    const int items = model.items();
+    Pose* const poses = allocate<Pose>(static_cast<uint32_t>((2 * STEPS + 1) * items));
+    if (poses == nullptr)
+        return;
+    Pose* const present = poses + 2 * STEPS * items;
+    for (int j = 0; j < items; ++j)
+        present[j] = model.item(j).pose;
+    for (int i = 0; i < 2 * STEPS; ++i)
+        for (int j = 0; j < items; ++j) {
+            const Time time = static_cast<Time>(i / 2) * APART + static_cast<Time>(i % 2) * STEP;
+            poses[i * items + j] = model.item(j).pose = poseOf(model, model.item(j), time);
+        }
+    for (int j = 0; j < items; ++j) {
+        Actor& actor = model.item(j);
+        if (actor.object != nullptr && actor.object->isBall() && actor.motion.parent != 0)
+            actor.object->setRides(isRider(model, j, poses));
+        actor.pose = present[j];
+    }
+    free(poses);
+}
