@@ -25,7 +25,7 @@ public:
 private:
     struct Part;
 
-    void gather(const Point& p);
+    void gather(const Point& p, const Bodies& bodies);
     Real fieldOf(const Part& one, const Part* parts, const Part* end, int* strongest) const;
 
     const Model* model_;
@@ -35,6 +35,7 @@ private:
     struct Near {
         const SoftObject* object;
         int slot;
+        SoftObject* const* body;  // Part::body
     };
     Near near_[Model::OBJECTS_MOST];
 };

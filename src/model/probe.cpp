@@ -21,14 +21,14 @@ struct FieldProbe::Part {
 };
 
 // Finds the objects that may reach points around `p`.
-void FieldProbe::gather(const Point& p)
+void FieldProbe::gather(const Point& p, const Bodies& bodies)
 {
     middle_ = p;
     count_ = 0;
     for (int i = 0; i < model_->count(); ++i) {
         const SoftObject& object = *model_->actor(i).object;
         if (!object.isFar(p, AROUND))
-            near_[count_++] = {&object, i};
+            near_[count_++] = {&object, i, object.hasSurface() ? bodies.members(object) : nullptr};
     }
 }
 
@@ -70,12 +70,12 @@ Real FieldProbe::implicitAt(const Point& p, int* strongest, const SoftObject* me
     if (bodies == nullptr)
         return Real(0);
     if (count_ < 0 || !isAround(p, middle_))
-        gather(p);
+        gather(p, *bodies);
     Part parts[Model::OBJECTS_MOST], *end = parts;
-    for (const Near* near = near_; near < near_ + count_; ++near) {
+    for (const Near *near = near_, *const last = near_ + count_; near < last; ++near) {
         const Real field = near->object->fieldFunc(p);
         if (field > Real(0))
-            *end++ = {near->slot, near->object->hasSurface() ? bodies->members(*near->object) : nullptr, field};
+            *end++ = {near->slot, near->body, field};
     }
     Real highest(0);
     SoftObject* const *last = nullptr, *const *const only = member == nullptr ? nullptr : bodies->members(*member);
