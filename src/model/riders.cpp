@@ -8,27 +8,36 @@
 namespace {
 
 // The motion is looked at over several steps, each `STEP` long and `APART` after the one before.
-constexpr int STEPS = 8;
-constexpr Time STEP = 65536 / 16, APART = 65536 * 13 / 8;
+constexpr int STEPS = 4;
+constexpr Time STEP = 65536 / 4, APART = 65536 * 13 / 4;
 
-// A ball rides if its neighbours then travel less than this part of what they travel otherwise. To turn seeds is not for nothing.
-constexpr Real WORTH_TURNING(0.6);
+// So many of a ball's links are looked at; in a crowd they are enough to judge by.
+constexpr int LINKS = 16;
 
-// How far the neighbours of a ball travel beside it, units: in the axes of the world, and in axes that turn with it.
+// A ball rides if the squares of its neighbours' travels then add up to less than this part; to turn seeds costs something, too.
+constexpr Real WORTH_TURNING(0.33);
+
+// The square of a travel, 1/64 squared unit. It counts as 16 units along each axis at most, so that no sum overflows.
+Real squareOfTravel(const Vector& from, const Vector& to)
+{
+    const Vector by = to - from;
+    const auto part = [](Real a) { return shiftDown(clamp(a, Real(-16), Real(16)), 3); };
+    const Vector eighth{part(by.x), part(by.y), part(by.z)};
+    return dot(eighth, eighth);
+}
+
+// How far the neighbours of a ball travel beside it: in the axes of the world, and in axes that turn with it.
 struct Travels {
     Real inWorld{0}, riding{0};
-
-    // Limited so that no sum overflows.
-    static Real travel(const Vector& from, const Vector& to) { return min(length(to - from), Real(30)); }
 
     // Adds a step of a ball and a neighbour, unless they are more than `range` apart. The poses at its end are `next` further on.
     void add(const Pose* ball, const Pose* other, int next, Real range)
     {
-        const Vector from = other[0].place - ball[0].place, to = other[next].place - ball[next].place;
-        if (length(from) > range)
+        if (!isNearer(ball[0].place, other[0].place, range))
             return;
-        inWorld += travel(from, to);
-        riding += travel(turnedBack(ball[0].turn, from), turnedBack(ball[next].turn, to));
+        const Vector from = other[0].place - ball[0].place, to = other[next].place - ball[next].place;
+        inWorld += squareOfTravel(from, to);
+        riding += squareOfTravel(turnedBack(ball[0].turn, from), turnedBack(ball[next].turn, to));
     }
 };
 
@@ -46,7 +55,8 @@ bool isRider(const Model& model, int number, const Pose* poses)
 {
     const int items = model.items();
     Travels travels;
-    for (const auto* node = model.item(number).object->skel().first(); node != nullptr; node = node->next) {
+    int left = LINKS;
+    for (const auto* node = model.item(number).object->skel().first(); node != nullptr && left > 0; node = node->next, --left) {
         const int other = itemOf(model, *node->item.object);
         const Real range = model.item(number).object->reach() + node->item.object->reach();
         for (int step = 0; step < STEPS; ++step) {
