@@ -128,7 +128,7 @@ void Engine::settleIslands(Settler& settler)
     ++islandSearches_;
     for (Patch* patch = patches_; patch < patches_ + count_; ++patch) {
         const bool hasTurn = odometer_.leapt() || ((static_cast<uint32_t>(patch - patches_) + islandSearches_) & 1) == 0;
-        if (patch->state == PATCH_INSIDE || (!patch->islands && !hasTurn))
+        if (!patch->islands && (patch->state == PATCH_INSIDE || !hasTurn))
             continue;
         settler.settleIslands(*patch);
         islands_ |= patch->islands;

@@ -93,13 +93,9 @@ void putAway(SoftObject& object, int i)
 
 void putAway(SoftObject& object, Patch& patch)
 {
-    if (patch.extras || patch.islands)
-        forSeeds(object, patch, [&](const Seed& s) {
-            const int i = object.slotOf(s);
-            putAway(object, i);
-            putAwayIsland(object, i);
-        });
-    patch.extras = patch.fine = patch.islands = false;
+    if (patch.extras)
+        forSeeds(object, patch, [&](const Seed& s) { putAway(object, object.slotOf(s)); });
+    patch.extras = patch.fine = false;
 }
 
 // Whether a seed is off the surface, or faces so far away that nothing beside it is seen.
@@ -257,7 +253,7 @@ bool Settler::mayHaveIslands()
 void Settler::settleIslands(Patch& patch)
 {
     setPatch(patch);
-    const bool may = mayHaveIslands(), had = patch.islands;
+    const bool may = patch.state != PATCH_INSIDE && mayHaveIslands(), had = patch.islands;
     patch.islands = false;
     forSeeds(object_, patch, [&](const Seed& s) {
         const int i = object_.slotOf(s);

@@ -72,7 +72,7 @@ public:
     void oversample(Patch& patch);
 
     // Whether paths of the object may lead through islands of the surface; and settles the seeds on the islands of a patch,
-    // whatever its state but PATCH_INSIDE. Where no link is heavy any more the islands end.
+    // whatever its state. Where it lies inside, and where no link is heavy any more, the islands end.
     bool hasIslands() const { return heavy_; }
     SELDOM void settleIslands(Patch& patch);
 
@@ -142,7 +142,7 @@ private:
     bool hidden_ = false;   // hidden()
 };
 
-// Ends the oversampled and fine seeds of a patch, those on islands too.
+// Ends the oversampled and fine seeds of a patch, but for those on islands: Settler::settleIslands() does that.
 void putAway(SoftObject& object, Patch& patch);
 
 // Puts the seeds of a patch at rest, for no neighbour reaches them.
