@@ -241,6 +241,32 @@ TEST(islands_between_heavily_linked_objects_are_found)
         CHECK(placeOf(scene, voxel).x < 0);
 }
 
+TEST(bulges_stay_where_patches_fall_asleep)
+{
+    // The bulge rises from the far side of the large ball, where a third ball reaches, too: patches there face away and are judged
+    // anew whenever something moves.
+    Scene scene;
+    scene.ball(32, 0, 0, 0);
+    scene.ball(14, 31.4, 0, 10.2);
+    scene.ball(18, 16, 4, 22);
+    scene.link(0, 1, 3.1);
+    scene.link(0, 2);
+    int least = 1000, most = 0;
+    for (int frame = 0; frame < 12; ++frame) {
+        scene.update();
+        int there = 0;
+        for (const Voxel& voxel : scene.draw(0))
+            there += size(placeOf(scene, voxel)) >= 21;
+        least = std::min(least, there);
+        most = std::max(most, there);
+        scene.objects[1]->translate(vector(0, 0.06, 0));
+        scene.objects[2]->translate(vector(0, frame % 2 == 0 ? 1 : -1, 0));
+    }
+    note("%d to %d scales of the large ball far out", least, most);
+    CHECK(least >= 8);
+    CHECK(most - least <= most / 4);
+}
+
 TEST(borders_of_cones_are_found)
 {
     // Two cones that blend. Their borders are known to first order: where one is near, the two fields are nearly the same there.
