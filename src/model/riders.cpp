@@ -17,7 +17,7 @@ constexpr int LINKS = 16;
 // A ball rides if the squares of its neighbours' travels then add up to less than this part; to turn seeds costs something, too.
 constexpr Real WORTH_TURNING(0.33);
 
-// The square of a travel, 1/64 squared unit. It counts as 16 units along each axis at most, so that no sum overflows.
+// The squared length of a travel, units, over 64. It counts as 16 units along each axis at most, so that no sum overflows.
 Real squareOfTravel(const Vector& from, const Vector& to)
 {
     const Vector by = to - from;
@@ -30,7 +30,7 @@ Real squareOfTravel(const Vector& from, const Vector& to)
 struct Travels {
     Real inWorld{0}, riding{0};
 
-    // Adds a step of a ball and a neighbour, unless they are more than `range` apart. The poses at its end are `next` further on.
+    // Adds a step of a ball and a neighbour, unless they are `range` apart or more. The poses at its end are `next` further on.
     void add(const Pose* ball, const Pose* other, int next, Real range)
     {
         if (!isNearer(ball[0].place, other[0].place, range))
