@@ -147,8 +147,8 @@ public:
     // Gives every object and group of the model its place, turn and scale at `time`; then moves the eye.
     static void move(Model& model, Time time);
 
-    // Chooses which balls ride (SoftObject::setRides()): those whose neighbours travel less beside them if they do. To be called
-    // before the first move(). Without memory nothing rides.
+    // Chooses which balls ride (SoftObject::setRides()): those whose neighbours travel less beside them if they do. All poses stay
+    // as they are; to be called before the first move(), which turns what rides. Without memory nothing rides.
     static void chooseRiders(Model& model);
 
 private:

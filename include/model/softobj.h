@@ -204,8 +204,9 @@ public:
     int number() const { return number_; }
     // Returns true if the object looks the same from everywhere.
     bool isBall() const { return ball_; }
-    // Returns true if the object's own axes turn with it. Those of a ball are the axes of the world unless it rides.
-    bool turns() const { return !ball_ || rides_; }
+    // Returns true if the object's seeds, and its own axes, turn with it. The own axes of a ball are those of the world unless it
+    // rides.
+    bool turnsSeeds() const { return !ball_ || rides_; }
     // A ball that rides turns its seeds with it, so that they keep their places beside neighbours that turn about the same centre
     // as it does. It is the same ball, sampled at other places.
     void setRides(bool rides) { rides_ = rides; }
@@ -269,7 +270,7 @@ public:
     // toWorld() takes a point of own space to the world; toOwnAxes() turns a vector of the world into own axes, without
     // scaling.
     Point toWorld(const Vector& v) const;
-    Vector toOwnAxes(const Vector& v) const { return turns() ? turnedBack(turn_, v) : v; }
+    Vector toOwnAxes(const Vector& v) const { return turnsSeeds() ? turnedBack(turn_, v) : v; }
 
     // --- The graph
 

@@ -279,7 +279,7 @@ void Anim::move(Model& model, Time time)
         if ((actor.motion.parts & MOTION_WARP) != 0 || object.warped())
             object.setWarp(warpAt(actor.motion, time));
         // A ball that does not ride is turned only for its pattern or warp. Both may begin while its turn stays the same.
-        if ((turned && object.turns()) || actor.coat.pattern != PATTERN_NONE || (actor.motion.parts & MOTION_WARP) != 0)
+        if ((turned && object.turnsSeeds()) || actor.coat.pattern != PATTERN_NONE || (actor.motion.parts & MOTION_WARP) != 0)
             object.setTurn(pose.turn);
     }
     moveEye(model);

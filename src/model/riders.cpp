@@ -7,7 +7,7 @@
 
 namespace {
 
-// The motion is looked at over several steps, each `STEP` long and `APART` after the one before.
+// The motion is looked at in several steps of a quarter of a second, each of which begins 3.25 s after the one before.
 constexpr int STEPS = 4;
 constexpr Time STEP = 65536 / 4, APART = 65536 * 13 / 4;
 
@@ -50,7 +50,7 @@ int itemOf(const Model& model, const SoftObject& object)
     return i;
 }
 
-// Whether a ball is to ride. `poses` holds those of all items at the begin and the end of each step.
+// Whether a ball is to ride. `poses` holds those of all items at the beginning and at the end of each step.
 bool isRider(const Model& model, int number, const Pose* poses)
 {
     const int items = model.items();

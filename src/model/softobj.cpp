@@ -78,7 +78,7 @@ SoftObject::~SoftObject()
 Point SoftObject::toWorld(const Vector& v) const
 {
     const Vector grown = size_ == laid_.size ? v : v * growth();
-    return centre_ + (turns() ? turn_ * grown : grown);
+    return centre_ + (turnsSeeds() ? turn_ * grown : grown);
 }
 
 void SoftObject::place(const Point& centre, Real wanted)
@@ -143,7 +143,7 @@ void SoftObject::setTurn(const Matrix& turn)
         return;
     turn_ = square;
     // The seeds of a ball that does not ride stay where they are.
-    if (!turns())
+    if (!turnsSeeds())
         return;
     recalc_ = true;
     // Neighbours do not feel the turn of a ball.

@@ -47,7 +47,7 @@ private:
     const OwnFrame& own_;
     const Polish polish_;
     VoxelList& list_;
-    Vector axis_[3];      // axes of the pattern, own axes: a ball's seeds do not turn with it, but its pattern does
+    Vector axis_[3];      // axes of the pattern, own axes: a ball's seeds do not turn with it unless it rides, but its pattern does
     Vector from_;         // own space: vector from the middle of the pattern to the object's centre
     Real inverse_, edge_; // factor from own space to grains; length of a grain in units of the world
     Real reach2_;         // squared distance from a seed within which an edge is near, in grains

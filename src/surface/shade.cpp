@@ -125,7 +125,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     clipsDepth_ = own_.centre[2] - reach < NEAREST_DEPTH || own_.centre[2] + reach >= FARTHEST_DEPTH;
     shading_.placeShift = object.placeShift();
     const int32_t step = step_ = rawFromReal(own.growth) << (shading_.placeShift - 8);
-    shading_.turned = object.turns() || object.size() != object.laidSize() || frame.axes.turned;
+    shading_.turned = object.turnsSeeds() || object.size() != object.laidSize() || frame.axes.turned;
     shading_.depth = own_.centre[2];
     const int32_t* const axes[] = {own.right, own.up, own.ahead};
     const int32_t radius = rawFromReal(object.radius());

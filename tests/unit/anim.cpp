@@ -90,7 +90,7 @@ static std::string turning(const std::string& scene)
             CHECK(model.item(0).pose.turn.m[i][j] == before.m[i][j]);
     std::string letters;
     for (int i = 0; i < model.count(); ++i)
-        letters += model.actor(i).object->turns() ? 'T' : '-';
+        letters += model.actor(i).object->turnsSeeds() ? 'T' : '-';
     return letters;
 }
 
@@ -123,7 +123,7 @@ TEST(a_riding_ball_is_the_same_ball)
     Anim::move(one, 65536 * 2);
     Anim::move(two, 65536 * 2);  // a quarter turn
     const SoftObject &still = *one.actor(0).object, &rider = *two.actor(0).object;
-    CHECK(!still.turns() && rider.turns());
+    CHECK(!still.turnsSeeds() && rider.turnsSeeds());
     NEAR(size(vec(still.centre()) - vec(rider.centre())), 0, 0.001);
     const Vector v{Real(3), Real(1), Real(-2)};
     NEAR(size(vec(still.toWorld(v)) - vec(still.centre()) - vec(v)), 0, 0.001);
