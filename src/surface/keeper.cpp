@@ -18,18 +18,14 @@ constexpr Real COARSE(2), FINE(1);
 constexpr Real TOLERATED(16);
 // Units: the neighbours travel no farther than this in a period.
 constexpr Real FARTHEST(4);
-// 1/1024 unit: the travels of two frames count as even if they differ by less than this and half of the travel.
-constexpr int32_t EVEN_TRAVEL = 100;
+// 1/1024 unit: neighbours that travel no farther in a frame are not said to stop after it.
+constexpr Travel SLIGHT = 100;
 // In the units of Keeper::view_: a change of the view counts as even if it differs from the change before by no more than JOLT and
-// a quarter of itself. If an axis or the light changes by more than FASTEST the object turns fast. What rests does not go on
-// straight then; where patches blend the error tells.
-constexpr int32_t JOLT = 24, FASTEST = 500;
-// An object that grows or shrinks by more than 2^-GROWS of its size in a frame counts as turning fast, too: scales keep their
-// extents while they go on, and would part.
+// a quarter of itself.
+constexpr int32_t JOLT = 24;
+// If an object grows or shrinks by more than 2^-GROWS of its size in a frame nothing of it goes on: scales keep their extents while
+// they do, and would part.
 constexpr int GROWS = 6;
-// Frames in which nothing is kept of a patch at rest after a change with an error of UNEVEN_ERRORS times the tolerated one.
-constexpr uint8_t PAUSE = 8;
-constexpr int32_t UNEVEN_ERRORS = 8;
 // Voxel::brightness with 8 more fraction bits: an error up to this may come from rounding alone, and corrects nothing.
 constexpr int32_t ROUNDED_LIGHT = 512;
 // Steps of tilt as long as this count as errors, so that nothing overflows in a period; and steps of brightness half as long, for
@@ -42,16 +38,11 @@ static_assert((BRIGHTEST + 1) * 256 + LONG_STEP * (LONGEST_PERIOD - 1) <= INT16_
 // any cosine: no seed of the patch is on the surface.
 constexpr int32_t NEARLY_SEEN = 250, HIDDEN = -20000;
 
-bool isSame(const int32_t a[3], const int32_t b[3])
+// Whether an object is as large in two frames, and in the same place before the viewer.
+bool isInPlace(const OwnFrame& a, const OwnFrame& b)
 {
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-}
-
-// Whether an object is seen and lit in two frames from the same places.
-bool isSame(const OwnFrame& a, const OwnFrame& b)
-{
-    return isSame(a.eye32, b.eye32) && isSame(a.centre, b.centre) && isSame(a.light, b.light) && isSame(a.right, b.right) &&
-           isSame(a.up, b.up) && isSame(a.ahead, b.ahead) && a.growth == b.growth && a.distance32 == b.distance32;
+    return a.centre[0] == b.centre[0] && a.centre[1] == b.centre[1] && a.centre[2] == b.centre[2] && a.growth == b.growth &&
+           a.distance32 == b.distance32;
 }
 
 // Corrects a step that has led from `before` elsewhere than to `now`; 2^shift such steps were made. Returns about the error.
@@ -109,32 +100,33 @@ void Keeper::begin(const OwnFrame& own, Travel travel, bool blendsEvenly)
         ++since_;
         own_ = own;
     }
-    const bool even = magnitude(static_cast<int32_t>(travel - travel_)) < static_cast<int32_t>(travel / 2) + EVEN_TRAVEL;
+    // When the neighbours stop, or nearly, nothing may go on as they have moved.
+    const bool stop = travel_ > travel * 4 + SLIGHT;
     travel_ = travel;
-    longest_ = even && blendsEvenly ? LONGEST_PERIOD : 1;
+    longest_ = blendsEvenly && !stop ? LONGEST_PERIOD : 1;
     while (longest_ > 1 && travel * static_cast<Travel>(longest_ - 1) > travelOf(FARTHEST))
         longest_ /= 2;
 }
 
-// How the view changes.
+// How the object, the viewer and the light move.
 Keeper::Motion Keeper::motionOf(const OwnFrame& own)
 {
     const int32_t* const parts[] = {own.right, own.up, own.ahead, own.light, own.eye32};
     int32_t *last = view_, *lastChange = viewChange_;
-    bool uneven = false, fast = false;
+    bool uneven = absolute(own.growth - own_.growth) > shiftDown(own.growth, GROWS);
+    int32_t changes = 0;
     for (const int32_t* const part : parts) {
         for (int i = 0; i < 3; ++i, ++last, ++lastChange) {
             const int32_t change = part[i] - *last;
+            changes |= change;
             uneven |= magnitude(change - *lastChange) > JOLT + (magnitude(change) >> 2);
-            fast |= magnitude(change) > FASTEST && part != own.eye32;
             *last = part[i];
             *lastChange = change;
         }
     }
-    fast |= absolute(own.growth - own_.growth) > shiftDown(own.growth, GROWS);
-    const bool stands = draws_ > 0 && isSame(own, own_);
+    const bool stands = draws_ > 0 && changes == 0 && isInPlace(own, own_);
     draws_ = min32(draws_ + 1, 3);
-    return stands ? STANDS : uneven || draws_ < 3 ? UNEVEN : fast ? FAST : EVEN;
+    return stands ? STANDS : uneven || draws_ < 3 ? UNEVEN : EVEN;
 }
 
 void Keeper::list(int number, bool goes, VoxelList& list, Slopes& slopes)
@@ -175,14 +167,10 @@ bool Keeper::makeRoom(Kept& kept, int count)
     return kept.room > 0;
 }
 
-void Keeper::store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool mayGoOn, Slopes& slopes) const
+void Keeper::store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool goesOn, Slopes& slopes) const
 {
-    const bool follows = mayGoOn && kept.drawn == frame_ - 1 && kept.left == 0 && kept.state == patch.state;
+    const bool follows = goesOn && kept.drawn == frame_ - 1 && kept.left == 0 && kept.state == patch.state;
     kept.since = 0;
-    if (mayGoOn && patch.state == PATCH_REST && kept.pause > 0) {
-        --kept.pause;
-        return;
-    }
     kept.drawn = 0;
     const bool same = follows && hasSameSeeds(kept, made);
     if (!same && !(follows ? rearrange(kept, made) : makeRoom(kept, made.count)))
@@ -201,7 +189,7 @@ void Keeper::store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool
     kept.bordered = made.bordered;
     kept.since = since_;
     // What stands has no steps that would be known when it moves.
-    kept.drawn = mayGoOn ? frame_ : 0;
+    kept.drawn = goesOn ? frame_ : 0;
 }
 
 // Keeps the voxels of a patch, of which nothing is known.
@@ -279,8 +267,6 @@ inline void Keeper::follow(Kept& kept, const Patch& patch, const PatchVoxels& ma
         // Half of the patches begin in a frame, half in the next, so that all frames take about the same time.
         if (kept.period == 1 && period == 2 && ((static_cast<uint32_t>(&kept - kept_) + frame_) & 1) != 0)
             period = 1;
-    } else if (kept.stepsKnown && error >= tolerated * UNEVEN_ERRORS) {
-        kept.pause = PAUSE;
     }
     kept.stepsKnown = true;
     kept.period = static_cast<uint8_t>(period);

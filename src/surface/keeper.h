@@ -45,7 +45,7 @@ public:
     bool goesOn(int number, const Patch& patch) const
     {
         return count_ > 0 && kept_[number].left != 0 && kept_[number].drawn == frame_ - 1 && kept_[number].state == patch.state &&
-               !patch.islands && isEven(patch);
+               !patch.islands && mayGoOn(patch);
     }
     // Whether they are those of this frame, because nothing has changed.
     bool stands(int number, const Patch& patch) const
@@ -60,9 +60,9 @@ public:
     {
         if (count_ == 0 || patch.islands)
             return;
-        const bool mayGoOn = isEven(patch) && !patch.fine;
-        if (mayGoOn || motion_ == STANDS)
-            store(kept_[number], patch, made, mayGoOn, slopes);
+        const bool goesOn = mayGoOn(patch) && !patch.fine;
+        if (goesOn || motion_ == STANDS)
+            store(kept_[number], patch, made, goesOn, slopes);
     }
 
 private:
@@ -100,20 +100,19 @@ private:
         int32_t facing;       // of a blending patch without voxels: facing() of the seed that is the nearest to be seen, or HIDDEN
         uint8_t count, room;  // voxels, and how many there is room for
         uint8_t period, left; // they are made once in `period` frames; frames left until then
-        uint8_t pause;        // for so many frames none are kept while something moves, because they changed unevenly
         bool stepsKnown;      // they were made at least twice, in consecutive frames
         PatchState state;
         bool bordered;        // VoxelList::bordered
     };
-    // How the object, the viewer and the light move: not at all, as in the frame before, the same but turning fast, or otherwise.
-    enum Motion { STANDS, EVEN, FAST, UNEVEN };
+    // How the object, the viewer and the light move: not at all, as in the frame before, or otherwise.
+    enum Motion { STANDS, EVEN, UNEVEN };
 
-    bool isEven(const Patch& patch) const
+    bool mayGoOn(const Patch& patch) const
     {
         return patch.state == PATCH_MIXED ? longest_ > 1 && motion_ != UNEVEN : patch.state == PATCH_REST && motion_ == EVEN;
     }
     Motion motionOf(const OwnFrame& own);
-    void store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool mayGoOn, Slopes& slopes) const;
+    void store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool goesOn, Slopes& slopes) const;
     static bool makeRoom(Kept& kept, int count);
     static void begin(Kept& kept, const PatchVoxels& made);
     static bool hasSameSeeds(const Kept& kept, const PatchVoxels& made);
@@ -133,7 +132,7 @@ private:
     uint32_t since_ = 0;      // how often it has been drawn otherwise than the time before
     Motion motion_ = UNEVEN;
     Travel travel_ = 0;       // travel of the neighbours
-    int longest_ = 1;         // the longest period that they allow where patches blend
+    int longest_ = 1;         // the longest period of patches that blend, which the travel of the neighbours allows
     // How the object is seen and lit: the axes of the view, the light (1.0 = 2^14) and the eye (1/32 unit); and their change.
     int32_t view_[15] = {}, viewChange_[15] = {};
     OwnFrame own_;            // how it was drawn last: the frame,
