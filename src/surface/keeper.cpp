@@ -18,7 +18,7 @@ constexpr Real COARSE(2), FINE(1);
 constexpr Real TOLERATED(16);
 // Units: the neighbours travel no farther than this in a period.
 constexpr Real FARTHEST(4);
-// 1/1024 unit: neighbours that travel no farther in a frame are not said to stop after it.
+// 1/1024 unit: where neighbours travel no farther than this in a frame it makes no difference whether they stop after it.
 constexpr Travel SLIGHT = 100;
 // In the units of Keeper::view_: a change of the view counts as even if it differs from the change before by no more than JOLT and
 // a quarter of itself.
@@ -100,7 +100,7 @@ void Keeper::begin(const OwnFrame& own, Travel travel, bool blendsEvenly)
         ++since_;
         own_ = own;
     }
-    // When the neighbours stop, or nearly, nothing may go on as they have moved.
+    // When the neighbours stop, or nearly do, nothing may go on as if they still moved.
     const bool stop = travel_ > travel * 4 + SLIGHT;
     travel_ = travel;
     longest_ = blendsEvenly && !stop ? LONGEST_PERIOD : 1;
@@ -167,9 +167,9 @@ bool Keeper::makeRoom(Kept& kept, int count)
     return kept.room > 0;
 }
 
-void Keeper::store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool goesOn, Slopes& slopes) const
+void Keeper::store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool mayGoOn, Slopes& slopes) const
 {
-    const bool follows = goesOn && kept.drawn == frame_ - 1 && kept.left == 0 && kept.state == patch.state;
+    const bool follows = mayGoOn && kept.drawn == frame_ - 1 && kept.left == 0 && kept.state == patch.state;
     kept.since = 0;
     kept.drawn = 0;
     const bool same = follows && hasSameSeeds(kept, made);
@@ -189,7 +189,7 @@ void Keeper::store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool
     kept.bordered = made.bordered;
     kept.since = since_;
     // What stands has no steps that would be known when it moves.
-    kept.drawn = goesOn ? frame_ : 0;
+    kept.drawn = mayGoOn ? frame_ : 0;
 }
 
 // Keeps the voxels of a patch, of which nothing is known.

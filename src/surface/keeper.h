@@ -45,7 +45,7 @@ public:
     bool goesOn(int number, const Patch& patch) const
     {
         return count_ > 0 && kept_[number].left != 0 && kept_[number].drawn == frame_ - 1 && kept_[number].state == patch.state &&
-               !patch.islands && mayGoOn(patch);
+               !patch.islands && isEven(patch);
     }
     // Whether they are those of this frame, because nothing has changed.
     bool stands(int number, const Patch& patch) const
@@ -60,9 +60,9 @@ public:
     {
         if (count_ == 0 || patch.islands)
             return;
-        const bool goesOn = mayGoOn(patch) && !patch.fine;
-        if (goesOn || motion_ == STANDS)
-            store(kept_[number], patch, made, goesOn, slopes);
+        const bool mayGoOn = isEven(patch) && !patch.fine;
+        if (mayGoOn || motion_ == STANDS)
+            store(kept_[number], patch, made, mayGoOn, slopes);
     }
 
 private:
@@ -107,12 +107,12 @@ private:
     // How the object, the viewer and the light move: not at all, as in the frame before, or otherwise.
     enum Motion { STANDS, EVEN, UNEVEN };
 
-    bool mayGoOn(const Patch& patch) const
+    bool isEven(const Patch& patch) const
     {
         return patch.state == PATCH_MIXED ? longest_ > 1 && motion_ != UNEVEN : patch.state == PATCH_REST && motion_ == EVEN;
     }
     Motion motionOf(const OwnFrame& own);
-    void store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool goesOn, Slopes& slopes) const;
+    void store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool mayGoOn, Slopes& slopes) const;
     static bool makeRoom(Kept& kept, int count);
     static void begin(Kept& kept, const PatchVoxels& made);
     static bool hasSameSeeds(const Kept& kept, const PatchVoxels& made);
@@ -132,10 +132,10 @@ private:
     uint32_t since_ = 0;      // how often it has been drawn otherwise than the time before
     Motion motion_ = UNEVEN;
     Travel travel_ = 0;       // travel of the neighbours
-    int longest_ = 1;         // the longest period of patches that blend, which the travel of the neighbours allows
+    int longest_ = 1;         // the longest period that they allow where patches blend
     // How the object is seen and lit: the axes of the view, the light (1.0 = 2^14) and the eye (1/32 unit); and their change.
     int32_t view_[15] = {}, viewChange_[15] = {};
-    OwnFrame own_;            // how it was drawn last: the frame,
+    OwnFrame own_{};          // how it was drawn last: the frame,
     int32_t paintedAs_ = -1;  // and its finish (256 times that) and the number of its colour, or -1 if it has no paint
 };
 
