@@ -21,8 +21,8 @@ constexpr Real FARTHEST(4);
 // 1/1024 unit: where neighbours travel no farther than this in a frame it makes no difference whether they stop after it.
 constexpr Travel SLIGHT = 100;
 // In the units of Keeper::view_: a change of the view counts as even if it differs from the change before by no more than JOLT and
-// a quarter of itself.
-constexpr int32_t JOLT = 24;
+// a quarter of itself. If an axis or the light changes by more than FASTEST the object turns fast.
+constexpr int32_t JOLT = 24, FASTEST = 500;
 // If an object grows or shrinks by more than 2^-GROWS of its size in a frame nothing of it goes on: scales keep their extents while
 // they do, and would part.
 constexpr int GROWS = 6;
@@ -114,19 +114,21 @@ Keeper::Motion Keeper::motionOf(const OwnFrame& own)
     const int32_t* const parts[] = {own.right, own.up, own.ahead, own.light, own.eye32};
     int32_t *last = view_, *lastChange = viewChange_;
     bool uneven = absolute(own.growth - own_.growth) > shiftDown(own.growth, GROWS);
+    bool fast = false;
     int32_t changes = 0;
     for (const int32_t* const part : parts) {
         for (int i = 0; i < 3; ++i, ++last, ++lastChange) {
             const int32_t change = part[i] - *last;
             changes |= change;
             uneven |= magnitude(change - *lastChange) > JOLT + (magnitude(change) >> 2);
+            fast |= magnitude(change) > FASTEST && part != own.eye32;
             *last = part[i];
             *lastChange = change;
         }
     }
     const bool stands = draws_ > 0 && changes == 0 && isInPlace(own, own_);
     draws_ = min32(draws_ + 1, 3);
-    return stands ? STANDS : uneven || draws_ < 3 ? UNEVEN : EVEN;
+    return stands ? STANDS : uneven || draws_ < 3 ? UNEVEN : fast ? FAST : EVEN;
 }
 
 void Keeper::list(int number, bool goes, VoxelList& list, Slopes& slopes)

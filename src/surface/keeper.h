@@ -104,8 +104,9 @@ private:
         PatchState state;
         bool bordered;        // VoxelList::bordered
     };
-    // How the object, the viewer and the light move: not at all, as in the frame before, or otherwise.
-    enum Motion { STANDS, EVEN, UNEVEN };
+    // How the object, the viewer and the light move: not at all, as in the frame before, the same but turning fast, or otherwise.
+    // What rests does not go on straight while it turns fast; where patches blend the error of the steps tells.
+    enum Motion { STANDS, EVEN, FAST, UNEVEN };
 
     bool isEven(const Patch& patch) const
     {
