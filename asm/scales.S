@@ -53,6 +53,7 @@
 #define AVERAGED   96
 #define STEP_OF    128
 #define LARGEST    40
+#define CUT_MOST   32000                /* include/surface/voxel.h */
 #define Z_EMPTY    0xffff
 #define SCREEN_WIDTH 320
 #define SCREEN_HEIGHT 200
@@ -145,8 +146,8 @@
 // scale's width before its end. With a cut, edx has the cut function, which takes 2 more instructions per pixel (a pixel cut off
 // takes 3 altogether). Along a straight line the step of the depth changes with the dome, with 1 instruction more (486 and
 // Pentium: 2), and pixels are averaged (FineScale::averages): one that is, takes 11 instructions more if it is nearer and 15 if it
-// is occluded, and any other one 3. Along a curve the step of the cut function changes, with 2 instructions more (486: 1 + 3,
-// Pentium: 4).
+// is occluded, and any other one 3. What is cut nowhere has its dome in edx, which saves a cycle. Along a curve the step of the
+// cut function changes, with 2 instructions more (486: 1 + 3, Pentium: 4).
 
         .balign 16
         FUNC(drawScalesA)
@@ -437,7 +438,7 @@ even:
         .endm
 
         // average() in src/picture/blit.cpp;   cx: nearer = depths[x] - z
-        .macro  AVERAGE at
+        .macro  PIXEL_averaged at
         movw    2*(\at)(%esi), %cx
         subw    %ax, %cx
         jbe     3f
@@ -474,20 +475,25 @@ even:
         .text   0
         .endm
 
-        // if (cut >= 0) average(..)
-        .macro  PIXEL_averaged at
-        js      2f
-        AVERAGE \at
-        .endm
-
-        // if (z - zLeast <= zMost - zLeast && cut >= 0) average(..)
+        // if (z - zLeast <= zMost - zLeast) average(..)
         .macro  PIXEL_averagedending at
-        js      2f
         movl    %eax, %ecx
         subl    ZLEAST(%esp), %ecx
         cmpw    ZRANGE(%esp), %cx
         ja      2f
-        AVERAGE \at
+        PIXEL_averaged \at
+        .endm
+
+        // if (cut >= 0) average(..)
+        .macro  PIXEL_averagedcut at
+        js      2f
+        PIXEL_averaged \at
+        .endm
+
+        // if (z - zLeast <= zMost - zLeast && cut >= 0) average(..)
+        .macro  PIXEL_averagedcutending at
+        js      2f
+        PIXEL_averagedending \at
         .endm
 
         // for (x = 0; x < width; ++x, z += zStep) ..;   `at` is the first pixel's offset from edi; the step after the last pixel is
@@ -563,8 +569,9 @@ even:
         // for (y = height; y > 0; --y, z += zRow, cut += cutRow)
         //     for (x = 0; x < width; ++x, z += zStep, cut += cutStep) ..;   edi points one past the last pixel of the row
         // `cuts` is 0 without a cut function, 1 along a line (CUT_ROW leads from the last pixel of a row to the first of the next),
-        // 2 along a curve (CUT_ROW leads from the first pixel of a row to the first of the next).
-        .macro  ENTERED kind pixel cuts
+        // 2 along a curve (CUT_ROW leads from the first pixel of a row to the first of the next). `dome` is
+        // what the step of the depth changes by, if it does.
+        .macro  ENTERED kind pixel cuts dome
         .balign 4
         .set    at, -LARGEST
         .irp    width, 40, 39, 38, 37, 36, 35, 34, 33, 32, 31, 30, 29, 28, 27, 26, 25, 24, 23, 22, 21, 20, \
@@ -573,8 +580,8 @@ entered_\kind\()_\width:
         PIXEL_\pixel at
         .if     \width > 1
         addl    %ebx, %eax
-        .if     \cuts == 1
-        addl    DOME(%esp), %ebx
+        .ifnb   \dome
+        addl    \dome, %ebx
         .endif
         .if     \cuts == 2
         movl    CUT_XX(%esp), %ecx
@@ -586,12 +593,12 @@ entered_\kind\()_\width:
         .endif
         .set    at, at + 1
         .endr
-        .if     \cuts == 1
+        .ifnb   \dome
         // z and shade start from the row before; its change to the next row grows by the dome
         movl    DOWN(%esp), %ebx
         movl    FIRST(%esp), %eax
         addl    %ebx, %eax
-        addl    DOME(%esp), %ebx
+        addl    \dome, %ebx
         movl    %eax, FIRST(%esp)
         movl    %ebx, DOWN(%esp)
         movl    STEP(%esp), %ebx
@@ -697,10 +704,12 @@ domed:
         jmp     on_row
         ENTERED shaded, shaded, 0
         ENTERED ending, ending, 0
-        ENTERED cut, averaged, 1
-        ENTERED cutending, averagedending, 1
+        ENTERED cut, averagedcut, 1, DOME(%esp)
+        ENTERED cutending, averagedcutending, 1, DOME(%esp)
         ENTERED curved, cut, 2
         ENTERED curvedending, cutending, 2
+        ENTERED domed, averaged, 0, %edx
+        ENTERED domedending, averagedending, 0, %edx
 
 leave:
         movl    END(%esp), %eax
@@ -732,6 +741,24 @@ leave_at:
         xorl    \free, \free
 1:      movl    \free, ZLEAST(%esp)
         subl    \free, ZRANGE(%esp)
+        .endm
+
+        // domeOf(v, f), in eax as well
+        .macro  DOME_OF
+        xorl    %eax, %eax
+        cmpw    $DOMED*256, VOXEL_HALF_WIDTH(%esi)
+        jg      1f
+        cmpw    $DOMED*256, VOXEL_HALF_HEIGHT(%esi)
+        jg      1f
+        movl    FACTOR_ZX(%ebp), %eax
+        sarl    $6, %eax
+        cmpl    $WIDEST_PIXEL, %eax
+        jle     4f
+        movl    $WIDEST_PIXEL, %eax
+4:      imull   %eax, %eax
+        leal    (%eax,%eax,4), %eax
+        shrl    $14, %eax
+1:      movl    %eax, DOME(%esp)
         .endm
 
         // A voxel with a reach or a cut
@@ -816,6 +843,8 @@ entered:
         je      2f
         testl   $0xffffff, VOXEL_CURVEXX(%esi) // curveXX | curveXY | curveYY
         jnz     curved
+        cmpw    $CUT_MOST, VOXEL_CUTAT(%esi)
+        je      nowhere
         addl    $2*4*LARGEST, %eax      // to the table of `cut` or `cutending`
         movl    (%eax), %eax
         movl    %eax, ENTRY(%esp)
@@ -843,25 +872,21 @@ entered:
         addl    CUT_ROW(%esp), %eax
         negl    %eax
         movl    %eax, CUT_ROW(%esp)
-        // domeOf(v, f)
-        movl    $0, DOME(%esp)
-        cmpw    $DOMED*256, VOXEL_HALF_WIDTH(%esi)
-        jg      not_special
-        cmpw    $DOMED*256, VOXEL_HALF_HEIGHT(%esi)
-        jg      not_special
-        movl    FACTOR_ZX(%ebp), %eax
-        sarl    $6, %eax
-        cmpl    $WIDEST_PIXEL, %eax
-        jle     4f
-        movl    $WIDEST_PIXEL, %eax
-4:      imull   %eax, %eax
-        leal    (%eax,%eax,4), %eax
-        shrl    $14, %eax
-        movl    %eax, DOME(%esp)
+        DOME_OF
         jmp     not_special
 2:
         movl    (%eax), %eax
         movl    %eax, ENTRY(%esp)
+        jmp     not_special
+
+        // isCutNowhere(v): the cut function is positive on the whole scale, and is left out; edx has the dome while pixels are drawn
+        .balign 4
+nowhere:
+        addl    $6*4*LARGEST, %eax      // to the table of `domed` or `domedending`
+        movl    (%eax), %eax
+        movl    %eax, ENTRY(%esp)
+        DOME_OF
+        movl    %eax, CUT(%esp)
         jmp     not_special
 
         // setCut() for a cut along a curve; the table is that of `curved` or `curvedending`
@@ -1030,5 +1055,7 @@ entered_ways:
         ENTRIES cutending
         ENTRIES curved
         ENTRIES curvedending
+        ENTRIES domed
+        ENTRIES domedending
 
 ASM_END

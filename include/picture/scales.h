@@ -50,16 +50,20 @@ inline int32_t curveStep(int curve, int32_t factor, int32_t other)
     return wrappedProduct(wrappedProduct(curve, factor) >> 10, other) >> 16;
 }
 
-// Sets a scale's cut function, starting at the centre of its first pixel. `toFirst(a, b)` returns by how much a function changes
+// Sets the cut function of a scale that has none, starting at the centre of its first pixel. `toFirst(a, b)` returns by how much a function changes
 // between the middle of the scale and the centre of that pixel if it changes by `a` per column and by `b` per row.
 template <class ToFirst>
 inline void setCut(const Voxel& v, int32_t zx, int32_t zy, ToFirst toFirst, FineScale* scale)
 {
+    scale->cut = v.cutAt * 4;
+    scale->averages = isCutStraight(v);
+    if (scale->averages && isCutNowhere(v))
+        return;
     const int32_t across = shadeStep(v.cutX, zx), down = -shadeStep(v.cutY, zy);
     const int32_t xx = curveStep(v.curveXX, zx, zx), xy = -curveStep(v.curveXY, zx, zy), yy = curveStep(v.curveYY, zy, zy);
     const int32_t acrossFirst = wrappedSum(across, toFirst(xx, xy)), downFirst = wrappedSum(down, toFirst(xy, yy));
     // The slope of a quadratic function half way is its average slope on the whole way.
-    scale->cut = v.cutAt * 4 + toFirst(wrappedSum(across, acrossFirst) >> 1, wrappedSum(down, downFirst) >> 1);
+    scale->cut += toFirst(wrappedSum(across, acrossFirst) >> 1, wrappedSum(down, downFirst) >> 1);
     // The average slope of a step is the slope half a pixel ahead; the drawing loop adds a whole pixel's change before each step,
     // so half of it is taken off here.
     scale->cutStep = wrappedSum(acrossFirst, -(xx >> 1));
@@ -67,7 +71,6 @@ inline void setCut(const Voxel& v, int32_t zx, int32_t zy, ToFirst toFirst, Fine
     scale->cutXX = xx;
     scale->cutXY = xy;
     scale->cutYY = yy;
-    scale->averages = isCutStraight(v);
 }
 
 inline void setUncut(FineScale* scale)

@@ -377,7 +377,7 @@ static_assert(inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FINENESS == LENS_FINE
                   inasm::STEEPEST == STEEPEST && inasm::LARGEST == LARGEST && inasm::LENS_NEXT == LENS_NEXT &&
                   inasm::FACTOR_MOST == FACTOR_MOST && inasm::AVERAGED == AVERAGED && inasm::DOMED == DOMED &&
                   inasm::DOME_MOST == DOME_MOST && inasm::WIDEST_PIXEL == WIDEST_PIXEL && inasm::STEP_OF == STEP_OF &&
-                  inasm::Z_EMPTY == Z_EMPTY && inasm::SCREEN_WIDTH == WIDE &&
+                  inasm::CUT_MOST == CUT_MOST && inasm::Z_EMPTY == Z_EMPTY && inasm::SCREEN_WIDTH == WIDE &&
                   inasm::SCREEN_HEIGHT == HIGH,
               "constants");
 
@@ -511,6 +511,10 @@ void addShading(Voxel* v)
     v->front = anyReach();
     if (below(4) != 0)
         return;
+    if (below(4) == 0) {
+        cutNowhere(v);
+        return;
+    }
     v->cutX = slope();
     v->cutY = slope();
     // The line of the cut often lies within the scale.
