@@ -134,7 +134,6 @@ Keeper::Motion Keeper::motionOf(const OwnFrame& own)
 void Keeper::list(int number, bool goes, VoxelList& list, Slopes& slopes)
 {
     Kept& kept = kept_[number];
-    const Seed* const seeds = &object_.regular(0);
     Voxel* voxel = list.room();
     if (paintedAs_ >= 0)
         memset(list.number + list.count, paintedAs_ & 255, kept.count);
@@ -142,7 +141,7 @@ void Keeper::list(int number, bool goes, VoxelList& list, Slopes& slopes)
     const auto add = [&](const One& one) {
         *voxel = one.voxel;
         if (one.number != NONE)
-            slopes.add(seeds + one.number, one.number, voxel, Slopes::STAYS);
+            slopes.addKept(one.seed, one.number, voxel);
         ++voxel;
     };
     One *one = kept.voxels, *const end = one + kept.count;

@@ -44,14 +44,13 @@ void Slopes::set(int32_t spacing)
         Voxel& v = *shown->voxel;
         if (shown->sight == STAYS)
             continue;
-        if (shown->number == COPY) {
+        if (shown->key == COPY) {
             v.brightness = shown->before->brightness;
             v.slopeX = shown->before->slopeX;
             v.slopeY = shown->before->slopeY;
             continue;
         }
-        const Shown *const last = find(shown->number - 1), *const next = find(shown->number + 1);
-        Step along(last != nullptr ? last->voxel : &v, next != nullptr ? next->voxel : &v, &v, shown->sight);
+        Step along(voxelOf(shown->key - 1, &v), voxelOf(shown->key + 1, &v), &v, shown->sight);
         Step across(shown->before, shown->behind, &v, shown->sight);
         if (along.isLonger(most))
             along = {0, 0, 0};

@@ -228,6 +228,37 @@ TEST(slopes_of_a_voxel_in_two_parts_are_alike)
     CHECK(plane.isRight(17, 1, -1, 4));
 }
 
+// A voxel of an earlier frame gives its brightness to the voxels beside it, and keeps its own slopes. What an object or a frame has
+// added is not known in any later one, however many there were.
+TEST(slopes_take_kept_voxels_but_none_of_before)
+{
+    Plane plane(1, -1);
+    plane.set();
+    const int middle = Plane::at(2, 3);
+    const auto set = [&](bool kept) {
+        for (Voxel& v : plane.voxels)
+            v.slopeX = v.slopeY = 0;
+        for (int i = 0; i < RINGS * ROUND; ++i)
+            if (i == middle)
+                plane.slopes->add(&plane.seeds[i], i, &plane.voxels[i], Slopes::sight(410, -307));
+            else if (kept)
+                plane.slopes->addKept(&plane.seeds[i], i, &plane.voxels[i]);
+        plane.slopes->set(SPACING);
+        for (int i = 0; i < RINGS * ROUND; ++i)
+            CHECK(i == middle || (plane.voxels[i].slopeX | plane.voxels[i].slopeY) == 0);
+    };
+    plane.slopes->begin();
+    set(true);
+    CHECK(plane.isRight(middle, 1, -1, 4));
+    for (int before : {1, 32765, 32766, 32767, 32768}) {
+        for (int i = 0; i < before; ++i)
+            plane.slopes->begin();
+        set(false);
+        CHECK(plane.voxels[middle].slopeX == 0 && plane.voxels[middle].slopeY == 0);
+        plane.set();
+    }
+}
+
 // A unit beside the seeds of balls that blend, the brightness of their scales is close to that of the surface.
 TEST(slopes_are_true_where_balls_blend)
 {
