@@ -40,7 +40,7 @@ public:
     void draw(const FrameContext& frame, VoxelList& list, int room, int* next) override;
 
 private:
-    bool updatePatch(Settler& settler, Patch& patch, const OwnFrame& own, const Neighbourhood& all);
+    bool updatePatch(Settler& settler, Patch& patch, const Neighbourhood& all);
     bool goOn(int number, const Neighbourhood& all);
     bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all);
     bool stays(const Settler& settler, Patch& patch, const Neighbourhood& all) const;
@@ -55,7 +55,8 @@ private:
     Odometer odometer_;
     Keeper keeper_;
     uint32_t islandSearches_ = 0;  // how often islands were searched
-    bool begun_ = false;     // the keeper has begun this frame
+    OwnFrame own_;           // how the object is seen, if begun_, and until the last draw() of the frame
+    bool begun_ = false;     // update() has begun this frame
     bool islands_ = false;   // some patches have seeds on islands
     bool allRests_ = false;  // all seeds were at rest after the last update
     Patch* patches_ = nullptr;
@@ -84,14 +85,14 @@ void Engine::reshape()
 bool Engine::update(const FrameContext& frame)
 {
     Neighbourhood all;
-    const OwnFrame own = ownFrame(object_, frame);
-    if (own.outOfSight || (!object_.hasSurface() && object_.hollowed() == nullptr))
+    own_ = ownFrame(object_, frame);
+    if (own_.outOfSight || (!object_.hasSurface() && object_.hollowed() == nullptr))
         return false;
     gather(object_, frame, all);
-    odometer_.advance(object_, own, all, frame.bodies->version());
-    Settler settler(object_, own, all, frame, odometer_);
+    odometer_.advance(object_, own_, all, frame.bodies->version());
+    Settler settler(object_, own_, all, frame, odometer_);
     // Islands change too suddenly to go on.
-    keeper_.begin(own, odometer_.lastTravel(), !settler.hasIslands());
+    keeper_.begin(own_, odometer_.lastTravel(), !settler.hasIslands());
     begun_ = true;
     // No neighbour is near, and all seeds are at rest already.
     if (allRests_ && !odometer_.leapt() && all.ordinary && all.restsAtOne && all.count == 0)
@@ -104,7 +105,7 @@ bool Engine::update(const FrameContext& frame)
         if (goOn(i, all))
             displaced = wentOn = true;
         else
-            displaced |= updatePatch(settler, patches_[i], own, all);
+            displaced |= updatePatch(settler, patches_[i], all);
     }
     for (int i = 0; i < count_; ++i)
         if (Patch& patch = patches_[i]; patch.settled) {
@@ -149,13 +150,13 @@ inline bool Engine::goOn(int number, const Neighbourhood& all)
 }
 
 // Brings a patch up to date. Returns false if all its seeds are at rest.
-inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& own, const Neighbourhood& all)
+inline bool Engine::updatePatch(Settler& settler, Patch& patch, const Neighbourhood& all)
 {
     if (keeps(settler, patch, all))
         return true;
     // What is out of sight need not be looked at, unless it may come to rest or the odometer has to count the neighbours' travel.
     const bool judgedFirst = all.ordinary && all.count > 0 && patch.state != PATCH_REST;
-    if (judgedFirst && outOfSight(patch, own)) {
+    if (judgedFirst && outOfSight(patch, own_)) {
         sleepOutOfSight(patch);
         return true;
     }
@@ -163,7 +164,7 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const OwnFrame& 
         return patch.state != PATCH_REST;
     if (comesToRest(settler, patch, all))
         return false;
-    if (!judgedFirst && outOfSight(patch, own))
+    if (!judgedFirst && outOfSight(patch, own_))
         sleepOutOfSight(patch);
     else if (patch.state == PATCH_REST || isDue(odometer_.reading(), patch.due))
         settle(settler, patch);
@@ -242,20 +243,22 @@ inline void Engine::settle(Settler& settler, Patch& patch)
 // Lists the voxels of what the viewer sees of the object.
 void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* next)
 {
-    const OwnFrame own = ownFrame(object_, frame);
+    // Without an update nothing has moved.
+    const bool begins = *next == 0 && !begun_;
+    if (begins)
+        own_ = ownFrame(object_, frame);
+    begun_ = false;
     const SoftObject* const shown = object_.shown();
     list.begin(frame.inView(object_.centre()), object_.reach(),
                shown == nullptr ? object_.ramp() : shown->ramp());
-    if (own.outOfSight || shown == nullptr) {
+    if (own_.outOfSight || shown == nullptr) {
         *next = 0;
         return;
     }
+    if (begins)
+        keeper_.begin(own_, 0, true);
     const Paint* const paint = shown->paint();
-    // Without an update nothing has moved.
-    if (*next == 0 && !begun_)
-        keeper_.begin(own, 0, true);
-    begun_ = false;
-    const int at = shadePatches(object_, own, frame, patches_, count_, *next, list, room, keeper_);
+    const int at = shadePatches(object_, own_, frame, patches_, count_, *next, list, room, keeper_);
     *next = at < count_ ? at : 0;
     // An object that is shown in another ramp than its own, as when it is selected, shows no colours of its paint.
     if (paint != nullptr && shown->ramp() == paint->ramp)

@@ -26,6 +26,9 @@ void change(Scene& scene, int which)
         break;
     case 6: scene.objects[2]->moveTo(point(-30, -20, 12)); break;
     }
+    // What is updated must have been seen from there and lit so when it is drawn, however much later.
+    for (const auto& object : scene.objects)
+        object->setRecalc();
 }
 
 std::unique_ptr<Scene> balls()
