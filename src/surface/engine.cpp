@@ -41,7 +41,7 @@ public:
 
 private:
     bool updatePatch(Settler& settler, Patch& patch, const Neighbourhood& all);
-    bool goOn(int number, const Neighbourhood& all);
+    bool goOn(int number, Patch& patch, const Neighbourhood& all);
     bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all);
     bool stays(const Settler& settler, Patch& patch, const Neighbourhood& all) const;
     bool comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all);
@@ -85,7 +85,7 @@ void Engine::reshape()
 bool Engine::update(const FrameContext& frame)
 {
     Neighbourhood all;
-    own_ = ownFrame(object_, frame);
+    findOwnFrame(object_, frame, own_);
     if (own_.outOfSight || (!object_.hasSurface() && object_.hollowed() == nullptr))
         return false;
     gather(object_, frame, all);
@@ -98,20 +98,22 @@ bool Engine::update(const FrameContext& frame)
     if (allRests_ && !odometer_.leapt() && all.ordinary && all.restsAtOne && all.count == 0)
         return false;
     bool displaced = false, wentOn = false;
-    for (int i = 0; i < count_; ++i) {
-        patches_[i].settled = false;
+    Patch* patch = patches_;
+    for (int i = 0; i < count_; ++i, ++patch) {
+        patch->settled = false;
         if (i % ASKED_EVERY == ASKED_EVERY - 1 && stopAsked())
             return true;
-        if (goOn(i, all))
+        if (goOn(i, *patch, all))
             displaced = wentOn = true;
         else
-            displaced |= updatePatch(settler, patches_[i], all);
+            displaced |= updatePatch(settler, *patch, all);
     }
-    for (int i = 0; i < count_; ++i)
-        if (Patch& patch = patches_[i]; patch.settled) {
-            settler.oversample(patch);
+    patch = patches_;
+    for (int i = 0; i < count_; ++i, ++patch)
+        if (patch->settled) {
+            settler.oversample(*patch);
             keeper_.forget(i);
-            patch.moved = false;
+            patch->moved = false;
         }
     if (settler.hasIslands() || islands_)
         settleIslands(settler);
@@ -136,11 +138,10 @@ void Engine::settleIslands(Settler& settler)
     }
 }
 
-// Lets the voxels of a patch that blends go on, so that its seeds need not be settled. Returns false if they do not. What the
+// Lets the voxels of patch `number` go on if it blends, so that its seeds need not be settled. Returns false if they do not. What the
 // neighbours do meanwhile counts in a later frame.
-inline bool Engine::goOn(int number, const Neighbourhood& all)
+inline bool Engine::goOn(int number, Patch& patch, const Neighbourhood& all)
 {
-    Patch& patch = patches_[number];
     if (patch.state != PATCH_MIXED || !keeper_.goesOn(number, patch))
         return false;
     patch.moved = true;
@@ -246,7 +247,7 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
     // Without an update nothing has moved.
     const bool begins = *next == 0 && !begun_;
     if (begins)
-        own_ = ownFrame(object_, frame);
+        findOwnFrame(object_, frame, own_);
     begun_ = false;
     const SoftObject* const shown = object_.shown();
     list.begin(frame.inView(object_.centre()), object_.reach(),

@@ -129,13 +129,12 @@ static void setSides(const SoftObject& object, const FrameContext& frame, const 
     }
 }
 
-OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
+void findOwnFrame(const SoftObject& object, const FrameContext& frame, OwnFrame& own)
 {
-    OwnFrame own;
     const Vector toCentre = frame.inView(object.centre());
     setSides(object, frame, toCentre, own);
     if (own.outOfSight)
-        return own;
+        return;
     own.growth = object.growth();
     const Real most(1000);
     const Vector toEye = frame.eye - object.centre();
@@ -165,7 +164,6 @@ OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame)
     own.centre[0] = rawFromReal(toCentre.x) >> 8;
     own.centre[1] = rawFromReal(toCentre.y) >> 8;
     own.centre[2] = rawFromReal(toCentre.z) >> 8;
-    return own;
 }
 
 // Whether a member of the object's own body digs into it.

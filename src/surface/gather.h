@@ -150,7 +150,7 @@ struct OwnFrame {
 constexpr int32_t LIMB_OF_BALL = 1300, LIMB = 1 << 7;
 
 // Describes the frame as an object sees it. If the object is out of sight only outOfSight is set.
-OwnFrame ownFrame(const SoftObject& object, const FrameContext& frame);
+void findOwnFrame(const SoftObject& object, const FrameContext& frame, OwnFrame& own);
 
 // Collects the neighbours that are in range or within GATHER_SLACK of it.
 void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& all);

@@ -218,7 +218,8 @@ TEST(finishes_by_the_normal)
             p.draw(k, [](const Voxel&, const uint8_t*, const Vec&) {});
             double worst = 0;
             int seen = 0;
-            const OwnFrame own = ownFrame(p.object(k), p.frame());
+            OwnFrame own;
+            findOwnFrame(p.object(k), p.frame(), own);
             const Polish polish(p.object(k), own);
             for (int i = 0; i < p.object(k).seedSlots(); i += 2) {
                 const Seed& s = p.object(k).seed(i);

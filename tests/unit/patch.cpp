@@ -151,7 +151,8 @@ TEST(patches_that_face_away_are_out_of_sight)
         scatter(scene, kinds, random, 1, 40);
         const Body body(scene, kinds);
         const SoftObject& object = *scene.objects[0];
-        const OwnFrame own = ownFrame(object, scene.frame());
+        OwnFrame own;
+        findOwnFrame(object, scene.frame(), own);
         // Seeds seen more edge-on than this are not drawn.
         const double limb = own.limb / 16384.0 * own.distance32 / 32;
         for (const Patch& patch : patchesIn(object)) {
