@@ -17,7 +17,7 @@ constexpr int LOOKS_MOST = 3500, LOOKS_AT_ONE = 28000;
 constexpr int STEP = 128, APART = 128;
 // Upper bounds: of the steps along the ray towards a stronger field; of the ratio of each step to the one before; and of the
 // steps back through the object towards the eye.
-constexpr int STEPS = 3, FARTHEST = 4, THICKEST = 12;
+constexpr int STEPS = 3, FARTHEST = 3, THICKEST = 12;
 // No surface is near a point where the field is this much below the isovalue.
 constexpr Real NEAR(0.2);
 // A ray only grazes the surface if the field, times the size of its object, rises by less than this over the last STEP.
