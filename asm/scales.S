@@ -879,7 +879,7 @@ entered:
         movl    %eax, ENTRY(%esp)
         jmp     not_special
 
-        // isCutNowhere(v): the cut function is positive on the whole scale, and is left out; edx has the dome while pixels are drawn
+        // isCutNowhere(v): the cut function is positive on the whole scale, and is left out. In its place edx has the dome.
         .balign 4
 nowhere:
         addl    $6*4*LARGEST, %eax      // to the table of `domed` or `domedending`

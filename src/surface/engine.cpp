@@ -138,8 +138,8 @@ void Engine::settleIslands(Settler& settler)
     }
 }
 
-// Lets the voxels of patch `number` go on if it blends, so that its seeds need not be settled. Returns false if they do not. What the
-// neighbours do meanwhile counts in a later frame.
+// Lets the voxels of patch `number` go on if it blends, so that its seeds need not be settled. Returns false if they do not. What
+// the neighbours do meanwhile counts in a later frame.
 inline bool Engine::goOn(int number, Patch& patch, const Neighbourhood& all)
 {
     if (patch.state != PATCH_MIXED || !keeper_.goesOn(number, patch))
