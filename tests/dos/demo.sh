@@ -94,7 +94,12 @@ dos -- cls 'DEMO /N:5 /D:NODIR\SUB > OUT.TXT' "$E1" "$E2" 'MTEST SCREEN > SCREEN
 trouble 'a directory that cannot be made' 'NODIR'
 
 rm -f "$c"/*.TXT
+# 2 MB do not even hold the program, and whoever loads it says so; 3 MB hold the four spheres, but not with seeds this close.
 dos -m 2 -- cls 'DEMO /N:5 > OUT.TXT' "$E1" "$E2" 'MTEST SCREEN > SCREEN.TXT'
+trouble 'too little memory to load' 'not enough'
+
+rm -f "$c"/*.TXT
+dos -m 3 -- cls 'DEMO /N:5 /S:0.5 > OUT.TXT' "$E1" "$E2" 'MTEST SCREEN > SCREEN.TXT'
 trouble 'too little memory' 'not enough memory'
 
 rm -f "$c"/*.TXT
