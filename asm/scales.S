@@ -569,8 +569,8 @@ even:
         // for (y = height; y > 0; --y, z += zRow, cut += cutRow)
         //     for (x = 0; x < width; ++x, z += zStep, cut += cutStep) ..;   edi points one past the last pixel of the row
         // `cuts` is 0 without a cut function, 1 along a line (CUT_ROW leads from the last pixel of a row to the first of the next),
-        // 2 along a curve (CUT_ROW leads from the first pixel of a row to the first of the next). `dome` is
-        // what the step of the depth changes by, if it does.
+        // 2 along a curve (CUT_ROW leads from the first pixel of a row to the first of the next). `dome` is what the depth's step
+        // changes by from pixel to pixel; empty for a plane.
         .macro  ENTERED kind pixel cuts dome
         .balign 4
         .set    at, -LARGEST

@@ -58,8 +58,8 @@ public:
     // Tells the surface that the seeds' roots, paths and resting places have changed.
     virtual void reshape() {}
 
-    // Lists the voxels of the settled seeds, at most `room` at a time (DRAW_ROOM..VOXELS_AT_ONCE). If update() was called since the
-    // frame before, it was with the same `frame`. `*next` is 0 in the first call of a frame; each call changes it, and as long as
+    // Lists the voxels of the settled seeds, at most `room` at a time (DRAW_ROOM..VOXELS_AT_ONCE). If update() was called for
+    // this frame, `frame` is the one that it had. `*next` is 0 in the first call of a frame; each call changes it, and as long as
     // it is not 0 there are more voxels. An object without a surface (SoftObject::hasSurface) has no voxels of its own.
     virtual void draw(const FrameContext& frame, VoxelList& list, int room, int* next) = 0;
 };

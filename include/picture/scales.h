@@ -52,7 +52,7 @@ inline int32_t curveStep(int curve, int32_t factor, int32_t other)
 
 // Sets the cut function of a scale that has none, starting at the centre of its first pixel. `toFirst(a, b)` returns by how much a
 // function changes between the middle of the scale and the centre of that pixel if it changes by `a` per column and by `b` per row.
-// One that cuts nowhere is the same everywhere.
+// Of a voxel that is cut nowhere the function is constant.
 template <class ToFirst>
 inline void setCut(const Voxel& v, int32_t zx, int32_t zy, ToFirst toFirst, FineScale* scale)
 {

@@ -26,9 +26,9 @@ void change(Scene& scene, int which)
         break;
     case 6: scene.objects[2]->moveTo(point(-30, -20, 12)); break;
     }
-    // What is updated must have been seen from there and lit so when it is drawn, however much later.
-    for (const auto& object : scene.objects)
-        object->setRecalc();
+    // What is seen or lit otherwise has to be updated, as in the program, for what was updated is drawn as it was seen then.
+    for (size_t i = 0; i < scene.objects.size() && (which == 2 || which == 3); ++i)
+        scene.objects[i]->setRecalc();
 }
 
 std::unique_ptr<Scene> balls()
