@@ -175,9 +175,9 @@ static bool dentedFromWithin(const SoftObject& object, const Bodies& bodies)
     return false;
 }
 
-// Sets the place and the size of a neighbour in own space. `away` leads from the object to it in the world; `growth` is the
-// object's.
-static void place(const SoftObject& object, Real growth, const Vector& away, Neighbour& near)
+// Sets the place and the size of a neighbour in own space. `away` leads from the object to it in the world; `growth` and `shrink`
+// are the object's SoftObject::growth() and 1 over that.
+static void place(const SoftObject& object, Real growth, Real shrink, const Vector& away, Neighbour& near)
 {
     const SoftObject& other = *near.object;
     near.kind = Neighbour::POINT;
@@ -186,9 +186,9 @@ static void place(const SoftObject& object, Real growth, const Vector& away, Nei
     Vector centre = object.toOwnAxes(away);
     Real size = other.size(), inverse16 = other.inverse16();
     if (growth != Real(1)) {
-        centre = {quotient(centre.x, growth), quotient(centre.y, growth), quotient(centre.z, growth)};
-        size = quotient(size, growth);
-        inverse16 = quotient(Real(CORE_SIZE), size);
+        centre = centre * shrink;
+        size = size * shrink;
+        inverse16 = inverse16 * growth;
     }
     near.centre = centre;
     near.size = size;
@@ -287,7 +287,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
     const int reaching = count == 0 ? 0 : findNear(from, count, object, found);
     if (reaching == 0)
         return;
-    const Real growth = object.growth();
+    const Real growth = object.growth(), shrink = quotient(Real(1), growth);
     const bool longPaths = object.longestPath() > LONG_PATH;
     const Point centre = object.centre();
     const Real reach = object.reach();
@@ -302,7 +302,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         const Real range = reach + other.reach();
         const Vector away = other.centre() - centre;
         const auto square = squareOf(away);
-        if (square >= squareOf(range + GATHER_SLACK))
+        if (square >= squareOf(range + GATHER_SLACK) || (other.size() < SMALL && isUnseen(object, other)))
             continue;
         if (next == all.neighbours + NEIGHBOURS_MAX)
             break;
@@ -313,18 +313,13 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         all.bySlot[near.slot] = &near;
         near.digs = digs;
         near.inRange = square < squareOf(range);
-        place(object, growth, away, near);
+        place(object, growth, shrink, away, near);
         weigh(bodies, all, near);
         near.claim = near.ownClaim = Real(1);
         near.change = Real(0);  // until the field is evaluated where it reaches
         const Real weight = weights[near.slot];
         if (other.size() > large || other.size() < small || weight > Real(1))
             gathered.claims |= setClaims(object, weight, near);
-        if (near.size < SMALL && isUnseen(object, other)) {
-            all.bySlot[near.slot] = nullptr;
-            --next;
-            continue;
-        }
         const bool tiny = (near.size < SMALL || longPaths) && isTiny(object, near);
         if (tiny || !other.isBall())
             aim(object, tiny, near);
