@@ -87,7 +87,8 @@ struct Seed {
                              // along the surface, own axes, 1/128 step per unit of the world. Its component along the normal
                              // does not count. The first is LIGHT_UNKNOWN until it has been found
     uint8_t host;        // with SEED_GUEST: slot of the object whose field is the strongest
-    uint8_t spare[7];    // pads a seed to 64 bytes, so that an index becomes an address by a shift
+    bool lightIsOld;     // lightChange is to be found anew when the seed settles
+    uint8_t spare[6];    // pads a seed to 64 bytes, so that an index becomes an address by a shift
 };
 
 // Receives the seeds of a primitive, ring by ring, in the object's own space (Appendix C: "canonical" space). A layout runs

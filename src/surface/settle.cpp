@@ -26,6 +26,8 @@ constexpr Real RANGE(0.05);
 // Cosine of path and normal (1.0 = 2^14). In a place that belongs to another object a seed is not shown if its path meets the
 // surface at a smaller one.
 constexpr int32_t SQUARE = 8000;
+// A normal has hardly turned if none of its components changed by more (1.0 = 2^14).
+constexpr int32_t HARDLY_TURNED = 600;
 
 }  // namespace
 
@@ -68,13 +70,15 @@ Real Settler::settle(Seed& s)
     s.position = position;
     const bool claimed = found && sample.dominance <= OVERSHOOT;
     if (claimed) {
+        const Direction14 before = s.normal;
         place(s, sample.dominance);
         const bool isExtra = s.area == 0;
         if ((s.flags & SEED_VALID) && (isExtra || isBesideBorder(s)))
-            findLightChange(s);
-    }
-    if (claimed)
+            keepLightChange(s, before);
+        else
+            s.lightIsOld = true;
         return Real(0);
+    }
     if (nearby_.dented()) {
         off_ = found ? Real(0) : off_;
         putOff(s, found ? sample.dominance - OVERSHOOT : off_, followed == LOST ? gradientBound_ : path_.steepestGradient());
@@ -171,6 +175,18 @@ inline Real Settler::search(const Seed& s, Real* position, Sample* sample)
     *sample = path_.beginSearch(s);
     *position = path_.middle();
     return ::search(path_, position, sample);
+}
+
+// Sees to it that a seed knows how the light changes around it. `before` is the normal that the seed had the time before. While the
+// normal hardly turns the change of the light stays about the same, and it is enough to find it every second time.
+inline void Settler::keepLightChange(Seed& s, const Direction14& before)
+{
+    const Direction14& n = s.normal;
+    const int32_t turned = max32(max32(magnitude(n.x - before.x), magnitude(n.y - before.y)), magnitude(n.z - before.z));
+    const bool known = !s.lightIsOld && turned <= HARDLY_TURNED && s.lightChange[0] != Seed::LIGHT_UNKNOWN;
+    if (!known)
+        findLightChange(s);
+    s.lightIsOld = known;
 }
 
 // Gives a seed that is on the surface its normal, its colour where colours mix, and the border to a neighbour. The seed is left

@@ -95,6 +95,7 @@ private:
     SELDOM bool makeGuest(Seed& s, const Neighbour& host);
     // Finds how the light changes around a seed (ltchange.cpp), unless the seed is dark or faces away.
     SELDOM void findLightChange(Seed& s);
+    void keepLightChange(Seed& s, const Direction14& before);
     // The flags that a covered seed keeps.
     int stillOff() const { return nearby_.dented() ? SEED_OFF | SEED_FOLLOW : 0; }
     bool isCovered(const Seed& s) { return nearby_.dented() ? isOff(*patch_, s) : cover_.covers(s); }
