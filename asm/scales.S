@@ -52,6 +52,7 @@
 #define WIDEST_PIXEL 10000
 #define AVERAGED   96
 #define STEP_OF    128
+#define STEP_BIAS  64
 #define LARGEST    40
 #define CUT_MOST   32000                /* include/surface/voxel.h */
 #define Z_EMPTY    0xffff
@@ -117,8 +118,7 @@
 #define FIRST      176                  /* of a domed scale: z and shade at the beginning of the row, their steps there, and */
 #define STEP       180                  /* their change to the next row, in the halves of one word each */
 #define DOWN       184
-#define THERE      188                  /* of a pixel that is averaged: the step of the ramp that it shows */
-#define LOCALS     192
+#define LOCALS     188
 
         .text
 
@@ -145,7 +145,7 @@
 // Scales that are cut, clipped, large or nearer than the table use code that draws a row of LARGEST columns; it is entered at the
 // scale's width before its end. With a cut, edx has the cut function, which takes 2 more instructions per pixel (a pixel cut off
 // takes 3 altogether). Along a straight line the step of the depth changes with the dome, with 1 instruction more (486 and
-// Pentium: 2), and pixels are averaged (FineScale::averages): one that is, takes 11 instructions more if it is nearer and 15 if it
+// Pentium: 2), and pixels are averaged (FineScale::averages): one that is, takes 8 instructions more if it is nearer and 12 if it
 // is occluded, and any other one 3. What is cut nowhere has its dome in edx, which saves a cycle. Along a curve the step of the
 // cut function changes, with 2 instructions more (486: 1 + 3, Pentium: 4).
 
@@ -447,31 +447,30 @@ even:
         jb      4f
 5:      movl    %eax, %ecx
         sarl    $24, %ecx
-6:      movb    (%ebp,%ecx), %cl
+        movb    (%ebp,%ecx), %cl
         movb    %cl, \at(%edi)
 2:
         // What follows is needed for fewer pixels, and stands apart so that the others need no jump past it.
         .text   1
-        // farther: if (nearer < 0 && nearer >= -AVERAGED && there >= 0) ..
+        // farther: if (nearer < 0 && nearer >= -AVERAGED && there < 0) ..
 3:      cmpw    $-AVERAGED, %cx
         jb      2b
         movzbl  \at(%edi), %ecx
-        movsbl  STEP_OF(%ebp,%ecx), %ecx
-        testl   %ecx, %ecx
-        jns     7f
+        movb    STEP_OF(%ebp,%ecx), %cl
+        shll    $24, %ecx
+        js      6f
         jmp     2b
-        // nearer: if (there < 0): pixels[x] = ramp[shade >> 8]
+        // nearer: if (there >= 0): pixels[x] = ramp[shade >> 8]
 4:      movzbl  \at(%edi), %ecx
-        movsbl  STEP_OF(%ebp,%ecx), %ecx
-        testl   %ecx, %ecx
-        js      5b
-        // pixels[x] = ramp[(there + (shade >> 8)) >> 1]
-7:      movl    %ecx, THERE(%esp)
-        movl    %eax, %ecx
-        sarl    $24, %ecx
-        addl    THERE(%esp), %ecx
-        sarl    $1, %ecx
-        jmp     6b
+        movb    STEP_OF(%ebp,%ecx), %cl
+        shll    $24, %ecx
+        jns     5b
+        // pixels[x] = ramp[((there + (shade >> 8)) >> 1) + STEP_BIAS / 2];   the byte of the sum is that of ecx + eax
+6:      addl    %eax, %ecx
+        sarl    $25, %ecx
+        movb    STEP_BIAS/2(%ebp,%ecx), %cl
+        movb    %cl, \at(%edi)
+        jmp     2b
         .text   0
         .endm
 
@@ -595,13 +594,12 @@ entered_\kind\()_\width:
         .endr
         .ifnb   \dome
         // z and shade start from the row before; its change to the next row grows by the dome
-        movl    DOWN(%esp), %ebx
-        movl    FIRST(%esp), %eax
-        addl    %ebx, %eax
-        addl    \dome, %ebx
-        movl    %eax, FIRST(%esp)
-        movl    %ebx, DOWN(%esp)
+        movl    \dome, %ebx
+        movl    DOWN(%esp), %eax
+        addl    %ebx, DOWN(%esp)
+        addl    FIRST(%esp), %eax
         movl    STEP(%esp), %ebx
+        movl    %eax, FIRST(%esp)
         .else
         subl    ROW(%esp), %eax
         .endif

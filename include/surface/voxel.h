@@ -64,9 +64,11 @@ inline int32_t lambert(int32_t cosine)
 
 // Upper bound of the change of brightness from the centre of a scale to its corners, steps.
 constexpr int SHADING_MOST = 64;
-// A ramp also tells its steps: ramp[STEP_OF + i] is the step, 0..63, that has palette index i; as a signed byte it is negative if
-// none has.
+// A ramp also tells its steps: as a signed byte, ramp[STEP_OF + i] is the step, 0..63, that has palette index i, less STEP_BIAS; it
+// is not negative if none has. So its sum with any brightness that a ramp has fits a signed byte.
 constexpr int STEP_OF = BRIGHTEST + 1 + SHADING_MOST;
+constexpr int STEP_BIAS = BRIGHTEST + 1;
+static_assert(SHADING_MOST + STEP_BIAS <= 128 && BRIGHTEST + SHADING_MOST - 1 <= 127, "the least and the greatest sum");
 // A scale whose centre is this dark, or darker, has brightness 0 and no slopes.
 constexpr int DARK_MIDDLE = -30;
 

@@ -36,11 +36,11 @@ inline void average(const uint8_t* ramp, int32_t z, int32_t shade, uint16_t* dep
 {
     const int32_t nearer = *depth - z;
     const int32_t there = static_cast<int8_t>(ramp[STEP_OF + *pixel]);
-    const bool averages = there >= 0 && nearer < AVERAGED && nearer >= -AVERAGED;
+    const bool averages = there < 0 && nearer < AVERAGED && nearer >= -AVERAGED;
     if (nearer > 0)
         *depth = static_cast<uint16_t>(z);
     if (nearer > 0 || (nearer < 0 && averages))
-        *pixel = ramp[averages ? (there + shade) >> 1 : shade];
+        *pixel = ramp[averages ? (static_cast<int8_t>(there + shade) >> 1) + STEP_BIAS / 2 : shade];
 }
 
 // Draws a row of a scale; `pixels` and `depths` point one past its last pixel, so x runs from -width to before 0. `both` holds

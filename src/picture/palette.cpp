@@ -159,9 +159,9 @@ const uint8_t* lengthen(uint8_t* ramp)
         ramp[-i] = ramp[0];
         ramp[Palette::STEPS - 1 + i] = ramp[Palette::STEPS - 1];
     }
-    memset(ramp + STEP_OF, -1, 256);
+    memset(ramp + STEP_OF, 0, 256);
     for (int i = 0; i < Palette::STEPS; ++i)
-        ramp[STEP_OF + ramp[i]] = static_cast<uint8_t>(i);
+        ramp[STEP_OF + ramp[i]] = static_cast<uint8_t>(i - STEP_BIAS);
     return ramp;
 }
 

@@ -377,6 +377,7 @@ static_assert(inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FINENESS == LENS_FINE
                   inasm::STEEPEST == STEEPEST && inasm::LARGEST == LARGEST && inasm::LENS_NEXT == LENS_NEXT &&
                   inasm::FACTOR_MOST == FACTOR_MOST && inasm::AVERAGED == AVERAGED && inasm::DOMED == DOMED &&
                   inasm::DOME_MOST == DOME_MOST && inasm::WIDEST_PIXEL == WIDEST_PIXEL && inasm::STEP_OF == STEP_OF &&
+                  inasm::STEP_BIAS == STEP_BIAS &&
                   inasm::CUT_MOST == CUT_MOST && inasm::Z_EMPTY == Z_EMPTY && inasm::SCREEN_WIDTH == WIDE &&
                   inasm::SCREEN_HEIGHT == HIGH,
               "constants");
@@ -909,7 +910,7 @@ void voxelByVoxel(int rounds)
                 optics.set(focal, focal / 1.2, below(320), below(200));
             for (int i = 0; i < 128 + STEP_OF; ++i)
                 optics.ramps[i] = static_cast<uint8_t>(5 * i + 7);
-            memset(optics.ramps + 128 + STEP_OF, -1, 256);
+            memset(optics.ramps + 128 + STEP_OF, 0, 256);
         }
         makeLens(c, a, 0);
         a.lens.left = WIDE;

@@ -114,7 +114,7 @@ inline Apart fromNearest(const Voxel& v, const std::vector<Voxel>& list)
 // scale averages.
 inline std::vector<uint8_t> plainRamp()
 {
-    std::vector<uint8_t> ramp(SHADING_MOST + STEP_OF + 256, 255);
+    std::vector<uint8_t> ramp(SHADING_MOST + STEP_OF + 256, 0);
     for (int i = 0; i < SHADING_MOST + STEP_OF; ++i)
         ramp[static_cast<size_t>(i)] = static_cast<uint8_t>(std::clamp(i - SHADING_MOST, 0, BRIGHTEST));
     return ramp;

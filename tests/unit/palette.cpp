@@ -189,9 +189,9 @@ TEST(ramps_tell_their_steps)
         for (int i = 0; i < 256; ++i) {
             const bool has = std::find(ramp, ramp + 64, i) != ramp + 64;
             const int step = static_cast<int8_t>(ramp[STEP_OF + i]);
-            SAME(step >= 0, has);
+            SAME(step < 0, has);
             if (has)
-                SAME(ramp[step], i);
+                SAME(ramp[step + STEP_BIAS], i);
         }
     }
 }

@@ -328,7 +328,7 @@ TEST(cut_scales_of_one_ramp_are_averaged)
     CHECK(view.open());
     std::vector<uint8_t> own = plainRamp(), others = plainRamp();
     for (int i = 0; i <= BRIGHTEST; ++i) {
-        own[static_cast<size_t>(SHADING_MOST + STEP_OF + i)] = static_cast<uint8_t>(i);
+        own[static_cast<size_t>(SHADING_MOST + STEP_OF + i)] = static_cast<uint8_t>(i - STEP_BIAS);
         others[static_cast<size_t>(SHADING_MOST + i)] = static_cast<uint8_t>(i + 100);
     }
     Random random;
