@@ -133,6 +133,7 @@ public:
         s.flags = SEED_VALID | SEED_RESTING;
         s.blocker = 0;
         s.lightChange[0] = Seed::LIGHT_UNKNOWN;
+        s.lightIsOld = true;
         setAxis(s.along, object_.stretchedOut(along), inverseSpacing_);
         setAxis(s.across, object_.stretchedOut(across), inverseSpacing_);
     }
