@@ -16,7 +16,7 @@ DOS_DEFINES = -DFB_ASM=1 -DFB_REAL=FB_$(REAL)
 include $(filter-out tools/parts.mk,$(wildcard tools/*.mk))
 
 # The host program: any C++17 compiler, 64 bits or 32, loops in C++.
-build/host/%.o: %.cpp
+build/host/%.o: %.cpp tools/parts.mk
 	@mkdir -p $(@D)
 	$(HOST_CXX) $(HOST_FLAGS) -MMD -MP -c $< -o $@
 
@@ -26,7 +26,7 @@ build/demo: $(patsubst %.cpp,build/host/%.o,$(HOST_SOURCES))
 # The same with 32 bits and the assembly loops; static, so that valgrind needs no 32-bit libraries.
 HOST32_FLAGS = -m32 $(FOR_386) -fno-pic -fno-pie -DFB_ASM=1
 
-build/host32/%.o: %.cpp
+build/host32/%.o: %.cpp tools/parts.mk
 	@mkdir -p $(@D)
 	$(HOST_CXX) $(HOST_FLAGS) $(HOST32_FLAGS) -MMD -MP -c $< -o $@
 

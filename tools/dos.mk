@@ -19,7 +19,7 @@ DOS_CXXFLAGS = -std=c++17 -m32 $(FOR_386) $(DOS_OPT) -ffreestanding -fno-builtin
 DOS_FLOAT = $(if $(filter FLOAT DOUBLE,$(REAL)),-m80387 -fno-math-errno,-mno-80387)
 DOS_ASFLAGS = -m32 -Iasm
 
-build/dos/%.o: %.cpp
+build/dos/%.o: %.cpp tools/parts.mk
 	@mkdir -p $(@D)
 	$(DOS_CXX) $(DOS_CXXFLAGS) -MMD -MP -c $< -o $@
 

@@ -1,5 +1,5 @@
 # What the program is made of: the one list of its rooms and kernels. Included by Makefile and Makefile.djgpp before
-# anything else that names a source.
+# anything else that names a source. Objects are compiled anew when it changes: with other switches they might not fit together.
 #
 #   PROGRAM     every source of the program but the machine it runs on, main() included
 #   KERNELS     the assembly kernels, each of which has a C++ twin

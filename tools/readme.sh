@@ -40,6 +40,10 @@ stats() {
 	make -s build/DEMO.EXE
 	mkdir "$dir/c" && cp build/DEMO.EXE "$dir/c"
 	sh tools/dosbox.sh -c 177000 -t 600 -d "$dir/c" -- 'DEMO /N:600 > OWN.TXT' 'DEMO /P /N:600 > PRINTED.TXT'
+	grep -q '^fps' "$dir/c/OWN.TXT" && grep -q '^fps' "$dir/c/PRINTED.TXT" || {
+		echo "readme.sh: DEMO.EXE gives no statistics" >&2
+		return 1
+	}
 	{
 		echo '| | default | `/P` | the report |'
 		echo '|---|---|---|---|'
