@@ -87,7 +87,7 @@ struct Seed {
                              // along the surface, own axes, 1/128 step per unit of the world. Its component along the normal
                              // does not count. The first is LIGHT_UNKNOWN until it has been found
     uint8_t host;        // with SEED_GUEST: slot of the object whose field is the strongest
-    bool lightIsOld;     // lightChange is to be found anew when the seed settles
+    bool lightIsOld;     // lightChange was kept when the seed settled last, or is unknown: the next time it is found anew
     uint8_t spare[6];    // pads a seed to 64 bytes, so that an index becomes an address by a shift
 };
 

@@ -31,7 +31,8 @@ void blitScalesC(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int cou
 
 namespace {
 
-// Draws a pixel of a scale that averages. `shade` is its brightness in steps of the ramp.
+// Draws a pixel of a scale that averages. `shade` is its brightness in steps of the ramp. `there` is the step that the
+// pixel shows, less STEP_BIAS, and not negative if the ramp has no such colour; the sum is one byte, as in the assembly.
 inline void average(const uint8_t* ramp, int32_t z, int32_t shade, uint16_t* depth, uint8_t* pixel)
 {
     const int32_t nearer = *depth - z;
