@@ -2,6 +2,8 @@
 // the region of empty pixels that a gap leads into, followed from row to row. A slit is a low vertical run of empty pixels.
 #include "gaps.h"
 
+#include "math/whole.h"
+
 using machine::HEIGHT;
 using machine::WIDTH;
 
@@ -109,35 +111,38 @@ void Gaps::close()
 {
     // Divided by a depth of the Z-buffer, this is the spacing of the seeds in pixels.
     const int32_t near = mulShift16(rawFromReal(view_.camera().focalX) >> 4, rawFromReal(spacing_)) >> 5;
-    Span runs[WIDTH / 2];
-    const uint8_t* row = frame_;
-    for (int y = 0; y < HEIGHT; ++y, row += WIDTH) {
-        const Span& touched = view_.touched(y);
-        if (touched.from >= touched.to)
-            continue;
-        const bool slits = y > 0;
-        const Span* const end = runs + drawnRuns(row, zbuffer_ + y * WIDTH, &touched, runs);
-        view_.setTouched(y, runs, end);
-        int last = 0;  // one past the end of the previous run; 0 before the first
-        for (const Span* run = runs; run < end; ++run) {
-            const int from = run->from;
-            if (last > 0 && from - last <= GAP_MOST) {
-                const int before = zbuffer_[y * WIDTH + last - 1], behind = zbuffer_[y * WIDTH + from];
-                closeRun(y, last, from, near / ((before > behind ? before : behind) | 1));
-            }
-            if (slits && last > 0 && inSlit(row + last))
-                closeSlit(y, last, from, 1);
-            if (slits && from > 0 && inSlit(row + from - 1))
-                closeSlit(y, from - 1, last - 1, -1);
-            last = run->to;
-            if (y >= Missed::SIDE && y < HEIGHT - Missed::SIDE)
-                noteCorners(y, *run);
-        }
-        if (slits && last > 0 && last < WIDTH && inSlit(row + last))
-            closeSlit(y, last, WIDTH, 1);
-    }
+    for (int y = 0; y < HEIGHT; ++y)
+        if (view_.touched(y).from < view_.touched(y).to)
+            closeRow(y, near);
     missed_.draw();
     closeCracks();
+}
+
+// Closes the gaps of a row that has drawn pixels, and the slits that begin beside these; notes where surface may have been missed.
+void Gaps::closeRow(int y, int32_t near)
+{
+    Span runs[WIDTH / 2];
+    const uint8_t* row = frame_ + y * WIDTH;
+    const bool slits = y > 0;
+    const Span* const end = runs + drawnRuns(row, zbuffer_ + y * WIDTH, &view_.touched(y), runs);
+    view_.setTouched(y, runs, end);
+    int last = 0;  // one past the end of the previous run; 0 before the first
+    for (const Span* run = runs; run < end; ++run) {
+        const int from = run->from;
+        if (last > 0 && from - last <= GAP_MOST) {
+            const int before = zbuffer_[y * WIDTH + last - 1], behind = zbuffer_[y * WIDTH + from];
+            closeRun(y, last, from, near / (max32(before, behind) | 1));
+        }
+        if (slits && last > 0 && inSlit(row + last))
+            closeSlit(y, last, from, 1);
+        if (slits && from > 0 && inSlit(row + from - 1))
+            closeSlit(y, from - 1, last - 1, -1);
+        last = run->to;
+        if (y >= Missed::SIDE && y < HEIGHT - Missed::SIDE)
+            noteCorners(y, *run);
+    }
+    if (slits && last > 0 && last < WIDTH && inSlit(row + last))
+        closeSlit(y, last, WIDTH, 1);
 }
 
 // Closes the gap of columns `from` to before `to` between drawn pixels. The seeds there lie `spacing` pixels apart.

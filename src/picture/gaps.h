@@ -26,6 +26,7 @@ private:
 
     void noteCorners(int y, const Span& run);
     void noteBeyond(int y, const Span& columns);
+    void closeRow(int y, int32_t near);
     void closeRun(int y, int from, int to, int spacing);
     void closeAbove(int y, int x, int widest, int narrowest);
     void closeFrom(int y, int from, int to, int step, int widest, int narrowest);

@@ -108,29 +108,37 @@ Real Missed::excess(int at, int depth)
     return probe_.implicitAt(view_.pointAt(at, depth), &strongest_) - ISOVALUE;
 }
 
+// Looks for a point inside along the ray through a pixel, in the direction in which the field rises, with steps of the secant
+// method. `*depth` and `*here`, the field's excess there, are the first guess and become the result. Returns false when the ray
+// misses the surface.
+bool Missed::findInside(int at, int* depth, Real* here)
+{
+    for (int i = 0, step = STEP; *here <= Real(0); ++i) {
+        if (i == STEPS || *here < -NEAR || *depth + step <= 0 || *depth + step >= Z_EMPTY)
+            return false;
+        const Real there = excess(at, *depth + step), rise = there - *here;
+        const bool rises = rise > Real(0);
+        const Real left = rises ? -there : -*here, slope = absolute(rise);
+        if (left > slope * Real(FARTHEST))
+            return false;
+        const int on = left > Real(0) ? floorToInt(quotient(left, slope) * Real(magnitude(step))) + STEP / 4 : 0;
+        *depth += rises ? step : 0;
+        *here = rises ? there : *here;
+        step = (step > 0) == rises ? on : -on;
+    }
+    return true;
+}
+
 // Finds where the ray through a pixel enters the surface. *depth is a first guess and becomes the result. Returns false when the
 // ray misses the surface.
 bool Missed::findDepth(int at, int* depth)
 {
-    int inside = *depth;
-    Real here = excess(at, inside);
+    int outside = *depth;
+    Real here = excess(at, outside);
     onEdge_ = here < Real(0);
-    // Looks for a point inside, in the direction in which the field rises, with steps of the secant method.
-    for (int i = 0, step = STEP; here <= Real(0); ++i) {
-        if (i == STEPS || here < -NEAR || inside + step <= 0 || inside + step >= Z_EMPTY)
-            return false;
-        const Real there = excess(at, inside + step), rise = there - here;
-        const bool rises = rise > Real(0);
-        const Real left = rises ? -there : -here, slope = absolute(rise);
-        if (left > slope * Real(FARTHEST))
-            return false;
-        const int on = left > Real(0) ? floorToInt(quotient(left, slope) * Real(magnitude(step))) + STEP / 4 : 0;
-        inside += rises ? step : 0;
-        here = rises ? there : here;
-        step = (step > 0) == rises ? on : -on;
-    }
+    if (!findInside(at, &outside, &here))
+        return false;
     // From there looks for a point outside, towards the eye, and interpolates between the last two points.
-    int outside = inside;
     Real within = here;
     for (int i = 0; here > Real(0); ++i) {
         if (i == THICKEST || outside <= STEP)

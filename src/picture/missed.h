@@ -88,6 +88,7 @@ private:
     bool findSurface(Place* place);
     bool drawPixel(Place place);
     Real excess(int at, int depth);
+    bool findInside(int at, int* depth, Real* here);
     bool findDepth(int at, int* depth);
 
     View& view_;

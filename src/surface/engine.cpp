@@ -48,6 +48,7 @@ private:
     bool isAtRest(Settler& settler, Patch& patch);
     void sleepOutOfSight(Patch& patch);
     void settle(Settler& settler, Patch& patch);
+    void settleBetween(Settler& settler);
     SELDOM void settleIslands(Settler& settler);
 
     SoftObject& object_;
@@ -108,7 +109,17 @@ bool Engine::update(const FrameContext& frame)
         else
             displaced |= updatePatch(settler, *patch, all);
     }
-    patch = patches_;
+    settleBetween(settler);
+    object_.setDisplaced(displaced);
+    allRests_ = !displaced;
+    // What went on has to be settled yet, even if nothing changes any more.
+    return settler.hidden() || wentOn;
+}
+
+// Settles what lies between and beyond the regular seeds of the patches that have been settled.
+inline void Engine::settleBetween(Settler& settler)
+{
+    Patch* patch = patches_;
     for (int i = 0; i < count_; ++i, ++patch)
         if (patch->settled) {
             settler.oversample(*patch);
@@ -117,10 +128,6 @@ bool Engine::update(const FrameContext& frame)
         }
     if (settler.hasIslands() || islands_)
         settleIslands(settler);
-    object_.setDisplaced(displaced);
-    allRests_ = !displaced;
-    // What went on has to be settled yet, even if nothing changes any more.
-    return settler.hidden() || wentOn;
 }
 
 // Settles the islands of all patches. In patches without any they are searched in every other frame, unless something has leapt.

@@ -81,6 +81,8 @@ private:
     const Limb* limbOf(const Patch& patch);
     void endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel);
     void dome(Voxel* voxel) const;
+    void endOrDome(const Patch& patch, const Seen& seen, bool regular, bool uneven, Voxel* shown);
+    bool isUneven(const Patch& patch, const Voxel* voxels, int regular) const;
     // The component of a vector of own space along axis i of the view.
     template <class Part>
     int32_t along(const Part v[3], const int32_t axis[3], int i) const
@@ -380,15 +382,29 @@ inline Voxel* Shader::listUnpainted(const Seed& s, const Voxel* voxel, Voxel** t
     return shown;
 }
 
+// Ends or domes a voxel that is listed. `regular`: it is that of a regular seed; `uneven`: its patch bends unevenly.
+inline void Shader::endOrDome(const Patch& patch, const Seen& seen, bool regular, bool uneven, Voxel* shown)
+{
+    if (uneven || isCut(*shown))
+        dome(shown);
+    else if (regular)
+        endAtLimb(patch, seen, shown);
+}
+
+// Where a patch that blends bends unevenly, or its seeds have parted, neither its gradient nor its limb is known; its scales are
+// stretched and bend fast, so that each has to leave the place beside it to the next one (scales.h).
+inline bool Shader::isUneven(const Patch& patch, const Voxel* voxels, int regular) const
+{
+    return patch.state == PATCH_MIXED && (patch.extras || bendsUnevenly(voxels, regular));
+}
+
 // Lists the voxels of a patch that blends, or whose object has a paint.
 template <bool PAINTED>
 inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, int regular, VoxelList& list,
                                Painter* painter)
 {
     const bool shines = PAINTED && painter->shines(), blends = patch.state == PATCH_MIXED;
-    // Where a patch bends unevenly, or its seeds have parted, neither its gradient nor its limb is known; its scales are stretched
-    // and bend fast, so that each has to leave the place beside it to the next one (scales.h).
-    const bool uneven = blends && (patch.extras || bendsUnevenly(voxels, regular));
+    const bool uneven = isUneven(patch, voxels, regular);
     const int32_t sight = shines || uneven ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
     const int sloped = shines || blends ? regular : 0;
     Voxel* to = list.room();
@@ -402,10 +418,7 @@ inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, int
             continue;
         seen_[listed++] = seen_[i];
         Voxel* const shown = PAINTED ? painter->add(s, voxels[i]) : listUnpainted(s, voxels + i, &to, list);
-        if (uneven || isCut(*shown))
-            dome(shown);
-        else if (i < regular)
-            endAtLimb(patch, seen_[i], shown);
+        endOrDome(patch, seen_[i], i < regular, uneven, shown);
         if (i >= sloped)
             continue;
         // A dark voxel keeps its slopes. With a finish that shines, brightness 0 does not mean that the light ends there.
