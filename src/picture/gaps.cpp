@@ -109,7 +109,6 @@ void Gaps::noteBeyond(int y, const Span& columns)
 
 void Gaps::close()
 {
-    // Divided by a depth of the Z-buffer, this is the spacing of the seeds in pixels.
     const int32_t near = mulShift16(rawFromReal(view_.camera().focalX) >> 4, rawFromReal(spacing_)) >> 5;
     for (int y = 0; y < HEIGHT; ++y)
         if (view_.touched(y).from < view_.touched(y).to)
@@ -119,6 +118,7 @@ void Gaps::close()
 }
 
 // Closes the gaps of a row that has drawn pixels, and the slits that begin beside these; notes where surface may have been missed.
+// `near` divided by a depth of the Z-buffer is the spacing of the seeds in pixels.
 void Gaps::closeRow(int y, int32_t near)
 {
     Span runs[WIDTH / 2];
