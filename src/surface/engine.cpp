@@ -116,7 +116,8 @@ bool Engine::update(const FrameContext& frame)
     return settler.hidden() || wentOn;
 }
 
-// Settles what lies between and beyond the regular seeds of the patches that have been settled.
+// Settles what lies between the regular seeds of the patches that have been settled, and on islands. The voxels that these patches
+// have kept are not right any more.
 inline void Engine::settleBetween(Settler& settler)
 {
     Patch* patch = patches_;

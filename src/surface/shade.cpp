@@ -391,8 +391,8 @@ inline void Shader::endOrDome(const Patch& patch, const Seen& seen, bool regular
         endAtLimb(patch, seen, shown);
 }
 
-// Where a patch that blends bends unevenly, or its seeds have parted, neither its gradient nor its limb is known; its scales are
-// stretched and bend fast, so that each has to leave the place beside it to the next one (scales.h).
+// Whether a patch blends and bends unevenly, or its seeds have parted. Then neither its gradient nor its limb is known; its scales
+// are stretched and bend fast, so that each has to leave the place beside it to the next one (scales.h).
 inline bool Shader::isUneven(const Patch& patch, const Voxel* voxels, int regular) const
 {
     return patch.state == PATCH_MIXED && (patch.extras || bendsUnevenly(voxels, regular));
