@@ -3,7 +3,7 @@
 #   make test            everything: sh tests/run.sh
 #   build/unit-KIND      the unit tests with that kind of Real: fixed, float, double
 #   build/demo-KIND      the demo with that kind of Real: float, double
-#   build/san/demo, build/san/unit    the demo and the unit tests under the address and undefined sanitizers
+#   build/san/demo, build/san/unit    the demo under the address and undefined sanitizers, and the unit tests of its parts
 #   build/fuzz, build/fuzzline        what feeds random scenes and command lines to the program, under the sanitizers
 #   build/twins          each assembly routine against its C++ twin
 
@@ -51,7 +51,8 @@ build/demo-float: $(patsubst %.cpp,build/float/%.o,$(TEST_PARTS) $(MAIN))
 build/demo-double: $(patsubst %.cpp,build/double/%.o,$(TEST_PARTS) $(MAIN))
 	$(TEST_CXX) -o $@ $^
 
-build/san/unit: $(UNIT_PARTS:%.cpp=build/san/%.o)
+# The program comes first: of inline functions that both have, the linker takes the ones with the sanitizers.
+build/san/unit: $(TEST_PARTS:%.cpp=build/san/%.o) $(UNIT_TESTS:%.cpp=build/fixed/%.o)
 	$(TEST_CXX) $(SANITIZE) -o $@ $^
 build/san/demo: $(patsubst %.cpp,build/san/%.o,$(TEST_PARTS) $(MAIN))
 	$(TEST_CXX) $(SANITIZE) -o $@ $^
