@@ -38,6 +38,9 @@ const char usage[] =
     "                   the table has them. A figure listed for this name and\n"
     "                   spacing breaks its bar only beyond its limit; one\n"
     "                   that breaks it bears '!!'\n"
+    "  --truths DIR     keep the true pictures in DIR, and take those from there that\n"
+    "                   show the same scene: true pictures of several runs are made\n"
+    "                   once\n"
     "  --list FILE      with --row: append the figures to FILE, as such lines\n"
     "  --every N        judge only every Nth frame (1; more leaves flicker out)\n"
     "  --pairs          and the frame after each of them, for flicker\n"
@@ -224,7 +227,7 @@ bool readLimits(const std::string &path, std::vector<Limit> &limits, std::string
 
 struct Options {
   bool verbose = false, rendering = false, pairs = false, limited = false;
-  std::string csv, out, row, list;   // as given to the options of these names
+  std::string csv, out, row, list, truths;   // as given to the options of these names
   std::vector<Limit> limits;
   std::vector<std::string> names;    // the directories, or with --render the scenes
   long worst = 3, threads = 2, every = 1;
@@ -235,7 +238,7 @@ struct Options {
 bool takeArgument(char **argv, int &i, Options &o, std::string &why) {
   const std::pair<const char *, bool *> switches[] = {{"-v", &o.verbose}, {"--pairs", &o.pairs}};
   const std::pair<const char *, std::string *> texts[] = {
-      {"--row", &o.row}, {"--list", &o.list}, {"--csv", &o.csv}, {"--out", &o.out}, {"--render", &o.out}};
+      {"--row", &o.row}, {"--list", &o.list}, {"--truths", &o.truths}, {"--csv", &o.csv}, {"--out", &o.out}, {"--render", &o.out}};
   const struct {
     const char *name, *range;
     long least, most, *value;
@@ -320,6 +323,19 @@ struct Rank {
   long number;
 };
 
+// Makes the true picture of a frame. With --truths it is kept, and taken from there if it is of the same scene.
+bool makeTruth(const Options &o, size_t dir, long n, const Frame &frame, Picture &picture, std::string &why) {
+  std::string text, kept, none;
+  const std::string file = o.truths + "/" + std::to_string(dir) + "-" + std::to_string(n);
+  if (!o.truths.empty()) {
+    if (!readFile(frameName(o.names[dir], n, "TXT"), text, why)) return false;
+    if (readFile(file, kept, none) && kept.compare(0, text.size(), text) == 0 && picture.take(kept.substr(text.size())))
+      return true;
+  }
+  picture.trace(frame.scene, (int)o.threads);
+  return o.truths.empty() || writeFile(file, text + picture.bytes(), why);
+}
+
 // Compares the frames of all directories with the surface, and ranks them from the worst on.
 bool judge(const Options &o, Figures &total, std::vector<Rank> &ranks, std::string &why) {
   std::string csv = csvHead;
@@ -334,8 +350,7 @@ bool judge(const Options &o, Figures &total, std::vector<Rank> &ranks, std::stri
       long n = numbers[k];
       std::swap(frame, before);
       std::swap(picture, beforePicture);
-      if (!readFrame(o.names[d], n, frame, why)) return false;
-      picture.trace(frame.scene, (int)o.threads);
+      if (!readFrame(o.names[d], n, frame, why) || !makeTruth(o, d, n, frame, picture, why)) return false;
       Figures f = compare(frame, picture);
       // Flicker is measured only between neighbouring frames of a run.
       if (last >= 0 && last == n - 1) compareFlicker(before, beforePicture, frame, picture, f);

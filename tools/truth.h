@@ -206,6 +206,9 @@ public:
   const Hit &at(int column, int row) const {
     return hits[(row + MARGIN) * (WIDTH + 2 * MARGIN) + column + MARGIN];
   }
+  // The picture as bytes for a file of this program's own; and takes it from these. Returns false if they are not a picture.
+  std::string bytes() const;
+  bool take(const std::string &bytes);
   bool eyeInside = false;
 private:
   std::vector<Hit> hits;

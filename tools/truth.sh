@@ -78,8 +78,8 @@ play() {
 	return 2
 }
 
-# row SPACING THREADS: a row of the table. The quick frames are judged in pairs, for flicker.
-row() {
+# frames SPACING: the frames that are judged. The quick ones are judged in pairs, for flicker.
+frames() {
 	one=$1
 	play "$dir/slow$1" "/S:$1" "/N:$slow" || return 2
 	play "$dir/quick$1" "/S:$1" "/N:$quick" /R:70 || return 2
@@ -92,23 +92,33 @@ row() {
 		mv "$dir/quick$1/$(printf F%07d "$number")".* "$dir/quick$1/$(printf F%07d $((number + 1)))".* "$dir/pairs$1"
 	done
 	rm -rf "$dir/slow$1" "$dir/quick$1"
+}
+
+# row SPACING: a row of the table, or what frames() has said. True pictures are made once for both spacings.
+row() {
+	[ ! -s "$dir/said$1" ] || { cat "$dir/said$1"; return 2; }
 	sheets=$dir/sheets$1
 	[ -z "${QUIET:-}" ] || sheets=
-	build/truth --threads "$2" --bars "spacing$1" --row "$name" --worst 2 ${sheets:+--out "$sheets"} \
-		${LIMITS:+--limits "$LIMITS"} ${LIST:+--list "$LIST"} "$dir/part$1" "$dir/pairs$1" 2>&1
+	build/truth --threads 2 --bars "spacing$1" --row "$name" --worst 2 ${sheets:+--out "$sheets"} \
+		${LIMITS:+--limits "$LIMITS"} ${LIST:+--list "$LIST"} ${truths:+--truths "$truths"} "$dir/part$1" "$dir/pairs$1" 2>&1
 }
 
 [ -n "${QUIET:-}" ] || build/truth --head
+truths=
 if [ "$spacing" = both ]; then
-	row 2 1 >"$dir/row2" &
-	row 1 1 >"$dir/row1"
-	status1=$?
+	truths=$dir/truths
+	mkdir "$truths"
+	frames 1 >"$dir/said1" &
+	frames 2 >"$dir/said2"
 	wait $!
+	row 2
 	status=$?
+	row 1
+	status1=$?
 	[ $status -ge $status1 ] || status=$status1
-	cat "$dir/row2" "$dir/row1"
 else
-	row "$spacing" 2
+	frames "$spacing" >"$dir/said$spacing"
+	row "$spacing"
 	status=$?
 fi
 if [ -z "${QUIET:-}" ]; then

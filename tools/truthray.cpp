@@ -18,6 +18,8 @@
 // the first crossing is found precisely. Bodies do not influence each other: the nearest surface is the visible one.
 #include "truth.h"
 
+#include <type_traits>
+#include <cstring>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -1092,6 +1094,20 @@ void Picture::trace(const Scene &scene, int threads) {
   for (int i = 1; i < threads; i++) others.emplace_back(work);
   work();
   for (std::thread &t : others) t.join();
+}
+
+std::string Picture::bytes() const {
+  std::string bytes((const char *)hits.data(), hits.size() * sizeof hits[0]);
+  return bytes + (eyeInside ? '1' : '0');
+}
+
+bool Picture::take(const std::string &bytes) {
+  static_assert(std::is_trivially_copyable<Hit>::value, "hits are copied as they lie in memory");
+  size_t size = hits.size() * sizeof hits[0];
+  if (bytes.size() != size + 1) return false;
+  std::memcpy((void *)hits.data(), bytes.data(), size);
+  eyeInside = bytes[size] == '1';
+  return true;
 }
 
 }  // namespace truth

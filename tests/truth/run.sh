@@ -65,6 +65,19 @@ ok "no flicker" line "$dir/log" "flicker pixels: 0"
 ok "one thread finds the same" sh -c \
 	"'$tool' --threads 1 --bars spacing1 '$dir/true' | cmp - '$dir/log'"
 
+# True pictures that are kept: the same figures, whether they are made, taken, or made anew because the scenes are others.
+mkdir "$dir/truths"
+ok "keeping the true pictures" sh -c "'$tool' --bars spacing1 --truths '$dir/truths' '$dir/true' | cmp - '$dir/log'"
+ok "all of them" test "$(ls "$dir/truths" | wc -l)" -eq 4
+cp -r "$dir/truths" "$dir/others"
+ok "taking them" sh -c "'$tool' --bars spacing1 --truths '$dir/truths' '$dir/true' | cmp - '$dir/log'"
+for number in 0 1 2 3; do cp "$dir/truths/0-$(((number + 1) % 4))" "$dir/others/0-$number"; done
+ok "those of other scenes are not taken" sh -c "'$tool' --bars spacing1 --truths '$dir/others' '$dir/true' | cmp - '$dir/log'"
+# The picture of frame 1 under the scene of frame 0: the figures show whether it is taken.
+size=$(wc -c <"$dir/true/F0000001.TXT")
+{ cat "$dir/true/F0000000.TXT"; tail -c +$((size + 1)) "$dir/truths/0-1"; } >"$dir/others/0-0"
+ok "kept ones are used" sh -c "! '$tool' --bars spacing1 --truths '$dir/others' '$dir/true' | cmp -s - '$dir/log'"
+
 # Known damage: 3 holes in frame 1 and 2 see-through pixels in frame 2 (more
 # than four units further than the truth), 5 pixels drawn far outside in
 # frame 3, of which 2 lie in the picture's corners.
