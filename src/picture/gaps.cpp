@@ -15,7 +15,7 @@ constexpr int GAP_NARROW = 8; // and a spacing: width of the narrow end of an op
 constexpr int GAP_LOW = 6;    // height of a slit that is open to a side
 constexpr int GAP_THIN = 2;   // width of a run that is filled whatever lies above and below
 constexpr int GAP_MOST = 32;  // upper bound of all widths, however near the viewer the seeds are
-constexpr int DIVIDED = 2;    // the search for where a gap changes its colour ends when its bounds are this close
+constexpr int APART = 256;    // 1/128 unit: two drawn pixels that lie farther apart in depth show different surfaces
 constexpr Real STEEP(1.3);    // upper bound of the gradient of a field, times the size of its object
 constexpr int SLIVER = 2;     // width of a run of drawn pixels beside which surface may be missing
 // Units, half way across an opening: if the surface is at least DOUBTFUL away there, only those pixels of the opening are drawn
@@ -154,7 +154,7 @@ void Gaps::closeRun(int y, int from, int to, int spacing)
     if (to - from > widest)
         return;
     if (to - from <= GAP_THIN) {
-        fill(NO_ENDS, y * WIDTH + from - 1, y * WIDTH + to, 1);
+        fill(y * WIDTH + from - 1, y * WIDTH + to, 1);
         // Openings above may have been open only because of this run.
         closeAbove(y, from, widest, GAP_NARROW + spacing);
         closeAbove(y, to - 1, widest, GAP_NARROW + spacing);
@@ -202,13 +202,13 @@ void Gaps::closeFrom(int y, int from, int to, int step, int widest, int narrowes
         const Real off = distanceOff(row + rows[middle].from - 1, row + rows[middle].to, 1);
         if (off >= OPEN && (off >= FAR || !searchBehind(y * WIDTH + rows[0].from - 1, y * WIDTH + rows[0].to)))
             return;
-        const Ends ends = endsOf(row + rows[middle].from - 1, row + rows[middle].to);
         for (int i = 0; i < narrow; ++i) {
             const int start = (y + i * step) * WIDTH, first = start + rows[i].from - 1, last = start + rows[i].to;
-            if (off < DOUBTFUL || (off < OPEN && last - first <= GAP_THIN + 1))
-                fill(ends, first, last, 1);
-            else if (!closeExactly(first, last))
+            const bool thin = last - first <= GAP_THIN + 1, there = off < DOUBTFUL || (thin && off < OPEN);
+            if ((!there || (!thin && differ(first, last))) && !closeExactly(first, last) && !there)
                 break;
+            if (there)
+                fill(first, last, 1);
         }
     }
     noteBeyond(y + narrow * step, rows[narrow < opening.height ? narrow : narrow - 1]);
@@ -232,7 +232,7 @@ bool Gaps::closeExactly(int first, int last)
     while (first + 1 < last && frame_[last - 1] != 0)
         --last;
     if (last - first <= GAP_THIN + 1)
-        fill(NO_ENDS, first, last, 1);
+        fill(first, last, 1);
     return drawn;
 }
 
@@ -262,39 +262,6 @@ Real Gaps::distanceOff(const Point& p) const
     return strongest < 0 ? FAR : (ISOVALUE - min(field, Real(1))) * (model_->actor(strongest).object->size() / STEEP);
 }
 
-// The objects that the drawn pixels on both sides of a gap belong to. Returns NO_ENDS where both have the same colour, where the
-// fields of the two objects do not meet, if all objects are grey, or without a model or a palette.
-Gaps::Ends Gaps::endsOf(int first, int last) const
-{
-    if (model_ == nullptr || palette_ == nullptr || palette_->isGrey() || frame_[first] == frame_[last])
-        return NO_ENDS;
-    const Ends ends{probe_.strongestAt(view_.pointAt(first)), probe_.strongestAt(view_.pointAt(last))};
-    if (ends.first < 0 || ends.last < 0 || !model_->actor(ends.first).object->inRange(*model_->actor(ends.last).object))
-        return NO_ENDS;
-    return ends;
-}
-
-// Finds, by bisection with both objects' fields, the first pixel between two drawn ones that belongs to the last one's object.
-int Gaps::divide(const Ends& ends, int first, int last, int step) const
-{
-    const SoftObject &one = *model_->actor(ends.first).object, &other = *model_->actor(ends.last).object;
-    Point here = view_.pointAt(first), there = view_.pointAt(last);
-    // The surface between the two pixels is assumed to be flat.
-    while (last - first > DIVIDED * step) {
-        const int at = first + (last - first) / step / 2 * step;
-        const Vector way = there - here;
-        const Point p = here + Vector{shiftDown(way.x, 1), shiftDown(way.y, 1), shiftDown(way.z, 1)};
-        if (one.fieldFunc(p) < other.fieldFunc(p)) {
-            last = at;
-            there = p;
-        } else {
-            first = at;
-            here = p;
-        }
-    }
-    return last;
-}
-
 // The ramp that two drawn pixels share; null if they have the same colour, if they share none, or without a palette.
 inline const uint8_t* Gaps::commonRamp(int first, int last) const
 {
@@ -304,22 +271,23 @@ inline const uint8_t* Gaps::commonRamp(int first, int last) const
     return number != 0 && number == palette_->rampOf(frame_[last]) ? palette_->ramp(number) : nullptr;
 }
 
-// Fills the empty pixels between two drawn ones with the depth and the colour of whichever is closer on the screen. The brightness
-// is interpolated between two objects, where each pixel gets the ramp of the object whose field is the stronger there, and if both
-// pixels have one ramp.
-void Gaps::fill(const Ends& ends, int first, int last, int step)
+// Whether two drawn pixels show different surfaces of the model, so that what lies between the two cannot be told from them: one is
+// well in front of the other, or they have different colours.
+inline bool Gaps::differ(int first, int last) const
+{
+    return model_ != nullptr &&
+           (magnitude(zbuffer_[first] - zbuffer_[last]) > APART ||
+            (palette_ != nullptr && palette_->rampOf(frame_[first]) != palette_->rampOf(frame_[last])));
+}
+
+// Fills the empty pixels between two drawn ones with the depth and the colour of whichever is closer on the screen. If both have
+// one ramp the brightness is interpolated.
+void Gaps::fill(int first, int last, int step)
 {
     const int count = (last - first) / step;
-    const uint8_t *one, *other;
-    int second = last, light = 0, lighter = 0;
-    if (ends.first >= 0 && count > GAP_THIN + 1) {
-        second = ends.first == ends.last ? last : divide(ends, first, last, step);
-        one = model_->actor(ends.first).object->ramp();
-        other = model_->actor(ends.last).object->ramp();
-    } else {
-        one = other = commonRamp(first, last);
-    }
-    if (one != nullptr) {
+    const uint8_t* const ramp = commonRamp(first, last);
+    int light = 0, lighter = 0;
+    if (ramp != nullptr) {
         light = palette_->step(frame_[first]) << 8;
         lighter = ((palette_->step(frame_[last]) << 8) - light) / count;
     }
@@ -328,8 +296,7 @@ void Gaps::fill(const Ends& ends, int first, int last, int step)
         if (frame_[at] != 0)
             continue;
         view_.copyPixel(at, 2 * i <= count ? first : last);
-        // (The ramp has a name because an index into a conditional pointer goes wrong in GCC 12 with sanitizers.)
-        if (const uint8_t* const ramp = at < second ? one : other)
+        if (ramp != nullptr)
             view_.setPixel(at, zbuffer_[at], ramp[(light + i * lighter + 128) >> 8]);
     }
 }
@@ -345,7 +312,7 @@ void Gaps::closeSlit(int y, int x, int end, int step)
         const int above = at - WIDTH, below = at + height * WIDTH;
         if (distanceOff(above, below, WIDTH) >= OPEN)
             continue;
-        fill(height > GAP_THIN ? endsOf(above, below) : NO_ENDS, above, below, WIDTH);
+        fill(above, below, WIDTH);
         view_.overlay(x, y, 1, height);
     }
     missed_.note(x, y);

@@ -18,12 +18,6 @@ public:
     void close();
 
 private:
-    // The objects that the drawn pixels on both sides of a gap belong to; both are -1 where that does not matter.
-    struct Ends {
-        int first, last;
-    };
-    static constexpr Ends NO_ENDS{-1, -1};
-
     void noteCorners(int y, const Span& run);
     void noteBeyond(int y, const Span& columns);
     void closeRow(int y, int32_t near);
@@ -41,9 +35,8 @@ private:
     Real distanceOff(int first, int last, int step) const;
     Real distanceOff(const Point& p) const;
     const uint8_t* commonRamp(int first, int last) const;
-    Ends endsOf(int first, int last) const;
-    int divide(const Ends& ends, int first, int last, int step) const;
-    void fill(const Ends& ends, int first, int last, int step);
+    bool differ(int first, int last) const;
+    void fill(int first, int last, int step);
 
     View& view_;
     const uint8_t* frame_;
