@@ -15,9 +15,10 @@ constexpr int GAP_NARROW = 8; // and a spacing: width of the narrow end of an op
 constexpr int GAP_LOW = 6;    // height of a slit that is open to a side
 constexpr int GAP_THIN = 2;   // width of a run that is filled whatever lies above and below
 constexpr int GAP_MOST = 32;  // upper bound of all widths, however near the viewer the seeds are
-constexpr int APART = 256;    // 1/128 unit: two drawn pixels that lie farther apart in depth show different surfaces
 constexpr Real STEEP(1.3);    // upper bound of the gradient of a field, times the size of its object
 constexpr int SLIVER = 2;     // width of a run of drawn pixels beside which surface may be missing
+// 1/128 unit: of two drawn pixels whose depths differ by more, one lies well in front of the other.
+constexpr int IN_FRONT = 256;
 // Units, half way across an opening: if the surface is at least DOUBTFUL away there, only those pixels of the opening are drawn
 // that show the surface, and from OPEN on only if surface is found beside the farther end. From FAR on it is not looked for.
 constexpr Real DOUBTFUL(0.25), OPEN(1), FAR(2);
@@ -190,7 +191,8 @@ void Gaps::closeAbove(int y, int x, int widest, int narrowest)
     closeFrom(y - 1, from, to, -1, widest, narrowest);
 }
 
-// Follows an opening from its closed end, and fills its rows as far as the last one that is narrow.
+// Follows an opening from its closed end, and fills its rows as far as the last one that is narrow: from both sides where the
+// surface is sure to be there; else, and where the sides cannot tell how it looks, with the model's surface.
 void Gaps::closeFrom(int y, int from, int to, int step, int widest, int narrowest)
 {
     Opening opening;
@@ -276,7 +278,7 @@ inline const uint8_t* Gaps::commonRamp(int first, int last) const
 inline bool Gaps::differ(int first, int last) const
 {
     return model_ != nullptr &&
-           (magnitude(zbuffer_[first] - zbuffer_[last]) > APART ||
+           (magnitude(zbuffer_[first] - zbuffer_[last]) > IN_FRONT ||
             (palette_ != nullptr && palette_->rampOf(frame_[first]) != palette_->rampOf(frame_[last])));
 }
 
