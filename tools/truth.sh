@@ -78,8 +78,8 @@ play() {
 	return 2
 }
 
-# frames SPACING: the frames that are judged. The quick ones are judged in pairs, for flicker.
-frames() {
+# prepare SPACING: plays the frames that are judged. The quick ones are judged in pairs, for flicker.
+prepare() {
 	one=$1
 	play "$dir/slow$1" "/S:$1" "/N:$slow" || return 2
 	play "$dir/quick$1" "/S:$1" "/N:$quick" /R:70 || return 2
@@ -94,7 +94,7 @@ frames() {
 	rm -rf "$dir/slow$1" "$dir/quick$1"
 }
 
-# row SPACING: a row of the table, or what frames() has said. True pictures are made once for both spacings.
+# row SPACING: a row of the table, or what prepare() has said. With `truths`, true pictures are made once for both spacings.
 row() {
 	[ ! -s "$dir/said$1" ] || { cat "$dir/said$1"; return 2; }
 	sheets=$dir/sheets$1
@@ -106,10 +106,13 @@ row() {
 [ -n "${QUIET:-}" ] || build/truth --head
 truths=
 if [ "$spacing" = both ]; then
-	truths=$dir/truths
-	mkdir "$truths"
-	frames 1 >"$dir/said1" &
-	frames 2 >"$dir/said2"
+	# A true picture takes 4 MB: those of very many frames are made twice instead.
+	if [ "$frames" -le 40 ]; then
+		truths=$dir/truths
+		mkdir "$truths"
+	fi
+	prepare 1 >"$dir/said1" &
+	prepare 2 >"$dir/said2"
 	wait $!
 	row 2
 	status=$?
@@ -117,7 +120,7 @@ if [ "$spacing" = both ]; then
 	status1=$?
 	[ $status -ge $status1 ] || status=$status1
 else
-	frames "$spacing" >"$dir/said$spacing"
+	prepare "$spacing" >"$dir/said$spacing"
 	row "$spacing"
 	status=$?
 fi

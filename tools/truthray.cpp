@@ -18,12 +18,12 @@
 // the first crossing is found precisely. Bodies do not influence each other: the nearest surface is the visible one.
 #include "truth.h"
 
-#include <type_traits>
-#include <cstring>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <thread>
+#include <type_traits>
 
 namespace truth {
 

@@ -206,11 +206,14 @@ void Gaps::closeFrom(int y, int from, int to, int step, int widest, int narrowes
             return;
         for (int i = 0; i < narrow; ++i) {
             const int start = (y + i * step) * WIDTH, first = start + rows[i].from - 1, last = start + rows[i].to;
-            const bool thin = last - first <= GAP_THIN + 1, there = off < DOUBTFUL || (thin && off < OPEN);
-            if ((!there || (!thin && differ(first, last))) && !closeExactly(first, last) && !there)
-                break;
-            if (there)
+            const bool thin = last - first <= GAP_THIN + 1;
+            if (off < DOUBTFUL || (thin && off < OPEN)) {
+                if (!thin && differ(first, last))
+                    closeExactly(first, last);
                 fill(first, last, 1);
+            } else if (!closeExactly(first, last)) {
+                break;
+            }
         }
     }
     noteBeyond(y + narrow * step, rows[narrow < opening.height ? narrow : narrow - 1]);
