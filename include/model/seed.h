@@ -88,7 +88,9 @@ struct Seed {
                              // does not count. The first is LIGHT_UNKNOWN until it has been found
     uint8_t host;        // with SEED_GUEST: slot of the object whose field is the strongest
     bool lightIsOld;     // lightChange was kept when the seed settled last, or is unknown: the next time it is found anew
-    uint8_t spare[6];    // pads a seed to 64 bytes, so that an index becomes an address by a shift
+    uint8_t spare[2];    // pads a seed to 64 bytes, so that an index becomes an address by a shift
+    int32_t beyond;      // of a regular seed beside a ridge, where the surface bends outwards sharply: slot of the regular seed on
+                         // the other side; else -1. Its oversampled and fine seeds have the same
 };
 
 // Receives the seeds of a primitive, ring by ring, in the object's own space (Appendix C: "canonical" space). A layout runs

@@ -394,6 +394,10 @@ private:
         int nearestBefore(int ring, int seed, int successor, bool closed) const;
         bool rootsDiffer(int ring) const;
         void closeGap(Seed& s, Seed& n) const;
+        Real behind(const Seed& s, const Seed& other) const;
+        void noteBeyond(Seed& s, int other) const;
+        void noteRidge(int one, int other) const;
+        void findRidges() const;
         // The layout as it would be without the warp. It shares all memory with this one.
         Layout plain() const;
     };

@@ -16,6 +16,11 @@ constexpr int EXTRA_CELL = 5;
 // at most twice as close. Units.
 constexpr Real THIN(4.5);
 
+// A ridge lies between two seeds at rest that are no farther apart than RIDGE_WIDEST, in spacings, if the cosine of their normals
+// (1.0 = 2^14) is at most RIDGE_BENDS and the surface bends outwards.
+constexpr Real RIDGE_WIDEST(1.25);
+constexpr int32_t RIDGE_BENDS = 13000;
+
 // Value of `neighbour` in an oversampled seed that has not been laid out yet.
 constexpr int32_t NOT_LAID = -2;
 
@@ -127,7 +132,7 @@ public:
         Seed& s = seeds_[count_++];
         s.path = object_.stretchedOut(direction * radius_);
         s.position = Real(1);
-        s.neighbour = -1;
+        s.neighbour = s.beyond = -1;
         s.normal = {0, 0, 0};
         s.root = static_cast<uint16_t>(root);
         s.flags = SEED_VALID | SEED_RESTING;
@@ -264,6 +269,46 @@ void SoftObject::Layout::closeGap(Seed& s, Seed& n) const
         return;
     setAxis(s.across, a, gap / both);
     setAxis(n.across, b, gap / both);
+}
+
+// How far a seed lies behind the tangent plane of another, units; both are at rest.
+Real SoftObject::Layout::behind(const Seed& s, const Seed& other) const
+{
+    const Direction14& n = other.normal;
+    return dot(rest(other) - rest(s), {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)});
+}
+
+// Records that a ridge lies between a seed and another, unless there is one nearer to the seed.
+void SoftObject::Layout::noteBeyond(Seed& s, int other) const
+{
+    if (s.beyond < 0 || behind(s, seeds[other]) < behind(s, seeds[s.beyond >> 1]))
+        s.beyond = 2 * other;
+}
+
+// Records for two seeds that a ridge lies between them, if one does.
+void SoftObject::Layout::noteRidge(int one, int other) const
+{
+    if (other < 0 || other >= regular)
+        return;
+    Seed &a = seeds[one], &b = seeds[other];
+    const int32_t cosine = (a.normal.x * b.normal.x + a.normal.y * b.normal.y + a.normal.z * b.normal.z) >> 14;
+    if (cosine > RIDGE_BENDS || squareOf(rest(a) - rest(b)) > squareOf(spacing * RIDGE_WIDEST) || behind(a, b) <= Real(0) ||
+        behind(b, a) <= Real(0))
+        return;
+    noteBeyond(a, other);
+    noteBeyond(b, one);
+}
+
+// Finds the ridges between each seed and those beside it: the next of its ring, and three of the ring before. (At the ends of a
+// ring some of these numbers are those of seeds that lie far away.)
+void SoftObject::Layout::findRidges() const
+{
+    for (int i = 0; i < regular; ++i) {
+        noteRidge(i, i + 1);
+        const int n = seeds[i].neighbour >> 1;
+        for (int j = n - 1; n >= 0 && j <= n + 1; ++j)
+            noteRidge(i, j);
+    }
 }
 
 // Lays out regular seeds and their roots. Returns false if there is no room for them, or if the user stopped the program.
@@ -715,6 +760,8 @@ bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObje
                 setWay(s, s.normal);
             setArea(s, s.normal);
         }
+    if (like == nullptr)
+        laid_.findRidges();
     const bool warps = !warped_ || keepPlain(laid_);
     if (warped_ && warps)
         reshape();

@@ -65,7 +65,9 @@ void setPatch(const SoftObject& object, Patch& patch)
     middle = middle * share;
     axis = unit(axis * share);
     Square radius(0), spread(0);
+    patch.ridged = false;
     forSeeds(object, patch, [&](const Seed& s) {
+        patch.ridged |= s.beyond >= 0;
         const Square away = squareOf(restOf(object, s) - middle);
         const Square aside = squareOf(restNormalOf(object, s) - axis);
         radius = radius < away ? away : radius;

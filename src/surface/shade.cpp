@@ -75,7 +75,8 @@ private:
     void setPatch(const Patch& patch, const Seen& middle, const Voxel& at);
     void setBend(const Patch& patch, const Seen& middle);
     bool bendsUnevenly(const Voxel* voxels, int count) const;
-    bool cut(const Seed& s, Voxel* voxel) const;
+    bool cut(const int32_t inward[3], int32_t apart, Voxel* voxel) const;
+    bool cutAtRidge(const Seed& s, Voxel* voxel) const;
     bool knowsLight(const Seed& s, bool regular, const Voxel& voxel) const;
     void setSlopesOf(const Seed& s, Voxel* voxel) const;
     const Limb* limbOf(const Patch& patch);
@@ -247,13 +248,34 @@ inline bool Shader::bendsUnevenly(const Voxel* voxels, int count) const
     return false;
 }
 
-// Ends a scale where another object is the strongest: at a straight line, because the difference of two fields is nearly linear
-// across the scale. Returns false when nothing of the scale is left.
-bool Shader::cut(const Seed& s, Voxel* voxel) const
+// Cuts a voxel at a plane that is `apart` away from its centre, 1/256 unit. `inward` points to the side that stays, own axes.
+// Returns false when nothing of the voxel is left.
+inline bool Shader::cut(const int32_t inward[3], int32_t apart, Voxel* voxel) const
 {
-    const int32_t border[] = {s.border.x, s.border.y, s.border.z};
-    const int32_t x = along(border, own_.right, 0), y = along(border, own_.up, 1), z = along(border, own_.ahead, 2);
-    return cutVoxel(x, y, z, s.apart, shearX_, shearY_, voxel);
+    const int32_t x = along(inward, own_.right, 0), y = along(inward, own_.up, 1), z = along(inward, own_.ahead, 2);
+    return cutVoxel(x, y, z, apart, shearX_, shearY_, voxel);
+}
+
+// Ends the scale of a seed beside a ridge where the tangent planes of the two sides meet: beyond that line it would stand out over
+// the other side. Returns false when nothing of the voxel is left.
+SELDOM bool Shader::cutAtRidge(const Seed& s, Voxel* voxel) const
+{
+    const Seed& beyond = object_.regular(s.beyond);
+    if (!(beyond.flags & SEED_VALID) || isCut(*voxel))
+        return true;
+    const int32_t normal[] = {s.normal.x, s.normal.y, s.normal.z};
+    const int32_t inward[] = {-beyond.normal.x, -beyond.normal.y, -beyond.normal.z};
+    int32_t here[3], there[3], apart = 0, behind = 0;
+    findPlace(shading_, s, here);
+    findPlace(shading_, beyond, there);
+    for (int i = 0; i < 3; ++i) {
+        apart += (here[i] - there[i]) * inward[i] >> 14;
+        behind += (here[i] - there[i]) * normal[i] >> 14;
+    }
+    // Where the surface blends it may bend inwards.
+    if (apart <= 0 || behind <= 0)
+        return true;
+    return cut(inward, min32(mulShift16(apart, step_), INT16_MAX), voxel);
 }
 
 // The limb of a patch; null if there is none, or the bend of the patch is not known.
@@ -347,10 +369,12 @@ inline void Shader::shadeSeen(Patch& patch, Voxel* voxels, int count)
     shadeSeeds(&shading_, seen_, voxels, count);
 }
 
-// Cuts a voxel at the border of its seed. Returns false when nothing of the voxel is left.
+// Ends a scale where another object is the strongest: at the border of its seed. Returns false when nothing of the voxel is left.
 inline bool Shader::cutAtBorder(const Seed& s, Voxel* voxel, VoxelList& list) const
 {
-    if (!cut(s, voxel))
+    // At a straight line, because the difference of two fields is nearly linear across the scale.
+    const int32_t inward[] = {s.border.x, s.border.y, s.border.z};
+    if (!cut(inward, s.apart, voxel))
         return false;
     list.bordered = true;
     if (s.apart < 0)
@@ -398,7 +422,7 @@ inline bool Shader::isUneven(const Patch& patch, const Voxel* voxels, int regula
     return patch.state == PATCH_MIXED && (patch.extras || bendsUnevenly(voxels, regular));
 }
 
-// Lists the voxels of a patch that blends, or whose object has a paint.
+// Lists the voxels of a patch that blends or has a ridge, or whose object has a paint.
 template <bool PAINTED>
 inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, int regular, VoxelList& list,
                                Painter* painter)
@@ -415,6 +439,8 @@ inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, int
         if (knows)
             setSlopesOf(s, voxels + i);
         if ((s.flags & SEED_BORDER) && !cutAtBorder(s, voxels + i, list))
+            continue;
+        if (s.beyond >= 0 && !cutAtRidge(s, voxels + i))
             continue;
         seen_[listed++] = seen_[i];
         Voxel* const shown = PAINTED ? painter->add(s, voxels[i]) : listUnpainted(s, voxels + i, &to, list);
@@ -442,7 +468,7 @@ inline void Shader::shadePatch(Patch& patch, VoxelList& list, Painter* painter)
     if (count == 0)
         return;
     shadeSeen(patch, voxels, count);
-    if (PAINTED || patch.state != PATCH_REST) {
+    if (PAINTED || patch.state != PATCH_REST || patch.ridged) {
         listVoxels<PAINTED>(patch, voxels, count, regular, list, painter);
         return;
     }

@@ -1,0 +1,105 @@
+// Tests of ridges, where a surface bends outwards sharply: the seeds on both sides are told, and no scale stands out over the other
+// side.
+#include <algorithm>
+#include <cmath>
+
+#include "model/cone.h"
+#include "model/cylinder.h"
+#include "help.h"
+#include "test.h"
+
+namespace {
+
+// A soft cone whose side slopes by 45 degrees: it meets the round of its large end, which is the lower one, in a ridge.
+struct Steep {
+    double size, tip, length;
+
+    SoftObject* make() const { return new Cone(1, real(size), real(tip), real(length)); }
+    // How far a point lies outside the unblended surface, units, at most; y along the axis, `across` from the axis.
+    double outside(double y, double across) const
+    {
+        const double along = std::clamp(y, -length / 2, length / 2);
+        const double sizeThere = (size + tip) / 2 + (tip - size) * along / length;
+        return std::hypot(y - along, across) - sizeThere / 2;
+    }
+};
+const Steep steep[] = {{40, 10, 15}, {30, 12, 9}, {36, 16, 10}};
+
+double cosineOf(const Seed& a, const Seed& b)
+{
+    return (a.normal.x * b.normal.x + a.normal.y * b.normal.y + a.normal.z * b.normal.z) / 16384.0 / 16384;
+}
+
+}  // namespace
+
+TEST(seeds_beside_a_ridge_know_the_other_side)
+{
+    for (const Steep& cone : steep) {
+        Scene scene;
+        const SoftObject& object = scene.add(cone.make(), 0, 0, 0);
+        const auto heightOf = [&](const Seed& s) { return number(object.root(s.root).y) + number(s.path.y); };
+        int below = 0, above = 0;
+        for (int i = 0; i < object.seedSlots(); i += 2) {
+            const Seed& s = object.regular(i);
+            const double height = heightOf(s) + cone.length / 2;
+            // Only seeds at some distance from the ridge need not know it.
+            if (s.beyond < 0) {
+                CHECK(std::fabs(height) > 0.3);
+                continue;
+            }
+            const Seed& beyond = object.regular(s.beyond);
+            CHECK(cosineOf(s, beyond) < 0.8);
+            CHECK(height * (heightOf(beyond) + cone.length / 2) < 0);
+            CHECK(std::fabs(height) < 2);
+            ++(height < 0 ? below : above);
+        }
+        note("size %g tip %g length %g: %d seeds below the ridge, %d above", cone.size, cone.tip, cone.length, below, above);
+        CHECK(below > 15 && above > 15);
+    }
+}
+
+TEST(what_is_round_has_no_ridge)
+{
+    Scene scene;
+    scene.ball(30, 0, 0, 0);
+    scene.add(new Cylinder(2, real(20), real(30)), 0, 0, 0);
+    scene.add(new Cone(3, real(30), real(20), real(40)), 0, 0, 0);
+    for (const auto& object : scene.objects)
+        for (int i = 0; i < object->seedSlots(); i += 2)
+            SAME(object->regular(i).beyond, -1);
+}
+
+TEST(no_scale_stands_out_over_a_ridge)
+{
+    Random random;
+    long held = 0, standing = 0;
+    for (const Steep& cone : steep)
+        for (int view = 0; view < 20; ++view) {
+            Scene scene;
+            SoftObject& object = scene.add(cone.make(), 0, 0, 0);
+            object.rotate(object.centre(), vector(random.between(-1, 1), random.between(-1, 1), 1), random.bits());
+            scene.settle();
+            const Matrix& turn = object.turn();
+            const Vec axis{number(turn.m[0][1]), number(turn.m[1][1]), number(turn.m[2][1])};
+            for (const Voxel& v : scene.draw(0))
+                for (int k = 0; k < 10; ++k) {
+                    const double x = random.between(-1, 1) * v.halfWidth / 256, y = random.between(-1, 1) * v.halfHeight / 256;
+                    const double deeper = (v.tiltX * x + v.tiltY * y) / 256;
+                    const double cut = v.cutAt / 64.0 + (v.cutX * x + v.cutY * y) / 8.0 +
+                                       (v.curveXX * x * x + 2 * v.curveXY * x * y + v.curveYY * y * y) / 32.0;
+                    if (cut < 0 || (v.reach != 0 && (deeper > v.reach / 32.0 || -deeper > v.front / 32.0)))
+                        continue;
+                    const double depth = v.z / 256.0;
+                    const Vec p = Vec{v.x / 256.0 + x, v.y / 256.0 + y, depth} * ((depth + deeper) / depth) + vec(scene.eye);
+                    const double along = dot(p, axis);
+                    if (std::fabs(along + cone.length / 2) > 1.5)
+                        continue;
+                    const double out = cone.outside(along, size(p - axis * along));
+                    standing += out > 0.45;
+                    ++held;
+                }
+        }
+    note("%ld places held, %.2f %% of them stand out", held, 100.0 * standing / held);
+    CHECK(held > 5000);
+    CHECK(standing * 200 < held);
+}
