@@ -396,8 +396,9 @@ private:
         void closeGap(Seed& s, Seed& n) const;
         Real behind(const Seed& s, const Seed& other) const;
         void noteBeyond(Seed& s, int other) const;
-        void noteRidge(int one, int other) const;
-        void findRidges() const;
+        bool bendSharply(const Seed& a, const Seed& b, bool tapers) const;
+        void noteRidge(int one, int other, bool tapers) const;
+        void findRidges(bool tapers) const;
         // The layout as it would be without the warp. It shares all memory with this one.
         Layout plain() const;
     };

@@ -16,9 +16,10 @@ constexpr int EXTRA_CELL = 5;
 // at most twice as close. Units.
 constexpr Real THIN(4.5);
 
-// A ridge lies between two seeds at rest that are no farther apart than RIDGE_WIDEST, in spacings, if the cosine of their normals
-// (1.0 = 2^14) is at most RIDGE_BENDS and the surface bends outwards.
-constexpr Real RIDGE_WIDEST(1.25);
+// A ridge lies between two seeds at rest that are no farther apart than RIDGE_WIDEST, in spacings, if the surface bends outwards
+// and the cosine of their normals (1.0 = 2^14) is at most RIDGE_BENDS; if the object tapers, also where the normals differ by
+// CORNER more than those of a ball would whose radius is the length of the paths there.
+constexpr Real RIDGE_WIDEST(1.25), CORNER(0.1);
 constexpr int32_t RIDGE_BENDS = 13000;
 
 // Value of `neighbour` in an oversampled seed that has not been laid out yet.
@@ -45,6 +46,11 @@ void setAxis(int8_t* to, const Vector& half, Real inverse)
 Vector vectorOf(const int8_t steps[3])
 {
     return {Real(static_cast<int>(steps[0])), Real(static_cast<int>(steps[1])), Real(static_cast<int>(steps[2]))};
+}
+
+Vector vectorOf(const Direction14& n)
+{
+    return {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)};
 }
 
 // Stores the direction of a seed's path, given as a unit vector.
@@ -274,8 +280,7 @@ void SoftObject::Layout::closeGap(Seed& s, Seed& n) const
 // How far a seed lies behind the tangent plane of another, units; both are at rest.
 Real SoftObject::Layout::behind(const Seed& s, const Seed& other) const
 {
-    const Direction14& n = other.normal;
-    return dot(rest(other) - rest(s), {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)});
+    return dot(rest(other) - rest(s), vectorOf(other.normal));
 }
 
 // Records that a ridge lies between a seed and another, unless there is one nearer to the seed.
@@ -285,14 +290,23 @@ void SoftObject::Layout::noteBeyond(Seed& s, int other) const
         s.beyond = 2 * other;
 }
 
+// Whether the normals of two seeds differ as much as beside a ridge.
+bool SoftObject::Layout::bendSharply(const Seed& a, const Seed& b, bool tapers) const
+{
+    const int32_t cosine = (a.normal.x * b.normal.x + a.normal.y * b.normal.y + a.normal.z * b.normal.z) >> 14;
+    if (cosine <= RIDGE_BENDS || !tapers)
+        return cosine <= RIDGE_BENDS;
+    const Real onBall = quotient(length(rest(a) - rest(b)), min(length(a.path), length(b.path)));
+    return length(vectorOf(a.normal) - vectorOf(b.normal)) > onBall + CORNER;
+}
+
 // Records for two seeds that a ridge lies between them, if one does.
-void SoftObject::Layout::noteRidge(int one, int other) const
+void SoftObject::Layout::noteRidge(int one, int other, bool tapers) const
 {
     if (other < 0 || other >= regular)
         return;
     Seed &a = seeds[one], &b = seeds[other];
-    const int32_t cosine = (a.normal.x * b.normal.x + a.normal.y * b.normal.y + a.normal.z * b.normal.z) >> 14;
-    if (cosine > RIDGE_BENDS || squareOf(rest(a) - rest(b)) > squareOf(spacing * RIDGE_WIDEST) || behind(a, b) <= Real(0) ||
+    if (!bendSharply(a, b, tapers) || squareOf(rest(a) - rest(b)) > squareOf(spacing * RIDGE_WIDEST) || behind(a, b) <= Real(0) ||
         behind(b, a) <= Real(0))
         return;
     noteBeyond(a, other);
@@ -301,13 +315,13 @@ void SoftObject::Layout::noteRidge(int one, int other) const
 
 // Finds the ridges between each seed and those beside it: the next of its ring, and three of the ring before. (At the ends of a
 // ring some of these numbers are those of seeds that lie far away.)
-void SoftObject::Layout::findRidges() const
+void SoftObject::Layout::findRidges(bool tapers) const
 {
     for (int i = 0; i < regular; ++i) {
-        noteRidge(i, i + 1);
+        noteRidge(i, i + 1, tapers);
         const int n = seeds[i].neighbour >> 1;
         for (int j = n - 1; n >= 0 && j <= n + 1; ++j)
-            noteRidge(i, j);
+            noteRidge(i, j, tapers);
     }
 }
 
@@ -611,7 +625,6 @@ bool SoftObject::keepPlain(Layout& layout) const
 // normal at the resting place.
 Direction14 SoftObject::warpSeed(const Seed& plain, const Vector& plainRoot, Seed& to, Warp::Way& way) const
 {
-    const Real part(1.0 / 16384);
     to.path = warp_.out((plainRoot + plain.path) * (Real(CORE_SIZE) / laid_.size), way) * shiftDown(laid_.size, 4) - root(to.root);
     const auto cell = [&](const int8_t from[3], int8_t into[3]) {
         setAxis(into, warp_.stepOut(way, vectorOf(from)), Real(1));
@@ -619,10 +632,7 @@ Direction14 SoftObject::warpSeed(const Seed& plain, const Vector& plainRoot, See
     cell(plain.along, to.along);
     cell(plain.across, to.across);
     setWay(to);
-    const Direction14& square = plain.normal;
-    const Vector slope{part * Real(static_cast<int>(square.x)), part * Real(static_cast<int>(square.y)),
-                       part * Real(static_cast<int>(square.z))};
-    const Direction14 normal = direction(warp_.slopeOut(way, slope));
+    const Direction14 normal = direction(warp_.slopeOut(way, vectorOf(plain.normal)));
     setArea(to, normal);
     if (to.flags & SEED_RESTING)
         layAtRest(to, normal);
@@ -760,8 +770,8 @@ bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObje
                 setWay(s, s.normal);
             setArea(s, s.normal);
         }
-    if (like == nullptr)
-        laid_.findRidges();
+    if (like == nullptr && !isBall())
+        laid_.findRidges(tapers_);
     const bool warps = !warped_ || keepPlain(laid_);
     if (warped_ && warps)
         reshape();

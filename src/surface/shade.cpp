@@ -429,8 +429,8 @@ inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, int
 {
     const bool shines = PAINTED && painter->shines(), blends = patch.state == PATCH_MIXED;
     const bool uneven = isUneven(patch, voxels, regular);
-    const int32_t sight = shines || uneven ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
-    const int sloped = shines || blends ? regular : 0;
+    const int32_t sight = shines || uneven || patch.ridged ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
+    const int sloped = shines || blends || patch.ridged ? regular : 0;
     Voxel* to = list.room();
     int listed = 0;
     for (int i = 0; i < count; ++i) {

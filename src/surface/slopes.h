@@ -71,12 +71,13 @@ private:
         keys_[at] = key;
         voxels_[at] = voxel;
         shownAs_[at] = shown;
-        // In the ring before, a seed lies beside the seed N of its predecessor in its own ring (model/seed.h).
+        // In the ring before, a seed lies beside the seed N of its predecessor in its own ring (model/seed.h). Across a ridge the
+        // brightness jumps.
         const int n = number > 0 ? seed[-1].neighbour : -1;
         if (n < 0)
             return;
         const uint32_t beside = keyOf(n >> 1), before = beside % TABLE;
-        if (keys_[before] != beside)
+        if (keys_[before] != beside || (seed->beyond >= 0 && seed[(n >> 1) - number].beyond >= 0))
             return;
         if (shownAs_[before] != nullptr)
             shownAs_[before]->behind = voxel;

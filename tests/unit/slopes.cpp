@@ -25,6 +25,7 @@ struct Plane {
     {
         for (int ring = 0; ring < RINGS; ++ring)
             for (int i = 0; i < ROUND; ++i) {
+                seeds[at(ring, i)].beyond = -1;
                 // The seed N of the ring before is beside the next seed of the ring (model/seed.h).
                 seeds[at(ring, i)].neighbour = ring == 0 ? -1 : 2 * at(ring - 1, std::min(i + 1, ROUND - 1));
                 Voxel& v = voxels[at(ring, i)];
