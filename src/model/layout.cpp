@@ -296,8 +296,9 @@ bool SoftObject::Layout::bendSharply(const Seed& a, const Seed& b, bool tapers) 
     const int32_t cosine = (a.normal.x * b.normal.x + a.normal.y * b.normal.y + a.normal.z * b.normal.z) >> 14;
     if (cosine <= RIDGE_BENDS || !tapers)
         return cosine <= RIDGE_BENDS;
-    const Real onBall = quotient(length(rest(a) - rest(b)), min(length(a.path), length(b.path)));
-    return length(vectorOf(a.normal) - vectorOf(b.normal)) > onBall + CORNER;
+    // On a ball normals differ by the seeds' distance divided by the radius. The radius may be next to 0: nothing is divided by it.
+    const Real differ = length(vectorOf(a.normal) - vectorOf(b.normal)), radius = min(length(a.path), length(b.path));
+    return (differ - CORNER) * radius > length(rest(a) - rest(b));
 }
 
 // Records for two seeds that a ridge lies between them, if one does.
