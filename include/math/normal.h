@@ -10,6 +10,13 @@ struct Normal {
     int32_t x, y, z;
 };
 
+// A direction with 14 fraction bits, a Normal or a Direction14 (model/seed.h), as a vector.
+template <class Direction>
+inline Vector unitVector(const Direction& n)
+{
+    return {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)};
+}
+
 // Fills the table that normalise() uses. Call it once before any object is made.
 void makeNormalTable();
 

@@ -48,11 +48,6 @@ Vector vectorOf(const int8_t steps[3])
     return {Real(static_cast<int>(steps[0])), Real(static_cast<int>(steps[1])), Real(static_cast<int>(steps[2]))};
 }
 
-Vector vectorOf(const Direction14& n)
-{
-    return {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)};
-}
-
 // Stores the direction of a seed's path, given as a unit vector.
 void setWay(Seed& s, const Direction14& n)
 {
@@ -280,7 +275,7 @@ void SoftObject::Layout::closeGap(Seed& s, Seed& n) const
 // How far a seed lies behind the tangent plane of another, units; both are at rest.
 Real SoftObject::Layout::behind(const Seed& s, const Seed& other) const
 {
-    return dot(rest(other) - rest(s), vectorOf(other.normal));
+    return dot(rest(other) - rest(s), unitVector(other.normal));
 }
 
 // Records that a ridge lies between a seed and another, unless there is one nearer to the seed.
@@ -297,7 +292,7 @@ bool SoftObject::Layout::bendSharply(const Seed& a, const Seed& b, bool tapers) 
     if (cosine <= RIDGE_BENDS || !tapers)
         return cosine <= RIDGE_BENDS;
     // On a ball normals differ by the seeds' distance divided by the radius. The radius may be next to 0: nothing is divided by it.
-    const Real differ = length(vectorOf(a.normal) - vectorOf(b.normal)), radius = min(length(a.path), length(b.path));
+    const Real differ = length(unitVector(a.normal) - unitVector(b.normal)), radius = min(length(a.path), length(b.path));
     return (differ - CORNER) * radius > length(rest(a) - rest(b));
 }
 
@@ -633,7 +628,7 @@ Direction14 SoftObject::warpSeed(const Seed& plain, const Vector& plainRoot, See
     cell(plain.along, to.along);
     cell(plain.across, to.across);
     setWay(to);
-    const Direction14 normal = direction(warp_.slopeOut(way, vectorOf(plain.normal)));
+    const Direction14 normal = direction(warp_.slopeOut(way, unitVector(plain.normal)));
     setArea(to, normal);
     if (to.flags & SEED_RESTING)
         layAtRest(to, normal);
@@ -771,6 +766,7 @@ bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObje
                 setWay(s, s.normal);
             setArea(s, s.normal);
         }
+    // A ball has no ridges, however far apart its seeds are.
     if (like == nullptr && !isBall())
         laid_.findRidges(tapers_);
     const bool warps = !warped_ || keepPlain(laid_);

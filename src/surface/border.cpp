@@ -50,7 +50,7 @@ struct Steepest {
     Real length;
 
     explicit Steepest(const Vector& g)
-        : way(normalise(g)), length(dot(g, {realFromRaw(way.x * 4), realFromRaw(way.y * 4), realFromRaw(way.z * 4)}))
+        : way(normalise(g)), length(dot(g, unitVector(way)))
     {
     }
 };

@@ -114,7 +114,7 @@ static void setSides(const SoftObject& object, const FrameContext& frame, const 
         if (dot(inward, toCentre) >= reached * (Real(1) + inward.z))
             continue;
         const Normal n = normalise(inward);
-        const Vector u{realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)};
+        const Vector u = unitVector(n);
         const int32_t inside = rawFromReal(dot(u, toCentre)) >> 12;
         own.outOfSight = inside < -reach;
         if (own.outOfSight)

@@ -10,10 +10,11 @@ namespace {
 
 // --- The measures of a patch
 
-Direction14 direction(const Vector& unitVector)
+// The direction of a unit vector.
+Direction14 direction(const Vector& way)
 {
-    return {static_cast<int16_t>(rawFromReal(unitVector.x) >> 2), static_cast<int16_t>(rawFromReal(unitVector.y) >> 2),
-            static_cast<int16_t>(rawFromReal(unitVector.z) >> 2)};
+    return {static_cast<int16_t>(rawFromReal(way.x) >> 2), static_cast<int16_t>(rawFromReal(way.y) >> 2),
+            static_cast<int16_t>(rawFromReal(way.z) >> 2)};
 }
 
 Vector restOf(const SoftObject& object, const Seed& s)
@@ -24,8 +25,7 @@ Vector restOf(const SoftObject& object, const Seed& s)
 Vector restNormalOf(const SoftObject& object, const Seed& s)
 {
     // A seed that has left its rest has another normal now.
-    const Direction14 n = s.flags & SEED_RESTING ? s.normal : object.restNormal(s);
-    return {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)};
+    return unitVector(s.flags & SEED_RESTING ? s.normal : object.restNormal(s));
 }
 
 // The mean length of a patch's paths; of a shaped object, whose paths are not parallel to normals, their mean extent along `axis`.

@@ -1,5 +1,5 @@
-// Tests of ridges, where a surface bends outwards sharply: the seeds on both sides are told, and no scale stands out over the other
-// side.
+// Tests of ridges, where a surface bends outwards sharply: the seeds on both sides are told, and scales neither stand out over the
+// other side nor take its brightness.
 #include <algorithm>
 #include <cmath>
 
@@ -49,7 +49,7 @@ TEST(seeds_beside_a_ridge_know_the_other_side)
         for (int i = 0; i < object.seedSlots(); i += 2) {
             const Seed& s = object.regular(i);
             const double height = heightOf(s) + cone.length / 2;
-            // Only seeds at some distance from the ridge need not know it.
+            // A seed as near to the ridge as this has to know it.
             if (s.beyond < 0) {
                 CHECK(std::fabs(height) > 0.3);
                 continue;
