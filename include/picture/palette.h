@@ -29,8 +29,9 @@ public:
 
     // Makes ramps for the model's colours and sets the ramp of each object. Up to four colours have ramps of at least 63 entries
     // each. More colours share the 254 entries: ramp steps that are close to each other in colour and brightness become one
-    // entry, with the smallest total error. Finishes, patterns and mixed colours need ramps as colours do, and the objects get
-    // their paint too, unless `plain` is set. With `grey`, finishes are the only paint that shows.
+    // entry, with the smallest total error. The entries of all ramps are in the order of brightness, and spread over the palette:
+    // about four of them are one step. Finishes, patterns and mixed colours need ramps as colours do, and the objects get their
+    // paint too, unless `plain` is set. With `grey`, finishes are the only paint that shows.
     void make(Model& model, bool grey, bool plain = false);
 
     // Red, green and blue of the 256 colours, 0..63, in the DAC's format.

@@ -51,21 +51,24 @@ struct Box {
     uint32_t sum[3];  // weighted sum of each component
     int widest;       // the component that varies most
     uint32_t error;   // weighted sum of the squared distances from the mean
+    uint32_t light;   // mean of the steps of brightness, in halves
 };
 
 Box measured(const Wish* wishes, int from, int to)
 {
-    Box box{from, to, 0, {0, 0, 0}, 0, 0};
-    uint32_t squares[3] = {0, 0, 0};
+    Box box{from, to, 0, {0, 0, 0}, 0, 0, 0};
+    uint32_t squares[3] = {0, 0, 0}, light = 0;
     for (int i = from; i < to; ++i) {
         const uint32_t weight = static_cast<uint32_t>(wishes[i].steps * wishes[i].weight);
         box.weight += weight;
+        light += weight * static_cast<uint32_t>(2 * wishes[i].step + wishes[i].steps - 1);
         for (int p = 0; p < 3; ++p) {
             const uint32_t part = wishes[i].part[p];
             box.sum[p] += weight * part;
             squares[p] += weight * part * part;
         }
     }
+    box.light = light / box.weight;
     uint32_t most = 0;
     for (int p = 0; p < 3; ++p) {
         const uint32_t even = static_cast<uint32_t>(divide64(static_cast<uint64_t>(box.sum[p]) * box.sum[p], box.weight));
@@ -116,6 +119,18 @@ int divideAll(Wish* wishes, int wished, Box* boxes, int most)
     return used;
 }
 
+// Sorts boxes by their brightness.
+void sort(Box* boxes, int count)
+{
+    for (int i = 1; i < count; ++i) {
+        const Box box = boxes[i];
+        int at = i;
+        for (; at > 0 && boxes[at - 1].light > box.light; --at)
+            boxes[at] = boxes[at - 1];
+        boxes[at] = box;
+    }
+}
+
 // Writes the wishes of one colour's ramp; returns their number.
 int wishesOf(const Colour& colour, bool shines, int number, int weight, Wish* wishes)
 {
@@ -135,6 +150,13 @@ int wishesOf(const Colour& colour, bool shines, int number, int weight, Wish* wi
         wish.weight = static_cast<uint8_t>(weight);
     }
     return wished;
+}
+
+// The palette entry of a step, of `steps`, of ramp `number` of `count` that have entries of their own. They are in the order of
+// brightness.
+int evenEntry(int step, int steps, int number, int count)
+{
+    return 1 + number + step * (Palette::INK - 1 - count) / (steps - 1);
 }
 
 // Collects the distinct colours of the objects, and the number of each object's colour. Returns how many colours there are.
@@ -189,8 +211,9 @@ void Palette::makeGrey(Model& model, bool painted)
 {
     for (int i = 0; i < STEPS; ++i) {
         const uint8_t value = static_cast<uint8_t>(i < DARKEST ? DARKEST : i);
-        memset(dac_ + 3 * (1 + i), value, 3);
-        ramps_[0][SHADING_MOST + i] = static_cast<uint8_t>(1 + i);
+        const int entry = evenEntry(i, STEPS, 0, 1);
+        memset(dac_ + 3 * entry, value, 3);
+        ramps_[0][SHADING_MOST + i] = static_cast<uint8_t>(entry);
     }
     describeEntries(1);
     for (int i = 0; i < model.count(); ++i) {
@@ -270,10 +293,10 @@ void Palette::shareEvenly(const Colour* colours, const bool* shines, int count)
     const int steps = ENTRIES / count < STEPS ? ENTRIES / count : STEPS;
     for (int c = 0; c < count; ++c) {
         for (int i = 0; i < STEPS; ++i)
-            ramps_[c][SHADING_MOST + i] = static_cast<uint8_t>(1 + c * steps + (i * (steps - 1) + 31) / 63);
+            ramps_[c][SHADING_MOST + i] = static_cast<uint8_t>(evenEntry((i * (steps - 1) + 31) / 63, steps, c, count));
         for (int i = 0; i < steps; ++i) {
             const int step = (i * 63 + (steps - 1) / 2) / (steps - 1);
-            shade(colours[c], shines[c], step, dac_ + 3 * (1 + c * steps + i));
+            shade(colours[c], shines[c], step, dac_ + 3 * evenEntry(i, steps, c, count));
         }
     }
 }
@@ -287,6 +310,7 @@ void Palette::share(const Colour* colours, const bool* shines, int count, const 
         wished += wishesOf(colours[c], shines[c], c, weights == nullptr ? 1 : weights->weight(c), wishes + wished);
     Box boxes[ENTRIES];
     const int used = divideAll(wishes, wished, boxes, ENTRIES);
+    sort(boxes, used);
     for (int i = 0; i < used; ++i) {
         const Box& box = boxes[i];
         for (int p = 0; p < 3; ++p)

@@ -178,6 +178,32 @@ TEST(more_colours_than_fit)
     palette.make(empty, true);
 }
 
+// The entries are in the order of brightness: from a step of a ramp to the 16th after it they differ by more than 32, with few
+// exceptions where colours share them.
+TEST(entries_are_in_order)
+{
+    Random random;
+    constexpr int STEPS = Palette::STEPS;
+    int near = 0, all = 0;
+    for (int count = 0; count <= 24; ++count) {
+        Model model;
+        for (int i = 0; i < std::max(count, 1); ++i) {
+            const Colour colour{static_cast<uint8_t>(random.below(256)), static_cast<uint8_t>(random.below(256)), 255};
+            CHECK(model.add(make<Sphere>(i + 1, Real(20)), colour, Motion{}));
+        }
+        Palette palette;
+        palette.make(model, count == 0);
+        for (int i = 0; i < model.count(); ++i) {
+            const uint8_t* const ramp = model.actor(i).object->ramp();
+            for (int step = 0; step + 16 < STEPS; ++step)
+                near += ramp[step + 16] - ramp[step] <= 32;
+            all += STEPS - 16;
+        }
+    }
+    note("of %d pairs of steps, %d are too near to each other", all, near);
+    CHECK(near * 200 < all);
+}
+
 TEST(ramps_tell_their_steps)
 {
     Model model;
