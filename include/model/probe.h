@@ -22,11 +22,23 @@ public:
         return strongest;
     }
 
+    // The gradient of the field at the point that implicitAt() was given last, of the body that it chose: world axes, 1/unit, times
+    // CORE_SIZE. Zero where the field is less than FAINT: that is far from any surface.
+    Vector gradient() const;
+
 private:
-    struct Part;
+    static constexpr Real FAINT{0.05};
+
+    // An object whose field reaches the point. `body` is the first of its body's members, or null if the object has no surface. In
+    // bodies that are not plain, `weighted` is the sum that the object has in its body, `share` its field over the strongest.
+    struct Part {
+        int slot;
+        SoftObject* const* body;
+        Real field, weighted, share;
+    };
 
     void gather(const Point& p, const Bodies& bodies);
-    Real fieldOf(const Part& one, const Part* parts, const Part* end, int* strongest) const;
+    Real fieldOf(const Part& one, int* strongest);
 
     const Model* model_;
     // The objects that may reach points less than AROUND away from `middle_` along each axis; unknown while `count_` is negative.
@@ -38,6 +50,12 @@ private:
         SoftObject* const* body;  // Part::body
     };
     Near near_[Model::OBJECTS_MOST];
+    // The point that implicitAt() was given last, the parts there, the chosen body and its field.
+    Point at_;
+    Part parts_[Model::OBJECTS_MOST];
+    Part* end_ = parts_;
+    const Part* chosen_ = nullptr;
+    Real highest_;
 };
 
 #endif

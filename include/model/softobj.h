@@ -308,6 +308,8 @@ public:
         // What is far away is excluded before scaling: its place relative to a small object would overflow 16.16.
         return isFar(p) ? Real(0) : fieldNear(p);
     }
+    // The gradient of that field in the world, 1/unit, times CORE_SIZE.
+    Vector gradientAt(const Point& p) const;
 
     // Returns true if the fields of the two objects can overlap, judging by centres and reaches alone.
     bool inRange(const SoftObject& other) const { return isNearer(centre_, other.centre_, reach_ + other.reach_); }
@@ -403,6 +405,7 @@ private:
         Layout plain() const;
     };
 
+    Real paramAt(const Vector& v, Vector* slope) const;
     Real fieldNear(const Point& p) const;
     const Link* hollowLink() const;
     void findRest();

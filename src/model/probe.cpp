@@ -13,13 +13,6 @@ inline bool isAround(const Point& p, const Point& middle)
 
 }  // namespace
 
-// An object whose field reaches a point. `body` is the first of its body's members, or null if the object has no surface.
-struct FieldProbe::Part {
-    int slot;
-    SoftObject* const* body;
-    Real field;
-};
-
 // Finds the objects that may reach points around `p`.
 void FieldProbe::gather(const Point& p, const Bodies& bodies)
 {
@@ -32,13 +25,12 @@ void FieldProbe::gather(const Point& p, const Bodies& bodies)
     }
 }
 
-// The field F of the body of one of the parts at the point that they reach (body.h). `*strongest` receives the slot of the body's
-// strongest part.
-Real FieldProbe::fieldOf(const Part& one, const Part* parts, const Part* end, int* strongest) const
+// The field F of a part's body at the point (body.h). `*strongest` receives the slot of the body's strongest part.
+Real FieldProbe::fieldOf(const Part& one, int* strongest)
 {
     const Bodies& bodies = *model_->knownBodies();
     Real sum(0), most(0), above(0), squares(0);
-    for (const Part* part = parts; part < end; ++part) {
+    for (const Part* part = parts_; part < end_; ++part) {
         if (part->body != one.body)
             continue;
         sum += part->field;
@@ -49,15 +41,17 @@ Real FieldProbe::fieldOf(const Part& one, const Part* parts, const Part* end, in
     }
     if (bodies.plainBody(one.slot))
         return sum;
-    for (const Part* part = parts; part < end; ++part) {
+    for (Part* part = parts_; part < end_; ++part) {
         if (part->body != one.body)
             continue;
         Real weighted = part->field;
-        for (const Part* other = parts; other < end; ++other)
+        for (const Part* other = parts_; other < end_; ++other)
             weighted += other->field * bodies.weight(part->slot, other->slot);
-        const Real share = quotient(part->field, most), square = share * share;
         // Far inside the body the sum of so many might overflow.
-        above += square * clamp(weighted, Real(-240), Real(240));
+        part->weighted = clamp(weighted, Real(-240), Real(240));
+        part->share = quotient(part->field, most);
+        const Real square = part->share * part->share;
+        above += square * part->weighted;
         squares += square;
     }
     return squares > Real(0) ? above / squares : Real(0);
@@ -67,28 +61,65 @@ Real FieldProbe::implicitAt(const Point& p, int* strongest, const SoftObject* me
 {
     const Bodies* const bodies = model_->knownBodies();
     *strongest = -1;
+    chosen_ = nullptr;
     if (bodies == nullptr)
         return Real(0);
     if (count_ < 0 || !isAround(p, middle_))
         gather(p, *bodies);
-    Part parts[Model::OBJECTS_MOST], *end = parts;
+    at_ = p;
+    end_ = parts_;
     for (const Near *near = near_, *const last = near_ + count_; near < last; ++near) {
         const Real field = near->object->fieldFunc(p);
         if (field > Real(0))
-            *end++ = {near->slot, near->body, field};
+            *end_++ = {near->slot, near->body, field, Real(0), Real(0)};
     }
-    Real highest(0);
+    highest_ = Real(0);
     SoftObject* const *last = nullptr, *const *const only = member == nullptr ? nullptr : bodies->members(*member);
-    for (const Part* part = parts; part < end; ++part) {
+    for (const Part* part = parts_; part < end_; ++part) {
         if (part->body == nullptr || part->body == last || (only != nullptr && part->body != only))
             continue;
         last = part->body;
         int own = -1;
-        const Real field = fieldOf(*part, parts, end, &own);
-        if (field > highest || *strongest < 0) {
-            highest = field;
+        const Real field = fieldOf(*part, &own);
+        if (field > highest_ || *strongest < 0) {
+            highest_ = field;
             *strongest = own;
+            chosen_ = part;
         }
     }
-    return ::max(highest, Real(0));
+    return ::max(highest_, Real(0));
+}
+
+// With g_i for the sum of member i, f_i for its field, w_ik for the weight that object k has in that sum, and s_i = f_i / f_max:
+// F = sum(s_i^2 g_i) / sum(s_i^2), and so dF/df_k = (2 s_k^2 (g_k - F) / f_k + s_k^2 + sum(s_i^2 w_ik)) / sum(s_i^2), where
+// the first two terms are there for members alone. In a plain body it is 1.
+Vector FieldProbe::gradient() const
+{
+    Vector sum{Real(0), Real(0), Real(0)};
+    if (chosen_ == nullptr || highest_ < FAINT)
+        return sum;
+    const Bodies& bodies = *model_->knownBodies();
+    const bool plain = bodies.plainBody(chosen_->slot);
+    Real squares(0);
+    for (const Part* i = parts_; i < end_; ++i)
+        if (i->body == chosen_->body)
+            squares += i->share * i->share;
+    for (const Part* part = parts_; part < end_; ++part) {
+        const bool isMember = part->body == chosen_->body;
+        Real factor(isMember ? 1 : 0);
+        if (!plain) {
+            if (isMember) {
+                // The sum of a member is farther from the field only in the depth of a crowd, where the factor might overflow.
+                const Real square = part->share * part->share, above = clamp(part->weighted - highest_, Real(-2), Real(2));
+                factor = square + square / part->field * above * Real(2);
+            }
+            for (const Part* i = parts_; i < end_; ++i)
+                if (i->body == chosen_->body)
+                    factor += i->share * i->share * bodies.weight(i->slot, part->slot);
+            factor = factor / squares;
+        }
+        if (factor != Real(0))
+            sum = sum + model_->actor(part->slot).object->gradientAt(at_) * factor;
+    }
+    return sum;
 }

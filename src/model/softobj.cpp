@@ -358,11 +358,29 @@ Real SoftObject::fieldNear(const Point& p) const
     if (isBall())
         return strength_ * geoff(paramOf(v * inverse_));
     Vector slope;
+    return strength_ * geoff(paramAt(v, &slope));
+}
+
+// The square of a place's distance from the core over that of the size, given the place from the centre in the axes of the world.
+// `*slope` receives half the gradient of it, in core axes and core space, times CORE_SIZE^2; it is not set where the field ends.
+inline Real SoftObject::paramAt(const Vector& v, Vector* slope) const
+{
     const Real end = size_ + coreReach_;
     const Vector q = toCoreAxes(toOwnAxes(v));
     if (stretched_ && !warped_ && (absolute(q.x) >= end || absolute(q.y) >= end || absolute(q.z) >= end))
-        return Real(0);
-    return strength_ * geoff(param(q * inverse_, &slope));
+        return Real(1);
+    return param(q * inverse_, slope);
+}
+
+Vector SoftObject::gradientAt(const Point& p) const
+{
+    Vector slope{Real(0), Real(0), Real(0)};
+    const Real t = isFar(p) ? Real(1) : paramAt(p - centre_, &slope);
+    if (t >= Real(1))
+        return {Real(0), Real(0), Real(0)};
+    const Vector own = toCoreAxes(slope);
+    static_assert(CORE_SIZE == 2 << 3, "half a gradient times CORE_SIZE^2, shifted, is a gradient times CORE_SIZE");
+    return (turnsSeeds() ? turn_ * own : own) * shiftDown(strength_ * geoffSlope(t) * inverse_, 3);
 }
 
 void SoftObject::describeAs(const char* kind, const Real* numbers, int count, char* to, int size) const

@@ -27,6 +27,13 @@ constexpr int NOWHERE = -APART;
 
 }  // namespace
 
+int brightnessOf(const Vector& gradient, const Vector& toLight)
+{
+    // The field rises inwards.
+    const Normal in = normalise(gradient), light = normalise(toLight);
+    return max32(lambert(-(in.x * light.x + in.y * light.y + in.z * light.z) >> 14), 0);
+}
+
 Missed::Missed(View& view, FieldProbe& probe, Real spacing)
     : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), probe_(probe), model_(probe.model())
 {
@@ -204,20 +211,13 @@ bool Missed::drawPixel(Place place)
 bool Missed::setColour(int at, int depth, int from)
 {
     const Point p = view_.pointAt(at, depth);
-    const auto fieldAt = [&](const Vector& away) {
-        ++looks_;
-        return probe_.implicitAt(p + away, &strongest_);
-    };
-    const Real step(0.25), none(0);
-    const Vector there{fieldAt({step, none, none}), fieldAt({none, step, none}), fieldAt({none, none, step})};
-    const Real here = fieldAt({none, none, none});
+    ++looks_;
+    probe_.implicitAt(p, &strongest_);
     const SoftObject* const own = strongest_ < 0 ? nullptr : model_->actor(strongest_).object;
     uint8_t colour = frame_[from];
     if (own != nullptr && own->ramp() != nullptr &&
         (own->paint() == nullptr || from == at || probe_.strongestAt(view_.pointAt(from)) != strongest_)) {
-        const Normal out = normalise({here - there.x, here - there.y, here - there.z}), light = normalise(model_->light);
-        const int32_t cosine = (out.x * light.x + out.y * light.y + out.z * light.z) >> 14;
-        colour = own->ramp()[max32(lambert(cosine), 0)];
+        colour = own->ramp()[brightnessOf(probe_.gradient(), model_->light)];
     }
     if (colour == 0)
         return false;

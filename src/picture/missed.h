@@ -23,6 +23,9 @@ inline void forBeside(int at, Each each)
         each(at + WIDTH);
 }
 
+// The brightness, 0..63, of a surface where the field has this gradient. Both vectors may have any length.
+int brightnessOf(const Vector& gradient, const Vector& toLight);
+
 class Missed {
 public:
     // Lengths of the two sides of a corner, pixels. A corner with both sides of at least SIDE is not part of a round outline and

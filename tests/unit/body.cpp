@@ -180,7 +180,7 @@ TEST(what_digs_into_bodies)
 TEST(field_of_bodies_at_a_point)
 {
     Random random;
-    int blended = 0;
+    int blended = 0, rises = 0;
     for (int round = 0; round < 40; ++round) {
         constexpr int BALLS = 6, DIGGER = 5;
         Model model;
@@ -249,10 +249,24 @@ TEST(field_of_bodies_at_a_point)
             int found;
             NEAR(number(probe.implicitAt(at, &found)), expected, 0.01);
             blended += expected > most + 0.02;
+            if (expected > 0.1) {
+                const Vector gradient = probe.gradient();
+                const double way[] = {number(gradient.x), number(gradient.y), number(gradient.z)};
+                for (int axis = 0; axis < 3; ++axis) {
+                    int other;
+                    const auto beside = [&](double off) {
+                        const Vec there = place + Vec{axis == 0 ? off : 0, axis == 1 ? off : 0, axis == 2 ? off : 0};
+                        return number(probe.implicitAt(point(there.x, there.y, there.z), &other, model.actor(found).object));
+                    };
+                    const double rise = (beside(0.25) - beside(-0.25)) / 0.5;
+                    NEAR(way[axis] / CORE_SIZE, rise, 0.003 + 0.03 * std::fabs(rise));
+                }
+                rises += expected > most + 0.02;
+            }
             if (reached && expected > second + 0.02)
                 NEAR(truth.part(static_cast<size_t>(found), vec(at)), most, 0.002);
         }
     }
     note("%d of 2000 points have a field of more than one", blended);
-    CHECK(blended > 200);
+    CHECK(blended > 200 && rises > 150);
 }
