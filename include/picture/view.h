@@ -69,7 +69,7 @@ public:
     // model's surface it is drawn (missed.h), also in gaps wider than two pixels between different surfaces, and in cracks through
     // which something farther away shows (cracks.cpp). With a palette, pixels filled between two shades of one ramp get a shade
     // between them; and with both, pixels beside borders of colours get the colour of the object whose field is the stronger
-    // there (borders.h).
+    // there (borders.h), and pixels at creases the brightness of the model's surface (creases.h).
     void closeGaps(Real spacing, const Model* model = nullptr, const Palette* palette = nullptr);
 
     // The point of the world that a pixel (row * WIDTH + column) shows: at its own depth, or at a given one (1/128 unit).
@@ -105,8 +105,18 @@ public:
             touched_[row] = {static_cast<int16_t>(runs->from & ~3), static_cast<int16_t>((end[-1].to + 3) & ~3)};
     }
 
+    // The columns of a row outside of which no list with borders to other objects has been drawn.
+    const Span& bordered(int row) const { return bordered_[row]; }
     // The columns of a row outside of which no list of voxels lies behind an earlier one that has borders to other objects.
     const Span& covered(int row) const { return covered_[row]; }
+
+    // What the search for creases (creases.h) has found in a frame: a bit for each band of CREASE_BAND rows; and which row of each
+    // band it began with.
+    static constexpr int CREASE_BAND = 20;
+    struct FoundCreases {
+        uint32_t bands;
+        int turn;
+    };
 
     // Ends a frame; rows() then returns the columns of each row that may differ from the frame before.
     void end();
@@ -151,6 +161,7 @@ private:
     Crossing crossings_[CROSSINGS_MOST];
     int crossingCount_ = 0;
     Span touched_[machine::HEIGHT];
+    FoundCreases foundCreases_{0, 0};
     bool anyBordered_;                // in this frame some list is bordered
     Span bordered_[machine::HEIGHT];  // for each row, the columns that bordered lists have drawn on
     Span covered_[machine::HEIGHT];

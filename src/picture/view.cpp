@@ -2,6 +2,7 @@
 #include "picture/view.h"
 
 #include "borders.h"
+#include "creases.h"
 #include "gaps.h"
 #include "math/alloc.h"
 #include "math/whole.h"
@@ -350,6 +351,8 @@ void View::closeGaps(Real spacing, const Model* model, const Palette* palette)
     // Where colours mix there are no borders between them.
     if (model != nullptr && palette != nullptr && !palette->isGrey() && !model->mixed)
         Borders(*this, probe, *palette, missed).mend();
+    if (anyBordered_ && model != nullptr && palette != nullptr && !model->mixed)
+        Creases(*this, probe, *palette, foundCreases_).mend();
 }
 
 Point View::pointAt(int pixel, int depth) const

@@ -1023,6 +1023,67 @@ TEST(cracks_are_closed)
             }
 }
 
+// Pixels whose brightness differs much from that of those beside them get that of the ball, if the ball has borders to another
+// object, and keep their depth, even one that is off by half a unit. What lies well before the ball, or is no part of it, stays.
+TEST(brightness_at_creases)
+{
+    BallView ball;
+    constexpr int LEFT = 150, RIGHT = 170, TOP = 90, BOTTOM = 110;
+    // Draws the ball with wrong pixels, whose brightness is off by `wrong` steps and which are `before` units too near; returns
+    // how many of these are wrong afterwards. They are a comb, or two rows.
+    const auto wrongAfter = [&](bool comb, int row, int wrong, double before, bool bordered) {
+        View& view = ball.view;
+        view.begin();
+        ball.show(voxel(0, 0, 90, 30, 20, 30), bordered);
+        const auto isWrong = [&](int x, int y) {
+            const bool tooth = y >= TOP && y < BOTTOM && (x < LEFT + 4 || y % 4 < 2);
+            return x >= LEFT && x < RIGHT && (comb ? tooth : y == row || y == row + 1);
+        };
+        double depth = 0;
+        for (int y = 80; y < 120; ++y)
+            for (int x = 135; x < 185; ++x) {
+                int step = static_cast<int>(ball.trueAt(x, y, &depth));
+                if (isWrong(x, y)) {
+                    step += step < 32 ? wrong : -wrong;
+                    depth -= before;
+                }
+                view.setPixel(y * WIDTH + x, static_cast<int>(depth * 128), ball.ramp[step]);
+            }
+        view.closeGaps(Real(1), &ball.model, &ball.palette);
+        view.end();
+        int count = 0;
+        for (int y = 80; y < 120; ++y)
+            for (int x = 135; x < 185; ++x) {
+                const double bright = ball.trueAt(x, y, &depth);
+                const bool stays = std::fabs(ball.palette.step(view.frame()[y * WIDTH + x]) - bright) > 2.5;
+                CHECK(!stays || isWrong(x, y));
+                NEAR(view.zbuffer()[y * WIDTH + x] / 128.0, depth - (isWrong(x, y) ? before : 0), 0.02);
+                count += stays;
+            }
+        return count;
+    };
+    for (const bool grey : {false, true}) {
+        ball.palette.make(ball.model, grey);
+        ball.ramp = ball.model.actor(0).object->ramp();
+        for (const double before : {-0.5, 0.0, 0.5})
+            SAME(wrongAfter(true, 0, 20, before, true), 0);
+        CHECK(wrongAfter(true, 0, 20, 3, true) > 200);
+        CHECK(wrongAfter(true, 0, 10, 0, true) > 200);
+        CHECK(wrongAfter(true, 0, 20, 0, false) > 200);
+        // Where no crease was before, a short one is found within a few frames, and then in each.
+        for (int row = 84; row < 116; ++row) {
+            int frame = 0;
+            while (frame < 10 && wrongAfter(false, row, 20, 0, true) > 0)
+                ++frame;
+            CHECK(frame < 10);
+            for (int i = 0; i < 12; ++i)
+                SAME(wrongAfter(false, row, 20, 0, true), 0);
+            // A frame without creases.
+            SAME(wrongAfter(false, 0, 0, 0, true), 0);
+        }
+    }
+}
+
 // Depths that change by less from pixel to pixel than into a crack, but by more over a few pixels, are those of steep surface, down
 // to the edges of the screen.
 TEST(steep_surface_has_no_cracks)

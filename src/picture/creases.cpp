@@ -1,0 +1,150 @@
+// Creases. Four pixels at once are compared with those to the right of them and those two rows below, by their palette entries,
+// which are in the order of brightness (palette.h). Where one differs much, each of the pixels there is.
+#include "creases.h"
+
+#include "math/whole.h"
+#include "rt.h"
+
+using machine::HEIGHT;
+using machine::WIDTH;
+
+namespace {
+
+// Rows. Of a band in which a crease was found in the frame before, or is found now, every second row is compared; of others one row
+// in each frame, the next one in the next frame.
+constexpr int BAND = View::CREASE_BAND;
+// Steps of brightness from a pixel to the next one from which on both are looked at; and steps by which a pixel has changed from
+// which on those beside it are, too.
+constexpr int JUMP = 16, CHANGE = 5;
+// Palette entries: a jump makes a greater difference (about four entries are one step). A power of two.
+constexpr int ENTRIES_APART = 32;
+static_assert((ENTRIES_APART & (ENTRIES_APART - 1)) == 0, "small differences, with a bias, have no bit beyond its own");
+// 1/128 unit: pixels whose depths differ by more do not belong to one piece of the surface.
+constexpr int LEVEL = 256;
+// No pixel is looked at after so many in a frame.
+constexpr int LOOKS_MOST = 600;
+// In units of the field: where it is off the isovalue by no more the surface is there. Elsewhere one of Newton's steps leads to the
+// surface, if it is no farther away than FARTHEST units.
+constexpr Real EXACT(0.08), FARTHEST(2);
+
+// Half the palette entries of four pixels.
+inline uint32_t halves(const uint8_t* pixel)
+{
+    uint32_t four;
+    __builtin_memcpy(&four, pixel, sizeof four);
+    return four >> 1 & 0x7f7f7f7f;
+}
+
+}  // namespace
+
+void Creases::mend()
+{
+    const uint32_t before = found_.bands;
+    found_.turn = (found_.turn + 2) % BAND;
+    found_.bands = 0;
+    for (int band = 0; band < HEIGHT / BAND; ++band) {
+        mendRow(band * BAND + found_.turn);
+        for (int i = 2; i < BAND && ((before | found_.bands) >> band & 1) != 0; i += 2)
+            mendRow(band * BAND + (found_.turn + i) % BAND);
+    }
+}
+
+// Mends the creases that cross a row or the next one.
+void Creases::mendRow(int y)
+{
+    if (y >= HEIGHT - 2)
+        return;
+    const Span &here = view_.touched(y), &below = view_.touched(y + 2), &bordered = view_.bordered(y);
+    const int from = (max32(max32(here.from, below.from), bordered.from) + 3) & ~3;
+    const int to = min32(min32(here.to, below.to), bordered.to) - 4;
+    const auto compare = [&](int at, int other) {
+        if (magnitude(frame_[at] - frame_[other]) >= ENTRIES_APART)
+            mendPair(at, other);
+    };
+    const uint8_t* const row = frame_ + y * WIDTH;
+    for (const uint8_t* at = row + from; at < row + to; at += 4) {
+        // A difference that is negative even with the bias borrows from the next one, and so sets its own high bits.
+        constexpr uint32_t EACH = 0x01010101, BIAS = (ENTRIES_APART / 2 - 1) * EACH, LARGE = (0x100 - ENTRIES_APART) * EACH;
+        const uint32_t biased = halves(at) + BIAS;
+        const uint32_t aside = biased - halves(at + 1), down = biased - halves(at + 2 * WIDTH);
+        if (((aside | down) & LARGE) == 0)
+            continue;
+        for (int i = static_cast<int>(at - frame_), end = i + 4; i < end; ++i) {
+            compare(i, i + 1);
+            compare(i, i + WIDTH);
+            compare(i + WIDTH, i + 2 * WIDTH);
+        }
+    }
+}
+
+// Whether the brightness jumps from a pixel to the one beside it, and the surface goes on. Entries that are in several ramps tell
+// nothing.
+inline bool Creases::jumps(int at, int other) const
+{
+    const int ramp = palette_.rampOf(frame_[at]);
+    return ramp != 0 && palette_.rampOf(frame_[other]) == ramp && magnitude(stepAt(at) - stepAt(other)) >= JUMP &&
+           magnitude(zbuffer_[at] - zbuffer_[other]) <= LEVEL;
+}
+
+// Notes a pixel, unless it has been noted in this frame.
+inline void Creases::note(int at)
+{
+    if (found_.bands == 0)
+        memset(wasNoted_, 0, sizeof wasNoted_);
+    found_.bands |= 1u << (at / (WIDTH * BAND));
+    uint32_t& bits = wasNoted_[at / 32];
+    const uint32_t bit = 1u << at % 32;
+    if ((bits & bit) != 0 || count_ == NOTED_MOST)
+        return;
+    bits |= bit;
+    noted_[count_++] = static_cast<uint16_t>(at);
+}
+
+// Mends two pixels if there is a crease between them, and follows it.
+void Creases::mendPair(int at, int other)
+{
+    if (!jumps(at, other))
+        return;
+    note(at);
+    note(other);
+    while (count_ > 0) {
+        const int pixel = noted_[--count_], before = stepAt(pixel);
+        if (!mendPixel(pixel) || magnitude(stepAt(pixel) - before) < CHANGE)
+            continue;
+        forBeside(pixel, [&](int beside) {
+            if (jumps(pixel, beside))
+                note(beside);
+        });
+    }
+}
+
+// Gives a pixel the brightness of the model's surface. Returns false if there is none near, or it is painted.
+bool Creases::mendPixel(int at)
+{
+    if (++looks_ > LOOKS_MOST)
+        return false;
+    const Model& model = *probe_.model();
+    const int depth = zbuffer_[at];
+    const Point p = view_.pointAt(at, depth);
+    int strongest;
+    const Real off = probe_.implicitAt(p, &strongest) - ISOVALUE;
+    if (strongest < 0)
+        return false;
+    Vector gradient = probe_.gradient();
+    if (absolute(off) > EXACT) {
+        // The ray through the pixel over one unit of depth.
+        const Vector ray = view_.pointAt(at, depth + 128) - p;
+        const Real rise = gradient.x * ray.x + gradient.y * ray.y + gradient.z * ray.z, left = off * Real(CORE_SIZE);
+        if (rise * FARTHEST <= absolute(left))
+            return false;
+        probe_.implicitAt(view_.pointAt(at, depth - floorToInt(quotient(left, rise) * Real(128))), &strongest);
+        if (strongest < 0)
+            return false;
+        gradient = probe_.gradient();
+    }
+    const SoftObject& object = *model.actor(strongest).object;
+    if (object.ramp() == nullptr || object.paint() != nullptr)
+        return false;
+    view_.setPixel(at, depth, object.ramp()[brightnessOf(gradient, model.light)]);
+    return true;
+}

@@ -1,0 +1,43 @@
+// Creases: where two sides of the surface meet in a valley, a pixel shows the side whose scale is the nearer one there by a little,
+// which may be the wrong side. So the brightness of pixels beside which it jumps is that of the model's surface itself.
+#ifndef FB_CREASES_H
+#define FB_CREASES_H
+
+#include "missed.h"
+
+class Creases {
+public:
+    // There is a model, and the palette has made the ramps of its objects; colours do not mix. `found` is what the frame before
+    // has found, and receives what this one finds.
+    Creases(View& view, FieldProbe& probe, const Palette& palette, View::FoundCreases& found)
+        : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), probe_(probe), palette_(palette), found_(found)
+    {
+    }
+
+    // Corrects the brightness of pixels beside creases, where lists of voxels have borders to other objects. Depths stay. To be
+    // called when gaps are closed.
+    void mend();
+
+private:
+    void mendRow(int y);
+    void mendPair(int at, int other);
+    bool mendPixel(int at);
+    bool jumps(int at, int other) const;
+    void note(int at);
+    int stepAt(int pixel) const { return palette_.step(frame_[pixel]); }
+
+    static constexpr int NOTED_MOST = 256;
+
+    View& view_;
+    const uint8_t* frame_;
+    const uint16_t* zbuffer_;
+    FieldProbe& probe_;
+    const Palette& palette_;
+    View::FoundCreases& found_;
+    uint16_t noted_[NOTED_MOST];  // pixels that wait to be looked at
+    int count_ = 0;               // their number
+    int looks_ = 0;               // pixels looked at so far
+    uint32_t wasNoted_[machine::WIDTH * machine::HEIGHT / 32];  // a bit for each pixel; not set before a crease is found
+};
+
+#endif
