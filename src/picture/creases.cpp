@@ -21,8 +21,9 @@ constexpr int ENTRIES_APART = 32;
 static_assert((ENTRIES_APART & (ENTRIES_APART - 1)) == 0, "small differences, with a bias, have no bit beyond its own");
 // 1/128 unit: pixels whose depths differ by more do not belong to one piece of the surface.
 constexpr int LEVEL = 256;
-// No pixel is looked at after so many in a frame.
-constexpr int LOOKS_MOST = 600;
+// No pixel is looked at after so many in a frame, divided by the cube of the seeds' spacing: slow machines choose coarse pictures,
+// whose scales err more, and which must not cost more than they save.
+constexpr int LOOKS_AT_ONE = 2000;
 // In units of the field: where it is off the isovalue by no more the surface is there. Elsewhere one of Newton's steps leads to the
 // surface, if it is no farther away than FARTHEST units.
 constexpr Real EXACT(0.08), FARTHEST(2);
@@ -36,6 +37,13 @@ inline uint32_t halves(const uint8_t* pixel)
 }
 
 }  // namespace
+
+Creases::Creases(View& view, FieldProbe& probe, const Palette& palette, Real spacing, View::FoundCreases& found)
+    : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), probe_(probe), palette_(palette), found_(found)
+{
+    const Real cube = max(spacing * spacing * spacing, Real(1));
+    looksMost_ = floorToInt(quotient(Real(LOOKS_AT_ONE), cube));
+}
 
 void Creases::mend()
 {
@@ -121,7 +129,7 @@ void Creases::mendPair(int at, int other)
 // Gives a pixel the brightness of the model's surface. Returns false if there is none near, or it is painted.
 bool Creases::mendPixel(int at)
 {
-    if (++looks_ > LOOKS_MOST)
+    if (++looks_ > looksMost_)
         return false;
     const Model& model = *probe_.model();
     const int depth = zbuffer_[at];

@@ -7,12 +7,9 @@
 
 class Creases {
 public:
-    // There is a model, and the palette has made the ramps of its objects; colours do not mix. `found` is what the frame before
-    // has found, and receives what this one finds.
-    Creases(View& view, FieldProbe& probe, const Palette& palette, View::FoundCreases& found)
-        : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), probe_(probe), palette_(palette), found_(found)
-    {
-    }
+    // There is a model, and the palette has made the ramps of its objects; colours do not mix. The seeds lie `spacing` units
+    // apart. `found` is what the frame before has found, and receives what this one finds.
+    Creases(View& view, FieldProbe& probe, const Palette& palette, Real spacing, View::FoundCreases& found);
 
     // Corrects the brightness of pixels beside creases, where lists of voxels have borders to other objects. Depths stay. To be
     // called when gaps are closed.
@@ -37,6 +34,7 @@ private:
     uint16_t noted_[NOTED_MOST];  // pixels that wait to be looked at
     int count_ = 0;               // their number
     int looks_ = 0;               // pixels looked at so far
+    int looksMost_;               // no pixel is looked at after so many
     uint32_t wasNoted_[machine::WIDTH * machine::HEIGHT / 32];  // a bit for each pixel; not set before a crease is found
 };
 

@@ -352,7 +352,7 @@ void View::closeGaps(Real spacing, const Model* model, const Palette* palette)
     if (model != nullptr && palette != nullptr && !palette->isGrey() && !model->mixed)
         Borders(*this, probe, *palette, missed).mend();
     if (anyBordered_ && model != nullptr && palette != nullptr && !model->mixed)
-        Creases(*this, probe, *palette, foundCreases_).mend();
+        Creases(*this, probe, *palette, spacing, foundCreases_).mend();
 }
 
 Point View::pointAt(int pixel, int depth) const
