@@ -22,13 +22,14 @@ public:
         return strongest;
     }
 
+    // Where the field is less than this no surface is near.
+    static constexpr Real FAINT{0.05};
+
     // The gradient of the field at the point that implicitAt() was given last, of the body that it chose: world axes, 1/unit, times
-    // CORE_SIZE. Zero where the field is less than FAINT: that is far from any surface.
+    // CORE_SIZE. Zero where the field is less than FAINT.
     Vector gradient() const;
 
 private:
-    static constexpr Real FAINT{0.05};
-
     // An object whose field reaches the point. `body` is the first of its body's members, or null if the object has no surface. In
     // bodies that are not plain, `weighted` is the sum that the object has in its body, `share` its field over the strongest.
     struct Part {

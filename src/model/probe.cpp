@@ -101,7 +101,7 @@ Vector FieldProbe::gradient() const
     const Bodies& bodies = *model_->knownBodies();
     const bool plain = bodies.plainBody(chosen_->slot);
     Real squares(0);
-    for (const Part* i = parts_; i < end_; ++i)
+    for (const Part* i = parts_; i < end_ && !plain; ++i)
         if (i->body == chosen_->body)
             squares += i->share * i->share;
     for (const Part* part = parts_; part < end_; ++part) {

@@ -21,8 +21,7 @@ constexpr int ENTRIES_APART = 32;
 static_assert((ENTRIES_APART & (ENTRIES_APART - 1)) == 0, "small differences, with a bias, have no bit beyond its own");
 // 1/128 unit: pixels whose depths differ by more do not belong to one piece of the surface.
 constexpr int LEVEL = 256;
-// No pixel is looked at after so many in a frame, divided by the cube of the seeds' spacing: slow machines choose coarse pictures,
-// whose scales err more, and which must not cost more than they save.
+// No pixel is looked at after so many in a frame (looksAt()).
 constexpr int LOOKS_AT_ONE = 2000;
 // In units of the field: where it is off the isovalue by no more the surface is there. Elsewhere one of Newton's steps leads to the
 // surface, if it is no farther away than FARTHEST units.
@@ -39,10 +38,9 @@ inline uint32_t halves(const uint8_t* pixel)
 }  // namespace
 
 Creases::Creases(View& view, FieldProbe& probe, const Palette& palette, Real spacing, View::FoundCreases& found)
-    : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), probe_(probe), palette_(palette), found_(found)
+    : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), probe_(probe), palette_(palette), found_(found),
+      looksMost_(looksAt(spacing, LOOKS_AT_ONE))
 {
-    const Real cube = max(spacing * spacing * spacing, Real(1));
-    looksMost_ = floorToInt(quotient(Real(LOOKS_AT_ONE), cube));
 }
 
 void Creases::mend()
@@ -142,11 +140,11 @@ bool Creases::mendPixel(int at)
     if (absolute(off) > EXACT) {
         // The ray through the pixel over one unit of depth.
         const Vector ray = view_.pointAt(at, depth + 128) - p;
-        const Real rise = gradient.x * ray.x + gradient.y * ray.y + gradient.z * ray.z, left = off * Real(CORE_SIZE);
+        const Real rise = dot(gradient, ray), left = off * Real(CORE_SIZE);
         if (rise * FARTHEST <= absolute(left))
             return false;
-        probe_.implicitAt(view_.pointAt(at, depth - floorToInt(quotient(left, rise) * Real(128))), &strongest);
-        if (strongest < 0)
+        const Point there = view_.pointAt(at, depth - floorToInt(quotient(left, rise) * Real(128)));
+        if (probe_.implicitAt(there, &strongest) < FieldProbe::FAINT)
             return false;
         gradient = probe_.gradient();
     }

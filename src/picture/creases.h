@@ -34,7 +34,7 @@ private:
     uint16_t noted_[NOTED_MOST];  // pixels that wait to be looked at
     int count_ = 0;               // their number
     int looks_ = 0;               // pixels looked at so far
-    int looksMost_;               // no pixel is looked at after so many
+    const int looksMost_;         // no pixel is looked at after so many
     uint32_t wasNoted_[machine::WIDTH * machine::HEIGHT / 32];  // a bit for each pixel; not set before a crease is found
 };
 

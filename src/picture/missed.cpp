@@ -10,8 +10,7 @@ using machine::WIDTH;
 
 namespace {
 
-// No pixel is begun after LOOKS_MOST evaluations of the field in a frame, nor after LOOKS_AT_ONE divided by the cube of the seeds'
-// spacing: slow machines choose coarse pictures, which must not cost more than they save.
+// No pixel is begun after LOOKS_MOST evaluations of the field in a frame, nor after as many as looksAt() allows.
 constexpr int LOOKS_MOST = 3500, LOOKS_AT_ONE = 28000;
 // Depths, 1/128 unit: the first step along the ray; and the difference of two drawn pixels from which on both depths are tried.
 constexpr int STEP = 128, APART = 128;
@@ -27,6 +26,12 @@ constexpr int NOWHERE = -APART;
 
 }  // namespace
 
+int looksAt(Real spacing, int atOne)
+{
+    const Real cube = max(spacing * spacing * spacing, Real(1));
+    return floorToInt(quotient(Real(atOne), cube));
+}
+
 int brightnessOf(const Vector& gradient, const Vector& toLight)
 {
     // The field rises inwards.
@@ -35,10 +40,9 @@ int brightnessOf(const Vector& gradient, const Vector& toLight)
 }
 
 Missed::Missed(View& view, FieldProbe& probe, Real spacing)
-    : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), probe_(probe), model_(probe.model())
+    : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), probe_(probe), model_(probe.model()),
+      looksMost_(min32(looksAt(spacing, LOOKS_AT_ONE), LOOKS_MOST))
 {
-    const Real cube = max(spacing * spacing * spacing, Real(1));
-    looksMost_ = min32(floorToInt(quotient(Real(LOOKS_AT_ONE), cube)), LOOKS_MOST);
 }
 
 // Whether a pixel shows nothing, or something well behind this depth.

@@ -23,6 +23,10 @@ inline void forBeside(int at, Each each)
         each(at + WIDTH);
 }
 
+// How often the model may be asked in a frame whose seeds lie `spacing` units apart: `atOne` times, divided by the cube of a
+// spacing greater than 1. Slow machines choose coarse pictures, which must not cost more than they save.
+int looksAt(Real spacing, int atOne);
+
 // The brightness, 0..63, of a surface where the field has this gradient. Both vectors may have any length.
 int brightnessOf(const Vector& gradient, const Vector& toLight);
 
@@ -101,7 +105,7 @@ private:
     const Model* const model_;
     Place noted_[NOTED_MOST];
     int count_ = 0;
-    int looksMost_;        // no pixel is begun after this many evaluations of the field
+    const int looksMost_;  // no pixel is begun after this many evaluations of the field
     int looks_ = 0;        // evaluations of the field so far
     int strongest_ = -1;   // the object with the strongest field at the last evaluation; -1: none
     bool onEdge_ = false;  // the last ray only grazes the surface

@@ -348,10 +348,12 @@ void View::closeGaps(Real spacing, const Model* model, const Palette* palette)
     FieldProbe probe(model);
     Missed missed(*this, probe, spacing);
     Gaps(*this, probe, palette, missed, spacing).close();
-    // Where colours mix there are no borders between them.
-    if (model != nullptr && palette != nullptr && !palette->isGrey() && !model->mixed)
+    // Where colours mix there are no borders between them, and a palette entry does not tell the brightness.
+    if (model == nullptr || palette == nullptr || model->mixed)
+        return;
+    if (!palette->isGrey())
         Borders(*this, probe, *palette, missed).mend();
-    if (anyBordered_ && model != nullptr && palette != nullptr && !model->mixed)
+    if (anyBordered_)
         Creases(*this, probe, *palette, spacing, foundCreases_).mend();
 }
 
