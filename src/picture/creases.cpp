@@ -106,13 +106,19 @@ inline void Creases::note(int at)
     noted_[count_++] = static_cast<uint16_t>(at);
 }
 
-// Mends two pixels if there is a crease between them, and follows it.
+// Mends two pixels if there is a crease between them, and follows it. The second may be right once the first is.
 void Creases::mendPair(int at, int other)
 {
-    if (!jumps(at, other))
-        return;
+    if (jumps(at, other))
+        follow(at);
+    if (jumps(at, other))
+        follow(other);
+}
+
+// Mends a pixel, and those beside it to which the brightness then jumps.
+void Creases::follow(int at)
+{
     note(at);
-    note(other);
     while (count_ > 0) {
         const int pixel = noted_[--count_], before = stepAt(pixel);
         if (!mendPixel(pixel) || magnitude(stepAt(pixel) - before) < CHANGE)

@@ -18,6 +18,7 @@ public:
 private:
     void mendRow(int y);
     void mendPair(int at, int other);
+    void follow(int at);
     bool mendPixel(int at);
     bool jumps(int at, int other) const;
     void note(int at);
