@@ -33,9 +33,11 @@ private:
     // An object whose field reaches the point. `body` is the first of its body's members, or null if the object has no surface. In
     // bodies that are not plain, `weighted` is the sum that the object has in its body, `share` its field over the strongest.
     struct Part {
+        const SoftObject* object;
         int slot;
         SoftObject* const* body;
         Real field, weighted, share;
+        SoftObject::FieldPlace place;
     };
 
     void gather(const Point& p, const Bodies& bodies);
@@ -51,8 +53,7 @@ private:
         SoftObject* const* body;  // Part::body
     };
     Near near_[Model::OBJECTS_MOST];
-    // The point that implicitAt() was given last, the parts there, the chosen body and its field.
-    Point at_;
+    // The parts at the point that implicitAt() was given last, the chosen body and its field.
     Part parts_[Model::OBJECTS_MOST];
     Part* end_ = parts_;
     const Part* chosen_ = nullptr;

@@ -302,14 +302,26 @@ public:
 
     // --- The field
 
+    // A place in the field of an object: param() there and half its gradient, times CORE_SIZE^2, in core axes (of a ball, in the
+    // axes of the world) and core space.
+    struct FieldPlace {
+        Real param;
+        Vector slope;
+    };
     // This object's contribution to the implicit function at `p`, 0..strength() (the report's fieldFunc).
     Real fieldFunc(const Point& p) const
     {
+        FieldPlace place;
+        return fieldFunc(p, &place);
+    }
+    // The same; where it is above 0, `*place` receives what gradientAt() needs.
+    Real fieldFunc(const Point& p, FieldPlace* place) const
+    {
         // What is far away is excluded before scaling: its place relative to a small object would overflow 16.16.
-        return isFar(p) ? Real(0) : fieldNear(p);
+        return isFar(p) ? Real(0) : fieldNear(p, place);
     }
     // The gradient of that field in the world, 1/unit, times CORE_SIZE.
-    Vector gradientAt(const Point& p) const;
+    Vector gradientAt(const FieldPlace& place) const;
 
     // Returns true if the fields of the two objects can overlap, judging by centres and reaches alone.
     bool inRange(const SoftObject& other) const { return isNearer(centre_, other.centre_, reach_ + other.reach_); }
@@ -406,7 +418,7 @@ private:
     };
 
     Real paramAt(const Vector& v, Vector* slope) const;
-    Real fieldNear(const Point& p) const;
+    Real fieldNear(const Point& p, FieldPlace* place) const;
     const Link* hollowLink() const;
     void findRest();
     void makeWarp(const WarpAmounts& amounts);

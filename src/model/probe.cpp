@@ -66,12 +66,15 @@ Real FieldProbe::implicitAt(const Point& p, int* strongest, const SoftObject* me
         return Real(0);
     if (count_ < 0 || !isAround(p, middle_))
         gather(p, *bodies);
-    at_ = p;
     end_ = parts_;
     for (const Near *near = near_, *const last = near_ + count_; near < last; ++near) {
-        const Real field = near->object->fieldFunc(p);
-        if (field > Real(0))
-            *end_++ = {near->slot, near->body, field, Real(0), Real(0)};
+        end_->field = near->object->fieldFunc(p, &end_->place);
+        if (end_->field > Real(0)) {
+            end_->object = near->object;
+            end_->slot = near->slot;
+            end_->body = near->body;
+            ++end_;
+        }
     }
     highest_ = Real(0);
     SoftObject* const *last = nullptr, *const *const only = member == nullptr ? nullptr : bodies->members(*member);
@@ -119,7 +122,7 @@ Vector FieldProbe::gradient() const
             factor = factor / squares;
         }
         if (factor != Real(0))
-            sum = sum + model_->actor(part->slot).object->gradientAt(at_) * factor;
+            sum = sum + part->object->gradientAt(part->place) * factor;
     }
     return sum;
 }

@@ -352,13 +352,16 @@ Vector SoftObject::slopeAt(const Vector& place) const
     return toCoreAxes(slope);
 }
 
-Real SoftObject::fieldNear(const Point& p) const
+Real SoftObject::fieldNear(const Point& p, FieldPlace* place) const
 {
     const Vector v = p - centre_;
-    if (isBall())
-        return strength_ * geoff(paramOf(v * inverse_));
-    Vector slope;
-    return strength_ * geoff(paramAt(v, &slope));
+    if (isBall()) {
+        place->slope = v * inverse_;
+        place->param = paramOf(place->slope);
+    } else {
+        place->param = paramAt(v, &place->slope);
+    }
+    return strength_ * geoff(place->param);
 }
 
 // The square of a place's distance from the core over that of the size, given the place from the centre in the axes of the world.
@@ -372,15 +375,11 @@ inline Real SoftObject::paramAt(const Vector& v, Vector* slope) const
     return param(q * inverse_, slope);
 }
 
-Vector SoftObject::gradientAt(const Point& p) const
+Vector SoftObject::gradientAt(const FieldPlace& place) const
 {
-    Vector slope{Real(0), Real(0), Real(0)};
-    const Real t = isFar(p) ? Real(1) : paramAt(p - centre_, &slope);
-    if (t >= Real(1))
-        return {Real(0), Real(0), Real(0)};
-    const Vector own = toCoreAxes(slope);
     static_assert(CORE_SIZE == 2 << 3, "half a gradient times CORE_SIZE^2, shifted, is a gradient times CORE_SIZE");
-    return (turnsSeeds() ? turn_ * own : own) * shiftDown(strength_ * geoffSlope(t) * inverse_, 3);
+    return (isBall() ? place.slope : turn_ * toCoreAxes(place.slope)) *
+           shiftDown(strength_ * geoffSlope(place.param) * inverse_, 3);
 }
 
 void SoftObject::describeAs(const char* kind, const Real* numbers, int count, char* to, int size) const
