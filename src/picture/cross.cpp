@@ -27,13 +27,18 @@ inline bool crossesBorder(const Voxel& v)
 
 }  // namespace
 
-// Notes the crossings of the scales that have been drawn.
+// Notes the crossings of every second scale that has been drawn. Where one misses surface the next one would find the same, for it
+// is followed from there.
 void View::noteCrossings(const VoxelList& list)
 {
     const Voxel* const end = list.voxels + list.count;
+    bool hasTurn = false;
     for (const Voxel* voxel = list.voxels; voxel < end; ++voxel)
-        if (isCut(*voxel) && crossesBorder(*voxel) && crossingCount_ < CROSSINGS_MOST)
-            noteCrossing(*voxel);
+        if (isCut(*voxel) && crossesBorder(*voxel) && crossingCount_ < CROSSINGS_MOST) {
+            hasTurn = !hasTurn;
+            if (hasTurn)
+                noteCrossing(*voxel);
+        }
 }
 
 // Notes the pixel of the place on the border that is closest to the scale's centre, if the scale is seen beside that place.
