@@ -21,7 +21,7 @@ constexpr int STEPS = 3, FARTHEST = 3, THICKEST = 12;
 constexpr Real NEAR(0.2);
 // A ray only grazes the surface if the field, times the size of its object, rises by less than this over the last STEP.
 constexpr Real RIM(0.25);
-// A depth that differs from all depths of pixels by APART or more.
+// All pixels lie behind this depth by APART or more.
 constexpr int NOWHERE = -APART;
 
 }  // namespace
@@ -163,20 +163,20 @@ bool Missed::findDepth(int at, int* depth)
     return true;
 }
 
-// Returns a drawn pixel beside a pixel whose depth differs from `depth` by at least APART, or `at` itself if there is none.
+// Returns a drawn pixel beside a pixel that lies behind `depth` by at least APART, or `at` itself if there is none.
 int Missed::drawnBeside(int at, int depth) const
 {
     int found = at;
     forBeside(at, [&](int pixel) {
-        if (found == at && frame_[pixel] != 0 && magnitude(zbuffer_[pixel] - depth) >= APART)
+        if (found == at && frame_[pixel] != 0 && zbuffer_[pixel] - depth >= APART)
             found = pixel;
     });
     return found;
 }
 
 // Finds the depth of the surface at a place. A drawn pixel in the same row is the best guide, because near the upper and the lower
-// end of an outline depths change most from row to row. If the ray misses the surface from that depth, it may hit it from the depth
-// of another drawn pixel beside it. Returns false when there is no surface.
+// end of an outline depths change most from row to row. If the ray through an empty pixel misses the surface from that depth, it may
+// hit what lies behind, from the depth of another drawn pixel beside it. Returns false when there is no surface.
 bool Missed::findSurface(Place* place)
 {
     const int at = place->pixel;
@@ -186,6 +186,8 @@ bool Missed::findSurface(Place* place)
     });
     int depth = place->depth;
     if (!findDepth(at, &depth)) {
+        if (frame_[at] != 0)
+            return false;
         place->from = static_cast<uint16_t>(drawnBeside(at, place->depth));
         depth = zbuffer_[place->from];
         if (place->from == at || !findDepth(at, &depth))
