@@ -175,8 +175,8 @@ int Missed::drawnBeside(int at, int depth) const
 }
 
 // Finds the depth of the surface at a place. A drawn pixel in the same row is the best guide, because near the upper and the lower
-// end of an outline depths change most from row to row. If the ray through an empty pixel misses the surface from that depth, it may
-// hit what lies behind, from the depth of another drawn pixel beside it. Returns false when there is no surface.
+// end of an outline depths change most from row to row. If the ray through an empty pixel misses the surface from that depth, it
+// may hit what lies behind, from the depth of another drawn pixel beside it. Returns false when there is no surface.
 bool Missed::findSurface(Place* place)
 {
     const int at = place->pixel;
