@@ -12,7 +12,8 @@ namespace {
 
 // No pixel is begun after LOOKS_MOST evaluations of the field in a frame, nor after as many as looksAt() allows.
 constexpr int LOOKS_MOST = 3500, LOOKS_AT_ONE = 28000;
-// Depths, 1/128 unit: the first step along the ray; and the difference of two drawn pixels from which on both depths are tried.
+// Depths, 1/128 unit: the first step along the ray; and how far a pixel lies behind another from which on both depths
+// are tried.
 constexpr int STEP = 128, APART = 128;
 // Upper bounds: of the steps along the ray towards a stronger field; of the ratio of each step to the one before; and of the
 // steps back through the object towards the eye.
