@@ -33,7 +33,6 @@ private:
     // An object whose field reaches the point. `body` is the first of its body's members, or null if the object has no surface. In
     // bodies that are not plain, `weighted` is the sum that the object has in its body, `share` its field over the strongest.
     struct Part {
-        const SoftObject* object;
         int slot;
         SoftObject* const* body;
         Real field, weighted, share;

@@ -320,7 +320,7 @@ public:
         // What is far away is excluded before scaling: its place relative to a small object would overflow 16.16.
         return isFar(p) ? Real(0) : fieldNear(p, place);
     }
-    // The gradient of that field in the world, 1/unit, times CORE_SIZE.
+    // The gradient of that field in the world, 1/unit, times CORE_SIZE; at a place where the field is above 0.
     Vector gradientAt(const FieldPlace& place) const;
 
     // Returns true if the fields of the two objects can overlap, judging by centres and reaches alone.

@@ -70,7 +70,6 @@ Real FieldProbe::implicitAt(const Point& p, int* strongest, const SoftObject* me
     for (const Near *near = near_, *const last = near_ + count_; near < last; ++near) {
         end_->field = near->object->fieldFunc(p, &end_->place);
         if (end_->field > Real(0)) {
-            end_->object = near->object;
             end_->slot = near->slot;
             end_->body = near->body;
             ++end_;
@@ -122,7 +121,7 @@ Vector FieldProbe::gradient() const
             factor = factor / squares;
         }
         if (factor != Real(0))
-            sum = sum + part->object->gradientAt(part->place) * factor;
+            sum = sum + model_->actor(part->slot).object->gradientAt(part->place) * factor;
     }
     return sum;
 }

@@ -109,8 +109,9 @@ inline void Creases::note(int at)
 // Mends two pixels if there is a crease between them, and follows it. The second may be right once the first is.
 void Creases::mendPair(int at, int other)
 {
-    if (jumps(at, other))
-        follow(at);
+    if (!jumps(at, other))
+        return;
+    follow(at);
     if (jumps(at, other))
         follow(other);
 }

@@ -27,8 +27,8 @@ inline bool crossesBorder(const Voxel& v)
 
 }  // namespace
 
-// Notes the crossings of every second scale that has been drawn. Where one misses surface the next one would find the same, for it
-// is followed from there.
+// Notes the crossings of every second scale that has been drawn. Missing surface that one of them finds is followed from pixel to
+// pixel, so that the next one would find the same.
 void View::noteCrossings(const VoxelList& list)
 {
     const Voxel* const end = list.voxels + list.count;

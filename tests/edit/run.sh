@@ -879,9 +879,13 @@ ok "after three seconds no more" test "$(ink 1 0 185 200 15)" -eq 0
 "$demo" /T:1 /S:8 /A:f.fli >out 2>&1
 film frame f.fli 20 d/F0000000.PPM
 ok "not in a run of so many seconds" test "$(ink 0 0 0 320 200)" -eq 0
-"$demo" /B /T:1 /S:8 >out 2>&1
+# On a busy machine the last frame of that second may take long.
+for _ in 1 2 3; do
+	"$demo" /B /T:1 /S:8 >out 2>&1
+	! grep -q "in 1.0[0-9] seconds" out || break
+done
 ok "a benchmark says one line" sh -c 'test $(wc -l <out) -eq 1 &&
-	grep -q "^four spheres, spacing 8: [0-9.]* frames a second ([0-9]* frames in 1.[0-9]* seconds)$" out'
+	grep -q "^four spheres, spacing 8: [0-9.]* frames a second ([0-9]* frames in 1.0[0-9] seconds)$" out'
 
 # --- The same tests on the 32-bit build
 if [ -x "$top/build/demo32" ] && [ "$DEMO" = build/demo ]; then
