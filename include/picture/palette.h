@@ -41,9 +41,12 @@ public:
     int step(uint8_t entry) const { return steps_[entry]; }
 
     // The number, 1..RAMPS_MOST, of the ramp that contains a palette entry, 0 if none or several do; the number of an object's
-    // ramp; and the ramp with a number.
+    // ramp, a raised one having that of the ramp it is a copy of; and the ramp with a number.
     uint8_t rampOf(uint8_t entry) const { return rampOf_[entry]; }
-    int numberOf(const uint8_t* ramp) const { return static_cast<int>(ramp - ramps_[0]) / RAMP + 1; }
+    int numberOf(const uint8_t* ramp) const
+    {
+        return ramp == raised_ + SHADING_MOST ? raisedNumber_ : static_cast<int>(ramp - ramps_[0]) / RAMP + 1;
+    }
     const uint8_t* ramp(int number) const { return ramps_[number - 1] + SHADING_MOST; }
 
     // Whether all objects have one grey ramp.
@@ -74,6 +77,7 @@ private:
     uint8_t steps_[256] = {}, rampOf_[256] = {};
     uint8_t ramps_[RAMPS_MOST][RAMP];
     uint8_t raised_[RAMP];
+    int raisedNumber_ = 0;
 };
 
 #endif

@@ -266,36 +266,35 @@ bool Demo::drawModel()
         order[at] = i;
     }
 
+    const bool pulses = options_.interactive && time_ - selectedAt_ < PULSE;
+    SoftObject* const marked = pulses ? model_.actor(editor_.selected()).object : nullptr;
+    const uint8_t* const ramp = marked == nullptr ? nullptr : marked->ramp();
+    if (ramp != nullptr)
+        marked->setRamp(pulseRamp(ramp));
+    const bool drawn = drawObjects(frame, order);
+    if (ramp != nullptr)
+        marked->setRamp(ramp);
+    return drawn;
+}
+
+// Draws all objects in this order, and closes the gaps that are left. Returns false when it was interrupted.
+bool Demo::drawObjects(FrameContext& frame, const int* order)
+{
     view_.begin();
     for (int i = 0; i < model_.count(); ++i) {
-        if (interrupted())
-            return false;
         SoftObject& object = *model_.actor(order[i]).object;
         object.update(frame);
-        const uint8_t* const ramp = object.ramp();
-        if (options_.interactive && order[i] == editor_.selected() && time_ - selectedAt_ < PULSE)
-            object.setRamp(pulseRamp(ramp));
-        const bool drawn = drawObject(object, frame);
+        int next = 0;
+        do {
+            if (interrupted())
+                return false;
+            object.draw(frame, *voxels_, VOXELS_AT_ONCE, &next);
+            counts_.drawn += static_cast<uint32_t>(view_.show(*voxels_));
+        } while (next != 0);
         frame.hider = &view_;
-        object.setRamp(ramp);
-        if (!drawn)
-            return false;
     }
     if (!options_.printed)
         view_.closeGaps(model_.coarsest(), &model_, &palette_);
-    return true;
-}
-
-// Draws one object. Returns false when it was interrupted.
-bool Demo::drawObject(SoftObject& object, const FrameContext& frame)
-{
-    int next = 0;
-    do {
-        if (interrupted())
-            return false;
-        object.draw(frame, *voxels_, VOXELS_AT_ONCE, &next);
-        counts_.drawn += static_cast<uint32_t>(view_.show(*voxels_));
-    } while (next != 0);
     return true;
 }
 

@@ -40,7 +40,7 @@ private:
     bool frame();
     void placeEye();
     bool drawModel();
-    bool drawObject(SoftObject& object, const FrameContext& frame);
+    bool drawObjects(FrameContext& frame, const int* order);
     const uint8_t* pulseRamp(const uint8_t* ramp);
     void showFrame();
     const char* keepFrame();

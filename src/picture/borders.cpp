@@ -112,7 +112,7 @@ bool Borders::mendPixel(const Place& place)
     if (crossing && !missed_.setColour(at, depth, place.from))
         return false;
     // The depth stays: it is the same whether colours are shown or not.
-    view_.setPixel(at, before, crossing ? frame_[at] : owner->ramp()[meanBrightness(at, ramp)]);
+    view_.setPixel(at, before, crossing ? frame_[at] : palette_.ramp(ramp)[meanBrightness(at, ramp)]);
     return true;
 }
 

@@ -337,6 +337,7 @@ void Palette::neverDarken(uint8_t* ramp) const
 
 const uint8_t* Palette::raised(const uint8_t* ramp, int steps)
 {
+    raisedNumber_ = numberOf(ramp);
     for (int i = 0; i < STEPS; ++i) {
         const int step = i + steps;
         raised_[SHADING_MOST + i] = ramp[step < 0 ? 0 : step > STEPS - 1 ? STEPS - 1 : step];
