@@ -112,7 +112,7 @@ public:
 
     // What the search for creases (creases.h) has found in a frame: a bit for each band of CREASE_BAND rows; and which row of each
     // band it began with.
-    static constexpr int CREASE_BAND = 20;
+    static constexpr int CREASE_BAND = 8;
     struct FoundCreases {
         uint32_t bands;
         int turn;

@@ -23,9 +23,10 @@ static_assert((ENTRIES_APART & (ENTRIES_APART - 1)) == 0, "small differences, wi
 constexpr int LEVEL = 256;
 // No pixel is looked at after so many in a frame (looksAt()).
 constexpr int LOOKS_AT_ONE = 2000;
-// In units of the field: where it is off the isovalue by no more the surface is there. Elsewhere one of Newton's steps leads to the
+// In units of the field: where it is off the isovalue by no more the surface is there. Where a pixel would get another colour the
+// surface has to be known better: beside it that of a second body may come first. Elsewhere one of Newton's steps leads to the
 // surface, if it is no farther away than FARTHEST units.
-constexpr Real EXACT(0.08), FARTHEST(2);
+constexpr Real EXACT(0.08), EXACT_OTHER(0.01), FARTHEST(2);
 
 // Half the palette entries of four pixels.
 inline uint32_t halves(const uint8_t* pixel)
@@ -83,13 +84,17 @@ void Creases::mendRow(int y)
     }
 }
 
-// Whether the brightness jumps from a pixel to the one beside it, and the surface goes on. Entries that are in several ramps tell
-// nothing.
+// Whether the brightness jumps from a pixel to the one beside it, and the surface goes on. Their colours may differ. (An entry that
+// several ramps share may have another step in another one: then the model is asked in vain, or not asked.)
 inline bool Creases::jumps(int at, int other) const
 {
-    const int ramp = palette_.rampOf(frame_[at]);
-    return ramp != 0 && palette_.rampOf(frame_[other]) == ramp && magnitude(stepAt(at) - stepAt(other)) >= JUMP &&
-           magnitude(zbuffer_[at] - zbuffer_[other]) <= LEVEL;
+    return magnitude(stepAt(at) - stepAt(other)) >= JUMP && magnitude(zbuffer_[at] - zbuffer_[other]) <= LEVEL;
+}
+
+// Whether a pixel is shown in the ramp of an object.
+inline bool Creases::shows(int at, const SoftObject& object) const
+{
+    return object.ramp() != nullptr && palette_.numberOf(object.ramp()) == palette_.rampOf(frame_[at]);
 }
 
 // Notes a pixel, unless it has been noted in this frame.
@@ -131,7 +136,7 @@ void Creases::follow(int at)
     }
 }
 
-// Gives a pixel the brightness of the model's surface. Returns false if there is none near, or it is painted.
+// Gives a pixel the colour and the brightness of the model's surface. Returns false if there is none near, or it is painted.
 bool Creases::mendPixel(int at)
 {
     if (++looks_ > looksMost_)
@@ -144,7 +149,7 @@ bool Creases::mendPixel(int at)
     if (strongest < 0)
         return false;
     Vector gradient = probe_.gradient();
-    if (absolute(off) > EXACT) {
+    if (absolute(off) > (shows(at, *model.actor(strongest).object) ? EXACT : EXACT_OTHER)) {
         // The ray through the pixel over one unit of depth.
         const Vector ray = view_.pointAt(at, depth + 128) - p;
         const Real rise = dot(gradient, ray), left = off * Real(CORE_SIZE);

@@ -1,5 +1,5 @@
 // Creases: where two sides of the surface meet in a valley, a pixel shows the side whose scale is the nearer one there by a little,
-// which may be the wrong side. So the brightness of pixels beside which it jumps is that of the model's surface itself.
+// which may be the wrong side. So pixels beside which the brightness jumps get that of the model's surface itself, and its colour.
 #ifndef FB_CREASES_H
 #define FB_CREASES_H
 
@@ -11,8 +11,8 @@ public:
     // apart. `found` is what the frame before has found, and receives what this one finds.
     Creases(View& view, FieldProbe& probe, const Palette& palette, Real spacing, View::FoundCreases& found);
 
-    // Corrects the brightness of pixels beside creases, where lists of voxels have borders to other objects. Depths stay. To be
-    // called when gaps are closed.
+    // Corrects brightness and colour of pixels beside creases, where lists of voxels have borders to other objects. Depths stay. To
+    // be called when gaps are closed.
     void mend();
 
 private:
@@ -21,6 +21,7 @@ private:
     void follow(int at);
     bool mendPixel(int at);
     bool jumps(int at, int other) const;
+    bool shows(int at, const SoftObject& object) const;
     void note(int at);
     int stepAt(int pixel) const { return palette_.step(frame_[pixel]); }
 
