@@ -114,6 +114,7 @@ private:
     bool goBack(Steps& from, Steps& to);
     bool changeMeasure(int which, Real by, Action action, Time now);
     bool pairOf(SoftObject** a, SoftObject** b);
+    static Colour newColour(int objects);
     void say(const char* what, const char* name = "", const char* and_ = "", const char* other = "");
     void sayReal(const char* what, Real value, const char* unit = "");
 
