@@ -224,6 +224,7 @@ bool Editor::stretch(Real by, Time now)
     actor.stretch.y = to;
     if (!model_.remake(&actor)) {
         actor.stretch.y = was;
+        drop();
         say(SoftObject::resampleTrouble());
         return false;
     }

@@ -551,6 +551,11 @@ ok "not into the group that it carries" alike 0 5
 ok "the colour done again" alike 1 6
 ok "no larger ring even so" alike 1 7
 ok "and the colour undone" alike 0 8
+printf '1 key h\n2 key j\n3 key u\n' >script
+rm -rf d
+FB_INPUT=script "$demo" /I /N:4 /S:0.305 /M:fails.fb /D:d >out 2>&1
+ok "no stretched ring" alike 1 2
+ok "which is no step either" alike 0 3
 # What an object has dug closes when the object is deleted.
 printf 'sphere far size 10 at 60 0 0\nsphere one size 40 at 0 0 10\n' >whole.fb
 { echo "sphere dig size 20"; cat whole.fb; echo "dent one dig"; } >dug.fb
