@@ -13,6 +13,7 @@ namespace {
 // Rows. Of a band in which a crease was found in the frame before, or is found now, every second row is compared; of others one row
 // in each frame, the next one in the next frame.
 constexpr int BAND = View::CREASE_BAND;
+static_assert(HEIGHT % BAND == 0 && HEIGHT / BAND <= 32, "each band has a bit");
 // Steps of brightness from a pixel to the next one from which on both are looked at; and steps by which a pixel has changed from
 // which on those beside it are, too.
 constexpr int JUMP = 16, CHANGE = 5;
@@ -23,9 +24,9 @@ static_assert((ENTRIES_APART & (ENTRIES_APART - 1)) == 0, "small differences, wi
 constexpr int LEVEL = 256;
 // No pixel is looked at after so many in a frame (looksAt()).
 constexpr int LOOKS_AT_ONE = 2000;
-// In units of the field: where it is off the isovalue by no more the surface is there. Where a pixel would get another colour the
-// surface has to be known better: beside it that of a second body may come first. Elsewhere one of Newton's steps leads to the
-// surface, if it is no farther away than FARTHEST units.
+// In units of the field: where it is off the isovalue by no more than EXACT the surface is there; in a pixel that would get another
+// colour, by no more than EXACT_OTHER, for where two bodies cross the one whose field is the stronger a little before the surface
+// may lie behind the other. Elsewhere one of Newton's steps leads to the surface, if it is no farther away than FARTHEST units.
 constexpr Real EXACT(0.08), EXACT_OTHER(0.01), FARTHEST(2);
 
 // Half the palette entries of four pixels.
@@ -84,8 +85,8 @@ void Creases::mendRow(int y)
     }
 }
 
-// Whether the brightness jumps from a pixel to the one beside it, and the surface goes on. Their colours may differ. (An entry that
-// several ramps share may have another step in another one: then the model is asked in vain, or not asked.)
+// Whether the brightness jumps from a pixel to the one beside it, and the surface goes on. Their colours may differ. (Of an entry
+// that several ramps share the palette tells the brightness in one of them, so that the model may be asked in vain, or not asked.)
 inline bool Creases::jumps(int at, int other) const
 {
     return magnitude(stepAt(at) - stepAt(other)) >= JUMP && magnitude(zbuffer_[at] - zbuffer_[other]) <= LEVEL;

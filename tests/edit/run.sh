@@ -75,9 +75,11 @@ ok "the mouse cannot lose it" has 4 "sphere 2 -76.79993 -57.59949 0 20"
 # An object that has just been selected pulses: for a while all of it is brighter, and nothing else is. Of each row below the text
 # and the marks, what is brighter than without the selection must be one run of pixels.
 row() { od -An -v -tu1 -w960 -j15 "$1" | sed -n 140,165p; } # PICTURE
-for colours in /G /R:24; do
+for colours in /G ""; do
+	# shellcheck disable=SC2086
 	play 12 /S:2 /R:24 $colours </dev/null
 	row d/F0000011.PPM >plain
+	# shellcheck disable=SC2086
 	printf '3 key TAB\n3 key TAB\n3 key TAB\n' | play 12 /S:2 /R:24 $colours
 	row d/F0000011.PPM | paste -d ' ' plain - | awk '{
 		runs = within = 0
@@ -89,7 +91,7 @@ for colours in /G /R:24; do
 		most = runs > most ? runs : most
 		bright += runs
 	} END { print bright, most }' >runs
-	ok "what is selected pulses as a whole ($colours)" grep -qx '26 1' runs
+	ok "what is selected pulses as a whole $colours" grep -qx '26 1' runs
 done
 
 # Presses during the drawing of a frame must not be lost, even if they follow each other quickly.
