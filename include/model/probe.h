@@ -1,4 +1,4 @@
-// FieldProbe: evaluates the field of a model; quickly where one point lies near the one before.
+// FieldProbe: evaluates the field of a model; quickly where many points lie near each other.
 #ifndef FB_PROBE_H
 #define FB_PROBE_H
 
@@ -39,19 +39,31 @@ private:
         SoftObject::FieldPlace place;
     };
 
-    void gather(const Point& p, const Bodies& bodies);
+    // An object, and the first of its body's members, or null if it has no surface.
+    struct Member {
+        const SoftObject* object;
+        SoftObject* const* body;
+    };
+    // Space is divided into cubes. A cell has a list of the objects whose fields may reach one of them; another cube that has to be
+    // in the same cell takes its place.
+    struct Cell {
+        int x, y, z;     // the cube's number along each axis
+        int count = -1;  // of the objects; -1: no cube
+        uint8_t slots[Model::OBJECTS_MOST];
+    };
+    static_assert(Model::OBJECTS_MOST <= 256, "a slot fits a byte");
+    static constexpr int CELLS = 64;
+
+    void begin();
+    const Cell& cellAt(const Point& p);
+    void gather(Cell& cell) const;
     Real fieldOf(const Part& one, int* strongest);
 
     const Model* model_;
-    // The objects that may reach points less than AROUND away from `middle_` along each axis; unknown while `count_` is negative.
-    Point middle_;
-    int count_ = -1;
-    struct Near {
-        const SoftObject* object;
-        int slot;
-        SoftObject* const* body;  // Part::body
-    };
-    Near near_[Model::OBJECTS_MOST];
+    // Filled when the field is first asked for; then memberCount_ is not negative. Each cube has one cell that may hold it.
+    Member members_[Model::OBJECTS_MOST];
+    int memberCount_ = -1;
+    Cell cells_[CELLS];
     // The parts at the point that implicitAt() was given last, the chosen body and its field.
     Part parts_[Model::OBJECTS_MOST];
     Part* end_ = parts_;

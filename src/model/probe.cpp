@@ -3,26 +3,44 @@
 
 namespace {
 
-// Half the edge of the cube whose objects are kept for the next points, units.
-constexpr Real AROUND(5);
-
-inline bool isAround(const Point& p, const Point& middle)
-{
-    return absolute(p.x - middle.x) < AROUND && absolute(p.y - middle.y) < AROUND && absolute(p.z - middle.z) < AROUND;
-}
+// The edge of a cube is 2^CUBE units.
+constexpr int CUBE = 3;
 
 }  // namespace
 
-// Finds the objects that may reach points around `p`.
-void FieldProbe::gather(const Point& p, const Bodies& bodies)
+void FieldProbe::begin()
 {
-    middle_ = p;
-    count_ = 0;
-    for (int i = 0; i < model_->count(); ++i) {
+    const Bodies& bodies = *model_->knownBodies();
+    memberCount_ = model_->count();
+    for (int i = 0; i < memberCount_; ++i) {
         const SoftObject& object = *model_->actor(i).object;
-        if (!object.isFar(p, AROUND))
-            near_[count_++] = {&object, i, object.hasSurface() ? bodies.members(object) : nullptr};
+        members_[i] = {&object, object.hasSurface() ? bodies.members(object) : nullptr};
     }
+}
+
+// Finds the objects that may reach the cube of a cell.
+void FieldProbe::gather(Cell& cell) const
+{
+    constexpr int EDGE = 1 << CUBE, HALF = EDGE / 2;
+    const Point middle{Real(cell.x * EDGE + HALF), Real(cell.y * EDGE + HALF), Real(cell.z * EDGE + HALF)};
+    cell.count = 0;
+    for (int i = 0; i < memberCount_; ++i)
+        if (!members_[i].object->isFar(middle, Real(HALF)))
+            cell.slots[cell.count++] = static_cast<uint8_t>(i);
+}
+
+// Returns the cell of the cube that a point lies in. Cubes side by side have different cells.
+inline const FieldProbe::Cell& FieldProbe::cellAt(const Point& p)
+{
+    const int x = floorToInt(p.x) >> CUBE, y = floorToInt(p.y) >> CUBE, z = floorToInt(p.z) >> CUBE;
+    Cell& cell = cells_[static_cast<uint32_t>(x + 3 * y + 11 * z) % CELLS];
+    if (cell.count < 0 || cell.x != x || cell.y != y || cell.z != z) {
+        cell.x = x;
+        cell.y = y;
+        cell.z = z;
+        gather(cell);
+    }
+    return cell;
 }
 
 // The field F of a part's body at the point (body.h). `*strongest` receives the slot of the body's strongest part.
@@ -64,14 +82,16 @@ Real FieldProbe::implicitAt(const Point& p, int* strongest, const SoftObject* me
     chosen_ = nullptr;
     if (bodies == nullptr)
         return Real(0);
-    if (count_ < 0 || !isAround(p, middle_))
-        gather(p, *bodies);
+    if (memberCount_ < 0)
+        begin();
+    const Cell& cell = cellAt(p);
     end_ = parts_;
-    for (const Near *near = near_, *const last = near_ + count_; near < last; ++near) {
-        end_->field = near->object->fieldFunc(p, &end_->place);
+    for (const uint8_t *slot = cell.slots, *const last = slot + cell.count; slot < last; ++slot) {
+        const Member& one = members_[*slot];
+        end_->field = one.object->fieldFunc(p, &end_->place);
         if (end_->field > Real(0)) {
-            end_->slot = near->slot;
-            end_->body = near->body;
+            end_->slot = *slot;
+            end_->body = one.body;
             ++end_;
         }
     }
