@@ -26,9 +26,9 @@ constexpr Real FARTHEST(2);
 
 }  // namespace
 
-Borders::Borders(View& view, FieldProbe& probe, const Palette& palette, Missed& missed)
+Borders::Borders(View& view, FieldProbe& probe, const Palette& palette, Rays& rays)
     : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), probe_(probe), model_(*probe.model()), palette_(palette),
-      missed_(missed)
+      rays_(rays)
 {
     memset(first_, -1, sizeof first_);
     for (int i = 0; i < model_.count(); ++i) {
@@ -109,7 +109,7 @@ bool Borders::mendPixel(const Place& place)
                  : depth != before && !isStronger(ramp, own, view_.pointAt(at, depth), &owner, &shown))
         return false;
     // The brightness goes on across a border, but not from one body to another.
-    if (crossing && !missed_.setColour(at, depth, place.from))
+    if (crossing && !rays_.show(at, depth, place.from))
         return false;
     // The depth stays: it is the same whether colours are shown or not.
     view_.setPixel(at, before, crossing ? frame_[at] : palette_.ramp(ramp)[meanBrightness(at, ramp)]);
@@ -156,7 +156,7 @@ inline const SoftObject* Borders::strongestOf(int ramp, const Point& p, Real* fi
 }
 
 // Moves a depth behind a pixel to the surface of an object's body, by one step of the secant method, if the field there is off the
-// isovalue by more than `exact`. (Missed::findDepth() searches in many steps, and for whichever body comes first.) Returns false if
+// isovalue by more than `exact`. (Rays::findDepth() searches in many steps, and for whichever body comes first.) Returns false if
 // the surface is not near.
 bool Borders::correctDepth(const SoftObject& object, int at, Real exact, int* depth) const
 {

@@ -2,13 +2,13 @@
 #ifndef FB_BORDERS_H
 #define FB_BORDERS_H
 
-#include "missed.h"
+#include "rays.h"
 
 class Borders {
 public:
     // There is a model, and the palette has made the ramps of its objects, in colour; colours do not mix. `missed` draws single
     // pixels.
-    Borders(View& view, FieldProbe& probe, const Palette& palette, Missed& missed);
+    Borders(View& view, FieldProbe& probe, const Palette& palette, Rays& rays);
 
     // Finds pixels at borders of colours that have the colour of a wrong object, and gives them that of the object that they belong
     // to. Depths stay. To be called when gaps are closed.
@@ -37,7 +37,7 @@ private:
     FieldProbe& probe_;
     const Model& model_;
     const Palette& palette_;
-    Missed& missed_;
+    Rays& rays_;
     Place noted_[NOTED_MOST];  // pixels that wait to be looked at
     int count_ = 0;            // their number
     int looks_ = 0;            // pixels looked at so far

@@ -10,7 +10,7 @@ using machine::WIDTH;
 namespace {
 
 // In a crack, pixels are deeper by more than this, 1/128 unit. The greatest width of a crack, pixels.
-constexpr int DEEP = Missed::BEHIND;
+constexpr int DEEP = Rays::BEHIND;
 constexpr int CRACK_WIDE = 3;
 
 // A pixel is compared with one so many columns to the right, and with one so many rows below: if one of the two lies in a crack,

@@ -3,7 +3,7 @@
 #ifndef FB_CREASES_H
 #define FB_CREASES_H
 
-#include "missed.h"
+#include "rays.h"
 
 class Creases {
 public:

@@ -1,55 +1,24 @@
-// Drawing parts of the surface that were missed: one ray for each pixel, searched from the depth that the surface has beside it.
+// Drawing parts of the surface that were missed: one ray for each pixel, from the depth that the surface has beside it.
 #include "missed.h"
 
-#include "math/normal.h"
 #include "math/whole.h"
-#include "surface/voxel.h"
 
 using machine::HEIGHT;
 using machine::WIDTH;
 
 namespace {
 
-// No pixel is begun after LOOKS_MOST evaluations of the field in a frame, nor after as many as looksAt() allows.
-constexpr int LOOKS_MOST = 3500, LOOKS_AT_ONE = 28000;
-// Depths, 1/128 unit: the first step along the ray; and how far a pixel lies behind another from which on both depths
-// are tried.
-constexpr int STEP = 128, APART = 128;
-// Upper bounds: of the steps along the ray towards a stronger field; of the ratio of each step to the one before; and of the
-// steps back through the object towards the eye.
-constexpr int STEPS = 3, FARTHEST = 3, THICKEST = 12;
-// No surface is near a point where the field is this much below the isovalue.
-constexpr Real NEAR(0.2);
-// A ray only grazes the surface if the field, times the size of its object, rises by less than this over the last STEP.
-constexpr Real RIM(0.25);
+// 1/128 unit: how far a pixel lies behind another from which on both depths are tried.
+constexpr int APART = 128;
 // All pixels lie behind this depth by APART or more.
 constexpr int NOWHERE = -APART;
 
 }  // namespace
 
-int looksAt(Real spacing, int atOne)
-{
-    const Real cube = max(spacing * spacing * spacing, Real(1));
-    return floorToInt(quotient(Real(atOne), cube));
-}
-
-int brightnessOf(const Vector& gradient, const Vector& toLight)
-{
-    // The field rises inwards.
-    const Normal in = normalise(gradient), light = normalise(toLight);
-    return max32(lambert(-(in.x * light.x + in.y * light.y + in.z * light.z) >> 14), 0);
-}
-
-Missed::Missed(View& view, FieldProbe& probe, Real spacing)
-    : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), probe_(probe), model_(probe.model()),
-      looksMost_(min32(looksAt(spacing, LOOKS_AT_ONE), LOOKS_MOST))
-{
-}
-
 // Whether a pixel shows nothing, or something well behind this depth.
 inline bool Missed::isMissing(int at, int depth) const
 {
-    return frame_[at] == 0 || zbuffer_[at] > depth + BEHIND;
+    return frame_[at] == 0 || zbuffer_[at] > depth + Rays::BEHIND;
 }
 
 void Missed::draw()
@@ -58,12 +27,12 @@ void Missed::draw()
     for (int i = 0; i < corners; ++i)
         if (noted_[i].depth != 0) {
             follow(noted_[i].pixel, noted_[i].depth, noted_[i].from);
-        } else if (takeCorner(noted_[i].pixel) && model_ != nullptr) {
+        } else if (takeCorner(noted_[i].pixel) && rays_.model() != nullptr) {
             const int at = noted_[i].pixel, beside = drawnBeside(at, NOWHERE);
             follow(at, zbuffer_[beside], beside);
         }
     const Crossing* const end = view_.crossings() + view_.crossingCount();
-    for (const Crossing* at = view_.crossings(); at < end && model_ != nullptr; ++at) {
+    for (const Crossing* at = view_.crossings(); at < end && rays_.model() != nullptr; ++at) {
         const int first = isMissing(at->pixel, at->depth) ? at->pixel : at->pixel + at->outwards;
         if (isMissing(first, at->depth))
             follow(first, at->depth, first);
@@ -76,7 +45,7 @@ bool Missed::follow(int at, int depth, int from)
     bool any = false;
     for (put(at, depth, from); count_ > before;) {
         const Place place = noted_[--count_];
-        any |= looks_ < looksMost_ && drawPixel(place);
+        any |= !rays_.tired() && drawPixel(place);
     }
     return any;
 }
@@ -113,57 +82,6 @@ bool Missed::takeCorner(int at)
     return false;
 }
 
-// Returns by how much the field exceeds the isovalue at the point that a pixel shows at this depth.
-Real Missed::excess(int at, int depth)
-{
-    ++looks_;
-    return probe_.implicitAt(view_.pointAt(at, depth), &strongest_) - ISOVALUE;
-}
-
-// Looks for a point inside along the ray through a pixel, in the direction in which the field rises, with steps of the secant
-// method. `*depth` and `*here`, the field's excess there, are the first guess and become the result. Returns false when the ray
-// misses the surface.
-bool Missed::findInside(int at, int* depth, Real* here)
-{
-    for (int i = 0, step = STEP; *here <= Real(0); ++i) {
-        if (i == STEPS || *here < -NEAR || *depth + step <= 0 || *depth + step >= Z_EMPTY)
-            return false;
-        const Real there = excess(at, *depth + step), rise = there - *here;
-        const bool rises = rise > Real(0);
-        const Real left = rises ? -there : -*here, slope = absolute(rise);
-        if (left > slope * Real(FARTHEST))
-            return false;
-        const int on = left > Real(0) ? floorToInt(quotient(left, slope) * Real(magnitude(step))) + STEP / 4 : 0;
-        *depth += rises ? step : 0;
-        *here = rises ? there : *here;
-        step = (step > 0) == rises ? on : -on;
-    }
-    return true;
-}
-
-// Finds where the ray through a pixel enters the surface. *depth is a first guess and becomes the result. Returns false when the
-// ray misses the surface.
-bool Missed::findDepth(int at, int* depth)
-{
-    int outside = *depth;
-    Real here = excess(at, outside);
-    onEdge_ = here < Real(0);
-    if (!findInside(at, &outside, &here))
-        return false;
-    // From there looks for a point outside, towards the eye, and interpolates between the last two points.
-    Real within = here;
-    for (int i = 0; here > Real(0); ++i) {
-        if (i == THICKEST || outside <= STEP)
-            return false;
-        within = here;
-        outside -= STEP;
-        here = excess(at, outside);
-    }
-    onEdge_ = onEdge_ && strongest_ >= 0 && (within - here) * model_->actor(strongest_).object->size() < RIM;
-    *depth = outside + floorToInt(quotient(-here, within - here) * Real(STEP));
-    return true;
-}
-
 // Returns a drawn pixel beside a pixel that lies behind `depth` by at least APART, or `at` itself if there is none.
 int Missed::drawnBeside(int at, int depth) const
 {
@@ -182,16 +100,16 @@ bool Missed::findSurface(Place* place)
 {
     const int at = place->pixel;
     forBeside(at, [&](int beside) {
-        if (magnitude(beside - at) == 1 && frame_[beside] != 0 && magnitude(zbuffer_[beside] - place->depth) <= BEHIND)
+        if (magnitude(beside - at) == 1 && frame_[beside] != 0 && magnitude(zbuffer_[beside] - place->depth) <= Rays::BEHIND)
             *place = {place->pixel, zbuffer_[beside], static_cast<uint16_t>(beside)};
     });
     int depth = place->depth;
-    if (!findDepth(at, &depth)) {
+    if (!rays_.findDepth(at, &depth)) {
         if (frame_[at] != 0)
             return false;
         place->from = static_cast<uint16_t>(drawnBeside(at, place->depth));
         depth = zbuffer_[place->from];
-        if (place->from == at || !findDepth(at, &depth))
+        if (place->from == at || !rays_.findDepth(at, &depth))
             return false;
     }
     place->depth = static_cast<uint16_t>(depth);
@@ -204,30 +122,13 @@ bool Missed::drawPixel(Place place)
 {
     const int at = place.pixel;
     if (!isMissing(at, place.depth) || !findSurface(&place) || !isMissing(at, place.depth) ||
-        !setColour(at, place.depth, place.from))
+        !rays_.show(at, place.depth, place.from))
         return false;
     // Where the ray only grazes the surface this is its outline: there is nothing beyond.
-    if (!onEdge_)
+    if (!rays_.onEdge())
         forBeside(at, [&](int beside) {
             if (isMissing(beside, place.depth))
                 put(beside, place.depth, at);
         });
-    return true;
-}
-
-bool Missed::setColour(int at, int depth, int from)
-{
-    const Point p = view_.pointAt(at, depth);
-    ++looks_;
-    probe_.implicitAt(p, &strongest_);
-    const SoftObject* const own = strongest_ < 0 ? nullptr : model_->actor(strongest_).object;
-    uint8_t colour = frame_[from];
-    if (own != nullptr && own->ramp() != nullptr &&
-        (own->paint() == nullptr || from == at || probe_.strongestAt(view_.pointAt(from)) != strongest_)) {
-        colour = own->ramp()[brightnessOf(probe_.gradient(), model_->light)];
-    }
-    if (colour == 0)
-        return false;
-    view_.setPixel(at, depth, colour);
     return true;
 }

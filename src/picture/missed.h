@@ -4,31 +4,7 @@
 #ifndef FB_MISSED_H
 #define FB_MISSED_H
 
-#include "model/probe.h"
-#include "picture/view.h"
-
-// Calls each(pixel) for those of the four pixels beside a pixel that are on the screen: left, right, above and below.
-template <class Each>
-inline void forBeside(int at, Each each)
-{
-    using machine::WIDTH;
-    const int column = at % WIDTH;
-    if (column > 0)
-        each(at - 1);
-    if (column < WIDTH - 1)
-        each(at + 1);
-    if (at >= WIDTH)
-        each(at - WIDTH);
-    if (at < WIDTH * (machine::HEIGHT - 1))
-        each(at + WIDTH);
-}
-
-// How often the model may be asked in a frame whose seeds lie `spacing` units apart: `atOne` times, divided by the cube of a
-// spacing greater than 1. Slow machines choose coarse pictures, which must not cost more than they save.
-int looksAt(Real spacing, int atOne);
-
-// The brightness, 0..63, of a surface where the field has this gradient. Both vectors may have any length.
-int brightnessOf(const Vector& gradient, const Vector& toLight);
+#include "rays.h"
 
 class Missed {
 public:
@@ -36,11 +12,8 @@ public:
     // is filled. With both sides of LONG_BOTH or one side of LONG, more than a pixel of surface may be missing there.
     static constexpr int SIDE = 2, LONG_BOTH = 4, LONG = 8;
 
-    // A pixel that is drawn shows the surface unless it is deeper by more than this, 1/128 unit.
-    static constexpr int BEHIND = 512;
-
-    // The seeds lie `spacing` units apart. The model may be null; then only short corners are closed.
-    Missed(View& view, FieldProbe& probe, Real spacing);
+    // Without a model only short corners are closed.
+    Missed(View& view, Rays& rays) : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), rays_(rays) {}
 
     // A quick test for whether an empty pixel may be in a corner of drawn ones. The pixel beside it, against the direction
     // `outwards` (-1 or 1), is drawn. One side of the corner goes up (or down) from there, the other goes outwards in the row
@@ -69,11 +42,6 @@ public:
     // pixel `from`, if that is another pixel. Returns false when none is missing there.
     bool follow(int at, int depth, int from);
 
-    // Gives a pixel this depth (1/128 unit) and the ramp of its object, with the brightness from the surface normal there. If the
-    // object is painted, and the pixel `from` beside it shows that object too, it gets the colour of that one instead. Returns
-    // false when there is no colour.
-    bool setColour(int at, int depth, int from);
-
 private:
     static constexpr int NOTED_MOST = 1024;
 
@@ -94,21 +62,13 @@ private:
     int drawnBeside(int at, int depth) const;
     bool findSurface(Place* place);
     bool drawPixel(Place place);
-    Real excess(int at, int depth);
-    bool findInside(int at, int* depth, Real* here);
-    bool findDepth(int at, int* depth);
 
     View& view_;
     const uint8_t* frame_;
     const uint16_t* zbuffer_;
-    FieldProbe& probe_;
-    const Model* const model_;
+    Rays& rays_;
     Place noted_[NOTED_MOST];
     int count_ = 0;
-    const int looksMost_;  // no pixel is begun after this many evaluations of the field
-    int looks_ = 0;        // evaluations of the field so far
-    int strongest_ = -1;   // the object with the strongest field at the last evaluation; -1: none
-    bool onEdge_ = false;  // the last ray only grazes the surface
 };
 
 #endif

@@ -346,13 +346,14 @@ void View::closeGaps(Real spacing, const Model* model, const Palette* palette)
     if (pixels_)
         return;
     FieldProbe probe(model);
-    Missed missed(*this, probe, spacing);
+    Rays rays(*this, probe, spacing);
+    Missed missed(*this, rays);
     Gaps(*this, probe, palette, missed, spacing).close();
     // Where colours mix there are no borders between them, and a palette entry does not tell the brightness.
     if (model == nullptr || palette == nullptr || model->mixed)
         return;
     if (!palette->isGrey())
-        Borders(*this, probe, *palette, missed).mend();
+        Borders(*this, probe, *palette, rays).mend();
     if (anyBordered_)
         Creases(*this, probe, *palette, spacing, foundCreases_).mend();
 }

@@ -1,0 +1,104 @@
+// Rays of sight, one for a pixel, searched from a depth near which the surface should be.
+#include "rays.h"
+
+#include "math/normal.h"
+#include "math/whole.h"
+#include "surface/voxel.h"
+
+namespace {
+
+// No pixel is begun after LOOKS_MOST evaluations of the field in a frame, nor after as many as looksAt() allows.
+constexpr int LOOKS_MOST = 3500, LOOKS_AT_ONE = 28000;
+// The first step along the ray, 1/128 unit.
+constexpr int STEP = 128;
+// Upper bounds: of the steps along the ray towards a stronger field; of the ratio of each step to the one before; and of the
+// steps back through the object towards the eye.
+constexpr int STEPS = 3, FARTHEST = 3, THICKEST = 12;
+// No surface is near a point where the field is this much below the isovalue.
+constexpr Real NEAR(0.2);
+// A ray only grazes the surface if the field, times the size of its object, rises by less than this over the last STEP.
+constexpr Real RIM(0.25);
+
+}  // namespace
+
+int looksAt(Real spacing, int atOne)
+{
+    const Real cube = max(spacing * spacing * spacing, Real(1));
+    return floorToInt(quotient(Real(atOne), cube));
+}
+
+int brightnessOf(const Vector& gradient, const Vector& toLight)
+{
+    // The field rises inwards.
+    const Normal in = normalise(gradient), light = normalise(toLight);
+    return max32(lambert(-(in.x * light.x + in.y * light.y + in.z * light.z) >> 14), 0);
+}
+
+Rays::Rays(View& view, FieldProbe& probe, Real spacing)
+    : view_(view), frame_(view.frame()), probe_(probe), model_(probe.model()),
+      looksMost_(model_ == nullptr ? 0 : min32(looksAt(spacing, LOOKS_AT_ONE), LOOKS_MOST))
+{
+}
+
+Real Rays::excess(int at, int depth)
+{
+    ++looks_;
+    return probe_.implicitAt(view_.pointAt(at, depth), &strongest_) - ISOVALUE;
+}
+
+// Takes steps of the secant method.
+bool Rays::findInside(int at, int* depth, Real* here)
+{
+    for (int i = 0, step = STEP; *here <= Real(0); ++i) {
+        if (i == STEPS || *here < -NEAR || *depth + step <= 0 || *depth + step >= Z_EMPTY)
+            return false;
+        const Real there = excess(at, *depth + step), rise = there - *here;
+        const bool rises = rise > Real(0);
+        const Real left = rises ? -there : -*here, slope = absolute(rise);
+        if (left > slope * Real(FARTHEST))
+            return false;
+        const int on = left > Real(0) ? floorToInt(quotient(left, slope) * Real(magnitude(step))) + STEP / 4 : 0;
+        *depth += rises ? step : 0;
+        *here = rises ? there : *here;
+        step = (step > 0) == rises ? on : -on;
+    }
+    return true;
+}
+
+bool Rays::findDepth(int at, int* depth)
+{
+    int outside = *depth;
+    Real here = excess(at, outside);
+    onEdge_ = here < Real(0);
+    if (!findInside(at, &outside, &here))
+        return false;
+    // From there looks for a point outside, towards the eye, and interpolates between the last two points.
+    Real within = here;
+    for (int i = 0; here > Real(0); ++i) {
+        if (i == THICKEST || outside <= STEP)
+            return false;
+        within = here;
+        outside -= STEP;
+        here = excess(at, outside);
+    }
+    onEdge_ = onEdge_ && strongest_ >= 0 && (within - here) * model_->actor(strongest_).object->size() < RIM;
+    *depth = outside + floorToInt(quotient(-here, within - here) * Real(STEP));
+    return true;
+}
+
+bool Rays::show(int at, int depth, int from)
+{
+    const Point p = view_.pointAt(at, depth);
+    ++looks_;
+    probe_.implicitAt(p, &strongest_);
+    const SoftObject* const own = strongest_ < 0 ? nullptr : model_->actor(strongest_).object;
+    uint8_t colour = frame_[from];
+    if (own != nullptr && own->ramp() != nullptr &&
+        (own->paint() == nullptr || from == at || probe_.strongestAt(view_.pointAt(from)) != strongest_)) {
+        colour = own->ramp()[brightnessOf(probe_.gradient(), model_->light)];
+    }
+    if (colour == 0)
+        return false;
+    view_.setPixel(at, depth, colour);
+    return true;
+}

@@ -1,0 +1,72 @@
+// Rays: asks the model what the rays of sight through single pixels meet, and shows that.
+#ifndef FB_RAYS_H
+#define FB_RAYS_H
+
+#include "model/probe.h"
+#include "picture/view.h"
+
+// Calls each(pixel) for those of the four pixels beside a pixel that are on the screen: left, right, above and below.
+template <class Each>
+inline void forBeside(int at, Each each)
+{
+    using machine::WIDTH;
+    const int column = at % WIDTH;
+    if (column > 0)
+        each(at - 1);
+    if (column < WIDTH - 1)
+        each(at + 1);
+    if (at >= WIDTH)
+        each(at - WIDTH);
+    if (at < WIDTH * (machine::HEIGHT - 1))
+        each(at + WIDTH);
+}
+
+// How often the model may be asked in a frame whose seeds lie `spacing` units apart: `atOne` times, divided by the cube of a
+// spacing greater than 1. Slow machines choose coarse pictures, which must not cost more than they save.
+int looksAt(Real spacing, int atOne);
+
+// The brightness, 0..63, of a surface where the field has this gradient. Both vectors may have any length.
+int brightnessOf(const Vector& gradient, const Vector& toLight);
+
+class Rays {
+public:
+    // A pixel that is drawn shows the surface unless it is deeper by more than this, 1/128 unit.
+    static constexpr int BEHIND = 512;
+
+    // The seeds lie `spacing` units apart. The model may be null; then nothing may be asked.
+    Rays(View& view, FieldProbe& probe, Real spacing);
+
+    const Model* model() const { return model_; }
+    // Whether the model has been asked too often in this frame already: no pixel is begun any more.
+    bool tired() const { return looks_ >= looksMost_; }
+
+    // All depths are in 1/128 unit.
+
+    // Returns by how much the field exceeds the isovalue at the point that a pixel shows at a depth.
+    Real excess(int at, int depth);
+    // Looks for a point inside along the ray through a pixel, from a depth on, in the direction in which the field rises. `*depth`
+    // and `*here`, the excess there, become those of the last point. Returns false when the ray misses the surface.
+    bool findInside(int at, int* depth, Real* here);
+    // Finds where the ray through a pixel enters the surface. `*depth` is a first guess and becomes the result. Returns false when
+    // the ray misses the surface.
+    bool findDepth(int at, int* depth);
+    // Whether the ray that findDepth() followed last only grazes the surface.
+    bool onEdge() const { return onEdge_; }
+
+    // Gives a pixel this depth and the ramp of its object, with the brightness from the surface normal there. If the object is
+    // painted, and the pixel `from` beside it shows that object too, it gets the colour of that one instead. Returns false when
+    // there is no colour.
+    bool show(int at, int depth, int from);
+
+private:
+    View& view_;
+    const uint8_t* frame_;
+    FieldProbe& probe_;
+    const Model* const model_;
+    const int looksMost_;  // no pixel is begun after this many evaluations of the field
+    int looks_ = 0;        // evaluations of the field so far
+    int strongest_ = -1;   // the object with the strongest field at the last evaluation; -1: none
+    bool onEdge_ = false;
+};
+
+#endif
