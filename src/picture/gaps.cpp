@@ -115,7 +115,6 @@ void Gaps::close()
         if (view_.touched(y).from < view_.touched(y).to)
             closeRow(y, near);
     missed_.draw();
-    closeCracks();
 }
 
 // Closes the gaps of a row that has drawn pixels, and the slits that begin beside these; notes where surface may have been missed.

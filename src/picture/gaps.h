@@ -1,5 +1,5 @@
-// Gaps: finds the gaps between scales when all objects of a frame are drawn, and fills them (View::closeGaps()). Those through
-// which the background shows are in gaps.cpp; those through which something farther away shows, the cracks, are in cracks.cpp.
+// Gaps: finds the gaps between scales through which the background shows, when all objects of a frame are drawn, and fills them
+// (View::closeGaps()).
 #ifndef FB_GAPS_H
 #define FB_GAPS_H
 
@@ -27,11 +27,6 @@ private:
     void closeSlit(int y, int x, int end, int step);
     bool searchBehind(int first, int last);
     bool closeExactly(int first, int last);
-    void closeCracks();
-    void closeUpright(const uint16_t* from, const uint16_t* to);
-    void closeLying(const uint16_t* from, const uint16_t* to);
-    void closeAt(const uint16_t* at, int step);
-    void closeCrack(int first, int step);
     Real distanceOff(int first, int last, int step) const;
     Real distanceOff(const Point& p) const;
     const uint8_t* commonRamp(int first, int last) const;

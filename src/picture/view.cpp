@@ -6,6 +6,7 @@
 #include "gaps.h"
 #include "math/alloc.h"
 #include "math/whole.h"
+#include "outlines.h"
 
 using machine::HEIGHT;
 using machine::WIDTH;
@@ -108,8 +109,8 @@ void View::mark(int left, int top, int right, int bottom)
         extend(left, right, &touched_[y]);
 }
 
-// Notes where the list drawn last may show through cracks in earlier ones. Cracks in lists without borders are too rare to be
-// looked for.
+// Notes where the outlines of earlier lists may lie before the list drawn last. Those of lists without borders are about right, and
+// are not looked at.
 void View::noteCovered(bool bordered)
 {
     for (int y = lens_.top; y < lens_.bottom; ++y) {
@@ -349,6 +350,8 @@ void View::closeGaps(Real spacing, const Model* model, const Palette* palette)
     Rays rays(*this, probe, spacing);
     Missed missed(*this, rays);
     Gaps(*this, probe, palette, missed, spacing).close();
+    if (model != nullptr)
+        Outlines(*this, rays, probe, missed).mend();
     // Where colours mix there are no borders between them, and a palette entry does not tell the brightness.
     if (model == nullptr || palette == nullptr || model->mixed)
         return;
