@@ -25,7 +25,7 @@ constexpr Real LEAST_LEFT(0.2);
 constexpr int32_t GRAZING = 1500;
 // Spacings. The surface may go on for this distance from a seed to a border before an oversampled seed towards the neighbour N is
 // needed (on shaped objects always), one towards the next seed of the ring, and a fine seed.
-constexpr Real LEFT_OPEN(0.55), LEFT_OPEN_SHAPED(-100), LEFT_OPEN_NEXT(1), LEFT_OPEN_FINE(1.5);
+constexpr Real LEFT_OPEN(1.1), LEFT_OPEN_SHAPED(-100), LEFT_OPEN_NEXT(1.8), LEFT_OPEN_FINE(1.5);
 // No oversampled seed is needed between two that both face away by this cosine (1.0 = 2^14).
 constexpr int32_t FAR_AWAY = 7500;
 
