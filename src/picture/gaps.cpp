@@ -182,8 +182,12 @@ void Gaps::closeAbove(int y, int x, int widest, int narrowest)
         --from;
     while (to < WIDTH && to - from <= widest && row[to] == 0)
         ++to;
-    if (to - from > widest || from == 0 || to == WIDTH)
+    if (to - from > widest || from == 0 || to == WIDTH) {
+        // What has been filled may have made a corner of an end.
+        missed_.note(from, y - 1);
+        missed_.note(to - 1, y - 1);
         return;
+    }
     for (int i = from; i < to; ++i)
         if (row[i + WIDTH] == 0)
             return;

@@ -350,7 +350,7 @@ void View::closeGaps(Real spacing, const Model* model, const Palette* palette)
     Rays rays(*this, probe, spacing);
     Missed missed(*this, rays);
     Gaps(*this, probe, palette, missed, spacing).close();
-    if (model != nullptr)
+    if (model != nullptr && anyBordered_)
         Outlines(*this, rays, probe, missed).mend();
     // Where colours mix there are no borders between them, and a palette entry does not tell the brightness.
     if (model == nullptr || palette == nullptr || model->mixed)
