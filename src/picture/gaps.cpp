@@ -279,13 +279,11 @@ inline const uint8_t* Gaps::commonRamp(int first, int last) const
     return number != 0 && number == palette_->rampOf(frame_[last]) ? palette_->ramp(number) : nullptr;
 }
 
-// Whether two drawn pixels show different surfaces of the model, so that what lies between the two cannot be told from them: one is
-// well in front of the other, or they have different colours.
+// Whether of two drawn pixels one lies well in front of the other, so that what lies between the two cannot be told from them.
+// (Their colours do not count: depths are the same whether colours are shown or not.)
 inline bool Gaps::differ(int first, int last) const
 {
-    return model_ != nullptr &&
-           (magnitude(zbuffer_[first] - zbuffer_[last]) > IN_FRONT ||
-            (palette_ != nullptr && palette_->rampOf(frame_[first]) != palette_->rampOf(frame_[last])));
+    return model_ != nullptr && magnitude(zbuffer_[first] - zbuffer_[last]) > IN_FRONT;
 }
 
 // Fills the empty pixels between two drawn ones with the depth and the colour of whichever is closer on the screen. If both have
