@@ -626,8 +626,8 @@ static std::vector<int> drawTruly(View& view, const Model& model, double nearer)
     return owners;
 }
 
-// A gap between pixels of two objects, one well in front of the other, shows the surface of the two wherever it lies: its depth, and
-// within a pixel the objects' colours.
+// A gap between pixels of two objects, one well in front of the other, shows the surface of the two wherever it lies: its depth,
+// and within a pixel the objects' colours.
 TEST(gaps_between_two_objects)
 {
     Model model;
