@@ -24,8 +24,9 @@ constexpr Real LEAST_LEFT(0.2);
 // Cosine of path and normal (1.0 = 2^14). A seed whose path meets an island at a smaller one is left out: the path only grazes it.
 constexpr int32_t GRAZING = 1500;
 // Spacings. The surface may go on for this distance from a seed to a border before an oversampled seed towards the neighbour N is
-// needed (on shaped objects always), one towards the next seed of the ring, and a fine seed.
-constexpr Real LEFT_OPEN(1.1), LEFT_OPEN_SHAPED(-100), LEFT_OPEN_NEXT(1.8), LEFT_OPEN_FINE(1.5);
+// needed (on shaped objects always), one towards the next seed of the ring, and a fine seed. Where nothing digs, so that no side of a
+// dent is steep to all paths, the first two may be twice as far, and rays find what is missed (picture/outlines.h).
+constexpr Real LEFT_OPEN(0.55), LEFT_OPEN_SHAPED(-100), LEFT_OPEN_NEXT(1), LEFT_OPEN_FINE(1.5);
 // No oversampled seed is needed between two that both face away by this cosine (1.0 = 2^14).
 constexpr int32_t FAR_AWAY = 7500;
 
@@ -34,8 +35,9 @@ constexpr int32_t FAR_AWAY = 7500;
 void Settler::setGaps()
 {
     alike_ = min(object_.spacing() * (heavy_ ? PARTED_HEAVY : PARTED) / object_.radius(), Real(9));
-    open_ = object_.spacing() * (object_.shaped() ? LEFT_OPEN_SHAPED : LEFT_OPEN);
-    openNext_ = object_.spacing() * LEFT_OPEN_NEXT;
+    const Real far = object_.spacing() * Real(all_.dented || all_.hollow ? 1 : 2);
+    open_ = far * (object_.shaped() ? LEFT_OPEN_SHAPED : LEFT_OPEN);
+    openNext_ = far * LEFT_OPEN_NEXT;
     openFine_ = object_.spacing() * LEFT_OPEN_FINE;
 }
 
