@@ -24,8 +24,8 @@ constexpr Real LEAST_LEFT(0.2);
 // Cosine of path and normal (1.0 = 2^14). A seed whose path meets an island at a smaller one is left out: the path only grazes it.
 constexpr int32_t GRAZING = 1500;
 // Spacings. The surface may go on for this distance from a seed to a border before an oversampled seed towards the neighbour N is
-// needed (on shaped objects always), one towards the next seed of the ring, and a fine seed. Where nothing digs, so that no side of a
-// dent is steep to all paths, the first two may be twice as far, and rays find what is missed (picture/outlines.h).
+// needed (on shaped objects always), one towards the next seed of the ring, and a fine seed. Where nothing digs, and so no side of
+// a dent is steep to all paths, the first two may be twice as far: rays find what is missed (picture/outlines.h).
 constexpr Real LEFT_OPEN(0.55), LEFT_OPEN_SHAPED(-100), LEFT_OPEN_NEXT(1), LEFT_OPEN_FINE(1.5);
 // No oversampled seed is needed between two that both face away by this cosine (1.0 = 2^14).
 constexpr int32_t FAR_AWAY = 7500;
