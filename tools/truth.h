@@ -184,8 +184,16 @@ public:
   void forgetPlain();
 private:
   struct Work;
-  double first(const Work &, const int *which, int n, int members, const double *form, const char *known, bool sum,
-               double a, double b) const;
+  struct Group;
+  void aim(double column, double row, const int *which, int count, Work &) const;
+  void gather(const int *which, int count, double a, double b, Work &) const;
+  double firstOfBodies(Work &, double a, double b, int &owner) const;
+  double firstOfMembers(Work &, int from, int end, double a, double b) const;
+  bool isSum(const Work &, int from, int end) const;
+  double first(const Work &, const Group &, const double *form, const char *known, double a, double b) const;
+  bool excludes(const Work &, const Group &, const double *form, const char *known, double a, double b) const;
+  double firstOfForms(const Group &, const double *form, double a, double b) const;
+  Hit hitAt(const Ray &, double depth, int owner) const;
   double strengthened(int object, Vec p) const;
   bool digs(int object, const int *members, int n) const;
   bool tie(int object, Vec p) const;

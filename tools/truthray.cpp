@@ -835,77 +835,90 @@ bool Tracer::follow(const Work &w, int i, double a, double b, double *form) cons
   return true;
 }
 
-// Returns the least depth in [a, b] at which the body's field is at or above the isovalue, or -1 if there is none. `which`
-// lists the n objects that reach the interval: first the body's members, then the objects that dig into it. `form` holds
-// their fields where `known` is set; `sum` says that F is the plain sum of the fields.
-double Tracer::first(const Work &w, const int *which, int n, int members, const double *form, const char *known, bool sum,
-                     double a, double b) const {
-  std::vector<double> now(form, form + n * N);
-  std::vector<char> have(known, known + n);
-  bool all = true;
-  for (int k = 0; k < n; k++) all = all && have[k];
-  if (!all) {
-    // Bounds may exclude the surface, which saves fitting polynomials.
-    std::vector<double> low(n), high(n);
-    for (int k = 0; k < n; k++) {
-      if (have[k]) {
-        low[k] = std::max(*std::min_element(&now[k * N], &now[k * N] + N), 0.0);
-        high[k] = std::max(*std::max_element(&now[k * N], &now[k * N] + N), 0.0);
-      } else {
-        const Object &o = scene.objects[which[k]];
-        double lowQ, highQ;
-        o.bounds(w.ray, a, b, lowQ, highQ);
-        low[k] = o.strength * geoff(highQ), high[k] = o.strength * geoff(lowQ);
-      }
-    }
-    double excess = 0, most = -1;
-    if (sum) {
-      for (int k = 0; k < n; k++) excess += high[k];
-      most = excess -= scene.isovalue;
+// The objects that reach an interval: first the members of a body, then the objects that dig into it.
+struct Tracer::Group {
+  const int *which;
+  int count, members;
+  bool sum;  // F is the plain sum of the fields
+  double weight(const Scene &scene, int k, int j) const { return j == k ? 0 : scene.weight[which[k]][which[j]]; }
+};
+
+// Returns whether bounds of the fields in [a, b] exclude the surface. `form` holds the fields where `known` is set.
+bool Tracer::excludes(const Work &w, const Group &group, const double *form, const char *known, double a, double b) const {
+  const int n = group.count;
+  std::vector<double> low(n), high(n);
+  for (int k = 0; k < n; k++) {
+    if (known[k]) {
+      low[k] = std::max(*std::min_element(form + k * N, form + k * N + N), 0.0);
+      high[k] = std::max(*std::max_element(form + k * N, form + k * N + N), 0.0);
     } else {
-      for (int k = 0; k < members; k++) {
-        double g = high[k] - scene.isovalue;
-        for (int j = 0; j < n; j++) {
-          double weight = j == k ? 0 : scene.weight[which[k]][which[j]];
-          g += weight * (weight > 0 ? high[j] : low[j]);
-        }
-        most = std::max(most, g);
-        excess += g * (g > 0 ? high[k] * high[k] : low[k] * low[k]);
-      }
+      const Object &o = scene.objects[group.which[k]];
+      double lowQ, highQ;
+      o.bounds(w.ray, a, b, lowQ, highQ);
+      low[k] = o.strength * geoff(highQ), high[k] = o.strength * geoff(lowQ);
     }
-    if (most < 0 || excess < 0) return -1;
-    all = true;
-    for (int k = 0; k < n && all; k++)
-      if (!have[k]) all = follow(w, which[k], a, b, &now[k * N]), have[k] = all;
-    if (!all && b - a < FINEST)
-      return field(body[which[0]], point(w.ray, b), nullptr, nullptr) >= scene.isovalue ? b : -1;
   }
-  if (!all) {
-    std::vector<double> left(n * N), right(n * N);
-    for (int k = 0; k < n; k++)
-      if (have[k]) halve<N>(&now[k * N], &left[k * N], &right[k * N]);
-    double mid = (a + b) / 2, t = first(w, which, n, members, left.data(), have.data(), sum, a, mid);
-    return t >= 0 ? t : first(w, which, n, members, right.data(), have.data(), sum, mid, b);
+  double excess = 0, most = -1;
+  if (group.sum) {
+    for (int k = 0; k < n; k++) excess += high[k];
+    return excess - scene.isovalue < 0;
   }
-  if (sum) {
+  for (int k = 0; k < group.members; k++) {
+    double g = high[k] - scene.isovalue;
+    for (int j = 0; j < n; j++) {
+      double weight = group.weight(scene, k, j);
+      g += weight * (weight > 0 ? high[j] : low[j]);
+    }
+    most = std::max(most, g);
+    excess += g * (g > 0 ? high[k] * high[k] : low[k] * low[k]);
+  }
+  return most < 0 || excess < 0;
+}
+
+// Returns the least depth in [a, b] at which the body's field is at or above the isovalue, or -1 if there is none. `form` holds
+// the fields of all objects of the group.
+double Tracer::firstOfForms(const Group &group, const double *form, double a, double b) const {
+  const int n = group.count, members = group.members;
+  if (group.sum) {
     double c[N];
     std::fill(c, c + N, -scene.isovalue);
-    for (int k = 0; k < n * N; k++) c[k % N] += now[k];
+    for (int k = 0; k < n * N; k++) c[k % N] += form[k];
     return firstOf(c, a, b);
   }
   std::vector<double> sums(members * N);
   for (int k = 0; k < members; k++)
-    for (int c = 0; c < N; c++) sums[k * N + c] = now[k * N + c] - scene.isovalue;
+    for (int c = 0; c < N; c++) sums[k * N + c] = form[k * N + c] - scene.isovalue;
   for (int k = 0; k < members; k++)
     for (int j = 0; j < n; j++) {
-      double weight = j == k ? 0 : scene.weight[which[k]][which[j]];
+      double weight = group.weight(scene, k, j);
       if (weight != 0)
-        for (int c = 0; c < N; c++) sums[k * N + c] += weight * now[j * N + c];
+        for (int c = 0; c < N; c++) sums[k * N + c] += weight * form[j * N + c];
     }
   if (*std::max_element(sums.begin(), sums.end()) < 0) return -1;
   double c[BODY] = {};
-  for (int k = 0; k < members; k++) addSquareTimes(&now[k * N], &sums[k * N], c);
+  for (int k = 0; k < members; k++) addSquareTimes(form + k * N, &sums[k * N], c);
   return firstOfBody(c, sums.data(), members, a, b);
+}
+
+// Does the same where `form` holds only the fields of which `known` is set.
+double Tracer::first(const Work &w, const Group &group, const double *form, const char *known, double a, double b) const {
+  const int n = group.count;
+  if (std::find(known, known + n, 0) == known + n) return firstOfForms(group, form, a, b);
+  // Bounds may exclude the surface, which saves fitting polynomials.
+  if (excludes(w, group, form, known, a, b)) return -1;
+  std::vector<double> now(form, form + n * N);
+  std::vector<char> have(known, known + n);
+  bool all = true;
+  for (int k = 0; k < n && all; k++)
+    if (!have[k]) all = follow(w, group.which[k], a, b, &now[k * N]), have[k] = all;
+  if (all) return firstOfForms(group, now.data(), a, b);
+  if (b - a < FINEST)
+    return field(body[group.which[0]], point(w.ray, b), nullptr, nullptr) >= scene.isovalue ? b : -1;
+  std::vector<double> left(n * N), right(n * N);
+  for (int k = 0; k < n; k++)
+    if (have[k]) halve<N>(&now[k * N], &left[k * N], &right[k * N]);
+  double mid = (a + b) / 2, t = first(w, group, left.data(), have.data(), a, mid);
+  return t >= 0 ? t : first(w, group, right.data(), have.data(), mid, b);
 }
 
 Hit Tracer::trace(double column, double row) const {
@@ -914,9 +927,8 @@ Hit Tracer::trace(double column, double row) const {
   return trace(column, row, all.data(), (int)all.size());
 }
 
-Hit Tracer::trace(double column, double row, const int *which, int count) const {
-  static thread_local Work w;
-  Hit hit;
+// Sets the ray through an image position, and the depths between which no field begins or ends.
+void Tracer::aim(double column, double row, const int *which, int count, Work &w) const {
   w.ray.eye = scene.eye;
   w.ray.dir = scene.right * ((column - scene.centreX) / scene.focalX) +
               scene.up * (-(row - scene.centreY) / scene.focalY) + scene.ahead;
@@ -932,80 +944,106 @@ Hit Tracer::trace(double column, double row, const int *which, int count) const 
   }
   w.t.push_back(0);
   std::sort(w.t.begin(), w.t.end());
+}
 
-  double found = -1;
-  int owner = -1;
-  for (size_t link = 0; link + 1 < w.t.size() && found < 0; link++) {
-    double a = w.t[link], b = w.t[link + 1];
-    if (a < 0 || b <= a) continue;
-    w.live.clear();
-    Vec m = point(w.ray, (a + b) / 2);
-    for (int n = 0; n < count; n++) {
-      const Object &o = scene.objects[which[n]];
-      bool on = o.quadratic() ? o.q(m, nullptr) < 1
-                                  : dot(m - o.middle, m - o.middle) < o.reach * o.reach;
-      if (on) w.live.push_back(which[n]);
-    }
-    if (w.live.empty()) continue;
-    // Objects of one body become neighbours.
-    std::stable_sort(w.live.begin(), w.live.end(), [&](int i, int j) { return body[i] < body[j]; });
-    int lives = (int)w.live.size();
-    w.form.assign(lives * N, 0);
-    w.known.assign(lives, 0);
-    for (int n = 0; n < lives; n++) {
-      const Object &o = scene.objects[w.live[n]];
-      if (!o.quadratic()) continue;
-      double quad[3];
-      o.quadratic(w.ray, (a + b) / 2, quad);
-      fieldForm(quad, a, b, &w.form[n * N]);
-      for (int k = 0; k < N; k++) w.form[n * N + k] *= o.strength;
-      w.known[n] = 1;
-    }
-    for (int n = 0, end; n < lives; n = end) {
-      int number = body[w.live[n]];
-      for (end = n; end < lives && body[w.live[end]] == number;) end++;
-      if (number < 0) continue;
-      // Objects that dig into the body are appended to copies of the members' lists.
-      w.with.clear();
-      for (int i = 0; i < lives; i++)
-        if ((i < n || i >= end) && digs(w.live[i], &w.live[n], end - n)) w.with.push_back(i);
-      if (!w.with.empty()) {
-        int members = end - n, count = members + (int)w.with.size();
-        std::vector<int> which(w.live.begin() + n, w.live.begin() + end);
-        std::vector<double> form(w.form.begin() + n * N, w.form.begin() + end * N);
-        std::vector<char> known(w.known.begin() + n, w.known.begin() + end);
-        for (int i : w.with) {
-          which.push_back(w.live[i]);
-          form.insert(form.end(), w.form.begin() + i * N, w.form.begin() + (i + 1) * N);
-          known.push_back(w.known[i]);
-        }
-        double t = first(w, which.data(), count, members, form.data(), known.data(), false, a, b);
-        if (t >= 0 && (found < 0 || t < found)) found = t, owner = number;
-        continue;
-      }
-      bool sum = plain[number];
-      if (!sum && usePlain) {
-        sum = true;
-        for (int i = n; sum && i < end; i++)
-          for (int j = n; sum && j < end; j++) sum = i == j || scene.weight[w.live[i]][w.live[j]] == 1;
-      }
-      double t = first(w, &w.live[n], end - n, end - n, &w.form[n * N], &w.known[n], sum, a, b);
-      if (t >= 0 && (found < 0 || t < found)) found = t, owner = number;
-    }
+// Finds the objects that reach the interval [a, b], those of one body side by side, and the forms of the fields that are known.
+void Tracer::gather(const int *which, int count, double a, double b, Work &w) const {
+  w.live.clear();
+  const Vec m = point(w.ray, (a + b) / 2);
+  for (int n = 0; n < count; n++) {
+    const Object &o = scene.objects[which[n]];
+    bool on = o.quadratic() ? o.q(m, nullptr) < 1 : dot(m - o.middle, m - o.middle) < o.reach * o.reach;
+    if (on) w.live.push_back(which[n]);
   }
-  if (found < 0) return hit;
+  std::stable_sort(w.live.begin(), w.live.end(), [&](int i, int j) { return body[i] < body[j]; });
+  const int lives = (int)w.live.size();
+  w.form.assign(lives * N, 0);
+  w.known.assign(lives, 0);
+  for (int n = 0; n < lives; n++) {
+    const Object &o = scene.objects[w.live[n]];
+    if (!o.quadratic()) continue;
+    double quad[3];
+    o.quadratic(w.ray, (a + b) / 2, quad);
+    fieldForm(quad, a, b, &w.form[n * N]);
+    for (int k = 0; k < N; k++) w.form[n * N + k] *= o.strength;
+    w.known[n] = 1;
+  }
+}
 
+// Returns whether the fields of the objects `from` to before `end` of Work::live, which are those of a body, are to be added up.
+bool Tracer::isSum(const Work &w, int from, int end) const {
+  if (plain[body[w.live[from]]]) return true;
+  if (!usePlain) return false;
+  for (int i = from; i < end; i++)
+    for (int j = from; j < end; j++)
+      if (i != j && scene.weight[w.live[i]][w.live[j]] != 1) return false;
+  return true;
+}
+
+// Returns the least depth in [a, b] at which the surface of a body is, or -1 if there is none. Its members are the objects `from`
+// to before `end` of Work::live.
+double Tracer::firstOfMembers(Work &w, int from, int end, double a, double b) const {
+  const int lives = (int)w.live.size(), members = end - from;
+  w.with.clear();
+  for (int i = 0; i < lives; i++)
+    if ((i < from || i >= end) && digs(w.live[i], &w.live[from], members)) w.with.push_back(i);
+  if (w.with.empty())
+    return first(w, {&w.live[from], members, members, isSum(w, from, end)}, &w.form[from * N], &w.known[from], a, b);
+  // Objects that dig into the body are appended to copies of the members' lists.
+  std::vector<int> which(w.live.begin() + from, w.live.begin() + end);
+  std::vector<double> form(w.form.begin() + from * N, w.form.begin() + end * N);
+  std::vector<char> known(w.known.begin() + from, w.known.begin() + end);
+  for (int i : w.with) {
+    which.push_back(w.live[i]);
+    form.insert(form.end(), w.form.begin() + i * N, w.form.begin() + (i + 1) * N);
+    known.push_back(w.known[i]);
+  }
+  return first(w, {which.data(), (int)which.size(), members, false}, form.data(), known.data(), a, b);
+}
+
+// Returns the least depth in [a, b] at which the surface of any body is, or -1 if there is none; `owner` receives the body.
+double Tracer::firstOfBodies(Work &w, double a, double b, int &owner) const {
+  double found = -1;
+  const int lives = (int)w.live.size();
+  for (int n = 0, end; n < lives; n = end) {
+    const int number = body[w.live[n]];
+    for (end = n; end < lives && body[w.live[end]] == number;) end++;
+    if (number < 0) continue;
+    const double t = firstOfMembers(w, n, end, a, b);
+    if (t >= 0 && (found < 0 || t < found)) found = t, owner = number;
+  }
+  return found;
+}
+
+// Returns what a ray shows that meets the surface of a body at this depth.
+Hit Tracer::hitAt(const Ray &ray, double depth, int owner) const {
+  Hit hit;
+  const Vec p = point(ray, depth);
   Vec gradient;
-  field(owner, point(w.ray, found), &gradient, &hit.object);
-  hit.tied = !scene.mixed && tie(hit.object, point(w.ray, found));
-  hit.depth = found;
+  field(owner, p, &gradient, &hit.object);
+  hit.tied = !scene.mixed && tie(hit.object, p);
+  hit.depth = depth;
   double len = length(gradient);
   const Coat &coat = scene.coats[hit.object];
   double light = len > 0 ? brightness(coat, gradient * (-1 / len)) : 0;
   hit.shade = (float)((RAMP - 1) * (scene.ambient + (1 - scene.ambient) * light));
-  hit.colour = colour(hit.object, point(w.ray, found));
+  hit.colour = colour(hit.object, p);
   hit.shines = coat.finish != Coat::MATT;
   return hit;
+}
+
+Hit Tracer::trace(double column, double row, const int *which, int count) const {
+  static thread_local Work w;
+  aim(column, row, which, count, w);
+  for (size_t link = 0; link + 1 < w.t.size(); link++) {
+    double a = w.t[link], b = w.t[link + 1];
+    if (a < 0 || b <= a) continue;
+    gather(which, count, a, b, w);
+    int owner = -1;
+    double found = firstOfBodies(w, a, b, owner);
+    if (found >= 0) return hitAt(w.ray, found, owner);
+  }
+  return Hit();
 }
 
 // A matt surface scatters light by the cosine between its normal and the light. A shiny surface scatters three quarters of
