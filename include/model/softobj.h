@@ -441,6 +441,7 @@ private:
     Real restLength(const Layout& layout, const Seed& a, const Seed& b) const;
     void measureReach();
     void findSteps();
+    void layRingsAtRest(bool known);
     Real warpedParam(const Vector& q, Vector* slope) const;
     bool keepPlain(Layout& layout) const;
     void reshape();

@@ -327,6 +327,24 @@ void SoftObject::layAtRest(Seed& s, const Direction14& normal) const
     s.out = static_cast<int16_t>((normal.x * s.place[0] + normal.y * s.place[1] + normal.z * s.place[2]) >> 14);
 }
 
+// Lays all regular seeds at rest, where `known` with the normals, ways and areas that they have got from another object.
+void SoftObject::layRingsAtRest(bool known)
+{
+    for (int ring = 0; ring < laid_.rings && !stopAsked(); ++ring)
+        for (int i = laid_.ringStarts[ring]; i < laid_.ringStarts[ring + 1]; ++i) {
+            Seed& s = laid_.seeds[i];
+            layAtRest(s, known ? s.normal : plainNormal(laid_.rest(s), s.path));
+            if (known)
+                continue;
+            // Unless paths slant, a path leads along the normal.
+            if (slants())
+                setWay(s);
+            else
+                setWay(s, s.normal);
+            setArea(s, s.normal);
+        }
+}
+
 Real SoftObject::ownSpacing(Real asked) const
 {
     return asked * clamp(radius_ * (Real(1) / THIN), Real(0.5), Real(1));
@@ -357,19 +375,7 @@ bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObje
     Layout before = laid_;
     laid_ = layout;
     findSteps();
-    for (int ring = 0; ring < laid_.rings && !stopAsked(); ++ring)
-        for (int i = laid_.ringStarts[ring]; i < laid_.ringStarts[ring + 1]; ++i) {
-            Seed& s = laid_.seeds[i];
-            layAtRest(s, like != nullptr ? s.normal : plainNormal(laid_.rest(s), s.path));
-            if (like != nullptr)
-                continue;
-            // Unless paths slant, a path leads along the normal.
-            if (slants())
-                setWay(s);
-            else
-                setWay(s, s.normal);
-            setArea(s, s.normal);
-        }
+    layRingsAtRest(like != nullptr);
     // A ball has no ridges, however far apart its seeds are.
     if (like == nullptr && !isBall())
         laid_.findRidges(tapers_);

@@ -77,6 +77,9 @@ private:
     bool bendsUnevenly(const Voxel* voxels, int count) const;
     bool cut(const int32_t inward[3], int32_t apart, Voxel* voxel) const;
     bool cutAtRidge(const Seed& s, Voxel* voxel) const;
+    bool endBeside(const Seed& s, Voxel* voxel, VoxelList& list) const;
+    template <bool PAINTED>
+    void addSloped(const Seed& s, Voxel* shown, int32_t sight, VoxelList& list);
     bool knowsLight(const Seed& s, bool regular, const Voxel& voxel) const;
     void setSlopesOf(const Seed& s, Voxel* voxel) const;
     const Limb* limbOf(const Patch& patch);
@@ -415,11 +418,26 @@ inline void Shader::endOrDome(const Patch& patch, const Seen& seen, bool regular
         endAtLimb(patch, seen, shown);
 }
 
+// Ends a voxel at a border and at a ridge, if its seed lies beside one. Returns false when nothing is left of it.
+inline bool Shader::endBeside(const Seed& s, Voxel* voxel, VoxelList& list) const
+{
+    return (!(s.flags & SEED_BORDER) || cutAtBorder(s, voxel, list)) && (s.beyond < 0 || cutAtRidge(s, voxel));
+}
+
 // Whether a patch blends and bends unevenly, or its seeds have parted. Then neither its gradient nor its limb is known; its scales
 // are stretched and bend fast, so that each has to leave the place beside it to the next one (scales.h).
 inline bool Shader::isUneven(const Patch& patch, const Voxel* voxels, int regular) const
 {
     return patch.state == PATCH_MIXED && (patch.extras || bendsUnevenly(voxels, regular));
+}
+
+// Adds a listed voxel to the slopes, with the second one that the painter may have made of it.
+template <bool PAINTED>
+inline void Shader::addSloped(const Seed& s, Voxel* shown, int32_t sight, VoxelList& list)
+{
+    slopes.add(&s, static_cast<int>(&s - shading_.seeds), shown, sight);
+    if (PAINTED && list.room() > shown + 1)
+        slopes.addCopy(shown + 1, shown);
 }
 
 // Lists the voxels of a patch that blends or has a ridge, or whose object has a paint.
@@ -438,20 +456,15 @@ inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, int
         const bool knows = blends && !shines && knowsLight(s, i < regular, voxels[i]);
         if (knows)
             setSlopesOf(s, voxels + i);
-        if ((s.flags & SEED_BORDER) && !cutAtBorder(s, voxels + i, list))
-            continue;
-        if (s.beyond >= 0 && !cutAtRidge(s, voxels + i))
+        if (!endBeside(s, voxels + i, list))
             continue;
         seen_[listed++] = seen_[i];
         Voxel* const shown = PAINTED ? painter->add(s, voxels[i]) : listUnpainted(s, voxels + i, &to, list);
         endOrDome(patch, seen_[i], i < regular, uneven, shown);
-        if (i >= sloped)
-            continue;
         // A dark voxel keeps its slopes. With a finish that shines, brightness 0 does not mean that the light ends there.
         const bool stays = knows || (!shines && shown->brightness == 0);
-        slopes.add(&s, static_cast<int>(&s - shading_.seeds), shown, stays ? Slopes::STAYS : sight);
-        if (PAINTED && list.room() > shown + 1)
-            slopes.addCopy(shown + 1, shown);
+        if (i < sloped)
+            addSloped<PAINTED>(s, shown, stays ? Slopes::STAYS : sight, list);
     }
     if (!PAINTED)
         list.count = static_cast<int>(to - list.voxels);
