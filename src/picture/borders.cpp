@@ -11,8 +11,12 @@ using machine::WIDTH;
 
 namespace {
 
-// Pixels from one that is looked at to the next, in both directions. A wrong pixel that stands alone may be missed.
+// Pixels from one that is looked at to the next, in both directions.
 constexpr int GRID = 2;
+// So many columns to both sides of a border found, pixels are looked for that stand alone, in its row and in the one below, which
+// is not looked at otherwise. Others that stand alone may be missed.
+constexpr int NEAR = 4;
+static_assert(GRID == 2, "one row is left out");
 // No pixel is looked at after so many in a frame.
 constexpr int LOOKS_MOST = 2000;
 // 1/128 unit: pixels whose depths differ by more do not belong to one piece of the surface.
@@ -74,10 +78,27 @@ void Borders::mendBeside(int right)
         return;
     note(right, right - 1);
     note(right - 1, right);
+    noteScraps(right);
+    noteScraps(right + WIDTH);
     while (count_ > 0) {
         const Place place = noted_[--count_];
         if (mendPixel(place))
             forBeside(place.pixel, [&](int pixel) { note(pixel, place.pixel); });
+    }
+}
+
+// Notes the pixels near a place in a row that stand alone between two of one other ramp.
+inline void Borders::noteScraps(int middle)
+{
+    if (middle <= NEAR || middle + NEAR >= WIDTH * HEIGHT)
+        return;
+    int before = rampAt(middle - NEAR - 1), here = rampAt(middle - NEAR);
+    for (int at = middle - NEAR; at < middle + NEAR; ++at) {
+        const int behind = rampAt(at + 1);
+        if (here != before && behind == before)
+            note(at, at - 1);
+        before = here;
+        here = behind;
     }
 }
 

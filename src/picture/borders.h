@@ -21,6 +21,7 @@ private:
     };
 
     void mendBeside(int right);
+    void noteScraps(int middle);
     void note(int at, int from);
     bool mendPixel(const Place& place);
     int meanBrightness(int at, int ramp) const;

@@ -726,6 +726,38 @@ TEST(borders_of_colours)
         }
 }
 
+// Near a border a pixel of the wrong colour is found that stands alone, in whichever row and column.
+TEST(pixels_that_stand_alone_beside_borders)
+{
+    for (const bool linked : {true, false}) {
+        Model model;
+        addPair(model, 10);
+        CHECK(!linked || model.link(model.actor(0).object, model.actor(1).object, Real(1)));
+        CHECK(model.bodies() != nullptr);
+        Palette palette;
+        palette.make(model, false);
+        View view;
+        CHECK(view.open());
+        view.begin();
+        const std::vector<int> owners = drawTruly(view, model, 0);
+        std::vector<int> alone;
+        for (int y = 70; y < 130; y += 3)
+            for (const int x : {157 + y % 2, 161 + y % 2}) {
+                const int at = y * WIDTH + x, owner = owners[static_cast<size_t>(at)];
+                CHECK(owner >= 0);
+                view.setPixel(at, view.zbuffer()[at], model.actor(1 - owner).object->ramp()[30]);
+                alone.push_back(at);
+            }
+        view.closeGaps(SPACING, &model, &palette);
+        int left = 0;
+        for (const int at : alone)
+            left += palette.rampOf(view.frame()[at]) !=
+                    palette.numberOf(model.actor(owners[static_cast<size_t>(at)]).object->ramp());
+        note("%s: %d pixels stood alone, %d are left", linked ? "one body" : "two bodies", static_cast<int>(alone.size()), left);
+        SAME(left, 0);
+    }
+}
+
 namespace {
 
 // The same two balls, linked, with their palette, and a view that has begun a frame.
