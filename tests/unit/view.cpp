@@ -678,21 +678,37 @@ TEST(gaps_between_two_objects)
     CHECK(sides[0] > 200 && sides[1] > 200);
 }
 
+namespace {
+
+// The two balls of addPair(), which are linked or not, with their palette, and a view that has begun a frame.
+struct PairView {
+    Model model;
+    Palette palette;
+    View view;
+
+    explicit PairView(double away, bool linked = true)
+    {
+        addPair(model, away);
+        CHECK(!linked || model.link(model.actor(0).object, model.actor(1).object, Real(1)));
+        CHECK(model.bodies() != nullptr);
+        palette.make(model, false);
+        CHECK(view.open());
+        view.begin();
+    }
+};
+
+}  // namespace
+
 // Teeth of a wrong colour at a border get the colour of the object that they belong to, even if their depth is off by half a unit;
 // what was right stays, and so does what lies far from the border.
 TEST(borders_of_colours)
 {
     for (const bool linked : {true, false})
         for (double nearer : {-0.5, 0.0, 0.5}) {
-            Model model;
-            addPair(model, 10);
-            CHECK(!linked || model.link(model.actor(0).object, model.actor(1).object, Real(1)));
-            CHECK(model.bodies() != nullptr);
-            Palette palette;
-            palette.make(model, false);
-            View view;
-            CHECK(view.open());
-            view.begin();
+            PairView pair(10, linked);
+            const Model& model = pair.model;
+            const Palette& palette = pair.palette;
+            View& view = pair.view;
             const std::vector<int> owners = drawTruly(view, model, nearer);
             const auto isInside = [&](int at) { return owners[static_cast<size_t>(at)] >= 0; };
             // Teeth of four by four pixels to both sides of the border at column 160.
@@ -730,15 +746,10 @@ TEST(borders_of_colours)
 TEST(pixels_that_stand_alone_beside_borders)
 {
     for (const bool linked : {true, false}) {
-        Model model;
-        addPair(model, 10);
-        CHECK(!linked || model.link(model.actor(0).object, model.actor(1).object, Real(1)));
-        CHECK(model.bodies() != nullptr);
-        Palette palette;
-        palette.make(model, false);
-        View view;
-        CHECK(view.open());
-        view.begin();
+        PairView pair(10, linked);
+        const Model& model = pair.model;
+        const Palette& palette = pair.palette;
+        View& view = pair.view;
         const std::vector<int> owners = drawTruly(view, model, 0);
         std::vector<int> alone;
         for (int y = 70; y < 130; y += 3)
@@ -757,27 +768,6 @@ TEST(pixels_that_stand_alone_beside_borders)
         SAME(left, 0);
     }
 }
-
-namespace {
-
-// The same two balls, linked, with their palette, and a view that has begun a frame.
-struct PairView {
-    Model model;
-    Palette palette;
-    View view;
-
-    explicit PairView(double away)
-    {
-        addPair(model, away);
-        CHECK(model.link(model.actor(0).object, model.actor(1).object, Real(1)));
-        CHECK(model.bodies() != nullptr);
-        palette.make(model, false);
-        CHECK(view.open());
-        view.begin();
-    }
-};
-
-}  // namespace
 
 // At a crease the two sides differ in brightness. A pixel that gets the other colour gets a brightness between those of the two.
 TEST(brightness_beside_borders_of_colours)
