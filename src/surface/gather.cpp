@@ -258,18 +258,16 @@ namespace {
 
 // Flags of a neighbourhood, from the neighbours gathered so far.
 struct Gathered {
-    bool dented = false, inner = false, uneven = false, claims = false, plain = true;
+    bool inner = false, uneven = false, claims = false, plain = true;
 
     void add(const Neighbour& near, const Bodies& bodies)
     {
-        dented |= near.digs;
         inner |= !near.digs && dentedFromWithin(*near.object, bodies);
         uneven |= near.ratio > UNEVEN_SIZES;
         plain &= near.plain;
     }
     void putInto(Neighbourhood& all) const
     {
-        all.dented = all.dented || dented;
         all.inner = all.inner || inner;
         all.uneven = all.uneven || uneven;
         all.claims = all.claims || claims;
@@ -339,12 +337,12 @@ void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& 
     all.weight = all.hollow ? -bodies.weight(all.head->slot(), object.slot()) : Real(0);
     all.inner = dentedFromWithin(*all.head, bodies);
     all.restsAtOne = object.rests() && !all.hollow;
-    all.dented = false;
     all.ordinary = object.strength() == Real(1) && !all.hollow && !object.shaped();
     all.last = object.restRoot() == Real(0.5) ? Real(1.98) : Real(0.99) / object.restRoot();
     all.uneven = all.claims = false;
     memset(all.bySlot, 0, sizeof all.bySlot);
     gatherFrom(bodies.diggers(*all.head), bodies.diggerCount(*all.head), true, object, bodies, all);
+    all.dented = all.count > 0;
     gatherFrom(bodies.members(*all.head), bodies.memberCount(*all.head), false, object, bodies, all);
     all.deep = all.inner || all.dented || !all.restsAtOne;
     all.ordinary = all.ordinary && !all.inner;
