@@ -6,8 +6,7 @@
 
 class Borders {
 public:
-    // There is a model, and the palette has made the ramps of its objects, in colour; colours do not mix. `missed` draws single
-    // pixels.
+    // There is a model, and the palette has made the ramps of its objects, in colour; colours do not mix.
     Borders(View& view, FieldProbe& probe, const Palette& palette, Rays& rays);
 
     // Finds pixels at borders of colours that have the colour of a wrong object, and gives them that of the object that they belong
