@@ -92,8 +92,7 @@ bool Engine::update(const FrameContext& frame)
     gather(object_, frame, all);
     odometer_.advance(object_, own_, all, frame.bodies->version());
     Settler settler(object_, own_, all, frame, odometer_);
-    // Islands change too suddenly to go on.
-    keeper_.begin(own_, odometer_.lastTravel(), !settler.hasIslands());
+    keeper_.begin(own_, odometer_.lastTravel());
     begun_ = true;
     // No neighbour is near, and all seeds are at rest already.
     if (allRests_ && !odometer_.leapt() && all.ordinary && all.restsAtOne && all.count == 0)
@@ -265,7 +264,7 @@ void Engine::draw(const FrameContext& frame, VoxelList& list, int room, int* nex
         return;
     }
     if (begins)
-        keeper_.begin(own_, 0, true);
+        keeper_.begin(own_, 0);
     const Paint* const paint = shown->paint();
     const int at = shadePatches(object_, own_, frame, patches_, count_, *next, list, room, keeper_);
     *next = at < count_ ? at : 0;

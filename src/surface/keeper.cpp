@@ -84,7 +84,7 @@ void Keeper::open(int count)
         kept_[i] = Kept{};
 }
 
-void Keeper::begin(const OwnFrame& own, Travel travel, bool blendsEvenly)
+void Keeper::begin(const OwnFrame& own, Travel travel)
 {
     if (count_ == 0)
         return;
@@ -103,7 +103,7 @@ void Keeper::begin(const OwnFrame& own, Travel travel, bool blendsEvenly)
     // When the neighbours stop, or nearly do, nothing may go on as if they still moved.
     const bool stop = travel_ > travel * 4 + SLIGHT;
     travel_ = travel;
-    longest_ = blendsEvenly && !stop ? LONGEST_PERIOD : 1;
+    longest_ = stop ? 1 : LONGEST_PERIOD;
     while (longest_ > 1 && travel * static_cast<Travel>(longest_ - 1) > travelOf(FARTHEST))
         longest_ /= 2;
 }
@@ -168,9 +168,9 @@ bool Keeper::makeRoom(Kept& kept, int count)
     return kept.room > 0;
 }
 
-void Keeper::store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool mayGoOn, Slopes& slopes) const
+void Keeper::store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool goes, Slopes& slopes) const
 {
-    const bool follows = mayGoOn && kept.drawn == frame_ - 1 && kept.left == 0 && kept.state == patch.state;
+    const bool follows = goes && kept.drawn == frame_ - 1 && kept.left == 0 && kept.state == patch.state;
     kept.since = 0;
     kept.drawn = 0;
     const bool same = follows && hasSameSeeds(kept, made);
@@ -190,7 +190,7 @@ void Keeper::store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool
     kept.bordered = made.bordered;
     kept.since = since_;
     // What stands has no steps that would be known when it moves.
-    kept.drawn = mayGoOn ? frame_ : 0;
+    kept.drawn = goes ? frame_ : 0;
 }
 
 // Keeps the voxels of a patch, of which nothing is known.

@@ -37,15 +37,14 @@ public:
             kept_[number].since = 0;
     }
 
-    // Begins a frame. `travel` is how far the object's neighbours have travelled since the frame before. Unless `blendsEvenly`,
-    // no patch that blends goes on in it.
-    void begin(const OwnFrame& own, Travel travel, bool blendsEvenly);
+    // Begins a frame. `travel` is how far the object's neighbours have travelled since the frame before.
+    void begin(const OwnFrame& own, Travel travel);
 
     // Whether the voxels of a patch go on in this frame. If it blends its seeds need not be settled.
     bool goesOn(int number, const Patch& patch) const
     {
         return count_ > 0 && kept_[number].left != 0 && kept_[number].drawn == frame_ - 1 && kept_[number].state == patch.state &&
-               !patch.islands && isEven(patch);
+               !patch.islands && mayGoOn(patch, kept_[number].count);
     }
     // Whether they are those of this frame, because nothing has changed.
     bool stands(int number, const Patch& patch) const
@@ -60,9 +59,9 @@ public:
     {
         if (count_ == 0 || patch.islands)
             return;
-        const bool mayGoOn = isEven(patch) && !patch.fine;
-        if (mayGoOn || motion_ == STANDS)
-            store(kept_[number], patch, made, mayGoOn, slopes);
+        const bool goes = mayGoOn(patch, made.count) && !patch.fine;
+        if (goes || motion_ == STANDS)
+            store(kept_[number], patch, made, goes, slopes);
     }
 
 private:
@@ -108,12 +107,15 @@ private:
     // What rests does not go on straight while it turns fast; where patches blend the error of the steps tells.
     enum Motion { STANDS, EVEN, FAST, UNEVEN };
 
-    bool isEven(const Patch& patch) const
+    // Whether a patch may go on. One without voxels has nothing that would have to move evenly.
+    bool mayGoOn(const Patch& patch, int voxels) const
     {
-        return patch.state == PATCH_MIXED ? longest_ > 1 && motion_ != UNEVEN : patch.state == PATCH_REST && motion_ == EVEN;
+        if (patch.state == PATCH_MIXED)
+            return longest_ > 1 && (motion_ != UNEVEN || voxels == 0);
+        return patch.state == PATCH_REST && motion_ == EVEN;
     }
     Motion motionOf(const OwnFrame& own);
-    void store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool mayGoOn, Slopes& slopes) const;
+    void store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool goes, Slopes& slopes) const;
     static bool makeRoom(Kept& kept, int count);
     static void begin(Kept& kept, const PatchVoxels& made);
     static bool hasSameSeeds(const Kept& kept, const PatchVoxels& made);
