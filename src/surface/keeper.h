@@ -59,7 +59,7 @@ public:
     {
         if (count_ == 0 || patch.islands)
             return;
-        const bool goes = mayGoOn(patch, made.count) && !patch.fine;
+        const bool goes = mayGoOn(patch, made.count);
         if (goes || motion_ == STANDS)
             store(kept_[number], patch, made, goes, slopes);
     }
@@ -122,9 +122,6 @@ private:
     static bool rearrange(Kept& kept, const PatchVoxels& made);
     void follow(Kept& kept, const Patch& patch, const PatchVoxels& made, bool sameSeeds) const;
     int longestUnseen(Kept& kept, const Patch& patch, int shift) const;
-
-    // The most voxels of a patch without fine seeds: of regular and oversampled ones.
-    static constexpr int ONES_MOST = 2 * PATCH_RINGS * PATCH_SEEDS;
 
     const SoftObject& object_;
     Kept* kept_ = nullptr;

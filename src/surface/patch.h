@@ -13,6 +13,9 @@ constexpr Real OVERSHOOT(0.05);
 constexpr int PATCH_RINGS = 3;
 constexpr int PATCH_SEEDS = 3;
 
+// Upper bound on the seeds of a patch, with oversampled and fine ones.
+constexpr int PATCH_MOST = (2 + SoftObject::FINE_SEEDS) * PATCH_RINGS * PATCH_SEEDS;
+
 enum PatchState : uint8_t {
     PATCH_REST,    // no neighbour reaches it: all its seeds are at rest
     PATCH_INSIDE,  // all of it lies inside the body, where a neighbour is stronger than the own object

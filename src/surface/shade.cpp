@@ -46,9 +46,6 @@ constexpr int DOME_SHIFT = 4;
 // surface, and the scales beside them cover it.
 constexpr int32_t FRONT = 1;
 
-// Upper bound on the seeds of a patch, with oversampled and fine ones.
-constexpr int SEEDS_MOST = (2 + SoftObject::FINE_SEEDS) * PATCH_RINGS * PATCH_SEEDS;
-
 // Turns the seeds of one object into voxels. One is made for each object and frame.
 class Shader {
 public:
@@ -118,7 +115,7 @@ private:
     int32_t middle_;          // depth of the patch, 1/256 unit
     bool limbSought_, hasLimb_;
     Limb limb_;               // limb of its regular seeds, if hasLimb_
-    Seen seen_[SEEDS_MOST];   // seen()
+    Seen seen_[PATCH_MOST];   // seen()
 };
 
 Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame)
@@ -474,7 +471,7 @@ template <bool PAINTED>
 inline void Shader::shadePatch(Patch& patch, VoxelList& list, Painter* painter)
 {
     // The painter makes one or two voxels of each of these.
-    Voxel unpainted[PAINTED ? SEEDS_MOST : 1];
+    Voxel unpainted[PAINTED ? PATCH_MOST : 1];
     Voxel* const voxels = PAINTED ? unpainted : list.room();
     int regular;
     const int count = findSeen(patch, voxels, &regular);
@@ -531,7 +528,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
     slopes.begin();
     // The painter may make two voxels of one seed. Guests are listed from the other end on, while the voxels of the patch still
     // stand at this one.
-    constexpr int most = 2 * SEEDS_MOST;
+    constexpr int most = 2 * PATCH_MOST;
     static_assert(most <= DRAW_ROOM);
     // A pattern may move over seeds that stand still.
     const bool keeps = !PAINTED || painter->isPlain();
