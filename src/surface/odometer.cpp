@@ -13,7 +13,7 @@ constexpr Travel EVERYWHERE = 3 << 19;
 
 // The largest travel that may be added to a 16-bit count that wraps around without its seeming to run backwards. It makes
 // everything due.
-constexpr uint16_t ALL_DUE = 1 << 14;
+constexpr Travel ALL_DUE = 1 << 14;
 
 }  // namespace
 
@@ -72,9 +72,8 @@ void Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
         if ((i >= count_ || known.slot != near.slot) && !isKnown(all, i))
             continue;
         known.inRange = near.inRange;
-        const Travel travelled = travelOf(known.pose.follow(near, reach));
-        longest = travelled > longest ? travelled : longest;
-        known.travelled = static_cast<uint16_t>(travelled < ALL_DUE ? travelled : ALL_DUE);
+        known.travelled = travelOf(known.pose.follow(near, reach));
+        longest = known.travelled > longest ? known.travelled : longest;
     }
     if (count_ > all.count)
         forgetFar(all);
@@ -123,7 +122,7 @@ void Odometer::forgetFar(const Neighbourhood& all)
 
 bool Odometer::count(Patch& patch, const Neighbourhood& all) const
 {
-    uint16_t travel = leapt_ ? ALL_DUE : 0;
+    Travel travel = leapt_ ? ALL_DUE : 0;
     const Bound paths = boundOfPaths(patch, all);
     for (int i = 0; i < count_; ++i) {
         const Travel travelled = known_[i].travelled;
@@ -132,8 +131,8 @@ bool Odometer::count(Patch& patch, const Neighbourhood& all) const
         // It may have left the paths in this call; some of its places travel twice as far.
         const int32_t margin = steps16(GATHER_SLACK) + static_cast<int32_t>(travelled >> 5);
         if (reaches(all.neighbours[i], {paths.x, paths.y, paths.z, paths.radius + margin}))
-            travel = static_cast<uint16_t>(travelled);
+            travel = travelled;
     }
-    patch.travelled = static_cast<uint16_t>(patch.travelled + travel);
+    patch.travelled = static_cast<uint16_t>(patch.travelled + (travel < ALL_DUE ? travel : ALL_DUE));
     return travel > 0;
 }

@@ -69,7 +69,7 @@ private:
     struct Known {
         uint8_t slot;
         bool inRange;   // Neighbour::inRange
-        uint16_t travelled;  // a Travel, at most ALL_DUE
+        Travel travelled;
         Pose pose;
     };
     int room_ = 0, count_ = 0;
