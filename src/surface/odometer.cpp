@@ -66,14 +66,14 @@ void Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
     eyeStayed_ = eyeTravel == 0;
     const Real reach = object.reach();
     Travel longest = 0;
-    for (int i = 0; i < all.count; ++i) {
-        const Neighbour& near = all.neighbours[i];
-        Known& known = known_[i];
-        if ((i >= count_ || known.slot != near.slot) && !isKnown(all, i))
+    const Neighbour* near = all.neighbours;
+    Known* known = known_;
+    for (int i = 0, count = all.count; i < count; ++i, ++near, ++known) {
+        if ((i >= count_ || known->slot != near->slot) && !isKnown(all, i))
             continue;
-        known.inRange = near.inRange;
-        known.travelled = travelOf(known.pose.follow(near, reach));
-        longest = known.travelled > longest ? known.travelled : longest;
+        known->inRange = near->inRange;
+        known->travelled = travelOf(known->pose.follow(*near, reach));
+        longest = known->travelled > longest ? known->travelled : longest;
     }
     if (count_ > all.count)
         forgetFar(all);
