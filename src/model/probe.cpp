@@ -23,10 +23,16 @@ void FieldProbe::gather(Cell& cell) const
 {
     constexpr int EDGE = 1 << CUBE, HALF = EDGE / 2;
     const Point middle{Real(cell.x * EDGE + HALF), Real(cell.y * EDGE + HALF), Real(cell.z * EDGE + HALF)};
+    const auto beyond = [](Real away) { return ::max(absolute(away) - Real(HALF), Real(0)); };
     cell.count = 0;
-    for (int i = 0; i < memberCount_; ++i)
-        if (!members_[i].object->isFar(middle, Real(HALF)))
+    for (int i = 0; i < memberCount_; ++i) {
+        const SoftObject& object = *members_[i].object;
+        if (object.isFar(middle, Real(HALF)))
+            continue;
+        const Vector away = object.centre() - middle;
+        if (squareOf(Vector{beyond(away.x), beyond(away.y), beyond(away.z)}) < squareOf(object.reach()))
             cell.slots[cell.count++] = static_cast<uint8_t>(i);
+    }
 }
 
 // Returns the cell of the cube that a point lies in. Cubes side by side have different cells.
