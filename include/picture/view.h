@@ -158,6 +158,9 @@ private:
     uint8_t* frame_ = nullptr;
     uint16_t* zbuffer_ = nullptr;
     Factors* factors_ = nullptr;
+    // How far the ray of sight through the middle of a pixel leads to the right and up, for each column and row: units of the view a
+    // unit of depth.
+    Real toRight_[machine::WIDTH], toTop_[machine::HEIGHT];
     Crossing crossings_[CROSSINGS_MOST];
     int crossingCount_ = 0;
     Span touched_[machine::HEIGHT];

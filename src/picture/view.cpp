@@ -86,6 +86,11 @@ void View::makeLens()
         f.zx = mulDiv(z, (1 << 27) / HALVES, focalX_);
         f.zy = mulDiv(z, (1 << 27) / HALVES, focalY_);
     }
+    const Real half(0.5);
+    for (int column = 0; column < WIDTH; ++column)
+        toRight_[column] = (Real(column) + half - camera.centreX) / camera.focalX;
+    for (int row = 0; row < HEIGHT; ++row)
+        toTop_[row] = (camera.centreY - Real(row) - half) / camera.focalY;
 }
 
 void View::begin()
@@ -364,9 +369,8 @@ void View::closeGaps(Real spacing, const Model* model, const Palette* palette)
 Point View::pointAt(int pixel, int depth) const
 {
     const int row = pixel / WIDTH, column = pixel - row * WIDTH;
-    const Real half(0.5), z = realFromRaw(static_cast<int32_t>(depth) << 9);
-    return camera_.eye + camera_.axes.toWorld({(Real(column) + half - camera_.centreX) / camera_.focalX * z,
-                                               (camera_.centreY - Real(row) - half) / camera_.focalY * z, z});
+    const Real z = realFromRaw(static_cast<int32_t>(depth) << 9);
+    return camera_.eye + camera_.axes.toWorld({toRight_[column] * z, toTop_[row] * z, z});
 }
 
 uint8_t* View::overlay(int left, int top, int width, int height)
