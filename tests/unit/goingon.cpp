@@ -100,6 +100,56 @@ TEST(what_blends_evenly_goes_on_between_fine_seeds)
     CHECK(even.light < 0.5 * even.count);
 }
 
+TEST(what_blends_evenly_goes_on_although_a_link_is_heavy)
+{
+    // Nearer than where islands arise.
+    Distance distance;
+    Pair pair({12, 4, -6});
+    pair.scene.link(0, 1, 1.5);
+    double settled = 0, all = 0;
+    for (int i = 0; i < 30; ++i) {
+        const Vec place{12 + i * 0.1, 4 + i * 0.07, -6};
+        pair.other->moveTo(point(place.x, place.y, place.z));
+        uint32_t updated, anew;
+        const std::vector<Voxel> voxels = pair.frame(&updated);
+        if (i < 10)
+            continue;
+        Pair fresh(place);
+        fresh.scene.link(0, 1, 1.5);
+        distance.add(voxels, fresh.frame(&anew));
+        settled += updated;
+        all += anew;
+    }
+    note("settled: %.0f of %.0f seeds; voxels are off by %.3f on average", settled, all, distance.sum / distance.count);
+    CHECK(settled < 0.5 * all);
+    CHECK(distance.count > 0 && distance.sum < 0.1 * distance.count);
+}
+
+TEST(what_shows_nothing_goes_on_however_the_viewer_moves)
+{
+    // The viewer goes to and fro, so that nothing changes evenly; the other ball comes nearer slowly.
+    Pair pair({12, 4, -6});
+    double settled = 0, all = 0;
+    for (int i = 0; i < 30; ++i) {
+        const Vec place{12 + i * 0.1, 4, -6};
+        const auto look = [&](Pair& at, uint32_t* updated) {
+            at.scene.eye = point(i % 2 * 3.0, 0, -120);
+            at.other->moveTo(point(place.x, place.y, place.z));
+            at.frame(updated);
+        };
+        uint32_t updated, anew;
+        look(pair, &updated);
+        Pair fresh(place);
+        look(fresh, &anew);
+        if (i < 10)
+            continue;
+        settled += updated;
+        all += anew;
+    }
+    note("settled: %.0f of %.0f seeds", settled, all);
+    CHECK(settled < 0.8 * all);
+}
+
 TEST(what_stops_or_leaps_is_found_anew)
 {
     // After twenty even steps the ball stops, or leaps: from the frame after the next on, or at once, nothing is left of its way.
