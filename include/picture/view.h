@@ -158,8 +158,8 @@ private:
     uint8_t* frame_ = nullptr;
     uint16_t* zbuffer_ = nullptr;
     Factors* factors_ = nullptr;
-    // How far the ray of sight through the middle of a pixel leads to the right and up, for each column and row: units of the view a
-    // unit of depth.
+    // How far the ray of sight through the middle of a pixel leads to the right, for each column, and up, for each row, while it
+    // leads one unit ahead.
     Real toRight_[machine::WIDTH], toTop_[machine::HEIGHT];
     Crossing crossings_[CROSSINGS_MOST];
     int crossingCount_ = 0;
