@@ -125,7 +125,7 @@ bool Odometer::count(Patch& patch, const Neighbourhood& all) const
     Travel travel = leapt_ ? ALL_DUE : 0;
     const Bound paths = boundOfPaths(patch, all);
     for (int i = 0; i < count_; ++i) {
-        const Travel travelled = known_[i].travelled;
+        const Travel travelled = known_[i].travelled < ALL_DUE ? known_[i].travelled : ALL_DUE;
         if (travelled <= travel)
             continue;
         // It may have left the paths in this call; some of its places travel twice as far.
@@ -133,6 +133,6 @@ bool Odometer::count(Patch& patch, const Neighbourhood& all) const
         if (reaches(all.neighbours[i], {paths.x, paths.y, paths.z, paths.radius + margin}))
             travel = travelled;
     }
-    patch.travelled = static_cast<uint16_t>(patch.travelled + (travel < ALL_DUE ? travel : ALL_DUE));
+    patch.travelled = static_cast<uint16_t>(patch.travelled + travel);
     return travel > 0;
 }
