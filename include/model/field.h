@@ -14,8 +14,19 @@
 constexpr Real ISOVALUE(0.5);
 
 // F and dF/dt for t >= 0; both are 0 from t = 1 on.
-Real geoff(Real t);
-Real geoffSlope(Real t);
+inline Real geoff(Real t)
+{
+    if (t >= Real(1))
+        return Real(0);
+    return Real(1) - t * (Real(22.0 / 9) - t * (Real(17.0 / 9) - t * Real(4.0 / 9)));
+}
+
+inline Real geoffSlope(Real t)
+{
+    if (t >= Real(1))
+        return Real(0);
+    return t * (Real(34.0 / 9) - t * Real(12.0 / 9)) - Real(22.0 / 9);
+}
 
 // The table: F and dF/dt at the middle of each of FIELD_STEPS equal steps of t from 0 to 1.
 struct FieldStep {

@@ -361,7 +361,7 @@ Real SoftObject::fieldNear(const Point& p, FieldPlace* place) const
     } else {
         place->param = paramAt(v, &place->slope);
     }
-    return place->param < Real(1) ? strength_ * geoff(place->param) : Real(0);
+    return strength_ * geoff(place->param);
 }
 
 // The square of a place's distance from the core over that of the size, given the place from the centre in the axes of the world.
