@@ -23,10 +23,12 @@ void FieldProbe::gather(Cell& cell) const
 {
     constexpr int EDGE = 1 << CUBE, HALF = EDGE / 2;
     const Point middle{Real(cell.x * EDGE + HALF), Real(cell.y * EDGE + HALF), Real(cell.z * EDGE + HALF)};
+    // How far a place is beyond the cube along an axis, given how far it is from the middle.
     const auto beyond = [](Real away) { return ::max(absolute(away) - Real(HALF), Real(0)); };
     cell.count = 0;
     for (int i = 0; i < memberCount_; ++i) {
         const SoftObject& object = *members_[i].object;
+        // Most objects are so far away that their boxes tell.
         if (object.isFar(middle, Real(HALF)))
             continue;
         const Vector away = object.centre() - middle;

@@ -219,7 +219,7 @@ inline bool Keeper::hasSameSeeds(const Kept& kept, const PatchVoxels& made)
 // a seed that has come into sight there is a voxel without a seed. Returns false when there is no memory.
 bool Keeper::rearrange(Kept& kept, const PatchVoxels& made)
 {
-    One now[PATCH_MOST];
+    One now[PATCH_SEEDS_MOST];
     const One *before = kept.voxels, *const end = before + kept.count;
     for (int i = 0; i < made.count; ++i) {
         const One* at = before;

@@ -14,7 +14,7 @@ constexpr int PATCH_RINGS = 3;
 constexpr int PATCH_SEEDS = 3;
 
 // Upper bound on the seeds of a patch, with oversampled and fine ones.
-constexpr int PATCH_MOST = (2 + SoftObject::FINE_SEEDS) * PATCH_RINGS * PATCH_SEEDS;
+constexpr int PATCH_SEEDS_MOST = (2 + SoftObject::FINE_SEEDS) * PATCH_RINGS * PATCH_SEEDS;
 
 enum PatchState : uint8_t {
     PATCH_REST,    // no neighbour reaches it: all its seeds are at rest

@@ -115,7 +115,7 @@ private:
     int32_t middle_;          // depth of the patch, 1/256 unit
     bool limbSought_, hasLimb_;
     Limb limb_;               // limb of its regular seeds, if hasLimb_
-    Seen seen_[PATCH_MOST];   // seen()
+    Seen seen_[PATCH_SEEDS_MOST];   // seen()
 };
 
 Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame)
@@ -471,7 +471,7 @@ template <bool PAINTED>
 inline void Shader::shadePatch(Patch& patch, VoxelList& list, Painter* painter)
 {
     // The painter makes one or two voxels of each of these.
-    Voxel unpainted[PAINTED ? PATCH_MOST : 1];
+    Voxel unpainted[PAINTED ? PATCH_SEEDS_MOST : 1];
     Voxel* const voxels = PAINTED ? unpainted : list.room();
     int regular;
     const int count = findSeen(patch, voxels, &regular);
@@ -528,7 +528,7 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
     slopes.begin();
     // The painter may make two voxels of one seed. Guests are listed from the other end on, while the voxels of the patch still
     // stand at this one.
-    constexpr int most = 2 * PATCH_MOST;
+    constexpr int most = 2 * PATCH_SEEDS_MOST;
     static_assert(most <= DRAW_ROOM);
     // A pattern may move over seeds that stand still.
     const bool keeps = !PAINTED || painter->isPlain();

@@ -29,11 +29,11 @@ struct Pair {
     Scene scene;
     SoftObject* other;
 
-    explicit Pair(const Vec& at, double spacing = 2)
+    explicit Pair(const Vec& at, double spacing = 2, double weight = 1)
     {
         scene.ball(30, 0, 0, 0, spacing);
         other = &scene.ball(24, at.x, at.y, at.z, spacing);
-        scene.linkAll();
+        scene.link(0, 1, weight);
     }
     // A frame, as the program makes it: the voxels of both objects. `updated` receives how many seeds were settled.
     std::vector<Voxel> frame(uint32_t* updated)
@@ -48,11 +48,12 @@ struct Pair {
     }
 };
 
-// Plays frames and holds each from `from` on against a scene without a past. Returns the mean number of seeds settled in them.
-double play(int frames, int from, Vec (*at)(int), Distance& distance, double spacing = 2)
+// Plays frames and holds each from `from` on against a scene without a past. Returns the mean number of seeds settled in them;
+// `all` receives that of the scenes without a past.
+double play(int frames, int from, Vec (*at)(int), Distance& distance, double spacing = 2, double weight = 1, double* all = nullptr)
 {
-    Pair pair(at(0), spacing);
-    double settled = 0;
+    Pair pair(at(0), spacing, weight);
+    double settled = 0, settledAnew = 0;
     for (int i = 0; i < frames; ++i) {
         const Vec place = at(i);
         pair.other->moveTo(point(place.x, place.y, place.z));
@@ -61,9 +62,12 @@ double play(int frames, int from, Vec (*at)(int), Distance& distance, double spa
         if (i < from)
             continue;
         settled += updated;
-        Pair fresh(place, spacing);
+        Pair fresh(place, spacing, weight);
         distance.add(voxels, fresh.frame(&anew));
+        settledAnew += anew;
     }
+    if (all != nullptr)
+        *all = settledAnew / (frames - from);
     return settled / (frames - from);
 }
 
@@ -103,26 +107,12 @@ TEST(what_blends_evenly_goes_on_between_fine_seeds)
 TEST(what_blends_evenly_goes_on_although_a_link_is_heavy)
 {
     // Nearer than where islands arise.
-    Distance distance;
-    Pair pair({12, 4, -6});
-    pair.scene.link(0, 1, 1.5);
-    double settled = 0, all = 0;
-    for (int i = 0; i < 30; ++i) {
-        const Vec place{12 + i * 0.1, 4 + i * 0.07, -6};
-        pair.other->moveTo(point(place.x, place.y, place.z));
-        uint32_t updated, anew;
-        const std::vector<Voxel> voxels = pair.frame(&updated);
-        if (i < 10)
-            continue;
-        Pair fresh(place);
-        fresh.scene.link(0, 1, 1.5);
-        distance.add(voxels, fresh.frame(&anew));
-        settled += updated;
-        all += anew;
-    }
-    note("settled: %.0f of %.0f seeds; voxels are off by %.3f on average", settled, all, distance.sum / distance.count);
-    CHECK(settled < 0.5 * all);
-    CHECK(distance.count > 0 && distance.sum < 0.1 * distance.count);
+    Distance even;
+    double all;
+    const double evenly = play(30, 10, [](int i) { return Vec{12 + i * 0.1, 4 + i * 0.07, -6}; }, even, 2, 1.5, &all);
+    note("settled: %.0f of %.0f seeds; voxels are off by %.3f on average", evenly, all, even.sum / even.count);
+    CHECK(evenly < 0.5 * all);
+    CHECK(even.count > 0 && even.sum < 0.1 * even.count);
 }
 
 TEST(what_shows_nothing_goes_on_however_the_viewer_moves)
