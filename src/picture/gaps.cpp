@@ -17,6 +17,9 @@ constexpr int GAP_THIN = 2;   // width of a run that is filled whatever lies abo
 constexpr int GAP_MOST = 32;  // upper bound of all widths, however near the viewer the seeds are
 constexpr Real STEEP(1.3);    // upper bound of the gradient of a field, times the size of its object
 constexpr int SLIVER = 2;     // width of a run of drawn pixels beside which surface may be missing
+// Scales that are nearer to the viewer than this (1/128 unit) are so large that a part of an outline beyond the last ones may be
+// seen to be missing, though it has no corners. The ends of every ENDS_EVERY-th row are looked at there.
+constexpr int CLOSE_UP = 50 * 128, ENDS_EVERY = 4;
 // 1/128 unit: of two drawn pixels whose depths differ by more, one lies well in front of the other.
 constexpr int IN_FRONT = 256;
 // Units, half way across an opening: if the surface is at least DOUBTFUL away there, only those pixels of the opening are drawn
@@ -83,14 +86,24 @@ inline void Gaps::noteCorners(int y, const Span& run)
 {
     const uint8_t* const row = frame_ + y * WIDTH;
     if (Missed::mayBeInCorner(row + run.from - 1, -1))
-        missed_.note(run.from - 1, y);
+        missed_.noteCorner(run.from - 1, y);
     if (Missed::mayBeInCorner(row + run.to, 1))
-        missed_.note(run.to, y);
+        missed_.noteCorner(run.to, y);
     if (run.to - run.from > SLIVER || model_ == nullptr)
         return;
     for (int end = run.from - 1, inwards = 1; inwards >= -1; end = run.to, inwards -= 2)
         if ((row[end - WIDTH] | row[end + WIDTH]) == 0)
-            missed_.note(end, y, inwards);
+            missed_.noteEnd(end, y, inwards);
+}
+
+// Notes the empty pixels beside both ends of a run of drawn pixels, where these are close to the viewer.
+inline void Gaps::noteEnds(int y, const Span& run)
+{
+    const uint16_t* const depths = zbuffer_ + y * WIDTH;
+    if (depths[run.from] < CLOSE_UP)
+        missed_.noteEnd(run.from - 1, y, 1);
+    if (depths[run.to - 1] < CLOSE_UP)
+        missed_.noteEnd(run.to, y, -1);
 }
 
 // Notes the outermost empty pixels to both sides of `columns`, in the row where the filled part of an opening ends.
@@ -104,8 +117,8 @@ void Gaps::noteBeyond(int y, const Span& columns)
         --from;
     while (to < WIDTH && to - columns.to < GAP_MOST && row[to] == 0)
         ++to;
-    missed_.note(from, y);
-    missed_.note(to - 1, y);
+    missed_.noteCorner(from, y);
+    missed_.noteCorner(to - 1, y);
 }
 
 void Gaps::close()
@@ -140,6 +153,8 @@ void Gaps::closeRow(int y, int32_t near)
         last = run->to;
         if (y >= Missed::SIDE && y < HEIGHT - Missed::SIDE)
             noteCorners(y, *run);
+        if (y % ENDS_EVERY == ENDS_EVERY - 1 && model_ != nullptr)
+            noteEnds(y, *run);
     }
     if (slits && last > 0 && last < WIDTH && inSlit(row + last))
         closeSlit(y, last, WIDTH, 1);
@@ -184,8 +199,8 @@ void Gaps::closeAbove(int y, int x, int widest, int narrowest)
         ++to;
     if (to - from > widest || from == 0 || to == WIDTH) {
         // What has been filled may have made a corner of an end.
-        missed_.note(from, y - 1);
-        missed_.note(to - 1, y - 1);
+        missed_.noteCorner(from, y - 1);
+        missed_.noteCorner(to - 1, y - 1);
         return;
     }
     for (int i = from; i < to; ++i)
@@ -321,5 +336,5 @@ void Gaps::closeSlit(int y, int x, int end, int step)
         fill(above, below, WIDTH);
         view_.overlay(x, y, 1, height);
     }
-    missed_.note(x, y);
+    missed_.noteCorner(x, y);
 }

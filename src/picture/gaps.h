@@ -19,6 +19,7 @@ public:
 
 private:
     void noteCorners(int y, const Span& run);
+    void noteEnds(int y, const Span& run);
     void noteBeyond(int y, const Span& columns);
     void closeRow(int y, int32_t near);
     void closeRun(int y, int from, int to, int spacing);

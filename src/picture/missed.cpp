@@ -124,11 +124,9 @@ bool Missed::drawPixel(Place place)
     if (!isMissing(at, place.depth) || !findSurface(&place) || !isMissing(at, place.depth) ||
         !rays_.show(at, place.depth, place.from))
         return false;
-    // Where the ray only grazes the surface this is its outline: there is nothing beyond.
-    if (!rays_.onEdge())
-        forBeside(at, [&](int beside) {
-            if (isMissing(beside, place.depth))
-                put(beside, place.depth, at);
-        });
+    forBeside(at, [&](int beside) {
+        if (isMissing(beside, place.depth))
+            put(beside, place.depth, at);
+    });
     return true;
 }

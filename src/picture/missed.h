@@ -1,6 +1,7 @@
 // Missed: finds parts of the surface that no scale has drawn, when gaps are closed (gaps.h). At each inner corner of the drawn
-// pixels, beside runs of one or two of them, and across each border between objects where nothing is drawn at the surface's depth,
-// a ray is intersected with the model's surface. Where it hits, the surface is followed from pixel to pixel.
+// pixels, beside runs of one or two of them, beside some runs close to the viewer, and across each border between objects where
+// nothing is drawn at the surface's depth, a ray is intersected with the model's surface. Where it hits, the surface is followed
+// from pixel to pixel.
 #ifndef FB_MISSED_H
 #define FB_MISSED_H
 
@@ -25,13 +26,18 @@ public:
                (pixel[UP + END * outwards] != 0 && pixel[DOWN * END - outwards] != 0);
     }
 
-    // Notes a pixel, possibly off the screen, that may be in a corner, for draw(); or, if `inwards` is 1 or -1, one where the
-    // surface that is drawn so many columns away may go on. Does nothing when NOTED_MOST are noted already.
-    void note(int column, int row, int inwards = 0)
+    // Note a pixel, possibly beside the screen, for draw(): one that may be in a corner; and one beside an end of a run of drawn
+    // pixels, where the surface may go on (`inwards`, 1 or -1, leads to the run). Nothing is noted beyond NOTED_MOST.
+    void noteCorner(int column, int row)
+    {
+        if (column >= 1 && column < machine::WIDTH - 1 && row >= 1 && row < machine::HEIGHT - 1)
+            put(row * machine::WIDTH + column, 0, 0);
+    }
+    void noteEnd(int column, int row, int inwards)
     {
         const int at = row * machine::WIDTH + column;
-        if (column >= 1 && column < machine::WIDTH - 1 && row >= 1 && row < machine::HEIGHT - 1)
-            put(at, inwards != 0 ? zbuffer_[at + inwards] : 0, at + inwards);
+        if (column >= 0 && column < machine::WIDTH)
+            put(at, zbuffer_[at + inwards], at + inwards);
     }
 
     // Draws the surface where it is missing at the noted pixels and at the view's crossings, and follows it to the pixels beside

@@ -16,6 +16,8 @@ constexpr int CRACK_WIDE = 3;
 // The first point of a ray that is looked at lies so far behind what the pixel shows, 1/128 unit: next to its outline a surface is
 // hardly thicker, and scales lie in front of it by a little.
 constexpr int WITHIN = 112;
+// As rays begin so near the surface, no step along them need be longer than this times the one before.
+constexpr int FARTHEST = 3;
 // If the excess of the field beside a pixel, foretold by the gradient, is more than this, the ray there may meet the surface, too.
 // It is a little less than 0, since the gradient changes on the way. In units of the field, times CORE_SIZE.
 constexpr Real NEARLY(-0.1);
@@ -148,7 +150,7 @@ bool Outlines::meets(int at, Real* excess)
 {
     int depth = zbuffer_[at] + WITHIN;
     *excess = rays_.excess(at, depth);
-    return rays_.findInside(at, &depth, excess);
+    return rays_.findInside(at, &depth, excess, FARTHEST);
 }
 
 // Lets a pixel show what is behind the nearer surface, as the pixel `behind` does. Those beside it may have to do the same.

@@ -11,13 +11,11 @@ namespace {
 constexpr int LOOKS_MOST = 3500, LOOKS_AT_ONE = 28000;
 // The first step along the ray, 1/128 unit.
 constexpr int STEP = 128;
-// Upper bounds: of the steps along the ray towards a stronger field; of the ratio of each step to the one before; and of the
-// steps back through the object towards the eye.
-constexpr int STEPS = 3, FARTHEST = 3, THICKEST = 12;
+// Upper bounds: of the steps along the ray towards a stronger field; of the ratio of each step to the one before, where a ray may
+// lead along a surface for long; and of the steps back through the object towards the eye.
+constexpr int STEPS = 3, FARTHEST = 5, THICKEST = 12;
 // No surface is near a point where the field is this much below the isovalue.
 constexpr Real NEAR(0.2);
-// A ray only grazes the surface if the field, times the size of its object, rises by less than this over the last STEP.
-constexpr Real RIM(0.25);
 
 }  // namespace
 
@@ -47,7 +45,7 @@ Real Rays::excess(int at, int depth)
 }
 
 // Takes steps of the secant method.
-bool Rays::findInside(int at, int* depth, Real* here)
+bool Rays::findInside(int at, int* depth, Real* here, int farthest)
 {
     for (int i = 0, step = STEP; *here <= Real(0); ++i) {
         if (i == STEPS || *here < -NEAR || *depth + step <= 0 || *depth + step >= Z_EMPTY)
@@ -55,7 +53,7 @@ bool Rays::findInside(int at, int* depth, Real* here)
         const Real there = excess(at, *depth + step), rise = there - *here;
         const bool rises = rise > Real(0);
         const Real left = rises ? -there : -*here, slope = absolute(rise);
-        if (left > slope * Real(FARTHEST))
+        if (left > slope * Real(farthest))
             return false;
         const int on = left > Real(0) ? floorToInt(quotient(left, slope) * Real(magnitude(step))) + STEP / 4 : 0;
         *depth += rises ? step : 0;
@@ -69,8 +67,7 @@ bool Rays::findDepth(int at, int* depth)
 {
     int outside = *depth;
     Real here = excess(at, outside);
-    onEdge_ = here < Real(0);
-    if (!findInside(at, &outside, &here))
+    if (!findInside(at, &outside, &here, FARTHEST))
         return false;
     // From there looks for a point outside, towards the eye, and interpolates between the last two points.
     Real within = here;
@@ -81,7 +78,6 @@ bool Rays::findDepth(int at, int* depth)
         outside -= STEP;
         here = excess(at, outside);
     }
-    onEdge_ = onEdge_ && strongest_ >= 0 && (within - here) * model_->actor(strongest_).object->size() < RIM;
     *depth = outside + floorToInt(quotient(-here, within - here) * Real(STEP));
     return true;
 }

@@ -45,13 +45,12 @@ public:
     // Returns by how much the field exceeds the isovalue at the point that a pixel shows at a depth.
     Real excess(int at, int depth);
     // Looks for a point inside along the ray through a pixel, from a depth on, in the direction in which the field rises. `*depth`
-    // and `*here`, the excess there, become those of the last point. Returns false when the ray misses the surface.
-    bool findInside(int at, int* depth, Real* here);
+    // and `*here`, the excess there, become those of the last point. No step is more than `farthest` times as long as the one
+    // before. Returns false when the ray misses the surface.
+    bool findInside(int at, int* depth, Real* here, int farthest);
     // Finds where the ray through a pixel enters the surface. `*depth` is a first guess and becomes the result. Returns false when
     // the ray misses the surface.
     bool findDepth(int at, int* depth);
-    // Whether the ray that findDepth() followed last only grazes the surface.
-    bool onEdge() const { return onEdge_; }
 
     // Gives a pixel this depth and the ramp of its object, with the brightness from the surface normal there. If the object is
     // painted, and the pixel `from` beside it shows that object too, it gets the colour of that one instead. Returns false when
@@ -66,7 +65,6 @@ private:
     const int looksMost_;  // no pixel is begun after this many evaluations of the field
     int looks_ = 0;        // evaluations of the field so far
     int strongest_ = -1;   // the object with the strongest field at the last evaluation; -1: none
-    bool onEdge_ = false;
 };
 
 #endif

@@ -1012,6 +1012,40 @@ TEST(surface_is_followed_from_slivers)
     CHECK(drawn(5) == 50);
 }
 
+// The right end of a ball's picture is cut off, so that its outline is flat there but has no corner. Close to the viewer all of the
+// end is drawn, farther away nothing of it.
+TEST(ends_of_rows_are_looked_at_close_to_the_viewer)
+{
+    BallView ball;
+    const auto open = [&](int away) {
+        Camera camera = ball.view.camera();
+        camera.eye = point(0, 0, -away);
+        ball.view.setCamera(camera);
+        double depth = 0;
+        int cut = 160, missing = 0, left = 0;
+        while (ball.trueAt(cut, 100, &depth) >= 0)
+            ++cut;
+        cut -= 4;
+        ball.view.begin();
+        for (int y = 0; y < HEIGHT; ++y)
+            for (int x = 0; x < cut; ++x)
+                ball.set(x, y);
+        ball.view.closeGaps(Real(1), &ball.model, &ball.palette);
+        ball.view.end();
+        for (int y = 0; y < HEIGHT; ++y)
+            for (int x = cut; x < WIDTH; ++x) {
+                missing += ball.trueAt(x, y, &depth) >= 0;
+                left += ball.trueAt(x, y, &depth) >= 0 && ball.view.frame()[y * WIDTH + x] == 0;
+                CHECK(ball.view.frame()[y * WIDTH + x] == 0 || ball.trueAt(x - 1, y, &depth) >= 0);
+            }
+        note("%d units away: of %d pixels that are cut off %d are left open", away, missing, left);
+        CHECK(missing > 50);
+        return left * 100 / missing;
+    };
+    CHECK(open(45) <= 10);
+    CHECK(open(100) == 100);
+}
+
 // A ball has a crack of a few rows or columns, through which something behind it shows. It is closed, if the ball's scales had
 // borders to another object, even if the ball is drawn no farther than a pixel beyond the crack. What lies before the ball is truly
 // open.
