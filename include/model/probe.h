@@ -31,11 +31,12 @@ public:
 
 private:
     // An object whose field reaches the point. `body` is the first of its body's members, or null if the object has no surface. In
-    // bodies that are not plain, `weighted` is the sum that the object has in its body, `share` its field over the strongest.
+    // bodies that are not plain, `weighted` is the sum that the object has in its body, `square` that of its field over the
+    // strongest.
     struct Part {
         int slot;
         SoftObject* const* body;
-        Real field, weighted, share;
+        Real field, weighted, square;
         SoftObject::FieldPlace place;
     };
 
@@ -57,7 +58,8 @@ private:
     void begin();
     const Cell& cellAt(const Point& p);
     void gather(Cell& cell) const;
-    Real fieldOf(const Part& one, int* strongest);
+    Real sumOf(SoftObject* const* body, const Part** strongest) const;
+    Real blendOf(SoftObject* const* body, Real most);
 
     const Model* model_;
     // Filled when the field is first asked for; then memberCount_ is not negative. Each cube has one cell that may hold it.

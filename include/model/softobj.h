@@ -63,8 +63,8 @@ public:
     // core unless the object tapers; where the value is 1 or more it receives any vector. Stretch and warp are left out of account.
     virtual Real plainParam(const Vector& q, Vector* slope) const;
 
-    // Half extent of the core along each axis, in core space.
-    virtual Vector coreExtent16() const { return {Real(0), Real(0), Real(0)}; }
+    // Half extent of the core along each axis, or more, in core space.
+    virtual Vector coreExtent16() const { return {coreReach16_, coreReach16_, coreReach16_}; }
 
     // Half the length of the core in core space if the core is a segment along the y axis, else 0. This is only a hint for
     // speed: fromCore() gives the same answer more slowly.
@@ -226,11 +226,12 @@ public:
     Real steepest() const { return min(stretch_.x, min(stretch_.y, stretch_.z)) * warp_.leastSteep(); }
     // Upper bound of the distance from the centre at which there is any field.
     Real reach() const { return reach_; }
-    // Returns true if a point of the world is certainly farther away than reach() and `more` units. (False says nothing.)
+    // Returns true if along some axis of the world a point is `more` units or more beyond what the field reaches. (False says
+    // nothing.)
     bool isFar(const Point& p, Real more = Real(0)) const
     {
-        const Real most = reach_ + more;
-        return absolute(p.x - centre_.x) >= most || absolute(p.y - centre_.y) >= most || absolute(p.z - centre_.z) >= most;
+        return absolute(p.x - centre_.x) >= extent_.x + more || absolute(p.y - centre_.y) >= extent_.y + more ||
+               absolute(p.z - centre_.z) >= extent_.z + more;
     }
     // The factor by which the object has grown since its seeds were laid out: it scales own space to the world.
     Real growth() const { return size_ / laid_.size; }
@@ -320,6 +321,8 @@ public:
         // What is far away is excluded before scaling: its place relative to a small object would overflow 16.16.
         return isFar(p) ? Real(0) : fieldNear(p, place);
     }
+    // The same at a point that is not far (isFar()).
+    Real fieldNear(const Point& p, FieldPlace* place) const;
     // The gradient of that field in the world, 1/unit, times CORE_SIZE; at a place where the field is above 0.
     Vector gradientAt(const FieldPlace& place) const;
 
@@ -418,7 +421,6 @@ private:
     };
 
     Real paramAt(const Vector& v, Vector* slope) const;
-    Real fieldNear(const Point& p, FieldPlace* place) const;
     const Link* hollowLink() const;
     void findRest();
     void makeWarp(const WarpAmounts& amounts);
@@ -440,6 +442,7 @@ private:
     bool rootBetween(const Layout& layout, const Seed& one, const Seed& other, Vector* root, Vector* out) const;
     Real restLength(const Layout& layout, const Seed& a, const Seed& b) const;
     void measureReach();
+    void measureExtent();
     void findSteps();
     void layRingsAtRest(bool known);
     Real warpedParam(const Vector& q, Vector* slope) const;
@@ -460,6 +463,7 @@ private:
     Real mostStretch_;
     bool stretched_, warped_, shaped_, ball_, rides_ = false;
     Real reach_;
+    Vector extent_;   // outside a box about the centre that extends so far along the axes of the world there is no field
     Warp warp_;                   // in core space
     Real sizeMade_, coreReachMade_, coreReach16_;  // measures when made, so that repeated scaling adds up no errors
     List<Link> skel_, dents_, digs_;

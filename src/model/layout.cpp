@@ -361,6 +361,7 @@ bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObje
 {
     snprintf(trouble, sizeof trouble, "not enough memory for seeds that close");
     findRest();
+    measureExtent();
     Layout layout;
     layout.spacing = spacing;
     layout.size = size_;

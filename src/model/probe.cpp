@@ -51,34 +51,40 @@ inline const FieldProbe::Cell& FieldProbe::cellAt(const Point& p)
     return cell;
 }
 
-// The field F of a part's body at the point (body.h). `*strongest` receives the slot of the body's strongest part.
-Real FieldProbe::fieldOf(const Part& one, int* strongest)
+// The sum of the fields of one body at the point. `**strongest` becomes its strongest part.
+inline Real FieldProbe::sumOf(SoftObject* const* body, const Part** strongest) const
 {
-    const Bodies& bodies = *model_->knownBodies();
-    Real sum(0), most(0), above(0), squares(0);
+    Real sum(0), most(0);
     for (const Part* part = parts_; part < end_; ++part) {
-        if (part->body != one.body)
+        if (part->body != body)
             continue;
         sum += part->field;
         if (part->field > most) {
             most = part->field;
-            *strongest = part->slot;
+            *strongest = part;
         }
     }
-    if (bodies.plainBody(one.slot))
-        return sum;
+    return sum;
+}
+
+// The field F of one body at the point (body.h), where not all of its members are linked with each other. `most` is the field of
+// its strongest part.
+Real FieldProbe::blendOf(SoftObject* const* body, Real most)
+{
+    const Bodies& bodies = *model_->knownBodies();
+    Real above(0), squares(0);
     for (Part* part = parts_; part < end_; ++part) {
-        if (part->body != one.body)
+        if (part->body != body)
             continue;
         Real weighted = part->field;
         for (const Part* other = parts_; other < end_; ++other)
             weighted += other->field * bodies.weight(part->slot, other->slot);
         // Far inside the body the sum of so many might overflow.
         part->weighted = clamp(weighted, Real(-240), Real(240));
-        part->share = quotient(part->field, most);
-        const Real square = part->share * part->share;
-        above += square * part->weighted;
-        squares += square;
+        const Real share = quotient(part->field, most);
+        part->square = share * share;
+        above += part->square * part->weighted;
+        squares += part->square;
     }
     return squares > Real(0) ? above / squares : Real(0);
 }
@@ -92,28 +98,32 @@ Real FieldProbe::implicitAt(const Point& p, int* strongest, const SoftObject* me
         return Real(0);
     if (memberCount_ < 0)
         begin();
-    const Cell& cell = cellAt(p);
-    end_ = parts_;
+    const Point at = p;
+    const Cell& cell = cellAt(at);
+    Part* end = parts_;
     for (const uint8_t *slot = cell.slots, *const last = slot + cell.count; slot < last; ++slot) {
         const Member& one = members_[*slot];
-        end_->field = one.object->fieldFunc(p, &end_->place);
-        if (end_->field > Real(0)) {
-            end_->slot = *slot;
-            end_->body = one.body;
-            ++end_;
-        }
+        if (one.object->isFar(at))
+            continue;
+        end->field = one.object->fieldNear(at, &end->place);
+        if (end->field <= Real(0))
+            continue;
+        end->slot = *slot;
+        end->body = one.body;
+        ++end;
     }
+    end_ = end;
     highest_ = Real(0);
     SoftObject* const *last = nullptr, *const *const only = member == nullptr ? nullptr : bodies->members(*member);
     for (const Part* part = parts_; part < end_; ++part) {
         if (part->body == nullptr || part->body == last || (only != nullptr && part->body != only))
             continue;
         last = part->body;
-        int own = -1;
-        const Real field = fieldOf(*part, &own);
+        const Part* own = part;
+        const Real sum = sumOf(last, &own), field = bodies->plainBody(part->slot) ? sum : blendOf(last, own->field);
         if (field > highest_ || *strongest < 0) {
             highest_ = field;
-            *strongest = own;
+            *strongest = own->slot;
             chosen_ = part;
         }
     }
@@ -133,19 +143,19 @@ Vector FieldProbe::gradient() const
     Real squares(0);
     for (const Part* i = parts_; i < end_ && !plain; ++i)
         if (i->body == chosen_->body)
-            squares += i->share * i->share;
+            squares += i->square;
     for (const Part* part = parts_; part < end_; ++part) {
         const bool isMember = part->body == chosen_->body;
         Real factor(isMember ? 1 : 0);
         if (!plain) {
             if (isMember) {
                 // The sum of a member is farther from the field only in the depth of a crowd, where the factor might overflow.
-                const Real square = part->share * part->share, above = clamp(part->weighted - highest_, Real(-2), Real(2));
-                factor = square + square / part->field * above * Real(2);
+                const Real above = clamp(part->weighted - highest_, Real(-2), Real(2));
+                factor = part->square + part->square / part->field * above * Real(2);
             }
             for (const Part* i = parts_; i < end_; ++i)
                 if (i->body == chosen_->body)
-                    factor += i->share * i->share * bodies.weight(i->slot, part->slot);
+                    factor += i->square * bodies.weight(i->slot, part->slot);
             factor = factor / squares;
         }
         if (factor != Real(0))

@@ -53,7 +53,7 @@ SoftObject::SoftObject(int number, Real size, Real coreReach, bool tapers)
       radius_(shiftDown(size, 1)), inverse_(Real(CORE_SIZE) / size), coreReach_(coreReach),
       stretch_{Real(1), Real(1), Real(1)}, unstretch_{Real(1), Real(1), Real(1)}, mostStretch_(1), stretched_(false),
       warped_(false), shaped_(false),
-      ball_(!tapers && coreReach == Real(0)), reach_(coreReach + size),
+      ball_(!tapers && coreReach == Real(0)), reach_(coreReach + size), extent_{reach_, reach_, reach_},
       sizeMade_(size), coreReachMade_(coreReach), coreReach16_(coreReach * (Real(CORE_SIZE) / size)), strength_(1),
       restParam_(0.25), restRoot_(0.5), rests_(true), laidHollow_(false), slot_(0), recalc_(true), tapers_(tapers),
       displaced_(false), unfinished_(false), ramp_(nullptr), surface_(nullptr), makeSurface_(nullptr)
@@ -145,6 +145,7 @@ void SoftObject::setTurn(const Matrix& turn)
     // The seeds of a ball that does not ride stay where they are.
     if (!turnsSeeds())
         return;
+    measureExtent();
     recalc_ = true;
     // Neighbours do not feel the turn of a ball.
     if (!ball_)
@@ -189,6 +190,22 @@ void SoftObject::measureReach()
     reach_ = coreReach_ + size_;
     if (shaped_)
         reach_ = reach_ * mostStretch_ * warp_.most();
+    measureExtent();
+}
+
+// Finds how far the field reaches along each axis of the world: by the size farther than the box around the core does, which turns
+// with the object. That of a shaped object is taken to be a ball.
+void SoftObject::measureExtent()
+{
+    extent_ = {reach_, reach_, reach_};
+    if (coreReach_ == Real(0) || shaped_)
+        return;
+    const Vector core = coreExtent16();
+    const auto along = [&](const Real row[3]) {
+        const Real most = absolute(row[0]) * core.x + absolute(row[1]) * core.y + absolute(row[2]) * core.z;
+        return min(size_ + quotient(most, inverse_), reach_);
+    };
+    extent_ = {along(turn_.m[0]), along(turn_.m[1]), along(turn_.m[2])};
 }
 
 void SoftObject::setStretch(const Vector& factors)
@@ -356,8 +373,9 @@ Real SoftObject::fieldNear(const Point& p, FieldPlace* place) const
 {
     const Vector v = p - centre_;
     if (isBall()) {
+        // No component of the vector is longer than the object's size, so that the squares fit.
         place->slope = v * inverse_;
-        place->param = paramOf(place->slope);
+        place->param = shiftDown(dot(place->slope, place->slope), 8);
     } else {
         place->param = paramAt(v, &place->slope);
     }

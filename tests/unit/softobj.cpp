@@ -159,6 +159,34 @@ TEST(the_graph)
     CHECK(!a.recalc());
 }
 
+// Nothing of an object's field reaches beyond its box, which turns and grows with it, and along its axis a stick is long and thin.
+TEST(box_about_the_field)
+{
+    Scene scene;
+    Random random;
+    Stick* const stick = new Stick(1, 10, 20);
+    scene.add(stick, 1, 2, 3);
+    const auto reaches = [&](double x, double y, double z) {
+        const Vec c = vec(stick->centre());
+        return !stick->isFar(point(c.x + x, c.y + y, c.z + z));
+    };
+    CHECK(reaches(29.5, 0, 0) && !reaches(30.5, 0, 0) && reaches(0, 9.5, -9.5) && !reaches(0, 10.5, 0) && !reaches(0, 0, -10.5));
+    stick->rotate(stick->centre(), {Real(0), Real(1), Real(0)}, QUARTER);
+    CHECK(reaches(0, 0, -29.5) && !reaches(0, 0, 30.5) && !reaches(10.5, 0, 0));
+    stick->scale(Real(2));
+    CHECK(reaches(19.5, 19.5, 59) && !reaches(0, 0, 61) && !reaches(20.5, 0, 0));
+    int beyond = 0;
+    for (int i = 0; i < 20000; ++i) {
+        stick->rotate(stick->centre(), {real(random.between(-1, 1)), real(random.between(-1, 1)), Real(0.1)}, 0x01234567);
+        const Vec c = vec(stick->centre());
+        const Point p = point(c.x + random.between(-60, 60), c.y + random.between(-60, 60), c.z + random.between(-60, 60));
+        const Vec f = vec(p) - onSegment(vec(p), stick->a(), stick->b());
+        beyond += stick->isFar(p);
+        CHECK(!stick->isFar(p) || dot(f, f) > 20 * 20 * 0.999);
+    }
+    CHECK(beyond > 5000);
+}
+
 TEST(field_of_a_primitive)
 {
     Scene scene;

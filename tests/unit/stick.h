@@ -14,6 +14,7 @@ public:
     {
         return {q.x - clamp(q.x, -coreReach16(), coreReach16()), q.y, q.z};
     }
+    Vector coreExtent16() const override { return {coreReach16(), Real(0), Real(0)}; }
     void describe(char* to, int size) const override { snprintf(to, static_cast<size_t>(size), "stick %d", number()); }
 
     void layOutSeeds(SeedMaker& maker, Real spacing) const override
