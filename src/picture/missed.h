@@ -35,9 +35,10 @@ public:
     }
     void noteEnd(int column, int row, int inwards)
     {
-        const int at = row * machine::WIDTH + column;
-        if (column >= 0 && column < machine::WIDTH)
-            put(at, zbuffer_[at + inwards], at + inwards);
+        const int at = row * machine::WIDTH + column, depth = zbuffer_[at + inwards];
+        // (With the depth 0 it would be taken for a corner.)
+        if (column >= 0 && column < machine::WIDTH && depth != 0)
+            put(at, depth, at + inwards);
     }
 
     // Draws the surface where it is missing at the noted pixels and at the view's crossings, and follows it to the pixels beside
