@@ -226,8 +226,8 @@ public:
     Real steepest() const { return min(stretch_.x, min(stretch_.y, stretch_.z)) * warp_.leastSteep(); }
     // Upper bound of the distance from the centre at which there is any field.
     Real reach() const { return reach_; }
-    // Returns true if along some axis of the world a point is `more` units or more beyond what the field reaches. (False says
-    // nothing.)
+    // Returns true if a point lies outside the box of extent_, by `more` units or more along some axis of the world. Then there is
+    // no field. (False says nothing.)
     bool isFar(const Point& p, Real more = Real(0)) const
     {
         return absolute(p.x - centre_.x) >= extent_.x + more || absolute(p.y - centre_.y) >= extent_.y + more ||
@@ -313,15 +313,10 @@ public:
     Real fieldFunc(const Point& p) const
     {
         FieldPlace place;
-        return fieldFunc(p, &place);
+        return isFar(p) ? Real(0) : fieldNear(p, &place);
     }
-    // The same; where it is above 0, `*place` receives what gradientAt() needs.
-    Real fieldFunc(const Point& p, FieldPlace* place) const
-    {
-        // What is far away is excluded before scaling: its place relative to a small object would overflow 16.16.
-        return isFar(p) ? Real(0) : fieldNear(p, place);
-    }
-    // The same at a point that is not far (isFar()).
+    // The same at a point that is not far (isFar()): the place of one that is far, relative to a small object, would overflow
+    // 16.16. Where the field is above 0, `*place` receives what gradientAt() needs.
     Real fieldNear(const Point& p, FieldPlace* place) const;
     // The gradient of that field in the world, 1/unit, times CORE_SIZE; at a place where the field is above 0.
     Vector gradientAt(const FieldPlace& place) const;
@@ -463,7 +458,7 @@ private:
     Real mostStretch_;
     bool stretched_, warped_, shaped_, ball_, rides_ = false;
     Real reach_;
-    Vector extent_;   // outside a box about the centre that extends so far along the axes of the world there is no field
+    Vector extent_;   // half extents of a box about the centre, along the axes of the world, units: there is no field outside
     Warp warp_;                   // in core space
     Real sizeMade_, coreReachMade_, coreReach16_;  // measures when made, so that repeated scaling adds up no errors
     List<Link> skel_, dents_, digs_;

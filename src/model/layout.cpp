@@ -361,6 +361,7 @@ bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObje
 {
     snprintf(trouble, sizeof trouble, "not enough memory for seeds that close");
     findRest();
+    // (The constructor could not ask the primitive for its core yet.)
     measureExtent();
     Layout layout;
     layout.spacing = spacing;

@@ -51,7 +51,7 @@ inline const FieldProbe::Cell& FieldProbe::cellAt(const Point& p)
     return cell;
 }
 
-// The sum of the fields of one body at the point. `**strongest` becomes its strongest part.
+// The sum of the fields of one body at the point. `*strongest` becomes its strongest part.
 inline Real FieldProbe::sumOf(SoftObject* const* body, const Part** strongest) const
 {
     Real sum(0), most(0);
@@ -98,6 +98,7 @@ Real FieldProbe::implicitAt(const Point& p, int* strongest, const SoftObject* me
         return Real(0);
     if (memberCount_ < 0)
         begin();
+    // (A copy stays in registers: the parts that are written might overlap with `p`.)
     const Point at = p;
     const Cell& cell = cellAt(at);
     Part* end = parts_;

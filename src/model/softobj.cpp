@@ -193,8 +193,8 @@ void SoftObject::measureReach()
     measureExtent();
 }
 
-// Finds how far the field reaches along each axis of the world: by the size farther than the box around the core does, which turns
-// with the object. That of a shaped object is taken to be a ball.
+// Finds how far the field reaches along each axis of the world: farther by the size than the box around the core, which turns with
+// the object. For a shaped object it is the ball of reach().
 void SoftObject::measureExtent()
 {
     extent_ = {reach_, reach_, reach_};

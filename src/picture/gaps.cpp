@@ -17,8 +17,8 @@ constexpr int GAP_THIN = 2;   // width of a run that is filled whatever lies abo
 constexpr int GAP_MOST = 32;  // upper bound of all widths, however near the viewer the seeds are
 constexpr Real STEEP(1.3);    // upper bound of the gradient of a field, times the size of its object
 constexpr int SLIVER = 2;     // width of a run of drawn pixels beside which surface may be missing
-// Scales that are nearer to the viewer than this (1/128 unit) are so large that a part of an outline beyond the last ones may be
-// seen to be missing, though it has no corners. The ends of every ENDS_EVERY-th row are looked at there.
+// 1/128 unit: nearer to the viewer than CLOSE_UP scales are so large that an outline may lie pixels beyond the last of them, and no
+// corner tells it. There the surface is looked for at the ends of one row in ENDS_EVERY.
 constexpr int CLOSE_UP = 50 * 128, ENDS_EVERY = 4;
 // 1/128 unit: of two drawn pixels whose depths differ by more, one lies well in front of the other.
 constexpr int IN_FRONT = 256;

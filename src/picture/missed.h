@@ -1,5 +1,5 @@
 // Missed: finds parts of the surface that no scale has drawn, when gaps are closed (gaps.h). At each inner corner of the drawn
-// pixels, beside runs of one or two of them, beside some runs close to the viewer, and across each border between objects where
+// pixels, beside runs of one or two of them, at ends of rows close to the viewer, and across each border between objects where
 // nothing is drawn at the surface's depth, a ray is intersected with the model's surface. Where it hits, the surface is followed
 // from pixel to pixel.
 #ifndef FB_MISSED_H

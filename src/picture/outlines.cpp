@@ -16,7 +16,7 @@ constexpr int CRACK_WIDE = 3;
 // The first point of a ray that is looked at lies so far behind what the pixel shows, 1/128 unit: next to its outline a surface is
 // hardly thicker, and scales lie in front of it by a little.
 constexpr int WITHIN = 112;
-// As rays begin so near the surface, no step along them need be longer than this times the one before.
+// Because rays begin so near the surface, no step need be more than this times as long as the one before.
 constexpr int FARTHEST = 3;
 // If the excess of the field beside a pixel, foretold by the gradient, is more than this, the ray there may meet the surface, too.
 // It is a little less than 0, since the gradient changes on the way. In units of the field, times CORE_SIZE.

@@ -11,8 +11,8 @@ namespace {
 constexpr int LOOKS_MOST = 3500, LOOKS_AT_ONE = 28000;
 // The first step along the ray, 1/128 unit.
 constexpr int STEP = 128;
-// Upper bounds: of the steps along the ray towards a stronger field; of the ratio of each step to the one before, where a ray may
-// lead along a surface for long; and of the steps back through the object towards the eye.
+// Upper bounds: of the steps along the ray towards a stronger field; of the ratio of each of them to the one before in findDepth(),
+// whose ray may first lead along the surface; and of the steps back through the object towards the eye.
 constexpr int STEPS = 3, FARTHEST = 5, THICKEST = 12;
 // No surface is near a point where the field is this much below the isovalue.
 constexpr Real NEAR(0.2);
