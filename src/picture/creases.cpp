@@ -14,8 +14,8 @@ namespace {
 // in each frame, the next one in the next frame.
 constexpr int BAND = View::CREASE_BAND;
 static_assert(HEIGHT % BAND == 0 && HEIGHT / BAND <= 32, "each band has a bit");
-// Steps of brightness from a pixel to the next one from which on both are looked at; and steps by which a pixel has changed from
-// which on those beside it are, too.
+// Steps of brightness. JUMP: where two pixels side by side differ by so many, both are looked at. CHANGE: where a pixel has changed by
+// so many, those beside it are looked at, too.
 constexpr int JUMP = 16, CHANGE = 5;
 // Palette entries: a jump makes a greater difference (about four entries are one step). A power of two.
 constexpr int ENTRIES_APART = 32;
@@ -24,10 +24,10 @@ static_assert((ENTRIES_APART & (ENTRIES_APART - 1)) == 0, "small differences, wi
 constexpr int LEVEL = 256;
 // No pixel is looked at after so many in a frame (looksAt()).
 constexpr int LOOKS_AT_ONE = 2000;
-// In units of the field: where it is off the isovalue by no more than EXACT the surface is there; in a pixel that would get another
-// colour, by no more than EXACT_OTHER, for where two bodies cross the one whose field is the stronger a little before the surface
-// may lie behind the other. Elsewhere one of Newton's steps leads to the surface, if it is no farther away than FARTHEST units.
-constexpr Real EXACT(0.08), EXACT_OTHER(0.01), FARTHEST(2);
+// EXACT: a pixel whose field is off the isovalue by no more lies on the surface; nearly on it is not enough, for a little before or
+// behind a crease the brightness may be that of its other side. Elsewhere one step of Newton's method leads to the surface, if it
+// is no farther away than FARTHEST units.
+constexpr Real EXACT(0.01), FARTHEST(2);
 
 // Half the palette entries of four pixels.
 inline uint32_t halves(const uint8_t* pixel)
@@ -69,17 +69,18 @@ void Creases::mendRow(int y)
         if (magnitude(frame_[at] - frame_[other]) >= ENTRIES_APART)
             mendPair(at, other);
     };
-    const uint8_t* const row = frame_ + y * WIDTH;
-    for (const uint8_t* at = row + from; at < row + to; at += 4) {
+    for (int x = from; x < to; x += 4) {
+        const uint8_t* const at = frame_ + y * WIDTH + x;
         // A difference that is negative even with the bias borrows from the next one, and so sets its own high bits.
         constexpr uint32_t EACH = 0x01010101, BIAS = (ENTRIES_APART / 2 - 1) * EACH, LARGE = (0x100 - ENTRIES_APART) * EACH;
         const uint32_t biased = halves(at) + BIAS;
         const uint32_t aside = biased - halves(at + 1), down = biased - halves(at + 2 * WIDTH);
         if (((aside | down) & LARGE) == 0)
             continue;
-        for (int i = static_cast<int>(at - frame_), end = i + 4; i < end; ++i) {
+        for (int i = y * WIDTH + x, end = i + 4; i < end; ++i) {
             compare(i, i + 1);
             compare(i, i + WIDTH);
+            compare(i + WIDTH, i + WIDTH + 1);
             compare(i + WIDTH, i + 2 * WIDTH);
         }
     }
@@ -90,12 +91,6 @@ void Creases::mendRow(int y)
 inline bool Creases::jumps(int at, int other) const
 {
     return magnitude(stepAt(at) - stepAt(other)) >= JUMP && magnitude(zbuffer_[at] - zbuffer_[other]) <= LEVEL;
-}
-
-// Whether a pixel is shown in the ramp of an object.
-inline bool Creases::shows(int at, const SoftObject& object) const
-{
-    return object.ramp() != nullptr && palette_.numberOf(object.ramp()) == palette_.rampOf(frame_[at]);
 }
 
 // Notes a pixel, unless it has been noted in this frame.
@@ -150,7 +145,7 @@ bool Creases::mendPixel(int at)
     if (strongest < 0)
         return false;
     Vector gradient = probe_.gradient();
-    if (absolute(off) > (shows(at, *model.actor(strongest).object) ? EXACT : EXACT_OTHER)) {
+    if (absolute(off) > EXACT) {
         // The ray through the pixel over one unit of depth.
         const Vector ray = view_.pointAt(at, depth + 128) - p;
         const Real rise = dot(gradient, ray), left = off * Real(CORE_SIZE);

@@ -21,7 +21,6 @@ private:
     void follow(int at);
     bool mendPixel(int at);
     bool jumps(int at, int other) const;
-    bool shows(int at, const SoftObject& object) const;
     void note(int at);
     int stepAt(int pixel) const { return palette_.step(frame_[pixel]); }
 
