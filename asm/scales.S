@@ -145,7 +145,7 @@
 // Scales that are cut, clipped, large or nearer than the table use code that draws a row of LARGEST columns; it is entered at the
 // scale's width before its end. With a cut, edx has the cut function, which takes 2 more instructions per pixel (a pixel cut off
 // takes 3 altogether). Along a straight line the step of the depth changes with the dome, with 1 instruction more (486 and
-// Pentium: 2), and pixels are averaged (FineScale::averages): one that is, takes 8 instructions more if it is nearer and 12 if it
+// Pentium: 2), and pixels are averaged (Scale::averages): one that is, takes 8 instructions more if it is nearer and 12 if it
 // is occluded, and any other one 3. What is cut nowhere has its dome in edx, which saves a cycle. Along a curve the step of the
 // cut function changes, with 2 instructions more (486: 1 + 3, Pentium: 4).
 
@@ -299,7 +299,7 @@ not_special:
         sarl    $16, %ebx
         sarl    $16, %eax
 steps_limited:
-        // if (!isFine(v)) ..
+        // if (slopeX == 0 && slopeY == 0) the scale has one brightness
         cmpw    $0, VOXEL_SLOPEX(%esi)
         je      even
 shaded:

@@ -67,7 +67,6 @@ bool benchDiffers(const uint8_t* frame, const uint16_t* zbuffer)
 
 extern "C" {
 
-void __real_blitScalesA(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int count);
 const Voxel* __real_drawScalesA(Lens* lens, const Voxel* voxels, const Voxel* end);
 void __real_clearRowsA(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
 
@@ -91,25 +90,14 @@ void __wrap_clearRowsA(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int 
     }
 }
 
-void __wrap_blitScalesA(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int count)
-{
-    __real_blitScalesA(frame, zbuffer, scales, count);
-    blitScalesC(twinFrame, twinDepths, scales, count);
-    for (int i = 0; i < count; ++i)
-        pixelsCovered += static_cast<unsigned>(scales[i].width * scales[i].height);
-    scalesDrawn += static_cast<unsigned>(count);
-    byTheView += static_cast<unsigned>(count);
-    differing += benchDiffers(frame, zbuffer);
-}
-
 // The twin's loop calls it, too. The view draws few enough with it to count them as drawn otherwise.
-void __real_blitFine(uint8_t* frame, uint16_t* zbuffer, const FineScale& scale);
-void __wrap_blitFine(uint8_t* frame, uint16_t* zbuffer, const FineScale& scale)
+void __real_blitScale(uint8_t* frame, uint16_t* zbuffer, const Scale& scale);
+void __wrap_blitScale(uint8_t* frame, uint16_t* zbuffer, const Scale& scale)
 {
-    __real_blitFine(frame, zbuffer, scale);
+    __real_blitScale(frame, zbuffer, scale);
     if (frame == twinFrame)
         return;
-    __real_blitFine(twinFrame, twinDepths, scale);
+    __real_blitScale(twinFrame, twinDepths, scale);
     pixelsCovered += static_cast<unsigned>(scale.width * scale.height);
     ++scalesDrawn;
     ++byTheView;

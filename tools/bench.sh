@@ -252,10 +252,10 @@ page_loops() {
 	echo "                                          instructions    a scale   a covered pixel"
 	for which in assembly twin; do
 		name=assembly
-		pattern='^(drawScalesA|blitScalesA)'
+		pattern='^drawScalesA'
 		[ $which = assembly ] || {
 			name="C++ twin (-O2 -march=i486)"
-			pattern='^(drawScalesC|blitScalesC|blitFine)'
+			pattern='^(drawScalesC|blitScale)'
 		}
 		cost=$(loop "$pattern")
 		[ "$cost" -gt 0 ] || {

@@ -1,9 +1,8 @@
-// The innermost loops: they draw scales into the frame buffer with a Z-buffer test, clear both buffers, and copy the frame to
-// video memory. (Most scales are drawn by the loop of scales.h as soon as they are projected. That loop refuses scales that
-// are very large or far off the viewing axis; those are drawn here.)
+// Draws single scales, clears both buffers, copies the frame to video memory, finds runs of drawn pixels. Most scales are drawn by
+// the loop of scales.h as soon as they are projected; what it leaves (too near, too far, too large) is drawn here.
 //
-// Each routine exists twice: in C++ (src/picture/blit.cpp, names that end in C), as the readable reference, and in assembly
-// (asm/blit.S, names that end in A), for the DOS program and the 32-bit host build. Both write the same bytes.
+// Routines whose names end in C are in C++ (src/picture/blit.cpp), as the readable reference; those that end in A are the same in
+// assembly (asm/blit.S), for the DOS program and the 32-bit host build. Both write the same bytes.
 #ifndef FB_BLIT_H
 #define FB_BLIT_H
 
@@ -11,31 +10,21 @@
 
 #include "machine.h"
 
-// A scale projected onto the screen: a rectangle of one colour, "very simple to draw" (report, The Rendering Technique).
-// The report's scales all face the viewer. Ours may lie in the tangent plane of the surface, so that their depth changes by a
-// constant from pixel to pixel and from row to row. The caller guarantees that the scale lies wholly on the screen
-// (0 <= left, 1 <= width, left + width <= 320; 0 <= top, 1 <= height, top + height <= 200) and that its depth stays within
-// 0..0xfffe at every pixel; the routines do not check it.
+// A scale projected onto the screen: a rectangle, "very simple to draw" (report, The Rendering Technique). The report's scales have
+// one colour and all face the viewer. Ours may lie in the tangent plane of the surface, so that their depth changes by a constant
+// from pixel to pixel and from row to row; so may their brightness; and they may end at a least and a greatest depth, or be cut
+// along a line or a curve. The caller guarantees that the scale lies wholly on the screen (0 <= left, 1 <= width, left + width <=
+// 320; 0 <= top, 1 <= height, top + height <= 200) and that its depth stays within 0..0xfffe at every pixel; nothing checks it.
 struct Scale {
-    int16_t left;
-    int16_t top;
-    int16_t width;
-    int16_t height;
-    int32_t z;        // depth of the top left pixel: distance along the viewing axis, 1/128 unit; smaller is nearer
-    int32_t zStep;    // change of depth from a pixel to its right neighbour
-    int32_t zRow;     // change of depth from one pixel past the end of a row to the first pixel of the next row
-    int32_t colour;   // palette index
-};
-
-// A scale that ends at a least and a greatest depth, is cut along a line or a curve, or changes its brightness from pixel to pixel.
-// The brightness (shade) and the cut function have 8 fraction bits. The brightness changes by constant steps like the depth; the
-// steps of the cut function may change as well, so that it can follow a curve.
-struct FineScale : Scale {
+    int16_t left, top, width, height;
+    int32_t z;             // depth of the top left pixel: distance along the viewing axis, 1/128 unit; smaller is nearer
+    int32_t zStep;         // change of depth from a pixel to its right neighbour
+    int32_t zRow;          // change of depth from one pixel past the end of a row to the first pixel of the next row
     int32_t zLeast, zMost;               // pixels with a depth below zLeast or beyond zMost are not drawn
     const uint8_t* ramp;                 // VoxelList::ramp
-    int32_t shade, shadeStep, shadeRow;  // brightness; used like z, zStep and zRow
-    int32_t cut, cutStep, cutRow;  // cut function: a pixel is drawn where it is >= 0; cutRow leads from the first pixel of a row
-                                   // to the first pixel of the next
+    int32_t shade, shadeStep, shadeRow;  // brightness, 8 fraction bits; used like z, zStep and zRow
+    int32_t cut, cutStep, cutRow;  // cut function, 8 fraction bits: a pixel is drawn where it is >= 0; cutRow leads from the first
+                                   // pixel of a row to the first pixel of the next
     int32_t cutXX, cutXY, cutYY;   // added before each step to cutStep; before each row to its first cutStep; and to cutRow
     bool averages; // where a pixel already shows the same ramp, and is less than AVERAGED nearer or farther, its brightness becomes
                    // the mean of both; its depth is the lesser one as always
@@ -43,7 +32,7 @@ struct FineScale : Scale {
                    // each row; 0: the depth changes by constant steps
 };
 
-// 1/128 unit, see FineScale::averages.
+// 1/128 unit, see Scale::averages.
 constexpr int32_t AVERAGED = 96;
 
 // The depth of a pixel where nothing was drawn.
@@ -51,12 +40,10 @@ constexpr uint16_t Z_EMPTY = 0xffff;
 
 extern "C" {
 
-// Draws `count` scales. A pixel is written where the scale's z is less than the Z-buffer's, so of two scales at equal depth the
-// first one stays visible. `frame` has 320x200 bytes, `zbuffer` 320x200 16-bit words, top row first.
-void blitScalesC(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int count);
-
-// Draws a FineScale. Few of them get here (drawScales() draws most), so this routine has no assembly twin.
-void blitFine(uint8_t* frame, uint16_t* zbuffer, const FineScale& scale);
+// Draws a scale. A pixel is written where the scale's z is less than the Z-buffer's, so of two scales at equal depth the first one
+// stays visible. `frame` has 320x200 bytes, `zbuffer` 320x200 16-bit words, top row first. Few scales get here (drawScales() draws
+// most), so this routine has no assembly twin.
+void blitScale(uint8_t* frame, uint16_t* zbuffer, const Scale& scale);
 
 // Clears one span in each of the first `count` rows: the frame to 0, the Z-buffer to Z_EMPTY.
 void clearRowsC(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
@@ -71,7 +58,6 @@ int drawnRunsC(const uint8_t* row, const uint16_t* depths, const Span* within, S
 
 #if FB_ASM
 int drawnRunsA(const uint8_t* row, const uint16_t* depths, const Span* within, Span* runs);
-void blitScalesA(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int count);
 void clearRowsA(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
 // copyRowsC() to a screen at `offset` in the segment of `selector` (video memory has a selector of its own under DPMI).
 void presentRows(uint32_t selector, uint32_t offset, const uint8_t* frame, const Span* rows, int count);
@@ -80,11 +66,9 @@ void presentRows(uint32_t selector, uint32_t offset, const uint8_t* frame, const
 }
 
 #if FB_ASM
-#define blitScales blitScalesA
 #define drawnRuns drawnRunsA
 #define clearRows clearRowsA
 #else
-#define blitScales blitScalesC
 #define drawnRuns drawnRunsC
 #define clearRows clearRowsC
 #endif

@@ -24,14 +24,8 @@ constexpr int32_t wrappedProduct(int32_t a, int32_t b)
     return static_cast<int32_t>(static_cast<uint32_t>(a) * static_cast<uint32_t>(b));
 }
 
-// Whether a voxel is more than a rectangle of one colour: it needs a FineScale.
-inline bool isFine(const Voxel& v)
-{
-    return (v.reach | v.slopeX | v.slopeY | v.cutX | v.cutY) != 0;
-}
-
 // Sets the least and the greatest depth of a voxel's pixels; its centre is at depth `z`, 1/128 unit.
-inline void setEnds(const Voxel& v, int32_t z, FineScale* scale)
+inline void setEnds(const Voxel& v, int32_t z, Scale* scale)
 {
     scale->zLeast = v.reach != 0 ? max32(z - v.front * 4, 0) : 0;
     scale->zMost = v.reach != 0 ? min32(z + v.reach * 4, Z_EMPTY) : Z_EMPTY;
@@ -54,7 +48,7 @@ inline int32_t curveStep(int curve, int32_t factor, int32_t other)
 // function changes between the middle of the scale and the centre of that pixel if it changes by `a` per column and by `b` per row.
 // Of a voxel that is cut nowhere the function is constant.
 template <class ToFirst>
-inline void setCut(const Voxel& v, int32_t zx, int32_t zy, ToFirst toFirst, FineScale* scale)
+inline void setCut(const Voxel& v, int32_t zx, int32_t zy, ToFirst toFirst, Scale* scale)
 {
     scale->cut = v.cutAt * 4;
     scale->averages = isCutStraight(v);
@@ -74,7 +68,7 @@ inline void setCut(const Voxel& v, int32_t zx, int32_t zy, ToFirst toFirst, Fine
     scale->cutYY = yy;
 }
 
-inline void setUncut(FineScale* scale)
+inline void setUncut(Scale* scale)
 {
     scale->cut = scale->cutStep = scale->cutRow = scale->cutXX = scale->cutXY = scale->cutYY = scale->dome = 0;
     scale->averages = false;
@@ -95,13 +89,13 @@ constexpr int LENS_STEPS = (LENS_FAR - LENS_NEAR) * LENS_FINENESS;
 // A scale that is cut along a straight line, or nowhere (voxel.h), is therefore domed: its depth grows with the squared distance
 // from its centre, by 5/16 unit at a distance of one unit, so that of overlapping scales a pixel shows the one whose centre is
 // nearest. There the brightness of neighbouring scales differs most as well, and would jump from one to the other: so it is
-// averaged (FineScale::averages). A scale that reaches farther than DOMED units from its centre along x or y has no dome. So no
+// averaged (Scale::averages). A scale that reaches farther than DOMED units from its centre along x or y has no dome. So no
 // dome makes a pixel deeper by more than DOME_MOST, 1/128 unit, and depths within the table of factors still fit the Z-buffer.
 constexpr int DOMED = 6, DOME_MOST = 2 * DOMED * DOMED * 5 * 128 / 16;
 // Units, 9 fraction bits: a pixel that is wider than this counts as this wide, so that domes fit 16 bits.
 constexpr int32_t WIDEST_PIXEL = 10000;
 
-// The dome of a voxel that is cut along a straight line, as FineScale::dome: 1/128 unit, and it fits 16 bits. It is rounded down:
+// The dome of a voxel that is cut along a straight line, as Scale::dome: 1/128 unit, and it fits 16 bits. It is rounded down:
 // next to the eye, where pixels are narrow, there is none.
 inline int32_t domeOf(const Voxel& v, const Factors& f)
 {
@@ -121,7 +115,7 @@ inline bool depthsFit(int32_t z, int32_t across, int32_t down)
 }
 
 // Domes a scale whose plane is set. (toColumn, toRow) leads from its centre to the centre of its first pixel, 12 fraction bits.
-inline void setDome(int32_t dome, int32_t toColumn, int32_t toRow, FineScale* scale)
+inline void setDome(int32_t dome, int32_t toColumn, int32_t toRow, Scale* scale)
 {
     const int32_t across = dome * toColumn >> 12, down = dome * toRow >> 12;
     scale->dome = dome;
@@ -136,7 +130,7 @@ struct Lens {
     const uint8_t* ramp;               // see VoxelList::ramp
     const Factors* factors;            // LENS_STEPS entries, the nearest depth first
     int32_t centreX, centreY;          // screen centre plus half a pixel, 12 fraction bits
-    uint8_t* frame;                    // as for blitScales()
+    uint8_t* frame;                    // as for blitScale()
     uint16_t* zbuffer;
     int32_t left, top, right, bottom;  // in and out: a rectangle that grows to contain all that is drawn. It never leaves the
                                        // screen, so a scale that does not enlarge it needs no test against the screen's edges

@@ -146,9 +146,9 @@ private:
     void noteCrossing(const Voxel& voxel);
     bool ordinary(const Voxel& voxel) const;
     bool place(const Voxel& voxel, Placed* placed) const;
-    static bool clip(const Placed& placed, FineScale* scale);
+    static bool clip(const Placed& placed, Scale* scale);
     void tilt(const Voxel& voxel, const Placed& placed, int32_t* across, int32_t* down) const;
-    bool project(const Voxel& voxel, FineScale* scale) const;
+    bool project(const Voxel& voxel, Scale* scale) const;
 
     Camera camera_;
     int32_t focalX_ = 0, focalY_ = 0, centreX_ = 0, centreY_ = 0;  // pixels, 12 fraction bits

@@ -7,28 +7,6 @@
 
 using machine::WIDTH;
 
-void blitScalesC(uint8_t* frame, uint16_t* zbuffer, const Scale* scales, int count)
-{
-    for (; count > 0; --count, ++scales) {
-        const int start = scales->top * WIDTH + scales->left;
-        uint8_t* pixels = frame + start;
-        uint16_t* depths = zbuffer + start;
-        uint32_t z = static_cast<uint32_t>(scales->z);
-        for (int y = scales->height; y > 0; --y) {
-            for (int x = 0; x < scales->width; ++x) {
-                if (static_cast<uint16_t>(z) < depths[x]) {
-                    depths[x] = static_cast<uint16_t>(z);
-                    pixels[x] = static_cast<uint8_t>(scales->colour);
-                }
-                z += static_cast<uint32_t>(scales->zStep);
-            }
-            z += static_cast<uint32_t>(scales->zRow);
-            pixels += WIDTH;
-            depths += WIDTH;
-        }
-    }
-}
-
 namespace {
 
 // Draws a pixel of a scale that averages. `shade` is its brightness in steps of the ramp. `there` is the step that the
@@ -47,7 +25,7 @@ inline void average(const uint8_t* ramp, int32_t z, int32_t shade, uint16_t* dep
 // Draws a row of a scale; `pixels` and `depths` point one past its last pixel, so x runs from -width to before 0. `both` holds
 // the depth in its lower half and the brightness (8 fraction bits) in its upper half.
 template <bool CUT>
-inline void fineRow(const FineScale& scale, uint8_t* pixels, uint16_t* depths, uint32_t both, uint32_t step, uint32_t cut,
+inline void scaleRow(const Scale& scale, uint8_t* pixels, uint16_t* depths, uint32_t both, uint32_t step, uint32_t cut,
                     uint32_t cutStep)
 {
     const uint32_t least = static_cast<uint32_t>(scale.zLeast), range = static_cast<uint32_t>(scale.zMost) - least;
@@ -80,7 +58,7 @@ inline uint32_t together(int32_t z, int32_t shade)
 
 }  // namespace
 
-void blitFine(uint8_t* frame, uint16_t* zbuffer, const FineScale& scale)
+void blitScale(uint8_t* frame, uint16_t* zbuffer, const Scale& scale)
 {
     const int end = scale.top * WIDTH + scale.left + scale.width;
     uint8_t* pixels = frame + end;
@@ -93,9 +71,9 @@ void blitFine(uint8_t* frame, uint16_t* zbuffer, const FineScale& scale)
     uint32_t cutStep = static_cast<uint32_t>(scale.cutStep), cutRow = static_cast<uint32_t>(scale.cutRow);
     for (int y = scale.height; y > 0; --y) {
         if (isCut)
-            fineRow<true>(scale, pixels, depths, both, step, cut, cutStep);
+            scaleRow<true>(scale, pixels, depths, both, step, cut, cutStep);
         else
-            fineRow<false>(scale, pixels, depths, both, step, 0, 0);
+            scaleRow<false>(scale, pixels, depths, both, step, 0, 0);
         both += down;
         down += static_cast<uint32_t>(scale.dome);
         cutStep += static_cast<uint32_t>(scale.cutXY);

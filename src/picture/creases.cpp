@@ -14,8 +14,8 @@ namespace {
 // in each frame, the next one in the next frame.
 constexpr int BAND = View::CREASE_BAND;
 static_assert(HEIGHT % BAND == 0 && HEIGHT / BAND <= 32, "each band has a bit");
-// Steps of brightness. JUMP: where two pixels side by side differ by so many, both are looked at. CHANGE: where a pixel has changed by
-// so many, those beside it are looked at, too.
+// Steps of brightness. JUMP: where two pixels side by side differ by so many, both are looked at. CHANGE: where a pixel has changed
+// by so many, those beside it are looked at, too.
 constexpr int JUMP = 16, CHANGE = 5;
 // Palette entries: a jump makes a greater difference (about four entries are one step). A power of two.
 constexpr int ENTRIES_APART = 32;

@@ -42,10 +42,10 @@ inline Extent extentOf(int32_t middle, int32_t half, int screen, int32_t* least,
     return {length <= 0 ? Extent::EMPTY : length > LARGEST ? Extent::TOO_LARGE : Extent::DRAWN, from, to};
 }
 
-// Sets all of a FineScale but its rectangle and its depths: brightness, least and greatest depth, and cut function. (toColumn,
+// Sets all of a Scale but its rectangle and its depths: brightness, least and greatest depth, and cut function. (toColumn,
 // toRow) leads from the middle of the scale to the centre of its first pixel, 12 fraction bits.
 inline void addShading(const Lens& lens, const Voxel& v, const Factors& f, int32_t depth, int32_t toColumn, int32_t toRow,
-                       FineScale* scale)
+                       Scale* scale)
 {
     const int width = scale->width;
     setEnds(v, depth >> 1, scale);
@@ -96,7 +96,7 @@ const Voxel* drawScalesC(Lens* lens, const Voxel* voxels, const Voxel* end)
         const int32_t across = limited(wrappedProduct(v.tiltX, f.zx) >> 16, STEEPEST);
         const int32_t down = -limited(wrappedProduct(v.tiltY, f.zy) >> 16, STEEPEST);
         const int32_t toColumn = ((columns.from + 1) << 12) - column, toRow = ((rows.from + 1) << 12) - row;
-        FineScale scale;
+        Scale scale;
         scale.left = static_cast<int16_t>(columns.from);
         scale.top = static_cast<int16_t>(rows.from);
         scale.width = static_cast<int16_t>(columns.length());
@@ -106,13 +106,8 @@ const Voxel* drawScalesC(Lens* lens, const Voxel* voxels, const Voxel* end)
         scale.zRow = down - across * scale.width;
         if (!depthsFit(scale.z, across * (scale.width - 1), down * (scale.height - 1)))
             break;
-        if (!isFine(v)) {
-            scale.colour = lens->ramp[v.brightness];
-            blitScalesC(lens->frame, lens->zbuffer, &scale, 1);
-            continue;
-        }
         addShading(*lens, v, f, depth, toColumn, toRow, &scale);
-        blitFine(lens->frame, lens->zbuffer, scale);
+        blitScale(lens->frame, lens->zbuffer, scale);
     }
     return voxels;
 }

@@ -186,7 +186,7 @@ bool View::place(const Voxel& voxel, Placed* placed) const
 }
 
 // Sets the rectangle of the pixels on the screen whose centres lie in a projected scale. Returns false when there are none.
-bool View::clip(const Placed& placed, FineScale* scale)
+bool View::clip(const Placed& placed, Scale* scale)
 {
     int left = (placed.column - placed.halfWide + HALF) >> FRACTION;
     int right = (placed.column + placed.halfWide + HALF) >> FRACTION;
@@ -219,7 +219,7 @@ void View::tilt(const Voxel& voxel, const Placed& placed, int32_t* across, int32
 
 // Makes a scale of a voxel that drawScales() has not drawn; the voxel may have any size and position. Returns false when it covers
 // no pixel of the screen.
-bool View::project(const Voxel& voxel, FineScale* scale) const
+bool View::project(const Voxel& voxel, Scale* scale) const
 {
     Placed placed;
     if (!place(voxel, &placed) || !clip(placed, scale))
@@ -239,7 +239,6 @@ bool View::project(const Voxel& voxel, FineScale* scale) const
 
     const int32_t pixelX = mulDiv(placed.z, 1 << 19, focalX_), pixelY = mulDiv(placed.z, 1 << 19, focalY_);
     const int32_t shadeAcross = shadeStep(voxel.slopeX, pixelX), shadeDown = -shadeStep(voxel.slopeY, pixelY);
-    scale->colour = lens_.ramp[voxel.brightness];
     scale->ramp = lens_.ramp;
     scale->shade = first(voxel.brightness * 256 + 128, shadeAcross, shadeDown);
     scale->shadeStep = shadeAcross;
@@ -330,14 +329,11 @@ int View::showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool 
         if (at == to)
             break;
         const Voxel& voxel = *at;
-        FineScale scale;
+        Scale scale;
         if (!project(voxel, &scale)) {
             ++undrawn;
         } else {
-            if (isFine(voxel))
-                blitFine(frame_, zbuffer_, scale);
-            else
-                blitScales(frame_, zbuffer_, &scale, 1);
+            blitScale(frame_, zbuffer_, scale);
             lens_.left = min32(lens_.left, scale.left);
             lens_.top = min32(lens_.top, scale.top);
             lens_.right = max32(lens_.right, scale.left + scale.width);

@@ -76,7 +76,7 @@ struct Kind {
 };
 Kind kinds[64];
 int kindCount = 0;
-long scalesTried = 0, pixelsTried = 0, spansTried = 0;
+long spansTried = 0;
 
 void verdict(bool good, const char* name, long detail)
 {
@@ -108,173 +108,6 @@ void prepare(int shift, bool empty)
 }
 
 bool same(int shift) { return memcmp(&roomC.at(shift), &roomA.at(shift), sizeof(Screen)) == 0; }
-
-void blitBoth(int shift, const Scale* scales, int count)
-{
-    // The list itself lies between guards too, and must not be changed.
-    static Scale kept[4096];
-    memcpy(kept, scales, sizeof(Scale) * static_cast<size_t>(count));
-    Screen& c = roomC.at(shift);
-    Screen& a = roomA.at(shift);
-    blitScalesC(c.frame.data, c.depth.data, scales, count);
-    blitScalesA(a.frame.data, a.depth.data, scales, count);
-    verdict(memcmp(kept, scales, sizeof(Scale) * static_cast<size_t>(count)) == 0, "the list of scales is left alone",
-            count);
-    scalesTried += count;
-    for (int i = 0; i < count; ++i)
-        pixelsTried += scales[i].width * scales[i].height;
-}
-
-// A scale; its depth changes by `across` from column to column and by `down` from row to row.
-Scale scale(int left, int top, int wide, int high, int z, int colour, int across = 0, int down = 0)
-{
-    Scale s;
-    s.left = static_cast<int16_t>(left);
-    s.top = static_cast<int16_t>(top);
-    s.width = static_cast<int16_t>(wide);
-    s.height = static_cast<int16_t>(high);
-    s.z = z;
-    s.zStep = across;
-    s.zRow = down - across * wide;
-    // Only the low byte of the colour is used.
-    s.colour = static_cast<int32_t>((any() & 0x7fffff00u) | static_cast<uint32_t>(colour));
-    return s;
-}
-
-// An interesting depth: any value, the ends of the range, or one of a few values so that equal depths meet.
-int depth()
-{
-    static const int ENDS[] = {0, 1, 0x7fff, 0x8000, 0x8001, 0xfffe, 0xffff};
-    switch (below(4)) {
-    case 0: return ENDS[below(7)];
-    case 1: return 0x7ffc + below(8);
-    default: return static_cast<int>(any() & 0xffff);
-    }
-}
-
-// A scale whose depth is in range at every pixel: level, or sloped gently or steeply.
-Scale sloped(int left, int top, int wide, int high)
-{
-    if (below(4) == 0)
-        return scale(left, top, wide, high, depth(), below(256));
-    const int most = below(3) == 0 ? 700 : 40;
-    int across = around(most), down = around(most);
-    if (below(5) == 0)
-        (below(2) ? across : down) = 0;
-    const int fall = magnitude(across) * (wide - 1) + magnitude(down) * (high - 1);
-    if (fall > 0xfffe)
-        return scale(left, top, wide, high, depth(), below(256));
-    // The depth of the nearest corner is anywhere in range, or at one of its ends.
-    const int room = 0xfffe - fall;
-    int z = below(4) == 0 ? (below(2) ? 0 : room) : below(4) == 0 ? (room < 0x7ffc ? room : 0x7ffc) : below(room + 1);
-    z += (across < 0 ? -across * (wide - 1) : 0) + (down < 0 ? -down * (high - 1) : 0);
-    return scale(left, top, wide, high, z, below(256), across, down);
-}
-
-// A scale of a given size, clipped at the edges of the screen like the view's scales; at least one pixel is left.
-Scale clipped(int wide, int high)
-{
-    int left = below(WIDE + wide - 1) - wide + 1, top = below(HIGH + high - 1) - high + 1;
-    if (below(3) == 0)
-        left = below(2) ? -below(wide) : WIDE - 1 - below(wide);
-    if (below(3) == 0)
-        top = below(2) ? -below(high) : HIGH - 1 - below(high);
-    int right = left + wide, bottom = top + high;
-    left = left < 0 ? 0 : left;
-    top = top < 0 ? 0 : top;
-    right = right > WIDE ? WIDE : right;
-    bottom = bottom > HIGH ? HIGH : bottom;
-    return sloped(left, top, right - left, bottom - top);
-}
-
-// The depth that a scale has at a pixel of the screen.
-int depthAt(const Scale& s, int x, int y)
-{
-    return s.z + (x - s.left) * s.zStep + (y - s.top) * (s.zRow + s.zStep * s.width);
-}
-
-// Tests every size up to 64x64 at every alignment, alone on a random screen. The result is also compared with the rule, pixel by
-// pixel, because twins with the same fault would agree.
-void everySize()
-{
-    long wrong = 0;
-    for (int wide = 1; wide <= 64; ++wide) {
-        prepare(below(SHIFTS), false);
-        for (int high = 1; high <= 64; ++high) {
-            for (int align = 0; align < 4; ++align) {
-                const int shift = 0;
-                Screen& c = roomC.at(shift);
-                Screen& a = roomA.at(shift);
-                const Scale s = sloped(4 * below((WIDE - 64) / 4) + align, below(HIGH - 63), wide, high);
-                // Only the part that the scale covers is refreshed and compared here; the whole screen is compared once for each
-                // width.
-                for (int y = s.top; y < s.top + high; ++y)
-                    for (int x = s.left; x < s.left + wide; ++x) {
-                        const int at = y * WIDE + x;
-                        c.frame.data[at] = a.frame.data[at] = static_cast<uint8_t>(any());
-                        c.depth.data[at] = a.depth.data[at] =
-                            static_cast<uint16_t>(below(3) == 0 ? depthAt(s, x, y) + below(3) - 1 : static_cast<int>(any()));
-                    }
-                static uint8_t frameBefore[PIXELS];
-                static uint16_t depthBefore[PIXELS];
-                for (int y = s.top; y < s.top + high; ++y) {
-                    const int at = y * WIDE + s.left;
-                    memcpy(frameBefore + at, c.frame.data + at, static_cast<size_t>(wide));
-                    memcpy(depthBefore + at, c.depth.data + at, static_cast<size_t>(wide) * 2);
-                }
-                blitBoth(shift, &s, 1);
-                for (int y = s.top; y < s.top + high; ++y)
-                    for (int x = s.left; x < s.left + wide; ++x) {
-                        const int at = y * WIDE + x;
-                        const bool taken = depthAt(s, x, y) < depthBefore[at];
-                        const int colour = taken ? (s.colour & 0xff) : frameBefore[at];
-                        const int z = taken ? depthAt(s, x, y) : depthBefore[at];
-                        wrong += c.frame.data[at] != colour || c.depth.data[at] != z || a.frame.data[at] != colour ||
-                                 a.depth.data[at] != z;
-                    }
-            }
-        }
-        verdict(memcmp(&roomC.at(0), &roomA.at(0), sizeof(Screen)) == 0, "every height and alignment, width", wide);
-    }
-    verdict(wrong == 0, "nearer pixels are taken, others stay", wrong);
-}
-
-// Tests wide and high scales up to the whole screen.
-void largeOnes()
-{
-    for (int i = 0; i < 200; ++i) {
-        prepare(0, i & 1);
-        const int wide = 1 + below(WIDE), high = 1 + below(HIGH);
-        const Scale s = i == 0 ? scale(0, 0, WIDE, HIGH, 5, 7)
-                               : sloped(below(WIDE - wide + 1), below(HIGH - high + 1), wide, high);
-        blitBoth(0, &s, 1);
-        verdict(same(0), "large scales", i);
-    }
-}
-
-// Tests scales of one pixel and more at the corners and edges.
-void edges()
-{
-    for (int wide = 1; wide <= 64; ++wide) {
-        prepare(wide % SHIFTS, true);
-        Scale list[8];
-        const int high = 1 + below(64);
-        list[0] = scale(0, 0, wide, high, 10, 1);
-        list[1] = scale(WIDE - wide, 0, wide, high, 10, 2);
-        list[2] = scale(0, HIGH - high, wide, high, 10, 3);
-        list[3] = scale(WIDE - wide, HIGH - high, wide, high, 10, 4);
-        list[4] = scale(0, 80, wide, high, 0xffff, 5);
-        list[5] = scale(WIDE - wide, 80, wide, high, 0xfffe, 6);
-        list[6] = scale(100, 0, wide, high, 0, 7);
-        list[7] = scale(100, HIGH - high, wide, high, 0x8000, 8);
-        blitBoth(wide % SHIFTS, list, 8);
-        verdict(same(wide % SHIFTS), "edges and corners, width", wide);
-    }
-    prepare(0, false);
-    Scale none = scale(1, 1, 1, 1, 0, 0);
-    blitScalesA(roomA.at(0).frame.data, roomA.at(0).depth.data, &none, 0);
-    verdict(same(0), "an empty list", 0);
-}
 
 // Tests the runs of a row (none, one, many, at the ends) in all kinds of spans, at every alignment, with drawn pixels around them.
 void runs()
@@ -317,31 +150,6 @@ void runs()
         for (; x < to; ++x)
             wrong += pixels[x] != 0;
         verdict(wrong == 0 && x == to, "runs are all that is drawn", i);
-    }
-}
-
-void equalDepths()
-{
-    // "The first of two at equal depth stays."
-    prepare(0, true);
-    const Scale two[2] = {scale(10, 10, 9, 7, 500, 1), scale(12, 12, 9, 7, 500, 2)};
-    blitBoth(0, two, 2);
-    verdict(same(0), "equal depths", 0);
-    const uint8_t* frame = roomA.at(0).frame.data;
-    verdict(frame[13 * WIDE + 13] == 1 && frame[18 * WIDE + 20] == 2, "the first of two at equal depth stays", 0);
-}
-
-void randomLists(int rounds)
-{
-    static Scale list[4096];
-    for (int round = 0; round < rounds; ++round) {
-        const int shift = below(SHIFTS);
-        prepare(shift, below(2) == 0);
-        const int count = 1 + below(below(4) == 0 ? 1500 : 100);
-        for (int i = 0; i < count; ++i)
-            list[i] = below(2) ? clipped(1 + below(64), 1 + below(64)) : clipped(1 + below(12), 1 + below(12));
-        blitBoth(shift, list, count);
-        verdict(same(shift), "random lists, round", round);
     }
 }
 
@@ -1022,9 +830,6 @@ void registers()
 {
     prepare(0, true);
     Screen& a = roomA.at(0);
-    static Scale list[40];
-    for (int i = 0; i < 40; ++i)
-        list[i] = clipped(1 + i, 1 + below(30));
     static Fenced c, f;
     anyOptics();
     makeLens(c, f, 0);
@@ -1038,8 +843,6 @@ void registers()
     static Vector root;
     const Shading shading = allSeen(seen, &root);
     for (uint32_t count : {0u, 1u, 40u}) {
-        checkRegisters("registers are kept: blitScalesA", blitScalesA,
-                       {word(a.frame.data), word(a.depth.data), word(list), count}, count);
         for (uint32_t i = 0; i < 40; ++i) {
             // Start at each voxel: some calls stop at once, others go on.
             checkRegisters("registers are kept: drawScalesA", drawScalesA,
@@ -1366,12 +1169,7 @@ int main(int count, char** arguments)
     state = seed * 2654435761u + 1;
     if (state == 0)
         state = 1;
-    everySize();
-    largeOnes();
-    edges();
-    equalDepths();
     runs();
-    randomLists(rounds);
     voxelLists(rounds);
     voxelByVoxel(10 * rounds);
     shadedSeeds(10 * rounds);
@@ -1379,8 +1177,8 @@ int main(int count, char** arguments)
     fieldsAlong(20 * rounds);
     clearsAndCopies(rounds);
     registers();
-    printf("# seed %u: %ld scales, %ld pixels, %ld voxels (%ld drawn in lists), %ld spans tried\n", static_cast<unsigned>(seed),
-           scalesTried, pixelsTried, voxelsTried, voxelsDrawn, spansTried);
+    printf("# seed %u: %ld voxels (%ld drawn in lists), %ld spans tried\n", static_cast<unsigned>(seed),
+           voxelsTried, voxelsDrawn, spansTried);
     int passed = 0;
     for (int k = 0; k < kindCount; ++k) {
         if (kinds[k].bad == 0) {
