@@ -89,9 +89,10 @@ bool Rays::show(int at, int depth, int from)
     probe_.implicitAt(p, &strongest_);
     const SoftObject* const own = strongest_ < 0 ? nullptr : model_->actor(strongest_).object;
     uint8_t colour = frame_[from];
-    if (own != nullptr && own->ramp() != nullptr &&
-        (own->paint() == nullptr || from == at || probe_.strongestAt(view_.pointAt(from)) != strongest_)) {
-        colour = own->ramp()[brightnessOf(probe_.gradient(), model_->light)];
+    if (own != nullptr && own->ramp() != nullptr) {
+        const Vector gradient = probe_.gradient();  // before the probe is asked elsewhere
+        if (own->paint() == nullptr || from == at || probe_.strongestAt(view_.pointAt(from)) != strongest_)
+            colour = own->ramp()[brightnessOf(gradient, model_->light)];
     }
     if (colour == 0)
         return false;

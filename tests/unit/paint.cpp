@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "../../src/picture/rays.h"
 #include "../../src/surface/paint.h"
 #include "help.h"
 #include "model/scene.h"
@@ -301,4 +302,29 @@ TEST(painted_lists_in_any_room)
     int next = 0;
     p.object(0).draw(p.frame(), *list, VOXELS_AT_ONCE, &next);
     CHECK(list->runs == 0 && list->count > 300 && list->ramp == p.object(0).ramp());
+}
+
+// A pixel of a painted object gets the brightness of the surface there, whatever object the pixel beside it shows.
+TEST(brightness_of_painted_objects_beside_others)
+{
+    Painted p(BALLS + "finish a shiny\nfinish b shiny\n");
+    View view;
+    CHECK(view.open());
+    view.setCamera(p.model.camera);
+    view.begin();
+    FieldProbe probe(&p.model);
+    Rays rays(view, probe, Real(2));
+    int shown = 0;
+    for (int column = 130; column < 150; ++column) {
+        const int at = 100 * machine::WIDTH + column, other = at + 40;
+        int depth = floorToInt(-p.model.camera.eye.z * Real(128)) - 128 * 20, otherDepth = depth;
+        if (!rays.findDepth(at, &depth) || !rays.findDepth(other, &otherDepth) || !rays.show(other, otherDepth, other))
+            continue;
+        CHECK(rays.show(at, depth, at));
+        const int expected = view.frame()[at];
+        CHECK(rays.show(at, depth, other));
+        SAME(view.frame()[at], expected);
+        ++shown;
+    }
+    CHECK(shown > 10);
 }
