@@ -749,7 +749,10 @@ leave_at:
         cmpw    $DOMED*256, VOXEL_HALF_HEIGHT(%esi)
         jg      1f
         movl    FACTOR_ZX(%ebp), %eax
-        sarl    $6, %eax
+        cmpl    FACTOR_ZY(%ebp), %eax
+        jle     5f
+        movl    FACTOR_ZY(%ebp), %eax
+5:      sarl    $6, %eax
         cmpl    $WIDEST_PIXEL, %eax
         jle     4f
         movl    $WIDEST_PIXEL, %eax

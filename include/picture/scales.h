@@ -92,7 +92,8 @@ constexpr int LENS_STEPS = (LENS_FAR - LENS_NEAR) * LENS_FINENESS;
 // averaged (Scale::averages). A scale that reaches farther than DOMED units from its centre along x or y has no dome. So no
 // dome makes a pixel deeper by more than DOME_MOST, 1/128 unit, and depths within the table of factors still fit the Z-buffer.
 constexpr int DOMED = 6, DOME_MOST = 2 * DOMED * DOMED * 5 * 128 / 16;
-// Units, 9 fraction bits: a pixel that is wider than this counts as this wide, so that domes fit 16 bits.
+// Units, 9 fraction bits: a pixel that is wider than this counts as this wide, so that domes fit 16 bits. The narrower side of a
+// pixel counts.
 constexpr int32_t WIDEST_PIXEL = 10000;
 
 // The dome of a voxel that is cut along a straight line, as Scale::dome: 1/128 unit, and it fits 16 bits. It is rounded down:
@@ -101,7 +102,7 @@ inline int32_t domeOf(const Voxel& v, const Factors& f)
 {
     if (v.halfWidth > DOMED * 256 || v.halfHeight > DOMED * 256)
         return 0;
-    const int32_t pixel = min32(f.zx >> 6, WIDEST_PIXEL);
+    const int32_t pixel = min32(min32(f.zx, f.zy) >> 6, WIDEST_PIXEL);
     return 5 * pixel * pixel >> 14;
 }
 

@@ -320,6 +320,32 @@ TEST(of_cut_scales_that_overlap_the_nearest_is_seen)
     CHECK(left > 500 && right > 500);
 }
 
+TEST(domes_are_shallow_whatever_the_shape_of_pixels)
+{
+    for (const auto& focal : {std::pair<double, double>{100, 400}, {400, 100}}) {
+        View view;
+        CHECK(view.open());
+        Camera camera;
+        camera.focalX = real(focal.first);
+        camera.focalY = real(focal.second);
+        view.setCamera(camera);
+        view.begin();
+        const double z = 400;
+        Voxel v = voxel(0, 0, 0, DOMED - 0.1, DOMED - 0.1, 20);
+        v.cutX = 1;
+        v.cutAt = INT16_MAX;
+        show(view, &v, 1, 0, 0, steps(z));
+        int least = Z_EMPTY, most = 0, drawn = 0;
+        for (int at = 0; at < WIDTH * HEIGHT; ++at)
+            if (view.frame()[at] != 0) {
+                ++drawn;
+                least = std::min<int>(least, view.zbuffer()[at]);
+                most = std::max<int>(most, view.zbuffer()[at]);
+            }
+        CHECK(drawn > 20 && least >= static_cast<int>(z * 128) - 1 && most <= static_cast<int>(z * 128) + DOME_MOST);
+    }
+}
+
 TEST(cut_scales_of_one_ramp_are_averaged)
 {
     // Where a cut scale lies close before or behind what is drawn, the brightness is the mean, if the ramp is the same. The depth
