@@ -2,7 +2,7 @@
 // implements its C++ twin in src/picture/scales.cpp, and the tests feed both the same input. Above each group of instructions
 // stands the line of C++ that it implements.
 //
-// The cost of a scale before its first pixel is that of its multiplications: eight for a scale of one brightness, twelve if the
+// The cost of a scale before its first pixel is that of its multiplications: nine for a scale of one brightness, thirteen if the
 // brightness changes. A multiplication takes 9 to 38 cycles on the 386 and 13 to 42 on the 486, depending on the bits of its
 // second factor, and 10 on the Pentium, in the U pipe only. Therefore the factors are kept short: 15 bits for positions and
 // sizes, 10 for slopes. There is no division.

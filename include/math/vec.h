@@ -37,8 +37,8 @@ constexpr Vector cross(const Vector& a, const Vector& b)
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// dot(a, b) / 2^shift for vectors of which only one is short (components below 8192); in 16.16 it is limited to the range. `shift`
-// is at most 15.
+// dot(a, b) / 2^shift for vectors of which at least one is short (components below 8192); in 16.16 it is limited to the range.
+// `shift` is at most 15.
 #if FB_REAL == FB_FIXED
 inline Real dotDown(const Vector& a, const Vector& b, int shift)
 {

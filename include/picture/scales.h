@@ -44,9 +44,9 @@ inline int32_t curveStep(int curve, int32_t factor, int32_t other)
     return wrappedProduct(wrappedProduct(curve, factor) >> 10, other) >> 16;
 }
 
-// Sets the cut function of a scale that has none, starting at the centre of its first pixel. `toFirst(a, b)` returns by how much a
-// function changes between the middle of the scale and the centre of that pixel if it changes by `a` per column and by `b` per row.
-// Of a voxel that is cut nowhere the function is constant.
+// Sets the cut function of a scale after setUncut(): its value and its steps at the centre of the first pixel. `toFirst(a, b)`
+// returns by how much a function changes between the middle of the scale and the centre of that pixel if it changes by `a` per
+// column and by `b` per row. Of a voxel that is cut nowhere the function is constant.
 template <class ToFirst>
 inline void setCut(const Voxel& v, int32_t zx, int32_t zy, ToFirst toFirst, Scale* scale)
 {
@@ -84,13 +84,14 @@ constexpr int LENS_NEAR = 76, LENS_FAR = 423;
 constexpr int LENS_FINENESS = 16;
 constexpr int LENS_STEPS = (LENS_FAR - LENS_NEAR) * LENS_FINENESS;
 
-// Where the surface bulges, the tangent plane of each scale comes before the middles of the scales beside it, and a pixel would
-// show a scale by its very edge. That is seen most next to a border and where a patch bends unevenly, for there normals turn fast.
-// A scale that is cut along a straight line, or nowhere (voxel.h), is therefore domed: its depth grows with the squared distance
-// from its centre, by 5/16 unit at a distance of one unit, so that of overlapping scales a pixel shows the one whose centre is
-// nearest. There the brightness of neighbouring scales differs most as well, and would jump from one to the other: so it is
-// averaged (Scale::averages). A scale that reaches farther than DOMED units from its centre along x or y has no dome. So no
-// dome makes a pixel deeper by more than DOME_MOST, 1/128 unit, and depths within the table of factors still fit the Z-buffer.
+// Where the surface bulges, the tangent plane of each scale passes in front of the centres of the scales beside it, so that a pixel
+// would show the edge of one scale instead of the middle of another. That is seen most next to a border and where a patch bends
+// unevenly, for there normals turn fast. A scale that is cut along a straight line, or nowhere (voxel.h), is therefore domed: its
+// depth grows with the squared distance from its centre, by 5/16 unit at a distance of one unit, so that of overlapping scales a
+// pixel shows the one whose centre is nearest. There the brightness of neighbouring scales differs most as well, and would jump
+// from one to the other: so it is averaged (Scale::averages). A scale that reaches farther than DOMED units from its centre along x
+// or y has no dome. So no dome makes a pixel deeper by more than DOME_MOST, 1/128 unit, and depths within the table of factors
+// still fit the Z-buffer.
 constexpr int DOMED = 6, DOME_MOST = 2 * DOMED * DOMED * 5 * 128 / 16;
 // Units, 9 fraction bits: a pixel that is wider than this counts as this wide, so that domes fit 16 bits. The narrower side of a
 // pixel counts.
@@ -158,8 +159,8 @@ inline bool nearFactors(const Lens& lens, int32_t depth, Factors* near)
     return true;
 }
 
-// Sets tiltAdd and tiltBits, with which the loop tests both tilts of a voxel at once for whether they may exceed STEEPEST. `most`
-// is an upper bound of zx and zy. If tiltX and tiltY, taken together as one 32-bit word, plus tiltAdd have none of tiltBits set,
+// Sets tiltAdd and tiltBits, with which the assembly tests at once whether one of a voxel's tilts may exceed STEEPEST. `most` is an
+// upper bound of zx and zy. If tiltX and tiltY, taken together as one 32-bit word, plus tiltAdd have none of tiltBits set,
 // both lie within -tilt - 1 .. tilt, and no factor up to `most` takes such a tilt beyond STEEPEST.
 inline void limitTilts(Lens* lens, uint32_t most)
 {

@@ -133,7 +133,7 @@ private:
     // A projected scale: the depth of its centre, 1/256 unit; its centre on the screen and its half extents, pixels with 12
     // fraction bits.
     struct Placed {
-        int32_t z, column, row, halfWide, halfHigh;
+        int32_t z, column, row, halfWidth, halfHeight;
     };
 
     void makeLens();

@@ -32,11 +32,11 @@ inline bool crossesBorder(const Voxel& v)
 void View::noteCrossings(const VoxelList& list)
 {
     const Voxel* const end = list.voxels + list.count;
-    bool hasTurn = false;
+    bool isSecond = true;
     for (const Voxel* voxel = list.voxels; voxel < end; ++voxel)
         if (isCut(*voxel) && crossesBorder(*voxel) && crossingCount_ < CROSSINGS_MOST) {
-            hasTurn = !hasTurn;
-            if (hasTurn)
+            isSecond = !isSecond;
+            if (!isSecond)
                 noteCrossing(*voxel);
         }
 }
@@ -45,8 +45,8 @@ void View::noteCrossings(const VoxelList& list)
 void View::noteCrossing(const Voxel& voxel)
 {
     const int32_t z = lens_.z + voxel.z, square = voxel.cutX * voxel.cutX + voxel.cutY * voxel.cutY;
-    Factors unused;
-    const Factors* const f = factorsOf(lens_, z, &unused);
+    Factors near;
+    const Factors* const f = factorsOf(lens_, z, &near);
     // The cut function falls from cutAt / 64 to 0 on the way (aside, up), 1/256 unit.
     const int32_t share = (voxel.cutAt * 8192) / square;
     const int32_t aside = -(share * voxel.cutX >> 8), up = -(share * voxel.cutY >> 8);

@@ -10,8 +10,8 @@ using machine::WIDTH;
 namespace {
 
 // Limits of what counts as a gap (View::closeGaps()), pixels. "A spacing" is the spacing of the seeds on the screen.
-constexpr int GAP_WIDE = 10;  // and a spacing: width and height of an opening that is closed on all sides
-constexpr int GAP_NARROW = 8; // and a spacing: width of the narrow end of an opening that is open above or below
+constexpr int GAP_WIDE = 10;  // plus a spacing: width and height of an opening that is closed on all sides
+constexpr int GAP_NARROW = 8; // plus a spacing: width of the narrow end of an opening that is open above or below
 constexpr int GAP_LOW = 6;    // height of a slit that is open to a side
 constexpr int GAP_THIN = 2;   // width of a run that is filled whatever lies above and below
 constexpr int GAP_MOST = 32;  // upper bound of all widths, however near the viewer the seeds are
@@ -42,7 +42,7 @@ struct Opening {
 
 // Finds how an opening of columns *from to *to goes on in the next row: from the leftmost to the rightmost empty pixel connected
 // with it; drawn pixels between the two are ignored. Returns false when all pixels of the row next to the opening are drawn.
-bool goesOn(const uint8_t* row, int widest, int* from, int* to)
+bool goesOn(const uint8_t* row, int maxWidth, int* from, int* to)
 {
     const int left = *from, right = *to;
     while (*from < right && row[*from] != 0)
@@ -51,37 +51,36 @@ bool goesOn(const uint8_t* row, int widest, int* from, int* to)
         return false;
     while (row[*to - 1] != 0)
         --*to;
-    while (*from <= left && *from > 0 && *to - *from <= widest && row[*from - 1] == 0)
+    while (*from <= left && *from > 0 && *to - *from <= maxWidth && row[*from - 1] == 0)
         --*from;
-    while (*to >= right && *to < WIDTH && *to - *from <= widest && row[*to] == 0)
+    while (*to >= right && *to < WIDTH && *to - *from <= maxWidth && row[*to] == 0)
         ++*to;
     return true;
 }
 
 // Follows an opening down (`step` 1) or up (`step` -1) from the columns `from` to before `to` of row y.
-void followOpening(const uint8_t* frame, int y, int from, int to, int step, int widest, int narrowest, Opening& opening)
+void followOpening(const uint8_t* frame, int y, int from, int to, int step, int maxWidth, int maxNarrow, Opening& opening)
 {
     for (;;) {
         // All that lies before a narrow place is filled together with it.
-        if (to - from <= narrowest)
+        if (to - from <= maxNarrow)
             opening.narrow = opening.height + 1;
         opening.rows[opening.height++] = {static_cast<int16_t>(from), static_cast<int16_t>(to)};
         const int next = y + opening.height * step;
         if (next < 0 || next >= HEIGHT)
             return;
-        if (!goesOn(frame + next * WIDTH, widest, &from, &to)) {
+        if (!goesOn(frame + next * WIDTH, maxWidth, &from, &to)) {
             opening.narrow = opening.height;
             return;
         }
-        if (to - from > widest || from == 0 || to == WIDTH || opening.height == widest)
+        if (to - from > maxWidth || from == 0 || to == WIDTH || opening.height == maxWidth)
             return;
     }
 }
 
 }  // namespace
 
-// Notes the empty pixels at both ends of a run of drawn pixels, if they may be in inner corners. Beside a narrow run they may be a
-// part of an island that seeds have missed; at the upper and the lower end of an outline the next row is drawn there.
+// Notes the empty pixels at both ends of a run of drawn pixels, if they may be in inner corners.
 inline void Gaps::noteCorners(int y, const Span& run)
 {
     const uint8_t* const row = frame_ + y * WIDTH;
@@ -89,8 +88,15 @@ inline void Gaps::noteCorners(int y, const Span& run)
         missed_.noteCorner(run.from - 1, y);
     if (Missed::mayBeInCorner(row + run.to, 1))
         missed_.noteCorner(run.to, y);
-    if (run.to - run.from > SLIVER || model_ == nullptr)
-        return;
+    if (run.to - run.from <= SLIVER && model_ != nullptr)
+        noteSliver(y, run);
+}
+
+// An island that seeds have missed may go on beside a narrow run. At the upper and the lower end of an outline runs are narrow,
+// too, but the row above or below is drawn there, and nothing is noted.
+inline void Gaps::noteSliver(int y, const Span& run)
+{
+    const uint8_t* const row = frame_ + y * WIDTH;
     for (int end = run.from - 1, inwards = 1; inwards >= -1; end = run.to, inwards -= 2)
         if ((row[end - WIDTH] | row[end + WIDTH]) == 0)
             missed_.noteEnd(end, y, inwards);
@@ -109,10 +115,10 @@ inline void Gaps::noteEnds(int y, const Span& run)
 // Notes the outermost empty pixels to both sides of `columns`, in the row where the filled part of an opening ends.
 void Gaps::noteBeyond(int y, const Span& columns)
 {
-    int from = columns.from, to = columns.to;
-    const uint8_t* row = frame_ + y * WIDTH;
     if (y < 0 || y >= HEIGHT)
         return;
+    int from = columns.from, to = columns.to;
+    const uint8_t* row = frame_ + y * WIDTH;
     while (from > 0 && columns.from - from < GAP_MOST && row[from - 1] == 0)
         --from;
     while (to < WIDTH && to - columns.to < GAP_MOST && row[to] == 0)
@@ -123,16 +129,16 @@ void Gaps::noteBeyond(int y, const Span& columns)
 
 void Gaps::close()
 {
-    const int32_t near = mulShift16(rawFromReal(view_.camera().focalX) >> 4, rawFromReal(spacing_)) >> 5;
+    const int32_t spacingTimesDepth = mulShift16(rawFromReal(view_.camera().focalX) >> 4, rawFromReal(spacing_)) >> 5;
     for (int y = 0; y < HEIGHT; ++y)
         if (view_.touched(y).from < view_.touched(y).to)
-            closeRow(y, near);
+            closeRow(y, spacingTimesDepth);
     missed_.draw();
 }
 
 // Closes the gaps of a row that has drawn pixels, and the slits that begin beside these; notes where surface may have been missed.
-// `near` divided by a depth of the Z-buffer is the spacing of the seeds in pixels.
-void Gaps::closeRow(int y, int32_t near)
+// `spacingTimesDepth` divided by a depth of the Z-buffer is the spacing of the seeds in pixels.
+void Gaps::closeRow(int y, int32_t spacingTimesDepth)
 {
     Span runs[WIDTH / 2];
     const uint8_t* row = frame_ + y * WIDTH;
@@ -144,7 +150,7 @@ void Gaps::closeRow(int y, int32_t near)
         const int from = run->from;
         if (last > 0 && from - last <= GAP_MOST) {
             const int before = zbuffer_[y * WIDTH + last - 1], behind = zbuffer_[y * WIDTH + from];
-            closeRun(y, last, from, near / (max32(before, behind) | 1));
+            closeRun(y, last, from, spacingTimesDepth / (max32(before, behind) | 1));
         }
         if (slits && last > 0 && inSlit(row + last))
             closeSlit(y, last, from, 1);
@@ -164,15 +170,14 @@ void Gaps::closeRow(int y, int32_t near)
 void Gaps::closeRun(int y, int from, int to, int spacing)
 {
     const uint8_t* row = frame_ + y * WIDTH;
-    int widest = GAP_WIDE + spacing;
-    widest = widest > GAP_MOST ? GAP_MOST : widest;
-    if (to - from > widest)
+    const int maxWidth = min32(GAP_WIDE + spacing, GAP_MOST), maxNarrow = GAP_NARROW + spacing;
+    if (to - from > maxWidth)
         return;
     if (to - from <= GAP_THIN) {
         fill(y * WIDTH + from - 1, y * WIDTH + to, 1);
         // Openings above may have been open only because of this run.
-        closeAbove(y, from, widest, GAP_NARROW + spacing);
-        closeAbove(y, to - 1, widest, GAP_NARROW + spacing);
+        closeAbove(y, from, maxWidth, maxNarrow);
+        closeAbove(y, to - 1, maxWidth, maxNarrow);
     }
     // Follows the opening downwards if the row above is closed, and upwards if it is still empty and the row below is closed.
     for (int step = 1; step >= -1 && row[from] == 0; step -= 2) {
@@ -182,22 +187,22 @@ void Gaps::closeRun(int y, int from, int to, int spacing)
         while (x < to && row[x - step * WIDTH] != 0)
             ++x;
         if (x == to)
-            closeFrom(y, from, to, step, widest, GAP_NARROW + spacing);
+            closeFrom(y, from, to, step, maxWidth, maxNarrow);
     }
 }
 
 // Follows the empty run above a pixel that has just been filled upwards, if the row below that run is closed now.
-void Gaps::closeAbove(int y, int x, int widest, int narrowest)
+void Gaps::closeAbove(int y, int x, int maxWidth, int maxNarrow)
 {
-    const uint8_t* row = frame_ + (y - 1) * WIDTH;
-    if (y < 2 || row[x] != 0)
+    if (y < 2 || frame_[(y - 1) * WIDTH + x] != 0)
         return;
+    const uint8_t* row = frame_ + (y - 1) * WIDTH;
     int from = x, to = x + 1;
-    while (from > 0 && to - from <= widest && row[from - 1] == 0)
+    while (from > 0 && to - from <= maxWidth && row[from - 1] == 0)
         --from;
-    while (to < WIDTH && to - from <= widest && row[to] == 0)
+    while (to < WIDTH && to - from <= maxWidth && row[to] == 0)
         ++to;
-    if (to - from > widest || from == 0 || to == WIDTH) {
+    if (to - from > maxWidth || from == 0 || to == WIDTH) {
         // What has been filled may have made a corner of an end.
         missed_.noteCorner(from, y - 1);
         missed_.noteCorner(to - 1, y - 1);
@@ -206,15 +211,15 @@ void Gaps::closeAbove(int y, int x, int widest, int narrowest)
     for (int i = from; i < to; ++i)
         if (row[i + WIDTH] == 0)
             return;
-    closeFrom(y - 1, from, to, -1, widest, narrowest);
+    closeFrom(y - 1, from, to, -1, maxWidth, maxNarrow);
 }
 
 // Follows an opening from its closed end, and fills its rows as far as the last one that is narrow: from both sides where the
 // surface is sure to be there; else, and where the sides cannot tell how it looks, with the model's surface.
-void Gaps::closeFrom(int y, int from, int to, int step, int widest, int narrowest)
+void Gaps::closeFrom(int y, int from, int to, int step, int maxWidth, int maxNarrow)
 {
     Opening opening;
-    followOpening(frame_, y, from, to, step, widest, narrowest, opening);
+    followOpening(frame_, y, from, to, step, maxWidth, maxNarrow, opening);
     const int narrow = opening.narrow;
     const Span* const rows = opening.rows;
     if (narrow > 0) {

@@ -19,12 +19,13 @@ public:
 
 private:
     void noteCorners(int y, const Span& run);
+    void noteSliver(int y, const Span& run);
     void noteEnds(int y, const Span& run);
     void noteBeyond(int y, const Span& columns);
-    void closeRow(int y, int32_t near);
+    void closeRow(int y, int32_t spacingTimesDepth);
     void closeRun(int y, int from, int to, int spacing);
-    void closeAbove(int y, int x, int widest, int narrowest);
-    void closeFrom(int y, int from, int to, int step, int widest, int narrowest);
+    void closeAbove(int y, int x, int maxWidth, int maxNarrow);
+    void closeFrom(int y, int from, int to, int step, int maxWidth, int maxNarrow);
     void closeSlit(int y, int x, int end, int step);
     bool searchBehind(int first, int last);
     bool closeExactly(int first, int last);

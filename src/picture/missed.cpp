@@ -23,16 +23,16 @@ inline bool Missed::isMissing(int at, int depth) const
 
 void Missed::draw()
 {
-    const int corners = count_;
-    for (int i = 0; i < corners; ++i)
+    const int noted = count_;
+    for (int i = 0; i < noted; ++i)
         if (noted_[i].depth != 0) {
             follow(noted_[i].pixel, noted_[i].depth, noted_[i].from);
-        } else if (takeCorner(noted_[i].pixel) && rays_.model() != nullptr) {
+        } else if (takeCorner(noted_[i].pixel)) {
             const int at = noted_[i].pixel, beside = drawnBeside(at, NOWHERE);
             follow(at, zbuffer_[beside], beside);
         }
     const Crossing* const end = view_.crossings() + view_.crossingCount();
-    for (const Crossing* at = view_.crossings(); at < end && rays_.model() != nullptr; ++at) {
+    for (const Crossing* at = view_.crossings(); at < end; ++at) {
         const int first = isMissing(at->pixel, at->depth) ? at->pixel : at->pixel + at->outwards;
         if (isMissing(first, at->depth))
             follow(first, at->depth, first);
@@ -54,8 +54,10 @@ bool Missed::follow(int at, int depth, int from)
 int Missed::sideFrom(int at, int step, int aside) const
 {
     const auto onScreen = [](int pixel) { return pixel >= 0 && pixel < WIDTH * HEIGHT; };
+    // A side along a row does not go on in another row.
+    const int column = at % WIDTH, most = step == 1 ? WIDTH - column : step == -1 ? column + 1 : LONG;
     int count = 0;
-    while (count < LONG && onScreen(at) && onScreen(at + aside) && frame_[at] != 0 && frame_[at + aside] == 0) {
+    while (count < LONG && count < most && onScreen(at) && onScreen(at + aside) && frame_[at] != 0 && frame_[at + aside] == 0) {
         ++count;
         at += step;
     }

@@ -27,17 +27,18 @@ public:
     }
 
     // Note a pixel, possibly beside the screen, for draw(): one that may be in a corner; and one beside an end of a run of drawn
-    // pixels, where the surface may go on (`inwards`, 1 or -1, leads to the run). Nothing is noted beyond NOTED_MOST.
+    // pixels, where the surface may go on (`inwards`, 1 or -1, leads to the run). Nothing is noted beyond NOTED_MOST; the rest of
+    // the room is for what is followed.
     void noteCorner(int column, int row)
     {
-        if (column >= 1 && column < machine::WIDTH - 1 && row >= 1 && row < machine::HEIGHT - 1)
+        if (column >= 1 && column < machine::WIDTH - 1 && row >= 1 && row < machine::HEIGHT - 1 && count_ < NOTED_MOST)
             put(row * machine::WIDTH + column, 0, 0);
     }
     void noteEnd(int column, int row, int inwards)
     {
         const int at = row * machine::WIDTH + column, depth = zbuffer_[at + inwards];
         // (With the depth 0 it would be taken for a corner.)
-        if (column >= 0 && column < machine::WIDTH && depth != 0)
+        if (column >= 0 && column < machine::WIDTH && depth != 0 && count_ < NOTED_MOST)
             put(at, depth, at + inwards);
     }
 
@@ -50,7 +51,7 @@ public:
     bool follow(int at, int depth, int from);
 
 private:
-    static constexpr int NOTED_MOST = 1024;
+    static constexpr int NOTED_MOST = 896, ROOM = 1024;
 
     // A pixel that the surface may go on to, the depth where it is looked for (1/128 unit), and the pixel that it comes from. A
     // corner has the depth 0, and only its pixel counts.
@@ -60,7 +61,7 @@ private:
 
     void put(int pixel, int depth, int from)
     {
-        if (count_ < NOTED_MOST)
+        if (count_ < ROOM)
             noted_[count_++] = {static_cast<uint16_t>(pixel), static_cast<uint16_t>(depth), static_cast<uint16_t>(from)};
     }
     int sideFrom(int at, int step, int aside) const;
@@ -74,7 +75,7 @@ private:
     const uint8_t* frame_;
     const uint16_t* zbuffer_;
     Rays& rays_;
-    Place noted_[NOTED_MOST];
+    Place noted_[ROOM];
     int count_ = 0;
 };
 

@@ -17,7 +17,7 @@ constexpr int CRACK_WIDE = 3;
 // hardly thicker, and scales lie in front of it by a little.
 constexpr int WITHIN = 112;
 // Because rays begin so near the surface, no step need be more than this times as long as the one before.
-constexpr int FARTHEST = 3;
+constexpr int MAX_GROWTH = 3;
 // If the excess of the field beside a pixel, foretold by the gradient, is more than this, the ray there may meet the surface, too.
 // It is a little less than 0, since the gradient changes on the way. In units of the field, times CORE_SIZE.
 constexpr Real NEARLY(-0.1);
@@ -71,7 +71,7 @@ void Outlines::mend()
         const uint16_t* const from = row + (covered.from & -AT_ONCE);
         const uint16_t* const to = row + covered.to;
         mendUpright(from, to);
-        if (y % (2 * AWAY) < AWAY && y <= HEIGHT - 2 * AWAY)
+        if (y % (2 * AWAY) < AWAY && y + AWAY + CRACK_WIDE < HEIGHT)
             mendLying(from, to);
     }
 }
@@ -150,7 +150,7 @@ bool Outlines::meets(int at, Real* excess)
 {
     int depth = zbuffer_[at] + WITHIN;
     *excess = rays_.excess(at, depth);
-    return rays_.findInside(at, &depth, excess, FARTHEST);
+    return rays_.findInside(at, &depth, excess, MAX_GROWTH);
 }
 
 // Lets a pixel show what is behind the nearer surface, as the pixel `behind` does. Those beside it may have to do the same.

@@ -11,9 +11,9 @@ namespace {
 constexpr int LOOKS_MOST = 3500, LOOKS_AT_ONE = 28000;
 // The first step along the ray, 1/128 unit.
 constexpr int STEP = 128;
-// Upper bounds: of the steps along the ray towards a stronger field; of the ratio of each of them to the one before in findDepth(),
-// whose ray may first lead along the surface; and of the steps back through the object towards the eye.
-constexpr int STEPS = 3, FARTHEST = 5, THICKEST = 12;
+// Upper bounds of findDepth(). STEPS: of the steps along the ray towards a stronger field. MAX_GROWTH: of the ratio of each of them
+// to the one before; it is large because the ray may first lead along the surface. THICKEST: of the steps back towards the eye.
+constexpr int STEPS = 3, MAX_GROWTH = 5, THICKEST = 12;
 // No surface is near a point where the field is this much below the isovalue.
 constexpr Real NEAR(0.2);
 
@@ -41,11 +41,12 @@ Rays::Rays(View& view, FieldProbe& probe, Real spacing)
 Real Rays::excess(int at, int depth)
 {
     ++looks_;
-    return probe_.implicitAt(view_.pointAt(at, depth), &strongest_) - ISOVALUE;
+    int strongest;
+    return probe_.implicitAt(view_.pointAt(at, depth), &strongest) - ISOVALUE;
 }
 
 // Takes steps of the secant method.
-bool Rays::findInside(int at, int* depth, Real* here, int farthest)
+bool Rays::findInside(int at, int* depth, Real* here, int maxGrowth)
 {
     for (int i = 0, step = STEP; *here <= Real(0); ++i) {
         if (i == STEPS || *here < -NEAR || *depth + step <= 0 || *depth + step >= Z_EMPTY)
@@ -53,7 +54,7 @@ bool Rays::findInside(int at, int* depth, Real* here, int farthest)
         const Real there = excess(at, *depth + step), rise = there - *here;
         const bool rises = rise > Real(0);
         const Real left = rises ? -there : -*here, slope = absolute(rise);
-        if (left > slope * Real(farthest))
+        if (left > slope * Real(maxGrowth))
             return false;
         const int on = left > Real(0) ? floorToInt(quotient(left, slope) * Real(magnitude(step))) + STEP / 4 : 0;
         *depth += rises ? step : 0;
@@ -67,7 +68,7 @@ bool Rays::findDepth(int at, int* depth)
 {
     int outside = *depth;
     Real here = excess(at, outside);
-    if (!findInside(at, &outside, &here, FARTHEST))
+    if (!findInside(at, &outside, &here, MAX_GROWTH))
         return false;
     // From there looks for a point outside, towards the eye, and interpolates between the last two points.
     Real within = here;
@@ -86,12 +87,12 @@ bool Rays::show(int at, int depth, int from)
 {
     const Point p = view_.pointAt(at, depth);
     ++looks_;
-    probe_.implicitAt(p, &strongest_);
-    const SoftObject* const own = strongest_ < 0 ? nullptr : model_->actor(strongest_).object;
+    const int strongest = probe_.strongestAt(p);
+    const SoftObject* const own = strongest < 0 ? nullptr : model_->actor(strongest).object;
     uint8_t colour = frame_[from];
     if (own != nullptr && own->ramp() != nullptr) {
         const Vector gradient = probe_.gradient();  // before the probe is asked elsewhere
-        if (own->paint() == nullptr || from == at || probe_.strongestAt(view_.pointAt(from)) != strongest_)
+        if (own->paint() == nullptr || from == at || probe_.strongestAt(view_.pointAt(from)) != strongest)
             colour = own->ramp()[brightnessOf(gradient, model_->light)];
     }
     if (colour == 0)

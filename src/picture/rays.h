@@ -33,10 +33,9 @@ public:
     // A pixel that is drawn shows the surface unless it is deeper by more than this, 1/128 unit.
     static constexpr int BEHIND = 512;
 
-    // The seeds lie `spacing` units apart. The model may be null; then nothing may be asked.
+    // The seeds lie `spacing` units apart. Without a model (null) all rays are tired from the first.
     Rays(View& view, FieldProbe& probe, Real spacing);
 
-    const Model* model() const { return model_; }
     // Whether the model has been asked too often in this frame already: no pixel is begun any more.
     bool tired() const { return looks_ >= looksMost_; }
 
@@ -45,9 +44,9 @@ public:
     // Returns by how much the field exceeds the isovalue at the point that a pixel shows at a depth.
     Real excess(int at, int depth);
     // Looks for a point inside along the ray through a pixel, from a depth on, in the direction in which the field rises. `*depth`
-    // and `*here`, the excess there, become those of the last point. No step is more than `farthest` times as long as the one
+    // and `*here`, the excess there, become those of the last point. No step is more than `maxGrowth` times as long as the one
     // before. Returns false when the ray misses the surface.
-    bool findInside(int at, int* depth, Real* here, int farthest);
+    bool findInside(int at, int* depth, Real* here, int maxGrowth);
     // Finds where the ray through a pixel enters the surface. `*depth` is a first guess and becomes the result. Returns false when
     // the ray misses the surface.
     bool findDepth(int at, int* depth);
@@ -64,7 +63,6 @@ private:
     const Model* const model_;
     const int looksMost_;  // no pixel is begun after this many evaluations of the field
     int looks_ = 0;        // evaluations of the field so far
-    int strongest_ = -1;   // the object with the strongest field at the last evaluation; -1: none
 };
 
 #endif

@@ -17,6 +17,8 @@ constexpr int32_t NEAREST = 1 << 8;            // 1 unit
 constexpr int32_t FARTHEST = 511 << 8;         // 16-bit depths of 1/128 unit end at 512 units
 // hides() looks at every third pixel of every third row: an object that shows only between them is narrower than a scale.
 constexpr int HIDING_STEP = 3;
+// Of views with a shorter focal length the model is not asked, pixels.
+constexpr Real FOCAL_ASKED(3);
 
 // Extends a span by the columns `from` to before `to`.
 inline void extend(int from, int to, Span* span)
@@ -141,14 +143,14 @@ bool View::hides(const int32_t place[3], int32_t radius) const
     // The ball is too near for the table of factors, or far beside the view.
     if (nearest < LENS_NEAR * 128 || magnitude(place[0]) > 2 * z || magnitude(place[1]) > 2 * z)
         return false;
-    Factors unused;
-    const Factors* const f = factorsOf(lens_, z, &unused);
-    if (f == nullptr)
+    const int32_t step = lensStep(z);
+    if (step >= LENS_STEPS)
         return false;
-    const int32_t column = lens_.centreX + (place[0] * f->x >> 8), row = lens_.centreY - (place[1] * f->y >> 8);
-    const int32_t halfWide = radius * f->x >> 8, halfHigh = radius * f->y >> 8;
-    int left = (column - halfWide) >> FRACTION, right = (column + halfWide) >> FRACTION;
-    int top = (row - halfHigh) >> FRACTION, bottom = (row + halfHigh) >> FRACTION;
+    const Factors& f = factors_[step];
+    const int32_t column = lens_.centreX + (place[0] * f.x >> 8), row = lens_.centreY - (place[1] * f.y >> 8);
+    const int32_t halfWidth = radius * f.x >> 8, halfHeight = radius * f.y >> 8;
+    int left = (column - halfWidth) >> FRACTION, right = (column + halfWidth) >> FRACTION;
+    int top = (row - halfHeight) >> FRACTION, bottom = (row + halfHeight) >> FRACTION;
     if (right < 0 || left >= WIDTH || bottom < 0 || top >= HEIGHT)
         return true;
     left = max32(left, 0);
@@ -179,8 +181,8 @@ bool View::place(const Voxel& voxel, Placed* placed) const
         return false;
     *placed = {z, mulDiv(x, focalX_, z) + centreX_, centreY_ - mulDiv(y, focalY_, z), HALF - 1, HALF - 1};
     if (!pixels_) {
-        placed->halfWide = mulDiv(voxel.halfWidth, focalX_, z);
-        placed->halfHigh = mulDiv(voxel.halfHeight, focalY_, z);
+        placed->halfWidth = mulDiv(voxel.halfWidth, focalX_, z);
+        placed->halfHeight = mulDiv(voxel.halfHeight, focalY_, z);
     }
     return true;
 }
@@ -188,10 +190,10 @@ bool View::place(const Voxel& voxel, Placed* placed) const
 // Sets the rectangle of the pixels on the screen whose centres lie in a projected scale. Returns false when there are none.
 bool View::clip(const Placed& placed, Scale* scale)
 {
-    int left = (placed.column - placed.halfWide + HALF) >> FRACTION;
-    int right = (placed.column + placed.halfWide + HALF) >> FRACTION;
-    int top = (placed.row - placed.halfHigh + HALF) >> FRACTION;
-    int bottom = (placed.row + placed.halfHigh + HALF) >> FRACTION;
+    int left = (placed.column - placed.halfWidth + HALF) >> FRACTION;
+    int right = (placed.column + placed.halfWidth + HALF) >> FRACTION;
+    int top = (placed.row - placed.halfHeight + HALF) >> FRACTION;
+    int bottom = (placed.row + placed.halfHeight + HALF) >> FRACTION;
     left = left < 0 ? 0 : left;
     right = right > WIDTH ? WIDTH : right;
     top = top < 0 ? 0 : top;
@@ -212,7 +214,7 @@ void View::tilt(const Voxel& voxel, const Placed& placed, int32_t* across, int32
     *across = limited(mulDiv(voxel.tiltX, placed.z << 3, focalX_), STEEPEST);
     *down = limited(-mulDiv(voxel.tiltY, placed.z << 3, focalY_), STEEPEST);
     // If the depth might overflow 16 bits at a corner, the scale faces the viewer instead.
-    const int32_t depth = placed.z >> 1, most = swing(*across, placed.halfWide, WIDTH) + swing(*down, placed.halfHigh, HEIGHT);
+    const int32_t depth = placed.z >> 1, most = swing(*across, placed.halfWidth, WIDTH) + swing(*down, placed.halfHeight, HEIGHT);
     if (depth - most < 0 || depth + most >= Z_EMPTY)
         *across = *down = 0;
 }
@@ -264,9 +266,9 @@ bool View::ordinary(const Voxel& voxel) const
         return false;
     column = lens_.centreX + (column >> 8);
     row = lens_.centreY - (row >> 8);
-    const int32_t halfWide = voxel.halfWidth * f.x >> 8, halfHigh = voxel.halfHeight * f.y >> 8;
-    const int left = (column - halfWide) >> FRACTION, right = (column + halfWide) >> FRACTION;
-    const int top = (row - halfHigh) >> FRACTION, bottom = (row + halfHigh) >> FRACTION;
+    const int32_t halfWidth = voxel.halfWidth * f.x >> 8, halfHeight = voxel.halfHeight * f.y >> 8;
+    const int left = (column - halfWidth) >> FRACTION, right = (column + halfWidth) >> FRACTION;
+    const int top = (row - halfHeight) >> FRACTION, bottom = (row + halfHeight) >> FRACTION;
     return right - left <= WIDEST && right - left + bottom - top <= LARGEST_SUM && left >= 0 && right <= WIDTH && top >= 0 &&
            bottom <= HEIGHT;
 }
@@ -347,6 +349,9 @@ void View::closeGaps(Real spacing, const Model* model, const Palette* palette)
 {
     if (pixels_)
         return;
+    // In so wide a view what a far pixel shows lies beyond the range of numbers.
+    if (camera_.focalX < FOCAL_ASKED || camera_.focalY < FOCAL_ASKED)
+        model = nullptr;
     FieldProbe probe(model);
     Rays rays(*this, probe, spacing);
     Missed missed(*this, rays);
