@@ -318,13 +318,13 @@ shaded:
         imull   FACTOR_ZY(%ebp), %edx
         sarl    $10, %ecx
         sarl    $10, %edx
-        // ebx: across and shadeAcross packed into one word;  eax: -down and -shadeDown
+        // ebx: across and shadeAcross packed into one word;  ebp: -down and -shadeDown
         movl    %ecx, %ebp
         shll    $16, %ebp
         addl    %ebp, %ebx
         movl    %edx, %ebp
         shll    $16, %ebp
-        addl    %ebp, %eax
+        addl    %eax, %ebp
         // shade = brightness * 256 + 128 + ((shadeAcross * toColumn + shadeDown * toRow) >> 12)
         imull   FROM_COLUMN(%esp), %ecx
         imull   FROM_ROW(%esp), %edx
@@ -339,13 +339,12 @@ shaded:
         // -zRow = across * (width - 1) - down, and -shadeRow
         imull   %ebx, %edi
         leal    (%esi,%esi,4), %esi
-        addl    %eax, %edi
         movl    DEPTH(%esp), %eax
         shll    $6, %esi
         leal    LENS_NEAR*128+(128<<16)(%eax,%edx), %eax
         // start = bottom * WIDTH + left;  pixels = frame + start;  depths = zbuffer + start;   320 = 5 * 64
         subl    NOT_LEFT(%esp), %esi
-        movl    %edi, %edx
+        leal    (%edi,%ebp), %edx
         movl    FRAME(%esp), %edi
         addl    %esi, %edi
         addl    %esi, %esi
@@ -594,9 +593,13 @@ entered_\kind\()_\width:
         .endr
         .ifnb   \dome
         // z and shade start from the row before; its change to the next row grows by the dome
-        movl    \dome, %ebx
         movl    DOWN(%esp), %eax
+        .ifc    \dome, %edx
+        addl    %edx, DOWN(%esp)
+        .else
+        movl    \dome, %ebx
         addl    %ebx, DOWN(%esp)
+        .endif
         addl    FIRST(%esp), %eax
         movl    STEP(%esp), %ebx
         movl    %eax, FIRST(%esp)
@@ -661,45 +664,41 @@ small:
         leal    (%esi,%ecx,2), %esi
         movl    DOME(%esp), %ecx
         testl   %ecx, %ecx
-        jns     domed
-on_row:
-        movl    CUT(%esp), %edx
-        testl   %edx, %edx
-        jmp     *ENTRY(%esp)
+        js      on_row
 
-        // setDome(dome, toColumn, toRow, &scale);   DOWN: zStep * (width - 1) + zRow before it, with shade
-        .balign 4
-domed:
+        // setDome(dome, toColumn, toRow, &scale), with the factors -dome and -toColumn, -dome and -toRow.   DOWN: zStep * (width -
+        // 1) + zRow before it, with shade
         movl    %ebx, %edx
-        movl    FROM_COLUMN(%esp), %ebp
+        movl    %ecx, %ebp
         imull   WIDTH(%esp), %edx
-        negl    %ebp
-        subl    ROW(%esp), %edx
-        movl    %ebp, FROM_COLUMN(%esp)
-        // across = dome * toColumn >> 12;  zStep += across + dome / 2
-        imull   %ecx, %ebp
         shrl    $1, %ecx
-        sarl    $12, %ebp
+        subl    ROW(%esp), %edx
         addl    %ecx, %ebx
         addl    %ecx, %edx
-        movl    FROM_ROW(%esp), %ecx
-        addl    %ebp, %ebx
-        negl    %ecx
+        // across = dome * toColumn >> 12;  zStep += across + dome / 2;  down = dome * toRow >> 12
+        negl    %ebp
+        movl    %ebp, %ecx
         imull   FROM_COLUMN(%esp), %ebp
-        movl    %ecx, FROM_ROW(%esp)
-        // down = dome * toRow >> 12;  z += (across * toColumn + down * toRow) >> 13
-        imull   DOME(%esp), %ecx
-        sarl    $12, %ecx
-        movl    %ebx, STEP(%esp)
-        addl    %ecx, %edx
         imull   FROM_ROW(%esp), %ecx
+        sarl    $12, %ebp
+        sarl    $12, %ecx
+        addl    %ebp, %ebx
+        addl    %ecx, %edx
+        movl    %ebx, STEP(%esp)
         movl    %edx, DOWN(%esp)
+        // z += (across * toColumn + down * toRow) >> 13
+        imull   FROM_COLUMN(%esp), %ebp
+        imull   FROM_ROW(%esp), %ecx
         addl    %ecx, %ebp
+        negl    %ebp
         sarl    $13, %ebp
         addl    %ebp, %eax
         movl    RAMP(%esp), %ebp
         movl    %eax, FIRST(%esp)
-        jmp     on_row
+on_row:
+        movl    CUT(%esp), %edx
+        testl   %edx, %edx
+        jmp     *ENTRY(%esp)
         ENTERED shaded, shaded, 0
         ENTERED ending, ending, 0
         ENTERED cut, averagedcut, 1, DOME(%esp)
@@ -713,11 +712,11 @@ leave:
         movl    END(%esp), %eax
         addl    LIST(%esp), %eax
 leave_at:
-        // Copy the results from BOX_LEFT on back to the lens; return the current voxel
+        // Copy the results, BOX_LEFT to EMPTY, back to the lens; return the current voxel
         movl    LOCALS+20(%esp), %edx   // lens
         leal    BOX_LEFT(%esp), %esi
         leal    BOX_LEFT(%edx), %edi
-        movl    $LENS_WORDS-BOX_LEFT/4, %ecx
+        movl    $(TILT_ADD-BOX_LEFT)/4, %ecx
         rep movsl
         addl    $LOCALS, %esp
         popl    %edi
@@ -775,10 +774,7 @@ special:
         // if (depth < LENS_NEXT * 256 || depth >= LENS_NEAR * 256) break
         .balign 4
 near:
-        movl    VOXEL_Z(%esi), %ecx
-        addl    LENS_Z(%esp), %ecx
-        movl    %ecx, %eax
-        addl    $LENS_NEAR*256, %ecx
+        leal    LENS_NEAR*256(%ebp), %ecx
         sarl    $1, %eax
         cmpl    $LENS_NEXT*256, %ecx
         jl      leave
@@ -846,8 +842,7 @@ entered:
         jnz     curved
         cmpw    $CUT_MOST, VOXEL_CUTAT(%esi)
         je      nowhere
-        addl    $2*4*LARGEST, %eax      // to the table of `cut` or `cutending`
-        movl    (%eax), %eax
+        movl    2*4*LARGEST(%eax), %eax // from the table of `cut` or `cutending`
         movl    %eax, ENTRY(%esp)
         // cutAcross = cutX * f.zx >> 10;  cutDown = -(cutY * f.zy >> 10);   ebx has -cutDown
         movsbl  VOXEL_CUTX(%esi), %eax
@@ -883,8 +878,7 @@ entered:
         // isCutNowhere(v): the cut function is positive on the whole scale, and is left out. In its place edx has the dome.
         .balign 4
 nowhere:
-        addl    $6*4*LARGEST, %eax      // to the table of `domed` or `domedending`
-        movl    (%eax), %eax
+        movl    6*4*LARGEST(%eax), %eax // from the table of `domed` or `domedending`
         movl    %eax, ENTRY(%esp)
         DOME_OF
         movl    %eax, CUT(%esp)
@@ -893,8 +887,7 @@ nowhere:
         // setCut() for a cut along a curve; the table is that of `curved` or `curvedending`
         .balign 4
 curved:
-        addl    $4*4*LARGEST, %eax
-        movl    (%eax), %eax
+        movl    4*4*LARGEST(%eax), %eax
         movl    %eax, ENTRY(%esp)
         // xx = (curveXX * f.zx >> 10) * f.zx >> 16;  xy and yy likewise
         .macro  CURVE_STEP curve factor other
