@@ -535,6 +535,7 @@ host_fault:
         movl    %cr2, %eax
         movl    %eax, F_CR2(%ebp)
         cld
+        jmp     crash
 
 /* Ctrl-C in a DOS call of the client, whose frame is at the start of the ring 0 stack. */
         .globl  ctrl_c

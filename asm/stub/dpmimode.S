@@ -373,6 +373,7 @@ callback:
         shll    $4, %edx
         leal    gdt - 3(%ebp), %edi
         call    set_base
+        movw    12(%ebx), %es           /* if it was freed this faults, while tss + 4 still leads to the client's frame */
         call    lock_stack_enter
         movl    $HLT_CBRET, lock_stack - 12(%edx)
         movl    $USER_CS, lock_stack - 8(%edx)
@@ -387,7 +388,6 @@ callback:
         movl    up_spss, %eax
         movl    %eax, rmregs + R_SP
         movl    8(%ebx), %edi
-        movw    12(%ebx), %es
         movl    $rmregs, %esi
         movl    $R_SIZE / 2, %ecx
         rep movsw

@@ -6,7 +6,8 @@
 //                         NOWILD: without wild pointers
 //   DTEST TICKS N DIV     N timer interrupts at 1193182/DIV Hz, reflected to real mode under load; none may be lost
 //   DTEST CRASH KIND      ends by an exception: 0, 6, 13, 14 (wild pointer), S (stack overflow), L (stack overflow with frames
-//                         of 4 and 8 KB, and handlers like those of DJGPP's libc), R (a handler returns without any remedy)
+//                         of 4 and 8 KB, and handlers like those of DJGPP's libc), R (a handler returns without any remedy),
+//                         H (in the host: the selector of a call-back's registers was freed)
 //   DTEST BREAK           ends by Ctrl-C
 //   DTEST CATCH           takes the keyboard interrupt, as DJGPP's libc does: the host must then leave Ctrl-C to the program
 //   DTEST MOUSE SECONDS   counts calls of the mouse driver's call-back
@@ -1005,6 +1006,17 @@ int main(int argc, char** argv) {
             for (uint32_t exception = 12; exception <= 14; ++exception)
                 call(0x0203, exception, dpmi::codeSelector(), offsetOf(argv[2][0] == 'L' ? exceptionOnStack : exceptionAgain));
             if (argv[2][0] == 'L') largeFrames(); else raise(14);
+        } else if (argv[2][0] == 'H') {
+            const uint16_t freed = uint16_t(call(0x0000, 0, 1).eax);
+            call(0x0009, freed, 0x40f2);
+            call(0x0008, freed, 0xffff, 0xffff);
+            Int31 in = {0x0303, 0, 0, 0, offsetOf(callBack), 0, freed, dpmi::codeSelector(), 0};
+            int31(&in);
+            call(0x0001, freed);
+            dpmi::RealRegs regs = {};
+            regs.cs = uint16_t(in.ecx);
+            regs.ip = uint16_t(in.edx);
+            call(0x0301, 0, 0, 0, 0, offsetOf(&regs));
         } else {
             raise(int(number(argv[2])));
         }

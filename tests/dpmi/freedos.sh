@@ -102,8 +102,9 @@ all() {
     label=$1
     run "$label" "$2" "$3" 'DTEST FREE > BEFORE.TXT' CLS 'DTEST CRASH 14' 'DTEST SCREEN > CRASH.TXT' CLS 'DTEST CRASH S' \
         'DTEST SCREEN > OVER.TXT' CLS 'DTEST CRASH L' 'DTEST SCREEN > FRAMES.TXT' CLS 'DTEST CRASH R' \
-        'DTEST SCREEN > RETURNS.TXT' CLS 'DTEST BREAK' 'DTEST SCREEN > BREAK.TXT' 'DTEST CATCH > CATCH.TXT' \
-        'DTEST TICKS 10000 400 > TICKS.TXT' 'DTEST ALL > ALL.TXT' 'DEMO /N:5 > DEMO.TXT' 'DTEST FREE > AFTER.TXT' || return
+        'DTEST SCREEN > RETURNS.TXT' CLS 'DTEST CRASH H' 'DTEST SCREEN > HOST.TXT' CLS 'DTEST BREAK' \
+        'DTEST SCREEN > BREAK.TXT' 'DTEST CATCH > CATCH.TXT' 'DTEST TICKS 10000 400 > TICKS.TXT' 'DTEST ALL > ALL.TXT' \
+        'DEMO /N:5 > DEMO.TXT' 'DTEST FREE > AFTER.TXT' || return
     tr -d '\r' < "$scratch/ALL.TXT" > "$scratch/all"
     grep '^FAIL ' "$scratch/all"
     good=$(grep -c '^ok ' "$scratch/all")
@@ -114,6 +115,7 @@ all() {
     ok "$label: stack overflow" has "$scratch/OVER.TXT" ' at eip='
     ok "$label: stack overflow with large frames" has "$scratch/FRAMES.TXT" ' at eip='
     ok "$label: an exception handler that returns" has "$scratch/RETURNS.TXT" 'Page fault at eip='
+    ok "$label: a fault in the host" has "$scratch/HOST.TXT" 'General Protection Fault at eip='
     ok "$label: Ctrl-C" has "$scratch/BREAK.TXT" 'Control-C Pressed at eip='
     ok "$label: Ctrl-C at a program that has the keyboard" has "$scratch/CATCH.TXT" 'ok 0205 given back'
     ok "$label: timer interrupts" has "$scratch/TICKS.TXT" 'ok 10000 timer'

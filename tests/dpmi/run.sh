@@ -86,6 +86,8 @@ crash 'CRASH R' 'Page fault at eip=' --
 crash 'CRASH 14' 'Page fault at eip=' -o cpu.core=dynamic --
 crash 'CRASH 14' 'Page fault at eip=' -- V86
 crash 'CRASH 0' 'Division by Zero at eip=' -- V86
+crash 'CRASH H' 'General Protection Fault at eip=' --
+crash 'CRASH H' 'General Protection Fault at eip=' -- V86
 crash BREAK 'Control-C Pressed at eip=' --
 crash BREAK 'Control-C Pressed at eip=' -- V86
 dos -- 'DTEST CATCH > CATCH.TXT' V86 'DTEST CATCH > CATCH86.TXT'
