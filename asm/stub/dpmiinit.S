@@ -666,6 +666,7 @@ rm_int24:
 /* Ctrl-C: prints the registers and ends the client. In a program that the client has started, the old handler is
    called. A client that has hooked the keyboard interrupt (DJGPP's libc does) has already seen the key and reacted;
    DOS finds the key later in the BIOS's buffer. This is not a second Ctrl-C, so DOS simply goes on. */
+        .globl  rm_int23
 rm_int23:
         push    %ax
         push    %bx

@@ -240,7 +240,8 @@ rm_irq_call:
         ret
 
 /* Calls RM interrupt EAX with rmregs; registers are lost and kept as in rm_call. If the vector leads to one of our
-   own hooks, the handler before the hook is called. */
+   own hooks, the handler before the hook is called. An int 23h of the client itself does not end it: that is for Ctrl-C
+   which DOS reports. */
         .globl  rm_int
 rm_int:
         movw    $FLAT_DS, %dx
@@ -253,16 +254,20 @@ rm_int:
 1:      movb    $1, %bl
         xorl    %ecx, %ecx
         jmp     rm_call
-2:      movzwl  %ax, %eax
-        subl    $up_stubs + CALLBACKS * 5, %eax
+2:      cmpw    $rm_int23, %ax
+        je      3f
+        movzwl  %ax, %edx
+        subl    $up_stubs + CALLBACKS * 5, %edx
+        jb      1b
+        cmpl    $HOOKS * 5, %edx
+        jae     1b
+        movl    %edx, %eax
         xorl    %edx, %edx
         movl    $5, %ecx
         divl    %ecx
-        cmpl    $HOOKS, %eax
-        jae     3f
         movl    hook_old(, %eax, 4), %eax
         jmp     1b
-3:      movl    %fs:(0x24 * 4), %eax    /* the host's own handlers, for 23h and 24h */
+3:      movl    %fs:(0x24 * 4), %eax
         jmp     1b
 
 /* Calls int 21h for the host itself. In: EAX, EBX, EDX in rmregs. Out: the carry of DOS. */

@@ -34,6 +34,7 @@ void countOnly();
 void exceptionSeen();
 void raise(int kind);
 void callBack();
+void callBackInt();
 void callBackNested();
 void callBackMouse();
 void rawSwitch(const uint16_t* where);
@@ -498,6 +499,15 @@ void testCallBacks() {
     check("0303 at least 16", count >= 16);
     for (int i = 0; i < count; ++i) good = good && !carry(call(0x0304, 0, low(all[i].ecx), low(all[i].edx)));
     check("0304 all of them", good);
+
+    // An interrupt from here, whose vector in real mode leads to a call-back
+    in = {0x0303, 0, 0, 0, offsetOf(callBackInt), offsetOf(&backRegs), dpmi::dataSelector(), dpmi::codeSelector(), 0};
+    int31(&in);
+    Int31 old = call(0x0200, 0x60);
+    call(0x0201, 0x60, low(in.ecx), low(in.edx));
+    check("int 60h from here reaches a call-back", int60(0x12345678) == ~0x12345678u);
+    call(0x0201, 0x60, low(old.ecx), low(old.edx));
+    call(0x0304, 0, low(in.ecx), low(in.edx));
 
     // Real mode calls protected mode, which calls real mode, and so on.
     nestedStack = offsetOf(nestedStacks + sizeof nestedStacks);

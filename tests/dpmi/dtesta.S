@@ -156,6 +156,18 @@ SYM(callBack):
         addw    $4, %es:46(%edi)
         iretl
 
+// Call-back for an interrupt from real mode: inverts EAX and returns as IRET does
+        .globl  SYM(callBackInt)
+SYM(callBackInt):
+        cld
+        notl    %es:28(%edi)
+        lodsl                           // IP, CS, then the flags
+        movl    %eax, %es:42(%edi)
+        lodsw
+        movw    %ax, %es:32(%edi)
+        addw    $6, %es:46(%edi)
+        iretl
+
 // Call-back that calls real mode itself: it switches to a stack of its own and calls nested(registers)
         .globl  SYM(callBackNested)
 SYM(callBackNested):
