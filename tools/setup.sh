@@ -5,7 +5,7 @@
 #   sh tools/setup.sh play      to build and play: make, g++, DOSBox
 #   sh tools/setup.sh test      to test as well
 #   sh tools/setup.sh release   to build the zip for DOS: make, g++, zip
-#   sh tools/setup.sh page      to build the page that plays in a browser: make, g++, npm
+#   sh tools/setup.sh page      to build the page that plays in a browser: make, g++, zip, node, npm
 #   sh tools/setup.sh web       to test that page as well: a browser, and puppeteer-core (from npm, into build/npm)
 #
 # Exit status 0 when what is needed is there; 1 and a line that names what lacks otherwise.
@@ -49,8 +49,8 @@ lacking() {
 	case $what in
 	play | test) has dosbox || echo dosbox ;;
 	esac
+	[ "$what" = play ] || has zip || echo zip
 	case $what in
-	test | release) has zip || echo zip ;;
 	page | web)
 		has node || echo nodejs
 		has npm || echo npm
