@@ -15,6 +15,9 @@
 //
 // FB_LOG names a log file. It gets one line for each call of setPalette() (`palette`) and present() (`present`), and for
 // each call of key() that finds no key (`key`).
+
+// For 32-bit builds: stat() and readdir() would fail on file systems with numbers of files that need more bits.
+#define _FILE_OFFSET_BITS 64
 #include "machine.h"
 
 #include <dirent.h>
