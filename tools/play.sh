@@ -13,10 +13,23 @@ scene=${1:-}
 play=build/play
 mkdir -p $play || exit 1
 cp build/DEMO.EXE build/PLAY.COM $play || exit 1
-# The key N goes through all scenes beside the program.
-for file in tools/scenes/*.FB; do
-	[ -f "$play/$(basename "$file")" ] || cp "$file" $play || exit 1
-done
+
+# put FILE NAME: FILE becomes the scene NAME beside the program. Another scene that is there under this name, for the user may
+# have saved it, is kept as NAME.OLD, or NAME.O1, NAME.O2 and so on.
+put() {
+	if [ -f "$play/$2" ] && ! cmp -s "$1" "$play/$2"; then
+		old=OLD
+		number=0
+		while [ -f "$play/${2%.FB}.$old" ] && ! cmp -s "$play/$2" "$play/${2%.FB}.$old"; do
+			number=$((number + 1))
+			old=O$number
+		done
+		mv "$play/$2" "$play/${2%.FB}.$old" || exit 1
+	fi
+	cp "$1" "$play/$2" || exit 1
+}
+
+name=
 what="the four spheres"
 if [ -n "$scene" ]; then
 	file=$scene
@@ -29,12 +42,14 @@ if [ -n "$scene" ]; then
 	# Under its own name, which mistakes in it are told with, where DOS has such names.
 	name=$(basename "$file" | tr '[:lower:]' '[:upper:]')
 	expr "$name" : '[A-Z0-9_-]\{1,8\}\.FB$' >/dev/null || name=SCENE.FB
-	# A scene that the user has saved there under this name is kept.
-	[ ! -f "$play/$name" ] || cmp -s "$file" "$play/$name" || mv "$play/$name" "$play/${name%.FB}.OLD"
-	cp "$file" "$play/$name" || exit 1
+	put "$file" "$name"
 	set -- "/M:$name" "$@"
 	what=$file
 fi
+# The key N goes through all scenes beside the program.
+for file in tools/scenes/*.FB; do
+	[ "$(basename "$file")" = "$name" ] || put "$file" "$(basename "$file")"
+done
 
 # dos OPTION... -- COMMANDLINE: plays. True when DOSBox came as far as DOS.
 dos() {

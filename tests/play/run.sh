@@ -46,6 +46,18 @@ ok "with those that are" has "$dir/err" 'walk'
 ok "trouble" plays 1 sh tools/run.sh FRAMES=2 'SWITCHES=/O:NODIR\R.CSV'
 ok "is told" has "$dir/err" 'R.CSV: no such file'
 
+# What the user saved under the name of a shipped scene is kept, and the shipped one is played. (The user's own files of this
+# kind stay as they are.)
+echo "sphere mine$$ size 20" >build/play/WALK.FB
+ok "a run beside a saved scene" plays 0 sh tools/run.sh FRAMES=2
+ok "the shipped scene is there" cmp tools/scenes/WALK.FB build/play/WALK.FB
+echo "sphere yours$$ size 20" >build/play/WALK.FB
+ok "a run of that scene" plays 0 sh tools/run.sh FRAMES=2 SCENE=walk
+ok "is one of the shipped scene" cmp tools/scenes/WALK.FB build/play/WALK.FB
+kept=$(grep -l -e "mine$$" -e "yours$$" build/play/WALK.O*)
+ok "both saved ones are kept" test "$(echo $kept | wc -w)" -eq 2
+rm -f $kept
+
 # Not a display; no figures of the window played before.
 echo 'frames: 12345' >build/play/STATS.TXT
 ok "a display that cannot be opened" env DISPLAY=:77 sh -c "sh tools/run.sh FRAMES=2 SCENE=walk >'$dir/out' 2>'$dir/err'"
