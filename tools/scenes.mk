@@ -1,15 +1,15 @@
 # Scene files: the generator of random ones. Included by the Makefile; also stands alone: make -f tools/scenes.mk
-HOSTCXX ?= g++
+HOST_CXX ?= g++
 
 build/mkscene: tools/mkscene.cpp tools/scenes.mk
 	@mkdir -p build
-	$(HOSTCXX) -O2 -std=c++17 -Wall -Wextra -o $@ tools/mkscene.cpp
+	$(HOST_CXX) -O2 -std=c++17 -Wall -Wextra -o $@ tools/mkscene.cpp
 
 SCNTST_PARTS = $(patsubst %.cpp,build/host/%.o,\
 	$(filter-out $(MAIN),$(PROGRAM)) src/host/host.cpp)
 
 build/scntst: tests/scenes/scntst.cpp $(SCNTST_PARTS) tools/scenes.mk
-	$(HOSTCXX) -O1 -std=c++17 -Wall -Wextra -Iinclude -DFB_REAL=FB_$(REAL) -o $@ $< $(SCNTST_PARTS)
+	$(HOST_CXX) -O1 -std=c++17 -Wall -Wextra -Iinclude -DFB_REAL=FB_$(REAL) -o $@ $< $(SCNTST_PARTS)
 
 # make run                          the four spheres, in DOSBox
 # make run SCENE=walk               a shipped scene (tools/scenes), or a scene file

@@ -36,4 +36,4 @@ build/DTEST.EXE: build/dos/tests/dpmi/dtest.o build/dos/tests/dpmi/dtesta.o buil
 build/V86.COM: tests/dpmi/v86.S
 	@mkdir -p build/stub
 	$(STUB_CC) -c -o build/stub/v86.o $<
-	ld -m elf_i386 -Ttext 0x100 -e start --oformat binary -o $@ build/stub/v86.o
+	$(STUB_LD) -Ttext 0x100 -e start --oformat binary -o $@ build/stub/v86.o

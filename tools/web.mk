@@ -9,6 +9,6 @@ web: build/DEMO.EXE build/demo build/ppm2png build/web/RUN.COM release
 build/web/RUN.COM: tools/web/run.S
 	@mkdir -p build/web build/stub
 	$(STUB_CC) -c -o build/stub/run.o $<
-	ld -m elf_i386 -Ttext 0x100 -e start --oformat binary -o $@ build/stub/run.o
+	$(STUB_LD) -Ttext 0x100 -e start --oformat binary -o $@ build/stub/run.o
 
 .PHONY: web
