@@ -23,10 +23,9 @@ BENCH_PARTS = $(filter-out build/host32/src/picture/blit.o build/host32/src/pict
 	$(KERNELS:%.S=build/host32/%.o) build/host32/tools/bench.o
 
 # The twins as a compiler for the 486 makes them.
-build/bench/%486.o: src/picture/%.cpp include/picture/blit.h include/picture/scales.h include/surface/voxel.h \
-		include/machine.h include/rt.h
+build/bench/%486.o: src/picture/%.cpp tools/parts.mk
 	@mkdir -p $(@D)
-	$(HOST_CXX) $(HOST_FLAGS) -m32 -march=i486 -fno-pic -fno-pie -DFB_ASM=1 -c $< -o $@
+	$(HOST_CXX) $(HOST_FLAGS) -m32 -march=i486 -fno-pic -fno-pie -DFB_ASM=1 -MMD -MP -c $< -o $@
 
 build/bench32: $(BENCH_PARTS) $(BENCH_TWINS)
 	$(HOST_CXX) -m32 -no-pie -static $(BENCH_WRAP) -o $@ $^
@@ -46,4 +45,4 @@ bench: build/DEMO.EXE build/TICKS.COM build/bench32 build/demo32 build/cost
 
 .PHONY: bench
 
--include $(wildcard build/host32/tools/*.d)
+-include $(wildcard build/host32/tools/*.d build/bench/*.d)
