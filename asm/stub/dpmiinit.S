@@ -703,8 +703,11 @@ rm_int15:
 rm_state:
         lret
 
+        .globl  host_messages, host_messages_end
+host_messages:
 msg_a20:        .ascii  "address line A20 cannot be switched on$"
 msg_no_memory:  .ascii  "no extended memory$"
 msg_v86:        .ascii  "a memory manager without VCPI is loaded: load a DPMI host too (CWSDPMI), or remove it$"
+host_messages_end:
 
         ASM_END

@@ -560,7 +560,9 @@ entry:          .skip   6       /* EIP, then the program's code selector */
 client_ds:      .skip   2
 client_base:    .skip   4
 one_char:       .skip   2
-message:        .skip   80
+        .globl  message, message_end
+message:        .skip   160     /* one of the host's messages; stub.ld checks that all of them together would fit */
+message_end:
         .balign 4
 dos_regs:       .skip   52
 header:         .skip   COFF_HEADER
