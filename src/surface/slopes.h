@@ -86,8 +86,9 @@ private:
             shown->before = voxels_[before];
     }
 
+    // Every member has a value from the start, so that a static object takes no code at the start of the program.
     int count_ = 0;
-    Shown shown_[VOXELS_AT_ONCE];
+    Shown shown_[VOXELS_AT_ONCE] = {};
     // A table of all voxels: the key, the voxel, and its entry of shown_ or null. It is searched by the low bits of the key, which
     // differ within a few neighbouring rings. The numbers of seeds are less than NUMBERS, which round_ grows by, so that no entry
     // of another object or of an earlier frame has the key of one of this.
@@ -95,8 +96,8 @@ private:
     static_assert(NUMBERS % TABLE == 0, "a key has the low bits of its number");
     uint32_t round_ = 0;
     uint32_t keys_[TABLE] = {};
-    Voxel* voxels_[TABLE];
-    Shown* shownAs_[TABLE];
+    Voxel* voxels_[TABLE] = {};
+    Shown* shownAs_[TABLE] = {};
 };
 
 #endif
