@@ -5,8 +5,8 @@
 #   tests/mutants/mutate.sh [TEXT]       faults whose line in faults.txt contains TEXT; default: all
 #
 # Each line of faults.txt is FILE, a sed expression that makes the fault, and what it is, with " :: " between.
-# Prints which suite noticed each fault and closes with "N passed, N failed": failed are those that nothing noticed, and
-# those whose expression changes nothing any more.
+# Prints which suite noticed each fault and closes with "N passed, N failed": failed are those that nothing noticed,
+# those whose expression changes nothing any more, and those that do not compile, which try no test (but a static_assert is one).
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 . tests/lib.sh
@@ -52,7 +52,10 @@ while read -r line; do
 			break
 		fi
 	done
-	if [ -n "$noticed" ]; then
+	if [ -n "$noticed" ] && grep -q '^FAIL building' "$dir/log" && ! grep -q 'static assertion failed' "$dir/log"; then
+		echo "FAIL $file: $what: does not compile: $(grep -m 1 'error: ' "$dir/log" | cut -c 1-100)"
+		failed=$((failed + 1))
+	elif [ -n "$noticed" ]; then
 		echo "ok $file: $what: $noticed: $(grep -m 1 -e FAIL -e 'error: ' "$dir/log" | cut -c 1-100)"
 		passed=$((passed + 1))
 	else
