@@ -743,7 +743,9 @@ void testRest() {
         }
     }
     STRICT("functions that do not exist: carry and 8001h", good);
-    r = call(0x0507, 0, 1, 0, stubInfo.memoryHandle);
+    static const uint16_t absent = 0;
+    STRICT("0507 the page of NULL pointers made absent (DPMI 1.0)",
+           !carry(call(0x0507, 0, 1, offsetOf(&absent), stubInfo.memoryHandle)));
     __asm__ volatile("int $0x2f" : "=a"(r.eax) : "a"(0x1686) : "ebx", "ecx", "edx", "cc");
     check("int 2Fh 1686h: protected mode", low(r.eax) == 0);
 

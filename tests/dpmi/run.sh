@@ -115,7 +115,7 @@ ok 'no program behind the stub: status 1' status 1 "$c"
 dos -- cls SHORT "$E1" "$E2" 'DTEST SCREEN > SCREEN.TXT'
 ok 'program cut short: a line' has "$c/SCREEN.TXT" 'Load error: C:\SHORT.EXE: file is cut short'
 ok 'program cut short: status 1' status 1 "$c"
-dos -m 1 -- cls DTEST "$E1" "$E2" 'V86'
+dos -m 1 -- cls DTEST "$E1" "$E2"
 ok 'no memory: status 1' status 1 "$c"
 
 # Another host is loaded first. (Wild pointers are left out: they end DOSBox under any host but the stub's.)
