@@ -63,19 +63,20 @@ ok "no DOS outside its place" none sh -c "grep -E '^(src/(math|model|surface|pic
 
 # ---- The rooms
 
-# A room includes its own headers and those of the rooms before it; dos, host and rt include none, but machine.h and rt.h.
+# A room includes its own headers and those of the rooms before it. What is for the machine (dos, host, rt, and the headers
+# machine.h and rt.h) includes nothing of a room; dos and rt include headers of each other.
 rooms='math model surface picture app'
 below() {
 	grep -E '^(src|include)/[a-z]+/.*\.(cpp|h)$|^include/(machine|rt)\.h$' "$dir/files" | while read -r file; do
 		room=${file#*/}
 		room=${room%%/*}
-		# The rooms that this one may not use: all for the machine, all behind it otherwise.
+		# The folders that this one may not use: all rooms for the machine, else those behind it, and the machine's.
 		case " $rooms " in
-		*" $room "*) barred=${rooms##*"$room"} ;;
+		*" $room "*) barred="${rooms##*"$room"} dos host rt" ;;
 		*) barred=$rooms ;;
 		esac
 		for other in $barred; do
-			sed -n "s|^#include \"\($other/[^\"]*\)\".*|$file includes \1|p" "$file"
+			sed -n "s|^#include \"\(\([^\"]*/\)\{0,1\}$other/[^\"]*\)\".*|$file includes \1|p" "$file"
 		done
 	done
 }
