@@ -38,7 +38,7 @@ cat >"$dir/script" <<END
 9 key -
 END
 ok "interactive" env FB_INPUT="$dir/script" build/san/demo /I /N:30
-ok "every scene there is" sh -c 'for f in tools/scenes/*.FB; do
+ok "every shipped scene" sh -c 'for f in tools/scenes/*.FB; do
 	build/san/demo /N:30 "/M:$f" || exit 1
 done'
 ok "the smallest beside the largest" build/san/demo /N:40 /R:8 /M:tests/fuzz/corpus/TINY.FB

@@ -160,6 +160,8 @@ ok "nothing undefined" none sh -c "nm -u '$elf'"
 ok "an MZ program" test "$(head -c 2 build/DEMO.EXE)" = MZ
 if command -v i586-pc-msdosdjgpp-objdump >/dev/null; then
 	ok "a go32 program to the DJGPP tools" sh -c "i586-pc-msdosdjgpp-objdump -f build/DEMO.EXE | grep -q coff-go32-exe"
+else
+	echo "# no DJGPP binutils: its tools were not asked what DEMO.EXE is"
 fi
 ok "the stub has at most 16 KB" test "$(wc -c <build/STUB.EXE)" -le 16384
 echo "# DEMO.EXE: $(($(wc -c <build/DEMO.EXE))) bytes, $(($(wc -c <build/STUB.EXE))) of them the stub;" \

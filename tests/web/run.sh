@@ -52,6 +52,8 @@ if command -v dosbox >/dev/null; then
 	ok 'RUN.COM: statistics' grep -q '^frames: 2' "$dir/c/GOOD.TXT"
 	ok 'RUN.COM: the message on standard error' grep -q '^/S:9: ' "$dir/c/BAD.TXT"
 	ok "RUN.COM: the program's own exit status" sh -c "test -s '$dir/c/TWO.TXT' && ! test -s '$dir/c/THREE.TXT'"
+else
+	echo "# no dosbox: RUN.COM not tried"
 fi
 
 browser=$(command -v chromium || command -v google-chrome) || without 'no browser is installed (sh tools/setup.sh web)'
