@@ -10,8 +10,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// The pixels of one row that were changed: the half-open range of columns from <= x < to. Both ends are multiples of 4 in
-// 0..320; the span is empty when from >= to.
+// A half-open range of columns, from <= x < to, of one row; empty when from >= to. Where rows are cleared, searched or presented
+// both ends are multiples of 4.
 struct Span {
     int16_t from;
     int16_t to;
@@ -59,8 +59,8 @@ void stop();
 // Calls stop(), writes `line` and a newline to standard error, and ends the program with exit status `status`.
 [[noreturn]] void fail(int status, const char* line);
 
-// Returns true from the moment Ctrl-C or Ctrl-Break was pressed. The keys set this flag only; the program itself asks
-// for it and ends.
+// Returns true once Ctrl-C or Ctrl-Break was pressed; on the PC a Ctrl-C counts only when key() meets it. The keys set this flag
+// only; the program itself asks for it and ends.
 bool broken();
 
 // Write text to standard output and to standard error. "\n" ends a line on every machine. Allowed in text mode only.
