@@ -1,5 +1,5 @@
-// The dozen functions that the program needs from a C library. The host compiler and DJGPP have them in their libc. The
-// stock compiler has no libc for DOS; for it src/rt supplies these functions and no others (the Makefile defines FB_RT).
+// The functions that the program and its tests on DOS need from a C library. The host compiler and DJGPP have them in their
+// libc. The stock compiler has no libc for DOS; for it src/rt supplies these functions and no others (the Makefile defines FB_RT).
 #ifndef FB_RT_H
 #define FB_RT_H
 

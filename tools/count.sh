@@ -1,6 +1,6 @@
 #!/bin/sh
-# Counts a scene's instructions with callgrind, the difference of a short and a long run, for tools/instr.sh and
-# tools/bench.sh.
+# Counts a scene's instructions with callgrind, as the difference of a short and a long run. A part of tools/instr.sh, which
+# runs it for several scenes at a time.
 #
 #   count.sh DIR FUNCTIONS SCENE SHORT LONG SWITCHES...
 #

@@ -4,8 +4,8 @@
 #   PROGRAM     every source of the program but the machine it runs on, main() included
 #   KERNELS     the assembly kernels, each of which has a C++ twin
 #   QUICK       where a frame's time goes, without .cpp: larger code for fewer instructions
-#   FOR_386     code for a 386, quickest on a 486; room on the stack for what calls hand over is made once for a function, a Real is
-#               returned in a register, and values are kept in the few registers for no longer than they are needed
+#   FOR_386     code that a 386 runs and that is quickest on a 486. A function makes room for the arguments of its calls once, not
+#               for each call. A Real is returned in a register. A value keeps one of the few registers only while it is needed
 ROOMS = math model surface picture app
 PROGRAM = $(wildcard $(ROOMS:%=src/%/*.cpp))
 KERNELS = $(wildcard asm/*.S)

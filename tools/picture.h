@@ -1,5 +1,5 @@
 // A picture in memory: read from a binary PPM file, with a palette made of its colours, and stretched to the shape in which
-// it is shown. This header exists because both picture tools, mkgif and ppm2png, begin with these steps.
+// it is shown. Both picture tools, mkgif and ppm2png, begin with these steps; truth takes from here how numbers are read.
 #ifndef PICTURE_H
 #define PICTURE_H
 

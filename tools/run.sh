@@ -1,5 +1,5 @@
 #!/bin/sh
-# The play command of the README: installs what lacks, builds, and plays DEMO.EXE in DOSBox. Arguments are settings for
+# The play command of the README: installs what is missing, builds, and plays DEMO.EXE in DOSBox. Arguments are settings for
 # make (see the Makefile). It says what it does in a line each; what the compiler says is shown when it fails.
 cd "$(dirname "$0")/.." || exit 1
 sh tools/setup.sh play || exit 1

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs what lacks on this machine to play or to test, by apt (Debian, Ubuntu). Harmless when run again; does nothing
+# Installs what is missing on this machine to play or to test, by apt (Debian, Ubuntu). Harmless when run again; does nothing
 # where everything is there, and then needs neither the network nor any rights.
 #
 #   sh tools/setup.sh play      to build and play: make, g++, DOSBox
@@ -8,7 +8,7 @@
 #   sh tools/setup.sh page      to build the page that plays in a browser: make, g++, zip, node, npm
 #   sh tools/setup.sh web       to test that page as well: a browser, and puppeteer-core (from npm, into build/npm)
 #
-# Exit status 0 when what is needed is there; 1 and a line that names what lacks otherwise.
+# Exit status 0 when what is needed is there; 1 and a line that names what is missing otherwise.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 
@@ -42,7 +42,7 @@ driver() {
 	[ -f build/npm/node_modules/puppeteer-core/package.json ]
 }
 
-lacking() {
+missing() {
 	has make || echo make
 	{ has g++ && compiles; } || echo g++
 	has ld || echo binutils
@@ -84,7 +84,7 @@ finish() {
 	exit 0
 }
 
-packages=$(lacking)
+packages=$(missing)
 [ -n "$packages" ] || finish
 # One line, for the messages.
 packages=$(echo $packages)
@@ -114,10 +114,10 @@ if ! apt install --no-install-recommends $packages; then
 		apt install --no-install-recommends "$package" || echo "setup.sh: cannot install $package" >&2
 	done
 fi
-packages=$(echo $(lacking))
+packages=$(echo $(missing))
 if [ -n "$packages" ]; then
 	tail -n 20 "$log" >&2
-	echo "setup.sh: still lacking: $packages" >&2
+	echo "setup.sh: still missing: $packages" >&2
 	exit 1
 fi
 finish

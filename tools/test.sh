@@ -1,5 +1,5 @@
 #!/bin/sh
-# The test command of the README: installs what lacks, then tests everything.
+# The test command of the README: installs what is missing, then tests everything.
 cd "$(dirname "$0")/.." || exit 1
 sh tools/setup.sh test || exit 1
 # A browser is not worth a failure: where none can be had in five minutes, the suite `web` says what it left out.

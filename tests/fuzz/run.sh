@@ -3,8 +3,9 @@
 #
 #   sh tests/fuzz/run.sh [SCENES [LINES [RUNS [SEED]]]]
 #
-# The reader gets SCENES scenes (20000 by default; the full test uses 100000); one in a hundred is drawn as well. LINES command
-# lines are parsed (20000; 200000), and RUNS are given to the program (100; 2000). The last line is "N passed, N failed".
+# The reader gets SCENES scenes (20000 by default); one in a hundred is drawn as well. LINES command lines are parsed (20000 by
+# default), and RUNS are given to the program (100). Another SEED than 1 makes others of each. The last line is "N passed, N
+# failed".
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 . tests/lib.sh
