@@ -1,12 +1,12 @@
 // The first instructions of DEMO.EXE in the stock build; DJGPP's programs have crt0 for this. The stub has loaded .text
-// and .data and jumps here with
+// and .data, has cleared .bss, and jumps here with
 //
 //     cs:eip  start, ds the program's 32-bit data segment (same base as cs, limit at least the end of .bss)
 //     fs      a segment that begins with the go32 stub's information block (src/rt/stubinfo.h)
 //     ss:esp  the stub's small stack
 //
-// The steps: set es = ds, clear .bss, move the stack into .bss, copy the information block (the transfer buffer will
-// overwrite it), and call rtStart(), which does not return.
+// The steps: set es = ds, move the stack into .bss, copy the information block (the transfer buffer will overwrite it), and
+// call rtStart(), which does not return.
 
 #include "asm.h"
 
@@ -20,17 +20,6 @@ start:
         cld
         movw    %ds, %ax
         movw    %ax, %es
-
-        // Clear .bss, 32 bits at a time: both ends are aligned to at least 4 bytes.
-        movl    $__bss_start, %edi
-        movl    $_end, %ecx
-        subl    %edi, %ecx
-        addl    $3, %ecx
-        shrl    $2, %ecx
-        xorl    %eax, %eax
-        rep stosl
-
-        movw    %ds, %ax
         movw    %ax, %ss
         movl    $rtStackTop, %esp
 
