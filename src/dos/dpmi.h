@@ -157,16 +157,7 @@ inline bool realInterrupt(int number, RealRegs* regs)
     regs->ss = 0;
     regs->sp = 0;
     regs->flags = 0x202;
-    // es is set here because the caller's es may have any value (after an exception).
-    __asm__ volatile(
-        "pushl %%es\n\t"
-        "pushl %%ds\n\t"
-        "popl %%es\n\t"
-        "int $0x31\n\t"
-        "popl %%es"
-        : "+a"(eax), "=@ccc"(carry)
-        : "b"(number), "c"(0), "D"(regs)
-        : "memory");
+    __asm__ volatile("int $0x31" : "+a"(eax), "=@ccc"(carry) : "b"(number), "c"(0), "D"(regs) : "memory");
     return !carry;
 }
 
