@@ -312,10 +312,7 @@ int beginSave(const char* name)
         if (savedAs[i] == '\\' || savedAs[i] == ':')
             folder = i + 1;
     memcpy(saving, savedAs, folder);
-    if (folder == 0) {
-        saving[folder++] = '.';
-        saving[folder++] = '\\';
-    } else if (saving[folder - 1] == ':') {
+    if (folder == 0 || saving[folder - 1] == ':') {
         saving[folder++] = '.';
         saving[folder++] = '\\';
     }
