@@ -3,17 +3,14 @@
 // example no disk in the drive) makes the DOS call fail that caused it.
 #include "pc.h"
 
-
 namespace {
 
 constexpr int BIOS_BREAK = 0x1b;
 constexpr int DOS_BREAK = 0x23;
 constexpr int CRITICAL_ERROR = 0x24;
 
-// Traces of a break in the BIOS data area: bit 7 of a flag byte, and the keyboard buffer, which may contain a Ctrl-C.
+// Bit 7 of this byte in the BIOS data area is a trace of a break. Another may be a Ctrl-C in the keyboard buffer.
 constexpr uint32_t BIOS_BREAK_FLAG = 0x471;
-constexpr uint32_t KEYS_HEAD = 0x41a;
-constexpr uint32_t KEYS_TAIL = 0x41c;
 
 // Offsets in the block in DOS memory: the flag, then the two handlers.
 constexpr uint16_t FLAG = 0;

@@ -4,9 +4,6 @@
 
 namespace {
 
-// The keyboard buffer of the BIOS, a ring: offsets of the next key to read and of the next to write, equal when it is empty.
-constexpr uint32_t KEYS_HEAD = 0x41a;
-constexpr uint32_t KEYS_TAIL = 0x41c;
 constexpr uint32_t KEYBOARD_FLAGS = 0x417;
 constexpr uint8_t CAPS_LOCK = 0x40;
 constexpr uint32_t KEYBOARD_KIND = 0x496;
@@ -23,7 +20,7 @@ namespace machine {
 
 int key()
 {
-    while (pc::peek16(KEYS_HEAD) != pc::peek16(KEYS_TAIL)) {
+    while (pc::peek16(pc::KEYS_HEAD) != pc::peek16(pc::KEYS_TAIL)) {
         // AH=10h also returns the keys of an enhanced keyboard; AH=00h would skip such a key and wait for another one.
         dpmi::RealRegs r = pc::regs((pc::peek8(KEYBOARD_KIND) & ENHANCED) != 0 ? 0x1000 : 0x0000);
         if (!dpmi::realInterrupt(0x16, &r))

@@ -42,6 +42,10 @@ inline void poke16(uint32_t at, uint16_t value)
 void copyToLow(uint32_t to, const void* from, uint32_t bytes);
 void copyFromLow(void* to, uint32_t from, uint32_t bytes);
 
+// The keyboard buffer of the BIOS, a ring: offsets of the next key to read and of the next to write, equal when it is empty.
+constexpr uint32_t KEYS_HEAD = 0x41a;
+constexpr uint32_t KEYS_TAIL = 0x41c;
+
 inline uint8_t inPort(uint16_t port)
 {
     uint8_t value;
