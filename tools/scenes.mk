@@ -19,9 +19,9 @@ run: play-parts
 
 play-parts: build/DEMO.EXE build/PLAY.COM build/mkgif build/ppm2png
 
-build/PLAY.COM: tools/play.S
+build/PLAY.COM: tools/stderr.S
 	@mkdir -p build/stub
-	$(STUB_CC) -c -o build/stub/play.o $<
+	$(STUB_CC) -DAPART -c -o build/stub/play.o $<
 	$(STUB_LD) -Ttext 0x100 -e start --oformat binary -o $@ build/stub/play.o
 
 .PHONY: run play-parts

@@ -6,7 +6,7 @@
 web: build/DEMO.EXE build/demo build/ppm2png build/web/RUN.COM release
 	+@sh tools/web.sh
 
-build/web/RUN.COM: tools/web/run.S
+build/web/RUN.COM: tools/stderr.S
 	@mkdir -p build/web build/stub
 	$(STUB_CC) -c -o build/stub/run.o $<
 	$(STUB_LD) -Ttext 0x100 -e start --oformat binary -o $@ build/stub/run.o

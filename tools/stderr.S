@@ -1,6 +1,9 @@
-/* PLAY.COM: runs DEMO.EXE with the same command line, its standard error in ERRORS.TXT, and ends with its status. The
-   prompt of DOS can send only the standard output to a file, and what DOSBox's window shows is gone with the window.
-   For tools/play.sh. */
+/* Runs DEMO.EXE with the same command line and its standard error redirected, which the prompt of DOS cannot do, and ends
+   with its status.
+
+     RUN.COM     for the page: standard error goes where standard output goes, so that `RUN /M:SCENE.FB > OUT.TXT` leaves
+                 in OUT.TXT what the program says whether it plays or not
+     PLAY.COM    for tools/play.sh, assembled with -DAPART: it goes to ERRORS.TXT */
 	.code16
 	.globl	start
 
@@ -16,18 +19,23 @@ start:
 	int	$0x21
 	jc	failed
 
+	movw	$1, %bx			/* standard output */
+#ifdef APART
 	movb	$0x3c, %ah		/* create the file */
 	xorw	%cx, %cx
 	movw	$errors, %dx
 	int	$0x21
 	jc	failed
 	movw	%ax, %bx
-	movb	$0x46, %ah		/* it becomes handle 2, which programs inherit */
+#endif
+	movb	$0x46, %ah		/* handle 2, which programs inherit, becomes the same */
 	movw	$2, %cx
 	int	$0x21
 	jc	failed
+#ifdef APART
 	movb	$0x3e, %ah
 	int	$0x21
+#endif
 
 	movw	%cs, tail + 2
 	movw	%cs, fcb1 + 2
@@ -49,7 +57,9 @@ failed:
 	movw	$0x4cff, %ax
 	int	$0x21
 
+#ifdef APART
 errors:		.asciz	"ERRORS.TXT"
+#endif
 program:	.asciz	"DEMO.EXE"
 parameters:	.word	0		/* our environment */
 tail:		.word	PSP_TAIL, 0
