@@ -366,8 +366,11 @@ void Demo::begin()
         if (options_.frames == 0)
             say("no mouse: use Tab, arrows, PgUp and PgDn");
     }
-    // When ESC was pressed already, the loop ends before its first frame and needs no video mode.
-    if (!interrupted()) {
+    // When ESC was pressed already, the loop ends before its first frame and needs no video mode, whatever other keys wait: there
+    // may be no seeds that their actions could use.
+    const bool stop = interrupted();
+    ended_ = escapeWaits_;
+    if (!stop) {
         problem = machine::openVideo();
         if (problem != nullptr)
             fail(1, problem);

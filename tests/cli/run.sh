@@ -260,6 +260,10 @@ ok "ESC ends" plays '5 key ESC\n' /N:50
 ok "after five frames" is 5 frames
 ok "ESC before the first frame" plays '0 key ESC\n' /N:50
 ok "no frame" is 0 frames
+ok "ESC behind a key that opens a question" plays '0 key F2\n0 key ESC\n' /I /N:3
+ok "no frame of it" is 0 frames
+ok "ESC behind a key that loads a scene" plays '0 key n\n0 key ESC\n' /N:3
+ok "no frame of that" is 0 frames
 ok "- makes coarser" plays '1 key -\n1 key -\n' /N:3
 ok "fewer seeds" test "$(figure seeds)" -lt 2000
 ok "+ makes finer" plays '1 key +\n' /N:3
