@@ -296,7 +296,7 @@ public:
     // The object whose colour and paint this surface shows: itself, or the one with the hollow. Null if there is no surface.
     const SoftObject* shown() const { return hasSurface() ? this : hollowed(); }
     // Returns true if the seeds were laid out for a hollow but are now needed for a surface, or the other way round.
-    bool laidInVain() const { return laid_.seeds != nullptr && (hollowed() != nullptr) != laidHollow_; }
+    bool laidInVain() const { return laid_.seeds != nullptr && (hollowed() != nullptr) != laid_.hollow; }
     // The object's index in Bodies.
     int slot() const { return slot_; }
     void setSlot(int slot) { slot_ = slot; }
@@ -392,6 +392,7 @@ private:
         int regular = 0, oversampled = 0, rings = 0, rootRoom = 0;
         Real spacing{2};
         Real size{0};                    // size of the object then
+        bool hollow = false;             // the seeds were laid out for the hollow of another object
         int placeShift = 8;              // SoftObject::placeShift()
         // For a warped object: the regular seeds and the roots as they would be without the warp (`border` of these seeds holds
         // the outward normal where the warped seed rests now). Else null.
@@ -463,7 +464,7 @@ private:
     Real sizeMade_, coreReachMade_, coreReach16_;  // measures when made, so that repeated scaling adds up no errors
     List<Link> skel_, dents_, digs_;
     Real strength_, restParam_, restRoot_;
-    bool rests_, laidHollow_;
+    bool rests_;
     int slot_;
     bool recalc_;
     bool tapers_;

@@ -366,6 +366,7 @@ bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObje
     Layout layout;
     layout.spacing = spacing;
     layout.size = size_;
+    layout.hollow = hollowed() != nullptr;
     if (like != nullptr ? !layOutLike(*like, layout) : !layOutRegular(layout) || !findNeighbours(layout)) {
         layout.release();
         return false;

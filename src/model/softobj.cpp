@@ -55,7 +55,7 @@ SoftObject::SoftObject(int number, Real size, Real coreReach, bool tapers)
       warped_(false), shaped_(false),
       ball_(!tapers && coreReach == Real(0)), reach_(coreReach + size), extent_{reach_, reach_, reach_},
       sizeMade_(size), coreReachMade_(coreReach), coreReach16_(coreReach * (Real(CORE_SIZE) / size)), strength_(1),
-      restParam_(0.25), restRoot_(0.5), rests_(true), laidHollow_(false), slot_(0), recalc_(true), tapers_(tapers),
+      restParam_(0.25), restRoot_(0.5), rests_(true), slot_(0), recalc_(true), tapers_(tapers),
       displaced_(false), unfinished_(false), ramp_(nullptr), surface_(nullptr), makeSurface_(nullptr)
 {
     laid_.size = size;
@@ -174,10 +174,9 @@ void SoftObject::findRest()
         const Real middle = shiftDown(inside + outside, 1);
         (strength * geoff(middle) > level ? inside : outside) = middle;
     }
-    laidHollow_ = dented != nullptr;
-    restParam_ = strength_ == Real(1) && !laidHollow_ ? Real(0.25) : max(inside, REST_LEAST);
+    restParam_ = strength_ == Real(1) && dented == nullptr ? Real(0.25) : max(inside, REST_LEAST);
     restRoot_ = squareRoot(restParam_);
-    rests_ = inside >= REST_LEAST && !laidHollow_;
+    rests_ = inside >= REST_LEAST && dented == nullptr;
     radius_ = size_ * restRoot_;
     if (warped_)
         makeWarp(warp_.asked());

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "model/cone.h"
+#include "model/stop.h"
 #include "help.h"
 #include "stick.h"
 #include "test.h"
@@ -253,6 +254,27 @@ TEST(thin_objects_have_closer_seeds)
     described.measure[0] = real(6);
     CHECK(model.addItem(described) != nullptr);
     NEAR(number(model.actor(4).object->spacing()), 4 * 6 / 9.0, 1e-3);
+}
+
+TEST(seeds_for_a_hollow_are_laid_out_after_a_stop_too)
+{
+    Model model;
+    Actor described;
+    described.kind = kindNamed("sphere");
+    for (double size : {30, 20}) {
+        described.measure[0] = real(size);
+        CHECK(model.addItem(described) != nullptr);
+    }
+    SoftObject &dented = *model.actor(0).object, &digger = *model.actor(1).object;
+    CHECK(model.link(&dented, &digger, Real(1)) && model.dent(&dented, &digger, Real(1)));
+    CHECK(model.resample(Real(2), makeEngine) && model.bodies() != nullptr);
+    // Without the link the second ball only digs. The user stops the layout of its seeds for the hollow.
+    model.unlink(&dented, &digger);
+    stopSource = [] { return true; };
+    CHECK(model.bodies() == nullptr && digger.laidInVain());
+    stopSource = nullptr;
+    CHECK(model.bodies() != nullptr && !digger.laidInVain());
+    NEAR(size(vec(digger.regular(0).path)), number(digger.laidRadius()), 1e-3);
 }
 
 TEST(equal_objects_have_equal_seeds)
