@@ -213,7 +213,7 @@ void Demo::holdRate(uint64_t began)
     rate_.add(machine::clock() - began, model_);
     Real spacing;
     for (int i; (i = rate_.next(model_, view_.camera(), &spacing)) >= 0;)
-        if (!model_.actor(i).object->resample(spacing, surfaceMaker()))
+        if (!model_.actor(i).object->resample(spacing, surfaceMaker()) && !interrupted())
             rate_.refused();
     stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
 }
@@ -253,8 +253,11 @@ bool Demo::drawModel()
     const Camera& camera = view_.camera();
     FrameContext frame{camera.eye, unit(model_.light), model_.bodies(), &counts_, camera.axes,
                        camera.centreX / camera.focalX, camera.centreY / camera.focalY};
-    if (frame.bodies == nullptr)
+    if (frame.bodies == nullptr) {
+        if (interrupted())
+            return false;
         fail(1, "not enough memory");
+    }
     int order[Model::OBJECTS_MOST];
     Real depth[Model::OBJECTS_MOST];
     for (int i = 0; i < model_.count(); ++i) {

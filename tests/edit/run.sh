@@ -136,6 +136,12 @@ ends '4.3 key ESC\n' /N:50
 ok "ESC in the middle of a frame" grep -qx "frames: 4" out
 ends '4.100 key ESC\n' /N:50
 ok "ESC at its end" grep -qx "frames: 5" out
+# While the seeds of a hollow are laid out, between two frames.
+printf 'sphere a size 30\nsphere b size 20 at 20 0 0\nblend a b\ndent a b\n' >hollow.fb
+ends '1 key TAB\n1 key k\n1.3 key ESC\n' /I /N:3 /M:hollow.fb
+ok "ESC while seeds are laid out" test "$(cat status) $(head -n 1 out)" = "0 frames: 1"
+ends '1 key TAB\n1 key k\n1.3 key F2\n1.3 key ESC\n' /I /N:3 /M:hollow.fb
+ok "ESC that only ends a question" test "$(cat status) $(head -n 1 out)" = "0 frames: 3"
 rm -rf d
 ends '4.3 key BREAK\n' /N:50 /D:d
 ok "Ctrl-C in the middle of a frame" test "$(cat status) $(ls d/*.PPM | wc -l)" = "1 4"
