@@ -73,7 +73,9 @@ bool Editor::motion()
     still.turn = actor.motion.turn;
     still.scale = actor.motion.scale;
     still.parent = actor.motion.parent;
-    still.parts = actor.motion.parts & MOTION_TURN;
+    // Taper, twist and bend belong to the shape, even where they swing.
+    still.parts = actor.motion.parts & (MOTION_TURN | MOTION_WARP);
+    memcpy(still.warp, actor.motion.warp, sizeof still.warp);
     model_.removeKeys(&actor);
     actor.motion = still;
     giveMotion(actor.motion, next);
@@ -84,9 +86,10 @@ bool Editor::motion()
 bool Editor::pace(Real factor, Time now)
 {
     Motion& motion = current().motion;
-    constexpr int OWN = 7;
-    Wave* waves[OWN + Motion::MORE_MOST] = {&motion.circle, &motion.along[0], &motion.along[1], &motion.along[2],
-                                            &motion.spin,   &motion.swing,    &motion.pulsing};
+    constexpr int OWN = 7 + WARP_PARTS;
+    Wave* waves[OWN + Motion::MORE_MOST] = {&motion.circle,       &motion.along[0],     &motion.along[1], &motion.along[2],
+                                            &motion.spin,         &motion.swing,        &motion.pulsing,  &motion.warp[0].wave,
+                                            &motion.warp[1].wave, &motion.warp[2].wave};
     const int count = OWN + motion.moreCount;
     for (int i = OWN; i < count; ++i)
         waves[i] = &motion.more[i - OWN].wave;

@@ -740,6 +740,19 @@ for from in 2 12 42 62; do
 done
 ok "then it stands" alike 52 56
 
+# Taper, twist and bend are no motion that another takes the place of; when they swing, their period is one of all.
+printf 'cylinder c size 16 length 40\ntaper c 0.3 swing 0.2 period 4 phase 0.25\nbend c -50\n' >warped.fb
+play 3 /M:warped.fb <<'END'
+1 key o
+1 key v
+1 key F2
+1 key ENTER
+END
+ok "the taper stays, and is faster" grep -qx "taper .* 0.3 swing 0.2 period 3.2.* phase 0.25" SAVED.FB
+ok "the bend stays" grep -qx "bend .* -50" SAVED.FB
+ok "it goes round" grep -qx "circle .* period 4.8.*" SAVED.FB
+rm -f SAVED.FB
+
 # --- Running: nothing moves unless time runs
 play 12 <<'END'
 2 key SPACE
