@@ -110,6 +110,8 @@ public:
     // The smallest and the largest spacing of an object.
     Real finest() const;
     Real coarsest() const;
+    // The largest spacing that the whole model would have to be given for some object to have the spacing that it has now.
+    Real coarsestAsked() const;
 
     // The number of seeds of all objects: regular ones, and oversampled ones.
     int seeds() const;

@@ -159,8 +159,7 @@ bool Demo::stopped()
 void Demo::resample(Real spacing)
 {
     char number[24], text[192];
-    // When a held rate has just ended, thin objects may have finer seeds than others.
-    if (spacing != spacing_ || spacing != model_.finest()) {
+    if (spacing != spacing_ || wasHeld_) {
         // The time grows with the number of seeds, the inverse square of the spacing; this estimate is good enough.
         const Real ratio = spacing_ / spacing;
         const uint64_t ticks = layTicks_ * static_cast<uint32_t>(rawFromReal(ratio * ratio)) >> 16;
@@ -175,6 +174,7 @@ void Demo::resample(Real spacing)
         }
         layTicks_ = machine::clock() - before;
         spacing_ = spacing;
+        wasHeld_ = false;
         stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
     }
     formatQuotient(number, sizeof number, static_cast<uint32_t>(rawFromReal(spacing_)), 65536, 2);

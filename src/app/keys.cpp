@@ -153,13 +153,15 @@ void Demo::hold()
     say(text);
 }
 
-// Stops holding a frame rate: from now on the user chooses the spacing, beginning with the coarsest one in use.
+// Stops holding a frame rate: from now on the user chooses the spacing, beginning with the coarsest one in use. Until then each
+// object keeps the spacing that it has got.
 void Demo::letGo()
 {
     if (rate_.frames() == 0)
         return;
     rate_.hold(0);
-    spacing_ = model_.coarsest();
+    spacing_ = min(model_.coarsestAsked(), SPACING_MOST);
+    wasHeld_ = true;
 }
 
 // Handles the keys that pause, resume, step and restart the animation and change its speed; and `n`, the next scene.

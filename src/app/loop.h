@@ -96,6 +96,7 @@ private:
     Real spacing_{2};
     uint64_t layTicks_ = 0;      // how long the last layout of all seeds took, in ticks of machine::clock()
     Rate rate_;
+    bool wasHeld_ = false;       // objects have spacings that a held rate has given them, and none is held any more
     uint64_t started_ = 0;       // ticks
     Time time_ = 0;              // time of the run
     Pace pace_;

@@ -456,6 +456,16 @@ Real Model::coarsest() const
     return spacing;
 }
 
+Real Model::coarsestAsked() const
+{
+    Real spacing(0);
+    for (int i = 0; i < count_; ++i) {
+        const SoftObject& object = *actors_[i]->object;
+        spacing = max(spacing, object.spacing() / object.ownSpacing(Real(1)));
+    }
+    return spacing;
+}
+
 int Model::seedsAt(Real spacing) const
 {
     int seeds = 0;

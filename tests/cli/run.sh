@@ -114,6 +114,11 @@ ok "F4 twice lets go" plays '3 key F4\n3 key F4\n' /T:1
 ok "before any change" is 2496 seeds
 ok "+ lets go" plays '3 key F4\n3 key -\n' /T:1
 ok "for the user's spacing" test "$(figure seeds)" -lt 2000
+printf 'sphere thin size 3\n' >"$dir/thin.fb"
+ok "a thin object" ends 0 /N:1 "/M:$dir/thin.fb"
+thin=$(figure seeds)
+ok "let go" plays '3 key F4\n3 key -\n4 key ESC\n' "/M:$dir/thin.fb"
+ok "gets fewer seeds too" test "$(figure seeds)" -lt "$thin"
 ok "/R without /N" ends 0 /R:35 /T:1 /S:8
 ok "says that it has no effect" says "$dir/err" "/R has no effect without /N"
 ok "/R with /N" ends 0 /R:35 /N:1

@@ -249,7 +249,10 @@ TEST(thin_objects_have_closer_seeds)
         SAME(model.seedsAt(real(spacing)), seeds);
         NEAR(model.actor(1).object->seeds(), model.actor(2).object->seeds(), 1);
         NEAR(number(model.coarsest()), spacing, 0);
+        NEAR(number(model.coarsestAsked()), spacing, 1e-3);
     }
+    CHECK(model.actor(3).object->resample(Real(3), makeEngine));
+    NEAR(number(model.coarsestAsked()), 6, 1e-3);
     // An object that is added later.
     described.measure[0] = real(6);
     CHECK(model.addItem(described) != nullptr);
