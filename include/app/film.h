@@ -18,7 +18,7 @@ public:
     // Begins a file. With `rate` > 0 (frames per second of animation, as with /N) each frame of the run is one frame of the
     // film and lasts the nearest whole number of jiffies. With `rate` 0 frames arrive at irregular times, and the film
     // repeats or skips frames to keep to the clock. An older film is replaced, any other file is not. Returns null, or one line
-    // that says what is wrong; `*status` is then the program's exit status.
+    // that says what is wrong; `*status` is then the program's exit status. `name` must last as long as the film.
     const char* open(const char* name, int rate, int* status);
     bool isOpen() const { return file_ >= 0; }
 
@@ -30,7 +30,7 @@ public:
     const char* close();
 
 private:
-    const char* complain();
+    const char* complain(const char* why);
     bool write(const uint8_t* from, uint32_t bytes);
     bool writeHeader();
     bool writeFrame(const uint8_t* picture, const uint8_t* dac);
@@ -53,7 +53,7 @@ private:
     uint8_t* room_ = nullptr;    // buffer in which a frame is assembled
     uint8_t* at_ = nullptr;      // where the next byte goes in `room_`
     uint8_t dac_[768], firstDac_[768];
-    char name_[100];
+    const char* name_ = nullptr;
     char problem_[160];
 };
 

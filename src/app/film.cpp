@@ -3,6 +3,7 @@
 
 #include "machine.h"
 #include "math/alloc.h"
+#include "math/text.h"
 
 using machine::HEIGHT;
 using machine::WIDTH;
@@ -56,9 +57,10 @@ Film::~Film()
     free(room_);
 }
 
-const char* Film::complain()
+const char* Film::complain(const char* why)
 {
-    snprintf(problem_, sizeof problem_, "%s: %s", name_, machine::fileTrouble());
+    char plain[100];
+    snprintf(problem_, sizeof problem_, "%s: %s", plainText(plain, sizeof plain, name_), why);
     return problem_;
 }
 
@@ -97,7 +99,7 @@ static bool isOther(const char* name)
 
 const char* Film::open(const char* name, int rate, int* status)
 {
-    snprintf(name_, sizeof name_, "%.99s", name);
+    name_ = name;
     before_ = allocate<uint8_t>(WIDTH * HEIGHT);
     first_ = allocate<uint8_t>(WIDTH * HEIGHT);
     room_ = allocate<uint8_t>(ROOM);
@@ -109,12 +111,11 @@ const char* Film::open(const char* name, int rate, int* status)
         jiffies_ = 1;
     if (isOther(name)) {
         *status = 2;
-        snprintf(problem_, sizeof problem_, "%s: this is no film; /A replaces only films", name_);
-        return problem_;
+        return complain("this is no film; /A replaces only films");
     }
     file_ = machine::createFile(name);
     // close() writes the header again, with the final number of frames and bytes.
-    return file_ >= 0 && writeHeader() ? nullptr : complain();
+    return file_ >= 0 && writeHeader() ? nullptr : complain(machine::fileTrouble());
 }
 
 bool Film::writeHeader()
@@ -276,16 +277,14 @@ const char* Film::add(const uint8_t* picture, const uint8_t* dac, Time now)
     if (realTime_) {
         due = static_cast<uint32_t>(divide64(now * JIFFIES, static_cast<uint32_t>(jiffies_) << 16)) + 1;
     }
-    if (due > static_cast<uint32_t>(FRAMES_MOST) || bytes_ > FILE_MOST) {
-        snprintf(problem_, sizeof problem_, "%s: the film is full", name_);
-        return problem_;
-    }
+    if (due > static_cast<uint32_t>(FRAMES_MOST) || bytes_ > FILE_MOST)
+        return complain("the film is full");
     bool good = true;
     while (good && frames_ > 0 && static_cast<uint32_t>(frames_) + 1 < due)
         good = writeSame();
     if (good && static_cast<uint32_t>(frames_) < due)
         good = writeFrame(picture, dac);
-    return good ? nullptr : complain();
+    return good ? nullptr : complain(machine::fileTrouble());
 }
 
 const char* Film::close()
@@ -303,5 +302,5 @@ const char* Film::close()
     bytes_ = bytes;
     good = machine::closeFile(file_) && good;
     file_ = -1;
-    return good ? nullptr : complain();
+    return good ? nullptr : complain(machine::fileTrouble());
 }

@@ -85,11 +85,14 @@ ok "odd bytes in a switch" ends 2 "$odd"
 ok "are shown as numbers" says "$dir/err" '/Qone\x0Atwo\x1B[31m\xFF: unknown switch'
 ok "in one line" test "$(wc -l <"$dir/err")" -eq 1
 odd=$(printf '%s/no\nfile\033' "$dir")
-for switch in "/M:$odd" "/O:$odd/x" "/D:$odd/x"; do
+for switch in "/M:$odd" "/O:$odd/x" "/D:$odd/x" "/A:$odd/x"; do
 	ok "odd bytes in a name" sh -c "! '$demo' /N:1 '$switch' 2>'$dir/err' >'$dir/out'"
 	ok "are shown as numbers" says "$dir/err" '/no\x0Afile\x1B'
 	ok "in one line" test "$(wc -l <"$dir/err")" -eq 1
 done
+printf 'sphere a size 10\n' >"$odd.fb"
+ok "the line of a benchmark" ends 0 /B /N:1 "/M:$odd.fb"
+ok "has no odd bytes either" says "$dir/out" '/no\x0Afile\x1B.fb, spacing 2: '
 long=$dir/$(printf '%0200d' 0)/scene.fb
 ok "a long name" ends 2 "/M:$long"
 ok "is told to its end" says "$dir/err" 'scene.fb: no such file'
