@@ -53,7 +53,9 @@ void Warp::set(const WarpAmounts& amounts, const Vector& surface, const Vector& 
     slope_ = amounts.part[WARP_TAPER] / height;
     twist_ = amounts.part[WARP_TWIST] / RADIAN / shiftUp(height, 1);
     most_ = Real(1) + absolute(amounts.part[WARP_TAPER]);
-    const Real degrees = ::min(absolute(amounts.part[WARP_BEND]), shiftUp(height, 1) / (wide * most_ * CLEAR) * RADIAN);
+    // The limit itself is limited to more than the greatest bend, because its degrees could overflow 16.16.
+    const Real limit = ::min(shiftUp(height, 1) / (wide * most_ * CLEAR), Real(4)) * RADIAN;
+    const Real degrees = ::min(absolute(amounts.part[WARP_BEND]), limit);
     flipped_ = amounts.part[WARP_BEND] < Real(0);
     amounts_.part[WARP_BEND] = flipped_ ? -degrees : degrees;
     end_ = shiftDown(degrees / RADIAN, 1);

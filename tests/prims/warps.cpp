@@ -90,6 +90,10 @@ void testSpace()
     const double most = 2 * 10 / (20 * 1.2) * 180 / M_PI;
     check(std::fabs(number(warp.amounts().part[WARP_BEND]) + most) < 0.01 && warp.asked().part[WARP_BEND] == Real(-180),
           "a bend of %g, not %g", number(warp.amounts().part[WARP_BEND]), -most);
+    // As long and thin as objects can be, it is not.
+    warp.set({{Real(0), Real(0), Real(90)}}, {Real(4), Real(1600), Real(4)}, {Real(8), Real(1630), Real(8)},
+             {Real(6), Real(1620), Real(6)});
+    check(warp.amounts().part[WARP_BEND] == Real(90), "a bend of a thin object of %g", number(warp.amounts().part[WARP_BEND]));
 }
 
 void testSeeds(const Sample& sample)
