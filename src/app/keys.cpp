@@ -23,6 +23,10 @@ constexpr Real DEGREES_A_VIEW(5);
 constexpr Real NEARER_A_KEY(0.9);
 constexpr Real FARTHER_A_KEY(1.111111);
 
+// The greatest slope, in units of width or height per unit of depth, that objects are moved along: places that the screen shows
+// farther aside with a very short focal length would overflow 16.16.
+constexpr Real SLOPE_MOST(32);
+
 constexpr int STEPS_A_SECOND = 10;
 
 // The frame rate that F4 holds when /F is not given.
@@ -312,7 +316,8 @@ void Demo::push(Real x, Real y, Real z)
     Vector p = was + Vector{x, y, z};
     p.z = clamp(p.z, min(DEPTH_LEAST, was.z), max(DEPTH_MOST, was.z));
     const Real away = max(p.z - eye.z, Real(1));
-    const Real right = away * (camera.centreX / camera.focalX), up = away * (camera.centreY / camera.focalY);
+    const Real right = away * min(camera.centreX / camera.focalX, SLOPE_MOST);
+    const Real up = away * min(camera.centreY / camera.focalY, SLOPE_MOST);
     p.x = clamp(p.x, min(eye.x - right, was.x), max(eye.x + right, was.x));
     p.y = clamp(p.y, min(eye.y - up, was.y), max(eye.y + up, was.y));
     if (editor_.move(axes.toWorld(p - was), time_))
@@ -367,11 +372,14 @@ void Demo::pointAt(const machine::Mouse& m)
     const Camera& camera = view_.camera();
     const Point& centre = model_.actor(editor_.selected()).object->centre();
     const Real away = max(camera.axes.fromWorld(centre - camera.eye).z, Real(1));
-    const Real x = Real(dx) / camera.focalX * away * Real(0.5);
+    const auto units = [&](int pixels, Real focal) {
+        return clamp(Real(pixels) / focal, -SLOPE_MOST, SLOPE_MOST) * away * Real(0.5);
+    };
+    const Real x = units(dx, camera.focalX);
     if (m.right)
         push(x, Real(0), Real(-dy) * UNITS_A_MICKEY);
     else
-        push(x, Real(-dy) / camera.focalY * away * Real(0.5), Real(0));
+        push(x, units(-dy, camera.focalY), Real(0));
 }
 
 // Returns the index of the object that the last frame shows at a pixel or within PICK_REACH of it, or -1: the object whose

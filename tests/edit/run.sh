@@ -125,6 +125,16 @@ ok "a click on nothing" alike 6 7
 ok "leaves it selected" has 8 "sphere 2 45.51917 6.91132 0 20"
 ok "the others stay" has 8 "sphere 1 0 0 0 20"
 
+# With a focal length of one pixel the edges of the picture lie thousands of units aside.
+printf 'focal 1 1\nsphere a size 20 at 0 0 110\n' >short.fb
+play 4 /M:short.fb <<'END'
+1 key RIGHT
+2 key m
+3 mouse 400 0 R
+END
+ok "moved before a very short focal length" has 1 "sphere 1 2 0 110 20"
+ok "and to an end of space" has 3 "sphere 1 250 0 110 20"
+
 # --- Input that does not wait for the end of a frame
 ends() { # SCRIPT SWITCHES...: plays the script; leaves out, err and status
 	printf "$1" >script
