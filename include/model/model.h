@@ -179,8 +179,8 @@ private:
     void unlinkAll();
     void takeObjects(Model& then);
 
-    Actor* actors_[OBJECTS_MOST];
-    Actor* items_[OBJECTS_MOST + GROUPS_MOST];  // owned
+    Actor* actors_[OBJECTS_MOST] = {};
+    Actor* items_[OBJECTS_MOST + GROUPS_MOST] = {};  // owned
     int count_ = 0;
     int itemCount_ = 0;
     Key* keys_ = nullptr;  // room for KEYS_MOST, allocated with the first key

@@ -196,6 +196,10 @@ bool SoftObject::layOutExtras()
     for (int i = 0; i < laid_.blocks(); ++i)
         if (laid_.extras[i] == nullptr && layOutBlock(i) == nullptr)
             return false;
+    // Where memory ran out, a block may have been taken from seeds that were laid out just now.
+    for (int i = 0; i < laid_.blocks(); ++i)
+        if (laid_.extras[i] == nullptr)
+            return false;
     for (int i = 0; i < laid_.regular; ++i)
         laidExtra(2 * i + 1);
     return true;
