@@ -47,7 +47,7 @@ private:
     int jiffies_ = 0;   // length of a frame
     int frames_ = 0;
     uint32_t bytes_ = 0;
-    bool full_ = false;  // a write has failed, after which nothing more is added
+    bool failed_ = false;  // a write has failed, after which nothing more is added
     uint8_t* before_ = nullptr;  // the picture stored last
     uint8_t* first_ = nullptr;   // the first picture: a film ends with the changes that lead back to it
     uint8_t* room_ = nullptr;    // buffer in which a frame is assembled

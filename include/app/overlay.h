@@ -8,7 +8,8 @@
 
 class Overlay {
 public:
-    // Pixels from one letter to the next and from one line to the next, including one blank column or row.
+    // Pixels from one letter to the next, with one blank column, and the height of a line of text, with one row of its rim. From
+    // one line of a paragraph to the next it is LINE_HIGH + 1.
     static constexpr int LETTER_WIDE = 6;
     static constexpr int LINE_HIGH = 8;
 

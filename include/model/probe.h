@@ -45,8 +45,8 @@ private:
         const SoftObject* object;
         SoftObject* const* body;
     };
-    // Space is divided into cubes. A cell has a list of the objects whose fields may reach one of them; another cube that has to be
-    // in the same cell takes its place.
+    // Space is divided into cubes. Many cubes share a cell, which holds one of them at a time, with a list of the objects whose
+    // fields may reach it: the cube that was asked for last.
     struct Cell {
         int x, y, z;     // the cube's number along each axis
         int count = -1;  // of the objects; -1: no cube

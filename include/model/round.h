@@ -14,7 +14,7 @@ struct Ring {
     Real radius;                    // length of the paths
     Real pathSine, pathCosine;      // latitude of the paths
     Real normalSine, normalCosine;  // latitude of the surface's normal; it differs from that of the paths if the object tapers
-    Real across;                    // half the distance to the next ring along the surface, units
+    Real halfStep;                  // half the distance to the next ring along the surface, units
 
     // Distance of its seeds from the axis, units; 0 where the tube of a strong torus meets itself across the hole.
     Real around() const
@@ -49,7 +49,8 @@ Real stretchedStep(Real step, const Vector& stretch, Real normalSine, Real norma
 
 // Where rings are farther apart on one side of an object than on another, some rings leave out their seeds on the side where
 // they lie too close: at level L only one ring of 2^L keeps them. thinning() returns the level for a distance `step` between
-// rings; thinned() says whether a ring leaves its seeds out. Rings kept at a higher level are also kept at all lower levels.
+// rings; thinned() says whether a ring leaves its seeds out. Rings kept at a higher level are also kept at all lower levels: those
+// whose number ends like 5 in binary. So ring 0, at an end of the object, leaves its seeds out from level 1 on.
 int thinning(Real step, Real spacing);
 inline bool thinned(int ring, int level)
 {
@@ -104,16 +105,16 @@ public:
 
     // The length of the stretched outline.
     Real length() const { return stretched_ ? after_[parts_] : before_[parts_]; }
-    // Returns the place at the fraction part / of of the stretched length, measured along the unstretched outline; `*across`
+    // Returns the place at the fraction part / of of the stretched length, measured along the unstretched outline; `*step`
     // receives the length there of the fraction 1 / of.
-    Real at(int32_t part, int32_t of, Real* across) const;
+    Real at(int32_t part, int32_t of, Real* step) const;
 
 private:
     static constexpr int PARTS_MOST = 128, ARC_PARTS = 24;
     void add(Real length, Real factor);
 
     Vector stretch_;
-    Real across_;     // the larger stretch factor perpendicular to the axis
+    Real widest_;     // the larger stretch factor perpendicular to the axis
     bool stretched_;
     int parts_ = 0;
     Real before_[PARTS_MOST + 1], after_[PARTS_MOST + 1];  // start of each part, unstretched and stretched

@@ -75,7 +75,7 @@ struct Seed {
     uint16_t root;       // index of the root point, which several seeds may share
     uint8_t flags;       // SeedFlag
     uint8_t mix;         // number of the colour at the seed, where colours mix (model/paint.h)
-    uint8_t blocker;     // without SEED_VALID: slot of the neighbour that was the strongest there
+    uint8_t blocker;     // without SEED_VALID: index (in Bodies) of the neighbour that was the strongest there
     // The seed's cell, its part of the unblended surface: two half axes, 1/64 of the spacing each, and the area of the
     // parallelogram that they span, (1/64 spacing)^2. The cells of a ring form a band; the area is 0 for an oversampled seed,
     // whose cell is in no band.
@@ -86,7 +86,7 @@ struct Seed {
     int16_t lightChange[3];  // of a seed that settled beside a border, an oversampled or a fine one: the gradient of the brightness
                              // along the surface, own axes, 1/128 step per unit of the world. Its component along the normal
                              // does not count. The first is LIGHT_UNKNOWN until it has been found
-    uint8_t host;        // with SEED_GUEST: slot of the object whose field is the strongest
+    uint8_t host;        // with SEED_GUEST: index (in Bodies) of the object whose field is the strongest
     bool lightIsOld;     // lightChange was kept when the seed settled last, or is unknown: the next time it is found anew
     uint8_t spare[2];    // pads a seed to 64 bytes, so that an index becomes an address by a shift
     int32_t beyond;      // of a regular seed beside a ridge, where the surface bends outwards sharply: slot of the regular seed on

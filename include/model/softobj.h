@@ -158,8 +158,10 @@ public:
     // The outward normal of the unblended surface at a seed's resting place.
     Direction14 restNormal(const Seed& s) const;
 
-    // --- Operations (report, Section III: Translation, Rotation, Scaling). Each sets `recalc` in this object and in those
-    // neighbours that this object's field reaches before or after the change.
+    // --- Operations (report, Section III: Translation, Rotation, Scaling). What places, turns or warps the object sets `recalc` in
+    // it and in those neighbours that its field reaches before or after the change; where some of its seeds are not at rest, in all
+    // that it is linked with. A turn of a ball is felt by no neighbour, nor by itself unless its seeds turn with it. setStretch()
+    // and setStrength(), which come before the seeds are laid out, tell no neighbour.
 
     void translate(const Vector& by) { moveTo(centre_ + by); }
     void moveTo(const Point& centre) { place(centre, size_); }

@@ -78,8 +78,8 @@ void Film::put32(uint32_t value)
 
 bool Film::write(const uint8_t* from, uint32_t bytes)
 {
-    full_ = full_ || machine::writeFile(file_, from, bytes) != static_cast<int32_t>(bytes);
-    if (full_)
+    failed_ = failed_ || machine::writeFile(file_, from, bytes) != static_cast<int32_t>(bytes);
+    if (failed_)
         return false;
     bytes_ += bytes;
     return true;
@@ -297,7 +297,7 @@ const char* Film::close()
     frames_ = frames;
     const uint32_t bytes = bytes_;
     // A film whose last frame did not fit is still a film of the others.
-    full_ = false;
+    failed_ = false;
     good = (good || machine::cutFile(file_, bytes)) && machine::rewindFile(file_) && writeHeader() && good;
     bytes_ = bytes;
     good = machine::closeFile(file_) && good;

@@ -137,7 +137,7 @@ private:
     Ask ask_;
     int listedHere_ = 0;         // how many names in ask_ come from the current directory; the rest are from `directory_`
     char directory_[128];        // the directory of the program
-    char scene_[160];            // the file that was loaded last; empty: none
+    char scene_[160];            // the file that was last to be loaded, whether it could be or not; empty: none
     char saved_[Ask::LINE_ROOM + 4] = "";     // the file that was saved last
     char replaces_[Ask::LINE_ROOM + 4] = "";  // the existing file that the user was asked about
     int shots_ = 0;              // the highest number of a screenshot tried so far

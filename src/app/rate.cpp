@@ -15,12 +15,13 @@ constexpr int32_t FINER = 248;
 constexpr int32_t LOAD_MOST = 64 * ON_TIME;
 
 // Far off, below half or above one and a half of the wanted time, decisions come after FEW_FRAMES frames and change more
-// objects at once: one of OBJECTS_A_CHANGE when too fast; more with the excess when too slow, and all at ALL_ABOVE.
+// objects at once: one of OBJECTS_A_CHANGE when too fast; when too slow more with the excess over FAR_ABOVE, and all when that
+// excess is ALL_EXCESS.
 constexpr int32_t FAR_BELOW = ON_TIME / 2;
 constexpr int32_t FAR_ABOVE = ON_TIME * 3 / 2;
 constexpr int FEW_FRAMES = 2;
 constexpr int OBJECTS_A_CHANGE = 16;
-constexpr int32_t ALL_ABOVE = 8 * ON_TIME;
+constexpr int32_t ALL_EXCESS = 8 * ON_TIME;
 
 // Four steps of the spacing make a factor of two. A finer step adds 41 % of the seeds, a coarser one removes 29 %.
 constexpr int STEPS_IN_TWO = 4;
@@ -107,11 +108,11 @@ void Rate::add(uint64_t ticks, const Model& model)
         return;
     ticks_ = 0;
     counted_ = 0;
-    // The farther off the rate is, the more objects change. All change when a frame takes nine times too long: the picture
-    // jumps at such a rate anyway.
+    // The farther off the rate is, the more objects change. All change when a frame takes nine and a half times as long as it
+    // should: the picture jumps at such a rate anyway.
     left_ = 1;
     if (load_ > FAR_ABOVE)
-        left_ += model.count() * (load_ - FAR_ABOVE) / ALL_ABOVE;
+        left_ += model.count() * (load_ - FAR_ABOVE) / ALL_EXCESS;
     else if (far)
         left_ += model.count() / OBJECTS_A_CHANGE;
 }

@@ -153,8 +153,8 @@ void Bodies::spreadRecalc() const
             continue;
         for (int i = entry.first; i < entry.first + entry.size; ++i) {
             SoftObject& other = *members_[i];
-            const bool known = weight(slot, other.slot()) != Real(0) && weight(other.slot(), slot) != Real(0);
-            if (!other.recalc() && !known && moved.inRange(other))
+            const bool told = weight(slot, other.slot()) != Real(0) && weight(other.slot(), slot) != Real(0);
+            if (!other.recalc() && !told && moved.inRange(other))
                 other.setRecalc();
         }
     }

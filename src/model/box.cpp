@@ -20,8 +20,8 @@ struct Loop {
     Real height;                // y of the roots
     Real radius;                // of the object
     Real pathSine, pathCosine;  // latitude of the paths
-    Real across;                // half the distance to the next ring along the surface
-    bool face;                  // the ring is on a face perpendicular to y, where `across` is measured on the stretched object
+    Real halfStep;              // half the distance to the next ring along the surface
+    bool face;                  // the ring is on a face perpendicular to y, where `halfStep` is measured on the stretched object
     int number;
     Real spacing;
 };
@@ -154,7 +154,7 @@ private:
         const Vector root = onSide(side, {out, loop_.height, along});
         const bool sharp = corner && arc_ < loop_.spacing;
         const Real wide = sharp ? half * CORNER_PART : half;
-        const Real high = sharp ? loop_.across * CORNER_PART : loop_.across;
+        const Real high = sharp ? loop_.halfStep * CORNER_PART : loop_.halfStep;
         const Real inward = -(high * loop_.pathSine);
         maker_.addSeed(rootFor(root), onSide(side, {loop_.pathCosine * c, loop_.pathSine, loop_.pathCosine * s}),
                        onSide(side, {wide * s, Real(0), -(wide * c)}),
@@ -166,13 +166,13 @@ private:
     void addStretched(int side, const Vector& towards, const Vector& from, Real half)
     {
         const Vector root = onSide(side, from), out = onSide(side, towards), round = onSide(side, {towards.z, Real(0), -towards.x});
-        Vector across{-(out.x * loop_.across * loop_.pathSine), loop_.across * loop_.pathCosine,
-                      -(out.z * loop_.across * loop_.pathSine)};
+        Vector across{-(out.x * loop_.halfStep * loop_.pathSine), loop_.halfStep * loop_.pathCosine,
+                      -(out.z * loop_.halfStep * loop_.pathSine)};
         if (loop_.face) {
             across.x = across.x / stretch_.x;
             across.z = across.z / stretch_.z;
         } else {
-            const Real step = stretchedStep(shiftUp(loop_.across, 1), stretch_, loop_.pathSine, loop_.pathCosine, out.x, out.z);
+            const Real step = stretchedStep(shiftUp(loop_.halfStep, 1), stretch_, loop_.pathSine, loop_.pathCosine, out.x, out.z);
             const int level = thinning(step, loop_.spacing);
             if (thinned(loop_.number, level))
                 return;
@@ -237,7 +237,7 @@ void Box::layOutSeeds(SeedMaker& maker, Real spacing) const
     loop.spacing = spacing;
     LoopMaker loops(maker, *this);
     for (int k = 0; k < rings; ++k) {
-        const Real at = outline.at(2 * k + 1, 2 * rings, &loop.across);
+        const Real at = outline.at(2 * k + 1, 2 * rings, &loop.halfStep);
         const bool upper = at > shiftDown(whole, 1);
         const Real fromPole = upper ? whole - at : at;
         Real height = h.y;

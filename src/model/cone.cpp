@@ -62,7 +62,7 @@ void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
         const int rings = stepsIn(outline.length(), spacing);
         int root = -1;
         for (int k = 0; k < rings; ++k) {
-            const Real at = outline.at(2 * k + 1, 2 * rings, &ring.across);
+            const Real at = outline.at(2 * k + 1, 2 * rings, &ring.halfStep);
             if (part == SIDE) {
                 ring.height = length() * (at / lengths[part]) - coreReach();
                 ring.radius = sizeAlong(ring.height) * restRoot();

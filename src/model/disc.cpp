@@ -40,7 +40,7 @@ void Disc::layOutSeeds(SeedMaker& maker, Real spacing) const
     ring.radius = radius();
     for (int k = 0; k < rings; ++k) {
         const int mirrored = rings - 1 - k, below = k < mirrored ? k : mirrored;
-        const Real at = outline.at(2 * below + 1, rings, &ring.across);
+        const Real at = outline.at(2 * below + 1, rings, &ring.halfStep);
         const bool onFace = at < discRadius();
         ring.core = onFace ? at : discRadius();
         ringMaker.addMirrored(ring, k, rings, (onFace ? 0 : quarterTurn(min(at - discRadius(), rim), rim)) - QUARTER);

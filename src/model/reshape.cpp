@@ -61,11 +61,12 @@ void SoftObject::reshape()
         Seed& plain = laid_.plainSeeds[i];
         plain.border = warpSeed(plain, laid_.plainRoots[plain.root], laid_.seeds[i], way);
     }
-    // Only oversampled seeds in use are warped; the others are laid out again when they are needed.
+    // Fine seeds are made again when they are needed.
     for (int at = 0; at < laid_.blocks(); ++at) {
         free(laid_.fine[at]);
         laid_.fine[at] = nullptr;
     }
+    // Only oversampled seeds in use are warped; the others are laid out again when they are needed.
     Layout plain = laid_.plain();
     for (int at = 0; at < laid_.blocks(); ++at) {
         Seed* const block = laid_.extras[at];

@@ -41,7 +41,7 @@ struct Travels {
     }
 };
 
-// The number of the item that an object belongs to.
+// The index of the item that an object belongs to.
 int itemOf(const Model& model, const SoftObject& object)
 {
     int i = 0;
@@ -50,18 +50,19 @@ int itemOf(const Model& model, const SoftObject& object)
     return i;
 }
 
-// Whether a ball is to ride. `poses` holds those of all items at the beginning and at the end of each step.
-bool isRider(const Model& model, int number, const Pose* poses)
+// Whether the ball of the item with this index is to ride. `poses` holds those of all items at the beginning and at the end of
+// each step.
+bool isRider(const Model& model, int index, const Pose* poses)
 {
     const int items = model.items();
     Travels travels;
     int left = LINKS;
-    for (const auto* node = model.item(number).object->skel().first(); node != nullptr && left > 0; node = node->next, --left) {
+    for (const auto* node = model.item(index).object->skel().first(); node != nullptr && left > 0; node = node->next, --left) {
         const int other = itemOf(model, *node->item.object);
-        const Real range = model.item(number).object->reach() + node->item.object->reach();
+        const Real range = model.item(index).object->reach() + node->item.object->reach();
         for (int step = 0; step < STEPS; ++step) {
             const Pose* const begin = poses + 2 * step * items;
-            travels.add(begin + number, begin + other, items, range);
+            travels.add(begin + index, begin + other, items, range);
         }
     }
     return travels.riding < travels.inWorld * WORTH_TURNING;

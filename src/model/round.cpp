@@ -123,8 +123,8 @@ void RingMaker::addSeeds(const Ring& ring, int k, int root)
     // A seed's cell is widest at its outer edge, which makes a difference in the small rings about a pole.
     Real around = ring.around();
     if (count <= POLAR_SEEDS)
-        around += ring.across * absolute(ring.normalSine);
-    const Real along = around * sine(step / 2) * CELL_SPARE, across = ring.across * CELL_SPARE;
+        around += ring.halfStep * absolute(ring.normalSine);
+    const Real along = around * sine(step / 2) * CELL_SPARE, across = ring.halfStep * CELL_SPARE;
     const int nextRoot = ring.core == Real(0) ? 0 : 1;
     for (int i = 0; i < count; ++i, root += nextRoot) {
         const Angle longitude = static_cast<uint32_t>(i) * step;
@@ -164,7 +164,7 @@ void RingMaker::addStretched(const Ring& ring, int k, int root)
         return;
     // Half the arc length to the next seed, first on the stretched unit circle, then on this ring.
     Real half = portion(whole, 1, 2 * count) * CELL_SPARE;
-    half = count <= POLAR_SEEDS ? half * (around + ring.across * absolute(ring.normalSine)) : half * around;
+    half = count <= POLAR_SEEDS ? half * (around + ring.halfStep * absolute(ring.normalSine)) : half * around;
     const uint32_t step = 0xffffffffu / static_cast<uint32_t>(count);
     bool begun = false;
     int level = 0;
@@ -182,14 +182,15 @@ void RingMaker::addStretched(const Ring& ring, int k, int root)
         const Real s = sine(longitude), c = cosine(longitude);
         // On a circle the level is the same all round.
         if (!round_ || i == 0)
-            level = thinning(stretchedStep(shiftUp(ring.across, 1), stretch_, ring.normalSine, ring.normalCosine, s, c), spacing_);
+            level = thinning(stretchedStep(shiftUp(ring.halfStep, 1), stretch_, ring.normalSine, ring.normalCosine, s, c),
+                             spacing_);
         if (thinned(k, level))
             continue;
         if (!begun)
             maker_.beginRing();
         begun = true;
         const Real along = half / ::length({stretch_.x * c, Real(0), stretch_.z * s});
-        const Real across = shiftUp(ring.across * CELL_SPARE, level), inward = -(across * ring.normalSine);
+        const Real across = shiftUp(ring.halfStep * CELL_SPARE, level), inward = -(across * ring.normalSine);
         const int own = ring.core == Real(0) ? root
                         : round_             ? root + i
                                              : maker_.addRoot({ring.core * s, ring.height, ring.core * c});
@@ -199,7 +200,7 @@ void RingMaker::addStretched(const Ring& ring, int k, int root)
 }
 
 Outline::Outline(const Vector& stretch)
-    : stretch_(stretch), across_(max(stretch.x, stretch.z)), stretched_(isStretched(stretch))
+    : stretch_(stretch), widest_(max(stretch.x, stretch.z)), stretched_(isStretched(stretch))
 {
     before_[0] = after_[0] = Real(0);
 }
@@ -218,7 +219,7 @@ void Outline::plain(Real length)
 
 void Outline::line(Real length, Real normalSine, Real normalCosine)
 {
-    add(length, ::length({across_ * normalSine, stretch_.y * normalCosine, Real(0)}));
+    add(length, ::length({widest_ * normalSine, stretch_.y * normalCosine, Real(0)}));
 }
 
 void Outline::arc(Real length, Angle from, Angle to)
@@ -235,10 +236,10 @@ void Outline::arc(Real length, Angle from, Angle to)
     }
 }
 
-Real Outline::at(int32_t part, int32_t of, Real* across) const
+Real Outline::at(int32_t part, int32_t of, Real* step) const
 {
-    const Real way = portion(length(), part, of), step = portion(length(), 1, of);
-    *across = step;
+    const Real way = portion(length(), part, of);
+    *step = portion(length(), 1, of);
     if (!stretched_)
         return way;
     int i = 0;
@@ -248,7 +249,7 @@ Real Outline::at(int32_t part, int32_t of, Real* across) const
     if (after == Real(0))
         return before_[i];
     const Real share = before / after;
-    *across = step * share;
+    *step = *step * share;
     return before_[i] + min((way - after_[i]) * share, before);
 }
 
@@ -266,7 +267,7 @@ void layOutCapsule(SeedMaker& maker, const Vector& stretch, Real radius, Real ha
     ring.radius = radius;
     int bottom = -1, top = -1;
     for (int k = 0; k < rings; ++k) {
-        const Real at = outline.at(2 * k + 1, 2 * rings, &ring.across);
+        const Real at = outline.at(2 * k + 1, 2 * rings, &ring.halfStep);
         Angle latitude = 0;
         int* shared = nullptr;
         if (at < cap) {

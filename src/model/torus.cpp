@@ -43,7 +43,7 @@ void Torus::layOutSeeds(SeedMaker& maker, Real spacing) const
     const uint32_t step = 0x80000000u / static_cast<uint32_t>(rings);
     for (int k = 0; k < rings; ++k) {
         const int mirrored = rings - 1 - k, below = k < mirrored ? k : mirrored;
-        const Real at = outline.at(2 * below + 1, rings, &ring.across);
+        const Real at = outline.at(2 * below + 1, rings, &ring.halfStep);
         const Angle turn = stretched() ? 2 * quarterTurn(at, radius() * PI) : static_cast<uint32_t>(2 * below + 1) * step;
         ringMaker.addMirrored(ring, k, rings, 0x80000000u + turn);
     }
