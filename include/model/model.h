@@ -99,9 +99,11 @@ public:
 
     SurfaceMaker surfaceMaker() const { return makeSurface_; }
 
-    // The bodies that the links form, found anew when links have changed. Returns null when there is no memory.
-    const Bodies* bodies();
-    // Whether two objects belong to different bodies, as found by the latest bodies().
+    // Makes the bodies that the links form ready for a frame. When links have changed, the bodies are found anew, and objects that
+    // sample a hollow now, or do so no more, get other seeds. Then the recalc flags are spread within the bodies. Returns null when
+    // there is no memory or the user stopped a layout (model/stop.h); the next call tries again.
+    const Bodies* prepareBodies();
+    // Whether two objects belong to different bodies, as found by the latest prepareBodies().
     bool areApart(const SoftObject& a, const SoftObject& b) const { return bodies_.members(a) != bodies_.members(b); }
 
     // The number of regular seeds that a spacing would give.
@@ -150,7 +152,7 @@ public:
     // Has all bodies found and all seeds settled anew in the next frame.
     void settleAnew();
 
-    // The bodies as the latest bodies() found them; null if something has changed since then.
+    // The bodies as the latest prepareBodies() found them; null if something has changed since then.
     const Bodies* knownBodies() const { return bodiesKnown_ ? &bodies_ : nullptr; }
 
     // Sets the light, and has all objects looked at again.
@@ -174,6 +176,7 @@ private:
     // Returns true if the objects of two items are equal before any scaling: kind, measures, strength and stretch.
     static bool isLike(const Actor& a, const Actor& b);
     const SoftObject* alike(int i) const;
+    bool layOutHollows();
     bool makeItems(const Record* record, Model& then) const;
     bool copyKeys(const Record* record);
     void unlinkAll();

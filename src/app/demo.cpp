@@ -251,7 +251,7 @@ bool Demo::drawModel()
 {
     counts_ = Counts{};
     const Camera& camera = view_.camera();
-    FrameContext frame{camera.eye, unit(model_.light), model_.bodies(), &counts_, camera.axes,
+    FrameContext frame{camera.eye, unit(model_.light), model_.prepareBodies(), &counts_, camera.axes,
                        camera.centreX / camera.focalX, camera.centreY / camera.focalY};
     if (frame.bodies == nullptr) {
         if (interrupted())

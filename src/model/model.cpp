@@ -474,16 +474,26 @@ int Model::seedsAt(Real spacing) const
     return seeds;
 }
 
-const Bodies* Model::bodies()
+// Lays out the seeds anew of those objects that have got or lost a surface of their own. Returns false if one of them failed.
+bool Model::layOutHollows()
+{
+    bool good = true;
+    for (int i = 0; i < count_; ++i) {
+        SoftObject& object = *actors_[i]->object;
+        if (object.laidInVain())
+            good = object.resample(object.ownSpacing(spacing_), makeSurface_) && good;
+    }
+    return good;
+}
+
+const Bodies* Model::prepareBodies()
 {
     if (!bodiesKnown_) {
         SoftObject* objects[OBJECTS_MOST];
         for (int i = 0; i < count_; ++i)
             objects[i] = actors_[i]->object;
-        bodiesKnown_ = bodies_.find(objects, count_);
-        for (int i = 0; i < count_; ++i)
-            if (objects[i]->laidInVain())
-                bodiesKnown_ = objects[i]->resample(objects[i]->ownSpacing(spacing_), makeSurface_) && bodiesKnown_;
+        const bool found = bodies_.find(objects, count_);
+        bodiesKnown_ = layOutHollows() && found;
     }
     if (!bodiesKnown_)
         return nullptr;

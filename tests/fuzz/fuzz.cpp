@@ -138,7 +138,7 @@ void draw(Model& model, bool printed)
             break;
         left -= seeds;
         Anim::move(model, time);
-        const FrameContext frame{model.camera.eye, unit(model.light), model.bodies(), &counts, model.camera.axes};
+        const FrameContext frame{model.camera.eye, unit(model.light), model.prepareBodies(), &counts, model.camera.axes};
         must(frame.bodies != nullptr, "no memory for bodies");
         for (int i = 0; i < model.count(); ++i)
             model.actor(i).object->update(frame);

@@ -72,7 +72,7 @@ bool run(Play& play, double spacing, const std::string& to)
     for (int frame = 0; frame < FRAMES; ++frame) {
         play.move(objects, frame);
         Counts counts{};
-        const FrameContext context{model.camera.eye, unit(model.light), model.bodies(), &counts};
+        const FrameContext context{model.camera.eye, unit(model.light), model.prepareBodies(), &counts};
         for (SoftObject* object : objects)
             object->update(context);
         view.begin();

@@ -409,7 +409,7 @@ void dents()
     check(strength("a") == 0.25 && strength("b") == 1 && strength("r1") == 4 && strength("r3") == 1.5, "strengths");
     const auto seen = [&](const char* name) { return model.itemNamed(name)->object->hasSurface(); };
     check(seen("a") && seen("r1") && !seen("b") && !seen("r2"), "what only digs has no surface");
-    const Bodies* bodies = model.bodies();
+    const Bodies* bodies = model.prepareBodies();
     const SoftObject &a = *model.itemNamed("a")->object, &r2 = *model.itemNamed("r2")->object;
     check(bodies->memberCount(a) == 2 && bodies->diggerCount(a) == 3 && bodies->memberCount(r2) == 1 &&
               bodies->diggerCount(r2) == 0,

@@ -210,7 +210,7 @@ TEST(field_of_bodies_at_a_point)
         }
         weights[0][DIGGER] = -1;
         CHECK(model.dent(model.actor(0).object, model.actor(DIGGER).object, Real(1)));
-        CHECK(model.bodies() != nullptr);
+        CHECK(model.prepareBodies() != nullptr);
         // Some points lie near the one before.
         FieldProbe probe(&model);
         Vec place{0, 0, 0};

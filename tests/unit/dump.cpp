@@ -54,7 +54,7 @@ std::vector<std::string> linesOf(const std::string& text)
 void draw(Model& model, View& view)
 {
     Counts counts{};
-    const FrameContext frame{model.camera.eye, unit(model.light), model.bodies(), &counts};
+    const FrameContext frame{model.camera.eye, unit(model.light), model.prepareBodies(), &counts};
     VoxelList list;
     view.begin();
     for (int i = 0; i < 4; ++i) {

@@ -36,7 +36,7 @@ struct Painted {
             object(i).update(frame());
     }
     SoftObject& object(int i) { return *model.actor(i).object; }
-    FrameContext frame() { return {model.camera.eye, unit(model.light), model.bodies(), &counts}; }
+    FrameContext frame() { return {model.camera.eye, unit(model.light), model.prepareBodies(), &counts}; }
     // Calls `each` with each voxel of an object, its ramp and its position relative to the object's centre.
     template <class Each>
     void draw(int i, Each each, int room = 256)

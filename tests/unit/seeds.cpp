@@ -270,13 +270,13 @@ TEST(seeds_for_a_hollow_are_laid_out_after_a_stop_too)
     }
     SoftObject &dented = *model.actor(0).object, &digger = *model.actor(1).object;
     CHECK(model.link(&dented, &digger, Real(1)) && model.dent(&dented, &digger, Real(1)));
-    CHECK(model.resample(Real(2), makeEngine) && model.bodies() != nullptr);
+    CHECK(model.resample(Real(2), makeEngine) && model.prepareBodies() != nullptr);
     // Without the link the second ball only digs. The user stops the layout of its seeds for the hollow.
     model.unlink(&dented, &digger);
     stopSource = [] { return true; };
-    CHECK(model.bodies() == nullptr && digger.laidInVain());
+    CHECK(model.prepareBodies() == nullptr && digger.laidInVain());
     stopSource = nullptr;
-    CHECK(model.bodies() != nullptr && !digger.laidInVain());
+    CHECK(model.prepareBodies() != nullptr && !digger.laidInVain());
     NEAR(size(vec(digger.regular(0).path)), number(digger.laidRadius()), 1e-3);
 }
 

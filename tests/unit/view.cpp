@@ -599,7 +599,7 @@ static void addPair(Model& model, double away, bool upright = false)
     CHECK(model.add(make<Sphere>(1, Real(40)), {255, 0, 0}, left));
     CHECK(model.add(make<Sphere>(2, Real(40)), {0, 0, 255}, right));
     Anim::move(model, 0);
-    CHECK(model.bodies() != nullptr);
+    CHECK(model.prepareBodies() != nullptr);
 }
 
 // A gap between two pixels of one ramp, or of the grey one, is filled with a brightness between theirs; without a palette, with
@@ -663,7 +663,7 @@ TEST(gaps_between_two_objects)
     CHECK(model.add(make<Sphere>(1, Real(40)), {255, 0, 0}, front));
     CHECK(model.add(make<Sphere>(2, Real(40)), {0, 0, 255}, behind));
     Anim::move(model, 0);
-    CHECK(model.bodies() != nullptr);
+    CHECK(model.prepareBodies() != nullptr);
     Palette palette;
     palette.make(model, false);
     View view;
@@ -716,7 +716,7 @@ struct PairView {
     {
         addPair(model, away);
         CHECK(!linked || model.link(model.actor(0).object, model.actor(1).object, Real(1)));
-        CHECK(model.bodies() != nullptr);
+        CHECK(model.prepareBodies() != nullptr);
         palette.make(model, false);
         CHECK(view.open());
         view.begin();
@@ -883,7 +883,7 @@ struct BallView {
         still.centre = point(0, 0, 0);
         CHECK(model.add(make<Sphere>(1, Real(40)), {255, 0, 0}, still));
         Anim::move(model, 0);
-        CHECK(model.bodies() != nullptr && view.open());
+        CHECK(model.prepareBodies() != nullptr && view.open());
         palette.make(model, false);
         ramp = model.actor(0).object->ramp();
     }
@@ -1142,7 +1142,7 @@ TEST(outlines_are_true)
     at.centre = point(0, 0, AWAY);
     CHECK(model.add(make<Sphere>(2, real(2 * LARGE)), {0, 0, 255}, at));
     Anim::move(model, 0);
-    CHECK(model.bodies() != nullptr);
+    CHECK(model.prepareBodies() != nullptr);
     Palette palette;
     palette.make(model, false);
     View& view = ball.view;
