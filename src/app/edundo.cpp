@@ -3,7 +3,6 @@
 #include "app/edit.h"
 
 #include "math/alloc.h"
-#include "math/text.h"
 #include "model/scene.h"
 #include "surface/engine.h"
 

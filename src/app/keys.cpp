@@ -1,6 +1,5 @@
 // The actions of keys and mouse. No function here waits for input: a key changes what the next frame shows.
 #include "loop.h"
-#include "math/text.h"
 #include "model/probe.h"
 
 namespace {

@@ -1,7 +1,6 @@
 // Saving and loading scenes while the program runs, and screenshots.
 #include "app/shot.h"
 #include "loop.h"
-#include "math/text.h"
 
 namespace {
 

@@ -2,9 +2,7 @@
 // face.
 #include "model/box.h"
 
-#include "rt.h"
 #include "model/round.h"
-#include "math/text.h"
 
 namespace {
 

@@ -2,9 +2,7 @@
 // the slanting side, so that along a path the own field is the same polynomial of the position as in every other primitive.
 #include "model/cone.h"
 
-#include "rt.h"
 #include "model/round.h"
-#include "math/text.h"
 
 Cone::Cone(int number, Real size1, Real size2, Real length)
     : SoftObject(number, max(size1, size2), shiftDown(max(length, leastLength(size1, size2)), 1), true),

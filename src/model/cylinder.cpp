@@ -1,9 +1,7 @@
 // Seeds on a cylinder with round ends: rings up its outline, from pole to pole.
 #include "model/cylinder.h"
 
-#include "rt.h"
 #include "model/round.h"
-#include "math/text.h"
 
 Cylinder::Cylinder(int number, Real size, Real length) : SoftObject(number, size, shiftDown(max(length, Real(0)), 1)) {}
 

@@ -1,9 +1,7 @@
 // Seeds on a disc: rings outwards along the lower face, round the rim, and inwards along the upper face.
 #include "model/disc.h"
 
-#include "rt.h"
 #include "model/round.h"
-#include "math/text.h"
 
 Disc::Disc(int number, Real size, Real discRadius) : SoftObject(number, size, max(discRadius, Real(0))) {}
 

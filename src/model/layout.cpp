@@ -2,7 +2,6 @@
 // move is not known here.
 #include "cells.h"
 #include "math/alloc.h"
-#include "math/text.h"
 #include "model/stop.h"
 
 namespace {

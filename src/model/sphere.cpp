@@ -1,8 +1,6 @@
 // Seeds on a sphere: a stack of rings, each ring a row of seeds (report, Appendix C, Figure 8).
 #include "model/sphere.h"
 
-#include "rt.h"
-#include "math/text.h"
 #include "model/stop.h"
 #include "model/round.h"
 
@@ -102,10 +100,6 @@ void Sphere::layOutSeeds(SeedMaker& maker, Real spacing) const
 
 void Sphere::describe(char* to, int size) const
 {
-    char x[24], y[24], z[24], r[24];
-    formatReal(x, sizeof x, centre().x);
-    formatReal(y, sizeof y, centre().y);
-    formatReal(z, sizeof z, centre().z);
-    formatReal(r, sizeof r, this->size());
-    snprintf(to, static_cast<size_t>(size), "sphere %d %s %s %s %s", number(), x, y, z, r);
+    const Real numbers[] = {centre().x, centre().y, centre().z, this->size()};
+    describeAs("sphere", numbers, 4, to, size);
 }

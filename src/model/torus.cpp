@@ -1,9 +1,7 @@
 // Seeds on a torus: rings about its axis that lie beside each other round the tube.
 #include "model/torus.h"
 
-#include "rt.h"
 #include "model/round.h"
-#include "math/text.h"
 
 Torus::Torus(int number, Real size, Real ring) : SoftObject(number, size, max(ring, leastRing(size))) {}
 
