@@ -112,6 +112,7 @@ private:
     void drop();
     void forgetUndone();
     bool goBack(Steps& from, Steps& to);
+    bool remakeWith(Real& value, Real to, Action action, Time now, const char* word);
     bool changeMeasure(int which, Real by, Action action, Time now);
     bool pairOf(SoftObject** a, SoftObject** b);
     static Colour newColour(int objects);

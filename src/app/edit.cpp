@@ -92,6 +92,24 @@ bool Editor::turn(int axis, Real degrees, Time now)
     return true;
 }
 
+// Gives a value of the selected object, called `word`, the value `to`, and makes its object anew. Without the memory for that
+// nothing is changed.
+bool Editor::remakeWith(Real& value, Real to, Action action, Time now, const char* word)
+{
+    if (!begin(action, now))
+        return false;
+    const Real was = value;
+    value = to;
+    if (!model_.remake(&current())) {
+        value = was;
+        drop();
+        say(SoftObject::resampleTrouble());
+        return false;
+    }
+    sayReal(word, to);
+    return true;
+}
+
 bool Editor::changeMeasure(int which, Real by, Action action, Time now)
 {
     Actor& actor = current();
@@ -113,17 +131,7 @@ bool Editor::changeMeasure(int which, Real by, Action action, Time now)
         say("expected ", expects);
         return false;
     }
-    if (!begin(action, now))
-        return false;
-    actor.measure[which] = to;
-    if (!model_.remake(&actor)) {
-        actor.measure[which] = was;
-        drop();
-        say(SoftObject::resampleTrouble());
-        return false;
-    }
-    sayReal(measure.word, to);
-    return true;
+    return remakeWith(actor.measure[which], to, action, now, measure.word);
 }
 
 bool Editor::size(Real by, Time now)
@@ -195,17 +203,7 @@ bool Editor::strengthen(Real by, Time now)
         sayReal("the strength stays at", was);
         return false;
     }
-    if (!begin(STRENGTH, now))
-        return false;
-    actor.strength = to;
-    if (!model_.remake(&actor)) {
-        actor.strength = was;
-        drop();
-        say(SoftObject::resampleTrouble());
-        return false;
-    }
-    sayReal("strength", to);
-    return true;
+    return remakeWith(actor.strength, to, STRENGTH, now, "strength");
 }
 
 bool Editor::stretch(Real by, Time now)
@@ -219,17 +217,7 @@ bool Editor::stretch(Real by, Time now)
         sayReal("the stretch stays at", was);
         return false;
     }
-    if (!begin(STRETCH, now))
-        return false;
-    actor.stretch.y = to;
-    if (!model_.remake(&actor)) {
-        actor.stretch.y = was;
-        drop();
-        say(SoftObject::resampleTrouble());
-        return false;
-    }
-    sayReal("stretch", to);
-    return true;
+    return remakeWith(actor.stretch.y, to, STRETCH, now, "stretch");
 }
 
 void Editor::describe(char* to, int size) const
