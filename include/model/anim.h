@@ -17,6 +17,18 @@ typedef uint64_t Time;
 // any two of them fits 16.16. What is too far from the eye for the Z-buffer is not drawn.
 constexpr int SPACE = 250;
 
+inline bool isInSpace(const Point& p)
+{
+    return absolute(p.x) <= Real(SPACE) && absolute(p.y) <= Real(SPACE) && absolute(p.z) <= Real(SPACE);
+}
+
+// The place itself, or if it is outside the space, a place at its edge.
+inline Point clampedToSpace(const Point& p)
+{
+    const Real edge(SPACE);
+    return {clamp(p.x, -edge, edge), clamp(p.y, -edge, edge), clamp(p.z, -edge, edge)};
+}
+
 // The range of the factor by which parents, pulses and keys together scale an object's size.
 constexpr Real SCALE_LEAST(0.0625);
 constexpr Real SCALE_MOST(4);

@@ -66,9 +66,7 @@ bool Editor::move(const Vector& by, Time now)
         return false;
     Motion& motion = moved().motion;
     const Actor* parent = motion.parent == 0 ? nullptr : model_.itemNumbered(motion.parent);
-    const Point to = motion.centre + (parent == nullptr ? by : Model::inverse(parent->pose, by));
-    const Real edge(SPACE);
-    motion.centre = {clamp(to.x, -edge, edge), clamp(to.y, -edge, edge), clamp(to.z, -edge, edge)};
+    motion.centre = clampedToSpace(motion.centre + (parent == nullptr ? by : Model::inverse(parent->pose, by)));
     return true;
 }
 

@@ -20,12 +20,6 @@ Point middleOf(const Model& model)
     return toPoint(sum);
 }
 
-bool within(const Point& p)
-{
-    const Real edge(SPACE);
-    return absolute(p.x) <= edge && absolute(p.y) <= edge && absolute(p.z) <= edge;
-}
-
 }  // namespace
 
 void Orbit::turn(Real round, Real over)
@@ -61,7 +55,7 @@ Camera Orbit::from(const Camera& camera, const Model& model)
     Camera moved = camera;
     // Shorten the distance on the same line until the eye is inside the space where it may be.
     Vector arm = matrix * ((camera.eye - pivot) * distance_);
-    for (int i = 0; i < SHORTER_MOST && !within(pivot + arm); ++i)
+    for (int i = 0; i < SHORTER_MOST && !isInSpace(pivot + arm); ++i)
         arm = arm * SHORTER;
     moved.eye = pivot + arm;
     moved.axes = turnedBy(matrix, camera.axes);

@@ -103,11 +103,6 @@ Keyed keyed(const Key* keys, const Motion& motion, Time time)
     return motion.smooth ? smoothly(row, index, s) : linearly(row.key(index), row.key(index + 1), s);
 }
 
-Real inSpace(Real a)
-{
-    return clamp(a, Real(-SPACE), Real(SPACE));
-}
-
 // The pose of an item relative to its parent.
 Pose poseAt(const Model& model, const Motion& motion, Time time)
 {
@@ -253,14 +248,14 @@ Pose Anim::poseOf(const Model& model, const Actor& actor, Time time)
     const Actor* const parent = actor.motion.parent == 0 ? nullptr : model.itemNumbered(actor.motion.parent);
     if (parent != nullptr) {
         // Limited before it is turned and scaled, so that no product overflows 16.16.
-        const Vector arm{inSpace(pose.place.x), inSpace(pose.place.y), inSpace(pose.place.z)};
+        const Vector arm = toVector(clampedToSpace(pose.place));
         pose.place = parent->pose.place + parent->pose.turn * (arm * parent->pose.scale);
         // Most items have no turn of their own, which saves a matrix product.
         const bool hasTurn = !sameTurn(pose.turn, Matrix::identity());
         pose.turn = hasTurn ? parent->pose.turn * pose.turn : parent->pose.turn;
         pose.scale = clamp(pose.scale * parent->pose.scale, SCALE_LEAST, SCALE_MOST);
     }
-    pose.place = {inSpace(pose.place.x), inSpace(pose.place.y), inSpace(pose.place.z)};
+    pose.place = clampedToSpace(pose.place);
     return pose;
 }
 

@@ -138,9 +138,7 @@ void Model::remove(Actor* item)
                 const Vector from = motion.centre - parent->pose.place;
                 motion.centre = toPoint(inverse(parent->pose, from));
             }
-            motion.centre = {clamp(motion.centre.x, Real(-SPACE), Real(SPACE)),
-                             clamp(motion.centre.y, Real(-SPACE), Real(SPACE)),
-                             clamp(motion.centre.z, Real(-SPACE), Real(SPACE))};
+            motion.centre = clampedToSpace(motion.centre);
         }
         items_[i - 1] = items_[i];
     }
@@ -204,8 +202,7 @@ bool Model::setParent(Actor* item, int parent)
     };
     const Vector added = within(before) - toVector(motion.centre);
     const Vector centre = within(carrier) - added;
-    motion.centre = {clamp(centre.x, Real(-SPACE), Real(SPACE)), clamp(centre.y, Real(-SPACE), Real(SPACE)),
-                     clamp(centre.z, Real(-SPACE), Real(SPACE))};
+    motion.centre = clampedToSpace(toPoint(centre));
     motion.parent = carrier == nullptr ? 0 : parent;
 
     // Sort so that parents come before their children: for each item in turn, first whatever carries it.

@@ -16,12 +16,6 @@ void nameInRow(Actor& actor, const Row& row, int i)
     memcpy(actor.name, name, NAME_ROOM);
 }
 
-bool isInSpace(const Point& p)
-{
-    const Real edge(SPACE);
-    return absolute(p.x) <= edge && absolute(p.y) <= edge && absolute(p.z) <= edge;
-}
-
 }  // namespace
 
 // --- Objects and groups
