@@ -18,6 +18,9 @@ public:
         oversampled_ = oversampled;
     }
 
+    // Writes the number of frames a second, rounded to `decimals` places. Returns the length.
+    int formatFps(char* to, int size, int decimals) const;
+
     // Writes lines of "name: value" to `to` (at least 1024 bytes); "per frame" values are averages over the frames shown.
     void format(char* to, int size) const;
 
@@ -35,6 +38,7 @@ private:
         int decimals;
     };
     static constexpr int LINES = 12;
+    Line fps() const;
     void lines(Line* to) const;
 
     uint32_t frames_ = 0;

@@ -333,14 +333,10 @@ void Demo::sayResults(uint64_t ticks)
 {
     char text[1024];
     if (options_.benchmark) {
-        // The divisor of a quotient must fit 32 bits: for runs longer than an hour both sides are halved until it does.
-        uint64_t hertz = machine::CLOCK_HZ, divisor = ticks;
-        for (; divisor >> 32 != 0; divisor >>= 1)
-            hertz >>= 1;
         char scene[100], spacing[24], rate[32], seconds[32];
         plainText(scene, sizeof scene, options_.modelFile == nullptr ? "four spheres" : options_.modelFile);
         formatReal(spacing, sizeof spacing, spacing_);
-        formatQuotient(rate, sizeof rate, static_cast<uint64_t>(frames_) * hertz, static_cast<uint32_t>(divisor), 2);
+        stats_.formatFps(rate, sizeof rate, 2);
         formatQuotient(seconds, sizeof seconds, ticks, machine::CLOCK_HZ, 2);
         snprintf(text, sizeof text, "%s, spacing %s%s: %s frames a second (%d frames in %s seconds)\n", scene, spacing,
                  options_.printed ? ", as printed" : "", rate, frames_, seconds);

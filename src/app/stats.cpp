@@ -16,15 +16,27 @@ void Stats::addFrame(const Counts& counts)
     unsettled_ += counts.unsettled;
 }
 
-void Stats::lines(Line* to) const
+// The divisor of a quotient must fit 32 bits: for long runs numerator and divisor are halved until it does.
+Stats::Line Stats::fps() const
 {
-    // The divisor of a quotient must fit 32 bits: for long runs numerator and divisor are halved until it does.
     uint64_t ticks = ticks_;
     uint64_t hertz = machine::CLOCK_HZ;
     while (ticks >> 32 != 0) {
         ticks >>= 1;
         hertz >>= 1;
     }
+    return {"fps", frames_ * hertz, static_cast<uint32_t>(ticks), 3};
+}
+
+int Stats::formatFps(char* to, int size, int decimals) const
+{
+    const Line line = fps();
+    return formatQuotient(to, size, line.top, line.bottom, decimals);
+}
+
+void Stats::lines(Line* to) const
+{
+    // Here likewise.
     uint64_t updates = updated_, iterations = iterations_;
     while (updates >> 32 != 0) {
         updates >>= 1;
@@ -33,7 +45,7 @@ void Stats::lines(Line* to) const
     const Line all[LINES] = {
         {"frames", frames_, 1, 0},
         {"seconds", ticks_, machine::CLOCK_HZ, 3},
-        {"fps", frames_ * hertz, static_cast<uint32_t>(ticks), 3},
+        fps(),
         {"seeds", static_cast<uint64_t>(seeds_), 1, 0},
         {"oversampled seeds", static_cast<uint64_t>(oversampled_), 1, 0},
         {"updated per frame", updated_, frames_, 1},
