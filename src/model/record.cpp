@@ -108,10 +108,10 @@ bool Model::restore(const Record* record)
     then.light = record->light;
     then.mixed = record->mixed;
     memcpy(then.title, record->title, sizeof title);
-    const bool seenAnew = !(light == record->light) || !(camera.eye == record->camera.eye);
+    const bool litAnew = !(light == record->light);
     swap(then);
-    // The objects taken over still have the brightness and the view of the previous light and eye.
-    if (seenAnew)
+    // The objects taken over still have the brightness of the previous light. (Who draws them sees whether the eye has moved.)
+    if (litAnew)
         recalcAll();
     const Record::Pair* const end = record->pair() + record->pairs;
     for (const Record::Pair* pair = record->pair(); pair < end; ++pair) {
