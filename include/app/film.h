@@ -40,6 +40,10 @@ private:
     void put32(uint32_t value);
     void putRow(const uint8_t* row);
     int putChanges(const uint8_t* row, const uint8_t* before);
+    int putColours(const uint8_t* dac);
+    int putWhole(const uint8_t* picture);
+    int putDifference(const uint8_t* picture);
+    uint8_t* beginChunk();
     void endChunk(uint8_t* start, int kind);
 
     int file_ = -1;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr uint32_t HEADER_BYTES = 128;
 constexpr uint32_t FRAME_HEADER_BYTES = 16;
+constexpr uint32_t CHUNK_HEADER_BYTES = 6;
 constexpr int FILE_MARK = 0xaf11;
 constexpr int FRAME_MARK = 0xf1fa;
 constexpr int COLOURS = 11;  // kinds of chunks: the palette, changes of rows, a whole picture
@@ -192,6 +193,14 @@ int Film::putChanges(const uint8_t* row, const uint8_t* before)
     return *packets;
 }
 
+// Begins a chunk, with room for its size and kind, and returns its start.
+uint8_t* Film::beginChunk()
+{
+    uint8_t* const start = at_;
+    at_ += CHUNK_HEADER_BYTES;
+    return start;
+}
+
 // Ends a chunk that begins at `start`: pads it to an even length, and fills in its size and kind.
 void Film::endChunk(uint8_t* start, int kind)
 {
@@ -204,47 +213,57 @@ void Film::endChunk(uint8_t* start, int kind)
     at_ = end;
 }
 
+// Stores all 256 colours, unless they are those stored last. Returns the number of chunks.
+int Film::putColours(const uint8_t* dac)
+{
+    if (frames_ > 0 && memcmp(dac, dac_, sizeof dac_) == 0)
+        return 0;
+    uint8_t* const start = beginChunk();
+    put16(1);  // one packet,
+    put8(0);   // from the first colour on,
+    put8(0);   // of all 256
+    memcpy(at_, dac, sizeof dac_);
+    at_ += sizeof dac_;
+    memcpy(dac_, dac, sizeof dac_);
+    endChunk(start, COLOURS);
+    return 1;
+}
+
+// Stores the first picture. Returns the number of chunks.
+int Film::putWhole(const uint8_t* picture)
+{
+    uint8_t* const start = beginChunk();
+    for (int y = 0; y < HEIGHT; ++y)
+        putRow(picture + y * WIDTH);
+    endChunk(start, WHOLE);
+    return 1;
+}
+
+// Stores the changes of a picture against the last one, if there are any. Returns the number of chunks.
+int Film::putDifference(const uint8_t* picture)
+{
+    int top = 0, bottom = HEIGHT;
+    while (top < HEIGHT && memcmp(picture + top * WIDTH, before_ + top * WIDTH, WIDTH) == 0)
+        ++top;
+    while (bottom > top && memcmp(picture + (bottom - 1) * WIDTH, before_ + (bottom - 1) * WIDTH, WIDTH) == 0)
+        --bottom;
+    if (top == bottom)
+        return 0;
+    uint8_t* const start = beginChunk();
+    put16(static_cast<uint32_t>(top));
+    put16(static_cast<uint32_t>(bottom - top));
+    for (int y = top; y < bottom; ++y)
+        putChanges(picture + y * WIDTH, before_ + y * WIDTH);
+    endChunk(start, CHANGES);
+    return 1;
+}
+
 bool Film::writeFrame(const uint8_t* picture, const uint8_t* dac)
 {
     const bool first = frames_ == 0;
-    int chunks = 0;
     at_ = room_ + FRAME_HEADER_BYTES;
-    if (first || memcmp(dac, dac_, sizeof dac_) != 0) {
-        uint8_t* const start = at_;
-        at_ += 6;
-        put16(1);  // one packet,
-        put8(0);   // from the first colour on,
-        put8(0);   // of all 256
-        memcpy(at_, dac, sizeof dac_);
-        at_ += sizeof dac_;
-        memcpy(dac_, dac, sizeof dac_);
-        endChunk(start, COLOURS);
-        ++chunks;
-    }
-    uint8_t* const start = at_;
-    at_ += 6;
-    if (first) {
-        for (int y = 0; y < HEIGHT; ++y)
-            putRow(picture + y * WIDTH);
-        endChunk(start, WHOLE);
-        ++chunks;
-    } else {
-        int top = 0, bottom = HEIGHT;
-        while (top < HEIGHT && memcmp(picture + top * WIDTH, before_ + top * WIDTH, WIDTH) == 0)
-            ++top;
-        while (bottom > top && memcmp(picture + (bottom - 1) * WIDTH, before_ + (bottom - 1) * WIDTH, WIDTH) == 0)
-            --bottom;
-        at_ = start;
-        if (top < bottom) {
-            at_ += 6;
-            put16(static_cast<uint32_t>(top));
-            put16(static_cast<uint32_t>(bottom - top));
-            for (int y = top; y < bottom; ++y)
-                putChanges(picture + y * WIDTH, before_ + y * WIDTH);
-            endChunk(start, CHANGES);
-            ++chunks;
-        }
-    }
+    int chunks = putColours(dac);
+    chunks += first ? putWhole(picture) : putDifference(picture);
     if (first) {
         memcpy(first_, picture, WIDTH * HEIGHT);
         memcpy(firstDac_, dac, sizeof firstDac_);
