@@ -177,6 +177,9 @@ private:
     static bool isLike(const Actor& a, const Actor& b);
     const SoftObject* alike(int i) const;
     bool layOutHollows();
+    void handOnChildren(const Actor& item);
+    void forgetInCamera(const Actor& item);
+    void sortItems();
     bool makeItems(const Record* record, Model& then) const;
     bool copyKeys(const Record* record);
     void unlinkAll();

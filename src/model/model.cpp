@@ -121,38 +121,44 @@ const char* Model::expects(const Actor& item)
     return near ? nullptr : "a stretch that leaves all of it within 100 units of its centre";
 }
 
+// Lets the parent of an item carry the item's children. The pose of the item becomes part of their centres.
+void Model::handOnChildren(const Actor& item)
+{
+    const Actor* const parent = itemNumbered(item.motion.parent);
+    for (int i = 0; i < itemCount_; ++i) {
+        Motion& motion = items_[i]->motion;
+        if (motion.parent != item.number)
+            continue;
+        motion.parent = item.motion.parent;
+        const Vector arm = item.pose.turn * (toVector(motion.centre) * item.pose.scale);
+        motion.centre = item.pose.place + arm;
+        if (parent != nullptr)
+            motion.centre = toPoint(inverse(parent->pose, motion.centre - parent->pose.place));
+        motion.centre = clampedToSpace(motion.centre);
+    }
+}
+
+// An eye that loses its group stands still, and one that looked at the item goes on looking at its last place.
+void Model::forgetInCamera(const Actor& item)
+{
+    if (item.number == camera.carrier)
+        camera.carrier = 0;
+    if (camera.looks == Camera::AT_ITEM && item.number == camera.item) {
+        camera.looks = Camera::AT_POINT;
+        camera.target = item.pose.place;
+    }
+}
+
 void Model::remove(Actor* item)
 {
-    int index = 0;
-    while (items_[index] != item)
-        ++index;
-    for (int i = index + 1; i < itemCount_; ++i) {
-        Motion& motion = items_[i]->motion;
-        if (item->number == motion.parent) {
-            // The pose of the removed item becomes part of the centres of its children.
-            motion.parent = item->motion.parent;
-            const Vector arm = item->pose.turn * (toVector(motion.centre) * item->pose.scale);
-            motion.centre = item->pose.place + arm;
-            const Actor* parent = itemNumbered(motion.parent);
-            if (parent != nullptr) {
-                const Vector from = motion.centre - parent->pose.place;
-                motion.centre = toPoint(inverse(parent->pose, from));
-            }
-            motion.centre = clampedToSpace(motion.centre);
-        }
-        items_[i - 1] = items_[i];
-    }
-    --itemCount_;
-
-    // An eye that loses its group stands still, and one that looked at the removed item goes on looking at its last place.
-    if (item->number == camera.carrier)
-        camera.carrier = 0;
-    if (camera.looks == Camera::AT_ITEM && item->number == camera.item) {
-        camera.looks = Camera::AT_POINT;
-        camera.target = item->pose.place;
-    }
-
+    handOnChildren(*item);
+    forgetInCamera(*item);
     removeKeys(item);
+    int left = 0;
+    for (int i = 0; i < itemCount_; ++i)
+        if (items_[i] != item)
+            items_[left++] = items_[i];
+    itemCount_ = left;
 
     if (item->object != nullptr) {
         int after = 0;
@@ -204,8 +210,13 @@ bool Model::setParent(Actor* item, int parent)
     const Vector centre = within(carrier) - added;
     motion.centre = clampedToSpace(toPoint(centre));
     motion.parent = carrier == nullptr ? 0 : parent;
+    sortItems();
+    return true;
+}
 
-    // Sort so that parents come before their children: for each item in turn, first whatever carries it.
+// Sorts the items so that parents come before their children: for each item in turn, first whatever carries it.
+void Model::sortItems()
+{
     Actor* ordered[OBJECTS_MOST + GROUPS_MOST];
     int count = 0;
     const auto placed = [&](const Actor* what) {
@@ -228,7 +239,6 @@ bool Model::setParent(Actor* item, int parent)
         if (items_[i]->object != nullptr)
             actors_[count_++] = items_[i];
     bodiesKnown_ = false;
-    return true;
 }
 
 bool Model::remake(Actor* item)
