@@ -78,12 +78,18 @@ const char* Demo::prepare(int* status)
     placeEye();
     view_.setPrinted(options_.printed);
     palette_.make(model_, options_.grey, options_.printed);
+    return openFiles(status);
+}
+
+// Opens the files that the run writes. Returns null, or one line that says what is wrong; `*status` is then the exit status.
+const char* Demo::openFiles(int* status)
+{
     if (options_.recordFile != nullptr) {
         const char* problem = csv_.check(options_.recordFile, status);
         if (problem != nullptr)
             return problem;
-        *status = 1;
     }
+    *status = 1;
     if (options_.dumpDirectory != nullptr) {
         const char* problem = dump_.open(options_.dumpDirectory);
         if (problem != nullptr)

@@ -31,6 +31,7 @@ private:
     SurfaceMaker surfaceMaker() const { return options_.printed ? makeReport98 : makeEngine; }
     void begin();
     const char* prepare(int* status);
+    const char* openFiles(int* status);
     void tellSeeds();
     [[noreturn]] void fail(int status, const char* line);
     bool finished() const;
