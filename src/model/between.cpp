@@ -146,7 +146,10 @@ bool SoftObject::layOutBetween(int i, int other)
     Seed& extra = seed(i + 1);
     if (extra.neighbour == other)
         return false;
-    layOutExtra(laid_, i >> 1, ringOf(i >> 1), extra);
+    Layout plain = laid_.plain();
+    layOutExtra(plain, i >> 1, ringOf(i >> 1), extra);
+    if (warped_)
+        warpExtra(plain, extra);
     if (other != one.neighbour) {
         extra.neighbour = other;
         extra.root = one.root;

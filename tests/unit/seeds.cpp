@@ -334,6 +334,24 @@ TEST(oversampled_seeds_need_no_memory_until_they_are_needed)
         CHECK(ball.extra(i) != nullptr);
 }
 
+TEST(an_oversampled_seed_of_a_warped_object_finds_back_to_its_place)
+{
+    Scene scene;
+    SoftObject& cone = scene.add(new Cone(1, real(16), real(10), real(30)), 0, 0, 0, 2);
+    cone.setWarp({{real(0.3), real(40), real(50)}});
+    int lost = 0, moved = 0;
+    for (int i = 0; i < cone.seedSlots() - 2; i += 2) {
+        const int neighbour = cone.regular(i).neighbour, next = i + 2;
+        if (neighbour < 0 || neighbour == next || cone.regular(i).root != cone.regular(next).root)
+            continue;
+        const Vec before = vec(cone.root(cone.seed(i + 1).root) + cone.seed(i + 1).path);
+        moved += cone.layOutBetween(i, next) && cone.layOutBetween(i, neighbour);
+        lost += size(vec(cone.root(cone.seed(i + 1).root) + cone.seed(i + 1).path) - before) > 1e-3;
+    }
+    CHECK(moved > 100);
+    SAME(lost, 0);
+}
+
 TEST(no_cell_of_a_cone_reaches_across_a_corner)
 {
     const double sizes[][3] = {{30, 6, 30}, {12, 30, 20}, {22, 10, 24}, {9, 26, 40}};
