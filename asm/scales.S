@@ -42,7 +42,7 @@
 #define FACTOR_SIZE 16
 #define LENS_NEAR  76
 #define LENS_FAR   423
-#define LENS_NEXT  1
+#define LENS_NEAREST 1
 #define FACTOR_MOST 0xffff
 #define LENS_FINENESS 16
 #define LENS_STEPS ((LENS_FAR - LENS_NEAR) * LENS_FINENESS)
@@ -771,12 +771,12 @@ special:
         addl    $KIND_ROWS, KIND(%esp)
         jmp     not_special
 
-        // if (depth < LENS_NEXT * 256 || depth >= LENS_NEAR * 256) break
+        // if (depth < LENS_NEAREST * 256 || depth >= LENS_NEAR * 256) break
         .balign 4
 near:
         leal    LENS_NEAR*256(%ebp), %ecx
         sarl    $1, %eax
-        cmpl    $LENS_NEXT*256, %ecx
+        cmpl    $LENS_NEAREST*256, %ecx
         jl      leave
         cmpl    $LENS_NEAR*256, %ecx
         jge     leave

@@ -142,13 +142,13 @@ struct Lens {
 };
 
 // Computes the factors of a depth nearer than the table; scales that near are few, and large. Returns false when the depth is
-// not within LENS_NEXT..LENS_NEAR or the factors are too large for the products of the loop. The zx and zy of the table are
+// not within LENS_NEAREST..LENS_NEAR or the factors are too large for the products of the loop. The zx and zy of the table are
 // larger than these, so the bound given to limitTilts() holds for these as well.
-constexpr int LENS_NEXT = 1;
+constexpr int LENS_NEAREST = 1;
 constexpr int32_t FACTOR_MOST = 0xffff;
 inline bool nearFactors(const Lens& lens, int32_t depth, Factors* near)
 {
-    if (depth < LENS_NEXT * 256 || depth >= LENS_NEAR * 256)
+    if (depth < LENS_NEAREST * 256 || depth >= LENS_NEAR * 256)
         return false;
     near->x = lens.focalX * 256 / depth;
     near->y = lens.focalY * 256 / depth;

@@ -26,8 +26,10 @@ public:
 
     ~View();
 
-    // Allocates the buffers. Returns false when there is no memory.
-    bool open();
+    // Allocates the buffers. With `report98` scales are projected as in the first versions: large and clipped ones with their exact
+    // depth, all others with depths in steps of 1/8 unit. The pictures of the report's method are compared byte for byte between
+    // versions. Returns false when there is no memory.
+    bool open(bool report98 = false);
 
     // Sets the camera, with focal lengths of FOCAL_LEAST..FOCAL_MOST pixels (model/scene.h); below about 15, steep scales get wrong
     // depths. A camera that has only moved or turned costs nothing, because the table of factors stays valid.
@@ -37,15 +39,6 @@ public:
     // Whether each voxel is drawn as a single pixel instead of a scale (the report's '*' key).
     void setPixels(bool pixels) { pixels_ = pixels; }
     bool pixels() const { return pixels_; }
-
-    // With `printed`, scales are projected as in the first versions: large and clipped ones with their exact depth, all others
-    // with depths in steps of 1/8 unit. The pictures of the report's method are compared byte for byte between versions.
-    void setPrinted(bool printed)
-    {
-        printed_ = printed;
-        if (factors_ != nullptr)
-            makeLens();
-    }
 
     // Starts a frame: clears the pixels that the last frame touched.
     void begin();
@@ -154,7 +147,7 @@ private:
     int32_t focalX_ = 0, focalY_ = 0, centreX_ = 0, centreY_ = 0;  // pixels, 12 fraction bits
     Lens lens_{};
     bool pixels_ = false;
-    bool printed_ = false;
+    bool report98_ = false;
     uint8_t* frame_ = nullptr;
     uint16_t* zbuffer_ = nullptr;
     Factors* factors_ = nullptr;

@@ -43,7 +43,7 @@ void formatSettings(char* to, size_t size, const Options& options, Real spacing)
     if (options.holds())
         snprintf(held, sizeof held, " F:%d", static_cast<int>(options.hold));
     snprintf(to, size, "S:%s%s%s%s%s%s%s", number, held, options.interactive ? " I" : "", options.grey ? " G" : "",
-             options.printed ? " P" : "", options.retrace ? " V" : "", options.noPresent ? " X" : "");
+             options.report98 ? " P" : "", options.retrace ? " V" : "", options.noPresent ? " X" : "");
 }
 
 // Writes a field in quotation marks, with quotation marks inside it doubled. A text that is too long is cut off.

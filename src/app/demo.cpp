@@ -58,7 +58,7 @@ const char* Demo::prepare(int* status)
     } else if (!model_.makeFourSpheres()) {
         return "not enough memory for the model";
     }
-    if (!options_.printed)
+    if (!options_.report98)
         Anim::chooseRiders(model_);
     Anim::move(model_, 0);
     if (options_.holds())
@@ -73,11 +73,10 @@ const char* Demo::prepare(int* status)
     }
     layTicks_ = machine::clock() - before;
     voxels_ = allocate<VoxelList>(1);
-    if (voxels_ == nullptr || !view_.open())
+    if (voxels_ == nullptr || !view_.open(options_.report98))
         return "not enough memory for the picture";
     placeEye();
-    view_.setPrinted(options_.printed);
-    palette_.make(model_, options_.grey, options_.printed);
+    palette_.make(model_, options_.grey, options_.report98);
     return openFiles(status);
 }
 
@@ -195,7 +194,7 @@ void Demo::resample(Real spacing)
 void Demo::changed()
 {
     Anim::move(model_, shown_);
-    palette_.make(model_, options_.grey, options_.printed);
+    palette_.make(model_, options_.grey, options_.report98);
     paletteStale_ = true;
     stats_.setSeeds(model_.seeds(), model_.oversampledSeeds());
 }
@@ -302,7 +301,7 @@ bool Demo::drawObjects(FrameContext& frame, const int* order)
         } while (next != 0);
         frame.hider = &view_;
     }
-    if (!options_.printed)
+    if (!options_.report98)
         view_.closeGaps(model_.coarsest(), &model_, &palette_);
     return true;
 }
@@ -345,7 +344,7 @@ void Demo::sayResults(uint64_t ticks)
         stats_.formatFps(rate, sizeof rate, 2);
         formatQuotient(seconds, sizeof seconds, ticks, machine::CLOCK_HZ, 2);
         snprintf(text, sizeof text, "%s, spacing %s%s: %s frames a second (%d frames in %s seconds)\n", scene, spacing,
-                 options_.printed ? ", as printed" : "", rate, frames_, seconds);
+                 options_.report98 ? ", as printed" : "", rate, frames_, seconds);
     } else {
         stats_.format(text, sizeof text);
     }

@@ -28,7 +28,7 @@ public:
 
 private:
     // --- The loop (demo.cpp)
-    SurfaceMaker surfaceMaker() const { return options_.printed ? makeReport98 : makeEngine; }
+    SurfaceMaker surfaceMaker() const { return options_.report98 ? makeReport98 : makeEngine; }
     void begin();
     const char* prepare(int* status);
     const char* openFiles(int* status);

@@ -75,7 +75,7 @@ struct Flag {
     bool Options::*value;
 };
 const Flag FLAGS[] = {
-    {'I', &Options::interactive}, {'G', &Options::grey},      {'P', &Options::printed}, {'V', &Options::retrace},
+    {'I', &Options::interactive}, {'G', &Options::grey},      {'P', &Options::report98}, {'V', &Options::retrace},
     {'X', &Options::noPresent},   {'B', &Options::benchmark}, {'?', &Options::help},
 };
 struct Name {

@@ -13,8 +13,7 @@ using machine::WIDTH;
 
 namespace {
 
-constexpr int32_t NEAREST = 1 << 8;            // 1 unit
-constexpr int32_t FARTHEST = 511 << 8;         // 16-bit depths of 1/128 unit end at 512 units
+constexpr int32_t FARTHEST = 511 << 8;  // 1/256 unit; 16-bit depths of 1/128 unit end at 512 units
 // hides() looks at every third pixel of every third row: an object that shows only between them is narrower than a scale.
 constexpr int HIDING_STEP = 3;
 // Of views with a shorter focal length the model is not asked, pixels.
@@ -38,8 +37,9 @@ View::~View()
     free(factors_);
 }
 
-bool View::open()
+bool View::open(bool report98)
 {
+    report98_ = report98;
     frame_ = allocate<uint8_t>(WIDTH * (HEIGHT + ROWS_BELOW));
     zbuffer_ = allocate<uint16_t>(WIDTH * HEIGHT);
     factors_ = allocate<Factors>(LENS_STEPS);
@@ -79,9 +79,9 @@ void View::makeLens()
     lens_.centreX = centreX_ + HALF;
     lens_.centreY = centreY_ + HALF;
     for (int i = 0; i < LENS_STEPS; ++i) {
-        // The middle of the step of 1/16 unit or, for the printed method, of 1/8 unit.
+        // The middle of the step of 1/16 unit or, for the report's method, of 1/8 unit.
         constexpr int HALVES = 2 * LENS_FINENESS;
-        const int32_t z = HALVES * LENS_NEAR + (printed_ ? 2 * (i | 1) : 2 * i + 1);
+        const int32_t z = HALVES * LENS_NEAR + (report98_ ? 2 * (i | 1) : 2 * i + 1);
         Factors& f = factors_[i];
         f.x = (focalX_ * HALVES + z / 2) / z;
         f.y = (focalY_ * HALVES + z / 2) / z;
@@ -173,7 +173,7 @@ bool View::hides(const int32_t place[3], int32_t radius) const
 bool View::place(const Voxel& voxel, Placed* placed) const
 {
     const int32_t x = wrappedSum(lens_.x, voxel.x), y = wrappedSum(lens_.y, voxel.y), z = wrappedSum(lens_.z, voxel.z);
-    if (z < NEAREST || z > FARTHEST)
+    if (z < LENS_NEAREST * 256 || z > FARTHEST)
         return false;
     // The quotients of a voxel far off the screen might overflow below.
     const int32_t side = z * 16;
@@ -251,7 +251,7 @@ bool View::project(const Voxel& voxel, Scale* scale) const
     return true;
 }
 
-// Whether a voxel is small, at a medium distance, and wholly on the screen. With the printed method only such voxels are projected
+// Whether a voxel is small, at a medium distance, and wholly on the screen. With the report's method only such voxels are projected
 // with the loop's table.
 bool View::ordinary(const Voxel& voxel) const
 {
@@ -322,7 +322,7 @@ int View::showRun(const uint8_t* ramp, const Voxel* from, const Voxel* to, bool 
     int undrawn = 0;
     lens_.ramp = ramp;
     for (const Voxel* at = from; at < to; ++at) {
-        if (printed_) {
+        if (report98_) {
             if (loop && ordinary(*at) && drawScales(&lens_, at, at + 1) > at)
                 continue;
         } else if (loop) {

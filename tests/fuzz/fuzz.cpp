@@ -119,7 +119,7 @@ bool sameShape(const Actor& a, const Actor& b)
 
 const Time TIMES[] = {0, 65536 / 10, 65536 * 3 + 777, 12345678, 65536ull * 3599, 65536ull * 86400 * 30, 0xffffffffffffull};
 
-void draw(Model& model, bool printed)
+void draw(Model& model, bool report98)
 {
     static VoxelList list;
     static Palette palette;
@@ -129,9 +129,9 @@ void draw(Model& model, bool printed)
     long seeds = 0, left = 150000;
     for (int i = 0; i < model.count(); ++i)
         seeds += model.actor(i).object->seeds();
-    printed = printed && seeds * model.count() < 200000;
-    palette.make(model, false, printed);
-    must(!printed || model.resample(Real(6), makeReport98), "no memory for seeds");
+    report98 = report98 && seeds * model.count() < 200000;
+    palette.make(model, false, report98);
+    must(!report98 || model.resample(Real(6), makeReport98), "no memory for seeds");
     Counts counts{};
     for (Time time : TIMES) {
         if (left < 0)

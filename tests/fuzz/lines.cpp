@@ -88,7 +88,7 @@ private:
             const size_t which = random_.below(7);
             put(word, flags[which]);
             Options& o = line_.wanted;
-            (which == 0 ? o.interactive : which == 1 ? o.grey : which == 2 ? o.printed : which == 3 ? o.retrace
+            (which == 0 ? o.interactive : which == 1 ? o.grey : which == 2 ? o.report98 : which == 3 ? o.retrace
                                                                        : which == 4 ? o.noPresent
                                                                        : which == 5 ? o.benchmark : o.help) = true;
             if (slip()) {
@@ -263,7 +263,7 @@ void parse(bool spoiled, unsigned long* good, unsigned long* refused)
             failed("out of range", said);
         const Options& w = line.wanted;
         const int32_t seconds = w.benchmark && w.seconds == 0 && w.frames == 0 ? BENCHMARK_SECONDS : w.seconds;
-        if (line.good && (options.interactive != w.interactive || options.grey != w.grey || options.printed != w.printed ||
+        if (line.good && (options.interactive != w.interactive || options.grey != w.grey || options.report98 != w.report98 ||
                           options.help != w.help || options.retrace != w.retrace || options.noPresent != w.noPresent ||
                           options.spacing != w.spacing || options.frames != w.frames || options.seconds != seconds ||
                           options.benchmark != w.benchmark || options.rate != w.rate || options.hold != w.hold ||

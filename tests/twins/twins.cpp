@@ -182,7 +182,7 @@ static_assert(inasm::LENS_X == offsetof(Lens, x) && inasm::LENS_Y == offsetof(Le
               inasm::FOCALY == offsetof(Lens, focalY) && inasm::LENS_WORDS * 4 == sizeof(Lens), "Lens");
 static_assert(inasm::LENS_NEAR == LENS_NEAR && inasm::LENS_FINENESS == LENS_FINENESS &&
                   inasm::FACTOR_SIZE * LENS_FINENESS == 256 && inasm::LENS_FAR == LENS_FAR && inasm::LENS_STEPS == LENS_STEPS &&
-                  inasm::STEEPEST == STEEPEST && inasm::LARGEST == LARGEST && inasm::LENS_NEXT == LENS_NEXT &&
+                  inasm::STEEPEST == STEEPEST && inasm::LARGEST == LARGEST && inasm::LENS_NEAREST == LENS_NEAREST &&
                   inasm::FACTOR_MOST == FACTOR_MOST && inasm::AVERAGED == AVERAGED && inasm::DOMED == DOMED &&
                   inasm::DOME_MOST == DOME_MOST && inasm::WIDEST_PIXEL == WIDEST_PIXEL && inasm::STEP_OF == STEP_OF &&
                   inasm::STEP_BIAS == STEP_BIAS &&
@@ -697,7 +697,7 @@ bool isAllowed(const Lens& lens, const Voxel& v)
 // Whether the loop has factors for a depth, 1/256 unit.
 bool hasFactors(int32_t depth)
 {
-    return depth >= LENS_NEXT * 256 && depth < LENS_FAR * 256 &&
+    return depth >= LENS_NEAREST * 256 && depth < LENS_FAR * 256 &&
            (depth >= LENS_NEAR * 256 || larger(optics.focalX, optics.focalY) * 4096 * 256 / depth < FACTOR_MOST + 1);
 }
 

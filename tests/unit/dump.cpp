@@ -194,7 +194,7 @@ TEST(a_dumped_frame)
 }
 
 // Returns the lines of a dump's text from the blends on.
-static std::vector<std::string> paintLines(bool grey, bool printed)
+static std::vector<std::string> paintLines(bool grey, bool report98)
 {
     const std::string directory = scratch();
     Model model;
@@ -207,7 +207,7 @@ static std::vector<std::string> paintLines(bool grey, bool printed)
     View view;
     CHECK(view.open());
     Palette palette;
-    palette.make(model, grey, printed);
+    palette.make(model, grey, report98);
     Dump dump;
     CHECK(dump.open(directory.c_str()) == nullptr);
     CHECK(dump.frame(0, 0, 10, model, view, palette, grey) == nullptr);

@@ -152,7 +152,7 @@ struct Scene {
     std::unique_ptr<Bodies> bodies = std::make_unique<Bodies>();
     Counts counts{};
     bool found = false;  // the bodies are those of the links as they are
-    bool printed = false;
+    bool report98 = false;
     Point eye{Real(0), Real(0), Real(-120)};
     ViewAxes axes;
     const Hider* hider = nullptr;
@@ -174,7 +174,7 @@ struct Scene {
     {
         objects.emplace_back(object);
         object->moveTo(point(x, y, z));
-        if (!object->resample(real(spacing), printed ? makeReport98 : makeEngine))
+        if (!object->resample(real(spacing), report98 ? makeReport98 : makeEngine))
             std::abort();
         ramps.push_back(ramp);
         object->setRamp(ramps.back().data() + SHADING_MOST);

@@ -59,7 +59,7 @@ std::vector<std::string> spellings(char letter, const std::string& rest = "")
 TEST(defaults)
 {
     const Options o = good({});
-    CHECK(!o.interactive && !o.grey && !o.printed && !o.help);
+    CHECK(!o.interactive && !o.grey && !o.report98 && !o.help);
     NEAR(number(o.spacing), 2, 0);
     SAME(o.frames, 0);
     SAME(o.seconds, 0);
@@ -74,7 +74,7 @@ TEST(switches_in_every_spelling)
     for (const std::string& s : spellings('G'))
         CHECK(good({s}).grey);
     for (const std::string& s : spellings('P'))
-        CHECK(good({s}).printed);
+        CHECK(good({s}).report98);
     for (const std::string& s : spellings('?'))
         CHECK(good({s}).help);
     for (const std::string& s : spellings('S', ":0.5"))
@@ -128,7 +128,7 @@ TEST(ranges_to_their_ends)
 TEST(several_together)
 {
     const Options o = good({"/g", "-P", "/s:4", "/N:10", "/D:out"});
-    CHECK(o.grey && o.printed && !o.interactive);
+    CHECK(o.grey && o.report98 && !o.interactive);
     NEAR(number(o.spacing), 4, 0);
     SAME(o.frames, 10);
     // The last of two values counts.
@@ -163,7 +163,7 @@ TEST(habits)
 {
     // Several switches in one word, '=' for ':', and a number directly after its letter are accepted.
     Options o = good({"/G/I/s2/N=5/r35"});
-    CHECK(o.grey && o.interactive && !o.printed && o.rateGiven);
+    CHECK(o.grey && o.interactive && !o.report98 && o.rateGiven);
     NEAR(number(o.spacing), 2, 0);
     SAME(o.frames, 5);
     SAME(o.rate, 35);

@@ -175,10 +175,10 @@ void look(Scene& scene, Errors& errors, Missing& missing, const std::vector<cons
 }
 
 // Two equal balls on the x axis, linked.
-Scene pair(double size, double apart, bool printed)
+Scene pair(double size, double apart, bool report98)
 {
     Scene scene;
-    scene.printed = printed;
+    scene.report98 = report98;
     scene.ball(size, -apart / 2, 0, 0);
     scene.ball(size, apart / 2, 0, 0);
     scene.link(0, 1);
@@ -659,13 +659,13 @@ TEST(a_turned_eye_sees_what_a_turned_scene_shows)
 {
     // A ring and two balls in front of an unturned eye must give the same scales as the scene turned as a whole together with the
     // eye. The report's own methods do not depend on the turn either.
-    for (bool printed : {false, true}) {
+    for (bool report98 : {false, true}) {
         Random random;
         const Matrix by = Matrix::rotation(vector(1, 2, -1), 0x15000000u);
         Scene straight, turned;
         for (Scene* scene : {&straight, &turned}) {
             const bool other = scene == &turned;
-            scene->printed = printed;
+            scene->report98 = report98;
             const Vector places[] = {vector(0, 0, 0), vector(20, 5, -10), vector(-15, -12, 6)};
             for (int i = 0; i < 3; ++i) {
                 const Vector at = other ? by * places[i] : places[i];
@@ -1032,8 +1032,8 @@ TEST(seeds_at_rest_know_their_places)
 
 TEST(what_has_not_changed_is_left_alone)
 {
-    for (bool printed : {false, true}) {
-        Scene scene = pair(20, 15, printed);
+    for (bool report98 : {false, true}) {
+        Scene scene = pair(20, 15, report98);
         scene.update();
         CHECK(scene.counts.updated > 0);
         CHECK(!scene.objects[0]->recalc());
@@ -1164,8 +1164,8 @@ TEST(what_is_odd_leaves_no_trace)
 
 TEST(only_what_is_near_is_told)
 {
-    for (bool printed : {false, true}) {
-        Scene scene = pair(20, 80, printed);
+    for (bool report98 : {false, true}) {
+        Scene scene = pair(20, 80, report98);
         scene.update();
         CHECK(!scene.objects[0]->recalc() && !scene.objects[1]->recalc());
         // An object that moves out of range does not tell the other one.
@@ -1183,7 +1183,7 @@ TEST(only_what_is_near_is_told)
         scene.objects[0]->translate(vector(-1, 0, 0));
         CHECK(!scene.objects[1]->recalc());
         // Objects that blend tell each other of every change.
-        Scene near = pair(20, 19, printed);
+        Scene near = pair(20, 19, report98);
         near.update();
         near.objects[1]->translate(vector(0.1, 0, 0));
         CHECK(near.objects[0]->recalc());
@@ -1200,15 +1200,15 @@ TEST(drawing_in_parts)
 {
     // The voxels are the same however little room there is for them at a time. Only slopes of brightness differ, where one part of
     // the list ends and the next begins, because fewer neighbours are known there.
-    for (bool printed : {false, true}) {
-        Scene scene = pair(60, 30, printed);
+    for (bool report98 : {false, true}) {
+        Scene scene = pair(60, 30, report98);
         scene.update();
         const std::vector<Voxel> whole = scene.draw(0, VOXELS_AT_ONCE);
         CHECK(whole.size() > 200);
         for (int room : {DRAW_ROOM, DRAW_ROOM + 1, 200, 333}) {
             const std::vector<Voxel> parts = scene.draw(0, room);
             CHECK(alike(whole, parts));
-            CHECK(otherSlopes(whole, parts) <= (printed ? 0 : static_cast<long>(whole.size()) / 4));
+            CHECK(otherSlopes(whole, parts) <= (report98 ? 0 : static_cast<long>(whole.size()) / 4));
         }
     }
 }

@@ -1522,7 +1522,7 @@ TEST(spans_are_enough)
         for (std::vector<uint8_t>& ramp : scene.ramps)
             std::replace(ramp.begin(), ramp.end(), uint8_t{0}, uint8_t{1});
         scene.linkAll();
-        scene.printed = frame % 2 == 1;
+        scene.report98 = frame % 2 == 1;
         scene.update();
         View fresh;
         CHECK(fresh.open());

@@ -16,7 +16,7 @@ constexpr double DEFORMITY = 0.01;
 Scene pair(double size, double apart)
 {
     Scene scene;
-    scene.printed = true;
+    scene.report98 = true;
     scene.ball(size, -apart / 2, 0, 0);
     scene.ball(size, apart / 2, 0, 0);
     scene.link(0, 1);
@@ -32,7 +32,7 @@ bool drawn(const SoftObject& object, int i)
 
 }  // namespace
 
-TEST(printed_seeds_lie_on_the_surface)
+TEST(report98_seeds_lie_on_the_surface)
 {
     Random random;
     long count = 0, beyond = 0;
@@ -40,7 +40,7 @@ TEST(printed_seeds_lie_on_the_surface)
     double worst = 0;
     for (int round = 0; round < 40; ++round) {
         Scene scene;
-        scene.printed = true;
+        scene.report98 = true;
         for (int k = 0; k < 4; ++k)
             scene.ball(random.between(8, 60), random.between(-20, 20), random.between(-20, 20), random.between(-20, 20), 3);
         scene.linkAll();
@@ -72,7 +72,7 @@ TEST(printed_seeds_lie_on_the_surface)
     CHECK(beyond <= static_cast<long>(unsettled));
 }
 
-TEST(printed_accuracy)
+TEST(report98_accuracy)
 {
     // All other seeds reach the report's "desired accuracy" when they start afresh.
     Scene scene = pair(20, 17);
@@ -89,7 +89,7 @@ TEST(printed_accuracy)
     CHECK(beyond <= static_cast<long>(scene.counts.unsettled));
 }
 
-TEST(printed_scales_grow_with_deformation)
+TEST(report98_scales_grow_with_deformation)
 {
     // The half extent of a scale is SCALE spacings at rest, and grows by MAGNIFICATION with the deformity.
     Scene scene = pair(20, 19);
@@ -110,7 +110,7 @@ TEST(printed_scales_grow_with_deformation)
     CHECK(most > least * 1.15);
 }
 
-TEST(printed_normals)
+TEST(report98_normals)
 {
     // A normal takes three samples; where the surface is hardly deformed none is taken. Normals agree with the field.
     Scene far = pair(20, 60);
@@ -154,7 +154,7 @@ TEST(printed_normals)
     SAME(scene.counts.normals, 0);
 }
 
-TEST(printed_overshoot)
+TEST(report98_overshoot)
 {
     // The border of two equal balls is half way between them.
     Scene scene = pair(24, 18);
@@ -176,7 +176,7 @@ TEST(printed_overshoot)
     CHECK(strongest <= OVERSHOOT + 0.002);
 }
 
-TEST(printed_oversampled_seeds)
+TEST(report98_oversampled_seeds)
 {
     // Oversampled seeds take part exactly where S and N differ by more than the tolerance, and not after the objects have parted.
     Scene scene = pair(20, 19);
@@ -199,11 +199,11 @@ TEST(printed_oversampled_seeds)
     SAME(active(false), 0);
 }
 
-TEST(printed_seeds_that_face_away)
+TEST(report98_seeds_that_face_away)
 {
     // No seed that faces the viewer is left out.
     Scene scene;
-    scene.printed = true;
+    scene.report98 = true;
     SoftObject& ball = scene.ball(40, 30, 20, 40);
     scene.update();
     int passed = 0;
