@@ -19,8 +19,6 @@ constexpr int NEAR = 4;
 static_assert(GRID == 2, "one row is left out");
 // No pixel is looked at after so many in a frame.
 constexpr int LOOKS_MOST = 2000;
-// 1/128 unit: pixels whose depths differ by more do not belong to one piece of the surface.
-constexpr int LEVEL = 256;
 // In units of the field: where a body's field is off the isovalue by no more its surface is there. Where the surfaces of two bodies
 // cross it has to be known better.
 constexpr Real EXACT(0.02), EXACT_CROSSING(0.004);
@@ -74,7 +72,7 @@ void Borders::mendBeside(int right)
     const int ramp = rampAt(right);
     while (rampAt(right - 1) == ramp)
         --right;
-    if (magnitude(zbuffer_[right - 1] - zbuffer_[right]) > LEVEL)
+    if (magnitude(zbuffer_[right - 1] - zbuffer_[right]) > Rays::LEVEL)
         return;
     note(right, right - 1);
     note(right - 1, right);

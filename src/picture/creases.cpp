@@ -3,7 +3,6 @@
 #include "creases.h"
 
 #include "math/whole.h"
-#include "rt.h"
 
 using machine::HEIGHT;
 using machine::WIDTH;
@@ -20,8 +19,6 @@ constexpr int JUMP = 16, CHANGE = 5;
 // Palette entries: a jump makes a greater difference (about four entries are one step). A power of two.
 constexpr int ENTRIES_APART = 32;
 static_assert((ENTRIES_APART & (ENTRIES_APART - 1)) == 0, "small differences, with a bias, have no bit beyond its own");
-// 1/128 unit: pixels whose depths differ by more do not belong to one piece of the surface.
-constexpr int LEVEL = 256;
 // No pixel is looked at after so many in a frame (looksAt()).
 constexpr int LOOKS_AT_ONE = 2000;
 // EXACT: a pixel whose field is off the isovalue by no more lies on the surface; nearly on it is not enough, for a little before or
@@ -90,21 +87,17 @@ void Creases::mendRow(int y)
 // that several ramps share the palette tells the brightness in one of them, so that the model may be asked in vain, or not asked.)
 inline bool Creases::jumps(int at, int other) const
 {
-    return magnitude(stepAt(at) - stepAt(other)) >= JUMP && magnitude(zbuffer_[at] - zbuffer_[other]) <= LEVEL;
+    return magnitude(stepAt(at) - stepAt(other)) >= JUMP && magnitude(zbuffer_[at] - zbuffer_[other]) <= Rays::LEVEL;
 }
 
 // Notes a pixel, unless it has been noted in this frame.
 inline void Creases::note(int at)
 {
     if (found_.bands == 0)
-        memset(wasNoted_, 0, sizeof wasNoted_);
+        wasNoted_.clear();
     found_.bands |= 1u << (at / (WIDTH * BAND));
-    uint32_t& bits = wasNoted_[at / 32];
-    const uint32_t bit = 1u << at % 32;
-    if ((bits & bit) != 0 || count_ == NOTED_MOST)
-        return;
-    bits |= bit;
-    noted_[count_++] = static_cast<uint16_t>(at);
+    if (count_ < NOTED_MOST && wasNoted_.add(at))
+        noted_[count_++] = static_cast<uint16_t>(at);
 }
 
 // Mends two pixels if there is a crease between them, and follows it. The second may be right once the first is.

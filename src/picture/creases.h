@@ -35,8 +35,8 @@ private:
     uint16_t noted_[NOTED_MOST];  // pixels that wait to be looked at
     int count_ = 0;               // their number
     int looks_ = 0;               // pixels looked at so far
-    const int looksMost_;         // no pixel is looked at after so many
-    uint32_t wasNoted_[machine::WIDTH * machine::HEIGHT / 32];  // a bit for each pixel; not set before a crease is found
+    const int looksMost_;         // upper bound of their number
+    PixelSet wasNoted_;           // cleared when the first crease of a frame is found
 };
 
 #endif

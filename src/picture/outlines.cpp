@@ -2,7 +2,6 @@
 #include "outlines.h"
 
 #include "math/whole.h"
-#include "rt.h"
 
 using machine::HEIGHT;
 using machine::WIDTH;
@@ -57,7 +56,7 @@ Outlines::Outlines(View& view, Rays& rays, FieldProbe& probe, Missed& missed)
     : view_(view), zbuffer_(view.zbuffer()), rays_(rays), probe_(probe), missed_(missed),
       pixelWide_(Real(1) / view.camera().focalX), pixelHigh_(Real(1) / view.camera().focalY)
 {
-    memset(wasNoted_, 0, sizeof wasNoted_);
+    wasNoted_.clear();
 }
 
 void Outlines::mend()
@@ -137,12 +136,8 @@ void Outlines::follow(int at, int behind)
 // Notes a pixel, unless it has been noted in this frame.
 inline void Outlines::note(int at, int behind)
 {
-    uint32_t& bits = wasNoted_[at / 32];
-    const uint32_t bit = 1u << at % 32;
-    if ((bits & bit) != 0 || count_ == NOTED_MOST)
-        return;
-    bits |= bit;
-    noted_[count_++] = {static_cast<uint16_t>(at), static_cast<uint16_t>(behind)};
+    if (count_ < NOTED_MOST && wasNoted_.add(at))
+        noted_[count_++] = {static_cast<uint16_t>(at), static_cast<uint16_t>(behind)};
 }
 
 // Whether the ray meets the surface that a pixel shows. If so, `*excess` receives that of the field at the last point looked at.

@@ -40,7 +40,7 @@ private:
     const Real pixelWide_, pixelHigh_;  // width and height of a pixel at a depth of one unit, units
     Place noted_[NOTED_MOST];           // pixels that wait to be looked at
     int count_ = 0;                     // their number
-    uint32_t wasNoted_[machine::WIDTH * machine::HEIGHT / 32];  // a bit for each pixel
+    PixelSet wasNoted_;
 };
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "model/probe.h"
 #include "picture/view.h"
+#include "rt.h"
 
 // Calls each(pixel) for those of the four pixels beside a pixel that are on the screen: left, right, above and below.
 template <class Each>
@@ -21,6 +22,24 @@ inline void forBeside(int at, Each each)
         each(at + WIDTH);
 }
 
+// A set of pixels of the screen. It must be emptied before it is used.
+class PixelSet {
+public:
+    void clear() { memset(bits_, 0, sizeof bits_); }
+    // Returns false if the pixel is in the set already.
+    bool add(int at)
+    {
+        uint32_t& bits = bits_[at / 32];
+        const uint32_t bit = 1u << at % 32;
+        const bool isNew = (bits & bit) == 0;
+        bits |= bit;
+        return isNew;
+    }
+
+private:
+    uint32_t bits_[machine::WIDTH * machine::HEIGHT / 32];
+};
+
 // How often the model may be asked in a frame whose seeds lie `spacing` units apart: `atOne` times, divided by the cube of a
 // spacing greater than 1. Slow machines choose coarse pictures, which must not cost more than they save.
 int looksAt(Real spacing, int atOne);
@@ -32,6 +51,8 @@ class Rays {
 public:
     // A pixel that is drawn shows the surface unless it is deeper by more than this, 1/128 unit.
     static constexpr int BEHIND = 512;
+    // Pixels side by side whose depths differ by more than this do not show one piece of the surface, 1/128 unit.
+    static constexpr int LEVEL = 256;
 
     // The seeds lie `spacing` units apart. Without a model (null) all rays are tired from the first.
     Rays(View& view, FieldProbe& probe, Real spacing);
