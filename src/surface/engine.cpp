@@ -22,7 +22,7 @@ public:
     explicit Engine(SoftObject& object) : object_(object), keeper_(object) {}
     ~Engine() override { free(patches_); }
 
-    // Makes the patches. Returns false when there is no memory.
+    // Makes the patches. Returns false when there is no memory, or the user wants to stop.
     bool open()
     {
         count_ = patchesOf(object_);
@@ -30,6 +30,8 @@ public:
         if (patches_ == nullptr)
             return false;
         makePatches(object_, patches_);
+        if (stopAsked())
+            return false;
         if (count_ <= KEPT_MOST)
             keeper_.open(count_);
         return true;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "help.h"
+#include "model/stop.h"
 #include "test.h"
 #include "truth.h"
 
@@ -76,6 +77,26 @@ TEST(patches_hold_every_seed_once)
                 SAME(times, 1);
         }
     }
+}
+
+TEST(seeds_are_laid_out_whole_or_not_at_all)
+{
+    // The user stops the layout at every place where it asks.
+    static int asked, stopsAt;
+    Scene scene;
+    SoftObject& object = scene.ball(30, 0, 0, 0);
+    const int before = object.seeds();
+    stopSource = [] { return ++asked >= stopsAt; };
+    bool done = false;
+    for (stopsAt = 1; !done && stopsAt < 10000; ++stopsAt) {
+        asked = 0;
+        done = object.resample(real(1.5), makeEngine);
+        SAME(done, asked < stopsAt);
+        CHECK(done == (object.seeds() != before));
+    }
+    stopSource = nullptr;
+    note("asked %d times", asked);
+    CHECK(done && asked > 50);
 }
 
 TEST(patches_are_as_large_as_they_say)
