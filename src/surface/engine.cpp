@@ -126,7 +126,6 @@ inline void Engine::settleBetween(Settler& settler)
         if (patch->settled) {
             settler.oversample(*patch);
             keeper_.forget(i);
-            patch->moved = false;
         }
     if (settler.hasIslands() || islands_)
         settleIslands(settler);
@@ -236,6 +235,7 @@ inline bool Engine::isAtRest(Settler& settler, Patch& patch)
 // Judges a patch as a whole by the seed in its middle, and settles each of its seeds only where that does not decide.
 inline void Engine::settle(Settler& settler, Patch& patch)
 {
+    patch.moved = false;
     if (settler.isCovered(patch)) {
         cover(object_, patch);
         return;
