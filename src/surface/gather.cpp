@@ -223,12 +223,14 @@ static void weigh(const Bodies& bodies, const Neighbourhood& all, Neighbour& nea
 }
 
 // Sets by how much a neighbour's claim and the own one differ from their fields. `weight` is that of their link. Returns true if
-// one of them differs.
+// one of them differs. What digs has no claim.
 static bool setClaims(const SoftObject& object, Real weight, Neighbour& near)
 {
     const auto isPlain = [](const SoftObject& o) {
         return o.strength() == Real(1) && !o.shaped() && o.paint() == nullptr && o.hasSurface();
     };
+    if (near.digs)
+        return false;
     const Real heavy = clamp(weight * weight, Real(1), CLAIM_WEIGHT_MOST), own = object.size(), other = near.object->size();
     if (own * GUEST_SIZES < other * heavy && isPlain(object) && isPlain(*near.object))
         near.claim = quotient(own * GUEST_SIZES, other * heavy);
@@ -289,7 +291,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
     const bool longPaths = object.longestPath() > LONG_PATH;
     const Point centre = object.centre();
     const Real reach = object.reach();
-    // Only neighbours of far different size, or with heavy links, have claims that differ from their fields. (.01 allows for the
+    // Only members of far different size, or with heavy links, have claims that differ from their fields. (.01 allows for the
     // rounding of the quotient.)
     const Real* const weights = bodies.weights(object.slot());
     const Real large = object.size() * GUEST_SIZES, small = quotient(object.size(), HOST_SIZES) + Real(0.01);
