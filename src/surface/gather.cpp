@@ -136,7 +136,8 @@ void findOwnFrame(const SoftObject& object, const FrameContext& frame, OwnFrame&
     if (own.outOfSight)
         return;
     own.growth = object.growth();
-    const Real most(1000);
+    // In own space the eye is farther away if the object has shrunk.
+    const Real most = min(own.growth, Real(1)) * Real(1000);
     const Vector toEye = frame.eye - object.centre();
     own.eye = object.toOwnAxes({clamp(toEye.x, -most, most), clamp(toEye.y, -most, most), clamp(toEye.z, -most, most)});
     const Vector eye = object.size() == object.laidSize() ? own.eye : own.eye * quotient(Real(1), own.growth);

@@ -161,6 +161,33 @@ TEST(patches_at_rest_are_out_of_reach)
     CHECK(idle < reached / 2);
 }
 
+TEST(a_far_eye_is_told_from_what_has_shrunk)
+{
+    // The user stops the layout of new seeds, so that the object goes on with those of its size before.
+    Scene scene;
+    SoftObject& object = scene.ball(40, 0, 0, 0);
+    scene.eye = point(-5000, 4000, -6000);
+    stopSource = [] { return true; };
+    object.setSize(real(4));
+    stopSource = nullptr;
+    NEAR(number(object.growth()), 0.1, 0.001);
+    scene.findBodies();
+    OwnFrame own;
+    findOwnFrame(object, scene.frame(), own);
+    // What bounds a product in restsAway() and facing(): the components and the length of the vector to the eye.
+    for (int32_t part : own.eye32)
+        CHECK(part >= -32 * 1001 && part <= 32 * 1001);
+    CHECK(own.distance32 < 32 * 1800);
+    for (const Patch& patch : patchesIn(object)) {
+        const Vec axis{patch.axis[0] / 16384.0, patch.axis[1] / 16384.0, patch.axis[2] / 16384.0};
+        const double facing = dot(axis, vec(scene.eye)) / size(vec(scene.eye));
+        if (facing > 0.5)
+            CHECK(!restsAway(patch, own));
+        if (facing < -0.5)
+            CHECK(restsAway(patch, own));
+    }
+}
+
 TEST(patches_that_face_away_are_out_of_sight)
 {
     Random random;
