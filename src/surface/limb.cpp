@@ -17,6 +17,12 @@ inline int32_t times14(int32_t a, int32_t b)
     return a * b >> 14;
 }
 
+// The same with a 64-bit product: in a wide view a saddle may bend so much aside that 32 bits do not hold it.
+inline int32_t wideTimes14(int32_t a, int32_t b)
+{
+    return static_cast<int32_t>(static_cast<int64_t>(a) * b >> 14);
+}
+
 // The function that cuts a voxel has the slope 64 (as Voxel::cutX) where the normal lies across the view. inward() converts a
 // slope counted outwards, 1.0 = 2^14, to one counted inwards.
 constexpr int SHIFT = 8;
@@ -33,11 +39,11 @@ bool setLimb(int32_t k, int32_t alongX, int32_t alongY, int32_t xx, int32_t xy, 
         return false;
     limb->radius = (1 << 22) / k;
     limb->nearness = min32((limb->radius << 14) / depth, SLANT << 14);
-    limb->along[0] = (alongX << 14) / k;
-    limb->along[1] = (alongY << 14) / k;
-    limb->curve[0] = inward((xx - times14(alongX, limb->along[0])) * 2);
-    limb->curve[1] = inward((xy - times14(alongX, limb->along[1])) * 2);
-    limb->curve[2] = inward((yy - times14(alongY, limb->along[1])) * 2);
+    limb->along[0] = mulDiv(alongX, 1 << 14, k);
+    limb->along[1] = mulDiv(alongY, 1 << 14, k);
+    limb->curve[0] = inward((xx - wideTimes14(alongX, limb->along[0])) * 2);
+    limb->curve[1] = inward((xy - wideTimes14(alongX, limb->along[1])) * 2);
+    limb->curve[2] = inward((yy - wideTimes14(alongY, limb->along[1])) * 2);
     return true;
 }
 

@@ -158,6 +158,48 @@ TEST(scales_of_what_bends_end_at_its_limb)
     CHECK(worst < 0.03);
 }
 
+TEST(limbs_of_saddles_that_bend_fast_are_as_computed)
+{
+    // Two curvatures of up to 2 a unit, of either sign, seen at any slant of the widest view; held against the formulas of limb.h.
+    Random random;
+    OwnFrame frame = {};
+    frame.right[0] = frame.up[1] = frame.ahead[2] = 16384;
+    ViewProducts axes;
+    findViewProducts(frame, &axes);
+    long found = 0, beyond = 0;
+    for (int i = 0; i < 200000; ++i) {
+        Bend bend = {};
+        for (int k = 0; k < 6; ++k)
+            bend.turn[k] = static_cast<int16_t>(random.between(-16000, 16000));
+        const auto shear = [&] { return static_cast<int32_t>(random.between(-1536, 1536)); };
+        const int32_t shearX = shear(), shearY = shear();
+        Limb limb;
+        // A turn of 16000 over 256 steps of 1/256 unit: 1.95 a unit.
+        if (!findLimb(bend, axes, 1 << 16, shearX, shearY, 100 << 8, &limb))
+            continue;
+        ++found;
+        const auto turn = [&](int k) { return bend.turn[k] / 8192.0; };
+        const double w[] = {shearX / 1024.0, shearY / 1024.0, 1};
+        const double s[3][3] = {{turn(0), turn(3), turn(4)}, {turn(3), turn(1), turn(5)}, {turn(4), turn(5), turn(2)}};
+        double sw[3] = {}, k = 0;
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 3; ++column)
+                sw[row] += s[row][column] * w[column];
+            k += sw[row] * w[row];
+        }
+        if (k < 0.1)
+            continue;
+        const double curves[] = {sw[0] * sw[0] / k - s[0][0], sw[0] * sw[1] / k - s[0][1], sw[1] * sw[1] / k - s[1][1]};
+        for (int part = 0; part < 3; ++part) {
+            const double curve = std::clamp(curves[part] * 128, -127.0, 127.0);
+            NEAR(limb.curve[part], curve, 0.05 * std::fabs(curve) + 3);
+        }
+        beyond += std::fabs(sw[0] * sw[0] / k) > 8 || std::fabs(sw[1] * sw[1] / k) > 8;
+    }
+    note("%ld limbs, %ld of them with products beyond 32 bits", found, beyond);
+    CHECK(found > 20000 && beyond > 10);
+}
+
 // A surface that is flat along the ray has no limb.
 TEST(flat_surfaces_have_no_limb)
 {
