@@ -103,8 +103,12 @@ bool Engine::update(const FrameContext& frame)
     Patch* patch = patches_;
     for (int i = 0; i < count_; ++i, ++patch) {
         patch->settled = false;
-        if (i % ASKED_EVERY == ASKED_EVERY - 1 && stopAsked())
+        if (i % ASKED_EVERY == ASKED_EVERY - 1 && stopAsked()) {
+            // Patches that this update has left out do not know what has moved.
+            odometer_.forget();
+            keeper_.forget();
             return true;
+        }
         if (goOn(i, *patch, all))
             displaced = wentOn = true;
         else

@@ -37,6 +37,9 @@ public:
     // Measures how far the neighbours and the viewer have travelled since the last call.
     void advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion);
 
+    // Forgets everything: after the next call no earlier result is valid.
+    void forget() { fresh_ = true; }
+
     // Whether no earlier result is valid since the last call: an object has leapt into range or out of it, links have changed, the
     // neighbourhood has become ordinary or is not any more, or nothing was known before. Then everything is due.
     bool leapt() const { return leapt_; }
@@ -60,7 +63,7 @@ private:
     Travel reading_ = 0, lastTravel_ = 0;
     uint32_t linksVersion_ = 0;
     bool ordinary_ = true;  // the neighbourhood was ordinary in the last call: else travel is counted in another way
-    bool fresh_ = true;  // there was no call yet, or no memory
+    bool fresh_ = true;  // there was no call yet, or no memory, or everything has been forgotten
     Vector eye_{Real(0), Real(0), Real(0)};  // where the viewer was in the last call, own axes
     bool eyeStayed_ = false;
     bool leapt_ = true;  // leapt()

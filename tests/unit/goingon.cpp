@@ -1,6 +1,7 @@
 // Tests of patches that blend and whose voxels go on: what moves evenly stays near the truth and need not be settled, and what does
 // not is found anew at once.
 #include "help.h"
+#include "model/stop.h"
 #include "test.h"
 
 namespace {
@@ -173,6 +174,37 @@ TEST(what_went_on_is_settled_in_the_end)
     distance.add(voxels, fresh.frame(&updated));
     note("voxels are off by %.3f on average, %.2f at most", distance.sum / distance.count, distance.worst);
     CHECK(distance.count > 0 && distance.sum < 0.04 * distance.count);
+}
+
+TEST(what_moved_in_an_update_that_was_stopped_is_found_later)
+{
+    // A ball that digs into another leaps half a unit, the user stops the update, and nothing moves after that.
+    const auto dented = [](const Vec& at) {
+        Scene scene;
+        scene.ball(30, 0, 0, 0);
+        scene.ball(16, at.x, at.y, at.z);
+        scene.dent(0, 1);
+        return scene;
+    };
+    const Vec before{8, 4, -12}, after{8.4, 4.3, -12};
+    Scene scene = dented(before), fresh = dented(after);
+    for (int i = 0; i < 4; ++i) {
+        scene.update();
+        scene.draw(0);
+    }
+    scene.objects[1]->moveTo(point(after.x, after.y, after.z));
+    stopSource = [] { return true; };
+    scene.update();
+    stopSource = nullptr;
+    scene.draw(0);
+    scene.update();
+    fresh.update();
+    const std::vector<Voxel> voxels = scene.draw(0), made = fresh.draw(0);
+    Distance distance;
+    distance.add(voxels, made);
+    note("voxels are off by %.4f on average, %.2f at most", distance.sum / distance.count, distance.worst);
+    SAME(voxels.size(), made.size());
+    CHECK(distance.sum < 0.03 * distance.count);
 }
 
 TEST(what_goes_on_gets_no_brighter_than_the_light_allows)
