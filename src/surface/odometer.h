@@ -73,7 +73,7 @@ private:
         uint8_t slot;
         bool inRange;   // Neighbour::inRange
         Travel travelled;
-        Pose pose;
+        NeighbourPose pose;
     };
     int room_ = 0, count_ = 0;
     Known* known_ = nullptr;

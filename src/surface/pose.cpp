@@ -1,7 +1,7 @@
 // How far a neighbour travels: at most as far as the farthest place of its core, plus the change of its size.
 #include "pose.h"
 
-void Pose::take(const Neighbour& near)
+void NeighbourPose::take(const Neighbour& near)
 {
     size_ = near.size;
     place_ = near.centre;
@@ -16,11 +16,11 @@ void Pose::take(const Neighbour& near)
     warp_ = near.object->warp().amounts();
 }
 
-Real Pose::followTurned(const Neighbour& near, Real reach)
+Real NeighbourPose::followTurned(const Neighbour& near, Real reach)
 {
     if (!near.object->shaped())
         return followCore(near);
-    const Pose before = *this;
+    const NeighbourPose before = *this;
     take(near);
     // Some places of a shaped neighbour travel farther than most, which are taken to travel like the object's centre.
     const Real farthest = travelAsMapped(near, before, reach);
@@ -29,7 +29,7 @@ Real Pose::followTurned(const Neighbour& near, Real reach)
 
 // Follows a neighbour that is neither stretched nor warped: its travel is that of its core. Axes along which the core does not
 // extend do not matter.
-Real Pose::followCore(const Neighbour& near)
+Real NeighbourPose::followCore(const Neighbour& near)
 {
     const Real unit = near.size * Real(1.0 / CORE_SIZE);
     const Vector extent = near.object->coreExtent16();
@@ -51,7 +51,7 @@ Real Pose::followCore(const Neighbour& near)
 
 // The travel of a shaped neighbour, from its map into core space: an upper bound for all places no farther than `reach` from the
 // object's centre.
-Real Pose::travelAsMapped(const Neighbour& near, const Pose& before, Real reach) const
+Real NeighbourPose::travelAsMapped(const Neighbour& near, const NeighbourPose& before, Real reach) const
 {
     const Vector by = place_ - before.place_;
     const Real longest(100);

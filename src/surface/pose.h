@@ -12,7 +12,7 @@ inline Real roundLength(const Vector& v)
 }
 
 // A neighbour's centre and axes in an object's own space; of a shaped neighbour, the map into its core space instead.
-class Pose {
+class NeighbourPose {
 public:
     // Takes the present pose of a neighbour.
     void take(const Neighbour& near);
@@ -33,7 +33,7 @@ public:
 private:
     SELDOM Real followTurned(const Neighbour& near, Real reach);
     Real followCore(const Neighbour& near);
-    Real travelAsMapped(const Neighbour& near, const Pose& before, Real reach) const;
+    Real travelAsMapped(const Neighbour& near, const NeighbourPose& before, Real reach) const;
 
     Vector place_;
     Real size_;
