@@ -42,8 +42,8 @@ void measureBend(const SoftObject& object, const Shading& shading, Patch& patch)
     if (!findSteps(shading.seeds, patch, from, to))
         return;
     const Seed& centre = object.regular(patch.centre);
-    bend.normal = centre.flags & SEED_VALID ? centre.normal : from[0]->normal;
-    const int32_t n[] = {bend.normal.x, bend.normal.y, bend.normal.z};
+    const Direction14& normal = centre.flags & SEED_VALID ? centre.normal : from[0]->normal;
+    const int32_t n[] = {normal.x, normal.y, normal.z};
     // The two steps, the turn of the normal over each, and the dual vector of each: the dot product of dual[k] and a vector,
     // divided by the area between the steps, is the vector's component in units of step k.
     int32_t step[2][3], turn[2][3], dual[2][3], size[2];

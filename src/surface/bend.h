@@ -13,7 +13,6 @@ struct Shading;
 struct Bend {
     int16_t turn[6];    // a symmetric matrix, xx yy zz xy xz yz: how much the normal turns over a step; 1.0 = 2^13 over 256 steps
                         // of places (voxels.h). Along the normal it has the greatest curvature of the patch
-    Direction14 normal;
     bool ball;          // the patch is curved like the unblended ball, or nothing better is known; `turn` is not set
     bool known;         // no seed has settled since it was measured
 };

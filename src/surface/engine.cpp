@@ -93,12 +93,12 @@ bool Engine::update(const FrameContext& frame)
         return false;
     gather(object_, frame, all);
     odometer_.advance(object_, own_, all, frame.bodies->version());
-    Settler settler(object_, own_, all, frame, odometer_);
     keeper_.begin(own_, odometer_.lastTravel());
     begun_ = true;
     // No neighbour is near, and all seeds are at rest already.
     if (allRests_ && !odometer_.leapt() && all.ordinary && all.restsAtOne && all.count == 0)
         return false;
+    Settler settler(object_, own_, all, frame, odometer_);
     bool displaced = false, wentOn = false;
     Patch* patch = patches_;
     for (int i = 0; i < count_; ++i, ++patch) {

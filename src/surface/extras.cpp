@@ -139,7 +139,6 @@ void Settler::oversample(Patch& patch)
     patch.fine = false;
     if (!any)
         return;
-    patch.due = now_;
     setPatch(patch, true);
     forSeeds(object_, patch, [&](const Seed& s) {
         const int i = object_.slotOf(s);

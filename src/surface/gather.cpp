@@ -305,8 +305,6 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         const auto square = squareOf(away);
         if (square >= squareOf(range + GATHER_SLACK) || (other.size() < SMALL && isUnseen(object, other)))
             continue;
-        if (next == all.neighbours + NEIGHBOURS_MAX)
-            break;
         Neighbour& near = *next++;
         near.object = &other;
         near.slot = other.slot();

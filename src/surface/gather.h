@@ -7,9 +7,9 @@
 #include "model/body.h"
 #include "model/softobj.h"
 
-// The largest number of neighbours of one object; further ones are ignored. And the number of object slots (model/body.h).
-constexpr int NEIGHBOURS_MAX = 127;
-constexpr int SLOTS_MAX = 128;
+// The number of object slots (model/body.h); all other objects may be neighbours of one.
+constexpr int SLOTS_MAX = Bodies::LINK_WORDS * 32;
+constexpr int NEIGHBOURS_MAX = SLOTS_MAX - 1;
 
 // Neighbours are gathered when they are this many units out of range, so that what comes into range can be told from what leaps
 // into it (odometer.h).

@@ -42,7 +42,6 @@ struct Patch {
     bool moved;         // since it was settled its voxels have gone on (keeper.h), or its seeds were laid out anew
     bool ridged;        // some of its seeds lie beside a ridge (Seed::beyond)
     bool islands;       // it has seeds on islands, where the paths of its regular seeds return to the surface
-    int32_t facing;     // of a settled patch: cosine of the middle seed's normal and the direction to the viewer
     int32_t centre;     // slot of the middle seed
     int16_t middle[3];  // the mean of the places where its seeds rest
     int16_t radius;     // of a ball round the middle that contains those places and half a cell more

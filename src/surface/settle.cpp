@@ -80,7 +80,8 @@ Real Settler::settle(Seed& s)
         return Real(0);
     }
     if (nearby_.dented()) {
-        off_ = found ? Real(0) : off_;
+        if (found)
+            off_ = Real(0);
         putOff(s, found ? sample.dominance - OVERSHOOT : off_, followed == LOST ? gradientBound_ : path_.steepestGradient());
     }
     s.blocker = static_cast<uint8_t>(cover_.strongest());
@@ -115,7 +116,6 @@ void Settler::restThere(Seed& s)
 {
     if (!(s.flags & SEED_RESTING)) {
         object_.layAtRest(s, object_.restNormal(s));
-        s.flags &= SEED_ACTIVE;
     }
     s.position = Real(1);
     s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
@@ -276,8 +276,7 @@ PatchState Settler::probe(Patch& patch)
         patch.due += travelUntil(margin - least, shiftUp(path_.gradientBound(), 1), LONGEST_WAIT);
         return PATCH_INSIDE;
     }
-    patch.facing = facing(object_, s, own_);
-    const int32_t away = own_.limb - patch.facing - spreadOf(patch, s) - TURNED;
+    const int32_t away = own_.limb - facing(object_, s, own_) - spreadOf(patch, s) - TURNED;
     // A guest's normal, beyond the crease to another object, tells nothing about the patch.
     if (away > 0 && isOnOwn(s)) {
         patch.due += travelOf(realFromRaw(away * 4) * shiftDown(object_.laidSize(), 2));

@@ -41,13 +41,13 @@ public:
     bool isCovered(const Patch& patch)
     {
         const bool settled = (object_.regular(patch.centre).flags & (SEED_VALID | SEED_RESTING)) == SEED_VALID;
-        return !settled && !nearby_.dented() && cover_.coversAll(patch) > 0;
+        return !settled && cover_.coversAll(patch) > 0;
     }
 
     // The same for a patch that was PATCH_INSIDE, before setPatch(). It sets when a covered patch is due again.
     bool isStillCovered(Patch& patch)
     {
-        const int32_t depth = all_.ordinary ? cover_.coversAll(patch) : 0;
+        const int32_t depth = cover_.coversAll(patch);
         // Some travels are measured a tenth too short.
         if (depth > ROUNDED16)
             patch.due = now_ + travelOf(realFromRaw((depth - ROUNDED16) << 12) * Real(0.9));
