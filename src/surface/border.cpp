@@ -26,11 +26,10 @@ inline Vector ownGradientOf(const Path& path, const Seed& s, const Vector& from,
 }
 
 // As Path::strongest(), where something digs, strengths differ or the object is shaped: the strongest neighbour that does not dig,
-// or null. Sets `*change`, the slope of the own field along the path; in a hollow that and `*g`, the own gradient, become those of
-// the object that has the hollow, because it is that object's border.
+// or null. In a hollow `*g`, the own gradient, and `*change`, the slope of the own field along the path, become those of the object
+// that has the hollow, because it is that object's border.
 SELDOM const Neighbour* strongestOdd(const Path& path, const Vector& from, int shift, Vector* g, Real* change)
 {
-    *change = path.ownRate(path.lookedAt());
     const Neighbour* other = nullptr;
     for (int i = 0; i < path.touched(); ++i) {
         const Neighbour& near = path.near(i);
@@ -75,7 +74,7 @@ bool findBorder(const Path& path, Seed& s, Real dominance)
     const int shift = path.gradientShift();
     const Vector from = path.from(s.position);
     Vector g = ownGradientOf(path, s, from, shift);
-    Real change = shiftDown(path.ownSlope() * path.lookedAt(), 1);
+    Real change = path.ownRate(path.lookedAt());
     const Neighbour* const other = path.all().ordinary ? path.strongest() : strongestOdd(path, from, shift, &g, &change);
     if (other == nullptr)
         return true;

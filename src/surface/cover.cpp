@@ -51,17 +51,3 @@ int32_t Cover::coversAll(const Patch& patch)
     const int32_t atRest = there <= 0 ? 0 : depthWithin(patch, *near_, Real(1), limits_->rootAtRest);
     return there < atRest ? there : atRest;
 }
-
-int Cover::strongest() const
-{
-    int slot = object_.slot();
-    Real most(-1);
-    for (int i = 0; i < path_.touched(); ++i) {
-        const Neighbour& near = path_.near(i);
-        if (near.value > most && !near.digs) {
-            most = near.value;
-            slot = near.slot;
-        }
-    }
-    return slot;
-}

@@ -24,9 +24,6 @@ public:
     }
     int32_t coversAll(const Patch& patch);
 
-    // The slot of the neighbour whose field was the strongest where the current path was evaluated last: the next blocker.
-    int strongest() const;
-
 private:
     void take(int blocker)
     {

@@ -3,9 +3,12 @@
 
 #include "math/normal.h"
 #include "math/whole.h"
+#include "model/model.h"
 #include "rt.h"
 
 namespace {
+
+static_assert(Model::OBJECTS_MOST <= SLOTS_MAX, "all other objects have room among the neighbours");
 
 // Stores the components of a unit vector, 1.0 = 2^14.
 inline void store14(const Vector& v, int32_t* to)

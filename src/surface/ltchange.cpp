@@ -31,8 +31,8 @@ void Settler::findLightChange(Seed& s)
     // Beside the rim of a hollow Seed::normal is not that of the surface at the seed (hollow.cpp).
     const Normal here = nearby_.dented() ? normalise(path_.outward(s.position)) : Normal{s.normal.x, s.normal.y, s.normal.z};
     const int32_t n[] = {here.x, here.y, here.z}, (&light)[3] = own_.light, (&eye)[3] = own_.eye16;
-    const int32_t lit = (n[0] * light[0] + n[1] * light[1] + n[2] * light[2]) >> 14;
-    if (lit < DARK || n[0] * eye[0] + n[1] * eye[1] + n[2] * eye[2] <= 0)
+    const int32_t lit = dot(n, light) >> 14;
+    if (lit < DARK || dot(n, eye) <= 0)
         return;
     const Real radius = object_.slants() ? nearLength(s.path) : object_.laidRadius();
     const Real length = min(object_.spacing() * OF_SPACING, radius * OF_RADIUS) * s.position;

@@ -16,7 +16,7 @@ inline int32_t times(int32_t a, int32_t b)
 
 inline int32_t along(const Direction14& n, const int32_t axis[3])
 {
-    return (n.x * axis[0] + n.y * axis[1] + n.z * axis[2]) >> 14;
+    return dot(n, axis) >> 14;
 }
 
 constexpr int32_t ONE = 1 << 14;
@@ -65,12 +65,6 @@ struct Shear {
     }
 };
 
-// Converts a cosine with 14 fraction bits.
-inline Real part(int32_t cosine14)
-{
-    return realFromRaw(cosine14 * 4);
-}
-
 // The sine of an angle in turns.
 Real wave(Real turns)
 {
@@ -90,7 +84,7 @@ Polish::Polish(const SoftObject& object, const OwnFrame& own) : own_(own), mirro
     half_[0] = half.x;
     half_[1] = half.y;
     half_[2] = half.z;
-    upAhead_ = (up_[0] * own.ahead[0] + up_[1] * own.ahead[1] + up_[2] * own.ahead[2]) >> 14;
+    upAhead_ = dot(up_, own.ahead) >> 14;
 }
 
 int32_t Polish::brightness8(const Direction14& normal) const
@@ -204,8 +198,7 @@ Painter::Spot Painter::spotAt(const Vector& place, const Direction14& normal, ui
         if (apart * apart >= nearest)
             continue;
         // The distance along the surface is `apart` divided by the sine of the angle between the normal and the axis.
-        const Vector& axis = axis_[i];
-        const Real cosine = axis.x * part(normal.x) + axis.y * part(normal.y) + axis.z * part(normal.z);
+        const Real cosine = dot(axis_[i], unitVector(normal));
         const Real slant = Real(1) - cosine * cosine;
         if (apart * apart >= nearest * slant)
             continue;

@@ -183,9 +183,7 @@ Sample Path::look(Real position)
 
 bool Path::begin(const NeighbourList& list, const Seed& s, Real position, Sample* sample)
 {
-    seed_ = &s;
-    if (asked_ != &list || rootOfAsked_ != s.root)
-        take(list, s);
+    makeCurrent(list, s);
     return special_ ? lookAnywhere(position, &s.path, sample) : lookPlain(position, &s.path, sample);
 }
 
@@ -199,10 +197,7 @@ Sample Path::beginSearch(const Seed& s)
 
 void Path::beginDeepSearch(const Seed& s)
 {
-    const NeighbourList& listed = nearby_.listed();
-    seed_ = &s;
-    if (asked_ != &listed || rootOfAsked_ != s.root)
-        take(listed, s);
+    makeCurrent(nearby_.listed(), s);
     for (int i = 0; i < touched_; ++i) {
         near_[i]->aim(s.path);
         near_[i]->param(middle_);

@@ -112,6 +112,12 @@ private:
     struct Parts;
 
     void setRoots(Neighbour* const* first, Neighbour* const* end, const Seed& s) const;
+    void makeCurrent(const NeighbourList& list, const Seed& s)
+    {
+        seed_ = &s;
+        if (asked_ != &list || rootOfAsked_ != s.root)
+            take(list, s);
+    }
     void take(const NeighbourList& list, const Seed& s);
     void setNear(const NeighbourList& list);
     SELDOM void findOdd();
@@ -180,9 +186,14 @@ inline void Path::aim(Neighbour& near, const Seed& s)
 inline const Neighbour* Path::strongest(const Neighbour* other) const
 {
     const Neighbour* strongest = nullptr;
-    for (int i = 0; i < touched_; ++i)
-        if (near_[i] != other && !near_[i]->digs && (strongest == nullptr || near_[i]->value > strongest->value))
-            strongest = near_[i];
+    Real most(-1);
+    for (int i = 0; i < touched_; ++i) {
+        const Neighbour& near = *near_[i];
+        if (near.value > most && !near.digs && &near != other) {
+            most = near.value;
+            strongest = &near;
+        }
+    }
     return strongest;
 }
 

@@ -58,8 +58,8 @@ private:
 // "Brightness proportional to the angle" of normal and light, 0..63, from the cosine of that angle.
 uint8_t brightness(Real cosine)
 {
-    const int step = floorToInt(cosine * Real(63) + Real(0.5));
-    return static_cast<uint8_t>(step < 0 ? 0 : step > 63 ? 63 : step);
+    const int step = floorToInt(cosine * Real(BRIGHTEST) + Real(0.5));
+    return static_cast<uint8_t>(step < 0 ? 0 : step > BRIGHTEST ? BRIGHTEST : step);
 }
 
 bool Report98::open()

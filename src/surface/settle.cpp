@@ -48,6 +48,16 @@ Settler::Settler(SoftObject& object, const OwnFrame& own, Neighbourhood& all, co
 
 // ---- One seed
 
+// Puts a seed at rest, for no neighbour reaches it.
+static void rest(const SoftObject& object, Seed& s)
+{
+    if (!(s.flags & SEED_RESTING)) {
+        s.position = Real(1);
+        object.layAtRest(s, object.restNormal(s));
+    }
+    s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
+}
+
 // Sets position, normal and flags of a seed. If the path meets no surface of its own object the seed is left without SEED_VALID,
 // and the return value says by how much of the field the path lies inside.
 Real Settler::settle(Seed& s)
@@ -56,7 +66,7 @@ Real Settler::settle(Seed& s)
     Real position = s.position;
     const Followed followed = isOnOwn(s) || (s.flags & SEED_FOLLOW) ? followOn(s, &position, &sample) : LOST;
     if (followed == ALONE) {
-        restThere(s);
+        rest(object_, s);
         return Real(0);
     }
     ++counts_.updated;
@@ -84,7 +94,7 @@ Real Settler::settle(Seed& s)
             off_ = Real(0);
         putOff(s, found ? sample.dominance - OVERSHOOT : off_, followed == LOST ? gradientBound_ : path_.steepestGradient());
     }
-    s.blocker = static_cast<uint8_t>(cover_.strongest());
+    s.blocker = strongest();
     return found ? min(margin, sample.dominance - OVERSHOOT) : margin;
 }
 
@@ -109,16 +119,6 @@ inline Settler::Followed Settler::followOn(Seed& s, Real* position, Sample* samp
             return LOST;
     }
     return FOUND;
-}
-
-// Puts a seed at rest, for nothing blends with it.
-void Settler::restThere(Seed& s)
-{
-    if (!(s.flags & SEED_RESTING)) {
-        object_.layAtRest(s, object_.restNormal(s));
-    }
-    s.position = Real(1);
-    s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_VALID | SEED_RESTING);
 }
 
 // Sets the border of a seed that is on the surface, if it is near, and whether the seed is a guest. Returns false where the surface
@@ -152,11 +152,18 @@ bool Settler::makeGuest(Seed& s, const Neighbour& host)
     return true;
 }
 
+// The slot of the neighbour whose field was the strongest where the current path was evaluated last: the next blocker.
+uint8_t Settler::strongest() const
+{
+    const Neighbour* const near = path_.strongest();
+    return static_cast<uint8_t>(near == nullptr ? object_.slot() : near->slot);
+}
+
 // Leaves the surface at a seed to the strongest neighbour. Its path goes on leaving the surface there.
 inline void Settler::leaveToStrongest(Seed& s)
 {
     s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_FOLLOW);
-    s.blocker = static_cast<uint8_t>(cover_.strongest());
+    s.blocker = strongest();
 }
 
 // Searches the whole path of a seed, in the fields of the neighbours that reach some place on it.
@@ -332,13 +339,7 @@ void rest(SoftObject& object, Patch& patch)
     patch.nearest = patch.farthest = 64;
     patch.bend.known = patch.asleep = false;
     putAway(object, patch);
-    forSeeds(object, patch, [&](Seed& s) {
-        if (s.flags != (SEED_VALID | SEED_RESTING)) {
-            s.position = Real(1);
-            object.layAtRest(s, object.restNormal(s));
-        }
-        s.flags = SEED_VALID | SEED_RESTING;
-    });
+    forSeeds(object, patch, [&](Seed& s) { rest(object, s); });
 }
 
 void sleep(SoftObject& object, Patch& patch)

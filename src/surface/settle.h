@@ -86,8 +86,8 @@ private:
 
     Real settle(Seed& s);
     Followed followOn(Seed& s, Real* position, Sample* sample);
-    void restThere(Seed& s);
     void leaveToStrongest(Seed& s);
+    SELDOM uint8_t strongest() const;
     Real search(const Seed& s, Real* position, Sample* sample);
     void place(Seed& s, Real dominance);
     SELDOM bool placeAt(Seed& s, Real position, Real dominance);

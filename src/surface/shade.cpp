@@ -98,7 +98,7 @@ private:
     int32_t step_;            // length of a step of places, 1/256 unit of the world with 16 fraction bits
     int32_t ballBend_;        // curvature of a ball: 1 / radius, per unit, 1.0 = 2^14
     int32_t nearLimb_;        // Voxel::reach where the limb is WHOLE_AT_LIMB away, 16 more fraction bits
-    bool ball_, clipsDepth_;  // clipsDepth_: some seeds may be nearer than NEAREST_DEPTH, or farther than FARTHEST_DEPTH
+    bool clipsDepth_;         // some seeds may be nearer than NEAREST_DEPTH, or farther than FARTHEST_DEPTH
     int viewShift_;           // right shift that brings vectors to the eye to 14 bits
     const bool hollow_;       // the seeds sample a hollow
     int32_t ballGradient_[3]; // gradient of the brightness over a ball, axes of the view, 1/8 step a unit with 8 fraction bits
@@ -123,7 +123,6 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
 {
     shading_.seeds = &object.regular(0);
     shading_.roots = &object.root(0);
-    ball_ = object.isBall();
     const int32_t reach = rawFromReal(object.reach()) >> 8;
     clipsDepth_ = own_.centre[2] - reach < NEAREST_DEPTH || own_.centre[2] + reach >= FARTHEST_DEPTH;
     shading_.placeShift = object.placeShift();
@@ -174,7 +173,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
         aheads_[i] = own.ahead[i] * cell >> 16;
     }
     // Seeds of a hollow that settle nearer to a long or flat core than where they rest get no nearer to each other along the core.
-    shading_.leastPosition = hollow_ && !ball_ ? 1 << 8 : 0;
+    shading_.leastPosition = hollow_ && !object.isBall() ? 1 << 8 : 0;
 }
 
 // Sets how the brightness changes over a patch, and where the patch bends out of sight.
@@ -286,7 +285,7 @@ inline const Limb* Shader::limbOf(const Patch& patch)
         if (hollow_) {
             hasLimb_ = false;
         } else if (patch.bend.ball) {
-            hasLimb_ = ball_ && patch.state == PATCH_REST && findLimb(ballBend_, shearX_, shearY_, middle_, &limb_);
+            hasLimb_ = object_.isBall() && patch.state == PATCH_REST && findLimb(ballBend_, shearX_, shearY_, middle_, &limb_);
         } else {
             if (!hasAxes_)
                 findViewProducts(own_, &axes_);

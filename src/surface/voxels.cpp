@@ -6,11 +6,6 @@ namespace {
 // Both sides of a cut overlap: each goes on for this distance beyond the line, 1/256 unit.
 constexpr int32_t CUT_MARGIN = 12;
 
-inline int32_t product(const Direction14& a, const int32_t b[3])
-{
-    return (a.x * b[0] + a.y * b[1] + a.z * b[2]) >> 14;
-}
-
 // A vector of own space projected onto the picture plane along the ray of sight.
 struct OnPicture {
     int32_t x, y;
@@ -136,8 +131,8 @@ inline void setExtents(const Shading& v, int32_t facing, Extents extents, Voxel&
 // Sets all of a voxel but its place.
 inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
 {
-    const int32_t normalX = v.turned ? product(s.normal, v.right) : s.normal.x;
-    const int32_t normalY = v.turned ? product(s.normal, v.up) : s.normal.y;
+    const int32_t normalX = v.turned ? dot(s.normal, v.right) >> 14 : s.normal.x;
+    const int32_t normalY = v.turned ? dot(s.normal, v.up) >> 14 : s.normal.y;
     const int32_t depth = v.depth + voxel.z;
     // On the tangent plane the depth changes by n.x depth / (n . vector to the eye) over a unit along x, and likewise along y.
     const uint32_t rise = (static_cast<uint32_t>(depth) << 8) / static_cast<uint32_t>(facing);
@@ -148,7 +143,7 @@ inline void shade(const Shading& v, const Seed& s, int32_t facing, Voxel& voxel)
     voxel.cutX = voxel.cutY = voxel.slopeX = voxel.slopeY = 0;
     voxel.cutAt = 0;
     voxel.curveXX = voxel.curveXY = voxel.curveYY = 0;
-    const int32_t light = lambert(product(s.normal, v.light));
+    const int32_t light = lambert(dot(s.normal, v.light) >> 14);
     voxel.brightness = static_cast<int8_t>(light <= DARK_MIDDLE ? 0 : light);
     if (light <= DARK_MIDDLE)
         return;
