@@ -260,28 +260,16 @@ SELDOM static int findNear(SoftObject* const* from, int count, const SoftObject&
     return found;
 }
 
-namespace {
-
-// Flags of a neighbourhood, from the neighbours gathered so far.
-struct Gathered {
-    bool inner = false, uneven = false, claims = false, plain = true;
-
-    void add(const Neighbour& near, const Bodies& bodies)
-    {
-        inner |= !near.digs && dentedFromWithin(*near.object, bodies);
-        uneven |= near.ratio > UNEVEN_SIZES;
-        plain &= near.plain;
-    }
-    void putInto(Neighbourhood& all) const
-    {
-        all.inner = all.inner || inner;
-        all.uneven = all.uneven || uneven;
-        all.claims = all.claims || claims;
-        all.ordinary = all.ordinary && plain;
-    }
-};
-
-}  // namespace
+// Takes a neighbour into account in what holds for all of them together.
+static inline void takeIn(const Neighbour& near, const Bodies& bodies, Neighbourhood& all)
+{
+    if (near.ratio > UNEVEN_SIZES)
+        all.uneven = true;
+    if (!near.plain)
+        all.ordinary = false;
+    if (!near.digs && dentedFromWithin(*near.object, bodies))
+        all.inner = true;
+}
 
 // Adds those of `count` objects that are near enough to the neighbours. `digs`: they are no members of the body, but dig into it.
 static void gatherFrom(SoftObject* const* from, int count, bool digs, const SoftObject& object, const Bodies& bodies,
@@ -299,7 +287,6 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
     // rounding of the quotient.)
     const Real* const weights = bodies.weights(object.slot());
     const Real large = object.size() * GUEST_SIZES, small = quotient(object.size(), HOST_SIZES) + Real(0.01);
-    Gathered gathered;
     Neighbour* next = all.neighbours + all.count;
     for (int i = 0; i < reaching; ++i) {
         const SoftObject& other = *found[i];
@@ -321,14 +308,13 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         near.change = Real(0);  // until the field is evaluated where it reaches
         const Real weight = weights[near.slot];
         if (other.size() > large || other.size() < small || weight > Real(1))
-            gathered.claims |= setClaims(object, weight, near);
+            all.claims |= setClaims(object, weight, near);
         const bool tiny = (near.size < SMALL || longPaths) && isTiny(object, near);
         if (tiny || !other.isBall())
             aim(object, tiny, near);
-        gathered.add(near, bodies);
+        takeIn(near, bodies, all);
     }
     all.count = static_cast<int>(next - all.neighbours);
-    gathered.putInto(all);
 }
 
 void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& all)
