@@ -20,8 +20,9 @@ constexpr Real TOLERATED(16);
 constexpr Real FARTHEST(4);
 // 1/1024 unit: where neighbours travel no farther than this in a frame it makes no difference whether they stop after it.
 constexpr Travel SLIGHT = 100;
-// In the units of Keeper::view_: a change of the view counts as even if it differs from the change before by no more than JOLT and
-// a quarter of itself. If an axis or the light changes by more than FASTEST the object turns fast.
+// What tells how an object is seen and lit. A change of it counts as even if it differs from the change before by no more than JOLT
+// and a quarter of itself. If an axis or the light changes by more than FASTEST the object turns fast.
+constexpr int32_t (OwnFrame::*VIEW[])[3] = {&OwnFrame::right, &OwnFrame::up, &OwnFrame::ahead, &OwnFrame::light, &OwnFrame::eye32};
 constexpr int32_t JOLT = 24, FASTEST = 500;
 // If an object grows or shrinks by more than 2^-GROWS of its size in a frame nothing of it goes on: scales keep their extents while
 // they do, and would part.
@@ -45,11 +46,13 @@ bool isInPlace(const OwnFrame& a, const OwnFrame& b)
            a.distance32 == b.distance32;
 }
 
-// Corrects a step that has led from `before` elsewhere than to `now`; 2^shift such steps were made. Returns about the error.
-template <class Step>
-inline int32_t correctStep(int32_t now, int32_t before, int shift, Step& step)
+// Corrects a step that would have led from the value `at` to elsewhere than to `now`; 2^shift such steps have been wrong. The value
+// becomes `now`. Returns about the error.
+template <class Place, class Step>
+inline int32_t correct(int32_t now, Place& at, Step& step, int shift)
 {
-    const int32_t error = now - before - step;
+    const int32_t error = now - at - step;
+    at = static_cast<Place>(now);
     step = static_cast<Step>(step + (error >> shift));
     return error ^ error >> 31;
 }
@@ -111,18 +114,16 @@ void Keeper::begin(const OwnFrame& own, Travel travel)
 // How the object, the viewer and the light move.
 Keeper::Motion Keeper::motionOf(const OwnFrame& own)
 {
-    const int32_t* const parts[] = {own.right, own.up, own.ahead, own.light, own.eye32};
-    int32_t *last = view_, *lastChange = viewChange_;
+    int32_t* lastChange = viewChange_;
     bool uneven = absolute(own.growth - own_.growth) > shiftDown(own.growth, GROWS);
     bool fast = false;
     int32_t changes = 0;
-    for (const int32_t* const part : parts) {
-        for (int i = 0; i < 3; ++i, ++last, ++lastChange) {
-            const int32_t change = part[i] - *last;
+    for (const auto part : VIEW) {
+        for (int i = 0; i < 3; ++i, ++lastChange) {
+            const int32_t change = (own.*part)[i] - (own_.*part)[i];
             changes |= change;
             uneven |= magnitude(change - *lastChange) > JOLT + (magnitude(change) >> 2);
-            fast |= magnitude(change) > FASTEST && part != own.eye32;
-            *last = part[i];
+            fast |= magnitude(change) > FASTEST && part != &OwnFrame::eye32;
             *lastChange = change;
         }
     }
@@ -134,23 +135,17 @@ Keeper::Motion Keeper::motionOf(const OwnFrame& own)
 void Keeper::list(int number, bool goes, VoxelList& list, Slopes& slopes)
 {
     Kept& kept = kept_[number];
-    Voxel* voxel = list.room();
     if (paintedAs_ >= 0)
         memset(list.number + list.count, paintedAs_ & 255, kept.count);
-    list.count += kept.count;
-    const auto add = [&](const One& one) {
-        *voxel = one.voxel;
-        if (one.number != NONE)
-            slopes.addKept(one.seed, one.number, voxel);
-        ++voxel;
-    };
-    One *one = kept.voxels, *const end = one + kept.count;
-    for (; goes && one < end; ++one) {
-        one->goOn();
-        add(*one);
+    Voxel* voxel = list.room();
+    for (One *one = kept.voxels, *const end = one + kept.count; one < end; ++one, ++voxel) {
+        if (goes)
+            one->goOn();
+        *voxel = one->voxel;
+        if (one->number != NONE)
+            slopes.addKept(one->seed, one->number, voxel);
     }
-    for (; one < end; ++one)
-        add(*one);
+    list.count += kept.count;
     list.bordered |= kept.bordered;
     if (goes)
         --kept.left;
@@ -171,15 +166,11 @@ bool Keeper::makeRoom(Kept& kept, int count)
 void Keeper::store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool goes, Slopes& slopes) const
 {
     const bool follows = goes && kept.drawn == frame_ - 1 && kept.left == 0 && kept.state == patch.state;
-    kept.since = 0;
-    kept.drawn = 0;
+    kept.since = kept.drawn = 0;
     const bool same = follows && hasSameSeeds(kept, made);
-    if (!same && !(follows ? rearrange(kept, made) : makeRoom(kept, made.count)))
+    if (!same && !(follows ? rearrange(kept, made) : clear(kept, made.count)))
         return;
-    if (follows)
-        follow(kept, patch, made, same);
-    else
-        begin(kept, made);
+    follow(kept, patch, made, follows, same);
     for (int i = made.sloped; i < slopes.count(); ++i) {
         One& one = kept.voxels[slopes.voxel(i) - made.voxels];
         one.number = slopes.number(i);
@@ -193,17 +184,17 @@ void Keeper::store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool
     kept.drawn = goes ? frame_ : 0;
 }
 
-// Keeps the voxels of a patch, of which nothing is known.
-inline void Keeper::begin(Kept& kept, const PatchVoxels& made)
+// Makes room for the voxels of a patch, of which nothing is known. Returns false when there is no memory.
+inline bool Keeper::clear(Kept& kept, int count)
 {
-    for (int i = 0; i < made.count; ++i) {
+    if (!makeRoom(kept, count))
+        return false;
+    for (int i = 0; i < count; ++i)
         kept.voxels[i] = One{};
-        kept.voxels[i].begin(made.voxels[i], made.seen[i].seed);
-    }
     kept.period = 1;
-    kept.left = 0;
     kept.facing = 0;
     kept.stepsKnown = false;
+    return true;
 }
 
 // Whether a patch shows the same seeds as when its voxels were kept.
@@ -240,28 +231,30 @@ bool Keeper::rearrange(Kept& kept, const PatchVoxels& made)
     return true;
 }
 
-// Corrects the steps of voxels that have been made anew at the end of a period, and sets the next period.
-inline void Keeper::follow(Kept& kept, const Patch& patch, const PatchVoxels& made, bool sameSeeds) const
+// Takes the voxels of a patch as they have been made anew, corrects the steps that have led to them, and sets the next period. Of
+// steps nothing is known unless it `follows` another period.
+inline void Keeper::follow(Kept& kept, const Patch& patch, const PatchVoxels& made, bool follows, bool sameSeeds) const
 {
     const int shift = __builtin_ctz(kept.period);
     const bool blends = patch.state == PATCH_MIXED;
     const int32_t tolerated = blends ? tolerated_ : tolerated_ / 2;
+    const int tiltShift = object_.spacing() <= FINE ? 6 : 10 - blends;
     // Where patches rest a limb that comes or goes ends the period, because their scales alone make the outline.
-    const One::Errors errors{object_.spacing() <= FINE ? 6 : 10 - blends, blends ? 0 : tolerated * 4};
+    const int32_t otherwise = blends ? 0 : tolerated * 4;
     int32_t error = 0;
     for (int i = 0; i < made.count; ++i) {
         One& one = kept.voxels[i];
         if (one.seed == nullptr)
             one.begin(made.voxels[i], made.seen[i].seed);
         else
-            error |= one.follow(made.voxels[i], shift, errors);
+            error |= one.follow(made.voxels[i], shift, tiltShift, otherwise);
     }
     int period = kept.stepsKnown ? periodAfter(kept.period, error, tolerated) : 1;
     // Others may come into sight, or go, as soon.
     if (!sameSeeds)
         period = blends ? min32(period, 2) : 1;
     // A patch that shows nothing may turn into sight.
-    if (made.count == 0)
+    if (made.count == 0 && follows)
         period = min32(period, blends ? longestUnseen(kept, patch, shift) : 2);
     if (blends) {
         period = min32(period, longest_);
@@ -269,7 +262,7 @@ inline void Keeper::follow(Kept& kept, const Patch& patch, const PatchVoxels& ma
         if (kept.period == 1 && period == 2 && ((static_cast<uint32_t>(&kept - kept_) + frame_) & 1) != 0)
             period = 1;
     }
-    kept.stepsKnown = true;
+    kept.stepsKnown = follows;
     kept.period = static_cast<uint8_t>(period);
     kept.left = static_cast<uint8_t>(period - 1);
 }
@@ -326,41 +319,33 @@ inline void Keeper::One::goOn()
     voxel.cutAt = static_cast<int16_t>(limited(voxel.cutAt + stepCutAt, CUT_MOST));
 }
 
-// Takes the voxel as it has been made anew, and corrects the steps, of which 2^shift were made. Returns about the error in units of
-// 1/256: one of tilt counts half as far as it moves the edge of the scale where patches blend, a quarter where they rest, and four
-// times between fine seeds; one of the cut about half as far as it moves the line, one of the reach half, and a step of brightness
-// 1/16 unit. Several errors are or-ed, because that is quicker than to find the greatest.
-inline int32_t Keeper::One::follow(const Voxel& v, int shift, const Errors& errors)
+// Takes the voxel as it has been made anew, and corrects the steps, of which 2^shift were made. Returns the error, 1/256 unit.
+// That of the place counts as it is; that of a tilt 2^(8 - tiltShift) times what it moves the scale's edge, which is a half where
+// patches blend, a quarter where they rest, and four times between fine seeds; that of a cut a quarter to a half of what it moves
+// the line; that of the reach a half; a step of brightness 1/16 unit. `otherwise` is the error if a scale has got a reach, or lost
+// it. All of these are or-ed, which is quicker than to find the greatest.
+inline int32_t Keeper::One::follow(const Voxel& v, int shift, int tiltShift, int32_t otherwise)
 {
-    const int32_t to[] = {v.x * 16, v.y * 16, v.z * 16}, lightTo = v.brightness * 256 + 128;
-    int32_t error = 0;
-    for (int i = 0; i < 3; ++i) {
-        error |= correctStep(to[i], place[i], shift, step[i]) >> 4;
-        place[i] = to[i];
-    }
-    const int32_t tiltXError = correctStep(v.tiltX, voxel.tiltX, shift, stepTiltX);
-    const int32_t tiltYError = correctStep(v.tiltY, voxel.tiltY, shift, stepTiltY);
-    error |= (tiltXError * v.halfWidth | tiltYError * v.halfHeight) >> errors.tiltShift;
+    int32_t error = (correct(v.x * 16, place[0], step[0], shift) | correct(v.y * 16, place[1], step[1], shift) |
+                     correct(v.z * 16, place[2], step[2], shift)) >> 4;
+    error |= (correct(v.tiltX, voxel.tiltX, stepTiltX, shift) * v.halfWidth |
+              correct(v.tiltY, voxel.tiltY, stepTiltY, shift) * v.halfHeight) >> tiltShift;
     int16_t corrected = stepLight;
-    const int32_t lightError = correctStep(lightTo, light, shift, corrected);
+    const int32_t lightError = correct(v.brightness * 256 + 128, light, corrected, shift);
     if (lightError > ROUNDED_LIGHT) {
         error |= lightError >> 4;
         stepLight = corrected;
     }
-    light = static_cast<int16_t>(lightTo);
-    if ((v.reach | voxel.reach) != 0) {
-        const int32_t reachTo = v.reach * 128;
-        if (v.reach != 0 && voxel.reach != 0) {
-            error |= correctStep(reachTo, reach, shift, stepReach) >> 5;
-        } else {
-            stepReach = 0;
-            error |= errors.otherwise;
-        }
-        reach = static_cast<int16_t>(reachTo);
+    if (v.reach != 0 && voxel.reach != 0) {
+        error |= correct(v.reach * 128, reach, stepReach, shift) >> 5;
+    } else if (v.reach != voxel.reach) {
+        reach = static_cast<int16_t>(v.reach * 128);
+        stepReach = 0;
+        error |= otherwise;
     }
     if ((v.cutAt | voxel.cutAt) != 0) {
         if (isCut(v) && isCut(voxel) && !isCutNowhere(v) && !isCutNowhere(voxel))
-            error |= correctStep(v.cutAt, voxel.cutAt, shift, stepCutAt) >> 3;
+            error |= correct(v.cutAt, voxel.cutAt, stepCutAt, shift) >> 3;
         else
             stepCutAt = 0;
     }

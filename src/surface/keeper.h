@@ -49,18 +49,15 @@ public:
     // Whether they are those of this frame, because nothing has changed.
     bool stands(int number, const Patch& patch) const
     {
-        return motion_ == STANDS && count_ > 0 && kept_[number].since == since_ && kept_[number].state == patch.state &&
-               !patch.islands;
+        return motion_ == STANDS && kept_[number].since == since_ && kept_[number].state == patch.state && !patch.islands;
     }
     // Adds the voxels of such a patch to the list and to the slopes, after a step if they go on (`goes`: goesOn() in this frame).
     void list(int number, bool goes, VoxelList& list, Slopes& slopes);
     // Keeps voxels that have been made in this frame. All of them are in the object's own colour.
     void keep(int number, const Patch& patch, const PatchVoxels& made, Slopes& slopes)
     {
-        if (count_ == 0 || patch.islands)
-            return;
         const bool goes = mayGoOn(patch, made.count);
-        if (goes || motion_ == STANDS)
+        if ((goes || motion_ == STANDS) && !patch.islands)
             store(kept_[number], patch, made, goes, slopes);
     }
 
@@ -77,20 +74,14 @@ private:
         int16_t stepTiltX, stepTiltY, stepCutAt;
 
         void begin(const Voxel& v, const Seed* of);
-        // Takes another voxel, and leaves the steps as they are.
+        // Takes another voxel, and leaves the rest as it is.
         void set(const Voxel& v)
         {
             voxel = v;
             number = NONE;
         }
         void goOn();
-        // An error of tilt counts times half the extent of the scale, over 2^tiltShift. `otherwise` is the error if a scale has got
-        // a reach, or lost it.
-        struct Errors {
-            int tiltShift;
-            int32_t otherwise;
-        };
-        int32_t follow(const Voxel& v, int shift, const Errors& errors);
+        int32_t follow(const Voxel& v, int shift, int tiltShift, int32_t otherwise);
     };
     struct Kept {
         One* voxels;
@@ -117,10 +108,10 @@ private:
     Motion motionOf(const OwnFrame& own);
     void store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool goes, Slopes& slopes) const;
     static bool makeRoom(Kept& kept, int count);
-    static void begin(Kept& kept, const PatchVoxels& made);
+    static bool clear(Kept& kept, int count);
     static bool hasSameSeeds(const Kept& kept, const PatchVoxels& made);
     static bool rearrange(Kept& kept, const PatchVoxels& made);
-    void follow(Kept& kept, const Patch& patch, const PatchVoxels& made, bool sameSeeds) const;
+    void follow(Kept& kept, const Patch& patch, const PatchVoxels& made, bool follows, bool sameSeeds) const;
     int longestUnseen(Kept& kept, const Patch& patch, int shift) const;
 
     const SoftObject& object_;
@@ -133,8 +124,7 @@ private:
     Motion motion_ = UNEVEN;
     Travel travel_ = 0;       // travel of the neighbours
     int longest_ = 1;         // the longest period that they allow where patches blend
-    // How the object is seen and lit: the axes of the view, the light (1.0 = 2^14) and the eye (1/32 unit); and their change.
-    int32_t view_[15] = {}, viewChange_[15] = {};
+    int32_t viewChange_[15] = {};  // the last change of how the object is seen and lit
     OwnFrame own_{};          // how it was drawn last: the frame,
     int32_t paintedAs_ = -1;  // and its finish (256 times that) and the number of its colour, or -1 if it has no paint
 };
