@@ -62,6 +62,7 @@ void Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
     }
     if (leapt_)
         count_ = 0;
+    forgetFar(all);
     const Travel eyeTravel = travelOfEye(object, own);
     eyeStayed_ = eyeTravel == 0;
     const Real reach = object.reach();
@@ -69,55 +70,48 @@ void Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
     const Neighbour* near = all.neighbours;
     Known* known = known_;
     for (int i = 0, count = all.count; i < count; ++i, ++near, ++known) {
-        if ((i >= count_ || known->slot != near->slot) && !isKnown(all, i))
+        if (i == count_ || known->slot != near->slot) {
+            insert(*near, i);
             continue;
+        }
         known->inRange = near->inRange;
         known->travelled = travelOf(known->pose.follow(*near, reach));
         longest = known->travelled > longest ? known->travelled : longest;
     }
-    if (count_ > all.count)
-        forgetFar(all);
     if (!leapt_)
         lastTravel_ = longest;
     reading_ += lastTravel_ + eyeTravel;
 }
 
-// Whether neighbour `number` was gathered in the last call, too. If not it becomes known now: it has come within GATHER_SLACK of
-// the range, or, if it is in range already, it has leapt.
-bool Odometer::isKnown(const Neighbourhood& all, int number)
+// Forgets the neighbours that are not gathered any more. One that was in range has leapt out of it.
+inline void Odometer::forgetFar(const Neighbourhood& all)
 {
-    const Neighbour& near = all.neighbours[number];
+    const Known *from = known_, *const end = known_ + count_;
+    // Most often all of them are.
+    while (from < end && all.bySlot[from->slot] != nullptr)
+        ++from;
+    Known* to = known_ + (from - known_);
+    for (; from < end; ++from) {
+        if (all.bySlot[from->slot] != nullptr)
+            *to++ = *from;
+        else
+            leapt_ |= from->inRange;
+    }
+    count_ = static_cast<int>(to - known_);
+}
+
+// Takes in a neighbour that was not gathered in the last call: it has come within GATHER_SLACK of the range, or, if it is in range
+// already, it has leapt. It gets the place that it has among the neighbours, whose order stays the same as long as links do.
+void Odometer::insert(const Neighbour& near, int number)
+{
     Known& known = known_[number];
-    if (count_ == room_ || (number < count_ && all.bySlot[known.slot] == nullptr))
-        forgetFar(all);
-    const uint8_t slot = static_cast<uint8_t>(near.slot);
-    if (number < count_ && known.slot == slot)
-        return true;
-    // The entries behind it move up.
-    count_ = count_ < room_ ? count_ + 1 : room_;
-    memmove(&known + 1, &known, static_cast<size_t>(count_ - 1 - number) * sizeof known);
-    known.slot = slot;
+    memmove(&known + 1, &known, static_cast<size_t>(count_ - number) * sizeof known);
+    ++count_;
+    known.slot = static_cast<uint8_t>(near.slot);
     known.inRange = near.inRange;
     known.travelled = 0;
     known.pose.take(near);
     leapt_ |= near.inRange;
-    return false;
-}
-
-// Forgets the neighbours that are not gathered any more. One that was in range has leapt out of it.
-void Odometer::forgetFar(const Neighbourhood& all)
-{
-    Known* to = known_;
-    for (const Known *from = known_, *const end = known_ + count_; from < end; ++from) {
-        if (all.bySlot[from->slot] == nullptr) {
-            leapt_ |= from->inRange;
-            continue;
-        }
-        if (to != from)
-            *to = *from;
-        ++to;
-    }
-    count_ = static_cast<int>(to - known_);
 }
 
 bool Odometer::count(Patch& patch, const Neighbourhood& all) const

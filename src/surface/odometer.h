@@ -57,8 +57,8 @@ public:
 private:
     bool makeRoom(int count);
     Travel travelOfEye(const SoftObject& object, const OwnFrame& own);
-    SELDOM bool isKnown(const Neighbourhood& all, int number);
     void forgetFar(const Neighbourhood& all);
+    SELDOM void insert(const Neighbour& near, int number);
 
     Travel reading_ = 0, lastTravel_ = 0;
     uint32_t linksVersion_ = 0;
