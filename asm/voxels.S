@@ -76,7 +76,7 @@
 #define BRIGHTEST    63
 #define DARK_MIDDLE      -30
 #define LEAST_COSINE 6500
-#define UNEVEN       15500
+#define ASLANT       15500
 #define AREA_MOST    16383
 
         .text
@@ -498,8 +498,8 @@ shade_position:
         times_normal SEED_WAY
         movzwl        SEED_AREA(%esi), %edx
         sarl        $7, %eax
-        // torn = magnitude(cosine) < UNEVEN;   edx has 0 then
-        cmpl        $UNEVEN, %eax
+        // torn = magnitude(cosine) < ASLANT;   edx has 0 then
+        cmpl        $ASLANT, %eax
         jl        shade_torn
 shade_even:
         movl        %edx, SHADE_AREA(%esp)
@@ -720,7 +720,7 @@ shade_backwards:
         cmpl        $-LEAST_COSINE, %eax
         jle        1f
         movl        $-LEAST_COSINE, %eax
-1:        cmpl        $-UNEVEN, %eax
+1:        cmpl        $-ASLANT, %eax
         jg        shade_even
         movzwl        SEED_AREA(%esi), %edx
         jmp        shade_even

@@ -129,7 +129,7 @@ inline void Engine::settleBetween(Settler& settler)
     for (int i = 0; i < count_; ++i, ++patch)
         if (patch->settled) {
             settler.oversample(*patch);
-            keeper_.forget(i);
+            keeper_.forgetPatch(i);
         }
     if (settler.hasIslands() || islands_)
         settleIslands(settler);

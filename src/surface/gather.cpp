@@ -263,8 +263,8 @@ SELDOM static int findNear(SoftObject* const* from, int count, const SoftObject&
 // Takes a neighbour into account in what holds for all of them together.
 static inline void takeIn(const Neighbour& near, const Bodies& bodies, Neighbourhood& all)
 {
-    if (near.ratio > UNEVEN_SIZES)
-        all.uneven = true;
+    if (near.ratio > FAR_SIZES)
+        all.sizesDiffer = true;
     if (!near.plain)
         all.ordinary = false;
     if (!near.digs && dentedFromWithin(*near.object, bodies))
@@ -329,7 +329,7 @@ void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& 
     all.restsAtOne = object.rests() && !all.hollow;
     all.ordinary = object.strength() == Real(1) && !all.hollow && !object.shaped();
     all.last = object.restRoot() == Real(0.5) ? Real(1.98) : Real(0.99) / object.restRoot();
-    all.uneven = all.claims = false;
+    all.sizesDiffer = all.claims = false;
     memset(all.bySlot, 0, sizeof all.bySlot);
     gatherFrom(bodies.diggers(*all.head), bodies.diggerCount(*all.head), true, object, bodies, all);
     all.dented = all.count > 0;

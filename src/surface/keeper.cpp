@@ -100,7 +100,7 @@ void Keeper::begin(const OwnFrame& own, Travel travel)
     ++frame_;
     motion_ = motionOf(own);
     if (motion_ != STANDS) {
-        ++since_;
+        ++viewNumber_;
         own_ = own;
     }
     // When the neighbours stop, or nearly do, nothing may go on as if they still moved.
@@ -115,21 +115,21 @@ void Keeper::begin(const OwnFrame& own, Travel travel)
 Keeper::Motion Keeper::motionOf(const OwnFrame& own)
 {
     int32_t* lastChange = viewChange_;
-    bool uneven = absolute(own.growth - own_.growth) > shiftDown(own.growth, GROWS);
+    bool jolts = absolute(own.growth - own_.growth) > shiftDown(own.growth, GROWS);
     bool fast = false;
     int32_t changes = 0;
     for (const auto part : VIEW) {
         for (int i = 0; i < 3; ++i, ++lastChange) {
             const int32_t change = (own.*part)[i] - (own_.*part)[i];
             changes |= change;
-            uneven |= magnitude(change - *lastChange) > JOLT + (magnitude(change) >> 2);
+            jolts |= magnitude(change - *lastChange) > JOLT + (magnitude(change) >> 2);
             fast |= magnitude(change) > FASTEST && part != &OwnFrame::eye32;
             *lastChange = change;
         }
     }
     const bool stands = draws_ > 0 && changes == 0 && isInPlace(own, own_);
     draws_ = min32(draws_ + 1, 3);
-    return stands ? STANDS : uneven || draws_ < 3 ? UNEVEN : fast ? FAST : EVEN;
+    return stands ? STANDS : jolts || draws_ < 3 ? JOLTS : fast ? FAST : EVEN;
 }
 
 void Keeper::list(int number, bool goes, VoxelList& list, Slopes& slopes)
@@ -166,7 +166,7 @@ bool Keeper::makeRoom(Kept& kept, int count)
 void Keeper::store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool goes, Slopes& slopes) const
 {
     const bool follows = goes && kept.drawn == frame_ - 1 && kept.left == 0 && kept.state == patch.state;
-    kept.since = kept.drawn = 0;
+    kept.viewNumber = kept.drawn = 0;
     const bool same = follows && hasSameSeeds(kept, made);
     if (!same && !(follows ? rearrange(kept, made) : clear(kept, made.count)))
         return;
@@ -179,7 +179,7 @@ void Keeper::store(Kept& kept, const Patch& patch, const PatchVoxels& made, bool
     kept.count = static_cast<uint8_t>(made.count);
     kept.state = patch.state;
     kept.bordered = made.bordered;
-    kept.since = since_;
+    kept.viewNumber = viewNumber_;
     // What stands has no steps that would be known when it moves.
     kept.drawn = goes ? frame_ : 0;
 }

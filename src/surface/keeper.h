@@ -31,10 +31,10 @@ public:
     // Forgets all voxels, because the seeds have been laid out elsewhere; or that those of a patch are still right, because its
     // seeds have been settled.
     void forget() { draws_ = 0; }
-    void forget(int number)
+    void forgetPatch(int number)
     {
         if (count_ > 0)
-            kept_[number].since = 0;
+            kept_[number].viewNumber = 0;
     }
 
     // Begins a frame. `travel` is how far the object's neighbours have travelled since the frame before.
@@ -49,7 +49,8 @@ public:
     // Whether they are those of this frame, because nothing has changed.
     bool stands(int number, const Patch& patch) const
     {
-        return motion_ == STANDS && kept_[number].since == since_ && kept_[number].state == patch.state && !patch.islands;
+        return motion_ == STANDS && kept_[number].viewNumber == viewNumber_ && kept_[number].state == patch.state &&
+               !patch.islands;
     }
     // Adds the voxels of such a patch to the list and to the slopes, after a step if they go on (`goes`: goesOn() in this frame).
     void list(int number, bool goes, VoxelList& list, Slopes& slopes);
@@ -85,7 +86,7 @@ private:
     };
     struct Kept {
         One* voxels;
-        uint32_t since;       // since_ when they were kept; 0: they are not right any more
+        uint32_t viewNumber;  // viewNumber_ when they were kept; 0: they are not right any more
         uint32_t drawn;       // number of the frame in which they were drawn last
         int32_t facing;       // of a blending patch without voxels: facing() of the seed that is the nearest to be seen, or HIDDEN
         uint8_t count, room;  // voxels, and how many there is room for
@@ -96,13 +97,13 @@ private:
     };
     // How the object, the viewer and the light move: not at all, as in the frame before, the same but turning fast, or otherwise.
     // What rests does not go on straight while it turns fast; where patches blend the error of the steps tells.
-    enum Motion { STANDS, EVEN, FAST, UNEVEN };
+    enum Motion { STANDS, EVEN, FAST, JOLTS };
 
     // Whether a patch may go on. One without voxels has nothing that would have to move evenly.
     bool mayGoOn(const Patch& patch, int voxels) const
     {
         if (patch.state == PATCH_MIXED)
-            return longest_ > 1 && (motion_ != UNEVEN || voxels == 0);
+            return longest_ > 1 && (motion_ != JOLTS || voxels == 0);
         return patch.state == PATCH_REST && motion_ == EVEN;
     }
     Motion motionOf(const OwnFrame& own);
@@ -120,8 +121,8 @@ private:
     int32_t tolerated_ = 0;   // the error of a step that is tolerated where patches blend, 1/256 unit
     int draws_ = 0;           // how often the object has been drawn; 3: more than twice
     uint32_t frame_ = 1;      // number of this frame
-    uint32_t since_ = 0;      // how often it has been drawn otherwise than the time before
-    Motion motion_ = UNEVEN;
+    uint32_t viewNumber_ = 0; // number of the present view: it grows whenever the object, the viewer or the light has moved
+    Motion motion_ = JOLTS;
     Travel travel_ = 0;       // travel of the neighbours
     int longest_ = 1;         // the longest period that they allow where patches blend
     int32_t viewChange_[15] = {};  // the last change of how the object is seen and lit

@@ -54,7 +54,7 @@ public:
     // As outward(), at a position of the path that passes a seed's path at a distance. There is no current path afterwards.
     Vector outwardBeside(const Seed& s, Real position, const Vector& distance);
     // The shift of gradients at the position evaluated last: 0, unless there is a far smaller neighbour.
-    int gradientShift() const { return all_.uneven ? findGradientShift() : 0; }
+    int gradientShift() const { return all_.sizesDiffer ? findGradientShift() : 0; }
 
     // The member of the body among the neighbours whose field was the strongest at the position evaluated last, but for `other`;
     // null if there is none.

@@ -38,7 +38,7 @@ struct Fall {
         if (position < v.leastPosition)
             position = v.leastPosition;
         int32_t cosine = product(s.way, s.normal) >> 7;
-        torn = magnitude(cosine) < UNEVEN;
+        torn = magnitude(cosine) < ASLANT;
         if (magnitude(cosine) < LEAST_COSINE)
             cosine = cosine < 0 ? -LEAST_COSINE : LEAST_COSINE;
         share = (position << 14) / cosine;

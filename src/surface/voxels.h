@@ -80,7 +80,7 @@ inline void setSlopes(int32_t x, int32_t y, Voxel* voxel)
 
 // Cosines of path and normal. The first is a lower bound, so that blending stretches no scale to more than two and a half times its
 // cell. Below the second a cell no longer forms an even band with its neighbours in the ring.
-constexpr int32_t LEAST_COSINE = 6500, UNEVEN = 15500;
+constexpr int32_t LEAST_COSINE = 6500, ASLANT = 15500;
 
 // Upper bound of the area of a cell, in the units of Seed::area.
 constexpr int32_t AREA_MOST = 16383;

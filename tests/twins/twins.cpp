@@ -954,7 +954,7 @@ static_assert(inasm2::SEEDS == offsetof(Shading, seeds) && inasm2::ROOTS == offs
               inasm2::GRADIENT == offsetof(Shading, gradient) && inasm2::AHEAD == offsetof(Shading, gradientAhead), "Shading");
 static_assert(inasm2::STEEPEST_TILT == STEEPEST_TILT && inasm2::MARGIN_SHIFT == MARGIN_SHIFT &&
               inasm2::MARGIN_UNITS == MARGIN_UNITS && inasm2::FLAT_SHADING == FLAT_SHADING &&
-              inasm2::STEEPEST_SHADING == STEEPEST_SHADING && inasm2::LEAST_COSINE == LEAST_COSINE && inasm2::UNEVEN == UNEVEN &&
+              inasm2::STEEPEST_SHADING == STEEPEST_SHADING && inasm2::LEAST_COSINE == LEAST_COSINE && inasm2::ASLANT == ASLANT &&
               inasm2::AREA_MOST == AREA_MOST && inasm2::BRIGHTEST == BRIGHTEST, "constants of shading");
 
 constexpr int SEEDS = 18, ROOTS = 5;
