@@ -41,7 +41,7 @@ void measureBend(const SoftObject& object, const Shading& shading, Patch& patch)
     const Seed *from[2], *to[2];
     if (!findSteps(shading.seeds, patch, from, to))
         return;
-    const Seed& centre = object.regular(patch.centre);
+    const Seed& centre = object.regular(patch.middleSeed);
     const Direction14& normal = centre.flags & SEED_VALID ? centre.normal : from[0]->normal;
     const int32_t n[] = {normal.x, normal.y, normal.z};
     // The two steps, the turn of the normal over each, and the dual vector of each: the dot product of dual[k] and a vector,

@@ -68,7 +68,7 @@ inline __attribute__((always_inline)) void setBorder(const Path& path, Seed& s, 
 
 }  // namespace
 
-bool findBorder(const Path& path, Seed& s, Real dominance)
+bool findBorder(const Path& path, Seed& s, Real fieldLead)
 {
     // Gradients here are multiplied by half the squared size of the object, over 2^shift.
     const int shift = path.gradientShift();
@@ -79,14 +79,14 @@ bool findBorder(const Path& path, Seed& s, Real dominance)
     if (other == nullptr)
         return true;
     // The fields were evaluated before the last step of Newton's method.
-    dominance += (other->slope * other->change - change) * (s.position - path.lookedAt());
+    fieldLead += (other->slope * other->change - change) * (s.position - path.lookedAt());
     const Vector own = g;
     g = g - gradientOf(path, *other, from, shift);
     const Steepest steepest(g);
-    if (other->slot < path.all().head->slot() && dominance > -other->value * TIE &&
+    if (other->slot < path.all().head->slot() && fieldLead > -other->value * TIE &&
         steepest.length < nearLength(own) * ALIKE)
         return false;
-    setBorder(path, s, -dominance, steepest, shift);
+    setBorder(path, s, -fieldLead, steepest, shift);
     return true;
 }
 
@@ -103,10 +103,10 @@ void findGuestBorder(const Path& path, Seed& s, const Neighbour& host)
     setBorder(path, s, ahead, Steepest(gradientOf(path, host, from, shift) - g), shift);
 }
 
-bool findNearer(const Path& path, Seed& s, Real dominance)
+bool findNearer(const Path& path, Seed& s, Real fieldLead)
 {
     const Seed before = s;
-    const bool own = findBorder(path, s, dominance);
+    const bool own = findBorder(path, s, fieldLead);
     if (own && before.apart < s.apart)
         s = before;
     return own;

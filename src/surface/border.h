@@ -26,17 +26,17 @@ inline Direction14 directionOf(const Normal& n)
 }
 
 // Sets the border of a seed, to first order: direction and distance of the place where the strongest neighbour's field equals the
-// own one. `dominance` is the neighbour's field less the own one at the position evaluated last. Returns false if the two fields
+// own one. `fieldLead` is the neighbour's field less the own one at the position evaluated last. Returns false if the two fields
 // are the same around the seed, as around the end that two tubes share, and the neighbour stands before the own object in the
 // model: the surface is the neighbour's then, so that only one of the two draws it.
-bool findBorder(const Path& path, Seed& s, Real dominance);
+bool findBorder(const Path& path, Seed& s, Real fieldLead);
 
 // Sets the border of a seed in a place that belongs to a neighbour, its host: direction and distance of the place where the host's
 // field equals the second strongest one, be that the own field or another's.
 SELDOM void findGuestBorder(const Path& path, Seed& s, const Neighbour& host);
 
 // As findBorder(), for a seed that has a border already: the seed keeps the nearer one of the two.
-SELDOM bool findNearer(const Path& path, Seed& s, Real dominance);
+SELDOM bool findNearer(const Path& path, Seed& s, Real fieldLead);
 
 // Sets the colour of a seed to the mean of the objects' colours, weighted by their fields at the position evaluated last.
 void mix(const Path& path, Seed& s);

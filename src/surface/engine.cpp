@@ -44,8 +44,8 @@ public:
 private:
     bool updatePatch(Settler& settler, Patch& patch, const Neighbourhood& all);
     bool goOn(int number, Patch& patch, const Neighbourhood& all);
-    bool keeps(Settler& settler, Patch& patch, const Neighbourhood& all);
-    bool stays(const Settler& settler, Patch& patch, const Neighbourhood& all) const;
+    bool waits(Settler& settler, Patch& patch, const Neighbourhood& all);
+    bool isUntouched(const Settler& settler, Patch& patch, const Neighbourhood& all) const;
     bool comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all);
     bool isAtRest(Settler& settler, Patch& patch);
     void sleepOutOfSight(Patch& patch);
@@ -131,7 +131,7 @@ inline void Engine::settleBetween(Settler& settler)
             settler.oversample(*patch);
             keeper_.forgetPatch(i);
         }
-    if (settler.hasIslands() || islands_)
+    if (settler.isHeavy() || islands_)
         settleIslands(settler);
 }
 
@@ -143,7 +143,7 @@ void Engine::settleIslands(Settler& settler)
     ++islandSearches_;
     for (Patch* patch = patches_; patch < patches_ + count_; ++patch) {
         const bool hasTurn = odometer_.leapt() || ((static_cast<uint32_t>(patch - patches_) + islandSearches_) & 1) == 0;
-        if (!patch->islands && (patch->state == PATCH_INSIDE || !hasTurn))
+        if (!patch->islands && (patch->state == PATCH_OFF || !hasTurn))
             continue;
         settler.settleIslands(*patch);
         islands_ |= patch->islands;
@@ -158,14 +158,14 @@ inline bool Engine::goOn(int number, Patch& patch, const Neighbourhood& all)
         return false;
     patch.moved = true;
     if (!all.ordinary)
-        odometer_.count(patch, all);
+        odometer_.addTravel(patch, all);
     return true;
 }
 
 // Brings a patch up to date. Returns false if all its seeds are at rest.
 inline bool Engine::updatePatch(Settler& settler, Patch& patch, const Neighbourhood& all)
 {
-    if (keeps(settler, patch, all))
+    if (waits(settler, patch, all))
         return true;
     // What is out of sight need not be looked at, unless it may come to rest or the odometer has to count the neighbours' travel.
     const bool judgedFirst = all.ordinary && all.count > 0 && patch.state != PATCH_REST;
@@ -173,7 +173,7 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const Neighbourh
         sleepOutOfSight(patch);
         return true;
     }
-    if (!all.ordinary && stays(settler, patch, all))
+    if (!all.ordinary && isUntouched(settler, patch, all))
         return patch.state != PATCH_REST;
     if (comesToRest(settler, patch, all))
         return false;
@@ -204,20 +204,20 @@ inline void Engine::sleepOutOfSight(Patch& patch)
 
 // Whether a patch keeps its state and its neighbours need not be looked at: it is not due yet, or it still lies inside the
 // neighbour that covered it.
-inline bool Engine::keeps(Settler& settler, Patch& patch, const Neighbourhood& all)
+inline bool Engine::waits(Settler& settler, Patch& patch, const Neighbourhood& all)
 {
     if (patch.state == PATCH_REST)
         return false;
     if (all.ordinary && !isDue(odometer_.reading(), patch.due))
         return true;
-    return patch.state == PATCH_INSIDE && settler.isStillCovered(patch);
+    return patch.state == PATCH_OFF && settler.isStillCovered(patch);
 }
 
 // Whether a patch of a scene that is not ordinary (gather.h) keeps its state: its voxels have not gone on and no neighbour that may
 // reach its paths has moved, or all of the patch is still off the surface. At rest it does not depend on the viewer.
-inline bool Engine::stays(const Settler& settler, Patch& patch, const Neighbourhood& all) const
+inline bool Engine::isUntouched(const Settler& settler, Patch& patch, const Neighbourhood& all) const
 {
-    const bool moved = odometer_.count(patch, all);
+    const bool moved = odometer_.addTravel(patch, all);
     if (settler.isStillOff(patch))
         return true;
     if (moved || patch.moved)

@@ -254,7 +254,7 @@ bool Settler::mayHaveIslands()
 void Settler::settleIslands(Patch& patch)
 {
     setPatch(patch);
-    const bool may = patch.state != PATCH_INSIDE && mayHaveIslands(), had = patch.islands;
+    const bool may = patch.state != PATCH_OFF && mayHaveIslands(), had = patch.islands;
     patch.islands = false;
     forSeeds(object_, patch, [&](const Seed& s) {
         const int i = object_.slotOf(s);
@@ -295,7 +295,7 @@ bool Settler::placeOnIsland(int i, int which, Real inside, Real outside)
     bisect(path_, inside, outside, &position, &sample);
     // An island has no guests.
     if (all_.claims)
-        sample.dominance = path_.dominance();
+        sample.dominance = path_.fieldLead();
     if (sample.dominance > (which == SoftObject::FINE_ISLAND_END ? CLEARLY : OVERSHOOT))
         return false;
     Seed s = object_.regular(i);

@@ -22,7 +22,7 @@ inline void store14(const Vector& v, int32_t* to)
 constexpr int32_t FARTHEST16 = 1 << 14;
 
 // Sets the rest of a neighbour that is stretched or warped. Distances to it are judged by their lower bounds, from its core only.
-SELDOM void aimShaped(Neighbour& near)
+SELDOM void orientShaped(Neighbour& near)
 {
     const SoftObject& other = *near.object;
     const Vector by = other.toCoreAxes({Real(1), Real(1), Real(1)});
@@ -65,7 +65,7 @@ SELDOM bool isTiny(const SoftObject& object, const Neighbour& near)
 
 // Sets what is special about a neighbour that is no POINT: its axis, and the map from own space to its core space. Of that map
 // only the row for the axis matters of a SEGMENT.
-void aim(const SoftObject& object, bool tiny, Neighbour& near)
+void orient(const SoftObject& object, bool tiny, Neighbour& near)
 {
     const SoftObject& other = *near.object;
     near.half = shiftDown(other.segmentHalf16(), 4);
@@ -87,7 +87,7 @@ void aim(const SoftObject& object, bool tiny, Neighbour& near)
     near.toCore[0] = axis(0) * near.inverse16;
     near.toCore[2] = axis(2) * near.inverse16;
     if (other.shaped())
-        aimShaped(near);
+        orientShaped(near);
     near.offset = other.toCoreAxes(other.toOwnAxes(object.centre() - other.centre())) * (Real(CORE_SIZE) / other.size());
 }
 
@@ -219,11 +219,11 @@ static void weigh(const Bodies& bodies, const Neighbourhood& all, Neighbour& nea
 {
     const SoftObject& other = *near.object;
     near.strength = other.strength();
-    near.plain = !near.digs && near.strength == Real(1) && !(all.hollow && &other == all.head);
+    near.ordinary = !near.digs && near.strength == Real(1) && !(all.hollow && &other == all.head);
     near.weight = near.digs ? -bodies.weight(all.head->slot(), other.slot()) : Real(0);
     near.greatestWeight = near.digs ? greatestWeight(other) : Real(1);
     near.samples = near.digs && other.hollowed() == all.head;
-    near.grain = near.plain ? near.size : near.size / (max(near.strength, Real(1)) * max(near.weight, Real(1)));
+    near.grain = near.ordinary ? near.size : near.size / (max(near.strength, Real(1)) * max(near.weight, Real(1)));
 }
 
 // Sets by how much a neighbour's claim and the own one differ from their fields. `weight` is that of their link. Returns true if
@@ -265,7 +265,7 @@ static inline void takeIn(const Neighbour& near, const Bodies& bodies, Neighbour
 {
     if (near.ratio > FAR_SIZES)
         all.sizesDiffer = true;
-    if (!near.plain)
+    if (!near.ordinary)
         all.ordinary = false;
     if (!near.digs && dentedFromWithin(*near.object, bodies))
         all.inner = true;
@@ -311,7 +311,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
             all.claims |= setClaims(object, weight, near);
         const bool tiny = (near.size < SMALL || longPaths) && isTiny(object, near);
         if (tiny || !other.isBall())
-            aim(object, tiny, near);
+            orient(object, tiny, near);
         takeIn(near, bodies, all);
     }
     all.count = static_cast<int>(next - all.neighbours);

@@ -48,7 +48,7 @@ struct Neighbour : Along {
     Real greatestWeight;  // the greatest weight by which it digs into any object; 1 if it is a member of the body
     Real ratio;         // (own size / size)^2, the factor of its share of the gradient
     Real strength;      // factor of its field
-    bool plain;         // it is a member of the body, its strength is 1, and it is not the head of a hollow
+    bool ordinary;      // it is a member of the body, its strength is 1, and it is not the head of a hollow
     bool digs;          // it is no member of the body, but digs into a member
     bool samples;       // its seeds sample a hollow of the head
     bool inRange;       // its field may reach the object's seeds now; else it may do so GATHER_SLACK nearer

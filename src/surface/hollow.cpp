@@ -151,7 +151,7 @@ bool Settler::isOff(const Patch& patch, const Seed& s)
     return (s.flags & SEED_OFF) && static_cast<int16_t>(patch.travelled - s.due) < 0;
 }
 
-// The state of a patch whose middle seed has just been found off the surface: PATCH_INSIDE if all of the patch is off it. At one
+// The state of a patch whose middle seed has just been found off the surface: PATCH_OFF if all of the patch is off it. At one
 // position the own field is about the same on all paths of the patch, and near the surface the paths are little farther apart than
 // where the seeds rest.
 PatchState Settler::probeOff(const Patch& patch, Seed& s) const
@@ -162,5 +162,5 @@ PatchState Settler::probeOff(const Patch& patch, Seed& s) const
     if (hold <= Real(0))
         return PATCH_MIXED;
     putOff(s, hold, gradientBound_);
-    return PATCH_INSIDE;
+    return PATCH_OFF;
 }

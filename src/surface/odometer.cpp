@@ -114,7 +114,7 @@ void Odometer::insert(const Neighbour& near, int number)
     leapt_ |= near.inRange;
 }
 
-bool Odometer::count(Patch& patch, const Neighbourhood& all) const
+bool Odometer::addTravel(Patch& patch, const Neighbourhood& all) const
 {
     Travel travel = leapt_ ? ALL_DUE : 0;
     const Bound paths = boundOfPaths(patch, all);

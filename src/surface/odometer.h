@@ -52,7 +52,7 @@ public:
 
     // Adds the last travel of the neighbours that may reach a patch's paths to Patch::travelled; those that have just left
     // them, or may reach them when they have travelled GATHER_SLACK, count as well. Returns false if none of them moved.
-    SELDOM bool count(Patch& patch, const Neighbourhood& all) const;
+    SELDOM bool addTravel(Patch& patch, const Neighbourhood& all) const;
 
 private:
     bool makeRoom(int count);

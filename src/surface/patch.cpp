@@ -50,7 +50,7 @@ SELDOM int16_t leanOf(const SoftObject& object, const Patch& patch, const Vector
     return static_cast<int16_t>(steps16(most) + 1);
 }
 
-void setPatch(const SoftObject& object, Patch& patch)
+void measure(const SoftObject& object, Patch& patch)
 {
     int count = 0;
     for (int ring = 0; ring < PATCH_RINGS; ++ring)
@@ -275,8 +275,8 @@ void makePatches(const SoftObject& object, Patch* patches)
         for (int k = 0; k < PATCH_RINGS; ++k)
             if (run.count[k] > 0 && (run.count[middle] == 0 || k == rings / 2))
                 middle = k;
-        patch.centre = 2 * (run.first[middle] + run.count[middle] / 2);
-        setPatch(object, patch);
+        patch.middleSeed = 2 * (run.first[middle] + run.count[middle] / 2);
+        measure(object, patch);
         beginPatch(object, patch);
     });
 }
@@ -284,7 +284,7 @@ void makePatches(const SoftObject& object, Patch* patches)
 void reshapePatches(const SoftObject& object, Patch* patches, int count, uint32_t reading)
 {
     for (int i = 0; i < count; ++i) {
-        setPatch(object, patches[i]);
+        measure(object, patches[i]);
         patches[i].due = reading;
         patches[i].moved = true;
         patches[i].bend.known = false;

@@ -18,7 +18,7 @@ constexpr int PATCH_SEEDS_MOST = (2 + SoftObject::FINE_SEEDS) * PATCH_RINGS * PA
 
 enum PatchState : uint8_t {
     PATCH_REST,    // no neighbour reaches it: all its seeds are at rest
-    PATCH_INSIDE,  // all of it lies inside the body, where a neighbour is stronger than the own object
+    PATCH_OFF,     // all of it is off the surface: inside the body, where a neighbour is stronger than the own object, or dug away
     PATCH_AWAY,    // a neighbour reaches it, but it faces away from the viewer, is hidden or is out of sight
     PATCH_MIXED,   // a neighbour reaches it, and its seeds are settled one by one
 };
@@ -42,7 +42,7 @@ struct Patch {
     bool moved;         // since it was settled its voxels have gone on (keeper.h), or its seeds were laid out anew
     bool ridged;        // some of its seeds lie beside a ridge (Seed::beyond)
     bool islands;       // it has seeds on islands, where the paths of its regular seeds return to the surface
-    int32_t centre;     // slot of the middle seed
+    int32_t middleSeed; // slot of the middle seed
     int16_t middle[3];  // the mean of the places where its seeds rest
     int16_t radius;     // of a ball round the middle that contains those places and half a cell more
     int16_t tight;      // of a ball round the middle that just contains those places

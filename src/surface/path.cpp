@@ -93,7 +93,7 @@ void Path::findOdd()
     odd_ = !ownPlain_;
     special_ = all_.claims;
     for (int i = 0; i < touched_; ++i) {
-        odd_ |= !near_[i]->plain;
+        odd_ |= !near_[i]->ordinary;
         special_ |= near_[i]->kind == Neighbour::OTHER;
     }
     special_ |= odd_;
@@ -118,7 +118,7 @@ Real Path::dominantClaim() const
     return most;
 }
 
-Real Path::dominance() const
+Real Path::fieldLead() const
 {
     const Neighbour* const other = strongest();
     return (other == nullptr ? Real(0) : other->value) - ownField_;

@@ -60,7 +60,7 @@ public:
     // null if there is none.
     const Neighbour* strongest(const Neighbour* other = nullptr) const;
     // The strongest neighbour's field less the own one there. It differs from Sample::dominance where claims are not fields.
-    Real dominance() const;
+    Real fieldLead() const;
 
     // Must be called when the lists of `nearby` change.
     void forgetList() { asked_ = nullptr; }
@@ -159,7 +159,7 @@ private:
     Neighbour* const* near_;        // the neighbours of asked_ or part_
     int touched_ = 0;               // their number
     int rootOfAsked_ = -1;            // index of the root for which all neighbours of asked_ are prepared; -1: none
-    bool odd_;                      // not ownPlain_, or some neighbours are not Neighbour::plain
+    bool odd_;                      // not ownPlain_, or some neighbours are not Neighbour::ordinary
     bool special_;                  // lookPlain() alone does not do: odd_, or the cores of some neighbours are neither points nor
                                     // segments, or claims are not fields
     const Seed* seed_;

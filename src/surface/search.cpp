@@ -79,7 +79,7 @@ bool isInside(Path& path, Real* position, Sample* sample, Real* margin)
             return false;
         lowest = min(lowest, sample->excess);
         // Beyond FAINT_AT a seed shows nothing that belongs to another object, whatever its claim.
-        const Real dominance = at == FAINT_AT ? path.dominance() : sample->dominance;
+        const Real dominance = at == FAINT_AT ? path.fieldLead() : sample->dominance;
         if (dominance <= OVERSHOOT)
             continue;
         lowest = min(lowest, path.look(Real(1)).excess);

@@ -125,17 +125,18 @@ inline Settler::Followed Settler::followOn(Seed& s, Real* position, Sample* samp
 // is left to the strongest neighbour.
 inline bool Settler::settleBorder(Seed& s, Real dominance)
 {
+    // Where no claim differs from its field the lead of the claims is that of the fields.
+    const Real lead = all_.claims ? path_.fieldLead() : dominance;
     if (all_.claims) {
-        dominance = path_.dominance();
         // Where the two fields are the same there is no host: one of the objects has the surface, as findBorder() decides.
         const Neighbour* const host = path_.strongest();
-        if (host != nullptr && host->claim < Real(1) && dominance > host->value * TIE)
+        if (host != nullptr && host->claim < Real(1) && lead > host->value * TIE)
             return makeGuest(s, *host);
     }
-    if (dominance <= -border_)
+    if (lead <= -border_)
         return true;
     const bool dented = (s.flags & SEED_BORDER) && nearby_.dented();
-    if (!(dented ? findNearer(path_, s, dominance) : findBorder(path_, s, dominance)))
+    if (!(dented ? findNearer(path_, s, lead) : findBorder(path_, s, lead)))
         return false;
     s.flags |= SEED_BORDER;
     return true;
@@ -267,7 +268,7 @@ inline int32_t Settler::spreadOf(const Patch& patch, const Seed& middle) const
 
 PatchState Settler::probe(Patch& patch)
 {
-    Seed& s = object_.seed(patch.centre);
+    Seed& s = object_.seed(patch.middleSeed);
     patch.due = now_;
     if (!(s.flags & SEED_VALID) && patch.state == PATCH_MIXED && isCovered(s))
         return PATCH_MIXED;
@@ -281,7 +282,7 @@ PatchState Settler::probe(Patch& patch)
             return PATCH_MIXED;
         // The own field, with which the strongest is compared, changes as well.
         patch.due += travelUntil(margin - least, shiftUp(path_.gradientBound(), 1), LONGEST_WAIT);
-        return PATCH_INSIDE;
+        return PATCH_OFF;
     }
     const int32_t away = own_.limb - facing(object_, s, own_) - spreadOf(patch, s) - TURNED;
     // A guest's normal, beyond the crease to another object, tells nothing about the patch.
@@ -301,7 +302,7 @@ static void setRange(Patch& patch, Real nearest, Real farthest)
 
 void Settler::settleOthers(Patch& patch)
 {
-    const Seed& centre = object_.regular(patch.centre);
+    const Seed& centre = object_.regular(patch.middleSeed);
     uint8_t blocker = patch.blocker;
     Real nearest(9), farthest(0);
     forSeeds(object_, patch, [&](Seed& s) {
@@ -348,7 +349,7 @@ void sleep(SoftObject& object, Patch& patch)
     if (patch.asleep)
         return;
     patch.asleep = true;
-    const Seed& centre = object.regular(patch.centre);
+    const Seed& centre = object.regular(patch.middleSeed);
     forSeeds(object, patch, [&](Seed& s) {
         if (&s != &centre)
             s.flags = SEED_ASLEEP;
@@ -358,6 +359,6 @@ void sleep(SoftObject& object, Patch& patch)
 void cover(SoftObject& object, Patch& patch)
 {
     sleep(object, patch);
-    object.seed(patch.centre).flags = 0;
-    patch.state = PATCH_INSIDE;
+    object.seed(patch.middleSeed).flags = 0;
+    patch.state = PATCH_OFF;
 }

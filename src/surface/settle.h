@@ -40,11 +40,11 @@ public:
     // on the surface.
     bool isCovered(const Patch& patch)
     {
-        const bool settled = (object_.regular(patch.centre).flags & (SEED_VALID | SEED_RESTING)) == SEED_VALID;
+        const bool settled = (object_.regular(patch.middleSeed).flags & (SEED_VALID | SEED_RESTING)) == SEED_VALID;
         return !settled && cover_.coversAll(patch) > 0;
     }
 
-    // The same for a patch that was PATCH_INSIDE, before setPatch(). It sets when a covered patch is due again.
+    // The same for a patch that was PATCH_OFF, before setPatch(). It sets when a covered patch is due again.
     bool isStillCovered(Patch& patch)
     {
         const int32_t depth = cover_.coversAll(patch);
@@ -55,7 +55,7 @@ public:
     }
 
     // Whether a patch that was off the surface, near something that digs, is sure to be so still; before setPatch().
-    bool isStillOff(const Patch& patch) const { return patch.state == PATCH_INSIDE && isOff(patch, object_.regular(patch.centre)); }
+    bool isStillOff(const Patch& patch) const { return patch.state == PATCH_OFF && isOff(patch, object_.regular(patch.middleSeed)); }
 
     // Settles the middle seed of a patch that neighbours reach, returns the state that the patch gets from that, and sets when the
     // patch is due again.
@@ -71,9 +71,9 @@ public:
     // must be settled before. It calls setPatch() itself.
     void oversample(Patch& patch);
 
-    // Whether paths of the object may lead through islands of the surface; and settles the seeds on the islands of a patch,
-    // whatever its state. Where it lies inside, and where no link is heavy any more, the islands end.
-    bool hasIslands() const { return heavy_; }
+    // Whether the object has a heavy link, so that its paths may lead through islands of the surface; and settles the seeds on the
+    // islands of a patch, whatever its state. Where it is off the surface, and where no link is heavy any more, the islands end.
+    bool isHeavy() const { return heavy_; }
     SELDOM void settleIslands(Patch& patch);
 
 private:
@@ -152,7 +152,7 @@ void rest(SoftObject& object, Patch& patch);
 // Puts all seeds of a patch but the middle one to sleep: they are neither settled nor drawn.
 void sleep(SoftObject& object, Patch& patch);
 
-// Puts a patch to sleep that lies inside the body as a whole: it becomes PATCH_INSIDE.
+// Puts a patch to sleep that lies inside the body as a whole: it becomes PATCH_OFF.
 void cover(SoftObject& object, Patch& patch);
 
 #endif

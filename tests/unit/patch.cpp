@@ -67,7 +67,7 @@ TEST(patches_hold_every_seed_once)
                     CHECK(&s == &object.regular(i));
                     CHECK(i >= 0 && i < object.seedSlots());
                     ++held[static_cast<size_t>(i / 2)];
-                    middle = middle || i == patch.centre;
+                    middle = middle || i == patch.middleSeed;
                     ++seeds;
                 });
                 CHECK(middle);
