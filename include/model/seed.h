@@ -70,7 +70,7 @@ struct Seed {
     union {
         int16_t apart;   // with SEED_BORDER: distance to where the two fields are equal, 1/256 unit, positive on its own side
         int16_t out;     // with SEED_RESTING: dot product of normal and `place`, in the steps of `place`
-        uint16_t due;    // with SEED_OFF: reading of the patch's odometer at which the seed is looked at again
+        uint16_t due;    // with SEED_OFF: value of Patch::travelled (surface/patch.h) at which the seed is looked at again
     };
     uint16_t root;       // index of the root point, which several seeds may share
     uint8_t flags;       // SeedFlag

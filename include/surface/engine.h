@@ -4,8 +4,8 @@
 
 #include "model/surface.h"
 
-// Ours: the surface of contract and report found with as little work as we know, one way for every kind of object and any
-// graph of links. Null: no memory.
+// Ours: finds the surface of the body's field (model/body.h) with as little work as we know, in one way for every kind of object
+// and any graph of links. Null: no memory, or the user wants to stop.
 Surface* makeEngine(SoftObject& object);
 
 // The report's own methods, as printed (/P).

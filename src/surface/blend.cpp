@@ -9,7 +9,8 @@ namespace {
 constexpr Real NEGLIGIBLE(0.002), NOTHING(0.0005);
 // Among more members than this the sum over all pairs might overflow, unless their fields are scaled to 0.5.
 constexpr int CROWD = 64;
-// So far inside the body, in units of the field, it does not matter how far.
+// In units of the field: the sum of the fields that a member takes part in (Part::g) counts up to this, so that the mean of such
+// sums stays within 16.16. So far inside the body it does not matter how far.
 constexpr Real DEEP(240);
 
 // A member of the body that has a field f at the position; `lack` is dD/df, where D is the sum of (1 - w_ik) f_i f_k (f_i + f_k)
@@ -43,7 +44,7 @@ void Path::blend(Real position, const Fields& fields, Sample& sample)
         else
             near.share = Real(1);
     }
-    // In a crowd all fields are small: they are scaled up, because their squares would lose too many digits.
+    // Small fields are scaled up, the strongest to 1, because their squares would lose too many digits; in a crowd it becomes 0.5.
     const Real strongest = max(ownField_, fields.strongest);
     const bool crowd = end - parts >= CROWD, scaled = crowd || (strongest < Real(0.125) && strongest > Real(0));
     const Real one = crowd ? strongest + strongest : strongest;

@@ -12,8 +12,8 @@ constexpr Real BORDER_FAR(30);
 // Two fields count as the same if they differ by less than TIE times the neighbour's.
 constexpr Real TIE(0.004);
 
-// A seed no farther than this from a border, 1/256 unit, knows how the light changes around it (Seed::lightChange), like all
-// oversampled and fine seeds: the seeds about it tell that badly, because some are missing.
+// 1/256 unit: a seed no farther than this from a border knows how the light changes around it (Seed::lightChange), and so do all
+// oversampled and fine seeds. The seeds about these would tell it badly, because some are missing.
 constexpr int32_t BESIDE = 256;
 inline bool isBesideBorder(const Seed& s)
 {

@@ -13,8 +13,7 @@ namespace {
 // After this many patches the program looks whether the user wants to stop.
 constexpr int ASKED_EVERY = 32;
 
-// An object with more patches than this has so many seeds that the memory is wanted for these: of its earlier frames nothing is
-// kept (keeper.h).
+// Nothing is kept (keeper.h) of an object with more patches than this, because its many seeds need the memory.
 constexpr int KEPT_MOST = 2500;
 
 class Engine : public Surface {
@@ -58,8 +57,8 @@ private:
     Odometer odometer_;
     Keeper keeper_;
     uint32_t islandSearches_ = 0;  // how often islands were searched
-    OwnFrame own_;           // how the object is seen, if begun_, and until the last draw() of the frame
-    bool begun_ = false;     // update() has begun this frame
+    OwnFrame own_;           // how the object is seen: set by update(), or in a frame without one by the first draw()
+    bool begun_ = false;     // update() has begun this frame, and draw() has not been called yet
     bool islands_ = false;   // some patches have seeds on islands
     bool allRests_ = false;  // all seeds were at rest after the last update
     Patch* patches_ = nullptr;
@@ -84,7 +83,7 @@ void Engine::reshape()
     keeper_.forget();
 }
 
-// Gather what reaches the object, classify its patches, settle those that are due.
+// Gathers what reaches the object, classifies its patches, and settles those that are due.
 bool Engine::update(const FrameContext& frame)
 {
     Neighbourhood all;
@@ -150,8 +149,8 @@ void Engine::settleIslands(Settler& settler)
     }
 }
 
-// Lets the voxels of patch `number` go on if it blends, so that its seeds need not be settled. Returns false if they do not. What
-// the neighbours do meanwhile counts in a later frame.
+// Lets the voxels of patch `number` go on if it blends, so that its seeds need not be settled. Returns false if they do not. The
+// travel of the neighbours is counted all the same, for the frame in which the patch is settled again.
 inline bool Engine::goOn(int number, Patch& patch, const Neighbourhood& all)
 {
     if (patch.state != PATCH_MIXED || !keeper_.goesOn(number, patch))

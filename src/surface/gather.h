@@ -118,7 +118,7 @@ struct Neighbourhood {
     bool dented;        // some neighbours dig
     bool claims;        // some claims differ from the fields
     bool deep;          // paths are searched from near their roots on
-    Real last;          // the position at which the own field ends
+    Real last;          // the position up to which paths are searched: little before the own field ends
     Neighbour neighbours[NEIGHBOURS_MAX];
     Neighbour* bySlot[SLOTS_MAX];  // null where that object is no neighbour
 };

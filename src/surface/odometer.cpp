@@ -7,8 +7,7 @@
 
 namespace {
 
-// A travel longer than any that is waited for, when it is not known how far things have travelled. It is long even in the 16 bits
-// of a reading that a seed stores.
+// A travel longer than any that is waited for, when it is not known how far things have travelled.
 constexpr Travel EVERYWHERE = 3 << 19;
 
 // The largest travel that may be added to a 16-bit count that wraps around without its seeming to run backwards. It makes

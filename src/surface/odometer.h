@@ -1,7 +1,7 @@
-// Odometer: coherence over time. It adds up how far the neighbours of an object have travelled in its own space, and how far the
-// viewer has travelled round it. A result about a patch is valid until they have travelled so far that it might change: who finds
+// Odometer: coherence over time. It adds up how far the neighbours of an object travel in its own space, at most, and how far the
+// viewer travels round it. A result about a patch is valid until they have travelled so far that it might change: who finds
 // the result says how far that is, and when the odometer's reading gets there the patch is due again. Where a scene is not ordinary
-// (gather.h) a patch also counts the travel of the neighbours that may reach it. Were everything always due only the speed would
+// (gather.h) a patch also counts the travel of those neighbours that may reach it. Were everything always due only the speed would
 // change.
 #ifndef FB_ODOMETER_H
 #define FB_ODOMETER_H
@@ -43,15 +43,15 @@ public:
     // Whether no earlier result is valid since the last call: an object has leapt into range or out of it, links have changed, the
     // neighbourhood has become ordinary or is not any more, or nothing was known before. Then everything is due.
     bool leapt() const { return leapt_; }
-    // The total travel of the neighbours and the viewer.
+    // Each call adds the travel of that neighbour which has travelled farthest, and that of the viewer.
     Travel reading() const { return reading_; }
-    // How far the neighbours travelled in the last call.
+    // How far that neighbour travelled in the last call.
     Travel lastTravel() const { return lastTravel_; }
     // Whether the viewer did not travel round the object in the last call.
     bool eyeStayed() const { return eyeStayed_; }
 
-    // Adds the last travel of the neighbours that may reach a patch's paths to Patch::travelled; those that have just left
-    // them, or may reach them when they have travelled GATHER_SLACK, count as well. Returns false if none of them moved.
+    // Adds the greatest last travel of a neighbour that may reach a patch's paths to Patch::travelled; one that has just left them,
+    // or may reach them when it has travelled GATHER_SLACK, counts as well. Returns false if none of them moved.
     SELDOM bool addTravel(Patch& patch, const Neighbourhood& all) const;
 
 private:

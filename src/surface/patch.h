@@ -35,7 +35,7 @@ struct Patch {
     uint8_t count[PATCH_RINGS];  // and how many there are
     PatchState state;
     uint8_t blocker;    // Seed::blocker of the middle seed, when that was not on the surface the last time
-    bool settled;       // its seeds were settled in this frame
+    bool settled;       // its seeds were settled in the last update
     bool asleep;        // all its seeds but the middle one are SEED_ASLEEP
     bool extras;        // some of its oversampled seeds take part
     bool fine;          // some of its fine seeds take part
@@ -53,7 +53,8 @@ struct Patch {
     int16_t lean;       // the greatest distance between a path's end and `path` along the axis; 0 if the object is not shaped
     uint8_t nearest, farthest;          // the range of positions that contains those of its seeds, 1/64
     uint32_t due;       // the odometer's reading (odometer.h) at which the patch is due
-    uint16_t travelled; // total travel of the neighbours that may reach its paths, 1/1024 unit; it wraps around
+    uint16_t travelled; // count of travel, 1/1024 unit, that wraps around: each update adds the greatest of a neighbour that may
+                        // reach its paths, where the scene is not ordinary
     Bend bend;
 };
 

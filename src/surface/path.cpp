@@ -66,8 +66,8 @@ Real Neighbour::otherParam(Real p)
 // Makes the neighbours on a list those that are evaluated from now on, and prepares each of them for the root of a seed.
 void Path::take(const NeighbourList& list, const Seed& s)
 {
-    if (asked_ != &list) {
-        asked_ = &list;
+    if (list_ != &list) {
+        list_ = &list;
         setNear(list);
         findOdd();
     }
@@ -77,7 +77,7 @@ void Path::take(const NeighbourList& list, const Seed& s)
         ++first;
     if (first < end)
         setRoots(first, end, s);
-    rootOfAsked_ = object_.shaped() ? -1 : s.root;
+    rootOfList_ = object_.shaped() ? -1 : s.root;
 }
 
 inline void Path::setNear(const NeighbourList& list)
@@ -217,17 +217,17 @@ inline bool Path::mayReach(const Neighbour& near) const
 // Leaves out the neighbours that reach no position of the path.
 void Path::leaveOut()
 {
-    part_.count = 0;
+    shortList_.count = 0;
     for (int i = 0; i < touched_; ++i)
         if (mayReach(*near_[i]))
-            part_.add(*near_[i]);
-    if (part_.count == touched_)
+            shortList_.add(*near_[i]);
+    if (shortList_.count == touched_)
         return;
-    part_.complete = true;
+    shortList_.complete = true;
     if (!complete_)
-        nearby_.setComplete(part_);
-    setNear(part_);
-    asked_ = nullptr;
+        nearby_.setComplete(shortList_);
+    setNear(shortList_);
+    list_ = nullptr;
 }
 
 // The own t at a position of the path of a warped object; sets ownChange_ and ownOut_.
@@ -299,7 +299,8 @@ Vector Path::outwardBeside(const Seed& s, Real position, const Vector& distance)
 {
     Seed beside = s;
     beside.path = s.path + distance * (Real(1) / position);
-    // The neighbours are prepared with the seed's own path, because all paths have its length and the path beside it does not.
+    // What the neighbours know of a root holds for paths of one length (setRoots()). That is the length of the seed's own path, but
+    // not of the path beside it.
     const NeighbourList& list = nearby_.at(position);
     take(list, s);
     Sample sample;

@@ -63,7 +63,7 @@ public:
     Real fieldLead() const;
 
     // Must be called when the lists of `nearby` change.
-    void forgetList() { asked_ = nullptr; }
+    void forgetList() { list_ = nullptr; }
 
     // Prepares a neighbour's field along the path of a seed, so that the neighbour alone can be evaluated at positions. There is no
     // current path afterwards.
@@ -115,7 +115,7 @@ private:
     void makeCurrent(const NeighbourList& list, const Seed& s)
     {
         seed_ = &s;
-        if (asked_ != &list || rootOfAsked_ != s.root)
+        if (list_ != &list || rootOfList_ != s.root)
             take(list, s);
     }
     void take(const NeighbourList& list, const Seed& s);
@@ -154,11 +154,11 @@ private:
     const Real restOfPath_;         // units: the searched part of a path leads no farther than this from its middle
 
     // The current path:
-    const NeighbourList* asked_ = nullptr;      // the list of the neighbours that are evaluated; null: they are part_, or not set
-    NeighbourList part_;                      // the neighbours of a list that reach the path
-    Neighbour* const* near_;        // the neighbours of asked_ or part_
+    const NeighbourList* list_ = nullptr;  // the neighbours that are evaluated; null: those on shortList_, or none are set
+    NeighbourList shortList_;       // those neighbours on a list that reach some position of the path
+    Neighbour* const* near_;        // the neighbours of list_ or shortList_
     int touched_ = 0;               // their number
-    int rootOfAsked_ = -1;            // index of the root for which all neighbours of asked_ are prepared; -1: none
+    int rootOfList_ = -1;           // index of the root for which all neighbours of list_ are prepared; -1: none
     bool odd_;                      // not ownPlain_, or some neighbours are not Neighbour::ordinary
     bool special_;                  // lookPlain() alone does not do: odd_, or the cores of some neighbours are neither points nor
                                     // segments, or claims are not fields
@@ -178,7 +178,7 @@ inline void Path::aim(Neighbour& near, const Seed& s)
     if (near.root != s.root) {
         Neighbour* const one = &near;
         setRoots(&one, &one + 1, s);
-        rootOfAsked_ = -1;
+        rootOfList_ = -1;
     }
     near.aim(s.path);
 }

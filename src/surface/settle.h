@@ -55,7 +55,10 @@ public:
     }
 
     // Whether a patch that was off the surface, near something that digs, is sure to be so still; before setPatch().
-    bool isStillOff(const Patch& patch) const { return patch.state == PATCH_OFF && isOff(patch, object_.regular(patch.middleSeed)); }
+    bool isStillOff(const Patch& patch) const
+    {
+        return patch.state == PATCH_OFF && isOff(patch, object_.regular(patch.middleSeed));
+    }
 
     // Settles the middle seed of a patch that neighbours reach, returns the state that the patch gets from that, and sets when the
     // patch is due again.
@@ -132,7 +135,7 @@ private:
     Counts& counts_;
     const Travel now_;      // the odometer's reading
     const bool heavy_;      // the object has a link heavier than HEAVY
-    const Real weakest_;    // no islands are searched where the own field is below this: one between two objects has more
+    const Real weakest_;    // the own field is at least this on an island between two objects: elsewhere none is searched
     const Seed* const last_;  // the last regular seed
     const Patch* patch_ = nullptr;  // the current patch
     Real border_;           // a neighbour whose field is weaker than the own one by less than this has its border near

@@ -358,7 +358,7 @@ inline int Shader::findSeen(const Patch& patch, Voxel* voxels, int* regular)
     return count;
 }
 
-// Writes the rest of the voxels of these seeds.
+// Sets the rest of the voxels that findSeen() has begun.
 inline void Shader::shadeSeen(Patch& patch, Voxel* voxels, int count)
 {
     const Seen& middle = seen_[count >> 1];
@@ -486,8 +486,8 @@ inline void Shader::shadePatch(Patch& patch, VoxelList& list, Painter* painter)
     list.count += count;
 }
 
-// Whether some of a patch may be seen; the caller has tested whether the patch rests facing away. A patch that settled in this
-// frame was found not to be hidden just before.
+// Whether some of a patch may be seen; the caller has tested whether the patch rests facing away. A patch that the last
+// update has settled was found not to be hidden then.
 bool isSeen(const Patch& patch, const OwnFrame& own)
 {
     if (patch.state == PATCH_REST)
