@@ -47,6 +47,9 @@ private:
     int findNear(Link* near) const;
     void pose();
     void settle(int i, const FrameContext& frame, const Vector& toEye, const Link* near, int nearCount);
+    bool faces(int i, const Vector& toEye);
+    bool search(int i, const FrameContext& frame, const Link* near, int nearCount, Real* position) const;
+    void store(int i, bool found, Real position);
     Point rootPoint(const Seed& s) const { return object_.toWorld(object_.root(s.root)); }
 
     SoftObject& object_;
@@ -142,23 +145,35 @@ bool Report98::update(const FrameContext& frame)
 
 void Report98::settle(int i, const FrameContext& frame, const Vector& toEye, const Link* near, int nearCount)
 {
-    Seed& s = object_.seed(i);
-    const Point root = rootPoint(s);
-    const Vector path = kept_[i].path;
+    if (!faces(i, toEye))
+        return;
+    Real position;
+    const bool found = search(i, frame, near, nearCount, &position);
+    store(i, found, position);
+}
 
-    // "Seeds whose paths point nearly away from the viewer [...] are assumed to be invisible."
+// "Seeds whose paths point nearly away from the viewer [...] are assumed to be invisible."
+bool Report98::faces(int i, const Vector& toEye)
+{
+    Seed& s = object_.seed(i);
     const bool front = dot(kept_[i].out, toEye) >= BACK_FACE * object_.radius();
     s.flags = static_cast<uint8_t>(front ? s.flags | SEED_FRONT : s.flags & ~SEED_FRONT);
-    if (!front)
-        return;
+    return front;
+}
 
+// Searches the surface along the path of a seed. Returns false if a neighbour is stronger there, or the path has no surface.
+bool Report98::search(int i, const FrameContext& frame, const Link* near, int nearCount, Real* position) const
+{
+    const Seed& s = object_.seed(i);
+    const Point root = rootPoint(s);
+    const Vector path = kept_[i].path;
     // "If the seed was valid before, use its last position", else "a reliable starting position".
-    Real position = s.flags & SEED_VALID ? s.position : Real(1);
-    Point point = root + path * position;
+    *position = s.flags & SEED_VALID ? s.position : Real(1);
     bool highest;
     Real difference;
     int iterations = 0;
     do {
+        const Point point = root + path * *position;
         const Real own = object_.fieldFunc(point);
         Real field = own;
         highest = true;
@@ -170,10 +185,9 @@ void Report98::settle(int i, const FrameContext& frame, const Vector& toEye, con
         }
         ++iterations;
         difference = absolute(field - ISOVALUE);
-        if (difference > LOCATION_TOLERANCE) {
-            position -= (ISOVALUE - field) * step_;  // the slope is taken as -1
-            point = root + path * position;
-        }
+        // The slope is taken as -1, or as -1 / step_ where fields are steeper than the report's.
+        if (difference > LOCATION_TOLERANCE)
+            *position -= (ISOVALUE - field) * step_;
     } while (highest && difference > LOCATION_TOLERANCE && iterations < ITERATION_LIMIT);
 
     ++frame.counts->updated;
@@ -183,16 +197,22 @@ void Report98::settle(int i, const FrameContext& frame, const Vector& toEye, con
         // The path of a weak object, or of one that something digs into, may have no surface.
         highest = difference < NOWHERE || (object_.rests() && object_.dents().empty());
     }
+    return highest;
+}
 
-    // "If they have not moved by a certain minimum amount between frames, they are assumed not to have moved."
+// Stores the result of a search. "If they have not moved by a certain minimum amount between frames, they are assumed not to have
+// moved."
+void Report98::store(int i, bool found, Real position)
+{
+    Seed& s = object_.seed(i);
     const bool wasValid = (s.flags & SEED_VALID) != 0;
-    s.flags = static_cast<uint8_t>(highest ? s.flags | SEED_VALID : s.flags & ~SEED_VALID);
+    s.flags = static_cast<uint8_t>(found ? s.flags | SEED_VALID : s.flags & ~SEED_VALID);
     if (!wasValid || absolute(position - s.position) >= DISPLACEMENT) {
         s.position = position;
         s.flags = static_cast<uint8_t>(s.flags & ~SEED_KEPT);
     }
-    kept_[i].point = root + path * s.position;
-    if (!highest || absolute(s.position - Real(1)) >= DEFORMITY)
+    kept_[i].point = rootPoint(s) + kept_[i].path * s.position;
+    if (!found || absolute(s.position - Real(1)) >= DEFORMITY)
         displaced_ = true;
 }
 
