@@ -51,20 +51,21 @@ class Shader {
 public:
     Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame);
 
-    // Lists the voxels of a patch; those of an object that has a paint go through the painter.
+    // Lists the voxels of those patches from `first` on that may be seen, as long as there is room for `room` voxels. Those of an
+    // object that has a paint go through the painter. Returns the first patch that is left.
     template <bool PAINTED>
-    void shadePatch(Patch& patch, VoxelList& list, Painter* painter);
+    int shade(Patch* patches, int count, int first, VoxelList& list, int room, Painter* painter, Keeper& keeper);
 
     // The spacing of the object's seeds, 1/256 unit.
     int32_t spacing() const { return spacing_; }
-    // The seeds of the last patch of which voxels have been listed.
-    const Seen* seen() const { return seen_; }
 
 private:
+    template <bool PAINTED>
+    void shadePatch(Patch& patch, VoxelList& list, Painter* painter);
     int findSeen(const Patch& patch, Voxel* voxels, int* regular);
     void shadeSeen(Patch& patch, Voxel* voxels, int count);
     bool cutAtBorder(const Seed& s, Voxel* voxel, VoxelList& list) const;
-    static Voxel* listUnpainted(const Seed& s, const Voxel* voxel, Voxel** to, VoxelList& list);
+    static Voxel* listUnpainted(const Seed& s, const Voxel* voxel, VoxelList& list);
     template <bool PAINTED>
     void listVoxels(const Patch& patch, Voxel* voxels, int count, int regular, VoxelList& list, Painter* painter);
     int findExtras(const Patch& patch, Seen* seen, Voxel* voxels) const;
@@ -115,7 +116,7 @@ private:
     int32_t middle_;          // depth of the patch, 1/256 unit
     bool limbSought_, hasLimb_;
     Limb limb_;               // limb of its regular seeds, if hasLimb_
-    Seen seen_[PATCH_SEEDS_MOST];   // seen()
+    Seen seen_[PATCH_SEEDS_MOST];   // its seeds of which voxels have been listed
 };
 
 Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame)
@@ -396,10 +397,10 @@ inline bool Shader::knowsLight(const Seed& s, bool regular, const Voxel& voxel) 
     return (!regular || isBesideBorder(s)) && voxel.brightness != 0 && s.lightChange[0] != Seed::LIGHT_UNKNOWN;
 }
 
-// Adds an unpainted voxel to a list, which ends before `*to`, or to its guests. Returns its place there.
-inline Voxel* Shader::listUnpainted(const Seed& s, const Voxel* voxel, Voxel** to, VoxelList& list)
+// Adds an unpainted voxel to a list, or to its guests. Returns its place there.
+inline Voxel* Shader::listUnpainted(const Seed& s, const Voxel* voxel, VoxelList& list)
 {
-    Voxel* const shown = s.flags & SEED_GUEST ? list.roomForGuest(s.host) : (*to)++;
+    Voxel* const shown = s.flags & SEED_GUEST ? list.roomForGuest(s.host) : list.voxels + list.count++;
     if (shown != voxel)
         *shown = *voxel;
     return shown;
@@ -445,7 +446,6 @@ inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, int
     const bool uneven = isUneven(patch, voxels, regular);
     const int32_t sight = shines || uneven || patch.ridged ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
     const int sloped = shines || blends || patch.ridged ? regular : 0;
-    Voxel* to = list.room();
     int listed = 0;
     for (int i = 0; i < count; ++i) {
         const Seed& s = *seen_[i].seed;
@@ -455,15 +455,13 @@ inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, int
         if (!endBeside(s, voxels + i, list))
             continue;
         seen_[listed++] = seen_[i];
-        Voxel* const shown = PAINTED ? painter->add(s, voxels[i]) : listUnpainted(s, voxels + i, &to, list);
+        Voxel* const shown = PAINTED ? painter->add(s, voxels[i]) : listUnpainted(s, voxels + i, list);
         endOrDome(patch, seen_[i], i < regular, uneven, shown);
         // A dark voxel keeps its slopes. With a finish that shines, brightness 0 does not mean that the light ends there.
         const bool stays = knows || (!shines && shown->brightness == 0);
         if (i < sloped)
             addSloped<PAINTED>(s, shown, stays ? Slopes::STAYS : sight, list);
     }
-    if (!PAINTED)
-        list.count = static_cast<int>(to - list.voxels);
 }
 
 template <bool PAINTED>
@@ -520,11 +518,8 @@ SELDOM void listGuests(VoxelList& list, const Bodies& bodies)
 }
 
 template <bool PAINTED>
-int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
-            VoxelList& list, int room, Painter* painter, Keeper& keeper)
+int Shader::shade(Patch* patches, int count, int first, VoxelList& list, int room, Painter* painter, Keeper& keeper)
 {
-    Shader shader(object, own, frame);
-    slopes.begin();
     // The painter may make two voxels of one seed. Guests are listed from the other end on, while the voxels of the patch still
     // stand at this one.
     constexpr int most = 2 * PATCH_SEEDS_MOST;
@@ -534,10 +529,10 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
     int i = first;
     for (; i < count; ++i) {
         Patch& patch = patches[i];
-        if (patch.state == PATCH_REST && !patch.islands && restsAway(patch, own))
+        if (patch.state == PATCH_REST && !patch.islands && restsAway(patch, own_))
             continue;
         const bool goesOn = keeps && keeper.goesOn(i, patch);
-        if (!goesOn && !patch.islands && !isSeen(patch, own))
+        if (!goesOn && !patch.islands && !isSeen(patch, own_))
             continue;
         if (list.count + list.guests + most > room)
             break;
@@ -546,13 +541,10 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
             continue;
         }
         const int begin = list.count, guests = list.guests, sloped = slopes.count();
-        shader.shadePatch<PAINTED>(patch, list, painter);
+        shadePatch<PAINTED>(patch, list, painter);
         if (keeps && list.guests == guests)
-            keeper.keep(i, patch, {list.voxels + begin, shader.seen(), list.count - begin, sloped, list.bordered}, slopes);
+            keeper.keep(i, patch, {list.voxels + begin, seen_, list.count - begin, sloped, list.bordered}, slopes);
     }
-    slopes.set(shader.spacing());
-    if (list.guests > 0)
-        listGuests(list, *frame.bodies);
     return i;
 }
 
@@ -561,8 +553,17 @@ int shadeAs(SoftObject& object, const OwnFrame& own, const FrameContext& frame, 
 int shadePatches(SoftObject& object, const OwnFrame& own, const FrameContext& frame, Patch* patches, int count, int first,
                  VoxelList& list, int room, Keeper& keeper)
 {
-    if (object.shown()->paint() == nullptr)
-        return shadeAs<false>(object, own, frame, patches, count, first, list, room, nullptr, keeper);
-    Painter painter(object, own, list);
-    return shadeAs<true>(object, own, frame, patches, count, first, list, room, &painter, keeper);
+    Shader shader(object, own, frame);
+    slopes.begin();
+    int left;
+    if (object.shown()->paint() == nullptr) {
+        left = shader.shade<false>(patches, count, first, list, room, nullptr, keeper);
+    } else {
+        Painter painter(object, own, list);
+        left = shader.shade<true>(patches, count, first, list, room, &painter, keeper);
+    }
+    slopes.set(shader.spacing());
+    if (list.guests > 0)
+        listGuests(list, *frame.bodies);
+    return left;
 }
