@@ -46,7 +46,6 @@ private:
     bool waits(Settler& settler, Patch& patch, const Neighbourhood& all);
     bool isUntouched(const Settler& settler, Patch& patch, const Neighbourhood& all) const;
     bool comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all);
-    bool isAtRest(Settler& settler, Patch& patch);
     void sleepOutOfSight(Patch& patch);
     void settle(Settler& settler, Patch& patch);
     void settleBetween(Settler& settler);
@@ -183,12 +182,18 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const Neighbourh
     return true;
 }
 
-// Finds out which neighbours reach a patch. Returns true if none does and its seeds are at rest.
+// Finds out which neighbours reach a patch, and puts its seeds at rest if none does. Returns true if they are at rest then.
 inline bool Engine::comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all)
 {
-    const bool touched = settler.setPatch(patch);
-    if (touched || !all.restsAtOne || !isAtRest(settler, patch))
+    if (settler.setPatch(patch) || !all.restsAtOne)
         return false;
+    if (patch.state != PATCH_REST) {
+        rest(object_, patch);
+        patch.state = PATCH_REST;
+        // Other neighbours may be near the places where the seeds are now.
+        if (settler.setPatch(patch))
+            return false;
+    }
     patch.moved = false;
     return true;
 }
@@ -222,17 +227,6 @@ inline bool Engine::isUntouched(const Settler& settler, Patch& patch, const Neig
     if (moved || patch.moved)
         return false;
     return patch.state == PATCH_REST || (odometer_.eyeStayed() && patch.state != PATCH_AWAY);
-}
-
-// No neighbour reaches the seeds of a patch where they were. Puts them at rest, and returns whether no neighbour reaches them
-// there either: other neighbours may be near those places.
-inline bool Engine::isAtRest(Settler& settler, Patch& patch)
-{
-    if (patch.state == PATCH_REST)
-        return true;
-    rest(object_, patch);
-    patch.state = PATCH_REST;
-    return !settler.setPatch(patch);
 }
 
 // Judges a patch as a whole by the seed in its middle, and settles each of its seeds only where that does not decide.

@@ -123,7 +123,8 @@ bool Settler::layOutExtra(const Seed& s, const Seed& other)
     return true;
 }
 
-void Settler::oversample(Patch& patch)
+// Activates those oversampled seeds of a patch that are needed, and ends the others.
+inline void Settler::layOutExtras(Patch& patch)
 {
     const bool had = patch.extras;
     bool any = false;
@@ -135,25 +136,50 @@ void Settler::oversample(Patch& patch)
             putAway(object_, object_.slotOf(s));
     });
     patch.extras = any;
+}
+
+// Settles the oversampled seed of regular seed i. Returns false if it does not take part.
+inline bool Settler::settleExtra(int i)
+{
+    Seed* const extra = object_.extra(i);
+    if (extra == nullptr || !(extra->flags & SEED_ACTIVE))
+        return false;
+    if (!(extra->flags & SEED_VALID) && isCovered(*extra))
+        extra->flags &= SEED_ACTIVE | stillOff();
+    else
+        settle(*extra);
+    return true;
+}
+
+void Settler::oversample(Patch& patch)
+{
+    layOutExtras(patch);
     const bool hadFine = patch.fine;
     patch.fine = false;
-    if (!any)
+    if (!patch.extras)
         return;
     setPatch(patch, true);
     forSeeds(object_, patch, [&](const Seed& s) {
         const int i = object_.slotOf(s);
-        Seed* const extra = object_.extra(i);
-        if (extra == nullptr || !(extra->flags & SEED_ACTIVE))
+        if (!settleExtra(i))
             return;
-        if (!(extra->flags & SEED_VALID) && isCovered(*extra))
-            extra->flags &= SEED_ACTIVE | stillOff();
-        else
-            settle(*extra);
         if (settleFine(i))
             patch.fine = true;
         else if (hadFine)
             putAwayFine(object_, i);
     });
+}
+
+// Settles fine seed `which` of regular seed i, which begins at a position.
+inline void Settler::settleFineSeed(int i, int which, Real position, Seed& s)
+{
+    if (!(s.flags & SEED_ACTIVE)) {
+        object_.layOutFine(i, which);
+        s.flags = SEED_ACTIVE | SEED_FOLLOW;
+        s.lightChange[0] = Seed::LIGHT_UNKNOWN;
+        s.position = position;
+    }
+    settle(s);
 }
 
 // Settles those fine seeds of regular seed i that are needed. Returns false if none is.
@@ -176,13 +202,7 @@ bool Settler::settleFine(int i)
         }
         const Seed *from = ends[which], *to = &extra;
         if (oneRoot) {
-            if (!(s.flags & SEED_ACTIVE)) {
-                object_.layOutFine(i, which);
-                s.flags = SEED_ACTIVE | SEED_FOLLOW;
-                s.lightChange[0] = Seed::LIGHT_UNKNOWN;
-                s.position = from->position;
-            }
-            settle(s);
+            settleFineSeed(i, which, from->position, s);
             // A wall is looked for on that side of this seed where the positions differ more.
             if (absolute(from->position - s.position) > absolute(to->position - s.position))
                 to = &s;

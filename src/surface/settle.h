@@ -113,7 +113,10 @@ private:
     const Seed* parted(const Seed& s) const;
     bool isAway(const Seed& s) const;
     SELDOM bool layOutExtra(const Seed& s, const Seed& other);
+    void layOutExtras(Patch& patch);
+    bool settleExtra(int i);
     SELDOM bool settleFine(int i);
+    void settleFineSeed(int i, int which, Real position, Seed& s);
     void settleOnWall(const Seed& a, const Seed& b, Real height, Seed& s);
     bool mayHaveIslands();
     SELDOM bool settleIsland(int i);
