@@ -73,7 +73,7 @@ inline void forSeeds(Object& object, const Patch& patch, Each each)
 // The number of patches that the seeds of an object make.
 int patchesOf(const SoftObject& object);
 
-// Fills in that many patches, all at rest.
+// Fills in that many patches, all at rest; not all of them if the user wants to stop.
 void makePatches(const SoftObject& object, Patch* patches);
 
 // Measures the patches anew after the seeds have been laid out elsewhere. `reading` is the odometer's: all patches are due at once.

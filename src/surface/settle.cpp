@@ -94,7 +94,7 @@ Real Settler::settle(Seed& s)
             off_ = Real(0);
         putOff(s, found ? sample.dominance - OVERSHOOT : off_, followed == LOST ? gradientBound_ : path_.steepestGradient());
     }
-    s.blocker = strongest();
+    s.blocker = nextBlocker();
     return found ? min(margin, sample.dominance - OVERSHOOT) : margin;
 }
 
@@ -153,8 +153,8 @@ bool Settler::makeGuest(Seed& s, const Neighbour& host)
     return true;
 }
 
-// The slot of the neighbour whose field was the strongest where the current path was evaluated last: the next blocker.
-uint8_t Settler::strongest() const
+// The slot of the neighbour whose field was the strongest where the current path was evaluated last: the blocker of a seed there.
+uint8_t Settler::nextBlocker() const
 {
     const Neighbour* const near = path_.strongest();
     return static_cast<uint8_t>(near == nullptr ? object_.slot() : near->slot);
@@ -164,7 +164,7 @@ uint8_t Settler::strongest() const
 inline void Settler::leaveToStrongest(Seed& s)
 {
     s.flags = static_cast<uint8_t>((s.flags & SEED_ACTIVE) | SEED_FOLLOW);
-    s.blocker = strongest();
+    s.blocker = nextBlocker();
 }
 
 // Searches the whole path of a seed, in the fields of the neighbours that reach some place on it.

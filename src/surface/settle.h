@@ -90,7 +90,7 @@ private:
     Real settle(Seed& s);
     Followed followOn(Seed& s, Real* position, Sample* sample);
     void leaveToStrongest(Seed& s);
-    SELDOM uint8_t strongest() const;
+    SELDOM uint8_t nextBlocker() const;
     Real search(const Seed& s, Real* position, Sample* sample);
     void place(Seed& s, Real dominance);
     SELDOM bool placeAt(Seed& s, Real position, Real dominance);
