@@ -56,11 +56,25 @@ Vector quickUnit(const Vector& v)
 // together, and a and b unit vectors away from the own and the rival's core, the lead is (g.a + g.b) / (1 + a.b). Without other
 // fields that is the difference of the two steepnesses; returned is what the other fields add to this. `out` has the direction of
 // a, `own` is the steepness of the own field.
-SELDOM Real leadOf(const Vector& g, const Vector& out, Real own, const Rival& rival)
+SELDOM Real leadOfOthers(const Vector& g, const Vector& out, Real own, const Rival& rival)
 {
     const Vector a = quickUnit(out), b = quickUnit(rival.from);
     const Vector others = g - a * own + b * rival.steepest;
     return dot(others, a + b) / max(Real(1) + dot(a, b), Real(0.05));
+}
+
+// The lead of a seed's object over its rival; `out` leads away from the own core, and `g` is the direction outward.
+Real leadOf(const Path& path, const Vector& out, const Vector& g, const Rival& rival)
+{
+    const bool hollow = path.all().hollow;
+    Real own = -(path.ownSlope() * nearLength(out));
+    if (hollow)
+        own = own * path.all().weight;
+    const Real lead = own - rival.steepest;
+    // Beside a far smaller neighbour `g` is scaled, and the others' part of the lead is left out.
+    if (path.touched() <= 1 || path.gradientShift() != 0)
+        return lead;
+    return lead + leadOfOthers(hollow ? -g : g, out, own, rival);
 }
 
 // By how much the steepness of a digging field changes when its core is a unit farther away: the derivative of -F' r, which is
@@ -83,13 +97,7 @@ Real findOwnPart(Path& path, Seed& s, Real margin, Vector* g)
     const Rival rival = rivalOf(path, s.position);
     if (rival.near == nullptr)
         return BORDER_FAR;
-    Real own = -(path.ownSlope() * nearLength(out));
-    if (hollow)
-        own = own * path.all().weight;
-    Real lead = own - rival.steepest;
-    // Beside a far smaller neighbour `g` is scaled, and the others' part of the lead is left out.
-    if (path.touched() > 1 && path.gradientShift() == 0)
-        lead += leadOf(hollow ? -*g : *g, out, own, rival);
+    const Real lead = leadOf(path, out, *g, rival);
     // The vector from the core of the digging object.
     const Neighbour& other = *rival.near;
     const Vector wall = hollow ? out : rival.from;
