@@ -1,4 +1,4 @@
-// The innermost loops for the 386 and up. Each routine implements its C++ twin in src/picture/blit.cpp, and the tests feed both
+// Loops over the rows of a frame, for the 386 and up. Each routine implements its C++ twin in src/picture/blit.cpp, and the tests feed both
 // the same input. Above each group of instructions stands the line of C++ that it implements.
 //
 // Cycles are given with everything in the first-level cache.
@@ -8,60 +8,6 @@
 #define SCREEN_WIDTH 320
 
         .text
-
-// ---------------------------------------------------------------------------------------------------------------------
-// void clearRowsA(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count)
-//
-//   ebx  row            edx  frame              esi  zbuffer            ebp  rows to go
-//
-// String instructions take 5 + 4 cycles per 32-bit word on the 486 (slower than moves, but without a loop), and 1 on the Pentium.
-
-        .balign 16
-        FUNC(clearRowsA)
-        pushl   %ebp
-        pushl   %ebx
-        pushl   %esi
-        pushl   %edi
-        movl    20(%esp), %edx
-        movl    24(%esp), %esi
-        movl    28(%esp), %ebx
-        movl    32(%esp), %ebp
-        cld
-        testl   %ebp, %ebp
-        jle     clear_done
-clear_row:
-        // touched = rows->to - rows->from;  if (touched <= 0) continue
-        movswl  (%ebx), %edi
-        movswl  2(%ebx), %ecx
-        subl    %edi, %ecx
-        jle     clear_next
-        // memset(zbuffer + from, 0xff, 2 * touched)
-        pushl   %ecx
-        pushl   %edi
-        leal    (%esi,%edi,2), %edi
-        movl    $-1, %eax
-        shrl    $1, %ecx
-        rep stosl
-        // memset(frame + from, 0, touched)
-        popl    %edi
-        popl    %ecx
-        addl    %edx, %edi
-        xorl    %eax, %eax
-        shrl    $2, %ecx
-        rep stosl
-clear_next:
-        addl    $4, %ebx
-        addl    $SCREEN_WIDTH, %edx
-        addl    $2*SCREEN_WIDTH, %esi
-        decl    %ebp
-        jnz     clear_row
-clear_done:
-        popl    %edi
-        popl    %esi
-        popl    %ebx
-        popl    %ebp
-        ret
-        ENDFUNC(clearRowsA)
 
 // ---------------------------------------------------------------------------------------------------------------------
 // int drawnRunsA(const uint8_t* row, const uint16_t* depths, const Span* within, Span* runs)

@@ -68,12 +68,12 @@ bool benchDiffers(const uint8_t* frame, const uint16_t* zbuffer)
 extern "C" {
 
 const Voxel* __real_drawScalesA(Lens* lens, const Voxel* voxels, const Voxel* end);
-void __real_clearRowsA(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
+void __real_clearRows(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
 
 // A frame begins, for the twin too: it gets whatever the program has left in its buffers (which should be nothing).
-void __wrap_clearRowsA(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count)
+void __wrap_clearRows(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count)
 {
-    __real_clearRowsA(frame, zbuffer, rows, count);
+    __real_clearRows(frame, zbuffer, rows, count);
     const bool look = frames % LOOK_EVERY == 0;
     bool left = false;
     for (int i = 0; i < WIDTH * HEIGHT && look; ++i) {

@@ -15,7 +15,7 @@ build/BENCH.BAT: tools/bench.bat
 	@mkdir -p build
 	awk '{ sub(/\r$$/, ""); printf "%s\r\n", $$0 }' tools/bench.bat > $@
 
-BENCH_WRAP = -Wl,--wrap=drawScalesA -Wl,--wrap=blitScale -Wl,--wrap=clearRowsA \
+BENCH_WRAP = -Wl,--wrap=drawScalesA -Wl,--wrap=blitScale -Wl,--wrap=clearRows \
 	-Wl,--wrap=_ZN7machine7presentEPKhPK4Span
 BENCH_TWINS = build/bench/blit486.o build/bench/scales486.o
 BENCH_PARTS = $(filter-out build/host32/src/picture/blit.o build/host32/src/picture/scales.o,\

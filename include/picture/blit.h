@@ -1,8 +1,8 @@
 // Draws single scales, clears both buffers, copies the frame to video memory, finds runs of drawn pixels. Most scales are drawn by
 // the loop of scales.h as soon as they are projected; what it leaves (too near, too far, too large) is drawn here.
 //
-// Routines whose names end in C are in C++ (src/picture/blit.cpp), as the readable reference; those that end in A are the same in
-// assembly (asm/blit.S), for the DOS program and the 32-bit host build. Both write the same bytes.
+// A routine whose name ends in C is in C++ (src/picture/blit.cpp), as the readable reference; it has a twin in assembly (asm/blit.S)
+// for the DOS program and the 32-bit host build. Both write the same bytes.
 #ifndef FB_BLIT_H
 #define FB_BLIT_H
 
@@ -46,7 +46,7 @@ extern "C" {
 void blitScale(uint8_t* frame, uint16_t* zbuffer, const Scale& scale);
 
 // Clears one span in each of the first `count` rows: the frame to 0, the Z-buffer to Z_EMPTY.
-void clearRowsC(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
+void clearRows(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
 
 // Copies one span in each of the first `count` rows from `frame` to `screen`, which has the same layout.
 void copyRowsC(uint8_t* screen, const uint8_t* frame, const Span* rows, int count);
@@ -58,7 +58,6 @@ int drawnRunsC(const uint8_t* row, const uint16_t* depths, const Span* within, S
 
 #if FB_ASM
 int drawnRunsA(const uint8_t* row, const uint16_t* depths, const Span* within, Span* runs);
-void clearRowsA(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count);
 // copyRowsC() to a screen at `offset` in the segment of `selector` (video memory has a selector of its own under DPMI).
 void presentRows(uint32_t selector, uint32_t offset, const uint8_t* frame, const Span* rows, int count);
 #endif
@@ -67,10 +66,8 @@ void presentRows(uint32_t selector, uint32_t offset, const uint8_t* frame, const
 
 #if FB_ASM
 #define drawnRuns drawnRunsA
-#define clearRows clearRowsA
 #else
 #define drawnRuns drawnRunsC
-#define clearRows clearRowsC
 #endif
 
 #endif

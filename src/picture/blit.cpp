@@ -84,7 +84,7 @@ void blitScale(uint8_t* frame, uint16_t* zbuffer, const Scale& scale)
     }
 }
 
-void clearRowsC(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count)
+void clearRows(uint8_t* frame, uint16_t* zbuffer, const Span* rows, int count)
 {
     for (; count > 0; --count, ++rows, frame += WIDTH, zbuffer += WIDTH) {
         const int touched = rows->to - rows->from;
