@@ -1,5 +1,5 @@
-// Loops over the rows of a frame, for the 386 and up. Each routine implements its C++ twin in src/picture/blit.cpp, and the tests feed both
-// the same input. Above each group of instructions stands the line of C++ that it implements.
+// Loops over the rows of a frame, for the 386 and up. Each routine implements its C++ twin in src/picture/blit.cpp, and the tests
+// feed both the same input. Above each group of instructions stands the line of C++ that it implements.
 //
 // Cycles are given with everything in the first-level cache.
 

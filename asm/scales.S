@@ -22,7 +22,7 @@
 #define VOXEL_TILTX  16
 #define VOXEL_TILTY  18
 #define VOXEL_BRIGHT 20                 /* this and the next three are bytes and are read together as one 32-bit word */
-#define VOXEL_REACH  21
+#define VOXEL_BACK  21
 #define VOXEL_CUTX   22
 #define VOXEL_CUTY   23
 #define VOXEL_SLOPEX 24                 /* this and the next are bytes and are read together as one 16-bit word */
@@ -725,15 +725,15 @@ leave_at:
         popl    %ebp
         ret
 
-        // setEnds(v, depth >> 1, &scale) for a voxel with this reach; zMost fits 16 bits within the table's depths.
-        .macro  SET_ENDS reach free
+        // setEnds(v, depth >> 1, &scale) for a voxel with this `back`; zMost fits 16 bits within the table's depths.
+        .macro  SET_ENDS back free
         movl    DEPTH(%esp), \free
-        leal    LENS_NEAR*128(\free,\reach,4), \reach
+        leal    LENS_NEAR*128(\free,\back,4), \back
         addl    $LENS_NEAR*128, \free
-        movl    \reach, ZRANGE(%esp)
-        movzbl  VOXEL_FRONT(%esi), \reach
-        shll    $2, \reach
-        subl    \reach, \free
+        movl    \back, ZRANGE(%esp)
+        movzbl  VOXEL_FRONT(%esi), \back
+        shll    $2, \back
+        subl    \back, \free
         jns     1f
         xorl    \free, \free
 1:      movl    \free, ZLEAST(%esp)
@@ -761,12 +761,12 @@ leave_at:
 1:      movl    %eax, DOME(%esp)
         .endm
 
-        // A voxel with a reach or a cut
+        // A voxel that ends or is cut
         .balign 4
 special:
         cmpl    $0xffff, VOXEL_BRIGHT(%esi)
         ja      cut
-        movzbl  VOXEL_REACH(%esi), %eax
+        movzbl  VOXEL_BACK(%esi), %eax
         SET_ENDS %eax, %ebx
         addl    $KIND_ROWS, KIND(%esp)
         jmp     not_special
@@ -828,7 +828,7 @@ entered:
         movl    %eax, HEIGHT(%esp)
         movl    %ebx, KIND(%esp)
         // setEnds(v, depth >> 1, &scale)
-        movzbl  VOXEL_REACH(%esi), %ebx
+        movzbl  VOXEL_BACK(%esi), %ebx
         xorl    %eax, %eax
         testl   %ebx, %ebx
         jz      3f

@@ -33,8 +33,8 @@
 #define VOXEL_HALF_HEIGHT 14
 #define VOXEL_TILTX  16
 #define VOXEL_TILTY  18
-#define VOXEL_BRIGHT 20                 /* one 32-bit word with the bytes reach, cutX and cutY */
-#define VOXEL_REACH  21
+#define VOXEL_BRIGHT 20                 /* one 32-bit word with the bytes back, cutX and cutY */
+#define VOXEL_BACK  21
 #define VOXEL_SLOPEX 24                 /* one 32-bit word with the byte slopeY and the 16-bit cutAt */
 #define VOXEL_SLOPEY 25
 #define VOXEL_CURVE  28                 /* one 32-bit word: the bytes curveXX, curveXY, curveYY and front */
@@ -407,7 +407,7 @@ shade_tilted:
         imull        $BRIGHTEST, %edx, %edx
         addl        $8192, %edx
         sarl        $14, %edx
-        // voxel.brightness = light;  reach, slopes, cut function = 0
+        // voxel.brightness = light;  back, slopes, cut function = 0
         movzbl        %dl, %edx
         movl        $0, VOXEL_SLOPEX(%edi)
         movl        $0, VOXEL_CURVE(%edi)
@@ -568,7 +568,7 @@ shade_extents:
 shade_wide:
         cmpl        $0x7fff, %eax
         jg        shade_too_high
-        // reach = (v.horizonShare * facing >> 16) + 1; if (reach < 256) ..
+        // back = (v.horizonShare * facing >> 16) + 1; if (back < 256) ..
 shade_extended:
         movl        HORIZON(%ebp), %edx
         imull        SEEN_FACING(%ebx), %edx
@@ -583,7 +583,7 @@ shade_extended:
         imull        %eax, %ebp
         addl        %ebp, %esi
         movl        SHADE_SHADING(%esp), %ebp
-        // if (deep >= reach * 8 || (deep >= reach * 4 && ..;   edx has reach * 8 with 8 fraction bits, - 1, and then reach * 4
+        // if (deep >= back * 8 || (deep >= back * 4 && ..;   edx has back * 8 with 8 fraction bits, - 1, and then back * 4
         sarl        $5, %edx
         orl        $0x7ff, %edx
         cmpl        %edx, %esi
@@ -662,7 +662,7 @@ shade_turned:
         movw        %dx, VOXEL_TILTY(%edi)
         jmp        shade_tilted
 
-        // .. (reach * 8 - deep) * reach * 32 <= halfWidth * halfWidth + halfHeight * halfHeight)) ..
+        // .. (back * 8 - deep) * back * 32 <= halfWidth * halfWidth + halfHeight * halfHeight)) ..
 shade_near:
         sarl        $10, %edx
         movl        %ecx, SHADE_WIDE(%esp)
@@ -681,14 +681,14 @@ shade_near:
         movl        SHADE_WIDE(%esp), %ecx
         movl        SHADE_HIGH(%esp), %eax
         jg        shade_ended
-        jmp        shade_reaching
-        // voxel.reach = reach, voxel.front = v.front
+        jmp        shade_behind
+        // voxel.back = back, voxel.front = v.front
 shade_end:
         sarl        $11, %edx
         sarl        $8, %esi
         incl        %edx
-shade_reaching:
-        movb        %dl, VOXEL_REACH(%edi)
+shade_behind:
+        movb        %dl, VOXEL_BACK(%edi)
         movl        FRONT(%ebp), %edx
         movb        %dl, VOXEL_FRONT(%edi)
         // if (deep > v.deepest) halfWidth = halfWidth * v.deepest / deep, halfHeight = halfHeight * v.deepest / deep

@@ -1,8 +1,8 @@
 // Draws single scales, clears both buffers, copies the frame to video memory, finds runs of drawn pixels. Most scales are drawn by
 // the loop of scales.h as soon as they are projected; what it leaves (too near, too far, too large) is drawn here.
 //
-// A routine whose name ends in C is in C++ (src/picture/blit.cpp), as the readable reference; it has a twin in assembly (asm/blit.S)
-// for the DOS program and the 32-bit host build. Both write the same bytes.
+// A routine whose name ends in C is in C++ (src/picture/blit.cpp), as the readable reference; it has a twin in assembly
+// (asm/blit.S) for the DOS program and the 32-bit host build. Both write the same bytes.
 #ifndef FB_BLIT_H
 #define FB_BLIT_H
 

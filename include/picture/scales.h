@@ -27,8 +27,8 @@ constexpr int32_t wrappedProduct(int32_t a, int32_t b)
 // Sets the least and the greatest depth of a voxel's pixels; its centre is at depth `z`, 1/128 unit.
 inline void setEnds(const Voxel& v, int32_t z, Scale* scale)
 {
-    scale->zLeast = v.reach != 0 ? max32(z - v.front * 4, 0) : 0;
-    scale->zMost = v.reach != 0 ? min32(z + v.reach * 4, Z_EMPTY) : Z_EMPTY;
+    scale->zLeast = v.back != 0 ? max32(z - v.front * 4, 0) : 0;
+    scale->zMost = v.back != 0 ? min32(z + v.back * 4, Z_EMPTY) : Z_EMPTY;
 }
 
 // The change from pixel to pixel, 8 fraction bits, of a brightness or cut function with this slope. `factor` is Factors::zx or zy.

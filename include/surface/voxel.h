@@ -12,22 +12,22 @@ struct Voxel {
     int16_t halfWidth, halfHeight;  // half extents along x and y, 1/256 unit, 0 or more
     int16_t tiltX, tiltY;    // slopes of the depth along x and y, 8 fraction bits
     int8_t brightness;       // at the centre, 0..63; DARK_MIDDLE + 1..-1 if only a part of the scale is lit (it has slopes then)
-    uint8_t reach;           // pixels farther behind the centre than this, 1/32 unit, are not drawn, because there the surface has
+    uint8_t back;            // pixels farther behind the centre than this, 1/32 unit, are not drawn, because there the surface has
                              // bent out of sight; 0: pixels are drawn however far before or behind the centre they are
     int8_t cutX, cutY;       // slopes of the cut function at the centre, 1/8 per unit; both 0: the scale is not cut
     int8_t slopeX, slopeY;   // slopes of the brightness, 1/8 step per unit; at most SHADING_MOST steps to any corner
     int16_t cutAt;           // cut function at the centre, 1/64; pixels where the function is negative are not drawn
     int8_t curveXX, curveXY, curveYY;  // second derivatives of the cut function, 1/16 per squared unit; all 0: the scale is cut
                              // along a straight line
-    uint8_t front;           // if `reach` is not 0: pixels farther before the centre than this, 1/32 unit, are not drawn, because
+    uint8_t front;           // if `back` is not 0: pixels farther before the centre than this, 1/32 unit, are not drawn, because
                              // there the tangent plane lies far before the surface
 };
 
 // The brightest of the 64 steps 0..63 of a ramp.
 constexpr int BRIGHTEST = 63;
 
-// The greatest value of `reach` and `front`.
-constexpr int REACH_MOST = 255;
+// The greatest value of `back` and `front`.
+constexpr int ENDS_MOST = 255;
 
 // Whether a cut function ends the voxel.
 inline bool isCut(const Voxel& v)
@@ -87,7 +87,7 @@ struct VoxelList {
     const uint8_t* ramp;   // palette index of each brightness; both ends are repeated, so that -SHADING_MOST..63 + SHADING_MOST are
                            // valid too; and the step of each index (STEP_OF). No index is 0: that is the background, which gaps
                            // are recognised by
-    int32_t reach;         // no voxel's centre is farther than this from the object's centre along any axis, 1/256 unit
+    int32_t extent;        // no voxel's centre is farther than this from the object's centre along any axis, 1/256 unit
     int count;             // voxels in the list
     bool bordered;         // some voxels are cut at a border to another object
     int guests;            // voxels at the end of `voxels` that belong to other objects
@@ -103,7 +103,7 @@ struct VoxelList {
         x = rawFromReal(place.x) >> 8;
         y = rawFromReal(place.y) >> 8;
         z = rawFromReal(place.z) >> 8;
-        reach = rawFromReal(most) >> 8;
+        extent = rawFromReal(most) >> 8;
         ramp = objectRamp;
         count = guests = runs = 0;
         bordered = false;

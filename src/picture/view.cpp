@@ -277,12 +277,12 @@ bool View::ordinary(const Voxel& voxel) const
 // loop cannot draw the list because products of positions and factors might overflow 32 bits.
 bool View::prepareLoop(const VoxelList& list)
 {
-    const int32_t nearest = wrappedSum(list.z, -list.reach), farthest = wrappedSum(list.z, list.reach);
+    const int32_t nearest = wrappedSum(list.z, -list.extent), farthest = wrappedSum(list.z, list.extent);
     const int last = lensStep(farthest);
     const Factors& far = factors_[last < 0 ? 0 : last < LENS_STEPS ? last : LENS_STEPS - 1];
     limitTilts(&lens_, static_cast<uint32_t>(far.zx > far.zy ? far.zx : far.zy));
     const int32_t table = factors_[0].x > factors_[0].y ? factors_[0].x : factors_[0].y;
-    const int32_t most = INT32_MAX / (nearest < LENS_NEAR * 256 ? FACTOR_MOST : table) - list.reach;
+    const int32_t most = INT32_MAX / (nearest < LENS_NEAR * 256 ? FACTOR_MOST : table) - list.extent;
     return list.x < most && list.x > -most && list.y < most && list.y > -most;
 }
 

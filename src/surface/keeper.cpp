@@ -292,7 +292,7 @@ void Keeper::One::begin(const Voxel& v, const Seed* of)
     place[1] = v.y * 16;
     place[2] = v.z * 16;
     light = static_cast<int16_t>(v.brightness * 256 + 128);
-    reach = static_cast<int16_t>(v.reach * 128);
+    back = static_cast<int16_t>(v.back * 128);
     seed = of;
     set(v);
 }
@@ -310,11 +310,11 @@ inline void Keeper::One::goOn()
         const int32_t darkest = voxel.brightness < 0 ? DARK_MIDDLE + 1 : 0;
         voxel.brightness = static_cast<int8_t>(max32(min32(light >> 8, BRIGHTEST), darkest));
     }
-    if ((stepReach | stepCutAt) == 0)
+    if ((stepBack | stepCutAt) == 0)
         return;
-    if (voxel.reach != 0) {
-        reach = static_cast<int16_t>(max32(min32(reach + stepReach, REACH_MOST * 128), 128));
-        voxel.reach = static_cast<uint8_t>(reach >> 7);
+    if (voxel.back != 0) {
+        back = static_cast<int16_t>(max32(min32(back + stepBack, ENDS_MOST * 128), 128));
+        voxel.back = static_cast<uint8_t>(back >> 7);
     }
     voxel.cutAt = static_cast<int16_t>(limited(voxel.cutAt + stepCutAt, CUT_MOST));
 }
@@ -322,8 +322,8 @@ inline void Keeper::One::goOn()
 // Takes the voxel as it has been made anew, and corrects the steps, of which 2^shift were made. Returns the error, 1/256 unit.
 // That of the place counts as it is; that of a tilt 2^(8 - tiltShift) times what it moves the scale's edge, which is a half where
 // patches blend, a quarter where they rest, and four times between fine seeds; that of a cut a quarter to a half of what it moves
-// the line; that of the reach a half; a step of brightness 1/16 unit. `otherwise` is the error if a scale has got a reach, or lost
-// it. All of these are or-ed, which is quicker than to find the greatest.
+// the line; that of `back` a half; a step of brightness 1/16 unit. `otherwise` is the error if a scale that ended ends no more,
+// or the other way round. All of these are or-ed, which is quicker than to find the greatest.
 inline int32_t Keeper::One::follow(const Voxel& v, int shift, int tiltShift, int32_t otherwise)
 {
     int32_t error = (correct(v.x * 16, place[0], step[0], shift) | correct(v.y * 16, place[1], step[1], shift) |
@@ -336,11 +336,11 @@ inline int32_t Keeper::One::follow(const Voxel& v, int shift, int tiltShift, int
         error |= lightError >> 4;
         stepLight = corrected;
     }
-    if (v.reach != 0 && voxel.reach != 0) {
-        error |= correct(v.reach * 128, reach, stepReach, shift) >> 5;
-    } else if (v.reach != voxel.reach) {
-        reach = static_cast<int16_t>(v.reach * 128);
-        stepReach = 0;
+    if (v.back != 0 && voxel.back != 0) {
+        error |= correct(v.back * 128, back, stepBack, shift) >> 5;
+    } else if (v.back != voxel.back) {
+        back = static_cast<int16_t>(v.back * 128);
+        stepBack = 0;
         error |= otherwise;
     }
     if ((v.cutAt | voxel.cutAt) != 0) {

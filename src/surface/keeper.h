@@ -71,7 +71,7 @@ private:
         int32_t number;             // number of its seed if the slopes have got the voxel; otherwise NONE
         int32_t place[3], step[3];  // Voxel::x, y, z with 4 more fraction bits, and their change
         int16_t light, stepLight;   // Voxel::brightness with 8 more fraction bits
-        int16_t reach, stepReach;   // Voxel::reach with 7 more fraction bits
+        int16_t back, stepBack;     // Voxel::back with 7 more fraction bits
         int16_t stepTiltX, stepTiltY, stepCutAt;
 
         void begin(const Voxel& v, const Seed* of);

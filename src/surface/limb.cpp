@@ -84,8 +84,8 @@ void endAtLimb(const Limb& limb, int32_t cosine, Voxel* voxel)
     const int32_t near = min32(times14(cosine, limb.nearness), (SLANT - 1) << 14) + (1 << 14);
     const int32_t x = times14(voxel->tiltX * cosine >> 8, near) + times14(cosine, limb.along[0]);
     const int32_t y = times14(voxel->tiltY * cosine >> 8, near) + times14(cosine, limb.along[1]);
-    // `reach` was a guess. At the limb the tangent plane is c / 2k deeper; a quarter more leaves room for what is approximate.
-    voxel->reach = static_cast<uint8_t>(min32(((cosine * limb.radius >> 18) * 5 >> 2) + 1, REACH_MOST));
+    // `back` was a guess. At the limb the tangent plane is c / 2k deeper; a quarter more leaves room for what is approximate.
+    voxel->back = static_cast<uint8_t>(min32(((cosine * limb.radius >> 18) * 5 >> 2) + 1, ENDS_MOST));
     voxel->cutX = inward(x);
     voxel->cutY = inward(y);
     // c^2 / 2k: how far away the limb is across the view.

@@ -35,7 +35,7 @@ bool findLimb(int32_t bend, int32_t shearX, int32_t shearY, int32_t depth, Limb*
 bool findLimb(const Bend& bend, const ViewProducts& axes, int32_t step, int32_t shearX, int32_t shearY, int32_t depth,
               Limb* limb);
 
-// Ends a voxel that has a reach, and is not cut yet, at the limb, and sets its reach anew. `cosine` is c, 1.0 = 2^14.
+// Cuts a voxel that ends (Voxel::back), and is not cut yet, at the limb, and sets `back` anew. `cosine` is c, 1.0 = 2^14.
 void endAtLimb(const Limb& limb, int32_t cosine, Voxel* voxel);
 
 #endif

@@ -98,7 +98,7 @@ private:
     int32_t spacing_;         // spacing of the seeds, 1/256 unit of the world, at most 2800
     int32_t step_;            // length of a step of places, 1/256 unit of the world with 16 fraction bits
     int32_t ballBend_;        // curvature of a ball: 1 / radius, per unit, 1.0 = 2^14
-    int32_t nearLimb_;        // Voxel::reach where the limb is WHOLE_AT_LIMB away, 16 more fraction bits
+    int32_t nearLimb_;        // Voxel::back where the limb is WHOLE_AT_LIMB away, 16 more fraction bits
     bool clipsDepth_;         // some seeds may be nearer than NEAREST_DEPTH, or farther than FARTHEST_DEPTH
     int viewShift_;           // right shift that brings vectors to the eye to 14 bits
     const bool hollow_;       // the seeds sample a hollow
@@ -160,7 +160,7 @@ Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& fram
     ballBend_ = (1 << 22) / max32(mulShift16(rawFromReal(object.laidRadius()) >> 8, rawFromReal(own.growth)), 128);
     const int32_t spacing = spacing_ = min32(rawFromReal(object.spacing() * own.growth) >> 8, 2800);
     shading_.deepest = spacing * DEEPEST;
-    shading_.front = min32(spacing * FRONT >> 3, REACH_MOST);
+    shading_.front = min32(spacing * FRONT >> 3, ENDS_MOST);
     nearLimb_ = (spacing * WHOLE_AT_LIMB >> 5) << 16;
     areaScale_ = static_cast<uint32_t>(mulShift16(spacing * spacing << 7, step));
     shading_.cellShift = __builtin_clz(static_cast<uint32_t>(spacing)) - 19;
@@ -300,7 +300,7 @@ inline const Limb* Shader::limbOf(const Patch& patch)
 // Ends the voxel of a regular seed, which is not cut, at the limb, if the tangent plane goes on beyond the limb.
 inline void Shader::endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel)
 {
-    if (voxel->reach == 0)
+    if (voxel->back == 0)
         return;
     if (const Limb* const limb = limbOf(patch))
         ::endAtLimb(*limb, mulDiv(mulShift16(seen.facing, step_), 1 << 14, own_.centre[2] + voxel->z), voxel);
@@ -311,8 +311,8 @@ inline void Shader::dome(Voxel* voxel) const
 {
     if (!isCut(*voxel))
         cutNowhere(voxel);
-    if (voxel->reach != 0)
-        voxel->reach = static_cast<uint8_t>(min32(voxel->reach + (spacing_ >> (3 + DOME_SHIFT)), REACH_MOST));
+    if (voxel->back != 0)
+        voxel->back = static_cast<uint8_t>(min32(voxel->back + (spacing_ >> (3 + DOME_SHIFT)), ENDS_MOST));
 }
 
 // Finds the visible oversampled and fine seeds of a patch, as findSeeds() finds the regular ones.

@@ -108,18 +108,18 @@ inline int32_t withMargin(int32_t extent)
 
 // Sets the extents of a voxel, and where it ends. Beyond the limb, where a round surface bends out of sight, its tangent plane
 // would go on, so the scale has to end there. With c the cosine of normal and viewer, the limb is c^2 radius / 2 away across the
-// view; the plane gets c radius / 2 deeper there, which is the reach. The limb is a curve, and so it is nearer to the corners: on a
-// ball, a corner that is e away from the centre lies beyond the limb where the plane gets at least reach - e^2 / (4 reach) deeper.
-// (Where the plane gets less than half as deep as the reach, that is so only on balls hardly larger than a scale.)
+// view; the plane gets c radius / 2 deeper there, which is `back`. The limb is a curve, and so it is nearer to the corners: on a
+// ball, a corner that is e away from the centre lies beyond the limb where the plane gets at least back - e^2 / (4 back) deeper.
+// (Where the plane gets less than half as deep as `back`, that is so only on balls hardly larger than a scale.)
 inline void setExtents(const Shading& v, int32_t facing, Extents extents, Voxel& voxel)
 {
     extents = {withMargin(extents.halfWidth), withMargin(extents.halfHeight)};
-    voxel.reach = voxel.front = 0;
-    const int32_t reach = (v.horizonShare * facing >> 16) + 1;
+    voxel.back = voxel.front = 0;
+    const int32_t back = (v.horizonShare * facing >> 16) + 1;
     const int32_t deep = (magnitude(voxel.tiltX) * extents.halfWidth + magnitude(voxel.tiltY) * extents.halfHeight) >> 8;
     const int32_t square = extents.halfWidth * extents.halfWidth + extents.halfHeight * extents.halfHeight;
-    if (reach < 256 && (deep >= reach * 8 || (deep >= reach * 4 && (reach * 8 - deep) * reach * 32 <= square))) {
-        voxel.reach = static_cast<uint8_t>(reach);
+    if (back < 256 && (deep >= back * 8 || (deep >= back * 4 && (back * 8 - deep) * back * 32 <= square))) {
+        voxel.back = static_cast<uint8_t>(back);
         voxel.front = static_cast<uint8_t>(v.front);
         if (deep > v.deepest)
             extents = {extents.halfWidth * v.deepest / deep, extents.halfHeight * v.deepest / deep};

@@ -31,9 +31,9 @@ struct Shading {
     int32_t cellShift;      // shifts half axes of cells on the picture plane right to 1/256 unit
     int32_t areaShare;      // area of a cell on the picture plane = area * (facing / 8) * areaShare / 2^32
     int32_t wholeBefore;    // the scales of seeds with a smaller Seen::facing cover the whole cell, others only its share of a band
-    int32_t deepest;        // upper bound of the change of depth from the centre of a scale with a reach to its corners, 1/256 unit
-    int32_t front;          // Voxel::front of all voxels that have a reach
-    int32_t horizonShare;   // takes Seen::facing to Voxel::reach in 2^-16: radius of curvature / distance of the eye, 12 fraction
+    int32_t deepest;        // upper bound of the change of depth from the centre of a scale that ends to its corners, 1/256 unit
+    int32_t front;          // Voxel::front of all voxels that end (Voxel::back)
+    int32_t horizonShare;   // takes Seen::facing to Voxel::back in 2^-16: radius of curvature / distance of the eye, 12 fraction
                             // bits, times a step of places in 1/256 unit
     int32_t gradient[2];    // gradient of the brightness along x and y of the view, 1/8 step per unit, 12 fraction bits
     int32_t gradientAhead;  // and along the ray of sight, 4 fraction bits

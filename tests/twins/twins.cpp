@@ -160,7 +160,7 @@ static_assert(inasm::VOXEL_X == offsetof(Voxel, x) && inasm::VOXEL_Y == offsetof
               inasm::VOXEL_Z == offsetof(Voxel, z) && inasm::VOXEL_HALF_WIDTH == offsetof(Voxel, halfWidth) &&
               inasm::VOXEL_HALF_HEIGHT == offsetof(Voxel, halfHeight) && inasm::VOXEL_TILTX == offsetof(Voxel, tiltX) &&
               inasm::VOXEL_TILTY == offsetof(Voxel, tiltY) && inasm::VOXEL_BRIGHT == offsetof(Voxel, brightness) &&
-              inasm::VOXEL_REACH == offsetof(Voxel, reach) && inasm::VOXEL_REACH == inasm::VOXEL_BRIGHT + 1 &&
+              inasm::VOXEL_BACK == offsetof(Voxel, back) && inasm::VOXEL_BACK == inasm::VOXEL_BRIGHT + 1 &&
               inasm::VOXEL_CUTX == offsetof(Voxel, cutX) && inasm::VOXEL_CUTX == inasm::VOXEL_BRIGHT + 2 &&
               inasm::VOXEL_CUTY == offsetof(Voxel, cutY) && inasm::VOXEL_CUTY == inasm::VOXEL_BRIGHT + 3 &&
               inasm::VOXEL_SLOPEX == offsetof(Voxel, slopeX) && inasm::VOXEL_SLOPEY == inasm::VOXEL_SLOPEX + 1 &&
@@ -297,15 +297,15 @@ Spot anySpot()
     return s;
 }
 
-// A value of Voxel::reach or front.
-uint8_t anyReach() { return static_cast<uint8_t>(any() >> (24 + below(6))); }
+// A value of Voxel::back or front.
+uint8_t anyEnd() { return static_cast<uint8_t>(any() >> (24 + below(6))); }
 
 // Sets brightness, ends and cut function of a voxel with known half extents.
 void addShading(Voxel* v)
 {
     const auto slope = [] { return static_cast<int8_t>(anything()); };
     v->brightness = static_cast<int8_t>(below(64));
-    v->reach = below(2) ? 0 : anyReach();
+    v->back = below(2) ? 0 : anyEnd();
     v->slopeX = v->slopeY = 0;
     if (below(2) == 0) {
         v->slopeX = static_cast<int8_t>(any());
@@ -317,7 +317,7 @@ void addShading(Voxel* v)
     v->cutX = v->cutY = 0;
     v->cutAt = static_cast<int16_t>(anything());
     v->curveXX = v->curveXY = v->curveYY = 0;
-    v->front = anyReach();
+    v->front = anyEnd();
     if (below(4) != 0)
         return;
     if (below(4) == 0) {
@@ -563,11 +563,11 @@ struct Ideal {
     // Whether a depth lies between where the voxel begins and where it ends.
     bool surelyWithin(Estimate at) const
     {
-        return v.reach == 0 || (tame && at.least() > depth - v.front * 4 && at.most() < depth + v.reach * 4);
+        return v.back == 0 || (tame && at.least() > depth - v.front * 4 && at.most() < depth + v.back * 4);
     }
     bool surelyBeyond(Estimate at) const
     {
-        return v.reach != 0 && tame && (at.most() < depth - v.front * 4 || at.least() > depth + v.reach * 4);
+        return v.back != 0 && tame && (at.most() < depth - v.front * 4 || at.least() > depth + v.back * 4);
     }
 
     // A function with these slopes, 1/8 per unit. It changes from pixel to pixel by whole multiples of 1/256, and lengths are
@@ -676,7 +676,7 @@ void checkVoxel(const Ideal& ideal, const Lens& lens, bool done, VoxelTally* t)
     t->wrongStops += sound && (done ? ideal.surelyLarge() || overflows : ideal.surelySmall() && ideal.surelyFits());
     t->wrongEmpties += sound && lens.empty != 0 && (!done || lens.empty != 1 || seen);
     const long pixels = checkPixels(ideal, lens, done, t);
-    t->wrongEmpties += sound && done && ideal.v.reach == 0 && !isCut(ideal.v) && (pixels == 0) != (lens.empty == 1);
+    t->wrongEmpties += sound && done && ideal.v.back == 0 && !isCut(ideal.v) && (pixels == 0) != (lens.empty == 1);
     t->drawn += pixels > 0;
     t->empty += lens.empty;
     t->clipped += !whole && seen && done;
@@ -930,7 +930,7 @@ static_assert(inasm2::VOXEL_X == offsetof(Voxel, x) && inasm2::VOXEL_Y == offset
               inasm2::VOXEL_Z == offsetof(Voxel, z) && inasm2::VOXEL_HALF_WIDTH == offsetof(Voxel, halfWidth) &&
               inasm2::VOXEL_HALF_HEIGHT == offsetof(Voxel, halfHeight) && inasm2::VOXEL_TILTX == offsetof(Voxel, tiltX) &&
               inasm2::VOXEL_TILTY == offsetof(Voxel, tiltY) && inasm2::VOXEL_BRIGHT == offsetof(Voxel, brightness) &&
-              inasm2::VOXEL_REACH == offsetof(Voxel, reach) && inasm2::VOXEL_SLOPEX == offsetof(Voxel, slopeX) &&
+              inasm2::VOXEL_BACK == offsetof(Voxel, back) && inasm2::VOXEL_SLOPEX == offsetof(Voxel, slopeX) &&
               inasm2::VOXEL_SLOPEY == offsetof(Voxel, slopeY) && inasm2::VOXEL_CURVE == offsetof(Voxel, curveXX) &&
               inasm2::VOXEL_FRONT == offsetof(Voxel, front) && inasm2::VOXEL_SIZE == sizeof(Voxel), "Voxel");
 static_assert(inasm2::SEEN_SEED == offsetof(Seen, seed) && inasm2::SEEN_FACING == offsetof(Seen, facing) &&
@@ -983,7 +983,7 @@ Shading anyShading(const Seed* seeds, const Vector* roots)
     v.areaShare = below(0x40000000);
     v.wholeBefore = below(4) == 0 ? INT32_MAX : below(1 << below(12));
     v.deepest = below(3) == 0 ? below(1 << (8 + below(7))) : 22400;
-    v.front = below(REACH_MOST + 1);
+    v.front = below(ENDS_MOST + 1);
     v.horizonShare = below(1 << (4 + below(8)));
     v.gradient[0] = around(1 << (8 + below(8)));
     v.gradient[1] = around(1 << (8 + below(8)));
@@ -1025,12 +1025,12 @@ void countSeed(const Shading& v, const Seen& seen, const Voxel& voxel, SeedTally
 {
     const Seed& s = *seen.seed;
     const bool whole = s.area == 0 || seen.facing < v.wholeBefore;
-    t->ended += voxel.reach != 0;
+    t->ended += voxel.back != 0;
     t->sloped += voxel.slopeX != 0;
     t->steep += voxel.tiltX > 5000;
     t->whole += whole;
     t->torn += !(s.flags & ::SEED_RESTING) && !whole && s.normal.x / 130 != s.way[0];
-    t->plain += voxel.reach == 0 && voxel.slopeX == 0;
+    t->plain += voxel.back == 0 && voxel.slopeX == 0;
 }
 
 // Tests random seeds in front of random viewers, and that seeds of each kind occurred.

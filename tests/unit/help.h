@@ -134,11 +134,11 @@ inline int show(View& view, const Voxel* voxels, size_t count, int32_t x = 0, in
     for (size_t from = 0; from < count; from += VOXELS_AT_ONCE) {
         list.count = static_cast<int>(std::min<size_t>(count - from, VOXELS_AT_ONCE));
         std::copy_n(voxels + from, list.count, list.voxels);
-        int64_t reach = 0;
+        int64_t extent = 0;
         for (int i = 0; i < list.count; ++i)
             for (const int64_t way : {list.voxels[i].x, list.voxels[i].y, list.voxels[i].z})
-                reach = std::max(reach, way < 0 ? -way : way);
-        list.reach = static_cast<int32_t>(std::min<int64_t>(reach, INT32_MAX));
+                extent = std::max(extent, way < 0 ? -way : way);
+        list.extent = static_cast<int32_t>(std::min<int64_t>(extent, INT32_MAX));
         drawn += view.show(list);
     }
     return drawn;

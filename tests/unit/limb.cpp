@@ -24,7 +24,7 @@ Voxel ended(const Limb& limb, const Vec& seed, const Vec& normal)
     const double cosine = -dot(normal, seed) / seed.z;
     Voxel v = {};
     v.halfWidth = v.halfHeight = 300;
-    v.reach = 20;
+    v.back = 20;
     v.tiltX = static_cast<int16_t>(std::lround(normal.x / cosine * 256));
     v.tiltY = static_cast<int16_t>(std::lround(normal.y / cosine * 256));
     endAtLimb(limb, static_cast<int32_t>(cosine * 16384), &v);
@@ -75,8 +75,8 @@ void holdAgainst(const Round& round, Random& random, LimbOf limbOf, long* held, 
             continue;
         const Voxel voxel = ended(limb, seed, normal);
         CHECK(voxel.halfWidth == 300 && voxel.halfHeight == 300);
-        const double deep = std::min(deepAt(round, seed, cosine) * 32, REACH_MOST / 1.3);
-        CHECK(voxel.reach > deep && voxel.reach < deep * 1.3 + 2);
+        const double deep = std::min(deepAt(round, seed, cosine) * 32, ENDS_MOST / 1.3);
+        CHECK(voxel.back > deep && voxel.back < deep * 1.3 + 2);
         CHECK(cutAt(voxel, 0, 0) >= 0);
         for (int k = 0; k < 20; ++k) {
             const double x = random.between(-spacing, spacing), y = random.between(-spacing, spacing);
@@ -232,7 +232,7 @@ struct Corners {
         scene.ball(size, at.x, at.y, at.z);
         scene.update();
         for (const Voxel& v : scene.draw(0)) {
-            if (v.reach != 0)
+            if (v.back != 0)
                 continue;
             ++scales;
             for (int corner = 0; corner < 4; ++corner) {

@@ -95,7 +95,7 @@ TEST(scales_beside_a_ridge_show_their_own_side)
                     const double deeper = (v.tiltX * x + v.tiltY * y) / 256;
                     const double cut = v.cutAt / 64.0 + (v.cutX * x + v.cutY * y) / 8.0 +
                                        (v.curveXX * x * x + 2 * v.curveXY * x * y + v.curveYY * y * y) / 32.0;
-                    if (cut < 0 || (v.reach != 0 && (deeper > v.reach / 32.0 || -deeper > v.front / 32.0)))
+                    if (cut < 0 || (v.back != 0 && (deeper > v.back / 32.0 || -deeper > v.front / 32.0)))
                         continue;
                     const double depth = v.z / 256.0;
                     const Vec p = Vec{v.x / 256.0 + x, v.y / 256.0 + y, depth} * ((depth + deeper) / depth) + vec(scene.eye);

@@ -331,7 +331,7 @@ TEST(no_scale_comes_far_before_the_surface)
             scene.update();
         for (size_t o = 0; o < scene.objects.size(); ++o)
             for (const Voxel& v : scene.draw(o)) {
-                if (v.reach == 0)
+                if (v.back == 0)
                     continue;
                 ++limb;
                 const double corner = (std::abs(v.tiltX) * v.halfWidth + std::abs(v.tiltY) * v.halfHeight) / 65536.0;

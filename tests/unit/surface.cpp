@@ -193,7 +193,7 @@ bool alike(const std::vector<Voxel>& a, const std::vector<Voxel>& b)
     for (size_t i = 0; i < a.size(); ++i)
         if (a[i].x != b[i].x || a[i].y != b[i].y || a[i].z != b[i].z ||
             a[i].halfWidth != b[i].halfWidth || a[i].halfHeight != b[i].halfHeight || a[i].tiltX != b[i].tiltX ||
-            a[i].tiltY != b[i].tiltY || a[i].brightness != b[i].brightness || a[i].reach != b[i].reach)
+            a[i].tiltY != b[i].tiltY || a[i].brightness != b[i].brightness || a[i].back != b[i].back)
             return false;
     return true;
 }

@@ -361,7 +361,7 @@ TEST(cut_scales_of_one_ramp_are_averaged)
     int averaged = 0, apart = 0;
     for (int round = 0; round < 2000; ++round) {
         VoxelList list{};
-        list.reach = 10 * 256;
+        list.extent = 10 * 256;
         list.z = steps(100);
         list.count = 1;
         // A slope that does not show makes it a scale whose brightness may change. Both scales have the same dome.
@@ -437,7 +437,7 @@ TEST(colours_are_the_lists_own)
         ramp[i] = static_cast<uint8_t>(255 - 2 * i);
     VoxelList list{};
     list.ramp = ramp;
-    list.reach = 100 * 256;
+    list.extent = 100 * 256;
     list.count = 3;
     list.voxels[0] = voxel(-19.9, -0.1, 100, 1, 1, 0);
     list.voxels[1] = voxel(10.1, -0.1, 100, 8, 8, 63);
@@ -456,7 +456,7 @@ TEST(colours_are_the_lists_own)
     // A scale that covers no pixel's centre is not counted: a narrow scale halfway between two columns covers none.
     list.voxels[0] = voxel(0, 0, 125, 0.1, 0.1, 5);
     list.voxels[1] = voxel(0.25, 0.3, 125, 0.1, 0.1, 5);
-    list.reach = 125 * 256;
+    list.extent = 125 * 256;
     list.count = 2;
     view.begin();
     SAME(view.show(list), 1);
