@@ -19,9 +19,8 @@ constexpr int NEAR = 4;
 static_assert(GRID == 2, "one row is left out");
 // No pixel is looked at after so many in a frame.
 constexpr int LOOKS_MOST = 2000;
-// In units of the field: where a body's field is off the isovalue by no more its surface is there. Where the surfaces of two bodies
-// cross it has to be known better.
-constexpr Real EXACT(0.02), EXACT_CROSSING(0.004);
+// In units of the field: where a body's field is off the isovalue by no more its surface is there.
+constexpr Real EXACT(0.004);
 // The surface is looked for along the ray with one step of this length, 1/128 unit, and is no farther away than FARTHEST steps.
 constexpr int STEP = 128;
 constexpr Real FARTHEST(2);
@@ -121,10 +120,10 @@ bool Borders::mendPixel(const Place& place)
     const bool crossing = shown != nullptr && model_.areApart(*shown, *owner);
     const int before = zbuffer_[at];
     int depth = before, shownDepth = before;
-    if (!correctDepth(*owner, at, crossing ? EXACT_CROSSING : EXACT, &depth))
+    if (!correctDepth(*owner, at, &depth))
         return false;
     // Of two bodies whose surfaces cross the nearer one is seen.
-    if (crossing ? correctDepth(*shown, at, EXACT_CROSSING, &shownDepth) && shownDepth < depth
+    if (crossing ? correctDepth(*shown, at, &shownDepth) && shownDepth < depth
                  : depth != before && !isStronger(ramp, own, view_.pointAt(at, depth), &owner, &shown))
         return false;
     // The brightness goes on across a border, but not from one body to another.
@@ -175,13 +174,13 @@ inline const SoftObject* Borders::strongestOf(int ramp, const Point& p, Real* fi
 }
 
 // Moves a depth behind a pixel to the surface of an object's body, by one step of the secant method, if the field there is off the
-// isovalue by more than `exact`. (Rays::findDepth() searches in many steps, and for whichever body comes first.) Returns false if
+// isovalue by more than EXACT. (Rays::findDepth() searches in many steps, and for whichever body comes first.) Returns false if
 // the surface is not near.
-bool Borders::correctDepth(const SoftObject& object, int at, Real exact, int* depth) const
+bool Borders::correctDepth(const SoftObject& object, int at, int* depth) const
 {
     int strongest;
     const Real off = probe_.implicitAt(view_.pointAt(at, *depth), &strongest, &object) - ISOVALUE;
-    if (absolute(off) <= exact)
+    if (absolute(off) <= EXACT)
         return true;
     const int step = off > Real(0) ? -STEP : STEP;
     const Real change = probe_.implicitAt(view_.pointAt(at, *depth + step), &strongest, &object) - ISOVALUE - off;

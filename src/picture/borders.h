@@ -26,7 +26,7 @@ private:
     int meanBrightness(int at, int ramp) const;
     bool isStronger(int ramp, int other, const Point& p, const SoftObject** strongest, const SoftObject** second) const;
     const SoftObject* strongestOf(int ramp, const Point& p, Real* field) const;
-    bool correctDepth(const SoftObject& object, int at, Real exact, int* depth) const;
+    bool correctDepth(const SoftObject& object, int at, int* depth) const;
     int rampAt(int pixel) const { return palette_.rampOf(frame_[pixel]); }
 
     static constexpr int NOTED_MOST = 256;
