@@ -47,9 +47,10 @@ private:
     int findNear(Link* near) const;
     void pose();
     void settle(int i, const FrameContext& frame, const Vector& toEye, const Link* near, int nearCount);
-    bool faces(int i, const Vector& toEye);
-    bool search(int i, const FrameContext& frame, const Link* near, int nearCount, Real* position) const;
-    void store(int i, bool found, Real position);
+    bool faces(Seed& s, const Vector& out, const Vector& toEye) const;
+    bool search(const Seed& s, const Point& root, const Vector& path, const FrameContext& frame, const Link* near, int nearCount,
+                Real* position) const;
+    void store(Seed& s, const Point& root, bool found, Real position, Kept& kept);
     Point rootPoint(const Seed& s) const { return object_.toWorld(object_.root(s.root)); }
 
     SoftObject& object_;
@@ -145,28 +146,27 @@ bool Report98::update(const FrameContext& frame)
 
 void Report98::settle(int i, const FrameContext& frame, const Vector& toEye, const Link* near, int nearCount)
 {
-    if (!faces(i, toEye))
+    Seed& s = object_.seed(i);
+    if (!faces(s, kept_[i].out, toEye))
         return;
+    const Point root = rootPoint(s);
     Real position;
-    const bool found = search(i, frame, near, nearCount, &position);
-    store(i, found, position);
+    const bool found = search(s, root, kept_[i].path, frame, near, nearCount, &position);
+    store(s, root, found, position, kept_[i]);
 }
 
 // "Seeds whose paths point nearly away from the viewer [...] are assumed to be invisible."
-bool Report98::faces(int i, const Vector& toEye)
+inline bool Report98::faces(Seed& s, const Vector& out, const Vector& toEye) const
 {
-    Seed& s = object_.seed(i);
-    const bool front = dot(kept_[i].out, toEye) >= BACK_FACE * object_.radius();
+    const bool front = dot(out, toEye) >= BACK_FACE * object_.radius();
     s.flags = static_cast<uint8_t>(front ? s.flags | SEED_FRONT : s.flags & ~SEED_FRONT);
     return front;
 }
 
 // Searches the surface along the path of a seed. Returns false if a neighbour is stronger there, or the path has no surface.
-bool Report98::search(int i, const FrameContext& frame, const Link* near, int nearCount, Real* position) const
+inline bool Report98::search(const Seed& s, const Point& root, const Vector& path, const FrameContext& frame, const Link* near,
+                             int nearCount, Real* position) const
 {
-    const Seed& s = object_.seed(i);
-    const Point root = rootPoint(s);
-    const Vector path = kept_[i].path;
     // "If the seed was valid before, use its last position", else "a reliable starting position".
     *position = s.flags & SEED_VALID ? s.position : Real(1);
     bool highest;
@@ -202,16 +202,15 @@ bool Report98::search(int i, const FrameContext& frame, const Link* near, int ne
 
 // Stores the result of a search. "If they have not moved by a certain minimum amount between frames, they are assumed not to have
 // moved."
-void Report98::store(int i, bool found, Real position)
+inline void Report98::store(Seed& s, const Point& root, bool found, Real position, Kept& kept)
 {
-    Seed& s = object_.seed(i);
     const bool wasValid = (s.flags & SEED_VALID) != 0;
     s.flags = static_cast<uint8_t>(found ? s.flags | SEED_VALID : s.flags & ~SEED_VALID);
     if (!wasValid || absolute(position - s.position) >= DISPLACEMENT) {
         s.position = position;
         s.flags = static_cast<uint8_t>(s.flags & ~SEED_KEPT);
     }
-    kept_[i].point = rootPoint(s) + kept_[i].path * s.position;
+    kept.point = root + kept.path * s.position;
     if (!found || absolute(s.position - Real(1)) >= DEFORMITY)
         displaced_ = true;
 }
