@@ -7,7 +7,7 @@
 struct Options {
     bool interactive = false;       // /I
     bool grey = false;              // /G
-    bool report98 = false;           // /P
+    bool report98 = false;          // /P
     bool help = false;              // /?
     bool retrace = false;           // /V: wait for the vertical retrace
     bool noPresent = false;         // /X: draw, but do not copy to the card

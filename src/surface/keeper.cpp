@@ -20,8 +20,9 @@ constexpr Real TOLERATED(16);
 constexpr Real FARTHEST(4);
 // 1/1024 unit: where neighbours travel no farther than this in a frame it makes no difference whether they stop after it.
 constexpr Travel SLIGHT = 100;
-// What tells how an object is seen and lit. A change of it counts as even if it differs from the change before by no more than JOLT
-// and a quarter of itself. If an axis or the light changes by more than FASTEST the object turns fast.
+// VIEW: what tells how an object is seen and lit, the axes of the view and the light (1.0 = 2^14), and the eye (1/32 unit). A
+// change of one of these numbers counts as even if it differs from the change before by no more than JOLT and a quarter of itself.
+// If an axis or the light changes by more than FASTEST the object turns fast.
 constexpr int32_t (OwnFrame::*VIEW[])[3] = {&OwnFrame::right, &OwnFrame::up, &OwnFrame::ahead, &OwnFrame::light, &OwnFrame::eye32};
 constexpr int32_t JOLT = 24, FASTEST = 500;
 // If an object grows or shrinks by more than 2^-GROWS of its size in a frame nothing of it goes on: scales keep their extents while

@@ -28,9 +28,9 @@ public:
 
     // Makes room for `count` patches. Without that, or without memory, nothing is kept.
     void open(int count);
-    // Forgets all voxels, because the seeds have been laid out elsewhere; or that those of a patch are still right, because its
-    // seeds have been settled.
+    // Forgets all voxels, because the seeds have been laid out elsewhere or an update was stopped.
     void forget() { draws_ = 0; }
+    // Forgets those of a patch, because its seeds have been settled.
     void forgetPatch(int number)
     {
         if (count_ > 0)
