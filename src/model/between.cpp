@@ -40,15 +40,17 @@ void SoftObject::layOutExtra(Layout& layout, int number, int ring, Seed& extra) 
     if (one.root == other.root) {
         extra.path = withLength(unstretched(one.path + other.path), restLength(layout, one, other));
     } else {
-        // Each seed has a root of its own, or the whole ring shares one: that of its first seed.
+        // Each seed has a root of its own, or the whole ring shares one: that of its first seed with a neighbour.
         const bool shared = layout.rootsBetween[ring + 1] - layout.rootsBetween[ring] == 1;
         const int first = layout.ringStarts[ring], index = layout.rootsBetween[ring] + (shared ? 0 : number - first);
         Vector root, out;
         if (index >= ROOTS_MAX || !rootBetween(layout, one, other, &root, &out))
             return;
-        const Seed& start = layout.seeds[first];
+        const Seed* start = layout.seeds + first;
+        while (start->neighbour < 0)
+            ++start;
         Vector unused;
-        if (shared && !rootBetween(layout, start, layout.seeds[start.neighbour >> 1], &root, &unused))
+        if (shared && !rootBetween(layout, *start, layout.seeds[start->neighbour >> 1], &root, &unused))
             return;
         layout.roots[index] = stretchedOut(root);
         extra.root = static_cast<uint16_t>(index);

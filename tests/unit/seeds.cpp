@@ -352,6 +352,32 @@ TEST(an_oversampled_seed_of_a_warped_object_finds_back_to_its_place)
     SAME(lost, 0);
 }
 
+TEST(oversampled_seeds_lie_beside_theirs_where_a_ring_begins_without_a_neighbour)
+{
+    int headless = 0;
+    for (int tip = 20; tip <= 40; ++tip) {
+        Scene scene;
+        SoftObject& cone = scene.add(new Cone(1, real(8), real(tip), real(100)), 0, 0, 0, 6);
+        cone.setStretch({real(0.3), real(0.5), real(0.6)});
+        CHECK(cone.resample(real(6), makeEngine) && cone.layOutExtras());
+        const auto place = [&](const Seed& s) { return vec(cone.root(s.root) + s.path); };
+        bool begins = false;  // the ring has begun without a neighbour
+        double farthest = 0;
+        for (int i = 2; i < cone.seedSlots(); i += 2) {
+            const Seed& s = cone.regular(i);
+            if (s.root != cone.regular(i - 2).root)
+                begins = s.neighbour < 0;
+            if (s.neighbour < 0)
+                continue;
+            headless += begins;
+            farthest = std::fmax(farthest, size(place(cone.seed(i + 1)) - place(s)));
+        }
+        CHECK(farthest < 2 * number(cone.spacing()));
+    }
+    note("%d seeds in such rings", headless);
+    CHECK(headless > 0);
+}
+
 TEST(no_cell_of_a_cone_reaches_across_a_corner)
 {
     const double sizes[][3] = {{30, 6, 30}, {12, 30, 20}, {22, 10, 24}, {9, 26, 40}};
