@@ -54,10 +54,12 @@ Real NeighbourPose::followCore(const Neighbour& near)
 Real NeighbourPose::travelAsMapped(const Neighbour& near, const NeighbourPose& before, Real reach) const
 {
     const Vector by = place_ - before.place_;
+    // What leaps farther than this has travelled far enough, and its travel might leave 16.16.
     const Real longest(100);
-    const Vector most{absolute(by.x) + roundLength(axes_[0] - before.axes_[0]) * reach,
-                      absolute(by.y) + roundLength(axes_[1] - before.axes_[1]) * reach,
-                      absolute(by.z) + roundLength(axes_[2] - before.axes_[2]) * reach};
+    const auto along = [&](int i, Real moved) {
+        return min(absolute(moved), longest) + min(roundLength(axes_[i] - before.axes_[i]) * reach, longest);
+    };
+    const Vector most{along(0, by.x), along(1, by.y), along(2, by.z)};
     const Real travelled = min(roundLength(most), longest) * near.size * Real(1.0 / CORE_SIZE);
     if (!near.object->warped())
         return travelled;
