@@ -59,7 +59,9 @@ void Borders::mend()
                 continue;
             if (ramp != 0 && last != 0)
                 mendBeside(static_cast<int>(at - frame_));
-            last = ramp != 0 ? ramp : last;
+            // The pixel may have been mended.
+            const uint8_t now = palette.rampOf(*at);
+            last = now != 0 ? now : last;
         }
     }
 }

@@ -795,6 +795,31 @@ TEST(pixels_that_stand_alone_beside_borders)
     }
 }
 
+// Where one object fills the whole view a pixel of the wrong colour is mended, and nothing is looked for outside the frame.
+TEST(borders_of_colours_where_an_object_fills_the_view)
+{
+    PairView pair(10);
+    View& view = pair.view;
+    Camera camera = view.camera();
+    camera.eye.x = real(-10);
+    camera.focalX = camera.focalY = real(4000);
+    view.setCamera(camera);
+    FieldProbe probe(&pair.model);
+    int depth = 60 * 128, owner;
+    while (probe.implicitAt(view.pointAt(100 * WIDTH + 160, depth), &owner) < ISOVALUE)
+        ++depth;
+    SAME(owner, 0);
+    const uint8_t *const own = pair.model.actor(0).object->ramp(), *const other = pair.model.actor(1).object->ramp();
+    for (int at = 0; at < WIDTH * HEIGHT; ++at)
+        view.setPixel(at, depth, own[30]);
+    view.setPixel(2 * WIDTH + 2, depth, other[30]);
+    view.closeGaps(SPACING, &pair.model, &pair.palette);
+    int wrong = 0;
+    for (int at = 0; at < WIDTH * HEIGHT; ++at)
+        wrong += pair.palette.rampOf(view.frame()[at]) != pair.palette.numberOf(own);
+    SAME(wrong, 0);
+}
+
 // At a crease the two sides differ in brightness. A pixel that gets the other colour gets a brightness between those of the two.
 TEST(brightness_beside_borders_of_colours)
 {
