@@ -7,7 +7,7 @@
 //     places, and writing it again gives the same text.
 //
 //   fuzz COUNT SEED FILE...          COUNT scenes, the FILEs first; the same SEED gives the same scenes
-//   fuzz --draw COUNT SEED FILE...   also settles and draws one in sixteen of the scenes that are read
+//   fuzz --draw COUNT SEED FILE...   also plays one in four of the scenes that are read, in whole pictures
 //
 // The program is built with the sanitizers, which find crashes, undefined behaviour and leaks. An input that takes longer
 // than one to two minutes of processor time counts as a hang. The input that failed is left in build/fuzzfail.fb.
@@ -26,6 +26,7 @@
 #include "model/field.h"
 #include "model/scene.h"
 #include "picture/palette.h"
+#include "picture/view.h"
 #include "math/normal.h"
 #include "surface/engine.h"
 #include "surface/voxel.h"
@@ -119,9 +120,34 @@ bool sameShape(const Actor& a, const Actor& b)
 
 const Time TIMES[] = {0, 65536 / 10, 65536 * 3 + 777, 12345678, 65536ull * 3599, 65536ull * 86400 * 30, 0xffffffffffffull};
 
-void draw(Model& model, bool report98)
+// Draws a frame as the program does, but for the order of the objects.
+void drawFrame(Model& model, View& view, const Palette& palette, bool report98)
 {
     static VoxelList list;
+    Counts counts{};
+    const Camera& camera = view.camera();
+    FrameContext frame{camera.eye, unit(model.light), model.prepareBodies(), &counts, camera.axes,
+                       camera.centreX / camera.focalX, camera.centreY / camera.focalY};
+    must(frame.bodies != nullptr, "no memory for bodies");
+    view.begin();
+    for (int i = 0; i < model.count(); ++i) {
+        SoftObject& object = *model.actor(i).object;
+        object.update(frame);
+        int next = 0;
+        do {
+            object.draw(frame, list, VOXELS_AT_ONCE, &next);
+            view.show(list);
+        } while (next != 0);
+        frame.hider = &view;
+    }
+    if (!report98)
+        view.closeGaps(model.coarsest(), &model, &palette);
+    view.end();
+}
+
+// Plays a scene: two frames a moment apart at each of some times, and a few more from the beginning on.
+void draw(Model& model, bool report98, bool grey)
+{
     static Palette palette;
     must(model.resample(Real(6), makeEngine), "no memory for seeds");
     // Very many seeds take minutes under the sanitizers: they are drawn at fewer times, and not by the report's method, which
@@ -130,25 +156,16 @@ void draw(Model& model, bool report98)
     for (int i = 0; i < model.count(); ++i)
         seeds += model.actor(i).object->seeds();
     report98 = report98 && seeds * model.count() < 200000;
-    palette.make(model, false, report98);
+    palette.make(model, grey, report98);
     must(!report98 || model.resample(Real(6), makeReport98), "no memory for seeds");
-    Counts counts{};
-    for (Time time : TIMES) {
-        if (left < 0)
-            break;
-        left -= seeds;
-        Anim::move(model, time);
-        const FrameContext frame{model.camera.eye, unit(model.light), model.prepareBodies(), &counts, model.camera.axes};
-        must(frame.bodies != nullptr, "no memory for bodies");
-        for (int i = 0; i < model.count(); ++i)
-            model.actor(i).object->update(frame);
-        for (int i = 0; i < model.count(); ++i) {
-            int next = 0;
-            do
-                model.actor(i).object->draw(frame, list, VOXELS_AT_ONCE, &next);
-            while (next != 0);
+    View view;
+    must(view.open(report98), "no memory for the picture");
+    view.setCamera(model.camera);
+    for (Time time : TIMES)
+        for (int i = 0, frames = time == 0 ? 12 : 2; i < frames && left > 0; ++i, left -= seeds) {
+            Anim::move(model, time + 65536 / 35 * static_cast<Time>(i));
+            drawFrame(model, view, palette, report98);
         }
-    }
 }
 
 std::string contents(const char* name)
@@ -326,9 +343,10 @@ int main(int count, char** arguments)
             continue;
         }
         ++taken;
-        if (draws && random.once(16)) {
+        if (draws && random.once(4)) {
             ++drawn;
-            draw(model, random.once(4));
+            const bool report98 = random.once(4), grey = random.once(4);
+            draw(model, report98, grey);
         }
         if (random.once(8))
             pool.keep(random);

@@ -3,9 +3,9 @@
 #
 #   sh tests/fuzz/run.sh [SCENES [LINES [RUNS [SEED]]]]
 #
-# The reader gets SCENES scenes (20000 by default); one in a hundred is drawn as well. LINES command lines are parsed (20000 by
-# default), and RUNS are given to the program (100). Another SEED than 1 makes others of each. The last line is "N passed, N
-# failed".
+# The reader gets SCENES scenes (20000 by default), and a twentieth as many of which one in four is played. LINES command lines
+# are parsed (20000 by default), and RUNS are given to the program (100). Another SEED than 1 makes others of each. The last line
+# is "N passed, N failed".
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 . tests/lib.sh
@@ -26,7 +26,7 @@ fuzz() {
 # shellcheck disable=SC2086  # the files are words
 fuzz "scenes" nice build/fuzz "$scenes" "$seed" $corpus
 # shellcheck disable=SC2086
-fuzz "scenes, drawn" nice build/fuzz --draw $((scenes / 100)) $((seed + 1)) $corpus
+fuzz "scenes, played" nice build/fuzz --draw $((scenes / 20)) $((seed + 1)) $corpus
 fuzz "command lines" nice build/fuzzline "$lines" "$seed"
 fuzz "command lines for the program" nice build/fuzzline --run build/san/demo "$dir/runs" "$runs" "$seed"
 summary
