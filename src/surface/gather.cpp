@@ -260,11 +260,23 @@ SELDOM static int findNear(SoftObject* const* from, int count, const SoftObject&
     return found;
 }
 
+// Whether a neighbour that is heavy, strong or no ball, but not far smaller than the object, makes the neighbourhood steep.
+SELDOM static bool isSteep(const Bodies& bodies, const Neighbour& near)
+{
+    const SoftObject& other = *near.object;
+    Real times = near.strength * max(max(bodies.heaviest(near.slot), near.greatestWeight), Real(1));
+    if (other.tapers())
+        times = times * THIN_TIP;
+    else if (other.shaped())
+        times = quotient(times, max(other.steepest(), Real(1) / THIN_TIP));
+    return min(near.ratio * near.size, STEEP) * min(times, Real(30)) > STEEP;
+}
+
 // Takes a neighbour into account in what holds for all of them together.
 static inline void takeIn(const Neighbour& near, const Bodies& bodies, Neighbourhood& all)
 {
     if (near.ratio > FAR_SIZES)
-        all.sizesDiffer = true;
+        all.steep = true;
     if (!near.ordinary)
         all.ordinary = false;
     if (!near.digs && dentedFromWithin(*near.object, bodies))
@@ -312,6 +324,8 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         const bool tiny = (near.size < SMALL || longPaths) && isTiny(object, near);
         if (tiny || !other.isBall())
             orient(object, tiny, near);
+        if (weight > Real(1) || !near.ordinary || other.tapers() || other.shaped())
+            all.steep |= isSteep(bodies, near);
         takeIn(near, bodies, all);
     }
     all.count = static_cast<int>(next - all.neighbours);
@@ -329,7 +343,7 @@ void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& 
     all.restsAtOne = object.rests() && !all.hollow;
     all.ordinary = object.strength() == Real(1) && !all.hollow && !object.shaped();
     all.last = object.restRoot() == Real(0.5) ? Real(1.98) : Real(0.99) / object.restRoot();
-    all.sizesDiffer = all.claims = false;
+    all.steep = all.claims = false;
     memset(all.bySlot, 0, sizeof all.bySlot);
     gatherFrom(bodies.diggers(*all.head), bodies.diggerCount(*all.head), true, object, bodies, all);
     all.dented = all.count > 0;

@@ -18,8 +18,8 @@ constexpr Real GATHER_SLACK(1);
 // No field of strength 1 changes by more than this over a length of one size.
 constexpr Real STEEPEST_OF_ALL(1.6);
 
-// See Neighbourhood::sizesDiffer.
-constexpr Real FAR_SIZES(16);
+// See Neighbourhood::steep. THIN_TIP: a tapering neighbour is taken to be so many times as steep as its size says.
+constexpr Real FAR_SIZES(16), STEEP(1024), THIN_TIP(16);
 
 // Which object's seeds show a place on the surface is decided by claims. An object's claim is its field; but where a small object
 // blends with a large one, the field of the large one counts less. Its paths only graze the surface around the small object, which
@@ -113,7 +113,8 @@ struct Neighbourhood {
     Real weight;        // in that case, the weight by which the object digs into the head
     bool inner;         // some members of the body dig into other members
     bool ordinary;      // nothing digs, all strengths are 1, and the object is not shaped
-    bool sizesDiffer;   // the squared proportion of the own size to that of some neighbour exceeds FAR_SIZES
+    bool steep;         // the gradient of some neighbour's field, times the squared own size, may leave 16.16: the squared proportion
+                        // of the own size to the neighbour's exceeds FAR_SIZES, or it is as steep by its weight, strength or shape
     bool restsAtOne;    // the surface lies at position 1 where no neighbour reaches
     bool dented;        // some neighbours dig
     bool claims;        // some claims differ from the fields

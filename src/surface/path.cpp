@@ -242,15 +242,38 @@ Real Path::warpedParam(Real position)
 
 // ---- Results of the last evaluation
 
-// The shift that brings the largest ratio of a neighbour that reaches the seed to 8 or less.
+// The factor of a neighbour's part in the sum of gradients (sumGradients()).
+inline __attribute__((always_inline)) Real Path::pushOf(const Neighbour& near, int shift) const
+{
+    Real slope = shared_ ? near.slope * near.share : near.slope;
+    if (!shared_ && near.digs)
+        slope = -(slope * near.weight);
+    return -(shiftDown(slope, shift) * near.ratio);
+}
+
+// The shift that brings the largest ratio of a neighbour that reaches the seed to 8 or less, and the sum of all gradients to a length
+// that leaves room for what is made of it.
 SELDOM int Path::findGradientShift() const
 {
+    constexpr Real LARGEST(8), LONGEST(16);  // the latter in 1/256 of the length
     Real largest(0);
     for (int i = 0; i < touched_; ++i)
         if (near_[i]->slope != Real(0))
             largest = max(largest, near_[i]->ratio);
     int shift = 0;
-    while (shiftDown(largest, shift) > Real(8))
+    while (shiftDown(largest, shift) > LARGEST)
+        ++shift;
+    const int bySize = shift;
+    Real sum(0);
+    for (int i = 0; i < touched_; ++i) {
+        const Neighbour& near = *near_[i];
+        if (near.slope == Real(0))
+            continue;
+        const Vector v = near.kind == Neighbour::OTHER ? near.fromCoreSpace(near.halfGradient) : near.toRoot;
+        const Real long256 = shiftDown(max(absolute(v.x), max(absolute(v.y), absolute(v.z))), 8);
+        sum = min(sum + long256 * min(absolute(pushOf(near, shift)), Real(100)), Real(10000));
+    }
+    while (shiftDown(sum, shift - bySize) > LONGEST)
         ++shift;
     return shift;
 }
@@ -271,10 +294,7 @@ inline __attribute__((always_inline)) Vector Path::sumGradients(Real position, i
         const Neighbour& near = *near_[i];
         if (near.slope == Real(0))
             continue;
-        Real slope = shared_ ? near.slope * near.share : near.slope;
-        if (!shared_ && near.digs)
-            slope = -(slope * near.weight);
-        const Real push = -(shiftDown(slope, shift) * near.ratio);
+        const Real push = pushOf(near, shift);
         if (near.kind == Neighbour::OTHER) {
             g = g + near.fromCoreSpace(near.halfGradient) * push;
             continue;

@@ -53,8 +53,8 @@ public:
     Vector outward(Real position) const;
     // As outward(), at a position of the path that passes a seed's path at a distance. There is no current path afterwards.
     Vector outwardBeside(const Seed& s, Real position, const Vector& distance);
-    // The shift of gradients at the position evaluated last: 0, unless there is a far smaller neighbour.
-    int gradientShift() const { return all_.sizesDiffer ? findGradientShift() : 0; }
+    // The shift of gradients at the position evaluated last: 0, unless there is a far smaller or steeper neighbour.
+    int gradientShift() const { return all_.steep ? findGradientShift() : 0; }
 
     // The member of the body among the neighbours whose field was the strongest at the position evaluated last, but for `other`;
     // null if there is none.
@@ -121,6 +121,7 @@ private:
     void take(const NeighbourList& list, const Seed& s);
     void setNear(const NeighbourList& list);
     SELDOM void findOdd();
+    Real pushOf(const Neighbour& near, int shift) const;
     SELDOM int findGradientShift() const;
     Vector sumGradients(Real position, int shift, bool slants) const;
     bool mayReach(const Neighbour& near) const;

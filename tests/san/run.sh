@@ -45,6 +45,8 @@ ok "the smallest beside the largest" build/san/demo /N:40 /R:8 /M:tests/fuzz/cor
 ok "the same, with heavy links" build/san/demo /N:12 /R:8 /S:5 /M:tests/fuzz/corpus/SMALL.FB
 ok "the same, warped" build/san/demo /N:12 /R:8 /S:5 /M:tests/fuzz/corpus/WARPED.FB
 ok "a torus that meets itself" build/san/demo /N:12 /R:8 /S:5 /M:tests/fuzz/corpus/SPINDLE.FB
+ok "thin tips that dig" build/san/demo /N:14 /R:35 /S:6 /M:tests/fuzz/corpus/TIPS.FB
+ok "heavy links of many kinds" build/san/demo /N:14 /R:35 /S:6 /M:tests/fuzz/corpus/HEAVY.FB
 ok "any keys and moves" sh tests/san/monkey.sh 1 12
 # What memory happens to hold may not be seen: it differs from build to build.
 build build/demo build/mkscene
