@@ -2,11 +2,14 @@
 // searched in steps, and the crossing found by bisection.
 #include "search.h"
 
+#include "math/whole.h"
 #include "model/round.h"
 
 namespace {
 
 constexpr int BISECTIONS = 12;
+// The search of a whole path takes no more steps than this, however steep neighbours are: they are a unit long on a path of thirty.
+constexpr int STEPS_MOST = 64;
 // Positions: where a search begins, and the length of its steps.
 constexpr Real SEARCH_FIRST(0.88), SEARCH_STEP(0.16);
 // Positions: COVERED_LATE is tested after COVERED_AT for a neighbour that is stronger; BETWEEN and BETWEEN_LATE are evaluated in
@@ -212,7 +215,7 @@ private:
 
 void DeepSearch::run(Real from, Real to)
 {
-    const int steps = stepsIn(absolute(to - from), smoothStep_);
+    const int steps = min32(stepsIn(absolute(to - from), smoothStep_), STEPS_MOST);
     Look before = lookAt(path_, from);
     add(before);
     for (int i = 1; i <= steps; ++i) {
