@@ -113,8 +113,9 @@ struct Neighbourhood {
     Real weight;        // in that case, the weight by which the object digs into the head
     bool inner;         // some members of the body dig into other members
     bool ordinary;      // nothing digs, all strengths are 1, and the object is not shaped
-    bool steep;         // the gradient of some neighbour's field, times the squared own size, may leave 16.16: the squared proportion
-                        // of the own size to the neighbour's exceeds FAR_SIZES, or it is as steep by its weight, strength or shape
+    bool steep;         // the gradient of some neighbour's field, times the squared own size, may leave 16.16: the squared
+                        // proportion of the own size to the neighbour's exceeds FAR_SIZES, or its weight, strength or shape
+                        // make it as steep
     bool restsAtOne;    // the surface lies at position 1 where no neighbour reaches
     bool dented;        // some neighbours dig
     bool claims;        // some claims differ from the fields

@@ -251,8 +251,8 @@ inline __attribute__((always_inline)) Real Path::pushOf(const Neighbour& near, i
     return -(shiftDown(slope, shift) * near.ratio);
 }
 
-// The shift that brings the largest ratio of a neighbour that reaches the seed to 8 or less, and the sum of all gradients to a length
-// that leaves room for what is made of it.
+// The shift that brings the largest ratio of a neighbour that reaches the seed to 8 or less, and the sum of all gradients to a
+// length that leaves room for what is made of it.
 SELDOM int Path::findGradientShift() const
 {
     constexpr Real LARGEST(8), LONGEST(16);  // the latter in 1/256 of the length
