@@ -38,7 +38,7 @@ SELDOM void orientShaped(Neighbour& near)
 }
 
 // Tangent of half the angle of the widest view whose sides are looked at: wider ones would leave 16.16.
-constexpr Real WIDEST(32);
+constexpr Real WIDEST(16);
 
 // A neighbour whose size is a smaller part than this of the distance over which it might be felt is left out: it is too small to be
 // seen, and core space as large as that distance would leave 16.16.
@@ -105,7 +105,7 @@ static void setSides(const SoftObject& object, const FrameContext& frame, const 
     own.sideCount = 0;
     own.outOfSight = false;
     // Nothing that matters is outside so wide a view.
-    if (frame.sideways == Real(0) || frame.sideways > WIDEST)
+    if (frame.sideways == Real(0) || frame.sideways > WIDEST || frame.upward > WIDEST)
         return;
     // As far as seeds can be pulled out, and a margin for the size of scales.
     const Real reached = object.reach() + object.spacing() * Real(2);
