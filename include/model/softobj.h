@@ -292,8 +292,8 @@ public:
     const List<Link>& digs() const { return digs_; }
     // Returns true if the object has a surface of its own: it blends with another or digs into none. Weights of 0 do not count.
     bool hasSurface() const;
-    // The object whose hollow this object's seeds sample: of those it digs into, the one with the lowest number, if this object
-    // has no surface of its own. Else null.
+    // The object whose hollow this object's seeds sample: of those it digs into, the one in which its middle lies deepest, or which
+    // is the nearest to it, if this object has no surface of its own. Else null.
     const SoftObject* hollowed() const { return hollowLink() == nullptr ? nullptr : hollowLink()->object; }
     // The object whose colour and paint this surface shows: itself, or the one with the hollow. Null if there is no surface.
     const SoftObject* shown() const { return hasSurface() ? this : hollowed(); }
@@ -420,6 +420,7 @@ private:
 
     Real paramAt(const Vector& v, Vector* slope) const;
     const Link* hollowLink() const;
+    Real depthIn(const SoftObject& other) const;
     void findRest();
     void makeWarp(const WarpAmounts& amounts);
     void setGrown(Real size);

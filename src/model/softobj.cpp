@@ -1,6 +1,7 @@
 // SoftObject: pose, graph and field of any primitive. The layout of its seeds is in layout.cpp.
 #include "model/softobj.h"
 
+#include "math/normal.h"
 #include "math/alloc.h"
 #include "math/text.h"
 #include "model/stop.h"
@@ -321,11 +322,26 @@ const Link* SoftObject::hollowLink() const
 {
     if (digs_.empty() || hasSurface())
         return nullptr;
-    const Link* first = nullptr;
-    for (const List<Link>::Node* node = digs_.first(); node != nullptr; node = node->next)
-        if (node->item.weight != Real(0) && (first == nullptr || node->item.object->number() < first->object->number()))
-            first = &node->item;
-    return first->object->hasSurface() ? first : nullptr;
+    const Link* most = nullptr;
+    Real deepest(0);
+    for (const List<Link>::Node* node = digs_.first(); node != nullptr; node = node->next) {
+        const Link& link = node->item;
+        if (link.weight == Real(0) || !link.object->hasSurface())
+            continue;
+        const Real depth = depthIn(*link.object);
+        if (most == nullptr || depth > deepest || (depth == deepest && link.object->number() < most->object->number())) {
+            most = &link;
+            deepest = depth;
+        }
+    }
+    return most;
+}
+
+// How deep the middle of the object lies in another one: the other's field there, or minus the distance from its reach.
+Real SoftObject::depthIn(const SoftObject& other) const
+{
+    const Real field = other.fieldFunc(centre_);
+    return field > Real(0) ? field : min(other.reach_ - nearLength(centre_ - other.centre_), Real(0));
 }
 
 // --- The field

@@ -180,8 +180,8 @@ inline bool Path::addNear(Real position, const Vector* path, int i, Parts& parts
         return true;
     }
     addMember(parts, near.value, rate, *near.object, &near.share);
-    if (all_.hollow && near.object == all_.head)
-        headField_ = near.value;
+    if (near.dug)
+        headField_ = max(headField_, near.value);
     else
         parts.rival = max(parts.rival, near.value * near.claim + ownField_ * (Real(1) - near.ownClaim));
     return true;

@@ -30,17 +30,12 @@ inline Vector ownGradientOf(const Path& path, const Seed& s, const Vector& from,
 // that has the hollow, because it is that object's border.
 SELDOM const Neighbour* strongestOdd(const Path& path, const Vector& from, int shift, Vector* g, Real* change)
 {
-    const Neighbour* other = nullptr;
-    for (int i = 0; i < path.touched(); ++i) {
-        const Neighbour& near = path.near(i);
-        if (path.all().hollow && near.object == path.all().head) {
-            *g = gradientOf(path, near, from, shift);
-            *change = near.slope * near.change;
-        } else if (!near.digs && (other == nullptr || near.value > other->value)) {
-            other = &near;
-        }
+    const Neighbour* const host = path.host();
+    if (host != nullptr) {
+        *g = gradientOf(path, *host, from, shift);
+        *change = host->slope * host->change;
     }
-    return other;
+    return path.strongest(host);
 }
 
 // The direction of a gradient, and its length.
@@ -83,7 +78,8 @@ bool findBorder(const Path& path, Seed& s, Real fieldLead)
     const Vector own = g;
     g = g - gradientOf(path, *other, from, shift);
     const Steepest steepest(g);
-    if (other->slot < path.all().head->slot() && fieldLead > -other->value * TIE &&
+    const Neighbour* const host = path.host();
+    if (other->slot < (host == nullptr ? path.object().slot() : host->slot) && fieldLead > -other->value * TIE &&
         steepest.length < nearLength(own) * ALIKE)
         return false;
     setBorder(path, s, -fieldLead, steepest, shift);

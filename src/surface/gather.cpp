@@ -215,11 +215,12 @@ static Real greatestWeight(const SoftObject& digger)
 }
 
 // Sets how much a neighbour's field counts.
-static void weigh(const Bodies& bodies, const Neighbourhood& all, Neighbour& near)
+static void weigh(const SoftObject& object, const Bodies& bodies, const Neighbourhood& all, Neighbour& near)
 {
     const SoftObject& other = *near.object;
     near.strength = other.strength();
-    near.ordinary = !near.digs && near.strength == Real(1) && !(all.hollow && &other == all.head);
+    near.dug = all.hollow && !near.digs && bodies.weight(near.slot, object.slot()) < Real(0);
+    near.ordinary = !near.digs && near.strength == Real(1) && !near.dug;
     near.weight = near.digs ? -bodies.weight(all.head->slot(), other.slot()) : Real(0);
     near.greatestWeight = near.digs ? greatestWeight(other) : Real(1);
     near.samples = near.digs && other.hollowed() == all.head;
@@ -228,12 +229,12 @@ static void weigh(const Bodies& bodies, const Neighbourhood& all, Neighbour& nea
 
 // Sets by how much a neighbour's claim and the own one differ from their fields. `weight` is that of their link. Returns true if
 // one of them differs. What digs has no claim.
-static bool setClaims(const SoftObject& object, Real weight, Neighbour& near)
+static bool setClaims(const SoftObject& object, bool hollow, Real weight, Neighbour& near)
 {
     const auto isPlain = [](const SoftObject& o) {
         return o.strength() == Real(1) && !o.shaped() && o.paint() == nullptr && o.hasSurface();
     };
-    if (near.digs)
+    if (near.digs || hollow)
         return false;
     const Real heavy = clamp(weight * weight, Real(1), CLAIM_WEIGHT_MOST), own = object.size(), other = near.object->size();
     if (own * GUEST_SIZES < other * heavy && isPlain(object) && isPlain(*near.object))
@@ -315,12 +316,12 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         near.digs = digs;
         near.inRange = square < squareOf(range);
         place(object, growth, shrink, away, near);
-        weigh(bodies, all, near);
+        weigh(object, bodies, all, near);
         near.claim = near.ownClaim = Real(1);
         near.change = Real(0);  // until the field is evaluated where it reaches
         const Real weight = weights[near.slot];
         if (other.size() > large || other.size() < small || weight > Real(1))
-            all.claims |= setClaims(object, weight, near);
+            all.claims |= setClaims(object, all.hollow, weight, near);
         const bool tiny = (near.size < SMALL || longPaths) && isTiny(object, near);
         if (tiny || !other.isBall())
             orient(object, tiny, near);

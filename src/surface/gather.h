@@ -48,9 +48,10 @@ struct Neighbour : Along {
     Real greatestWeight;  // the greatest weight by which it digs into any object; 1 if it is a member of the body
     Real ratio;         // (own size / size)^2, the factor of its share of the gradient
     Real strength;      // factor of its field
-    bool ordinary;      // it is a member of the body, its strength is 1, and it is not the head of a hollow
+    bool ordinary;      // it is a member of the body, its strength is 1, and it is not dug
     bool digs;          // it is no member of the body, but digs into a member
     bool samples;       // its seeds sample a hollow of the head
+    bool dug;           // the object's seeds sample a hollow, and the object digs into it, as into the head
     bool inRange;       // its field may reach the object's seeds now; else it may do so GATHER_SLACK nearer
     bool segment;       // its core is a segment, half16 long to each side of the centre, whether or not the object tapers
     Real weight;        // weight by which it digs into the head, 0 if it does not

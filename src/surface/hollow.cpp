@@ -35,7 +35,7 @@ Rival rivalOf(const Path& path, Real position)
     Rival rival{nullptr, {Real(0), Real(0), Real(0)}, Real(0)};
     for (int i = 0; i < path.touched(); ++i) {
         const Neighbour& near = path.near(i);
-        if (near.slope == Real(0) || !(all.hollow ? near.digs || near.object == all.head : near.samples))
+        if (near.slope == Real(0) || !(all.hollow ? near.digs || near.dug : near.samples))
             continue;
         const Vector v = path.fromCore(near, path.from(position));
         const Real steep = -(near.slope * near.ratio * nearLength(v) * (near.digs ? near.weight : Real(1)));

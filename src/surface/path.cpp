@@ -120,8 +120,8 @@ Real Path::dominantClaim() const
 
 Real Path::fieldLead() const
 {
-    const Neighbour* const other = strongest();
-    return (other == nullptr ? Real(0) : other->value) - ownField_;
+    const Neighbour *const at = host(), *const other = strongest(at);
+    return (other == nullptr ? Real(0) : other->value) - (at == nullptr ? ownField_ : at->value);
 }
 
 // Whether the sum of the fields is the body's field where no more than one neighbour reaches the position.

@@ -59,7 +59,11 @@ public:
     // The member of the body among the neighbours whose field was the strongest at the position evaluated last, but for `other`;
     // null if there is none.
     const Neighbour* strongest(const Neighbour* other = nullptr) const;
-    // The strongest neighbour's field less the own one there. It differs from Sample::dominance where claims are not fields.
+    // Where the seeds sample a hollow: the object that has it there, of those that the object digs into the one whose field was the
+    // strongest; null if none reaches the position, and elsewhere.
+    const Neighbour* host() const;
+    // The strongest neighbour's field less the own one there, or that of the host less the next one. It differs from
+    // Sample::dominance where claims are not fields, or the object digs into several members.
     Real fieldLead() const;
 
     // Must be called when the lists of `nearby` change.
@@ -166,7 +170,7 @@ private:
     const Seed* seed_;
     bool complete_;
     bool shared_;                   // shares hold at the position evaluated last; else they are 1, of a digging field -weight
-    Real headField_;                // of a hollow: the field of the object that has the hollow
+    Real headField_;                // of a hollow: the strongest field of an object that has it
     Real lookedAt_;
     Real ownField_, ownSlope_;
     Real ownChange_;                // of a warped object: dt/dp
@@ -196,6 +200,15 @@ inline const Neighbour* Path::strongest(const Neighbour* other) const
         }
     }
     return strongest;
+}
+
+inline const Neighbour* Path::host() const
+{
+    const Neighbour* host = nullptr;
+    for (int i = 0; i < touched_ && all_.hollow; ++i)
+        if (near_[i]->dug && near_[i]->value > Real(0) && (host == nullptr || near_[i]->value > host->value))
+            host = near_[i];
+    return host;
 }
 
 inline __attribute__((always_inline)) Vector Path::fromCore(const Neighbour& near, const Vector& from) const

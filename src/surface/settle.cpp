@@ -64,7 +64,8 @@ Real Settler::settle(Seed& s)
 {
     Sample sample;
     Real position = s.position;
-    const Followed followed = isOnOwn(s) || (s.flags & SEED_FOLLOW) ? followOn(s, &position, &sample) : LOST;
+    const bool follows = isOnOwn(s) || (s.flags & SEED_FOLLOW) || (all_.hollow && (s.flags & SEED_VALID));
+    const Followed followed = follows ? followOn(s, &position, &sample) : LOST;
     if (followed == ALONE) {
         rest(object_, s);
         return Real(0);
@@ -125,8 +126,13 @@ inline Settler::Followed Settler::followOn(Seed& s, Real* position, Sample* samp
 // is left to the strongest neighbour.
 inline bool Settler::settleBorder(Seed& s, Real dominance)
 {
+    const Neighbour* const dug = path_.host();
+    if (dug != nullptr && dug->object != all_.head) {
+        s.host = static_cast<uint8_t>(dug->slot);
+        s.flags |= SEED_GUEST;
+    }
     // Where no claim differs from its field the lead of the claims is that of the fields.
-    const Real lead = all_.claims ? path_.fieldLead() : dominance;
+    const Real lead = all_.claims || all_.hollow ? path_.fieldLead() : dominance;
     if (all_.claims) {
         // Where the two fields are the same there is no host: one of the objects has the surface, as findBorder() decides.
         const Neighbour* const host = path_.strongest();

@@ -433,7 +433,7 @@ void dents()
         Model two;
         read(std::string("sphere one size 30\nsphere two size 30 at 20 0 0\nsphere dig size 20\n") + lines, two);
         check(two.itemNamed("dig")->object->hollowed() == two.itemNamed("one")->object,
-              std::string("the hollow of the first: ") + lines);
+              std::string("the hollow of the one in which it lies: ") + lines);
     }
 
     refused(S + "dent s", "T.FB:2: end of line: expected the name of a second object");

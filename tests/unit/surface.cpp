@@ -1077,6 +1077,73 @@ TEST(seeds_of_an_object_with_a_new_shape_settle)
     }
 }
 
+// How many seeds of an object are on the surface.
+static int validSeeds(const SoftObject& object)
+{
+    int valid = 0;
+    for (int i = 0; i < object.seedSlots(); i += 2)
+        valid += (object.regular(i).flags & SEED_VALID) != 0;
+    return valid;
+}
+
+TEST(what_digs_into_several_objects_finds_the_hollow_where_it_is)
+{
+    // Two balls far from each other, and one that digs into both, in turn.
+    const auto place = [](bool second) { return point(second ? 94 : 14, 0, -9); };
+    const auto made = [](Scene& scene) {
+        scene.ball(40, 0, 0, 0);
+        scene.ball(40, 80, 0, 0);
+        scene.ball(24, 14, 0, -9);
+        scene.dent(0, 2);
+        scene.dent(1, 2);
+    };
+    Scene moved;
+    made(moved);
+    for (const bool second : {false, true, false}) {
+        moved.objects[2]->moveTo(place(second));
+        moved.settle();
+        Scene fresh;
+        made(fresh);
+        fresh.objects[2]->moveTo(place(second));
+        fresh.update();
+        CHECK(moved.objects[2]->hollowed() == moved.objects[second].get());
+        for (size_t i = 0; i < 3; ++i)
+            NEAR(validSeeds(*moved.objects[i]), validSeeds(*fresh.objects[i]), validSeeds(*fresh.objects[i]) / 50 + 2);
+        note("in the %s ball: %d seeds on the wall", second ? "second" : "first", validSeeds(*moved.objects[2]));
+        CHECK(validSeeds(*moved.objects[2]) > 100);
+    }
+}
+
+TEST(a_hollow_in_two_objects_has_both_colours)
+{
+    // A ball digs into two that blend. Its seeds on the wall belong to whichever of the two has the stronger field there.
+    Scene scene;
+    scene.ball(40, 0, 0, 0);
+    scene.ball(40, 20, 0, 0);
+    scene.ball(24, 9, 0, -16);
+    scene.link(0, 1);
+    scene.dent(0, 2);
+    scene.dent(1, 2);
+    scene.update();
+    const SoftObject &digger = *scene.objects[2], &head = *digger.hollowed();
+    CHECK(&head == scene.objects[0].get());
+    int count[2] = {}, wrong = 0;
+    for (int i = 0; i < digger.seedSlots(); i += 2) {
+        const Seed& s = digger.regular(i);
+        if (!(s.flags & SEED_VALID))
+            continue;
+        const Point p = digger.toWorld(digger.root(s.root) + s.path * s.position);
+        const double ahead = number(scene.objects[0]->fieldFunc(p)) - number(scene.objects[1]->fieldFunc(p));
+        const bool guest = (s.flags & SEED_GUEST) != 0;
+        ++count[guest];
+        wrong += std::fabs(ahead) > 0.02 && guest != (ahead < 0);
+        CHECK(!guest || s.host == scene.objects[1]->slot());
+    }
+    note("%d seeds of the first ball's colour, %d of the second's", count[0], count[1]);
+    CHECK(count[0] > 40 && count[1] > 40);
+    SAME(wrong, 0);
+}
+
 TEST(the_wall_of_a_hollow_that_moves_is_found)
 {
     // A ball digs its way around another. Seeds that wait because they are off the wall must be there when the wall arrives: all
