@@ -232,11 +232,13 @@ static void weigh(const SoftObject& object, const Bodies& bodies, const Neighbou
 static bool setClaims(const SoftObject& object, bool hollow, Real weight, Neighbour& near)
 {
     const auto isPlain = [](const SoftObject& o) {
-        return o.strength() == Real(1) && !o.shaped() && o.paint() == nullptr && o.hasSurface();
+        return !o.shaped() && o.paint() == nullptr && o.hasSurface();
     };
     if (near.digs || hollow)
         return false;
-    const Real heavy = clamp(weight * weight, Real(1), CLAIM_WEIGHT_MOST), own = object.size(), other = near.object->size();
+    const Real heavy = clamp(weight * weight, Real(1), CLAIM_WEIGHT_MOST);
+    const auto counted = [](const SoftObject& o) { return quotient(o.size(), o.strength() * o.strength()); };
+    const Real own = counted(object), other = counted(*near.object);
     if (own * GUEST_SIZES < other * heavy && isPlain(object) && isPlain(*near.object))
         near.claim = quotient(own * GUEST_SIZES, other * heavy);
     else if (other * HOST_SIZES < own * heavy && isPlain(object) && isPlain(*near.object))
@@ -320,7 +322,7 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         near.claim = near.ownClaim = Real(1);
         near.change = Real(0);  // until the field is evaluated where it reaches
         const Real weight = weights[near.slot];
-        if (other.size() > large || other.size() < small || weight > Real(1))
+        if (other.size() > large || other.size() < small || weight > Real(1) || other.strength() != object.strength())
             all.claims |= setClaims(object, all.hollow, weight, near);
         const bool tiny = (near.size < SMALL || longPaths) && isTiny(object, near);
         if (tiny || !other.isBall())

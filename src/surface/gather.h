@@ -28,7 +28,8 @@ constexpr Real FAR_SIZES(16), STEEP(1024), THIN_TIP(16);
 // that of the strongest field.
 // A small object shows more if the large one is more than GUEST_SIZES times as large, and the large one shows less if it is more
 // than HOST_SIZES times as large; in between both show the same surface. A link heavier than 1 counts like a larger proportion: by
-// the square of its weight, up to CLAIM_WEIGHT_MOST.
+// the square of its weight, up to CLAIM_WEIGHT_MOST. A weak object counts as a larger one, by the square of its strength: its seeds
+// rest deep inside, and see little of what blends with it.
 constexpr Real GUEST_SIZES(3), HOST_SIZES(4), CLAIM_WEIGHT_MOST(6);
 
 // Distances from the cores of neighbours are less than this wrong, 1/16 unit.

@@ -97,7 +97,9 @@ void beginPatch(const SoftObject& object, Patch& patch)
     patch.state = PATCH_REST;
     patch.extras = patch.fine = patch.islands = patch.settled = patch.asleep = patch.moved = false;
     patch.blocker = static_cast<uint8_t>(object.slot());
-    patch.nearest = patch.farthest = 64;
+    // Where the surface of a weak object, or of a hollow, lies is not known yet.
+    patch.nearest = object.rests() ? 64 : 0;
+    patch.farthest = 64;
     patch.due = 0;
     patch.travelled = 0;
     patch.bend.known = false;
