@@ -35,13 +35,19 @@ Borders::Borders(View& view, FieldProbe& probe, const Palette& palette, Rays& ra
     for (int i = 0; i < model_.count(); ++i) {
         const SoftObject& object = *model_.actor(i).object;
         const Paint* const paint = object.paint();
-        // Which colour of a pattern a place has only the seeds know.
-        if (!object.hasSurface() || object.ramp() == nullptr || (paint != nullptr && paint->pattern != PATTERN_NONE))
+        if (!object.hasSurface() || object.ramp() == nullptr)
             continue;
-        int16_t& first = first_[palette.numberOf(object.ramp())];
-        next_[i] = first;
-        first = static_cast<int16_t>(i);
+        list(2 * i, palette.numberOf(object.ramp()));
+        if (paint != nullptr && paint->pattern != PATTERN_NONE)
+            list(2 * i + 1, palette.numberOf(paint->ramps + paint->other * paint->rampRoom));
     }
+}
+
+// Takes an entry of next_ into the list of a ramp.
+inline void Borders::list(int entry, int ramp)
+{
+    next_[entry] = first_[ramp];
+    first_[ramp] = static_cast<int16_t>(entry);
 }
 
 void Borders::mend()
@@ -117,7 +123,8 @@ bool Borders::mendPixel(const Place& place)
         return false;
     const int own = rampAt(at), ramp = rampAt(place.from);
     const SoftObject *shown, *owner;
-    if (!isStronger(ramp, own, view_.pointAt(at), &owner, &shown))
+    // Marble is shown in more ramps than are listed.
+    if (first_[own] < 0 || !isStronger(ramp, own, view_.pointAt(at), &owner, &shown))
         return false;
     const bool crossing = shown != nullptr && model_.areApart(*shown, *owner);
     const int before = zbuffer_[at];
@@ -165,7 +172,7 @@ inline const SoftObject* Borders::strongestOf(int ramp, const Point& p, Real* fi
     const SoftObject* strongest = nullptr;
     *field = Real(0);
     for (int i = first_[ramp]; i >= 0; i = next_[i]) {
-        const SoftObject* const object = model_.actor(i).object;
+        const SoftObject* const object = model_.actor(i / 2).object;
         const Real there = object->fieldFunc(p);
         if (there > *field) {
             *field = there;

@@ -795,6 +795,39 @@ TEST(pixels_that_stand_alone_beside_borders)
     }
 }
 
+// An object with a pattern has two colours. Beside a border it keeps both, and neither goes beyond the border.
+TEST(borders_of_patterns)
+{
+    PairView pair(10);
+    Model& model = pair.model;
+    model.actor(1).coat.pattern = PATTERN_CHECKS;
+    model.actor(1).coat.grain = Real(8);
+    model.actor(1).coat.colour = {0, 255, 0};
+    pair.palette.make(model, false);
+    View& view = pair.view;
+    const std::vector<int> owners = drawTruly(view, model, 0);
+    const Paint& paint = *model.actor(1).object->paint();
+    const uint8_t* const colours[] = {model.actor(0).object->ramp(), paint.ramp, paint.ramps + paint.other * paint.rampRoom};
+    std::vector<int> colour(WIDTH * HEIGHT, -1);
+    for (int at = 0; at < WIDTH * HEIGHT; ++at) {
+        if (owners[static_cast<size_t>(at)] < 0)
+            continue;
+        // Bands of ten rows, and each fourth row of the border at column 160 two columns too far to one side.
+        const int y = at / WIDTH, x = at % WIDTH, owner = owners[static_cast<size_t>(at)];
+        colour[static_cast<size_t>(at)] = owner == 0 ? 0 : 1 + y / 10 % 2;
+        const bool tooFar = y % 8 == 0 ? x >= 160 && x < 162 : y % 8 == 4 && x >= 158 && x < 160;
+        const int shown = !tooFar ? colour[static_cast<size_t>(at)] : owner == 1 ? 0 : 1 + y / 10 % 2;
+        view.setPixel(at, view.zbuffer()[at], colours[shown][30]);
+    }
+    view.closeGaps(SPACING, &model, &pair.palette);
+    int wrong = 0;
+    for (int at = 0; at < WIDTH * HEIGHT; ++at)
+        if (colour[static_cast<size_t>(at)] >= 0)
+            wrong += pair.palette.rampOf(view.frame()[at]) != pair.palette.numberOf(colours[colour[static_cast<size_t>(at)]]);
+    note("%d pixels of a wrong colour are left", wrong);
+    CHECK(wrong <= 2);
+}
+
 // Where one object fills the whole view a pixel of the wrong colour is mended, and nothing is looked for outside the frame.
 TEST(borders_of_colours_where_an_object_fills_the_view)
 {
