@@ -42,8 +42,8 @@ private:
     Place noted_[NOTED_MOST];  // pixels that wait to be looked at
     int count_ = 0;            // their number
     int looks_ = 0;            // pixels looked at so far
-    // Lists of the objects that are shown in one ramp: the first entry of each ramp, and after each entry the next; -1: none. Object
-    // i has entry 2 i for its own colour, and the next one for the other colour of its pattern.
+    // Lists of the objects that are shown in one ramp: the first entry of each ramp, and after each entry the next; -1: none.
+    // Object i has entry 2 i for its own colour, and the next one for the other colour of its pattern.
     int16_t first_[Palette::RAMPS_MOST + 1], next_[2 * Model::OBJECTS_MOST];
 };
 

@@ -21,15 +21,14 @@
 #include <unistd.h>
 #include <vector>
 
+#include "../drawobj.h"
 #include "scenes.h"
 
 #include "model/field.h"
 #include "model/scene.h"
 #include "picture/palette.h"
-#include "picture/view.h"
 #include "math/normal.h"
 #include "surface/engine.h"
-#include "surface/voxel.h"
 
 namespace {
 
@@ -123,7 +122,6 @@ const Time TIMES[] = {0, 65536 / 10, 65536 * 3 + 777, 12345678, 65536ull * 3599,
 // Draws a frame as the program does, but for the order of the objects.
 void drawFrame(Model& model, View& view, const Palette& palette, bool report98)
 {
-    static VoxelList list;
     Counts counts{};
     const Camera& camera = view.camera();
     FrameContext frame{camera.eye, unit(model.light), model.prepareBodies(), &counts, camera.axes,
@@ -131,13 +129,7 @@ void drawFrame(Model& model, View& view, const Palette& palette, bool report98)
     must(frame.bodies != nullptr, "no memory for bodies");
     view.begin();
     for (int i = 0; i < model.count(); ++i) {
-        SoftObject& object = *model.actor(i).object;
-        object.update(frame);
-        int next = 0;
-        do {
-            object.draw(frame, list, VOXELS_AT_ONCE, &next);
-            view.show(list);
-        } while (next != 0);
+        drawObject(*model.actor(i).object, frame, view);
         frame.hider = &view;
     }
     if (!report98)

@@ -12,6 +12,7 @@
 
 #include "help.h"
 #include "model/scene.h"
+#include "../drawobj.h"
 #include "test.h"
 
 namespace {
@@ -55,17 +56,9 @@ void draw(Model& model, View& view)
 {
     Counts counts{};
     const FrameContext frame{model.camera.eye, unit(model.light), model.prepareBodies(), &counts};
-    VoxelList list;
     view.begin();
-    for (int i = 0; i < 4; ++i) {
-        SoftObject& object = *model.actor(i).object;
-        object.update(frame);
-        int next = 0;
-        do {
-            object.draw(frame, list, VOXELS_AT_ONCE, &next);
-            view.show(list);
-        } while (next != 0);
-    }
+    for (int i = 0; i < 4; ++i)
+        drawObject(*model.actor(i).object, frame, view);
     view.end();
 }
 
