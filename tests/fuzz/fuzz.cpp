@@ -141,7 +141,11 @@ void drawFrame(Model& model, View& view, const Palette& palette, bool report98)
 void draw(Model& model, bool report98, bool grey)
 {
     static Palette palette;
-    must(model.resample(Real(6), makeEngine), "no memory for seeds");
+    // The seeds of a very large object may need more roots than there are numbers for.
+    if (!model.resample(Real(6), makeEngine)) {
+        must(strstr(SoftObject::resampleTrouble(), "is the limit") != nullptr, "no seeds", SoftObject::resampleTrouble());
+        return;
+    }
     // Very many seeds among many objects take minutes under the sanitizers: there are fewer frames of them, or none, and none by
     // the report's method, which asks every object for each seed.
     long seeds = 0, left = 6000000;
@@ -150,7 +154,7 @@ void draw(Model& model, bool report98, bool grey)
     const long work = seeds * model.count();
     report98 = report98 && work < 200000;
     palette.make(model, grey, report98);
-    must(!report98 || model.resample(Real(6), makeReport98), "no memory for seeds");
+    must(!report98 || model.resample(Real(6), makeReport98), "no seeds for /P", SoftObject::resampleTrouble());
     View view;
     must(view.open(report98), "no memory for the picture");
     view.setCamera(model.camera);
