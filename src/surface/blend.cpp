@@ -180,7 +180,7 @@ inline bool Path::addNear(Real position, const Vector* path, int i, Parts& parts
         return true;
     }
     addMember(parts, near.value, rate, *near.object, &near.share);
-    if (near.dug)
+    if (all_.hollow && near.isDugBy(object_.slot()))
         headField_ = max(headField_, near.value);
     else
         parts.rival = max(parts.rival, near.value * near.claim + ownField_ * (Real(1) - near.ownClaim));

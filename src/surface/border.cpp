@@ -26,14 +26,15 @@ inline Vector ownGradientOf(const Path& path, const Seed& s, const Vector& from,
 }
 
 // As Path::strongest(), where something digs, strengths differ or the object is shaped: the strongest neighbour that does not dig,
-// or null. In a hollow `*g`, the own gradient, and `*change`, the slope of the own field along the path, become those of the object
-// that has the hollow, because it is that object's border.
-SELDOM const Neighbour* strongestOdd(const Path& path, const Vector& from, int shift, Vector* g, Real* change)
+// or null. In a hollow `*g`, the own gradient, `*change`, the slope of the own field along the path, and `*slot` become those of
+// the object that has the hollow, because it is that object's border.
+SELDOM const Neighbour* strongestOdd(const Path& path, const Vector& from, int shift, Vector* g, Real* change, int* slot)
 {
     const Neighbour* const host = path.host();
     if (host != nullptr) {
         *g = gradientOf(path, *host, from, shift);
         *change = host->slope * host->change;
+        *slot = host->slot;
     }
     return path.strongest(host);
 }
@@ -70,7 +71,9 @@ bool findBorder(const Path& path, Seed& s, Real fieldLead)
     const Vector from = path.from(s.position);
     Vector g = ownGradientOf(path, s, from, shift);
     Real change = path.ownRate(path.lookedAt());
-    const Neighbour* const other = path.all().ordinary ? path.strongest() : strongestOdd(path, from, shift, &g, &change);
+    int slot = path.object().slot();
+    const Neighbour* const other =
+        path.all().ordinary ? path.strongest() : strongestOdd(path, from, shift, &g, &change, &slot);
     if (other == nullptr)
         return true;
     // The fields were evaluated before the last step of Newton's method.
@@ -78,8 +81,7 @@ bool findBorder(const Path& path, Seed& s, Real fieldLead)
     const Vector own = g;
     g = g - gradientOf(path, *other, from, shift);
     const Steepest steepest(g);
-    const Neighbour* const host = path.host();
-    if (other->slot < (host == nullptr ? path.object().slot() : host->slot) && fieldLead > -other->value * TIE &&
+    if (other->slot < slot && fieldLead > -other->value * TIE &&
         steepest.length < nearLength(own) * ALIKE)
         return false;
     setBorder(path, s, -fieldLead, steepest, shift);

@@ -219,8 +219,7 @@ static void weigh(const SoftObject& object, const Bodies& bodies, const Neighbou
 {
     const SoftObject& other = *near.object;
     near.strength = other.strength();
-    near.dug = all.hollow && !near.digs && bodies.weight(near.slot, object.slot()) < Real(0);
-    near.ordinary = !near.digs && near.strength == Real(1) && !near.dug;
+    near.ordinary = !near.digs && near.strength == Real(1) && !(all.hollow && near.isDugBy(object.slot()));
     near.weight = near.digs ? -bodies.weight(all.head->slot(), other.slot()) : Real(0);
     near.greatestWeight = near.digs ? greatestWeight(other) : Real(1);
     near.samples = near.digs && other.hollowed() == all.head;
@@ -237,7 +236,7 @@ static bool setClaims(const SoftObject& object, bool hollow, Real weight, Neighb
     if (near.digs || hollow)
         return false;
     const Real heavy = clamp(weight * weight, Real(1), CLAIM_WEIGHT_MOST);
-    const auto counted = [](const SoftObject& o) { return quotient(o.size(), o.strength() * o.strength()); };
+    const auto counted = [](const SoftObject& o) { return quotient(o.size(), o.strength()); };
     const Real own = counted(object), other = counted(*near.object);
     if (own * GUEST_SIZES < other * heavy && isPlain(object) && isPlain(*near.object))
         near.claim = quotient(own * GUEST_SIZES, other * heavy);
@@ -275,13 +274,24 @@ SELDOM static bool isSteep(const Bodies& bodies, const Neighbour& near)
     return min(near.ratio * near.size, STEEP) * min(times, Real(30)) > STEEP;
 }
 
+// Takes into account a neighbour of far different size, with a heavy link, or where something is not ordinary.
+SELDOM static void takeOdd(const SoftObject& object, const Bodies& bodies, Neighbour& near, Neighbourhood& all)
+{
+    all.claims |= setClaims(object, all.hollow, bodies.weight(object.slot(), near.slot), near);
+    all.steep |= isSteep(bodies, near);
+}
+
 // Takes a neighbour into account in what holds for all of them together.
-static inline void takeIn(const Neighbour& near, const Bodies& bodies, Neighbourhood& all)
+static inline void takeIn(const SoftObject& object, Neighbour& near, const Bodies& bodies, Neighbourhood& all)
 {
     if (near.ratio > FAR_SIZES)
         all.steep = true;
-    if (!near.ordinary)
+    if (!near.ordinary) {
         all.ordinary = false;
+        takeOdd(object, bodies, near, all);
+        if (near.samples)
+            all.samplers = all.samplers * SLOTS_MAX + static_cast<uint32_t>(near.slot) + 1;
+    }
     if (!near.digs && dentedFromWithin(*near.object, bodies))
         all.inner = true;
 }
@@ -298,10 +308,11 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
     const bool longPaths = object.longestPath() > LONG_PATH;
     const Point centre = object.centre();
     const Real reach = object.reach();
-    // Only members of far different size, or with heavy links, have claims that differ from their fields. (.01 allows for the
-    // rounding of the quotient.)
+    // Only members of far different size or strength, or with heavy links, have claims that differ from their fields. (To an object
+    // that is weak or strong itself all others are large; .01 allows for the rounding of the quotient.)
     const Real* const weights = bodies.weights(object.slot());
-    const Real large = object.size() * GUEST_SIZES, small = quotient(object.size(), HOST_SIZES) + Real(0.01);
+    const Real large = object.strength() == Real(1) ? object.size() * GUEST_SIZES : Real(0);
+    const Real small = quotient(object.size(), HOST_SIZES) + Real(0.01);
     Neighbour* next = all.neighbours + all.count;
     for (int i = 0; i < reaching; ++i) {
         const SoftObject& other = *found[i];
@@ -322,14 +333,14 @@ static void gatherFrom(SoftObject* const* from, int count, bool digs, const Soft
         near.claim = near.ownClaim = Real(1);
         near.change = Real(0);  // until the field is evaluated where it reaches
         const Real weight = weights[near.slot];
-        if (other.size() > large || other.size() < small || weight > Real(1) || other.strength() != object.strength())
-            all.claims |= setClaims(object, all.hollow, weight, near);
+        if (other.size() > large || other.size() < small || weight > Real(1))
+            takeOdd(object, bodies, near, all);
         const bool tiny = (near.size < SMALL || longPaths) && isTiny(object, near);
-        if (tiny || !other.isBall())
+        if (tiny || !other.isBall()) {
             orient(object, tiny, near);
-        if (weight > Real(1) || !near.ordinary || other.tapers() || other.shaped())
             all.steep |= isSteep(bodies, near);
-        takeIn(near, bodies, all);
+        }
+        takeIn(object, near, bodies, all);
     }
     all.count = static_cast<int>(next - all.neighbours);
 }
@@ -346,7 +357,9 @@ void gather(const SoftObject& object, const FrameContext& frame, Neighbourhood& 
     all.restsAtOne = object.rests() && !all.hollow;
     all.ordinary = object.strength() == Real(1) && !all.hollow && !object.shaped();
     all.last = object.restRoot() == Real(0.5) ? Real(1.98) : Real(0.99) / object.restRoot();
-    all.steep = all.claims = false;
+    all.steep = false;
+    all.claims = all.hollow;
+    all.samplers = 0;
     memset(all.bySlot, 0, sizeof all.bySlot);
     gatherFrom(bodies.diggers(*all.head), bodies.diggerCount(*all.head), true, object, bodies, all);
     all.dented = all.count > 0;

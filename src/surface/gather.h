@@ -28,8 +28,8 @@ constexpr Real FAR_SIZES(16), STEEP(1024), THIN_TIP(16);
 // that of the strongest field.
 // A small object shows more if the large one is more than GUEST_SIZES times as large, and the large one shows less if it is more
 // than HOST_SIZES times as large; in between both show the same surface. A link heavier than 1 counts like a larger proportion: by
-// the square of its weight, up to CLAIM_WEIGHT_MOST. A weak object counts as a larger one, by the square of its strength: its seeds
-// rest deep inside, and see little of what blends with it.
+// the square of its weight, up to CLAIM_WEIGHT_MOST. A weak object counts as a larger one, by its strength: its seeds rest deep
+// inside, and see little of what blends with it.
 constexpr Real GUEST_SIZES(3), HOST_SIZES(4), CLAIM_WEIGHT_MOST(6);
 
 // Distances from the cores of neighbours are less than this wrong, 1/16 unit.
@@ -49,10 +49,9 @@ struct Neighbour : Along {
     Real greatestWeight;  // the greatest weight by which it digs into any object; 1 if it is a member of the body
     Real ratio;         // (own size / size)^2, the factor of its share of the gradient
     Real strength;      // factor of its field
-    bool ordinary;      // it is a member of the body, its strength is 1, and it is not dug
+    bool ordinary;      // it is a member of the body, its strength is 1, and no hollow is sampled in it
     bool digs;          // it is no member of the body, but digs into a member
     bool samples;       // its seeds sample a hollow of the head
-    bool dug;           // the object's seeds sample a hollow, and the object digs into it, as into the head
     bool inRange;       // its field may reach the object's seeds now; else it may do so GATHER_SLACK nearer
     bool segment;       // its core is a segment, half16 long to each side of the centre, whether or not the object tapers
     Real weight;        // weight by which it digs into the head, 0 if it does not
@@ -78,6 +77,9 @@ struct Neighbour : Along {
     Real param(Real p) { return kind == OTHER ? otherParam(p) : nearParam(p); }
     Real restParam() { return kind == OTHER ? otherParam(Real(1)) : nearRestParam(); }
     Real otherParam(Real p);
+
+    // Whether the object with this slot, whose seeds sample a hollow, digs into the neighbour.
+    bool isDugBy(int digger) const { return weights[digger] < Real(0) && !digs; }
 
     // An upper bound of the change of its field over a unit, as that counts in the field of a body whose members are all linked.
     Real steepestGradient() const
@@ -120,7 +122,8 @@ struct Neighbourhood {
                         // make it as steep
     bool restsAtOne;    // the surface lies at position 1 where no neighbour reaches
     bool dented;        // some neighbours dig
-    bool claims;        // some claims differ from the fields
+    uint32_t samplers;  // differs where others of these sample a hollow of the head
+    bool claims;        // some claims differ from the fields, or several objects may have the hollow
     bool deep;          // paths are searched from near their roots on
     Real last;          // the position up to which paths are searched: little before the own field ends
     Neighbour neighbours[NEIGHBOURS_MAX];

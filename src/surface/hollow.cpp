@@ -32,10 +32,11 @@ struct Rival {
 Rival rivalOf(const Path& path, Real position)
 {
     const Neighbourhood& all = path.all();
+    const Neighbour* const host = path.host();
     Rival rival{nullptr, {Real(0), Real(0), Real(0)}, Real(0)};
     for (int i = 0; i < path.touched(); ++i) {
         const Neighbour& near = path.near(i);
-        if (near.slope == Real(0) || !(all.hollow ? near.digs || near.dug : near.samples))
+        if (near.slope == Real(0) || !(all.hollow ? near.digs || &near == host : near.samples))
             continue;
         const Vector v = path.fromCore(near, path.from(position));
         const Real steep = -(near.slope * near.ratio * nearLength(v) * (near.digs ? near.weight : Real(1)));

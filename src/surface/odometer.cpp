@@ -50,8 +50,10 @@ inline Travel Odometer::travelOfEye(const SoftObject& object, const OwnFrame& ow
 
 void Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neighbourhood& all, uint32_t linksVersion)
 {
-    leapt_ = fresh_ || linksVersion != linksVersion_ || all.ordinary != ordinary_ || all.head != head_ || all.count > room_;
+    leapt_ = fresh_ || linksVersion != linksVersion_ || all.ordinary != ordinary_ || all.head != head_ ||
+             all.samplers != samplers_ || all.count > room_;
     head_ = all.head;
+    samplers_ = all.samplers;
     linksVersion_ = linksVersion;
     ordinary_ = all.ordinary;
     fresh_ = all.count > room_ && !makeRoom(all.count);
@@ -74,8 +76,6 @@ void Odometer::advance(const SoftObject& object, const OwnFrame& own, const Neig
             insert(*near, i);
             continue;
         }
-        leapt_ |= known->samples != near->samples;
-        known->samples = near->samples;
         known->inRange = near->inRange;
         known->travelled = travelOf(known->pose.follow(*near, reach));
         longest = known->travelled > longest ? known->travelled : longest;
@@ -111,7 +111,6 @@ void Odometer::insert(const Neighbour& near, int number)
     ++count_;
     known.slot = static_cast<uint8_t>(near.slot);
     known.inRange = near.inRange;
-    known.samples = near.samples;
     known.travelled = 0;
     known.pose.take(near);
     leapt_ |= near.inRange;

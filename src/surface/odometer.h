@@ -63,7 +63,8 @@ private:
     Travel reading_ = 0, lastTravel_ = 0;
     uint32_t linksVersion_ = 0;
     bool ordinary_ = true;  // the neighbourhood was ordinary in the last call: else travel is counted in another way
-    const SoftObject* head_ = nullptr;  // Neighbourhood::head in the last call
+    const SoftObject* head_ = nullptr;  // Neighbourhood::head and samplers in the last call
+    uint32_t samplers_ = 0;
     bool fresh_ = true;  // there was no call yet, or no memory, or everything has been forgotten
     Vector eye_{Real(0), Real(0), Real(0)};  // where the viewer was in the last call, own axes
     bool eyeStayed_ = false;
@@ -73,7 +74,6 @@ private:
     struct Known {
         uint8_t slot;
         bool inRange;   // Neighbour::inRange
-        bool samples;   // Neighbour::samples
         Travel travelled;
         NeighbourPose pose;
     };

@@ -206,7 +206,7 @@ inline const Neighbour* Path::host() const
 {
     const Neighbour* host = nullptr;
     for (int i = 0; i < touched_ && all_.hollow; ++i)
-        if (near_[i]->dug && near_[i]->value > Real(0) && (host == nullptr || near_[i]->value > host->value))
+        if (near_[i]->isDugBy(object_.slot()) && near_[i]->value > Real(0) && (host == nullptr || near_[i]->value > host->value))
             host = near_[i];
     return host;
 }

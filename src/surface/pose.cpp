@@ -36,7 +36,7 @@ Real NeighbourPose::followCore(const Neighbour& near)
     Real travelled = roundLength(near.centre - place_) + absolute(near.size - size_);
     place_ = near.centre;
     size_ = near.size;
-    const auto turn = [&](int i, Real half16) {
+    const auto turn = [&](int i, Real half16) __attribute__((always_inline)) {
         if (half16 == Real(0))
             return;
         const Vector axis = near.toCore[i] * unit;

@@ -126,14 +126,10 @@ inline Settler::Followed Settler::followOn(Seed& s, Real* position, Sample* samp
 // is left to the strongest neighbour.
 inline bool Settler::settleBorder(Seed& s, Real dominance)
 {
-    const Neighbour* const dug = path_.host();
-    if (dug != nullptr && dug->object != all_.head) {
-        s.host = static_cast<uint8_t>(dug->slot);
-        s.flags |= SEED_GUEST;
-    }
     // Where no claim differs from its field the lead of the claims is that of the fields.
-    const Real lead = all_.claims || all_.hollow ? path_.fieldLead() : dominance;
+    const Real lead = all_.claims ? path_.fieldLead() : dominance;
     if (all_.claims) {
+        showHost(s);
         // Where the two fields are the same there is no host: one of the objects has the surface, as findBorder() decides.
         const Neighbour* const host = path_.strongest();
         if (host != nullptr && host->claim < Real(1) && lead > host->value * TIE)
@@ -146,6 +142,16 @@ inline bool Settler::settleBorder(Seed& s, Real dominance)
         return false;
     s.flags |= SEED_BORDER;
     return true;
+}
+
+// Where a seed samples a hollow in several objects: lets it show that one whose field is the strongest.
+void Settler::showHost(Seed& s) const
+{
+    const Neighbour* const host = path_.host();
+    if (host == nullptr || host->object == all_.head)
+        return;
+    s.host = static_cast<uint8_t>(host->slot);
+    s.flags |= SEED_GUEST;
 }
 
 // Lets a seed show a place that belongs to a neighbour. Returns false if the seed would show it badly.

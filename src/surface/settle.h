@@ -95,6 +95,7 @@ private:
     void place(Seed& s, Real dominance);
     SELDOM bool placeAt(Seed& s, Real position, Real dominance);
     bool settleBorder(Seed& s, Real dominance);
+    SELDOM void showHost(Seed& s) const;
     SELDOM bool makeGuest(Seed& s, const Neighbour& host);
     // Finds how the light changes around a seed (ltchange.cpp), unless the seed is dark or faces away.
     SELDOM void findLightChange(Seed& s);
