@@ -148,7 +148,7 @@ void draw(Model& model, bool report98, bool grey)
     }
     // Very many seeds among many objects take minutes under the sanitizers: there are fewer frames of them, or none, and none by
     // the report's method, which asks every object for each seed.
-    long seeds = 0, left = 3000000;
+    long seeds = 0, left = 1000000;
     for (int i = 0; i < model.count(); ++i)
         seeds += model.actor(i).object->seeds();
     const long work = seeds * model.count();
