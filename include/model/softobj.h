@@ -247,7 +247,7 @@ public:
     // Stores in a seed its normal at rest and its resting place.
     void layAtRest(Seed& s, const Direction14& normal) const;
     // Upper bound of the length of a path.
-    Real longestPath() const { return shaped() ? laidRadius() * mostStretch_ * warp_.most() : laidRadius(); }
+    Real longestPath() const { return warped_ ? laid_.longest : laidRadius() * mostStretch_; }
 
     // unstretched() takes a vector of own space, or one of the world in own axes, to where it would be without the stretch;
     // stretchedOut() takes it back. A normal of the unstretched surface becomes one of own space by unstretched() as well.
@@ -396,6 +396,7 @@ private:
         Real size{0};                    // size of the object then
         bool hollow = false;             // the seeds were laid out for the hollow of another object
         int placeShift = 8;              // SoftObject::placeShift()
+        Real longest{0};                 // of a warped object: SoftObject::longestPath()
         // For a warped object: the regular seeds and the roots as they would be without the warp (`border` of these seeds holds
         // the outward normal where the warped seed rests now). Else null.
         Seed* plainSeeds = nullptr;

@@ -55,11 +55,15 @@ void SoftObject::reshape()
     const Real inward = Real(CORE_SIZE) / laid_.size, outward = shiftDown(laid_.size, 4);
     Warp::Way way;
     findSteps();
+    laid_.longest = Real(0);
     for (int i = 0; i < laid_.rootsBetween[0]; ++i)
         laid_.roots[i] = warp_.out(laid_.plainRoots[i] * inward, way) * outward;
     for (int i = 0; i < laid_.regular; ++i) {
         Seed& plain = laid_.plainSeeds[i];
         plain.border = warpSeed(plain, laid_.plainRoots[plain.root], laid_.seeds[i], way);
+        // No vector is longer than the sum of its components. (A twist turns the end of a path far away from its root.)
+        const Vector& path = laid_.seeds[i].path;
+        laid_.longest = max(laid_.longest, absolute(path.x) + absolute(path.y) + absolute(path.z));
     }
     // Fine seeds are made again when they are needed.
     for (int at = 0; at < laid_.blocks(); ++at) {
