@@ -290,7 +290,7 @@ static inline void takeIn(const SoftObject& object, Neighbour& near, const Bodie
         all.ordinary = false;
         takeOdd(object, bodies, near, all);
         if (near.samples)
-            all.samplers = all.samplers * SLOTS_MAX + static_cast<uint32_t>(near.slot) + 1;
+            all.samplers = all.samplers * 31 + static_cast<uint32_t>(near.slot) + 1;
     }
     if (!near.digs && dentedFromWithin(*near.object, bodies))
         all.inner = true;
