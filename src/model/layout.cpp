@@ -96,6 +96,13 @@ private:
 // The reason why the latest failed resample() failed.
 char trouble[128];
 
+// Gives the lack of memory as that reason. Returns false.
+bool noMemory()
+{
+    snprintf(trouble, sizeof trouble, "not enough memory for seeds that close");
+    return false;
+}
+
 }  // namespace
 
 const char* SoftObject::resampleTrouble()
@@ -220,7 +227,7 @@ bool SoftObject::layOutRegular(Layout& layout) const
     layout.regular = counter.seeds;
     layout.rootRoom = counter.roots + counter.between > ROOTS_MAX ? ROOTS_MAX : counter.roots + counter.between;
     if (!layout.allocated())
-        return false;
+        return noMemory();
     Filler filler(*this, layout.seeds, layout.roots, layout.ringStarts, layout.spacing);
     layOutSeeds(filler, layout.spacing);
     layout.ringStarts[layout.rings] = layout.regular;
@@ -283,7 +290,7 @@ bool SoftObject::layOutLike(const SoftObject& other, Layout& layout) const
     layout.regular = from.regular;
     layout.rootRoom = from.rootRoom;
     if (!layout.allocated())
-        return false;
+        return noMemory();
     memcpy(layout.seeds, from.seeds, sizeof(Seed) * static_cast<size_t>(from.regular));
     memcpy(layout.roots, from.roots, sizeof(Vector) * static_cast<size_t>(from.rootRoom));
     memcpy(layout.ringStarts, from.ringStarts, sizeof(int32_t) * static_cast<size_t>(from.rings + 1));
@@ -358,7 +365,6 @@ int SoftObject::seedsAt(Real spacing) const
 
 bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObject* like)
 {
-    snprintf(trouble, sizeof trouble, "not enough memory for seeds that close");
     findRest();
     // (The constructor could not ask the primitive for its core yet.)
     measureExtent();
@@ -388,7 +394,7 @@ bool SoftObject::resample(Real spacing, SurfaceMaker makeSurface, const SoftObje
     if (surface == nullptr) {
         laid_.release();
         laid_ = before;
-        return false;
+        return noMemory();
     }
     before.release();
     destroy(surface_);

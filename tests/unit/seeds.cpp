@@ -1,8 +1,10 @@
 // Tests of the layout of seeds (report, Appendix C): their number, their even distribution, and their neighbours.
 #include <algorithm>
+#include <cstring>
 
 #include "model/cone.h"
 #include "model/stop.h"
+#include "model/torus.h"
 #include "help.h"
 #include "stick.h"
 #include "test.h"
@@ -313,6 +315,20 @@ TEST(equal_objects_have_equal_seeds)
             destroy(alone);
         }
     }
+}
+
+TEST(what_limits_a_spacing_is_told_for_whichever_object)
+{
+    // The second object has too many roots; the first gets its old seeds again.
+    Model model;
+    CHECK(model.add(make<Sphere>(1, Real(20)), {255, 0, 0}, Motion{}));
+    CHECK(model.add(make<Torus>(2, Real(20), Real(40)), {0, 0, 255}, Motion{}));
+    CHECK(model.resample(Real(2), makeEngine));
+    const int seeds = model.seeds();
+    CHECK(!model.resample(real(0.25), makeEngine));
+    CHECK(std::strstr(SoftObject::resampleTrouble(), "object 2") != nullptr);
+    CHECK(std::strstr(SoftObject::resampleTrouble(), "is the limit") != nullptr);
+    SAME(model.seeds(), seeds);
 }
 
 TEST(oversampled_seeds_need_no_memory_until_they_are_needed)
