@@ -12,7 +12,8 @@ namespace {
 // The report's tolerances. It names them without figures; these figures are ours. Fields and positions have no unit.
 constexpr Real LOCATION_TOLERANCE(0.00004);  // field: "desired accuracy"
 constexpr int ITERATION_LIMIT = 32;
-constexpr Real FARTHEST(32);                 // position: at the limit none farther away is kept, or it would leave 16.16 one day
+constexpr Real FARTHEST(32);                 // position: at the limit none farther away is kept, or it would leave 16.16 one day;
+constexpr Real OUTERMOST(5000);              // units: nor one on a long path that leads farther than this
 constexpr Real NOWHERE(0.05);                // field: a path that ends farther from the isovalue may have no surface
 constexpr Real BACK_FACE(-0.43);             // cosine of path and direction to the viewer, below which a seed is skipped
 constexpr Real DISPLACEMENT(0.001);          // position: a seed that moves by less is taken as not moved
@@ -198,7 +199,8 @@ inline bool Report98::search(const Seed& s, const Point& root, const Vector& pat
         // The path of a weak object, or of one that something digs into, may have no surface.
         highest = difference < NOWHERE || (object_.rests() && object_.dents().empty());
         // Beyond the core there is no field, and each step leads farther on.
-        *position = clamp(*position, -FARTHEST, FARTHEST);
+        const Real farthest = min(FARTHEST, quotient(OUTERMOST, object_.longestPath()));
+        *position = clamp(*position, -farthest, farthest);
     }
     return highest;
 }
