@@ -271,6 +271,7 @@ SELDOM static bool isSteep(const Bodies& bodies, const Neighbour& near)
         times = times * THIN_TIP;
     else if (other.shaped())
         times = quotient(times, max(other.steepest(), Real(1) / THIN_TIP));
+    // (The product of the two bounds is within 16.16.)
     return min(near.ratio * near.size, STEEP) * min(times, Real(30)) > STEEP;
 }
 

@@ -18,7 +18,8 @@ constexpr Real GATHER_SLACK(1);
 // No field of strength 1 changes by more than this over a length of one size.
 constexpr Real STEEPEST_OF_ALL(1.6);
 
-// See Neighbourhood::steep. THIN_TIP: a tapering neighbour is taken to be so many times as steep as its size says.
+// See Neighbourhood::steep. FAR_SIZES is a squared proportion; STEEP is that times the neighbour's size, units. THIN_TIP: a
+// tapering neighbour is taken to be so many times as steep as its size says.
 constexpr Real FAR_SIZES(16), STEEP(1024), THIN_TIP(16);
 
 // Which object's seeds show a place on the surface is decided by claims. An object's claim is its field; but where a small object

@@ -263,6 +263,7 @@ SELDOM int Path::findGradientShift() const
     int shift = 0;
     while (shiftDown(largest, shift) > LARGEST)
         ++shift;
+    // The bounds keep all of this within 16.16.
     const int bySize = shift;
     Real sum(0);
     for (int i = 0; i < touched_; ++i) {

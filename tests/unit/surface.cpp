@@ -1048,6 +1048,15 @@ TEST(what_has_not_changed_is_left_alone)
     }
 }
 
+// How many seeds of an object are on the surface.
+static int validSeeds(const SoftObject& object)
+{
+    int valid = 0;
+    for (int i = 0; i < object.seedSlots(); i += 2)
+        valid += (object.regular(i).flags & SEED_VALID) != 0;
+    return valid;
+}
+
 TEST(seeds_of_an_object_with_a_new_shape_settle)
 {
     // Nothing changes but the object's own shape. Its seeds must settle as in a model that begins with that shape.
@@ -1059,11 +1068,7 @@ TEST(seeds_of_an_object_with_a_new_shape_settle)
     const auto settled = [](Scene& scene, double twist) {
         scene.objects[0]->setWarp({{Real(0), real(twist), real(twist / 2)}});
         scene.update();
-        const SoftObject& object = *scene.objects[0];
-        int valid = 0;
-        for (int i = 0; i < object.seedSlots(); i += 2)
-            valid += (object.regular(i).flags & SEED_VALID) != 0;
-        return valid;
+        return validSeeds(*scene.objects[0]);
     };
     Scene scene;
     made(scene);
@@ -1075,15 +1080,6 @@ TEST(seeds_of_an_object_with_a_new_shape_settle)
         note("twisted by %g: %d seeds on the surface, %d in a new model", twist, before, anew);
         CHECK(before > 100 && before > anew * 0.98 && before < anew * 1.02);
     }
-}
-
-// How many seeds of an object are on the surface.
-static int validSeeds(const SoftObject& object)
-{
-    int valid = 0;
-    for (int i = 0; i < object.seedSlots(); i += 2)
-        valid += (object.regular(i).flags & SEED_VALID) != 0;
-    return valid;
 }
 
 TEST(what_digs_into_several_objects_finds_the_hollow_where_it_is)
