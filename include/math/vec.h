@@ -109,6 +109,10 @@ Matrix operator*(const Matrix& a, const Matrix& b);
 Point operator*(const Matrix& a, const Point& p);
 Vector operator*(const Matrix& a, const Vector& v);
 // Undoes a rotation: turnedBack(a, a * v) is v. The inverse of a rotation is its transpose.
-Vector turnedBack(const Matrix& a, const Vector& v);
+inline __attribute__((always_inline)) Vector turnedBack(const Matrix& a, const Vector& v)
+{
+    return {a.m[0][0] * v.x + a.m[1][0] * v.y + a.m[2][0] * v.z, a.m[0][1] * v.x + a.m[1][1] * v.y + a.m[2][1] * v.z,
+            a.m[0][2] * v.x + a.m[1][2] * v.y + a.m[2][2] * v.z};
+}
 
 #endif

@@ -108,9 +108,3 @@ Vector operator*(const Matrix& a, const Vector& v)
     return {a.m[0][0] * v.x + a.m[0][1] * v.y + a.m[0][2] * v.z, a.m[1][0] * v.x + a.m[1][1] * v.y + a.m[1][2] * v.z,
             a.m[2][0] * v.x + a.m[2][1] * v.y + a.m[2][2] * v.z};
 }
-
-Vector turnedBack(const Matrix& a, const Vector& v)
-{
-    return {a.m[0][0] * v.x + a.m[1][0] * v.y + a.m[2][0] * v.z, a.m[0][1] * v.x + a.m[1][1] * v.y + a.m[2][1] * v.z,
-            a.m[0][2] * v.x + a.m[1][2] * v.y + a.m[2][2] * v.z};
-}
