@@ -129,16 +129,14 @@ void Gaps::noteBeyond(int y, const Span& columns)
 
 void Gaps::close()
 {
-    const int32_t spacingTimesDepth = mulShift16(rawFromReal(view_.camera().focalX) >> 4, rawFromReal(spacing_)) >> 5;
     for (int y = 0; y < HEIGHT; ++y)
         if (view_.touched(y).from < view_.touched(y).to)
-            closeRow(y, spacingTimesDepth);
+            closeRow(y);
     missed_.draw();
 }
 
 // Closes the gaps of a row that has drawn pixels, and the slits that begin beside these; notes where surface may have been missed.
-// `spacingTimesDepth` divided by a depth of the Z-buffer is the spacing of the seeds in pixels.
-void Gaps::closeRow(int y, int32_t spacingTimesDepth)
+void Gaps::closeRow(int y)
 {
     Span runs[WIDTH / 2];
     const uint8_t* row = frame_ + y * WIDTH;
@@ -148,10 +146,8 @@ void Gaps::closeRow(int y, int32_t spacingTimesDepth)
     int last = 0;  // one past the end of the previous run; 0 before the first
     for (const Span* run = runs; run < end; ++run) {
         const int from = run->from;
-        if (last > 0 && from - last <= GAP_MOST) {
-            const int before = zbuffer_[y * WIDTH + last - 1], behind = zbuffer_[y * WIDTH + from];
-            closeRun(y, last, from, spacingTimesDepth / (max32(before, behind) | 1));
-        }
+        if (last > 0 && from - last <= GAP_MOST)
+            closeRun(y, last, from);
         if (slits && last > 0 && inSlit(row + last))
             closeSlit(y, last, from, 1);
         if (slits && from > 0 && inSlit(row + from - 1))
@@ -166,18 +162,30 @@ void Gaps::closeRow(int y, int32_t spacingTimesDepth)
         closeSlit(y, last, WIDTH, 1);
 }
 
-// Closes the gap of columns `from` to before `to` between drawn pixels. The seeds there lie `spacing` pixels apart.
-void Gaps::closeRun(int y, int from, int to, int spacing)
+// How many pixels the seeds lie apart at the farther one of two drawn pixels.
+inline int Gaps::spacingAt(int first, int last) const
+{
+    return spacingTimesDepth_ / (max32(zbuffer_[first], zbuffer_[last]) | 1);
+}
+
+// The width and the height up to which openings are closed, pixels.
+inline int Gaps::widest(int spacing)
+{
+    return min32(GAP_WIDE + spacing, GAP_MOST);
+}
+
+// Closes the gap of columns `from` to before `to` between drawn pixels.
+void Gaps::closeRun(int y, int from, int to)
 {
     const uint8_t* row = frame_ + y * WIDTH;
-    const int maxWidth = min32(GAP_WIDE + spacing, GAP_MOST), maxNarrow = GAP_NARROW + spacing;
-    if (to - from > maxWidth)
+    const int first = y * WIDTH + from - 1, last = y * WIDTH + to, spacing = spacingAt(first, last);
+    if (to - from > widest(spacing))
         return;
     if (to - from <= GAP_THIN) {
-        fill(y * WIDTH + from - 1, y * WIDTH + to, 1);
+        fill(first, last, 1);
         // Openings above may have been open only because of this run.
-        closeAbove(y, from, maxWidth, maxNarrow);
-        closeAbove(y, to - 1, maxWidth, maxNarrow);
+        closeAbove(y, from);
+        closeAbove(y, to - 1);
     }
     // Follows the opening downwards if the row above is closed, and upwards if it is still empty and the row below is closed.
     for (int step = 1; step >= -1 && row[from] == 0; step -= 2) {
@@ -187,16 +195,17 @@ void Gaps::closeRun(int y, int from, int to, int spacing)
         while (x < to && row[x - step * WIDTH] != 0)
             ++x;
         if (x == to)
-            closeFrom(y, from, to, step, maxWidth, maxNarrow);
+            closeFrom(y, from, to, step, spacing);
     }
 }
 
-// Follows the empty run above a pixel that has just been filled upwards, if the row below that run is closed now.
-void Gaps::closeAbove(int y, int x, int maxWidth, int maxNarrow)
+// Follows the empty run above a drawn pixel upwards, if the row below that run is closed now.
+void Gaps::closeAbove(int y, int x)
 {
     if (y < 2 || frame_[(y - 1) * WIDTH + x] != 0)
         return;
     const uint8_t* row = frame_ + (y - 1) * WIDTH;
+    const int spacing = spacingAt(y * WIDTH + x, y * WIDTH + x), maxWidth = widest(spacing);
     int from = x, to = x + 1;
     while (from > 0 && to - from <= maxWidth && row[from - 1] == 0)
         --from;
@@ -211,15 +220,15 @@ void Gaps::closeAbove(int y, int x, int maxWidth, int maxNarrow)
     for (int i = from; i < to; ++i)
         if (row[i + WIDTH] == 0)
             return;
-    closeFrom(y - 1, from, to, -1, maxWidth, maxNarrow);
+    closeFrom(y - 1, from, to, -1, spacing);
 }
 
 // Follows an opening from its closed end, and fills its rows as far as the last one that is narrow: from both sides where the
 // surface is sure to be there; else, and where the sides cannot tell how it looks, with the model's surface.
-void Gaps::closeFrom(int y, int from, int to, int step, int maxWidth, int maxNarrow)
+void Gaps::closeFrom(int y, int from, int to, int step, int spacing)
 {
     Opening opening;
-    followOpening(frame_, y, from, to, step, maxWidth, maxNarrow, opening);
+    followOpening(frame_, y, from, to, step, widest(spacing), GAP_NARROW + spacing, opening);
     const int narrow = opening.narrow;
     const Span* const rows = opening.rows;
     if (narrow > 0) {
@@ -342,4 +351,7 @@ void Gaps::closeSlit(int y, int x, int end, int step)
         view_.overlay(x, y, 1, height);
     }
     missed_.noteCorner(x, y);
+    // What is left of the row may be an opening that is closed below.
+    if (x != end && y + 1 < HEIGHT && frame_[(y + 1) * WIDTH + x] != 0)
+        closeAbove(y + 1, x);
 }

@@ -11,7 +11,7 @@ public:
     // drawn.
     Gaps(View& view, FieldProbe& probe, const Palette* palette, Missed& missed, Real spacing)
         : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), probe_(probe), model_(probe.model()), palette_(palette),
-          missed_(missed), spacing_(spacing)
+          missed_(missed), spacingTimesDepth_(mulShift16(rawFromReal(view.camera().focalX) >> 4, rawFromReal(spacing)) >> 5)
     {
     }
 
@@ -22,10 +22,12 @@ private:
     void noteSliver(int y, const Span& run);
     void noteEnds(int y, const Span& run);
     void noteBeyond(int y, const Span& columns);
-    void closeRow(int y, int32_t spacingTimesDepth);
-    void closeRun(int y, int from, int to, int spacing);
-    void closeAbove(int y, int x, int maxWidth, int maxNarrow);
-    void closeFrom(int y, int from, int to, int step, int maxWidth, int maxNarrow);
+    void closeRow(int y);
+    void closeRun(int y, int from, int to);
+    void closeAbove(int y, int x);
+    void closeFrom(int y, int from, int to, int step, int spacing);
+    int spacingAt(int first, int last) const;
+    static int widest(int spacing);
     void closeSlit(int y, int x, int end, int step);
     bool searchBehind(int first, int last);
     bool closeExactly(int first, int last);
@@ -42,7 +44,7 @@ private:
     const Model* const model_;
     const Palette* palette_;
     Missed& missed_;
-    Real spacing_;
+    const int32_t spacingTimesDepth_;  // divided by a depth of the Z-buffer it is the spacing of the seeds in pixels
 };
 
 #endif

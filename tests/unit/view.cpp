@@ -1488,6 +1488,35 @@ TEST(gaps_open_on_a_side)
     }
 }
 
+// What is left of a row beside a slit that has been closed is a gap, too, if it is closed below.
+TEST(gaps_beside_slits)
+{
+    View view;
+    CHECK(view.open());
+    for (int mirrored = 0; mirrored <= 1; ++mirrored) {
+        const auto put = [&](int left, int top, int right, int bottom) {
+            block(view, mirrored ? WIDTH - right : left, top, mirrored ? WIDTH - left : right, bottom, 7);
+        };
+        view.begin();
+        // The row 80 is open over columns 105 to 114. The slit below the overhang, of columns 105 to 109, reaches down to row 81.
+        put(90, 60, 110, 80);
+        put(90, 80, 105, 82);
+        put(115, 60, 130, 82);
+        put(109, 81, 130, 82);
+        put(90, 82, 130, 100);
+        const int before = drawnIn(view, 0, 0, WIDTH, HEIGHT);
+        view.closeGaps(SPACING);
+        view.end();
+        const auto drawn = [&](int left, int top, int right, int bottom) {
+            return drawnIn(view, mirrored ? WIDTH - right : left, top, mirrored ? WIDTH - left : right, bottom);
+        };
+        SAME(drawn(105, 80, 110, 82), 10);
+        const int gap = drawn(110, 60, 115, 81);
+        SAME(gap, 14 * 5);
+        SAME(drawnIn(view, 0, 0, WIDTH, HEIGHT), before + gap + 9);
+    }
+}
+
 TEST(gaps_at_the_edges_of_the_screen)
 {
     View view;
