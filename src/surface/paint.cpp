@@ -1,53 +1,15 @@
-// Finishes, patterns and the colours of voxels.
+// The colours and the brightness of voxels.
 #include "paint.h"
 
-#include "math/normal.h"
 #include "math/whole.h"
 #include "rt.h"
 #include "voxels.h"
 
 namespace {
 
-// A product of cosines, 1.0 = 2^14.
-inline int32_t times(int32_t a, int32_t b)
-{
-    return a * b >> 14;
-}
-
 inline int32_t along(const Direction14& n, const int32_t axis[3])
 {
     return dot(n, axis) >> 14;
-}
-
-constexpr int32_t ONE = 1 << 14;
-
-// Share of the light that a shiny surface scatters, 1.0 = 2^14.
-constexpr int32_t SCATTERED = ONE * 3 / 4;
-
-// The surroundings that a mirror shows: light by the height of the reflected direction, -1 straight down, 1 straight up. The ground
-// is dark towards the horizon, the sky bright above it; between these corners the light changes linearly. All have 1.0 = 2^14.
-struct Corner {
-    int32_t height, light;
-};
-constexpr Corner SURROUNDINGS[] = {{-ONE, ONE / 2}, {-ONE * 3 / 10, ONE / 12}, {ONE * 3 / 10, ONE}, {ONE, ONE / 2}};
-
-int32_t surroundings(int32_t height)
-{
-    const Corner* c = SURROUNDINGS;
-    while (c < SURROUNDINGS + 2 && height > c[1].height)
-        ++c;
-    return c->light + (height - c->height) * (c[1].light - c->light) / (c[1].height - c->height);
-}
-
-// The highlight of a finish that shines: the 16th power of the cosine of the normal and the direction half way between light and
-// viewer.
-int32_t highlight(int32_t cosine)
-{
-    if (cosine <= 0)
-        return 0;
-    for (int i = 0; i < 4; ++i)
-        cosine = times(cosine, cosine);
-    return cosine;
 }
 
 // Spacings: no scale reaches farther than this along the surface from its seed.
@@ -65,39 +27,14 @@ struct Shear {
     }
 };
 
-// The sine of an angle in turns.
-Real wave(Real turns)
-{
-    return sine(static_cast<Angle>(rawFromReal(turns)) << 16);
-}
-
 }  // namespace
 
-Polish::Polish(const SoftObject& object, const OwnFrame& own) : own_(own), mirror_(object.shown()->paint()->finish == FINISH_MIRROR)
+// The finish of the object that another one's seeds show, in the axes of that one.
+static Polish polishOf(const SoftObject& object, const OwnFrame& own)
 {
     const Vector up = object.toOwnAxes({Real(0), Real(1), Real(0)});
-    const Normal half = normalise({realFromRaw((own.light[0] - own.ahead[0]) * 4), realFromRaw((own.light[1] - own.ahead[1]) * 4),
-                                   realFromRaw((own.light[2] - own.ahead[2]) * 4)});
-    up_[0] = rawFromReal(up.x) >> 2;
-    up_[1] = rawFromReal(up.y) >> 2;
-    up_[2] = rawFromReal(up.z) >> 2;
-    half_[0] = half.x;
-    half_[1] = half.y;
-    half_[2] = half.z;
-    upAhead_ = dot(up_, own.ahead) >> 14;
-}
-
-int32_t Polish::brightness8(const Direction14& normal) const
-{
-    int32_t light;
-    if (mirror_) {
-        light = surroundings(upAhead_ - 2 * times(along(normal, own_.ahead), along(normal, up_)));
-    } else {
-        const int32_t cosine = along(normal, own_.light);
-        light = cosine <= 0 ? 0 : times(cosine, SCATTERED);
-    }
-    light += times(ONE - light, highlight(along(normal, half_)));
-    return (light > ONE ? ONE : light < 0 ? 0 : light) * BRIGHTEST >> 6;
+    const int32_t up14[] = {rawFromReal(up.x) >> 2, rawFromReal(up.y) >> 2, rawFromReal(up.z) >> 2};
+    return {object.shown()->paint()->finish, own.light, own.ahead, up14};
 }
 
 // The pattern at a place: `number` is the number of the colour there. If an edge of the pattern is near, `beyond` is the number of
@@ -110,8 +47,8 @@ struct Painter::Spot {
 };
 
 Painter::Painter(const SoftObject& object, const OwnFrame& own, VoxelList& list)
-    : object_(object), paint_(*object.shown()->paint()), own_(own), polish_(object, own), list_(list),
-      from_{Real(0), Real(0), Real(0)}
+    : object_(object), paint_(*object.shown()->paint()), own_(own), polish_(polishOf(object, own)), list_(list),
+      pattern_(*object.shown(), object), from_{Real(0), Real(0), Real(0)}
 {
     if (paint_.pattern == PATTERN_NONE)
         return;
@@ -119,13 +56,7 @@ Painter::Painter(const SoftObject& object, const OwnFrame& own, VoxelList& list)
     const SoftObject& shown = *object.shown();
     if (&shown != &object)
         from_ = object.toOwnAxes(object.centre() - shown.centre()) * quotient(Real(1), object.growth());
-    for (int i = 0; i < 3; ++i) {
-        const Matrix& turn = shown.turn();
-        axis_[i] = object.toOwnAxes({turn.m[0][i], turn.m[1][i], turn.m[2][i]});
-    }
-    edge_ = paint_.grain * (shown.size() / paint_.made);
-    inverse_ = object.growth() / edge_;
-    const Real reach = clamp(object.spacing() * FARTHEST / edge_, Real(0), Real(10));
+    const Real reach = clamp(object.spacing() * FARTHEST / pattern_.grain(), Real(0), Real(10));
     reach2_ = reach * reach;
 }
 
@@ -142,7 +73,7 @@ Voxel* Painter::add(const Seed& s, const Voxel& shaded)
 {
     Voxel voxel = shaded;
     if (paint_.shines()) {
-        voxel.brightness = static_cast<int8_t>((polish_.brightness8(s.normal) + 128) >> 8);
+        voxel.brightness = static_cast<int8_t>((polish_.brightness8({s.normal.x, s.normal.y, s.normal.z}) + 128) >> 8);
         voxel.slopeX = voxel.slopeY = 0;
     }
     const uint8_t mix = paint_.mixes && !(s.flags & SEED_RESTING) ? s.mix : paint_.number;
@@ -172,33 +103,20 @@ bool Painter::cut(const Direction14& inward, int32_t apart, Voxel* voxel) const
 // The pattern at `place` (own space). `normal` is the surface's normal there, `mix` the number of its colour without a pattern.
 Painter::Spot Painter::spotAt(const Vector& place, const Direction14& normal, uint8_t mix) const
 {
-    Spot spot{mix, paint_.other, false, {0, 0, 0}, 0};
     Real u[3];
-    for (int i = 0; i < 3; ++i)
-        u[i] = dot(place + from_, axis_[i]) * inverse_;
-    if (paint_.pattern == PATTERN_MARBLE) {
-        // There are one light and one dark vein every two grains.
-        const Real bent = u[0] * Real(0.5) + Real(0.3) * wave(u[1] * Real(0.35) + Real(0.2)) +
-                          Real(0.2) * wave(u[2] * Real(0.55) + u[1] * Real(0.2));
-        const Real share = Real(0.5) + Real(0.5) * wave(bent);
-        const Vector& from = paint_.paints->placeOf(mix);
-        spot.number = paint_.paints->numberAt(from + (paint_.otherAt - from) * share, paint_.shines());
-        return spot;
-    }
-    // Checks are cubes; stripes are slices along the x axis.
-    const int axes = paint_.pattern == PATTERN_CHECKS ? 3 : 1;
-    bool odd = false;
+    pattern_.toGrains(place + from_, u);
+    Spot spot{pattern_.numberAt(u, mix), mix, false, {0, 0, 0}, 0};
+    if (spot.number == mix)
+        spot.beyond = paint_.other;
     Real nearest = reach2_;
     int edge = -1;
-    for (int i = 0; i < axes; ++i) {
-        const int whole = floorToInt(u[i]);
-        odd = odd != ((whole & 1) != 0);
-        u[i] -= Real(whole);
+    for (int i = 0; i < pattern_.edgedAxes(); ++i) {
+        u[i] -= Real(floorToInt(u[i]));
         const Real apart = u[i] < Real(0.5) ? u[i] : Real(1) - u[i];
         if (apart * apart >= nearest)
             continue;
         // The distance along the surface is `apart` divided by the sine of the angle between the normal and the axis.
-        const Real cosine = dot(axis_[i], unitVector(normal));
+        const Real cosine = dot(pattern_.axis(i), unitVector(normal));
         const Real slant = Real(1) - cosine * cosine;
         if (apart * apart >= nearest * slant)
             continue;
@@ -207,15 +125,11 @@ Painter::Spot Painter::spotAt(const Vector& place, const Direction14& normal, ui
     }
     if (edge >= 0) {
         const bool above = u[edge] < Real(0.5);
-        const Vector inward = above ? axis_[edge] : axis_[edge] * Real(-1);
+        const Vector inward = above ? pattern_.axis(edge) : pattern_.axis(edge) * Real(-1);
         spot.edge = true;
-        spot.apart = rawFromReal((above ? u[edge] : Real(1) - u[edge]) * edge_) >> 8;
+        spot.apart = rawFromReal((above ? u[edge] : Real(1) - u[edge]) * pattern_.grain()) >> 8;
         spot.inward = {static_cast<int16_t>(rawFromReal(inward.x) >> 2), static_cast<int16_t>(rawFromReal(inward.y) >> 2),
                        static_cast<int16_t>(rawFromReal(inward.z) >> 2)};
-    }
-    if (odd) {
-        spot.number = paint_.other;
-        spot.beyond = mix;
     }
     return spot;
 }

@@ -1,26 +1,12 @@
-// Paint: how a finish changes the brightness of an object's seeds, and which colours its voxels get. Only objects that have a
-// paint (model/paint.h) need it.
+// Paint: which colours and which brightness the voxels of a painted object get (surface/finish.h). Only objects that have a paint
+// (model/paint.h) need it.
 #ifndef FB_SURFPAINT_H
 #define FB_SURFPAINT_H
 
 #include "gather.h"
 #include "model/paint.h"
+#include "surface/finish.h"
 #include "surface/voxel.h"
-
-// The brightness of an object with a finish that shines. Made once for an object and a frame.
-class Polish {
-public:
-    Polish(const SoftObject& object, const OwnFrame& own);
-
-    // Brightness of the surface where it has this normal, 0..63 with 8 fraction bits.
-    int32_t brightness8(const Direction14& normal) const;
-
-private:
-    const OwnFrame& own_;
-    const bool mirror_;
-    int32_t up_[3], half_[3];  // own axes, 1.0 = 2^14: upwards in the world, and half way between light and viewer
-    int32_t upAhead_;          // how far upwards the viewer looks: cosine, 1.0 = 2^14
-};
 
 // Lists the voxels of one object in their colours. Made once for an object and a frame.
 class Painter {
@@ -47,9 +33,8 @@ private:
     const OwnFrame& own_;
     const Polish polish_;
     VoxelList& list_;
-    Vector axis_[3];      // axes of the pattern, own axes: a ball's seeds do not turn with it unless it rides, but its pattern does
+    const PatternMap pattern_; // own space: a ball's seeds do not turn with it unless it rides, but its pattern does
     Vector from_;         // own space: vector from the middle of the pattern to the object's centre
-    Real inverse_, edge_; // factor from own space to grains; length of a grain in units of the world
     Real reach2_;         // squared distance from a seed within which an edge is near, in grains
 };
 

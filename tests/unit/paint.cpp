@@ -221,7 +221,9 @@ TEST(finishes_by_the_normal)
             int seen = 0;
             OwnFrame own;
             findOwnFrame(p.object(k), p.frame(), own);
-            const Polish polish(p.object(k), own);
+            const Vector up = p.object(k).toOwnAxes(vector(0, 1, 0));
+            const int32_t up14[] = {rawFromReal(up.x) >> 2, rawFromReal(up.y) >> 2, rawFromReal(up.z) >> 2};
+            const Polish polish(p.object(k).paint()->finish, own.light, own.ahead, up14);
             for (int i = 0; i < p.object(k).seedSlots(); i += 2) {
                 const Seed& s = p.object(k).seed(i);
                 Vec n{s.normal.x / 16384.0, s.normal.y / 16384.0, s.normal.z / 16384.0};
@@ -234,7 +236,7 @@ TEST(finishes_by_the_normal)
                                            : 1 - (height - 0.3) / 0.7 * 0.5;
                 }
                 shade += (1 - shade) * std::pow(std::max(0.0, dot(n, half)), 16);
-                worst = std::max(worst, std::fabs(polish.brightness8(s.normal) / 256.0 - 63 * shade));
+                worst = std::max(worst, std::fabs(polish.brightness8({s.normal.x, s.normal.y, s.normal.z}) / 256.0 - 63 * shade));
                 ++seen;
             }
             note("%s: off by %.2f steps at most", finish, worst);
