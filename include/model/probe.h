@@ -29,6 +29,9 @@ public:
     // CORE_SIZE. Zero where the field is less than FAINT.
     Vector gradient() const;
 
+    // Where colours mix: the place in the box of colours (Paints::inBox()) to which those of the chosen body mix at that point.
+    Vector mixture() const;
+
 private:
     // An object whose field reaches the point. `body` is the first of its body's members, or null if the object has no surface. In
     // bodies that are not plain, `weighted` is the sum that the object has in its body, `square` that of its field over the

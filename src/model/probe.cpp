@@ -164,3 +164,16 @@ Vector FieldProbe::gradient() const
     }
     return sum;
 }
+
+Vector FieldProbe::mixture() const
+{
+    Vector sum{Real(0), Real(0), Real(0)};
+    Real fields(0);
+    for (const Part* part = parts_; part < end_; ++part) {
+        if (chosen_ == nullptr || part->body != chosen_->body)
+            continue;
+        sum = sum + members_[part->slot].object->paint()->at * part->field;
+        fields += part->field;
+    }
+    return fields > Real(0) ? sum * quotient(Real(1), fields) : sum;
+}

@@ -115,7 +115,40 @@ inline void Borders::note(int at, int from)
         noted_[count_++] = {static_cast<uint16_t>(at), static_cast<uint16_t>(from)};
 }
 
-// Shows a pixel in the ramp of the one beside it, if it belongs to an object that has that ramp. Returns false if it does not.
+// Gives a pixel the palette entry of the surface at a depth. Its own depth stays: it is the same whether colours are shown or not.
+// Returns false if its ramp stays, too.
+SELDOM bool Borders::showExactly(int at, int depth)
+{
+    const int before = zbuffer_[at], own = rampAt(at);
+    if (!rays_.show(at, depth))
+        return false;
+    view_.setPixel(at, before, frame_[at]);
+    return rampAt(at) != own;
+}
+
+// Shows a pixel, which shows the object `shown` or none, in the ramp of another object, which is the stronger one there. Returns
+// false if it does not belong to that one.
+inline __attribute__((always_inline)) bool Borders::passOn(int at, int ramp, int own, const SoftObject& to, const SoftObject* shown)
+{
+    const bool crossing = shown != nullptr && model_.areApart(*shown, to);
+    const int before = zbuffer_[at];
+    int depth = before, shownDepth = before;
+    const SoftObject* owner = &to;
+    if (!correctDepth(to, at, &depth))
+        return false;
+    // Of two bodies whose surfaces cross the nearer one is seen.
+    if (crossing ? correctDepth(*shown, at, &shownDepth) && shownDepth < depth
+                 : depth != before && !isStronger(ramp, own, view_.pointAt(at, depth), &owner, &shown))
+        return false;
+    // The brightness goes on across a border, but not from one body to another, nor where the object is painted.
+    if (crossing || owner->paint() != nullptr)
+        return showExactly(at, depth);
+    view_.setPixel(at, before, palette_.ramp(ramp)[meanBrightness(at, ramp)]);
+    return true;
+}
+
+// Shows a pixel in the ramp of the one beside it, if it belongs to an object that has that ramp; at an edge of a pattern in the
+// colour that it has there. Returns false if its ramp stays.
 bool Borders::mendPixel(const Place& place)
 {
     const int at = place.pixel, row = at / WIDTH, column = at - row * WIDTH;
@@ -123,24 +156,15 @@ bool Borders::mendPixel(const Place& place)
         return false;
     const int own = rampAt(at), ramp = rampAt(place.from);
     const SoftObject *shown, *owner;
-    // Marble is shown in more ramps than are listed.
-    if (first_[own] < 0 || !isStronger(ramp, own, view_.pointAt(at), &owner, &shown))
+    // Marble is shown in more ramps than are listed. The other pixel may have been mended meanwhile.
+    if (first_[own] < 0 || ramp == own)
         return false;
-    const bool crossing = shown != nullptr && model_.areApart(*shown, *owner);
-    const int before = zbuffer_[at];
-    int depth = before, shownDepth = before;
-    if (!correctDepth(*owner, at, &depth))
-        return false;
-    // Of two bodies whose surfaces cross the nearer one is seen.
-    if (crossing ? correctDepth(*shown, at, &shownDepth) && shownDepth < depth
-                 : depth != before && !isStronger(ramp, own, view_.pointAt(at, depth), &owner, &shown))
-        return false;
-    // The brightness goes on across a border, but not from one body to another.
-    if (crossing && !rays_.show(at, depth, place.from))
-        return false;
-    // The depth stays: it is the same whether colours are shown or not.
-    view_.setPixel(at, before, crossing ? frame_[at] : palette_.ramp(ramp)[meanBrightness(at, ramp)]);
-    return true;
+    const bool stronger = isStronger(ramp, own, view_.pointAt(at), &owner, &shown);
+    if (owner != nullptr && owner == shown) {
+        int depth = zbuffer_[at];
+        return correctDepth(*owner, at, &depth) && showExactly(at, depth);
+    }
+    return stronger && passOn(at, ramp, own, *owner, shown);
 }
 
 // The mean brightness of a pixel and of those beside it that are shown in a ramp. (At a crease the pixel, which the wrong object's

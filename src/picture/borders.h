@@ -1,4 +1,5 @@
-// Borders of colours: where two colours meet on the surface, gives each pixel the colour of the object that it belongs to.
+// Borders of colours: where two colours meet on the surface, gives each pixel the colour of the object that it belongs to; at an
+// edge of an object's pattern the one that the pattern has there.
 #ifndef FB_BORDERS_H
 #define FB_BORDERS_H
 
@@ -9,8 +10,8 @@ public:
     // There is a model, and the palette has made the ramps of its objects, in colour; colours do not mix.
     Borders(View& view, FieldProbe& probe, const Palette& palette, Rays& rays);
 
-    // Finds pixels at borders of colours that have the colour of a wrong object, and gives them that of the object that they belong
-    // to. Depths stay. To be called when gaps are closed.
+    // Finds pixels at borders of colours that have a wrong colour, and gives them the right one. Depths stay. To be called when
+    // gaps are closed.
     void mend();
 
 private:
@@ -24,6 +25,8 @@ private:
     void noteScraps(int middle);
     void note(int at, int from);
     bool mendPixel(const Place& place);
+    bool showExactly(int at, int depth);
+    bool passOn(int at, int ramp, int own, const SoftObject& to, const SoftObject* shown);
     int meanBrightness(int at, int ramp) const;
     bool isStronger(int ramp, int other, const Point& p, const SoftObject** strongest, const SoftObject** second) const;
     const SoftObject* strongestOf(int ramp, const Point& p, Real* field) const;

@@ -37,8 +37,8 @@ inline uint32_t halves(const uint8_t* pixel)
 }  // namespace
 
 Creases::Creases(View& view, FieldProbe& probe, const Palette& palette, Real spacing, View::FoundCreases& found)
-    : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), probe_(probe), palette_(palette), found_(found),
-      looksMost_(looksAt(spacing, LOOKS_AT_ONE))
+    : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), probe_(probe), tint_(probe, view.camera().axes),
+      palette_(palette), found_(found), looksMost_(looksAt(spacing, LOOKS_AT_ONE))
 {
 }
 
@@ -125,33 +125,30 @@ void Creases::follow(int at)
     }
 }
 
-// Gives a pixel the colour and the brightness of the model's surface. Returns false if there is none near, or it is painted.
+// Gives a pixel the colour and the brightness of the model's surface. Returns false if there is none near.
 bool Creases::mendPixel(int at)
 {
     if (++looks_ > looksMost_)
         return false;
-    const Model& model = *probe_.model();
     const int depth = zbuffer_[at];
-    const Point p = view_.pointAt(at, depth);
+    Point p = view_.pointAt(at, depth);
     int strongest;
     const Real off = probe_.implicitAt(p, &strongest) - ISOVALUE;
     if (strongest < 0)
         return false;
-    Vector gradient = probe_.gradient();
     if (absolute(off) > EXACT) {
         // The ray through the pixel over one unit of depth.
         const Vector ray = view_.pointAt(at, depth + 128) - p;
-        const Real rise = dot(gradient, ray), left = off * Real(CORE_SIZE);
+        const Real rise = dot(probe_.gradient(), ray), left = off * Real(CORE_SIZE);
         if (rise * FARTHEST <= absolute(left))
             return false;
-        const Point there = view_.pointAt(at, depth - floorToInt(quotient(left, rise) * Real(128)));
-        if (probe_.implicitAt(there, &strongest) < FieldProbe::FAINT)
+        p = view_.pointAt(at, depth - floorToInt(quotient(left, rise) * Real(128)));
+        if (probe_.implicitAt(p, &strongest) < FieldProbe::FAINT)
             return false;
-        gradient = probe_.gradient();
     }
-    const SoftObject& object = *model.actor(strongest).object;
-    if (object.ramp() == nullptr || object.paint() != nullptr)
+    const uint8_t entry = tint_.entry(p, strongest);
+    if (entry == 0)
         return false;
-    view_.setPixel(at, depth, object.ramp()[brightnessOf(gradient, model.light)]);
+    view_.setPixel(at, depth, entry);
     return true;
 }

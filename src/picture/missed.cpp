@@ -124,7 +124,7 @@ bool Missed::drawPixel(Place place)
 {
     const int at = place.pixel;
     if (!isMissing(at, place.depth) || !findSurface(&place) || !isMissing(at, place.depth) ||
-        !rays_.show(at, place.depth, place.from))
+        !rays_.show(at, place.depth))
         return false;
     forBeside(at, [&](int beside) {
         if (isMissing(beside, place.depth))

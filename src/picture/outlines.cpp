@@ -152,7 +152,7 @@ bool Outlines::meets(int at, Real* excess)
 void Outlines::showBehind(int at, int behind)
 {
     int depth = zbuffer_[behind];
-    if (!rays_.findDepth(at, &depth) || !rays_.show(at, depth, behind))
+    if (!rays_.findDepth(at, &depth) || !rays_.show(at, depth))
         return;
     forBeside(at, [&](int beside) {
         if (depth - zbuffer_[beside] > DEEP)

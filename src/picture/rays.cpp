@@ -1,9 +1,7 @@
 // Rays of sight, one for a pixel, searched from a depth near which the surface should be.
 #include "rays.h"
 
-#include "math/normal.h"
 #include "math/whole.h"
-#include "surface/voxel.h"
 
 namespace {
 
@@ -25,16 +23,9 @@ int looksAt(Real spacing, int atOne)
     return floorToInt(quotient(Real(atOne), cube));
 }
 
-int brightnessOf(const Vector& gradient, const Vector& toLight)
-{
-    // The field rises inwards.
-    const Normal in = normalise(gradient), light = normalise(toLight);
-    return max32(lambert(-(in.x * light.x + in.y * light.y + in.z * light.z) >> 14), 0);
-}
-
 Rays::Rays(View& view, FieldProbe& probe, Real spacing)
-    : view_(view), frame_(view.frame()), probe_(probe), model_(probe.model()),
-      looksMost_(model_ == nullptr ? 0 : min32(looksAt(spacing, LOOKS_AT_ONE), LOOKS_MOST))
+    : view_(view), probe_(probe), tint_(probe, view.camera().axes),
+      looksMost_(probe.model() == nullptr ? 0 : min32(looksAt(spacing, LOOKS_AT_ONE), LOOKS_MOST))
 {
 }
 
@@ -83,20 +74,14 @@ bool Rays::findDepth(int at, int* depth)
     return true;
 }
 
-bool Rays::show(int at, int depth, int from)
+bool Rays::show(int at, int depth)
 {
     const Point p = view_.pointAt(at, depth);
     ++looks_;
     const int strongest = probe_.strongestAt(p);
-    const SoftObject* const own = strongest < 0 ? nullptr : model_->actor(strongest).object;
-    uint8_t colour = frame_[from];
-    if (own != nullptr && own->ramp() != nullptr) {
-        const Vector gradient = probe_.gradient();  // before the probe is asked elsewhere
-        if (own->paint() == nullptr || from == at || probe_.strongestAt(view_.pointAt(from)) != strongest)
-            colour = own->ramp()[brightnessOf(gradient, model_->light)];
-    }
-    if (colour == 0)
+    const uint8_t entry = strongest < 0 ? 0 : tint_.entry(p, strongest);
+    if (entry == 0)
         return false;
-    view_.setPixel(at, depth, colour);
+    view_.setPixel(at, depth, entry);
     return true;
 }

@@ -5,6 +5,7 @@
 #include "model/probe.h"
 #include "picture/view.h"
 #include "rt.h"
+#include "tint.h"
 
 // Calls each(pixel) for those of the four pixels beside a pixel that are on the screen: left, right, above and below.
 template <class Each>
@@ -44,9 +45,6 @@ private:
 // spacing greater than 1. Slow machines choose coarse pictures, which must not cost more than they save.
 int looksAt(Real spacing, int atOne);
 
-// The brightness, 0..63, of a surface where the field has this gradient. Both vectors may have any length.
-int brightnessOf(const Vector& gradient, const Vector& toLight);
-
 class Rays {
 public:
     // A pixel that is drawn shows the surface unless it is deeper by more than this, 1/128 unit.
@@ -72,16 +70,13 @@ public:
     // the ray misses the surface.
     bool findDepth(int at, int* depth);
 
-    // Gives a pixel this depth and the ramp of its object, with the brightness from the surface normal there. If the object is
-    // painted, and the pixel `from` beside it shows that object too, it gets the colour of that one instead. Returns false when
-    // there is no colour.
-    bool show(int at, int depth, int from);
+    // Gives a pixel this depth, and the palette entry of the surface there. Returns false when it has none.
+    bool show(int at, int depth);
 
 private:
     View& view_;
-    const uint8_t* frame_;
     FieldProbe& probe_;
-    const Model* const model_;
+    const Tint tint_;
     const int looksMost_;  // no pixel is begun after this many evaluations of the field
     int looks_ = 0;        // evaluations of the field so far
 };

@@ -358,10 +358,10 @@ void View::closeGaps(Real spacing, const Model* model, const Palette* palette)
     Gaps(*this, probe, palette, missed, spacing).close();
     if (model != nullptr && anyBordered_)
         Outlines(*this, rays, probe, missed).mend();
-    // Where colours mix there are no borders between them, and a palette entry does not tell the brightness.
-    if (model == nullptr || palette == nullptr || model->mixed)
+    if (model == nullptr || palette == nullptr)
         return;
-    if (!palette->isGrey())
+    // Where colours mix there are no borders between them.
+    if (!palette->isGrey() && !model->mixed)
         Borders(*this, probe, *palette, rays).mend();
     if (anyBordered_)
         Creases(*this, probe, *palette, spacing, foundCreases_).mend();

@@ -795,7 +795,8 @@ TEST(pixels_that_stand_alone_beside_borders)
     }
 }
 
-// An object with a pattern has two colours. Beside a border it keeps both, and neither goes beyond the border.
+// An object with a pattern has two colours. Beside a border it keeps both, and neither goes beyond the border; nor does one go
+// beyond an edge of the pattern.
 TEST(borders_of_patterns)
 {
     PairView pair(10);
@@ -806,26 +807,43 @@ TEST(borders_of_patterns)
     pair.palette.make(model, false);
     View& view = pair.view;
     const std::vector<int> owners = drawTruly(view, model, 0);
-    const Paint& paint = *model.actor(1).object->paint();
+    const SoftObject& checked = *model.actor(1).object;
+    const Paint& paint = *checked.paint();
     const uint8_t* const colours[] = {model.actor(0).object->ramp(), paint.ramp, paint.ramps + paint.other * paint.rampRoom};
     std::vector<int> colour(WIDTH * HEIGHT, -1);
+    std::vector<bool> onEdge(WIDTH * HEIGHT);
     for (int at = 0; at < WIDTH * HEIGHT; ++at) {
         if (owners[static_cast<size_t>(at)] < 0)
             continue;
-        // Bands of ten rows, and each fourth row of the border at column 160 two columns too far to one side.
-        const int y = at / WIDTH, x = at % WIDTH, owner = owners[static_cast<size_t>(at)];
-        colour[static_cast<size_t>(at)] = owner == 0 ? 0 : 1 + y / 10 % 2;
-        const bool tooFar = y % 8 == 0 ? x >= 160 && x < 162 : y % 8 == 4 && x >= 158 && x < 160;
-        const int shown = !tooFar ? colour[static_cast<size_t>(at)] : owner == 1 ? 0 : 1 + y / 10 % 2;
-        view.setPixel(at, view.zbuffer()[at], colours[shown][30]);
+        const Vec p = vec(view.pointAt(at) - checked.centre()) * (1 / 8.0);
+        const double parts[] = {p.x, p.y, p.z};
+        int sum = 0;
+        for (double part : parts) {
+            sum += static_cast<int>(std::floor(part));
+            onEdge[static_cast<size_t>(at)] = onEdge[static_cast<size_t>(at)] || std::fabs(part - std::round(part)) < 0.02;
+        }
+        colour[static_cast<size_t>(at)] = owners[static_cast<size_t>(at)] == 0 ? 0 : 1 + (sum & 1);
     }
+    // Each fourth row of the border at column 160, and of the edges of the pattern, is two columns too far to one side.
+    for (int at = 0; at < WIDTH * HEIGHT; ++at) {
+        const int y = at / WIDTH, from = y % 8 == 0 ? at - 2 : y % 8 == 4 ? at + 2 : at;
+        if (colour[static_cast<size_t>(at)] < 0)
+            continue;
+        const bool any = from >= 0 && from < WIDTH * HEIGHT && colour[static_cast<size_t>(from)] >= 0;
+        view.setPixel(at, view.zbuffer()[at], colours[colour[static_cast<size_t>(any ? from : at)]][30]);
+    }
+    const auto wrong = [&] {
+        int count = 0;
+        for (int at = 0; at < WIDTH * HEIGHT; ++at)
+            if (colour[static_cast<size_t>(at)] >= 0 && !onEdge[static_cast<size_t>(at)])
+                count += pair.palette.rampOf(view.frame()[at]) != pair.palette.numberOf(colours[colour[static_cast<size_t>(at)]]);
+        return count;
+    };
+    const int before = wrong();
     view.closeGaps(SPACING, &model, &pair.palette);
-    int wrong = 0;
-    for (int at = 0; at < WIDTH * HEIGHT; ++at)
-        if (colour[static_cast<size_t>(at)] >= 0)
-            wrong += pair.palette.rampOf(view.frame()[at]) != pair.palette.numberOf(colours[colour[static_cast<size_t>(at)]]);
-    note("%d pixels of a wrong colour are left", wrong);
-    CHECK(wrong <= 2);
+    note("%d pixels had a wrong colour, %d have it still", before, wrong());
+    // Some stay at the outline, where the surface is steep.
+    CHECK(before > 150 && wrong() * 10 <= before);
 }
 
 // Where one object fills the whole view a pixel of the wrong colour is mended, and nothing is looked for outside the frame.
