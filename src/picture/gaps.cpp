@@ -254,16 +254,16 @@ void Gaps::closeFrom(int y, int from, int to, int step, int spacing)
 // Draws surface that is missing beside the farther one of two drawn pixels of a row. Returns false when there is none.
 bool Gaps::searchBehind(int first, int last)
 {
-    return zbuffer_[first] < zbuffer_[last] ? missed_.follow(last - 1, zbuffer_[last], last)
-                                            : missed_.follow(first + 1, zbuffer_[first], first);
+    return zbuffer_[first] < zbuffer_[last] ? missed_.follow(last - 1, zbuffer_[last])
+                                            : missed_.follow(first + 1, zbuffer_[first]);
 }
 
 // Draws the surface of the model from both ends of a row's gap on, as far as it goes, and fills the rest if that is thin. Returns
 // false when there is no surface.
 bool Gaps::closeExactly(int first, int last)
 {
-    bool drawn = missed_.follow(first + 1, zbuffer_[first], first);
-    drawn |= missed_.follow(last - 1, zbuffer_[last], last);
+    bool drawn = missed_.follow(first + 1, zbuffer_[first]);
+    drawn |= missed_.follow(last - 1, zbuffer_[last]);
     while (first + 1 < last && frame_[first + 1] != 0)
         ++first;
     while (first + 1 < last && frame_[last - 1] != 0)

@@ -26,24 +26,24 @@ void Missed::draw()
     const int noted = count_;
     for (int i = 0; i < noted; ++i)
         if (noted_[i].depth != 0) {
-            follow(noted_[i].pixel, noted_[i].depth, noted_[i].from);
+            follow(noted_[i].pixel, noted_[i].depth);
         } else if (takeCorner(noted_[i].pixel)) {
-            const int at = noted_[i].pixel, beside = drawnBeside(at, NOWHERE);
-            follow(at, zbuffer_[beside], beside);
+            const int at = noted_[i].pixel;
+            follow(at, zbuffer_[drawnBeside(at, NOWHERE)]);
         }
     const Crossing* const end = view_.crossings() + view_.crossingCount();
     for (const Crossing* at = view_.crossings(); at < end; ++at) {
         const int first = isMissing(at->pixel, at->depth) ? at->pixel : at->pixel + at->outwards;
         if (isMissing(first, at->depth))
-            follow(first, at->depth, first);
+            follow(first, at->depth);
     }
 }
 
-bool Missed::follow(int at, int depth, int from)
+bool Missed::follow(int at, int depth)
 {
     const int before = count_;
     bool any = false;
-    for (put(at, depth, from); count_ > before;) {
+    for (put(at, depth); count_ > before;) {
         const Place place = noted_[--count_];
         any |= !rays_.tired() && drawPixel(place);
     }
@@ -95,27 +95,22 @@ int Missed::drawnBeside(int at, int depth) const
     return found;
 }
 
-// Finds the depth of the surface at a place. A drawn pixel in the same row is the best guide, because near the upper and the lower
-// end of an outline depths change most from row to row. If the ray through an empty pixel misses the surface from that depth, it
-// may hit what lies behind, from the depth of another drawn pixel beside it. Returns false when there is no surface.
-bool Missed::findSurface(Place* place)
+// Finds the depth of the surface at a pixel, near a depth. A drawn pixel in the same row is the best guide, because near the upper
+// and the lower end of an outline depths change most from row to row. If the ray through an empty pixel misses the surface from
+// that depth, it may hit what lies behind, from the depth of another drawn pixel beside it. Returns false when there is no surface.
+bool Missed::findSurface(int at, int* depth)
 {
-    const int at = place->pixel;
     forBeside(at, [&](int beside) {
-        if (magnitude(beside - at) == 1 && frame_[beside] != 0 && magnitude(zbuffer_[beside] - place->depth) <= Rays::BEHIND)
-            *place = {place->pixel, zbuffer_[beside], static_cast<uint16_t>(beside)};
+        if (magnitude(beside - at) == 1 && frame_[beside] != 0 && magnitude(zbuffer_[beside] - *depth) <= Rays::BEHIND)
+            *depth = zbuffer_[beside];
     });
-    int depth = place->depth;
-    if (!rays_.findDepth(at, &depth)) {
-        if (frame_[at] != 0)
-            return false;
-        place->from = static_cast<uint16_t>(drawnBeside(at, place->depth));
-        depth = zbuffer_[place->from];
-        if (place->from == at || !rays_.findDepth(at, &depth))
-            return false;
-    }
-    place->depth = static_cast<uint16_t>(depth);
-    return true;
+    if (rays_.findDepth(at, depth))
+        return true;
+    if (frame_[at] != 0)
+        return false;
+    const int behind = drawnBeside(at, *depth);
+    *depth = zbuffer_[behind];
+    return behind != at && rays_.findDepth(at, depth);
 }
 
 // Draws a pixel where surface is missing, and notes the pixels beside it where it may be missing too. Returns false when nothing is
@@ -123,12 +118,12 @@ bool Missed::findSurface(Place* place)
 bool Missed::drawPixel(Place place)
 {
     const int at = place.pixel;
-    if (!isMissing(at, place.depth) || !findSurface(&place) || !isMissing(at, place.depth) ||
-        !rays_.show(at, place.depth))
+    int depth = place.depth;
+    if (!isMissing(at, depth) || !findSurface(at, &depth) || !isMissing(at, depth) || !rays_.show(at, depth))
         return false;
     forBeside(at, [&](int beside) {
-        if (isMissing(beside, place.depth))
-            put(beside, place.depth, at);
+        if (isMissing(beside, depth))
+            put(beside, depth);
     });
     return true;
 }

@@ -32,43 +32,42 @@ public:
     void noteCorner(int column, int row)
     {
         if (column >= 1 && column < machine::WIDTH - 1 && row >= 1 && row < machine::HEIGHT - 1 && count_ < NOTED_MOST)
-            put(row * machine::WIDTH + column, 0, 0);
+            put(row * machine::WIDTH + column, 0);
     }
     void noteEnd(int column, int row, int inwards)
     {
         const int at = row * machine::WIDTH + column, depth = zbuffer_[at + inwards];
         // (With the depth 0 it would be taken for a corner.)
         if (column >= 0 && column < machine::WIDTH && depth != 0 && count_ < NOTED_MOST)
-            put(at, depth, at + inwards);
+            put(at, depth);
     }
 
     // Draws the surface where it is missing at the noted pixels and at the view's crossings, and follows it to the pixels beside
     // them.
     void draw();
 
-    // Draws the surface from a pixel on wherever it is missing. It is looked for from `depth` on (1/128 unit), and is that of the
-    // pixel `from`, if that is another pixel. Returns false when none is missing there.
-    bool follow(int at, int depth, int from);
+    // Draws the surface from a pixel on wherever it is missing. It is looked for from `depth` on (1/128 unit). Returns false when
+    // none is missing there.
+    bool follow(int at, int depth);
 
 private:
     static constexpr int NOTED_MOST = 896, ROOM = 1024;
 
-    // A pixel that the surface may go on to, the depth where it is looked for (1/128 unit), and the pixel that it comes from. A
-    // corner has the depth 0, and only its pixel counts.
+    // A pixel that the surface may go on to, and the depth where it is looked for (1/128 unit); 0: a corner.
     struct Place {
-        uint16_t pixel, depth, from;
+        uint16_t pixel, depth;
     };
 
-    void put(int pixel, int depth, int from)
+    void put(int pixel, int depth)
     {
         if (count_ < ROOM)
-            noted_[count_++] = {static_cast<uint16_t>(pixel), static_cast<uint16_t>(depth), static_cast<uint16_t>(from)};
+            noted_[count_++] = {static_cast<uint16_t>(pixel), static_cast<uint16_t>(depth)};
     }
     int sideFrom(int at, int step, int aside) const;
     bool takeCorner(int at);
     bool isMissing(int at, int depth) const;
     int drawnBeside(int at, int depth) const;
-    bool findSurface(Place* place);
+    bool findSurface(int at, int* depth);
     bool drawPixel(Place place);
 
     View& view_;

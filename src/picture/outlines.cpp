@@ -114,7 +114,7 @@ void Outlines::mendJump(const uint16_t* at, int step)
     if (zbuffer_[behind] != Z_EMPTY)
         follow(nearer, behind);
     else if (deeper && comesBack(at, step, zbuffer_[before]))
-        missed_.follow(behind, zbuffer_[nearer], nearer);
+        missed_.follow(behind, zbuffer_[nearer]);
 }
 
 // Looks at a pixel, and wherever one has been mended at those beside it.
@@ -170,6 +170,6 @@ void Outlines::widen(int at, Real excess)
     forBeside(at, [&](int beside) {
         const Real rise = beside == at - 1 ? -right : beside == at + 1 ? right : beside < at ? up : -up;
         if (zbuffer_[beside] - depth > DEEP && zbuffer_[beside] != Z_EMPTY && rise > -most)
-            missed_.follow(beside, depth, at);
+            missed_.follow(beside, depth);
     });
 }
