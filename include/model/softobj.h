@@ -93,8 +93,8 @@ public:
     bool resample(Real spacing, SurfaceMaker makeSurface, const SoftObject* like = nullptr);
     // The reason why the latest failed resample(), of any object, failed: one line of words.
     static const char* resampleTrouble();
-    // The spacing of this object's seeds when `asked` is the spacing of the model: thin objects get closer seeds, at most twice
-    // as close.
+    // The spacing of this object's seeds when `asked` is the spacing of the model: thin and flat objects get closer seeds, at most
+    // twice as close.
     Real ownSpacing(Real asked) const;
     // The number of regular seeds that this spacing would give.
     int seedsAt(Real spacing) const;

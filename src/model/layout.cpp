@@ -353,7 +353,8 @@ void SoftObject::layRingsAtRest(bool known)
 
 Real SoftObject::ownSpacing(Real asked) const
 {
-    return asked * clamp(radius_ * (Real(1) / THIN), Real(0.5), Real(1));
+    const Real thinnest = radius_ * min(stretch_.x, min(stretch_.y, stretch_.z));
+    return asked * clamp(thinnest * (Real(1) / THIN), Real(0.5), Real(1));
 }
 
 int SoftObject::seedsAt(Real spacing) const

@@ -421,11 +421,12 @@ inline bool Shader::endBeside(const Seed& s, Voxel* voxel, VoxelList& list) cons
     return (!(s.flags & SEED_BORDER) || cutAtBorder(s, voxel, list)) && (s.beyond < 0 || cutAtRidge(s, voxel));
 }
 
-// Whether a patch blends and bends unevenly, or its seeds have parted. Then neither its gradient nor its limb is known; its scales
-// are stretched and bend fast, so that each has to leave the place beside it to the next one (scales.h).
+// Whether a patch bends unevenly, or its seeds have parted. Then neither its gradient nor its limb is known; its scales are
+// stretched and bend fast, so that each has to leave the place beside it to the next one (scales.h). At rest only shaped objects
+// are taken to bend so.
 inline bool Shader::isUneven(const Patch& patch, const Voxel* voxels, int regular) const
 {
-    return patch.state == PATCH_MIXED && (patch.extras || bendsUnevenly(voxels, regular));
+    return (patch.state == PATCH_MIXED || object_.shaped()) && (patch.extras || bendsUnevenly(voxels, regular));
 }
 
 // Adds a listed voxel to the slopes, with the second one that the painter may have made of it.
@@ -437,7 +438,7 @@ inline void Shader::addSloped(const Seed& s, Voxel* shown, int32_t sight, VoxelL
         slopes.addCopy(shown + 1, shown);
 }
 
-// Lists the voxels of a patch that blends or has a ridge, or whose object has a paint.
+// Lists the voxels of a patch that blends or has a ridge, or whose object is shaped or has a paint.
 template <bool PAINTED>
 inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, int regular, VoxelList& list,
                                Painter* painter)
@@ -445,7 +446,7 @@ inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, int
     const bool shines = PAINTED && painter->shines(), blends = patch.state == PATCH_MIXED;
     const bool uneven = isUneven(patch, voxels, regular);
     const int32_t sight = shines || uneven || patch.ridged ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
-    const int sloped = shines || blends || patch.ridged ? regular : 0;
+    const int sloped = shines || blends || patch.ridged || object_.shaped() ? regular : 0;
     int listed = 0;
     for (int i = 0; i < count; ++i) {
         const Seed& s = *seen_[i].seed;
@@ -475,7 +476,7 @@ inline void Shader::shadePatch(Patch& patch, VoxelList& list, Painter* painter)
     if (count == 0)
         return;
     shadeSeen(patch, voxels, count);
-    if (PAINTED || patch.state != PATCH_REST || patch.ridged) {
+    if (PAINTED || patch.state != PATCH_REST || patch.ridged || object_.shaped()) {
         listVoxels<PAINTED>(patch, voxels, count, regular, list, painter);
         return;
     }

@@ -259,6 +259,11 @@ TEST(thin_objects_have_closer_seeds)
     described.measure[0] = real(6);
     CHECK(model.addItem(described) != nullptr);
     NEAR(number(model.actor(4).object->spacing()), 4 * 6 / 9.0, 1e-3);
+    // A flat object is as thin as it is flat.
+    described.measure[0] = real(12);
+    described.stretch = {real(1), real(0.5), real(1.4)};
+    CHECK(model.addItem(described) != nullptr);
+    NEAR(number(model.actor(5).object->spacing()), 4 * 6 / 9.0, 1e-3);
 }
 
 TEST(seeds_for_a_hollow_are_laid_out_after_a_stop_too)
