@@ -17,6 +17,14 @@ inline Vector unitVector(const Direction& n)
     return {realFromRaw(n.x * 4), realFromRaw(n.y * 4), realFromRaw(n.z * 4)};
 }
 
+// Stores the components of a unit vector, 1.0 = 2^14.
+inline void store14(const Vector& v, int32_t* to)
+{
+    to[0] = rawFromReal(v.x) >> 2;
+    to[1] = rawFromReal(v.y) >> 2;
+    to[2] = rawFromReal(v.z) >> 2;
+}
+
 // Fills the table that normalise() uses. Call it once before any object is made.
 void makeNormalTable();
 

@@ -61,8 +61,8 @@ public:
     // place half way across, nor within two and on the ray through the pixel beside the farther end. Where scales have missed the
     // model's surface it is drawn (missed.h), also in gaps wider than two pixels between different surfaces. Where one surface ends
     // before another, each pixel gets the one that its ray meets first (outlines.h). With a palette, pixels filled between two
-    // shades of one ramp get a shade between them; and with both, pixels beside borders of colours get the colour of the object
-    // whose field is the stronger there (borders.h), and pixels at creases the brightness of the model's surface (creases.h).
+    // shades of one ramp get a shade between them; and with both, pixels beside borders of colours get the colour of the model's
+    // surface there (borders.h), and pixels at creases its brightness, too (creases.h).
     void closeGaps(Real spacing, const Model* model = nullptr, const Palette* palette = nullptr);
 
     // The point of the world that a pixel (row * WIDTH + column) shows: at its own depth, or at a given one (1/128 unit).

@@ -175,5 +175,5 @@ Vector FieldProbe::mixture() const
         sum = sum + members_[part->slot].object->paint()->at * part->field;
         fields += part->field;
     }
-    return fields > Real(0) ? sum * quotient(Real(1), fields) : sum;
+    return fields > Real(0) ? sum * (Real(1) / fields) : sum;
 }

@@ -5,17 +5,6 @@
 #include "surface/finish.h"
 #include "surface/voxel.h"
 
-namespace {
-
-inline void store14(const Vector& v, int32_t* to)
-{
-    to[0] = rawFromReal(v.x) >> 2;
-    to[1] = rawFromReal(v.y) >> 2;
-    to[2] = rawFromReal(v.z) >> 2;
-}
-
-}  // namespace
-
 Tint::Tint(const FieldProbe& probe, const ViewAxes& axes) : probe_(probe)
 {
     if (probe.model() == nullptr)

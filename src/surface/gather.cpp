@@ -10,14 +10,6 @@ namespace {
 
 static_assert(Model::OBJECTS_MOST <= SLOTS_MAX, "all other objects have room among the neighbours");
 
-// Stores the components of a unit vector, 1.0 = 2^14.
-inline void store14(const Vector& v, int32_t* to)
-{
-    to[0] = rawFromReal(v.x) >> 2;
-    to[1] = rawFromReal(v.y) >> 2;
-    to[2] = rawFromReal(v.z) >> 2;
-}
-
 // 1/16 unit: no neighbour reaches farther.
 constexpr int32_t FARTHEST16 = 1 << 14;
 

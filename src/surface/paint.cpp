@@ -32,9 +32,9 @@ struct Shear {
 // The finish of the object that another one's seeds show, in the axes of that one.
 static Polish polishOf(const SoftObject& object, const OwnFrame& own)
 {
-    const Vector up = object.toOwnAxes({Real(0), Real(1), Real(0)});
-    const int32_t up14[] = {rawFromReal(up.x) >> 2, rawFromReal(up.y) >> 2, rawFromReal(up.z) >> 2};
-    return {object.shown()->paint()->finish, own.light, own.ahead, up14};
+    int32_t up[3];
+    store14(object.toOwnAxes({Real(0), Real(1), Real(0)}), up);
+    return {object.shown()->paint()->finish, own.light, own.ahead, up};
 }
 
 // The pattern at a place: `number` is the number of the colour there. If an edge of the pattern is near, `beyond` is the number of

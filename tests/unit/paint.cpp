@@ -221,9 +221,9 @@ TEST(finishes_by_the_normal)
             int seen = 0;
             OwnFrame own;
             findOwnFrame(p.object(k), p.frame(), own);
-            const Vector up = p.object(k).toOwnAxes(vector(0, 1, 0));
-            const int32_t up14[] = {rawFromReal(up.x) >> 2, rawFromReal(up.y) >> 2, rawFromReal(up.z) >> 2};
-            const Polish polish(p.object(k).paint()->finish, own.light, own.ahead, up14);
+            int32_t up[3];
+            store14(p.object(k).toOwnAxes(vector(0, 1, 0)), up);
+            const Polish polish(p.object(k).paint()->finish, own.light, own.ahead, up);
             for (int i = 0; i < p.object(k).seedSlots(); i += 2) {
                 const Seed& s = p.object(k).seed(i);
                 Vec n{s.normal.x / 16384.0, s.normal.y / 16384.0, s.normal.z / 16384.0};
