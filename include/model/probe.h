@@ -29,7 +29,8 @@ public:
     // CORE_SIZE. Zero where the field is less than FAINT.
     Vector gradient() const;
 
-    // Where colours mix: the place in the box of colours (Paints::inBox()) to which those of the chosen body mix at that point.
+    // Where colours mix, so that each object has a paint: the place in the box of colours (Paints::inBox()) to which those of the
+    // chosen body mix at that point.
     Vector mixture() const;
 
 private:

@@ -22,7 +22,8 @@ private:
     int32_t upAhead_;   // how far upwards the viewer looks: cosine, 1.0 = 2^14
 };
 
-// Where the pattern of an object lies. Places are measured in grains, along the axes of the object, from its centre.
+// Where the pattern of a painted object lies. Places are measured in grains, along the axes of the object, from its centre. Without
+// a pattern all places have the object's own colour.
 class PatternMap {
 public:
     // For places in the axes of the world.
@@ -30,7 +31,7 @@ public:
     // For places in the own space of another object, or of the same.
     PatternMap(const SoftObject& object, const SoftObject& seenBy);
 
-    // The place in grains, given from the object's centre.
+    // The place in grains of one given from the object's centre, in units.
     void toGrains(const Vector& place, Real grains[3]) const;
     // The number of the colour at a place, if `mix` is that of the object's colour there without a pattern.
     uint8_t numberAt(const Real grains[3], uint8_t mix) const;
