@@ -25,6 +25,13 @@ inline void store14(const Vector& v, int32_t* to)
     to[2] = rawFromReal(v.z) >> 2;
 }
 
+// The component of a unit vector along an axis, 1.0 = 2^14 in both and in the result.
+template <class Direction>
+inline int32_t componentAlong(const Direction& n, const int32_t axis[3])
+{
+    return (n.x * axis[0] + n.y * axis[1] + n.z * axis[2]) >> 14;
+}
+
 // Fills the table that normalise() uses. Call it once before any object is made.
 void makeNormalTable();
 

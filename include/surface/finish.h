@@ -3,20 +3,28 @@
 #define FB_FINISH_H
 
 #include "math/normal.h"
+#include "math/whole.h"
 #include "model/paint.h"
 #include "model/softobj.h"
+#include "surface/voxel.h"
 
-// The brightness of a finish that shines.
+// The brightness of finishes.
 class Polish {
 public:
     // The directions of the light, of sight and upwards in the world. All are unit vectors, 1.0 = 2^14.
-    Polish(Finish finish, const int32_t light[3], const int32_t ahead[3], const int32_t up[3]);
+    Polish(const int32_t light[3], const int32_t ahead[3], const int32_t up[3]);
 
-    // Brightness of the surface where it has this normal, 0..63 with 8 fraction bits.
-    int32_t brightness8(const Normal& normal) const;
+    // Brightness of a surface with this finish where it has this normal, 0..63.
+    int brightness(Finish finish, const Normal& normal) const
+    {
+        if (finish == FINISH_MATT)
+            return max32(lambert(componentAlong(normal, light_)), 0);
+        return (brightness8(finish, normal) + 128) >> 8;
+    }
+    // The same with 8 fraction bits, for a finish that shines.
+    int32_t brightness8(Finish finish, const Normal& normal) const;
 
 private:
-    const bool mirror_;
     int32_t light_[3], ahead_[3], up_[3];
     int32_t half_[3];   // half way between light and viewer
     int32_t upAhead_;   // how far upwards the viewer looks: cosine, 1.0 = 2^14

@@ -126,8 +126,8 @@ SELDOM bool Borders::showExactly(int at, int depth)
     return rampAt(at) != own;
 }
 
-// Shows a pixel, which shows the object `shown` or none, in the ramp of another object, which is the stronger one there. Returns
-// false if it does not belong to that one.
+// Shows a pixel of the ramp `own`, which shows the object `shown` or none, in the ramp of another object, which is the stronger one
+// there. Returns false if it does not belong to that one, or if its ramp stays.
 inline __attribute__((always_inline)) bool Borders::passOn(int at, int ramp, int own, const SoftObject& to, const SoftObject* shown)
 {
     const bool crossing = shown != nullptr && model_.areApart(*shown, to);
@@ -140,7 +140,7 @@ inline __attribute__((always_inline)) bool Borders::passOn(int at, int ramp, int
     if (crossing ? correctDepth(*shown, at, &shownDepth) && shownDepth < depth
                  : depth != before && !isStronger(ramp, own, view_.pointAt(at, depth), &owner, &shown))
         return false;
-    // The brightness goes on across a border, but not from one body to another, nor where the object is painted.
+    // The brightness goes on across a border, but not from one body to another. What a painted object looks like the model tells.
     if (crossing || owner->paint() != nullptr)
         return showExactly(at, depth);
     view_.setPixel(at, before, palette_.ramp(ramp)[meanBrightness(at, ramp)]);

@@ -36,9 +36,9 @@ inline uint32_t halves(const uint8_t* pixel)
 
 }  // namespace
 
-Creases::Creases(View& view, FieldProbe& probe, const Palette& palette, Real spacing, View::FoundCreases& found)
-    : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), probe_(probe), tint_(probe, view.camera().axes),
-      palette_(palette), found_(found), looksMost_(looksAt(spacing, LOOKS_AT_ONE))
+Creases::Creases(View& view, FieldProbe& probe, const Tint& tint, const Palette& palette, Real spacing, View::FoundCreases& found)
+    : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), probe_(probe), tint_(tint), palette_(palette), found_(found),
+      looksMost_(looksAt(spacing, LOOKS_AT_ONE))
 {
 }
 

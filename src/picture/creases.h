@@ -9,7 +9,7 @@ class Creases {
 public:
     // There is a model, and the palette has made the ramps of its objects. The seeds lie `spacing` units apart. `found` is what the
     // frame before has found, and receives what this one finds.
-    Creases(View& view, FieldProbe& probe, const Palette& palette, Real spacing, View::FoundCreases& found);
+    Creases(View& view, FieldProbe& probe, const Tint& tint, const Palette& palette, Real spacing, View::FoundCreases& found);
 
     // Corrects brightness and colour of pixels beside creases, where lists of voxels have borders to other objects. Depths stay. To
     // be called when gaps are closed.
@@ -30,7 +30,7 @@ private:
     const uint8_t* frame_;
     const uint16_t* zbuffer_;
     FieldProbe& probe_;
-    const Tint tint_;
+    const Tint& tint_;
     const Palette& palette_;
     View::FoundCreases& found_;
     uint16_t noted_[NOTED_MOST];  // pixels that wait to be looked at

@@ -23,8 +23,8 @@ int looksAt(Real spacing, int atOne)
     return floorToInt(quotient(Real(atOne), cube));
 }
 
-Rays::Rays(View& view, FieldProbe& probe, Real spacing)
-    : view_(view), probe_(probe), tint_(probe, view.camera().axes),
+Rays::Rays(View& view, FieldProbe& probe, const Tint& tint, Real spacing)
+    : view_(view), probe_(probe), tint_(tint),
       looksMost_(probe.model() == nullptr ? 0 : min32(looksAt(spacing, LOOKS_AT_ONE), LOOKS_MOST))
 {
 }

@@ -53,7 +53,7 @@ public:
     static constexpr int LEVEL = 256;
 
     // The seeds lie `spacing` units apart. Without a model (null) all rays are tired from the first.
-    Rays(View& view, FieldProbe& probe, Real spacing);
+    Rays(View& view, FieldProbe& probe, const Tint& tint, Real spacing);
 
     // Whether the model has been asked too often in this frame already: no pixel is begun any more.
     bool tired() const { return looks_ >= looksMost_; }
@@ -76,7 +76,7 @@ public:
 private:
     View& view_;
     FieldProbe& probe_;
-    const Tint tint_;
+    const Tint& tint_;
     const int looksMost_;  // no pixel is begun after this many evaluations of the field
     int looks_ = 0;        // evaluations of the field so far
 };

@@ -1,52 +1,42 @@
 // What single points of the surface look like.
 #include "tint.h"
 
-#include "math/whole.h"
-#include "surface/finish.h"
-#include "surface/voxel.h"
-
-Tint::Tint(const FieldProbe& probe, const ViewAxes& axes) : probe_(probe)
+// The brightness of finishes, in the axes of the world. Without a model none will be asked for.
+static Polish polishOf(const Model* model, const ViewAxes& axes)
 {
-    if (probe.model() == nullptr)
-        return;
-    const Normal light = normalise(probe.model()->light);
-    light_[0] = light.x;
-    light_[1] = light.y;
-    light_[2] = light.z;
-    store14(axes.ahead, ahead_);
-    store14({Real(0), Real(1), Real(0)}, up_);
+    const Vector upwards{Real(0), Real(1), Real(0)};
+    const Normal n = normalise(model == nullptr ? upwards : model->light);
+    const int32_t light[] = {n.x, n.y, n.z};
+    int32_t ahead[3], up[3];
+    store14(axes.ahead, ahead);
+    store14(upwards, up);
+    return {light, ahead, up};
 }
 
-// The surface's normal at that point. The field rises inwards.
-inline Normal Tint::normal() const
-{
-    const Normal in = normalise(probe_.gradient());
-    return {-in.x, -in.y, -in.z};
-}
+Tint::Tint(const FieldProbe& probe, const ViewAxes& axes) : probe_(probe), polish_(polishOf(probe.model(), axes)) {}
 
 uint8_t Tint::entry(const Point& p, int strongest) const
 {
     const SoftObject& object = *probe_.model()->actor(strongest).object;
-    if (object.ramp() == nullptr)
+    const Paint* const paint = object.paint();
+    const uint8_t* const ramp = paint == nullptr ? object.ramp() : rampAt(p, object);
+    if (ramp == nullptr)
         return 0;
-    if (object.paint() != nullptr)
-        return paintedEntry(p, object);
-    const Normal n = normal();
-    return object.ramp()[max32(lambert((n.x * light_[0] + n.y * light_[1] + n.z * light_[2]) >> 14), 0)];
+    // The field rises inwards.
+    const Normal in = normalise(probe_.gradient());
+    return ramp[polish_.brightness(paint == nullptr ? FINISH_MATT : paint->finish, {-in.x, -in.y, -in.z})];
 }
 
-uint8_t Tint::paintedEntry(const Point& p, const SoftObject& object) const
+// The ramp of a painted object at a point; null if it has none.
+const uint8_t* Tint::rampAt(const Point& p, const SoftObject& object) const
 {
     const Paint& paint = *object.paint();
-    const Normal n = normal();
-    const int light = paint.shines() ? (Polish(paint.finish, light_, ahead_, up_).brightness8(n) + 128) >> 8
-                                     : max32(lambert((n.x * light_[0] + n.y * light_[1] + n.z * light_[2]) >> 14), 0);
     // An object that is shown in another ramp than its own, as when it is selected, shows no colours of its paint.
     if (object.ramp() != paint.ramp)
-        return object.ramp()[light];
+        return object.ramp();
     const uint8_t mix = paint.mixes ? paint.paints->numberAt(probe_.mixture(), paint.shines()) : paint.number;
-    Real grains[3];
     const PatternMap pattern(object);
+    Real grains[3];
     pattern.toGrains(p - object.centre(), grains);
-    return paint.ramps[pattern.numberAt(grains, mix) * paint.rampRoom + light];
+    return paint.ramps + pattern.numberAt(grains, mix) * paint.rampRoom;
 }

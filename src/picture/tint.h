@@ -3,8 +3,8 @@
 #ifndef FB_TINT_H
 #define FB_TINT_H
 
-#include "math/normal.h"
 #include "model/probe.h"
+#include "surface/finish.h"
 
 class Tint {
 public:
@@ -16,11 +16,10 @@ public:
     uint8_t entry(const Point& p, int strongest) const;
 
 private:
-    SELDOM uint8_t paintedEntry(const Point& p, const SoftObject& object) const;
-    Normal normal() const;
+    SELDOM const uint8_t* rampAt(const Point& p, const SoftObject& object) const;
 
     const FieldProbe& probe_;
-    int32_t light_[3], ahead_[3], up_[3];  // unit vectors, 1.0 = 2^14: towards the light; of sight; upwards in the world
+    const Polish polish_;  // axes of the world
 };
 
 #endif

@@ -353,7 +353,8 @@ void View::closeGaps(Real spacing, const Model* model, const Palette* palette)
     if (camera_.focalX < FOCAL_ASKED || camera_.focalY < FOCAL_ASKED)
         model = nullptr;
     FieldProbe probe(model);
-    Rays rays(*this, probe, spacing);
+    const Tint tint(probe, camera_.axes);
+    Rays rays(*this, probe, tint, spacing);
     Missed missed(*this, rays);
     Gaps(*this, probe, palette, missed, spacing).close();
     if (model != nullptr && anyBordered_)
@@ -364,7 +365,7 @@ void View::closeGaps(Real spacing, const Model* model, const Palette* palette)
     if (!palette->isGrey() && !model->mixed)
         Borders(*this, probe, *palette, rays).mend();
     if (anyBordered_)
-        Creases(*this, probe, *palette, spacing, foundCreases_).mend();
+        Creases(*this, probe, tint, *palette, spacing, foundCreases_).mend();
 }
 
 Point View::pointAt(int pixel, int depth) const

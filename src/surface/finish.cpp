@@ -1,19 +1,12 @@
 // Finishes and patterns.
 #include "surface/finish.h"
 
-#include "surface/voxel.h"
-
 namespace {
 
 // A product of cosines, 1.0 = 2^14.
 inline int32_t times(int32_t a, int32_t b)
 {
     return a * b >> 14;
-}
-
-inline int32_t along(const Normal& n, const int32_t axis[3])
-{
-    return (n.x * axis[0] + n.y * axis[1] + n.z * axis[2]) >> 14;
 }
 
 constexpr int32_t ONE = 1 << 14;
@@ -55,8 +48,7 @@ Real wave(Real turns)
 
 }  // namespace
 
-Polish::Polish(Finish finish, const int32_t light[3], const int32_t ahead[3], const int32_t up[3])
-    : mirror_(finish == FINISH_MIRROR)
+Polish::Polish(const int32_t light[3], const int32_t ahead[3], const int32_t up[3])
 {
     const Normal half = normalise({realFromRaw((light[0] - ahead[0]) * 4), realFromRaw((light[1] - ahead[1]) * 4),
                                    realFromRaw((light[2] - ahead[2]) * 4)});
@@ -68,19 +60,19 @@ Polish::Polish(Finish finish, const int32_t light[3], const int32_t ahead[3], co
     half_[0] = half.x;
     half_[1] = half.y;
     half_[2] = half.z;
-    upAhead_ = along({ahead[0], ahead[1], ahead[2]}, up);
+    upAhead_ = componentAlong(Normal{ahead[0], ahead[1], ahead[2]}, up);
 }
 
-int32_t Polish::brightness8(const Normal& normal) const
+int32_t Polish::brightness8(Finish finish, const Normal& normal) const
 {
     int32_t light;
-    if (mirror_) {
-        light = surroundings(upAhead_ - 2 * times(along(normal, ahead_), along(normal, up_)));
+    if (finish == FINISH_MIRROR) {
+        light = surroundings(upAhead_ - 2 * times(componentAlong(normal, ahead_), componentAlong(normal, up_)));
     } else {
-        const int32_t cosine = along(normal, light_);
+        const int32_t cosine = componentAlong(normal, light_);
         light = cosine <= 0 ? 0 : times(cosine, SCATTERED);
     }
-    light += times(ONE - light, highlight(along(normal, half_)));
+    light += times(ONE - light, highlight(componentAlong(normal, half_)));
     return (light > ONE ? ONE : light < 0 ? 0 : light) * BRIGHTEST >> 6;
 }
 

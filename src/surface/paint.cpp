@@ -7,11 +7,6 @@
 
 namespace {
 
-inline int32_t along(const Direction14& n, const int32_t axis[3])
-{
-    return dot(n, axis) >> 14;
-}
-
 // Spacings: no scale reaches farther than this along the surface from its seed.
 constexpr Real FARTHEST(2);
 
@@ -29,12 +24,12 @@ struct Shear {
 
 }  // namespace
 
-// The finish of the object that another one's seeds show, in the axes of that one.
+// The brightness of finishes, in an object's own axes.
 static Polish polishOf(const SoftObject& object, const OwnFrame& own)
 {
     int32_t up[3];
     store14(object.toOwnAxes({Real(0), Real(1), Real(0)}), up);
-    return {object.shown()->paint()->finish, own.light, own.ahead, up};
+    return {own.light, own.ahead, up};
 }
 
 // The pattern at a place: `number` is the number of the colour there. If an edge of the pattern is near, `beyond` is the number of
@@ -73,7 +68,7 @@ Voxel* Painter::add(const Seed& s, const Voxel& shaded)
 {
     Voxel voxel = shaded;
     if (paint_.shines()) {
-        voxel.brightness = static_cast<int8_t>((polish_.brightness8({s.normal.x, s.normal.y, s.normal.z}) + 128) >> 8);
+        voxel.brightness = static_cast<int8_t>(polish_.brightness(paint_.finish, {s.normal.x, s.normal.y, s.normal.z}));
         voxel.slopeX = voxel.slopeY = 0;
     }
     const uint8_t mix = paint_.mixes && !(s.flags & SEED_RESTING) ? s.mix : paint_.number;
@@ -97,7 +92,8 @@ Voxel* Painter::add(const Seed& s, const Voxel& shaded)
 bool Painter::cut(const Direction14& inward, int32_t apart, Voxel* voxel) const
 {
     const Shear shear(list_, *voxel);
-    return cutVoxel(along(inward, own_.right), along(inward, own_.up), along(inward, own_.ahead), apart, shear.x, shear.y, voxel);
+    return cutVoxel(componentAlong(inward, own_.right), componentAlong(inward, own_.up), componentAlong(inward, own_.ahead), apart,
+                    shear.x, shear.y, voxel);
 }
 
 // The pattern at `place` (own space). `normal` is the surface's normal there, `mix` the number of its colour without a pattern.

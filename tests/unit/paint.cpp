@@ -223,7 +223,7 @@ TEST(finishes_by_the_normal)
             findOwnFrame(p.object(k), p.frame(), own);
             int32_t up[3];
             store14(p.object(k).toOwnAxes(vector(0, 1, 0)), up);
-            const Polish polish(p.object(k).paint()->finish, own.light, own.ahead, up);
+            const Polish polish(own.light, own.ahead, up);
             for (int i = 0; i < p.object(k).seedSlots(); i += 2) {
                 const Seed& s = p.object(k).seed(i);
                 Vec n{s.normal.x / 16384.0, s.normal.y / 16384.0, s.normal.z / 16384.0};
@@ -236,7 +236,8 @@ TEST(finishes_by_the_normal)
                                            : 1 - (height - 0.3) / 0.7 * 0.5;
                 }
                 shade += (1 - shade) * std::pow(std::max(0.0, dot(n, half)), 16);
-                worst = std::max(worst, std::fabs(polish.brightness8({s.normal.x, s.normal.y, s.normal.z}) / 256.0 - 63 * shade));
+                const int32_t ours = polish.brightness8(p.object(k).paint()->finish, {s.normal.x, s.normal.y, s.normal.z});
+                worst = std::max(worst, std::fabs(ours / 256.0 - 63 * shade));
                 ++seen;
             }
             note("%s: off by %.2f steps at most", finish, worst);

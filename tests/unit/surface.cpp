@@ -1136,7 +1136,7 @@ TEST(a_hollow_in_two_objects_has_both_colours)
         CHECK(!guest || s.host == scene.objects[1]->slot());
     }
     note("%d seeds of the first ball's colour, %d of the second's", count[0], count[1]);
-    CHECK(count[0] > 20 && count[1] > 20);
+    CHECK(count[0] > 30 && count[1] > 30 && count[0] + count[1] > 90);
     SAME(wrong, 0);
 }
 

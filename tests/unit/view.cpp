@@ -811,7 +811,9 @@ TEST(borders_of_patterns)
     const Paint& paint = *checked.paint();
     const uint8_t* const colours[] = {model.actor(0).object->ramp(), paint.ramp, paint.ramps + paint.other * paint.rampRoom};
     std::vector<int> colour(WIDTH * HEIGHT, -1);
-    std::vector<bool> onEdge(WIDTH * HEIGHT);
+    // Whether the colour is not judged: on an edge of the pattern, and beside the outline, where the surface is too steep to be
+    // found.
+    std::vector<bool> open(WIDTH * HEIGHT);
     for (int at = 0; at < WIDTH * HEIGHT; ++at) {
         if (owners[static_cast<size_t>(at)] < 0)
             continue;
@@ -820,8 +822,10 @@ TEST(borders_of_patterns)
         int sum = 0;
         for (double part : parts) {
             sum += static_cast<int>(std::floor(part));
-            onEdge[static_cast<size_t>(at)] = onEdge[static_cast<size_t>(at)] || std::fabs(part - std::round(part)) < 0.02;
+            open[static_cast<size_t>(at)] = open[static_cast<size_t>(at)] || std::fabs(part - std::round(part)) < 0.02;
         }
+        for (int beside = at - 2; beside <= at + 2; ++beside)
+            open[static_cast<size_t>(at)] = open[static_cast<size_t>(at)] || owners[static_cast<size_t>(beside)] < 0;
         colour[static_cast<size_t>(at)] = owners[static_cast<size_t>(at)] == 0 ? 0 : 1 + (sum & 1);
     }
     // Each fourth row of the border at column 160, and of the edges of the pattern, is two columns too far to one side.
@@ -835,15 +839,15 @@ TEST(borders_of_patterns)
     const auto wrong = [&] {
         int count = 0;
         for (int at = 0; at < WIDTH * HEIGHT; ++at)
-            if (colour[static_cast<size_t>(at)] >= 0 && !onEdge[static_cast<size_t>(at)])
+            if (colour[static_cast<size_t>(at)] >= 0 && !open[static_cast<size_t>(at)])
                 count += pair.palette.rampOf(view.frame()[at]) != pair.palette.numberOf(colours[colour[static_cast<size_t>(at)]]);
         return count;
     };
     const int before = wrong();
     view.closeGaps(SPACING, &model, &pair.palette);
     note("%d pixels had a wrong colour, %d have it still", before, wrong());
-    // Some stay at the outline, where the surface is steep.
-    CHECK(before > 150 && wrong() * 10 <= before);
+    // Single pixels that stand alone in odd columns may be missed.
+    CHECK(before > 150 && wrong() <= 4);
 }
 
 // Where one object fills the whole view a pixel of the wrong colour is mended, and nothing is looked for outside the frame.
