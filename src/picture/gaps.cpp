@@ -17,9 +17,13 @@ constexpr int GAP_THIN = 2;   // width of a run that is filled whatever lies abo
 constexpr int GAP_MOST = 32;  // upper bound of all widths, however near the viewer the seeds are
 constexpr Real STEEP(1.3);    // upper bound of the gradient of a field, times the size of its object
 constexpr int SLIVER = 2;     // width of a run of drawn pixels beside which surface may be missing
-// 1/128 unit: nearer to the viewer than CLOSE_UP scales are so large that an outline may lie pixels beyond the last of them, and no
-// corner tells it. There the surface is looked for at the ends of one row in ENDS_EVERY.
-constexpr int CLOSE_UP = 50 * 128, ENDS_EVERY = 4;
+// An outline may lie pixels beyond the last scale, and no corner tells it: nearer to the viewer than CLOSE_UP, 1/128 unit, where
+// scales are large; and where lists have borders, if the outline is upright and the depth changes slowly up to the end of the row,
+// by less than 1/FLAT of itself (about one and a half times the width of a pixel). There the surface is looked for at the ends of
+// one row in ENDS_EVERY.
+constexpr int CLOSE_UP = 50 * 128, FLAT = 170, ENDS_EVERY = 4;
+// Pixels: by how much a step of an outline is too long (endsEarly()), and up to which length steps are measured.
+constexpr int STEP_MORE = 2, STEP_MOST = 8;
 // 1/128 unit: of two drawn pixels whose depths differ by more, one lies well in front of the other.
 constexpr int IN_FRONT = 256;
 // Units, half way across an opening: if the surface is at least DOUBTFUL away there, only those pixels of the opening are drawn
@@ -32,6 +36,18 @@ inline bool inSlit(const uint8_t* pixel)
     static_assert(GAP_LOW == 6 && GAP_LOW <= View::ROWS_BELOW, "as many rows are looked at");
     return pixel[-WIDTH] != 0 && pixel[0] == 0 &&
            (pixel[WIDTH] | pixel[2 * WIDTH] | pixel[3 * WIDTH] | pixel[4 * WIDTH] | pixel[5 * WIDTH] | pixel[6 * WIDTH]) != 0;
+}
+
+// Whether the row of the empty pixel at an end of a drawn run ends early: the next row (`down`: WIDTH or -WIDTH) goes farther out
+// by a step that is longer, by STEP_MORE or more, than the steps before and after it, as none is on a round outline. The caller
+// has seen that it is at least three pixels long.
+bool endsEarly(const uint8_t* pixel, int outwards, int down)
+{
+    int step = 3;
+    while (step < STEP_MOST && pixel[down + step * outwards] != 0)
+        ++step;
+    const int most = step - STEP_MORE;
+    return pixel[2 * down + (step + most) * outwards] == 0 && pixel[-down - (most + 1) * outwards] != 0;
 }
 
 // The columns of an opening, row after row. The first `narrow` rows of it are to be filled.
@@ -80,14 +96,33 @@ void followOpening(const uint8_t* frame, int y, int from, int to, int step, int 
 
 }  // namespace
 
-// Notes the empty pixels at both ends of a run of drawn pixels, if they may be in inner corners.
+// Whether lists with borders have drawn around a pixel of row y.
+inline bool Gaps::isBordered(int y, int x) const
+{
+    const Span& bordered = view_.bordered(y);
+    return x >= bordered.from && x < bordered.to;
+}
+
+// Notes the empty pixel at an end of a run of drawn pixels, if it may be in an inner corner, or if the run ends early.
+inline void Gaps::noteCorner(int y, int x, int outwards)
+{
+    const uint8_t* const pixel = frame_ + y * WIDTH + x;
+    for (int down = -WIDTH; down <= WIDTH; down += 2 * WIDTH) {
+        if (pixel[down + outwards] == 0)
+            continue;
+        static_assert(Missed::SIDE == 2, "the second pixels of both sides of a corner are tested");
+        if (pixel[-down - outwards] != 0)
+            missed_.noteCorner(x, y);
+        else if (pixel[down + 2 * outwards] != 0 && model_ != nullptr && isBordered(y, x) && endsEarly(pixel, outwards, down))
+            missed_.noteEnd(x, y, -outwards);
+    }
+}
+
+// Notes the empty pixels at both ends of a run of drawn pixels, where surface may be missing.
 inline void Gaps::noteCorners(int y, const Span& run)
 {
-    const uint8_t* const row = frame_ + y * WIDTH;
-    if (Missed::mayBeInCorner(row + run.from - 1, -1))
-        missed_.noteCorner(run.from - 1, y);
-    if (Missed::mayBeInCorner(row + run.to, 1))
-        missed_.noteCorner(run.to, y);
+    noteCorner(y, run.from - 1, -1);
+    noteCorner(y, run.to, 1);
     if (run.to - run.from <= SLIVER && model_ != nullptr)
         noteSliver(y, run);
 }
@@ -102,14 +137,19 @@ inline void Gaps::noteSliver(int y, const Span& run)
             missed_.noteEnd(end, y, inwards);
 }
 
-// Notes the empty pixels beside both ends of a run of drawn pixels, where these are close to the viewer.
+// Notes the empty pixels beside both ends of a run of drawn pixels, if the surface may go on there.
 inline void Gaps::noteEnds(int y, const Span& run)
 {
     const uint16_t* const depths = zbuffer_ + y * WIDTH;
-    if (depths[run.from] < CLOSE_UP)
-        missed_.noteEnd(run.from - 1, y, 1);
-    if (depths[run.to - 1] < CLOSE_UP)
-        missed_.noteEnd(run.to, y, -1);
+    const uint8_t* const row = frame_ + y * WIDTH;
+    const auto note = [&](int last, int inwards) {
+        const int depth = depths[last], deeper = depth - depths[last + inwards], end = last - inwards;
+        const auto isUpright = [&] { return (row[end - WIDTH] | row[end + WIDTH]) == 0; };
+        if (depth < CLOSE_UP || (deeper * FLAT < depth && isBordered(y, last) && isUpright()))
+            missed_.noteEnd(end, y, inwards);
+    };
+    note(run.from, 1);
+    note(run.to - 1, -1);
 }
 
 // Notes the outermost empty pixels to both sides of `columns`, in the row where the filled part of an opening ends.

@@ -19,6 +19,8 @@ public:
 
 private:
     void noteCorners(int y, const Span& run);
+    bool isBordered(int y, int x) const;
+    void noteCorner(int y, int x, int outwards);
     void noteSliver(int y, const Span& run);
     void noteEnds(int y, const Span& run);
     void noteBeyond(int y, const Span& columns);

@@ -1,5 +1,5 @@
 // Missed: finds parts of the surface that no scale has drawn, when gaps are closed (gaps.h). At each inner corner of the drawn
-// pixels, beside runs of one or two of them, at ends of rows close to the viewer, and across each border between objects where
+// pixels, beside runs of one or two of them, at ends of rows that may end early, and across each border between objects where
 // nothing is drawn at the surface's depth, a ray is intersected with the model's surface. Where it hits, the surface is followed
 // from pixel to pixel.
 #ifndef FB_MISSED_H
@@ -15,16 +15,6 @@ public:
 
     // Without a model only short corners are closed.
     Missed(View& view, Rays& rays) : view_(view), frame_(view.frame()), zbuffer_(view.zbuffer()), rays_(rays) {}
-
-    // A quick test for whether an empty pixel may be in a corner of drawn ones. The pixel beside it, against the direction
-    // `outwards` (-1 or 1), is drawn. One side of the corner goes up (or down) from there, the other goes outwards in the row
-    // below (or above); the test looks at the last pixel, number SIDE, of both.
-    static bool mayBeInCorner(const uint8_t* pixel, int outwards)
-    {
-        constexpr int DOWN = machine::WIDTH, UP = -DOWN, END = SIDE - 1;
-        return (pixel[DOWN + END * outwards] != 0 && pixel[UP * END - outwards] != 0) ||
-               (pixel[UP + END * outwards] != 0 && pixel[DOWN * END - outwards] != 0);
-    }
 
     // Note a pixel, possibly beside the screen, for draw(): one that may be in a corner; and one beside an end of a run of drawn
     // pixels, where the surface may go on (`inwards`, 1 or -1, leads to the run). Nothing is noted beyond NOTED_MOST; the rest of
