@@ -182,10 +182,22 @@ inline bool Engine::updatePatch(Settler& settler, Patch& patch, const Neighbourh
     return true;
 }
 
+// Whether a neighbour reaches the seeds of a patch that rests.
+bool isReached(const Patch& patch, const Neighbourhood& all)
+{
+    const Bound ball{patch.middle[0], patch.middle[1], patch.middle[2], patch.tight};
+    for (const Neighbour *near = all.neighbours, *const end = near + all.count; near < end; ++near)
+        if (reaches(*near, ball))
+            return true;
+    return false;
+}
+
 // Finds out which neighbours reach a patch, and puts its seeds at rest if none does. Returns true if they are at rest then.
 inline bool Engine::comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all)
 {
-    if (settler.setPatch(patch) || !all.restsAtOne)
+    // Most patches at rest stay so; these are not set.
+    const bool stays = patch.state == PATCH_REST && all.restsAtOne && !isReached(patch, all);
+    if (!stays && (settler.setPatch(patch) || !all.restsAtOne))
         return false;
     if (patch.state != PATCH_REST) {
         rest(object_, patch);
