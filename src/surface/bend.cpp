@@ -1,6 +1,7 @@
 // Measures how the surface of a patch bends, from the places and normals of its seeds.
 #include "bend.h"
 
+#include "math/normal.h"
 #include "math/whole.h"
 #include "voxels.h"
 
@@ -30,6 +31,14 @@ bool findSteps(const Seed* seeds, const Patch& patch, const Seed* from[2], const
     return from[0] != to[0] && from[1] != to[1];
 }
 
+// The cross product of two vectors, without its last `shift` bits.
+inline void cross(const int32_t a[3], const int32_t b[3], int shift, int32_t to[3])
+{
+    to[0] = (a[1] * b[2] - a[2] * b[1]) >> shift;
+    to[1] = (a[2] * b[0] - a[0] * b[2]) >> shift;
+    to[2] = (a[0] * b[1] - a[1] * b[0]) >> shift;
+}
+
 }  // namespace
 
 void measureBend(const SoftObject& object, const Shading& shading, Patch& patch)
@@ -41,15 +50,11 @@ void measureBend(const SoftObject& object, const Shading& shading, Patch& patch)
     const Seed *from[2], *to[2];
     if (!findSteps(shading.seeds, patch, from, to))
         return;
-    const Seed& centre = object.regular(patch.middleSeed);
-    const Direction14& normal = centre.flags & SEED_VALID ? centre.normal : from[0]->normal;
-    const int32_t n[] = {normal.x, normal.y, normal.z};
-    // The two steps, the turn of the normal over each, and the dual vector of each: the dot product of dual[k] and a vector,
-    // divided by the area between the steps, is the vector's component in units of step k.
+    // The two steps, and the turn of the normal over each.
     int32_t step[2][3], turn[2][3], dual[2][3], size[2];
     for (int k = 0; k < 2; ++k) {
         const Seed &a = *from[k], &b = *to[k];
-        int32_t start[3], *const d = step[k], *const across = dual[1 - k];
+        int32_t start[3], *const d = step[k];
         findPlace(shading, a, start);
         findPlace(shading, b, d);
         for (int i = 0; i < 3; ++i)
@@ -61,12 +66,16 @@ void measureBend(const SoftObject& object, const Shading& shading, Patch& patch)
         // A normal that turns more than on a ball of half a unit is no measurement of a bend.
         if (max32(max32(magnitude(turn[k][0]), magnitude(turn[k][1])), magnitude(turn[k][2])) > size[k] << 7)
             return;
-        // The cross product of the normal and the first step, or of the second step and the normal.
-        const int32_t sign = k == 0 ? 1 : -1;
-        across[0] = sign * (n[1] * d[2] - n[2] * d[1]) >> 14;
-        across[1] = sign * (n[2] * d[0] - n[0] * d[2]) >> 14;
-        across[2] = sign * (n[0] * d[1] - n[1] * d[0]) >> 14;
     }
+    // The normal of the plane of both steps (that of a seed leans away from it where the patch bends much), and the dual vector of
+    // each step: the dot product of dual[k] and a vector, divided by the area between the steps, is the vector's component in units
+    // of step k. So on a ball and on a cylinder the result is exact, however far the patch goes round.
+    int32_t both[3], n[3];
+    cross(step[0], step[1], 0, both);
+    const Normal normal = normalise({realFromRaw(both[0]), realFromRaw(both[1]), realFromRaw(both[2])});
+    n[0] = normal.x, n[1] = normal.y, n[2] = normal.z;
+    cross(n, step[0], 14, dual[1]);
+    cross(step[1], n, 14, dual[0]);
     const int32_t area = dot(dual[0], step[0]);
     if (min32(size[0], size[1]) < 64 || magnitude(area) <= size[0] * size[1] >> 2)
         return;
