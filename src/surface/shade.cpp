@@ -32,8 +32,9 @@ constexpr int32_t WHOLE_AT_LIMB = 4;
 // 1/32 unit: the greatest radius of curvature that is told from flat.
 constexpr int32_t LONGEST_RADIUS = 8000;
 
-// 1/4 step: a patch bends unevenly if its gradient predicts the brightness of some seed with an error greater than this.
-constexpr int32_t UNEVEN_SHADING = 6;
+// 1/4 step: a patch bends unevenly if its gradient predicts the brightness of some seed with an error greater than this, where it
+// blends, and where it rests.
+constexpr int32_t UNEVEN_SHADING = 6, UNEVEN_AT_REST = 9;
 
 // Spacings: upper bound on the change of depth from the middle of a scale that ends to its corner. Without it, scales next to the
 // limb would come far beyond the outline where seeds have parted.
@@ -67,12 +68,12 @@ private:
     bool cutAtBorder(const Seed& s, Voxel* voxel, VoxelList& list) const;
     static Voxel* listUnpainted(const Seed& s, const Voxel* voxel, VoxelList& list);
     template <bool PAINTED>
-    void listVoxels(const Patch& patch, Voxel* voxels, int count, int regular, VoxelList& list, Painter* painter);
+    void listVoxels(const Patch& patch, Voxel* voxels, int count, int regular, bool uneven, VoxelList& list, Painter* painter);
     int findExtras(const Patch& patch, Seen* seen, Voxel* voxels) const;
     int clipDepth(Seen* seen, Voxel* voxels, int count) const;
     void setPatch(const Patch& patch, const Seen& middle, const Voxel& at);
     void setBend(const Patch& patch, const Seen& middle);
-    bool bendsUnevenly(const Voxel* voxels, int count) const;
+    bool bendsUnevenly(const Patch& patch, const Voxel* voxels, int count) const;
     bool cut(const int32_t inward[3], int32_t apart, Voxel* voxel) const;
     bool cutAtRidge(const Seed& s, Voxel* voxel) const;
     bool endBeside(const Seed& s, Voxel* voxel, VoxelList& list) const;
@@ -83,7 +84,7 @@ private:
     const Limb* limbOf(const Patch& patch);
     void endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel);
     void dome(Voxel* voxel) const;
-    void endOrDome(const Patch& patch, const Seen& seen, bool regular, bool uneven, bool bordered, Voxel* shown);
+    void endOrDome(const Patch& patch, const Seen& seen, bool regular, bool domed, bool bordered, Voxel* shown);
     bool isUneven(const Patch& patch, const Voxel* voxels, int regular) const;
     // The component of a vector of own space along axis i of the view.
     template <class Part>
@@ -233,14 +234,15 @@ inline void Shader::setPatch(const Patch& patch, const Seen& middle, const Voxel
 }
 
 // Whether the gradient of the current patch predicts the brightness of its seeds badly.
-inline bool Shader::bendsUnevenly(const Voxel* voxels, int count) const
+inline bool Shader::bendsUnevenly(const Patch& patch, const Voxel* voxels, int count) const
 {
+    const int32_t most = patch.state == PATCH_REST && !object_.shaped() ? UNEVEN_AT_REST : UNEVEN_SHADING;
     const Voxel& middle = voxels[count >> 1];
     const int32_t gradientX = shading_.gradient[0] >> 10, gradientY = shading_.gradient[1] >> 10, gradientZ = ahead_ >> 6;
     const auto errs = [&](const Voxel& v) {
         const int32_t x = v.x - middle.x, y = v.y - middle.y, z = v.z - middle.z;
         const int32_t change = (gradientX * x + gradientY * y + gradientZ * z) >> 11;
-        return v.brightness != 0 && magnitude(change - (v.brightness - middle.brightness) * 4) > UNEVEN_SHADING;
+        return v.brightness != 0 && magnitude(change - (v.brightness - middle.brightness) * 4) > most;
     };
     for (int i = 0; i < count; i += 2)
         if (errs(voxels[i]))
@@ -406,10 +408,10 @@ inline Voxel* Shader::listUnpainted(const Seed& s, const Voxel* voxel, VoxelList
     return shown;
 }
 
-// Ends or domes a voxel that is listed. `regular`: it is that of a regular seed; `uneven`: its patch bends unevenly.
-inline void Shader::endOrDome(const Patch& patch, const Seen& seen, bool regular, bool uneven, bool bordered, Voxel* shown)
+// Ends or domes a voxel that is listed. `regular`: it is that of a regular seed; `domed`: the limb of its patch is not known.
+inline void Shader::endOrDome(const Patch& patch, const Seen& seen, bool regular, bool domed, bool bordered, Voxel* shown)
 {
-    if (uneven || isCut(*shown)) {
+    if (domed || isCut(*shown)) {
         dome(shown);
     } else if (regular) {
         endAtLimb(patch, seen, shown);
@@ -426,12 +428,10 @@ inline bool Shader::endBeside(const Seed& s, Voxel* voxel, VoxelList& list) cons
     return (!(s.flags & SEED_BORDER) || cutAtBorder(s, voxel, list)) && (s.beyond < 0 || cutAtRidge(s, voxel));
 }
 
-// Whether a patch bends unevenly, or its seeds have parted. Then neither its gradient nor its limb is known; its scales are
-// stretched and bend fast, so that each has to leave the place beside it to the next one (scales.h). At rest only shaped objects
-// are taken to bend so.
+// Whether a patch bends unevenly, or its seeds have parted. Then its gradient is not known. Balls at rest bend evenly.
 inline bool Shader::isUneven(const Patch& patch, const Voxel* voxels, int regular) const
 {
-    return (patch.state == PATCH_MIXED || object_.shaped()) && (patch.extras || bendsUnevenly(voxels, regular));
+    return (patch.state == PATCH_MIXED || !object_.isBall()) && (patch.extras || bendsUnevenly(patch, voxels, regular));
 }
 
 // Adds a listed voxel to the slopes, with the second one that the painter may have made of it.
@@ -443,15 +443,17 @@ inline void Shader::addSloped(const Seed& s, Voxel* shown, int32_t sight, VoxelL
         slopes.addCopy(shown + 1, shown);
 }
 
-// Lists the voxels of a patch that blends or has a ridge, or whose object is shaped or has a paint.
+// Lists the voxels of a patch that blends, has a ridge or bends unevenly, or whose object is shaped or has a paint.
 template <bool PAINTED>
-inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, int regular, VoxelList& list,
+inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, int regular, bool uneven, VoxelList& list,
                                Painter* painter)
 {
     const bool shines = PAINTED && painter->shines(), blends = patch.state == PATCH_MIXED;
-    const bool uneven = isUneven(patch, voxels, regular);
     const int32_t sight = shines || uneven || patch.ridged ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
-    const int sloped = shines || blends || patch.ridged || object_.shaped() ? regular : 0;
+    const int sloped = shines || blends || patch.ridged || uneven || object_.shaped() ? regular : 0;
+    // Where a patch that blends or is shaped bends unevenly, its limb is not known either; its scales are stretched and bend fast,
+    // so that each has to leave the place beside it to the next one (scales.h).
+    const bool domed = uneven && (blends || object_.shaped());
     int listed = 0;
     for (int i = 0; i < count; ++i) {
         const Seed& s = *seen_[i].seed;
@@ -462,7 +464,7 @@ inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, int
             continue;
         seen_[listed++] = seen_[i];
         Voxel* const shown = PAINTED ? painter->add(s, voxels[i]) : listUnpainted(s, voxels + i, list);
-        endOrDome(patch, seen_[i], i < regular, uneven, list.bordered, shown);
+        endOrDome(patch, seen_[i], i < regular, domed, list.bordered, shown);
         // A dark voxel keeps its slopes. With a finish that shines, brightness 0 does not mean that the light ends there.
         const bool stays = knows || (!shines && shown->brightness == 0);
         if (i < sloped)
@@ -481,8 +483,9 @@ inline void Shader::shadePatch(Patch& patch, VoxelList& list, Painter* painter)
     if (count == 0)
         return;
     shadeSeen(patch, voxels, count);
-    if (PAINTED || patch.state != PATCH_REST || patch.ridged || object_.shaped()) {
-        listVoxels<PAINTED>(patch, voxels, count, regular, list, painter);
+    const bool uneven = isUneven(patch, voxels, regular);
+    if (PAINTED || patch.state != PATCH_REST || patch.ridged || uneven || object_.shaped()) {
+        listVoxels<PAINTED>(patch, voxels, count, regular, uneven, list, painter);
         return;
     }
     for (int i = 0; i < count; ++i)
