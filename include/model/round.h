@@ -61,6 +61,8 @@ inline bool thinned(int ring, int level)
 class RingMaker {
 public:
     RingMaker(SeedMaker& maker, const Vector& stretch, Real spacing);
+    // Lets the seeds of the rings that follow be `spacing` units apart.
+    void setSpacing(Real spacing) { spacing_ = spacing; }
 
     // The number of seeds of a ring: as many as fit `spacing` units apart, at least four (two, if the ring is flat).
     int seedsOf(const Ring& ring) const;

@@ -94,8 +94,9 @@ public:
     // The reason why the latest failed resample(), of any object, failed: one line of words.
     static const char* resampleTrouble();
     // The spacing of this object's seeds when `asked` is the spacing of the model: thin and flat objects get closer seeds, at most
-    // twice as close.
-    Real ownSpacing(Real asked) const;
+    // twice as close. closeness() is the factor where the surface is `radius` units away from the core, 0.5 to 1.
+    Real ownSpacing(Real asked) const { return asked * closeness(radius_); }
+    Real closeness(Real radius) const;
     // The number of regular seeds that this spacing would give.
     int seedsAt(Real spacing) const;
     int seeds() const { return laid_.regular; }

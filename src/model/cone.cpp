@@ -44,6 +44,9 @@ void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
     const Real radius1 = size1() * restRoot(), radius2 = size2() * restRoot();
     const Vector normal = unit({(size1Made_ - size2Made_) * restRoot(), lengthMade_, Real(0)});
     const Real lengths[PARTS] = {radius1 * HALF_PI, ::length({radius1 - radius2, length(), Real(0)}), radius2 * HALF_PI};
+    // Seeds are closer where the cone is thin.
+    const Real toThickest = spacing / closeness(radius());
+    const auto spacingAt = [&](Real thick) { return toThickest * closeness(thick); };
     RingMaker ringMaker(maker, stretch(), spacing);
     Ring ring{};
     int number = 0;
@@ -57,7 +60,7 @@ void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
             outline.line(lengths[part], normal.x, normal.y);
         else
             outline.arc(lengths[part], start, start + QUARTER);
-        const int rings = stepsIn(outline.length(), spacing);
+        const int rings = stepsIn(outline.length(), part == SIDE ? spacing : spacingAt(ring.radius));
         int root = -1;
         for (int k = 0; k < rings; ++k) {
             const Real at = outline.at(2 * k + 1, 2 * rings, &ring.halfStep);
@@ -73,6 +76,7 @@ void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
                 ring.pathSine = ring.normalSine = sine(latitude);
                 ring.pathCosine = ring.normalCosine = cosine(latitude);
             }
+            ringMaker.setSpacing(spacingAt(ring.radius));
             // All seeds of an end have a common root.
             if (part == SIDE || root < 0)
                 root = ringMaker.addRoots(ring);

@@ -351,10 +351,9 @@ void SoftObject::layRingsAtRest(bool known)
         }
 }
 
-Real SoftObject::ownSpacing(Real asked) const
+Real SoftObject::closeness(Real radius) const
 {
-    const Real thinnest = radius_ * min(stretch_.x, min(stretch_.y, stretch_.z));
-    return asked * clamp(thinnest * (Real(1) / THIN), Real(0.5), Real(1));
+    return clamp(radius * min(stretch_.x, min(stretch_.y, stretch_.z)) * (Real(1) / THIN), Real(0.5), Real(1));
 }
 
 int SoftObject::seedsAt(Real spacing) const
