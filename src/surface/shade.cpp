@@ -32,9 +32,12 @@ constexpr int32_t WHOLE_AT_LIMB = 4;
 // 1/32 unit: the greatest radius of curvature that is told from flat.
 constexpr int32_t LONGEST_RADIUS = 8000;
 
-// 1/4 step: a patch bends unevenly if its gradient predicts the brightness of some seed with an error greater than this, where it
-// blends, and where it rests.
-constexpr int32_t UNEVEN_SHADING = 6, UNEVEN_AT_REST = 9;
+// 1/4 step: a patch bends unevenly if its gradient predicts the brightness of some seed with an error greater than this: at rest,
+// if the object is not shaped, and elsewhere.
+constexpr int32_t UNEVEN_AT_REST = 9, UNEVEN_SHADING = 6;
+
+// Spacings: at rest, scales of objects with smaller radii are domed where these bend unevenly.
+constexpr Real THIN_RADIUS(3.5);
 
 // Spacings: upper bound on the change of depth from the middle of a scale that ends to its corner. Without it, scales next to the
 // limb would come far beyond the outline where seeds have parted.
@@ -86,6 +89,8 @@ private:
     void dome(Voxel* voxel) const;
     void endOrDome(const Patch& patch, const Seen& seen, bool regular, bool domed, bool bordered, Voxel* shown);
     bool isUneven(const Patch& patch, const Voxel* voxels, int regular) const;
+    // Whether the limb of a patch is known even if the patch bends unevenly: it rests, and the object is not shaped.
+    bool knowsLimb(const Patch& patch) const { return patch.state == PATCH_REST && !object_.shaped(); }
     // The component of a vector of own space along axis i of the view.
     template <class Part>
     int32_t along(const Part v[3], const int32_t axis[3], int i) const
@@ -103,6 +108,7 @@ private:
     bool clipsDepth_;         // some seeds may be nearer than NEAREST_DEPTH, or farther than FARTHEST_DEPTH
     int viewShift_;           // right shift that brings vectors to the eye to 14 bits
     const bool hollow_;       // the seeds sample a hollow
+    const bool thin_;         // the radius of the object is small against the spacing of its seeds
     int32_t ballGradient_[3]; // gradient of the brightness over a ball, axes of the view, 1/8 step a unit with 8 fraction bits
     int32_t ballHorizon_, flatHorizon_;  // Shading::horizonShare of a ball and of flat patches
     int32_t horizonScale_;    // horizonShare of a radius of curvature of 8 steps of places
@@ -121,7 +127,8 @@ private:
 };
 
 Shader::Shader(SoftObject& object, const OwnFrame& own, const FrameContext& frame)
-    : object_(object), own_(own), hollow_(!object.hasSurface())
+    : object_(object), own_(own), hollow_(!object.hasSurface()),
+      thin_(object.laidRadius() < object.spacing() * THIN_RADIUS)
 {
     shading_.seeds = &object.regular(0);
     shading_.roots = &object.root(0);
@@ -236,7 +243,7 @@ inline void Shader::setPatch(const Patch& patch, const Seen& middle, const Voxel
 // Whether the gradient of the current patch predicts the brightness of its seeds badly.
 inline bool Shader::bendsUnevenly(const Patch& patch, const Voxel* voxels, int count) const
 {
-    const int32_t most = patch.state == PATCH_REST && !object_.shaped() ? UNEVEN_AT_REST : UNEVEN_SHADING;
+    const int32_t most = knowsLimb(patch) ? UNEVEN_AT_REST : UNEVEN_SHADING;
     const Voxel& middle = voxels[count >> 1];
     const int32_t gradientX = shading_.gradient[0] >> 10, gradientY = shading_.gradient[1] >> 10, gradientZ = ahead_ >> 6;
     const auto errs = [&](const Voxel& v) {
@@ -408,10 +415,11 @@ inline Voxel* Shader::listUnpainted(const Seed& s, const Voxel* voxel, VoxelList
     return shown;
 }
 
-// Ends or domes a voxel that is listed. `regular`: it is that of a regular seed; `domed`: the limb of its patch is not known.
+// Ends or domes a voxel that is listed. `regular`: it is that of a regular seed; `domed`: the voxels of its patch are domed, but
+// those that end at a limb that is known.
 inline void Shader::endOrDome(const Patch& patch, const Seen& seen, bool regular, bool domed, bool bordered, Voxel* shown)
 {
-    if (domed || isCut(*shown)) {
+    if ((domed && (shown->back == 0 || !knowsLimb(patch))) || isCut(*shown)) {
         dome(shown);
     } else if (regular) {
         endAtLimb(patch, seen, shown);
@@ -451,9 +459,9 @@ inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, int
     const bool shines = PAINTED && painter->shines(), blends = patch.state == PATCH_MIXED;
     const int32_t sight = shines || uneven || patch.ridged ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
     const int sloped = shines || blends || patch.ridged || uneven || object_.shaped() ? regular : 0;
-    // Where a patch that blends or is shaped bends unevenly, its limb is not known either; its scales are stretched and bend fast,
-    // so that each has to leave the place beside it to the next one (scales.h).
-    const bool domed = uneven && (blends || object_.shaped());
+    // The scales of an uneven patch are stretched or bend fast, so that each has to leave the place beside it to the next one
+    // (scales.h).
+    const bool domed = uneven && (!knowsLimb(patch) || thin_);
     int listed = 0;
     for (int i = 0; i < count; ++i) {
         const Seed& s = *seen_[i].seed;
