@@ -378,7 +378,7 @@ TEST(oversampled_seeds_lie_beside_theirs_where_a_ring_begins_without_a_neighbour
     int headless = 0;
     for (int tip = 20; tip <= 40; ++tip) {
         Scene scene;
-        SoftObject& cone = scene.add(new Cone(1, real(8), real(tip), real(100)), 0, 0, 0, 6);
+        SoftObject& cone = scene.add(new Cone(1, real(6), real(tip), real(100)), 0, 0, 0, 6);
         cone.setStretch({real(0.3), real(0.5), real(0.6)});
         CHECK(cone.resample(real(6), makeEngine) && cone.layOutExtras());
         const auto place = [&](const Seed& s) { return vec(cone.root(s.root) + s.path); };
