@@ -44,9 +44,10 @@ void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
     const Real radius1 = size1() * restRoot(), radius2 = size2() * restRoot();
     const Vector normal = unit({(size1Made_ - size2Made_) * restRoot(), lengthMade_, Real(0)});
     const Real lengths[PARTS] = {radius1 * HALF_PI, ::length({radius1 - radius2, length(), Real(0)}), radius2 * HALF_PI};
-    // Seeds are closer where the cone is thin.
+    // Seeds are closer where the cone is thin, if it is not stretched, too.
+    const bool plain = stretch() == Vector{Real(1), Real(1), Real(1)};
     const Real toThickest = spacing / closeness(radius());
-    const auto spacingAt = [&](Real thick) { return toThickest * closeness(thick); };
+    const auto spacingAt = [&](Real thick) { return plain ? toThickest * closeness(thick) : spacing; };
     RingMaker ringMaker(maker, stretch(), spacing);
     Ring ring{};
     int number = 0;
