@@ -39,6 +39,17 @@ inline void cross(const int32_t a[3], const int32_t b[3], int shift, int32_t to[
     to[2] = (a[0] * b[1] - a[1] * b[0]) >> shift;
 }
 
+// The direction at right angles to two steps that have no component beyond `longest`.
+inline Normal normalTo(const int32_t a[3], const int32_t b[3], int32_t longest)
+{
+    // Long steps lose bits, so that their products fit 32 bits.
+    const int down = max32(18 - __builtin_clz(static_cast<uint32_t>(longest | 1)), 0);
+    const int32_t one[] = {a[0] >> down, a[1] >> down, a[2] >> down}, other[] = {b[0] >> down, b[1] >> down, b[2] >> down};
+    int32_t n[3];
+    cross(one, other, 0, n);
+    return normalise({realFromRaw(n[0]), realFromRaw(n[1]), realFromRaw(n[2])});
+}
+
 }  // namespace
 
 void measureBend(const SoftObject& object, const Shading& shading, Patch& patch)
@@ -70,10 +81,8 @@ void measureBend(const SoftObject& object, const Shading& shading, Patch& patch)
     // The normal of the plane of both steps (that of a seed leans away from it where the patch bends much), and the dual vector of
     // each step: the dot product of dual[k] and a vector, divided by the area between the steps, is the vector's component in units
     // of step k. So on a ball and on a cylinder the result is exact, however far the patch goes round.
-    int32_t both[3], n[3];
-    cross(step[0], step[1], 0, both);
-    const Normal normal = normalise({realFromRaw(both[0]), realFromRaw(both[1]), realFromRaw(both[2])});
-    n[0] = normal.x, n[1] = normal.y, n[2] = normal.z;
+    const Normal normal = normalTo(step[0], step[1], max32(size[0], size[1]));
+    const int32_t n[] = {normal.x, normal.y, normal.z};
     cross(n, step[0], 14, dual[1]);
     cross(step[1], n, 14, dual[0]);
     const int32_t area = dot(dual[0], step[0]);
