@@ -221,9 +221,7 @@ bool Keeper::rearrange(Kept& kept, const PatchVoxels& made)
             now[i] = *at;
             before = at + 1;
         } else {
-            // It is taken to move like another voxel of the patch.
-            now[i] = kept.count > 0 ? kept.voxels[0] : One{};
-            now[i].seed = nullptr;
+            now[i] = One{};
         }
     }
     if (!makeRoom(kept, made.count))
@@ -243,14 +241,20 @@ inline void Keeper::follow(Kept& kept, const Patch& patch, const PatchVoxels& ma
     // Where patches rest a limb that comes or goes ends the period, because their scales alone make the outline.
     const int32_t otherwise = blends ? 0 : tolerated * 4;
     int32_t error = 0;
+    const One* like = nullptr;
     for (int i = 0; i < made.count; ++i) {
         One& one = kept.voxels[i];
         if (one.seed == nullptr)
-            one.begin(made.voxels[i], made.seen[i].seed);
-        else
-            error |= one.follow(made.voxels[i], shift, tiltShift, otherwise);
+            continue;
+        error |= one.follow(made.voxels[i], shift, tiltShift, otherwise);
+        like = &one;
     }
-    int period = kept.stepsKnown ? periodAfter(kept.period, error, tolerated) : 1;
+    for (int i = 0; i < made.count && !sameSeeds; ++i)
+        if (kept.voxels[i].seed == nullptr)
+            kept.voxels[i].begin(made.voxels[i], made.seen[i].seed, like);
+    // Where no seed was seen before nothing is known of the steps.
+    follows = follows && (like != nullptr || made.count == 0);
+    int period = follows && kept.stepsKnown ? periodAfter(kept.period, error, tolerated) : 1;
     // Others may come into sight, or go, as soon.
     if (!sameSeeds)
         period = blends ? min32(period, 2) : 1;
@@ -286,9 +290,11 @@ int Keeper::longestUnseen(Kept& kept, const Patch& patch, int shift) const
 
 // ---- One voxel
 
-// Takes a voxel of which nothing is known, and leaves the steps as they are.
-void Keeper::One::begin(const Voxel& v, const Seed* of)
+// Takes a voxel of which nothing is known. It is taken to move like another voxel of the patch, if there is one.
+void Keeper::One::begin(const Voxel& v, const Seed* of, const One* like)
 {
+    if (like != nullptr)
+        *this = *like;
     place[0] = v.x * 16;
     place[1] = v.y * 16;
     place[2] = v.z * 16;

@@ -74,7 +74,7 @@ private:
         int16_t back, stepBack;     // Voxel::back with 7 more fraction bits
         int16_t stepTiltX, stepTiltY, stepCutAt;
 
-        void begin(const Voxel& v, const Seed* of);
+        void begin(const Voxel& v, const Seed* of, const One* like);
         // Takes another voxel, and leaves the rest as it is.
         void set(const Voxel& v)
         {
