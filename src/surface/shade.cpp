@@ -87,7 +87,7 @@ private:
     const Limb* limbOf(const Patch& patch);
     void endAtLimb(const Patch& patch, const Seen& seen, Voxel* voxel);
     void dome(Voxel* voxel) const;
-    void endOrDome(const Patch& patch, const Seen& seen, bool regular, bool domed, bool bordered, Voxel* shown);
+    void endOrDome(const Patch& patch, const Seen& seen, bool regular, bool domed, Voxel* shown);
     bool isUneven(const Patch& patch, const Voxel* voxels, int regular) const;
     // Whether the limb of a patch is known even if the patch bends unevenly: it rests, and the object is not shaped.
     bool knowsLimb(const Patch& patch) const { return patch.state == PATCH_REST && !object_.shaped(); }
@@ -417,17 +417,12 @@ inline Voxel* Shader::listUnpainted(const Seed& s, const Voxel* voxel, VoxelList
 
 // Ends or domes a voxel that is listed. `regular`: it is that of a regular seed; `domed`: the voxels of its patch are domed, but
 // those that end at a limb that is known.
-inline void Shader::endOrDome(const Patch& patch, const Seen& seen, bool regular, bool domed, bool bordered, Voxel* shown)
+inline void Shader::endOrDome(const Patch& patch, const Seen& seen, bool regular, bool domed, Voxel* shown)
 {
-    if ((domed && (shown->back == 0 || !knowsLimb(patch))) || isCut(*shown)) {
+    if ((domed && (shown->back == 0 || !knowsLimb(patch))) || isCut(*shown))
         dome(shown);
-    } else if (regular) {
+    else if (regular)
         endAtLimb(patch, seen, shown);
-        // In the dark no brightness tells that a patch bends unevenly, and then its limb is too near now and then. So it is moved
-        // out by a quarter of a pixel, where the outlines are looked at (View::noteCovered()).
-        if (bordered && patch.state == PATCH_MIXED && shown->brightness == 0 && isCut(*shown))
-            shown->cutAt = static_cast<int16_t>(min32(shown->cutAt + (middle_ >> 9), CUT_MOST));
-    }
 }
 
 // Ends a voxel at a border and at a ridge, if its seed lies beside one. Returns false when nothing is left of it.
@@ -472,7 +467,7 @@ inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, int
             continue;
         seen_[listed++] = seen_[i];
         Voxel* const shown = PAINTED ? painter->add(s, voxels[i]) : listUnpainted(s, voxels + i, list);
-        endOrDome(patch, seen_[i], i < regular, domed, list.bordered, shown);
+        endOrDome(patch, seen_[i], i < regular, domed, shown);
         // A dark voxel keeps its slopes. With a finish that shines, brightness 0 does not mean that the light ends there.
         const bool stays = knows || (!shines && shown->brightness == 0);
         if (i < sloped)
