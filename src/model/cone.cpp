@@ -44,7 +44,7 @@ void Cone::layOutSeeds(SeedMaker& maker, Real spacing) const
     const Real radius1 = size1() * restRoot(), radius2 = size2() * restRoot();
     const Vector normal = unit({(size1Made_ - size2Made_) * restRoot(), lengthMade_, Real(0)});
     const Real lengths[PARTS] = {radius1 * HALF_PI, ::length({radius1 - radius2, length(), Real(0)}), radius2 * HALF_PI};
-    // Seeds are closer where the cone is thin, if it is not stretched, too.
+    // Seeds are closer where the cone is thin. On a stretched one they would become too uneven.
     const bool plain = stretch() == Vector{Real(1), Real(1), Real(1)};
     const Real toThickest = spacing / closeness(radius());
     const auto spacingAt = [&](Real thick) { return plain ? toThickest * closeness(thick) : spacing; };

@@ -103,7 +103,8 @@ inline bool Gaps::isBordered(int y, int x) const
     return x >= bordered.from && x < bordered.to;
 }
 
-// Notes the empty pixel at an end of a run of drawn pixels, if it may be in an inner corner, or if the run ends early.
+// Notes the empty pixel at an end of a run of drawn pixels, if it may be in an inner corner, or if the run ends early. One side of
+// a corner goes outwards in the row below (or above) the pixel, the other one up (or down) from the last pixel of the run.
 inline void Gaps::noteCorner(int y, int x, int outwards)
 {
     const uint8_t* const pixel = frame_ + y * WIDTH + x;
@@ -118,7 +119,7 @@ inline void Gaps::noteCorner(int y, int x, int outwards)
     }
 }
 
-// Notes the empty pixels at both ends of a run of drawn pixels, where surface may be missing.
+// Notes the empty pixels at both ends of a run of drawn pixels, and beside a narrow run, where surface may be missing.
 inline void Gaps::noteCorners(int y, const Span& run)
 {
     noteCorner(y, run.from - 1, -1);

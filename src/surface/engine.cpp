@@ -195,7 +195,7 @@ bool isReached(const Patch& patch, const Neighbourhood& all)
 // Finds out which neighbours reach a patch, and puts its seeds at rest if none does. Returns true if they are at rest then.
 inline bool Engine::comesToRest(Settler& settler, Patch& patch, const Neighbourhood& all)
 {
-    // Most patches at rest stay so; these are not set.
+    // Most patches at rest stay so, and need no Settler::setPatch().
     const bool stays = patch.state == PATCH_REST && all.restsAtOne && !isReached(patch, all);
     if (!stays && (settler.setPatch(patch) || !all.restsAtOne))
         return false;

@@ -32,11 +32,11 @@ constexpr int32_t WHOLE_AT_LIMB = 4;
 // 1/32 unit: the greatest radius of curvature that is told from flat.
 constexpr int32_t LONGEST_RADIUS = 8000;
 
-// 1/4 step: a patch bends unevenly if its gradient predicts the brightness of some seed with an error greater than this: at rest,
-// if the object is not shaped, and elsewhere.
+// 1/4 step: a patch bends unevenly if its gradient predicts the brightness of some seed with an error greater than this. The first
+// is for patches at rest of objects that are not shaped, the second for all others.
 constexpr int32_t UNEVEN_AT_REST = 9, UNEVEN_SHADING = 6;
 
-// Spacings: at rest, scales of objects with smaller radii are domed where these bend unevenly.
+// Spacings: of patches at rest that bend unevenly, scales are domed if the radius of the object is smaller than this.
 constexpr Real THIN_RADIUS(3.5);
 
 // Spacings: upper bound on the change of depth from the middle of a scale that ends to its corner. Without it, scales next to the

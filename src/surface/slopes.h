@@ -8,7 +8,7 @@
 #include "surface/voxel.h"
 
 // The voxels of one object that show the regular seeds of patches that blend, have ridges or bend unevenly, or all regular seeds if
-// the object shines.
+// the object is shaped or shines.
 class Slopes {
 public:
     // The ray of sight in one word: how far it leads aside over a unit of depth, x and y with 10 fraction bits. STAYS in its place
