@@ -16,8 +16,9 @@ constexpr Real COARSE(2), FINE(1);
 // spacing, because who wants finer seeds wants to see more: at COARSE it is 1/4 unit. Where patches rest half of it is tolerated,
 // for their voxels are made anew more quickly than seeds are settled.
 constexpr Real TOLERATED(16);
-// Units: the neighbours travel no farther than this in a period.
-constexpr Real FARTHEST(4);
+// Units: the neighbours travel no farther than FARTHEST in a period. When they travel farther than SWIFT in a single frame nothing
+// goes on where patches blend: what no neighbour has reached yet may change much, and no step before it tells.
+constexpr Real FARTHEST(4), SWIFT(2.7);
 // 1/1024 unit: where neighbours travel no farther than this in a frame it makes no difference whether they stop after it.
 constexpr Travel SLIGHT = 100;
 // VIEW: what tells how an object is seen and lit, the axes of the view and the light (1.0 = 2^14), and the eye (1/32 unit). A
@@ -107,7 +108,7 @@ void Keeper::begin(const OwnFrame& own, Travel travel)
     // When the neighbours stop, or nearly do, nothing may go on as if they still moved.
     const bool stop = travel_ > travel * 4 + SLIGHT;
     travel_ = travel;
-    longest_ = stop ? 1 : LONGEST_PERIOD;
+    longest_ = stop || travel > travelOf(SWIFT) ? 1 : LONGEST_PERIOD;
     while (longest_ > 1 && travel * static_cast<Travel>(longest_ - 1) > travelOf(FARTHEST))
         longest_ /= 2;
 }
