@@ -235,53 +235,66 @@ bool Keeper::rearrange(Kept& kept, const PatchVoxels& made)
 // steps nothing is known unless it `follows` another period.
 inline void Keeper::follow(Kept& kept, const Patch& patch, const PatchVoxels& made, bool follows, bool sameSeeds) const
 {
-    const int shift = __builtin_ctz(kept.period);
-    const bool blends = patch.state == PATCH_MIXED;
-    const int32_t tolerated = blends ? tolerated_ : tolerated_ / 2;
-    const int tiltShift = object_.spacing() <= FINE ? 6 : 10 - blends;
-    // Where patches rest a limb that comes or goes ends the period, because their scales alone make the outline.
-    const int32_t otherwise = blends ? 0 : tolerated * 4;
     int32_t error = 0;
-    const One* like = nullptr;
-    for (int i = 0; i < made.count; ++i) {
-        One& one = kept.voxels[i];
-        if (one.seed == nullptr)
-            continue;
-        error |= one.follow(made.voxels[i], shift, tiltShift, otherwise);
-        like = &one;
-    }
+    const One* const like = correctSteps(kept, patch, made, &error);
     for (int i = 0; i < made.count && !sameSeeds; ++i)
         if (kept.voxels[i].seed == nullptr)
             kept.voxels[i].begin(made.voxels[i], made.seen[i].seed, like);
     // Where no seed was seen before nothing is known of the steps.
     follows = follows && (like != nullptr || made.count == 0);
-    int period = follows && kept.stepsKnown ? periodAfter(kept.period, error, tolerated) : 1;
+    int period = follows && kept.stepsKnown ? periodAfter(kept.period, error, toleratedOf(patch)) : 1;
     // Others may come into sight, or go, as soon.
     if (!sameSeeds)
-        period = blends ? min32(period, 2) : 1;
+        period = patch.state == PATCH_MIXED ? min32(period, 2) : 1;
     // A patch that shows nothing may turn into sight.
     if (made.count == 0 && follows)
-        period = min32(period, blends ? longestUnseen(kept, patch, shift) : 2);
-    if (blends) {
-        period = min32(period, longest_);
-        // Half of the patches begin in a frame, half in the next, so that all frames take about the same time.
-        if (kept.period == 1 && period == 2 && ((static_cast<uint32_t>(&kept - kept_) + frame_) & 1) != 0)
-            period = 1;
-    }
+        period = min32(period, longestUnseen(kept, patch));
+    if (patch.state == PATCH_MIXED)
+        period = inTurn(kept, min32(period, longest_));
     kept.stepsKnown = follows;
     kept.period = static_cast<uint8_t>(period);
     kept.left = static_cast<uint8_t>(period - 1);
 }
 
-// The longest period in which no seed of a patch without voxels turns into sight; it goes on turning as in the period before.
-int Keeper::longestUnseen(Kept& kept, const Patch& patch, int shift) const
+// Corrects the steps of those voxels of a patch that have been made of the same seeds as before. `*error` becomes the error of the
+// steps. Returns one of these voxels, or null if there is none.
+inline const Keeper::One* Keeper::correctSteps(Kept& kept, const Patch& patch, const PatchVoxels& made, int32_t* error) const
 {
+    const bool blends = patch.state == PATCH_MIXED;
+    const int shift = __builtin_ctz(kept.period), tiltShift = object_.spacing() <= FINE ? 6 : 10 - blends;
+    // Where patches rest a limb that comes or goes ends the period, because their scales alone make the outline.
+    const int32_t otherwise = blends ? 0 : toleratedOf(patch) * 4;
+    const One* like = nullptr;
+    for (int i = 0; i < made.count; ++i) {
+        One& one = kept.voxels[i];
+        if (one.seed == nullptr)
+            continue;
+        *error |= one.follow(made.voxels[i], shift, tiltShift, otherwise);
+        like = &one;
+    }
+    return like;
+}
+
+// The period in which a patch that blends is made anew: half of the patches begin in a frame, half in the next, so that all frames
+// take about the same time.
+inline int Keeper::inTurn(const Kept& kept, int period) const
+{
+    const bool waits = ((static_cast<uint32_t>(&kept - kept_) + frame_) & 1) != 0;
+    return kept.period == 1 && period == 2 && waits ? 1 : period;
+}
+
+// The longest period in which no seed of a patch without voxels turns into sight; it goes on turning as in the period before. What
+// rests keeps no record of how it turns.
+int Keeper::longestUnseen(Kept& kept, const Patch& patch) const
+{
+    if (patch.state != PATCH_MIXED)
+        return 2;
     int32_t nearest = HIDDEN;
     forSeeds(object_, patch, [&](const Seed& s) {
         if (s.flags & (SEED_VALID | SEED_RESTING))
             nearest = max32(nearest, facing(object_, s, own_));
     });
-    const int32_t step = (nearest - kept.facing) >> shift;
+    const int32_t step = (nearest - kept.facing) >> __builtin_ctz(kept.period);
     kept.facing = nearest;
     int period = LONGEST_PERIOD;
     while (period > 1 && nearest + step * (period - 1) > own_.limb - NEARLY_SEEN)

@@ -113,7 +113,10 @@ private:
     static bool hasSameSeeds(const Kept& kept, const PatchVoxels& made);
     static bool rearrange(Kept& kept, const PatchVoxels& made);
     void follow(Kept& kept, const Patch& patch, const PatchVoxels& made, bool follows, bool sameSeeds) const;
-    int longestUnseen(Kept& kept, const Patch& patch, int shift) const;
+    const One* correctSteps(Kept& kept, const Patch& patch, const PatchVoxels& made, int32_t* error) const;
+    int inTurn(const Kept& kept, int period) const;
+    int longestUnseen(Kept& kept, const Patch& patch) const;
+    int32_t toleratedOf(const Patch& patch) const { return patch.state == PATCH_MIXED ? tolerated_ : tolerated_ / 2; }
 
     const SoftObject& object_;
     Kept* kept_ = nullptr;
