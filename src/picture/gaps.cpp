@@ -181,26 +181,40 @@ void Gaps::closeRow(int y)
 {
     Span runs[WIDTH / 2];
     const uint8_t* row = frame_ + y * WIDTH;
-    const bool slits = y > 0;
     const Span* const end = runs + drawnRuns(row, zbuffer_ + y * WIDTH, &view_.touched(y), runs);
     view_.setTouched(y, runs, end);
     int last = 0;  // one past the end of the previous run; 0 before the first
     for (const Span* run = runs; run < end; ++run) {
-        const int from = run->from;
-        if (last > 0 && from - last <= GAP_MOST)
-            closeRun(y, last, from);
-        if (slits && last > 0 && inSlit(row + last))
-            closeSlit(y, last, from, 1);
-        if (slits && from > 0 && inSlit(row + from - 1))
-            closeSlit(y, from - 1, last - 1, -1);
+        closeBefore(y, last, run->from);
         last = run->to;
-        if (y >= Missed::SIDE && y < HEIGHT - Missed::SIDE)
-            noteCorners(y, *run);
-        if (y % ENDS_EVERY == ENDS_EVERY - 1 && model_ != nullptr)
-            noteEnds(y, *run);
+        noteOutline(y, *run);
     }
-    if (slits && last > 0 && last < WIDTH && inSlit(row + last))
+    if (y > 0 && last > 0 && last < WIDTH && inSlit(row + last))
         closeSlit(y, last, WIDTH, 1);
+}
+
+// Closes the gap before a run, from the end of the run before it (0 if there is none), and the slits that begin at both ends of the
+// gap.
+inline void Gaps::closeBefore(int y, int last, int from)
+{
+    const uint8_t* row = frame_ + y * WIDTH;
+    if (last > 0 && from - last <= GAP_MOST)
+        closeRun(y, last, from);
+    if (y == 0)
+        return;
+    if (last > 0 && inSlit(row + last))
+        closeSlit(y, last, from, 1);
+    if (from > 0 && inSlit(row + from - 1))
+        closeSlit(y, from - 1, last - 1, -1);
+}
+
+// Notes where surface may be missing at the ends of a run of drawn pixels.
+inline void Gaps::noteOutline(int y, const Span& run)
+{
+    if (y >= Missed::SIDE && y < HEIGHT - Missed::SIDE)
+        noteCorners(y, run);
+    if (y % ENDS_EVERY == ENDS_EVERY - 1 && model_ != nullptr)
+        noteEnds(y, run);
 }
 
 // How many pixels the seeds lie apart at the farther one of two drawn pixels.

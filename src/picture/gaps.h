@@ -24,7 +24,9 @@ private:
     void noteSliver(int y, const Span& run);
     void noteEnds(int y, const Span& run);
     void noteBeyond(int y, const Span& columns);
+    void noteOutline(int y, const Span& run);
     void closeRow(int y);
+    void closeBefore(int y, int last, int from);
     void closeRun(int y, int from, int to);
     void closeAbove(int y, int x);
     void closeFrom(int y, int from, int to, int step, int spacing);

@@ -64,14 +64,28 @@ public:
     int32_t spacing() const { return spacing_; }
 
 private:
+    // How the voxels of a patch are listed.
+    struct Listing {
+        bool shines;    // the object's finish shines
+        bool knows;     // some seeds know how the light changes about their voxels
+        bool domed;     // its scales are domed, but those that end at a limb that is known
+        int regular;    // so many of the voxels are those of regular seeds; they come first
+        int sloped;     // so many of them get slopes from those beside them
+        int32_t sight;  // Slopes::add() of these
+    };
+
     template <bool PAINTED>
     void shadePatch(Patch& patch, VoxelList& list, Painter* painter);
     int findSeen(const Patch& patch, Voxel* voxels, int* regular);
     void shadeSeen(Patch& patch, Voxel* voxels, int count);
     bool cutAtBorder(const Seed& s, Voxel* voxel, VoxelList& list) const;
     static Voxel* listUnpainted(const Seed& s, const Voxel* voxel, VoxelList& list);
+    Listing listingOf(const Patch& patch, bool shines, bool uneven, int regular) const;
     template <bool PAINTED>
-    void listVoxels(const Patch& patch, Voxel* voxels, int count, int regular, bool uneven, VoxelList& list, Painter* painter);
+    bool listVoxel(const Patch& patch, const Listing& how, int i, const Seen& seen, Voxel* voxel, VoxelList& list,
+                   Painter* painter);
+    template <bool PAINTED>
+    void listVoxels(const Patch& patch, Voxel* voxels, int count, const Listing& how, VoxelList& list, Painter* painter);
     int findExtras(const Patch& patch, Seen* seen, Voxel* voxels) const;
     int clipDepth(Seen* seen, Voxel* voxels, int count) const;
     void setPatch(const Patch& patch, const Seen& middle, const Voxel& at);
@@ -446,33 +460,50 @@ inline void Shader::addSloped(const Seed& s, Voxel* shown, int32_t sight, VoxelL
         slopes.addCopy(shown + 1, shown);
 }
 
-// Lists the voxels of a patch that blends, has a ridge or bends unevenly, or whose object is shaped or has a paint.
-template <bool PAINTED>
-inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, int regular, bool uneven, VoxelList& list,
-                               Painter* painter)
+// How the voxels of a patch are listed, of which the first `regular` are those of regular seeds.
+inline Shader::Listing Shader::listingOf(const Patch& patch, bool shines, bool uneven, int regular) const
 {
-    const bool shines = PAINTED && painter->shines(), blends = patch.state == PATCH_MIXED;
-    const int32_t sight = shines || uneven || patch.ridged ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
-    const int sloped = shines || blends || patch.ridged || uneven || object_.shaped() ? regular : 0;
+    const bool blends = patch.state == PATCH_MIXED, bends = shines || uneven || patch.ridged;
+    Listing how;
+    how.shines = shines;
+    how.knows = blends && !shines;
+    how.regular = regular;
+    how.sloped = blends || bends || object_.shaped() ? regular : 0;
+    how.sight = bends ? Slopes::sight(shearX_, shearY_) : Slopes::STAYS;
     // The scales of an uneven patch are stretched or bend fast, so that each has to leave the place beside it to the next one
     // (scales.h).
-    const bool domed = uneven && (!knowsLimb(patch) || thin_);
+    how.domed = uneven && (!knowsLimb(patch) || thin_);
+    return how;
+}
+
+// Lists voxel number `i` of a patch. Returns false when nothing of it is left.
+template <bool PAINTED>
+inline bool Shader::listVoxel(const Patch& patch, const Listing& how, int i, const Seen& seen, Voxel* voxel, VoxelList& list,
+                              Painter* painter)
+{
+    const Seed& s = *seen.seed;
+    const bool knows = how.knows && knowsLight(s, i < how.regular, *voxel);
+    if (knows)
+        setSlopesOf(s, voxel);
+    if (!endBeside(s, voxel, list))
+        return false;
+    Voxel* const shown = PAINTED ? painter->add(s, *voxel) : listUnpainted(s, voxel, list);
+    endOrDome(patch, seen, i < how.regular, how.domed, shown);
+    // A dark voxel keeps its slopes. With a finish that shines, brightness 0 does not mean that the light ends there.
+    const bool stays = knows || (!how.shines && shown->brightness == 0);
+    if (i < how.sloped)
+        addSloped<PAINTED>(s, shown, stays ? Slopes::STAYS : how.sight, list);
+    return true;
+}
+
+// Lists the voxels of a patch that blends, has a ridge or bends unevenly, or whose object is shaped or has a paint.
+template <bool PAINTED>
+inline void Shader::listVoxels(const Patch& patch, Voxel* voxels, int count, const Listing& how, VoxelList& list, Painter* painter)
+{
     int listed = 0;
-    for (int i = 0; i < count; ++i) {
-        const Seed& s = *seen_[i].seed;
-        const bool knows = blends && !shines && knowsLight(s, i < regular, voxels[i]);
-        if (knows)
-            setSlopesOf(s, voxels + i);
-        if (!endBeside(s, voxels + i, list))
-            continue;
-        seen_[listed++] = seen_[i];
-        Voxel* const shown = PAINTED ? painter->add(s, voxels[i]) : listUnpainted(s, voxels + i, list);
-        endOrDome(patch, seen_[i], i < regular, domed, shown);
-        // A dark voxel keeps its slopes. With a finish that shines, brightness 0 does not mean that the light ends there.
-        const bool stays = knows || (!shines && shown->brightness == 0);
-        if (i < sloped)
-            addSloped<PAINTED>(s, shown, stays ? Slopes::STAYS : sight, list);
-    }
+    for (int i = 0; i < count; ++i)
+        if (listVoxel<PAINTED>(patch, how, i, seen_[i], voxels + i, list, painter))
+            seen_[listed++] = seen_[i];
 }
 
 template <bool PAINTED>
@@ -488,7 +519,8 @@ inline void Shader::shadePatch(Patch& patch, VoxelList& list, Painter* painter)
     shadeSeen(patch, voxels, count);
     const bool uneven = isUneven(patch, voxels, regular);
     if (PAINTED || patch.state != PATCH_REST || patch.ridged || uneven || object_.shaped()) {
-        listVoxels<PAINTED>(patch, voxels, count, regular, uneven, list, painter);
+        const Listing how = listingOf(patch, PAINTED && painter->shines(), uneven, regular);
+        listVoxels<PAINTED>(patch, voxels, count, how, list, painter);
         return;
     }
     for (int i = 0; i < count; ++i)
