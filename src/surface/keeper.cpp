@@ -18,7 +18,7 @@ constexpr Real COARSE(2), FINE(1);
 constexpr Real TOLERATED(16);
 // Units: the neighbours travel no farther than FARTHEST in a period. When they travel farther than SWIFT in a single frame nothing
 // goes on where patches blend: what no neighbour has reached yet may change much, and no step before it tells.
-constexpr Real FARTHEST(4), SWIFT(2.7);
+constexpr Real FARTHEST(4), SWIFT(3.6);
 // 1/1024 unit: where neighbours travel no farther than this in a frame it makes no difference whether they stop after it.
 constexpr Travel SLIGHT = 100;
 // VIEW: what tells how an object is seen and lit, the axes of the view and the light (1.0 = 2^14), and the eye (1/32 unit). A
