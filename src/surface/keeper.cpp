@@ -16,8 +16,8 @@ constexpr Real COARSE(2), FINE(1);
 // spacing, because who wants finer seeds wants to see more: at COARSE it is 1/4 unit. Where patches rest half of it is tolerated,
 // for their voxels are made anew more quickly than seeds are settled.
 constexpr Real TOLERATED(16);
-// Units: the neighbours travel no farther than FARTHEST in a period. When they travel farther than SWIFT in a single frame nothing
-// goes on where patches blend: what no neighbour has reached yet may change much, and no step before it tells.
+// Units: the neighbours travel no farther than FARTHEST in a period. If they travel farther than SWIFT in one frame nothing goes on
+// where patches blend: within that frame a neighbour may come into reach of a patch and change it, which no earlier step foretells.
 constexpr Real FARTHEST(4), SWIFT(3.6);
 // 1/1024 unit: where neighbours travel no farther than this in a frame it makes no difference whether they stop after it.
 constexpr Travel SLIGHT = 100;
@@ -275,16 +275,16 @@ inline const Keeper::One* Keeper::correctSteps(Kept& kept, const Patch& patch, c
     return like;
 }
 
-// The period in which a patch that blends is made anew: half of the patches begin in a frame, half in the next, so that all frames
-// take about the same time.
+// Returns the period of a patch that blends, or 1 if it has to wait for the next frame to begin one of 2: half of the patches begin
+// in a frame, half in the next, so that all frames take about the same time.
 inline int Keeper::inTurn(const Kept& kept, int period) const
 {
     const bool waits = ((static_cast<uint32_t>(&kept - kept_) + frame_) & 1) != 0;
     return kept.period == 1 && period == 2 && waits ? 1 : period;
 }
 
-// The longest period in which no seed of a patch without voxels turns into sight; it goes on turning as in the period before. What
-// rests keeps no record of how it turns.
+// The longest period in which no seed of a patch without voxels turns into sight, if it goes on turning as in the period before. A
+// patch at rest, whose turning is not recorded, gets a short one.
 int Keeper::longestUnseen(Kept& kept, const Patch& patch) const
 {
     if (patch.state != PATCH_MIXED)
