@@ -19,8 +19,9 @@ constexpr int NEAR = 4;
 static_assert(GRID == 2, "one row is left out");
 // No pixel is looked at after so many in a frame.
 constexpr int LOOKS_MOST = 2000;
-// In units of the field: where a body's field is off the isovalue by no more its surface is there.
-constexpr Real EXACT(0.004);
+// In units of the field. EXACT: where a body's field is off the isovalue by no more its surface is there. NEARLY: an object that is
+// weaker by less than this at the depth that a pixel shows may be the stronger one at the surface.
+constexpr Real EXACT(0.004), NEARLY(0.01);
 // The surface is looked for along the ray with one step of this length, 1/128 unit, and is no farther away than FARTHEST steps.
 constexpr int STEP = 128;
 constexpr Real FARTHEST(2);
@@ -79,7 +80,7 @@ void Borders::mendBeside(int right)
     const int ramp = rampAt(right);
     while (rampAt(right - 1) == ramp)
         --right;
-    if (magnitude(zbuffer_[right - 1] - zbuffer_[right]) > Rays::LEVEL)
+    if (magnitude(zbuffer_[right - 1] - zbuffer_[right]) > Rays::BEHIND)
         return;
     note(right, right - 1);
     note(right - 1, right);
@@ -126,22 +127,26 @@ SELDOM bool Borders::showExactly(int at, int depth)
     return rampAt(at) != own;
 }
 
-// Shows a pixel of the ramp `own`, which shows the object `shown` or none, in the ramp of another object, which is the stronger one
-// there. Returns false if it does not belong to that one, or if its ramp stays.
-inline __attribute__((always_inline)) bool Borders::passOn(int at, int ramp, int own, const SoftObject& to, const SoftObject* shown)
+// Shows a pixel of the ramp `own` in the ramp of another pixel, if it belongs to that one's object. Returns false if it does not,
+// or if its ramp stays.
+inline __attribute__((always_inline)) bool Borders::passOn(int at, int ramp, int own, const Rivals& rivals)
 {
-    const bool crossing = shown != nullptr && model_.areApart(*shown, to);
+    const bool crossing = rivals.shown != nullptr && model_.areApart(*rivals.shown, *rivals.other);
     const int before = zbuffer_[at];
     int depth = before, shownDepth = before;
-    const SoftObject* owner = &to;
-    if (!correctDepth(to, at, &depth))
+    if ((!crossing && rivals.ahead <= -NEARLY) || !correctDepth(*rivals.other, at, &depth))
         return false;
-    // Of two bodies whose surfaces cross the nearer one is seen.
-    if (crossing ? correctDepth(*shown, at, &shownDepth) && shownDepth < depth
-                 : depth != before && !isStronger(ramp, own, view_.pointAt(at, depth), &owner, &shown))
+    // Of two bodies whose surfaces cross the nearer one is seen, within one body the stronger object.
+    if (crossing) {
+        if (correctDepth(*rivals.shown, at, &shownDepth) && shownDepth < depth)
+            return false;
+        return showExactly(at, depth);
+    }
+    const Rivals there = depth == before ? rivals : rivalsAt(ramp, own, view_.pointAt(at, depth));
+    if (there.ahead <= Real(0))
         return false;
     // The brightness goes on across a border, but not from one body to another. What a painted object looks like the model tells.
-    if (crossing || owner->paint() != nullptr)
+    if (there.other->paint() != nullptr)
         return showExactly(at, depth);
     view_.setPixel(at, before, palette_.ramp(ramp)[meanBrightness(at, ramp)]);
     return true;
@@ -155,16 +160,16 @@ bool Borders::mendPixel(const Place& place)
     if (++looks_ > LOOKS_MOST || row < 1 || row >= HEIGHT - 1 || column < 1 || column >= WIDTH - 1)
         return false;
     const int own = rampAt(at), ramp = rampAt(place.from);
-    const SoftObject *shown, *owner;
     // Marble is shown in more ramps than are listed. The other pixel may have been mended meanwhile.
     if (first_[own] < 0 || ramp == own)
         return false;
-    const bool stronger = isStronger(ramp, own, view_.pointAt(at), &owner, &shown);
-    if (owner != nullptr && owner == shown) {
-        int depth = zbuffer_[at];
-        return correctDepth(*owner, at, &depth) && showExactly(at, depth);
-    }
-    return stronger && passOn(at, ramp, own, *owner, shown);
+    const Rivals rivals = rivalsAt(ramp, own, view_.pointAt(at));
+    if (rivals.other == nullptr)
+        return false;
+    if (rivals.other != rivals.shown)
+        return passOn(at, ramp, own, rivals);
+    int depth = zbuffer_[at];
+    return correctDepth(*rivals.other, at, &depth) && showExactly(at, depth);
 }
 
 // The mean brightness of a pixel and of those beside it that are shown in a ramp. (At a crease the pixel, which the wrong object's
@@ -181,13 +186,13 @@ int Borders::meanBrightness(int at, int ramp) const
     return (sum + count / 2) / count;
 }
 
-// Whether at a point the strongest object of one ramp is stronger than that of another ramp. Both receive null where none reaches.
-bool Borders::isStronger(int ramp, int other, const Point& p, const SoftObject** strongest, const SoftObject** second) const
+// The strongest objects at a point that are shown in a ramp and in a pixel's own.
+Borders::Rivals Borders::rivalsAt(int ramp, int own, const Point& p) const
 {
-    Real field, otherField;
-    *strongest = strongestOf(ramp, p, &field);
-    *second = strongestOf(other, p, &otherField);
-    return field > otherField;
+    Real field, ownField;
+    const SoftObject* const other = strongestOf(ramp, p, &field);
+    const SoftObject* const shown = strongestOf(own, p, &ownField);
+    return {other, shown, field - ownField};
 }
 
 // The object with the strongest field at a point, of those that are shown in a ramp; null if none of them reaches it.

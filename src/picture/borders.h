@@ -19,6 +19,12 @@ private:
     struct Place {
         uint16_t pixel, from;
     };
+    // The two objects that a pixel may belong to: the strongest one there of those that have another pixel's ramp, and of those
+    // that have the ramp it is shown in; null where none reaches. The first one's field is stronger by `ahead` than the second's.
+    struct Rivals {
+        const SoftObject *other, *shown;
+        Real ahead;
+    };
 
     void list(int entry, int ramp);
     void mendBeside(int right);
@@ -26,9 +32,9 @@ private:
     void note(int at, int from);
     bool mendPixel(const Place& place);
     bool showExactly(int at, int depth);
-    bool passOn(int at, int ramp, int own, const SoftObject& to, const SoftObject* shown);
+    bool passOn(int at, int ramp, int own, const Rivals& rivals);
     int meanBrightness(int at, int ramp) const;
-    bool isStronger(int ramp, int other, const Point& p, const SoftObject** strongest, const SoftObject** second) const;
+    Rivals rivalsAt(int ramp, int own, const Point& p) const;
     const SoftObject* strongestOf(int ramp, const Point& p, Real* field) const;
     bool correctDepth(const SoftObject& object, int at, int* depth) const;
     int rampAt(int pixel) const { return palette_.rampOf(frame_[pixel]); }

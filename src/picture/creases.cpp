@@ -23,8 +23,8 @@ static_assert((ENTRIES_APART & (ENTRIES_APART - 1)) == 0, "small differences, wi
 constexpr int LOOKS_AT_ONE = 2000;
 // EXACT: a pixel whose field is off the isovalue by no more lies on the surface; nearly on it is not enough, for a little before or
 // behind a crease the brightness may be that of its other side. Elsewhere one step of Newton's method leads to the surface, if it
-// is no farther away than FARTHEST units.
-constexpr Real EXACT(0.01), FARTHEST(2);
+// is no farther away than FARTHEST units: a scale that goes on behind a steep side may be deeper than that by a few.
+constexpr Real EXACT(0.01), FARTHEST(6);
 
 // Half the palette entries of four pixels.
 inline uint32_t halves(const uint8_t* pixel)
@@ -83,11 +83,12 @@ void Creases::mendRow(int y)
     }
 }
 
-// Whether the brightness jumps from a pixel to the one beside it, and the surface goes on. Their colours may differ. (Of an entry
-// that several ramps share the palette tells the brightness in one of them, so that the model may be asked in vain, or not asked.)
+// Whether the brightness jumps from a pixel to the one beside it, and the surface goes on: no outline lies between them
+// (outlines.h). Their colours may differ. (Of an entry that several ramps share the palette tells the brightness in one of them, so
+// that the model may be asked in vain, or not asked.)
 inline bool Creases::jumps(int at, int other) const
 {
-    return magnitude(stepAt(at) - stepAt(other)) >= JUMP && magnitude(zbuffer_[at] - zbuffer_[other]) <= Rays::LEVEL;
+    return magnitude(stepAt(at) - stepAt(other)) >= JUMP && magnitude(zbuffer_[at] - zbuffer_[other]) <= Rays::BEHIND;
 }
 
 // Notes a pixel, unless it has been noted in this frame.

@@ -11,8 +11,8 @@ public:
     // frame before has found, and receives what this one finds.
     Creases(View& view, FieldProbe& probe, const Tint& tint, const Palette& palette, Real spacing, View::FoundCreases& found);
 
-    // Corrects brightness and colour of pixels beside creases, where lists of voxels have borders to other objects. Depths stay. To
-    // be called when gaps are closed.
+    // Corrects brightness and colour of pixels beside creases, where lists of voxels have borders to other objects. Depths stay, so
+    // that they do not depend on the colours that are shown. To be called when gaps are closed.
     void mend();
 
 private:

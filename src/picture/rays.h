@@ -47,10 +47,9 @@ int looksAt(Real spacing, int atOne);
 
 class Rays {
 public:
-    // A pixel that is drawn shows the surface unless it is deeper by more than this, 1/128 unit.
+    // A pixel that is drawn shows the surface unless it is deeper by more than this, 1/128 unit. Pixels side by side whose depths
+    // differ by more show different pieces of the surface.
     static constexpr int BEHIND = 512;
-    // Pixels side by side whose depths differ by more than this do not show one piece of the surface, 1/128 unit.
-    static constexpr int LEVEL = 256;
 
     // The seeds lie `spacing` units apart. Without a model (null) all rays are tired from the first.
     Rays(View& view, FieldProbe& probe, const Tint& tint, Real spacing);

@@ -361,11 +361,11 @@ void View::closeGaps(Real spacing, const Model* model, const Palette* palette)
         Outlines(*this, rays, probe, missed).mend();
     if (model == nullptr || palette == nullptr)
         return;
+    if (anyBordered_)
+        Creases(*this, probe, tint, *palette, spacing, foundCreases_).mend();
     // Where colours mix there are no borders between them.
     if (!palette->isGrey() && !model->mixed)
         Borders(*this, probe, *palette, rays).mend();
-    if (anyBordered_)
-        Creases(*this, probe, tint, *palette, spacing, foundCreases_).mend();
 }
 
 Point View::pointAt(int pixel, int depth) const
