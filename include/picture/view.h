@@ -68,6 +68,8 @@ public:
     // The point of the world that a pixel (row * WIDTH + column) shows: at its own depth, or at a given one (1/128 unit).
     Point pointAt(int pixel) const { return pointAt(pixel, zbuffer_[pixel]); }
     Point pointAt(int pixel, int depth) const;
+    // How far the ray of sight through a pixel goes over one unit of depth, axes of the world.
+    Vector rayAt(int pixel) const;
 
     // Sets the depth (1/128 unit) and the colour of a pixel (row * WIDTH + column) of the frame at hand.
     void setPixel(int pixel, int depth, uint8_t colour)

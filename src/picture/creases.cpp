@@ -138,9 +138,7 @@ bool Creases::mendPixel(int at)
     if (strongest < 0)
         return false;
     if (absolute(off) > EXACT) {
-        // The ray through the pixel over one unit of depth.
-        const Vector ray = view_.pointAt(at, depth + 128) - p;
-        const Real rise = dot(probe_.gradient(), ray), left = off * Real(CORE_SIZE);
+        const Real rise = dot(probe_.gradient(), view_.rayAt(at)), left = off * Real(CORE_SIZE);
         if (rise * FARTHEST <= absolute(left))
             return false;
         p = view_.pointAt(at, depth - floorToInt(quotient(left, rise) * Real(128)));

@@ -23,7 +23,7 @@ constexpr int SLIVER = 2;     // width of a run of drawn pixels beside which sur
 // one row in ENDS_EVERY.
 constexpr int CLOSE_UP = 50 * 128, FLAT = 170, ENDS_EVERY = 4;
 // Pixels: by how much a step of an outline is too long (endsEarly()), and up to which length steps are measured.
-constexpr int STEP_MORE = 2, STEP_MOST = 8;
+constexpr int STEP_MORE = 2, STEP_MOST = 12;
 // 1/128 unit: of two drawn pixels whose depths differ by more, one lies well in front of the other.
 constexpr int IN_FRONT = 256;
 // Units, half way across an opening: if the surface is at least DOUBTFUL away there, only those pixels of the opening are drawn

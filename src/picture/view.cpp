@@ -375,6 +375,12 @@ Point View::pointAt(int pixel, int depth) const
     return camera_.eye + camera_.axes.toWorld({toRight_[column] * z, toTop_[row] * z, z});
 }
 
+Vector View::rayAt(int pixel) const
+{
+    const int row = pixel / WIDTH, column = pixel - row * WIDTH;
+    return camera_.axes.toWorld({toRight_[column], toTop_[row], Real(1)});
+}
+
 uint8_t* View::overlay(int left, int top, int width, int height)
 {
     mark(left, top, left + width, top + height);
