@@ -263,34 +263,50 @@ bool Demo::drawModel()
             return false;
         fail(1, "not enough memory");
     }
-    int order[Model::OBJECTS_MOST];
-    Real depth[Model::OBJECTS_MOST];
-    for (int i = 0; i < model_.count(); ++i) {
-        // Insertion sort by depth. Near objects come first: seeds of others that they hide need not be settled or drawn.
-        depth[i] = frame.inView(model_.actor(i).object->centre()).z;
-        int at = i;
-        for (; at > 0 && depth[order[at - 1]] > depth[i]; --at)
-            order[at] = order[at - 1];
-        order[at] = i;
-    }
-
+    sortObjects(frame);
     const bool pulses = options_.interactive && time_ - selectedAt_ < PULSE;
     SoftObject* const marked = pulses ? model_.actor(editor_.selected()).object : nullptr;
     const uint8_t* const ramp = marked == nullptr ? nullptr : marked->ramp();
     if (ramp != nullptr)
         marked->setRamp(pulseRamp(ramp));
-    const bool drawn = drawObjects(frame, order);
+    const bool drawn = drawObjects(frame);
     if (ramp != nullptr)
         marked->setRamp(ramp);
     return drawn;
 }
 
-// Draws all objects in this order, and closes the gaps that are left. Returns false when it was interrupted.
-bool Demo::drawObjects(FrameContext& frame, const int* order)
+// Brings the objects into their order by depth, those of one depth by their numbers. Near objects come first: seeds of others that
+// they hide need not be settled or drawn. An insertion sort takes few steps, because the order hardly changes from frame to frame.
+void Demo::sortObjects(const FrameContext& frame)
+{
+    const int count = model_.count();
+    if (ordered_ != count)
+        for (int i = 0; i < count; ++i)
+            order_[i] = i;
+    ordered_ = count;
+    Real depth[Model::OBJECTS_MOST];
+    for (int i = 0; i < count; ++i)
+        depth[i] = frame.inView(model_.actor(i).object->centre()).z;
+    for (int i = 1; i < count; ++i) {
+        const int object = order_[i];
+        const Real here = depth[object];
+        int at = i;
+        for (; at > 0; --at) {
+            const int before = order_[at - 1];
+            if (depth[before] < here || (depth[before] == here && before < object))
+                break;
+            order_[at] = before;
+        }
+        order_[at] = object;
+    }
+}
+
+// Draws all objects in their order, and closes the gaps that are left. Returns false when it was interrupted.
+bool Demo::drawObjects(FrameContext& frame)
 {
     view_.begin();
     for (int i = 0; i < model_.count(); ++i) {
-        SoftObject& object = *model_.actor(order[i]).object;
+        SoftObject& object = *model_.actor(order_[i]).object;
         object.update(frame);
         int next = 0;
         do {

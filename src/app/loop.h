@@ -41,7 +41,8 @@ private:
     bool frame();
     void placeEye();
     bool drawModel();
-    bool drawObjects(FrameContext& frame, const int* order);
+    void sortObjects(const FrameContext& frame);
+    bool drawObjects(FrameContext& frame);
     const uint8_t* pulseRamp(const uint8_t* ramp);
     void showFrame();
     const char* keepFrame();
@@ -93,6 +94,8 @@ private:
     Film film_;
     Stats stats_;
     VoxelList* voxels_ = nullptr;
+    int order_[Model::OBJECTS_MOST];  // the objects, in the order in which they were drawn last
+    int ordered_ = 0;                 // their number
     Counts counts_;
     Real spacing_{2};
     uint64_t layTicks_ = 0;      // how long the last layout of all seeds took, in ticks of machine::clock()

@@ -212,9 +212,14 @@ static void weigh(const SoftObject& object, const Bodies& bodies, const Neighbou
     const SoftObject& other = *near.object;
     near.strength = other.strength();
     near.ordinary = !near.digs && near.strength == Real(1) && !(all.hollow && near.isDugBy(object.slot()));
-    near.weight = near.digs ? -bodies.weight(all.head->slot(), other.slot()) : Real(0);
-    near.greatestWeight = near.digs ? greatestWeight(other) : Real(1);
-    near.samples = near.digs && other.hollowed() == all.head;
+    near.weight = Real(0);
+    near.greatestWeight = Real(1);
+    near.samples = false;
+    if (near.digs) {
+        near.weight = -bodies.weight(all.head->slot(), other.slot());
+        near.greatestWeight = greatestWeight(other);
+        near.samples = other.hollowed() == all.head;
+    }
     near.grain = near.ordinary ? near.size : near.size / (max(near.strength, Real(1)) * max(near.weight, Real(1)));
 }
 
