@@ -275,8 +275,8 @@ bool Demo::drawModel()
     return drawn;
 }
 
-// Brings the objects into their order by depth, those of one depth by their numbers. Near objects come first: seeds of others that
-// they hide need not be settled or drawn. An insertion sort takes few steps, because the order hardly changes from frame to frame.
+// Sorts the objects by depth, those of one depth by their indices. Near objects come first: seeds of others that they hide need not
+// be settled or drawn. An insertion sort takes few steps, because the order hardly changes from frame to frame.
 void Demo::sortObjects(const FrameContext& frame)
 {
     const int count = model_.count();

@@ -94,8 +94,8 @@ private:
     Film film_;
     Stats stats_;
     VoxelList* voxels_ = nullptr;
-    int order_[Model::OBJECTS_MOST];  // the objects, in the order in which they were drawn last
-    int ordered_ = 0;                 // their number
+    int order_[Model::OBJECTS_MOST];  // indices of the objects, in the order in which they were drawn last
+    int ordered_ = 0;                 // how many objects are in it
     Counts counts_;
     Real spacing_{2};
     uint64_t layTicks_ = 0;      // how long the last layout of all seeds took, in ticks of machine::clock()

@@ -186,7 +186,7 @@ int Borders::meanBrightness(int at, int ramp) const
     return (sum + count / 2) / count;
 }
 
-// The strongest objects at a point that are shown in a ramp and in a pixel's own.
+// The strongest object at a point of those that are shown in a ramp, and that of those shown in a pixel's own ramp.
 Borders::Rivals Borders::rivalsAt(int ramp, int own, const Point& p) const
 {
     Real field, ownField;

@@ -23,7 +23,7 @@ static_assert((ENTRIES_APART & (ENTRIES_APART - 1)) == 0, "small differences, wi
 constexpr int LOOKS_AT_ONE = 2000;
 // EXACT: a pixel whose field is off the isovalue by no more lies on the surface; nearly on it is not enough, for a little before or
 // behind a crease the brightness may be that of its other side. Elsewhere one step of Newton's method leads to the surface, if it
-// is no farther away than FARTHEST units: a scale that goes on behind a steep side may be deeper than that by a few.
+// is no farther away than FARTHEST units: where a side is steep, a scale of the other side may go on a few units behind it.
 constexpr Real EXACT(0.01), FARTHEST(6);
 
 // Half the palette entries of four pixels.
